@@ -1,0 +1,5 @@
+//! The body the cloth is put on.
+
+pub mod surface;
+
+pub use surface::{Hit, Nearest, Surface};

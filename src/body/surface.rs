@@ -1,0 +1,233 @@
+//! A body as contact sees it: nearest point with sign, rays, bounds.
+
+use glam::{DVec3, Vec3};
+use parry3d::math::Pose;
+use parry3d::query::{PointQuery, PointQueryWithLocation, Ray, RayCast};
+use parry3d::shape::{TriMesh as ParryMesh, TriMeshFlags};
+
+use crate::geometry::adjacency::Adjacency;
+use crate::geometry::mesh::TriMesh;
+
+/// The nearest point of a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Nearest {
+    /// On the surface, metres.
+    pub point: DVec3,
+    /// Unit, outward: the gradient of the signed distance; the triangle's normal where the point lies on the surface.
+    pub normal: DVec3,
+    /// Metres, negative inside. Sign from angle-weighted pseudonormals (Baerentzen and Aanaes 2005).
+    pub distance: f64,
+    /// The triangle that `point` lies on.
+    pub triangle: u32,
+}
+
+/// Where a ray meets a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    /// On the surface, metres.
+    pub point: DVec3,
+    /// Unit outward normal of the triangle.
+    pub normal: DVec3,
+    /// The triangle.
+    pub triangle: u32,
+    /// Distance from the origin along the ray, metres.
+    pub distance: f64,
+}
+
+/// A body ready for queries. Built once, shared.
+pub struct Surface {
+    /// Closed, manifold, outward; metres. `body::import` reports what is not.
+    pub mesh: TriMesh,
+    /// Neighbours.
+    pub adjacency: Adjacency,
+    /// Unit normal per triangle.
+    pub face_normals: Vec<DVec3>,
+    /// Angle-weighted unit normal per vertex.
+    pub vertex_normals: Vec<DVec3>,
+    parry: ParryMesh,
+    // Queries run in f32 about this point, so that bodies far from the origin keep their accuracy.
+    origin: DVec3,
+    lower: DVec3,
+    upper: DVec3,
+}
+
+impl std::fmt::Debug for Surface {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "Surface({} triangles)", self.mesh.triangles.len())
+    }
+}
+
+impl Surface {
+    /// Builds the queries over `mesh`. None when the mesh has no triangle or parry3d refuses it.
+    pub fn new(mesh: TriMesh) -> Option<Self> {
+        let (lower, upper) = mesh.bounds();
+        let origin = (lower + upper) / 2.0;
+        let vertices: Vec<Vec3> = mesh.positions.iter().map(|&p| (p - origin).as_vec3()).collect();
+        let parry = ParryMesh::with_flags(vertices, mesh.triangles.clone(), TriMeshFlags::ORIENTED).ok()?;
+        let adjacency = Adjacency::new(mesh.positions.len(), &mesh.triangles);
+        let face_normals = (0..mesh.triangles.len())
+            .map(|t| {
+                let [a, b, c] = mesh.corners(t);
+                (b - a).cross(c - a).normalize_or_zero()
+            })
+            .collect::<Vec<_>>();
+        let vertex_normals = angle_weighted_normals(&mesh, &face_normals);
+        Some(Self { mesh, adjacency, face_normals, vertex_normals, parry, origin, lower, upper })
+    }
+
+    /// Lower and upper corner of the bounding box.
+    pub fn bounds(&self) -> (DVec3, DVec3) {
+        (self.lower, self.upper)
+    }
+
+    /// The largest side of the bounding box over 1.5 m: what paper A's lengths are multiplied by.
+    pub fn scale(&self) -> f64 {
+        (self.upper - self.lower).max_element() / 1.5
+    }
+
+    /// The point of the surface nearest to `p`.
+    pub fn nearest(&self, p: DVec3) -> Nearest {
+        self.nearest_within(p, f64::INFINITY).unwrap_or(Nearest {
+            point: p,
+            normal: DVec3::Y,
+            distance: 0.0,
+            triangle: 0,
+        })
+    }
+
+    /// The point of the surface nearest to `p`, if it is within `limit` metres.
+    pub fn nearest_within(&self, p: DVec3, limit: f64) -> Option<Nearest> {
+        let local = (p - self.origin).as_vec3();
+        let limit = limit.min(f64::from(f32::MAX) / 2.0) as f32;
+        let (projection, (triangle, location)) =
+            self.parry.project_local_point_and_get_location_with_max_dist(local, true, limit)?;
+        // parry3d projects in f32; done again in f64 on the triangle found, offsets of a hundredth of a millimetre hold.
+        let _ = location;
+        let [a, b, c] = self.mesh.corners(triangle as usize);
+        let point = closest_on_triangle(p, a, b, c);
+        let inside = projection.is_inside;
+        let along = p - point;
+        let length = along.length();
+        let face = self.face_normals[triangle as usize];
+        let normal = if length > 1e-7 { if inside { -along / length } else { along / length } } else { face };
+        Some(Nearest { point, normal, distance: if inside { -length } else { length }, triangle })
+    }
+
+    /// The first hit of a ray from `origin` along `direction` (any length) from either side.
+    pub fn ray(&self, origin: DVec3, direction: DVec3) -> Option<Hit> {
+        let direction = direction.normalize_or_zero();
+        if direction == DVec3::ZERO {
+            return None;
+        }
+        let ray = Ray::new((origin - self.origin).as_vec3(), direction.as_vec3());
+        let hit = self.parry.cast_ray_and_get_normal(&Pose::IDENTITY, &ray, f32::MAX, false)?;
+        let mut triangle = match hit.feature {
+            parry3d::shape::FeatureId::Face(id) => id,
+            _ => return None,
+        };
+        // Hits on back faces come numbered after the front faces.
+        let count = self.mesh.triangles.len() as u32;
+        if triangle >= count {
+            triangle -= count;
+        }
+        let distance = f64::from(hit.time_of_impact);
+        Some(Hit {
+            point: origin + direction * distance,
+            normal: self.face_normals[triangle as usize],
+            triangle,
+            distance,
+        })
+    }
+
+    /// Whether `p` lies inside.
+    pub fn contains(&self, p: DVec3) -> bool {
+        self.parry.project_local_point((p - self.origin).as_vec3(), true).is_inside
+    }
+}
+
+/// The point of triangle `abc` nearest to `p` (Ericson, Real-Time Collision Detection, 5.1.5).
+pub fn closest_on_triangle(p: DVec3, a: DVec3, b: DVec3, c: DVec3) -> DVec3 {
+    let (ab, ac, ap) = (b - a, c - a, p - a);
+    let (d1, d2) = (ab.dot(ap), ac.dot(ap));
+    if d1 <= 0.0 && d2 <= 0.0 {
+        return a;
+    }
+    let bp = p - b;
+    let (d3, d4) = (ab.dot(bp), ac.dot(bp));
+    if d3 >= 0.0 && d4 <= d3 {
+        return b;
+    }
+    let vc = d1 * d4 - d3 * d2;
+    if vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0 {
+        return a + ab * (d1 / (d1 - d3));
+    }
+    let cp = p - c;
+    let (d5, d6) = (ab.dot(cp), ac.dot(cp));
+    if d6 >= 0.0 && d5 <= d6 {
+        return c;
+    }
+    let vb = d5 * d2 - d1 * d6;
+    if vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0 {
+        return a + ac * (d2 / (d2 - d6));
+    }
+    let va = d3 * d6 - d5 * d4;
+    if va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0 {
+        return b + (c - b) * ((d4 - d3) / ((d4 - d3) + (d5 - d6)));
+    }
+    let sum = va + vb + vc;
+    if sum == 0.0 {
+        return a;
+    }
+    a + ab * (vb / sum) + ac * (vc / sum)
+}
+
+fn angle_weighted_normals(mesh: &TriMesh, face_normals: &[DVec3]) -> Vec<DVec3> {
+    let mut normals = vec![DVec3::ZERO; mesh.positions.len()];
+    for (t, vs) in mesh.triangles.iter().enumerate() {
+        let p = mesh.corners(t);
+        for k in 0..3 {
+            let (u, v) = (p[(k + 1) % 3] - p[k], p[(k + 2) % 3] - p[k]);
+            normals[vs[k] as usize] += face_normals[t] * u.cross(v).length().atan2(u.dot(v));
+        }
+    }
+    normals.into_iter().map(DVec3::normalize_or_zero).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn cube() -> Surface {
+        let positions = (0..8)
+            .map(|i| DVec3::new((i & 1) as f64, ((i >> 1) & 1) as f64, ((i >> 2) & 1) as f64))
+            .collect();
+        let quads = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+        let triangles = quads.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
+        Surface::new(TriMesh { positions, triangles }).expect("a cube")
+    }
+
+    #[test]
+    fn distance_is_signed() {
+        let cube = cube();
+        assert!((cube.mesh.volume() - 1.0).abs() < 1e-12);
+        let outside = cube.nearest(DVec3::new(0.5, 0.25, 1.5));
+        assert!((outside.distance - 0.5).abs() < 1e-9);
+        assert!((outside.normal - DVec3::Z).length() < 1e-9);
+        let inside = cube.nearest(DVec3::new(0.5, 0.3, 0.9));
+        assert!((inside.distance + 0.1).abs() < 1e-9);
+        assert!((inside.normal - DVec3::Z).length() < 1e-9);
+        // Off a corner the nearest face alone could give either sign.
+        assert!(cube.nearest(DVec3::splat(1.1)).distance > 0.0);
+    }
+
+    #[test]
+    fn rays_hit_from_both_sides() {
+        let cube = cube();
+        let hit = cube.ray(DVec3::new(0.5, 0.4, 3.0), -DVec3::Z).expect("a hit");
+        assert!((hit.distance - 2.0).abs() < 1e-6);
+        assert!((hit.normal - DVec3::Z).length() < 1e-9);
+        let out = cube.ray(DVec3::new(0.5, 0.4, 0.5), DVec3::Z).expect("a hit");
+        assert!((out.normal - DVec3::Z).length() < 1e-9);
+        assert!(cube.ray(DVec3::new(0.5, 0.4, 3.0), DVec3::Z).is_none());
+    }
+}

@@ -1,0 +1,49 @@
+//! Fixed topology and rest shape of the sewn garment, and its moving state.
+
+use glam::{DVec2, DVec3};
+
+use crate::geometry::adjacency::Adjacency;
+use crate::geometry::ids::{PieceId, SeamId};
+
+/// A corner of the flat cloth: a point of a piece in that piece's own plane. Both sides of a seam have their own.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Corner {
+    /// The piece.
+    pub piece: PieceId,
+    /// Metres, in the piece's own plane (its `outline` coordinates).
+    pub uv: DVec2,
+    /// The sewn vertex it is part of.
+    pub vertex: u32,
+}
+
+/// The merged mesh: sewn vertices are shared, every triangle keeps its flat shape.
+#[derive(Clone, Debug, Default)]
+pub struct Garment {
+    /// Number of sewn vertices.
+    pub vertex_count: usize,
+    /// Sewn vertices of each triangle, counter-clockwise seen from the front (outer) side of the cloth.
+    pub triangles: Vec<[u32; 3]>,
+    /// Flat corners; pieces in id order, each piece's corners together.
+    pub corners: Vec<Corner>,
+    /// For each triangle its three flat corners, in the order of `triangles`.
+    pub triangle_corners: Vec<[u32; 3]>,
+    /// The piece of each triangle.
+    pub triangle_pieces: Vec<PieceId>,
+    /// Flat shape of each triangle, counter-clockwise seen from the front, metres, about its centroid.
+    pub rest: Vec<[DVec2; 3]>,
+    /// Neighbours over sewn vertices.
+    pub adjacency: Adjacency,
+    /// Pairs of corners sewn together, per seam.
+    pub seam_pairs: Vec<(SeamId, Vec<[u32; 2]>)>,
+    /// Names of the pieces that are in it, in id order.
+    pub pieces: Vec<(PieceId, String)>,
+}
+
+/// What moves.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ClothState {
+    /// Position of each sewn vertex, metres. Meaningless where `mapped` is false.
+    pub positions: Vec<DVec3>,
+    /// Whether the vertex has been put on the body yet.
+    pub mapped: Vec<bool>,
+}

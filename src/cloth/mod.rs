@@ -1,0 +1,5 @@
+//! The sewn garment as solvers see it.
+
+pub mod garment;
+
+pub use garment::{ClothState, Corner, Garment};

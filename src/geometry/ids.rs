@@ -1,0 +1,29 @@
+//! Typed ids. They come from the counter of the document that owns them and are never used twice.
+
+macro_rules! typed_id {
+    ($(#[$doc:meta])* $name:ident, $word:literal) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize, serde::Deserialize)]
+        #[serde(transparent)]
+        pub struct $name(pub u32);
+
+        impl std::fmt::Display for $name {
+            fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                write!(f, concat!($word, " {}"), self.0)
+            }
+        }
+    };
+}
+
+typed_id!(
+    /// A flat piece of cloth.
+    PieceId, "piece"
+);
+typed_id!(
+    /// A seam between two edges.
+    SeamId, "seam"
+);
+typed_id!(
+    /// A stroke on cloth or body.
+    MarkId, "mark"
+);

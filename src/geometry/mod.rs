@@ -1,0 +1,5 @@
+//! Plain maths, no cloth words.
+
+pub mod adjacency;
+pub mod ids;
+pub mod mesh;

@@ -1,0 +1,41 @@
+//! # Toile: the map of the house
+//!
+//! A flat pattern and a body go in; numbered marks say where the cloth goes; a dressed garment comes out.
+//!
+//! ```text
+//! cli, ui → session → sim → wrap → relax → contact → {cloth, body} → pattern → geometry
+//! ```
+//!
+//! | folder | holds | may use |
+//! | --- | --- | --- |
+//! | `geometry` | ids, curves, meshes and adjacency, no cloth words | nothing of ours |
+//! | `pattern`  | the flat garment: piece, seam, triangulation, problems a person can fix | geometry |
+//! | `body`     | surface (nearest point, ray, walk), import checks, mannequin, skeleton, measurements | geometry |
+//! | `cloth`    | the sewn garment as solvers see it: topology and rest shape, moving state | pattern, geometry |
+//! | `contact`  | cloth against body and itself | cloth, body, geometry |
+//! | `relax`    | paper A's relaxation: shape match, flatten, gravity, friction | contact, cloth, body, geometry |
+//! | `wrap`     | paper A: marks, root edges, growth | relax, contact, cloth, body, pattern, geometry |
+//! | `fit`      | what is read off a garment: strain, crossings, openings, the report | cloth, body, pattern, geometry |
+//! | `sim`      | owner of the moving state: stages, protocol, checkpoints, thread, state hash | the above |
+//! | `session`  | what the user has done: document, command, history, recording, replay, project file | sim and below, io |
+//! | `io`       | obj, glb, garmentcode json, png: bytes in, checked data out, and back | body, pattern, geometry |
+//! | `render`   | plain buffers in, pixels out: camera, passes, offscreen target | nothing of ours |
+//! | `ui`       | egui: app, actions, panes, tools | session and below, render |
+//! | `cli`      | one file per subcommand: arguments, calls, printing | session and below, render |
+//!
+//! Invariants:
+//! - Metres, radians, seconds; right-handed, y up, bodies face +z. Pattern planes have y up and their front towards the reader.
+//! - `geometry` and `render` use nothing of ours. `pattern` and `body` do not know each other.
+//! - `sim` never uses `session`: a request carries a garment source, never the document.
+//! - egui only in `ui`; wgpu only in `render` and `ui`; threads only in `sim::thread` (and rayon inside steps).
+//! - No clock, no unseeded randomness, no hash-map iteration in `session`, `sim` or below.
+//! - Same input, same bits, on any number of threads.
+//!
+//! `tests/tidy.rs` holds these rules.
+
+pub mod body;
+pub mod cloth;
+pub mod geometry;
+pub mod pattern;
+pub mod relax;
+pub mod wrap;

@@ -1,0 +1,52 @@
+//! The flat garment.
+
+pub mod piece;
+pub mod problem;
+pub mod seam;
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+use crate::geometry::ids::{PieceId, SeamId};
+pub use piece::{Edge, EdgeShape, Piece, PlanePose, SpacePose};
+pub use problem::{Problem, ProblemKind};
+pub use seam::{EdgeRef, Seam};
+
+/// Pieces and the seams between them. Ids come from `next_id` and are never used twice.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Pattern {
+    /// In id order, which is also the order they were made in.
+    pub pieces: BTreeMap<PieceId, Arc<Piece>>,
+    /// In id order.
+    pub seams: BTreeMap<SeamId, Seam>,
+    /// The next free number for any id.
+    pub next_id: u32,
+}
+
+impl Pattern {
+    /// Adds a piece under a new id.
+    pub fn add_piece(&mut self, piece: Piece) -> PieceId {
+        let id = PieceId(self.fresh_id());
+        self.pieces.insert(id, Arc::new(piece));
+        id
+    }
+
+    /// Adds a seam under a new id.
+    pub fn add_seam(&mut self, seam: Seam) -> SeamId {
+        let id = SeamId(self.fresh_id());
+        self.seams.insert(id, seam);
+        id
+    }
+
+    /// The piece called `name`, if there is just one such name or more (the first).
+    pub fn piece_named(&self, name: &str) -> Option<PieceId> {
+        self.pieces.iter().find(|(_, p)| p.name == name).map(|(&id, _)| id)
+    }
+
+    fn fresh_id(&mut self) -> u32 {
+        self.next_id += 1;
+        self.next_id
+    }
+}

@@ -1,0 +1,48 @@
+//! Problems a person can fix.
+
+use serde::{Deserialize, Serialize};
+
+/// What kind of thing is wrong.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ProblemKind {
+    /// The outline crosses itself.
+    SelfCrossing,
+    /// A seam names a piece or edge that is not there.
+    SeamToNothing,
+    /// An edge is sewn twice.
+    EdgeSewnTwice,
+    /// A piece is sewn to nothing.
+    PieceUnsewn,
+    /// An edge or a piece has no length or area.
+    ZeroLength,
+    /// The two sides of a seam differ in length.
+    UnequalSeam,
+    /// A piece could not be triangulated.
+    NotTriangulated,
+    /// A mark lies off its piece, or its number has no partner.
+    Mark,
+    /// The body is open, non-manifold, inside out or crosses itself.
+    Body,
+    /// The wrap did not come out as a dressed garment.
+    Dressing,
+}
+
+impl ProblemKind {
+    /// True for what only deserves mention and does not make `check` fail.
+    pub fn is_note(self) -> bool {
+        matches!(self, Self::UnequalSeam | Self::PieceUnsewn)
+    }
+}
+
+/// One problem: what, where, in words.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Problem {
+    /// What kind.
+    pub kind: ProblemKind,
+    /// Piece, edge, seam or mark, by name and number.
+    #[serde(rename = "where")]
+    pub place: String,
+    /// What is wrong and what to do.
+    pub words: String,
+}
