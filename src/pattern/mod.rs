@@ -2,7 +2,9 @@
 
 pub mod piece;
 pub mod problem;
+pub mod sampling;
 pub mod seam;
+pub mod triangulate;
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -13,6 +15,7 @@ use crate::geometry::ids::{PieceId, SeamId};
 pub use piece::{Edge, EdgeShape, Piece, PlanePose, SpacePose};
 pub use problem::{Problem, ProblemKind};
 pub use seam::{EdgeRef, Seam};
+pub use triangulate::PieceMesh;
 
 /// Pieces and the seams between them. Ids come from `next_id` and are never used twice.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]

@@ -18,6 +18,8 @@ pub enum ProblemKind {
     ZeroLength,
     /// The two sides of a seam differ in length.
     UnequalSeam,
+    /// A seam joins a front to a back.
+    TwistedSeam,
     /// A piece could not be triangulated.
     NotTriangulated,
     /// A mark lies off its piece, or its number has no partner.

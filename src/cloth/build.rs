@@ -1,0 +1,142 @@
+//! Sewing: triangulated pieces merged along their seams into one mesh.
+
+use std::collections::BTreeMap;
+
+use glam::DVec2;
+
+use crate::cloth::{Corner, Garment};
+use crate::geometry::adjacency::Adjacency;
+use crate::geometry::ids::{PieceId, SeamId};
+use crate::pattern::sampling::sampling;
+use crate::pattern::triangulate::triangulated;
+use crate::pattern::{EdgeRef, Pattern, PieceMesh, Problem, ProblemKind, Seam};
+
+/// The sewn garment of a pattern at about `edge_length` metres, and what a person should know or mend.
+/// One bad piece does not stop the others.
+pub fn build(pattern: &Pattern, edge_length: f64) -> (Garment, Vec<Problem>) {
+    let mut problems = Vec::new();
+    let sampling = sampling(pattern, edge_length, &mut problems);
+    let meshes = triangulated(pattern, &sampling, edge_length, &mut problems);
+    let garment = sewn(pattern, &meshes, &sampling.seams);
+    report_twisted(pattern, &garment, &mut problems);
+    (garment, problems)
+}
+
+fn sewn(pattern: &Pattern, meshes: &BTreeMap<PieceId, PieceMesh>, seams: &[(SeamId, Seam)]) -> Garment {
+    let mut first_corner = BTreeMap::new();
+    let mut corners: Vec<Corner> = Vec::new();
+    for (&piece, mesh) in meshes {
+        first_corner.insert(piece, corners.len() as u32);
+        corners.extend(mesh.points.iter().map(|&uv| Corner { piece, uv, vertex: 0 }));
+    }
+    let seam_pairs: Vec<(SeamId, Vec<[u32; 2]>)> = seams
+        .iter()
+        .filter(|(_, s)| s.sides.iter().all(|side| meshes.contains_key(&side.piece)))
+        .map(|&(id, seam)| (id, paired_corners(&seam, meshes, &first_corner)))
+        .collect();
+    let vertex_count = name_vertices(&mut corners, &seam_pairs);
+    let mut garment = Garment { vertex_count, seam_pairs, ..Garment::default() };
+    for (&piece, mesh) in meshes {
+        garment.pieces.push((piece, pattern.pieces[&piece].name.clone()));
+        let first = first_corner[&piece];
+        for t in &mesh.triangles {
+            let cs = t.map(|v| v + first);
+            let vs = cs.map(|c| corners[c as usize].vertex);
+            if vs[0] == vs[1] || vs[1] == vs[2] || vs[2] == vs[0] {
+                continue; // A dart's tip narrower than one edge closes on itself.
+            }
+            garment.triangles.push(vs);
+            garment.triangle_corners.push(cs);
+            garment.triangle_pieces.push(piece);
+            garment.rest.push(front_rest(mesh, t));
+        }
+    }
+    garment.corners = corners;
+    garment.adjacency = Adjacency::new(vertex_count, &garment.triangles);
+    garment
+}
+
+/// Flat shape about the centroid, seen from the front.
+fn front_rest(mesh: &PieceMesh, t: &[u32; 3]) -> [DVec2; 3] {
+    let p = t.map(|v| {
+        let p = mesh.points[v as usize];
+        if mesh.front_is_far { DVec2::new(-p.x, p.y) } else { p }
+    });
+    let centre = (p[0] + p[1] + p[2]) / 3.0;
+    p.map(|q| q - centre)
+}
+
+fn paired_corners(
+    seam: &Seam,
+    meshes: &BTreeMap<PieceId, PieceMesh>,
+    first_corner: &BTreeMap<PieceId, u32>,
+) -> Vec<[u32; 2]> {
+    let side = |s: &EdgeRef| -> Vec<u32> {
+        meshes[&s.piece].edge_points[s.edge].iter().map(|&v| v + first_corner[&s.piece]).collect()
+    };
+    let (a, mut b) = (side(&seam.sides[0]), side(&seam.sides[1]));
+    if !seam.same_direction {
+        b.reverse();
+    }
+    a.into_iter().zip(b).map(|(a, b)| [a, b]).collect()
+}
+
+/// Gives every corner its sewn vertex; returns how many there are. Numbered by the lowest corner.
+fn name_vertices(corners: &mut [Corner], seam_pairs: &[(SeamId, Vec<[u32; 2]>)]) -> usize {
+    let mut parent: Vec<u32> = (0..corners.len() as u32).collect();
+    fn root(parent: &mut [u32], mut i: u32) -> u32 {
+        while parent[i as usize] != i {
+            parent[i as usize] = parent[parent[i as usize] as usize];
+            i = parent[i as usize];
+        }
+        i
+    }
+    for &[a, b] in seam_pairs.iter().flat_map(|(_, pairs)| pairs) {
+        let (a, b) = (root(&mut parent, a), root(&mut parent, b));
+        parent[a.max(b) as usize] = a.min(b);
+    }
+    let mut names = vec![u32::MAX; corners.len()];
+    let mut count = 0;
+    for i in 0..corners.len() as u32 {
+        let r = root(&mut parent, i) as usize;
+        if names[r] == u32::MAX {
+            names[r] = count;
+            count += 1;
+        }
+        corners[i as usize].vertex = names[r];
+    }
+    count as usize
+}
+
+/// Across a seam both triangles must run along it in opposite directions, or one piece shows its wrong side.
+fn report_twisted(pattern: &Pattern, garment: &Garment, problems: &mut Vec<Problem>) {
+    for (id, pairs) in &garment.seam_pairs {
+        let twisted = pairs.windows(2).any(|w| {
+            let (a, b) = (garment.corners[w[0][0] as usize].vertex, garment.corners[w[1][0] as usize].vertex);
+            let forward = garment
+                .adjacency
+                .vertex_triangles
+                .of(a)
+                .iter()
+                .filter(|&&t| {
+                    let vs = garment.triangles[t as usize];
+                    (0..3).any(|k| vs[k] == a && vs[(k + 1) % 3] == b)
+                })
+                .count();
+            a != b && forward > 1
+        });
+        if twisted {
+            let seam = pattern.seams[id];
+            problems.push(Problem {
+                kind: ProblemKind::TwistedSeam,
+                place: format!(
+                    "{id}: {} and {}",
+                    crate::pattern::sampling::place(pattern, seam.sides[0]),
+                    crate::pattern::sampling::place(pattern, seam.sides[1])
+                ),
+                words: "it joins the front of one piece to the back of the other; reverse the seam"
+                    .to_owned(),
+            });
+        }
+    }
+}

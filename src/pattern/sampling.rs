@@ -1,0 +1,137 @@
+//! How many points each edge gets, so that both sides of a seam have the same number.
+
+use std::collections::BTreeMap;
+
+use crate::geometry::ids::PieceId;
+use crate::pattern::{EdgeRef, Pattern, Problem, ProblemKind, Seam};
+
+/// Seams whose sides differ by more than this fraction are mentioned.
+const UNEQUAL: f64 = 0.02;
+/// An edge shorter than this has no length, metres.
+const SHORTEST_EDGE: f64 = 1e-5;
+
+/// Intervals per edge for each piece, and the seams that can be sewn.
+pub struct Sampling {
+    /// For each piece and edge the number of intervals, at least 1.
+    pub intervals: BTreeMap<PieceId, Vec<usize>>,
+    /// Seams whose two edges exist and are free, in id order.
+    pub seams: Vec<(crate::geometry::ids::SeamId, Seam)>,
+}
+
+/// Chooses intervals of about `edge_length` metres. A seam's sides take the count of the longer side.
+pub fn sampling(pattern: &Pattern, edge_length: f64, problems: &mut Vec<Problem>) -> Sampling {
+    let lengths: BTreeMap<PieceId, Vec<f64>> = pattern
+        .pieces
+        .iter()
+        .map(|(&id, piece)| (id, (0..piece.outline.len()).map(|i| piece.edge_length(i)).collect()))
+        .collect();
+    report_short_edges(pattern, &lengths, problems);
+    let count = |length: f64| ((length / edge_length).round() as usize).max(1);
+    let mut intervals: BTreeMap<PieceId, Vec<usize>> =
+        lengths.iter().map(|(&id, of_piece)| (id, of_piece.iter().map(|&l| count(l)).collect())).collect();
+    let seams = sound_seams(pattern, &lengths, problems);
+    for (_, seam) in &seams {
+        let longer = seam.sides.map(|s| lengths[&s.piece][s.edge]).into_iter().fold(0.0, f64::max);
+        for side in seam.sides {
+            if let Some(of_piece) = intervals.get_mut(&side.piece) {
+                of_piece[side.edge] = count(longer);
+            }
+        }
+    }
+    report_unsewn(pattern, &seams, problems);
+    Sampling { intervals, seams }
+}
+
+fn report_short_edges(pattern: &Pattern, lengths: &BTreeMap<PieceId, Vec<f64>>, problems: &mut Vec<Problem>) {
+    for (id, of_piece) in lengths {
+        for (edge, &length) in of_piece.iter().enumerate() {
+            if length < SHORTEST_EDGE || !length.is_finite() {
+                problems.push(Problem {
+                    kind: ProblemKind::ZeroLength,
+                    place: place(pattern, EdgeRef { piece: *id, edge }),
+                    words: "this edge has no length; delete one of its end points".to_owned(),
+                });
+            }
+        }
+    }
+}
+
+fn sound_seams(
+    pattern: &Pattern,
+    lengths: &BTreeMap<PieceId, Vec<f64>>,
+    problems: &mut Vec<Problem>,
+) -> Vec<(crate::geometry::ids::SeamId, Seam)> {
+    let mut taken = std::collections::BTreeSet::new();
+    let mut sound = Vec::new();
+    for (&id, &seam) in &pattern.seams {
+        if let Some(missing) =
+            seam.sides.iter().find(|s| lengths.get(&s.piece).is_none_or(|l| s.edge >= l.len()))
+        {
+            problems.push(Problem {
+                kind: ProblemKind::SeamToNothing,
+                place: id.to_string(),
+                words: format!(
+                    "it sews {}, which is not there; delete or redraw the seam",
+                    place(pattern, *missing)
+                ),
+            });
+            continue;
+        }
+        if let Some(&twice) = seam.sides.iter().find(|s| taken.contains(*s)) {
+            problems.push(Problem {
+                kind: ProblemKind::EdgeSewnTwice,
+                place: place(pattern, twice),
+                words: format!("{id} sews this edge a second time and was left out"),
+            });
+            continue;
+        }
+        taken.extend(seam.sides);
+        let [a, b] = seam.sides.map(|s| lengths[&s.piece][s.edge]);
+        let (short, long) = (a.min(b), a.max(b));
+        if long > short * (1.0 + UNEQUAL) {
+            problems.push(Problem {
+                kind: ProblemKind::UnequalSeam,
+                place: format!(
+                    "{id}: {} and {}",
+                    place(pattern, seam.sides[0]),
+                    place(pattern, seam.sides[1])
+                ),
+                words: format!(
+                    "its sides are {:.1} and {:.1} cm long; the longer is gathered {:.2}:1",
+                    a * 100.0,
+                    b * 100.0,
+                    long / short
+                ),
+            });
+        }
+        sound.push((id, seam));
+    }
+    sound
+}
+
+fn report_unsewn(
+    pattern: &Pattern,
+    seams: &[(crate::geometry::ids::SeamId, Seam)],
+    problems: &mut Vec<Problem>,
+) {
+    if pattern.pieces.len() < 2 {
+        return;
+    }
+    for (id, piece) in &pattern.pieces {
+        if !seams.iter().any(|(_, s)| s.sides.iter().any(|side| side.piece == *id)) {
+            problems.push(Problem {
+                kind: ProblemKind::PieceUnsewn,
+                place: format!("{} ({id})", piece.name),
+                words: "no seam holds this piece".to_owned(),
+            });
+        }
+    }
+}
+
+/// "front (piece 1), edge 3".
+pub fn place(pattern: &Pattern, edge: EdgeRef) -> String {
+    match pattern.pieces.get(&edge.piece) {
+        Some(piece) => format!("{} ({}), edge {}", piece.name, edge.piece, edge.edge),
+        None => format!("{}, edge {}", edge.piece, edge.edge),
+    }
+}

@@ -1,0 +1,270 @@
+//! Flat pieces to triangles: constrained Delaunay with refinement (spade), seeded by a triangular lattice.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use glam::DVec2;
+use spade::{AngleLimit, ConstrainedDelaunayTriangulation, Point2, RefinementParameters, Triangulation};
+
+use crate::geometry::ids::PieceId;
+use crate::pattern::sampling::{Sampling, place};
+use crate::pattern::{EdgeRef, Pattern, Piece, Problem, ProblemKind};
+
+/// Refinement aims at this smallest angle, degrees; sharp corners of the outline keep theirs.
+const SMALLEST_ANGLE_DEG: f64 = 27.0;
+/// Lattice points nearer than this many edge lengths to the outline are left out.
+const LATTICE_CLEARANCE: f64 = 0.62;
+/// Triangles one piece may have.
+const MOST_TRIANGLES: f64 = 2e6;
+
+/// A triangulated piece in its own plane.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PieceMesh {
+    /// Metres. The points of the outline come first, in its order.
+    pub points: Vec<DVec2>,
+    /// For each edge its points from start to end, both included.
+    pub edge_points: Vec<Vec<u32>>,
+    /// Counter-clockwise seen from the front of the piece.
+    pub triangles: Vec<[u32; 3]>,
+    /// The outline runs clockwise: the front is the far side of the drawing.
+    pub front_is_far: bool,
+}
+
+/// Triangulates every piece it can; what it cannot is among `problems`, by name.
+pub fn triangulated(
+    pattern: &Pattern,
+    sampling: &Sampling,
+    edge_length: f64,
+    problems: &mut Vec<Problem>,
+) -> BTreeMap<PieceId, PieceMesh> {
+    let mut meshes = BTreeMap::new();
+    for (&id, piece) in &pattern.pieces {
+        match piece_mesh(pattern, id, piece, &sampling.intervals[&id], edge_length) {
+            Ok(mesh) => {
+                meshes.insert(id, mesh);
+            }
+            Err(problem) => problems.push(problem),
+        }
+    }
+    meshes
+}
+
+fn piece_mesh(
+    pattern: &Pattern,
+    id: PieceId,
+    piece: &Piece,
+    intervals: &[usize],
+    edge_length: f64,
+) -> Result<PieceMesh, Problem> {
+    let fault = |kind, words: &str| Problem {
+        kind,
+        place: format!("{} ({id})", piece.name),
+        words: words.to_owned(),
+    };
+    if piece.outline.len() < 2 {
+        return Err(fault(ProblemKind::ZeroLength, "its outline has fewer than two edges"));
+    }
+    let (outline, edge_points) = sampled_outline(piece, intervals);
+    if outline.iter().any(|p| !p.is_finite()) {
+        return Err(fault(ProblemKind::NotTriangulated, "its outline has coordinates that are not numbers"));
+    }
+    let area = signed_area(&outline);
+    let extent = outline.iter().fold(0.0f64, |m, p| m.max((*p - outline[0]).length()));
+    if area.abs() < 1e-9 || area.abs() < extent * extent * 1e-6 {
+        return Err(fault(ProblemKind::ZeroLength, "it has no area"));
+    }
+    if area.abs() / (edge_length * edge_length * 0.433) > MOST_TRIANGLES {
+        return Err(fault(
+            ProblemKind::NotTriangulated,
+            "it would need more than two million triangles; raise the edge length",
+        ));
+    }
+    if let Some((i, j)) = crossing(&outline) {
+        let (a, b) = (edge_of(&edge_points, i), edge_of(&edge_points, j));
+        return Err(Problem {
+            kind: ProblemKind::SelfCrossing,
+            place: place(pattern, EdgeRef { piece: id, edge: a }),
+            words: format!("the outline crosses itself: edge {a} meets edge {b}; move their points apart"),
+        });
+    }
+    let (points, mut triangles) = refined(&outline, edge_length)
+        .ok_or_else(|| fault(ProblemKind::NotTriangulated, "its outline could not be triangulated"))?;
+    let front_is_far = area < 0.0;
+    if front_is_far {
+        for t in &mut triangles {
+            t.swap(1, 2);
+        }
+    }
+    Ok(PieceMesh { points, edge_points, triangles, front_is_far })
+}
+
+fn sampled_outline(piece: &Piece, intervals: &[usize]) -> (Vec<DVec2>, Vec<Vec<u32>>) {
+    let mut outline = Vec::new();
+    let mut edge_points = Vec::new();
+    for (i, &n) in intervals.iter().enumerate() {
+        let first = outline.len() as u32;
+        let fractions: Vec<f64> = (0..n).map(|k| k as f64 / n as f64).collect();
+        outline.extend(piece.edge_points(i, &fractions));
+        edge_points.push((first..=first + n as u32).collect::<Vec<u32>>());
+    }
+    if let Some(last) = edge_points.last_mut().and_then(|e| e.last_mut()) {
+        *last = 0;
+    }
+    (outline, edge_points)
+}
+
+fn edge_of(edge_points: &[Vec<u32>], segment: usize) -> usize {
+    edge_points.iter().position(|e| e[..e.len() - 1].contains(&(segment as u32))).unwrap_or(0)
+}
+
+fn signed_area(p: &[DVec2]) -> f64 {
+    (0..p.len()).map(|i| p[i].perp_dot(p[(i + 1) % p.len()]) / 2.0).sum()
+}
+
+/// The first two segments of a closed polyline that meet without being neighbours.
+fn crossing(p: &[DVec2]) -> Option<(usize, usize)> {
+    let n = p.len();
+    // Sorted along x, so that only segments that overlap there are tried.
+    let span = |i: usize| {
+        let (a, b) = (p[i], p[(i + 1) % n]);
+        (a.x.min(b.x), a.x.max(b.x))
+    };
+    let mut order: Vec<usize> = (0..n).collect();
+    order.sort_by(|&i, &j| span(i).0.total_cmp(&span(j).0).then(i.cmp(&j)));
+    let mut found: Option<(usize, usize)> = None;
+    for (k, &i) in order.iter().enumerate() {
+        for &j in order[k + 1..].iter().take_while(|&&j| span(j).0 <= span(i).1) {
+            let pair = (i.min(j), i.max(j));
+            let neighbours = pair.1 - pair.0 <= 1 || (pair.0 == 0 && pair.1 == n - 1);
+            if !neighbours
+                && segments_meet(p[i], p[(i + 1) % n], p[j], p[(j + 1) % n])
+                && found.is_none_or(|f| pair < f)
+            {
+                found = Some(pair);
+            }
+        }
+    }
+    found
+}
+
+fn segments_meet(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> bool {
+    let side = |p: DVec2, q: DVec2, r: DVec2| robust_orientation(p, q, r);
+    let (o1, o2, o3, o4) = (side(a, b, c), side(a, b, d), side(c, d, a), side(c, d, b));
+    if o1 * o2 < 0.0 && o3 * o4 < 0.0 {
+        return true;
+    }
+    let on = |p: DVec2, q: DVec2, r: DVec2| r.cmpge(p.min(q)).all() && r.cmple(p.max(q)).all();
+    (o1 == 0.0 && on(a, b, c))
+        || (o2 == 0.0 && on(a, b, d))
+        || (o3 == 0.0 && on(c, d, a))
+        || (o4 == 0.0 && on(c, d, b))
+}
+
+fn robust_orientation(a: DVec2, b: DVec2, c: DVec2) -> f64 {
+    // Rounded away below the accuracy of curve sampling.
+    let o = (b - a).perp_dot(c - a);
+    if o.abs() < 1e-16 { 0.0 } else { o }
+}
+
+/// Points (outline first) and triangles counter-clockwise in the drawing.
+fn refined(outline: &[DVec2], edge_length: f64) -> Option<(Vec<DVec2>, Vec<[u32; 3]>)> {
+    let mut cdt = ConstrainedDelaunayTriangulation::<Point2<f64>>::new();
+    let mut handles = Vec::with_capacity(outline.len());
+    for p in outline {
+        handles.push(cdt.insert(Point2::new(p.x, p.y)).ok()?);
+    }
+    if cdt.num_vertices() != outline.len() {
+        return None;
+    }
+    for i in 0..handles.len() {
+        let (a, b) = (handles[i], handles[(i + 1) % handles.len()]);
+        if !cdt.exists_constraint(a, b) {
+            if !cdt.can_add_constraint(a, b) {
+                return None;
+            }
+            cdt.add_constraint(a, b);
+        }
+    }
+    for p in lattice(outline, edge_length) {
+        cdt.insert(Point2::new(p.x, p.y)).ok()?;
+    }
+    let result = cdt.refine(
+        RefinementParameters::new()
+            .exclude_outer_faces(true)
+            .keep_constraint_edges()
+            .with_angle_limit(AngleLimit::from_deg(SMALLEST_ANGLE_DEG))
+            .with_max_additional_vertices(4 * cdt.num_vertices() + 1000),
+    );
+    let outside: BTreeSet<usize> = result.excluded_faces.iter().map(|f| f.index()).collect();
+    let mut triangles: Vec<[u32; 3]> = Vec::new();
+    for face in cdt.inner_faces() {
+        if !outside.contains(&face.fix().index()) {
+            triangles.push(face.vertices().map(|v| v.fix().index() as u32));
+        }
+    }
+    let points: Vec<DVec2> = cdt.vertices().map(|v| DVec2::new(v.position().x, v.position().y)).collect();
+    Some(only_used(points, triangles, outline.len()))
+}
+
+/// Drops points that no triangle uses (refinement may leave some outside), keeping the first `keep`.
+fn only_used(points: Vec<DVec2>, mut triangles: Vec<[u32; 3]>, keep: usize) -> (Vec<DVec2>, Vec<[u32; 3]>) {
+    let mut used = vec![false; points.len()];
+    used[..keep].fill(true);
+    for &v in triangles.iter().flatten() {
+        used[v as usize] = true;
+    }
+    let mut renamed = vec![0; points.len()];
+    let mut kept = Vec::with_capacity(points.len());
+    for (i, &p) in points.iter().enumerate() {
+        if used[i] {
+            renamed[i] = kept.len() as u32;
+            kept.push(p);
+        }
+    }
+    for v in triangles.iter_mut().flatten() {
+        *v = renamed[*v as usize];
+    }
+    (kept, triangles)
+}
+
+/// Points of an equilateral lattice inside the outline, clear of it.
+fn lattice(outline: &[DVec2], spacing: f64) -> Vec<DVec2> {
+    let lower = outline.iter().fold(DVec2::INFINITY, |m, &p| m.min(p));
+    let upper = outline.iter().fold(DVec2::NEG_INFINITY, |m, &p| m.max(p));
+    let row_height = spacing * 0.75f64.sqrt();
+    let rows = ((upper.y - lower.y) / row_height).ceil() as i64;
+    let columns = ((upper.x - lower.x) / spacing).ceil() as i64 + 1;
+    let clearance = spacing * LATTICE_CLEARANCE;
+    let mut points = Vec::new();
+    for row in 0..=rows {
+        let y = lower.y + row as f64 * row_height;
+        let crossings = row_crossings(outline, y);
+        let near: Vec<(DVec2, DVec2)> = (0..outline.len())
+            .map(|i| (outline[i], outline[(i + 1) % outline.len()]))
+            .filter(|(a, b)| a.y.min(b.y) <= y + clearance && a.y.max(b.y) >= y - clearance)
+            .collect();
+        let shift = if row % 2 == 0 { 0.0 } else { 0.5 };
+        for column in 0..=columns {
+            let p = DVec2::new(lower.x + (column as f64 + shift) * spacing, y);
+            let inside = crossings.iter().filter(|&&x| x < p.x).count() % 2 == 1;
+            if inside && near.iter().all(|&(a, b)| distance_to_segment(p, a, b) >= clearance) {
+                points.push(p);
+            }
+        }
+    }
+    points
+}
+
+fn row_crossings(outline: &[DVec2], y: f64) -> Vec<f64> {
+    (0..outline.len())
+        .filter_map(|i| {
+            let (a, b) = (outline[i], outline[(i + 1) % outline.len()]);
+            ((a.y <= y) != (b.y <= y)).then(|| a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x))
+        })
+        .collect()
+}
+
+fn distance_to_segment(p: DVec2, a: DVec2, b: DVec2) -> f64 {
+    let ab = b - a;
+    let t = ((p - a).dot(ab) / ab.length_squared().max(1e-300)).clamp(0.0, 1.0);
+    (p - a - ab * t).length()
+}
