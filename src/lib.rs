@@ -35,6 +35,7 @@
 
 pub mod body;
 pub mod cloth;
+pub mod contact;
 pub mod geometry;
 pub mod pattern;
 pub mod relax;

@@ -1,7 +1,9 @@
 //! The sewn garment as solvers see it.
 
 pub mod build;
+pub mod counters;
 pub mod garment;
 
 pub use build::build;
+pub use counters::Counters;
 pub use garment::{ClothState, Corner, Garment};

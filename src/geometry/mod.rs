@@ -3,3 +3,4 @@
 pub mod adjacency;
 pub mod ids;
 pub mod mesh;
+pub mod walk;

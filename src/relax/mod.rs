@@ -1,5 +1,10 @@
 //! Paper A's relaxation: shape match, flatten, gravity, friction.
 
+pub mod flatten;
+pub mod global;
+pub mod goals;
+pub mod relaxer;
 pub mod settings;
 
+pub use relaxer::{GlobalStep, Relaxer};
 pub use settings::RelaxSettings;

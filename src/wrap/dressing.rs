@@ -1,12 +1,44 @@
-//! A wrap in steps: root edges, growth, settling. One step is one tick of the simulation.
+//! A wrap in steps: root edges, growth in bands, settling. One step is one tick of the simulation.
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
+use glam::DVec3;
+
 use crate::body::Surface;
-use crate::cloth::{ClothState, Garment};
-use crate::pattern::Problem;
-use crate::relax::RelaxSettings;
+use crate::cloth::{ClothState, Counters, Garment};
+use crate::geometry::ids::PieceId;
+use crate::pattern::{Problem, ProblemKind};
+use crate::relax::{GlobalStep, RelaxSettings, Relaxer};
 use crate::wrap::Marks;
+use crate::wrap::growth::{Growth, placed};
+use crate::wrap::order::{Order, UNREACHED};
+use crate::wrap::roots::{PairStretch, roots};
+
+/// Local passes after each band of growth (ALGORITHMS.md 8.1).
+const LOCAL_PASSES: usize = 6;
+/// Over-relaxation of the local passes.
+const LOCAL_FACTOR: f64 = 1.6;
+/// Rings of vertices round new ones that the local passes move.
+const RINGS: usize = 2;
+/// Bands between global steps.
+const BANDS_PER_GLOBAL: usize = 3;
+/// Global steps after those bands.
+const GLOBALS_PER_GROUP: usize = 3;
+/// Global steps between tiers.
+const TIER_STEPS: usize = 15;
+/// Global steps of the first, ungraviated settling.
+const SETTLE_STEPS: usize = 40;
+/// A vertex moves no farther in one global step, metres on a body 1.5 m large.
+const STEP_CAP: f64 = 0.02;
+/// Marks hold their vertices with this weight while the cloth grows.
+const HOLD: f64 = 0.3;
+/// At rest when nothing moved farther than this many edge lengths for [`QUIET_STEPS`] steps.
+const REST_MOTION: f64 = 1e-3;
+/// See [`REST_MOTION`].
+const QUIET_STEPS: usize = 5;
+/// Rest is called after so many settling steps in any case: what still moves then trembles in a fold.
+const MOST_SETTLE_STEPS: usize = 400;
 
 /// How far a dressing has come.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
@@ -20,13 +52,27 @@ pub enum Phase {
     AtRest,
 }
 
+#[derive(Clone, Debug)]
+enum Stage {
+    Grow { limit: f64, bands: usize, fresh: Vec<u32> },
+    BetweenTiers { left: usize },
+    Settle { done: usize, quiet: usize },
+    Rest,
+}
+
 /// A wrap under way.
 #[derive(Clone, Debug)]
 pub struct Dressing {
-    garment: Arc<Garment>,
-    surface: Arc<Surface>,
-    settings: RelaxSettings,
-    phase: Phase,
+    relaxer: Relaxer,
+    order: Arc<Order>,
+    growth: Growth,
+    tier: u32,
+    stage: Stage,
+    edge_length: f64,
+    to_map: usize,
+    mapped: usize,
+    /// How long each pair of marks is on both sides.
+    pub stretches: Vec<PairStretch>,
 }
 
 impl Dressing {
@@ -37,28 +83,199 @@ impl Dressing {
         surface: Arc<Surface>,
         marks: &Marks,
         settings: RelaxSettings,
-    ) -> (Self, ClothState, Vec<Problem>) {
-        let _ = marks;
-        let state = ClothState {
-            positions: vec![glam::DVec3::ZERO; garment.vertex_count],
+    ) -> (Option<Self>, ClothState, Vec<Problem>) {
+        let mut state = ClothState {
+            positions: vec![DVec3::ZERO; garment.vertex_count],
             mapped: vec![false; garment.vertex_count],
         };
-        (Self { garment, surface, settings, phase: Phase::AtRest }, state, Vec::new())
+        let Some(mut relaxer) = Relaxer::new(garment.clone(), surface.clone(), settings) else {
+            let words = "the garment is too large for this machine's memory".to_owned();
+            let problem = Problem { kind: ProblemKind::Dressing, place: "garment".to_owned(), words };
+            return (None, state, vec![problem]);
+        };
+        let (roots, stretches, mut problems) = roots(&garment, &surface, marks, relaxer.offset());
+        let marked: Vec<PieceId> = marks.pairs().map(|(c, _)| c.piece).collect();
+        let order = Order::new(&garment, &roots, &marked);
+        for root in &roots {
+            state.positions[root.vertex as usize] = root.position;
+            state.mapped[root.vertex as usize] = true;
+            relaxer.hold(root.vertex, root.position);
+        }
+        report_unreached(&garment, &order, &mut problems);
+        let growth = Growth::new(&garment, &order, &state.mapped);
+        let to_map = order.tier.iter().filter(|&&t| t != UNREACHED).count();
+        let stage = if roots.is_empty() {
+            Stage::Rest
+        } else {
+            let fresh = roots.iter().map(|r| r.vertex).collect();
+            Stage::Grow { limit: 0.0, bands: 0, fresh }
+        };
+        let dressing = Self {
+            edge_length: mean_edge(&garment),
+            mapped: roots.len(),
+            relaxer,
+            order: Arc::new(order),
+            growth,
+            tier: 0,
+            stage,
+            to_map,
+            stretches,
+        };
+        (Some(dressing), state, problems)
     }
 
     /// One tick of work on `state`: a band of growth, or an iteration of settling. Same input, same bits.
     pub fn step(&mut self, state: &mut ClothState) -> Phase {
-        let _ = (&self.garment, &self.surface, &self.settings, state);
-        self.phase
+        match std::mem::replace(&mut self.stage, Stage::Rest) {
+            Stage::Grow { limit, bands, fresh } => self.grow(state, limit, bands, fresh),
+            Stage::BetweenTiers { left } => self.between_tiers(state, left),
+            Stage::Settle { done, quiet } => self.settle(state, done, quiet),
+            Stage::Rest => {}
+        }
+        self.phase()
     }
 
     /// How far it has come.
     pub fn phase(&self) -> Phase {
-        self.phase
+        match self.stage {
+            Stage::Grow { .. } | Stage::BetweenTiers { .. } => Phase::Growing,
+            Stage::Settle { .. } => Phase::Settling,
+            Stage::Rest => Phase::AtRest,
+        }
     }
 
     /// 0..=1 over growing and settling.
     pub fn progress(&self) -> f64 {
-        1.0
+        let grown = self.mapped as f64 / self.to_map.max(1) as f64;
+        match self.stage {
+            Stage::Grow { .. } | Stage::BetweenTiers { .. } => 0.6 * grown,
+            Stage::Settle { done, .. } => 0.6 + 0.4 * (done as f64 / (2 * SETTLE_STEPS) as f64).min(1.0),
+            Stage::Rest => 1.0,
+        }
+    }
+
+    /// Work done so far.
+    pub fn counters(&self) -> Counters {
+        self.relaxer.counters
+    }
+
+    fn grow(&mut self, state: &mut ClothState, limit: f64, bands: usize, mut fresh: Vec<u32>) {
+        let limit = match self.growth.next() {
+            Some((tier, distance)) if tier == self.tier => limit.max(distance) + self.edge_length,
+            next => {
+                let last = next.is_none();
+                self.relax_new(state, &fresh);
+                self.tier = next.map_or(self.tier, |(tier, _)| tier);
+                self.relaxer.set_mapped(&state.mapped);
+                self.stage = if last {
+                    Stage::Settle { done: 0, quiet: 0 }
+                } else {
+                    Stage::BetweenTiers { left: TIER_STEPS }
+                };
+                return;
+            }
+        };
+        while let Some(v) = self.growth.pop(self.tier, limit) {
+            let offset = self.relaxer.offset();
+            if let Some(p) = placed(&self.relaxer.garment, &self.relaxer.surface, state, v, offset) {
+                state.positions[v as usize] = p;
+                state.mapped[v as usize] = true;
+                self.mapped += 1;
+                self.relaxer.counters.grown_vertices += 1;
+                fresh.push(v);
+                self.growth.wake_round(&self.relaxer.garment, &self.order, &state.mapped, v);
+            }
+        }
+        self.relax_new(state, &fresh);
+        if (bands + 1).is_multiple_of(BANDS_PER_GLOBAL) {
+            self.relaxer.set_mapped(&state.mapped);
+            for _ in 0..GLOBALS_PER_GROUP {
+                self.global(state, HOLD, false, false);
+            }
+        }
+        self.stage = Stage::Grow { limit, bands: bands + 1, fresh: Vec::new() };
+    }
+
+    fn between_tiers(&mut self, state: &mut ClothState, left: usize) {
+        self.global(state, HOLD, false, false);
+        self.stage = if left > 1 {
+            Stage::BetweenTiers { left: left - 1 }
+        } else {
+            Stage::Grow { limit: 0.0, bands: 0, fresh: Vec::new() }
+        };
+    }
+
+    fn settle(&mut self, state: &mut ClothState, done: usize, quiet: usize) {
+        let first = done < SETTLE_STEPS;
+        let hold = if first { HOLD * (1.0 - done as f64 / SETTLE_STEPS as f64).powi(2) } else { 0.0 };
+        let moved = self.global(state, hold, done > 10, !first);
+        if done >= SETTLE_STEPS && done.is_multiple_of(10) {
+            self.relaxer.lift_faces(state, self.relaxer.offset() * 0.25);
+        }
+        let quiet = if moved < REST_MOTION * self.edge_length { quiet + 1 } else { 0 };
+        self.stage = if (quiet >= QUIET_STEPS && !first) || done >= MOST_SETTLE_STEPS {
+            Stage::Rest
+        } else {
+            Stage::Settle { done: done + 1, quiet }
+        };
+    }
+
+    fn global(&mut self, state: &mut ClothState, hold: f64, unfold: bool, weight: bool) -> f64 {
+        let cap = STEP_CAP * self.relaxer.surface.scale();
+        self.relaxer.global_step(state, GlobalStep { cap, hold, unfold, weight })
+    }
+
+    /// Local passes over the cloth round `fresh` vertices.
+    fn relax_new(&mut self, state: &mut ClothState, fresh: &[u32]) {
+        let garment = self.relaxer.garment.clone();
+        let mut near: BTreeSet<u32> = fresh.iter().copied().collect();
+        for _ in 0..RINGS {
+            let ring: Vec<u32> = near
+                .iter()
+                .flat_map(|&v| garment.adjacency.vertex_neighbours.of(v))
+                .copied()
+                .filter(|&v| state.mapped[v as usize])
+                .collect();
+            near.extend(ring);
+        }
+        let vertices: Vec<u32> = near.into_iter().collect();
+        let triangles: BTreeSet<u32> = vertices
+            .iter()
+            .flat_map(|&v| garment.adjacency.vertex_triangles.of(v))
+            .copied()
+            .filter(|&t| garment.triangles[t as usize].iter().all(|&v| state.mapped[v as usize]))
+            .collect();
+        let triangles: Vec<u32> = triangles.into_iter().collect();
+        for _ in 0..LOCAL_PASSES {
+            self.relaxer.local_pass(state, &vertices, &triangles, LOCAL_FACTOR);
+        }
+    }
+}
+
+fn mean_edge(garment: &Garment) -> f64 {
+    let (mut sum, mut count) = (0.0, 0.0);
+    for rest in &garment.rest {
+        for k in 0..3 {
+            sum += (rest[(k + 1) % 3] - rest[k]).length();
+            count += 1.0;
+        }
+    }
+    if count > 0.0 { sum / count } else { 0.0 }
+}
+
+fn report_unreached(garment: &Garment, order: &Order, problems: &mut Vec<Problem>) {
+    for (piece, name) in &garment.pieces {
+        let lost = garment
+            .triangles
+            .iter()
+            .zip(&garment.triangle_pieces)
+            .any(|(vs, p)| p == piece && vs.iter().any(|&v| order.tier[v as usize] == UNREACHED));
+        if lost {
+            problems.push(Problem {
+                kind: ProblemKind::Dressing,
+                place: format!("{name} ({piece})"),
+                words: "no seam joins this piece to a mark; it stays in the pattern".to_owned(),
+            });
+        }
     }
 }

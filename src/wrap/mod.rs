@@ -1,7 +1,10 @@
 //! Paper A: marks, root edges, growth.
 
 pub mod dressing;
+pub mod growth;
 pub mod marks;
+pub mod order;
+pub mod roots;
 
 pub use dressing::{Dressing, Phase};
 pub use marks::{BodyMark, ClothMark, ClothSide, Marks};

@@ -1,0 +1,20 @@
+//! Work done and work skipped.
+
+use serde::Serialize;
+
+/// Counts since the simulation began. They prove what a scene did not need.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Counters {
+    /// Vertices whose contact was looked at.
+    pub contact_checks: u64,
+    /// Of these, how many asked the body.
+    pub contact_queries: u64,
+    /// Global solves.
+    pub solves: u64,
+    /// Numeric factorisations.
+    pub factorisations: u64,
+    /// Jacobi passes over triangles, in triangles.
+    pub local_triangles: u64,
+    /// Vertices laid by growing.
+    pub grown_vertices: u64,
+}

@@ -1,0 +1,5 @@
+//! Cloth against body.
+
+pub mod tracker;
+
+pub use tracker::{Plane, Tracker};

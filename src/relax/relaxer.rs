@@ -1,0 +1,346 @@
+//! Relaxation of a garment on a body: global steps with contact in the matrix, and local passes for cloth just laid.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use crate::body::Surface;
+use crate::cloth::{ClothState, Counters, Garment};
+use crate::contact::Tracker;
+use crate::relax::RelaxSettings;
+use crate::relax::flatten::Hinges;
+use crate::relax::global::GlobalSolver;
+use crate::relax::goals::{turned_rest, turned_rest_facing};
+
+/// Weight of contact on the matrix diagonal, against 2/3 for each triangle round a vertex.
+const CONTACT_WEIGHT: f64 = 0.4;
+/// Keeps the matrix regular where nothing holds the cloth.
+const PROXIMAL_WEIGHT: f64 = 1e-4;
+/// Stands for cloth that is not laid yet.
+const UNMAPPED_WEIGHT: f64 = 1.0;
+/// How much of the last sliding move is tried again: the contact term holds a vertex where it was, this lets it slide on.
+const SLIDE_MOMENTUM: f64 = 0.7;
+/// A contact's push beyond the offset grows no further than this, metres on a body 1.5 m large.
+const MOST_PUSH: f64 = 0.03;
+/// Triangles whose normals are farther than this from the body's (cosine) are turned over.
+const WRONG_SIDE: f64 = -0.2;
+
+/// What one global step does.
+#[derive(Clone, Copy, Debug)]
+pub struct GlobalStep {
+    /// No vertex moves farther, metres.
+    pub cap: f64,
+    /// How strongly marked vertices are held where their marks are, as a weight on the diagonal.
+    pub hold: f64,
+    /// Turn triangles that face away from the body under them.
+    pub unfold: bool,
+    /// Apply gravity and friction.
+    pub weight: bool,
+}
+
+/// Everything one garment on one body needs to relax. Scratch but for contact memory.
+#[derive(Clone)]
+pub struct Relaxer {
+    /// The cloth.
+    pub garment: Arc<Garment>,
+    /// The body.
+    pub surface: Arc<Surface>,
+    /// What the user turned.
+    pub settings: RelaxSettings,
+    /// Work done.
+    pub counters: Counters,
+    tracker: Tracker,
+    solver: GlobalSolver,
+    hinges: Arc<Hinges>,
+    /// Height beyond the offset that each contact is pressed to (the scaled multiplier of the contact constraint).
+    push: Vec<f64>,
+    /// Extra offset where a face would cut the body.
+    lift: Vec<f64>,
+    /// Where the marks want their vertices.
+    held: Vec<Option<DVec3>>,
+    previous: Vec<DVec3>,
+    turned: Vec<[DVec3; 3]>,
+    weights: Vec<f64>,
+    sums: Vec<DVec3>,
+}
+
+impl std::fmt::Debug for Relaxer {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "Relaxer({} vertices)", self.garment.vertex_count)
+    }
+}
+
+impl Relaxer {
+    /// A relaxer with no triangle mapped. None when the matrix cannot be factored (out of memory).
+    pub fn new(garment: Arc<Garment>, surface: Arc<Surface>, settings: RelaxSettings) -> Option<Self> {
+        let n = garment.vertex_count;
+        Some(Self {
+            tracker: Tracker::new(n),
+            solver: GlobalSolver::new(&garment)?,
+            hinges: Arc::new(Hinges::new(&garment)),
+            counters: Counters::default(),
+            push: vec![0.0; n],
+            lift: vec![0.0; n],
+            held: vec![None; n],
+            previous: vec![DVec3::ZERO; n],
+            turned: vec![[DVec3::ZERO; 3]; garment.triangles.len()],
+            weights: vec![0.0; n],
+            sums: vec![DVec3::ZERO; n],
+            garment,
+            surface,
+            settings,
+        })
+    }
+
+    /// Height above the skin that is kept, metres.
+    pub fn offset(&self) -> f64 {
+        self.settings.offset * self.surface.scale()
+    }
+
+    /// Holds `vertex` at `target` in global steps that ask for it.
+    pub fn hold(&mut self, vertex: u32, target: DVec3) {
+        self.held[vertex as usize] = Some(target);
+    }
+
+    /// Tells the matrix which triangles take part.
+    pub fn set_mapped(&mut self, mapped: &[bool]) {
+        self.solver.set_triangles(&self.garment, mapped);
+    }
+
+    /// One global step. Returns the longest move, metres.
+    pub fn global_step(&mut self, state: &mut ClothState, step: GlobalStep) -> f64 {
+        let offset = self.offset();
+        let reach = offset * 2.0 + step.cap.min(offset);
+        self.tracker.update(&self.surface, state, reach, &mut self.counters);
+        self.turn_triangles(state, step.unfold);
+        let targets = self.weigh(state, step);
+        self.gather();
+        for (v, sum) in self.sums.iter_mut().enumerate() {
+            *sum += targets[v] * self.weights[v];
+        }
+        let solved = self.solver.solve(&self.weights, &mut self.sums, |v| targets[v], &mut self.counters);
+        if !solved {
+            return 0.0;
+        }
+        self.previous.copy_from_slice(&state.positions);
+        self.advance(state, step)
+    }
+
+    fn turn_triangles(&mut self, state: &ClothState, unfold: bool) {
+        let (garment, tracker) = (&*self.garment, &self.tracker);
+        self.turned.par_iter_mut().enumerate().for_each(|(t, turned)| {
+            let vs = garment.triangles[t];
+            if !vs.iter().all(|&v| state.mapped[v as usize]) {
+                *turned = [DVec3::ZERO; 3];
+                return;
+            }
+            let corners = vs.map(|v| state.positions[v as usize]);
+            let rest = &garment.rest[t];
+            let body = body_normal(tracker, &vs);
+            *turned = match body {
+                Some(n) if unfold && faces_away(corners, n) => turned_rest_facing(corners, rest, n),
+                Some(n) => turned_rest(corners, rest, n),
+                None => turned_rest(corners, rest, DVec3::Z),
+            };
+        });
+    }
+
+    /// Sets the weights and returns what they pull towards.
+    fn weigh(&mut self, state: &ClothState, step: GlobalStep) -> Vec<DVec3> {
+        let offset = self.offset();
+        let most_push = MOST_PUSH * self.surface.scale();
+        let mut targets = vec![DVec3::ZERO; state.positions.len()];
+        for v in 0..state.positions.len() {
+            let x = state.positions[v];
+            if !state.mapped[v] {
+                self.weights[v] = UNMAPPED_WEIGHT;
+                targets[v] = x;
+                continue;
+            }
+            let mut weight = PROXIMAL_WEIGHT;
+            let mut pull = x * PROXIMAL_WEIGHT;
+            let slide = x - self.previous[v];
+            match self.tracker.plane(v) {
+                Some(plane) => {
+                    let below = offset + self.lift[v] - plane.height(x);
+                    self.push[v] = (self.push[v] + below).clamp(0.0, most_push);
+                    if self.push[v] > 0.0 {
+                        let slide =
+                            (slide - plane.normal * slide.dot(plane.normal)).clamp_length_max(step.cap);
+                        let target = x
+                            + plane.normal * (below + self.push[v])
+                            + if self.slid(v) { slide * SLIDE_MOMENTUM } else { DVec3::ZERO };
+                        weight += CONTACT_WEIGHT;
+                        pull += target * CONTACT_WEIGHT;
+                    }
+                }
+                None => self.push[v] = 0.0,
+            }
+            if let Some(held) = self.held[v]
+                && step.hold > 0.0
+            {
+                weight += step.hold;
+                pull += held * step.hold;
+            }
+            self.weights[v] = weight;
+            targets[v] = pull / weight;
+        }
+        targets
+    }
+
+    fn slid(&self, v: usize) -> bool {
+        self.previous[v] != DVec3::ZERO
+    }
+
+    fn gather(&mut self) {
+        let (garment, turned) = (&*self.garment, &self.turned);
+        self.sums.par_iter_mut().enumerate().for_each(|(v, sum)| {
+            *sum = garment
+                .adjacency
+                .vertex_triangles
+                .of(v as u32)
+                .iter()
+                .map(|&t| {
+                    let k = garment.triangles[t as usize].iter().position(|&w| w == v as u32).unwrap_or(0);
+                    turned[t as usize][k]
+                })
+                .sum();
+        });
+    }
+
+    fn advance(&mut self, state: &mut ClothState, step: GlobalStep) -> f64 {
+        let offset = self.offset();
+        let scale = self.surface.scale();
+        let mut longest: f64 = 0.0;
+        for v in 0..state.positions.len() {
+            if !state.mapped[v] {
+                continue;
+            }
+            let old = state.positions[v];
+            let mut shift = (self.sums[v] - old).clamp_length_max(step.cap);
+            shift += self.hinges.displacement(v as u32, &self.previous, &state.mapped, self.settings.flatten);
+            let plane = self.tracker.plane(v);
+            let in_contact = self.push[v] > 0.0;
+            if step.weight {
+                if !in_contact {
+                    shift.y -= self.settings.gravity * scale;
+                } else if shift.length() < self.settings.friction * scale {
+                    // Paper A: in contact, short moves into the body stick.
+                    let into = plane.is_none_or(|p| shift.dot(p.normal) < 0.0);
+                    if into {
+                        shift = DVec3::ZERO;
+                    }
+                }
+            }
+            let mut new = old + shift;
+            if let Some(plane) = plane {
+                let low = offset * 0.5 + self.lift[v] - plane.height(new);
+                if low > 0.0 {
+                    new += plane.normal * low;
+                }
+            }
+            longest = longest.max((new - old).length());
+            state.positions[v] = new;
+        }
+        longest
+    }
+
+    /// A local pass over `vertices`: each goes the way of the mean of its triangles' goals, over-relaxed by `factor` in
+    /// 0..=2, then out of the body.
+    pub fn local_pass(&mut self, state: &mut ClothState, vertices: &[u32], triangles: &[u32], factor: f64) {
+        let garment = self.garment.clone();
+        for &t in triangles {
+            let vs = garment.triangles[t as usize];
+            let corners = vs.map(|v| state.positions[v as usize]);
+            let centre = (corners[0] + corners[1] + corners[2]) / 3.0;
+            let n = body_normal(&self.tracker, &vs).unwrap_or(DVec3::Z);
+            self.turned[t as usize] = turned_rest(corners, &garment.rest[t as usize], n).map(|r| r + centre);
+        }
+        self.counters.local_triangles += triangles.len() as u64;
+        let offset = self.offset();
+        let moved: Vec<DVec3> = vertices
+            .iter()
+            .map(|&v| {
+                let mut sum = DVec3::ZERO;
+                let mut count = 0.0;
+                for &t in garment.adjacency.vertex_triangles.of(v) {
+                    let vs = garment.triangles[t as usize];
+                    if vs.iter().all(|&w| state.mapped[w as usize]) {
+                        let k = vs.iter().position(|&w| w == v).unwrap_or(0);
+                        sum += self.turned[t as usize][k];
+                        count += 1.0;
+                    }
+                }
+                let x = state.positions[v as usize];
+                if count == 0.0 { x } else { x + (sum / count - x) * factor }
+            })
+            .collect();
+        for (&v, new) in vertices.iter().zip(moved) {
+            let mut new = new;
+            if let Some(plane) =
+                self.tracker.update_one(v, new, &self.surface, offset * 2.0, &mut self.counters)
+            {
+                let low = offset - plane.height(new);
+                if low > 0.0 {
+                    new += plane.normal * low;
+                }
+            }
+            state.positions[v as usize] = new;
+        }
+    }
+
+    /// Raises the offset of vertices whose edges or faces come too near the body between them. Returns how many.
+    pub fn lift_faces(&mut self, state: &ClothState, clearance: f64) -> usize {
+        let (garment, surface) = (&*self.garment, &*self.surface);
+        let samples: [[f64; 3]; 7] = [
+            [0.5, 0.5, 0.0],
+            [0.0, 0.5, 0.5],
+            [0.5, 0.0, 0.5],
+            [1.0 / 3.0; 3],
+            [2.0 / 3.0, 1.0 / 6.0, 1.0 / 6.0],
+            [1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0],
+            [1.0 / 6.0, 1.0 / 6.0, 2.0 / 3.0],
+        ];
+        let near: Vec<bool> = (0..state.positions.len()).map(|v| self.tracker.plane(v).is_some()).collect();
+        let lacking: Vec<f64> = garment
+            .triangles
+            .par_iter()
+            .map(|vs| {
+                if !vs.iter().any(|&v| near[v as usize]) || !vs.iter().all(|&v| state.mapped[v as usize]) {
+                    return 0.0;
+                }
+                let corners = vs.map(|v| state.positions[v as usize]);
+                samples
+                    .iter()
+                    .map(|b| {
+                        let p = corners[0] * b[0] + corners[1] * b[1] + corners[2] * b[2];
+                        surface.nearest_within(p, clearance * 20.0).map_or(0.0, |n| clearance - n.distance)
+                    })
+                    .fold(0.0, f64::max)
+            })
+            .collect();
+        self.counters.contact_queries += 7 * lacking.len() as u64;
+        let most = self.offset() * 2.0;
+        let mut raised = vec![0.0f64; self.lift.len()];
+        for (vs, &lack) in garment.triangles.iter().zip(&lacking) {
+            for &v in vs {
+                raised[v as usize] = raised[v as usize].max(lack);
+            }
+        }
+        for (lift, raise) in self.lift.iter_mut().zip(&raised) {
+            *lift = (*lift + raise * 0.7).min(most);
+        }
+        lacking.iter().filter(|&&l| l > 0.0).count()
+    }
+}
+
+fn body_normal(tracker: &Tracker, vs: &[u32; 3]) -> Option<DVec3> {
+    let sum: DVec3 = vs.iter().filter_map(|&v| tracker.plane(v as usize)).map(|p| p.normal).sum();
+    sum.try_normalize()
+}
+
+fn faces_away(corners: [DVec3; 3], normal: DVec3) -> bool {
+    let n = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize_or_zero();
+    n.dot(normal) < WRONG_SIDE
+}

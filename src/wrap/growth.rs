@@ -1,0 +1,129 @@
+//! Growth: each unmapped vertex is laid in the planes of the mapped triangles beside it (paper A, Figure 13).
+
+use std::collections::BTreeSet;
+
+use glam::DVec3;
+
+use crate::body::Surface;
+use crate::cloth::{ClothState, Garment};
+use crate::geometry::adjacency::NONE;
+use crate::wrap::order::Order;
+
+/// A new vertex is pushed out of the body in steps of this, metres on a body 1.5 m large.
+const PUSH_STEP: f64 = 0.003;
+/// After so many steps it goes to the nearest skin instead.
+const MOST_PUSHES: usize = 30;
+
+/// Vertices ready to be laid, by tier, distance and id.
+#[derive(Clone, Debug, Default)]
+pub struct Growth {
+    ready: BTreeSet<(u32, u64, u32)>,
+}
+
+impl Growth {
+    /// The ready vertices round what is mapped.
+    pub fn new(garment: &Garment, order: &Order, mapped: &[bool]) -> Self {
+        let mut growth = Self::default();
+        for v in 0..garment.vertex_count as u32 {
+            if mapped[v as usize] {
+                growth.wake_round(garment, order, mapped, v);
+            }
+        }
+        growth
+    }
+
+    /// Takes the next ready vertex of `tier` no farther than `limit` metres.
+    pub fn pop(&mut self, tier: u32, limit: f64) -> Option<u32> {
+        let &next = self.ready.iter().next()?;
+        if next.0 != tier || f64::from_bits(next.1) > limit {
+            return None;
+        }
+        self.ready.remove(&next);
+        Some(next.2)
+    }
+
+    /// Tier and distance of the next ready vertex.
+    pub fn next(&self) -> Option<(u32, f64)> {
+        self.ready.iter().next().map(|&(t, d, _)| (t, f64::from_bits(d)))
+    }
+
+    /// Vertex `v` has been mapped: what lies across from it may be ready now.
+    pub fn wake_round(&mut self, garment: &Garment, order: &Order, mapped: &[bool], v: u32) {
+        for &t in garment.adjacency.vertex_triangles.of(v) {
+            let vs = garment.triangles[t as usize];
+            if !vs.iter().all(|&w| mapped[w as usize]) {
+                continue;
+            }
+            for &beyond in &garment.adjacency.across[t as usize] {
+                if beyond == NONE {
+                    continue;
+                }
+                for w in garment.triangles[beyond as usize] {
+                    let i = w as usize;
+                    if !mapped[i] && order.tier[i] != crate::wrap::order::UNREACHED {
+                        self.ready.insert((order.tier[i], order.distance[i].to_bits(), w));
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Where `v` goes, as its mapped parent triangles say, out of the body by `offset` metres.
+pub fn placed(
+    garment: &Garment,
+    surface: &Surface,
+    state: &ClothState,
+    v: u32,
+    offset: f64,
+) -> Option<DVec3> {
+    let mut sum = DVec3::ZERO;
+    let mut normals = DVec3::ZERO;
+    let mut count = 0.0;
+    for &t in garment.adjacency.vertex_triangles.of(v) {
+        let vs = garment.triangles[t as usize];
+        let Some(k) = vs.iter().position(|&w| w == v) else { continue };
+        // The edge across from `v` is the one that starts at the next corner.
+        let parent = garment.adjacency.across[t as usize][(k + 1) % 3];
+        if parent == NONE || !garment.triangles[parent as usize].iter().all(|&w| state.mapped[w as usize]) {
+            continue;
+        }
+        let [pa, pb, pc] = garment.triangles[parent as usize].map(|w| state.positions[w as usize]);
+        let normal = (pb - pa).cross(pc - pa).normalize_or_zero();
+        let (ia, ib) = ((k + 1) % 3, (k + 2) % 3);
+        let (a, b) = (state.positions[vs[ia] as usize], state.positions[vs[ib] as usize]);
+        let rest = &garment.rest[t as usize];
+        let (flat, to) = (rest[ib] - rest[ia], rest[k] - rest[ia]);
+        let length = flat.length_squared();
+        if normal == DVec3::ZERO || length == 0.0 {
+            continue;
+        }
+        let along = to.dot(flat) / length;
+        let altitude = flat.perp_dot(to) / length.sqrt();
+        sum += a + (b - a) * along + normal.cross(b - a).normalize_or_zero() * altitude;
+        normals += normal;
+        count += 1.0;
+    }
+    (count > 0.0).then(|| pushed_out(surface, sum / count, normals.normalize_or_zero(), offset))
+}
+
+/// Along the parents' normal, not to the nearest skin: beside an arm that is often the wrong side.
+fn pushed_out(surface: &Surface, p: DVec3, normal: DVec3, offset: f64) -> DVec3 {
+    let step = PUSH_STEP * surface.scale();
+    let mut q = p;
+    for _ in 0..MOST_PUSHES {
+        let near = surface.nearest(q);
+        if near.distance >= offset {
+            return q;
+        }
+        if near.distance > -step && near.normal.dot(normal) > 0.5 {
+            break;
+        }
+        if normal == DVec3::ZERO {
+            break;
+        }
+        q += normal * step;
+    }
+    let near = surface.nearest(q);
+    if near.distance >= offset { q } else { near.point + near.normal * offset }
+}

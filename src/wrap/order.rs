@@ -1,0 +1,135 @@
+//! In which order cloth is laid: pieces with marks first, then those sewn to them, and so on; within a tier by distance.
+
+use std::cmp::Reverse;
+use std::collections::{BTreeMap, BinaryHeap, VecDeque};
+
+use crate::cloth::Garment;
+use crate::geometry::ids::PieceId;
+use crate::wrap::roots::Root;
+
+/// When each vertex's turn comes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Order {
+    /// The tier of each vertex: the lowest of its pieces'. [`UNREACHED`] where no seam leads to a mark.
+    pub tier: Vec<u32>,
+    /// Within its tier: for tier 0 the mesh distance to the nearest mark, else to the seams with earlier tiers; metres.
+    pub distance: Vec<f64>,
+    /// How many tiers there are.
+    pub tiers: u32,
+}
+
+/// No seam leads from a mark to it.
+pub const UNREACHED: u32 = u32::MAX;
+
+impl Order {
+    /// The order of growth from `roots`.
+    pub fn new(garment: &Garment, roots: &[Root], marked: &[PieceId]) -> Self {
+        let piece_tier = piece_tiers(garment, marked);
+        let mut tier = vec![UNREACHED; garment.vertex_count];
+        for (t, vs) in garment.triangles.iter().enumerate() {
+            let of_piece = piece_tier[&garment.triangle_pieces[t]];
+            for &v in vs {
+                tier[v as usize] = tier[v as usize].min(of_piece);
+            }
+        }
+        let tiers = piece_tier.values().filter(|&&t| t != UNREACHED).map(|t| t + 1).max().unwrap_or(0);
+        let mut distance = vec![f64::INFINITY; garment.vertex_count];
+        for current in 0..tiers {
+            let mut sources: Vec<(u32, f64)> = Vec::new();
+            if current == 0 {
+                sources.extend(roots.iter().map(|r| (r.vertex, r.distance)));
+            } else {
+                for v in 0..garment.vertex_count as u32 {
+                    if tier[v as usize] < current && touches(garment, v, &piece_tier, current) {
+                        sources.push((v, 0.0));
+                    }
+                }
+            }
+            spread(garment, &piece_tier, current, &sources, &tier, &mut distance);
+        }
+        Self { tier, distance, tiers }
+    }
+}
+
+fn touches(garment: &Garment, v: u32, piece_tier: &BTreeMap<PieceId, u32>, tier: u32) -> bool {
+    garment
+        .adjacency
+        .vertex_triangles
+        .of(v)
+        .iter()
+        .any(|&t| piece_tier[&garment.triangle_pieces[t as usize]] == tier)
+}
+
+fn piece_tiers(garment: &Garment, marked: &[PieceId]) -> BTreeMap<PieceId, u32> {
+    let mut tiers: BTreeMap<PieceId, u32> = garment.pieces.iter().map(|&(p, _)| (p, UNREACHED)).collect();
+    let mut sewn: BTreeMap<PieceId, Vec<PieceId>> = BTreeMap::new();
+    for (_, pairs) in &garment.seam_pairs {
+        if let Some(&[a, b]) = pairs.first() {
+            let (a, b) = (garment.corners[a as usize].piece, garment.corners[b as usize].piece);
+            sewn.entry(a).or_default().push(b);
+            sewn.entry(b).or_default().push(a);
+        }
+    }
+    let mut queue: VecDeque<PieceId> = VecDeque::new();
+    for &piece in marked {
+        if tiers.insert(piece, 0) == Some(UNREACHED) {
+            queue.push_back(piece);
+        }
+    }
+    while let Some(piece) = queue.pop_front() {
+        let next = tiers[&piece] + 1;
+        for &other in sewn.get(&piece).into_iter().flatten() {
+            if tiers[&other] == UNREACHED {
+                tiers.insert(other, next);
+                queue.push_back(other);
+            }
+        }
+    }
+    tiers
+}
+
+/// Dijkstra over the flat edges of the pieces of one tier.
+fn spread(
+    garment: &Garment,
+    piece_tier: &BTreeMap<PieceId, u32>,
+    current: u32,
+    sources: &[(u32, f64)],
+    tier: &[u32],
+    distance: &mut [f64],
+) {
+    let mut best: BTreeMap<u32, f64> = BTreeMap::new();
+    // Distances are positive: their bits sort as they do.
+    let mut queue = BinaryHeap::new();
+    for &(v, d) in sources {
+        if best.get(&v).is_none_or(|&b| d < b) {
+            best.insert(v, d);
+            queue.push(Reverse((d.to_bits(), v)));
+        }
+    }
+    while let Some(Reverse((bits, v))) = queue.pop() {
+        let d = f64::from_bits(bits);
+        if best[&v] < d {
+            continue;
+        }
+        for &t in garment.adjacency.vertex_triangles.of(v) {
+            let t = t as usize;
+            if piece_tier[&garment.triangle_pieces[t]] != current {
+                continue;
+            }
+            let vs = garment.triangles[t];
+            let Some(k) = vs.iter().position(|&w| w == v) else { continue };
+            for j in [(k + 1) % 3, (k + 2) % 3] {
+                let next = d + (garment.rest[t][j] - garment.rest[t][k]).length();
+                if best.get(&vs[j]).is_none_or(|&b| next < b) {
+                    best.insert(vs[j], next);
+                    queue.push(Reverse((next.to_bits(), vs[j])));
+                }
+            }
+        }
+    }
+    for (v, d) in best {
+        if tier[v as usize] == current {
+            distance[v as usize] = d;
+        }
+    }
+}

@@ -1,0 +1,353 @@
+//! Root edges: cloth edges that cross a mark are pasted along the mark's partner on the body (paper A, Figure 11).
+
+use std::collections::BTreeMap;
+
+use glam::{DVec2, DVec3};
+
+use crate::body::Surface;
+use crate::cloth::Garment;
+use crate::geometry::ids::PieceId;
+use crate::geometry::walk::straightest;
+use crate::pattern::{Problem, ProblemKind};
+use crate::wrap::{BodyMark, ClothMark, ClothSide, Marks};
+
+/// A stroke shorter than this is a point, metres on a body 1.5 m large.
+const POINT_MARK: f64 = 1e-4;
+
+/// A vertex laid by a mark.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Root {
+    /// The vertex.
+    pub vertex: u32,
+    /// Where it goes, metres, at the offset above the skin.
+    pub position: DVec3,
+    /// How far it is from its mark in the pattern, metres.
+    pub distance: f64,
+}
+
+/// How long a mark is on both sides.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+pub struct PairStretch {
+    /// The pair's number, from 1.
+    pub number: usize,
+    /// On the cloth, metres.
+    pub cloth: f64,
+    /// On the offset surface, metres.
+    pub body: f64,
+}
+
+impl PairStretch {
+    /// Body over cloth less one: strain no solver can remove. Zero for point marks.
+    pub fn stretch(&self) -> f64 {
+        if self.cloth > 0.0 { self.body / self.cloth - 1.0 } else { 0.0 }
+    }
+}
+
+/// A polyline with its arc lengths.
+struct Stroke<P> {
+    points: Vec<P>,
+    lengths: Vec<f64>,
+}
+
+impl<P: Copy + std::ops::Sub<Output = P> + std::ops::Add<Output = P> + std::ops::Mul<f64, Output = P>>
+    Stroke<P>
+{
+    fn new(points: Vec<P>, norm: impl Fn(P) -> f64) -> Self {
+        let mut lengths = vec![0.0];
+        for w in points.windows(2) {
+            lengths.push(lengths[lengths.len() - 1] + norm(w[1] - w[0]));
+        }
+        Self { points, lengths }
+    }
+
+    fn length(&self) -> f64 {
+        *self.lengths.last().unwrap_or(&0.0)
+    }
+
+    /// The segment at arc length `s`, and the fraction along it.
+    fn segment(&self, s: f64) -> (usize, f64) {
+        let last = self.points.len().saturating_sub(2);
+        let i = self.lengths.partition_point(|&l| l <= s).saturating_sub(1).min(last);
+        let span = self.lengths[i + 1] - self.lengths[i];
+        (i, if span > 0.0 { ((s - self.lengths[i]) / span).clamp(0.0, 1.0) } else { 0.0 })
+    }
+
+    fn at(&self, s: f64) -> P {
+        if self.points.len() == 1 {
+            return self.points[0];
+        }
+        let (i, f) = self.segment(s);
+        self.points[i] + (self.points[i + 1] - self.points[i]) * f
+    }
+}
+
+/// Lays the cloth round its marks. Roots are in vertex order, one per vertex.
+pub fn roots(
+    garment: &Garment,
+    surface: &Surface,
+    marks: &Marks,
+    offset: f64,
+) -> (Vec<Root>, Vec<PairStretch>, Vec<Problem>) {
+    let mut problems = Vec::new();
+    let mut found: BTreeMap<u32, (DVec3, f64, f64)> = BTreeMap::new();
+    let mut stretches = Vec::new();
+    for (i, (cloth, body)) in marks.pairs().enumerate() {
+        let number = i + 1;
+        match laid(garment, surface, cloth, body, offset) {
+            Ok((roots, lengths)) => {
+                stretches.push(PairStretch { number, cloth: lengths.0, body: lengths.1 });
+                for root in roots {
+                    let sum = found.entry(root.vertex).or_insert((DVec3::ZERO, 0.0, f64::INFINITY));
+                    sum.0 += root.position;
+                    sum.1 += 1.0;
+                    sum.2 = sum.2.min(root.distance);
+                }
+            }
+            Err(words) => {
+                problems.push(Problem { kind: ProblemKind::Mark, place: format!("mark {number}"), words })
+            }
+        }
+    }
+    for number in marks.cloth.len().min(marks.body.len()) + 1..=marks.cloth.len().max(marks.body.len()) {
+        let (has, lacks) =
+            if marks.cloth.len() > marks.body.len() { ("cloth", "body") } else { ("body", "cloth") };
+        problems.push(Problem {
+            kind: ProblemKind::Mark,
+            place: format!("mark {number}"),
+            words: format!("it is on the {has} but not on the {lacks}; paint its partner or delete it"),
+        });
+    }
+    let roots = found
+        .into_iter()
+        .map(|(vertex, (sum, count, distance))| {
+            // Averaged in space, then back to the surface (paper A, footnote 4).
+            let mean = sum / count;
+            let position = if count > 1.0 { lifted(surface, mean, offset) } else { mean };
+            Root { vertex, position, distance }
+        })
+        .collect();
+    (roots, stretches, problems)
+}
+
+/// The point at `offset` above the skin next to `p`.
+fn lifted(surface: &Surface, p: DVec3, offset: f64) -> DVec3 {
+    let n = surface.nearest(p);
+    n.point + n.normal * offset
+}
+
+type Laid = (Vec<Root>, (f64, f64));
+
+fn laid(
+    garment: &Garment,
+    surface: &Surface,
+    cloth: &ClothMark,
+    body: &BodyMark,
+    offset: f64,
+) -> Result<Laid, String> {
+    if cloth.points.is_empty() || body.points.is_empty() {
+        return Err("it has no points".to_owned());
+    }
+    if cloth.points.iter().any(|p| !p.is_finite()) || body.points.iter().any(|p| !p.is_finite()) {
+        return Err("it has coordinates that are not numbers".to_owned());
+    }
+    if !garment.pieces.iter().any(|&(id, _)| id == cloth.piece) {
+        return Err(format!("its {} is not in the garment", cloth.piece));
+    }
+    // The cloth lives at the offset: that is where the mark's length counts.
+    let body_stroke =
+        Stroke::new(body.points.iter().map(|&p| lifted(surface, p, offset)).collect(), DVec3::length);
+    let cloth_stroke = Stroke::new(cloth.points.clone(), DVec2::length);
+    let shortest = POINT_MARK * surface.scale();
+    let is_point = cloth_stroke.length() < shortest || body_stroke.length() < shortest;
+    let mut roots = if is_point {
+        Vec::new()
+    } else {
+        crossing_roots(garment, surface, cloth, &cloth_stroke, &body_stroke, offset)
+    };
+    if roots.is_empty() {
+        roots = point_roots(garment, surface, cloth, &cloth_stroke, &body_stroke, offset)
+            .ok_or_else(|| "it lies off its piece; paint it on the cloth".to_owned())?;
+    }
+    let lengths = if is_point { (0.0, 0.0) } else { (cloth_stroke.length(), body_stroke.length()) };
+    Ok((roots, lengths))
+}
+
+/// A frame that carries directions of the pattern plane to the tangent plane at a point of the body.
+struct Frame {
+    point: DVec3,
+    triangle: u32,
+    /// Image of the cloth mark's tangent.
+    tangent: DVec3,
+    /// Outward.
+    normal: DVec3,
+    /// Unit, in the pattern plane.
+    flat_tangent: DVec2,
+    /// +1 when a counter-clockwise turn in the drawing is one seen from the side that looks outward.
+    handed: f64,
+}
+
+impl Frame {
+    /// Where a corner at `step` from the mark's point in the pattern goes, at `offset` above the skin.
+    fn carried(&self, surface: &Surface, step: DVec2, offset: f64) -> DVec3 {
+        let along = self.flat_tangent.dot(step);
+        let across = self.flat_tangent.perp_dot(step) * self.handed;
+        let direction = self.tangent * along + self.normal.cross(self.tangent) * across;
+        let end = straightest(
+            &surface.mesh,
+            &surface.adjacency,
+            self.point,
+            self.triangle,
+            direction,
+            step.length(),
+        );
+        lifted(surface, end.point, offset)
+    }
+}
+
+/// The image of arc-length fraction `t` of a pair of strokes.
+fn frame(
+    garment: &Garment,
+    surface: &Surface,
+    cloth: &ClothMark,
+    cloth_stroke: &Stroke<DVec2>,
+    body_stroke: &Stroke<DVec3>,
+    t: f64,
+) -> Frame {
+    let at = body_stroke.at(t * body_stroke.length());
+    let near = surface.nearest(at);
+    // The tangent over a short stretch of the body's stroke: single segments of a painted stroke are noise.
+    let (length, window) = (body_stroke.length(), 0.01 * surface.scale());
+    let s = t * length;
+    let ahead = body_stroke.at((s + window).min(length)) - body_stroke.at((s - window).max(0.0));
+    let flat_length = cloth_stroke.length();
+    let flat_window = window.min(flat_length);
+    let f = t * flat_length;
+    let flat =
+        cloth_stroke.at((f + flat_window).min(flat_length)) - cloth_stroke.at((f - flat_window).max(0.0));
+    let normal = near.normal;
+    let tangent = ahead - normal * ahead.dot(normal);
+    let tangent = tangent
+        .try_normalize()
+        .or_else(|| (DVec3::Y - normal * normal.y).try_normalize())
+        .unwrap_or_else(|| normal.any_orthonormal_vector());
+    let drawn_from_front = if front_is_far(garment, cloth.piece) { -1.0 } else { 1.0 };
+    let side = if cloth.side == ClothSide::Front { 1.0 } else { -1.0 };
+    Frame {
+        point: near.point,
+        triangle: near.triangle,
+        tangent,
+        normal,
+        flat_tangent: flat.try_normalize().unwrap_or(DVec2::Y),
+        handed: drawn_from_front * side,
+    }
+}
+
+fn front_is_far(garment: &Garment, piece: PieceId) -> bool {
+    garment.triangle_pieces.iter().position(|&p| p == piece).is_some_and(|t| {
+        let [a, b, c] = garment.triangle_corners[t].map(|c| garment.corners[c as usize].uv);
+        (b - a).perp_dot(c - a) < 0.0
+    })
+}
+
+fn crossing_roots(
+    garment: &Garment,
+    surface: &Surface,
+    cloth: &ClothMark,
+    cloth_stroke: &Stroke<DVec2>,
+    body_stroke: &Stroke<DVec3>,
+    offset: f64,
+) -> Vec<Root> {
+    let mut roots = Vec::new();
+    let total = cloth_stroke.length();
+    let mut seen = std::collections::BTreeSet::new();
+    for (t, corners) in garment.triangle_corners.iter().enumerate() {
+        if garment.triangle_pieces[t] != cloth.piece {
+            continue;
+        }
+        for k in 0..3 {
+            let (ca, cb) = (corners[k], corners[(k + 1) % 3]);
+            if !seen.insert((ca.min(cb), ca.max(cb))) {
+                continue;
+            }
+            let (a, b) = (garment.corners[ca as usize], garment.corners[cb as usize]);
+            for (s, p) in crossings(cloth_stroke, a.uv, b.uv) {
+                let frame = frame(garment, surface, cloth, cloth_stroke, body_stroke, s / total);
+                for end in [a, b] {
+                    let step = end.uv - p;
+                    roots.push(Root {
+                        vertex: end.vertex,
+                        position: frame.carried(surface, step, offset),
+                        distance: distance_to_stroke(cloth_stroke, end.uv),
+                    });
+                }
+            }
+        }
+    }
+    roots
+}
+
+/// Arc lengths and points where a stroke crosses segment `ab`.
+fn crossings(stroke: &Stroke<DVec2>, a: DVec2, b: DVec2) -> Vec<(f64, DVec2)> {
+    let (lower, upper) = (a.min(b), a.max(b));
+    let mut found = Vec::new();
+    for (i, w) in stroke.points.windows(2).enumerate() {
+        let (p, q) = (w[0], w[1]);
+        if p.max(q).cmplt(lower).any() || p.min(q).cmpgt(upper).any() {
+            continue;
+        }
+        let (d, e) = (q - p, b - a);
+        let det = d.perp_dot(e);
+        if det.abs() < 1e-18 {
+            continue;
+        }
+        let s = (a - p).perp_dot(e) / det;
+        let u = (a - p).perp_dot(d) / det;
+        if (0.0..=1.0).contains(&s) && (0.0..=1.0).contains(&u) {
+            found.push((stroke.lengths[i] + s * d.length(), p + d * s));
+        }
+    }
+    found
+}
+
+fn distance_to_stroke(stroke: &Stroke<DVec2>, p: DVec2) -> f64 {
+    let to_segment = |w: &[DVec2]| {
+        let d = w[1] - w[0];
+        let t = ((p - w[0]).dot(d) / d.length_squared().max(1e-300)).clamp(0.0, 1.0);
+        (p - w[0] - d * t).length()
+    };
+    stroke.points.windows(2).map(to_segment).fold((p - stroke.points[0]).length(), f64::min)
+}
+
+/// A point, or a stroke inside one triangle: that triangle is laid.
+fn point_roots(
+    garment: &Garment,
+    surface: &Surface,
+    cloth: &ClothMark,
+    cloth_stroke: &Stroke<DVec2>,
+    body_stroke: &Stroke<DVec3>,
+    offset: f64,
+) -> Option<Vec<Root>> {
+    let middle = cloth_stroke.at(cloth_stroke.length() / 2.0);
+    let holding = (0..garment.triangles.len())
+        .find(|&t| garment.triangle_pieces[t] == cloth.piece && holds(garment, t, middle))?;
+    let mut frame = frame(garment, surface, cloth, cloth_stroke, body_stroke, 0.5);
+    if cloth_stroke.length() < POINT_MARK * surface.scale() {
+        // No direction of its own: the pattern's up is the body's up.
+        frame.flat_tangent = DVec2::Y;
+        frame.tangent = (DVec3::Y - frame.normal * frame.normal.y)
+            .try_normalize()
+            .unwrap_or_else(|| frame.normal.any_orthonormal_vector());
+    }
+    let roots = garment.triangle_corners[holding].map(|c| garment.corners[c as usize]).map(|corner| Root {
+        vertex: corner.vertex,
+        position: frame.carried(surface, corner.uv - middle, offset),
+        distance: (corner.uv - middle).length(),
+    });
+    Some(roots.to_vec())
+}
+
+fn holds(garment: &Garment, t: usize, p: DVec2) -> bool {
+    let [a, b, c] = garment.triangle_corners[t].map(|c| garment.corners[c as usize].uv);
+    let (x, y, z) = ((b - a).perp_dot(p - a), (c - b).perp_dot(p - b), (a - c).perp_dot(p - c));
+    (x >= 0.0 && y >= 0.0 && z >= 0.0) || (x <= 0.0 && y <= 0.0 && z <= 0.0)
+}
