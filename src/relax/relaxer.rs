@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use crate::body::Surface;
 use crate::cloth::{ClothState, Counters, Garment};
-use crate::contact::Tracker;
+use crate::contact::{Plane, Tracker};
 use crate::relax::RelaxSettings;
 use crate::relax::flatten::Hinges;
 use crate::relax::global::GlobalSolver;
@@ -15,6 +15,8 @@ use crate::relax::goals::{turned_rest, turned_rest_facing};
 
 /// Weight of contact on the matrix diagonal, against 2/3 for each triangle round a vertex.
 const CONTACT_WEIGHT: f64 = 0.4;
+/// Weight of a contact that friction holds.
+const STUCK_WEIGHT: f64 = 4.0;
 /// Keeps the matrix regular where nothing holds the cloth.
 const PROXIMAL_WEIGHT: f64 = 1e-4;
 /// Stands for cloth that is not laid yet.
@@ -63,6 +65,8 @@ pub struct Relaxer {
     turned: Vec<[DVec3; 3]>,
     weights: Vec<f64>,
     sums: Vec<DVec3>,
+    laplacian: Vec<DVec3>,
+    areas: Vec<f64>,
 }
 
 impl std::fmt::Debug for Relaxer {
@@ -87,6 +91,8 @@ impl Relaxer {
             turned: vec![[DVec3::ZERO; 3]; garment.triangles.len()],
             weights: vec![0.0; n],
             sums: vec![DVec3::ZERO; n],
+            laplacian: vec![DVec3::ZERO; n],
+            areas: vertex_areas(&garment),
             garment,
             surface,
             settings,
@@ -114,8 +120,11 @@ impl Relaxer {
         let reach = offset * 2.0 + step.cap.min(offset);
         self.tracker.update(&self.surface, state, reach, &mut self.counters);
         self.turn_triangles(state, step.unfold);
+        self.gather(state, step.weight);
         let targets = self.weigh(state, step);
-        self.gather();
+        for v in 0..self.sums.len() {
+            self.sums[v] += self.laplacian[v];
+        }
         for (v, sum) in self.sums.iter_mut().enumerate() {
             *sum += targets[v] * self.weights[v];
         }
@@ -148,8 +157,8 @@ impl Relaxer {
 
     /// Sets the weights and returns what they pull towards.
     fn weigh(&mut self, state: &ClothState, step: GlobalStep) -> Vec<DVec3> {
-        let offset = self.offset();
         let most_push = MOST_PUSH * self.surface.scale();
+        let offset = self.offset();
         let mut targets = vec![DVec3::ZERO; state.positions.len()];
         for v in 0..state.positions.len() {
             let x = state.positions[v];
@@ -160,22 +169,16 @@ impl Relaxer {
             }
             let mut weight = PROXIMAL_WEIGHT;
             let mut pull = x * PROXIMAL_WEIGHT;
-            let slide = x - self.previous[v];
-            match self.tracker.plane(v) {
-                Some(plane) => {
-                    let below = offset + self.lift[v] - plane.height(x);
+            let below = self.tracker.plane(v).map(|p| (p, offset + self.lift[v] - p.height(x)));
+            match below {
+                // In the band above the offset the weight stays, so that the factor need not change when a vertex lifts off.
+                Some((plane, below)) if below > -offset => {
                     self.push[v] = (self.push[v] + below).clamp(0.0, most_push);
-                    if self.push[v] > 0.0 {
-                        let slide =
-                            (slide - plane.normal * slide.dot(plane.normal)).clamp_length_max(step.cap);
-                        let target = x
-                            + plane.normal * (below + self.push[v])
-                            + if self.slid(v) { slide * SLIDE_MOMENTUM } else { DVec3::ZERO };
-                        weight += CONTACT_WEIGHT;
-                        pull += target * CONTACT_WEIGHT;
-                    }
+                    let (contact_weight, target) = self.contact_target(v, x, plane, below, step);
+                    weight += contact_weight;
+                    pull += target * contact_weight;
                 }
-                None => self.push[v] = 0.0,
+                _ => self.push[v] = 0.0,
             }
             if let Some(held) = self.held[v]
                 && step.hold > 0.0
@@ -189,29 +192,53 @@ impl Relaxer {
         targets
     }
 
+    /// Weight and target of a vertex in contact, `below` metres under its offset.
+    fn contact_target(&self, v: usize, x: DVec3, plane: Plane, below: f64, step: GlobalStep) -> (f64, DVec3) {
+        let tangential = |d: DVec3| d - plane.normal * d.dot(plane.normal);
+        let pressed = self.push[v] > 0.0;
+        let height = if pressed { below + self.push[v] } else { 0.0 };
+        let target = x + plane.normal * height;
+        if step.weight && pressed {
+            let force = tangential(self.sums[v]).length();
+            if force <= self.settings.friction * CONTACT_WEIGHT * self.push[v] {
+                return (STUCK_WEIGHT, x + plane.normal * (height * CONTACT_WEIGHT / STUCK_WEIGHT));
+            }
+        }
+        let slide = if self.slid(v) { tangential(x - self.previous[v]) } else { DVec3::ZERO };
+        (CONTACT_WEIGHT, target + slide.clamp_length_max(step.cap) * SLIDE_MOMENTUM)
+    }
+
     fn slid(&self, v: usize) -> bool {
         self.previous[v] != DVec3::ZERO
     }
 
-    fn gather(&mut self) {
+    /// Fills `sums` with the force on each vertex (turned corners less present ones, and gravity) and `laplacian` with the
+    /// matrix times the positions; together they are the right-hand side.
+    fn gather(&mut self, state: &ClothState, weight: bool) {
         let (garment, turned) = (&*self.garment, &self.turned);
-        self.sums.par_iter_mut().enumerate().for_each(|(v, sum)| {
-            *sum = garment
-                .adjacency
-                .vertex_triangles
-                .of(v as u32)
-                .iter()
-                .map(|&t| {
-                    let k = garment.triangles[t as usize].iter().position(|&w| w == v as u32).unwrap_or(0);
-                    turned[t as usize][k]
-                })
-                .sum();
-        });
+        let gravity = if weight { self.settings.gravity } else { 0.0 };
+        let areas = &self.areas;
+        self.sums.par_iter_mut().zip(self.laplacian.par_iter_mut()).enumerate().for_each(
+            |(v, (sum, lap))| {
+                *sum = DVec3::NEG_Y * (gravity * areas[v]);
+                *lap = DVec3::ZERO;
+                for &t in garment.adjacency.vertex_triangles.of(v as u32) {
+                    let vs = garment.triangles[t as usize];
+                    if !vs.iter().all(|&w| state.mapped[w as usize]) {
+                        continue;
+                    }
+                    let k = vs.iter().position(|&w| w == v as u32).unwrap_or(0);
+                    let corners = vs.map(|w| state.positions[w as usize]);
+                    let from_centre = corners[k] - (corners[0] + corners[1] + corners[2]) / 3.0;
+                    *sum += turned[t as usize][k] - from_centre;
+                    *lap += from_centre;
+                }
+            },
+        );
     }
 
     fn advance(&mut self, state: &mut ClothState, step: GlobalStep) -> f64 {
         let offset = self.offset();
-        let scale = self.surface.scale();
         let mut longest: f64 = 0.0;
         for v in 0..state.positions.len() {
             if !state.mapped[v] {
@@ -221,18 +248,6 @@ impl Relaxer {
             let mut shift = (self.sums[v] - old).clamp_length_max(step.cap);
             shift += self.hinges.displacement(v as u32, &self.previous, &state.mapped, self.settings.flatten);
             let plane = self.tracker.plane(v);
-            let in_contact = self.push[v] > 0.0;
-            if step.weight {
-                if !in_contact {
-                    shift.y -= self.settings.gravity * scale;
-                } else if shift.length() < self.settings.friction * scale {
-                    // Paper A: in contact, short moves into the body stick.
-                    let into = plane.is_none_or(|p| shift.dot(p.normal) < 0.0);
-                    if into {
-                        shift = DVec3::ZERO;
-                    }
-                }
-            }
             let mut new = old + shift;
             if let Some(plane) = plane {
                 let low = offset * 0.5 + self.lift[v] - plane.height(new);
@@ -333,6 +348,18 @@ impl Relaxer {
         }
         lacking.iter().filter(|&&l| l > 0.0).count()
     }
+}
+
+/// Flat area round each vertex, square metres.
+fn vertex_areas(garment: &Garment) -> Vec<f64> {
+    let mut areas = vec![0.0; garment.vertex_count];
+    for (vs, rest) in garment.triangles.iter().zip(&garment.rest) {
+        let area = (rest[1] - rest[0]).perp_dot(rest[2] - rest[0]) / 2.0;
+        for &v in vs {
+            areas[v as usize] += area / 3.0;
+        }
+    }
+    areas
 }
 
 fn body_normal(tracker: &Tracker, vs: &[u32; 3]) -> Option<DVec3> {

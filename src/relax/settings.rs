@@ -10,9 +10,9 @@ pub struct RelaxSettings {
     pub stretch: f64,
     /// How strongly folds are flattened, 0..=1 (paper A's alpha).
     pub flatten: f64,
-    /// How far gravity moves a free vertex in one step, metres, 0..=0.01.
+    /// Strain that a metre of cloth hanging by its edge has at the top, 0..=0.1. Small: it lays cloth, it does not weigh it.
     pub gravity: f64,
-    /// Moves along the body shorter than this stick, metres, 0..=0.02.
+    /// Coulomb's coefficient between cloth and skin, 0..=2.
     pub friction: f64,
     /// How far above the skin the cloth lies, metres, 0.0005..=0.05.
     pub offset: f64,
@@ -20,6 +20,6 @@ pub struct RelaxSettings {
 
 impl Default for RelaxSettings {
     fn default() -> Self {
-        Self { stretch: 1.0, flatten: 0.2, gravity: 0.0004, friction: 0.0008, offset: 0.004 }
+        Self { stretch: 1.0, flatten: 0.2, gravity: 0.004, friction: 0.3, offset: 0.004 }
     }
 }

@@ -5,6 +5,8 @@ pub mod growth;
 pub mod marks;
 pub mod order;
 pub mod roots;
+pub mod suggest;
 
 pub use dressing::{Dressing, Phase};
 pub use marks::{BodyMark, ClothMark, ClothSide, Marks};
+pub use suggest::suggested;
