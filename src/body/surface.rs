@@ -121,15 +121,7 @@ impl Surface {
         }
         let ray = Ray::new((origin - self.origin).as_vec3(), direction.as_vec3());
         let hit = self.parry.cast_ray_and_get_normal(&Pose::IDENTITY, &ray, f32::MAX, false)?;
-        let mut triangle = match hit.feature {
-            parry3d::shape::FeatureId::Face(id) => id,
-            _ => return None,
-        };
-        // Hits on back faces come numbered after the front faces.
-        let count = self.mesh.triangles.len() as u32;
-        if triangle >= count {
-            triangle -= count;
-        }
+        let triangle = hit.subshape;
         let distance = f64::from(hit.time_of_impact);
         Some(Hit {
             point: origin + direction * distance,

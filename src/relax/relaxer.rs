@@ -14,15 +14,13 @@ use crate::relax::global::GlobalSolver;
 use crate::relax::goals::{turned_rest, turned_rest_facing};
 
 /// Weight of contact on the matrix diagonal, against 2/3 for each triangle round a vertex.
-const CONTACT_WEIGHT: f64 = 0.4;
-/// Weight of a contact that friction holds.
-const STUCK_WEIGHT: f64 = 4.0;
+const CONTACT_WEIGHT: f64 = 0.1;
 /// Keeps the matrix regular where nothing holds the cloth.
 const PROXIMAL_WEIGHT: f64 = 1e-4;
 /// Stands for cloth that is not laid yet.
 const UNMAPPED_WEIGHT: f64 = 1.0;
 /// How much of the last sliding move is tried again: the contact term holds a vertex where it was, this lets it slide on.
-const SLIDE_MOMENTUM: f64 = 0.7;
+const SLIDE_MOMENTUM: f64 = 0.9;
 /// A contact's push beyond the offset grows no further than this, metres on a body 1.5 m large.
 const MOST_PUSH: f64 = 0.03;
 /// Triangles whose normals are farther than this from the body's (cosine) are turned over.
@@ -174,9 +172,12 @@ impl Relaxer {
                 // In the band above the offset the weight stays, so that the factor need not change when a vertex lifts off.
                 Some((plane, below)) if below > -offset => {
                     self.push[v] = (self.push[v] + below).clamp(0.0, most_push);
-                    let (contact_weight, target) = self.contact_target(v, x, plane, below, step);
-                    weight += contact_weight;
-                    pull += target * contact_weight;
+                    if step.weight {
+                        self.rub(v, plane.normal);
+                    }
+                    let target = self.contact_target(v, x, plane, below, step);
+                    weight += CONTACT_WEIGHT;
+                    pull += target * CONTACT_WEIGHT;
                 }
                 _ => self.push[v] = 0.0,
             }
@@ -193,19 +194,21 @@ impl Relaxer {
     }
 
     /// Weight and target of a vertex in contact, `below` metres under its offset.
-    fn contact_target(&self, v: usize, x: DVec3, plane: Plane, below: f64, step: GlobalStep) -> (f64, DVec3) {
+    fn contact_target(&self, v: usize, x: DVec3, plane: Plane, below: f64, step: GlobalStep) -> DVec3 {
         let tangential = |d: DVec3| d - plane.normal * d.dot(plane.normal);
         let pressed = self.push[v] > 0.0;
         let height = if pressed { below + self.push[v] } else { 0.0 };
         let target = x + plane.normal * height;
-        if step.weight && pressed {
-            let force = tangential(self.sums[v]).length();
-            if force <= self.settings.friction * CONTACT_WEIGHT * self.push[v] {
-                return (STUCK_WEIGHT, x + plane.normal * (height * CONTACT_WEIGHT / STUCK_WEIGHT));
-            }
-        }
         let slide = if self.slid(v) { tangential(x - self.previous[v]) } else { DVec3::ZERO };
-        (CONTACT_WEIGHT, target + slide.clamp_length_max(step.cap) * SLIDE_MOMENTUM)
+        target + slide.clamp_length_max(step.cap) * SLIDE_MOMENTUM
+    }
+
+    /// Coulomb friction: takes the tangential force on `v` away, as far as its pressure allows.
+    fn rub(&mut self, v: usize, normal: DVec3) {
+        let force = self.sums[v];
+        let tangential = force - normal * force.dot(normal);
+        let most = self.settings.friction * CONTACT_WEIGHT * self.push[v];
+        self.sums[v] -= tangential.clamp_length_max(most);
     }
 
     fn slid(&self, v: usize) -> bool {

@@ -33,12 +33,18 @@ const SETTLE_STEPS: usize = 40;
 const STEP_CAP: f64 = 0.02;
 /// Marks hold their vertices with this weight while the cloth grows.
 const HOLD: f64 = 0.3;
+/// It fades in few steps while the cloth settles, so that the matrix changes seldom.
+const HOLD_FADE: [f64; 4] = [1.0, 0.3, 0.1, 0.0];
 /// At rest when nothing moved farther than this many edge lengths for [`QUIET_STEPS`] steps.
-const REST_MOTION: f64 = 1e-3;
+const REST_MOTION: f64 = 4e-3;
 /// See [`REST_MOTION`].
 const QUIET_STEPS: usize = 5;
 /// Rest is called after so many settling steps in any case: what still moves then trembles in a fold.
 const MOST_SETTLE_STEPS: usize = 400;
+/// So often at most is cloth raised where it cuts the body between its vertices.
+const MOST_LIFTS: usize = 8;
+/// Edges and faces keep this share of the offset.
+const FACE_CLEARANCE: f64 = 0.25;
 
 /// How far a dressing has come.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
@@ -56,7 +62,7 @@ pub enum Phase {
 enum Stage {
     Grow { limit: f64, bands: usize, fresh: Vec<u32> },
     BetweenTiers { left: usize },
-    Settle { done: usize, quiet: usize },
+    Settle { done: usize, quiet: usize, lifts: usize },
     Rest,
 }
 
@@ -129,7 +135,7 @@ impl Dressing {
         match std::mem::replace(&mut self.stage, Stage::Rest) {
             Stage::Grow { limit, bands, fresh } => self.grow(state, limit, bands, fresh),
             Stage::BetweenTiers { left } => self.between_tiers(state, left),
-            Stage::Settle { done, quiet } => self.settle(state, done, quiet),
+            Stage::Settle { done, quiet, lifts } => self.settle(state, done, quiet, lifts),
             Stage::Rest => {}
         }
         self.phase()
@@ -168,7 +174,7 @@ impl Dressing {
                 self.tier = next.map_or(self.tier, |(tier, _)| tier);
                 self.relaxer.set_mapped(&state.mapped);
                 self.stage = if last {
-                    Stage::Settle { done: 0, quiet: 0 }
+                    Stage::Settle { done: 0, quiet: 0, lifts: 0 }
                 } else {
                     Stage::BetweenTiers { left: TIER_STEPS }
                 };
@@ -205,18 +211,21 @@ impl Dressing {
         };
     }
 
-    fn settle(&mut self, state: &mut ClothState, done: usize, quiet: usize) {
+    fn settle(&mut self, state: &mut ClothState, done: usize, quiet: usize, lifts: usize) {
         let first = done < SETTLE_STEPS;
-        let hold = if first { HOLD * (1.0 - done as f64 / SETTLE_STEPS as f64).powi(2) } else { 0.0 };
+        let hold = if first { HOLD * HOLD_FADE[done * HOLD_FADE.len() / SETTLE_STEPS] } else { 0.0 };
         let moved = self.global(state, hold, done > 10, !first);
-        if done >= SETTLE_STEPS && done.is_multiple_of(10) {
-            self.relaxer.lift_faces(state, self.relaxer.offset() * 0.25);
-        }
         let quiet = if moved < REST_MOTION * self.edge_length { quiet + 1 } else { 0 };
-        self.stage = if (quiet >= QUIET_STEPS && !first) || done >= MOST_SETTLE_STEPS {
-            Stage::Rest
-        } else {
-            Stage::Settle { done: done + 1, quiet }
+        let still = (quiet >= QUIET_STEPS && !first) || done >= MOST_SETTLE_STEPS;
+        // Cloth that lies still may cut the body between its vertices: raise it there and go on.
+        let raised = still && lifts < MOST_LIFTS && {
+            let clearance = self.relaxer.offset() * FACE_CLEARANCE;
+            self.relaxer.lift_faces(state, clearance) > 0
+        };
+        self.stage = match (still, raised) {
+            (true, false) => Stage::Rest,
+            (true, true) => Stage::Settle { done: done + 1, quiet: 0, lifts: lifts + 1 },
+            (false, _) => Stage::Settle { done: done + 1, quiet, lifts },
         };
     }
 
