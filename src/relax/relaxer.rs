@@ -23,8 +23,16 @@ const UNMAPPED_WEIGHT: f64 = 1.0;
 const SLIDE_MOMENTUM: f64 = 0.9;
 /// A contact's push beyond the offset grows no further than this, metres on a body 1.5 m large.
 const MOST_PUSH: f64 = 0.03;
-/// Triangles whose normals are farther than this from the body's (cosine) are turned over.
-const WRONG_SIDE: f64 = -0.2;
+/// A triangle is turned over when its normal and that of the cloth round it have a smaller cosine.
+const FLIPPED: f64 = -0.2;
+/// Cloth is on the wrong side of the skin next to it when their normals have a smaller cosine.
+const WRONG_SIDE: f64 = 0.0;
+/// How far from skin that is looked after, metres on a body 1.5 m large.
+const WRONG_SIDE_REACH: f64 = 0.02;
+/// The same for a whole face of cloth that lies still.
+const WRONG_FACE: f64 = -0.15;
+/// Cloth on the wrong side is sent away by this in a step, metres on a body 1.5 m large.
+const SEND_AWAY: f64 = 0.003;
 
 /// What one global step does.
 #[derive(Clone, Copy, Debug)]
@@ -33,7 +41,8 @@ pub struct GlobalStep {
     pub cap: f64,
     /// How strongly marked vertices are held where their marks are, as a weight on the diagonal.
     pub hold: f64,
-    /// Turn triangles that face away from the body under them.
+    /// Turn triangles that face against the cloth round them, and send cloth that faces the skin next to it (it belongs to
+    /// another limb, or to the other side of a fold) away from there.
     pub unfold: bool,
     /// Apply gravity and friction.
     pub weight: bool,
@@ -65,6 +74,10 @@ pub struct Relaxer {
     sums: Vec<DVec3>,
     laplacian: Vec<DVec3>,
     areas: Vec<f64>,
+    /// Of the cloth, front up.
+    normals: Vec<DVec3>,
+    /// Where cloth that lay on the wrong side is sent, in steps of [`SEND_AWAY`].
+    sent: Vec<DVec3>,
 }
 
 impl std::fmt::Debug for Relaxer {
@@ -91,6 +104,8 @@ impl Relaxer {
             sums: vec![DVec3::ZERO; n],
             laplacian: vec![DVec3::ZERO; n],
             areas: vertex_areas(&garment),
+            normals: vec![DVec3::ZERO; n],
+            sent: vec![DVec3::ZERO; n],
             garment,
             surface,
             settings,
@@ -115,7 +130,11 @@ impl Relaxer {
     /// One global step. Returns the longest move, metres.
     pub fn global_step(&mut self, state: &mut ClothState, step: GlobalStep) -> f64 {
         let offset = self.offset();
-        let reach = offset * 2.0 + step.cap.min(offset);
+        let mut reach = offset * 2.0 + step.cap.min(offset);
+        if step.unfold {
+            reach = reach.max(WRONG_SIDE_REACH * self.surface.scale());
+            self.normals = vertex_normals(&self.garment, state);
+        }
         self.tracker.update(&self.surface, state, reach, &mut self.counters);
         self.turn_triangles(state, step.unfold);
         self.gather(state, step.weight);
@@ -135,7 +154,7 @@ impl Relaxer {
     }
 
     fn turn_triangles(&mut self, state: &ClothState, unfold: bool) {
-        let (garment, tracker) = (&*self.garment, &self.tracker);
+        let (garment, tracker, normals) = (&*self.garment, &self.tracker, &self.normals);
         self.turned.par_iter_mut().enumerate().for_each(|(t, turned)| {
             let vs = garment.triangles[t];
             if !vs.iter().all(|&v| state.mapped[v as usize]) {
@@ -144,11 +163,12 @@ impl Relaxer {
             }
             let corners = vs.map(|v| state.positions[v as usize]);
             let rest = &garment.rest[t];
-            let body = body_normal(tracker, &vs);
-            *turned = match body {
-                Some(n) if unfold && faces_away(corners, n) => turned_rest_facing(corners, rest, n),
-                Some(n) => turned_rest(corners, rest, n),
-                None => turned_rest(corners, rest, DVec3::Z),
+            let keep = body_normal(tracker, &vs).unwrap_or(DVec3::Z);
+            let cloth: DVec3 =
+                if unfold { vs.iter().map(|&v| normals[v as usize]).sum() } else { DVec3::ZERO };
+            *turned = match cloth.try_normalize() {
+                Some(n) if faces_away(corners, n) => turned_rest_facing(corners, rest, n),
+                _ => turned_rest(corners, rest, keep),
             };
         });
     }
@@ -168,7 +188,20 @@ impl Relaxer {
             let mut weight = PROXIMAL_WEIGHT;
             let mut pull = x * PROXIMAL_WEIGHT;
             let below = self.tracker.plane(v).map(|p| (p, offset + self.lift[v] - p.height(x)));
+            if self.sent[v] != DVec3::ZERO {
+                let away = self.sent[v] * (SEND_AWAY * self.surface.scale());
+                weight += CONTACT_WEIGHT;
+                pull += (x + away) * CONTACT_WEIGHT;
+            }
+            let wrong_sided =
+                step.unfold && below.is_some_and(|(p, _)| p.normal.dot(self.normals[v]) < WRONG_SIDE);
             match below {
+                Some((plane, below)) if wrong_sided => {
+                    self.push[v] = 0.0;
+                    let away = below.max(0.0) + SEND_AWAY * self.surface.scale();
+                    weight += CONTACT_WEIGHT;
+                    pull += (x + plane.normal * away) * CONTACT_WEIGHT;
+                }
                 // In the band above the offset the weight stays, so that the factor need not change when a vertex lifts off.
                 Some((plane, below)) if below > -offset => {
                     self.push[v] = (self.push[v] + below).clamp(0.0, most_push);
@@ -308,6 +341,33 @@ impl Relaxer {
         }
     }
 
+    /// Sends faces that face the skin next to them away from it: they belong to another limb. Returns how many.
+    pub fn send_wrong_faces(&mut self, state: &ClothState) -> usize {
+        let (garment, surface) = (&*self.garment, &*self.surface);
+        let reach = WRONG_SIDE_REACH * surface.scale();
+        let wrong: Vec<Option<DVec3>> = garment
+            .triangles
+            .par_iter()
+            .map(|vs| {
+                if !vs.iter().all(|&v| state.mapped[v as usize]) {
+                    return None;
+                }
+                let [a, b, c] = vs.map(|v| state.positions[v as usize]);
+                let near = surface.nearest_within((a + b + c) / 3.0, reach)?;
+                let normal = (b - a).cross(c - a).normalize_or_zero();
+                let skin = surface.face_normals[near.triangle as usize];
+                (normal.dot(skin) < WRONG_FACE).then_some(near.normal)
+            })
+            .collect();
+        self.counters.contact_queries += wrong.len() as u64;
+        for (vs, away) in garment.triangles.iter().zip(&wrong) {
+            for &v in vs {
+                self.sent[v as usize] += away.unwrap_or_default();
+            }
+        }
+        wrong.iter().flatten().count()
+    }
+
     /// Raises the offset of vertices whose edges or faces come too near the body between them. Returns how many.
     pub fn lift_faces(&mut self, state: &ClothState, clearance: f64) -> usize {
         let (garment, surface) = (&*self.garment, &*self.surface);
@@ -365,6 +425,24 @@ fn vertex_areas(garment: &Garment) -> Vec<f64> {
     areas
 }
 
+fn vertex_normals(garment: &Garment, state: &ClothState) -> Vec<DVec3> {
+    (0..garment.vertex_count as u32)
+        .into_par_iter()
+        .map(|v| {
+            let around = garment.adjacency.vertex_triangles.of(v).iter();
+            let sum: DVec3 = around
+                .map(|&t| garment.triangles[t as usize])
+                .filter(|vs| vs.iter().all(|&w| state.mapped[w as usize]))
+                .map(|vs| {
+                    let [a, b, c] = vs.map(|w| state.positions[w as usize]);
+                    (b - a).cross(c - a)
+                })
+                .sum();
+            sum.normalize_or_zero()
+        })
+        .collect()
+}
+
 fn body_normal(tracker: &Tracker, vs: &[u32; 3]) -> Option<DVec3> {
     let sum: DVec3 = vs.iter().filter_map(|&v| tracker.plane(v as usize)).map(|p| p.normal).sum();
     sum.try_normalize()
@@ -372,5 +450,5 @@ fn body_normal(tracker: &Tracker, vs: &[u32; 3]) -> Option<DVec3> {
 
 fn faces_away(corners: [DVec3; 3], normal: DVec3) -> bool {
     let n = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize_or_zero();
-    n.dot(normal) < WRONG_SIDE
+    n.dot(normal) < FLIPPED
 }

@@ -28,15 +28,19 @@ const GLOBALS_PER_GROUP: usize = 3;
 /// Global steps between tiers.
 const TIER_STEPS: usize = 15;
 /// Global steps of the first, ungraviated settling.
-const SETTLE_STEPS: usize = 40;
+const SETTLE_STEPS: usize = 80;
 /// A vertex moves no farther in one global step, metres on a body 1.5 m large.
 const STEP_CAP: f64 = 0.02;
 /// Marks hold their vertices with this weight while the cloth grows.
 const HOLD: f64 = 0.3;
+/// Flipped and wrong-sided cloth is turned only after so many settling steps, when it roughly lies.
+const UNFOLD_AFTER: usize = 10;
 /// It fades in few steps while the cloth settles, so that the matrix changes seldom.
-const HOLD_FADE: [f64; 4] = [1.0, 0.3, 0.1, 0.0];
+const HOLD_FADE: [f64; 3] = [1.0, 0.3, 0.1];
+/// Settling steps per step of [`HOLD_FADE`].
+const HOLD_FADE_STEPS: usize = 4;
 /// At rest when nothing moved farther than this many edge lengths for [`QUIET_STEPS`] steps.
-const REST_MOTION: f64 = 4e-3;
+const REST_MOTION: f64 = 0.01;
 /// See [`REST_MOTION`].
 const QUIET_STEPS: usize = 5;
 /// Rest is called after so many settling steps in any case: what still moves then trembles in a fold.
@@ -213,14 +217,15 @@ impl Dressing {
 
     fn settle(&mut self, state: &mut ClothState, done: usize, quiet: usize, lifts: usize) {
         let first = done < SETTLE_STEPS;
-        let hold = if first { HOLD * HOLD_FADE[done * HOLD_FADE.len() / SETTLE_STEPS] } else { 0.0 };
-        let moved = self.global(state, hold, done > 10, !first);
+        let hold =
+            if first { HOLD * HOLD_FADE.get(done / HOLD_FADE_STEPS).copied().unwrap_or(0.0) } else { 0.0 };
+        let moved = self.global(state, hold, done > UNFOLD_AFTER, !first);
         let quiet = if moved < REST_MOTION * self.edge_length { quiet + 1 } else { 0 };
         let still = (quiet >= QUIET_STEPS && !first) || done >= MOST_SETTLE_STEPS;
         // Cloth that lies still may cut the body between its vertices: raise it there and go on.
         let raised = still && lifts < MOST_LIFTS && {
             let clearance = self.relaxer.offset() * FACE_CLEARANCE;
-            self.relaxer.lift_faces(state, clearance) > 0
+            self.relaxer.lift_faces(state, clearance) + self.relaxer.send_wrong_faces(state) > 0
         };
         self.stage = match (still, raised) {
             (true, false) => Stage::Rest,
