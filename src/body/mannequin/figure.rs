@@ -1,0 +1,185 @@
+//! The default proportions stretched to one set of measurements.
+
+use glam::DVec3;
+
+use super::measurements::Measurements;
+use super::proportions::{self as nominal, level};
+use super::spline::Spline;
+
+/// Factors on the default proportions, one per place that is measured. `fit` finds them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Factors {
+    /// On the thickness at ankle, calf, knee, mid-thigh, upper thigh, hip, abdomen, waist, bust, neck.
+    pub girth: [f64; 10],
+    /// On the half-distance of the shoulder joints.
+    pub shoulder: f64,
+    /// On the thickness of upper arm and wrist.
+    pub arm: [f64; 2],
+    /// On the length of the arm.
+    pub arm_length: f64,
+    /// On heights up to the waist.
+    pub lower: f64,
+    /// On the height of the whole.
+    pub height: f64,
+}
+
+/// Heights at which `Factors::girth` holds, on the default figure.
+pub const GIRTH_LEVELS: [f64; 10] = [
+    level::ANKLE,
+    level::CALF,
+    level::KNEE,
+    level::MID_THIGH,
+    level::UPPER_THIGH,
+    level::HIP,
+    level::ABDOMEN,
+    level::WAIST,
+    level::BUST,
+    level::NECK,
+];
+
+impl Factors {
+    /// A first guess: measurements in proportion to the default ones.
+    pub fn guess(m: &Measurements) -> Self {
+        let u = Measurements::default();
+        Self {
+            girth: [
+                m.ankle / u.ankle,
+                m.calf / u.calf,
+                m.knee / u.knee,
+                m.mid_thigh / u.mid_thigh,
+                m.upper_thigh / u.upper_thigh,
+                m.hip / u.hip,
+                m.abdomen / u.abdomen,
+                m.waist / u.waist,
+                m.bust / u.bust,
+                m.neck / u.neck,
+            ],
+            shoulder: m.half_across_shoulder / u.half_across_shoulder,
+            arm: [m.upper_arm / u.upper_arm, m.wrist / u.wrist],
+            arm_length: m.arm_length / u.arm_length,
+            lower: m.waist_to_ankle / u.waist_to_ankle,
+            height: m.height / u.height,
+        }
+    }
+}
+
+/// A figure: how every point of the default proportions is carried to the asked-for body.
+#[derive(Clone, Debug)]
+pub struct Figure {
+    /// The factors it was made with.
+    pub factors: Factors,
+    width: Spline,
+    depth: Spline,
+    height: Spline,
+}
+
+impl Figure {
+    /// From factors.
+    pub fn new(factors: Factors) -> Self {
+        let g = factors.girth;
+        // A fuller bust grows forward more than sideways, where the arms are.
+        let stretched = |bust: f64, shoulder: f64| {
+            let mut knots: Vec<(f64, f64)> = GIRTH_LEVELS.into_iter().zip(g).collect();
+            knots[8].1 = bust;
+            knots.insert(9, (level::SHOULDER - 0.02, shoulder));
+            knots.insert(0, (0.0, g[0]));
+            knots.push((level::CROWN, g[9]));
+            Spline::new(knots.into_iter())
+        };
+        let total = factors.height;
+        let crown = level::CROWN * total;
+        let waist = level::WAIST * factors.lower;
+        // Above the waist heights stretch evenly; the head keeps the scale of the whole.
+        let chin = crown - (level::CROWN - level::CHIN) * total;
+        let shoulder =
+            waist + (chin - waist) * (level::SHOULDER - level::WAIST) / (level::CHIN - level::WAIST);
+        let heights = [
+            (0.0, 0.0),
+            (0.5 * level::WAIST, 0.5 * waist),
+            (level::WAIST, waist),
+            (level::SHOULDER, shoulder),
+            (level::CHIN, chin),
+            (level::CROWN, crown),
+        ];
+        Self {
+            factors,
+            width: stretched(g[8].powf(0.6), factors.shoulder),
+            depth: stretched(g[8].powf(1.4), g[8].sqrt()),
+            height: Spline::new(heights.into_iter()),
+        }
+    }
+
+    /// Height above the floor of a place `y` high on the default figure.
+    pub fn y(&self, y: f64) -> f64 {
+        self.height.value(y)
+    }
+
+    /// Factor on widths at default height `y`.
+    pub fn width(&self, y: f64) -> f64 {
+        self.width.value(y)
+    }
+
+    /// Factor on depths at default height `y`.
+    pub fn depth(&self, y: f64) -> f64 {
+        self.depth.value(y)
+    }
+
+    /// A point on or near the trunk or a leg.
+    pub fn point(&self, p: [f64; 3]) -> DVec3 {
+        DVec3::new(p[0] * self.width(p[1]), self.y(p[1]), p[2] * self.depth(p[1]))
+    }
+
+    /// Middle of the left shoulder joint.
+    pub fn shoulder_joint(&self) -> DVec3 {
+        let [x, y, z] = nominal::SHOULDER_JOINT;
+        DVec3::new(x * self.factors.shoulder, self.y(y), z * self.depth(y))
+    }
+
+    /// Scale of head, hands and feet.
+    pub fn small(&self) -> f64 {
+        self.factors.height
+    }
+
+    /// Angle between arm and straight down, radians: wider where arms and bust are fuller, so that they stay apart.
+    fn arm_angle(&self) -> f64 {
+        let fuller = |factor: f64| (factor - 1.1).clamp(0.0, 0.5);
+        nominal::ARM_ANGLE + 0.4 * fuller(self.factors.girth[8]) + 0.4 * fuller(self.factors.arm[0])
+    }
+
+    /// Along the left arm, unit.
+    pub fn arm_direction(&self) -> DVec3 {
+        DVec3::new(self.arm_angle().sin(), -self.arm_angle().cos(), 0.0)
+    }
+
+    /// Across the left arm, outward and up, unit.
+    pub fn arm_outward(&self) -> DVec3 {
+        DVec3::new(self.arm_angle().cos(), self.arm_angle().sin(), 0.0)
+    }
+
+    /// Metres from the shoulder joint along the arm, for `s` on the default figure.
+    pub fn along_arm(&self, s: f64) -> f64 {
+        // The hand beyond the wrist keeps the scale of the whole.
+        let wrist = nominal::WRIST_AT;
+        if s <= wrist {
+            s * self.factors.arm_length
+        } else {
+            wrist * self.factors.arm_length + (s - wrist) * self.small()
+        }
+    }
+
+    /// Factor on the arm's thickness at `s` on the default figure.
+    pub fn arm_thickness(&self, s: f64) -> f64 {
+        let [upper, wrist] = self.factors.arm;
+        let top = upper.sqrt();
+        let knots = [
+            (0.0, top),
+            (nominal::UPPER_ARM_AT, upper),
+            (nominal::WRIST_AT, wrist),
+            (0.60, 0.5 * (wrist + self.small())),
+            (0.68, self.small()),
+        ];
+        let i = knots.partition_point(|k| k.0 <= s).clamp(1, knots.len() - 1);
+        let ((x0, y0), (x1, y1)) = (knots[i - 1], knots[i]);
+        y0 + (y1 - y0) * ((s - x0) / (x1 - x0)).clamp(0.0, 1.0)
+    }
+}

@@ -1,0 +1,154 @@
+//! The built-in mannequin: a dressmaker's full figure, made to measurements by our own formulas.
+//!
+//! `proportions` draws a figure as tables of sections, `figure` stretches them, `field` joins them to one smooth skin,
+//! `fit` corrects the stretch until the tape reads what was asked for, `polygonise` and `remesh` turn the skin's left
+//! half into even triangles, which are mirrored. The same measurements give the same bits.
+
+mod editing;
+mod field;
+mod figure;
+mod fit;
+mod hand;
+mod landmarks;
+mod loft;
+mod measurements;
+mod polygonise;
+mod proportions;
+mod remesh;
+mod spline;
+
+use std::sync::{Arc, Mutex, OnceLock};
+
+use glam::DVec3;
+
+pub use landmarks::Landmarks;
+pub use measurements::{Measurements, OutOfRange};
+
+use super::measure::Tape;
+use super::skeleton::Skeleton;
+use super::surface::closest_on_triangle;
+use crate::geometry::mesh::TriMesh;
+use field::Field;
+use figure::Figure;
+use polygonise::Grid;
+
+/// Edge length on trunk and limbs, metres on a figure of default height.
+const EDGE: f64 = 0.0150;
+/// Edge length on fingers.
+const FINGER_EDGE: f64 = 0.0050;
+
+/// A body built to measurements.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mannequin {
+    /// Closed, manifold, outward, symmetric in x; feet on y = 0, facing +z, metres.
+    pub mesh: TriMesh,
+    /// Joints in the pose it was built in.
+    pub skeleton: Skeleton,
+    /// Named points on the skin.
+    pub landmarks: Landmarks,
+    /// Where its girths are measured.
+    pub tapes: Vec<Tape>,
+    /// What it was built to.
+    pub measurements: Measurements,
+}
+
+/// Why there is no such mannequin.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum MannequinError {
+    /// A measurement no body has.
+    #[error(transparent)]
+    OutOfRange(#[from] OutOfRange),
+    /// The figure could not be brought to all of them at once.
+    #[error("no figure has these measurements together: change the girths towards each other")]
+    Unreachable,
+}
+
+/// The mannequin with measurements `m`; built once in a process for each set of measurements (the last eight are kept).
+pub fn mannequin(m: &Measurements) -> Result<Arc<Mannequin>, MannequinError> {
+    static KEPT: Mutex<Vec<Arc<Mannequin>>> = Mutex::new(Vec::new());
+    if *m == Measurements::default() {
+        return Ok(default());
+    }
+    let mut kept = KEPT.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+    if let Some(found) = kept.iter().find(|k| k.measurements == *m) {
+        return Ok(found.clone());
+    }
+    let built = Arc::new(built(m)?);
+    if kept.len() == 8 {
+        kept.remove(0);
+    }
+    kept.push(built.clone());
+    Ok(built)
+}
+
+/// The mannequin with the default measurements, built once in a process.
+pub fn default() -> Arc<Mannequin> {
+    static DEFAULT: OnceLock<Arc<Mannequin>> = OnceLock::new();
+    DEFAULT
+        .get_or_init(|| {
+            Arc::new(built(&Measurements::default()).expect("the default measurements make a body"))
+        })
+        .clone()
+}
+
+/// Builds without looking for one that is there.
+pub fn built(m: &Measurements) -> Result<Mannequin, MannequinError> {
+    m.check()?;
+    let factors = fit::factors(m, wanted_edge).ok_or(MannequinError::Unreachable)?;
+    let figure = Figure::new(factors);
+    let field = Field::new(&figure);
+    let half = polygonise::polygonised(&field, &grid(&figure));
+    let half = remesh::remeshed(half, &field, |p| wanted_edge(&figure, p));
+    let mesh = remesh::mirrored(&half);
+    if !remesh::is_closed(&mesh) {
+        return Err(MannequinError::Unreachable);
+    }
+    let landmarks = landmarks::landmarks(&figure, &field).map(|p| on_mesh(&mesh, p));
+    let skeleton = landmarks::skeleton(&figure, &field);
+    let tapes = landmarks::tapes(&figure, &field);
+    Ok(Mannequin { mesh, skeleton, landmarks, tapes, measurements: *m })
+}
+
+/// Length that edges should have near `p`, metres: short on fingers, toes and face.
+fn wanted_edge(figure: &Figure, p: DVec3) -> f64 {
+    let k = figure.small();
+    let [hip, bust] = [5, 8].map(|i| figure.factors.girth[i]);
+    let plain = EDGE * (0.5 * (hip + bust) / k).sqrt();
+    let q = DVec3::new(p.x.abs(), p.y, p.z) - figure.shoulder_joint();
+    let beyond_forearm = (q.dot(figure.arm_direction()) - figure.along_arm(0.46)) / k;
+    let arm = if q.x > 0.0 { plain - 0.062 * beyond_forearm.max(0.0) } else { plain };
+    let foot = 0.0085 + 0.05 * (p.y / k - 0.05).max(0.0);
+    let face = if p.z > 0.0 { 0.010 - 0.03 * p.z } else { 0.010 };
+    let head = face + 0.06 * (figure.y(proportions::level::CHIN) - p.y).max(0.0) / k;
+    k * arm.min(foot).min(head).clamp(FINGER_EDGE, plain)
+}
+
+/// Cells of 12 mm, 4 mm where the hands are, so that fingers stay apart.
+fn grid(figure: &Figure) -> Grid {
+    let k = figure.small();
+    let (coarse, fine) = (0.012 * k, 0.0040 * k);
+    let wrist = figure.shoulder_joint() + figure.arm_direction() * figure.along_arm(0.60);
+    let tips = figure.shoulder_joint() + figure.arm_direction() * figure.along_arm(0.79);
+    let across = Grid::planes(0.0, tips.x + 0.05 * k, |x| if x > wrist.x - 0.02 { fine } else { coarse });
+    let hands = tips.y - 0.01..wrist.y + 0.02;
+    let up = Grid::planes(-0.03 * k, figure.y(proportions::level::CROWN) + 0.03 * k, |y| {
+        if hands.contains(&y) { fine } else { coarse }
+    });
+    let palm = figure.shoulder_joint().z + 0.03 * k..figure.shoulder_joint().z + 0.16 * k;
+    let deep = Grid::planes(-0.26 * k, 0.30 * k, |z| if palm.contains(&z) { fine } else { coarse });
+    Grid { planes: [across, up, deep] }
+}
+
+/// The point of `mesh` nearest to `p`, by looking at every triangle.
+fn on_mesh(mesh: &TriMesh, p: DVec3) -> DVec3 {
+    (0..mesh.triangles.len())
+        .map(|t| {
+            let [a, b, c] = mesh.corners(t);
+            closest_on_triangle(p, a, b, c)
+        })
+        .min_by(|a, b| a.distance_squared(p).total_cmp(&b.distance_squared(p)))
+        .unwrap_or(p)
+}
+
+#[cfg(test)]
+mod tests;
