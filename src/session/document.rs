@@ -59,7 +59,11 @@ pub enum BodyChoice {
     /// The built-in dressmaker's figure.
     Mannequin,
     /// A mesh from a file. It may have faults: `session::body` tells.
-    Imported { name: String, #[serde(with = "mesh_as_arrays")] mesh: Arc<TriMesh> },
+    Imported {
+        name: String,
+        #[serde(with = "mesh_as_arrays")]
+        mesh: Arc<TriMesh>,
+    },
 }
 
 impl PartialEq for BodyChoice {
@@ -102,8 +106,7 @@ mod mesh_as_arrays {
     use glam::DVec3;
     use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 
-    use crate::geometry::ids::MarkId;
-use crate::geometry::mesh::TriMesh;
+    use crate::geometry::mesh::TriMesh;
 
     #[derive(Serialize)]
     struct Borrowed<'a> {

@@ -3,13 +3,13 @@
 pub mod body;
 pub mod command;
 pub mod document;
-pub mod hashes;
 pub mod edit;
+pub mod hashes;
 pub mod history;
-pub mod recording;
-pub mod replay;
 pub mod project;
 pub mod project_file;
+pub mod recording;
+pub mod replay;
 #[expect(clippy::module_inception, reason = "a file is named by what it holds")]
 pub mod session;
 

@@ -76,7 +76,9 @@ pub fn open(path: &Path) -> Result<Project, ProjectFileError> {
     let file_error = |source| ProjectFileError::File { path: path.to_owned(), source };
     let size = fs::metadata(path).map_err(file_error)?.len();
     if size > MOST_BYTES {
-        return Err(ProjectFileError::TooLarge(format!("the file has {size} bytes, at most {MOST_BYTES} are read")));
+        return Err(ProjectFileError::TooLarge(format!(
+            "the file has {size} bytes, at most {MOST_BYTES} are read"
+        )));
     }
     from_bytes(&fs::read(path).map_err(file_error)?)
 }
@@ -157,7 +159,8 @@ fn to_zip(project: &Project) -> Result<Vec<u8>, ProjectFileError> {
     let mut entries: Vec<(&str, Vec<u8>)> = Vec::new();
     if let BodyChoice::Imported { mesh, .. } = &mut bare.document.body {
         entries.push((BODY_POSITIONS, point_bytes(&mesh.positions)));
-        entries.push((BODY_TRIANGLES, mesh.triangles.iter().flatten().flat_map(|v| v.to_le_bytes()).collect()));
+        entries
+            .push((BODY_TRIANGLES, mesh.triangles.iter().flatten().flat_map(|v| v.to_le_bytes()).collect()));
         *mesh = Arc::default();
     }
     if let Some(dressed) = &mut bare.dressed {
@@ -212,7 +215,9 @@ fn entry(
         .map_err(|e| contents(format!("the project is damaged: {name}: {e}")))?;
     match left.checked_sub(bytes.len() as u64) {
         Some(rest) => *left = rest,
-        None => return Err(ProjectFileError::TooLarge(format!("the project unpacks to over {MOST_BYTES} bytes"))),
+        None => {
+            return Err(ProjectFileError::TooLarge(format!("the project unpacks to over {MOST_BYTES} bytes")));
+        }
     }
     Ok(bytes)
 }
@@ -236,7 +241,9 @@ fn triangles(bytes: &[u8], vertex_count: usize) -> Result<Vec<[u32; 3]>, Project
     let triangles: Vec<[u32; 3]> =
         triangles.iter().map(|t| [number(&t[..4]), number(&t[4..8]), number(&t[8..])]).collect();
     if !rest.is_empty() || triangles.iter().flatten().any(|&v| v as usize >= vertex_count) {
-        return Err(contents("the project is damaged: a triangle of the body names a vertex that is not there"));
+        return Err(contents(
+            "the project is damaged: a triangle of the body names a vertex that is not there",
+        ));
     }
     Ok(triangles)
 }

@@ -155,7 +155,10 @@ impl Recorder {
         self.lines.push_str(&json);
         self.lines.push('\n');
         if let Some(file) = &mut self.file
-            && let Err(error) = file.write_all(json.as_bytes()).and_then(|()| file.write_all(b"\n")).and_then(|()| file.flush())
+            && let Err(error) = file
+                .write_all(json.as_bytes())
+                .and_then(|()| file.write_all(b"\n"))
+                .and_then(|()| file.flush())
         {
             self.file_error = Some(error);
             self.file = None;

@@ -101,7 +101,9 @@ impl Replay {
             return Err(self.diverged(format!("the recording goes back to tick {tick}")));
         }
         if self.simulation().is_at_rest() {
-            return Err(self.diverged(format!("the cloth is at rest; in the recording it moves until tick {tick}")));
+            return Err(
+                self.diverged(format!("the cloth is at rest; in the recording it moves until tick {tick}"))
+            );
         }
         self.simulation().tick();
         // Hashes and refusals are compared with the recording's lines, not kept.
@@ -141,7 +143,9 @@ impl Replay {
         if taken == seq {
             return Ok(());
         }
-        Err(self.diverged(format!("in the recording the simulation took command {seq} up, here {taken} was the last")))
+        Err(self.diverged(format!(
+            "in the recording the simulation took command {seq} up, here {taken} was the last"
+        )))
     }
 
     fn compare(&mut self, seq: u64, cloth: u64, document: Option<u64>) -> Result<(), Divergence> {

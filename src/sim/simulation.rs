@@ -129,7 +129,7 @@ impl Simulation {
             progress: world.progress(),
             relaxing: world.relaxing,
             working: !world.is_at_rest(),
-            stats: self.stats,
+            stats: Stats { work: world.work(), ..self.stats },
             problems: Arc::clone(&world.problems),
         }
     }

@@ -1,9 +1,11 @@
 //! What was done, counted. The same on every machine and for any number of threads.
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
+
+use crate::cloth::Counters;
 
 /// Counts of work since the simulation began.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Stats {
     /// Ticks that did work.
     pub ticks: u64,
@@ -23,4 +25,6 @@ pub struct Stats {
     pub restores: u64,
     /// Ticks that failed and were taken back.
     pub failures: u64,
+    /// Work of the wrap on the body, growing and settling.
+    pub work: Counters,
 }

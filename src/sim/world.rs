@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::{DVec3, Vec3};
 
 use crate::body::Surface;
-use crate::cloth::{self, ClothState, Garment};
+use crate::cloth::{self, ClothState, Counters, Garment};
 use crate::pattern::Problem;
 use crate::relax::RelaxSettings;
 use crate::sim::hash::cloth_hash;
@@ -58,7 +58,7 @@ impl World {
             body: Some(body),
             garment: Some(garment),
             cloth: Arc::new(cloth),
-            dressing: Some(Arc::new(dressing)),
+            dressing: dressing.map(Arc::new),
             relaxing: true,
             problems: Arc::new(problems),
         }
@@ -94,9 +94,22 @@ impl World {
         if let Some(source) = &mut self.source {
             Arc::make_mut(source).relax = relax;
         }
+        if self.dressing.is_none() {
+            self.dressing = self.resumed(relax);
+        }
         if let Some(dressing) = &mut self.dressing {
             Arc::make_mut(dressing).set_settings(relax);
         }
+    }
+
+    fn resumed(&self, relax: RelaxSettings) -> Option<Arc<Dressing>> {
+        let (garment, body) = (self.garment.clone()?, self.body.clone()?);
+        Dressing::resumed(garment, body, relax, &self.cloth).map(Arc::new)
+    }
+
+    /// Work done by the dressing under way or at rest.
+    pub fn work(&self) -> Counters {
+        self.dressing.as_ref().map(|d| d.counters()).unwrap_or_default()
     }
 
     /// One tick of work.
@@ -150,8 +163,8 @@ impl World {
 
     /// About how much memory this keeps that `other` does not, bytes.
     pub fn bytes_beside(&self, other: Option<&World>) -> usize {
-        /// Position, flag and what a dressing keeps per vertex.
-        const PER_VERTEX: usize = 25 + 175;
+        /// Position, flag and what a dressing keeps per vertex: most of it the factored matrix.
+        const PER_VERTEX: usize = 1000;
         /// Corners, rest shape and neighbours per triangle.
         const PER_TRIANGLE: usize = 250;
         const ALWAYS: usize = 256;

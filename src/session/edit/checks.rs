@@ -30,8 +30,12 @@ pub fn stroke_3d(points: &[DVec3]) -> Result<(), Rejection> {
 fn stroke(count: usize, all_good: bool) -> Result<(), Rejection> {
     match count {
         0 => Err(Rejection::new("a stroke needs at least one point")),
-        c if c > MOST_POINTS => Err(Rejection(format!("a stroke may have {MOST_POINTS} points, this has {c}"))),
-        _ if !all_good => Err(Rejection(format!("a point of the stroke is not within {FARTHEST} m of the origin"))),
+        c if c > MOST_POINTS => {
+            Err(Rejection(format!("a stroke may have {MOST_POINTS} points, this has {c}")))
+        }
+        _ if !all_good => {
+            Err(Rejection(format!("a point of the stroke is not within {FARTHEST} m of the origin")))
+        }
         _ => Ok(()),
     }
 }
@@ -119,7 +123,8 @@ pub fn marks(marks: &Marks, pattern: &Pattern) -> Result<(), Rejection> {
     for mark in &marks.body {
         stroke_3d(&mark.points)?;
     }
-    let mut ids: Vec<MarkId> = marks.cloth.iter().map(|m| m.id).chain(marks.body.iter().map(|m| m.id)).collect();
+    let mut ids: Vec<MarkId> =
+        marks.cloth.iter().map(|m| m.id).chain(marks.body.iter().map(|m| m.id)).collect();
     ids.sort_unstable();
     match ids.windows(2).find(|w| w[0] == w[1]) {
         Some(w) => Err(Rejection(format!("{} is there twice", w[0]))),
