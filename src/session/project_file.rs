@@ -216,7 +216,9 @@ fn entry(
     match left.checked_sub(bytes.len() as u64) {
         Some(rest) => *left = rest,
         None => {
-            return Err(ProjectFileError::TooLarge(format!("the project unpacks to over {MOST_BYTES} bytes")));
+            return Err(ProjectFileError::TooLarge(format!(
+                "the project unpacks to over {MOST_BYTES} bytes"
+            )));
         }
     }
     Ok(bytes)
@@ -247,7 +249,3 @@ fn triangles(bytes: &[u8], vertex_count: usize) -> Result<Vec<[u32; 3]>, Project
     }
     Ok(triangles)
 }
-
-#[cfg(test)]
-#[path = "project_file_tests.rs"]
-mod tests;

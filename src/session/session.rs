@@ -369,7 +369,3 @@ impl Plan {
         Self { document: step.document.clone(), history, request }
     }
 }
-
-#[cfg(test)]
-#[path = "session_tests.rs"]
-mod tests;

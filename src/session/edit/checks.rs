@@ -148,8 +148,8 @@ pub fn settings(settings: &Settings) -> Result<(), Rejection> {
     within("the mesh size", *edge_length, 0.002, 0.2)?;
     within("stretch", relax.stretch, 0.0, 1.0)?;
     within("flattening", relax.flatten, 0.0, 1.0)?;
-    within("gravity", relax.gravity, 0.0, 0.01)?;
-    within("friction", relax.friction, 0.0, 0.02)?;
+    within("gravity", relax.gravity, 0.0, 0.1)?;
+    within("friction", relax.friction, 0.0, 2.0)?;
     within("the distance from the skin", relax.offset, 0.0005, 0.05)
 }
 
