@@ -193,7 +193,7 @@ impl Dressing {
     pub fn set_settings(&mut self, settings: RelaxSettings) {
         self.relaxer.settings = settings;
         if matches!(self.stage, Stage::Rest) && self.mapped > 0 {
-            self.stage = Stage::Settle { done: SETTLE_STEPS, quiet: 0 };
+            self.stage = Stage::Settle { done: SETTLE_STEPS, quiet: 0, lifts: 0 };
         }
     }
 
