@@ -39,4 +39,6 @@ pub mod contact;
 pub mod geometry;
 pub mod pattern;
 pub mod relax;
+pub mod session;
+pub mod sim;
 pub mod wrap;

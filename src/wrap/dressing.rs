@@ -169,6 +169,38 @@ impl Dressing {
         self.relaxer.counters
     }
 
+    /// Cloth that was dressed before, at rest. None when the matrix cannot be factored (out of memory).
+    pub fn resumed(
+        garment: Arc<Garment>,
+        surface: Arc<Surface>,
+        settings: RelaxSettings,
+        state: &ClothState,
+    ) -> Option<Self> {
+        let mut relaxer = Relaxer::new(garment.clone(), surface, settings)?;
+        relaxer.set_mapped(&state.mapped);
+        let order = Order::new(&garment, &[], &[]);
+        let mapped = state.mapped.iter().filter(|&&m| m).count();
+        Some(Self {
+            edge_length: mean_edge(&garment),
+            growth: Growth::new(&garment, &order, &state.mapped),
+            relaxer,
+            order: Arc::new(order),
+            tier: 0,
+            stage: Stage::Rest,
+            to_map: mapped,
+            mapped,
+            stretches: Vec::new(),
+        })
+    }
+
+    /// Relaxes differently from now on; what is at rest settles again.
+    pub fn set_settings(&mut self, settings: RelaxSettings) {
+        self.relaxer.settings = settings;
+        if matches!(self.stage, Stage::Rest) && self.mapped > 0 {
+            self.stage = Stage::Settle { done: SETTLE_STEPS, quiet: 0, lifts: 0 };
+        }
+    }
+
     fn grow(&mut self, state: &mut ClothState, limit: f64, bands: usize, mut fresh: Vec<u32>) {
         let limit = match self.growth.next() {
             Some((tier, distance)) if tier == self.tier => limit.max(distance) + self.edge_length,

@@ -1,102 +1,98 @@
-//! Bodies and garments with exact answers, for the suites.
-#![allow(dead_code, reason = "each suite uses its own part")]
+//! A small scene that dresses in a blink: a patch of cloth with one pair of marks on a ball.
+
+use std::f64::consts::{PI, TAU};
+use std::sync::Arc;
+use std::time::Duration;
 
 use glam::{DVec2, DVec3};
-use toile::body::Surface;
-use toile::cloth::{ClothState, Garment};
-use toile::geometry::ids::MarkId;
+use toile::geometry::ids::{MarkId, PieceId};
 use toile::geometry::mesh::TriMesh;
 use toile::pattern::{EdgeRef, Pattern, Piece, Seam};
+use toile::session::{BodyChoice, Document, Project, Session, Settings};
+use toile::sim::{Runner, Simulation};
 use toile::wrap::{BodyMark, ClothMark, ClothSide, Marks};
 
-/// A closed cylinder about y of `radius` and `height` metres, standing on y = 0, with flat lids.
-pub fn cylinder(radius: f64, height: f64, round: u32, rows: u32) -> TriMesh {
-    let mut mesh = TriMesh::default();
-    for row in 0..=rows {
-        for i in 0..round {
-            let a = f64::from(i) / f64::from(round) * std::f64::consts::TAU;
-            let y = height * f64::from(row) / f64::from(rows);
-            mesh.positions.push(DVec3::new(radius * a.sin(), y, radius * a.cos()));
+/// Closed, outward, `radius` metres.
+pub fn ball(radius: f64, rings: u32, sectors: u32) -> TriMesh {
+    let mut positions = vec![DVec3::new(0.0, radius, 0.0)];
+    for i in 1..rings {
+        let (sin, cos) = (PI * f64::from(i) / f64::from(rings)).sin_cos();
+        for j in 0..sectors {
+            let (z, x) = (TAU * f64::from(j) / f64::from(sectors)).sin_cos();
+            positions.push(DVec3::new(x * sin, cos, -z * sin) * radius);
         }
     }
-    for row in 0..rows {
-        for i in 0..round {
-            let (a, b) = (row * round + i, row * round + (i + 1) % round);
-            mesh.triangles.extend([[a, b, b + round], [a, b + round, a + round]]);
+    positions.push(DVec3::new(0.0, -radius, 0.0));
+    let last = positions.len() as u32 - 1;
+    let at = |i: u32, j: u32| 1 + (i - 1) * sectors + j % sectors;
+    let mut triangles = Vec::new();
+    for j in 0..sectors {
+        triangles.push([0, at(1, j), at(1, j + 1)]);
+        triangles.push([last, at(rings - 1, j + 1), at(rings - 1, j)]);
+        for i in 1..rings - 1 {
+            triangles.push([at(i, j), at(i + 1, j), at(i + 1, j + 1)]);
+            triangles.push([at(i, j), at(i + 1, j + 1), at(i, j + 1)]);
         }
     }
-    let bottom = mesh.positions.len() as u32;
-    mesh.positions.extend([DVec3::ZERO, DVec3::Y * height]);
-    for i in 0..round {
-        let j = (i + 1) % round;
-        mesh.triangles.push([bottom, j, i]);
-        let top = rows * round;
-        mesh.triangles.push([bottom + 1, top + i, top + j]);
-    }
-    mesh
+    TriMesh { positions, triangles }
 }
 
-/// Two rectangles of `width` × `height` metres sewn into a tube: the first is the front.
-pub fn tube(width: f64, height: f64) -> Pattern {
+/// A line on the ball at height `y`, on its front, `2 * half` metres wide.
+pub fn line_on_ball(radius: f64, y: f64, half: f64) -> Vec<DVec3> {
+    let point = |x: f64| DVec3::new(x, y, (radius * radius - x * x - y * y).sqrt());
+    vec![point(-half), point(0.0), point(half)]
+}
+
+/// Two patches sewn side by side, one stroke on each of two sides.
+pub fn project() -> Project {
+    let corners = [(0.0, 0.0), (0.25, 0.0), (0.25, 0.3), (0.0, 0.3)].map(DVec2::from);
     let mut pattern = Pattern::default();
-    let rectangle = |name: &str| {
-        Piece::polygon(
-            name,
-            &[DVec2::ZERO, DVec2::new(width, 0.0), DVec2::new(width, height), DVec2::new(0.0, height)],
-        )
-    };
-    let front = pattern.add_piece(rectangle("front"));
-    let back = pattern.add_piece(rectangle("back"));
-    for (a, b) in [(1, 3), (3, 1)] {
-        pattern.add_seam(Seam {
-            sides: [EdgeRef { piece: front, edge: a }, EdgeRef { piece: back, edge: b }],
-            same_direction: false,
-        });
-    }
-    pattern
-}
-
-/// Vertical strokes down the middle of both pieces of a [`tube`], at the front (+z) and back of a cylinder.
-pub fn tube_marks(pattern: &Pattern, width: f64, height: f64, radius: f64, low: f64) -> Marks {
-    let mut marks = Marks::default();
-    for (i, (&piece, z)) in pattern.pieces.keys().zip([radius, -radius]).enumerate() {
-        let steps = 20;
-        let flat = (0..=steps)
-            .map(|k| DVec2::new(width / 2.0 + 1e-4, height * (0.05 + 0.9 * f64::from(k) / f64::from(steps))));
-        let solid = (0..=steps)
-            .map(|k| DVec3::new(0.0, low + height * (0.05 + 0.9 * f64::from(k) / f64::from(steps)), z));
-        marks.cloth.push(ClothMark {
-            id: MarkId(10 + i as u32),
-            piece,
+    let left = pattern.add_piece(Piece::polygon("left", &corners));
+    let right = pattern.add_piece(Piece::polygon("right", &corners));
+    let side = |piece: PieceId, edge: usize| EdgeRef { piece, edge };
+    pattern.add_seam(Seam { sides: [side(left, 1), side(right, 3)], same_direction: false });
+    let marks = Marks {
+        cloth: vec![ClothMark {
+            id: MarkId(1),
+            piece: left,
             side: ClothSide::Front,
-            points: flat.collect(),
-        });
-        marks.body.push(BodyMark { id: MarkId(20 + i as u32), points: solid.collect() });
+            points: vec![DVec2::new(0.05, 0.2), DVec2::new(0.2, 0.2)],
+        }],
+        body: vec![BodyMark { id: MarkId(2), points: line_on_ball(0.75, 0.2, 0.075) }],
+    };
+    Project {
+        document: Document {
+            pattern: Arc::new(pattern),
+            body: BodyChoice::Imported { name: "ball".to_owned(), mesh: Arc::new(ball(0.75, 24, 48)) },
+            marks: Arc::new(marks),
+            last_mark: 2,
+            settings: Settings { edge_length: 0.06, ..Settings::default() },
+        },
+        dressed: None,
     }
-    marks
 }
 
-/// Strain l / l0 - 1 of every edge of every triangle.
-pub fn strains(garment: &Garment, state: &ClothState) -> Vec<f64> {
-    let mut strains = Vec::new();
-    for (vs, rest) in garment.triangles.iter().zip(&garment.rest) {
-        for k in 0..3 {
-            let j = (k + 1) % 3;
-            let length = (state.positions[vs[j] as usize] - state.positions[vs[k] as usize]).length();
-            strains.push(length / (rest[j] - rest[k]).length() - 1.0);
-        }
+/// A session on the scene with the simulation inline.
+pub fn session() -> Session {
+    Session::new(project(), Runner::inline(Simulation::default()))
+}
+
+/// Runs an inline session for at most `ticks` ticks; how many it ran. On a thread it runs by itself: waits a little.
+pub fn run(session: &mut Session, ticks: usize) -> usize {
+    let Some(simulation) = session.runner().simulation() else {
+        std::thread::sleep(Duration::from_millis(ticks.min(20) as u64));
+        return 0;
+    };
+    let before = simulation.ticks();
+    for _ in 0..ticks {
+        simulation.tick();
     }
-    strains
+    let ran = (simulation.ticks() - before) as usize;
+    session.update();
+    ran
 }
 
-/// The `q`-quantile of absolute values.
-pub fn quantile(values: &[f64], q: f64) -> f64 {
-    let mut sorted: Vec<f64> = values.iter().map(|v| v.abs()).collect();
-    sorted.sort_by(f64::total_cmp);
-    sorted[((sorted.len() - 1) as f64 * q).round() as usize]
-}
-
-/// Height of the lowest vertex above the skin, metres.
-pub fn lowest(surface: &Surface, state: &ClothState) -> f64 {
-    state.positions.iter().map(|&p| surface.nearest(p).distance).fold(f64::INFINITY, f64::min)
+/// Hash of what moves in an inline session.
+pub fn cloth_hash(session: &mut Session) -> u64 {
+    session.runner().simulation().expect("inline").hash()
 }

@@ -1,0 +1,85 @@
+//! Everything a person can do. Each command is complete in itself: ids and absolute values, in metres and radians.
+
+use std::sync::Arc;
+
+use glam::{DVec2, DVec3};
+use serde::{Deserialize, Serialize};
+
+use crate::geometry::ids::{MarkId, PieceId, SeamId};
+use crate::pattern::{Edge, Pattern, Piece, PlanePose, Seam};
+use crate::session::document::{BodyChoice, Settings};
+use crate::wrap::{ClothSide, Marks};
+
+/// One thing done. New things get their ids from the document's counters, so that a replay gives them the same.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Command {
+    /// Paint a stroke on a piece, in that piece's own plane. Its number is one more than the last on the cloth.
+    AddClothMark { piece: PieceId, side: ClothSide, points: Vec<DVec2> },
+    /// Paint a stroke on the body's surface. Its number is one more than the last on the body.
+    AddBodyMark { points: Vec<DVec3> },
+    /// Take one stroke away, on cloth or body; later ones move up a number.
+    DeleteMark { mark: MarkId },
+    /// Take the strokes numbered `number` (from 1) away on both sides.
+    DeletePair { number: usize },
+    /// Give a stroke the number `to` (from 1) among those of its side.
+    MoveMark { mark: MarkId, to: usize },
+    /// Take all strokes away.
+    ClearMarks,
+    /// Replace all strokes. Ids in it are kept.
+    SetMarks { marks: Arc<Marks> },
+
+    /// Put a new piece on the table.
+    AddPiece { piece: Arc<Piece> },
+    /// Take a piece away with its seams and its strokes (and their partners, so that other pairs stay pairs).
+    DeletePiece { piece: PieceId },
+    /// Rename a piece.
+    RenamePiece { piece: PieceId, name: String },
+    /// Move, turn or flip a piece on the table.
+    SetPiecePose { piece: PieceId, pose: PlanePose },
+    /// Redraw a piece. A sewn piece keeps its number of edges.
+    SetOutline { piece: PieceId, outline: Vec<Edge> },
+    /// Sew two edges together.
+    AddSeam { seam: Seam },
+    /// Undo a seam.
+    DeleteSeam { seam: SeamId },
+    /// Sew the edges the other way round.
+    ReverseSeam { seam: SeamId },
+    /// Start from another pattern with its strokes: a sample, an import. The cloth comes off.
+    ReplacePattern { name: String, pattern: Arc<Pattern>, marks: Arc<Marks> },
+
+    /// Take another body. The cloth comes off and the strokes on the old body go.
+    SetBody { body: BodyChoice },
+    /// Change mesh size and how the cloth relaxes.
+    SetSettings { settings: Settings },
+
+    /// Grow the cloth round the body from the marks.
+    Wrap,
+    /// Take the last wrap back: what was on the body before it returns.
+    CancelWrap,
+    /// Take the cloth off.
+    Unwrap,
+    /// Pause or go on relaxing. Not an undo step.
+    SetRelaxing { on: bool },
+
+    /// Take the last step back, document and cloth.
+    Undo,
+    /// Do it again.
+    Redo,
+    /// Esc during a gesture: everything it did is taken back and cannot be redone.
+    CancelGesture,
+    /// The simulation has dropped states before this request: steps that need them can no longer be undone.
+    ForgetHistory { before_seq: u64 },
+}
+
+/// Why a command was not carried out, in words for a person. The session is as if it had never been given.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{0}")]
+pub struct Rejection(pub String);
+
+impl Rejection {
+    /// A rejection in these words.
+    pub fn new(words: impl Into<String>) -> Self {
+        Self(words.into())
+    }
+}

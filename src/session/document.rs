@@ -1,0 +1,134 @@
+//! The document: all that is the user's own. Cheap to copy.
+
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+use crate::geometry::ids::MarkId;
+use crate::geometry::mesh::TriMesh;
+use crate::pattern::Pattern;
+use crate::relax::RelaxSettings;
+use crate::wrap::Marks;
+
+/// Pattern, body, strokes and settings.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Document {
+    /// The flat pieces and their seams.
+    pub pattern: Arc<Pattern>,
+    /// What the cloth is put on.
+    pub body: BodyChoice,
+    /// Strokes on cloth and body.
+    pub marks: Arc<Marks>,
+    /// The last number given to a mark.
+    pub last_mark: u32,
+    /// Mesh size and relaxation.
+    pub settings: Settings,
+}
+
+impl Default for Document {
+    fn default() -> Self {
+        Self {
+            pattern: Arc::new(Pattern::default()),
+            body: BodyChoice::default(),
+            marks: Arc::new(Marks::default()),
+            last_mark: 0,
+            settings: Settings::default(),
+        }
+    }
+}
+
+impl Document {
+    /// An id no stroke has had.
+    pub fn fresh_mark(&mut self) -> MarkId {
+        self.last_mark += 1;
+        MarkId(self.last_mark)
+    }
+
+    /// Replaces all strokes; the counter stays ahead of their ids.
+    pub fn take_marks(&mut self, marks: Arc<Marks>) {
+        let ids = marks.cloth.iter().map(|m| m.id.0).chain(marks.body.iter().map(|m| m.id.0));
+        self.last_mark = self.last_mark.max(ids.max().unwrap_or(0));
+        self.marks = marks;
+    }
+}
+
+/// What the cloth is put on.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum BodyChoice {
+    /// The built-in dressmaker's figure.
+    Mannequin,
+    /// A mesh from a file. It may have faults: `session::body` tells.
+    Imported {
+        name: String,
+        #[serde(with = "mesh_as_arrays")]
+        mesh: Arc<TriMesh>,
+    },
+}
+
+impl PartialEq for BodyChoice {
+    fn eq(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Mannequin, Self::Mannequin) => true,
+            (Self::Imported { name, mesh }, Self::Imported { name: other_name, mesh: other_mesh }) => {
+                name == other_name && (Arc::ptr_eq(mesh, other_mesh) || mesh == other_mesh)
+            }
+            _ => false,
+        }
+    }
+}
+
+impl Default for BodyChoice {
+    fn default() -> Self {
+        Self::Mannequin
+    }
+}
+
+/// Mesh size and relaxation.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Settings {
+    /// Target edge length of the cloth's triangles, metres, 0.002..=0.2.
+    pub edge_length: f64,
+    /// How the cloth relaxes.
+    pub relax: RelaxSettings,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self { edge_length: 0.02, relax: RelaxSettings::default() }
+    }
+}
+
+mod mesh_as_arrays {
+    use std::sync::Arc;
+
+    use glam::DVec3;
+    use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
+
+    use crate::geometry::mesh::TriMesh;
+
+    #[derive(Serialize)]
+    struct Borrowed<'a> {
+        positions: &'a [DVec3],
+        triangles: &'a [[u32; 3]],
+    }
+
+    #[derive(Deserialize)]
+    struct Owned {
+        positions: Vec<DVec3>,
+        triangles: Vec<[u32; 3]>,
+    }
+
+    pub fn serialize<S: Serializer>(mesh: &Arc<TriMesh>, to: S) -> Result<S::Ok, S::Error> {
+        Borrowed { positions: &mesh.positions, triangles: &mesh.triangles }.serialize(to)
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Arc<TriMesh>, D::Error> {
+        let Owned { positions, triangles } = Owned::deserialize(from)?;
+        if triangles.iter().flatten().any(|&v| v as usize >= positions.len()) {
+            return Err(de::Error::custom("a triangle of the body names a vertex that is not there"));
+        }
+        Ok(Arc::new(TriMesh { positions, triangles }))
+    }
+}

@@ -1,0 +1,177 @@
+//! What holds for every number and name a command brings.
+
+use glam::{DVec2, DVec3};
+
+use crate::geometry::ids::{MarkId, PieceId, SeamId};
+use crate::pattern::{Edge, EdgeShape, Pattern, Piece, PlanePose};
+use crate::session::command::Rejection;
+use crate::session::document::{BodyChoice, Settings};
+use crate::wrap::Marks;
+
+/// Points one stroke may have.
+const MOST_POINTS: usize = 100_000;
+/// Edges one outline may have.
+const MOST_EDGES: usize = 10_000;
+/// Pieces one pattern may have.
+pub const MOST_PIECES: usize = 1_000;
+/// Metres: nothing lies further from the origin.
+const FARTHEST: f64 = 1e4;
+/// Characters of a name.
+const LONGEST_NAME: usize = 200;
+
+pub fn stroke_2d(points: &[DVec2]) -> Result<(), Rejection> {
+    stroke(points.len(), points.iter().all(|&p| point_2d(p)))
+}
+
+pub fn stroke_3d(points: &[DVec3]) -> Result<(), Rejection> {
+    stroke(points.len(), points.iter().all(|p| p.is_finite() && p.abs().max_element() <= FARTHEST))
+}
+
+fn stroke(count: usize, all_good: bool) -> Result<(), Rejection> {
+    match count {
+        0 => Err(Rejection::new("a stroke needs at least one point")),
+        c if c > MOST_POINTS => {
+            Err(Rejection(format!("a stroke may have {MOST_POINTS} points, this has {c}")))
+        }
+        _ if !all_good => {
+            Err(Rejection(format!("a point of the stroke is not within {FARTHEST} m of the origin")))
+        }
+        _ => Ok(()),
+    }
+}
+
+fn point_2d(p: DVec2) -> bool {
+    p.is_finite() && p.abs().max_element() <= FARTHEST
+}
+
+pub fn name(name: &str) -> Result<(), Rejection> {
+    if name.trim().is_empty() {
+        return Err(Rejection::new("a name needs at least one visible character"));
+    }
+    if name.chars().count() > LONGEST_NAME {
+        return Err(Rejection(format!("a name may have {LONGEST_NAME} characters")));
+    }
+    if name.chars().any(char::is_control) {
+        return Err(Rejection::new("a name may not have control characters"));
+    }
+    Ok(())
+}
+
+pub fn pose(pose: &PlanePose) -> Result<(), Rejection> {
+    if point_2d(pose.offset) && pose.rotation.is_finite() {
+        return Ok(());
+    }
+    Err(Rejection::new("the place of the piece is not a finite number"))
+}
+
+pub fn outline(outline: &[Edge]) -> Result<(), Rejection> {
+    if outline.len() < 2 {
+        return Err(Rejection::new("an outline needs at least two edges"));
+    }
+    if outline.len() > MOST_EDGES {
+        return Err(Rejection(format!("an outline may have {MOST_EDGES} edges, this has {}", outline.len())));
+    }
+    match outline.iter().position(|e| !edge(e)) {
+        Some(i) => Err(Rejection(format!("edge {} of the outline has a number that means no place", i + 1))),
+        None => Ok(()),
+    }
+}
+
+fn edge(edge: &Edge) -> bool {
+    point_2d(edge.start)
+        && match edge.shape {
+            EdgeShape::Line => true,
+            EdgeShape::Arc { radius, .. } => radius.is_finite() && radius > 0.0 && radius <= FARTHEST,
+            EdgeShape::Quadratic { control } => point_2d(control),
+            EdgeShape::Cubic { controls } => controls.into_iter().all(point_2d),
+        }
+}
+
+pub fn piece(piece: &Piece) -> Result<(), Rejection> {
+    name(&piece.name)?;
+    pose(&piece.pose)?;
+    outline(&piece.outline)?;
+    match &piece.placement {
+        Some(p) if !(p.translation.is_finite() && p.rotation.is_finite()) => {
+            Err(Rejection::new("the placement of the piece is not a finite number"))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Every piece and seam of a whole pattern, and that its counter is ahead of its ids.
+pub fn pattern(pattern: &Pattern) -> Result<(), Rejection> {
+    if pattern.pieces.len() > MOST_PIECES {
+        return Err(Rejection(format!("a pattern may have {MOST_PIECES} pieces")));
+    }
+    for p in pattern.pieces.values() {
+        piece(p).map_err(|why| Rejection(format!("piece {:?}: {why}", p.name)))?;
+    }
+    let ids = pattern.pieces.keys().map(|p| p.0).chain(pattern.seams.keys().map(|s| s.0));
+    if ids.max().is_some_and(|last| last > pattern.next_id) {
+        return Err(Rejection::new("the pattern's counter is behind its ids"));
+    }
+    Ok(())
+}
+
+/// Every stroke, and that no id is used twice.
+pub fn marks(marks: &Marks, pattern: &Pattern) -> Result<(), Rejection> {
+    for mark in &marks.cloth {
+        stroke_2d(&mark.points)?;
+        find_piece(pattern, mark.piece)?;
+    }
+    for mark in &marks.body {
+        stroke_3d(&mark.points)?;
+    }
+    let mut ids: Vec<MarkId> =
+        marks.cloth.iter().map(|m| m.id).chain(marks.body.iter().map(|m| m.id)).collect();
+    ids.sort_unstable();
+    match ids.windows(2).find(|w| w[0] == w[1]) {
+        Some(w) => Err(Rejection(format!("{} is there twice", w[0]))),
+        None => Ok(()),
+    }
+}
+
+pub fn find_piece(pattern: &Pattern, id: PieceId) -> Result<&Piece, Rejection> {
+    pattern.pieces.get(&id).map(|p| &**p).ok_or_else(|| Rejection(format!("there is no {id}")))
+}
+
+pub fn find_seam(pattern: &Pattern, id: SeamId) -> Result<(), Rejection> {
+    if pattern.seams.contains_key(&id) {
+        return Ok(());
+    }
+    Err(Rejection(format!("there is no {id}")))
+}
+
+pub fn settings(settings: &Settings) -> Result<(), Rejection> {
+    let Settings { edge_length, relax } = settings;
+    within("the mesh size", *edge_length, 0.002, 0.2)?;
+    within("stretch", relax.stretch, 0.0, 1.0)?;
+    within("flattening", relax.flatten, 0.0, 1.0)?;
+    within("gravity", relax.gravity, 0.0, 0.1)?;
+    within("friction", relax.friction, 0.0, 2.0)?;
+    within("the distance from the skin", relax.offset, 0.0005, 0.05)
+}
+
+fn within(what: &str, value: f64, least: f64, most: f64) -> Result<(), Rejection> {
+    if (least..=most).contains(&value) {
+        return Ok(());
+    }
+    Err(Rejection(format!("{what} must be between {least} and {most}, not {value}")))
+}
+
+pub fn body(body: &BodyChoice) -> Result<(), Rejection> {
+    match body {
+        BodyChoice::Mannequin => Ok(()),
+        BodyChoice::Imported { name: body_name, mesh } => {
+            name(body_name)?;
+            if mesh.positions.iter().any(|p| !p.is_finite()) {
+                return Err(Rejection(format!("a vertex of {body_name} is not a finite point")));
+            }
+            if mesh.triangles.iter().flatten().any(|&v| v as usize >= mesh.positions.len()) {
+                return Err(Rejection(format!("a triangle of {body_name} names a vertex that is not there")));
+            }
+            Ok(())
+        }
+    }
+}

@@ -1,0 +1,107 @@
+//! Strokes.
+
+use std::sync::Arc;
+
+use glam::{DVec2, DVec3};
+
+use crate::geometry::ids::{MarkId, PieceId};
+use crate::session::command::Rejection;
+use crate::session::document::Document;
+use crate::session::edit::{Edit, checks};
+use crate::wrap::{BodyMark, ClothMark, ClothSide, Marks};
+
+pub fn add_cloth(
+    mut document: Document,
+    piece: PieceId,
+    side: ClothSide,
+    points: &[DVec2],
+) -> Result<Edit, Rejection> {
+    checks::stroke_2d(points)?;
+    checks::find_piece(&document.pattern, piece)?;
+    let id = document.fresh_mark();
+    let marks = Arc::make_mut(&mut document.marks);
+    marks.cloth.push(ClothMark { id, piece, side, points: points.to_vec() });
+    let label = format!("mark {} on the cloth", marks.cloth.len());
+    Ok(Edit::new(label, document))
+}
+
+pub fn add_body(mut document: Document, points: &[DVec3]) -> Result<Edit, Rejection> {
+    checks::stroke_3d(points)?;
+    let id = document.fresh_mark();
+    let marks = Arc::make_mut(&mut document.marks);
+    marks.body.push(BodyMark { id, points: points.to_vec() });
+    let label = format!("mark {} on the body", marks.body.len());
+    Ok(Edit::new(label, document))
+}
+
+pub fn delete(mut document: Document, mark: MarkId) -> Result<Edit, Rejection> {
+    let marks = Arc::make_mut(&mut document.marks);
+    let label = if let Some(i) = marks.cloth.iter().position(|m| m.id == mark) {
+        marks.cloth.remove(i);
+        format!("delete mark {} on the cloth", i + 1)
+    } else if let Some(i) = marks.body.iter().position(|m| m.id == mark) {
+        marks.body.remove(i);
+        format!("delete mark {} on the body", i + 1)
+    } else {
+        return Err(no_mark(mark));
+    };
+    Ok(Edit::new(label, document))
+}
+
+pub fn delete_pair(mut document: Document, number: usize) -> Result<Edit, Rejection> {
+    let marks = Arc::make_mut(&mut document.marks);
+    if number == 0 || number > marks.cloth.len().max(marks.body.len()) {
+        return Err(Rejection(format!("no mark has the number {number}")));
+    }
+    remove_number(marks, number);
+    Ok(Edit::new(format!("delete marks {number}"), document))
+}
+
+/// Takes the strokes numbered `number` (from 1) away on both sides.
+pub fn remove_number(marks: &mut Marks, number: usize) {
+    if number <= marks.cloth.len() {
+        marks.cloth.remove(number - 1);
+    }
+    if number <= marks.body.len() {
+        marks.body.remove(number - 1);
+    }
+}
+
+pub fn renumber(mut document: Document, mark: MarkId, to: usize) -> Result<Edit, Rejection> {
+    let marks = Arc::make_mut(&mut document.marks);
+    if let Some(i) = marks.cloth.iter().position(|m| m.id == mark) {
+        move_to(&mut marks.cloth, i, to)?;
+    } else if let Some(i) = marks.body.iter().position(|m| m.id == mark) {
+        move_to(&mut marks.body, i, to)?;
+    } else {
+        return Err(no_mark(mark));
+    }
+    Ok(Edit::new(format!("renumber a mark to {to}"), document))
+}
+
+fn move_to<T>(marks: &mut Vec<T>, from: usize, to: usize) -> Result<(), Rejection> {
+    if to == 0 || to > marks.len() {
+        return Err(Rejection(format!("numbers here go from 1 to {}", marks.len())));
+    }
+    let mark = marks.remove(from);
+    marks.insert(to - 1, mark);
+    Ok(())
+}
+
+pub fn clear(mut document: Document) -> Result<Edit, Rejection> {
+    if document.marks.cloth.is_empty() && document.marks.body.is_empty() {
+        return Err(Rejection::new("there are no marks"));
+    }
+    document.marks = Arc::default();
+    Ok(Edit::new("clear all marks", document))
+}
+
+pub fn set(mut document: Document, marks: &Arc<Marks>) -> Result<Edit, Rejection> {
+    checks::marks(marks, &document.pattern)?;
+    document.take_marks(Arc::clone(marks));
+    Ok(Edit::new("replace all marks", document))
+}
+
+fn no_mark(mark: MarkId) -> Rejection {
+    Rejection(format!("there is no {mark}"))
+}

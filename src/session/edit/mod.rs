@@ -1,0 +1,116 @@
+//! What each command does to a document. Pure: a new document comes back, or words why not.
+
+mod body;
+mod checks;
+mod marks;
+mod pieces;
+mod seams;
+mod settings;
+mod wrap;
+
+use crate::pattern::Pattern;
+use crate::relax::RelaxSettings;
+use crate::session::command::{Command, Rejection};
+use crate::session::document::Document;
+use crate::session::history::StepKind;
+
+/// What a command asks of the simulation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ClothChange {
+    /// Nothing.
+    None,
+    /// Wrap the document's garment round its body.
+    Wrap,
+    /// Take the cloth off.
+    Clear,
+    /// Relax differently.
+    SetRelax(RelaxSettings),
+    /// Pause or go on.
+    SetRelaxing(bool),
+}
+
+/// What a command does.
+#[derive(Clone, Debug)]
+pub struct Edit {
+    /// The document afterwards.
+    pub document: Document,
+    /// For menus: "Undo LABEL".
+    pub label: String,
+    /// What it asks of the simulation.
+    pub cloth: ClothChange,
+}
+
+impl Edit {
+    fn new(label: impl Into<String>, document: Document) -> Self {
+        Self { document, label: label.into(), cloth: ClothChange::None }
+    }
+
+    fn with(self, cloth: ClothChange) -> Self {
+        Self { cloth, ..self }
+    }
+
+    /// Whether it is a step of undo: pausing is not.
+    pub fn is_step(&self) -> bool {
+        !matches!(self.cloth, ClothChange::SetRelaxing(_))
+    }
+
+    /// What history remembers of it.
+    pub fn kind(&self) -> StepKind {
+        match self.cloth {
+            ClothChange::Wrap => StepKind::Wrap,
+            ClothChange::Clear => StepKind::Cloth,
+            ClothChange::None | ClothChange::SetRelax(_) | ClothChange::SetRelaxing(_) => StepKind::Edit,
+        }
+    }
+}
+
+/// What `command` does to `document`. Commands about history belong to the session and are refused here.
+pub fn edit(document: &Document, command: &Command) -> Result<Edit, Rejection> {
+    let new = document.clone();
+    match command {
+        Command::AddClothMark { piece, side, points } => marks::add_cloth(new, *piece, *side, points),
+        Command::AddBodyMark { points } => marks::add_body(new, points),
+        Command::DeleteMark { mark } => marks::delete(new, *mark),
+        Command::DeletePair { number } => marks::delete_pair(new, *number),
+        Command::MoveMark { mark, to } => marks::renumber(new, *mark, *to),
+        Command::ClearMarks => marks::clear(new),
+        Command::SetMarks { marks } => marks::set(new, marks),
+        Command::AddPiece { piece } => pieces::add(new, piece),
+        Command::DeletePiece { piece } => pieces::delete(new, *piece),
+        Command::RenamePiece { piece, name } => pieces::rename(new, *piece, name),
+        Command::SetPiecePose { piece, pose } => pieces::set_pose(new, *piece, *pose),
+        Command::SetOutline { piece, outline } => pieces::set_outline(new, *piece, outline),
+        Command::AddSeam { seam } => seams::add(new, *seam),
+        Command::DeleteSeam { seam } => seams::delete(new, *seam),
+        Command::ReverseSeam { seam } => seams::reverse(new, *seam),
+        Command::ReplacePattern { name, pattern, marks } => pieces::replace_all(new, name, pattern, marks),
+        Command::SetBody { body } => body::set(new, body),
+        Command::SetSettings { settings } => settings::set(new, settings),
+        Command::Wrap => wrap::wrap(new),
+        Command::Unwrap => wrap::unwrap(new),
+        Command::SetRelaxing { on } => wrap::set_relaxing(new, *on),
+        Command::CancelWrap
+        | Command::Undo
+        | Command::Redo
+        | Command::CancelGesture
+        | Command::ForgetHistory { .. } => Err(Rejection::new("this command is the session's own")),
+    }
+}
+
+/// What no command would have let into `document`; for documents from files.
+pub fn document_problem(document: &Document) -> Option<String> {
+    let Document { pattern, body, marks, last_mark, settings } = document;
+    let ids = marks.cloth.iter().map(|m| m.id).chain(marks.body.iter().map(|m| m.id));
+    if ids.max().is_some_and(|id| id.0 > *last_mark) {
+        return Some("the counter of marks is behind their ids".to_owned());
+    }
+    pattern_problem(pattern)
+        .or_else(|| checks::marks(marks, pattern).err().map(|why| why.0))
+        .or_else(|| checks::body(body).err().map(|why| why.0))
+        .or_else(|| checks::settings(settings).err().map(|why| why.0))
+}
+
+/// What no command would have let into `pattern`; for patterns from files.
+pub fn pattern_problem(pattern: &Pattern) -> Option<String> {
+    checks::pattern(pattern).err().map(|why| why.0)
+}

@@ -1,0 +1,26 @@
+//! Putting cloth on and taking it off.
+
+use crate::session::command::Rejection;
+use crate::session::document::Document;
+use crate::session::edit::{ClothChange, Edit};
+
+pub fn wrap(document: Document) -> Result<Edit, Rejection> {
+    if document.pattern.pieces.is_empty() {
+        return Err(Rejection::new("there is no piece of cloth to wrap"));
+    }
+    if document.marks.pairs().next().is_none() {
+        return Err(Rejection::new(
+            "there is no pair of marks: paint at least one stroke on the cloth and one on the body",
+        ));
+    }
+    Ok(Edit::new("wrap", document).with(ClothChange::Wrap))
+}
+
+pub fn unwrap(document: Document) -> Result<Edit, Rejection> {
+    Ok(Edit::new("take the cloth off", document).with(ClothChange::Clear))
+}
+
+pub fn set_relaxing(document: Document, on: bool) -> Result<Edit, Rejection> {
+    let label = if on { "go on relaxing" } else { "pause" };
+    Ok(Edit::new(label, document).with(ClothChange::SetRelaxing(on)))
+}

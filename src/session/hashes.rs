@@ -1,0 +1,62 @@
+//! Document hashes. Parts that have not changed are not read again.
+
+use std::sync::Arc;
+
+use serde::Serialize;
+
+use crate::pattern::Pattern;
+use crate::session::document::{BodyChoice, Document};
+use crate::sim::hash::{Fnv, hash_of};
+use crate::wrap::Marks;
+
+/// Remembers the hashes of the last parts. Holding the parts keeps their addresses from being used again.
+#[derive(Debug, Default)]
+pub struct DocumentHasher {
+    pattern: Option<(Arc<Pattern>, u64)>,
+    marks: Option<(Arc<Marks>, u64)>,
+    body: Option<(BodyChoice, u64)>,
+}
+
+impl DocumentHasher {
+    /// Hash of `document` and of the numbers of steps that can be undone and redone.
+    pub fn hash(&mut self, document: &Document, done: usize, undone: usize) -> u64 {
+        let Document { pattern, body, marks, last_mark, settings } = document;
+        let mut hash = Fnv::default();
+        hash.number(shared(&mut self.pattern, pattern));
+        hash.number(shared(&mut self.marks, marks));
+        hash.number(self.body(body));
+        hash.number(u64::from(*last_mark));
+        hash.number(json_hash(settings));
+        hash.number(done as u64);
+        hash.number(undone as u64);
+        hash.finish()
+    }
+
+    fn body(&mut self, body: &BodyChoice) -> u64 {
+        match &self.body {
+            Some((kept, hash)) if kept == body => *hash,
+            _ => {
+                let hash = json_hash(body);
+                self.body = Some((body.clone(), hash));
+                hash
+            }
+        }
+    }
+}
+
+fn shared<T: Serialize>(kept: &mut Option<(Arc<T>, u64)>, part: &Arc<T>) -> u64 {
+    match kept {
+        Some((known, hash)) if Arc::ptr_eq(known, part) => *hash,
+        _ => {
+            let hash = json_hash(part);
+            *kept = Some((Arc::clone(part), hash));
+            hash
+        }
+    }
+}
+
+/// Ordered maps and shortest floats make the JSON of a value canonical. A value that is not JSON (a NaN cannot get in:
+/// commands are checked) hashes as nothing.
+fn json_hash<T: Serialize + ?Sized>(value: &T) -> u64 {
+    hash_of(&serde_json::to_vec(value).unwrap_or_default())
+}

@@ -1,0 +1,19 @@
+//! What the user has done: one stream of commands makes the document, its undo and its recordings.
+
+pub mod body;
+pub mod command;
+pub mod document;
+pub mod edit;
+pub mod hashes;
+pub mod history;
+pub mod project;
+pub mod project_file;
+pub mod recording;
+pub mod replay;
+#[expect(clippy::module_inception, reason = "a file is named by what it holds")]
+pub mod session;
+
+pub use command::{Command, Rejection};
+pub use document::{BodyChoice, Document, Settings};
+pub use project::{Dressed, Project};
+pub use session::{GestureId, Notice, Session};

@@ -1,0 +1,83 @@
+//! What a project file holds, as values. `project_file` reads and writes the file.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+use serde::{Deserialize, Serialize};
+
+use crate::cloth::ClothState;
+use crate::pattern::Pattern;
+use crate::relax::RelaxSettings;
+use crate::session::document::Document;
+use crate::sim::GarmentSource;
+use crate::wrap::Marks;
+
+/// A document and, if there is any, the cloth on its body.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Project {
+    /// The document.
+    pub document: Document,
+    /// The cloth on the body.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub dressed: Option<Dressed>,
+}
+
+/// Cloth on the body.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(from = "DressedData", into = "DressedData")]
+pub struct Dressed {
+    /// What it was built from: the pattern may have been edited since.
+    pub source: Arc<GarmentSource>,
+    /// Where it is.
+    pub cloth: Arc<ClothState>,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct DressedData {
+    pattern: Arc<Pattern>,
+    marks: Arc<Marks>,
+    edge_length: f64,
+    relax: RelaxSettings,
+    positions: Vec<DVec3>,
+    mapped: Vec<bool>,
+}
+
+impl From<Dressed> for DressedData {
+    fn from(dressed: Dressed) -> Self {
+        let GarmentSource { pattern, marks, edge_length, relax } = Arc::unwrap_or_clone(dressed.source);
+        let ClothState { positions, mapped } = Arc::unwrap_or_clone(dressed.cloth);
+        Self { pattern, marks, edge_length, relax, positions, mapped }
+    }
+}
+
+impl From<DressedData> for Dressed {
+    fn from(data: DressedData) -> Self {
+        let DressedData { pattern, marks, edge_length, relax, positions, mapped } = data;
+        Self {
+            source: Arc::new(GarmentSource { pattern, marks, edge_length, relax }),
+            cloth: Arc::new(ClothState { positions, mapped }),
+        }
+    }
+}
+
+impl Project {
+    /// What no editor would let through: said of a file from outside.
+    pub fn problem(&self) -> Option<String> {
+        crate::session::edit::document_problem(&self.document).or_else(|| self.dressed.as_ref()?.problem())
+    }
+}
+
+impl Dressed {
+    fn problem(&self) -> Option<String> {
+        let ClothState { positions, mapped } = &*self.cloth;
+        if positions.len() != mapped.len() {
+            return Some("the dressed cloth has places and flags of different number".to_owned());
+        }
+        if positions.iter().any(|p| !p.is_finite()) {
+            return Some("a vertex of the dressed cloth is not a finite point".to_owned());
+        }
+        crate::session::edit::pattern_problem(&self.source.pattern)
+    }
+}

@@ -1,0 +1,251 @@
+//! Project files (`.toile`): plain JSON when small, else a zip of the same JSON with its long arrays as binary entries.
+//!
+//! A file on disk is always the whole old or the whole new version: the new one is written beside it, read back, and
+//! renamed over it. The version before stays as `NAME.toile.bak`.
+
+use std::fs;
+use std::io::{Cursor, Read, Write};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use atomic_write_file::AtomicWriteFile;
+use glam::DVec3;
+use serde::{Deserialize, Serialize};
+use zip::write::SimpleFileOptions;
+use zip::{CompressionMethod, ZipArchive, ZipWriter};
+
+use crate::cloth::ClothState;
+use crate::geometry::mesh::TriMesh;
+use crate::session::document::BodyChoice;
+use crate::session::project::Project;
+
+/// What the file says it is.
+pub const FORMAT: &str = "toile-project";
+/// The newest version this program reads, and the one it writes.
+pub const VERSION: u32 = 1;
+/// Bytes a file, and all of its entries unpacked, may have.
+const MOST_BYTES: u64 = 512 << 20;
+/// Entries a zip may have.
+const MOST_ENTRIES: usize = 64;
+
+const JSON_ENTRY: &str = "project.json";
+const BODY_POSITIONS: &str = "body-positions.f64";
+const BODY_TRIANGLES: &str = "body-triangles.u32";
+const CLOTH_POSITIONS: &str = "cloth-positions.f64";
+const CLOTH_MAPPED: &str = "cloth-mapped.u8";
+
+/// Why a project file could not be read or written.
+#[derive(Debug, thiserror::Error)]
+pub enum ProjectFileError {
+    /// The file system said no.
+    #[error("{path}: {source}", path = path.display())]
+    File { path: PathBuf, source: std::io::Error },
+    /// The contents are not a project.
+    #[error("{0}")]
+    Contents(String),
+    /// Larger than this program will read.
+    #[error("{0}")]
+    TooLarge(String),
+}
+
+fn contents(words: impl std::fmt::Display) -> ProjectFileError {
+    ProjectFileError::Contents(words.to_string())
+}
+
+#[derive(Serialize, Deserialize)]
+struct File {
+    format: String,
+    version: u32,
+    project: Project,
+}
+
+#[derive(Deserialize)]
+struct AnyFile {
+    format: String,
+    version: u32,
+}
+
+/// Whether `bytes` look like a project rather than some other kind of file.
+pub fn is_project(bytes: &[u8]) -> bool {
+    bytes.starts_with(b"PK")
+        || serde_json::from_slice::<AnyFile>(bytes).is_ok_and(|any| any.format.starts_with("toile-"))
+}
+
+/// Reads the file at `path`.
+pub fn open(path: &Path) -> Result<Project, ProjectFileError> {
+    let file_error = |source| ProjectFileError::File { path: path.to_owned(), source };
+    let size = fs::metadata(path).map_err(file_error)?.len();
+    if size > MOST_BYTES {
+        return Err(ProjectFileError::TooLarge(format!(
+            "the file has {size} bytes, at most {MOST_BYTES} are read"
+        )));
+    }
+    from_bytes(&fs::read(path).map_err(file_error)?)
+}
+
+/// Writes `project` to `path`; what was there before stays as `PATH.bak`.
+pub fn save(path: &Path, project: &Project) -> Result<(), ProjectFileError> {
+    let file_error = |source| ProjectFileError::File { path: path.to_owned(), source };
+    let bytes = to_bytes(project)?;
+    if from_bytes(&bytes)? != *project {
+        return Err(contents("the project did not survive being written: nothing was saved"));
+    }
+    keep_backup(path).map_err(file_error)?;
+    let mut file = AtomicWriteFile::open(path).map_err(file_error)?;
+    file.write_all(&bytes).map_err(file_error)?;
+    file.commit().map_err(file_error)
+}
+
+fn keep_backup(path: &Path) -> std::io::Result<()> {
+    let old = match fs::read(path) {
+        Ok(old) => old,
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(()),
+        Err(error) => return Err(error),
+    };
+    let mut name = path.as_os_str().to_owned();
+    name.push(".bak");
+    let mut file = AtomicWriteFile::open(PathBuf::from(name))?;
+    file.write_all(&old)?;
+    file.commit()
+}
+
+/// The project in `bytes`.
+pub fn from_bytes(bytes: &[u8]) -> Result<Project, ProjectFileError> {
+    let project = if bytes.starts_with(b"PK") { from_zip(bytes)? } else { from_json(bytes)? };
+    match project.problem() {
+        Some(words) => Err(contents(words)),
+        None => Ok(project),
+    }
+}
+
+/// The bytes of a file with `project` in it.
+pub fn to_bytes(project: &Project) -> Result<Vec<u8>, ProjectFileError> {
+    let small = project.dressed.is_none() && project.document.body == BodyChoice::default();
+    if small { to_json(project) } else { to_zip(project) }
+}
+
+fn from_json(bytes: &[u8]) -> Result<Project, ProjectFileError> {
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    if bytes.trim_ascii().is_empty() {
+        return Err(contents("the file is empty"));
+    }
+    let any: AnyFile = serde_json::from_slice(bytes).map_err(|e| contents(format!("not a project: {e}")))?;
+    if any.format != FORMAT {
+        return Err(contents(format!("this is a {:?}, not a project", any.format)));
+    }
+    if any.version > VERSION {
+        return Err(contents(format!(
+            "project version {}, made by a newer program: this one reads up to version {VERSION}",
+            any.version
+        )));
+    }
+    if any.version == 0 {
+        return Err(contents("there is no project version 0"));
+    }
+    let file: File = serde_json::from_slice(bytes).map_err(|e| contents(format!("not a project: {e}")))?;
+    Ok(file.project)
+}
+
+fn to_json(project: &Project) -> Result<Vec<u8>, ProjectFileError> {
+    let file = File { format: FORMAT.to_owned(), version: VERSION, project: project.clone() };
+    let mut bytes = serde_json::to_vec_pretty(&file).map_err(contents)?;
+    bytes.push(b'\n');
+    Ok(bytes)
+}
+
+/// The JSON holds the arrays empty; the binary entries hold them, little-endian.
+fn to_zip(project: &Project) -> Result<Vec<u8>, ProjectFileError> {
+    let mut bare = project.clone();
+    let mut entries: Vec<(&str, Vec<u8>)> = Vec::new();
+    if let BodyChoice::Imported { mesh, .. } = &mut bare.document.body {
+        entries.push((BODY_POSITIONS, point_bytes(&mesh.positions)));
+        entries
+            .push((BODY_TRIANGLES, mesh.triangles.iter().flatten().flat_map(|v| v.to_le_bytes()).collect()));
+        *mesh = Arc::default();
+    }
+    if let Some(dressed) = &mut bare.dressed {
+        entries.push((CLOTH_POSITIONS, point_bytes(&dressed.cloth.positions)));
+        entries.push((CLOTH_MAPPED, dressed.cloth.mapped.iter().map(|&m| u8::from(m)).collect()));
+        dressed.cloth = Arc::default();
+    }
+    entries.insert(0, (JSON_ENTRY, to_json(&bare)?));
+    let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
+    // The same project gives the same bytes: entries carry no time.
+    let options = SimpleFileOptions::default()
+        .compression_method(CompressionMethod::Deflated)
+        .last_modified_time(zip::DateTime::default());
+    for (name, bytes) in &entries {
+        zip.start_file(*name, options).map_err(contents)?;
+        zip.write_all(bytes).map_err(contents)?;
+    }
+    Ok(zip.finish().map_err(contents)?.into_inner())
+}
+
+fn from_zip(bytes: &[u8]) -> Result<Project, ProjectFileError> {
+    let mut zip = ZipArchive::new(Cursor::new(bytes)).map_err(|e| contents(format!("not a project: {e}")))?;
+    if zip.len() > MOST_ENTRIES {
+        return Err(ProjectFileError::TooLarge(format!("the file has {} entries", zip.len())));
+    }
+    let mut left = MOST_BYTES;
+    let json = entry(&mut zip, JSON_ENTRY, &mut left)?;
+    let mut project = from_json(&json)?;
+    if let BodyChoice::Imported { mesh, .. } = &mut project.document.body {
+        let positions = points(&entry(&mut zip, BODY_POSITIONS, &mut left)?)?;
+        let triangles = triangles(&entry(&mut zip, BODY_TRIANGLES, &mut left)?, positions.len())?;
+        *mesh = Arc::new(TriMesh { positions, triangles });
+    }
+    if let Some(dressed) = &mut project.dressed {
+        let positions = points(&entry(&mut zip, CLOTH_POSITIONS, &mut left)?)?;
+        let mapped = entry(&mut zip, CLOTH_MAPPED, &mut left)?.iter().map(|&b| b != 0).collect();
+        dressed.cloth = Arc::new(ClothState { positions, mapped });
+    }
+    Ok(project)
+}
+
+/// Never more than `left` bytes, whatever the entry says of its size.
+fn entry(
+    zip: &mut ZipArchive<Cursor<&[u8]>>,
+    name: &str,
+    left: &mut u64,
+) -> Result<Vec<u8>, ProjectFileError> {
+    let file = zip.by_name(name).map_err(|e| contents(format!("not a project: {name}: {e}")))?;
+    let mut bytes = Vec::new();
+    file.take(*left + 1)
+        .read_to_end(&mut bytes)
+        .map_err(|e| contents(format!("the project is damaged: {name}: {e}")))?;
+    match left.checked_sub(bytes.len() as u64) {
+        Some(rest) => *left = rest,
+        None => {
+            return Err(ProjectFileError::TooLarge(format!(
+                "the project unpacks to over {MOST_BYTES} bytes"
+            )));
+        }
+    }
+    Ok(bytes)
+}
+
+fn point_bytes(points: &[DVec3]) -> Vec<u8> {
+    points.iter().flat_map(|p| p.to_array()).flat_map(f64::to_le_bytes).collect()
+}
+
+fn points(bytes: &[u8]) -> Result<Vec<DVec3>, ProjectFileError> {
+    let (points, rest) = bytes.as_chunks::<24>();
+    if !rest.is_empty() {
+        return Err(contents("the project is damaged: an array of points ends in the middle of one"));
+    }
+    let number = |b: &[u8]| f64::from_le_bytes(b.try_into().unwrap_or_default());
+    Ok(points.iter().map(|p| DVec3::new(number(&p[..8]), number(&p[8..16]), number(&p[16..]))).collect())
+}
+
+fn triangles(bytes: &[u8], vertex_count: usize) -> Result<Vec<[u32; 3]>, ProjectFileError> {
+    let (triangles, rest) = bytes.as_chunks::<12>();
+    let number = |b: &[u8]| u32::from_le_bytes(b.try_into().unwrap_or_default());
+    let triangles: Vec<[u32; 3]> =
+        triangles.iter().map(|t| [number(&t[..4]), number(&t[4..8]), number(&t[8..])]).collect();
+    if !rest.is_empty() || triangles.iter().flatten().any(|&v| v as usize >= vertex_count) {
+        return Err(contents(
+            "the project is damaged: a triangle of the body names a vertex that is not there",
+        ));
+    }
+    Ok(triangles)
+}

@@ -1,0 +1,253 @@
+//! Recordings: JSON lines, always kept in memory, and in a file when one is asked for.
+//!
+//! A header, then in order of happening: each command, the tick in which each took effect, and hashes at the end of every
+//! gesture and whenever the cloth comes to rest.
+
+use std::collections::VecDeque;
+use std::fs::File;
+use std::io::{BufWriter, Write};
+
+use serde::{Deserialize, Serialize};
+
+use crate::session::command::Command;
+use crate::session::project::Project;
+use crate::sim::Event;
+
+/// What the header says it is.
+pub const FORMAT: &str = "toile-recording";
+/// The newest version this program reads, and the one it writes.
+pub const VERSION: u32 = 1;
+
+/// One line.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Line {
+    /// The first line: where everything starts from.
+    Header { format: String, version: u32, program: String, project: Box<Project> },
+    /// A command was given. `seq` counts from 1, `gesture` counts the gestures that hold a command from 1.
+    Command { seq: u64, gesture: u64, command: Command },
+    /// The simulation took command `seq` up after `tick` ticks.
+    Applied { seq: u64, tick: u64 },
+    /// After `tick` ticks. With `document`: after all commands up to `seq`; without: at rest, `seq` being the last command the
+    /// simulation took up.
+    Hash {
+        tick: u64,
+        seq: u64,
+        cloth: Hex,
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        document: Option<Hex>,
+    },
+}
+
+/// A hash, written as 16 hexadecimal digits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Hex(pub u64);
+
+impl std::fmt::Display for Hex {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{:016x}", self.0)
+    }
+}
+
+impl Serialize for Hex {
+    fn serialize<S: serde::Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        to.collect_str(self)
+    }
+}
+
+impl<'de> Deserialize<'de> for Hex {
+    fn deserialize<D: serde::Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        let text = String::deserialize(from)?;
+        let digits = text.len() == 16 && text.bytes().all(|b| b.is_ascii_hexdigit());
+        match u64::from_str_radix(&text, 16) {
+            Ok(hash) if digits => Ok(Self(hash)),
+            _ => Err(serde::de::Error::custom("a hash is 16 hexadecimal digits")),
+        }
+    }
+}
+
+/// Writes the recording of a session as it happens.
+#[derive(Debug)]
+pub struct Recorder {
+    lines: String,
+    /// Document hashes whose cloth hash is still to come, by the number of the request that asked for it.
+    awaited: VecDeque<(u64, u64)>,
+    /// Raw number of the last gesture seen, and its number in the recording.
+    gesture: (u64, u64),
+    file: Option<BufWriter<File>>,
+    file_error: Option<std::io::Error>,
+}
+
+impl Recorder {
+    /// Begins with the header.
+    pub fn new(project: &Project) -> Self {
+        let mut recorder = Self {
+            lines: String::new(),
+            awaited: VecDeque::new(),
+            gesture: (0, 0),
+            file: None,
+            file_error: None,
+        };
+        recorder.write(&Line::Header {
+            format: FORMAT.to_owned(),
+            version: VERSION,
+            program: env!("CARGO_PKG_VERSION").to_owned(),
+            project: Box::new(project.clone()),
+        });
+        recorder
+    }
+
+    /// Everything so far.
+    pub fn text(&self) -> String {
+        self.lines.clone()
+    }
+
+    /// Writes everything so far, and each line from now on, to `file`.
+    pub fn also_to(&mut self, file: File) -> std::io::Result<()> {
+        let mut file = BufWriter::new(file);
+        file.write_all(self.lines.as_bytes())?;
+        file.flush()?;
+        self.file = Some(file);
+        Ok(())
+    }
+
+    /// Why the file was given up, told once.
+    pub fn take_file_error(&mut self) -> Option<std::io::Error> {
+        self.file_error.take()
+    }
+
+    /// A command was carried out.
+    pub fn command(&mut self, seq: u64, gesture: u64, command: Command) {
+        if self.gesture.1 == 0 || self.gesture.0 != gesture {
+            self.gesture = (gesture, self.gesture.1 + 1);
+        }
+        self.write(&Line::Command { seq, gesture: self.gesture.1, command });
+    }
+
+    /// A hash was asked for by request `seq`; the document's is this.
+    pub fn expect_hash(&mut self, seq: u64, document: u64) {
+        self.awaited.push_back((seq, document));
+    }
+
+    /// The simulation has told something.
+    pub fn event(&mut self, event: &Event) {
+        match *event {
+            Event::Applied { seq, tick } if seq > 0 => self.write(&Line::Applied { seq, tick }),
+            Event::Hash { tick, seq, cloth, asked } => self.hash(tick, seq, cloth, asked),
+            Event::Applied { .. } | Event::Failed { .. } | Event::Forgotten { .. } => {}
+        }
+    }
+
+    fn hash(&mut self, tick: u64, seq: u64, cloth: u64, asked: Option<u64>) {
+        let document = match (asked, self.awaited.front()) {
+            (Some(asked), Some(&(awaited, document))) if asked == awaited => {
+                self.awaited.pop_front();
+                Some(Hex(document))
+            }
+            _ => None,
+        };
+        self.write(&Line::Hash { tick, seq: asked.unwrap_or(seq), cloth: Hex(cloth), document });
+    }
+
+    fn write(&mut self, line: &Line) {
+        // Lines hold no map with keys that are not strings and no number that is not finite: they are always JSON.
+        let Ok(json) = serde_json::to_string(line) else { return };
+        self.lines.push_str(&json);
+        self.lines.push('\n');
+        if let Some(file) = &mut self.file
+            && let Err(error) = file
+                .write_all(json.as_bytes())
+                .and_then(|()| file.write_all(b"\n"))
+                .and_then(|()| file.flush())
+        {
+            self.file_error = Some(error);
+            self.file = None;
+        }
+    }
+}
+
+/// A recording read back.
+#[derive(Clone, Debug)]
+pub struct Recording {
+    /// Where everything starts from.
+    pub project: Project,
+    /// Commands in order: number, gesture, command.
+    pub commands: Vec<(u64, u64, Command)>,
+    /// What the simulation told, in order.
+    pub told: Vec<Told>,
+}
+
+/// What the simulation told.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Told {
+    /// It took command `seq` up after `tick` ticks.
+    Applied { seq: u64, tick: u64 },
+    /// Hashes.
+    Hash { tick: u64, seq: u64, cloth: u64, document: Option<u64> },
+}
+
+/// Why a text is not a recording.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("line {line}: {words}")]
+pub struct RecordingError {
+    /// From 1.
+    pub line: usize,
+    /// What is wrong.
+    pub words: String,
+}
+
+impl Recording {
+    /// Reads JSON lines. A last line that was cut off (a crash while writing) is an error like any other.
+    pub fn parse(text: &str) -> Result<Self, RecordingError> {
+        let mut lines = text.lines().enumerate().filter(|(_, l)| !l.trim().is_empty());
+        let Some((i, first)) = lines.next() else {
+            return Err(RecordingError { line: 1, words: "the recording is empty".to_owned() });
+        };
+        let project = header(first).map_err(|words| RecordingError { line: i + 1, words })?;
+        let mut recording = Self { project, commands: Vec::new(), told: Vec::new() };
+        for (i, line) in lines {
+            recording.take(line).map_err(|words| RecordingError { line: i + 1, words })?;
+        }
+        Ok(recording)
+    }
+
+    fn take(&mut self, line: &str) -> Result<(), String> {
+        match serde_json::from_str(line).map_err(|e| e.to_string())? {
+            Line::Header { .. } => return Err("a second header".to_owned()),
+            Line::Command { seq, gesture, command } => self.commands.push((seq, gesture, command)),
+            Line::Applied { seq, tick } => self.told.push(Told::Applied { seq, tick }),
+            Line::Hash { tick, seq, cloth, document } => {
+                self.told.push(Told::Hash { tick, seq, cloth: cloth.0, document: document.map(|h| h.0) });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Only as much of a header as tells whether the rest can be read.
+#[derive(Deserialize)]
+struct AnyHeader {
+    header: AnyVersion,
+}
+
+#[derive(Deserialize)]
+struct AnyVersion {
+    format: String,
+    version: u32,
+}
+
+fn header(line: &str) -> Result<Project, String> {
+    let any: AnyHeader =
+        serde_json::from_str(line).map_err(|e| format!("this is not the header of a recording: {e}"))?;
+    if any.header.format != FORMAT {
+        return Err(format!("this is a {:?}, not a recording", any.header.format));
+    }
+    if any.header.version != VERSION {
+        let version = any.header.version;
+        return Err(format!("recording version {version}: this program reads version {VERSION}"));
+    }
+    match serde_json::from_str(line).map_err(|e| e.to_string())? {
+        Line::Header { project, .. } => Ok(*project),
+        _ => Err("the first line must be the header".to_owned()),
+    }
+}

@@ -1,0 +1,191 @@
+//! Runs a recording on the caller's thread, as fast as it can, and compares hashes. It stops at the first difference.
+
+use std::collections::VecDeque;
+
+use crate::session::command::Command;
+use crate::session::recording::{Hex, Recording, Told};
+use crate::session::session::{GestureId, Session};
+use crate::sim::{Runner, Simulation};
+
+/// Where a replay and its recording part ways.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("diverged at tick {tick}, after command {seq}: {words}")]
+pub struct Divergence {
+    /// Ticks executed.
+    pub tick: u64,
+    /// The last command carried out; 0: none.
+    pub seq: u64,
+    /// What differs.
+    pub words: String,
+}
+
+/// A replay under way.
+#[derive(Debug)]
+pub struct Replay {
+    session: Session,
+    commands: VecDeque<(u64, u64, Command)>,
+    told: VecDeque<Told>,
+    last_gesture: u64,
+    hashes_compared: u64,
+}
+
+impl Replay {
+    /// Ready to begin.
+    pub fn new(recording: Recording) -> Self {
+        let runner = Runner::inline(Simulation::default());
+        Self {
+            session: Session::replaying(recording.project, runner),
+            commands: recording.commands.into(),
+            told: recording.told.into(),
+            last_gesture: 0,
+            hashes_compared: 0,
+        }
+    }
+
+    /// At most one tick, one command or one comparison. False when the recording is at its end.
+    pub fn step(&mut self) -> Result<bool, Divergence> {
+        match self.told.front().copied() {
+            Some(Told::Applied { seq, tick }) => {
+                if self.is_at(tick)? {
+                    self.apply_up_to(seq)?;
+                    self.expect_taken_up(seq)?;
+                    self.told.pop_front();
+                }
+            }
+            Some(Told::Hash { tick, seq, cloth, document }) => {
+                if self.is_at(tick)? {
+                    self.compare(seq, cloth, document)?;
+                    self.told.pop_front();
+                }
+            }
+            None => match self.commands.front() {
+                Some(&(seq, ..)) => self.apply_up_to(seq)?,
+                None => return Ok(false),
+            },
+        }
+        Ok(true)
+    }
+
+    /// All of it.
+    pub fn run(&mut self) -> Result<(), Divergence> {
+        while self.step()? {}
+        Ok(())
+    }
+
+    /// The session being replayed.
+    pub fn session(&mut self) -> &mut Session {
+        &mut self.session
+    }
+
+    /// How many cloth hashes were compared so far.
+    pub fn hashes_compared(&self) -> u64 {
+        self.hashes_compared
+    }
+
+    /// Ticks executed so far.
+    pub fn ticks(&mut self) -> u64 {
+        self.simulation().ticks()
+    }
+
+    fn simulation(&mut self) -> &mut Simulation {
+        self.session.runner().simulation().expect("a replay runs inline")
+    }
+
+    /// Whether `tick` ticks have been executed; executes one if not.
+    fn is_at(&mut self, tick: u64) -> Result<bool, Divergence> {
+        let now = self.simulation().ticks();
+        if now == tick {
+            return Ok(true);
+        }
+        if now > tick {
+            return Err(self.diverged(format!("the recording goes back to tick {tick}")));
+        }
+        if self.simulation().is_at_rest() {
+            return Err(
+                self.diverged(format!("the cloth is at rest; in the recording it moves until tick {tick}"))
+            );
+        }
+        self.simulation().tick();
+        // Hashes and refusals are compared with the recording's lines, not kept.
+        self.simulation().take_events();
+        Ok(false)
+    }
+
+    fn apply_up_to(&mut self, last: u64) -> Result<(), Divergence> {
+        while self.commands.front().is_some_and(|&(seq, ..)| seq <= last) {
+            if let Some((seq, gesture, command)) = self.commands.pop_front() {
+                self.apply(seq, gesture, command)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn apply(&mut self, seq: u64, gesture: u64, command: Command) -> Result<(), Divergence> {
+        if seq != self.session.last_seq() + 1 {
+            return Err(self.diverged(format!("the next command is numbered {seq}")));
+        }
+        if gesture != self.last_gesture && gesture != self.last_gesture + 1 {
+            let words = format!("command {seq} belongs to gesture {gesture}, not {}", self.last_gesture + 1);
+            return Err(self.diverged(words));
+        }
+        self.last_gesture = gesture;
+        let name = format!("{command:?}");
+        let applied = self.session.apply(command, GestureId(gesture));
+        self.simulation().take_events();
+        applied.map_err(|why| {
+            let name = name.split([' ', '{']).next().unwrap_or_default();
+            self.diverged(format!("command {seq} ({name}) was refused: {why}"))
+        })
+    }
+
+    fn expect_taken_up(&mut self, seq: u64) -> Result<(), Divergence> {
+        let taken = self.simulation().seq();
+        if taken == seq {
+            return Ok(());
+        }
+        Err(self.diverged(format!(
+            "in the recording the simulation took command {seq} up, here {taken} was the last"
+        )))
+    }
+
+    fn compare(&mut self, seq: u64, cloth: u64, document: Option<u64>) -> Result<(), Divergence> {
+        match document {
+            Some(document) => {
+                self.apply_up_to(seq)?;
+                self.same("last command", self.session.last_seq(), seq)?;
+                let gesture = GestureId(self.last_gesture);
+                self.session.end_gesture(gesture);
+                self.simulation().take_events();
+                let ours = self.session.document_hash();
+                self.same_hash("document", ours, document)?;
+            }
+            None => {
+                let taken = self.simulation().seq();
+                self.same("last command in the simulation", taken, seq)?;
+            }
+        }
+        let ours = self.simulation().hash();
+        self.same_hash("cloth", ours, cloth)?;
+        self.hashes_compared += 1;
+        Ok(())
+    }
+
+    fn same(&mut self, what: &str, ours: u64, recorded: u64) -> Result<(), Divergence> {
+        if ours == recorded {
+            return Ok(());
+        }
+        Err(self.diverged(format!("the {what} is {ours}, in the recording {recorded}")))
+    }
+
+    fn same_hash(&mut self, what: &str, ours: u64, recorded: u64) -> Result<(), Divergence> {
+        if ours == recorded {
+            return Ok(());
+        }
+        let (ours, recorded) = (Hex(ours), Hex(recorded));
+        Err(self.diverged(format!("the {what}'s hash is {ours}, in the recording {recorded}")))
+    }
+
+    fn diverged(&mut self, words: String) -> Divergence {
+        Divergence { tick: self.simulation().ticks(), seq: self.session.last_seq(), words }
+    }
+}

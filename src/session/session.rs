@@ -1,0 +1,371 @@
+//! The only way in: commands change the document, ask things of the simulation, and are recorded.
+
+use std::sync::Arc;
+
+use crate::body::Surface;
+use crate::session::body::BodyCache;
+use crate::session::command::{Command, Rejection};
+use crate::session::document::Document;
+use crate::session::edit::{self, ClothChange};
+use crate::session::hashes::DocumentHasher;
+use crate::session::history::{History, Step, StepKind};
+use crate::session::project::{Dressed, Project};
+use crate::session::recording::Recorder;
+use crate::sim::{Event, GarmentSource, Request, RequestKind, Runner, Snapshot};
+
+/// One pointer drag, one press of a button: one undo step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct GestureId(pub u64);
+
+/// What the person should be told; the session has dealt with the rest.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Notice {
+    /// The cloth has come to rest.
+    AtRest { tick: u64 },
+    /// Something the simulation was asked for failed; the cloth is as it was before, and paused.
+    Failed { tick: u64, words: String },
+    /// Old steps can no longer be undone, to save memory.
+    HistoryShortened,
+}
+
+/// A document being worked on.
+#[derive(Debug)]
+pub struct Session {
+    document: Document,
+    history: History,
+    runner: Runner,
+    recorder: Recorder,
+    bodies: BodyCache,
+    hasher: DocumentHasher,
+    last_seq: u64,
+    last_gesture: u64,
+    /// The gesture whose end has not been recorded yet.
+    open_gesture: Option<GestureId>,
+    /// The command after which the document was last saved.
+    saved_seq: u64,
+    /// In a replay the recording says when history is forgotten.
+    replaying: bool,
+}
+
+/// What a command will do, worked out in full before anything changes.
+struct Plan {
+    document: Document,
+    history: HistoryChange,
+    request: Option<RequestKind>,
+}
+
+enum HistoryChange {
+    None,
+    Push { label: String, kind: StepKind },
+    Undo,
+    Redo,
+    DropOpen,
+    DropLast,
+    Forget { before_seq: u64 },
+}
+
+impl Session {
+    /// Work on `project`, with the simulation in `runner` (which must be new).
+    pub fn new(project: Project, mut runner: Runner) -> Self {
+        let mut bodies = BodyCache::default();
+        let body = bodies.surface(&project.document.body);
+        let recorder = Recorder::new(&project);
+        if let (Some(Dressed { source, cloth }), Ok(body)) = (project.dressed, body) {
+            let kind = RequestKind::Adopt { source, body, cloth };
+            runner.send(Request { seq: 0, checkpoint: false, kind });
+        }
+        let mut session = Self {
+            document: project.document,
+            history: History::default(),
+            runner,
+            recorder,
+            bodies,
+            hasher: DocumentHasher::default(),
+            last_seq: 0,
+            last_gesture: 0,
+            open_gesture: None,
+            saved_seq: 0,
+            replaying: false,
+        };
+        session.ask_for_hash();
+        session
+    }
+
+    /// The same, in a replay: the recording says when history is forgotten.
+    pub fn replaying(project: Project, runner: Runner) -> Self {
+        Self { replaying: true, ..Self::new(project, runner) }
+    }
+
+    /// The document.
+    pub fn document(&self) -> &Document {
+        &self.document
+    }
+
+    /// The body of the document. None when cloth cannot be put on it: `Wrap` is then refused with the reason.
+    pub fn surface(&self) -> Option<&Arc<Surface>> {
+        self.bodies.kept(&self.document.body)
+    }
+
+    /// The newest snapshot as of the last [`Session::update`].
+    pub fn snapshot(&self) -> &Arc<Snapshot> {
+        self.runner.snapshot()
+    }
+
+    /// Where the simulation runs.
+    pub fn runner(&mut self) -> &mut Runner {
+        &mut self.runner
+    }
+
+    /// A gesture of its own for what follows.
+    pub fn begin_gesture(&mut self) -> GestureId {
+        self.last_gesture += 1;
+        GestureId(self.last_gesture)
+    }
+
+    /// Carries out `command` as part of `gesture`, or says why not and changes nothing.
+    pub fn apply(&mut self, command: Command, gesture: GestureId) -> Result<(), Rejection> {
+        let plan = self.plan(&command, gesture)?;
+        if self.open_gesture.is_some_and(|open| open != gesture) {
+            self.close_gesture();
+        }
+        self.open_gesture = Some(gesture);
+        self.last_gesture = self.last_gesture.max(gesture.0);
+        self.last_seq += 1;
+        self.recorder.command(self.last_seq, gesture.0, command);
+        self.carry_out(plan, gesture);
+        Ok(())
+    }
+
+    /// The gesture is over: later commands make steps of their own, and the recording gets its hashes.
+    pub fn end_gesture(&mut self, gesture: GestureId) {
+        if self.open_gesture == Some(gesture) {
+            self.close_gesture();
+        }
+    }
+
+    /// Carries out `command` as a gesture of its own.
+    pub fn apply_alone(&mut self, command: Command) -> Result<(), Rejection> {
+        let gesture = self.begin_gesture();
+        self.apply(command, gesture)?;
+        self.end_gesture(gesture);
+        Ok(())
+    }
+
+    /// Takes in what the simulation has told since the last call. Call it once a frame.
+    pub fn update(&mut self) -> Vec<Notice> {
+        self.runner.refresh();
+        let events = self.runner.take_events();
+        events.into_iter().filter_map(|event| self.take_event(event)).collect()
+    }
+
+    /// What the next undo would take back.
+    pub fn undo_label(&self) -> Option<&str> {
+        self.history.last_done().map(|step| step.label.as_str())
+    }
+
+    /// What the next redo would do again.
+    pub fn redo_label(&self) -> Option<&str> {
+        self.history.last_undone().map(|step| step.label.as_str())
+    }
+
+    /// Labels of the steps done, oldest first.
+    pub fn step_labels(&self) -> impl Iterator<Item = &str> {
+        self.history.done().iter().map(|step| step.label.as_str())
+    }
+
+    /// What a project file would hold now.
+    pub fn project(&mut self) -> Project {
+        self.runner.refresh();
+        let snapshot = self.runner.snapshot();
+        let dressed = match &snapshot.source {
+            Some(source) if snapshot.is_dressed() => {
+                Some(Dressed { source: Arc::clone(source), cloth: Arc::clone(&snapshot.cloth) })
+            }
+            _ => None,
+        };
+        Project { document: self.document.clone(), dressed }
+    }
+
+    /// The project was saved as it is now.
+    pub fn mark_saved(&mut self) {
+        self.saved_seq = self.last_seq;
+    }
+
+    /// Whether a command was given since the project was opened or saved.
+    pub fn is_modified(&self) -> bool {
+        self.saved_seq != self.last_seq
+    }
+
+    /// The recording so far, as JSON lines.
+    pub fn recording(&mut self) -> String {
+        self.update();
+        self.recorder.text()
+    }
+
+    /// The recorder, to send lines to a file as well.
+    pub fn recorder(&mut self) -> &mut Recorder {
+        &mut self.recorder
+    }
+
+    /// The number of the last command.
+    pub fn last_seq(&self) -> u64 {
+        self.last_seq
+    }
+
+    /// Hash of the document and of how many steps can be undone and redone.
+    pub fn document_hash(&mut self) -> u64 {
+        self.hasher.hash(&self.document, self.history.done().len(), self.history.undone_count())
+    }
+
+    fn plan(&mut self, command: &Command, gesture: GestureId) -> Result<Plan, Rejection> {
+        match command {
+            Command::Undo => self.plan_undo(),
+            Command::Redo => self.plan_redo(),
+            Command::CancelGesture => self.plan_cancel_gesture(gesture),
+            Command::CancelWrap => self.plan_cancel_wrap(),
+            Command::ForgetHistory { before_seq } => Ok(Plan {
+                document: self.document.clone(),
+                history: HistoryChange::Forget { before_seq: *before_seq },
+                request: None,
+            }),
+            _ => self.plan_edit(command),
+        }
+    }
+
+    fn plan_edit(&mut self, command: &Command) -> Result<Plan, Rejection> {
+        let edit = edit::edit(&self.document, command)?;
+        let request = match edit.cloth {
+            ClothChange::None => None,
+            ClothChange::Wrap => Some(self.wrap_request()?),
+            ClothChange::Clear => Some(RequestKind::Clear),
+            ClothChange::SetRelax(relax) => Some(RequestKind::SetRelax(relax)),
+            ClothChange::SetRelaxing(on) => Some(RequestKind::SetRelaxing(on)),
+        };
+        if edit.document.body != self.document.body {
+            self.bodies.surface(&edit.document.body)?;
+        }
+        let kind = edit.kind();
+        let history = if edit.is_step() {
+            HistoryChange::Push { label: edit.label, kind }
+        } else {
+            HistoryChange::None
+        };
+        Ok(Plan { document: edit.document, history, request })
+    }
+
+    fn wrap_request(&mut self) -> Result<RequestKind, Rejection> {
+        let body = self.bodies.surface(&self.document.body)?;
+        let source = GarmentSource {
+            pattern: Arc::clone(&self.document.pattern),
+            marks: Arc::clone(&self.document.marks),
+            edge_length: self.document.settings.edge_length,
+            relax: self.document.settings.relax,
+        };
+        Ok(RequestKind::Wrap { source: Arc::new(source), body })
+    }
+
+    fn plan_undo(&self) -> Result<Plan, Rejection> {
+        let step = self.history.last_done().ok_or_else(|| Rejection::new("there is nothing to undo"))?;
+        Ok(Plan::back_to(step, HistoryChange::Undo))
+    }
+
+    fn plan_redo(&self) -> Result<Plan, Rejection> {
+        let step = self.history.last_undone().ok_or_else(|| Rejection::new("there is nothing to redo"))?;
+        Ok(Plan::back_to(step, HistoryChange::Redo))
+    }
+
+    fn plan_cancel_gesture(&self, gesture: GestureId) -> Result<Plan, Rejection> {
+        match self.history.last_done() {
+            Some(step) if self.history.is_open(gesture.0) => Ok(Plan::back_to(step, HistoryChange::DropOpen)),
+            _ => Err(Rejection::new("this gesture has changed nothing")),
+        }
+    }
+
+    /// The newest wrap goes, leaving no step when nothing was done since.
+    fn plan_cancel_wrap(&self) -> Result<Plan, Rejection> {
+        let newest = self.history.done().iter().rev().find(|step| step.kind != StepKind::Edit);
+        let Some(step) = newest.filter(|step| step.kind == StepKind::Wrap) else {
+            return Err(Rejection::new("there is no wrap to cancel"));
+        };
+        let is_last = self.history.last_done().is_some_and(|last| last.restore == step.restore);
+        let history = if is_last {
+            HistoryChange::DropLast
+        } else {
+            HistoryChange::Push { label: "cancel wrap".to_owned(), kind: StepKind::Cloth }
+        };
+        let mut plan = Plan::back_to(step, history);
+        if !is_last {
+            plan.document = self.document.clone();
+        }
+        Ok(plan)
+    }
+
+    fn carry_out(&mut self, plan: Plan, gesture: GestureId) {
+        let seq = self.last_seq;
+        let before = std::mem::replace(&mut self.document, plan.document);
+        let keeps = match plan.history {
+            HistoryChange::Push { .. } => self.history.needs_checkpoint(gesture.0),
+            HistoryChange::Undo | HistoryChange::Redo => true,
+            _ => false,
+        };
+        match plan.history {
+            HistoryChange::None => {}
+            HistoryChange::Push { label, kind } => {
+                let restore = plan.request.as_ref().map(|_| seq);
+                self.history.push(gesture.0, Step { label, kind, document: before, restore });
+            }
+            HistoryChange::Undo => self.history.undo(before, seq),
+            HistoryChange::Redo => self.history.redo(before, seq),
+            HistoryChange::DropOpen => self.history.drop_open(gesture.0),
+            HistoryChange::DropLast => self.history.drop_last(),
+            HistoryChange::Forget { before_seq } => self.history.forget(before_seq),
+        }
+        if let Some(kind) = plan.request {
+            self.runner.send(Request { seq, checkpoint: keeps, kind });
+        }
+    }
+
+    fn close_gesture(&mut self) {
+        self.open_gesture = None;
+        self.history.close();
+        self.ask_for_hash();
+    }
+
+    fn ask_for_hash(&mut self) {
+        let hash = self.document_hash();
+        self.recorder.expect_hash(self.last_seq, hash);
+        self.runner.send(Request { seq: self.last_seq, checkpoint: false, kind: RequestKind::Hash });
+    }
+
+    fn take_event(&mut self, event: Event) -> Option<Notice> {
+        self.recorder.event(&event);
+        match event {
+            Event::Applied { .. } | Event::Hash { asked: Some(_), .. } => None,
+            Event::Hash { tick, .. } => Some(Notice::AtRest { tick }),
+            Event::Failed { tick, words, .. } => Some(Notice::Failed { tick, words }),
+            Event::Forgotten { before_seq } => {
+                if !self.replaying {
+                    self.forget_history(before_seq);
+                }
+                Some(Notice::HistoryShortened)
+            }
+        }
+    }
+
+    /// As a command, so that a replay forgets at the same place. A drag under way goes on.
+    fn forget_history(&mut self, before_seq: u64) {
+        let command = Command::ForgetHistory { before_seq };
+        let forgotten = match self.open_gesture {
+            Some(gesture) => self.apply(command, gesture),
+            None => self.apply_alone(command),
+        };
+        debug_assert!(forgotten.is_ok(), "forgetting is never refused");
+    }
+}
+
+impl Plan {
+    fn back_to(step: &Step, history: HistoryChange) -> Self {
+        let request = step.restore.map(|before_seq| RequestKind::Restore { before_seq });
+        Self { document: step.document.clone(), history, request }
+    }
+}

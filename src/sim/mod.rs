@@ -1,0 +1,16 @@
+//! Owner of the moving state: runs the stages, takes requests between ticks, keeps checkpoints, publishes snapshots.
+
+mod checkpoints;
+pub mod hash;
+pub mod protocol;
+pub mod runner;
+pub mod simulation;
+pub mod stats;
+pub mod thread;
+mod world;
+
+pub use protocol::{Event, GarmentSource, Request, RequestKind, Snapshot};
+pub use runner::Runner;
+pub use simulation::Simulation;
+pub use stats::Stats;
+pub use thread::SimThread;

@@ -1,0 +1,112 @@
+//! What goes into the simulation and what comes out.
+
+use std::sync::Arc;
+
+use glam::Vec3;
+
+use crate::body::Surface;
+use crate::cloth::{ClothState, Garment};
+use crate::pattern::{Pattern, Problem};
+use crate::relax::RelaxSettings;
+use crate::sim::stats::Stats;
+use crate::wrap::{Marks, Phase};
+
+/// What a garment is built from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GarmentSource {
+    /// The flat pieces and their seams.
+    pub pattern: Arc<Pattern>,
+    /// Where they go.
+    pub marks: Arc<Marks>,
+    /// Target edge length of the triangles, metres.
+    pub edge_length: f64,
+    /// How the cloth relaxes.
+    pub relax: RelaxSettings,
+}
+
+/// Something asked of the simulation. Taken up between two ticks, in order of `seq`.
+#[derive(Clone, Debug)]
+pub struct Request {
+    /// Strictly ascending. What `Restore` and `Applied` name.
+    pub seq: u64,
+    /// Keep the state before this request, so that `Restore { before_seq: seq }` can return to it.
+    pub checkpoint: bool,
+    /// What is asked.
+    pub kind: RequestKind,
+}
+
+/// What can be asked of the simulation.
+#[derive(Clone, Debug)]
+pub enum RequestKind {
+    /// Build the garment and grow it round the body from its marks, then relax it until it is at rest.
+    Wrap { source: Arc<GarmentSource>, body: Arc<Surface> },
+    /// Take over cloth that was dressed before (from a project file). It is at rest until something changes.
+    Adopt { source: Arc<GarmentSource>, body: Arc<Surface>, cloth: Arc<ClothState> },
+    /// Relax differently from now on.
+    SetRelax(RelaxSettings),
+    /// Pause (false) or go on (true).
+    SetRelaxing(bool),
+    /// Take the cloth off.
+    Clear,
+    /// Return, bit for bit, to the state before the request numbered `before_seq`.
+    Restore { before_seq: u64 },
+    /// Report the state hash. Changes nothing.
+    Hash,
+}
+
+/// The state after a tick or a request, for reading. The newest replaces the ones not yet looked at.
+#[derive(Clone, Debug)]
+pub struct Snapshot {
+    /// Ticks executed so far. Sleep does not count.
+    pub tick: u64,
+    /// The last request that took effect; 0: none.
+    pub seq: u64,
+    /// The garment on the body, if any.
+    pub garment: Option<Arc<Garment>>,
+    /// What it was built from.
+    pub source: Option<Arc<GarmentSource>>,
+    /// The body it was put on.
+    pub body: Option<Arc<Surface>>,
+    /// Positions and which vertices are mapped. Empty without a garment.
+    pub cloth: Arc<ClothState>,
+    /// Area-weighted unit normal per vertex over triangles that are wholly mapped; zero elsewhere.
+    pub normals: Vec<Vec3>,
+    /// How far the dressing has come. None without a garment.
+    pub phase: Option<Phase>,
+    /// 0..=1 over growing and settling.
+    pub progress: f64,
+    /// False while paused.
+    pub relaxing: bool,
+    /// Whether the next tick would do something.
+    pub working: bool,
+    /// Counts of work.
+    pub stats: Stats,
+    /// What building and wrapping found wrong.
+    pub problems: Arc<Vec<Problem>>,
+}
+
+impl Snapshot {
+    /// Whether there is cloth on the body, however little of it.
+    pub fn is_dressed(&self) -> bool {
+        self.cloth.mapped.iter().any(|&m| m)
+    }
+
+    /// Positions for drawing, metres.
+    pub fn positions_f32(&self) -> Vec<Vec3> {
+        self.cloth.positions.iter().map(|p| p.as_vec3()).collect()
+    }
+}
+
+/// What the simulation tells besides snapshots. None is ever dropped.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Event {
+    /// Request `seq` took effect before tick number `tick + 1`.
+    Applied { seq: u64, tick: u64 },
+    /// The state hash after request `seq`, when asked for (by the request with that number) and whenever the cloth comes
+    /// to rest.
+    Hash { tick: u64, seq: u64, cloth: u64, asked: Option<u64> },
+    /// A step or a request failed (not a number, or a panic); the last checkpoint is back and relaxing paused.
+    Failed { tick: u64, seq: u64, words: String },
+    /// To save memory, states before requests numbered below `before_seq` are gone.
+    Forgotten { before_seq: u64 },
+}

@@ -1,0 +1,213 @@
+//! The owner of the moving state. Requests between ticks; a tick does one bounded piece of work; asleep when at rest.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
+
+use crate::sim::checkpoints::{Checkpoints, DEFAULT_CAPACITY};
+use crate::sim::protocol::{Event, Request, RequestKind, Snapshot};
+use crate::sim::stats::Stats;
+use crate::sim::world::World;
+use crate::wrap::Phase;
+
+/// Runs the stages. Same requests in the same ticks give the same bits, on any thread.
+#[derive(Debug)]
+pub struct Simulation {
+    world: World,
+    checkpoints: Checkpoints,
+    tick: u64,
+    seq: u64,
+    stats: Stats,
+    events: Vec<Event>,
+}
+
+impl Default for Simulation {
+    fn default() -> Self {
+        Self::with_memory(DEFAULT_CAPACITY)
+    }
+}
+
+impl Simulation {
+    /// Nothing on the body; about `capacity` bytes for checkpoints.
+    pub fn with_memory(capacity: usize) -> Self {
+        Self {
+            world: World::default(),
+            checkpoints: Checkpoints::new(capacity),
+            tick: 0,
+            seq: 0,
+            stats: Stats::default(),
+            events: Vec::new(),
+        }
+    }
+
+    /// Carries out `request`. Building a garment happens here. What cannot be done is told by [`Event::Failed`].
+    pub fn apply(&mut self, request: Request) {
+        if matches!(request.kind, RequestKind::Hash) {
+            self.report_hash(Some(request.seq));
+            return;
+        }
+        let before = self.world.clone();
+        if request.checkpoint {
+            self.keep(request.seq);
+        }
+        self.seq = request.seq;
+        self.events.push(Event::Applied { seq: request.seq, tick: self.tick });
+        let done = catch_unwind(AssertUnwindSafe(|| self.carry_out(request.kind)));
+        let problem = match done {
+            Ok(Ok(())) => self.world.not_finite().map(not_a_number),
+            Ok(Err(words)) => Some(words),
+            Err(panic) => Some(panic_words(&*panic)),
+        };
+        if let Some(words) = problem {
+            self.world = before;
+            self.fail(words);
+        }
+    }
+
+    /// One tick of work. True when there is more to do; at rest nothing happens and no tick is counted.
+    pub fn tick(&mut self) -> bool {
+        if self.is_at_rest() {
+            return false;
+        }
+        self.tick += 1;
+        self.count_tick();
+        let problem = match catch_unwind(AssertUnwindSafe(|| self.world.step())) {
+            Ok(()) => self.world.not_finite().map(not_a_number),
+            Err(panic) => Some(panic_words(&*panic)),
+        };
+        if let Some(words) = problem {
+            self.world = self.checkpoints.newest().cloned().unwrap_or_default();
+            self.fail(words);
+        }
+        if self.is_at_rest() {
+            self.report_hash(None);
+        }
+        !self.is_at_rest()
+    }
+
+    /// Whether a tick would change nothing.
+    pub fn is_at_rest(&self) -> bool {
+        self.world.is_at_rest()
+    }
+
+    /// Ticks executed so far.
+    pub fn ticks(&self) -> u64 {
+        self.tick
+    }
+
+    /// The last request that took effect; 0: none.
+    pub fn seq(&self) -> u64 {
+        self.seq
+    }
+
+    /// How far the dressing has come; None without a garment.
+    pub fn phase(&self) -> Option<Phase> {
+        self.world.phase()
+    }
+
+    /// 0..=1 over growing and settling.
+    pub fn progress(&self) -> f64 {
+        self.world.progress()
+    }
+
+    /// Hash of what moves.
+    pub fn hash(&self) -> u64 {
+        self.world.hash()
+    }
+
+    /// The state, for reading.
+    pub fn snapshot(&self) -> Snapshot {
+        let world = &self.world;
+        Snapshot {
+            tick: self.tick,
+            seq: self.seq,
+            garment: world.garment.clone(),
+            source: world.source.clone(),
+            body: world.body.clone(),
+            cloth: Arc::clone(&world.cloth),
+            normals: world.normals(),
+            phase: world.phase(),
+            progress: world.progress(),
+            relaxing: world.relaxing,
+            working: !world.is_at_rest(),
+            stats: Stats { work: world.work(), ..self.stats },
+            problems: Arc::clone(&world.problems),
+        }
+    }
+
+    /// What happened since the last call, in order.
+    pub fn take_events(&mut self) -> Vec<Event> {
+        std::mem::take(&mut self.events)
+    }
+
+    fn carry_out(&mut self, kind: RequestKind) -> Result<(), String> {
+        match kind {
+            RequestKind::Wrap { source, body } => self.set_world(World::wrapped(source, body)),
+            RequestKind::Adopt { source, body, cloth } => {
+                self.set_world(World::adopted(source, body, cloth)?);
+            }
+            RequestKind::SetRelax(relax) => self.world.set_relax(relax),
+            RequestKind::SetRelaxing(on) => self.world.relaxing = on,
+            RequestKind::Clear => self.world = World::default(),
+            RequestKind::Restore { before_seq } => self.restore(before_seq)?,
+            RequestKind::Hash => {}
+        }
+        Ok(())
+    }
+
+    fn set_world(&mut self, world: World) {
+        self.stats.wraps += u64::from(world.dressing.is_some());
+        self.stats.triangles_built += world.garment.as_ref().map_or(0, |g| g.triangles.len() as u64);
+        self.world = world;
+    }
+
+    fn restore(&mut self, before_seq: u64) -> Result<(), String> {
+        let world = self.checkpoints.before(before_seq).ok_or("the cloth of that time is no longer kept")?;
+        self.world = world.clone();
+        self.stats.restores += 1;
+        Ok(())
+    }
+
+    fn keep(&mut self, seq: u64) {
+        self.stats.checkpoints += 1;
+        if let Some(before_seq) = self.checkpoints.store(seq, self.world.clone()) {
+            self.events.push(Event::Forgotten { before_seq });
+        }
+    }
+
+    fn count_tick(&mut self) {
+        self.stats.ticks += 1;
+        match self.world.phase() {
+            Some(Phase::Growing) => self.stats.growing_ticks += 1,
+            _ => self.stats.settling_ticks += 1,
+        }
+        self.stats.vertices_moved += self.world.cloth.mapped.iter().filter(|&&m| m).count() as u64;
+    }
+
+    fn fail(&mut self, words: String) {
+        self.world.relaxing = false;
+        self.stats.failures += 1;
+        self.events.push(Event::Failed { tick: self.tick, seq: self.seq, words });
+    }
+
+    fn report_hash(&mut self, asked: Option<u64>) {
+        let (tick, seq, cloth) = (self.tick, self.seq, self.world.hash());
+        self.events.push(Event::Hash { tick, seq, cloth, asked });
+    }
+}
+
+fn not_a_number(vertex: usize) -> String {
+    format!("vertex {vertex} of the cloth is no longer a finite point")
+}
+
+fn panic_words(panic: &(dyn std::any::Any + Send)) -> String {
+    let words = panic
+        .downcast_ref::<String>()
+        .map(String::as_str)
+        .or_else(|| panic.downcast_ref::<&str>().copied())
+        .unwrap_or("no words");
+    format!("a step of the simulation failed: {words}")
+}
+
+#[cfg(test)]
+#[path = "simulation_tests.rs"]
+mod tests;

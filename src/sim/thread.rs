@@ -1,0 +1,157 @@
+//! The simulation on its own thread, at a fixed rate, never tied to frames.
+//!
+//! Requests come by an inbox that is emptied between ticks; snapshots leave by a mailbox that keeps only the newest. With
+//! nothing to do the thread sleeps on the inbox. The clock decides only *when* a tick runs, never what it computes.
+
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, TryRecvError, channel};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
+
+use crate::sim::protocol::{Event, Request, Snapshot};
+use crate::sim::simulation::Simulation;
+
+/// Ticks a second unless told otherwise.
+pub const DEFAULT_RATE_HZ: f64 = 60.0;
+
+/// Called on the simulation's thread whenever there is something new to look at.
+pub type OnNews = Box<dyn Fn() + Send>;
+
+/// Handle to a simulation running on its own thread. Dropping it ends the thread.
+#[derive(Debug)]
+pub struct SimThread {
+    inbox: Option<Sender<Request>>,
+    mailbox: Arc<Mutex<Option<Arc<Snapshot>>>>,
+    events: Receiver<Event>,
+    thread: Option<JoinHandle<()>>,
+}
+
+impl SimThread {
+    /// Starts `simulation` at `rate_hz` ticks a second (more than 0). The error is the system's, for want of a thread.
+    pub fn start(simulation: Simulation, rate_hz: f64, on_news: OnNews) -> std::io::Result<Self> {
+        let (inbox, requests) = channel();
+        let (event_sender, events) = channel();
+        let mailbox = Arc::new(Mutex::new(None));
+        let worker = Worker {
+            simulation,
+            requests,
+            events: event_sender,
+            mailbox: Arc::clone(&mailbox),
+            on_news,
+            period: Duration::from_secs_f64(1.0 / rate_hz.clamp(0.001, 1e6)),
+        };
+        let thread = std::thread::Builder::new().name("simulation".to_owned()).spawn(|| worker.run())?;
+        Ok(Self { inbox: Some(inbox), mailbox, events, thread: Some(thread) })
+    }
+
+    /// Hands `request` over. It takes effect between two ticks.
+    pub fn send(&self, request: Request) {
+        if let Some(inbox) = &self.inbox {
+            // The thread lives as long as this handle.
+            inbox.send(request).ok();
+        }
+    }
+
+    /// The newest snapshot, if there is one that was not taken yet.
+    pub fn take_snapshot(&self) -> Option<Arc<Snapshot>> {
+        self.mailbox.lock().unwrap_or_else(PoisonError::into_inner).take()
+    }
+
+    /// What happened since the last call, in order.
+    pub fn take_events(&self) -> Vec<Event> {
+        self.events.try_iter().collect()
+    }
+}
+
+impl Drop for SimThread {
+    fn drop(&mut self) {
+        self.inbox = None;
+        if let Some(thread) = self.thread.take() {
+            thread.join().ok();
+        }
+    }
+}
+
+struct Worker {
+    simulation: Simulation,
+    requests: Receiver<Request>,
+    events: Sender<Event>,
+    mailbox: Arc<Mutex<Option<Arc<Snapshot>>>>,
+    on_news: OnNews,
+    period: Duration,
+}
+
+impl Worker {
+    /// Ends when the handle is dropped.
+    fn run(mut self) {
+        while self.sleep_until_work() && self.tick_until_rest() {}
+    }
+
+    /// Waits for a request without a time limit while there is nothing to do. False: the handle is gone.
+    fn sleep_until_work(&mut self) -> bool {
+        while self.simulation.is_at_rest() {
+            match self.requests.recv() {
+                Ok(request) => self.apply(request),
+                Err(_) => return false,
+            }
+        }
+        true
+    }
+
+    /// Ticks at the fixed rate; late ticks are not made up for. False: the handle is gone.
+    fn tick_until_rest(&mut self) -> bool {
+        let mut due = Instant::now();
+        while !self.simulation.is_at_rest() {
+            if !self.empty_inbox() {
+                return false;
+            }
+            self.simulation.tick();
+            self.publish();
+            due = (due + self.period).max(Instant::now());
+            if !self.wait_until(due) {
+                return false;
+            }
+        }
+        true
+    }
+
+    fn empty_inbox(&mut self) -> bool {
+        loop {
+            match self.requests.try_recv() {
+                Ok(request) => self.apply(request),
+                Err(TryRecvError::Empty) => return true,
+                Err(TryRecvError::Disconnected) => return false,
+            }
+        }
+    }
+
+    /// Requests that come meanwhile take effect at once.
+    fn wait_until(&mut self, due: Instant) -> bool {
+        loop {
+            let left = due.saturating_duration_since(Instant::now());
+            if left.is_zero() {
+                return true;
+            }
+            match self.requests.recv_timeout(left) {
+                Ok(request) => self.apply(request),
+                Err(RecvTimeoutError::Timeout) => return true,
+                Err(RecvTimeoutError::Disconnected) => return false,
+            }
+        }
+    }
+
+    fn apply(&mut self, request: Request) {
+        self.simulation.apply(request);
+        self.publish();
+    }
+
+    fn publish(&mut self) {
+        for event in self.simulation.take_events() {
+            // No reader: the handle is being dropped.
+            self.events.send(event).ok();
+        }
+        let snapshot = Arc::new(self.simulation.snapshot());
+        *self.mailbox.lock().unwrap_or_else(PoisonError::into_inner) = Some(snapshot);
+        (self.on_news)();
+    }
+}

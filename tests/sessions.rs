@@ -1,0 +1,13 @@
+//! Commands, undo, recordings and project files, through the library's front door.
+
+#[path = "sessions/commands.rs"]
+mod commands;
+mod common;
+#[path = "sessions/project_files.rs"]
+mod project_files;
+#[path = "sessions/recordings.rs"]
+mod recordings;
+#[path = "sessions/threads.rs"]
+mod threads;
+#[path = "sessions/undo.rs"]
+mod undo;

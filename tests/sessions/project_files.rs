@@ -1,0 +1,97 @@
+//! Project files come back as they were, and bad ones are refused in words.
+
+use std::path::Path;
+
+use proptest::prelude::*;
+use toile::session::project_file::{ProjectFileError, from_bytes, open, save, to_bytes};
+use toile::session::{BodyChoice, Command, Project};
+
+use crate::common::{project, run, session};
+
+fn dressed() -> Project {
+    let mut s = session();
+    s.apply_alone(Command::Wrap).expect("wrapped");
+    run(&mut s, 20);
+    s.project()
+}
+
+fn plain() -> Project {
+    let mut project = project();
+    project.document.body = BodyChoice::default();
+    project
+}
+
+fn refused(bytes: &[u8], word: &str) {
+    let why = from_bytes(bytes).expect_err("refused").to_string();
+    assert!(why.contains(word), "{why:?} should speak of {word:?}");
+}
+
+#[test]
+fn plain_and_dressed_projects_come_back_as_they_were() {
+    let dressed = dressed();
+    assert!(dressed.dressed.is_some());
+    for project in [plain(), project(), dressed] {
+        let bytes = to_bytes(&project).expect("bytes");
+        assert_eq!(from_bytes(&bytes).expect("a project"), project);
+        assert_eq!(to_bytes(&project).expect("bytes"), bytes, "the same project gives the same bytes");
+    }
+    assert!(to_bytes(&plain()).expect("bytes").starts_with(b"{"));
+}
+
+#[test]
+fn saving_keeps_the_version_before() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("a name with ü.toile");
+    save(&path, &plain()).expect("saved");
+    save(&path, &project()).expect("saved");
+    assert_eq!(open(&path).expect("opened"), project());
+    assert_eq!(open(&path.with_extension("toile.bak")).expect("opened"), plain());
+    let files = std::fs::read_dir(folder.path()).expect("listed").count();
+    assert_eq!(files, 2, "no temporary file stays");
+}
+
+#[test]
+fn a_project_that_could_not_be_read_back_is_not_written() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("p.toile");
+    save(&path, &plain()).expect("saved");
+    let mut bad = plain();
+    bad.document.settings.edge_length = f64::NAN;
+    save(&path, &bad).expect_err("refused");
+    assert_eq!(open(&path).expect("still there"), plain());
+}
+
+#[test]
+fn bad_files_are_refused_in_words() {
+    let text = String::from_utf8(to_bytes(&plain()).expect("bytes")).expect("json");
+    refused(b"", "empty");
+    refused(b"\xef\xbb\xbf  ", "empty");
+    refused(b"o octopus\nv 1 2 3\n", "not a project");
+    refused(text[..text.len() / 2].as_bytes(), "not a project");
+    refused(text.replace("\"version\": 1", "\"version\": 2").as_bytes(), "newer program");
+    refused(text.replace("toile-project", "toile-recording").as_bytes(), "toile-recording");
+    refused(text.replace("0.06", "6.0").as_bytes(), "mesh size");
+    refused(text.replace("\"last_mark\": 2", "\"last_mark\": 1").as_bytes(), "behind");
+    let no_file = open(Path::new("/nowhere/at all.toile")).expect_err("no such file");
+    assert!(matches!(no_file, ProjectFileError::File { .. }) && no_file.to_string().contains("nowhere"));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 64, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn damaged_zips_never_panic(at in 0.0..1.0f64, bit in 0..8u8, cut in any::<bool>()) {
+        let mut bytes = to_bytes(&project()).expect("bytes");
+        let i = ((bytes.len() - 1) as f64 * at) as usize;
+        if cut {
+            bytes.truncate(i);
+            prop_assert!(from_bytes(&bytes).is_err());
+        } else {
+            bytes[i] ^= 1 << bit;
+            // A flipped bit in a name or a time may go unseen; contents are checked by their sums.
+            if let Ok(read) = from_bytes(&bytes) {
+                prop_assert_eq!(read, project());
+            }
+        }
+    }
+}

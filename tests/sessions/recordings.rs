@@ -1,0 +1,120 @@
+//! Recordings replay to the same bits; one number changed is found; damaged ones are refused with the line.
+
+use glam::DVec2;
+use toile::geometry::ids::PieceId;
+use toile::relax::RelaxSettings;
+use toile::session::recording::Recording;
+use toile::session::replay::{Divergence, Replay};
+use toile::session::{Command, Session, Settings};
+use toile::wrap::ClothSide;
+
+use crate::common::{line_on_ball, run, session};
+
+/// A little of everything, with ticks between.
+pub fn play(s: &mut Session) {
+    let points = vec![DVec2::new(0.05, 0.05), DVec2::new(0.2, 0.05)];
+    s.apply_alone(Command::AddClothMark { piece: PieceId(1), side: ClothSide::Front, points })
+        .expect("painted");
+    s.apply_alone(Command::AddBodyMark { points: line_on_ball(0.75, 0.05, 0.075) }).expect("painted");
+    s.apply_alone(Command::Wrap).expect("wrapped");
+    run(s, 4);
+    s.apply_alone(Command::RenamePiece { piece: PieceId(1), name: "front".to_owned() }).expect("renamed");
+    run(s, 2000);
+    let relax = RelaxSettings { gravity: 0.001, ..RelaxSettings::default() };
+    s.apply_alone(Command::SetSettings { settings: Settings { relax, ..s.document().settings } })
+        .expect("set");
+    run(s, 7);
+    s.apply_alone(Command::Undo).expect("undone");
+    s.apply_alone(Command::Redo).expect("redone");
+    run(s, 2000);
+}
+
+fn replayed(text: &str) -> Result<u64, Divergence> {
+    let mut replay = Replay::new(Recording::parse(text).expect("a recording"));
+    replay.run()?;
+    Ok(replay.hashes_compared())
+}
+
+fn recorded() -> String {
+    let mut s = session();
+    play(&mut s);
+    s.recording()
+}
+
+#[test]
+fn a_replay_meets_every_hash() {
+    let text = recorded();
+    let hashes = text.lines().filter(|l| l.starts_with("{\"hash\"")).count() as u64;
+    assert!(hashes >= 9, "{hashes}");
+    assert_eq!(replayed(&text), Ok(hashes));
+}
+
+#[test]
+fn a_replay_of_a_dressed_start_meets_every_hash() {
+    let mut s = session();
+    play(&mut s);
+    let runner = toile::sim::Runner::inline(toile::sim::Simulation::default());
+    let mut s = Session::new(s.project(), runner);
+    assert!(
+        s.snapshot().seq == 0 && {
+            s.update();
+            s.snapshot().is_dressed()
+        }
+    );
+    let relax = RelaxSettings { offset: 0.01, ..RelaxSettings::default() };
+    s.apply_alone(Command::SetSettings { settings: Settings { relax, ..s.document().settings } })
+        .expect("set");
+    assert!(run(&mut s, 2000) > 5, "adopted cloth wakes");
+    assert!(replayed(&s.recording()).is_ok_and(|hashes| hashes >= 3));
+}
+
+/// Every whole run of digits outside the header, one at a time, has its last digit changed.
+#[test]
+fn any_one_number_changed_is_found() {
+    let text = recorded();
+    let header = text.find('\n').expect("lines");
+    let starts: Vec<usize> = (header..text.len())
+        .filter(|&i| text.as_bytes()[i].is_ascii_digit() && !text.as_bytes()[i + 1].is_ascii_digit())
+        .collect();
+    assert!(starts.len() > 100, "{}", starts.len());
+    for i in starts.into_iter().step_by(3) {
+        let mut changed = text.clone().into_bytes();
+        changed[i] = b'0' + (changed[i] - b'0' + 1) % 10;
+        let changed = String::from_utf8(changed).expect("digits");
+        let Ok(recording) = Recording::parse(&changed) else { continue };
+        let line = text[..i].lines().count();
+        let divergence =
+            Replay::new(recording).run().expect_err(&format!("line {line} byte {i} was changed"));
+        assert!(divergence.to_string().starts_with("diverged at tick "), "{divergence}");
+    }
+}
+
+#[test]
+fn a_number_changed_in_the_header_is_found() {
+    let text = recorded().replacen("0.06", "0.05", 1);
+    let divergence = replayed(&text).expect_err("another mesh size");
+    assert!(divergence.seq == 0 && divergence.to_string().contains("document"), "{divergence}");
+}
+
+#[test]
+fn damaged_recordings_name_the_line() {
+    let refused = |text: &str, line: usize, word: &str| {
+        let why = Recording::parse(text).expect_err("refused");
+        assert!(why.line == line && why.words.contains(word), "{why}");
+    };
+    let text = recorded();
+    let lines: Vec<&str> = text.lines().collect();
+    refused("", 1, "empty");
+    refused("hello", 1, "header");
+    refused(lines[1], 1, "header");
+    refused(&lines[0].replace("toile-recording", "toile-project"), 1, "not a recording");
+    refused(&lines[0].replace("\"version\":1", "\"version\":99"), 1, "version 99");
+    refused(&format!("{}\n{}", lines[0], &lines[2][..30]), 2, "EOF");
+    refused(&format!("{}\n{{\"command\":{{}}}}", lines[0]), 2, "seq");
+    refused(&format!("{}\n\n{}", lines[0], lines[0]), 3, "second header");
+    refused(
+        &text.replace("\"undo\"", "\"dance\""),
+        text[..text.find("\"undo\"").expect("undo")].lines().count(),
+        "dance",
+    );
+}
