@@ -39,4 +39,5 @@ pub mod contact;
 pub mod geometry;
 pub mod pattern;
 pub mod relax;
+pub mod render;
 pub mod wrap;
