@@ -41,4 +41,5 @@ pub mod pattern;
 pub mod relax;
 pub mod session;
 pub mod sim;
+pub mod render;
 pub mod wrap;

@@ -1,0 +1,38 @@
+// What every pass of one picture knows. Prepended to each of the other files; Frame in src/render/frame.rs matches it.
+struct Frame {
+    view: mat4x4f,
+    projection: mat4x4f,      // depth reversed: 1 near, 0 far
+    clip_from_world: mat4x4f,
+    lamp_from_world: mat4x4f, // depth 0 near, 1 far
+    eye: vec4f,               // xyz where it is; w 1 perspective, 0 parallel
+    towards_eye: vec4f,       // xyz unit, from the pivot
+    viewport: vec4f,          // width, height, and one over each, pixels
+    lamp: vec4f,              // xyz unit, towards it; w its strength
+    sky: vec4f,               // gamma-encoded; w strength of the light from everywhere
+    horizon: vec4f,           // gamma-encoded; w strength of shadows
+    ground: vec4f,            // linear; w strength of the grid
+    floor: vec4f,             // centre x, centre z, height, radius, metres
+    hollows: vec4f,           // radius in metres, strength, 1 when they were drawn, shadow normal offset in metres
+}
+
+@group(0) @binding(0) var<uniform> frame: Frame;
+
+fn encoded(linear: vec3f) -> vec3f {
+    let c = clamp(linear, vec3f(0.0), vec3f(1.0));
+    return select(1.055 * pow(c, vec3f(1.0 / 2.4)) - 0.055, c * 12.92, c <= vec3f(0.0031308));
+}
+
+// Half a step of noise, so that eight bits show no bands.
+fn dither(pixel: vec2f) -> f32 {
+    let n = fract(52.9829189 * fract(dot(pixel, vec2f(0.06711056, 0.00583715))));
+    return (n - 0.5) / 255.0;
+}
+
+// View-space position of a depth value at a place in the picture (0..1, y down).
+fn view_position(place: vec2f, depth: f32) -> vec3f {
+    let p = frame.projection;
+    let z = (p[3][2] - depth * p[3][3]) / (depth * p[2][3] - p[2][2]);
+    let w = p[2][3] * z + p[3][3];
+    let ndc = vec2f(2.0 * place.x - 1.0, 1.0 - 2.0 * place.y);
+    return vec3f(ndc * w / vec2f(p[0][0], p[1][1]), z);
+}

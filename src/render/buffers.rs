@@ -1,0 +1,131 @@
+//! Meshes and strokes on the device. A mesh stays there as long as it is drawn in every picture.
+
+use std::sync::Arc;
+
+use bytemuck::{Pod, Zeroable};
+use glam::{Vec3, Vec4};
+use wgpu::util::DeviceExt;
+
+use super::frame::linear;
+use super::pipelines::{MESH_STRIDE, Pipelines};
+use super::scene::Mesh;
+use super::{Gpu, RenderError};
+
+/// A mesh on the device.
+#[derive(Debug)]
+pub(super) struct DeviceMesh {
+    mesh: Arc<Mesh>,
+    pub(super) vertices: wgpu::Buffer,
+    pub(super) indices: wgpu::Buffer,
+    pub(super) index_count: u32,
+    pub(super) material: wgpu::BindGroup,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+struct Vertex {
+    position: Vec3,
+    normal: Vec3,
+    colour: [u8; 4],
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+struct Material {
+    front: Vec4,
+    back: Vec4,
+}
+
+/// The meshes of one picture, those of the last one reused.
+pub(super) fn upload(
+    gpu: &Gpu,
+    pipelines: &Pipelines,
+    mut last: Vec<DeviceMesh>,
+    meshes: &[Arc<Mesh>],
+) -> Result<Vec<DeviceMesh>, RenderError> {
+    meshes
+        .iter()
+        .filter(|m| !m.triangles.is_empty())
+        .map(|mesh| match last.iter().position(|d| Arc::ptr_eq(&d.mesh, mesh)) {
+            Some(i) => Ok(last.swap_remove(i)),
+            None => DeviceMesh::new(gpu, pipelines, mesh),
+        })
+        .collect()
+}
+
+impl DeviceMesh {
+    fn new(gpu: &Gpu, pipelines: &Pipelines, mesh: &Arc<Mesh>) -> Result<Self, RenderError> {
+        let limit = gpu.device.limits().max_buffer_size;
+        if mesh.positions.len() as u64 * MESH_STRIDE > limit || mesh.triangles.len() as u64 * 12 > limit {
+            return Err(RenderError::TooLarge {
+                what: format!("a mesh of {} triangles", mesh.triangles.len()),
+                limit: format!("{} MiB a buffer", limit >> 20),
+            });
+        }
+        let count = mesh.positions.len() as u32;
+        let indices: Vec<[u32; 3]> =
+            mesh.triangles.iter().copied().filter(|t| t.iter().all(|&v| v < count)).collect();
+        let buffer = |label, contents: &[u8], usage| {
+            gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+                label: Some(label),
+                contents,
+                usage,
+            })
+        };
+        let material =
+            Material { front: linear(mesh.front).extend(mesh.cloth), back: linear(mesh.back).extend(0.0) };
+        let material = buffer("material", bytemuck::bytes_of(&material), wgpu::BufferUsages::UNIFORM);
+        Ok(Self {
+            mesh: Arc::clone(mesh),
+            vertices: buffer("vertices", bytemuck::cast_slice(&vertices(mesh)), wgpu::BufferUsages::VERTEX),
+            indices: buffer("indices", bytemuck::cast_slice(&indices), wgpu::BufferUsages::INDEX),
+            index_count: indices.len() as u32 * 3,
+            material: bind(gpu, &pipelines.material_layout, &[material.as_entire_binding()]),
+        })
+    }
+}
+
+fn vertices(mesh: &Mesh) -> Vec<Vertex> {
+    let computed;
+    let normals = if mesh.normals.len() == mesh.positions.len() {
+        &mesh.normals
+    } else {
+        computed = area_weighted_normals(mesh);
+        &computed
+    };
+    let coloured = mesh.colours.len() == mesh.positions.len();
+    mesh.positions
+        .iter()
+        .zip(normals)
+        .enumerate()
+        .map(|(i, (&position, &normal))| {
+            let [r, g, b] = if coloured { mesh.colours[i] } else { [255; 3] };
+            Vertex { position, normal, colour: [r, g, b, 255] }
+        })
+        .collect()
+}
+
+fn area_weighted_normals(mesh: &Mesh) -> Vec<Vec3> {
+    let mut normals = vec![Vec3::ZERO; mesh.positions.len()];
+    let count = mesh.positions.len() as u32;
+    for t in mesh.triangles.iter().filter(|t| t.iter().all(|&v| v < count)) {
+        let [a, b, c] = t.map(|v| mesh.positions[v as usize]);
+        let n = (b - a).cross(c - a);
+        t.iter().for_each(|&v| normals[v as usize] += n);
+    }
+    normals.into_iter().map(Vec3::normalize_or_zero).collect()
+}
+
+/// A bind group of `resources` in order.
+pub(super) fn bind(
+    gpu: &Gpu,
+    layout: &wgpu::BindGroupLayout,
+    resources: &[wgpu::BindingResource<'_>],
+) -> wgpu::BindGroup {
+    let entries: Vec<wgpu::BindGroupEntry<'_>> = resources
+        .iter()
+        .enumerate()
+        .map(|(i, resource)| wgpu::BindGroupEntry { binding: i as u32, resource: resource.clone() })
+        .collect();
+    gpu.device.create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout, entries: &entries })
+}

@@ -1,0 +1,314 @@
+//! A camera that circles a pivot.
+
+use glam::camera::rh::proj::directx;
+use glam::{Mat4, Quat, Vec2, Vec3, Vec4};
+
+use super::View;
+
+/// How depth becomes size.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Projection {
+    /// Far things are smaller.
+    #[default]
+    Perspective,
+    /// Parallel: sizes can be compared.
+    Orthographic,
+}
+
+/// A ray into the scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PixelRay {
+    /// Where it starts: the eye, or in front of everything for parallel projection.
+    pub origin: Vec3,
+    /// Unit.
+    pub direction: Vec3,
+}
+
+/// Where a world point falls in a picture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Projected {
+    /// Pixels from the upper left corner.
+    pub pixel: Vec2,
+    /// Metres in front of the eye plane.
+    pub depth: f32,
+}
+
+/// Looks at `pivot` from `distance`. Metres, radians; pixels run right and down from the upper left corner.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Camera {
+    /// What the view turns about.
+    pub pivot: Vec3,
+    /// World from view: x right, y up, z towards the eye.
+    pub rotation: Quat,
+    /// From the pivot to the eye.
+    pub distance: f32,
+    /// Vertical field of view.
+    pub fov_y: f32,
+    /// How depth becomes size.
+    pub projection: Projection,
+    /// Centre and radius of what must never be cut off by the near or far plane.
+    pub bounds: (Vec3, f32),
+}
+
+impl Default for Camera {
+    fn default() -> Self {
+        Self {
+            pivot: Vec3::new(0.0, 0.9, 0.0),
+            rotation: Quat::IDENTITY,
+            distance: 4.0,
+            fov_y: 28f32.to_radians(),
+            projection: Projection::Perspective,
+            bounds: (Vec3::new(0.0, 0.9, 0.0), 1.2),
+        }
+    }
+}
+
+/// Free space round a framed box, as a factor.
+const MARGIN: f32 = 1.07;
+
+impl Camera {
+    /// A camera that shows the whole box from `view`. `aspect` is width over height.
+    pub fn framing(lower: Vec3, upper: Vec3, view: View, aspect: f32) -> Self {
+        let mut camera = Self::default();
+        camera.look(view);
+        camera.frame(lower, upper, aspect);
+        camera
+    }
+
+    /// Turns to `view`; pivot and distance stay.
+    pub fn look(&mut self, view: View) {
+        let (yaw, pitch) = view.angles();
+        self.rotation = Quat::from_rotation_y(yaw) * Quat::from_rotation_x(-pitch);
+    }
+
+    /// Moves so that the whole box is seen, without turning.
+    pub fn frame(&mut self, lower: Vec3, upper: Vec3, aspect: f32) {
+        self.set_bounds(lower, upper);
+        self.pivot = (lower + upper) / 2.0;
+        let tan_y = (self.fov_y / 2.0).tan();
+        let tan_x = tan_y * aspect.max(1e-3);
+        let half = (upper - lower) / 2.0;
+        let distance = (0..8).fold(0.0f32, |far, i| {
+            let sign = |bit: i32| if i & bit == 0 { -1.0 } else { 1.0 };
+            let corner = self.rotation.inverse() * (half * Vec3::new(sign(1), sign(2), sign(4)));
+            let towards = if self.projection == Projection::Perspective { corner.z } else { 0.0 };
+            far.max(towards + MARGIN * (corner.x.abs() / tan_x).max(corner.y.abs() / tan_y))
+        });
+        self.distance = distance.max(1e-3);
+    }
+
+    /// Tells what must never be cut off, without moving.
+    pub fn set_bounds(&mut self, lower: Vec3, upper: Vec3) {
+        self.bounds = ((lower + upper) / 2.0, ((upper - lower) / 2.0).length().max(1e-3));
+    }
+
+    /// Unit vector from the pivot to the eye.
+    pub fn towards_eye(&self) -> Vec3 {
+        self.rotation * Vec3::Z
+    }
+
+    /// Where the eye is. With parallel projection the picture does not depend on its distance.
+    pub fn eye(&self) -> Vec3 {
+        self.pivot + self.towards_eye() * self.eye_distance()
+    }
+
+    fn eye_distance(&self) -> f32 {
+        match self.projection {
+            Projection::Perspective => self.distance,
+            Projection::Orthographic => (self.pivot - self.bounds.0).length() + self.bounds.1 * 1.5,
+        }
+    }
+
+    /// View from world.
+    pub fn view(&self) -> Mat4 {
+        let turn = self.rotation.inverse();
+        Mat4::from_rotation_translation(turn, turn * -self.eye())
+    }
+
+    /// Clip space from view, depth reversed (1 near, 0 far).
+    pub fn projection(&self, aspect: f32) -> Mat4 {
+        match self.projection {
+            // No far plane, and a near plane close enough to pass between an eye and anything it can look at.
+            Projection::Perspective => {
+                directx::perspective_infinite_reverse(self.fov_y, aspect, self.distance * 2e-3)
+            }
+            Projection::Orthographic => {
+                let (w, h) = (self.half_height() * aspect, self.half_height());
+                let far = self.eye_distance() + (self.pivot - self.bounds.0).length() + self.bounds.1 * 1.5;
+                directx::orthographic(-w, w, -h, h, far, 0.0)
+            }
+        }
+    }
+
+    /// Half the height of the picture at the pivot, metres.
+    pub fn half_height(&self) -> f32 {
+        self.distance * (self.fov_y / 2.0).tan()
+    }
+
+    /// Metres a pixel covers at the pivot.
+    pub fn metres_per_pixel(&self, size: Vec2) -> f32 {
+        2.0 * self.half_height() / size.y.max(1.0)
+    }
+
+    /// The ray through `pixel` of a picture of `size` pixels.
+    pub fn ray(&self, pixel: Vec2, size: Vec2) -> PixelRay {
+        let ndc = Vec2::new(2.0 * pixel.x / size.x - 1.0, 1.0 - 2.0 * pixel.y / size.y);
+        let aspect = size.x / size.y;
+        let tan = (self.fov_y / 2.0).tan();
+        match self.projection {
+            Projection::Perspective => PixelRay {
+                origin: self.eye(),
+                direction: (self.rotation * Vec3::new(ndc.x * tan * aspect, ndc.y * tan, -1.0)).normalize(),
+            },
+            Projection::Orthographic => {
+                let h = self.half_height();
+                PixelRay {
+                    origin: self.eye() + self.rotation * Vec3::new(ndc.x * h * aspect, ndc.y * h, 0.0),
+                    direction: self.rotation * Vec3::NEG_Z,
+                }
+            }
+        }
+    }
+
+    /// Where `point` falls in a picture of `size` pixels; None behind the eye.
+    pub fn project(&self, point: Vec3, size: Vec2) -> Option<Projected> {
+        let in_view = self.view().transform_point3(point);
+        let clip: Vec4 = self.projection(size.x / size.y) * in_view.extend(1.0);
+        if in_view.z >= 0.0 || clip.w <= 0.0 {
+            return None;
+        }
+        let ndc = clip.truncate() / clip.w;
+        Some(Projected {
+            pixel: Vec2::new((ndc.x + 1.0) * size.x / 2.0, (1.0 - ndc.y) * size.y / 2.0),
+            depth: -in_view.z,
+        })
+    }
+
+    /// Turns with up kept up: sideways about the world's y, up and down about the view's x, stopping at the poles.
+    /// `turn` is how far the scene follows the pointer, radians, right and down.
+    pub fn orbit(&mut self, turn: Vec2) {
+        let upright = (self.rotation * Vec3::Y).y >= -1e-4;
+        let pitch = self.towards_eye().y.clamp(-1.0, 1.0).asin();
+        let right_angle = std::f32::consts::FRAC_PI_2;
+        let tilt = if upright { (pitch + turn.y).clamp(-right_angle, right_angle) - pitch } else { turn.y };
+        self.rotation =
+            (Quat::from_rotation_y(-turn.x) * self.rotation * Quat::from_rotation_x(-tilt)).normalize();
+    }
+
+    /// Turns as a ball under the pointer would, dragged from one pixel to another (virtual trackball: a sphere that runs
+    /// out into a hyperbolic sheet, after Bell as told by Henriksen, Sporring and Hornbaek 2004).
+    pub fn trackball(&mut self, from: Vec2, to: Vec2, size: Vec2) {
+        let on_ball = |p: Vec2| {
+            let q = (p - size / 2.0) * Vec2::new(1.0, -1.0) / (0.5 * size.min_element().max(1.0));
+            let r2 = q.length_squared();
+            let z = if r2 < 0.5 { (1.0 - r2).sqrt() } else { 0.5 / r2.sqrt() };
+            q.extend(z).normalize()
+        };
+        let turn = Quat::from_rotation_arc(on_ball(from), on_ball(to));
+        self.rotation = (self.rotation * turn.inverse()).normalize();
+    }
+
+    /// Moves the pivot with the pointer, by `pixels` right and down.
+    pub fn pan(&mut self, pixels: Vec2, size: Vec2) {
+        let scale = self.metres_per_pixel(size);
+        self.pivot += self.rotation * Vec3::new(-pixels.x * scale, pixels.y * scale, 0.0);
+    }
+
+    /// Scales the distance by `factor` (< 1 comes closer), so that `target` stays under the same pixel.
+    pub fn zoom(&mut self, factor: f32, target: Vec3) {
+        let reach = self.bounds.1;
+        let wanted = (self.distance * factor).clamp(reach * 0.01, reach * 40.0);
+        let factor = wanted / self.distance;
+        self.pivot = target + (self.pivot - target) * factor;
+        self.distance = wanted;
+    }
+
+    /// The point under `pixel` in the plane through the pivot that faces the eye.
+    pub fn point_on_pivot_plane(&self, pixel: Vec2, size: Vec2) -> Vec3 {
+        let ray = self.ray(pixel, size);
+        let normal = self.towards_eye();
+        let along = (self.pivot - ray.origin).dot(normal) / ray.direction.dot(normal).min(-1e-6);
+        ray.origin + ray.direction * along
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SIZE: Vec2 = Vec2::new(800.0, 600.0);
+
+    fn both() -> [Camera; 2] {
+        let camera = Camera::framing(
+            Vec3::new(-0.8, 0.0, -0.3),
+            Vec3::new(0.8, 1.8, 0.3),
+            View::Angles { yaw: 40.0, pitch: 25.0 },
+            SIZE.x / SIZE.y,
+        );
+        [camera, Camera { projection: Projection::Orthographic, ..camera }]
+    }
+
+    #[test]
+    fn a_ray_and_a_projection_are_inverse() {
+        for camera in both() {
+            for pixel in [Vec2::new(10.0, 20.0), Vec2::new(400.0, 300.0), Vec2::new(790.0, 1.0)] {
+                let ray = camera.ray(pixel, SIZE);
+                let p = camera.project(ray.origin + ray.direction * 2.0, SIZE).expect("in front");
+                assert!((p.pixel - pixel).length() < 0.01, "{pixel} {p:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_framed_box_is_inside_the_picture_and_between_the_planes() {
+        for camera in both() {
+            for i in 0..8 {
+                let pick = |bit: i32, lo: f32, hi: f32| if i & bit == 0 { lo } else { hi };
+                let corner = Vec3::new(pick(1, -0.8, 0.8), pick(2, 0.0, 1.8), pick(4, -0.3, 0.3));
+                let p = camera.project(corner, SIZE).expect("in front").pixel;
+                assert!(p.cmpge(Vec2::ZERO).all() && p.cmple(SIZE).all(), "{p}");
+                let clip = camera.projection(SIZE.x / SIZE.y) * camera.view() * corner.extend(1.0);
+                assert!(clip.z >= 0.0 && clip.z <= clip.w, "{clip}");
+            }
+        }
+    }
+
+    #[test]
+    fn left_is_seen_from_the_bodys_left() {
+        let mut camera = Camera::default();
+        camera.look(View::Left);
+        assert!((camera.towards_eye() - Vec3::X).length() < 1e-6);
+        camera.look(View::Top);
+        assert!((camera.towards_eye() - Vec3::Y).length() < 1e-6);
+        assert!((camera.rotation * Vec3::Y - Vec3::NEG_Z).length() < 1e-6);
+    }
+
+    #[test]
+    fn zoom_keeps_the_target_under_its_pixel() {
+        for mut camera in both() {
+            let pixel = Vec2::new(123.0, 456.0);
+            let target = camera.point_on_pivot_plane(pixel, SIZE);
+            camera.zoom(0.4, target);
+            let p = camera.project(target, SIZE).expect("in front").pixel;
+            assert!((p - pixel).length() < 0.05, "{p}");
+        }
+    }
+
+    #[test]
+    fn orbit_stops_upright_at_the_poles_and_follows_the_pointer() {
+        let mut camera = Camera::default();
+        camera.orbit(Vec2::new(0.0, 10.0));
+        assert!((camera.towards_eye() - Vec3::Y).length() < 1e-3);
+        camera.orbit(Vec2::new(0.3, -1.0));
+        assert!((camera.rotation * Vec3::Y).y > 0.0);
+        // Dragged to the right, the front of the scene moves to the right.
+        let mut camera = Camera::default();
+        let front = camera.pivot + Vec3::Z * 0.2;
+        let before = camera.project(front, SIZE).expect("in front").pixel;
+        camera.orbit(Vec2::new(0.2, 0.0));
+        assert!(camera.project(front, SIZE).expect("in front").pixel.x > before.x + 1.0);
+        camera.look(View::Front);
+        camera.trackball(Vec2::new(400.0, 300.0), Vec2::new(450.0, 300.0), SIZE);
+        assert!(camera.project(front, SIZE).expect("in front").pixel.x > before.x + 1.0);
+    }
+}

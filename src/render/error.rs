@@ -1,0 +1,40 @@
+//! What can go wrong between buffers and pixels, in words for people.
+
+/// Why there is no picture.
+#[derive(Debug, thiserror::Error)]
+pub enum RenderError {
+    /// No graphics adapter was found.
+    #[error(
+        "no graphics adapter was found ({0}). Pictures need Vulkan, Metal, DirectX 12 or OpenGL; on Linux the package \
+         mesa-vulkan-drivers brings a software one"
+    )]
+    NoAdapter(String),
+    /// The adapter would not open.
+    #[error("the graphics adapter {adapter} could not be opened: {reason}")]
+    NoDevice {
+        /// Its name.
+        adapter: String,
+        /// What it said.
+        reason: String,
+    },
+    /// The picture or a mesh is larger than the adapter can hold.
+    #[error("{what} is larger than this graphics adapter can hold ({limit})")]
+    TooLarge {
+        /// What was asked for.
+        what: String,
+        /// The limit, with its unit.
+        limit: String,
+    },
+    /// The adapter did not answer.
+    #[error("the graphics adapter did not finish the picture within {0} seconds")]
+    Timeout(u64),
+    /// The adapter reported an error.
+    #[error("the graphics adapter reported an error: {0}")]
+    Device(String),
+    /// The picture could not be encoded.
+    #[error("the picture could not be encoded: {0}")]
+    Encode(#[from] image::ImageError),
+    /// Not the name of a view.
+    #[error("unknown view {0:?}: use front, back, left, right, top, three-quarter or YAW,PITCH in degrees")]
+    UnknownView(String),
+}

@@ -1,0 +1,94 @@
+//! What every pass of one picture knows: camera, lamp, colours. Matches `Frame` in shaders/frame.wgsl.
+
+use bytemuck::{Pod, Zeroable};
+use glam::camera::rh::{proj::directx, view::look_at_mat4};
+use glam::{Mat4, Quat, UVec2, Vec3, Vec4};
+
+use super::scene::Rgb;
+use super::{Camera, Look, Projection, Scene};
+
+/// The uniform of a picture.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub(super) struct Frame {
+    view: Mat4,
+    projection: Mat4,
+    clip_from_world: Mat4,
+    lamp_from_world: Mat4,
+    eye: Vec4,
+    towards_eye: Vec4,
+    viewport: Vec4,
+    lamp: Vec4,
+    sky: Vec4,
+    horizon: Vec4,
+    ground: Vec4,
+    floor: Vec4,
+    hollows: Vec4,
+}
+
+/// Reach of the hollows as a share of the radius of what is seen: 7 cm on a person.
+const HOLLOW_REACH: f32 = 0.07;
+
+impl Frame {
+    /// For one picture of `size` pixels.
+    pub(super) fn new(camera: &Camera, scene: &Scene, look: &Look, size: UVec2) -> Self {
+        let viewport = size.max(UVec2::ONE).as_vec2();
+        let (view, projection) = (camera.view(), camera.projection(viewport.x / viewport.y));
+        let lamp = lamp_direction(camera);
+        let (centre, radius) = mesh_ball(scene).unwrap_or(camera.bounds);
+        let perspective = f32::from(camera.projection == Projection::Perspective);
+        let floor =
+            scene.ground.map_or(Vec4::ZERO, |g| Vec4::new(g.centre.x, g.centre.y, g.height, g.radius));
+        Self {
+            view,
+            projection,
+            clip_from_world: projection * view,
+            lamp_from_world: lamp_matrix(lamp, centre, radius),
+            eye: camera.eye().extend(perspective),
+            towards_eye: camera.towards_eye().extend(0.0),
+            viewport: Vec4::new(viewport.x, viewport.y, viewport.x.recip(), viewport.y.recip()),
+            lamp: lamp.extend(look.key),
+            sky: gamma(look.sky).extend(look.ambient),
+            horizon: gamma(look.horizon).extend(look.shadow),
+            ground: linear(look.ground).extend(look.grid),
+            floor,
+            hollows: Vec4::new(
+                radius * HOLLOW_REACH,
+                look.occlusion,
+                f32::from(look.occlusion > 0.0),
+                radius * 0.004,
+            ),
+        }
+    }
+}
+
+/// Above and left of the eye, wherever it is: folds are read from every side.
+fn lamp_direction(camera: &Camera) -> Vec3 {
+    let back = camera.towards_eye();
+    let yaw = back.x.atan2(back.z);
+    let yaw = if back.x.hypot(back.z) < 1e-3 { 0.0 } else { yaw };
+    Quat::from_rotation_y(yaw - 0.72) * Vec3::new(0.0, 0.82, 0.78).normalize()
+}
+
+fn mesh_ball(scene: &Scene) -> Option<(Vec3, f32)> {
+    let (lower, upper) =
+        scene.meshes.iter().filter_map(|m| m.bounds()).reduce(|(a, b), (c, d)| (a.min(c), b.max(d)))?;
+    Some(((lower + upper) / 2.0, ((upper - lower) / 2.0).length().max(1e-3)))
+}
+
+fn lamp_matrix(lamp: Vec3, centre: Vec3, radius: f32) -> Mat4 {
+    let r = radius * 1.02;
+    let view = look_at_mat4(centre + lamp * r * 2.0, centre, Vec3::Y);
+    directx::orthographic(-r, r, -r, r, r * 0.9, r * 4.5) * view
+}
+
+/// Gamma-encoded, 0..=1.
+pub(super) fn gamma(c: Rgb) -> Vec3 {
+    Vec3::from(c.map(|v| f32::from(v) / 255.0))
+}
+
+/// Linear light, 0..=1 (IEC 61966-2-1).
+pub(super) fn linear(c: Rgb) -> Vec3 {
+    let one = |v: f32| if v <= 0.040_45 { v / 12.92 } else { ((v + 0.055) / 1.055).powf(2.4) };
+    Vec3::from(gamma(c).to_array().map(one))
+}

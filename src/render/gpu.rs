@@ -1,0 +1,84 @@
+//! A graphics device: made without a window, or borrowed from one.
+
+use std::sync::Arc;
+
+use super::RenderError;
+
+/// Colour format of every target. Shaders write gamma-encoded values, as egui expects of its textures.
+pub const COLOUR: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+/// Depth format. Reversed: 1 at the near plane, 0 far away, so that floats keep their relative accuracy.
+pub const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
+
+/// A device and its queue.
+#[derive(Clone, Debug)]
+pub struct Gpu {
+    /// The device.
+    pub device: wgpu::Device,
+    /// Its queue.
+    pub queue: wgpu::Queue,
+    /// Name and backend of the adapter, for people.
+    pub adapter_name: String,
+    /// True when a processor does the work: passes that only please may then be smaller.
+    pub software: bool,
+    /// Samples a pixel: 4, or 1 where the adapter cannot.
+    pub samples: u32,
+}
+
+impl Gpu {
+    /// Opens the best adapter there is, without a window.
+    pub fn headless() -> Result<Self, RenderError> {
+        let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env());
+        let options = wgpu::RequestAdapterOptions {
+            power_preference: wgpu::PowerPreference::HighPerformance,
+            ..Default::default()
+        };
+        let adapter = pollster::block_on(instance.request_adapter(&options))
+            .map_err(|e| RenderError::NoAdapter(e.to_string()))?;
+        let (device, queue) = pollster::block_on(adapter.request_device(&device_descriptor(&adapter)))
+            .map_err(|e| RenderError::NoDevice { adapter: adapter.get_info().name, reason: e.to_string() })?;
+        device.on_uncaptured_error(Arc::new(|e| tracing::error!("graphics: {e}")));
+        Ok(Self::from_parts(&adapter, device, queue))
+    }
+
+    /// Wraps a device that a window has opened.
+    pub fn from_parts(adapter: &wgpu::Adapter, device: wgpu::Device, queue: wgpu::Queue) -> Self {
+        let info = adapter.get_info();
+        let can = |format| {
+            adapter
+                .get_texture_format_features(format)
+                .flags
+                .contains(wgpu::TextureFormatFeatureFlags::MULTISAMPLE_X4)
+        };
+        Self {
+            samples: if can(COLOUR) && can(DEPTH) { 4 } else { 1 },
+            adapter_name: format!("{} ({})", info.name, info.backend),
+            software: info.device_type == wgpu::DeviceType::Cpu,
+            device,
+            queue,
+        }
+    }
+
+    /// The longest side of a texture, pixels.
+    pub fn max_side(&self) -> u32 {
+        self.device.limits().max_texture_dimension_2d
+    }
+}
+
+/// What is asked of an adapter: no optional features, and room for large meshes where the adapter has it.
+pub fn device_descriptor(adapter: &wgpu::Adapter) -> wgpu::DeviceDescriptor<'static> {
+    let offered = adapter.limits();
+    let base = if adapter.get_info().backend == wgpu::Backend::Gl {
+        wgpu::Limits::downlevel_webgl2_defaults()
+    } else {
+        wgpu::Limits::default()
+    };
+    wgpu::DeviceDescriptor {
+        label: Some("toile"),
+        required_limits: wgpu::Limits {
+            max_texture_dimension_2d: offered.max_texture_dimension_2d,
+            max_buffer_size: offered.max_buffer_size,
+            ..base
+        },
+        ..Default::default()
+    }
+}

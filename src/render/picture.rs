@@ -1,0 +1,77 @@
+//! A picture without a window.
+
+use std::path::Path;
+
+use glam::{UVec2, Vec3};
+
+use super::{Camera, Gpu, Look, OffscreenTarget, RenderError, Renderer, Scene, View};
+
+/// A device and renderer for pictures without a window; made once for many pictures.
+#[derive(Debug)]
+pub struct Studio {
+    gpu: Gpu,
+    renderer: Renderer,
+    target: Option<OffscreenTarget>,
+}
+
+impl Studio {
+    /// Opens the best graphics adapter there is.
+    pub fn new() -> Result<Self, RenderError> {
+        let gpu = Gpu::headless()?;
+        let renderer = Renderer::new(&gpu);
+        Ok(Self { gpu, renderer, target: None })
+    }
+
+    /// The adapter that draws, for people.
+    pub fn adapter_name(&self) -> &str {
+        &self.gpu.adapter_name
+    }
+
+    /// Draws `scene` from `camera`; RGBA, rows from the top. `size` in pixels.
+    pub fn draw(
+        &mut self,
+        scene: &Scene,
+        camera: &Camera,
+        look: &Look,
+        size: UVec2,
+    ) -> Result<image::RgbaImage, RenderError> {
+        let target = match self.target.take().filter(|t| t.size == size) {
+            Some(target) => target,
+            None => OffscreenTarget::new(&self.gpu, size)?,
+        };
+        self.renderer.draw(&self.gpu, scene, camera, look, &target)?;
+        let picture = target.read(&self.gpu);
+        self.target = Some(target);
+        picture
+    }
+
+    /// Draws the whole of `scene` from `view`.
+    pub fn picture(
+        &mut self,
+        scene: &Scene,
+        view: View,
+        look: &Look,
+        size: UVec2,
+    ) -> Result<image::RgbaImage, RenderError> {
+        let (lower, upper) = scene.bounds().unwrap_or((Vec3::splat(-0.5), Vec3::splat(0.5)));
+        let camera = Camera::framing(lower, upper, view, size.x.max(1) as f32 / size.y.max(1) as f32);
+        self.draw(scene, &camera, look, size)
+    }
+}
+
+/// The whole of `scene` from `view` as an image, on a device opened for it. Several pictures: [`Studio`].
+pub fn picture(scene: &Scene, view: View, look: &Look, size: UVec2) -> Result<image::RgbaImage, RenderError> {
+    Studio::new()?.picture(scene, view, look, size)
+}
+
+/// Encodes `picture` as PNG bytes.
+pub fn png(picture: &image::RgbaImage) -> Result<Vec<u8>, RenderError> {
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    picture.write_to(&mut bytes, image::ImageFormat::Png)?;
+    Ok(bytes.into_inner())
+}
+
+/// Writes `picture` as a PNG file.
+pub fn save_png(picture: &image::RgbaImage, path: &Path) -> Result<(), RenderError> {
+    Ok(picture.save_with_format(path, image::ImageFormat::Png)?)
+}

@@ -1,0 +1,215 @@
+//! Draws a scene: shadow map, depth and normals, hollows, then everything with light.
+
+use wgpu::util::DeviceExt;
+
+use glam::UVec2;
+
+use super::buffers::{DeviceMesh, bind, upload};
+use super::frame::Frame;
+use super::gpu::DEPTH;
+use super::pipelines::Pipelines;
+use super::strokes::strokes;
+use super::target::texture;
+use super::{Camera, Gpu, Look, OffscreenTarget, RenderError, Scene};
+
+/// Pipelines, shadow map and the meshes of the last picture. One per device.
+#[derive(Debug)]
+pub struct Renderer {
+    pipelines: Pipelines,
+    shadow_map: wgpu::TextureView,
+    shadow_sampler: wgpu::Sampler,
+    meshes: Vec<DeviceMesh>,
+}
+
+/// What one picture binds.
+struct Bound {
+    frame: wgpu::BindGroup,
+    light: wgpu::BindGroup,
+    hollows: wgpu::BindGroup,
+    blur: wgpu::BindGroup,
+    strokes: Option<(wgpu::Buffer, u32)>,
+    ground: bool,
+}
+
+impl Renderer {
+    /// Compiles the shaders and makes the shadow map.
+    pub fn new(gpu: &Gpu) -> Self {
+        let side = if gpu.software { 1024 } else { 2048 };
+        let usage = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING;
+        Self {
+            pipelines: Pipelines::new(gpu),
+            shadow_map: texture(gpu, "shadow map", UVec2::splat(side), DEPTH, 1, usage)
+                .create_view(&Default::default()),
+            shadow_sampler: gpu.device.create_sampler(&wgpu::SamplerDescriptor {
+                label: Some("shadow"),
+                mag_filter: wgpu::FilterMode::Linear,
+                min_filter: wgpu::FilterMode::Linear,
+                compare: Some(wgpu::CompareFunction::LessEqual),
+                ..Default::default()
+            }),
+            meshes: Vec::new(),
+        }
+    }
+
+    /// Draws `scene` on `target`. The work is handed to the device; reading the target waits for it.
+    pub fn draw(
+        &mut self,
+        gpu: &Gpu,
+        scene: &Scene,
+        camera: &Camera,
+        look: &Look,
+        target: &OffscreenTarget,
+    ) -> Result<(), RenderError> {
+        let scope = gpu.device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
+        self.meshes = upload(gpu, &self.pipelines, std::mem::take(&mut self.meshes), &scene.meshes)?;
+        let bound = self.bind(gpu, scene, camera, look, target);
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        self.draw_shadow_map(&mut encoder, &bound);
+        if look.occlusion > 0.0 {
+            self.draw_hollows(&mut encoder, &bound, target);
+        }
+        self.draw_picture(&mut encoder, &bound, target);
+        gpu.queue.submit([encoder.finish()]);
+        match pollster::block_on(scope.pop()) {
+            Some(e) => Err(RenderError::Device(e.to_string())),
+            None => Ok(()),
+        }
+    }
+
+    fn bind(
+        &self,
+        gpu: &Gpu,
+        scene: &Scene,
+        camera: &Camera,
+        look: &Look,
+        target: &OffscreenTarget,
+    ) -> Bound {
+        let init = |label, contents: &[u8], usage| {
+            gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+                label: Some(label),
+                contents,
+                usage,
+            })
+        };
+        let frame = Frame::new(camera, scene, look, target.size);
+        let frame = init("frame", bytemuck::bytes_of(&frame), wgpu::BufferUsages::UNIFORM);
+        let strokes = strokes(&scene.lines, &scene.labels, look.pixels_per_point);
+        let view = wgpu::BindingResource::TextureView;
+        let p = &self.pipelines;
+        Bound {
+            frame: bind(gpu, &p.frame_layout, &[frame.as_entire_binding()]),
+            light: bind(
+                gpu,
+                &p.light_layout,
+                &[
+                    view(&self.shadow_map),
+                    wgpu::BindingResource::Sampler(&self.shadow_sampler),
+                    view(&target.hollows),
+                ],
+            ),
+            hollows: bind(gpu, &p.hollows_layout, &[view(&target.half_depth), view(&target.half_normals)]),
+            blur: bind(gpu, &p.blur_layout, &[view(&target.rough_hollows)]),
+            strokes: (!strokes.is_empty()).then(|| {
+                let bytes = bytemuck::cast_slice(&strokes);
+                (init("strokes", bytes, wgpu::BufferUsages::VERTEX), strokes.len() as u32)
+            }),
+            // Seen from below, the floor would only be in the way.
+            ground: scene.ground.is_some_and(|g| camera.eye().y > g.height),
+        }
+    }
+
+    fn draw_meshes(&self, pass: &mut wgpu::RenderPass<'_>, with_material: bool) {
+        for mesh in &self.meshes {
+            if with_material {
+                pass.set_bind_group(2, &mesh.material, &[]);
+            }
+            pass.set_vertex_buffer(0, mesh.vertices.slice(..));
+            pass.set_index_buffer(mesh.indices.slice(..), wgpu::IndexFormat::Uint32);
+            pass.draw_indexed(0..mesh.index_count, 0, 0..1);
+        }
+    }
+
+    fn draw_shadow_map(&self, encoder: &mut wgpu::CommandEncoder, bound: &Bound) {
+        let mut pass = begin(encoder, "shadow map", None, Some((&self.shadow_map, 1.0)));
+        pass.set_bind_group(0, &bound.frame, &[]);
+        pass.set_pipeline(&self.pipelines.shadow);
+        self.draw_meshes(&mut pass, false);
+    }
+
+    fn draw_hollows(&self, encoder: &mut wgpu::CommandEncoder, bound: &Bound, target: &OffscreenTarget) {
+        {
+            let mut pass =
+                begin(encoder, "depth", Some((&target.half_normals, None)), Some((&target.half_depth, 0.0)));
+            pass.set_bind_group(0, &bound.frame, &[]);
+            if bound.ground {
+                pass.set_pipeline(&self.pipelines.depth_ground);
+                pass.draw(0..6, 0..1);
+            }
+            pass.set_pipeline(&self.pipelines.depth);
+            self.draw_meshes(&mut pass, false);
+        }
+        for (label, pipeline, inputs, output) in [
+            ("hollows", &self.pipelines.hollows, &bound.hollows, &target.rough_hollows),
+            ("blur", &self.pipelines.blur, &bound.blur, &target.hollows),
+        ] {
+            let mut pass = begin(encoder, label, Some((output, None)), None);
+            pass.set_bind_group(0, &bound.frame, &[]);
+            pass.set_bind_group(1, inputs, &[]);
+            pass.set_pipeline(pipeline);
+            pass.draw(0..3, 0..1);
+        }
+    }
+
+    fn draw_picture(&self, encoder: &mut wgpu::CommandEncoder, bound: &Bound, target: &OffscreenTarget) {
+        let colour = match &target.samples {
+            Some(samples) => (samples, Some(&target.picture_view)),
+            None => (&target.picture_view, None),
+        };
+        let mut pass = begin(encoder, "picture", Some(colour), Some((&target.depth, 0.0)));
+        pass.set_bind_group(0, &bound.frame, &[]);
+        pass.set_pipeline(&self.pipelines.background);
+        pass.draw(0..3, 0..1);
+        pass.set_bind_group(1, &bound.light, &[]);
+        if bound.ground {
+            pass.set_pipeline(&self.pipelines.ground);
+            pass.draw(0..6, 0..1);
+        }
+        pass.set_pipeline(&self.pipelines.mesh);
+        self.draw_meshes(&mut pass, true);
+        if let Some((strokes, count)) = &bound.strokes {
+            pass.set_pipeline(&self.pipelines.line);
+            pass.set_vertex_buffer(0, strokes.slice(..));
+            pass.draw(0..6, 0..*count);
+        }
+    }
+}
+
+/// Starts a pass that clears what it draws on. With a resolve target the samples themselves are not kept.
+fn begin<'e>(
+    encoder: &'e mut wgpu::CommandEncoder,
+    label: &str,
+    colour: Option<(&wgpu::TextureView, Option<&wgpu::TextureView>)>,
+    depth: Option<(&wgpu::TextureView, f32)>,
+) -> wgpu::RenderPass<'e> {
+    let colours = colour.map(|(view, resolve_target)| {
+        [Some(wgpu::RenderPassColorAttachment {
+            view,
+            depth_slice: None,
+            resolve_target,
+            ops: wgpu::Operations {
+                load: wgpu::LoadOp::Clear(wgpu::Color::BLACK),
+                store: if resolve_target.is_some() { wgpu::StoreOp::Discard } else { wgpu::StoreOp::Store },
+            },
+        })]
+    });
+    encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        label: Some(label),
+        color_attachments: colours.as_ref().map_or(&[], |c| c.as_slice()),
+        depth_stencil_attachment: depth.map(|(view, far)| wgpu::RenderPassDepthStencilAttachment {
+            view,
+            depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(far), store: wgpu::StoreOp::Store }),
+            stencil_ops: None,
+        }),
+        ..Default::default()
+    })
+}

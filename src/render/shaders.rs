@@ -1,0 +1,80 @@
+//! The shader files, each with the headers it needs.
+
+/// A shader: the file of its own part, and its whole text.
+#[derive(Clone, Debug)]
+pub(super) struct Shader {
+    /// Name of the file in shaders/.
+    pub(super) name: &'static str,
+    /// Headers and own part.
+    pub(super) text: String,
+}
+
+const FRAME: &str = include_str!("../../shaders/frame.wgsl");
+const LIGHT: &str = include_str!("../../shaders/light.wgsl");
+
+fn shader(name: &'static str, headers: &[&str], own: &str) -> Shader {
+    Shader { name, text: format!("{}\n{own}", headers.join("\n")) }
+}
+
+pub(super) fn background() -> Shader {
+    shader("background.wgsl", &[FRAME], include_str!("../../shaders/background.wgsl"))
+}
+
+pub(super) fn ground() -> Shader {
+    shader("ground.wgsl", &[FRAME, LIGHT], include_str!("../../shaders/ground.wgsl"))
+}
+
+pub(super) fn mesh() -> Shader {
+    shader("mesh.wgsl", &[FRAME, LIGHT], include_str!("../../shaders/mesh.wgsl"))
+}
+
+pub(super) fn line() -> Shader {
+    shader("line.wgsl", &[FRAME], include_str!("../../shaders/line.wgsl"))
+}
+
+pub(super) fn depth() -> Shader {
+    shader("depth.wgsl", &[FRAME], include_str!("../../shaders/depth.wgsl"))
+}
+
+pub(super) fn hollows() -> Shader {
+    shader("hollows.wgsl", &[FRAME], include_str!("../../shaders/hollows.wgsl"))
+}
+
+pub(super) fn blur() -> Shader {
+    shader("blur.wgsl", &[FRAME], include_str!("../../shaders/blur.wgsl"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_shader_is_valid() {
+        for shader in [background(), ground(), mesh(), line(), depth(), hollows(), blur()] {
+            let module = naga::front::wgsl::parse_str(&shader.text)
+                .unwrap_or_else(|e| panic!("{}:\n{}", shader.name, e.emit_to_string(&shader.text)));
+            let mut validator = naga::valid::Validator::new(
+                naga::valid::ValidationFlags::all(),
+                naga::valid::Capabilities::empty(),
+            );
+            validator
+                .validate(&module)
+                .unwrap_or_else(|e| panic!("{}:\n{}", shader.name, e.emit_to_string(&shader.text)));
+            assert!(!module.entry_points.is_empty(), "{}", shader.name);
+        }
+    }
+
+    #[test]
+    fn every_file_is_used() {
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/shaders");
+        let used = ["frame.wgsl", "light.wgsl"]
+            .into_iter()
+            .chain([background(), ground(), mesh(), line(), depth(), hollows(), blur()].map(|s| s.name));
+        let used: std::collections::BTreeSet<String> = used.map(str::to_owned).collect();
+        let found: std::collections::BTreeSet<String> = std::fs::read_dir(folder)
+            .expect("shaders")
+            .map(|f| f.expect("a file").file_name().to_string_lossy().into_owned())
+            .collect();
+        assert_eq!(used, found);
+    }
+}

@@ -1,0 +1,137 @@
+//! What is drawn on, and how its pixels come back.
+
+use std::time::Duration;
+
+use glam::UVec2;
+
+use super::gpu::{COLOUR, DEPTH};
+use super::{Gpu, RenderError};
+
+/// How long a picture may take to come back from the device.
+const READBACK_SECONDS: u64 = 30;
+
+/// Textures of one picture size.
+#[derive(Debug)]
+pub struct OffscreenTarget {
+    /// Pixels.
+    pub size: UVec2,
+    /// The finished picture, gamma-encoded, opaque.
+    pub picture: wgpu::Texture,
+    /// A view of `picture`.
+    pub picture_view: wgpu::TextureView,
+    pub(super) samples: Option<wgpu::TextureView>,
+    pub(super) depth: wgpu::TextureView,
+    pub(super) half_depth: wgpu::TextureView,
+    pub(super) half_normals: wgpu::TextureView,
+    pub(super) rough_hollows: wgpu::TextureView,
+    pub(super) hollows: wgpu::TextureView,
+}
+
+/// Format of the hollows: openness and depth.
+pub(super) const HOLLOWS: wgpu::TextureFormat = wgpu::TextureFormat::Rg16Float;
+/// Format of the view-space normals.
+pub(super) const NORMALS: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+
+impl OffscreenTarget {
+    /// Makes the textures. `size` in pixels, at least 1 x 1.
+    pub fn new(gpu: &Gpu, size: UVec2) -> Result<Self, RenderError> {
+        let size = size.max(UVec2::ONE);
+        if size.max_element() > gpu.max_side() {
+            return Err(RenderError::TooLarge {
+                what: format!("a picture of {} x {} pixels", size.x, size.y),
+                limit: format!("{} pixels a side", gpu.max_side()),
+            });
+        }
+        let used = wgpu::TextureUsages::RENDER_ATTACHMENT;
+        let read = used | wgpu::TextureUsages::TEXTURE_BINDING;
+        let view = |label, size, format, samples, usage| {
+            texture(gpu, label, size, format, samples, usage).create_view(&Default::default())
+        };
+        let half = (size + 1) / 2;
+        let picture = texture(gpu, "picture", size, COLOUR, 1, read | wgpu::TextureUsages::COPY_SRC);
+        Ok(Self {
+            size,
+            picture_view: picture.create_view(&Default::default()),
+            picture,
+            samples: (gpu.samples > 1).then(|| view("samples", size, COLOUR, gpu.samples, used)),
+            depth: view("depth", size, DEPTH, gpu.samples, used),
+            half_depth: view("half depth", half, DEPTH, 1, read),
+            half_normals: view("half normals", half, NORMALS, 1, read),
+            rough_hollows: view("rough hollows", half, HOLLOWS, 1, read),
+            hollows: view("hollows", half, HOLLOWS, 1, read),
+        })
+    }
+
+    /// Copies the picture back: RGBA, rows from the top.
+    pub fn read(&self, gpu: &Gpu) -> Result<image::RgbaImage, RenderError> {
+        let row = self.size.x * 4;
+        let padded = row.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+        let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("readback"),
+            size: u64::from(padded) * u64::from(self.size.y),
+            usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+            mapped_at_creation: false,
+        });
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        encoder.copy_texture_to_buffer(
+            self.picture.as_image_copy(),
+            wgpu::TexelCopyBufferInfo {
+                buffer: &buffer,
+                layout: wgpu::TexelCopyBufferLayout {
+                    offset: 0,
+                    bytes_per_row: Some(padded),
+                    rows_per_image: None,
+                },
+            },
+            extent(self.size),
+        );
+        gpu.queue.submit([encoder.finish()]);
+        let bytes = mapped(gpu, &buffer)?;
+        let pixels = bytes.chunks(padded as usize).flat_map(|r| &r[..row as usize]).copied().collect();
+        image::RgbaImage::from_raw(self.size.x, self.size.y, pixels)
+            .ok_or_else(|| RenderError::Device("the picture came back too short".to_owned()))
+    }
+}
+
+fn extent(size: UVec2) -> wgpu::Extent3d {
+    wgpu::Extent3d { width: size.x, height: size.y, depth_or_array_layers: 1 }
+}
+
+/// A plain 2D texture.
+pub(super) fn texture(
+    gpu: &Gpu,
+    label: &str,
+    size: UVec2,
+    format: wgpu::TextureFormat,
+    samples: u32,
+    usage: wgpu::TextureUsages,
+) -> wgpu::Texture {
+    gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: Some(label),
+        size: extent(size),
+        mip_level_count: 1,
+        sample_count: samples,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage,
+        view_formats: &[],
+    })
+}
+
+/// The bytes of `buffer`, once the device is done.
+fn mapped(gpu: &Gpu, buffer: &wgpu::Buffer) -> Result<Vec<u8>, RenderError> {
+    let (send, receive) = std::sync::mpsc::channel();
+    buffer.map_async(wgpu::MapMode::Read, .., move |r| {
+        // The receiver is gone only after a timeout, when nobody waits for the answer.
+        let _ = send.send(r);
+    });
+    let wait =
+        wgpu::PollType::Wait { submission_index: None, timeout: Some(Duration::from_secs(READBACK_SECONDS)) };
+    gpu.device.poll(wait).map_err(|_| RenderError::Timeout(READBACK_SECONDS))?;
+    receive
+        .recv_timeout(Duration::from_secs(READBACK_SECONDS))
+        .map_err(|_| RenderError::Timeout(READBACK_SECONDS))?
+        .map_err(|e| RenderError::Device(e.to_string()))?;
+    let view = buffer.get_mapped_range(..).map_err(|e| RenderError::Device(e.to_string()))?;
+    Ok(view.to_vec())
+}

@@ -1,0 +1,172 @@
+//! The renderer against known pictures. Without a graphics adapter the picture tests say so and pass.
+
+use std::sync::Arc;
+
+use glam::{UVec2, Vec2, Vec3};
+use toile::render::{
+    BODY, CLOTH_BACK, CLOTH_FRONT, Camera, Ground, Label, Look, Mesh, Polyline, RenderError, Scene, Studio,
+    View,
+};
+
+const SIZE: UVec2 = UVec2::new(320, 240);
+
+fn studio() -> Option<Studio> {
+    match Studio::new() {
+        Ok(studio) => Some(studio),
+        Err(RenderError::NoAdapter(why)) => {
+            println!("skipped: no graphics adapter ({why})");
+            None
+        }
+        Err(other) => panic!("{other}"),
+    }
+}
+
+/// A sphere of radius `r`; its front is outside.
+fn sphere(r: f32, front: [u8; 3], back: [u8; 3]) -> Mesh {
+    let (rings, sides) = (48u32, 96u32);
+    let mut mesh = Mesh { front, back, ..Default::default() };
+    for i in 0..=rings {
+        let a = std::f32::consts::PI * i as f32 / rings as f32;
+        for j in 0..sides {
+            let b = std::f32::consts::TAU * j as f32 / sides as f32;
+            mesh.positions.push(Vec3::new(a.sin() * b.sin(), a.cos(), a.sin() * b.cos()) * r);
+        }
+    }
+    for i in 0..rings {
+        for j in 0..sides {
+            let at = |i: u32, j: u32| i * sides + j % sides;
+            let (p, q, s, t) = (at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
+            mesh.triangles.push([p, q, s]);
+            mesh.triangles.push([p, s, t]);
+        }
+    }
+    mesh
+}
+
+fn pixel(image: &image::RgbaImage, x: u32, y: u32) -> [i32; 3] {
+    let p = image.get_pixel(x, y).0;
+    [p[0], p[1], p[2]].map(i32::from)
+}
+
+#[test]
+fn a_sphere_is_green_in_the_middle_and_background_at_the_corner() {
+    let Some(mut studio) = studio() else { return };
+    let scene = Scene { meshes: vec![Arc::new(sphere(0.5, CLOTH_FRONT, CLOTH_BACK))], ..Default::default() };
+    let look = Look::light();
+    let image = studio.picture(&scene, View::Front, &look, SIZE).expect("a picture");
+    let [r, g, b] = pixel(&image, 160, 120);
+    assert!(g > r + 20 && g > b + 20, "{r} {g} {b}");
+    for (x, y, want) in [(0, 0, look.sky), (319, 239, look.horizon)] {
+        let got = pixel(&image, x, y);
+        for k in 0..3 {
+            assert!((got[k] - i32::from(want[k])).abs() <= 2, "{got:?} {want:?}");
+        }
+    }
+    // The sphere touches neither edge, and fills most of the height.
+    assert!(pixel(&image, 160, 1)[1] > 220);
+    let [_, g, b] = pixel(&image, 160, 48);
+    assert!(g > b + 10, "the sphere should reach up here");
+}
+
+#[test]
+fn the_back_of_cloth_shows_its_own_colour() {
+    let Some(mut studio) = studio() else { return };
+    let mut inside_out = sphere(0.5, CLOTH_FRONT, CLOTH_BACK);
+    inside_out.triangles.iter_mut().for_each(|t| t.swap(1, 2));
+    let scene = Scene { meshes: vec![Arc::new(inside_out)], ..Default::default() };
+    let image = studio.picture(&scene, View::Left, &Look::dark(), SIZE).expect("a picture");
+    let [r, g, b] = pixel(&image, 160, 120);
+    assert!(r > g + 20 && b > g, "{r} {g} {b}");
+}
+
+#[test]
+fn cloth_four_millimetres_off_the_skin_never_lets_it_through() {
+    let Some(mut studio) = studio() else { return };
+    let skin = sphere(0.9, [255, 0, 0], [255, 0, 0]);
+    let cloth = sphere(0.904, [0, 255, 0], [0, 255, 0]);
+    let scene = Scene { meshes: vec![Arc::new(skin), Arc::new(cloth)], ..Default::default() };
+    let mut camera = Camera::framing(Vec3::splat(-0.9), Vec3::splat(0.9), View::ThreeQuarter, 4.0 / 3.0);
+    for (projection, zoom) in [
+        (toile::render::Projection::Perspective, 1.0),
+        (toile::render::Projection::Perspective, 8.0),
+        (toile::render::Projection::Orthographic, 0.1),
+    ] {
+        camera.projection = projection;
+        camera.zoom(zoom, camera.pivot);
+        let image = studio.draw(&scene, &camera, &Look::light(), SIZE).expect("a picture");
+        let red = image.pixels().filter(|p| i32::from(p[0]) > i32::from(p[1]) + 40).count();
+        assert_eq!(red, 0, "{projection:?}");
+        let green = image.pixels().filter(|p| i32::from(p[1]) > i32::from(p[0]) + 40).count();
+        assert!(green > 200, "{green}");
+    }
+}
+
+#[test]
+fn lines_lie_on_the_surface_and_hide_behind_it() {
+    let Some(mut studio) = studio() else { return };
+    let blue = |z: f32| Polyline {
+        points: vec![Vec3::new(-0.1, 0.0, z), Vec3::new(0.1, 0.0, z)],
+        colour: [0, 0, 255, 255],
+        width: 5.0,
+        halo: [255, 255, 255, 255],
+        halo_width: 2.0,
+        lift: 0.02,
+        ..Default::default()
+    };
+    let count = |studio: &mut Studio, lines, view| {
+        let scene = Scene { meshes: vec![Arc::new(sphere(0.5, BODY, BODY))], lines, ..Default::default() };
+        let image = studio.picture(&scene, view, &Look::light(), SIZE).expect("a picture");
+        image.pixels().filter(|p| p[2] > 200 && p[0] < 60).count()
+    };
+    let seen = count(&mut studio, vec![blue(0.495)], View::Front);
+    assert!((100..600).contains(&seen), "{seen}");
+    assert_eq!(count(&mut studio, vec![blue(0.495)], View::Back), 0);
+}
+
+#[test]
+fn a_number_is_drawn_beside_its_anchor() {
+    let Some(mut studio) = studio() else { return };
+    let label = Label {
+        anchor: Vec3::new(0.0, 0.0, 0.5),
+        offset: Vec2::new(0.0, 20.0),
+        text: "8".to_owned(),
+        height: 16.0,
+        colour: [0, 0, 255, 255],
+        halo: [255, 255, 255, 255],
+        lift: 0.05,
+    };
+    let scene = Scene {
+        meshes: vec![Arc::new(sphere(0.5, BODY, BODY))],
+        labels: vec![label],
+        ground: Some(Ground { height: -0.5, centre: Vec2::ZERO, radius: 2.0 }),
+        ..Default::default()
+    };
+    let image = studio.picture(&scene, View::Front, &Look::light(), SIZE).expect("a picture");
+    let (mut count, mut low, mut high) = (0, u32::MAX, 0);
+    for (_, y, _) in image.enumerate_pixels().filter(|(_, _, p)| p[2] > 180 && p[0] < 70) {
+        (count, low, high) = (count + 1, low.min(y), high.max(y));
+    }
+    assert!(count > 20, "{count}");
+    assert!(low >= 88 && high <= 112, "{low}..{high}");
+}
+
+#[test]
+fn the_same_scene_gives_the_same_pixels() {
+    let Some(mut studio) = studio() else { return };
+    let scene = || Scene {
+        meshes: vec![Arc::new(sphere(0.5, CLOTH_FRONT, CLOTH_BACK))],
+        ground: Some(Ground { height: -0.5, centre: Vec2::ZERO, radius: 2.0 }),
+        ..Default::default()
+    };
+    let mut draw = || studio.picture(&scene(), View::ThreeQuarter, &Look::dark(), SIZE).expect("a picture");
+    assert!(draw() == draw());
+}
+
+#[test]
+fn a_picture_that_is_too_large_is_refused_in_words() {
+    let Some(mut studio) = studio() else { return };
+    let error = studio
+        .picture(&Scene::default(), View::Front, &Look::light(), UVec2::new(1_000_000, 10))
+        .expect_err("too large");
+    assert!(error.to_string().contains("1000000 x 10 pixels"), "{error}");
+}
