@@ -39,7 +39,7 @@ pub mod contact;
 pub mod geometry;
 pub mod pattern;
 pub mod relax;
+pub mod render;
 pub mod session;
 pub mod sim;
-pub mod render;
 pub mod wrap;
