@@ -7,12 +7,14 @@ use spade::{AngleLimit, ConstrainedDelaunayTriangulation, Point2, RefinementPara
 
 use crate::geometry::ids::PieceId;
 use crate::pattern::sampling::{Sampling, place};
-use crate::pattern::{EdgeRef, Pattern, Piece, Problem, ProblemKind};
+use crate::pattern::{EdgeRef, EdgeShape, Pattern, Piece, Problem, ProblemKind};
 
 /// Refinement aims at this smallest angle, degrees; sharp corners of the outline keep theirs.
 const SMALLEST_ANGLE_DEG: f64 = 27.0;
 /// Lattice points nearer than this many edge lengths to the outline are left out.
 const LATTICE_CLEARANCE: f64 = 0.62;
+/// Points the outline of one piece may have.
+const MOST_OUTLINE_POINTS: usize = 100_000;
 /// Triangles one piece may have.
 const MOST_TRIANGLES: f64 = 2e6;
 
@@ -63,21 +65,19 @@ fn piece_mesh(
     if piece.outline.len() < 2 {
         return Err(fault(ProblemKind::ZeroLength, "its outline has fewer than two edges"));
     }
-    let (outline, edge_points) = sampled_outline(piece, intervals);
-    if outline.iter().any(|p| !p.is_finite()) {
+    if !is_finite(piece) {
         return Err(fault(ProblemKind::NotTriangulated, "its outline has coordinates that are not numbers"));
     }
-    let area = signed_area(&outline);
-    let extent = outline.iter().fold(0.0f64, |m, p| m.max((*p - outline[0]).length()));
-    if area.abs() < 1e-9 || area.abs() < extent * extent * 1e-6 {
-        return Err(fault(ProblemKind::ZeroLength, "it has no area"));
-    }
-    if area.abs() / (edge_length * edge_length * 0.433) > MOST_TRIANGLES {
-        return Err(fault(
+    let too_fine = || {
+        fault(
             ProblemKind::NotTriangulated,
             "it would need more than two million triangles; raise the edge length",
-        ));
+        )
+    };
+    if intervals.iter().sum::<usize>() > MOST_OUTLINE_POINTS {
+        return Err(too_fine());
     }
+    let (outline, edge_points) = sampled_outline(piece, intervals);
     if let Some((i, j)) = crossing(&outline) {
         let (a, b) = (edge_of(&edge_points, i), edge_of(&edge_points, j));
         return Err(Problem {
@@ -85,6 +85,14 @@ fn piece_mesh(
             place: place(pattern, EdgeRef { piece: id, edge: a }),
             words: format!("the outline crosses itself: edge {a} meets edge {b}; move their points apart"),
         });
+    }
+    let area = signed_area(&outline);
+    let extent = outline.iter().fold(0.0f64, |m, p| m.max((*p - outline[0]).length()));
+    if area.abs() < 1e-9 || area.abs() < extent * extent * 1e-6 {
+        return Err(fault(ProblemKind::ZeroLength, "it has no area"));
+    }
+    if area.abs() / (edge_length * edge_length * 0.433) > MOST_TRIANGLES {
+        return Err(too_fine());
     }
     let (points, mut triangles) = refined(&outline, edge_length)
         .ok_or_else(|| fault(ProblemKind::NotTriangulated, "its outline could not be triangulated"))?;
@@ -95,6 +103,18 @@ fn piece_mesh(
         }
     }
     Ok(PieceMesh { points, edge_points, triangles, front_is_far })
+}
+
+fn is_finite(piece: &Piece) -> bool {
+    piece.outline.iter().all(|edge| {
+        edge.start.is_finite()
+            && match edge.shape {
+                EdgeShape::Line => true,
+                EdgeShape::Arc { radius, .. } => radius.is_finite(),
+                EdgeShape::Quadratic { control } => control.is_finite(),
+                EdgeShape::Cubic { controls } => controls.iter().all(|c| c.is_finite()),
+            }
+    })
 }
 
 fn sampled_outline(piece: &Piece, intervals: &[usize]) -> (Vec<DVec2>, Vec<Vec<u32>>) {
