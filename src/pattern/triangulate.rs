@@ -78,6 +78,10 @@ fn piece_mesh(
         return Err(too_fine());
     }
     let (outline, edge_points) = sampled_outline(piece, intervals);
+    let extent = outline.iter().fold(0.0f64, |m, p| m.max((*p - outline[0]).length()));
+    if is_straight(&outline, extent) {
+        return Err(fault(ProblemKind::ZeroLength, "it has no area"));
+    }
     if let Some((i, j)) = crossing(&outline) {
         let (a, b) = (edge_of(&edge_points, i), edge_of(&edge_points, j));
         return Err(Problem {
@@ -87,7 +91,6 @@ fn piece_mesh(
         });
     }
     let area = signed_area(&outline);
-    let extent = outline.iter().fold(0.0f64, |m, p| m.max((*p - outline[0]).length()));
     if area.abs() < 1e-9 || area.abs() < extent * extent * 1e-6 {
         return Err(fault(ProblemKind::ZeroLength, "it has no area"));
     }
@@ -103,6 +106,13 @@ fn piece_mesh(
         }
     }
     Ok(PieceMesh { points, edge_points, triangles, front_is_far })
+}
+
+/// Whether all points lie on one line, to a millionth of their extent.
+fn is_straight(outline: &[DVec2], extent: f64) -> bool {
+    let far = outline.iter().copied().find(|p| (*p - outline[0]).length() >= extent);
+    let along = far.map_or(DVec2::ZERO, |p| (p - outline[0]).normalize_or_zero());
+    outline.iter().all(|p| (*p - outline[0]).perp_dot(along).abs() <= extent * 1e-6)
 }
 
 fn is_finite(piece: &Piece) -> bool {
