@@ -41,7 +41,12 @@ pub fn read(bytes: &[u8], pattern: &Pattern) -> Result<Marks, String> {
     for (i, pair) in file.pairs.into_iter().enumerate() {
         let Some(piece) = pattern.piece_named(&pair.piece) else {
             let names: Vec<&str> = pattern.pieces.values().map(|p| p.name.as_str()).collect();
-            return Err(format!("pair {}: there is no piece {:?}, only {}", i + 1, pair.piece, names.join(", ")));
+            return Err(format!(
+                "pair {}: there is no piece {:?}, only {}",
+                i + 1,
+                pair.piece,
+                names.join(", ")
+            ));
         };
         if pair.cloth.is_empty() || pair.body.is_empty() {
             return Err(format!("pair {}: a stroke needs at least one point", i + 1));
@@ -73,7 +78,8 @@ mod tests {
         pattern
     }
 
-    const GOOD: &str = r#"{"pairs": [{"piece": "front", "cloth": [[0, 0.1]], "body": [[1, 2, 3], [1, 2, 4]]}]}"#;
+    const GOOD: &str =
+        r#"{"pairs": [{"piece": "front", "cloth": [[0, 0.1]], "body": [[1, 2, 3], [1, 2, 4]]}]}"#;
 
     #[test]
     fn a_file_comes_back_as_it_was() {
