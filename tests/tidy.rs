@@ -214,10 +214,25 @@ fn files_are_opened_at_the_rims_only() {
         ["io", "cli", "ui", ""].contains(&s.folder.as_str())
             || ["src/session/project_file.rs", "src/session/recording.rs"].contains(&s.path.as_str())
     };
-    let opens = |s: &&Source| s.code.contains("std::fs") || s.code.contains("std::{fs");
+    let opens = |s: &&Source| {
+        let code = s.code.split("#[cfg(test)]").next().unwrap_or_default();
+        code.contains("std::fs") || code.contains("std::{fs")
+    };
     let outside: Vec<String> =
         sources().iter().filter(opens).filter(|s| !may(s)).map(|s| s.path.clone()).collect();
     assert!(outside.is_empty(), "{outside:#?}");
+}
+
+#[test]
+fn printing_never_panics() {
+    let macros = ["println!", "print!", "eprintln!", "eprint!", "dbg!"];
+    let code = |s: &Source| s.code.split("#[cfg(test)]").next().unwrap_or_default().to_owned();
+    let found: Vec<String> = sources()
+        .iter()
+        .filter(|s| !s.path.ends_with("tests.rs"))
+        .flat_map(|s| macros.iter().filter(|m| code(s).contains(**m)).map(|m| format!("{}: {m}", s.path)))
+        .collect();
+    assert!(found.is_empty(), "these panic when their output is closed; see cli/output.rs: {found:#?}");
 }
 
 #[test]
