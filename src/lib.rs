@@ -37,6 +37,7 @@ pub mod body;
 pub mod cloth;
 pub mod contact;
 pub mod geometry;
+pub mod io;
 pub mod pattern;
 pub mod relax;
 pub mod render;

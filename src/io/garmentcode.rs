@@ -1,0 +1,292 @@
+//! Patterns of GarmentCode and of its predecessor, the Garment Pattern Generator, from their JSON.
+//!
+//! M. Korosteleva and S.-H. Lee, "Generating Datasets of 3D Garments with Sewing Patterns", 2021;
+//! M. Korosteleva and O. Sorkine-Hornung, "GarmentCode: Programming Parametric Sewing Patterns", 2023.
+//! The two dialects differ in `curvature`: the older one has only quadratic Béziers, written as a plain pair.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use glam::{DQuat, DVec2, DVec3, EulerRot};
+
+use crate::geometry::ids::PieceId;
+use crate::io::Limits;
+use crate::io::json::{self, At, JsonError};
+use crate::io::sheet;
+use crate::pattern::{Edge, EdgeRef, EdgeShape, Pattern, Piece, PlanePose, Seam, SpacePose};
+
+/// Edges shorter than this (metres) have no length.
+const SHORTEST_EDGE: f64 = 1e-6;
+/// Relative control points further from their edge than this many edge lengths are a fault of the file.
+const LARGEST_CURVATURE: f64 = 100.0;
+/// Rotations beyond two turns (degrees) are not degrees.
+const LARGEST_ANGLE: f64 = 720.0;
+
+/// Why a file is not a usable pattern.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum GarmentCodeError {
+    /// Not JSON, or not the JSON of a pattern.
+    #[error("{0}")]
+    Json(#[from] JsonError),
+    /// More than [`Limits`] allows.
+    #[error("{place}: {words}")]
+    OverLimit {
+        /// JSON pointer.
+        place: String,
+        /// Which limit.
+        words: String,
+    },
+}
+
+/// Reads a pattern: pieces in the order of the file, outlines in the direction of the file.
+///
+/// A fault that a person can fix in one piece, such as an outline that crosses itself, is no error here.
+pub fn read(bytes: &[u8]) -> Result<Pattern, GarmentCodeError> {
+    let limits = Limits::default();
+    if bytes.len() > limits.file_bytes {
+        let words = format!("the file has {} bytes; {} are allowed", bytes.len(), limits.file_bytes);
+        return Err(GarmentCodeError::OverLimit { place: "/".to_owned(), words });
+    }
+    let root = json::parse(bytes)?;
+    let root = At::root(&root);
+    let convention = Convention::read(&root, &limits)?;
+    let body = root.field("pattern")?;
+    let mut pattern = Pattern::default();
+    let mut ids: BTreeMap<&str, PieceId> = BTreeMap::new();
+    let panels = body.field("panels")?;
+    let entries = panels.entries()?;
+    if entries.len() > limits.pieces {
+        return Err(over(&panels, format!("{} panels; {} are allowed", entries.len(), limits.pieces)));
+    }
+    for (name, panel) in entries {
+        if name.len() > limits.name_bytes {
+            return Err(over(
+                &panels,
+                format!("a name of {} bytes; {} are allowed", name.len(), limits.name_bytes),
+            ));
+        }
+        ids.insert(name, pattern.add_piece(convention.piece(name, &panel)?));
+    }
+    if ids.is_empty() {
+        return Err(panels.error("the pattern has no panels").into());
+    }
+    read_stitches(&body, &ids, &mut pattern)?;
+    sheet::lay_out(&mut pattern);
+    Ok(pattern)
+}
+
+fn over(at: &At<'_>, words: String) -> GarmentCodeError {
+    GarmentCodeError::OverLimit { place: at.pointer.clone(), words }
+}
+
+/// How this file writes lengths and curves.
+struct Convention {
+    metres_per_unit: f64,
+    absolute_controls: bool,
+    largest_coordinate: f64,
+}
+
+impl Convention {
+    fn read(root: &At<'_>, limits: &Limits) -> Result<Self, JsonError> {
+        let properties = root.field("properties")?;
+        let Some(units) = properties.optional("units_in_meter")? else {
+            return Err(properties.error("\"units_in_meter\" is missing: 100 stands for centimetres"));
+        };
+        let units_in_metre = units.number()?;
+        if !(1e-3..=1e6).contains(&units_in_metre) {
+            return Err(units.error(format!("{units_in_metre} units in a metre cannot be")));
+        }
+        let absolute_controls = match properties.optional("curvature_coords")? {
+            None => false,
+            Some(at) => match at.text()? {
+                "relative" => false,
+                "absolute" => true,
+                other => return Err(at.error(format!("{other:?} is neither \"relative\" nor \"absolute\""))),
+            },
+        };
+        let largest_coordinate = limits.pattern_coordinate;
+        Ok(Self { metres_per_unit: 1.0 / units_in_metre, absolute_controls, largest_coordinate })
+    }
+
+    fn length(&self, at: &At<'_>) -> Result<f64, JsonError> {
+        let metres = at.number()? * self.metres_per_unit;
+        if metres.abs() > self.largest_coordinate {
+            return Err(at.error(format!("{metres} m is beyond {} m", self.largest_coordinate)));
+        }
+        Ok(metres)
+    }
+
+    fn point(&self, at: &At<'_>) -> Result<DVec2, JsonError> {
+        let [x, y] = at.array()?;
+        Ok(DVec2::new(self.length(&x)?, self.length(&y)?))
+    }
+
+    fn piece(&self, name: &str, panel: &At<'_>) -> Result<Piece, JsonError> {
+        let vertices =
+            panel.field("vertices")?.items()?.iter().map(|v| self.point(v)).collect::<Result<Vec<_>, _>>()?;
+        Ok(Piece {
+            name: name.to_owned(),
+            outline: self.outline(panel, &vertices)?,
+            pose: PlanePose::default(),
+            placement: self.placement(panel)?,
+            label: label(panel)?,
+        })
+    }
+
+    fn outline(&self, panel: &At<'_>, vertices: &[DVec2]) -> Result<Vec<Edge>, JsonError> {
+        let list = panel.field("edges")?;
+        let edges = list.items()?;
+        if edges.len() < 3 {
+            return Err(list.error(format!("a panel needs at least 3 edges, this one has {}", edges.len())));
+        }
+        let ends = edges.iter().map(|e| endpoints(e, vertices.len())).collect::<Result<Vec<_>, _>>()?;
+        for (i, edge) in edges.iter().enumerate() {
+            let (end, next) = (ends[i][1], ends[(i + 1) % edges.len()][0]);
+            if end != next {
+                return Err(edge.error(format!(
+                    "the edge ends at vertex {end}, but the next one starts at vertex {next}: the outline is not closed"
+                )));
+            }
+        }
+        edges.iter().zip(&ends).map(|(edge, ends)| self.edge(edge, ends.map(|v| vertices[v]))).collect()
+    }
+
+    fn edge(&self, edge: &At<'_>, [start, end]: [DVec2; 2]) -> Result<Edge, JsonError> {
+        if start.distance(end) < SHORTEST_EDGE {
+            return Err(edge.error("the edge has no length: both ends lie in one place"));
+        }
+        let shape = match edge.optional("curvature")? {
+            None => EdgeShape::Line,
+            Some(at) => self.shape(&at, start, end)?,
+        };
+        Ok(Edge { start, shape, label: label(edge)? })
+    }
+
+    fn shape(&self, curvature: &At<'_>, start: DVec2, end: DVec2) -> Result<EdgeShape, JsonError> {
+        if let json::Node::List(_) = curvature.node {
+            return Ok(EdgeShape::Quadratic { control: self.control(curvature, start, end)? });
+        }
+        let kind = curvature.field("type")?;
+        let params = curvature.field("params")?;
+        match kind.text()? {
+            "quadratic" => {
+                let [control] = params.array()?;
+                Ok(EdgeShape::Quadratic { control: self.control(&control, start, end)? })
+            }
+            "cubic" => {
+                let [c, d] = params.array()?;
+                Ok(EdgeShape::Cubic {
+                    controls: [self.control(&c, start, end)?, self.control(&d, start, end)?],
+                })
+            }
+            "circle" => self.arc(&params, start.distance(end)),
+            other => Err(kind.error(format!("{other:?} is none of \"quadratic\", \"cubic\", \"circle\""))),
+        }
+    }
+
+    /// Relative control points are in the frame of the edge: along it, and to the left of it, in edge lengths.
+    fn control(&self, at: &At<'_>, start: DVec2, end: DVec2) -> Result<DVec2, JsonError> {
+        if self.absolute_controls {
+            return self.point(at);
+        }
+        let [u, v] = at.numbers()?;
+        if u.abs().max(v.abs()) > LARGEST_CURVATURE {
+            return Err(at.error("a relative control point this far from its edge cannot be"));
+        }
+        let along = end - start;
+        Ok(start + along * u + along.perp() * v)
+    }
+
+    fn arc(&self, params: &At<'_>, chord: f64) -> Result<EdgeShape, JsonError> {
+        let [radius, large, right] = params.array()?;
+        let metres = self.length(&radius)?;
+        if metres < chord / 2.0 * (1.0 - 1e-4) {
+            return Err(radius.error(format!(
+                "an arc of radius {metres:.6} m cannot span its ends, which are {chord:.6} m apart"
+            )));
+        }
+        // A half circle written with rounded numbers may miss its chord by a hair.
+        Ok(EdgeShape::Arc { radius: metres.max(chord / 2.0), large: large.flag()?, sweep: right.flag()? })
+    }
+
+    fn placement(&self, panel: &At<'_>) -> Result<Option<SpacePose>, JsonError> {
+        let Some(translation) = panel.optional("translation")? else {
+            return Ok(None);
+        };
+        let [x, y, z] = translation.array()?;
+        let translation = DVec3::new(self.length(&x)?, self.length(&y)?, self.length(&z)?);
+        let rotation = match panel.optional("rotation")? {
+            None => DQuat::IDENTITY,
+            Some(at) => {
+                let angles: [f64; 3] = at.numbers()?;
+                if angles.iter().any(|a| a.abs() > LARGEST_ANGLE) {
+                    return Err(at.error("rotations are in degrees, no more than two turns"));
+                }
+                let [a, b, c] = angles.map(f64::to_radians);
+                // Rz * Ry * Rx: about x first.
+                DQuat::from_euler(EulerRot::ZYX, c, b, a)
+            }
+        };
+        Ok(Some(SpacePose { translation, rotation }))
+    }
+}
+
+fn label(at: &At<'_>) -> Result<Option<String>, JsonError> {
+    match at.optional("label")? {
+        None => Ok(None),
+        Some(label) => Ok(Some(label.text()?.to_owned()).filter(|l| !l.is_empty())),
+    }
+}
+
+fn endpoints(edge: &At<'_>, vertex_count: usize) -> Result<[usize; 2], JsonError> {
+    let [i, j] = edge.field("endpoints")?.array()?;
+    Ok([i.index(vertex_count)?, j.index(vertex_count)?])
+}
+
+fn read_stitches(
+    body: &At<'_>,
+    ids: &BTreeMap<&str, PieceId>,
+    pattern: &mut Pattern,
+) -> Result<(), JsonError> {
+    let Some(stitches) = body.optional("stitches")? else {
+        return Ok(());
+    };
+    let mut sewn = BTreeSet::new();
+    for stitch in stitches.items()? {
+        let items = stitch.items()?;
+        let (a, b, same_direction) = match items.as_slice() {
+            [a, b] => (a, b, false),
+            [a, b, how] => (a, b, right_wrong(how)?),
+            _ => return Err(stitch.error(format!("a stitch joins 2 edges, this one lists {}", items.len()))),
+        };
+        let sides = [edge_ref(a, ids, pattern)?, edge_ref(b, ids, pattern)?];
+        for (side, at) in sides.iter().zip([a, b]) {
+            if !sewn.insert(*side) {
+                return Err(at.error("this edge is sewn twice"));
+            }
+        }
+        pattern.add_seam(Seam { sides, same_direction });
+    }
+    Ok(())
+}
+
+/// The right side of one edge on the wrong side of the other, as a lapel is sewn: start meets start.
+fn right_wrong(how: &At<'_>) -> Result<bool, JsonError> {
+    match how.text()? {
+        "right_wrong" => Ok(true),
+        other => Err(how.error(format!("{other:?} is no way to stitch; only \"right_wrong\" is known"))),
+    }
+}
+
+fn edge_ref(side: &At<'_>, ids: &BTreeMap<&str, PieceId>, pattern: &Pattern) -> Result<EdgeRef, JsonError> {
+    let panel = side.field("panel")?;
+    let name = panel.text()?;
+    let Some(&piece) = ids.get(name) else {
+        return Err(panel.error(format!("there is no panel {name:?}")));
+    };
+    let edge = side.field("edge")?.index(pattern.pieces[&piece].outline.len())?;
+    Ok(EdgeRef { piece, edge })
+}
+
+#[cfg(test)]
+#[path = "garmentcode_tests.rs"]
+mod tests;

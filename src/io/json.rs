@@ -1,0 +1,354 @@
+//! JSON read strictly, with the place of every value as a JSON pointer (RFC 6901).
+//!
+//! Stricter than `serde_json::Value`: a key that occurs twice is an error, objects keep the order of the file.
+//! Kinder in two points: a byte-order mark and `//` and `/* */` comments are skipped.
+
+use std::fmt;
+
+use serde::de::{self, Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
+
+/// A JSON value.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Node {
+    /// `null`
+    Null,
+    /// `true`, `false`
+    Bool(bool),
+    /// Finite.
+    Number(f64),
+    /// A string.
+    Text(String),
+    /// An array.
+    List(Vec<Node>),
+    /// An object, in the order of the file, every key once.
+    Map(Vec<(String, Node)>),
+}
+
+/// What is wrong with a JSON text.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum JsonError {
+    /// The text is no JSON.
+    #[error("line {line}, column {column}: {words}")]
+    Syntax {
+        /// From 1.
+        line: usize,
+        /// From 1.
+        column: usize,
+        /// The reason.
+        words: String,
+    },
+    /// The text is JSON, but not of the expected shape.
+    #[error("{pointer}: {words}")]
+    Content {
+        /// JSON pointer; `/` for the whole text.
+        pointer: String,
+        /// The reason.
+        words: String,
+    },
+}
+
+/// Parses a whole text.
+pub fn parse(bytes: &[u8]) -> Result<Node, JsonError> {
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    let text = std::str::from_utf8(bytes).map_err(|e| {
+        let (line, column) = line_and_column(bytes, e.valid_up_to());
+        JsonError::Syntax { line, column, words: "the file is not UTF-8 text".to_owned() }
+    })?;
+    if text.trim().is_empty() {
+        return Err(JsonError::Syntax { line: 1, column: 1, words: "the file is empty".to_owned() });
+    }
+    serde_json::from_str(&without_comments(text)).map_err(|e| JsonError::Syntax {
+        line: e.line(),
+        column: e.column(),
+        words: in_words(&e),
+    })
+}
+
+fn in_words(error: &serde_json::Error) -> String {
+    let full = error.to_string();
+    let place = format!(" at line {} column {}", error.line(), error.column());
+    let words = full.strip_suffix(&place).unwrap_or(&full);
+    if error.is_eof() {
+        return "the file ends too early: it is truncated".to_owned();
+    }
+    match words {
+        "expected value" => "expected a value (NaN and Infinity are no JSON numbers)".to_owned(),
+        "trailing characters" => "there is text after the end of the JSON".to_owned(),
+        "unexpected end of hex escape" => "half a surrogate pair in a text".to_owned(),
+        "recursion limit exceeded" => "nested too deeply".to_owned(),
+        words => words.to_owned(),
+    }
+}
+
+fn line_and_column(bytes: &[u8], at: usize) -> (usize, usize) {
+    let before = &bytes[..at];
+    let line_start = before.iter().rposition(|&b| b == b'\n').map_or(0, |i| i + 1);
+    (before.iter().filter(|&&b| b == b'\n').count() + 1, at - line_start + 1)
+}
+
+/// Comments become spaces, so that lines and columns stay.
+fn without_comments(text: &str) -> String {
+    #[derive(PartialEq)]
+    enum In {
+        Code,
+        Text,
+        Line,
+        Block,
+    }
+    let mut state = In::Code;
+    let mut out = String::with_capacity(text.len());
+    let mut chars = text.chars().peekable();
+    while let Some(c) = chars.next() {
+        match state {
+            In::Code if c == '"' => state = In::Text,
+            In::Code if c == '/' && chars.peek() == Some(&'/') => state = In::Line,
+            In::Code if c == '/' && chars.peek() == Some(&'*') => {
+                chars.next();
+                out.push_str("  ");
+                state = In::Block;
+                continue;
+            }
+            In::Text if c == '"' => state = In::Code,
+            In::Text if c == '\\' => {
+                out.push(c);
+                out.extend(chars.next());
+                continue;
+            }
+            In::Line if c == '\n' => state = In::Code,
+            In::Block if c == '*' && chars.peek() == Some(&'/') => {
+                chars.next();
+                out.push_str("  ");
+                state = In::Code;
+                continue;
+            }
+            _ => {}
+        }
+        let commented = matches!(state, In::Line | In::Block);
+        out.push(if commented && c != '\n' { ' ' } else { c });
+    }
+    out
+}
+
+impl<'de> Deserialize<'de> for Node {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(NodeVisitor)
+    }
+}
+
+struct NodeVisitor;
+
+impl<'de> Visitor<'de> for NodeVisitor {
+    type Value = Node;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a JSON value")
+    }
+
+    fn visit_unit<E>(self) -> Result<Node, E> {
+        Ok(Node::Null)
+    }
+
+    fn visit_bool<E>(self, v: bool) -> Result<Node, E> {
+        Ok(Node::Bool(v))
+    }
+
+    fn visit_i64<E>(self, v: i64) -> Result<Node, E> {
+        Ok(Node::Number(v as f64))
+    }
+
+    fn visit_u64<E>(self, v: u64) -> Result<Node, E> {
+        Ok(Node::Number(v as f64))
+    }
+
+    fn visit_f64<E: de::Error>(self, v: f64) -> Result<Node, E> {
+        if v.is_finite() { Ok(Node::Number(v)) } else { Err(E::custom("number out of range")) }
+    }
+
+    fn visit_str<E>(self, v: &str) -> Result<Node, E> {
+        Ok(Node::Text(v.to_owned()))
+    }
+
+    fn visit_string<E>(self, v: String) -> Result<Node, E> {
+        Ok(Node::Text(v))
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<Node, A::Error> {
+        let mut items = Vec::new();
+        while let Some(item) = seq.next_element()? {
+            items.push(item);
+        }
+        Ok(Node::List(items))
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Node, A::Error> {
+        let mut entries: Vec<(String, Node)> = Vec::new();
+        let mut seen = std::collections::BTreeSet::new();
+        while let Some(key) = map.next_key::<String>()? {
+            if !seen.insert(key.clone()) {
+                return Err(de::Error::custom(format!("the key {key:?} occurs twice")));
+            }
+            entries.push((key, map.next_value()?));
+        }
+        Ok(Node::Map(entries))
+    }
+}
+
+/// A value and its place.
+#[derive(Clone, Debug)]
+pub struct At<'a> {
+    /// The value.
+    pub node: &'a Node,
+    /// Its JSON pointer; empty for the whole text.
+    pub pointer: String,
+}
+
+impl<'a> At<'a> {
+    /// The whole text.
+    pub fn root(node: &'a Node) -> Self {
+        Self { node, pointer: String::new() }
+    }
+
+    /// An error at this place.
+    pub fn error(&self, words: impl Into<String>) -> JsonError {
+        let pointer = if self.pointer.is_empty() { "/".to_owned() } else { self.pointer.clone() };
+        JsonError::Content { pointer, words: words.into() }
+    }
+
+    fn wrong(&self, expected: &str) -> JsonError {
+        let found = match self.node {
+            Node::Null => "null",
+            Node::Bool(_) => "true or false",
+            Node::Number(_) => "a number",
+            Node::Text(_) => "a text",
+            Node::List(_) => "a list",
+            Node::Map(_) => "an object",
+        };
+        self.error(format!("expected {expected}, found {found}"))
+    }
+
+    fn below(&self, key: &str, node: &'a Node) -> At<'a> {
+        let key = key.replace('~', "~0").replace('/', "~1");
+        At { node, pointer: format!("{}/{key}", self.pointer) }
+    }
+
+    /// The entries of an object, in the order of the file.
+    pub fn entries(&self) -> Result<Vec<(&'a str, At<'a>)>, JsonError> {
+        let Node::Map(entries) = self.node else {
+            return Err(self.wrong("an object"));
+        };
+        Ok(entries.iter().map(|(k, n)| (k.as_str(), self.below(k, n))).collect())
+    }
+
+    /// A field of an object, if it is there and not null.
+    pub fn optional(&self, key: &str) -> Result<Option<At<'a>>, JsonError> {
+        let Node::Map(entries) = self.node else {
+            return Err(self.wrong("an object"));
+        };
+        let found = entries.iter().find(|(k, n)| k == key && *n != Node::Null);
+        Ok(found.map(|(k, n)| self.below(k, n)))
+    }
+
+    /// A field of an object.
+    pub fn field(&self, key: &str) -> Result<At<'a>, JsonError> {
+        self.optional(key)?.ok_or_else(|| self.error(format!("{key:?} is missing")))
+    }
+
+    /// The items of a list.
+    pub fn items(&self) -> Result<Vec<At<'a>>, JsonError> {
+        let Node::List(items) = self.node else {
+            return Err(self.wrong("a list"));
+        };
+        Ok(items.iter().enumerate().map(|(i, n)| self.below(&i.to_string(), n)).collect())
+    }
+
+    /// The items of a list of `N`.
+    pub fn array<const N: usize>(&self) -> Result<[At<'a>; N], JsonError> {
+        let items = self.items()?;
+        let count = items.len();
+        items.try_into().map_err(|_| self.error(format!("expected a list of {N}, found {count}")))
+    }
+
+    /// A list of `N` numbers.
+    pub fn numbers<const N: usize>(&self) -> Result<[f64; N], JsonError> {
+        let items = self.array::<N>()?;
+        let mut numbers = [0.0; N];
+        for (number, item) in numbers.iter_mut().zip(&items) {
+            *number = item.number()?;
+        }
+        Ok(numbers)
+    }
+
+    /// A finite number.
+    pub fn number(&self) -> Result<f64, JsonError> {
+        match self.node {
+            Node::Number(x) => Ok(*x),
+            _ => Err(self.wrong("a number")),
+        }
+    }
+
+    /// A whole number below `count`.
+    pub fn index(&self, count: usize) -> Result<usize, JsonError> {
+        let x = self.number()?;
+        if x.fract() != 0.0 || x < 0.0 || x >= count as f64 {
+            return Err(match count {
+                0 => self.error(format!("index {x} is out of range: there is nothing to point to")),
+                _ => self.error(format!("index {x} is out of range 0..={}", count - 1)),
+            });
+        }
+        Ok(x as usize)
+    }
+
+    /// 0, 1, false or true.
+    pub fn flag(&self) -> Result<bool, JsonError> {
+        match self.node {
+            Node::Bool(b) => Ok(*b),
+            Node::Number(x) if *x == 0.0 || *x == 1.0 => Ok(*x == 1.0),
+            _ => Err(self.wrong("0 or 1")),
+        }
+    }
+
+    /// A text.
+    pub fn text(&self) -> Result<&'a str, JsonError> {
+        match self.node {
+            Node::Text(s) => Ok(s),
+            _ => Err(self.wrong("a text")),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn check(text: &str, expected: &str) {
+        let error = parse(text.as_bytes()).expect_err(text).to_string();
+        assert!(error.contains(expected), "{text}: {error}");
+    }
+
+    #[test]
+    fn faults_are_named() {
+        check("", "empty");
+        check("{\"a\": 1", "truncated");
+        check("{\"a\": NaN}", "line 1, column 7: expected a value (NaN");
+        check("{\"a\": 1e999}", "out of range");
+        check("{\"a\": 1,\n\"a\": 2}", "\"a\" occurs twice");
+        check("{} {}", "after the end");
+        check(&"[".repeat(100_000), "nested too deeply");
+        check("{\"a\": \"\\ud800\"}", "half a surrogate pair");
+    }
+
+    #[test]
+    fn comments_and_a_byte_order_mark_are_skipped() {
+        let text = "\u{feff}// one \"quote\n{\"a\": /* two */ \"http://x\"} // three";
+        let node = parse(text.as_bytes()).expect("JSON");
+        assert_eq!(node, Node::Map(vec![("a".to_owned(), Node::Text("http://x".to_owned()))]));
+    }
+
+    #[test]
+    fn places_are_pointers() {
+        let node = parse(b"{\"a/b\": [1, {\"c\": true}]}").expect("JSON");
+        let at = At::root(&node).field("a/b").and_then(|a| a.array::<2>()).expect("two items");
+        let error = at[1].field("c").and_then(|c| c.number()).expect_err("no number");
+        assert_eq!(error.to_string(), "/a~1b/1/c: expected a number, found true or false");
+    }
+}

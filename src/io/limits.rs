@@ -1,0 +1,43 @@
+//! How much an input file may ask for.
+
+/// Bounds on untrusted input. What exceeds one is refused before memory is spent on it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limits {
+    /// Bytes of one file.
+    pub file_bytes: usize,
+    /// Bytes of one line of text.
+    pub line_bytes: usize,
+    /// Vertices of one mesh.
+    pub vertices: usize,
+    /// Triangles of one mesh.
+    pub faces: usize,
+    /// Pieces of one pattern.
+    pub pieces: usize,
+    /// Corners of one face.
+    pub face_corners: usize,
+    /// Groups, objects and materials together.
+    pub groups: usize,
+    /// Bytes of one name.
+    pub name_bytes: usize,
+    /// Absolute value of a body's coordinate, metres.
+    pub coordinate: f64,
+    /// Absolute value of a pattern's coordinate, metres.
+    pub pattern_coordinate: f64,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self {
+            file_bytes: 512 << 20,
+            line_bytes: 1 << 20,
+            vertices: 5_000_000,
+            faces: 10_000_000,
+            pieces: 1000,
+            face_corners: 4096,
+            groups: 10_000,
+            name_bytes: 1024,
+            coordinate: 1e6,
+            pattern_coordinate: 100.0,
+        }
+    }
+}

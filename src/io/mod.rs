@@ -1,0 +1,8 @@
+//! Bytes in, checked data out, and back. Nothing here opens a file: callers hand over bytes and name the place.
+
+pub mod garmentcode;
+pub mod json;
+pub mod limits;
+mod sheet;
+
+pub use limits::Limits;
