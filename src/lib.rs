@@ -21,7 +21,7 @@
 //! | `io`       | obj, glb, garmentcode json, png: bytes in, checked data out, and back | body, pattern, geometry |
 //! | `render`   | plain buffers in, pixels out: camera, passes, offscreen target | nothing of ours |
 //! | `ui`       | egui: app, actions, panes, tools | session and below, render |
-//! | `cli`      | one file per subcommand: arguments, calls, printing | session and below, render |
+//! | `cli`      | one file per subcommand: arguments, calls, printing | session and below, render, ui |
 //!
 //! Invariants:
 //! - Metres, radians, seconds; right-handed, y up, bodies face +z. Pattern planes have y up and their front towards the reader.

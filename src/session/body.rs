@@ -3,6 +3,8 @@
 use std::sync::Arc;
 
 use crate::body::Surface;
+use crate::body::mannequin::mannequin;
+use crate::geometry::mesh::TriMesh;
 use crate::session::command::Rejection;
 use crate::session::document::BodyChoice;
 
@@ -41,9 +43,15 @@ impl BodyCache {
 /// Makes the surface of `choice`.
 pub fn surface_of(choice: &BodyChoice) -> Result<Arc<Surface>, Rejection> {
     match choice {
-        BodyChoice::Mannequin => Err(Rejection::new("the mannequin is not in this build")),
-        BodyChoice::Imported { name, mesh } => Surface::new(mesh.as_ref().clone())
-            .map(Arc::new)
-            .ok_or_else(|| Rejection(format!("{name} has no triangle that cloth could lie on"))),
+        BodyChoice::Mannequin(measurements) => {
+            let figure = mannequin(measurements).map_err(|e| Rejection(e.to_string()))?;
+            ready(figure.mesh.clone(), "the mannequin")
+        }
+        BodyChoice::Imported { name, mesh } => ready(mesh.as_ref().clone(), name),
     }
+}
+
+fn ready(mesh: TriMesh, name: &str) -> Result<Arc<Surface>, Rejection> {
+    let surface = Surface::new(mesh).map(Arc::new);
+    surface.ok_or_else(|| Rejection(format!("{name} has no triangle that cloth could lie on")))
 }

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
+use crate::body::mannequin::Measurements;
 use crate::geometry::ids::MarkId;
 use crate::geometry::mesh::TriMesh;
 use crate::pattern::Pattern;
@@ -56,8 +57,8 @@ impl Document {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum BodyChoice {
-    /// The built-in dressmaker's figure.
-    Mannequin,
+    /// The built-in dressmaker's figure, made to measurements.
+    Mannequin(Measurements),
     /// A mesh from a file. It may have faults: `session::body` tells.
     Imported {
         name: String,
@@ -69,7 +70,7 @@ pub enum BodyChoice {
 impl PartialEq for BodyChoice {
     fn eq(&self, other: &Self) -> bool {
         match (self, other) {
-            (Self::Mannequin, Self::Mannequin) => true,
+            (Self::Mannequin(one), Self::Mannequin(other)) => one == other,
             (Self::Imported { name, mesh }, Self::Imported { name: other_name, mesh: other_mesh }) => {
                 name == other_name && (Arc::ptr_eq(mesh, other_mesh) || mesh == other_mesh)
             }
@@ -80,7 +81,7 @@ impl PartialEq for BodyChoice {
 
 impl Default for BodyChoice {
     fn default() -> Self {
-        Self::Mannequin
+        Self::Mannequin(Measurements::default())
     }
 }
 

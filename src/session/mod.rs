@@ -6,6 +6,7 @@ pub mod document;
 pub mod edit;
 pub mod hashes;
 pub mod history;
+pub mod marks_file;
 pub mod project;
 pub mod project_file;
 pub mod recording;

@@ -1,0 +1,205 @@
+//! What can be typed.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+use crate::render::View;
+
+/// Dress a body in cloth: draw and sew flat pieces, paint marks, press Wrap.
+///
+/// Exit codes: 0 done, 1 a check failed, 2 usage, 3 bad input, 4 over a limit, 5 no graphics, 6 file error, 70 internal
+/// error, 130/143 stopped by a signal.
+#[derive(Debug, Parser)]
+#[command(name = "toile", version, args_conflicts_with_subcommands = true)]
+pub struct Arguments {
+    /// Opens the editor on this project, pattern or sample (sample:NAME); without one, on the sample T-shirt
+    pub project: Option<PathBuf>,
+    /// Writes everything done to this file as it happens
+    #[arg(long, value_name = "FILE")]
+    pub record: Option<PathBuf>,
+    #[command(subcommand)]
+    pub task: Option<Task>,
+}
+
+/// What can be done without a window.
+#[derive(Debug, Subcommand)]
+pub enum Task {
+    Dress(Dress),
+    Replay(Replay),
+    Render(Render),
+    Import(Import),
+    Export(Export),
+    Check(Check),
+}
+
+/// What an input needs besides its file.
+#[derive(Clone, Debug, Default, Args)]
+pub struct InputOptions {
+    /// Puts the cloth on this body (OBJ); "mannequin" is the built-in figure
+    #[arg(long, value_name = "FILE")]
+    pub body: Option<PathBuf>,
+    /// The unit of the body file; without it the height must tell
+    #[arg(long)]
+    pub unit: Option<Unit>,
+    /// Takes the marks from this JSON file
+    #[arg(long, value_name = "FILE", conflicts_with = "suggest_marks")]
+    pub marks: Option<PathBuf>,
+    /// Proposes marks from the placement of the pieces in the pattern file
+    #[arg(long)]
+    pub suggest_marks: bool,
+    /// Length of the triangles' edges, metres
+    #[arg(long, value_name = "METRES")]
+    pub edge_length: Option<f64>,
+}
+
+/// A unit of length.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Unit {
+    M,
+    Cm,
+    Mm,
+    In,
+}
+
+/// Wraps by the marks, relaxes to rest, and writes garment.obj, body.obj, report.json and view.png
+#[derive(Debug, Args)]
+pub struct Dress {
+    /// Projects, patterns or samples (sample:NAME); several get a folder each
+    #[arg(required = true, value_name = "PROJECT")]
+    pub projects: Vec<PathBuf>,
+    /// The folder to write to
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+    #[command(flatten)]
+    pub input: InputOptions,
+    /// Also writes the dressed project to this file
+    #[arg(long, value_name = "PROJECT")]
+    pub save: Option<PathBuf>,
+    /// Also writes a recording to this file
+    #[arg(long, value_name = "FILE")]
+    pub record: Option<PathBuf>,
+    /// Gives up after so many ticks (exit code 4)
+    #[arg(long, default_value_t = 20_000)]
+    pub max_ticks: u64,
+    #[command(flatten)]
+    pub picture: PictureOptions,
+    /// Prints the report
+    #[arg(long)]
+    pub json: bool,
+    /// Number of threads; the result is the same
+    #[arg(long)]
+    pub threads: Option<usize>,
+}
+
+/// How a picture is taken.
+#[derive(Clone, Copy, Debug, Args)]
+pub struct PictureOptions {
+    /// front, back, left, right, top, three-quarter, or YAW,PITCH in degrees
+    #[arg(long, default_value = "front", value_parser = view, allow_hyphen_values = true)]
+    pub view: View,
+    /// Width and height in pixels
+    #[arg(long, default_value = "1280x800", value_parser = size)]
+    pub size: [u32; 2],
+}
+
+/// Runs a recording, compares its hashes, and stops at the first difference
+#[derive(Debug, Args)]
+pub struct Replay {
+    /// JSON lines, as written by --record or the window
+    pub recording: PathBuf,
+    /// Writes the same files as dress to this folder
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    #[command(flatten)]
+    pub picture: PictureOptions,
+    /// Prints the outcome as JSON
+    #[arg(long)]
+    pub json: bool,
+    /// Number of threads; the result is the same
+    #[arg(long)]
+    pub threads: Option<usize>,
+}
+
+/// Draws a project as it is
+#[derive(Debug, Args)]
+pub struct Render {
+    /// Project, pattern or sample (sample:NAME)
+    pub project: PathBuf,
+    #[command(flatten)]
+    pub input: InputOptions,
+    #[command(flatten)]
+    pub picture: PictureOptions,
+    /// The picture (PNG)
+    #[arg(short, long, value_name = "PNG")]
+    pub output: PathBuf,
+    /// So many pictures in a full turn, numbered NAME-00.png and up
+    #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u32).range(1..=3600))]
+    pub turntable: Option<u32>,
+}
+
+/// Makes a project of pattern (GarmentCode JSON) and body (OBJ) files
+#[derive(Debug, Args)]
+pub struct Import {
+    /// At most one pattern and one body
+    #[arg(required = true, value_name = "FILE")]
+    pub files: Vec<PathBuf>,
+    /// The project to write
+    #[arg(short, long, value_name = "PROJECT")]
+    pub output: PathBuf,
+    #[command(flatten)]
+    pub input: InputOptions,
+}
+
+/// Writes the dressed cloth of a project: .obj or .glb
+#[derive(Debug, Args)]
+pub struct Export {
+    /// A dressed project
+    pub project: PathBuf,
+    /// The file to write; its ending says in which format
+    #[arg(short, long, value_name = "FILE")]
+    pub output: PathBuf,
+}
+
+/// Says what is wrong with a project, pattern or body, in words
+#[derive(Debug, Args)]
+pub struct Check {
+    /// Project, pattern, sample (sample:NAME) or body (OBJ)
+    pub file: PathBuf,
+    #[command(flatten)]
+    pub input: InputOptions,
+    /// Prints {pieces, seams, triangles, problems}
+    #[arg(long)]
+    pub json: bool,
+}
+
+fn view(text: &str) -> Result<View, String> {
+    text.parse::<View>().map_err(|e| e.to_string())
+}
+
+fn size(text: &str) -> Result<[u32; 2], String> {
+    let side = |t: &str| t.parse::<u32>().ok().filter(|n| (1..=16384).contains(n));
+    match text.split_once('x').map(|(w, h)| (side(w), side(h))) {
+        Some((Some(width), Some(height))) => Ok([width, height]),
+        _ => Err(format!("{text:?} is not WIDTHxHEIGHT, each 1 to 16384")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory;
+
+    use super::*;
+
+    #[test]
+    fn the_arguments_are_consistent() {
+        Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn sizes_and_views_are_read() {
+        assert_eq!(size("1280x800"), Ok([1280, 800]));
+        assert!(size("0x10").is_err() && size("99999x9").is_err() && size("12").is_err());
+        assert!(view("front").is_ok() && view("-30,10").is_ok() && view("inside").is_err());
+    }
+}

@@ -1,0 +1,87 @@
+//! `toile check`: what is wrong with a file, in words.
+
+use std::path::Path;
+
+use serde::Serialize;
+
+use crate::cli::arguments::Check;
+use crate::cli::failure::Failure;
+use crate::cli::input::{self, Content};
+use crate::cli::output;
+use crate::cloth;
+use crate::pattern::{Problem, ProblemKind};
+use crate::session::{Project, body};
+
+#[derive(Default, Serialize)]
+struct Findings {
+    pieces: usize,
+    seams: usize,
+    triangles: usize,
+    problems: Vec<Problem>,
+}
+
+/// Prints what was found. Problems that are more than notes make the check fail.
+pub fn check(arguments: &Check) -> Result<(), Failure> {
+    let findings = match input::content(&arguments.file, arguments.input.unit)? {
+        Content::Body(body) => {
+            Findings { triangles: body.mesh.triangles.len(), problems: body.problems, ..Findings::default() }
+        }
+        Content::Pattern(pattern) => {
+            let mut project = Project::default();
+            input::take_pattern(&mut project, pattern);
+            input::take_options(&mut project, &arguments.file, &arguments.input)?;
+            of_project(&project, arguments.input.body.is_some())
+        }
+        Content::Project(mut project) => {
+            input::take_options(&mut project, &arguments.file, &arguments.input)?;
+            of_project(&project, true)
+        }
+    };
+    tell(&findings, &arguments.file, arguments.json)?;
+    match findings.problems.iter().filter(|p| !p.kind.is_note()).count() {
+        0 => Ok(()),
+        1 => Err(Failure::Check("1 problem".to_owned())),
+        count => Err(Failure::Check(format!("{count} problems"))),
+    }
+}
+
+fn of_project(project: &Project, with_body: bool) -> Findings {
+    let document = &project.document;
+    let (garment, mut problems) = cloth::build(&document.pattern, document.settings.edge_length);
+    if with_body && let Err(why) = body::surface_of(&document.body) {
+        let place = input::body_name(&document.body);
+        problems.push(Problem { kind: ProblemKind::Body, place, words: why.to_string() });
+    }
+    problems.extend(lonely_marks(project));
+    Findings {
+        pieces: document.pattern.pieces.len(),
+        seams: document.pattern.seams.len(),
+        triangles: garment.triangles.len(),
+        problems,
+    }
+}
+
+fn lonely_marks(project: &Project) -> Option<Problem> {
+    let marks = &project.document.marks;
+    let (cloth, body) = (marks.cloth.len(), marks.body.len());
+    (cloth != body).then(|| Problem {
+        kind: ProblemKind::Mark,
+        place: format!("mark {}", cloth.min(body) + 1),
+        words: format!("{cloth} strokes on the cloth and {body} on the body: the last have no partner"),
+    })
+}
+
+fn tell(findings: &Findings, path: &Path, json: bool) -> Result<(), Failure> {
+    if json {
+        let text = serde_json::to_string_pretty(findings).map_err(|e| Failure::Internal(e.to_string()))?;
+        output::say(&text);
+        return Ok(());
+    }
+    let Findings { pieces, seams, triangles, problems } = findings;
+    output::say(&format!("{}: {pieces} pieces, {seams} seams, {triangles} triangles", path.display()));
+    for problem in problems {
+        let note = if problem.kind.is_note() { "note: " } else { "" };
+        output::say(&format!("{note}{}: {}", problem.place, problem.words));
+    }
+    Ok(())
+}

@@ -1,0 +1,184 @@
+//! From what was named on the command line to a project.
+
+use std::fs;
+use std::path::Path;
+use std::sync::Arc;
+
+use crate::cli::arguments::{InputOptions, Unit};
+use crate::cli::failure::Failure;
+use crate::cli::formats::{self, ImportedBody};
+use crate::pattern::Pattern;
+use crate::session::project_file::ProjectFileError;
+use crate::session::{BodyChoice, Project, body, marks_file, project_file, samples};
+use crate::wrap::suggest;
+
+/// Begins the name of a built-in sample.
+const SAMPLE: &str = "sample:";
+/// What `--body` calls the built-in figure.
+const MANNEQUIN: &str = "mannequin";
+/// Bytes an input may have.
+const MOST_BYTES: u64 = 512 << 20;
+
+/// What a file turned out to be.
+pub enum Content {
+    Project(Project),
+    Pattern(Pattern),
+    Body(ImportedBody),
+}
+
+/// A project ready for work.
+pub struct Input {
+    /// For people and for folders.
+    pub name: String,
+    pub project: Project,
+    /// Files and samples it was made of.
+    pub files: Vec<String>,
+    /// It came from a project file, which can be saved to.
+    pub is_project_file: bool,
+}
+
+/// Reads the project, pattern or sample called `path` and does with it what `options` say.
+pub fn load(path: &Path, options: &InputOptions) -> Result<Input, Failure> {
+    let (mut project, is_project_file) = match content(path, options.unit)? {
+        Content::Project(project) => (project, sample_name(path).is_none()),
+        Content::Pattern(pattern) => {
+            let mut project = Project::default();
+            take_pattern(&mut project, pattern);
+            (project, false)
+        }
+        Content::Body(_) => {
+            return Err(Failure::input(path, "this is a body: name a pattern or project, and the body with --body"));
+        }
+    };
+    take_options(&mut project, path, options)?;
+    if let Some(words) = project.problem() {
+        return Err(Failure::input(path, words));
+    }
+    let named = std::iter::once(path).chain(options.body.as_deref()).chain(options.marks.as_deref());
+    let files = named.map(|p| p.display().to_string()).collect();
+    Ok(Input { name: name_of(path), project, files, is_project_file })
+}
+
+/// The name without folder, ending and "sample:".
+pub fn name_of(path: &Path) -> String {
+    match sample_name(path) {
+        Some(name) => name.to_owned(),
+        None => path.file_stem().unwrap_or_default().to_string_lossy().into_owned(),
+    }
+}
+
+/// For people.
+pub fn body_name(body: &BodyChoice) -> String {
+    match body {
+        BodyChoice::Mannequin(_) => MANNEQUIN.to_owned(),
+        BodyChoice::Imported { name, .. } => name.clone(),
+    }
+}
+
+/// Reads `path` and finds out what it is by its contents.
+pub fn content(path: &Path, unit: Option<Unit>) -> Result<Content, Failure> {
+    if let Some(name) = sample_name(path) {
+        return sample(path, name).map(Content::Project);
+    }
+    let bytes = read(path)?;
+    if project_file::is_project(&bytes) {
+        return project_file::from_bytes(&bytes).map(Content::Project).map_err(|e| project_failure(path, e));
+    }
+    if looks_like_json(&bytes) {
+        return formats::pattern(path, &bytes).map(Content::Pattern);
+    }
+    formats::body(path, &bytes, unit).map(Content::Body)
+}
+
+fn sample_name(path: &Path) -> Option<&str> {
+    path.to_str()?.strip_prefix(SAMPLE)
+}
+
+fn sample(path: &Path, name: &str) -> Result<Project, Failure> {
+    samples::project(name).ok_or_else(|| {
+        let names: Vec<&str> = samples::names().collect();
+        Failure::input(path, format!("there is no such sample; there are {}", names.join(", ")))
+    })
+}
+
+fn looks_like_json(bytes: &[u8]) -> bool {
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    bytes.trim_ascii_start().first().is_none_or(|b| b"{[\"".contains(b))
+}
+
+fn read(path: &Path) -> Result<Vec<u8>, Failure> {
+    let file_failure = |error| Failure::file(path, error);
+    let size = fs::metadata(path).map_err(file_failure)?.len();
+    if size > MOST_BYTES {
+        return Err(Failure::Limit(format!("{}: {size} bytes, at most {MOST_BYTES} are read", path.display())));
+    }
+    fs::read(path).map_err(file_failure)
+}
+
+/// An error of a project file at `path` as the command line tells it.
+pub fn project_failure(path: &Path, error: ProjectFileError) -> Failure {
+    match error {
+        ProjectFileError::File { path, source } => Failure::File { path, error: source },
+        ProjectFileError::Contents(words) => Failure::input(path, words),
+        ProjectFileError::TooLarge(words) => Failure::Limit(format!("{}: {words}", path.display())),
+    }
+}
+
+/// Starts from another pattern: the old marks and cloth go.
+pub fn take_pattern(project: &mut Project, pattern: Pattern) {
+    project.document.pattern = Arc::new(pattern);
+    project.document.marks = Arc::default();
+    project.dressed = None;
+}
+
+/// Puts another body there: marks on the old one and the cloth go. A body that cloth cannot lie on is refused.
+pub fn take_body(project: &mut Project, path: &Path, body: ImportedBody) -> Result<(), Failure> {
+    let faults: Vec<&str> = body.problems.iter().filter(|p| !p.kind.is_note()).map(|p| p.words.as_str()).collect();
+    if !faults.is_empty() {
+        return Err(Failure::input(path, faults.join("; ")));
+    }
+    set_body(project, BodyChoice::Imported { name: name_of(path), mesh: Arc::new(body.mesh) });
+    Ok(())
+}
+
+fn set_body(project: &mut Project, body: BodyChoice) {
+    project.document.body = body;
+    Arc::make_mut(&mut project.document.marks).body.clear();
+    project.dressed = None;
+}
+
+/// Does with `project`, read from `path`, what `options` say.
+pub fn take_options(project: &mut Project, path: &Path, options: &InputOptions) -> Result<(), Failure> {
+    match &options.body {
+        Some(body) if body == Path::new(MANNEQUIN) => set_body(project, BodyChoice::default()),
+        Some(body) => {
+            let bytes = read(body)?;
+            take_body(project, body, formats::body(body, &bytes, options.unit)?)?;
+        }
+        None => {}
+    }
+    if let Some(edge_length) = options.edge_length {
+        project.document.settings.edge_length = edge_length;
+    }
+    if let Some(marks) = &options.marks {
+        let marks_read = marks_file::read(&read(marks)?, &project.document.pattern);
+        project.document.take_marks(Arc::new(marks_read.map_err(|words| Failure::input(marks, words))?));
+    }
+    if options.suggest_marks {
+        suggest_marks(project, path)?;
+    }
+    Ok(())
+}
+
+fn suggest_marks(project: &mut Project, path: &Path) -> Result<(), Failure> {
+    let document = &mut project.document;
+    let surface = body::surface_of(&document.body).map_err(|why| Failure::input(path, why))?;
+    let offset = document.settings.relax.offset * surface.scale();
+    let marks = suggest::suggested(&document.pattern, &surface, offset);
+    if marks.pairs().next().is_none() {
+        let words = "no marks can be proposed: none of its pieces is placed in front of or behind the body";
+        return Err(Failure::input(path, words));
+    }
+    document.take_marks(Arc::new(marks));
+    Ok(())
+}

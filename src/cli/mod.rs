@@ -1,0 +1,73 @@
+//! The command line: one file per subcommand, nothing but arguments, calls and printing.
+
+mod arguments;
+mod check;
+mod dress;
+mod export;
+mod failure;
+mod formats;
+mod import;
+mod input;
+mod interrupt;
+mod open;
+mod output;
+mod picture;
+mod render;
+mod replay;
+mod report;
+mod run;
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use crate::cli::arguments::{Arguments, Task};
+use crate::cli::failure::{Failure, PANIC};
+
+/// The whole program. Never panics; what went wrong is on standard error, and the exit code says which kind.
+pub fn main() -> ExitCode {
+    std::panic::set_hook(Box::new(|panic| output::complain(&panic_words(panic))));
+    let code = catch_unwind(AssertUnwindSafe(run)).unwrap_or(PANIC);
+    ExitCode::from(code)
+}
+
+fn run() -> u8 {
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(error) => return show_usage(&error),
+    };
+    match carry_out(arguments) {
+        Ok(()) => 0,
+        Err(failure) => {
+            output::complain(&format!("toile: {failure}"));
+            failure.exit_code()
+        }
+    }
+}
+
+fn carry_out(arguments: Arguments) -> Result<(), Failure> {
+    interrupt::listen();
+    match arguments.task {
+        None => open::open(arguments.project.as_deref(), arguments.record.as_deref()),
+        Some(Task::Dress(dress)) => run::on_threads(dress.threads, || dress::dress(&dress)),
+        Some(Task::Replay(replay)) => run::on_threads(replay.threads, || replay::replay(&replay)),
+        Some(Task::Render(render)) => render::render(&render),
+        Some(Task::Import(import)) => import::import(&import),
+        Some(Task::Export(export)) => export::export(&export),
+        Some(Task::Check(check)) => check::check(&check),
+    }
+}
+
+/// Help and version go to standard output and are no failure.
+fn show_usage(error: &clap::Error) -> u8 {
+    // Nothing can be done about an output that is closed.
+    error.print().ok();
+    u8::try_from(error.exit_code()).unwrap_or(2)
+}
+
+fn panic_words(panic: &std::panic::PanicHookInfo) -> String {
+    let place = panic.location().map(|l| format!(" at {}:{}", l.file(), l.line())).unwrap_or_default();
+    let words = panic.payload_as_str().unwrap_or("no words");
+    format!("toile: internal error{place}: {words}\nThis is a fault of the program, not of your file.")
+}

@@ -1,0 +1,43 @@
+//! Printing and writing. A closed output ends nothing, a file is whole or not there.
+
+use std::fs;
+use std::io::{IsTerminal, Write};
+use std::path::Path;
+
+use atomic_write_file::AtomicWriteFile;
+
+use crate::cli::failure::Failure;
+
+/// A line on standard output. A reader that has gone away is no failure.
+pub fn say(words: &str) {
+    let mut out = std::io::stdout().lock();
+    out.write_all(words.as_bytes()).and_then(|()| out.write_all(b"\n")).and_then(|()| out.flush()).ok();
+}
+
+/// A line on standard error.
+pub fn complain(words: &str) {
+    let mut err = std::io::stderr().lock();
+    err.write_all(words.as_bytes()).and_then(|()| err.write_all(b"\n")).ok();
+}
+
+/// Overwrites the last line of standard error, on a terminal only.
+pub fn progress(words: &str) {
+    if std::io::stderr().is_terminal() {
+        let mut err = std::io::stderr().lock();
+        write!(err, "\r\x1b[K{words}").and_then(|()| err.flush()).ok();
+    }
+}
+
+/// Writes the whole of `bytes` to `path`, or leaves what was there.
+pub fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    let written = AtomicWriteFile::open(path).and_then(|mut file| {
+        file.write_all(bytes)?;
+        file.commit()
+    });
+    written.map_err(|error| Failure::file(path, error))
+}
+
+/// Makes `folder` and those above it.
+pub fn make_folder(folder: &Path) -> Result<(), Failure> {
+    fs::create_dir_all(folder).map_err(|error| Failure::file(folder, error))
+}

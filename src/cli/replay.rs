@@ -1,0 +1,92 @@
+//! `toile replay`: run a recording, compare its hashes.
+
+use std::fs;
+use std::time::Instant;
+
+use serde::Serialize;
+
+use crate::cli::arguments;
+use crate::cli::failure::Failure;
+use crate::cli::report::{self, Seconds};
+use crate::cli::{input, interrupt, output};
+use crate::session::recording::{Hex, Recording};
+use crate::session::replay::{Divergence, Replay};
+
+#[derive(Serialize)]
+struct Outcome {
+    commands: usize,
+    ticks: u64,
+    hashes_compared: u64,
+    state_hash: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    diverged: Option<Diverged>,
+}
+
+#[derive(Serialize)]
+struct Diverged {
+    tick: u64,
+    command: u64,
+    words: String,
+}
+
+/// Runs the recording to its end or its first difference.
+pub fn replay(arguments: &arguments::Replay) -> Result<(), Failure> {
+    let start = Instant::now();
+    let path = &arguments.recording;
+    let bytes = fs::read(path).map_err(|e| Failure::file(path, e))?;
+    let text = String::from_utf8(bytes).map_err(|_| Failure::input(path, "not a recording: not UTF-8 text"))?;
+    let recording = Recording::parse(&text).map_err(|e| Failure::input(path, e))?;
+    if let Some(words) = recording.project.problem() {
+        return Err(Failure::input(path, words));
+    }
+    let commands = recording.commands.len();
+    let mut replay = Replay::new(recording);
+    let diverged = run(&mut replay)?;
+    let outcome = Outcome {
+        commands,
+        ticks: replay.ticks(),
+        hashes_compared: replay.hashes_compared(),
+        state_hash: Hex(report::state_hash(replay.session())?).to_string(),
+        diverged: diverged.as_ref().map(|d| Diverged { tick: d.tick, command: d.seq, words: d.words.clone() }),
+    };
+    tell(&outcome, arguments.json)?;
+    if let Some(divergence) = diverged {
+        return Err(Failure::Check(divergence.to_string()));
+    }
+    if outcome.hashes_compared == 0 {
+        return Err(Failure::Check("the recording holds no hash: nothing was compared".to_owned()));
+    }
+    if let Some(folder) = &arguments.out {
+        output::make_folder(folder)?;
+        let seconds = Seconds { replay: Some(start.elapsed().as_secs_f64()), ..Seconds::default() };
+        let name = input::name_of(path);
+        let mut report = report::write(replay.session(), &name, folder, &arguments.picture, seconds)?;
+        report.inputs = vec![path.display().to_string()];
+        report.finish(folder, start)?;
+    }
+    Ok(())
+}
+
+fn run(replay: &mut Replay) -> Result<Option<Divergence>, Failure> {
+    loop {
+        interrupt::check()?;
+        match replay.step() {
+            Ok(true) => {}
+            Ok(false) => return Ok(None),
+            Err(divergence) => return Ok(Some(divergence)),
+        }
+    }
+}
+
+fn tell(outcome: &Outcome, json: bool) -> Result<(), Failure> {
+    if json {
+        let text = serde_json::to_string_pretty(outcome).map_err(|e| Failure::Internal(e.to_string()))?;
+        output::say(&text);
+    } else if outcome.diverged.is_none() {
+        let Outcome { commands, ticks, hashes_compared, state_hash, .. } = outcome;
+        output::say(&format!(
+            "{commands} commands, {ticks} ticks, {hashes_compared} hashes the same, state {state_hash}"
+        ));
+    }
+    Ok(())
+}

@@ -1,0 +1,178 @@
+//! What came out, in figures, and the files of it.
+
+use std::path::Path;
+use std::time::Instant;
+
+use serde::Serialize;
+
+use crate::cli::arguments::PictureOptions;
+use crate::cli::failure::Failure;
+use crate::cli::picture::Artist;
+use crate::cli::{formats, output, run};
+use crate::fit;
+use crate::pattern::Problem;
+use crate::session::Session;
+use crate::session::recording::Hex;
+use crate::sim::{Snapshot, Stats};
+use crate::wrap::Phase;
+
+/// `report.json`.
+#[derive(Debug, Serialize)]
+pub struct Report {
+    version: &'static str,
+    name: String,
+    /// Files and samples read.
+    pub inputs: Vec<String>,
+    ticks: u64,
+    at_rest: bool,
+    /// Vertices no mark reaches.
+    unmapped: usize,
+    #[serde(flatten)]
+    fit: fit::Report,
+    problems: Vec<Problem>,
+    seconds: Seconds,
+    counters: Stats,
+    state_hash: String,
+    /// Why there is no view.png, if there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pictures_left_out: Option<String>,
+}
+
+/// Wall-clock seconds by phase.
+#[derive(Clone, Copy, Debug, Default, Serialize)]
+pub struct Seconds {
+    /// Reading the input and making the body ready.
+    pub load: f64,
+    /// Triangulating, sewing and laying the root edges.
+    pub build: f64,
+    /// Ticks that grew cloth.
+    pub grow: f64,
+    /// Ticks that settled it.
+    pub settle: f64,
+    /// The whole of a replay, instead of the four above.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub replay: Option<f64>,
+    /// Reading the figures off.
+    pub measure: f64,
+    /// Drawing.
+    pub picture: f64,
+    /// From the first byte read to the last written, this file left out.
+    pub total: f64,
+}
+
+/// Writes garment.obj, body.obj and view.png of `session` to `folder`. `Report::finish` writes report.json.
+pub fn write(
+    session: &mut Session,
+    name: &str,
+    folder: &Path,
+    picture: &PictureOptions,
+    mut seconds: Seconds,
+) -> Result<Report, Failure> {
+    session.update();
+    let state_hash = Hex(state_hash(session)?).to_string();
+    let snapshot = session.snapshot();
+    let start = Instant::now();
+    let fit = measured(snapshot)?;
+    seconds.measure = start.elapsed().as_secs_f64();
+    if let Some(garment) = &snapshot.garment {
+        output::write(&folder.join("garment.obj"), &formats::garment_obj(garment, &snapshot.cloth))?;
+    }
+    if let Some(body) = snapshot.body.as_ref().or(session.surface()) {
+        output::write(&folder.join("body.obj"), &formats::body_obj(&body.mesh))?;
+    }
+    let start = Instant::now();
+    let pictures_left_out = draw(session, &folder.join("view.png"), picture)?;
+    seconds.picture = start.elapsed().as_secs_f64();
+    Ok(Report {
+        version: env!("CARGO_PKG_VERSION"),
+        name: name.to_owned(),
+        inputs: Vec::new(),
+        ticks: snapshot.tick,
+        at_rest: snapshot.phase == Some(Phase::AtRest),
+        unmapped: snapshot.cloth.mapped.iter().filter(|&&m| !m).count(),
+        fit,
+        problems: snapshot.problems.to_vec(),
+        seconds,
+        counters: snapshot.stats,
+        state_hash,
+        pictures_left_out,
+    })
+}
+
+/// Hash of what moves in a session that runs inline.
+pub fn state_hash(session: &mut Session) -> Result<u64, Failure> {
+    Ok(run::simulation(session)?.hash())
+}
+
+fn measured(snapshot: &Snapshot) -> Result<fit::Report, Failure> {
+    let (Some(garment), Some(body), Some(source)) = (&snapshot.garment, &snapshot.body, &snapshot.source) else {
+        return Err(Failure::Check("there is no cloth on the body".to_owned()));
+    };
+    Ok(fit::report(garment, &snapshot.cloth, body, &source.pattern, &source.marks))
+}
+
+/// Without a graphics adapter: why not.
+fn draw(session: &Session, path: &Path, options: &PictureOptions) -> Result<Option<String>, Failure> {
+    match Artist::new().and_then(|mut artist| artist.png(session, options)) {
+        Ok(png) => output::write(path, &png).map(|()| None),
+        Err(Failure::Graphics(words)) => {
+            output::complain(&format!("{} left out: {words}", path.display()));
+            Ok(Some(words))
+        }
+        Err(failure) => Err(failure),
+    }
+}
+
+impl Report {
+    /// Writes report.json; `start` is when the work began.
+    pub fn finish(&mut self, folder: &Path, start: Instant) -> Result<(), Failure> {
+        self.seconds.total = start.elapsed().as_secs_f64();
+        let mut text = self.json()?;
+        text.push('\n');
+        output::write(&folder.join("report.json"), text.as_bytes())
+    }
+
+    /// The report on several lines.
+    pub fn json(&self) -> Result<String, Failure> {
+        serde_json::to_string_pretty(self).map_err(|e| Failure::Internal(e.to_string()))
+    }
+
+    /// The report on one line.
+    pub fn json_line(&self) -> Result<String, Failure> {
+        serde_json::to_string(self).map_err(|e| Failure::Internal(e.to_string()))
+    }
+
+    /// One line for people.
+    pub fn verdict(&self) -> String {
+        let figures = format!(
+            "{} triangles, p99 strain {:.1} %, {:.2} s",
+            self.fit.triangles,
+            self.fit.strain.p99 * 100.0,
+            self.seconds.total
+        );
+        match self.failed_check() {
+            None => format!("{}: dressed, {figures}", self.name),
+            Some(words) => format!("{}: {words}; {figures}", self.name),
+        }
+    }
+
+    /// Why this is not a dressed garment.
+    pub fn failed_check(&self) -> Option<String> {
+        let fit = &self.fit;
+        let mut faults = Vec::new();
+        if !self.at_rest {
+            faults.push("the cloth still moves".to_owned());
+        }
+        if self.unmapped > 0 {
+            faults.push(format!("{} vertices were not reached from any mark", self.unmapped));
+        }
+        if fit.seams.open > 0 {
+            faults.push(format!("{} seams are open", fit.seams.open));
+        }
+        if fit.penetration.vertices + fit.penetration.faces > 0 {
+            let (vertices, faces) = (fit.penetration.vertices, fit.penetration.faces);
+            faults.push(format!("{vertices} vertices and {faces} faces are inside the body"));
+        }
+        (!faults.is_empty()).then(|| faults.join(", "))
+    }
+}

@@ -1,0 +1,65 @@
+//! Running a session inline until its cloth is at rest.
+
+use std::time::Instant;
+
+use crate::cli::failure::Failure;
+use crate::cli::report::Seconds;
+use crate::cli::{interrupt, output};
+use crate::session::{Notice, Session};
+use crate::sim::Simulation;
+use crate::wrap::Phase;
+
+/// Calls `work` with `threads` workers for parallel steps; without a number, one for each processor.
+pub fn on_threads(
+    threads: Option<usize>,
+    work: impl FnOnce() -> Result<(), Failure> + Send,
+) -> Result<(), Failure> {
+    let Some(threads) = threads else { return work() };
+    if !(1..=1024).contains(&threads) {
+        return Err(Failure::Usage("--threads takes a number from 1 to 1024".to_owned()));
+    }
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build()
+        .map_err(|e| Failure::Limit(format!("{threads} threads cannot be started: {e}")))?;
+    pool.install(work)
+}
+
+/// The simulation of a session that runs inline.
+pub fn simulation(session: &mut Session) -> Result<&mut Simulation, Failure> {
+    let words = "the simulation does not run inline".to_owned();
+    session.runner().simulation().ok_or(Failure::Internal(words))
+}
+
+/// Ticks until nothing moves. A signal, a failure inside or more than `max_ticks` end it early, with an error.
+pub fn to_rest(session: &mut Session, max_ticks: u64, seconds: &mut Seconds) -> Result<(), Failure> {
+    let simulation = simulation(session)?;
+    while !simulation.is_at_rest() {
+        interrupt::check()?;
+        if simulation.ticks() >= max_ticks {
+            let words = format!("the cloth still moves after {max_ticks} ticks (see --max-ticks)");
+            return Err(Failure::Limit(words));
+        }
+        let (phase, start) = (simulation.phase(), Instant::now());
+        simulation.tick();
+        match phase {
+            Some(Phase::Growing) => seconds.grow += start.elapsed().as_secs_f64(),
+            _ => seconds.settle += start.elapsed().as_secs_f64(),
+        }
+        show_progress(simulation);
+    }
+    output::progress("");
+    for notice in session.update() {
+        if let Notice::Failed { words, .. } = notice {
+            return Err(Failure::Internal(words));
+        }
+    }
+    Ok(())
+}
+
+fn show_progress(simulation: &Simulation) {
+    let phase = if simulation.phase() == Some(Phase::Growing) { "growing" } else { "settling" };
+    if simulation.ticks().is_multiple_of(8) {
+        output::progress(&format!("{phase} {:.0} %", simulation.progress() * 100.0));
+    }
+}

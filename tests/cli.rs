@@ -1,0 +1,13 @@
+//! The real program in an empty folder: files, words and exit codes.
+
+mod common;
+#[path = "cli/bad_input.rs"]
+mod bad_input;
+#[path = "cli/dress.rs"]
+mod dress;
+#[path = "cli/program.rs"]
+mod program;
+#[path = "cli/replay.rs"]
+mod replay;
+#[path = "cli/signals.rs"]
+mod signals;

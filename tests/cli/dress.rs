@@ -1,0 +1,117 @@
+//! dress, render and export.
+
+use crate::program::{Place, adapter_required, ended};
+
+#[test]
+fn a_project_is_dressed_without_an_adapter() {
+    let place = Place::with_ball();
+    let done = place.ends(0, "dress ball.toile --out out --save dressed.toile");
+    assert!(done.out.starts_with("ball: dressed, "), "{done:#?}");
+    assert!(done.err.contains("view.png left out"), "{done:#?}");
+    assert_eq!(place.names("out"), ["body.obj", "garment.obj", "report.json"]);
+    assert_eq!(place.names(""), ["ball.toile", "dressed.toile", "out"]);
+    let report = place.json("out/report.json");
+    assert_eq!(report["version"], env!("CARGO_PKG_VERSION"));
+    assert_eq!(report["inputs"][0], "ball.toile");
+    assert_eq!(report["unmapped"], 0);
+    assert_eq!(report["at_rest"], true);
+    assert!(report["ticks"].as_u64().is_some_and(|t| t > 1 && report["counters"]["ticks"] == t));
+    assert!(report["state_hash"].as_str().is_some_and(|h| h.len() == 16));
+    assert!(report["seconds"]["total"].as_f64().is_some_and(|s| s > 0.0 && s < 60.0));
+    assert!(report["pictures_left_out"].as_str().is_some_and(|w| w.contains("adapter")));
+    let garment = place.read("out/garment.obj");
+    assert_eq!(garment.lines().filter(|l| l.starts_with("o ")).collect::<Vec<_>>(), ["o left", "o right"]);
+    let faces = garment.lines().filter(|l| l.starts_with("f ")).count();
+    assert_eq!(report["triangles"], faces as u64);
+    // The saved project is dressed: it can be exported and checked again.
+    place.ends(0, "export dressed.toile -o cloth.obj");
+    assert_eq!(place.read("cloth.obj"), garment);
+    place.ends(0, "export dressed.toile -o cloth.GLB");
+    assert!(std::fs::read(place.path("cloth.GLB")).expect("read").starts_with(b"glTF"));
+    place.ends_with_words(3, "export ball.toile -o cloth2.obj", "no dressed cloth");
+    place.ends_with_words(5, "render dressed.toile -o view.png", "adapter");
+    place.ends(0, "check dressed.toile");
+}
+
+#[test]
+fn the_report_is_printed_and_the_same_on_any_number_of_threads() {
+    let place = Place::with_ball();
+    let hash = |threads: u32| {
+        let done = place.ends(0, &format!("dress ball.toile --json --out out --threads {threads}"));
+        let report: serde_json::Value = serde_json::from_str(&done.out).expect("nothing else on standard output");
+        assert_eq!(report, place.json("out/report.json"));
+        (report["state_hash"].clone(), place.read("out/garment.obj"))
+    };
+    let one = hash(1);
+    assert!(one == hash(2) && one == hash(8));
+}
+
+#[test]
+fn several_projects_get_a_folder_and_a_line_each() {
+    let place = Place::with_ball();
+    place.write("broken.toile", "{}");
+    std::fs::create_dir(place.path("sub")).expect("made");
+    std::fs::copy(place.path("ball.toile"), place.path("sub/ball.toile")).expect("copied");
+    let done = place.ends(3, "dress ball.toile broken.toile sub/ball.toile --out out");
+    let lines: Vec<&str> = done.out.lines().collect();
+    assert!(lines.len() == 3 && lines[0].starts_with("ball: dressed") && lines[2].starts_with("ball: dressed"));
+    assert!(lines[1].starts_with("broken.toile: failed: "), "{lines:?}");
+    assert_eq!(place.names("out"), ["ball", "ball-2"]);
+    assert_eq!(place.names("out/ball-2"), ["body.obj", "garment.obj", "report.json"]);
+}
+
+#[test]
+fn what_cannot_be_dressed_is_told_and_writes_nothing() {
+    let place = Place::new();
+    let mut project = crate::common::project();
+    project.document.marks = Default::default();
+    place.save("unmarked.toile", &project);
+    place.ends_with_words(3, "dress unmarked.toile --out out", "no pair of marks");
+    place.save("ball.toile", &crate::common::project());
+    place.ends_with_words(4, "dress ball.toile --out out --max-ticks 2", "after 2 ticks");
+    assert!(place.names("out").is_empty());
+    place.write("file", "");
+    place.ends_with_words(6, "dress ball.toile --out file/out", "file");
+    place.ends_with_words(3, "dress ball.toile --out out --edge-length 7", "mesh size");
+}
+
+#[test]
+fn marks_come_from_a_file() {
+    let place = Place::new();
+    let project = crate::common::project();
+    let marks = toile::session::marks_file::write(&project.document.marks, &project.document.pattern);
+    place.write("marks.json", marks.expect("json"));
+    let mut unmarked = project;
+    unmarked.document.marks = Default::default();
+    place.save("unmarked.toile", &unmarked);
+    place.save("marked.toile", &crate::common::project());
+    place.ends(0, "dress unmarked.toile --marks marks.json --out out");
+    place.ends(0, "dress marked.toile --out out2");
+    assert_eq!(place.read("out/garment.obj"), place.read("out2/garment.obj"));
+}
+
+#[test]
+fn pictures_are_drawn_where_there_is_an_adapter() {
+    let place = Place::with_ball();
+    let with_adapter = |arguments: &str| {
+        ended(place.command(arguments).env_remove("WGPU_BACKEND").output().expect("the program starts"))
+    };
+    let first = with_adapter("render ball.toile -o view.png --size 200x100");
+    if first.code == 5 && !adapter_required() {
+        println!("no graphics adapter: pictures not tested");
+        return;
+    }
+    assert_eq!(first.code, 0, "{first:#?}");
+    let size = |name: &str| {
+        let bytes = std::fs::read(place.path(name)).expect("read");
+        let picture = image::load_from_memory(&bytes).expect("a picture");
+        (picture.width(), picture.height())
+    };
+    assert_eq!(size("view.png"), (200, 100));
+    let done = with_adapter("render ball.toile -o turn.png --size 64x64 --turntable 3 --view -20,10");
+    assert_eq!(done.code, 0, "{done:#?}");
+    assert_eq!(place.names(""), ["ball.toile", "turn-00.png", "turn-01.png", "turn-02.png", "view.png"]);
+    let done = with_adapter("dress ball.toile --out out --size 64x64");
+    assert_eq!((done.code, size("out/view.png")), (0, (64, 64)), "{done:#?}");
+    assert!(place.json("out/report.json").get("pictures_left_out").is_none());
+}
