@@ -7,8 +7,12 @@ use super::figure::Figure;
 use super::proportions as nominal;
 use super::spline::Spline;
 
-/// Fillets between a finger and the palm, and between two fingers, metres.
-const KNUCKLE: f64 = 0.011;
+/// Fillet between fingers and palm, metres.
+const PALM: f64 = 0.011;
+/// Fillet between the bones of a finger.
+const KNUCKLE: f64 = 0.005;
+/// Fillet between two fingers: small, so that they stay apart.
+const WEB: f64 = 0.003;
 
 /// The fingers of the left hand, in the arm's frame: length along the arm, outward, forward.
 #[derive(Clone, Debug)]
@@ -48,19 +52,17 @@ impl Hand {
         if p.x < self.starts_at {
             return arm;
         }
-        self.joints.iter().fold(arm, |d, chain| {
-            let finger = chain
-                .windows(2)
-                .map(|w| tapered(p, w[0], w[1]))
-                .fold(f64::INFINITY, |a, b| if a.is_finite() { blended(a, b, 0.005) } else { b });
-            blended(d, finger, KNUCKLE * reach_of_web(p.x - self.starts_at))
-        })
+        let fingers = self.joints.iter().fold(f64::INFINITY, |d, chain| {
+            let bones = chain.windows(2).map(|w| tapered(p, w[0], w[1]));
+            joined(d, bones.fold(f64::INFINITY, |a, b| joined(a, b, KNUCKLE)), WEB)
+        });
+        blended(arm, fingers, PALM)
     }
 }
 
-/// The fillet shrinks towards the finger tips, so that neighbouring fingers stay apart.
-fn reach_of_web(s: f64) -> f64 {
-    (1.0 - (s - 0.09) / 0.05).clamp(0.25, 1.0)
+/// `blended` that takes infinity for nothing.
+fn joined(a: f64, b: f64, k: f64) -> f64 {
+    if a.is_finite() { blended(a, b, k) } else { b }
 }
 
 fn tapered(p: DVec3, (a, ra): (DVec3, f64), (b, rb): (DVec3, f64)) -> f64 {

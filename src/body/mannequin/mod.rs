@@ -100,7 +100,7 @@ pub fn built(m: &Measurements) -> Result<Mannequin, MannequinError> {
     let half = polygonise::polygonised(&field, &grid(&figure));
     let half = remesh::remeshed(half, &field, |p| wanted_edge(&figure, p));
     let mesh = remesh::mirrored(&half);
-    if !remesh::is_closed(&mesh) {
+    if !remesh::is_ball(&mesh) {
         return Err(MannequinError::Unreachable);
     }
     let landmarks = landmarks::landmarks(&figure, &field).map(|p| on_mesh(&mesh, p));
@@ -123,10 +123,10 @@ fn wanted_edge(figure: &Figure, p: DVec3) -> f64 {
     k * arm.min(foot).min(head).clamp(FINGER_EDGE, plain)
 }
 
-/// Cells of 12 mm, 4 mm where the hands are, so that fingers stay apart.
+/// Cells of 12 mm, 3.6 mm where the hands are, so that fingers stay apart.
 fn grid(figure: &Figure) -> Grid {
     let k = figure.small();
-    let (coarse, fine) = (0.012 * k, 0.0040 * k);
+    let (coarse, fine) = (0.012 * k, 0.0036 * k);
     let wrist = figure.shoulder_joint() + figure.arm_direction() * figure.along_arm(0.60);
     let tips = figure.shoulder_joint() + figure.arm_direction() * figure.along_arm(0.79);
     let across = Grid::planes(0.0, tips.x + 0.05 * k, |x| if x > wrist.x - 0.02 { fine } else { coarse });

@@ -104,8 +104,9 @@ pub fn mirrored(half: &TriMesh) -> TriMesh {
     TriMesh { positions, triangles }
 }
 
-/// Whether every edge joins exactly two triangles that run along it in opposite directions.
-pub fn is_closed(mesh: &TriMesh) -> bool {
+/// Whether the mesh is closed (every edge joins just two triangles, which run along it in opposite directions) and has
+/// no handle (its Euler characteristic is two).
+pub fn is_ball(mesh: &TriMesh) -> bool {
     let directed = |flip: bool| {
         let mut edges: Vec<[u32; 2]> = mesh
             .triangles
@@ -117,5 +118,6 @@ pub fn is_closed(mesh: &TriMesh) -> bool {
         edges
     };
     let forward = directed(false);
-    forward.windows(2).all(|w| w[0] != w[1]) && forward == directed(true)
+    let simple = mesh.positions.len() == mesh.triangles.len() / 2 + 2;
+    simple && forward.windows(2).all(|w| w[0] != w[1]) && forward == directed(true)
 }
