@@ -3,4 +3,5 @@
 pub mod adjacency;
 pub mod ids;
 pub mod mesh;
+pub mod problem;
 pub mod walk;

@@ -3,6 +3,8 @@
 pub mod garmentcode;
 pub mod json;
 pub mod limits;
+pub mod obj;
+mod polygon;
 mod sheet;
 
 pub use limits::Limits;

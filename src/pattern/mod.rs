@@ -1,7 +1,7 @@
 //! The flat garment.
 
 pub mod piece;
-pub mod problem;
+
 pub mod sampling;
 pub mod seam;
 pub mod triangulate;
@@ -12,8 +12,8 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use crate::geometry::ids::{PieceId, SeamId};
+pub use crate::geometry::problem::{self, Problem, ProblemKind};
 pub use piece::{Edge, EdgeShape, Piece, PlanePose, SpacePose};
-pub use problem::{Problem, ProblemKind};
 pub use seam::{EdgeRef, Seam};
 pub use triangulate::PieceMesh;
 

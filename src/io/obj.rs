@@ -1,0 +1,439 @@
+//! Meshes from and to Wavefront OBJ text.
+//!
+//! Reading has two layers. Ours goes over the text once: it checks every number and index, names the line of a fault,
+//! and writes `v` and `f` statements in their plainest form. tobj reads those. Groups, texture coordinates, normals and
+//! materials are not read; files that the text names are never opened.
+
+use std::fmt::Write as _;
+
+use glam::DVec3;
+
+use crate::cloth::{ClothState, Garment};
+use crate::geometry::mesh::TriMesh;
+use crate::io::Limits;
+use crate::io::polygon;
+use crate::pattern::Pattern;
+
+/// Why a file is not a usable mesh.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum ObjError {
+    /// A fault in one line.
+    #[error("line {line}: {words}")]
+    Line {
+        /// From 1.
+        line: usize,
+        /// What is wrong.
+        words: String,
+    },
+    /// A fault of the whole file.
+    #[error("{0}")]
+    File(String),
+    /// More than [`Limits`] allows.
+    #[error("over the limit: {0}")]
+    OverLimit(String),
+}
+
+/// What was left out or put right while reading.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct ObjNotes {
+    /// Faces with fewer than three different corners; dropped.
+    pub degenerate_faces: usize,
+    /// Faces with more than three corners; cut into triangles.
+    pub polygons: usize,
+    /// Those of them that are not convex; cut by ears.
+    pub concave_polygons: usize,
+    /// Objects and groups; all are read as one mesh.
+    pub groups: usize,
+    /// Lines that are no OBJ statement; skipped.
+    pub unknown_lines: usize,
+    /// The first of them: line from 1, and its first word.
+    pub first_unknown: Option<(usize, String)>,
+}
+
+/// A mesh as the file has it: vertices in the order and unit of the file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ObjMesh {
+    /// Vertices in the file's unit; all of them, used or not.
+    pub mesh: TriMesh,
+    /// What was left out or put right.
+    pub notes: ObjNotes,
+}
+
+/// Reads a mesh.
+pub fn read(bytes: &[u8]) -> Result<ObjMesh, ObjError> {
+    let limits = Limits::default();
+    if bytes.len() > limits.file_bytes {
+        return Err(ObjError::OverLimit(format!("the file has more than {} bytes", limits.file_bytes)));
+    }
+    if let Some(at) = bytes.iter().position(|&b| b == 0) {
+        return Err(ObjError::File(format!("this is a binary file, no OBJ text (a zero at byte {at})")));
+    }
+    let mut scan = Scan::new(&limits);
+    scan.read_all(bytes)?;
+    scan.finish()
+}
+
+/// The checking layer.
+struct Scan<'a> {
+    limits: &'a Limits,
+    vertices: usize,
+    faces: usize,
+    /// Largest index used so far and its line.
+    largest: (usize, usize),
+    vertex_text: String,
+    face_text: String,
+    notes: ObjNotes,
+    corners: Vec<usize>,
+}
+
+impl<'a> Scan<'a> {
+    fn new(limits: &'a Limits) -> Self {
+        Self {
+            limits,
+            vertices: 0,
+            faces: 0,
+            largest: (0, 0),
+            vertex_text: String::new(),
+            face_text: String::new(),
+            notes: ObjNotes::default(),
+            corners: Vec::new(),
+        }
+    }
+
+    fn read_all(&mut self, bytes: &[u8]) -> Result<(), ObjError> {
+        let mut rest = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+        let (mut line, mut joined) = (0, Vec::new());
+        let mut first_of_joined = 1;
+        while !rest.is_empty() {
+            let (text, after) = split_line(rest);
+            rest = after;
+            line += 1;
+            if text.len() + joined.len() > self.limits.line_bytes {
+                let most = self.limits.line_bytes;
+                return Err(ObjError::OverLimit(format!("line {line} has more than {most} bytes")));
+            }
+            if let Some(begun) = text.strip_suffix(b"\\") {
+                if joined.is_empty() {
+                    first_of_joined = line;
+                }
+                joined.extend_from_slice(begun);
+                joined.push(b' ');
+            } else if joined.is_empty() {
+                self.statement(line, text)?;
+            } else {
+                joined.extend_from_slice(text);
+                self.statement(first_of_joined, &joined)?;
+                joined.clear();
+            }
+        }
+        self.statement(first_of_joined, &joined)
+    }
+
+    fn statement(&mut self, line: usize, text: &[u8]) -> Result<(), ObjError> {
+        // Only names and comments may be in another encoding, and they are not read.
+        let text = String::from_utf8_lossy(text);
+        let text = text.split('#').next().unwrap_or_default();
+        let mut words = text.split_whitespace();
+        let Some(keyword) = words.next() else {
+            return Ok(());
+        };
+        let fault = |words: String| ObjError::Line { line, words };
+        match keyword {
+            "v" => self.vertex(words).map_err(fault),
+            "f" | "fo" => self.face(line, words),
+            "o" | "g" => self.group(line),
+            _ if is_statement(keyword) => Ok(()),
+            _ => {
+                self.notes.unknown_lines += 1;
+                if self.notes.first_unknown.is_none() {
+                    let word = keyword.chars().filter(|c| !c.is_control()).take(20).collect();
+                    self.notes.first_unknown = Some((line, word));
+                }
+                Ok(())
+            }
+        }
+    }
+
+    fn vertex<'t>(&mut self, mut words: impl Iterator<Item = &'t str>) -> Result<(), String> {
+        if self.vertices == self.limits.vertices {
+            return Err(format!("more than {} vertices", self.limits.vertices));
+        }
+        let mut numbers = [""; 3];
+        for slot in &mut numbers {
+            let word = words.next().ok_or("a vertex needs three numbers")?;
+            coordinate(word)?;
+            *slot = word;
+        }
+        self.vertices += 1;
+        let [x, y, z] = numbers;
+        // A face of one corner keeps every vertex, and in the order of the file, when tobj collects what is used.
+        let _ = writeln!(self.vertex_text, "v {x} {y} {z}\nf {}", self.vertices);
+        Ok(())
+    }
+
+    fn face<'t>(&mut self, line: usize, words: impl Iterator<Item = &'t str>) -> Result<(), ObjError> {
+        let mut corners = std::mem::take(&mut self.corners);
+        corners.clear();
+        for word in words {
+            if corners.len() == self.limits.face_corners {
+                let most = self.limits.face_corners;
+                return Err(ObjError::OverLimit(format!(
+                    "line {line}: a face with more than {most} corners"
+                )));
+            }
+            let corner = self.corner(word).map_err(|words| ObjError::Line { line, words })?;
+            if corner > self.largest.0 {
+                self.largest = (corner, line);
+            }
+            corners.push(corner);
+        }
+        corners.dedup();
+        if corners.len() > 1 && corners.first() == corners.last() {
+            corners.pop();
+        }
+        if corners.len() < 3 {
+            self.notes.degenerate_faces += 1;
+        } else {
+            self.faces += corners.len() - 2;
+            if self.faces > self.limits.faces {
+                return Err(ObjError::OverLimit(format!("more than {} triangles", self.limits.faces)));
+            }
+            self.face_text.push('f');
+            for corner in &corners {
+                let _ = write!(self.face_text, " {corner}");
+            }
+            self.face_text.push('\n');
+        }
+        self.corners = corners;
+        Ok(())
+    }
+
+    /// The vertex of a corner, from 1. Negative indices count back from the last vertex read.
+    fn corner(&self, word: &str) -> Result<usize, String> {
+        let index = word.split('/').next().unwrap_or_default();
+        let number: i64 = index.parse().map_err(|_| format!("{:?} is no vertex index", short(word)))?;
+        if number == 0 {
+            return Err("vertex index 0: indices begin with 1".to_owned());
+        }
+        if number > 0 {
+            return usize::try_from(number).map_err(|e| e.to_string());
+        }
+        let back = usize::try_from(number.unsigned_abs()).map_err(|e| e.to_string())?;
+        (self.vertices + 1).checked_sub(back).filter(|&v| v > 0).ok_or_else(|| {
+            format!("vertex index {number} is out of range: {} vertices were read so far", self.vertices)
+        })
+    }
+
+    fn group(&mut self, line: usize) -> Result<(), ObjError> {
+        self.notes.groups += 1;
+        if self.notes.groups > self.limits.groups {
+            let most = self.limits.groups;
+            return Err(ObjError::OverLimit(format!("line {line}: more than {most} groups")));
+        }
+        Ok(())
+    }
+
+    fn finish(self) -> Result<ObjMesh, ObjError> {
+        if self.vertices == 0 || self.faces == 0 {
+            return Err(ObjError::File(self.nothing_to_read()));
+        }
+        let (largest, line) = self.largest;
+        if largest > self.vertices {
+            let words =
+                format!("vertex index {largest} is out of range: the file has {} vertices", self.vertices);
+            return Err(ObjError::Line { line, words });
+        }
+        let text = self.vertex_text + &self.face_text;
+        let (mesh, arities) = load(&text)?;
+        let mut notes = self.notes;
+        let mesh = triangulated(mesh, &arities, &mut notes);
+        if mesh.triangles.is_empty() {
+            return Err(ObjError::File("every face of the file is degenerate".to_owned()));
+        }
+        Ok(ObjMesh { mesh, notes })
+    }
+
+    fn nothing_to_read(&self) -> String {
+        let what = match (self.vertices, self.notes.degenerate_faces) {
+            (0, 0) => "the file has no vertices and no faces (no \"v\" and no \"f\" lines)".to_owned(),
+            (0, _) => "the file has no vertices (no \"v\" lines)".to_owned(),
+            (n, 0) => format!("the file has {n} vertices but no faces (no \"f\" lines)"),
+            (_, n) => format!("all {n} faces of the file are degenerate"),
+        };
+        match &self.notes.first_unknown {
+            None => what,
+            Some((line, word)) => format!(
+                "this is no OBJ mesh: {what}; line {line} begins with {word:?}, which is no OBJ statement"
+            ),
+        }
+    }
+}
+
+/// A line without its end, and what follows. Ends are LF, CR LF and CR.
+fn split_line(bytes: &[u8]) -> (&[u8], &[u8]) {
+    let Some(end) = bytes.iter().position(|&b| b == b'\n' || b == b'\r') else {
+        return (bytes, &[]);
+    };
+    let after = &bytes[end + 1..];
+    let after = if bytes[end] == b'\r' { after.strip_prefix(b"\n").unwrap_or(after) } else { after };
+    (&bytes[..end], after)
+}
+
+/// All statements of the format but `v`, `f`, `o` and `g`.
+fn is_statement(keyword: &str) -> bool {
+    const KNOWN: [&str; 39] = [
+        "vt",
+        "vn",
+        "vp",
+        "l",
+        "p",
+        "s",
+        "mg",
+        "usemtl",
+        "usemap",
+        "mtllib",
+        "maplib",
+        "bevel",
+        "c_interp",
+        "d_interp",
+        "lod",
+        "shadow_obj",
+        "trace_obj",
+        "ctech",
+        "stech",
+        "cstype",
+        "deg",
+        "bmat",
+        "step",
+        "curv",
+        "curv2",
+        "surf",
+        "parm",
+        "trim",
+        "hole",
+        "scrv",
+        "sp",
+        "end",
+        "con",
+        "call",
+        "csh",
+        "bsp",
+        "bzp",
+        "cdc",
+        "res",
+    ];
+    KNOWN.contains(&keyword)
+}
+
+fn coordinate(word: &str) -> Result<f64, String> {
+    /// In the file's unit; more in the largest unit there is would not be a body.
+    const LARGEST: f64 = 1e9;
+    match word.parse::<f64>() {
+        Ok(x) if x.is_nan() => Err("a coordinate is not a number (NaN)".to_owned()),
+        Ok(x) if x.is_infinite() => Err(format!("the coordinate {:?} is infinite", short(word))),
+        Ok(x) if x.abs() > LARGEST => Err(format!("the coordinate {x:e} is out of range")),
+        Ok(x) => Ok(x),
+        Err(_) if word.replace(',', ".").parse::<f64>().is_ok() => {
+            Err(format!("{:?} has a decimal comma; OBJ has decimal points", short(word)))
+        }
+        Err(_) => Err(format!("{:?} is no number", short(word))),
+    }
+}
+
+fn short(word: &str) -> String {
+    word.chars().take(40).collect()
+}
+
+/// Positions and faces of checked text, faces with their numbers of corners.
+fn load(text: &str) -> Result<(tobj::Mesh, Vec<u32>), ObjError> {
+    let options = tobj::LoadOptions { ignore_lines: true, ..tobj::LoadOptions::default() };
+    let mut reader = std::io::BufReader::new(text.as_bytes());
+    let loaded = tobj::load_obj_buf(&mut reader, &options, |_| Err(tobj::LoadError::OpenFileFailed));
+    let (models, _) = loaded.map_err(|e| ObjError::File(format!("the file cannot be read: {e}")))?;
+    let [model] = <[tobj::Model; 1]>::try_from(models)
+        .map_err(|models| ObjError::File(format!("{} meshes where one was written", models.len())))?;
+    let mut mesh = model.mesh;
+    let arities = std::mem::take(&mut mesh.face_arities);
+    Ok((mesh, arities))
+}
+
+fn triangulated(mesh: tobj::Mesh, arities: &[u32], notes: &mut ObjNotes) -> TriMesh {
+    let positions: Vec<DVec3> = mesh.positions.chunks_exact(3).map(DVec3::from_slice).collect();
+    let mut triangles = Vec::new();
+    let mut start = 0;
+    for &arity in arities {
+        let corners = &mesh.indices[start..start + arity as usize];
+        start += arity as usize;
+        match *corners {
+            [_] | [_, _] => {}
+            [a, b, c] => triangles.push([a, b, c]),
+            _ => {
+                let points: Vec<DVec3> = corners.iter().map(|&v| positions[v as usize]).collect();
+                let cut = polygon::triangles(&points);
+                notes.polygons += 1;
+                notes.concave_polygons += usize::from(cut.concave);
+                triangles.extend(cut.triangles.iter().map(|t| t.map(|k| corners[k])));
+            }
+        }
+    }
+    let all = triangles.len();
+    triangles.retain(|&[a, b, c]| a != b && b != c && c != a);
+    notes.degenerate_faces += all - triangles.len();
+    TriMesh { positions, triangles }
+}
+
+/// The dressed garment: one object per piece, sewn vertices shared, `v` in metres, `vt` the pattern plane in metres, each
+/// piece with its own. Triangles with a vertex that has not been put on the body yet are left out.
+pub fn garment(garment: &Garment, state: &ClothState, pattern: &Pattern) -> String {
+    let mut text = String::from("# garment; v in metres, vt in metres of the pattern plane\n");
+    for p in &state.positions {
+        write_vertex(&mut text, *p);
+    }
+    for corner in &garment.corners {
+        let pose = pattern.pieces.get(&corner.piece).map(|piece| piece.pose).unwrap_or_default();
+        let p = pose.plane_from_piece(corner.uv);
+        let _ = writeln!(text, "vt {:.9} {:.9}", p.x, p.y);
+    }
+    for (id, name) in &garment.pieces {
+        let _ = writeln!(text, "o {}", object_name(name));
+        for (t, vertices) in garment.triangles.iter().enumerate() {
+            let mapped = vertices.iter().all(|&v| state.mapped.get(v as usize) == Some(&true));
+            if garment.triangle_pieces[t] != *id || !mapped {
+                continue;
+            }
+            text.push('f');
+            for (v, c) in vertices.iter().zip(&garment.triangle_corners[t]) {
+                let _ = write!(text, " {}/{}", v + 1, c + 1);
+            }
+            text.push('\n');
+        }
+    }
+    text
+}
+
+/// A plain mesh as one object, metres.
+pub fn mesh(name: &str, mesh: &TriMesh) -> String {
+    let mut text = format!("# metres\no {}\n", object_name(name));
+    for p in &mesh.positions {
+        write_vertex(&mut text, *p);
+    }
+    for t in &mesh.triangles {
+        let [a, b, c] = t.map(|v| v + 1);
+        let _ = writeln!(text, "f {a} {b} {c}");
+    }
+    text
+}
+
+fn write_vertex(text: &mut String, p: DVec3) {
+    let _ = writeln!(text, "v {:.9} {:.9} {:.9}", p.x, p.y, p.z);
+}
+
+fn object_name(name: &str) -> String {
+    let name: String =
+        name.trim().chars().map(|c| if c.is_control() || c.is_whitespace() { '_' } else { c }).collect();
+    if name.is_empty() { "piece".to_owned() } else { name }
+}
+
+#[cfg(test)]
+#[path = "obj_tests.rs"]
+mod tests;

@@ -1,0 +1,107 @@
+use super::*;
+
+const TETRAHEDRON: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+
+fn good(text: &str) -> ObjMesh {
+    read(text.as_bytes()).unwrap_or_else(|e| panic!("{text}: {e}"))
+}
+
+fn bad(text: &str, expected: &str) {
+    let error = read(text.as_bytes()).expect_err(text).to_string();
+    assert!(error.contains(expected), "expected {expected:?}, got {error:?}");
+}
+
+#[test]
+fn a_tetrahedron_is_read_exactly() {
+    let read = good(&TETRAHEDRON.replace("v 1 0 0", "v 0.1234567890123 0 0"));
+    assert_eq!(read.mesh.positions[1].x, 0.1234567890123);
+    assert_eq!(read.mesh.triangles, [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]);
+    assert_eq!(read.notes, ObjNotes::default());
+}
+
+#[test]
+fn the_many_ways_to_write_a_line() {
+    let plain = good(TETRAHEDRON);
+    assert_eq!(good(&format!("\u{feff}{TETRAHEDRON}")), plain);
+    assert_eq!(good(&TETRAHEDRON.replace('\n', "\r\n")), plain);
+    assert_eq!(good(&TETRAHEDRON.replace('\n', "\r")), plain);
+    assert_eq!(good(&TETRAHEDRON.replace("f 1 3 2", " f\t1  3 2  # base ")), plain);
+    assert_eq!(good(&TETRAHEDRON.replace("f 1 3 2", "f 1 \\\n3 \\\r\n2")), plain);
+    assert_eq!(good(&TETRAHEDRON.replace("f 1 3 2", "f 1//7 3/2 2/3/4")), plain);
+    assert_eq!(good(&TETRAHEDRON.replace("f 1 3 2", "f -4 -2 -3")), plain);
+    assert_eq!(good(&TETRAHEDRON.replace("v 0 0 1", "v 0 0 1 1.0")), plain);
+    assert_eq!(good(&format!("mtllib ../../../etc/passwd\nusemtl a b\ns off\n{TETRAHEDRON}")), plain);
+}
+
+#[test]
+fn vertices_keep_their_order_used_or_not() {
+    let read = good("v 9 9 9\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 4 3 2\ng more\nv 2 2 2\nf 4 3 5\n");
+    assert_eq!(read.mesh.positions.len(), 5);
+    assert_eq!(read.mesh.positions[0], DVec3::splat(9.0));
+    assert_eq!(read.mesh.triangles, [[3, 2, 1], [3, 2, 4]]);
+    assert_eq!(read.notes.groups, 1);
+}
+
+#[test]
+fn faults_are_named_with_their_line() {
+    bad("", "no vertices and no faces");
+    bad("hello world\n", "line 1 begins with \"hello\"");
+    bad("v 0 0 0\nv 1 0 0\nv 0 1 0\n", "3 vertices but no faces");
+    bad("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nt 0 1 2 3\n", "line 5 begins with \"t\"");
+    bad(&TETRAHEDRON.replace("v 1 0 0", "v 1 nan 0"), "line 2: a coordinate is not a number");
+    bad(&TETRAHEDRON.replace("v 1 0 0", "v 1 -inf 0"), "line 2: the coordinate \"-inf\" is infinite");
+    bad(&TETRAHEDRON.replace("v 1 0 0", "v 1 1e999 0"), "line 2: the coordinate \"1e999\" is infinite");
+    bad(&TETRAHEDRON.replace("v 1 0 0", "v 1 1e30 0"), "line 2: the coordinate 1e30 is out of range");
+    bad(&TETRAHEDRON.replace("v 1 0 0", "v 1,5 0 0"), "decimal comma");
+    bad(&TETRAHEDRON.replace("v 1 0 0", "v 1 0"), "line 2: a vertex needs three numbers");
+    bad(&TETRAHEDRON.replace("f 1 3 2", "f 1 3 0"), "line 5: vertex index 0");
+    bad(&TETRAHEDRON.replace("f 1 3 2", "f 1 3 5"), "line 5: vertex index 5 is out of range: the file has 4");
+    bad(&TETRAHEDRON.replace("f 1 3 2", "f 1 3 -5"), "line 5: vertex index -5 is out of range");
+    bad(
+        &TETRAHEDRON.replace("f 1 3 2", "f 1 3 99999999999999999999"),
+        "line 5: \"99999999999999999999\" is no",
+    );
+    bad(&TETRAHEDRON.replace("f 1 3 2", "f 1 3 x"), "line 5: \"x\" is no vertex index");
+    bad("v 0 0 0\nv 1 0 0\nf 1 2\nf 1 2 2\n", "all 2 faces of the file are degenerate");
+    bad("v 0 0 0\0\n", "binary file");
+}
+
+#[test]
+fn limits_hold() {
+    let corners = " 1".repeat(5000);
+    bad(&TETRAHEDRON.replace("f 1 3 2", &format!("f{corners}")), "more than 4096 corners");
+    bad(&format!("#{}\n{TETRAHEDRON}", "x".repeat(2 << 20)), "line 1 has more than");
+    bad(&"o x\n".repeat(20_000), "more than 10000 groups");
+}
+
+#[test]
+fn degenerate_faces_are_dropped_and_counted() {
+    let read = good(&format!("{TETRAHEDRON}f 1 2\nf 1 1 2\nf 3 3 3 3\n"));
+    assert_eq!((read.mesh.triangles.len(), read.notes.degenerate_faces), (4, 3));
+}
+
+#[test]
+fn polygons_are_cut() {
+    let read = good("v 0 0 0\nv 2 0 0\nv 2 2 0\nv 1 0.5 0\nv 0 2 0\nf 1 2 3 4 5\nf 1 2 3 5\n");
+    assert_eq!((read.notes.polygons, read.notes.concave_polygons), (2, 1));
+    let area: f64 = (0..3)
+        .map(|t| {
+            let [a, b, c] = read.mesh.corners(t);
+            (b - a).cross(c - a).z / 2.0
+        })
+        .sum();
+    assert!((area - 2.5).abs() < 1e-12, "{area}");
+}
+
+#[test]
+fn a_mesh_written_is_read_back() {
+    let plain = good(TETRAHEDRON).mesh;
+    assert_eq!(good(&mesh("my\nbody", &plain)).mesh, plain);
+}
+
+#[test]
+fn every_truncation_ends_without_panic() {
+    for end in 0..TETRAHEDRON.len() {
+        let _ = read(&TETRAHEDRON.as_bytes()[..end]);
+    }
+}
