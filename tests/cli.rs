@@ -1,8 +1,8 @@
 //! The real program in an empty folder: files, words and exit codes.
 
-mod common;
 #[path = "cli/bad_input.rs"]
 mod bad_input;
+mod common;
 #[path = "cli/dress.rs"]
 mod dress;
 #[path = "cli/program.rs"]

@@ -7,6 +7,8 @@ mod common;
 mod project_files;
 #[path = "sessions/recordings.rs"]
 mod recordings;
+#[path = "sessions/scenario.rs"]
+mod scenario;
 #[path = "sessions/threads.rs"]
 mod threads;
 #[path = "sessions/undo.rs"]

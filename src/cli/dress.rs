@@ -9,7 +9,6 @@ use crate::cli::failure::Failure;
 use crate::cli::report::{Report, Seconds};
 use crate::cli::{input, output, report, run};
 use crate::session::{Command, Session, project_file};
-use crate::sim::{Runner, Simulation};
 
 /// Dresses every project named. With several each gets a folder and a line; the first failure gives the exit code.
 pub fn dress(arguments: &Dress) -> Result<(), Failure> {
@@ -57,7 +56,7 @@ fn dress_one(project: &Path, folder: &Path, arguments: &Dress) -> Result<Report,
     let mut seconds = Seconds::default();
     let input = input::load(project, &arguments.input)?;
     output::make_folder(folder)?;
-    let mut session = Session::new(input.project, Runner::inline(Simulation::default()));
+    let mut session = run::opened(input.project, project)?;
     seconds.load = start.elapsed().as_secs_f64();
     if let Some(path) = &arguments.record {
         let file = File::create(path).map_err(|e| Failure::file(path, e))?;

@@ -2,23 +2,22 @@
 
 use crate::cli::arguments::{Export, InputOptions};
 use crate::cli::failure::Failure;
-use crate::cli::{formats, input, output};
-use crate::session::Session;
-use crate::sim::{Runner, Simulation};
+use crate::cli::{formats, input, output, run};
 
 /// Writes the cloth as the file's ending says.
 pub fn export(arguments: &Export) -> Result<(), Failure> {
-    let ending = arguments.output.extension().and_then(|e| e.to_str()).unwrap_or_default().to_ascii_lowercase();
+    let ending =
+        arguments.output.extension().and_then(|e| e.to_str()).unwrap_or_default().to_ascii_lowercase();
     if !["obj", "glb"].contains(&ending.as_str()) {
         let words = format!("{}: the ending must be .obj or .glb", arguments.output.display());
         return Err(Failure::Usage(words));
     }
     let input = input::load(&arguments.project, &InputOptions::default())?;
-    let mut session = Session::new(input.project, Runner::inline(Simulation::default()));
-    session.update();
+    let session = run::opened(input.project, &arguments.project)?;
     let snapshot = session.snapshot();
     let Some(garment) = snapshot.garment.as_ref().filter(|_| snapshot.is_dressed()) else {
-        let words = "there is no dressed cloth in it: `toile dress` with --save makes a project that has some";
+        let words =
+            "there is no dressed cloth in it: `toile dress` with --save makes a project that has some";
         return Err(Failure::input(&arguments.project, words));
     };
     let bytes = match ending.as_str() {

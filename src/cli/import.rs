@@ -21,7 +21,10 @@ pub fn import(arguments: &Import) -> Result<(), Failure> {
                 input::take_body(&mut project, path, body)?;
             }
             Content::Project(_) => {
-                return Err(Failure::input(path, "this is a project already: import takes patterns and bodies"));
+                return Err(Failure::input(
+                    path,
+                    "this is a project already: import takes patterns and bodies",
+                ));
             }
         }
     }
@@ -32,7 +35,8 @@ pub fn import(arguments: &Import) -> Result<(), Failure> {
     if let Some(words) = project.problem() {
         return Err(Failure::input(&arguments.files[0], words));
     }
-    project_file::save(&arguments.output, &project).map_err(|e| input::project_failure(&arguments.output, e))?;
+    project_file::save(&arguments.output, &project)
+        .map_err(|e| input::project_failure(&arguments.output, e))?;
     let document = &project.document;
     output::say(&format!(
         "{}: {} pieces, {} seams, {} pairs of marks, body: {}",

@@ -47,7 +47,10 @@ pub fn load(path: &Path, options: &InputOptions) -> Result<Input, Failure> {
             (project, false)
         }
         Content::Body(_) => {
-            return Err(Failure::input(path, "this is a body: name a pattern or project, and the body with --body"));
+            return Err(Failure::input(
+                path,
+                "this is a body: name a pattern or project, and the body with --body",
+            ));
         }
     };
     take_options(&mut project, path, options)?;
@@ -110,7 +113,10 @@ fn read(path: &Path) -> Result<Vec<u8>, Failure> {
     let file_failure = |error| Failure::file(path, error);
     let size = fs::metadata(path).map_err(file_failure)?.len();
     if size > MOST_BYTES {
-        return Err(Failure::Limit(format!("{}: {size} bytes, at most {MOST_BYTES} are read", path.display())));
+        return Err(Failure::Limit(format!(
+            "{}: {size} bytes, at most {MOST_BYTES} are read",
+            path.display()
+        )));
     }
     fs::read(path).map_err(file_failure)
 }
@@ -133,7 +139,8 @@ pub fn take_pattern(project: &mut Project, pattern: Pattern) {
 
 /// Puts another body there: marks on the old one and the cloth go. A body that cloth cannot lie on is refused.
 pub fn take_body(project: &mut Project, path: &Path, body: ImportedBody) -> Result<(), Failure> {
-    let faults: Vec<&str> = body.problems.iter().filter(|p| !p.kind.is_note()).map(|p| p.words.as_str()).collect();
+    let faults: Vec<&str> =
+        body.problems.iter().filter(|p| !p.kind.is_note()).map(|p| p.words.as_str()).collect();
     if !faults.is_empty() {
         return Err(Failure::input(path, faults.join("; ")));
     }

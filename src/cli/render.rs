@@ -5,16 +5,13 @@ use std::path::{Path, PathBuf};
 use crate::cli::arguments::{PictureOptions, Render};
 use crate::cli::failure::Failure;
 use crate::cli::picture::Artist;
-use crate::cli::{input, interrupt, output};
+use crate::cli::{input, interrupt, output, run};
 use crate::render::View;
-use crate::session::Session;
-use crate::sim::{Runner, Simulation};
 
 /// One picture, or a full turn of them.
 pub fn render(arguments: &Render) -> Result<(), Failure> {
     let input = input::load(&arguments.project, &arguments.input)?;
-    let mut session = Session::new(input.project, Runner::inline(Simulation::default()));
-    session.update();
+    let session = run::opened(input.project, &arguments.project)?;
     let mut artist = Artist::new()?;
     for (path, view) in pictures(arguments) {
         interrupt::check()?;

@@ -34,7 +34,8 @@ pub fn replay(arguments: &arguments::Replay) -> Result<(), Failure> {
     let start = Instant::now();
     let path = &arguments.recording;
     let bytes = fs::read(path).map_err(|e| Failure::file(path, e))?;
-    let text = String::from_utf8(bytes).map_err(|_| Failure::input(path, "not a recording: not UTF-8 text"))?;
+    let text =
+        String::from_utf8(bytes).map_err(|_| Failure::input(path, "not a recording: not UTF-8 text"))?;
     let recording = Recording::parse(&text).map_err(|e| Failure::input(path, e))?;
     if let Some(words) = recording.project.problem() {
         return Err(Failure::input(path, words));
@@ -47,7 +48,11 @@ pub fn replay(arguments: &arguments::Replay) -> Result<(), Failure> {
         ticks: replay.ticks(),
         hashes_compared: replay.hashes_compared(),
         state_hash: Hex(report::state_hash(replay.session())?).to_string(),
-        diverged: diverged.as_ref().map(|d| Diverged { tick: d.tick, command: d.seq, words: d.words.clone() }),
+        diverged: diverged.as_ref().map(|d| Diverged {
+            tick: d.tick,
+            command: d.seq,
+            words: d.words.clone(),
+        }),
     };
     tell(&outcome, arguments.json)?;
     if let Some(divergence) = diverged {

@@ -105,7 +105,8 @@ pub fn state_hash(session: &mut Session) -> Result<u64, Failure> {
 }
 
 fn measured(snapshot: &Snapshot) -> Result<fit::Report, Failure> {
-    let (Some(garment), Some(body), Some(source)) = (&snapshot.garment, &snapshot.body, &snapshot.source) else {
+    let (Some(garment), Some(body), Some(source)) = (&snapshot.garment, &snapshot.body, &snapshot.source)
+    else {
         return Err(Failure::Check("there is no cloth on the body".to_owned()));
     };
     Ok(fit::report(garment, &snapshot.cloth, body, &source.pattern, &source.marks))

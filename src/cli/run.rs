@@ -1,12 +1,13 @@
 //! Running a session inline until its cloth is at rest.
 
+use std::path::Path;
 use std::time::Instant;
 
 use crate::cli::failure::Failure;
 use crate::cli::report::Seconds;
 use crate::cli::{interrupt, output};
-use crate::session::{Notice, Session};
-use crate::sim::Simulation;
+use crate::session::{Notice, Project, Session};
+use crate::sim::{Runner, Simulation};
 use crate::wrap::Phase;
 
 /// Calls `work` with `threads` workers for parallel steps; without a number, one for each processor.
@@ -23,6 +24,21 @@ pub fn on_threads(
         .build()
         .map_err(|e| Failure::Limit(format!("{threads} threads cannot be started: {e}")))?;
     pool.install(work)
+}
+
+/// A session on `project`, read from `path`, its simulation inline. Cloth that came with the project must be there.
+pub fn opened(project: Project, path: &Path) -> Result<Session, Failure> {
+    let was_dressed = project.dressed.is_some();
+    let mut session = Session::new(project, Runner::inline(Simulation::default()));
+    for notice in session.update() {
+        if let Notice::Failed { words, .. } = notice {
+            return Err(Failure::input(path, words));
+        }
+    }
+    if was_dressed && !session.snapshot().is_dressed() {
+        return Err(Failure::input(path, "the cloth in it cannot be put on its body"));
+    }
+    Ok(session)
 }
 
 /// The simulation of a session that runs inline.

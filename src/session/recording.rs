@@ -23,7 +23,7 @@ pub const VERSION: u32 = 1;
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Line {
     /// The first line: where everything starts from.
-    Header { format: String, version: u32, program: String, project: Box<Project> },
+    Header { format: String, version: u32, program: String, machine: String, project: Box<Project> },
     /// A command was given. `seq` counts from 1, `gesture` counts the gestures that hold a command from 1.
     Command { seq: u64, gesture: u64, command: Command },
     /// The simulation took command `seq` up after `tick` ticks.
@@ -66,6 +66,22 @@ impl<'de> Deserialize<'de> for Hex {
     }
 }
 
+/// The kind of machine: within one, the same recording gives the same bits. Between kinds they may differ in the last
+/// place, because matrices are factored with the widest instructions there are.
+pub fn machine() -> String {
+    let mut words = vec![std::env::consts::ARCH, std::env::consts::OS];
+    #[cfg(target_arch = "x86_64")]
+    {
+        let wide = [
+            ("avx2", std::arch::is_x86_feature_detected!("avx2")),
+            ("fma", std::arch::is_x86_feature_detected!("fma")),
+            ("avx512f", std::arch::is_x86_feature_detected!("avx512f")),
+        ];
+        words.extend(wide.iter().filter(|(_, has)| *has).map(|(name, _)| name));
+    }
+    words.join("-")
+}
+
 /// Writes the recording of a session as it happens.
 #[derive(Debug)]
 pub struct Recorder {
@@ -92,6 +108,7 @@ impl Recorder {
             format: FORMAT.to_owned(),
             version: VERSION,
             program: env!("CARGO_PKG_VERSION").to_owned(),
+            machine: machine(),
             project: Box::new(project.clone()),
         });
         recorder
@@ -171,6 +188,8 @@ impl Recorder {
 pub struct Recording {
     /// Where everything starts from.
     pub project: Project,
+    /// The kind of machine it was made on.
+    pub machine: String,
     /// Commands in order: number, gesture, command.
     pub commands: Vec<(u64, u64, Command)>,
     /// What the simulation told, in order.
@@ -203,8 +222,8 @@ impl Recording {
         let Some((i, first)) = lines.next() else {
             return Err(RecordingError { line: 1, words: "the recording is empty".to_owned() });
         };
-        let project = header(first).map_err(|words| RecordingError { line: i + 1, words })?;
-        let mut recording = Self { project, commands: Vec::new(), told: Vec::new() };
+        let (project, machine) = header(first).map_err(|words| RecordingError { line: i + 1, words })?;
+        let mut recording = Self { project, machine, commands: Vec::new(), told: Vec::new() };
         for (i, line) in lines {
             recording.take(line).map_err(|words| RecordingError { line: i + 1, words })?;
         }
@@ -212,7 +231,7 @@ impl Recording {
     }
 
     fn take(&mut self, line: &str) -> Result<(), String> {
-        match serde_json::from_str(line).map_err(|e| e.to_string())? {
+        match serde_json::from_str(line).map_err(json_words)? {
             Line::Header { .. } => return Err("a second header".to_owned()),
             Line::Command { seq, gesture, command } => self.commands.push((seq, gesture, command)),
             Line::Applied { seq, tick } => self.told.push(Told::Applied { seq, tick }),
@@ -236,9 +255,9 @@ struct AnyVersion {
     version: u32,
 }
 
-fn header(line: &str) -> Result<Project, String> {
-    let any: AnyHeader =
-        serde_json::from_str(line).map_err(|e| format!("this is not the header of a recording: {e}"))?;
+fn header(line: &str) -> Result<(Project, String), String> {
+    let any: AnyHeader = serde_json::from_str(line)
+        .map_err(|e| format!("this is not the header of a recording: {}", json_words(e)))?;
     if any.header.format != FORMAT {
         return Err(format!("this is a {:?}, not a recording", any.header.format));
     }
@@ -246,8 +265,14 @@ fn header(line: &str) -> Result<Project, String> {
         let version = any.header.version;
         return Err(format!("recording version {version}: this program reads version {VERSION}"));
     }
-    match serde_json::from_str(line).map_err(|e| e.to_string())? {
-        Line::Header { project, .. } => Ok(*project),
+    match serde_json::from_str(line).map_err(json_words)? {
+        Line::Header { project, machine, .. } => Ok((*project, machine)),
         _ => Err("the first line must be the header".to_owned()),
     }
+}
+
+/// Each line is JSON of its own: its number is told by the caller.
+#[expect(clippy::needless_pass_by_value, reason = "for map_err")]
+fn json_words(error: serde_json::Error) -> String {
+    error.to_string().replace(" at line 1 column ", " at column ")
 }

@@ -1,9 +1,9 @@
 //! Runs a recording on the caller's thread, as fast as it can, and compares hashes. It stops at the first difference.
 
-use std::collections::VecDeque;
+use std::collections::{BTreeMap, VecDeque};
 
 use crate::session::command::Command;
-use crate::session::recording::{Hex, Recording, Told};
+use crate::session::recording::{Hex, Recording, Told, machine};
 use crate::session::session::{GestureId, Session};
 use crate::sim::{Runner, Simulation};
 
@@ -27,13 +27,17 @@ pub struct Replay {
     told: VecDeque<Told>,
     last_gesture: u64,
     hashes_compared: u64,
+    /// The kind of machine it was made on, when this is another.
+    other_machine: Option<String>,
 }
 
 impl Replay {
     /// Ready to begin.
     pub fn new(recording: Recording) -> Self {
         let runner = Runner::inline(Simulation::default());
+        let other_machine = Some(recording.machine).filter(|kind| *kind != machine());
         Self {
+            other_machine,
             session: Session::replaying(recording.project, runner),
             commands: recording.commands.into(),
             told: recording.told.into(),
@@ -185,7 +189,40 @@ impl Replay {
         Err(self.diverged(format!("the {what}'s hash is {ours}, in the recording {recorded}")))
     }
 
-    fn diverged(&mut self, words: String) -> Divergence {
+    fn diverged(&mut self, mut words: String) -> Divergence {
+        if let Some(kind) = &self.other_machine {
+            words += &format!(" (recorded on {kind}, this is {}: the last bits may differ)", machine());
+        }
         Divergence { tick: self.simulation().ticks(), seq: self.session.last_seq(), words }
     }
+}
+
+/// The commands of `recording` given again, at the same ticks or at rest if that comes first, with this program's hashes.
+/// For recordings that a change of the program has made old. A refused command is an error, in words.
+pub fn recorded_again(recording: Recording) -> Result<String, String> {
+    let mut session = Session::new(recording.project, Runner::inline(Simulation::default()));
+    let ticks: BTreeMap<u64, u64> = recording
+        .told
+        .iter()
+        .filter_map(|told| if let Told::Applied { seq, tick } = *told { Some((seq, tick)) } else { None })
+        .collect();
+    let mut last = GestureId(0);
+    for (seq, gesture, command) in recording.commands {
+        if gesture != last.0 {
+            session.end_gesture(last);
+        }
+        last = GestureId(gesture);
+        run_until(&mut session, ticks.get(&seq).copied().unwrap_or(0));
+        session.apply(command, last).map_err(|why| format!("command {seq}: {why}"))?;
+    }
+    session.end_gesture(last);
+    run_until(&mut session, u64::MAX);
+    Ok(session.recording())
+}
+
+fn run_until(session: &mut Session, tick: u64) {
+    if let Some(simulation) = session.runner().simulation() {
+        while simulation.ticks() < tick && simulation.tick() {}
+    }
+    session.update();
 }

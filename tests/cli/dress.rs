@@ -38,7 +38,8 @@ fn the_report_is_printed_and_the_same_on_any_number_of_threads() {
     let place = Place::with_ball();
     let hash = |threads: u32| {
         let done = place.ends(0, &format!("dress ball.toile --json --out out --threads {threads}"));
-        let report: serde_json::Value = serde_json::from_str(&done.out).expect("nothing else on standard output");
+        let report: serde_json::Value =
+            serde_json::from_str(&done.out).expect("nothing else on standard output");
         assert_eq!(report, place.json("out/report.json"));
         (report["state_hash"].clone(), place.read("out/garment.obj"))
     };
@@ -54,7 +55,9 @@ fn several_projects_get_a_folder_and_a_line_each() {
     std::fs::copy(place.path("ball.toile"), place.path("sub/ball.toile")).expect("copied");
     let done = place.ends(3, "dress ball.toile broken.toile sub/ball.toile --out out");
     let lines: Vec<&str> = done.out.lines().collect();
-    assert!(lines.len() == 3 && lines[0].starts_with("ball: dressed") && lines[2].starts_with("ball: dressed"));
+    assert!(
+        lines.len() == 3 && lines[0].starts_with("ball: dressed") && lines[2].starts_with("ball: dressed")
+    );
     assert!(lines[1].starts_with("broken.toile: failed: "), "{lines:?}");
     assert_eq!(place.names("out"), ["ball", "ball-2"]);
     assert_eq!(place.names("out/ball-2"), ["body.obj", "garment.obj", "report.json"]);

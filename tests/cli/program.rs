@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
-use toile::session::project_file;
 use toile::session::Project;
+use toile::session::project_file;
 
 /// An empty folder and the program in it.
 pub struct Place {
@@ -65,7 +65,9 @@ impl Place {
     pub fn command(&self, arguments: &str) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_toile"));
         command.args(arguments.split_whitespace()).current_dir(self.folder.path()).stdin(Stdio::null());
-        for name in ["HOME", "DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET", "XDG_RUNTIME_DIR", "RUST_BACKTRACE"] {
+        for name in
+            ["HOME", "DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET", "XDG_RUNTIME_DIR", "RUST_BACKTRACE"]
+        {
             command.env_remove(name);
         }
         // No adapter unless a test asks for one: no system has both.

@@ -52,7 +52,7 @@ fn damaged_recordings_name_the_line() {
     };
     damaged("", "line 1: the recording is empty");
     damaged(&text[..text.len() - 20], &format!("line {}: ", text.lines().count()));
-    damaged(&text.replacen("\"wrap\"", "\"warp\"", 1), "line 3: ");
+    damaged(&text.replacen("\"wrap\"", "\"warp\"", 1), "line 3: unknown variant `warp`");
     damaged(&text.replacen("\"version\":1", "\"version\":2", 1), "version 2");
     damaged("o octopus\nv 0 0 0\n", "line 1: this is not the header of a recording");
     let header = text.lines().next().expect("a header");

@@ -21,7 +21,8 @@ fn slow_place() -> Place {
 fn a_signal_stops_it_with_its_code_and_no_files() {
     for (signal, code) in [("INT", 130), ("TERM", 143)] {
         let place = slow_place();
-        let child = place.command("dress slow.toile --out out").stderr(Stdio::piped()).spawn().expect("started");
+        let child =
+            place.command("dress slow.toile --out out").stderr(Stdio::piped()).spawn().expect("started");
         std::thread::sleep(Duration::from_millis(400));
         let kill = Command::new("kill").args([format!("-{signal}"), child.id().to_string()]).status();
         assert!(kill.is_ok_and(|s| s.success()));

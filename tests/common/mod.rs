@@ -1,5 +1,7 @@
 //! A small scene that dresses in a blink: a patch of cloth with one pair of marks on a ball.
 
+#![allow(dead_code, reason = "not every suite uses all of it")]
+
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 use std::time::Duration;

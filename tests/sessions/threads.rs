@@ -11,7 +11,7 @@ use toile::session::{Command, Notice, Session};
 use toile::sim::{Runner, Simulation};
 
 use crate::common::project;
-use crate::recordings::play;
+use crate::scenario::play;
 
 const PATIENCE: Duration = Duration::from_secs(60);
 
