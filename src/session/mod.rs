@@ -11,6 +11,7 @@ pub mod project;
 pub mod project_file;
 pub mod recording;
 pub mod replay;
+pub mod samples;
 #[expect(clippy::module_inception, reason = "a file is named by what it holds")]
 pub mod session;
 

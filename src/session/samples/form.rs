@@ -1,0 +1,115 @@
+//! The dress form that samples are drafted on: lengths and strokes read off a mannequin.
+
+use glam::{DVec2, DVec3};
+
+use crate::body::measure::{length, taut};
+use crate::body::{Mannequin, Surface};
+use crate::relax::RelaxSettings;
+
+/// Spacing of strokes on the body, metres.
+const STEP: f64 = 0.01;
+
+/// A mannequin with its surface.
+pub struct Form<'a> {
+    /// The body.
+    pub body: &'a Mannequin,
+    surface: Surface,
+    offset: f64,
+}
+
+impl<'a> Form<'a> {
+    /// Over `body`. Panics when the mannequin has no triangles: it is built by us.
+    pub fn new(body: &'a Mannequin) -> Self {
+        let surface = Surface::new(body.mesh.clone()).expect("a mannequin has a surface");
+        let offset = RelaxSettings::default().offset * surface.scale();
+        Self { body, surface, offset }
+    }
+
+    /// A named point. Panics when there is none: names are written in code.
+    pub fn mark(&self, name: &str) -> DVec3 {
+        self.body.landmarks.get(name).unwrap_or_else(|| panic!("no landmark {name}"))
+    }
+
+    /// The skin at `x`, `y`: in front (`side` 1) or behind (`side` -1).
+    pub fn skin(&self, x: f64, y: f64, side: f64) -> Option<DVec3> {
+        self.surface.ray(DVec3::new(x, y, side), DVec3::new(0.0, 0.0, -side)).map(|hit| hit.point)
+    }
+
+    /// The top of the shoulder at `x`.
+    pub fn shoulder(&self, x: f64) -> DVec3 {
+        let z = self.mark("shoulder_left").z;
+        self.surface.ray(DVec3::new(x, 1.0e3, z), DVec3::NEG_Y).map_or(DVec3::ZERO, |hit| hit.point)
+    }
+
+    /// The skin straight out from the middle of the trunk at height `y`, the way of `angle` from the front towards +x.
+    pub fn round(&self, y: f64, angle: f64) -> Option<DVec3> {
+        let middle = (self.skin(0.0, y, 1.0)? + self.skin(0.0, y, -1.0)?) / 2.0;
+        let way = DVec3::new(angle.sin(), 0.0, angle.cos());
+        self.surface.ray(middle, way).map(|hit| hit.point)
+    }
+
+    /// Length of a tape from the top of the shoulder at `x` down the front (`side` 1) or back (-1) to height `y`.
+    pub fn from_shoulder(&self, x: f64, y: f64, side: f64) -> f64 {
+        let top = self.shoulder(x);
+        let lifted = |p: DVec3| DVec2::new(side * p.z, p.y) + DVec2::new(self.offset, self.offset / 2.0);
+        let steps = ((top.y - y) / STEP).ceil().max(1.0);
+        let down = (0..steps as usize).filter_map(|i| {
+            let at = y + (top.y - y) * i as f64 / steps;
+            self.skin(x, at, side).map(lifted)
+        });
+        let points: Vec<DVec2> = down.chain([lifted(top)]).collect();
+        // The body lies to the left of a tape that runs up its front seen with the front to the right.
+        length(&taut(points.into_iter()))
+    }
+
+    /// A stroke on the skin through `points` (any spacing), with its length where the cloth lies.
+    pub fn lengths(&self, points: &[DVec3]) -> Vec<f64> {
+        let lifted: Vec<DVec3> = points
+            .iter()
+            .map(|&p| {
+                let near = self.surface.nearest(p);
+                near.point + near.normal * self.offset
+            })
+            .collect();
+        let mut lengths = vec![0.0];
+        for w in lifted.windows(2) {
+            lengths.push(lengths[lengths.len() - 1] + w[0].distance(w[1]));
+        }
+        lengths
+    }
+
+    /// The part of the stroke `path` that runs from `from` to `to` metres (where the cloth lies) after the point of it
+    /// nearest to `anchor`; as much of it as there is.
+    pub fn part(&self, path: &[DVec3], anchor: DVec3, from: f64, to: f64) -> Vec<DVec3> {
+        let lengths = self.lengths(path);
+        let nearest = (0..path.len())
+            .min_by(|&i, &j| path[i].distance_squared(anchor).total_cmp(&path[j].distance_squared(anchor)))
+            .unwrap_or(0);
+        let zero = lengths[nearest];
+        let at = |s: f64| {
+            let i = lengths.partition_point(|&l| l <= s).clamp(1, lengths.len() - 1);
+            let t = ((s - lengths[i - 1]) / (lengths[i] - lengths[i - 1]).max(1e-12)).clamp(0.0, 1.0);
+            let p = path[i - 1].lerp(path[i], t);
+            self.surface.nearest(p).point
+        };
+        let (low, high) = ((zero + from).max(0.0), (zero + to).min(lengths[lengths.len() - 1]));
+        let count = ((high - low) / STEP).ceil().max(1.0) as usize;
+        (0..=count).map(|k| at(low + (high - low) * k as f64 / count as f64)).collect()
+    }
+
+    /// A stroke straight up the middle of front (`side` 1) or back (-1) from height `low` to `high`.
+    pub fn upright(&self, x: f64, low: f64, high: f64, side: f64) -> Vec<DVec3> {
+        let count = ((high - low) / STEP).ceil().max(1.0) as usize;
+        (0..=count).filter_map(|i| self.skin(x, low + (high - low) * i as f64 / count as f64, side)).collect()
+    }
+
+    /// A stroke round the trunk at height `y` from `from` to `to` radians, as `round` counts them.
+    pub fn level(&self, y: f64, from: f64, to: f64) -> Vec<DVec3> {
+        (0..=60).filter_map(|i| self.round(y, from + (to - from) * f64::from(i) / 60.0)).collect()
+    }
+
+    /// How far the cloth lies above the skin, metres.
+    pub fn offset(&self) -> f64 {
+        self.offset
+    }
+}

@@ -1,0 +1,58 @@
+//! Garments drafted for the mannequin, each with its marks: what a first-time user opens.
+//!
+//! Every sample is drafted from the mannequin's own measurements, so a sample can be drafted for another body, too.
+
+mod draft;
+mod form;
+mod skirt;
+mod strokes;
+mod tshirt;
+
+use std::sync::Arc;
+
+use crate::body::Mannequin;
+use crate::session::{BodyChoice, Document, Project};
+use form::Form;
+
+/// The garments there are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sample {
+    /// Front, back, two sleeves.
+    Tshirt,
+    /// Front and back with darts on a waistband.
+    Skirt,
+}
+
+impl Sample {
+    /// All of them, in the order of the menu.
+    pub const ALL: [Self; 2] = [Self::Tshirt, Self::Skirt];
+
+    /// Shown to people.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Tshirt => "T-shirt",
+            Self::Skirt => "Skirt",
+        }
+    }
+
+    /// Name of its file in `assets/samples`, without `.toile`.
+    pub fn file_stem(self) -> &'static str {
+        match self {
+            Self::Tshirt => "tshirt",
+            Self::Skirt => "skirt",
+        }
+    }
+
+    /// The sample drafted for `body`, with its marks.
+    pub fn project(self, body: &Mannequin) -> Project {
+        let form = Form::new(body);
+        let (pattern, marks) = match self {
+            Self::Tshirt => tshirt::tshirt(&form),
+            Self::Skirt => skirt::skirt(&form),
+        };
+        let mut document =
+            Document { pattern: Arc::new(pattern), body: BodyChoice::Mannequin, ..Document::default() };
+        document.take_marks(Arc::new(marks));
+        Project { document, dressed: None }
+    }
+}
