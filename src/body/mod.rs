@@ -1,10 +1,14 @@
 //! The body the cloth is put on.
 
+pub mod import;
 pub mod mannequin;
 pub mod measure;
 pub mod skeleton;
 pub mod surface;
+pub mod unit;
 
+pub use import::{BodyReport, Imported, import};
 pub use mannequin::{Landmarks, Mannequin, MannequinError, Measurements};
 pub use skeleton::{Joint, Skeleton};
 pub use surface::{Hit, Nearest, Surface};
+pub use unit::{Unit, guess_unit};

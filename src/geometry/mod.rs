@@ -3,5 +3,6 @@
 pub mod adjacency;
 pub mod ids;
 pub mod mesh;
+pub mod orient;
 pub mod problem;
 pub mod walk;
