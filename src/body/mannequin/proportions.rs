@@ -17,8 +17,6 @@ pub mod level {
     pub const MID_THIGH: f64 = 0.657;
     /// Just below the crotch.
     pub const UPPER_THIGH: f64 = 0.795;
-    /// Between the legs.
-    pub const CROTCH: f64 = 0.828;
     /// Fullest place of the hip.
     pub const HIP: f64 = 0.925;
     /// Half-way between waist and hip.

@@ -32,7 +32,9 @@ impl<'a> Form<'a> {
 
     /// The skin at `x`, `y`: in front (`side` 1) or behind (`side` -1).
     pub fn skin(&self, x: f64, y: f64, side: f64) -> Option<DVec3> {
-        self.surface.ray(DVec3::new(x, y, side), DVec3::new(0.0, 0.0, -side)).map(|hit| hit.point)
+        // The mannequin has edges along its plane of symmetry, and a ray just along an edge may slip through.
+        let hit = self.surface.ray(DVec3::new(x + 3e-4, y, side), DVec3::new(0.0, 0.0, -side))?;
+        Some(self.surface.nearest(hit.point.with_x(x)).point)
     }
 
     /// The top of the shoulder at `x`.
@@ -44,7 +46,7 @@ impl<'a> Form<'a> {
     /// The skin straight out from the middle of the trunk at height `y`, the way of `angle` from the front towards +x.
     pub fn round(&self, y: f64, angle: f64) -> Option<DVec3> {
         let middle = (self.skin(0.0, y, 1.0)? + self.skin(0.0, y, -1.0)?) / 2.0;
-        let way = DVec3::new(angle.sin(), 0.0, angle.cos());
+        let way = DVec3::new((angle + 1e-3).sin(), 0.0, (angle + 1e-3).cos());
         self.surface.ray(middle, way).map(|hit| hit.point)
     }
 
@@ -64,18 +66,27 @@ impl<'a> Form<'a> {
 
     /// A stroke on the skin through `points` (any spacing), with its length where the cloth lies.
     pub fn lengths(&self, points: &[DVec3]) -> Vec<f64> {
-        let lifted: Vec<DVec3> = points
-            .iter()
-            .map(|&p| {
-                let near = self.surface.nearest(p);
-                near.point + near.normal * self.offset
-            })
-            .collect();
+        let lifted: Vec<DVec3> = points.iter().map(|&p| p + self.smooth_normal(p) * self.offset).collect();
         let mut lengths = vec![0.0];
         for w in lifted.windows(2) {
             lengths.push(lengths[lengths.len() - 1] + w[0].distance(w[1]));
         }
         lengths
+    }
+
+    /// The vertices' normals mixed at the point of the skin nearest to `p`: the faces' own make strokes along an edge
+    /// zigzag.
+    fn smooth_normal(&self, p: DVec3) -> DVec3 {
+        let near = self.surface.nearest(p);
+        let corners = self.surface.mesh.triangles[near.triangle as usize];
+        corners
+            .iter()
+            .map(|&v| {
+                let away = self.surface.mesh.positions[v as usize].distance(near.point).max(1e-6);
+                self.surface.vertex_normals[v as usize] / away
+            })
+            .sum::<DVec3>()
+            .normalize_or_zero()
     }
 
     /// The part of the stroke `path` that runs from `from` to `to` metres (where the cloth lies) after the point of it
@@ -106,10 +117,5 @@ impl<'a> Form<'a> {
     /// A stroke round the trunk at height `y` from `from` to `to` radians, as `round` counts them.
     pub fn level(&self, y: f64, from: f64, to: f64) -> Vec<DVec3> {
         (0..=60).filter_map(|i| self.round(y, from + (to - from) * f64::from(i) / 60.0)).collect()
-    }
-
-    /// How far the cloth lies above the skin, metres.
-    pub fn offset(&self) -> f64 {
-        self.offset
     }
 }
