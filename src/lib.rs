@@ -43,4 +43,5 @@ pub mod relax;
 pub mod render;
 pub mod session;
 pub mod sim;
+pub mod ui;
 pub mod wrap;

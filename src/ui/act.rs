@@ -1,0 +1,96 @@
+//! What each action does.
+
+use egui::ViewportCommand;
+
+use crate::render::Projection;
+use crate::session::{Command, Project};
+use crate::ui::actions::Action;
+use crate::ui::app::App;
+use crate::ui::dialogs::Dialog;
+use crate::ui::files::{self, Purpose};
+
+impl App {
+    /// Carries out `action`; one that would lose unsaved changes asks first.
+    pub(super) fn act(&mut self, ctx: &egui::Context, action: Action) {
+        let leaves = matches!(action, Action::New | Action::Open | Action::Quit | Action::Sample(_));
+        if leaves && self.session.is_modified() {
+            self.dialog = Some(Dialog::Unsaved { then: action });
+        } else {
+            self.act_unguarded(ctx, action);
+        }
+    }
+
+    /// Carries out `action`.
+    pub(super) fn act_unguarded(&mut self, ctx: &egui::Context, action: Action) {
+        match action {
+            Action::New => self.replace(ctx, Project::default(), None),
+            Action::Sample(name) => match files::sample(name) {
+                Ok(project) => self.replace(ctx, project, None),
+                Err(words) => self.messages.error(words),
+            },
+            Action::Open => self.ask_file(Purpose::Open),
+            Action::Save => self.save(ctx),
+            Action::SaveAs => self.ask_file(Purpose::Save),
+            Action::ImportPattern => self.ask_file(Purpose::ImportPattern),
+            Action::ImportBody => self.ask_file(Purpose::ImportBody),
+            Action::UseMannequin => self.apply(files::mannequin()),
+            Action::Export => self.ask_file(Purpose::Export),
+            Action::SaveRecording => self.ask_file(Purpose::Recording),
+            Action::Quit => {
+                self.may_close = true;
+                ctx.send_viewport_cmd(ViewportCommand::Close);
+            }
+            Action::Undo => self.apply(Command::Undo),
+            Action::Redo => self.apply(Command::Redo),
+            Action::ClearMarks => self.apply(Command::ClearMarks),
+            Action::Choose(tool) => self.tool = tool,
+            Action::Wrap => {
+                self.show_cloth = true;
+                self.apply(Command::Wrap);
+            }
+            Action::CancelWrap => self.apply(Command::CancelWrap),
+            Action::Unwrap => self.apply(Command::Unwrap),
+            Action::ToggleRelaxing => {
+                let on = !self.session.snapshot().relaxing;
+                self.apply(Command::SetRelaxing { on });
+            }
+            Action::Look(_) | Action::FrameAll | Action::ToggleParallel | Action::ToggleFreeTurning => {
+                self.change_view(action);
+            }
+            Action::ToggleCloth => self.show_cloth = !self.show_cloth,
+            Action::TogglePanel => self.show_panel = !self.show_panel,
+            Action::Theme(theme) => ctx.set_theme(theme),
+            Action::Shortcuts => self.dialog = Some(Dialog::Shortcuts),
+        }
+        ctx.request_repaint();
+    }
+
+    fn change_view(&mut self, action: Action) {
+        let scene = &mut self.scene_pane;
+        match action {
+            Action::Look(view) => scene.frame = Some(Some(view)),
+            Action::FrameAll if self.pattern_pane.hovered => self.pattern_pane.fit = true,
+            Action::FrameAll => scene.frame = Some(None),
+            Action::ToggleParallel => {
+                scene.camera.projection = match scene.camera.projection {
+                    Projection::Perspective => Projection::Orthographic,
+                    Projection::Orthographic => Projection::Perspective,
+                }
+            }
+            Action::ToggleFreeTurning => scene.free_turning = !scene.free_turning,
+            _ => {}
+        }
+    }
+
+    fn save(&mut self, ctx: &egui::Context) {
+        match self.path.clone() {
+            Some(path) => {
+                if let Err(words) = self.save_to(ctx, &path) {
+                    self.after_save = None;
+                    self.messages.error(words);
+                }
+            }
+            None => self.ask_file(Purpose::Save),
+        }
+    }
+}

@@ -1,0 +1,225 @@
+//! Everything that can be chosen, in one table: menus, buttons, tooltips and shortcuts all read it.
+
+use egui::{Key, KeyboardShortcut, Modifiers, ThemePreference};
+
+use crate::render::View;
+
+/// What the left mouse button does in the panes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Tool {
+    /// Paints marks on cloth and body.
+    #[default]
+    Mark,
+    /// Takes marks away.
+    Erase,
+    /// Moves and flips pieces.
+    Move,
+}
+
+/// A garment drafted by us.
+pub type SampleName = &'static str;
+
+/// Something that can be chosen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Action {
+    New,
+    Sample(SampleName),
+    Open,
+    Save,
+    SaveAs,
+    ImportPattern,
+    ImportBody,
+    UseMannequin,
+    Export,
+    SaveRecording,
+    Quit,
+    Undo,
+    Redo,
+    ClearMarks,
+    Choose(Tool),
+    Wrap,
+    CancelWrap,
+    Unwrap,
+    ToggleRelaxing,
+    Look(View),
+    FrameAll,
+    ToggleParallel,
+    ToggleFreeTurning,
+    ToggleCloth,
+    TogglePanel,
+    Theme(ThemePreference),
+    Shortcuts,
+}
+
+/// How an action is shown and reached.
+#[derive(Clone, Debug)]
+pub struct Entry {
+    /// In menus and on buttons.
+    pub text: &'static str,
+    /// In tooltips.
+    pub tip: &'static str,
+    /// Keys, the first one shown.
+    pub keys: Vec<KeyboardShortcut>,
+}
+
+const fn key(key: Key) -> KeyboardShortcut {
+    KeyboardShortcut::new(Modifiers::NONE, key)
+}
+
+const fn ctrl(key: Key) -> KeyboardShortcut {
+    KeyboardShortcut::new(Modifiers::COMMAND, key)
+}
+
+const fn ctrl_shift(key: Key) -> KeyboardShortcut {
+    KeyboardShortcut::new(Modifiers::COMMAND.plus(Modifiers::SHIFT), key)
+}
+
+fn entry(text: &'static str, tip: &'static str, keys: &[KeyboardShortcut]) -> Entry {
+    Entry { text, tip, keys: keys.to_vec() }
+}
+
+impl Action {
+    /// How it is shown and reached.
+    pub fn entry(self) -> Entry {
+        match self {
+            Self::New => entry("New", "Start with an empty table and the mannequin", &[ctrl(Key::N)]),
+            Self::Sample(name) => entry(name, "Open this sample with its marks", &[]),
+            Self::Open => entry("Open…", "Open a project", &[ctrl(Key::O)]),
+            Self::Save => entry("Save", "Save the project", &[ctrl(Key::S)]),
+            Self::SaveAs => entry("Save as…", "Save the project under another name", &[ctrl_shift(Key::S)]),
+            Self::ImportPattern => {
+                entry("Import pattern…", "Take the pieces and seams of a GarmentCode file", &[ctrl(Key::I)])
+            }
+            Self::ImportBody => entry("Import body…", "Take a body from an OBJ file", &[]),
+            Self::UseMannequin => entry("Use the mannequin", "Go back to the built-in figure", &[]),
+            Self::Export => entry("Export…", "Write the dressed garment as .obj or .glb", &[ctrl(Key::E)]),
+            Self::SaveRecording => {
+                entry("Save recording…", "Write everything done so far as a script that can be replayed", &[])
+            }
+            Self::Quit => entry("Quit", "Leave Toile", &[ctrl(Key::Q)]),
+            Self::Undo => entry("Undo", "Take the last step back", &[ctrl(Key::Z)]),
+            Self::Redo => entry("Redo", "Do the step again", &[ctrl_shift(Key::Z), ctrl(Key::Y)]),
+            Self::ClearMarks => entry("Clear all marks", "Take every mark away, on cloth and body", &[]),
+            Self::Choose(Tool::Mark) => entry(
+                "Mark",
+                "Paint a mark with the left button, on a piece and then on the body where it should lie",
+                &[key(Key::K)],
+            ),
+            Self::Choose(Tool::Erase) => entry("Erase", "Click a mark to take it away", &[key(Key::X)]),
+            Self::Choose(Tool::Move) => {
+                entry("Move", "Drag pieces on the table; double-click turns one over", &[key(Key::V)])
+            }
+            Self::Wrap => {
+                entry("Wrap", "Grow the cloth round the body so that the marks meet", &[key(Key::Enter)])
+            }
+            Self::CancelWrap => {
+                entry("Cancel", "Stop, and bring back what was on the body before", &[key(Key::Escape)])
+            }
+            Self::Unwrap => entry("Take the cloth off", "The body is bare again; the marks stay", &[]),
+            Self::ToggleRelaxing => {
+                entry("Relax", "Let the cloth even itself out, or hold it still", &[key(Key::Space)])
+            }
+            Self::Look(view) => look_entry(view),
+            Self::FrameAll => entry(
+                "Show all",
+                "Fit everything in the pane under the pointer",
+                &[key(Key::F), key(Key::Home)],
+            ),
+            Self::ToggleParallel => {
+                entry("Parallel projection", "Near and far look the same size", &[key(Key::Num5)])
+            }
+            Self::ToggleFreeTurning => {
+                entry("Free turning", "Turn the body like a ball instead of keeping it upright", &[])
+            }
+            Self::ToggleCloth => {
+                entry("Show the cloth", "Hide the cloth to paint beneath it", &[key(Key::H)])
+            }
+            Self::TogglePanel => entry("Side panel", "Marks, cloth settings and problems", &[key(Key::N)]),
+            Self::Theme(ThemePreference::Light) => entry("Light", "Dark text on light", &[]),
+            Self::Theme(ThemePreference::Dark) => entry("Dark", "Light text on dark", &[]),
+            Self::Theme(ThemePreference::System) => entry("As the system", "Follow the desktop", &[]),
+            Self::Shortcuts => entry("Keys and mouse", "What each key and button does", &[key(Key::F1)]),
+        }
+    }
+
+    /// Everything with keys, longest combinations first so that Ctrl+Shift+Z is not taken for Ctrl+Z.
+    pub fn with_keys() -> Vec<(Self, KeyboardShortcut)> {
+        let mut all: Vec<(Self, KeyboardShortcut)> = ALL
+            .iter()
+            .flat_map(|&action| action.entry().keys.into_iter().map(move |k| (action, k)))
+            .collect();
+        all.sort_by_key(|(_, k)| !(k.modifiers.shift && k.modifiers.command));
+        all
+    }
+
+    /// Whether a plain key belongs to it, which a focused widget may want for itself.
+    pub fn is_plain(shortcut: KeyboardShortcut) -> bool {
+        shortcut.modifiers.is_none()
+    }
+}
+
+fn look_entry(view: View) -> Entry {
+    match view {
+        View::Front => entry("Front", "Look from the front", &[key(Key::Num1)]),
+        View::Back => entry("Back", "Look from behind", &[ctrl(Key::Num1)]),
+        View::Right => entry("Right", "Look from the body's right", &[key(Key::Num3)]),
+        View::Left => entry("Left", "Look from the body's left", &[ctrl(Key::Num3)]),
+        View::Top => entry("Top", "Look from above", &[key(Key::Num7)]),
+        View::ThreeQuarter => {
+            entry("Three-quarter", "Look from the front and left, a little above", &[key(Key::Num2)])
+        }
+        View::Angles { .. } => entry("View", "Look from there", &[]),
+    }
+}
+
+/// Views with a name, in menu order.
+pub const VIEWS: [View; 6] =
+    [View::Front, View::Back, View::Left, View::Right, View::Top, View::ThreeQuarter];
+
+/// Actions whose keys are listened to.
+const ALL: &[Action] = &[
+    Action::New,
+    Action::Open,
+    Action::Save,
+    Action::SaveAs,
+    Action::ImportPattern,
+    Action::Export,
+    Action::Quit,
+    Action::Undo,
+    Action::Redo,
+    Action::Choose(Tool::Mark),
+    Action::Choose(Tool::Erase),
+    Action::Choose(Tool::Move),
+    Action::Wrap,
+    Action::CancelWrap,
+    Action::ToggleRelaxing,
+    Action::Look(View::Front),
+    Action::Look(View::Back),
+    Action::Look(View::Left),
+    Action::Look(View::Right),
+    Action::Look(View::Top),
+    Action::Look(View::ThreeQuarter),
+    Action::FrameAll,
+    Action::ToggleParallel,
+    Action::ToggleCloth,
+    Action::TogglePanel,
+    Action::Shortcuts,
+];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_key_does_two_things() {
+        let all = Action::with_keys();
+        for (i, (a, k)) in all.iter().enumerate() {
+            for (b, other) in &all[i + 1..] {
+                assert!(k != other, "{a:?} and {b:?} share {k:?}");
+            }
+        }
+        let redo = all.iter().position(|(a, _)| *a == Action::Redo).expect("redo");
+        let undo = all.iter().position(|(a, _)| *a == Action::Undo).expect("undo");
+        assert!(redo < undo);
+    }
+}

@@ -1,0 +1,425 @@
+//! The window's state and one frame of it.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use egui::{CentralPanel, Frame, Margin, Panel, ViewportCommand};
+
+use crate::session::{Command, Document, GestureId, Notice, Project, Session};
+use crate::sim::{Runner, Simulation, Snapshot, thread::DEFAULT_RATE_HZ};
+use crate::ui::actions::{Action, Tool};
+use crate::ui::asks::{Ask, Asks};
+use crate::ui::dialogs::{Answer, Dialog, NativeDialog};
+use crate::ui::files::{self, Purpose};
+use crate::ui::messages::Messages;
+use crate::ui::pattern_pane::{self, PatternPane};
+use crate::ui::scene_pane::{self, ScenePane, Seen};
+use crate::ui::situation::Situation;
+use crate::ui::theme::{self, Palette};
+use crate::ui::{menu, side_panel, status, toolbar};
+use crate::wrap::Phase;
+
+/// The window's state. What the user has done is the session's; the rest is how it is looked at.
+#[derive(Debug)]
+pub struct App {
+    pub(super) session: Session,
+    pub(super) path: Option<PathBuf>,
+    pub(super) tool: Tool,
+    pub(super) pattern_pane: PatternPane,
+    pub(super) scene_pane: ScenePane,
+    pub(super) show_cloth: bool,
+    pub(super) show_panel: bool,
+    pub(super) dialog: Option<Dialog>,
+    pub(super) native: Option<NativeDialog>,
+    pub(super) messages: Messages,
+    pub(super) may_close: bool,
+    /// To be done once the project is saved.
+    pub(super) after_save: Option<Action>,
+    drag: Option<GestureId>,
+    /// The last wrap asked for, and what was then the tick of the simulation.
+    wrap_seq: Option<u64>,
+    title: String,
+    frames: u64,
+}
+
+impl App {
+    /// The window on `project`. Without `graphics` the body pane stays empty.
+    pub fn new(
+        ctx: &egui::Context,
+        project: Project,
+        path: Option<PathBuf>,
+        graphics: Option<egui_wgpu::RenderState>,
+    ) -> std::io::Result<Self> {
+        theme::install(ctx);
+        ctx.options_mut(|options| {
+            // Closing goes by our own question; plus, minus and zero belong to the panes.
+            options.quit_shortcuts.clear();
+            options.zoom_with_keyboard = false;
+        });
+        Ok(Self {
+            session: Session::new(project, runner(ctx)?),
+            path,
+            tool: Tool::Mark,
+            pattern_pane: PatternPane::fitted(),
+            scene_pane: ScenePane::new(graphics),
+            show_cloth: true,
+            show_panel: true,
+            dialog: None,
+            native: None,
+            messages: Messages::default(),
+            may_close: false,
+            after_save: None,
+            drag: None,
+            wrap_seq: None,
+            title: String::new(),
+            frames: 0,
+        })
+    }
+
+    /// Writes everything done, from the beginning, to `file` as well.
+    pub fn record_to(&mut self, file: std::fs::File) -> std::io::Result<()> {
+        self.session.recorder().also_to(file)
+    }
+
+    /// Frames drawn so far.
+    pub fn frames(&self) -> u64 {
+        self.frames
+    }
+
+    /// The session, for reading.
+    pub fn session(&self) -> &Session {
+        &self.session
+    }
+
+    /// Pictures of the body drawn so far.
+    pub fn pictures(&self) -> u64 {
+        self.scene_pane.graphics.as_ref().map_or(0, |g| g.pictures)
+    }
+
+    /// Starts over with `project`.
+    pub(super) fn replace(&mut self, ctx: &egui::Context, project: Project, path: Option<PathBuf>) {
+        match runner(ctx) {
+            Ok(runner) => self.session = Session::new(project, runner),
+            Err(e) => return self.messages.error(format!("The simulation could not be started: {e}")),
+        }
+        self.path = path;
+        self.drag = None;
+        self.wrap_seq = None;
+        self.pattern_pane = PatternPane::fitted();
+        self.scene_pane.frame = Some(Some(crate::render::View::Front));
+    }
+
+    /// One frame.
+    pub fn ui(&mut self, ui: &mut egui::Ui) {
+        self.frames += 1;
+        let ctx = ui.ctx().clone();
+        self.take_notices();
+        let document = self.session.document().clone();
+        let snapshot = Arc::clone(self.session.snapshot());
+        let now = self.situation(&ctx, &document, &snapshot);
+        let palette = Palette::of(ctx.theme());
+        let mut asks = Asks::new();
+        self.keys(&ctx, &now, &mut asks);
+        self.panels(ui, &document, &snapshot, &now, &palette, &mut asks);
+        self.messages.ui(&ctx, &palette, status::HEIGHT);
+        for ask in asks {
+            self.carry_out(&ctx, ask);
+        }
+        self.dialogs(&ctx);
+        self.dropped_files(&ctx);
+        self.guard_closing(&ctx);
+        self.set_title(&ctx);
+    }
+
+    fn panels(
+        &mut self,
+        ui: &mut egui::Ui,
+        document: &Document,
+        snapshot: &Snapshot,
+        now: &Situation,
+        palette: &Palette,
+        asks: &mut Asks,
+    ) {
+        let bar = |ui: &egui::Ui, y: i8| {
+            Frame::new().fill(ui.visuals().panel_fill).inner_margin(Margin::symmetric(10, y))
+        };
+        let (thin, thick) = (bar(ui, 3), bar(ui, 6));
+        Panel::top("menu")
+            .frame(thin)
+            .show_separator_line(false)
+            .show(ui, |ui| menu::menu_bar_ui(ui, now, asks));
+        Panel::top("tools").frame(thick).show(ui, |ui| toolbar::toolbar_ui(ui, now, palette, asks));
+        Panel::bottom("status").frame(thin).exact_size(status::HEIGHT).show(ui, |ui| {
+            status::status_ui(ui, now, &self.hint(document), palette);
+        });
+        if self.show_panel {
+            Panel::right("side").default_size(256.0).size_range(220.0..=420.0).frame(thick).show(ui, |ui| {
+                side_panel::side_panel_ui(ui, document, &snapshot.problems, now, palette, asks);
+            });
+        }
+        let half = ui.available_width() * 0.46;
+        let least = (ui.available_width() - 200.0).max(160.0);
+        Panel::left("table").frame(Frame::new()).default_size(half).size_range(160.0..=least).show(
+            ui,
+            |ui| {
+                self.pattern_pane.ui(ui, document, self.tool, palette, asks);
+                if document.pattern.pieces.is_empty() {
+                    let area = ui.max_rect().shrink2(egui::vec2(20.0, ui.max_rect().height() * 0.36));
+                    ui.scope_builder(egui::UiBuilder::new().max_rect(area), |ui| {
+                        pattern_pane::empty_ui(ui, asks);
+                    });
+                }
+            },
+        );
+        CentralPanel::default().frame(Frame::new()).show(ui, |ui| {
+            let cloth = snapshot.garment.as_ref().filter(|_| self.show_cloth && snapshot.is_dressed());
+            let seen = Seen {
+                document,
+                body: self.session.surface(),
+                cloth: cloth.map(|garment| (garment, &snapshot.cloth)),
+                working: now.working,
+                tool: self.tool,
+                look: theme::look(ui.ctx().theme()),
+                palette,
+            };
+            self.scene_pane.ui(ui, &seen, asks);
+        });
+    }
+
+    fn hint(&self, document: &Document) -> String {
+        let next = |painted: usize| painted + 1;
+        if self.pattern_pane.hovered {
+            pattern_pane::hint(self.tool, next(document.marks.cloth.len()))
+        } else if self.scene_pane.hovered {
+            scene_pane::hint(self.tool, next(document.marks.body.len()))
+        } else {
+            "Paint a mark on a piece and one on the body where it should lie, then press Wrap.".to_owned()
+        }
+    }
+
+    fn situation(&self, ctx: &egui::Context, document: &Document, snapshot: &Snapshot) -> Situation {
+        let asked = self.wrap_seq.is_some_and(|seq| snapshot.seq < seq);
+        let growing = snapshot.phase == Some(Phase::Growing) && snapshot.working;
+        Situation {
+            undo: self.session.undo_label().map(str::to_owned),
+            redo: self.session.redo_label().map(str::to_owned),
+            tool: self.tool,
+            pieces: document.pattern.pieces.len(),
+            marks: [document.marks.cloth.len(), document.marks.body.len()],
+            has_body: self.session.surface().is_some(),
+            dressed: snapshot.is_dressed(),
+            wrapping: asked || growing,
+            working: asked || snapshot.working,
+            relaxing: snapshot.relaxing,
+            phase: snapshot.phase,
+            progress: snapshot.progress,
+            tick: snapshot.tick,
+            triangles: snapshot.garment.as_ref().map_or(0, |g| g.triangles.len()),
+            show_cloth: self.show_cloth,
+            show_panel: self.show_panel,
+            parallel: self.scene_pane.camera.projection == crate::render::Projection::Orthographic,
+            free_turning: self.scene_pane.free_turning,
+            theme: ctx.options(|o| o.theme_preference),
+        }
+    }
+
+    fn take_notices(&mut self) {
+        for notice in self.session.update() {
+            match notice {
+                Notice::AtRest { .. } => {}
+                Notice::Failed { words, .. } => self.messages.error(words),
+                Notice::HistoryShortened => {
+                    self.messages.tell("Older steps can no longer be undone, to save memory.");
+                }
+            }
+        }
+    }
+
+    fn keys(&self, ctx: &egui::Context, now: &Situation, asks: &mut Asks) {
+        if self.dialog.is_some() || ctx.text_edit_focused() {
+            return;
+        }
+        let busy = ctx.memory(|m| m.focused().is_some()) || egui::Popup::is_any_open(ctx);
+        let drawing = self.pattern_pane.stroke().is_some() || !self.scene_pane.stroke().is_empty();
+        for (action, keys) in Action::with_keys() {
+            // A focused button takes Enter and Space for itself; Space over the table moves the view; Esc first gives up a
+            // stroke.
+            let taken = Action::is_plain(keys)
+                && (busy
+                    || (action == Action::ToggleRelaxing && self.pattern_pane.hovered)
+                    || (action == Action::CancelWrap && (drawing || self.drag.is_some())));
+            if !taken && ctx.input_mut(|i| i.consume_shortcut(&keys)) && now.why_not(action).is_none() {
+                asks.push(Ask::Act(action));
+            }
+        }
+    }
+
+    fn carry_out(&mut self, ctx: &egui::Context, ask: Ask) {
+        match ask {
+            Ask::Act(action) => self.act(ctx, action),
+            Ask::Do(command) => self.apply(command),
+            Ask::Drag(command) => self.drag(command),
+            Ask::EndDrag => self.end_drag(),
+            Ask::CancelDrag => self.cancel_drag(),
+            Ask::Say(words) => self.messages.tell(words),
+        }
+    }
+
+    /// Carries out `command` as a step of its own; a refusal is told.
+    pub(super) fn apply(&mut self, command: Command) {
+        self.end_drag();
+        let is_wrap = command == Command::Wrap;
+        match self.session.apply_alone(command) {
+            Ok(()) if is_wrap => self.wrap_seq = Some(self.session.last_seq()),
+            Ok(()) => {}
+            Err(why) => self.messages.error(sentence(&why.0)),
+        }
+    }
+
+    fn drag(&mut self, command: Command) {
+        let gesture = *self.drag.get_or_insert_with(|| self.session.begin_gesture());
+        if let Err(why) = self.session.apply(command, gesture) {
+            self.messages.error(sentence(&why.0));
+        }
+    }
+
+    pub(super) fn end_drag(&mut self) {
+        if let Some(gesture) = self.drag.take() {
+            self.session.end_gesture(gesture);
+        }
+    }
+
+    fn cancel_drag(&mut self) {
+        if let Some(gesture) = self.drag.take() {
+            // Refused only when the drag has changed nothing yet.
+            self.session.apply(Command::CancelGesture, gesture).ok();
+            self.session.end_gesture(gesture);
+        }
+    }
+
+    fn dialogs(&mut self, ctx: &egui::Context) {
+        if let Some(native) = &mut self.native
+            && let Some(answer) = native.poll(ctx)
+        {
+            let purpose = native.purpose();
+            self.native = None;
+            match answer {
+                Ok(path) => self.file(ctx, purpose, &path),
+                Err(Some(own)) => self.dialog = Some(own),
+                Err(None) => self.after_save = None,
+            }
+        }
+        let Some(dialog) = &mut self.dialog else { return };
+        let answer = dialog.ui(ctx);
+        if answer == Answer::None {
+            return;
+        }
+        self.dialog = None;
+        match answer {
+            Answer::None => {}
+            Answer::Cancel => self.after_save = None,
+            Answer::SaveThen(action) => {
+                self.after_save = Some(action);
+                self.act(ctx, Action::Save);
+            }
+            Answer::Discard(action) => self.act_unguarded(ctx, action),
+            Answer::File(purpose, path) => self.file(ctx, purpose, &path),
+        }
+    }
+
+    fn dropped_files(&mut self, ctx: &egui::Context) {
+        let dropped = ctx.input(|i| i.raw.dropped_files.clone());
+        for path in dropped.into_iter().map(|f| f.path().to_owned()) {
+            let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
+            match extension.as_deref() {
+                Some("toile") => self.file(ctx, Purpose::Open, &path),
+                Some("json") => self.file(ctx, Purpose::ImportPattern, &path),
+                Some("obj") => self.file(ctx, Purpose::ImportBody, &path),
+                _ => self.messages.error(format!(
+                    "{} is neither a project (.toile), a pattern (.json) nor a body (.obj)",
+                    path.display()
+                )),
+            }
+        }
+    }
+
+    fn guard_closing(&mut self, ctx: &egui::Context) {
+        if ctx.input(|i| i.viewport().close_requested()) && !self.may_close && self.session.is_modified() {
+            ctx.send_viewport_cmd(ViewportCommand::CancelClose);
+            self.dialog = Some(Dialog::Unsaved { then: Action::Quit });
+        }
+    }
+
+    fn set_title(&mut self, ctx: &egui::Context) {
+        let name = self.path.as_deref().and_then(Path::file_stem).map(|n| n.to_string_lossy());
+        let mark = if self.session.is_modified() { " •" } else { "" };
+        let title = format!("{}{mark} – Toile", name.as_deref().unwrap_or("Untitled"));
+        if title != self.title {
+            ctx.send_viewport_cmd(ViewportCommand::Title(title.clone()));
+            self.title = title;
+        }
+    }
+
+    /// Asks the person for a file.
+    pub(super) fn ask_file(&mut self, purpose: Purpose) {
+        match NativeDialog::open(purpose, self.path.as_deref()) {
+            Some(native) => self.native = Some(native),
+            None => {
+                let text = if purpose.writes() { purpose.default_name() } else { String::new() };
+                self.dialog = Some(Dialog::Path { purpose, text });
+            }
+        }
+    }
+
+    fn file(&mut self, ctx: &egui::Context, purpose: Purpose, path: &Path) {
+        let done = match purpose {
+            Purpose::Open => files::open(path).map(|p| self.replace(ctx, p, Some(path.to_owned()))),
+            Purpose::Save => self.save_to(ctx, path),
+            Purpose::ImportPattern => files::import_pattern(path).map(|command| {
+                self.apply(command);
+                self.pattern_pane.fit = true;
+            }),
+            Purpose::ImportBody => files::import_body(path).map(|command| self.apply(command)),
+            Purpose::Export => {
+                let project = self.session.project();
+                files::export(path, &project).map(|()| self.wrote(path))
+            }
+            Purpose::Recording => {
+                let text = self.session.recording();
+                files::write_text(path, &text).map(|()| self.wrote(path))
+            }
+        };
+        if let Err(words) = done {
+            self.after_save = None;
+            self.messages.error(words);
+        }
+    }
+
+    pub(super) fn save_to(&mut self, ctx: &egui::Context, path: &Path) -> Result<(), String> {
+        let project = self.session.project();
+        files::save(path, &project)?;
+        self.session.mark_saved();
+        self.path = Some(path.to_owned());
+        self.wrote(path);
+        if let Some(action) = self.after_save.take() {
+            self.act_unguarded(ctx, action);
+        }
+        Ok(())
+    }
+
+    fn wrote(&mut self, path: &Path) {
+        self.messages.tell(format!("Written: {}", path.display()));
+    }
+}
+
+/// A simulation on its own thread that wakes the window when there is something new.
+fn runner(ctx: &egui::Context) -> std::io::Result<Runner> {
+    let ctx = ctx.clone();
+    Runner::threaded(Simulation::default(), DEFAULT_RATE_HZ, Box::new(move || ctx.request_repaint()))
+}
+
+fn sentence(words: &str) -> String {
+    let mut letters = words.chars();
+    let first = letters.next().map(|c| c.to_uppercase().to_string()).unwrap_or_default();
+    format!("{first}{}.", letters.as_str())
+}

@@ -1,0 +1,24 @@
+//! What panes and panels ask for. They read the document and never change it.
+
+use crate::session::Command;
+use crate::ui::actions::Action;
+
+/// One wish.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Ask {
+    /// Choose something.
+    Act(Action),
+    /// Carry out a command as a step of its own.
+    Do(Command),
+    /// Carry out a command as part of the drag under way.
+    Drag(Command),
+    /// The drag is over.
+    EndDrag,
+    /// Take the drag back.
+    CancelDrag,
+    /// Say something to the person.
+    Say(String),
+}
+
+/// Wishes in order.
+pub type Asks = Vec<Ask>;

@@ -1,0 +1,291 @@
+//! Questions over the window: unsaved changes, a path, keys and mouse.
+
+use std::future::Future;
+use std::path::{Path, PathBuf};
+use std::pin::Pin;
+use std::sync::Arc;
+use std::task::{Context, Poll, Wake, Waker};
+use std::time::{Duration, Instant};
+
+use egui::{Id, Modal, ScrollArea, TextEdit};
+
+use crate::ui::actions::Action;
+use crate::ui::files::Purpose;
+
+/// A dialog that says "cancelled" sooner than a hand can click has not been shown at all.
+const TOO_QUICK: Duration = Duration::from_millis(400);
+
+/// What is asked.
+#[derive(Debug)]
+pub enum Dialog {
+    /// What to do with unsaved changes before `then`.
+    Unsaved { then: Action },
+    /// A path typed by hand, where the desktop offers no dialog.
+    Path { purpose: Purpose, text: String },
+    /// Keys and mouse.
+    Shortcuts,
+}
+
+/// What was answered.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Answer {
+    /// Nothing yet.
+    None,
+    /// Leave everything as it is.
+    Cancel,
+    /// Save, then go on.
+    SaveThen(Action),
+    /// Go on without saving.
+    Discard(Action),
+    /// This file.
+    File(Purpose, PathBuf),
+}
+
+impl Dialog {
+    /// Shows the dialog.
+    pub fn ui(&mut self, ctx: &egui::Context) -> Answer {
+        match self {
+            Self::Unsaved { then } => unsaved_ui(ctx, *then),
+            Self::Path { purpose, text } => path_ui(ctx, *purpose, text),
+            Self::Shortcuts => shortcuts_ui(ctx),
+        }
+    }
+}
+
+fn unsaved_ui(ctx: &egui::Context, then: Action) -> Answer {
+    let shown = Modal::new(Id::unique("unsaved")).show(ctx, |ui| {
+        ui.set_width(340.0);
+        ui.heading("Save the changes?");
+        ui.add_space(4.0);
+        ui.label("This project has changes that are not saved.");
+        ui.add_space(10.0);
+        ui.horizontal(|ui| {
+            let mut answer = Answer::None;
+            if ui.button("Save").clicked() {
+                answer = Answer::SaveThen(then);
+            }
+            if ui.button("Don't save").clicked() {
+                answer = Answer::Discard(then);
+            }
+            if ui.button("Cancel").clicked() {
+                answer = Answer::Cancel;
+            }
+            answer
+        })
+        .inner
+    });
+    if shown.inner == Answer::None && shown.should_close() { Answer::Cancel } else { shown.inner }
+}
+
+fn path_ui(ctx: &egui::Context, purpose: Purpose, text: &mut String) -> Answer {
+    let shown = Modal::new(Id::unique("path")).show(ctx, |ui| {
+        ui.set_width(460.0);
+        ui.heading(purpose.title());
+        ui.add_space(4.0);
+        let label =
+            ui.label(format!("Path of the {} (.{})", purpose.filter().0, purpose.filter().1.join(", .")));
+        let field = ui
+            .add(TextEdit::singleline(text).desired_width(f32::INFINITY).hint_text("/home/me/shirt.toile"))
+            .labelled_by(label.id);
+        if !ui.memory(|m| m.focused().is_some()) {
+            field.request_focus();
+        }
+        let entered = field.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Enter));
+        let picked = if purpose.writes() { None } else { files_ui(ui, purpose, text) };
+        ui.add_space(8.0);
+        ui.horizontal(|ui| {
+            let path = PathBuf::from(text.trim());
+            let good = !text.trim().is_empty() && (purpose.writes() || path.is_file());
+            let go = ui.add_enabled(good, egui::Button::new(if purpose.writes() { "Write" } else { "Read" }));
+            if go.clicked() || (entered && good) {
+                return Answer::File(purpose, with_extension(path, purpose));
+            }
+            if ui.button("Cancel").clicked() {
+                return Answer::Cancel;
+            }
+            picked.map_or(Answer::None, |path| Answer::File(purpose, path))
+        })
+        .inner
+    });
+    if shown.inner == Answer::None && shown.should_close() { Answer::Cancel } else { shown.inner }
+}
+
+/// Folders and fitting files where the text points to. A double-click takes a file.
+fn files_ui(ui: &mut egui::Ui, purpose: Purpose, text: &mut String) -> Option<PathBuf> {
+    let path = PathBuf::from(text.trim());
+    let folder = if path.is_dir() { path } else { path.parent().map(Path::to_owned).unwrap_or_default() };
+    let folder = if folder.as_os_str().is_empty() { PathBuf::from(".") } else { folder };
+    let mut picked = None;
+    ScrollArea::vertical().max_height(180.0).auto_shrink([false, true]).show(ui, |ui| {
+        if let Some(up) = folder.canonicalize().ok().and_then(|f| f.parent().map(Path::to_owned))
+            && ui.selectable_label(false, "../").clicked()
+        {
+            *text = format!("{}/", up.display());
+        }
+        for (name, is_folder) in listing(&folder, purpose) {
+            let response =
+                ui.selectable_label(false, if is_folder { format!("{name}/") } else { name.clone() });
+            if response.clicked() {
+                let slash = if is_folder { "/" } else { "" };
+                *text = format!("{}{slash}", folder.join(&name).display());
+            }
+            if response.double_clicked() && !is_folder {
+                picked = Some(folder.join(&name));
+            }
+        }
+    });
+    picked
+}
+
+fn listing(folder: &Path, purpose: Purpose) -> Vec<(String, bool)> {
+    let fits =
+        |name: &str| purpose.filter().1.iter().any(|e| name.to_lowercase().ends_with(&format!(".{e}")));
+    let mut all: Vec<(String, bool)> = std::fs::read_dir(folder)
+        .into_iter()
+        .flatten()
+        .flatten()
+        .map(|f| (f.file_name().to_string_lossy().into_owned(), f.path().is_dir()))
+        .filter(|(name, is_folder)| !name.starts_with('.') && (*is_folder || fits(name)))
+        .collect();
+    all.sort_by(|a, b| (!a.1, &a.0).cmp(&(!b.1, &b.0)));
+    all
+}
+
+/// `path` with the extension that belongs to `purpose`, unless it has one of those.
+pub fn with_extension(path: PathBuf, purpose: Purpose) -> PathBuf {
+    let fits = path.extension().is_some_and(|e| purpose.filter().1.iter().any(|f| e.eq_ignore_ascii_case(f)));
+    if fits || !purpose.writes() {
+        return path;
+    }
+    let mut name = path.into_os_string();
+    name.push(".");
+    name.push(purpose.filter().1[0]);
+    name.into()
+}
+
+fn shortcuts_ui(ctx: &egui::Context) -> Answer {
+    let shown = Modal::new(Id::unique("shortcuts")).show(ctx, |ui| {
+        ui.set_width(560.0);
+        ui.heading("Keys and mouse");
+        ui.add_space(6.0);
+        ScrollArea::vertical().max_height(ctx.content_rect().height() * 0.7).show(ui, |ui| {
+            ui.strong("Mouse");
+            egui::Grid::new("mouse").num_columns(2).spacing([24.0, 5.0]).striped(true).show(ui, |ui| {
+                for (what, does) in MOUSE {
+                    ui.label(*what);
+                    ui.label(*does);
+                    ui.end_row();
+                }
+            });
+            ui.add_space(8.0);
+            ui.strong("Keys");
+            egui::Grid::new("keys").num_columns(3).spacing([24.0, 5.0]).striped(true).show(ui, |ui| {
+                let mut all = Action::with_keys();
+                all.sort_by_key(|(action, _)| action.entry().text);
+                for (action, keys) in all {
+                    ui.label(ctx.format_shortcut(&keys));
+                    ui.label(action.entry().text);
+                    ui.label(action.entry().tip);
+                    ui.end_row();
+                }
+            });
+        });
+        ui.add_space(8.0);
+        ui.button("Close").clicked()
+    });
+    if shown.inner || shown.should_close() { Answer::Cancel } else { Answer::None }
+}
+
+const MOUSE: &[(&str, &str)] = &[
+    ("Left drag on a piece or the body", "Paint a mark (tool Mark); a click makes a dot"),
+    ("Ctrl + left click on a mark", "Take it away"),
+    ("Left drag on a piece", "Move it (tool Move); a double-click turns it over"),
+    ("Right drag in the body pane", "Turn the view; with Shift move it"),
+    ("Middle drag", "Move the view, in both panes"),
+    ("Space + left drag on the table", "Move the view"),
+    ("Wheel", "Zoom to the pointer"),
+    ("Esc while drawing", "Give the stroke up"),
+];
+
+/// A dialog of the desktop, open beside the window.
+pub struct NativeDialog {
+    purpose: Purpose,
+    opened: Instant,
+    answer: Pin<Box<dyn Future<Output = Option<PathBuf>>>>,
+}
+
+impl std::fmt::Debug for NativeDialog {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "NativeDialog({:?})", self.purpose)
+    }
+}
+
+/// Wakes the window when the desktop's dialog has an answer.
+struct Repaint(egui::Context);
+
+impl Wake for Repaint {
+    fn wake(self: Arc<Self>) {
+        self.0.request_repaint();
+    }
+}
+
+impl NativeDialog {
+    /// Opens the desktop's dialog. None where there is no desktop to ask.
+    pub fn open(purpose: Purpose, current: Option<&Path>) -> Option<Self> {
+        if cfg!(target_os = "linux") && std::env::var_os("DBUS_SESSION_BUS_ADDRESS").is_none() {
+            return None;
+        }
+        let (kind, extensions) = purpose.filter();
+        let mut dialog = rfd::AsyncFileDialog::new().set_title(purpose.title()).add_filter(kind, extensions);
+        if let Some(folder) = current.and_then(Path::parent) {
+            dialog = dialog.set_directory(folder);
+        }
+        let answer: Pin<Box<dyn Future<Output = Option<PathBuf>>>> = if purpose.writes() {
+            let name = current.and_then(Path::file_name).map(|n| n.to_string_lossy().into_owned());
+            let name = name.filter(|_| purpose == Purpose::Save).unwrap_or_else(|| purpose.default_name());
+            let shown = dialog.set_file_name(name).save_file();
+            Box::pin(async move { shown.await.map(|f| f.path().to_owned()) })
+        } else {
+            let shown = dialog.pick_file();
+            Box::pin(async move { shown.await.map(|f| f.path().to_owned()) })
+        };
+        Some(Self { purpose, opened: Instant::now(), answer })
+    }
+
+    /// Asks whether there is an answer. A dialog that could not be shown is followed by one of our own.
+    pub fn poll(&mut self, ctx: &egui::Context) -> Option<Result<PathBuf, Option<Dialog>>> {
+        let waker = Waker::from(Arc::new(Repaint(ctx.clone())));
+        match self.answer.as_mut().poll(&mut Context::from_waker(&waker)) {
+            Poll::Pending => None,
+            Poll::Ready(Some(path)) => Some(Ok(with_extension(path, self.purpose))),
+            Poll::Ready(None) if self.opened.elapsed() < TOO_QUICK => {
+                Some(Err(Some(Dialog::Path { purpose: self.purpose, text: String::new() })))
+            }
+            Poll::Ready(None) => Some(Err(None)),
+        }
+    }
+
+    /// What it is for.
+    pub fn purpose(&self) -> Purpose {
+        self.purpose
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn written_files_get_their_extension_once() {
+        let cases = [
+            (Purpose::Save, "a/b", "a/b.toile"),
+            (Purpose::Save, "a/b.toile", "a/b.toile"),
+            (Purpose::Export, "x.GLB", "x.GLB"),
+            (Purpose::Export, "x.y", "x.y.obj"),
+            (Purpose::Open, "whatever", "whatever"),
+        ];
+        for (purpose, given, wanted) in cases {
+            assert_eq!(with_extension(given.into(), purpose), PathBuf::from(wanted));
+        }
+    }
+}

@@ -1,0 +1,124 @@
+//! Files as the window sees them: bytes in and out, errors in words.
+
+use std::path::Path;
+
+use crate::session::{BodyChoice, Command, Project, project_file};
+
+/// What a file dialog is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Purpose {
+    /// Open a project.
+    Open,
+    /// Save the project.
+    Save,
+    /// Read a pattern.
+    ImportPattern,
+    /// Read a body.
+    ImportBody,
+    /// Write the dressed garment.
+    Export,
+    /// Write the recording.
+    Recording,
+}
+
+impl Purpose {
+    /// Title of the dialog.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Open => "Open a project",
+            Self::Save => "Save the project",
+            Self::ImportPattern => "Import a pattern",
+            Self::ImportBody => "Import a body",
+            Self::Export => "Export the dressed garment",
+            Self::Recording => "Save the recording",
+        }
+    }
+
+    /// Kind of file in words, and its extensions.
+    pub fn filter(self) -> (&'static str, &'static [&'static str]) {
+        match self {
+            Self::Open | Self::Save => ("Toile project", &["toile"]),
+            Self::ImportPattern => ("GarmentCode pattern", &["json"]),
+            Self::ImportBody => ("OBJ body", &["obj"]),
+            Self::Export => ("Garment", &["obj", "glb"]),
+            Self::Recording => ("Recording", &["jsonl"]),
+        }
+    }
+
+    /// Whether a file is written.
+    pub fn writes(self) -> bool {
+        matches!(self, Self::Save | Self::Export | Self::Recording)
+    }
+
+    /// The name a new file gets.
+    pub fn default_name(self) -> String {
+        let stem = match self {
+            Self::Recording => "recording",
+            Self::Export => "garment",
+            _ => "untitled",
+        };
+        format!("{stem}.{}", self.filter().1[0])
+    }
+}
+
+/// Reads a project.
+pub fn open(path: &Path) -> Result<Project, String> {
+    project_file::open(path).map_err(|e| in_words(path, "opened", e))
+}
+
+/// Writes a project.
+pub fn save(path: &Path, project: &Project) -> Result<(), String> {
+    project_file::save(path, project).map_err(|e| in_words(path, "saved", e))
+}
+
+/// Writes text, whole or not at all.
+pub fn write_text(path: &Path, text: &str) -> Result<(), String> {
+    use std::io::Write;
+    let write = || {
+        let mut file = atomic_write_file::AtomicWriteFile::open(path)?;
+        file.write_all(text.as_bytes())?;
+        file.commit()
+    };
+    write().map_err(|e: std::io::Error| in_words(path, "written", e))
+}
+
+/// Reads a pattern. The command replaces what is on the table.
+pub fn import_pattern(path: &Path) -> Result<Command, String> {
+    let _ = read(path)?;
+    Err(in_words(path, "imported", "this kind of pattern is not read yet"))
+}
+
+/// Reads a body.
+pub fn import_body(path: &Path) -> Result<Command, String> {
+    let _ = read(path)?;
+    Err(in_words(path, "imported", "this kind of body is not read yet"))
+}
+
+/// Writes the dressed garment of `project`.
+pub fn export(path: &Path, project: &Project) -> Result<(), String> {
+    let _ = project;
+    Err(in_words(path, "written", "nothing is exported yet"))
+}
+
+/// A sample with its marks.
+pub fn sample(name: &str) -> Result<Project, String> {
+    Err(format!("The sample {name} is not in this build"))
+}
+
+/// Names of the samples, in menu order.
+pub const SAMPLES: [&str; 5] = ["T-shirt", "Skirt", "Dress", "Trousers", "Scarf"];
+
+/// The command that brings the built-in figure back.
+pub fn mannequin() -> Command {
+    Command::SetBody { body: BodyChoice::default() }
+}
+
+fn read(path: &Path) -> Result<Vec<u8>, String> {
+    std::fs::read(path).map_err(|e| in_words(path, "read", e))
+}
+
+fn in_words(path: &Path, done: &str, why: impl std::fmt::Display) -> String {
+    let name =
+        path.file_name().map_or_else(|| path.display().to_string(), |n| n.to_string_lossy().into_owned());
+    format!("{name} could not be {done}: {why}")
+}

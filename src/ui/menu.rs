@@ -1,0 +1,79 @@
+//! The menu bar. Every entry comes from the table of actions.
+
+use egui::{Button, ThemePreference};
+
+use crate::ui::actions::{Action, VIEWS};
+use crate::ui::asks::{Ask, Asks};
+use crate::ui::files::SAMPLES;
+use crate::ui::situation::Situation;
+
+/// Draws the menu bar.
+pub fn menu_bar_ui(ui: &mut egui::Ui, now: &Situation, asks: &mut Asks) {
+    egui::MenuBar::new().ui(ui, |ui| {
+        ui.menu_button("File", |ui| file_ui(ui, now, asks));
+        ui.menu_button("Edit", |ui| {
+            items(ui, now, asks, &[Action::Undo, Action::Redo]);
+            ui.separator();
+            items(ui, now, asks, &[Action::ClearMarks]);
+        });
+        ui.menu_button("Garment", |ui| {
+            items(ui, now, asks, &[Action::Wrap, Action::CancelWrap, Action::Unwrap]);
+            ui.separator();
+            items(ui, now, asks, &[Action::ToggleRelaxing]);
+        });
+        ui.menu_button("View", |ui| view_ui(ui, now, asks));
+        ui.menu_button("Help", |ui| items(ui, now, asks, &[Action::Shortcuts]));
+    });
+}
+
+fn file_ui(ui: &mut egui::Ui, now: &Situation, asks: &mut Asks) {
+    items(ui, now, asks, &[Action::New]);
+    ui.menu_button("Samples", |ui| {
+        for name in SAMPLES {
+            item(ui, now, asks, Action::Sample(name));
+        }
+    });
+    items(ui, now, asks, &[Action::Open]);
+    ui.separator();
+    items(ui, now, asks, &[Action::Save, Action::SaveAs]);
+    ui.separator();
+    items(ui, now, asks, &[Action::ImportPattern, Action::ImportBody, Action::UseMannequin]);
+    ui.separator();
+    items(ui, now, asks, &[Action::Export, Action::SaveRecording]);
+    ui.separator();
+    items(ui, now, asks, &[Action::Quit]);
+}
+
+fn view_ui(ui: &mut egui::Ui, now: &Situation, asks: &mut Asks) {
+    items(ui, now, asks, &VIEWS.map(Action::Look));
+    ui.separator();
+    items(ui, now, asks, &[Action::FrameAll, Action::ToggleParallel, Action::ToggleFreeTurning]);
+    ui.separator();
+    items(ui, now, asks, &[Action::ToggleCloth, Action::TogglePanel]);
+    ui.separator();
+    ui.menu_button("Theme", |ui| {
+        let themes = [ThemePreference::Dark, ThemePreference::Light, ThemePreference::System];
+        items(ui, now, asks, &themes.map(Action::Theme));
+    });
+}
+
+fn items(ui: &mut egui::Ui, now: &Situation, asks: &mut Asks, actions: &[Action]) {
+    for &action in actions {
+        item(ui, now, asks, action);
+    }
+}
+
+fn item(ui: &mut egui::Ui, now: &Situation, asks: &mut Asks, action: Action) {
+    let entry = action.entry();
+    let why_not = now.why_not(action);
+    let mut button = Button::selectable(now.is_on(action), now.text(action));
+    if let Some(keys) = entry.keys.first() {
+        button = button.shortcut_text(ui.ctx().format_shortcut(keys));
+    }
+    let response = ui.add_enabled(why_not.is_none(), button.min_size(egui::vec2(190.0, 0.0)));
+    let response = response.on_hover_text(entry.tip).on_disabled_hover_text(why_not.unwrap_or_default());
+    if response.clicked() {
+        asks.push(Ask::Act(action));
+        ui.close();
+    }
+}

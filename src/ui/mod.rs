@@ -1,0 +1,25 @@
+//! The window: a pattern pane, a body pane, and everything around them. egui lives here and nowhere else.
+//!
+//! Panes and panels read the document and push [`asks::Ask`]s; [`App`] alone turns them into commands of the session.
+
+mod act;
+pub mod actions;
+pub mod app;
+mod asks;
+mod dialogs;
+mod files;
+mod menu;
+mod messages;
+mod pattern_pane;
+mod run;
+pub mod scene;
+mod scene_pane;
+mod side_panel;
+mod situation;
+mod status;
+mod stroke;
+mod theme;
+mod toolbar;
+
+pub use app::App;
+pub use run::run;

@@ -1,0 +1,352 @@
+//! The pattern pane: flat pieces on a table, painted and moved with the pointer.
+
+mod draw;
+pub mod shapes;
+pub mod threads;
+pub mod view;
+
+use egui::accesskit::Role;
+use egui::{CursorIcon, Event, Key, PointerButton, Pos2, Rect, Response, Sense, WidgetInfo};
+use glam::DVec2;
+
+use crate::geometry::ids::{MarkId, PieceId, SeamId};
+use crate::pattern::{Pattern, PlanePose};
+use crate::session::{Command, Document};
+use crate::ui::actions::{Action, Tool};
+use crate::ui::asks::{Ask, Asks};
+use crate::ui::stroke;
+use crate::ui::theme::Palette;
+use crate::wrap::ClothSide;
+use draw::{Drawing, front_is_seen};
+use shapes::Shapes;
+use threads::{Threads, to_polyline};
+use view::TableView;
+
+/// How near to a mark or an edge a click counts, points on the screen.
+const REACH: f64 = 12.0;
+
+/// The table as it is seen, and the drag under way.
+#[derive(Debug, Default)]
+pub struct PatternPane {
+    /// Which part of the table is seen.
+    pub view: TableView,
+    /// Show the whole pattern in the next frame.
+    pub fit: bool,
+    /// Whether the pointer was over the pane in the last frame.
+    pub hovered: bool,
+    shapes: Shapes,
+    threads: Threads,
+    drag: Option<Drag>,
+}
+
+#[derive(Debug)]
+enum Drag {
+    /// A stroke, in the piece's own plane.
+    Paint { piece: PieceId, points: Vec<DVec2> },
+    /// A piece and where it was held.
+    Piece { piece: PieceId, held: DVec2, pose: PlanePose },
+    /// Given up; the button is still down.
+    Over,
+}
+
+/// What lies under the pointer.
+#[derive(Clone, Copy, Debug, Default)]
+struct Under {
+    mark: Option<MarkId>,
+    piece: Option<PieceId>,
+    seam: Option<SeamId>,
+}
+
+impl PatternPane {
+    /// A pane that will show the whole pattern.
+    pub fn fitted() -> Self {
+        Self { fit: true, ..Self::default() }
+    }
+
+    /// Draws the pane and listens to the pointer.
+    pub fn ui(
+        &mut self,
+        ui: &mut egui::Ui,
+        document: &Document,
+        tool: Tool,
+        palette: &Palette,
+        asks: &mut Asks,
+    ) {
+        let pattern = &*document.pattern;
+        self.shapes.update(pattern);
+        self.threads.update(pattern, &self.shapes);
+        let pane = ui.available_rect_before_wrap();
+        let response = ui.allocate_rect(pane, Sense::click_and_drag());
+        response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, "Pattern pane"));
+        self.hovered = response.contains_pointer();
+        if std::mem::take(&mut self.fit) {
+            self.view.fit(pane, pattern);
+        }
+        self.move_view(ui, pane, &response);
+        let under = self.under(document, pane, &response);
+        self.listen(ui, document, tool, pane, &response, under, asks);
+        self.set_cursor(ui, tool, under, &response);
+        self.draw(ui, document, palette, pane, under);
+        publish_marks(ui, document, pane, &self.view);
+    }
+
+    /// The stroke under way, in its piece's plane.
+    pub fn stroke(&self) -> Option<(PieceId, &[DVec2])> {
+        match &self.drag {
+            Some(Drag::Paint { piece, points }) => Some((*piece, points)),
+            _ => None,
+        }
+    }
+
+    fn move_view(&mut self, ui: &egui::Ui, pane: Rect, response: &Response) {
+        let space = ui.input(|i| i.key_down(Key::Space)) && self.drag.is_none();
+        let panning = response.dragged_by(PointerButton::Middle)
+            || response.dragged_by(PointerButton::Secondary)
+            || (space && response.dragged_by(PointerButton::Primary));
+        if panning {
+            self.view.pan(response.drag_delta());
+        }
+        if let Some(at) = response.hover_pos() {
+            let (wheel, pinch) = ui.input(|i| (i.smooth_scroll_delta().y, i.zoom_delta()));
+            let factor = (f64::from(wheel) * 0.003).exp() * f64::from(pinch);
+            if (factor - 1.0).abs() > 1e-6 {
+                self.view.zoom(pane, at, factor);
+            }
+        }
+    }
+
+    fn under(&self, document: &Document, pane: Rect, response: &Response) -> Under {
+        let Some(at) = response.hover_pos().filter(|_| self.drag.is_none()) else {
+            return Under::default();
+        };
+        let table = self.view.table_from_screen(pane, at);
+        let reach = REACH / self.view.scale;
+        Under {
+            mark: mark_at(document, table, reach),
+            piece: self.shapes.at(&document.pattern, table).map(|(id, _)| id),
+            seam: self.threads.near(&document.pattern, table, reach / 2.0),
+        }
+    }
+
+    #[expect(clippy::too_many_arguments, reason = "all of it is one frame's input")]
+    fn listen(
+        &mut self,
+        ui: &egui::Ui,
+        document: &Document,
+        tool: Tool,
+        pane: Rect,
+        response: &Response,
+        under: Under,
+        asks: &mut Asks,
+    ) {
+        let (space, erasing) =
+            ui.input(|i| (i.key_down(Key::Space), tool == Tool::Erase || i.modifiers.command));
+        if response.clicked_by(PointerButton::Primary) && !space {
+            match (under.mark, tool) {
+                (Some(mark), _) if erasing => asks.push(Ask::Do(Command::DeleteMark { mark })),
+                (_, Tool::Mark) if !erasing => self.dot(document, pane, response, asks),
+                _ => {}
+            }
+        }
+        if tool == Tool::Move
+            && response.double_clicked()
+            && let Some(piece) = under.piece
+        {
+            asks.extend(self.turned_over(&document.pattern, piece).map(Ask::Do));
+        }
+        if response.drag_started_by(PointerButton::Primary) && !space && !erasing {
+            self.start_drag(ui, document, tool, pane);
+        }
+        if self.drag.is_some() {
+            self.go_on(ui, document, pane, asks);
+            let lost = ui.input(|i| !i.focused || i.events.contains(&Event::PointerGone));
+            if ui.input(|i| i.key_pressed(Key::Escape)) {
+                self.cancel(asks);
+            } else if !ui.input(|i| i.pointer.primary_down()) || lost {
+                self.finish(document, asks);
+            }
+        }
+    }
+
+    fn dot(&self, document: &Document, pane: Rect, response: &Response, asks: &mut Asks) {
+        let Some(at) = response.interact_pointer_pos() else { return };
+        let table = self.view.table_from_screen(pane, at);
+        match self.shapes.at(&document.pattern, table) {
+            Some((piece, p)) => asks.extend(self.painted(document, piece, &[p]).map(Ask::Do)),
+            None if document.pattern.pieces.is_empty() => {}
+            None => asks.push(Ask::Say("Marks are painted on the pieces: press on one of them.".to_owned())),
+        }
+    }
+
+    fn start_drag(&mut self, ui: &egui::Ui, document: &Document, tool: Tool, pane: Rect) {
+        let Some(origin) = ui.input(|i| i.pointer.press_origin()) else { return };
+        let table = self.view.table_from_screen(pane, origin);
+        let Some((piece, p)) = self.shapes.at(&document.pattern, table) else { return };
+        self.drag = match tool {
+            Tool::Mark => Some(Drag::Paint { piece, points: vec![p] }),
+            Tool::Move => document.pattern.pieces.get(&piece).map(|found| Drag::Piece {
+                piece,
+                held: table,
+                pose: found.pose,
+            }),
+            Tool::Erase => None,
+        };
+    }
+
+    /// Follows the pointer through every place it was in since the last frame.
+    fn go_on(&mut self, ui: &egui::Ui, document: &Document, pane: Rect, asks: &mut Asks) {
+        let trail: Vec<Pos2> = ui.input(|i| {
+            let moved = i.events.iter().filter_map(|e| match e {
+                Event::PointerMoved(p) => Some(*p),
+                _ => None,
+            });
+            moved.collect()
+        });
+        match &mut self.drag {
+            Some(Drag::Paint { piece, points }) => {
+                let (Some(found), Some(shape)) = (document.pattern.pieces.get(piece), self.shapes.of(*piece))
+                else {
+                    self.drag = Some(Drag::Over);
+                    return;
+                };
+                for at in trail {
+                    let p = found.pose.piece_from_plane(self.view.table_from_screen(pane, at));
+                    if shape.contains(p) && points.last().is_none_or(|l| l.distance(p) > 1e-4) {
+                        points.push(p);
+                    }
+                }
+            }
+            Some(Drag::Piece { piece, held, pose }) => {
+                if let Some(&at) = trail.last() {
+                    let moved = self.view.table_from_screen(pane, at) - *held;
+                    let pose = PlanePose { offset: pose.offset + moved, ..*pose };
+                    asks.push(Ask::Drag(Command::SetPiecePose { piece: *piece, pose }));
+                }
+            }
+            Some(Drag::Over) | None => {}
+        }
+    }
+
+    fn finish(&mut self, document: &Document, asks: &mut Asks) {
+        match self.drag.take() {
+            Some(Drag::Paint { piece, points }) => {
+                asks.extend(self.painted(document, piece, &stroke::finished(&points)).map(Ask::Do));
+            }
+            Some(Drag::Piece { .. }) => asks.push(Ask::EndDrag),
+            Some(Drag::Over) | None => {}
+        }
+    }
+
+    fn cancel(&mut self, asks: &mut Asks) {
+        if matches!(self.drag, Some(Drag::Piece { .. })) {
+            asks.push(Ask::CancelDrag);
+        }
+        self.drag = Some(Drag::Over);
+    }
+
+    /// The command that paints `points` on the side of `piece` that is seen.
+    fn painted(&self, document: &Document, piece: PieceId, points: &[DVec2]) -> Option<Command> {
+        let shape = self.shapes.of(piece)?;
+        let front = front_is_seen(document.pattern.pieces.get(&piece)?, shape);
+        let side = if front { ClothSide::Front } else { ClothSide::Back };
+        Some(Command::AddClothMark { piece, side, points: points.to_vec() })
+    }
+
+    /// Mirrors a piece about the upright line through its middle.
+    fn turned_over(&self, pattern: &Pattern, id: PieceId) -> Option<Command> {
+        let (piece, shape) = (pattern.pieces.get(&id)?, self.shapes.of(id)?);
+        let middle = piece.pose.plane_from_piece(shape.middle);
+        let turned =
+            PlanePose { offset: DVec2::ZERO, rotation: -piece.pose.rotation, flipped: !piece.pose.flipped };
+        let offset = middle - turned.plane_from_piece(shape.middle);
+        Some(Command::SetPiecePose { piece: id, pose: PlanePose { offset, ..turned } })
+    }
+
+    fn set_cursor(&self, ui: &egui::Ui, tool: Tool, under: Under, response: &Response) {
+        if !response.contains_pointer() {
+            return;
+        }
+        let erasing = tool == Tool::Erase || ui.input(|i| i.modifiers.command);
+        ui.ctx().set_cursor_icon(match (tool, &self.drag) {
+            (_, Some(Drag::Piece { .. })) => CursorIcon::Grabbing,
+            _ if erasing && under.mark.is_some() => CursorIcon::PointingHand,
+            (Tool::Move, _) if under.piece.is_some() => CursorIcon::Grab,
+            (Tool::Mark, _) if under.piece.is_some() || self.drag.is_some() => CursorIcon::Crosshair,
+            _ => CursorIcon::Default,
+        });
+    }
+
+    fn draw(&self, ui: &egui::Ui, document: &Document, palette: &Palette, pane: Rect, under: Under) {
+        let pattern = &*document.pattern;
+        let drawing = Drawing { painter: ui.painter_at(pane), pane, view: &self.view, palette };
+        drawing.table();
+        drawing.pieces(pattern, &self.shapes, under.piece);
+        drawing.seams(pattern, &self.threads, under.seam);
+        drawing.marks(pattern, &document.marks, under.mark);
+        if let Some((id, points)) = self.stroke()
+            && let Some(piece) = pattern.pieces.get(&id)
+        {
+            let points: Vec<DVec2> = points.iter().map(|&p| piece.pose.plane_from_piece(p)).collect();
+            let number = document.marks.cloth.len() + 1;
+            drawing.mark(&points, number, number <= document.marks.body.len(), false);
+        }
+        drawing.scale_bar();
+    }
+}
+
+/// What the pointer does here, for the status bar.
+pub fn hint(tool: Tool, next: usize) -> String {
+    let view = "Wheel: zoom · Middle or right drag: move the view · F: show all";
+    match tool {
+        Tool::Mark => {
+            format!("Drag: paint mark {next} on the cloth · Click: a dot · Ctrl+click: erase · {view}")
+        }
+        Tool::Erase => format!("Click a mark: take it away · {view}"),
+        Tool::Move => format!("Drag a piece: move it · Double-click: turn it over · {view}"),
+    }
+}
+
+fn mark_at(document: &Document, table: DVec2, reach: f64) -> Option<MarkId> {
+    let distance = |mark: &crate::wrap::ClothMark| {
+        let pose = document.pattern.pieces.get(&mark.piece)?.pose;
+        let points: Vec<DVec2> = mark.points.iter().map(|&p| pose.plane_from_piece(p)).collect();
+        Some((mark.id, to_polyline(table, &points)))
+    };
+    document
+        .marks
+        .cloth
+        .iter()
+        .filter_map(distance)
+        .filter(|(_, d)| *d <= reach)
+        .min_by(|a, b| a.1.total_cmp(&b.1))
+        .map(|(id, _)| id)
+}
+
+/// Tells screen readers and tests where each mark is.
+fn publish_marks(ui: &egui::Ui, document: &Document, pane: Rect, view: &TableView) {
+    for (i, mark) in document.marks.cloth.iter().enumerate() {
+        if let (Some(piece), Some(&first)) = (document.pattern.pieces.get(&mark.piece), mark.points.first()) {
+            let at = view.screen_from_table(pane, piece.pose.plane_from_piece(first));
+            let rect = Rect::from_center_size(at, egui::vec2(12.0, 12.0));
+            let node = ui.interact(rect, ui.scope_id().with(("cloth mark", mark.id.0)), Sense::hover());
+            node.widget_info(|| {
+                WidgetInfo::labeled(Role::Label, true, format!("Mark {} on the cloth", i + 1))
+            });
+        }
+    }
+}
+
+/// What to offer when the table is empty.
+pub fn empty_ui(ui: &mut egui::Ui, asks: &mut Asks) {
+    ui.vertical_centered(|ui| {
+        ui.heading("An empty table");
+        ui.label("Open a sample, or bring a pattern of your own.");
+        ui.add_space(6.0);
+        if ui.button("Open the T-shirt").clicked() {
+            asks.push(Ask::Act(Action::Sample("T-shirt")));
+        }
+        if ui.button(Action::ImportPattern.entry().text).clicked() {
+            asks.push(Ask::Act(Action::ImportPattern));
+        }
+    });
+}

@@ -1,0 +1,194 @@
+//! Outlines and filled areas of pieces, kept until a piece changes.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use glam::DVec2;
+
+use crate::geometry::ids::PieceId;
+use crate::pattern::{Pattern, Piece};
+
+/// Chords stay this close to the outline, metres.
+const TOLERANCE: f64 = 4e-4;
+
+/// A piece ready to draw, in its own plane.
+#[derive(Clone, Debug)]
+pub struct PieceShape {
+    piece: Arc<Piece>,
+    /// Differs whenever the outline differs.
+    pub version: u64,
+    /// The outline, closed.
+    pub outline: Vec<DVec2>,
+    /// Filled by trapezoids: four corners each.
+    pub fill: Vec<[DVec2; 4]>,
+    /// A good place for the name.
+    pub middle: DVec2,
+    /// The side the outline is drawn from is the front.
+    pub drawn_from_front: bool,
+}
+
+impl PieceShape {
+    fn new(piece: &Arc<Piece>, version: u64) -> Self {
+        let outline = piece.flattened(TOLERANCE);
+        let fill = trapezoids(&outline);
+        Self {
+            piece: Arc::clone(piece),
+            version,
+            middle: middle(&fill),
+            drawn_from_front: area(&outline) >= 0.0,
+            fill,
+            outline,
+        }
+    }
+
+    /// Whether `p`, in the piece's own plane, lies on the cloth.
+    pub fn contains(&self, p: DVec2) -> bool {
+        let n = self.outline.len();
+        (0..n).filter(|&i| crosses(self.outline[i], self.outline[(i + 1) % n], p)).count() % 2 == 1
+    }
+}
+
+/// Shapes of the pieces of the pattern drawn last.
+#[derive(Clone, Debug, Default)]
+pub struct Shapes {
+    shapes: BTreeMap<PieceId, PieceShape>,
+    made: u64,
+}
+
+impl Shapes {
+    /// Brings the shapes up to date. Pieces that did not change cost nothing.
+    pub fn update(&mut self, pattern: &Pattern) {
+        self.shapes.retain(|id, shape| {
+            pattern
+                .pieces
+                .get(id)
+                .is_some_and(|p| Arc::ptr_eq(p, &shape.piece) || same_outline(p, &shape.piece))
+        });
+        for (&id, piece) in &pattern.pieces {
+            self.shapes.entry(id).or_insert_with(|| {
+                self.made += 1;
+                PieceShape::new(piece, self.made)
+            });
+        }
+    }
+
+    /// The shape of a piece.
+    pub fn of(&self, id: PieceId) -> Option<&PieceShape> {
+        self.shapes.get(&id)
+    }
+
+    /// The topmost piece under a point of the table, and the point in its own plane.
+    pub fn at(&self, pattern: &Pattern, table: DVec2) -> Option<(PieceId, DVec2)> {
+        pattern.pieces.iter().rev().find_map(|(&id, piece)| {
+            let p = piece.pose.piece_from_plane(table);
+            self.of(id)?.contains(p).then_some((id, p))
+        })
+    }
+}
+
+/// Moving a piece on the table does not change its shape.
+fn same_outline(a: &Piece, b: &Piece) -> bool {
+    a.outline == b.outline
+}
+
+fn area(outline: &[DVec2]) -> f64 {
+    let n = outline.len();
+    (0..n).map(|i| outline[i].perp_dot(outline[(i + 1) % n]) / 2.0).sum()
+}
+
+fn crosses(a: DVec2, b: DVec2, p: DVec2) -> bool {
+    (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)
+}
+
+/// The inside by the even-odd rule, cut into slabs at every corner: also right for outlines that cross themselves, up to the
+/// height of a slab.
+fn trapezoids(outline: &[DVec2]) -> Vec<[DVec2; 4]> {
+    let n = outline.len();
+    let mut heights: Vec<f64> = outline.iter().map(|p| p.y).filter(|y| y.is_finite()).collect();
+    heights.sort_by(f64::total_cmp);
+    heights.dedup_by(|a, b| (*a - *b).abs() < 1e-9);
+    let mut out = Vec::new();
+    for slab in heights.windows(2) {
+        let (low, high) = (slab[0], slab[1]);
+        let y = (low + high) / 2.0;
+        let mut sides: Vec<[DVec2; 2]> = (0..n)
+            .map(|i| [outline[i], outline[(i + 1) % n]])
+            .filter(|[a, b]| (a.y > y) != (b.y > y))
+            .collect();
+        let x_at = |[a, b]: [DVec2; 2], y: f64| a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x);
+        sides.sort_by(|&s, &t| x_at(s, y).total_cmp(&x_at(t, y)));
+        for pair in sides.chunks_exact(2) {
+            let corner = |side, y| DVec2::new(x_at(side, y), y);
+            out.push([
+                corner(pair[0], low),
+                corner(pair[1], low),
+                corner(pair[1], high),
+                corner(pair[0], high),
+            ]);
+        }
+    }
+    out
+}
+
+/// The middle of the widest trapezoid near half the height: a name there lies on cloth.
+fn middle(fill: &[[DVec2; 4]]) -> DVec2 {
+    let mut total = 0.0;
+    let mut weighted = DVec2::ZERO;
+    for t in fill {
+        let area = ((t[1].x - t[0].x) + (t[2].x - t[3].x)) / 2.0 * (t[3].y - t[0].y);
+        total += area;
+        weighted += area * (t[0] + t[1] + t[2] + t[3]) / 4.0;
+    }
+    let centre = if total > 0.0 { weighted / total } else { DVec2::ZERO };
+    let inside = |t: &[DVec2; 4]| t[0].y <= centre.y && centre.y <= t[3].y;
+    let width = |t: &[DVec2; 4]| t[1].x - t[0].x;
+    match fill.iter().filter(|t| inside(t)).max_by(|a, b| width(a).total_cmp(&width(b))) {
+        Some(t) => DVec2::new(centre.x.clamp(t[0].x.min(t[3].x), t[1].x.max(t[2].x)), centre.y),
+        None => centre,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn pattern_of(points: &[[f64; 2]]) -> (Pattern, PieceId) {
+        let mut pattern = Pattern::default();
+        let points: Vec<DVec2> = points.iter().map(|&p| DVec2::from(p)).collect();
+        let id = pattern.add_piece(Piece::polygon("p", &points));
+        (pattern, id)
+    }
+
+    #[test]
+    fn the_fill_has_the_area_of_the_piece() {
+        // An L: not convex.
+        let (pattern, id) =
+            pattern_of(&[[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 1.0], [1.0, 2.0], [0.0, 2.0]]);
+        let mut shapes = Shapes::default();
+        shapes.update(&pattern);
+        let shape = shapes.of(id).expect("a shape");
+        let filled: f64 = shape
+            .fill
+            .iter()
+            .map(|t| ((t[1].x - t[0].x) + (t[2].x - t[3].x)) / 2.0 * (t[3].y - t[0].y))
+            .sum();
+        assert!((filled - 3.0).abs() < 1e-9, "{filled}");
+        assert!(shape.contains(shape.middle));
+        assert!(shape.contains(DVec2::new(0.5, 1.5)) && !shape.contains(DVec2::new(1.5, 1.5)));
+        assert!(shape.drawn_from_front);
+    }
+
+    #[test]
+    fn the_piece_under_the_pointer_is_found_in_its_pose() {
+        let (mut pattern, id) = pattern_of(&[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]);
+        let piece = Arc::make_mut(pattern.pieces.get_mut(&id).expect("the piece"));
+        piece.pose.offset = DVec2::new(5.0, 0.0);
+        piece.pose.flipped = true;
+        let mut shapes = Shapes::default();
+        shapes.update(&pattern);
+        let (found, p) = shapes.at(&pattern, DVec2::new(4.8, 0.1)).expect("a hit");
+        assert_eq!(found, id);
+        assert!((p - DVec2::new(0.2, 0.1)).length() < 1e-12);
+        assert!(shapes.at(&pattern, DVec2::new(5.2, 0.1)).is_none());
+    }
+}

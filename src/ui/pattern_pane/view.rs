@@ -1,0 +1,110 @@
+//! Which part of the table is seen.
+
+use egui::{Pos2, Rect, Vec2, pos2};
+use glam::DVec2;
+
+use crate::pattern::Pattern;
+
+/// Points on the screen a metre may take.
+const CLOSEST: f64 = 20_000.0;
+const FARTHEST: f64 = 20.0;
+
+/// The view of the table: y runs up there and down on the screen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TableView {
+    /// The point of the table in the middle of the pane, metres.
+    pub centre: DVec2,
+    /// Points on the screen a metre takes.
+    pub scale: f64,
+}
+
+impl Default for TableView {
+    fn default() -> Self {
+        Self { centre: DVec2::ZERO, scale: 400.0 }
+    }
+}
+
+impl TableView {
+    /// Where a point of the table is on the screen.
+    pub fn screen_from_table(&self, pane: Rect, p: DVec2) -> Pos2 {
+        let d = (p - self.centre) * self.scale;
+        pane.center() + Vec2::new(d.x as f32, -d.y as f32)
+    }
+
+    /// The point of the table under a point of the screen.
+    pub fn table_from_screen(&self, pane: Rect, p: Pos2) -> DVec2 {
+        let d = p - pane.center();
+        self.centre + DVec2::new(f64::from(d.x), -f64::from(d.y)) / self.scale
+    }
+
+    /// Moves with the pointer.
+    pub fn pan(&mut self, by: Vec2) {
+        self.centre -= DVec2::new(f64::from(by.x), -f64::from(by.y)) / self.scale;
+    }
+
+    /// Scales so that the point under `at` stays there.
+    pub fn zoom(&mut self, pane: Rect, at: Pos2, factor: f64) {
+        let fixed = self.table_from_screen(pane, at);
+        self.scale = (self.scale * factor).clamp(FARTHEST, CLOSEST);
+        self.centre += fixed - self.table_from_screen(pane, at);
+    }
+
+    /// Shows the whole pattern.
+    pub fn fit(&mut self, pane: Rect, pattern: &Pattern) {
+        let (lower, upper) = bounds(pattern).unwrap_or((DVec2::splat(-0.5), DVec2::splat(0.5)));
+        let size = (upper - lower).max(DVec2::splat(0.05));
+        let room = pane.shrink(28.0).size().max(Vec2::splat(20.0));
+        self.scale = (f64::from(room.x) / size.x).min(f64::from(room.y) / size.y).clamp(FARTHEST, CLOSEST);
+        self.centre = (lower + upper) / 2.0;
+    }
+
+    /// The part of the table that is seen: lower and upper corner.
+    pub fn seen(&self, pane: Rect) -> (DVec2, DVec2) {
+        (
+            self.table_from_screen(pane, pos2(pane.left(), pane.bottom())),
+            self.table_from_screen(pane, pos2(pane.right(), pane.top())),
+        )
+    }
+}
+
+fn bounds(pattern: &Pattern) -> Option<(DVec2, DVec2)> {
+    pattern
+        .pieces
+        .values()
+        .flat_map(|piece| {
+            let pose = piece.pose;
+            piece.flattened(2e-3).into_iter().map(move |p| pose.plane_from_piece(p))
+        })
+        .map(|p| (p, p))
+        .reduce(|(a, b), (c, d)| (a.min(c), b.max(d)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pattern::Piece;
+
+    const PANE: Rect = Rect { min: Pos2 { x: 10.0, y: 20.0 }, max: Pos2 { x: 410.0, y: 320.0 } };
+
+    #[test]
+    fn screen_and_table_are_inverse_and_zoom_keeps_the_pointer() {
+        let mut view = TableView { centre: DVec2::new(0.3, -0.2), scale: 250.0 };
+        let at = pos2(77.0, 222.0);
+        let p = view.table_from_screen(PANE, at);
+        assert!((view.screen_from_table(PANE, p) - at).length() < 1e-3);
+        view.zoom(PANE, at, 1.7);
+        assert!((view.table_from_screen(PANE, at) - p).length() < 1e-9);
+        view.pan(Vec2::new(5.0, -3.0));
+        assert!((view.screen_from_table(PANE, p) - (at + Vec2::new(5.0, -3.0))).length() < 1e-3);
+    }
+
+    #[test]
+    fn fitting_shows_every_piece() {
+        let mut pattern = Pattern::default();
+        let corners = [DVec2::new(1.0, 2.0), DVec2::new(4.0, 2.0), DVec2::new(2.0, 3.0)];
+        pattern.add_piece(Piece::polygon("p", &corners));
+        let mut view = TableView::default();
+        view.fit(PANE, &pattern);
+        assert!(corners.iter().all(|&p| PANE.contains(view.screen_from_table(PANE, p))));
+    }
+}

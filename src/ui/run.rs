@@ -1,0 +1,42 @@
+//! Opens the window.
+
+use std::fs::File;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use anyhow::{Context, anyhow};
+
+use crate::session::Project;
+use crate::ui::app::App;
+
+/// Opens the window on `project`, which came from the file `path`, and returns when it is closed. Everything done is also
+/// written to `record`.
+pub fn run(project: Project, path: Option<PathBuf>, record: Option<File>) -> anyhow::Result<()> {
+    let options = eframe::NativeOptions {
+        viewport: egui::ViewportBuilder::default()
+            .with_title("Toile")
+            .with_app_id("toile")
+            .with_inner_size([1400.0, 880.0])
+            .with_min_inner_size([880.0, 540.0]),
+        ..Default::default()
+    };
+    let create: eframe::AppCreator<'_> = Box::new(move |cc| {
+        if let Some(state) = &cc.wgpu_render_state {
+            state.device.on_uncaptured_error(Arc::new(|e| tracing::error!("graphics: {e}")));
+        }
+        let mut app = App::new(&cc.egui_ctx, project, path, cc.wgpu_render_state.clone())?;
+        if let Some(file) = record {
+            app.record_to(file)?;
+        }
+        Ok(Box::new(app))
+    });
+    eframe::run_native("Toile", options, create)
+        .map_err(|e| anyhow!("{e}"))
+        .context("the window could not be opened")
+}
+
+impl eframe::App for App {
+    fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
+        App::ui(self, ui);
+    }
+}

@@ -1,0 +1,281 @@
+//! From a body, marks and cloth to what the renderer draws. No egui here: the headless pictures use it too.
+
+use std::sync::Arc;
+
+use glam::{DVec2, DVec3, Vec2, Vec3};
+
+use crate::body::Surface;
+use crate::cloth::{ClothState, Garment};
+use crate::geometry::adjacency::NONE;
+use crate::geometry::ids::MarkId;
+use crate::geometry::mesh::vertex_normals;
+use crate::render::{BODY, CLOTH_BACK, CLOTH_FRONT, Ground, Label, Mesh, Polyline, Rgb, Scene, mark_colour};
+use crate::wrap::{ClothMark, Marks};
+
+/// What is to be seen.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Shown<'a> {
+    /// The body.
+    pub body: Option<&'a Arc<Surface>>,
+    /// The garment on it and where it is.
+    pub cloth: Option<(&'a Arc<Garment>, &'a Arc<ClothState>)>,
+    /// Marks of the document.
+    pub marks: Option<&'a Arc<Marks>>,
+    /// A stroke being painted on the body.
+    pub stroke: &'a [DVec3],
+    /// The mark under the pointer.
+    pub near: Option<MarkId>,
+}
+
+/// Makes scenes; keeps what did not change since the last one.
+#[derive(Debug, Default)]
+pub struct Scenery {
+    body: Option<(Arc<Surface>, Arc<Mesh>)>,
+    cloth: Option<DrawnCloth>,
+    places: Option<MarkPlaces>,
+}
+
+#[derive(Debug)]
+struct DrawnCloth {
+    garment: Arc<Garment>,
+    state: Arc<ClothState>,
+    mesh: Arc<Mesh>,
+    lines: Vec<Polyline>,
+}
+
+/// Where each point of each cloth mark lies in the garment's mesh.
+#[derive(Debug)]
+struct MarkPlaces {
+    garment: Arc<Garment>,
+    marks: Arc<Marks>,
+    places: Vec<Vec<Place>>,
+}
+
+/// A triangle and barycentric weights.
+#[derive(Clone, Copy, Debug)]
+struct Place {
+    triangle: usize,
+    weights: DVec3,
+}
+
+const INK: u8 = 255;
+const WHITE: [u8; 4] = [255, 255, 255, 235];
+/// Logical pixels.
+const MARK_WIDTH: f32 = 3.2;
+/// Seams and edges of the cloth, sRGB and opacity.
+const SEAM: [u8; 4] = [66, 78, 70, 150];
+const HEM: [u8; 4] = [52, 84, 56, 170];
+
+impl Scenery {
+    /// The scene of `shown`.
+    pub fn scene(&mut self, shown: &Shown<'_>) -> Scene {
+        let mut scene = Scene::default();
+        let scale = shown.body.map_or(1.0, |b| b.scale() as f32);
+        if let Some(body) = shown.body {
+            scene.meshes.push(self.body_mesh(body));
+            scene.ground = Some(ground(body));
+        }
+        let mut covered = 0;
+        if let Some((garment, state)) = shown.cloth {
+            self.draw_cloth(garment, state, scale);
+            if let Some(drawn) = &self.cloth {
+                scene.meshes.push(Arc::clone(&drawn.mesh));
+                scene.lines.extend(drawn.lines.iter().cloned());
+            }
+            if let Some(marks) = shown.marks {
+                self.find_places(garment, marks);
+                covered = self.cloth_marks(garment, state, scale, &mut scene);
+            }
+        }
+        if let Some(marks) = shown.marks {
+            body_marks(marks, shown, covered, scale, &mut scene);
+        }
+        scene
+    }
+
+    fn body_mesh(&mut self, body: &Arc<Surface>) -> Arc<Mesh> {
+        match &self.body {
+            Some((kept, mesh)) if Arc::ptr_eq(kept, body) => Arc::clone(mesh),
+            _ => {
+                let mesh = Arc::new(Mesh {
+                    positions: body.mesh.positions.iter().map(|p| p.as_vec3()).collect(),
+                    normals: body.vertex_normals.iter().map(|n| n.as_vec3()).collect(),
+                    triangles: body.mesh.triangles.clone(),
+                    front: BODY,
+                    back: BODY,
+                    ..Mesh::default()
+                });
+                self.body = Some((Arc::clone(body), Arc::clone(&mesh)));
+                mesh
+            }
+        }
+    }
+
+    fn draw_cloth(&mut self, garment: &Arc<Garment>, state: &Arc<ClothState>, scale: f32) {
+        let kept = self
+            .cloth
+            .as_ref()
+            .is_some_and(|c| Arc::ptr_eq(&c.garment, garment) && Arc::ptr_eq(&c.state, state));
+        if kept || state.positions.len() != garment.vertex_count {
+            return;
+        }
+        let on_body = |t: &[u32; 3]| t.iter().all(|&v| state.mapped[v as usize]);
+        let triangles: Vec<[u32; 3]> = garment.triangles.iter().copied().filter(on_body).collect();
+        let normals = vertex_normals(&state.positions, &triangles);
+        let mut lines = seam_lines(garment, state, scale);
+        lines.extend(hem_lines(garment, state, scale));
+        self.cloth = Some(DrawnCloth {
+            garment: Arc::clone(garment),
+            state: Arc::clone(state),
+            mesh: Arc::new(Mesh {
+                positions: state.positions.iter().map(|p| p.as_vec3()).collect(),
+                normals: normals.iter().map(|n| n.as_vec3()).collect(),
+                triangles,
+                front: CLOTH_FRONT,
+                back: CLOTH_BACK,
+                cloth: 1.0,
+                ..Mesh::default()
+            }),
+            lines,
+        });
+    }
+
+    fn find_places(&mut self, garment: &Arc<Garment>, marks: &Arc<Marks>) {
+        let kept = self
+            .places
+            .as_ref()
+            .is_some_and(|p| Arc::ptr_eq(&p.garment, garment) && Arc::ptr_eq(&p.marks, marks));
+        if !kept {
+            let places = marks.cloth.iter().map(|m| places_of(garment, m)).collect();
+            self.places = Some(MarkPlaces { garment: Arc::clone(garment), marks: Arc::clone(marks), places });
+        }
+    }
+
+    /// Draws the marks of the cloth where it lies. Returns how many leading ones could be drawn in full.
+    fn cloth_marks(&self, garment: &Garment, state: &ClothState, scale: f32, scene: &mut Scene) -> usize {
+        let Some(found) = &self.places else { return 0 };
+        let mut covered = 0;
+        for (i, places) in found.places.iter().enumerate() {
+            let points: Option<Vec<Vec3>> = places.iter().map(|p| p.point(garment, state)).collect();
+            if let Some(points) = points.filter(|p| !p.is_empty()) {
+                push_mark(scene, points, i + 1, MARK_WIDTH, 0.006 * scale);
+                covered += usize::from(covered == i);
+            }
+        }
+        covered
+    }
+}
+
+impl Place {
+    /// None while the triangle is not on the body yet.
+    fn point(&self, garment: &Garment, state: &ClothState) -> Option<Vec3> {
+        let corners = garment.triangles[self.triangle].map(|v| v as usize);
+        corners.iter().all(|&v| state.mapped[v]).then(|| {
+            let sum: DVec3 = (0..3).map(|k| state.positions[corners[k]] * self.weights[k]).sum();
+            sum.as_vec3()
+        })
+    }
+}
+
+fn places_of(garment: &Garment, mark: &ClothMark) -> Vec<Place> {
+    let own: Vec<usize> =
+        (0..garment.triangles.len()).filter(|&t| garment.triangle_pieces[t] == mark.piece).collect();
+    let place = |p: DVec2| {
+        own.iter().find_map(|&triangle| {
+            let [a, b, c] = garment.triangle_corners[triangle].map(|c| garment.corners[c as usize].uv);
+            let area = (b - a).perp_dot(c - a);
+            let u = (c - b).perp_dot(p - b) / area;
+            let v = (a - c).perp_dot(p - c) / area;
+            let weights = DVec3::new(u, v, 1.0 - u - v);
+            (weights.min_element() >= -1e-6).then_some(Place { triangle, weights })
+        })
+    };
+    mark.points.iter().filter_map(|&p| place(p)).collect()
+}
+
+fn seam_lines(garment: &Garment, state: &ClothState, scale: f32) -> Vec<Polyline> {
+    garment
+        .seam_pairs
+        .iter()
+        .map(|(_, pairs)| {
+            let vertices = pairs.iter().map(|pair| garment.corners[pair[0] as usize].vertex as usize);
+            let points =
+                vertices.filter(|&v| state.mapped[v]).map(|v| state.positions[v].as_vec3()).collect();
+            thin_line(points, SEAM, 1.3, scale)
+        })
+        .collect()
+}
+
+/// The border of the cloth that is on the body: hems, and the front of a wrap that is growing.
+fn hem_lines(garment: &Garment, state: &ClothState, scale: f32) -> Vec<Polyline> {
+    let on_body =
+        |t: u32| t != NONE && garment.triangles[t as usize].iter().all(|&v| state.mapped[v as usize]);
+    let mut lines = Vec::new();
+    for (t, vertices) in garment.triangles.iter().enumerate() {
+        if !on_body(t as u32) {
+            continue;
+        }
+        for k in 0..3 {
+            let lonely =
+                garment.adjacency.edge_triangles.of(garment.adjacency.triangle_edges[t][k]).len() == 1;
+            let across = garment.adjacency.across[t][k];
+            if lonely || (across != NONE && !on_body(across)) {
+                let ends = [vertices[k], vertices[(k + 1) % 3]];
+                let points = ends.iter().map(|&v| state.positions[v as usize].as_vec3()).collect();
+                lines.push(thin_line(points, HEM, 1.5, scale));
+            }
+        }
+    }
+    lines
+}
+
+fn thin_line(points: Vec<Vec3>, colour: [u8; 4], width: f32, scale: f32) -> Polyline {
+    Polyline { points, colour, width, lift: 0.004 * scale, ..Polyline::default() }
+}
+
+/// Marks on the body: those whose partner lies on the cloth above them keep their line but need no second number.
+fn body_marks(marks: &Marks, shown: &Shown<'_>, covered: usize, scale: f32, scene: &mut Scene) {
+    for (i, mark) in marks.body.iter().enumerate() {
+        let points: Vec<Vec3> = mark.points.iter().map(|p| p.as_vec3()).collect();
+        let width = if shown.near == Some(mark.id) { MARK_WIDTH + 2.0 } else { MARK_WIDTH };
+        push_mark(scene, points, i + 1, width, 0.0025 * scale);
+        if i < covered {
+            scene.labels.pop();
+        }
+    }
+    if !shown.stroke.is_empty() {
+        let points = shown.stroke.iter().map(|p| p.as_vec3()).collect();
+        // Above cloth that may lie there, so that the hand sees what it does.
+        push_mark(scene, points, marks.body.len() + 1, MARK_WIDTH, 0.03 * scale);
+    }
+}
+
+fn push_mark(scene: &mut Scene, points: Vec<Vec3>, number: usize, width: f32, lift: f32) {
+    let Some(&first) = points.first() else { return };
+    let colour = opaque(mark_colour(number));
+    let width = if points.len() == 1 { width * 2.2 } else { width };
+    scene.lines.push(Polyline { points, colour, width, halo: WHITE, halo_width: 1.8, lift, closed: false });
+    scene.labels.push(Label {
+        anchor: first,
+        offset: Vec2::new(-10.0, 11.0),
+        text: number.to_string(),
+        height: 13.0,
+        colour,
+        halo: [255, 255, 255, 255],
+        lift: lift + 0.02,
+    });
+}
+
+fn opaque(c: Rgb) -> [u8; 4] {
+    [c[0], c[1], c[2], INK]
+}
+
+fn ground(body: &Surface) -> Ground {
+    let (lower, upper) = body.bounds();
+    let middle = (lower + upper) / 2.0;
+    Ground {
+        height: lower.y as f32,
+        centre: Vec2::new(middle.x as f32, middle.z as f32),
+        radius: ((upper - lower).max_element() * 1.15) as f32,
+    }
+}

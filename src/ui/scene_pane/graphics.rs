@@ -1,0 +1,127 @@
+//! Our own picture of the scene, kept as a texture that egui shows.
+
+use std::sync::Arc;
+
+use egui::TextureId;
+use glam::UVec2;
+
+use crate::body::Surface;
+use crate::cloth::ClothState;
+use crate::geometry::ids::MarkId;
+use crate::render::{Camera, Gpu, Look, OffscreenTarget, RenderError, Renderer, Scene};
+use crate::wrap::Marks;
+
+/// What a picture depends on: with the same key nothing is drawn again.
+#[derive(Clone, Debug, Default)]
+pub struct Key {
+    /// From where.
+    pub camera: Camera,
+    /// How.
+    pub look: Look,
+    /// Pixels.
+    pub size: UVec2,
+    /// Of what.
+    pub body: Option<Arc<Surface>>,
+    /// With which cloth.
+    pub cloth: Option<Arc<ClothState>>,
+    /// With which marks.
+    pub marks: Option<Arc<Marks>>,
+    /// Points of the stroke under way.
+    pub stroke: usize,
+    /// The mark under the pointer.
+    pub near: Option<MarkId>,
+}
+
+impl PartialEq for Key {
+    fn eq(&self, other: &Self) -> bool {
+        let Self { camera, look, size, body, cloth, marks, stroke, near } = self;
+        *camera == other.camera
+            && *look == other.look
+            && *size == other.size
+            && *stroke == other.stroke
+            && *near == other.near
+            && same(body, &other.body)
+            && same(cloth, &other.cloth)
+            && same(marks, &other.marks)
+    }
+}
+
+fn same<T>(a: &Option<Arc<T>>, b: &Option<Arc<T>>) -> bool {
+    match (a, b) {
+        (Some(a), Some(b)) => Arc::ptr_eq(a, b),
+        (None, None) => true,
+        _ => false,
+    }
+}
+
+/// The renderer, on the window's device.
+pub struct Graphics {
+    state: egui_wgpu::RenderState,
+    gpu: Gpu,
+    renderer: Renderer,
+    target: Option<(OffscreenTarget, TextureId)>,
+    drawn: Option<Key>,
+    /// Pictures drawn so far.
+    pub pictures: u64,
+}
+
+impl std::fmt::Debug for Graphics {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "Graphics({}, {} pictures)", self.gpu.adapter_name, self.pictures)
+    }
+}
+
+impl Graphics {
+    /// On the device that egui draws with.
+    pub fn new(state: egui_wgpu::RenderState) -> Self {
+        let gpu = Gpu::from_parts(&state.adapter, state.device.clone(), state.queue.clone());
+        let renderer = Renderer::new(&gpu);
+        Self { state, gpu, renderer, target: None, drawn: None, pictures: 0 }
+    }
+
+    /// A processor does the drawing.
+    pub fn is_slow(&self) -> bool {
+        self.gpu.software
+    }
+
+    /// The picture for `key`, drawn only when it differs from the last one. `scene` makes what is to be drawn.
+    pub fn picture(&mut self, key: Key, scene: impl FnOnce() -> Scene) -> Result<TextureId, RenderError> {
+        let texture = self.target_of(key.size)?;
+        if self.drawn.as_ref() != Some(&key)
+            && let Some((target, _)) = &self.target
+        {
+            self.renderer.draw(&self.gpu, &scene(), &key.camera, &key.look, target)?;
+            self.pictures += 1;
+            self.drawn = Some(key);
+        }
+        Ok(texture)
+    }
+
+    fn target_of(&mut self, size: UVec2) -> Result<TextureId, RenderError> {
+        let size = size.min(UVec2::splat(self.gpu.max_side()));
+        if let Some((target, texture)) = &self.target
+            && target.size == size
+        {
+            return Ok(*texture);
+        }
+        self.drawn = None;
+        let target = OffscreenTarget::new(&self.gpu, size)?;
+        let mut egui = self.state.renderer.write();
+        let filter = wgpu::FilterMode::Linear;
+        let texture = match self.target.take() {
+            Some((_, texture)) => {
+                egui.update_egui_texture_from_wgpu_texture(
+                    &self.state.device,
+                    &target.picture_view,
+                    filter,
+                    texture,
+                );
+                texture
+            }
+            None => egui.register_native_texture(&self.state.device, &target.picture_view, filter),
+        };
+        drop(egui);
+        self.target = Some((target, texture));
+        Ok(texture)
+    }
+}

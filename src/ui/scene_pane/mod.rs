@@ -1,0 +1,430 @@
+//! The body pane: the body and the cloth on it, turned and painted with the pointer.
+
+mod graphics;
+
+use std::sync::Arc;
+
+use egui::accesskit::Role;
+use egui::{
+    Align2, Color32, CursorIcon, Event, FontId, Key as Button, PointerButton, Pos2, Rect, Response, Sense,
+    WidgetInfo,
+};
+use glam::{DVec3, UVec2, Vec2, Vec3};
+
+use crate::body::Surface;
+use crate::cloth::{ClothState, Garment};
+use crate::geometry::ids::MarkId;
+use crate::render::{Camera, Look, Projection, View};
+use crate::session::{Command, Document};
+use crate::ui::actions::{Action, Tool, VIEWS};
+use crate::ui::asks::{Ask, Asks};
+use crate::ui::scene::{Scenery, Shown};
+use crate::ui::stroke;
+use crate::ui::theme::Palette;
+pub use graphics::{Graphics, Key};
+
+/// Radians the view turns for each point the pointer moves.
+const TURN: f32 = 0.0085;
+/// How near to a mark a click counts, points on the screen.
+const REACH: f32 = 12.0;
+/// Pictures drawn by a processor shrink by this much while things move.
+const DRAFT: f32 = 0.6;
+
+/// What the pane shows.
+#[derive(Clone, Copy)]
+pub struct Seen<'a> {
+    /// The document.
+    pub document: &'a Document,
+    /// Its body.
+    pub body: Option<&'a Arc<Surface>>,
+    /// The garment on it.
+    pub cloth: Option<(&'a Arc<Garment>, &'a Arc<ClothState>)>,
+    /// Whether the cloth is moving.
+    pub working: bool,
+    /// What the left button does.
+    pub tool: Tool,
+    /// Colours and light.
+    pub look: Look,
+    /// Colours of the interface.
+    pub palette: &'a Palette,
+}
+
+/// The camera, the drag under way and the last picture.
+#[derive(Debug, Default)]
+pub struct ScenePane {
+    /// From where the body is seen.
+    pub camera: Camera,
+    /// Show everything from here in the next frame.
+    pub frame: Option<Option<View>>,
+    /// Turn like a ball, not upright.
+    pub free_turning: bool,
+    /// Whether the pointer was over the pane in the last frame.
+    pub hovered: bool,
+    /// The renderer; none without a graphics adapter.
+    pub graphics: Option<Graphics>,
+    scenery: Scenery,
+    drag: Option<Drag>,
+    framed_body: Option<Arc<Surface>>,
+    moving: bool,
+}
+
+#[derive(Debug)]
+enum Drag {
+    /// A stroke on the body.
+    Paint(Vec<DVec3>),
+    Turn,
+    /// Given up; the button is still down.
+    Over,
+}
+
+impl ScenePane {
+    /// A pane that draws with egui's device; without one it stays empty.
+    pub fn new(device: Option<egui_wgpu::RenderState>) -> Self {
+        Self { graphics: device.map(Graphics::new), ..Self::default() }
+    }
+
+    /// Draws the pane and listens to the pointer.
+    pub fn ui(&mut self, ui: &mut egui::Ui, seen: &Seen<'_>, asks: &mut Asks) {
+        let pane = ui.available_rect_before_wrap();
+        let response = ui.allocate_rect(pane, Sense::click_and_drag());
+        response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, "Body pane"));
+        self.hovered = response.contains_pointer();
+        self.frame_if_asked(seen, pane);
+        self.move_view(ui, seen, pane, &response);
+        let near = self.mark_under(seen, pane, &response);
+        self.listen(ui, seen, pane, &response, near, asks);
+        self.set_cursor(ui, seen, near, pane, &response);
+        self.show(ui, seen, near, pane);
+        publish_marks(ui, seen, pane, &self.camera);
+        view_buttons(ui, pane, asks);
+    }
+
+    /// The stroke under way.
+    pub fn stroke(&self) -> &[DVec3] {
+        match &self.drag {
+            Some(Drag::Paint(points)) => points,
+            _ => &[],
+        }
+    }
+
+    fn frame_if_asked(&mut self, seen: &Seen<'_>, pane: Rect) {
+        let Some(body) = seen.body else { return };
+        let (lower, upper) = everything(seen, body);
+        if !self.framed_body.as_ref().is_some_and(|b| Arc::ptr_eq(b, body)) {
+            let first = self.framed_body.is_none();
+            self.framed_body = Some(Arc::clone(body));
+            self.frame = self.frame.or(Some(first.then_some(View::Front)));
+        }
+        self.camera.set_bounds(lower, upper);
+        if let Some(view) = self.frame.take() {
+            if let Some(view) = view {
+                self.camera.look(view);
+            }
+            self.camera.frame(lower, upper, pane.width() / pane.height().max(1.0));
+        }
+    }
+
+    fn move_view(&mut self, ui: &egui::Ui, seen: &Seen<'_>, pane: Rect, response: &Response) {
+        let before = self.camera;
+        let shift = ui.input(|i| i.modifiers.shift);
+        let size = size_of(pane);
+        let moved = response.drag_delta();
+        let right = response.dragged_by(PointerButton::Secondary);
+        if response.dragged_by(PointerButton::Middle) || (right && shift) {
+            self.camera.pan(Vec2::new(moved.x, moved.y), size);
+        } else if right || (matches!(self.drag, Some(Drag::Turn)) && response.dragged()) {
+            self.turn(response, pane);
+        }
+        if let Some(at) = response.hover_pos() {
+            let (wheel, pinch) = ui.input(|i| (i.smooth_scroll_delta().y, i.zoom_delta()));
+            let factor = (-wheel * 0.0025).exp() / pinch;
+            if (factor - 1.0).abs() > 1e-5 {
+                let target = match self.pick(seen, pane, at) {
+                    Some(hit) => hit.as_vec3(),
+                    None => self.camera.point_on_pivot_plane(within(pane, at), size),
+                };
+                self.camera.zoom(factor, target);
+            }
+        }
+        self.moving = self.camera != before;
+    }
+
+    fn turn(&mut self, response: &Response, pane: Rect) {
+        let moved = response.drag_delta();
+        if self.free_turning {
+            if let Some(at) = response.interact_pointer_pos() {
+                self.camera.trackball(within(pane, at - moved), within(pane, at), size_of(pane));
+            }
+        } else {
+            self.camera.orbit(Vec2::new(moved.x, moved.y) * TURN);
+        }
+    }
+
+    /// The point of the body under a point of the screen.
+    fn pick(&self, seen: &Seen<'_>, pane: Rect, at: Pos2) -> Option<DVec3> {
+        let ray = self.camera.ray(within(pane, at), size_of(pane));
+        let hit = seen.body?.ray(ray.origin.as_dvec3(), ray.direction.as_dvec3())?;
+        Some(hit.point)
+    }
+
+    /// The mark on the body within reach of the pointer that is not behind the body.
+    fn mark_under(&self, seen: &Seen<'_>, pane: Rect, response: &Response) -> Option<MarkId> {
+        let at = response.hover_pos().filter(|_| self.drag.is_none())?;
+        let (at, size) = (within(pane, at), size_of(pane));
+        let distance = |points: &[DVec3]| {
+            points
+                .iter()
+                .filter_map(|p| self.camera.project(p.as_vec3(), size).map(|q| (q.pixel.distance(at), *p)))
+                .min_by(|a, b| a.0.total_cmp(&b.0))
+        };
+        seen.document
+            .marks
+            .body
+            .iter()
+            .filter_map(|mark| Some((mark.id, distance(&mark.points)?)))
+            .filter(|(_, (d, p))| *d <= REACH && self.is_in_sight(seen, *p))
+            .min_by(|a, b| a.1.0.total_cmp(&b.1.0))
+            .map(|(id, _)| id)
+    }
+
+    fn is_in_sight(&self, seen: &Seen<'_>, point: DVec3) -> bool {
+        let eye = match self.camera.projection {
+            Projection::Perspective => self.camera.eye(),
+            Projection::Orthographic => {
+                point.as_vec3() + self.camera.towards_eye() * self.camera.bounds.1 * 4.0
+            }
+        };
+        let (eye, away) = (eye.as_dvec3(), (point - eye.as_dvec3()).length());
+        seen.body
+            .and_then(|b| b.ray(eye, point - eye))
+            .is_none_or(|hit| hit.distance > away - 0.01 * seen.body.map_or(1.0, |b| b.scale()))
+    }
+
+    fn listen(
+        &mut self,
+        ui: &egui::Ui,
+        seen: &Seen<'_>,
+        pane: Rect,
+        response: &Response,
+        near: Option<MarkId>,
+        asks: &mut Asks,
+    ) {
+        let erasing = seen.tool == Tool::Erase || ui.input(|i| i.modifiers.command);
+        if response.clicked_by(PointerButton::Primary)
+            && let Some(at) = response.interact_pointer_pos()
+        {
+            match (near, seen.tool) {
+                (Some(mark), _) if erasing => asks.push(Ask::Do(Command::DeleteMark { mark })),
+                (_, Tool::Mark) if !erasing => {
+                    asks.extend(self.pick(seen, pane, at).map(|p| painted(seen, vec![p])).map(Ask::Do));
+                }
+                _ => {}
+            }
+        }
+        if response.drag_started_by(PointerButton::Primary) {
+            self.start_drag(ui, seen, pane, erasing);
+        }
+        if self.drag.is_some() {
+            self.go_on(ui, seen, pane);
+            let lost = ui.input(|i| !i.focused || i.events.contains(&Event::PointerGone));
+            if ui.input(|i| i.key_pressed(Button::Escape)) {
+                self.drag = Some(Drag::Over);
+            } else if !ui.input(|i| i.pointer.primary_down()) || lost {
+                asks.extend(self.finish(seen).map(Ask::Do));
+            }
+        }
+    }
+
+    fn start_drag(&mut self, ui: &egui::Ui, seen: &Seen<'_>, pane: Rect, erasing: bool) {
+        let origin = ui.input(|i| i.pointer.press_origin());
+        let hit = origin.and_then(|at| self.pick(seen, pane, at));
+        self.drag = Some(match hit {
+            Some(point) if seen.tool == Tool::Mark && !erasing => Drag::Paint(vec![point]),
+            _ => Drag::Turn,
+        });
+    }
+
+    /// Follows the pointer through every place it was in since the last frame.
+    fn go_on(&mut self, ui: &egui::Ui, seen: &Seen<'_>, pane: Rect) {
+        if !matches!(self.drag, Some(Drag::Paint(_))) {
+            return;
+        }
+        let trail: Vec<Pos2> = ui.input(|i| {
+            let moved = i.events.iter().filter_map(|e| match e {
+                Event::PointerMoved(p) => Some(*p),
+                _ => None,
+            });
+            moved.collect()
+        });
+        // A jump from one limb to another is no stroke along the body.
+        let leap = 0.12 * seen.body.map_or(1.0, |b| b.scale());
+        let hits: Vec<DVec3> = trail.iter().filter_map(|&at| self.pick(seen, pane, at)).collect();
+        if let Some(Drag::Paint(points)) = &mut self.drag {
+            for hit in hits {
+                let step = points.last().map_or(f64::INFINITY, |l| l.distance(hit));
+                if step > 5e-4 && step < leap {
+                    points.push(hit);
+                }
+            }
+        }
+    }
+
+    fn finish(&mut self, seen: &Seen<'_>) -> Option<Command> {
+        match self.drag.take() {
+            Some(Drag::Paint(points)) => Some(painted(seen, stroke::finished(&points))),
+            _ => None,
+        }
+    }
+
+    fn set_cursor(
+        &self,
+        ui: &egui::Ui,
+        seen: &Seen<'_>,
+        near: Option<MarkId>,
+        pane: Rect,
+        response: &Response,
+    ) {
+        let Some(at) = response.hover_pos() else { return };
+        let erasing = seen.tool == Tool::Erase || ui.input(|i| i.modifiers.command);
+        ui.ctx().set_cursor_icon(match &self.drag {
+            Some(Drag::Turn) => CursorIcon::Grabbing,
+            Some(Drag::Paint(_)) => CursorIcon::Crosshair,
+            _ if response.dragged() => CursorIcon::Grabbing,
+            _ if erasing && near.is_some() => CursorIcon::PointingHand,
+            _ if seen.tool == Tool::Mark && !erasing && self.pick(seen, pane, at).is_some() => {
+                CursorIcon::Crosshair
+            }
+            _ => CursorIcon::Default,
+        });
+    }
+
+    fn show(&mut self, ui: &egui::Ui, seen: &Seen<'_>, near: Option<MarkId>, pane: Rect) {
+        let painter = ui.painter_at(pane);
+        let stroke = self.stroke().to_vec();
+        let Some(graphics) = &mut self.graphics else {
+            let words = "No graphics adapter: the body cannot be shown.";
+            painter.text(
+                pane.center(),
+                Align2::CENTER_CENTER,
+                words,
+                FontId::proportional(14.0),
+                seen.palette.weak,
+            );
+            return;
+        };
+        let draft = graphics.is_slow() && (self.moving || seen.working || !stroke.is_empty());
+        let scale = ui.ctx().pixels_per_point() * if draft { DRAFT } else { 1.0 };
+        let pixels = (pane.size() * scale).round();
+        let key = Key {
+            camera: self.camera,
+            look: Look {
+                pixels_per_point: scale,
+                occlusion: if draft { 0.0 } else { seen.look.occlusion },
+                ..seen.look
+            },
+            size: UVec2::new(pixels.x.max(1.0) as u32, pixels.y.max(1.0) as u32),
+            body: seen.body.cloned(),
+            cloth: seen.cloth.map(|(_, state)| Arc::clone(state)),
+            marks: Some(Arc::clone(&seen.document.marks)),
+            stroke: stroke.len(),
+            near,
+        };
+        let shown = Shown {
+            body: seen.body,
+            cloth: seen.cloth,
+            marks: Some(&seen.document.marks),
+            stroke: &stroke,
+            near,
+        };
+        match graphics.picture(key, || self.scenery.scene(&shown)) {
+            Ok(texture) => {
+                let whole = Rect::from_min_max(Pos2::ZERO, Pos2::new(1.0, 1.0));
+                painter.image(texture, pane, whole, Color32::WHITE);
+            }
+            Err(error) => {
+                let font = FontId::proportional(14.0);
+                painter.text(
+                    pane.center(),
+                    Align2::CENTER_CENTER,
+                    error.to_string(),
+                    font,
+                    seen.palette.error,
+                );
+            }
+        }
+        if draft {
+            // The finished picture follows as soon as nothing moves.
+            ui.ctx().request_repaint_after(std::time::Duration::from_millis(120));
+        }
+    }
+}
+
+/// What the pointer does here, for the status bar.
+pub fn hint(tool: Tool, next: usize) -> String {
+    let view = "Right drag: turn · Middle drag: move the view · Wheel: zoom";
+    match tool {
+        Tool::Mark => {
+            format!("Drag on the body: paint mark {next} · Click: a dot · Ctrl+click: erase · {view}")
+        }
+        Tool::Erase => format!("Click a mark: take it away · {view}"),
+        Tool::Move => format!("Drag: turn · {view}"),
+    }
+}
+
+/// The command that paints `points`, laid back on the skin after smoothing.
+fn painted(seen: &Seen<'_>, points: Vec<DVec3>) -> Command {
+    let on_skin = |p: DVec3| seen.body.map_or(p, |b| b.nearest(p).point);
+    Command::AddBodyMark { points: points.into_iter().map(on_skin).collect() }
+}
+
+fn everything(seen: &Seen<'_>, body: &Surface) -> (Vec3, Vec3) {
+    let (mut lower, mut upper) = body.bounds();
+    if let Some((_, state)) = seen.cloth {
+        for (p, _) in state.positions.iter().zip(&state.mapped).filter(|(_, m)| **m) {
+            (lower, upper) = (lower.min(*p), upper.max(*p));
+        }
+    }
+    (lower.as_vec3(), upper.as_vec3())
+}
+
+fn size_of(pane: Rect) -> Vec2 {
+    Vec2::new(pane.width().max(1.0), pane.height().max(1.0))
+}
+
+fn within(pane: Rect, at: Pos2) -> Vec2 {
+    Vec2::new(at.x - pane.left(), at.y - pane.top())
+}
+
+/// Small buttons over the upper right corner.
+fn view_buttons(ui: &mut egui::Ui, pane: Rect, asks: &mut Asks) {
+    let area = Rect::from_min_max(
+        Pos2::new(pane.left() + 8.0, pane.top() + 8.0),
+        Pos2::new(pane.right() - 8.0, pane.top() + 34.0),
+    );
+    let layout = egui::Layout::right_to_left(egui::Align::Center);
+    ui.scope_builder(egui::UiBuilder::new().max_rect(area).layout(layout), |ui| {
+        ui.spacing_mut().item_spacing.x = 4.0;
+        let all = std::iter::once(Action::FrameAll).chain(VIEWS[..5].iter().rev().map(|&v| Action::Look(v)));
+        for action in all {
+            let entry = action.entry();
+            if ui.small_button(entry.text).on_hover_text(entry.tip).clicked() {
+                asks.push(Ask::Act(action));
+            }
+        }
+    });
+}
+
+/// Tells screen readers and tests where each mark is.
+fn publish_marks(ui: &egui::Ui, seen: &Seen<'_>, pane: Rect, camera: &Camera) {
+    for (i, mark) in seen.document.marks.body.iter().enumerate() {
+        let place = mark.points.first().and_then(|p| camera.project(p.as_vec3(), size_of(pane)));
+        if let Some(place) = place {
+            let at = pane.min + egui::vec2(place.pixel.x, place.pixel.y);
+            let rect = Rect::from_center_size(at, egui::vec2(12.0, 12.0));
+            let node = ui.interact(rect, ui.scope_id().with(("body mark", mark.id.0)), Sense::hover());
+            node.widget_info(|| {
+                WidgetInfo::labeled(Role::Label, true, format!("Mark {} on the body", i + 1))
+            });
+        }
+    }
+}

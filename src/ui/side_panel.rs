@@ -1,0 +1,201 @@
+//! The side panel: marks, cloth settings, problems.
+
+use egui::{CollapsingHeader, RichText, ScrollArea, Slider};
+
+use crate::pattern::Problem;
+use crate::render::mark_colour;
+use crate::session::{Command, Document, Settings};
+use crate::ui::actions::Action;
+use crate::ui::asks::{Ask, Asks};
+use crate::ui::situation::Situation;
+use crate::ui::theme::{Palette, colour};
+
+/// Draws the panel.
+pub fn side_panel_ui(
+    ui: &mut egui::Ui,
+    document: &Document,
+    problems: &[Problem],
+    now: &Situation,
+    palette: &Palette,
+    asks: &mut Asks,
+) {
+    ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
+        section(ui, "Marks", |ui| marks_ui(ui, document, now, palette, asks));
+        section(ui, "Cloth", |ui| settings_ui(ui, &document.settings, palette, asks));
+        section(ui, "Problems", |ui| problems_ui(ui, document, problems, palette));
+    });
+}
+
+fn section(ui: &mut egui::Ui, title: &str, contents: impl FnOnce(&mut egui::Ui)) {
+    ui.add_space(4.0);
+    CollapsingHeader::new(RichText::new(title).strong().size(14.0)).default_open(true).show_unindented(
+        ui,
+        |ui| {
+            ui.add_space(2.0);
+            contents(ui);
+            ui.add_space(6.0);
+        },
+    );
+}
+
+fn marks_ui(ui: &mut egui::Ui, document: &Document, now: &Situation, palette: &Palette, asks: &mut Asks) {
+    let [cloth, body] = now.marks;
+    if cloth + body == 0 {
+        let words = "Paint a mark on a piece, then one on the body where it should lie. Marks with the same number meet.";
+        ui.add(egui::Label::new(RichText::new(words).color(palette.weak)).wrap());
+        return;
+    }
+    for i in 0..cloth.max(body) {
+        mark_row(ui, document, i, palette, asks);
+    }
+    ui.add_space(2.0);
+    if ui.small_button(Action::ClearMarks.entry().text).clicked() {
+        asks.push(Ask::Act(Action::ClearMarks));
+    }
+}
+
+fn mark_row(ui: &mut egui::Ui, document: &Document, i: usize, palette: &Palette, asks: &mut Asks) {
+    let number = i + 1;
+    let marks = &document.marks;
+    ui.horizontal(|ui| {
+        let (dot, _) = ui.allocate_exact_size(egui::vec2(18.0, 18.0), egui::Sense::hover());
+        ui.painter().circle_filled(dot.center(), 8.0, colour(mark_colour(number)));
+        let font = egui::FontId::proportional(11.5);
+        ui.painter().text(dot.center(), egui::Align2::CENTER_CENTER, number, font, egui::Color32::WHITE);
+        let piece =
+            marks.cloth.get(i).map(|m| document.pattern.pieces.get(&m.piece).map_or("a piece", |p| &p.name));
+        let words = match (piece, marks.body.get(i)) {
+            (Some(piece), Some(_)) => RichText::new(format!("{piece} – body")),
+            (Some(piece), None) => {
+                RichText::new(format!("{piece} – not on the body yet")).color(palette.warning)
+            }
+            _ => RichText::new("body – not on the cloth yet").color(palette.warning),
+        };
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            let close = ui.small_button("✖").on_hover_text(format!("Take the marks {number} away"));
+            name(&close, &format!("Delete marks {number}"));
+            if close.clicked() {
+                asks.push(Ask::Do(Command::DeletePair { number }));
+            }
+            ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
+                ui.add(egui::Label::new(words).truncate());
+            });
+        });
+    });
+}
+
+/// Gives a widget a name of its own for screen readers and tests.
+fn name(response: &egui::Response, name: &str) {
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::Button, true, name));
+}
+
+fn settings_ui(ui: &mut egui::Ui, settings: &Settings, palette: &Palette, asks: &mut Asks) {
+    let mut new = *settings;
+    let mut ended = false;
+    let mut slider =
+        |ui: &mut egui::Ui, text: &str, tip: &str, value: &mut f64, range, unit: f64, suffix: &str| {
+            let mut shown = *value * unit;
+            let digits = if unit > 500.0 { 1 } else { 3 };
+            ui.label(RichText::new(text).color(palette.weak).size(12.5));
+            let slider = Slider::new(&mut shown, range).suffix(suffix).max_decimals(digits);
+            let response = ui.add(slider).on_hover_text(tip);
+            response.widget_info(|| egui::WidgetInfo::slider(true, shown, text));
+            if response.changed() {
+                *value = shown / unit;
+            }
+            ended |= response.drag_stopped() || (response.changed() && !response.dragged());
+        };
+    slider(
+        ui,
+        "Triangle size",
+        "Length of the edges of the cloth's triangles; takes effect with the next wrap",
+        &mut new.edge_length,
+        5.0..=60.0,
+        1000.0,
+        " mm",
+    );
+    slider(
+        ui,
+        "Distance from the skin",
+        "How far above the skin the cloth lies",
+        &mut new.relax.offset,
+        0.5..=20.0,
+        1000.0,
+        " mm",
+    );
+    slider(
+        ui,
+        "Keeps its shape",
+        "How strongly the flat shape is kept",
+        &mut new.relax.stretch,
+        0.0..=1.0,
+        1.0,
+        "",
+    );
+    slider(
+        ui,
+        "Flattens folds",
+        "How strongly folds are smoothed away",
+        &mut new.relax.flatten,
+        0.0..=1.0,
+        1.0,
+        "",
+    );
+    slider(ui, "Weight", "How strongly the cloth is drawn down", &mut new.relax.gravity, 0.0..=0.05, 1.0, "");
+    slider(
+        ui,
+        "Friction",
+        "How strongly the cloth sticks to the skin",
+        &mut new.relax.friction,
+        0.0..=1.5,
+        1.0,
+        "",
+    );
+    ui.add_space(2.0);
+    if ui.add_enabled(*settings != Settings::default(), egui::Button::new("As at first").small()).clicked() {
+        asks.push(Ask::Do(Command::SetSettings { settings: Settings::default() }));
+        return;
+    }
+    if new != *settings {
+        asks.push(Ask::Drag(Command::SetSettings { settings: new }));
+    }
+    if ended {
+        asks.push(Ask::EndDrag);
+    }
+}
+
+fn problems_ui(ui: &mut egui::Ui, document: &Document, problems: &[Problem], palette: &Palette) {
+    let lonely: Vec<String> = unpaired(document).into_iter().collect();
+    if problems.is_empty() && lonely.is_empty() {
+        ui.label(RichText::new("None").color(palette.weak));
+        return;
+    }
+    for words in lonely {
+        problem_row(ui, palette.warning, &words);
+    }
+    for problem in problems {
+        let ink = if problem.kind.is_note() { palette.warning } else { palette.error };
+        problem_row(ui, ink, &format!("{}: {}", problem.place, problem.words));
+    }
+}
+
+fn problem_row(ui: &mut egui::Ui, ink: egui::Color32, words: &str) {
+    ui.horizontal_top(|ui| {
+        ui.label(RichText::new("⚠").color(ink));
+        ui.add(egui::Label::new(words).wrap());
+    });
+}
+
+/// Marks that no wrap can use.
+fn unpaired(document: &Document) -> Option<String> {
+    let (cloth, body) = (document.marks.cloth.len(), document.marks.body.len());
+    let (where_to, numbers) = match cloth.cmp(&body) {
+        std::cmp::Ordering::Equal => return None,
+        std::cmp::Ordering::Less => ("cloth", cloth + 1..=body),
+        std::cmp::Ordering::Greater => ("body", body + 1..=cloth),
+    };
+    let (first, last) = (*numbers.start(), *numbers.end());
+    let which =
+        if first == last { format!("Mark {first} has") } else { format!("Marks {first} to {last} have") };
+    Some(format!("{which} no partner on the {where_to} yet"))
+}

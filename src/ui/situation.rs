@@ -1,0 +1,96 @@
+//! What menus, buttons and panels need to know to show themselves.
+
+use egui::ThemePreference;
+
+use crate::ui::actions::{Action, Tool};
+use crate::wrap::Phase;
+
+/// How things stand in this frame.
+#[derive(Clone, Debug)]
+pub struct Situation {
+    /// What undo would take back.
+    pub undo: Option<String>,
+    /// What redo would do again.
+    pub redo: Option<String>,
+    /// What the left button does.
+    pub tool: Tool,
+    /// Pieces on the table.
+    pub pieces: usize,
+    /// Marks on the cloth and on the body.
+    pub marks: [usize; 2],
+    /// There is a body that cloth can be put on.
+    pub has_body: bool,
+    /// There is cloth on the body.
+    pub dressed: bool,
+    /// A wrap was asked for and the cloth is not all on the body yet.
+    pub wrapping: bool,
+    /// The simulation has something to do.
+    pub working: bool,
+    /// False while held still.
+    pub relaxing: bool,
+    /// How far the dressing has come.
+    pub phase: Option<Phase>,
+    /// 0..=1.
+    pub progress: f64,
+    /// Ticks of the simulation.
+    pub tick: u64,
+    /// Triangles of the garment.
+    pub triangles: usize,
+    /// The cloth is drawn.
+    pub show_cloth: bool,
+    /// The side panel is open.
+    pub show_panel: bool,
+    /// Near and far look the same size.
+    pub parallel: bool,
+    /// The view turns like a ball.
+    pub free_turning: bool,
+    /// Dark, light or as the system.
+    pub theme: ThemePreference,
+}
+
+impl Situation {
+    /// Why `action` cannot be chosen now; None when it can.
+    pub fn why_not(&self, action: Action) -> Option<&'static str> {
+        let unless = |can: bool, why: &'static str| (!can).then_some(why);
+        match action {
+            Action::Undo => unless(self.undo.is_some(), "There is nothing to undo"),
+            Action::Redo => unless(self.redo.is_some(), "There is nothing to redo"),
+            Action::Wrap if self.pieces == 0 => Some("There is no piece on the table"),
+            Action::Wrap if !self.has_body => Some("There is no body"),
+            Action::Wrap if self.wrapping => Some("The cloth is growing"),
+            Action::Wrap => unless(
+                self.marks[0].min(self.marks[1]) > 0,
+                "Paint at least one mark on a piece and one on the body first",
+            ),
+            Action::CancelWrap => unless(self.wrapping, "Nothing is growing"),
+            Action::Unwrap | Action::ToggleCloth | Action::Export | Action::ToggleRelaxing => {
+                unless(self.dressed, "There is no cloth on the body")
+            }
+            Action::ClearMarks => unless(self.marks[0] + self.marks[1] > 0, "There are no marks"),
+            _ => None,
+        }
+    }
+
+    /// Whether `action` names something that is on.
+    pub fn is_on(&self, action: Action) -> bool {
+        match action {
+            Action::Choose(tool) => self.tool == tool,
+            Action::ToggleRelaxing => self.relaxing,
+            Action::ToggleCloth => self.show_cloth,
+            Action::TogglePanel => self.show_panel,
+            Action::ToggleParallel => self.parallel,
+            Action::ToggleFreeTurning => self.free_turning,
+            Action::Theme(theme) => self.theme == theme,
+            _ => false,
+        }
+    }
+
+    /// The text of `action`, with what undo and redo are about.
+    pub fn text(&self, action: Action) -> String {
+        let plain = action.entry().text;
+        match (action, &self.undo, &self.redo) {
+            (Action::Undo, Some(what), _) | (Action::Redo, _, Some(what)) => format!("{plain} {what}"),
+            _ => plain.to_owned(),
+        }
+    }
+}
