@@ -15,14 +15,15 @@ pub fn export(arguments: &Export) -> Result<(), Failure> {
     let input = input::load(&arguments.project, &InputOptions::default())?;
     let session = run::opened(input.project, &arguments.project)?;
     let snapshot = session.snapshot();
-    let Some(garment) = snapshot.garment.as_ref().filter(|_| snapshot.is_dressed()) else {
+    let (true, Some(garment), Some(source)) = (snapshot.is_dressed(), &snapshot.garment, &snapshot.source)
+    else {
         let words =
             "there is no dressed cloth in it: `toile dress` with --save makes a project that has some";
         return Err(Failure::input(&arguments.project, words));
     };
     let bytes = match ending.as_str() {
-        "obj" => formats::garment_obj(garment, &snapshot.cloth),
-        _ => formats::garment_glb(garment, &snapshot.cloth)?,
+        "obj" => formats::garment_obj(garment, &snapshot.cloth, &source.pattern),
+        _ => formats::garment_glb(garment, &snapshot.cloth, &source.pattern)?,
     };
     output::write(&arguments.output, &bytes)
 }

@@ -4,8 +4,9 @@ use std::path::Path;
 
 use crate::cli::arguments::Unit;
 use crate::cli::failure::Failure;
+use crate::cloth::{ClothState, Garment};
 use crate::geometry::mesh::TriMesh;
-use crate::io::garmentcode;
+use crate::io::{garmentcode, obj};
 use crate::pattern::{Pattern, Problem};
 
 /// A body read from a file.
@@ -19,4 +20,29 @@ pub struct ImportedBody {
 /// A pattern in a file of one of the known formats.
 pub fn pattern(path: &Path, bytes: &[u8]) -> Result<Pattern, Failure> {
     garmentcode::read(bytes).map_err(|e| Failure::input(path, e))
+}
+
+/// The body in an OBJ file.
+pub fn body(path: &Path, bytes: &[u8], unit: Option<Unit>) -> Result<ImportedBody, Failure> {
+    let read = obj::read(bytes).map_err(|error| match error {
+        obj::ObjError::OverLimit(words) => Failure::Limit(format!("{}: {words}", path.display())),
+        error => Failure::input(path, error),
+    })?;
+    let _ = unit;
+    Ok(ImportedBody { mesh: read.mesh, problems: Vec::new() })
+}
+
+/// A body as OBJ text.
+pub fn body_obj(mesh: &TriMesh) -> Vec<u8> {
+    obj::mesh("body", mesh).into_bytes()
+}
+
+/// Dressed cloth as OBJ text.
+pub fn garment_obj(garment: &Garment, cloth: &ClothState, pattern: &Pattern) -> Vec<u8> {
+    obj::garment(garment, cloth, pattern).into_bytes()
+}
+
+/// x
+pub fn garment_glb(_: &Garment, _: &ClothState, _: &Pattern) -> Result<Vec<u8>, Failure> {
+    Ok(b"glTF".to_vec())
 }

@@ -4,12 +4,14 @@ use std::fs;
 use std::path::Path;
 use std::sync::Arc;
 
+use crate::body::mannequin::{Measurements, mannequin};
 use crate::cli::arguments::{InputOptions, Unit};
 use crate::cli::failure::Failure;
 use crate::cli::formats::{self, ImportedBody};
 use crate::pattern::Pattern;
 use crate::session::project_file::ProjectFileError;
-use crate::session::{BodyChoice, Project, body, marks_file, project_file, samples};
+use crate::session::samples::Sample;
+use crate::session::{BodyChoice, Project, body, marks_file, project_file};
 use crate::wrap::suggest;
 
 /// Begins the name of a built-in sample.
@@ -98,10 +100,12 @@ fn sample_name(path: &Path) -> Option<&str> {
 }
 
 fn sample(path: &Path, name: &str) -> Result<Project, Failure> {
-    samples::project(name).ok_or_else(|| {
-        let names: Vec<&str> = samples::names().collect();
-        Failure::input(path, format!("there is no such sample; there are {}", names.join(", ")))
-    })
+    let Some(sample) = Sample::ALL.into_iter().find(|sample| sample.file_stem() == name) else {
+        let names = Sample::ALL.map(Sample::file_stem).join(", ");
+        return Err(Failure::input(path, format!("there is no such sample; there are {names}")));
+    };
+    let figure = mannequin(&Measurements::default()).map_err(|e| Failure::input(path, e))?;
+    Ok(sample.project(&figure))
 }
 
 fn looks_like_json(bytes: &[u8]) -> bool {

@@ -74,8 +74,9 @@ pub fn write(
     let start = Instant::now();
     let fit = measured(snapshot)?;
     seconds.measure = start.elapsed().as_secs_f64();
-    if let Some(garment) = &snapshot.garment {
-        output::write(&folder.join("garment.obj"), &formats::garment_obj(garment, &snapshot.cloth))?;
+    if let (Some(garment), Some(source)) = (&snapshot.garment, &snapshot.source) {
+        let bytes = formats::garment_obj(garment, &snapshot.cloth, &source.pattern);
+        output::write(&folder.join("garment.obj"), &bytes)?;
     }
     if let Some(body) = snapshot.body.as_ref().or(session.surface()) {
         output::write(&folder.join("body.obj"), &formats::body_obj(&body.mesh))?;

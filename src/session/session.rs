@@ -153,8 +153,9 @@ impl Session {
 
     /// Takes in what the simulation has told since the last call. Call it once a frame.
     pub fn update(&mut self) -> Vec<Notice> {
-        self.runner.refresh();
+        // Events first: the snapshot taken after them is at least as new.
         let events = self.runner.take_events();
+        self.runner.refresh();
         events.into_iter().filter_map(|event| self.take_event(event)).collect()
     }
 

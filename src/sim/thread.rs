@@ -146,12 +146,13 @@ impl Worker {
     }
 
     fn publish(&mut self) {
+        // The snapshot first: who has read an event finds a snapshot at least as new.
+        let snapshot = Arc::new(self.simulation.snapshot());
+        *self.mailbox.lock().unwrap_or_else(PoisonError::into_inner) = Some(snapshot);
         for event in self.simulation.take_events() {
             // No reader: the handle is being dropped.
             self.events.send(event).ok();
         }
-        let snapshot = Arc::new(self.simulation.snapshot());
-        *self.mailbox.lock().unwrap_or_else(PoisonError::into_inner) = Some(snapshot);
         (self.on_news)();
     }
 }
