@@ -10,6 +10,8 @@ use crate::wrap::Marks;
 
 /// Added to the bust girth, metres.
 const BUST_EASE: f64 = 0.12;
+/// Moved from each quarter of the back to the front.
+const FRONT_SHARE: f64 = 0.008;
 /// Added to the hip girth at the hem.
 const HEM_EASE: f64 = 0.09;
 /// Added to the girth of the upper arm.
@@ -51,13 +53,15 @@ impl Block {
 
     /// Front or back, drawn from its outer side; `left` is the wearer's side that lies at +x.
     fn body_piece(&self, name: &str, neck_height: f64, neck_drop: f64, left: bool) -> Piece {
+        // The bust takes more of the width in front.
+        let wider = if left { FRONT_SHARE } else { -FRONT_SHARE };
         let neck = DVec2::new(self.neck_width, neck_height);
         let tip = neck + DVec2::new(self.slope.cos(), -self.slope.sin()) * self.shoulder_length;
-        let under = DVec2::new(self.quarter, self.underarm);
-        let hem = DVec2::new(self.hem_quarter, self.hem);
+        let under = DVec2::new(self.quarter + wider, self.underarm);
+        let hem = DVec2::new(self.hem_quarter + 0.5 * wider, self.hem);
         let drop = DVec2::new(0.0, neck_height - neck_drop);
         let depth = tip.y - under.y;
-        let chest = tip.x - 0.030;
+        let chest = tip.x - 0.020 + wider;
         let (first, second) = (DVec2::new(chest, tip.y - 0.45 * depth), DVec2::new(chest + 0.006, under.y));
         let flip = |p: DVec2| DVec2::new(-p.x, p.y);
         let (this, other) = if left { ("left", "right") } else { ("right", "left") };
