@@ -114,6 +114,12 @@ impl<'a> Form<'a> {
         (0..=count).filter_map(|i| self.skin(x, low + (high - low) * i as f64 / count as f64, side)).collect()
     }
 
+    /// A stroke on the skin below the straight line from `a` to `b`.
+    pub fn straight(&self, a: DVec3, b: DVec3) -> Vec<DVec3> {
+        let count = (a.distance(b) / STEP).ceil().max(1.0) as usize;
+        (0..=count).map(|i| self.surface.nearest(a.lerp(b, i as f64 / count as f64)).point).collect()
+    }
+
     /// A stroke round the trunk at height `y` from `from` to `to` radians, as `round` counts them.
     pub fn level(&self, y: f64, from: f64, to: f64) -> Vec<DVec3> {
         (0..=60).filter_map(|i| self.round(y, from + (to - from) * f64::from(i) / 60.0)).collect()

@@ -9,15 +9,17 @@ use crate::pattern::{Pattern, Piece};
 use crate::wrap::Marks;
 
 /// Added to the bust girth, metres.
-const BUST_EASE: f64 = 0.10;
+const BUST_EASE: f64 = 0.12;
+/// Moved from each quarter of the back to the front.
+const FRONT_SHARE: f64 = 0.008;
 /// Added to the hip girth at the hem.
 const HEM_EASE: f64 = 0.09;
 /// Added to the girth of the upper arm.
-const ARM_EASE: f64 = 0.075;
+const ARM_EASE: f64 = 0.085;
 /// How much longer the sleeve cap is than the armhole.
 const CAP_EASE: f64 = 1.01;
 /// From the armpit down to the shirt's underarm point.
-const UNDERARM_DROP: f64 = 0.022;
+const UNDERARM_DROP: f64 = 0.032;
 /// Underarm seam of the sleeve.
 const SLEEVE_SEAM: f64 = 0.11;
 
@@ -51,19 +53,21 @@ impl Block {
 
     /// Front or back, drawn from its outer side; `left` is the wearer's side that lies at +x.
     fn body_piece(&self, name: &str, neck_height: f64, neck_drop: f64, left: bool) -> Piece {
+        // The bust takes more of the width in front.
+        let wider = if left { FRONT_SHARE } else { -FRONT_SHARE };
         let neck = DVec2::new(self.neck_width, neck_height);
         let tip = neck + DVec2::new(self.slope.cos(), -self.slope.sin()) * self.shoulder_length;
-        let under = DVec2::new(self.quarter, self.underarm);
-        let hem = DVec2::new(self.hem_quarter, self.hem);
+        let under = DVec2::new(self.quarter + wider, self.underarm);
+        let hem = DVec2::new(self.hem_quarter + 0.5 * wider, self.hem);
         let drop = DVec2::new(0.0, neck_height - neck_drop);
         let depth = tip.y - under.y;
-        let chest = tip.x - 0.022;
+        let chest = tip.x - 0.020 + wider;
         let (first, second) = (DVec2::new(chest, tip.y - 0.45 * depth), DVec2::new(chest + 0.006, under.y));
         let flip = |p: DVec2| DVec2::new(-p.x, p.y);
         let (this, other) = if left { ("left", "right") } else { ("right", "left") };
         let named = |what: &str, side: &str| format!("{what} {side}");
         let (toward_neck, toward_middle) =
-            (DVec2::new(neck.x - 0.01, neck.y - 0.62 * neck_drop), DVec2::new(0.62 * neck.x, drop.y));
+            (DVec2::new(neck.x - 0.006, neck.y - 0.62 * neck_drop), DVec2::new(0.60 * neck.x, drop.y));
         Outline::from(flip(hem))
             .line("hem", hem)
             .line(&named("side", this), under)
@@ -124,8 +128,8 @@ pub fn tshirt(form: &Form) -> (Pattern, Marks) {
     let bust = form.mark("bust_front").y;
     let back_height = form.from_shoulder(block.neck_width, bust, -1.0);
     let front_height = form.from_shoulder(block.neck_width, bust, 1.0);
-    // Without a dart, half of what the bust asks for in length goes into the front.
-    let front_height = 0.5 * (front_height + back_height);
+    // Without a dart, most of what the bust asks for in length goes into the front.
+    let front_height = back_height + 0.85 * (front_height - back_height);
     let mut front = block.body_piece("front", front_height, 0.095, true);
     let mut back = block.body_piece("back", back_height, 0.028, false);
     let m = &form.body.measurements;
@@ -135,6 +139,7 @@ pub fn tshirt(form: &Form) -> (Pattern, Marks) {
         m.upper_arm + ARM_EASE,
         m.upper_arm + 0.8 * ARM_EASE,
     );
+    let cap_height = left.outline.iter().map(|e| e.start.y).fold(0.0, f64::max);
     let mut right = mirrored(&left, "sleeve right");
     front.placement = Some(standing(DVec3::new(0.0, bust, 0.30), 0.0));
     back.placement = Some(standing(DVec3::new(0.0, bust, -0.30), std::f64::consts::PI));
@@ -156,12 +161,20 @@ pub fn tshirt(form: &Form) -> (Pattern, Marks) {
         sew(&mut pattern, (sleeve, "underarm front"), (sleeve, "underarm back"));
     }
     let mut strokes = Strokes::default();
-    for (piece, side, top) in [(front, 1.0, front_height - 0.105), (back, -1.0, back_height - 0.04)] {
+    for (piece, side, top) in [(front, 1.0, front_height - 0.11), (back, -1.0, back_height - 0.04)] {
         let path = form.upright(0.0, form.mark("hip_front").y - 0.08, bust + top + 0.10, side);
         let anchor = form.skin(0.0, bust, side).unwrap_or_default();
         let (from, to) = (block.hem + 0.02, top);
         let body = form.part(&path, anchor, from, to);
         strokes.pair(piece, DVec2::new(0.0, from), DVec2::new(0.0, to), body);
+    }
+    for (piece, side, sign) in [(left, "left", 1.0), (right, "right", -1.0)] {
+        let _ = sign;
+        let (tip, elbow) = (form.mark(&format!("shoulder_{side}")), form.mark(&format!("elbow_{side}")));
+        let path = form.straight(tip, elbow);
+        let (from, to) = (0.02, cap_height + SLEEVE_SEAM - 0.01);
+        let body = form.part(&path, tip, from, to);
+        strokes.pair(piece, DVec2::new(0.0, cap_height - from), DVec2::new(0.0, cap_height - to), body);
     }
     (pattern, strokes.finish())
 }
