@@ -51,7 +51,7 @@ impl Sample {
             Self::Skirt => skirt::skirt(&form),
         };
         let mut document =
-            Document { pattern: Arc::new(pattern), body: BodyChoice::Mannequin, ..Document::default() };
+            Document { pattern: Arc::new(pattern), body: BodyChoice::Mannequin(body.measurements), ..Document::default() };
         document.take_marks(Arc::new(marks));
         Project { document, dressed: None }
     }
