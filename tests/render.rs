@@ -146,8 +146,11 @@ fn a_number_is_drawn_beside_its_anchor() {
     for (_, y, _) in image.enumerate_pixels().filter(|(_, _, p)| p[2] > 180 && p[0] < 70) {
         (count, low, high) = (count + 1, low.min(y), high.max(y));
     }
-    assert!(count > 20, "{count}");
-    assert!(low >= 88 && high <= 112, "{low}..{high}");
+    assert!(count > 200, "{count}");
+    assert!(low >= 84 && high <= 116, "{low}..{high}");
+    // White strokes of the digit on the badge.
+    let white = (90..110).filter(|&y| image.get_pixel(160, y)[0] > 230).count();
+    assert!((3..12).contains(&white), "{white}");
 }
 
 #[test]

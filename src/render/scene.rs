@@ -53,7 +53,7 @@ pub struct Polyline {
     pub lift: f32,
 }
 
-/// A short number or word that always faces the eye.
+/// A number on a badge that always faces the eye.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Label {
     /// What it belongs to, metres.
@@ -64,9 +64,9 @@ pub struct Label {
     pub text: String,
     /// Height of a digit, logical pixels.
     pub height: f32,
-    /// Colour and opacity.
+    /// Colour of the badge.
     pub colour: [u8; 4],
-    /// Colour and opacity of the border round it.
+    /// Colour of its border and of the digits.
     pub halo: [u8; 4],
     /// As for [`Polyline::lift`].
     pub lift: f32,

@@ -27,11 +27,9 @@ pub(super) fn strokes(lines: &[Polyline], labels: &[Label], scale: f32) -> Vec<S
     for line in lines {
         push_line(&mut all, line, line.colour, line.width / 2.0 * scale);
     }
-    for label in labels.iter().filter(|l| l.halo[3] > 0) {
-        push_label(&mut all, label, label.halo, 0.19, scale);
-    }
     for label in labels {
-        push_label(&mut all, label, label.colour, 0.075, scale);
+        push_badge(&mut all, label, scale);
+        push_digits(&mut all, label, scale);
     }
     all
 }
@@ -60,14 +58,31 @@ fn push_line(all: &mut Vec<Stroke>, line: &Polyline, colour: [u8; 4], half_width
     }
 }
 
-/// Digits are drawn as a plotter would. `half_width` is a share of the height.
-fn push_label(all: &mut Vec<Stroke>, label: &Label, colour: [u8; 4], half_width: f32, scale: f32) {
+/// A pill in the label's colour with a border, big enough for its digits.
+fn push_badge(all: &mut Vec<Stroke>, label: &Label, scale: f32) {
     let height = label.height * scale;
-    let advance = 0.8;
+    let reach = (label.text.chars().count().max(1) - 1) as f32 * ADVANCE / 2.0 * height;
+    let middle = label.offset * scale;
+    for (colour, half_width) in [(label.halo, 0.98), (label.colour, 0.82)] {
+        all.push(Stroke {
+            a: label.anchor,
+            b: label.anchor,
+            offset_a: middle - Vec2::new(reach, 0.0),
+            offset_b: middle + Vec2::new(reach, 0.0),
+            colour,
+            half_width: half_width * height,
+            lift: label.lift,
+        });
+    }
+}
+
+/// Digits as a plotter would draw them.
+fn push_digits(all: &mut Vec<Stroke>, label: &Label, scale: f32) {
+    let height = label.height * scale;
     let count = label.text.chars().count() as f32;
-    let start = Vec2::new(-(count * advance - 0.25) / 2.0, -0.5);
+    let start = Vec2::new(-((count - 1.0) * ADVANCE + DIGIT_WIDTH) / 2.0, -0.5);
     for (i, c) in label.text.chars().enumerate() {
-        let corner = label.offset * scale + (start + Vec2::new(i as f32 * advance, 0.0)) * height;
+        let corner = label.offset * scale + (start + Vec2::new(i as f32 * ADVANCE, 0.0)) * height;
         for path in digit(c) {
             for w in path.windows(2) {
                 let place = |(x, y): (f32, f32)| corner + Vec2::new(x, y) * height;
@@ -76,14 +91,18 @@ fn push_label(all: &mut Vec<Stroke>, label: &Label, colour: [u8; 4], half_width:
                     b: label.anchor,
                     offset_a: place(w[0]),
                     offset_b: place(w[1]),
-                    colour,
-                    half_width: half_width * height,
+                    colour: label.halo,
+                    half_width: 0.085 * height,
                     lift: label.lift,
                 });
             }
         }
     }
 }
+
+/// From one digit to the next, and the width of one, over its height.
+const ADVANCE: f32 = 0.78;
+const DIGIT_WIDTH: f32 = 0.55;
 
 type Path = &'static [(f32, f32)];
 

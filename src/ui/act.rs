@@ -1,5 +1,7 @@
 //! What each action does.
 
+use std::sync::Arc;
+
 use egui::ViewportCommand;
 
 use crate::render::Projection;
@@ -8,6 +10,7 @@ use crate::ui::actions::Action;
 use crate::ui::app::App;
 use crate::ui::dialogs::Dialog;
 use crate::ui::files::{self, Purpose};
+use crate::wrap::suggested;
 
 impl App {
     /// Carries out `action`; one that would lose unsaved changes asks first.
@@ -24,16 +27,13 @@ impl App {
     pub(super) fn act_unguarded(&mut self, ctx: &egui::Context, action: Action) {
         match action {
             Action::New => self.replace(ctx, Project::default(), None),
-            Action::Sample(name) => match files::sample(name) {
-                Ok(project) => self.replace(ctx, project, None),
-                Err(words) => self.messages.error(words),
-            },
+            Action::Sample(sample) => self.replace(ctx, files::sample(sample), None),
             Action::Open => self.ask_file(Purpose::Open),
             Action::Save => self.save(ctx),
             Action::SaveAs => self.ask_file(Purpose::Save),
             Action::ImportPattern => self.ask_file(Purpose::ImportPattern),
             Action::ImportBody => self.ask_file(Purpose::ImportBody),
-            Action::UseMannequin => self.apply(files::mannequin()),
+            Action::UseMannequin => self.apply(files::use_mannequin()),
             Action::Export => self.ask_file(Purpose::Export),
             Action::SaveRecording => self.ask_file(Purpose::Recording),
             Action::Quit => {
@@ -42,6 +42,7 @@ impl App {
             }
             Action::Undo => self.apply(Command::Undo),
             Action::Redo => self.apply(Command::Redo),
+            Action::SuggestMarks => self.suggest_marks(),
             Action::ClearMarks => self.apply(Command::ClearMarks),
             Action::Choose(tool) => self.tool = tool,
             Action::Wrap => {
@@ -63,6 +64,18 @@ impl App {
             Action::Shortcuts => self.dialog = Some(Dialog::Shortcuts),
         }
         ctx.request_repaint();
+    }
+
+    fn suggest_marks(&mut self) {
+        let document = self.session.document();
+        let Some(surface) = self.session.surface() else { return };
+        let offset = document.settings.relax.offset * surface.scale();
+        let marks = suggested(&document.pattern, surface, offset);
+        if marks.pairs().next().is_none() {
+            let words = "No marks can be proposed: the pattern does not say where its pieces go round the body.";
+            return self.messages.error(words);
+        }
+        self.apply(Command::SetMarks { marks: Arc::new(marks) });
     }
 
     fn change_view(&mut self, action: Action) {

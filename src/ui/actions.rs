@@ -3,6 +3,7 @@
 use egui::{Key, KeyboardShortcut, Modifiers, ThemePreference};
 
 use crate::render::View;
+use crate::session::samples::Sample;
 
 /// What the left mouse button does in the panes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -16,14 +17,11 @@ pub enum Tool {
     Move,
 }
 
-/// A garment drafted by us.
-pub type SampleName = &'static str;
-
 /// Something that can be chosen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Action {
     New,
-    Sample(SampleName),
+    Sample(Sample),
     Open,
     Save,
     SaveAs,
@@ -36,6 +34,7 @@ pub enum Action {
     Undo,
     Redo,
     ClearMarks,
+    SuggestMarks,
     Choose(Tool),
     Wrap,
     CancelWrap,
@@ -83,7 +82,7 @@ impl Action {
     pub fn entry(self) -> Entry {
         match self {
             Self::New => entry("New", "Start with an empty table and the mannequin", &[ctrl(Key::N)]),
-            Self::Sample(name) => entry(name, "Open this sample with its marks", &[]),
+            Self::Sample(sample) => entry(sample.name(), "Open this sample with its marks", &[]),
             Self::Open => entry("Open…", "Open a project", &[ctrl(Key::O)]),
             Self::Save => entry("Save", "Save the project", &[ctrl(Key::S)]),
             Self::SaveAs => entry("Save as…", "Save the project under another name", &[ctrl_shift(Key::S)]),
@@ -100,6 +99,11 @@ impl Action {
             Self::Undo => entry("Undo", "Take the last step back", &[ctrl(Key::Z)]),
             Self::Redo => entry("Redo", "Do the step again", &[ctrl_shift(Key::Z), ctrl(Key::Y)]),
             Self::ClearMarks => entry("Clear all marks", "Take every mark away, on cloth and body", &[]),
+            Self::SuggestMarks => entry(
+                "Suggest marks",
+                "Propose marks from where the pattern file puts the pieces round the body",
+                &[],
+            ),
             Self::Choose(Tool::Mark) => entry(
                 "Mark",
                 "Paint a mark with the left button, on a piece and then on the body where it should lie",

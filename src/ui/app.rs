@@ -381,8 +381,8 @@ impl App {
             }),
             Purpose::ImportBody => files::import_body(path).map(|command| self.apply(command)),
             Purpose::Export => {
-                let project = self.session.project();
-                files::export(path, &project).map(|()| self.wrote(path))
+                let pattern = &self.session.document().pattern;
+                files::export(path, self.session.snapshot(), pattern).map(|()| self.wrote(path))
             }
             Purpose::Recording => {
                 let text = self.session.recording();

@@ -1,8 +1,14 @@
 //! Files as the window sees them: bytes in and out, errors in words.
 
 use std::path::Path;
+use std::sync::Arc;
 
+use crate::body::mannequin;
+use crate::io::{garmentcode, obj};
+use crate::pattern::Pattern;
+use crate::session::samples::Sample;
 use crate::session::{BodyChoice, Command, Project, project_file};
+use crate::sim::Snapshot;
 
 /// What a file dialog is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -84,37 +90,43 @@ pub fn write_text(path: &Path, text: &str) -> Result<(), String> {
 
 /// Reads a pattern. The command replaces what is on the table.
 pub fn import_pattern(path: &Path) -> Result<Command, String> {
-    let _ = read(path)?;
-    Err(in_words(path, "imported", "this kind of pattern is not read yet"))
+    let pattern = garmentcode::read(&read(path)?).map_err(|e| in_words(path, "imported", e))?;
+    Ok(Command::ReplacePattern { name: stem(path), pattern: Arc::new(pattern), marks: Arc::default() })
 }
 
 /// Reads a body.
 pub fn import_body(path: &Path) -> Result<Command, String> {
-    let _ = read(path)?;
-    Err(in_words(path, "imported", "this kind of body is not read yet"))
+    let read = obj::read(&read(path)?).map_err(|e| in_words(path, "imported", e))?;
+    Ok(Command::SetBody { body: BodyChoice::Imported { name: stem(path), mesh: Arc::new(read.mesh) } })
 }
 
-/// Writes the dressed garment of `project`.
-pub fn export(path: &Path, project: &Project) -> Result<(), String> {
-    let _ = project;
-    Err(in_words(path, "written", "nothing is exported yet"))
+/// Writes the dressed garment of `snapshot`; `pattern` gives the places on the table.
+pub fn export(path: &Path, snapshot: &Snapshot, pattern: &Pattern) -> Result<(), String> {
+    let Some(garment) = snapshot.garment.as_ref().filter(|_| snapshot.is_dressed()) else {
+        return Err("There is no cloth on the body to be written".to_owned());
+    };
+    match path.extension().map(|e| e.to_string_lossy().to_lowercase()).as_deref() {
+        Some("obj") => write_text(path, &obj::garment(garment, &snapshot.cloth, pattern)),
+        _ => Err(in_words(path, "written", "the name must end in .obj")),
+    }
 }
 
-/// A sample with its marks.
-pub fn sample(name: &str) -> Result<Project, String> {
-    Err(format!("The sample {name} is not in this build"))
+/// A sample with its marks, on the built-in figure.
+pub fn sample(sample: Sample) -> Project {
+    sample.project(&mannequin::default())
 }
-
-/// Names of the samples, in menu order.
-pub const SAMPLES: [&str; 5] = ["T-shirt", "Skirt", "Dress", "Trousers", "Scarf"];
 
 /// The command that brings the built-in figure back.
-pub fn mannequin() -> Command {
+pub fn use_mannequin() -> Command {
     Command::SetBody { body: BodyChoice::default() }
 }
 
 fn read(path: &Path) -> Result<Vec<u8>, String> {
     std::fs::read(path).map_err(|e| in_words(path, "read", e))
+}
+
+fn stem(path: &Path) -> String {
+    path.file_stem().map_or_else(|| "file".to_owned(), |n| n.to_string_lossy().into_owned())
 }
 
 fn in_words(path: &Path, done: &str, why: impl std::fmt::Display) -> String {

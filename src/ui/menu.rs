@@ -2,9 +2,9 @@
 
 use egui::{Button, ThemePreference};
 
+use crate::session::samples::Sample;
 use crate::ui::actions::{Action, VIEWS};
 use crate::ui::asks::{Ask, Asks};
-use crate::ui::files::SAMPLES;
 use crate::ui::situation::Situation;
 
 /// Draws the menu bar.
@@ -14,7 +14,7 @@ pub fn menu_bar_ui(ui: &mut egui::Ui, now: &Situation, asks: &mut Asks) {
         ui.menu_button("Edit", |ui| {
             items(ui, now, asks, &[Action::Undo, Action::Redo]);
             ui.separator();
-            items(ui, now, asks, &[Action::ClearMarks]);
+            items(ui, now, asks, &[Action::SuggestMarks, Action::ClearMarks]);
         });
         ui.menu_button("Garment", |ui| {
             items(ui, now, asks, &[Action::Wrap, Action::CancelWrap, Action::Unwrap]);
@@ -29,8 +29,8 @@ pub fn menu_bar_ui(ui: &mut egui::Ui, now: &Situation, asks: &mut Asks) {
 fn file_ui(ui: &mut egui::Ui, now: &Situation, asks: &mut Asks) {
     items(ui, now, asks, &[Action::New]);
     ui.menu_button("Samples", |ui| {
-        for name in SAMPLES {
-            item(ui, now, asks, Action::Sample(name));
+        for sample in Sample::ALL {
+            item(ui, now, asks, Action::Sample(sample));
         }
     });
     items(ui, now, asks, &[Action::Open]);

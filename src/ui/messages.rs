@@ -83,7 +83,7 @@ fn message_ui(ui: &mut egui::Ui, message: &Message, palette: &Palette) -> bool {
         .shadow(egui::Shadow { offset: [0, 2], blur: 10, spread: 0, color: Color32::from_black_alpha(40) })
         .show(ui, |ui| {
             ui.horizontal_top(|ui| {
-                let close = ui.small_button("✖").on_hover_text("Close this message");
+                let close = ui.small_button("×").on_hover_text("Close this message");
                 let text = egui::RichText::new(&message.words);
                 ui.add(egui::Label::new(if message.is_error { text.color(edge) } else { text }).wrap());
                 close.clicked()

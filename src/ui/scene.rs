@@ -158,7 +158,7 @@ impl Scenery {
         for (i, places) in found.places.iter().enumerate() {
             let points: Option<Vec<Vec3>> = places.iter().map(|p| p.point(garment, state)).collect();
             if let Some(points) = points.filter(|p| !p.is_empty()) {
-                push_mark(scene, points, i + 1, MARK_WIDTH, 0.006 * scale);
+                push_mark(scene, points, i + 1, MARK_WIDTH, 0.006, scale);
                 covered += usize::from(covered == i);
             }
         }
@@ -238,7 +238,7 @@ fn body_marks(marks: &Marks, shown: &Shown<'_>, covered: usize, scale: f32, scen
     for (i, mark) in marks.body.iter().enumerate() {
         let points: Vec<Vec3> = mark.points.iter().map(|p| p.as_vec3()).collect();
         let width = if shown.near == Some(mark.id) { MARK_WIDTH + 2.0 } else { MARK_WIDTH };
-        push_mark(scene, points, i + 1, width, 0.0025 * scale);
+        push_mark(scene, points, i + 1, width, 0.0025, scale);
         if i < covered {
             scene.labels.pop();
         }
@@ -246,23 +246,24 @@ fn body_marks(marks: &Marks, shown: &Shown<'_>, covered: usize, scale: f32, scen
     if !shown.stroke.is_empty() {
         let points = shown.stroke.iter().map(|p| p.as_vec3()).collect();
         // Above cloth that may lie there, so that the hand sees what it does.
-        push_mark(scene, points, marks.body.len() + 1, MARK_WIDTH, 0.03 * scale);
+        push_mark(scene, points, marks.body.len() + 1, MARK_WIDTH, 0.03, scale);
     }
 }
 
-fn push_mark(scene: &mut Scene, points: Vec<Vec3>, number: usize, width: f32, lift: f32) {
+fn push_mark(scene: &mut Scene, points: Vec<Vec3>, number: usize, width: f32, lift: f32, scale: f32) {
     let Some(&first) = points.first() else { return };
     let colour = opaque(mark_colour(number));
+    let lift = lift * scale;
     let width = if points.len() == 1 { width * 2.2 } else { width };
     scene.lines.push(Polyline { points, colour, width, halo: WHITE, halo_width: 1.8, lift, closed: false });
     scene.labels.push(Label {
         anchor: first,
-        offset: Vec2::new(-10.0, 11.0),
+        offset: Vec2::new(-11.0, 11.0),
         text: number.to_string(),
-        height: 13.0,
+        height: 9.5,
         colour,
         halo: [255, 255, 255, 255],
-        lift: lift + 0.02,
+        lift: lift + 0.05 * scale,
     });
 }
 

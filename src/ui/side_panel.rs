@@ -72,7 +72,7 @@ fn mark_row(ui: &mut egui::Ui, document: &Document, i: usize, palette: &Palette,
             _ => RichText::new("body – not on the cloth yet").color(palette.warning),
         };
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            let close = ui.small_button("✖").on_hover_text(format!("Take the marks {number} away"));
+            let close = ui.small_button("×").on_hover_text(format!("Take the marks {number} away"));
             name(&close, &format!("Delete marks {number}"));
             if close.clicked() {
                 asks.push(Ask::Do(Command::DeletePair { number }));

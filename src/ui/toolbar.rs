@@ -18,8 +18,8 @@ pub fn toolbar_ui(ui: &mut egui::Ui, now: &Situation, palette: &Palette, asks: &
             plain(ui, now, asks, Action::Choose(tool), None);
         }
         gap(ui);
-        plain(ui, now, asks, Action::Undo, Some("⟲ Undo"));
-        plain(ui, now, asks, Action::Redo, Some("⟳ Redo"));
+        plain(ui, now, asks, Action::Undo, Some("Undo"));
+        plain(ui, now, asks, Action::Redo, Some("Redo"));
         gap(ui);
         if now.wrapping {
             primary(ui, now, asks, Action::CancelWrap, palette.error, palette);

@@ -11,6 +11,7 @@ use glam::DVec2;
 
 use crate::geometry::ids::{MarkId, PieceId, SeamId};
 use crate::pattern::{Pattern, PlanePose};
+use crate::session::samples::Sample;
 use crate::session::{Command, Document};
 use crate::ui::actions::{Action, Tool};
 use crate::ui::asks::{Ask, Asks};
@@ -343,7 +344,7 @@ pub fn empty_ui(ui: &mut egui::Ui, asks: &mut Asks) {
         ui.label("Open a sample, or bring a pattern of your own.");
         ui.add_space(6.0);
         if ui.button("Open the T-shirt").clicked() {
-            asks.push(Ask::Act(Action::Sample("T-shirt")));
+            asks.push(Ask::Act(Action::Sample(Sample::Tshirt)));
         }
         if ui.button(Action::ImportPattern.entry().text).clicked() {
             asks.push(Ask::Act(Action::ImportPattern));
