@@ -13,14 +13,17 @@ use crate::relax::flatten::Hinges;
 use crate::relax::global::GlobalSolver;
 use crate::relax::goals::{turned_rest, turned_rest_facing};
 
-/// Weight of contact on the matrix diagonal, against 2/3 for each triangle round a vertex.
-const CONTACT_WEIGHT: f64 = 0.1;
+/// Weight of contact on the matrix diagonal, against 2/3 for each triangle round a vertex. It also holds the vertex where
+/// it is along the skin, so that a heavy weight slows sliding; what a light one lets through, the multiplier makes good.
+const CONTACT_WEIGHT: f64 = 0.03;
 /// Keeps the matrix regular where nothing holds the cloth.
 const PROXIMAL_WEIGHT: f64 = 1e-4;
 /// Stands for cloth that is not laid yet.
 const UNMAPPED_WEIGHT: f64 = 1.0;
 /// How much of the last sliding move is tried again: the contact term holds a vertex where it was, this lets it slide on.
 const SLIDE_MOMENTUM: f64 = 0.9;
+/// The same under gravity and friction.
+const WEIGHTED_MOMENTUM: f64 = 0.8;
 /// A contact's push beyond the offset grows no further than this, metres on a body 1.5 m large.
 const MOST_PUSH: f64 = 0.03;
 /// A triangle is turned over when its normal and that of the cloth round it have a smaller cosine.
@@ -233,7 +236,8 @@ impl Relaxer {
         let height = if pressed { below + self.push[v] } else { 0.0 };
         let target = x + plane.normal * height;
         let slide = if self.slid(v) { tangential(x - self.previous[v]) } else { DVec3::ZERO };
-        target + slide.clamp_length_max(step.cap) * SLIDE_MOMENTUM
+        target
+            + slide.clamp_length_max(step.cap) * if step.weight { WEIGHTED_MOMENTUM } else { SLIDE_MOMENTUM }
     }
 
     /// Coulomb friction: takes the tangential force on `v` away, as far as its pressure allows.
