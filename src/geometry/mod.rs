@@ -1,8 +1,10 @@
 //! Plain maths, no cloth words.
 
 pub mod adjacency;
+pub mod bvh;
 pub mod ids;
 pub mod mesh;
 pub mod orient;
 pub mod problem;
 pub mod walk;
+pub mod winding;

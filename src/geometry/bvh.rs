@@ -1,0 +1,159 @@
+//! A tree of boxes over boxes, in f64.
+
+use glam::DVec3;
+
+/// Items in one leaf.
+const LEAF: usize = 4;
+
+/// An axis-aligned box.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Aabb {
+    /// Smallest coordinates.
+    pub lower: DVec3,
+    /// Largest coordinates.
+    pub upper: DVec3,
+}
+
+impl Aabb {
+    /// Holds nothing.
+    pub const EMPTY: Self = Self { lower: DVec3::INFINITY, upper: DVec3::NEG_INFINITY };
+
+    /// The smallest box around `points`.
+    pub fn around(points: &[DVec3]) -> Self {
+        points.iter().fold(Self::EMPTY, |b, &p| b.joined(&Self { lower: p, upper: p }))
+    }
+
+    /// The smallest box around both.
+    pub fn joined(&self, other: &Self) -> Self {
+        Self { lower: self.lower.min(other.lower), upper: self.upper.max(other.upper) }
+    }
+
+    /// Whether they share a point.
+    pub fn meets(&self, other: &Self) -> bool {
+        self.lower.cmple(other.upper).all() && self.upper.cmpge(other.lower).all()
+    }
+
+    /// Its middle.
+    pub fn centre(&self) -> DVec3 {
+        (self.lower + self.upper) / 2.0
+    }
+}
+
+/// A node: two children, or a few items.
+#[derive(Clone, Debug)]
+pub struct BvhNode {
+    /// Around everything below.
+    pub bounds: Aabb,
+    /// Where the right child is; 0 for a leaf. The left child is the next node.
+    pub right: u32,
+    /// The first item below it in [`Bvh::items`].
+    pub first: u32,
+    /// How many items are below it.
+    pub count: u32,
+}
+
+impl BvhNode {
+    /// Whether it has items of its own.
+    pub fn is_leaf(&self) -> bool {
+        self.right == 0
+    }
+}
+
+/// The tree: nodes in depth-first order, the root first. Equal input, equal tree.
+#[derive(Clone, Debug, Default)]
+pub struct Bvh {
+    /// Empty when there are no items.
+    pub nodes: Vec<BvhNode>,
+    /// Items (indices into the input) in the order of the leaves.
+    pub items: Vec<u32>,
+}
+
+impl Bvh {
+    /// Splits at the median of the longest side, down to leaves of a few boxes.
+    pub fn new(boxes: &[Aabb]) -> Self {
+        let mut tree = Self { nodes: Vec::new(), items: (0..boxes.len() as u32).collect() };
+        if !boxes.is_empty() {
+            let mut items = std::mem::take(&mut tree.items);
+            tree.grow(boxes, &mut items, 0);
+            tree.items = items;
+        }
+        tree
+    }
+
+    fn grow(&mut self, boxes: &[Aabb], items: &mut [u32], first: usize) {
+        let bounds = items.iter().fold(Aabb::EMPTY, |b, &i| b.joined(&boxes[i as usize]));
+        let node = self.nodes.len();
+        self.nodes.push(BvhNode { bounds, right: 0, first: first as u32, count: items.len() as u32 });
+        if items.len() <= LEAF {
+            return;
+        }
+        let axis = (bounds.upper - bounds.lower).max_position();
+        let place = |i: u32| boxes[i as usize].centre()[axis];
+        let middle = items.len() / 2;
+        items.select_nth_unstable_by(middle, |&i, &j| place(i).total_cmp(&place(j)).then(i.cmp(&j)));
+        let (left, right) = items.split_at_mut(middle);
+        // The order inside a half must not depend on how the median was found.
+        left.sort_unstable();
+        right.sort_unstable();
+        self.grow(boxes, left, first);
+        self.nodes[node].right = self.nodes.len() as u32;
+        self.grow(boxes, right, first + middle);
+    }
+
+    /// Calls `found` for every item whose leaf's box meets `query`; the caller tests the item itself.
+    pub fn near(&self, query: &Aabb, mut found: impl FnMut(u32)) {
+        if self.nodes.is_empty() {
+            return;
+        }
+        let mut open = vec![0usize];
+        while let Some(at) = open.pop() {
+            let node = &self.nodes[at];
+            if !node.bounds.meets(query) {
+                continue;
+            }
+            if node.is_leaf() {
+                let first = node.first as usize;
+                self.items[first..first + node.count as usize].iter().copied().for_each(&mut found);
+            } else {
+                open.push(node.right as usize);
+                open.push(at + 1);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A small linear congruential generator: the same points on every run.
+    fn points(count: usize) -> Vec<DVec3> {
+        let mut seed = 1u64;
+        let mut next = || {
+            seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            (seed >> 11) as f64 / (1u64 << 53) as f64
+        };
+        (0..count).map(|_| DVec3::new(next(), next(), next())).collect()
+    }
+
+    #[test]
+    fn a_query_finds_what_brute_force_finds() {
+        let points = points(600);
+        let boxes: Vec<Aabb> =
+            points.chunks_exact(2).map(|p| Aabb::around(&[p[0], p[0] + (p[1] - 0.5) * 0.2])).collect();
+        let tree = Bvh::new(&boxes);
+        for query in boxes.iter().step_by(7) {
+            let mut found = Vec::new();
+            tree.near(query, |i| found.extend(boxes[i as usize].meets(query).then_some(i)));
+            found.sort_unstable();
+            let exact: Vec<u32> =
+                (0..boxes.len() as u32).filter(|&i| boxes[i as usize].meets(query)).collect();
+            assert_eq!(found, exact);
+        }
+    }
+
+    #[test]
+    fn an_empty_tree_finds_nothing() {
+        Bvh::new(&[]).near(&Aabb::around(&[DVec3::ZERO]), |_| panic!("an item"));
+    }
+}

@@ -1,0 +1,378 @@
+//! Scenes to binary glTF 2.0: the garment piece by piece with a material for each side, and the body.
+//!
+//! Texture coordinates are the pattern plane in metres, u = x and v = 1 - y, since glTF counts v downward.
+
+use glam::{DVec2, DVec3};
+use gltf_json::accessor::{ComponentType, GenericComponentType, Type};
+use gltf_json::buffer::{Buffer, Target, View};
+use gltf_json::material::{Material, PbrBaseColorFactor, PbrMetallicRoughness, StrengthFactor};
+use gltf_json::mesh::{Mesh, Mode, Primitive, Semantic};
+use gltf_json::validation::{Checked, USize64};
+use gltf_json::{Accessor, Asset, Index, Node, Root, Scene};
+
+use crate::cloth::{ClothState, Garment};
+use crate::geometry::ids::PieceId;
+use crate::geometry::mesh::{TriMesh, vertex_normals};
+use crate::pattern::Pattern;
+
+/// A garment as it lies.
+#[derive(Clone, Copy, Debug)]
+pub struct Dressed<'a> {
+    /// Topology and flat shape.
+    pub garment: &'a Garment,
+    /// Positions.
+    pub state: &'a ClothState,
+    /// For the poses of the pieces in the pattern plane.
+    pub pattern: &'a Pattern,
+}
+
+/// Base colours, linear RGB, 0..=1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Colours {
+    /// Outer side of the cloth.
+    pub front: [f32; 3],
+    /// Inner side of the cloth.
+    pub back: [f32; 3],
+    /// The body.
+    pub body: [f32; 3],
+}
+
+impl Default for Colours {
+    fn default() -> Self {
+        Self { front: [0.18, 0.42, 0.22], back: [0.72, 0.32, 0.38], body: [0.5, 0.48, 0.46] }
+    }
+}
+
+/// Why there is no file.
+#[derive(Debug, thiserror::Error)]
+pub enum GlbError {
+    /// Neither cloth nor body.
+    #[error("there is nothing to write: no cloth is on the body yet")]
+    Empty,
+    /// GLB lengths are 32-bit.
+    #[error("the scene is larger than 4 GiB, which is all a GLB file can hold")]
+    TooLarge,
+    /// The JSON part could not be written.
+    #[error("the glTF header cannot be written: {0}")]
+    Json(#[from] gltf_json::Error),
+}
+
+/// Writes a scene; either part may be missing. Triangles not yet on the body are left out.
+pub fn write(
+    dressed: Option<Dressed<'_>>,
+    body: Option<&TriMesh>,
+    colours: &Colours,
+) -> Result<Vec<u8>, GlbError> {
+    let mut builder = Builder::new();
+    if let Some(dressed) = dressed {
+        builder.garment(&dressed, colours);
+    }
+    if let Some(body) = body {
+        builder.body(body, colours);
+    }
+    builder.finish()
+}
+
+struct Builder {
+    root: Root,
+    data: Vec<u8>,
+    nodes: Vec<Index<Node>>,
+}
+
+impl Builder {
+    fn new() -> Self {
+        let asset = Asset { generator: Some("Toile".to_owned()), ..Asset::default() };
+        Self { root: Root { asset, ..Root::default() }, data: Vec::new(), nodes: Vec::new() }
+    }
+
+    fn garment(&mut self, dressed: &Dressed<'_>, colours: &Colours) {
+        let front = self.material("cloth, front", colours.front);
+        let back = self.material("cloth, back", colours.back);
+        let Dressed { garment, state, .. } = dressed;
+        let triangles: Vec<usize> = (0..garment.triangles.len())
+            .filter(|&t| garment.triangles[t].iter().all(|&v| state.mapped.get(v as usize) == Some(&true)))
+            .collect();
+        let on_body: Vec<[u32; 3]> = triangles.iter().map(|&t| garment.triangles[t]).collect();
+        let normals = vertex_normals(&state.positions, &on_body);
+        for (id, name) in &garment.pieces {
+            let own = triangles.iter().copied().filter(|&t| garment.triangle_pieces[t] == *id);
+            let piece = PieceArrays::new(dressed, *id, own, &normals);
+            if !piece.triangles.is_empty() {
+                self.piece(name, &piece, [front, back]);
+            }
+        }
+    }
+
+    /// Both sides as primitives of one mesh, each drawn from its own side only.
+    fn piece(&mut self, name: &str, piece: &PieceArrays, [front, back]: [Index<Material>; 2]) {
+        let positions = self.vectors(&piece.positions, true);
+        let uv = self.texture_coordinates(&piece.uv);
+        let normals = self.vectors(&piece.normals, false);
+        let inward: Vec<DVec3> = piece.normals.iter().map(|&n| -n).collect();
+        let inward = self.vectors(&inward, false);
+        let turned: Vec<[u32; 3]> = piece.triangles.iter().map(|&[a, b, c]| [a, c, b]).collect();
+        let outside = self.triangles(&piece.triangles);
+        let inside = self.triangles(&turned);
+        let primitives = vec![
+            primitive([positions, normals], Some(uv), outside, front),
+            primitive([positions, inward], Some(uv), inside, back),
+        ];
+        self.node(name, primitives);
+    }
+
+    fn body(&mut self, body: &TriMesh, colours: &Colours) {
+        let material = self.material("body", colours.body);
+        let positions = self.vectors(&body.positions, true);
+        let normals = self.vectors(&body.vertex_normals(), false);
+        let triangles = self.triangles(&body.triangles);
+        self.node("body", vec![primitive([positions, normals], None, triangles, material)]);
+    }
+
+    fn node(&mut self, name: &str, primitives: Vec<Primitive>) {
+        let mesh = self.root.push(Mesh {
+            extensions: None,
+            extras: Default::default(),
+            name: Some(name.to_owned()),
+            primitives,
+            weights: None,
+        });
+        let node = self.root.push(Node { mesh: Some(mesh), name: Some(name.to_owned()), ..Node::default() });
+        self.nodes.push(node);
+    }
+
+    fn material(&mut self, name: &str, [r, g, b]: [f32; 3]) -> Index<Material> {
+        self.root.push(Material {
+            name: Some(name.to_owned()),
+            pbr_metallic_roughness: PbrMetallicRoughness {
+                base_color_factor: PbrBaseColorFactor([r, g, b, 1.0]),
+                metallic_factor: StrengthFactor(0.0),
+                roughness_factor: StrengthFactor(0.9),
+                ..PbrMetallicRoughness::default()
+            },
+            ..Material::default()
+        })
+    }
+
+    fn vectors(&mut self, vectors: &[DVec3], with_bounds: bool) -> Index<Accessor> {
+        // What could not be written as a number would spoil the whole file.
+        let vectors: Vec<[f32; 3]> =
+            vectors.iter().map(|v| if v.is_finite() { v.as_vec3().to_array() } else { [0.0; 3] }).collect();
+        let (mut low, mut high) = ([f32::MAX; 3], [f32::MIN; 3]);
+        for v in &vectors {
+            for k in 0..3 {
+                low[k] = low[k].min(v[k]);
+                high[k] = high[k].max(v[k]);
+            }
+        }
+        let view = self.view(bytemuck::cast_slice(&vectors), Target::ArrayBuffer);
+        let mut accessor = accessor(view, vectors.len(), ComponentType::F32, Type::Vec3);
+        if with_bounds {
+            accessor.min = Some(gltf_json::serialize::to_value(low).unwrap_or_default());
+            accessor.max = Some(gltf_json::serialize::to_value(high).unwrap_or_default());
+        }
+        self.root.push(accessor)
+    }
+
+    fn texture_coordinates(&mut self, uv: &[DVec2]) -> Index<Accessor> {
+        let uv: Vec<[f32; 2]> = uv.iter().map(|p| [p.x as f32, (1.0 - p.y) as f32]).collect();
+        let view = self.view(bytemuck::cast_slice(&uv), Target::ArrayBuffer);
+        self.root.push(accessor(view, uv.len(), ComponentType::F32, Type::Vec2))
+    }
+
+    fn triangles(&mut self, triangles: &[[u32; 3]]) -> Index<Accessor> {
+        let view = self.view(bytemuck::cast_slice(triangles), Target::ElementArrayBuffer);
+        self.root.push(accessor(view, triangles.len() * 3, ComponentType::U32, Type::Scalar))
+    }
+
+    /// Every element is 4-byte numbers, so that every view begins at a multiple of 4, as the format asks.
+    fn view(&mut self, bytes: &[u8], target: Target) -> Index<View> {
+        let byte_offset = self.data.len();
+        self.data.extend_from_slice(bytes);
+        self.root.push(View {
+            buffer: Index::new(0),
+            byte_length: USize64::from(bytes.len()),
+            byte_offset: Some(USize64::from(byte_offset)),
+            byte_stride: None,
+            name: None,
+            target: Some(Checked::Valid(target)),
+            extensions: None,
+            extras: Default::default(),
+        })
+    }
+
+    fn finish(mut self) -> Result<Vec<u8>, GlbError> {
+        if self.nodes.is_empty() {
+            return Err(GlbError::Empty);
+        }
+        self.root.push(Buffer {
+            byte_length: USize64::from(self.data.len()),
+            name: None,
+            uri: None,
+            extensions: None,
+            extras: Default::default(),
+        });
+        let scene = Scene { extensions: None, extras: Default::default(), name: None, nodes: self.nodes };
+        self.root.scene = Some(self.root.push(scene));
+        container(self.root.to_vec()?, self.data)
+    }
+}
+
+/// What glTF wants of a piece: one entry per flat corner.
+struct PieceArrays {
+    positions: Vec<DVec3>,
+    normals: Vec<DVec3>,
+    uv: Vec<DVec2>,
+    triangles: Vec<[u32; 3]>,
+}
+
+impl PieceArrays {
+    fn new(
+        dressed: &Dressed<'_>,
+        piece: PieceId,
+        triangles: impl Iterator<Item = usize>,
+        normals: &[DVec3],
+    ) -> Self {
+        let Dressed { garment, state, pattern } = dressed;
+        let first = garment.corners.partition_point(|c| c.piece < piece);
+        let corners = &garment.corners[first..garment.corners.partition_point(|c| c.piece <= piece)];
+        let pose = pattern.pieces.get(&piece).map(|p| p.pose).unwrap_or_default();
+        Self {
+            positions: corners.iter().map(|c| state.positions[c.vertex as usize]).collect(),
+            normals: corners.iter().map(|c| normals[c.vertex as usize]).collect(),
+            uv: corners.iter().map(|c| pose.plane_from_piece(c.uv)).collect(),
+            triangles: triangles.map(|t| garment.triangle_corners[t].map(|c| c - first as u32)).collect(),
+        }
+    }
+}
+
+fn accessor(view: Index<View>, count: usize, component: ComponentType, type_: Type) -> Accessor {
+    Accessor {
+        buffer_view: Some(view),
+        byte_offset: Some(USize64(0)),
+        count: USize64::from(count),
+        component_type: Checked::Valid(GenericComponentType(component)),
+        extensions: None,
+        extras: Default::default(),
+        type_: Checked::Valid(type_),
+        min: None,
+        max: None,
+        name: None,
+        normalized: false,
+        sparse: None,
+    }
+}
+
+fn primitive(
+    [positions, normals]: [Index<Accessor>; 2],
+    uv: Option<Index<Accessor>>,
+    triangles: Index<Accessor>,
+    material: Index<Material>,
+) -> Primitive {
+    let given = [
+        (Semantic::Positions, Some(positions)),
+        (Semantic::Normals, Some(normals)),
+        (Semantic::TexCoords(0), uv),
+    ];
+    Primitive {
+        attributes: given.into_iter().filter_map(|(s, a)| Some((Checked::Valid(s), a?))).collect(),
+        extensions: None,
+        extras: Default::default(),
+        indices: Some(triangles),
+        material: Some(material),
+        mode: Checked::Valid(Mode::Triangles),
+        targets: None,
+    }
+}
+
+/// Header, JSON chunk, binary chunk; lengths are multiples of 4.
+fn container(mut json: Vec<u8>, data: Vec<u8>) -> Result<Vec<u8>, GlbError> {
+    while !json.len().is_multiple_of(4) {
+        json.push(b' ');
+    }
+    let length = u32::try_from(28 + json.len() + data.len()).map_err(|_| GlbError::TooLarge)?;
+    let mut bytes = Vec::with_capacity(length as usize);
+    bytes.extend_from_slice(b"glTF");
+    bytes.extend_from_slice(&2u32.to_le_bytes());
+    bytes.extend_from_slice(&length.to_le_bytes());
+    bytes.extend_from_slice(&(json.len() as u32).to_le_bytes());
+    bytes.extend_from_slice(b"JSON");
+    bytes.append(&mut json);
+    bytes.extend_from_slice(&(data.len() as u32).to_le_bytes());
+    bytes.extend_from_slice(b"BIN\0");
+    bytes.extend_from_slice(&data);
+    Ok(bytes)
+}
+
+#[cfg(test)]
+mod tests {
+    use gltf_json::validation::Validate;
+
+    use super::*;
+    use crate::pattern::{EdgeRef, Piece, Seam};
+
+    /// Two squares sewn along one edge, bent at the seam.
+    fn two_squares() -> (Pattern, Garment, ClothState) {
+        let square = [DVec2::ZERO, DVec2::X * 0.1, DVec2::splat(0.1), DVec2::Y * 0.1];
+        let mut pattern = Pattern::default();
+        let ids = ["a", "b"].map(|name| pattern.add_piece(Piece::polygon(name, &square)));
+        let sides = [EdgeRef { piece: ids[0], edge: 1 }, EdgeRef { piece: ids[1], edge: 3 }];
+        pattern.add_seam(Seam { sides, same_direction: false });
+        let (garment, problems) = crate::cloth::build(&pattern, 0.03);
+        assert!(problems.is_empty(), "{problems:?}");
+        let mut positions = vec![DVec3::ZERO; garment.vertex_count];
+        for c in &garment.corners {
+            positions[c.vertex as usize] =
+                if c.piece == ids[0] { c.uv.extend(0.0) } else { DVec3::new(0.1, c.uv.y, -c.uv.x) };
+        }
+        let mapped = vec![true; garment.vertex_count];
+        (pattern, garment, ClothState { positions, mapped })
+    }
+
+    fn parsed(bytes: &[u8]) -> (Root, &[u8]) {
+        assert_eq!(&bytes[..4], b"glTF");
+        let number = |at: usize| u32::from_le_bytes(bytes[at..at + 4].try_into().expect("4 bytes")) as usize;
+        assert_eq!(number(8), bytes.len());
+        let json = number(12);
+        let root = Root::from_slice(&bytes[20..20 + json]).expect("glTF JSON");
+        let mut errors = Vec::new();
+        root.validate(&root, gltf_json::Path::new, &mut |path, error| {
+            errors.push(format!("{}: {error:?}", path()))
+        });
+        assert!(errors.is_empty(), "{errors:?}");
+        assert_eq!(number(20 + json), bytes.len() - 28 - json);
+        (root, &bytes[28 + json..])
+    }
+
+    #[test]
+    fn a_garment_on_a_body_is_valid_gltf() {
+        let (pattern, garment, state) = two_squares();
+        let body = TriMesh { positions: vec![DVec3::ZERO, DVec3::X, DVec3::Y], triangles: vec![[0, 1, 2]] };
+        let dressed = Dressed { garment: &garment, state: &state, pattern: &pattern };
+        let bytes = write(Some(dressed), Some(&body), &Colours::default()).expect("a file");
+        let (root, data) = parsed(&bytes);
+        let names: Vec<_> = root.nodes.iter().filter_map(|n| n.name.as_deref()).collect();
+        assert_eq!(names, ["a", "b", "body"]);
+        assert_eq!((root.materials.len(), root.meshes[0].primitives.len()), (3, 2));
+        for view in &root.buffer_views {
+            let start = view.byte_offset.map_or(0, |o| o.0);
+            assert!(start % 4 == 0 && start + view.byte_length.0 <= data.len() as u64);
+        }
+        let triangles: u64 = root
+            .meshes
+            .iter()
+            .flat_map(|m| &m.primitives)
+            .filter_map(|p| root.get(p.indices?))
+            .map(|a| a.count.0 / 3)
+            .sum();
+        assert_eq!(triangles as usize, 2 * garment.triangles.len() + 1);
+    }
+
+    #[test]
+    fn cloth_not_yet_on_the_body_is_left_out() {
+        let (pattern, garment, mut state) = two_squares();
+        state.mapped.fill(false);
+        state.positions.fill(DVec3::NAN);
+        let dressed = Dressed { garment: &garment, state: &state, pattern: &pattern };
+        assert!(matches!(write(Some(dressed), None, &Colours::default()), Err(GlbError::Empty)));
+    }
+}
