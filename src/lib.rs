@@ -34,8 +34,10 @@
 //! `tests/tidy.rs` holds these rules.
 
 pub mod body;
+pub mod cli;
 pub mod cloth;
 pub mod contact;
+
 pub mod geometry;
 pub mod io;
 pub mod pattern;

@@ -41,8 +41,3 @@ pub fn body_obj(mesh: &TriMesh) -> Vec<u8> {
 pub fn garment_obj(garment: &Garment, cloth: &ClothState, pattern: &Pattern) -> Vec<u8> {
     obj::garment(garment, cloth, pattern).into_bytes()
 }
-
-/// x
-pub fn garment_glb(_: &Garment, _: &ClothState, _: &Pattern) -> Result<Vec<u8>, Failure> {
-    Ok(b"glTF".to_vec())
-}

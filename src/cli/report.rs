@@ -9,11 +9,10 @@ use crate::cli::arguments::PictureOptions;
 use crate::cli::failure::Failure;
 use crate::cli::picture::Artist;
 use crate::cli::{formats, output, run};
-use crate::fit;
 use crate::pattern::Problem;
 use crate::session::Session;
 use crate::session::recording::Hex;
-use crate::sim::{Snapshot, Stats};
+use crate::sim::Stats;
 use crate::wrap::Phase;
 
 /// `report.json`.
@@ -27,8 +26,8 @@ pub struct Report {
     at_rest: bool,
     /// Vertices no mark reaches.
     unmapped: usize,
-    #[serde(flatten)]
-    fit: fit::Report,
+    triangles: usize,
+    vertices: usize,
     problems: Vec<Problem>,
     seconds: Seconds,
     counters: Stats,
@@ -52,8 +51,6 @@ pub struct Seconds {
     /// The whole of a replay, instead of the four above.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub replay: Option<f64>,
-    /// Reading the figures off.
-    pub measure: f64,
     /// Drawing.
     pub picture: f64,
     /// From the first byte read to the last written, this file left out.
@@ -71,9 +68,6 @@ pub fn write(
     session.update();
     let state_hash = Hex(state_hash(session)?).to_string();
     let snapshot = session.snapshot();
-    let start = Instant::now();
-    let fit = measured(snapshot)?;
-    seconds.measure = start.elapsed().as_secs_f64();
     if let (Some(garment), Some(source)) = (&snapshot.garment, &snapshot.source) {
         let bytes = formats::garment_obj(garment, &snapshot.cloth, &source.pattern);
         output::write(&folder.join("garment.obj"), &bytes)?;
@@ -91,7 +85,8 @@ pub fn write(
         ticks: snapshot.tick,
         at_rest: snapshot.phase == Some(Phase::AtRest),
         unmapped: snapshot.cloth.mapped.iter().filter(|&&m| !m).count(),
-        fit,
+        triangles: snapshot.garment.as_ref().map_or(0, |g| g.triangles.len()),
+        vertices: snapshot.cloth.positions.len(),
         problems: snapshot.problems.to_vec(),
         seconds,
         counters: snapshot.stats,
@@ -103,14 +98,6 @@ pub fn write(
 /// Hash of what moves in a session that runs inline.
 pub fn state_hash(session: &mut Session) -> Result<u64, Failure> {
     Ok(run::simulation(session)?.hash())
-}
-
-fn measured(snapshot: &Snapshot) -> Result<fit::Report, Failure> {
-    let (Some(garment), Some(body), Some(source)) = (&snapshot.garment, &snapshot.body, &snapshot.source)
-    else {
-        return Err(Failure::Check("there is no cloth on the body".to_owned()));
-    };
-    Ok(fit::report(garment, &snapshot.cloth, body, &source.pattern, &source.marks))
 }
 
 /// Without a graphics adapter: why not.
@@ -146,12 +133,7 @@ impl Report {
 
     /// One line for people.
     pub fn verdict(&self) -> String {
-        let figures = format!(
-            "{} triangles, p99 strain {:.1} %, {:.2} s",
-            self.fit.triangles,
-            self.fit.strain.p99 * 100.0,
-            self.seconds.total
-        );
+        let figures = format!("{} triangles, {:.2} s", self.triangles, self.seconds.total);
         match self.failed_check() {
             None => format!("{}: dressed, {figures}", self.name),
             Some(words) => format!("{}: {words}; {figures}", self.name),
@@ -160,20 +142,12 @@ impl Report {
 
     /// Why this is not a dressed garment.
     pub fn failed_check(&self) -> Option<String> {
-        let fit = &self.fit;
         let mut faults = Vec::new();
         if !self.at_rest {
             faults.push("the cloth still moves".to_owned());
         }
         if self.unmapped > 0 {
             faults.push(format!("{} vertices were not reached from any mark", self.unmapped));
-        }
-        if fit.seams.open > 0 {
-            faults.push(format!("{} seams are open", fit.seams.open));
-        }
-        if fit.penetration.vertices + fit.penetration.faces > 0 {
-            let (vertices, faces) = (fit.penetration.vertices, fit.penetration.faces);
-            faults.push(format!("{vertices} vertices and {faces} faces are inside the body"));
         }
         (!faults.is_empty()).then(|| faults.join(", "))
     }
