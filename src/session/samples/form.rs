@@ -9,6 +9,9 @@ use crate::relax::RelaxSettings;
 /// Spacing of strokes on the body, metres.
 const STEP: f64 = 0.01;
 
+/// Share of the bust's extra length that a front without a dart gets.
+const FRONT_BALANCE: f64 = 0.85;
+
 /// A mannequin with its surface.
 pub struct Form<'a> {
     /// The body.
@@ -123,5 +126,42 @@ impl<'a> Form<'a> {
     /// A stroke round the trunk at height `y` from `from` to `to` radians, as `round` counts them.
     pub fn level(&self, y: f64, from: f64, to: f64) -> Vec<DVec3> {
         (0..=60).filter_map(|i| self.round(y, from + (to - from) * f64::from(i) / 60.0)).collect()
+    }
+}
+
+/// Where neck and shoulder of a bodice lie.
+pub struct Yoke {
+    /// From the middle to where the shoulder seam meets the neckline.
+    pub neck_width: f64,
+    /// Length of the shoulder seam.
+    pub shoulder: f64,
+    /// How steeply it falls, radians.
+    pub slope: f64,
+    /// Height of the neck end above the bust line by the tape, in front and behind.
+    pub heights: [f64; 2],
+}
+
+impl Yoke {
+    /// With the neckline `neck_width` from the middle on the default figure, and a seam `short` metres shorter than the
+    /// shoulder.
+    pub fn new(form: &Form, neck_width: f64, short: f64) -> Self {
+        let m = &form.body.measurements;
+        let neck_width = neck_width * m.half_across_shoulder / 0.2009;
+        let (neck, tip) = (form.shoulder(neck_width), form.mark("shoulder_left"));
+        let bust = form.mark("bust_front").y;
+        let [front, back] = [1.0, -1.0].map(|side| form.from_shoulder(neck_width, bust, side));
+        Self {
+            neck_width,
+            shoulder: neck.distance(tip) - short,
+            slope: ((neck.y - tip.y) / (tip.x - neck.x)).atan(),
+            // Most of what the bust asks for in length goes in at the front.
+            heights: [back + FRONT_BALANCE * (front - back), back],
+        }
+    }
+
+    /// Neck and tip ends of the shoulder seam, drawn at +x, in front (0) or behind (1).
+    pub fn seam(&self, side: usize) -> [DVec2; 2] {
+        let neck = DVec2::new(self.neck_width, self.heights[side]);
+        [neck, neck + DVec2::new(self.slope.cos(), -self.slope.sin()) * self.shoulder]
     }
 }

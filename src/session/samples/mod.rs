@@ -3,9 +3,11 @@
 //! Every sample is drafted from the mannequin's own measurements, so a sample can be drafted for another body, too.
 
 mod draft;
+mod dress;
 mod form;
 mod skirt;
 mod strokes;
+mod trousers;
 mod tshirt;
 
 use std::sync::Arc;
@@ -21,17 +23,23 @@ pub enum Sample {
     Tshirt,
     /// Front and back with darts on a waistband.
     Skirt,
+    /// A darted bodice on a flared skirt.
+    Dress,
+    /// Two fronts, two backs, a waistband.
+    Trousers,
 }
 
 impl Sample {
     /// All of them, in the order of the menu.
-    pub const ALL: [Self; 2] = [Self::Tshirt, Self::Skirt];
+    pub const ALL: [Self; 4] = [Self::Tshirt, Self::Skirt, Self::Dress, Self::Trousers];
 
     /// Shown to people.
     pub fn name(self) -> &'static str {
         match self {
             Self::Tshirt => "T-shirt",
             Self::Skirt => "Skirt",
+            Self::Dress => "Dress",
+            Self::Trousers => "Trousers",
         }
     }
 
@@ -40,6 +48,8 @@ impl Sample {
         match self {
             Self::Tshirt => "tshirt",
             Self::Skirt => "skirt",
+            Self::Dress => "dress",
+            Self::Trousers => "trousers",
         }
     }
 
@@ -49,6 +59,8 @@ impl Sample {
         let (pattern, marks) = match self {
             Self::Tshirt => tshirt::tshirt(&form),
             Self::Skirt => skirt::skirt(&form),
+            Self::Dress => dress::dress(&form),
+            Self::Trousers => trousers::trousers(&form),
         };
         let mut document = Document {
             pattern: Arc::new(pattern),

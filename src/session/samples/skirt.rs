@@ -32,8 +32,7 @@ pub fn band(name: &str, parts: &[f64]) -> Piece {
     let mut x = -half;
     for (i, part) in parts.iter().enumerate() {
         x += part;
-        outline =
-            outline.line(&format!("lower {i}"), corner(if i + 1 == parts.len() { half } else { x }, 0.0));
+        outline = outline.line(&format!("lower {i}"), corner(if i + 1 == parts.len() { half } else { x }, 0.0));
     }
     outline
         .line("end right", corner(half, BAND))
@@ -55,19 +54,34 @@ pub fn band_strokes(form: &Form, front: PieceId, back: PieceId, waist: f64, stro
     }
 }
 
-/// Front or back: the waist line is y = 0. `dart` is the length of the darts.
-fn panel(name: &str, waist: f64, hip: f64, hip_depth: f64, dart: f64) -> Piece {
-    let (waist, hip) = (waist / 4.0, hip / 4.0);
-    let side = DVec2::new(waist + DART, 0.012);
-    let at_hip = DVec2::new(hip, -hip_depth);
-    let hem = DVec2::new(hip + FLARE, -LENGTH);
+/// How a skirt panel is cut; metres.
+pub struct Cut {
+    /// Girth of the whole skirt at waist and hip.
+    pub girths: [f64; 2],
+    /// From the waist down to the hip.
+    pub hip_depth: f64,
+    /// Width and length of each dart.
+    pub dart: [f64; 2],
+    /// From the waist down to the hem.
+    pub length: f64,
+    /// Added to each quarter at the hem.
+    pub flare: f64,
+}
+
+/// Front or back, drawn from outside: the waist line is y = 0 in the middle.
+pub fn panel(name: &str, cut: &Cut) -> Piece {
+    let [waist, hip] = cut.girths.map(|g| g / 4.0);
+    let [width, depth] = cut.dart;
+    let side = DVec2::new(waist + width, 0.012);
+    let at_hip = DVec2::new(hip, -cut.hip_depth);
+    let hem = DVec2::new(hip + cut.flare, -cut.length);
     let slope = side.y / side.x;
     let middle = 0.52 * side.x;
-    let [inner, outer] = [middle - DART / 2.0, middle + DART / 2.0].map(|x| DVec2::new(x, x * slope));
-    let tip = DVec2::new(middle, middle * slope - dart);
+    let [inner, outer] = [middle - width / 2.0, middle + width / 2.0].map(|x| DVec2::new(x, x * slope));
+    let tip = DVec2::new(middle, middle * slope - depth);
     let flip = |p: DVec2| DVec2::new(-p.x, p.y);
-    let below = at_hip + (at_hip - hem).normalize() * (0.45 * hip_depth);
-    let above = DVec2::new(side.x + 0.30 * (hip - side.x), side.y - 0.30 * hip_depth);
+    let below = at_hip + (at_hip - hem).normalize() * (0.45 * cut.hip_depth);
+    let above = DVec2::new(side.x + 0.30 * (hip - side.x), side.y - 0.30 * cut.hip_depth);
     Outline::from(flip(hem))
         .line("hem", hem)
         .line("side lower right", at_hip)
@@ -85,7 +99,7 @@ fn panel(name: &str, waist: f64, hip: f64, hip_depth: f64, dart: f64) -> Piece {
 }
 
 /// The waist edges of a panel, left to right in the drawing.
-const WAIST_EDGES: [&str; 3] = ["waist outer left", "waist middle", "waist outer right"];
+pub const WAIST_EDGES: [&str; 3] = ["waist outer left", "waist middle", "waist outer right"];
 
 /// Stands `front` and `back` before and behind the body with their own x axis at height `y`.
 pub fn face(front: &mut Piece, back: &mut Piece, y: f64) {
@@ -104,14 +118,35 @@ pub fn sew_bands(pattern: &mut Pattern, bands: [PieceId; 2], edges: [&[(PieceId,
     sew(pattern, (bands[0], "end left"), (bands[1], "end right"));
 }
 
+/// Closes the darts and the side seams of a skirt.
+pub fn sew_panels(pattern: &mut Pattern, front: PieceId, back: PieceId) {
+    for panel in [front, back] {
+        for side in ["left", "right"] {
+            sew(pattern, (panel, &format!("dart inner {side}")), (panel, &format!("dart outer {side}")));
+        }
+    }
+    for part in ["upper", "lower"] {
+        for (side, other) in [("left", "right"), ("right", "left")] {
+            sew(pattern, (front, &format!("side {part} {side}")), (back, &format!("side {part} {other}")));
+        }
+    }
+}
+
 /// Pattern and marks.
 pub fn skirt(form: &Form) -> (Pattern, Marks) {
     let m = &form.body.measurements;
     let y = form.mark("waist_front").y;
     let depth = y - form.mark("hip_front").y;
     let (waist, hip) = (m.waist + WAIST_EASE, m.hip + HIP_EASE);
-    let mut front = panel("skirt front", waist, hip, depth, 0.09);
-    let mut back = panel("skirt back", waist, hip, depth, 0.13);
+    let cut = |dart: f64| Cut {
+        girths: [waist, hip],
+        hip_depth: depth,
+        dart: [DART, dart],
+        length: LENGTH,
+        flare: FLARE,
+    };
+    let mut front = panel("skirt front", &cut(0.09));
+    let mut back = panel("skirt back", &cut(0.13));
     let parts = |p: &Piece| WAIST_EDGES.map(|label| edge_length(p, label));
     let (mut front_band, mut back_band) =
         (band("waistband front", &parts(&front)), band("waistband back", &parts(&back)));
@@ -124,20 +159,7 @@ pub fn skirt(form: &Form) -> (Pattern, Marks) {
         .map(|piece| pattern.add_piece(piece))
         .collect();
     let [front_band, back_band, front, back] = ids[..] else { unreachable!("four pieces were laid") };
-    for panel in [front, back] {
-        for side in ["left", "right"] {
-            sew(&mut pattern, (panel, &format!("dart inner {side}")), (panel, &format!("dart outer {side}")));
-        }
-    }
-    for part in ["upper", "lower"] {
-        for (side, other) in [("left", "right"), ("right", "left")] {
-            sew(
-                &mut pattern,
-                (front, &format!("side {part} {side}")),
-                (back, &format!("side {part} {other}")),
-            );
-        }
-    }
+    sew_panels(&mut pattern, front, back);
     let edges = |piece: PieceId| WAIST_EDGES.map(|label| (piece, label.to_owned()));
     sew_bands(&mut pattern, [front_band, back_band], [&edges(front), &edges(back)]);
     let mut strokes = Strokes::default();

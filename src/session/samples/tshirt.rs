@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::draft::{Outline, edge_length, mirrored, sew, sheet, standing};
-use super::form::Form;
+use super::form::{Form, Yoke};
 use super::strokes::Strokes;
 use crate::pattern::{Pattern, Piece};
 use crate::wrap::Marks;
@@ -29,37 +29,30 @@ struct Block {
     hem_quarter: f64,
     hem: f64,
     underarm: f64,
-    shoulder_length: f64,
-    slope: f64,
-    neck_width: f64,
+    yoke: Yoke,
 }
 
 impl Block {
     fn new(form: &Form) -> Self {
         let m = &form.body.measurements;
-        let neck_width = 0.088 * m.half_across_shoulder / 0.2009;
-        let (neck, tip) = (form.shoulder(neck_width), form.mark("shoulder_left"));
         let bust = form.mark("bust_front").y;
         Self {
             quarter: (m.bust + BUST_EASE) / 4.0,
             hem_quarter: (m.hip + HEM_EASE) / 4.0,
             hem: form.mark("hip_front").y - 0.01 - bust,
             underarm: form.mark("armpit_left").y - UNDERARM_DROP - bust,
-            shoulder_length: neck.distance(tip) + 0.004,
-            slope: ((neck.y - tip.y) / (tip.x - neck.x)).atan(),
-            neck_width,
+            yoke: Yoke::new(form, 0.088, -0.004),
         }
     }
 
     /// Front or back, drawn from its outer side; `left` is the wearer's side that lies at +x.
-    fn body_piece(&self, name: &str, neck_height: f64, neck_drop: f64, left: bool) -> Piece {
+    fn body_piece(&self, name: &str, neck_drop: f64, left: bool) -> Piece {
         // The bust takes more of the width in front.
         let wider = if left { FRONT_SHARE } else { -FRONT_SHARE };
-        let neck = DVec2::new(self.neck_width, neck_height);
-        let tip = neck + DVec2::new(self.slope.cos(), -self.slope.sin()) * self.shoulder_length;
+        let [neck, tip] = self.yoke.seam(usize::from(!left));
         let under = DVec2::new(self.quarter + wider, self.underarm);
         let hem = DVec2::new(self.hem_quarter + 0.5 * wider, self.hem);
-        let drop = DVec2::new(0.0, neck_height - neck_drop);
+        let drop = DVec2::new(0.0, neck.y - neck_drop);
         let depth = tip.y - under.y;
         let chest = tip.x - 0.020 + wider;
         let (first, second) = (DVec2::new(chest, tip.y - 0.45 * depth), DVec2::new(chest + 0.006, under.y));
@@ -127,12 +120,9 @@ fn bisect(mut low: f64, mut high: f64, f: impl Fn(f64) -> f64) -> f64 {
 pub fn tshirt(form: &Form) -> (Pattern, Marks) {
     let block = Block::new(form);
     let bust = form.mark("bust_front").y;
-    let back_height = form.from_shoulder(block.neck_width, bust, -1.0);
-    let front_height = form.from_shoulder(block.neck_width, bust, 1.0);
-    // Without a dart, most of what the bust asks for in length goes into the front.
-    let front_height = back_height + 0.85 * (front_height - back_height);
-    let mut front = block.body_piece("front", front_height, 0.095, true);
-    let mut back = block.body_piece("back", back_height, 0.028, false);
+    let [front_height, back_height] = block.yoke.heights;
+    let mut front = block.body_piece("front", 0.095, true);
+    let mut back = block.body_piece("back", 0.028, false);
     let m = &form.body.measurements;
     let mut left = sleeve(
         edge_length(&front, "armhole left"),
@@ -173,8 +163,7 @@ pub fn tshirt(form: &Form) -> (Pattern, Marks) {
         let body = form.part(&path, anchor, from, to);
         strokes.pair(piece, DVec2::new(0.0, from), DVec2::new(0.0, to), body);
     }
-    for (piece, side, sign) in [(left, "left", 1.0), (right, "right", -1.0)] {
-        let _ = sign;
+    for (piece, side) in [(left, "left"), (right, "right")] {
         let (tip, elbow) = (form.mark(&format!("shoulder_{side}")), form.mark(&format!("elbow_{side}")));
         let path = form.straight(tip, elbow);
         let (from, to) = (0.02, cap_height + SLEEVE_SEAM - 0.01);
