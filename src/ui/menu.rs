@@ -71,7 +71,8 @@ fn item(ui: &mut egui::Ui, now: &Situation, asks: &mut Asks, action: Action) {
         button = button.shortcut_text(ui.ctx().format_shortcut(keys));
     }
     let response = ui.add_enabled(why_not.is_none(), button.min_size(egui::vec2(190.0, 0.0)));
-    let response = response.on_hover_text(entry.tip).on_disabled_hover_text(why_not.unwrap_or_default());
+    // A tip over an entry that can be chosen would only hide the next one.
+    let response = response.on_disabled_hover_text(why_not.unwrap_or_default());
     if response.clicked() {
         asks.push(Ask::Act(action));
         ui.close();

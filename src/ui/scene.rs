@@ -252,6 +252,7 @@ fn body_marks(marks: &Marks, shown: &Shown<'_>, covered: usize, scale: f32, scen
 
 fn push_mark(scene: &mut Scene, points: Vec<Vec3>, number: usize, width: f32, lift: f32, scale: f32) {
     let Some(&first) = points.first() else { return };
+    let points = simplified(&points, 6e-4 * scale);
     let colour = opaque(mark_colour(number));
     let lift = lift * scale;
     let width = if points.len() == 1 { width * 2.2 } else { width };
@@ -267,6 +268,29 @@ fn push_mark(scene: &mut Scene, points: Vec<Vec3>, number: usize, width: f32, li
     });
 }
 
+/// Fewer points, none of the old ones further away than `tolerance` metres (Ramer, Douglas and Peucker): many short capsules
+/// would look like beads.
+fn simplified(points: &[Vec3], tolerance: f32) -> Vec<Vec3> {
+    let (Some(&first), Some(&last)) = (points.first(), points.last()) else { return Vec::new() };
+    let along = last - first;
+    let away = |p: Vec3| {
+        let t = ((p - first).dot(along) / along.length_squared().max(1e-18)).clamp(0.0, 1.0);
+        p.distance(first + along * t)
+    };
+    let farthest =
+        (1..points.len().saturating_sub(1)).max_by(|&i, &j| away(points[i]).total_cmp(&away(points[j])));
+    match farthest {
+        Some(i) if away(points[i]) > tolerance => {
+            let mut out = simplified(&points[..=i], tolerance);
+            out.pop();
+            out.extend(simplified(&points[i..], tolerance));
+            out
+        }
+        _ if points.len() < 2 => points.to_vec(),
+        _ => vec![first, last],
+    }
+}
+
 fn opaque(c: Rgb) -> [u8; 4] {
     [c[0], c[1], c[2], INK]
 }
@@ -278,5 +302,20 @@ fn ground(body: &Surface) -> Ground {
         height: lower.y as f32,
         centre: Vec2::new(middle.x as f32, middle.z as f32),
         radius: ((upper - lower).max_element() * 1.15) as f32,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_straight_line_needs_two_points_and_a_bend_keeps_its_corner() {
+        let straight: Vec<Vec3> = (0..50).map(|i| Vec3::X * i as f32 * 0.01).collect();
+        assert_eq!(simplified(&straight, 1e-4), [straight[0], straight[49]]);
+        let mut bent = straight.clone();
+        bent.extend((1..50).map(|i| straight[49] + Vec3::Y * i as f32 * 0.01));
+        assert_eq!(simplified(&bent, 1e-4), [bent[0], bent[49], bent[98]]);
+        assert_eq!(simplified(&bent[..1], 1e-4), [bent[0]]);
     }
 }

@@ -181,7 +181,8 @@ fn problems_ui(ui: &mut egui::Ui, document: &Document, problems: &[Problem], pal
 
 fn problem_row(ui: &mut egui::Ui, ink: egui::Color32, words: &str) {
     ui.horizontal_top(|ui| {
-        ui.label(RichText::new("⚠").color(ink));
+        let (sign, _) = ui.allocate_exact_size(egui::vec2(12.0, 16.0), egui::Sense::hover());
+        ui.painter().circle_filled(sign.center(), 4.0, ink);
         ui.add(egui::Label::new(words).wrap());
     });
 }

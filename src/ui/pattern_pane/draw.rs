@@ -72,16 +72,23 @@ impl Drawing<'_> {
         self.painter.add(Shape::mesh(mesh));
         let outline: Vec<Pos2> = shape.outline.iter().map(|&p| place(p)).collect();
         self.painter.add(Shape::closed_line(outline, Stroke::new(if lifted { 2.4 } else { 1.5 }, line)));
-        let size = (self.view.scale * 0.028).clamp(10.0, 15.0) as f32;
-        let name = if front { piece.name.clone() } else { format!("{} (back)", piece.name) };
-        let middle = place(shape.middle);
-        self.painter.text(
-            middle,
-            Align2::CENTER_CENTER,
-            name,
-            FontId::proportional(size),
-            self.palette.piece_text,
-        );
+    }
+
+    /// Names of the pieces, on a patch of the piece's own colour so that marks do not run through them.
+    pub fn names(&self, pattern: &Pattern, shapes: &Shapes) {
+        let size = (self.view.scale * 0.028).clamp(10.5, 15.0) as f32;
+        for (&id, piece) in &pattern.pieces {
+            let Some(shape) = shapes.of(id) else { continue };
+            let front = front_is_seen(piece, shape);
+            let fill = if front { self.palette.front[0] } else { self.palette.back[0] };
+            let name = if front { piece.name.clone() } else { format!("{} (back)", piece.name) };
+            let ink = self.palette.piece_text;
+            let text = self.painter.layout_no_wrap(name, FontId::proportional(size), ink);
+            let middle = self.place(piece.pose.plane_from_piece(shape.middle));
+            let at = Rect::from_center_size(middle, text.size());
+            self.painter.rect_filled(at.expand2(Vec2::new(5.0, 1.5)), 5.0, fill.gamma_multiply(0.88));
+            self.painter.galley(at.min, text, ink);
+        }
     }
 
     /// Threads between sewn edges; those of `near` stand out.

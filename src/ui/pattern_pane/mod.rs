@@ -291,6 +291,7 @@ impl PatternPane {
             let number = document.marks.cloth.len() + 1;
             drawing.mark(&points, number, number <= document.marks.body.len(), false);
         }
+        drawing.names(pattern, &self.shapes);
         drawing.scale_bar();
     }
 }

@@ -1,0 +1,383 @@
+//! The window without a window: pointer, keys and menus against the session.
+
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use egui::{Event, Key, Modifiers, PointerButton, Pos2, Rect, Vec2};
+use egui_kittest::Harness;
+use egui_kittest::kittest::{NodeT, Queryable};
+use glam::{DVec2, DVec3};
+use toile::body::Surface;
+use toile::geometry::mesh::TriMesh;
+use toile::pattern::Piece;
+use toile::session::{BodyChoice, Document, Project};
+use toile::ui::App;
+
+type Window = Harness<'static, Option<App>>;
+
+/// A square of cloth, 40 cm wide, and a ball of 25 cm radius.
+fn project() -> Project {
+    let mut document = Document::default();
+    let corners = [[-0.2, -0.2], [0.2, -0.2], [0.2, 0.2], [-0.2, 0.2]].map(DVec2::from);
+    Arc::make_mut(&mut document.pattern).add_piece(Piece::polygon("Square", &corners));
+    document.body = BodyChoice::Imported { name: "ball".to_owned(), mesh: Arc::new(ball(0.25)) };
+    Project { document, dressed: None }
+}
+
+fn ball(radius: f64) -> TriMesh {
+    let (rings, sides) = (24, 48);
+    let mut mesh = TriMesh { positions: vec![DVec3::Y * radius, -DVec3::Y * radius], triangles: Vec::new() };
+    for i in 1..rings {
+        let a = std::f64::consts::PI * f64::from(i) / f64::from(rings);
+        for j in 0..sides {
+            let b = std::f64::consts::TAU * f64::from(j) / f64::from(sides);
+            mesh.positions.push(DVec3::new(a.sin() * b.sin(), a.cos(), a.sin() * b.cos()) * radius);
+        }
+    }
+    let at = |i: i32, j: i32| (2 + (i - 1) * sides + j.rem_euclid(sides)) as u32;
+    for j in 0..sides {
+        mesh.triangles.push([0, at(1, j), at(1, j + 1)]);
+        mesh.triangles.push([1, at(rings - 1, j + 1), at(rings - 1, j)]);
+        for i in 1..rings - 1 {
+            mesh.triangles.push([at(i, j), at(i + 1, j), at(i + 1, j + 1)]);
+            mesh.triangles.push([at(i, j), at(i + 1, j + 1), at(i, j + 1)]);
+        }
+    }
+    mesh
+}
+
+fn window_on(project: Project, device: Option<egui_wgpu::RenderState>) -> Window {
+    let mut start = Some((project, device));
+    let mut window =
+        Harness::builder().with_size(Vec2::new(1280.0, 720.0)).with_step_dt(1.0 / 60.0).build_ui_state(
+            move |ui, app: &mut Option<App>| {
+                let app = app.get_or_insert_with(|| {
+                    let (project, device) = start.take().expect("only once");
+                    App::new(ui.ctx(), project, None, device).expect("a thread for the simulation")
+                });
+                app.ui(ui);
+            },
+            None,
+        );
+    window.run_steps(4);
+    window
+}
+
+fn window() -> Window {
+    window_on(project(), None)
+}
+
+fn app(window: &Window) -> &App {
+    window.state().as_ref().expect("the app")
+}
+
+fn counts(window: &Window) -> [usize; 2] {
+    let marks = &app(window).session().document().marks;
+    [marks.cloth.len(), marks.body.len()]
+}
+
+fn pane(window: &Window, label: &str) -> Rect {
+    window.get_by_label(label).rect()
+}
+
+fn button(window: &mut Window, at: Pos2, button: PointerButton, pressed: bool, modifiers: Modifiers) {
+    window.event(Event::PointerButton { pos: at, button, pressed, modifiers });
+    window.run_steps(1);
+}
+
+fn move_to(window: &mut Window, at: Pos2) {
+    window.event(Event::PointerMoved(at));
+    window.run_steps(1);
+}
+
+/// Presses, goes along `path` and does not let go.
+fn press_along(window: &mut Window, path: &[Pos2], with: PointerButton) {
+    move_to(window, path[0]);
+    button(window, path[0], with, true, Modifiers::NONE);
+    for &at in &path[1..] {
+        move_to(window, at);
+    }
+}
+
+fn drag(window: &mut Window, path: &[Pos2], with: PointerButton) {
+    press_along(window, path, with);
+    button(window, path[path.len() - 1], with, false, Modifiers::NONE);
+    window.run_steps(2);
+}
+
+/// A line of 11 points about the middle of a pane.
+fn line(pane: Rect, half: Vec2) -> Vec<Pos2> {
+    (0..=10).map(|i| pane.center() + half * (i as f32 / 5.0 - 1.0)).collect()
+}
+
+fn key(window: &mut Window, modifiers: Modifiers, key: Key) {
+    window.key_press_modifiers(modifiers, key);
+    window.run_steps(3);
+}
+
+fn paint_both(window: &mut Window) {
+    for label in ["Pattern pane", "Body pane"] {
+        let path = line(pane(window, label), Vec2::new(60.0, 0.0));
+        drag(window, &path, PointerButton::Primary);
+    }
+}
+
+/// Runs frames until `done`, for at most 20 seconds.
+fn wait(window: &mut Window, what: &str, done: impl Fn(&App) -> bool) {
+    let start = Instant::now();
+    while !done(app(window)) {
+        assert!(start.elapsed() < Duration::from_secs(20), "{what} took too long");
+        std::thread::sleep(Duration::from_millis(5));
+        window.run_steps(1);
+    }
+}
+
+#[test]
+fn every_menu_opens() {
+    let mut window = window();
+    for (menu, entry) in [
+        ("File", "Import pattern…"),
+        ("Edit", "Clear all marks"),
+        ("Garment", "Take the cloth off"),
+        ("View", "Parallel projection"),
+        ("Help", "Keys and mouse"),
+    ] {
+        window.get_by_label(menu).click();
+        window.run_steps(4);
+        assert!(window.query_by_label_contains(entry).is_some(), "{menu} lacks {entry}");
+        key(&mut window, Modifiers::NONE, Key::Escape);
+    }
+}
+
+#[test]
+fn wrap_waits_for_a_pair_of_marks() {
+    let mut window = window();
+    assert!(window.get_by_label("Wrap").accesskit_node().is_disabled());
+    let path = line(pane(&window, "Pattern pane"), Vec2::new(60.0, 0.0));
+    drag(&mut window, &path, PointerButton::Primary);
+    assert!(window.get_by_label("Wrap").accesskit_node().is_disabled());
+    assert!(window.query_by_label_contains("Mark 1 has no partner on the body yet").is_some());
+    let path = line(pane(&window, "Body pane"), Vec2::new(60.0, 0.0));
+    drag(&mut window, &path, PointerButton::Primary);
+    assert!(!window.get_by_label("Wrap").accesskit_node().is_disabled());
+    assert!(window.query_by_label_contains("no partner").is_none());
+}
+
+#[test]
+fn a_stroke_on_the_pattern_is_a_mark_and_one_step() {
+    let mut window = window();
+    let path = line(pane(&window, "Pattern pane"), Vec2::new(60.0, 20.0));
+    drag(&mut window, &path, PointerButton::Primary);
+    assert_eq!(counts(&window), [1, 0]);
+    assert!(window.query_by_label("Mark 1 on the cloth").is_some());
+    let mark = app(&window).session().document().marks.cloth[0].clone();
+    let (first, last) = (mark.points[0], mark.points[mark.points.len() - 1]);
+    assert!(first.x < 0.0 && last.x > 0.0 && first.y > last.y, "{first} {last}");
+    assert!((first + last).length() < 1e-3, "the middle of the pane is the middle of the square");
+    key(&mut window, Modifiers::COMMAND, Key::Z);
+    assert_eq!(counts(&window), [0, 0]);
+    key(&mut window, Modifiers::COMMAND.plus(Modifiers::SHIFT), Key::Z);
+    assert_eq!(counts(&window), [1, 0]);
+    assert_eq!(app(&window).session().document().marks.cloth[0], mark);
+}
+
+#[test]
+fn escape_gives_a_stroke_up() {
+    let mut window = window();
+    for label in ["Pattern pane", "Body pane"] {
+        let path = line(pane(&window, label), Vec2::new(60.0, 0.0));
+        press_along(&mut window, &path, PointerButton::Primary);
+        key(&mut window, Modifiers::NONE, Key::Escape);
+        move_to(&mut window, path[3]);
+        button(&mut window, path[3], PointerButton::Primary, false, Modifiers::NONE);
+        window.run_steps(2);
+        assert_eq!(counts(&window), [0, 0], "{label}");
+    }
+    assert_eq!(app(&window).session().undo_label(), None);
+}
+
+#[test]
+fn a_stroke_on_the_body_lies_on_its_skin() {
+    let mut window = window();
+    let path = line(pane(&window, "Body pane"), Vec2::new(80.0, 30.0));
+    drag(&mut window, &path, PointerButton::Primary);
+    assert_eq!(counts(&window), [0, 1]);
+    assert!(window.query_by_label("Mark 1 on the body").is_some());
+    let skin = Surface::new(ball(0.25)).expect("a ball");
+    let points = &app(&window).session().document().marks.body[0].points;
+    assert!(points.len() > 5);
+    assert!(points.iter().all(|&p| skin.nearest(p).distance.abs() < 1e-6 && p.z > 0.0));
+}
+
+#[test]
+fn a_click_makes_a_dot_and_control_click_takes_it_away() {
+    let mut window = window();
+    for label in ["Pattern pane", "Body pane"] {
+        let at = pane(&window, label).center();
+        drag(&mut window, &[at], PointerButton::Primary);
+    }
+    assert_eq!(counts(&window), [1, 1]);
+    let marks = &app(&window).session().document().marks;
+    assert_eq!([marks.cloth[0].points.len(), marks.body[0].points.len()], [1, 1]);
+    for label in ["Pattern pane", "Body pane"] {
+        let at = pane(&window, label).center();
+        move_to(&mut window, at);
+        window.event(Event::ModifiersChanged(Modifiers::COMMAND));
+        button(&mut window, at, PointerButton::Primary, true, Modifiers::COMMAND);
+        button(&mut window, at, PointerButton::Primary, false, Modifiers::COMMAND);
+        window.event(Event::ModifiersChanged(Modifiers::NONE));
+        window.run_steps(2);
+    }
+    assert_eq!(counts(&window), [0, 0]);
+}
+
+#[test]
+fn a_piece_is_moved_in_one_step_and_turned_over() {
+    let mut window = window();
+    key(&mut window, Modifiers::NONE, Key::V);
+    let area = pane(&window, "Pattern pane");
+    let path: Vec<Pos2> = (0..8).map(|i| area.center() + Vec2::new(9.0 * i as f32, 0.0)).collect();
+    drag(&mut window, &path, PointerButton::Primary);
+    let pose = |w: &Window| app(w).session().document().pattern.pieces.values().next().expect("a piece").pose;
+    let moved = pose(&window);
+    assert!(moved.offset.x > 0.01 && moved.offset.y.abs() < 1e-9, "{moved:?}");
+    assert_eq!(app(&window).session().step_labels().count(), 1);
+    let at = path[7];
+    for _ in 0..2 {
+        button(&mut window, at, PointerButton::Primary, true, Modifiers::NONE);
+        button(&mut window, at, PointerButton::Primary, false, Modifiers::NONE);
+    }
+    window.run_steps(2);
+    assert!(pose(&window).flipped);
+    assert!((pose(&window).offset - moved.offset).length() < 1e-9, "it turns about its own middle");
+    key(&mut window, Modifiers::COMMAND, Key::Z);
+    key(&mut window, Modifiers::COMMAND, Key::Z);
+    assert_eq!(pose(&window).offset, DVec2::ZERO);
+}
+
+#[test]
+fn the_view_turns_and_zooms_without_touching_the_document() {
+    let mut window = window();
+    let area = pane(&window, "Body pane");
+    drag(&mut window, &line(area, Vec2::new(50.0, 10.0)), PointerButton::Secondary);
+    drag(&mut window, &line(area, Vec2::new(50.0, 10.0)), PointerButton::Middle);
+    let area = pane(&window, "Pattern pane");
+    drag(&mut window, &line(area, Vec2::new(50.0, 10.0)), PointerButton::Middle);
+    key(&mut window, Modifiers::NONE, Key::Num7);
+    assert_eq!(counts(&window), [0, 0]);
+    assert!(!app(&window).session().is_modified());
+}
+
+#[test]
+fn wrap_grows_cloth_round_the_body_and_undo_takes_it_off() {
+    let mut window = window();
+    paint_both(&mut window);
+    assert_eq!(counts(&window), [1, 1]);
+    window.get_by_label("Wrap").click();
+    window.run_steps(2);
+    wait(&mut window, "the wrap", |app| app.session().snapshot().is_dressed());
+    key(&mut window, Modifiers::COMMAND, Key::Z);
+    wait(&mut window, "the undo", |app| !app.session().snapshot().is_dressed());
+    assert_eq!(counts(&window), [1, 1]);
+}
+
+#[test]
+fn nothing_is_drawn_while_nothing_changes() {
+    let device = egui_wgpu_device();
+    let with_pictures = device.is_some();
+    let mut window = window_on(project(), device);
+    paint_both(&mut window);
+    move_to(&mut window, Pos2::new(640.0, 700.0));
+    // What is still to be finished: tooltips, fading, the picture after the last stroke.
+    let start = Instant::now();
+    while start.elapsed() < Duration::from_millis(1500) {
+        std::thread::sleep(Duration::from_millis(50));
+        window.run_steps(1);
+    }
+    let root = &window.output().viewport_output[&egui::ViewportId::ROOT];
+    assert!(root.repaint_delay > Duration::from_secs(3600), "asks for a frame in {:?}", root.repaint_delay);
+    let pictures = app(&window).pictures();
+    assert_eq!(pictures > 0, with_pictures);
+    window.run_steps(10);
+    assert_eq!(app(&window).pictures(), pictures);
+}
+
+fn egui_wgpu_device() -> Option<egui_wgpu::RenderState> {
+    if let Err(why) = toile::render::Gpu::headless() {
+        println!("only frames are counted: {why}");
+        return None;
+    }
+    let setup = egui_kittest::wgpu::default_wgpu_setup();
+    Some(egui_kittest::wgpu::create_render_state(setup, Default::default()))
+}
+
+#[test]
+fn closing_with_changes_asks_first() {
+    let mut window = window();
+    let close = |window: &mut Window| {
+        let root = window.input_mut().viewports.entry(egui::ViewportId::ROOT).or_default();
+        root.events.push(egui::ViewportEvent::Close);
+        window.run_steps(1);
+        let root = window.input_mut().viewports.entry(egui::ViewportId::ROOT).or_default();
+        root.events.clear();
+        window.run_steps(2);
+    };
+    close(&mut window);
+    assert!(window.query_by_label("Don't save").is_none(), "nothing is unsaved yet");
+    let at = pane(&window, "Pattern pane").center();
+    drag(&mut window, &[at], PointerButton::Primary);
+    close(&mut window);
+    window.get_by_label("Cancel").click();
+    window.run_steps(3);
+    assert!(window.query_by_label("Don't save").is_none());
+    assert_eq!(counts(&window), [1, 0]);
+}
+
+#[test]
+fn a_project_is_saved_by_a_typed_path_where_the_desktop_has_no_dialog() {
+    if std::env::var_os("DBUS_SESSION_BUS_ADDRESS").is_some() {
+        println!("skipped: this desktop may have a dialog of its own");
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("saved");
+    let mut window = window();
+    let at = pane(&window, "Pattern pane").center();
+    drag(&mut window, &[at], PointerButton::Primary);
+    key(&mut window, Modifiers::COMMAND, Key::S);
+    let field = window.get_by_role(egui::accesskit::Role::TextInput);
+    field.focus();
+    window.run_steps(2);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    window.run_steps(1);
+    window.get_by_role(egui::accesskit::Role::TextInput).type_text(&path.display().to_string());
+    window.run_steps(2);
+    window.get_by_label("Write").click();
+    window.run_steps(3);
+    let saved = toile::session::project_file::open(&path.with_extension("toile")).expect("a project");
+    assert_eq!(&saved.document, app(&window).session().document());
+    assert!(!app(&window).session().is_modified());
+}
+
+#[test]
+fn an_empty_table_offers_a_sample() {
+    let document = Document { body: project().document.body, ..Document::default() };
+    let mut window = window_on(Project { document, dressed: None }, None);
+    assert!(window.query_by_label("Open the T-shirt").is_some());
+    assert!(window.get_by_label("Wrap").accesskit_node().is_disabled());
+    key(&mut window, Modifiers::NONE, Key::Enter);
+    assert!(!app(&window).session().is_modified());
+}
+
+#[test]
+fn losing_the_pointer_or_the_window_ends_a_stroke() {
+    let mut window = window();
+    let path = line(pane(&window, "Pattern pane"), Vec2::new(60.0, 0.0));
+    press_along(&mut window, &path, PointerButton::Primary);
+    window.event(Event::PointerGone);
+    window.run_steps(2);
+    assert_eq!(counts(&window), [1, 0]);
+    move_to(&mut window, path[2]);
+    window.run_steps(2);
+    assert_eq!(counts(&window), [1, 0], "no second stroke begins by itself");
+}
