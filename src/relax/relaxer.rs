@@ -257,7 +257,7 @@ impl Relaxer {
     fn gather(&mut self, state: &ClothState, weight: bool) {
         let (garment, turned) = (&*self.garment, &self.turned);
         let gravity = if weight { self.settings.gravity } else { 0.0 };
-        let areas = &self.areas;
+        let (areas, stretch) = (&self.areas, self.settings.stretch);
         self.sums.par_iter_mut().zip(self.laplacian.par_iter_mut()).enumerate().for_each(
             |(v, (sum, lap))| {
                 *sum = DVec3::NEG_Y * (gravity * areas[v]);
@@ -270,7 +270,7 @@ impl Relaxer {
                     let k = vs.iter().position(|&w| w == v as u32).unwrap_or(0);
                     let corners = vs.map(|w| state.positions[w as usize]);
                     let from_centre = corners[k] - (corners[0] + corners[1] + corners[2]) / 3.0;
-                    *sum += turned[t as usize][k] - from_centre;
+                    *sum += (turned[t as usize][k] - from_centre) * stretch;
                     *lap += from_centre;
                 }
             },

@@ -99,15 +99,28 @@ pub fn dress(form: &Form) -> (Pattern, Marks) {
         waist: waist - bust - 0.004,
     };
     let quarter = (m.bust + BUST_EASE) / 4.0;
-    let front_cut =
-        Bodice { side: 0, neck_drop: 0.115, quarter: quarter + FRONT_SHARE, hollow: 0.006, dart: [0.115, 0.034] };
-    let back_cut =
-        Bodice { side: 1, neck_drop: 0.045, quarter: quarter - FRONT_SHARE, hollow: 0.014, dart: [0.135, 0.028] };
+    let front_cut = Bodice {
+        side: 0,
+        neck_drop: 0.115,
+        quarter: quarter + FRONT_SHARE,
+        hollow: 0.006,
+        dart: [0.115, 0.034],
+    };
+    let back_cut = Bodice {
+        side: 1,
+        neck_drop: 0.045,
+        quarter: quarter - FRONT_SHARE,
+        hollow: 0.014,
+        dart: [0.135, 0.028],
+    };
     let mut front = bodice("bodice front", &yoke, &front_cut, &lines(&skirt_front));
     let mut back = bodice("bodice back", &yoke, &back_cut, &lines(&skirt_back));
-    for (piece, height, side) in
-        [(&mut front, bust, 1.0), (&mut back, bust, -1.0), (&mut skirt_front, waist, 1.0), (&mut skirt_back, waist, -1.0)]
-    {
+    for (piece, height, side) in [
+        (&mut front, bust, 1.0),
+        (&mut back, bust, -1.0),
+        (&mut skirt_front, waist, 1.0),
+        (&mut skirt_back, waist, -1.0),
+    ] {
         let turn = if side > 0.0 { 0.0 } else { std::f64::consts::PI };
         piece.placement = Some(standing(DVec3::new(0.0, height, 0.30 * side), turn));
         piece.label = Some("body".to_owned());

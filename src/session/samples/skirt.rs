@@ -32,7 +32,8 @@ pub fn band(name: &str, parts: &[f64]) -> Piece {
     let mut x = -half;
     for (i, part) in parts.iter().enumerate() {
         x += part;
-        outline = outline.line(&format!("lower {i}"), corner(if i + 1 == parts.len() { half } else { x }, 0.0));
+        outline =
+            outline.line(&format!("lower {i}"), corner(if i + 1 == parts.len() { half } else { x }, 0.0));
     }
     outline
         .line("end right", corner(half, BAND))

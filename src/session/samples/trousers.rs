@@ -129,7 +129,8 @@ pub fn trousers(form: &Form) -> (Pattern, Marks) {
     let mut front_left = block.leg("front left", &front, 0.0);
     // The back's fork is lowered until both inner seams are as long.
     let inner = edge_length(&front_left, "in upper");
-    let drop = (0..40).fold(0.0, |drop, _| drop + edge_length(&block.leg("", &back, drop), "in upper") - inner);
+    let drop =
+        (0..40).fold(0.0, |drop, _| drop + edge_length(&block.leg("", &back, drop), "in upper") - inner);
     let mut back_right = block.leg("back right", &back, drop);
     let y = form.mark("waist_front").y;
     face(&mut front_left, &mut back_right, y);
