@@ -33,12 +33,8 @@ impl Scene {
         let document = &self.project.document;
         let (garment, _) = build(&document.pattern, FINE);
         let triangles = garment.triangles.len();
-        let (dressing, mut state, _) = Dressing::new(
-            Arc::new(garment),
-            self.surface.clone(),
-            &document.marks,
-            document.settings.relax,
-        );
+        let (dressing, mut state, _) =
+            Dressing::new(Arc::new(garment), self.surface.clone(), &document.marks, document.settings.relax);
         let mut dressing = dressing.expect("the matrix fits in memory");
         let mut ticks = 1;
         while dressing.step(&mut state) != Phase::AtRest {

@@ -36,6 +36,7 @@
 pub mod body;
 pub mod cloth;
 pub mod contact;
+pub mod fit;
 pub mod geometry;
 pub mod io;
 pub mod pattern;

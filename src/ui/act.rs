@@ -72,7 +72,8 @@ impl App {
         let offset = document.settings.relax.offset * surface.scale();
         let marks = suggested(&document.pattern, surface, offset);
         if marks.pairs().next().is_none() {
-            let words = "No marks can be proposed: the pattern does not say where its pieces go round the body.";
+            let words =
+                "No marks can be proposed: the pattern does not say where its pieces go round the body.";
             return self.messages.error(words);
         }
         self.apply(Command::SetMarks { marks: Arc::new(marks) });

@@ -36,7 +36,13 @@ impl Outline {
     /// A piece called `name`; the last edge must have come back to the start.
     pub fn piece(self, name: &str) -> Piece {
         debug_assert!(self.edges[0].start.distance(self.at) < 1e-9, "{name} is not closed");
-        Piece { name: name.to_owned(), outline: self.edges, pose: PlanePose::default(), placement: None, label: None }
+        Piece {
+            name: name.to_owned(),
+            outline: self.edges,
+            pose: PlanePose::default(),
+            placement: None,
+            label: None,
+        }
     }
 }
 

@@ -50,8 +50,11 @@ impl Sample {
             Self::Tshirt => tshirt::tshirt(&form),
             Self::Skirt => skirt::skirt(&form),
         };
-        let mut document =
-            Document { pattern: Arc::new(pattern), body: BodyChoice::Mannequin(body.measurements), ..Document::default() };
+        let mut document = Document {
+            pattern: Arc::new(pattern),
+            body: BodyChoice::Mannequin(body.measurements),
+            ..Document::default()
+        };
         document.take_marks(Arc::new(marks));
         Project { document, dressed: None }
     }

@@ -32,7 +32,8 @@ pub fn band(name: &str, parts: &[f64]) -> Piece {
     let mut x = -half;
     for (i, part) in parts.iter().enumerate() {
         x += part;
-        outline = outline.line(&format!("lower {i}"), corner(if i + 1 == parts.len() { half } else { x }, 0.0));
+        outline =
+            outline.line(&format!("lower {i}"), corner(if i + 1 == parts.len() { half } else { x }, 0.0));
     }
     outline
         .line("end right", corner(half, BAND))
@@ -130,7 +131,11 @@ pub fn skirt(form: &Form) -> (Pattern, Marks) {
     }
     for part in ["upper", "lower"] {
         for (side, other) in [("left", "right"), ("right", "left")] {
-            sew(&mut pattern, (front, &format!("side {part} {side}")), (back, &format!("side {part} {other}")));
+            sew(
+                &mut pattern,
+                (front, &format!("side {part} {side}")),
+                (back, &format!("side {part} {other}")),
+            );
         }
     }
     let edges = |piece: PieceId| WAIST_EDGES.map(|label| (piece, label.to_owned()));

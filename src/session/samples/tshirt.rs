@@ -85,7 +85,8 @@ impl Block {
 /// The left sleeve, drawn from outside: the front of the wearer lies at -x.
 fn sleeve(front_armhole: f64, back_armhole: f64, width: f64, hem_width: f64) -> Piece {
     let cap_length = |half: f64, height: f64| {
-        let piece = half_cap(half, height).line("x", DVec2::new(half, 0.0)).line("y", DVec2::ZERO).piece("cap");
+        let piece =
+            half_cap(half, height).line("x", DVec2::new(half, 0.0)).line("y", DVec2::ZERO).piece("cap");
         piece.edge_length(0)
     };
     let (front, back) = (front_armhole * CAP_EASE, back_armhole * CAP_EASE);
@@ -144,13 +145,17 @@ pub fn tshirt(form: &Form) -> (Pattern, Marks) {
     front.placement = Some(standing(DVec3::new(0.0, bust, 0.30), 0.0));
     back.placement = Some(standing(DVec3::new(0.0, bust, -0.30), std::f64::consts::PI));
     let elbow = form.mark("elbow_left");
-    left.placement = Some(standing(DVec3::new(elbow.x + 0.15, elbow.y + 0.1, 0.0), std::f64::consts::FRAC_PI_2));
-    right.placement = Some(standing(DVec3::new(-elbow.x - 0.15, elbow.y + 0.1, 0.0), -std::f64::consts::FRAC_PI_2));
-    for (piece, label) in [(&mut front, "body"), (&mut back, "body"), (&mut left, "arm"), (&mut right, "arm")] {
+    left.placement =
+        Some(standing(DVec3::new(elbow.x + 0.15, elbow.y + 0.1, 0.0), std::f64::consts::FRAC_PI_2));
+    right.placement =
+        Some(standing(DVec3::new(-elbow.x - 0.15, elbow.y + 0.1, 0.0), -std::f64::consts::FRAC_PI_2));
+    for (piece, label) in [(&mut front, "body"), (&mut back, "body"), (&mut left, "arm"), (&mut right, "arm")]
+    {
         piece.label = Some(label.to_owned());
     }
     let mut pattern = Pattern::default();
-    let ids: Vec<_> = sheet(vec![vec![front, back], vec![left, right]]).into_iter().map(|p| pattern.add_piece(p)).collect();
+    let ids: Vec<_> =
+        sheet(vec![vec![front, back], vec![left, right]]).into_iter().map(|p| pattern.add_piece(p)).collect();
     let [front, back, left, right] = ids[..] else { unreachable!("four pieces were laid") };
     for side in ["left", "right"] {
         let sleeve = if side == "left" { left } else { right };
