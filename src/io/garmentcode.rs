@@ -193,7 +193,11 @@ impl Convention {
             return Err(at.error("a relative control point this far from its edge cannot be"));
         }
         let along = end - start;
-        Ok(start + along * u + along.perp() * v)
+        let control = start + along * u + along.perp() * v;
+        if control.abs().max_element() > self.largest_coordinate {
+            return Err(at.error(format!("the control point is beyond {} m", self.largest_coordinate)));
+        }
+        Ok(control)
     }
 
     fn arc(&self, params: &At<'_>, chord: f64) -> Result<EdgeShape, JsonError> {

@@ -14,6 +14,9 @@ use crate::io::Limits;
 use crate::io::polygon;
 use crate::pattern::Pattern;
 
+/// Corners tested while concave faces are cut, in all; about half a second.
+const EAR_TESTS: usize = 100_000_000;
+
 /// Why a file is not a usable mesh.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ObjError {
@@ -139,6 +142,9 @@ impl<'a> Scan<'a> {
         };
         let fault = |words: String| ObjError::Line { line, words };
         match keyword {
+            "v" if self.vertices == self.limits.vertices => {
+                Err(ObjError::OverLimit(format!("line {line}: more than {} vertices", self.limits.vertices)))
+            }
             "v" => self.vertex(words).map_err(fault),
             "f" | "fo" => self.face(line, words),
             "o" | "g" => self.group(line),
@@ -155,9 +161,6 @@ impl<'a> Scan<'a> {
     }
 
     fn vertex<'t>(&mut self, mut words: impl Iterator<Item = &'t str>) -> Result<(), String> {
-        if self.vertices == self.limits.vertices {
-            return Err(format!("more than {} vertices", self.limits.vertices));
-        }
         let mut numbers = [""; 3];
         for slot in &mut numbers {
             let word = words.next().ok_or("a vertex needs three numbers")?;
@@ -246,7 +249,7 @@ impl<'a> Scan<'a> {
         let text = self.vertex_text + &self.face_text;
         let (mesh, arities) = load(&text)?;
         let mut notes = self.notes;
-        let mesh = triangulated(mesh, &arities, &mut notes);
+        let mesh = triangulated(mesh, &arities, &mut notes)?;
         if mesh.triangles.is_empty() {
             return Err(ObjError::File("every face of the file is degenerate".to_owned()));
         }
@@ -357,9 +360,10 @@ fn load(text: &str) -> Result<(tobj::Mesh, Vec<u32>), ObjError> {
     Ok((mesh, arities))
 }
 
-fn triangulated(mesh: tobj::Mesh, arities: &[u32], notes: &mut ObjNotes) -> TriMesh {
+fn triangulated(mesh: tobj::Mesh, arities: &[u32], notes: &mut ObjNotes) -> Result<TriMesh, ObjError> {
     let positions: Vec<DVec3> = mesh.positions.chunks_exact(3).map(DVec3::from_slice).collect();
     let mut triangles = Vec::new();
+    let mut budget = EAR_TESTS;
     let mut start = 0;
     for &arity in arities {
         let corners = &mesh.indices[start..start + arity as usize];
@@ -369,7 +373,9 @@ fn triangulated(mesh: tobj::Mesh, arities: &[u32], notes: &mut ObjNotes) -> TriM
             [a, b, c] => triangles.push([a, b, c]),
             _ => {
                 let points: Vec<DVec3> = corners.iter().map(|&v| positions[v as usize]).collect();
-                let cut = polygon::triangles(&points);
+                let cut = polygon::triangles(&points, &mut budget).ok_or_else(|| {
+                    ObjError::OverLimit("its concave faces take too long to cut".to_owned())
+                })?;
                 notes.polygons += 1;
                 notes.concave_polygons += usize::from(cut.concave);
                 triangles.extend(cut.triangles.iter().map(|t| t.map(|k| corners[k])));
@@ -379,7 +385,7 @@ fn triangulated(mesh: tobj::Mesh, arities: &[u32], notes: &mut ObjNotes) -> TriM
     let all = triangles.len();
     triangles.retain(|&[a, b, c]| a != b && b != c && c != a);
     notes.degenerate_faces += all - triangles.len();
-    TriMesh { positions, triangles }
+    Ok(TriMesh { positions, triangles })
 }
 
 /// The dressed garment: one object per piece, sewn vertices shared, `v` in metres, `vt` the pattern plane in metres, each

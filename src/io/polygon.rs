@@ -11,15 +11,16 @@ pub(super) struct Cut {
 }
 
 /// Cuts a polygon of three or more corners: a fan when it is convex, else ears, in the plane of its mean (Newell) normal.
-pub(super) fn triangles(points: &[DVec3]) -> Cut {
+/// `budget` is how many corners may still be tested; None when it runs out.
+pub(super) fn triangles(points: &[DVec3], budget: &mut usize) -> Option<Cut> {
     let flat = in_own_plane(points);
     let n = flat.len();
     let scale = flat.iter().map(|p| p.length_squared()).fold(0.0, f64::max);
     let convex = (0..n).all(|i| turn(flat[i], flat[(i + 1) % n], flat[(i + 2) % n]) >= -1e-9 * scale);
     if convex {
-        return Cut { triangles: (1..n - 1).map(|k| [0, k, k + 1]).collect(), concave: false };
+        return Some(Cut { triangles: (1..n - 1).map(|k| [0, k, k + 1]).collect(), concave: false });
     }
-    Cut { triangles: ears(&flat), concave: true }
+    Some(Cut { triangles: ears(&flat, budget)?, concave: true })
 }
 
 /// Corners seen along the mean normal, so that the polygon runs counter-clockwise; about its centre.
@@ -40,13 +41,14 @@ fn turn(a: DVec2, b: DVec2, c: DVec2) -> f64 {
 
 /// Ear clipping (Meisters 1975), at most n² tests of n corners. Where no ear is left, as in a polygon that crosses
 /// itself, the sharpest convex corner goes.
-fn ears(points: &[DVec2]) -> Vec<[usize; 3]> {
+fn ears(points: &[DVec2], budget: &mut usize) -> Option<Vec<[usize; 3]>> {
     let mut left: Vec<usize> = (0..points.len()).collect();
     let mut triangles = Vec::with_capacity(points.len() - 2);
     while left.len() > 3 {
         let n = left.len();
         let corner = |i: usize| [left[(i + n - 1) % n], left[i], left[(i + 1) % n]];
         let ear = (0..n).find(|&i| is_ear(points, &left, corner(i)));
+        *budget = budget.checked_sub(n * (ear.unwrap_or(n) + 1))?;
         let ear = ear.unwrap_or_else(|| {
             let area = |i: usize| turn_of(points, corner(i));
             (0..n).max_by(|&i, &j| area(i).total_cmp(&area(j))).unwrap_or(0)
@@ -55,7 +57,7 @@ fn ears(points: &[DVec2]) -> Vec<[usize; 3]> {
         left.remove(ear);
     }
     triangles.push([left[0], left[1], left[2]]);
-    triangles
+    Some(triangles)
 }
 
 fn turn_of(points: &[DVec2], [a, b, c]: [usize; 3]) -> f64 {
@@ -83,10 +85,21 @@ mod tests {
             .collect()
     }
 
+    fn cut(points: &[DVec3]) -> Cut {
+        triangles(points, &mut 10_000).expect("within the budget")
+    }
+
+    #[test]
+    fn the_budget_ends() {
+        let points = [DVec3::ZERO, DVec3::X, DVec3::new(0.1, 0.1, 0.0), DVec3::Y];
+        assert!(cut(&points).concave);
+        assert!(triangles(&points, &mut 3).is_none());
+    }
+
     #[test]
     fn a_square_is_a_fan() {
         let points = [DVec3::ZERO, DVec3::X, DVec3::new(1.0, 1.0, 0.0), DVec3::Y];
-        let cut = triangles(&points);
+        let cut = cut(&points);
         assert!(!cut.concave);
         assert_eq!(cut.triangles, [[0, 1, 2], [0, 2, 3]]);
     }
@@ -96,7 +109,7 @@ mod tests {
         let mut points = vec![DVec3::new(0.0, -1.0, 0.0), DVec3::new(8.0, -1.0, 0.0)];
         points
             .extend((0..=8).rev().map(|k| DVec3::new(f64::from(k), if k % 2 == 0 { 2.0 } else { 0.0 }, 0.0)));
-        let cut = triangles(&points);
+        let cut = cut(&points);
         assert!(cut.concave);
         let areas = areas(&points, &cut);
         assert_eq!(areas.len(), points.len() - 2);
@@ -108,6 +121,6 @@ mod tests {
     fn a_star_that_crosses_itself_ends() {
         let points: Vec<DVec3> =
             (0..5).map(|k| DVec2::from_angle(f64::from(k * 2) * 1.2566).extend(0.0)).collect();
-        assert_eq!(triangles(&points).triangles.len(), 3);
+        assert_eq!(cut(&points).triangles.len(), 3);
     }
 }

@@ -1,0 +1,80 @@
+//! Bodies made by others, read from the folder that `TOILE_DATA` names; without it these tests pass with a line.
+
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+use toile::body::{Imported, Unit, guess_unit, import};
+use toile::io::obj;
+
+fn bytes(name: &str) -> Option<Vec<u8>> {
+    let Some(data) = std::env::var_os("TOILE_DATA").map(PathBuf::from) else {
+        println!("TOILE_DATA is not set: left out");
+        return None;
+    };
+    let path = data.join("bodies").join(name);
+    Some(std::fs::read(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display())))
+}
+
+fn body(name: &str) -> Option<Imported> {
+    let read = obj::read(&bytes(name)?).unwrap_or_else(|e| panic!("{name}: {e}"));
+    Some(import(read.mesh, Unit::Metre))
+}
+
+/// Vertices, triangles, height and volume of a body that is closed, manifold and outward as it comes.
+fn check(name: &str, vertices: usize, triangles: usize, height: f64, volume: f64) {
+    let Some(body) = body(name) else { return };
+    let report = &body.report;
+    assert!(body.is_usable(), "{name}: {:?}", body.problems);
+    assert_eq!((report.vertices, report.triangles, report.components), (vertices, triangles, 1), "{name}");
+    assert_eq!((report.turned_triangles, report.inverted, report.welded_vertices), (0, false, 0), "{name}");
+    assert!((report.size.y - height).abs() < 6e-4, "{name}: {} m", report.size.y);
+    assert!((report.volume / volume - 1.0).abs() < 1e-3, "{name}: {} cubic metres", report.volume);
+}
+
+#[test]
+fn closed_bodies_are_taken_as_they_are() {
+    check("makehuman/mh_base_rest.obj", 13380, 26756, 1.666, 0.0549);
+    check("makehuman/mh_female_rest.obj", 13380, 26756, 1.605, 0.04956);
+    check("makehuman/mh_male_rest.obj", 13380, 26756, 1.748, 0.06528);
+    check("makehuman/mh_female_tpose.obj", 13380, 26756, 1.608, 0.05006);
+    check("makehuman/mh_female_walk4.obj", 13380, 26756, 1.506, 0.0478);
+    check("garmentcode/mean_all.obj", 23752, 47500, 1.72, 0.07296);
+    check("garmentcode/mean_all_tpose.obj", 23752, 47500, 1.72, 0.07399);
+    check("nonhuman/spot_low_resolution.obj", 829, 1654, 1.756, 0.6797);
+    check("nonhuman/spot.obj", 11533, 23062, 1.748, 0.688);
+    check("nonhuman/koala_low_resolution.obj", 3560, 7116, 5.339, 56.11);
+    check("nonhuman/octopus_surface.obj", 881, 1758, 10.325, 46.15);
+}
+
+#[test]
+fn an_open_scan_is_refused_in_words() {
+    let Some(body) = body("nonhuman/demosthenes-low-res.obj") else { return };
+    assert_eq!(body.report.open_edges, 67);
+    assert!(body.problems[0].words.contains("the body is open: 67 edges"), "{:?}", body.problems);
+}
+
+#[test]
+fn tetrahedra_are_no_body() {
+    let Some(bytes) = bytes("nonhuman/octopus_original_tet.obj") else { return };
+    let start = Instant::now();
+    let error = obj::read(&bytes).expect_err("no faces").to_string();
+    assert!(error.contains("977 vertices but no faces") && error.contains("\"t\""), "{error}");
+    assert!(start.elapsed() < Duration::from_secs(1));
+}
+
+#[test]
+fn an_original_with_helpers_is_told_apart() {
+    let Some(body) = body("makehuman/original/base.obj") else { return };
+    assert!(body.report.components > 1);
+    assert_eq!(guess_unit(body.report.size.y), Some(Unit::Decimetre));
+    assert!(body.notes.iter().any(|n| n.contains("--unit dm")), "{:?}", body.notes);
+}
+
+#[test]
+fn guesses_of_units_are_right_or_missing() {
+    let height = |name| body(name).map(|b| b.report.size.y);
+    let Some(human) = height("garmentcode/mean_all.obj") else { return };
+    assert_eq!(guess_unit(human), Some(Unit::Metre));
+    assert_eq!(guess_unit(human * 100.0), Some(Unit::Centimetre));
+    assert_eq!(guess_unit(human / 0.0254), Some(Unit::Inch));
+}
