@@ -12,8 +12,8 @@ use crate::cli::{formats, output, run};
 use crate::pattern::Problem;
 use crate::session::Session;
 use crate::session::recording::Hex;
-use crate::sim::Stats;
-use crate::wrap::Phase;
+use crate::sim::{Snapshot, Stats};
+use crate::wrap::{MarkError, Phase, mark_error};
 
 /// `report.json`.
 #[derive(Debug, Serialize)]
@@ -28,6 +28,7 @@ pub struct Report {
     unmapped: usize,
     triangles: usize,
     vertices: usize,
+    mark_error: MarkError,
     problems: Vec<Problem>,
     seconds: Seconds,
     counters: Stats,
@@ -87,6 +88,7 @@ pub fn write(
         unmapped: snapshot.cloth.mapped.iter().filter(|&&m| !m).count(),
         triangles: snapshot.garment.as_ref().map_or(0, |g| g.triangles.len()),
         vertices: snapshot.cloth.positions.len(),
+        mark_error: marks_met(snapshot),
         problems: snapshot.problems.to_vec(),
         seconds,
         counters: snapshot.stats,
@@ -98,6 +100,13 @@ pub fn write(
 /// Hash of what moves in a session that runs inline.
 pub fn state_hash(session: &mut Session) -> Result<u64, Failure> {
     Ok(run::simulation(session)?.hash())
+}
+
+fn marks_met(snapshot: &Snapshot) -> MarkError {
+    let (Some(garment), Some(body), Some(source)) = (&snapshot.garment, &snapshot.body, &snapshot.source) else {
+        return MarkError::default();
+    };
+    mark_error(garment, &snapshot.cloth, body, &source.marks, source.relax.offset * body.scale())
 }
 
 /// Without a graphics adapter: why not.

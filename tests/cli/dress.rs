@@ -26,6 +26,8 @@ fn a_project_is_dressed_without_an_adapter() {
     // The saved project is dressed: it can be exported and checked again.
     place.ends(0, "export dressed.toile -o cloth.obj");
     assert_eq!(place.read("cloth.obj"), garment);
+    place.ends(0, "export dressed.toile -o cloth.GLB");
+    assert!(std::fs::read(place.path("cloth.GLB")).expect("read").starts_with(b"glTF"));
     place.ends_with_words(3, "export ball.toile -o cloth2.obj", "no dressed cloth");
     place.ends_with_words(5, "render dressed.toile -o view.png", "adapter");
     place.ends(0, "check dressed.toile");
