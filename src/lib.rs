@@ -37,7 +37,7 @@ pub mod body;
 pub mod cli;
 pub mod cloth;
 pub mod contact;
-
+pub mod fit;
 pub mod geometry;
 pub mod io;
 pub mod pattern;

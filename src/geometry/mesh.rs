@@ -2,6 +2,8 @@
 
 use glam::DVec3;
 
+use crate::geometry::bvh::{Aabb, Bvh};
+
 /// Triangles over shared positions. Counter-clockwise seen from outside.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TriMesh {
@@ -31,6 +33,12 @@ impl TriMesh {
                 a.dot(b.cross(c)) / 6.0
             })
             .sum()
+    }
+
+    /// A box tree over the triangles.
+    pub fn tree(&self) -> Bvh {
+        let boxes: Vec<Aabb> = (0..self.triangles.len()).map(|t| Aabb::around(&self.corners(t))).collect();
+        Bvh::new(&boxes)
     }
 
     /// Area-weighted unit normals per vertex; zero where a vertex has no area around it.

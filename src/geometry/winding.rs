@@ -26,13 +26,14 @@ struct Dipole {
 #[derive(Clone, Debug)]
 pub struct Winding<'a> {
     mesh: &'a TriMesh,
-    tree: &'a Bvh,
+    tree: Bvh,
     dipoles: Vec<Dipole>,
 }
 
 impl<'a> Winding<'a> {
-    /// `tree` is over the triangles of `mesh`.
-    pub fn new(mesh: &'a TriMesh, tree: &'a Bvh) -> Self {
+    /// Builds the tree and its dipoles.
+    pub fn new(mesh: &'a TriMesh) -> Self {
+        let tree = mesh.tree();
         let dipoles = tree
             .nodes
             .iter()
@@ -42,6 +43,11 @@ impl<'a> Winding<'a> {
             })
             .collect();
         Self { mesh, tree, dipoles }
+    }
+
+    /// The box tree over the triangles.
+    pub fn tree(&self) -> &Bvh {
+        &self.tree
     }
 
     /// The winding number at `p`.
@@ -121,11 +127,6 @@ mod tests {
         mesh
     }
 
-    fn tree(mesh: &TriMesh) -> Bvh {
-        let boxes: Vec<Aabb> = (0..mesh.triangles.len()).map(|t| Aabb::around(&mesh.corners(t))).collect();
-        Bvh::new(&boxes)
-    }
-
     fn exact(mesh: &TriMesh, p: DVec3) -> f64 {
         let sum: f64 =
             (0..mesh.triangles.len()).map(|t| triangle_solid_angle(mesh.corners(t).map(|c| c - p))).sum();
@@ -136,8 +137,7 @@ mod tests {
     fn a_sphere_winds_once_inside_and_never_outside() {
         let mesh = sphere(40);
         assert!((mesh.volume() - 4.0 / 3.0 * std::f64::consts::PI).abs() < 0.05);
-        let tree = tree(&mesh);
-        let winding = Winding::new(&mesh, &tree);
+        let winding = Winding::new(&mesh);
         for (p, expected) in [(0.0, 1.0), (0.5, 1.0), (0.98, 1.0), (1.01, 0.0), (2.0, 0.0), (30.0, 0.0)] {
             let p = DVec3::new(0.6, 0.48, 0.64) * p;
             assert!((exact(&mesh, p) - expected).abs() < 1e-6);
@@ -152,8 +152,7 @@ mod tests {
         let first = mesh.positions.len() as u32;
         mesh.positions.extend(other.positions.iter().map(|&p| p + DVec3::X));
         mesh.triangles.extend(other.triangles.iter().map(|t| t.map(|v| v + first)));
-        let tree = tree(&mesh);
-        let winding = Winding::new(&mesh, &tree);
+        let winding = Winding::new(&mesh);
         for (x, expected) in [(-0.5, 1.0), (0.5, 2.0), (1.5, 1.0), (2.5, 0.0)] {
             let found = winding.at(DVec3::new(x, 0.01, 0.02));
             assert!((found - expected).abs() < 0.05, "{x}: {found}");

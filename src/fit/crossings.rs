@@ -1,0 +1,121 @@
+//! Edges that pass through triangles, tested exactly on what a box tree proposes.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use crate::geometry::bvh::{Aabb, Bvh};
+use crate::geometry::mesh::TriMesh;
+
+/// Triples of length (cubic metres) below which a segment counts as parallel to a triangle.
+const PARALLEL: f64 = 1e-18;
+
+/// Whether the segment from `p` to `q` meets triangle `abc`, borders included (Möller and Trumbore 1997).
+pub(super) fn segment_meets_triangle([p, q]: [DVec3; 2], [a, b, c]: [DVec3; 3]) -> bool {
+    let (d, e1, e2) = (q - p, b - a, c - a);
+    let h = d.cross(e2);
+    let det = e1.dot(h);
+    if det.abs() <= PARALLEL {
+        return false;
+    }
+    let s = p - a;
+    let u = s.dot(h) / det;
+    let k = s.cross(e1);
+    let v = d.dot(k) / det;
+    let t = e2.dot(k) / det;
+    u >= 0.0 && v >= 0.0 && u + v <= 1.0 && (0.0..=1.0).contains(&t)
+}
+
+/// Pairs (place in `edges`, triangle of `mesh`) that meet, ascending. `tree` is over the triangles of `mesh`.
+pub(super) fn meetings(
+    edge_positions: &[DVec3],
+    edges: &[[u32; 2]],
+    mesh: &TriMesh,
+    tree: &Bvh,
+) -> Vec<[u32; 2]> {
+    let Some(all) = tree.nodes.first().map(|root| root.bounds) else {
+        return Vec::new();
+    };
+    edges
+        .par_iter()
+        .enumerate()
+        .with_min_len(256)
+        .flat_map_iter(|(e, ends)| {
+            let segment = ends.map(|v| edge_positions[v as usize]);
+            let mut found = Vec::new();
+            let around = Aabb::around(&segment);
+            if around.meets(&all) {
+                tree.near(&around, |t| {
+                    if segment_meets_triangle(segment, mesh.corners(t as usize)) {
+                        found.push([e as u32, t]);
+                    }
+                });
+            }
+            found.sort_unstable();
+            found
+        })
+        .collect()
+}
+
+/// Pairs of an edge and a triangle of one mesh that meet without sharing a vertex.
+pub(super) fn self_crossings(mesh: &TriMesh, edges: &[[u32; 2]], tree: &Bvh) -> usize {
+    meetings(&mesh.positions, edges, mesh, tree)
+        .into_iter()
+        .filter(|&[e, t]| {
+            let corners = mesh.triangles[t as usize];
+            !edges[e as usize].iter().any(|v| corners.contains(v))
+        })
+        .count()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fit::laid::edges;
+
+    const TRIANGLE: [DVec3; 3] = [DVec3::ZERO, DVec3::X, DVec3::Y];
+
+    #[test]
+    fn a_segment_meets_a_triangle_or_not() {
+        let through =
+            |x, y| segment_meets_triangle([DVec3::new(x, y, -1.0), DVec3::new(x, y, 2.0)], TRIANGLE);
+        assert!(through(0.25, 0.25) && through(0.0, 0.0) && through(0.5, 0.5));
+        assert!(!through(0.6, 0.5) && !through(-0.1, 0.2) && !through(0.2, -0.1));
+        // It ends before the triangle, or lies in its plane.
+        assert!(!segment_meets_triangle([DVec3::splat(0.2), DVec3::new(0.2, 0.2, 0.1)], TRIANGLE));
+        assert!(!segment_meets_triangle([DVec3::new(-1.0, 0.2, 0.0), DVec3::new(1.0, 0.2, 0.0)], TRIANGLE));
+    }
+
+    /// A sheet of `n` by `n` squares with a wave that folds over itself.
+    fn folded_sheet(n: u32) -> TriMesh {
+        let mut mesh = TriMesh::default();
+        for i in 0..=n {
+            for k in 0..=n {
+                let (x, y) = (f64::from(i) / f64::from(n), f64::from(k) / f64::from(n));
+                mesh.positions.push(DVec3::new(x + 0.3 * (9.0 * x + y).sin(), y, 0.2 * (9.0 * x).cos()));
+            }
+        }
+        for i in 0..n {
+            for k in 0..n {
+                let a = i * (n + 1) + k;
+                mesh.triangles.extend([[a, a + n + 1, a + 1], [a + 1, a + n + 1, a + n + 2]]);
+            }
+        }
+        mesh
+    }
+
+    #[test]
+    fn the_tree_misses_nothing() {
+        let mesh = folded_sheet(14);
+        let edges = edges(&mesh.triangles);
+        let mut exact = 0;
+        for e in &edges {
+            for (t, corners) in mesh.triangles.iter().enumerate() {
+                let apart = !e.iter().any(|v| corners.contains(v));
+                let segment = e.map(|v| mesh.positions[v as usize]);
+                exact += usize::from(apart && segment_meets_triangle(segment, mesh.corners(t)));
+            }
+        }
+        assert!(exact > 0);
+        assert_eq!(self_crossings(&mesh, &edges, &mesh.tree()), exact);
+    }
+}

@@ -1,0 +1,14 @@
+//! What is read off a garment: strain, crossings, openings, the report.
+
+mod crossings;
+mod laid;
+mod on_body;
+mod openings;
+mod report;
+mod shape;
+mod verdict;
+
+pub use on_body::BodyIndex;
+pub use openings::Opening;
+pub use report::{Clearance, Penetration, PieceChange, Report, Seams, Strain, measure};
+pub use verdict::verdict;

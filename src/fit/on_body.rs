@@ -1,0 +1,188 @@
+//! How the cloth sits on the body: inside or outside, through it, inside out.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use crate::body::Surface;
+use crate::fit::crossings::meetings;
+use crate::fit::laid::Laid;
+use crate::fit::openings::{Opening, openings};
+use crate::fit::report::{Clearance, Penetration};
+use crate::fit::shape::quantile;
+use crate::geometry::bvh::Bvh;
+use crate::geometry::winding::Winding;
+
+/// Cloth nearer to the skin than this (metres) must show it its inner side.
+const NEAR: f64 = 0.02;
+/// A triangle whose normal has a smaller cosine with the skin's than this lies wrong side out.
+const WRONG_SIDE: f64 = -0.2;
+/// A triangle of the body is hidden when a point this far (metres) before it lies inside the body.
+const BEFORE_SKIN: f64 = 1e-4;
+/// Where a triangle is sampled, in barycentric coordinates times their sum.
+const SAMPLES: [[f64; 3]; 7] = [
+    [1.0, 1.0, 1.0],
+    [4.0, 1.0, 1.0],
+    [1.0, 4.0, 1.0],
+    [1.0, 1.0, 4.0],
+    [1.0, 1.0, 0.0],
+    [0.0, 1.0, 1.0],
+    [1.0, 0.0, 1.0],
+];
+
+/// A body ready to be measured against; build it once per body.
+#[derive(Debug)]
+pub struct BodyIndex<'a> {
+    surface: &'a Surface,
+    winding: Winding<'a>,
+}
+
+impl<'a> BodyIndex<'a> {
+    /// Builds the index.
+    pub fn new(surface: &'a Surface) -> Self {
+        Self { surface, winding: Winding::new(&surface.mesh) }
+    }
+
+    /// Whether `p` is inside, where the body may cross itself too.
+    pub fn contains(&self, p: DVec3) -> bool {
+        self.winding.contains(p)
+    }
+
+    /// Distance to the surface, metres, never negative.
+    fn distance(&self, p: DVec3) -> f64 {
+        self.surface.nearest(p).point.distance(p)
+    }
+
+    /// Whether triangle `t` lies on the outside: where a body crosses itself, in the armpits say, some do not.
+    fn is_skin(&self, t: u32) -> bool {
+        let [a, b, c] = self.surface.mesh.corners(t as usize);
+        let before = (a + b + c) / 3.0 + self.surface.face_normals[t as usize] * BEFORE_SKIN;
+        !self.contains(before)
+    }
+
+    fn is_skin_edge(&self, e: u32) -> bool {
+        self.surface.adjacency.edge_triangles.of(e).iter().any(|&t| self.is_skin(t))
+    }
+}
+
+/// What cloth and body do to each other.
+pub(super) struct OnBody {
+    pub penetration: Penetration,
+    pub edges_through_body: usize,
+    pub body_edges_through_garment: usize,
+    pub faces_near_body: usize,
+    pub flipped_faces: usize,
+    pub clearance: Clearance,
+    pub openings: Vec<Opening>,
+}
+
+pub(super) fn on_body(laid: &Laid, cloth_tree: &Bvh, body: &BodyIndex<'_>) -> OnBody {
+    let body_mesh = &body.surface.mesh;
+    let body_edges = &body.surface.adjacency.edges;
+    let through_body = meetings(&laid.mesh.positions, &laid.edges, body_mesh, body.winding.tree());
+    let through_cloth = meetings(&body_mesh.positions, body_edges, &laid.mesh, cloth_tree);
+    let (distances, penetrating_vertices) = distances(laid, body);
+    let cut = cut_faces(laid, &through_body, &through_cloth, &penetrating_vertices);
+    let (near, flipped) = flipped_faces(laid, body);
+    OnBody {
+        penetration: penetration(laid, body, &distances, &cut),
+        edges_through_body: through_body.iter().filter(|&&[_, t]| body.is_skin(t)).count(),
+        body_edges_through_garment: through_cloth.iter().filter(|&&[e, _]| body.is_skin_edge(e)).count(),
+        faces_near_body: near,
+        flipped_faces: flipped,
+        clearance: Clearance { median: quantile(&distances, 0.5), p95: quantile(&distances, 0.95) },
+        openings: openings(&laid.mesh, body_mesh, body.winding.tree(), |t| body.is_skin(t)),
+    }
+}
+
+/// Signed distances of the vertices, ascending, and which vertices (by number) are inside.
+fn distances(laid: &Laid, body: &BodyIndex<'_>) -> (Vec<f64>, Vec<bool>) {
+    let signed: Vec<f64> = laid
+        .used
+        .par_iter()
+        .with_min_len(256)
+        .map(|&v| {
+            let p = laid.mesh.positions[v as usize];
+            let distance = body.distance(p);
+            if body.contains(p) { -distance } else { distance }
+        })
+        .collect();
+    let mut inside = vec![false; laid.mesh.positions.len()];
+    for (&v, &d) in laid.used.iter().zip(&signed) {
+        inside[v as usize] = d < 0.0;
+    }
+    let mut sorted = signed;
+    sorted.sort_unstable_by(f64::total_cmp);
+    (sorted, inside)
+}
+
+/// Triangles of which some point may be inside: a vertex is, or the body's surface cuts them. All others lie wholly on
+/// the side of their vertices.
+fn cut_faces(
+    laid: &Laid,
+    through_body: &[[u32; 2]],
+    through_cloth: &[[u32; 2]],
+    inside: &[bool],
+) -> Vec<u32> {
+    let mut cut_edges = vec![false; laid.edges.len()];
+    for &[e, _] in through_body {
+        cut_edges[e as usize] = true;
+    }
+    let mut cut: Vec<bool> = laid
+        .mesh
+        .triangles
+        .iter()
+        .map(|&[a, b, c]| {
+            [[a, b], [b, c], [c, a]].iter().any(|&[a, b]| {
+                let edge = laid.edges.binary_search(&[a.min(b), a.max(b)]);
+                inside[a as usize] || edge.is_ok_and(|e| cut_edges[e])
+            })
+        })
+        .collect();
+    for &[_, t] in through_cloth {
+        cut[t as usize] = true;
+    }
+    (0u32..).zip(cut).filter_map(|(t, cut)| cut.then_some(t)).collect()
+}
+
+fn penetration(laid: &Laid, body: &BodyIndex<'_>, distances: &[f64], cut: &[u32]) -> Penetration {
+    let depths: Vec<f64> = cut
+        .par_iter()
+        .with_min_len(64)
+        .filter_map(|&t| face_depth(laid.mesh.corners(t as usize), body))
+        .collect();
+    let vertex_depth = distances.first().map_or(0.0, |&d| (-d).max(0.0));
+    Penetration {
+        vertices: distances.iter().filter(|&&d| d < 0.0).count(),
+        faces: depths.len(),
+        max_depth: depths.iter().copied().fold(vertex_depth, f64::max),
+    }
+}
+
+/// How deep the deepest sample of a triangle lies inside, if any does.
+fn face_depth(corners: [DVec3; 3], body: &BodyIndex<'_>) -> Option<f64> {
+    SAMPLES
+        .iter()
+        .map(|w| {
+            let sum: DVec3 = w.iter().zip(corners).map(|(&w, p)| p * w).sum();
+            sum / w.iter().sum::<f64>()
+        })
+        .filter(|&p| body.contains(p))
+        .map(|p| body.distance(p))
+        .reduce(f64::max)
+}
+
+/// Triangles near the body, and those of them that show it their outer side.
+fn flipped_faces(laid: &Laid, body: &BodyIndex<'_>) -> (usize, usize) {
+    let found: Vec<Option<bool>> = (0..laid.mesh.triangles.len())
+        .into_par_iter()
+        .with_min_len(256)
+        .map(|t| {
+            let [a, b, c] = laid.mesh.corners(t);
+            let nearest = body.surface.nearest_within((a + b + c) / 3.0, NEAR)?;
+            let normal = (b - a).cross(c - a).normalize_or_zero();
+            Some(normal.dot(body.surface.face_normals[nearest.triangle as usize]) < WRONG_SIDE)
+        })
+        .collect();
+    let near = found.iter().filter(|f| f.is_some()).count();
+    (near, found.iter().filter(|f| **f == Some(true)).count())
+}

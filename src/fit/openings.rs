@@ -1,0 +1,118 @@
+//! Openings of a garment: hems, neck, cuffs.
+
+use glam::DVec3;
+
+use crate::geometry::bvh::{Aabb, Bvh};
+use crate::geometry::mesh::TriMesh;
+
+/// A closed border of the cloth.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Opening {
+    /// Metres.
+    pub length: f64,
+    /// Mean height of its vertices, metres.
+    pub height: f64,
+    /// Whether the body passes through the fan spanned over it from its middle.
+    pub body_through: bool,
+}
+
+/// Chains of edges of one triangle each, as vertices in order. Where borders touch in a vertex they may be joined to one.
+pub(super) fn border_loops(mesh: &TriMesh) -> Vec<Vec<u32>> {
+    let directed = || (0..3).flat_map(|k| mesh.triangles.iter().map(move |t| [t[k], t[(k + 1) % 3]]));
+    let mut keys: Vec<[u32; 2]> = directed().map(|[a, b]| [a.min(b), a.max(b)]).collect();
+    keys.sort_unstable();
+    let once = |[a, b]: [u32; 2]| {
+        let key = [a.min(b), a.max(b)];
+        let first = keys.partition_point(|k| *k < key);
+        keys.get(first + 1) != Some(&key)
+    };
+    let mut next: Vec<Vec<u32>> = vec![Vec::new(); mesh.positions.len()];
+    let mut starts = Vec::new();
+    for [a, b] in directed().filter(|&e| once(e)) {
+        starts.push(a);
+        next[a as usize].push(b);
+    }
+    let mut loops = Vec::new();
+    for start in starts {
+        let (mut chain, mut at) = (Vec::new(), start);
+        while let Some(b) = next[at as usize].pop() {
+            chain.push(at);
+            at = b;
+            if at == start {
+                break;
+            }
+        }
+        if !chain.is_empty() {
+            loops.push(chain);
+        }
+    }
+    loops
+}
+
+/// The openings, longest first. `skin(t)` says whether triangle `t` of `body` lies on its outside; `tree` is over them.
+pub(super) fn openings(
+    cloth: &TriMesh,
+    body: &TriMesh,
+    tree: &Bvh,
+    skin: impl Fn(u32) -> bool,
+) -> Vec<Opening> {
+    let mut found: Vec<Opening> = border_loops(cloth)
+        .into_iter()
+        .map(|chain| {
+            let points: Vec<DVec3> = chain.iter().map(|&v| cloth.positions[v as usize]).collect();
+            let n = points.len();
+            Opening {
+                length: (0..n).map(|i| points[i].distance(points[(i + 1) % n])).sum(),
+                height: points.iter().map(|p| p.y).sum::<f64>() / n as f64,
+                body_through: passes(&points, body, tree, &skin),
+            }
+        })
+        .collect();
+    found.sort_by(|a, b| b.length.total_cmp(&a.length));
+    found
+}
+
+/// Whether an edge of the body's skin meets the fan over `points` from their mean.
+fn passes(points: &[DVec3], body: &TriMesh, tree: &Bvh, skin: &impl Fn(u32) -> bool) -> bool {
+    let n = points.len();
+    let middle = points.iter().sum::<DVec3>() / n as f64;
+    (0..n).any(|i| {
+        let fan = [points[i], points[(i + 1) % n], middle];
+        let mut meets = false;
+        tree.near(&Aabb::around(&fan), |t| {
+            let [a, b, c] = body.corners(t as usize);
+            let crossed =
+                || [[a, b], [b, c], [c, a]].iter().any(|&s| super::crossings::segment_meets_triangle(s, fan));
+            meets = meets || (crossed() && skin(t));
+        });
+        meets
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_strip_joined_round_has_two_borders() {
+        let n = 8u32;
+        let mut mesh = TriMesh::default();
+        for y in 0..2 {
+            for k in 0..n {
+                let a = f64::from(k) / f64::from(n) * std::f64::consts::TAU;
+                mesh.positions.push(DVec3::new(a.sin(), f64::from(y), a.cos()));
+            }
+        }
+        for k in 0..n {
+            let b = (k + 1) % n;
+            mesh.triangles.extend([[k, b, b + n], [k, b + n, k + n]]);
+        }
+        let loops = border_loops(&mesh);
+        assert_eq!(loops.iter().map(Vec::len).collect::<Vec<_>>(), [8, 8]);
+        let nothing = TriMesh::default();
+        let open = openings(&mesh, &nothing, &Bvh::new(&[]), |_| true);
+        let octagon = 16.0 * (std::f64::consts::PI / 8.0).sin();
+        assert!(open.iter().all(|o| (o.length - octagon).abs() < 1e-12 && !o.body_through));
+        assert!((open[0].height - open[1].height).abs() == 1.0);
+    }
+}

@@ -1,0 +1,235 @@
+use glam::{DVec2, DVec3};
+
+use super::*;
+use crate::body::Surface;
+use crate::fit::verdict;
+use crate::geometry::mesh::TriMesh;
+use crate::pattern::{EdgeRef, Piece, Seam};
+
+/// A closed cylinder about y of radius `r` from `low` to `high`, `n` facets round, with caps.
+fn cylinder(r: f64, low: f64, high: f64, n: u32, rows: u32) -> TriMesh {
+    let mut mesh = TriMesh::default();
+    for row in 0..=rows {
+        let y = low + (high - low) * f64::from(row) / f64::from(rows);
+        for k in 0..n {
+            let a = f64::from(k) / f64::from(n) * std::f64::consts::TAU;
+            mesh.positions.push(DVec3::new(r * a.sin(), y, r * a.cos()));
+        }
+    }
+    for row in 0..rows {
+        for k in 0..n {
+            let (a, b) = (row * n + k, row * n + (k + 1) % n);
+            mesh.triangles.extend([[a, b, b + n], [a, b + n, a + n]]);
+        }
+    }
+    let (bottom, top) = (mesh.positions.len() as u32, mesh.positions.len() as u32 + 1);
+    mesh.positions.extend([DVec3::new(0.0, low, 0.0), DVec3::new(0.0, high, 0.0)]);
+    for k in 0..n {
+        let next = (k + 1) % n;
+        mesh.triangles.extend([[bottom, next, k], [top, rows * n + k, rows * n + next]]);
+    }
+    mesh
+}
+
+/// A sleeve of two sheets, sewn along both sides, round the axis.
+struct Sleeve {
+    pattern: Pattern,
+    garment: Garment,
+    state: ClothState,
+}
+
+const WIDTH: f64 = 0.40;
+const HEIGHT: f64 = 0.30;
+
+/// Each sheet covers half of a circle of radius `r`; `place` moves the points then.
+fn sleeve(r: f64, place: impl Fn(DVec3) -> DVec3) -> Sleeve {
+    let sheet = [DVec2::ZERO, DVec2::X * WIDTH, DVec2::new(WIDTH, HEIGHT), DVec2::Y * HEIGHT];
+    let mut pattern = Pattern::default();
+    let [front, back] = ["front", "back"].map(|name| pattern.add_piece(Piece::polygon(name, &sheet)));
+    let mut sew = |a, b| {
+        let sides = [EdgeRef { piece: front, edge: a }, EdgeRef { piece: back, edge: b }];
+        pattern.add_seam(Seam { sides, same_direction: false });
+    };
+    sew(1, 3);
+    sew(3, 1);
+    let (garment, problems) = crate::cloth::build(&pattern, 0.02);
+    assert!(problems.is_empty(), "{problems:?}");
+    let mut positions = vec![DVec3::ZERO; garment.vertex_count];
+    for c in &garment.corners {
+        let half = if c.piece == front { 0.0 } else { std::f64::consts::PI };
+        let angle = half + c.uv.x / WIDTH * std::f64::consts::PI;
+        let round = DVec3::new(r * angle.sin(), 0.5 + c.uv.y, r * angle.cos());
+        positions[c.vertex as usize] = place(round);
+    }
+    let mapped = vec![true; garment.vertex_count];
+    Sleeve { pattern, garment, state: ClothState { positions, mapped } }
+}
+
+fn report(sleeve: &Sleeve, body: TriMesh) -> Report {
+    let surface = Surface::new(body).expect("a body");
+    measure(&sleeve.pattern, &sleeve.garment, &sleeve.state, &BodyIndex::new(&surface))
+}
+
+fn words(report: &Report) -> String {
+    verdict(report).iter().map(|p| format!("{}: {}\n", p.place, p.words)).collect()
+}
+
+/// The radius at which the sheets close round without strain.
+fn exact_radius() -> f64 {
+    WIDTH / std::f64::consts::PI
+}
+
+#[test]
+fn a_sleeve_that_fits_has_no_faults() {
+    let r = exact_radius();
+    let report = report(&sleeve(r, |p| p), cylinder(r - 0.01, 0.2, 1.2, 48, 20));
+    assert_eq!(words(&report), "");
+    // Chords of a circle are shorter than its arcs, by a part in 24 times the square of the angle.
+    let chord = (0.03 / r).powi(2) / 24.0;
+    assert!(report.strain.max < 1.1 * chord, "{:?}", report.strain);
+    assert_eq!((report.seams.closed, report.seams.open), (2, 0));
+    assert_eq!((report.pieces_in_space, report.pieces_expected), (1, 1));
+    assert_eq!(report.faces_near_body, report.triangles);
+    assert!((report.clearance.median - 0.01).abs() < 5e-4, "{:?}", report.clearance);
+    let [low, high] = &report.openings[..] else { panic!("{:?}", report.openings) };
+    assert!(low.body_through && high.body_through);
+    assert!((low.length - 2.0 * WIDTH).abs() < 1e-3 && (low.height - high.height).abs() > HEIGHT - 1e-9);
+}
+
+#[test]
+fn strain_is_that_of_the_circumference() {
+    let r = exact_radius();
+    let report = report(&sleeve(r * 1.1, |p| p), cylinder(r, 0.2, 1.2, 48, 20));
+    assert!((report.strain.max - 0.1).abs() < 2e-3, "{:?}", report.strain);
+    for piece in &report.pieces {
+        assert!((piece.area_change - 0.1).abs() < 2e-3);
+        let perimeter = 2.0 * WIDTH * 0.1 / (2.0 * (WIDTH + HEIGHT));
+        assert!((piece.perimeter_change - perimeter).abs() < 2e-3);
+    }
+}
+
+#[test]
+fn cloth_inside_the_body_is_found() {
+    let r = exact_radius();
+    let report = report(&sleeve(r, |p| p), cylinder(r + 0.02, 0.2, 1.2, 64, 20));
+    assert_eq!(report.penetration.vertices, report.vertices);
+    assert_eq!(report.penetration.faces, report.triangles);
+    assert!((report.penetration.max_depth - 0.02).abs() < 1e-3, "{:?}", report.penetration);
+    assert_eq!((report.edges_through_body, report.body_edges_through_garment), (0, 0));
+    assert!(words(&report).contains("are inside the body, up to 2"), "{}", words(&report));
+}
+
+#[test]
+fn a_sleeve_beside_its_arm_is_found() {
+    let r = exact_radius();
+    let report = report(&sleeve(r, |p| p + DVec3::X * 0.3), cylinder(0.05, 0.2, 1.2, 48, 20));
+    assert!(report.openings.iter().all(|o| !o.body_through));
+    assert_eq!(words(&report).matches("does not pass through it").count(), 2, "{}", words(&report));
+}
+
+#[test]
+fn a_sleeve_turned_inside_out_is_found() {
+    let r = exact_radius();
+    let report = report(&sleeve(r, |p| p * DVec3::new(-1.0, 1.0, 1.0)), cylinder(r - 0.01, 0.2, 1.2, 48, 20));
+    assert_eq!(report.flipped_faces, report.triangles);
+    assert!(words(&report).contains("wrong side out"));
+}
+
+#[test]
+fn a_body_thicker_than_a_sleeve_in_part_cuts_it() {
+    let r = exact_radius();
+    let body = cylinder(r - 0.01, 0.2, 0.65, 48, 9);
+    let report = report(&sleeve(r, |p| DVec3::new(p.x + 0.02, p.y, p.z)), body);
+    assert!(report.edges_through_body > 0 && report.body_edges_through_garment > 0);
+    assert!(words(&report).contains("cut through each other"));
+}
+
+#[test]
+fn cloth_that_passes_through_itself_is_found() {
+    let r = exact_radius();
+    let press = |p: DVec3| DVec3::new(p.x, p.y, p.z * if p.y > 0.7 { -1.0 } else { 1.0 });
+    let report = report(&sleeve(r, press), cylinder(0.02, 0.2, 0.3, 12, 2));
+    assert!(report.self_crossings > 0);
+    assert!(words(&report).contains("passes through itself"));
+}
+
+#[test]
+fn what_is_not_on_the_body_is_named() {
+    let r = exact_radius();
+    let mut sleeve = sleeve(r, |p| p);
+    let back = sleeve.garment.pieces[1].0;
+    let front_vertices: Vec<u32> =
+        sleeve.garment.corners.iter().filter(|c| c.piece != back).map(|c| c.vertex).collect();
+    for c in &sleeve.garment.corners {
+        if !front_vertices.contains(&c.vertex) {
+            sleeve.state.mapped[c.vertex as usize] = false;
+            sleeve.state.positions[c.vertex as usize] = DVec3::NAN;
+        }
+    }
+    let report = report(&sleeve, cylinder(r - 0.01, 0.2, 1.2, 48, 20));
+    assert!(
+        words(&report).starts_with("piece back: it still lies in the pattern plane"),
+        "{}",
+        words(&report)
+    );
+    assert!(report.strain.max.is_finite());
+}
+
+#[test]
+fn an_unsewn_seam_is_open() {
+    let r = exact_radius();
+    let mut sleeve = sleeve(r, |p| p);
+    let seam = sleeve.garment.seam_pairs.pop().expect("a seam");
+    let report = report(&sleeve, cylinder(r - 0.01, 0.2, 1.2, 48, 20));
+    assert_eq!((report.seams.closed, report.seams.open), (1, 1), "{seam:?}");
+    assert!(words(&report).contains("1 of 2 seams are open"));
+}
+
+/// A sleeve with all faults at once: squeezed, shifted into the body, crumpled so that it crosses itself.
+fn faulty_sleeve() -> Sleeve {
+    sleeve(exact_radius() * 1.04, |p| {
+        let crumple = if p.y > 0.68 { 0.05 * (60.0 * p.y).sin() } else { 0.0 };
+        let folded = DVec3::new(p.x * 1.06 + 0.012 + crumple, p.y + crumple * (40.0 * p.x).cos(), p.z * 0.95);
+        // Nothing may touch exactly, or the last digit would decide.
+        let wave = DVec3::new((31.0 * p.y).sin(), (23.0 * p.z + 1.0).sin(), (29.0 * p.x + 2.0).sin()) * 0.002;
+        let turned = p.x.abs() < 0.03 && p.z > 0.0;
+        wave + if turned { folded * DVec3::new(-0.93, 1.0, 1.0) } else { folded }
+    })
+}
+
+fn faulty_body() -> TriMesh {
+    cylinder(exact_radius() - 0.004, 0.2, 0.7, 40, 11)
+}
+
+/// The expected figures are those of a program of our own that shares no code with this one: numpy, scipy's k-d tree
+/// and libigl's winding numbers and distances, run on this garment and body as OBJ files.
+#[test]
+fn figures_agree_with_an_independent_judge() {
+    let found = report(&faulty_sleeve(), faulty_body());
+    let near = |ours: f64, theirs: f64| assert!((ours / theirs - 1.0).abs() < 1e-5, "{ours} is not {theirs}");
+    near(found.strain.max, 6.591288519772981);
+    near(found.strain.p99, 3.357161766496022);
+    near(found.strain.p95, 1.9218885271161636);
+    near(found.strain.rms, 0.8600799558003759);
+    near(found.strain.median, 0.04560080029644997);
+    near(found.strain.stretch_p99, 3.357161766496022);
+    near(found.strain.compress_p99, 0.22548415171529212);
+    near(found.pieces[0].area_change, 0.7055418798987054);
+    near(found.pieces[1].perimeter_change, 0.46602891812309033);
+    near(found.penetration.max_depth, 0.01800280199999993);
+    near(found.clearance.median, 0.01673037827195145);
+    near(found.clearance.p95, 0.09900549085835297);
+    assert_eq!((found.strain.edges, found.vertices, found.triangles), (2050, 700, 1320));
+    assert_eq!((found.vertices_shared_by_pieces, found.pieces_in_space, found.degenerate_faces), (32, 1, 0));
+    assert_eq!((found.folded_edges, found.interior_edges, found.self_crossings), (106, 1940, 93));
+    assert_eq!((found.penetration.vertices, found.penetration.faces), (42, 136));
+    assert_eq!((found.edges_through_body, found.body_edges_through_garment), (163, 127));
+    assert_eq!(found.faces_near_body, 727);
+    // Of two facets equally near either may be taken.
+    assert!(found.flipped_faces.abs_diff(51) <= 1, "{}", found.flipped_faces);
+    let [upper, lower] = &found.openings[..] else { panic!("{:?}", found.openings) };
+    near(upper.length, 1.0993395540989692);
+    near(upper.height, 0.8024929602249999);
+    near(lower.length, 0.9172592530494994);
+    assert!(!upper.body_through && lower.body_through);
+}

@@ -1,0 +1,128 @@
+//! What is wrong with a dressed garment, in words.
+
+use crate::fit::report::Report;
+use crate::geometry::problem::{Problem, ProblemKind};
+
+/// Cloth stretched or pressed beyond this at its worst hundredth does not fit.
+const MOST_STRAIN: f64 = 0.25;
+
+/// Every fault of a dressed garment; empty when it is sewn, on the body, outside of it and the right way round.
+pub fn verdict(report: &Report) -> Vec<Problem> {
+    let mut faults = Faults::default();
+    faults.placing(report);
+    faults.sewing(report);
+    faults.body(report);
+    faults.openings(report);
+    faults.cloth(report);
+    faults.0
+}
+
+#[derive(Default)]
+struct Faults(Vec<Problem>);
+
+impl Faults {
+    fn tell(&mut self, place: impl Into<String>, words: String) {
+        self.0.push(Problem { kind: ProblemKind::Dressing, place: place.into(), words });
+    }
+
+    fn placing(&mut self, report: &Report) {
+        if report.not_finite_vertices > 0 {
+            let n = report.not_finite_vertices;
+            self.tell("garment", format!("{n} vertices have no finite position: the simulation broke"));
+        }
+        if report.triangles == 0 {
+            self.tell(
+                "garment",
+                "no cloth lies on the body: the wrap found no pair of marks to begin with".to_owned(),
+            );
+            return;
+        }
+        for piece in report.pieces.iter().filter(|p| p.missing_triangles > 0) {
+            let place = format!("piece {}", piece.name);
+            let words = match piece.triangles {
+                0 => "it still lies in the pattern plane: sew it to the others or give it a pair of marks"
+                    .to_owned(),
+                _ => format!("{} of its triangles never reached the body", piece.missing_triangles),
+            };
+            self.tell(place, words);
+        }
+    }
+
+    fn sewing(&mut self, report: &Report) {
+        let seams = &report.seams;
+        if seams.open > 0 {
+            let gap = seams.max_gap * 1000.0;
+            let words = format!(
+                "{} of {} seams are open; the widest gap is {gap:.1} mm",
+                seams.open,
+                seams.open + seams.closed
+            );
+            self.tell("seams", words);
+        }
+        let (found, expected) = (report.pieces_in_space, report.pieces_expected);
+        if report.triangles > 0 && found != expected {
+            self.tell(
+                "garment",
+                format!("it lies in {found} separate parts; its seams should make {expected}"),
+            );
+        }
+    }
+
+    fn body(&mut self, report: &Report) {
+        let p = &report.penetration;
+        if p.vertices > 0 || p.faces > 0 {
+            let depth = p.max_depth * 1000.0;
+            self.tell(
+                "body",
+                format!(
+                    "{} vertices and {} triangles of the cloth are inside the body, up to {depth:.1} mm",
+                    p.vertices, p.faces
+                ),
+            );
+        }
+        let (edges, body_edges) = (report.edges_through_body, report.body_edges_through_garment);
+        if edges > 0 || body_edges > 0 {
+            let words = format!("cloth and skin cut through each other in {} places", edges + body_edges);
+            self.tell("body", words);
+        }
+        if report.flipped_faces > 0 {
+            let n = report.flipped_faces;
+            self.tell("garment", format!("{n} triangles lie wrong side out"));
+        }
+    }
+
+    /// One border alone is a cloth or a cape, which the body need not pass through. A garment has several, and the body
+    /// passes through each: where it does not, a sleeve lies on one side of its arm, or a seam has a hole.
+    fn openings(&mut self, report: &Report) {
+        if report.openings.len() < 2 {
+            return;
+        }
+        for opening in report.openings.iter().filter(|o| !o.body_through) {
+            let (length, height) = (opening.length * 100.0, opening.height);
+            self.tell(
+                format!("opening of {length:.0} cm, {height:.2} m above the ground"),
+                "the body does not pass through it: the cloth lies on one side of the limb, or a seam has a hole".to_owned(),
+            );
+        }
+    }
+
+    fn cloth(&mut self, report: &Report) {
+        if report.self_crossings > 0 {
+            let n = report.self_crossings;
+            self.tell("garment", format!("the cloth passes through itself in {n} places"));
+        }
+        if report.degenerate_faces > 0 {
+            let n = report.degenerate_faces;
+            self.tell("garment", format!("{n} triangles have shrunk to nothing"));
+        }
+        if report.strain.p99 > MOST_STRAIN {
+            let percent = report.strain.p99 * 100.0;
+            self.tell(
+                "garment",
+                format!(
+                    "its worst hundredth is strained by {percent:.0} % and more: it does not fit this body"
+                ),
+            );
+        }
+    }
+}
