@@ -2,8 +2,9 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{Args, Parser, Subcommand};
 
+use crate::body::Unit;
 use crate::render::View;
 
 /// Dress a body in cloth: draw and sew flat pieces, paint marks, press Wrap.
@@ -39,7 +40,7 @@ pub struct InputOptions {
     /// Puts the cloth on this body (OBJ); "mannequin" is the built-in figure
     #[arg(long, value_name = "FILE")]
     pub body: Option<PathBuf>,
-    /// The unit of the body file; without it the height must tell
+    /// The unit of the body file: m, dm, cm, mm or in; without it the body's height tells
     #[arg(long)]
     pub unit: Option<Unit>,
     /// Takes the marks from this JSON file
@@ -51,15 +52,6 @@ pub struct InputOptions {
     /// Length of the triangles' edges, metres
     #[arg(long, value_name = "METRES")]
     pub edge_length: Option<f64>,
-}
-
-/// A unit of length.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Unit {
-    M,
-    Cm,
-    Mm,
-    In,
 }
 
 /// Wraps by the marks, relaxes to rest, and writes garment.obj, body.obj, report.json and view.png
@@ -151,7 +143,7 @@ pub struct Import {
     pub input: InputOptions,
 }
 
-/// Writes the dressed cloth of a project: .obj or .glb
+/// Writes the dressed cloth of a project: .obj (cloth alone) or .glb (with the body)
 #[derive(Debug, Args)]
 pub struct Export {
     /// A dressed project

@@ -18,13 +18,16 @@ struct Findings {
     seams: usize,
     triangles: usize,
     problems: Vec<Problem>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    notes: Vec<String>,
 }
 
 /// Prints what was found. Problems that are more than notes make the check fail.
 pub fn check(arguments: &Check) -> Result<(), Failure> {
     let findings = match input::content(&arguments.file, arguments.input.unit)? {
         Content::Body(body) => {
-            Findings { triangles: body.mesh.triangles.len(), problems: body.problems, ..Findings::default() }
+            let triangles = body.mesh.triangles.len();
+            Findings { triangles, problems: body.problems, notes: body.notes, ..Findings::default() }
         }
         Content::Pattern(pattern) => {
             let mut project = Project::default();
@@ -58,6 +61,7 @@ fn of_project(project: &Project, with_body: bool) -> Findings {
         seams: document.pattern.seams.len(),
         triangles: garment.triangles.len(),
         problems,
+        notes: Vec::new(),
     }
 }
 
@@ -77,11 +81,14 @@ fn tell(findings: &Findings, path: &Path, json: bool) -> Result<(), Failure> {
         output::say(&text);
         return Ok(());
     }
-    let Findings { pieces, seams, triangles, problems } = findings;
+    let Findings { pieces, seams, triangles, problems, notes } = findings;
     output::say(&format!("{}: {pieces} pieces, {seams} seams, {triangles} triangles", path.display()));
     for problem in problems {
         let note = if problem.kind.is_note() { "note: " } else { "" };
         output::say(&format!("{note}{}: {}", problem.place, problem.words));
+    }
+    for note in notes {
+        output::say(&format!("note: {note}"));
     }
     Ok(())
 }

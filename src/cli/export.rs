@@ -8,8 +8,8 @@ use crate::cli::{formats, input, output, run};
 pub fn export(arguments: &Export) -> Result<(), Failure> {
     let ending =
         arguments.output.extension().and_then(|e| e.to_str()).unwrap_or_default().to_ascii_lowercase();
-    if ending != "obj" {
-        let words = format!("{}: the ending must be .obj", arguments.output.display());
+    if !["obj", "glb"].contains(&ending.as_str()) {
+        let words = format!("{}: the ending must be .obj or .glb", arguments.output.display());
         return Err(Failure::Usage(words));
     }
     let input = input::load(&arguments.project, &InputOptions::default())?;
@@ -21,5 +21,12 @@ pub fn export(arguments: &Export) -> Result<(), Failure> {
             "there is no dressed cloth in it: `toile dress` with --save makes a project that has some";
         return Err(Failure::input(&arguments.project, words));
     };
-    output::write(&arguments.output, &formats::garment_obj(garment, &snapshot.cloth, &source.pattern))
+    let bytes = match ending.as_str() {
+        "obj" => formats::garment_obj(garment, &snapshot.cloth, &source.pattern),
+        _ => {
+            let body = snapshot.body.as_ref().map(|b| &b.mesh);
+            formats::scene_glb(garment, &snapshot.cloth, &source.pattern, body)?
+        }
+    };
+    output::write(&arguments.output, &bytes)
 }

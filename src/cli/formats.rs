@@ -2,34 +2,46 @@
 
 use std::path::Path;
 
-use crate::cli::arguments::Unit;
+use crate::body::Unit;
+use crate::body::import::{Imported, import};
+use crate::body::unit::guess_unit;
 use crate::cli::failure::Failure;
+use crate::cli::output;
 use crate::cloth::{ClothState, Garment};
 use crate::geometry::mesh::TriMesh;
-use crate::io::{garmentcode, obj};
-use crate::pattern::{Pattern, Problem};
-
-/// A body read from a file.
-pub struct ImportedBody {
-    /// Metres.
-    pub mesh: TriMesh,
-    /// What is wrong with it.
-    pub problems: Vec<Problem>,
-}
+use crate::io::{garmentcode, glb, obj};
+use crate::pattern::Pattern;
 
 /// A pattern in a file of one of the known formats.
 pub fn pattern(path: &Path, bytes: &[u8]) -> Result<Pattern, Failure> {
     garmentcode::read(bytes).map_err(|e| Failure::input(path, e))
 }
 
-/// The body in an OBJ file.
-pub fn body(path: &Path, bytes: &[u8], unit: Option<Unit>) -> Result<ImportedBody, Failure> {
+/// The body in an OBJ file, checked. Without a unit the one that gives a person's height is taken, and said.
+pub fn body(path: &Path, bytes: &[u8], unit: Option<Unit>) -> Result<Imported, Failure> {
     let read = obj::read(bytes).map_err(|error| match error {
         obj::ObjError::OverLimit(words) => Failure::Limit(format!("{}: {words}", path.display())),
         error => Failure::input(path, error),
     })?;
-    let _ = unit;
-    Ok(ImportedBody { mesh: read.mesh, problems: Vec::new() })
+    let unit = match unit {
+        Some(unit) => unit,
+        None => unit_by_height(path, &read.mesh)?,
+    };
+    Ok(import(read.mesh, unit))
+}
+
+fn unit_by_height(path: &Path, mesh: &TriMesh) -> Result<Unit, Failure> {
+    let (lower, upper) = mesh.bounds();
+    let height = upper.y - lower.y;
+    let Some(unit) = guess_unit(height) else {
+        let words =
+            format!("it is {height} units high, which no unit makes a body's height: give one with --unit");
+        return Err(Failure::input(path, words));
+    };
+    if unit != Unit::Metre {
+        output::complain(&format!("{}: taken to be in {unit}, by its height (see --unit)", path.display()));
+    }
+    Ok(unit)
 }
 
 /// A body as OBJ text.
@@ -40,4 +52,15 @@ pub fn body_obj(mesh: &TriMesh) -> Vec<u8> {
 /// Dressed cloth as OBJ text.
 pub fn garment_obj(garment: &Garment, cloth: &ClothState, pattern: &Pattern) -> Vec<u8> {
     obj::garment(garment, cloth, pattern).into_bytes()
+}
+
+/// Dressed cloth on its body as binary glTF.
+pub fn scene_glb(
+    garment: &Garment,
+    cloth: &ClothState,
+    pattern: &Pattern,
+    body: Option<&TriMesh>,
+) -> Result<Vec<u8>, Failure> {
+    let dressed = glb::Dressed { garment, state: cloth, pattern };
+    glb::write(Some(dressed), body, &glb::Colours::default()).map_err(|e| Failure::Limit(e.to_string()))
 }

@@ -5,9 +5,10 @@ use std::path::Path;
 use std::sync::Arc;
 
 use crate::body::mannequin::{Measurements, mannequin};
-use crate::cli::arguments::{InputOptions, Unit};
+use crate::body::{Imported, Unit};
+use crate::cli::arguments::InputOptions;
 use crate::cli::failure::Failure;
-use crate::cli::formats::{self, ImportedBody};
+use crate::cli::{formats, output};
 use crate::pattern::Pattern;
 use crate::session::project_file::ProjectFileError;
 use crate::session::samples::Sample;
@@ -25,7 +26,7 @@ const MOST_BYTES: u64 = 512 << 20;
 pub enum Content {
     Project(Project),
     Pattern(Pattern),
-    Body(ImportedBody),
+    Body(Imported),
 }
 
 /// A project ready for work.
@@ -142,11 +143,13 @@ pub fn take_pattern(project: &mut Project, pattern: Pattern) {
 }
 
 /// Puts another body there: marks on the old one and the cloth go. A body that cloth cannot lie on is refused.
-pub fn take_body(project: &mut Project, path: &Path, body: ImportedBody) -> Result<(), Failure> {
-    let faults: Vec<&str> =
-        body.problems.iter().filter(|p| !p.kind.is_note()).map(|p| p.words.as_str()).collect();
-    if !faults.is_empty() {
+pub fn take_body(project: &mut Project, path: &Path, body: Imported) -> Result<(), Failure> {
+    if !body.is_usable() {
+        let faults: Vec<&str> = body.problems.iter().map(|p| p.words.as_str()).collect();
         return Err(Failure::input(path, faults.join("; ")));
+    }
+    for note in &body.notes {
+        output::complain(&format!("{}: note: {note}", path.display()));
     }
     set_body(project, BodyChoice::Imported { name: name_of(path), mesh: Arc::new(body.mesh) });
     Ok(())

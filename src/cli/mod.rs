@@ -21,12 +21,15 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::process::ExitCode;
 
 use clap::Parser;
+use tracing_subscriber::EnvFilter;
+use tracing_subscriber::filter::LevelFilter;
 
 use crate::cli::arguments::{Arguments, Task};
 use crate::cli::failure::{Failure, PANIC};
 
 /// The whole program. Never panics; what went wrong is on standard error, and the exit code says which kind.
 pub fn main() -> ExitCode {
+    listen_to_traces();
     std::panic::set_hook(Box::new(|panic| output::complain(&panic_words(panic))));
     let code = catch_unwind(AssertUnwindSafe(run)).unwrap_or(PANIC);
     ExitCode::from(code)
@@ -57,6 +60,17 @@ fn carry_out(arguments: Arguments) -> Result<(), Failure> {
         Some(Task::Export(export)) => export::export(&export),
         Some(Task::Check(check)) => check::check(&check),
     }
+}
+
+/// Errors of graphics drivers and such go to standard error; more with RUST_LOG.
+fn listen_to_traces() {
+    let filter = EnvFilter::builder().with_default_directive(LevelFilter::ERROR.into()).from_env_lossy();
+    let begun = tracing_subscriber::fmt()
+        .with_env_filter(filter)
+        .with_writer(std::io::stderr)
+        .log_internal_errors(false)
+        .try_init();
+    debug_assert!(begun.is_ok(), "nothing else listens");
 }
 
 /// Help and version go to standard output and are no failure.

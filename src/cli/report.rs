@@ -9,11 +9,12 @@ use crate::cli::arguments::PictureOptions;
 use crate::cli::failure::Failure;
 use crate::cli::picture::Artist;
 use crate::cli::{formats, output, run};
-use crate::pattern::Problem;
+use crate::fit;
+use crate::pattern::{Problem, ProblemKind};
 use crate::session::Session;
 use crate::session::recording::Hex;
-use crate::sim::Stats;
-use crate::wrap::Phase;
+use crate::sim::{Snapshot, Stats};
+use crate::wrap::{MarkError, Phase, mark_error};
 
 /// `report.json`.
 #[derive(Debug, Serialize)]
@@ -24,10 +25,11 @@ pub struct Report {
     pub inputs: Vec<String>,
     ticks: u64,
     at_rest: bool,
-    /// Vertices no mark reaches.
-    unmapped: usize,
-    triangles: usize,
-    vertices: usize,
+    #[serde(flatten)]
+    fit: fit::Report,
+    /// Why this is not a dressed garment; empty when it is.
+    faults: Vec<Problem>,
+    mark_error: MarkError,
     problems: Vec<Problem>,
     seconds: Seconds,
     counters: Stats,
@@ -51,6 +53,8 @@ pub struct Seconds {
     /// The whole of a replay, instead of the four above.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub replay: Option<f64>,
+    /// Reading the figures off.
+    pub measure: f64,
     /// Drawing.
     pub picture: f64,
     /// From the first byte read to the last written, this file left out.
@@ -68,6 +72,10 @@ pub fn write(
     session.update();
     let state_hash = Hex(state_hash(session)?).to_string();
     let snapshot = session.snapshot();
+    let start = Instant::now();
+    let (fit, mark_error) = measured(snapshot)?;
+    seconds.measure = start.elapsed().as_secs_f64();
+    let at_rest = snapshot.phase == Some(Phase::AtRest);
     if let (Some(garment), Some(source)) = (&snapshot.garment, &snapshot.source) {
         let bytes = formats::garment_obj(garment, &snapshot.cloth, &source.pattern);
         output::write(&folder.join("garment.obj"), &bytes)?;
@@ -83,10 +91,10 @@ pub fn write(
         name: name.to_owned(),
         inputs: Vec::new(),
         ticks: snapshot.tick,
-        at_rest: snapshot.phase == Some(Phase::AtRest),
-        unmapped: snapshot.cloth.mapped.iter().filter(|&&m| !m).count(),
-        triangles: snapshot.garment.as_ref().map_or(0, |g| g.triangles.len()),
-        vertices: snapshot.cloth.positions.len(),
+        at_rest,
+        faults: faults(&fit, at_rest),
+        fit,
+        mark_error,
         problems: snapshot.problems.to_vec(),
         seconds,
         counters: snapshot.stats,
@@ -98,6 +106,25 @@ pub fn write(
 /// Hash of what moves in a session that runs inline.
 pub fn state_hash(session: &mut Session) -> Result<u64, Failure> {
     Ok(run::simulation(session)?.hash())
+}
+
+fn measured(snapshot: &Snapshot) -> Result<(fit::Report, MarkError), Failure> {
+    let (Some(garment), Some(body), Some(source)) = (&snapshot.garment, &snapshot.body, &snapshot.source)
+    else {
+        return Err(Failure::Check("there is no cloth on the body".to_owned()));
+    };
+    let fit = fit::measure(&source.pattern, garment, &snapshot.cloth, &fit::BodyIndex::new(body));
+    let offset = source.relax.offset * body.scale();
+    Ok((fit, mark_error(garment, &snapshot.cloth, body, &source.marks, offset)))
+}
+
+fn faults(fit: &fit::Report, at_rest: bool) -> Vec<Problem> {
+    let mut faults = fit::verdict(fit);
+    if !at_rest {
+        let (kind, place) = (ProblemKind::Dressing, "garment".to_owned());
+        faults.push(Problem { kind, place, words: "it still moves".to_owned() });
+    }
+    faults
 }
 
 /// Without a graphics adapter: why not.
@@ -133,22 +160,22 @@ impl Report {
 
     /// One line for people.
     pub fn verdict(&self) -> String {
-        let figures = format!("{} triangles, {:.2} s", self.triangles, self.seconds.total);
+        let figures = format!(
+            "{} triangles, strain p99 {:.1} %, marks met within {:.1} mm, {:.2} s",
+            self.fit.triangles,
+            self.fit.strain.p99 * 100.0,
+            self.mark_error.max * 1000.0,
+            self.seconds.total
+        );
         match self.failed_check() {
             None => format!("{}: dressed, {figures}", self.name),
-            Some(words) => format!("{}: {words}; {figures}", self.name),
+            Some(words) => format!("{}: not dressed: {words}; {figures}", self.name),
         }
     }
 
     /// Why this is not a dressed garment.
     pub fn failed_check(&self) -> Option<String> {
-        let mut faults = Vec::new();
-        if !self.at_rest {
-            faults.push("the cloth still moves".to_owned());
-        }
-        if self.unmapped > 0 {
-            faults.push(format!("{} vertices were not reached from any mark", self.unmapped));
-        }
-        (!faults.is_empty()).then(|| faults.join(", "))
+        let words: Vec<String> = self.faults.iter().map(|f| format!("{}: {}", f.place, f.words)).collect();
+        (!words.is_empty()).then(|| words.join("; "))
     }
 }

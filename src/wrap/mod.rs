@@ -2,11 +2,13 @@
 
 pub mod dressing;
 pub mod growth;
+pub mod mark_error;
 pub mod marks;
 pub mod order;
 pub mod roots;
 pub mod suggest;
 
 pub use dressing::{Dressing, Phase};
+pub use mark_error::{MarkError, mark_error};
 pub use marks::{BodyMark, ClothMark, ClothSide, Marks};
 pub use suggest::suggested;

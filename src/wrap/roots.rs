@@ -44,7 +44,7 @@ impl PairStretch {
 }
 
 /// A polyline with its arc lengths.
-struct Stroke<P> {
+pub(super) struct Stroke<P> {
     points: Vec<P>,
     lengths: Vec<f64>,
 }
@@ -52,7 +52,7 @@ struct Stroke<P> {
 impl<P: Copy + std::ops::Sub<Output = P> + std::ops::Add<Output = P> + std::ops::Mul<f64, Output = P>>
     Stroke<P>
 {
-    fn new(points: Vec<P>, norm: impl Fn(P) -> f64) -> Self {
+    pub(super) fn new(points: Vec<P>, norm: impl Fn(P) -> f64) -> Self {
         let mut lengths = vec![0.0];
         for w in points.windows(2) {
             lengths.push(lengths[lengths.len() - 1] + norm(w[1] - w[0]));
@@ -60,7 +60,7 @@ impl<P: Copy + std::ops::Sub<Output = P> + std::ops::Add<Output = P> + std::ops:
         Self { points, lengths }
     }
 
-    fn length(&self) -> f64 {
+    pub(super) fn length(&self) -> f64 {
         *self.lengths.last().unwrap_or(&0.0)
     }
 
@@ -72,7 +72,7 @@ impl<P: Copy + std::ops::Sub<Output = P> + std::ops::Add<Output = P> + std::ops:
         (i, if span > 0.0 { ((s - self.lengths[i]) / span).clamp(0.0, 1.0) } else { 0.0 })
     }
 
-    fn at(&self, s: f64) -> P {
+    pub(super) fn at(&self, s: f64) -> P {
         if self.points.len() == 1 {
             return self.points[0];
         }
@@ -130,7 +130,7 @@ pub fn roots(
 }
 
 /// The point at `offset` above the skin next to `p`.
-fn lifted(surface: &Surface, p: DVec3, offset: f64) -> DVec3 {
+pub(super) fn lifted(surface: &Surface, p: DVec3, offset: f64) -> DVec3 {
     let n = surface.nearest(p);
     n.point + n.normal * offset
 }

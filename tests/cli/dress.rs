@@ -13,7 +13,9 @@ fn a_project_is_dressed_without_an_adapter() {
     let report = place.json("out/report.json");
     assert_eq!(report["version"], env!("CARGO_PKG_VERSION"));
     assert_eq!(report["inputs"][0], "ball.toile");
-    assert_eq!(report["unmapped"], 0);
+    assert_eq!(report["unmapped_vertices"], 0);
+    assert_eq!(report["faults"].as_array().map(Vec::len), Some(0));
+    assert!(report["strain"]["p99"].as_f64().is_some_and(|s| s < 0.25));
     assert_eq!(report["at_rest"], true);
     assert!(report["ticks"].as_u64().is_some_and(|t| t > 1 && report["counters"]["ticks"] == t));
     assert!(report["state_hash"].as_str().is_some_and(|h| h.len() == 16));
@@ -26,6 +28,8 @@ fn a_project_is_dressed_without_an_adapter() {
     // The saved project is dressed: it can be exported and checked again.
     place.ends(0, "export dressed.toile -o cloth.obj");
     assert_eq!(place.read("cloth.obj"), garment);
+    place.ends(0, "export dressed.toile -o cloth.GLB");
+    assert!(std::fs::read(place.path("cloth.GLB")).expect("read").starts_with(b"glTF"));
     place.ends_with_words(3, "export ball.toile -o cloth2.obj", "no dressed cloth");
     place.ends_with_words(5, "render dressed.toile -o view.png", "adapter");
     place.ends(0, "check dressed.toile");

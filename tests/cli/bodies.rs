@@ -1,0 +1,87 @@
+//! Bodies in files: units, faults, imports.
+
+use crate::program::Place;
+
+/// The ball as OBJ text, `scale` times as large.
+fn ball(scale: f64, rings: u32, sectors: u32) -> String {
+    let mesh = crate::common::ball(0.75 * scale, rings, sectors);
+    let mut text = String::new();
+    for p in &mesh.positions {
+        text += &format!("v {} {} {}\n", p.x, p.y, p.z);
+    }
+    for [a, b, c] in &mesh.triangles {
+        text += &format!("f {} {} {}\n", a + 1, b + 1, c + 1);
+    }
+    text
+}
+
+fn place() -> Place {
+    let place = Place::with_ball();
+    let project = crate::common::project();
+    let marks = toile::session::marks_file::write(&project.document.marks, &project.document.pattern);
+    place.write("marks.json", marks.expect("json"));
+    place.write("metres.obj", ball(1.0, 24, 48));
+    place.write("centimetres.obj", ball(100.0, 24, 48));
+    place
+}
+
+#[test]
+fn the_unit_is_given_or_told_by_the_height() {
+    let place = place();
+    let dress = "dress ball.toile --marks marks.json --out";
+    place.ends(0, &format!("{dress} a --body metres.obj"));
+    let told = place.ends(0, &format!("{dress} b --body centimetres.obj"));
+    assert!(told.err.contains("taken to be in cm"), "{told:#?}");
+    let given = place.ends(0, &format!("{dress} c --body centimetres.obj --unit cm"));
+    assert!(!given.err.contains("taken to be"), "{given:#?}");
+    let strain = |folder: &str| place.json(&format!("{folder}/report.json"))["mark_error"]["max"].as_f64();
+    assert!(strain("a").is_some_and(|a| strain("b").is_some_and(|b| (a - b).abs() < 1e-6)));
+    place.write("speck.obj", ball(1e-5, 6, 8));
+    place.ends_with_words(3, "check speck.obj", "--unit");
+    place.ends_with_words(2, &format!("{dress} d --body metres.obj --unit furlong"), "furlong");
+}
+
+#[test]
+fn another_body_needs_marks_of_its_own() {
+    let place = place();
+    place.ends_with_words(3, "dress ball.toile --body metres.obj --out out", "no pair of marks");
+    place.ends_with_words(3, "dress metres.obj --out out", "this is a body");
+}
+
+#[test]
+fn open_bodies_are_refused_in_words() {
+    let place = place();
+    let open: String =
+        ball(1.0, 24, 48).lines().filter(|l| *l != "f 1 2 3").map(|l| format!("{l}\n")).collect();
+    place.write("open.obj", open);
+    let found = place.ends(1, "check open.obj");
+    assert!(found.out.contains("open"), "{found:#?}");
+    place.ends_with_words(3, "dress ball.toile --marks marks.json --body open.obj --out out", "open");
+    place.ends_with_words(3, "import open.obj -o p.toile", "open");
+    place.ends(0, "check metres.obj");
+}
+
+#[test]
+fn pattern_body_and_marks_become_a_project() {
+    let place = place();
+    place.write(
+        "tee.json",
+        r#"{"pattern": {"panels": {"left": {"vertices": [[0, 0], [25, 0], [25, 30], [0, 30]], "edges": [
+            {"endpoints": [0, 1]}, {"endpoints": [1, 2]}, {"endpoints": [2, 3]}, {"endpoints": [3, 0]}],
+            "translation": [0, 0, 90], "rotation": [0, 0, 0]}}, "stitches": []},
+            "properties": {"units_in_meter": 100, "curvature_coords": "relative"}}"#,
+    );
+    let done = place.ends(0, "import tee.json metres.obj --marks marks.json -o p.toile");
+    assert!(done.out.contains("1 pieces, 0 seams, 1 pairs of marks, body: metres"), "{done:#?}");
+    place.ends(0, "dress p.toile --edge-length 0.06 --out out");
+    place.ends_with_words(3, "import p.toile -o q.toile", "a project already");
+    place.ends_with_words(
+        2,
+        "import metres.obj centimetres.obj -o q.toile",
+        "at most one pattern and one body",
+    );
+    let found = place.ends(0, "check p.toile --json");
+    let found: serde_json::Value = serde_json::from_str(&found.out).expect("JSON");
+    assert_eq!((found["pieces"].as_u64(), found["seams"].as_u64()), (Some(1), Some(0)));
+    assert!(found["triangles"].as_u64().is_some_and(|n| n > 100), "{found}");
+}
