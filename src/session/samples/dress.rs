@@ -11,9 +11,9 @@ use crate::pattern::{Pattern, Piece};
 use crate::wrap::Marks;
 
 /// Added to the bust girth, metres.
-const BUST_EASE: f64 = 0.075;
+const BUST_EASE: f64 = 0.07;
 /// Added to the waist girth.
-const WAIST_EASE: f64 = 0.045;
+const WAIST_EASE: f64 = 0.05;
 /// Added to the hip girth.
 const HIP_EASE: f64 = 0.07;
 /// Moved from each quarter of the back to the front at the bust.

@@ -10,7 +10,10 @@ use crate::relax::RelaxSettings;
 const STEP: f64 = 0.01;
 
 /// Share of the bust's extra length that a front without a dart gets.
-const FRONT_BALANCE: f64 = 0.85;
+const FRONT_BALANCE: f64 = 1.0;
+
+/// Shoulder seams fall a little less steeply than the shoulder: room for its roundness.
+const SLOPE_EASE: f64 = 0.85;
 
 /// A mannequin with its surface.
 pub struct Form<'a> {
@@ -153,7 +156,7 @@ impl Yoke {
         Self {
             neck_width,
             shoulder: neck.distance(tip) - short,
-            slope: ((neck.y - tip.y) / (tip.x - neck.x)).atan(),
+            slope: SLOPE_EASE * ((neck.y - tip.y) / (tip.x - neck.x)).atan(),
             // Most of what the bust asks for in length goes in at the front.
             heights: [back + FRONT_BALANCE * (front - back), back],
         }

@@ -19,7 +19,7 @@ const KNEE_EASE: f64 = 0.10;
 /// Width of the leg at the hem over the girth of the ankle.
 const HEM_EASE: f64 = 0.17;
 /// Added to the depth of the crotch.
-const CROTCH_EASE: f64 = 0.018;
+const CROTCH_EASE: f64 = 0.022;
 /// Moved from each front's width to each back's.
 const BACK_SHARE: f64 = 0.008;
 
@@ -125,7 +125,7 @@ impl Block {
 pub fn trousers(form: &Form) -> (Pattern, Marks) {
     let block = Block::new(form);
     let front = Cut { fork: 0.045, lean: 0.010, rise: 0.0, dart: [0.018, 0.09], wider: -BACK_SHARE };
-    let back = Cut { fork: 0.095, lean: 0.030, rise: 0.024, dart: [0.026, 0.12], wider: BACK_SHARE };
+    let back = Cut { fork: 0.100, lean: 0.028, rise: 0.034, dart: [0.026, 0.12], wider: BACK_SHARE };
     let mut front_left = block.leg("front left", &front, 0.0);
     // The back's fork is lowered until both inner seams are as long.
     let inner = edge_length(&front_left, "in upper");
