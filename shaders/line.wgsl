@@ -5,7 +5,7 @@ struct Stroke {
     @location(2) offset_a: vec2f, // pixels, right and up
     @location(3) offset_b: vec2f,
     @location(4) colour: vec4f,
-    @location(5) size: vec2f,     // half width in pixels, lift towards the eye in metres
+    @location(5) size: vec3f,     // half width in pixels, lift towards the eye in metres and in half widths
 }
 
 struct Capsule {
@@ -15,8 +15,10 @@ struct Capsule {
     @location(2) @interpolate(flat) radius: f32,
 }
 
-fn lifted(world: vec3f, lift: f32) -> vec3f {
+fn lifted(world: vec3f, size: vec3f) -> vec3f {
     let p = (frame.view * vec4f(world, 1.0)).xyz;
+    let pixel = 2.0 * mix(1.0, -p.z, frame.eye.w) / (frame.projection[1][1] * frame.viewport.y);
+    let lift = size.y + size.z * size.x * pixel;
     if frame.eye.w < 0.5 {
         return p + vec3f(0.0, 0.0, lift);
     }
@@ -44,8 +46,8 @@ fn line_vertex(in: Stroke, @builtin(vertex_index) i: u32) -> Capsule {
         vec2f(0.0, -1.0), vec2f(1.0, -1.0), vec2f(1.0, 1.0),
         vec2f(0.0, -1.0), vec2f(1.0, 1.0), vec2f(0.0, 1.0),
     );
-    let va = lifted(in.a, in.size.y);
-    let vb = lifted(in.b, in.size.y);
+    let va = lifted(in.a, in.size);
+    let vb = lifted(in.b, in.size);
     let ca = frame.projection * vec4f(in_front(va, vb), 1.0);
     let cb = frame.projection * vec4f(in_front(vb, va), 1.0);
     let a = pixels(ca) + in.offset_a * vec2f(1.0, -1.0);

@@ -44,7 +44,7 @@ fn mesh_fragment(in: Shaded, @builtin(front_facing) front: bool) -> @location(0)
     let diffuse = clamp((toward + 0.3) / 1.3, 0.0, 1.0);
     var shadow = 1.0;
     if toward > -0.1 {
-        let shade = lit(in.world + normal * frame.hollows.w, 1.6, in.clip.xy);
+        let shade = lit(in.world + normal * frame.hollows.w, 2.6, in.clip.xy);
         shadow = mix(1.0, shade, frame.horizon.w * smoothstep(-0.1, 0.25, toward));
     }
     let from_above = normal.y * 0.5 + 0.5;

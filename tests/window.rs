@@ -381,3 +381,14 @@ fn losing_the_pointer_or_the_window_ends_a_stroke() {
     window.run_steps(2);
     assert_eq!(counts(&window), [1, 0], "no second stroke begins by itself");
 }
+
+#[test]
+fn what_was_done_is_shown_without_waiting_for_the_next_event() {
+    let mut window = window();
+    let at = pane(&window, "Pattern pane").center();
+    move_to(&mut window, at);
+    button(&mut window, at, PointerButton::Primary, true, Modifiers::NONE);
+    button(&mut window, at, PointerButton::Primary, false, Modifiers::NONE);
+    let root = &window.output().viewport_output[&egui::ViewportId::ROOT];
+    assert_eq!(root.repaint_delay, Duration::ZERO);
+}

@@ -42,7 +42,7 @@ impl Look {
             grid: 0.5,
             ambient: 0.54,
             key: 0.72,
-            shadow: 0.6,
+            shadow: 0.48,
             occlusion: 0.85,
             pixels_per_point: 1.0,
         }

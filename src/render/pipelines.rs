@@ -211,7 +211,7 @@ fn mesh_vertices() -> wgpu::VertexBufferLayout<'static> {
 
 fn stroke_instances() -> wgpu::VertexBufferLayout<'static> {
     const ATTRIBUTES: [wgpu::VertexAttribute; 6] = wgpu::vertex_attr_array![
-        0 => Float32x3, 1 => Float32x3, 2 => Float32x2, 3 => Float32x2, 4 => Unorm8x4, 5 => Float32x2
+        0 => Float32x3, 1 => Float32x3, 2 => Float32x2, 3 => Float32x2, 4 => Unorm8x4, 5 => Float32x3
     ];
     wgpu::VertexBufferLayout {
         array_stride: size_of::<Stroke>() as u64,

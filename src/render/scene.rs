@@ -51,6 +51,8 @@ pub struct Polyline {
     pub halo_width: f32,
     /// Drawn as if this much nearer to the eye, metres, so that it is not swallowed by the surface it lies on.
     pub lift: f32,
+    /// And nearer by this many of its half widths: 1.5 keeps both sides above a surface seen at a slant.
+    pub lift_widths: f32,
 }
 
 /// A number on a badge that always faces the eye.

@@ -16,6 +16,7 @@ pub(super) struct Stroke {
     colour: [u8; 4],
     half_width: f32,
     lift: f32,
+    lift_widths: f32,
 }
 
 /// All capsules in drawing order: borders of lines, lines, borders of labels, labels. `scale`: logical pixels to pixels.
@@ -44,6 +45,7 @@ fn push_line(all: &mut Vec<Stroke>, line: &Polyline, colour: [u8; 4], half_width
             colour,
             half_width,
             lift: line.lift,
+            lift_widths: line.lift_widths,
         });
     };
     match line.points.as_slice() {
@@ -72,6 +74,7 @@ fn push_badge(all: &mut Vec<Stroke>, label: &Label, scale: f32) {
             colour,
             half_width: half_width * height,
             lift: label.lift,
+            lift_widths: 0.0,
         });
     }
 }
@@ -94,6 +97,7 @@ fn push_digits(all: &mut Vec<Stroke>, label: &Label, scale: f32) {
                     colour: label.halo,
                     half_width: 0.085 * height,
                     lift: label.lift,
+                    lift_widths: 0.0,
                 });
             }
         }
@@ -234,6 +238,7 @@ mod tests {
             halo: [9, 9, 9, 255],
             halo_width: 1.0,
             lift: 0.0,
+            lift_widths: 0.0,
         };
         let all = strokes(&[line], &[], 2.0);
         assert_eq!(all.len(), 6);

@@ -63,7 +63,6 @@ impl App {
             Action::Theme(theme) => ctx.set_theme(theme),
             Action::Shortcuts => self.dialog = Some(Dialog::Shortcuts),
         }
-        ctx.request_repaint();
     }
 
     fn suggest_marks(&mut self) {

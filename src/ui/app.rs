@@ -122,6 +122,10 @@ impl App {
         self.keys(&ctx, &now, &mut asks);
         self.panels(ui, &document, &snapshot, &now, &palette, &mut asks);
         self.messages.ui(&ctx, &palette, status::HEIGHT);
+        if !asks.is_empty() {
+            // This frame showed how things stood before.
+            ctx.request_repaint();
+        }
         for ask in asks {
             self.carry_out(&ctx, ask);
         }
@@ -315,6 +319,7 @@ impl App {
             return;
         }
         self.dialog = None;
+        ctx.request_repaint();
         match answer {
             Answer::None => {}
             Answer::Cancel => self.after_save = None,

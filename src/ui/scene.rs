@@ -62,6 +62,13 @@ const INK: u8 = 255;
 const WHITE: [u8; 4] = [255, 255, 255, 235];
 /// Logical pixels.
 const MARK_WIDTH: f32 = 3.2;
+/// How much nearer to the eye a mark is drawn: metres on a body of 1.5 m, and half widths of the line.
+type Lift = (f32, f32);
+const ON_SKIN: Lift = (0.0025, 1.6);
+/// Less than the cloth lies above the skin.
+const UNDER_CLOTH: Lift = (0.002, 0.0);
+const ON_CLOTH: Lift = (0.003, 1.6);
+const ABOVE_ALL: Lift = (0.03, 1.6);
 /// Seams and edges of the cloth, sRGB and opacity.
 const SEAM: [u8; 4] = [66, 78, 70, 150];
 const HEM: [u8; 4] = [52, 84, 56, 170];
@@ -158,7 +165,7 @@ impl Scenery {
         for (i, places) in found.places.iter().enumerate() {
             let points: Option<Vec<Vec3>> = places.iter().map(|p| p.point(garment, state)).collect();
             if let Some(points) = points.filter(|p| !p.is_empty()) {
-                push_mark(scene, points, i + 1, MARK_WIDTH, 0.006, scale);
+                push_mark(scene, points, i + 1, MARK_WIDTH, ON_CLOTH, scale);
                 covered += usize::from(covered == i);
             }
         }
@@ -230,7 +237,7 @@ fn hem_lines(garment: &Garment, state: &ClothState, scale: f32) -> Vec<Polyline>
 }
 
 fn thin_line(points: Vec<Vec3>, colour: [u8; 4], width: f32, scale: f32) -> Polyline {
-    Polyline { points, colour, width, lift: 0.004 * scale, ..Polyline::default() }
+    Polyline { points, colour, width, lift: 0.002 * scale, lift_widths: 1.0, ..Polyline::default() }
 }
 
 /// Marks on the body: those whose partner lies on the cloth above them keep their line but need no second number.
@@ -238,7 +245,8 @@ fn body_marks(marks: &Marks, shown: &Shown<'_>, covered: usize, scale: f32, scen
     for (i, mark) in marks.body.iter().enumerate() {
         let points: Vec<Vec3> = mark.points.iter().map(|p| p.as_vec3()).collect();
         let width = if shown.near == Some(mark.id) { MARK_WIDTH + 2.0 } else { MARK_WIDTH };
-        push_mark(scene, points, i + 1, width, 0.0025, scale);
+        let lift = if i < covered { UNDER_CLOTH } else { ON_SKIN };
+        push_mark(scene, points, i + 1, width, lift, scale);
         if i < covered {
             scene.labels.pop();
         }
@@ -246,17 +254,26 @@ fn body_marks(marks: &Marks, shown: &Shown<'_>, covered: usize, scale: f32, scen
     if !shown.stroke.is_empty() {
         let points = shown.stroke.iter().map(|p| p.as_vec3()).collect();
         // Above cloth that may lie there, so that the hand sees what it does.
-        push_mark(scene, points, marks.body.len() + 1, MARK_WIDTH, 0.03, scale);
+        push_mark(scene, points, marks.body.len() + 1, MARK_WIDTH, ABOVE_ALL, scale);
     }
 }
 
-fn push_mark(scene: &mut Scene, points: Vec<Vec3>, number: usize, width: f32, lift: f32, scale: f32) {
+fn push_mark(scene: &mut Scene, points: Vec<Vec3>, number: usize, width: f32, lift: Lift, scale: f32) {
     let Some(&first) = points.first() else { return };
     let points = simplified(&points, 6e-4 * scale);
     let colour = opaque(mark_colour(number));
-    let lift = lift * scale;
+    let (lift, lift_widths) = (lift.0 * scale, lift.1);
     let width = if points.len() == 1 { width * 2.2 } else { width };
-    scene.lines.push(Polyline { points, colour, width, halo: WHITE, halo_width: 1.8, lift, closed: false });
+    scene.lines.push(Polyline {
+        points,
+        colour,
+        width,
+        halo: WHITE,
+        halo_width: 1.8,
+        lift,
+        lift_widths,
+        closed: false,
+    });
     scene.labels.push(Label {
         anchor: first,
         offset: Vec2::new(-11.0, 11.0),

@@ -160,7 +160,9 @@ impl PatternPane {
         }
         if self.drag.is_some() {
             self.go_on(ui, document, pane, asks);
-            let lost = ui.input(|i| !i.focused || i.events.contains(&Event::PointerGone));
+            let lost = ui.input(|i| {
+                i.events.contains(&Event::WindowFocused(false)) || i.events.contains(&Event::PointerGone)
+            });
             if ui.input(|i| i.key_pressed(Key::Escape)) {
                 self.cancel(asks);
             } else if !ui.input(|i| i.pointer.primary_down()) || lost {

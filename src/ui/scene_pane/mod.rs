@@ -96,7 +96,7 @@ impl ScenePane {
         self.set_cursor(ui, seen, near, pane, &response);
         self.show(ui, seen, near, pane);
         publish_marks(ui, seen, pane, &self.camera);
-        view_buttons(ui, pane, asks);
+        view_buttons(ui, pane, seen.palette, asks);
     }
 
     /// The stroke under way.
@@ -226,7 +226,9 @@ impl ScenePane {
         }
         if self.drag.is_some() {
             self.go_on(ui, seen, pane);
-            let lost = ui.input(|i| !i.focused || i.events.contains(&Event::PointerGone));
+            let lost = ui.input(|i| {
+                i.events.contains(&Event::WindowFocused(false)) || i.events.contains(&Event::PointerGone)
+            });
             if ui.input(|i| i.key_pressed(Button::Escape)) {
                 self.drag = Some(Drag::Over);
             } else if !ui.input(|i| i.pointer.primary_down()) || lost {
@@ -396,7 +398,7 @@ fn within(pane: Rect, at: Pos2) -> Vec2 {
 }
 
 /// Small buttons over the upper right corner.
-fn view_buttons(ui: &mut egui::Ui, pane: Rect, asks: &mut Asks) {
+fn view_buttons(ui: &mut egui::Ui, pane: Rect, palette: &Palette, asks: &mut Asks) {
     let area = Rect::from_min_max(
         Pos2::new(pane.left() + 8.0, pane.top() + 8.0),
         Pos2::new(pane.right() - 8.0, pane.top() + 34.0),
@@ -407,7 +409,9 @@ fn view_buttons(ui: &mut egui::Ui, pane: Rect, asks: &mut Asks) {
         let all = std::iter::once(Action::FrameAll).chain(VIEWS[..5].iter().rev().map(|&v| Action::Look(v)));
         for action in all {
             let entry = action.entry();
-            if ui.small_button(entry.text).on_hover_text(entry.tip).clicked() {
+            let button =
+                egui::Button::new(egui::RichText::new(entry.text).size(12.5)).fill(palette.overlay).small();
+            if ui.add(button).on_hover_text(entry.tip).clicked() {
                 asks.push(Ask::Act(action));
             }
         }
