@@ -5,6 +5,7 @@
 mod draft;
 mod dress;
 mod form;
+mod scarf;
 mod skirt;
 mod strokes;
 mod trousers;
@@ -27,11 +28,13 @@ pub enum Sample {
     Dress,
     /// Two fronts, two backs, a waistband.
     Trousers,
+    /// One strip round the neck.
+    Scarf,
 }
 
 impl Sample {
     /// All of them, in the order of the menu.
-    pub const ALL: [Self; 4] = [Self::Tshirt, Self::Skirt, Self::Dress, Self::Trousers];
+    pub const ALL: [Self; 5] = [Self::Tshirt, Self::Skirt, Self::Dress, Self::Trousers, Self::Scarf];
 
     /// Shown to people.
     pub fn name(self) -> &'static str {
@@ -40,6 +43,7 @@ impl Sample {
             Self::Skirt => "Skirt",
             Self::Dress => "Dress",
             Self::Trousers => "Trousers",
+            Self::Scarf => "Scarf",
         }
     }
 
@@ -50,6 +54,7 @@ impl Sample {
             Self::Skirt => "skirt",
             Self::Dress => "dress",
             Self::Trousers => "trousers",
+            Self::Scarf => "scarf",
         }
     }
 
@@ -61,6 +66,7 @@ impl Sample {
             Self::Skirt => skirt::skirt(&form),
             Self::Dress => dress::dress(&form),
             Self::Trousers => trousers::trousers(&form),
+            Self::Scarf => scarf::scarf(&form),
         };
         let mut document = Document {
             pattern: Arc::new(pattern),
