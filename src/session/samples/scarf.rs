@@ -9,7 +9,7 @@ use crate::pattern::Pattern;
 use crate::wrap::Marks;
 
 /// Length and width, metres. A wider strip has to stretch round the neck.
-const SIZE: DVec2 = DVec2::new(1.75, 0.105);
+const SIZE: DVec2 = DVec2::new(1.70, 0.13);
 
 /// Pattern and marks.
 pub fn scarf(form: &Form) -> (Pattern, Marks) {

@@ -11,17 +11,19 @@ use crate::pattern::{Pattern, Piece};
 use crate::wrap::Marks;
 
 /// Added to the waist girth, metres.
-const WAIST_EASE: f64 = 0.02;
+const WAIST_EASE: f64 = 0.026;
 /// Added to the hip girth.
-const HIP_EASE: f64 = 0.05;
+const HIP_EASE: f64 = 0.06;
 /// Added to the girth of the knee.
-const KNEE_EASE: f64 = 0.10;
+const KNEE_EASE: f64 = 0.085;
 /// Width of the leg at the hem over the girth of the ankle.
-const HEM_EASE: f64 = 0.17;
+const HEM_EASE: f64 = 0.14;
+/// From the ankle bone up to the hem: clear of the foot.
+const HEM_HEIGHT: f64 = 0.07;
 /// Added to the depth of the crotch.
 const CROTCH_EASE: f64 = 0.022;
 /// Moved from each front's width to each back's.
-const BACK_SHARE: f64 = 0.008;
+const BACK_SHARE: f64 = 0.018;
 
 /// Heights below the waist, and girths, that both pieces share.
 struct Block {
@@ -57,7 +59,7 @@ impl Block {
             hip: waist - form.mark("hip_front").y,
             crotch: waist - form.mark("crotch").y + CROTCH_EASE,
             knee: waist - form.mark("knee_left").y,
-            hem: waist - form.mark("ankle_left").y - 0.02,
+            hem: waist - form.mark("ankle_left").y - HEM_HEIGHT,
             waist_quarter: (m.waist + WAIST_EASE) / 4.0,
             hip_quarter: (m.hip + HIP_EASE) / 4.0,
             knee_half: (m.knee + KNEE_EASE) / 2.0,
@@ -74,7 +76,7 @@ impl Block {
         let waist_width = cut.lean + self.waist_quarter + cut.dart[0];
         let crease = (hip_width - cut.fork) / 2.0 + 0.004;
         let [knee, hem] = [self.knee_half, self.hem_half].map(|w| (w + 1.5 * cut.wider) / 2.0);
-        let (middle_top, side_top) = (at(cut.lean, -cut.rise), at(waist_width, -0.010));
+        let (middle_top, side_top) = (at(cut.lean, -cut.rise), at(waist_width, 0.002));
         let (hip_side, fork) = (at(hip_width, self.hip), at(-cut.fork, self.crotch + drop));
         let middle_hip = at(0.0, self.hip + 0.40 * (self.crotch - self.hip));
         let [knee_side, knee_in] = [crease + knee, crease - knee].map(|x| at(x, self.knee));
@@ -124,8 +126,8 @@ impl Block {
 /// Pattern and marks.
 pub fn trousers(form: &Form) -> (Pattern, Marks) {
     let block = Block::new(form);
-    let front = Cut { fork: 0.045, lean: 0.010, rise: 0.0, dart: [0.018, 0.09], wider: -BACK_SHARE };
-    let back = Cut { fork: 0.100, lean: 0.028, rise: 0.034, dart: [0.026, 0.12], wider: BACK_SHARE };
+    let front = Cut { fork: 0.042, lean: 0.010, rise: 0.0, dart: [0.018, 0.09], wider: -BACK_SHARE };
+    let back = Cut { fork: 0.094, lean: 0.028, rise: 0.036, dart: [0.026, 0.12], wider: BACK_SHARE };
     let mut front_left = block.leg("front left", &front, 0.0);
     // The back's fork is lowered until both inner seams are as long.
     let inner = edge_length(&front_left, "in upper");
