@@ -1,0 +1,172 @@
+//! The samples: drafted well, dressed well, and the same as the files in `assets/samples`.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use serde_json::Value;
+use toile::body::{Measurements, Surface, mannequin};
+use toile::cloth::build;
+use toile::fit::{BodyIndex, Report, measure, verdict};
+use toile::session::samples::Sample;
+use toile::session::{Project, project_file};
+use toile::wrap::{Dressing, Phase};
+
+/// Figures may differ by this from one machine's mathematics library to another's.
+const CLOSE: f64 = 1e-6;
+
+fn drafted(sample: Sample) -> Project {
+    sample.project(&mannequin::default())
+}
+
+fn dressed(project: &Project, body: &Arc<Surface>) -> Report {
+    let document = &project.document;
+    let (garment, problems) = build(&document.pattern, document.settings.edge_length);
+    assert!(problems.is_empty(), "{problems:?}");
+    let garment = Arc::new(garment);
+    let (dressing, mut state, problems) =
+        Dressing::new(garment.clone(), body.clone(), &document.marks, document.settings.relax);
+    assert!(problems.is_empty(), "{problems:?}");
+    let mut dressing = dressing.expect("a dressing");
+    for pair in &dressing.stretches {
+        assert!(pair.stretch().abs() < 0.01, "marks {} differ in length: {pair:?}", pair.number);
+    }
+    let ticks = (0..2000).take_while(|_| dressing.step(&mut state) != Phase::AtRest).count();
+    assert!(ticks < 2000, "never at rest");
+    measure(&document.pattern, &garment, &state, &BodyIndex::new(body))
+}
+
+fn check_dressed(sample: Sample, openings: usize) {
+    let body = Arc::new(Surface::new(mannequin::default().mesh.clone()).expect("a body"));
+    let report = dressed(&drafted(sample), &body);
+    let name = sample.name();
+    println!("{name}: p99 strain {:.4}, {} self crossings", report.strain.p99, report.self_crossings);
+    assert_eq!(verdict(&report), [], "{name}");
+    assert!(report.strain.p99 <= 0.05, "{name}: p99 strain {}", report.strain.p99);
+    assert_eq!(report.openings.len(), openings, "{name}");
+    assert_eq!(report.self_crossings, 0, "{name}");
+    assert_eq!(report.penetration.vertices + report.edges_through_body + report.flipped_faces, 0, "{name}");
+}
+
+#[test]
+fn the_tshirt_is_dressed() {
+    check_dressed(Sample::Tshirt, 4);
+}
+
+#[test]
+fn the_skirt_is_dressed() {
+    check_dressed(Sample::Skirt, 2);
+}
+
+#[test]
+fn the_dress_is_dressed() {
+    check_dressed(Sample::Dress, 4);
+}
+
+#[test]
+fn the_trousers_are_dressed() {
+    check_dressed(Sample::Trousers, 3);
+}
+
+#[test]
+fn the_scarf_is_dressed() {
+    check_dressed(Sample::Scarf, 1);
+}
+
+#[test]
+fn seams_join_edges_of_equal_length() {
+    for sample in Sample::ALL {
+        let pattern = drafted(sample).document.pattern;
+        for (id, seam) in &pattern.seams {
+            let [a, b] = seam.sides.map(|side| pattern.pieces[&side.piece].edge_length(side.edge));
+            // A sleeve is eased into its armhole.
+            assert!((a / b - 1.0).abs() < 0.025, "{}: {id} joins {a:.4} m to {b:.4} m", sample.name());
+        }
+    }
+}
+
+#[test]
+fn pieces_lie_beside_each_other() {
+    for sample in Sample::ALL {
+        let pattern = drafted(sample).document.pattern;
+        let boxes: Vec<_> = pattern
+            .pieces
+            .values()
+            .map(|piece| {
+                assert!(piece.signed_area() > 0.0, "{} is drawn from its front", piece.name);
+                let points: Vec<_> =
+                    piece.flattened(1e-3).iter().map(|&p| piece.pose.plane_from_piece(p)).collect();
+                let lower = points.iter().copied().reduce(glam::DVec2::min).expect("points");
+                (lower, points.iter().copied().reduce(glam::DVec2::max).expect("points"))
+            })
+            .collect();
+        for (i, a) in boxes.iter().enumerate() {
+            for b in &boxes[i + 1..] {
+                assert!(
+                    a.0.cmpgt(b.1).any() || b.0.cmpgt(a.1).any(),
+                    "{}: two pieces overlap",
+                    sample.name()
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn samples_can_be_drafted_for_another_body() {
+    let m = Measurements {
+        height: 1.70,
+        bust: 0.98,
+        waist: 0.80,
+        abdomen: 0.93,
+        hip: 1.04,
+        ..Default::default()
+    };
+    let m = Measurements { waist_to_ankle: 1.03, upper_thigh: 0.59, ..m };
+    let body = mannequin::mannequin(&m).expect("a body");
+    for sample in Sample::ALL {
+        let project = sample.project(&body);
+        assert_eq!(project.problem(), None, "{}", sample.name());
+        let (_, problems) = build(&project.document.pattern, project.document.settings.edge_length);
+        assert_eq!(problems, [], "{}", sample.name());
+    }
+}
+
+fn asset(sample: Sample) -> PathBuf {
+    let file = format!("assets/samples/{}.toile", sample.file_stem());
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(file)
+}
+
+/// With `TOILE_UPDATE_ASSETS=1` the files are written anew.
+#[test]
+fn the_files_hold_what_the_drafting_gives() {
+    for sample in Sample::ALL {
+        let path = asset(sample);
+        let project = drafted(sample);
+        if std::env::var_os("TOILE_UPDATE_ASSETS").is_some() {
+            std::fs::create_dir_all(path.parent().expect("a folder")).expect("made");
+            let bytes = project_file::to_bytes(&project).expect("a project");
+            std::fs::write(&path, bytes).expect("written");
+        }
+        let kept = project_file::open(&path).unwrap_or_else(|e| panic!("{e}"));
+        let [kept, fresh] = [&kept, &project].map(|p| serde_json::to_value(p).expect("JSON"));
+        same(&kept, &fresh, &path.display().to_string());
+    }
+}
+
+fn same(a: &Value, b: &Value, place: &str) {
+    match (a, b) {
+        (Value::Number(x), Value::Number(y)) => {
+            let (x, y) = (x.as_f64().expect("a number"), y.as_f64().expect("a number"));
+            assert!((x - y).abs() <= CLOSE, "{place}: {x} in the file, {y} drafted");
+        }
+        (Value::Array(x), Value::Array(y)) => {
+            assert_eq!(x.len(), y.len(), "{place}");
+            x.iter().zip(y).enumerate().for_each(|(i, (x, y))| same(x, y, &format!("{place}/{i}")));
+        }
+        (Value::Object(x), Value::Object(y)) => {
+            assert!(x.keys().eq(y.keys()), "{place}");
+            x.iter().for_each(|(key, x)| same(x, &y[key], &format!("{place}/{key}")));
+        }
+        _ => assert_eq!(a, b, "{place}"),
+    }
+}
