@@ -81,11 +81,17 @@ fn wrap(session: &mut Session, project: &Path, seconds: &mut Seconds) -> Result<
     session.apply_alone(Command::Wrap).map_err(|why| Failure::input(project, why))?;
     session.update();
     seconds.build = start.elapsed().as_secs_f64();
+    let problems: Vec<String> = session
+        .snapshot()
+        .problems
+        .iter()
+        .filter(|p| !p.kind.is_note())
+        .map(|p| format!("{}: {}", p.place, p.words))
+        .collect();
     if session.snapshot().is_dressed() {
+        problems.iter().for_each(|words| output::complain(&format!("{}: {words}", project.display())));
         return Ok(());
     }
-    let problems: Vec<String> =
-        session.snapshot().problems.iter().map(|p| format!("{}: {}", p.place, p.words)).collect();
     let words = format!("no cloth could be put on the body: {}", problems.join("; "));
     Err(Failure::input(project, words))
 }

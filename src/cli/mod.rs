@@ -22,7 +22,6 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use tracing_subscriber::EnvFilter;
-use tracing_subscriber::filter::LevelFilter;
 
 use crate::cli::arguments::{Arguments, Task};
 use crate::cli::failure::{Failure, PANIC};
@@ -62,9 +61,10 @@ fn carry_out(arguments: Arguments) -> Result<(), Failure> {
     }
 }
 
-/// Errors of graphics drivers and such go to standard error; more with RUST_LOG.
+/// Errors of libraries (but not of every graphics driver tried in vain) go to standard error; more with RUST_LOG.
 fn listen_to_traces() {
-    let filter = EnvFilter::builder().with_default_directive(LevelFilter::ERROR.into()).from_env_lossy();
+    let quiet = EnvFilter::new("error,wgpu_hal=off");
+    let filter = EnvFilter::try_from_default_env().unwrap_or(quiet);
     let begun = tracing_subscriber::fmt()
         .with_env_filter(filter)
         .with_writer(std::io::stderr)

@@ -67,7 +67,7 @@ fn bad_files_are_refused_in_words() {
     refused(b"", "empty");
     refused(b"\xef\xbb\xbf  ", "empty");
     refused(b"o octopus\nv 1 2 3\n", "not a project");
-    refused(text[..text.len() / 2].as_bytes(), "not a project");
+    refused(&text.as_bytes()[..text.len() / 2], "not a project");
     refused(text.replace("\"version\": 1", "\"version\": 2").as_bytes(), "newer program");
     refused(text.replace("toile-project", "toile-recording").as_bytes(), "toile-recording");
     refused(text.replace("0.06", "6.0").as_bytes(), "mesh size");
