@@ -312,6 +312,96 @@ fn egui_wgpu_device() -> Option<egui_wgpu::RenderState> {
 }
 
 #[test]
+fn a_wrap_is_cancelled_by_escape() {
+    let mut window = window();
+    paint_both(&mut window);
+    let before = app(&window).session().document().clone();
+    window.get_by_label("Wrap").click();
+    window.run_steps(1);
+    key(&mut window, Modifiers::NONE, Key::Escape);
+    wait(&mut window, "the cancelling", |app| {
+        let snapshot = app.session().snapshot();
+        !snapshot.is_dressed() && !snapshot.working
+    });
+    assert_eq!(app(&window).session().document(), &before);
+    assert!(app(&window).session().undo_label().is_none_or(|label| label != "wrap"));
+}
+
+#[test]
+fn what_was_done_in_the_window_replays_to_the_same_hashes() {
+    let mut window = window();
+    paint_both(&mut window);
+    key(&mut window, Modifiers::COMMAND, Key::Z);
+    key(&mut window, Modifiers::COMMAND, Key::Y);
+    window.get_by_label("Wrap").click();
+    window.run_steps(2);
+    wait(&mut window, "the wrap", |app| app.session().snapshot().is_dressed());
+    key(&mut window, Modifiers::NONE, Key::Space);
+    wait(&mut window, "the pause", |app| !app.session().snapshot().working);
+    let text = window.state_mut().as_mut().expect("the app").recording();
+    let recording = toile::session::recording::Recording::parse(&text).expect("a recording");
+    let mut replay = toile::session::replay::Replay::new(recording);
+    replay.run().expect("the same hashes");
+    assert!(replay.hashes_compared() > 3);
+}
+
+#[test]
+fn a_body_in_centimetres_is_asked_about() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("ball.obj");
+    std::fs::write(&path, toile::io::obj::mesh("ball", &ball(85.0))).expect("a file");
+    let mut window = window();
+    window.get_by_label("File").click();
+    window.run_steps(3);
+    window.get_by_label("Import body…").click();
+    window.run_steps(3);
+    if window.query_by_label("Read").is_none() {
+        println!("skipped: this desktop may have a dialog of its own");
+        return;
+    }
+    window.get_by_role(egui::accesskit::Role::TextInput).focus();
+    window.run_steps(2);
+    window.get_by_role(egui::accesskit::Role::TextInput).type_text(&path.display().to_string());
+    window.run_steps(2);
+    window.get_by_label("Read").click();
+    window.run_steps(3);
+    assert!(window.query_by_label("cm: the body is 1.70 m tall").is_some());
+    window.get_by_label("Take it").click();
+    window.run_steps(3);
+    let (lower, upper) = app(&window).session().surface().expect("a body").bounds();
+    assert!(((upper - lower).y - 1.7).abs() < 1e-6);
+    assert!(app(&window).session().undo_label().is_some());
+}
+
+#[test]
+fn the_wheel_zooms_to_the_pointer() {
+    let mut window = window();
+    let area = pane(&window, "Pattern pane");
+    for x in [-60.0, 60.0] {
+        drag(&mut window, &[area.center() + Vec2::new(x, 10.0)], PointerButton::Primary);
+    }
+    let place = |w: &Window, label: &str| w.get_by_label(label).rect().center();
+    let [at, other] = ["Mark 1 on the cloth", "Mark 2 on the cloth"].map(|label| place(&window, label));
+    move_to(&mut window, at);
+    let steps = app(&window).session().step_labels().count();
+    window.event(Event::MouseWheel {
+        unit: egui::MouseWheelUnit::Line,
+        delta: Vec2::new(0.0, 3.0),
+        phase: egui::TouchPhase::Move,
+        source: egui::MouseWheelSource::Wheel,
+        modifiers: Modifiers::NONE,
+    });
+    window.run_steps(40);
+    assert!(
+        (place(&window, "Mark 1 on the cloth") - at).length() < 1.0,
+        "what is under the pointer stays there"
+    );
+    let grown = (place(&window, "Mark 2 on the cloth") - at).length() / (other - at).length();
+    assert!(grown > 1.2, "{grown}");
+    assert_eq!(app(&window).session().step_labels().count(), steps);
+}
+
+#[test]
 fn closing_with_changes_asks_first() {
     let mut window = window();
     let close = |window: &mut Window| {

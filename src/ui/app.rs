@@ -10,7 +10,7 @@ use crate::sim::{Runner, Simulation, Snapshot, thread::DEFAULT_RATE_HZ};
 use crate::ui::actions::{Action, Tool};
 use crate::ui::asks::{Ask, Asks};
 use crate::ui::dialogs::{Answer, Dialog, NativeDialog};
-use crate::ui::files::{self, Purpose};
+use crate::ui::files::{self, Purpose, RawBody};
 use crate::ui::messages::Messages;
 use crate::ui::pattern_pane::{self, PatternPane};
 use crate::ui::scene_pane::{self, ScenePane, Seen};
@@ -89,6 +89,11 @@ impl App {
     /// The session, for reading.
     pub fn session(&self) -> &Session {
         &self.session
+    }
+
+    /// Everything done so far, as a recording.
+    pub fn recording(&mut self) -> String {
+        self.session.recording()
     }
 
     /// Pictures of the body drawn so far.
@@ -315,7 +320,7 @@ impl App {
         }
         let Some(dialog) = &mut self.dialog else { return };
         let answer = dialog.ui(ctx);
-        if answer == Answer::None {
+        if matches!(answer, Answer::None) {
             return;
         }
         self.dialog = None;
@@ -329,6 +334,11 @@ impl App {
             }
             Answer::Discard(action) => self.act_unguarded(ctx, action),
             Answer::File(purpose, path) => self.file(ctx, purpose, &path),
+            Answer::Body(raw) => {
+                if let Err(words) = self.take_body(*raw) {
+                    self.messages.error(words);
+                }
+            }
         }
     }
 
@@ -384,20 +394,38 @@ impl App {
                 self.apply(command);
                 self.pattern_pane.fit = true;
             }),
-            Purpose::ImportBody => files::import_body(path).map(|command| self.apply(command)),
+            Purpose::ImportBody => files::read_body(path).and_then(|raw| self.import_body(raw)),
             Purpose::Export => {
                 let pattern = &self.session.document().pattern;
                 files::export(path, self.session.snapshot(), pattern).map(|()| self.wrote(path))
             }
             Purpose::Recording => {
-                let text = self.session.recording();
-                files::write_text(path, &text).map(|()| self.wrote(path))
+                let text = self.recording();
+                files::write(path, text.as_bytes()).map(|()| self.wrote(path))
             }
         };
         if let Err(words) = done {
             self.after_save = None;
             self.messages.error(words);
         }
+    }
+
+    /// Asks for the unit first when there is a doubt.
+    fn import_body(&mut self, raw: RawBody) -> Result<(), String> {
+        if raw.is_doubtful {
+            self.dialog = Some(Dialog::Unit { raw: Box::new(raw) });
+            return Ok(());
+        }
+        self.take_body(raw)
+    }
+
+    fn take_body(&mut self, raw: RawBody) -> Result<(), String> {
+        let (command, notes) = files::take_body(raw)?;
+        self.apply(command);
+        if !notes.is_empty() {
+            self.messages.tell(notes.join("; "));
+        }
+        Ok(())
     }
 
     pub(super) fn save_to(&mut self, ctx: &egui::Context, path: &Path) -> Result<(), String> {

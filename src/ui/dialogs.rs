@@ -9,8 +9,9 @@ use std::time::{Duration, Instant};
 
 use egui::{Id, Modal, ScrollArea, TextEdit};
 
+use crate::body::Unit;
 use crate::ui::actions::Action;
-use crate::ui::files::Purpose;
+use crate::ui::files::{Purpose, RawBody};
 
 /// A dialog that says "cancelled" sooner than a hand can click has not been shown at all.
 const TOO_QUICK: Duration = Duration::from_millis(400);
@@ -22,12 +23,14 @@ pub enum Dialog {
     Unsaved { then: Action },
     /// A path typed by hand, where the desktop offers no dialog.
     Path { purpose: Purpose, text: String },
+    /// The unit of a body.
+    Unit { raw: Box<RawBody> },
     /// Keys and mouse.
     Shortcuts,
 }
 
 /// What was answered.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Debug)]
 pub enum Answer {
     /// Nothing yet.
     None,
@@ -39,6 +42,15 @@ pub enum Answer {
     Discard(Action),
     /// This file.
     File(Purpose, PathBuf),
+    /// This body, in the unit it says.
+    Body(Box<RawBody>),
+}
+
+impl Answer {
+    /// Esc and a click beside the dialog cancel it.
+    fn or_cancel(self, closed: bool) -> Self {
+        if matches!(self, Self::None) && closed { Self::Cancel } else { self }
+    }
 }
 
 impl Dialog {
@@ -47,6 +59,7 @@ impl Dialog {
         match self {
             Self::Unsaved { then } => unsaved_ui(ctx, *then),
             Self::Path { purpose, text } => path_ui(ctx, *purpose, text),
+            Self::Unit { raw } => unit_ui(ctx, raw),
             Self::Shortcuts => shortcuts_ui(ctx),
         }
     }
@@ -74,7 +87,8 @@ fn unsaved_ui(ctx: &egui::Context, then: Action) -> Answer {
         })
         .inner
     });
-    if shown.inner == Answer::None && shown.should_close() { Answer::Cancel } else { shown.inner }
+    let closed = shown.should_close();
+    shown.inner.or_cancel(closed)
 }
 
 fn path_ui(ctx: &egui::Context, purpose: Purpose, text: &mut String) -> Answer {
@@ -107,7 +121,33 @@ fn path_ui(ctx: &egui::Context, purpose: Purpose, text: &mut String) -> Answer {
         })
         .inner
     });
-    if shown.inner == Answer::None && shown.should_close() { Answer::Cancel } else { shown.inner }
+    let closed = shown.should_close();
+    shown.inner.or_cancel(closed)
+}
+
+fn unit_ui(ctx: &egui::Context, raw: &mut RawBody) -> Answer {
+    let shown = Modal::new(Id::unique("unit")).show(ctx, |ui| {
+        ui.set_width(360.0);
+        ui.heading(format!("In which unit is {}?", raw.name));
+        ui.add_space(4.0);
+        for unit in Unit::ALL {
+            let words = format!("{unit}: the body is {:.2} m tall", raw.height * unit.metres());
+            ui.radio_value(&mut raw.unit, unit, words);
+        }
+        ui.add_space(8.0);
+        ui.horizontal(|ui| {
+            if ui.button("Take it").clicked() {
+                Answer::Body(Box::new(raw.clone()))
+            } else if ui.button("Cancel").clicked() {
+                Answer::Cancel
+            } else {
+                Answer::None
+            }
+        })
+        .inner
+    });
+    let closed = shown.should_close();
+    shown.inner.or_cancel(closed)
 }
 
 /// Folders and fitting files where the text points to. A double-click takes a file.
@@ -193,7 +233,8 @@ fn shortcuts_ui(ctx: &egui::Context) -> Answer {
         ui.add_space(8.0);
         ui.button("Close").clicked()
     });
-    if shown.inner || shown.should_close() { Answer::Cancel } else { Answer::None }
+    let closed = shown.should_close();
+    if shown.inner { Answer::Cancel } else { Answer::None.or_cancel(closed) }
 }
 
 const MOUSE: &[(&str, &str)] = &[

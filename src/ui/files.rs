@@ -3,8 +3,9 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use crate::body::mannequin;
-use crate::io::{garmentcode, obj};
+use crate::body::{Unit, guess_unit, import, mannequin};
+use crate::geometry::mesh::TriMesh;
+use crate::io::{garmentcode, glb, obj};
 use crate::pattern::Pattern;
 use crate::session::samples::Sample;
 use crate::session::{BodyChoice, Command, Project, project_file};
@@ -77,12 +78,12 @@ pub fn save(path: &Path, project: &Project) -> Result<(), String> {
     project_file::save(path, project).map_err(|e| in_words(path, "saved", e))
 }
 
-/// Writes text, whole or not at all.
-pub fn write_text(path: &Path, text: &str) -> Result<(), String> {
+/// Writes a file, whole or not at all.
+pub fn write(path: &Path, bytes: &[u8]) -> Result<(), String> {
     use std::io::Write;
     let write = || {
         let mut file = atomic_write_file::AtomicWriteFile::open(path)?;
-        file.write_all(text.as_bytes())?;
+        file.write_all(bytes)?;
         file.commit()
     };
     write().map_err(|e: std::io::Error| in_words(path, "written", e))
@@ -94,20 +95,56 @@ pub fn import_pattern(path: &Path) -> Result<Command, String> {
     Ok(Command::ReplacePattern { name: stem(path), pattern: Arc::new(pattern), marks: Arc::default() })
 }
 
-/// Reads a body.
-pub fn import_body(path: &Path) -> Result<Command, String> {
-    let read = obj::read(&read(path)?).map_err(|e| in_words(path, "imported", e))?;
-    Ok(Command::SetBody { body: BodyChoice::Imported { name: stem(path), mesh: Arc::new(read.mesh) } })
+/// A body as its file has it.
+#[derive(Clone, Debug)]
+pub struct RawBody {
+    /// Shown to people.
+    pub name: String,
+    /// In the file's unit.
+    pub mesh: TriMesh,
+    /// Of the file's unit, lowest to highest point.
+    pub height: f64,
+    /// What the unit probably is.
+    pub unit: Unit,
+    /// The guess is only one of several, or there is none.
+    pub is_doubtful: bool,
 }
 
-/// Writes the dressed garment of `snapshot`; `pattern` gives the places on the table.
+/// Reads a body; its unit may still have to be asked for.
+pub fn read_body(path: &Path) -> Result<RawBody, String> {
+    let mesh = obj::read(&read(path)?).map_err(|e| in_words(path, "imported", e))?.mesh;
+    let (lower, upper) = mesh.bounds();
+    let height = (upper - lower).y;
+    let guess = guess_unit(height);
+    let is_doubtful = guess != Some(Unit::Metre);
+    Ok(RawBody { name: stem(path), mesh, height, unit: guess.unwrap_or_default(), is_doubtful })
+}
+
+/// The command that takes `raw` as the body, and what was put right on the way.
+pub fn take_body(raw: RawBody) -> Result<(Command, Vec<String>), String> {
+    let imported = import(raw.mesh, raw.unit);
+    if !imported.is_usable() {
+        let faults: Vec<String> = imported.problems.into_iter().map(|p| p.words).collect();
+        return Err(format!("{} cannot be used as a body: {}", raw.name, faults.join("; ")));
+    }
+    let body = BodyChoice::Imported { name: raw.name, mesh: Arc::new(imported.mesh) };
+    Ok((Command::SetBody { body }, imported.notes))
+}
+
+/// Writes the dressed garment of `snapshot`, as .glb with its body; `pattern` gives the places on the table.
 pub fn export(path: &Path, snapshot: &Snapshot, pattern: &Pattern) -> Result<(), String> {
     let Some(garment) = snapshot.garment.as_ref().filter(|_| snapshot.is_dressed()) else {
         return Err("There is no cloth on the body to be written".to_owned());
     };
     match path.extension().map(|e| e.to_string_lossy().to_lowercase()).as_deref() {
-        Some("obj") => write_text(path, &obj::garment(garment, &snapshot.cloth, pattern)),
-        _ => Err(in_words(path, "written", "the name must end in .obj")),
+        Some("obj") => write(path, obj::garment(garment, &snapshot.cloth, pattern).as_bytes()),
+        Some("glb") => {
+            let dressed = glb::Dressed { garment, state: &snapshot.cloth, pattern };
+            let body = snapshot.body.as_ref().map(|b| &b.mesh);
+            let bytes = glb::write(Some(dressed), body, &glb::Colours::default());
+            write(path, &bytes.map_err(|e| in_words(path, "written", e))?)
+        }
+        _ => Err(in_words(path, "written", "the name must end in .obj or .glb")),
     }
 }
 
