@@ -133,7 +133,9 @@ mod tests {
         let (mesh, adjacency) = cylinder(n);
         let start = (mesh.positions[0] + mesh.positions[1]) / 2.0;
         let (along, up) = (1.5, 2.0);
-        let direction = DVec3::new(along, up, 0.0);
+        // In the plane of the first facet.
+        let (sin, cos) = (std::f64::consts::PI / f64::from(n)).sin_cos();
+        let direction = DVec3::new(along * cos, up, -along * sin);
         let end = straightest(&mesh, &adjacency, start, 0, direction, direction.length());
         // On the prism the way round is measured along its facets.
         let facet = 2.0 * (std::f64::consts::PI / f64::from(n)).sin();
