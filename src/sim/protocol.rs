@@ -2,8 +2,6 @@
 
 use std::sync::Arc;
 
-use glam::Vec3;
-
 use crate::body::Surface;
 use crate::cloth::{ClothState, Garment};
 use crate::pattern::{Pattern, Problem};
@@ -69,8 +67,6 @@ pub struct Snapshot {
     pub body: Option<Arc<Surface>>,
     /// Positions and which vertices are mapped. Empty without a garment.
     pub cloth: Arc<ClothState>,
-    /// Area-weighted unit normal per vertex over triangles that are wholly mapped; zero elsewhere.
-    pub normals: Vec<Vec3>,
     /// How far the dressing has come. None without a garment.
     pub phase: Option<Phase>,
     /// 0..=1 over growing and settling.
@@ -89,11 +85,6 @@ impl Snapshot {
     /// Whether there is cloth on the body, however little of it.
     pub fn is_dressed(&self) -> bool {
         self.cloth.mapped.iter().any(|&m| m)
-    }
-
-    /// Positions for drawing, metres.
-    pub fn positions_f32(&self) -> Vec<Vec3> {
-        self.cloth.positions.iter().map(|p| p.as_vec3()).collect()
     }
 }
 

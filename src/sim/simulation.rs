@@ -124,7 +124,6 @@ impl Simulation {
             source: world.source.clone(),
             body: world.body.clone(),
             cloth: Arc::clone(&world.cloth),
-            normals: world.normals(),
             phase: world.phase(),
             progress: world.progress(),
             relaxing: world.relaxing,

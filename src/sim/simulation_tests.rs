@@ -81,7 +81,6 @@ fn a_wrap_comes_to_rest_and_then_no_tick_counts() {
     let snapshot = simulation.snapshot();
     assert!(snapshot.is_dressed() && snapshot.cloth.mapped.iter().all(|&m| m));
     assert_eq!(snapshot.phase, Some(Phase::AtRest));
-    assert!(snapshot.normals.iter().all(|n| (n.length() - 1.0).abs() < 1e-3));
     let hashes = simulation.take_events().into_iter().filter(|e| matches!(e, Event::Hash { .. })).count();
     assert_eq!(hashes, 1);
 }

@@ -2,8 +2,6 @@
 
 use std::sync::Arc;
 
-use glam::{DVec3, Vec3};
-
 use crate::body::Surface;
 use crate::cloth::{self, ClothState, Counters, Garment};
 use crate::pattern::Problem;
@@ -144,21 +142,6 @@ impl World {
     pub fn not_finite(&self) -> Option<usize> {
         let cloth = &self.cloth;
         cloth.positions.iter().zip(&cloth.mapped).position(|(p, &mapped)| mapped && !p.is_finite())
-    }
-
-    /// Area-weighted unit normal per vertex over wholly mapped triangles; zero elsewhere.
-    pub fn normals(&self) -> Vec<Vec3> {
-        let Some(garment) = &self.garment else { return Vec::new() };
-        let (positions, mapped) = (&self.cloth.positions, &self.cloth.mapped);
-        let mut normals = vec![DVec3::ZERO; positions.len()];
-        for t in garment.triangles.iter().filter(|t| t.iter().all(|&v| mapped[v as usize])) {
-            let [a, b, c] = t.map(|v| positions[v as usize]);
-            let normal = (b - a).cross(c - a);
-            for &v in t {
-                normals[v as usize] += normal;
-            }
-        }
-        normals.into_iter().map(|n| n.normalize_or_zero().as_vec3()).collect()
     }
 
     /// About how much memory this keeps that `other` does not, bytes.

@@ -7,10 +7,13 @@ use proptest::prelude::*;
 use toile::geometry::ids::{MarkId, PieceId, SeamId};
 use toile::pattern::{Piece, PlanePose};
 use toile::relax::RelaxSettings;
-use toile::session::{Command, Document, GestureId, Session, Settings};
+use toile::session::recording::Recording;
+use toile::session::replay::Replay;
+use toile::session::{Command, Document, GestureId, Notice, Session, Settings};
+use toile::sim::{Runner, Simulation};
 use toile::wrap::ClothSide;
 
-use crate::common::{line_on_ball, run, session};
+use crate::common::{line_on_ball, project, run, session};
 
 #[derive(Clone, Debug)]
 enum Act {
@@ -159,4 +162,26 @@ fn esc_gives_redo_back() {
     assert_eq!(s.redo_label(), None);
     s.apply(Command::CancelGesture, gesture).expect("cancelled");
     assert_eq!((s.redo_label(), s.document().pattern.pieces.len()), (Some("clear all marks"), 2));
+}
+
+#[test]
+fn with_little_memory_old_steps_are_forgotten_and_a_recording_knows() {
+    let runner = Runner::inline(Simulation::with_memory(200_000));
+    let mut s = Session::new(project(), runner);
+    for _ in 0..12 {
+        s.apply_alone(Command::Wrap).expect("wrapped");
+        run(&mut s, 2);
+    }
+    let steps = s.step_labels().count();
+    assert!((1..12).contains(&steps), "{steps}");
+    // An undo keeps a state, too, and may push out the oldest: the session hears of it before the next.
+    while s.apply_alone(Command::Undo).is_ok() {
+        let failed = s.update().into_iter().any(|n| matches!(n, Notice::Failed { .. }));
+        assert!(!failed, "an undo that was offered failed");
+    }
+    let text = s.recording();
+    assert!(text.contains("forget_history"));
+    let mut replay = Replay::new(Recording::parse(&text).expect("a recording"));
+    replay.run().expect("the same bits");
+    assert_eq!(replay.session().redo_label(), s.redo_label());
 }
