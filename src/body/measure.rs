@@ -60,7 +60,7 @@ pub fn girth(mesh: &TriMesh, tape: &Tape) -> Option<f64> {
                 .collect::<Vec<_>>()
         })
         .filter(|flat| encloses_origin(flat))
-        .map(|flat| hull_perimeter(flat))
+        .map(hull_perimeter)
         .min_by(f64::total_cmp)
 }
 

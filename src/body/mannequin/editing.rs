@@ -232,16 +232,17 @@ impl Editing {
 
     /// Live vertices and triangles only, in their order.
     pub fn compacted(self) -> Self {
-        let mut new = vec![u32::MAX; self.positions.len()];
-        let mut positions = Vec::new();
-        let mut rim = Vec::new();
-        for v in 0..self.positions.len() {
-            if !self.around[v].is_empty() {
-                new[v] = positions.len() as u32;
-                positions.push(self.positions[v]);
-                rim.push(self.rim[v]);
-            }
-        }
+        let lives: Vec<bool> = self.around.iter().map(|triangles| !triangles.is_empty()).collect();
+        let mut count = 0;
+        let new: Vec<u32> = lives
+            .iter()
+            .map(|&lives| {
+                count += u32::from(lives);
+                count.wrapping_sub(1)
+            })
+            .collect();
+        let positions = self.positions.iter().zip(&lives).filter(|(_, l)| **l).map(|(&p, _)| p).collect();
+        let rim = self.rim.iter().zip(&lives).filter(|(_, l)| **l).map(|(&r, _)| r).collect();
         let triangles: Vec<[u32; 3]> =
             self.triangles.iter().filter(|t| t[0] != t[1]).map(|t| t.map(|v| new[v as usize])).collect();
         let mut fresh = Self::new(positions, triangles);

@@ -57,7 +57,7 @@ impl<'a> Form<'a> {
     }
 
     /// Length of a tape from the top of the shoulder at `x` down the front (`side` 1) or back (-1) to height `y`.
-    pub fn from_shoulder(&self, x: f64, y: f64, side: f64) -> f64 {
+    pub fn shoulder_drop(&self, x: f64, y: f64, side: f64) -> f64 {
         let top = self.shoulder(x);
         let lifted = |p: DVec3| DVec2::new(side * p.z, p.y) + DVec2::new(self.offset, self.offset / 2.0);
         let steps = ((top.y - y) / STEP).ceil().max(1.0);
@@ -152,7 +152,7 @@ impl Yoke {
         let neck_width = neck_width * m.half_across_shoulder / 0.2009;
         let (neck, tip) = (form.shoulder(neck_width), form.mark("shoulder_left"));
         let bust = form.mark("bust_front").y;
-        let [front, back] = [1.0, -1.0].map(|side| form.from_shoulder(neck_width, bust, side));
+        let [front, back] = [1.0, -1.0].map(|side| form.shoulder_drop(neck_width, bust, side));
         Self {
             neck_width,
             shoulder: neck.distance(tip) - short,
