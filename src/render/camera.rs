@@ -83,18 +83,53 @@ impl Camera {
 
     /// Moves so that the whole box is seen, without turning.
     pub fn frame(&mut self, lower: Vec3, upper: Vec3, aspect: f32) {
+        let corner = |i: i32| {
+            let pick = |bit: i32, lo: f32, hi: f32| if i & bit == 0 { lo } else { hi };
+            Vec3::new(pick(1, lower.x, upper.x), pick(2, lower.y, upper.y), pick(4, lower.z, upper.z))
+        };
+        self.frame_points(&(0..8).map(corner).collect::<Vec<_>>(), aspect);
+    }
+
+    /// Moves so that all of `points` are seen and fill the picture, without turning. None: stays.
+    pub fn frame_points(&mut self, points: &[Vec3], aspect: f32) {
+        let Some(&first) = points.first() else { return };
+        let (lower, upper) = points.iter().fold((first, first), |(lo, hi), &p| (lo.min(p), hi.max(p)));
         self.set_bounds(lower, upper);
         self.pivot = (lower + upper) / 2.0;
+        // With perspective the middle of the picture is not the middle of the points: a few steps find it.
+        for _ in 0..4 {
+            self.distance = self.fitting_distance(points, aspect);
+            self.pivot += self.rotation * self.off_centre(points).extend(0.0);
+        }
+        self.distance = self.fitting_distance(points, aspect);
+    }
+
+    /// How far away the eye must be to see all of `points` about the pivot.
+    fn fitting_distance(&self, points: &[Vec3], aspect: f32) -> f32 {
         let tan_y = (self.fov_y / 2.0).tan();
         let tan_x = tan_y * aspect.max(1e-3);
-        let half = (upper - lower) / 2.0;
-        let distance = (0..8).fold(0.0f32, |far, i| {
-            let sign = |bit: i32| if i & bit == 0 { -1.0 } else { 1.0 };
-            let corner = self.rotation.inverse() * (half * Vec3::new(sign(1), sign(2), sign(4)));
-            let towards = if self.projection == Projection::Perspective { corner.z } else { 0.0 };
-            far.max(towards + MARGIN * (corner.x.abs() / tan_x).max(corner.y.abs() / tan_y))
+        let turn = self.rotation.inverse();
+        let distance = points.iter().fold(0.0f32, |far, &p| {
+            let p = turn * (p - self.pivot);
+            let towards = if self.projection == Projection::Perspective { p.z } else { 0.0 };
+            far.max(towards + MARGIN * (p.x.abs() / tan_x).max(p.y.abs() / tan_y))
         });
-        self.distance = distance.max(1e-3);
+        distance.max(1e-3)
+    }
+
+    /// Where the middle of the picture of `points` lies from the pivot, metres in the pivot's plane, right and up.
+    fn off_centre(&self, points: &[Vec3]) -> Vec2 {
+        let turn = self.rotation.inverse();
+        let seen = points.iter().map(|&p| {
+            let p = turn * (p - self.pivot);
+            let scale = match self.projection {
+                Projection::Perspective => self.distance / (self.distance - p.z).max(1e-6),
+                Projection::Orthographic => 1.0,
+            };
+            p.truncate() * scale
+        });
+        let range = seen.map(|p| (p, p)).reduce(|(a, b), (c, d)| (a.min(c), b.max(d)));
+        range.map_or(Vec2::ZERO, |(lower, upper)| (lower + upper) / 2.0)
     }
 
     /// Tells what must never be cut off, without moving.

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use glam::{UVec2, Vec3};
+use glam::UVec2;
 
 use super::{Camera, Gpu, Look, OffscreenTarget, RenderError, Renderer, Scene, View};
 
@@ -53,8 +53,9 @@ impl Studio {
         look: &Look,
         size: UVec2,
     ) -> Result<image::RgbaImage, RenderError> {
-        let (lower, upper) = scene.bounds().unwrap_or((Vec3::splat(-0.5), Vec3::splat(0.5)));
-        let camera = Camera::framing(lower, upper, view, size.x.max(1) as f32 / size.y.max(1) as f32);
+        let mut camera = Camera::default();
+        camera.look(view);
+        camera.frame_points(&scene.points(), size.x.max(1) as f32 / size.y.max(1) as f32);
         self.draw(scene, &camera, look, size)
     }
 }

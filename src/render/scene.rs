@@ -99,13 +99,13 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// Lower and upper corner of all meshes and lines; None when there is nothing.
-    pub fn bounds(&self) -> Option<(Vec3, Vec3)> {
-        let points = self.lines.iter().flat_map(|l| &l.points).map(|&p| (p, p));
-        self.meshes
-            .iter()
-            .filter_map(|m| m.bounds())
-            .chain(points)
-            .reduce(|(a, b), (c, d)| (a.min(c), b.max(d)))
+    /// Every point of meshes and lines.
+    pub fn points(&self) -> Vec<Vec3> {
+        // Points that no triangle uses are not seen.
+        let corners = self.meshes.iter().flat_map(|m| {
+            let seen = m.triangles.iter().flatten();
+            seen.filter_map(|&v| m.positions.get(v as usize).copied())
+        });
+        corners.chain(self.lines.iter().flat_map(|l| l.points.iter().copied())).collect()
     }
 }

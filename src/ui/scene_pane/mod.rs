@@ -109,18 +109,20 @@ impl ScenePane {
 
     fn frame_if_asked(&mut self, seen: &Seen<'_>, pane: Rect) {
         let Some(body) = seen.body else { return };
-        let (lower, upper) = everything(seen, body);
         if !self.framed_body.as_ref().is_some_and(|b| Arc::ptr_eq(b, body)) {
             let first = self.framed_body.is_none();
             self.framed_body = Some(Arc::clone(body));
             self.frame = self.frame.or(Some(first.then_some(View::Front)));
         }
+        let (lower, upper) = everything(seen, body);
         self.camera.set_bounds(lower, upper);
         if let Some(view) = self.frame.take() {
             if let Some(view) = view {
                 self.camera.look(view);
             }
-            self.camera.frame(lower, upper, pane.width() / pane.height().max(1.0));
+            let points: Vec<Vec3> =
+                body.mesh.positions.iter().chain(on_body(seen)).map(|p| p.as_vec3()).collect();
+            self.camera.frame_points(&points, pane.width() / pane.height().max(1.0));
         }
     }
 
@@ -379,13 +381,15 @@ fn painted(seen: &Seen<'_>, points: Vec<DVec3>) -> Command {
     Command::AddBodyMark { points: points.into_iter().map(on_skin).collect() }
 }
 
+/// Points of the cloth that lie on the body.
+fn on_body<'a>(seen: &Seen<'a>) -> impl Iterator<Item = &'a DVec3> + use<'a> {
+    let state = seen.cloth.map(|(_, state)| state);
+    state.into_iter().flat_map(|s| s.positions.iter().zip(&s.mapped).filter(|(_, m)| **m).map(|(p, _)| p))
+}
+
 fn everything(seen: &Seen<'_>, body: &Surface) -> (Vec3, Vec3) {
-    let (mut lower, mut upper) = body.bounds();
-    if let Some((_, state)) = seen.cloth {
-        for (p, _) in state.positions.iter().zip(&state.mapped).filter(|(_, m)| **m) {
-            (lower, upper) = (lower.min(*p), upper.max(*p));
-        }
-    }
+    let (lower, upper) =
+        on_body(seen).fold(body.bounds(), |(lower, upper), p| (lower.min(*p), upper.max(*p)));
     (lower.as_vec3(), upper.as_vec3())
 }
 
