@@ -8,6 +8,9 @@ use parry3d::shape::{TriMesh as ParryMesh, TriMeshFlags};
 use crate::geometry::adjacency::Adjacency;
 use crate::geometry::mesh::TriMesh;
 
+/// A ray that slipped between triangles is cast again so far beside itself, metres on a body 1.5 m large.
+const RAY_ASIDE: f64 = 1e-5;
+
 /// The nearest point of a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Nearest {
@@ -119,6 +122,17 @@ impl Surface {
         if direction == DVec3::ZERO {
             return None;
         }
+        let hit = self.cast(origin, direction);
+        // Along an edge a ray can slip between two triangles; then it seems to come from within. Beside it, it does not.
+        let slipped = hit.is_none_or(|h| h.normal.dot(direction) > 0.0) && !self.contains(origin);
+        if slipped {
+            let aside = direction.any_orthonormal_vector() * (RAY_ASIDE * self.scale());
+            return self.cast(origin + aside, direction);
+        }
+        hit
+    }
+
+    fn cast(&self, origin: DVec3, direction: DVec3) -> Option<Hit> {
         let ray = Ray::new((origin - self.origin).as_vec3(), direction.as_vec3());
         let hit = self.parry.cast_ray_and_get_normal(&Pose::IDENTITY, &ray, f32::MAX, false)?;
         let triangle = hit.subshape;
@@ -210,6 +224,16 @@ mod tests {
         assert!((inside.normal - DVec3::Z).length() < 1e-9);
         // Off a corner the nearest face alone could give either sign.
         assert!(cube.nearest(DVec3::splat(1.1)).distance > 0.0);
+    }
+
+    #[test]
+    fn rays_along_edges_hit() {
+        let cube = cube();
+        for y in 0..=64 {
+            let at = f64::from(y) / 64.0 * 0.98 + 0.01;
+            let hit = cube.ray(DVec3::new(at, at, 3.0), -DVec3::Z).expect("a hit");
+            assert!((hit.distance - 2.0).abs() < 1e-5, "{at}: {hit:?}");
+        }
     }
 
     #[test]

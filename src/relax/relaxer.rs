@@ -178,55 +178,53 @@ impl Relaxer {
 
     /// Sets the weights and returns what they pull towards.
     fn weigh(&mut self, state: &ClothState, step: GlobalStep) -> Vec<DVec3> {
-        let most_push = MOST_PUSH * self.surface.scale();
+        (0..state.positions.len())
+            .map(|v| {
+                let x = state.positions[v];
+                let (weight, target) =
+                    if state.mapped[v] { self.wanted(v, x, step) } else { (UNMAPPED_WEIGHT, x) };
+                self.weights[v] = weight;
+                target
+            })
+            .collect()
+    }
+
+    /// Weight and target of a mapped vertex at `x`: contact, what sends it away from skin that is not its own, its mark.
+    fn wanted(&mut self, v: usize, x: DVec3, step: GlobalStep) -> (f64, DVec3) {
         let offset = self.offset();
-        let mut targets = vec![DVec3::ZERO; state.positions.len()];
-        for v in 0..state.positions.len() {
-            let x = state.positions[v];
-            if !state.mapped[v] {
-                self.weights[v] = UNMAPPED_WEIGHT;
-                targets[v] = x;
-                continue;
-            }
-            let mut weight = PROXIMAL_WEIGHT;
-            let mut pull = x * PROXIMAL_WEIGHT;
-            let below = self.tracker.plane(v).map(|p| (p, offset + self.lift[v] - p.height(x)));
-            if self.sent[v] != DVec3::ZERO {
-                let away = self.sent[v] * (SEND_AWAY * self.surface.scale());
-                weight += CONTACT_WEIGHT;
-                pull += (x + away) * CONTACT_WEIGHT;
-            }
-            let wrong_sided =
-                step.unfold && below.is_some_and(|(p, _)| p.normal.dot(self.normals[v]) < WRONG_SIDE);
-            match below {
-                Some((plane, below)) if wrong_sided => {
-                    self.push[v] = 0.0;
-                    let away = below.max(0.0) + SEND_AWAY * self.surface.scale();
-                    weight += CONTACT_WEIGHT;
-                    pull += (x + plane.normal * away) * CONTACT_WEIGHT;
-                }
-                // In the band above the offset the weight stays, so that the factor need not change when a vertex lifts off.
-                Some((plane, below)) if below > -offset => {
-                    self.push[v] = (self.push[v] + below).clamp(0.0, most_push);
-                    if step.weight {
-                        self.rub(v, plane.normal);
-                    }
-                    let target = self.contact_target(v, x, plane, below, step);
-                    weight += CONTACT_WEIGHT;
-                    pull += target * CONTACT_WEIGHT;
-                }
-                _ => self.push[v] = 0.0,
-            }
-            if let Some(held) = self.held[v]
-                && step.hold > 0.0
-            {
-                weight += step.hold;
-                pull += held * step.hold;
-            }
-            self.weights[v] = weight;
-            targets[v] = pull / weight;
+        let away = SEND_AWAY * self.surface.scale();
+        let mut weight = PROXIMAL_WEIGHT;
+        let mut pull = x * PROXIMAL_WEIGHT;
+        let mut want = |w: f64, target: DVec3| {
+            weight += w;
+            pull += target * w;
+        };
+        if self.sent[v] != DVec3::ZERO {
+            want(CONTACT_WEIGHT, x + self.sent[v] * away);
         }
-        targets
+        let below = self.tracker.plane(v).map(|p| (p, offset + self.lift[v] - p.height(x)));
+        match below {
+            Some((plane, below)) if step.unfold && plane.normal.dot(self.normals[v]) < WRONG_SIDE => {
+                self.push[v] = 0.0;
+                want(CONTACT_WEIGHT, x + plane.normal * (below.max(0.0) + away));
+            }
+            // In the band above the offset the weight stays, so that the factor need not change when a vertex lifts off.
+            Some((plane, below)) if below > -offset => {
+                let most_push = MOST_PUSH * self.surface.scale();
+                self.push[v] = (self.push[v] + below).clamp(0.0, most_push);
+                if step.weight {
+                    self.rub(v, plane.normal);
+                }
+                want(CONTACT_WEIGHT, self.contact_target(v, x, plane, below, step));
+            }
+            _ => self.push[v] = 0.0,
+        }
+        if let Some(held) = self.held[v]
+            && step.hold > 0.0
+        {
+            want(step.hold, held);
+        }
+        (weight, pull / weight)
     }
 
     /// Weight and target of a vertex in contact, `below` metres under its offset.

@@ -31,8 +31,22 @@ pub fn run(project: Project, path: Option<PathBuf>, record: Option<File>) -> any
         Ok(Box::new(app))
     });
     eframe::run_native("Toile", options, create)
-        .map_err(|e| anyhow!("{e}"))
+        .map_err(|e| anyhow!(words(&e)))
         .context("the window could not be opened")
+}
+
+/// What went wrong, and what to do about it where that is known.
+fn words(error: &eframe::Error) -> String {
+    use winit::error::EventLoopError;
+    match error {
+        eframe::Error::WinitEventLoop(EventLoopError::NotSupported(_)) => {
+            "this system has no windows; see toile --help for what works without".to_owned()
+        }
+        eframe::Error::WinitEventLoop(EventLoopError::ExitFailure(code)) => {
+            format!("the connection to the display broke (code {code})")
+        }
+        other => other.to_string(),
+    }
 }
 
 impl eframe::App for App {
