@@ -233,6 +233,9 @@ impl App {
     }
 
     fn take_notices(&mut self) {
+        if let Some(why) = self.session.recorder().take_file_error() {
+            self.messages.error(format!("The recording is no longer written to its file: {why}"));
+        }
         for notice in self.session.update() {
             match notice {
                 Notice::AtRest { .. } => {}
