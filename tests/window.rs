@@ -482,3 +482,20 @@ fn what_was_done_is_shown_without_waiting_for_the_next_event() {
     let root = &window.output().viewport_output[&egui::ViewportId::ROOT];
     assert_eq!(root.repaint_delay, Duration::ZERO);
 }
+
+#[test]
+fn letters_choose_tools_even_after_a_slider_was_used() {
+    let mut window = window();
+    let slider = window.get_by_role_and_label(egui::accesskit::Role::Slider, "Friction").rect();
+    drag(&mut window, &line(slider, Vec2::new(10.0, 0.0)), PointerButton::Primary);
+    assert_eq!(app(&window).session().step_labels().count(), 1, "one drag is one step");
+    let chosen = |w: &Window, label: &str| {
+        w.get_by_label(label).accesskit_node().toggled() == Some(egui::accesskit::Toggled::True)
+    };
+    for (letter, label) in [(Key::V, "Move"), (Key::X, "Erase"), (Key::K, "Mark")] {
+        key(&mut window, Modifiers::NONE, letter);
+        assert!(chosen(&window, label), "{label}");
+    }
+    key(&mut window, Modifiers::COMMAND, Key::Z);
+    assert_eq!(app(&window).session().document().settings, Document::default().settings);
+}

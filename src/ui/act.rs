@@ -81,7 +81,7 @@ impl App {
     fn change_view(&mut self, action: Action) {
         let scene = &mut self.scene_pane;
         match action {
-            Action::Look(view) => scene.frame = Some(Some(view)),
+            Action::Look(view) => scene.camera.look(view),
             Action::FrameAll if self.pattern_pane.hovered => self.pattern_pane.fit = true,
             Action::FrameAll => scene.frame = Some(None),
             Action::ToggleParallel => {

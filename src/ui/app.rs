@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use egui::{CentralPanel, Frame, Margin, Panel, ViewportCommand};
+use egui::{CentralPanel, Frame, Key, Margin, Panel, ViewportCommand};
 
 use crate::session::{Command, Document, GestureId, Notice, Project, Session};
 use crate::sim::{Runner, Simulation, Snapshot, thread::DEFAULT_RATE_HZ};
@@ -251,13 +251,15 @@ impl App {
         if self.dialog.is_some() || ctx.text_edit_focused() {
             return;
         }
-        let busy = ctx.memory(|m| m.focused().is_some()) || egui::Popup::is_any_open(ctx);
+        let focused = ctx.memory(|m| m.focused().is_some());
+        let menu = egui::Popup::is_any_open(ctx);
         let drawing = self.pattern_pane.stroke().is_some() || !self.scene_pane.stroke().is_empty();
         for (action, keys) in Action::with_keys() {
             // A focused button takes Enter and Space for itself; Space over the table moves the view; Esc first gives up a
             // stroke.
             let taken = Action::is_plain(keys)
-                && (busy
+                && (menu
+                    || (focused && [Key::Enter, Key::Space].contains(&keys.logical_key))
                     || (action == Action::ToggleRelaxing && self.pattern_pane.hovered)
                     || (action == Action::CancelWrap && (drawing || self.drag.is_some())));
             if !taken && ctx.input_mut(|i| i.consume_shortcut(&keys)) && now.why_not(action).is_none() {

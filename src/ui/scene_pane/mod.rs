@@ -28,7 +28,7 @@ const TURN: f32 = 0.0085;
 /// How near to a mark a click counts, points on the screen.
 const REACH: f32 = 12.0;
 /// Pictures drawn by a processor shrink by this much while things move.
-const DRAFT: f32 = 0.6;
+const DRAFT: f32 = 0.7;
 
 /// What the pane shows.
 #[derive(Clone, Copy)]
