@@ -401,11 +401,11 @@ fn within(pane: Rect, at: Pos2) -> Vec2 {
     Vec2::new(at.x - pane.left(), at.y - pane.top())
 }
 
-/// Small buttons over the upper right corner.
+/// Small buttons over the lower right corner, where they hide only floor.
 fn view_buttons(ui: &mut egui::Ui, pane: Rect, palette: &Palette, asks: &mut Asks) {
     let area = Rect::from_min_max(
-        Pos2::new(pane.left() + 8.0, pane.top() + 8.0),
-        Pos2::new(pane.right() - 8.0, pane.top() + 34.0),
+        Pos2::new(pane.left() + 8.0, pane.bottom() - 34.0),
+        Pos2::new(pane.right() - 8.0, pane.bottom() - 8.0),
     );
     let layout = egui::Layout::right_to_left(egui::Align::Center);
     ui.scope_builder(egui::UiBuilder::new().max_rect(area).layout(layout), |ui| {
