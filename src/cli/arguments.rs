@@ -1,6 +1,6 @@
 //! What can be typed.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, Parser, Subcommand};
 
@@ -33,6 +33,9 @@ pub enum Task {
     Export(Export),
     Check(Check),
 }
+
+/// A wrap that is not at rest by then trembles.
+const MAX_TICKS: u64 = 20_000;
 
 /// What an input needs besides its file.
 #[derive(Clone, Debug, Default, Args)]
@@ -72,7 +75,7 @@ pub struct Dress {
     #[arg(long, value_name = "FILE")]
     pub record: Option<PathBuf>,
     /// Gives up after so many ticks (exit code 4)
-    #[arg(long, default_value_t = 20_000)]
+    #[arg(long, default_value_t = MAX_TICKS)]
     pub max_ticks: u64,
     #[command(flatten)]
     pub picture: PictureOptions,
@@ -82,6 +85,23 @@ pub struct Dress {
     /// Number of threads; the result is the same
     #[arg(long)]
     pub threads: Option<usize>,
+}
+
+impl Dress {
+    /// `project` dressed into `out` with every option as it is when not given.
+    pub fn sample(project: &Path, out: &Path) -> Self {
+        Self {
+            projects: vec![project.to_owned()],
+            out: out.to_owned(),
+            input: InputOptions::default(),
+            save: None,
+            record: None,
+            max_ticks: MAX_TICKS,
+            picture: PictureOptions { view: View::ThreeQuarter, size: [1280, 800] },
+            json: false,
+            threads: None,
+        }
+    }
 }
 
 /// How a picture is taken.

@@ -3,15 +3,20 @@
 use std::fs::File;
 use std::path::Path;
 
-use crate::cli::arguments::InputOptions;
+use crate::cli::arguments::{Dress, InputOptions};
 use crate::cli::failure::Failure;
-use crate::cli::input;
+use crate::cli::{dress, input, output};
 
+/// Where it is dressed to when there is no display.
+const SAMPLE_OUT: &str = "toile-out";
 /// What opens when nothing is named.
 const FIRST_SAMPLE: &str = "sample:tshirt";
 
 /// Opens the editor and returns when it is closed.
 pub fn open(project: Option<&Path>, record: Option<&Path>) -> Result<(), Failure> {
+    if !has_display() && project.is_none() && record.is_none() {
+        return dress_the_sample();
+    }
     let path = project.unwrap_or(Path::new(FIRST_SAMPLE));
     let input = input::load(path, &InputOptions::default())?;
     if !has_display() {
@@ -23,6 +28,14 @@ pub fn open(project: Option<&Path>, record: Option<&Path>) -> Result<(), Failure
     };
     let file = input.is_project_file.then(|| path.to_owned());
     crate::ui::run(input.project, file, record).map_err(|e| Failure::Graphics(e.to_string()))
+}
+
+/// What a first look gets where no window can open.
+fn dress_the_sample() -> Result<(), Failure> {
+    output::complain(&format!(
+        "There is no display to open a window on: dressing {FIRST_SAMPLE} into {SAMPLE_OUT} instead (see toile --help)."
+    ));
+    dress::dress(&Dress::sample(Path::new(FIRST_SAMPLE), Path::new(SAMPLE_OUT)))
 }
 
 /// Other systems always have one.

@@ -1,6 +1,5 @@
 //! What is read off a garment: strain, crossings, openings, the report.
 
-mod crossings;
 mod laid;
 mod on_body;
 mod openings;

@@ -4,12 +4,12 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::body::Surface;
-use crate::fit::crossings::meetings;
 use crate::fit::laid::Laid;
 use crate::fit::openings::{Opening, openings};
 use crate::fit::report::{Clearance, Penetration};
 use crate::fit::shape::quantile;
 use crate::geometry::bvh::Bvh;
+use crate::geometry::crossings::meetings;
 use crate::geometry::winding::Winding;
 
 /// Cloth nearer to the skin than this (metres) must show it its inner side.

@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use crate::geometry::bvh::{Aabb, Bvh};
+use crate::geometry::crossings::segment_meets_triangle;
 use crate::geometry::mesh::TriMesh;
 
 /// A closed border of the cloth.
@@ -81,8 +82,7 @@ fn passes(points: &[DVec3], body: &TriMesh, tree: &Bvh, skin: &impl Fn(u32) -> b
         let mut meets = false;
         tree.near(&Aabb::around(&fan), |t| {
             let [a, b, c] = body.corners(t as usize);
-            let crossed =
-                || [[a, b], [b, c], [c, a]].iter().any(|&s| super::crossings::segment_meets_triangle(s, fan));
+            let crossed = || [[a, b], [b, c], [c, a]].iter().any(|&s| segment_meets_triangle(s, fan));
             meets = meets || (crossed() && skin(t));
         });
         meets

@@ -1,5 +1,6 @@
 //! The figures of a dressed garment.
 
+use crate::geometry::crossings::self_crossings;
 use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
@@ -8,7 +9,7 @@ use crate::cloth::{ClothState, Garment};
 use crate::fit::laid::Laid;
 use crate::fit::on_body::{BodyIndex, on_body};
 use crate::fit::openings::Opening;
-use crate::fit::{crossings, shape};
+use crate::fit::shape;
 use crate::geometry::ids::PieceId;
 use crate::pattern::Pattern;
 
@@ -151,7 +152,7 @@ pub fn measure(pattern: &Pattern, garment: &Garment, state: &ClothState, body: &
         degenerate_faces: shape::degenerate_faces(&laid),
         interior_edges,
         folded_edges,
-        self_crossings: crossings::self_crossings(&laid.mesh, &laid.edges, &tree),
+        self_crossings: self_crossings(&laid.mesh, &laid.edges, &tree).len(),
         penetration: sits.penetration,
         edges_through_body: sits.edges_through_body,
         body_edges_through_garment: sits.body_edges_through_garment,

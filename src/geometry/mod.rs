@@ -2,6 +2,7 @@
 
 pub mod adjacency;
 pub mod bvh;
+pub mod crossings;
 pub mod ids;
 pub mod mesh;
 pub mod orient;

@@ -7,15 +7,12 @@ use rayon::prelude::*;
 
 use crate::body::Surface;
 use crate::cloth::{ClothState, Counters, Garment};
-use crate::contact::{Plane, Tracker};
+use crate::contact::{Plane, Tracker, layers};
 use crate::relax::RelaxSettings;
 use crate::relax::flatten::Hinges;
 use crate::relax::global::GlobalSolver;
 use crate::relax::goals::{turned_rest, turned_rest_facing};
 
-/// Weight of contact on the matrix diagonal, against 2/3 for each triangle round a vertex. It also holds the vertex where
-/// it is along the skin, so that a heavy weight slows sliding; what a light one lets through, the multiplier makes good.
-const CONTACT_WEIGHT: f64 = 0.03;
 /// Keeps the matrix regular where nothing holds the cloth.
 const PROXIMAL_WEIGHT: f64 = 1e-4;
 /// Stands for cloth that is not laid yet.
@@ -42,6 +39,10 @@ const SEND_AWAY: f64 = 0.003;
 pub struct GlobalStep {
     /// No vertex moves farther, metres.
     pub cap: f64,
+    /// Weight of contact on the matrix diagonal, against 2/3 for each triangle round a vertex. It also holds the vertex where
+    /// it is along the skin: a heavy weight keeps cloth out of the body while much moves, a light one lets it slide, and what
+    /// that lets through the multiplier makes good.
+    pub contact: f64,
     /// How strongly marked vertices are held where their marks are, as a weight on the diagonal.
     pub hold: f64,
     /// Turn triangles that face against the cloth round them, and send cloth that faces the skin next to it (it belongs to
@@ -67,6 +68,8 @@ pub struct Relaxer {
     hinges: Arc<Hinges>,
     /// Height beyond the offset that each contact is pressed to (the scaled multiplier of the contact constraint).
     push: Vec<f64>,
+    /// The weight of contact that `push` belongs to.
+    contact: f64,
     /// Extra offset where a face would cut the body.
     lift: Vec<f64>,
     /// Where the marks want their vertices.
@@ -99,6 +102,7 @@ impl Relaxer {
             hinges: Arc::new(Hinges::new(&garment)),
             counters: Counters::default(),
             push: vec![0.0; n],
+            contact: 0.0,
             lift: vec![0.0; n],
             held: vec![None; n],
             previous: vec![DVec3::ZERO; n],
@@ -139,6 +143,7 @@ impl Relaxer {
             self.normals = vertex_normals(&self.garment, state);
         }
         self.tracker.update(&self.surface, state, reach, &mut self.counters);
+        self.keep_pressure(step.contact);
         self.turn_triangles(state, step.unfold);
         self.gather(state, step.weight);
         let targets = self.weigh(state, step);
@@ -154,6 +159,15 @@ impl Relaxer {
         }
         self.previous.copy_from_slice(&state.positions);
         self.advance(state, step)
+    }
+
+    /// Under another contact weight the multipliers stand for the same force.
+    fn keep_pressure(&mut self, contact: f64) {
+        if self.contact > 0.0 && self.contact != contact {
+            let factor = self.contact / contact;
+            self.push.iter_mut().for_each(|push| *push *= factor);
+        }
+        self.contact = contact;
     }
 
     fn turn_triangles(&mut self, state: &ClothState, unfold: bool) {
@@ -200,22 +214,22 @@ impl Relaxer {
             pull += target * w;
         };
         if self.sent[v] != DVec3::ZERO {
-            want(CONTACT_WEIGHT, x + self.sent[v] * away);
+            want(step.contact, x + self.sent[v] * away);
         }
         let below = self.tracker.plane(v).map(|p| (p, offset + self.lift[v] - p.height(x)));
         match below {
             Some((plane, below)) if step.unfold && plane.normal.dot(self.normals[v]) < WRONG_SIDE => {
                 self.push[v] = 0.0;
-                want(CONTACT_WEIGHT, x + plane.normal * (below.max(0.0) + away));
+                want(step.contact, x + plane.normal * (below.max(0.0) + away));
             }
             // In the band above the offset the weight stays, so that the factor need not change when a vertex lifts off.
             Some((plane, below)) if below > -offset => {
                 let most_push = MOST_PUSH * self.surface.scale();
                 self.push[v] = (self.push[v] + below).clamp(0.0, most_push);
                 if step.weight {
-                    self.rub(v, plane.normal);
+                    self.rub(v, plane.normal, step.contact);
                 }
-                want(CONTACT_WEIGHT, self.contact_target(v, x, plane, below, step));
+                want(step.contact, self.contact_target(v, x, plane, below, step));
             }
             _ => self.push[v] = 0.0,
         }
@@ -239,10 +253,10 @@ impl Relaxer {
     }
 
     /// Coulomb friction: takes the tangential force on `v` away, as far as its pressure allows.
-    fn rub(&mut self, v: usize, normal: DVec3) {
+    fn rub(&mut self, v: usize, normal: DVec3, weight: f64) {
         let force = self.sums[v];
         let tangential = force - normal * force.dot(normal);
-        let most = self.settings.friction * CONTACT_WEIGHT * self.push[v];
+        let most = self.settings.friction * weight * self.push[v];
         self.sums[v] -= tangential.clamp_length_max(most);
     }
 
@@ -368,6 +382,16 @@ impl Relaxer {
             }
         }
         wrong.iter().flatten().count()
+    }
+
+    /// Sends layers that run into each other apart. Returns in how many places they do.
+    pub fn part_layers(&mut self, state: &ClothState) -> usize {
+        let normals = vertex_normals(&self.garment, state);
+        let (ways, places) = layers::parting(&self.garment, state, &normals);
+        for (sent, way) in self.sent.iter_mut().zip(ways) {
+            *sent += way;
+        }
+        places
     }
 
     /// Raises the offset of vertices whose edges or faces come too near the body between them. Returns how many.

@@ -31,6 +31,10 @@ const TIER_STEPS: usize = 15;
 const SETTLE_STEPS: usize = 80;
 /// A vertex moves no farther in one global step, metres on a body 1.5 m large.
 const STEP_CAP: f64 = 0.02;
+/// Weight of contact while the cloth grows and closes: heavy, so that closing seams do not pull it through a limb.
+const GROW_CONTACT: f64 = 0.3;
+/// Weight of contact once it roughly lies: light, so that it slides to where it is least strained.
+const SETTLE_CONTACT: f64 = 0.03;
 /// Marks hold their vertices with this weight while the cloth grows.
 const HOLD: f64 = 0.3;
 /// Flipped and wrong-sided cloth is turned only after so many settling steps, when it roughly lies.
@@ -43,10 +47,12 @@ const HOLD_FADE_STEPS: usize = 4;
 const REST_MOTION: f64 = 0.01;
 /// See [`REST_MOTION`].
 const QUIET_STEPS: usize = 5;
-/// Rest is called after so many settling steps in any case: what still moves then trembles in a fold.
+/// Cloth is taken to lie still after so many settling steps in any case: what still moves then trembles in a fold.
 const MOST_SETTLE_STEPS: usize = 400;
-/// So often at most is cloth raised where it cuts the body between its vertices.
-const MOST_LIFTS: usize = 8;
+/// So often at most is lying cloth mended: raised off the body it cuts, sent to its own side.
+const MOST_MENDS: usize = 12;
+/// A mend has so many steps to take effect.
+const STEPS_PER_MEND: usize = 25;
 /// Edges and faces keep this share of the offset.
 const FACE_CLEARANCE: f64 = 0.25;
 
@@ -66,8 +72,25 @@ pub enum Phase {
 enum Stage {
     Grow { limit: f64, bands: usize, fresh: Vec<u32> },
     BetweenTiers { left: usize },
-    Settle { done: usize, quiet: usize, lifts: usize },
+    Settle(Settling),
     Rest,
+}
+
+/// How far settling has come.
+#[derive(Clone, Copy, Debug)]
+struct Settling {
+    /// Steps done.
+    done: usize,
+    /// The last so many of them moved nothing to speak of.
+    quiet: usize,
+    /// How often lying cloth was mended.
+    mends: usize,
+    /// At this step it is taken to lie still in any case.
+    until: usize,
+}
+
+impl Settling {
+    const START: Self = Self { done: 0, quiet: 0, mends: 0, until: MOST_SETTLE_STEPS };
 }
 
 /// A wrap under way.
@@ -139,7 +162,7 @@ impl Dressing {
         match std::mem::replace(&mut self.stage, Stage::Rest) {
             Stage::Grow { limit, bands, fresh } => self.grow(state, limit, bands, fresh),
             Stage::BetweenTiers { left } => self.between_tiers(state, left),
-            Stage::Settle { done, quiet, lifts } => self.settle(state, done, quiet, lifts),
+            Stage::Settle(settling) => self.settle(state, settling),
             Stage::Rest => {}
         }
         self.phase()
@@ -149,7 +172,7 @@ impl Dressing {
     pub fn phase(&self) -> Phase {
         match self.stage {
             Stage::Grow { .. } | Stage::BetweenTiers { .. } => Phase::Growing,
-            Stage::Settle { .. } => Phase::Settling,
+            Stage::Settle(_) => Phase::Settling,
             Stage::Rest => Phase::AtRest,
         }
     }
@@ -159,7 +182,9 @@ impl Dressing {
         let grown = self.mapped as f64 / self.to_map.max(1) as f64;
         match self.stage {
             Stage::Grow { .. } | Stage::BetweenTiers { .. } => 0.6 * grown,
-            Stage::Settle { done, .. } => 0.6 + 0.4 * (done as f64 / (2 * SETTLE_STEPS) as f64).min(1.0),
+            Stage::Settle(Settling { done, .. }) => {
+                0.6 + 0.4 * (done as f64 / (2 * SETTLE_STEPS) as f64).min(1.0)
+            }
             Stage::Rest => 1.0,
         }
     }
@@ -197,7 +222,7 @@ impl Dressing {
     pub fn set_settings(&mut self, settings: RelaxSettings) {
         self.relaxer.settings = settings;
         if matches!(self.stage, Stage::Rest) && self.mapped > 0 {
-            self.stage = Stage::Settle { done: SETTLE_STEPS, quiet: 0, lifts: 0 };
+            self.stage = Stage::Settle(Settling { done: SETTLE_STEPS, ..Settling::START });
         }
     }
 
@@ -210,7 +235,7 @@ impl Dressing {
                 self.tier = next.map_or(self.tier, |(tier, _)| tier);
                 self.relaxer.set_mapped(&state.mapped);
                 self.stage = if last {
-                    Stage::Settle { done: 0, quiet: 0, lifts: 0 }
+                    Stage::Settle(Settling::START)
                 } else {
                     Stage::BetweenTiers { left: TIER_STEPS }
                 };
@@ -247,28 +272,36 @@ impl Dressing {
         };
     }
 
-    fn settle(&mut self, state: &mut ClothState, done: usize, quiet: usize, lifts: usize) {
+    fn settle(&mut self, state: &mut ClothState, settling: Settling) {
+        let Settling { done, quiet, mends, until } = settling;
         let first = done < SETTLE_STEPS;
         let hold =
             if first { HOLD * HOLD_FADE.get(done / HOLD_FADE_STEPS).copied().unwrap_or(0.0) } else { 0.0 };
         let moved = self.global(state, hold, done > UNFOLD_AFTER, !first);
         let quiet = if moved < REST_MOTION * self.edge_length { quiet + 1 } else { 0 };
-        let still = (quiet >= QUIET_STEPS && !first) || done >= MOST_SETTLE_STEPS;
-        // Cloth that lies still may cut the body between its vertices: raise it there and go on.
-        let raised = still && lifts < MOST_LIFTS && {
+        let still = (quiet >= QUIET_STEPS && !first) || done >= until;
+        // Cloth that lies still may cut the body between its vertices, or lie on the wrong side: mend it there and go on.
+        let mended = still && mends < MOST_MENDS && {
             let clearance = self.relaxer.offset() * FACE_CLEARANCE;
-            self.relaxer.lift_faces(state, clearance) + self.relaxer.send_wrong_faces(state) > 0
+            let wrong = self.relaxer.lift_faces(state, clearance) + self.relaxer.send_wrong_faces(state);
+            wrong + self.relaxer.part_layers(state) > 0
         };
-        self.stage = match (still, raised) {
+        self.stage = match (still, mended) {
             (true, false) => Stage::Rest,
-            (true, true) => Stage::Settle { done: done + 1, quiet: 0, lifts: lifts + 1 },
-            (false, _) => Stage::Settle { done: done + 1, quiet, lifts },
+            (true, true) => Stage::Settle(Settling {
+                done: done + 1,
+                quiet: 0,
+                mends: mends + 1,
+                until: done + STEPS_PER_MEND,
+            }),
+            (false, _) => Stage::Settle(Settling { done: done + 1, quiet, ..settling }),
         };
     }
 
     fn global(&mut self, state: &mut ClothState, hold: f64, unfold: bool, weight: bool) -> f64 {
         let cap = STEP_CAP * self.relaxer.surface.scale();
-        self.relaxer.global_step(state, GlobalStep { cap, hold, unfold, weight })
+        let contact = if unfold { SETTLE_CONTACT } else { GROW_CONTACT };
+        self.relaxer.global_step(state, GlobalStep { cap, contact, hold, unfold, weight })
     }
 
     /// Local passes over the cloth round `fresh` vertices.

@@ -139,6 +139,13 @@ fn without_a_display_it_says_how_to_do_without() {
 }
 
 #[test]
+fn with_nothing_named_and_no_display_it_dresses_the_sample() {
+    let place = Place::new();
+    place.ends_with_words(0, "", "no display");
+    assert_eq!(place.names("toile-out"), ["body.obj", "garment.obj", "report.json"]);
+}
+
+#[test]
 fn a_folder_is_no_project() {
     let place = Place::new();
     std::fs::create_dir(place.path("folder")).expect("made");

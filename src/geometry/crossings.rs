@@ -10,7 +10,7 @@ use crate::geometry::mesh::TriMesh;
 const PARALLEL: f64 = 1e-18;
 
 /// Whether the segment from `p` to `q` meets triangle `abc`, borders included (Möller and Trumbore 1997).
-pub(super) fn segment_meets_triangle([p, q]: [DVec3; 2], [a, b, c]: [DVec3; 3]) -> bool {
+pub fn segment_meets_triangle([p, q]: [DVec3; 2], [a, b, c]: [DVec3; 3]) -> bool {
     let (d, e1, e2) = (q - p, b - a, c - a);
     let h = d.cross(e2);
     let det = e1.dot(h);
@@ -26,12 +26,7 @@ pub(super) fn segment_meets_triangle([p, q]: [DVec3; 2], [a, b, c]: [DVec3; 3]) 
 }
 
 /// Pairs (place in `edges`, triangle of `mesh`) that meet, ascending. `tree` is over the triangles of `mesh`.
-pub(super) fn meetings(
-    edge_positions: &[DVec3],
-    edges: &[[u32; 2]],
-    mesh: &TriMesh,
-    tree: &Bvh,
-) -> Vec<[u32; 2]> {
+pub fn meetings(edge_positions: &[DVec3], edges: &[[u32; 2]], mesh: &TriMesh, tree: &Bvh) -> Vec<[u32; 2]> {
     let Some(all) = tree.nodes.first().map(|root| root.bounds) else {
         return Vec::new();
     };
@@ -56,21 +51,20 @@ pub(super) fn meetings(
         .collect()
 }
 
-/// Pairs of an edge and a triangle of one mesh that meet without sharing a vertex.
-pub(super) fn self_crossings(mesh: &TriMesh, edges: &[[u32; 2]], tree: &Bvh) -> usize {
-    meetings(&mesh.positions, edges, mesh, tree)
-        .into_iter()
-        .filter(|&[e, t]| {
-            let corners = mesh.triangles[t as usize];
-            !edges[e as usize].iter().any(|v| corners.contains(v))
-        })
-        .count()
+/// Pairs (place in `edges`, triangle) of one mesh that meet without sharing a vertex, ascending.
+pub fn self_crossings(mesh: &TriMesh, edges: &[[u32; 2]], tree: &Bvh) -> Vec<[u32; 2]> {
+    let mut found = meetings(&mesh.positions, edges, mesh, tree);
+    found.retain(|&[e, t]| {
+        let corners = mesh.triangles[t as usize];
+        !edges[e as usize].iter().any(|v| corners.contains(v))
+    });
+    found
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fit::laid::edges;
+    use crate::geometry::adjacency::Adjacency;
 
     const TRIANGLE: [DVec3; 3] = [DVec3::ZERO, DVec3::X, DVec3::Y];
 
@@ -106,7 +100,7 @@ mod tests {
     #[test]
     fn the_tree_misses_nothing() {
         let mesh = folded_sheet(14);
-        let edges = edges(&mesh.triangles);
+        let edges = Adjacency::new(mesh.positions.len(), &mesh.triangles).edges;
         let mut exact = 0;
         for e in &edges {
             for (t, corners) in mesh.triangles.iter().enumerate() {
@@ -116,6 +110,6 @@ mod tests {
             }
         }
         assert!(exact > 0);
-        assert_eq!(self_crossings(&mesh, &edges, &mesh.tree()), exact);
+        assert_eq!(self_crossings(&mesh, &edges, &mesh.tree()).len(), exact);
     }
 }

@@ -1,0 +1,70 @@
+//! Garments and a body made by others, dressed with the marks proposed from their placement. Needs `TOILE_DATA`.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use toile::body::{Surface, Unit, import};
+use toile::cloth::build;
+use toile::fit::{BodyIndex, Report, measure, verdict};
+use toile::io::{garmentcode, obj};
+use toile::relax::RelaxSettings;
+use toile::wrap::{Dressing, Phase, suggested};
+
+fn data() -> Option<PathBuf> {
+    let folder = std::env::var_os("TOILE_DATA").map(PathBuf::from);
+    if folder.is_none() {
+        println!("TOILE_DATA is not set: nothing is dressed");
+    }
+    folder
+}
+
+fn dressed(pattern: &str) -> Option<Report> {
+    let data = data()?;
+    let bytes = std::fs::read(data.join("bodies/garmentcode/mean_all.obj")).expect("a body");
+    let body = import(obj::read(&bytes).expect("an OBJ").mesh, Unit::Metre);
+    assert!(body.problems.is_empty(), "{:?}", body.problems);
+    let surface = Arc::new(Surface::new(body.mesh).expect("triangles"));
+    let bytes = std::fs::read(data.join("patterns/garmentcode").join(pattern)).expect("a pattern");
+    let pattern = garmentcode::read(&bytes).expect("GarmentCode");
+    let settings = RelaxSettings::default();
+    let marks = suggested(&pattern, &surface, settings.offset * surface.scale());
+    let (garment, _) = build(&pattern, 0.02);
+    let garment = Arc::new(garment);
+    let (dressing, mut state, problems) = Dressing::new(garment.clone(), surface.clone(), &marks, settings);
+    assert!(problems.is_empty(), "{problems:?}");
+    let mut dressing = dressing.expect("a dressing");
+    while dressing.step(&mut state) != Phase::AtRest {}
+    Some(measure(&pattern, &garment, &state, &BodyIndex::new(&surface)))
+}
+
+fn check(pattern: &str, openings: usize, p99: f64) {
+    let Some(report) = dressed(pattern) else { return };
+    println!("{pattern}: p99 strain {:.4}, {} self crossings", report.strain.p99, report.self_crossings);
+    assert_eq!(verdict(&report), [], "{pattern}");
+    assert_eq!(report.pieces_in_space, 1);
+    assert_eq!(report.openings.iter().filter(|o| o.body_through).count(), openings, "{pattern}");
+    assert_eq!(report.penetration.vertices + report.penetration.faces, 0, "{pattern}");
+    assert_eq!(report.edges_through_body + report.body_edges_through_garment, 0, "{pattern}");
+    assert_eq!(report.flipped_faces, 0, "{pattern}");
+    assert!(report.strain.p99 <= p99, "{pattern}: p99 strain {}", report.strain.p99);
+}
+
+#[test]
+fn the_tee_is_dressed() {
+    check("tee_mean_all_specification.json", 4, 0.10);
+}
+
+#[test]
+fn short_trousers_are_dressed() {
+    check("pants_mean_all_specification.json", 3, 0.10);
+}
+
+#[test]
+fn a_circle_skirt_is_dressed() {
+    check("circle_skirt_mean_all_specification.json", 2, 0.10);
+}
+
+#[test]
+fn a_shirt_of_an_earlier_dialect_is_dressed() {
+    check("shirt_mean_specification.json", 4, 0.10);
+}
