@@ -5,6 +5,7 @@ pub mod global;
 pub mod goals;
 pub mod relaxer;
 pub mod settings;
+mod wants;
 
 pub use relaxer::{GlobalStep, Relaxer};
 pub use settings::RelaxSettings;

@@ -7,32 +7,25 @@ use rayon::prelude::*;
 
 use crate::body::Surface;
 use crate::cloth::{ClothState, Counters, Garment};
-use crate::contact::{Plane, Tracker, layers};
+use crate::contact::{Tracker, layers};
 use crate::relax::RelaxSettings;
 use crate::relax::flatten::Hinges;
 use crate::relax::global::GlobalSolver;
 use crate::relax::goals::{turned_rest, turned_rest_facing};
+use crate::relax::wants::Wants;
 
-/// Keeps the matrix regular where nothing holds the cloth.
-const PROXIMAL_WEIGHT: f64 = 1e-4;
 /// Stands for cloth that is not laid yet.
 const UNMAPPED_WEIGHT: f64 = 1.0;
-/// How much of the last sliding move is tried again: the contact term holds a vertex where it was, this lets it slide on.
-const SLIDE_MOMENTUM: f64 = 0.9;
-/// The same under gravity and friction.
-const WEIGHTED_MOMENTUM: f64 = 0.8;
-/// A contact's push beyond the offset grows no further than this, metres on a body 1.5 m large.
-const MOST_PUSH: f64 = 0.03;
+/// How many clearances deep a face may lie in the body and still be found: its corners are above the skin.
+const LOOK_INTO: f64 = 5.0;
+/// Vertices one thread takes at a time.
+const LEAST_SHARE: usize = 512;
 /// A triangle is turned over when its normal and that of the cloth round it have a smaller cosine.
 const FLIPPED: f64 = -0.2;
-/// Cloth is on the wrong side of the skin next to it when their normals have a smaller cosine.
-const WRONG_SIDE: f64 = 0.0;
 /// How far from skin that is looked after, metres on a body 1.5 m large.
 const WRONG_SIDE_REACH: f64 = 0.02;
 /// The same for a whole face of cloth that lies still.
 const WRONG_FACE: f64 = -0.15;
-/// Cloth on the wrong side is sent away by this in a step, metres on a body 1.5 m large.
-const SEND_AWAY: f64 = 0.003;
 
 /// What one global step does.
 #[derive(Clone, Copy, Debug)]
@@ -147,12 +140,6 @@ impl Relaxer {
         self.turn_triangles(state, step.unfold);
         self.gather(state, step.weight);
         let targets = self.weigh(state, step);
-        for v in 0..self.sums.len() {
-            self.sums[v] += self.laplacian[v];
-        }
-        for (v, sum) in self.sums.iter_mut().enumerate() {
-            *sum += targets[v] * self.weights[v];
-        }
         let solved = self.solver.solve(&self.weights, &mut self.sums, |v| targets[v], &mut self.counters);
         if !solved {
             return 0.0;
@@ -190,78 +177,37 @@ impl Relaxer {
         });
     }
 
-    /// Sets the weights and returns what they pull towards.
+    /// Completes the right-hand side, sets the weights, and returns what they pull towards.
     fn weigh(&mut self, state: &ClothState, step: GlobalStep) -> Vec<DVec3> {
-        (0..state.positions.len())
-            .map(|v| {
+        let scale = self.surface.scale();
+        let wants = Wants {
+            tracker: &self.tracker,
+            normals: &self.normals,
+            sent: &self.sent,
+            lift: &self.lift,
+            held: &self.held,
+            previous: &self.previous,
+            step,
+            offset: self.settings.offset * scale,
+            friction: self.settings.friction,
+            scale,
+        };
+        let (laplacian, mapped) = (&self.laplacian, &state.mapped);
+        self.push
+            .par_iter_mut()
+            .zip(&mut self.sums)
+            .zip(&mut self.weights)
+            .with_min_len(LEAST_SHARE)
+            .enumerate()
+            .map(|(v, ((push, sum), weight))| {
                 let x = state.positions[v];
-                let (weight, target) =
-                    if state.mapped[v] { self.wanted(v, x, step) } else { (UNMAPPED_WEIGHT, x) };
-                self.weights[v] = weight;
+                let target;
+                (*weight, target) = if mapped[v] { wants.of(v, x, push, sum) } else { (UNMAPPED_WEIGHT, x) };
+                *sum += laplacian[v];
+                *sum += target * *weight;
                 target
             })
             .collect()
-    }
-
-    /// Weight and target of a mapped vertex at `x`: contact, what sends it away from skin that is not its own, its mark.
-    fn wanted(&mut self, v: usize, x: DVec3, step: GlobalStep) -> (f64, DVec3) {
-        let offset = self.offset();
-        let away = SEND_AWAY * self.surface.scale();
-        let mut weight = PROXIMAL_WEIGHT;
-        let mut pull = x * PROXIMAL_WEIGHT;
-        let mut want = |w: f64, target: DVec3| {
-            weight += w;
-            pull += target * w;
-        };
-        if self.sent[v] != DVec3::ZERO {
-            want(step.contact, x + self.sent[v] * away);
-        }
-        let below = self.tracker.plane(v).map(|p| (p, offset + self.lift[v] - p.height(x)));
-        match below {
-            Some((plane, below)) if step.unfold && plane.normal.dot(self.normals[v]) < WRONG_SIDE => {
-                self.push[v] = 0.0;
-                want(step.contact, x + plane.normal * (below.max(0.0) + away));
-            }
-            // In the band above the offset the weight stays, so that the factor need not change when a vertex lifts off.
-            Some((plane, below)) if below > -offset => {
-                let most_push = MOST_PUSH * self.surface.scale();
-                self.push[v] = (self.push[v] + below).clamp(0.0, most_push);
-                if step.weight {
-                    self.rub(v, plane.normal, step.contact);
-                }
-                want(step.contact, self.contact_target(v, x, plane, below, step));
-            }
-            _ => self.push[v] = 0.0,
-        }
-        if let Some(held) = self.held[v]
-            && step.hold > 0.0
-        {
-            want(step.hold, held);
-        }
-        (weight, pull / weight)
-    }
-
-    /// Weight and target of a vertex in contact, `below` metres under its offset.
-    fn contact_target(&self, v: usize, x: DVec3, plane: Plane, below: f64, step: GlobalStep) -> DVec3 {
-        let tangential = |d: DVec3| d - plane.normal * d.dot(plane.normal);
-        let pressed = self.push[v] > 0.0;
-        let height = if pressed { below + self.push[v] } else { 0.0 };
-        let target = x + plane.normal * height;
-        let slide = if self.slid(v) { tangential(x - self.previous[v]) } else { DVec3::ZERO };
-        target
-            + slide.clamp_length_max(step.cap) * if step.weight { WEIGHTED_MOMENTUM } else { SLIDE_MOMENTUM }
-    }
-
-    /// Coulomb friction: takes the tangential force on `v` away, as far as its pressure allows.
-    fn rub(&mut self, v: usize, normal: DVec3, weight: f64) {
-        let force = self.sums[v];
-        let tangential = force - normal * force.dot(normal);
-        let most = self.settings.friction * weight * self.push[v];
-        self.sums[v] -= tangential.clamp_length_max(most);
-    }
-
-    fn slid(&self, v: usize) -> bool {
-        self.previous[v] != DVec3::ZERO
     }
 
     /// Fills `sums` with the force on each vertex (turned corners less present ones, and gravity) and `laplacian` with the
@@ -291,25 +237,29 @@ impl Relaxer {
 
     fn advance(&mut self, state: &mut ClothState, step: GlobalStep) -> f64 {
         let offset = self.offset();
-        let mut longest: f64 = 0.0;
-        for v in 0..state.positions.len() {
-            if !state.mapped[v] {
-                continue;
-            }
-            let old = state.positions[v];
-            let mut shift = (self.sums[v] - old).clamp_length_max(step.cap);
-            shift += self.hinges.displacement(v as u32, &self.previous, &state.mapped, self.settings.flatten);
-            let plane = self.tracker.plane(v);
-            let mut new = old + shift;
-            if let Some(plane) = plane {
-                let low = offset * 0.5 + self.lift[v] - plane.height(new);
-                if low > 0.0 {
-                    new += plane.normal * low;
+        let mapped = &state.mapped;
+        let new: Vec<DVec3> = (0..state.positions.len())
+            .into_par_iter()
+            .with_min_len(LEAST_SHARE)
+            .map(|v| {
+                let old = self.previous[v];
+                if !mapped[v] {
+                    return old;
                 }
-            }
-            longest = longest.max((new - old).length());
-            state.positions[v] = new;
-        }
+                let mut shift = (self.sums[v] - old).clamp_length_max(step.cap);
+                shift += self.hinges.displacement(v as u32, &self.previous, mapped, self.settings.flatten);
+                let new = old + shift;
+                match self.tracker.plane(v) {
+                    Some(plane) => {
+                        let low = offset * 0.5 + self.lift[v] - plane.height(new);
+                        if low > 0.0 { new + plane.normal * low } else { new }
+                    }
+                    None => new,
+                }
+            })
+            .collect();
+        let longest = new.iter().zip(&self.previous).map(|(n, o)| (*n - *o).length()).fold(0.0, f64::max);
+        state.positions = new;
         longest
     }
 
@@ -419,7 +369,9 @@ impl Relaxer {
                     .iter()
                     .map(|b| {
                         let p = corners[0] * b[0] + corners[1] * b[1] + corners[2] * b[2];
-                        surface.nearest_within(p, clearance * 20.0).map_or(0.0, |n| clearance - n.distance)
+                        surface
+                            .nearest_within(p, clearance * LOOK_INTO)
+                            .map_or(0.0, |n| clearance - n.distance)
                     })
                     .fold(0.0, f64::max)
             })

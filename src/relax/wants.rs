@@ -1,0 +1,99 @@
+//! What each vertex wants in a global step besides its triangles' shapes: to keep off the skin, to get away from skin that is
+//! not its own, to stay with its mark.
+
+use glam::DVec3;
+
+use crate::contact::{Plane, Tracker};
+use crate::relax::GlobalStep;
+
+/// Keeps the matrix regular where nothing holds the cloth.
+const PROXIMAL_WEIGHT: f64 = 1e-4;
+/// How much of the last sliding move is tried again: the contact term holds a vertex where it was, this lets it slide on.
+const SLIDE_MOMENTUM: f64 = 0.9;
+/// The same under gravity and friction.
+const WEIGHTED_MOMENTUM: f64 = 0.8;
+/// A contact's push beyond the offset grows no further than this, metres on a body 1.5 m large.
+const MOST_PUSH: f64 = 0.03;
+/// Cloth is on the wrong side of the skin next to it when their normals have a smaller cosine.
+const WRONG_SIDE: f64 = 0.0;
+/// Cloth on the wrong side is sent away by this in a step, metres on a body 1.5 m large.
+const SEND_AWAY: f64 = 0.003;
+
+/// One global step's wants. Slices hold one entry per vertex.
+pub(super) struct Wants<'a> {
+    pub tracker: &'a Tracker,
+    /// Of the cloth, front up.
+    pub normals: &'a [DVec3],
+    /// Where cloth on the wrong side is sent, in steps of [`SEND_AWAY`].
+    pub sent: &'a [DVec3],
+    /// Extra offset, metres.
+    pub lift: &'a [f64],
+    /// Where marks want their vertices.
+    pub held: &'a [Option<DVec3>],
+    /// Positions before the last step.
+    pub previous: &'a [DVec3],
+    pub step: GlobalStep,
+    /// Metres.
+    pub offset: f64,
+    /// Coulomb's coefficient.
+    pub friction: f64,
+    /// Of the body: what paper A's lengths are multiplied by.
+    pub scale: f64,
+}
+
+impl Wants<'_> {
+    /// Weight and target of the mapped vertex `v` at `x`. Its contact multiplier `push` grows by what is lacking to the
+    /// offset, and friction takes from the `force` on it.
+    pub fn of(&self, v: usize, x: DVec3, push: &mut f64, force: &mut DVec3) -> (f64, DVec3) {
+        let away = SEND_AWAY * self.scale;
+        let contact = self.step.contact;
+        let mut weight = PROXIMAL_WEIGHT;
+        let mut pull = x * PROXIMAL_WEIGHT;
+        let mut want = |w: f64, target: DVec3| {
+            weight += w;
+            pull += target * w;
+        };
+        if self.sent[v] != DVec3::ZERO {
+            want(contact, x + self.sent[v] * away);
+        }
+        let below = self.tracker.plane(v).map(|p| (p, self.offset + self.lift[v] - p.height(x)));
+        match below {
+            Some((plane, below)) if self.step.unfold && plane.normal.dot(self.normals[v]) < WRONG_SIDE => {
+                *push = 0.0;
+                want(contact, x + plane.normal * (below.max(0.0) + away));
+            }
+            // In the band above the offset the weight stays, so that the factor need not change when a vertex lifts off.
+            Some((plane, below)) if below > -self.offset => {
+                *push = (*push + below).clamp(0.0, MOST_PUSH * self.scale);
+                if self.step.weight {
+                    *force -= self.rub(*force, *push, plane.normal);
+                }
+                want(contact, self.contact_target(v, x, plane, below, *push));
+            }
+            _ => *push = 0.0,
+        }
+        if let Some(held) = self.held[v]
+            && self.step.hold > 0.0
+        {
+            want(self.step.hold, held);
+        }
+        (weight, pull / weight)
+    }
+
+    /// Where a vertex in contact, `below` metres under its offset, is drawn.
+    fn contact_target(&self, v: usize, x: DVec3, plane: Plane, below: f64, push: f64) -> DVec3 {
+        let tangential = |d: DVec3| d - plane.normal * d.dot(plane.normal);
+        let height = if push > 0.0 { below + push } else { 0.0 };
+        let target = x + plane.normal * height;
+        let slid = self.previous[v] != DVec3::ZERO;
+        let slide = if slid { tangential(x - self.previous[v]) } else { DVec3::ZERO };
+        let momentum = if self.step.weight { WEIGHTED_MOMENTUM } else { SLIDE_MOMENTUM };
+        target + slide.clamp_length_max(self.step.cap) * momentum
+    }
+
+    /// Coulomb friction: what a contact takes of the force along the skin, as far as its pressure allows.
+    fn rub(&self, force: DVec3, push: f64, normal: DVec3) -> DVec3 {
+        let tangential = force - normal * force.dot(normal);
+        tangential.clamp_length_max(self.friction * self.step.contact * push)
+    }
+}
