@@ -210,6 +210,19 @@ fn a_stroke_on_the_body_lies_on_its_skin() {
 }
 
 #[test]
+fn a_fast_stroke_on_the_body_is_followed_all_the_way() {
+    let mut window = window();
+    let middle = pane(&window, "Body pane").center();
+    let half = Vec2::new(90.0, 20.0);
+    drag(&mut window, &[middle - half, middle + half], PointerButton::Primary);
+    let slow = line(pane(&window, "Body pane"), half);
+    drag(&mut window, &slow, PointerButton::Primary);
+    let marks = &app(&window).session().document().marks;
+    let length = |i: usize| marks.body[i].points.windows(2).map(|w| w[0].distance(w[1])).sum::<f64>();
+    assert!((length(0) / length(1) - 1.0).abs() < 0.05, "{} {}", length(0), length(1));
+}
+
+#[test]
 fn a_click_makes_a_dot_and_control_click_takes_it_away() {
     let mut window = window();
     for label in ["Pattern pane", "Body pane"] {

@@ -64,9 +64,16 @@ pub struct ScenePane {
     pub graphics: Option<Graphics>,
     scenery: Scenery,
     drag: Option<Drag>,
+    /// Where the pointer of the drag was last followed to.
+    followed: Option<Pos2>,
     framed_body: Option<Arc<Surface>>,
     moving: bool,
 }
+
+/// Between two places of the pointer the skin is looked for at this distance, logical pixels.
+const FOLLOW_STEP: f32 = 4.0;
+/// A leap of the pointer is followed in no more steps than these.
+const MOST_FOLLOW_STEPS: f32 = 500.0;
 
 #[derive(Debug)]
 enum Drag {
@@ -242,13 +249,14 @@ impl ScenePane {
     fn start_drag(&mut self, ui: &egui::Ui, seen: &Seen<'_>, pane: Rect, erasing: bool) {
         let origin = ui.input(|i| i.pointer.press_origin());
         let hit = origin.and_then(|at| self.pick(seen, pane, at));
+        self.followed = origin;
         self.drag = Some(match hit {
             Some(point) if seen.tool == Tool::Mark && !erasing => Drag::Paint(vec![point]),
             _ => Drag::Turn,
         });
     }
 
-    /// Follows the pointer through every place it was in since the last frame.
+    /// Follows the pointer through every place it was in since the last frame, and between them: a fast hand leaves few.
     fn go_on(&mut self, ui: &egui::Ui, seen: &Seen<'_>, pane: Rect) {
         if !matches!(self.drag, Some(Drag::Paint(_))) {
             return;
@@ -262,7 +270,13 @@ impl ScenePane {
         });
         // A jump from one limb to another is no stroke along the body.
         let leap = 0.12 * seen.body.map_or(1.0, |b| b.scale());
-        let hits: Vec<DVec3> = trail.iter().filter_map(|&at| self.pick(seen, pane, at)).collect();
+        let mut hits: Vec<DVec3> = Vec::new();
+        for at in trail {
+            let from = self.followed.replace(at).unwrap_or(at);
+            let steps = (from.distance(at) / FOLLOW_STEP).ceil().clamp(1.0, MOST_FOLLOW_STEPS);
+            let places = (1..=steps as u32).map(|i| from.lerp(at, i as f32 / steps));
+            hits.extend(places.filter_map(|place| self.pick(seen, pane, place)));
+        }
         if let Some(Drag::Paint(points)) = &mut self.drag {
             for hit in hits {
                 let step = points.last().map_or(f64::INFINITY, |l| l.distance(hit));
