@@ -12,7 +12,7 @@ use toile::body::{Surface, mannequin};
 use toile::cloth::{ClothState, build};
 use toile::session::samples::Sample;
 use toile::sim::hash::cloth_hash;
-use toile::wrap::{Dressing, Phase};
+use toile::wrap::{Dressing, Phase, coarser};
 
 /// Edge length that gives the T-shirt about 10,000 triangles, metres.
 const FINE: f64 = 0.0125;
@@ -33,8 +33,14 @@ impl Scene {
         let document = &self.project.document;
         let (garment, _) = build(&document.pattern, FINE);
         let triangles = garment.triangles.len();
-        let (dressing, mut state, _) =
-            Dressing::new(Arc::new(garment), self.surface.clone(), &document.marks, document.settings.relax);
+        let coarser = coarser(&document.pattern, &garment, FINE, self.surface.scale());
+        let (dressing, mut state, _) = Dressing::coarse_to_fine(
+            &coarser,
+            Arc::new(garment),
+            self.surface.clone(),
+            &document.marks,
+            document.settings.relax,
+        );
         let mut dressing = dressing.expect("the matrix fits in memory");
         let mut ticks = 1;
         while dressing.step(&mut state) != Phase::AtRest {

@@ -9,7 +9,7 @@ use toile::cloth::build;
 use toile::fit::{BodyIndex, Report, measure, verdict};
 use toile::session::samples::Sample;
 use toile::session::{Project, project_file};
-use toile::wrap::{Dressing, Phase};
+use toile::wrap::{Dressing, Phase, coarser};
 
 /// Figures may differ by this from one machine's mathematics library to another's.
 const CLOSE: f64 = 1e-6;
@@ -23,8 +23,14 @@ fn dressed(project: &Project, body: &Arc<Surface>) -> Report {
     let (garment, problems) = build(&document.pattern, document.settings.edge_length);
     assert!(problems.is_empty(), "{problems:?}");
     let garment = Arc::new(garment);
-    let (dressing, mut state, problems) =
-        Dressing::new(garment.clone(), body.clone(), &document.marks, document.settings.relax);
+    let coarser = coarser(&document.pattern, &garment, document.settings.edge_length, body.scale());
+    let (dressing, mut state, problems) = Dressing::coarse_to_fine(
+        &coarser,
+        garment.clone(),
+        body.clone(),
+        &document.marks,
+        document.settings.relax,
+    );
     assert!(problems.is_empty(), "{problems:?}");
     let mut dressing = dressing.expect("a dressing");
     for pair in &dressing.stretches {

@@ -8,7 +8,10 @@ use toile::cloth::build;
 use toile::fit::{BodyIndex, Report, measure, verdict};
 use toile::io::{garmentcode, obj};
 use toile::relax::RelaxSettings;
-use toile::wrap::{Dressing, Phase, suggested};
+use toile::wrap::{Dressing, Phase, coarser, suggested};
+
+/// Metres.
+const EDGE: f64 = 0.02;
 
 fn data() -> Option<PathBuf> {
     let folder = std::env::var_os("TOILE_DATA").map(PathBuf::from);
@@ -28,9 +31,11 @@ fn dressed(pattern: &str) -> Option<Report> {
     let pattern = garmentcode::read(&bytes).expect("GarmentCode");
     let settings = RelaxSettings::default();
     let marks = suggested(&pattern, &surface, settings.offset * surface.scale());
-    let (garment, _) = build(&pattern, 0.02);
+    let (garment, _) = build(&pattern, EDGE);
     let garment = Arc::new(garment);
-    let (dressing, mut state, problems) = Dressing::new(garment.clone(), surface.clone(), &marks, settings);
+    let coarser = coarser(&pattern, &garment, EDGE, surface.scale());
+    let (dressing, mut state, problems) =
+        Dressing::coarse_to_fine(&coarser, garment.clone(), surface.clone(), &marks, settings);
     assert!(problems.is_empty(), "{problems:?}");
     let mut dressing = dressing.expect("a dressing");
     while dressing.step(&mut state) != Phase::AtRest {}

@@ -13,7 +13,7 @@ use toile::cloth::{ClothState, Garment, build};
 use toile::pattern::Pattern;
 use toile::relax::RelaxSettings;
 use toile::wrap::roots::roots;
-use toile::wrap::{Dressing, Marks, Phase};
+use toile::wrap::{Dressing, Marks, Phase, coarser};
 
 const RADIUS: f64 = 0.15;
 const OFFSET: f64 = 0.004;
@@ -51,6 +51,29 @@ fn a_tube_that_fits_wraps_a_cylinder_without_strain() {
     assert!(state.mapped.iter().all(|&m| m));
     assert!(quantile(&strains, 0.99) < 0.005, "p99 strain {}", quantile(&strains, 0.99));
     assert!(lowest(&surface, &state) > 0.5 * OFFSET, "lowest {}", lowest(&surface, &state));
+}
+
+/// The fast path, coarse to fine, and the plain one come to lie in the same place.
+#[test]
+fn coarse_to_fine_ends_where_one_mesh_does() {
+    let width = std::f64::consts::PI * (RADIUS + OFFSET);
+    let pattern = tube(width, 0.5);
+    let marks = tube_marks(&pattern, width, 0.5, RADIUS, 0.25);
+    let edge = 0.01;
+    let (garment, surface, plain, ticks) = dressed(&pattern, &marks, edge);
+    let coarser = coarser(&pattern, &garment, edge, surface.scale());
+    assert!(!coarser.is_empty());
+    let (dressing, mut fast, problems) =
+        Dressing::coarse_to_fine(&coarser, garment.clone(), surface.clone(), &marks, settings(&surface));
+    assert!(problems.is_empty(), "{problems:?}");
+    let mut dressing = dressing.expect("a dressing");
+    let fast_ticks = (0..1000).take_while(|_| dressing.step(&mut fast) != Phase::AtRest).count();
+    println!("{ticks} ticks at once, {fast_ticks} coarse to fine");
+    for state in [&plain, &fast] {
+        assert!(quantile(&strains(&garment, state), 0.99) < 0.005);
+    }
+    let apart = plain.positions.iter().zip(&fast.positions).map(|(a, b)| (*a - *b).length());
+    assert!(apart.fold(0.0, f64::max) < edge, "they lie up to an edge apart");
 }
 
 #[test]

@@ -88,7 +88,8 @@ fn wrap(session: &mut Session, project: &Path, seconds: &mut Seconds) -> Result<
         .filter(|p| !p.kind.is_note())
         .map(|p| format!("{}: {}", p.place, p.words))
         .collect();
-    if session.snapshot().is_dressed() {
+    let snapshot = session.snapshot();
+    if snapshot.is_dressed() || snapshot.working {
         problems.iter().for_each(|words| output::complain(&format!("{}: {words}", project.display())));
         return Ok(());
     }

@@ -6,7 +6,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::body::Surface;
-use crate::cloth::{ClothState, Counters, Garment};
+use crate::cloth::{Carry, ClothState, Counters, Garment};
 use crate::contact::{Tracker, layers};
 use crate::relax::RelaxSettings;
 use crate::relax::flatten::Hinges;
@@ -23,7 +23,7 @@ const LEAST_SHARE: usize = 512;
 /// A triangle is turned over when its normal and that of the cloth round it have a smaller cosine.
 const FLIPPED: f64 = -0.2;
 /// How far from skin that is looked after, metres on a body 1.5 m large.
-const WRONG_SIDE_REACH: f64 = 0.02;
+const WRONG_SIDE_REACH: f64 = 0.015;
 /// The same for a whole face of cloth that lies still.
 const WRONG_FACE: f64 = -0.15;
 
@@ -127,6 +127,14 @@ impl Relaxer {
         self.solver.set_triangles(&self.garment, mapped);
     }
 
+    /// Takes over the pressure of the contacts of a `coarser` relaxer, whose edges are `1 / ratio` times as long: the same
+    /// pressure pushes a vertex by the area round it.
+    pub fn take_over(&mut self, coarser: &Self, carry: &Carry, ratio: f64) {
+        self.push = carry.values(&coarser.push);
+        self.push.iter_mut().for_each(|push| *push *= ratio * ratio);
+        self.contact = coarser.contact;
+    }
+
     /// One global step. Returns the longest move, metres.
     pub fn global_step(&mut self, state: &mut ClothState, step: GlobalStep) -> f64 {
         let offset = self.offset();
@@ -190,6 +198,7 @@ impl Relaxer {
             step,
             offset: self.settings.offset * scale,
             friction: self.settings.friction,
+            reach: WRONG_SIDE_REACH * scale,
             scale,
         };
         let (laplacian, mapped) = (&self.laplacian, &state.mapped);

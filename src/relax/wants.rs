@@ -13,7 +13,7 @@ const SLIDE_MOMENTUM: f64 = 0.9;
 /// The same under gravity and friction.
 const WEIGHTED_MOMENTUM: f64 = 0.8;
 /// A contact's push beyond the offset grows no further than this, metres on a body 1.5 m large.
-const MOST_PUSH: f64 = 0.03;
+const MOST_PUSH: f64 = 0.1;
 /// Cloth is on the wrong side of the skin next to it when their normals have a smaller cosine.
 const WRONG_SIDE: f64 = 0.0;
 /// Cloth on the wrong side is sent away by this in a step, metres on a body 1.5 m large.
@@ -37,6 +37,8 @@ pub(super) struct Wants<'a> {
     pub offset: f64,
     /// Coulomb's coefficient.
     pub friction: f64,
+    /// Cloth on the wrong side this near the skin is sent away, metres.
+    pub reach: f64,
     /// Of the body: what paper A's lengths are multiplied by.
     pub scale: f64,
 }
@@ -60,7 +62,10 @@ impl Wants<'_> {
         match below {
             Some((plane, below)) if self.step.unfold && plane.normal.dot(self.normals[v]) < WRONG_SIDE => {
                 *push = 0.0;
-                want(contact, x + plane.normal * (below.max(0.0) + away));
+                // Fading out towards the reach and towards the right side, so that it comes to rest.
+                let facing = (-plane.normal.dot(self.normals[v]) * 4.0).clamp(0.0, 1.0);
+                let near = ((self.reach - plane.height(x)) / self.reach * 2.0).clamp(0.0, 1.0);
+                want(contact, x + plane.normal * (below.max(0.0) + away * facing * near));
             }
             // In the band above the offset the weight stays, so that the factor need not change when a vertex lifts off.
             Some((plane, below)) if below > -self.offset => {

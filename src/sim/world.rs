@@ -8,7 +8,7 @@ use crate::pattern::Problem;
 use crate::relax::RelaxSettings;
 use crate::sim::hash::cloth_hash;
 use crate::sim::protocol::GarmentSource;
-use crate::wrap::{Dressing, Phase};
+use crate::wrap::{Dressing, Phase, coarser};
 
 /// The state of the simulation.
 #[derive(Clone, Debug)]
@@ -48,8 +48,14 @@ impl World {
     pub fn wrapped(source: Arc<GarmentSource>, body: Arc<Surface>) -> Self {
         let (garment, mut problems) = cloth::build(&source.pattern, source.edge_length);
         let garment = Arc::new(garment);
-        let (dressing, cloth, more) =
-            Dressing::new(Arc::clone(&garment), Arc::clone(&body), &source.marks, source.relax);
+        let coarser = coarser(&source.pattern, &garment, source.edge_length, body.scale());
+        let (dressing, cloth, more) = Dressing::coarse_to_fine(
+            &coarser,
+            Arc::clone(&garment),
+            Arc::clone(&body),
+            &source.marks,
+            source.relax,
+        );
         problems.extend(more);
         Self {
             source: Some(source),

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use crate::body::Surface;
-use crate::cloth::{ClothState, Counters, Garment};
+use crate::cloth::{Carry, ClothState, Counters, Garment};
 use crate::geometry::ids::PieceId;
 use crate::pattern::{Problem, ProblemKind};
 use crate::relax::{GlobalStep, RelaxSettings, Relaxer};
@@ -49,10 +49,16 @@ const REST_MOTION: f64 = 0.01;
 const QUIET_STEPS: usize = 5;
 /// Cloth is taken to lie still after so many settling steps in any case: what still moves then trembles in a fold.
 const MOST_SETTLE_STEPS: usize = 400;
+/// The same for a coarse mesh, which only has to lie roughly right.
+const DRAFT_SETTLE_STEPS: usize = 160;
 /// So often at most is lying cloth mended: raised off the body it cuts, sent to its own side.
 const MOST_MENDS: usize = 12;
+/// The same for a coarse mesh.
+const DRAFT_MENDS: usize = 2;
 /// A mend has so many steps to take effect.
 const STEPS_PER_MEND: usize = 25;
+/// Share of the progress that coarser meshes have.
+const COARSE_PROGRESS: f64 = 0.8;
 /// Edges and faces keep this share of the offset.
 const FACE_CLEARANCE: f64 = 0.25;
 
@@ -90,7 +96,11 @@ struct Settling {
 }
 
 impl Settling {
-    const START: Self = Self { done: 0, quiet: 0, mends: 0, until: MOST_SETTLE_STEPS };
+    /// From step `done` on.
+    fn from(done: usize, draft: bool) -> Self {
+        let until = if draft { DRAFT_SETTLE_STEPS } else { MOST_SETTLE_STEPS };
+        Self { done, quiet: 0, mends: 0, until }
+    }
 }
 
 /// A wrap under way.
@@ -104,11 +114,55 @@ pub struct Dressing {
     edge_length: f64,
     to_map: usize,
     mapped: usize,
+    /// A finer mesh goes on from here: it need not lie quite still.
+    draft: bool,
+    /// While this is there, it moves and the cloth follows it.
+    coarse: Option<Box<Coarse>>,
     /// How long each pair of marks is on both sides.
     pub stretches: Vec<PairStretch>,
 }
 
+/// The same garment in larger triangles, dressed first.
+#[derive(Clone, Debug)]
+struct Coarse {
+    dressing: Dressing,
+    cloth: ClothState,
+    carry: Carry,
+}
+
 impl Dressing {
+    /// Dresses the `coarser` meshes of the same pattern first, the coarsest at the end of the list, and each finer one
+    /// from where the one before lies: what takes a fine mesh hundreds of steps, its long slow swings, a coarse one does in
+    /// a tenth of the time.
+    pub fn coarse_to_fine(
+        coarser: &[Arc<Garment>],
+        garment: Arc<Garment>,
+        surface: Arc<Surface>,
+        marks: &Marks,
+        settings: RelaxSettings,
+    ) -> (Option<Self>, ClothState, Vec<Problem>) {
+        let Some((next, coarser)) = coarser.split_first() else {
+            return Self::new(garment, surface, marks, settings);
+        };
+        let (dressing, cloth, mut problems) =
+            Self::coarse_to_fine(coarser, next.clone(), surface.clone(), marks, settings);
+        let mut state = ClothState {
+            positions: vec![DVec3::ZERO; garment.vertex_count],
+            mapped: vec![false; garment.vertex_count],
+        };
+        let Some(mut dressing) = dressing else { return (None, state, problems) };
+        dressing.draft = true;
+        let carry = Carry::new(next, &garment);
+        carry.places(&cloth, &mut state);
+        let Some(mut fine) = Self::resumed(garment, surface, settings, &state) else {
+            problems.push(too_large());
+            return (None, state, problems);
+        };
+        fine.stretches = dressing.stretches.clone();
+        fine.coarse = Some(Box::new(Coarse { dressing, cloth, carry }));
+        (Some(fine), state, problems)
+    }
+
     /// Pastes the cloth round its marks. Problems tell what was left out; with no usable pair of marks nothing is mapped
     /// and the phase is `AtRest`.
     pub fn new(
@@ -122,9 +176,7 @@ impl Dressing {
             mapped: vec![false; garment.vertex_count],
         };
         let Some(mut relaxer) = Relaxer::new(garment.clone(), surface.clone(), settings) else {
-            let words = "the garment is too large for this machine's memory".to_owned();
-            let problem = Problem { kind: ProblemKind::Dressing, place: "garment".to_owned(), words };
-            return (None, state, vec![problem]);
+            return (None, state, vec![too_large()]);
         };
         let (roots, stretches, mut problems) = roots(&garment, &surface, marks, relaxer.offset());
         let marked: Vec<PieceId> = marks.pairs().map(|(c, _)| c.piece).collect();
@@ -152,6 +204,8 @@ impl Dressing {
             tier: 0,
             stage,
             to_map,
+            draft: false,
+            coarse: None,
             stretches,
         };
         (Some(dressing), state, problems)
@@ -159,6 +213,10 @@ impl Dressing {
 
     /// One tick of work on `state`: a band of growth, or an iteration of settling. Same input, same bits.
     pub fn step(&mut self, state: &mut ClothState) -> Phase {
+        if let Some(coarse) = self.coarse.take() {
+            self.follow(state, coarse);
+            return self.phase();
+        }
         match std::mem::replace(&mut self.stage, Stage::Rest) {
             Stage::Grow { limit, bands, fresh } => self.grow(state, limit, bands, fresh),
             Stage::BetweenTiers { left } => self.between_tiers(state, left),
@@ -170,6 +228,9 @@ impl Dressing {
 
     /// How far it has come.
     pub fn phase(&self) -> Phase {
+        if let Some(coarse) = &self.coarse {
+            return coarse.dressing.phase();
+        }
         match self.stage {
             Stage::Grow { .. } | Stage::BetweenTiers { .. } => Phase::Growing,
             Stage::Settle(_) => Phase::Settling,
@@ -179,6 +240,9 @@ impl Dressing {
 
     /// 0..=1 over growing and settling.
     pub fn progress(&self) -> f64 {
+        if let Some(coarse) = &self.coarse {
+            return COARSE_PROGRESS * coarse.dressing.progress();
+        }
         let grown = self.mapped as f64 / self.to_map.max(1) as f64;
         match self.stage {
             Stage::Grow { .. } | Stage::BetweenTiers { .. } => 0.6 * grown,
@@ -191,7 +255,10 @@ impl Dressing {
 
     /// Work done so far.
     pub fn counters(&self) -> Counters {
-        self.relaxer.counters
+        match &self.coarse {
+            Some(coarse) => coarse.dressing.counters(),
+            None => self.relaxer.counters,
+        }
     }
 
     /// Cloth that was dressed before, at rest. None when the matrix cannot be factored (out of memory).
@@ -214,6 +281,8 @@ impl Dressing {
             stage: Stage::Rest,
             to_map: mapped,
             mapped,
+            draft: false,
+            coarse: None,
             stretches: Vec::new(),
         })
     }
@@ -221,8 +290,30 @@ impl Dressing {
     /// Relaxes differently from now on; what is at rest settles again.
     pub fn set_settings(&mut self, settings: RelaxSettings) {
         self.relaxer.settings = settings;
+        if let Some(coarse) = &mut self.coarse {
+            coarse.dressing.set_settings(settings);
+            return;
+        }
         if matches!(self.stage, Stage::Rest) && self.mapped > 0 {
-            self.stage = Stage::Settle(Settling { done: SETTLE_STEPS, ..Settling::START });
+            self.stage = Stage::Settle(Settling::from(SETTLE_STEPS, self.draft));
+        }
+    }
+
+    /// A step of the coarser mesh. When it lies, the finer one goes on from there.
+    fn follow(&mut self, state: &mut ClothState, mut coarse: Box<Coarse>) {
+        let phase = coarse.dressing.step(&mut coarse.cloth);
+        coarse.carry.places(&coarse.cloth, state);
+        self.mapped = state.mapped.iter().filter(|&&m| m).count();
+        if phase != Phase::AtRest {
+            self.coarse = Some(coarse);
+            return;
+        }
+        self.relaxer.set_mapped(&state.mapped);
+        self.relaxer.counters = coarse.dressing.counters();
+        if self.mapped > 0 {
+            let ratio = self.edge_length / coarse.dressing.edge_length;
+            self.relaxer.take_over(&coarse.dressing.relaxer, &coarse.carry, ratio);
+            self.stage = Stage::Settle(Settling::from(SETTLE_STEPS, self.draft));
         }
     }
 
@@ -235,7 +326,7 @@ impl Dressing {
                 self.tier = next.map_or(self.tier, |(tier, _)| tier);
                 self.relaxer.set_mapped(&state.mapped);
                 self.stage = if last {
-                    Stage::Settle(Settling::START)
+                    Stage::Settle(Settling::from(0, self.draft))
                 } else {
                     Stage::BetweenTiers { left: TIER_STEPS }
                 };
@@ -275,13 +366,14 @@ impl Dressing {
     fn settle(&mut self, state: &mut ClothState, settling: Settling) {
         let Settling { done, quiet, mends, until } = settling;
         let first = done < SETTLE_STEPS;
+        let most_mends = if self.draft { DRAFT_MENDS } else { MOST_MENDS };
         let hold =
             if first { HOLD * HOLD_FADE.get(done / HOLD_FADE_STEPS).copied().unwrap_or(0.0) } else { 0.0 };
         let moved = self.global(state, hold, done > UNFOLD_AFTER, !first);
         let quiet = if moved < REST_MOTION * self.edge_length { quiet + 1 } else { 0 };
         let still = (quiet >= QUIET_STEPS && !first) || done >= until;
         // Cloth that lies still may cut the body between its vertices, or lie on the wrong side: mend it there and go on.
-        let mended = still && mends < MOST_MENDS && {
+        let mended = still && mends < most_mends && {
             let clearance = self.relaxer.offset() * FACE_CLEARANCE;
             let wrong = self.relaxer.lift_faces(state, clearance) + self.relaxer.send_wrong_faces(state);
             wrong + self.relaxer.part_layers(state) > 0
@@ -329,6 +421,11 @@ impl Dressing {
             self.relaxer.local_pass(state, &vertices, &triangles, LOCAL_FACTOR);
         }
     }
+}
+
+fn too_large() -> Problem {
+    let words = "the garment is too large for this machine's memory".to_owned();
+    Problem { kind: ProblemKind::Dressing, place: "garment".to_owned(), words }
 }
 
 fn mean_edge(garment: &Garment) -> f64 {

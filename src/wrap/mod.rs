@@ -1,5 +1,6 @@
 //! Paper A: marks, root edges, growth.
 
+pub mod coarser;
 pub mod dressing;
 pub mod growth;
 pub mod mark_error;
@@ -8,6 +9,7 @@ pub mod order;
 pub mod roots;
 pub mod suggest;
 
+pub use coarser::coarser;
 pub use dressing::{Dressing, Phase};
 pub use mark_error::{MarkError, mark_error};
 pub use marks::{BodyMark, ClothMark, ClothSide, Marks};

@@ -11,9 +11,9 @@ use crate::pattern::{Pattern, Piece};
 use crate::wrap::Marks;
 
 /// Added to the waist girth, metres.
-const WAIST_EASE: f64 = 0.026;
+const WAIST_EASE: f64 = 0.03;
 /// Added to the hip girth.
-const HIP_EASE: f64 = 0.06;
+const HIP_EASE: f64 = 0.075;
 /// Added to the girth of the knee.
 const KNEE_EASE: f64 = 0.085;
 /// Width of the leg at the hem over the girth of the ankle.
@@ -21,7 +21,7 @@ const HEM_EASE: f64 = 0.14;
 /// From the ankle bone up to the hem: clear of the foot.
 const HEM_HEIGHT: f64 = 0.07;
 /// Added to the depth of the crotch.
-const CROTCH_EASE: f64 = 0.022;
+const CROTCH_EASE: f64 = 0.03;
 /// Moved from each front's width to each back's.
 const BACK_SHARE: f64 = 0.018;
 
@@ -127,7 +127,7 @@ impl Block {
 pub fn trousers(form: &Form) -> (Pattern, Marks) {
     let block = Block::new(form);
     let front = Cut { fork: 0.042, lean: 0.010, rise: 0.0, dart: [0.018, 0.09], wider: -BACK_SHARE };
-    let back = Cut { fork: 0.094, lean: 0.028, rise: 0.036, dart: [0.026, 0.12], wider: BACK_SHARE };
+    let back = Cut { fork: 0.108, lean: 0.028, rise: 0.036, dart: [0.026, 0.12], wider: BACK_SHARE };
     let mut front_left = block.leg("front left", &front, 0.0);
     // The back's fork is lowered until both inner seams are as long.
     let inner = edge_length(&front_left, "in upper");

@@ -1,0 +1,175 @@
+//! Cloth carried from one mesh of a garment to another: the same flat point, the same place in space.
+
+use glam::{DVec2, DVec3};
+
+use crate::cloth::{ClothState, Garment};
+use crate::geometry::bvh::{Aabb, Bvh};
+use crate::geometry::ids::PieceId;
+
+/// How near a flat point counts as inside a triangle, in barycentric coordinates.
+const INSIDE: f64 = -1e-9;
+
+/// For each vertex of the mesh carried to: vertices of the mesh carried from, and their shares (their sum is one).
+#[derive(Clone, Debug, Default)]
+pub struct Carry {
+    starts: Vec<usize>,
+    shares: Vec<(u32, f64)>,
+}
+
+impl Carry {
+    /// From `from` to `to`, two meshes of one pattern. A point of a curved edge may lie outside the other mesh's chords:
+    /// the nearest triangle is extended there. A vertex on a seam is the mean of what its pieces say.
+    /// Vertices of pieces that `from` lacks get no share.
+    pub fn new(from: &Garment, to: &Garment) -> Self {
+        let mut said: Vec<Vec<(u32, f64)>> = vec![Vec::new(); to.vertex_count];
+        let mut corners = to.corners.as_slice();
+        while let Some(piece) = corners.first().map(|c| c.piece) {
+            let count = corners.iter().take_while(|c| c.piece == piece).count();
+            let (mine, rest) = corners.split_at(count);
+            corners = rest;
+            let flat = FlatPiece::new(from, piece);
+            for corner in mine {
+                said[corner.vertex as usize].extend(flat.shares(from, corner.uv).into_iter().flatten());
+            }
+        }
+        let mut carry = Self { starts: vec![0], shares: Vec::new() };
+        for said in said {
+            let pieces = (said.len() / 3).max(1) as f64;
+            carry.shares.extend(said.into_iter().map(|(v, share)| (v, share / pieces)));
+            carry.starts.push(carry.shares.len());
+        }
+        carry
+    }
+
+    /// Writes the places of `from` into `to`. A vertex is laid when all it depends on is.
+    pub fn places(&self, from: &ClothState, to: &mut ClothState) {
+        for v in 0..to.positions.len() {
+            let shares = self.of(v);
+            to.mapped[v] = !shares.is_empty() && shares.iter().all(|&(w, _)| from.mapped[w as usize]);
+            if to.mapped[v] {
+                to.positions[v] = shares.iter().map(|&(w, s)| from.positions[w as usize] * s).sum();
+            }
+        }
+    }
+
+    /// Per-vertex values of the one mesh on the other.
+    pub fn values(&self, from: &[f64]) -> Vec<f64> {
+        (0..self.starts.len() - 1)
+            .map(|v| self.of(v).iter().map(|&(w, s)| from[w as usize] * s).sum())
+            .collect()
+    }
+
+    fn of(&self, v: usize) -> &[(u32, f64)] {
+        &self.shares[self.starts[v]..self.starts[v + 1]]
+    }
+}
+
+/// The triangles of one piece, flat.
+struct FlatPiece {
+    triangles: Vec<u32>,
+    tree: Bvh,
+}
+
+impl FlatPiece {
+    fn new(garment: &Garment, piece: PieceId) -> Self {
+        let triangles: Vec<u32> = (0..garment.triangles.len() as u32)
+            .filter(|&t| garment.triangle_pieces[t as usize] == piece)
+            .collect();
+        let boxes: Vec<Aabb> =
+            triangles.iter().map(|&t| Aabb::around(&flat(garment, t).map(|p| p.extend(0.0)))).collect();
+        Self { tree: Bvh::new(&boxes), triangles }
+    }
+
+    /// The three vertices of the triangle under `p`, or of the one that needs least extending, with their shares.
+    fn shares(&self, garment: &Garment, p: DVec2) -> Option<[(u32, f64); 3]> {
+        let bounds = self.tree.nodes.first()?.bounds;
+        let whole = (bounds.upper - bounds.lower).length();
+        let mut reach = whole * 1e-6;
+        loop {
+            let around = DVec3::splat(reach);
+            let query = Aabb { lower: p.extend(0.0) - around, upper: p.extend(0.0) + around };
+            let mut best: Option<(f64, u32, [f64; 3])> = None;
+            self.tree.near(&query, |i| {
+                let t = self.triangles[i as usize];
+                let Some(shares) = barycentric(flat(garment, t), p) else { return };
+                let least = shares[0].min(shares[1]).min(shares[2]);
+                let better = |b: &(f64, u32, [f64; 3])| least > b.0 || (least == b.0 && t < b.1);
+                if best.as_ref().is_none_or(better) {
+                    best = Some((least, t, shares));
+                }
+            });
+            // A leaf's box holds triangles that are not near: look a little farther before one is extended.
+            if let Some((least, t, shares)) = best
+                && (least >= INSIDE || reach > whole * 0.01)
+            {
+                let vs = garment.triangles[t as usize];
+                return Some([0, 1, 2].map(|k| (vs[k], shares[k])));
+            }
+            if reach > 2.0 * whole {
+                return None;
+            }
+            reach *= 8.0;
+        }
+    }
+}
+
+fn flat(garment: &Garment, t: u32) -> [DVec2; 3] {
+    garment.triangle_corners[t as usize].map(|c| garment.corners[c as usize].uv)
+}
+
+fn barycentric([a, b, c]: [DVec2; 3], p: DVec2) -> Option<[f64; 3]> {
+    let area = (b - a).perp_dot(c - a);
+    let shares = [(c - b).perp_dot(p - b) / area, (a - c).perp_dot(p - c) / area];
+    let shares = [shares[0], shares[1], 1.0 - shares[0] - shares[1]];
+    shares.iter().all(|s| s.is_finite()).then_some(shares)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cloth::build;
+    use crate::pattern::piece::EdgeShape;
+    use crate::pattern::{Pattern, Piece};
+
+    /// A square with sides of 0.4 m and one rounded edge.
+    fn square(edge: f64) -> Garment {
+        let corners = [(0.0, 0.0), (0.4, 0.0), (0.4, 0.4), (0.0, 0.4)].map(|(x, y)| DVec2::new(x, y));
+        let mut piece = Piece::polygon("square", &corners);
+        piece.outline[1].shape = EdgeShape::Quadratic { control: DVec2::new(0.5, 0.2) };
+        let mut pattern = Pattern::default();
+        pattern.add_piece(piece);
+        build(&pattern, edge).0
+    }
+
+    fn laid(garment: &Garment, place: impl Fn(DVec2) -> DVec3) -> ClothState {
+        let mut state = ClothState {
+            positions: vec![DVec3::ZERO; garment.vertex_count],
+            mapped: vec![true; garment.vertex_count],
+        };
+        for c in &garment.corners {
+            state.positions[c.vertex as usize] = place(c.uv);
+        }
+        state
+    }
+
+    #[test]
+    fn a_plane_is_carried_exactly_even_beyond_a_chord() {
+        let place = |p: DVec2| DVec3::new(p.x + 2.0 * p.y, 1.0 - p.x, 3.0 * p.y);
+        let (coarse, fine) = (square(0.11), square(0.02));
+        let mut to = laid(&fine, |_| DVec3::ZERO);
+        Carry::new(&coarse, &fine).places(&laid(&coarse, place), &mut to);
+        for (got, exact) in to.positions.iter().zip(laid(&fine, place).positions) {
+            assert!((*got - exact).length() < 1e-12, "{got} is not {exact}");
+        }
+    }
+
+    #[test]
+    fn what_is_not_laid_is_not_carried() {
+        let (coarse, fine) = (square(0.11), square(0.05));
+        let mut from = laid(&coarse, |p| p.extend(0.0));
+        from.mapped.fill(false);
+        let mut to = laid(&fine, |_| DVec3::ZERO);
+        Carry::new(&coarse, &fine).places(&from, &mut to);
+        assert!(to.mapped.iter().all(|m| !m));
+    }
+}
