@@ -3,7 +3,7 @@
 //! A flat pattern and a body go in; numbered marks say where the cloth goes; a dressed garment comes out.
 //!
 //! ```text
-//! cli, ui → session → sim → wrap → relax → contact → {cloth, body} → pattern → geometry
+//! cli, ui → session → sim → {wrap, drag} → relax → contact → {cloth, body} → pattern → geometry
 //! ```
 //!
 //! | folder | holds | may use |
@@ -15,6 +15,7 @@
 //! | `contact`  | cloth against body and itself | cloth, body, geometry |
 //! | `relax`    | paper A's relaxation: shape match, flatten, gravity, friction | contact, cloth, body, geometry |
 //! | `wrap`     | paper A: marks, root edges, growth | relax, contact, cloth, body, pattern, geometry |
+//! | `drag`     | paper A: dependency graph, motion in local frames, pushpins | relax, contact, cloth, body, pattern, geometry |
 //! | `fit`      | what is read off a garment: strain, crossings, openings, the report | cloth, body, pattern, geometry |
 //! | `sim`      | owner of the moving state: stages, protocol, checkpoints, thread, state hash | the above |
 //! | `session`  | what the user has done: document, command, history, recording, replay, project file | sim and below, io |
@@ -37,6 +38,7 @@ pub mod body;
 pub mod cli;
 pub mod cloth;
 pub mod contact;
+pub mod drag;
 pub mod fit;
 pub mod geometry;
 pub mod io;

@@ -3,6 +3,8 @@
 #[path = "sessions/commands.rs"]
 mod commands;
 mod common;
+#[path = "sessions/dragging.rs"]
+mod dragging;
 #[path = "sessions/project_files.rs"]
 mod project_files;
 #[path = "sessions/recordings.rs"]

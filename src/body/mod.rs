@@ -1,5 +1,6 @@
 //! The body the cloth is put on.
 
+pub mod closest;
 pub mod import;
 pub mod mannequin;
 pub mod measure;

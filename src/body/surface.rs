@@ -2,9 +2,10 @@
 
 use glam::{DVec3, Vec3};
 use parry3d::math::Pose;
-use parry3d::query::{PointQuery, PointQueryWithLocation, Ray, RayCast};
-use parry3d::shape::{TriMesh as ParryMesh, TriMeshFlags};
+use parry3d::query::{Ray, RayCast};
+use parry3d::shape::TriMesh as ParryMesh;
 
+use crate::body::closest::{ClosestTree, pseudonormal};
 use crate::geometry::adjacency::Adjacency;
 use crate::geometry::mesh::TriMesh;
 
@@ -47,8 +48,9 @@ pub struct Surface {
     pub face_normals: Vec<DVec3>,
     /// Angle-weighted unit normal per vertex.
     pub vertex_normals: Vec<DVec3>,
+    closest: ClosestTree,
     parry: ParryMesh,
-    // Queries run in f32 about this point, so that bodies far from the origin keep their accuracy.
+    // Rays run in f32 about this point, so that bodies far from the origin keep their accuracy.
     origin: DVec3,
     lower: DVec3,
     upper: DVec3,
@@ -66,7 +68,7 @@ impl Surface {
         let (lower, upper) = mesh.bounds();
         let origin = (lower + upper) / 2.0;
         let vertices: Vec<Vec3> = mesh.positions.iter().map(|&p| (p - origin).as_vec3()).collect();
-        let parry = ParryMesh::with_flags(vertices, mesh.triangles.clone(), TriMeshFlags::ORIENTED).ok()?;
+        let parry = ParryMesh::new(vertices, mesh.triangles.clone()).ok()?;
         let adjacency = Adjacency::new(mesh.positions.len(), &mesh.triangles);
         let face_normals = (0..mesh.triangles.len())
             .map(|t| {
@@ -75,7 +77,8 @@ impl Surface {
             })
             .collect::<Vec<_>>();
         let vertex_normals = angle_weighted_normals(&mesh, &face_normals);
-        Some(Self { mesh, adjacency, face_normals, vertex_normals, parry, origin, lower, upper })
+        let closest = ClosestTree::new(&mesh);
+        Some(Self { mesh, adjacency, face_normals, vertex_normals, closest, parry, origin, lower, upper })
     }
 
     /// Lower and upper corner of the bounding box.
@@ -100,18 +103,19 @@ impl Surface {
 
     /// The point of the surface nearest to `p`, if it is within `limit` metres.
     pub fn nearest_within(&self, p: DVec3, limit: f64) -> Option<Nearest> {
-        let local = (p - self.origin).as_vec3();
-        let limit = limit.min(f64::from(f32::MAX) / 2.0) as f32;
-        let (projection, (triangle, location)) =
-            self.parry.project_local_point_and_get_location_with_max_dist(local, true, limit)?;
-        // parry3d projects in f32; done again in f64 on the triangle found, offsets of a hundredth of a millimetre hold.
-        let _ = location;
-        let [a, b, c] = self.mesh.corners(triangle as usize);
-        let point = closest_on_triangle(p, a, b, c);
-        let inside = projection.is_inside;
+        let (point, triangle, part) = self.closest.nearest(p, limit)?;
         let along = p - point;
         let length = along.length();
         let face = self.face_normals[triangle as usize];
+        let outward = pseudonormal(
+            &self.mesh,
+            &self.adjacency,
+            &self.face_normals,
+            &self.vertex_normals,
+            triangle,
+            part,
+        );
+        let inside = along.dot(outward) < 0.0;
         let normal = if length > 1e-7 { if inside { -along / length } else { along / length } } else { face };
         Some(Nearest { point, normal, distance: if inside { -length } else { length }, triangle })
     }
@@ -147,44 +151,8 @@ impl Surface {
 
     /// Whether `p` lies inside.
     pub fn contains(&self, p: DVec3) -> bool {
-        self.parry.project_local_point((p - self.origin).as_vec3(), true).is_inside
+        self.nearest(p).distance < 0.0
     }
-}
-
-/// The point of triangle `abc` nearest to `p` (Ericson, Real-Time Collision Detection, 5.1.5).
-pub fn closest_on_triangle(p: DVec3, a: DVec3, b: DVec3, c: DVec3) -> DVec3 {
-    let (ab, ac, ap) = (b - a, c - a, p - a);
-    let (d1, d2) = (ab.dot(ap), ac.dot(ap));
-    if d1 <= 0.0 && d2 <= 0.0 {
-        return a;
-    }
-    let bp = p - b;
-    let (d3, d4) = (ab.dot(bp), ac.dot(bp));
-    if d3 >= 0.0 && d4 <= d3 {
-        return b;
-    }
-    let vc = d1 * d4 - d3 * d2;
-    if vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0 {
-        return a + ab * (d1 / (d1 - d3));
-    }
-    let cp = p - c;
-    let (d5, d6) = (ab.dot(cp), ac.dot(cp));
-    if d6 >= 0.0 && d5 <= d6 {
-        return c;
-    }
-    let vb = d5 * d2 - d1 * d6;
-    if vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0 {
-        return a + ac * (d2 / (d2 - d6));
-    }
-    let va = d3 * d6 - d5 * d4;
-    if va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0 {
-        return b + (c - b) * ((d4 - d3) / ((d4 - d3) + (d5 - d6)));
-    }
-    let sum = va + vb + vc;
-    if sum == 0.0 {
-        return a;
-    }
-    a + ab * (vb / sum) + ac * (vc / sum)
 }
 
 fn angle_weighted_normals(mesh: &TriMesh, face_normals: &[DVec3]) -> Vec<DVec3> {

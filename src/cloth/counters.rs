@@ -15,6 +15,8 @@ pub struct Counters {
     pub factorisations: u64,
     /// Jacobi passes over triangles, in triangles.
     pub local_triangles: u64,
+    /// Vertices that drags reach, summed over drags.
+    pub drag_vertices: u64,
     /// Vertices laid by growing.
     pub grown_vertices: u64,
 }

@@ -39,6 +39,14 @@ pub struct Garment {
     pub pieces: Vec<(PieceId, String)>,
 }
 
+impl Garment {
+    /// Mean rest length of the triangles' sides, metres; zero without triangles.
+    pub fn mean_edge(&self) -> f64 {
+        let sides = |rest: &[DVec2; 3]| (0..3).map(|k| (rest[(k + 1) % 3] - rest[k]).length()).sum::<f64>();
+        self.rest.iter().map(sides).sum::<f64>() / (3 * self.rest.len()).max(1) as f64
+    }
+}
+
 /// What moves.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ClothState {

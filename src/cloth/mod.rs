@@ -3,9 +3,13 @@
 pub mod build;
 pub mod carry;
 pub mod counters;
+pub mod distance;
 pub mod garment;
+pub mod locate;
 
 pub use build::build;
 pub use carry::Carry;
 pub use counters::Counters;
+pub use distance::{EdgeMetric, Reached};
 pub use garment::{ClothState, Corner, Garment};
+pub use locate::FlatPiece;

@@ -86,6 +86,13 @@ impl Tracker {
         }
     }
 
+    /// A vertex was carried to `position` along its plane's normal: its nearest point of the skin is the same.
+    pub fn moved_along_normal(&mut self, vertex: usize, position: DVec3) {
+        if let Track::Near { at, .. } = &mut self.tracks[vertex] {
+            *at = position;
+        }
+    }
+
     /// Forgets everything: the body has changed.
     pub fn forget(&mut self) {
         self.tracks.fill(Track::Unknown);

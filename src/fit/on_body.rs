@@ -13,9 +13,9 @@ use crate::geometry::crossings::meetings;
 use crate::geometry::winding::Winding;
 
 /// Cloth nearer to the skin than this (metres) must show it its inner side.
-const NEAR: f64 = 0.02;
+pub(super) const NEAR: f64 = 0.02;
 /// A triangle whose normal has a smaller cosine with the skin's than this lies wrong side out.
-const WRONG_SIDE: f64 = -0.2;
+pub(super) const WRONG_SIDE: f64 = -0.2;
 /// A triangle of the body is hidden when a point this far (metres) before it lies inside the body.
 const BEFORE_SKIN: f64 = 1e-4;
 /// Where a triangle is sampled, in barycentric coordinates times their sum.

@@ -27,3 +27,7 @@ typed_id!(
     /// A stroke on cloth or body.
     MarkId, "mark"
 );
+typed_id!(
+    /// A pushpin.
+    PinId, "pin"
+);

@@ -91,6 +91,11 @@ impl GlobalSolver {
         self.factor = None;
     }
 
+    /// The next solve factors anew, however few weights have changed.
+    pub fn forget_factor(&mut self) {
+        self.factor = None;
+    }
+
     /// Solves for positions, in place of `sums`: on entry the right-hand side (turned corners summed, plus weight times
     /// target). `weights` stands on the diagonal; where the factor holds older ones, `target_of` moves the right-hand side
     /// to match, so that matrix and right-hand side always agree.

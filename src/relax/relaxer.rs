@@ -7,13 +7,15 @@ use rayon::prelude::*;
 
 use crate::body::Surface;
 use crate::cloth::{Carry, ClothState, Counters, Garment};
-use crate::contact::{Tracker, layers};
+use crate::contact::{Plane, Tracker, layers};
 use crate::relax::RelaxSettings;
 use crate::relax::flatten::Hinges;
 use crate::relax::global::GlobalSolver;
 use crate::relax::goals::{turned_rest, turned_rest_facing};
 use crate::relax::wants::Wants;
 
+/// Of a vertex that does not move, on the matrix diagonal: so heavy that its neighbours find it where it is.
+const FIXED_WEIGHT: f64 = 1e4;
 /// Stands for cloth that is not laid yet.
 const UNMAPPED_WEIGHT: f64 = 1.0;
 /// How many clearances deep a face may lie in the body and still be found: its corners are above the skin.
@@ -67,6 +69,8 @@ pub struct Relaxer {
     lift: Vec<f64>,
     /// Where the marks want their vertices.
     held: Vec<Option<DVec3>>,
+    /// Vertices that do not move: under a pushpin, in the hand, or not to be rewrapped.
+    fixed: Vec<bool>,
     previous: Vec<DVec3>,
     turned: Vec<[DVec3; 3]>,
     weights: Vec<f64>,
@@ -98,6 +102,7 @@ impl Relaxer {
             contact: 0.0,
             lift: vec![0.0; n],
             held: vec![None; n],
+            fixed: vec![false; n],
             previous: vec![DVec3::ZERO; n],
             turned: vec![[DVec3::ZERO; 3]; garment.triangles.len()],
             weights: vec![0.0; n],
@@ -120,6 +125,50 @@ impl Relaxer {
     /// Holds `vertex` at `target` in global steps that ask for it.
     pub fn hold(&mut self, vertex: u32, target: DVec3) {
         self.held[vertex as usize] = Some(target);
+    }
+
+    /// No vertex is held any more.
+    pub fn release(&mut self) {
+        self.held.fill(None);
+    }
+
+    /// From now on exactly these vertices stay where they are.
+    pub fn fix(&mut self, vertices: impl IntoIterator<Item = u32>) {
+        let before = std::mem::replace(&mut self.fixed, vec![false; self.garment.vertex_count]);
+        vertices.into_iter().for_each(|v| self.fixed[v as usize] = true);
+        if before != self.fixed {
+            self.solver.forget_factor();
+        }
+    }
+
+    /// Brings the track planes of all vertices within `reach` metres of the skin up to date.
+    pub fn track(&mut self, state: &ClothState, reach: f64) {
+        self.tracker.update(&self.surface, state, reach, &mut self.counters);
+    }
+
+    /// The skin near `vertex` as it was last tracked.
+    pub fn plane(&self, vertex: u32) -> Option<Plane> {
+        self.tracker.plane(vertex as usize)
+    }
+
+    /// Normals of the cloth, front up, one per vertex.
+    pub fn cloth_normals(&self, state: &ClothState) -> Vec<DVec3> {
+        vertex_normals(&self.garment, state)
+    }
+
+    /// The same for one vertex.
+    pub fn cloth_normal(&self, vertex: u32, state: &ClothState) -> DVec3 {
+        normal_round(&self.garment, state, vertex)
+    }
+
+    /// Takes note that `vertex` was carried to `position` along the normal of its track plane: the plane stays its own.
+    pub fn carried_along_normal(&mut self, vertex: u32, position: DVec3) {
+        self.tracker.moved_along_normal(vertex as usize, position);
+    }
+
+    /// Cloth that was carried elsewhere is not sliding.
+    pub fn forget_motion(&mut self, state: &ClothState) {
+        self.previous.copy_from_slice(&state.positions);
     }
 
     /// Tells the matrix which triangles take part.
@@ -201,7 +250,7 @@ impl Relaxer {
             reach: WRONG_SIDE_REACH * scale,
             scale,
         };
-        let (laplacian, mapped) = (&self.laplacian, &state.mapped);
+        let (laplacian, mapped, fixed) = (&self.laplacian, &state.mapped, &self.fixed);
         self.push
             .par_iter_mut()
             .zip(&mut self.sums)
@@ -211,7 +260,11 @@ impl Relaxer {
             .map(|(v, ((push, sum), weight))| {
                 let x = state.positions[v];
                 let target;
-                (*weight, target) = if mapped[v] { wants.of(v, x, push, sum) } else { (UNMAPPED_WEIGHT, x) };
+                (*weight, target) = match (mapped[v], fixed[v]) {
+                    (true, false) => wants.of(v, x, push, sum),
+                    (true, true) => (FIXED_WEIGHT, x),
+                    (false, _) => (UNMAPPED_WEIGHT, x),
+                };
                 *sum += laplacian[v];
                 *sum += target * *weight;
                 target
@@ -246,13 +299,13 @@ impl Relaxer {
 
     fn advance(&mut self, state: &mut ClothState, step: GlobalStep) -> f64 {
         let offset = self.offset();
-        let mapped = &state.mapped;
+        let (mapped, fixed) = (&state.mapped, &self.fixed);
         let new: Vec<DVec3> = (0..state.positions.len())
             .into_par_iter()
             .with_min_len(LEAST_SHARE)
             .map(|v| {
                 let old = self.previous[v];
-                if !mapped[v] {
+                if !mapped[v] || fixed[v] {
                     return old;
                 }
                 let mut shift = (self.sums[v] - old).clamp_length_max(step.cap);
@@ -299,10 +352,13 @@ impl Relaxer {
                     }
                 }
                 let x = state.positions[v as usize];
-                if count == 0.0 { x } else { x + (sum / count - x) * factor }
+                if count == 0.0 || self.fixed[v as usize] { x } else { x + (sum / count - x) * factor }
             })
             .collect();
         for (&v, new) in vertices.iter().zip(moved) {
+            if self.fixed[v as usize] {
+                continue;
+            }
             let mut new = new;
             if let Some(plane) =
                 self.tracker.update_one(v, new, &self.surface, offset * 2.0, &mut self.counters)
@@ -413,21 +469,21 @@ fn vertex_areas(garment: &Garment) -> Vec<f64> {
 }
 
 fn vertex_normals(garment: &Garment, state: &ClothState) -> Vec<DVec3> {
-    (0..garment.vertex_count as u32)
-        .into_par_iter()
-        .map(|v| {
-            let around = garment.adjacency.vertex_triangles.of(v).iter();
-            let sum: DVec3 = around
-                .map(|&t| garment.triangles[t as usize])
-                .filter(|vs| vs.iter().all(|&w| state.mapped[w as usize]))
-                .map(|vs| {
-                    let [a, b, c] = vs.map(|w| state.positions[w as usize]);
-                    (b - a).cross(c - a)
-                })
-                .sum();
-            sum.normalize_or_zero()
+    (0..garment.vertex_count as u32).into_par_iter().map(|v| normal_round(garment, state, v)).collect()
+}
+
+/// Area-weighted unit normal of the laid triangles round `v`, front up; zero where there is none.
+fn normal_round(garment: &Garment, state: &ClothState, v: u32) -> DVec3 {
+    let around = garment.adjacency.vertex_triangles.of(v).iter();
+    let sum: DVec3 = around
+        .map(|&t| garment.triangles[t as usize])
+        .filter(|vs| vs.iter().all(|&w| state.mapped[w as usize]))
+        .map(|vs| {
+            let [a, b, c] = vs.map(|w| state.positions[w as usize]);
+            (b - a).cross(c - a)
         })
-        .collect()
+        .sum();
+    sum.normalize_or_zero()
 }
 
 fn body_normal(tracker: &Tracker, vs: &[u32; 3]) -> Option<DVec3> {

@@ -5,7 +5,8 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 use serde::{Deserialize, Serialize};
 
-use crate::geometry::ids::{MarkId, PieceId, SeamId};
+use crate::drag::{DragMode, Ray};
+use crate::geometry::ids::{MarkId, PieceId, PinId, SeamId};
 use crate::pattern::{Edge, Pattern, Piece, PlanePose, Seam};
 use crate::session::document::{BodyChoice, Settings};
 use crate::wrap::{ClothSide, Marks};
@@ -59,6 +60,19 @@ pub enum Command {
     CancelWrap,
     /// Take the cloth off.
     Unwrap,
+    /// Pin the cloth at a place of a piece, to where it is on the body.
+    AddPin { piece: PieceId, at: DVec2 },
+    /// Pull a pin out.
+    DeletePin { pin: PinId },
+    /// Pull all pins out.
+    ClearPins,
+    /// Take the dressed cloth in the hand at a place of a piece. The drag lasts until `Release`; `CancelGesture` takes all
+    /// of it back.
+    Grab { piece: PieceId, at: DVec2, mode: DragMode },
+    /// The pointer is there now: a ray into the scene.
+    DragTo { ray: Ray },
+    /// Let go; the cloth settles.
+    Release,
     /// Pause or go on relaxing. Not an undo step.
     SetRelaxing { on: bool },
 

@@ -5,10 +5,11 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use crate::body::mannequin::Measurements;
-use crate::geometry::ids::MarkId;
+use crate::geometry::ids::{MarkId, PinId};
 use crate::geometry::mesh::TriMesh;
 use crate::pattern::Pattern;
 use crate::relax::RelaxSettings;
+use crate::sim::ClothPlace;
 use crate::wrap::Marks;
 
 /// Pattern, body, strokes and settings.
@@ -22,8 +23,32 @@ pub struct Document {
     pub marks: Arc<Marks>,
     /// The last number given to a mark.
     pub last_mark: u32,
+    /// Pushpins in the dressed cloth, in the order they were set.
+    #[serde(default, skip_serializing_if = "is_empty")]
+    pub pins: Arc<Vec<Pin>>,
+    /// The last number given to a pin.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub last_pin: u32,
     /// Mesh size and relaxation.
     pub settings: Settings,
+}
+
+/// A pushpin: the cloth under it stays where it is on the body.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Pin {
+    /// Its id.
+    pub id: PinId,
+    /// Where it is stuck in.
+    #[serde(flatten)]
+    pub place: ClothPlace,
+}
+
+fn is_empty(pins: &Arc<Vec<Pin>>) -> bool {
+    pins.is_empty()
+}
+
+fn is_zero(number: &u32) -> bool {
+    *number == 0
 }
 
 impl Default for Document {
@@ -33,6 +58,8 @@ impl Default for Document {
             body: BodyChoice::default(),
             marks: Arc::new(Marks::default()),
             last_mark: 0,
+            pins: Arc::default(),
+            last_pin: 0,
             settings: Settings::default(),
         }
     }
@@ -43,6 +70,16 @@ impl Document {
     pub fn fresh_mark(&mut self) -> MarkId {
         self.last_mark += 1;
         MarkId(self.last_mark)
+    }
+
+    /// Where the pins are stuck in, for the simulation.
+    pub fn pinned_places(&self) -> Arc<Vec<ClothPlace>> {
+        Arc::new(self.pins.iter().map(|pin| pin.place).collect())
+    }
+
+    /// The cloth comes off: nothing is left to pin.
+    pub fn drop_pins(&mut self) {
+        self.pins = Arc::default();
     }
 
     /// Replaces all strokes; the counter stays ahead of their ids.

@@ -73,6 +73,10 @@ impl Session {
         if let (Some(Dressed { source, cloth }), Ok(body)) = (project.dressed, body) {
             let kind = RequestKind::Adopt { source, body, cloth };
             runner.send(Request { seq: 0, checkpoint: false, kind });
+            if !project.document.pins.is_empty() {
+                let kind = RequestKind::SetPins(project.document.pinned_places());
+                runner.send(Request { seq: 0, checkpoint: false, kind });
+            }
         }
         let mut session = Self {
             document: project.document,
@@ -239,6 +243,10 @@ impl Session {
             ClothChange::None => None,
             ClothChange::Wrap => Some(self.wrap_request()?),
             ClothChange::Clear => Some(RequestKind::Clear),
+            ClothChange::SetPins => Some(RequestKind::SetPins(edit.document.pinned_places())),
+            ClothChange::Grab { at, mode } => Some(RequestKind::Grab { at, mode }),
+            ClothChange::DragTo(ray) => Some(RequestKind::DragTo(ray)),
+            ClothChange::Release => Some(RequestKind::Release),
             ClothChange::SetRelax(relax) => Some(RequestKind::SetRelax(relax)),
             ClothChange::SetRelaxing(on) => Some(RequestKind::SetRelaxing(on)),
         };

@@ -9,7 +9,7 @@ pub mod stats;
 pub mod thread;
 mod world;
 
-pub use protocol::{Event, GarmentSource, Request, RequestKind, Snapshot};
+pub use protocol::{ClothPlace, Event, GarmentSource, Request, RequestKind, Snapshot};
 pub use runner::Runner;
 pub use simulation::Simulation;
 pub use stats::Stats;

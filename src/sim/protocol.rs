@@ -2,8 +2,13 @@
 
 use std::sync::Arc;
 
+use glam::DVec2;
+use serde::{Deserialize, Serialize};
+
 use crate::body::Surface;
 use crate::cloth::{ClothState, Garment};
+use crate::drag::{DragMode, Ray};
+use crate::geometry::ids::PieceId;
 use crate::pattern::{Pattern, Problem};
 use crate::relax::RelaxSettings;
 use crate::sim::stats::Stats;
@@ -20,6 +25,15 @@ pub struct GarmentSource {
     pub edge_length: f64,
     /// How the cloth relaxes.
     pub relax: RelaxSettings,
+}
+
+/// A point of the flat cloth.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ClothPlace {
+    /// The piece.
+    pub piece: PieceId,
+    /// In the piece's own plane, metres.
+    pub at: DVec2,
 }
 
 /// Something asked of the simulation. Taken up between two ticks, in order of `seq`.
@@ -42,6 +56,14 @@ pub enum RequestKind {
     Adopt { source: Arc<GarmentSource>, body: Arc<Surface>, cloth: Arc<ClothState> },
     /// Relax differently from now on.
     SetRelax(RelaxSettings),
+    /// Exactly these places of the cloth are pinned to where they are.
+    SetPins(Arc<Vec<ClothPlace>>),
+    /// Take the cloth in the hand; nothing happens where there is none, or while it grows.
+    Grab { at: ClothPlace, mode: DragMode },
+    /// The hand is there now; nothing happens when nothing is in it.
+    DragTo(Ray),
+    /// Let go; the cloth settles.
+    Release,
     /// Pause (false) or go on (true).
     SetRelaxing(bool),
     /// Take the cloth off.
@@ -71,6 +93,10 @@ pub struct Snapshot {
     pub phase: Option<Phase>,
     /// 0..=1 over growing and settling.
     pub progress: f64,
+    /// Pinned vertices, ascending.
+    pub pinned: Arc<Vec<u32>>,
+    /// While cloth is in the hand: how much of the drag reaches each vertex, 0..=1.
+    pub dragged: Option<Arc<Vec<f32>>>,
     /// False while paused.
     pub relaxing: bool,
     /// Whether the next tick would do something.

@@ -126,6 +126,8 @@ impl Simulation {
             cloth: Arc::clone(&world.cloth),
             phase: world.phase(),
             progress: world.progress(),
+            pinned: Arc::clone(&world.pinned),
+            dragged: world.dragged.clone(),
             relaxing: world.relaxing,
             working: !world.is_at_rest(),
             stats: Stats { work: world.work(), ..self.stats },
@@ -146,6 +148,10 @@ impl Simulation {
             }
             RequestKind::SetRelax(relax) => self.world.set_relax(relax),
             RequestKind::SetRelaxing(on) => self.world.relaxing = on,
+            RequestKind::SetPins(places) => self.world.set_pins(&places),
+            RequestKind::Grab { at, mode } => self.world.grab(at, mode),
+            RequestKind::DragTo(pointer) => self.world.drag_to(pointer),
+            RequestKind::Release => self.world.release(),
             RequestKind::Clear => self.world = World::default(),
             RequestKind::Restore { before_seq } => self.restore(before_seq)?,
             RequestKind::Hash => {}

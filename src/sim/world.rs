@@ -2,12 +2,15 @@
 
 use std::sync::Arc;
 
+use glam::DVec3;
+
 use crate::body::Surface;
-use crate::cloth::{self, ClothState, Counters, Garment};
+use crate::cloth::{self, ClothState, Counters, FlatPiece, Garment};
+use crate::drag::{DragMode, Dragging, Ray};
 use crate::pattern::Problem;
 use crate::relax::RelaxSettings;
 use crate::sim::hash::cloth_hash;
-use crate::sim::protocol::GarmentSource;
+use crate::sim::protocol::{ClothPlace, GarmentSource};
 use crate::wrap::{Dressing, Phase, coarser};
 
 /// The state of the simulation.
@@ -21,8 +24,14 @@ pub struct World {
     pub garment: Option<Arc<Garment>>,
     /// Where it is. Shared with snapshots and checkpoints until it moves.
     pub cloth: Arc<ClothState>,
-    /// The wrap under way, or at rest. None for cloth that was adopted and not touched since.
+    /// The wrap under way, or at rest. None for cloth that was adopted and not touched since, or is in the hand.
     pub dressing: Option<Arc<Dressing>>,
+    /// Cloth in the hand.
+    pub dragging: Option<Arc<Dragging>>,
+    /// How much of the drag reaches each vertex.
+    pub dragged: Option<Arc<Vec<f32>>>,
+    /// Pinned vertices, ascending.
+    pub pinned: Arc<Vec<u32>>,
     /// False while paused.
     pub relaxing: bool,
     /// What building and wrapping found wrong.
@@ -37,6 +46,9 @@ impl Default for World {
             garment: None,
             cloth: Arc::default(),
             dressing: None,
+            dragging: None,
+            dragged: None,
+            pinned: Arc::default(),
             relaxing: true,
             problems: Arc::default(),
         }
@@ -63,8 +75,8 @@ impl World {
             garment: Some(garment),
             cloth: Arc::new(cloth),
             dressing: dressing.map(Arc::new),
-            relaxing: true,
             problems: Arc::new(problems),
+            ..Self::default()
         }
     }
 
@@ -87,9 +99,8 @@ impl World {
             body: Some(body),
             garment: Some(Arc::new(garment)),
             cloth,
-            dressing: None,
-            relaxing: true,
             problems: Arc::new(problems),
+            ..Self::default()
         })
     }
 
@@ -98,27 +109,107 @@ impl World {
         if let Some(source) = &mut self.source {
             Arc::make_mut(source).relax = relax;
         }
-        if self.dressing.is_none() {
-            self.dressing = self.resumed(relax);
+        if let Some(dragging) = &mut self.dragging {
+            return Arc::make_mut(dragging).set_settings(relax);
         }
+        self.resume();
         if let Some(dressing) = &mut self.dressing {
             Arc::make_mut(dressing).set_settings(relax);
         }
     }
 
-    fn resumed(&self, relax: RelaxSettings) -> Option<Arc<Dressing>> {
-        let (garment, body) = (self.garment.clone()?, self.body.clone()?);
-        Dressing::resumed(garment, body, relax, &self.cloth).map(Arc::new)
+    /// Exactly the vertices nearest to `places` are pinned. Cloth that lies wakes when a pin is pulled out.
+    pub fn set_pins(&mut self, places: &[ClothPlace]) {
+        let mut pinned: Vec<u32> =
+            places.iter().filter_map(|&place| self.vertex_under(place).map(|(v, _)| v)).collect();
+        pinned.sort_unstable();
+        pinned.dedup();
+        let freed = self.pinned.iter().any(|v| pinned.binary_search(v).is_err());
+        self.pinned = Arc::new(pinned);
+        if self.dragging.is_some() {
+            return; // What is in the hand settles later.
+        }
+        if freed {
+            self.settle();
+        } else if let Some(dressing) = &mut self.dressing {
+            Arc::make_mut(dressing).fix(&self.pinned);
+        }
+    }
+
+    /// Takes the cloth at `at` in the hand. Cloth that is not there, or still grows, stays as it is.
+    pub fn grab(&mut self, at: ClothPlace, mode: DragMode) {
+        self.release();
+        let Some((hand, place)) = self.vertex_under(at) else { return };
+        self.resume();
+        let Some(relaxer) = self.dressing.as_ref().and_then(|d| d.relaxer()).cloned() else { return };
+        let beside = place - self.cloth.positions[hand as usize];
+        let dragging = Dragging::new(relaxer, &self.cloth, hand, beside, mode, &self.pinned);
+        self.dragged = Some(Arc::new(dragging.shares()));
+        self.dragging = Some(Arc::new(dragging));
+        self.dressing = None;
+    }
+
+    /// The hand is there now.
+    pub fn drag_to(&mut self, pointer: Ray) {
+        if let Some(dragging) = &mut self.dragging {
+            Arc::make_mut(dragging).drag_to(pointer);
+        }
+    }
+
+    /// Lets go of what is in the hand; it settles.
+    pub fn release(&mut self) {
+        if let Some(dragging) = self.dragging.take() {
+            let relaxer = Arc::unwrap_or_clone(dragging).into_relaxer();
+            self.dressing = Some(Arc::new(Dressing::lying(relaxer, &self.cloth)));
+            self.dragged = None;
+            self.settle();
+        }
+    }
+
+    fn settle(&mut self) {
+        self.resume();
+        if let Some(dressing) = &mut self.dressing {
+            let dressing = Arc::make_mut(dressing);
+            dressing.fix(&self.pinned);
+            dressing.settle_again();
+        }
+    }
+
+    /// The laid vertex nearest to a flat place, and where that place is, metres.
+    fn vertex_under(&self, place: ClothPlace) -> Option<(u32, DVec3)> {
+        let garment = self.garment.as_deref()?;
+        let shares = FlatPiece::new(garment, place.piece).shares(garment, place.at)?;
+        let laid = |&(v, _): &(u32, f64)| self.cloth.mapped[v as usize];
+        let (vertex, _) = shares.iter().copied().max_by(|a, b| a.1.total_cmp(&b.1))?;
+        let point = shares.iter().map(|&(v, share)| self.cloth.positions[v as usize] * share).sum();
+        shares.iter().all(laid).then_some((vertex, point))
+    }
+
+    /// Cloth that was adopted gets what is needed to relax it.
+    fn resume(&mut self) {
+        if self.dressing.is_none() && self.dragging.is_none() {
+            self.dressing = self.resumed();
+        }
+    }
+
+    fn resumed(&self) -> Option<Arc<Dressing>> {
+        let (garment, body, source) = (self.garment.clone()?, self.body.clone()?, self.source.as_ref()?);
+        let mut dressing = Dressing::resumed(garment, body, source.relax, &self.cloth)?;
+        dressing.fix(&self.pinned);
+        Some(Arc::new(dressing))
     }
 
     /// Work done by the dressing under way or at rest.
     pub fn work(&self) -> Counters {
-        self.dressing.as_ref().map(|d| d.counters()).unwrap_or_default()
+        let dragging = self.dragging.as_ref().map(|d| d.counters());
+        dragging.or_else(|| self.dressing.as_ref().map(|d| d.counters())).unwrap_or_default()
     }
 
     /// One tick of work.
     pub fn step(&mut self) {
-        if let Some(dressing) = &mut self.dressing {
+        if let Some(dragging) = &mut self.dragging {
+            Arc::make_mut(dragging).step(Arc::make_mut(&mut self.cloth), self.relaxing);
+        } else if let Some(dressing) = &mut self.dressing {
             Arc::make_mut(dressing).step(Arc::make_mut(&mut self.cloth));
         }
     }
@@ -126,6 +217,9 @@ impl World {
     /// How far the dressing has come; None without a garment.
     pub fn phase(&self) -> Option<Phase> {
         self.garment.as_ref()?;
+        if let Some(dragging) = &self.dragging {
+            return Some(if dragging.is_still() { Phase::AtRest } else { Phase::Settling });
+        }
         Some(self.dressing.as_ref().map_or(Phase::AtRest, |d| d.phase()))
     }
 
@@ -136,6 +230,9 @@ impl World {
 
     /// Whether a tick would change nothing.
     pub fn is_at_rest(&self) -> bool {
+        if let Some(dragging) = &self.dragging {
+            return dragging.is_still();
+        }
         !self.relaxing || self.dressing.as_ref().is_none_or(|d| d.phase() == Phase::AtRest)
     }
 

@@ -196,7 +196,7 @@ impl Dressing {
             Stage::Grow { limit: 0.0, bands: 0, fresh }
         };
         let dressing = Self {
-            edge_length: mean_edge(&garment),
+            edge_length: garment.mean_edge(),
             mapped: roots.len(),
             relaxer,
             order: Arc::new(order),
@@ -268,12 +268,18 @@ impl Dressing {
         settings: RelaxSettings,
         state: &ClothState,
     ) -> Option<Self> {
-        let mut relaxer = Relaxer::new(garment.clone(), surface, settings)?;
+        let mut relaxer = Relaxer::new(garment, surface, settings)?;
         relaxer.set_mapped(&state.mapped);
+        Some(Self::lying(relaxer, state))
+    }
+
+    /// Cloth at rest that was relaxed by `relaxer`.
+    pub fn lying(relaxer: Relaxer, state: &ClothState) -> Self {
+        let garment = relaxer.garment.clone();
         let order = Order::new(&garment, &[], &[]);
         let mapped = state.mapped.iter().filter(|&&m| m).count();
-        Some(Self {
-            edge_length: mean_edge(&garment),
+        Self {
+            edge_length: garment.mean_edge(),
             growth: Growth::new(&garment, &order, &state.mapped),
             relaxer,
             order: Arc::new(order),
@@ -284,7 +290,27 @@ impl Dressing {
             draft: false,
             coarse: None,
             stretches: Vec::new(),
-        })
+        }
+    }
+
+    /// What relaxes it, once all cloth lies; None while it grows.
+    pub fn relaxer(&self) -> Option<&Relaxer> {
+        let lies = self.coarse.is_none() && matches!(self.stage, Stage::Settle(_) | Stage::Rest);
+        lies.then_some(&self.relaxer)
+    }
+
+    /// From now on exactly these vertices of cloth that lies stay where they are.
+    pub fn fix(&mut self, vertices: &[u32]) {
+        if self.relaxer().is_some() {
+            self.relaxer.fix(vertices.iter().copied());
+        }
+    }
+
+    /// What lies settles again.
+    pub fn settle_again(&mut self) {
+        if self.relaxer().is_some() && self.mapped > 0 {
+            self.stage = Stage::Settle(Settling::from(SETTLE_STEPS, self.draft));
+        }
     }
 
     /// Relaxes differently from now on; what is at rest settles again.
@@ -294,8 +320,8 @@ impl Dressing {
             coarse.dressing.set_settings(settings);
             return;
         }
-        if matches!(self.stage, Stage::Rest) && self.mapped > 0 {
-            self.stage = Stage::Settle(Settling::from(SETTLE_STEPS, self.draft));
+        if matches!(self.stage, Stage::Rest) {
+            self.settle_again();
         }
     }
 
@@ -426,17 +452,6 @@ impl Dressing {
 fn too_large() -> Problem {
     let words = "the garment is too large for this machine's memory".to_owned();
     Problem { kind: ProblemKind::Dressing, place: "garment".to_owned(), words }
-}
-
-fn mean_edge(garment: &Garment) -> f64 {
-    let (mut sum, mut count) = (0.0, 0.0);
-    for rest in &garment.rest {
-        for k in 0..3 {
-            sum += (rest[(k + 1) % 3] - rest[k]).length();
-            count += 1.0;
-        }
-    }
-    if count > 0.0 { sum / count } else { 0.0 }
 }
 
 fn report_unreached(garment: &Garment, order: &Order, problems: &mut Vec<Problem>) {

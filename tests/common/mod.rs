@@ -69,6 +69,7 @@ pub fn project() -> Project {
             marks: Arc::new(marks),
             last_mark: 2,
             settings: Settings { edge_length: 0.06, ..Settings::default() },
+            ..Document::default()
         },
         dressed: None,
     }

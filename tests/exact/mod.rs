@@ -100,3 +100,20 @@ pub fn quantile(values: &[f64], q: f64) -> f64 {
 pub fn lowest(surface: &Surface, state: &ClothState) -> f64 {
     state.positions.iter().map(|&p| surface.nearest(p).distance).fold(f64::INFINITY, f64::min)
 }
+
+/// A [`tube`] laid exactly on a cylinder of `radius` metres (its own, not the body's), as much stretched round it as that
+/// takes, with its lower edge at `low`.
+pub fn rolled(garment: &Garment, width: f64, radius: f64, low: f64) -> ClothState {
+    let mut state = ClothState {
+        positions: vec![DVec3::ZERO; garment.vertex_count],
+        mapped: vec![true; garment.vertex_count],
+    };
+    let front = garment.pieces[0].0;
+    for corner in &garment.corners {
+        let start = if corner.piece == front { 0.0 } else { std::f64::consts::PI };
+        let angle = start + (corner.uv.x / width - 0.5) * std::f64::consts::PI;
+        state.positions[corner.vertex as usize] =
+            DVec3::new(radius * angle.sin(), low + corner.uv.y, radius * angle.cos());
+    }
+    state
+}

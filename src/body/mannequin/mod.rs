@@ -24,9 +24,9 @@ use glam::DVec3;
 pub use landmarks::Landmarks;
 pub use measurements::{Measurements, OutOfRange};
 
+use super::closest::closest_on_triangle;
 use super::measure::Tape;
 use super::skeleton::Skeleton;
-use super::surface::closest_on_triangle;
 use crate::geometry::mesh::TriMesh;
 use field::Field;
 use figure::Figure;
@@ -144,7 +144,7 @@ fn on_mesh(mesh: &TriMesh, p: DVec3) -> DVec3 {
     (0..mesh.triangles.len())
         .map(|t| {
             let [a, b, c] = mesh.corners(t);
-            closest_on_triangle(p, a, b, c)
+            closest_on_triangle(p, a, b, c).0
         })
         .min_by(|a, b| a.distance_squared(p).total_cmp(&b.distance_squared(p)))
         .unwrap_or(p)

@@ -16,5 +16,6 @@ pub fn set(mut document: Document, body: &BodyChoice) -> Result<Edit, Rejection>
     if !document.marks.body.is_empty() {
         Arc::make_mut(&mut document.marks).body.clear();
     }
+    document.drop_pins();
     Ok(Edit::new("change the body", document).with(ClothChange::Clear))
 }

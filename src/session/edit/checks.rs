@@ -6,6 +6,7 @@ use crate::geometry::ids::{MarkId, PieceId, SeamId};
 use crate::pattern::{Edge, EdgeShape, Pattern, Piece, PlanePose};
 use crate::session::command::Rejection;
 use crate::session::document::{BodyChoice, Settings};
+use crate::sim::ClothPlace;
 use crate::wrap::Marks;
 
 /// Points one stroke may have.
@@ -134,6 +135,14 @@ pub fn marks(marks: &Marks, pattern: &Pattern) -> Result<(), Rejection> {
 
 pub fn find_piece(pattern: &Pattern, id: PieceId) -> Result<&Piece, Rejection> {
     pattern.pieces.get(&id).map(|p| &**p).ok_or_else(|| Rejection(format!("there is no {id}")))
+}
+
+pub fn cloth_place(pattern: &Pattern, place: ClothPlace) -> Result<(), Rejection> {
+    find_piece(pattern, place.piece)?;
+    if point_2d(place.at) {
+        return Ok(());
+    }
+    Err(Rejection::new("the place on the cloth is not a finite number"))
 }
 
 pub fn find_seam(pattern: &Pattern, id: SeamId) -> Result<(), Rejection> {

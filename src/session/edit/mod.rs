@@ -2,17 +2,20 @@
 
 mod body;
 mod checks;
+mod drag;
 mod marks;
 mod pieces;
 mod seams;
 mod settings;
 mod wrap;
 
+use crate::drag::{DragMode, Ray};
 use crate::pattern::Pattern;
 use crate::relax::RelaxSettings;
 use crate::session::command::{Command, Rejection};
 use crate::session::document::Document;
 use crate::session::history::StepKind;
+use crate::sim::ClothPlace;
 
 /// What a command asks of the simulation.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,6 +28,14 @@ pub enum ClothChange {
     Clear,
     /// Relax differently.
     SetRelax(RelaxSettings),
+    /// Pin it where the document's pins are.
+    SetPins,
+    /// Take it in the hand.
+    Grab { at: ClothPlace, mode: DragMode },
+    /// Move the hand.
+    DragTo(Ray),
+    /// Let go.
+    Release,
     /// Pause or go on.
     SetRelaxing(bool),
 }
@@ -49,17 +60,17 @@ impl Edit {
         Self { cloth, ..self }
     }
 
-    /// Whether it is a step of undo: pausing is not.
+    /// Whether it is a step of undo: pausing is not, and a drag's step begins with taking hold.
     pub fn is_step(&self) -> bool {
-        !matches!(self.cloth, ClothChange::SetRelaxing(_))
+        !matches!(self.cloth, ClothChange::SetRelaxing(_) | ClothChange::DragTo(_) | ClothChange::Release)
     }
 
     /// What history remembers of it.
     pub fn kind(&self) -> StepKind {
         match self.cloth {
             ClothChange::Wrap => StepKind::Wrap,
-            ClothChange::Clear => StepKind::Cloth,
-            ClothChange::None | ClothChange::SetRelax(_) | ClothChange::SetRelaxing(_) => StepKind::Edit,
+            ClothChange::Clear | ClothChange::SetPins | ClothChange::Grab { .. } => StepKind::Cloth,
+            _ => StepKind::Edit,
         }
     }
 }
@@ -88,6 +99,12 @@ pub fn edit(document: &Document, command: &Command) -> Result<Edit, Rejection> {
         Command::SetSettings { settings } => settings::set(new, settings),
         Command::Wrap => wrap::wrap(new),
         Command::Unwrap => wrap::unwrap(new),
+        Command::AddPin { piece, at } => drag::add_pin(new, *piece, *at),
+        Command::DeletePin { pin } => drag::delete_pin(new, *pin),
+        Command::ClearPins => drag::clear_pins(new),
+        Command::Grab { piece, at, mode } => drag::grab(new, *piece, *at, *mode),
+        Command::DragTo { ray } => drag::drag_to(new, *ray),
+        Command::Release => Ok(Edit::new("let go", new).with(ClothChange::Release)),
         Command::SetRelaxing { on } => wrap::set_relaxing(new, *on),
         Command::CancelWrap
         | Command::Undo
@@ -99,12 +116,18 @@ pub fn edit(document: &Document, command: &Command) -> Result<Edit, Rejection> {
 
 /// What no command would have let into `document`; for documents from files.
 pub fn document_problem(document: &Document) -> Option<String> {
-    let Document { pattern, body, marks, last_mark, settings } = document;
+    let Document { pattern, body, marks, last_mark, pins, last_pin, settings } = document;
     let ids = marks.cloth.iter().map(|m| m.id).chain(marks.body.iter().map(|m| m.id));
     if ids.max().is_some_and(|id| id.0 > *last_mark) {
         return Some("the counter of marks is behind their ids".to_owned());
     }
+    if pins.iter().any(|pin| pin.id.0 > *last_pin) {
+        return Some("the counter of pins is behind their ids".to_owned());
+    }
     pattern_problem(pattern)
+        .or_else(|| {
+            pins.iter().find_map(|pin| checks::cloth_place(pattern, pin.place).err()).map(|why| why.0)
+        })
         .or_else(|| checks::marks(marks, pattern).err().map(|why| why.0))
         .or_else(|| checks::body(body).err().map(|why| why.0))
         .or_else(|| checks::settings(settings).err().map(|why| why.0))

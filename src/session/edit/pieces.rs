@@ -28,6 +28,10 @@ pub fn delete(mut document: Document, id: PieceId) -> Result<Edit, Rejection> {
     while let Some(i) = marks.cloth.iter().position(|m| m.piece == id) {
         remove_number(marks, i + 1);
     }
+    if document.pins.iter().any(|pin| pin.place.piece == id) {
+        Arc::make_mut(&mut document.pins).retain(|pin| pin.place.piece != id);
+        return Ok(Edit::new(label, document).with(ClothChange::SetPins));
+    }
     Ok(Edit::new(label, document))
 }
 
@@ -75,6 +79,7 @@ pub fn replace_all(
     checks::marks(marks, pattern)?;
     document.pattern = Arc::clone(pattern);
     document.take_marks(Arc::clone(marks));
+    document.drop_pins();
     Ok(Edit::new(format!("take {name}"), document).with(ClothChange::Clear))
 }
 

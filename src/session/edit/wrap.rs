@@ -4,7 +4,7 @@ use crate::session::command::Rejection;
 use crate::session::document::Document;
 use crate::session::edit::{ClothChange, Edit};
 
-pub fn wrap(document: Document) -> Result<Edit, Rejection> {
+pub fn wrap(mut document: Document) -> Result<Edit, Rejection> {
     if document.pattern.pieces.is_empty() {
         return Err(Rejection::new("there is no piece of cloth to wrap"));
     }
@@ -13,10 +13,13 @@ pub fn wrap(document: Document) -> Result<Edit, Rejection> {
             "there is no pair of marks: paint at least one stroke on the cloth and one on the body",
         ));
     }
+    // They held cloth that lay elsewhere.
+    document.drop_pins();
     Ok(Edit::new("wrap", document).with(ClothChange::Wrap))
 }
 
-pub fn unwrap(document: Document) -> Result<Edit, Rejection> {
+pub fn unwrap(mut document: Document) -> Result<Edit, Rejection> {
+    document.drop_pins();
     Ok(Edit::new("take the cloth off", document).with(ClothChange::Clear))
 }
 

@@ -1,0 +1,135 @@
+//! The point of a triangle mesh nearest to a point, exact in f64, with its sign.
+
+use glam::DVec3;
+
+use crate::geometry::adjacency::{Adjacency, NONE};
+use crate::geometry::bvh::Bvh;
+use crate::geometry::mesh::TriMesh;
+
+/// Which part of a triangle a point lies on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// Corner 0, 1 or 2.
+    Corner(usize),
+    /// The side from corner 0, 1 or 2 to the next.
+    Side(usize),
+    /// Inside.
+    Face,
+}
+
+/// Triangles of a mesh in a tree.
+#[derive(Clone, Debug)]
+pub struct ClosestTree {
+    tree: Bvh,
+    /// In the order of the tree's leaves: what a query reads lies together.
+    corners: Vec<[DVec3; 3]>,
+}
+
+impl ClosestTree {
+    /// Over all triangles of `mesh`.
+    pub fn new(mesh: &TriMesh) -> Self {
+        let tree = mesh.tree();
+        let corners = tree.items.iter().map(|&t| mesh.corners(t as usize)).collect();
+        Self { tree, corners }
+    }
+
+    /// The nearest point within `limit` metres, its triangle, and where on that it lies. Of triangles that share the point
+    /// the lowest.
+    pub fn nearest(&self, p: DVec3, limit: f64) -> Option<(DVec3, u32, Part)> {
+        let far = |slot: usize| {
+            let [a, b, c] = self.corners[slot];
+            (closest_on_triangle(p, a, b, c).0 - p).length_squared()
+        };
+        let (slot, _) = self.tree.nearest(p, limit * limit, far)?;
+        let [a, b, c] = self.corners[slot];
+        let (point, part) = closest_on_triangle(p, a, b, c);
+        Some((point, self.tree.items[slot], part))
+    }
+}
+
+/// The outward direction that tells on which side of the mesh a point is whose nearest point is on `part` of triangle `t`:
+/// the angle-weighted pseudonormal (Baerentzen and Aanaes 2005). Not of unit length on a side.
+pub fn pseudonormal(
+    mesh: &TriMesh,
+    adjacency: &Adjacency,
+    face_normals: &[DVec3],
+    vertex_normals: &[DVec3],
+    t: u32,
+    part: Part,
+) -> DVec3 {
+    let own = face_normals[t as usize];
+    match part {
+        Part::Face => own,
+        Part::Side(k) => match adjacency.across[t as usize][k] {
+            NONE => own,
+            other => own + face_normals[other as usize],
+        },
+        Part::Corner(k) => vertex_normals[mesh.triangles[t as usize][k] as usize],
+    }
+}
+
+/// The point of triangle `abc` nearest to `p` (Ericson, Real-Time Collision Detection, 5.1.5).
+pub fn closest_on_triangle(p: DVec3, a: DVec3, b: DVec3, c: DVec3) -> (DVec3, Part) {
+    let (ab, ac, ap) = (b - a, c - a, p - a);
+    let (d1, d2) = (ab.dot(ap), ac.dot(ap));
+    if d1 <= 0.0 && d2 <= 0.0 {
+        return (a, Part::Corner(0));
+    }
+    let bp = p - b;
+    let (d3, d4) = (ab.dot(bp), ac.dot(bp));
+    if d3 >= 0.0 && d4 <= d3 {
+        return (b, Part::Corner(1));
+    }
+    let vc = d1 * d4 - d3 * d2;
+    if vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0 {
+        return (a + ab * (d1 / (d1 - d3)), Part::Side(0));
+    }
+    let cp = p - c;
+    let (d5, d6) = (ab.dot(cp), ac.dot(cp));
+    if d6 >= 0.0 && d5 <= d6 {
+        return (c, Part::Corner(2));
+    }
+    let vb = d5 * d2 - d1 * d6;
+    if vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0 {
+        return (a + ac * (d2 / (d2 - d6)), Part::Side(2));
+    }
+    let va = d3 * d6 - d5 * d4;
+    if va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0 {
+        return (b + (c - b) * ((d4 - d3) / ((d4 - d3) + (d5 - d6))), Part::Side(1));
+    }
+    let sum = va + vb + vc;
+    if sum == 0.0 {
+        return (a, Part::Corner(0));
+    }
+    (a + ab * (vb / sum) + ac * (vc / sum), Part::Face)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::body::{Surface, mannequin};
+    use crate::geometry::winding::Winding;
+
+    /// B23: against every triangle of the mannequin, near and far, distance and sign.
+    #[test]
+    fn the_tree_finds_what_brute_force_finds() {
+        let mesh = mannequin::default().mesh.clone();
+        let surface = Surface::new(mesh.clone()).expect("triangles");
+        let (lower, upper) = surface.bounds();
+        let winding = Winding::new(&mesh);
+        for i in 0..120 {
+            let at = |k: u32| f64::from((i * k) % 127) / 126.0 * 1.4 - 0.2;
+            let p = lower + (upper - lower) * DVec3::new(at(13), at(29), at(51));
+            let exact = (0..mesh.triangles.len())
+                .map(|t| {
+                    let [a, b, c] = mesh.corners(t);
+                    (closest_on_triangle(p, a, b, c).0 - p).length()
+                })
+                .fold(f64::INFINITY, f64::min);
+            let found = surface.nearest(p);
+            assert!((found.distance.abs() - exact).abs() <= 1e-12, "{p}: {} not {exact}", found.distance);
+            // Winding tells inside from outside without any nearest point.
+            assert_eq!(found.distance < 0.0, winding.contains(p), "{p}");
+        }
+    }
+}

@@ -1,0 +1,261 @@
+//! A drag in steps: the cloth chases the pointer in substeps short enough to stay stable, and relaxes after each.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+use serde::{Deserialize, Serialize};
+
+use crate::cloth::{ClothState, Counters, EdgeMetric};
+use crate::drag::Graph;
+use crate::drag::transport::motions;
+use crate::relax::{GlobalStep, RelaxSettings, Relaxer};
+
+/// No vertex moves farther in a substep, in edge lengths (ALGORITHMS.md 1.A5).
+const SUBSTEP: f64 = 0.25;
+/// The rest of a fast drag waits for later ticks.
+const MOST_SUBSTEPS: usize = 4;
+/// Cloth nearer to the skin than this follows it, metres on a body 1.5 m large (paper A).
+const FOLLOWS: f64 = 0.036;
+/// The paper halves its distance to the skin in every step; so large a share of that is done here, lest loose cloth is
+/// sucked in before it has relaxed.
+const PULL: f64 = 0.1;
+/// A pointer that looks along the skin (cosine to the normal) says little about where on it the cloth should go.
+const GRAZING: f64 = 0.1;
+/// The hand's vertex in relaxation, on the matrix diagonal: soft, so that a pull that cannot be followed does not tear.
+const HAND_WEIGHT: f64 = 1.0;
+/// Of contact while dragging.
+const CONTACT: f64 = 0.03;
+/// No vertex moves farther in one relaxation, metres on a body 1.5 m large.
+const RELAX_CAP: f64 = 0.02;
+/// The hand has arrived this near to the pointer, in edge lengths.
+const ARRIVED: f64 = 1e-3;
+/// Lies still when nothing moved farther than this many edge lengths for [`QUIET_TICKS`].
+const STILL: f64 = 0.01;
+/// See [`STILL`].
+const QUIET_TICKS: usize = 5;
+
+/// How cloth follows the hand (paper A, Figure 7).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum DragMode {
+    /// All cloth slides along the skin, round it, as one.
+    #[default]
+    Surface,
+    /// Only the vertex in the hand is moved; relaxation brings the rest along.
+    Vertex,
+    /// All cloth is moved the same way through space.
+    Rigid,
+}
+
+/// Where the pointer is: a ray into the scene, metres.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Ray {
+    /// Where it starts.
+    pub origin: DVec3,
+    /// Where it goes; any length but zero.
+    pub direction: DVec3,
+}
+
+impl Ray {
+    /// Finite, and going somewhere.
+    pub fn is_valid(&self) -> bool {
+        self.origin.is_finite() && self.direction.is_finite() && self.direction.length() > 1e-12
+    }
+
+    fn nearest_to(&self, p: DVec3) -> DVec3 {
+        let d = self.direction.normalize();
+        self.origin + d * (p - self.origin).dot(d).max(0.0)
+    }
+
+    /// Where it meets the plane through `p` across `normal`; for a ray along the plane, what is nearest to `p`.
+    fn on_plane(&self, p: DVec3, normal: DVec3) -> DVec3 {
+        let d = self.direction.normalize();
+        let cos = d.dot(normal);
+        let t = (p - self.origin).dot(normal) / cos;
+        if cos.abs() > GRAZING && t > 0.0 {
+            return self.origin + d * t;
+        }
+        let near = self.nearest_to(p);
+        near - normal * (near - p).dot(normal)
+    }
+}
+
+/// Cloth in the hand.
+#[derive(Clone, Debug)]
+pub struct Dragging {
+    relaxer: Relaxer,
+    graph: Arc<Graph>,
+    mode: DragMode,
+    hand: u32,
+    /// From the hand's vertex to where the cloth was taken, metres.
+    beside: DVec3,
+    pins: Vec<u32>,
+    pointer: Option<Ray>,
+    edge_length: f64,
+    quiet: usize,
+}
+
+impl Dragging {
+    /// Takes cloth at the vertex `hand`, beside which (by `beside`, metres) the pointer is. `pins` hold.
+    pub fn new(
+        mut relaxer: Relaxer,
+        state: &ClothState,
+        hand: u32,
+        beside: DVec3,
+        mode: DragMode,
+        pins: &[u32],
+    ) -> Self {
+        let metric = EdgeMetric::new(&relaxer.garment);
+        let graph = Arc::new(Graph::new(&metric, hand, pins, &state.mapped));
+        let fixed_hand = (mode == DragMode::Vertex).then_some(hand);
+        relaxer.release();
+        relaxer.hold(hand, state.positions[hand as usize]);
+        relaxer.fix(pins.iter().copied().chain(fixed_hand));
+        relaxer.counters.drag_vertices += graph.len() as u64;
+        let edge_length = relaxer.garment.mean_edge();
+        Self { relaxer, graph, mode, hand, beside, pins: pins.to_vec(), pointer: None, edge_length, quiet: 0 }
+    }
+
+    /// The pointer is there now. An impossible ray changes nothing.
+    pub fn drag_to(&mut self, pointer: Ray) {
+        if pointer.is_valid() {
+            self.pointer = Some(pointer);
+            self.quiet = 0;
+        }
+    }
+
+    /// Relaxes differently from now on.
+    pub fn set_settings(&mut self, settings: RelaxSettings) {
+        self.relaxer.settings = settings;
+        self.quiet = 0;
+    }
+
+    /// Lets go. What is left is for settling; pins still hold.
+    pub fn into_relaxer(mut self) -> Relaxer {
+        self.relaxer.release();
+        self.relaxer.fix(self.pins);
+        self.relaxer
+    }
+
+    /// Whether another step would change nothing to speak of.
+    pub fn is_still(&self) -> bool {
+        self.quiet >= QUIET_TICKS
+    }
+
+    /// Work done so far.
+    pub fn counters(&self) -> Counters {
+        self.relaxer.counters
+    }
+
+    /// For each vertex how much of the drag reaches it, 0..=1.
+    pub fn shares(&self) -> Vec<f32> {
+        self.graph.shares(self.relaxer.garment.vertex_count)
+    }
+
+    /// One tick: substeps towards the pointer, each with a relaxation when `relaxing`. Same input, same bits.
+    pub fn step(&mut self, state: &mut ClothState, relaxing: bool) {
+        let mut moved = 0.0f64;
+        for substep in 0..MOST_SUBSTEPS {
+            let motion = self.motion(state).clamp_length_max(SUBSTEP * self.edge_length);
+            let arrived = motion.length() < ARRIVED * self.edge_length;
+            if arrived && substep > 0 {
+                break;
+            }
+            if !arrived {
+                self.move_along(state, motion);
+                moved = moved.max(motion.length());
+            }
+            if relaxing {
+                moved = moved.max(self.relax(state));
+            }
+        }
+        self.quiet = if moved < STILL * self.edge_length { self.quiet + 1 } else { 0 };
+    }
+
+    /// From the hand's vertex to where the pointer wants it.
+    fn motion(&self, state: &ClothState) -> DVec3 {
+        let (Some(pointer), false) = (self.pointer, self.graph.is_empty()) else { return DVec3::ZERO };
+        let x = state.positions[self.hand as usize];
+        if self.mode != DragMode::Surface {
+            return pointer.nearest_to(x + self.beside) - self.beside - x;
+        }
+        let normal = match self.relaxer.plane(self.hand) {
+            Some(plane) => plane.normal,
+            None => self.relaxer.cloth_normal(self.hand, state),
+        };
+        let taken = x + self.beside - normal * self.beside.dot(normal);
+        pointer.on_plane(taken, normal) - taken
+    }
+
+    fn move_along(&mut self, state: &mut ClothState, motion: DVec3) {
+        let reach = FOLLOWS * self.relaxer.surface.scale();
+        match self.mode {
+            DragMode::Vertex => state.positions[self.hand as usize] += motion,
+            DragMode::Rigid => {
+                self.graph.steps().for_each(|(v, share, _)| state.positions[v as usize] += motion * share);
+            }
+            DragMode::Surface => {
+                self.relaxer.track(state, reach);
+                let cloth = self.relaxer.cloth_normals(state);
+                let normals = self.frame_normals(state, &cloth, reach);
+                let motions = motions(&self.graph, &state.positions, &normals, motion);
+                let heights = self.heights(state);
+                for (v, share, _) in self.graph.steps() {
+                    state.positions[v as usize] += motions[v as usize] * share;
+                }
+                self.relaxer.track(state, reach);
+                self.follow_skin(state, &cloth, &heights);
+            }
+        }
+        self.relaxer.hold(self.hand, state.positions[self.hand as usize]);
+        self.relaxer.forget_motion(state);
+    }
+
+    /// Paper A's temporary normals: the skin's near it, the cloth's far from it, blended between.
+    fn frame_normals(&self, state: &ClothState, cloth: &[DVec3], reach: f64) -> Vec<DVec3> {
+        let offset = self.relaxer.offset();
+        (0..cloth.len())
+            .map(|v| {
+                let Some(plane) = self.relaxer.plane(v as u32) else { return cloth[v] };
+                let far = (plane.height(state.positions[v]) - 2.0 * offset) / (reach - 2.0 * offset);
+                let far = far.clamp(0.0, 1.0);
+                (plane.normal * (1.0 - far) + cloth[v] * far).try_normalize().unwrap_or(plane.normal)
+            })
+            .collect()
+    }
+
+    fn heights(&self, state: &ClothState) -> Vec<f64> {
+        let height = |(v, &x): (usize, &DVec3)| {
+            self.relaxer.plane(v as u32).map_or(f64::INFINITY, |plane| plane.height(x))
+        };
+        state.positions.iter().enumerate().map(height).collect()
+    }
+
+    /// Cloth keeps its height above the skin it slides along, and comes a little nearer.
+    fn follow_skin(&mut self, state: &mut ClothState, cloth: &[DVec3], before: &[f64]) {
+        let (offset, follows) = (self.relaxer.offset(), FOLLOWS * self.relaxer.surface.scale());
+        for (v, share, _) in self.graph.steps() {
+            let i = v as usize;
+            let Some(plane) = self.relaxer.plane(v) else { continue };
+            let x = state.positions[i];
+            let height = plane.height(x);
+            if height > follows || plane.normal.dot(cloth[i]) <= 0.0 {
+                continue;
+            }
+            // Pressed cloth lies a little deeper than the offset: relaxation knows how deep.
+            let floor = before[i].clamp(offset * 0.5, offset);
+            let kept = height.min(before[i]).max(floor);
+            let pulled = kept + ((kept / 2.0).max(floor) - kept) * PULL;
+            // Out of the skin wholly, towards it by as much as it was moved.
+            let wanted = if height < floor { floor } else { height + (pulled - height) * share };
+            state.positions[i] = x + plane.normal * (wanted - height);
+            self.relaxer.carried_along_normal(v, state.positions[i]);
+        }
+    }
+
+    fn relax(&mut self, state: &mut ClothState) -> f64 {
+        let cap = RELAX_CAP * self.relaxer.surface.scale();
+        let step = GlobalStep { cap, contact: CONTACT, hold: HAND_WEIGHT, unfold: true, weight: true };
+        self.relaxer.global_step(state, step)
+    }
+}
