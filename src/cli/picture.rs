@@ -28,6 +28,7 @@ impl Artist {
             body: snapshot.body.as_ref().filter(|_| dressed).or(session.surface()),
             cloth: snapshot.garment.as_ref().filter(|_| dressed).map(|garment| (garment, &snapshot.cloth)),
             marks: (!dressed).then_some(&session.document().marks),
+            pinned: &snapshot.pinned,
             ..Shown::default()
         };
         let scene = self.scenery.scene(&shown);

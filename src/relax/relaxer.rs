@@ -20,6 +20,13 @@ const FIXED_WEIGHT: f64 = 1e4;
 const UNMAPPED_WEIGHT: f64 = 1.0;
 /// How many clearances deep a face may lie in the body and still be found: its corners are above the skin.
 const LOOK_INTO: f64 = 5.0;
+/// How much more than its own weight cloth holds by clinging, with [`USUAL_FRICTION`] (ALGORITHMS.md 1: the friction step is
+/// twice the gravity step; what touches does not touch evenly).
+const HOLDS: f64 = 4.0;
+/// See [`HOLDS`].
+const USUAL_FRICTION: f64 = 0.3;
+/// Cloth that touches with less than one part in so many falls.
+const MOST_HELD: f64 = 50.0;
 /// Vertices one thread takes at a time.
 const LEAST_SHARE: usize = 512;
 /// A triangle is turned over when its normal and that of the cloth round it have a smaller cosine.
@@ -77,6 +84,8 @@ pub struct Relaxer {
     sums: Vec<DVec3>,
     laplacian: Vec<DVec3>,
     areas: Vec<f64>,
+    /// With how much force each vertex clings to skin it touches, per unit of friction.
+    cling: Vec<f64>,
     /// Of the cloth, front up.
     normals: Vec<DVec3>,
     /// Where cloth that lay on the wrong side is sent, in steps of [`SEND_AWAY`].
@@ -109,6 +118,7 @@ impl Relaxer {
             sums: vec![DVec3::ZERO; n],
             laplacian: vec![DVec3::ZERO; n],
             areas: vertex_areas(&garment),
+            cling: vec![0.0; n],
             normals: vec![DVec3::ZERO; n],
             sent: vec![DVec3::ZERO; n],
             garment,
@@ -195,7 +205,8 @@ impl Relaxer {
         self.tracker.update(&self.surface, state, reach, &mut self.counters);
         self.keep_pressure(step.contact);
         self.turn_triangles(state, step.unfold);
-        self.gather(state, step.weight);
+        let weighs = step.weight && self.touches_anything(state);
+        self.gather(state, weighs);
         let targets = self.weigh(state, step);
         let solved = self.solver.solve(&self.weights, &mut self.sums, |v| targets[v], &mut self.counters);
         if !solved {
@@ -237,6 +248,7 @@ impl Relaxer {
     /// Completes the right-hand side, sets the weights, and returns what they pull towards.
     fn weigh(&mut self, state: &ClothState, step: GlobalStep) -> Vec<DVec3> {
         let scale = self.surface.scale();
+        self.find_cling(state);
         let wants = Wants {
             tracker: &self.tracker,
             normals: &self.normals,
@@ -247,6 +259,7 @@ impl Relaxer {
             step,
             offset: self.settings.offset * scale,
             friction: self.settings.friction,
+            cling: &self.cling,
             reach: WRONG_SIDE_REACH * scale,
             scale,
         };
@@ -270,6 +283,29 @@ impl Relaxer {
                 target
             })
             .collect()
+    }
+
+    /// Cloth that has lost all touch would fall for ever: it floats.
+    fn touches_anything(&self, state: &ClothState) -> bool {
+        (0..state.positions.len()).any(|v| self.touches(state, v))
+    }
+
+    fn touches(&self, state: &ClothState, v: usize) -> bool {
+        let near = 2.0 * self.offset() + self.lift[v];
+        state.mapped[v] && self.tracker.plane(v).is_some_and(|p| p.height(state.positions[v]) < near)
+    }
+
+    /// Cloth clings to the skin it touches so that its weight alone does not make it creep down (paper A's threshold): what
+    /// touches holds [`HOLDS`] times what all of it weighs.
+    fn find_cling(&mut self, state: &ClothState) {
+        let (mut all, mut touching) = (0.0, 0.0);
+        for v in (0..state.positions.len()).filter(|&v| state.mapped[v]) {
+            all += self.areas[v];
+            touching += if self.touches(state, v) { self.areas[v] } else { 0.0 };
+        }
+        let share = if touching > 0.0 { (all / touching).min(MOST_HELD) } else { 0.0 };
+        let each = HOLDS / USUAL_FRICTION * self.settings.gravity * share;
+        self.cling.iter_mut().zip(&self.areas).for_each(|(cling, area)| *cling = area * each);
     }
 
     /// Fills `sums` with the force on each vertex (turned corners less present ones, and gravity) and `laplacian` with the

@@ -37,6 +37,8 @@ pub(super) struct Wants<'a> {
     pub offset: f64,
     /// Coulomb's coefficient.
     pub friction: f64,
+    /// With how much force each vertex clings to skin it touches, per unit of friction.
+    pub cling: &'a [f64],
     /// Cloth on the wrong side this near the skin is sent away, metres.
     pub reach: f64,
     /// Of the body: what paper A's lengths are multiplied by.
@@ -71,7 +73,7 @@ impl Wants<'_> {
             Some((plane, below)) if below > -self.offset => {
                 *push = (*push + below).clamp(0.0, MOST_PUSH * self.scale);
                 if self.step.weight {
-                    *force -= self.rub(*force, *push, plane.normal);
+                    *force -= self.rub(v, *force, *push, plane.normal);
                 }
                 want(contact, self.contact_target(v, x, plane, below, *push));
             }
@@ -96,9 +98,11 @@ impl Wants<'_> {
         target + slide.clamp_length_max(self.step.cap) * momentum
     }
 
-    /// Coulomb friction: what a contact takes of the force along the skin, as far as its pressure allows.
-    fn rub(&self, force: DVec3, push: f64, normal: DVec3) -> DVec3 {
+    /// Coulomb friction: what a contact takes of the force along the skin, as far as its pressure allows. Cloth also clings
+    /// to skin it touches, so that it does not creep down under its own weight (paper A's threshold).
+    fn rub(&self, v: usize, force: DVec3, push: f64, normal: DVec3) -> DVec3 {
         let tangential = force - normal * force.dot(normal);
-        tangential.clamp_length_max(self.friction * self.step.contact * push)
+        let pressure = self.step.contact * push + self.cling[v];
+        tangential.clamp_length_max(self.friction * pressure)
     }
 }

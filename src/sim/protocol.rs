@@ -93,8 +93,8 @@ pub struct Snapshot {
     pub phase: Option<Phase>,
     /// 0..=1 over growing and settling.
     pub progress: f64,
-    /// Pinned vertices, ascending.
-    pub pinned: Arc<Vec<u32>>,
+    /// The vertex under each pin, in the pins' order; None where no cloth lies.
+    pub pinned: Arc<Vec<Option<u32>>>,
     /// While cloth is in the hand: how much of the drag reaches each vertex, 0..=1.
     pub dragged: Option<Arc<Vec<f32>>>,
     /// False while paused.

@@ -30,8 +30,8 @@ pub struct World {
     pub dragging: Option<Arc<Dragging>>,
     /// How much of the drag reaches each vertex.
     pub dragged: Option<Arc<Vec<f32>>>,
-    /// Pinned vertices, ascending.
-    pub pinned: Arc<Vec<u32>>,
+    /// The vertex under each pin, in the pins' order; None where no cloth lies.
+    pub pinned: Arc<Vec<Option<u32>>>,
     /// False while paused.
     pub relaxing: bool,
     /// What building and wrapping found wrong.
@@ -120,20 +120,22 @@ impl World {
 
     /// Exactly the vertices nearest to `places` are pinned. Cloth that lies wakes when a pin is pulled out.
     pub fn set_pins(&mut self, places: &[ClothPlace]) {
-        let mut pinned: Vec<u32> =
-            places.iter().filter_map(|&place| self.vertex_under(place).map(|(v, _)| v)).collect();
-        pinned.sort_unstable();
-        pinned.dedup();
-        let freed = self.pinned.iter().any(|v| pinned.binary_search(v).is_err());
-        self.pinned = Arc::new(pinned);
+        let before = self.pinned_vertices();
+        self.pinned =
+            Arc::new(places.iter().map(|&place| self.vertex_under(place).map(|(v, _)| v)).collect());
         if self.dragging.is_some() {
             return; // What is in the hand settles later.
         }
-        if freed {
+        let pinned = self.pinned_vertices();
+        if before.iter().any(|v| !pinned.contains(v)) {
             self.settle();
         } else if let Some(dressing) = &mut self.dressing {
-            Arc::make_mut(dressing).fix(&self.pinned);
+            Arc::make_mut(dressing).fix(&pinned);
         }
+    }
+
+    fn pinned_vertices(&self) -> Vec<u32> {
+        self.pinned.iter().flatten().copied().collect()
     }
 
     /// Takes the cloth at `at` in the hand. Cloth that is not there, or still grows, stays as it is.
@@ -143,7 +145,7 @@ impl World {
         self.resume();
         let Some(relaxer) = self.dressing.as_ref().and_then(|d| d.relaxer()).cloned() else { return };
         let beside = place - self.cloth.positions[hand as usize];
-        let dragging = Dragging::new(relaxer, &self.cloth, hand, beside, mode, &self.pinned);
+        let dragging = Dragging::new(relaxer, &self.cloth, hand, beside, mode, &self.pinned_vertices());
         self.dragged = Some(Arc::new(dragging.shares()));
         self.dragging = Some(Arc::new(dragging));
         self.dressing = None;
@@ -168,9 +170,10 @@ impl World {
 
     fn settle(&mut self) {
         self.resume();
+        let pinned = self.pinned_vertices();
         if let Some(dressing) = &mut self.dressing {
             let dressing = Arc::make_mut(dressing);
-            dressing.fix(&self.pinned);
+            dressing.fix(&pinned);
             dressing.settle_again();
         }
     }
@@ -195,7 +198,7 @@ impl World {
     fn resumed(&self) -> Option<Arc<Dressing>> {
         let (garment, body, source) = (self.garment.clone()?, self.body.clone()?, self.source.as_ref()?);
         let mut dressing = Dressing::resumed(garment, body, source.relax, &self.cloth)?;
-        dressing.fix(&self.pinned);
+        dressing.fix(&self.pinned_vertices());
         Some(Arc::new(dressing))
     }
 

@@ -2,6 +2,7 @@
 
 use egui::{Key, KeyboardShortcut, Modifiers, ThemePreference};
 
+use crate::drag::DragMode;
 use crate::render::View;
 use crate::session::samples::Sample;
 
@@ -15,6 +16,10 @@ pub enum Tool {
     Erase,
     /// Moves and flips pieces.
     Move,
+    /// Drags dressed cloth.
+    Drag(DragMode),
+    /// Pins dressed cloth to where it is.
+    Pin,
 }
 
 /// Something that can be chosen.
@@ -34,6 +39,7 @@ pub enum Action {
     Undo,
     Redo,
     ClearMarks,
+    ClearPins,
     SuggestMarks,
     Choose(Tool),
     Wrap,
@@ -113,6 +119,21 @@ impl Action {
             Self::Choose(Tool::Move) => {
                 entry("Move", "Drag pieces on the table; double-click turns one over", &[key(Key::V)])
             }
+            Self::Choose(Tool::Drag(DragMode::Surface)) => {
+                entry("Drag", "Drag the cloth along the skin; pins hold it back", &[key(Key::D)])
+            }
+            Self::Choose(Tool::Drag(DragMode::Vertex)) => {
+                entry("Drag a point", "Drag one point of the cloth; the rest follows as it relaxes", &[])
+            }
+            Self::Choose(Tool::Drag(DragMode::Rigid)) => {
+                entry("Drag rigidly", "Move the whole cloth through space", &[])
+            }
+            Self::Choose(Tool::Pin) => entry(
+                "Pin",
+                "Click to pin the cloth where it is, drag for a row of pins, click a pin to pull it out",
+                &[key(Key::P)],
+            ),
+            Self::ClearPins => entry("Pull all pins out", "Nothing holds the cloth any more", &[]),
             Self::Wrap => {
                 entry("Wrap", "Grow the cloth round the body so that the marks meet", &[key(Key::Enter)])
             }
@@ -194,6 +215,8 @@ const ALL: &[Action] = &[
     Action::Choose(Tool::Mark),
     Action::Choose(Tool::Erase),
     Action::Choose(Tool::Move),
+    Action::Choose(Tool::Drag(DragMode::Surface)),
+    Action::Choose(Tool::Pin),
     Action::Wrap,
     Action::CancelWrap,
     Action::ToggleRelaxing,

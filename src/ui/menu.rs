@@ -2,8 +2,9 @@
 
 use egui::{Button, ThemePreference};
 
+use crate::drag::DragMode;
 use crate::session::samples::Sample;
-use crate::ui::actions::{Action, VIEWS};
+use crate::ui::actions::{Action, Tool, VIEWS};
 use crate::ui::asks::{Ask, Asks};
 use crate::ui::situation::Situation;
 
@@ -20,6 +21,10 @@ pub fn menu_bar_ui(ui: &mut egui::Ui, now: &Situation, asks: &mut Asks) {
             items(ui, now, asks, &[Action::Wrap, Action::CancelWrap, Action::Unwrap]);
             ui.separator();
             items(ui, now, asks, &[Action::ToggleRelaxing]);
+            ui.separator();
+            let drags = [DragMode::Surface, DragMode::Vertex, DragMode::Rigid];
+            items(ui, now, asks, &drags.map(|mode| Action::Choose(Tool::Drag(mode))));
+            items(ui, now, asks, &[Action::Choose(Tool::Pin), Action::ClearPins]);
         });
         ui.menu_button("View", |ui| view_ui(ui, now, asks));
         ui.menu_button("Help", |ui| items(ui, now, asks, &[Action::Shortcuts]));

@@ -11,6 +11,7 @@ mod files;
 mod menu;
 mod messages;
 mod pattern_pane;
+mod pick;
 mod run;
 pub mod scene;
 mod scene_pane;

@@ -25,6 +25,10 @@ pub struct Shown<'a> {
     pub stroke: &'a [DVec3],
     /// The mark under the pointer.
     pub near: Option<MarkId>,
+    /// Vertices under pins.
+    pub pinned: &'a [Option<u32>],
+    /// How much of a drag reaches each vertex of the cloth, 0..=1.
+    pub dragged: Option<&'a Arc<Vec<f32>>>,
 }
 
 /// Makes scenes; keeps what did not change since the last one.
@@ -39,6 +43,7 @@ pub struct Scenery {
 struct DrawnCloth {
     garment: Arc<Garment>,
     state: Arc<ClothState>,
+    dragged: Option<Arc<Vec<f32>>>,
     mesh: Arc<Mesh>,
     lines: Vec<Polyline>,
 }
@@ -71,6 +76,12 @@ const ON_CLOTH: Lift = (0.003, 1.6);
 const ABOVE_ALL: Lift = (0.03, 1.6);
 /// Seams and edges of the cloth, sRGB and opacity.
 const SEAM: [u8; 4] = [66, 78, 70, 150];
+/// What the colour of cloth is multiplied with where a drag under way does not reach.
+const UNREACHED: Rgb = [150, 158, 172];
+/// How far a pin's head stands off the cloth, metres on a body of 1.5 m.
+const PIN_LENGTH: f32 = 0.014;
+const NEEDLE: [u8; 4] = [70, 74, 84, 255];
+const PIN_HEAD: [u8; 4] = [214, 48, 49, 255];
 const HEM: [u8; 4] = [52, 84, 56, 170];
 
 impl Scenery {
@@ -84,10 +95,11 @@ impl Scenery {
         }
         let mut covered = 0;
         if let Some((garment, state)) = shown.cloth {
-            self.draw_cloth(garment, state, scale);
+            self.draw_cloth(garment, state, shown.dragged, scale);
             if let Some(drawn) = &self.cloth {
                 scene.meshes.push(Arc::clone(&drawn.mesh));
                 scene.lines.extend(drawn.lines.iter().cloned());
+                push_pins(shown.pinned, drawn, scale, &mut scene);
             }
             if let Some(marks) = shown.marks {
                 self.find_places(garment, marks);
@@ -118,11 +130,18 @@ impl Scenery {
         }
     }
 
-    fn draw_cloth(&mut self, garment: &Arc<Garment>, state: &Arc<ClothState>, scale: f32) {
-        let kept = self
-            .cloth
-            .as_ref()
-            .is_some_and(|c| Arc::ptr_eq(&c.garment, garment) && Arc::ptr_eq(&c.state, state));
+    fn draw_cloth(
+        &mut self,
+        garment: &Arc<Garment>,
+        state: &Arc<ClothState>,
+        dragged: Option<&Arc<Vec<f32>>>,
+        scale: f32,
+    ) {
+        let kept = self.cloth.as_ref().is_some_and(|c| {
+            Arc::ptr_eq(&c.garment, garment)
+                && Arc::ptr_eq(&c.state, state)
+                && c.dragged.as_ref().map(Arc::as_ptr) == dragged.map(Arc::as_ptr)
+        });
         if kept || state.positions.len() != garment.vertex_count {
             return;
         }
@@ -134,7 +153,9 @@ impl Scenery {
         self.cloth = Some(DrawnCloth {
             garment: Arc::clone(garment),
             state: Arc::clone(state),
+            dragged: dragged.cloned(),
             mesh: Arc::new(Mesh {
+                colours: dragged.map(|shares| tints(shares, state)).unwrap_or_default(),
                 positions: state.positions.iter().map(|p| p.as_vec3()).collect(),
                 normals: normals.iter().map(|n| n.as_vec3()).collect(),
                 triangles,
@@ -181,6 +202,34 @@ impl Place {
             let sum: DVec3 = (0..3).map(|k| state.positions[corners[k]] * self.weights[k]).sum();
             sum.as_vec3()
         })
+    }
+}
+
+/// Where a drag reaches, the cloth is lighter.
+fn tints(shares: &[f32], state: &ClothState) -> Vec<Rgb> {
+    let far: Vec<Rgb> = shares.iter().map(|&s| UNREACHED.map(|c| c + ((255 - c) as f32 * s) as u8)).collect();
+    if far.len() == state.positions.len() { far } else { Vec::new() }
+}
+
+/// A needle with a head on each pinned vertex.
+fn push_pins(pinned: &[Option<u32>], cloth: &DrawnCloth, scale: f32, scene: &mut Scene) {
+    for v in pinned.iter().flatten().map(|&v| v as usize) {
+        let (Some(&at), Some(&normal)) = (cloth.mesh.positions.get(v), cloth.mesh.normals.get(v)) else {
+            continue;
+        };
+        let head = at + normal * (PIN_LENGTH * scale);
+        let line = |points, colour, width, lift| Polyline {
+            points,
+            colour,
+            width,
+            halo: WHITE,
+            halo_width: 1.2,
+            lift: lift * scale,
+            lift_widths: 1.0,
+            closed: false,
+        };
+        scene.lines.push(line(vec![at, head], NEEDLE, 1.6, 0.003));
+        scene.lines.push(line(vec![head], PIN_HEAD, 9.0, 0.006));
     }
 }
 

@@ -2,6 +2,7 @@
 
 use egui::ThemePreference;
 
+use crate::drag::DragMode;
 use crate::ui::actions::{Action, Tool};
 use crate::wrap::Phase;
 
@@ -18,6 +19,8 @@ pub struct Situation {
     pub pieces: usize,
     /// Marks on the cloth and on the body.
     pub marks: [usize; 2],
+    /// Pins in the cloth.
+    pub pins: usize,
     /// There is a body that cloth can be put on.
     pub has_body: bool,
     /// There is cloth on the body.
@@ -26,6 +29,8 @@ pub struct Situation {
     pub wrapping: bool,
     /// The simulation has something to do.
     pub working: bool,
+    /// Cloth is in the hand.
+    pub dragging: bool,
     /// False while held still.
     pub relaxing: bool,
     /// How far the dressing has come.
@@ -63,6 +68,10 @@ impl Situation {
                 "Paint at least one mark on a piece and one on the body first",
             ),
             Action::CancelWrap => unless(self.wrapping, "Nothing is growing"),
+            Action::Choose(Tool::Drag(_) | Tool::Pin) => {
+                unless(self.dressed, "There is no cloth on the body")
+            }
+            Action::ClearPins => unless(self.pins > 0, "There are no pins"),
             Action::Unwrap | Action::ToggleCloth | Action::Export | Action::ToggleRelaxing => {
                 unless(self.dressed, "There is no cloth on the body")
             }
@@ -74,6 +83,8 @@ impl Situation {
     /// Whether `action` names something that is on.
     pub fn is_on(&self, action: Action) -> bool {
         match action {
+            // The one button for dragging stands for all its ways.
+            Action::Choose(Tool::Drag(DragMode::Surface)) => matches!(self.tool, Tool::Drag(_)),
             Action::Choose(tool) => self.tool == tool,
             Action::ToggleRelaxing => self.relaxing,
             Action::ToggleCloth => self.show_cloth,

@@ -19,7 +19,7 @@ pub fn status_ui(ui: &mut egui::Ui, now: &Situation, hint: &str, palette: &Palet
             ui.label(weak(format!("{} triangles", grouped(now.triangles))));
             ui.separator();
         }
-        if now.working && now.phase.is_some() {
+        if now.working && now.phase.is_some() && !now.dragging {
             let bar = ProgressBar::new(now.progress as f32).desired_width(96.0).desired_height(8.0);
             ui.add(bar.fill(palette.accent));
         }
@@ -36,6 +36,7 @@ fn phase_words(now: &Situation) -> String {
     match now.phase {
         _ if now.wrapping && now.phase != Some(Phase::Growing) => "Cutting the cloth".to_owned(),
         None => "No cloth on the body".to_owned(),
+        Some(_) if now.dragging => "In your hand".to_owned(),
         Some(_) if !now.relaxing => "Held still".to_owned(),
         Some(Phase::Growing) => format!("Growing {percent} %"),
         Some(Phase::Settling) => format!("Settling {percent} %"),

@@ -2,6 +2,7 @@
 
 use egui::{Align, Button, Layout, RichText};
 
+use crate::drag::DragMode;
 use crate::ui::actions::{Action, Tool};
 use crate::ui::asks::{Ask, Asks};
 use crate::ui::situation::Situation;
@@ -14,7 +15,7 @@ const HEIGHT: f32 = 30.0;
 pub fn toolbar_ui(ui: &mut egui::Ui, now: &Situation, palette: &Palette, asks: &mut Asks) {
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
-        for tool in [Tool::Mark, Tool::Erase, Tool::Move] {
+        for tool in [Tool::Mark, Tool::Erase, Tool::Move, Tool::Drag(DragMode::Surface), Tool::Pin] {
             plain(ui, now, asks, Action::Choose(tool), None);
         }
         gap(ui);

@@ -192,7 +192,7 @@ impl PatternPane {
                 held: table,
                 pose: found.pose,
             }),
-            Tool::Erase => None,
+            Tool::Erase | Tool::Drag(_) | Tool::Pin => None,
         };
     }
 
@@ -306,6 +306,7 @@ pub fn hint(tool: Tool, next: usize) -> String {
             format!("Drag: paint mark {next} on the cloth · Click: a dot · Ctrl+click: erase · {view}")
         }
         Tool::Erase => format!("Click a mark: take it away · {view}"),
+        Tool::Drag(_) | Tool::Pin => format!("The cloth is dragged and pinned on the body · {view}"),
         Tool::Move => format!("Drag a piece: move it · Double-click: turn it over · {view}"),
     }
 }

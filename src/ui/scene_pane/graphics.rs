@@ -30,11 +30,15 @@ pub struct Key {
     pub stroke: usize,
     /// The mark under the pointer.
     pub near: Option<MarkId>,
+    /// With which pins.
+    pub pinned: Option<Arc<Vec<Option<u32>>>>,
+    /// With which drag.
+    pub dragged: Option<Arc<Vec<f32>>>,
 }
 
 impl PartialEq for Key {
     fn eq(&self, other: &Self) -> bool {
-        let Self { camera, look, size, body, cloth, marks, stroke, near } = self;
+        let Self { camera, look, size, body, cloth, marks, stroke, near, pinned, dragged } = self;
         *camera == other.camera
             && *look == other.look
             && *size == other.size
@@ -43,6 +47,8 @@ impl PartialEq for Key {
             && same(body, &other.body)
             && same(cloth, &other.cloth)
             && same(marks, &other.marks)
+            && same(pinned, &other.pinned)
+            && same(dragged, &other.dragged)
     }
 }
 

@@ -1,6 +1,7 @@
 //! The body pane: the body and the cloth on it, turned and painted with the pointer.
 
 mod graphics;
+mod hand;
 
 use std::sync::Arc;
 
@@ -13,6 +14,7 @@ use glam::{DVec3, UVec2, Vec2, Vec3};
 
 use crate::body::Surface;
 use crate::cloth::{ClothState, Garment};
+use crate::drag::Ray;
 use crate::geometry::ids::MarkId;
 use crate::render::{Camera, Look, Projection, View};
 use crate::session::{Command, Document};
@@ -22,6 +24,7 @@ use crate::ui::scene::{Scenery, Shown};
 use crate::ui::stroke;
 use crate::ui::theme::Palette;
 pub use graphics::{Graphics, Key};
+use hand::{begun, cloth_at, next_in_row, pins};
 
 /// Radians the view turns for each point the pointer moves.
 const TURN: f32 = 0.0085;
@@ -39,6 +42,12 @@ pub struct Seen<'a> {
     pub body: Option<&'a Arc<Surface>>,
     /// The garment on it.
     pub cloth: Option<(&'a Arc<Garment>, &'a Arc<ClothState>)>,
+    /// The vertex of the garment under each pin of the document.
+    pub pinned: &'a Arc<Vec<Option<u32>>>,
+    /// How much of the drag under way reaches each vertex.
+    pub dragged: Option<&'a Arc<Vec<f32>>>,
+    /// Whether cloth is still being laid.
+    pub growing: bool,
     /// Whether the cloth is moving.
     pub working: bool,
     /// What the left button does.
@@ -80,6 +89,10 @@ enum Drag {
     /// A stroke on the body.
     Paint(Vec<DVec3>),
     Turn,
+    /// Cloth is in the hand, held with this button.
+    Cloth(PointerButton),
+    /// A row of pins, the last of which is here.
+    Row(DVec3),
     /// Given up; the button is still down.
     Over,
 }
@@ -138,7 +151,8 @@ impl ScenePane {
         let shift = ui.input(|i| i.modifiers.shift);
         let size = size_of(pane);
         let moved = response.drag_delta();
-        let right = response.dragged_by(PointerButton::Secondary);
+        let right =
+            response.dragged_by(PointerButton::Secondary) && !matches!(self.drag, Some(Drag::Cloth(_)));
         if response.dragged_by(PointerButton::Middle) || (right && shift) {
             self.camera.pan(Vec2::new(moved.x, moved.y), size);
         } else if right || (matches!(self.drag, Some(Drag::Turn)) && response.dragged()) {
@@ -227,17 +241,23 @@ impl ScenePane {
                 (_, Tool::Mark) if !erasing => {
                     asks.extend(self.pick(seen, pane, at).map(|p| painted(seen, vec![p])).map(Ask::Do));
                 }
+                (_, Tool::Pin) => asks.extend(self.pin_or_pull(seen, pane, at)),
                 _ => {}
             }
         }
         if response.drag_started_by(PointerButton::Primary) {
-            self.start_drag(ui, seen, pane, erasing);
+            self.start_drag(ui, seen, pane, erasing, asks);
+        } else if response.drag_started_by(PointerButton::Secondary)
+            && matches!(seen.tool, Tool::Drag(_) | Tool::Pin)
+        {
+            // Paper A: the right button drags cloth, or turns the view where there is none.
+            self.take_cloth(ui, seen, pane, PointerButton::Secondary, asks);
         }
-        if self.drag.is_some() {
+        if matches!(self.drag, Some(Drag::Cloth(_) | Drag::Row(_))) {
+            self.go_on_by_hand(ui, seen, pane, asks);
+        } else if self.drag.is_some() {
             self.go_on(ui, seen, pane);
-            let lost = ui.input(|i| {
-                i.events.contains(&Event::WindowFocused(false)) || i.events.contains(&Event::PointerGone)
-            });
+            let lost = ui.input(is_lost);
             if ui.input(|i| i.key_pressed(Button::Escape)) {
                 self.drag = Some(Drag::Over);
             } else if !ui.input(|i| i.pointer.primary_down()) || lost {
@@ -246,7 +266,86 @@ impl ScenePane {
         }
     }
 
-    fn start_drag(&mut self, ui: &egui::Ui, seen: &Seen<'_>, pane: Rect, erasing: bool) {
+    fn ray(&self, pane: Rect, at: Pos2) -> Ray {
+        let ray = self.camera.ray(within(pane, at), size_of(pane));
+        Ray { origin: ray.origin.as_dvec3(), direction: ray.direction.as_dvec3() }
+    }
+
+    /// A click with the pin tool: pulls the pin out that is there, or sticks one in.
+    fn pin_or_pull(&self, seen: &Seen<'_>, pane: Rect, at: Pos2) -> Option<Ask> {
+        let hit = cloth_at(seen, self.ray(pane, at))?;
+        let away = |p: DVec3| {
+            self.camera.project(p.as_vec3(), size_of(pane)).map(|q| q.pixel.distance(within(pane, at)))
+        };
+        let near = pins(seen)
+            .filter_map(|(id, place)| Some((id, away(place)?)))
+            .filter(|&(_, away)| away <= REACH)
+            .min_by(|a, b| a.1.total_cmp(&b.1));
+        Some(Ask::Do(match near {
+            Some((pin, _)) => Command::DeletePin { pin },
+            None => Command::AddPin { piece: hit.place.piece, at: hit.place.at },
+        }))
+    }
+
+    /// Takes cloth in the hand or begins a row of pins; false when there is no cloth under the pointer.
+    fn take_cloth(
+        &mut self,
+        ui: &egui::Ui,
+        seen: &Seen<'_>,
+        pane: Rect,
+        button: PointerButton,
+        asks: &mut Asks,
+    ) -> bool {
+        let origin = ui.input(|i| i.pointer.press_origin());
+        let hit = origin.filter(|_| !seen.growing).and_then(|at| cloth_at(seen, self.ray(pane, at)));
+        let Some(hit) = hit else { return false };
+        let row = seen.tool == Tool::Pin && button == PointerButton::Primary;
+        let tool = if row || matches!(seen.tool, Tool::Drag(_)) { seen.tool } else { Tool::default() };
+        asks.push(begun(&Seen { tool, ..*seen }, &hit));
+        self.drag = Some(if row { Drag::Row(hit.point) } else { Drag::Cloth(button) });
+        true
+    }
+
+    fn go_on_by_hand(&mut self, ui: &egui::Ui, seen: &Seen<'_>, pane: Rect, asks: &mut Asks) {
+        let at = ui.input(|i| i.pointer.latest_pos());
+        let moved = ui.input(|i| i.pointer.delta() != egui::Vec2::ZERO);
+        match (&mut self.drag, at) {
+            (Some(Drag::Cloth(_)), Some(at)) if moved => {
+                asks.push(Ask::Drag(Command::DragTo { ray: self.ray(pane, at) }));
+            }
+            (Some(Drag::Row(last)), Some(at)) => {
+                let last = *last;
+                if let Some(hit) = cloth_at(seen, self.ray(pane, at))
+                    && let Some(ask) = next_in_row(seen, last, &hit)
+                {
+                    asks.push(ask);
+                    self.drag = Some(Drag::Row(hit.point));
+                }
+            }
+            _ => {}
+        }
+        let button = match self.drag {
+            Some(Drag::Cloth(button)) => button,
+            _ => PointerButton::Primary,
+        };
+        if ui.input(|i| i.key_pressed(Button::Escape)) {
+            asks.push(Ask::CancelDrag);
+            self.drag = Some(Drag::Over);
+        } else if ui.input(|i| !i.pointer.button_down(button) || is_lost(i)) {
+            if matches!(self.drag, Some(Drag::Cloth(_))) {
+                asks.push(Ask::Drag(Command::Release));
+            }
+            asks.push(Ask::EndDrag);
+            self.drag = None;
+        }
+    }
+
+    fn start_drag(&mut self, ui: &egui::Ui, seen: &Seen<'_>, pane: Rect, erasing: bool, asks: &mut Asks) {
+        if matches!(seen.tool, Tool::Drag(_) | Tool::Pin)
+            && self.take_cloth(ui, seen, pane, PointerButton::Primary, asks)
+        {
+            return;
+        }
         let origin = ui.input(|i| i.pointer.press_origin());
         let hit = origin.and_then(|at| self.pick(seen, pane, at));
         self.followed = origin;
@@ -305,10 +404,19 @@ impl ScenePane {
         let Some(at) = response.hover_pos() else { return };
         let erasing = seen.tool == Tool::Erase || ui.input(|i| i.modifiers.command);
         ui.ctx().set_cursor_icon(match &self.drag {
-            Some(Drag::Turn) => CursorIcon::Grabbing,
+            Some(Drag::Turn | Drag::Cloth(_)) => CursorIcon::Grabbing,
             Some(Drag::Paint(_)) => CursorIcon::Crosshair,
             _ if response.dragged() => CursorIcon::Grabbing,
             _ if erasing && near.is_some() => CursorIcon::PointingHand,
+            _ if matches!(seen.tool, Tool::Drag(_) | Tool::Pin)
+                && cloth_at(seen, self.ray(pane, at)).is_some() =>
+            {
+                if seen.tool == Tool::Pin {
+                    CursorIcon::PointingHand
+                } else {
+                    CursorIcon::Grab
+                }
+            }
             _ if seen.tool == Tool::Mark && !erasing && self.pick(seen, pane, at).is_some() => {
                 CursorIcon::Crosshair
             }
@@ -346,6 +454,8 @@ impl ScenePane {
             marks: Some(Arc::clone(&seen.document.marks)),
             stroke: stroke.len(),
             near,
+            pinned: Some(Arc::clone(seen.pinned)),
+            dragged: seen.dragged.cloned(),
         };
         let shown = Shown {
             body: seen.body,
@@ -353,6 +463,8 @@ impl ScenePane {
             marks: Some(&seen.document.marks),
             stroke: &stroke,
             near,
+            pinned: seen.pinned,
+            dragged: seen.dragged,
         };
         match graphics.picture(key, || self.scenery.scene(&shown)) {
             Ok(texture) => {
@@ -377,6 +489,11 @@ impl ScenePane {
     }
 }
 
+/// Whether the release of a button would not be seen.
+fn is_lost(input: &egui::InputState) -> bool {
+    input.events.contains(&Event::WindowFocused(false)) || input.events.contains(&Event::PointerGone)
+}
+
 /// What the pointer does here, for the status bar.
 pub fn hint(tool: Tool, next: usize) -> String {
     let view = "Right drag: turn · Middle drag: move the view · Wheel: zoom";
@@ -386,6 +503,10 @@ pub fn hint(tool: Tool, next: usize) -> String {
         }
         Tool::Erase => format!("Click a mark: take it away · {view}"),
         Tool::Move => format!("Drag: turn · {view}"),
+        Tool::Drag(_) => {
+            format!("Drag the cloth, with the left or the right button · Esc: put it back · {view}")
+        }
+        Tool::Pin => format!("Click: pin the cloth, or pull the pin out · Drag: a row of pins · {view}"),
     }
 }
 
