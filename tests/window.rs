@@ -12,6 +12,7 @@ use toile::geometry::mesh::TriMesh;
 use toile::pattern::Piece;
 use toile::session::{BodyChoice, Document, Project};
 use toile::ui::App;
+use toile::wrap::ClothSide;
 
 type Window = Harness<'static, Option<App>>;
 
@@ -220,6 +221,57 @@ fn a_fast_stroke_on_the_body_is_followed_all_the_way() {
     let marks = &app(&window).session().document().marks;
     let length = |i: usize| marks.body[i].points.windows(2).map(|w| w[0].distance(w[1])).sum::<f64>();
     assert!((length(0) / length(1) - 1.0).abs() < 0.05, "{} {}", length(0), length(1));
+}
+
+#[test]
+fn the_laser_marks_both_sides_of_the_body_in_one_step() {
+    let mut window = window();
+    key(&mut window, Modifiers::NONE, Key::L);
+    let path = line(pane(&window, "Body pane"), Vec2::new(60.0, 10.0));
+    drag(&mut window, &path, PointerButton::Primary);
+    let body = app(&window).session().document().marks.body.clone();
+    assert_eq!(body.len(), 2);
+    assert!(body[0].points.iter().all(|p| p.z > 0.0) && body[1].points.iter().all(|p| p.z < 0.0));
+    let skin = Surface::new(ball(0.25)).expect("a ball");
+    assert!(body[1].points.iter().all(|&p| skin.nearest(p).distance.abs() < 1e-6));
+    assert_eq!(app(&window).session().step_labels().count(), 1);
+    key(&mut window, Modifiers::COMMAND, Key::Z);
+    assert_eq!(counts(&window), [0, 0]);
+    drag(&mut window, &path[5..6], PointerButton::Primary);
+    assert_eq!(counts(&window), [0, 2], "a click makes two dots");
+    key(&mut window, Modifiers::NONE, Key::L);
+    drag(&mut window, &path, PointerButton::Primary);
+    assert_eq!(counts(&window), [0, 3], "without the laser only the near side");
+}
+
+/// The square and below it a wider one, turned over.
+fn two_layers() -> Project {
+    let mut project = project();
+    let pattern = Arc::make_mut(&mut project.document.pattern);
+    let (id, top) = pattern.pieces.pop_first().expect("the square");
+    let corners = [[-0.3, -0.2], [0.3, -0.2], [0.3, 0.2], [-0.3, 0.2]].map(DVec2::from);
+    let mut under = Piece::polygon("Under", &corners);
+    under.pose.flipped = true;
+    pattern.pieces.insert(id, Arc::new(under));
+    pattern.add_piece(Piece::clone(&top));
+    project
+}
+
+#[test]
+fn the_laser_marks_every_piece_that_lies_there() {
+    let mut window = window_on(two_layers(), None);
+    key(&mut window, Modifiers::NONE, Key::L);
+    let path = line(pane(&window, "Pattern pane"), Vec2::new(30.0, 10.0));
+    drag(&mut window, &path, PointerButton::Primary);
+    let document = app(&window).session().document();
+    let marks = &document.marks.cloth;
+    let on = |i: usize| document.pattern.pieces[&marks[i].piece].name.as_str();
+    assert_eq!((marks.len(), on(0), on(1)), (2, "Square", "Under"));
+    for (a, b) in marks[0].points.iter().zip(&marks[1].points) {
+        assert!((*a - DVec2::new(-b.x, b.y)).length() < 1e-9, "{a} {b}");
+    }
+    assert!(marks.iter().all(|m| m.side == ClothSide::Front), "outer sides, however they lie");
+    assert_eq!(app(&window).session().step_labels().count(), 1);
 }
 
 #[test]

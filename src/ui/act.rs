@@ -44,6 +44,7 @@ impl App {
             Action::Redo => self.apply(Command::Redo),
             Action::SuggestMarks => self.suggest_marks(),
             Action::ClearMarks => self.apply(Command::ClearMarks),
+            Action::ToggleLaser => self.laser = !self.laser,
             Action::Choose(tool) => self.tool = tool,
             Action::Wrap => {
                 self.show_cloth = true;

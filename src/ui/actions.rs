@@ -35,6 +35,7 @@ pub enum Action {
     Redo,
     ClearMarks,
     SuggestMarks,
+    ToggleLaser,
     Choose(Tool),
     Wrap,
     CancelWrap,
@@ -103,6 +104,11 @@ impl Action {
                 "Suggest marks",
                 "Propose marks from where the pattern file puts the pieces round the body",
                 &[],
+            ),
+            Self::ToggleLaser => entry(
+                "Laser",
+                "Strokes go through: front and back of the body, and every piece that lies there",
+                &[key(Key::L)],
             ),
             Self::Choose(Tool::Mark) => entry(
                 "Mark",
@@ -191,6 +197,7 @@ const ALL: &[Action] = &[
     Action::Quit,
     Action::Undo,
     Action::Redo,
+    Action::ToggleLaser,
     Action::Choose(Tool::Mark),
     Action::Choose(Tool::Erase),
     Action::Choose(Tool::Move),

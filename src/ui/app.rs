@@ -12,7 +12,7 @@ use crate::ui::asks::{Ask, Asks};
 use crate::ui::dialogs::{Answer, Dialog, NativeDialog};
 use crate::ui::files::{self, Purpose, RawBody};
 use crate::ui::messages::Messages;
-use crate::ui::pattern_pane::{self, PatternPane};
+use crate::ui::pattern_pane::{self, Laid, PatternPane};
 use crate::ui::scene_pane::{self, ScenePane, Seen};
 use crate::ui::situation::Situation;
 use crate::ui::theme::{self, Palette};
@@ -25,6 +25,7 @@ pub struct App {
     pub(super) session: Session,
     pub(super) path: Option<PathBuf>,
     pub(super) tool: Tool,
+    pub(super) laser: bool,
     pub(super) pattern_pane: PatternPane,
     pub(super) scene_pane: ScenePane,
     pub(super) show_cloth: bool,
@@ -60,6 +61,7 @@ impl App {
             session: Session::new(project, runner(ctx)?),
             path,
             tool: Tool::Mark,
+            laser: false,
             pattern_pane: PatternPane::fitted(),
             scene_pane: ScenePane::new(graphics),
             show_cloth: true,
@@ -171,7 +173,8 @@ impl App {
         Panel::left("table").frame(Frame::new()).default_size(half).size_range(160.0..=least).show(
             ui,
             |ui| {
-                self.pattern_pane.ui(ui, document, self.tool, palette, asks);
+                let laid = Laid { document, tool: self.tool, laser: self.laser, palette };
+                self.pattern_pane.ui(ui, &laid, asks);
                 if document.pattern.pieces.is_empty() {
                     let area = ui.max_rect().shrink2(egui::vec2(20.0, ui.max_rect().height() * 0.36));
                     ui.scope_builder(egui::UiBuilder::new().max_rect(area), |ui| {
@@ -188,6 +191,7 @@ impl App {
                 cloth: cloth.map(|garment| (garment, &snapshot.cloth)),
                 working: now.working,
                 tool: self.tool,
+                laser: self.laser,
                 look: theme::look(ui.ctx().theme()),
                 palette,
             };
@@ -198,9 +202,9 @@ impl App {
     fn hint(&self, document: &Document) -> String {
         let next = |painted: usize| painted + 1;
         if self.pattern_pane.hovered {
-            pattern_pane::hint(self.tool, next(document.marks.cloth.len()))
+            pattern_pane::hint(self.tool, self.laser, next(document.marks.cloth.len()))
         } else if self.scene_pane.hovered {
-            scene_pane::hint(self.tool, next(document.marks.body.len()))
+            scene_pane::hint(self.tool, self.laser, next(document.marks.body.len()))
         } else {
             "Paint a mark on a piece and one on the body where it should lie, then press Wrap.".to_owned()
         }
@@ -213,6 +217,7 @@ impl App {
             undo: self.session.undo_label().map(str::to_owned),
             redo: self.session.redo_label().map(str::to_owned),
             tool: self.tool,
+            laser: self.laser,
             pieces: document.pattern.pieces.len(),
             marks: [document.marks.cloth.len(), document.marks.body.len()],
             has_body: self.session.surface().is_some(),

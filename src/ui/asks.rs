@@ -22,3 +22,11 @@ pub enum Ask {
 
 /// Wishes in order.
 pub type Asks = Vec<Ask>;
+
+/// Asks for `commands` as one step of undo.
+pub fn in_one_step(commands: Vec<Command>, asks: &mut Asks) {
+    if !commands.is_empty() {
+        asks.extend(commands.into_iter().map(Ask::Drag));
+        asks.push(Ask::EndDrag);
+    }
+}

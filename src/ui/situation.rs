@@ -14,6 +14,8 @@ pub struct Situation {
     pub redo: Option<String>,
     /// What the left button does.
     pub tool: Tool,
+    /// Strokes go through everything under the pointer.
+    pub laser: bool,
     /// Pieces on the table.
     pub pieces: usize,
     /// Marks on the cloth and on the body.
@@ -75,6 +77,7 @@ impl Situation {
     pub fn is_on(&self, action: Action) -> bool {
         match action {
             Action::Choose(tool) => self.tool == tool,
+            Action::ToggleLaser => self.laser,
             Action::ToggleRelaxing => self.relaxing,
             Action::ToggleCloth => self.show_cloth,
             Action::TogglePanel => self.show_panel,
