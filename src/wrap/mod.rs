@@ -13,4 +13,5 @@ pub use coarser::coarser;
 pub use dressing::{Dressing, Phase};
 pub use mark_error::{MarkError, mark_error};
 pub use marks::{BodyMark, ClothMark, ClothSide, Marks};
+pub use roots::{PairStretch, stretches};
 pub use suggest::suggested;

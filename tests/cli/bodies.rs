@@ -84,4 +84,8 @@ fn pattern_body_and_marks_become_a_project() {
     let found: serde_json::Value = serde_json::from_str(&found.out).expect("JSON");
     assert_eq!((found["pieces"].as_u64(), found["seams"].as_u64()), (Some(1), Some(0)));
     assert!(found["triangles"].as_u64().is_some_and(|n| n > 100), "{found}");
+    let pair = &found["marks"][0];
+    assert!(pair["number"] == 1 && pair["cloth"].as_f64().is_some_and(|l| l > 0.05), "{found}");
+    let found = place.ends(0, "check p.toile");
+    assert!(found.out.contains("mark 1: ") && found.out.contains("cm on the body"), "{found:#?}");
 }
