@@ -274,6 +274,64 @@ fn the_laser_marks_every_piece_that_lies_there() {
     assert_eq!(app(&window).session().step_labels().count(), 1);
 }
 
+/// Labels of the two strokes of the first pair in the list.
+const FIRST: [&str; 2] = ["Square: select mark 1 on the cloth", "body: select mark 1 on the body"];
+
+#[test]
+fn a_mark_is_selected_in_a_pane_or_in_the_list_and_deleted() {
+    let mut window = window();
+    paint_both(&mut window);
+    for label in ["Pattern pane", "Body pane"] {
+        assert!(window.query_by_label_contains("Selected:").is_none());
+        let at = pane(&window, label).center();
+        drag(&mut window, &[at], PointerButton::Primary);
+        assert_eq!(counts(&window), [1, 1], "a click on a mark paints none");
+        assert!(window.query_by_label_contains("Selected: mark 1 on the").is_some(), "{label}");
+        key(&mut window, Modifiers::NONE, Key::Escape);
+    }
+    window.get_by_label(FIRST[1]).click();
+    window.run_steps(3);
+    assert!(window.query_by_label("Selected: mark 1 on the body").is_some());
+    key(&mut window, Modifiers::NONE, Key::Delete);
+    assert_eq!(counts(&window), [1, 0]);
+    assert!(window.query_by_label_contains("Selected:").is_none());
+}
+
+#[test]
+fn the_selected_mark_is_moved_in_the_order_and_named() {
+    let mut window = window();
+    for x in [-60.0, 60.0] {
+        let at = pane(&window, "Pattern pane").center() + Vec2::new(x, 0.0);
+        drag(&mut window, &[at], PointerButton::Primary);
+    }
+    let ids = |w: &Window| app(w).session().document().marks.cloth.iter().map(|m| m.id.0).collect::<Vec<_>>();
+    window.get_by_label(FIRST[0]).click();
+    window.run_steps(3);
+    key(&mut window, Modifiers::COMMAND, Key::ArrowDown);
+    assert_eq!(ids(&window), [2, 1]);
+    assert!(window.query_by_label("Selected: mark 2 on the cloth").is_some(), "the selection goes with it");
+    window.get_by_label("Move mark up").click();
+    window.run_steps(3);
+    assert_eq!(ids(&window), [1, 2]);
+    assert!(window.get_by_label("Move mark up").accesskit_node().is_disabled());
+    window.get_by_role_and_label(egui::accesskit::Role::TextInput, "Name").focus();
+    window.run_steps(2);
+    window.get_by_role_and_label(egui::accesskit::Role::TextInput, "Name").type_text("hem");
+    window.run_steps(2);
+    key(&mut window, Modifiers::NONE, Key::Enter);
+    assert_eq!(app(&window).session().document().marks.names.values().collect::<Vec<_>>(), ["hem"]);
+    assert!(window.query_by_label("hem: select mark 1 on the cloth").is_some());
+    assert!(!app(&window).session().snapshot().is_dressed(), "Enter in a name does not wrap");
+}
+
+#[test]
+fn the_list_tells_the_stretch_of_each_pair() {
+    let mut window = window();
+    paint_both(&mut window);
+    let found = window.query_by_label_contains("Stretch of pair 1: ").is_some();
+    assert!(found, "before any wrap");
+}
+
 #[test]
 fn a_click_makes_a_dot_and_control_click_takes_it_away() {
     let mut window = window();

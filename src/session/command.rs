@@ -24,6 +24,8 @@ pub enum Command {
     DeletePair { number: usize },
     /// Give a stroke the number `to` (from 1) among those of its side.
     MoveMark { mark: MarkId, to: usize },
+    /// Give a stroke a name; an empty one takes its name away.
+    RenameMark { mark: MarkId, name: String },
     /// Take all strokes away.
     ClearMarks,
     /// Replace all strokes. Ids in it are kept.

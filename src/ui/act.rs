@@ -43,6 +43,7 @@ impl App {
             Action::Undo => self.apply(Command::Undo),
             Action::Redo => self.apply(Command::Redo),
             Action::SuggestMarks => self.suggest_marks(),
+            Action::DeleteMark | Action::RaiseMark | Action::LowerMark => self.change_selected(action),
             Action::ClearMarks => self.apply(Command::ClearMarks),
             Action::ToggleLaser => self.laser = !self.laser,
             Action::Choose(tool) => self.tool = tool,
@@ -64,6 +65,16 @@ impl App {
             Action::Theme(theme) => ctx.set_theme(theme),
             Action::Shortcuts => self.dialog = Some(Dialog::Shortcuts),
         }
+    }
+
+    fn change_selected(&mut self, action: Action) {
+        let Some(mark) = self.selected else { return };
+        let Some(place) = self.session.document().marks.place(mark) else { return };
+        self.apply(match action {
+            Action::RaiseMark => Command::MoveMark { mark, to: place.number - 1 },
+            Action::LowerMark => Command::MoveMark { mark, to: place.number + 1 },
+            _ => Command::DeleteMark { mark },
+        });
     }
 
     fn suggest_marks(&mut self) {

@@ -33,6 +33,9 @@ pub enum Action {
     Quit,
     Undo,
     Redo,
+    DeleteMark,
+    RaiseMark,
+    LowerMark,
     ClearMarks,
     SuggestMarks,
     ToggleLaser,
@@ -99,6 +102,15 @@ impl Action {
             Self::Quit => entry("Quit", "Leave Toile", &[ctrl(Key::Q)]),
             Self::Undo => entry("Undo", "Take the last step back", &[ctrl(Key::Z)]),
             Self::Redo => entry("Redo", "Do the step again", &[ctrl_shift(Key::Z), ctrl(Key::Y)]),
+            Self::DeleteMark => {
+                entry("Delete mark", "Take the selected mark away", &[key(Key::Delete), key(Key::Backspace)])
+            }
+            Self::RaiseMark => {
+                entry("Move mark up", "Give the selected mark the number before", &[ctrl(Key::ArrowUp)])
+            }
+            Self::LowerMark => {
+                entry("Move mark down", "Give the selected mark the number after", &[ctrl(Key::ArrowDown)])
+            }
             Self::ClearMarks => entry("Clear all marks", "Take every mark away, on cloth and body", &[]),
             Self::SuggestMarks => entry(
                 "Suggest marks",
@@ -197,6 +209,9 @@ const ALL: &[Action] = &[
     Action::Quit,
     Action::Undo,
     Action::Redo,
+    Action::DeleteMark,
+    Action::RaiseMark,
+    Action::LowerMark,
     Action::ToggleLaser,
     Action::Choose(Tool::Mark),
     Action::Choose(Tool::Erase),

@@ -5,15 +5,18 @@ use std::sync::Arc;
 
 use egui::{CentralPanel, Frame, Key, Margin, Panel, ViewportCommand};
 
+use crate::geometry::ids::MarkId;
 use crate::session::{Command, Document, GestureId, Notice, Project, Session};
 use crate::sim::{Runner, Simulation, Snapshot, thread::DEFAULT_RATE_HZ};
 use crate::ui::actions::{Action, Tool};
 use crate::ui::asks::{Ask, Asks};
 use crate::ui::dialogs::{Answer, Dialog, NativeDialog};
 use crate::ui::files::{self, Purpose, RawBody};
+use crate::ui::marks_panel::MarksPanel;
 use crate::ui::messages::Messages;
 use crate::ui::pattern_pane::{self, Laid, PatternPane};
 use crate::ui::scene_pane::{self, ScenePane, Seen};
+use crate::ui::side_panel::Told;
 use crate::ui::situation::Situation;
 use crate::ui::theme::{self, Palette};
 use crate::ui::{menu, side_panel, status, toolbar};
@@ -26,6 +29,9 @@ pub struct App {
     pub(super) path: Option<PathBuf>,
     pub(super) tool: Tool,
     pub(super) laser: bool,
+    /// The mark chosen in a pane or in the list.
+    pub(super) selected: Option<MarkId>,
+    marks_panel: MarksPanel,
     pub(super) pattern_pane: PatternPane,
     pub(super) scene_pane: ScenePane,
     pub(super) show_cloth: bool,
@@ -62,6 +68,8 @@ impl App {
             path,
             tool: Tool::Mark,
             laser: false,
+            selected: None,
+            marks_panel: MarksPanel::default(),
             pattern_pane: PatternPane::fitted(),
             scene_pane: ScenePane::new(graphics),
             show_cloth: true,
@@ -112,6 +120,7 @@ impl App {
         self.path = path;
         self.drag = None;
         self.wrap_seq = None;
+        self.selected = None;
         self.pattern_pane = PatternPane::fitted();
         self.scene_pane.frame = Some(Some(crate::render::View::Front));
     }
@@ -165,7 +174,9 @@ impl App {
         });
         if self.show_panel {
             Panel::right("side").default_size(256.0).size_range(220.0..=420.0).frame(thick).show(ui, |ui| {
-                side_panel::side_panel_ui(ui, document, &snapshot.problems, now, palette, asks);
+                let surface = self.session.surface();
+                let told = Told { document, surface, problems: &snapshot.problems, now, palette };
+                side_panel::side_panel_ui(ui, &told, &mut self.marks_panel, asks);
             });
         }
         let half = ui.available_width() * 0.46;
@@ -173,7 +184,8 @@ impl App {
         Panel::left("table").frame(Frame::new()).default_size(half).size_range(160.0..=least).show(
             ui,
             |ui| {
-                let laid = Laid { document, tool: self.tool, laser: self.laser, palette };
+                let selected = now.selected.map(|(mark, _)| mark);
+                let laid = Laid { document, tool: self.tool, laser: self.laser, selected, palette };
                 self.pattern_pane.ui(ui, &laid, asks);
                 if document.pattern.pieces.is_empty() {
                     let area = ui.max_rect().shrink2(egui::vec2(20.0, ui.max_rect().height() * 0.36));
@@ -192,6 +204,7 @@ impl App {
                 working: now.working,
                 tool: self.tool,
                 laser: self.laser,
+                selected: now.selected.map(|(mark, _)| mark),
                 look: theme::look(ui.ctx().theme()),
                 palette,
             };
@@ -218,6 +231,7 @@ impl App {
             redo: self.session.redo_label().map(str::to_owned),
             tool: self.tool,
             laser: self.laser,
+            selected: self.selected.and_then(|mark| Some((mark, document.marks.place(mark)?))),
             pieces: document.pattern.pieces.len(),
             marks: [document.marks.cloth.len(), document.marks.body.len()],
             has_body: self.session.surface().is_some(),
@@ -259,6 +273,10 @@ impl App {
         let focused = ctx.memory(|m| m.focused().is_some());
         let menu = egui::Popup::is_any_open(ctx);
         let drawing = self.pattern_pane.stroke().is_some() || !self.scene_pane.stroke().is_empty();
+        let escape = ctx.input(|i| i.key_pressed(Key::Escape)) && !menu && !drawing && !now.wrapping;
+        if escape && self.selected.is_some() {
+            asks.push(Ask::Select(None));
+        }
         for (action, keys) in Action::with_keys() {
             // A focused button takes Enter and Space for itself; Space over the table moves the view; Esc first gives up a
             // stroke.
@@ -280,6 +298,7 @@ impl App {
             Ask::Drag(command) => self.drag(command),
             Ask::EndDrag => self.end_drag(),
             Ask::CancelDrag => self.cancel_drag(),
+            Ask::Select(mark) => self.selected = mark,
             Ask::Say(words) => self.messages.tell(words),
         }
     }

@@ -1,5 +1,6 @@
 //! What panes and panels ask for. They read the document and never change it.
 
+use crate::geometry::ids::MarkId;
 use crate::session::Command;
 use crate::ui::actions::Action;
 
@@ -16,6 +17,8 @@ pub enum Ask {
     EndDrag,
     /// Take the drag back.
     CancelDrag,
+    /// Select a mark, or none.
+    Select(Option<MarkId>),
     /// Say something to the person.
     Say(String),
 }

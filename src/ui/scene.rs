@@ -25,6 +25,16 @@ pub struct Shown<'a> {
     pub stroke: &'a [DVec3],
     /// The mark under the pointer.
     pub near: Option<MarkId>,
+    /// The mark that stands out.
+    pub selected: Option<MarkId>,
+}
+
+impl Shown<'_> {
+    /// How wide a mark is drawn, logical pixels.
+    fn width(&self, mark: MarkId) -> f32 {
+        let stands_out = [self.near, self.selected].contains(&Some(mark));
+        if stands_out { MARK_WIDTH + 2.0 } else { MARK_WIDTH }
+    }
 }
 
 /// Makes scenes; keeps what did not change since the last one.
@@ -91,7 +101,7 @@ impl Scenery {
             }
             if let Some(marks) = shown.marks {
                 self.find_places(garment, marks);
-                covered = self.cloth_marks(garment, state, scale, &mut scene);
+                covered = self.cloth_marks(garment, state, shown, scale, &mut scene);
             }
         }
         if let Some(marks) = shown.marks {
@@ -159,13 +169,20 @@ impl Scenery {
     }
 
     /// Draws the marks of the cloth where it lies. Returns how many leading ones could be drawn in full.
-    fn cloth_marks(&self, garment: &Garment, state: &ClothState, scale: f32, scene: &mut Scene) -> usize {
+    fn cloth_marks(
+        &self,
+        garment: &Garment,
+        state: &ClothState,
+        shown: &Shown<'_>,
+        scale: f32,
+        scene: &mut Scene,
+    ) -> usize {
         let Some(found) = &self.places else { return 0 };
         let mut covered = 0;
         for (i, places) in found.places.iter().enumerate() {
             let points: Option<Vec<Vec3>> = places.iter().map(|p| p.point(garment, state)).collect();
             if let Some(points) = points.filter(|p| !p.is_empty()) {
-                push_mark(scene, points, i + 1, MARK_WIDTH, ON_CLOTH, scale);
+                push_mark(scene, points, i + 1, shown.width(found.marks.cloth[i].id), ON_CLOTH, scale);
                 covered += usize::from(covered == i);
             }
         }
@@ -244,7 +261,7 @@ fn thin_line(points: Vec<Vec3>, colour: [u8; 4], width: f32, scale: f32) -> Poly
 fn body_marks(marks: &Marks, shown: &Shown<'_>, covered: usize, scale: f32, scene: &mut Scene) {
     for (i, mark) in marks.body.iter().enumerate() {
         let points: Vec<Vec3> = mark.points.iter().map(|p| p.as_vec3()).collect();
-        let width = if shown.near == Some(mark.id) { MARK_WIDTH + 2.0 } else { MARK_WIDTH };
+        let width = shown.width(mark.id);
         let lift = if i < covered { UNDER_CLOTH } else { ON_SKIN };
         push_mark(scene, points, i + 1, width, lift, scale);
         if i < covered {

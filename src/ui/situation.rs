@@ -2,8 +2,9 @@
 
 use egui::ThemePreference;
 
+use crate::geometry::ids::MarkId;
 use crate::ui::actions::{Action, Tool};
-use crate::wrap::Phase;
+use crate::wrap::{MarkPlace, Phase};
 
 /// How things stand in this frame.
 #[derive(Clone, Debug)]
@@ -20,6 +21,8 @@ pub struct Situation {
     pub pieces: usize,
     /// Marks on the cloth and on the body.
     pub marks: [usize; 2],
+    /// The selected mark.
+    pub selected: Option<(MarkId, MarkPlace)>,
     /// There is a body that cloth can be put on.
     pub has_body: bool,
     /// There is cloth on the body.
@@ -68,6 +71,16 @@ impl Situation {
             Action::Unwrap | Action::ToggleCloth | Action::Export | Action::ToggleRelaxing => {
                 unless(self.dressed, "There is no cloth on the body")
             }
+            Action::DeleteMark | Action::RaiseMark | Action::LowerMark => match &self.selected {
+                None => Some("No mark is selected: click one"),
+                Some((_, place)) if action == Action::RaiseMark => {
+                    unless(place.number > 1, "It is the first")
+                }
+                Some((_, place)) if action == Action::LowerMark => {
+                    unless(place.number < place.count, "It is the last")
+                }
+                Some(_) => None,
+            },
             Action::ClearMarks => unless(self.marks[0] + self.marks[1] > 0, "There are no marks"),
             _ => None,
         }

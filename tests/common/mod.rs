@@ -61,6 +61,7 @@ pub fn project() -> Project {
             points: vec![DVec2::new(0.05, 0.2), DVec2::new(0.2, 0.2)],
         }],
         body: vec![BodyMark { id: MarkId(2), points: line_on_ball(0.75, 0.2, 0.075) }],
+        ..Marks::default()
     };
     Project {
         document: Document {

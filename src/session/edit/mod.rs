@@ -73,6 +73,7 @@ pub fn edit(document: &Document, command: &Command) -> Result<Edit, Rejection> {
         Command::DeleteMark { mark } => marks::delete(new, *mark),
         Command::DeletePair { number } => marks::delete_pair(new, *number),
         Command::MoveMark { mark, to } => marks::renumber(new, *mark, *to),
+        Command::RenameMark { mark, name } => marks::rename(new, *mark, name),
         Command::ClearMarks => marks::clear(new),
         Command::SetMarks { marks } => marks::set(new, marks),
         Command::AddPiece { piece } => pieces::add(new, piece),
@@ -100,8 +101,7 @@ pub fn edit(document: &Document, command: &Command) -> Result<Edit, Rejection> {
 /// What no command would have let into `document`; for documents from files.
 pub fn document_problem(document: &Document) -> Option<String> {
     let Document { pattern, body, marks, last_mark, settings } = document;
-    let ids = marks.cloth.iter().map(|m| m.id).chain(marks.body.iter().map(|m| m.id));
-    if ids.max().is_some_and(|id| id.0 > *last_mark) {
+    if marks.ids().max().is_some_and(|id| id.0 > *last_mark) {
         return Some("the counter of marks is behind their ids".to_owned());
     }
     pattern_problem(pattern)

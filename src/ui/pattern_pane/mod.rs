@@ -18,7 +18,7 @@ use crate::ui::asks::{Ask, Asks, in_one_step};
 use crate::ui::stroke;
 use crate::ui::theme::Palette;
 use crate::wrap::ClothSide;
-use draw::{Drawing, front_is_seen};
+use draw::{Drawing, MarkLook, front_is_seen};
 use shapes::Shapes;
 use threads::{Threads, to_polyline};
 use view::TableView;
@@ -59,6 +59,8 @@ pub struct Laid<'a> {
     pub tool: Tool,
     /// Strokes go through to the pieces below.
     pub laser: bool,
+    /// The mark that stands out.
+    pub selected: Option<MarkId>,
     /// Colours.
     pub palette: &'a Palette,
 }
@@ -79,7 +81,7 @@ impl PatternPane {
 
     /// Draws the pane and listens to the pointer.
     pub fn ui(&mut self, ui: &mut egui::Ui, laid: &Laid<'_>, asks: &mut Asks) {
-        let Laid { document, tool, palette, .. } = *laid;
+        let Laid { document, tool, .. } = *laid;
         let pattern = &*document.pattern;
         self.shapes.update(pattern);
         self.threads.update(pattern, &self.shapes);
@@ -94,7 +96,7 @@ impl PatternPane {
         let under = self.under(document, pane, &response);
         self.listen(ui, laid, pane, &response, under, asks);
         self.set_cursor(ui, tool, under, &response);
-        self.draw(ui, document, palette, pane, under);
+        self.draw(ui, laid, pane, under);
         publish_marks(ui, document, pane, &self.view);
     }
 
@@ -151,7 +153,9 @@ impl PatternPane {
         if response.clicked_by(PointerButton::Primary) && !space {
             match (under.mark, tool) {
                 (Some(mark), _) if erasing => asks.push(Ask::Do(Command::DeleteMark { mark })),
-                (_, Tool::Mark) if !erasing => self.dot(laid, pane, response, asks),
+                (Some(_), Tool::Mark | Tool::Move) => asks.push(Ask::Select(under.mark)),
+                (None, Tool::Move) => asks.push(Ask::Select(None)),
+                (None, Tool::Mark) if !erasing => self.dot(laid, pane, response, asks),
                 _ => {}
             }
         }
@@ -294,19 +298,21 @@ impl PatternPane {
         });
     }
 
-    fn draw(&self, ui: &egui::Ui, document: &Document, palette: &Palette, pane: Rect, under: Under) {
+    fn draw(&self, ui: &egui::Ui, laid: &Laid<'_>, pane: Rect, under: Under) {
+        let Laid { document, palette, selected, .. } = *laid;
         let pattern = &*document.pattern;
         let drawing = Drawing { painter: ui.painter_at(pane), pane, view: &self.view, palette };
         drawing.table();
         drawing.pieces(pattern, &self.shapes, under.piece);
         drawing.seams(pattern, &self.threads, under.seam);
-        drawing.marks(pattern, &document.marks, under.mark);
+        drawing.marks(pattern, &document.marks, under.mark, selected);
         if let Some((id, points)) = self.stroke()
             && let Some(piece) = pattern.pieces.get(&id)
         {
             let points: Vec<DVec2> = points.iter().map(|&p| piece.pose.plane_from_piece(p)).collect();
             let number = document.marks.cloth.len() + 1;
-            drawing.mark(&points, number, number <= document.marks.body.len(), false);
+            let paired = number <= document.marks.body.len();
+            drawing.mark(&points, number, MarkLook { paired, ..MarkLook::default() });
         }
         drawing.names(pattern, &self.shapes);
         drawing.scale_bar();
@@ -341,7 +347,9 @@ pub fn hint(tool: Tool, laser: bool, next: usize) -> String {
             format!("Drag: paint marks {next}… on every piece that lies here · L: only the topmost · {view}")
         }
         Tool::Mark => {
-            format!("Drag: paint mark {next} on the cloth · Click: a dot · Ctrl+click: erase · {view}")
+            format!(
+                "Drag: paint mark {next} on the cloth · Click: a dot, or select a mark · Ctrl+click: erase · {view}"
+            )
         }
         Tool::Erase => format!("Click a mark: take it away · {view}"),
         Tool::Move => format!("Drag a piece: move it · Double-click: turn it over · {view}"),

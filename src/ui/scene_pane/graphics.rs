@@ -30,16 +30,19 @@ pub struct Key {
     pub stroke: usize,
     /// The mark under the pointer.
     pub near: Option<MarkId>,
+    /// The mark that stands out.
+    pub selected: Option<MarkId>,
 }
 
 impl PartialEq for Key {
     fn eq(&self, other: &Self) -> bool {
-        let Self { camera, look, size, body, cloth, marks, stroke, near } = self;
+        let Self { camera, look, size, body, cloth, marks, stroke, near, selected } = self;
         *camera == other.camera
             && *look == other.look
             && *size == other.size
             && *stroke == other.stroke
             && *near == other.near
+            && *selected == other.selected
             && same(body, &other.body)
             && same(cloth, &other.cloth)
             && same(marks, &other.marks)

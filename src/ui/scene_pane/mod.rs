@@ -45,6 +45,8 @@ pub struct Seen<'a> {
     pub tool: Tool,
     /// Strokes go through to the far side of the body.
     pub laser: bool,
+    /// The mark that stands out.
+    pub selected: Option<MarkId>,
     /// Colours and light.
     pub look: Look,
     /// Colours of the interface.
@@ -242,7 +244,9 @@ impl ScenePane {
         {
             match (near, seen.tool) {
                 (Some(mark), _) if erasing => asks.push(Ask::Do(Command::DeleteMark { mark })),
-                (_, Tool::Mark) if !erasing => {
+                (Some(_), Tool::Mark | Tool::Move) => asks.push(Ask::Select(near)),
+                (None, Tool::Move) => asks.push(Ask::Select(None)),
+                (None, Tool::Mark) if !erasing => {
                     let dots = self.hits(seen, pane, at).map(|hit| hit.into_iter().collect());
                     in_one_step(painted(seen, dots), asks);
                 }
@@ -367,6 +371,7 @@ impl ScenePane {
             marks: Some(Arc::clone(&seen.document.marks)),
             stroke: stroke.len(),
             near,
+            selected: seen.selected,
         };
         let shown = Shown {
             body: seen.body,
@@ -374,6 +379,7 @@ impl ScenePane {
             marks: Some(&seen.document.marks),
             stroke: &stroke,
             near,
+            selected: seen.selected,
         };
         match graphics.picture(key, || self.scenery.scene(&shown)) {
             Ok(texture) => {
@@ -409,7 +415,9 @@ pub fn hint(tool: Tool, laser: bool, next: usize) -> String {
             )
         }
         Tool::Mark => {
-            format!("Drag on the body: paint mark {next} · Click: a dot · Ctrl+click: erase · {view}")
+            format!(
+                "Drag on the body: paint mark {next} · Click: a dot, or select a mark · Ctrl+click: erase · {view}"
+            )
         }
         Tool::Erase => format!("Click a mark: take it away · {view}"),
         Tool::Move => format!("Drag: turn · {view}"),
