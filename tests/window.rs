@@ -207,6 +207,8 @@ fn a_stroke_on_the_body_lies_on_its_skin() {
     let skin = Surface::new(ball(0.25)).expect("a ball");
     let points = &app(&window).session().document().marks.body[0].points;
     assert!(points.len() > 5);
+    let steps: Vec<f64> = points.windows(2).map(|w| w[0].distance(w[1])).collect();
+    assert!(steps.iter().all(|s| (0.006..0.009).contains(s)), "evenly spaced: {steps:?}");
     assert!(points.iter().all(|&p| skin.nearest(p).distance.abs() < 1e-6 && p.z > 0.0));
 }
 
