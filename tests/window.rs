@@ -6,10 +6,10 @@ use std::time::{Duration, Instant};
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, Rect, Vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
-use glam::{DVec2, DVec3};
+use glam::{DQuat, DVec2, DVec3};
 use toile::body::Surface;
 use toile::geometry::mesh::TriMesh;
-use toile::pattern::Piece;
+use toile::pattern::{Piece, SpacePose};
 use toile::session::{BodyChoice, Document, Project};
 use toile::ui::App;
 use toile::wrap::ClothSide;
@@ -274,6 +274,50 @@ fn the_laser_marks_every_piece_that_lies_there() {
     }
     assert!(marks.iter().all(|m| m.side == ClothSide::Front), "outer sides, however they lie");
     assert_eq!(app(&window).session().step_labels().count(), 1);
+}
+
+/// The square, said to hang before the ball.
+fn placed() -> Project {
+    let mut project = project();
+    let pattern = Arc::make_mut(&mut project.document.pattern);
+    for piece in pattern.pieces.values_mut() {
+        let placement = SpacePose { translation: DVec3::new(0.0, 0.0, 0.4), rotation: DQuat::IDENTITY };
+        let piece = Arc::make_mut(piece);
+        (piece.placement, piece.label) = (Some(placement), Some("body".to_owned()));
+    }
+    project
+}
+
+#[test]
+fn proposed_marks_are_seen_and_accepted_or_dismissed() {
+    let mut window = window_on(placed(), None);
+    let suggest = |window: &mut Window| {
+        window.get_by_label("Edit").click();
+        window.run_steps(3);
+        window.get_by_label("Suggest marks").click();
+        window.run_steps(3);
+    };
+    suggest(&mut window);
+    for side in ["cloth", "body"] {
+        assert!(window.query_by_label(&format!("Proposed mark 1 on the {side}")).is_some(), "{side}");
+    }
+    assert!(!app(&window).session().is_modified(), "ghosts are not in the document");
+    key(&mut window, Modifiers::NONE, Key::Escape);
+    assert!(window.query_by_label("Accept").is_none());
+    assert_eq!(counts(&window), [0, 0]);
+    for by_key in [true, false] {
+        suggest(&mut window);
+        if by_key {
+            key(&mut window, Modifiers::NONE, Key::Enter);
+        } else {
+            window.get_by_label("Accept").click();
+            window.run_steps(3);
+        }
+        assert_eq!(counts(&window), [1, 1]);
+        assert!(window.query_by_label_contains("Proposed").is_none());
+        assert_eq!(app(&window).session().step_labels().collect::<Vec<_>>(), ["replace all marks"]);
+        key(&mut window, Modifiers::COMMAND, Key::Z);
+    }
 }
 
 /// Labels of the two strokes of the first pair in the list.

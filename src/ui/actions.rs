@@ -38,6 +38,8 @@ pub enum Action {
     LowerMark,
     ClearMarks,
     SuggestMarks,
+    AcceptMarks,
+    DismissMarks,
     ToggleLaser,
     Choose(Tool),
     Wrap,
@@ -117,6 +119,10 @@ impl Action {
                 "Propose marks from where the pattern file puts the pieces round the body",
                 &[],
             ),
+            Self::AcceptMarks => {
+                entry("Accept", "Take the proposed marks instead of those there are", &[key(Key::Enter)])
+            }
+            Self::DismissMarks => entry("Dismiss", "Forget the proposed marks", &[key(Key::Escape)]),
             Self::ToggleLaser => entry(
                 "Laser",
                 "Strokes go through: front and back of the body, and every piece that lies there",
@@ -198,7 +204,7 @@ fn look_entry(view: View) -> Entry {
 pub const VIEWS: [View; 6] =
     [View::Front, View::Back, View::Left, View::Right, View::Top, View::ThreeQuarter];
 
-/// Actions whose keys are listened to.
+/// Actions whose keys are listened to. Those of proposed marks come before them all, while there are any.
 const ALL: &[Action] = &[
     Action::New,
     Action::Open,

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use egui::{CentralPanel, Frame, Key, Margin, Panel, ViewportCommand};
+use egui::{CentralPanel, Frame, Key, KeyboardShortcut, Margin, Panel, ViewportCommand};
 
 use crate::geometry::ids::MarkId;
 use crate::session::{Command, Document, GestureId, Notice, Project, Session};
@@ -12,6 +12,7 @@ use crate::ui::actions::{Action, Tool};
 use crate::ui::asks::{Ask, Asks};
 use crate::ui::dialogs::{Answer, Dialog, NativeDialog};
 use crate::ui::files::{self, Purpose, RawBody};
+use crate::ui::ghosts::Ghosts;
 use crate::ui::marks_panel::MarksPanel;
 use crate::ui::messages::Messages;
 use crate::ui::pattern_pane::{self, Laid, PatternPane};
@@ -32,6 +33,8 @@ pub struct App {
     /// The mark chosen in a pane or in the list.
     pub(super) selected: Option<MarkId>,
     marks_panel: MarksPanel,
+    /// Marks proposed and not accepted yet.
+    pub(super) ghosts: Option<Ghosts>,
     pub(super) pattern_pane: PatternPane,
     pub(super) scene_pane: ScenePane,
     pub(super) show_cloth: bool,
@@ -70,6 +73,7 @@ impl App {
             laser: false,
             selected: None,
             marks_panel: MarksPanel::default(),
+            ghosts: None,
             pattern_pane: PatternPane::fitted(),
             scene_pane: ScenePane::new(graphics),
             show_cloth: true,
@@ -121,6 +125,7 @@ impl App {
         self.drag = None;
         self.wrap_seq = None;
         self.selected = None;
+        self.ghosts = None;
         self.pattern_pane = PatternPane::fitted();
         self.scene_pane.frame = Some(Some(crate::render::View::Front));
     }
@@ -132,6 +137,7 @@ impl App {
         self.take_notices();
         let document = self.session.document().clone();
         let snapshot = Arc::clone(self.session.snapshot());
+        self.ghosts = self.ghosts.take().filter(|g| g.fit(&document, self.session.surface()));
         let now = self.situation(&ctx, &document, &snapshot);
         let palette = Palette::of(ctx.theme());
         let mut asks = Asks::new();
@@ -185,7 +191,8 @@ impl App {
             ui,
             |ui| {
                 let selected = now.selected.map(|(mark, _)| mark);
-                let laid = Laid { document, tool: self.tool, laser: self.laser, selected, palette };
+                let ghosts = self.ghosts.as_ref().map(|g| &*g.marks);
+                let laid = Laid { document, tool: self.tool, laser: self.laser, selected, ghosts, palette };
                 self.pattern_pane.ui(ui, &laid, asks);
                 if document.pattern.pieces.is_empty() {
                     let area = ui.max_rect().shrink2(egui::vec2(20.0, ui.max_rect().height() * 0.36));
@@ -205,6 +212,7 @@ impl App {
                 tool: self.tool,
                 laser: self.laser,
                 selected: now.selected.map(|(mark, _)| mark),
+                ghosts: self.ghosts.as_ref().map(|g| &g.marks),
                 look: theme::look(ui.ctx().theme()),
                 palette,
             };
@@ -214,7 +222,9 @@ impl App {
 
     fn hint(&self, document: &Document) -> String {
         let next = |painted: usize| painted + 1;
-        if self.pattern_pane.hovered {
+        if self.ghosts.is_some() {
+            "Proposed marks: Enter takes them, Esc forgets them.".to_owned()
+        } else if self.pattern_pane.hovered {
             pattern_pane::hint(self.tool, self.laser, next(document.marks.cloth.len()))
         } else if self.scene_pane.hovered {
             scene_pane::hint(self.tool, self.laser, next(document.marks.body.len()))
@@ -234,6 +244,7 @@ impl App {
             selected: self.selected.and_then(|mark| Some((mark, document.marks.place(mark)?))),
             pieces: document.pattern.pieces.len(),
             marks: [document.marks.cloth.len(), document.marks.body.len()],
+            proposed: self.ghosts.as_ref().map_or(0, |g| g.marks.pairs().count()),
             has_body: self.session.surface().is_some(),
             dressed: snapshot.is_dressed(),
             wrapping: asked || growing,
@@ -273,6 +284,15 @@ impl App {
         let focused = ctx.memory(|m| m.focused().is_some());
         let menu = egui::Popup::is_any_open(ctx);
         let drawing = self.pattern_pane.stroke().is_some() || !self.scene_pane.stroke().is_empty();
+        if now.proposed > 0 && !menu && !drawing {
+            for action in [Action::AcceptMarks, Action::DismissMarks] {
+                let keys = action.entry().keys;
+                let wanted = |k: &KeyboardShortcut| !(focused && k.logical_key == Key::Enter);
+                if keys.iter().filter(|k| wanted(k)).any(|k| ctx.input_mut(|i| i.consume_shortcut(k))) {
+                    asks.push(Ask::Act(action));
+                }
+            }
+        }
         let escape = ctx.input(|i| i.key_pressed(Key::Escape)) && !menu && !drawing && !now.wrapping;
         if escape && self.selected.is_some() {
             asks.push(Ask::Select(None));

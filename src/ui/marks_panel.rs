@@ -35,6 +35,9 @@ struct Lengths {
 impl MarksPanel {
     /// Draws the list.
     pub fn ui(&mut self, ui: &mut egui::Ui, told: &Told<'_>, asks: &mut Asks) {
+        if told.now.proposed > 0 {
+            proposal_ui(ui, told, asks);
+        }
         let [cloth, body] = told.now.marks;
         if cloth + body == 0 {
             let words = "Paint a mark on a piece, then one on the body where it should lie. Marks with the same number meet.";
@@ -135,6 +138,29 @@ impl MarksPanel {
             known.clone_into(text);
         }
     }
+}
+
+/// What to do with proposed marks.
+fn proposal_ui(ui: &mut egui::Ui, told: &Told<'_>, asks: &mut Asks) {
+    let count = told.now.proposed;
+    let pairs = if count == 1 { "pair of marks is" } else { "pairs of marks are" };
+    let instead = if told.now.marks == [0, 0] { "" } else { " They would take the place of those below." };
+    ui.add(egui::Label::new(format!("{count} {pairs} proposed.{instead}")).wrap());
+    ui.horizontal(|ui| {
+        for (action, fill) in [(Action::AcceptMarks, Some(told.palette.accent)), (Action::DismissMarks, None)]
+        {
+            let entry = action.entry();
+            let button = match fill {
+                Some(fill) => Button::new(RichText::new(entry.text).color(told.palette.on_accent)).fill(fill),
+                None => Button::new(entry.text),
+            };
+            let keys = entry.keys.first().map(|k| ui.ctx().format_shortcut(k)).unwrap_or_default();
+            if ui.add(button).on_hover_text(format!("{}  ({keys})", entry.tip)).clicked() {
+                asks.push(Ask::Act(action));
+            }
+        }
+    });
+    ui.separator();
 }
 
 /// Number, both strokes, stretch.

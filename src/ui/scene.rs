@@ -27,6 +27,8 @@ pub struct Shown<'a> {
     pub near: Option<MarkId>,
     /// The mark that stands out.
     pub selected: Option<MarkId>,
+    /// Marks proposed and not accepted yet.
+    pub ghosts: Option<&'a Marks>,
 }
 
 impl Shown<'_> {
@@ -70,6 +72,8 @@ struct Place {
 
 const INK: u8 = 255;
 const WHITE: [u8; 4] = [255, 255, 255, 235];
+/// Opacity of proposed marks.
+const GHOST: u8 = 160;
 /// Logical pixels.
 const MARK_WIDTH: f32 = 3.2;
 /// How much nearer to the eye a mark is drawn: metres on a body of 1.5 m, and half widths of the line.
@@ -106,6 +110,9 @@ impl Scenery {
         }
         if let Some(marks) = shown.marks {
             body_marks(marks, shown, covered, scale, &mut scene);
+        }
+        if let Some(ghosts) = shown.ghosts {
+            body_ghosts(ghosts, scale, &mut scene);
         }
         scene
     }
@@ -272,6 +279,21 @@ fn body_marks(marks: &Marks, shown: &Shown<'_>, covered: usize, scale: f32, scen
         let points = shown.stroke.iter().map(|p| p.as_vec3()).collect();
         // Above cloth that may lie there, so that the hand sees what it does.
         push_mark(scene, points, marks.body.len() + 1, MARK_WIDTH, ABOVE_ALL, scale);
+    }
+}
+
+/// Thinner than marks, and half transparent.
+fn body_ghosts(ghosts: &Marks, scale: f32, scene: &mut Scene) {
+    for (mark, number) in ghosts.body.iter().zip(1..) {
+        let points = mark.points.iter().map(|p| p.as_vec3()).collect();
+        let lines = scene.lines.len();
+        push_mark(scene, points, number, MARK_WIDTH * 0.55, ABOVE_ALL, scale);
+        for line in &mut scene.lines[lines..] {
+            (line.colour[3], line.halo[3]) = (GHOST, GHOST / 2);
+            if let Some(label) = scene.labels.last_mut() {
+                (label.colour[3], label.halo[3]) = (GHOST, GHOST);
+            }
+        }
     }
 }
 

@@ -23,6 +23,8 @@ pub struct Situation {
     pub marks: [usize; 2],
     /// The selected mark.
     pub selected: Option<(MarkId, MarkPlace)>,
+    /// Pairs of marks proposed and not accepted yet.
+    pub proposed: usize,
     /// There is a body that cloth can be put on.
     pub has_body: bool,
     /// There is cloth on the body.

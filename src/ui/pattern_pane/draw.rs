@@ -24,6 +24,9 @@ pub struct Drawing<'a> {
     pub palette: &'a Palette,
 }
 
+/// Opacity of proposed marks.
+const GHOST: f32 = 0.6;
+
 /// How a mark is drawn.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct MarkLook {
@@ -33,6 +36,8 @@ pub struct MarkLook {
     pub near: bool,
     /// It is the chosen one.
     pub selected: bool,
+    /// It is proposed only.
+    pub ghost: bool,
 }
 
 /// Whether the front of `piece` is seen.
@@ -129,22 +134,37 @@ impl Drawing<'_> {
                     paired: i < marks.body.len(),
                     near: near == Some(mark.id),
                     selected: selected == Some(mark.id),
+                    ghost: false,
                 };
                 self.mark(&points, i + 1, look);
             }
         }
     }
 
+    /// Proposed marks with the numbers they would have.
+    pub fn ghosts(&self, pattern: &Pattern, marks: &Marks) {
+        for (mark, number) in marks.cloth.iter().zip(1..) {
+            let Some(piece) = pattern.pieces.get(&mark.piece) else { continue };
+            let points: Vec<DVec2> = mark.points.iter().map(|&p| piece.pose.plane_from_piece(p)).collect();
+            self.mark(&points, number, MarkLook { ghost: true, ..MarkLook::default() });
+        }
+    }
+
     /// One mark, points on the table.
     pub fn mark(&self, points: &[DVec2], number: usize, look: MarkLook) {
-        let ink = colour(mark_colour(number));
-        let width = if look.near || look.selected { 5.0 } else { 3.0 };
+        let fade = if look.ghost { GHOST } else { 1.0 };
+        let [ink, halo] = [colour(mark_colour(number)), self.palette.halo].map(|c| c.gamma_multiply(fade));
+        let width = match look {
+            MarkLook { ghost: true, .. } => 1.6,
+            MarkLook { near, selected, .. } if near || selected => 5.0,
+            _ => 3.0,
+        };
         if let [only] = points {
             let at = self.place(*only);
-            self.painter.circle_filled(at, width + 2.4, self.palette.halo);
+            self.painter.circle_filled(at, width + 2.4, halo);
             self.painter.circle_filled(at, width + 0.6, ink);
         } else {
-            self.polyline(points, Stroke::new(width + 3.6, self.palette.halo));
+            self.polyline(points, Stroke::new(width + 3.6, halo));
             self.polyline(points, Stroke::new(width, ink));
         }
         if let Some(&first) = points.first() {
@@ -155,8 +175,9 @@ impl Drawing<'_> {
     fn number(&self, at: Pos2, number: usize, ink: Color32, look: MarkLook) {
         let text = number.to_string();
         let radius = if text.len() > 1 { 10.5 } else { 8.5 };
-        let (paper, letters) = if look.paired { (ink, Color32::WHITE) } else { (self.palette.halo, ink) };
-        self.painter.circle_filled(at, radius + 1.6, self.palette.halo);
+        let halo = if look.ghost { self.palette.halo.gamma_multiply(GHOST) } else { self.palette.halo };
+        let (paper, letters) = if look.paired { (ink, Color32::WHITE) } else { (halo, ink) };
+        self.painter.circle_filled(at, radius + 1.6, halo);
         self.painter.circle(at, radius, paper, Stroke::new(1.6, ink));
         if look.selected {
             self.painter.circle_stroke(at, radius + 3.2, Stroke::new(2.0, self.palette.accent));

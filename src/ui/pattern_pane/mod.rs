@@ -17,7 +17,7 @@ use crate::ui::actions::{Action, Tool};
 use crate::ui::asks::{Ask, Asks, in_one_step};
 use crate::ui::stroke;
 use crate::ui::theme::Palette;
-use crate::wrap::ClothSide;
+use crate::wrap::{ClothSide, Marks};
 use draw::{Drawing, MarkLook, front_is_seen};
 use shapes::Shapes;
 use threads::{Threads, to_polyline};
@@ -61,6 +61,8 @@ pub struct Laid<'a> {
     pub laser: bool,
     /// The mark that stands out.
     pub selected: Option<MarkId>,
+    /// Marks proposed and not accepted yet.
+    pub ghosts: Option<&'a Marks>,
     /// Colours.
     pub palette: &'a Palette,
 }
@@ -97,7 +99,10 @@ impl PatternPane {
         self.listen(ui, laid, pane, &response, under, asks);
         self.set_cursor(ui, tool, under, &response);
         self.draw(ui, laid, pane, under);
-        publish_marks(ui, document, pane, &self.view);
+        publish_marks(ui, document, &document.marks, "Mark", pane, &self.view);
+        if let Some(ghosts) = laid.ghosts {
+            publish_marks(ui, document, ghosts, "Proposed mark", pane, &self.view);
+        }
     }
 
     /// The stroke under way, in its piece's plane.
@@ -306,6 +311,9 @@ impl PatternPane {
         drawing.pieces(pattern, &self.shapes, under.piece);
         drawing.seams(pattern, &self.threads, under.seam);
         drawing.marks(pattern, &document.marks, under.mark, selected);
+        if let Some(ghosts) = laid.ghosts {
+            drawing.ghosts(pattern, ghosts);
+        }
         if let Some((id, points)) = self.stroke()
             && let Some(piece) = pattern.pieces.get(&id)
         {
@@ -373,14 +381,21 @@ fn mark_at(document: &Document, table: DVec2, reach: f64) -> Option<MarkId> {
 }
 
 /// Tells screen readers and tests where each mark is.
-fn publish_marks(ui: &egui::Ui, document: &Document, pane: Rect, view: &TableView) {
-    for (i, mark) in document.marks.cloth.iter().enumerate() {
+fn publish_marks(
+    ui: &egui::Ui,
+    document: &Document,
+    marks: &Marks,
+    what: &str,
+    pane: Rect,
+    view: &TableView,
+) {
+    for (i, mark) in marks.cloth.iter().enumerate() {
         if let (Some(piece), Some(&first)) = (document.pattern.pieces.get(&mark.piece), mark.points.first()) {
             let at = view.screen_from_table(pane, piece.pose.plane_from_piece(first));
             let rect = Rect::from_center_size(at, egui::vec2(12.0, 12.0));
-            let node = ui.interact(rect, ui.scope_id().with(("cloth mark", mark.id.0)), Sense::hover());
+            let node = ui.interact(rect, ui.scope_id().with((what, "on the cloth", i)), Sense::hover());
             node.widget_info(|| {
-                WidgetInfo::labeled(Role::Label, true, format!("Mark {} on the cloth", i + 1))
+                WidgetInfo::labeled(Role::Label, true, format!("{what} {} on the cloth", i + 1))
             });
         }
     }

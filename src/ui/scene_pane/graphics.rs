@@ -32,11 +32,13 @@ pub struct Key {
     pub near: Option<MarkId>,
     /// The mark that stands out.
     pub selected: Option<MarkId>,
+    /// With which proposed marks.
+    pub ghosts: Option<Arc<Marks>>,
 }
 
 impl PartialEq for Key {
     fn eq(&self, other: &Self) -> bool {
-        let Self { camera, look, size, body, cloth, marks, stroke, near, selected } = self;
+        let Self { camera, look, size, body, cloth, marks, stroke, near, selected, ghosts } = self;
         *camera == other.camera
             && *look == other.look
             && *size == other.size
@@ -46,6 +48,7 @@ impl PartialEq for Key {
             && same(body, &other.body)
             && same(cloth, &other.cloth)
             && same(marks, &other.marks)
+            && same(ghosts, &other.ghosts)
     }
 }
 

@@ -21,6 +21,7 @@ use crate::ui::asks::{Ask, Asks, in_one_step};
 use crate::ui::scene::{Scenery, Shown};
 use crate::ui::stroke;
 use crate::ui::theme::Palette;
+use crate::wrap::Marks;
 pub use graphics::{Graphics, Key};
 
 /// Radians the view turns for each point the pointer moves.
@@ -47,6 +48,8 @@ pub struct Seen<'a> {
     pub laser: bool,
     /// The mark that stands out.
     pub selected: Option<MarkId>,
+    /// Marks proposed and not accepted yet.
+    pub ghosts: Option<&'a Arc<Marks>>,
     /// Colours and light.
     pub look: Look,
     /// Colours of the interface.
@@ -106,7 +109,10 @@ impl ScenePane {
         self.listen(ui, seen, pane, &response, near, asks);
         self.set_cursor(ui, seen, near, pane, &response);
         self.show(ui, seen, near, pane);
-        publish_marks(ui, seen, pane, &self.camera);
+        publish_marks(ui, &seen.document.marks, "Mark", pane, &self.camera);
+        if let Some(ghosts) = seen.ghosts {
+            publish_marks(ui, ghosts, "Proposed mark", pane, &self.camera);
+        }
         view_buttons(ui, pane, seen.palette, asks);
     }
 
@@ -372,6 +378,7 @@ impl ScenePane {
             stroke: stroke.len(),
             near,
             selected: seen.selected,
+            ghosts: seen.ghosts.cloned(),
         };
         let shown = Shown {
             body: seen.body,
@@ -380,6 +387,7 @@ impl ScenePane {
             stroke: &stroke,
             near,
             selected: seen.selected,
+            ghosts: seen.ghosts.map(|g| &**g),
         };
         match graphics.picture(key, || self.scenery.scene(&shown)) {
             Ok(texture) => {
@@ -473,15 +481,15 @@ fn view_buttons(ui: &mut egui::Ui, pane: Rect, palette: &Palette, asks: &mut Ask
 }
 
 /// Tells screen readers and tests where each mark is.
-fn publish_marks(ui: &egui::Ui, seen: &Seen<'_>, pane: Rect, camera: &Camera) {
-    for (i, mark) in seen.document.marks.body.iter().enumerate() {
+fn publish_marks(ui: &egui::Ui, marks: &Marks, what: &str, pane: Rect, camera: &Camera) {
+    for (i, mark) in marks.body.iter().enumerate() {
         let place = mark.points.first().and_then(|p| camera.project(p.as_vec3(), size_of(pane)));
         if let Some(place) = place {
             let at = pane.min + egui::vec2(place.pixel.x, place.pixel.y);
             let rect = Rect::from_center_size(at, egui::vec2(12.0, 12.0));
-            let node = ui.interact(rect, ui.scope_id().with(("body mark", mark.id.0)), Sense::hover());
+            let node = ui.interact(rect, ui.scope_id().with((what, "on the body", i)), Sense::hover());
             node.widget_info(|| {
-                WidgetInfo::labeled(Role::Label, true, format!("Mark {} on the body", i + 1))
+                WidgetInfo::labeled(Role::Label, true, format!("{what} {} on the body", i + 1))
             });
         }
     }
