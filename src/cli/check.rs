@@ -59,7 +59,7 @@ fn of_project(project: &Project, with_body: bool) -> Findings {
         match body::surface_of(&document.body) {
             Ok(surface) => marks = PairLengths::all(document, &surface),
             Err(why) => {
-                let place = input::body_name(&document.body);
+                let place = document.body.name().to_owned();
                 problems.push(Problem { kind: ProblemKind::Body, place, words: why.to_string() });
             }
         }

@@ -50,7 +50,7 @@ pub enum Command {
     /// Start from another pattern with its strokes: a sample, an import. The cloth comes off.
     ReplacePattern { name: String, pattern: Arc<Pattern>, marks: Arc<Marks> },
 
-    /// Take another body. The cloth comes off and the strokes on the old body go.
+    /// Take another body. The cloth comes off; the strokes on the old body are carried to the new one where they find a place.
     SetBody { body: BodyChoice },
     /// Change mesh size and how the cloth relaxes.
     SetSettings { settings: Settings },

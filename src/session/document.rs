@@ -66,6 +66,16 @@ pub enum BodyChoice {
     },
 }
 
+impl BodyChoice {
+    /// For people.
+    pub fn name(&self) -> &str {
+        match self {
+            Self::Mannequin(_) => "mannequin",
+            Self::Imported { name, .. } => name,
+        }
+    }
+}
+
 impl PartialEq for BodyChoice {
     fn eq(&self, other: &Self) -> bool {
         match (self, other) {

@@ -181,7 +181,14 @@ impl App {
         if self.show_panel {
             Panel::right("side").default_size(256.0).size_range(220.0..=420.0).frame(thick).show(ui, |ui| {
                 let surface = self.session.surface();
-                let told = Told { document, surface, problems: &snapshot.problems, now, palette };
+                let told = Told {
+                    document,
+                    surface,
+                    problems: &snapshot.problems,
+                    lost: self.session.problems(),
+                    now,
+                    palette,
+                };
                 side_panel::side_panel_ui(ui, &told, &mut self.marks_panel, asks);
             });
         }
@@ -327,10 +334,20 @@ impl App {
     pub(super) fn apply(&mut self, command: Command) {
         self.end_drag();
         let is_wrap = command == Command::Wrap;
+        let is_body = matches!(command, Command::SetBody { .. });
         match self.session.apply_alone(command) {
             Ok(()) if is_wrap => self.wrap_seq = Some(self.session.last_seq()),
+            Ok(()) if is_body => self.tell_lost_marks(),
             Ok(()) => {}
             Err(why) => self.messages.error(sentence(&why.0)),
+        }
+    }
+
+    fn tell_lost_marks(&mut self) {
+        let lost = self.session.problems();
+        if !lost.is_empty() {
+            let places: Vec<&str> = lost.iter().map(|p| p.place.as_str()).collect();
+            self.messages.error(format!("Not carried to the new body: {}.", places.join(", ")));
         }
     }
 

@@ -88,6 +88,10 @@ impl MarksPanel {
     ) {
         ui.separator();
         ui.label(RichText::new(format!("Selected: {place}")).strong());
+        if let Some(landmark) = told.document.marks.landmark(mark) {
+            let words = format!("near {}", landmark.replace('_', " "));
+            ui.label(RichText::new(words).color(told.palette.weak).size(12.5));
+        }
         ui.horizontal(|ui| {
             let label = ui.label(RichText::new("Name").color(told.palette.weak));
             self.name_ui(ui, told, mark, asks, label.id);
@@ -207,6 +211,7 @@ fn stretch_ui(ui: &mut egui::Ui, told: &Told<'_>, pair: &PairStretch) {
 fn strokes_ui(ui: &mut egui::Ui, told: &Told<'_>, number: usize, asks: &mut Asks) {
     let marks = &told.document.marks;
     ui.spacing_mut().item_spacing.x = 2.0;
+    ui.spacing_mut().button_padding.x = 4.0;
     let mut stroke = |ui: &mut egui::Ui, mark: MarkId, otherwise: &str, side: &str| {
         let given = marks.name(mark);
         let is_selected = told.now.selected.is_some_and(|(selected, _)| selected == mark);

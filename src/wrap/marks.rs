@@ -51,6 +51,22 @@ pub struct Marks {
     /// Names people gave to strokes; one without a name is not in it.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub names: BTreeMap<MarkId, String>,
+    /// How each point of a stroke on the body is tied to the body's skin. Told by the session; a stroke that came from
+    /// elsewhere has none until it is needed.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub ties: BTreeMap<MarkId, Vec<Tie>>,
+}
+
+/// Where a point lies on a body, so that it can be found again when the body moves or another takes its place.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Tie {
+    /// The body's triangle.
+    pub triangle: u32,
+    /// Barycentric weights of its corners.
+    pub weights: DVec3,
+    /// The named point it stands for, if it is near one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub landmark: Option<String>,
 }
 
 impl Marks {
@@ -69,6 +85,11 @@ impl Marks {
         self.names.get(&mark).map_or("", String::as_str)
     }
 
+    /// The first landmark a stroke on the body passes.
+    pub fn landmark(&self, mark: MarkId) -> Option<&str> {
+        self.ties.get(&mark)?.iter().find_map(|tie| tie.landmark.as_deref())
+    }
+
     /// Where a stroke stands: whether on the cloth, its number from 1, and how many strokes that side has.
     pub fn place(&self, mark: MarkId) -> Option<MarkPlace> {
         let [cloth, body] =
@@ -82,6 +103,7 @@ impl Marks {
     pub fn prune(&mut self) {
         let ids: Vec<MarkId> = self.ids().collect();
         self.names.retain(|id, _| ids.contains(id));
+        self.ties.retain(|id, _| ids.contains(id));
     }
 }
 

@@ -128,10 +128,15 @@ fn another_body_takes_cloth_and_strokes_off() {
         .expect("set");
     s.update();
     assert!(!s.snapshot().is_dressed() && s.document().marks.body.is_empty());
+    assert!(
+        s.problems()[0].place == "mark 1" && s.problems()[0].words.contains("small"),
+        "{:?}",
+        s.problems()
+    );
     assert!(s.surface().is_some_and(|surface| surface.bounds().1.x < 0.6));
     s.apply_alone(Command::Undo).expect("undone");
     s.update();
-    assert!(s.snapshot().is_dressed() && s.document().marks.body.len() == 1);
+    assert!(s.snapshot().is_dressed() && s.document().marks.body.len() == 1 && s.problems().is_empty());
     assert!(s.surface().is_some_and(|surface| surface.bounds().1.x > 0.7));
 }
 

@@ -77,6 +77,16 @@ fn names_of_marks_are_kept_and_old_files_have_none() {
 }
 
 #[test]
+fn places_of_marks_on_the_body_are_kept() {
+    let mut s = session();
+    s.apply_alone(Command::AddBodyMark { points: crate::common::line_on_ball(0.75, 0.1, 0.1) })
+        .expect("painted");
+    let project = s.project();
+    assert_eq!(project.document.marks.ties.values().map(Vec::len).collect::<Vec<_>>(), [3, 3]);
+    assert_eq!(from_bytes(&to_bytes(&project).expect("bytes")).expect("a project"), project);
+}
+
+#[test]
 fn bad_files_are_refused_in_words() {
     let text = String::from_utf8(to_bytes(&plain()).expect("bytes")).expect("json");
     refused(b"", "empty");

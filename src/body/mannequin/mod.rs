@@ -21,9 +21,9 @@ use std::sync::{Arc, Mutex, OnceLock};
 
 use glam::DVec3;
 
-pub use landmarks::Landmarks;
 pub use measurements::{Measurements, OutOfRange};
 
+use super::landmarks::Landmarks;
 use super::measure::Tape;
 use super::skeleton::Skeleton;
 use super::surface::closest_on_triangle;

@@ -129,10 +129,14 @@ pub fn marks(marks: &Marks, pattern: &Pattern) -> Result<(), Rejection> {
         stroke_3d(&mark.points)?;
     }
     marks.names.values().try_for_each(|given| name(given))?;
+    if marks.ties.values().flatten().any(|tie| !tie.weights.is_finite()) {
+        return Err(Rejection::new("a mark is tied to the body by what is no number"));
+    }
     let mut ids: Vec<MarkId> = marks.ids().collect();
     ids.sort_unstable();
-    if let Some(nobody) = marks.names.keys().find(|id| ids.binary_search(id).is_err()) {
-        return Err(Rejection(format!("{nobody} has a name but is not there")));
+    let mut told = marks.names.keys().chain(marks.ties.keys());
+    if let Some(nobody) = told.find(|id| ids.binary_search(id).is_err()) {
+        return Err(Rejection(format!("{nobody} has a name or a place but is not there")));
     }
     match ids.windows(2).find(|w| w[0] == w[1]) {
         Some(w) => Err(Rejection(format!("{} is there twice", w[0]))),

@@ -8,8 +8,12 @@ mod seams;
 mod settings;
 mod wrap;
 
-use crate::pattern::Pattern;
+use std::sync::Arc;
+
+use crate::pattern::{Pattern, Problem};
 use crate::relax::RelaxSettings;
+use crate::session::body::BodyCache;
+use crate::session::carry;
 use crate::session::command::{Command, Rejection};
 use crate::session::document::Document;
 use crate::session::history::StepKind;
@@ -38,11 +42,13 @@ pub struct Edit {
     pub label: String,
     /// What it asks of the simulation.
     pub cloth: ClothChange,
+    /// What was lost by it, in words.
+    pub problems: Vec<Problem>,
 }
 
 impl Edit {
     fn new(label: impl Into<String>, document: Document) -> Self {
-        Self { document, label: label.into(), cloth: ClothChange::None }
+        Self { document, label: label.into(), cloth: ClothChange::None, problems: Vec::new() }
     }
 
     fn with(self, cloth: ClothChange) -> Self {
@@ -65,7 +71,20 @@ impl Edit {
 }
 
 /// What `command` does to `document`. Commands about history belong to the session and are refused here.
-pub fn edit(document: &Document, command: &Command) -> Result<Edit, Rejection> {
+///
+/// `bodies` only saves making the same body twice. New strokes on the body are tied to it.
+pub fn edit(document: &Document, command: &Command, bodies: &mut BodyCache) -> Result<Edit, Rejection> {
+    let mut edit = untied(document, command, bodies)?;
+    let new = &mut edit.document;
+    if !Arc::ptr_eq(&new.marks, &document.marks)
+        && let Ok(body) = bodies.body(&new.body)
+    {
+        carry::tie(&mut new.marks, &body);
+    }
+    Ok(edit)
+}
+
+fn untied(document: &Document, command: &Command, bodies: &mut BodyCache) -> Result<Edit, Rejection> {
     let new = document.clone();
     match command {
         Command::AddClothMark { piece, side, points } => marks::add_cloth(new, *piece, *side, points),
@@ -85,7 +104,7 @@ pub fn edit(document: &Document, command: &Command) -> Result<Edit, Rejection> {
         Command::DeleteSeam { seam } => seams::delete(new, *seam),
         Command::ReverseSeam { seam } => seams::reverse(new, *seam),
         Command::ReplacePattern { name, pattern, marks } => pieces::replace_all(new, name, pattern, marks),
-        Command::SetBody { body } => body::set(new, body),
+        Command::SetBody { body } => body::set(new, body, bodies),
         Command::SetSettings { settings } => settings::set(new, settings),
         Command::Wrap => wrap::wrap(new),
         Command::Unwrap => wrap::unwrap(new),
