@@ -451,6 +451,36 @@ fn wrap_grows_cloth_round_the_body_and_undo_takes_it_off() {
 }
 
 #[test]
+fn two_clicks_and_wrap_dress_the_ball_by_a_point() {
+    // Without weight: nothing else would keep the square from gliding off the ball.
+    let mut project = project();
+    project.document.settings.relax.gravity = 0.0;
+    let mut window = window_on(project, None);
+    for label in ["Pattern pane", "Body pane"] {
+        let at = pane(&window, label).center();
+        drag(&mut window, &[at], PointerButton::Primary);
+    }
+    assert!(window.query_by_label("point").is_some(), "a point has no stretch");
+    window.get_by_label("Wrap").click();
+    window.run_steps(2);
+    wait(&mut window, "the wrap", |app| {
+        let snapshot = app.session().snapshot();
+        snapshot.is_dressed() && !snapshot.working
+    });
+    let snapshot = Arc::clone(app(&window).session().snapshot());
+    assert!(snapshot.cloth.mapped.iter().all(|&m| m), "all of the square lies on the ball");
+    // Its middle lies at the point, and the pattern's up is the body's.
+    let garment = snapshot.garment.as_ref().expect("a garment");
+    let at = |uv: DVec2| {
+        let nearest = garment.corners.iter().min_by(|a, b| a.uv.distance(uv).total_cmp(&b.uv.distance(uv)));
+        snapshot.cloth.positions[nearest.expect("a corner").vertex as usize]
+    };
+    let point = app(&window).session().document().marks.body[0].points[0];
+    assert!(at(DVec2::ZERO).distance(point) < 0.03, "{}", at(DVec2::ZERO));
+    assert!(at(DVec2::new(0.0, 0.15)).y > point.y + 0.08 && at(DVec2::new(0.15, 0.0)).x > point.x + 0.08);
+}
+
+#[test]
 fn nothing_is_drawn_while_nothing_changes() {
     let device = egui_wgpu_device();
     let with_pictures = device.is_some();
