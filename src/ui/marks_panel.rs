@@ -87,7 +87,12 @@ impl MarksPanel {
         asks: &mut Asks,
     ) {
         ui.separator();
-        ui.label(RichText::new(format!("Selected: {place}")).strong());
+        ui.horizontal(|ui| {
+            ui.label(RichText::new(format!("Selected: {place}")).strong());
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                action_ui(ui, told, Action::DeleteMark, "Delete", asks);
+            });
+        });
         if let Some(landmark) = told.document.marks.landmark(mark) {
             let words = format!("near {}", landmark.replace('_', " "));
             ui.label(RichText::new(words).color(told.palette.weak).size(12.5));
@@ -107,16 +112,8 @@ impl MarksPanel {
             if value.drag_stopped() || (value.changed() && !value.dragged()) {
                 asks.push(Ask::EndDrag);
             }
-            for (action, text) in
-                [(Action::RaiseMark, "Up"), (Action::LowerMark, "Down"), (Action::DeleteMark, "Delete")]
-            {
-                let why_not = told.now.why_not(action);
-                let button = ui.add_enabled(why_not.is_none(), Button::new(text).small());
-                name(&button, action.entry().text);
-                let button = button.on_disabled_hover_text(why_not.unwrap_or_default());
-                if button.on_hover_text(action.entry().tip).clicked() {
-                    asks.push(Ask::Act(action));
-                }
+            for (action, text) in [(Action::RaiseMark, "Up"), (Action::LowerMark, "Down")] {
+                action_ui(ui, told, action, text, asks);
             }
         });
     }
@@ -141,6 +138,17 @@ impl MarksPanel {
         } else if !field.has_focus() && text != known {
             known.clone_into(text);
         }
+    }
+}
+
+/// A small button with a word of its own for `action`.
+fn action_ui(ui: &mut egui::Ui, told: &Told<'_>, action: Action, text: &str, asks: &mut Asks) {
+    let why_not = told.now.why_not(action);
+    let button = ui.add_enabled(why_not.is_none(), Button::new(text).small());
+    name(&button, action.entry().text);
+    let button = button.on_disabled_hover_text(why_not.unwrap_or_default());
+    if button.on_hover_text(action.entry().tip).clicked() {
+        asks.push(Ask::Act(action));
     }
 }
 
