@@ -10,7 +10,7 @@
 //! | --- | --- | --- |
 //! | `geometry` | ids, curves, meshes and adjacency, no cloth words | nothing of ours |
 //! | `pattern`  | the flat garment: piece, seam, triangulation, problems a person can fix | geometry |
-//! | `body`     | surface (nearest point, ray, walk), import checks, mannequin, skeleton, measurements | geometry |
+//! | `body`     | surface (nearest point, ray, walk), import checks, mannequin, skeleton, landmarks, measurements | geometry |
 //! | `cloth`    | the sewn garment as solvers see it: topology and rest shape, moving state | pattern, geometry |
 //! | `contact`  | cloth against body and itself | cloth, body, geometry |
 //! | `relax`    | paper A's relaxation: shape match, flatten, gravity, friction | contact, cloth, body, geometry |

@@ -9,8 +9,10 @@ mod scenario;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use toile::session::Session;
 use toile::session::recording::{Recording, machine};
 use toile::session::replay::{Replay, recorded_again};
+use toile::sim::{Runner, Simulation};
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/replays")
@@ -25,11 +27,16 @@ fn recordings() -> Vec<PathBuf> {
 }
 
 fn bless() {
-    let first = folder().join("ball.jsonl");
-    if !first.exists() {
-        let mut session = common::session();
-        scenario::play(&mut session);
-        fs::write(first, session.recording()).expect("written");
+    for (name, project, play) in [
+        ("ball.jsonl", common::project(), scenario::play as fn(&mut Session)),
+        ("laser.jsonl", common::tube_project(), scenario::laser),
+    ] {
+        let path = folder().join(name);
+        if !path.exists() {
+            let mut session = Session::new(project, Runner::inline(Simulation::default()));
+            play(&mut session);
+            fs::write(path, session.recording()).expect("written");
+        }
     }
     for path in recordings() {
         let text = fs::read_to_string(&path).expect("read");

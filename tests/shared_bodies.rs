@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
-use toile::body::{Imported, Unit, guess_unit, import};
+use toile::body::{Imported, Unit, guess_unit, import, landmarks};
 use toile::io::obj;
 
 fn bytes(name: &str) -> Option<Vec<u8>> {
@@ -44,6 +44,46 @@ fn closed_bodies_are_taken_as_they_are() {
     check("nonhuman/spot.obj", 11533, 23062, 1.748, 0.688);
     check("nonhuman/koala_low_resolution.obj", 3560, 7116, 5.339, 56.11);
     check("nonhuman/octopus_surface.obj", 881, 1758, 10.325, 46.15);
+}
+
+/// Heights over the height of the body, to within 3 %.
+#[test]
+fn landmarks_are_found_on_humans() {
+    let humans = [
+        ("makehuman/mh_base_rest.obj", 0.47),
+        ("makehuman/mh_female_rest.obj", 0.465),
+        ("makehuman/mh_male_rest.obj", 0.48),
+        ("makehuman/mh_female_tpose.obj", 0.465),
+        ("garmentcode/mean_all.obj", 0.455),
+        ("garmentcode/mean_all_tpose.obj", 0.455),
+    ];
+    for (name, crotch) in humans {
+        let Some(body) = body(name) else { return };
+        let found = landmarks::found(&body.mesh).unwrap_or_else(|| panic!("{name}"));
+        let share = |l: &str| (found.get(l).expect(l).y - body.report.lowest) / body.report.size.y;
+        let heights = ["crotch", "waist_front", "throat_front", "crown"].map(share);
+        println!(
+            "{name}: {heights:.3?} shoulder {:.3} hip {:.3}",
+            share("shoulder_left"),
+            share("hip_front")
+        );
+        for (height, wanted) in heights.into_iter().zip([crotch, 0.65, 0.86, 1.0]) {
+            assert!((height - wanted).abs() < 0.03, "{name}: {heights:?}");
+        }
+        assert!((0.78..0.85).contains(&share("shoulder_right")), "{name}");
+        let [left, right] = ["hand_left", "hand_right"].map(|l| found.get(l).expect(l).x);
+        assert!(left > 0.35 && (left + right).abs() < 0.01, "{name}: {left} {right}");
+        let arms_hang = !name.contains("tpose");
+        assert_eq!(found.get("forearm_left_front").is_some(), arms_hang, "{name}");
+    }
+}
+
+#[test]
+fn animals_have_no_landmarks() {
+    for name in ["spot.obj", "koala_low_resolution.obj", "octopus_surface.obj"] {
+        let Some(body) = body(&format!("nonhuman/{name}")) else { return };
+        assert!(landmarks::found(&body.mesh).is_none(), "{name}");
+    }
 }
 
 #[test]

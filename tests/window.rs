@@ -6,12 +6,18 @@ use std::time::{Duration, Instant};
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, Rect, Vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
-use glam::{DVec2, DVec3};
+use glam::{DQuat, DVec2, DVec3};
 use toile::body::Surface;
 use toile::geometry::mesh::TriMesh;
-use toile::pattern::Piece;
+use toile::pattern::{Piece, SpacePose};
 use toile::session::{BodyChoice, Document, Project};
 use toile::ui::App;
+use toile::wrap::ClothSide;
+
+#[path = "window/files.rs"]
+mod files;
+#[path = "window/hand.rs"]
+mod hand;
 
 type Window = Harness<'static, Option<App>>;
 
@@ -206,6 +212,8 @@ fn a_stroke_on_the_body_lies_on_its_skin() {
     let skin = Surface::new(ball(0.25)).expect("a ball");
     let points = &app(&window).session().document().marks.body[0].points;
     assert!(points.len() > 5);
+    let steps: Vec<f64> = points.windows(2).map(|w| w[0].distance(w[1])).collect();
+    assert!(steps.iter().all(|s| (0.006..0.009).contains(s)), "evenly spaced: {steps:?}");
     assert!(points.iter().all(|&p| skin.nearest(p).distance.abs() < 1e-6 && p.z > 0.0));
 }
 
@@ -220,6 +228,159 @@ fn a_fast_stroke_on_the_body_is_followed_all_the_way() {
     let marks = &app(&window).session().document().marks;
     let length = |i: usize| marks.body[i].points.windows(2).map(|w| w[0].distance(w[1])).sum::<f64>();
     assert!((length(0) / length(1) - 1.0).abs() < 0.05, "{} {}", length(0), length(1));
+}
+
+#[test]
+fn the_laser_marks_both_sides_of_the_body_in_one_step() {
+    let mut window = window();
+    key(&mut window, Modifiers::NONE, Key::L);
+    let path = line(pane(&window, "Body pane"), Vec2::new(60.0, 10.0));
+    drag(&mut window, &path, PointerButton::Primary);
+    let body = app(&window).session().document().marks.body.clone();
+    assert_eq!(body.len(), 2);
+    assert!(body[0].points.iter().all(|p| p.z > 0.0) && body[1].points.iter().all(|p| p.z < 0.0));
+    let skin = Surface::new(ball(0.25)).expect("a ball");
+    assert!(body[1].points.iter().all(|&p| skin.nearest(p).distance.abs() < 1e-6));
+    assert_eq!(app(&window).session().step_labels().count(), 1);
+    key(&mut window, Modifiers::COMMAND, Key::Z);
+    assert_eq!(counts(&window), [0, 0]);
+    drag(&mut window, &path[5..6], PointerButton::Primary);
+    assert_eq!(counts(&window), [0, 2], "a click makes two dots");
+    key(&mut window, Modifiers::NONE, Key::L);
+    drag(&mut window, &path, PointerButton::Primary);
+    assert_eq!(counts(&window), [0, 3], "without the laser only the near side");
+}
+
+/// The square and below it a wider one, turned over.
+fn two_layers() -> Project {
+    let mut project = project();
+    let pattern = Arc::make_mut(&mut project.document.pattern);
+    let (id, top) = pattern.pieces.pop_first().expect("the square");
+    let corners = [[-0.3, -0.2], [0.3, -0.2], [0.3, 0.2], [-0.3, 0.2]].map(DVec2::from);
+    let mut under = Piece::polygon("Under", &corners);
+    under.pose.flipped = true;
+    pattern.pieces.insert(id, Arc::new(under));
+    pattern.add_piece(Piece::clone(&top));
+    project
+}
+
+#[test]
+fn the_laser_marks_every_piece_that_lies_there() {
+    let mut window = window_on(two_layers(), None);
+    key(&mut window, Modifiers::NONE, Key::L);
+    let path = line(pane(&window, "Pattern pane"), Vec2::new(30.0, 10.0));
+    drag(&mut window, &path, PointerButton::Primary);
+    let document = app(&window).session().document();
+    let marks = &document.marks.cloth;
+    let on = |i: usize| document.pattern.pieces[&marks[i].piece].name.as_str();
+    assert_eq!((marks.len(), on(0), on(1)), (2, "Square", "Under"));
+    for (a, b) in marks[0].points.iter().zip(&marks[1].points) {
+        assert!((*a - DVec2::new(-b.x, b.y)).length() < 1e-9, "{a} {b}");
+    }
+    assert!(marks.iter().all(|m| m.side == ClothSide::Front), "outer sides, however they lie");
+    assert_eq!(app(&window).session().step_labels().count(), 1);
+}
+
+/// The square, said to hang before the ball.
+fn placed() -> Project {
+    let mut project = project();
+    let pattern = Arc::make_mut(&mut project.document.pattern);
+    for piece in pattern.pieces.values_mut() {
+        let placement = SpacePose { translation: DVec3::new(0.0, 0.0, 0.4), rotation: DQuat::IDENTITY };
+        let piece = Arc::make_mut(piece);
+        (piece.placement, piece.label) = (Some(placement), Some("body".to_owned()));
+    }
+    project
+}
+
+#[test]
+fn proposed_marks_are_seen_and_accepted_or_dismissed() {
+    let mut window = window_on(placed(), None);
+    let suggest = |window: &mut Window| {
+        window.get_by_label("Edit").click();
+        window.run_steps(3);
+        window.get_by_label("Suggest marks").click();
+        window.run_steps(3);
+    };
+    suggest(&mut window);
+    for side in ["cloth", "body"] {
+        assert!(window.query_by_label(&format!("Proposed mark 1 on the {side}")).is_some(), "{side}");
+    }
+    assert!(!app(&window).session().is_modified(), "ghosts are not in the document");
+    key(&mut window, Modifiers::NONE, Key::Escape);
+    assert!(window.query_by_label("Accept").is_none());
+    assert_eq!(counts(&window), [0, 0]);
+    for by_key in [true, false] {
+        suggest(&mut window);
+        if by_key {
+            key(&mut window, Modifiers::NONE, Key::Enter);
+        } else {
+            window.get_by_label("Accept").click();
+            window.run_steps(3);
+        }
+        assert_eq!(counts(&window), [1, 1]);
+        assert!(window.query_by_label_contains("Proposed").is_none());
+        assert_eq!(app(&window).session().step_labels().collect::<Vec<_>>(), ["replace all marks"]);
+        key(&mut window, Modifiers::COMMAND, Key::Z);
+    }
+}
+
+/// Labels of the two strokes of the first pair in the list.
+const FIRST: [&str; 2] = ["Square: select mark 1 on the cloth", "body: select mark 1 on the body"];
+
+#[test]
+fn a_mark_is_selected_in_a_pane_or_in_the_list_and_deleted() {
+    let mut window = window();
+    paint_both(&mut window);
+    for label in ["Pattern pane", "Body pane"] {
+        assert!(window.query_by_label_contains("Selected:").is_none());
+        let at = pane(&window, label).center();
+        drag(&mut window, &[at], PointerButton::Primary);
+        assert_eq!(counts(&window), [1, 1], "a click on a mark paints none");
+        assert!(window.query_by_label_contains("Selected: mark 1 on the").is_some(), "{label}");
+        key(&mut window, Modifiers::NONE, Key::Escape);
+    }
+    window.get_by_label(FIRST[1]).click();
+    window.run_steps(3);
+    assert!(window.query_by_label("Selected: mark 1 on the body").is_some());
+    key(&mut window, Modifiers::NONE, Key::Delete);
+    assert_eq!(counts(&window), [1, 0]);
+    assert!(window.query_by_label_contains("Selected:").is_none());
+}
+
+#[test]
+fn the_selected_mark_is_moved_in_the_order_and_named() {
+    let mut window = window();
+    for x in [-60.0, 60.0] {
+        let at = pane(&window, "Pattern pane").center() + Vec2::new(x, 0.0);
+        drag(&mut window, &[at], PointerButton::Primary);
+    }
+    let ids = |w: &Window| app(w).session().document().marks.cloth.iter().map(|m| m.id.0).collect::<Vec<_>>();
+    window.get_by_label(FIRST[0]).click();
+    window.run_steps(3);
+    key(&mut window, Modifiers::COMMAND, Key::ArrowDown);
+    assert_eq!(ids(&window), [2, 1]);
+    assert!(window.query_by_label("Selected: mark 2 on the cloth").is_some(), "the selection goes with it");
+    window.get_by_label("Move mark up").click();
+    window.run_steps(3);
+    assert_eq!(ids(&window), [1, 2]);
+    assert!(window.get_by_label("Move mark up").accesskit_node().is_disabled());
+    window.get_by_role_and_label(egui::accesskit::Role::TextInput, "Name").focus();
+    window.run_steps(2);
+    window.get_by_role_and_label(egui::accesskit::Role::TextInput, "Name").type_text("hem");
+    window.run_steps(2);
+    key(&mut window, Modifiers::NONE, Key::Enter);
+    assert_eq!(app(&window).session().document().marks.names.values().collect::<Vec<_>>(), ["hem"]);
+    assert!(window.query_by_label("hem: select mark 1 on the cloth").is_some());
+    assert!(!app(&window).session().snapshot().is_dressed(), "Enter in a name does not wrap");
+}
+
+#[test]
+fn the_list_tells_the_stretch_of_each_pair() {
+    let mut window = window();
+    paint_both(&mut window);
+    let found = window.query_by_label_contains("Stretch of pair 1: ").is_some();
+    assert!(found, "before any wrap");
 }
 
 #[test]
@@ -295,6 +456,36 @@ fn wrap_grows_cloth_round_the_body_and_undo_takes_it_off() {
 }
 
 #[test]
+fn two_clicks_and_wrap_dress_the_ball_by_a_point() {
+    // Without weight: nothing else would keep the square from gliding off the ball.
+    let mut project = project();
+    project.document.settings.relax.gravity = 0.0;
+    let mut window = window_on(project, None);
+    for label in ["Pattern pane", "Body pane"] {
+        let at = pane(&window, label).center();
+        drag(&mut window, &[at], PointerButton::Primary);
+    }
+    assert!(window.query_by_label("point").is_some(), "a point has no stretch");
+    window.get_by_label("Wrap").click();
+    window.run_steps(2);
+    wait(&mut window, "the wrap", |app| {
+        let snapshot = app.session().snapshot();
+        snapshot.is_dressed() && !snapshot.working
+    });
+    let snapshot = Arc::clone(app(&window).session().snapshot());
+    assert!(snapshot.cloth.mapped.iter().all(|&m| m), "all of the square lies on the ball");
+    // Its middle lies at the point, and the pattern's up is the body's.
+    let garment = snapshot.garment.as_ref().expect("a garment");
+    let at = |uv: DVec2| {
+        let nearest = garment.corners.iter().min_by(|a, b| a.uv.distance(uv).total_cmp(&b.uv.distance(uv)));
+        snapshot.cloth.positions[nearest.expect("a corner").vertex as usize]
+    };
+    let point = app(&window).session().document().marks.body[0].points[0];
+    assert!(at(DVec2::ZERO).distance(point) < 0.03, "{}", at(DVec2::ZERO));
+    assert!(at(DVec2::new(0.0, 0.15)).y > point.y + 0.08 && at(DVec2::new(0.15, 0.0)).x > point.x + 0.08);
+}
+
+#[test]
 fn nothing_is_drawn_while_nothing_changes() {
     let device = egui_wgpu_device();
     let with_pictures = device.is_some();
@@ -359,34 +550,6 @@ fn what_was_done_in_the_window_replays_to_the_same_hashes() {
 }
 
 #[test]
-fn a_body_in_centimetres_is_asked_about() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let path = folder.path().join("ball.obj");
-    std::fs::write(&path, toile::io::obj::mesh("ball", &ball(85.0))).expect("a file");
-    let mut window = window();
-    window.get_by_label("File").click();
-    window.run_steps(3);
-    window.get_by_label("Import body…").click();
-    window.run_steps(3);
-    if window.query_by_label("Read").is_none() {
-        println!("skipped: this desktop may have a dialog of its own");
-        return;
-    }
-    window.get_by_role(egui::accesskit::Role::TextInput).focus();
-    window.run_steps(2);
-    window.get_by_role(egui::accesskit::Role::TextInput).type_text(&path.display().to_string());
-    window.run_steps(2);
-    window.get_by_label("Read").click();
-    window.run_steps(3);
-    assert!(window.query_by_label("cm: the body is 1.70 m tall").is_some());
-    window.get_by_label("Take it").click();
-    window.run_steps(3);
-    let (lower, upper) = app(&window).session().surface().expect("a body").bounds();
-    assert!(((upper - lower).y - 1.7).abs() < 1e-6);
-    assert!(app(&window).session().undo_label().is_some());
-}
-
-#[test]
 fn the_wheel_zooms_to_the_pointer() {
     let mut window = window();
     let area = pane(&window, "Pattern pane");
@@ -412,54 +575,6 @@ fn the_wheel_zooms_to_the_pointer() {
     let grown = (place(&window, "Mark 2 on the cloth") - at).length() / (other - at).length();
     assert!(grown > 1.2, "{grown}");
     assert_eq!(app(&window).session().step_labels().count(), steps);
-}
-
-#[test]
-fn closing_with_changes_asks_first() {
-    let mut window = window();
-    let close = |window: &mut Window| {
-        let root = window.input_mut().viewports.entry(egui::ViewportId::ROOT).or_default();
-        root.events.push(egui::ViewportEvent::Close);
-        window.run_steps(1);
-        let root = window.input_mut().viewports.entry(egui::ViewportId::ROOT).or_default();
-        root.events.clear();
-        window.run_steps(2);
-    };
-    close(&mut window);
-    assert!(window.query_by_label("Don't save").is_none(), "nothing is unsaved yet");
-    let at = pane(&window, "Pattern pane").center();
-    drag(&mut window, &[at], PointerButton::Primary);
-    close(&mut window);
-    window.get_by_label("Cancel").click();
-    window.run_steps(3);
-    assert!(window.query_by_label("Don't save").is_none());
-    assert_eq!(counts(&window), [1, 0]);
-}
-
-#[test]
-fn a_project_is_saved_by_a_typed_path_where_the_desktop_has_no_dialog() {
-    if std::env::var_os("DBUS_SESSION_BUS_ADDRESS").is_some() {
-        println!("skipped: this desktop may have a dialog of its own");
-        return;
-    }
-    let folder = tempfile::tempdir().expect("a folder");
-    let path = folder.path().join("saved");
-    let mut window = window();
-    let at = pane(&window, "Pattern pane").center();
-    drag(&mut window, &[at], PointerButton::Primary);
-    key(&mut window, Modifiers::COMMAND, Key::S);
-    let field = window.get_by_role(egui::accesskit::Role::TextInput);
-    field.focus();
-    window.run_steps(2);
-    window.key_press_modifiers(Modifiers::COMMAND, Key::A);
-    window.run_steps(1);
-    window.get_by_role(egui::accesskit::Role::TextInput).type_text(&path.display().to_string());
-    window.run_steps(2);
-    window.get_by_label("Write").click();
-    window.run_steps(3);
-    let saved = toile::session::project_file::open(&path.with_extension("toile")).expect("a project");
-    assert_eq!(&saved.document, app(&window).session().document());
-    assert!(!app(&window).session().is_modified());
 }
 
 #[test]
@@ -511,76 +626,4 @@ fn letters_choose_tools_even_after_a_slider_was_used() {
     }
     key(&mut window, Modifiers::COMMAND, Key::Z);
     assert_eq!(app(&window).session().document().settings, Document::default().settings);
-}
-
-/// A window with cloth at rest on the body.
-fn dressed_window() -> Window {
-    let mut window = window();
-    paint_both(&mut window);
-    window.get_by_label("Wrap").click();
-    window.run_steps(2);
-    let at_rest = |app: &App| {
-        let snapshot = app.session().snapshot();
-        snapshot.is_dressed() && !snapshot.working
-    };
-    wait(&mut window, "the cloth to rest", at_rest);
-    window
-}
-
-fn positions(window: &Window) -> Vec<DVec3> {
-    app(window).session().snapshot().cloth.positions.clone()
-}
-
-#[test]
-fn either_button_drags_cloth_with_the_drag_tool() {
-    for with in [PointerButton::Primary, PointerButton::Secondary] {
-        let mut window = dressed_window();
-        let (before, steps) = (positions(&window), app(&window).session().step_labels().count());
-        key(&mut window, Modifiers::NONE, Key::D);
-        let area = pane(&window, "Body pane");
-        drag(&mut window, &line(area, Vec2::new(40.0, 0.0)), with);
-        wait(&mut window, "the cloth to settle", |app| {
-            let snapshot = app.session().snapshot();
-            snapshot.dragged.is_none() && !snapshot.working
-        });
-        assert_eq!(app(&window).session().step_labels().count(), steps + 1);
-        assert_eq!(app(&window).session().undo_label(), Some("drag the cloth"));
-        assert_ne!(positions(&window), before);
-        key(&mut window, Modifiers::COMMAND, Key::Z);
-        wait(&mut window, "the undo", |app| app.session().snapshot().cloth.positions == before);
-    }
-}
-
-#[test]
-fn escape_puts_dragged_cloth_back() {
-    let mut window = dressed_window();
-    let before = positions(&window);
-    key(&mut window, Modifiers::NONE, Key::D);
-    let area = pane(&window, "Body pane");
-    press_along(&mut window, &line(area, Vec2::new(40.0, 0.0)), PointerButton::Primary);
-    wait(&mut window, "the drag", |app| app.session().snapshot().dragged.is_some());
-    key(&mut window, Modifiers::NONE, Key::Escape);
-    wait(&mut window, "the cloth back", |app| {
-        let snapshot = app.session().snapshot();
-        snapshot.dragged.is_none() && snapshot.cloth.positions == before
-    });
-}
-
-#[test]
-fn a_click_pins_and_a_click_on_the_pin_pulls_it_out() {
-    let mut window = dressed_window();
-    key(&mut window, Modifiers::NONE, Key::P);
-    let middle = pane(&window, "Body pane").center();
-    let pins = |window: &Window| app(window).session().document().pins.len();
-    drag(&mut window, &[middle], PointerButton::Primary);
-    assert_eq!(pins(&window), 1);
-    wait(&mut window, "the pin", |app| app.session().snapshot().pinned.len() == 1);
-    drag(&mut window, &[middle], PointerButton::Primary);
-    assert_eq!(pins(&window), 0);
-    let area = pane(&window, "Body pane");
-    drag(&mut window, &line(area, Vec2::new(60.0, 0.0)), PointerButton::Primary);
-    assert!(pins(&window) > 2, "a row of {}", pins(&window));
-    assert_eq!(app(&window).session().undo_label(), Some("pin"));
-    key(&mut window, Modifiers::COMMAND, Key::Z);
-    assert_eq!(pins(&window), 0, "a row is one step");
 }

@@ -13,7 +13,7 @@ use toile::cloth::{ClothState, Garment, build};
 use toile::pattern::Pattern;
 use toile::relax::RelaxSettings;
 use toile::wrap::roots::roots;
-use toile::wrap::{Dressing, Marks, Phase, coarser};
+use toile::wrap::{Dressing, Marks, Phase, coarser, stretches};
 
 const RADIUS: f64 = 0.15;
 const OFFSET: f64 = 0.004;
@@ -137,6 +137,33 @@ fn root_edges_keep_their_angle_and_length_round_a_cylinder() {
         let round_way = whole * facet + (skin.point - middle).dot(tangent);
         assert!((round_way - along).abs() < 0.02 * 1e-4, "{round_way} {along}");
     }
+}
+
+#[test]
+fn stretches_are_known_before_cloth_is_cut() {
+    let (garment, surface, mut marks, _) = tube_on_prism(64);
+    assert_eq!(stretches(&marks, &surface, OFFSET), roots(&garment, &surface, &marks, OFFSET).1);
+    let middle = marks.cloth[0].points.iter().sum::<DVec2>() / marks.cloth[0].points.len() as f64;
+    marks.cloth[0].points.iter_mut().for_each(|p| *p = middle + (*p - middle) / 1.1);
+    marks.cloth[1].points.truncate(1);
+    let found = stretches(&marks, &surface, OFFSET);
+    assert!((found[0].stretch() - 0.1).abs() < 1e-3 && found[0].is_large(), "{found:?}");
+    assert!(found[1].stretch() == 0.0 && !found[1].is_large(), "a point has no stretch");
+    marks.body[0].points.clear();
+    assert_eq!(stretches(&marks, &surface, OFFSET).len(), 1);
+}
+
+/// A level stroke round a cylinder is as long as the circle the cloth lies on, not as the skin.
+#[test]
+fn a_stretch_is_that_of_the_offset_surface() {
+    let (_, surface, mut marks, _) = tube_on_prism(256);
+    let offset = 0.012;
+    marks.body[0].points = (0..=40)
+        .map(|i| glam::DQuat::from_rotation_y(f64::from(i) * 0.025) * DVec3::new(0.0, 0.5, RADIUS))
+        .collect();
+    marks.cloth[0].points = vec![DVec2::new(0.1, 0.2), DVec2::new(0.1 + RADIUS, 0.2)];
+    let found = stretches(&marks, &surface, offset)[0];
+    assert!((found.stretch() - offset / RADIUS).abs() < 1e-3, "{found:?}");
 }
 
 #[test]

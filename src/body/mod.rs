@@ -2,14 +2,17 @@
 
 pub mod closest;
 pub mod import;
+pub mod landmarks;
 pub mod mannequin;
 pub mod measure;
 pub mod skeleton;
 pub mod surface;
 pub mod unit;
+pub mod warp;
 
 pub use import::{BodyReport, Imported, import};
-pub use mannequin::{Landmarks, Mannequin, MannequinError, Measurements};
+pub use landmarks::Landmarks;
+pub use mannequin::{Mannequin, MannequinError, Measurements};
 pub use skeleton::{Joint, Skeleton};
 pub use surface::{Hit, Nearest, Surface};
 pub use unit::{Unit, guess_unit};

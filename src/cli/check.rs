@@ -8,6 +8,7 @@ use crate::cli::arguments::Check;
 use crate::cli::failure::Failure;
 use crate::cli::input::{self, Content};
 use crate::cli::output;
+use crate::cli::report::PairLengths;
 use crate::cloth;
 use crate::pattern::{Problem, ProblemKind};
 use crate::session::{Project, body};
@@ -17,6 +18,8 @@ struct Findings {
     pieces: usize,
     seams: usize,
     triangles: usize,
+    /// How long each pair of marks is, where there is a body.
+    marks: Vec<PairLengths>,
     problems: Vec<Problem>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     notes: Vec<String>,
@@ -51,17 +54,24 @@ pub fn check(arguments: &Check) -> Result<(), Failure> {
 fn of_project(project: &Project, with_body: bool) -> Findings {
     let document = &project.document;
     let (garment, mut problems) = cloth::build(&document.pattern, document.settings.edge_length);
-    if with_body && let Err(why) = body::surface_of(&document.body) {
-        let place = input::body_name(&document.body);
-        problems.push(Problem { kind: ProblemKind::Body, place, words: why.to_string() });
+    let mut marks = Vec::new();
+    if with_body || document.marks.pairs().next().is_some() {
+        match body::surface_of(&document.body) {
+            Ok(surface) => marks = PairLengths::all(document, &surface),
+            Err(why) => {
+                let place = document.body.name().to_owned();
+                problems.push(Problem { kind: ProblemKind::Body, place, words: why.to_string() });
+            }
+        }
     }
     problems.extend(lonely_marks(project));
     Findings {
         pieces: document.pattern.pieces.len(),
         seams: document.pattern.seams.len(),
         triangles: garment.triangles.len(),
+        notes: marks.iter().filter_map(PairLengths::doubt).collect(),
+        marks,
         problems,
-        notes: Vec::new(),
     }
 }
 
@@ -81,8 +91,11 @@ fn tell(findings: &Findings, path: &Path, json: bool) -> Result<(), Failure> {
         output::say(&text);
         return Ok(());
     }
-    let Findings { pieces, seams, triangles, problems, notes } = findings;
+    let Findings { pieces, seams, triangles, marks, problems, notes } = findings;
     output::say(&format!("{}: {pieces} pieces, {seams} seams, {triangles} triangles", path.display()));
+    for pair in marks {
+        output::say(&pair.to_string());
+    }
     for problem in problems {
         let note = if problem.kind.is_note() { "note: " } else { "" };
         output::say(&format!("{note}{}: {}", problem.place, problem.words));

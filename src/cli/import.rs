@@ -44,7 +44,7 @@ pub fn import(arguments: &Import) -> Result<(), Failure> {
         document.pattern.pieces.len(),
         document.pattern.seams.len(),
         document.marks.pairs().count(),
-        input::body_name(&document.body),
+        document.body.name(),
     ));
     Ok(())
 }

@@ -10,9 +10,11 @@ use crate::cli::arguments::InputOptions;
 use crate::cli::failure::Failure;
 use crate::cli::{formats, output};
 use crate::pattern::Pattern;
+use crate::session::body::{Body, surface_of};
+use crate::session::carry::carried;
 use crate::session::project_file::ProjectFileError;
 use crate::session::samples::Sample;
-use crate::session::{BodyChoice, Project, body, marks_file, project_file};
+use crate::session::{BodyChoice, Project, marks_file, project_file};
 use crate::wrap::suggest;
 
 /// Begins the name of a built-in sample.
@@ -70,14 +72,6 @@ pub fn name_of(path: &Path) -> String {
     match sample_name(path) {
         Some(name) => name.to_owned(),
         None => path.file_stem().unwrap_or_default().to_string_lossy().into_owned(),
-    }
-}
-
-/// For people.
-pub fn body_name(body: &BodyChoice) -> String {
-    match body {
-        BodyChoice::Mannequin(_) => MANNEQUIN.to_owned(),
-        BodyChoice::Imported { name, .. } => name.clone(),
     }
 }
 
@@ -142,7 +136,8 @@ pub fn take_pattern(project: &mut Project, pattern: Pattern) {
     project.dressed = None;
 }
 
-/// Puts another body there: marks on the old one and the cloth go. A body that cloth cannot lie on is refused.
+/// Puts another body there: marks on the old one are carried to it, the cloth goes. A body that cloth cannot lie on is
+/// refused.
 pub fn take_body(project: &mut Project, path: &Path, body: Imported) -> Result<(), Failure> {
     if !body.is_usable() {
         let faults: Vec<&str> = body.problems.iter().map(|p| p.words.as_str()).collect();
@@ -151,20 +146,36 @@ pub fn take_body(project: &mut Project, path: &Path, body: Imported) -> Result<(
     for note in &body.notes {
         output::complain(&format!("{}: note: {note}", path.display()));
     }
-    set_body(project, BodyChoice::Imported { name: name_of(path), mesh: Arc::new(body.mesh) });
-    Ok(())
+    set_body(project, path, BodyChoice::Imported { name: name_of(path), mesh: Arc::new(body.mesh) })
 }
 
-fn set_body(project: &mut Project, body: BodyChoice) {
-    project.document.body = body;
-    Arc::make_mut(&mut project.document.marks).body.clear();
+fn set_body(project: &mut Project, path: &Path, body: BodyChoice) -> Result<(), Failure> {
+    let document = &mut project.document;
+    if document.body == body {
+        return Ok(());
+    }
+    if !document.marks.body.is_empty() {
+        let to = Body::new(&body).map_err(|why| Failure::input(path, why))?;
+        let from = Body::new(&document.body).ok();
+        let (marks, lost) = carried(&document.marks, from.as_ref(), &to, body.name());
+        document.marks = Arc::new(marks);
+        for problem in lost {
+            output::complain(&format!("{}: {}: {}", path.display(), problem.place, problem.words));
+        }
+    }
+    document.body = body;
     project.dressed = None;
+    Ok(())
 }
 
 /// Does with `project`, read from `path`, what `options` say.
 pub fn take_options(project: &mut Project, path: &Path, options: &InputOptions) -> Result<(), Failure> {
+    if options.marks.is_some() || options.suggest_marks {
+        // Others take their place.
+        project.document.marks = Arc::default();
+    }
     match &options.body {
-        Some(body) if body == Path::new(MANNEQUIN) => set_body(project, BodyChoice::default()),
+        Some(body) if body == Path::new(MANNEQUIN) => set_body(project, body, BodyChoice::default())?,
         Some(body) => {
             let bytes = read(body)?;
             take_body(project, body, formats::body(body, &bytes, options.unit)?)?;
@@ -186,7 +197,7 @@ pub fn take_options(project: &mut Project, path: &Path, options: &InputOptions) 
 
 fn suggest_marks(project: &mut Project, path: &Path) -> Result<(), Failure> {
     let document = &mut project.document;
-    let surface = body::surface_of(&document.body).map_err(|why| Failure::input(path, why))?;
+    let surface = surface_of(&document.body).map_err(|why| Failure::input(path, why))?;
     let offset = document.settings.relax.offset * surface.scale();
     let marks = suggest::suggested(&document.pattern, &surface, offset);
     if marks.pairs().next().is_none() {

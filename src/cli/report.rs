@@ -5,16 +5,17 @@ use std::time::Instant;
 
 use serde::Serialize;
 
+use crate::body::Surface;
 use crate::cli::arguments::PictureOptions;
 use crate::cli::failure::Failure;
 use crate::cli::picture::Artist;
 use crate::cli::{formats, output, run};
 use crate::fit;
 use crate::pattern::{Problem, ProblemKind};
-use crate::session::Session;
 use crate::session::recording::Hex;
+use crate::session::{Document, Session};
 use crate::sim::{Snapshot, Stats};
-use crate::wrap::{MarkError, Phase, mark_error};
+use crate::wrap::{MarkError, PairStretch, Phase, mark_error, stretches};
 
 /// `report.json`.
 #[derive(Debug, Serialize)]
@@ -29,6 +30,8 @@ pub struct Report {
     fit: fit::Report,
     /// Why this is not a dressed garment; empty when it is.
     faults: Vec<Problem>,
+    /// How long each pair of marks was before the wrap.
+    marks: Vec<PairLengths>,
     mark_error: MarkError,
     problems: Vec<Problem>,
     seconds: Seconds,
@@ -37,6 +40,55 @@ pub struct Report {
     /// Why there is no view.png, if there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pictures_left_out: Option<String>,
+}
+
+/// How long a pair of marks is on cloth and body.
+#[derive(Clone, Debug, Serialize)]
+pub struct PairLengths {
+    number: usize,
+    /// Metres.
+    cloth: f64,
+    /// Metres, at the cloth's height above the skin.
+    body: f64,
+    /// Body over cloth less one.
+    stretch: f64,
+    #[serde(skip)]
+    is_large: bool,
+}
+
+impl PairLengths {
+    /// Those of all pairs of `document` on its body.
+    pub fn all(document: &Document, surface: &Surface) -> Vec<Self> {
+        let offset = document.settings.relax.offset * surface.scale();
+        stretches(&document.marks, surface, offset).into_iter().map(Self::from).collect()
+    }
+
+    /// What is to be thought of a pair of very different lengths.
+    pub fn doubt(&self) -> Option<String> {
+        let more = if self.stretch > 0.0 { "longer" } else { "shorter" };
+        let percent = self.stretch.abs() * 100.0;
+        let words =
+            format!("mark {}: on the body it is {percent:.1} % {more} than on the cloth", self.number);
+        self.is_large.then_some(words)
+    }
+}
+
+impl From<PairStretch> for PairLengths {
+    fn from(pair: PairStretch) -> Self {
+        let PairStretch { number, cloth, body } = pair;
+        Self { number, cloth, body, stretch: pair.stretch(), is_large: pair.is_large() }
+    }
+}
+
+impl std::fmt::Display for PairLengths {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self { number, cloth, body, stretch, .. } = self;
+        if *cloth == 0.0 {
+            return write!(f, "mark {number}: a point");
+        }
+        let [cloth, body, percent] = [cloth, body, stretch].map(|x| x * 100.0);
+        write!(f, "mark {number}: {cloth:.1} cm on the cloth, {body:.1} cm on the body, {percent:+.1} %")
+    }
 }
 
 /// Wall-clock seconds by phase.
@@ -73,7 +125,7 @@ pub fn write(
     let state_hash = Hex(state_hash(session)?).to_string();
     let snapshot = session.snapshot();
     let start = Instant::now();
-    let (fit, mark_error) = measured(snapshot)?;
+    let (fit, marks, mark_error) = measured(snapshot)?;
     seconds.measure = start.elapsed().as_secs_f64();
     let at_rest = snapshot.phase == Some(Phase::AtRest);
     if let (Some(garment), Some(source)) = (&snapshot.garment, &snapshot.source) {
@@ -94,6 +146,7 @@ pub fn write(
         at_rest,
         faults: faults(&fit, at_rest),
         fit,
+        marks,
         mark_error,
         problems: snapshot.problems.to_vec(),
         seconds,
@@ -108,14 +161,15 @@ pub fn state_hash(session: &mut Session) -> Result<u64, Failure> {
     Ok(run::simulation(session)?.hash())
 }
 
-fn measured(snapshot: &Snapshot) -> Result<(fit::Report, MarkError), Failure> {
+fn measured(snapshot: &Snapshot) -> Result<(fit::Report, Vec<PairLengths>, MarkError), Failure> {
     let (Some(garment), Some(body), Some(source)) = (&snapshot.garment, &snapshot.body, &snapshot.source)
     else {
         return Err(Failure::Check("there is no cloth on the body".to_owned()));
     };
     let fit = fit::measure(&source.pattern, garment, &snapshot.cloth, &fit::BodyIndex::new(body));
     let offset = source.relax.offset * body.scale();
-    Ok((fit, mark_error(garment, &snapshot.cloth, body, &source.marks, offset)))
+    let marks = stretches(&source.marks, body, offset).into_iter().map(PairLengths::from).collect();
+    Ok((fit, marks, mark_error(garment, &snapshot.cloth, body, &source.marks, offset)))
 }
 
 fn faults(fit: &fit::Report, at_rest: bool) -> Vec<Problem> {

@@ -1,54 +1,95 @@
 //! The body a document chooses, made ready for queries.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
-use crate::body::Surface;
 use crate::body::mannequin::mannequin;
+use crate::body::{Landmarks, Surface, landmarks};
 use crate::geometry::mesh::TriMesh;
 use crate::session::command::Rejection;
 use crate::session::document::BodyChoice;
 
-/// Surfaces kept, so that undo of a change of body is quick.
+/// Bodies kept, so that undo of a change of body is quick.
 const MOST_KEPT: usize = 4;
 
-/// Surfaces made before, the newest last.
+/// A body's surface and its named points.
+#[derive(Debug)]
+pub struct Body {
+    /// Its skin.
+    pub surface: Arc<Surface>,
+    /// Landmarks it was made with.
+    own: Option<Landmarks>,
+    /// Those found on its skin; looked for once.
+    found: OnceLock<Option<Landmarks>>,
+}
+
+impl Body {
+    /// Makes the body of `choice`. The error says why cloth cannot be put on it.
+    pub fn new(choice: &BodyChoice) -> Result<Self, Rejection> {
+        let (surface, own) = match choice {
+            BodyChoice::Mannequin(measurements) => {
+                let figure = mannequin(measurements).map_err(|e| Rejection(e.to_string()))?;
+                (ready(figure.mesh.clone(), "the mannequin")?, Some(figure.landmarks.clone()))
+            }
+            BodyChoice::Imported { name, mesh } => (ready(mesh.as_ref().clone(), name)?, None),
+        };
+        Ok(Self { surface, own, found: OnceLock::new() })
+    }
+
+    /// Its named points, if it has any.
+    pub fn landmarks(&self) -> Option<&Landmarks> {
+        self.own.as_ref().or_else(|| self.found())
+    }
+
+    /// Named points of this body and of `other` that mean the same on both: their own, or else those found on both alike.
+    pub fn common_landmarks<'a>(&'a self, other: &'a Self) -> Option<(&'a Landmarks, &'a Landmarks)> {
+        match (&self.own, &other.own) {
+            (Some(own), Some(others)) => Some((own, others)),
+            _ => Some((self.found()?, other.found()?)),
+        }
+    }
+
+    fn found(&self) -> Option<&Landmarks> {
+        self.found.get_or_init(|| landmarks::found(&self.surface.mesh)).as_ref()
+    }
+}
+
+/// Bodies made before, the newest last.
 #[derive(Debug, Default)]
 pub struct BodyCache {
-    kept: Vec<(BodyChoice, Arc<Surface>)>,
+    kept: Vec<(BodyChoice, Arc<Body>)>,
 }
 
 impl BodyCache {
-    /// The surface of `choice`. The error says why cloth cannot be put on it.
-    pub fn surface(&mut self, choice: &BodyChoice) -> Result<Arc<Surface>, Rejection> {
+    /// The body of `choice`. The error says why cloth cannot be put on it.
+    pub fn body(&mut self, choice: &BodyChoice) -> Result<Arc<Body>, Rejection> {
         if let Some(i) = self.kept.iter().position(|(kept, _)| kept == choice) {
             let found = self.kept.remove(i);
-            let surface = Arc::clone(&found.1);
+            let body = Arc::clone(&found.1);
             self.kept.push(found);
-            return Ok(surface);
+            return Ok(body);
         }
-        let surface = surface_of(choice)?;
+        let body = Arc::new(Body::new(choice)?);
         if self.kept.len() >= MOST_KEPT {
             self.kept.remove(0);
         }
-        self.kept.push((choice.clone(), Arc::clone(&surface)));
-        Ok(surface)
+        self.kept.push((choice.clone(), Arc::clone(&body)));
+        Ok(body)
+    }
+
+    /// The surface of `choice`. The error says why cloth cannot be put on it.
+    pub fn surface(&mut self, choice: &BodyChoice) -> Result<Arc<Surface>, Rejection> {
+        self.body(choice).map(|body| Arc::clone(&body.surface))
     }
 
     /// The surface of `choice`, if it was made before.
     pub fn kept(&self, choice: &BodyChoice) -> Option<&Arc<Surface>> {
-        self.kept.iter().find(|(kept, _)| kept == choice).map(|(_, surface)| surface)
+        self.kept.iter().find(|(kept, _)| kept == choice).map(|(_, body)| &body.surface)
     }
 }
 
 /// Makes the surface of `choice`.
 pub fn surface_of(choice: &BodyChoice) -> Result<Arc<Surface>, Rejection> {
-    match choice {
-        BodyChoice::Mannequin(measurements) => {
-            let figure = mannequin(measurements).map_err(|e| Rejection(e.to_string()))?;
-            ready(figure.mesh.clone(), "the mannequin")
-        }
-        BodyChoice::Imported { name, mesh } => ready(mesh.as_ref().clone(), name),
-    }
+    Body::new(choice).map(|body| body.surface)
 }
 
 fn ready(mesh: TriMesh, name: &str) -> Result<Arc<Surface>, Rejection> {

@@ -25,6 +25,8 @@ pub enum Command {
     DeletePair { number: usize },
     /// Give a stroke the number `to` (from 1) among those of its side.
     MoveMark { mark: MarkId, to: usize },
+    /// Give a stroke a name; an empty one takes its name away.
+    RenameMark { mark: MarkId, name: String },
     /// Take all strokes away.
     ClearMarks,
     /// Replace all strokes. Ids in it are kept.
@@ -49,7 +51,7 @@ pub enum Command {
     /// Start from another pattern with its strokes: a sample, an import. The cloth comes off.
     ReplacePattern { name: String, pattern: Arc<Pattern>, marks: Arc<Marks> },
 
-    /// Take another body. The cloth comes off and the strokes on the old body go.
+    /// Take another body. The cloth comes off; the strokes on the old body are carried to the new one where they find a place.
     SetBody { body: BodyChoice },
     /// Change mesh size and how the cloth relaxes.
     SetSettings { settings: Settings },

@@ -84,8 +84,7 @@ impl Document {
 
     /// Replaces all strokes; the counter stays ahead of their ids.
     pub fn take_marks(&mut self, marks: Arc<Marks>) {
-        let ids = marks.cloth.iter().map(|m| m.id.0).chain(marks.body.iter().map(|m| m.id.0));
-        self.last_mark = self.last_mark.max(ids.max().unwrap_or(0));
+        self.last_mark = self.last_mark.max(marks.ids().max().unwrap_or_default().0);
         self.marks = marks;
     }
 }
@@ -102,6 +101,16 @@ pub enum BodyChoice {
         #[serde(with = "mesh_as_arrays")]
         mesh: Arc<TriMesh>,
     },
+}
+
+impl BodyChoice {
+    /// For people.
+    pub fn name(&self) -> &str {
+        match self {
+            Self::Mannequin(_) => "mannequin",
+            Self::Imported { name, .. } => name,
+        }
+    }
 }
 
 impl PartialEq for BodyChoice {

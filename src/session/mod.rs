@@ -1,6 +1,7 @@
 //! What the user has done: one stream of commands makes the document, its undo and its recordings.
 
 pub mod body;
+pub mod carry;
 pub mod command;
 pub mod document;
 pub mod edit;

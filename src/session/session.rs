@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use crate::body::Surface;
+use crate::pattern::Problem;
 use crate::session::body::BodyCache;
 use crate::session::command::{Command, Rejection};
 use crate::session::document::Document;
@@ -12,6 +13,7 @@ use crate::session::history::{History, Step, StepKind};
 use crate::session::project::{Dressed, Project};
 use crate::session::recording::Recorder;
 use crate::sim::{Event, GarmentSource, Request, RequestKind, Runner, Snapshot};
+use crate::wrap::Marks;
 
 /// One pointer drag, one press of a button: one undo step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -43,6 +45,8 @@ pub struct Session {
     open_gesture: Option<GestureId>,
     /// The command after which the document was last saved.
     saved_seq: u64,
+    /// Marks that found no place on the body, and the strokes there were after that.
+    lost_marks: Option<(Arc<Marks>, Vec<Problem>)>,
     /// In a replay the recording says when history is forgotten.
     replaying: bool,
 }
@@ -52,6 +56,8 @@ struct Plan {
     document: Document,
     history: HistoryChange,
     request: Option<RequestKind>,
+    /// Marks that found no place on a new body.
+    problems: Vec<Problem>,
 }
 
 enum HistoryChange {
@@ -89,6 +95,7 @@ impl Session {
             last_gesture: 0,
             open_gesture: None,
             saved_seq: 0,
+            lost_marks: None,
             replaying: false,
         };
         session.ask_for_hash();
@@ -108,6 +115,14 @@ impl Session {
     /// The body of the document. None when cloth cannot be put on it: `Wrap` is then refused with the reason.
     pub fn surface(&self) -> Option<&Arc<Surface>> {
         self.bodies.kept(&self.document.body)
+    }
+
+    /// Marks that found no place when the body was changed; until strokes are painted or taken away.
+    pub fn problems(&self) -> &[Problem] {
+        match &self.lost_marks {
+            Some((after, problems)) if Arc::ptr_eq(after, &self.document.marks) => problems,
+            _ => &[],
+        }
     }
 
     /// The newest snapshot as of the last [`Session::update`].
@@ -232,13 +247,14 @@ impl Session {
                 document: self.document.clone(),
                 history: HistoryChange::Forget { before_seq: *before_seq },
                 request: None,
+                problems: Vec::new(),
             }),
             _ => self.plan_edit(command),
         }
     }
 
     fn plan_edit(&mut self, command: &Command) -> Result<Plan, Rejection> {
-        let edit = edit::edit(&self.document, command)?;
+        let edit = edit::edit(&self.document, command, &mut self.bodies)?;
         let request = match edit.cloth {
             ClothChange::None => None,
             ClothChange::Wrap => Some(self.wrap_request()?),
@@ -250,16 +266,13 @@ impl Session {
             ClothChange::SetRelax(relax) => Some(RequestKind::SetRelax(relax)),
             ClothChange::SetRelaxing(on) => Some(RequestKind::SetRelaxing(on)),
         };
-        if edit.document.body != self.document.body {
-            self.bodies.surface(&edit.document.body)?;
-        }
         let kind = edit.kind();
         let history = if edit.is_step() {
             HistoryChange::Push { label: edit.label, kind }
         } else {
             HistoryChange::None
         };
-        Ok(Plan { document: edit.document, history, request })
+        Ok(Plan { document: edit.document, history, request, problems: edit.problems })
     }
 
     fn wrap_request(&mut self) -> Result<RequestKind, Rejection> {
@@ -312,6 +325,9 @@ impl Session {
     fn carry_out(&mut self, plan: Plan, gesture: GestureId) {
         let seq = self.last_seq;
         let before = std::mem::replace(&mut self.document, plan.document);
+        if !plan.problems.is_empty() {
+            self.lost_marks = Some((Arc::clone(&self.document.marks), plan.problems));
+        }
         let keeps = match plan.history {
             HistoryChange::Push { .. } => self.history.needs_checkpoint(gesture.0),
             HistoryChange::Undo | HistoryChange::Redo => true,
@@ -375,6 +391,6 @@ impl Session {
 impl Plan {
     fn back_to(step: &Step, history: HistoryChange) -> Self {
         let request = step.restore.map(|before_seq| RequestKind::Restore { before_seq });
-        Self { document: step.document.clone(), history, request }
+        Self { document: step.document.clone(), history, request, problems: Vec::new() }
     }
 }

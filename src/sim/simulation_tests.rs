@@ -42,6 +42,7 @@ fn source() -> Arc<GarmentSource> {
             id: crate::geometry::ids::MarkId(2),
             points: vec![DVec3::new(0.2, 0.25, 0.3), DVec3::new(0.3, 0.25, 0.2)],
         }],
+        ..Marks::default()
     };
     Arc::new(GarmentSource {
         pattern: Arc::new(pattern),

@@ -1,7 +1,5 @@
 //! What each action does.
 
-use std::sync::Arc;
-
 use egui::ViewportCommand;
 
 use crate::render::Projection;
@@ -10,7 +8,7 @@ use crate::ui::actions::Action;
 use crate::ui::app::App;
 use crate::ui::dialogs::Dialog;
 use crate::ui::files::{self, Purpose};
-use crate::wrap::suggested;
+use crate::ui::ghosts::Ghosts;
 
 impl App {
     /// Carries out `action`; one that would lose unsaved changes asks first.
@@ -43,8 +41,12 @@ impl App {
             Action::Undo => self.apply(Command::Undo),
             Action::Redo => self.apply(Command::Redo),
             Action::SuggestMarks => self.suggest_marks(),
+            Action::AcceptMarks => self.accept_marks(),
+            Action::DismissMarks => self.ghosts = None,
+            Action::DeleteMark | Action::RaiseMark | Action::LowerMark => self.change_selected(action),
             Action::ClearMarks => self.apply(Command::ClearMarks),
             Action::ClearPins => self.apply(Command::ClearPins),
+            Action::ToggleLaser => self.laser = !self.laser,
             Action::Choose(tool) => self.tool = tool,
             Action::Wrap => {
                 self.show_cloth = true;
@@ -66,17 +68,31 @@ impl App {
         }
     }
 
+    fn change_selected(&mut self, action: Action) {
+        let Some(mark) = self.selected else { return };
+        let Some(place) = self.session.document().marks.place(mark) else { return };
+        self.apply(match action {
+            Action::RaiseMark => Command::MoveMark { mark, to: place.number - 1 },
+            Action::LowerMark => Command::MoveMark { mark, to: place.number + 1 },
+            _ => Command::DeleteMark { mark },
+        });
+    }
+
     fn suggest_marks(&mut self) {
-        let document = self.session.document();
-        let Some(surface) = self.session.surface() else { return };
-        let offset = document.settings.relax.offset * surface.scale();
-        let marks = suggested(&document.pattern, surface, offset);
-        if marks.pairs().next().is_none() {
+        self.ghosts = Ghosts::proposed(&self.session);
+        if self.ghosts.is_none() {
             let words =
                 "No marks can be proposed: the pattern does not say where its pieces go round the body.";
             return self.messages.error(words);
         }
-        self.apply(Command::SetMarks { marks: Arc::new(marks) });
+        // There they are accepted.
+        self.show_panel = true;
+    }
+
+    fn accept_marks(&mut self) {
+        if let Some(ghosts) = self.ghosts.take() {
+            self.apply(Command::SetMarks { marks: ghosts.marks });
+        }
     }
 
     fn change_view(&mut self, action: Action) {

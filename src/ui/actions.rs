@@ -38,9 +38,15 @@ pub enum Action {
     Quit,
     Undo,
     Redo,
+    DeleteMark,
+    RaiseMark,
+    LowerMark,
     ClearMarks,
     ClearPins,
     SuggestMarks,
+    AcceptMarks,
+    DismissMarks,
+    ToggleLaser,
     Choose(Tool),
     Wrap,
     CancelWrap,
@@ -104,11 +110,29 @@ impl Action {
             Self::Quit => entry("Quit", "Leave Toile", &[ctrl(Key::Q)]),
             Self::Undo => entry("Undo", "Take the last step back", &[ctrl(Key::Z)]),
             Self::Redo => entry("Redo", "Do the step again", &[ctrl_shift(Key::Z), ctrl(Key::Y)]),
+            Self::DeleteMark => {
+                entry("Delete mark", "Take the selected mark away", &[key(Key::Delete), key(Key::Backspace)])
+            }
+            Self::RaiseMark => {
+                entry("Move mark up", "Give the selected mark the number before", &[ctrl(Key::ArrowUp)])
+            }
+            Self::LowerMark => {
+                entry("Move mark down", "Give the selected mark the number after", &[ctrl(Key::ArrowDown)])
+            }
             Self::ClearMarks => entry("Clear all marks", "Take every mark away, on cloth and body", &[]),
             Self::SuggestMarks => entry(
                 "Suggest marks",
                 "Propose marks from where the pattern file puts the pieces round the body",
                 &[],
+            ),
+            Self::AcceptMarks => {
+                entry("Accept", "Take the proposed marks instead of those there are", &[key(Key::Enter)])
+            }
+            Self::DismissMarks => entry("Dismiss", "Forget the proposed marks", &[key(Key::Escape)]),
+            Self::ToggleLaser => entry(
+                "Laser",
+                "Strokes go through: front and back of the body, and every piece that lies there",
+                &[key(Key::L)],
             ),
             Self::Choose(Tool::Mark) => entry(
                 "Mark",
@@ -201,7 +225,7 @@ fn look_entry(view: View) -> Entry {
 pub const VIEWS: [View; 6] =
     [View::Front, View::Back, View::Left, View::Right, View::Top, View::ThreeQuarter];
 
-/// Actions whose keys are listened to.
+/// Actions whose keys are listened to. Those of proposed marks come before them all, while there are any.
 const ALL: &[Action] = &[
     Action::New,
     Action::Open,
@@ -212,6 +236,10 @@ const ALL: &[Action] = &[
     Action::Quit,
     Action::Undo,
     Action::Redo,
+    Action::DeleteMark,
+    Action::RaiseMark,
+    Action::LowerMark,
+    Action::ToggleLaser,
     Action::Choose(Tool::Mark),
     Action::Choose(Tool::Erase),
     Action::Choose(Tool::Move),

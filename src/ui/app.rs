@@ -3,17 +3,21 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use egui::{CentralPanel, Frame, Key, Margin, Panel, ViewportCommand};
+use egui::{CentralPanel, Frame, Key, KeyboardShortcut, Margin, Panel, ViewportCommand};
 
+use crate::geometry::ids::MarkId;
 use crate::session::{Command, Document, GestureId, Notice, Project, Session};
 use crate::sim::{Runner, Simulation, Snapshot, thread::DEFAULT_RATE_HZ};
 use crate::ui::actions::{Action, Tool};
 use crate::ui::asks::{Ask, Asks};
 use crate::ui::dialogs::{Answer, Dialog, NativeDialog};
 use crate::ui::files::{self, Purpose, RawBody};
+use crate::ui::ghosts::Ghosts;
+use crate::ui::marks_panel::MarksPanel;
 use crate::ui::messages::Messages;
-use crate::ui::pattern_pane::{self, PatternPane};
+use crate::ui::pattern_pane::{self, Laid, PatternPane};
 use crate::ui::scene_pane::{self, ScenePane, Seen};
+use crate::ui::side_panel::Told;
 use crate::ui::situation::Situation;
 use crate::ui::theme::{self, Palette};
 use crate::ui::{menu, side_panel, status, toolbar};
@@ -25,6 +29,12 @@ pub struct App {
     pub(super) session: Session,
     pub(super) path: Option<PathBuf>,
     pub(super) tool: Tool,
+    pub(super) laser: bool,
+    /// The mark chosen in a pane or in the list.
+    pub(super) selected: Option<MarkId>,
+    marks_panel: MarksPanel,
+    /// Marks proposed and not accepted yet.
+    pub(super) ghosts: Option<Ghosts>,
     pub(super) pattern_pane: PatternPane,
     pub(super) scene_pane: ScenePane,
     pub(super) show_cloth: bool,
@@ -60,6 +70,10 @@ impl App {
             session: Session::new(project, runner(ctx)?),
             path,
             tool: Tool::Mark,
+            laser: false,
+            selected: None,
+            marks_panel: MarksPanel::default(),
+            ghosts: None,
             pattern_pane: PatternPane::fitted(),
             scene_pane: ScenePane::new(graphics),
             show_cloth: true,
@@ -110,6 +124,8 @@ impl App {
         self.path = path;
         self.drag = None;
         self.wrap_seq = None;
+        self.selected = None;
+        self.ghosts = None;
         self.pattern_pane = PatternPane::fitted();
         self.scene_pane.frame = Some(Some(crate::render::View::Front));
     }
@@ -121,6 +137,7 @@ impl App {
         self.take_notices();
         let document = self.session.document().clone();
         let snapshot = Arc::clone(self.session.snapshot());
+        self.ghosts = self.ghosts.take().filter(|g| g.fit(&document, self.session.surface()));
         let now = self.situation(&ctx, &document, &snapshot);
         let palette = Palette::of(ctx.theme());
         let mut asks = Asks::new();
@@ -163,7 +180,16 @@ impl App {
         });
         if self.show_panel {
             Panel::right("side").default_size(256.0).size_range(220.0..=420.0).frame(thick).show(ui, |ui| {
-                side_panel::side_panel_ui(ui, document, &snapshot.problems, now, palette, asks);
+                let surface = self.session.surface();
+                let told = Told {
+                    document,
+                    surface,
+                    problems: &snapshot.problems,
+                    lost: self.session.problems(),
+                    now,
+                    palette,
+                };
+                side_panel::side_panel_ui(ui, &told, &mut self.marks_panel, asks);
             });
         }
         let half = ui.available_width() * 0.46;
@@ -171,7 +197,10 @@ impl App {
         Panel::left("table").frame(Frame::new()).default_size(half).size_range(160.0..=least).show(
             ui,
             |ui| {
-                self.pattern_pane.ui(ui, document, self.tool, palette, asks);
+                let selected = now.selected.map(|(mark, _)| mark);
+                let ghosts = self.ghosts.as_ref().map(|g| &*g.marks);
+                let laid = Laid { document, tool: self.tool, laser: self.laser, selected, ghosts, palette };
+                self.pattern_pane.ui(ui, &laid, asks);
                 if document.pattern.pieces.is_empty() {
                     let area = ui.max_rect().shrink2(egui::vec2(20.0, ui.max_rect().height() * 0.36));
                     ui.scope_builder(egui::UiBuilder::new().max_rect(area), |ui| {
@@ -191,6 +220,9 @@ impl App {
                 growing: now.wrapping,
                 working: now.working,
                 tool: self.tool,
+                laser: self.laser,
+                selected: now.selected.map(|(mark, _)| mark),
+                ghosts: self.ghosts.as_ref().map(|g| &g.marks),
                 look: theme::look(ui.ctx().theme()),
                 palette,
             };
@@ -200,10 +232,12 @@ impl App {
 
     fn hint(&self, document: &Document) -> String {
         let next = |painted: usize| painted + 1;
-        if self.pattern_pane.hovered {
-            pattern_pane::hint(self.tool, next(document.marks.cloth.len()))
+        if self.ghosts.is_some() {
+            "Proposed marks: Enter takes them, Esc forgets them.".to_owned()
+        } else if self.pattern_pane.hovered {
+            pattern_pane::hint(self.tool, self.laser, next(document.marks.cloth.len()))
         } else if self.scene_pane.hovered {
-            scene_pane::hint(self.tool, next(document.marks.body.len()))
+            scene_pane::hint(self.tool, self.laser, next(document.marks.body.len()))
         } else {
             "Paint a mark on a piece and one on the body where it should lie, then press Wrap.".to_owned()
         }
@@ -216,9 +250,12 @@ impl App {
             undo: self.session.undo_label().map(str::to_owned),
             redo: self.session.redo_label().map(str::to_owned),
             tool: self.tool,
+            laser: self.laser,
+            selected: self.selected.and_then(|mark| Some((mark, document.marks.place(mark)?))),
             pieces: document.pattern.pieces.len(),
             marks: [document.marks.cloth.len(), document.marks.body.len()],
             pins: document.pins.len(),
+            proposed: self.ghosts.as_ref().map_or(0, |g| g.marks.pairs().count()),
             has_body: self.session.surface().is_some(),
             dressed: snapshot.is_dressed(),
             wrapping: asked || growing,
@@ -259,6 +296,19 @@ impl App {
         let focused = ctx.memory(|m| m.focused().is_some());
         let menu = egui::Popup::is_any_open(ctx);
         let drawing = self.pattern_pane.stroke().is_some() || !self.scene_pane.stroke().is_empty();
+        if now.proposed > 0 && !menu && !drawing {
+            for action in [Action::AcceptMarks, Action::DismissMarks] {
+                let keys = action.entry().keys;
+                let wanted = |k: &KeyboardShortcut| !(focused && k.logical_key == Key::Enter);
+                if keys.iter().filter(|k| wanted(k)).any(|k| ctx.input_mut(|i| i.consume_shortcut(k))) {
+                    asks.push(Ask::Act(action));
+                }
+            }
+        }
+        let escape = ctx.input(|i| i.key_pressed(Key::Escape)) && !menu && !drawing && !now.wrapping;
+        if escape && self.selected.is_some() {
+            asks.push(Ask::Select(None));
+        }
         for (action, keys) in Action::with_keys() {
             // A focused button takes Enter and Space for itself; Space over the table moves the view; Esc first gives up a
             // stroke.
@@ -280,6 +330,7 @@ impl App {
             Ask::Drag(command) => self.drag(command),
             Ask::EndDrag => self.end_drag(),
             Ask::CancelDrag => self.cancel_drag(),
+            Ask::Select(mark) => self.selected = mark,
             Ask::Say(words) => self.messages.tell(words),
         }
     }
@@ -288,10 +339,20 @@ impl App {
     pub(super) fn apply(&mut self, command: Command) {
         self.end_drag();
         let is_wrap = command == Command::Wrap;
+        let is_body = matches!(command, Command::SetBody { .. });
         match self.session.apply_alone(command) {
             Ok(()) if is_wrap => self.wrap_seq = Some(self.session.last_seq()),
+            Ok(()) if is_body => self.tell_lost_marks(),
             Ok(()) => {}
             Err(why) => self.messages.error(sentence(&why.0)),
+        }
+    }
+
+    fn tell_lost_marks(&mut self) {
+        let lost = self.session.problems();
+        if !lost.is_empty() {
+            let places: Vec<&str> = lost.iter().map(|p| p.place.as_str()).collect();
+            self.messages.error(format!("Not carried to the new body: {}.", places.join(", ")));
         }
     }
 

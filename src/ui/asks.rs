@@ -1,5 +1,6 @@
 //! What panes and panels ask for. They read the document and never change it.
 
+use crate::geometry::ids::MarkId;
 use crate::session::Command;
 use crate::ui::actions::Action;
 
@@ -16,9 +17,19 @@ pub enum Ask {
     EndDrag,
     /// Take the drag back.
     CancelDrag,
+    /// Select a mark, or none.
+    Select(Option<MarkId>),
     /// Say something to the person.
     Say(String),
 }
 
 /// Wishes in order.
 pub type Asks = Vec<Ask>;
+
+/// Asks for `commands` as one step of undo.
+pub fn in_one_step(commands: Vec<Command>, asks: &mut Asks) {
+    if !commands.is_empty() {
+        asks.extend(commands.into_iter().map(Ask::Drag));
+        asks.push(Ask::EndDrag);
+    }
+}

@@ -239,6 +239,7 @@ fn shortcuts_ui(ctx: &egui::Context) -> Answer {
 
 const MOUSE: &[(&str, &str)] = &[
     ("Left drag on a piece or the body", "Paint a mark (tool Mark); a click makes a dot"),
+    ("Left click on a mark", "Select it; its name and number are in the side panel"),
     ("Ctrl + left click on a mark", "Take it away"),
     ("Left drag on a piece", "Move it (tool Move); a double-click turns it over"),
     ("Right drag in the body pane", "Turn the view; with Shift move it"),

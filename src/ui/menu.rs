@@ -15,7 +15,9 @@ pub fn menu_bar_ui(ui: &mut egui::Ui, now: &Situation, asks: &mut Asks) {
         ui.menu_button("Edit", |ui| {
             items(ui, now, asks, &[Action::Undo, Action::Redo]);
             ui.separator();
-            items(ui, now, asks, &[Action::SuggestMarks, Action::ClearMarks]);
+            items(ui, now, asks, &[Action::RaiseMark, Action::LowerMark, Action::DeleteMark]);
+            ui.separator();
+            items(ui, now, asks, &[Action::ToggleLaser, Action::SuggestMarks, Action::ClearMarks]);
         });
         ui.menu_button("Garment", |ui| {
             items(ui, now, asks, &[Action::Wrap, Action::CancelWrap, Action::Unwrap]);

@@ -8,6 +8,8 @@ pub mod app;
 mod asks;
 mod dialogs;
 mod files;
+mod ghosts;
+mod marks_panel;
 mod menu;
 mod messages;
 mod pattern_pane;

@@ -29,6 +29,18 @@ pub struct Shown<'a> {
     pub pinned: &'a [Option<u32>],
     /// How much of a drag reaches each vertex of the cloth, 0..=1.
     pub dragged: Option<&'a Arc<Vec<f32>>>,
+    /// The mark that stands out.
+    pub selected: Option<MarkId>,
+    /// Marks proposed and not accepted yet.
+    pub ghosts: Option<&'a Marks>,
+}
+
+impl Shown<'_> {
+    /// How wide a mark is drawn, logical pixels.
+    fn width(&self, mark: MarkId) -> f32 {
+        let stands_out = [self.near, self.selected].contains(&Some(mark));
+        if stands_out { MARK_WIDTH + 2.0 } else { MARK_WIDTH }
+    }
 }
 
 /// Makes scenes; keeps what did not change since the last one.
@@ -65,6 +77,8 @@ struct Place {
 
 const INK: u8 = 255;
 const WHITE: [u8; 4] = [255, 255, 255, 235];
+/// Opacity of proposed marks.
+const GHOST: u8 = 160;
 /// Logical pixels.
 const MARK_WIDTH: f32 = 3.2;
 /// How much nearer to the eye a mark is drawn: metres on a body of 1.5 m, and half widths of the line.
@@ -103,11 +117,14 @@ impl Scenery {
             }
             if let Some(marks) = shown.marks {
                 self.find_places(garment, marks);
-                covered = self.cloth_marks(garment, state, scale, &mut scene);
+                covered = self.cloth_marks(garment, state, shown, scale, &mut scene);
             }
         }
         if let Some(marks) = shown.marks {
             body_marks(marks, shown, covered, scale, &mut scene);
+        }
+        if let Some(ghosts) = shown.ghosts {
+            body_ghosts(ghosts, scale, &mut scene);
         }
         scene
     }
@@ -162,7 +179,6 @@ impl Scenery {
                 front: CLOTH_FRONT,
                 back: CLOTH_BACK,
                 cloth: 1.0,
-                ..Mesh::default()
             }),
             lines,
         });
@@ -180,13 +196,20 @@ impl Scenery {
     }
 
     /// Draws the marks of the cloth where it lies. Returns how many leading ones could be drawn in full.
-    fn cloth_marks(&self, garment: &Garment, state: &ClothState, scale: f32, scene: &mut Scene) -> usize {
+    fn cloth_marks(
+        &self,
+        garment: &Garment,
+        state: &ClothState,
+        shown: &Shown<'_>,
+        scale: f32,
+        scene: &mut Scene,
+    ) -> usize {
         let Some(found) = &self.places else { return 0 };
         let mut covered = 0;
         for (i, places) in found.places.iter().enumerate() {
             let points: Option<Vec<Vec3>> = places.iter().map(|p| p.point(garment, state)).collect();
             if let Some(points) = points.filter(|p| !p.is_empty()) {
-                push_mark(scene, points, i + 1, MARK_WIDTH, ON_CLOTH, scale);
+                push_mark(scene, points, i + 1, shown.width(found.marks.cloth[i].id), ON_CLOTH, scale);
                 covered += usize::from(covered == i);
             }
         }
@@ -293,7 +316,7 @@ fn thin_line(points: Vec<Vec3>, colour: [u8; 4], width: f32, scale: f32) -> Poly
 fn body_marks(marks: &Marks, shown: &Shown<'_>, covered: usize, scale: f32, scene: &mut Scene) {
     for (i, mark) in marks.body.iter().enumerate() {
         let points: Vec<Vec3> = mark.points.iter().map(|p| p.as_vec3()).collect();
-        let width = if shown.near == Some(mark.id) { MARK_WIDTH + 2.0 } else { MARK_WIDTH };
+        let width = shown.width(mark.id);
         let lift = if i < covered { UNDER_CLOTH } else { ON_SKIN };
         push_mark(scene, points, i + 1, width, lift, scale);
         if i < covered {
@@ -304,6 +327,21 @@ fn body_marks(marks: &Marks, shown: &Shown<'_>, covered: usize, scale: f32, scen
         let points = shown.stroke.iter().map(|p| p.as_vec3()).collect();
         // Above cloth that may lie there, so that the hand sees what it does.
         push_mark(scene, points, marks.body.len() + 1, MARK_WIDTH, ABOVE_ALL, scale);
+    }
+}
+
+/// Thinner than marks, and half transparent.
+fn body_ghosts(ghosts: &Marks, scale: f32, scene: &mut Scene) {
+    for (mark, number) in ghosts.body.iter().zip(1..) {
+        let points = mark.points.iter().map(|p| p.as_vec3()).collect();
+        let lines = scene.lines.len();
+        push_mark(scene, points, number, MARK_WIDTH * 0.55, ABOVE_ALL, scale);
+        for line in &mut scene.lines[lines..] {
+            (line.colour[3], line.halo[3]) = (GHOST, GHOST / 2);
+            if let Some(label) = scene.labels.last_mut() {
+                (label.colour[3], label.halo[3]) = (GHOST, GHOST);
+            }
+        }
     }
 }
 

@@ -1,28 +1,41 @@
 //! The side panel: marks, cloth settings, problems.
 
+use std::sync::Arc;
+
 use egui::{CollapsingHeader, RichText, ScrollArea, Slider};
 
+use crate::body::Surface;
 use crate::pattern::Problem;
-use crate::render::mark_colour;
 use crate::session::{Command, Document, Settings};
-use crate::ui::actions::Action;
 use crate::ui::asks::{Ask, Asks};
+use crate::ui::marks_panel::MarksPanel;
 use crate::ui::situation::Situation;
-use crate::ui::theme::{Palette, colour};
+use crate::ui::theme::Palette;
+
+/// What the panel tells of.
+#[derive(Clone, Copy)]
+pub struct Told<'a> {
+    /// The document.
+    pub document: &'a Document,
+    /// Its body.
+    pub surface: Option<&'a Arc<Surface>>,
+    /// What is wrong with the garment.
+    pub problems: &'a [Problem],
+    /// Marks that found no place on the body.
+    pub lost: &'a [Problem],
+    /// How things stand.
+    pub now: &'a Situation,
+    /// Colours.
+    pub palette: &'a Palette,
+}
 
 /// Draws the panel.
-pub fn side_panel_ui(
-    ui: &mut egui::Ui,
-    document: &Document,
-    problems: &[Problem],
-    now: &Situation,
-    palette: &Palette,
-    asks: &mut Asks,
-) {
+pub fn side_panel_ui(ui: &mut egui::Ui, told: &Told<'_>, marks: &mut MarksPanel, asks: &mut Asks) {
+    let Told { document, problems, palette, .. } = *told;
     ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
-        section(ui, "Marks", |ui| marks_ui(ui, document, now, palette, asks));
+        section(ui, "Marks", |ui| marks.ui(ui, told, asks));
         section(ui, "Cloth", |ui| settings_ui(ui, &document.settings, palette, asks));
-        section(ui, "Problems", |ui| problems_ui(ui, document, problems, palette));
+        section(ui, "Problems", |ui| problems_ui(ui, document, &[told.lost, problems].concat(), palette));
     });
 }
 
@@ -36,57 +49,6 @@ fn section(ui: &mut egui::Ui, title: &str, contents: impl FnOnce(&mut egui::Ui))
             ui.add_space(6.0);
         },
     );
-}
-
-fn marks_ui(ui: &mut egui::Ui, document: &Document, now: &Situation, palette: &Palette, asks: &mut Asks) {
-    let [cloth, body] = now.marks;
-    if cloth + body == 0 {
-        let words = "Paint a mark on a piece, then one on the body where it should lie. Marks with the same number meet.";
-        ui.add(egui::Label::new(RichText::new(words).color(palette.weak)).wrap());
-        return;
-    }
-    for i in 0..cloth.max(body) {
-        mark_row(ui, document, i, palette, asks);
-    }
-    ui.add_space(2.0);
-    if ui.small_button(Action::ClearMarks.entry().text).clicked() {
-        asks.push(Ask::Act(Action::ClearMarks));
-    }
-}
-
-fn mark_row(ui: &mut egui::Ui, document: &Document, i: usize, palette: &Palette, asks: &mut Asks) {
-    let number = i + 1;
-    let marks = &document.marks;
-    ui.horizontal(|ui| {
-        let (dot, _) = ui.allocate_exact_size(egui::vec2(18.0, 18.0), egui::Sense::hover());
-        ui.painter().circle_filled(dot.center(), 8.0, colour(mark_colour(number)));
-        let font = egui::FontId::proportional(11.5);
-        ui.painter().text(dot.center(), egui::Align2::CENTER_CENTER, number, font, egui::Color32::WHITE);
-        let piece =
-            marks.cloth.get(i).map(|m| document.pattern.pieces.get(&m.piece).map_or("a piece", |p| &p.name));
-        let words = match (piece, marks.body.get(i)) {
-            (Some(piece), Some(_)) => RichText::new(format!("{piece} – body")),
-            (Some(piece), None) => {
-                RichText::new(format!("{piece} – not on the body yet")).color(palette.warning)
-            }
-            _ => RichText::new("body – not on the cloth yet").color(palette.warning),
-        };
-        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            let close = ui.small_button("×").on_hover_text(format!("Take the marks {number} away"));
-            name(&close, &format!("Delete marks {number}"));
-            if close.clicked() {
-                asks.push(Ask::Do(Command::DeletePair { number }));
-            }
-            ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
-                ui.add(egui::Label::new(words).truncate());
-            });
-        });
-    });
-}
-
-/// Gives a widget a name of its own for screen readers and tests.
-fn name(response: &egui::Response, name: &str) {
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::Button, true, name));
 }
 
 fn settings_ui(ui: &mut egui::Ui, settings: &Settings, palette: &Palette, asks: &mut Asks) {

@@ -3,8 +3,9 @@
 use egui::ThemePreference;
 
 use crate::drag::DragMode;
+use crate::geometry::ids::MarkId;
 use crate::ui::actions::{Action, Tool};
-use crate::wrap::Phase;
+use crate::wrap::{MarkPlace, Phase};
 
 /// How things stand in this frame.
 #[derive(Clone, Debug)]
@@ -15,12 +16,18 @@ pub struct Situation {
     pub redo: Option<String>,
     /// What the left button does.
     pub tool: Tool,
+    /// Strokes go through everything under the pointer.
+    pub laser: bool,
     /// Pieces on the table.
     pub pieces: usize,
     /// Marks on the cloth and on the body.
     pub marks: [usize; 2],
     /// Pins in the cloth.
     pub pins: usize,
+    /// The selected mark.
+    pub selected: Option<(MarkId, MarkPlace)>,
+    /// Pairs of marks proposed and not accepted yet.
+    pub proposed: usize,
     /// There is a body that cloth can be put on.
     pub has_body: bool,
     /// There is cloth on the body.
@@ -75,6 +82,16 @@ impl Situation {
             Action::Unwrap | Action::ToggleCloth | Action::Export | Action::ToggleRelaxing => {
                 unless(self.dressed, "There is no cloth on the body")
             }
+            Action::DeleteMark | Action::RaiseMark | Action::LowerMark => match &self.selected {
+                None => Some("No mark is selected: click one"),
+                Some((_, place)) if action == Action::RaiseMark => {
+                    unless(place.number > 1, "It is the first")
+                }
+                Some((_, place)) if action == Action::LowerMark => {
+                    unless(place.number < place.count, "It is the last")
+                }
+                Some(_) => None,
+            },
             Action::ClearMarks => unless(self.marks[0] + self.marks[1] > 0, "There are no marks"),
             _ => None,
         }
@@ -86,6 +103,7 @@ impl Situation {
             // The one button for dragging stands for all its ways.
             Action::Choose(Tool::Drag(DragMode::Surface)) => matches!(self.tool, Tool::Drag(_)),
             Action::Choose(tool) => self.tool == tool,
+            Action::ToggleLaser => self.laser,
             Action::ToggleRelaxing => self.relaxing,
             Action::ToggleCloth => self.show_cloth,
             Action::TogglePanel => self.show_panel,

@@ -19,6 +19,8 @@ pub fn toolbar_ui(ui: &mut egui::Ui, now: &Situation, palette: &Palette, asks: &
             plain(ui, now, asks, Action::Choose(tool), None);
         }
         gap(ui);
+        plain(ui, now, asks, Action::ToggleLaser, None);
+        gap(ui);
         plain(ui, now, asks, Action::Undo, Some("Undo"));
         plain(ui, now, asks, Action::Redo, Some("Redo"));
         gap(ui);

@@ -12,5 +12,6 @@ pub mod suggest;
 pub use coarser::coarser;
 pub use dressing::{Dressing, Phase};
 pub use mark_error::{MarkError, mark_error};
-pub use marks::{BodyMark, ClothMark, ClothSide, Marks};
+pub use marks::{BodyMark, ClothMark, ClothSide, MarkPlace, Marks, Tie};
+pub use roots::{PairStretch, stretches};
 pub use suggest::suggested;

@@ -14,6 +14,9 @@ use crate::wrap::{BodyMark, ClothMark, ClothSide, Marks};
 /// A stroke shorter than this is a point, metres on a body 1.5 m large.
 const POINT_MARK: f64 = 1e-4;
 
+/// Marks that differ more than this in length show in the garment.
+const LARGE_STRETCH: f64 = 0.05;
+
 /// A vertex laid by a mark.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Root {
@@ -25,8 +28,8 @@ pub struct Root {
     pub distance: f64,
 }
 
-/// How long a mark is on both sides.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+/// How long a pair of marks is on both sides; a point mark has no length on either.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PairStretch {
     /// The pair's number, from 1.
     pub number: usize,
@@ -40,6 +43,11 @@ impl PairStretch {
     /// Body over cloth less one: strain no solver can remove. Zero for point marks.
     pub fn stretch(&self) -> f64 {
         if self.cloth > 0.0 { self.body / self.cloth - 1.0 } else { 0.0 }
+    }
+
+    /// Whether the two strokes differ so much that one of them should be painted anew.
+    pub fn is_large(&self) -> bool {
+        self.stretch().abs() > LARGE_STRETCH
     }
 }
 
@@ -81,6 +89,47 @@ impl<P: Copy + std::ops::Sub<Output = P> + std::ops::Add<Output = P> + std::ops:
     }
 }
 
+/// Both strokes of a pair, the body's at the offset above the skin: the cloth lives there, and there its length counts.
+struct Strokes {
+    cloth: Stroke<DVec2>,
+    body: Stroke<DVec3>,
+    is_point: bool,
+}
+
+impl Strokes {
+    /// The error says in words why there are none.
+    fn new(cloth: &ClothMark, body: &BodyMark, surface: &Surface, offset: f64) -> Result<Self, String> {
+        if cloth.points.is_empty() || body.points.is_empty() {
+            return Err("it has no points".to_owned());
+        }
+        if cloth.points.iter().any(|p| !p.is_finite()) || body.points.iter().any(|p| !p.is_finite()) {
+            return Err("it has coordinates that are not numbers".to_owned());
+        }
+        let lifted = body.points.iter().map(|&p| lifted(surface, p, offset)).collect();
+        let (cloth, body) =
+            (Stroke::new(cloth.points.clone(), DVec2::length), Stroke::new(lifted, DVec3::length));
+        let shortest = POINT_MARK * surface.scale();
+        let is_point = cloth.length() < shortest || body.length() < shortest;
+        Ok(Self { cloth, body, is_point })
+    }
+
+    fn stretch(&self, number: usize) -> PairStretch {
+        let [cloth, body] = if self.is_point { [0.0; 2] } else { [self.cloth.length(), self.body.length()] };
+        PairStretch { number, cloth, body }
+    }
+}
+
+/// How long each pair of `marks` is on both sides, before any cloth is cut; `offset` is the height of the cloth above the
+/// skin, metres. Pairs without points are left out.
+pub fn stretches(marks: &Marks, surface: &Surface, offset: f64) -> Vec<PairStretch> {
+    let pairs = marks.pairs().zip(1..);
+    pairs
+        .filter_map(|((cloth, body), number)| {
+            Some(Strokes::new(cloth, body, surface, offset).ok()?.stretch(number))
+        })
+        .collect()
+}
+
 /// Lays the cloth round its marks. Roots are in vertex order, one per vertex.
 pub fn roots(
     garment: &Garment,
@@ -93,9 +142,10 @@ pub fn roots(
     let mut stretches = Vec::new();
     for (i, (cloth, body)) in marks.pairs().enumerate() {
         let number = i + 1;
-        match laid(garment, surface, cloth, body, offset) {
-            Ok((roots, lengths)) => {
-                stretches.push(PairStretch { number, cloth: lengths.0, body: lengths.1 });
+        let pair = Pair::new(garment, surface, cloth, body, offset);
+        match pair.and_then(|pair| Ok((pair.roots()?, pair.strokes.stretch(number)))) {
+            Ok((roots, stretch)) => {
+                stretches.push(stretch);
                 for root in roots {
                     let sum = found.entry(root.vertex).or_insert((DVec3::ZERO, 0.0, f64::INFINITY));
                     sum.0 += root.position;
@@ -135,41 +185,132 @@ pub(super) fn lifted(surface: &Surface, p: DVec3, offset: f64) -> DVec3 {
     n.point + n.normal * offset
 }
 
-type Laid = (Vec<Root>, (f64, f64));
-
-fn laid(
-    garment: &Garment,
-    surface: &Surface,
-    cloth: &ClothMark,
-    body: &BodyMark,
+/// A pair of marks, and what one is laid along the other with.
+struct Pair<'a> {
+    garment: &'a Garment,
+    surface: &'a Surface,
+    cloth: &'a ClothMark,
+    strokes: Strokes,
+    /// Height of the cloth above the skin, metres.
     offset: f64,
-) -> Result<Laid, String> {
-    if cloth.points.is_empty() || body.points.is_empty() {
-        return Err("it has no points".to_owned());
+}
+
+impl<'a> Pair<'a> {
+    fn new(
+        garment: &'a Garment,
+        surface: &'a Surface,
+        cloth: &'a ClothMark,
+        body: &BodyMark,
+        offset: f64,
+    ) -> Result<Self, String> {
+        let strokes = Strokes::new(cloth, body, surface, offset)?;
+        if !garment.pieces.iter().any(|&(id, _)| id == cloth.piece) {
+            return Err(format!("its {} is not in the garment", cloth.piece));
+        }
+        Ok(Self { garment, surface, cloth, strokes, offset })
     }
-    if cloth.points.iter().any(|p| !p.is_finite()) || body.points.iter().any(|p| !p.is_finite()) {
-        return Err("it has coordinates that are not numbers".to_owned());
+
+    fn roots(&self) -> Result<Vec<Root>, String> {
+        let crossing = if self.strokes.is_point { Vec::new() } else { self.crossing_roots() };
+        if !crossing.is_empty() {
+            return Ok(crossing);
+        }
+        self.point_roots().ok_or_else(|| "it lies off its piece; paint it on the cloth".to_owned())
     }
-    if !garment.pieces.iter().any(|&(id, _)| id == cloth.piece) {
-        return Err(format!("its {} is not in the garment", cloth.piece));
+
+    /// The image of arc-length fraction `t`.
+    fn frame(&self, t: f64) -> Frame {
+        let Strokes { cloth, body, .. } = &self.strokes;
+        let at = body.at(t * body.length());
+        let near = self.surface.nearest(at);
+        // The tangent over a short stretch of the body's stroke: single segments of a painted stroke are noise.
+        let (length, window) = (body.length(), 0.01 * self.surface.scale());
+        let s = t * length;
+        let ahead = body.at((s + window).min(length)) - body.at((s - window).max(0.0));
+        let flat_length = cloth.length();
+        let flat_window = window.min(flat_length);
+        let f = t * flat_length;
+        let flat = cloth.at((f + flat_window).min(flat_length)) - cloth.at((f - flat_window).max(0.0));
+        let normal = near.normal;
+        let tangent = ahead - normal * ahead.dot(normal);
+        let tangent = tangent
+            .try_normalize()
+            .or_else(|| (DVec3::Y - normal * normal.y).try_normalize())
+            .unwrap_or_else(|| normal.any_orthonormal_vector());
+        let drawn_from_front = if front_is_far(self.garment, self.cloth.piece) { -1.0 } else { 1.0 };
+        let side = if self.cloth.side == ClothSide::Front { 1.0 } else { -1.0 };
+        Frame {
+            point: near.point,
+            triangle: near.triangle,
+            tangent,
+            normal,
+            flat_tangent: flat.try_normalize().unwrap_or(DVec2::Y),
+            handed: drawn_from_front * side,
+        }
     }
-    // The cloth lives at the offset: that is where the mark's length counts.
-    let body_stroke =
-        Stroke::new(body.points.iter().map(|&p| lifted(surface, p, offset)).collect(), DVec3::length);
-    let cloth_stroke = Stroke::new(cloth.points.clone(), DVec2::length);
-    let shortest = POINT_MARK * surface.scale();
-    let is_point = cloth_stroke.length() < shortest || body_stroke.length() < shortest;
-    let mut roots = if is_point {
-        Vec::new()
-    } else {
-        crossing_roots(garment, surface, cloth, &cloth_stroke, &body_stroke, offset)
-    };
-    if roots.is_empty() {
-        roots = point_roots(garment, surface, cloth, &cloth_stroke, &body_stroke, offset)
-            .ok_or_else(|| "it lies off its piece; paint it on the cloth".to_owned())?;
+
+    fn crossing_roots(&self) -> Vec<Root> {
+        let Self { garment, surface, cloth, offset, .. } = *self;
+        let stroke = &self.strokes.cloth;
+        let mut roots = Vec::new();
+        let total = stroke.length();
+        let mut seen = std::collections::BTreeSet::new();
+        for (t, corners) in garment.triangle_corners.iter().enumerate() {
+            if garment.triangle_pieces[t] != cloth.piece {
+                continue;
+            }
+            for k in 0..3 {
+                let (ca, cb) = (corners[k], corners[(k + 1) % 3]);
+                if !seen.insert((ca.min(cb), ca.max(cb))) {
+                    continue;
+                }
+                let (a, b) = (garment.corners[ca as usize], garment.corners[cb as usize]);
+                for (s, p) in crossings(stroke, a.uv, b.uv) {
+                    let frame = self.frame(s / total);
+                    for end in [a, b] {
+                        let step = end.uv - p;
+                        roots.push(Root {
+                            vertex: end.vertex,
+                            position: frame.carried(surface, step, offset),
+                            distance: distance_to_stroke(stroke, end.uv),
+                        });
+                    }
+                }
+            }
+        }
+        roots
     }
-    let lengths = if is_point { (0.0, 0.0) } else { (cloth_stroke.length(), body_stroke.length()) };
-    Ok((roots, lengths))
+
+    /// A point, or a stroke inside one triangle: that triangle is laid.
+    fn point_roots(&self) -> Option<Vec<Root>> {
+        let Self { garment, surface, cloth, offset, .. } = *self;
+        let stroke = &self.strokes.cloth;
+        let middle = stroke.at(stroke.length() / 2.0);
+        let holding = (0..garment.triangles.len())
+            .find(|&t| garment.triangle_pieces[t] == cloth.piece && holds(garment, t, middle))?;
+        let mut frame = self.frame(0.5);
+        if stroke.length() < POINT_MARK * surface.scale() {
+            // No direction of its own: the pattern's up is the body's up.
+            frame.flat_tangent = DVec2::Y;
+            frame.tangent = (DVec3::Y - frame.normal * frame.normal.y)
+                .try_normalize()
+                .unwrap_or_else(|| frame.normal.any_orthonormal_vector());
+        }
+        let corners = garment.triangle_corners[holding].map(|c| garment.corners[c as usize]);
+        let root = |corner: crate::cloth::Corner| Root {
+            vertex: corner.vertex,
+            position: frame.carried(surface, corner.uv - middle, offset),
+            distance: (corner.uv - middle).length(),
+        };
+        Some(corners.map(root).to_vec())
+    }
+}
+
+fn front_is_far(garment: &Garment, piece: PieceId) -> bool {
+    garment.triangle_pieces.iter().position(|&p| p == piece).is_some_and(|t| {
+        let [a, b, c] = garment.triangle_corners[t].map(|c| garment.corners[c as usize].uv);
+        (b - a).perp_dot(c - a) < 0.0
+    })
 }
 
 /// A frame that carries directions of the pattern plane to the tangent plane at a point of the body.
@@ -204,88 +345,6 @@ impl Frame {
     }
 }
 
-/// The image of arc-length fraction `t` of a pair of strokes.
-fn frame(
-    garment: &Garment,
-    surface: &Surface,
-    cloth: &ClothMark,
-    cloth_stroke: &Stroke<DVec2>,
-    body_stroke: &Stroke<DVec3>,
-    t: f64,
-) -> Frame {
-    let at = body_stroke.at(t * body_stroke.length());
-    let near = surface.nearest(at);
-    // The tangent over a short stretch of the body's stroke: single segments of a painted stroke are noise.
-    let (length, window) = (body_stroke.length(), 0.01 * surface.scale());
-    let s = t * length;
-    let ahead = body_stroke.at((s + window).min(length)) - body_stroke.at((s - window).max(0.0));
-    let flat_length = cloth_stroke.length();
-    let flat_window = window.min(flat_length);
-    let f = t * flat_length;
-    let flat =
-        cloth_stroke.at((f + flat_window).min(flat_length)) - cloth_stroke.at((f - flat_window).max(0.0));
-    let normal = near.normal;
-    let tangent = ahead - normal * ahead.dot(normal);
-    let tangent = tangent
-        .try_normalize()
-        .or_else(|| (DVec3::Y - normal * normal.y).try_normalize())
-        .unwrap_or_else(|| normal.any_orthonormal_vector());
-    let drawn_from_front = if front_is_far(garment, cloth.piece) { -1.0 } else { 1.0 };
-    let side = if cloth.side == ClothSide::Front { 1.0 } else { -1.0 };
-    Frame {
-        point: near.point,
-        triangle: near.triangle,
-        tangent,
-        normal,
-        flat_tangent: flat.try_normalize().unwrap_or(DVec2::Y),
-        handed: drawn_from_front * side,
-    }
-}
-
-fn front_is_far(garment: &Garment, piece: PieceId) -> bool {
-    garment.triangle_pieces.iter().position(|&p| p == piece).is_some_and(|t| {
-        let [a, b, c] = garment.triangle_corners[t].map(|c| garment.corners[c as usize].uv);
-        (b - a).perp_dot(c - a) < 0.0
-    })
-}
-
-fn crossing_roots(
-    garment: &Garment,
-    surface: &Surface,
-    cloth: &ClothMark,
-    cloth_stroke: &Stroke<DVec2>,
-    body_stroke: &Stroke<DVec3>,
-    offset: f64,
-) -> Vec<Root> {
-    let mut roots = Vec::new();
-    let total = cloth_stroke.length();
-    let mut seen = std::collections::BTreeSet::new();
-    for (t, corners) in garment.triangle_corners.iter().enumerate() {
-        if garment.triangle_pieces[t] != cloth.piece {
-            continue;
-        }
-        for k in 0..3 {
-            let (ca, cb) = (corners[k], corners[(k + 1) % 3]);
-            if !seen.insert((ca.min(cb), ca.max(cb))) {
-                continue;
-            }
-            let (a, b) = (garment.corners[ca as usize], garment.corners[cb as usize]);
-            for (s, p) in crossings(cloth_stroke, a.uv, b.uv) {
-                let frame = frame(garment, surface, cloth, cloth_stroke, body_stroke, s / total);
-                for end in [a, b] {
-                    let step = end.uv - p;
-                    roots.push(Root {
-                        vertex: end.vertex,
-                        position: frame.carried(surface, step, offset),
-                        distance: distance_to_stroke(cloth_stroke, end.uv),
-                    });
-                }
-            }
-        }
-    }
-    roots
-}
-
 /// Arc lengths and points where a stroke crosses segment `ab`.
 fn crossings(stroke: &Stroke<DVec2>, a: DVec2, b: DVec2) -> Vec<(f64, DVec2)> {
     let (lower, upper) = (a.min(b), a.max(b));
@@ -316,34 +375,6 @@ fn distance_to_stroke(stroke: &Stroke<DVec2>, p: DVec2) -> f64 {
         (p - w[0] - d * t).length()
     };
     stroke.points.windows(2).map(to_segment).fold((p - stroke.points[0]).length(), f64::min)
-}
-
-/// A point, or a stroke inside one triangle: that triangle is laid.
-fn point_roots(
-    garment: &Garment,
-    surface: &Surface,
-    cloth: &ClothMark,
-    cloth_stroke: &Stroke<DVec2>,
-    body_stroke: &Stroke<DVec3>,
-    offset: f64,
-) -> Option<Vec<Root>> {
-    let middle = cloth_stroke.at(cloth_stroke.length() / 2.0);
-    let holding = (0..garment.triangles.len())
-        .find(|&t| garment.triangle_pieces[t] == cloth.piece && holds(garment, t, middle))?;
-    let mut frame = frame(garment, surface, cloth, cloth_stroke, body_stroke, 0.5);
-    if cloth_stroke.length() < POINT_MARK * surface.scale() {
-        // No direction of its own: the pattern's up is the body's up.
-        frame.flat_tangent = DVec2::Y;
-        frame.tangent = (DVec3::Y - frame.normal * frame.normal.y)
-            .try_normalize()
-            .unwrap_or_else(|| frame.normal.any_orthonormal_vector());
-    }
-    let roots = garment.triangle_corners[holding].map(|c| garment.corners[c as usize]).map(|corner| Root {
-        vertex: corner.vertex,
-        position: frame.carried(surface, corner.uv - middle, offset),
-        distance: (corner.uv - middle).length(),
-    });
-    Some(roots.to_vec())
 }
 
 fn holds(garment: &Garment, t: usize, p: DVec2) -> bool {

@@ -42,9 +42,16 @@ fn the_unit_is_given_or_told_by_the_height() {
 }
 
 #[test]
-fn another_body_needs_marks_of_its_own() {
+fn another_body_takes_marks_over_or_tells_which_it_cannot() {
     let place = place();
-    place.ends_with_words(3, "dress ball.toile --body metres.obj --out out", "no pair of marks");
+    place.ends(0, "dress ball.toile --body metres.obj --out out");
+    place.write("coarse.obj", ball(1.0, 12, 24));
+    place.ends_with_words(
+        3,
+        "dress ball.toile --body coarse.obj --out out",
+        "mark 1: it could not be carried",
+    );
+    place.ends_with_words(3, "dress ball.toile --body coarse.obj --out out", "no pair of marks");
     place.ends_with_words(3, "dress metres.obj --out out", "this is a body");
 }
 
@@ -84,4 +91,10 @@ fn pattern_body_and_marks_become_a_project() {
     let found: serde_json::Value = serde_json::from_str(&found.out).expect("JSON");
     assert_eq!((found["pieces"].as_u64(), found["seams"].as_u64()), (Some(1), Some(0)));
     assert!(found["triangles"].as_u64().is_some_and(|n| n > 100), "{found}");
+    let pair = &found["marks"][0];
+    assert!(pair["number"] == 1 && pair["cloth"].as_f64().is_some_and(|l| l > 0.05), "{found}");
+    let found = place.ends(0, "check p.toile");
+    assert!(found.out.contains("mark 1: ") && found.out.contains("cm on the body"), "{found:#?}");
+    let lost = place.ends(1, "check p.toile --body mannequin");
+    assert!(lost.err.contains("mark 1: it could not be carried to mannequin"), "{lost:#?}");
 }

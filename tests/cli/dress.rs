@@ -17,6 +17,7 @@ fn a_project_is_dressed_without_an_adapter() {
     assert_eq!(report["faults"].as_array().map(Vec::len), Some(0));
     assert!(report["strain"]["p99"].as_f64().is_some_and(|s| s < 0.25));
     assert_eq!(report["at_rest"], true);
+    assert!(report["marks"][0]["stretch"].as_f64().is_some_and(|s| s.abs() < 0.05));
     assert!(report["ticks"].as_u64().is_some_and(|t| t > 1 && report["counters"]["ticks"] == t));
     assert!(report["state_hash"].as_str().is_some_and(|h| h.len() == 16));
     assert!(report["seconds"]["total"].as_f64().is_some_and(|s| s > 0.0 && s < 60.0));

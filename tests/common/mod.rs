@@ -61,6 +61,7 @@ pub fn project() -> Project {
             points: vec![DVec2::new(0.05, 0.2), DVec2::new(0.2, 0.2)],
         }],
         body: vec![BodyMark { id: MarkId(2), points: line_on_ball(0.75, 0.2, 0.075) }],
+        ..Marks::default()
     };
     Project {
         document: Document {
@@ -73,6 +74,24 @@ pub fn project() -> Project {
         },
         dressed: None,
     }
+}
+
+/// A front and a back sewn into a tube that fits a ball, without marks.
+pub fn tube_project() -> Project {
+    let (width, height) = (0.4, 0.12);
+    let corners = [(0.0, 0.0), (width, 0.0), (width, height), (0.0, height)].map(DVec2::from);
+    let mut pattern = Pattern::default();
+    let [front, back] = ["front", "back"].map(|name| pattern.add_piece(Piece::polygon(name, &corners)));
+    for (edge, other) in [(1, 3), (3, 1)] {
+        let sides = [EdgeRef { piece: front, edge }, EdgeRef { piece: back, edge: other }];
+        pattern.add_seam(Seam { sides, same_direction: false });
+    }
+    let mut document = project().document;
+    document.pattern = Arc::new(pattern);
+    document.take_marks(Arc::default());
+    document.body = BodyChoice::Imported { name: "ball".to_owned(), mesh: Arc::new(ball(0.12, 12, 24)) };
+    document.settings.edge_length = 0.03;
+    Project { document, dressed: None }
 }
 
 /// A session on the scene with the simulation inline.

@@ -7,7 +7,7 @@ use toile::geometry::ids::{MarkId, PieceId, SeamId};
 use toile::pattern::{EdgeRef, Piece, PlanePose, Seam};
 use toile::relax::RelaxSettings;
 use toile::session::{BodyChoice, Command, Session, Settings};
-use toile::wrap::ClothSide;
+use toile::wrap::{ClothSide, Marks};
 
 use crate::common::{cloth_hash, run, session};
 
@@ -41,6 +41,11 @@ fn refused_commands_leave_no_trace() {
     refused(s, Command::DeleteMark { mark: MarkId(7) }, "no mark 7");
     refused(s, Command::DeletePair { number: 2 }, "number 2");
     refused(s, Command::MoveMark { mark: MarkId(1), to: 2 }, "from 1 to 1");
+    refused(s, Command::RenameMark { mark: MarkId(7), name: "x".to_owned() }, "no mark 7");
+    refused(s, Command::RenameMark { mark: MarkId(1), name: "a\u{7}".to_owned() }, "control");
+    let mut nobody = Marks::default();
+    nobody.names.insert(MarkId(3), "x".to_owned());
+    refused(s, Command::SetMarks { marks: Arc::new(nobody) }, "not there");
     refused(s, Command::RenamePiece { piece, name: " ".to_owned() }, "visible");
     refused(s, Command::RenamePiece { piece, name: "a\u{7}".to_owned() }, "control");
     refused(s, Command::SetPiecePose { piece, pose }, "finite");
@@ -95,6 +100,24 @@ fn marks_keep_their_ids_when_renumbered() {
 }
 
 #[test]
+fn a_name_goes_with_its_mark() {
+    let mut s = session();
+    let rename = |name: &str| Command::RenameMark { mark: MarkId(2), name: name.to_owned() };
+    s.apply_alone(rename("waist")).expect("named");
+    assert_eq!(
+        (s.document().marks.name(MarkId(2)), s.undo_label()),
+        ("waist", Some("name mark 1 on the body waist"))
+    );
+    s.apply_alone(rename("")).expect("unnamed");
+    assert_eq!(s.document().marks.name(MarkId(2)), "");
+    s.apply_alone(Command::Undo).expect("undone");
+    s.apply_alone(Command::DeleteMark { mark: MarkId(2) }).expect("deleted");
+    assert!(s.document().marks.names.is_empty());
+    s.apply_alone(Command::Undo).expect("undone");
+    assert_eq!(s.document().marks.name(MarkId(2)), "waist");
+}
+
+#[test]
 fn another_body_takes_cloth_and_strokes_off() {
     let mut s = session();
     s.apply_alone(Command::Wrap).expect("wrapped");
@@ -105,10 +128,15 @@ fn another_body_takes_cloth_and_strokes_off() {
         .expect("set");
     s.update();
     assert!(!s.snapshot().is_dressed() && s.document().marks.body.is_empty());
+    assert!(
+        s.problems()[0].place == "mark 1" && s.problems()[0].words.contains("small"),
+        "{:?}",
+        s.problems()
+    );
     assert!(s.surface().is_some_and(|surface| surface.bounds().1.x < 0.6));
     s.apply_alone(Command::Undo).expect("undone");
     s.update();
-    assert!(s.snapshot().is_dressed() && s.document().marks.body.len() == 1);
+    assert!(s.snapshot().is_dressed() && s.document().marks.body.len() == 1 && s.problems().is_empty());
     assert!(s.surface().is_some_and(|surface| surface.bounds().1.x > 0.7));
 }
 

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use proptest::prelude::*;
+use toile::geometry::ids::MarkId;
 use toile::session::project_file::{ProjectFileError, from_bytes, open, save, to_bytes};
 use toile::session::{BodyChoice, Command, Project};
 
@@ -59,6 +60,30 @@ fn a_project_that_could_not_be_read_back_is_not_written() {
     bad.document.settings.edge_length = f64::NAN;
     save(&path, &bad).expect_err("refused");
     assert_eq!(open(&path).expect("still there"), plain());
+}
+
+#[test]
+fn names_of_marks_are_kept_and_old_files_have_none() {
+    let mut s = session();
+    let text = |p: &Project| String::from_utf8(to_bytes(p).expect("bytes")).expect("json");
+    assert!(!text(&plain()).contains("names"), "a project without names is written as before");
+    s.apply_alone(Command::RenameMark { mark: MarkId(1), name: "hem".to_owned() }).expect("named");
+    let project = Project {
+        document: toile::session::Document { body: BodyChoice::default(), ..s.document().clone() },
+        dressed: None,
+    };
+    assert_eq!(from_bytes(text(&project).as_bytes()).expect("a project"), project);
+    refused(text(&project).replace("\"1\": \"hem\"", "\"9\": \"hem\"").as_bytes(), "mark 9");
+}
+
+#[test]
+fn places_of_marks_on_the_body_are_kept() {
+    let mut s = session();
+    s.apply_alone(Command::AddBodyMark { points: crate::common::line_on_ball(0.75, 0.1, 0.1) })
+        .expect("painted");
+    let project = s.project();
+    assert_eq!(project.document.marks.ties.values().map(Vec::len).collect::<Vec<_>>(), [3, 3]);
+    assert_eq!(from_bytes(&to_bytes(&project).expect("bytes")).expect("a project"), project);
 }
 
 #[test]

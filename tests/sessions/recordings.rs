@@ -6,7 +6,7 @@ use toile::session::replay::{Divergence, Replay};
 use toile::session::{Command, Session, Settings};
 
 use crate::common::{run, session};
-use crate::scenario::play;
+use crate::scenario::{laser, play};
 
 fn replayed(text: &str) -> Result<u64, Divergence> {
     let mut replay = Replay::new(Recording::parse(text).expect("a recording"));
@@ -26,6 +26,17 @@ fn a_replay_meets_every_hash() {
     let hashes = text.lines().filter(|l| l.starts_with("{\"hash\"")).count() as u64;
     assert!(hashes >= 9, "{hashes}");
     assert_eq!(replayed(&text), Ok(hashes));
+}
+
+#[test]
+fn strokes_through_front_and_back_are_two_steps_and_dress_the_ball() {
+    let runner = toile::sim::Runner::inline(toile::sim::Simulation::default());
+    let mut s = Session::new(crate::common::tube_project(), runner);
+    laser(&mut s);
+    assert_eq!(s.step_labels().count(), 3, "front and back of the cloth, of the body, wrap");
+    assert_eq!((s.document().marks.cloth.len(), s.document().marks.body.len()), (2, 2));
+    assert!(s.snapshot().cloth.mapped.iter().all(|&m| m) && s.snapshot().problems.is_empty());
+    assert!(replayed(&s.recording()).is_ok_and(|hashes| hashes >= 4));
 }
 
 #[test]

@@ -1,12 +1,28 @@
-//! What one person did with the small scene.
+//! What one person did with the small scenes.
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 use toile::geometry::ids::PieceId;
 use toile::relax::RelaxSettings;
 use toile::session::{Command, Session, Settings};
 use toile::wrap::ClothSide;
 
 use crate::common::{line_on_ball, run};
+
+/// On a front and a back that are a tube: one stroke through both, one through the body, wrap.
+pub fn laser(s: &mut Session) {
+    let at = |y: f64| vec![DVec2::new(0.2, y - 0.03), DVec2::new(0.2, y + 0.03)];
+    let cloth =
+        |piece| Command::AddClothMark { piece: PieceId(piece), side: ClothSide::Front, points: at(0.06) };
+    let skin = |side: f64, y: f64| DVec3::new(0.0, y, side * (0.12_f64.powi(2) - y * y).sqrt());
+    let body = |side| Command::AddBodyMark { points: [-0.03, 0.0, 0.03].map(|y| skin(side, y)).to_vec() };
+    for commands in [[cloth(1), cloth(2)], [body(1.0), body(-1.0)]] {
+        let gesture = s.begin_gesture();
+        commands.into_iter().for_each(|command| s.apply(command, gesture).expect("painted"));
+        s.end_gesture(gesture);
+    }
+    s.apply_alone(Command::Wrap).expect("wrapped");
+    run(s, 2000);
+}
 
 /// A little of everything, with ticks between.
 pub fn play(s: &mut Session) {

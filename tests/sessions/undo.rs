@@ -36,6 +36,7 @@ fn command() -> impl Strategy<Value = Command> {
         1 => number.clone().prop_map(|y| Command::AddBodyMark { points: line_on_ball(0.75, y, 0.07) }),
         1 => (1..6u32).prop_map(|id| Command::DeleteMark { mark: MarkId(id) }),
         1 => (1..6u32, 1..3usize).prop_map(|(id, to)| Command::MoveMark { mark: MarkId(id), to }),
+        1 => (1..6u32, "[a-z]{0,3}").prop_map(|(id, name)| Command::RenameMark { mark: MarkId(id), name }),
         1 => Just(Command::ClearMarks),
         1 => number.clone().prop_map(|x| Command::AddPiece {
             piece: Arc::new(Piece::polygon("new", &[DVec2::ZERO, DVec2::new(0.2, x), DVec2::new(0.0, 0.2)])),

@@ -1,45 +1,21 @@
 //! Skeleton, named points and tapes of a figure.
 
-use std::collections::BTreeMap;
-
 use glam::DVec3;
 
 use super::field::Field;
 use super::figure::Figure;
 use super::proportions::{self as nominal, level};
+use crate::body::landmarks::Landmarks;
 use crate::body::measure::Tape;
 use crate::body::skeleton::Skeleton;
 
-/// Named points on the skin, metres. Names end in `_left` (x > 0) or `_right` where there are two.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Landmarks {
-    points: BTreeMap<String, DVec3>,
+fn middle(marks: &mut Landmarks, name: &str, p: DVec3) {
+    marks.add(name, DVec3::new(0.0, p.y, p.z));
 }
 
-impl Landmarks {
-    /// The point called `name`.
-    pub fn get(&self, name: &str) -> Option<DVec3> {
-        self.points.get(name).copied()
-    }
-
-    /// All points, by name.
-    pub fn iter(&self) -> impl Iterator<Item = (&str, DVec3)> {
-        self.points.iter().map(|(name, &p)| (name.as_str(), p))
-    }
-
-    /// Every point carried by `f`.
-    pub fn map(self, f: impl Fn(DVec3) -> DVec3) -> Self {
-        Self { points: self.points.into_iter().map(|(name, p)| (name, f(p))).collect() }
-    }
-
-    fn middle(&mut self, name: &str, p: DVec3) {
-        self.points.insert(name.to_owned(), DVec3::new(0.0, p.y, p.z));
-    }
-
-    fn pair(&mut self, name: &str, p: DVec3) {
-        self.points.insert(format!("{name}_left"), p);
-        self.points.insert(format!("{name}_right"), DVec3::new(-p.x, p.y, p.z));
-    }
+fn pair(marks: &mut Landmarks, name: &str, p: DVec3) {
+    marks.add(format!("{name}_left"), p);
+    marks.add(format!("{name}_right"), DVec3::new(-p.x, p.y, p.z));
 }
 
 /// A point in the middle of the trunk at default height `y`.
@@ -108,27 +84,27 @@ pub fn landmarks(figure: &Figure, field: &Field) -> Landmarks {
         ("hip", level::HIP),
     ];
     for (name, y) in levels {
-        let middle = trunk_middle(figure, field, y);
+        let centre = trunk_middle(figure, field, y);
         // The pit of the neck lies lower than its nape.
         let drop = if name == "neck" { 0.022 * figure.small() } else { 0.0 };
-        marks.middle(&format!("{name}_front"), skin(field, middle - DVec3::Y * drop, DVec3::Z));
-        marks.middle(&format!("{name}_back"), skin(field, middle + DVec3::Y * drop, -DVec3::Z));
-        marks.pair(&format!("{name}_side"), skin(field, middle + DVec3::Y * drop * 0.7, DVec3::X));
+        middle(&mut marks, &format!("{name}_front"), skin(field, centre - DVec3::Y * drop, DVec3::Z));
+        middle(&mut marks, &format!("{name}_back"), skin(field, centre + DVec3::Y * drop, -DVec3::Z));
+        pair(&mut marks, &format!("{name}_side"), skin(field, centre + DVec3::Y * drop * 0.7, DVec3::X));
     }
     let breast = figure.point(nominal::BREAST_CENTRE);
     let inside = DVec3::new(breast.x, figure.y(level::BUST), 0.0);
-    marks.pair("bust_point", skin(field, inside, DVec3::Z));
-    marks.pair("shoulder", shoulder_tip(figure, field));
-    marks.pair("armpit", armpit(figure, field));
+    pair(&mut marks, "bust_point", skin(field, inside, DVec3::Z));
+    pair(&mut marks, "shoulder", shoulder_tip(figure, field));
+    pair(&mut marks, "armpit", armpit(figure, field));
     let [_, elbow, wrist] = arm_line(figure, field);
-    marks.pair("elbow", elbow);
-    marks.pair("wrist", wrist);
-    marks.pair("knee", skin(field, field.leg_centre(figure.y(level::KNEE)), DVec3::Z));
-    marks.pair("ankle", skin(field, field.leg_centre(figure.y(level::ANKLE_BONE)), DVec3::X));
+    pair(&mut marks, "elbow", elbow);
+    pair(&mut marks, "wrist", wrist);
+    pair(&mut marks, "knee", skin(field, field.leg_centre(figure.y(level::KNEE)), DVec3::Z));
+    pair(&mut marks, "ankle", skin(field, field.leg_centre(figure.y(level::ANKLE_BONE)), DVec3::X));
     let pelvis = trunk_middle(figure, field, level::HIP);
-    marks.middle("crotch", skin(field, pelvis, -DVec3::Y));
-    marks.middle("crown", DVec3::new(0.0, figure.y(level::CROWN), 0.0));
-    marks.middle("chin", skin(field, DVec3::new(0.0, figure.y(level::CHIN + 0.02), 0.02), DVec3::Z));
+    middle(&mut marks, "crotch", skin(field, pelvis, -DVec3::Y));
+    middle(&mut marks, "crown", DVec3::new(0.0, figure.y(level::CROWN), 0.0));
+    middle(&mut marks, "chin", skin(field, DVec3::new(0.0, figure.y(level::CHIN + 0.02), 0.02), DVec3::Z));
     marks
 }
 

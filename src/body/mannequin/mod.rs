@@ -21,10 +21,10 @@ use std::sync::{Arc, Mutex, OnceLock};
 
 use glam::DVec3;
 
-pub use landmarks::Landmarks;
 pub use measurements::{Measurements, OutOfRange};
 
 use super::closest::closest_on_triangle;
+use super::landmarks::Landmarks;
 use super::measure::Tape;
 use super::skeleton::Skeleton;
 use crate::geometry::mesh::TriMesh;

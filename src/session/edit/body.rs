@@ -2,20 +2,27 @@
 
 use std::sync::Arc;
 
+use crate::session::body::BodyCache;
+use crate::session::carry::carried;
 use crate::session::command::Rejection;
 use crate::session::document::{BodyChoice, Document};
 use crate::session::edit::{ClothChange, Edit, checks};
 
-/// Strokes on the old body mean nothing on the new one.
-pub fn set(mut document: Document, body: &BodyChoice) -> Result<Edit, Rejection> {
+/// Strokes on the old body are carried to the new one.
+pub fn set(mut document: Document, body: &BodyChoice, bodies: &mut BodyCache) -> Result<Edit, Rejection> {
     checks::body(body)?;
     if document.body == *body {
         return Err(Rejection::new("that is the body already"));
     }
-    document.body = body.clone();
+    let to = bodies.body(body)?;
+    let mut problems = Vec::new();
     if !document.marks.body.is_empty() {
-        Arc::make_mut(&mut document.marks).body.clear();
+        let from = bodies.body(&document.body).ok();
+        let (marks, lost) = carried(&document.marks, from.as_deref(), &to, body.name());
+        document.marks = Arc::new(marks);
+        problems = lost;
     }
     document.drop_pins();
-    Ok(Edit::new("change the body", document).with(ClothChange::Clear))
+    document.body = body.clone();
+    Ok(Edit { problems, ..Edit::new("change the body", document).with(ClothChange::Clear) })
 }

@@ -49,6 +49,11 @@ pub fn name(name: &str) -> Result<(), Rejection> {
     if name.trim().is_empty() {
         return Err(Rejection::new("a name needs at least one visible character"));
     }
+    name_or_none(name)
+}
+
+/// A name that may be empty.
+pub fn name_or_none(name: &str) -> Result<(), Rejection> {
     if name.chars().count() > LONGEST_NAME {
         return Err(Rejection(format!("a name may have {LONGEST_NAME} characters")));
     }
@@ -124,9 +129,16 @@ pub fn marks(marks: &Marks, pattern: &Pattern) -> Result<(), Rejection> {
     for mark in &marks.body {
         stroke_3d(&mark.points)?;
     }
-    let mut ids: Vec<MarkId> =
-        marks.cloth.iter().map(|m| m.id).chain(marks.body.iter().map(|m| m.id)).collect();
+    marks.names.values().try_for_each(|given| name(given))?;
+    if marks.ties.values().flatten().any(|tie| !tie.weights.is_finite()) {
+        return Err(Rejection::new("a mark is tied to the body by what is no number"));
+    }
+    let mut ids: Vec<MarkId> = marks.ids().collect();
     ids.sort_unstable();
+    let mut told = marks.names.keys().chain(marks.ties.keys());
+    if let Some(nobody) = told.find(|id| ids.binary_search(id).is_err()) {
+        return Err(Rejection(format!("{nobody} has a name or a place but is not there")));
+    }
     match ids.windows(2).find(|w| w[0] == w[1]) {
         Some(w) => Err(Rejection(format!("{} is there twice", w[0]))),
         None => Ok(()),

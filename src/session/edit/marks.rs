@@ -36,16 +36,11 @@ pub fn add_body(mut document: Document, points: &[DVec3]) -> Result<Edit, Reject
 
 pub fn delete(mut document: Document, mark: MarkId) -> Result<Edit, Rejection> {
     let marks = Arc::make_mut(&mut document.marks);
-    let label = if let Some(i) = marks.cloth.iter().position(|m| m.id == mark) {
-        marks.cloth.remove(i);
-        format!("delete mark {} on the cloth", i + 1)
-    } else if let Some(i) = marks.body.iter().position(|m| m.id == mark) {
-        marks.body.remove(i);
-        format!("delete mark {} on the body", i + 1)
-    } else {
-        return Err(no_mark(mark));
-    };
-    Ok(Edit::new(label, document))
+    let place = marks.place(mark).ok_or_else(|| no_mark(mark))?;
+    marks.cloth.retain(|m| m.id != mark);
+    marks.body.retain(|m| m.id != mark);
+    marks.prune();
+    Ok(Edit::new(format!("delete {place}"), document))
 }
 
 pub fn delete_pair(mut document: Document, number: usize) -> Result<Edit, Rejection> {
@@ -65,6 +60,7 @@ pub fn remove_number(marks: &mut Marks, number: usize) {
     if number <= marks.body.len() {
         marks.body.remove(number - 1);
     }
+    marks.prune();
 }
 
 pub fn renumber(mut document: Document, mark: MarkId, to: usize) -> Result<Edit, Rejection> {
@@ -86,6 +82,20 @@ fn move_to<T>(marks: &mut Vec<T>, from: usize, to: usize) -> Result<(), Rejectio
     let mark = marks.remove(from);
     marks.insert(to - 1, mark);
     Ok(())
+}
+
+pub fn rename(mut document: Document, mark: MarkId, name: &str) -> Result<Edit, Rejection> {
+    checks::name_or_none(name)?;
+    let marks = Arc::make_mut(&mut document.marks);
+    let place = marks.place(mark).ok_or_else(|| no_mark(mark))?;
+    let label = if name.trim().is_empty() {
+        marks.names.remove(&mark);
+        format!("take the name of {place} away")
+    } else {
+        marks.names.insert(mark, name.to_owned());
+        format!("name {place} {name}")
+    };
+    Ok(Edit::new(label, document))
 }
 
 pub fn clear(mut document: Document) -> Result<Edit, Rejection> {

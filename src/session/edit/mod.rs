@@ -9,9 +9,13 @@ mod seams;
 mod settings;
 mod wrap;
 
+use std::sync::Arc;
+
 use crate::drag::{DragMode, Ray};
-use crate::pattern::Pattern;
+use crate::pattern::{Pattern, Problem};
 use crate::relax::RelaxSettings;
+use crate::session::body::BodyCache;
+use crate::session::carry;
 use crate::session::command::{Command, Rejection};
 use crate::session::document::Document;
 use crate::session::history::StepKind;
@@ -49,11 +53,13 @@ pub struct Edit {
     pub label: String,
     /// What it asks of the simulation.
     pub cloth: ClothChange,
+    /// What was lost by it, in words.
+    pub problems: Vec<Problem>,
 }
 
 impl Edit {
     fn new(label: impl Into<String>, document: Document) -> Self {
-        Self { document, label: label.into(), cloth: ClothChange::None }
+        Self { document, label: label.into(), cloth: ClothChange::None, problems: Vec::new() }
     }
 
     fn with(self, cloth: ClothChange) -> Self {
@@ -76,7 +82,20 @@ impl Edit {
 }
 
 /// What `command` does to `document`. Commands about history belong to the session and are refused here.
-pub fn edit(document: &Document, command: &Command) -> Result<Edit, Rejection> {
+///
+/// `bodies` only saves making the same body twice. New strokes on the body are tied to it.
+pub fn edit(document: &Document, command: &Command, bodies: &mut BodyCache) -> Result<Edit, Rejection> {
+    let mut edit = untied(document, command, bodies)?;
+    let new = &mut edit.document;
+    if !Arc::ptr_eq(&new.marks, &document.marks)
+        && let Ok(body) = bodies.body(&new.body)
+    {
+        carry::tie(&mut new.marks, &body);
+    }
+    Ok(edit)
+}
+
+fn untied(document: &Document, command: &Command, bodies: &mut BodyCache) -> Result<Edit, Rejection> {
     let new = document.clone();
     match command {
         Command::AddClothMark { piece, side, points } => marks::add_cloth(new, *piece, *side, points),
@@ -84,6 +103,7 @@ pub fn edit(document: &Document, command: &Command) -> Result<Edit, Rejection> {
         Command::DeleteMark { mark } => marks::delete(new, *mark),
         Command::DeletePair { number } => marks::delete_pair(new, *number),
         Command::MoveMark { mark, to } => marks::renumber(new, *mark, *to),
+        Command::RenameMark { mark, name } => marks::rename(new, *mark, name),
         Command::ClearMarks => marks::clear(new),
         Command::SetMarks { marks } => marks::set(new, marks),
         Command::AddPiece { piece } => pieces::add(new, piece),
@@ -95,7 +115,7 @@ pub fn edit(document: &Document, command: &Command) -> Result<Edit, Rejection> {
         Command::DeleteSeam { seam } => seams::delete(new, *seam),
         Command::ReverseSeam { seam } => seams::reverse(new, *seam),
         Command::ReplacePattern { name, pattern, marks } => pieces::replace_all(new, name, pattern, marks),
-        Command::SetBody { body } => body::set(new, body),
+        Command::SetBody { body } => body::set(new, body, bodies),
         Command::SetSettings { settings } => settings::set(new, settings),
         Command::Wrap => wrap::wrap(new),
         Command::Unwrap => wrap::unwrap(new),
@@ -117,8 +137,7 @@ pub fn edit(document: &Document, command: &Command) -> Result<Edit, Rejection> {
 /// What no command would have let into `document`; for documents from files.
 pub fn document_problem(document: &Document) -> Option<String> {
     let Document { pattern, body, marks, last_mark, pins, last_pin, settings } = document;
-    let ids = marks.cloth.iter().map(|m| m.id).chain(marks.body.iter().map(|m| m.id));
-    if ids.max().is_some_and(|id| id.0 > *last_mark) {
+    if marks.ids().max().is_some_and(|id| id.0 > *last_mark) {
         return Some("the counter of marks is behind their ids".to_owned());
     }
     if pins.iter().any(|pin| pin.id.0 > *last_pin) {

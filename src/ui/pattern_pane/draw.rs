@@ -24,6 +24,22 @@ pub struct Drawing<'a> {
     pub palette: &'a Palette,
 }
 
+/// Opacity of proposed marks.
+const GHOST: f32 = 0.6;
+
+/// How a mark is drawn.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct MarkLook {
+    /// One without a partner has a hollow number.
+    pub paired: bool,
+    /// It is under the pointer.
+    pub near: bool,
+    /// It is the chosen one.
+    pub selected: bool,
+    /// It is proposed only.
+    pub ghost: bool,
+}
+
 /// Whether the front of `piece` is seen.
 pub fn front_is_seen(piece: &Piece, shape: &PieceShape) -> bool {
     shape.drawn_from_front != piece.pose.flipped
@@ -109,40 +125,63 @@ impl Drawing<'_> {
     }
 
     /// All marks with their numbers; `near` is under the pointer.
-    pub fn marks(&self, pattern: &Pattern, marks: &Marks, near: Option<MarkId>) {
+    pub fn marks(&self, pattern: &Pattern, marks: &Marks, near: Option<MarkId>, selected: Option<MarkId>) {
         for (i, mark) in marks.cloth.iter().enumerate() {
             if let Some(piece) = pattern.pieces.get(&mark.piece) {
                 let points: Vec<DVec2> =
                     mark.points.iter().map(|&p| piece.pose.plane_from_piece(p)).collect();
-                let paired = i < marks.body.len();
-                self.mark(&points, i + 1, paired, near == Some(mark.id));
+                let look = MarkLook {
+                    paired: i < marks.body.len(),
+                    near: near == Some(mark.id),
+                    selected: selected == Some(mark.id),
+                    ghost: false,
+                };
+                self.mark(&points, i + 1, look);
             }
         }
     }
 
-    /// One mark, points on the table. One without a partner has a hollow number.
-    pub fn mark(&self, points: &[DVec2], number: usize, paired: bool, near: bool) {
-        let ink = colour(mark_colour(number));
-        let width = if near { 5.0 } else { 3.0 };
-        if let [only] = points {
-            let at = self.place(*only);
-            self.painter.circle_filled(at, width + 2.4, self.palette.halo);
-            self.painter.circle_filled(at, width + 0.6, ink);
-        } else {
-            self.polyline(points, Stroke::new(width + 3.6, self.palette.halo));
-            self.polyline(points, Stroke::new(width, ink));
-        }
-        if let Some(&first) = points.first() {
-            self.number(self.place(first) + Vec2::new(-11.0, -11.0), number, ink, paired);
+    /// Proposed marks with the numbers they would have.
+    pub fn ghosts(&self, pattern: &Pattern, marks: &Marks) {
+        for (mark, number) in marks.cloth.iter().zip(1..) {
+            let Some(piece) = pattern.pieces.get(&mark.piece) else { continue };
+            let points: Vec<DVec2> = mark.points.iter().map(|&p| piece.pose.plane_from_piece(p)).collect();
+            self.mark(&points, number, MarkLook { ghost: true, ..MarkLook::default() });
         }
     }
 
-    fn number(&self, at: Pos2, number: usize, ink: Color32, paired: bool) {
+    /// One mark, points on the table.
+    pub fn mark(&self, points: &[DVec2], number: usize, look: MarkLook) {
+        let fade = if look.ghost { GHOST } else { 1.0 };
+        let [ink, halo] = [colour(mark_colour(number)), self.palette.halo].map(|c| c.gamma_multiply(fade));
+        let width = match look {
+            MarkLook { ghost: true, .. } => 1.6,
+            MarkLook { near, selected, .. } if near || selected => 5.0,
+            _ => 3.0,
+        };
+        if let [only] = points {
+            let at = self.place(*only);
+            self.painter.circle_filled(at, width + 2.4, halo);
+            self.painter.circle_filled(at, width + 0.6, ink);
+        } else {
+            self.polyline(points, Stroke::new(width + 3.6, halo));
+            self.polyline(points, Stroke::new(width, ink));
+        }
+        if let Some(&first) = points.first() {
+            self.number(self.place(first) + Vec2::new(-11.0, -11.0), number, ink, look);
+        }
+    }
+
+    fn number(&self, at: Pos2, number: usize, ink: Color32, look: MarkLook) {
         let text = number.to_string();
         let radius = if text.len() > 1 { 10.5 } else { 8.5 };
-        let (paper, letters) = if paired { (ink, Color32::WHITE) } else { (self.palette.halo, ink) };
-        self.painter.circle_filled(at, radius + 1.6, self.palette.halo);
+        let halo = if look.ghost { self.palette.halo.gamma_multiply(GHOST) } else { self.palette.halo };
+        let (paper, letters) = if look.paired { (ink, Color32::WHITE) } else { (halo, ink) };
+        self.painter.circle_filled(at, radius + 1.6, halo);
         self.painter.circle(at, radius, paper, Stroke::new(1.6, ink));
+        if look.selected {
+            self.painter.circle_stroke(at, radius + 3.2, Stroke::new(2.0, self.palette.accent));
+        }
         self.painter.text(at, Align2::CENTER_CENTER, text, FontId::proportional(12.0), letters);
     }
 

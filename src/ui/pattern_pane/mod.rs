@@ -14,11 +14,11 @@ use crate::pattern::{Pattern, PlanePose};
 use crate::session::samples::Sample;
 use crate::session::{Command, Document};
 use crate::ui::actions::{Action, Tool};
-use crate::ui::asks::{Ask, Asks};
+use crate::ui::asks::{Ask, Asks, in_one_step};
 use crate::ui::stroke;
 use crate::ui::theme::Palette;
-use crate::wrap::ClothSide;
-use draw::{Drawing, front_is_seen};
+use crate::wrap::{ClothSide, Marks};
+use draw::{Drawing, MarkLook, front_is_seen};
 use shapes::Shapes;
 use threads::{Threads, to_polyline};
 use view::TableView;
@@ -42,12 +42,29 @@ pub struct PatternPane {
 
 #[derive(Debug)]
 enum Drag {
-    /// A stroke, in the piece's own plane.
-    Paint { piece: PieceId, points: Vec<DVec2> },
+    /// Strokes, each in its piece's own plane: the topmost piece's first, those of pieces under it only with the laser.
+    Paint(Vec<(PieceId, Vec<DVec2>)>),
     /// A piece and where it was held.
     Piece { piece: PieceId, held: DVec2, pose: PlanePose },
     /// Given up; the button is still down.
     Over,
+}
+
+/// What the pane shows, and what the pointer does there.
+#[derive(Clone, Copy)]
+pub struct Laid<'a> {
+    /// The document.
+    pub document: &'a Document,
+    /// What the left button does.
+    pub tool: Tool,
+    /// Strokes go through to the pieces below.
+    pub laser: bool,
+    /// The mark that stands out.
+    pub selected: Option<MarkId>,
+    /// Marks proposed and not accepted yet.
+    pub ghosts: Option<&'a Marks>,
+    /// Colours.
+    pub palette: &'a Palette,
 }
 
 /// What lies under the pointer.
@@ -65,14 +82,8 @@ impl PatternPane {
     }
 
     /// Draws the pane and listens to the pointer.
-    pub fn ui(
-        &mut self,
-        ui: &mut egui::Ui,
-        document: &Document,
-        tool: Tool,
-        palette: &Palette,
-        asks: &mut Asks,
-    ) {
+    pub fn ui(&mut self, ui: &mut egui::Ui, laid: &Laid<'_>, asks: &mut Asks) {
+        let Laid { document, tool, .. } = *laid;
         let pattern = &*document.pattern;
         self.shapes.update(pattern);
         self.threads.update(pattern, &self.shapes);
@@ -85,16 +96,19 @@ impl PatternPane {
         }
         self.move_view(ui, pane, &response);
         let under = self.under(document, pane, &response);
-        self.listen(ui, document, tool, pane, &response, under, asks);
+        self.listen(ui, laid, pane, &response, under, asks);
         self.set_cursor(ui, tool, under, &response);
-        self.draw(ui, document, palette, pane, under);
-        publish_marks(ui, document, pane, &self.view);
+        self.draw(ui, laid, pane, under);
+        publish_marks(ui, document, &document.marks, "Mark", pane, &self.view);
+        if let Some(ghosts) = laid.ghosts {
+            publish_marks(ui, document, ghosts, "Proposed mark", pane, &self.view);
+        }
     }
 
     /// The stroke under way, in its piece's plane.
     pub fn stroke(&self) -> Option<(PieceId, &[DVec2])> {
         match &self.drag {
-            Some(Drag::Paint { piece, points }) => Some((*piece, points)),
+            Some(Drag::Paint(strokes)) => strokes.first().map(|(piece, points)| (*piece, &points[..])),
             _ => None,
         }
     }
@@ -129,23 +143,24 @@ impl PatternPane {
         }
     }
 
-    #[expect(clippy::too_many_arguments, reason = "all of it is one frame's input")]
     fn listen(
         &mut self,
         ui: &egui::Ui,
-        document: &Document,
-        tool: Tool,
+        laid: &Laid<'_>,
         pane: Rect,
         response: &Response,
         under: Under,
         asks: &mut Asks,
     ) {
+        let Laid { document, tool, .. } = *laid;
         let (space, erasing) =
             ui.input(|i| (i.key_down(Key::Space), tool == Tool::Erase || i.modifiers.command));
         if response.clicked_by(PointerButton::Primary) && !space {
             match (under.mark, tool) {
                 (Some(mark), _) if erasing => asks.push(Ask::Do(Command::DeleteMark { mark })),
-                (_, Tool::Mark) if !erasing => self.dot(document, pane, response, asks),
+                (Some(_), Tool::Mark | Tool::Move) => asks.push(Ask::Select(under.mark)),
+                (None, Tool::Move) => asks.push(Ask::Select(None)),
+                (None, Tool::Mark) if !erasing => self.dot(laid, pane, response, asks),
                 _ => {}
             }
         }
@@ -156,10 +171,10 @@ impl PatternPane {
             asks.extend(self.turned_over(&document.pattern, piece).map(Ask::Do));
         }
         if response.drag_started_by(PointerButton::Primary) && !space && !erasing {
-            self.start_drag(ui, document, tool, pane);
+            self.start_drag(ui, laid, pane);
         }
         if self.drag.is_some() {
-            self.go_on(ui, document, pane, asks);
+            self.go_on(ui, laid, pane, asks);
             let lost = ui.input(|i| {
                 i.events.contains(&Event::WindowFocused(false)) || i.events.contains(&Event::PointerGone)
             });
@@ -171,22 +186,30 @@ impl PatternPane {
         }
     }
 
-    fn dot(&self, document: &Document, pane: Rect, response: &Response, asks: &mut Asks) {
+    fn dot(&self, laid: &Laid<'_>, pane: Rect, response: &Response, asks: &mut Asks) {
         let Some(at) = response.interact_pointer_pos() else { return };
+        let pattern = &laid.document.pattern;
         let table = self.view.table_from_screen(pane, at);
-        match self.shapes.at(&document.pattern, table) {
-            Some((piece, p)) => asks.extend(self.painted(document, piece, &[p]).map(Ask::Do)),
-            None if document.pattern.pieces.is_empty() => {}
-            None => asks.push(Ask::Say("Marks are painted on the pieces: press on one of them.".to_owned())),
+        let hit = self.shapes.all_at(pattern, table).take(if laid.laser { usize::MAX } else { 1 });
+        let dots: Vec<_> = hit.map(|(piece, p)| (piece, vec![p])).collect();
+        match dots.is_empty() {
+            false => in_one_step(self.painted(pattern, dots), asks),
+            true if pattern.pieces.is_empty() => {}
+            true => asks.push(Ask::Say("Marks are painted on the pieces: press on one of them.".to_owned())),
         }
     }
 
-    fn start_drag(&mut self, ui: &egui::Ui, document: &Document, tool: Tool, pane: Rect) {
+    fn start_drag(&mut self, ui: &egui::Ui, laid: &Laid<'_>, pane: Rect) {
+        let Laid { document, tool, laser, .. } = *laid;
         let Some(origin) = ui.input(|i| i.pointer.press_origin()) else { return };
         let table = self.view.table_from_screen(pane, origin);
         let Some((piece, p)) = self.shapes.at(&document.pattern, table) else { return };
         self.drag = match tool {
-            Tool::Mark => Some(Drag::Paint { piece, points: vec![p] }),
+            Tool::Mark => {
+                let mut strokes = vec![(piece, vec![p])];
+                go_through(&mut strokes, &self.shapes, &document.pattern, table, laser);
+                Some(Drag::Paint(strokes))
+            }
             Tool::Move => document.pattern.pieces.get(&piece).map(|found| Drag::Piece {
                 piece,
                 held: table,
@@ -197,7 +220,7 @@ impl PatternPane {
     }
 
     /// Follows the pointer through every place it was in since the last frame.
-    fn go_on(&mut self, ui: &egui::Ui, document: &Document, pane: Rect, asks: &mut Asks) {
+    fn go_on(&mut self, ui: &egui::Ui, laid: &Laid<'_>, pane: Rect, asks: &mut Asks) {
         let trail: Vec<Pos2> = ui.input(|i| {
             let moved = i.events.iter().filter_map(|e| match e {
                 Event::PointerMoved(p) => Some(*p),
@@ -206,17 +229,11 @@ impl PatternPane {
             moved.collect()
         });
         match &mut self.drag {
-            Some(Drag::Paint { piece, points }) => {
-                let (Some(found), Some(shape)) = (document.pattern.pieces.get(piece), self.shapes.of(*piece))
-                else {
-                    self.drag = Some(Drag::Over);
-                    return;
-                };
+            Some(Drag::Paint(strokes)) => {
+                let pattern = &laid.document.pattern;
                 for at in trail {
-                    let p = found.pose.piece_from_plane(self.view.table_from_screen(pane, at));
-                    if shape.contains(p) && points.last().is_none_or(|l| l.distance(p) > 1e-4) {
-                        points.push(p);
-                    }
+                    let table = self.view.table_from_screen(pane, at);
+                    go_through(strokes, &self.shapes, pattern, table, laid.laser);
                 }
             }
             Some(Drag::Piece { piece, held, pose }) => {
@@ -232,8 +249,11 @@ impl PatternPane {
 
     fn finish(&mut self, document: &Document, asks: &mut Asks) {
         match self.drag.take() {
-            Some(Drag::Paint { piece, points }) => {
-                asks.extend(self.painted(document, piece, &stroke::finished(&points)).map(Ask::Do));
+            Some(Drag::Paint(mut strokes)) => {
+                for (_, points) in &mut strokes {
+                    *points = stroke::finished(points);
+                }
+                in_one_step(self.painted(&document.pattern, strokes), asks);
             }
             Some(Drag::Piece { .. }) => asks.push(Ask::EndDrag),
             Some(Drag::Over) | None => {}
@@ -247,12 +267,16 @@ impl PatternPane {
         self.drag = Some(Drag::Over);
     }
 
-    /// The command that paints `points` on the side of `piece` that is seen.
-    fn painted(&self, document: &Document, piece: PieceId, points: &[DVec2]) -> Option<Command> {
-        let shape = self.shapes.of(piece)?;
-        let front = front_is_seen(document.pattern.pieces.get(&piece)?, shape);
-        let side = if front { ClothSide::Front } else { ClothSide::Back };
-        Some(Command::AddClothMark { piece, side, points: points.to_vec() })
+    /// The commands that paint `strokes`: the first on the side that is seen, the others on the outer side of their
+    /// pieces, however they lie: nobody means to turn half a garment inside out.
+    fn painted(&self, pattern: &Pattern, strokes: Vec<(PieceId, Vec<DVec2>)>) -> Vec<Command> {
+        let seen = |piece: PieceId| Some(front_is_seen(pattern.pieces.get(&piece)?, self.shapes.of(piece)?));
+        let command = |(i, (piece, points)): (usize, (PieceId, Vec<DVec2>))| {
+            let front = seen(piece)? || i > 0;
+            let side = if front { ClothSide::Front } else { ClothSide::Back };
+            Some(Command::AddClothMark { piece, side, points })
+        };
+        strokes.into_iter().enumerate().filter_map(command).collect()
     }
 
     /// Mirrors a piece about the upright line through its middle.
@@ -279,31 +303,61 @@ impl PatternPane {
         });
     }
 
-    fn draw(&self, ui: &egui::Ui, document: &Document, palette: &Palette, pane: Rect, under: Under) {
+    fn draw(&self, ui: &egui::Ui, laid: &Laid<'_>, pane: Rect, under: Under) {
+        let Laid { document, palette, selected, .. } = *laid;
         let pattern = &*document.pattern;
         let drawing = Drawing { painter: ui.painter_at(pane), pane, view: &self.view, palette };
         drawing.table();
         drawing.pieces(pattern, &self.shapes, under.piece);
         drawing.seams(pattern, &self.threads, under.seam);
-        drawing.marks(pattern, &document.marks, under.mark);
+        drawing.marks(pattern, &document.marks, under.mark, selected);
+        if let Some(ghosts) = laid.ghosts {
+            drawing.ghosts(pattern, ghosts);
+        }
         if let Some((id, points)) = self.stroke()
             && let Some(piece) = pattern.pieces.get(&id)
         {
             let points: Vec<DVec2> = points.iter().map(|&p| piece.pose.plane_from_piece(p)).collect();
             let number = document.marks.cloth.len() + 1;
-            drawing.mark(&points, number, number <= document.marks.body.len(), false);
+            let paired = number <= document.marks.body.len();
+            drawing.mark(&points, number, MarkLook { paired, ..MarkLook::default() });
         }
         drawing.names(pattern, &self.shapes);
         drawing.scale_bar();
     }
 }
 
+/// Takes the strokes on to a point of the table. Off the first piece nothing is painted; with the laser every piece below
+/// gets its own stroke as soon as the pointer is over it.
+fn go_through(
+    strokes: &mut Vec<(PieceId, Vec<DVec2>)>,
+    shapes: &Shapes,
+    pattern: &Pattern,
+    table: DVec2,
+    laser: bool,
+) {
+    let Some(&(first, _)) = strokes.first() else { return };
+    let below = shapes.all_at(pattern, table).skip_while(|(piece, _)| *piece != first);
+    for (piece, p) in below.take(if laser { usize::MAX } else { 1 }) {
+        match strokes.iter_mut().find(|(painted, _)| *painted == piece) {
+            Some((_, points)) if points.last().is_none_or(|l| l.distance(p) > 1e-4) => points.push(p),
+            Some(_) => {}
+            None => strokes.push((piece, vec![p])),
+        }
+    }
+}
+
 /// What the pointer does here, for the status bar.
-pub fn hint(tool: Tool, next: usize) -> String {
+pub fn hint(tool: Tool, laser: bool, next: usize) -> String {
     let view = "Wheel: zoom · Middle or right drag: move the view · F: show all";
     match tool {
+        Tool::Mark if laser => {
+            format!("Drag: paint marks {next}… on every piece that lies here · L: only the topmost · {view}")
+        }
         Tool::Mark => {
-            format!("Drag: paint mark {next} on the cloth · Click: a dot · Ctrl+click: erase · {view}")
+            format!(
+                "Drag: paint mark {next} on the cloth · Click: a dot, or select a mark · Ctrl+click: erase · {view}"
+            )
         }
         Tool::Erase => format!("Click a mark: take it away · {view}"),
         Tool::Drag(_) | Tool::Pin => format!("The cloth is dragged and pinned on the body · {view}"),
@@ -328,14 +382,21 @@ fn mark_at(document: &Document, table: DVec2, reach: f64) -> Option<MarkId> {
 }
 
 /// Tells screen readers and tests where each mark is.
-fn publish_marks(ui: &egui::Ui, document: &Document, pane: Rect, view: &TableView) {
-    for (i, mark) in document.marks.cloth.iter().enumerate() {
+fn publish_marks(
+    ui: &egui::Ui,
+    document: &Document,
+    marks: &Marks,
+    what: &str,
+    pane: Rect,
+    view: &TableView,
+) {
+    for (i, mark) in marks.cloth.iter().enumerate() {
         if let (Some(piece), Some(&first)) = (document.pattern.pieces.get(&mark.piece), mark.points.first()) {
             let at = view.screen_from_table(pane, piece.pose.plane_from_piece(first));
             let rect = Rect::from_center_size(at, egui::vec2(12.0, 12.0));
-            let node = ui.interact(rect, ui.scope_id().with(("cloth mark", mark.id.0)), Sense::hover());
+            let node = ui.interact(rect, ui.scope_id().with((what, "on the cloth", i)), Sense::hover());
             node.widget_info(|| {
-                WidgetInfo::labeled(Role::Label, true, format!("Mark {} on the cloth", i + 1))
+                WidgetInfo::labeled(Role::Label, true, format!("{what} {} on the cloth", i + 1))
             });
         }
     }

@@ -79,7 +79,12 @@ impl Shapes {
 
     /// The topmost piece under a point of the table, and the point in its own plane.
     pub fn at(&self, pattern: &Pattern, table: DVec2) -> Option<(PieceId, DVec2)> {
-        pattern.pieces.iter().rev().find_map(|(&id, piece)| {
+        self.all_at(pattern, table).next()
+    }
+
+    /// All pieces under a point of the table, topmost first, and the point in the plane of each.
+    pub fn all_at(&self, pattern: &Pattern, table: DVec2) -> impl Iterator<Item = (PieceId, DVec2)> {
+        pattern.pieces.iter().rev().filter_map(move |(&id, piece)| {
             let p = piece.pose.piece_from_plane(table);
             self.of(id)?.contains(p).then_some((id, p))
         })

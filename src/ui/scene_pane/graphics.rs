@@ -34,21 +34,28 @@ pub struct Key {
     pub pinned: Option<Arc<Vec<Option<u32>>>>,
     /// With which drag.
     pub dragged: Option<Arc<Vec<f32>>>,
+    /// The mark that stands out.
+    pub selected: Option<MarkId>,
+    /// With which proposed marks.
+    pub ghosts: Option<Arc<Marks>>,
 }
 
 impl PartialEq for Key {
     fn eq(&self, other: &Self) -> bool {
-        let Self { camera, look, size, body, cloth, marks, stroke, near, pinned, dragged } = self;
+        let Self { camera, look, size, body, cloth, marks, stroke, near, selected, ghosts, pinned, dragged } =
+            self;
         *camera == other.camera
             && *look == other.look
             && *size == other.size
             && *stroke == other.stroke
             && *near == other.near
+            && *selected == other.selected
             && same(body, &other.body)
             && same(cloth, &other.cloth)
             && same(marks, &other.marks)
             && same(pinned, &other.pinned)
             && same(dragged, &other.dragged)
+            && same(ghosts, &other.ghosts)
     }
 }
 

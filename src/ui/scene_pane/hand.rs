@@ -35,7 +35,7 @@ pub fn begun(seen: &Seen<'_>, hit: &ClothHit) -> Ask {
 pub fn next_in_row(seen: &Seen<'_>, last: DVec3, hit: &ClothHit) -> Option<Ask> {
     let scale = seen.body.map_or(1.0, |b| b.scale());
     (hit.point.distance(last) > ROW_STEP * scale)
-        .then(|| Ask::Drag(Command::AddPin { piece: hit.place.piece, at: hit.place.at }))
+        .then_some(Ask::Drag(Command::AddPin { piece: hit.place.piece, at: hit.place.at }))
 }
 
 /// The pins of the document with the places of the cloth they hold.

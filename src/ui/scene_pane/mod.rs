@@ -19,10 +19,11 @@ use crate::geometry::ids::MarkId;
 use crate::render::{Camera, Look, Projection, View};
 use crate::session::{Command, Document};
 use crate::ui::actions::{Action, Tool, VIEWS};
-use crate::ui::asks::{Ask, Asks};
+use crate::ui::asks::{Ask, Asks, in_one_step};
 use crate::ui::scene::{Scenery, Shown};
 use crate::ui::stroke;
 use crate::ui::theme::Palette;
+use crate::wrap::Marks;
 pub use graphics::{Graphics, Key};
 use hand::{begun, cloth_at, next_in_row, pins};
 
@@ -52,6 +53,12 @@ pub struct Seen<'a> {
     pub working: bool,
     /// What the left button does.
     pub tool: Tool,
+    /// Strokes go through to the far side of the body.
+    pub laser: bool,
+    /// The mark that stands out.
+    pub selected: Option<MarkId>,
+    /// Marks proposed and not accepted yet.
+    pub ghosts: Option<&'a Arc<Marks>>,
     /// Colours and light.
     pub look: Look,
     /// Colours of the interface.
@@ -86,8 +93,8 @@ const MOST_FOLLOW_STEPS: f32 = 500.0;
 
 #[derive(Debug)]
 enum Drag {
-    /// A stroke on the body.
-    Paint(Vec<DVec3>),
+    /// A stroke on the body, and with the laser the one on its far side.
+    Paint([Vec<DVec3>; 2]),
     Turn,
     /// Cloth is in the hand, held with this button.
     Cloth(PointerButton),
@@ -115,14 +122,17 @@ impl ScenePane {
         self.listen(ui, seen, pane, &response, near, asks);
         self.set_cursor(ui, seen, near, pane, &response);
         self.show(ui, seen, near, pane);
-        publish_marks(ui, seen, pane, &self.camera);
+        publish_marks(ui, &seen.document.marks, "Mark", pane, &self.camera);
+        if let Some(ghosts) = seen.ghosts {
+            publish_marks(ui, ghosts, "Proposed mark", pane, &self.camera);
+        }
         view_buttons(ui, pane, seen.palette, asks);
     }
 
     /// The stroke under way.
     pub fn stroke(&self) -> &[DVec3] {
         match &self.drag {
-            Some(Drag::Paint(points)) => points,
+            Some(Drag::Paint([near, _])) => near,
             _ => &[],
         }
     }
@@ -190,6 +200,22 @@ impl ScenePane {
         Some(hit.point)
     }
 
+    /// The point of the body furthest behind a point of the screen, where the skin looks away.
+    fn pick_far(&self, seen: &Seen<'_>, pane: Rect, at: Pos2) -> Option<DVec3> {
+        let ray = self.camera.ray(within(pane, at), size_of(pane));
+        let (origin, direction) = (ray.origin.as_dvec3(), ray.direction.as_dvec3().normalize_or_zero());
+        let body = seen.body?;
+        let (lower, upper) = body.bounds();
+        let beyond = ((lower + upper) / 2.0).distance(origin) + (upper - lower).length();
+        Some(body.ray(origin + direction * beyond, -direction)?.point)
+    }
+
+    /// Where a stroke at a point of the screen lies: on the near side, with the laser on the far side, too.
+    fn hits(&self, seen: &Seen<'_>, pane: Rect, at: Pos2) -> [Option<DVec3>; 2] {
+        let near = self.pick(seen, pane, at);
+        [near, near.filter(|_| seen.laser).and_then(|_| self.pick_far(seen, pane, at))]
+    }
+
     /// The mark on the body within reach of the pointer that is not behind the body.
     fn mark_under(&self, seen: &Seen<'_>, pane: Rect, response: &Response) -> Option<MarkId> {
         let at = response.hover_pos().filter(|_| self.drag.is_none())?;
@@ -238,8 +264,11 @@ impl ScenePane {
         {
             match (near, seen.tool) {
                 (Some(mark), _) if erasing => asks.push(Ask::Do(Command::DeleteMark { mark })),
-                (_, Tool::Mark) if !erasing => {
-                    asks.extend(self.pick(seen, pane, at).map(|p| painted(seen, vec![p])).map(Ask::Do));
+                (Some(_), Tool::Mark | Tool::Move) => asks.push(Ask::Select(near)),
+                (None, Tool::Move) => asks.push(Ask::Select(None)),
+                (None, Tool::Mark) if !erasing => {
+                    let dots = self.hits(seen, pane, at).map(|hit| hit.into_iter().collect());
+                    in_one_step(painted(seen, dots), asks);
                 }
                 (_, Tool::Pin) => asks.extend(self.pin_or_pull(seen, pane, at)),
                 _ => {}
@@ -261,7 +290,7 @@ impl ScenePane {
             if ui.input(|i| i.key_pressed(Button::Escape)) {
                 self.drag = Some(Drag::Over);
             } else if !ui.input(|i| i.pointer.primary_down()) || lost {
-                asks.extend(self.finish(seen).map(Ask::Do));
+                in_one_step(self.finish(seen), asks);
             }
         }
     }
@@ -347,10 +376,12 @@ impl ScenePane {
             return;
         }
         let origin = ui.input(|i| i.pointer.press_origin());
-        let hit = origin.and_then(|at| self.pick(seen, pane, at));
+        let [near, far] = origin.map_or([None; 2], |at| self.hits(seen, pane, at));
         self.followed = origin;
-        self.drag = Some(match hit {
-            Some(point) if seen.tool == Tool::Mark && !erasing => Drag::Paint(vec![point]),
+        self.drag = Some(match near {
+            Some(point) if seen.tool == Tool::Mark && !erasing => {
+                Drag::Paint([vec![point], far.into_iter().collect()])
+            }
             _ => Drag::Turn,
         });
     }
@@ -369,27 +400,27 @@ impl ScenePane {
         });
         // A jump from one limb to another is no stroke along the body.
         let leap = 0.12 * seen.body.map_or(1.0, |b| b.scale());
-        let mut hits: Vec<DVec3> = Vec::new();
+        let mut hits: Vec<[Option<DVec3>; 2]> = Vec::new();
         for at in trail {
             let from = self.followed.replace(at).unwrap_or(at);
             let steps = (from.distance(at) / FOLLOW_STEP).ceil().clamp(1.0, MOST_FOLLOW_STEPS);
             let places = (1..=steps as u32).map(|i| from.lerp(at, i as f32 / steps));
-            hits.extend(places.filter_map(|place| self.pick(seen, pane, place)));
+            hits.extend(places.map(|place| self.hits(seen, pane, place)));
         }
-        if let Some(Drag::Paint(points)) = &mut self.drag {
+        if let Some(Drag::Paint(strokes)) = &mut self.drag {
             for hit in hits {
-                let step = points.last().map_or(f64::INFINITY, |l| l.distance(hit));
-                if step > 5e-4 && step < leap {
-                    points.push(hit);
+                for (points, hit) in strokes.iter_mut().zip(hit) {
+                    let step = |hit: &DVec3| points.last().map_or(0.0, |l| l.distance(*hit));
+                    points.extend(hit.filter(|hit| step(hit) > 5e-4 && step(hit) < leap));
                 }
             }
         }
     }
 
-    fn finish(&mut self, seen: &Seen<'_>) -> Option<Command> {
+    fn finish(&mut self, seen: &Seen<'_>) -> Vec<Command> {
         match self.drag.take() {
-            Some(Drag::Paint(points)) => Some(painted(seen, stroke::finished(&points))),
-            _ => None,
+            Some(Drag::Paint(strokes)) => painted(seen, strokes.map(|points| stroke::finished(&points))),
+            _ => Vec::new(),
         }
     }
 
@@ -456,6 +487,8 @@ impl ScenePane {
             near,
             pinned: Some(Arc::clone(seen.pinned)),
             dragged: seen.dragged.cloned(),
+            selected: seen.selected,
+            ghosts: seen.ghosts.cloned(),
         };
         let shown = Shown {
             body: seen.body,
@@ -465,6 +498,8 @@ impl ScenePane {
             near,
             pinned: seen.pinned,
             dragged: seen.dragged,
+            selected: seen.selected,
+            ghosts: seen.ghosts.map(|g| &**g),
         };
         match graphics.picture(key, || self.scenery.scene(&shown)) {
             Ok(texture) => {
@@ -495,11 +530,19 @@ fn is_lost(input: &egui::InputState) -> bool {
 }
 
 /// What the pointer does here, for the status bar.
-pub fn hint(tool: Tool, next: usize) -> String {
+pub fn hint(tool: Tool, laser: bool, next: usize) -> String {
     let view = "Right drag: turn · Middle drag: move the view · Wheel: zoom";
     match tool {
+        Tool::Mark if laser => {
+            let far = next + 1;
+            format!(
+                "Drag: paint mark {next} on the near side and {far} on the far side · L: only the near · {view}"
+            )
+        }
         Tool::Mark => {
-            format!("Drag on the body: paint mark {next} · Click: a dot · Ctrl+click: erase · {view}")
+            format!(
+                "Drag on the body: paint mark {next} · Click: a dot, or select a mark · Ctrl+click: erase · {view}"
+            )
         }
         Tool::Erase => format!("Click a mark: take it away · {view}"),
         Tool::Move => format!("Drag: turn · {view}"),
@@ -510,10 +553,11 @@ pub fn hint(tool: Tool, next: usize) -> String {
     }
 }
 
-/// The command that paints `points`, laid back on the skin after smoothing.
-fn painted(seen: &Seen<'_>, points: Vec<DVec3>) -> Command {
+/// The commands that paint `strokes`, laid back on the skin after smoothing. Empty ones are left out.
+fn painted(seen: &Seen<'_>, strokes: [Vec<DVec3>; 2]) -> Vec<Command> {
     let on_skin = |p: DVec3| seen.body.map_or(p, |b| b.nearest(p).point);
-    Command::AddBodyMark { points: points.into_iter().map(on_skin).collect() }
+    let strokes = strokes.into_iter().filter(|points| !points.is_empty());
+    strokes.map(|points| Command::AddBodyMark { points: points.into_iter().map(on_skin).collect() }).collect()
 }
 
 /// Points of the cloth that lie on the body.
@@ -558,15 +602,15 @@ fn view_buttons(ui: &mut egui::Ui, pane: Rect, palette: &Palette, asks: &mut Ask
 }
 
 /// Tells screen readers and tests where each mark is.
-fn publish_marks(ui: &egui::Ui, seen: &Seen<'_>, pane: Rect, camera: &Camera) {
-    for (i, mark) in seen.document.marks.body.iter().enumerate() {
+fn publish_marks(ui: &egui::Ui, marks: &Marks, what: &str, pane: Rect, camera: &Camera) {
+    for (i, mark) in marks.body.iter().enumerate() {
         let place = mark.points.first().and_then(|p| camera.project(p.as_vec3(), size_of(pane)));
         if let Some(place) = place {
             let at = pane.min + egui::vec2(place.pixel.x, place.pixel.y);
             let rect = Rect::from_center_size(at, egui::vec2(12.0, 12.0));
-            let node = ui.interact(rect, ui.scope_id().with(("body mark", mark.id.0)), Sense::hover());
+            let node = ui.interact(rect, ui.scope_id().with((what, "on the body", i)), Sense::hover());
             node.widget_info(|| {
-                WidgetInfo::labeled(Role::Label, true, format!("Mark {} on the body", i + 1))
+                WidgetInfo::labeled(Role::Label, true, format!("{what} {} on the body", i + 1))
             });
         }
     }

@@ -1,0 +1,148 @@
+//! Marks on a body are tied to its skin, and carried to the body that takes its place.
+//!
+//! A body with the same triangles is the same body moved: marks follow their triangles. To any other they are carried by the
+//! landmarks both have: a smooth map takes these to those, and a mark's points from there to the nearest skin.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use crate::body::warp::Warp;
+use crate::geometry::ids::MarkId;
+use crate::pattern::{Problem, ProblemKind};
+use crate::session::body::Body;
+use crate::wrap::{Marks, Tie};
+
+/// A point this near to a landmark stands for it, metres on a body 1.5 m large.
+const NEAR: f64 = 0.02;
+/// A carried point further than this from the new skin has no place there, metres on a body 1.5 m large.
+const OFF_SKIN: f64 = 0.06;
+/// Nor has one whose skin looks another way than before: cosine.
+const SAME_WAY: f64 = 0.2;
+/// A tied point has not left its triangle: metres on a body 1.5 m large.
+const MOVED: f64 = 1e-3;
+/// A stroke is carried as long as this share of its points found a place.
+const ENOUGH: f64 = 0.75;
+
+/// Ties the body's strokes that are not tied yet.
+pub fn tie(marks: &mut Arc<Marks>, body: &Body) {
+    let untied = |marks: &Marks, id: MarkId, points: usize| {
+        marks.ties.get(&id).is_none_or(|ties| ties.len() != points)
+    };
+    if marks.body.iter().all(|m| !untied(marks, m.id, m.points.len())) {
+        return;
+    }
+    let marks = Arc::make_mut(marks);
+    for i in 0..marks.body.len() {
+        let mark = &marks.body[i];
+        if untied(marks, mark.id, mark.points.len()) {
+            let ties = mark.points.iter().map(|&p| tied(p, body)).collect();
+            marks.ties.insert(mark.id, ties);
+        }
+    }
+}
+
+fn tied(p: DVec3, body: &Body) -> Tie {
+    let surface = &body.surface;
+    let near = surface.nearest(p);
+    let [a, b, c] = surface.mesh.corners(near.triangle as usize);
+    let normal = (b - a).cross(c - a);
+    let share =
+        |u: DVec3, v: DVec3| (u - near.point).cross(v - near.point).dot(normal) / normal.length_squared();
+    let weights = DVec3::new(share(b, c), share(c, a), share(a, b));
+    let flat = normal.length_squared() == 0.0 || !weights.is_finite();
+    Tie {
+        triangle: near.triangle,
+        weights: if flat { DVec3::splat(1.0 / 3.0) } else { weights },
+        landmark: body.landmarks().and_then(|l| l.near(p, NEAR * surface.scale())).map(str::to_owned),
+    }
+}
+
+/// `marks` of the body `from` on the body `to`, called `name`, tied to it; and which found no place there. The cloth's
+/// partners of those come behind all others, so that the other pairs stay pairs.
+pub fn carried(marks: &Marks, from: Option<&Body>, to: &Body, name: &str) -> (Marks, Vec<Problem>) {
+    let mut new = Marks { body: Vec::new(), ..marks.clone() };
+    let mut lost = Vec::new();
+    let way = from.map_or(Err("the old body cannot be read"), |from| Way::new(from, to));
+    for (i, mark) in marks.body.iter().enumerate() {
+        let known = marks.ties.get(&mark.id).filter(|ties| ties.len() == mark.points.len());
+        let points = way.as_ref().map_err(|why| *why).and_then(|way| {
+            let ties = (0..mark.points.len()).map(|k| known.map(|ties| &ties[k]));
+            way.stroke(&mark.points, ties).ok_or("there is no such place on its skin")
+        });
+        match points {
+            Ok(points) => new.body.push(crate::wrap::BodyMark { points, ..mark.clone() }),
+            Err(why) => lost.push((i, problem(marks, i, name, why))),
+        }
+    }
+    let is_lost = |i: usize| lost.iter().any(|(k, _)| *k == i);
+    let cloth = marks.cloth.iter().enumerate();
+    new.cloth = cloth.clone().filter(|(i, _)| !is_lost(*i)).map(|(_, m)| m.clone()).collect();
+    // Behind strokes of the body that have no partner yet they would make new pairs.
+    if marks.body.len() <= marks.cloth.len() {
+        new.cloth.extend(cloth.filter(|(i, _)| is_lost(*i)).map(|(_, m)| m.clone()));
+    }
+    new.ties.clear();
+    new.prune();
+    let mut new = Arc::new(new);
+    tie(&mut new, to);
+    (Arc::unwrap_or_clone(new), lost.into_iter().map(|(_, problem)| problem).collect())
+}
+
+fn problem(marks: &Marks, i: usize, body: &str, why: &str) -> Problem {
+    let given = marks.name(marks.body[i].id);
+    let given = if given.is_empty() { String::new() } else { format!(" ({given})") };
+    Problem {
+        kind: ProblemKind::Mark,
+        place: format!("mark {}{given}", i + 1),
+        words: format!("it could not be carried to {body}: {why}; paint it again"),
+    }
+}
+
+/// From one body to another.
+enum Way<'a> {
+    /// The same triangles.
+    Triangles { from: &'a Body, to: &'a Body },
+    /// By landmarks.
+    Landmarks { from: &'a Body, to: &'a Body, warp: Warp },
+}
+
+impl<'a> Way<'a> {
+    fn new(from: &'a Body, to: &'a Body) -> Result<Self, &'static str> {
+        if from.surface.mesh.triangles == to.surface.mesh.triangles {
+            return Ok(Self::Triangles { from, to });
+        }
+        let none = "the two bodies have too few landmarks in common";
+        let (there, here) = from.common_landmarks(to).ok_or(none)?;
+        let pairs: Vec<_> = there.iter().filter_map(|(name, p)| Some((p, here.get(name)?))).collect();
+        Ok(Self::Landmarks { from, to, warp: Warp::new(&pairs).ok_or(none)? })
+    }
+
+    /// None when too few points found a place.
+    fn stroke<'t>(
+        &self,
+        points: &[DVec3],
+        ties: impl Iterator<Item = Option<&'t Tie>>,
+    ) -> Option<Vec<DVec3>> {
+        let found: Vec<DVec3> = points.iter().zip(ties).filter_map(|(&p, tie)| self.point(p, tie)).collect();
+        (!found.is_empty() && found.len() as f64 >= ENOUGH * points.len() as f64).then_some(found)
+    }
+
+    fn point(&self, p: DVec3, tie: Option<&Tie>) -> Option<DVec3> {
+        let (Self::Triangles { from, to } | Self::Landmarks { from, to, .. }) = self;
+        let held = tie.filter(|t| at(from, t).is_some_and(|q| q.distance(p) < MOVED * from.surface.scale()));
+        let tie = held.cloned().unwrap_or_else(|| tied(p, from));
+        let Self::Landmarks { warp, .. } = self else { return at(to, &tie) };
+        let near = to.surface.nearest(warp.image(p));
+        let [before, now] = [(from, tie.triangle), (to, near.triangle)]
+            .map(|(body, triangle)| body.surface.face_normals[triangle as usize]);
+        let is_there = near.distance.abs() <= OFF_SKIN * to.surface.scale() && before.dot(now) > SAME_WAY;
+        is_there.then_some(near.point)
+    }
+}
+
+/// Where a tie holds. None when it is of another body.
+fn at(body: &Body, tie: &Tie) -> Option<DVec3> {
+    let corners = body.surface.mesh.triangles.get(tie.triangle as usize)?;
+    Some((0..3).map(|k| body.surface.mesh.positions[corners[k] as usize] * tie.weights[k]).sum())
+}

@@ -1,0 +1,79 @@
+//! Files and what would be lost.
+
+use super::*;
+
+#[test]
+fn a_body_in_centimetres_is_asked_about() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("ball.obj");
+    std::fs::write(&path, toile::io::obj::mesh("ball", &ball(85.0))).expect("a file");
+    let mut window = window();
+    window.get_by_label("File").click();
+    window.run_steps(3);
+    window.get_by_label("Import body…").click();
+    window.run_steps(3);
+    if window.query_by_label("Read").is_none() {
+        println!("skipped: this desktop may have a dialog of its own");
+        return;
+    }
+    window.get_by_role(egui::accesskit::Role::TextInput).focus();
+    window.run_steps(2);
+    window.get_by_role(egui::accesskit::Role::TextInput).type_text(&path.display().to_string());
+    window.run_steps(2);
+    window.get_by_label("Read").click();
+    window.run_steps(3);
+    assert!(window.query_by_label("cm: the body is 1.70 m tall").is_some());
+    window.get_by_label("Take it").click();
+    window.run_steps(3);
+    let (lower, upper) = app(&window).session().surface().expect("a body").bounds();
+    assert!(((upper - lower).y - 1.7).abs() < 1e-6);
+    assert!(app(&window).session().undo_label().is_some());
+}
+
+#[test]
+fn closing_with_changes_asks_first() {
+    let mut window = window();
+    let close = |window: &mut Window| {
+        let root = window.input_mut().viewports.entry(egui::ViewportId::ROOT).or_default();
+        root.events.push(egui::ViewportEvent::Close);
+        window.run_steps(1);
+        let root = window.input_mut().viewports.entry(egui::ViewportId::ROOT).or_default();
+        root.events.clear();
+        window.run_steps(2);
+    };
+    close(&mut window);
+    assert!(window.query_by_label("Don't save").is_none(), "nothing is unsaved yet");
+    let at = pane(&window, "Pattern pane").center();
+    drag(&mut window, &[at], PointerButton::Primary);
+    close(&mut window);
+    window.get_by_label("Cancel").click();
+    window.run_steps(3);
+    assert!(window.query_by_label("Don't save").is_none());
+    assert_eq!(counts(&window), [1, 0]);
+}
+
+#[test]
+fn a_project_is_saved_by_a_typed_path_where_the_desktop_has_no_dialog() {
+    if std::env::var_os("DBUS_SESSION_BUS_ADDRESS").is_some() {
+        println!("skipped: this desktop may have a dialog of its own");
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("saved");
+    let mut window = window();
+    let at = pane(&window, "Pattern pane").center();
+    drag(&mut window, &[at], PointerButton::Primary);
+    key(&mut window, Modifiers::COMMAND, Key::S);
+    let field = window.get_by_role(egui::accesskit::Role::TextInput);
+    field.focus();
+    window.run_steps(2);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    window.run_steps(1);
+    window.get_by_role(egui::accesskit::Role::TextInput).type_text(&path.display().to_string());
+    window.run_steps(2);
+    window.get_by_label("Write").click();
+    window.run_steps(3);
+    let saved = toile::session::project_file::open(&path.with_extension("toile")).expect("a project");
+    assert_eq!(&saved.document, app(&window).session().document());
+    assert!(!app(&window).session().is_modified());
+}

@@ -1,0 +1,75 @@
+//! Dragging and pinning dressed cloth with the mouse.
+
+use super::*;
+
+/// A window with cloth at rest on the body.
+fn dressed_window() -> Window {
+    let mut window = window();
+    paint_both(&mut window);
+    window.get_by_label("Wrap").click();
+    window.run_steps(2);
+    let at_rest = |app: &App| {
+        let snapshot = app.session().snapshot();
+        snapshot.is_dressed() && !snapshot.working
+    };
+    wait(&mut window, "the cloth to rest", at_rest);
+    window
+}
+
+fn positions(window: &Window) -> Vec<DVec3> {
+    app(window).session().snapshot().cloth.positions.clone()
+}
+
+#[test]
+fn either_button_drags_cloth_with_the_drag_tool() {
+    for with in [PointerButton::Primary, PointerButton::Secondary] {
+        let mut window = dressed_window();
+        let (before, steps) = (positions(&window), app(&window).session().step_labels().count());
+        key(&mut window, Modifiers::NONE, Key::D);
+        let area = pane(&window, "Body pane");
+        drag(&mut window, &line(area, Vec2::new(40.0, 0.0)), with);
+        wait(&mut window, "the cloth to settle", |app| {
+            let snapshot = app.session().snapshot();
+            snapshot.dragged.is_none() && !snapshot.working
+        });
+        assert_eq!(app(&window).session().step_labels().count(), steps + 1);
+        assert_eq!(app(&window).session().undo_label(), Some("drag the cloth"));
+        assert_ne!(positions(&window), before);
+        key(&mut window, Modifiers::COMMAND, Key::Z);
+        wait(&mut window, "the undo", |app| app.session().snapshot().cloth.positions == before);
+    }
+}
+
+#[test]
+fn escape_puts_dragged_cloth_back() {
+    let mut window = dressed_window();
+    let before = positions(&window);
+    key(&mut window, Modifiers::NONE, Key::D);
+    let area = pane(&window, "Body pane");
+    press_along(&mut window, &line(area, Vec2::new(40.0, 0.0)), PointerButton::Primary);
+    wait(&mut window, "the drag", |app| app.session().snapshot().dragged.is_some());
+    key(&mut window, Modifiers::NONE, Key::Escape);
+    wait(&mut window, "the cloth back", |app| {
+        let snapshot = app.session().snapshot();
+        snapshot.dragged.is_none() && snapshot.cloth.positions == before
+    });
+}
+
+#[test]
+fn a_click_pins_and_a_click_on_the_pin_pulls_it_out() {
+    let mut window = dressed_window();
+    key(&mut window, Modifiers::NONE, Key::P);
+    let middle = pane(&window, "Body pane").center();
+    let pins = |window: &Window| app(window).session().document().pins.len();
+    drag(&mut window, &[middle], PointerButton::Primary);
+    assert_eq!(pins(&window), 1);
+    wait(&mut window, "the pin", |app| app.session().snapshot().pinned.len() == 1);
+    drag(&mut window, &[middle], PointerButton::Primary);
+    assert_eq!(pins(&window), 0);
+    let area = pane(&window, "Body pane");
+    drag(&mut window, &line(area, Vec2::new(60.0, 0.0)), PointerButton::Primary);
+    assert!(pins(&window) > 2, "a row of {}", pins(&window));
+    assert_eq!(app(&window).session().undo_label(), Some("pin"));
+    key(&mut window, Modifiers::COMMAND, Key::Z);
+    assert_eq!(pins(&window), 0, "a row is one step");
+}
