@@ -17,7 +17,7 @@ const RAY_ASIDE: f64 = 1e-5;
 pub struct Nearest {
     /// On the surface, metres.
     pub point: DVec3,
-    /// Unit, outward: the gradient of the signed distance; the triangle's normal where the point lies on the surface.
+    /// Unit, outward: the gradient of the signed distance; the pseudonormal where the point lies on the surface.
     pub normal: DVec3,
     /// Metres, negative inside. Sign from angle-weighted pseudonormals (Baerentzen and Aanaes 2005).
     pub distance: f64,
@@ -106,7 +106,6 @@ impl Surface {
         let (point, triangle, part) = self.closest.nearest(p, limit)?;
         let along = p - point;
         let length = along.length();
-        let face = self.face_normals[triangle as usize];
         let outward = pseudonormal(
             &self.mesh,
             &self.adjacency,
@@ -116,7 +115,11 @@ impl Surface {
             part,
         );
         let inside = along.dot(outward) < 0.0;
-        let normal = if length > 1e-7 { if inside { -along / length } else { along / length } } else { face };
+        let normal = match length > 1e-7 {
+            true if inside => -along / length,
+            true => along / length,
+            false => outward.normalize_or_zero(),
+        };
         Some(Nearest { point, normal, distance: if inside { -length } else { length }, triangle })
     }
 
