@@ -3,12 +3,14 @@
 pub mod import;
 pub mod mannequin;
 pub mod measure;
+pub mod sections;
 pub mod skeleton;
 pub mod surface;
 pub mod unit;
 
 pub use import::{BodyReport, Imported, import};
 pub use mannequin::{Landmarks, Mannequin, MannequinError, Measurements};
+pub use sections::Trunk;
 pub use skeleton::{Joint, Skeleton};
 pub use surface::{Hit, Nearest, Surface};
 pub use unit::{Unit, guess_unit};
