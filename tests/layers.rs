@@ -27,8 +27,7 @@ fn check(apart: f64) {
             DVec3::new(0.2 - corner.uv.x, corner.uv.y, -height)
         };
     }
-    let normals = toile::geometry::mesh::vertex_normals(&state.positions, &garment.triangles);
-    let (ways, places) = parting(&garment, &state, &normals);
+    let (ways, places) = parting(&garment, &state);
     assert!(places > 0);
     let sent: Vec<f64> = garment
         .corners

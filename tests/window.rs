@@ -288,7 +288,7 @@ fn placed() -> Project {
     for piece in pattern.pieces.values_mut() {
         let placement = SpacePose { translation: DVec3::new(0.0, 0.0, 0.4), rotation: DQuat::IDENTITY };
         let piece = Arc::make_mut(piece);
-        (piece.placement, piece.label) = (Some(placement), Some("body".to_owned()));
+        piece.placement = Some(placement);
     }
     project
 }

@@ -1,51 +1,56 @@
 //! Cloth against itself, where two layers have run a little way into one another: between the legs, in armpits, in folds.
 
-use std::collections::BTreeSet;
-
 use glam::DVec3;
 
 use crate::cloth::{ClothState, Garment};
 use crate::geometry::crossings::self_crossings;
 use crate::geometry::mesh::TriMesh;
 
-/// Rings of vertices round a crossing that tell on which side a layer belongs.
-const RINGS: usize = 2;
+/// An edge that lies nearly in a triangle it crosses counts as this steep (a sine).
+const LEAST_SLOPE: f64 = 0.1;
 
 /// For each vertex where to send it so that layers part, in units (zero: nowhere), and in how many places they cross.
 ///
-/// Which layer came from where nothing remembers; but as long as they crossed only a little, most of the cloth round the
-/// crossing still lies on its own side of the other layer, and there each goes back. `normals` are the cloth's, per vertex.
-pub fn parting(garment: &Garment, state: &ClothState, normals: &[DVec3]) -> (Vec<DVec3>, usize) {
+/// It is the way that shortens the lines in which they meet (Volino and Magnenat-Thalmann, Resolving surface collisions
+/// through intersection contour minimization, 2006). That needs no memory of which layer came from where: lines end at
+/// borders or close in themselves, and shrink from there.
+pub fn parting(garment: &Garment, state: &ClothState) -> (Vec<DVec3>, usize) {
     let laid = |vs: &[u32]| vs.iter().all(|&v| state.mapped[v as usize]);
     let triangles = garment.triangles.iter().copied().filter(|vs| laid(vs)).collect();
     let mesh = TriMesh { positions: state.positions.clone(), triangles };
-    let edges: Vec<[u32; 2]> = garment.adjacency.edges.iter().copied().filter(|e| laid(e)).collect();
+    let numbers: Vec<usize> =
+        (0..garment.adjacency.edges.len()).filter(|&e| laid(&garment.adjacency.edges[e])).collect();
+    let edges: Vec<[u32; 2]> = numbers.iter().map(|&e| garment.adjacency.edges[e]).collect();
     let mut ways = vec![DVec3::ZERO; state.positions.len()];
     let crossings = self_crossings(&mesh, &edges, &mesh.tree());
+    let at = |v: u32| state.positions[v as usize];
     for &[e, t] in &crossings {
-        let (edge, triangle) = (&edges[e as usize][..], &mesh.triangles[t as usize][..]);
-        for (one, other) in [(edge, triangle), (triangle, edge)] {
-            let across = mean(normals, other).normalize_or_zero();
-            let own_side = mean(&state.positions, &ring(garment, state, one));
-            let side = (own_side - mean(&state.positions, other)).dot(across);
-            one.iter().for_each(|&v| ways[v as usize] += across * side.signum());
+        let [a, b] = edges[e as usize];
+        let along = (at(b) - at(a)).normalize_or_zero();
+        let normal = {
+            let [p, q, r] = mesh.corners(t as usize);
+            (q - p).cross(r - p).normalize_or_zero()
+        };
+        let mut way = DVec3::ZERO;
+        for &beside in garment.adjacency.edge_triangles.of(numbers[e as usize] as u32) {
+            let vs = garment.triangles[beside as usize];
+            if !laid(&vs) {
+                continue;
+            }
+            let third = vs.iter().copied().find(|v| *v != a && *v != b).unwrap_or(a);
+            let inward = at(third) - at(a);
+            let inward = inward - along * inward.dot(along);
+            // Along the line in which the two triangles meet, into the one beside the edge.
+            let line = normal.cross(along.cross(inward)).normalize_or_zero();
+            let line = if line.dot(inward) < 0.0 { -line } else { line };
+            let slope = along.dot(normal);
+            let slope = if slope.abs() < LEAST_SLOPE { LEAST_SLOPE.copysign(slope) } else { slope };
+            way += line - normal * (2.0 * line.dot(along) / slope);
         }
+        let way = way.clamp_length_max(1.0);
+        [a, b].iter().for_each(|&v| ways[v as usize] += way);
+        mesh.triangles[t as usize].iter().for_each(|&v| ways[v as usize] -= way);
     }
     ways.iter_mut().for_each(|way| *way = way.clamp_length_max(1.0));
     (ways, crossings.len())
-}
-
-fn mean(of: &[DVec3], vertices: &[u32]) -> DVec3 {
-    vertices.iter().map(|&v| of[v as usize]).sum::<DVec3>() / vertices.len().max(1) as f64
-}
-
-/// The laid vertices up to [`RINGS`] rings round `vertices`, ascending.
-fn ring(garment: &Garment, state: &ClothState, vertices: &[u32]) -> Vec<u32> {
-    let mut near: BTreeSet<u32> = vertices.iter().copied().collect();
-    for _ in 0..RINGS {
-        let next: Vec<u32> =
-            near.iter().flat_map(|&v| garment.adjacency.vertex_neighbours.of(v)).copied().collect();
-        near.extend(next.into_iter().filter(|&v| state.mapped[v as usize]));
-    }
-    near.into_iter().collect()
 }

@@ -255,7 +255,8 @@ impl Dragging {
 
     fn relax(&mut self, state: &mut ClothState) -> f64 {
         let cap = RELAX_CAP * self.relaxer.surface.scale();
-        let step = GlobalStep { cap, contact: CONTACT, hold: HAND_WEIGHT, unfold: true, weight: true };
+        let step =
+            GlobalStep { cap, contact: CONTACT, hold: HAND_WEIGHT, slack: 0.0, unfold: true, weight: true };
         self.relaxer.global_step(state, step)
     }
 }

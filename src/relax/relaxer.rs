@@ -33,8 +33,12 @@ const LEAST_SHARE: usize = 512;
 const FLIPPED: f64 = -0.2;
 /// How far from skin that is looked after, metres on a body 1.5 m large.
 const WRONG_SIDE_REACH: f64 = 0.015;
-/// The same for a whole face of cloth that lies still.
+/// The same for whole faces of cloth that lies still.
+const WRONG_FACE_REACH: f64 = 0.02;
+/// Those are turned over when their normal and the skin's have a smaller cosine.
 const WRONG_FACE: f64 = -0.15;
+/// What is left of the way layers were sent before when they are parted again: it keeps them apart for a while.
+const STILL_PARTING: f64 = 0.9;
 
 /// What one global step does.
 #[derive(Clone, Copy, Debug)]
@@ -47,6 +51,8 @@ pub struct GlobalStep {
     pub contact: f64,
     /// How strongly marked vertices are held where their marks are, as a weight on the diagonal.
     pub hold: f64,
+    /// So far from there they are free, metres.
+    pub slack: f64,
     /// Turn triangles that face against the cloth round them, and send cloth that faces the skin next to it (it belongs to
     /// another limb, or to the other side of a fold) away from there.
     pub unfold: bool,
@@ -90,6 +96,8 @@ pub struct Relaxer {
     normals: Vec<DVec3>,
     /// Where cloth that lay on the wrong side is sent, in steps of [`SEND_AWAY`].
     sent: Vec<DVec3>,
+    /// The same for layers that ran into each other.
+    parted: Vec<DVec3>,
 }
 
 impl std::fmt::Debug for Relaxer {
@@ -121,6 +129,7 @@ impl Relaxer {
             cling: vec![0.0; n],
             normals: vec![DVec3::ZERO; n],
             sent: vec![DVec3::ZERO; n],
+            parted: vec![DVec3::ZERO; n],
             garment,
             surface,
             settings,
@@ -253,6 +262,7 @@ impl Relaxer {
             tracker: &self.tracker,
             normals: &self.normals,
             sent: &self.sent,
+            parted: &self.parted,
             lift: &self.lift,
             held: &self.held,
             previous: &self.previous,
@@ -411,7 +421,7 @@ impl Relaxer {
     /// Sends faces that face the skin next to them away from it: they belong to another limb. Returns how many.
     pub fn send_wrong_faces(&mut self, state: &ClothState) -> usize {
         let (garment, surface) = (&*self.garment, &*self.surface);
-        let reach = WRONG_SIDE_REACH * surface.scale();
+        let reach = WRONG_FACE_REACH * surface.scale();
         let wrong: Vec<Option<DVec3>> = garment
             .triangles
             .par_iter()
@@ -437,10 +447,9 @@ impl Relaxer {
 
     /// Sends layers that run into each other apart. Returns in how many places they do.
     pub fn part_layers(&mut self, state: &ClothState) -> usize {
-        let normals = vertex_normals(&self.garment, state);
-        let (ways, places) = layers::parting(&self.garment, state, &normals);
-        for (sent, way) in self.sent.iter_mut().zip(ways) {
-            *sent += way;
+        let (ways, places) = layers::parting(&self.garment, state);
+        for (parted, way) in self.parted.iter_mut().zip(ways) {
+            *parted = *parted * STILL_PARTING + way;
         }
         places
     }

@@ -26,6 +26,8 @@ pub(super) struct Wants<'a> {
     pub normals: &'a [DVec3],
     /// Where cloth on the wrong side is sent, in steps of [`SEND_AWAY`].
     pub sent: &'a [DVec3],
+    /// The same for layers that ran into each other.
+    pub parted: &'a [DVec3],
     /// Extra offset, metres.
     pub lift: &'a [f64],
     /// Where marks want their vertices.
@@ -57,8 +59,9 @@ impl Wants<'_> {
             weight += w;
             pull += target * w;
         };
-        if self.sent[v] != DVec3::ZERO {
-            want(contact, x + self.sent[v] * away);
+        let sent = self.sent[v] + self.parted[v];
+        if sent != DVec3::ZERO {
+            want(contact, x + sent * away);
         }
         let below = self.tracker.plane(v).map(|p| (p, self.offset + self.lift[v] - p.height(x)));
         match below {
@@ -82,7 +85,8 @@ impl Wants<'_> {
         if let Some(held) = self.held[v]
             && self.step.hold > 0.0
         {
-            want(self.step.hold, held);
+            let slack = self.step.slack;
+            want(self.step.hold, held + (x - held).clamp_length_max(slack));
         }
         (weight, pull / weight)
     }

@@ -37,6 +37,14 @@ const GROW_CONTACT: f64 = 0.3;
 const SETTLE_CONTACT: f64 = 0.03;
 /// Marks hold their vertices with this weight while the cloth grows.
 const HOLD: f64 = 0.3;
+/// And with this one ever after, on edges of [`KEEP_EDGE`], beyond [`LEASH`]: it stops a garment that is too tight where it
+/// lies from creeping off along the body, as friction would if it could wait. Fewer vertices lie along a mark of longer
+/// edges, and the forces of strain grow with them: so it goes by their square.
+const KEEP: f64 = 0.001;
+/// So far from where its mark is a vertex may lie freely, metres on a body 1.5 m large.
+const LEASH: f64 = 0.03;
+/// See [`KEEP`]; metres on a body 1.5 m large.
+const KEEP_EDGE: f64 = 0.0175;
 /// Flipped and wrong-sided cloth is turned only after so many settling steps, when it roughly lies.
 const UNFOLD_AFTER: usize = 10;
 /// It fades in few steps while the cloth settles, so that the matrix changes seldom.
@@ -55,6 +63,8 @@ const DRAFT_SETTLE_STEPS: usize = 160;
 const MOST_MENDS: usize = 12;
 /// The same for a coarse mesh.
 const DRAFT_MENDS: usize = 2;
+/// Layers of cloth that run through each other are parted every so many steps.
+const STEPS_PER_PARTING: usize = 10;
 /// A mend has so many steps to take effect.
 const STEPS_PER_MEND: usize = 25;
 /// Share of the progress that coarser meshes have.
@@ -82,6 +92,14 @@ enum Stage {
     Rest,
 }
 
+/// How marks hold their vertices.
+#[derive(Clone, Copy, Debug)]
+struct Hold {
+    weight: f64,
+    /// Metres.
+    slack: f64,
+}
+
 /// How far settling has come.
 #[derive(Clone, Copy, Debug)]
 struct Settling {
@@ -93,13 +111,15 @@ struct Settling {
     mends: usize,
     /// At this step it is taken to lie still in any case.
     until: usize,
+    /// Layers ran through each other when last looked at, or nobody looked.
+    crossed: bool,
 }
 
 impl Settling {
     /// From step `done` on.
     fn from(done: usize, draft: bool) -> Self {
         let until = if draft { DRAFT_SETTLE_STEPS } else { MOST_SETTLE_STEPS };
-        Self { done, quiet: 0, mends: 0, until }
+        Self { done, quiet: 0, mends: 0, until, crossed: true }
     }
 }
 
@@ -154,10 +174,13 @@ impl Dressing {
         dressing.draft = true;
         let carry = Carry::new(next, &garment);
         carry.places(&cloth, &mut state);
-        let Some(mut fine) = Self::resumed(garment, surface, settings, &state) else {
+        let Some(mut fine) = Self::resumed(garment, surface.clone(), settings, &state) else {
             problems.push(too_large());
             return (None, state, problems);
         };
+        // What is wrong with a mark was said of the coarsest mesh.
+        let (held, ..) = roots(&fine.relaxer.garment, &surface, marks, fine.relaxer.offset());
+        held.iter().for_each(|root| fine.relaxer.hold(root.vertex, root.position));
         fine.stretches = dressing.stretches.clone();
         fine.coarse = Some(Box::new(Coarse { dressing, cloth, carry }));
         (Some(fine), state, problems)
@@ -374,14 +397,14 @@ impl Dressing {
         if (bands + 1).is_multiple_of(BANDS_PER_GLOBAL) {
             self.relaxer.set_mapped(&state.mapped);
             for _ in 0..GLOBALS_PER_GROUP {
-                self.global(state, HOLD, false, false);
+                self.global(state, Hold { weight: HOLD, slack: 0.0 }, false, false);
             }
         }
         self.stage = Stage::Grow { limit, bands: bands + 1, fresh: Vec::new() };
     }
 
     fn between_tiers(&mut self, state: &mut ClothState, left: usize) {
-        self.global(state, HOLD, false, false);
+        self.global(state, Hold { weight: HOLD, slack: 0.0 }, false, false);
         self.stage = if left > 1 {
             Stage::BetweenTiers { left: left - 1 }
         } else {
@@ -389,13 +412,21 @@ impl Dressing {
         };
     }
 
-    fn settle(&mut self, state: &mut ClothState, settling: Settling) {
-        let Settling { done, quiet, mends, until } = settling;
+    fn settle(&mut self, state: &mut ClothState, mut settling: Settling) {
+        let Settling { done, quiet, mends, until, .. } = settling;
         let first = done < SETTLE_STEPS;
         let most_mends = if self.draft { DRAFT_MENDS } else { MOST_MENDS };
-        let hold =
-            if first { HOLD * HOLD_FADE.get(done / HOLD_FADE_STEPS).copied().unwrap_or(0.0) } else { 0.0 };
-        let moved = self.global(state, hold, done > UNFOLD_AFTER, !first);
+        let fading = if first { HOLD_FADE.get(done / HOLD_FADE_STEPS).copied().unwrap_or(0.0) } else { 0.0 };
+        let edge = self.edge_length / (KEEP_EDGE * self.relaxer.surface.scale());
+        let (hold, slack) = if fading > 0.0 {
+            (HOLD * fading, 0.0)
+        } else {
+            (KEEP * edge * edge, LEASH * self.relaxer.surface.scale())
+        };
+        let moved = self.global(state, Hold { weight: hold, slack }, done > UNFOLD_AFTER, !first);
+        if settling.crossed && done > UNFOLD_AFTER && done.is_multiple_of(STEPS_PER_PARTING) {
+            settling.crossed = self.relaxer.part_layers(state) > 0;
+        }
         let quiet = if moved < REST_MOTION * self.edge_length { quiet + 1 } else { 0 };
         let still = (quiet >= QUIET_STEPS && !first) || done >= until;
         // Cloth that lies still may cut the body between its vertices, or lie on the wrong side: mend it there and go on.
@@ -411,15 +442,19 @@ impl Dressing {
                 quiet: 0,
                 mends: mends + 1,
                 until: done + STEPS_PER_MEND,
+                crossed: true,
             }),
             (false, _) => Stage::Settle(Settling { done: done + 1, quiet, ..settling }),
         };
     }
 
-    fn global(&mut self, state: &mut ClothState, hold: f64, unfold: bool, weight: bool) -> f64 {
+    fn global(&mut self, state: &mut ClothState, hold: Hold, unfold: bool, weight: bool) -> f64 {
         let cap = STEP_CAP * self.relaxer.surface.scale();
         let contact = if unfold { SETTLE_CONTACT } else { GROW_CONTACT };
-        self.relaxer.global_step(state, GlobalStep { cap, contact, hold, unfold, weight })
+        self.relaxer.global_step(
+            state,
+            GlobalStep { cap, contact, hold: hold.weight, slack: hold.slack, unfold, weight },
+        )
     }
 
     /// Local passes over the cloth round `fresh` vertices.

@@ -6,6 +6,7 @@ pub mod growth;
 pub mod mark_error;
 pub mod marks;
 pub mod order;
+mod placed;
 pub mod roots;
 pub mod suggest;
 

@@ -1,225 +1,388 @@
 //! Marks proposed from where the pattern's file placed its pieces round the body.
 //!
-//! One tier only: pieces of the torso get a vertical stroke each, else a waistband gets strokes along it; sleeves and legs
-//! follow their seams better than marks of their own. A stroke starts where a ray through its middle meets the body and is
-//! marched both ways over the skin's offset, by the pattern's own arc length, so that it is as long as its partner.
-
-use std::collections::BTreeMap;
+//! The file says what is front, back, left and right, and which way is up; at what height a piece goes the body says. What
+//! hangs from the shoulders is measured down from there over the skin; a waistband rests where it is too tight to slide
+//! farther. Only those pieces get marks: sleeves and legs follow their seams better than marks of their own. A ring of
+//! strokes goes round the trunk (under the arms, so that side seams close on the right side of them), stretched as one
+//! so that its ends meet; pieces of the trunk also get a stroke up and down through it, by their own arc length.
 
 use glam::{DVec2, DVec3};
 
-use crate::body::Surface;
-use crate::geometry::ids::{MarkId, PieceId};
-use crate::pattern::{Pattern, Piece, SpacePose};
+use crate::body::{Surface, Trunk};
+use crate::geometry::ids::MarkId;
+use crate::pattern::{EdgeRef, Pattern};
+use crate::wrap::placed::{Anchor, Panel, anchor, edge_within, ends_at, sides};
 use crate::wrap::{BodyMark, ClothMark, ClothSide, Marks};
 
-/// Pieces whose outer side looks this far (cosine) to the front or back are candidates.
-const FRONT_OR_BACK: f64 = 0.7;
 /// A stroke ends where the skin turns away from its piece by more than this cosine.
 const TURNED_AWAY: f64 = 0.3;
 /// Marching step, metres.
 const STEP: f64 = 0.005;
 /// Strokes keep this far from the sides of their piece, metres.
 const INSET: f64 = 0.015;
+/// The ring lies this far under the arms, and under the top of the side seams, metres on a body 1.5 m large.
+const UNDER_ARM: f64 = 0.02;
+/// A ring that carries a garment lies this far under its upper border, metres on a body 1.5 m large.
+const UNDER_TOP: f64 = 0.02;
+/// Ways down from the shoulders begin no farther out than this share of the trunk's breadth: farther they run round an arm.
+const INSIDE_ARMS: f64 = 0.75;
+/// It lies at most this much lower, metres on a body 1.5 m large.
+const LOWER: f64 = 0.2;
+/// The longest way down from a shoulder, metres on a body 1.5 m large.
+const LONGEST_DROP: f64 = 0.6;
 
 /// Marks for the pieces of `pattern` that have a placement; empty when none of them can anchor the garment.
 /// `offset` is the height of the cloth above the skin, metres.
 pub fn suggested(pattern: &Pattern, surface: &Surface, offset: f64) -> Marks {
-    let panels = placed_panels(pattern);
-    let torso: Vec<&Panel> = panels.iter().filter(|p| p.facing() && is_torso(p.piece)).collect();
-    let band: Vec<&Panel> = panels.iter().filter(|p| p.facing() && is_band(p.piece)).collect();
-    let mut marks = Marks::default();
-    let (chosen, direction) = if !torso.is_empty() {
-        (torso, DVec2::Y)
-    } else if !band.is_empty() {
-        (band, DVec2::X)
-    } else {
-        (topmost(&panels), DVec2::X)
-    };
-    for panel in chosen {
-        if let Some((cloth, body)) = stroke(panel, surface, direction, offset) {
-            let number = marks.cloth.len() as u32 + 1;
-            marks.cloth.push(ClothMark {
-                id: MarkId(pattern.next_id + 2 * number),
-                piece: panel.id,
-                side: ClothSide::Front,
-                points: cloth,
-            });
-            marks.body.push(BodyMark { id: MarkId(pattern.next_id + 2 * number + 1), points: body });
+    let trunk = Trunk::new(surface);
+    let mut strokes: Vec<Stroke> = Vec::new();
+    match anchor(pattern) {
+        Anchor::Shoulders(panels, seams) => {
+            let hung = trunk.as_ref().and_then(|t| hung(pattern, surface, t, &panels, &seams, offset));
+            let at = |p: &Panel| hung.map(|h| if p.is_front() { h.front } else { h.back });
+            for panel in &panels {
+                let height = at(panel).map(|cloth| (cloth, hung.map_or(cloth, |h| h.body)));
+                strokes.extend(upright(panel, surface, trunk.as_ref(), height, offset));
+            }
+            if let (Some(trunk), Some(hung)) = (&trunk, hung) {
+                let lines: Vec<Line> =
+                    panels.iter().map(|p| Line::level(p, at(p).unwrap_or(hung.body))).collect();
+                strokes.extend(ring(&lines, trunk, hung.body));
+            }
         }
+        Anchor::Ring(panels) => {
+            let depth = UNDER_TOP * surface.scale();
+            let lines: Vec<Line> = panels.iter().map(|p| Line::under_top(p, depth)).collect();
+            if let Some(trunk) = &trunk
+                && let Some(height) = rest_height(trunk, &lines, offset)
+            {
+                strokes.extend(ring(&lines, trunk, height));
+            }
+            if strokes.is_empty() {
+                strokes.extend(panels.iter().filter_map(|p| sideways(p, surface, offset)));
+            }
+        }
+    }
+    let mut marks = Marks::default();
+    for stroke in strokes {
+        let number = marks.cloth.len() as u32 + 1;
+        marks.cloth.push(ClothMark {
+            id: MarkId(pattern.next_id + 2 * number),
+            piece: stroke.panel,
+            side: ClothSide::Front,
+            points: stroke.cloth,
+        });
+        marks.body.push(BodyMark { id: MarkId(pattern.next_id + 2 * number + 1), points: stroke.body });
     }
     marks
 }
 
-struct Panel<'a> {
-    id: PieceId,
-    piece: &'a Piece,
-    pose: SpacePose,
-    /// Unit, the way its outer side looks.
-    normal: DVec3,
-    outline: Vec<DVec2>,
+struct Stroke {
+    panel: crate::geometry::ids::PieceId,
+    cloth: Vec<DVec2>,
+    body: Vec<DVec3>,
 }
 
-impl Panel<'_> {
-    fn facing(&self) -> bool {
-        self.normal.z.abs() > FRONT_OR_BACK
-    }
-
-    fn world(&self, p: DVec2) -> DVec3 {
-        self.pose.rotation * p.extend(0.0) + self.pose.translation
-    }
-
-    fn top(&self) -> f64 {
-        self.outline.iter().map(|&p| self.world(p).y).fold(f64::NEG_INFINITY, f64::max)
-    }
-
-    fn nearest_to_middle(&self) -> f64 {
-        self.outline.iter().map(|&p| self.world(p).x.abs()).fold(f64::INFINITY, f64::min)
-    }
+/// Which height of the placed cloth, before and behind, comes to which height of the body.
+#[derive(Clone, Copy, Debug)]
+struct Hung {
+    front: f64,
+    back: f64,
+    body: f64,
 }
 
-fn is_band(piece: &Piece) -> bool {
-    let name = piece.name.to_lowercase();
-    name.starts_with("wb") || name.contains("waist") || name.contains("band")
-}
-
-fn is_torso(piece: &Piece) -> bool {
-    let name = piece.name.to_lowercase();
-    let elsewhere = ["sleeve", "hood", "cuff", "collar", "skirt", "pant", "leg"];
-    !is_band(piece)
-        && !elsewhere.iter().any(|w| name.contains(w))
-        && (name.contains("torso") || name.contains("bodice") || piece.label.as_deref() == Some("body"))
-}
-
-/// Without names: the highest pieces that reach the body's middle.
-fn topmost<'a, 'b>(panels: &'b [Panel<'a>]) -> Vec<&'b Panel<'a>> {
-    let middle: Vec<&Panel> = panels.iter().filter(|p| p.facing() && p.nearest_to_middle() < 0.05).collect();
-    let top = middle.iter().map(|p| p.top()).fold(f64::NEG_INFINITY, f64::max);
-    middle.into_iter().filter(|p| p.top() > top - 0.1).collect()
-}
-
-fn placed_panels(pattern: &Pattern) -> Vec<Panel<'_>> {
-    let shifts = seam_shifts(pattern);
-    pattern
-        .pieces
-        .iter()
-        .filter_map(|(&id, piece)| {
-            let mut pose = piece.placement?;
-            pose.translation.y += shifts.get(&id).copied().unwrap_or(0.0);
-            let side = if piece.signed_area() < 0.0 { DVec3::NEG_Z } else { DVec3::Z };
-            Some(Panel { id, piece, pose, normal: pose.rotation * side, outline: piece.flattened(1e-3) })
-        })
-        .collect()
-}
-
-/// How far up each piece goes so that seams lie at one height: least squares, held lightly to the file's placement.
-fn seam_shifts(pattern: &Pattern) -> BTreeMap<PieceId, f64> {
-    let mut equations: Vec<(PieceId, PieceId, f64, f64)> = Vec::new();
-    let fractions: Vec<f64> = (0..=8).map(|k| f64::from(k) / 8.0).collect();
-    for seam in pattern.seams.values() {
-        let mean_height = |side: &crate::pattern::EdgeRef| -> Option<(f64, f64)> {
-            let piece = pattern.pieces.get(&side.piece)?;
-            let pose = piece.placement?;
-            if side.edge >= piece.outline.len() {
-                return None;
-            }
-            let points = piece.edge_points(side.edge, &fractions);
-            let sum: f64 = points.iter().map(|p| (pose.rotation * p.extend(0.0) + pose.translation).y).sum();
-            Some((sum / points.len() as f64, piece.edge_length(side.edge)))
-        };
-        if let (Some((a, length)), Some((b, _))) = (mean_height(&seam.sides[0]), mean_height(&seam.sides[1]))
-        {
-            equations.push((seam.sides[0].piece, seam.sides[1].piece, b - a, length));
-        }
-    }
-    let mut shifts: BTreeMap<PieceId, f64> = pattern.pieces.keys().map(|&id| (id, 0.0)).collect();
-    for _ in 0..200 {
-        for &id in pattern.pieces.keys() {
-            let (mut sum, mut weight) = (0.0, 0.02);
-            for &(a, b, gap, length) in &equations {
-                if a != b && a == id {
-                    sum += length * (shifts[&b] + gap);
-                    weight += length;
-                } else if a != b && b == id {
-                    sum += length * (shifts[&a] - gap);
-                    weight += length;
-                }
-            }
-            shifts.insert(id, sum / weight);
-        }
-    }
-    shifts
-}
-
-/// A stroke along `direction` of the world's front plane, in the piece and on the skin.
-fn stroke(
-    panel: &Panel,
+/// Hangs the garment from the shoulders: what comes to lie under the arms is found by following the skin down from where
+/// the shoulder seams meet it. Under deep armholes and beside darts it is taken lower, where the pieces reach their sides.
+fn hung(
+    pattern: &Pattern,
     surface: &Surface,
-    direction: DVec2,
+    trunk: &Trunk,
+    panels: &[Panel],
+    seams: &[[EdgeRef; 2]],
     offset: f64,
-) -> Option<(Vec<DVec2>, Vec<DVec3>)> {
-    let (from, to) = chord(panel, direction)?;
-    let middle = (from + to) / 2.0;
-    let anchor = panel.world(middle);
-    let hit = surface.ray(anchor + panel.normal * 10.0, -panel.normal)?;
-    if hit.normal.dot(panel.normal) < TURNED_AWAY {
+) -> Option<Hung> {
+    let under_arm = trunk.nearest(trunk.armpit?)?;
+    let wide = under_arm.points.iter().map(|p| (p.x - trunk.middle).abs()).fold(0.0, f64::max);
+    let limit = wide * INSIDE_ARMS;
+    let ways: Vec<(bool, f64, Vec<(DVec3, f64)>)> = seams
+        .iter()
+        .flatten()
+        .filter_map(|edge| {
+            let panel = panels.iter().find(|p| p.id == edge.piece)?;
+            let at = edge_within(panel, edge.edge, limit)?;
+            let way = down_from_shoulder(surface, trunk, at.x, panel.is_front(), offset)?;
+            Some((panel.is_front(), at.y, way))
+        })
+        .collect();
+    let cloth = |front: bool, body: f64| -> Option<f64> {
+        let of_side = ways.iter().filter(|way| way.0 == front);
+        let heights: Vec<f64> = of_side
+            .filter_map(|(_, top, way)| Some(top - way.iter().find(|(p, _)| p.y <= body)?.1))
+            .collect();
+        (!heights.is_empty()).then(|| heights.iter().sum::<f64>() / heights.len() as f64)
+    };
+    let margin = UNDER_ARM * surface.scale();
+    let sides = sides(pattern, panels);
+    let highest = trunk.armpit? - margin;
+    let lowest = (highest - LOWER * surface.scale()).max(trunk.crotch);
+    let hung = |body: f64| Some(Hung { front: cloth(true, body)?, back: cloth(false, body)?, body });
+    let steps = ((highest - lowest) / STEP).max(0.0) as usize;
+    (0..=steps).map(|k| highest - k as f64 * STEP).filter_map(hung).find(|h| {
+        panels.iter().all(|p| {
+            let height = if p.is_front() { h.front } else { h.back };
+            [height, height + margin].iter().all(|&y| ends_at(p, &sides, &p.level(y)))
+        })
+    })
+}
+
+/// The way over the skin from the top of the shoulder at `x` down before or behind the body, with its length, metres.
+fn down_from_shoulder(
+    surface: &Surface,
+    trunk: &Trunk,
+    x: f64,
+    front: bool,
+    offset: f64,
+) -> Option<Vec<(DVec3, f64)>> {
+    let (lower, upper) = surface.bounds();
+    let x = x + trunk.middle;
+    let steps = 40;
+    let ridge = (0..=steps)
+        .filter_map(|k| {
+            let z = lower.z + (upper.z - lower.z) * f64::from(k) / f64::from(steps);
+            surface.ray(DVec3::new(x, trunk.neck, z), DVec3::NEG_Y).filter(|h| h.normal.y > 0.0)
+        })
+        .max_by(|a, b| a.point.y.total_cmp(&b.point.y))?;
+    let way = if front { DVec3::Z } else { DVec3::NEG_Z };
+    let longest = LONGEST_DROP * surface.scale();
+    Some(march(surface, ridge.point, way, DVec3::Y, longest, offset, -2.0))
+}
+
+/// A line over a piece from right to left, that comes to a ring round the trunk. Between its runs are darts, sewn shut.
+struct Line<'a> {
+    panel: &'a Panel<'a>,
+    runs: Vec<Vec<DVec2>>,
+}
+
+impl<'a> Line<'a> {
+    fn level(panel: &'a Panel<'a>, height: f64) -> Self {
+        let points = |(a, b): (DVec2, DVec2)| {
+            let count = (a.distance(b) / STEP).ceil().max(2.0) as usize;
+            (0..=count).map(|k| a.lerp(b, k as f64 / count as f64)).collect()
+        };
+        Self { panel, runs: panel.level(height).into_iter().map(points).collect() }
+    }
+
+    /// Under the upper border, however that is curved.
+    fn under_top(panel: &'a Panel<'a>, depth: f64) -> Self {
+        let (right, left) = panel.reach();
+        let count = ((left - right) / STEP).ceil().max(2.0) as usize;
+        let x = |k: usize| right + (left - right) * (k as f64 + 0.5) / (count as f64 + 1.0);
+        Self { panel, runs: vec![(0..=count).filter_map(|k| panel.under_top(x(k), depth)).collect()] }
+    }
+
+    fn length(&self) -> f64 {
+        self.runs.iter().flat_map(|run| run.windows(2)).map(|w| w[0].distance(w[1])).sum()
+    }
+
+    /// What lies on one side of the body, run by run from the middle outward, each point with how far along the cloth it is.
+    fn half(&self, left: bool) -> Vec<Vec<(DVec2, f64)>> {
+        let side = |q: &DVec2| self.panel.world(*q).x * if left { 1.0 } else { -1.0 };
+        let mut runs: Vec<Vec<DVec2>> = Vec::new();
+        for run in &self.runs {
+            let mut points: Vec<DVec2> = run.iter().copied().filter(|q| side(q) >= 0.0).collect();
+            points.sort_by(|a, b| side(a).total_cmp(&side(b)));
+            if points.len() > 3 {
+                runs.push(points);
+            }
+        }
+        runs.sort_by(|a, b| side(&a[0]).total_cmp(&side(&b[0])));
+        let mut at = runs.first().map_or(0.0, |run| side(&run[0]));
+        let mut halves = Vec::new();
+        for run in runs {
+            let mut last = run[0];
+            halves.push(
+                run.into_iter()
+                    .map(|p| {
+                        at += p.distance(last);
+                        last = p;
+                        (p, at)
+                    })
+                    .collect(),
+            );
+        }
+        halves
+    }
+}
+
+/// At which height of the trunk a ring of pieces rests.
+fn rest_height(trunk: &Trunk, lines: &[Line], offset: f64) -> Option<f64> {
+    let girth: f64 = lines.iter().map(Line::length).sum::<f64>() - std::f64::consts::TAU * offset;
+    if girth <= 0.0 {
         return None;
     }
-    let along = (panel.world(to) - panel.world(from)).normalize_or_zero();
-    let half = (to - from).length() / 2.0;
-    // Along a band the skin turns away on purpose: it goes round.
-    let turned_away = if direction == DVec2::Y { TURNED_AWAY } else { -0.5 };
-    let march = |way: DVec3| march(surface, hit.point, way, panel.normal, half, offset, turned_away);
-    let (back, ahead) = (march(-along), march(along));
-    let step = (to - from).normalize_or_zero();
-    let mut cloth = Vec::new();
-    let mut body = Vec::new();
-    for (p, s) in back.iter().rev() {
-        cloth.push(middle - step * *s);
-        body.push(*p);
-    }
-    cloth.push(middle);
-    body.push(hit.point);
-    for (p, s) in &ahead {
-        cloth.push(middle + step * *s);
-        body.push(*p);
-    }
-    (cloth.len() > 3).then_some((cloth, body))
+    let placed = || {
+        let heights = lines.iter().flat_map(|l| l.runs.iter().flatten().map(|&p| l.panel.world(p).y));
+        let (sum, count) = heights.fold((0.0, 0.0), |(sum, count), y| (sum + y, count + 1.0));
+        sum / count
+    };
+    Some(trunk.rest_of(girth).unwrap_or_else(placed))
 }
 
-/// The longest run of the piece along `direction`, as near to the body's middle (or the piece's own) as it can be, in the
-/// piece's plane and shortened at both ends.
-fn chord(panel: &Panel, direction: DVec2) -> Option<(DVec2, DVec2)> {
-    let inverse = panel.pose.rotation.inverse();
-    let flat = |d: DVec3| {
-        let d = inverse * d;
-        DVec2::new(d.x, d.y).try_normalize()
+/// A stroke for each side of each line along the trunk's section at `height`. All of a side, before and behind, are
+/// stretched alike, so that they meet.
+fn ring(lines: &[Line], trunk: &Trunk, height: f64) -> Vec<Stroke> {
+    let Some(level) = trunk.nearest(height) else { return Vec::new() };
+    let mut strokes = Vec::new();
+    for left in [false, true] {
+        let Some(way) = half(&level.points, trunk.middle, left) else { continue };
+        let runs: Vec<(&Panel, Vec<(DVec2, f64)>)> =
+            lines.iter().flat_map(|l| l.half(left).into_iter().map(|run| (l.panel, run))).collect();
+        let reach = |front: bool| {
+            let ends = runs.iter().filter(|r| r.0.is_front() == front).filter_map(|r| r.1.last());
+            ends.map(|e| e.1).fold(0.0, f64::max)
+        };
+        let stretch = way.length() / (reach(true) + reach(false));
+        for (panel, run) in runs {
+            let along = |s: f64| if panel.is_front() { s * stretch } else { way.length() - s * stretch };
+            strokes.push(Stroke {
+                panel: panel.id,
+                cloth: run.iter().map(|r| r.0).collect(),
+                body: run.iter().map(|r| way.at(along(r.1))).collect(),
+            });
+        }
+    }
+    strokes
+}
+
+/// Half a section, from its front at the middle over one side to its back there.
+struct Half {
+    points: Vec<DVec3>,
+    lengths: Vec<f64>,
+}
+
+impl Half {
+    fn length(&self) -> f64 {
+        *self.lengths.last().unwrap_or(&0.0)
+    }
+
+    fn at(&self, s: f64) -> DVec3 {
+        let i = self.lengths.partition_point(|&l| l <= s).clamp(1, self.points.len() - 1);
+        let span = self.lengths[i] - self.lengths[i - 1];
+        let f = if span > 0.0 { ((s - self.lengths[i - 1]) / span).clamp(0.0, 1.0) } else { 0.0 };
+        self.points[i - 1].lerp(self.points[i], f)
+    }
+}
+
+/// None when the section does not cross the middle twice.
+fn half(section: &[DVec3], middle: f64, left: bool) -> Option<Half> {
+    let side = |p: DVec3| if left { p.x - middle } else { middle - p.x };
+    let n = section.len();
+    let cut = |i: usize| {
+        let (a, b) = (section[i], section[(i + 1) % n]);
+        a.lerp(b, side(a) / (side(a) - side(b)))
     };
-    let along = flat(direction.extend(0.0))?;
+    let crosses = |i: &usize| (side(section[*i]) >= 0.0) != (side(section[(*i + 1) % n]) >= 0.0);
+    let crossings: Vec<usize> = (0..n).filter(crosses).collect();
+    let z = |i: usize| cut(i).z;
+    let first = crossings.iter().copied().max_by(|&a, &b| z(a).total_cmp(&z(b)))?;
+    let last = crossings.iter().copied().min_by(|&a, &b| z(a).total_cmp(&z(b)))?;
+    // Round by whichever way lies on the wanted side.
+    let onward = side(section[(first + 1) % n]) >= 0.0;
+    let mut points = vec![cut(first)];
+    let mut i = first;
+    while i != last && points.len() <= n {
+        if onward {
+            points.push(section[(i + 1) % n]);
+            i = (i + 1) % n;
+        } else {
+            points.push(section[i]);
+            i = (i + n - 1) % n;
+        }
+    }
+    points.push(cut(last));
+    let mut lengths = vec![0.0];
+    for w in points.windows(2) {
+        lengths.push(lengths[lengths.len() - 1] + w[0].distance(w[1]));
+    }
+    (first != last).then_some(Half { points, lengths })
+}
+
+/// A stroke up and down the piece near the body's middle. `height` says which height of the cloth comes to which of the
+/// body; without it the middle of the stroke stays where the file placed it.
+fn upright(
+    panel: &Panel,
+    surface: &Surface,
+    trunk: Option<&Trunk>,
+    height: Option<(f64, f64)>,
+    offset: f64,
+) -> Option<Stroke> {
+    let along = panel.flat(DVec3::Y)?;
     let across = along.perp();
     let sides = panel.outline.iter().map(|p| p.dot(across));
     let (low, high) = (sides.clone().fold(f64::INFINITY, f64::min), sides.fold(f64::NEG_INFINITY, f64::max));
-    let wanted = if direction == DVec2::Y {
-        let origin = inverse * -panel.pose.translation;
-        DVec2::new(origin.x, origin.y).dot(across)
-    } else {
-        (low + high) / 2.0
-    };
+    let origin = panel.pose.rotation.inverse() * -panel.pose.translation;
     let inset = INSET.min((high - low) / 3.0);
-    let at = wanted.clamp(low + inset, high - inset) + 1e-5;
-    let mut cuts: Vec<f64> = (0..panel.outline.len())
-        .filter_map(|i| {
-            let (a, b) = (panel.outline[i], panel.outline[(i + 1) % panel.outline.len()]);
-            let (sa, sb) = (a.dot(across), b.dot(across));
-            ((sa <= at) != (sb <= at)).then(|| (a + (b - a) * ((at - sa) / (sb - sa))).dot(along))
-        })
-        .collect();
-    cuts.sort_by(f64::total_cmp);
-    let (from, to) =
-        cuts.chunks_exact(2).map(|c| (c[0], c[1])).max_by(|a, b| (a.1 - a.0).total_cmp(&(b.1 - b.0)))?;
-    let margin = 0.03 * (to - from);
-    let point = |s: f64| along * s + across * at;
-    Some((point(from + margin), point(to - margin)))
+    let at = DVec2::new(origin.x, origin.y).dot(across).clamp(low + inset, high - inset);
+    let run = panel.run(along, at)?;
+    let middle = run.0.midpoint(run.1);
+    let aside = DVec3::X * trunk.map_or(0.0, |t| t.middle);
+    let (anchor, on_body) = match height {
+        Some((cloth, body)) => {
+            let anchor = middle + along * (cloth - panel.world(middle).y);
+            (anchor, panel.world(anchor) + aside + DVec3::Y * (body - cloth))
+        }
+        None => (middle, panel.world(middle) + aside),
+    };
+    stroke(panel, surface, run, anchor, on_body, TURNED_AWAY, offset)
+}
+
+/// A stroke along the piece from side to side, at the height where the file placed it.
+fn sideways(panel: &Panel, surface: &Surface, offset: f64) -> Option<Stroke> {
+    let along = panel.flat(DVec3::X)?;
+    let across = along.perp();
+    let sides = panel.outline.iter().map(|p| p.dot(across));
+    let (low, high) = (sides.clone().fold(f64::INFINITY, f64::min), sides.fold(f64::NEG_INFINITY, f64::max));
+    let run = panel.run(along, (low + high) / 2.0)?;
+    let middle = run.0.midpoint(run.1);
+    // The skin turns away on purpose: the stroke goes round.
+    stroke(panel, surface, run, middle, panel.world(middle), -0.5, offset)
+}
+
+/// A stroke over the run `from`..`to` of a piece, whose point `anchor` comes to the skin before `on_body`.
+fn stroke(
+    panel: &Panel,
+    surface: &Surface,
+    (from, to): (DVec2, DVec2),
+    anchor: DVec2,
+    on_body: DVec3,
+    turned_away: f64,
+    offset: f64,
+) -> Option<Stroke> {
+    let far = 10.0 * surface.scale();
+    let hit = surface.ray(on_body + panel.normal * far, -panel.normal)?;
+    if hit.normal.dot(panel.normal) < TURNED_AWAY {
+        return None;
+    }
+    let margin = 0.03 * (to - from).length();
+    let step = (to - from).normalize_or_zero();
+    let along = (panel.world(to) - panel.world(from)).normalize_or_zero();
+    let march =
+        |way: DVec3, length: f64| march(surface, hit.point, way, panel.normal, length, offset, turned_away);
+    let back = march(-along, (anchor - from).dot(step) - margin);
+    let ahead = march(along, (to - anchor).dot(step) - margin);
+    let mut cloth = Vec::new();
+    let mut body = Vec::new();
+    for (p, s) in back.iter().rev() {
+        cloth.push(anchor - step * *s);
+        body.push(*p);
+    }
+    cloth.push(anchor);
+    body.push(hit.point);
+    for (p, s) in &ahead {
+        cloth.push(anchor + step * *s);
+        body.push(*p);
+    }
+    (cloth.len() > 3).then_some(Stroke { panel: panel.id, cloth, body })
 }
 
 /// Points of the skin from `start` the way of `way`, inside the plane of `way` and `normal`, each with its arc length at
