@@ -8,6 +8,7 @@ use rayon::prelude::*;
 use crate::body::Surface;
 use crate::cloth::{Carry, ClothState, Counters, Garment};
 use crate::contact::{Plane, Tracker, layers};
+use crate::geometry::crossings::meetings;
 use crate::relax::RelaxSettings;
 use crate::relax::flatten::Hinges;
 use crate::relax::global::GlobalSolver;
@@ -420,29 +421,40 @@ impl Relaxer {
 
     /// Sends faces that face the skin next to them away from it: they belong to another limb. Returns how many.
     pub fn send_wrong_faces(&mut self, state: &ClothState) -> usize {
-        let (garment, surface) = (&*self.garment, &*self.surface);
-        let reach = WRONG_FACE_REACH * surface.scale();
-        let wrong: Vec<Option<DVec3>> = garment
-            .triangles
-            .par_iter()
-            .map(|vs| {
-                if !vs.iter().all(|&v| state.mapped[v as usize]) {
-                    return None;
-                }
-                let [a, b, c] = vs.map(|v| state.positions[v as usize]);
-                let near = surface.nearest_within((a + b + c) / 3.0, reach)?;
-                let normal = (b - a).cross(c - a).normalize_or_zero();
-                let skin = surface.face_normals[near.triangle as usize];
-                (normal.dot(skin) < WRONG_FACE).then_some(near.normal)
-            })
-            .collect();
+        let wrong = self.wrong_faces(state);
         self.counters.contact_queries += wrong.len() as u64;
-        for (vs, away) in garment.triangles.iter().zip(&wrong) {
+        for (vs, away) in self.garment.triangles.iter().zip(&wrong) {
             for &v in vs {
                 self.sent[v as usize] += away.unwrap_or_default();
             }
         }
         wrong.iter().flatten().count()
+    }
+
+    /// For each face that faces the skin next to it the way off that skin.
+    fn wrong_faces(&self, state: &ClothState) -> Vec<Option<DVec3>> {
+        let (garment, surface) = (&*self.garment, &*self.surface);
+        let reach = WRONG_FACE_REACH * surface.scale();
+        let wrong = |vs: &[u32; 3]| {
+            if !vs.iter().all(|&v| state.mapped[v as usize]) {
+                return None;
+            }
+            let [a, b, c] = vs.map(|v| state.positions[v as usize]);
+            let near = surface.nearest_within((a + b + c) / 3.0, reach)?;
+            let normal = (b - a).cross(c - a).normalize_or_zero();
+            let skin = surface.face_normals[near.triangle as usize];
+            (normal.dot(skin) < WRONG_FACE).then_some(near.normal)
+        };
+        garment.triangles.par_iter().map(wrong).collect()
+    }
+
+    /// In how many places the cloth passes through the body or shows it its outer side.
+    pub fn faults(&self, state: &ClothState) -> usize {
+        let laid = |e: &[u32; 2]| e.iter().all(|&v| state.mapped[v as usize]);
+        let edges: Vec<[u32; 2]> = self.garment.adjacency.edges.iter().copied().filter(laid).collect();
+        let body = &self.surface.mesh;
+        meetings(&state.positions, &edges, body, &body.tree()).len()
+            + self.wrong_faces(state).iter().flatten().count()
     }
 
     /// Sends layers that run into each other apart. Returns in how many places they do.

@@ -13,16 +13,12 @@ use crate::relax::{GlobalStep, RelaxSettings, Relaxer};
 use crate::wrap::Marks;
 use crate::wrap::growth::{Growth, placed};
 use crate::wrap::order::{Order, UNREACHED};
-use crate::wrap::roots::{PairStretch, roots};
+use crate::wrap::roots::{PairStretch, Root, roots};
 
-/// Local passes after each band of growth (ALGORITHMS.md 8.1).
-const LOCAL_PASSES: usize = 6;
 /// Over-relaxation of the local passes.
 const LOCAL_FACTOR: f64 = 1.6;
 /// Rings of vertices round new ones that the local passes move.
 const RINGS: usize = 2;
-/// Bands between global steps.
-const BANDS_PER_GLOBAL: usize = 3;
 /// Global steps after those bands.
 const GLOBALS_PER_GROUP: usize = 3;
 /// Global steps between tiers.
@@ -71,6 +67,35 @@ const STEPS_PER_MEND: usize = 25;
 const COARSE_PROGRESS: f64 = 0.8;
 /// Edges and faces keep this share of the offset.
 const FACE_CLEARANCE: f64 = 0.25;
+
+/// A way to grow. How cloth falls round a limb depends on small things: what fails one way goes well another.
+#[derive(Clone, Copy, Debug)]
+struct Plan {
+    /// Local passes after each band of growth (ALGORITHMS.md 8.1).
+    local_passes: usize,
+    /// Bands between global steps.
+    bands_per_global: usize,
+    /// Steps by which a new vertex is pushed out of the body before it goes to the nearest skin.
+    pushes: usize,
+}
+
+/// The quickest first; what needs the next is found out on the coarsest mesh.
+const PLANS: [Plan; 4] = [
+    Plan { local_passes: 6, bands_per_global: 3, pushes: 30 },
+    Plan { local_passes: 6, bands_per_global: 3, pushes: 10 },
+    Plan { local_passes: 12, bands_per_global: 1, pushes: 10 },
+    Plan { local_passes: 12, bands_per_global: 1, pushes: 30 },
+];
+/// A wrap has failed when it has more than one fault for so many triangles; fewer are mended on finer meshes.
+const TRIANGLES_PER_FAULT: usize = 150;
+
+/// The best of the plans tried so far.
+#[derive(Clone, Debug)]
+struct Attempt {
+    faults: usize,
+    relaxer: Relaxer,
+    cloth: ClothState,
+}
 
 /// How far a dressing has come.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
@@ -138,6 +163,12 @@ pub struct Dressing {
     draft: bool,
     /// While this is there, it moves and the cloth follows it.
     coarse: Option<Box<Coarse>>,
+    /// What growth begins with.
+    roots: Vec<Root>,
+    /// Which of [`PLANS`] it grows by; none once it came to rest and was found good, or the best of all.
+    plan: Option<usize>,
+    /// The best of the plans before.
+    best: Option<Box<Attempt>>,
     /// How long each pair of marks is on both sides.
     pub stretches: Vec<PairStretch>,
 }
@@ -229,6 +260,9 @@ impl Dressing {
             to_map,
             draft: false,
             coarse: None,
+            plan: (!roots.is_empty()).then_some(0),
+            roots,
+            best: None,
             stretches,
         };
         (Some(dressing), state, problems)
@@ -245,6 +279,9 @@ impl Dressing {
             Stage::BetweenTiers { left } => self.between_tiers(state, left),
             Stage::Settle(settling) => self.settle(state, settling),
             Stage::Rest => {}
+        }
+        if matches!(self.stage, Stage::Rest) {
+            self.judge(state);
         }
         self.phase()
     }
@@ -312,6 +349,9 @@ impl Dressing {
             mapped,
             draft: false,
             coarse: None,
+            roots: Vec::new(),
+            plan: None,
+            best: None,
             stretches: Vec::new(),
         }
     }
@@ -383,8 +423,8 @@ impl Dressing {
             }
         };
         while let Some(v) = self.growth.pop(self.tier, limit) {
-            let offset = self.relaxer.offset();
-            if let Some(p) = placed(&self.relaxer.garment, &self.relaxer.surface, state, v, offset) {
+            let (offset, pushes) = (self.relaxer.offset(), self.way().pushes);
+            if let Some(p) = placed(&self.relaxer.garment, &self.relaxer.surface, state, v, offset, pushes) {
                 state.positions[v as usize] = p;
                 state.mapped[v as usize] = true;
                 self.mapped += 1;
@@ -394,7 +434,7 @@ impl Dressing {
             }
         }
         self.relax_new(state, &fresh);
-        if (bands + 1).is_multiple_of(BANDS_PER_GLOBAL) {
+        if (bands + 1).is_multiple_of(self.way().bands_per_global) {
             self.relaxer.set_mapped(&state.mapped);
             for _ in 0..GLOBALS_PER_GROUP {
                 self.global(state, Hold { weight: HOLD, slack: 0.0 }, false, false);
@@ -457,6 +497,54 @@ impl Dressing {
         )
     }
 
+    /// Cloth grown by a plan lies still: when it failed, the next plan is tried, and after the last the best of them stays.
+    fn judge(&mut self, state: &mut ClothState) {
+        let Some(plan) = self.plan.take() else { return };
+        let faults = self.relaxer.faults(state);
+        if faults * TRIANGLES_PER_FAULT <= self.relaxer.garment.triangles.len() {
+            self.best = None;
+            return;
+        }
+        if self.best.as_ref().is_none_or(|best| faults < best.faults) {
+            let (relaxer, cloth) = (self.relaxer.clone(), state.clone());
+            self.best = Some(Box::new(Attempt { faults, relaxer, cloth }));
+        }
+        if plan + 1 < PLANS.len() && self.begin_again(state).is_some() {
+            self.plan = Some(plan + 1);
+        } else if let Some(best) = self.best.take() {
+            let counters = self.relaxer.counters;
+            self.relaxer = best.relaxer;
+            self.relaxer.counters = counters;
+            *state = best.cloth;
+        }
+    }
+
+    /// Back to the roots. None when there is no memory for it.
+    fn begin_again(&mut self, state: &mut ClothState) -> Option<()> {
+        let (garment, surface) = (self.relaxer.garment.clone(), self.relaxer.surface.clone());
+        let mut relaxer = Relaxer::new(garment, surface, self.relaxer.settings)?;
+        relaxer.counters = self.relaxer.counters;
+        state.mapped.fill(false);
+        // Friction and momentum take a vertex that was at the origin for one just laid.
+        state.positions.fill(DVec3::ZERO);
+        for root in &self.roots {
+            state.positions[root.vertex as usize] = root.position;
+            state.mapped[root.vertex as usize] = true;
+            relaxer.hold(root.vertex, root.position);
+        }
+        self.growth = Growth::new(&relaxer.garment, &self.order, &state.mapped);
+        self.relaxer = relaxer;
+        self.tier = 0;
+        self.mapped = self.roots.len();
+        let fresh = self.roots.iter().map(|r| r.vertex).collect();
+        self.stage = Stage::Grow { limit: 0.0, bands: 0, fresh };
+        Some(())
+    }
+
+    fn way(&self) -> Plan {
+        PLANS[self.plan.unwrap_or(0)]
+    }
+
     /// Local passes over the cloth round `fresh` vertices.
     fn relax_new(&mut self, state: &mut ClothState, fresh: &[u32]) {
         let garment = self.relaxer.garment.clone();
@@ -478,7 +566,7 @@ impl Dressing {
             .filter(|&t| garment.triangles[t as usize].iter().all(|&v| state.mapped[v as usize]))
             .collect();
         let triangles: Vec<u32> = triangles.into_iter().collect();
-        for _ in 0..LOCAL_PASSES {
+        for _ in 0..self.way().local_passes {
             self.relaxer.local_pass(state, &vertices, &triangles, LOCAL_FACTOR);
         }
     }

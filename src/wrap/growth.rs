@@ -11,8 +11,6 @@ use crate::wrap::order::Order;
 
 /// A new vertex is pushed out of the body in steps of this, metres on a body 1.5 m large.
 const PUSH_STEP: f64 = 0.003;
-/// After so many steps it goes to the nearest skin instead.
-const MOST_PUSHES: usize = 30;
 
 /// Vertices ready to be laid, by tier, distance and id.
 #[derive(Clone, Debug, Default)]
@@ -69,13 +67,15 @@ impl Growth {
     }
 }
 
-/// Where `v` goes, as its mapped parent triangles say, out of the body by `offset` metres.
+/// Where `v` goes, as its mapped parent triangles say, out of the body by `offset` metres. After `pushes` steps out of the
+/// body in vain it goes to the nearest skin.
 pub fn placed(
     garment: &Garment,
     surface: &Surface,
     state: &ClothState,
     v: u32,
     offset: f64,
+    pushes: usize,
 ) -> Option<DVec3> {
     let mut sum = DVec3::ZERO;
     let mut normals = DVec3::ZERO;
@@ -104,14 +104,14 @@ pub fn placed(
         normals += normal;
         count += 1.0;
     }
-    (count > 0.0).then(|| pushed_out(surface, sum / count, normals.normalize_or_zero(), offset))
+    (count > 0.0).then(|| pushed_out(surface, sum / count, normals.normalize_or_zero(), offset, pushes))
 }
 
 /// Along the parents' normal, not to the nearest skin: beside an arm that is often the wrong side.
-fn pushed_out(surface: &Surface, p: DVec3, normal: DVec3, offset: f64) -> DVec3 {
+fn pushed_out(surface: &Surface, p: DVec3, normal: DVec3, offset: f64, pushes: usize) -> DVec3 {
     let step = PUSH_STEP * surface.scale();
     let mut q = p;
-    for _ in 0..MOST_PUSHES {
+    for _ in 0..pushes {
         let near = surface.nearest(q);
         if near.distance >= offset {
             return q;

@@ -83,6 +83,9 @@ struct Stroke {
     body: Vec<DVec3>,
 }
 
+/// Points of the skin, each with how far the way to it is at the cloth's offset, metres.
+type Way = Vec<(DVec3, f64)>;
+
 /// Which height of the placed cloth, before and behind, comes to which height of the body.
 #[derive(Clone, Copy, Debug)]
 struct Hung {
@@ -104,7 +107,7 @@ fn hung(
     let under_arm = trunk.nearest(trunk.armpit?)?;
     let wide = under_arm.points.iter().map(|p| (p.x - trunk.middle).abs()).fold(0.0, f64::max);
     let limit = wide * INSIDE_ARMS;
-    let ways: Vec<(bool, f64, Vec<(DVec3, f64)>)> = seams
+    let ways: Vec<(bool, f64, Way)> = seams
         .iter()
         .flatten()
         .filter_map(|edge| {
@@ -136,13 +139,7 @@ fn hung(
 }
 
 /// The way over the skin from the top of the shoulder at `x` down before or behind the body, with its length, metres.
-fn down_from_shoulder(
-    surface: &Surface,
-    trunk: &Trunk,
-    x: f64,
-    front: bool,
-    offset: f64,
-) -> Option<Vec<(DVec3, f64)>> {
+fn down_from_shoulder(surface: &Surface, trunk: &Trunk, x: f64, front: bool, offset: f64) -> Option<Way> {
     let (lower, upper) = surface.bounds();
     let x = x + trunk.middle;
     let steps = 40;
@@ -395,7 +392,7 @@ fn march(
     length: f64,
     offset: f64,
     turned_away: f64,
-) -> Vec<(DVec3, f64)> {
+) -> Way {
     let side = way.cross(normal).normalize_or_zero();
     let flatten = |p: DVec3| p - side * (p - start).dot(side);
     let mut points = Vec::new();
