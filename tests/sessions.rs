@@ -11,6 +11,8 @@ mod dragging;
 mod project_files;
 #[path = "sessions/recordings.rs"]
 mod recordings;
+#[path = "sessions/rewrapping.rs"]
+mod rewrapping;
 #[path = "sessions/scenario.rs"]
 mod scenario;
 #[path = "sessions/threads.rs"]

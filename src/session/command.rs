@@ -58,6 +58,9 @@ pub enum Command {
 
     /// Grow the cloth round the body from the marks.
     Wrap,
+    /// Grow the dressed cloth anew from the pairs of marks with these numbers (from 1; none: all). Cloth as far from them
+    /// as the nearest pin, or farther, stays.
+    Rewrap { pairs: Vec<usize> },
     /// Take the last wrap back: what was on the body before it returns.
     CancelWrap,
     /// Take the cloth off.

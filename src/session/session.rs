@@ -257,7 +257,14 @@ impl Session {
         let edit = edit::edit(&self.document, command, &mut self.bodies)?;
         let request = match edit.cloth {
             ClothChange::None => None,
-            ClothChange::Wrap => Some(self.wrap_request()?),
+            ClothChange::Wrap => {
+                let (source, body) = self.garment_source()?;
+                Some(RequestKind::Wrap { source, body })
+            }
+            ClothChange::Rewrap(ref pairs) => {
+                let (source, body) = self.garment_source()?;
+                Some(RequestKind::Rewrap { source, body, pairs: pairs.clone() })
+            }
             ClothChange::Clear => Some(RequestKind::Clear),
             ClothChange::SetPins => Some(RequestKind::SetPins(edit.document.pinned_places())),
             ClothChange::Grab { at, mode } => Some(RequestKind::Grab { at, mode }),
@@ -275,7 +282,7 @@ impl Session {
         Ok(Plan { document: edit.document, history, request, problems: edit.problems })
     }
 
-    fn wrap_request(&mut self) -> Result<RequestKind, Rejection> {
+    fn garment_source(&mut self) -> Result<(Arc<GarmentSource>, Arc<Surface>), Rejection> {
         let body = self.bodies.surface(&self.document.body)?;
         let source = GarmentSource {
             pattern: Arc::clone(&self.document.pattern),
@@ -283,7 +290,7 @@ impl Session {
             edge_length: self.document.settings.edge_length,
             relax: self.document.settings.relax,
         };
-        Ok(RequestKind::Wrap { source: Arc::new(source), body })
+        Ok((Arc::new(source), body))
     }
 
     fn plan_undo(&self) -> Result<Plan, Rejection> {

@@ -52,6 +52,9 @@ pub struct Request {
 pub enum RequestKind {
     /// Build the garment and grow it round the body from its marks, then relax it until it is at rest.
     Wrap { source: Arc<GarmentSource>, body: Arc<Surface> },
+    /// Grow the dressed cloth anew from the pairs of marks with these numbers (none: all), as far as pins let it. Where
+    /// nothing is dressed, or the pattern has changed since, all of it is wrapped by them.
+    Rewrap { source: Arc<GarmentSource>, body: Arc<Surface>, pairs: Vec<usize> },
     /// Take over cloth that was dressed before (from a project file). It is at rest until something changes.
     Adopt { source: Arc<GarmentSource>, body: Arc<Surface>, cloth: Arc<ClothState> },
     /// Relax differently from now on.

@@ -143,6 +143,10 @@ impl Simulation {
     fn carry_out(&mut self, kind: RequestKind) -> Result<(), String> {
         match kind {
             RequestKind::Wrap { source, body } => self.set_world(World::wrapped(source, body)),
+            RequestKind::Rewrap { source, body, pairs } => {
+                let world = self.world.rewrapped(source, body, &pairs);
+                self.set_world(world);
+            }
             RequestKind::Adopt { source, body, cloth } => {
                 self.set_world(World::adopted(source, body, cloth)?);
             }

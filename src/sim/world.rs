@@ -11,7 +11,7 @@ use crate::pattern::Problem;
 use crate::relax::RelaxSettings;
 use crate::sim::hash::cloth_hash;
 use crate::sim::protocol::{ClothPlace, GarmentSource};
-use crate::wrap::{Dressing, Phase, coarser};
+use crate::wrap::{Dressed, Dressing, Phase, coarser};
 
 /// The state of the simulation.
 #[derive(Clone, Debug)]
@@ -75,6 +75,34 @@ impl World {
             garment: Some(garment),
             cloth: Arc::new(cloth),
             dressing: dressing.map(Arc::new),
+            problems: Arc::new(problems),
+            ..Self::default()
+        }
+    }
+
+    /// The dressed cloth grown anew from some pairs of marks.
+    pub fn rewrapped(&mut self, source: Arc<GarmentSource>, body: Arc<Surface>, pairs: &[usize]) -> Self {
+        self.release();
+        let marks = source.marks.only(pairs);
+        let same =
+            |old: &GarmentSource| old.pattern == source.pattern && old.edge_length == source.edge_length;
+        let fits = self.source.as_deref().is_some_and(same)
+            && self.body.as_ref().is_some_and(|old| Arc::ptr_eq(old, &body));
+        let Some(garment) = self.garment.clone().filter(|_| fits) else {
+            let chosen = GarmentSource { marks: Arc::new(marks), ..GarmentSource::clone(&source) };
+            return Self { source: Some(source), ..Self::wrapped(Arc::new(chosen), body) };
+        };
+        let pins = self.pinned_vertices();
+        let dressed = Dressed { cloth: &self.cloth, pins: &pins };
+        let (dressing, cloth, problems) =
+            Dressing::rewrapped(Arc::clone(&garment), Arc::clone(&body), &marks, source.relax, dressed);
+        Self {
+            source: Some(source),
+            body: Some(body),
+            garment: Some(garment),
+            cloth: Arc::new(cloth),
+            dressing: dressing.map(Arc::new),
+            pinned: Arc::clone(&self.pinned),
             problems: Arc::new(problems),
             ..Self::default()
         }

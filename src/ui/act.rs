@@ -9,6 +9,7 @@ use crate::ui::app::App;
 use crate::ui::dialogs::Dialog;
 use crate::ui::files::{self, Purpose};
 use crate::ui::ghosts::Ghosts;
+use crate::wrap::{BodyMark, ClothMark};
 
 impl App {
     /// Carries out `action`; one that would lose unsaved changes asks first.
@@ -52,6 +53,7 @@ impl App {
                 self.show_cloth = true;
                 self.apply(Command::Wrap);
             }
+            Action::Rewrap => self.rewrap(),
             Action::CancelWrap => self.apply(Command::CancelWrap),
             Action::Unwrap => self.apply(Command::Unwrap),
             Action::ToggleRelaxing => {
@@ -76,6 +78,19 @@ impl App {
             Action::LowerMark => Command::MoveMark { mark, to: place.number + 1 },
             _ => Command::DeleteMark { mark },
         });
+    }
+
+    /// By the pairs painted since the last wrap; by all when there is none.
+    fn rewrap(&mut self) {
+        let used =
+            self.session.snapshot().source.as_ref().map(|source| source.marks.clone()).unwrap_or_default();
+        let known = |(cloth, body): (&ClothMark, &BodyMark)| {
+            used.pairs().any(|(c, b)| (c.id, b.id) == (cloth.id, body.id))
+        };
+        let marks = &self.session.document().marks;
+        let pairs = marks.pairs().enumerate().filter(|(_, pair)| !known(*pair)).map(|(i, _)| i + 1).collect();
+        self.show_cloth = true;
+        self.apply(Command::Rewrap { pairs });
     }
 
     fn suggest_marks(&mut self) {

@@ -49,6 +49,7 @@ pub enum Action {
     ToggleLaser,
     Choose(Tool),
     Wrap,
+    Rewrap,
     CancelWrap,
     Unwrap,
     ToggleRelaxing,
@@ -161,6 +162,11 @@ impl Action {
             Self::Wrap => {
                 entry("Wrap", "Grow the cloth round the body so that the marks meet", &[key(Key::Enter)])
             }
+            Self::Rewrap => entry(
+                "Rewrap",
+                "Wrap the dressed cloth again by its new marks; pins keep what lies beyond them",
+                &[KeyboardShortcut::new(Modifiers::SHIFT, Key::Enter)],
+            ),
             Self::CancelWrap => {
                 entry("Cancel", "Stop, and bring back what was on the body before", &[key(Key::Escape)])
             }
@@ -245,6 +251,7 @@ const ALL: &[Action] = &[
     Action::Choose(Tool::Move),
     Action::Choose(Tool::Drag(DragMode::Surface)),
     Action::Choose(Tool::Pin),
+    Action::Rewrap,
     Action::Wrap,
     Action::CancelWrap,
     Action::ToggleRelaxing,

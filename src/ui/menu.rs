@@ -20,7 +20,7 @@ pub fn menu_bar_ui(ui: &mut egui::Ui, now: &Situation, asks: &mut Asks) {
             items(ui, now, asks, &[Action::ToggleLaser, Action::SuggestMarks, Action::ClearMarks]);
         });
         ui.menu_button("Garment", |ui| {
-            items(ui, now, asks, &[Action::Wrap, Action::CancelWrap, Action::Unwrap]);
+            items(ui, now, asks, &[Action::Wrap, Action::Rewrap, Action::CancelWrap, Action::Unwrap]);
             ui.separator();
             items(ui, now, asks, &[Action::ToggleRelaxing]);
             ui.separator();

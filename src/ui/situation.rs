@@ -74,6 +74,12 @@ impl Situation {
                 self.marks[0].min(self.marks[1]) > 0,
                 "Paint at least one mark on a piece and one on the body first",
             ),
+            Action::Rewrap if !self.dressed => Some("There is no cloth on the body"),
+            Action::Rewrap if self.wrapping => Some("The cloth is growing"),
+            Action::Rewrap => unless(
+                self.marks[0].min(self.marks[1]) > 0,
+                "Paint the new marks first: on a piece, and on the body where it should lie",
+            ),
             Action::CancelWrap => unless(self.wrapping, "Nothing is growing"),
             Action::Choose(Tool::Drag(_) | Tool::Pin) => {
                 unless(self.dressed, "There is no cloth on the body")

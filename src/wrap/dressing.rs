@@ -6,7 +6,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use crate::body::Surface;
-use crate::cloth::{Carry, ClothState, Counters, Garment};
+use crate::cloth::{Carry, ClothState, Counters, EdgeMetric, Garment};
 use crate::geometry::ids::PieceId;
 use crate::pattern::{Problem, ProblemKind};
 use crate::relax::{GlobalStep, RelaxSettings, Relaxer};
@@ -159,6 +159,8 @@ pub struct Dressing {
     edge_length: f64,
     to_map: usize,
     mapped: usize,
+    /// Stay where they are once all cloth lies.
+    pins: Vec<u32>,
     /// A finer mesh goes on from here: it need not lie quite still.
     draft: bool,
     /// While this is there, it moves and the cloth follows it.
@@ -171,6 +173,26 @@ pub struct Dressing {
     best: Option<Box<Attempt>>,
     /// How long each pair of marks is on both sides.
     pub stretches: Vec<PairStretch>,
+}
+
+/// Cloth that is on the body already.
+#[derive(Clone, Copy, Debug)]
+pub struct Dressed<'a> {
+    /// Where it is.
+    pub cloth: &'a ClothState,
+    /// Pinned vertices.
+    pub pins: &'a [u32],
+}
+
+impl Dressed<'_> {
+    /// Vertices that a rewrap from `roots` leaves alone: as far from the marks as the nearest pin, or farther.
+    fn kept(&self, garment: &Garment, roots: &[Root]) -> Vec<u32> {
+        let sources: Vec<(u32, f64)> = roots.iter().map(|root| (root.vertex, root.distance)).collect();
+        let far = EdgeMetric::new(garment).from(&sources, |v| self.cloth.mapped[v as usize]).distance;
+        let nearest_pin = self.pins.iter().map(|&pin| far[pin as usize]).fold(f64::INFINITY, f64::min);
+        let laid = (0..garment.vertex_count as u32).filter(|&v| self.cloth.mapped[v as usize]);
+        laid.filter(|&v| far[v as usize] >= nearest_pin).collect()
+    }
 }
 
 /// The same garment in larger triangles, dressed first.
@@ -225,6 +247,28 @@ impl Dressing {
         marks: &Marks,
         settings: RelaxSettings,
     ) -> (Option<Self>, ClothState, Vec<Problem>) {
+        Self::begun(garment, surface, marks, settings, None)
+    }
+
+    /// Takes dressed cloth off again and pastes it round `marks` (paper A, "Rewrapping"): all of it that is nearer to them
+    /// than the nearest pin. What lies beyond, and what no edge joins to them, stays where it is.
+    pub fn rewrapped(
+        garment: Arc<Garment>,
+        surface: Arc<Surface>,
+        marks: &Marks,
+        settings: RelaxSettings,
+        dressed: Dressed<'_>,
+    ) -> (Option<Self>, ClothState, Vec<Problem>) {
+        Self::begun(garment, surface, marks, settings, Some(dressed))
+    }
+
+    fn begun(
+        garment: Arc<Garment>,
+        surface: Arc<Surface>,
+        marks: &Marks,
+        settings: RelaxSettings,
+        dressed: Option<Dressed<'_>>,
+    ) -> (Option<Self>, ClothState, Vec<Problem>) {
         let mut state = ClothState {
             positions: vec![DVec3::ZERO; garment.vertex_count],
             mapped: vec![false; garment.vertex_count],
@@ -235,12 +279,22 @@ impl Dressing {
         let (roots, stretches, mut problems) = roots(&garment, &surface, marks, relaxer.offset());
         let marked: Vec<PieceId> = marks.pairs().map(|(c, _)| c.piece).collect();
         let order = Order::new(&garment, &roots, &marked);
+        let kept = dressed.map(|dressed| dressed.kept(&garment, &roots)).unwrap_or_default();
+        if let Some(dressed) = dressed {
+            for &v in &kept {
+                state.positions[v as usize] = dressed.cloth.positions[v as usize];
+                state.mapped[v as usize] = true;
+            }
+        }
         for root in &roots {
             state.positions[root.vertex as usize] = root.position;
             state.mapped[root.vertex as usize] = true;
             relaxer.hold(root.vertex, root.position);
         }
-        report_unreached(&garment, &order, &mut problems);
+        if kept.is_empty() {
+            report_unreached(&garment, &order, &mut problems);
+        }
+        relaxer.fix(kept.iter().copied());
         let growth = Growth::new(&garment, &order, &state.mapped);
         let to_map = order.tier.iter().filter(|&&t| t != UNREACHED).count();
         let stage = if roots.is_empty() {
@@ -251,16 +305,17 @@ impl Dressing {
         };
         let dressing = Self {
             edge_length: garment.mean_edge(),
-            mapped: roots.len(),
+            mapped: state.mapped.iter().filter(|&&m| m).count(),
             relaxer,
             order: Arc::new(order),
             growth,
             tier: 0,
             stage,
             to_map,
+            pins: dressed.map(|dressed| dressed.pins.to_vec()).unwrap_or_default(),
             draft: false,
             coarse: None,
-            plan: (!roots.is_empty()).then_some(0),
+            plan: (!roots.is_empty() && dressed.is_none()).then_some(0),
             roots,
             best: None,
             stretches,
@@ -347,6 +402,7 @@ impl Dressing {
             stage: Stage::Rest,
             to_map: mapped,
             mapped,
+            pins: Vec::new(),
             draft: false,
             coarse: None,
             roots: Vec::new(),
@@ -414,6 +470,9 @@ impl Dressing {
                 self.relax_new(state, &fresh);
                 self.tier = next.map_or(self.tier, |(tier, _)| tier);
                 self.relaxer.set_mapped(&state.mapped);
+                if last {
+                    self.relaxer.fix(self.pins.iter().copied());
+                }
                 self.stage = if last {
                     Stage::Settle(Settling::from(0, self.draft))
                 } else {

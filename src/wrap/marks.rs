@@ -70,6 +70,21 @@ pub struct Tie {
 }
 
 impl Marks {
+    /// Only the pairs with these numbers (from 1), in their order; all of them when there is none.
+    pub fn only(&self, numbers: &[usize]) -> Self {
+        if numbers.is_empty() {
+            return self.clone();
+        }
+        let taken = |i: usize| numbers.contains(&(i + 1));
+        let (cloth, body) = self
+            .pairs()
+            .enumerate()
+            .filter(|(i, _)| taken(*i))
+            .map(|(_, (c, b))| (c.clone(), b.clone()))
+            .unzip();
+        Self { cloth, body, ..Self::default() }
+    }
+
     /// Strokes that have a partner, in order of their numbers.
     pub fn pairs(&self) -> impl Iterator<Item = (&ClothMark, &BodyMark)> {
         self.cloth.iter().zip(&self.body)

@@ -11,7 +11,7 @@ pub mod roots;
 pub mod suggest;
 
 pub use coarser::coarser;
-pub use dressing::{Dressing, Phase};
+pub use dressing::{Dressed, Dressing, Phase};
 pub use mark_error::{MarkError, mark_error};
 pub use marks::{BodyMark, ClothMark, ClothSide, MarkPlace, Marks, Tie};
 pub use roots::{PairStretch, stretches};

@@ -22,12 +22,14 @@ use crate::session::history::StepKind;
 use crate::sim::ClothPlace;
 
 /// What a command asks of the simulation.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum ClothChange {
     /// Nothing.
     None,
     /// Wrap the document's garment round its body.
     Wrap,
+    /// Wrap it again by some pairs of marks.
+    Rewrap(Vec<usize>),
     /// Take the cloth off.
     Clear,
     /// Relax differently.
@@ -74,7 +76,7 @@ impl Edit {
     /// What history remembers of it.
     pub fn kind(&self) -> StepKind {
         match self.cloth {
-            ClothChange::Wrap => StepKind::Wrap,
+            ClothChange::Wrap | ClothChange::Rewrap(_) => StepKind::Wrap,
             ClothChange::Clear | ClothChange::SetPins | ClothChange::Grab { .. } => StepKind::Cloth,
             _ => StepKind::Edit,
         }
@@ -118,6 +120,7 @@ fn untied(document: &Document, command: &Command, bodies: &mut BodyCache) -> Res
         Command::SetBody { body } => body::set(new, body, bodies),
         Command::SetSettings { settings } => settings::set(new, settings),
         Command::Wrap => wrap::wrap(new),
+        Command::Rewrap { pairs } => wrap::rewrap(new, pairs),
         Command::Unwrap => wrap::unwrap(new),
         Command::AddPin { piece, at } => drag::add_pin(new, *piece, *at),
         Command::DeletePin { pin } => drag::delete_pin(new, *pin),

@@ -18,6 +18,17 @@ pub fn wrap(mut document: Document) -> Result<Edit, Rejection> {
     Ok(Edit::new("wrap", document).with(ClothChange::Wrap))
 }
 
+pub fn rewrap(document: Document, pairs: &[usize]) -> Result<Edit, Rejection> {
+    let count = document.marks.pairs().count();
+    if count == 0 {
+        return Err(Rejection::new("there is no pair of marks to wrap it by"));
+    }
+    if let Some(number) = pairs.iter().find(|&&number| number == 0 || number > count) {
+        return Err(Rejection(format!("there is no pair of marks {number}")));
+    }
+    Ok(Edit::new("rewrap", document).with(ClothChange::Rewrap(pairs.to_vec())))
+}
+
 pub fn unwrap(mut document: Document) -> Result<Edit, Rejection> {
     document.drop_pins();
     Ok(Edit::new("take the cloth off", document).with(ClothChange::Clear))
