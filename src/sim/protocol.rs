@@ -108,6 +108,8 @@ pub struct Snapshot {
     pub stats: Stats,
     /// What building and wrapping found wrong.
     pub problems: Arc<Vec<Problem>>,
+    /// What is wrong with the cloth as it lies; None until somebody has looked.
+    pub verdict: Option<Arc<Vec<Problem>>>,
 }
 
 impl Snapshot {

@@ -3,6 +3,8 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
+use crate::fit::{BodyIndex, measure, verdict};
+use crate::pattern::Problem;
 use crate::sim::checkpoints::{Checkpoints, DEFAULT_CAPACITY};
 use crate::sim::protocol::{Event, Request, RequestKind, Snapshot};
 use crate::sim::stats::Stats;
@@ -18,6 +20,7 @@ pub struct Simulation {
     seq: u64,
     stats: Stats,
     events: Vec<Event>,
+    verdict: Option<Arc<Vec<Problem>>>,
 }
 
 impl Default for Simulation {
@@ -36,6 +39,7 @@ impl Simulation {
             seq: 0,
             stats: Stats::default(),
             events: Vec::new(),
+            verdict: None,
         }
     }
 
@@ -45,6 +49,7 @@ impl Simulation {
             self.report_hash(Some(request.seq));
             return;
         }
+        self.verdict = None;
         let before = self.world.clone();
         if request.checkpoint {
             self.keep(request.seq);
@@ -69,6 +74,7 @@ impl Simulation {
             return false;
         }
         self.tick += 1;
+        self.verdict = None;
         self.count_tick();
         let problem = match catch_unwind(AssertUnwindSafe(|| self.world.step())) {
             Ok(()) => self.world.not_finite().map(not_a_number),
@@ -132,7 +138,29 @@ impl Simulation {
             working: !world.is_at_rest(),
             stats: Stats { work: world.work(), ..self.stats },
             problems: Arc::clone(&world.problems),
+            verdict: self.verdict.clone(),
         }
+    }
+
+    /// Looks at cloth that lies still: snapshots tell from now on what is wrong with it. True when there was something to
+    /// look at that had not been looked at before. Moves nothing.
+    pub fn judge(&mut self) -> bool {
+        let world = &self.world;
+        let (Some(source), Some(garment), Some(body)) = (&world.source, &world.garment, &world.body) else {
+            return false;
+        };
+        if self.verdict.is_some() || !self.is_at_rest() || !world.cloth.mapped.contains(&true) {
+            return false;
+        }
+        let look = || verdict(&measure(&source.pattern, garment, &world.cloth, &BodyIndex::new(body)));
+        match catch_unwind(AssertUnwindSafe(look)) {
+            Ok(found) => self.verdict = Some(Arc::new(found)),
+            Err(panic) => {
+                self.verdict = Some(Arc::default());
+                self.fail(panic_words(&*panic));
+            }
+        }
+        true
     }
 
     /// What happened since the last call, in order.

@@ -163,3 +163,19 @@ fn the_oldest_checkpoints_go_first() {
     simulation.apply(request(22, RequestKind::Restore { before_seq: 20 }));
     assert!(failures(&mut simulation).is_empty());
 }
+
+#[test]
+fn cloth_that_lies_still_is_looked_at_once() {
+    assert!(!Simulation::default().judge(), "there is nothing to look at");
+    let mut simulation = wrapped();
+    if simulation.tick() {
+        assert!(!simulation.judge(), "it is moving");
+    }
+    while simulation.tick() {}
+    let hash = simulation.hash();
+    assert!(simulation.judge() && !simulation.judge(), "looked at not once");
+    assert!(simulation.snapshot().verdict.is_some());
+    assert_eq!(simulation.hash(), hash);
+    simulation.apply(request(9, RequestKind::SetRelaxing(false)));
+    assert!(simulation.snapshot().verdict.is_none(), "an old verdict on what may have changed");
+}

@@ -14,6 +14,9 @@ use crate::sim::simulation::Simulation;
 /// Ticks a second unless told otherwise.
 pub const DEFAULT_RATE_HZ: f64 = 60.0;
 
+/// A person who goes on working does not wait for the verdict on cloth that has come to rest.
+const BEFORE_JUDGING: Duration = Duration::from_millis(150);
+
 /// Called on the simulation's thread whenever there is something new to look at.
 pub type OnNews = Box<dyn Fn() + Send>;
 
@@ -90,12 +93,25 @@ impl Worker {
     /// Waits for a request without a time limit while there is nothing to do. False: the handle is gone.
     fn sleep_until_work(&mut self) -> bool {
         while self.simulation.is_at_rest() {
-            match self.requests.recv() {
-                Ok(request) => self.apply(request),
-                Err(_) => return false,
+            match self.next_request() {
+                Some(request) => self.apply(request),
+                None => return false,
             }
         }
         true
+    }
+
+    /// Waits for it without a time limit; cloth that lies still is looked at meanwhile. None: the handle is gone.
+    fn next_request(&mut self) -> Option<Request> {
+        match self.requests.recv_timeout(BEFORE_JUDGING) {
+            Ok(request) => return Some(request),
+            Err(RecvTimeoutError::Disconnected) => return None,
+            Err(RecvTimeoutError::Timeout) => {}
+        }
+        if self.simulation.judge() {
+            self.publish();
+        }
+        self.requests.recv().ok()
     }
 
     /// Ticks at the fixed rate; late ticks are not made up for. False: the handle is gone.

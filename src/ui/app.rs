@@ -185,6 +185,7 @@ impl App {
                     document,
                     surface,
                     problems: &snapshot.problems,
+                    verdict: snapshot.verdict.as_ref().map_or(&[], |found| found),
                     lost: self.session.problems(),
                     now,
                     palette,

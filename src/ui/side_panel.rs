@@ -21,6 +21,8 @@ pub struct Told<'a> {
     pub surface: Option<&'a Arc<Surface>>,
     /// What is wrong with the garment.
     pub problems: &'a [Problem],
+    /// What is wrong with the cloth as it lies.
+    pub verdict: &'a [Problem],
     /// Marks that found no place on the body.
     pub lost: &'a [Problem],
     /// How things stand.
@@ -35,7 +37,9 @@ pub fn side_panel_ui(ui: &mut egui::Ui, told: &Told<'_>, marks: &mut MarksPanel,
     ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
         section(ui, "Marks", |ui| marks.ui(ui, told, asks));
         section(ui, "Cloth", |ui| settings_ui(ui, &document.settings, palette, asks));
-        section(ui, "Problems", |ui| problems_ui(ui, document, &[told.lost, problems].concat(), palette));
+        section(ui, "Problems", |ui| {
+            problems_ui(ui, document, &[told.lost, problems, told.verdict].concat(), palette)
+        });
     });
 }
 
