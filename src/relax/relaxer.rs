@@ -426,7 +426,7 @@ impl Relaxer {
                 (normal.dot(skin) < WRONG_FACE).then_some(near.normal)
             })
             .collect();
-        self.counters.contact_queries += wrong.len() as u64;
+        self.counters.face_queries += wrong.len() as u64;
         for (vs, away) in garment.triangles.iter().zip(&wrong) {
             for &v in vs {
                 self.sent[v as usize] += away.unwrap_or_default();
@@ -477,7 +477,7 @@ impl Relaxer {
                     .fold(0.0, f64::max)
             })
             .collect();
-        self.counters.contact_queries += 7 * lacking.len() as u64;
+        self.counters.face_queries += 7 * lacking.len() as u64;
         let most = self.offset() * 2.0;
         let mut raised = vec![0.0f64; self.lift.len()];
         for (vs, &lack) in garment.triangles.iter().zip(&lacking) {
