@@ -43,7 +43,7 @@ pub fn revolved(profile: &[DVec2], round: u32) -> TriMesh {
 pub fn ball(radius: f64, rings: u32, round: u32) -> TriMesh {
     let at = |i: u32| {
         let (sin, cos) = (PI * f64::from(i) / f64::from(rings)).sin_cos();
-        DVec2::new(if i % rings == 0 { 0.0 } else { radius * sin }, -radius * cos)
+        DVec2::new(if i.is_multiple_of(rings) { 0.0 } else { radius * sin }, -radius * cos)
     };
     revolved(&(0..=rings).map(at).collect::<Vec<_>>(), round)
 }
