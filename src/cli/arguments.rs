@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::body::Unit;
 use crate::render::View;
@@ -32,6 +32,7 @@ pub enum Task {
     Import(Import),
     Export(Export),
     Check(Check),
+    Bench(Bench),
 }
 
 /// A wrap that is not at rest by then trembles.
@@ -183,6 +184,37 @@ pub struct Check {
     /// Prints {pieces, seams, triangles, problems}
     #[arg(long)]
     pub json: bool,
+}
+
+/// Measures how fast and how accurate the program is on this machine, against what it should be
+#[derive(Debug, Args)]
+pub struct Bench {
+    /// Both when left out
+    pub what: Option<BenchKind>,
+    /// How often each scene is run; the median counts
+    #[arg(long, default_value_t = 5, value_parser = clap::value_parser!(u16).range(1..=1000))]
+    pub runs: u16,
+    /// About so many triangles a garment has; the limits are for 10000
+    #[arg(long, default_value_t = 10_000, value_parser = clap::value_parser!(u32).range(200..=1_000_000))]
+    pub triangles: u32,
+    /// Writes a picture of error against time to this file (SVG)
+    #[arg(long, value_name = "SVG")]
+    pub plot: Option<PathBuf>,
+    /// Prints a JSON object a line
+    #[arg(long)]
+    pub json: bool,
+    /// Number of threads; the result is the same
+    #[arg(long)]
+    pub threads: Option<usize>,
+}
+
+/// What can be measured.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum BenchKind {
+    /// Time of what a user waits for
+    Speed,
+    /// Error against time, where the exact answer is known
+    Accuracy,
 }
 
 fn view(text: &str) -> Result<View, String> {

@@ -1,6 +1,7 @@
 //! The command line: one file per subcommand, nothing but arguments, calls and printing.
 
 mod arguments;
+mod bench;
 mod check;
 mod dress;
 mod export;
@@ -58,6 +59,7 @@ fn carry_out(arguments: Arguments) -> Result<(), Failure> {
         Some(Task::Import(import)) => import::import(&import),
         Some(Task::Export(export)) => export::export(&export),
         Some(Task::Check(check)) => check::check(&check),
+        Some(Task::Bench(bench)) => run::on_threads(bench.threads, || bench::bench(&bench)),
     }
 }
 

@@ -9,6 +9,8 @@ pub struct Counters {
     pub contact_checks: u64,
     /// Of these, how many asked the body.
     pub contact_queries: u64,
+    /// Points of faces for which the body was asked, where cloth seemed to lie still.
+    pub face_queries: u64,
     /// Global solves.
     pub solves: u64,
     /// Numeric factorisations.

@@ -422,7 +422,7 @@ impl Relaxer {
     /// Sends faces that face the skin next to them away from it: they belong to another limb. Returns how many.
     pub fn send_wrong_faces(&mut self, state: &ClothState) -> usize {
         let wrong = self.wrong_faces(state);
-        self.counters.contact_queries += wrong.len() as u64;
+        self.counters.face_queries += wrong.len() as u64;
         for (vs, away) in self.garment.triangles.iter().zip(&wrong) {
             for &v in vs {
                 self.sent[v as usize] += away.unwrap_or_default();
@@ -498,7 +498,7 @@ impl Relaxer {
                     .fold(0.0, f64::max)
             })
             .collect();
-        self.counters.contact_queries += 7 * lacking.len() as u64;
+        self.counters.face_queries += 7 * lacking.len() as u64;
         let most = self.offset() * 2.0;
         let mut raised = vec![0.0f64; self.lift.len()];
         for (vs, &lack) in garment.triangles.iter().zip(&lacking) {

@@ -1,0 +1,121 @@
+//! Error against time: weightless cloth with exact answers at finer and finer edges.
+
+use serde::Serialize;
+
+use crate::cli::bench::scenes::Scene;
+use crate::cli::bench::tube::{Errors, Tube};
+use crate::cli::bench::{median, one_hash};
+use crate::cli::failure::Failure;
+
+/// Lengths of the triangles' edges, metres.
+const EDGES: [f64; 5] = [0.040, 0.028, 0.020, 0.014, 0.010];
+/// The tubes: name, and how many times as long round as what they lie on.
+const TUBES: [(&str, f64); 2] = [("tube that fits a cylinder", 1.0), ("loose tube on a cylinder", 1.2)];
+
+/// One scene at one edge length.
+#[derive(Clone, Debug, Serialize)]
+pub struct Point {
+    pub scene: &'static str,
+    /// Metres.
+    pub edge_length: f64,
+    pub triangles: usize,
+    /// How often it was run.
+    pub runs: usize,
+    /// Median wall-clock seconds to rest, from pattern and marks.
+    pub seconds: f64,
+    /// p99 of what edges are strained beyond the exact map's chords.
+    pub excess_p99: f64,
+    /// p99 of the edges' strain.
+    pub strain_p99: f64,
+    /// p99 of the strain of the exact map's chords.
+    pub chord_p99: f64,
+    /// The farthest vertex from the exact map, edge lengths; only where that is the only one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub position: Option<f64>,
+    /// Power of the edge length with which the excess fell since the edges before.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub order: Option<f64>,
+    pub ticks: u64,
+    pub threads: usize,
+    pub hash: String,
+}
+
+/// A scene at all edge lengths.
+#[derive(Debug)]
+pub struct Curve {
+    pub scene: &'static str,
+    pub points: Vec<Point>,
+}
+
+/// Calls `tell` with every point as it is done.
+pub fn accuracy(runs: usize, tell: impl Fn(&Point) -> Result<(), Failure>) -> Result<Vec<Curve>, Failure> {
+    let mut curves = Vec::new();
+    for (scene, loose) in TUBES {
+        let tube = Tube::new(loose);
+        let mut points: Vec<Point> = Vec::new();
+        for edge_length in EDGES {
+            let mut point = measured(scene, &tube, loose == 1.0, edge_length, runs)?;
+            point.order = points.last().map(|before| {
+                (before.excess_p99 / point.excess_p99).ln() / (before.edge_length / edge_length).ln()
+            });
+            tell(&point)?;
+            points.push(point);
+        }
+        curves.push(Curve { scene, points });
+    }
+    Ok(curves)
+}
+
+fn measured(
+    name: &'static str,
+    tube: &Tube,
+    only_one: bool,
+    edge_length: f64,
+    runs: usize,
+) -> Result<Point, Failure> {
+    let scene = Scene::tube(tube, edge_length)?.weightless();
+    let mut wrapped = scene.wrap()?;
+    let (mut seconds, mut hashes) = (vec![wrapped.seconds], vec![wrapped.hash()]);
+    for _ in 1..runs {
+        wrapped = scene.wrap()?;
+        seconds.push(wrapped.seconds);
+        hashes.push(wrapped.hash());
+    }
+    let errors = Errors::new(&wrapped.garment, &wrapped.state, &tube.exact(&wrapped.garment));
+    Ok(Point {
+        scene: name,
+        edge_length,
+        triangles: wrapped.garment.triangles.len(),
+        runs,
+        seconds: median(seconds),
+        excess_p99: errors.excess,
+        strain_p99: errors.strain,
+        chord_p99: errors.chords,
+        position: only_one.then(|| errors.position / wrapped.garment.mean_edge()),
+        order: None,
+        ticks: wrapped.ticks,
+        threads: rayon::current_num_threads(),
+        hash: one_hash(name, &hashes)?,
+    })
+}
+
+impl std::fmt::Display for Point {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self { scene, triangles, seconds, ticks, hash, .. } = self;
+        let [excess, strain, chord] =
+            [self.excess_p99, self.strain_p99, self.chord_p99].map(|share| share * 100.0);
+        write!(
+            f,
+            "{scene:<26} {:>3.0} mm {triangles:>6} triangles {seconds:>7.3} s {ticks:>4} ticks  excess p99 {excess:.4} %  \
+             strain {strain:.4} %  chords {chord:.4} %",
+            self.edge_length * 1000.0
+        )?;
+        if let Some(position) = self.position {
+            write!(f, "  position {position:.4} l")?;
+        }
+        if let Some(order) = self.order {
+            write!(f, "  order {order:.1}")?;
+        }
+        write!(f, "  hash {hash}")
+    }
+}

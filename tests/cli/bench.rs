@@ -1,0 +1,56 @@
+//! bench.
+
+use serde_json::Value;
+
+use crate::program::Place;
+
+fn rows(out: &str) -> Vec<Value> {
+    out.lines().map(|line| serde_json::from_str(line).expect("a JSON object a line")).collect()
+}
+
+#[test]
+fn speed_has_a_row_for_every_scene() {
+    let place = Place::new();
+    let rows = rows(&place.ends(0, "bench speed --runs 2 --triangles 500 --threads 2 --json").out);
+    assert_eq!(rows.len(), 6, "{rows:#?}");
+    for row in &rows {
+        assert!(row["scene"].as_str().is_some_and(|s| !s.is_empty()));
+        assert!(row["triangles"].as_u64().is_some_and(|t| t > 300), "{row}");
+        assert!(row["seconds"].as_f64().is_some_and(|s| s >= 0.0));
+        assert!(row["threads"].as_u64().is_some_and(|t| t == 1 || t == 2));
+        assert!(row["hash"].as_str().is_some_and(|h| h.len() == 16));
+        for check in row["checks"].as_array().expect("checks") {
+            assert!(["value", "solid", "goal"].iter().all(|n| check[n].is_number()), "{check}");
+            assert!(["goal", "solid", "neither"].iter().any(|m| check["met"] == *m), "{check}");
+        }
+    }
+    // What does not hang on the machine: cloth at rest takes no step, dragged cloth stays out of the body.
+    assert_eq!(rows[5]["checks"][0]["value"], 0.0);
+    assert_eq!(rows[3]["checks"][1]["value"], 0.0, "{}", rows[3]);
+    assert!(rows[0]["counters"]["solves"].as_u64().is_some_and(|s| s > 0));
+    assert!(place.names("").is_empty());
+}
+
+#[test]
+fn accuracy_is_printed_and_drawn() {
+    let place = Place::new();
+    let done = place.ends(0, "bench accuracy --runs 1 --plot error.svg --json");
+    let rows = rows(&done.out);
+    assert_eq!(rows.len(), 10, "{rows:#?}");
+    for row in &rows {
+        assert!(row["excess_p99"].as_f64().is_some_and(|e| (0.0..0.01).contains(&e)), "{row}");
+        assert!(row["seconds"].as_f64().is_some_and(|s| s > 0.0));
+    }
+    let svg = place.read("error.svg");
+    assert!(svg.starts_with("<svg") && svg.contains("</svg>") && !svg.contains("NaN"));
+    assert_eq!(svg.matches("<circle").count(), 10);
+}
+
+#[test]
+fn wrong_arguments_are_told() {
+    let place = Place::new();
+    place.ends_with_words(2, "bench length", "speed");
+    place.ends_with_words(2, "bench speed --plot a.svg", "--plot");
+    place.ends_with_words(2, "bench --runs 0", "0");
+    place.ends_with_words(2, "bench --triangles 7", "7");
+}
