@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::cloth::{ClothState, Counters, EdgeMetric};
 use crate::drag::Graph;
 use crate::drag::transport::motions;
-use crate::relax::{GlobalStep, RelaxSettings, Relaxer};
+use crate::relax::{GlobalStep, RelaxSettings, Relaxer, global};
 
 /// No vertex moves farther in a substep, in edge lengths (ALGORITHMS.md 1.A5).
 const SUBSTEP: f64 = 0.25;
@@ -17,14 +17,16 @@ const MOST_SUBSTEPS: usize = 4;
 /// Cloth nearer to the skin than this follows it, metres on a body 1.5 m large (paper A).
 const FOLLOWS: f64 = 0.036;
 /// The paper halves its distance to the skin in every step; so large a share of that is done here, lest loose cloth is
-/// sucked in before it has relaxed.
-const PULL: f64 = 0.1;
+/// sucked in faster than it relaxes.
+const PULL: f64 = 0.02;
 /// A pointer that looks along the skin (cosine to the normal) says little about where on it the cloth should go.
 const GRAZING: f64 = 0.1;
 /// The hand's vertex in relaxation, on the matrix diagonal: soft, so that a pull that cannot be followed does not tear.
 const HAND_WEIGHT: f64 = 1.0;
 /// Of contact while dragging.
 const CONTACT: f64 = 0.03;
+/// The factor may lag behind the contacts by this share of the vertices: they come and go all the time while cloth slides.
+const STALE_SHARE: f64 = 0.05;
 /// No vertex moves farther in one relaxation, metres on a body 1.5 m large.
 const RELAX_CAP: f64 = 0.02;
 /// The hand has arrived this near to the pointer, in edge lengths.
@@ -111,6 +113,8 @@ impl Dragging {
         relaxer.release();
         relaxer.hold(hand, state.positions[hand as usize]);
         relaxer.fix(pins.iter().copied().chain(fixed_hand));
+        relaxer.track(state, FOLLOWS * relaxer.surface.scale());
+        relaxer.refactor_beyond(STALE_SHARE);
         relaxer.counters.drag_vertices += graph.len() as u64;
         let edge_length = relaxer.garment.mean_edge();
         Self { relaxer, graph, mode, hand, beside, pins: pins.to_vec(), pointer: None, edge_length, quiet: 0 }
@@ -133,6 +137,7 @@ impl Dragging {
     /// Lets go. What is left is for settling; pins still hold.
     pub fn into_relaxer(mut self) -> Relaxer {
         self.relaxer.release();
+        self.relaxer.refactor_beyond(global::STALE_SHARE);
         self.relaxer.fix(self.pins);
         self.relaxer
     }
@@ -195,7 +200,7 @@ impl Dragging {
                 self.graph.steps().for_each(|(v, share, _)| state.positions[v as usize] += motion * share);
             }
             DragMode::Surface => {
-                self.relaxer.track(state, reach);
+                // Where the skin was tracked before the last relaxation is near enough for directions.
                 let cloth = self.relaxer.cloth_normals(state);
                 let normals = self.frame_normals(state, &cloth, reach);
                 let motions = motions(&self.graph, &state.positions, &normals, motion);

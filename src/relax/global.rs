@@ -12,8 +12,8 @@ use glam::DVec3;
 
 use crate::cloth::{Counters, Garment};
 
-/// Refactor when more than this share of the weights on the diagonal changed.
-const STALE_SHARE: f64 = 0.02;
+/// Refactor when more than this share of the weights on the diagonal changed, unless told otherwise.
+pub const STALE_SHARE: f64 = 0.02;
 
 /// The factored matrix of a garment, over the triangles mapped so far.
 #[derive(Clone, Debug)]
@@ -29,6 +29,7 @@ pub struct GlobalSolver {
     /// Diagonal weights that are in the factor.
     weights: Vec<f64>,
     factor: Option<Llt<usize, f64>>,
+    stale_share: f64,
 }
 
 impl GlobalSolver {
@@ -71,6 +72,7 @@ impl GlobalSolver {
             base: vec![0.0; values],
             weights: vec![0.0; n],
             factor: None,
+            stale_share: STALE_SHARE,
         })
     }
 
@@ -89,6 +91,11 @@ impl GlobalSolver {
             }
         }
         self.factor = None;
+    }
+
+    /// From now on the factor is renewed when more than this share (0..=1) of the weights has changed.
+    pub fn refactor_beyond(&mut self, share: f64) {
+        self.stale_share = share;
     }
 
     /// The next solve factors anew, however few weights have changed.
@@ -131,7 +138,7 @@ impl GlobalSolver {
 
     fn stale(&self, weights: &[f64]) -> bool {
         let changed = weights.iter().zip(&self.weights).filter(|(a, b)| a != b).count();
-        changed as f64 > STALE_SHARE * weights.len() as f64
+        changed as f64 > self.stale_share * weights.len() as f64
     }
 
     fn refactor(&mut self, counters: &mut Counters) -> bool {

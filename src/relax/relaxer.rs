@@ -161,6 +161,11 @@ impl Relaxer {
         }
     }
 
+    /// From now on the matrix is factored anew when more than this share (0..=1) of the vertices touches or lets go.
+    pub fn refactor_beyond(&mut self, share: f64) {
+        self.solver.refactor_beyond(share);
+    }
+
     /// Brings the track planes of all vertices within `reach` metres of the skin up to date.
     pub fn track(&mut self, state: &ClothState, reach: f64) {
         self.tracker.update(&self.surface, state, reach, &mut self.counters);
