@@ -5,8 +5,8 @@ use parry3d::math::Pose;
 use parry3d::query::{Ray, RayCast};
 use parry3d::shape::TriMesh as ParryMesh;
 
-use crate::body::closest::{ClosestTree, pseudonormal};
-use crate::geometry::adjacency::Adjacency;
+use crate::body::closest::{ClosestTree, Part, pseudonormal};
+use crate::geometry::adjacency::{Adjacency, NONE};
 use crate::geometry::mesh::TriMesh;
 
 /// A ray that slipped between triangles is cast again so far beside itself, metres on a body 1.5 m large.
@@ -121,6 +121,27 @@ impl Surface {
             false => outward.normalize_or_zero(),
         };
         Some(Nearest { point, normal, distance: if inside { -length } else { length }, triangle })
+    }
+
+    /// The smallest cosine between `direction` (unit) and the facets nearest to `p`, if they are within `limit` metres:
+    /// over an edge two are equally near, over a corner all round it. With it the nearest point.
+    pub fn least_facing(&self, p: DVec3, limit: f64, direction: DVec3) -> Option<(f64, Nearest)> {
+        let (_, triangle, part) = self.closest.nearest(p, limit)?;
+        let cosine = |t: u32| self.face_normals[t as usize].dot(direction);
+        let own = cosine(triangle);
+        let least = match part {
+            Part::Face => own,
+            Part::Side(k) => match self.adjacency.across[triangle as usize][k] {
+                NONE => own,
+                other => own.min(cosine(other)),
+            },
+            Part::Corner(k) => {
+                let round = self.mesh.triangles[triangle as usize][k];
+                let facets = self.adjacency.vertex_triangles.of(round);
+                facets.iter().map(|&t| cosine(t)).fold(own, f64::min)
+            }
+        };
+        Some((least, self.nearest_within(p, limit)?))
     }
 
     /// The first hit of a ray from `origin` along `direction` (any length) from either side.

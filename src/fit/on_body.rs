@@ -171,16 +171,16 @@ fn face_depth(corners: [DVec3; 3], body: &BodyIndex<'_>) -> Option<f64> {
         .reduce(f64::max)
 }
 
-/// Triangles near the body, and those of them that show it their outer side.
+/// Triangles near the body, and those of them that show it their outer side: any of the facets they are nearest to.
 fn flipped_faces(laid: &Laid, body: &BodyIndex<'_>) -> (usize, usize) {
     let found: Vec<Option<bool>> = (0..laid.mesh.triangles.len())
         .into_par_iter()
         .with_min_len(256)
         .map(|t| {
             let [a, b, c] = laid.mesh.corners(t);
-            let nearest = body.surface.nearest_within((a + b + c) / 3.0, NEAR)?;
             let normal = (b - a).cross(c - a).normalize_or_zero();
-            Some(normal.dot(body.surface.face_normals[nearest.triangle as usize]) < WRONG_SIDE)
+            let (facing, _) = body.surface.least_facing((a + b + c) / 3.0, NEAR, normal)?;
+            Some(facing < WRONG_SIDE)
         })
         .collect();
     let near = found.iter().filter(|f| f.is_some()).count();

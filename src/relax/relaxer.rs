@@ -445,10 +445,9 @@ impl Relaxer {
                 return None;
             }
             let [a, b, c] = vs.map(|v| state.positions[v as usize]);
-            let near = surface.nearest_within((a + b + c) / 3.0, reach)?;
             let normal = (b - a).cross(c - a).normalize_or_zero();
-            let skin = surface.face_normals[near.triangle as usize];
-            (normal.dot(skin) < WRONG_FACE).then_some(near.normal)
+            let (facing, near) = surface.least_facing((a + b + c) / 3.0, reach, normal)?;
+            (facing < WRONG_FACE).then_some(near.normal)
         };
         garment.triangles.par_iter().map(wrong).collect()
     }
