@@ -7,6 +7,10 @@ use glam::{DVec2, DVec3};
 
 use crate::cloth::Garment;
 
+/// Skin belongs to one surface when the cosines of its normals to their mean are above the second, to two limbs or the two
+/// sides of a fold when below the first.
+const AGREE: [f64; 2] = [0.7, 0.9];
+
 /// One inner edge and its two opposite vertices.
 #[derive(Clone, Copy, Debug)]
 struct Hinge {
@@ -42,22 +46,47 @@ impl Hinges {
         Self { hinges, per_vertex }
     }
 
-    /// The flattening move of `vertex`: the mean over its hinges, `alpha` in 0..=1. Hinges not fully mapped count nothing.
-    pub fn displacement(&self, vertex: u32, positions: &[DVec3], mapped: &[bool], alpha: f64) -> DVec3 {
+    /// The flattening move of `vertex`: the mean over its hinges, `alpha` in 0..=1. `lies` tells of every vertex how it lies,
+    /// None where it is not laid. A hinge that lies on the body is bent as the body is: of it only what stands out from the
+    /// skin is flattened, for to flatten all of it would strain the cloth.
+    pub fn displacement(&self, vertex: u32, positions: &[DVec3], lies: &[Option<Lie>], alpha: f64) -> DVec3 {
         let mine = self.per_vertex.of(vertex);
-        let sum: DVec3 = mine
-            .iter()
-            .map(|&slot| {
-                let hinge = &self.hinges[slot as usize / 4];
-                if !hinge.vertices.iter().all(|&v| mapped[v as usize]) {
-                    return DVec3::ZERO;
-                }
-                let bend: DVec3 = (0..4).map(|k| positions[hinge.vertices[k] as usize] * hinge.k[k]).sum();
-                let size: f64 = hinge.k.iter().map(|k| k * k).sum();
-                bend * (-alpha * hinge.k[slot as usize % 4] / size)
-            })
-            .sum();
-        sum / mine.len().max(1) as f64
+        let move_of = |&slot: &u32| {
+            let hinge = &self.hinges[slot as usize / 4];
+            let bend = hinge.bend(positions, lies).unwrap_or_default();
+            let size: f64 = hinge.k.iter().map(|k| k * k).sum();
+            bend * (-alpha * hinge.k[slot as usize % 4] / size)
+        };
+        mine.iter().map(move_of).sum::<DVec3>() / mine.len().max(1) as f64
+    }
+}
+
+/// How a vertex lies on the body.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Lie {
+    /// Of the skin next to it, outward; zero where there is none.
+    pub normal: DVec3,
+    /// Metres above the height it is kept at.
+    pub height: f64,
+    /// 1 on the skin, 0 where it is free of it, and between.
+    pub touch: f64,
+}
+
+impl Hinge {
+    /// What has to go, as sum of K X. None when not all of it is laid.
+    fn bend(&self, positions: &[DVec3], lies: &[Option<Lie>]) -> Option<DVec3> {
+        let [a, b, c, d] = self.vertices.map(|v| lies[v as usize]);
+        let lies = [a?, b?, c?, d?];
+        let all: DVec3 = (0..4).map(|i| positions[self.vertices[i] as usize] * self.k[i]).sum();
+        let touch = lies.iter().map(|lie| lie.touch).fold(1.0, f64::min);
+        let mean: DVec3 = lies.iter().map(|lie| lie.normal).sum::<DVec3>().normalize_or_zero();
+        let agree = lies.iter().map(|lie| lie.normal.dot(mean)).fold(1.0, f64::min);
+        let with_body = touch * ((agree - AGREE[0]) / (AGREE[1] - AGREE[0])).clamp(0.0, 1.0);
+        if with_body == 0.0 {
+            return Some(all);
+        }
+        let standing_out: DVec3 = (0..4).map(|i| lies[i].normal * (lies[i].height * self.k[i])).sum();
+        Some(all.lerp(standing_out, with_body))
     }
 }
 

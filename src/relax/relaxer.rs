@@ -10,7 +10,7 @@ use crate::cloth::{Carry, ClothState, Counters, Garment};
 use crate::contact::{Plane, Tracker, layers};
 use crate::geometry::crossings::meetings;
 use crate::relax::RelaxSettings;
-use crate::relax::flatten::Hinges;
+use crate::relax::flatten::{Hinges, Lie};
 use crate::relax::global::GlobalSolver;
 use crate::relax::goals::{turned_rest, turned_rest_facing};
 use crate::relax::wants::Wants;
@@ -87,6 +87,10 @@ pub struct Relaxer {
     fixed: Vec<bool>,
     previous: Vec<DVec3>,
     turned: Vec<[DVec3; 3]>,
+    /// Of each triangle in the last global step.
+    energies: Vec<f64>,
+    /// Sum over the laid triangles of sum over corners |w|^2: what energies are compared with.
+    size: f64,
     weights: Vec<f64>,
     sums: Vec<DVec3>,
     laplacian: Vec<DVec3>,
@@ -123,6 +127,8 @@ impl Relaxer {
             fixed: vec![false; n],
             previous: vec![DVec3::ZERO; n],
             turned: vec![[DVec3::ZERO; 3]; garment.triangles.len()],
+            energies: vec![0.0; garment.triangles.len()],
+            size: 0.0,
             weights: vec![0.0; n],
             sums: vec![DVec3::ZERO; n],
             laplacian: vec![DVec3::ZERO; n],
@@ -196,8 +202,17 @@ impl Relaxer {
         self.previous.copy_from_slice(&state.positions);
     }
 
+    /// What matching costs: the sum over triangles of sum over corners |x - c - R w|^2 before the last global step, against
+    /// that of |w|^2. About the mean square strain.
+    pub fn energy(&self) -> f64 {
+        self.energies.iter().sum::<f64>() / self.size.max(f64::MIN_POSITIVE)
+    }
+
     /// Tells the matrix which triangles take part.
     pub fn set_mapped(&mut self, mapped: &[bool]) {
+        let laid = self.garment.triangles.iter().zip(&self.garment.rest);
+        let laid = laid.filter(|(vs, _)| vs.iter().all(|&v| mapped[v as usize]));
+        self.size = laid.flat_map(|(_, rest)| rest).map(|w| w.length_squared()).sum();
         self.solver.set_triangles(&self.garment, mapped);
     }
 
@@ -242,10 +257,10 @@ impl Relaxer {
 
     fn turn_triangles(&mut self, state: &ClothState, unfold: bool) {
         let (garment, tracker, normals) = (&*self.garment, &self.tracker, &self.normals);
-        self.turned.par_iter_mut().enumerate().for_each(|(t, turned)| {
+        self.turned.par_iter_mut().zip(&mut self.energies).enumerate().for_each(|(t, (turned, energy))| {
             let vs = garment.triangles[t];
             if !vs.iter().all(|&v| state.mapped[v as usize]) {
-                *turned = [DVec3::ZERO; 3];
+                (*turned, *energy) = ([DVec3::ZERO; 3], 0.0);
                 return;
             }
             let corners = vs.map(|v| state.positions[v as usize]);
@@ -257,6 +272,8 @@ impl Relaxer {
                 Some(n) if faces_away(corners, n) => turned_rest_facing(corners, rest, n),
                 _ => turned_rest(corners, rest, keep),
             };
+            let centre = (corners[0] + corners[1] + corners[2]) / 3.0;
+            *energy = (0..3).map(|k| (corners[k] - centre - turned[k]).length_squared()).sum();
         });
     }
 
@@ -352,6 +369,7 @@ impl Relaxer {
     fn advance(&mut self, state: &mut ClothState, step: GlobalStep) -> f64 {
         let offset = self.offset();
         let (mapped, fixed) = (&state.mapped, &self.fixed);
+        let lies = self.lies(state);
         let new: Vec<DVec3> = (0..state.positions.len())
             .into_par_iter()
             .with_min_len(LEAST_SHARE)
@@ -361,7 +379,7 @@ impl Relaxer {
                     return old;
                 }
                 let mut shift = (self.sums[v] - old).clamp_length_max(step.cap);
-                shift += self.hinges.displacement(v as u32, &self.previous, mapped, self.settings.flatten);
+                shift += self.hinges.displacement(v as u32, &self.previous, &lies, self.settings.flatten);
                 let new = old + shift;
                 match self.tracker.plane(v) {
                     Some(plane) => {
@@ -375,6 +393,17 @@ impl Relaxer {
         let longest = new.iter().zip(&self.previous).map(|(n, o)| (*n - *o).length()).fold(0.0, f64::max);
         state.positions = new;
         longest
+    }
+
+    /// How each vertex lay before this step; None where no cloth is laid.
+    fn lies(&self, state: &ClothState) -> Vec<Option<Lie>> {
+        let offset = self.offset();
+        let lie = |v: usize| {
+            let plane = self.tracker.plane(v)?;
+            let height = plane.height(self.previous[v]) - self.lift[v] - offset;
+            Some(Lie { normal: plane.normal, height, touch: 1.0 - (height / offset).clamp(0.0, 1.0) })
+        };
+        (0..state.positions.len()).map(|v| state.mapped[v].then(|| lie(v).unwrap_or_default())).collect()
     }
 
     /// A local pass over `vertices`: each goes the way of the mean of its triangles' goals, over-relaxed by `factor` in

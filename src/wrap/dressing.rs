@@ -51,6 +51,12 @@ const HOLD_FADE_STEPS: usize = 4;
 const REST_MOTION: f64 = 0.01;
 /// See [`REST_MOTION`].
 const QUIET_STEPS: usize = 5;
+/// And when the energy of matching fell by no larger share in those steps: what creeps on then costs no strain.
+const REST_FALL: f64 = 0.03;
+/// Or is no larger than this: a strain of 0.01 %.
+const REST_ENERGY: f64 = 1e-8;
+/// And then in so many.
+const CREEP_STEPS: usize = 15;
 /// Cloth is taken to lie still after so many settling steps in any case: what still moves then trembles in a fold.
 const MOST_SETTLE_STEPS: usize = 400;
 /// The same for a coarse mesh, which only has to lie roughly right.
@@ -138,13 +144,17 @@ struct Settling {
     until: usize,
     /// Layers ran through each other when last looked at, or nobody looked.
     crossed: bool,
+    /// Of matching when it last became quiet.
+    energy: f64,
+    /// It was quiet once, but strain still fell.
+    creeps: bool,
 }
 
 impl Settling {
     /// From step `done` on.
     fn from(done: usize, draft: bool) -> Self {
         let until = if draft { DRAFT_SETTLE_STEPS } else { MOST_SETTLE_STEPS };
-        Self { done, quiet: 0, mends: 0, until, crossed: true }
+        Self { done, quiet: 0, mends: 0, until, crossed: true, energy: 0.0, creeps: false }
     }
 }
 
@@ -526,8 +536,18 @@ impl Dressing {
         if settling.crossed && done > UNFOLD_AFTER && done.is_multiple_of(STEPS_PER_PARTING) {
             settling.crossed = self.relaxer.part_layers(state) > 0;
         }
-        let quiet = if moved < REST_MOTION * self.edge_length { quiet + 1 } else { 0 };
-        let still = (quiet >= QUIET_STEPS && !first) || done >= until;
+        let mut quiet = if moved < REST_MOTION * self.edge_length { quiet + 1 } else { 0 };
+        if quiet == 1 {
+            settling.energy = self.relaxer.energy();
+        }
+        let mut still = done >= until;
+        if quiet >= (if settling.creeps { CREEP_STEPS } else { QUIET_STEPS }) && !first {
+            let energy = self.relaxer.energy();
+            let falls = (settling.energy - energy).abs() > REST_FALL * energy && energy > REST_ENERGY;
+            still |= !falls;
+            settling.creeps |= falls;
+            quiet = if falls { 0 } else { quiet };
+        }
         // Cloth that lies still may cut the body between its vertices, or lie on the wrong side: mend it there and go on.
         let mended = still && mends < most_mends && {
             let clearance = self.relaxer.offset() * FACE_CLEARANCE;
@@ -542,18 +562,23 @@ impl Dressing {
                 mends: mends + 1,
                 until: done + STEPS_PER_MEND,
                 crossed: true,
+                creeps: false,
+                ..settling
             }),
             (false, _) => Stage::Settle(Settling { done: done + 1, quiet, ..settling }),
         };
     }
 
     fn global(&mut self, state: &mut ClothState, hold: Hold, unfold: bool, weight: bool) -> f64 {
-        let cap = STEP_CAP * self.relaxer.surface.scale();
-        let contact = if unfold { SETTLE_CONTACT } else { GROW_CONTACT };
-        self.relaxer.global_step(
-            state,
-            GlobalStep { cap, contact, hold: hold.weight, slack: hold.slack, unfold, weight },
-        )
+        let step = GlobalStep {
+            cap: STEP_CAP * self.relaxer.surface.scale(),
+            contact: if unfold { SETTLE_CONTACT } else { GROW_CONTACT },
+            hold: hold.weight,
+            slack: hold.slack,
+            unfold,
+            weight,
+        };
+        self.relaxer.global_step(state, step)
     }
 
     /// Cloth grown by a plan lies still: when it failed, the next plan is tried, and after the last the best of them stays.

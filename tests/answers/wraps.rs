@@ -64,17 +64,16 @@ fn cone_and_skirt() -> (Arc<Surface>, Cut) {
     (body, cut)
 }
 
-/// B11, 0.05 % and 0.05 l, for the relaxation alone: the exact map is where it rests. Flattening pulls against the bend of
-/// the body and costs more than that on coarse meshes; it fades as they get finer.
+/// B11, 0.05 % and 0.05 l, for the relaxation alone: the exact map is where it rests, with flattening or without.
 #[test]
 fn the_exact_map_of_a_cylinder_rests() {
     let (body, cut) = cylinder_and_tube();
     for edge in [0.02, 0.0125] {
-        let (excess, far) = relaxed_errors(&cut, &body, edge, 0.0);
-        assert!(excess < 0.0005 && far < 0.05, "{excess} {far}");
+        for flatten in [0.0, 0.2, 1.0] {
+            let (excess, far) = relaxed_errors(&cut, &body, edge, flatten);
+            assert!(excess < 0.0005 && far < 0.05, "{flatten}: {excess} {far}");
+        }
     }
-    let [coarse, fine] = [0.02, 0.0125].map(|edge| relaxed_errors(&cut, &body, edge, 0.2));
-    assert!(fine.0 < coarse.0 && fine.0 < 0.001 && fine.1 < 0.05, "{coarse:?} {fine:?}");
 }
 
 /// B12, 0.1 %, for the relaxation alone.
@@ -82,29 +81,29 @@ fn the_exact_map_of_a_cylinder_rests() {
 fn the_exact_map_of_a_cone_rests() {
     let (body, cut) = cone_and_skirt();
     for edge in [0.02, 0.0125] {
-        let (excess, _) = relaxed_errors(&cut, &body, edge, 0.0);
-        assert!(excess < 0.001, "{excess}");
+        for flatten in [0.0, 0.2] {
+            let (excess, _) = relaxed_errors(&cut, &body, edge, flatten);
+            assert!(excess < 0.001, "{flatten}: {excess}");
+        }
     }
 }
 
-/// B11 for whole wraps asks for 0.05 % and 0.05 l, which is NOT reached: cloth is taken to be at rest while it still creeps
-/// by up to 0.01 l a step. Reached: 0.27 % at 40 and 20 mm, 0.28 % at 12.5 mm; 0.07 l, 0.10 l, 0.21 l.
+/// B11, 0.05 % and 0.05 l, for whole wraps.
 #[test]
 fn a_tube_wraps_a_cylinder() {
     let (body, cut) = cylinder_and_tube();
-    for (edge, most) in [(0.04, 0.08), (0.02, 0.12), (0.0125, 0.22)] {
+    for edge in [0.025, 0.02, 0.0125] {
         let (excess, far) = wrap_errors(&cut, &body, edge);
-        assert!(excess < 0.003, "{excess}");
-        assert!(far < most, "{far}");
+        assert!(excess < 0.0005 && far < 0.05, "{excess} {far}");
     }
 }
 
-/// B12 for whole wraps asks for 0.1 %, which is NOT reached, for the same reason. Reached: 2.02 % at 30 mm, 0.97 % at 20 mm,
-/// 0.78 % at 12.5 mm.
+/// B12 for whole wraps asks for 0.1 %. On coarser meshes it is NOT reached: where the skirt is narrowest a triangle of 20 mm
+/// spans a quarter of a radian. Reached there: 0.15 % at 20 mm, 0.1001 % at 15 mm.
 #[test]
 fn a_skirt_wraps_a_cone() {
     let (body, cut) = cone_and_skirt();
-    for (edge, most) in [(0.03, 0.021), (0.02, 0.010), (0.0125, 0.008)] {
+    for (edge, most) in [(0.02, 0.0016), (0.0125, 0.001)] {
         let (excess, _) = wrap_errors(&cut, &body, edge);
         assert!(excess < most, "{excess}");
     }
