@@ -6,12 +6,13 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::body::Surface;
-use crate::cloth::{Carry, ClothState, Counters, Garment};
-use crate::contact::{Plane, Tracker, layers};
+use crate::cloth::{Carry, ClothState, Counters, Garment, Skip};
+use crate::contact::faces::Lying;
+use crate::contact::{Faces, Plane, Tracker, layers};
 use crate::geometry::crossings::meetings;
 use crate::relax::RelaxSettings;
 use crate::relax::flatten::Hinges;
-use crate::relax::global::GlobalSolver;
+use crate::relax::global::{GlobalSolver, STALE_SHARE};
 use crate::relax::goals::{turned_rest, turned_rest_facing};
 use crate::relax::wants::Wants;
 
@@ -19,8 +20,6 @@ use crate::relax::wants::Wants;
 const FIXED_WEIGHT: f64 = 1e4;
 /// Stands for cloth that is not laid yet.
 const UNMAPPED_WEIGHT: f64 = 1.0;
-/// How many clearances deep a face may lie in the body and still be found: its corners are above the skin.
-const LOOK_INTO: f64 = 5.0;
 /// How much more than its own weight cloth holds by clinging, with [`USUAL_FRICTION`] (ALGORITHMS.md 1: the friction step is
 /// twice the gravity step; what touches does not touch evenly).
 const HOLDS: f64 = 4.0;
@@ -34,10 +33,6 @@ const LEAST_SHARE: usize = 512;
 const FLIPPED: f64 = -0.2;
 /// How far from skin that is looked after, metres on a body 1.5 m large.
 const WRONG_SIDE_REACH: f64 = 0.015;
-/// The same for whole faces of cloth that lies still.
-const WRONG_FACE_REACH: f64 = 0.02;
-/// Those are turned over when their normal and the skin's have a smaller cosine.
-const WRONG_FACE: f64 = -0.15;
 /// What is left of the way layers were sent before when they are parted again: it keeps them apart for a while.
 const STILL_PARTING: f64 = 0.9;
 
@@ -73,6 +68,7 @@ pub struct Relaxer {
     /// Work done.
     pub counters: Counters,
     tracker: Tracker,
+    faces: Faces,
     solver: GlobalSolver,
     hinges: Arc<Hinges>,
     /// Height beyond the offset that each contact is pressed to (the scaled multiplier of the contact constraint).
@@ -111,8 +107,9 @@ impl Relaxer {
     /// A relaxer with no triangle mapped. None when the matrix cannot be factored (out of memory).
     pub fn new(garment: Arc<Garment>, surface: Arc<Surface>, settings: RelaxSettings) -> Option<Self> {
         let n = garment.vertex_count;
-        Some(Self {
+        let mut relaxer = Self {
             tracker: Tracker::new(n),
+            faces: Faces::default(),
             solver: GlobalSolver::new(&garment)?,
             hinges: Arc::new(Hinges::new(&garment)),
             counters: Counters::default(),
@@ -134,7 +131,9 @@ impl Relaxer {
             garment,
             surface,
             settings,
-        })
+        };
+        relaxer.refactor_beyond(STALE_SHARE);
+        Some(relaxer)
     }
 
     /// Height above the skin that is kept, metres.
@@ -163,12 +162,13 @@ impl Relaxer {
 
     /// From now on the matrix is factored anew when more than this share (0..=1) of the vertices touches or lets go.
     pub fn refactor_beyond(&mut self, share: f64) {
-        self.solver.refactor_beyond(share);
+        let skips = self.settings.skips.allow(Skip::Refactor);
+        self.solver.refactor_beyond(if skips { share } else { 0.0 });
     }
 
     /// Brings the track planes of all vertices within `reach` metres of the skin up to date.
     pub fn track(&mut self, state: &ClothState, reach: f64) {
-        self.tracker.update(&self.surface, state, reach, &mut self.counters);
+        self.tracker.update(&self.surface, state, reach, self.settings.skips, &mut self.counters);
     }
 
     /// The skin near `vertex` as it was last tracked.
@@ -217,7 +217,7 @@ impl Relaxer {
             reach = reach.max(WRONG_SIDE_REACH * self.surface.scale());
             self.normals = vertex_normals(&self.garment, state);
         }
-        self.tracker.update(&self.surface, state, reach, &mut self.counters);
+        self.tracker.update(&self.surface, state, reach, self.settings.skips, &mut self.counters);
         self.keep_pressure(step.contact);
         self.turn_triangles(state, step.unfold);
         let weighs = step.weight && self.touches_anything(state);
@@ -412,8 +412,9 @@ impl Relaxer {
                 continue;
             }
             let mut new = new;
+            let skips = self.settings.skips;
             if let Some(plane) =
-                self.tracker.update_one(v, new, &self.surface, offset * 2.0, &mut self.counters)
+                self.tracker.update_one(v, new, &self.surface, offset * 2.0, skips, &mut self.counters)
             {
                 let low = offset - plane.height(new);
                 if low > 0.0 {
@@ -427,7 +428,6 @@ impl Relaxer {
     /// Sends faces that face the skin next to them away from it: they belong to another limb. Returns how many.
     pub fn send_wrong_faces(&mut self, state: &ClothState) -> usize {
         let wrong = self.wrong_faces(state);
-        self.counters.face_queries += wrong.len() as u64;
         for (vs, away) in self.garment.triangles.iter().zip(&wrong) {
             for &v in vs {
                 self.sent[v as usize] += away.unwrap_or_default();
@@ -437,23 +437,13 @@ impl Relaxer {
     }
 
     /// For each face that faces the skin next to it the way off that skin.
-    fn wrong_faces(&self, state: &ClothState) -> Vec<Option<DVec3>> {
-        let (garment, surface) = (&*self.garment, &*self.surface);
-        let reach = WRONG_FACE_REACH * surface.scale();
-        let wrong = |vs: &[u32; 3]| {
-            if !vs.iter().all(|&v| state.mapped[v as usize]) {
-                return None;
-            }
-            let [a, b, c] = vs.map(|v| state.positions[v as usize]);
-            let normal = (b - a).cross(c - a).normalize_or_zero();
-            let (facing, near) = surface.least_facing((a + b + c) / 3.0, reach, normal)?;
-            (facing < WRONG_FACE).then_some(near.normal)
-        };
-        garment.triangles.par_iter().map(wrong).collect()
+    fn wrong_faces(&mut self, state: &ClothState) -> Vec<Option<DVec3>> {
+        let (garment, surface, skips) = (&*self.garment, &*self.surface, self.settings.skips);
+        self.faces.wrong(Lying { garment, surface, state, skips }, &mut self.counters)
     }
 
     /// In how many places the cloth passes through the body or shows it its outer side.
-    pub fn faults(&self, state: &ClothState) -> usize {
+    pub fn faults(&mut self, state: &ClothState) -> usize {
         let laid = |e: &[u32; 2]| e.iter().all(|&v| state.mapped[v as usize]);
         let edges: Vec<[u32; 2]> = self.garment.adjacency.edges.iter().copied().filter(laid).collect();
         let body = &self.surface.mesh;
@@ -463,6 +453,7 @@ impl Relaxer {
 
     /// Sends layers that run into each other apart. Returns in how many places they do.
     pub fn part_layers(&mut self, state: &ClothState) -> usize {
+        self.counters.self_tests += 1;
         let (ways, places) = layers::parting(&self.garment, state);
         for (parted, way) in self.parted.iter_mut().zip(ways) {
             *parted = *parted * STILL_PARTING + way;
@@ -472,40 +463,13 @@ impl Relaxer {
 
     /// Raises the offset of vertices whose edges or faces come too near the body between them. Returns how many.
     pub fn lift_faces(&mut self, state: &ClothState, clearance: f64) -> usize {
-        let (garment, surface) = (&*self.garment, &*self.surface);
-        let samples: [[f64; 3]; 7] = [
-            [0.5, 0.5, 0.0],
-            [0.0, 0.5, 0.5],
-            [0.5, 0.0, 0.5],
-            [1.0 / 3.0; 3],
-            [2.0 / 3.0, 1.0 / 6.0, 1.0 / 6.0],
-            [1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0],
-            [1.0 / 6.0, 1.0 / 6.0, 2.0 / 3.0],
-        ];
         let near: Vec<bool> = (0..state.positions.len()).map(|v| self.tracker.plane(v).is_some()).collect();
-        let lacking: Vec<f64> = garment
-            .triangles
-            .par_iter()
-            .map(|vs| {
-                if !vs.iter().any(|&v| near[v as usize]) || !vs.iter().all(|&v| state.mapped[v as usize]) {
-                    return 0.0;
-                }
-                let corners = vs.map(|v| state.positions[v as usize]);
-                samples
-                    .iter()
-                    .map(|b| {
-                        let p = corners[0] * b[0] + corners[1] * b[1] + corners[2] * b[2];
-                        surface
-                            .nearest_within(p, clearance * LOOK_INTO)
-                            .map_or(0.0, |n| clearance - n.distance)
-                    })
-                    .fold(0.0, f64::max)
-            })
-            .collect();
-        self.counters.face_queries += 7 * lacking.len() as u64;
+        let (garment, surface, skips) = (&*self.garment, &*self.surface, self.settings.skips);
+        let lying = Lying { garment, surface, state, skips };
+        let lacking = self.faces.lacking(lying, &near, clearance, &mut self.counters);
         let most = self.offset() * 2.0;
         let mut raised = vec![0.0f64; self.lift.len()];
-        for (vs, &lack) in garment.triangles.iter().zip(&lacking) {
+        for (vs, &lack) in self.garment.triangles.iter().zip(&lacking) {
             for &v in vs {
                 raised[v as usize] = raised[v as usize].max(lack);
             }

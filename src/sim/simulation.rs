@@ -3,6 +3,7 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
+use crate::cloth::Skips;
 use crate::fit::{BodyIndex, measure, verdict};
 use crate::pattern::Problem;
 use crate::sim::checkpoints::{Checkpoints, DEFAULT_CAPACITY};
@@ -21,6 +22,7 @@ pub struct Simulation {
     stats: Stats,
     events: Vec<Event>,
     verdict: Option<Arc<Vec<Problem>>>,
+    skips: Skips,
 }
 
 impl Default for Simulation {
@@ -40,6 +42,15 @@ impl Simulation {
             stats: Stats::default(),
             events: Vec::new(),
             verdict: None,
+            skips: Skips::default(),
+        }
+    }
+
+    /// From now on only these skips are made.
+    pub fn set_skips(&mut self, skips: Skips) {
+        self.skips = skips;
+        if let Some(source) = &mut self.world.source {
+            Arc::make_mut(source).relax.skips = skips;
         }
     }
 
@@ -169,7 +180,7 @@ impl Simulation {
     }
 
     fn carry_out(&mut self, kind: RequestKind) -> Result<(), String> {
-        match kind {
+        match self.with_skips(kind) {
             RequestKind::Wrap { source, body } => self.set_world(World::wrapped(source, body)),
             RequestKind::Rewrap { source, body, pairs } => {
                 let world = self.world.rewrapped(source, body, &pairs);
@@ -189,6 +200,21 @@ impl Simulation {
             RequestKind::Hash => {}
         }
         Ok(())
+    }
+
+    fn with_skips(&self, mut kind: RequestKind) -> RequestKind {
+        match &mut kind {
+            RequestKind::Wrap { source, .. }
+            | RequestKind::Rewrap { source, .. }
+            | RequestKind::Adopt { source, .. }
+                if source.relax.skips != self.skips =>
+            {
+                Arc::make_mut(source).relax.skips = self.skips;
+            }
+            RequestKind::SetRelax(relax) => relax.skips = self.skips,
+            _ => {}
+        }
+        kind
     }
 
     fn set_world(&mut self, world: World) {

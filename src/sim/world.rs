@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use crate::body::Surface;
-use crate::cloth::{self, ClothState, Counters, FlatPiece, Garment};
+use crate::cloth::{self, ClothState, Counters, FlatPiece, Garment, Skip};
 use crate::drag::{DragMode, Dragging, Ray};
 use crate::pattern::Problem;
 use crate::relax::RelaxSettings;
@@ -60,7 +60,10 @@ impl World {
     pub fn wrapped(source: Arc<GarmentSource>, body: Arc<Surface>) -> Self {
         let (garment, mut problems) = cloth::build(&source.pattern, source.edge_length);
         let garment = Arc::new(garment);
-        let coarser = coarser(&source.pattern, &garment, source.edge_length, body.scale());
+        let coarser = match source.relax.skips.allow(Skip::Fine) {
+            true => coarser(&source.pattern, &garment, source.edge_length, body.scale()),
+            false => Vec::new(),
+        };
         let (dressing, cloth, more) = Dressing::coarse_to_fine(
             &coarser,
             Arc::clone(&garment),

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use crate::body::Surface;
-use crate::cloth::{Carry, ClothState, Counters, EdgeMetric, Garment};
+use crate::cloth::{Carry, ClothState, Counters, EdgeMetric, Garment, Skip};
 use crate::geometry::ids::PieceId;
 use crate::pattern::{Problem, ProblemKind};
 use crate::relax::{GlobalStep, RelaxSettings, Relaxer};
@@ -523,7 +523,8 @@ impl Dressing {
             (KEEP * edge * edge, LEASH * self.relaxer.surface.scale())
         };
         let moved = self.global(state, Hold { weight: hold, slack }, done > UNFOLD_AFTER, !first);
-        if settling.crossed && done > UNFOLD_AFTER && done.is_multiple_of(STEPS_PER_PARTING) {
+        let look = settling.crossed || !self.relaxer.settings.skips.allow(Skip::Crossings);
+        if look && done > UNFOLD_AFTER && done.is_multiple_of(STEPS_PER_PARTING) {
             settling.crossed = self.relaxer.part_layers(state) > 0;
         }
         let quiet = if moved < REST_MOTION * self.edge_length { quiet + 1 } else { 0 };
