@@ -19,6 +19,18 @@ pub struct Counters {
     pub face_queries: u64,
     /// Searches for places where the cloth passes through itself.
     pub self_tests: u64,
+    /// Edges looked at: whether the body may cut them.
+    pub edge_checks: u64,
+    /// Of these, how many were tested exactly.
+    pub edge_tests: u64,
+    /// Edges split because the body cut them.
+    pub split_edges: u64,
+    /// Split edges joined again.
+    pub joined_edges: u64,
+    /// Edges tested against bones.
+    pub bone_tests: u64,
+    /// Edges kept from crossing a bone.
+    pub bone_stops: u64,
     /// Global solves.
     pub solves: u64,
     /// Numeric factorisations.

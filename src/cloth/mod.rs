@@ -6,6 +6,7 @@ pub mod counters;
 pub mod distance;
 pub mod garment;
 pub mod locate;
+pub mod refine;
 pub mod skips;
 
 pub use build::build;

@@ -19,11 +19,15 @@ pub enum Skip {
     Refactor,
     /// The long slow swings of a fine mesh are left to coarser ones, dressed first.
     Fine,
+    /// Edges that the body is too far from or too flat to be cut by are not tested exactly.
+    Edges,
+    /// Edges that cannot come as deep into the body as its bones lie are not tested against them.
+    Bones,
 }
 
 impl Skip {
     /// All of them, in the order of [`Skip::name`].
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 9] = [
         Self::Certificates,
         Self::Planes,
         Self::Triangles,
@@ -31,6 +35,8 @@ impl Skip {
         Self::Crossings,
         Self::Refactor,
         Self::Fine,
+        Self::Edges,
+        Self::Bones,
     ];
 
     /// As it is typed.
@@ -43,12 +49,14 @@ impl Skip {
             Self::Crossings => "crossings",
             Self::Refactor => "refactor",
             Self::Fine => "fine",
+            Self::Edges => "edges",
+            Self::Bones => "bones",
         }
     }
 
     /// Whether the cloth lies the same, bit for bit, without it. The others take another way to where it rests.
     pub fn is_exact(self) -> bool {
-        matches!(self, Self::Certificates | Self::Triangles | Self::Faces)
+        matches!(self, Self::Certificates | Self::Triangles | Self::Faces | Self::Bones)
     }
 }
 

@@ -5,6 +5,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::body::Surface;
+use crate::cloth::refine::Refined;
 use crate::cloth::{ClothState, Counters, Garment, Skip, Skips};
 
 /// How many clearances deep a face may lie in the body and still be found: its corners are above the skin.
@@ -59,6 +60,8 @@ pub struct Lying<'a> {
     pub state: &'a ClothState,
     /// What may be left out.
     pub skips: Skips,
+    /// The garment with its split edges, and where that is.
+    pub split: Option<(&'a Refined, &'a ClothState)>,
 }
 
 impl Lying<'_> {
@@ -87,7 +90,7 @@ impl Faces {
         let limit = clearance * LOOK_INTO;
         let ahead = AHEAD * lying.surface.scale();
         let mut asked = vec![0u32; self.known.len()];
-        let lacking = self
+        let mut lacking: Vec<f64> = self
             .known
             .par_iter_mut()
             .zip(&mut asked)
@@ -106,6 +109,16 @@ impl Faces {
             .collect();
         counters.face_checks += self.known.len() as u64;
         counters.face_queries += asked.iter().map(|&n| u64::from(n)).sum::<u64>();
+        if let Some((refined, state)) = lying.split {
+            refined.opened.iter().for_each(|&t| lacking[t as usize] = 0.0);
+            for (t, &from) in (refined.first_cut..).zip(&refined.cut_from) {
+                let corners = refined.garment.triangles[t].map(|v| state.positions[v as usize]);
+                let (lack, _) = look(corners, lying.surface, clearance, limit, ahead);
+                let all = &mut lacking[from as usize];
+                *all = all.max(lack);
+                counters.face_queries += SAMPLES.len() as u64;
+            }
+        }
         lacking
     }
 

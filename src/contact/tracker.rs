@@ -126,6 +126,15 @@ impl Tracker {
         }
     }
 
+    /// At least so far outside of the body (negative: perhaps inside) a vertex at `p` is by what is known of it.
+    pub fn at_least(&self, vertex: usize, p: DVec3) -> f64 {
+        match self.tracks[vertex] {
+            Track::Unknown => f64::NEG_INFINITY,
+            Track::Clear { at, distance } => distance - p.distance(at),
+            Track::Found { at, plane, .. } => plane.height(at) - p.distance(at),
+        }
+    }
+
     /// A vertex was carried to `position` along its plane's normal: its nearest point of the skin is the same.
     pub fn moved_along_normal(&mut self, vertex: usize, position: DVec3) {
         if let Track::Found { at, slack, .. } = &mut self.tracks[vertex] {

@@ -8,7 +8,8 @@ use rayon::prelude::*;
 use crate::body::Surface;
 use crate::cloth::{Carry, ClothState, Counters, Garment, Skip};
 use crate::contact::faces::Lying;
-use crate::contact::{Faces, Plane, Tracker, layers};
+use crate::contact::splits::{Ground, Suspects};
+use crate::contact::{Bones, Faces, Plane, Splits, Tracker, layers};
 use crate::geometry::crossings::meetings;
 use crate::relax::RelaxSettings;
 use crate::relax::flatten::Hinges;
@@ -67,6 +68,11 @@ pub struct Relaxer {
     pub settings: RelaxSettings,
     /// Work done.
     pub counters: Counters,
+    /// Whether edges that cut the body are split.
+    pub splitting: bool,
+    splits: Splits,
+    /// What no edge may cross.
+    pub bones: Arc<Bones>,
     tracker: Tracker,
     faces: Faces,
     solver: GlobalSolver,
@@ -108,6 +114,9 @@ impl Relaxer {
     pub fn new(garment: Arc<Garment>, surface: Arc<Surface>, settings: RelaxSettings) -> Option<Self> {
         let n = garment.vertex_count;
         let mut relaxer = Self {
+            splitting: false,
+            splits: Splits::default(),
+            bones: Arc::default(),
             tracker: Tracker::new(n),
             faces: Faces::default(),
             solver: GlobalSolver::new(&garment)?,
@@ -228,7 +237,45 @@ impl Relaxer {
             return 0.0;
         }
         self.previous.copy_from_slice(&state.positions);
-        self.advance(state, step)
+        let longest = self.advance(state, step);
+        self.place_split(state);
+        longest
+    }
+
+    /// Joins split edges that have been clear of the body in many looks.
+    pub fn join_edges(&mut self, state: &ClothState) {
+        let (tracker, ground) = (&self.tracker, ground(&self.surface, &self.settings));
+        self.splits.join(&self.garment, state, tracker, ground, &mut self.counters);
+    }
+
+    /// Splits edges that cut the body, of all or of `suspects`. Returns how many.
+    pub fn split_edges(&mut self, state: &ClothState, suspects: Option<Suspects<'_>>) -> usize {
+        if !self.splitting {
+            return 0;
+        }
+        let (tracker, ground) = (&self.tracker, ground(&self.surface, &self.settings));
+        let found = self.splits.split(&self.garment, state, tracker, ground, suspects, &mut self.counters);
+        if found > 0 {
+            self.place_split(state);
+        }
+        found
+    }
+
+    /// Holds cloth back that would cross a bone on its way from where it is to `after`.
+    pub fn keep_off_bones(&mut self, state: &ClothState, after: &mut [DVec3]) {
+        let known = Some((&self.tracker, self.settings.skips));
+        let (garment, before) = (&self.garment, &state.positions);
+        self.bones.hold_back(garment, &state.mapped, known, before, after, &mut self.counters);
+    }
+
+    /// Brings the vertices put in on split edges where they belong.
+    pub fn place_split(&mut self, state: &ClothState) {
+        self.splits.place(state, &self.tracker, ground(&self.surface, &self.settings));
+    }
+
+    /// The garment with its split edges, and where that is; None where none is split.
+    pub fn drawn(&self, state: &ClothState) -> Option<(Arc<Garment>, ClothState)> {
+        self.splits.drawn(state)
     }
 
     /// Under another contact weight the multipliers stand for the same force.
@@ -352,7 +399,7 @@ impl Relaxer {
     fn advance(&mut self, state: &mut ClothState, step: GlobalStep) -> f64 {
         let offset = self.offset();
         let (mapped, fixed) = (&state.mapped, &self.fixed);
-        let new: Vec<DVec3> = (0..state.positions.len())
+        let mut new: Vec<DVec3> = (0..state.positions.len())
             .into_par_iter()
             .with_min_len(LEAST_SHARE)
             .map(|v| {
@@ -372,6 +419,9 @@ impl Relaxer {
                 }
             })
             .collect();
+        if !self.bones.is_empty() {
+            self.keep_off_bones(state, &mut new);
+        }
         let longest = new.iter().zip(&self.previous).map(|(n, o)| (*n - *o).length()).fold(0.0, f64::max);
         state.positions = new;
         longest
@@ -439,15 +489,17 @@ impl Relaxer {
     /// For each face that faces the skin next to it the way off that skin.
     fn wrong_faces(&mut self, state: &ClothState) -> Vec<Option<DVec3>> {
         let (garment, surface, skips) = (&*self.garment, &*self.surface, self.settings.skips);
-        self.faces.wrong(Lying { garment, surface, state, skips }, &mut self.counters)
+        self.faces.wrong(Lying { garment, surface, state, skips, split: None }, &mut self.counters)
     }
 
     /// In how many places the cloth passes through the body or shows it its outer side.
     pub fn faults(&mut self, state: &ClothState) -> usize {
-        let laid = |e: &[u32; 2]| e.iter().all(|&v| state.mapped[v as usize]);
-        let edges: Vec<[u32; 2]> = self.garment.adjacency.edges.iter().copied().filter(laid).collect();
+        let drawn = self.drawn(state);
+        let (garment, drawn) = drawn.as_ref().map_or((&self.garment, state), |(g, s)| (g, s));
+        let laid = |e: &[u32; 2]| e.iter().all(|&v| drawn.mapped[v as usize]);
+        let edges: Vec<[u32; 2]> = garment.adjacency.edges.iter().copied().filter(laid).collect();
         let body = &self.surface.mesh;
-        meetings(&state.positions, &edges, body, &body.tree()).len()
+        meetings(&drawn.positions, &edges, body, &body.tree()).len()
             + self.wrong_faces(state).iter().flatten().count()
     }
 
@@ -461,12 +513,21 @@ impl Relaxer {
         places
     }
 
-    /// Raises the offset of vertices whose edges or faces come too near the body between them. Returns how many.
+    /// Where faces or edges come too near the body between their vertices: splits edges that cut it, and raises the offset of
+    /// the others' vertices. Returns at how many faces.
     pub fn lift_faces(&mut self, state: &ClothState, clearance: f64) -> usize {
+        self.join_edges(state);
         let near: Vec<bool> = (0..state.positions.len()).map(|v| self.tracker.plane(v).is_some()).collect();
+        let refined = self.splits.refined().cloned();
+        let split_state = refined.as_ref().map(|r| self.splits.state(r, state));
         let (garment, surface, skips) = (&*self.garment, &*self.surface, self.settings.skips);
-        let lying = Lying { garment, surface, state, skips };
-        let lacking = self.faces.lacking(lying, &near, clearance, &mut self.counters);
+        let split = refined.as_deref().zip(split_state.as_ref());
+        let lying = Lying { garment, surface, state, skips, split };
+        let mut lacking = self.faces.lacking(lying, &near, clearance, &mut self.counters);
+        let lack = lacking.iter().filter(|&&l| l > 0.0).count();
+        if lack > 0 && self.splitting {
+            self.split_lacking(state, &mut lacking);
+        }
         let most = self.offset() * 2.0;
         let mut raised = vec![0.0f64; self.lift.len()];
         for (vs, &lack) in self.garment.triangles.iter().zip(&lacking) {
@@ -477,8 +538,37 @@ impl Relaxer {
         for (lift, raise) in self.lift.iter_mut().zip(&raised) {
             *lift = (*lift + raise * 0.7).min(most);
         }
-        lacking.iter().filter(|&&l| l > 0.0).count()
+        lack
     }
+
+    /// Splits edges of `lacking` faces that cut the body, and beside split ones those that come too near it. The other faces
+    /// then wait: they may lie well soon, or the split ones spread to them.
+    fn split_lacking(&mut self, state: &ClothState, lacking: &mut [f64]) {
+        let garment = self.garment.clone();
+        let edges_of = |faces: &mut dyn Iterator<Item = usize>| {
+            let mut edges: Vec<u32> = faces.flat_map(|t| garment.adjacency.triangle_edges[t]).collect();
+            edges.sort_unstable();
+            edges.dedup();
+            edges
+        };
+        let suspects = edges_of(&mut (0..lacking.len()).filter(|&t| lacking[t] > 0.0));
+        let mut found = self.split_edges(state, Some(Suspects { edges: &suspects, near: false }));
+        let Some(refined) = self.splits.refined().cloned() else { return };
+        let mut round = vec![false; lacking.len()];
+        for &v in refined.opened.iter().flat_map(|&t| &garment.triangles[t as usize]) {
+            garment.adjacency.vertex_triangles.of(v).iter().for_each(|&t| round[t as usize] = true);
+        }
+        let suspects = edges_of(&mut (0..lacking.len()).filter(|&t| lacking[t] > 0.0 && round[t]));
+        found += self.split_edges(state, Some(Suspects { edges: &suspects, near: true }));
+        if found > 0 {
+            lacking.fill(0.0);
+        }
+    }
+}
+
+/// What splits are made on.
+fn ground<'a>(surface: &'a Surface, settings: &RelaxSettings) -> Ground<'a> {
+    Ground { surface, offset: settings.offset * surface.scale(), skips: settings.skips }
 }
 
 /// Flat area round each vertex, square metres.

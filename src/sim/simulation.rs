@@ -141,6 +141,7 @@ impl Simulation {
             source: world.source.clone(),
             body: world.body.clone(),
             cloth: Arc::clone(&world.cloth),
+            split: world.drawn(),
             phase: world.phase(),
             progress: world.progress(),
             pinned: Arc::clone(&world.pinned),
@@ -163,7 +164,10 @@ impl Simulation {
         if self.verdict.is_some() || !self.is_at_rest() || !world.cloth.mapped.contains(&true) {
             return false;
         }
-        let look = || verdict(&measure(&source.pattern, garment, &world.cloth, &BodyIndex::new(body)));
+        let split = world.drawn();
+        let (garment, cloth) =
+            split.as_ref().map_or((garment, &world.cloth), |(garment, cloth)| (garment, cloth));
+        let look = || verdict(&measure(&source.pattern, garment, cloth, &BodyIndex::new(body)));
         match catch_unwind(AssertUnwindSafe(look)) {
             Ok(found) => self.verdict = Some(Arc::new(found)),
             Err(panic) => {
@@ -192,7 +196,7 @@ impl Simulation {
             RequestKind::SetRelax(relax) => self.world.set_relax(relax),
             RequestKind::SetRelaxing(on) => self.world.relaxing = on,
             RequestKind::SetPins(places) => self.world.set_pins(&places),
-            RequestKind::Grab { at, mode } => self.world.grab(at, mode),
+            RequestKind::Grab { at, mode, bones } => self.world.grab(at, mode, &bones),
             RequestKind::DragTo(pointer) => self.world.drag_to(pointer),
             RequestKind::Release => self.world.release(),
             RequestKind::Clear => self.world = World::default(),

@@ -513,6 +513,7 @@ impl Dressing {
 
     fn settle(&mut self, state: &mut ClothState, mut settling: Settling) {
         let Settling { done, quiet, mends, until, .. } = settling;
+        self.relaxer.splitting = !self.draft;
         let first = done < SETTLE_STEPS;
         let most_mends = if self.draft { DRAFT_MENDS } else { MOST_MENDS };
         let fading = if first { HOLD_FADE.get(done / HOLD_FADE_STEPS).copied().unwrap_or(0.0) } else { 0.0 };
