@@ -119,13 +119,14 @@ fn crossing([before, after]: [[DVec3; 2]; 2], bone: Bone) -> Option<DVec3> {
     };
     (0..MOMENTS).find_map(|k| {
         let [mut early, mut late] = [k, k + 1].map(|k| f64::from(k) / f64::from(MOMENTS));
-        let first = volume(early);
-        if first == 0.0 || (first > 0.0) == (volume(late) > 0.0) {
+        // Nothing counts as negative: a step that ends just on the bone is seen in this moment or in the next.
+        let first = volume(early) > 0.0;
+        if first == (volume(late) > 0.0) {
             return None;
         }
         for _ in 0..HALVINGS {
             let middle = (early + late) / 2.0;
-            if (volume(middle) > 0.0) == (first > 0.0) { early = middle } else { late = middle }
+            if (volume(middle) > 0.0) == first { early = middle } else { late = middle }
         }
         let [a, b] = edge(late);
         meet([a, b], bone).then(|| (b - a).cross(bone[1] - bone[0]).try_normalize()).flatten()
