@@ -166,6 +166,11 @@ impl Faces {
         wrong
     }
 
+    /// Bytes it keeps.
+    pub fn bytes(&self) -> usize {
+        self.known.len() * size_of::<Known>() + self.seen.len() * size_of::<DVec3>()
+    }
+
     /// Takes off what is known as much as the cloth has moved since.
     fn age(&mut self, lying: Lying<'_>) {
         let (garment, positions) = (lying.garment, &lying.state.positions);

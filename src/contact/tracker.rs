@@ -143,6 +143,11 @@ impl Tracker {
         }
     }
 
+    /// Bytes it keeps.
+    pub fn bytes(&self) -> usize {
+        self.tracks.len() * size_of::<Track>()
+    }
+
     /// Forgets everything: the body has changed.
     pub fn forget(&mut self) {
         self.tracks.fill(Track::Unknown);

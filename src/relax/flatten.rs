@@ -42,6 +42,11 @@ impl Hinges {
         Self { hinges, per_vertex }
     }
 
+    /// Bytes they take.
+    pub fn bytes(&self) -> usize {
+        self.hinges.len() * size_of::<Hinge>() + self.per_vertex.bytes()
+    }
+
     /// The flattening move of `vertex`: the mean over its hinges, `alpha` in 0..=1. Hinges not fully mapped count nothing.
     pub fn displacement(&self, vertex: u32, positions: &[DVec3], mapped: &[bool], alpha: f64) -> DVec3 {
         let mine = self.per_vertex.of(vertex);

@@ -11,11 +11,11 @@ use crate::contact::faces::Lying;
 use crate::contact::splits::{Ground, Suspects};
 use crate::contact::{Bones, Faces, Plane, Splits, Tracker, layers};
 use crate::geometry::crossings::meetings;
-use crate::relax::RelaxSettings;
 use crate::relax::flatten::Hinges;
 use crate::relax::global::{GlobalSolver, STALE_SHARE};
 use crate::relax::goals::{turned_rest, turned_rest_facing};
 use crate::relax::wants::Wants;
+use crate::relax::{Memory, RelaxSettings};
 
 /// Of a vertex that does not move, on the matrix diagonal: so heavy that its neighbours find it where it is.
 const FIXED_WEIGHT: f64 = 1e4;
@@ -143,6 +143,20 @@ impl Relaxer {
         };
         relaxer.refactor_beyond(STALE_SHARE);
         Some(relaxer)
+    }
+
+    /// Memory it takes, with the cloth it relaxes.
+    pub fn memory(&self) -> Memory {
+        let (n, vector) = (self.garment.vertex_count, size_of::<DVec3>());
+        let cloth = n * (vector + size_of::<bool>());
+        let remembered = n * (3 * vector + 2 * size_of::<f64>() + size_of::<bool>())
+            + self.held.len() * size_of::<Option<DVec3>>();
+        Memory {
+            garment: self.garment.bytes(),
+            state: cloth + remembered + self.tracker.bytes() + self.faces.bytes() + self.splits.bytes(),
+            tables: self.hinges.bytes() + self.solver.bytes(),
+            scratch: self.turned.len() * 3 * vector + n * (3 * vector + 3 * size_of::<f64>()),
+        }
     }
 
     /// Height above the skin that is kept, metres.

@@ -109,14 +109,23 @@ fn tshirt(scene: &Scene, runs: usize) -> Result<(Row, Wrapped), Failure> {
     let checked = (all.contact_checks - grown.contact_checks).max(1);
     let queries = |c: &Counters| c.contact_queries + c.contact_gaps;
     let asked = queries(&all) - queries(&grown);
+    let memory = wrapped.dressing.relaxer().map(|relaxer| relaxer.memory()).unwrap_or_default();
+    let each = |bytes: usize| bytes as f64 / wrapped.garment.triangles.len().max(1) as f64;
+    let bytes = |what, bytes| Figure { what, value: each(bytes), unit: Unit::Count };
     let row = Row {
         scene: scene_name,
         triangles: wrapped.garment.triangles.len(),
         runs,
         seconds,
         threads: rayon::current_num_threads(),
-        checks: vec![Check::new("to rest, from pattern and marks", seconds, Unit::Seconds, 1.0, 0.25)],
+        checks: vec![
+            Check::new("to rest, from pattern and marks", seconds, Unit::Seconds, 1.0, 0.25),
+            Check::new("bytes of state a triangle", each(memory.state), Unit::Count, 200.0, 200.0),
+        ],
         figures: vec![
+            bytes("bytes of the garment a triangle", memory.garment),
+            bytes("bytes of tables a triangle", memory.tables),
+            bytes("bytes of scratch a triangle", memory.scratch),
             Figure { what: "p99 strain", value: fit.strain.p99, unit: Unit::Share },
             Figure {
                 what: "closest points skipped while it settles",
