@@ -12,7 +12,7 @@
 //! | `pattern`  | the flat garment: piece, seam, triangulation, problems a person can fix | geometry |
 //! | `body`     | surface (nearest point, ray, walk), import checks, mannequin, skeleton, landmarks, measurements | geometry |
 //! | `cloth`    | the sewn garment as solvers see it: topology and rest shape, moving state | pattern, geometry |
-//! | `contact`  | cloth against body and itself | cloth, body, geometry |
+//! | `contact`  | cloth against body, its bones, and itself; where edges are split | cloth, body, geometry |
 //! | `relax`    | paper A's relaxation: shape match, flatten, gravity, friction | contact, cloth, body, geometry |
 //! | `wrap`     | paper A: marks, root edges, growth | relax, contact, cloth, body, pattern, geometry |
 //! | `drag`     | paper A: dependency graph, motion in local frames, pushpins | relax, contact, cloth, body, pattern, geometry |

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use crate::geometry::adjacency::{Adjacency, NONE};
-use crate::geometry::bvh::Bvh;
+use crate::geometry::bvh4::Bvh4;
 use crate::geometry::mesh::TriMesh;
 
 /// Which part of a triangle a point lies on.
@@ -20,30 +20,68 @@ pub enum Part {
 /// Triangles of a mesh in a tree.
 #[derive(Clone, Debug)]
 pub struct ClosestTree {
-    tree: Bvh,
+    tree: Bvh4,
     /// In the order of the tree's leaves: what a query reads lies together.
     corners: Vec<[DVec3; 3]>,
+    /// Where each triangle stands in that order.
+    slots: Vec<u32>,
 }
 
 impl ClosestTree {
     /// Over all triangles of `mesh`.
     pub fn new(mesh: &TriMesh) -> Self {
-        let tree = mesh.tree();
+        let tree = Bvh4::new(mesh.tree());
         let corners = tree.items.iter().map(|&t| mesh.corners(t as usize)).collect();
-        Self { tree, corners }
+        let mut slots = vec![0; tree.items.len()];
+        tree.items.iter().enumerate().for_each(|(slot, &t)| slots[t as usize] = slot as u32);
+        Self { tree, corners, slots }
     }
 
     /// The nearest point within `limit` metres, its triangle, and where on that it lies. Of triangles that share the point
     /// the lowest.
     pub fn nearest(&self, p: DVec3, limit: f64) -> Option<(DVec3, u32, Part)> {
-        let far = |slot: usize| {
-            let [a, b, c] = self.corners[slot];
-            (closest_on_triangle(p, a, b, c).0 - p).length_squared()
+        self.nearest_but(p, limit, |_| false)
+    }
+
+    /// The same without the triangles that are `left_out`.
+    pub fn nearest_but(
+        &self,
+        p: DVec3,
+        limit: f64,
+        left_out: impl Fn(u32) -> bool,
+    ) -> Option<(DVec3, u32, Part)> {
+        let far = |slot: usize| match left_out(self.tree.items[slot]) {
+            true => f64::INFINITY,
+            false => (self.on(slot, p).0 - p).length_squared(),
         };
         let (slot, _) = self.tree.nearest(p, limit * limit, far)?;
-        let [a, b, c] = self.corners[slot];
-        let (point, part) = closest_on_triangle(p, a, b, c);
+        let (point, part) = self.on(slot, p);
         Some((point, self.tree.items[slot], part))
+    }
+
+    /// The nearest point on `triangles`. Of those that share the point the lowest.
+    pub fn nearest_of(&self, p: DVec3, triangles: impl Iterator<Item = u32>) -> Option<(DVec3, u32, Part)> {
+        let far = |t: u32| {
+            let (point, part) = self.on(self.slots[t as usize] as usize, p);
+            ((point - p).length_squared(), (point, t, part))
+        };
+        triangles.map(far).min_by(|(a, x), (b, y)| a.total_cmp(b).then(x.1.cmp(&y.1))).map(|(_, found)| found)
+    }
+
+    /// Calls `found` for every triangle within `reach` metres of `p`, in no order of meaning.
+    pub fn within(&self, p: DVec3, reach: f64, mut found: impl FnMut(u32)) {
+        let limit = reach * reach;
+        self.tree.visit(p, limit, |slot| {
+            if (self.on(slot, p).0 - p).length_squared() <= limit {
+                found(self.tree.items[slot]);
+            }
+            limit
+        });
+    }
+
+    fn on(&self, slot: usize, p: DVec3) -> (DVec3, Part) {
+        let [a, b, c] = self.corners[slot];
+        closest_on_triangle(p, a, b, c)
     }
 }
 

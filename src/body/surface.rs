@@ -7,6 +7,7 @@ use parry3d::shape::TriMesh as ParryMesh;
 
 use crate::body::closest::{ClosestTree, Part, pseudonormal};
 use crate::geometry::adjacency::{Adjacency, NONE};
+use crate::geometry::crossings::segment_meets_triangle;
 use crate::geometry::mesh::TriMesh;
 
 /// A ray that slipped between triangles is cast again so far beside itself, metres on a body 1.5 m large.
@@ -103,7 +104,39 @@ impl Surface {
 
     /// The point of the surface nearest to `p`, if it is within `limit` metres.
     pub fn nearest_within(&self, p: DVec3, limit: f64) -> Option<Nearest> {
-        let (point, triangle, part) = self.closest.nearest(p, limit)?;
+        self.closest.nearest(p, limit).map(|found| self.signed(p, found))
+    }
+
+    /// The point nearest to `p` on `triangle` and the triangles that touch it.
+    pub fn nearest_round(&self, p: DVec3, triangle: u32) -> Nearest {
+        let found = self.closest.nearest_of(p, self.round(triangle)).unwrap_or((p, triangle, Part::Face));
+        self.signed(p, found)
+    }
+
+    /// How much farther from `p` than `distance` all triangles are that do not touch `triangle`, metres: at least this, and
+    /// `most` where there are none so near.
+    pub fn gap_round(&self, p: DVec3, triangle: u32, distance: f64, most: f64) -> f64 {
+        let own = self.mesh.triangles[triangle as usize];
+        let touches = |t: u32| self.mesh.triangles[t as usize].iter().any(|v| own.contains(v));
+        let next = self.closest.nearest_but(p, distance + most, touches);
+        next.map_or(most, |(point, ..)| (point - p).length() - distance)
+    }
+
+    /// `triangle` and those that touch it, each once.
+    fn round(&self, triangle: u32) -> impl Iterator<Item = u32> {
+        let own = self.mesh.triangles[triangle as usize];
+        (0..3).flat_map(move |k| {
+            let beside = self.adjacency.vertex_triangles.of(own[k]).iter().copied();
+            let earlier = &own[..k];
+            let seen: [Option<u32>; 2] = [earlier.first().copied(), earlier.get(1).copied()];
+            beside.filter(move |&t| {
+                let vs = self.mesh.triangles[t as usize];
+                !seen.iter().flatten().any(|v| vs.contains(v))
+            })
+        })
+    }
+
+    fn signed(&self, p: DVec3, (point, triangle, part): (DVec3, u32, Part)) -> Nearest {
         let along = p - point;
         let length = along.length();
         let outward = pseudonormal(
@@ -120,13 +153,14 @@ impl Surface {
             true => along / length,
             false => outward.normalize_or_zero(),
         };
-        Some(Nearest { point, normal, distance: if inside { -length } else { length }, triangle })
+        Nearest { point, normal, distance: if inside { -length } else { length }, triangle }
     }
 
     /// The smallest cosine between `direction` (unit) and the facets nearest to `p`, if they are within `limit` metres:
     /// over an edge two are equally near, over a corner all round it. With it the nearest point.
     pub fn least_facing(&self, p: DVec3, limit: f64, direction: DVec3) -> Option<(f64, Nearest)> {
-        let (_, triangle, part) = self.closest.nearest(p, limit)?;
+        let found = self.closest.nearest(p, limit)?;
+        let (_, triangle, part) = found;
         let cosine = |t: u32| self.face_normals[t as usize].dot(direction);
         let own = cosine(triangle);
         let least = match part {
@@ -141,7 +175,27 @@ impl Surface {
                 facets.iter().map(|&t| cosine(t)).fold(own, f64::min)
             }
         };
-        Some((least, self.nearest_within(p, limit)?))
+        Some((least, self.signed(p, found)))
+    }
+
+    /// The smallest cosine between `direction` (unit) and the facets within `reach` metres of `p`; none are: None.
+    pub fn least_facing_within(&self, p: DVec3, reach: f64, direction: DVec3) -> Option<f64> {
+        let mut least: Option<f64> = None;
+        self.closest.within(p, reach, |t| {
+            let cosine = self.face_normals[t as usize].dot(direction);
+            least = Some(least.map_or(cosine, |l| l.min(cosine)));
+        });
+        least
+    }
+
+    /// Whether the segment between two points passes through the surface.
+    pub fn meets_segment(&self, ends: [DVec3; 2]) -> bool {
+        let (middle, half) = ((ends[0] + ends[1]) / 2.0, ends[0].distance(ends[1]) / 2.0);
+        let mut meets = false;
+        self.closest.within(middle, half, |t| {
+            meets = meets || segment_meets_triangle(ends, self.mesh.corners(t as usize));
+        });
+        meets
     }
 
     /// The first hit of a ray from `origin` along `direction` (any length) from either side.

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::body::Unit;
+use crate::cloth::Skips;
 use crate::render::View;
 
 /// Dress a body in cloth: draw and sew flat pieces, paint marks, press Wrap.
@@ -80,6 +81,8 @@ pub struct Dress {
     pub max_ticks: u64,
     #[command(flatten)]
     pub picture: PictureOptions,
+    #[command(flatten)]
+    pub work: WorkOptions,
     /// Prints the report
     #[arg(long)]
     pub json: bool,
@@ -99,10 +102,24 @@ impl Dress {
             record: None,
             max_ticks: MAX_TICKS,
             picture: PictureOptions { view: View::ThreeQuarter, size: [1280, 800] },
+            work: WorkOptions::default(),
             json: false,
             threads: None,
         }
     }
+}
+
+/// Which work is left out.
+#[derive(Clone, Copy, Debug, Default, Args)]
+pub struct WorkOptions {
+    /// Does all the work that is usually skipped, to compare: certificates, planes, triangles, faces, crossings, refactor,
+    /// fine, edges, bones, or all; several with commas
+    #[arg(long, value_name = "NAME", default_value = "", hide_default_value = true, value_parser = skips)]
+    pub no_skip: Skips,
+}
+
+fn skips(text: &str) -> Result<Skips, String> {
+    if text.is_empty() { Ok(Skips::default()) } else { text.parse() }
 }
 
 /// How a picture is taken.
@@ -126,6 +143,8 @@ pub struct Replay {
     pub out: Option<PathBuf>,
     #[command(flatten)]
     pub picture: PictureOptions,
+    #[command(flatten)]
+    pub work: WorkOptions,
     /// Prints the outcome as JSON
     #[arg(long)]
     pub json: bool,
@@ -200,6 +219,8 @@ pub struct Bench {
     /// Writes a picture of error against time to this file (SVG)
     #[arg(long, value_name = "SVG")]
     pub plot: Option<PathBuf>,
+    #[command(flatten)]
+    pub work: WorkOptions,
     /// Prints a JSON object a line
     #[arg(long)]
     pub json: bool,

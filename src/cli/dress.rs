@@ -62,6 +62,7 @@ fn dress_one(project: &Path, folder: &Path, arguments: &Dress) -> Result<Report,
         let file = File::create(path).map_err(|e| Failure::file(path, e))?;
         session.recorder().also_to(file).map_err(|e| Failure::file(path, e))?;
     }
+    run::simulation(&mut session)?.set_skips(arguments.work.no_skip);
     wrap(&mut session, project, &mut seconds)?;
     run::to_rest(&mut session, arguments.max_ticks, &mut seconds)?;
     if let Some(error) = session.recorder().take_file_error() {

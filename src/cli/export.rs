@@ -15,17 +15,18 @@ pub fn export(arguments: &Export) -> Result<(), Failure> {
     let input = input::load(&arguments.project, &InputOptions::default())?;
     let session = run::opened(input.project, &arguments.project)?;
     let snapshot = session.snapshot();
-    let (true, Some(garment), Some(source)) = (snapshot.is_dressed(), &snapshot.garment, &snapshot.source)
+    let (true, Some((garment, cloth)), Some(source)) =
+        (snapshot.is_dressed(), snapshot.drawn(), &snapshot.source)
     else {
         let words =
             "there is no dressed cloth in it: `toile dress` with --save makes a project that has some";
         return Err(Failure::input(&arguments.project, words));
     };
     let bytes = match ending.as_str() {
-        "obj" => formats::garment_obj(garment, &snapshot.cloth, &source.pattern),
+        "obj" => formats::garment_obj(garment, cloth, &source.pattern),
         _ => {
             let body = snapshot.body.as_ref().map(|b| &b.mesh);
-            formats::scene_glb(garment, &snapshot.cloth, &source.pattern, body)?
+            formats::scene_glb(garment, cloth, &source.pattern, body)?
         }
     };
     output::write(&arguments.output, &bytes)

@@ -26,7 +26,7 @@ impl Artist {
         let dressed = snapshot.is_dressed();
         let shown = Shown {
             body: snapshot.body.as_ref().filter(|_| dressed).or(session.surface()),
-            cloth: snapshot.garment.as_ref().filter(|_| dressed).map(|garment| (garment, &snapshot.cloth)),
+            cloth: snapshot.drawn().filter(|_| dressed),
             marks: (!dressed).then_some(&session.document().marks),
             pinned: &snapshot.pinned,
             ..Shown::default()

@@ -8,7 +8,7 @@ use serde::Serialize;
 use crate::cli::arguments;
 use crate::cli::failure::Failure;
 use crate::cli::report::{self, Seconds};
-use crate::cli::{input, interrupt, output};
+use crate::cli::{input, interrupt, output, run};
 use crate::session::recording::{Hex, Recording};
 use crate::session::replay::{Divergence, Replay};
 
@@ -42,7 +42,8 @@ pub fn replay(arguments: &arguments::Replay) -> Result<(), Failure> {
     }
     let commands = recording.commands.len();
     let mut replay = Replay::new(recording);
-    let diverged = run(&mut replay)?;
+    run::simulation(replay.session())?.set_skips(arguments.work.no_skip);
+    let diverged = run_through(&mut replay)?;
     let outcome = Outcome {
         commands,
         ticks: replay.ticks(),
@@ -72,7 +73,7 @@ pub fn replay(arguments: &arguments::Replay) -> Result<(), Failure> {
     Ok(())
 }
 
-fn run(replay: &mut Replay) -> Result<Option<Divergence>, Failure> {
+fn run_through(replay: &mut Replay) -> Result<Option<Divergence>, Failure> {
     loop {
         interrupt::check()?;
         match replay.step() {

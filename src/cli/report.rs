@@ -128,8 +128,8 @@ pub fn write(
     let (fit, marks, mark_error) = measured(snapshot)?;
     seconds.measure = start.elapsed().as_secs_f64();
     let at_rest = snapshot.phase == Some(Phase::AtRest);
-    if let (Some(garment), Some(source)) = (&snapshot.garment, &snapshot.source) {
-        let bytes = formats::garment_obj(garment, &snapshot.cloth, &source.pattern);
+    if let (Some((garment, cloth)), Some(source)) = (snapshot.drawn(), &snapshot.source) {
+        let bytes = formats::garment_obj(garment, cloth, &source.pattern);
         output::write(&folder.join("garment.obj"), &bytes)?;
     }
     if let Some(body) = snapshot.body.as_ref().or(session.surface()) {
@@ -162,14 +162,15 @@ pub fn state_hash(session: &mut Session) -> Result<u64, Failure> {
 }
 
 fn measured(snapshot: &Snapshot) -> Result<(fit::Report, Vec<PairLengths>, MarkError), Failure> {
-    let (Some(garment), Some(body), Some(source)) = (&snapshot.garment, &snapshot.body, &snapshot.source)
+    let (Some((garment, cloth)), Some(body), Some(source)) =
+        (snapshot.drawn(), &snapshot.body, &snapshot.source)
     else {
         return Err(Failure::Check("there is no cloth on the body".to_owned()));
     };
-    let fit = fit::measure(&source.pattern, garment, &snapshot.cloth, &fit::BodyIndex::new(body));
+    let fit = fit::measure(&source.pattern, garment, cloth, &fit::BodyIndex::new(body));
     let offset = source.relax.offset * body.scale();
     let marks = stretches(&source.marks, body, offset).into_iter().map(PairLengths::from).collect();
-    Ok((fit, marks, mark_error(garment, &snapshot.cloth, body, &source.marks, offset)))
+    Ok((fit, marks, mark_error(garment, cloth, body, &source.marks, offset)))
 }
 
 fn faults(fit: &fit::Report, at_rest: bool) -> Vec<Problem> {

@@ -45,6 +45,15 @@ impl Garment {
         let sides = |rest: &[DVec2; 3]| (0..3).map(|k| (rest[(k + 1) % 3] - rest[k]).length()).sum::<f64>();
         self.rest.iter().map(sides).sum::<f64>() / (3 * self.rest.len()).max(1) as f64
     }
+
+    /// Bytes it takes.
+    pub fn bytes(&self) -> usize {
+        let pairs: usize = self.seam_pairs.iter().map(|(_, pairs)| pairs.len() * size_of::<[u32; 2]>()).sum();
+        self.triangles.len() * (2 * size_of::<[u32; 3]>() + size_of::<PieceId>() + size_of::<[DVec2; 3]>())
+            + self.corners.len() * size_of::<Corner>()
+            + pairs
+            + self.adjacency.bytes()
+    }
 }
 
 /// What moves.

@@ -6,6 +6,8 @@ pub mod counters;
 pub mod distance;
 pub mod garment;
 pub mod locate;
+pub mod refine;
+pub mod skips;
 
 pub use build::build;
 pub use carry::Carry;
@@ -13,3 +15,4 @@ pub use counters::Counters;
 pub use distance::{EdgeMetric, Reached};
 pub use garment::{ClothState, Corner, Garment};
 pub use locate::FlatPiece;
+pub use skips::{Skip, Skips};

@@ -1,6 +1,12 @@
 //! Cloth against body, and against itself.
 
+pub mod bones;
+pub mod faces;
 pub mod layers;
+pub mod splits;
 pub mod tracker;
 
+pub use bones::{Bone, Bones};
+pub use faces::Faces;
+pub use splits::Splits;
 pub use tracker::{Plane, Tracker};

@@ -1,15 +1,26 @@
 //! For each cloth vertex the part of the body near it (paper A's track point), asked for only when it may have changed.
+//!
+//! The paper walks from the last triangle to nearer neighbours, which misses parts that were never covered and parts that
+//! come from elsewhere. Here every answer is that of the exact tree; a walk round the last triangle replaces it only where
+//! a certificate says that nothing else can be nearer (ALGORITHMS.md 1.A7).
 
 use glam::DVec3;
 use rayon::prelude::*;
 
-use crate::body::Surface;
-use crate::cloth::{ClothState, Counters};
+use crate::body::{Nearest, Surface};
+use crate::cloth::{ClothState, Counters, Skip, Skips};
 
 /// A track plane is kept while its vertex has moved less than this, metres on a body 1.5 m large.
 const PLANE_REUSE: f64 = 0.0002;
 /// Bodies farther than this are not looked for exactly, metres on a body 1.5 m large.
 const SIGHT: f64 = 0.03;
+/// Cloth that moved less than this since it asked is taken to move slowly on: it is worth finding out how far it may go
+/// before another part of the body can be nearest. Metres on a body 1.5 m large.
+const SLOW: f64 = 0.0005;
+/// Far beyond rounding errors, metres on a body 1.5 m large.
+const CERTAIN: f64 = 1e-6;
+/// Parts so much farther than the nearest are not looked for then, metres on a body 1.5 m large.
+const MOST_GAP: f64 = 0.004;
 
 /// The body near a vertex, as a plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,32 +45,56 @@ enum Track {
     /// Outside, and at least `distance` from the skin when it was at `at`: the signed distance is 1-Lipschitz, so it
     /// stays outside until it has moved that far.
     Clear { at: DVec3, distance: f64 },
-    /// Near or inside.
-    Near { at: DVec3, plane: Plane },
+    /// Found: near, inside, or outside as far as the plane was from `at`. While it moves less than `slack` metres its
+    /// nearest point is on `triangle` or those that touch it.
+    Found { at: DVec3, plane: Plane, triangle: u32, slack: f32 },
+}
+
+/// What bringing a track up to date took.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Effort {
+    Nothing,
+    Walk,
+    Query,
+    QueryAndGap,
 }
 
 /// Track planes of all vertices.
 #[derive(Clone, Debug)]
 pub struct Tracker {
     tracks: Vec<Track>,
+    /// Of the last update: planes of what is farther are not given out.
+    reach: f64,
 }
 
 impl Tracker {
     /// Nothing known yet about `count` vertices.
     pub fn new(count: usize) -> Self {
-        Self { tracks: vec![Track::Unknown; count] }
+        Self { tracks: vec![Track::Unknown; count], reach: 0.0 }
     }
 
     /// Brings the tracks of all mapped vertices up to date. Those within `reach` metres of the skin have a plane afterwards.
-    pub fn update(&mut self, surface: &Surface, state: &ClothState, reach: f64, counters: &mut Counters) {
-        let queries: u64 = self
+    pub fn update(
+        &mut self,
+        surface: &Surface,
+        state: &ClothState,
+        reach: f64,
+        skips: Skips,
+        counters: &mut Counters,
+    ) {
+        self.reach = reach;
+        let ask = Ask { surface, reach, scale: surface.scale(), skips };
+        let [queries, gaps, walks] = self
             .tracks
             .par_iter_mut()
-            .enumerate()
-            .filter(|(v, _)| state.mapped[*v])
-            .map(|(v, track)| u64::from(refresh(track, surface, state.positions[v], reach)))
-            .sum();
+            .zip(&state.positions)
+            .zip(&state.mapped)
+            .filter(|(_, mapped)| **mapped)
+            .map(|((track, &p), _)| work(ask.refresh(track, p)))
+            .reduce(|| [0; 3], |a, b| [a[0] + b[0], a[1] + b[1], a[2] + b[2]]);
         counters.contact_queries += queries;
+        counters.contact_gaps += gaps;
+        counters.contact_walks += walks;
         counters.contact_checks += state.positions.len() as u64;
     }
 
@@ -70,10 +105,15 @@ impl Tracker {
         position: DVec3,
         surface: &Surface,
         reach: f64,
+        skips: Skips,
         counters: &mut Counters,
     ) -> Option<Plane> {
-        let asked = refresh(&mut self.tracks[vertex as usize], surface, position, reach);
-        counters.contact_queries += u64::from(asked);
+        self.reach = reach;
+        let ask = Ask { surface, reach, scale: surface.scale(), skips };
+        let [queries, gaps, walks] = work(ask.refresh(&mut self.tracks[vertex as usize], position));
+        counters.contact_queries += queries;
+        counters.contact_gaps += gaps;
+        counters.contact_walks += walks;
         counters.contact_checks += 1;
         self.plane(vertex as usize)
     }
@@ -81,16 +121,31 @@ impl Tracker {
     /// The track plane of a vertex, when the body is near.
     pub fn plane(&self, vertex: usize) -> Option<Plane> {
         match self.tracks[vertex] {
-            Track::Near { plane, .. } => Some(plane),
+            Track::Found { at, plane, .. } if plane.height(at) <= self.reach => Some(plane),
             _ => None,
+        }
+    }
+
+    /// At least so far outside of the body (negative: perhaps inside) a vertex at `p` is by what is known of it.
+    pub fn at_least(&self, vertex: usize, p: DVec3) -> f64 {
+        match self.tracks[vertex] {
+            Track::Unknown => f64::NEG_INFINITY,
+            Track::Clear { at, distance } => distance - p.distance(at),
+            Track::Found { at, plane, .. } => plane.height(at) - p.distance(at),
         }
     }
 
     /// A vertex was carried to `position` along its plane's normal: its nearest point of the skin is the same.
     pub fn moved_along_normal(&mut self, vertex: usize, position: DVec3) {
-        if let Track::Near { at, .. } = &mut self.tracks[vertex] {
+        if let Track::Found { at, slack, .. } = &mut self.tracks[vertex] {
+            *slack -= ((position - *at).length() as f32).next_up();
             *at = position;
         }
+    }
+
+    /// Bytes it keeps.
+    pub fn bytes(&self) -> usize {
+        self.tracks.len() * size_of::<Track>()
     }
 
     /// Forgets everything: the body has changed.
@@ -99,20 +154,71 @@ impl Tracker {
     }
 }
 
-/// Returns whether the body had to be asked.
-fn refresh(track: &mut Track, surface: &Surface, p: DVec3, reach: f64) -> bool {
-    let scale = surface.scale();
-    let far = match *track {
-        Track::Clear { at, distance } if distance - (p - at).length() > reach => return false,
-        Track::Near { at, .. } if (p - at).length() < PLANE_REUSE * scale => return false,
-        // It was outside and cannot have come through the whole body: no need to look farther than this.
-        Track::Clear { .. } => SIGHT * scale,
-        _ => f64::INFINITY,
-    };
-    *track = match surface.nearest_within(p, far.max(reach)) {
-        None => Track::Clear { at: p, distance: far.max(reach) },
-        Some(n) if n.distance > reach => Track::Clear { at: p, distance: n.distance },
-        Some(n) => Track::Near { at: p, plane: Plane { point: n.point, normal: n.normal } },
-    };
-    true
+/// Queries, gaps looked for, walks.
+fn work(effort: Effort) -> [u64; 3] {
+    match effort {
+        Effort::Nothing => [0, 0, 0],
+        Effort::Walk => [0, 0, 1],
+        Effort::Query => [1, 0, 0],
+        Effort::QueryAndGap => [1, 1, 0],
+    }
+}
+
+/// How a track is brought up to date.
+struct Ask<'a> {
+    surface: &'a Surface,
+    reach: f64,
+    scale: f64,
+    skips: Skips,
+}
+
+impl Ask<'_> {
+    fn refresh(&self, track: &mut Track, p: DVec3) -> Effort {
+        let allow = |skip| self.skips.allow(skip);
+        let mut slow = false;
+        let far = match *track {
+            Track::Clear { at, distance } => {
+                if allow(Skip::Certificates) && distance - (p - at).length() > self.reach {
+                    return Effort::Nothing;
+                }
+                // It was outside and cannot have come through the whole body: no need to look farther than this.
+                SIGHT * self.scale
+            }
+            Track::Found { at, plane, triangle, slack } => {
+                let moved = (p - at).length();
+                let kept = allow(Skip::Planes) && moved < PLANE_REUSE * self.scale;
+                let clear = allow(Skip::Certificates) && plane.height(at) - moved > self.reach;
+                if kept || clear {
+                    return Effort::Nothing;
+                }
+                if allow(Skip::Triangles) && moved < f64::from(slack) {
+                    let left = slack - (moved as f32).next_up();
+                    *track = found(p, self.surface.nearest_round(p, triangle), left, triangle);
+                    return Effort::Walk;
+                }
+                slow = moved < SLOW * self.scale;
+                // No farther than it can have come, and no farther than a Clear one is looked for.
+                let height = plane.height(at);
+                let most = height.abs() + moved + CERTAIN * self.scale;
+                if height > 0.0 { most.min(SIGHT * self.scale) } else { most }
+            }
+            Track::Unknown => f64::INFINITY,
+        };
+        let far = far.max(self.reach);
+        let Some(n) = self.surface.nearest_within(p, far) else {
+            *track = Track::Clear { at: p, distance: far };
+            return Effort::Query;
+        };
+        let gap = match slow && allow(Skip::Triangles) {
+            true => self.surface.gap_round(p, n.triangle, n.distance.abs(), MOST_GAP * self.scale),
+            false => 0.0,
+        };
+        *track = found(p, n, ((gap / 2.0) as f32).next_down(), n.triangle);
+        if slow { Effort::QueryAndGap } else { Effort::Query }
+    }
+}
+
+/// The plane of `n`, found from `p`. The `slack` is that of `triangle`.
+fn found(p: DVec3, n: Nearest, slack: f32, triangle: u32) -> Track {
+    Track::Found { at: p, plane: Plane { point: n.point, normal: n.normal }, triangle, slack }
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-use crate::cloth::{ClothState, Counters, EdgeMetric};
+use crate::cloth::{ClothState, Counters, EdgeMetric, Garment};
 use crate::drag::Graph;
 use crate::drag::transport::motions;
 use crate::relax::{GlobalStep, RelaxSettings, Relaxer, global};
@@ -115,6 +115,7 @@ impl Dragging {
         relaxer.fix(pins.iter().copied().chain(fixed_hand));
         relaxer.track(state, FOLLOWS * relaxer.surface.scale());
         relaxer.refactor_beyond(STALE_SHARE);
+        relaxer.splitting = true;
         relaxer.counters.drag_vertices += graph.len() as u64;
         let edge_length = relaxer.garment.mean_edge();
         Self { relaxer, graph, mode, hand, beside, pins: pins.to_vec(), pointer: None, edge_length, quiet: 0 }
@@ -147,6 +148,11 @@ impl Dragging {
         self.quiet >= QUIET_TICKS
     }
 
+    /// The garment with its split edges, and where that is; None where none is split.
+    pub fn drawn(&self, state: &ClothState) -> Option<(Arc<Garment>, ClothState)> {
+        self.relaxer.drawn(state)
+    }
+
     /// Work done so far.
     pub fn counters(&self) -> Counters {
         self.relaxer.counters
@@ -167,13 +173,15 @@ impl Dragging {
                 break;
             }
             if !arrived {
-                self.move_along(state, motion);
-                moved = moved.max(motion.length());
+                moved = moved.max(self.move_along(state, motion));
             }
             if relaxing {
                 moved = moved.max(self.relax(state));
             }
         }
+        self.relaxer.split_edges(state, None);
+        self.relaxer.join_edges(state);
+        self.relaxer.place_split(state);
         self.quiet = if moved < STILL * self.edge_length { self.quiet + 1 } else { 0 };
     }
 
@@ -192,7 +200,22 @@ impl Dragging {
         pointer.on_plane(taken, normal) - taken
     }
 
-    fn move_along(&mut self, state: &mut ClothState, motion: DVec3) {
+    /// Moves the hand and what follows it. Returns how far the hand came, metres.
+    fn move_along(&mut self, state: &mut ClothState, motion: DVec3) -> f64 {
+        if self.relaxer.bones.is_empty() {
+            self.carry(state, motion);
+            return motion.length();
+        }
+        let before = state.clone();
+        self.carry(state, motion);
+        self.relaxer.keep_off_bones(&before, &mut state.positions);
+        let hand = self.hand as usize;
+        self.relaxer.hold(self.hand, state.positions[hand]);
+        self.relaxer.forget_motion(state);
+        state.positions[hand].distance(before.positions[hand])
+    }
+
+    fn carry(&mut self, state: &mut ClothState, motion: DVec3) {
         let reach = FOLLOWS * self.relaxer.surface.scale();
         match self.mode {
             DragMode::Vertex => state.positions[self.hand as usize] += motion,

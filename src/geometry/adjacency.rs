@@ -37,6 +37,11 @@ impl Lists {
         &self.items[s..e]
     }
 
+    /// Bytes they take.
+    pub fn bytes(&self) -> usize {
+        (self.starts.len() + self.items.len()) * size_of::<u32>()
+    }
+
     /// Number of owners.
     pub fn len(&self) -> usize {
         self.starts.len().saturating_sub(1)
@@ -103,6 +108,15 @@ impl Adjacency {
         pairs.sort_unstable();
         let vertex_neighbours = Lists::grouped(vertex_count, pairs.iter().copied());
         Self { edges, triangle_edges, across, edge_triangles, vertex_triangles, vertex_neighbours }
+    }
+
+    /// Bytes it takes.
+    pub fn bytes(&self) -> usize {
+        let Self { edges, triangle_edges, across, edge_triangles, vertex_triangles, vertex_neighbours } =
+            self;
+        edges.len() * size_of::<[u32; 2]>()
+            + (triangle_edges.len() + across.len()) * size_of::<[u32; 3]>()
+            + [edge_triangles, vertex_triangles, vertex_neighbours].map(Lists::bytes).iter().sum::<usize>()
     }
 }
 

@@ -33,11 +33,6 @@ impl Aabb {
         self.lower.cmple(other.upper).all() && self.upper.cmpge(other.lower).all()
     }
 
-    /// Square of the distance from `p`; zero inside.
-    pub fn distance_squared(&self, p: DVec3) -> f64 {
-        (self.lower - p).max(p - self.upper).max(DVec3::ZERO).length_squared()
-    }
-
     /// Its middle.
     pub fn centre(&self) -> DVec3 {
         (self.lower + self.upper) / 2.0
@@ -105,48 +100,6 @@ impl Bvh {
         self.grow(boxes, right, first + middle);
     }
 
-    /// The place in [`Bvh::items`] of the item nearest to `p` within the square root of `limit`, and the square of its
-    /// distance, which `distance_squared` tells of each place. Of equally near ones the lowest item.
-    pub fn nearest(
-        &self,
-        p: DVec3,
-        limit: f64,
-        mut distance_squared: impl FnMut(usize) -> f64,
-    ) -> Option<(usize, f64)> {
-        let mut best: Option<(usize, f64)> = None;
-        let mut least = limit;
-        // Deep enough for a tree split at medians over all items there can be.
-        let mut open = [(0u32, 0.0f64); 64];
-        let mut waiting = usize::from(!self.nodes.is_empty());
-        while waiting > 0 {
-            waiting -= 1;
-            let (mut at, mut from) = open[waiting];
-            while from <= least {
-                let node = &self.nodes[at as usize];
-                if node.is_leaf() {
-                    for slot in node.first as usize..(node.first + node.count) as usize {
-                        let d = distance_squared(slot);
-                        let wins = |(other, _): (usize, f64)| self.items[slot] < self.items[other];
-                        if d < least || (d == least && best.is_none_or(wins)) {
-                            least = d;
-                            best = Some((slot, d));
-                        }
-                    }
-                    break;
-                }
-                let children = [at + 1, node.right];
-                let away = children.map(|c| self.nodes[c as usize].bounds.distance_squared(p));
-                let near = usize::from(away[1] < away[0]);
-                if away[1 - near] <= least {
-                    open[waiting] = (children[1 - near], away[1 - near]);
-                    waiting += 1;
-                }
-                (at, from) = (children[near], away[near]);
-            }
-        }
-        best
-    }
-
     /// Calls `found` for every item whose leaf's box meets `query`; the caller tests the item itself.
     pub fn near(&self, query: &Aabb, mut found: impl FnMut(u32)) {
         if self.nodes.is_empty() {
@@ -196,19 +149,6 @@ mod tests {
             let exact: Vec<u32> =
                 (0..boxes.len() as u32).filter(|&i| boxes[i as usize].meets(query)).collect();
             assert_eq!(found, exact);
-        }
-    }
-
-    #[test]
-    fn the_nearest_is_what_brute_force_says() {
-        let points = points(500);
-        let tree = Bvh::new(&points.iter().map(|p| Aabb::around(&[*p])).collect::<Vec<_>>());
-        for query in points.iter().map(|p| *p * 1.3 - 0.1) {
-            let far = |i: u32| (points[i as usize] - query).length_squared();
-            let exact = (0..500).min_by(|&i, &j| far(i).total_cmp(&far(j))).map(|i| (i, far(i)));
-            let found = tree.nearest(query, f64::INFINITY, |slot| far(tree.items[slot]));
-            assert_eq!(found.map(|(slot, d)| (tree.items[slot], d)), exact);
-            assert_eq!(tree.nearest(query, exact.expect("one").1 * 0.99, |s| far(tree.items[s])), None);
         }
     }
 

@@ -2,6 +2,7 @@
 
 pub mod adjacency;
 pub mod bvh;
+pub mod bvh4;
 pub mod crossings;
 pub mod ids;
 pub mod mesh;

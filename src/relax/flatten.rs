@@ -46,6 +46,11 @@ impl Hinges {
         Self { hinges, per_vertex }
     }
 
+    /// Bytes they take.
+    pub fn bytes(&self) -> usize {
+        self.hinges.len() * size_of::<Hinge>() + self.per_vertex.bytes()
+    }
+
     /// The flattening move of `vertex`: the mean over its hinges, `alpha` in 0..=1. `lies` tells of every vertex how it lies,
     /// None where it is not laid. A hinge that lies on the body is bent as the body is: of it only what stands out from the
     /// skin is flattened, for to flatten all of it would strain the cloth.

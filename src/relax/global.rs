@@ -76,6 +76,13 @@ impl GlobalSolver {
         })
     }
 
+    /// Bytes it takes without the factor, which is made from the rest.
+    pub fn bytes(&self) -> usize {
+        let index =
+            self.diagonal.len() + self.off_diagonal.len() + self.pattern.compute_nnz() + self.weights.len();
+        (index + self.base.len() + self.weights.len()) * size_of::<f64>()
+    }
+
     /// Sets which triangles take part. The next solve factors anew.
     pub fn set_triangles(&mut self, garment: &Garment, mapped: &[bool]) {
         self.base.fill(0.0);

@@ -3,9 +3,11 @@
 pub mod flatten;
 pub mod global;
 pub mod goals;
+pub mod memory;
 pub mod relaxer;
 pub mod settings;
 mod wants;
 
+pub use memory::Memory;
 pub use relaxer::{GlobalStep, Relaxer};
 pub use settings::RelaxSettings;

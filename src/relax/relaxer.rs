@@ -6,21 +6,21 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::body::Surface;
-use crate::cloth::{Carry, ClothState, Counters, Garment};
-use crate::contact::{Plane, Tracker, layers};
+use crate::cloth::{Carry, ClothState, Counters, Garment, Skip};
+use crate::contact::faces::Lying;
+use crate::contact::splits::{Ground, Suspects};
+use crate::contact::{Bones, Faces, Plane, Splits, Tracker, layers};
 use crate::geometry::crossings::meetings;
-use crate::relax::RelaxSettings;
 use crate::relax::flatten::{Hinges, Lie};
-use crate::relax::global::GlobalSolver;
+use crate::relax::global::{GlobalSolver, STALE_SHARE};
 use crate::relax::goals::{turned_rest, turned_rest_facing};
 use crate::relax::wants::Wants;
+use crate::relax::{Memory, RelaxSettings};
 
 /// Of a vertex that does not move, on the matrix diagonal: so heavy that its neighbours find it where it is.
 const FIXED_WEIGHT: f64 = 1e4;
 /// Stands for cloth that is not laid yet.
 const UNMAPPED_WEIGHT: f64 = 1.0;
-/// How many clearances deep a face may lie in the body and still be found: its corners are above the skin.
-const LOOK_INTO: f64 = 5.0;
 /// How much more than its own weight cloth holds by clinging, with [`USUAL_FRICTION`] (ALGORITHMS.md 1: the friction step is
 /// twice the gravity step; what touches does not touch evenly).
 const HOLDS: f64 = 4.0;
@@ -34,10 +34,6 @@ const LEAST_SHARE: usize = 512;
 const FLIPPED: f64 = -0.2;
 /// How far from skin that is looked after, metres on a body 1.5 m large.
 const WRONG_SIDE_REACH: f64 = 0.015;
-/// The same for whole faces of cloth that lies still.
-const WRONG_FACE_REACH: f64 = 0.02;
-/// Those are turned over when their normal and the skin's have a smaller cosine.
-const WRONG_FACE: f64 = -0.15;
 /// What is left of the way layers were sent before when they are parted again: it keeps them apart for a while.
 const STILL_PARTING: f64 = 0.9;
 
@@ -72,7 +68,13 @@ pub struct Relaxer {
     pub settings: RelaxSettings,
     /// Work done.
     pub counters: Counters,
+    /// Whether edges that cut the body are split.
+    pub splitting: bool,
+    splits: Splits,
+    /// What no edge may cross.
+    pub bones: Arc<Bones>,
     tracker: Tracker,
+    faces: Faces,
     solver: GlobalSolver,
     hinges: Arc<Hinges>,
     /// Height beyond the offset that each contact is pressed to (the scaled multiplier of the contact constraint).
@@ -115,8 +117,12 @@ impl Relaxer {
     /// A relaxer with no triangle mapped. None when the matrix cannot be factored (out of memory).
     pub fn new(garment: Arc<Garment>, surface: Arc<Surface>, settings: RelaxSettings) -> Option<Self> {
         let n = garment.vertex_count;
-        Some(Self {
+        let mut relaxer = Self {
+            splitting: false,
+            splits: Splits::default(),
+            bones: Arc::default(),
             tracker: Tracker::new(n),
+            faces: Faces::default(),
             solver: GlobalSolver::new(&garment)?,
             hinges: Arc::new(Hinges::new(&garment)),
             counters: Counters::default(),
@@ -140,7 +146,23 @@ impl Relaxer {
             garment,
             surface,
             settings,
-        })
+        };
+        relaxer.refactor_beyond(STALE_SHARE);
+        Some(relaxer)
+    }
+
+    /// Memory it takes, with the cloth it relaxes.
+    pub fn memory(&self) -> Memory {
+        let (n, vector) = (self.garment.vertex_count, size_of::<DVec3>());
+        let cloth = n * (vector + size_of::<bool>());
+        let remembered = n * (3 * vector + 2 * size_of::<f64>() + size_of::<bool>())
+            + self.held.len() * size_of::<Option<DVec3>>();
+        Memory {
+            garment: self.garment.bytes(),
+            state: cloth + remembered + self.tracker.bytes() + self.faces.bytes() + self.splits.bytes(),
+            tables: self.hinges.bytes() + self.solver.bytes(),
+            scratch: self.turned.len() * 3 * vector + n * (3 * vector + 3 * size_of::<f64>()),
+        }
     }
 
     /// Height above the skin that is kept, metres.
@@ -169,12 +191,13 @@ impl Relaxer {
 
     /// From now on the matrix is factored anew when more than this share (0..=1) of the vertices touches or lets go.
     pub fn refactor_beyond(&mut self, share: f64) {
-        self.solver.refactor_beyond(share);
+        let skips = self.settings.skips.allow(Skip::Refactor);
+        self.solver.refactor_beyond(if skips { share } else { 0.0 });
     }
 
     /// Brings the track planes of all vertices within `reach` metres of the skin up to date.
     pub fn track(&mut self, state: &ClothState, reach: f64) {
-        self.tracker.update(&self.surface, state, reach, &mut self.counters);
+        self.tracker.update(&self.surface, state, reach, self.settings.skips, &mut self.counters);
     }
 
     /// The skin near `vertex` as it was last tracked.
@@ -232,7 +255,7 @@ impl Relaxer {
             reach = reach.max(WRONG_SIDE_REACH * self.surface.scale());
             self.normals = vertex_normals(&self.garment, state);
         }
-        self.tracker.update(&self.surface, state, reach, &mut self.counters);
+        self.tracker.update(&self.surface, state, reach, self.settings.skips, &mut self.counters);
         self.keep_pressure(step.contact);
         self.turn_triangles(state, step.unfold);
         let weighs = step.weight && self.touches_anything(state);
@@ -243,7 +266,45 @@ impl Relaxer {
             return 0.0;
         }
         self.previous.copy_from_slice(&state.positions);
-        self.advance(state, step)
+        let longest = self.advance(state, step);
+        self.place_split(state);
+        longest
+    }
+
+    /// Joins split edges that have been clear of the body in many looks.
+    pub fn join_edges(&mut self, state: &ClothState) {
+        let (tracker, ground) = (&self.tracker, ground(&self.surface, &self.settings));
+        self.splits.join(&self.garment, state, tracker, ground, &mut self.counters);
+    }
+
+    /// Splits edges that cut the body, of all or of `suspects`. Returns how many.
+    pub fn split_edges(&mut self, state: &ClothState, suspects: Option<Suspects<'_>>) -> usize {
+        if !self.splitting {
+            return 0;
+        }
+        let (tracker, ground) = (&self.tracker, ground(&self.surface, &self.settings));
+        let found = self.splits.split(&self.garment, state, tracker, ground, suspects, &mut self.counters);
+        if found > 0 {
+            self.place_split(state);
+        }
+        found
+    }
+
+    /// Holds cloth back that would cross a bone on its way from where it is to `after`.
+    pub fn keep_off_bones(&mut self, state: &ClothState, after: &mut [DVec3]) {
+        let known = Some((&self.tracker, self.settings.skips));
+        let (garment, before) = (&self.garment, &state.positions);
+        self.bones.hold_back(garment, &state.mapped, known, before, after, &mut self.counters);
+    }
+
+    /// Brings the vertices put in on split edges where they belong.
+    pub fn place_split(&mut self, state: &ClothState) {
+        self.splits.place(state, &self.tracker, ground(&self.surface, &self.settings));
+    }
+
+    /// The garment with its split edges, and where that is; None where none is split.
+    pub fn drawn(&self, state: &ClothState) -> Option<(Arc<Garment>, ClothState)> {
+        self.splits.drawn(state)
     }
 
     /// Under another contact weight the multipliers stand for the same force.
@@ -370,7 +431,7 @@ impl Relaxer {
         let offset = self.offset();
         let (mapped, fixed) = (&state.mapped, &self.fixed);
         let lies = self.lies(state);
-        let new: Vec<DVec3> = (0..state.positions.len())
+        let mut new: Vec<DVec3> = (0..state.positions.len())
             .into_par_iter()
             .with_min_len(LEAST_SHARE)
             .map(|v| {
@@ -390,6 +451,9 @@ impl Relaxer {
                 }
             })
             .collect();
+        if !self.bones.is_empty() {
+            self.keep_off_bones(state, &mut new);
+        }
         let longest = new.iter().zip(&self.previous).map(|(n, o)| (*n - *o).length()).fold(0.0, f64::max);
         state.positions = new;
         longest
@@ -441,8 +505,9 @@ impl Relaxer {
                 continue;
             }
             let mut new = new;
+            let skips = self.settings.skips;
             if let Some(plane) =
-                self.tracker.update_one(v, new, &self.surface, offset * 2.0, &mut self.counters)
+                self.tracker.update_one(v, new, &self.surface, offset * 2.0, skips, &mut self.counters)
             {
                 let low = offset - plane.height(new);
                 if low > 0.0 {
@@ -456,7 +521,6 @@ impl Relaxer {
     /// Sends faces that face the skin next to them away from it: they belong to another limb. Returns how many.
     pub fn send_wrong_faces(&mut self, state: &ClothState) -> usize {
         let wrong = self.wrong_faces(state);
-        self.counters.face_queries += wrong.len() as u64;
         for (vs, away) in self.garment.triangles.iter().zip(&wrong) {
             for &v in vs {
                 self.sent[v as usize] += away.unwrap_or_default();
@@ -466,32 +530,25 @@ impl Relaxer {
     }
 
     /// For each face that faces the skin next to it the way off that skin.
-    fn wrong_faces(&self, state: &ClothState) -> Vec<Option<DVec3>> {
-        let (garment, surface) = (&*self.garment, &*self.surface);
-        let reach = WRONG_FACE_REACH * surface.scale();
-        let wrong = |vs: &[u32; 3]| {
-            if !vs.iter().all(|&v| state.mapped[v as usize]) {
-                return None;
-            }
-            let [a, b, c] = vs.map(|v| state.positions[v as usize]);
-            let normal = (b - a).cross(c - a).normalize_or_zero();
-            let (facing, near) = surface.least_facing((a + b + c) / 3.0, reach, normal)?;
-            (facing < WRONG_FACE).then_some(near.normal)
-        };
-        garment.triangles.par_iter().map(wrong).collect()
+    fn wrong_faces(&mut self, state: &ClothState) -> Vec<Option<DVec3>> {
+        let (garment, surface, skips) = (&*self.garment, &*self.surface, self.settings.skips);
+        self.faces.wrong(Lying { garment, surface, state, skips, split: None }, &mut self.counters)
     }
 
     /// In how many places the cloth passes through the body or shows it its outer side.
-    pub fn faults(&self, state: &ClothState) -> usize {
-        let laid = |e: &[u32; 2]| e.iter().all(|&v| state.mapped[v as usize]);
-        let edges: Vec<[u32; 2]> = self.garment.adjacency.edges.iter().copied().filter(laid).collect();
+    pub fn faults(&mut self, state: &ClothState) -> usize {
+        let drawn = self.drawn(state);
+        let (garment, drawn) = drawn.as_ref().map_or((&self.garment, state), |(g, s)| (g, s));
+        let laid = |e: &[u32; 2]| e.iter().all(|&v| drawn.mapped[v as usize]);
+        let edges: Vec<[u32; 2]> = garment.adjacency.edges.iter().copied().filter(laid).collect();
         let body = &self.surface.mesh;
-        meetings(&state.positions, &edges, body, &body.tree()).len()
+        meetings(&drawn.positions, &edges, body, &body.tree()).len()
             + self.wrong_faces(state).iter().flatten().count()
     }
 
     /// Sends layers that run into each other apart. Returns in how many places they do.
     pub fn part_layers(&mut self, state: &ClothState) -> usize {
+        self.counters.self_tests += 1;
         let (ways, places) = layers::parting(&self.garment, state);
         for (parted, way) in self.parted.iter_mut().zip(ways) {
             *parted = *parted * STILL_PARTING + way;
@@ -499,42 +556,24 @@ impl Relaxer {
         places
     }
 
-    /// Raises the offset of vertices whose edges or faces come too near the body between them. Returns how many.
+    /// Where faces or edges come too near the body between their vertices: splits edges that cut it, and raises the offset of
+    /// the others' vertices. Returns at how many faces.
     pub fn lift_faces(&mut self, state: &ClothState, clearance: f64) -> usize {
-        let (garment, surface) = (&*self.garment, &*self.surface);
-        let samples: [[f64; 3]; 7] = [
-            [0.5, 0.5, 0.0],
-            [0.0, 0.5, 0.5],
-            [0.5, 0.0, 0.5],
-            [1.0 / 3.0; 3],
-            [2.0 / 3.0, 1.0 / 6.0, 1.0 / 6.0],
-            [1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0],
-            [1.0 / 6.0, 1.0 / 6.0, 2.0 / 3.0],
-        ];
+        self.join_edges(state);
         let near: Vec<bool> = (0..state.positions.len()).map(|v| self.tracker.plane(v).is_some()).collect();
-        let lacking: Vec<f64> = garment
-            .triangles
-            .par_iter()
-            .map(|vs| {
-                if !vs.iter().any(|&v| near[v as usize]) || !vs.iter().all(|&v| state.mapped[v as usize]) {
-                    return 0.0;
-                }
-                let corners = vs.map(|v| state.positions[v as usize]);
-                samples
-                    .iter()
-                    .map(|b| {
-                        let p = corners[0] * b[0] + corners[1] * b[1] + corners[2] * b[2];
-                        surface
-                            .nearest_within(p, clearance * LOOK_INTO)
-                            .map_or(0.0, |n| clearance - n.distance)
-                    })
-                    .fold(0.0, f64::max)
-            })
-            .collect();
-        self.counters.face_queries += 7 * lacking.len() as u64;
+        let refined = self.splits.refined().cloned();
+        let split_state = refined.as_ref().map(|r| self.splits.state(r, state));
+        let (garment, surface, skips) = (&*self.garment, &*self.surface, self.settings.skips);
+        let split = refined.as_deref().zip(split_state.as_ref());
+        let lying = Lying { garment, surface, state, skips, split };
+        let mut lacking = self.faces.lacking(lying, &near, clearance, &mut self.counters);
+        let lack = lacking.iter().filter(|&&l| l > 0.0).count();
+        if lack > 0 && self.splitting {
+            self.split_lacking(state, &mut lacking);
+        }
         let most = self.offset() * 2.0;
         let mut raised = vec![0.0f64; self.lift.len()];
-        for (vs, &lack) in garment.triangles.iter().zip(&lacking) {
+        for (vs, &lack) in self.garment.triangles.iter().zip(&lacking) {
             for &v in vs {
                 raised[v as usize] = raised[v as usize].max(lack);
             }
@@ -542,8 +581,37 @@ impl Relaxer {
         for (lift, raise) in self.lift.iter_mut().zip(&raised) {
             *lift = (*lift + raise * 0.7).min(most);
         }
-        lacking.iter().filter(|&&l| l > 0.0).count()
+        lack
     }
+
+    /// Splits edges of `lacking` faces that cut the body, and beside split ones those that come too near it. The other faces
+    /// then wait: they may lie well soon, or the split ones spread to them.
+    fn split_lacking(&mut self, state: &ClothState, lacking: &mut [f64]) {
+        let garment = self.garment.clone();
+        let edges_of = |faces: &mut dyn Iterator<Item = usize>| {
+            let mut edges: Vec<u32> = faces.flat_map(|t| garment.adjacency.triangle_edges[t]).collect();
+            edges.sort_unstable();
+            edges.dedup();
+            edges
+        };
+        let suspects = edges_of(&mut (0..lacking.len()).filter(|&t| lacking[t] > 0.0));
+        let mut found = self.split_edges(state, Some(Suspects { edges: &suspects, near: false }));
+        let Some(refined) = self.splits.refined().cloned() else { return };
+        let mut round = vec![false; lacking.len()];
+        for &v in refined.opened.iter().flat_map(|&t| &garment.triangles[t as usize]) {
+            garment.adjacency.vertex_triangles.of(v).iter().for_each(|&t| round[t as usize] = true);
+        }
+        let suspects = edges_of(&mut (0..lacking.len()).filter(|&t| lacking[t] > 0.0 && round[t]));
+        found += self.split_edges(state, Some(Suspects { edges: &suspects, near: true }));
+        if found > 0 {
+            lacking.fill(0.0);
+        }
+    }
+}
+
+/// What splits are made on.
+fn ground<'a>(surface: &'a Surface, settings: &RelaxSettings) -> Ground<'a> {
+    Ground { surface, offset: settings.offset * surface.scale(), skips: settings.skips }
 }
 
 /// Flat area round each vertex, square metres.

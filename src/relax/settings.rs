@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::cloth::Skips;
+
 /// How the cloth relaxes. Lengths in metres on a body 1.5 m large; `Surface::scale` multiplies them.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
@@ -16,10 +18,20 @@ pub struct RelaxSettings {
     pub friction: f64,
     /// How far above the skin the cloth lies, metres, 0.0005..=0.05.
     pub offset: f64,
+    /// What may be left out. Not the user's, and not kept with the document.
+    #[serde(skip)]
+    pub skips: Skips,
 }
 
 impl Default for RelaxSettings {
     fn default() -> Self {
-        Self { stretch: 1.0, flatten: 0.2, gravity: 0.004, friction: 0.3, offset: 0.004 }
+        Self {
+            stretch: 1.0,
+            flatten: 0.2,
+            gravity: 0.004,
+            friction: 0.3,
+            offset: 0.004,
+            skips: Skips::default(),
+        }
     }
 }

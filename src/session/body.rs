@@ -4,6 +4,7 @@ use std::sync::{Arc, OnceLock};
 
 use crate::body::mannequin::mannequin;
 use crate::body::{Landmarks, Surface, landmarks};
+use crate::contact::Bone;
 use crate::geometry::mesh::TriMesh;
 use crate::session::command::Rejection;
 use crate::session::document::BodyChoice;
@@ -16,6 +17,8 @@ const MOST_KEPT: usize = 4;
 pub struct Body {
     /// Its skin.
     pub surface: Arc<Surface>,
+    /// Bones it was made with.
+    pub bones: Arc<Vec<Bone>>,
     /// Landmarks it was made with.
     own: Option<Landmarks>,
     /// Those found on its skin; looked for once.
@@ -25,14 +28,15 @@ pub struct Body {
 impl Body {
     /// Makes the body of `choice`. The error says why cloth cannot be put on it.
     pub fn new(choice: &BodyChoice) -> Result<Self, Rejection> {
-        let (surface, own) = match choice {
+        let (surface, bones, own) = match choice {
             BodyChoice::Mannequin(measurements) => {
                 let figure = mannequin(measurements).map_err(|e| Rejection(e.to_string()))?;
-                (ready(figure.mesh.clone(), "the mannequin")?, Some(figure.landmarks.clone()))
+                let surface = ready(figure.mesh.clone(), "the mannequin")?;
+                (surface, figure.skeleton.six_segments(), Some(figure.landmarks.clone()))
             }
-            BodyChoice::Imported { name, mesh } => (ready(mesh.as_ref().clone(), name)?, None),
+            BodyChoice::Imported { name, mesh } => (ready(mesh.as_ref().clone(), name)?, Vec::new(), None),
         };
-        Ok(Self { surface, own, found: OnceLock::new() })
+        Ok(Self { surface, bones: Arc::new(bones), own, found: OnceLock::new() })
     }
 
     /// Its named points, if it has any.

@@ -53,6 +53,8 @@ pub enum Command {
 
     /// Take another body. The cloth comes off; the strokes on the old body are carried to the new one where they find a place.
     SetBody { body: BodyChoice },
+    /// Draw bones in the body, from end to end, which cloth in the hand cannot be pulled across; none: the body's own again.
+    SetBones { bones: Option<Vec<[DVec3; 2]>> },
     /// Change mesh size and how the cloth relaxes.
     SetSettings { settings: Settings },
 

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use crate::body::mannequin::Measurements;
+use crate::contact::Bone;
 use crate::geometry::ids::{MarkId, PinId};
 use crate::geometry::mesh::TriMesh;
 use crate::pattern::Pattern;
@@ -29,6 +30,9 @@ pub struct Document {
     /// The last number given to a pin.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub last_pin: u32,
+    /// Bones drawn in the body, which cloth cannot be pulled across. None: the body's own.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bones: Option<Arc<Vec<Bone>>>,
     /// Mesh size and relaxation.
     pub settings: Settings,
 }
@@ -60,6 +64,7 @@ impl Default for Document {
             last_mark: 0,
             pins: Arc::default(),
             last_pin: 0,
+            bones: None,
             settings: Settings::default(),
         }
     }

@@ -3,8 +3,9 @@
 use std::sync::Arc;
 
 use crate::body::Surface;
+use crate::contact::Bone;
 use crate::pattern::Problem;
-use crate::session::body::BodyCache;
+use crate::session::body::{Body, BodyCache};
 use crate::session::command::{Command, Rejection};
 use crate::session::document::Document;
 use crate::session::edit::{self, ClothChange};
@@ -267,7 +268,7 @@ impl Session {
             }
             ClothChange::Clear => Some(RequestKind::Clear),
             ClothChange::SetPins => Some(RequestKind::SetPins(edit.document.pinned_places())),
-            ClothChange::Grab { at, mode } => Some(RequestKind::Grab { at, mode }),
+            ClothChange::Grab { at, mode } => Some(RequestKind::Grab { at, mode, bones: self.bones() }),
             ClothChange::DragTo(ray) => Some(RequestKind::DragTo(ray)),
             ClothChange::Release => Some(RequestKind::Release),
             ClothChange::SetRelax(relax) => Some(RequestKind::SetRelax(relax)),
@@ -291,6 +292,13 @@ impl Session {
             relax: self.document.settings.relax,
         };
         Ok((Arc::new(source), body))
+    }
+
+    /// Those drawn, or else the body's own.
+    fn bones(&mut self) -> Arc<Vec<Bone>> {
+        let own = |body: Arc<Body>| Arc::clone(&body.bones);
+        let drawn = self.document.bones.clone();
+        drawn.or_else(|| self.bodies.body(&self.document.body).ok().map(own)).unwrap_or_default()
     }
 
     fn plan_undo(&self) -> Result<Plan, Rejection> {

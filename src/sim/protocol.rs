@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::body::Surface;
 use crate::cloth::{ClothState, Garment};
+use crate::contact::Bone;
 use crate::drag::{DragMode, Ray};
 use crate::geometry::ids::PieceId;
 use crate::pattern::{Pattern, Problem};
@@ -61,8 +62,8 @@ pub enum RequestKind {
     SetRelax(RelaxSettings),
     /// Exactly these places of the cloth are pinned to where they are.
     SetPins(Arc<Vec<ClothPlace>>),
-    /// Take the cloth in the hand; nothing happens where there is none, or while it grows.
-    Grab { at: ClothPlace, mode: DragMode },
+    /// Take the cloth in the hand; nothing happens where there is none, or while it grows. It cannot be pulled across `bones`.
+    Grab { at: ClothPlace, mode: DragMode, bones: Arc<Vec<Bone>> },
     /// The hand is there now; nothing happens when nothing is in it.
     DragTo(Ray),
     /// Let go; the cloth settles.
@@ -92,6 +93,9 @@ pub struct Snapshot {
     pub body: Option<Arc<Surface>>,
     /// Positions and which vertices are mapped. Empty without a garment.
     pub cloth: Arc<ClothState>,
+    /// The same as it is drawn and measured, where edges are split to go over the body: its vertices are those of
+    /// `garment`, then those put in. None where no edge is split.
+    pub split: Option<(Arc<Garment>, Arc<ClothState>)>,
     /// How far the dressing has come. None without a garment.
     pub phase: Option<Phase>,
     /// 0..=1 over growing and settling.
@@ -113,6 +117,12 @@ pub struct Snapshot {
 }
 
 impl Snapshot {
+    /// The garment as it is drawn, measured and written, and where that is.
+    pub fn drawn(&self) -> Option<(&Arc<Garment>, &Arc<ClothState>)> {
+        let whole = self.garment.as_ref().map(|garment| (garment, &self.cloth));
+        self.split.as_ref().map(|(garment, cloth)| (garment, cloth)).or(whole)
+    }
+
     /// Whether there is cloth on the body, however little of it.
     pub fn is_dressed(&self) -> bool {
         self.cloth.mapped.iter().any(|&m| m)

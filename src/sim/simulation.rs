@@ -3,6 +3,7 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
+use crate::cloth::Skips;
 use crate::fit::{BodyIndex, measure, verdict};
 use crate::pattern::Problem;
 use crate::sim::checkpoints::{Checkpoints, DEFAULT_CAPACITY};
@@ -21,6 +22,7 @@ pub struct Simulation {
     stats: Stats,
     events: Vec<Event>,
     verdict: Option<Arc<Vec<Problem>>>,
+    skips: Skips,
 }
 
 impl Default for Simulation {
@@ -40,6 +42,15 @@ impl Simulation {
             stats: Stats::default(),
             events: Vec::new(),
             verdict: None,
+            skips: Skips::default(),
+        }
+    }
+
+    /// From now on only these skips are made.
+    pub fn set_skips(&mut self, skips: Skips) {
+        self.skips = skips;
+        if let Some(source) = &mut self.world.source {
+            Arc::make_mut(source).relax.skips = skips;
         }
     }
 
@@ -130,6 +141,7 @@ impl Simulation {
             source: world.source.clone(),
             body: world.body.clone(),
             cloth: Arc::clone(&world.cloth),
+            split: world.drawn(),
             phase: world.phase(),
             progress: world.progress(),
             pinned: Arc::clone(&world.pinned),
@@ -152,7 +164,10 @@ impl Simulation {
         if self.verdict.is_some() || !self.is_at_rest() || !world.cloth.mapped.contains(&true) {
             return false;
         }
-        let look = || verdict(&measure(&source.pattern, garment, &world.cloth, &BodyIndex::new(body)));
+        let split = world.drawn();
+        let (garment, cloth) =
+            split.as_ref().map_or((garment, &world.cloth), |(garment, cloth)| (garment, cloth));
+        let look = || verdict(&measure(&source.pattern, garment, cloth, &BodyIndex::new(body)));
         match catch_unwind(AssertUnwindSafe(look)) {
             Ok(found) => self.verdict = Some(Arc::new(found)),
             Err(panic) => {
@@ -169,7 +184,7 @@ impl Simulation {
     }
 
     fn carry_out(&mut self, kind: RequestKind) -> Result<(), String> {
-        match kind {
+        match self.with_skips(kind) {
             RequestKind::Wrap { source, body } => self.set_world(World::wrapped(source, body)),
             RequestKind::Rewrap { source, body, pairs } => {
                 let world = self.world.rewrapped(source, body, &pairs);
@@ -181,7 +196,7 @@ impl Simulation {
             RequestKind::SetRelax(relax) => self.world.set_relax(relax),
             RequestKind::SetRelaxing(on) => self.world.relaxing = on,
             RequestKind::SetPins(places) => self.world.set_pins(&places),
-            RequestKind::Grab { at, mode } => self.world.grab(at, mode),
+            RequestKind::Grab { at, mode, bones } => self.world.grab(at, mode, &bones),
             RequestKind::DragTo(pointer) => self.world.drag_to(pointer),
             RequestKind::Release => self.world.release(),
             RequestKind::Clear => self.world = World::default(),
@@ -189,6 +204,21 @@ impl Simulation {
             RequestKind::Hash => {}
         }
         Ok(())
+    }
+
+    fn with_skips(&self, mut kind: RequestKind) -> RequestKind {
+        match &mut kind {
+            RequestKind::Wrap { source, .. }
+            | RequestKind::Rewrap { source, .. }
+            | RequestKind::Adopt { source, .. }
+                if source.relax.skips != self.skips =>
+            {
+                Arc::make_mut(source).relax.skips = self.skips;
+            }
+            RequestKind::SetRelax(relax) => relax.skips = self.skips,
+            _ => {}
+        }
+        kind
     }
 
     fn set_world(&mut self, world: World) {

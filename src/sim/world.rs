@@ -5,7 +5,8 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use crate::body::Surface;
-use crate::cloth::{self, ClothState, Counters, FlatPiece, Garment};
+use crate::cloth::{self, ClothState, Counters, FlatPiece, Garment, Skip};
+use crate::contact::{Bone, Bones, Splits};
 use crate::drag::{DragMode, Dragging, Ray};
 use crate::pattern::Problem;
 use crate::relax::RelaxSettings;
@@ -32,6 +33,8 @@ pub struct World {
     pub dragged: Option<Arc<Vec<f32>>>,
     /// The vertex under each pin, in the pins' order; None where no cloth lies.
     pub pinned: Arc<Vec<Option<u32>>>,
+    /// Split edges of cloth that was adopted and not touched since.
+    pub splits: Option<Arc<Splits>>,
     /// False while paused.
     pub relaxing: bool,
     /// What building and wrapping found wrong.
@@ -49,6 +52,7 @@ impl Default for World {
             dragging: None,
             dragged: None,
             pinned: Arc::default(),
+            splits: None,
             relaxing: true,
             problems: Arc::default(),
         }
@@ -60,7 +64,10 @@ impl World {
     pub fn wrapped(source: Arc<GarmentSource>, body: Arc<Surface>) -> Self {
         let (garment, mut problems) = cloth::build(&source.pattern, source.edge_length);
         let garment = Arc::new(garment);
-        let coarser = coarser(&source.pattern, &garment, source.edge_length, body.scale());
+        let coarser = match source.relax.skips.allow(Skip::Fine) {
+            true => coarser(&source.pattern, &garment, source.edge_length, body.scale()),
+            false => Vec::new(),
+        };
         let (dressing, cloth, more) = Dressing::coarse_to_fine(
             &coarser,
             Arc::clone(&garment),
@@ -122,10 +129,12 @@ impl World {
                 cloth.positions.len()
             ));
         }
+        let splits = Splits::of_lying(&garment, &cloth, &body, source.relax.offset);
         Ok(Self {
             source: Some(source),
             body: Some(body),
             garment: Some(Arc::new(garment)),
+            splits: splits.map(Arc::new),
             cloth,
             problems: Arc::new(problems),
             ..Self::default()
@@ -167,11 +176,12 @@ impl World {
     }
 
     /// Takes the cloth at `at` in the hand. Cloth that is not there, or still grows, stays as it is.
-    pub fn grab(&mut self, at: ClothPlace, mode: DragMode) {
+    pub fn grab(&mut self, at: ClothPlace, mode: DragMode, bones: &[Bone]) {
         self.release();
         let Some((hand, place)) = self.vertex_under(at) else { return };
         self.resume();
-        let Some(relaxer) = self.dressing.as_ref().and_then(|d| d.relaxer()).cloned() else { return };
+        let Some(mut relaxer) = self.dressing.as_ref().and_then(|d| d.relaxer()).cloned() else { return };
+        relaxer.bones = Arc::new(Bones::new(bones, &relaxer.surface));
         let beside = place - self.cloth.positions[hand as usize];
         let dragging = Dragging::new(relaxer, &self.cloth, hand, beside, mode, &self.pinned_vertices());
         self.dragged = Some(Arc::new(dragging.shares()));
@@ -234,6 +244,16 @@ impl World {
     pub fn work(&self) -> Counters {
         let dragging = self.dragging.as_ref().map(|d| d.counters());
         dragging.or_else(|| self.dressing.as_ref().map(|d| d.counters())).unwrap_or_default()
+    }
+
+    /// The garment as it is drawn and measured, where edges are split, and where that is; None where none is.
+    pub fn drawn(&self) -> Option<(Arc<Garment>, Arc<ClothState>)> {
+        let drawn = match (&self.dragging, &self.dressing) {
+            (Some(dragging), _) => dragging.drawn(&self.cloth),
+            (None, Some(dressing)) => dressing.relaxer().and_then(|relaxer| relaxer.drawn(&self.cloth)),
+            (None, None) => self.splits.as_ref().and_then(|splits| splits.drawn(&self.cloth)),
+        };
+        drawn.map(|(garment, cloth)| (garment, Arc::new(cloth)))
     }
 
     /// One tick of work.

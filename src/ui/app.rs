@@ -211,11 +211,11 @@ impl App {
             },
         );
         CentralPanel::default().frame(Frame::new()).show(ui, |ui| {
-            let cloth = snapshot.garment.as_ref().filter(|_| self.show_cloth && snapshot.is_dressed());
+            let cloth = snapshot.drawn().filter(|_| self.show_cloth && snapshot.is_dressed());
             let seen = Seen {
                 document,
                 body: self.session.surface(),
-                cloth: cloth.map(|garment| (garment, &snapshot.cloth)),
+                cloth,
                 pinned: &snapshot.pinned,
                 dragged: snapshot.dragged.as_ref(),
                 growing: now.wrapping,

@@ -133,13 +133,13 @@ pub fn take_body(raw: RawBody) -> Result<(Command, Vec<String>), String> {
 
 /// Writes the dressed garment of `snapshot`, as .glb with its body; `pattern` gives the places on the table.
 pub fn export(path: &Path, snapshot: &Snapshot, pattern: &Pattern) -> Result<(), String> {
-    let Some(garment) = snapshot.garment.as_ref().filter(|_| snapshot.is_dressed()) else {
+    let Some((garment, cloth)) = snapshot.drawn().filter(|_| snapshot.is_dressed()) else {
         return Err("There is no cloth on the body to be written".to_owned());
     };
     match path.extension().map(|e| e.to_string_lossy().to_lowercase()).as_deref() {
-        Some("obj") => write(path, obj::garment(garment, &snapshot.cloth, pattern).as_bytes()),
+        Some("obj") => write(path, obj::garment(garment, cloth, pattern).as_bytes()),
         Some("glb") => {
-            let dressed = glb::Dressed { garment, state: &snapshot.cloth, pattern };
+            let dressed = glb::Dressed { garment, state: cloth, pattern };
             let body = snapshot.body.as_ref().map(|b| &b.mesh);
             let bytes = glb::write(Some(dressed), body, &glb::Colours::default());
             write(path, &bytes.map_err(|e| in_words(path, "written", e))?)

@@ -230,7 +230,10 @@ impl Place {
 
 /// Where a drag reaches, the cloth is lighter.
 fn tints(shares: &[f32], state: &ClothState) -> Vec<Rgb> {
-    let far: Vec<Rgb> = shares.iter().map(|&s| UNREACHED.map(|c| c + ((255 - c) as f32 * s) as u8)).collect();
+    let split = state.positions.len().saturating_sub(shares.len());
+    // What was put in on split edges is tinted as if the drag reached it.
+    let shares = shares.iter().chain(std::iter::repeat_n(&1.0, split));
+    let far: Vec<Rgb> = shares.map(|&s| UNREACHED.map(|c| c + ((255 - c) as f32 * s) as u8)).collect();
     if far.len() == state.positions.len() { far } else { Vec::new() }
 }
 

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use crate::body::Surface;
-use crate::cloth::{Carry, ClothState, Counters, EdgeMetric, Garment};
+use crate::cloth::{Carry, ClothState, Counters, EdgeMetric, Garment, Skip};
 use crate::geometry::ids::PieceId;
 use crate::pattern::{Problem, ProblemKind};
 use crate::relax::{GlobalStep, RelaxSettings, Relaxer};
@@ -523,6 +523,7 @@ impl Dressing {
 
     fn settle(&mut self, state: &mut ClothState, mut settling: Settling) {
         let Settling { done, quiet, mends, until, .. } = settling;
+        self.relaxer.splitting = !self.draft;
         let first = done < SETTLE_STEPS;
         let most_mends = if self.draft { DRAFT_MENDS } else { MOST_MENDS };
         let fading = if first { HOLD_FADE.get(done / HOLD_FADE_STEPS).copied().unwrap_or(0.0) } else { 0.0 };
@@ -533,7 +534,8 @@ impl Dressing {
             (KEEP * edge * edge, LEASH * self.relaxer.surface.scale())
         };
         let moved = self.global(state, Hold { weight: hold, slack }, done > UNFOLD_AFTER, !first);
-        if settling.crossed && done > UNFOLD_AFTER && done.is_multiple_of(STEPS_PER_PARTING) {
+        let look = settling.crossed || !self.relaxer.settings.skips.allow(Skip::Crossings);
+        if look && done > UNFOLD_AFTER && done.is_multiple_of(STEPS_PER_PARTING) {
             settling.crossed = self.relaxer.part_layers(state) > 0;
         }
         let mut quiet = if moved < REST_MOTION * self.edge_length { quiet + 1 } else { 0 };

@@ -21,7 +21,9 @@ pub fn bench(arguments: &Bench) -> Result<(), Failure> {
     }
     let runs = usize::from(arguments.runs);
     if asked(BenchKind::Speed) {
-        speed::speed(arguments.triangles as usize, runs, |row| say(row, arguments.json))?;
+        speed::speed(arguments.triangles as usize, runs, arguments.work.no_skip, |row| {
+            say(row, arguments.json)
+        })?;
     }
     if asked(BenchKind::Accuracy) {
         let curves = accuracy::accuracy(runs, |row| say(row, arguments.json))?;

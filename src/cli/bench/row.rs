@@ -125,14 +125,18 @@ impl std::fmt::Display for Row {
         if let Some(c) = counters {
             write!(
                 f,
-                "\n    work: solves {}, factorisations {}, contact queries {} of {}, face queries {}, \
-                 local triangles {}, grown vertices {}, \
+                "\n    work: solves {}, factorisations {}, contact queries {} of {} and {} gaps, \
+                 walks {}, face queries {} for {}, self tests {}, local triangles {}, grown vertices {}, \
                  drag vertices {}",
                 c.solves,
                 c.factorisations,
                 c.contact_queries,
                 c.contact_checks,
+                c.contact_gaps,
+                c.contact_walks,
                 c.face_queries,
+                c.face_checks,
+                c.self_tests,
                 c.local_triangles,
                 c.grown_vertices,
                 c.drag_vertices

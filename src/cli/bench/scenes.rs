@@ -7,7 +7,7 @@ use crate::body::{Mannequin, Surface};
 use crate::cli::bench::tube::{self, Tube};
 use crate::cli::failure::Failure;
 use crate::cli::interrupt;
-use crate::cloth::{ClothState, Counters, Garment, build};
+use crate::cloth::{ClothState, Counters, Garment, Skip, Skips, build};
 use crate::pattern::Pattern;
 use crate::relax::RelaxSettings;
 use crate::session::samples::Sample;
@@ -66,6 +66,11 @@ impl Scene {
         Self { relax: RelaxSettings { gravity: 0.0, ..self.relax }, ..self }
     }
 
+    /// The same cloth with less or more work.
+    pub fn skipping(self, skips: Skips) -> Self {
+        Self { relax: RelaxSettings { skips, ..self.relax }, ..self }
+    }
+
     /// A tube on a cylinder.
     pub fn tube(tube: &Tube, edge_length: f64) -> Result<Self, Failure> {
         let surface = Surface::new(tube::cylinder()).ok_or_else(no_body)?;
@@ -93,7 +98,10 @@ impl Scene {
     pub fn wrap(&self) -> Result<Wrapped, Failure> {
         let start = Instant::now();
         let garment = Arc::new(build(&self.pattern, self.edge_length).0);
-        let coarser = coarser(&self.pattern, &garment, self.edge_length, self.surface.scale());
+        let coarser = match self.relax.skips.allow(Skip::Fine) {
+            true => coarser(&self.pattern, &garment, self.edge_length, self.surface.scale()),
+            false => Vec::new(),
+        };
         let (dressing, mut state, _) = Dressing::coarse_to_fine(
             &coarser,
             Arc::clone(&garment),

@@ -13,7 +13,7 @@ use crate::cli::bench::tube::{Errors, Tube};
 use crate::cli::bench::{median, one_hash};
 use crate::cli::failure::Failure;
 use crate::cli::interrupt;
-use crate::cloth::ClothState;
+use crate::cloth::{ClothState, Counters, Skips};
 use crate::drag::{DragMode, Dragging, Ray};
 use crate::fit::{self, BodyIndex};
 use crate::session::samples::Sample;
@@ -40,14 +40,15 @@ const IDLE_TICKS: u32 = 600;
 pub fn speed(
     triangles: usize,
     runs: usize,
+    skips: Skips,
     tell: impl Fn(&Row) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
-    tell(&cylinder(triangles, runs)?)?;
+    tell(&cylinder(triangles, runs, skips)?)?;
     let body = mannequin::default();
-    let shirt = Scene::sample(Sample::Tshirt, &body, triangles)?;
+    let shirt = Scene::sample(Sample::Tshirt, &body, triangles)?.skipping(skips);
     let (row, worn) = tshirt(&shirt, runs)?;
     tell(&row)?;
-    let skirt = Scene::sample(Sample::Skirt, &body, triangles)?;
+    let skirt = Scene::sample(Sample::Skirt, &body, triangles)?.skipping(skips);
     for row in drag(&skirt, runs)? {
         tell(&row)?;
     }
@@ -66,10 +67,10 @@ fn wraps(scene: &Scene, runs: usize) -> Result<(Vec<f64>, Vec<u64>, Wrapped), Fa
     Ok((seconds, hashes, last))
 }
 
-fn cylinder(triangles: usize, runs: usize) -> Result<Row, Failure> {
+fn cylinder(triangles: usize, runs: usize, skips: Skips) -> Result<Row, Failure> {
     let scene_name = "wrap of a tube on a cylinder, to rest";
     let tube = Tube::new(1.0);
-    let scene = Scene::tube(&tube, edge_length(&tube.pattern, triangles))?;
+    let scene = Scene::tube(&tube, edge_length(&tube.pattern, triangles))?.skipping(skips);
     let (seconds, hashes, wrapped) = wraps(&scene, runs)?;
     let errors = Errors::new(&wrapped.garment, &wrapped.state, &tube.exact(&wrapped.garment));
     let seconds = median(seconds);
@@ -106,15 +107,25 @@ fn tshirt(scene: &Scene, runs: usize) -> Result<(Row, Wrapped), Failure> {
     let seconds = median(seconds);
     let (all, grown) = (wrapped.dressing.counters(), wrapped.grown);
     let checked = (all.contact_checks - grown.contact_checks).max(1);
-    let asked = all.contact_queries - grown.contact_queries;
+    let queries = |c: &Counters| c.contact_queries + c.contact_gaps;
+    let asked = queries(&all) - queries(&grown);
+    let memory = wrapped.dressing.relaxer().map(|relaxer| relaxer.memory()).unwrap_or_default();
+    let each = |bytes: usize| bytes as f64 / wrapped.garment.triangles.len().max(1) as f64;
+    let bytes = |what, bytes| Figure { what, value: each(bytes), unit: Unit::Count };
     let row = Row {
         scene: scene_name,
         triangles: wrapped.garment.triangles.len(),
         runs,
         seconds,
         threads: rayon::current_num_threads(),
-        checks: vec![Check::new("to rest, from pattern and marks", seconds, Unit::Seconds, 1.0, 0.25)],
+        checks: vec![
+            Check::new("to rest, from pattern and marks", seconds, Unit::Seconds, 1.0, 0.25),
+            Check::new("bytes of state a triangle", each(memory.state), Unit::Count, 200.0, 200.0),
+        ],
         figures: vec![
+            bytes("bytes of the garment a triangle", memory.garment),
+            bytes("bytes of tables a triangle", memory.tables),
+            bytes("bytes of scratch a triangle", memory.scratch),
             Figure { what: "p99 strain", value: fit.strain.p99, unit: Unit::Share },
             Figure {
                 what: "closest points skipped while it settles",
@@ -203,7 +214,8 @@ fn substeps(skirt: &Wrapped, hand: &Hand, runs: usize) -> Result<Row, Failure> {
     }
     let substep = median(each);
     let done = (counters.solves - before.solves) as f64;
-    let asked = counters.contact_queries - before.contact_queries;
+    let queries = |c: &Counters| c.contact_queries + c.contact_gaps;
+    let asked = queries(&counters) - queries(&before);
     let checked = (counters.contact_checks - before.contact_checks).max(1);
     Ok(Row {
         scene: scene_name,
@@ -334,6 +346,7 @@ fn closest(surface: &Arc<Surface>, worn: &ClothState, runs: usize) -> Result<Row
 /// What the simulation does when nothing moves.
 fn idle(scene: &Scene) -> Result<Row, Failure> {
     let mut simulation = Simulation::default();
+    simulation.set_skips(scene.relax.skips);
     let kind = RequestKind::Wrap { source: Arc::new(scene.source()), body: Arc::clone(&scene.surface) };
     simulation.apply(Request { seq: 1, checkpoint: false, kind });
     while simulation.tick() {

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use crate::contact::Bone;
 use crate::session::body::BodyCache;
 use crate::session::carry::carried;
 use crate::session::command::Rejection;
@@ -23,6 +24,14 @@ pub fn set(mut document: Document, body: &BodyChoice, bodies: &mut BodyCache) ->
         problems = lost;
     }
     document.drop_pins();
+    document.bones = None;
     document.body = body.clone();
     Ok(Edit { problems, ..Edit::new("change the body", document).with(ClothChange::Clear) })
+}
+
+/// Bones drawn by the user, or the body's own again.
+pub fn set_bones(mut document: Document, bones: Option<&[Bone]>) -> Result<Edit, Rejection> {
+    bones.map_or(Ok(()), checks::bones)?;
+    document.bones = bones.map(|bones| Arc::new(bones.to_vec()));
+    Ok(Edit::new("bones", document))
 }

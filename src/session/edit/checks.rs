@@ -2,6 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
+use crate::contact::Bone;
 use crate::geometry::ids::{MarkId, PieceId, SeamId};
 use crate::pattern::{Edge, EdgeShape, Pattern, Piece, PlanePose};
 use crate::session::command::Rejection;
@@ -195,4 +196,20 @@ pub fn body(body: &BodyChoice) -> Result<(), Rejection> {
             Ok(())
         }
     }
+}
+
+/// Bones a body may have.
+const MOST_BONES: usize = 200;
+
+pub fn bones(bones: &[Bone]) -> Result<(), Rejection> {
+    if bones.len() > MOST_BONES {
+        return Err(Rejection(format!("a body may have {MOST_BONES} bones")));
+    }
+    if bones.iter().flatten().any(|p| !p.is_finite()) {
+        return Err(Rejection::new("an end of a bone is not a finite point"));
+    }
+    if bones.iter().any(|[a, b]| a == b) {
+        return Err(Rejection::new("a bone has two ends"));
+    }
+    Ok(())
 }

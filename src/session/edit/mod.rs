@@ -118,6 +118,7 @@ fn untied(document: &Document, command: &Command, bodies: &mut BodyCache) -> Res
         Command::ReverseSeam { seam } => seams::reverse(new, *seam),
         Command::ReplacePattern { name, pattern, marks } => pieces::replace_all(new, name, pattern, marks),
         Command::SetBody { body } => body::set(new, body, bodies),
+        Command::SetBones { bones } => body::set_bones(new, bones.as_deref()),
         Command::SetSettings { settings } => settings::set(new, settings),
         Command::Wrap => wrap::wrap(new),
         Command::Rewrap { pairs } => wrap::rewrap(new, pairs),
@@ -139,7 +140,7 @@ fn untied(document: &Document, command: &Command, bodies: &mut BodyCache) -> Res
 
 /// What no command would have let into `document`; for documents from files.
 pub fn document_problem(document: &Document) -> Option<String> {
-    let Document { pattern, body, marks, last_mark, pins, last_pin, settings } = document;
+    let Document { pattern, body, marks, last_mark, pins, last_pin, bones, settings } = document;
     if marks.ids().max().is_some_and(|id| id.0 > *last_mark) {
         return Some("the counter of marks is behind their ids".to_owned());
     }
@@ -152,6 +153,7 @@ pub fn document_problem(document: &Document) -> Option<String> {
         })
         .or_else(|| checks::marks(marks, pattern).err().map(|why| why.0))
         .or_else(|| checks::body(body).err().map(|why| why.0))
+        .or_else(|| bones.as_ref().and_then(|bones| checks::bones(bones).err()).map(|why| why.0))
         .or_else(|| checks::settings(settings).err().map(|why| why.0))
 }
 

@@ -1,0 +1,168 @@
+//! Bones: segments inside a body that no edge of the cloth may cross, however hard it is pulled (paper A).
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use crate::body::Surface;
+use crate::cloth::{Counters, Garment, Skip, Skips};
+use crate::contact::Tracker;
+
+/// A bone, from end to end, metres.
+pub type Bone = [DVec3; 2];
+
+/// Points of a bone at which its depth in the body is taken.
+const DEPTHS: u32 = 32;
+/// Moments of a step between which an edge passes a bone at most once.
+const MOMENTS: u32 = 4;
+/// Halvings of the time in which the moment is found.
+const HALVINGS: u32 = 30;
+
+/// The bones of a body.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Bones {
+    bones: Vec<Bone>,
+    /// Everywhere on them the skin is farther than this, metres.
+    depth: f64,
+}
+
+impl Bones {
+    /// In a body. Without bones nothing is ever looked at.
+    pub fn new(bones: &[Bone], surface: &Surface) -> Self {
+        let depth = bones
+            .iter()
+            .map(|[a, b]| {
+                let apart = a.distance(*b) / f64::from(DEPTHS);
+                let at = |k| surface.nearest(a.lerp(*b, f64::from(k) / f64::from(DEPTHS))).distance;
+                -(0..=DEPTHS).map(at).fold(f64::NEG_INFINITY, f64::max) - apart / 2.0
+            })
+            .fold(f64::INFINITY, f64::min);
+        Self { bones: bones.to_vec(), depth }
+    }
+
+    /// True when there are none.
+    pub fn is_empty(&self) -> bool {
+        self.bones.is_empty()
+    }
+
+    /// Cloth moved from `before` to `after`: where an edge would cross a bone its ends are held back, by as much as they went
+    /// across both, or wholly. Afterwards none has crossed.
+    pub fn hold_back(
+        &self,
+        garment: &Garment,
+        mapped: &[bool],
+        tracker: Option<(&Tracker, Skips)>,
+        before: &[DVec3],
+        after: &mut [DVec3],
+        counters: &mut Counters,
+    ) {
+        if self.bones.is_empty() {
+            return;
+        }
+        let edges = &garment.adjacency.edges;
+        for round in 0.. {
+            let at = |e: &[u32; 2]| [e.map(|v| before[v as usize]), e.map(|v| after[v as usize])];
+            let tests: Vec<(u32, DVec3)> = (0..edges.len() as u32)
+                .into_par_iter()
+                .with_min_len(512)
+                .filter(|&e| edges[e as usize].iter().all(|&v| mapped[v as usize]))
+                .filter(|&e| self.may_cross(edges[e as usize], at(&edges[e as usize]), tracker))
+                .map(|e| (e, self.crossed(at(&edges[e as usize]))))
+                .collect();
+            counters.bone_tests += tests.len() as u64;
+            let crossing: Vec<(u32, DVec3)> = tests.into_iter().filter(|(_, n)| *n != DVec3::ZERO).collect();
+            if crossing.is_empty() {
+                return;
+            }
+            counters.bone_stops += crossing.len() as u64;
+            for (e, across) in crossing {
+                for v in edges[e as usize].map(|v| v as usize) {
+                    // What moves no more cannot cross: this ends.
+                    let along = |d: DVec3| if round == 0 { d - across * d.dot(across) } else { DVec3::ZERO };
+                    after[v] = before[v] + along(after[v] - before[v]);
+                }
+            }
+        }
+    }
+
+    /// Whether it moves at all, and may come as deep as the bones lie: the signed distance is 1-Lipschitz.
+    fn may_cross(
+        &self,
+        vertices: [u32; 2],
+        [before, after]: [[DVec3; 2]; 2],
+        tracker: Option<(&Tracker, Skips)>,
+    ) -> bool {
+        if before == after {
+            return false;
+        }
+        let Some((tracker, skips)) = tracker else { return true };
+        if !skips.allow(Skip::Bones) {
+            return true;
+        }
+        let low = |k: usize| tracker.at_least(vertices[k] as usize, before[k]) - before[k].distance(after[k]);
+        let half = before[0].distance(before[1]).max(after[0].distance(after[1])) / 2.0;
+        low(0).min(low(1)) - half < -self.depth
+    }
+
+    /// The unit direction across edge and bone where the edge passes a bone; zero where it passes none.
+    fn crossed(&self, motion: [[DVec3; 2]; 2]) -> DVec3 {
+        self.bones.iter().find_map(|&bone| crossing(motion, bone)).unwrap_or_default()
+    }
+}
+
+/// Where an edge moving straight passes a bone: the signed volume of the two changes sign while their nearest points lie
+/// between their ends. The unit direction across both then.
+fn crossing([before, after]: [[DVec3; 2]; 2], bone: Bone) -> Option<DVec3> {
+    let edge = |t: f64| [before[0].lerp(after[0], t), before[1].lerp(after[1], t)];
+    let volume = |t: f64| {
+        let [a, b] = edge(t);
+        (b - a).cross(bone[1] - bone[0]).dot(bone[0] - a)
+    };
+    (0..MOMENTS).find_map(|k| {
+        let [mut early, mut late] = [k, k + 1].map(|k| f64::from(k) / f64::from(MOMENTS));
+        // Nothing counts as negative: a step that ends just on the bone is seen in this moment or in the next.
+        let first = volume(early) > 0.0;
+        if first == (volume(late) > 0.0) {
+            return None;
+        }
+        for _ in 0..HALVINGS {
+            let middle = (early + late) / 2.0;
+            if (volume(middle) > 0.0) == first { early = middle } else { late = middle }
+        }
+        let [a, b] = edge(late);
+        meet([a, b], bone).then(|| (b - a).cross(bone[1] - bone[0]).try_normalize()).flatten()
+    })
+}
+
+/// Whether the nearest points of two lines in one plane lie between the ends of both segments.
+fn meet([a, b]: [DVec3; 2], [c, d]: Bone) -> bool {
+    let (u, v, w) = (b - a, d - c, c - a);
+    let n = u.cross(v);
+    let size = n.length_squared();
+    if size <= 1e-24 * u.length_squared() * v.length_squared() {
+        return false;
+    }
+    let (s, t) = (w.cross(v).dot(n) / size, w.cross(u).dot(n) / size);
+    (0.0..=1.0).contains(&s) && (0.0..=1.0).contains(&t)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const BONE: Bone = [DVec3::new(0.0, -1.0, 0.0), DVec3::new(0.0, 1.0, 0.0)];
+
+    fn moved(from: f64, to: f64, y: f64) -> [[DVec3; 2]; 2] {
+        [from, to].map(|z| [DVec3::new(-0.2, y, z), DVec3::new(0.3, y + 0.1, z)])
+    }
+
+    #[test]
+    fn an_edge_that_passes_a_bone_is_seen() {
+        assert!(crossing(moved(0.1, -0.1, 0.0), BONE).is_some_and(|n| (n.z.abs() - 1.0).abs() < 0.05));
+        assert!(crossing(moved(0.1, 0.01, 0.0), BONE).is_none(), "not there yet");
+        assert!(crossing(moved(0.1, -0.1, 1.2), BONE).is_none(), "beyond its end");
+        let beside = moved(0.1, -0.1, 0.0).map(|e| e.map(|p| p + DVec3::X));
+        assert!(crossing(beside, BONE).is_none(), "beside it");
+        let parallel = [0.1, -0.1].map(|z| [DVec3::new(0.0, -0.1, z), DVec3::new(0.0, 0.1, z)]);
+        assert!(crossing(parallel, BONE).is_none(), "along it: its neighbours are seen");
+    }
+}

@@ -1,0 +1,221 @@
+//! Whole faces against the body: those that come too near it between their corners, and those that face it. What was found
+//! about a face holds until its corners have moved too far, so that of cloth that lies nearly still few are looked at again.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use crate::body::Surface;
+use crate::cloth::refine::Refined;
+use crate::cloth::{ClothState, Counters, Garment, Skip, Skips};
+
+/// How many clearances deep a face may lie in the body and still be found: its corners are above the skin.
+const LOOK_INTO: f64 = 5.0;
+/// How far from skin that a face faces is looked after, metres on a body 1.5 m large.
+const WRONG_REACH: f64 = 0.02;
+/// A face is on the wrong side when its normal and the skin's have a smaller cosine.
+const WRONG: f64 = -0.15;
+/// Faces are looked at so much farther than needed, so that the answer holds for a while; metres on a body 1.5 m large.
+const AHEAD: f64 = 0.002;
+/// Where a face is looked at, in shares of its corners.
+const SAMPLES: [[f64; 3]; 7] = [
+    [0.5, 0.5, 0.0],
+    [0.0, 0.5, 0.5],
+    [0.5, 0.0, 0.5],
+    [1.0 / 3.0; 3],
+    [2.0 / 3.0, 1.0 / 6.0, 1.0 / 6.0],
+    [1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0],
+    [1.0 / 6.0, 1.0 / 6.0, 2.0 / 3.0],
+];
+
+/// What is known of a face from when it was looked at. Negative: nothing.
+#[derive(Clone, Copy, Debug)]
+struct Known {
+    /// It keeps its clearance while no corner has moved farther, metres.
+    clear: f32,
+    /// It shows the skin its right side, or is far from it, while no corner has moved farther, metres,
+    right: f32,
+    /// and its unit normal has changed by less.
+    turn: f32,
+}
+
+const NOTHING: Known = Known { clear: -1.0, right: -1.0, turn: -1.0 };
+
+/// What is known about all faces of a garment.
+#[derive(Clone, Debug, Default)]
+pub struct Faces {
+    known: Vec<Known>,
+    /// Where the corners were when that was brought up to date.
+    seen: Vec<DVec3>,
+    clearance: f64,
+}
+
+/// A garment where it lies, on its body.
+#[derive(Clone, Copy, Debug)]
+pub struct Lying<'a> {
+    /// The cloth.
+    pub garment: &'a Garment,
+    /// The body.
+    pub surface: &'a Surface,
+    /// Where the cloth is.
+    pub state: &'a ClothState,
+    /// What may be left out.
+    pub skips: Skips,
+    /// The garment with its split edges, and where that is.
+    pub split: Option<(&'a Refined, &'a ClothState)>,
+}
+
+impl Lying<'_> {
+    fn corners(&self, t: usize) -> Option<[DVec3; 3]> {
+        let vs = self.garment.triangles[t];
+        let laid = vs.iter().all(|&v| self.state.mapped[v as usize]);
+        laid.then(|| vs.map(|v| self.state.positions[v as usize]))
+    }
+}
+
+impl Faces {
+    /// For each face how much it lacks to `clearance` metres above the skin at its worst point; 0: nothing. `near` tells of
+    /// each vertex whether the skin is near.
+    pub fn lacking(
+        &mut self,
+        lying: Lying<'_>,
+        near: &[bool],
+        clearance: f64,
+        counters: &mut Counters,
+    ) -> Vec<f64> {
+        if self.clearance != clearance {
+            self.known.iter_mut().for_each(|known| known.clear = -1.0);
+            self.clearance = clearance;
+        }
+        self.age(lying);
+        let limit = clearance * LOOK_INTO;
+        let ahead = AHEAD * lying.surface.scale();
+        let mut asked = vec![0u32; self.known.len()];
+        let mut lacking: Vec<f64> = self
+            .known
+            .par_iter_mut()
+            .zip(&mut asked)
+            .enumerate()
+            .map(|(t, (known, asked))| {
+                let Some(corners) = lying.corners(t) else { return 0.0 };
+                let far = lying.garment.triangles[t].iter().all(|&v| !near[v as usize]);
+                if far || known.clear > 0.0 {
+                    return 0.0;
+                }
+                *asked = SAMPLES.len() as u32;
+                let (lack, clear) = look(corners, lying.surface, clearance, limit, ahead);
+                known.clear = (clear as f32).next_down();
+                lack
+            })
+            .collect();
+        counters.face_checks += self.known.len() as u64;
+        counters.face_queries += asked.iter().map(|&n| u64::from(n)).sum::<u64>();
+        if let Some((refined, state)) = lying.split {
+            refined.opened.iter().for_each(|&t| lacking[t as usize] = 0.0);
+            for (t, &from) in (refined.first_cut..).zip(&refined.cut_from) {
+                let corners = refined.garment.triangles[t].map(|v| state.positions[v as usize]);
+                let (lack, _) = look(corners, lying.surface, clearance, limit, ahead);
+                let all = &mut lacking[from as usize];
+                *all = all.max(lack);
+                counters.face_queries += SAMPLES.len() as u64;
+            }
+        }
+        lacking
+    }
+
+    /// For each face that faces the skin next to it the way off that skin.
+    pub fn wrong(&mut self, lying: Lying<'_>, counters: &mut Counters) -> Vec<Option<DVec3>> {
+        self.age(lying);
+        let scale = lying.surface.scale();
+        let (reach, ahead) = (WRONG_REACH * scale, AHEAD * scale);
+        let mut asked = vec![0u32; self.known.len()];
+        let wrong = self
+            .known
+            .par_iter_mut()
+            .zip(&mut asked)
+            .enumerate()
+            .map(|(t, (known, asked))| {
+                let corners = lying.corners(t)?;
+                if known.right > 0.0 && known.turn > 0.0 {
+                    return None;
+                }
+                *asked = 1;
+                let centre = (corners[0] + corners[1] + corners[2]) / 3.0;
+                let normal = normal(corners);
+                let Some((facing, near)) = lying.surface.least_facing(centre, reach + ahead, normal) else {
+                    (known.right, known.turn) = (ahead as f32, f32::INFINITY);
+                    return None;
+                };
+                let distance = near.distance.abs();
+                if distance > reach {
+                    (known.right, known.turn) = (((distance - reach) as f32).next_down(), f32::INFINITY);
+                    return None;
+                }
+                if facing < WRONG {
+                    return Some(near.normal);
+                }
+                // While the centre moves by less than half of `ahead`, what is nearest is among these.
+                *asked = 2;
+                let least = lying.surface.least_facing_within(centre, distance + ahead, normal);
+                known.right = ((ahead / 2.0) as f32).next_down();
+                known.turn = ((least.unwrap_or(-1.0) - WRONG) as f32).next_down();
+                None
+            })
+            .collect();
+        counters.face_checks += self.known.len() as u64;
+        counters.face_queries += asked.iter().map(|&n| u64::from(n)).sum::<u64>();
+        wrong
+    }
+
+    /// Bytes it keeps.
+    pub fn bytes(&self) -> usize {
+        self.known.len() * size_of::<Known>() + self.seen.len() * size_of::<DVec3>()
+    }
+
+    /// Takes off what is known as much as the cloth has moved since.
+    fn age(&mut self, lying: Lying<'_>) {
+        let (garment, positions) = (lying.garment, &lying.state.positions);
+        if self.seen.len() != positions.len() || !lying.skips.allow(Skip::Faces) {
+            self.known.clear();
+            self.known.resize(garment.triangles.len(), NOTHING);
+        } else {
+            let seen = &self.seen;
+            self.known.par_iter_mut().enumerate().with_min_len(256).for_each(|(t, known)| {
+                let Some(now) = lying.corners(t) else {
+                    *known = NOTHING;
+                    return;
+                };
+                let before = garment.triangles[t].map(|v| seen[v as usize]);
+                let moved = (0..3).map(|k| (now[k] - before[k]).length()).fold(0.0, f64::max);
+                if moved > 0.0 {
+                    let moved = (moved as f32).next_up();
+                    known.clear -= moved;
+                    known.right -= moved;
+                    known.turn -= ((normal(now) - normal(before)).length() as f32).next_up();
+                }
+            });
+        }
+        self.seen.clone_from(positions);
+    }
+}
+
+/// What a face lacks to the clearance, and how far it may move before it lacks anything (not more than `ahead`). Points
+/// deeper in the body than `limit` are not found.
+fn look(corners: [DVec3; 3], surface: &Surface, clearance: f64, limit: f64, ahead: f64) -> (f64, f64) {
+    let (mut lack, mut clear) = (0.0f64, f64::INFINITY);
+    for share in &SAMPLES {
+        let p = corners[0] * share[0] + corners[1] * share[1] + corners[2] * share[2];
+        match surface.nearest_within(p, limit + ahead) {
+            Some(n) if n.distance.abs() <= limit => {
+                lack = lack.max(clearance - n.distance);
+                clear = clear.min(n.distance - clearance);
+            }
+            Some(n) => clear = clear.min(n.distance.abs() - limit),
+            None => clear = clear.min(ahead),
+        }
+    }
+    (lack, if lack > 0.0 { -1.0 } else { clear })
+}
+
+fn normal([a, b, c]: [DVec3; 3]) -> DVec3 {
+    (b - a).cross(c - a).normalize_or_zero()
+}

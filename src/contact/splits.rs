@@ -1,0 +1,265 @@
+//! Which edges are split because they would cut the body, and where the vertices put in lie (paper A, adaptive √3).
+//!
+//! A split edge goes over the body in three or four parts, each with its own height, where the plain one would have to be
+//! lifted off by its chord. The vertices put in follow from the plain ones: they are in no matrix, and nothing pulls at them.
+//! (Handing the pull of the small triangles on to the plain vertices was tried: with their height given by the body the
+//! steps did not come to rest.)
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use crate::body::Surface;
+use crate::cloth::refine::{Refined, Slave, refine};
+use crate::cloth::{ClothState, Counters, Garment, Skip, Skips};
+use crate::contact::Tracker;
+
+/// A split edge is joined again when it would have been clear of the body in so many looks in a row,
+const CLEAR_LOOKS: u8 = 10;
+/// were it so many times as long.
+const LONGER: f64 = 1.2;
+/// Clear of the body is so much of the offset above it.
+const CLEAR: f64 = 0.25;
+/// Points of an edge at which that is looked at.
+const POINTS: u32 = 8;
+/// Steps in which a vertex put in is brought out of the body.
+const STEPS_OUT: usize = 16;
+
+/// Of cloth that is taken over as it lies, vertices so near the skin may have edges that cut it; metres on a body 1.5 m large.
+const REACH: f64 = 0.03;
+
+/// A body that cloth may cut, and how high above it cloth lies.
+#[derive(Clone, Copy, Debug)]
+pub struct Ground<'a> {
+    /// The body.
+    pub surface: &'a Surface,
+    /// Metres.
+    pub offset: f64,
+    /// What may be left out.
+    pub skips: Skips,
+}
+
+/// Edges that may have to be split.
+#[derive(Clone, Copy, Debug)]
+pub struct Suspects<'a> {
+    /// Their numbers.
+    pub edges: &'a [u32],
+    /// Also those that only come nearer to the body than cloth may.
+    pub near: bool,
+}
+
+/// The split edges of a garment.
+#[derive(Clone, Debug, Default)]
+pub struct Splits {
+    /// Each split edge, and in how many looks in a row it was clear.
+    edges: BTreeMap<u32, u8>,
+    refined: Option<Arc<Refined>>,
+    /// For each vertex put in where it lies beside the mean of its masters, metres.
+    beside: Vec<DVec3>,
+}
+
+impl Splits {
+    /// Of cloth that lies still and of which nothing else is known. None when no edge is split. `offset` in metres on a body
+    /// 1.5 m large.
+    pub fn of_lying(garment: &Garment, state: &ClothState, surface: &Surface, offset: f64) -> Option<Self> {
+        let mut splits = Self::default();
+        let mut counters = Counters::default();
+        let mut tracker = Tracker::new(garment.vertex_count);
+        let ground = Ground { surface, offset: offset * surface.scale(), skips: Skips::default() };
+        let reach = (REACH * surface.scale()).max(garment.mean_edge());
+        tracker.update(surface, state, reach, ground.skips, &mut counters);
+        let all: Vec<u32> = (0..garment.adjacency.edges.len() as u32).collect();
+        let found = splits.split(
+            garment,
+            state,
+            &tracker,
+            ground,
+            Some(Suspects { edges: &all, near: false }),
+            &mut counters,
+        );
+        splits.place(state, &tracker, ground);
+        (found > 0).then_some(splits)
+    }
+
+    /// The garment with its edges split; None when none is.
+    pub fn refined(&self) -> Option<&Arc<Refined>> {
+        self.refined.as_ref()
+    }
+
+    /// The garment and where it lies, as it is drawn and measured; None when no edge is split.
+    pub fn drawn(&self, state: &ClothState) -> Option<(Arc<Garment>, ClothState)> {
+        let refined = self.refined.as_ref()?;
+        Some((Arc::clone(&refined.garment), self.state(refined, state)))
+    }
+
+    /// `state` with the vertices put in.
+    pub fn state(&self, refined: &Refined, state: &ClothState) -> ClothState {
+        refined.state(state, |slave| self.beside.get(slave).copied().unwrap_or_default())
+    }
+
+    /// Splits those of `suspects` that cut the body, or of all edges those where the paper's test does not say that the body
+    /// is too flat to. Returns how many.
+    pub fn split(
+        &mut self,
+        garment: &Garment,
+        state: &ClothState,
+        tracker: &Tracker,
+        ground: Ground<'_>,
+        suspects: Option<Suspects<'_>>,
+        counters: &mut Counters,
+    ) -> usize {
+        let edges = &garment.adjacency.edges;
+        let all = suspects.is_some() || !ground.skips.allow(Skip::Edges);
+        let test = |e: u32| {
+            let edge = Edge::new(edges[e as usize], state, tracker)?;
+            let tested = !self.edges.contains_key(&e) && edge.may_cut(all);
+            let cuts = |edge: &Edge| match suspects {
+                Some(Suspects { near: true, .. }) => edge.is_near(ground, 1.0),
+                _ => ground.surface.meets_segment(edge.ends),
+            };
+            tested.then(|| (e, cuts(&edge)))
+        };
+        let tests: Vec<(u32, bool)> = match suspects {
+            Some(suspects) => suspects.edges.par_iter().filter_map(|&e| test(e)).collect(),
+            None => (0..edges.len() as u32).into_par_iter().with_min_len(1024).filter_map(test).collect(),
+        };
+        counters.edge_checks += suspects.map_or(edges.len(), |s| s.edges.len()) as u64;
+        counters.edge_tests += tests.len() as u64;
+        let before = self.edges.len();
+        self.edges.extend(tests.iter().filter(|(_, cut)| *cut).map(|&(e, _)| (e, 0)));
+        let found = self.edges.len() - before;
+        counters.split_edges += found as u64;
+        if found > 0 {
+            self.refine(garment);
+        }
+        found
+    }
+
+    /// Joins edges that have been clear of the body for long.
+    pub fn join(
+        &mut self,
+        garment: &Garment,
+        state: &ClothState,
+        tracker: &Tracker,
+        ground: Ground<'_>,
+        counters: &mut Counters,
+    ) {
+        if self.edges.is_empty() {
+            return;
+        }
+        let before = self.edges.len();
+        self.edges.retain(|&e, clear| {
+            let edge = Edge::new(garment.adjacency.edges[e as usize], state, tracker);
+            let near = edge.is_some_and(|edge| edge.is_near(ground, LONGER));
+            *clear = if near { 0 } else { *clear + 1 };
+            *clear < CLEAR_LOOKS
+        });
+        let joined = before - self.edges.len();
+        counters.joined_edges += joined as u64;
+        if joined > 0 {
+            self.refine(garment);
+        }
+    }
+
+    fn refine(&mut self, garment: &Garment) {
+        let split: Vec<u32> = self.edges.keys().copied().collect();
+        self.refined = (!split.is_empty()).then(|| Arc::new(refine(garment, &split)));
+        self.beside.clear();
+    }
+
+    /// Puts the slaves where they belong: between their masters, and out of the body as far as cloth lies above it.
+    pub fn place(&mut self, state: &ClothState, tracker: &Tracker, ground: Ground<'_>) {
+        self.beside.clear();
+        if let Some(refined) = &self.refined {
+            let beside = refined.slaves.par_iter().map(|slave| out(slave, state, tracker, ground));
+            beside.collect_into_vec(&mut self.beside);
+        }
+    }
+
+    /// Bytes kept beside the garment.
+    pub fn bytes(&self) -> usize {
+        let refined = self.refined.as_ref().map_or(0, |r| r.bytes());
+        self.edges.len() * 16 + self.beside.capacity() * size_of::<DVec3>() + refined
+    }
+}
+
+/// An edge with both ends outside of the body and near it.
+struct Edge {
+    ends: [DVec3; 2],
+    /// The nearest points of the skin.
+    skin: [DVec3; 2],
+}
+
+impl Edge {
+    fn new(vertices: [u32; 2], state: &ClothState, tracker: &Tracker) -> Option<Self> {
+        let end = |v: u32| {
+            let p = state.positions[v as usize];
+            let plane = tracker.plane(v as usize).filter(|plane| plane.height(p) > 0.0)?;
+            // The nearest point moves along with a vertex that moved since it was asked for.
+            state.mapped[v as usize].then(|| (p, p - plane.normal * plane.height(p)))
+        };
+        let ([a, p], [b, q]) =
+            (end(vertices[0]).map(<[DVec3; 2]>::from)?, end(vertices[1]).map(<[DVec3; 2]>::from)?);
+        Some(Self { ends: [a, b], skin: [p, q] })
+    }
+
+    /// Whether the body may lie in the way: the signed distance is 1-Lipschitz; and unless `all`, a ball as large as the
+    /// edge is long under one of its ends must reach it between its ends (paper A).
+    fn may_cut(&self, all: bool) -> bool {
+        let [a, b] = self.ends;
+        let length = a.distance(b);
+        let heights = a.distance(self.skin[0]) + b.distance(self.skin[1]);
+        heights <= length && (all || self.meets_ball(length))
+    }
+
+    /// The paper's test with an edge so long.
+    fn meets_ball(&self, length: f64) -> bool {
+        let [a, b] = self.ends;
+        let along = (b - a).normalize_or_zero();
+        [(a, self.skin[0], along), (b, self.skin[1], -along)].iter().any(|&(from, skin, along)| {
+            let down = skin - from;
+            let d = down.length();
+            let cos = along.dot(down) / d;
+            let sin = (1.0 - cos * cos).max(0.0).sqrt();
+            cos > 0.0 && (d + length) * sin < length && (d + length) * cos < length
+        })
+    }
+
+    /// Whether it comes nearer to the body than cloth may, were it `longer` times as long.
+    fn is_near(&self, ground: Ground<'_>, longer: f64) -> bool {
+        let [a, b] = self.ends;
+        let heights = a.distance(self.skin[0]) + b.distance(self.skin[1]);
+        let length = a.distance(b) * longer;
+        heights <= length
+            && (1..POINTS).any(|k| {
+                let p = a.lerp(b, f64::from(k) / f64::from(POINTS));
+                let low = CLEAR * ground.offset;
+                let near = ground.surface.nearest_within(p, length);
+                near.is_some_and(|n| n.distance < low)
+            })
+    }
+}
+
+/// From the mean of a slave's masters to where it lies: up along their normals until it is as high as cloth is.
+fn out(slave: &Slave, state: &ClothState, tracker: &Tracker, ground: Ground<'_>) -> DVec3 {
+    let between = slave.between(state);
+    let sum: DVec3 = slave
+        .shares
+        .iter()
+        .filter_map(|&(v, share)| tracker.plane(v as usize).map(|plane| plane.normal * share))
+        .sum();
+    let Some(up) = sum.try_normalize() else { return DVec3::ZERO };
+    let mut p = between;
+    for _ in 0..STEPS_OUT {
+        let lacking = ground.offset - ground.surface.nearest(p).distance;
+        if lacking <= 1e-3 * ground.offset {
+            return p - between;
+        }
+        // The signed distance grows by no more than the way: this goes not too far.
+        p += up * lacking;
+    }
+    let n = ground.surface.nearest(between);
+    n.point + n.normal * ground.offset - between
+}

@@ -1,0 +1,191 @@
+//! A box tree with four children a node, for nearest-item queries: half the levels of [`Bvh`], and the four boxes of a node
+//! are looked at together.
+
+use glam::DVec3;
+
+use crate::geometry::bvh::Bvh;
+
+/// Marks a child that is a leaf; the rest is its first place times eight, plus how many items it has.
+const LEAF: u32 = 1 << 31;
+/// No child.
+const NONE: u32 = u32::MAX;
+/// Deep enough for a tree split at medians over all items there can be: three wait on each level.
+const DEPTH: usize = 64;
+
+/// The boxes of four children, coordinate by coordinate.
+#[derive(Clone, Debug)]
+struct Node {
+    lower: [[f64; 4]; 3],
+    upper: [[f64; 4]; 3],
+    children: [u32; 4],
+}
+
+impl Node {
+    /// Squares of the distances from `p` to the four boxes.
+    fn distances_squared(&self, p: DVec3) -> [f64; 4] {
+        let mut sum = [0.0; 4];
+        for (axis, x) in p.to_array().into_iter().enumerate() {
+            let (lower, upper) = (&self.lower[axis], &self.upper[axis]);
+            for k in 0..4 {
+                let below = lower[k] - x;
+                let above = x - upper[k];
+                let off = if below > above { below } else { above };
+                let off = if off > 0.0 { off } else { 0.0 };
+                sum[k] += off * off;
+            }
+        }
+        sum
+    }
+}
+
+/// The tree. Equal input, equal tree.
+#[derive(Clone, Debug, Default)]
+pub struct Bvh4 {
+    nodes: Vec<Node>,
+    /// Items (indices into what the binary tree was built over) in the order of the leaves.
+    pub items: Vec<u32>,
+}
+
+impl Bvh4 {
+    /// The same leaves as `tree`.
+    pub fn new(tree: Bvh) -> Self {
+        let mut wide = Self { nodes: Vec::new(), items: Vec::new() };
+        if !tree.nodes.is_empty() {
+            wide.grow(&tree, 0);
+        }
+        wide.items = tree.items;
+        wide
+    }
+
+    fn grow(&mut self, tree: &Bvh, root: u32) -> u32 {
+        let halves = |at: u32| -> Vec<u32> {
+            let node = &tree.nodes[at as usize];
+            if node.is_leaf() { vec![at] } else { vec![at + 1, node.right] }
+        };
+        let below: Vec<u32> = halves(root).into_iter().flat_map(halves).collect();
+        let place = self.nodes.len();
+        self.nodes.push(Node {
+            lower: [[f64::INFINITY; 4]; 3],
+            upper: [[f64::NEG_INFINITY; 4]; 3],
+            children: [NONE; 4],
+        });
+        for (k, &at) in below.iter().enumerate() {
+            let node = &tree.nodes[at as usize];
+            for axis in 0..3 {
+                self.nodes[place].lower[axis][k] = node.bounds.lower[axis];
+                self.nodes[place].upper[axis][k] = node.bounds.upper[axis];
+            }
+            // A root that is itself a leaf is its own only child.
+            let child =
+                if node.is_leaf() { LEAF | (node.first * 8 + node.count) } else { self.grow(tree, at) };
+            self.nodes[place].children[k] = child;
+        }
+        place as u32
+    }
+
+    /// The place in [`Bvh4::items`] of the item nearest to `p` within the square root of `limit`, and the square of its
+    /// distance, which `distance_squared` tells of each place. Of equally near ones the lowest item.
+    pub fn nearest(
+        &self,
+        p: DVec3,
+        limit: f64,
+        mut distance_squared: impl FnMut(usize) -> f64,
+    ) -> Option<(usize, f64)> {
+        let mut best: Option<(usize, f64)> = None;
+        let mut least = limit;
+        self.visit(p, limit, |slot| {
+            let d = distance_squared(slot);
+            let wins = |(other, _): (usize, f64)| self.items[slot] < self.items[other];
+            if d < least || (d == least && best.is_none_or(wins)) {
+                least = d;
+                best = Some((slot, d));
+            }
+            least
+        });
+        best
+    }
+
+    /// Calls `look` with every place whose leaf's box is within the square root of a limit of `p`, nearer boxes first. The
+    /// limit is `limit` at first, then what `look` said last.
+    pub fn visit(&self, p: DVec3, limit: f64, mut look: impl FnMut(usize) -> f64) {
+        let mut least = limit;
+        let mut open = [(0.0f64, 0u32); DEPTH];
+        let mut waiting = usize::from(!self.nodes.is_empty());
+        while waiting > 0 {
+            waiting -= 1;
+            let (from, at) = open[waiting];
+            if from > least {
+                continue;
+            }
+            if at & LEAF != 0 {
+                let (first, count) = ((at & !LEAF) / 8, at % 8);
+                for slot in first..first + count {
+                    least = look(slot as usize);
+                }
+                continue;
+            }
+            let node = &self.nodes[at as usize];
+            let away = node.distances_squared(p);
+            let start = waiting;
+            for (&d, &child) in away.iter().zip(&node.children) {
+                if child == NONE || d > least {
+                    continue;
+                }
+                // Farthest first: the nearest is taken up next.
+                let mut k = waiting;
+                while k > start && open[k - 1].0 < d {
+                    open[k] = open[k - 1];
+                    k -= 1;
+                }
+                open[k] = (d, child);
+                waiting += 1;
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::bvh::Aabb;
+
+    fn points(count: u32) -> Vec<DVec3> {
+        let at = |i: u32, k: u32| f64::from((i * k) % 997) / 996.0;
+        (0..count).map(|i| DVec3::new(at(i, 131), at(i, 377), at(i, 613))).collect()
+    }
+
+    #[test]
+    fn the_nearest_is_what_brute_force_says() {
+        for count in [0, 1, 3, 5, 17, 500] {
+            let points = points(count);
+            let boxes: Vec<Aabb> = points.iter().map(|p| Aabb::around(&[*p])).collect();
+            let tree = Bvh4::new(Bvh::new(&boxes));
+            for query in points.iter().map(|p| *p * 1.3 - 0.1) {
+                let far = |i: u32| (points[i as usize] - query).length_squared();
+                let exact = (0..count).min_by(|&i, &j| far(i).total_cmp(&far(j))).map(|i| (i, far(i)));
+                let found = tree.nearest(query, f64::INFINITY, |slot| far(tree.items[slot]));
+                assert_eq!(found.map(|(slot, d)| (tree.items[slot], d)), exact);
+                let nearer = exact.expect("one").1 * 0.99;
+                assert_eq!(tree.nearest(query, nearer, |s| far(tree.items[s])), None);
+            }
+        }
+    }
+
+    #[test]
+    fn all_within_reach_are_visited() {
+        let points = points(300);
+        let boxes: Vec<Aabb> = points.iter().map(|p| Aabb::around(&[*p])).collect();
+        let tree = Bvh4::new(Bvh::new(&boxes));
+        let (query, limit) = (DVec3::splat(0.4), 0.04);
+        let mut found = Vec::new();
+        tree.visit(query, limit, |slot| {
+            let item = tree.items[slot];
+            found.extend(((points[item as usize] - query).length_squared() <= limit).then_some(item));
+            limit
+        });
+        found.sort_unstable();
+        let exact: Vec<u32> =
+            (0..300).filter(|&i| (points[i as usize] - query).length_squared() <= limit).collect();
+        assert_eq!(found, exact);
+    }
+}
