@@ -6,10 +6,11 @@ use glam::{DQuat, DVec2, DVec3};
 use toile::body::{Surface, mannequin};
 use toile::cloth::{ClothState, build};
 use toile::contact::layers::parting;
+use toile::fit::{BodyIndex, measure, verdict};
 use toile::geometry::ids::PieceId;
 use toile::pattern::{Edge, EdgeRef, EdgeShape, Pattern, Piece, Seam, SpacePose};
 use toile::relax::RelaxSettings;
-use toile::wrap::{stretches, suggested};
+use toile::wrap::{Dressing, Phase, stretches, suggested};
 
 /// Two sheets of 20 cm a finger apart, but for a bump of each that sticks through the other, outer or inner sides facing.
 fn check(apart: f64) {
@@ -95,4 +96,17 @@ fn strokes_round_the_waist_end_where_a_flared_skirt_is_sewn() {
         assert!(pair.stretch().abs() < 0.2, "{pair:?}");
     }
     assert_eq!(marks.cloth.len(), 4);
+}
+
+#[test]
+fn a_skirt_with_deep_folds_is_not_left_crossing_itself() {
+    let (body, pattern, edge) = (mannequins_surface(), ring_skirt(0.74, 0.5), 0.025);
+    let settings = RelaxSettings::default();
+    let marks = suggested(&pattern, &body, settings.offset);
+    let garment = Arc::new(build(&pattern, edge).0);
+    let (dressing, mut state, problems) = Dressing::new(garment.clone(), body.clone(), &marks, settings);
+    assert!(problems.is_empty(), "{problems:?}");
+    let mut dressing = dressing.expect("a dressing");
+    while dressing.step(&mut state) != Phase::AtRest {}
+    assert_eq!(verdict(&measure(&pattern, &garment, &state, &BodyIndex::new(&body))), []);
 }

@@ -23,6 +23,7 @@ fn data() -> Option<PathBuf> {
 
 /// What the patterns of GarmentCode were drafted and placed for.
 const MEAN: &str = "bodies/garmentcode/mean_all.obj";
+const MEAN_TPOSE: &str = "bodies/garmentcode/mean_all_tpose.obj";
 const FEMALE: &str = "bodies/makehuman/mh_female_rest.obj";
 const MALE: &str = "bodies/makehuman/mh_male_rest.obj";
 
@@ -101,6 +102,14 @@ fn a_tight_dress_stays_where_it_was_put() {
 #[test]
 fn a_dress_whose_skirt_is_a_circle_is_dressed() {
     check("dress_fitted_circle_mean_all", 4, 0.10);
+}
+
+#[test]
+fn deep_folds_on_other_bodies_do_not_cross() {
+    for body in [FEMALE, MALE, MEAN_TPOSE] {
+        check_on(body, "circle_skirt_mean_all", 2, 0.10);
+        check_on(body, "dress_fitted_circle_mean_all", 4, 0.10);
+    }
 }
 
 /// Its trunk is half as wide again as the body's, and gathered into the skirt.

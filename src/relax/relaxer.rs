@@ -38,8 +38,12 @@ const WRONG_SIDE_REACH: f64 = 0.015;
 const WRONG_FACE_REACH: f64 = 0.02;
 /// Those are turned over when their normal and the skin's have a smaller cosine.
 const WRONG_FACE: f64 = -0.15;
+/// A place where cloth passes through itself counts for so many faults: finer meshes seldom mend it.
+const CROSSINGS_WEIGH: usize = 20;
 /// What is left of the way layers were sent before when they are parted again: it keeps them apart for a while.
 const STILL_PARTING: f64 = 0.9;
+/// Layers sent apart by less than this are left alone.
+const LEAST_PARTING: f64 = 0.02;
 
 /// What one global step does.
 #[derive(Clone, Copy, Debug)]
@@ -452,13 +456,14 @@ impl Relaxer {
         garment.triangles.par_iter().map(wrong).collect()
     }
 
-    /// In how many places the cloth passes through the body or shows it its outer side.
+    /// In how many places the cloth passes through the body or itself, or shows the body its outer side, by weight.
     pub fn faults(&self, state: &ClothState) -> usize {
         let laid = |e: &[u32; 2]| e.iter().all(|&v| state.mapped[v as usize]);
         let edges: Vec<[u32; 2]> = self.garment.adjacency.edges.iter().copied().filter(laid).collect();
         let body = &self.surface.mesh;
         meetings(&state.positions, &edges, body, &body.tree()).len()
             + self.wrong_faces(state).iter().flatten().count()
+            + layers::parting(&self.garment, state).1 * CROSSINGS_WEIGH
     }
 
     /// Sends layers that run into each other apart. Returns in how many places they do.
@@ -468,6 +473,15 @@ impl Relaxer {
             *parted = *parted * STILL_PARTING + way;
         }
         places
+    }
+
+    /// Layers that lie apart are sent apart less and less: held there for ever, they would be strained.
+    pub fn ease_parting(&mut self) {
+        for parted in &mut self.parted {
+            let eased = *parted * STILL_PARTING;
+            *parted =
+                if eased.length_squared() > LEAST_PARTING * LEAST_PARTING { eased } else { DVec3::ZERO };
+        }
     }
 
     /// Raises the offset of vertices whose edges or faces come too near the body between them. Returns how many.

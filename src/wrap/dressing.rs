@@ -29,8 +29,10 @@ const SETTLE_STEPS: usize = 80;
 const STEP_CAP: f64 = 0.02;
 /// Weight of contact while the cloth grows and closes: heavy, so that closing seams do not pull it through a limb.
 const GROW_CONTACT: f64 = 0.3;
-/// Weight of contact once it roughly lies: light, so that it slides to where it is least strained.
-const SETTLE_CONTACT: f64 = 0.03;
+/// See [`Plan::contact`].
+const LIGHT_CONTACT: f64 = 0.03;
+/// See [`Plan::contact`].
+const HEAVY_CONTACT: f64 = 0.1;
 /// Marks hold their vertices with this weight while the cloth grows.
 const HOLD: f64 = 0.3;
 /// And with this one ever after, on edges of [`KEEP_EDGE`], beyond [`LEASH`]: it stops a garment that is too tight where it
@@ -77,14 +79,21 @@ struct Plan {
     bands_per_global: usize,
     /// Steps by which a new vertex is pushed out of the body before it goes to the nearest skin.
     pushes: usize,
+    /// Layers that grow into each other are parted at once, not only when all cloth lies: deep folds need it.
+    part: bool,
+    /// Weight of contact once the cloth roughly lies, on this mesh and the finer ones. Light, it slides to where it is least
+    /// strained; heavy, what is too tight does not slip through a limb.
+    contact: f64,
 }
 
 /// The quickest first; what needs the next is found out on the coarsest mesh.
-const PLANS: [Plan; 4] = [
-    Plan { local_passes: 6, bands_per_global: 3, pushes: 30 },
-    Plan { local_passes: 6, bands_per_global: 3, pushes: 10 },
-    Plan { local_passes: 12, bands_per_global: 1, pushes: 10 },
-    Plan { local_passes: 12, bands_per_global: 1, pushes: 30 },
+const PLANS: [Plan; 6] = [
+    Plan { local_passes: 6, bands_per_global: 3, pushes: 30, part: false, contact: LIGHT_CONTACT },
+    Plan { local_passes: 6, bands_per_global: 3, pushes: 30, part: true, contact: LIGHT_CONTACT },
+    Plan { local_passes: 6, bands_per_global: 3, pushes: 10, part: false, contact: LIGHT_CONTACT },
+    Plan { local_passes: 6, bands_per_global: 3, pushes: 30, part: false, contact: HEAVY_CONTACT },
+    Plan { local_passes: 12, bands_per_global: 1, pushes: 10, part: false, contact: LIGHT_CONTACT },
+    Plan { local_passes: 12, bands_per_global: 1, pushes: 30, part: false, contact: HEAVY_CONTACT },
 ];
 /// A wrap has failed when it has more than one fault for so many triangles; fewer are mended on finer meshes.
 const TRIANGLES_PER_FAULT: usize = 150;
@@ -93,6 +102,7 @@ const TRIANGLES_PER_FAULT: usize = 150;
 #[derive(Clone, Debug)]
 struct Attempt {
     faults: usize,
+    contact: f64,
     relaxer: Relaxer,
     cloth: ClothState,
 }
@@ -169,6 +179,8 @@ pub struct Dressing {
     roots: Vec<Root>,
     /// Which of [`PLANS`] it grows by; none once it came to rest and was found good, or the best of all.
     plan: Option<usize>,
+    /// Weight of contact once it roughly lies.
+    contact: f64,
     /// The best of the plans before.
     best: Option<Box<Attempt>>,
     /// How long each pair of marks is on both sides.
@@ -317,6 +329,7 @@ impl Dressing {
             coarse: None,
             plan: (!roots.is_empty() && dressed.is_none()).then_some(0),
             roots,
+            contact: LIGHT_CONTACT,
             best: None,
             stretches,
         };
@@ -407,6 +420,7 @@ impl Dressing {
             coarse: None,
             roots: Vec::new(),
             plan: None,
+            contact: LIGHT_CONTACT,
             best: None,
             stretches: Vec::new(),
         }
@@ -457,6 +471,7 @@ impl Dressing {
         self.relaxer.counters = coarse.dressing.counters();
         if self.mapped > 0 {
             let ratio = self.edge_length / coarse.dressing.edge_length;
+            self.contact = coarse.dressing.contact;
             self.relaxer.take_over(&coarse.dressing.relaxer, &coarse.carry, ratio);
             self.stage = Stage::Settle(Settling::from(SETTLE_STEPS, self.draft));
         }
@@ -495,6 +510,9 @@ impl Dressing {
         self.relax_new(state, &fresh);
         if (bands + 1).is_multiple_of(self.way().bands_per_global) {
             self.relaxer.set_mapped(&state.mapped);
+            if self.way().part {
+                self.relaxer.part_layers(state);
+            }
             for _ in 0..GLOBALS_PER_GROUP {
                 self.global(state, Hold { weight: HOLD, slack: 0.0 }, false, false);
             }
@@ -526,6 +544,9 @@ impl Dressing {
         if settling.crossed && done > UNFOLD_AFTER && done.is_multiple_of(STEPS_PER_PARTING) {
             settling.crossed = self.relaxer.part_layers(state) > 0;
         }
+        if !settling.crossed {
+            self.relaxer.ease_parting();
+        }
         let quiet = if moved < REST_MOTION * self.edge_length { quiet + 1 } else { 0 };
         let still = (quiet >= QUIET_STEPS && !first) || done >= until;
         // Cloth that lies still may cut the body between its vertices, or lie on the wrong side: mend it there and go on.
@@ -549,7 +570,7 @@ impl Dressing {
 
     fn global(&mut self, state: &mut ClothState, hold: Hold, unfold: bool, weight: bool) -> f64 {
         let cap = STEP_CAP * self.relaxer.surface.scale();
-        let contact = if unfold { SETTLE_CONTACT } else { GROW_CONTACT };
+        let contact = if unfold { self.contact } else { GROW_CONTACT };
         self.relaxer.global_step(
             state,
             GlobalStep { cap, contact, hold: hold.weight, slack: hold.slack, unfold, weight },
@@ -566,13 +587,15 @@ impl Dressing {
         }
         if self.best.as_ref().is_none_or(|best| faults < best.faults) {
             let (relaxer, cloth) = (self.relaxer.clone(), state.clone());
-            self.best = Some(Box::new(Attempt { faults, relaxer, cloth }));
+            self.best = Some(Box::new(Attempt { faults, contact: self.contact, relaxer, cloth }));
         }
         if plan + 1 < PLANS.len() && self.begin_again(state).is_some() {
             self.plan = Some(plan + 1);
+            self.contact = self.way().contact;
         } else if let Some(best) = self.best.take() {
             let counters = self.relaxer.counters;
             self.relaxer = best.relaxer;
+            self.contact = best.contact;
             self.relaxer.counters = counters;
             *state = best.cloth;
         }
