@@ -130,6 +130,12 @@ fn waistbands_for_another_body_rest_where_they_fit() {
     check_on(MALE, "skirt2_mean_all", 2, 0.20);
 }
 
+/// Its sleeves are long, and leave arms held otherwise than their own unless they are led along them.
+#[test]
+fn long_sleeves_grow_along_another_bodys_arms() {
+    check_on(MALE, "js_mean_all", 5, 0.10);
+}
+
 /// Its sleeves do not find the arms as the first plan grows them.
 #[test]
 fn a_jumpsuit_is_dressed_at_another_try() {

@@ -12,7 +12,9 @@ use crate::pattern::{Problem, ProblemKind};
 use crate::relax::{GlobalStep, RelaxSettings, Relaxer};
 use crate::wrap::Marks;
 use crate::wrap::growth::{Growth, placed};
+use crate::wrap::limbs::Limbs;
 use crate::wrap::order::{Order, UNREACHED};
+use crate::wrap::plan::{LIGHT_CONTACT, PLANS, Plan};
 use crate::wrap::roots::{PairStretch, Root, roots};
 
 /// Over-relaxation of the local passes.
@@ -29,10 +31,6 @@ const SETTLE_STEPS: usize = 80;
 const STEP_CAP: f64 = 0.02;
 /// Weight of contact while the cloth grows and closes: heavy, so that closing seams do not pull it through a limb.
 const GROW_CONTACT: f64 = 0.3;
-/// See [`Plan::contact`].
-const LIGHT_CONTACT: f64 = 0.03;
-/// See [`Plan::contact`].
-const HEAVY_CONTACT: f64 = 0.1;
 /// Marks hold their vertices with this weight while the cloth grows.
 const HOLD: f64 = 0.3;
 /// And with this one ever after, on edges of [`KEEP_EDGE`], beyond [`LEASH`]: it stops a garment that is too tight where it
@@ -70,31 +68,6 @@ const COARSE_PROGRESS: f64 = 0.8;
 /// Edges and faces keep this share of the offset.
 const FACE_CLEARANCE: f64 = 0.25;
 
-/// A way to grow. How cloth falls round a limb depends on small things: what fails one way goes well another.
-#[derive(Clone, Copy, Debug)]
-struct Plan {
-    /// Local passes after each band of growth (ALGORITHMS.md 8.1).
-    local_passes: usize,
-    /// Bands between global steps.
-    bands_per_global: usize,
-    /// Steps by which a new vertex is pushed out of the body before it goes to the nearest skin.
-    pushes: usize,
-    /// Layers that grow into each other are parted at once, not only when all cloth lies: deep folds need it.
-    part: bool,
-    /// Weight of contact once the cloth roughly lies, on this mesh and the finer ones. Light, it slides to where it is least
-    /// strained; heavy, what is too tight does not slip through a limb.
-    contact: f64,
-}
-
-/// The quickest first; what needs the next is found out on the coarsest mesh.
-const PLANS: [Plan; 6] = [
-    Plan { local_passes: 6, bands_per_global: 3, pushes: 30, part: false, contact: LIGHT_CONTACT },
-    Plan { local_passes: 6, bands_per_global: 3, pushes: 30, part: true, contact: LIGHT_CONTACT },
-    Plan { local_passes: 6, bands_per_global: 3, pushes: 10, part: false, contact: LIGHT_CONTACT },
-    Plan { local_passes: 6, bands_per_global: 3, pushes: 30, part: false, contact: HEAVY_CONTACT },
-    Plan { local_passes: 12, bands_per_global: 1, pushes: 10, part: false, contact: LIGHT_CONTACT },
-    Plan { local_passes: 12, bands_per_global: 1, pushes: 30, part: false, contact: HEAVY_CONTACT },
-];
 /// A wrap has failed when it has more than one fault for so many triangles; fewer are mended on finer meshes.
 const TRIANGLES_PER_FAULT: usize = 150;
 
@@ -164,6 +137,7 @@ pub struct Dressing {
     relaxer: Relaxer,
     order: Arc<Order>,
     growth: Growth,
+    limbs: Limbs,
     tier: u32,
     stage: Stage,
     edge_length: f64,
@@ -316,6 +290,7 @@ impl Dressing {
             Stage::Grow { limit: 0.0, bands: 0, fresh }
         };
         let dressing = Self {
+            limbs: Limbs::new(&garment, &order),
             edge_length: garment.mean_edge(),
             mapped: state.mapped.iter().filter(|&&m| m).count(),
             relaxer,
@@ -409,6 +384,7 @@ impl Dressing {
         Self {
             edge_length: garment.mean_edge(),
             growth: Growth::new(&garment, &order, &state.mapped),
+            limbs: Limbs::default(),
             relaxer,
             order: Arc::new(order),
             tier: 0,
@@ -496,9 +472,16 @@ impl Dressing {
                 return;
             }
         };
+        let Plan { pushes, along_limbs, .. } = self.way();
+        let along_limbs = along_limbs && self.tier > 0;
+        if along_limbs {
+            self.limbs.advance(&self.relaxer.surface, self.edge_length);
+        }
         while let Some(v) = self.growth.pop(self.tier, limit) {
-            let (offset, pushes) = (self.relaxer.offset(), self.way().pushes);
-            if let Some(p) = placed(&self.relaxer.garment, &self.relaxer.surface, state, v, offset, pushes) {
+            let offset = self.relaxer.offset();
+            let limb = if along_limbs { self.limbs.along(v) } else { None };
+            let (garment, surface) = (&self.relaxer.garment, &self.relaxer.surface);
+            if let Some(p) = placed(garment, surface, state, v, offset, pushes, limb) {
                 state.positions[v as usize] = p;
                 state.mapped[v as usize] = true;
                 self.mapped += 1;
@@ -525,6 +508,9 @@ impl Dressing {
         self.stage = if left > 1 {
             Stage::BetweenTiers { left: left - 1 }
         } else {
+            if self.way().along_limbs {
+                self.limbs.begin(&self.relaxer.garment, &self.relaxer.surface, state);
+            }
             Stage::Grow { limit: 0.0, bands: 0, fresh: Vec::new() }
         };
     }
