@@ -23,6 +23,7 @@ fn data() -> Option<PathBuf> {
 
 /// What the patterns of GarmentCode were drafted and placed for.
 const MEAN: &str = "bodies/garmentcode/mean_all.obj";
+const MEAN_TPOSE: &str = "bodies/garmentcode/mean_all_tpose.obj";
 const FEMALE: &str = "bodies/makehuman/mh_female_rest.obj";
 const MALE: &str = "bodies/makehuman/mh_male_rest.obj";
 
@@ -103,6 +104,14 @@ fn a_dress_whose_skirt_is_a_circle_is_dressed() {
     check("dress_fitted_circle_mean_all", 4, 0.10);
 }
 
+#[test]
+fn deep_folds_on_other_bodies_do_not_cross() {
+    for body in [FEMALE, MALE, MEAN_TPOSE] {
+        check_on(body, "circle_skirt_mean_all", 2, 0.10);
+        check_on(body, "dress_fitted_circle_mean_all", 4, 0.10);
+    }
+}
+
 /// Its trunk is half as wide again as the body's, and gathered into the skirt.
 #[test]
 fn side_seams_of_a_loose_dress_close_under_the_arms() {
@@ -119,6 +128,12 @@ fn garments_for_another_body_hang_from_the_shoulders() {
 fn waistbands_for_another_body_rest_where_they_fit() {
     check_on(FEMALE, "pants_mean_all", 3, 0.10);
     check_on(MALE, "skirt2_mean_all", 2, 0.20);
+}
+
+/// Its sleeves are long, and leave arms held otherwise than their own unless they are led along them.
+#[test]
+fn long_sleeves_grow_along_another_bodys_arms() {
+    check_on(MALE, "js_mean_all", 5, 0.10);
 }
 
 /// Its sleeves do not find the arms as the first plan grows them.

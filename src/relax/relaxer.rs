@@ -34,8 +34,12 @@ const LEAST_SHARE: usize = 512;
 const FLIPPED: f64 = -0.2;
 /// How far from skin that is looked after, metres on a body 1.5 m large.
 const WRONG_SIDE_REACH: f64 = 0.015;
+/// A place where cloth passes through itself counts for so many faults: finer meshes seldom mend it.
+const CROSSINGS_WEIGH: usize = 20;
 /// What is left of the way layers were sent before when they are parted again: it keeps them apart for a while.
 const STILL_PARTING: f64 = 0.9;
+/// Layers sent apart by less than this are left alone.
+const LEAST_PARTING: f64 = 0.02;
 
 /// What one global step does.
 #[derive(Clone, Copy, Debug)]
@@ -535,7 +539,7 @@ impl Relaxer {
         self.faces.wrong(Lying { garment, surface, state, skips, split: None }, &mut self.counters)
     }
 
-    /// In how many places the cloth passes through the body or shows it its outer side.
+    /// In how many places the cloth passes through the body or itself, or shows the body its outer side, by weight.
     pub fn faults(&mut self, state: &ClothState) -> usize {
         let drawn = self.drawn(state);
         let (garment, drawn) = drawn.as_ref().map_or((&self.garment, state), |(g, s)| (g, s));
@@ -544,6 +548,7 @@ impl Relaxer {
         let body = &self.surface.mesh;
         meetings(&drawn.positions, &edges, body, &body.tree()).len()
             + self.wrong_faces(state).iter().flatten().count()
+            + layers::parting(&self.garment, state).1 * CROSSINGS_WEIGH
     }
 
     /// Sends layers that run into each other apart. Returns in how many places they do.
@@ -554,6 +559,15 @@ impl Relaxer {
             *parted = *parted * STILL_PARTING + way;
         }
         places
+    }
+
+    /// Layers that lie apart are sent apart less and less: held there for ever, they would be strained.
+    pub fn ease_parting(&mut self) {
+        for parted in &mut self.parted {
+            let eased = *parted * STILL_PARTING;
+            *parted =
+                if eased.length_squared() > LEAST_PARTING * LEAST_PARTING { eased } else { DVec3::ZERO };
+        }
     }
 
     /// Where faces or edges come too near the body between their vertices: splits edges that cut it, and raises the offset of

@@ -18,6 +18,9 @@ const MOST_PUSH: f64 = 0.1;
 const WRONG_SIDE: f64 = 0.0;
 /// Cloth on the wrong side is sent away by this in a step, metres on a body 1.5 m large.
 const SEND_AWAY: f64 = 0.003;
+/// Weight of sending layers apart that ran into each other: against that of a few triangles, as only the cloth itself is in
+/// the way.
+const PARTING_WEIGHT: f64 = 0.3;
 
 /// One global step's wants. Slices hold one entry per vertex.
 pub(super) struct Wants<'a> {
@@ -59,9 +62,10 @@ impl Wants<'_> {
             weight += w;
             pull += target * w;
         };
-        let sent = self.sent[v] + self.parted[v];
-        if sent != DVec3::ZERO {
-            want(contact, x + sent * away);
+        for (weight, way) in [(contact, self.sent[v]), (PARTING_WEIGHT, self.parted[v])] {
+            if way != DVec3::ZERO {
+                want(weight, x + way * away);
+            }
         }
         let below = self.tracker.plane(v).map(|p| (p, self.offset + self.lift[v] - p.height(x)));
         match below {

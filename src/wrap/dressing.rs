@@ -12,7 +12,9 @@ use crate::pattern::{Problem, ProblemKind};
 use crate::relax::{GlobalStep, RelaxSettings, Relaxer};
 use crate::wrap::Marks;
 use crate::wrap::growth::{Growth, placed};
+use crate::wrap::limbs::Limbs;
 use crate::wrap::order::{Order, UNREACHED};
+use crate::wrap::plan::{LIGHT_CONTACT, PLANS, Plan};
 use crate::wrap::roots::{PairStretch, Root, roots};
 
 /// Over-relaxation of the local passes.
@@ -29,8 +31,6 @@ const SETTLE_STEPS: usize = 80;
 const STEP_CAP: f64 = 0.02;
 /// Weight of contact while the cloth grows and closes: heavy, so that closing seams do not pull it through a limb.
 const GROW_CONTACT: f64 = 0.3;
-/// Weight of contact once it roughly lies: light, so that it slides to where it is least strained.
-const SETTLE_CONTACT: f64 = 0.03;
 /// Marks hold their vertices with this weight while the cloth grows.
 const HOLD: f64 = 0.3;
 /// And with this one ever after, on edges of [`KEEP_EDGE`], beyond [`LEASH`]: it stops a garment that is too tight where it
@@ -74,24 +74,6 @@ const COARSE_PROGRESS: f64 = 0.8;
 /// Edges and faces keep this share of the offset.
 const FACE_CLEARANCE: f64 = 0.25;
 
-/// A way to grow. How cloth falls round a limb depends on small things: what fails one way goes well another.
-#[derive(Clone, Copy, Debug)]
-struct Plan {
-    /// Local passes after each band of growth (ALGORITHMS.md 8.1).
-    local_passes: usize,
-    /// Bands between global steps.
-    bands_per_global: usize,
-    /// Steps by which a new vertex is pushed out of the body before it goes to the nearest skin.
-    pushes: usize,
-}
-
-/// The quickest first; what needs the next is found out on the coarsest mesh.
-const PLANS: [Plan; 4] = [
-    Plan { local_passes: 6, bands_per_global: 3, pushes: 30 },
-    Plan { local_passes: 6, bands_per_global: 3, pushes: 10 },
-    Plan { local_passes: 12, bands_per_global: 1, pushes: 10 },
-    Plan { local_passes: 12, bands_per_global: 1, pushes: 30 },
-];
 /// A wrap has failed when it has more than one fault for so many triangles; fewer are mended on finer meshes.
 const TRIANGLES_PER_FAULT: usize = 150;
 
@@ -99,6 +81,7 @@ const TRIANGLES_PER_FAULT: usize = 150;
 #[derive(Clone, Debug)]
 struct Attempt {
     faults: usize,
+    contact: f64,
     relaxer: Relaxer,
     cloth: ClothState,
 }
@@ -164,6 +147,7 @@ pub struct Dressing {
     relaxer: Relaxer,
     order: Arc<Order>,
     growth: Growth,
+    limbs: Limbs,
     tier: u32,
     stage: Stage,
     edge_length: f64,
@@ -179,6 +163,8 @@ pub struct Dressing {
     roots: Vec<Root>,
     /// Which of [`PLANS`] it grows by; none once it came to rest and was found good, or the best of all.
     plan: Option<usize>,
+    /// Weight of contact once it roughly lies.
+    contact: f64,
     /// The best of the plans before.
     best: Option<Box<Attempt>>,
     /// How long each pair of marks is on both sides.
@@ -314,6 +300,7 @@ impl Dressing {
             Stage::Grow { limit: 0.0, bands: 0, fresh }
         };
         let dressing = Self {
+            limbs: Limbs::new(&garment, &order),
             edge_length: garment.mean_edge(),
             mapped: state.mapped.iter().filter(|&&m| m).count(),
             relaxer,
@@ -327,6 +314,7 @@ impl Dressing {
             coarse: None,
             plan: (!roots.is_empty() && dressed.is_none()).then_some(0),
             roots,
+            contact: LIGHT_CONTACT,
             best: None,
             stretches,
         };
@@ -406,6 +394,7 @@ impl Dressing {
         Self {
             edge_length: garment.mean_edge(),
             growth: Growth::new(&garment, &order, &state.mapped),
+            limbs: Limbs::default(),
             relaxer,
             order: Arc::new(order),
             tier: 0,
@@ -417,6 +406,7 @@ impl Dressing {
             coarse: None,
             roots: Vec::new(),
             plan: None,
+            contact: LIGHT_CONTACT,
             best: None,
             stretches: Vec::new(),
         }
@@ -467,6 +457,7 @@ impl Dressing {
         self.relaxer.counters = coarse.dressing.counters();
         if self.mapped > 0 {
             let ratio = self.edge_length / coarse.dressing.edge_length;
+            self.contact = coarse.dressing.contact;
             self.relaxer.take_over(&coarse.dressing.relaxer, &coarse.carry, ratio);
             self.stage = Stage::Settle(Settling::from(SETTLE_STEPS, self.draft));
         }
@@ -491,9 +482,16 @@ impl Dressing {
                 return;
             }
         };
+        let Plan { pushes, along_limbs, .. } = self.way();
+        let along_limbs = along_limbs && self.tier > 0;
+        if along_limbs {
+            self.limbs.advance(&self.relaxer.surface, self.edge_length);
+        }
         while let Some(v) = self.growth.pop(self.tier, limit) {
-            let (offset, pushes) = (self.relaxer.offset(), self.way().pushes);
-            if let Some(p) = placed(&self.relaxer.garment, &self.relaxer.surface, state, v, offset, pushes) {
+            let offset = self.relaxer.offset();
+            let limb = if along_limbs { self.limbs.along(v) } else { None };
+            let (garment, surface) = (&self.relaxer.garment, &self.relaxer.surface);
+            if let Some(p) = placed(garment, surface, state, v, offset, pushes, limb) {
                 state.positions[v as usize] = p;
                 state.mapped[v as usize] = true;
                 self.mapped += 1;
@@ -505,6 +503,9 @@ impl Dressing {
         self.relax_new(state, &fresh);
         if (bands + 1).is_multiple_of(self.way().bands_per_global) {
             self.relaxer.set_mapped(&state.mapped);
+            if self.way().part {
+                self.relaxer.part_layers(state);
+            }
             for _ in 0..GLOBALS_PER_GROUP {
                 self.global(state, Hold { weight: HOLD, slack: 0.0 }, false, false);
             }
@@ -517,6 +518,9 @@ impl Dressing {
         self.stage = if left > 1 {
             Stage::BetweenTiers { left: left - 1 }
         } else {
+            if self.way().along_limbs {
+                self.limbs.begin(&self.relaxer.garment, &self.relaxer.surface, state);
+            }
             Stage::Grow { limit: 0.0, bands: 0, fresh: Vec::new() }
         };
     }
@@ -537,6 +541,9 @@ impl Dressing {
         let look = settling.crossed || !self.relaxer.settings.skips.allow(Skip::Crossings);
         if look && done > UNFOLD_AFTER && done.is_multiple_of(STEPS_PER_PARTING) {
             settling.crossed = self.relaxer.part_layers(state) > 0;
+        }
+        if !settling.crossed {
+            self.relaxer.ease_parting();
         }
         let mut quiet = if moved < REST_MOTION * self.edge_length { quiet + 1 } else { 0 };
         if quiet == 1 {
@@ -574,7 +581,7 @@ impl Dressing {
     fn global(&mut self, state: &mut ClothState, hold: Hold, unfold: bool, weight: bool) -> f64 {
         let step = GlobalStep {
             cap: STEP_CAP * self.relaxer.surface.scale(),
-            contact: if unfold { SETTLE_CONTACT } else { GROW_CONTACT },
+            contact: if unfold { self.contact } else { GROW_CONTACT },
             hold: hold.weight,
             slack: hold.slack,
             unfold,
@@ -593,13 +600,15 @@ impl Dressing {
         }
         if self.best.as_ref().is_none_or(|best| faults < best.faults) {
             let (relaxer, cloth) = (self.relaxer.clone(), state.clone());
-            self.best = Some(Box::new(Attempt { faults, relaxer, cloth }));
+            self.best = Some(Box::new(Attempt { faults, contact: self.contact, relaxer, cloth }));
         }
         if plan + 1 < PLANS.len() && self.begin_again(state).is_some() {
             self.plan = Some(plan + 1);
+            self.contact = self.way().contact;
         } else if let Some(best) = self.best.take() {
             let counters = self.relaxer.counters;
             self.relaxer = best.relaxer;
+            self.contact = best.contact;
             self.relaxer.counters = counters;
             *state = best.cloth;
         }

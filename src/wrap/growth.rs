@@ -67,8 +67,11 @@ impl Growth {
     }
 }
 
-/// Where `v` goes, as its mapped parent triangles say, out of the body by `offset` metres. After `pushes` steps out of the
-/// body in vain it goes to the nearest skin.
+/// A limb this nearly along an edge (cosine) does not say which way the cloth goes on across it.
+const ALONG_EDGE: f64 = 0.8;
+
+/// Where `v` goes, as its mapped parent triangles say, out of the body by `offset` metres; the way of its `limb` if it has one.
+/// After `pushes` steps out of the body in vain it goes to the nearest skin.
 pub fn placed(
     garment: &Garment,
     surface: &Surface,
@@ -76,6 +79,7 @@ pub fn placed(
     v: u32,
     offset: f64,
     pushes: usize,
+    limb: Option<DVec3>,
 ) -> Option<DVec3> {
     let mut sum = DVec3::ZERO;
     let mut normals = DVec3::ZERO;
@@ -100,7 +104,9 @@ pub fn placed(
         }
         let along = to.dot(flat) / length;
         let altitude = flat.perp_dot(to) / length.sqrt();
-        sum += a + (b - a) * along + normal.cross(b - a).normalize_or_zero() * altitude;
+        let edge = (b - a).normalize_or_zero();
+        let onward = limb.filter(|limb| limb.dot(edge).abs() < ALONG_EDGE).unwrap_or(normal.cross(edge));
+        sum += a + (b - a) * along + (onward - edge * onward.dot(edge)).normalize_or_zero() * altitude;
         normals += normal;
         count += 1.0;
     }

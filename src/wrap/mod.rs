@@ -3,10 +3,12 @@
 pub mod coarser;
 pub mod dressing;
 pub mod growth;
+mod limbs;
 pub mod mark_error;
 pub mod marks;
 pub mod order;
 mod placed;
+mod plan;
 pub mod roots;
 pub mod suggest;
 

@@ -16,6 +16,8 @@ pub struct Order {
     pub distance: Vec<f64>,
     /// How many tiers there are.
     pub tiers: u32,
+    /// The tier of each piece.
+    pub piece_tier: BTreeMap<PieceId, u32>,
 }
 
 /// No seam leads from a mark to it.
@@ -47,7 +49,7 @@ impl Order {
             }
             spread(garment, &piece_tier, current, &sources, &tier, &mut distance);
         }
-        Self { tier, distance, tiers }
+        Self { tier, distance, tiers, piece_tier }
     }
 }
 

@@ -84,13 +84,25 @@ impl Panel<'_> {
         cuts.chunks_exact(2).map(|c| (point(c[0]), point(c[1]))).collect()
     }
 
-    /// The place `depth` under the upper border at `x` metres of the world, or half way down where that is nearer.
-    pub fn under_top(&self, x: f64, depth: f64) -> Option<DVec2> {
+    /// The place `depth` under the upper border at `x` metres of the world, or half way down where that is nearer; none
+    /// where one of the `sewn` edges is uppermost.
+    pub fn under_top(&self, x: f64, depth: f64, sewn: &[EdgeRef]) -> Option<DVec2> {
         let up = self.flat(DVec3::Y)?;
         let right = self.flat(DVec3::X)?;
         let point = right * ((x - self.pose.translation.x) / (self.pose.rotation * right.extend(0.0)).x);
         let (low, high) = self.runs(up, point.dot(up.perp())).pop()?;
+        if sewn.iter().any(|e| e.piece == self.id && self.is_near(e.edge, high)) {
+            return None;
+        }
         Some(high - up * depth.min((high - low).length() / 2.0))
+    }
+
+    /// Whether edge `edge` passes `p`.
+    fn is_near(&self, edge: usize, p: DVec2) -> bool {
+        let fractions: Vec<f64> =
+            (0..=EDGE_SAMPLES).map(|k| f64::from(k) / f64::from(EDGE_SAMPLES)).collect();
+        let points = self.piece.edge_points(edge, &fractions);
+        points.windows(2).any(|w| distance_to(p, w[0], w[1]) < AT_AN_EDGE)
     }
 
     /// The horizontal runs at height `y` of the world, from right to left.
@@ -105,13 +117,8 @@ impl Panel<'_> {
 /// Whether a run of `panel` ends at one of its edges among `edges`, or it has none among them.
 pub(super) fn ends_at(panel: &Panel, edges: &[EdgeRef], runs: &[(DVec2, DVec2)]) -> bool {
     let mut own = edges.iter().filter(|e| e.piece == panel.id).peekable();
-    let fractions: Vec<f64> = (0..=EDGE_SAMPLES).map(|k| f64::from(k) / f64::from(EDGE_SAMPLES)).collect();
     own.peek().is_none()
-        || own.any(|e| {
-            let points = panel.piece.edge_points(e.edge, &fractions);
-            let near = |q: DVec2| points.windows(2).any(|w| distance_to(q, w[0], w[1]) < AT_AN_EDGE);
-            runs.iter().any(|&(a, b)| near(a) || near(b))
-        })
+        || own.any(|e| runs.iter().any(|&(a, b)| panel.is_near(e.edge, a) || panel.is_near(e.edge, b)))
 }
 
 fn distance_to(p: DVec2, a: DVec2, b: DVec2) -> f64 {
@@ -184,6 +191,12 @@ fn front_to_back<'a>(
 pub(super) fn sides(pattern: &Pattern, panels: &[Panel]) -> Vec<EdgeRef> {
     let by_id: BTreeMap<PieceId, &Panel> = panels.iter().map(|p| (p.id, p)).collect();
     front_to_back(pattern, &by_id).flatten().filter(|s| climb(by_id[&s.piece], s.edge) > ACROSS).collect()
+}
+
+/// All edges by which `panels` are sewn to one another.
+pub(super) fn seams_among(pattern: &Pattern, panels: &[Panel]) -> Vec<EdgeRef> {
+    let has = |s: &EdgeRef| panels.iter().any(|p| p.id == s.piece && s.edge < p.piece.outline.len());
+    pattern.seams.values().map(|s| s.sides).filter(|sides| sides.iter().all(has)).flatten().collect()
 }
 
 /// Cosine between an edge and the vertical.

@@ -11,7 +11,7 @@ use glam::{DVec2, DVec3};
 use crate::body::{Surface, Trunk};
 use crate::geometry::ids::MarkId;
 use crate::pattern::{EdgeRef, Pattern};
-use crate::wrap::placed::{Anchor, Panel, anchor, edge_within, ends_at, sides};
+use crate::wrap::placed::{Anchor, Panel, anchor, edge_within, ends_at, seams_among, sides};
 use crate::wrap::{BodyMark, ClothMark, ClothSide, Marks};
 
 /// A stroke ends where the skin turns away from its piece by more than this cosine.
@@ -52,7 +52,8 @@ pub fn suggested(pattern: &Pattern, surface: &Surface, offset: f64) -> Marks {
         }
         Anchor::Ring(panels) => {
             let depth = UNDER_TOP * surface.scale();
-            let lines: Vec<Line> = panels.iter().map(|p| Line::under_top(p, depth)).collect();
+            let sewn = seams_among(pattern, &panels);
+            let lines: Vec<Line> = panels.iter().map(|p| Line::under_top(p, depth, &sewn)).collect();
             if let Some(trunk) = &trunk
                 && let Some(height) = rest_height(trunk, &lines, offset)
             {
@@ -169,12 +170,12 @@ impl<'a> Line<'a> {
         Self { panel, runs: panel.level(height).into_iter().map(points).collect() }
     }
 
-    /// Under the upper border, however that is curved.
-    fn under_top(panel: &'a Panel<'a>, depth: f64) -> Self {
+    /// Under the upper border, however that is curved, between the `sewn` edges.
+    fn under_top(panel: &'a Panel<'a>, depth: f64, sewn: &[EdgeRef]) -> Self {
         let (right, left) = panel.reach();
         let count = ((left - right) / STEP).ceil().max(2.0) as usize;
         let x = |k: usize| right + (left - right) * (k as f64 + 0.5) / (count as f64 + 1.0);
-        Self { panel, runs: vec![(0..=count).filter_map(|k| panel.under_top(x(k), depth)).collect()] }
+        Self { panel, runs: vec![(0..=count).filter_map(|k| panel.under_top(x(k), depth, sewn)).collect()] }
     }
 
     fn length(&self) -> f64 {
