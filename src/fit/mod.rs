@@ -1,5 +1,6 @@
 //! What is read off a garment: strain, crossings, openings, the report.
 
+pub mod exact;
 mod laid;
 mod on_body;
 mod openings;

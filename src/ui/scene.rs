@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use glam::{DVec2, DVec3, Vec2, Vec3};
+use glam::{DVec3, Vec2, Vec3};
 
 use crate::body::Surface;
-use crate::cloth::{ClothState, Garment};
+use crate::cloth::{ClothState, FlatPiece, FlatPlace, Garment};
 use crate::geometry::adjacency::NONE;
 use crate::geometry::ids::MarkId;
 use crate::geometry::mesh::vertex_normals;
@@ -65,14 +65,7 @@ struct DrawnCloth {
 struct MarkPlaces {
     garment: Arc<Garment>,
     marks: Arc<Marks>,
-    places: Vec<Vec<Place>>,
-}
-
-/// A triangle and barycentric weights.
-#[derive(Clone, Copy, Debug)]
-struct Place {
-    triangle: usize,
-    weights: DVec3,
+    places: Vec<Vec<FlatPlace>>,
 }
 
 const INK: u8 = 255;
@@ -207,24 +200,14 @@ impl Scenery {
         let Some(found) = &self.places else { return 0 };
         let mut covered = 0;
         for (i, places) in found.places.iter().enumerate() {
-            let points: Option<Vec<Vec3>> = places.iter().map(|p| p.point(garment, state)).collect();
+            let places = places.iter().map(|p| p.point(garment, state).map(|p| p.as_vec3()));
+            let points: Option<Vec<Vec3>> = places.collect();
             if let Some(points) = points.filter(|p| !p.is_empty()) {
                 push_mark(scene, points, i + 1, shown.width(found.marks.cloth[i].id), ON_CLOTH, scale);
                 covered += usize::from(covered == i);
             }
         }
         covered
-    }
-}
-
-impl Place {
-    /// None while the triangle is not on the body yet.
-    fn point(&self, garment: &Garment, state: &ClothState) -> Option<Vec3> {
-        let corners = garment.triangles[self.triangle].map(|v| v as usize);
-        corners.iter().all(|&v| state.mapped[v]).then(|| {
-            let sum: DVec3 = (0..3).map(|k| state.positions[corners[k]] * self.weights[k]).sum();
-            sum.as_vec3()
-        })
     }
 }
 
@@ -256,20 +239,9 @@ fn push_pins(pinned: &[Option<u32>], cloth: &DrawnCloth, scale: f32, scene: &mut
     }
 }
 
-fn places_of(garment: &Garment, mark: &ClothMark) -> Vec<Place> {
-    let own: Vec<usize> =
-        (0..garment.triangles.len()).filter(|&t| garment.triangle_pieces[t] == mark.piece).collect();
-    let place = |p: DVec2| {
-        own.iter().find_map(|&triangle| {
-            let [a, b, c] = garment.triangle_corners[triangle].map(|c| garment.corners[c as usize].uv);
-            let area = (b - a).perp_dot(c - a);
-            let u = (c - b).perp_dot(p - b) / area;
-            let v = (a - c).perp_dot(p - c) / area;
-            let weights = DVec3::new(u, v, 1.0 - u - v);
-            (weights.min_element() >= -1e-6).then_some(Place { triangle, weights })
-        })
-    };
-    mark.points.iter().filter_map(|&p| place(p)).collect()
+fn places_of(garment: &Garment, mark: &ClothMark) -> Vec<FlatPlace> {
+    let piece = FlatPiece::new(garment, mark.piece);
+    mark.points.iter().filter_map(|&p| piece.inside(garment, p)).collect()
 }
 
 fn seam_lines(garment: &Garment, state: &ClothState, scale: f32) -> Vec<Polyline> {

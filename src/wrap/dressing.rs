@@ -418,8 +418,9 @@ impl Dressing {
         lies.then_some(&self.relaxer)
     }
 
-    /// From now on exactly these vertices of cloth that lies stay where they are.
+    /// From now on exactly these vertices stay where they are, once all cloth lies.
     pub fn fix(&mut self, vertices: &[u32]) {
+        self.pins = vertices.to_vec();
         if self.relaxer().is_some() {
             self.relaxer.fix(vertices.iter().copied());
         }
@@ -458,6 +459,7 @@ impl Dressing {
         if self.mapped > 0 {
             let ratio = self.edge_length / coarse.dressing.edge_length;
             self.relaxer.take_over(&coarse.dressing.relaxer, &coarse.carry, ratio);
+            self.relaxer.fix(self.pins.iter().copied());
             self.stage = Stage::Settle(Settling::from(SETTLE_STEPS, self.draft));
         }
     }

@@ -101,6 +101,25 @@ fn pins_stay_where_they_are() {
 }
 
 #[test]
+fn a_pin_stuck_in_while_the_cloth_grows_holds_it_once_it_lies() {
+    for ticks in [0, 1, 3, 10] {
+        let mut s = session();
+        s.apply_alone(Command::Wrap).expect("wrapped");
+        run(&mut s, ticks);
+        for at in [DVec2::new(0.02, 0.02), DVec2::new(0.02, 0.28)] {
+            s.apply_alone(Command::AddPin { piece: PIECE, at }).expect("pinned");
+        }
+        run(&mut s, 2000);
+        let pins: Vec<usize> = s.snapshot().pinned.iter().flatten().map(|&v| v as usize).collect();
+        assert_eq!(pins.len(), 2, "pinned after {ticks} ticks: {:?}", s.snapshot().pinned);
+        let places = |s: &Session| pins.iter().map(|&v| s.snapshot().cloth.positions[v]).collect::<Vec<_>>();
+        let were = places(&s);
+        drag(&mut s);
+        assert_eq!(places(&s), were, "pinned after {ticks} ticks");
+    }
+}
+
+#[test]
 fn pins_outlive_saving_and_go_with_their_cloth() {
     let mut s = dressed();
     s.apply_alone(Command::AddPin { piece: PIECE, at: DVec2::new(0.02, 0.28) }).expect("pinned");
