@@ -6,6 +6,7 @@ mod act;
 pub mod actions;
 pub mod app;
 mod asks;
+mod clicks;
 mod dialogs;
 mod files;
 mod ghosts;

@@ -73,3 +73,39 @@ fn a_click_pins_and_a_click_on_the_pin_pulls_it_out() {
     key(&mut window, Modifiers::COMMAND, Key::Z);
     assert_eq!(pins(&window), 0, "a row is one step");
 }
+
+/// A press and a release at each of `places`, all in one frame.
+fn clicks_in_one_frame(window: &mut Window, places: &[Pos2]) {
+    for &pos in places {
+        window.event(Event::PointerMoved(pos));
+        for pressed in [true, false] {
+            let (button, modifiers) = (PointerButton::Primary, Modifiers::NONE);
+            window.event(Event::PointerButton { pos, button, pressed, modifiers });
+        }
+    }
+    window.run_steps(3);
+}
+
+#[test]
+fn two_clicks_in_one_slow_frame_leave_two_pins() {
+    let mut window = dressed_window();
+    key(&mut window, Modifiers::NONE, Key::P);
+    let middle = pane(&window, "Body pane").center();
+    clicks_in_one_frame(&mut window, &[middle - Vec2::X * 30.0, middle + Vec2::X * 30.0]);
+    assert_eq!(app(&window).session().document().pins.len(), 2);
+}
+
+#[test]
+fn pins_of_before_a_wrap_are_not_taken_for_the_new_ones() {
+    let mut window = dressed_window();
+    key(&mut window, Modifiers::NONE, Key::P);
+    let middle = pane(&window, "Body pane").center();
+    let [left, right] = [-30.0, 30.0].map(|x| middle + Vec2::X * x);
+    drag(&mut window, &[left], PointerButton::Primary);
+    wait(&mut window, "the pin", |app| app.session().snapshot().pinned.len() == 1);
+    drag(&mut window, &[right], PointerButton::Primary);
+    // Whether or not the simulation has told of it yet, this is the second pin and not the first.
+    drag(&mut window, &[right], PointerButton::Primary);
+    let pins = &app(&window).session().document().pins;
+    assert_eq!(pins.iter().map(|pin| pin.id.0).collect::<Vec<_>>(), [1]);
+}

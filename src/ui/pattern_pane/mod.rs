@@ -15,6 +15,7 @@ use crate::session::samples::Sample;
 use crate::session::{Command, Document};
 use crate::ui::actions::{Action, Tool};
 use crate::ui::asks::{Ask, Asks, in_one_step};
+use crate::ui::clicks::clicks;
 use crate::ui::stroke;
 use crate::ui::theme::Palette;
 use crate::wrap::{ClothSide, Marks};
@@ -95,7 +96,8 @@ impl PatternPane {
             self.view.fit(pane, pattern);
         }
         self.move_view(ui, pane, &response);
-        let under = self.under(document, pane, &response);
+        let hovered = response.hover_pos().filter(|_| self.drag.is_none());
+        let under = hovered.map(|at| self.under(document, pane, at)).unwrap_or_default();
         self.listen(ui, laid, pane, &response, under, asks);
         self.set_cursor(ui, tool, under, &response);
         self.draw(ui, laid, pane, under);
@@ -130,10 +132,7 @@ impl PatternPane {
         }
     }
 
-    fn under(&self, document: &Document, pane: Rect, response: &Response) -> Under {
-        let Some(at) = response.hover_pos().filter(|_| self.drag.is_none()) else {
-            return Under::default();
-        };
+    fn under(&self, document: &Document, pane: Rect, at: Pos2) -> Under {
         let table = self.view.table_from_screen(pane, at);
         let reach = REACH / self.view.scale;
         Under {
@@ -155,12 +154,13 @@ impl PatternPane {
         let Laid { document, tool, .. } = *laid;
         let (space, erasing) =
             ui.input(|i| (i.key_down(Key::Space), tool == Tool::Erase || i.modifiers.command));
-        if response.clicked_by(PointerButton::Primary) && !space {
-            match (under.mark, tool) {
+        for at in clicks(ui, response, PointerButton::Primary).into_iter().filter(|_| !space) {
+            let mark = self.under(document, pane, at).mark;
+            match (mark, tool) {
                 (Some(mark), _) if erasing => asks.push(Ask::Do(Command::DeleteMark { mark })),
-                (Some(_), Tool::Mark | Tool::Move) => asks.push(Ask::Select(under.mark)),
+                (Some(_), Tool::Mark | Tool::Move) => asks.push(Ask::Select(mark)),
                 (None, Tool::Move) => asks.push(Ask::Select(None)),
-                (None, Tool::Mark) if !erasing => self.dot(laid, pane, response, asks),
+                (None, Tool::Mark) if !erasing => self.dot(laid, pane, at, asks),
                 _ => {}
             }
         }
@@ -186,8 +186,7 @@ impl PatternPane {
         }
     }
 
-    fn dot(&self, laid: &Laid<'_>, pane: Rect, response: &Response, asks: &mut Asks) {
-        let Some(at) = response.interact_pointer_pos() else { return };
+    fn dot(&self, laid: &Laid<'_>, pane: Rect, at: Pos2, asks: &mut Asks) {
         let pattern = &laid.document.pattern;
         let table = self.view.table_from_screen(pane, at);
         let hit = self.shapes.all_at(pattern, table).take(if laid.laser { usize::MAX } else { 1 });

@@ -1,10 +1,14 @@
 //! Dragging and pinning dressed cloth with the pointer.
 
+use std::collections::BTreeMap;
+
 use glam::DVec3;
 
+use crate::cloth::FlatPiece;
 use crate::drag::{DragMode, Ray};
-use crate::geometry::ids::PinId;
-use crate::session::Command;
+use crate::geometry::ids::{PieceId, PinId};
+use crate::session::{Command, Pin};
+use crate::sim::ClothPlace;
 use crate::ui::actions::Tool;
 use crate::ui::asks::Ask;
 use crate::ui::pick::{ClothHit, cloth_under};
@@ -38,11 +42,15 @@ pub fn next_in_row(seen: &Seen<'_>, last: DVec3, hit: &ClothHit) -> Option<Ask> 
         .then_some(Ask::Drag(Command::AddPin { piece: hit.place.piece, at: hit.place.at }))
 }
 
-/// The pins of the document with the places of the cloth they hold.
-pub fn pins<'a>(seen: &Seen<'a>) -> impl Iterator<Item = (PinId, DVec3)> + use<'a> {
-    let state = seen.cloth.map(|(_, state)| state);
-    seen.document.pins.iter().zip(seen.pinned.iter()).filter_map(move |(pin, vertex)| {
-        let place = state?.positions.get((*vertex)? as usize)?;
-        Some((pin.id, *place))
-    })
+/// The pins of the document with the places of the cloth they hold. Where the simulation has found them may be of pins
+/// there were before: their own places count.
+pub fn pins(seen: &Seen<'_>) -> Vec<(PinId, DVec3)> {
+    let Some((garment, state)) = seen.cloth else { return Vec::new() };
+    let mut pieces: BTreeMap<PieceId, FlatPiece> = BTreeMap::new();
+    let mut place = |pin: &Pin| {
+        let ClothPlace { piece, at } = pin.place;
+        let flat = pieces.entry(piece).or_insert_with(|| FlatPiece::new(garment, piece));
+        Some((pin.id, flat.nearest(garment, at)?.point(garment, state)?))
+    };
+    seen.document.pins.iter().filter_map(&mut place).collect()
 }

@@ -20,6 +20,7 @@ use crate::render::{Camera, Look, Projection, View};
 use crate::session::{Command, Document};
 use crate::ui::actions::{Action, Tool, VIEWS};
 use crate::ui::asks::{Ask, Asks, in_one_step};
+use crate::ui::clicks::clicks;
 use crate::ui::scene::{Scenery, Shown};
 use crate::ui::stroke;
 use crate::ui::theme::Palette;
@@ -119,7 +120,7 @@ impl ScenePane {
         self.frame_if_asked(seen, pane);
         self.move_view(ui, seen, pane, &response);
         let near = self.mark_under(seen, pane, &response);
-        self.listen(ui, seen, pane, &response, near, asks);
+        self.listen(ui, seen, pane, &response, asks);
         self.set_cursor(ui, seen, near, pane, &response);
         self.show(ui, seen, near, pane);
         publish_marks(ui, &seen.document.marks, "Mark", pane, &self.camera);
@@ -216,9 +217,12 @@ impl ScenePane {
         [near, near.filter(|_| seen.laser).and_then(|_| self.pick_far(seen, pane, at))]
     }
 
-    /// The mark on the body within reach of the pointer that is not behind the body.
     fn mark_under(&self, seen: &Seen<'_>, pane: Rect, response: &Response) -> Option<MarkId> {
-        let at = response.hover_pos().filter(|_| self.drag.is_none())?;
+        self.mark_at(seen, pane, response.hover_pos().filter(|_| self.drag.is_none())?)
+    }
+
+    /// The mark on the body within reach of a point of the screen that is not behind the body.
+    fn mark_at(&self, seen: &Seen<'_>, pane: Rect, at: Pos2) -> Option<MarkId> {
         let (at, size) = (within(pane, at), size_of(pane));
         let distance = |points: &[DVec3]| {
             points
@@ -249,30 +253,10 @@ impl ScenePane {
             .is_none_or(|hit| hit.distance > away - 0.01 * seen.body.map_or(1.0, |b| b.scale()))
     }
 
-    fn listen(
-        &mut self,
-        ui: &egui::Ui,
-        seen: &Seen<'_>,
-        pane: Rect,
-        response: &Response,
-        near: Option<MarkId>,
-        asks: &mut Asks,
-    ) {
+    fn listen(&mut self, ui: &egui::Ui, seen: &Seen<'_>, pane: Rect, response: &Response, asks: &mut Asks) {
         let erasing = seen.tool == Tool::Erase || ui.input(|i| i.modifiers.command);
-        if response.clicked_by(PointerButton::Primary)
-            && let Some(at) = response.interact_pointer_pos()
-        {
-            match (near, seen.tool) {
-                (Some(mark), _) if erasing => asks.push(Ask::Do(Command::DeleteMark { mark })),
-                (Some(_), Tool::Mark | Tool::Move) => asks.push(Ask::Select(near)),
-                (None, Tool::Move) => asks.push(Ask::Select(None)),
-                (None, Tool::Mark) if !erasing => {
-                    let dots = self.hits(seen, pane, at).map(|hit| hit.into_iter().collect());
-                    in_one_step(painted(seen, dots), asks);
-                }
-                (_, Tool::Pin) => asks.extend(self.pin_or_pull(seen, pane, at)),
-                _ => {}
-            }
+        for at in clicks(ui, response, PointerButton::Primary) {
+            self.click(seen, pane, at, erasing, asks);
         }
         if response.drag_started_by(PointerButton::Primary) {
             self.start_drag(ui, seen, pane, erasing, asks);
@@ -295,6 +279,21 @@ impl ScenePane {
         }
     }
 
+    fn click(&self, seen: &Seen<'_>, pane: Rect, at: Pos2, erasing: bool, asks: &mut Asks) {
+        let near = self.mark_at(seen, pane, at);
+        match (near, seen.tool) {
+            (Some(mark), _) if erasing => asks.push(Ask::Do(Command::DeleteMark { mark })),
+            (Some(_), Tool::Mark | Tool::Move) => asks.push(Ask::Select(near)),
+            (None, Tool::Move) => asks.push(Ask::Select(None)),
+            (None, Tool::Mark) if !erasing => {
+                let dots = self.hits(seen, pane, at).map(|hit| hit.into_iter().collect());
+                in_one_step(painted(seen, dots), asks);
+            }
+            (_, Tool::Pin) => asks.extend(self.pin_or_pull(seen, pane, at)),
+            _ => {}
+        }
+    }
+
     fn ray(&self, pane: Rect, at: Pos2) -> Ray {
         let ray = self.camera.ray(within(pane, at), size_of(pane));
         Ray { origin: ray.origin.as_dvec3(), direction: ray.direction.as_dvec3() }
@@ -307,6 +306,7 @@ impl ScenePane {
             self.camera.project(p.as_vec3(), size_of(pane)).map(|q| q.pixel.distance(within(pane, at)))
         };
         let near = pins(seen)
+            .into_iter()
             .filter_map(|(id, place)| Some((id, away(place)?)))
             .filter(|&(_, away)| away <= REACH)
             .min_by(|a, b| a.1.total_cmp(&b.1));
