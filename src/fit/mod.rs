@@ -6,9 +6,11 @@ mod on_body;
 mod openings;
 mod report;
 mod shape;
+mod spots;
 mod verdict;
 
 pub use on_body::BodyIndex;
 pub use openings::Opening;
 pub use report::{Clearance, Penetration, PieceChange, Report, Seams, Strain, measure};
-pub use verdict::verdict;
+pub use spots::Spot;
+pub use verdict::{faults, verdict};

@@ -3,9 +3,9 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
-use crate::fit::{BodyIndex, measure, verdict};
-use crate::pattern::Problem;
+use crate::fit::{BodyIndex, measure};
 use crate::sim::checkpoints::{Checkpoints, DEFAULT_CAPACITY};
+use crate::sim::fault::{Fault, faults};
 use crate::sim::protocol::{Event, Request, RequestKind, Snapshot};
 use crate::sim::stats::Stats;
 use crate::sim::world::World;
@@ -20,7 +20,7 @@ pub struct Simulation {
     seq: u64,
     stats: Stats,
     events: Vec<Event>,
-    verdict: Option<Arc<Vec<Problem>>>,
+    verdict: Option<Arc<Vec<Fault>>>,
 }
 
 impl Default for Simulation {
@@ -152,7 +152,11 @@ impl Simulation {
         if self.verdict.is_some() || !self.is_at_rest() || !world.cloth.mapped.contains(&true) {
             return false;
         }
-        let look = || verdict(&measure(&source.pattern, garment, &world.cloth, &BodyIndex::new(body)));
+        let look = || {
+            let index = BodyIndex::new(body);
+            let report = measure(&source.pattern, garment, &world.cloth, &index);
+            faults(&report, source, garment, &world.cloth, &index)
+        };
         match catch_unwind(AssertUnwindSafe(look)) {
             Ok(found) => self.verdict = Some(Arc::new(found)),
             Err(panic) => {

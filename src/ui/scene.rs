@@ -23,6 +23,8 @@ pub struct Shown<'a> {
     pub marks: Option<&'a Arc<Marks>>,
     /// A stroke being painted on the body.
     pub stroke: &'a [DVec3],
+    /// The stroke that goes with it on the far side of the body: seen through it.
+    pub far_stroke: &'a [DVec3],
     /// The mark under the pointer.
     pub near: Option<MarkId>,
     /// Vertices under pins.
@@ -81,6 +83,8 @@ const ON_SKIN: Lift = (0.0025, 1.6);
 const UNDER_CLOTH: Lift = (0.002, 0.0);
 const ON_CLOTH: Lift = (0.003, 1.6);
 const ABOVE_ALL: Lift = (0.03, 1.6);
+/// More than a body is thick.
+const THROUGH_ALL: Lift = (0.6, 1.6);
 /// Seams and edges of the cloth, sRGB and opacity.
 const SEAM: [u8; 4] = [66, 78, 70, 150];
 /// What the colour of cloth is multiplied with where a drag under way does not reach.
@@ -300,19 +304,27 @@ fn body_marks(marks: &Marks, shown: &Shown<'_>, covered: usize, scale: f32, scen
         // Above cloth that may lie there, so that the hand sees what it does.
         push_mark(scene, points, marks.body.len() + 1, MARK_WIDTH, ABOVE_ALL, scale);
     }
+    if !shown.far_stroke.is_empty() {
+        let points = shown.far_stroke.iter().map(|p| p.as_vec3()).collect();
+        push_ghost(scene, points, marks.body.len() + 2, THROUGH_ALL, scale);
+    }
 }
 
 /// Thinner than marks, and half transparent.
 fn body_ghosts(ghosts: &Marks, scale: f32, scene: &mut Scene) {
     for (mark, number) in ghosts.body.iter().zip(1..) {
         let points = mark.points.iter().map(|p| p.as_vec3()).collect();
-        let lines = scene.lines.len();
-        push_mark(scene, points, number, MARK_WIDTH * 0.55, ABOVE_ALL, scale);
-        for line in &mut scene.lines[lines..] {
-            (line.colour[3], line.halo[3]) = (GHOST, GHOST / 2);
-            if let Some(label) = scene.labels.last_mut() {
-                (label.colour[3], label.halo[3]) = (GHOST, GHOST);
-            }
+        push_ghost(scene, points, number, ABOVE_ALL, scale);
+    }
+}
+
+fn push_ghost(scene: &mut Scene, points: Vec<Vec3>, number: usize, lift: Lift, scale: f32) {
+    let lines = scene.lines.len();
+    push_mark(scene, points, number, MARK_WIDTH * 0.55, lift, scale);
+    for line in &mut scene.lines[lines..] {
+        (line.colour[3], line.halo[3]) = (GHOST, GHOST / 2);
+        if let Some(label) = scene.labels.last_mut() {
+            (label.colour[3], label.halo[3]) = (GHOST, GHOST);
         }
     }
 }
@@ -393,5 +405,18 @@ mod tests {
         bent.extend((1..50).map(|i| straight[49] + Vec3::Y * i as f32 * 0.01));
         assert_eq!(simplified(&bent, 1e-4), [bent[0], bent[49], bent[98]]);
         assert_eq!(simplified(&bent[..1], 1e-4), [bent[0]]);
+    }
+    #[test]
+    fn a_laser_stroke_is_seen_on_both_sides_while_it_is_painted() {
+        let marks = Arc::new(Marks::default());
+        let line = |z: f64| [DVec3::new(0.0, 0.0, z), DVec3::new(0.0, 0.1, z)];
+        let (near, far) = (line(0.1), line(-0.1));
+        let shown = Shown { marks: Some(&marks), stroke: &near, far_stroke: &far, ..Shown::default() };
+        let scene = Scenery::default().scene(&shown);
+        let [near, far] = &scene.lines[..] else { panic!("{} lines", scene.lines.len()) };
+        assert!(far.points[0].z < 0.0 && far.lift > 0.3, "it is drawn before the body it lies behind");
+        assert!(far.colour[3] < near.colour[3], "and fainter");
+        let numbers: Vec<&str> = scene.labels.iter().map(|label| label.text.as_str()).collect();
+        assert_eq!(numbers, ["1", "2"]);
     }
 }

@@ -89,7 +89,7 @@ fn rewrapping() -> Stage {
     println!("rewrapping: from {:.3}", stage.place(at(0.10, 0.0)));
     stage.give(Command::AddClothMark { piece, side: ClothSide::Front, points });
     let marks = stage.session.document().marks.clone();
-    let right = marks.body[0].points[0].x.signum() * -1.0;
+    let right = -marks.body[0].points[0].x.signum();
     let corners = [(0.19, 1.47), (0.30, 1.36), (0.52, 1.12)].map(|(x, y)| DVec3::new(right * x, y, 0.0));
     let points = stage.stroke(&corners);
     stage.give(Command::AddBodyMark { points });

@@ -133,7 +133,7 @@ impl Stage {
         self.session.runner().simulation().expect("inline").judge();
         self.session.update();
         let verdict = self.session.snapshot().verdict.clone().expect("judged");
-        verdict.iter().map(|p| format!("{}: {}", p.place, p.words)).collect()
+        verdict.iter().map(|fault| format!("{}: {}", fault.problem.place, fault.problem.words)).collect()
     }
 }
 

@@ -3,7 +3,7 @@
 use super::*;
 
 /// A window with cloth at rest on the body.
-fn dressed_window() -> Window {
+pub fn dressed_window() -> Window {
     let mut window = window();
     paint_both(&mut window);
     window.get_by_label("Wrap").click();
@@ -16,7 +16,7 @@ fn dressed_window() -> Window {
     window
 }
 
-fn positions(window: &Window) -> Vec<DVec3> {
+pub fn positions(window: &Window) -> Vec<DVec3> {
     app(window).session().snapshot().cloth.positions.clone()
 }
 
