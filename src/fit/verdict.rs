@@ -7,8 +7,8 @@ use crate::geometry::problem::{Problem, ProblemKind};
 /// Cloth stretched or pressed beyond this at its worst hundredth does not fit.
 const MOST_STRAIN: f64 = 0.25;
 
-/// No edge of cloth stretches to more than twice its length.
-const TORN: f64 = 1.0;
+/// Cloth or a seam has torn where more than one edge in so many is stretched to twice its length: fewer are slivers.
+const EDGES_PER_TEAR: usize = 1000;
 
 /// Every fault of a dressed garment; empty when it is sewn, on the body, outside of it and the right way round.
 pub fn verdict(report: &Report) -> Vec<Problem> {
@@ -133,10 +133,12 @@ impl Faults {
             let n = report.degenerate_faces;
             self.tell(Spot::Strained, "garment", format!("{n} triangles have shrunk to nothing"));
         }
-        if report.strain.max > TORN {
-            let percent = report.strain.max * 100.0;
-            let words =
-                format!("an edge is strained by {percent:.0} %: cloth or a seam would have torn there");
+        let strain = report.strain;
+        if strain.doubled * EDGES_PER_TEAR > strain.edges {
+            let (n, percent) = (strain.doubled, strain.max * 100.0);
+            let words = format!(
+                "{n} edges are stretched to more than twice their length, by up to {percent:.0} %: the cloth or a seam would have torn"
+            );
             self.tell(Spot::Strained, "garment", words);
         }
         if report.strain.p99 > MOST_STRAIN {

@@ -130,6 +130,11 @@ impl App {
         self.scene_pane.camera
     }
 
+    /// While the pointer is over cloth that pins hold back: how much of a drag would reach each vertex, 0..=1.
+    pub fn reach(&self) -> Option<&[f32]> {
+        self.scene_pane.reached()
+    }
+
     /// Everything done so far, as a recording.
     pub fn recording(&mut self) -> String {
         self.session.recording()

@@ -83,8 +83,9 @@ const ON_SKIN: Lift = (0.0025, 1.6);
 const UNDER_CLOTH: Lift = (0.002, 0.0);
 const ON_CLOTH: Lift = (0.003, 1.6);
 const ABOVE_ALL: Lift = (0.03, 1.6);
-/// More than a body is thick.
-const THROUGH_ALL: Lift = (0.6, 1.6);
+/// More than a body is thick: what lies behind it is seen through it.
+const BEHIND: Lift = (0.6, 1.6);
+const ABOVE_BEHIND: Lift = (0.7, 1.6);
 /// Seams and edges of the cloth, sRGB and opacity.
 const SEAM: [u8; 4] = [66, 78, 70, 150];
 /// What the colour of cloth is multiplied with where a drag under way does not reach.
@@ -299,14 +300,18 @@ fn body_marks(marks: &Marks, shown: &Shown<'_>, covered: usize, scale: f32, scen
             scene.labels.pop();
         }
     }
-    if !shown.stroke.is_empty() {
-        let points = shown.stroke.iter().map(|p| p.as_vec3()).collect();
-        // Above cloth that may lie there, so that the hand sees what it does.
-        push_mark(scene, points, marks.body.len() + 1, MARK_WIDTH, ABOVE_ALL, scale);
-    }
+    let points = |stroke: &[DVec3]| stroke.iter().map(|p| p.as_vec3()).collect();
     if !shown.far_stroke.is_empty() {
-        let points = shown.far_stroke.iter().map(|p| p.as_vec3()).collect();
-        push_ghost(scene, points, marks.body.len() + 2, THROUGH_ALL, scale);
+        // From where it is painted it lies right behind the near one: a broad band on both sides of that.
+        push_ghost(scene, points(shown.far_stroke), marks.body.len() + 2, MARK_WIDTH * 3.0, BEHIND, scale);
+        if let Some(label) = scene.labels.last_mut() {
+            label.offset.x = -label.offset.x;
+        }
+    }
+    if !shown.stroke.is_empty() {
+        // Above cloth that may lie there, so that the hand sees what it does.
+        let lift = if shown.far_stroke.is_empty() { ABOVE_ALL } else { ABOVE_BEHIND };
+        push_mark(scene, points(shown.stroke), marks.body.len() + 1, MARK_WIDTH, lift, scale);
     }
 }
 
@@ -314,13 +319,13 @@ fn body_marks(marks: &Marks, shown: &Shown<'_>, covered: usize, scale: f32, scen
 fn body_ghosts(ghosts: &Marks, scale: f32, scene: &mut Scene) {
     for (mark, number) in ghosts.body.iter().zip(1..) {
         let points = mark.points.iter().map(|p| p.as_vec3()).collect();
-        push_ghost(scene, points, number, ABOVE_ALL, scale);
+        push_ghost(scene, points, number, MARK_WIDTH * 0.55, ABOVE_ALL, scale);
     }
 }
 
-fn push_ghost(scene: &mut Scene, points: Vec<Vec3>, number: usize, lift: Lift, scale: f32) {
+fn push_ghost(scene: &mut Scene, points: Vec<Vec3>, number: usize, width: f32, lift: Lift, scale: f32) {
     let lines = scene.lines.len();
-    push_mark(scene, points, number, MARK_WIDTH * 0.55, lift, scale);
+    push_mark(scene, points, number, width, lift, scale);
     for line in &mut scene.lines[lines..] {
         (line.colour[3], line.halo[3]) = (GHOST, GHOST / 2);
         if let Some(label) = scene.labels.last_mut() {
@@ -406,6 +411,7 @@ mod tests {
         assert_eq!(simplified(&bent, 1e-4), [bent[0], bent[49], bent[98]]);
         assert_eq!(simplified(&bent[..1], 1e-4), [bent[0]]);
     }
+
     #[test]
     fn a_laser_stroke_is_seen_on_both_sides_while_it_is_painted() {
         let marks = Arc::new(Marks::default());
@@ -413,10 +419,11 @@ mod tests {
         let (near, far) = (line(0.1), line(-0.1));
         let shown = Shown { marks: Some(&marks), stroke: &near, far_stroke: &far, ..Shown::default() };
         let scene = Scenery::default().scene(&shown);
-        let [near, far] = &scene.lines[..] else { panic!("{} lines", scene.lines.len()) };
+        let [far, near] = &scene.lines[..] else { panic!("{} lines", scene.lines.len()) };
         assert!(far.points[0].z < 0.0 && far.lift > 0.3, "it is drawn before the body it lies behind");
+        assert!(far.lift < near.lift && far.width > near.width, "on both sides of the near one");
         assert!(far.colour[3] < near.colour[3], "and fainter");
         let numbers: Vec<&str> = scene.labels.iter().map(|label| label.text.as_str()).collect();
-        assert_eq!(numbers, ["1", "2"]);
+        assert_eq!(numbers, ["2", "1"]);
     }
 }

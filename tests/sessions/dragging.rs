@@ -3,6 +3,7 @@
 use glam::{DVec2, DVec3};
 use toile::drag::{DragMode, Ray};
 use toile::geometry::ids::{PieceId, PinId};
+use toile::relax::RelaxSettings;
 use toile::session::replay::Replay;
 use toile::session::{Command, Session};
 use toile::wrap::Phase;
@@ -156,4 +157,30 @@ fn a_recorded_drag_replays() {
     s.apply_alone(Command::Undo).expect("undone");
     let recording = toile::session::recording::Recording::parse(&s.recording()).expect("a recording");
     Replay::new(recording).run().expect("the same hashes");
+}
+
+#[test]
+fn each_control_of_relaxation_works_on_dressed_cloth_and_is_taken_back() {
+    type Turn = fn(&mut RelaxSettings);
+    let controls: [(&str, Turn); 5] = [
+        ("stretch", |r| r.stretch = 0.5),
+        ("flatten", |r| r.flatten = 0.9),
+        ("gravity", |r| r.gravity = 0.03),
+        ("friction", |r| r.friction = 0.0),
+        ("offset", |r| r.offset = 0.012),
+    ];
+    for (name, turn) in controls {
+        let mut s = dressed();
+        let before = cloth_hash(&mut s);
+        let mut settings = s.document().settings;
+        turn(&mut settings.relax);
+        s.apply_alone(Command::SetSettings { settings }).expect(name);
+        assert!(run(&mut s, 3000) > 0, "{name}: the cloth sleeps on");
+        assert_eq!(s.snapshot().phase, Some(Phase::AtRest), "{name}");
+        assert_ne!(cloth_hash(&mut s), before, "{name} changes nothing");
+        s.apply_alone(Command::Undo).expect("undone");
+        assert_eq!(cloth_hash(&mut s), before, "{name}");
+        let recording = toile::session::recording::Recording::parse(&s.recording()).expect("a recording");
+        Replay::new(recording).run().expect("the same hashes");
+    }
 }

@@ -109,3 +109,21 @@ fn pins_of_before_a_wrap_are_not_taken_for_the_new_ones() {
     let pins = &app(&window).session().document().pins;
     assert_eq!(pins.iter().map(|pin| pin.id.0).collect::<Vec<_>>(), [1]);
 }
+
+#[test]
+fn what_a_pin_holds_back_is_shown_before_the_drag() {
+    let mut window = dressed_window();
+    let middle = pane(&window, "Body pane").center();
+    key(&mut window, Modifiers::NONE, Key::D);
+    move_to(&mut window, middle);
+    assert!(app(&window).reach().is_none(), "nothing holds it back");
+    key(&mut window, Modifiers::NONE, Key::P);
+    drag(&mut window, &[middle - Vec2::X * 30.0], PointerButton::Primary);
+    wait(&mut window, "the pin", |app| app.session().snapshot().pinned.len() == 1);
+    key(&mut window, Modifiers::NONE, Key::D);
+    move_to(&mut window, middle + Vec2::X * 30.0);
+    let shares = app(&window).reach().expect("pins hold").to_vec();
+    let pin = app(&window).session().snapshot().pinned[0].expect("on the cloth") as usize;
+    assert_eq!(shares[pin], 0.0);
+    assert!(shares.iter().any(|&share| share > 0.9));
+}

@@ -27,7 +27,7 @@ use crate::ui::stroke;
 use crate::ui::theme::Palette;
 use crate::wrap::Marks;
 pub use graphics::{Graphics, Key};
-use hand::{begun, cloth_at, next_in_row, pins};
+use hand::{Reach, begun, cloth_at, next_in_row, pins};
 
 /// Radians the view turns for each point the pointer moves.
 const TURN: f32 = 0.0085;
@@ -90,6 +90,7 @@ pub struct ScenePane {
     pub graphics: Option<Graphics>,
     scenery: Scenery,
     drag: Option<Drag>,
+    reach: Reach,
     /// Where the pointer of the drag was last followed to.
     followed: Option<Pos2>,
     framed_body: Option<Arc<Surface>>,
@@ -133,7 +134,8 @@ impl ScenePane {
         let near = self.mark_under(seen, pane, &response);
         self.listen(ui, seen, pane, &response, asks);
         self.set_cursor(ui, seen, near, pane, &response);
-        self.draw(ui, seen, near, pane);
+        let reach = self.reach_under(seen, pane, &response);
+        self.draw(ui, &Seen { dragged: seen.dragged.or(reach.as_ref()), ..*seen }, near, pane);
         publish_marks(ui, &seen.document.marks, "Mark", pane, &self.camera);
         if let Some(ghosts) = seen.ghosts {
             publish_marks(ui, ghosts, "Proposed mark", pane, &self.camera);
