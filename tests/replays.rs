@@ -3,6 +3,7 @@
 //! After a change that is meant to move cloth differently: `TOILE_BLESS=1 cargo test --test replays` writes them anew.
 
 mod common;
+mod demos;
 #[path = "sessions/scenario.rs"]
 mod scenario;
 

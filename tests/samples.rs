@@ -3,12 +3,14 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use glam::DVec3;
 use serde_json::Value;
 use toile::body::{Measurements, Surface, mannequin};
 use toile::cloth::build;
 use toile::fit::{BodyIndex, Report, measure, verdict};
 use toile::session::samples::Sample;
-use toile::session::{Project, project_file};
+use toile::session::{Command, Project, Session, project_file};
+use toile::sim::{Fault, Runner, Simulation};
 use toile::wrap::{Dressing, Phase, coarser};
 
 /// Figures may differ by this from one machine's mathematics library to another's.
@@ -51,6 +53,53 @@ fn check_dressed(sample: Sample, openings: usize) {
     assert_eq!(report.openings.len(), openings, "{name}");
     assert_eq!(report.self_crossings, 0, "{name}");
     assert_eq!(report.penetration.vertices + report.edges_through_body + report.flipped_faces, 0, "{name}");
+}
+
+/// Both strokes of the left sleeve's pair lie on the breast: the sleeve cannot come to lie round its arm.
+#[test]
+fn a_wrap_that_fails_names_the_marks_concerned_and_is_taken_back() {
+    let mut project = drafted(Sample::Tshirt);
+    let good = Arc::clone(&project.document.marks);
+    let mut session = Session::new(project.clone(), Runner::inline(Simulation::default()));
+    let rest = |session: &mut Session| {
+        let simulation = session.runner().simulation().expect("inline");
+        while simulation.tick() {}
+        simulation.judge();
+        session.update();
+        simulation_hash(session)
+    };
+    session.apply_alone(Command::Wrap).expect("wrapped");
+    let before = rest(&mut session);
+    assert_eq!(session.snapshot().verdict.as_ref().expect("judged").len(), 0);
+    let sleeve = project.document.pattern.piece_named("sleeve left").expect("a sleeve");
+    let number = good.cloth.iter().position(|m| m.piece == sleeve).expect("its mark");
+    let marks = Arc::make_mut(&mut project.document.marks);
+    let body = session.surface().expect("a body");
+    let points =
+        marks.body[number].points.iter().map(|p| body.nearest(DVec3::new(p.x - 0.2, p.y - 0.05, 0.3)).point);
+    marks.body[number].points = points.collect();
+    marks.ties.clear();
+    session.apply_alone(Command::SetMarks { marks: Arc::clone(&project.document.marks) }).expect("painted");
+    let painted = session.document().clone();
+    session.apply_alone(Command::Wrap).expect("wrapped");
+    rest(&mut session);
+    let verdict = session.snapshot().verdict.clone().expect("judged");
+    let named = format!("{} (", number + 1);
+    for fault in verdict.iter() {
+        println!("{}: {}", fault.problem.place, fault.problem.words);
+    }
+    let names_it = |fault: &&Fault| {
+        fault.marks.iter().any(|m| m.number == number + 1) && fault.problem.words.contains(&named)
+    };
+    assert!(verdict.iter().filter(names_it).count() > 0, "no fault names mark {}", number + 1);
+    assert!(session.can_cancel_wrap());
+    session.apply_alone(Command::CancelWrap).expect("taken back");
+    assert_eq!(simulation_hash(&mut session), before, "what was comes back bit for bit");
+    assert!(*session.document() == painted, "the marks stay as they were painted");
+}
+
+fn simulation_hash(session: &mut Session) -> u64 {
+    session.runner().simulation().expect("inline").hash()
 }
 
 #[test]

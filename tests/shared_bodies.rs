@@ -1,10 +1,15 @@
 //! Bodies made by others, read from the folder that `TOILE_DATA` names; without it these tests pass with a line.
 
 use std::path::PathBuf;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use toile::body::{Imported, Unit, guess_unit, import, landmarks};
+use glam::{DVec2, DVec3};
+use toile::body::{Imported, Surface, Unit, guess_unit, import, landmarks};
 use toile::io::obj;
+use toile::session::body::surface_of;
+use toile::session::{BodyChoice, Command, Document, Project, Session};
+use toile::sim::{Runner, Simulation};
 
 fn bytes(name: &str) -> Option<Vec<u8>> {
     let Some(data) = std::env::var_os("TOILE_DATA").map(PathBuf::from) else {
@@ -117,4 +122,61 @@ fn guesses_of_units_are_right_or_missing() {
     assert_eq!(guess_unit(human), Some(Unit::Metre));
     assert_eq!(guess_unit(human * 100.0), Some(Unit::Centimetre));
     assert_eq!(guess_unit(human / 0.0254), Some(Unit::Inch));
+}
+
+/// Place along an arm (0 at the shoulder, 1 at the hand) and way out of it: up as it is spread, and to the front.
+fn on_arm(body: &Surface, side: &str) -> impl Fn(DVec3) -> (f64, DVec2) {
+    let found = landmarks::found(&body.mesh).expect("a human");
+    let [shoulder, hand] = ["shoulder", "hand"].map(|l| found.get(&format!("{l}_{side}")).expect("an arm"));
+    let along = (hand - shoulder).normalize();
+    let front = (DVec3::Z - along * along.z).normalize();
+    let up = DVec3::Y - along * along.y;
+    let surface = body;
+    move |p| {
+        let normal = surface.nearest(p).normal;
+        let share = (p - shoulder).dot(along) / shoulder.distance(hand);
+        (share, DVec2::new(normal.dot(up.normalize()), normal.dot(front)).normalize())
+    }
+}
+
+/// Dressing projects between poses: what is painted along the arms of one body finds the arms of the other.
+#[test]
+fn marks_on_arms_are_carried_between_spread_and_half_spread_arms() {
+    let names = ["garmentcode/mean_all.obj", "makehuman/mh_female_tpose.obj", "makehuman/mh_female_rest.obj"];
+    let bodies: Vec<_> = names.into_iter().filter_map(body).map(|b| Arc::new(b.mesh)).collect();
+    let choice = |i: usize| BodyChoice::Imported { name: names[i].to_owned(), mesh: Arc::clone(&bodies[i]) };
+    if bodies.is_empty() {
+        return;
+    }
+    for (from, to) in [(0, 1), (1, 0), (1, 2), (2, 1), (0, 2)] {
+        let document = Document { body: choice(from), ..Document::default() };
+        let runner = Runner::inline(Simulation::default());
+        let mut session = Session::new(Project { document, dressed: None }, runner);
+        let surface = surface_of(&choice(from)).expect("a body");
+        let found = landmarks::found(&surface.mesh).expect("a human");
+        let mut painted = Vec::new();
+        for side in ["left", "right"] {
+            let [shoulder, hand] =
+                ["shoulder", "hand"].map(|l| found.get(&format!("{l}_{side}")).expect("an arm"));
+            for way in [DVec3::Y, DVec3::NEG_Y, DVec3::Z, DVec3::NEG_Z] {
+                let line = (0..=10).map(|k| shoulder.lerp(hand, 0.4 + 0.03 * f64::from(k)) + way * 0.08);
+                let points: Vec<DVec3> = line.map(|p| surface.nearest(p).point).collect();
+                painted.push((side, points.clone()));
+                session.apply_alone(Command::AddBodyMark { points }).expect("painted");
+            }
+        }
+        session.apply_alone(Command::SetBody { body: choice(to) }).expect("taken");
+        assert_eq!(session.problems(), [], "{} to {}", names[from], names[to]);
+        let there = surface_of(&choice(to)).expect("a body");
+        for ((side, before), mark) in painted.iter().zip(&session.document().marks.body) {
+            let [was, is] = [(&surface, before), (&there, &mark.points)].map(|(body, points)| {
+                let place = on_arm(body, side);
+                [points[0], points[points.len() - 1]].map(place)
+            });
+            for ((was, out), (is, now_out)) in was.into_iter().zip(is) {
+                assert!((was - is).abs() < 0.12, "{} to {}: {was} {is}", names[from], names[to]);
+                assert!(out.dot(now_out) > 0.5, "{} to {}: {out:?} {now_out:?}", names[from], names[to]);
+            }
+        }
+    }
 }

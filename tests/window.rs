@@ -14,10 +14,14 @@ use toile::session::{BodyChoice, Document, Project};
 use toile::ui::App;
 use toile::wrap::ClothSide;
 
+#[path = "window/demos.rs"]
+mod demos;
 #[path = "window/files.rs"]
 mod files;
 #[path = "window/hand.rs"]
 mod hand;
+#[path = "window/mouse.rs"]
+mod mouse;
 
 type Window = Harness<'static, Option<App>>;
 

@@ -19,6 +19,9 @@ const ARMS_JOIN: f64 = 1.25;
 /// An arm is spread when the hand is this share of the height from the middle.
 const SPREAD: f64 = 0.22;
 
+/// The middle of an arm is no further from the line between shoulder and hand than this share of its length.
+const ARM_OFF_LINE: f64 = 0.2;
+
 /// Named points on the skin, metres. Names end in `_left` (x > 0) or `_right` where there are two.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Landmarks {
@@ -221,8 +224,36 @@ impl Levels<'_> {
         let hand = self.mesh.positions.iter().copied().max_by(|a, b| out(a).total_cmp(&out(b)));
         if let Some(hand) = hand.filter(|p| out(p) > SPREAD * self.height) {
             marks.add(format!("hand_{side}"), hand);
+            let shoulder = marks.get(&format!("shoulder_{side}"));
+            if let Some(rings) = shoulder.and_then(|shoulder| arm_rings(self.mesh, shoulder, hand)) {
+                rings.into_iter().for_each(|(name, p)| marks.add(format!("{name}_{side}"), p));
+            }
         }
     }
+}
+
+/// Four points round the arm at three places between shoulder and hand: above and below it, as it is spread, and before
+/// and behind. They turn with the arm, which level sections do not. None where one of them meets no arm.
+fn arm_rings(mesh: &TriMesh, shoulder: DVec3, hand: DVec3) -> Option<Vec<(String, DVec3)>> {
+    let along = (hand - shoulder).try_normalize()?;
+    let front = (DVec3::Z - along * along.z).try_normalize()?;
+    let above = if along.x > 0.0 { front.cross(along) } else { along.cross(front) };
+    let mut rings = Vec::new();
+    for (name, share) in [("arm_upper", 0.38), ("arm_middle", 0.55), ("arm_lower", 0.72)] {
+        let on_line = shoulder.lerp(hand, share);
+        let middle = |points: &Vec<DVec3>| points.iter().sum::<DVec3>() / points.len() as f64;
+        let near = |points: &Vec<DVec3>| middle(points).distance(on_line);
+        let ring = section(mesh, on_line, along).into_iter().min_by(|a, b| near(a).total_cmp(&near(b)))?;
+        if near(&ring) > ARM_OFF_LINE * shoulder.distance(hand) {
+            return None;
+        }
+        for (place, way) in [("above", above), ("below", -above), ("front", front), ("back", -front)] {
+            let far = |p: &DVec3| (*p - middle(&ring)).dot(way);
+            let p = ring.iter().copied().max_by(|a, b| far(a).total_cmp(&far(b)))?;
+            rings.push((format!("{name}_{place}"), p));
+        }
+    }
+    Some(rings)
 }
 
 fn area(outline: &[DVec2]) -> f64 {

@@ -136,7 +136,7 @@ pub struct PictureOptions {
 /// Runs a recording, compares its hashes, and stops at the first difference
 #[derive(Debug, Args)]
 pub struct Replay {
-    /// JSON lines, as written by --record or the window
+    /// JSON lines, as written by --record or the window; demo:NAME for one that comes with the program
     pub recording: PathBuf,
     /// Writes the same files as dress to this folder
     #[arg(long, value_name = "DIR")]

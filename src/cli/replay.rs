@@ -1,6 +1,7 @@
 //! `toile replay`: run a recording, compare its hashes.
 
 use std::fs;
+use std::path::Path;
 use std::time::Instant;
 
 use serde::Serialize;
@@ -9,8 +10,12 @@ use crate::cli::arguments;
 use crate::cli::failure::Failure;
 use crate::cli::report::{self, Seconds};
 use crate::cli::{input, interrupt, output, run};
+use crate::session::demos::Demo;
 use crate::session::recording::{Hex, Recording};
 use crate::session::replay::{Divergence, Replay};
+
+/// Begins the name of a demo that comes with the program.
+const DEMO: &str = "demo:";
 
 #[derive(Serialize)]
 struct Outcome {
@@ -33,9 +38,7 @@ struct Diverged {
 pub fn replay(arguments: &arguments::Replay) -> Result<(), Failure> {
     let start = Instant::now();
     let path = &arguments.recording;
-    let bytes = fs::read(path).map_err(|e| Failure::file(path, e))?;
-    let text =
-        String::from_utf8(bytes).map_err(|_| Failure::input(path, "not a recording: not UTF-8 text"))?;
+    let text = text_of(path)?;
     let recording = Recording::parse(&text).map_err(|e| Failure::input(path, e))?;
     if let Some(words) = recording.project.problem() {
         return Err(Failure::input(path, words));
@@ -71,6 +74,19 @@ pub fn replay(arguments: &arguments::Replay) -> Result<(), Failure> {
         report.finish(folder, start)?;
     }
     Ok(())
+}
+
+/// The text of a file, or of a demo that comes with the program.
+fn text_of(path: &Path) -> Result<String, Failure> {
+    let Some(name) = path.to_str().and_then(|path| path.strip_prefix(DEMO)) else {
+        let bytes = fs::read(path).map_err(|e| Failure::file(path, e))?;
+        return String::from_utf8(bytes).map_err(|_| Failure::input(path, "not a recording: not UTF-8 text"));
+    };
+    let Some(demo) = Demo::ALL.into_iter().find(|demo| demo.file_stem() == name) else {
+        let names = Demo::ALL.map(Demo::file_stem).join(", ");
+        return Err(Failure::input(path, format!("there is no demo of this name; there are {names}")));
+    };
+    Ok(demo.recording().to_owned())
 }
 
 fn run_through(replay: &mut Replay) -> Result<Option<Divergence>, Failure> {

@@ -14,7 +14,7 @@ use crate::fit;
 use crate::pattern::{Problem, ProblemKind};
 use crate::session::recording::Hex;
 use crate::session::{Document, Session};
-use crate::sim::{Snapshot, Stats};
+use crate::sim::{self, Fault, Snapshot, Stats};
 use crate::wrap::{MarkError, PairStretch, Phase, mark_error, stretches};
 
 /// `report.json`.
@@ -29,7 +29,7 @@ pub struct Report {
     #[serde(flatten)]
     fit: fit::Report,
     /// Why this is not a dressed garment; empty when it is.
-    faults: Vec<Problem>,
+    faults: Vec<Fault>,
     /// How long each pair of marks was before the wrap.
     marks: Vec<PairLengths>,
     mark_error: MarkError,
@@ -125,7 +125,7 @@ pub fn write(
     let state_hash = Hex(state_hash(session)?).to_string();
     let snapshot = session.snapshot();
     let start = Instant::now();
-    let (fit, marks, mark_error) = measured(snapshot)?;
+    let Measured { fit, faults, marks, mark_error } = measured(snapshot)?;
     seconds.measure = start.elapsed().as_secs_f64();
     let at_rest = snapshot.phase == Some(Phase::AtRest);
     if let (Some((garment, cloth)), Some(source)) = (snapshot.drawn(), &snapshot.source) {
@@ -144,7 +144,7 @@ pub fn write(
         inputs: Vec::new(),
         ticks: snapshot.tick,
         at_rest,
-        faults: faults(&fit, at_rest),
+        faults: faults.into_iter().chain((!at_rest).then(still_moving)).collect(),
         fit,
         marks,
         mark_error,
@@ -161,25 +161,33 @@ pub fn state_hash(session: &mut Session) -> Result<u64, Failure> {
     Ok(run::simulation(session)?.hash())
 }
 
-fn measured(snapshot: &Snapshot) -> Result<(fit::Report, Vec<PairLengths>, MarkError), Failure> {
+/// What is read off a garment.
+struct Measured {
+    fit: fit::Report,
+    faults: Vec<Fault>,
+    marks: Vec<PairLengths>,
+    mark_error: MarkError,
+}
+
+fn measured(snapshot: &Snapshot) -> Result<Measured, Failure> {
     let (Some((garment, cloth)), Some(body), Some(source)) =
         (snapshot.drawn(), &snapshot.body, &snapshot.source)
     else {
         return Err(Failure::Check("there is no cloth on the body".to_owned()));
     };
-    let fit = fit::measure(&source.pattern, garment, cloth, &fit::BodyIndex::new(body));
+    let index = fit::BodyIndex::new(body);
+    let fit = fit::measure(&source.pattern, garment, cloth, &index);
+    let faults = sim::faults(&fit, source, garment, cloth, &index);
     let offset = source.relax.offset * body.scale();
     let marks = stretches(&source.marks, body, offset).into_iter().map(PairLengths::from).collect();
-    Ok((fit, marks, mark_error(garment, cloth, body, &source.marks, offset)))
+    let mark_error = mark_error(garment, cloth, body, &source.marks, offset);
+    Ok(Measured { fit, faults, marks, mark_error })
 }
 
-fn faults(fit: &fit::Report, at_rest: bool) -> Vec<Problem> {
-    let mut faults = fit::verdict(fit);
-    if !at_rest {
-        let (kind, place) = (ProblemKind::Dressing, "garment".to_owned());
-        faults.push(Problem { kind, place, words: "it still moves".to_owned() });
-    }
-    faults
+fn still_moving() -> Fault {
+    let (kind, place) = (ProblemKind::Dressing, "garment".to_owned());
+    let problem = Problem { kind, place, words: "it still moves".to_owned() };
+    Fault { problem, marks: Vec::new() }
 }
 
 /// Without a graphics adapter: why not.
@@ -230,7 +238,8 @@ impl Report {
 
     /// Why this is not a dressed garment.
     pub fn failed_check(&self) -> Option<String> {
-        let words: Vec<String> = self.faults.iter().map(|f| format!("{}: {}", f.place, f.words)).collect();
+        let words: Vec<String> =
+            self.faults.iter().map(|f| format!("{}: {}", f.problem.place, f.problem.words)).collect();
         (!words.is_empty()).then(|| words.join("; "))
     }
 }

@@ -23,7 +23,8 @@ impl Carry {
             corners = rest;
             let flat = FlatPiece::new(from, piece);
             for corner in mine {
-                said[corner.vertex as usize].extend(flat.shares(from, corner.uv).into_iter().flatten());
+                let place = flat.nearest(from, corner.uv);
+                said[corner.vertex as usize].extend(place.iter().flat_map(|place| place.vertices(from)));
             }
         }
         let mut carry = Self { starts: vec![0], shares: Vec::new() };

@@ -2,12 +2,39 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::cloth::Garment;
+use crate::cloth::{ClothState, Garment};
 use crate::geometry::bvh::{Aabb, Bvh};
 use crate::geometry::ids::PieceId;
 
 /// How near a flat point counts as inside a triangle, in barycentric coordinates.
 const INSIDE: f64 = -1e-9;
+
+/// The same for a point that is asked whether it lies on the piece at all: strokes end on the outline.
+const ON_PIECE: f64 = -1e-6;
+
+/// A point of the flat cloth.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FlatPlace {
+    /// The triangle under it.
+    pub triangle: u32,
+    /// Barycentric: their sum is one.
+    pub shares: [f64; 3],
+}
+
+impl FlatPlace {
+    /// The triangle's vertices with their shares.
+    pub fn vertices(&self, garment: &Garment) -> [(u32, f64); 3] {
+        let vs = garment.triangles[self.triangle as usize];
+        [0, 1, 2].map(|k| (vs[k], self.shares[k]))
+    }
+
+    /// Where it lies in space; None while its triangle is not on the body.
+    pub fn point(&self, garment: &Garment, state: &ClothState) -> Option<DVec3> {
+        let vertices = self.vertices(garment);
+        let laid = vertices.iter().all(|&(v, _)| state.mapped[v as usize]);
+        laid.then(|| vertices.iter().map(|&(v, share)| state.positions[v as usize] * share).sum())
+    }
+}
 
 /// The triangles of one piece, flat.
 pub struct FlatPiece {
@@ -26,8 +53,13 @@ impl FlatPiece {
         Self { tree: Bvh::new(&boxes), triangles }
     }
 
-    /// The three vertices of the triangle under `p`, or of the one that needs least extending, with their shares.
-    pub fn shares(&self, garment: &Garment, p: DVec2) -> Option<[(u32, f64); 3]> {
+    /// Where `p` lies; None off the piece.
+    pub fn inside(&self, garment: &Garment, p: DVec2) -> Option<FlatPlace> {
+        self.nearest(garment, p).filter(|place| place.shares.iter().all(|&share| share >= ON_PIECE))
+    }
+
+    /// The triangle under `p`, or the one that needs least extending.
+    pub fn nearest(&self, garment: &Garment, p: DVec2) -> Option<FlatPlace> {
         let bounds = self.tree.nodes.first()?.bounds;
         let whole = (bounds.upper - bounds.lower).length();
         let mut reach = whole * 1e-6;
@@ -48,8 +80,7 @@ impl FlatPiece {
             if let Some((least, t, shares)) = best
                 && (least >= INSIDE || reach > whole * 0.01)
             {
-                let vs = garment.triangles[t as usize];
-                return Some([0, 1, 2].map(|k| (vs[k], shares[k])));
+                return Some(FlatPlace { triangle: t, shares });
             }
             if reach > 2.0 * whole {
                 return None;
@@ -68,4 +99,29 @@ fn barycentric([a, b, c]: [DVec2; 3], p: DVec2) -> Option<[f64; 3]> {
     let shares = [(c - b).perp_dot(p - b) / area, (a - c).perp_dot(p - c) / area];
     let shares = [shares[0], shares[1], 1.0 - shares[0] - shares[1]];
     shares.iter().all(|s| s.is_finite()).then_some(shares)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cloth::build;
+    use crate::pattern::{Pattern, Piece};
+
+    #[test]
+    fn shares_give_the_point_back_and_what_is_off_the_piece_has_none() {
+        let corners = [(0.0, 0.0), (0.4, 0.0), (0.5, 0.3), (0.0, 0.4)].map(|(x, y)| DVec2::new(x, y));
+        let mut pattern = Pattern::default();
+        let id = pattern.add_piece(Piece::polygon("kite", &corners));
+        let (garment, _) = build(&pattern, 0.05);
+        let piece = FlatPiece::new(&garment, id);
+        for p in [DVec2::new(0.1, 0.1), DVec2::new(0.41, 0.2), DVec2::ZERO, DVec2::new(0.2, 0.0)] {
+            let place = piece.inside(&garment, p).expect("on the piece");
+            let flat = flat(&garment, place.triangle);
+            let sum: DVec2 = (0..3).map(|k| flat[k] * place.shares[k]).sum();
+            assert!((sum - p).length() < 1e-12, "{sum} is not {p}");
+        }
+        let off = DVec2::new(0.2, -0.01);
+        assert!(piece.inside(&garment, off).is_none() && piece.nearest(&garment, off).is_some());
+        assert!(FlatPiece::new(&garment, PieceId(99)).nearest(&garment, off).is_none());
+    }
 }

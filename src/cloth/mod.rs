@@ -14,5 +14,5 @@ pub use carry::Carry;
 pub use counters::Counters;
 pub use distance::{EdgeMetric, Reached};
 pub use garment::{ClothState, Corner, Garment};
-pub use locate::FlatPiece;
+pub use locate::{FlatPiece, FlatPlace};
 pub use skips::{Skip, Skips};

@@ -42,9 +42,19 @@ impl<'a> BodyIndex<'a> {
         Self { surface, winding: Winding::new(&surface.mesh) }
     }
 
+    /// The body.
+    pub fn surface(&self) -> &'a Surface {
+        self.surface
+    }
+
     /// Whether `p` is inside, where the body may cross itself too.
     pub fn contains(&self, p: DVec3) -> bool {
         self.winding.contains(p)
+    }
+
+    /// Over the body's triangles.
+    pub(super) fn tree(&self) -> &Bvh {
+        self.winding.tree()
     }
 
     /// Distance to the surface, metres, never negative.
@@ -173,7 +183,14 @@ fn face_depth(corners: [DVec3; 3], body: &BodyIndex<'_>) -> Option<f64> {
 
 /// Triangles near the body, and those of them that show it their outer side: any of the facets they are nearest to.
 fn flipped_faces(laid: &Laid, body: &BodyIndex<'_>) -> (usize, usize) {
-    let found: Vec<Option<bool>> = (0..laid.mesh.triangles.len())
+    let found = wrong_side_out(laid, body);
+    let near = found.iter().filter(|f| f.is_some()).count();
+    (near, found.iter().filter(|f| **f == Some(true)).count())
+}
+
+/// Of each triangle near the body: whether it shows it its outer side.
+pub(super) fn wrong_side_out(laid: &Laid, body: &BodyIndex<'_>) -> Vec<Option<bool>> {
+    (0..laid.mesh.triangles.len())
         .into_par_iter()
         .with_min_len(256)
         .map(|t| {
@@ -182,7 +199,5 @@ fn flipped_faces(laid: &Laid, body: &BodyIndex<'_>) -> (usize, usize) {
             let (facing, _) = body.surface.least_facing((a + b + c) / 3.0, NEAR, normal)?;
             Some(facing < WRONG_SIDE)
         })
-        .collect();
-    let near = found.iter().filter(|f| f.is_some()).count();
-    (near, found.iter().filter(|f| **f == Some(true)).count())
+        .collect()
 }

@@ -82,6 +82,9 @@ pub struct Strain {
     pub stretch_p99: f64,
     /// Of the compressed edges only, the others counting 0.
     pub compress_p99: f64,
+    /// Edges stretched to more than twice their length.
+    #[serde(default)]
+    pub doubled: usize,
 }
 
 /// What became of a piece.

@@ -68,6 +68,7 @@ fn strain(signed: Vec<f64>) -> Strain {
         median: quantile(&sizes, 0.5),
         stretch_p99: quantile(&sorted_by(|s| s.max(0.0)), 0.99),
         compress_p99: quantile(&sorted_by(|s| (-s).max(0.0)), 0.99),
+        doubled: signed.iter().filter(|s| **s > 1.0).count(),
     }
 }
 

@@ -111,6 +111,16 @@ fn strain_is_that_of_the_circumference() {
 }
 
 #[test]
+fn cloth_stretched_to_more_than_its_double_is_torn() {
+    let r = exact_radius();
+    let whole = report(&sleeve(r, |p| p), cylinder(r - 0.01, 0.2, 1.2, 48, 20));
+    assert_eq!(whole.strain.doubled, 0);
+    let torn = |p: DVec3| if p.y > 0.7 { p + DVec3::Y * 0.2 } else { p };
+    let report = report(&sleeve(r, torn), cylinder(r - 0.01, 0.2, 1.2, 48, 20));
+    assert!(report.strain.doubled > 10 && words(&report).contains("would have torn"), "{}", words(&report));
+}
+
+#[test]
 fn cloth_inside_the_body_is_found() {
     let r = exact_radius();
     let report = report(&sleeve(r, |p| p), cylinder(r + 0.02, 0.2, 1.2, 64, 20));

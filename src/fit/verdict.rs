@@ -1,13 +1,22 @@
 //! What is wrong with a dressed garment, in words.
 
 use crate::fit::report::Report;
+use crate::fit::spots::Spot;
 use crate::geometry::problem::{Problem, ProblemKind};
 
 /// Cloth stretched or pressed beyond this at its worst hundredth does not fit.
 const MOST_STRAIN: f64 = 0.25;
 
+/// Cloth or a seam has torn where more than one edge in so many is stretched to twice its length: fewer are slivers.
+const EDGES_PER_TEAR: usize = 1000;
+
 /// Every fault of a dressed garment; empty when it is sewn, on the body, outside of it and the right way round.
 pub fn verdict(report: &Report) -> Vec<Problem> {
+    faults(report).into_iter().map(|(problem, _)| problem).collect()
+}
+
+/// The same, and where on the garment each is.
+pub fn faults(report: &Report) -> Vec<(Problem, Spot)> {
     let mut faults = Faults::default();
     faults.placing(report);
     faults.sewing(report);
@@ -18,33 +27,39 @@ pub fn verdict(report: &Report) -> Vec<Problem> {
 }
 
 #[derive(Default)]
-struct Faults(Vec<Problem>);
+struct Faults(Vec<(Problem, Spot)>);
 
 impl Faults {
-    fn tell(&mut self, place: impl Into<String>, words: String) {
-        self.0.push(Problem { kind: ProblemKind::Dressing, place: place.into(), words });
+    fn tell(&mut self, spot: Spot, place: impl Into<String>, words: String) {
+        let problem = Problem { kind: ProblemKind::Dressing, place: place.into(), words };
+        self.0.push((problem, spot));
     }
 
     fn placing(&mut self, report: &Report) {
         if report.not_finite_vertices > 0 {
             let n = report.not_finite_vertices;
-            self.tell("garment", format!("{n} vertices have no finite position: the simulation broke"));
+            self.tell(
+                Spot::Nowhere,
+                "garment",
+                format!("{n} vertices have no finite position: the simulation broke"),
+            );
         }
         if report.triangles == 0 {
             self.tell(
+                Spot::Nowhere,
                 "garment",
                 "no cloth lies on the body: the wrap found no pair of marks to begin with".to_owned(),
             );
             return;
         }
-        for piece in report.pieces.iter().filter(|p| p.missing_triangles > 0) {
+        for (i, piece) in report.pieces.iter().enumerate().filter(|(_, p)| p.missing_triangles > 0) {
             let place = format!("piece {}", piece.name);
             let words = match piece.triangles {
                 0 => "it still lies in the pattern plane: sew it to the others or give it a pair of marks"
                     .to_owned(),
                 _ => format!("{} of its triangles never reached the body", piece.missing_triangles),
             };
-            self.tell(place, words);
+            self.tell(Spot::Piece(i), place, words);
         }
     }
 
@@ -57,11 +72,12 @@ impl Faults {
                 seams.open,
                 seams.open + seams.closed
             );
-            self.tell("seams", words);
+            self.tell(Spot::Seams, "seams", words);
         }
         let (found, expected) = (report.pieces_in_space, report.pieces_expected);
         if report.triangles > 0 && found != expected {
             self.tell(
+                Spot::Nowhere,
                 "garment",
                 format!("it lies in {found} separate parts; its seams should make {expected}"),
             );
@@ -73,6 +89,7 @@ impl Faults {
         if p.vertices > 0 || p.faces > 0 {
             let depth = p.max_depth * 1000.0;
             self.tell(
+                Spot::Inside,
                 "body",
                 format!(
                     "{} vertices and {} triangles of the cloth are inside the body, up to {depth:.1} mm",
@@ -83,11 +100,11 @@ impl Faults {
         let (edges, body_edges) = (report.edges_through_body, report.body_edges_through_garment);
         if edges > 0 || body_edges > 0 {
             let words = format!("cloth and skin cut through each other in {} places", edges + body_edges);
-            self.tell("body", words);
+            self.tell(Spot::Through, "body", words);
         }
         if report.flipped_faces > 0 {
             let n = report.flipped_faces;
-            self.tell("garment", format!("{n} triangles lie wrong side out"));
+            self.tell(Spot::WrongSide, "garment", format!("{n} triangles lie wrong side out"));
         }
     }
 
@@ -97,9 +114,10 @@ impl Faults {
         if report.openings.len() < 2 {
             return;
         }
-        for opening in report.openings.iter().filter(|o| !o.body_through) {
+        for (i, opening) in report.openings.iter().enumerate().filter(|(_, o)| !o.body_through) {
             let (length, height) = (opening.length * 100.0, opening.height);
             self.tell(
+                Spot::Opening(i),
                 format!("opening of {length:.0} cm, {height:.2} m above the ground"),
                 "the body does not pass through it: the cloth lies on one side of the limb, or a seam has a hole".to_owned(),
             );
@@ -109,15 +127,24 @@ impl Faults {
     fn cloth(&mut self, report: &Report) {
         if report.self_crossings > 0 {
             let n = report.self_crossings;
-            self.tell("garment", format!("the cloth passes through itself in {n} places"));
+            self.tell(Spot::Crossing, "garment", format!("the cloth passes through itself in {n} places"));
         }
         if report.degenerate_faces > 0 {
             let n = report.degenerate_faces;
-            self.tell("garment", format!("{n} triangles have shrunk to nothing"));
+            self.tell(Spot::Strained, "garment", format!("{n} triangles have shrunk to nothing"));
+        }
+        let strain = report.strain;
+        if strain.doubled * EDGES_PER_TEAR > strain.edges {
+            let (n, percent) = (strain.doubled, strain.max * 100.0);
+            let words = format!(
+                "{n} edges are stretched to more than twice their length, by up to {percent:.0} %: the cloth or a seam would have torn"
+            );
+            self.tell(Spot::Strained, "garment", words);
         }
         if report.strain.p99 > MOST_STRAIN {
             let percent = report.strain.p99 * 100.0;
             self.tell(
+                Spot::Strained,
                 "garment",
                 format!(
                     "its worst hundredth is strained by {percent:.0} % and more: it does not fit this body"

@@ -8,5 +8,6 @@ pub mod ids;
 pub mod mesh;
 pub mod orient;
 pub mod problem;
+pub mod shapes;
 pub mod walk;
 pub mod winding;

@@ -3,6 +3,7 @@
 pub mod body;
 pub mod carry;
 pub mod command;
+pub mod demos;
 pub mod document;
 pub mod edit;
 pub mod hashes;

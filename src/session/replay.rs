@@ -29,6 +29,8 @@ pub struct Replay {
     hashes_compared: u64,
     /// The kind of machine it was made on, when this is another.
     other_machine: Option<String>,
+    /// Differences do not stop it.
+    watched: bool,
 }
 
 impl Replay {
@@ -43,15 +45,24 @@ impl Replay {
             told: recording.told.into(),
             last_gesture: 0,
             hashes_compared: 0,
+            watched: false,
         }
     }
 
-    /// At most one tick, one command or one comparison. False when the recording is at its end.
+    /// The same for watching: what differs from the recording does not stop it.
+    pub fn to_watch(recording: Recording) -> Self {
+        Self { watched: true, ..Self::new(recording) }
+    }
+
+    /// One tick, one command or one comparison. False when the recording is at its end.
     pub fn step(&mut self) -> Result<bool, Divergence> {
+        if self.due_command().is_some() {
+            self.apply_next()?;
+            return Ok(true);
+        }
         match self.told.front().copied() {
             Some(Told::Applied { seq, tick }) => {
                 if self.is_at(tick)? {
-                    self.apply_up_to(seq)?;
                     self.expect_taken_up(seq)?;
                     self.told.pop_front();
                 }
@@ -62,12 +73,29 @@ impl Replay {
                     self.told.pop_front();
                 }
             }
-            None => match self.commands.front() {
-                Some(&(seq, ..)) => self.apply_up_to(seq)?,
-                None => return Ok(false),
-            },
+            None => return Ok(false),
         }
         Ok(true)
+    }
+
+    /// The command that the next step will carry out, if that is what it will do.
+    pub fn due_command(&mut self) -> Option<&Command> {
+        let last = match self.told.front().copied() {
+            Some(Told::Applied { seq, tick } | Told::Hash { seq, tick, document: Some(_), .. }) => {
+                self.has_come(tick).then_some(seq)?
+            }
+            Some(Told::Hash { document: None, .. }) => return None,
+            None => u64::MAX,
+        };
+        self.commands.front().filter(|(seq, ..)| *seq <= last).map(|(.., command)| command)
+    }
+
+    /// Whether the next step will be a tick.
+    pub fn is_tick_due(&mut self) -> bool {
+        match self.told.front().copied() {
+            Some(Told::Applied { tick, .. } | Told::Hash { tick, .. }) => !self.has_come(tick),
+            None => false,
+        }
     }
 
     /// All of it.
@@ -79,6 +107,11 @@ impl Replay {
     /// The session being replayed.
     pub fn session(&mut self) -> &mut Session {
         &mut self.session
+    }
+
+    /// The session being replayed, for reading.
+    pub fn shown(&self) -> &Session {
+        &self.session
     }
 
     /// How many cloth hashes were compared so far.
@@ -95,12 +128,19 @@ impl Replay {
         self.session.runner().simulation().expect("a replay runs inline")
     }
 
-    /// Whether `tick` ticks have been executed; executes one if not.
+    /// Whether it is time for what the recording tells after `tick` ticks.
+    fn has_come(&mut self, tick: u64) -> bool {
+        let watched = self.watched;
+        let simulation = self.simulation();
+        simulation.ticks() == tick || (watched && (simulation.ticks() > tick || simulation.is_at_rest()))
+    }
+
+    /// Whether it is time for what the recording tells after `tick` ticks; executes one if not.
     fn is_at(&mut self, tick: u64) -> Result<bool, Divergence> {
-        let now = self.simulation().ticks();
-        if now == tick {
+        if self.has_come(tick) {
             return Ok(true);
         }
+        let now = self.simulation().ticks();
         if now > tick {
             return Err(self.diverged(format!("the recording goes back to tick {tick}")));
         }
@@ -115,13 +155,11 @@ impl Replay {
         Ok(false)
     }
 
-    fn apply_up_to(&mut self, last: u64) -> Result<(), Divergence> {
-        while self.commands.front().is_some_and(|&(seq, ..)| seq <= last) {
-            if let Some((seq, gesture, command)) = self.commands.pop_front() {
-                self.apply(seq, gesture, command)?;
-            }
+    fn apply_next(&mut self) -> Result<(), Divergence> {
+        match self.commands.pop_front() {
+            Some((seq, gesture, command)) => self.apply(seq, gesture, command),
+            None => Ok(()),
         }
-        Ok(())
     }
 
     fn apply(&mut self, seq: u64, gesture: u64, command: Command) -> Result<(), Divergence> {
@@ -144,7 +182,7 @@ impl Replay {
 
     fn expect_taken_up(&mut self, seq: u64) -> Result<(), Divergence> {
         let taken = self.simulation().seq();
-        if taken == seq {
+        if taken == seq || self.watched {
             return Ok(());
         }
         Err(self.diverged(format!(
@@ -155,7 +193,6 @@ impl Replay {
     fn compare(&mut self, seq: u64, cloth: u64, document: Option<u64>) -> Result<(), Divergence> {
         match document {
             Some(document) => {
-                self.apply_up_to(seq)?;
                 self.same("last command", self.session.last_seq(), seq)?;
                 let gesture = GestureId(self.last_gesture);
                 self.session.end_gesture(gesture);
@@ -175,14 +212,14 @@ impl Replay {
     }
 
     fn same(&mut self, what: &str, ours: u64, recorded: u64) -> Result<(), Divergence> {
-        if ours == recorded {
+        if ours == recorded || self.watched {
             return Ok(());
         }
         Err(self.diverged(format!("the {what} is {ours}, in the recording {recorded}")))
     }
 
     fn same_hash(&mut self, what: &str, ours: u64, recorded: u64) -> Result<(), Divergence> {
-        if ours == recorded {
+        if ours == recorded || self.watched {
             return Ok(());
         }
         let (ours, recorded) = (Hex(ours), Hex(recorded));

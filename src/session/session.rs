@@ -194,6 +194,12 @@ impl Session {
         self.history.done().iter().map(|step| step.label.as_str())
     }
 
+    /// Whether the newest step that touched the cloth is a wrap: `CancelWrap` takes it back.
+    pub fn can_cancel_wrap(&self) -> bool {
+        let newest = self.history.done().iter().rev().find(|step| step.kind != StepKind::Edit);
+        newest.is_some_and(|step| step.kind == StepKind::Wrap)
+    }
+
     /// What a project file would hold now.
     pub fn project(&mut self) -> Project {
         self.runner.refresh();

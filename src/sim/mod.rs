@@ -1,6 +1,7 @@
 //! Owner of the moving state: runs the stages, takes requests between ticks, keeps checkpoints, publishes snapshots.
 
 mod checkpoints;
+pub mod fault;
 pub mod hash;
 pub mod protocol;
 pub mod runner;
@@ -9,6 +10,7 @@ pub mod stats;
 pub mod thread;
 mod world;
 
+pub use fault::{Concerned, Fault, faults};
 pub use protocol::{ClothPlace, Event, GarmentSource, Request, RequestKind, Snapshot};
 pub use runner::Runner;
 pub use simulation::Simulation;

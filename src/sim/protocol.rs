@@ -12,6 +12,7 @@ use crate::drag::{DragMode, Ray};
 use crate::geometry::ids::PieceId;
 use crate::pattern::{Pattern, Problem};
 use crate::relax::RelaxSettings;
+use crate::sim::fault::Fault;
 use crate::sim::stats::Stats;
 use crate::wrap::{Marks, Phase};
 
@@ -113,7 +114,7 @@ pub struct Snapshot {
     /// What building and wrapping found wrong.
     pub problems: Arc<Vec<Problem>>,
     /// What is wrong with the cloth as it lies; None until somebody has looked.
-    pub verdict: Option<Arc<Vec<Problem>>>,
+    pub verdict: Option<Arc<Vec<Fault>>>,
 }
 
 impl Snapshot {

@@ -4,9 +4,9 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
 use crate::cloth::Skips;
-use crate::fit::{BodyIndex, measure, verdict};
-use crate::pattern::Problem;
+use crate::fit::{BodyIndex, measure};
 use crate::sim::checkpoints::{Checkpoints, DEFAULT_CAPACITY};
+use crate::sim::fault::{Fault, faults};
 use crate::sim::protocol::{Event, Request, RequestKind, Snapshot};
 use crate::sim::stats::Stats;
 use crate::sim::world::World;
@@ -21,7 +21,7 @@ pub struct Simulation {
     seq: u64,
     stats: Stats,
     events: Vec<Event>,
-    verdict: Option<Arc<Vec<Problem>>>,
+    verdict: Option<Arc<Vec<Fault>>>,
     skips: Skips,
 }
 
@@ -167,7 +167,11 @@ impl Simulation {
         let split = world.drawn();
         let (garment, cloth) =
             split.as_ref().map_or((garment, &world.cloth), |(garment, cloth)| (garment, cloth));
-        let look = || verdict(&measure(&source.pattern, garment, cloth, &BodyIndex::new(body)));
+        let look = || {
+            let index = BodyIndex::new(body);
+            let report = measure(&source.pattern, garment, cloth, &index);
+            faults(&report, source, garment, cloth, &index)
+        };
         match catch_unwind(AssertUnwindSafe(look)) {
             Ok(found) => self.verdict = Some(Arc::new(found)),
             Err(panic) => {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use crate::body::Surface;
-use crate::cloth::{self, ClothState, Counters, FlatPiece, Garment, Skip};
+use crate::cloth::{self, Carry, ClothState, Counters, FlatPiece, Garment, Skip};
 use crate::contact::{Bone, Bones, Splits};
 use crate::drag::{DragMode, Dragging, Ray};
 use crate::pattern::Problem;
@@ -31,6 +31,8 @@ pub struct World {
     pub dragging: Option<Arc<Dragging>>,
     /// How much of the drag reaches each vertex.
     pub dragged: Option<Arc<Vec<f32>>>,
+    /// Where the pins are stuck in.
+    pub places: Arc<Vec<ClothPlace>>,
     /// The vertex under each pin, in the pins' order; None where no cloth lies.
     pub pinned: Arc<Vec<Option<u32>>>,
     /// Split edges of cloth that was adopted and not touched since.
@@ -51,6 +53,7 @@ impl Default for World {
             dressing: None,
             dragging: None,
             dragged: None,
+            places: Arc::default(),
             pinned: Arc::default(),
             splits: None,
             relaxing: true,
@@ -62,19 +65,29 @@ impl Default for World {
 impl World {
     /// A garment just built and pasted to its marks.
     pub fn wrapped(source: Arc<GarmentSource>, body: Arc<Surface>) -> Self {
-        let (garment, mut problems) = cloth::build(&source.pattern, source.edge_length);
+        let (garment, problems) = cloth::build(&source.pattern, source.edge_length);
         let garment = Arc::new(garment);
         let coarser = match source.relax.skips.allow(Skip::Fine) {
             true => coarser(&source.pattern, &garment, source.edge_length, body.scale()),
             false => Vec::new(),
         };
-        let (dressing, cloth, more) = Dressing::coarse_to_fine(
+        let begun = Dressing::coarse_to_fine(
             &coarser,
             Arc::clone(&garment),
             Arc::clone(&body),
             &source.marks,
             source.relax,
         );
+        Self::begun(source, body, garment, problems, begun)
+    }
+
+    fn begun(
+        source: Arc<GarmentSource>,
+        body: Arc<Surface>,
+        garment: Arc<Garment>,
+        mut problems: Vec<Problem>,
+        (dressing, cloth, more): (Option<Dressing>, ClothState, Vec<Problem>),
+    ) -> Self {
         problems.extend(more);
         Self {
             source: Some(source),
@@ -87,32 +100,43 @@ impl World {
         }
     }
 
-    /// The dressed cloth grown anew from some pairs of marks.
+    /// The dressed cloth grown anew from some pairs of marks. Where the pattern has changed since, it is recut first: pins
+    /// hold what they held.
     pub fn rewrapped(&mut self, source: Arc<GarmentSource>, body: Arc<Surface>, pairs: &[usize]) -> Self {
         self.release();
         let marks = source.marks.only(pairs);
-        let same =
-            |old: &GarmentSource| old.pattern == source.pattern && old.edge_length == source.edge_length;
-        let fits = self.source.as_deref().is_some_and(same)
-            && self.body.as_ref().is_some_and(|old| Arc::ptr_eq(old, &body));
-        let Some(garment) = self.garment.clone().filter(|_| fits) else {
+        let places = Arc::clone(&self.places);
+        let here = self.body.as_ref().is_some_and(|old| Arc::ptr_eq(old, &body));
+        let cut = self.garment.clone().filter(|_| here).map(|old| self.recut(&source, old));
+        let held = cut.filter(|cut| cut.is_as_before || cut.pinned.iter().any(|v| v.is_some()));
+        let Some(Cut { garment, cloth, pinned, problems, .. }) = held else {
             let chosen = GarmentSource { marks: Arc::new(marks), ..GarmentSource::clone(&source) };
-            return Self { source: Some(source), ..Self::wrapped(Arc::new(chosen), body) };
+            let pinned = Arc::new(vec![None; places.len()]);
+            return Self { source: Some(source), places, pinned, ..Self::wrapped(Arc::new(chosen), body) };
         };
-        let pins = self.pinned_vertices();
-        let dressed = Dressed { cloth: &self.cloth, pins: &pins };
-        let (dressing, cloth, problems) =
+        let pins: Vec<u32> = pinned.iter().flatten().copied().collect();
+        let dressed = Dressed { cloth: &cloth, pins: &pins };
+        let begun =
             Dressing::rewrapped(Arc::clone(&garment), Arc::clone(&body), &marks, source.relax, dressed);
-        Self {
-            source: Some(source),
-            body: Some(body),
-            garment: Some(garment),
-            cloth: Arc::new(cloth),
-            dressing: dressing.map(Arc::new),
-            pinned: Arc::clone(&self.pinned),
-            problems: Arc::new(problems),
-            ..Self::default()
+        Self { places, pinned: Arc::new(pinned), ..Self::begun(source, body, garment, problems, begun) }
+    }
+
+    /// The cloth of `old`, which lies, in the mesh of `source`: the same flat point, the same place.
+    fn recut(&self, source: &GarmentSource, old: Arc<Garment>) -> Cut {
+        let same = |old: &GarmentSource| {
+            (Arc::ptr_eq(&old.pattern, &source.pattern) || old.pattern == source.pattern)
+                && old.edge_length == source.edge_length
+        };
+        if self.source.as_deref().is_some_and(same) {
+            let (cloth, pinned) = (Arc::clone(&self.cloth), self.pinned.to_vec());
+            return Cut { is_as_before: true, garment: old, cloth, pinned, problems: Vec::new() };
         }
+        let (garment, problems) = cloth::build(&source.pattern, source.edge_length);
+        let count = garment.vertex_count;
+        let mut cloth = ClothState { positions: vec![DVec3::ZERO; count], mapped: vec![false; count] };
+        Carry::new(&old, &garment).places(&self.cloth, &mut cloth);
+        let pinned = self.places.iter().map(|&p| vertex_under(&garment, &cloth, p).map(|(v, _)| v)).collect();
+        Cut { is_as_before: false, garment: Arc::new(garment), cloth: Arc::new(cloth), pinned, problems }
     }
 
     /// Cloth that was dressed before. The error is in words.
@@ -158,8 +182,8 @@ impl World {
     /// Exactly the vertices nearest to `places` are pinned. Cloth that lies wakes when a pin is pulled out.
     pub fn set_pins(&mut self, places: &[ClothPlace]) {
         let before = self.pinned_vertices();
-        self.pinned =
-            Arc::new(places.iter().map(|&place| self.vertex_under(place).map(|(v, _)| v)).collect());
+        self.places = Arc::new(places.to_vec());
+        self.pinned = Arc::new(places.iter().map(|&place| Some(self.under(place)?.0)).collect());
         if self.dragging.is_some() {
             return; // What is in the hand settles later.
         }
@@ -178,7 +202,7 @@ impl World {
     /// Takes the cloth at `at` in the hand. Cloth that is not there, or still grows, stays as it is.
     pub fn grab(&mut self, at: ClothPlace, mode: DragMode, bones: &[Bone]) {
         self.release();
-        let Some((hand, place)) = self.vertex_under(at) else { return };
+        let Some((hand, place)) = self.under(at) else { return };
         self.resume();
         let Some(mut relaxer) = self.dressing.as_ref().and_then(|d| d.relaxer()).cloned() else { return };
         relaxer.bones = Arc::new(Bones::new(bones, &relaxer.surface));
@@ -216,14 +240,15 @@ impl World {
         }
     }
 
-    /// The laid vertex nearest to a flat place, and where that place is, metres.
-    fn vertex_under(&self, place: ClothPlace) -> Option<(u32, DVec3)> {
-        let garment = self.garment.as_deref()?;
-        let shares = FlatPiece::new(garment, place.piece).shares(garment, place.at)?;
-        let laid = |&(v, _): &(u32, f64)| self.cloth.mapped[v as usize];
-        let (vertex, _) = shares.iter().copied().max_by(|a, b| a.1.total_cmp(&b.1))?;
-        let point = shares.iter().map(|&(v, share)| self.cloth.positions[v as usize] * share).sum();
-        shares.iter().all(laid).then_some((vertex, point))
+    fn under(&self, place: ClothPlace) -> Option<(u32, DVec3)> {
+        vertex_under(self.garment.as_deref()?, &self.cloth, place)
+    }
+
+    /// Pins stuck in where cloth was still to come hold it now that it lies.
+    fn find_lost_pins(&mut self) {
+        if self.pinned.contains(&None) {
+            self.set_pins(&Arc::clone(&self.places));
+        }
     }
 
     /// Cloth that was adopted gets what is needed to relax it.
@@ -261,7 +286,11 @@ impl World {
         if let Some(dragging) = &mut self.dragging {
             Arc::make_mut(dragging).step(Arc::make_mut(&mut self.cloth), self.relaxing);
         } else if let Some(dressing) = &mut self.dressing {
+            let lay = dressing.relaxer().is_some();
             Arc::make_mut(dressing).step(Arc::make_mut(&mut self.cloth));
+            if !lay && dressing.relaxer().is_some() {
+                self.find_lost_pins();
+            }
         }
     }
 
@@ -314,4 +343,22 @@ impl World {
         };
         ALWAYS + cloth + garment
     }
+}
+
+/// A garment, cloth that lies in its mesh, and the vertices under the pins.
+struct Cut {
+    /// The mesh is the one that was dressed.
+    is_as_before: bool,
+    garment: Arc<Garment>,
+    cloth: Arc<ClothState>,
+    pinned: Vec<Option<u32>>,
+    problems: Vec<Problem>,
+}
+
+/// The laid vertex nearest to a flat place, and where that place is, metres.
+fn vertex_under(garment: &Garment, cloth: &ClothState, place: ClothPlace) -> Option<(u32, DVec3)> {
+    let place = FlatPiece::new(garment, place.piece).nearest(garment, place.at)?;
+    let point = place.point(garment, cloth)?;
+    let (vertex, _) = place.vertices(garment).into_iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
+    Some((vertex, point))
 }

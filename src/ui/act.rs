@@ -1,6 +1,9 @@
 //! What each action does.
 
+use std::sync::Arc;
+
 use egui::ViewportCommand;
+use glam::DVec3;
 
 use crate::render::Projection;
 use crate::session::{Command, Project};
@@ -9,6 +12,7 @@ use crate::ui::app::App;
 use crate::ui::dialogs::Dialog;
 use crate::ui::files::{self, Purpose};
 use crate::ui::ghosts::Ghosts;
+use crate::ui::preferences::Preferences;
 use crate::wrap::{BodyMark, ClothMark};
 
 impl App {
@@ -65,8 +69,36 @@ impl App {
             }
             Action::ToggleCloth => self.show_cloth = !self.show_cloth,
             Action::TogglePanel => self.show_panel = !self.show_panel,
-            Action::Theme(theme) => ctx.set_theme(theme),
-            Action::Shortcuts => self.dialog = Some(Dialog::Shortcuts),
+            Action::Theme(theme) => {
+                ctx.set_theme(theme);
+                self.prefer(Preferences { theme: theme.into(), ..self.preferences });
+            }
+            Action::Mouse(mouse) => self.prefer(Preferences { mouse, ..self.preferences }),
+            Action::Demo(demo) => self.begin_demo(demo),
+            Action::StopDemo => self.stop_demo(),
+            Action::Shortcuts => self.dialog = Some(Dialog::Shortcuts { mouse: self.preferences.mouse }),
+        }
+    }
+
+    /// From now on, and the next time.
+    fn prefer(&mut self, preferences: Preferences) {
+        self.preferences = preferences;
+        if let Some(path) = &self.preferences_path
+            && let Err(words) = preferences.write(path)
+        {
+            self.messages.error(format!("Your preferences could not be kept: {words}"));
+        }
+    }
+
+    /// Selects the first of these pairs and turns the view to all of them.
+    pub(super) fn show_marks(&mut self, numbers: &[usize]) {
+        let marks = Arc::clone(&self.shown().document().marks);
+        let shown: Vec<&BodyMark> =
+            numbers.iter().filter_map(|&n| marks.body.get(n.checked_sub(1)?)).collect();
+        self.selected = shown.first().map(|mark| mark.id);
+        let points: Vec<DVec3> = shown.iter().flat_map(|mark| mark.points.iter().copied()).collect();
+        if let Some(surface) = self.shown().surface().cloned() {
+            self.scene_pane.show(&points, &surface);
         }
     }
 

@@ -4,7 +4,9 @@ use egui::{Key, KeyboardShortcut, Modifiers, ThemePreference};
 
 use crate::drag::DragMode;
 use crate::render::View;
+use crate::session::demos::Demo;
 use crate::session::samples::Sample;
+use crate::ui::mouse::Mouse;
 
 /// What the left mouse button does in the panes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -60,7 +62,10 @@ pub enum Action {
     ToggleCloth,
     TogglePanel,
     Theme(ThemePreference),
+    Mouse(Mouse),
     Shortcuts,
+    Demo(Demo),
+    StopDemo,
 }
 
 /// How an action is shown and reached.
@@ -193,6 +198,9 @@ impl Action {
             Self::Theme(ThemePreference::Light) => entry("Light", "Dark text on light", &[]),
             Self::Theme(ThemePreference::Dark) => entry("Dark", "Light text on dark", &[]),
             Self::Theme(ThemePreference::System) => entry("As the system", "Follow the desktop", &[]),
+            Self::Mouse(mouse) => entry(mouse.name(), mouse.tip(), &[]),
+            Self::Demo(demo) => entry(demo.name(), demo.tells(), &[]),
+            Self::StopDemo => entry("Stop the demo", "Go back to your own work", &[]),
             Self::Shortcuts => entry("Keys and mouse", "What each key and button does", &[key(Key::F1)]),
         }
     }
@@ -205,6 +213,24 @@ impl Action {
             .collect();
         all.sort_by_key(|(_, k)| !(k.modifiers.shift && k.modifiers.command));
         all
+    }
+
+    /// Whether it may be chosen while a demo is shown: what changes nothing but the view.
+    pub fn is_for_demos(self) -> bool {
+        matches!(
+            self,
+            Self::Look(_)
+                | Self::FrameAll
+                | Self::ToggleParallel
+                | Self::ToggleFreeTurning
+                | Self::TogglePanel
+                | Self::Theme(_)
+                | Self::Mouse(_)
+                | Self::Shortcuts
+                | Self::Demo(_)
+                | Self::StopDemo
+                | Self::Quit
+        )
     }
 
     /// Whether a plain key belongs to it, which a focused widget may want for itself.

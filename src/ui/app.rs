@@ -3,9 +3,10 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use egui::{CentralPanel, Frame, Key, KeyboardShortcut, Margin, Panel, ViewportCommand};
+use egui::{CentralPanel, Frame, Key, KeyboardShortcut, Margin, Modifiers, Panel, ViewportCommand};
 
 use crate::geometry::ids::MarkId;
+use crate::render::Camera;
 use crate::session::{Command, Document, GestureId, Notice, Project, Session};
 use crate::sim::{Runner, Simulation, Snapshot, thread::DEFAULT_RATE_HZ};
 use crate::ui::actions::{Action, Tool};
@@ -15,7 +16,11 @@ use crate::ui::files::{self, Purpose, RawBody};
 use crate::ui::ghosts::Ghosts;
 use crate::ui::marks_panel::MarksPanel;
 use crate::ui::messages::Messages;
+use crate::ui::mouse::Mouse;
+use crate::ui::pattern_pane::view::TableView;
 use crate::ui::pattern_pane::{self, Laid, PatternPane};
+use crate::ui::player::Player;
+use crate::ui::preferences::Preferences;
 use crate::ui::scene_pane::{self, ScenePane, Seen};
 use crate::ui::side_panel::Told;
 use crate::ui::situation::Situation;
@@ -43,6 +48,11 @@ pub struct App {
     pub(super) native: Option<NativeDialog>,
     pub(super) messages: Messages,
     pub(super) may_close: bool,
+    /// A demo that is shown instead of the document, and how both panes were seen before.
+    pub(super) demo: Option<(Player, Camera, TableView)>,
+    pub(super) preferences: Preferences,
+    /// Where they are kept.
+    pub(super) preferences_path: Option<PathBuf>,
     /// To be done once the project is saved.
     pub(super) after_save: Option<Action>,
     drag: Option<GestureId>,
@@ -82,12 +92,22 @@ impl App {
             native: None,
             messages: Messages::default(),
             may_close: false,
+            demo: None,
+            preferences: Preferences::default(),
+            preferences_path: None,
             after_save: None,
             drag: None,
             wrap_seq: None,
             title: String::new(),
             frames: 0,
         })
+    }
+
+    /// Prefers what `path` says, and keeps there what is preferred from now on.
+    pub fn keep_preferences(&mut self, ctx: &egui::Context, path: PathBuf) {
+        self.preferences = Preferences::read(&path);
+        ctx.set_theme(egui::ThemePreference::from(self.preferences.theme));
+        self.preferences_path = Some(path);
     }
 
     /// Writes everything done, from the beginning, to `file` as well.
@@ -103,6 +123,16 @@ impl App {
     /// The session, for reading.
     pub fn session(&self) -> &Session {
         &self.session
+    }
+
+    /// From where the body is seen.
+    pub fn camera(&self) -> Camera {
+        self.scene_pane.camera
+    }
+
+    /// While the pointer is over cloth that pins hold back: how much of a drag would reach each vertex, 0..=1.
+    pub fn reach(&self) -> Option<&[f32]> {
+        self.scene_pane.reached()
     }
 
     /// Everything done so far, as a recording.
@@ -135,15 +165,20 @@ impl App {
         self.frames += 1;
         let ctx = ui.ctx().clone();
         self.take_notices();
-        let document = self.session.document().clone();
-        let snapshot = Arc::clone(self.session.snapshot());
-        self.ghosts = self.ghosts.take().filter(|g| g.fit(&document, self.session.surface()));
+        self.play_demo(&ctx);
+        let document = self.shown().document().clone();
+        let snapshot = Arc::clone(self.shown().snapshot());
+        self.ghosts = self.ghosts.take().filter(|g| g.fit(&document, self.shown().surface()));
         let now = self.situation(&ctx, &document, &snapshot);
         let palette = Palette::of(ctx.theme());
         let mut asks = Asks::new();
         self.keys(&ctx, &now, &mut asks);
         self.panels(ui, &document, &snapshot, &now, &palette, &mut asks);
         self.messages.ui(&ctx, &palette, status::HEIGHT);
+        if let (Some((player, ..)), Some(table)) = (&self.demo, self.pattern_pane.area) {
+            player.ui(&ctx, &palette, table, &mut asks);
+            asks.retain(|ask| matches!(ask, Ask::Act(action) if action.is_for_demos()));
+        }
         if !asks.is_empty() {
             // This frame showed how things stood before.
             ctx.request_repaint();
@@ -155,6 +190,11 @@ impl App {
         self.dropped_files(&ctx);
         self.guard_closing(&ctx);
         self.set_title(&ctx);
+    }
+
+    /// What is on the screen: the document, or a demo.
+    pub fn shown(&self) -> &Session {
+        self.demo.as_ref().map_or(&self.session, |(player, ..)| player.session())
     }
 
     fn panels(
@@ -170,23 +210,24 @@ impl App {
             Frame::new().fill(ui.visuals().panel_fill).inner_margin(Margin::symmetric(10, y))
         };
         let (thin, thick) = (bar(ui, 3), bar(ui, 6));
+        let surface = self.shown().surface().cloned();
+        let lost = self.shown().problems().to_vec();
         Panel::top("menu")
             .frame(thin)
             .show_separator_line(false)
             .show(ui, |ui| menu::menu_bar_ui(ui, now, asks));
         Panel::top("tools").frame(thick).show(ui, |ui| toolbar::toolbar_ui(ui, now, palette, asks));
         Panel::bottom("status").frame(thin).exact_size(status::HEIGHT).show(ui, |ui| {
-            status::status_ui(ui, now, &self.hint(document), palette);
+            status::status_ui(ui, now, &self.hint(document, now), palette);
         });
         if self.show_panel {
             Panel::right("side").default_size(256.0).size_range(220.0..=420.0).frame(thick).show(ui, |ui| {
-                let surface = self.session.surface();
                 let told = Told {
                     document,
-                    surface,
+                    surface: surface.as_ref(),
                     problems: &snapshot.problems,
                     verdict: snapshot.verdict.as_ref().map_or(&[], |found| found),
-                    lost: self.session.problems(),
+                    lost: &lost,
                     now,
                     palette,
                 };
@@ -200,7 +241,8 @@ impl App {
             |ui| {
                 let selected = now.selected.map(|(mark, _)| mark);
                 let ghosts = self.ghosts.as_ref().map(|g| &*g.marks);
-                let laid = Laid { document, tool: self.tool, laser: self.laser, selected, ghosts, palette };
+                let (tool, mouse, laser) = (now.tool, now.mouse, self.laser);
+                let laid = Laid { document, tool, mouse, laser, selected, ghosts, palette };
                 self.pattern_pane.ui(ui, &laid, asks);
                 if document.pattern.pieces.is_empty() {
                     let area = ui.max_rect().shrink2(egui::vec2(20.0, ui.max_rect().height() * 0.36));
@@ -214,13 +256,14 @@ impl App {
             let cloth = snapshot.drawn().filter(|_| self.show_cloth && snapshot.is_dressed());
             let seen = Seen {
                 document,
-                body: self.session.surface(),
+                body: surface.as_ref(),
                 cloth,
                 pinned: &snapshot.pinned,
                 dragged: snapshot.dragged.as_ref(),
                 growing: now.wrapping,
                 working: now.working,
-                tool: self.tool,
+                tool: now.tool,
+                mouse: now.mouse,
                 laser: self.laser,
                 selected: now.selected.map(|(mark, _)| mark),
                 ghosts: self.ghosts.as_ref().map(|g| &g.marks),
@@ -231,34 +274,41 @@ impl App {
         });
     }
 
-    fn hint(&self, document: &Document) -> String {
+    fn hint(&self, document: &Document, now: &Situation) -> String {
+        let mouse = now.mouse;
         let next = |painted: usize| painted + 1;
-        if self.ghosts.is_some() {
+        if self.demo.is_some() {
+            "A demo is shown. Drag: turn · Wheel: zoom · Esc: back to your work".to_owned()
+        } else if self.ghosts.is_some() {
             "Proposed marks: Enter takes them, Esc forgets them.".to_owned()
         } else if self.pattern_pane.hovered {
-            pattern_pane::hint(self.tool, self.laser, next(document.marks.cloth.len()))
+            pattern_pane::hint(self.tool, mouse, self.laser, next(document.marks.cloth.len()))
         } else if self.scene_pane.hovered {
-            scene_pane::hint(self.tool, self.laser, next(document.marks.body.len()))
+            scene_pane::hint(self.tool, mouse, self.laser, now.dressed, next(document.marks.body.len()))
         } else {
             "Paint a mark on a piece and one on the body where it should lie, then press Wrap.".to_owned()
         }
     }
 
     fn situation(&self, ctx: &egui::Context, document: &Document, snapshot: &Snapshot) -> Situation {
-        let asked = self.wrap_seq.is_some_and(|seq| snapshot.seq < seq);
+        let asked = self.demo.is_none() && self.wrap_seq.is_some_and(|seq| snapshot.seq < seq);
         let growing = snapshot.phase == Some(Phase::Growing) && snapshot.working;
         Situation {
-            undo: self.session.undo_label().map(str::to_owned),
-            redo: self.session.redo_label().map(str::to_owned),
-            tool: self.tool,
+            undo: self.shown().undo_label().map(str::to_owned),
+            redo: self.shown().redo_label().map(str::to_owned),
+            // In a demo the mouse only turns the view.
+            tool: if self.demo.is_some() { Tool::Move } else { self.tool },
+            mouse: if self.demo.is_some() { Mouse::Clo } else { self.preferences.mouse },
             laser: self.laser,
             selected: self.selected.and_then(|mark| Some((mark, document.marks.place(mark)?))),
             pieces: document.pattern.pieces.len(),
             marks: [document.marks.cloth.len(), document.marks.body.len()],
             pins: document.pins.len(),
             proposed: self.ghosts.as_ref().map_or(0, |g| g.marks.pairs().count()),
-            has_body: self.session.surface().is_some(),
+            has_body: self.shown().surface().is_some(),
+            demo: self.demo.is_some(),
             dressed: snapshot.is_dressed(),
+            wrapped: self.shown().can_cancel_wrap(),
             wrapping: asked || growing,
             working: asked || snapshot.working,
             dragging: snapshot.dragged.is_some(),
@@ -296,6 +346,9 @@ impl App {
         }
         let focused = ctx.memory(|m| m.focused().is_some());
         let menu = egui::Popup::is_any_open(ctx);
+        if now.demo && !menu && ctx.input_mut(|i| i.consume_key(Modifiers::NONE, Key::Escape)) {
+            return asks.push(Ask::Act(Action::StopDemo));
+        }
         let drawing = self.pattern_pane.stroke().is_some() || !self.scene_pane.stroke().is_empty();
         if now.proposed > 0 && !menu && !drawing {
             for action in [Action::AcceptMarks, Action::DismissMarks] {
@@ -332,6 +385,7 @@ impl App {
             Ask::EndDrag => self.end_drag(),
             Ask::CancelDrag => self.cancel_drag(),
             Ask::Select(mark) => self.selected = mark,
+            Ask::ShowMarks(numbers) => self.show_marks(&numbers),
             Ask::Say(words) => self.messages.tell(words),
         }
     }

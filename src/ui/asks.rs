@@ -19,6 +19,8 @@ pub enum Ask {
     CancelDrag,
     /// Select a mark, or none.
     Select(Option<MarkId>),
+    /// Select the first of the pairs of marks with these numbers (from 1), and show them all.
+    ShowMarks(Vec<usize>),
     /// Say something to the person.
     Say(String),
 }

@@ -12,6 +12,7 @@ use egui::{Id, Modal, ScrollArea, TextEdit};
 use crate::body::Unit;
 use crate::ui::actions::Action;
 use crate::ui::files::{Purpose, RawBody};
+use crate::ui::mouse::Mouse;
 
 /// A dialog that says "cancelled" sooner than a hand can click has not been shown at all.
 const TOO_QUICK: Duration = Duration::from_millis(400);
@@ -25,8 +26,8 @@ pub enum Dialog {
     Path { purpose: Purpose, text: String },
     /// The unit of a body.
     Unit { raw: Box<RawBody> },
-    /// Keys and mouse.
-    Shortcuts,
+    /// Keys, and what this mouse does.
+    Shortcuts { mouse: Mouse },
 }
 
 /// What was answered.
@@ -60,7 +61,7 @@ impl Dialog {
             Self::Unsaved { then } => unsaved_ui(ctx, *then),
             Self::Path { purpose, text } => path_ui(ctx, *purpose, text),
             Self::Unit { raw } => unit_ui(ctx, raw),
-            Self::Shortcuts => shortcuts_ui(ctx),
+            Self::Shortcuts { mouse } => shortcuts_ui(ctx, *mouse),
         }
     }
 }
@@ -203,7 +204,7 @@ pub fn with_extension(path: PathBuf, purpose: Purpose) -> PathBuf {
     name.into()
 }
 
-fn shortcuts_ui(ctx: &egui::Context) -> Answer {
+fn shortcuts_ui(ctx: &egui::Context, mouse: Mouse) -> Answer {
     let shown = Modal::new(Id::unique("shortcuts")).show(ctx, |ui| {
         ui.set_width(560.0);
         ui.heading("Keys and mouse");
@@ -211,9 +212,11 @@ fn shortcuts_ui(ctx: &egui::Context) -> Answer {
         ScrollArea::vertical().max_height(ctx.content_rect().height() * 0.7).show(ui, |ui| {
             ui.strong("Mouse");
             egui::Grid::new("mouse").num_columns(2).spacing([24.0, 5.0]).striped(true).show(ui, |ui| {
-                for (what, does) in MOUSE {
-                    ui.label(*what);
-                    ui.label(*does);
+                let of_view = mouse.help();
+                let of_view = of_view.iter().map(|(what, does)| (what.as_str(), *does));
+                for (what, does) in of_view.chain(MOUSE.iter().copied()) {
+                    ui.label(what);
+                    ui.label(does);
                     ui.end_row();
                 }
             });
@@ -242,8 +245,6 @@ const MOUSE: &[(&str, &str)] = &[
     ("Left click on a mark", "Select it; its name and number are in the side panel"),
     ("Ctrl + left click on a mark", "Take it away"),
     ("Left drag on a piece", "Move it (tool Move); a double-click turns it over"),
-    ("Right drag in the body pane", "Turn the view; with Shift move it"),
-    ("Middle drag", "Move the view, in both panes"),
     ("Space + left drag on the table", "Move the view"),
     ("Wheel", "Zoom to the pointer"),
     ("Esc while drawing", "Give the stroke up"),

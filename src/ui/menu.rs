@@ -3,9 +3,11 @@
 use egui::{Button, ThemePreference};
 
 use crate::drag::DragMode;
+use crate::session::demos::Demo;
 use crate::session::samples::Sample;
 use crate::ui::actions::{Action, Tool, VIEWS};
 use crate::ui::asks::{Ask, Asks};
+use crate::ui::mouse::Mouse;
 use crate::ui::situation::Situation;
 
 /// Draws the menu bar.
@@ -29,7 +31,7 @@ pub fn menu_bar_ui(ui: &mut egui::Ui, now: &Situation, asks: &mut Asks) {
             items(ui, now, asks, &[Action::Choose(Tool::Pin), Action::ClearPins]);
         });
         ui.menu_button("View", |ui| view_ui(ui, now, asks));
-        ui.menu_button("Help", |ui| items(ui, now, asks, &[Action::Shortcuts]));
+        ui.menu_button("Help", |ui| help_ui(ui, now, asks));
     });
 }
 
@@ -62,6 +64,16 @@ fn view_ui(ui: &mut egui::Ui, now: &Situation, asks: &mut Asks) {
         let themes = [ThemePreference::Dark, ThemePreference::Light, ThemePreference::System];
         items(ui, now, asks, &themes.map(Action::Theme));
     });
+    ui.menu_button("Mouse", |ui| items(ui, now, asks, &Mouse::ALL.map(Action::Mouse)));
+}
+
+fn help_ui(ui: &mut egui::Ui, now: &Situation, asks: &mut Asks) {
+    items(ui, now, asks, &[Action::Shortcuts]);
+    ui.separator();
+    ui.menu_button("Demos", |ui| {
+        items(ui, now, asks, &Demo::ALL.map(Action::Demo));
+    });
+    items(ui, now, asks, &[Action::StopDemo]);
 }
 
 fn items(ui: &mut egui::Ui, now: &Situation, asks: &mut Asks, actions: &[Action]) {

@@ -8,6 +8,7 @@ use anyhow::{Context, anyhow};
 
 use crate::session::Project;
 use crate::ui::app::App;
+use crate::ui::preferences;
 
 /// Opens the window on `project`, which came from the file `path`, and returns when it is closed. Everything done is also
 /// written to `record`.
@@ -25,6 +26,9 @@ pub fn run(project: Project, path: Option<PathBuf>, record: Option<File>) -> any
             state.device.on_uncaptured_error(Arc::new(|e| tracing::error!("graphics: {e}")));
         }
         let mut app = App::new(&cc.egui_ctx, project, path, cc.wgpu_render_state.clone())?;
+        if let Some(path) = preferences::usual_path() {
+            app.keep_preferences(&cc.egui_ctx, path);
+        }
         if let Some(file) = record {
             app.record_to(file)?;
         }

@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use glam::{DVec2, DVec3, Vec2, Vec3};
+use glam::{DVec3, Vec2, Vec3};
 
 use crate::body::Surface;
-use crate::cloth::{ClothState, Garment};
+use crate::cloth::{ClothState, FlatPiece, FlatPlace, Garment};
 use crate::geometry::adjacency::NONE;
 use crate::geometry::ids::MarkId;
 use crate::geometry::mesh::vertex_normals;
@@ -23,6 +23,8 @@ pub struct Shown<'a> {
     pub marks: Option<&'a Arc<Marks>>,
     /// A stroke being painted on the body.
     pub stroke: &'a [DVec3],
+    /// The stroke that goes with it on the far side of the body: seen through it.
+    pub far_stroke: &'a [DVec3],
     /// The mark under the pointer.
     pub near: Option<MarkId>,
     /// Vertices under pins.
@@ -65,14 +67,7 @@ struct DrawnCloth {
 struct MarkPlaces {
     garment: Arc<Garment>,
     marks: Arc<Marks>,
-    places: Vec<Vec<Place>>,
-}
-
-/// A triangle and barycentric weights.
-#[derive(Clone, Copy, Debug)]
-struct Place {
-    triangle: usize,
-    weights: DVec3,
+    places: Vec<Vec<FlatPlace>>,
 }
 
 const INK: u8 = 255;
@@ -88,6 +83,9 @@ const ON_SKIN: Lift = (0.0025, 1.6);
 const UNDER_CLOTH: Lift = (0.002, 0.0);
 const ON_CLOTH: Lift = (0.003, 1.6);
 const ABOVE_ALL: Lift = (0.03, 1.6);
+/// More than a body is thick: what lies behind it is seen through it.
+const BEHIND: Lift = (0.6, 1.6);
+const ABOVE_BEHIND: Lift = (0.7, 1.6);
 /// Seams and edges of the cloth, sRGB and opacity.
 const SEAM: [u8; 4] = [66, 78, 70, 150];
 /// What the colour of cloth is multiplied with where a drag under way does not reach.
@@ -207,24 +205,14 @@ impl Scenery {
         let Some(found) = &self.places else { return 0 };
         let mut covered = 0;
         for (i, places) in found.places.iter().enumerate() {
-            let points: Option<Vec<Vec3>> = places.iter().map(|p| p.point(garment, state)).collect();
+            let places = places.iter().map(|p| p.point(garment, state).map(|p| p.as_vec3()));
+            let points: Option<Vec<Vec3>> = places.collect();
             if let Some(points) = points.filter(|p| !p.is_empty()) {
                 push_mark(scene, points, i + 1, shown.width(found.marks.cloth[i].id), ON_CLOTH, scale);
                 covered += usize::from(covered == i);
             }
         }
         covered
-    }
-}
-
-impl Place {
-    /// None while the triangle is not on the body yet.
-    fn point(&self, garment: &Garment, state: &ClothState) -> Option<Vec3> {
-        let corners = garment.triangles[self.triangle].map(|v| v as usize);
-        corners.iter().all(|&v| state.mapped[v]).then(|| {
-            let sum: DVec3 = (0..3).map(|k| state.positions[corners[k]] * self.weights[k]).sum();
-            sum.as_vec3()
-        })
     }
 }
 
@@ -259,20 +247,9 @@ fn push_pins(pinned: &[Option<u32>], cloth: &DrawnCloth, scale: f32, scene: &mut
     }
 }
 
-fn places_of(garment: &Garment, mark: &ClothMark) -> Vec<Place> {
-    let own: Vec<usize> =
-        (0..garment.triangles.len()).filter(|&t| garment.triangle_pieces[t] == mark.piece).collect();
-    let place = |p: DVec2| {
-        own.iter().find_map(|&triangle| {
-            let [a, b, c] = garment.triangle_corners[triangle].map(|c| garment.corners[c as usize].uv);
-            let area = (b - a).perp_dot(c - a);
-            let u = (c - b).perp_dot(p - b) / area;
-            let v = (a - c).perp_dot(p - c) / area;
-            let weights = DVec3::new(u, v, 1.0 - u - v);
-            (weights.min_element() >= -1e-6).then_some(Place { triangle, weights })
-        })
-    };
-    mark.points.iter().filter_map(|&p| place(p)).collect()
+fn places_of(garment: &Garment, mark: &ClothMark) -> Vec<FlatPlace> {
+    let piece = FlatPiece::new(garment, mark.piece);
+    mark.points.iter().filter_map(|&p| piece.inside(garment, p)).collect()
 }
 
 fn seam_lines(garment: &Garment, state: &ClothState, scale: f32) -> Vec<Polyline> {
@@ -326,10 +303,18 @@ fn body_marks(marks: &Marks, shown: &Shown<'_>, covered: usize, scale: f32, scen
             scene.labels.pop();
         }
     }
+    let points = |stroke: &[DVec3]| stroke.iter().map(|p| p.as_vec3()).collect();
+    if !shown.far_stroke.is_empty() {
+        // From where it is painted it lies right behind the near one: a broad band on both sides of that.
+        push_ghost(scene, points(shown.far_stroke), marks.body.len() + 2, MARK_WIDTH * 3.0, BEHIND, scale);
+        if let Some(label) = scene.labels.last_mut() {
+            label.offset.x = -label.offset.x;
+        }
+    }
     if !shown.stroke.is_empty() {
-        let points = shown.stroke.iter().map(|p| p.as_vec3()).collect();
         // Above cloth that may lie there, so that the hand sees what it does.
-        push_mark(scene, points, marks.body.len() + 1, MARK_WIDTH, ABOVE_ALL, scale);
+        let lift = if shown.far_stroke.is_empty() { ABOVE_ALL } else { ABOVE_BEHIND };
+        push_mark(scene, points(shown.stroke), marks.body.len() + 1, MARK_WIDTH, lift, scale);
     }
 }
 
@@ -337,13 +322,17 @@ fn body_marks(marks: &Marks, shown: &Shown<'_>, covered: usize, scale: f32, scen
 fn body_ghosts(ghosts: &Marks, scale: f32, scene: &mut Scene) {
     for (mark, number) in ghosts.body.iter().zip(1..) {
         let points = mark.points.iter().map(|p| p.as_vec3()).collect();
-        let lines = scene.lines.len();
-        push_mark(scene, points, number, MARK_WIDTH * 0.55, ABOVE_ALL, scale);
-        for line in &mut scene.lines[lines..] {
-            (line.colour[3], line.halo[3]) = (GHOST, GHOST / 2);
-            if let Some(label) = scene.labels.last_mut() {
-                (label.colour[3], label.halo[3]) = (GHOST, GHOST);
-            }
+        push_ghost(scene, points, number, MARK_WIDTH * 0.55, ABOVE_ALL, scale);
+    }
+}
+
+fn push_ghost(scene: &mut Scene, points: Vec<Vec3>, number: usize, width: f32, lift: Lift, scale: f32) {
+    let lines = scene.lines.len();
+    push_mark(scene, points, number, width, lift, scale);
+    for line in &mut scene.lines[lines..] {
+        (line.colour[3], line.halo[3]) = (GHOST, GHOST / 2);
+        if let Some(label) = scene.labels.last_mut() {
+            (label.colour[3], label.halo[3]) = (GHOST, GHOST);
         }
     }
 }
@@ -424,5 +413,20 @@ mod tests {
         bent.extend((1..50).map(|i| straight[49] + Vec3::Y * i as f32 * 0.01));
         assert_eq!(simplified(&bent, 1e-4), [bent[0], bent[49], bent[98]]);
         assert_eq!(simplified(&bent[..1], 1e-4), [bent[0]]);
+    }
+
+    #[test]
+    fn a_laser_stroke_is_seen_on_both_sides_while_it_is_painted() {
+        let marks = Arc::new(Marks::default());
+        let line = |z: f64| [DVec3::new(0.0, 0.0, z), DVec3::new(0.0, 0.1, z)];
+        let (near, far) = (line(0.1), line(-0.1));
+        let shown = Shown { marks: Some(&marks), stroke: &near, far_stroke: &far, ..Shown::default() };
+        let scene = Scenery::default().scene(&shown);
+        let [far, near] = &scene.lines[..] else { panic!("{} lines", scene.lines.len()) };
+        assert!(far.points[0].z < 0.0 && far.lift > 0.3, "it is drawn before the body it lies behind");
+        assert!(far.lift < near.lift && far.width > near.width, "on both sides of the near one");
+        assert!(far.colour[3] < near.colour[3], "and fainter");
+        let numbers: Vec<&str> = scene.labels.iter().map(|label| label.text.as_str()).collect();
+        assert_eq!(numbers, ["2", "1"]);
     }
 }

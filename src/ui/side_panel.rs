@@ -1,4 +1,4 @@
-//! The side panel: marks, cloth settings, problems.
+//! The side panel: marks, problems, cloth settings.
 
 use std::sync::Arc;
 
@@ -7,6 +7,7 @@ use egui::{CollapsingHeader, RichText, ScrollArea, Slider};
 use crate::body::Surface;
 use crate::pattern::Problem;
 use crate::session::{Command, Document, Settings};
+use crate::sim::Fault;
 use crate::ui::asks::{Ask, Asks};
 use crate::ui::marks_panel::MarksPanel;
 use crate::ui::situation::Situation;
@@ -22,7 +23,7 @@ pub struct Told<'a> {
     /// What is wrong with the garment.
     pub problems: &'a [Problem],
     /// What is wrong with the cloth as it lies.
-    pub verdict: &'a [Problem],
+    pub verdict: &'a [Fault],
     /// Marks that found no place on the body.
     pub lost: &'a [Problem],
     /// How things stand.
@@ -33,13 +34,11 @@ pub struct Told<'a> {
 
 /// Draws the panel.
 pub fn side_panel_ui(ui: &mut egui::Ui, told: &Told<'_>, marks: &mut MarksPanel, asks: &mut Asks) {
-    let Told { document, problems, palette, .. } = *told;
+    let Told { document, palette, .. } = *told;
     ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
         section(ui, "Marks", |ui| marks.ui(ui, told, asks));
+        section(ui, "Problems", |ui| problems_ui(ui, told, asks));
         section(ui, "Cloth", |ui| settings_ui(ui, &document.settings, palette, asks));
-        section(ui, "Problems", |ui| {
-            problems_ui(ui, document, &[told.lost, problems, told.verdict].concat(), palette)
-        });
     });
 }
 
@@ -130,26 +129,49 @@ fn settings_ui(ui: &mut egui::Ui, settings: &Settings, palette: &Palette, asks: 
     }
 }
 
-fn problems_ui(ui: &mut egui::Ui, document: &Document, problems: &[Problem], palette: &Palette) {
-    let lonely: Vec<String> = unpaired(document).into_iter().collect();
-    if problems.is_empty() && lonely.is_empty() {
+fn problems_ui(ui: &mut egui::Ui, told: &Told<'_>, asks: &mut Asks) {
+    let palette = told.palette;
+    let lonely: Vec<String> = unpaired(told.document).into_iter().collect();
+    if lonely.is_empty() && told.lost.is_empty() && told.problems.is_empty() && told.verdict.is_empty() {
         ui.label(RichText::new("None").color(palette.weak));
         return;
     }
     for words in lonely {
-        problem_row(ui, palette.warning, &words);
+        problem_row(ui, palette.warning, &words, &[], asks);
     }
-    for problem in problems {
+    for problem in told.lost.iter().chain(told.problems) {
         let ink = if problem.kind.is_note() { palette.warning } else { palette.error };
-        problem_row(ui, ink, &format!("{}: {}", problem.place, problem.words));
+        problem_row(ui, ink, &format!("{}: {}", problem.place, problem.words), &[], asks);
+    }
+    for Fault { problem, marks } in told.verdict {
+        let numbers: Vec<usize> = marks.iter().map(|m| m.number).collect();
+        let words = format!("{}: {}", problem.place, problem.words);
+        problem_row(ui, palette.error, &words, &numbers, asks);
+    }
+    if !told.verdict.is_empty() && told.now.wrapped {
+        ui.add_space(4.0);
+        let tip = "What was on the body before this wrap comes back; then paint the marks anew";
+        if ui.button("Take this wrap back").on_hover_text(tip).clicked() {
+            asks.push(Ask::Do(Command::CancelWrap));
+        }
     }
 }
 
-fn problem_row(ui: &mut egui::Ui, ink: egui::Color32, words: &str) {
+/// A click on it shows the pairs of marks with these numbers.
+fn problem_row(ui: &mut egui::Ui, ink: egui::Color32, words: &str, marks: &[usize], asks: &mut Asks) {
     ui.horizontal_top(|ui| {
         let (sign, _) = ui.allocate_exact_size(egui::vec2(12.0, 16.0), egui::Sense::hover());
         ui.painter().circle_filled(sign.center(), 4.0, ink);
-        ui.add(egui::Label::new(words).wrap());
+        if marks.is_empty() {
+            ui.add(egui::Label::new(words).wrap());
+            return;
+        }
+        let row = ui.add(egui::Label::new(words).wrap().sense(egui::Sense::click()));
+        let row =
+            row.on_hover_text("Show the marks concerned").on_hover_cursor(egui::CursorIcon::PointingHand);
+        if row.clicked() {
+            asks.push(Ask::ShowMarks(marks.to_vec()));
+        }
     });
 }
 

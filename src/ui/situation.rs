@@ -5,6 +5,7 @@ use egui::ThemePreference;
 use crate::drag::DragMode;
 use crate::geometry::ids::MarkId;
 use crate::ui::actions::{Action, Tool};
+use crate::ui::mouse::Mouse;
 use crate::wrap::{MarkPlace, Phase};
 
 /// How things stand in this frame.
@@ -16,6 +17,8 @@ pub struct Situation {
     pub redo: Option<String>,
     /// What the left button does.
     pub tool: Tool,
+    /// What all mouse buttons do.
+    pub mouse: Mouse,
     /// Strokes go through everything under the pointer.
     pub laser: bool,
     /// Pieces on the table.
@@ -32,6 +35,8 @@ pub struct Situation {
     pub has_body: bool,
     /// There is cloth on the body.
     pub dressed: bool,
+    /// The cloth lies as a wrap has laid it, which can be taken back.
+    pub wrapped: bool,
     /// A wrap was asked for and the cloth is not all on the body yet.
     pub wrapping: bool,
     /// The simulation has something to do.
@@ -56,6 +61,8 @@ pub struct Situation {
     pub parallel: bool,
     /// The view turns like a ball.
     pub free_turning: bool,
+    /// A demo is shown.
+    pub demo: bool,
     /// Dark, light or as the system.
     pub theme: ThemePreference,
 }
@@ -65,6 +72,8 @@ impl Situation {
     pub fn why_not(&self, action: Action) -> Option<&'static str> {
         let unless = |can: bool, why: &'static str| (!can).then_some(why);
         match action {
+            Action::StopDemo => unless(self.demo, "No demo is shown"),
+            _ if self.demo && !action.is_for_demos() => Some("A demo is shown: stop it first"),
             Action::Undo => unless(self.undo.is_some(), "There is nothing to undo"),
             Action::Redo => unless(self.redo.is_some(), "There is nothing to redo"),
             Action::Wrap if self.pieces == 0 => Some("There is no piece on the table"),
@@ -116,6 +125,7 @@ impl Situation {
             Action::ToggleParallel => self.parallel,
             Action::ToggleFreeTurning => self.free_turning,
             Action::Theme(theme) => self.theme == theme,
+            Action::Mouse(mouse) => self.mouse == mouse,
             _ => false,
         }
     }

@@ -418,8 +418,9 @@ impl Dressing {
         lies.then_some(&self.relaxer)
     }
 
-    /// From now on exactly these vertices of cloth that lies stay where they are.
+    /// From now on exactly these vertices stay where they are, once all cloth lies.
     pub fn fix(&mut self, vertices: &[u32]) {
+        self.pins = vertices.to_vec();
         if self.relaxer().is_some() {
             self.relaxer.fix(vertices.iter().copied());
         }
@@ -459,6 +460,7 @@ impl Dressing {
             let ratio = self.edge_length / coarse.dressing.edge_length;
             self.contact = coarse.dressing.contact;
             self.relaxer.take_over(&coarse.dressing.relaxer, &coarse.carry, ratio);
+            self.relaxer.fix(self.pins.iter().copied());
             self.stage = Stage::Settle(Settling::from(SETTLE_STEPS, self.draft));
         }
     }

@@ -3,15 +3,12 @@
 use glam::{DVec2, DVec3};
 
 use crate::body::Surface;
-use crate::cloth::{ClothState, Garment};
-use crate::geometry::ids::PieceId;
+use crate::cloth::{ClothState, FlatPiece, Garment};
 use crate::wrap::Marks;
 use crate::wrap::roots::{Stroke, lifted};
 
 /// Points compared on each pair, ends included.
 const SAMPLES: usize = 51;
-/// How far outside of a triangle (barycentric) a point may lie and still belong to it.
-const SLACK: f64 = 1e-6;
 
 /// Distances between points of cloth marks and the points of their partners at the same fraction of their length, at the
 /// offset above the skin; metres.
@@ -39,10 +36,12 @@ pub fn mark_error(
         let flat = Stroke::new(cloth.points.clone(), DVec2::length);
         let skin =
             Stroke::new(body.points.iter().map(|&p| lifted(surface, p, offset)).collect(), DVec3::length);
+        let piece = FlatPiece::new(garment, cloth.piece);
         for i in 0..SAMPLES {
             let fraction = i as f64 / (SAMPLES - 1) as f64;
             let uv = flat.at(fraction * flat.length());
-            let Some(place) = place_of(garment, state, cloth.piece, uv) else { continue };
+            let place = piece.inside(garment, uv).and_then(|place| place.point(garment, state));
+            let Some(place) = place else { continue };
             let distance = place.distance(skin.at(fraction * skin.length()));
             error.points += 1;
             error.max = error.max.max(distance);
@@ -51,39 +50,4 @@ pub fn mark_error(
     }
     error.mean = sum / error.points.max(1) as f64;
     error
-}
-
-/// Where the point `uv` of `piece` lies in space; None off the piece and where its triangle is not on the body.
-fn place_of(garment: &Garment, state: &ClothState, piece: PieceId, uv: DVec2) -> Option<DVec3> {
-    (0..garment.triangles.len()).filter(|&t| garment.triangle_pieces[t] == piece).find_map(|t| {
-        let weights = barycentric(uv, garment.triangle_corners[t].map(|c| garment.corners[c as usize].uv))?;
-        let vertices = garment.triangles[t].map(|v| v as usize);
-        let laid = vertices.iter().all(|&v| state.mapped[v]);
-        laid.then(|| (0..3).map(|k| state.positions[vertices[k]] * weights[k]).sum())
-    })
-}
-
-/// None outside of the triangle.
-fn barycentric(p: DVec2, [a, b, c]: [DVec2; 3]) -> Option<[f64; 3]> {
-    let area = (b - a).perp_dot(c - a);
-    let u = (c - b).perp_dot(p - b) / area;
-    let v = (a - c).perp_dot(p - c) / area;
-    let weights = [u, v, 1.0 - u - v];
-    weights.iter().all(|&w| w >= -SLACK).then_some(weights)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn barycentric_weights_give_the_point_back() {
-        let [a, b, c] = [DVec2::new(0.1, 0.0), DVec2::new(0.0, 2.0), DVec2::new(-1.0, 0.3)];
-        for corners in [[a, b, c], [a, c, b]] {
-            let p = a * 0.2 + b * 0.5 + c * 0.3;
-            let w = barycentric(p, corners).expect("inside");
-            assert!((corners[0] * w[0] + corners[1] * w[1] + corners[2] * w[2] - p).length() < 1e-12);
-            assert!(barycentric(a * 1.5 - b * 0.5, corners).is_none());
-        }
-    }
 }

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use glam::{DVec2, DVec3};
 
 use crate::body::Surface;
-use crate::cloth::Garment;
+use crate::cloth::{FlatPiece, Garment};
 use crate::geometry::ids::PieceId;
 use crate::geometry::walk::straightest;
 use crate::pattern::{Problem, ProblemKind};
@@ -286,8 +286,7 @@ impl<'a> Pair<'a> {
         let Self { garment, surface, cloth, offset, .. } = *self;
         let stroke = &self.strokes.cloth;
         let middle = stroke.at(stroke.length() / 2.0);
-        let holding = (0..garment.triangles.len())
-            .find(|&t| garment.triangle_pieces[t] == cloth.piece && holds(garment, t, middle))?;
+        let holding = FlatPiece::new(garment, cloth.piece).inside(garment, middle)?.triangle as usize;
         let mut frame = self.frame(0.5);
         if stroke.length() < POINT_MARK * surface.scale() {
             // No direction of its own: the pattern's up is the body's up.
@@ -375,10 +374,4 @@ fn distance_to_stroke(stroke: &Stroke<DVec2>, p: DVec2) -> f64 {
         (p - w[0] - d * t).length()
     };
     stroke.points.windows(2).map(to_segment).fold((p - stroke.points[0]).length(), f64::min)
-}
-
-fn holds(garment: &Garment, t: usize, p: DVec2) -> bool {
-    let [a, b, c] = garment.triangle_corners[t].map(|c| garment.corners[c as usize].uv);
-    let (x, y, z) = ((b - a).perp_dot(p - a), (c - b).perp_dot(p - b), (a - c).perp_dot(p - c));
-    (x >= 0.0 && y >= 0.0 && z >= 0.0) || (x <= 0.0 && y <= 0.0 && z <= 0.0)
 }

@@ -3,9 +3,10 @@
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
-use glam::{DQuat, DVec2, DVec3};
+use glam::{DVec2, DVec3};
 use toile::body::Surface;
 use toile::cloth::{ClothState, Garment, build};
+pub use toile::fit::exact::{excess, residual};
 use toile::geometry::ids::MarkId;
 use toile::geometry::mesh::TriMesh;
 use toile::pattern::{EdgeRef, Pattern, Piece, Seam};
@@ -164,24 +165,4 @@ pub fn wrapped(
     }
     assert!(state.mapped.iter().all(|&m| m));
     (garment, state)
-}
-
-/// What edges are strained beyond the chords of the exact map: one between its chord's strain and none is only slack.
-pub fn excess(garment: &Garment, state: &ClothState, exact: &ClothState) -> Vec<f64> {
-    let pairs = crate::exact::strains(garment, state).into_iter().zip(crate::exact::strains(garment, exact));
-    pairs.map(|(s, c)| s - s.clamp(c.min(0.0), c.max(0.0))).collect()
-}
-
-/// The farthest vertex from where it should lie, but for a turn about y and a shift along it; metres.
-pub fn residual(exact: &ClothState, state: &ClothState) -> f64 {
-    let pairs = || exact.positions.iter().zip(&state.positions);
-    let (mut sin, mut cos, mut up) = (0.0, 0.0, 0.0);
-    for (a, b) in pairs() {
-        sin += b.x * a.z - b.z * a.x;
-        cos += a.x * b.x + a.z * b.z;
-        up += b.y - a.y;
-    }
-    let turn = DQuat::from_rotation_y(sin.atan2(cos));
-    let shift = DVec3::Y * (up / exact.positions.len() as f64);
-    pairs().map(|(a, b)| (turn * *a + shift - *b).length()).fold(0.0, f64::max)
 }

@@ -62,3 +62,14 @@ fn damaged_recordings_name_the_line() {
     place.ends_with_words(3, "replay binary.jsonl", "UTF-8");
     place.ends_with_words(6, "replay nowhere.jsonl", "nowhere.jsonl");
 }
+
+#[test]
+fn demos_are_replayed_by_name() {
+    let place = Place::with_ball();
+    place.ends_with_words(3, "replay demo:nothing", "there are wrapping, dragging");
+    let text = toile::session::demos::Demo::Scarf.recording();
+    let recording = toile::session::recording::Recording::parse(text).expect("a recording");
+    if recording.machine == toile::session::recording::machine() {
+        assert!(place.ends(0, "replay demo:scarf").out.contains("hashes the same"));
+    }
+}

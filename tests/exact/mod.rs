@@ -1,40 +1,14 @@
-//! Bodies and garments with exact answers, for the suites.
-#![allow(dead_code, reason = "each suite uses its own part")]
+//! Garments with exact answers, for the suites.
+#![allow(dead_code, unused_imports, reason = "each suite uses its own part")]
 
 use glam::{DVec2, DVec3};
 use toile::body::Surface;
 use toile::cloth::{ClothState, Garment};
+pub use toile::fit::exact::{quantile, strains};
 use toile::geometry::ids::MarkId;
-use toile::geometry::mesh::TriMesh;
+pub use toile::geometry::shapes::cylinder;
 use toile::pattern::{EdgeRef, Pattern, Piece, Seam};
 use toile::wrap::{BodyMark, ClothMark, ClothSide, Marks};
-
-/// A closed cylinder about y of `radius` and `height` metres, standing on y = 0, with flat lids.
-pub fn cylinder(radius: f64, height: f64, round: u32, rows: u32) -> TriMesh {
-    let mut mesh = TriMesh::default();
-    for row in 0..=rows {
-        for i in 0..round {
-            let a = f64::from(i) / f64::from(round) * std::f64::consts::TAU;
-            let y = height * f64::from(row) / f64::from(rows);
-            mesh.positions.push(DVec3::new(radius * a.sin(), y, radius * a.cos()));
-        }
-    }
-    for row in 0..rows {
-        for i in 0..round {
-            let (a, b) = (row * round + i, row * round + (i + 1) % round);
-            mesh.triangles.extend([[a, b, b + round], [a, b + round, a + round]]);
-        }
-    }
-    let bottom = mesh.positions.len() as u32;
-    mesh.positions.extend([DVec3::ZERO, DVec3::Y * height]);
-    for i in 0..round {
-        let j = (i + 1) % round;
-        mesh.triangles.push([bottom, j, i]);
-        let top = rows * round;
-        mesh.triangles.push([bottom + 1, top + i, top + j]);
-    }
-    mesh
-}
 
 /// Two rectangles of `width` × `height` metres sewn into a tube: the first is the front.
 pub fn tube(width: f64, height: f64) -> Pattern {
@@ -74,26 +48,6 @@ pub fn tube_marks(pattern: &Pattern, width: f64, height: f64, radius: f64, low: 
         marks.body.push(BodyMark { id: MarkId(20 + i as u32), points: solid.collect() });
     }
     marks
-}
-
-/// Strain l / l0 - 1 of every edge of every triangle.
-pub fn strains(garment: &Garment, state: &ClothState) -> Vec<f64> {
-    let mut strains = Vec::new();
-    for (vs, rest) in garment.triangles.iter().zip(&garment.rest) {
-        for k in 0..3 {
-            let j = (k + 1) % 3;
-            let length = (state.positions[vs[j] as usize] - state.positions[vs[k] as usize]).length();
-            strains.push(length / (rest[j] - rest[k]).length() - 1.0);
-        }
-    }
-    strains
-}
-
-/// The `q`-quantile of absolute values.
-pub fn quantile(values: &[f64], q: f64) -> f64 {
-    let mut sorted: Vec<f64> = values.iter().map(|v| v.abs()).collect();
-    sorted.sort_by(f64::total_cmp);
-    sorted[((sorted.len() - 1) as f64 * q).round() as usize]
 }
 
 /// Height of the lowest vertex above the skin, metres.

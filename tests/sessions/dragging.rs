@@ -3,6 +3,7 @@
 use glam::{DVec2, DVec3};
 use toile::drag::{DragMode, Ray};
 use toile::geometry::ids::{PieceId, PinId};
+use toile::relax::RelaxSettings;
 use toile::session::replay::Replay;
 use toile::session::{Command, Session};
 use toile::wrap::Phase;
@@ -101,6 +102,25 @@ fn pins_stay_where_they_are() {
 }
 
 #[test]
+fn a_pin_stuck_in_while_the_cloth_grows_holds_it_once_it_lies() {
+    for ticks in [0, 1, 3, 10] {
+        let mut s = session();
+        s.apply_alone(Command::Wrap).expect("wrapped");
+        run(&mut s, ticks);
+        for at in [DVec2::new(0.02, 0.02), DVec2::new(0.02, 0.28)] {
+            s.apply_alone(Command::AddPin { piece: PIECE, at }).expect("pinned");
+        }
+        run(&mut s, 2000);
+        let pins: Vec<usize> = s.snapshot().pinned.iter().flatten().map(|&v| v as usize).collect();
+        assert_eq!(pins.len(), 2, "pinned after {ticks} ticks: {:?}", s.snapshot().pinned);
+        let places = |s: &Session| pins.iter().map(|&v| s.snapshot().cloth.positions[v]).collect::<Vec<_>>();
+        let were = places(&s);
+        drag(&mut s);
+        assert_eq!(places(&s), were, "pinned after {ticks} ticks");
+    }
+}
+
+#[test]
 fn pins_outlive_saving_and_go_with_their_cloth() {
     let mut s = dressed();
     s.apply_alone(Command::AddPin { piece: PIECE, at: DVec2::new(0.02, 0.28) }).expect("pinned");
@@ -137,4 +157,30 @@ fn a_recorded_drag_replays() {
     s.apply_alone(Command::Undo).expect("undone");
     let recording = toile::session::recording::Recording::parse(&s.recording()).expect("a recording");
     Replay::new(recording).run().expect("the same hashes");
+}
+
+#[test]
+fn each_control_of_relaxation_works_on_dressed_cloth_and_is_taken_back() {
+    type Turn = fn(&mut RelaxSettings);
+    let controls: [(&str, Turn); 5] = [
+        ("stretch", |r| r.stretch = 0.5),
+        ("flatten", |r| r.flatten = 0.9),
+        ("gravity", |r| r.gravity = 0.03),
+        ("friction", |r| r.friction = 0.0),
+        ("offset", |r| r.offset = 0.012),
+    ];
+    for (name, turn) in controls {
+        let mut s = dressed();
+        let before = cloth_hash(&mut s);
+        let mut settings = s.document().settings;
+        turn(&mut settings.relax);
+        s.apply_alone(Command::SetSettings { settings }).expect(name);
+        assert!(run(&mut s, 3000) > 0, "{name}: the cloth sleeps on");
+        assert_eq!(s.snapshot().phase, Some(Phase::AtRest), "{name}");
+        assert_ne!(cloth_hash(&mut s), before, "{name} changes nothing");
+        s.apply_alone(Command::Undo).expect("undone");
+        assert_eq!(cloth_hash(&mut s), before, "{name}");
+        let recording = toile::session::recording::Recording::parse(&s.recording()).expect("a recording");
+        Replay::new(recording).run().expect("the same hashes");
+    }
 }

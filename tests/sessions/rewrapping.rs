@@ -66,6 +66,31 @@ fn beyond_a_pin_cloth_stays() {
 }
 
 #[test]
+fn after_a_change_of_the_pattern_pins_still_hold_a_rewrap() {
+    let mut s = marked_again();
+    s.apply_alone(Command::AddPin { piece: LEFT, at: DVec2::new(0.2, 0.15) }).expect("pinned");
+    s.update();
+    let far = place(&s, LEFT, DVec2::ZERO);
+    let mut outline = s.document().pattern.pieces[&RIGHT].outline.clone();
+    outline[1].start.x += 0.03;
+    outline[2].start.x += 0.03;
+    s.apply_alone(Command::SetOutline { piece: RIGHT, outline }).expect("redrawn");
+    s.apply_alone(Command::Rewrap { pairs: vec![2] }).expect("rewrapped");
+    let pin = s.snapshot().pinned[0].expect("still on the cloth") as usize;
+    let pinned = s.snapshot().cloth.positions[pin];
+    while s.snapshot().phase == Some(Phase::Growing) {
+        assert_eq!(place(&s, LEFT, DVec2::ZERO), far, "cloth beyond the pin moved while the rest grew");
+        run(&mut s, 1);
+    }
+    run(&mut s, 3000);
+    assert_eq!(s.snapshot().phase, Some(Phase::AtRest));
+    assert_eq!(s.snapshot().cloth.positions[pin], pinned);
+    assert!(s.snapshot().cloth.mapped.iter().all(|&m| m), "the new cloth lies, too");
+    let recording = toile::session::recording::Recording::parse(&s.recording()).expect("a recording");
+    Replay::new(recording).run().expect("the same hashes");
+}
+
+#[test]
 fn a_rewrap_is_cancelled_undone_and_replayed() {
     let mut s = marked_again();
     let before = cloth_hash(&mut s);

@@ -1,12 +1,14 @@
 //! A tube on a cylinder: what it should be is known exactly.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 
-use glam::{DQuat, DVec2, DVec3};
+use glam::{DVec2, DVec3};
 
 use crate::cloth::{ClothState, Garment};
+use crate::fit::exact::{excess, quantile, residual, strains};
 use crate::geometry::ids::MarkId;
 use crate::geometry::mesh::TriMesh;
+use crate::geometry::shapes;
 use crate::pattern::{EdgeRef, Pattern, Piece, Seam};
 use crate::wrap::{BodyMark, ClothMark, ClothSide, Marks};
 
@@ -76,30 +78,9 @@ impl Tube {
     }
 }
 
-/// What the tubes are put on: closed, with flat lids.
+/// What the tubes are put on.
 pub fn cylinder() -> TriMesh {
-    let mut mesh = TriMesh::default();
-    for row in 0..=ROWS {
-        for i in 0..SIDES {
-            let (sin, cos) = (f64::from(i) / f64::from(SIDES) * TAU).sin_cos();
-            let y = BODY_HEIGHT * f64::from(row) / f64::from(ROWS);
-            mesh.positions.push(DVec3::new(RADIUS * sin, y, RADIUS * cos));
-        }
-    }
-    for row in 0..ROWS {
-        for i in 0..SIDES {
-            let (a, b) = (row * SIDES + i, row * SIDES + (i + 1) % SIDES);
-            mesh.triangles.extend([[a, b, b + SIDES], [a, b + SIDES, a + SIDES]]);
-        }
-    }
-    let bottom = mesh.positions.len() as u32;
-    mesh.positions.extend([DVec3::ZERO, DVec3::Y * BODY_HEIGHT]);
-    for i in 0..SIDES {
-        let j = (i + 1) % SIDES;
-        let top = ROWS * SIDES;
-        mesh.triangles.extend([[bottom, j, i], [bottom + 1, top + i, top + j]]);
-    }
-    mesh
+    shapes::cylinder(RADIUS, BODY_HEIGHT, SIDES, ROWS)
 }
 
 /// How far `state` is from the exact one.
@@ -118,47 +99,14 @@ pub struct Errors {
 impl Errors {
     /// Of `state` against `exact`.
     pub fn new(garment: &Garment, state: &ClothState, exact: &ClothState) -> Self {
-        let (strains, chords) = (strains(garment, state), strains(garment, exact));
-        let excess = strains.iter().zip(&chords).map(|(s, c)| s - s.clamp(c.min(0.0), c.max(0.0))).collect();
+        let p99 = |strains: &[f64]| quantile(strains, 0.99);
         Self {
-            strain: p99(strains),
-            chords: p99(chords),
-            excess: p99(excess),
-            position: farthest(state, exact),
+            strain: p99(&strains(garment, state)),
+            chords: p99(&strains(garment, exact)),
+            excess: p99(&excess(garment, state, exact)),
+            position: residual(exact, state),
         }
     }
-}
-
-/// l / l0 - 1 of every side of every triangle.
-fn strains(garment: &Garment, state: &ClothState) -> Vec<f64> {
-    let mut strains = Vec::with_capacity(3 * garment.triangles.len());
-    for (vs, rest) in garment.triangles.iter().zip(&garment.rest) {
-        for (k, j) in [(0, 1), (1, 2), (2, 0)] {
-            let [a, b] = [vs[k], vs[j]].map(|v| state.positions[v as usize]);
-            strains.push(a.distance(b) / rest[k].distance(rest[j]) - 1.0);
-        }
-    }
-    strains
-}
-
-fn p99(mut values: Vec<f64>) -> f64 {
-    values.iter_mut().for_each(|v| *v = v.abs());
-    values.sort_unstable_by(f64::total_cmp);
-    let at = (values.len().saturating_sub(1) as f64 * 0.99).round() as usize;
-    values.get(at).copied().unwrap_or_default()
-}
-
-fn farthest(state: &ClothState, exact: &ClothState) -> f64 {
-    let pairs = || exact.positions.iter().zip(&state.positions);
-    let (mut sin, mut cos, mut up) = (0.0, 0.0, 0.0);
-    for (a, b) in pairs() {
-        sin += b.x * a.z - b.z * a.x;
-        cos += a.x * b.x + a.z * b.z;
-        up += b.y - a.y;
-    }
-    let turn = DQuat::from_rotation_y(sin.atan2(cos));
-    let shift = DVec3::Y * (up / exact.positions.len().max(1) as f64);
-    pairs().map(|(a, b)| (turn * *a + shift).distance(*b)).fold(0.0, f64::max)
 }
 
 #[cfg(test)]

@@ -15,6 +15,8 @@ use crate::session::samples::Sample;
 use crate::session::{Command, Document};
 use crate::ui::actions::{Action, Tool};
 use crate::ui::asks::{Ask, Asks, in_one_step};
+use crate::ui::clicks::clicks;
+use crate::ui::mouse::{Deed, Mouse};
 use crate::ui::stroke;
 use crate::ui::theme::Palette;
 use crate::wrap::{ClothSide, Marks};
@@ -23,6 +25,8 @@ use shapes::Shapes;
 use threads::{Threads, to_polyline};
 use view::TableView;
 
+/// Logarithm of the zoom for each point the pointer moves.
+const ZOOM: f64 = 0.008;
 /// How near to a mark or an edge a click counts, points on the screen.
 const REACH: f64 = 12.0;
 
@@ -35,6 +39,8 @@ pub struct PatternPane {
     pub fit: bool,
     /// Whether the pointer was over the pane in the last frame.
     pub hovered: bool,
+    /// Where it was on the screen in the last frame.
+    pub area: Option<Rect>,
     shapes: Shapes,
     threads: Threads,
     drag: Option<Drag>,
@@ -57,6 +63,8 @@ pub struct Laid<'a> {
     pub document: &'a Document,
     /// What the left button does.
     pub tool: Tool,
+    /// What all buttons do.
+    pub mouse: Mouse,
     /// Strokes go through to the pieces below.
     pub laser: bool,
     /// The mark that stands out.
@@ -91,11 +99,13 @@ impl PatternPane {
         let response = ui.allocate_rect(pane, Sense::click_and_drag());
         response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, "Pattern pane"));
         self.hovered = response.contains_pointer();
+        self.area = Some(pane);
         if std::mem::take(&mut self.fit) {
             self.view.fit(pane, pattern);
         }
-        self.move_view(ui, pane, &response);
-        let under = self.under(document, pane, &response);
+        self.move_view(ui, laid.mouse, pane, &response);
+        let hovered = response.hover_pos().filter(|_| self.drag.is_none());
+        let under = hovered.map(|at| self.under(document, pane, at)).unwrap_or_default();
         self.listen(ui, laid, pane, &response, under, asks);
         self.set_cursor(ui, tool, under, &response);
         self.draw(ui, laid, pane, under);
@@ -113,13 +123,17 @@ impl PatternPane {
         }
     }
 
-    fn move_view(&mut self, ui: &egui::Ui, pane: Rect, response: &Response) {
+    fn move_view(&mut self, ui: &egui::Ui, mouse: Mouse, pane: Rect, response: &Response) {
         let space = ui.input(|i| i.key_down(Key::Space)) && self.drag.is_none();
-        let panning = response.dragged_by(PointerButton::Middle)
-            || response.dragged_by(PointerButton::Secondary)
-            || (space && response.dragged_by(PointerButton::Primary));
-        if panning {
-            self.view.pan(response.drag_delta());
+        let held = ui.input(|i| i.modifiers);
+        let buttons = [PointerButton::Primary, PointerButton::Secondary, PointerButton::Middle];
+        let pressed = buttons.into_iter().find(|&button| response.dragged_by(button));
+        let moved = response.drag_delta();
+        match pressed.and_then(|button| mouse.deed(button, held)) {
+            _ if space && pressed == Some(PointerButton::Primary) => self.view.pan(moved),
+            Some(Deed::Pan | Deed::Turn | Deed::HandOrTurn) if self.drag.is_none() => self.view.pan(moved),
+            Some(Deed::Zoom) => self.view.zoom(pane, pane.center(), (f64::from(-moved.y) * ZOOM).exp()),
+            _ => {}
         }
         if let Some(at) = response.hover_pos() {
             let (wheel, pinch) = ui.input(|i| (i.smooth_scroll_delta().y, i.zoom_delta()));
@@ -130,10 +144,7 @@ impl PatternPane {
         }
     }
 
-    fn under(&self, document: &Document, pane: Rect, response: &Response) -> Under {
-        let Some(at) = response.hover_pos().filter(|_| self.drag.is_none()) else {
-            return Under::default();
-        };
+    fn under(&self, document: &Document, pane: Rect, at: Pos2) -> Under {
         let table = self.view.table_from_screen(pane, at);
         let reach = REACH / self.view.scale;
         Under {
@@ -155,12 +166,15 @@ impl PatternPane {
         let Laid { document, tool, .. } = *laid;
         let (space, erasing) =
             ui.input(|i| (i.key_down(Key::Space), tool == Tool::Erase || i.modifiers.command));
-        if response.clicked_by(PointerButton::Primary) && !space {
-            match (under.mark, tool) {
+        let held = ui.input(|i| i.modifiers);
+        let of_tool = !space && laid.mouse.deed(PointerButton::Primary, held) == Some(Deed::Tool);
+        for at in clicks(ui, response, PointerButton::Primary).into_iter().filter(|_| of_tool) {
+            let mark = self.under(document, pane, at).mark;
+            match (mark, tool) {
                 (Some(mark), _) if erasing => asks.push(Ask::Do(Command::DeleteMark { mark })),
-                (Some(_), Tool::Mark | Tool::Move) => asks.push(Ask::Select(under.mark)),
+                (Some(_), Tool::Mark | Tool::Move) => asks.push(Ask::Select(mark)),
                 (None, Tool::Move) => asks.push(Ask::Select(None)),
-                (None, Tool::Mark) if !erasing => self.dot(laid, pane, response, asks),
+                (None, Tool::Mark) if !erasing => self.dot(laid, pane, at, asks),
                 _ => {}
             }
         }
@@ -170,7 +184,7 @@ impl PatternPane {
         {
             asks.extend(self.turned_over(&document.pattern, piece).map(Ask::Do));
         }
-        if response.drag_started_by(PointerButton::Primary) && !space && !erasing {
+        if response.drag_started_by(PointerButton::Primary) && of_tool && !erasing {
             self.start_drag(ui, laid, pane);
         }
         if self.drag.is_some() {
@@ -186,8 +200,7 @@ impl PatternPane {
         }
     }
 
-    fn dot(&self, laid: &Laid<'_>, pane: Rect, response: &Response, asks: &mut Asks) {
-        let Some(at) = response.interact_pointer_pos() else { return };
+    fn dot(&self, laid: &Laid<'_>, pane: Rect, at: Pos2, asks: &mut Asks) {
         let pattern = &laid.document.pattern;
         let table = self.view.table_from_screen(pane, at);
         let hit = self.shapes.all_at(pattern, table).take(if laid.laser { usize::MAX } else { 1 });
@@ -348,8 +361,8 @@ fn go_through(
 }
 
 /// What the pointer does here, for the status bar.
-pub fn hint(tool: Tool, laser: bool, next: usize) -> String {
-    let view = "Wheel: zoom · Middle or right drag: move the view · F: show all";
+pub fn hint(tool: Tool, mouse: Mouse, laser: bool, next: usize) -> String {
+    let view = format!("{} · F: show all", mouse.table_hint());
     match tool {
         Tool::Mark if laser => {
             format!("Drag: paint marks {next}… on every piece that lies here · L: only the topmost · {view}")

@@ -10,7 +10,7 @@ use egui::{
     Align2, Color32, CursorIcon, Event, FontId, Key as Button, PointerButton, Pos2, Rect, Response, Sense,
     WidgetInfo,
 };
-use glam::{DVec3, UVec2, Vec2, Vec3};
+use glam::{DVec2, DVec3, UVec2, Vec2, Vec3};
 
 use crate::body::Surface;
 use crate::cloth::{ClothState, Garment};
@@ -20,17 +20,23 @@ use crate::render::{Camera, Look, Projection, View};
 use crate::session::{Command, Document};
 use crate::ui::actions::{Action, Tool, VIEWS};
 use crate::ui::asks::{Ask, Asks, in_one_step};
+use crate::ui::clicks::clicks;
+use crate::ui::mouse::{Deed, Mouse};
 use crate::ui::scene::{Scenery, Shown};
 use crate::ui::stroke;
 use crate::ui::theme::Palette;
 use crate::wrap::Marks;
 pub use graphics::{Graphics, Key};
-use hand::{begun, cloth_at, next_in_row, pins};
+use hand::{Reach, begun, cloth_at, next_in_row, pins};
 
 /// Radians the view turns for each point the pointer moves.
 const TURN: f32 = 0.0085;
+/// Logarithm of the zoom for each point the pointer moves.
+const ZOOM: f32 = 0.008;
 /// How near to a mark a click counts, points on the screen.
 const REACH: f32 = 12.0;
+/// What is shown by itself has so much room round it, metres on a body 1.5 m large.
+const ROOM: f64 = 0.18;
 /// Pictures drawn by a processor shrink by this much while things move.
 const DRAFT: f32 = 0.7;
 
@@ -53,6 +59,8 @@ pub struct Seen<'a> {
     pub working: bool,
     /// What the left button does.
     pub tool: Tool,
+    /// What all buttons do.
+    pub mouse: Mouse,
     /// Strokes go through to the far side of the body.
     pub laser: bool,
     /// The mark that stands out.
@@ -76,10 +84,13 @@ pub struct ScenePane {
     pub free_turning: bool,
     /// Whether the pointer was over the pane in the last frame.
     pub hovered: bool,
+    /// Where it was on the screen in the last frame.
+    pub area: Option<Rect>,
     /// The renderer; none without a graphics adapter.
     pub graphics: Option<Graphics>,
     scenery: Scenery,
     drag: Option<Drag>,
+    reach: Reach,
     /// Where the pointer of the drag was last followed to.
     followed: Option<Pos2>,
     framed_body: Option<Arc<Surface>>,
@@ -95,7 +106,8 @@ const MOST_FOLLOW_STEPS: f32 = 500.0;
 enum Drag {
     /// A stroke on the body, and with the laser the one on its far side.
     Paint([Vec<DVec3>; 2]),
-    Turn,
+    /// The view is moved, with this button.
+    View(Deed, PointerButton),
     /// Cloth is in the hand, held with this button.
     Cloth(PointerButton),
     /// A row of pins, the last of which is here.
@@ -116,12 +128,14 @@ impl ScenePane {
         let response = ui.allocate_rect(pane, Sense::click_and_drag());
         response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, "Body pane"));
         self.hovered = response.contains_pointer();
+        self.area = Some(pane);
         self.frame_if_asked(seen, pane);
         self.move_view(ui, seen, pane, &response);
         let near = self.mark_under(seen, pane, &response);
-        self.listen(ui, seen, pane, &response, near, asks);
+        self.listen(ui, seen, pane, &response, asks);
         self.set_cursor(ui, seen, near, pane, &response);
-        self.show(ui, seen, near, pane);
+        let reach = self.reach_under(seen, pane, &response);
+        self.draw(ui, &Seen { dragged: seen.dragged.or(reach.as_ref()), ..*seen }, near, pane);
         publish_marks(ui, &seen.document.marks, "Mark", pane, &self.camera);
         if let Some(ghosts) = seen.ghosts {
             publish_marks(ui, ghosts, "Proposed mark", pane, &self.camera);
@@ -129,11 +143,34 @@ impl ScenePane {
         view_buttons(ui, pane, seen.palette, asks);
     }
 
-    /// The stroke under way.
+    /// What is shown changes to `body`, and is to be seen as the camera stands.
+    pub fn keep_view(&mut self, body: Option<Arc<Surface>>) {
+        (self.framed_body, self.frame) = (body, None);
+    }
+
+    /// Turns to `points` on `body` and comes near enough to see them well.
+    pub fn show(&mut self, points: &[DVec3], body: &Surface) {
+        let out: DVec3 = points.iter().map(|&p| body.nearest(p).normal).sum();
+        if DVec2::new(out.x, out.z).length() > 0.2 * points.len() as f64 {
+            self.camera.look(View::Angles { yaw: out.x.atan2(out.z).to_degrees() as f32, pitch: 10.0 });
+        }
+        let room = ROOM * body.scale();
+        let around = |p: &DVec3| [-1.0, 1.0].map(|s| (*p + DVec3::splat(s * room)).as_vec3());
+        let around: Vec<Vec3> = points.iter().flat_map(around).collect();
+        let aspect = self.area.map_or(1.0, |pane| pane.width() / pane.height().max(1.0));
+        self.camera.frame_points(&around, aspect);
+    }
+
+    /// The stroke under way on the near side.
     pub fn stroke(&self) -> &[DVec3] {
+        self.strokes().map_or(&[], |[near, _]| near)
+    }
+
+    /// The strokes under way on the near and the far side.
+    fn strokes(&self) -> Option<&[Vec<DVec3>; 2]> {
         match &self.drag {
-            Some(Drag::Paint([near, _])) => near,
-            _ => &[],
+            Some(Drag::Paint(strokes)) => Some(strokes),
+            _ => None,
         }
     }
 
@@ -158,15 +195,16 @@ impl ScenePane {
 
     fn move_view(&mut self, ui: &egui::Ui, seen: &Seen<'_>, pane: Rect, response: &Response) {
         let before = self.camera;
-        let shift = ui.input(|i| i.modifiers.shift);
         let size = size_of(pane);
         let moved = response.drag_delta();
-        let right =
-            response.dragged_by(PointerButton::Secondary) && !matches!(self.drag, Some(Drag::Cloth(_)));
-        if response.dragged_by(PointerButton::Middle) || (right && shift) {
-            self.camera.pan(Vec2::new(moved.x, moved.y), size);
-        } else if right || (matches!(self.drag, Some(Drag::Turn)) && response.dragged()) {
-            self.turn(response, pane);
+        match self.drag {
+            _ if !response.dragged() => {}
+            Some(Drag::View(Deed::Pan, _)) => self.camera.pan(Vec2::new(moved.x, moved.y), size),
+            Some(Drag::View(Deed::Zoom, _)) => {
+                self.camera.zoom((moved.y * ZOOM).exp(), self.camera.pivot);
+            }
+            Some(Drag::View(..)) => self.turn(response, pane),
+            _ => {}
         }
         if let Some(at) = response.hover_pos() {
             let (wheel, pinch) = ui.input(|i| (i.smooth_scroll_delta().y, i.zoom_delta()));
@@ -216,9 +254,12 @@ impl ScenePane {
         [near, near.filter(|_| seen.laser).and_then(|_| self.pick_far(seen, pane, at))]
     }
 
-    /// The mark on the body within reach of the pointer that is not behind the body.
     fn mark_under(&self, seen: &Seen<'_>, pane: Rect, response: &Response) -> Option<MarkId> {
-        let at = response.hover_pos().filter(|_| self.drag.is_none())?;
+        self.mark_at(seen, pane, response.hover_pos().filter(|_| self.drag.is_none())?)
+    }
+
+    /// The mark on the body within reach of a point of the screen that is not behind the body.
+    fn mark_at(&self, seen: &Seen<'_>, pane: Rect, at: Pos2) -> Option<MarkId> {
         let (at, size) = (within(pane, at), size_of(pane));
         let distance = |points: &[DVec3]| {
             points
@@ -249,41 +290,24 @@ impl ScenePane {
             .is_none_or(|hit| hit.distance > away - 0.01 * seen.body.map_or(1.0, |b| b.scale()))
     }
 
-    fn listen(
-        &mut self,
-        ui: &egui::Ui,
-        seen: &Seen<'_>,
-        pane: Rect,
-        response: &Response,
-        near: Option<MarkId>,
-        asks: &mut Asks,
-    ) {
+    fn listen(&mut self, ui: &egui::Ui, seen: &Seen<'_>, pane: Rect, response: &Response, asks: &mut Asks) {
         let erasing = seen.tool == Tool::Erase || ui.input(|i| i.modifiers.command);
-        if response.clicked_by(PointerButton::Primary)
-            && let Some(at) = response.interact_pointer_pos()
-        {
-            match (near, seen.tool) {
-                (Some(mark), _) if erasing => asks.push(Ask::Do(Command::DeleteMark { mark })),
-                (Some(_), Tool::Mark | Tool::Move) => asks.push(Ask::Select(near)),
-                (None, Tool::Move) => asks.push(Ask::Select(None)),
-                (None, Tool::Mark) if !erasing => {
-                    let dots = self.hits(seen, pane, at).map(|hit| hit.into_iter().collect());
-                    in_one_step(painted(seen, dots), asks);
-                }
-                (_, Tool::Pin) => asks.extend(self.pin_or_pull(seen, pane, at)),
-                _ => {}
-            }
+        let held = ui.input(|i| i.modifiers);
+        let of_tool = seen.mouse.deed(PointerButton::Primary, held) == Some(Deed::Tool);
+        for at in clicks(ui, response, PointerButton::Primary).into_iter().filter(|_| of_tool) {
+            self.click(seen, pane, at, erasing, asks);
         }
-        if response.drag_started_by(PointerButton::Primary) {
-            self.start_drag(ui, seen, pane, erasing, asks);
-        } else if response.drag_started_by(PointerButton::Secondary)
-            && matches!(seen.tool, Tool::Drag(_) | Tool::Pin)
-        {
-            // Paper A: the right button drags cloth, or turns the view where there is none.
-            self.take_cloth(ui, seen, pane, PointerButton::Secondary, asks);
+        for button in [PointerButton::Primary, PointerButton::Secondary, PointerButton::Middle] {
+            if response.drag_started_by(button) {
+                self.begin(ui, seen, pane, (button, seen.mouse.deed(button, held)), erasing, asks);
+            }
         }
         if matches!(self.drag, Some(Drag::Cloth(_) | Drag::Row(_))) {
             self.go_on_by_hand(ui, seen, pane, asks);
+        } else if let Some(Drag::View(_, button)) = self.drag {
+            if ui.input(|i| !i.pointer.button_down(button) || is_lost(i)) {
+                self.drag = None;
+            }
         } else if self.drag.is_some() {
             self.go_on(ui, seen, pane);
             let lost = ui.input(is_lost);
@@ -292,6 +316,51 @@ impl ScenePane {
             } else if !ui.input(|i| i.pointer.primary_down()) || lost {
                 in_one_step(self.finish(seen), asks);
             }
+        }
+    }
+
+    fn begin(
+        &mut self,
+        ui: &egui::Ui,
+        seen: &Seen<'_>,
+        pane: Rect,
+        (button, deed): (PointerButton, Option<Deed>),
+        erasing: bool,
+        asks: &mut Asks,
+    ) {
+        let by_hand = match deed {
+            Some(Deed::Tool) => return self.start_drag(ui, seen, pane, erasing, asks),
+            Some(Deed::HandOrTurn) => true,
+            Some(Deed::Hand) => matches!(seen.tool, Tool::Drag(_) | Tool::Pin),
+            _ => false,
+        };
+        if by_hand && self.take_cloth(ui, seen, pane, button, asks) {
+            return;
+        }
+        self.drag = match deed {
+            Some(Deed::Hand) | None => None,
+            Some(Deed::HandOrTurn) => Some(Drag::View(Deed::Turn, button)),
+            Some(deed) => Some(Drag::View(deed, button)),
+        };
+    }
+
+    fn click(&self, seen: &Seen<'_>, pane: Rect, at: Pos2, erasing: bool, asks: &mut Asks) {
+        let near = self.mark_at(seen, pane, at);
+        match (near, seen.tool) {
+            (Some(mark), _) if erasing => asks.push(Ask::Do(Command::DeleteMark { mark })),
+            (Some(_), Tool::Mark | Tool::Move) => asks.push(Ask::Select(near)),
+            (None, Tool::Move) => asks.push(Ask::Select(None)),
+            (None, Tool::Mark) if !erasing => {
+                // Paper A: the left button paints on the body and pins cloth.
+                let pin = self.pin_or_pull(seen, pane, at).filter(|_| seen.mouse == Mouse::Paper);
+                if let Some(pin) = pin {
+                    return asks.push(pin);
+                }
+                let dots = self.hits(seen, pane, at).map(|hit| hit.into_iter().collect());
+                in_one_step(painted(seen, dots), asks);
+            }
+            (_, Tool::Pin) => asks.extend(self.pin_or_pull(seen, pane, at)),
+            _ => {}
         }
     }
 
@@ -307,6 +376,7 @@ impl ScenePane {
             self.camera.project(p.as_vec3(), size_of(pane)).map(|q| q.pixel.distance(within(pane, at)))
         };
         let near = pins(seen)
+            .into_iter()
             .filter_map(|(id, place)| Some((id, away(place)?)))
             .filter(|&(_, away)| away <= REACH)
             .min_by(|a, b| a.1.total_cmp(&b.1));
@@ -382,7 +452,7 @@ impl ScenePane {
             Some(point) if seen.tool == Tool::Mark && !erasing => {
                 Drag::Paint([vec![point], far.into_iter().collect()])
             }
-            _ => Drag::Turn,
+            _ => Drag::View(Deed::Turn, PointerButton::Primary),
         });
     }
 
@@ -435,7 +505,7 @@ impl ScenePane {
         let Some(at) = response.hover_pos() else { return };
         let erasing = seen.tool == Tool::Erase || ui.input(|i| i.modifiers.command);
         ui.ctx().set_cursor_icon(match &self.drag {
-            Some(Drag::Turn | Drag::Cloth(_)) => CursorIcon::Grabbing,
+            Some(Drag::View(..) | Drag::Cloth(_)) => CursorIcon::Grabbing,
             Some(Drag::Paint(_)) => CursorIcon::Crosshair,
             _ if response.dragged() => CursorIcon::Grabbing,
             _ if erasing && near.is_some() => CursorIcon::PointingHand,
@@ -455,9 +525,9 @@ impl ScenePane {
         });
     }
 
-    fn show(&mut self, ui: &egui::Ui, seen: &Seen<'_>, near: Option<MarkId>, pane: Rect) {
+    fn draw(&mut self, ui: &egui::Ui, seen: &Seen<'_>, near: Option<MarkId>, pane: Rect) {
         let painter = ui.painter_at(pane);
-        let stroke = self.stroke().to_vec();
+        let [stroke, far_stroke] = self.strokes().cloned().unwrap_or_default();
         let Some(graphics) = &mut self.graphics else {
             let words = "No graphics adapter: the body cannot be shown.";
             painter.text(
@@ -483,7 +553,7 @@ impl ScenePane {
             body: seen.body.cloned(),
             cloth: seen.cloth.map(|(_, state)| Arc::clone(state)),
             marks: Some(Arc::clone(&seen.document.marks)),
-            stroke: stroke.len(),
+            stroke: stroke.len() + far_stroke.len(),
             near,
             pinned: Some(Arc::clone(seen.pinned)),
             dragged: seen.dragged.cloned(),
@@ -495,6 +565,7 @@ impl ScenePane {
             cloth: seen.cloth,
             marks: Some(&seen.document.marks),
             stroke: &stroke,
+            far_stroke: &far_stroke,
             near,
             pinned: seen.pinned,
             dragged: seen.dragged,
@@ -530,8 +601,8 @@ fn is_lost(input: &egui::InputState) -> bool {
 }
 
 /// What the pointer does here, for the status bar.
-pub fn hint(tool: Tool, laser: bool, next: usize) -> String {
-    let view = "Right drag: turn · Middle drag: move the view · Wheel: zoom";
+pub fn hint(tool: Tool, mouse: Mouse, laser: bool, dressed: bool, next: usize) -> String {
+    let view = mouse.view_hint();
     match tool {
         Tool::Mark if laser => {
             let far = next + 1;
@@ -540,15 +611,13 @@ pub fn hint(tool: Tool, laser: bool, next: usize) -> String {
             )
         }
         Tool::Mark => {
-            format!(
-                "Drag on the body: paint mark {next} · Click: a dot, or select a mark · Ctrl+click: erase · {view}"
-            )
+            let click =
+                if dressed && mouse == Mouse::Paper { "pin the cloth" } else { "a dot, or select a mark" };
+            format!("Drag on the body: paint mark {next} · Click: {click} · Ctrl+click: erase · {view}")
         }
         Tool::Erase => format!("Click a mark: take it away · {view}"),
         Tool::Move => format!("Drag: turn · {view}"),
-        Tool::Drag(_) => {
-            format!("Drag the cloth, with the left or the right button · Esc: put it back · {view}")
-        }
+        Tool::Drag(_) => format!("Drag the cloth · Esc: put it back · {view}"),
         Tool::Pin => format!("Click: pin the cloth, or pull the pin out · Drag: a row of pins · {view}"),
     }
 }

@@ -1,0 +1,98 @@
+//! Faults of a dressed garment with the marks concerned: what a person can paint differently.
+
+use serde::Serialize;
+
+use crate::cloth::{ClothState, EdgeMetric, FlatPiece, Garment};
+use crate::fit::{self, BodyIndex, Report};
+use crate::pattern::Problem;
+use crate::sim::protocol::GarmentSource;
+use crate::wrap::{Marks, PairStretch, stretches};
+
+/// Pairs named for one fault.
+const MOST_PAIRS: usize = 3;
+/// A pair is concerned when it is the nearest to this share of the place, or more.
+const SHARE: f64 = 0.1;
+
+/// What is wrong, and the pairs of marks concerned, the one concerned most first.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Fault {
+    /// In words, the marks among them.
+    #[serde(flatten)]
+    pub problem: Problem,
+    /// The pairs nearest to it on the cloth.
+    pub marks: Vec<Concerned>,
+}
+
+/// A pair of marks.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Concerned {
+    /// From 1.
+    pub number: usize,
+    /// Its length on the body over that on the cloth, less one.
+    pub stretch: f64,
+}
+
+/// The faults of a garment that was measured.
+pub fn faults(
+    report: &Report,
+    source: &GarmentSource,
+    garment: &Garment,
+    cloth: &ClothState,
+    body: &BodyIndex<'_>,
+) -> Vec<Fault> {
+    let found = fit::faults(report);
+    if found.is_empty() {
+        return Vec::new();
+    }
+    let nearest = nearest_pairs(garment, &source.marks);
+    let surface = body.surface();
+    let lengths = stretches(&source.marks, surface, source.relax.offset * surface.scale());
+    let fault = |(problem, spot): (Problem, fit::Spot)| {
+        let marks = concerned(&spot.vertices(garment, cloth, body), &nearest, &lengths);
+        Fault { problem: told(problem, &marks), marks }
+    };
+    found.into_iter().map(fault).collect()
+}
+
+fn told(problem: Problem, marks: &[Concerned]) -> Problem {
+    if marks.is_empty() {
+        return problem;
+    }
+    let each: Vec<String> =
+        marks.iter().map(|m| format!("{} ({:+.1} %)", m.number, m.stretch * 100.0)).collect();
+    let which = if each.len() == 1 { "mark" } else { "marks" };
+    Problem { words: format!("{}; nearest {which}: {}", problem.words, each.join(", ")), ..problem }
+}
+
+/// The number of the pair nearest to each vertex along the flat cloth and over its seams; None where none leads.
+fn nearest_pairs(garment: &Garment, marks: &Marks) -> Vec<Option<usize>> {
+    let metric = EdgeMetric::new(garment);
+    let mut nearest = vec![(f64::INFINITY, None); garment.vertex_count];
+    for ((mark, _), number) in marks.pairs().zip(1..) {
+        let piece = FlatPiece::new(garment, mark.piece);
+        let places = mark.points.iter().filter_map(|&p| piece.inside(garment, p));
+        let sources: Vec<(u32, f64)> =
+            places.flat_map(|place| place.vertices(garment).map(|(v, _)| (v, 0.0))).collect();
+        for (known, distance) in nearest.iter_mut().zip(metric.from(&sources, |_| true).distance) {
+            if distance < known.0 {
+                *known = (distance, Some(number));
+            }
+        }
+    }
+    nearest.into_iter().map(|(_, number)| number).collect()
+}
+
+fn concerned(vertices: &[u32], nearest: &[Option<usize>], lengths: &[PairStretch]) -> Vec<Concerned> {
+    let mut counts: Vec<(usize, usize)> = Vec::new();
+    for number in vertices.iter().filter_map(|&v| nearest[v as usize]) {
+        match counts.iter_mut().find(|(_, known)| *known == number) {
+            Some((count, _)) => *count += 1,
+            None => counts.push((1, number)),
+        }
+    }
+    counts.retain(|(count, _)| *count as f64 >= SHARE * vertices.len() as f64);
+    counts.sort_unstable_by_key(|&(count, number)| (std::cmp::Reverse(count), number));
+    let stretch = |number| lengths.iter().find(|l| l.number == number).map_or(0.0, PairStretch::stretch);
+    let named = counts.into_iter().take(MOST_PAIRS);
+    named.map(|(_, number)| Concerned { number, stretch: stretch(number) }).collect()
+}

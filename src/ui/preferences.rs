@@ -1,0 +1,120 @@
+//! What a person prefers, kept between runs. A file that cannot be read is as good as none.
+
+use std::path::{Path, PathBuf};
+
+use egui::ThemePreference;
+use serde::{Deserialize, Serialize};
+
+use crate::ui::files;
+use crate::ui::mouse::Mouse;
+
+/// Bytes a file of preferences may have.
+const MOST_BYTES: u64 = 1 << 20;
+
+/// What there is to prefer.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Preferences {
+    /// What the mouse buttons do.
+    #[serde(deserialize_with = "or_default")]
+    pub mouse: Mouse,
+    /// Dark, light or as the system.
+    #[serde(deserialize_with = "or_default")]
+    pub theme: Theme,
+}
+
+/// See [`ThemePreference`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Theme {
+    Dark,
+    Light,
+    #[default]
+    System,
+}
+
+impl From<ThemePreference> for Theme {
+    fn from(theme: ThemePreference) -> Self {
+        match theme {
+            ThemePreference::Dark => Self::Dark,
+            ThemePreference::Light => Self::Light,
+            ThemePreference::System => Self::System,
+        }
+    }
+}
+
+impl From<Theme> for ThemePreference {
+    fn from(theme: Theme) -> Self {
+        match theme {
+            Theme::Dark => Self::Dark,
+            Theme::Light => Self::Light,
+            Theme::System => Self::System,
+        }
+    }
+}
+
+/// A value that is not understood, from a newer version say, leaves the others as they are.
+fn or_default<'de, D, T>(from: D) -> Result<T, D::Error>
+where
+    D: serde::Deserializer<'de>,
+    T: Default + for<'v> Deserialize<'v>,
+{
+    let value = serde_json::Value::deserialize(from)?;
+    Ok(serde_json::from_value(value).unwrap_or_default())
+}
+
+impl Preferences {
+    /// Those in `path`. Where there is no such file, or it says nothing that can be understood: the usual ones.
+    pub fn read(path: &Path) -> Self {
+        let is_small = std::fs::metadata(path).is_ok_and(|file| file.is_file() && file.len() <= MOST_BYTES);
+        let text = if is_small { std::fs::read_to_string(path).ok() } else { None };
+        text.and_then(|text| serde_json::from_str(&text).ok()).unwrap_or_default()
+    }
+
+    /// Writes them to `path`: the whole new file or the whole old one. The error is in words.
+    pub fn write(&self, path: &Path) -> Result<(), String> {
+        let mut text = serde_json::to_string_pretty(self).map_err(|e| e.to_string())?;
+        text.push('\n');
+        if let Some(folder) = path.parent() {
+            std::fs::create_dir_all(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
+        }
+        files::write(path, text.as_bytes())
+    }
+}
+
+/// Where this system keeps preferences. None where there is no home.
+pub fn usual_path() -> Option<PathBuf> {
+    let folder = |name: &str| std::env::var_os(name).map(PathBuf::from).filter(|p| p.is_absolute());
+    let base = if cfg!(windows) {
+        folder("APPDATA")
+    } else if cfg!(target_os = "macos") {
+        folder("HOME").map(|home| home.join("Library/Application Support"))
+    } else {
+        folder("XDG_CONFIG_HOME").or_else(|| folder("HOME").map(|home| home.join(".config")))
+    };
+    base.map(|base| base.join("toile/preferences.json"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_was_written_is_read_and_what_is_broken_is_not() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("deep/preferences.json");
+        assert_eq!(Preferences::read(&path), Preferences::default());
+        let preferences = Preferences { mouse: Mouse::Blender, theme: Theme::Light };
+        preferences.write(&path).expect("written");
+        assert_eq!(Preferences::read(&path), preferences);
+        for broken in ["", "{", "[1, 2]", "\u{0}", "{\"mouse\": 7}", "nonsense"] {
+            std::fs::write(&path, broken).expect("written");
+            assert_eq!(Preferences::read(&path), Preferences::default(), "{broken:?}");
+        }
+        std::fs::write(&path, "{\"mouse\": \"from_2040\", \"theme\": \"dark\", \"more\": []}")
+            .expect("written");
+        assert_eq!(Preferences::read(&path), Preferences { theme: Theme::Dark, ..Preferences::default() });
+        assert_eq!(Preferences::read(folder.path()), Preferences::default(), "a folder is no file");
+        assert!(preferences.write(folder.path()).is_err());
+    }
+}

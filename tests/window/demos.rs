@@ -1,0 +1,53 @@
+//! Demos in the window: shown instead of the document, which comes back as it was.
+
+use toile::session::demos::Demo;
+
+use super::*;
+
+fn open(window: &mut Window, demo: Demo) {
+    window.get_by_label("Help").click();
+    window.run_steps(4);
+    window.get_by_label_contains("Demos").click();
+    window.run_steps(4);
+    window.get_by_label(demo.name()).click();
+    window.run_steps(4);
+}
+
+#[test]
+fn a_demo_plays_by_itself_and_escape_brings_the_document_back() {
+    let mut window = window();
+    let path = line(pane(&window, "Pattern pane"), Vec2::new(60.0, 0.0));
+    drag(&mut window, &path, PointerButton::Primary);
+    let (document, steps) =
+        (app(&window).session().document().clone(), app(&window).session().step_labels().count());
+    open(&mut window, Demo::Scarf);
+    assert!(window.query_by_label_contains("Figure 5").is_some());
+    assert_eq!(app(&window).shown().document().marks.cloth.len(), 0, "the hand comes first");
+    wait(&mut window, "the mark", |app| app.shown().document().marks.body.len() == 1);
+    wait(&mut window, "the wrap", |app| app.shown().snapshot().is_dressed());
+    // Nothing but the view can be changed meanwhile.
+    let path = line(pane(&window, "Pattern pane"), Vec2::new(60.0, 0.0));
+    drag(&mut window, &path, PointerButton::Primary);
+    key(&mut window, Modifiers::COMMAND, Key::Z);
+    assert!(*app(&window).session().document() == document);
+    key(&mut window, Modifiers::NONE, Key::Escape);
+    assert!(window.query_by_label_contains("Figure 5").is_none());
+    assert!(*app(&window).shown().document() == document);
+    assert_eq!(app(&window).session().step_labels().count(), steps);
+    key(&mut window, Modifiers::COMMAND, Key::Z);
+    assert_eq!(app(&window).session().document().marks.cloth.len(), 0, "undo works as before");
+}
+
+#[test]
+fn a_demo_that_is_over_stays_to_be_looked_at() {
+    let mut window = window();
+    open(&mut window, Demo::Scarf);
+    wait(&mut window, "the end", |app| {
+        let shown = app.shown().snapshot();
+        shown.is_dressed() && !shown.working
+    });
+    window.run_steps(3);
+    window.get_by_label("Back to your work").click();
+    window.run_steps(3);
+    assert!(!app(&window).shown().snapshot().is_dressed());
+}
