@@ -8,7 +8,6 @@ use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
-use toile::cloth::Skips;
 use toile::drag::{DragMode, Ray};
 use toile::geometry::ids::{MarkId, PieceId, PinId};
 use toile::geometry::mesh::TriMesh;
@@ -210,7 +209,7 @@ impl Fuzz {
                     gravity: c.number(0.0, 0.101),
                     friction: c.number(0.0, 2.01),
                     offset: c.number(0.0, 0.05),
-                    skips: Skips::default(),
+                    ..RelaxSettings::default()
                 };
                 Command::SetSettings { settings: Settings { edge_length: c.number(0.06, 0.12), relax } }
             }

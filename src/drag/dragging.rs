@@ -16,15 +16,17 @@ const SUBSTEP: f64 = 0.25;
 const MOST_SUBSTEPS: usize = 4;
 /// Cloth nearer to the skin than this follows it, metres on a body 1.5 m large (paper A).
 const FOLLOWS: f64 = 0.036;
-/// The paper halves its distance to the skin in every step; so large a share of that is done here, lest loose cloth is
-/// sucked in faster than it relaxes.
+/// The paper halves its distance to the skin in every step; so large a share of that is done here in a whole substep, and less
+/// the higher cloth lies above [`PULLED`]: loose cloth that is sucked in has nowhere to go and folds.
 const PULL: f64 = 0.02;
+/// Cloth up to so many offsets above the one it lies at comes nearer.
+const PULLED: f64 = 2.0;
 /// A pointer that looks along the skin (cosine to the normal) says little about where on it the cloth should go.
 const GRAZING: f64 = 0.1;
 /// The hand's vertex in relaxation, on the matrix diagonal: soft, so that a pull that cannot be followed does not tear.
 const HAND_WEIGHT: f64 = 1.0;
-/// Of contact while dragging.
-const CONTACT: f64 = 0.03;
+/// Of contact while dragging: light, so that what strains slides.
+const CONTACT: f64 = 0.01;
 /// The factor may lag behind the contacts by this share of the vertices: they come and go all the time while cloth slides.
 const STALE_SHARE: f64 = 0.05;
 /// No vertex moves farther in one relaxation, metres on a body 1.5 m large.
@@ -232,7 +234,8 @@ impl Dragging {
                     state.positions[v as usize] += motions[v as usize] * share;
                 }
                 self.relaxer.track(state, reach);
-                self.follow_skin(state, &cloth, &heights);
+                let pull = PULL * (motion.length() / (SUBSTEP * self.edge_length)).min(1.0);
+                self.follow_skin(state, &cloth, &heights, pull);
             }
         }
         self.relaxer.hold(self.hand, state.positions[self.hand as usize]);
@@ -260,7 +263,7 @@ impl Dragging {
     }
 
     /// Cloth keeps its height above the skin it slides along, and comes a little nearer.
-    fn follow_skin(&mut self, state: &mut ClothState, cloth: &[DVec3], before: &[f64]) {
+    fn follow_skin(&mut self, state: &mut ClothState, cloth: &[DVec3], before: &[f64], pull: f64) {
         let (offset, follows) = (self.relaxer.offset(), FOLLOWS * self.relaxer.surface.scale());
         for (v, share, _) in self.graph.steps() {
             let i = v as usize;
@@ -273,7 +276,8 @@ impl Dragging {
             // Pressed cloth lies a little deeper than the offset: relaxation knows how deep.
             let floor = before[i].clamp(offset * 0.5, offset);
             let kept = height.min(before[i]).max(floor);
-            let pulled = kept + ((kept / 2.0).max(floor) - kept) * PULL;
+            let near = (1.0 - (kept - offset) / (PULLED * offset)).clamp(0.0, 1.0);
+            let pulled = kept + ((kept / 2.0).max(floor) - kept) * pull * near;
             // Out of the skin wholly, towards it by as much as it was moved.
             let wanted = if height < floor { floor } else { height + (pulled - height) * share };
             state.positions[i] = x + plane.normal * (wanted - height);

@@ -10,4 +10,4 @@ mod wants;
 
 pub use memory::Memory;
 pub use relaxer::{GlobalStep, Relaxer};
-pub use settings::RelaxSettings;
+pub use settings::{RelaxSettings, Rotation};

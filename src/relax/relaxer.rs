@@ -322,6 +322,7 @@ impl Relaxer {
 
     fn turn_triangles(&mut self, state: &ClothState, unfold: bool) {
         let (garment, tracker, normals) = (&*self.garment, &self.tracker, &self.normals);
+        let by = self.settings.rotation;
         self.turned.par_iter_mut().zip(&mut self.energies).enumerate().for_each(|(t, (turned, energy))| {
             let vs = garment.triangles[t];
             if !vs.iter().all(|&v| state.mapped[v as usize]) {
@@ -334,8 +335,8 @@ impl Relaxer {
             let cloth: DVec3 =
                 if unfold { vs.iter().map(|&v| normals[v as usize]).sum() } else { DVec3::ZERO };
             *turned = match cloth.try_normalize() {
-                Some(n) if faces_away(corners, n) => turned_rest_facing(corners, rest, n),
-                _ => turned_rest(corners, rest, keep),
+                Some(n) if faces_away(corners, n) => turned_rest_facing(corners, rest, n, by),
+                _ => turned_rest(corners, rest, keep, by),
             };
             let centre = (corners[0] + corners[1] + corners[2]) / 3.0;
             *energy = (0..3).map(|k| (corners[k] - centre - turned[k]).length_squared()).sum();
@@ -483,7 +484,9 @@ impl Relaxer {
             let corners = vs.map(|v| state.positions[v as usize]);
             let centre = (corners[0] + corners[1] + corners[2]) / 3.0;
             let n = body_normal(&self.tracker, &vs).unwrap_or(DVec3::Z);
-            self.turned[t as usize] = turned_rest(corners, &garment.rest[t as usize], n).map(|r| r + centre);
+            self.turned[t as usize] =
+                turned_rest(corners, &garment.rest[t as usize], n, self.settings.rotation)
+                    .map(|r| r + centre);
         }
         self.counters.local_triangles += triangles.len() as u64;
         let offset = self.offset();

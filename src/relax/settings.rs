@@ -18,9 +18,28 @@ pub struct RelaxSettings {
     pub friction: f64,
     /// How far above the skin the cloth lies, metres, 0.0005..=0.05.
     pub offset: f64,
+    /// Which turn each triangle is matched by.
+    #[serde(skip_serializing_if = "is_default")]
+    pub rotation: Rotation,
     /// What may be left out. Not the user's, and not kept with the document.
     #[serde(skip)]
     pub skips: Skips,
+}
+
+/// The turn that lays a triangle's flat shape over its present one. With z the present and w the flat corners about their
+/// centroids, as complex numbers:
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Rotation {
+    /// The angle of sum z conj(w): of all turns the one with the least sum of squares, so that no step raises the energy.
+    #[default]
+    LeastSquares,
+    /// Paper A's, the angle of sum z conj(w) / |w|: every corner counts alike, however far out it is.
+    Paper,
+}
+
+fn is_default(rotation: &Rotation) -> bool {
+    *rotation == Rotation::default()
 }
 
 impl Default for RelaxSettings {
@@ -31,6 +50,7 @@ impl Default for RelaxSettings {
             gravity: 0.004,
             friction: 0.3,
             offset: 0.004,
+            rotation: Rotation::default(),
             skips: Skips::default(),
         }
     }

@@ -8,7 +8,7 @@ use toile::body::Surface;
 use toile::cloth::{ClothState, Garment, build};
 use toile::geometry::ids::MarkId;
 use toile::pattern::{Pattern, Piece};
-use toile::relax::{GlobalStep, RelaxSettings, Relaxer};
+use toile::relax::{GlobalStep, RelaxSettings, Relaxer, Rotation};
 use toile::wrap::{BodyMark, ClothMark, ClothSide, Marks};
 
 use crate::exact::{cylinder, lowest, quantile, strains};
@@ -38,9 +38,12 @@ fn wrap_errors(cut: &Cut, body: &Arc<Surface>, edge: f64) -> (f64, f64) {
 
 /// The same of cloth that begins at the exact map, relaxed as settling cloth is, with or without `flatten`ing.
 fn relaxed_errors(cut: &Cut, body: &Arc<Surface>, edge: f64, flatten: f64) -> (f64, f64) {
+    relaxed_by(cut, body, edge, RelaxSettings { flatten, ..settings(body) })
+}
+
+fn relaxed_by(cut: &Cut, body: &Arc<Surface>, edge: f64, settings: RelaxSettings) -> (f64, f64) {
     let garment = Arc::new(build(&cut.pattern, edge).0);
     let mut state = cut.exact_state(&garment);
-    let settings = RelaxSettings { flatten, ..settings(body) };
     let mut relaxer = Relaxer::new(garment.clone(), body.clone(), settings).expect("enough memory");
     relaxer.set_mapped(&state.mapped);
     let step = GlobalStep { cap: 0.02, contact: 0.03, hold: 0.0, slack: 0.0, unfold: true, weight: true };
@@ -73,6 +76,16 @@ fn the_exact_map_of_a_cylinder_rests() {
             let (excess, far) = relaxed_errors(&cut, &body, edge, flatten);
             assert!(excess < 0.0005 && far < 0.05, "{flatten}: {excess} {far}");
         }
+    }
+}
+
+/// And by paper A's own turn of each triangle.
+#[test]
+fn the_exact_maps_rest_by_the_papers_turn() {
+    for (body, cut) in [cylinder_and_tube(), cone_and_skirt()] {
+        let settings = RelaxSettings { rotation: Rotation::Paper, ..settings(&body) };
+        let (excess, far) = relaxed_by(&cut, &body, 0.02, settings);
+        assert!(excess < 0.0005 && far < 0.05, "{excess} {far}");
     }
 }
 

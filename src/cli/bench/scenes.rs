@@ -1,7 +1,7 @@
 //! Garments on bodies to measure with, and how one is wrapped.
 
 use std::sync::Arc;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use crate::body::{Mannequin, Surface};
 use crate::cli::bench::tube::{self, Tube};
@@ -96,7 +96,16 @@ impl Scene {
 
     /// Wraps from pattern and marks until nothing moves.
     pub fn wrap(&self) -> Result<Wrapped, Failure> {
+        self.wrap_watched(|_, _, _| ())
+    }
+
+    /// The same; `watch` sees the cloth after every tick, with the seconds taken so far. Its own time does not count.
+    pub fn wrap_watched(
+        &self,
+        mut watch: impl FnMut(&Garment, &ClothState, f64),
+    ) -> Result<Wrapped, Failure> {
         let start = Instant::now();
+        let mut watched = Duration::ZERO;
         let garment = Arc::new(build(&self.pattern, self.edge_length).0);
         let coarser = match self.relax.skips.allow(Skip::Fine) {
             true => coarser(&self.pattern, &garment, self.edge_length, self.surface.scale()),
@@ -118,6 +127,9 @@ impl Scene {
             interrupt::check()?;
             let phase = dressing.step(&mut state);
             ticks += 1;
+            let now = Instant::now();
+            watch(&garment, &state, (now - start - watched).as_secs_f64());
+            watched += now.elapsed();
             match phase {
                 Phase::AtRest => break,
                 Phase::Growing => grown = dressing.counters(),
@@ -127,7 +139,7 @@ impl Scene {
                 Phase::Settling => {}
             }
         }
-        let seconds = start.elapsed().as_secs_f64();
+        let seconds = (start.elapsed() - watched).as_secs_f64();
         Ok(Wrapped { garment, state, dressing, ticks, seconds, build_seconds, grown })
     }
 }

@@ -29,6 +29,8 @@ const DRAG_TICKS: u32 = 12;
 const WAIT_TICKS: u32 = 30;
 /// The skirt is taken so far below its top, metres.
 const DRAG_BELOW: f64 = 0.2;
+/// A tube is as good as its users need when p99 of its strain is so little above the exact map's.
+const GOOD: f64 = 0.01;
 /// Closest points asked for in a run.
 const QUERIES: usize = 100_000;
 /// Worn cloth lies this high above the skin, metres.
@@ -68,10 +70,25 @@ fn wraps(scene: &Scene, runs: usize) -> Result<(Vec<f64>, Vec<u64>, Wrapped), Fa
 }
 
 fn cylinder(triangles: usize, runs: usize, skips: Skips) -> Result<Row, Failure> {
-    let scene_name = "wrap of a tube on a cylinder, to rest";
+    let scene_name = "wrap of a tube on a cylinder";
     let tube = Tube::new(1.0);
     let scene = Scene::tube(&tube, edge_length(&tube.pattern, triangles))?.skipping(skips);
     let (seconds, hashes, wrapped) = wraps(&scene, runs)?;
+    let mut good = Vec::new();
+    for _ in 0..runs {
+        let mut exact = None;
+        let mut at = None;
+        scene.wrap_watched(|garment, state, seconds| {
+            if at.is_some() || !state.mapped.iter().all(|&mapped| mapped) {
+                return;
+            }
+            let exact = exact.get_or_insert_with(|| tube.exact(garment));
+            if Errors::new(garment, state, exact).excess <= GOOD {
+                at = Some(seconds);
+            }
+        })?;
+        good.push(at.unwrap_or(f64::INFINITY));
+    }
     let errors = Errors::new(&wrapped.garment, &wrapped.state, &tube.exact(&wrapped.garment));
     let seconds = median(seconds);
     Ok(Row {
@@ -81,10 +98,17 @@ fn cylinder(triangles: usize, runs: usize, skips: Skips) -> Result<Row, Failure>
         seconds,
         threads: rayon::current_num_threads(),
         checks: vec![
-            Check::new("to rest, from pattern and marks", seconds, Unit::Seconds, 0.2, 0.05),
-            Check::new("p99 strain in excess of the exact map's", errors.excess, Unit::Share, 0.01, 0.01),
+            Check::new(
+                "to p99 strain of 1 % in excess of the exact map's",
+                median(good),
+                Unit::Seconds,
+                0.2,
+                0.05,
+            ),
+            Check::new("in excess of it at rest", errors.excess, Unit::Share, 0.0005, 0.0005),
         ],
         figures: vec![
+            Figure { what: "to rest, from pattern and marks", value: seconds, unit: Unit::Seconds },
             Figure { what: "p99 strain", value: errors.strain, unit: Unit::Share },
             Figure { what: "p99 strain of the exact map's chords", value: errors.chords, unit: Unit::Share },
             Figure {
