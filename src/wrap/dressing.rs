@@ -16,6 +16,7 @@ use crate::wrap::limbs::Limbs;
 use crate::wrap::order::{Order, UNREACHED};
 use crate::wrap::plan::{LIGHT_CONTACT, PLANS, Plan};
 use crate::wrap::roots::{PairStretch, Root, roots};
+use crate::wrap::settling::{SETTLE_STEPS, Settling};
 
 /// Over-relaxation of the local passes.
 const LOCAL_FACTOR: f64 = 1.6;
@@ -25,8 +26,6 @@ const RINGS: usize = 2;
 const GLOBALS_PER_GROUP: usize = 3;
 /// Global steps between tiers.
 const TIER_STEPS: usize = 15;
-/// Global steps of the first, ungraviated settling.
-const SETTLE_STEPS: usize = 80;
 /// A vertex moves no farther in one global step, metres on a body 1.5 m large.
 const STEP_CAP: f64 = 0.02;
 /// Weight of contact while the cloth grows and closes: heavy, so that closing seams do not pull it through a limb.
@@ -47,28 +46,8 @@ const UNFOLD_AFTER: usize = 10;
 const HOLD_FADE: [f64; 3] = [1.0, 0.3, 0.1];
 /// Settling steps per step of [`HOLD_FADE`].
 const HOLD_FADE_STEPS: usize = 4;
-/// At rest when nothing moved farther than this many edge lengths for [`QUIET_STEPS`] steps.
-const REST_MOTION: f64 = 0.01;
-/// See [`REST_MOTION`].
-const QUIET_STEPS: usize = 5;
-/// And when the energy of matching fell by no larger share in those steps: what creeps on then costs no strain.
-const REST_FALL: f64 = 0.03;
-/// Or is no larger than this: a strain of 0.01 %.
-const REST_ENERGY: f64 = 1e-8;
-/// And then in so many.
-const CREEP_STEPS: usize = 15;
-/// Cloth is taken to lie still after so many settling steps in any case: what still moves then trembles in a fold.
-const MOST_SETTLE_STEPS: usize = 400;
-/// The same for a coarse mesh, which only has to lie roughly right.
-const DRAFT_SETTLE_STEPS: usize = 160;
-/// So often at most is lying cloth mended: raised off the body it cuts, sent to its own side.
-const MOST_MENDS: usize = 12;
-/// The same for a coarse mesh.
-const DRAFT_MENDS: usize = 2;
 /// Layers of cloth that run through each other are parted every so many steps.
 const STEPS_PER_PARTING: usize = 10;
-/// A mend has so many steps to take effect.
-const STEPS_PER_MEND: usize = 25;
 /// Share of the progress that coarser meshes have.
 const COARSE_PROGRESS: f64 = 0.8;
 /// Edges and faces keep this share of the offset.
@@ -112,33 +91,6 @@ struct Hold {
     weight: f64,
     /// Metres.
     slack: f64,
-}
-
-/// How far settling has come.
-#[derive(Clone, Copy, Debug)]
-struct Settling {
-    /// Steps done.
-    done: usize,
-    /// The last so many of them moved nothing to speak of.
-    quiet: usize,
-    /// How often lying cloth was mended.
-    mends: usize,
-    /// At this step it is taken to lie still in any case.
-    until: usize,
-    /// Layers ran through each other when last looked at, or nobody looked.
-    crossed: bool,
-    /// Of matching when it last became quiet.
-    energy: f64,
-    /// It was quiet once, but strain still fell.
-    creeps: bool,
-}
-
-impl Settling {
-    /// From step `done` on.
-    fn from(done: usize, draft: bool) -> Self {
-        let until = if draft { DRAFT_SETTLE_STEPS } else { MOST_SETTLE_STEPS };
-        Self { done, quiet: 0, mends: 0, until, crossed: true, energy: 0.0, creeps: false }
-    }
 }
 
 /// A wrap under way.
@@ -528,10 +480,9 @@ impl Dressing {
     }
 
     fn settle(&mut self, state: &mut ClothState, mut settling: Settling) {
-        let Settling { done, quiet, mends, until, .. } = settling;
+        let done = settling.done;
         self.relaxer.splitting = !self.draft;
-        let first = done < SETTLE_STEPS;
-        let most_mends = if self.draft { DRAFT_MENDS } else { MOST_MENDS };
+        let first = settling.is_first();
         let fading = if first { HOLD_FADE.get(done / HOLD_FADE_STEPS).copied().unwrap_or(0.0) } else { 0.0 };
         let edge = self.edge_length / (KEEP_EDGE * self.relaxer.surface.scale());
         let (hold, slack) = if fading > 0.0 {
@@ -547,36 +498,17 @@ impl Dressing {
         if !settling.crossed {
             self.relaxer.ease_parting();
         }
-        let mut quiet = if moved < REST_MOTION * self.edge_length { quiet + 1 } else { 0 };
-        if quiet == 1 {
-            settling.energy = self.relaxer.energy();
-        }
-        let mut still = done >= until;
-        if quiet >= (if settling.creeps { CREEP_STEPS } else { QUIET_STEPS }) && !first {
-            let energy = self.relaxer.energy();
-            let falls = (settling.energy - energy).abs() > REST_FALL * energy && energy > REST_ENERGY;
-            still |= !falls;
-            settling.creeps |= falls;
-            quiet = if falls { 0 } else { quiet };
-        }
+        let still = settling.is_still(moved / self.edge_length, || self.relaxer.energy());
         // Cloth that lies still may cut the body between its vertices, or lie on the wrong side: mend it there and go on.
-        let mended = still && mends < most_mends && {
+        let mended = still && settling.may_mend() && {
             let clearance = self.relaxer.offset() * FACE_CLEARANCE;
             let wrong = self.relaxer.lift_faces(state, clearance) + self.relaxer.send_wrong_faces(state);
             wrong + self.relaxer.part_layers(state) > 0
         };
         self.stage = match (still, mended) {
             (true, false) => Stage::Rest,
-            (true, true) => Stage::Settle(Settling {
-                done: done + 1,
-                quiet: 0,
-                mends: mends + 1,
-                until: done + STEPS_PER_MEND,
-                crossed: true,
-                creeps: false,
-                ..settling
-            }),
-            (false, _) => Stage::Settle(Settling { done: done + 1, quiet, ..settling }),
+            (true, true) => Stage::Settle(settling.mended()),
+            (false, _) => Stage::Settle(settling.stepped()),
         };
     }
 

@@ -10,6 +10,7 @@ pub mod order;
 mod placed;
 mod plan;
 pub mod roots;
+mod settling;
 pub mod suggest;
 
 pub use coarser::coarser;

@@ -4,7 +4,6 @@ use serde::Serialize;
 
 use crate::cli::bench::scenes::Scene;
 use crate::cli::bench::tube::{Errors, Tube};
-use crate::cli::bench::{median, one_hash};
 use crate::cli::failure::Failure;
 
 /// Lengths of the triangles' edges, metres.
@@ -74,20 +73,14 @@ fn measured(
     runs: usize,
 ) -> Result<Point, Failure> {
     let scene = Scene::tube(tube, edge_length)?.weightless();
-    let mut wrapped = scene.wrap()?;
-    let (mut seconds, mut hashes) = (vec![wrapped.seconds], vec![wrapped.hash()]);
-    for _ in 1..runs {
-        wrapped = scene.wrap()?;
-        seconds.push(wrapped.seconds);
-        hashes.push(wrapped.hash());
-    }
+    let (seconds, hash, wrapped) = scene.wraps(name, runs, |_, _, _, _| ())?;
     let errors = Errors::new(&wrapped.garment, &wrapped.state, &tube.exact(&wrapped.garment));
     Ok(Point {
         scene: name,
         edge_length,
         triangles: wrapped.garment.triangles.len(),
         runs,
-        seconds: median(seconds),
+        seconds,
         excess_p99: errors.excess,
         strain_p99: errors.strain,
         chord_p99: errors.chords,
@@ -95,7 +88,7 @@ fn measured(
         order: None,
         ticks: wrapped.ticks,
         threads: rayon::current_num_threads(),
-        hash: one_hash(name, &hashes)?,
+        hash,
     })
 }
 

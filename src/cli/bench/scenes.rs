@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 
 use crate::body::{Mannequin, Surface};
 use crate::cli::bench::tube::{self, Tube};
+use crate::cli::bench::{median, one_hash};
 use crate::cli::failure::Failure;
 use crate::cli::interrupt;
 use crate::cloth::{ClothState, Counters, Garment, Skip, Skips, build};
@@ -92,6 +93,25 @@ impl Scene {
             edge_length: self.edge_length,
             relax: self.relax,
         }
+    }
+
+    /// Wraps `runs` times, at least once; `watch` sees the cloth of each run after every tick, as [`Self::wrap_watched`] says.
+    /// Returns the median seconds, the hash they all have, and the last one. `name` is said when the hashes differ.
+    pub fn wraps(
+        &self,
+        name: &str,
+        runs: usize,
+        mut watch: impl FnMut(usize, &Garment, &ClothState, f64),
+    ) -> Result<(f64, String, Wrapped), Failure> {
+        let mut wrap = |run| self.wrap_watched(|garment, state, seconds| watch(run, garment, state, seconds));
+        let mut last = wrap(0)?;
+        let (mut seconds, mut hashes) = (vec![last.seconds], vec![last.hash()]);
+        for run in 1..runs {
+            last = wrap(run)?;
+            seconds.push(last.seconds);
+            hashes.push(last.hash());
+        }
+        Ok((median(seconds), one_hash(name, &hashes)?, last))
     }
 
     /// Wraps from pattern and marks until nothing moves.

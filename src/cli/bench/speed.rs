@@ -58,39 +58,22 @@ pub fn speed(
     tell(&idle(&shirt)?)
 }
 
-fn wraps(scene: &Scene, runs: usize) -> Result<(Vec<f64>, Vec<u64>, Wrapped), Failure> {
-    let mut last = scene.wrap()?;
-    let (mut seconds, mut hashes) = (vec![last.seconds], vec![last.hash()]);
-    for _ in 1..runs {
-        last = scene.wrap()?;
-        seconds.push(last.seconds);
-        hashes.push(last.hash());
-    }
-    Ok((seconds, hashes, last))
-}
-
 fn cylinder(triangles: usize, runs: usize, skips: Skips) -> Result<Row, Failure> {
     let scene_name = "wrap of a tube on a cylinder";
     let tube = Tube::new(1.0);
     let scene = Scene::tube(&tube, edge_length(&tube.pattern, triangles))?.skipping(skips);
-    let (seconds, hashes, wrapped) = wraps(&scene, runs)?;
-    let mut good = Vec::new();
-    for _ in 0..runs {
-        let mut exact = None;
-        let mut at = None;
-        scene.wrap_watched(|garment, state, seconds| {
-            if at.is_some() || !state.mapped.iter().all(|&mapped| mapped) {
-                return;
-            }
-            let exact = exact.get_or_insert_with(|| tube.exact(garment));
-            if Errors::new(garment, state, exact).excess <= GOOD {
-                at = Some(seconds);
-            }
-        })?;
-        good.push(at.unwrap_or(f64::INFINITY));
-    }
+    let mut exact = None;
+    // Since when each run has been good, and has stayed so.
+    let mut good = vec![f64::INFINITY; runs.max(1)];
+    let (seconds, hash, wrapped) = scene.wraps(scene_name, runs, |run, garment, state, seconds| {
+        let exact = exact.get_or_insert_with(|| tube.exact(garment));
+        let laid = state.mapped.iter().all(|&mapped| mapped);
+        good[run] = match laid && Errors::new(garment, state, exact).excess <= GOOD {
+            true => good[run].min(seconds),
+            false => f64::INFINITY,
+        };
+    })?;
     let errors = Errors::new(&wrapped.garment, &wrapped.state, &tube.exact(&wrapped.garment));
-    let seconds = median(seconds);
     Ok(Row {
         scene: scene_name,
         triangles: wrapped.garment.triangles.len(),
@@ -120,15 +103,14 @@ fn cylinder(triangles: usize, runs: usize, skips: Skips) -> Result<Row, Failure>
             Figure { what: "ticks", value: wrapped.ticks as f64, unit: Unit::Count },
         ],
         counters: Some(wrapped.dressing.counters()),
-        hash: one_hash(scene_name, &hashes)?,
+        hash,
     })
 }
 
 fn tshirt(scene: &Scene, runs: usize) -> Result<(Row, Wrapped), Failure> {
     let scene_name = "wrap of the T-shirt, to rest";
-    let (seconds, hashes, wrapped) = wraps(scene, runs)?;
+    let (seconds, hash, wrapped) = scene.wraps(scene_name, runs, |_, _, _, _| ())?;
     let fit = fit::measure(&scene.pattern, &wrapped.garment, &wrapped.state, &BodyIndex::new(&scene.surface));
-    let seconds = median(seconds);
     let (all, grown) = (wrapped.dressing.counters(), wrapped.grown);
     let checked = (all.contact_checks - grown.contact_checks).max(1);
     let queries = |c: &Counters| c.contact_queries + c.contact_gaps;
@@ -160,7 +142,7 @@ fn tshirt(scene: &Scene, runs: usize) -> Result<(Row, Wrapped), Failure> {
             Figure { what: "ticks", value: wrapped.ticks as f64, unit: Unit::Count },
         ],
         counters: Some(all),
-        hash: one_hash(scene_name, &hashes)?,
+        hash,
     };
     Ok((row, wrapped))
 }
