@@ -59,7 +59,12 @@ fn ring_skirt(waist: f64, length: f64) -> Pattern {
     let outer = inner + length;
     let mut pattern = Pattern::default();
     let mut add = |name: &str, front: bool| {
-        let edge = |x: f64, y: f64, shape: EdgeShape| Edge { start: DVec2::new(x, y), shape, label: None };
+        let edge = |x: f64, y: f64, shape: EdgeShape| Edge {
+            start: DVec2::new(x, y),
+            shape,
+            label: None,
+            ..Edge::default()
+        };
         let arc = |radius: f64, sweep: bool| EdgeShape::Arc { radius, large: false, sweep };
         let mut piece = Piece::polygon(name, &[]);
         piece.outline = vec![
@@ -79,7 +84,7 @@ fn ring_skirt(waist: f64, length: f64) -> Pattern {
     let (front, back) = (add("skirt front", true), add("skirt back", false));
     for (edge, other) in [(2, 5), (5, 2)] {
         let sides = [EdgeRef { piece: front, edge }, EdgeRef { piece: back, edge: other }];
-        pattern.add_seam(Seam { sides, same_direction: false });
+        pattern.add_seam(Seam::of_edges(sides, false));
     }
     pattern
 }

@@ -4,7 +4,7 @@ use glam::DVec2;
 use proptest::prelude::*;
 use toile::cloth::{Garment, build};
 use toile::geometry::ids::PieceId;
-use toile::pattern::{Edge, EdgeRef, EdgeShape, Pattern, Piece, ProblemKind, Seam};
+use toile::pattern::{Edge, EdgeRef, EdgeShape, Pattern, Piece, ProblemKind, Seam, Stretch};
 
 fn polygon(points: &[[f64; 2]]) -> Piece {
     Piece::polygon("p", &points.iter().map(|&p| DVec2::from(p)).collect::<Vec<_>>())
@@ -22,7 +22,7 @@ fn rectangle(width: f64, height: f64) -> Piece {
 
 fn sew(pattern: &mut Pattern, a: (PieceId, usize), b: (PieceId, usize)) {
     let side = |(piece, edge)| EdgeRef { piece, edge };
-    pattern.add_seam(Seam { sides: [side(a), side(b)], same_direction: false });
+    pattern.add_seam(Seam::of_edges([side(a), side(b)], false));
 }
 
 fn kinds(pattern: &Pattern) -> Vec<ProblemKind> {
@@ -84,7 +84,7 @@ fn a_concave_piece_has_good_triangles() {
 #[test]
 fn a_disc_has_good_triangles() {
     let arc = EdgeShape::Arc { radius: 0.3, large: false, sweep: true };
-    let edge = |x: f64| Edge { start: DVec2::new(x, 0.0), shape: arc, label: None };
+    let edge = |x: f64| Edge { start: DVec2::new(x, 0.0), shape: arc, label: None, ..Edge::default() };
     let piece = Piece { outline: vec![edge(0.3), edge(-0.3)], ..polygon(&[]) };
     check_triangles(piece, 0.02, 20.0);
 }
@@ -177,10 +177,7 @@ fn a_piece_of_nonsense_numbers_is_named() {
 fn a_twisted_seam_is_named() {
     let mut pattern = alone(rectangle(0.3, 0.3));
     let (a, b) = (PieceId(1), pattern.add_piece(rectangle(0.3, 0.3)));
-    pattern.add_seam(Seam {
-        sides: [EdgeRef { piece: a, edge: 1 }, EdgeRef { piece: b, edge: 3 }],
-        same_direction: true,
-    });
+    pattern.add_seam(Seam::of_edges([EdgeRef { piece: a, edge: 1 }, EdgeRef { piece: b, edge: 3 }], true));
     assert_eq!(kinds(&pattern), [ProblemKind::TwistedSeam]);
 }
 
@@ -217,6 +214,99 @@ fn a_tube_of_one_piece_closes_on_itself() {
     let e = garment.adjacency.edges.len() as i64;
     let f = garment.triangles.len() as i64;
     assert_eq!(v - e + f, 0, "an annulus");
+}
+
+#[test]
+fn a_hole_is_cut_out_and_can_be_sewn_shut() {
+    let mut piece = rectangle(0.4, 0.3);
+    let hole = polygon(&[[0.1, 0.15], [0.2, 0.16], [0.3, 0.15], [0.2, 0.14]]);
+    piece.holes.push(hole.outline);
+    assert_eq!(piece.edge_count(), 8);
+    let (garment, problems) = build(&alone(piece.clone()), 0.02);
+    assert!(problems.is_empty(), "{problems:?}");
+    assert!((area(&garment) - (0.12 - 0.002)).abs() < 1e-9, "{}", area(&garment));
+    let euler =
+        |g: &Garment| g.vertex_count as i64 - g.adjacency.edges.len() as i64 + g.triangles.len() as i64;
+    assert_eq!(euler(&garment), 0, "a ring");
+    // A fish-eye dart: each upper edge to the lower one across.
+    let mut pattern = alone(piece);
+    let id = *pattern.pieces.keys().next().unwrap();
+    sew(&mut pattern, (id, 4), (id, 7));
+    sew(&mut pattern, (id, 5), (id, 6));
+    let (sewn, problems) = build(&pattern, 0.02);
+    assert!(problems.is_empty(), "{problems:?}");
+    assert_eq!(euler(&sewn), 1, "a disc again");
+}
+
+#[test]
+fn a_hole_out_of_place_is_named() {
+    let mut piece = rectangle(0.4, 0.3);
+    piece.holes.push(polygon(&[[0.5, 0.1], [0.6, 0.1], [0.6, 0.2]]).outline);
+    assert_eq!(kinds(&alone(piece.clone())), [ProblemKind::NotTriangulated]);
+    piece.holes[0] = polygon(&[[0.3, 0.1], [0.6, 0.1], [0.6, 0.2]]).outline;
+    assert_eq!(kinds(&alone(piece)), [ProblemKind::SelfCrossing]);
+}
+
+/// A band sewn to the tops of two pieces, by stretches of its one lower edge.
+fn banded(stretches: bool) -> Pattern {
+    let mut pattern = Pattern::default();
+    let widths = [0.3, 0.2];
+    let pieces = widths.map(|w| pattern.add_piece(rectangle(w, 0.25)));
+    let (long, lower) = (0.5, [0.0, 0.3]);
+    let mut band = rectangle(long, 0.04);
+    if !stretches {
+        band.outline.insert(1, Edge { start: DVec2::new(0.3, 0.0), ..Edge::default() });
+    }
+    let band = pattern.add_piece(band);
+    for k in 0..2 {
+        let top = EdgeRef { piece: pieces[k], edge: 2 };
+        let side = if stretches {
+            Stretch { from: lower[k] / long, to: (lower[k] + widths[k]) / long, ..Stretch::edge(band, 0) }
+        } else {
+            Stretch::edge(band, k)
+        };
+        pattern.add_seam(Seam { sides: [side, top.into()], same_direction: false, ratio: None });
+    }
+    sew(&mut pattern, (pieces[0], 1), (pieces[1], 3));
+    pattern
+}
+
+#[test]
+fn stretches_of_one_edge_are_sewn_as_if_it_had_been_cut_there() {
+    let ((one, problems), (cut, _)) = (build(&banded(true), 0.02), build(&banded(false), 0.02));
+    assert!(problems.is_empty(), "{problems:?}");
+    assert_eq!(one.triangles, cut.triangles);
+    assert_eq!(one.seam_pairs, cut.seam_pairs);
+}
+
+#[test]
+fn one_edge_is_sewn_along_several() {
+    // One seam along both tops of two joined pieces; the corner between them becomes a place of the band.
+    let mut pattern = Pattern::default();
+    let body = pattern.add_piece(polygon(&[[0.0, 0.0], [0.5, 0.0], [0.5, 0.25], [0.3, 0.25], [0.0, 0.25]]));
+    let band = pattern.add_piece(rectangle(0.5, 0.04));
+    let tops = Stretch { further: 1, ..Stretch::edge(body, 2) };
+    let lower = Stretch::edge(band, 0);
+    let seam = pattern.add_seam(Seam { sides: [tops, lower], same_direction: false, ratio: None });
+    let (garment, problems) = build(&pattern, 0.02);
+    assert!(problems.is_empty(), "{problems:?}");
+    let (id, pairs) = &garment.seam_pairs[0];
+    assert_eq!((garment.seam_pairs.len(), *id), (1, seam));
+    let corner = pairs.iter().find(|[a, _]| garment.corners[*a as usize].uv == DVec2::new(0.3, 0.25));
+    let [_, on_band] = corner.expect("the corner is sewn");
+    assert!((garment.corners[*on_band as usize].uv - DVec2::new(0.3, 0.0)).length() < 1e-9);
+    // From the middle of one edge over the start of the outline to the middle of another.
+    let over = Stretch { from: 0.5, further: 1, to: 0.25, ..Stretch::edge(body, 4) };
+    let length = over.length(&pattern.pieces[&body]).unwrap();
+    assert!((length - (0.125 + 0.125)).abs() < 1e-12, "{length}");
+}
+
+#[test]
+fn a_stretch_that_is_not_there_is_named() {
+    let mut pattern = banded(true);
+    let seam = pattern.seams.values_mut().next().unwrap();
+    seam.sides[0].further = 5;
+    assert!(kinds(&pattern).contains(&ProblemKind::SeamToNothing));
 }
 
 #[test]

@@ -125,7 +125,7 @@ fn a_tube_is_pulled_over_the_koalas_leg() {
     let [front, back] = ["front", "back"].map(|name| pattern.add_piece(Piece::polygon(name, &half)));
     for (edge, other) in [(1, 3), (3, 1)] {
         let sides = [EdgeRef { piece: front, edge }, EdgeRef { piece: back, edge: other }];
-        pattern.add_seam(Seam { sides, same_direction: false });
+        pattern.add_seam(Seam::of_edges(sides, false));
     }
     let ring = leg((lower + upper) / 2.0);
     let quarter = ring.girth() / 4.0;

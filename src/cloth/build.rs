@@ -9,31 +9,36 @@ use crate::geometry::adjacency::Adjacency;
 use crate::geometry::ids::{PieceId, SeamId};
 use crate::pattern::sampling::sampling;
 use crate::pattern::triangulate::triangulated;
-use crate::pattern::{EdgeRef, Pattern, PieceMesh, Problem, ProblemKind, Seam};
+use crate::pattern::{CutPattern, EdgeRef, EdgeSeam, Pattern, PieceMesh, Problem, ProblemKind};
 
 /// The sewn garment of a pattern at about `edge_length` metres, and what a person should know or mend.
 /// One bad piece does not stop the others.
 pub fn build(pattern: &Pattern, edge_length: f64) -> (Garment, Vec<Problem>) {
-    let mut problems = Vec::new();
-    let sampling = sampling(pattern, edge_length, &mut problems);
-    let meshes = triangulated(pattern, &sampling, edge_length, &mut problems);
+    let (cut, mut problems) = CutPattern::new(pattern);
+    let sampling = sampling(&cut, edge_length, &mut problems);
+    let meshes = triangulated(&cut, &sampling, edge_length, &mut problems);
     let garment = sewn(pattern, &meshes, &sampling.seams);
     report_twisted(pattern, &garment, &mut problems);
     (garment, problems)
 }
 
-fn sewn(pattern: &Pattern, meshes: &BTreeMap<PieceId, PieceMesh>, seams: &[(SeamId, Seam)]) -> Garment {
+fn sewn(pattern: &Pattern, meshes: &BTreeMap<PieceId, PieceMesh>, seams: &[(SeamId, EdgeSeam)]) -> Garment {
     let mut first_corner = BTreeMap::new();
     let mut corners: Vec<Corner> = Vec::new();
     for (&piece, mesh) in meshes {
         first_corner.insert(piece, corners.len() as u32);
         corners.extend(mesh.points.iter().map(|&uv| Corner { piece, uv, vertex: 0 }));
     }
-    let seam_pairs: Vec<(SeamId, Vec<[u32; 2]>)> = seams
-        .iter()
-        .filter(|(_, s)| s.sides.iter().all(|side| meshes.contains_key(&side.piece)))
-        .map(|&(id, seam)| (id, paired_corners(&seam, meshes, &first_corner)))
-        .collect();
+    let mut seam_pairs: Vec<(SeamId, Vec<[u32; 2]>)> = Vec::new();
+    for (id, seam) in
+        seams.iter().filter(|(_, s)| s.sides.iter().all(|side| meshes.contains_key(&side.piece)))
+    {
+        let pairs = paired_corners(seam, meshes, &first_corner);
+        match seam_pairs.last_mut() {
+            Some((last, of_seam)) if last == id => of_seam.extend(pairs),
+            _ => seam_pairs.push((*id, pairs)),
+        }
+    }
     let vertex_count = name_vertices(&mut corners, &seam_pairs);
     let mut garment = Garment { vertex_count, seam_pairs, ..Garment::default() };
     for (&piece, mesh) in meshes {
@@ -67,7 +72,7 @@ fn front_rest(mesh: &PieceMesh, t: &[u32; 3]) -> [DVec2; 3] {
 }
 
 fn paired_corners(
-    seam: &Seam,
+    seam: &EdgeSeam,
     meshes: &BTreeMap<PieceId, PieceMesh>,
     first_corner: &BTreeMap<PieceId, u32>,
 ) -> Vec<[u32; 2]> {
@@ -131,8 +136,8 @@ fn report_twisted(pattern: &Pattern, garment: &Garment, problems: &mut Vec<Probl
                 kind: ProblemKind::TwistedSeam,
                 place: format!(
                     "{id}: {} and {}",
-                    crate::pattern::sampling::place(pattern, seam.sides[0]),
-                    crate::pattern::sampling::place(pattern, seam.sides[1])
+                    crate::pattern::sampling::place(pattern, seam.sides[0].first_edge()),
+                    crate::pattern::sampling::place(pattern, seam.sides[1].first_edge())
                 ),
                 words: "it joins the front of one piece to the back of the other; reverse the seam"
                     .to_owned(),

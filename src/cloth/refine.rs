@@ -240,7 +240,7 @@ mod tests {
         let mut pattern = Pattern::default();
         let [a, b] = ["a", "b"].map(|name| pattern.add_piece(Piece::polygon(name, &corners)));
         let sides = [EdgeRef { piece: a, edge: 1 }, EdgeRef { piece: b, edge: 3 }];
-        pattern.add_seam(Seam { sides, same_direction: false });
+        pattern.add_seam(Seam::of_edges(sides, false));
         build(&pattern, 0.05).0
     }
 

@@ -50,7 +50,7 @@ fn sleeve(r: f64, place: impl Fn(DVec3) -> DVec3) -> Sleeve {
     let [front, back] = ["front", "back"].map(|name| pattern.add_piece(Piece::polygon(name, &sheet)));
     let mut sew = |a, b| {
         let sides = [EdgeRef { piece: front, edge: a }, EdgeRef { piece: back, edge: b }];
-        pattern.add_seam(Seam { sides, same_direction: false });
+        pattern.add_seam(Seam::of_edges(sides, false));
     };
     sew(1, 3);
     sew(3, 1);

@@ -12,7 +12,7 @@ use crate::geometry::ids::PieceId;
 use crate::io::Limits;
 use crate::io::json::{self, At, JsonError};
 use crate::io::sheet;
-use crate::pattern::{Edge, EdgeRef, EdgeShape, Pattern, Piece, PlanePose, Seam, SpacePose};
+use crate::pattern::{Edge, EdgeRef, EdgeShape, Pattern, Piece, Seam, SpacePose};
 
 /// Edges shorter than this (metres) have no length.
 const SHORTEST_EDGE: f64 = 1e-6;
@@ -126,9 +126,9 @@ impl Convention {
         Ok(Piece {
             name: name.to_owned(),
             outline: self.outline(panel, &vertices)?,
-            pose: PlanePose::default(),
             placement: self.placement(panel)?,
             label: label(panel)?,
+            ..Piece::default()
         })
     }
 
@@ -158,7 +158,7 @@ impl Convention {
             None => EdgeShape::Line,
             Some(at) => self.shape(&at, start, end)?,
         };
-        Ok(Edge { start, shape, label: label(edge)? })
+        Ok(Edge { start, shape, label: label(edge)?, ..Edge::default() })
     }
 
     fn shape(&self, curvature: &At<'_>, start: DVec2, end: DVec2) -> Result<EdgeShape, JsonError> {
@@ -268,7 +268,7 @@ fn read_stitches(
                 return Err(at.error("this edge is sewn twice"));
             }
         }
-        pattern.add_seam(Seam { sides, same_direction });
+        pattern.add_seam(Seam::of_edges(sides, same_direction));
     }
     Ok(())
 }

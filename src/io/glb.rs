@@ -316,7 +316,7 @@ mod tests {
         let mut pattern = Pattern::default();
         let ids = ["a", "b"].map(|name| pattern.add_piece(Piece::polygon(name, &square)));
         let sides = [EdgeRef { piece: ids[0], edge: 1 }, EdgeRef { piece: ids[1], edge: 3 }];
-        pattern.add_seam(Seam { sides, same_direction: false });
+        pattern.add_seam(Seam::of_edges(sides, false));
         let (garment, problems) = crate::cloth::build(&pattern, 0.03);
         assert!(problems.is_empty(), "{problems:?}");
         let mut positions = vec![DVec3::ZERO; garment.vertex_count];

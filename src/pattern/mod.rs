@@ -1,7 +1,8 @@
 //! The flat garment.
 
+pub mod curve;
+pub mod cut;
 pub mod piece;
-
 pub mod sampling;
 pub mod seam;
 pub mod triangulate;
@@ -13,8 +14,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::geometry::ids::{PieceId, SeamId};
 pub use crate::geometry::problem::{self, Problem, ProblemKind};
-pub use piece::{Edge, EdgeShape, Piece, PlanePose, SpacePose};
-pub use seam::{EdgeRef, Seam};
+pub use cut::CutPattern;
+pub use piece::{Edge, EdgeShape, InternalLine, Notch, Piece, PlanePose, SpacePose};
+pub use seam::{EdgeRef, EdgeSeam, Seam, Stretch};
 pub use triangulate::PieceMesh;
 
 /// Pieces and the seams between them. Ids come from `next_id` and are never used twice.

@@ -1,17 +1,21 @@
 //! A flat piece of cloth: a closed outline, where it lies in the pattern plane, and where it was placed in space.
 
 use glam::{DQuat, DVec2, DVec3};
-use kurbo::{CubicBez, Line, ParamCurve, ParamCurveArclen, PathSeg, Point, QuadBez};
+use kurbo::{ParamCurveArclen, PathSeg};
 use serde::{Deserialize, Serialize};
+
+use crate::geometry::ids::PieceId;
+use crate::pattern::curve;
 
 /// Arc lengths are computed to this accuracy (metres).
 pub const ARC_LENGTH_ACCURACY: f64 = 1e-7;
 
 /// The shape of one outline edge between its end points. Control points are absolute, in the piece's own plane, metres.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum EdgeShape {
     /// Straight.
+    #[default]
     Line,
     /// Circular arc: `radius` > 0 metres, SVG flags in y-up coordinates (`sweep` true travels counter-clockwise).
     Arc { radius: f64, large: bool, sweep: bool },
@@ -21,13 +25,16 @@ pub enum EdgeShape {
     Cubic { controls: [DVec2; 2] },
 }
 
-/// One edge of an outline: from its own start point to the start point of the next edge.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+/// One edge of a closed line: from its own start point to the start point of the next edge.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Edge {
     /// Where the edge starts, metres in the piece's own plane.
     pub start: DVec2,
     /// What lies between start and end.
     pub shape: EdgeShape,
+    /// The line runs on smoothly at the start point: when an editor turns one of its tangents, the other follows.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub smooth: bool,
     /// A name from the source file ("left_collar"), if any.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub label: Option<String>,
@@ -67,16 +74,68 @@ pub struct SpacePose {
     pub rotation: DQuat,
 }
 
+/// A line drawn on a piece that is not cut: to sew along, to fold, to place a pocket.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct InternalLine {
+    /// Head to tail; the last edge ends at `end`. At least one.
+    pub edges: Vec<Edge>,
+    /// Where the last edge ends, metres in the piece's own plane.
+    pub end: DVec2,
+    /// Shown to people; may be empty.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub name: String,
+}
+
+/// A small mark on an edge that tells the sewer what meets there.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Notch {
+    /// The edge, as [`Piece::edge`] counts.
+    pub edge: usize,
+    /// Where on it, a fraction of its arc length, 0..=1.
+    pub at: f64,
+}
+
 /// A flat piece of cloth.
 ///
 /// Its front (outer) side is the one from which `outline` runs counter-clockwise: a clockwise outline is a piece drawn
 /// from its back, as mirrored panels of GarmentCode are.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Piece {
     /// Shown to people; need not be unique.
     pub name: String,
-    /// Closed: the last edge ends where the first starts.
+    /// The line it is sewn on, without allowance. Closed: the last edge ends where the first starts.
     pub outline: Vec<Edge>,
+    /// Closed lines whose inside is cut out. Their edges count on behind those of the outline and can be sewn.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub holes: Vec<Vec<Edge>>,
+    /// Lines drawn inside.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub lines: Vec<InternalLine>,
+    /// Marks on the edges.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub notches: Vec<Notch>,
+    /// From tail to head of the arrow along the warp, metres in the piece's own plane.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub grainline: Option<[DVec2; 2]>,
+    /// Cloth left outside the outline when it is cut out, metres, 0..=0.2.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub allowance: f64,
+    /// The line it is cut on where a file gave one, instead of `allowance` all round; gone when the outline changes.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub cut_line: Vec<Edge>,
+    /// The outline is its own mirror image in the line x = 0 and stays so: it has an even number n of edges, edge i is
+    /// the image of edge n-1-i, and points 0 and n/2 lie on the line.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub symmetric: bool,
+    /// The piece that is and stays the mirror image of this one: its edge i of n is the image of edge n-1-i, hole by hole.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub twin: Option<PieceId>,
+    /// Not to be moved or changed by the pointer.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub locked: bool,
+    /// Not drawn in the pattern pane. It is sewn all the same.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub hidden: bool,
     /// Where it lies in the pattern pane.
     pub pose: PlanePose,
     /// Where the source file put it round the body, if it did.
@@ -92,34 +151,65 @@ impl Piece {
     pub fn polygon(name: &str, points: &[DVec2]) -> Self {
         Self {
             name: name.to_owned(),
-            outline: points
-                .iter()
-                .map(|&start| Edge { start, shape: EdgeShape::Line, label: None })
-                .collect(),
-            pose: PlanePose::default(),
-            placement: None,
-            label: None,
+            outline: points.iter().map(|&start| Edge { start, ..Edge::default() }).collect(),
+            ..Self::default()
         }
+    }
+
+    /// The closed lines it is cut along: the outline, then the holes.
+    pub fn loops(&self) -> impl Iterator<Item = &Vec<Edge>> {
+        std::iter::once(&self.outline).chain(&self.holes)
+    }
+
+    /// Edges of all closed lines.
+    pub fn edge_count(&self) -> usize {
+        self.loops().map(Vec::len).sum()
+    }
+
+    /// Which closed line edge `i` is of (0: the outline), and the number of that line's first edge. Panics when there is
+    /// no such edge.
+    pub fn loop_of(&self, i: usize) -> (usize, usize) {
+        let mut first = 0;
+        for (k, edges) in self.loops().enumerate() {
+            if i < first + edges.len() {
+                return (k, first);
+            }
+            first += edges.len();
+        }
+        panic!("{} has {first} edges, none numbered {i}", self.name)
+    }
+
+    /// The edges of closed line `k` (0: the outline). Panics when there is no such line.
+    pub fn loop_edges(&self, k: usize) -> &Vec<Edge> {
+        if k == 0 { &self.outline } else { &self.holes[k - 1] }
+    }
+
+    /// The edges of closed line `k`, to change them. Panics when there is no such line.
+    pub fn loop_edges_mut(&mut self, k: usize) -> &mut Vec<Edge> {
+        if k == 0 { &mut self.outline } else { &mut self.holes[k - 1] }
+    }
+
+    /// Edge `i`: those of the outline come first, then those of the holes in order. Panics when there is no such edge.
+    pub fn edge(&self, i: usize) -> &Edge {
+        let (k, first) = self.loop_of(i);
+        &self.loop_edges(k)[i - first]
+    }
+
+    /// The edge that follows edge `i` on its closed line. Panics when there is no such edge.
+    pub fn next_edge(&self, i: usize) -> usize {
+        let (k, first) = self.loop_of(i);
+        first + (i - first + 1) % self.loop_edges(k).len()
     }
 
     /// Start and end of edge `i`. Panics when there is no such edge.
     pub fn edge_ends(&self, i: usize) -> (DVec2, DVec2) {
-        (self.outline[i].start, self.outline[(i + 1) % self.outline.len()].start)
+        (self.edge(i).start, self.edge(self.next_edge(i)).start)
     }
 
     /// Edge `i` as curve segments, head to tail: one, or for an arc a few cubics. Panics when there is no such edge.
     pub fn edge_segments(&self, i: usize) -> Vec<PathSeg> {
         let (a, b) = self.edge_ends(i);
-        match self.outline[i].shape {
-            EdgeShape::Line => vec![Line::new(point(a), point(b)).into()],
-            EdgeShape::Quadratic { control } => {
-                vec![QuadBez::new(point(a), point(control), point(b)).into()]
-            }
-            EdgeShape::Cubic { controls: [c, d] } => {
-                vec![CubicBez::new(point(a), point(c), point(d), point(b)).into()]
-            }
-            EdgeShape::Arc { radius, large, sweep } => arc_segments(a, b, radius, large, sweep),
-        }
+        curve::segments(a, self.edge(i).shape, b)
     }
 
     /// Arc length of edge `i` in metres, to [`ARC_LENGTH_ACCURACY`].
@@ -127,93 +217,60 @@ impl Piece {
         self.edge_segments(i).iter().map(|s| s.arclen(ARC_LENGTH_ACCURACY)).sum()
     }
 
+    /// Arc length of edge `i` in metres, to 1e-12: slower than [`Piece::edge_length`].
+    pub fn exact_edge_length(&self, i: usize) -> f64 {
+        let (a, b) = self.edge_ends(i);
+        curve::exact_length(a, self.edge(i).shape, b)
+    }
+
     /// Points on edge `i` at `fractions` (0..=1, ascending) of its arc length. Ends are met exactly.
     pub fn edge_points(&self, i: usize, fractions: &[f64]) -> Vec<DVec2> {
         let (a, b) = self.edge_ends(i);
-        let segments = self.edge_segments(i);
-        let lengths: Vec<f64> = segments.iter().map(|s| s.arclen(ARC_LENGTH_ACCURACY)).collect();
-        let total: f64 = lengths.iter().sum();
-        fractions
-            .iter()
-            .map(|&f| {
-                if f <= 0.0 {
-                    return a;
-                }
-                if f >= 1.0 {
-                    return b;
-                }
-                let mut rest = f * total;
-                for (segment, &length) in segments.iter().zip(&lengths) {
-                    if rest <= length {
-                        let t = segment.inv_arclen(rest, ARC_LENGTH_ACCURACY);
-                        let p = segment.eval(t);
-                        return DVec2::new(p.x, p.y);
-                    }
-                    rest -= length;
-                }
-                b
-            })
-            .collect()
+        curve::points(a, self.edge(i).shape, b, fractions)
     }
 
     /// The outline as a closed polyline whose chords stay within `tolerance` metres of it; the last point is not the first.
     pub fn flattened(&self, tolerance: f64) -> Vec<DVec2> {
-        let mut points = Vec::new();
-        for i in 0..self.outline.len() {
-            let (a, _) = self.edge_ends(i);
-            points.push(a);
-            for segment in self.edge_segments(i) {
-                let start = segment.start();
-                let path = kurbo::BezPath::from_path_segments(std::iter::once(segment));
-                kurbo::flatten(path, tolerance, |element| {
-                    if let kurbo::PathEl::LineTo(p) = element
-                        && p != start
-                    {
-                        points.push(DVec2::new(p.x, p.y));
-                    }
-                });
-            }
-            // The end of an edge is the start of the next.
-            points.pop();
-        }
-        points
+        flattened_loop(&self.outline, tolerance)
     }
 
-    /// Signed area of the outline flattened to 0.1 mm, square metres; positive when it runs counter-clockwise.
+    /// Signed area of the outline flattened to 0.1 mm, square metres; positive when it runs counter-clockwise. Holes
+    /// count as cloth.
     pub fn signed_area(&self) -> f64 {
         let p = self.flattened(1e-4);
         (0..p.len()).map(|i| p[i].perp_dot(p[(i + 1) % p.len()]) / 2.0).sum()
     }
 }
 
-fn point(p: DVec2) -> Point {
-    Point::new(p.x, p.y)
+/// A closed line as a closed polyline whose chords stay within `tolerance` metres of it; the last point is not the first.
+pub fn flattened_loop(edges: &[Edge], tolerance: f64) -> Vec<DVec2> {
+    let mut points = Vec::new();
+    for (i, edge) in edges.iter().enumerate() {
+        let end = edges[(i + 1) % edges.len()].start;
+        curve::flatten(edge.start, edge.shape, end, tolerance, &mut points);
+    }
+    points
 }
 
-fn arc_segments(a: DVec2, b: DVec2, radius: f64, large: bool, sweep: bool) -> Vec<PathSeg> {
-    let arc = kurbo::SvgArc {
-        from: point(a),
-        to: point(b),
-        radii: kurbo::Vec2::new(radius, radius),
-        x_rotation: 0.0,
-        large_arc: large,
-        sweep,
-    };
-    match kurbo::Arc::from_svg_arc(&arc) {
-        Some(arc) => {
-            let mut segments: Vec<PathSeg> = Vec::new();
-            let mut from = point(a);
-            arc.to_cubic_beziers(1e-8, |c, d, to| {
-                segments.push(CubicBez::new(from, c, d, to).into());
-                from = to;
-            });
-            if let Some(PathSeg::Cubic(last)) = segments.last_mut() {
-                last.p3 = point(b);
-            }
-            segments
+impl InternalLine {
+    /// As a polyline whose chords stay within `tolerance` metres of it.
+    pub fn flattened(&self, tolerance: f64) -> Vec<DVec2> {
+        let mut points = Vec::new();
+        for (i, edge) in self.edges.iter().enumerate() {
+            let end = self.edges.get(i + 1).map_or(self.end, |next| next.start);
+            curve::flatten(edge.start, edge.shape, end, tolerance, &mut points);
         }
-        None => vec![Line::new(point(a), point(b)).into()],
+        points.push(self.end);
+        points
     }
+}
+
+fn is_false(flag: &bool) -> bool {
+    !flag
+}
+
+fn is_zero(x: &f64) -> bool {
+    *x == 0.0
 }
 
 #[cfg(test)]

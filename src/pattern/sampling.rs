@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use crate::geometry::ids::PieceId;
-use crate::pattern::{EdgeRef, Pattern, Problem, ProblemKind, Seam};
+use crate::geometry::ids::{PieceId, SeamId};
+use crate::pattern::{CutPattern, EdgeRef, EdgeSeam, Pattern, Problem, ProblemKind};
 
 /// Seams whose sides differ by more than this fraction are mentioned.
 const UNEQUAL: f64 = 0.02;
@@ -15,15 +15,15 @@ pub struct Sampling {
     /// For each piece and edge the number of intervals, at least 1.
     pub intervals: BTreeMap<PieceId, Vec<usize>>,
     /// Seams whose two edges exist and are free, in id order.
-    pub seams: Vec<(crate::geometry::ids::SeamId, Seam)>,
+    pub seams: Vec<(SeamId, EdgeSeam)>,
 }
 
 /// Chooses intervals of about `edge_length` metres. A seam's sides take the count of the longer side.
-pub fn sampling(pattern: &Pattern, edge_length: f64, problems: &mut Vec<Problem>) -> Sampling {
+pub fn sampling(pattern: &CutPattern, edge_length: f64, problems: &mut Vec<Problem>) -> Sampling {
     let lengths: BTreeMap<PieceId, Vec<f64>> = pattern
         .pieces
         .iter()
-        .map(|(&id, piece)| (id, (0..piece.outline.len()).map(|i| piece.edge_length(i)).collect()))
+        .map(|(&id, piece)| (id, (0..piece.edge_count()).map(|i| piece.edge_length(i)).collect()))
         .collect();
     report_short_edges(pattern, &lengths, problems);
     let count = |length: f64| ((length / edge_length).round() as usize).max(1);
@@ -42,13 +42,17 @@ pub fn sampling(pattern: &Pattern, edge_length: f64, problems: &mut Vec<Problem>
     Sampling { intervals, seams }
 }
 
-fn report_short_edges(pattern: &Pattern, lengths: &BTreeMap<PieceId, Vec<f64>>, problems: &mut Vec<Problem>) {
+fn report_short_edges(
+    pattern: &CutPattern,
+    lengths: &BTreeMap<PieceId, Vec<f64>>,
+    problems: &mut Vec<Problem>,
+) {
     for (id, of_piece) in lengths {
         for (edge, &length) in of_piece.iter().enumerate() {
             if length < SHORTEST_EDGE || !length.is_finite() {
                 problems.push(Problem {
                     kind: ProblemKind::ZeroLength,
-                    place: place(pattern, EdgeRef { piece: *id, edge }),
+                    place: pattern.place(EdgeRef { piece: *id, edge }),
                     words: "this edge has no length; delete one of its end points".to_owned(),
                 });
             }
@@ -57,13 +61,13 @@ fn report_short_edges(pattern: &Pattern, lengths: &BTreeMap<PieceId, Vec<f64>>, 
 }
 
 fn sound_seams(
-    pattern: &Pattern,
+    pattern: &CutPattern,
     lengths: &BTreeMap<PieceId, Vec<f64>>,
     problems: &mut Vec<Problem>,
-) -> Vec<(crate::geometry::ids::SeamId, Seam)> {
+) -> Vec<(SeamId, EdgeSeam)> {
     let mut taken = std::collections::BTreeSet::new();
     let mut sound = Vec::new();
-    for (&id, &seam) in &pattern.seams {
+    for &(id, seam) in &pattern.seams {
         if let Some(missing) =
             seam.sides.iter().find(|s| lengths.get(&s.piece).is_none_or(|l| s.edge >= l.len()))
         {
@@ -72,7 +76,7 @@ fn sound_seams(
                 place: id.to_string(),
                 words: format!(
                     "it sews {}, which is not there; delete or redraw the seam",
-                    place(pattern, *missing)
+                    pattern.place(*missing)
                 ),
             });
             continue;
@@ -80,7 +84,7 @@ fn sound_seams(
         if let Some(&twice) = seam.sides.iter().find(|s| taken.contains(*s)) {
             problems.push(Problem {
                 kind: ProblemKind::EdgeSewnTwice,
-                place: place(pattern, twice),
+                place: pattern.place(twice),
                 words: format!("{id} sews this edge a second time and was left out"),
             });
             continue;
@@ -91,11 +95,7 @@ fn sound_seams(
         if long > short * (1.0 + UNEQUAL) {
             problems.push(Problem {
                 kind: ProblemKind::UnequalSeam,
-                place: format!(
-                    "{id}: {} and {}",
-                    place(pattern, seam.sides[0]),
-                    place(pattern, seam.sides[1])
-                ),
+                place: format!("{id}: {} and {}", pattern.place(seam.sides[0]), pattern.place(seam.sides[1])),
                 words: format!(
                     "its sides are {:.1} and {:.1} cm long; the longer is gathered {:.2}:1",
                     a * 100.0,
@@ -109,11 +109,7 @@ fn sound_seams(
     sound
 }
 
-fn report_unsewn(
-    pattern: &Pattern,
-    seams: &[(crate::geometry::ids::SeamId, Seam)],
-    problems: &mut Vec<Problem>,
-) {
+fn report_unsewn(pattern: &CutPattern, seams: &[(SeamId, EdgeSeam)], problems: &mut Vec<Problem>) {
     if pattern.pieces.len() < 2 {
         return;
     }

@@ -1,23 +1,152 @@
-//! A seam joins two edges.
+//! A seam joins two stretches of outline.
 
+use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
 use crate::geometry::ids::PieceId;
+use crate::pattern::Piece;
 
 /// An edge of a piece.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct EdgeRef {
     /// The piece.
     pub piece: PieceId,
-    /// Index into its outline.
+    /// Number of the edge as [`Piece::edge`](crate::pattern::Piece::edge) counts, from 0.
     pub edge: usize,
 }
 
-/// Two edges sewn together along their whole length, points paired by arc-length fraction.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+/// A run along one closed line of a piece, the way it is drawn: from a place on one edge to a place on the same or a later
+/// one. A stretch may run over the place where the line starts.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Stretch {
+    /// The piece.
+    pub piece: PieceId,
+    /// The edge it starts on.
+    pub edge: usize,
+    /// Where on that edge it starts, a fraction of its arc length, 0..1.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub from: f64,
+    /// How many edges further it ends; it runs at most once round.
+    #[serde(default, skip_serializing_if = "is_none")]
+    pub further: usize,
+    /// Where on its last edge it ends, a fraction of that edge's arc length, 0..=1.
+    #[serde(default = "one", skip_serializing_if = "is_one")]
+    pub to: f64,
+}
+
+fn is_zero(x: &f64) -> bool {
+    *x == 0.0
+}
+
+fn is_one(x: &f64) -> bool {
+    *x == 1.0
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+fn is_none(count: &usize) -> bool {
+    *count == 0
+}
+
+impl Stretch {
+    /// The whole of one edge.
+    pub fn edge(piece: PieceId, edge: usize) -> Self {
+        Self { piece, edge, from: 0.0, further: 0, to: 1.0 }
+    }
+
+    /// The edge it starts on.
+    pub fn first_edge(&self) -> EdgeRef {
+        EdgeRef { piece: self.piece, edge: self.edge }
+    }
+
+    /// Each edge it runs over, and from and to which fraction of that edge's length. None when it is not on `piece` or
+    /// has no length.
+    pub fn parts(&self, piece: &Piece) -> Option<Vec<(usize, f64, f64)>> {
+        let Self { edge, from, further, to, .. } = *self;
+        let sound = (0.0..1.0).contains(&from) && (0.0..=1.0).contains(&to) && edge < piece.edge_count();
+        if !sound {
+            return None;
+        }
+        let around = piece.loop_edges(piece.loop_of(edge).0).len();
+        if further > around || (further == 0 && from >= to) || (further == around && to > from) {
+            return None;
+        }
+        let mut parts = Vec::new();
+        let mut at = edge;
+        for i in 0..=further {
+            let range = (if i == 0 { from } else { 0.0 }, if i == further { to } else { 1.0 });
+            if range.1 > range.0 {
+                parts.push((at, range.0, range.1));
+            }
+            at = piece.next_edge(at);
+        }
+        Some(parts)
+    }
+
+    /// Its arc length in metres, to 1e-12. None when it is not on `piece`.
+    pub fn length(&self, piece: &Piece) -> Option<f64> {
+        let parts = self.parts(piece)?;
+        Some(parts.into_iter().map(|(edge, from, to)| (to - from) * piece.exact_edge_length(edge)).sum())
+    }
+
+    /// Points at `fractions` (0..=1, ascending) of its arc length. None when it is not on `piece`.
+    pub fn points(&self, piece: &Piece, fractions: &[f64]) -> Option<Vec<DVec2>> {
+        let parts = self.parts(piece)?;
+        let length = |&(edge, from, to): &(usize, f64, f64)| (to - from) * piece.edge_length(edge);
+        let total: f64 = parts.iter().map(length).sum();
+        let (mut points, mut before, mut left) = (Vec::with_capacity(fractions.len()), 0.0, fractions);
+        for (i, part) in parts.iter().enumerate() {
+            let (edge, from, to) = *part;
+            let share = length(part) / total;
+            let last = i + 1 == parts.len();
+            let count = if last { left.len() } else { left.partition_point(|f| *f < before + share) };
+            let own = |f: &f64| from + ((f - before) / share).clamp(0.0, 1.0) * (to - from);
+            points.extend(piece.edge_points(edge, &left[..count].iter().map(own).collect::<Vec<f64>>()));
+            (before, left) = (before + share, &left[count..]);
+        }
+        Some(points)
+    }
+
+    /// The edge it is the whole of, if it is.
+    pub fn whole_edge(&self) -> Option<EdgeRef> {
+        let whole = self.from == 0.0 && self.further == 0 && self.to == 1.0;
+        whole.then_some(EdgeRef { piece: self.piece, edge: self.edge })
+    }
+}
+
+impl From<EdgeRef> for Stretch {
+    fn from(edge: EdgeRef) -> Self {
+        Self::edge(edge.piece, edge.edge)
+    }
+}
+
+/// Two stretches sewn together along their whole length, points paired by arc-length fraction.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Seam {
     /// The two sides.
-    pub sides: [EdgeRef; 2],
+    pub sides: [Stretch; 2],
     /// False: the start of one meets the end of the other (fronts on one side). True: start meets start.
+    pub same_direction: bool,
+    /// The length of the first side over that of the second, which editing keeps; more or less than one is a gather.
+    /// None: either may change alone.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ratio: Option<f64>,
+}
+
+impl Seam {
+    /// Whole edges, neither length kept.
+    pub fn of_edges(sides: [EdgeRef; 2], same_direction: bool) -> Self {
+        Self { sides: sides.map(Stretch::from), same_direction, ratio: None }
+    }
+}
+
+/// One edge sewn to one edge: what a [`Seam`] becomes where the edges of its stretches are cut.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct EdgeSeam {
+    /// The two sides.
+    pub sides: [EdgeRef; 2],
+    /// As in [`Seam`].
     pub same_direction: bool,
 }

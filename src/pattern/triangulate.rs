@@ -6,8 +6,8 @@ use glam::DVec2;
 use spade::{AngleLimit, ConstrainedDelaunayTriangulation, Point2, RefinementParameters, Triangulation};
 
 use crate::geometry::ids::PieceId;
-use crate::pattern::sampling::{Sampling, place};
-use crate::pattern::{EdgeRef, EdgeShape, Pattern, Piece, Problem, ProblemKind};
+use crate::pattern::sampling::Sampling;
+use crate::pattern::{CutPattern, EdgeRef, EdgeShape, Piece, Problem, ProblemKind};
 
 /// Refinement aims at this smallest angle, degrees; sharp corners of the outline keep theirs.
 const SMALLEST_ANGLE_DEG: f64 = 27.0;
@@ -33,7 +33,7 @@ pub struct PieceMesh {
 
 /// Triangulates every piece it can; what it cannot is among `problems`, by name.
 pub fn triangulated(
-    pattern: &Pattern,
+    pattern: &CutPattern,
     sampling: &Sampling,
     edge_length: f64,
     problems: &mut Vec<Problem>,
@@ -51,7 +51,7 @@ pub fn triangulated(
 }
 
 fn piece_mesh(
-    pattern: &Pattern,
+    pattern: &CutPattern,
     id: PieceId,
     piece: &Piece,
     intervals: &[usize],
@@ -77,27 +77,35 @@ fn piece_mesh(
     if intervals.iter().sum::<usize>() > MOST_OUTLINE_POINTS {
         return Err(too_fine());
     }
-    let (outline, edge_points) = sampled_outline(piece, intervals);
+    let lines = sampled_lines(piece, intervals);
+    let (outline, edge_points) = (lines.of_loop(0), &lines.edge_points);
     let extent = outline.iter().fold(0.0f64, |m, p| m.max((*p - outline[0]).length()));
-    if is_straight(&outline, extent) {
+    if is_straight(outline, extent) {
         return Err(fault(ProblemKind::ZeroLength, "it has no area"));
     }
-    if let Some((i, j)) = crossing(&outline) {
-        let (a, b) = (edge_of(&edge_points, i), edge_of(&edge_points, j));
+    if let Some((i, j)) = lines.crossing() {
+        let (a, b) = (edge_of(edge_points, i), edge_of(edge_points, j));
         return Err(Problem {
             kind: ProblemKind::SelfCrossing,
-            place: place(pattern, EdgeRef { piece: id, edge: a }),
+            place: pattern.place(EdgeRef { piece: id, edge: a }),
             words: format!("the outline crosses itself: edge {a} meets edge {b}; move their points apart"),
         });
     }
-    let area = signed_area(&outline);
+    if let Some(fault) = lines.misplaced_hole() {
+        return Err(Problem {
+            kind: ProblemKind::NotTriangulated,
+            place: format!("{} ({id})", piece.name),
+            words: fault,
+        });
+    }
+    let area = signed_area(outline);
     if area.abs() < 1e-9 || area.abs() < extent * extent * 1e-6 {
         return Err(fault(ProblemKind::ZeroLength, "it has no area"));
     }
     if area.abs() / (edge_length * edge_length * 0.433) > MOST_TRIANGLES {
         return Err(too_fine());
     }
-    let (points, mut triangles) = refined(&outline, edge_length)
+    let (points, mut triangles) = refined(&lines, edge_length)
         .ok_or_else(|| fault(ProblemKind::NotTriangulated, "its outline could not be triangulated"))?;
     let front_is_far = area < 0.0;
     if front_is_far {
@@ -105,7 +113,7 @@ fn piece_mesh(
             t.swap(1, 2);
         }
     }
-    Ok(PieceMesh { points, edge_points, triangles, front_is_far })
+    Ok(PieceMesh { points, edge_points: lines.edge_points, triangles, front_is_far })
 }
 
 /// Whether all points lie on one line, to a millionth of their extent.
@@ -116,7 +124,7 @@ fn is_straight(outline: &[DVec2], extent: f64) -> bool {
 }
 
 fn is_finite(piece: &Piece) -> bool {
-    piece.outline.iter().all(|edge| {
+    piece.loops().flatten().all(|edge| {
         edge.start.is_finite()
             && match edge.shape {
                 EdgeShape::Line => true,
@@ -127,19 +135,88 @@ fn is_finite(piece: &Piece) -> bool {
     })
 }
 
-fn sampled_outline(piece: &Piece, intervals: &[usize]) -> (Vec<DVec2>, Vec<Vec<u32>>) {
-    let mut outline = Vec::new();
-    let mut edge_points = Vec::new();
-    for (i, &n) in intervals.iter().enumerate() {
-        let first = outline.len() as u32;
-        let fractions: Vec<f64> = (0..n).map(|k| k as f64 / n as f64).collect();
-        outline.extend(piece.edge_points(i, &fractions));
-        edge_points.push((first..=first + n as u32).collect::<Vec<u32>>());
+/// The closed lines of a piece as polylines, one behind the other.
+struct Lines {
+    points: Vec<DVec2>,
+    /// The point that follows each.
+    next: Vec<u32>,
+    /// The first point of each line, and the number of points.
+    starts: Vec<usize>,
+    /// For each edge its points from start to end, both included.
+    edge_points: Vec<Vec<u32>>,
+}
+
+fn sampled_lines(piece: &Piece, intervals: &[usize]) -> Lines {
+    let mut lines = Lines { points: Vec::new(), next: Vec::new(), starts: vec![0], edge_points: Vec::new() };
+    let mut number = 0;
+    for edges in piece.loops() {
+        let start = lines.points.len() as u32;
+        for _ in edges {
+            let (first, n) = (lines.points.len() as u32, intervals[number]);
+            let fractions: Vec<f64> = (0..n).map(|k| k as f64 / n as f64).collect();
+            lines.points.extend(piece.edge_points(number, &fractions));
+            lines.edge_points.push((first..=first + n as u32).collect());
+            number += 1;
+        }
+        if let Some(last) = lines.edge_points.last_mut().and_then(|e| e.last_mut()) {
+            *last = start;
+        }
+        lines.next.extend(start + 1..=lines.points.len() as u32);
+        if let Some(last) = lines.next.last_mut() {
+            *last = start;
+        }
+        lines.starts.push(lines.points.len());
     }
-    if let Some(last) = edge_points.last_mut().and_then(|e| e.last_mut()) {
-        *last = 0;
+    lines
+}
+
+impl Lines {
+    fn of_loop(&self, k: usize) -> &[DVec2] {
+        &self.points[self.starts[k]..self.starts[k + 1]]
     }
-    (outline, edge_points)
+
+    fn segment(&self, i: usize) -> (DVec2, DVec2) {
+        (self.points[i], self.points[self.next[i] as usize])
+    }
+
+    /// The first two segments that meet without being neighbours.
+    fn crossing(&self) -> Option<(usize, usize)> {
+        // Sorted along x, so that only segments that overlap there are tried.
+        let span = |i: usize| {
+            let (a, b) = self.segment(i);
+            (a.x.min(b.x), a.x.max(b.x))
+        };
+        let mut order: Vec<usize> = (0..self.points.len()).collect();
+        order.sort_by(|&i, &j| span(i).0.total_cmp(&span(j).0).then(i.cmp(&j)));
+        let mut found: Option<(usize, usize)> = None;
+        for (k, &i) in order.iter().enumerate() {
+            for &j in order[k + 1..].iter().take_while(|&&j| span(j).0 <= span(i).1) {
+                let pair = (i.min(j), i.max(j));
+                let neighbours = self.next[i] as usize == j || self.next[j] as usize == i;
+                let ((a, b), (c, d)) = (self.segment(pair.0), self.segment(pair.1));
+                if !neighbours && segments_meet(a, b, c, d) && found.is_none_or(|f| pair < f) {
+                    found = Some(pair);
+                }
+            }
+        }
+        found
+    }
+
+    /// What is wrong with a hole that lies outside the outline or inside another; the lines do not cross.
+    fn misplaced_hole(&self) -> Option<String> {
+        let inside = |k: usize, p: DVec2| {
+            row_crossings(self.of_loop(k), p.y).iter().filter(|&&x| x < p.x).count() % 2 == 1
+        };
+        let holes = 1..self.starts.len() - 1;
+        holes.clone().find_map(|k| {
+            let p = *self.of_loop(k).first()?;
+            if !inside(0, p) {
+                return Some(format!("hole {k} lies outside its outline; move it back"));
+            }
+            let other = holes.clone().find(|&other| other != k && inside(other, p))?;
+            Some(format!("hole {k} lies inside hole {other}; delete it"))
+        })
+    }
 }
 
 fn edge_of(edge_points: &[Vec<u32>], segment: usize) -> usize {
@@ -148,32 +225,6 @@ fn edge_of(edge_points: &[Vec<u32>], segment: usize) -> usize {
 
 fn signed_area(p: &[DVec2]) -> f64 {
     (0..p.len()).map(|i| p[i].perp_dot(p[(i + 1) % p.len()]) / 2.0).sum()
-}
-
-/// The first two segments of a closed polyline that meet without being neighbours.
-fn crossing(p: &[DVec2]) -> Option<(usize, usize)> {
-    let n = p.len();
-    // Sorted along x, so that only segments that overlap there are tried.
-    let span = |i: usize| {
-        let (a, b) = (p[i], p[(i + 1) % n]);
-        (a.x.min(b.x), a.x.max(b.x))
-    };
-    let mut order: Vec<usize> = (0..n).collect();
-    order.sort_by(|&i, &j| span(i).0.total_cmp(&span(j).0).then(i.cmp(&j)));
-    let mut found: Option<(usize, usize)> = None;
-    for (k, &i) in order.iter().enumerate() {
-        for &j in order[k + 1..].iter().take_while(|&&j| span(j).0 <= span(i).1) {
-            let pair = (i.min(j), i.max(j));
-            let neighbours = pair.1 - pair.0 <= 1 || (pair.0 == 0 && pair.1 == n - 1);
-            if !neighbours
-                && segments_meet(p[i], p[(i + 1) % n], p[j], p[(j + 1) % n])
-                && found.is_none_or(|f| pair < f)
-            {
-                found = Some(pair);
-            }
-        }
-    }
-    found
 }
 
 fn segments_meet(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> bool {
@@ -196,7 +247,8 @@ fn robust_orientation(a: DVec2, b: DVec2, c: DVec2) -> f64 {
 }
 
 /// Points (outline first) and triangles counter-clockwise in the drawing.
-fn refined(outline: &[DVec2], edge_length: f64) -> Option<(Vec<DVec2>, Vec<[u32; 3]>)> {
+fn refined(lines: &Lines, edge_length: f64) -> Option<(Vec<DVec2>, Vec<[u32; 3]>)> {
+    let outline = &lines.points;
     let mut cdt = ConstrainedDelaunayTriangulation::<Point2<f64>>::new();
     let mut handles = Vec::with_capacity(outline.len());
     for p in outline {
@@ -206,7 +258,7 @@ fn refined(outline: &[DVec2], edge_length: f64) -> Option<(Vec<DVec2>, Vec<[u32;
         return None;
     }
     for i in 0..handles.len() {
-        let (a, b) = (handles[i], handles[(i + 1) % handles.len()]);
+        let (a, b) = (handles[i], handles[lines.next[i] as usize]);
         if !cdt.exists_constraint(a, b) {
             if !cdt.can_add_constraint(a, b) {
                 return None;
@@ -214,7 +266,7 @@ fn refined(outline: &[DVec2], edge_length: f64) -> Option<(Vec<DVec2>, Vec<[u32;
             cdt.add_constraint(a, b);
         }
     }
-    for p in lattice(outline, edge_length) {
+    for p in lattice(lines, edge_length) {
         cdt.insert(Point2::new(p.x, p.y)).ok()?;
     }
     let result = cdt.refine(
@@ -257,7 +309,8 @@ fn only_used(points: Vec<DVec2>, mut triangles: Vec<[u32; 3]>, keep: usize) -> (
 }
 
 /// Points of an equilateral lattice inside the outline, clear of it.
-fn lattice(outline: &[DVec2], spacing: f64) -> Vec<DVec2> {
+fn lattice(lines: &Lines, spacing: f64) -> Vec<DVec2> {
+    let outline = &lines.points;
     let lower = outline.iter().fold(DVec2::INFINITY, |m, &p| m.min(p));
     let upper = outline.iter().fold(DVec2::NEG_INFINITY, |m, &p| m.max(p));
     let row_height = spacing * 0.75f64.sqrt();
@@ -267,9 +320,10 @@ fn lattice(outline: &[DVec2], spacing: f64) -> Vec<DVec2> {
     let mut points = Vec::new();
     for row in 0..=rows {
         let y = lower.y + row as f64 * row_height;
-        let crossings = row_crossings(outline, y);
+        let crossings: Vec<f64> =
+            (1..lines.starts.len()).flat_map(|k| row_crossings(lines.of_loop(k - 1), y)).collect();
         let near: Vec<(DVec2, DVec2)> = (0..outline.len())
-            .map(|i| (outline[i], outline[(i + 1) % outline.len()]))
+            .map(|i| lines.segment(i))
             .filter(|(a, b)| a.y.min(b.y) <= y + clearance && a.y.max(b.y) >= y - clearance)
             .collect();
         let shift = if row % 2 == 0 { 0.0 } else { 0.5 };

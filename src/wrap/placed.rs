@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use glam::{DVec2, DVec3};
 
 use crate::geometry::ids::PieceId;
-use crate::pattern::{EdgeRef, Pattern, Piece, SpacePose};
+use crate::pattern::{CutPattern, EdgeRef, Piece, SpacePose};
 
 /// Pieces whose outer side looks this far (cosine) to the front or back are candidates for marks.
 const FRONT_OR_BACK: f64 = 0.7;
@@ -146,7 +146,7 @@ pub(super) enum Anchor<'a> {
 }
 
 /// The anchor of a placed garment.
-pub(super) fn anchor(pattern: &Pattern) -> Anchor<'_> {
+pub(super) fn anchor(pattern: &CutPattern) -> Anchor<'_> {
     let panels: Vec<Panel> = placed_panels(pattern).into_iter().filter(Panel::facing).collect();
     let by_id: BTreeMap<PieceId, &Panel> = panels.iter().map(|p| (p.id, p)).collect();
     let shoulders: Vec<[EdgeRef; 2]> = front_to_back(pattern, &by_id)
@@ -177,10 +177,10 @@ pub(super) fn anchor(pattern: &Pattern) -> Anchor<'_> {
 
 /// Seams from a piece before the body to one behind it.
 fn front_to_back<'a>(
-    pattern: &'a Pattern,
+    pattern: &'a CutPattern,
     by_id: &'a BTreeMap<PieceId, &Panel>,
 ) -> impl Iterator<Item = [EdgeRef; 2]> + 'a {
-    pattern.seams.values().map(|s| s.sides).filter(|sides| {
+    pattern.edge_seams().map(|s| s.sides).filter(|sides| {
         let fronts = sides.map(|s| by_id.get(&s.piece).map(|p| p.is_front()));
         let edges = sides.iter().all(|s| by_id.get(&s.piece).is_some_and(|p| s.edge < p.piece.outline.len()));
         edges && matches!(fronts, [Some(a), Some(b)] if a != b)
@@ -188,15 +188,15 @@ fn front_to_back<'a>(
 }
 
 /// The edges by which `panels` are sewn together at the sides, front to back, with their pieces.
-pub(super) fn sides(pattern: &Pattern, panels: &[Panel]) -> Vec<EdgeRef> {
+pub(super) fn sides(pattern: &CutPattern, panels: &[Panel]) -> Vec<EdgeRef> {
     let by_id: BTreeMap<PieceId, &Panel> = panels.iter().map(|p| (p.id, p)).collect();
     front_to_back(pattern, &by_id).flatten().filter(|s| climb(by_id[&s.piece], s.edge) > ACROSS).collect()
 }
 
 /// All edges by which `panels` are sewn to one another.
-pub(super) fn seams_among(pattern: &Pattern, panels: &[Panel]) -> Vec<EdgeRef> {
+pub(super) fn seams_among(pattern: &CutPattern, panels: &[Panel]) -> Vec<EdgeRef> {
     let has = |s: &EdgeRef| panels.iter().any(|p| p.id == s.piece && s.edge < p.piece.outline.len());
-    pattern.seams.values().map(|s| s.sides).filter(|sides| sides.iter().all(has)).flatten().collect()
+    pattern.edge_seams().map(|s| s.sides).filter(|sides| sides.iter().all(has)).flatten().collect()
 }
 
 /// Cosine between an edge and the vertical.
@@ -220,7 +220,7 @@ pub(super) fn edge_within(panel: &Panel, edge: usize, limit: f64) -> Option<DVec
     points.iter().copied().min_by(|a, b| (a.x.abs() - wanted).abs().total_cmp(&(b.x.abs() - wanted).abs()))
 }
 
-fn placed_panels(pattern: &Pattern) -> Vec<Panel<'_>> {
+fn placed_panels(pattern: &CutPattern) -> Vec<Panel<'_>> {
     let shifts = seam_shifts(pattern);
     pattern
         .pieces
@@ -235,10 +235,10 @@ fn placed_panels(pattern: &Pattern) -> Vec<Panel<'_>> {
 }
 
 /// How far up each piece goes so that seams lie at one height: least squares, held lightly to the file's placement.
-fn seam_shifts(pattern: &Pattern) -> BTreeMap<PieceId, f64> {
+fn seam_shifts(pattern: &CutPattern) -> BTreeMap<PieceId, f64> {
     let mut equations: Vec<(PieceId, PieceId, f64, f64)> = Vec::new();
     let fractions: Vec<f64> = (0..=8).map(|k| f64::from(k) / 8.0).collect();
-    for seam in pattern.seams.values() {
+    for seam in pattern.edge_seams() {
         let mean_height = |side: &EdgeRef| -> Option<(f64, f64)> {
             let piece = pattern.pieces.get(&side.piece)?;
             let pose = piece.placement?;

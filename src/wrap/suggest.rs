@@ -10,7 +10,7 @@ use glam::{DVec2, DVec3};
 
 use crate::body::{Surface, Trunk};
 use crate::geometry::ids::MarkId;
-use crate::pattern::{EdgeRef, Pattern};
+use crate::pattern::{CutPattern, EdgeRef, Pattern};
 use crate::wrap::placed::{Anchor, Panel, anchor, edge_within, ends_at, seams_among, sides};
 use crate::wrap::{BodyMark, ClothMark, ClothSide, Marks};
 
@@ -36,9 +36,10 @@ const LONGEST_DROP: f64 = 0.6;
 pub fn suggested(pattern: &Pattern, surface: &Surface, offset: f64) -> Marks {
     let trunk = Trunk::new(surface);
     let mut strokes: Vec<Stroke> = Vec::new();
-    match anchor(pattern) {
+    let (cut, _) = CutPattern::new(pattern);
+    match anchor(&cut) {
         Anchor::Shoulders(panels, seams) => {
-            let hung = trunk.as_ref().and_then(|t| hung(pattern, surface, t, &panels, &seams, offset));
+            let hung = trunk.as_ref().and_then(|t| hung(&cut, surface, t, &panels, &seams, offset));
             let at = |p: &Panel| hung.map(|h| if p.is_front() { h.front } else { h.back });
             for panel in &panels {
                 let height = at(panel).map(|cloth| (cloth, hung.map_or(cloth, |h| h.body)));
@@ -52,7 +53,7 @@ pub fn suggested(pattern: &Pattern, surface: &Surface, offset: f64) -> Marks {
         }
         Anchor::Ring(panels) => {
             let depth = UNDER_TOP * surface.scale();
-            let sewn = seams_among(pattern, &panels);
+            let sewn = seams_among(&cut, &panels);
             let lines: Vec<Line> = panels.iter().map(|p| Line::under_top(p, depth, &sewn)).collect();
             if let Some(trunk) = &trunk
                 && let Some(height) = rest_height(trunk, &lines, offset)
@@ -98,7 +99,7 @@ struct Hung {
 /// Hangs the garment from the shoulders: what comes to lie under the arms is found by following the skin down from where
 /// the shoulder seams meet it. Under deep armholes and beside darts it is taken lower, where the pieces reach their sides.
 fn hung(
-    pattern: &Pattern,
+    pattern: &CutPattern,
     surface: &Surface,
     trunk: &Trunk,
     panels: &[Panel],

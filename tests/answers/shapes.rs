@@ -82,7 +82,7 @@ impl Cut {
         let pieces = ["front", "back"].map(|name| pattern.add_piece(Piece::polygon(name, outline)));
         let side = |piece: usize, edge: usize| EdgeRef { piece: pieces[piece], edge };
         for sides in [[side(0, right), side(1, left)], [side(0, left), side(1, right)]] {
-            pattern.add_seam(Seam { sides, same_direction: false });
+            pattern.add_seam(Seam::of_edges(sides, false));
         }
         let mut marks = Marks::default();
         for (i, piece) in pieces.into_iter().enumerate() {

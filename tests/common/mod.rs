@@ -52,7 +52,7 @@ pub fn project() -> Project {
     let left = pattern.add_piece(Piece::polygon("left", &corners));
     let right = pattern.add_piece(Piece::polygon("right", &corners));
     let side = |piece: PieceId, edge: usize| EdgeRef { piece, edge };
-    pattern.add_seam(Seam { sides: [side(left, 1), side(right, 3)], same_direction: false });
+    pattern.add_seam(Seam::of_edges([side(left, 1), side(right, 3)], false));
     let marks = Marks {
         cloth: vec![ClothMark {
             id: MarkId(1),
@@ -84,7 +84,7 @@ pub fn tube_project() -> Project {
     let [front, back] = ["front", "back"].map(|name| pattern.add_piece(Piece::polygon(name, &corners)));
     for (edge, other) in [(1, 3), (3, 1)] {
         let sides = [EdgeRef { piece: front, edge }, EdgeRef { piece: back, edge: other }];
-        pattern.add_seam(Seam { sides, same_direction: false });
+        pattern.add_seam(Seam::of_edges(sides, false));
     }
     let mut document = project().document;
     document.pattern = Arc::new(pattern);

@@ -22,10 +22,10 @@ pub fn tube(width: f64, height: f64) -> Pattern {
     let front = pattern.add_piece(rectangle("front"));
     let back = pattern.add_piece(rectangle("back"));
     for (a, b) in [(1, 3), (3, 1)] {
-        pattern.add_seam(Seam {
-            sides: [EdgeRef { piece: front, edge: a }, EdgeRef { piece: back, edge: b }],
-            same_direction: false,
-        });
+        pattern.add_seam(Seam::of_edges(
+            [EdgeRef { piece: front, edge: a }, EdgeRef { piece: back, edge: b }],
+            false,
+        ));
     }
     pattern
 }

@@ -52,11 +52,11 @@ fn refused_commands_leave_no_trace() {
     refused(s, Command::DeletePiece { piece: none }, "no piece 99");
     let outline = Piece::polygon("triangle", &[DVec2::ZERO, DVec2::X, DVec2::Y]).outline;
     refused(s, Command::SetOutline { piece, outline }, "sewn by its 4 edges");
-    let seam = Seam { sides: [edge(piece, 0), edge(piece, 0)], same_direction: false };
+    let seam = Seam::of_edges([edge(piece, 0), edge(piece, 0)], false);
     refused(s, Command::AddSeam { seam }, "itself");
-    let seam = Seam { sides: [edge(piece, 1), edge(piece, 0)], same_direction: false };
+    let seam = Seam::of_edges([edge(piece, 1), edge(piece, 0)], false);
     refused(s, Command::AddSeam { seam }, "sewn already");
-    let seam = Seam { sides: [edge(piece, 9), edge(piece, 0)], same_direction: false };
+    let seam = Seam::of_edges([edge(piece, 9), edge(piece, 0)], false);
     refused(s, Command::AddSeam { seam }, "no edge 10");
     refused(s, Command::ReverseSeam { seam: SeamId(50) }, "no seam 50");
     refused(

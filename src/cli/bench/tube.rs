@@ -46,7 +46,7 @@ impl Tube {
         let [front, back] = ["front", "back"].map(|name| pattern.add_piece(Piece::polygon(name, &corners)));
         for (edge, other) in [(1, 3), (3, 1)] {
             let sides = [EdgeRef { piece: front, edge }, EdgeRef { piece: back, edge: other }];
-            pattern.add_seam(Seam { sides, same_direction: false });
+            pattern.add_seam(Seam::of_edges(sides, false));
         }
         let mut marks = Marks::default();
         let heights = || (0..=STROKE).map(|k| HEIGHT * (0.05 + 0.9 * f64::from(k) / f64::from(STROKE)));

@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 
 use crate::contact::Bone;
 use crate::geometry::ids::{MarkId, PieceId, SeamId};
-use crate::pattern::{Edge, EdgeShape, Pattern, Piece, PlanePose};
+use crate::pattern::{Edge, EdgeShape, Pattern, Piece, PlanePose, Seam, curve};
 use crate::session::command::Rejection;
 use crate::session::document::{BodyChoice, Settings};
 use crate::sim::ClothPlace;
@@ -18,6 +18,8 @@ const MOST_EDGES: usize = 10_000;
 pub const MOST_PIECES: usize = 1_000;
 /// Metres: nothing lies further from the origin.
 const FARTHEST: f64 = 1e4;
+/// Metres of seam allowance.
+pub const WIDEST_ALLOWANCE: f64 = 0.2;
 /// Characters of a name.
 const LONGEST_NAME: usize = 200;
 
@@ -98,12 +100,70 @@ pub fn piece(piece: &Piece) -> Result<(), Rejection> {
     name(&piece.name)?;
     pose(&piece.pose)?;
     outline(&piece.outline)?;
+    piece.holes.iter().try_for_each(|hole| outline(hole))?;
+    inside(piece)?;
     match &piece.placement {
         Some(p) if !(p.translation.is_finite() && p.rotation.is_finite()) => {
             Err(Rejection::new("the placement of the piece is not a finite number"))
         }
         _ => Ok(()),
     }
+}
+
+/// Lines, notches and the rest that is drawn on a piece.
+fn inside(piece: &Piece) -> Result<(), Rejection> {
+    let lines = &piece.lines;
+    if piece.holes.len() + lines.len() + piece.notches.len() > MOST_EDGES {
+        return Err(Rejection(format!("a piece may have {MOST_EDGES} holes, lines and notches")));
+    }
+    for line in lines {
+        name_or_none(&line.name)?;
+        if line.edges.is_empty() || line.edges.len() > MOST_EDGES {
+            return Err(Rejection(format!("a line inside a piece has 1 to {MOST_EDGES} edges")));
+        }
+        if !point_2d(line.end) || !line.edges.iter().all(edge) {
+            return Err(Rejection::new("a line inside has a number that means no place"));
+        }
+    }
+    if !piece.cut_line.is_empty() {
+        outline(&piece.cut_line).map_err(|why| Rejection(format!("the cut line: {why}")))?;
+    }
+    let edges = piece.edge_count();
+    if let Some(notch) = piece.notches.iter().find(|n| n.edge >= edges || !(0.0..=1.0).contains(&n.at)) {
+        return Err(Rejection(format!("there is no place for a notch on edge {}", notch.edge + 1)));
+    }
+    if piece.grainline.is_some_and(|[tail, head]| !point_2d(tail) || !point_2d(head) || tail == head) {
+        return Err(Rejection::new("a grainline has two ends within the table"));
+    }
+    within("the seam allowance", piece.allowance, 0.0, WIDEST_ALLOWANCE)?;
+    match piece.symmetric && !is_symmetric(&piece.outline) {
+        true => Err(Rejection::new("it is called symmetric, but its halves differ")),
+        false => Ok(()),
+    }
+}
+
+/// Whether a closed line is its own mirror image as [`Piece::symmetric`] asks, to the last bit.
+pub fn is_symmetric(edges: &[Edge]) -> bool {
+    let half = edges.len() / 2;
+    let drawn = |e: &Edge| (e.start, e.shape, e.smooth);
+    edges.len().is_multiple_of(2)
+        && edges[0].start.x == 0.0
+        && edges[half].start.x == 0.0
+        && curve::mirrored(edges).iter().map(drawn).eq(edges.iter().map(drawn))
+}
+
+/// That a seam joins what is there, and keeps a ratio that can be.
+pub fn seam(pattern: &Pattern, seam: &Seam) -> Result<(), Rejection> {
+    for side in &seam.sides {
+        let piece = find_piece(pattern, side.piece)?;
+        if side.edge >= piece.edge_count() {
+            return Err(Rejection(format!("{} has no edge {}", piece.name, side.edge + 1)));
+        }
+        if side.parts(piece).is_none() {
+            return Err(Rejection(format!("there is no such stretch on {}", piece.name)));
+        }
+    }
+    seam.ratio.map_or(Ok(()), |ratio| within("the ratio of a seam", ratio, 0.01, 100.0))
 }
 
 /// Every piece and seam of a whole pattern, and that its counter is ahead of its ids.

@@ -3,7 +3,7 @@
 use glam::{DQuat, DVec2, DVec3};
 
 use crate::geometry::ids::PieceId;
-use crate::pattern::{Edge, EdgeRef, EdgeShape, Pattern, Piece, PlanePose, Seam, SpacePose};
+use crate::pattern::{Edge, EdgeRef, EdgeShape, Pattern, Piece, PlanePose, Seam, SpacePose, curve};
 
 /// An outline under construction, counter-clockwise.
 pub struct Outline {
@@ -28,7 +28,7 @@ impl Outline {
     }
 
     fn edge(mut self, label: &str, shape: EdgeShape, to: DVec2) -> Self {
-        self.edges.push(Edge { start: self.at, shape, label: Some(label.to_owned()) });
+        self.edges.push(Edge { start: self.at, shape, label: Some(label.to_owned()), ..Edge::default() });
         self.at = to;
         self
     }
@@ -36,34 +36,16 @@ impl Outline {
     /// A piece called `name`; the last edge must have come back to the start.
     pub fn piece(self, name: &str) -> Piece {
         debug_assert!(self.edges[0].start.distance(self.at) < 1e-9, "{name} is not closed");
-        Piece {
-            name: name.to_owned(),
-            outline: self.edges,
-            pose: PlanePose::default(),
-            placement: None,
-            label: None,
-        }
+        Piece { name: name.to_owned(), outline: self.edges, ..Piece::default() }
     }
 }
 
 /// `piece` mirrored in its own y axis, under another name. Labels keep their words except that left and right change.
 pub fn mirrored(piece: &Piece, name: &str) -> Piece {
-    let flip = |p: DVec2| DVec2::new(-p.x, p.y);
-    let count = piece.outline.len();
-    let outline = (0..count)
-        .rev()
-        .map(|i| {
-            let (_, end) = piece.edge_ends(i);
-            let shape = match piece.outline[i].shape {
-                EdgeShape::Cubic { controls: [a, b] } => EdgeShape::Cubic { controls: [flip(b), flip(a)] },
-                EdgeShape::Quadratic { control } => EdgeShape::Quadratic { control: flip(control) },
-                EdgeShape::Arc { radius, large, sweep } => EdgeShape::Arc { radius, large, sweep },
-                EdgeShape::Line => EdgeShape::Line,
-            };
-            let label = piece.outline[i].label.as_deref().map(other_side);
-            Edge { start: flip(end), shape, label }
-        })
-        .collect();
+    let mut outline = curve::mirrored(&piece.outline);
+    for edge in &mut outline {
+        edge.label = edge.label.as_deref().map(other_side);
+    }
     Piece { name: name.to_owned(), outline, ..piece.clone() }
 }
 
@@ -81,7 +63,7 @@ pub fn edge(pattern: &Pattern, piece: PieceId, label: &str) -> EdgeRef {
 /// Sews edges, both fronts on one side.
 pub fn sew(pattern: &mut Pattern, a: (PieceId, &str), b: (PieceId, &str)) {
     let sides = [edge(pattern, a.0, a.1), edge(pattern, b.0, b.1)];
-    pattern.add_seam(Seam { sides, same_direction: false });
+    pattern.add_seam(Seam::of_edges(sides, false));
 }
 
 /// Length of the edge of `piece` called `label`, metres.

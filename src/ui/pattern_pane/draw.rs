@@ -86,8 +86,10 @@ impl Drawing<'_> {
             mesh.add_triangle(base, base + 2, base + 3);
         }
         self.painter.add(Shape::mesh(mesh));
-        let outline: Vec<Pos2> = shape.outline.iter().map(|&p| place(p)).collect();
-        self.painter.add(Shape::closed_line(outline, Stroke::new(if lifted { 2.4 } else { 1.5 }, line)));
+        for closed in std::iter::once(&shape.outline).chain(&shape.holes) {
+            let points: Vec<Pos2> = closed.iter().map(|&p| place(p)).collect();
+            self.painter.add(Shape::closed_line(points, Stroke::new(if lifted { 2.4 } else { 1.5 }, line)));
+        }
     }
 
     /// Names of the pieces, on a patch of the piece's own colour so that marks do not run through them.

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use crate::geometry::ids::PieceId;
+use crate::pattern::piece::flattened_loop;
 use crate::pattern::{Pattern, Piece};
 
 /// Chords stay this close to the outline, metres.
@@ -19,6 +20,8 @@ pub struct PieceShape {
     pub version: u64,
     /// The outline, closed.
     pub outline: Vec<DVec2>,
+    /// The holes, closed.
+    pub holes: Vec<Vec<DVec2>>,
     /// Filled by trapezoids: four corners each.
     pub fill: Vec<[DVec2; 4]>,
     /// A good place for the name.
@@ -30,7 +33,8 @@ pub struct PieceShape {
 impl PieceShape {
     fn new(piece: &Arc<Piece>, version: u64) -> Self {
         let outline = piece.flattened(TOLERANCE);
-        let fill = trapezoids(&outline);
+        let holes: Vec<Vec<DVec2>> = piece.holes.iter().map(|hole| flattened_loop(hole, TOLERANCE)).collect();
+        let fill = trapezoids(std::iter::once(&outline).chain(&holes));
         Self {
             piece: Arc::clone(piece),
             version,
@@ -38,13 +42,14 @@ impl PieceShape {
             drawn_from_front: area(&outline) >= 0.0,
             fill,
             outline,
+            holes,
         }
     }
 
     /// Whether `p`, in the piece's own plane, lies on the cloth.
     pub fn contains(&self, p: DVec2) -> bool {
-        let n = self.outline.len();
-        (0..n).filter(|&i| crosses(self.outline[i], self.outline[(i + 1) % n], p)).count() % 2 == 1
+        let lines = std::iter::once(&self.outline).chain(&self.holes);
+        lines.flat_map(|line| sides(line)).filter(|&[a, b]| crosses(a, b, p)).count() % 2 == 1
     }
 }
 
@@ -93,12 +98,16 @@ impl Shapes {
 
 /// Moving a piece on the table does not change its shape.
 fn same_outline(a: &Piece, b: &Piece) -> bool {
-    a.outline == b.outline
+    a.outline == b.outline && a.holes == b.holes
 }
 
 fn area(outline: &[DVec2]) -> f64 {
     let n = outline.len();
     (0..n).map(|i| outline[i].perp_dot(outline[(i + 1) % n]) / 2.0).sum()
+}
+
+fn sides(line: &[DVec2]) -> impl Iterator<Item = [DVec2; 2]> {
+    (0..line.len()).map(|i| [line[i], line[(i + 1) % line.len()]])
 }
 
 fn crosses(a: DVec2, b: DVec2, p: DVec2) -> bool {
@@ -107,19 +116,17 @@ fn crosses(a: DVec2, b: DVec2, p: DVec2) -> bool {
 
 /// The inside by the even-odd rule, cut into slabs at every corner: also right for outlines that cross themselves, up to the
 /// height of a slab.
-fn trapezoids(outline: &[DVec2]) -> Vec<[DVec2; 4]> {
-    let n = outline.len();
-    let mut heights: Vec<f64> = outline.iter().map(|p| p.y).filter(|y| y.is_finite()).collect();
+fn trapezoids<'a>(lines: impl Iterator<Item = &'a Vec<DVec2>>) -> Vec<[DVec2; 4]> {
+    let all: Vec<[DVec2; 2]> = lines.flat_map(|line| sides(line)).collect();
+    let mut heights: Vec<f64> = all.iter().map(|[a, _]| a.y).filter(|y| y.is_finite()).collect();
     heights.sort_by(f64::total_cmp);
     heights.dedup_by(|a, b| (*a - *b).abs() < 1e-9);
     let mut out = Vec::new();
     for slab in heights.windows(2) {
         let (low, high) = (slab[0], slab[1]);
         let y = (low + high) / 2.0;
-        let mut sides: Vec<[DVec2; 2]> = (0..n)
-            .map(|i| [outline[i], outline[(i + 1) % n]])
-            .filter(|[a, b]| (a.y > y) != (b.y > y))
-            .collect();
+        let mut sides: Vec<[DVec2; 2]> =
+            all.iter().copied().filter(|[a, b]| (a.y > y) != (b.y > y)).collect();
         let x_at = |[a, b]: [DVec2; 2], y: f64| a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x);
         sides.sort_by(|&s, &t| x_at(s, y).total_cmp(&x_at(t, y)));
         for pair in sides.chunks_exact(2) {

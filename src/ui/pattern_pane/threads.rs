@@ -6,7 +6,7 @@ use glam::DVec2;
 
 use super::shapes::Shapes;
 use crate::geometry::ids::{PieceId, SeamId};
-use crate::pattern::{EdgeRef, Pattern, Seam};
+use crate::pattern::{Pattern, Seam};
 
 /// Distance between threads, metres, within limits.
 const SPACING: f64 = 0.03;
@@ -89,12 +89,11 @@ fn key(seam: &Seam, shapes: &Shapes) -> Option<(Seam, [u64; 2])> {
 
 fn ends(pattern: &Pattern, seam: &Seam, shapes: &Shapes) -> Option<Ends> {
     let [a, b] = seam.sides;
-    let piece = |edge: EdgeRef| pattern.pieces.get(&edge.piece).filter(|p| edge.edge < p.outline.len());
-    let (first, second) = (piece(a)?, piece(b)?);
-    let count = (first.edge_length(a.edge) / SPACING).ceil().clamp(2.0, 24.0) as usize;
+    let (first, second) = (pattern.pieces.get(&a.piece)?, pattern.pieces.get(&b.piece)?);
+    let count = (a.length(first)? / SPACING).ceil().clamp(2.0, 24.0) as usize;
     let at: Vec<f64> = (0..=count).map(|i| i as f64 / count as f64).collect();
-    let from = first.edge_points(a.edge, &at);
-    let mut to = second.edge_points(b.edge, &at);
+    let from = a.points(first, &at)?;
+    let mut to = b.points(second, &at)?;
     if !seam.same_direction {
         to.reverse();
     }

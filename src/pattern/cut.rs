@@ -1,0 +1,281 @@
+//! A pattern whose edges are cut so that every seam joins one whole edge to one whole edge.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use crate::geometry::ids::{PieceId, SeamId};
+use crate::pattern::{
+    Edge, EdgeRef, EdgeSeam, Pattern, Piece, Problem, ProblemKind, Seam, Stretch, curve, sampling,
+};
+
+/// Places on an edge nearer than this are one, metres.
+const SAME_PLACE: f64 = 1e-4;
+
+/// Pieces and seams as the cloth is made of. Where all seams join whole edges, the pieces are the pattern's own.
+#[derive(Clone, Debug, Default)]
+pub struct CutPattern {
+    /// As in the pattern, edges cut where stretches end.
+    pub pieces: BTreeMap<PieceId, Arc<Piece>>,
+    /// Parts of one seam have its id; in id order, then along the first side.
+    pub seams: Vec<(SeamId, EdgeSeam)>,
+    /// For pieces with cut edges: which edge of the pattern each edge is a part of.
+    origins: BTreeMap<PieceId, Vec<usize>>,
+}
+
+/// A part of an edge.
+#[derive(Clone, Copy, Debug)]
+struct Portion {
+    edge: usize,
+    from: f64,
+    to: f64,
+    length: f64,
+}
+
+/// A place on an edge, a fraction of its length, less than one.
+#[derive(Clone, Copy, Debug)]
+struct Place {
+    edge: usize,
+    at: f64,
+}
+
+impl CutPattern {
+    /// Cuts `pattern`. A seam that names what is not there is among the problems and left out.
+    pub fn new(pattern: &Pattern) -> (Self, Vec<Problem>) {
+        let mut problems = Vec::new();
+        let mut cut = Self { pieces: pattern.pieces.clone(), ..Self::default() };
+        let mut places: BTreeMap<SeamId, [Vec<Place>; 2]> = BTreeMap::new();
+        let mut splits: BTreeMap<(PieceId, usize), Vec<f64>> = BTreeMap::new();
+        for (&id, seam) in &pattern.seams {
+            if seam.sides.iter().all(|side| side.whole_edge().is_some()) {
+                continue;
+            }
+            match breaks(pattern, seam) {
+                Ok(found) => {
+                    for (side, found) in seam.sides.iter().zip(&found) {
+                        for place in found.iter().filter(|place| place.at > 0.0) {
+                            splits.entry((side.piece, place.edge)).or_default().push(place.at);
+                        }
+                    }
+                    places.insert(id, found);
+                }
+                Err(side) => problems.push(Problem {
+                    kind: ProblemKind::SeamToNothing,
+                    place: id.to_string(),
+                    words: format!(
+                        "it sews a stretch of {}, which is not there; delete or redraw the seam",
+                        sampling::place(pattern, side.first_edge())
+                    ),
+                }),
+            }
+        }
+        let firsts = cut.split(splits);
+        for (&id, seam) in &pattern.seams {
+            match (seam.sides.map(|side| side.whole_edge()), places.get(&id)) {
+                ([Some(one), Some(other)], None) => {
+                    let renamed = [one, other].map(|e| EdgeRef { edge: first(&firsts, e), ..e });
+                    let seam = EdgeSeam { sides: renamed, same_direction: seam.same_direction };
+                    cut.seams.push((id, seam));
+                }
+                (_, Some(found)) => cut.sew(pattern, id, seam, found, &firsts, &mut problems),
+                _ => {}
+            }
+        }
+        (cut, problems)
+    }
+
+    /// All seams, edge to edge.
+    pub fn edge_seams(&self) -> impl Iterator<Item = &EdgeSeam> {
+        self.seams.iter().map(|(_, seam)| seam)
+    }
+
+    /// The pattern's own number of an edge.
+    pub fn origin(&self, edge: EdgeRef) -> EdgeRef {
+        let origin = self.origins.get(&edge.piece).and_then(|of_piece| of_piece.get(edge.edge));
+        EdgeRef { edge: origin.copied().unwrap_or(edge.edge), ..edge }
+    }
+
+    /// "front (piece 1), edge 3", the edge as the pattern numbers it.
+    pub fn place(&self, edge: EdgeRef) -> String {
+        let edge = self.origin(edge);
+        match self.pieces.get(&edge.piece) {
+            Some(piece) => format!("{} ({}), edge {}", piece.name, edge.piece, edge.edge),
+            None => format!("{}, edge {}", edge.piece, edge.edge),
+        }
+    }
+
+    /// Cuts edges at fractions of their length. Returns for each cut edge what its parts are: their first number and
+    /// where they start.
+    fn split(&mut self, splits: BTreeMap<(PieceId, usize), Vec<f64>>) -> Firsts {
+        let mut of_piece: BTreeMap<PieceId, BTreeMap<usize, Vec<f64>>> = BTreeMap::new();
+        for ((piece, edge), mut fractions) in splits {
+            let length = self.pieces[&piece].edge_length(edge);
+            fractions.sort_by(f64::total_cmp);
+            fractions.dedup_by(|b, a| (*b - *a) * length < SAME_PLACE);
+            of_piece.entry(piece).or_default().insert(edge, fractions);
+        }
+        let mut firsts = Firsts::new();
+        for (id, cuts) in of_piece {
+            let mut piece = Piece::clone(&self.pieces[&id]);
+            let (mut origin, mut number) = (Vec::new(), 0);
+            let of_edges = firsts.entry(id).or_default();
+            for k in 0..=piece.holes.len() {
+                let edges = std::mem::take(piece.loop_edges_mut(k));
+                let mut new: Vec<Edge> = Vec::with_capacity(edges.len() + cuts.len());
+                for (i, edge) in edges.iter().enumerate() {
+                    let fractions = cuts.get(&number).map_or(&[][..], |f| &f[..]);
+                    let mut starts = vec![0.0];
+                    starts.extend(fractions);
+                    of_edges.push((origin.len(), starts));
+                    origin.extend(std::iter::repeat_n(number, fractions.len() + 1));
+                    number += 1;
+                    if fractions.is_empty() {
+                        new.push(edge.clone());
+                        continue;
+                    }
+                    let end = edges[(i + 1) % edges.len()].start;
+                    for (start, shape) in curve::split(edge.start, edge.shape, end, fractions) {
+                        new.push(Edge { start, shape, ..edge.clone() });
+                    }
+                }
+                *piece.loop_edges_mut(k) = new;
+            }
+            self.origins.insert(id, origin);
+            self.pieces.insert(id, Arc::new(piece));
+        }
+        firsts
+    }
+
+    fn sew(
+        &mut self,
+        pattern: &Pattern,
+        id: SeamId,
+        seam: &Seam,
+        places: &[Vec<Place>; 2],
+        firsts: &Firsts,
+        problems: &mut Vec<Problem>,
+    ) {
+        let side = |k: usize| self.parts(seam.sides[k].piece, &places[k], firsts);
+        let (Some(one), Some(mut other)) = (side(0), side(1)) else {
+            problems.push(Problem {
+                kind: ProblemKind::EdgeSewnTwice,
+                place: id.to_string(),
+                words: format!(
+                    "part of {} is sewn a second time; the seam was left out",
+                    sampling::place(pattern, seam.sides[0].first_edge())
+                ),
+            });
+            return;
+        };
+        if !seam.same_direction {
+            other.reverse();
+        }
+        let same_direction = seam.same_direction;
+        let pairs = one.into_iter().zip(other).map(|(a, b)| EdgeSeam { sides: [a, b], same_direction });
+        self.seams.extend(pairs.map(|pair| (id, pair)));
+    }
+
+    /// The cut edges between places one after the other; none where another seam's end lies between two.
+    fn parts(&self, piece: PieceId, places: &[Place], firsts: &Firsts) -> Option<Vec<EdgeRef>> {
+        let of_piece = &self.pieces[&piece];
+        let number = |place: &Place| match firsts.get(&piece) {
+            None => place.edge,
+            Some(of_edges) => {
+                let (first, starts) = &of_edges[place.edge];
+                let nearest = (0..starts.len())
+                    .min_by(|&a, &b| (starts[a] - place.at).abs().total_cmp(&(starts[b] - place.at).abs()));
+                first + nearest.unwrap_or(0)
+            }
+        };
+        let numbers: Vec<usize> = places.iter().map(number).collect();
+        let parts: Vec<EdgeRef> =
+            numbers[..numbers.len() - 1].iter().map(|&edge| EdgeRef { piece, edge }).collect();
+        let follow = numbers.windows(2).all(|w| of_piece.next_edge(w[0]) == w[1]);
+        follow.then_some(parts)
+    }
+}
+
+/// For each edge of a cut piece the number of its first part, and where on it its parts start.
+type Firsts = BTreeMap<PieceId, Vec<(usize, Vec<f64>)>>;
+
+fn first(firsts: &Firsts, edge: EdgeRef) -> usize {
+    let found = firsts.get(&edge.piece).and_then(|of_edges| of_edges.get(edge.edge));
+    found.map_or(edge.edge, |(first, _)| *first)
+}
+
+/// The ends of the parts that both sides of a seam are cut into, each side in its own direction, both ends included.
+/// Err: the side that names what is not there.
+fn breaks(pattern: &Pattern, seam: &Seam) -> Result<[Vec<Place>; 2], Stretch> {
+    let mut sides = Vec::new();
+    for side in seam.sides {
+        sides.push(portions(pattern, &side).ok_or(side)?);
+    }
+    let totals = [0, 1].map(|k| sides[k].iter().map(|p| p.length).sum::<f64>());
+    let near = SAME_PLACE / totals[0].max(totals[1]);
+    let corners = |k: usize| {
+        let mut sum = 0.0;
+        let mut found: Vec<f64> = Vec::new();
+        for portion in &sides[k][..sides[k].len() - 1] {
+            sum += portion.length;
+            found.push(sum / totals[k]);
+        }
+        if k == 1 && !seam.same_direction {
+            found = found.into_iter().rev().map(|f| 1.0 - f).collect();
+        }
+        found
+    };
+    let mut fractions = corners(0);
+    for f in corners(1) {
+        if fractions.iter().all(|g| (f - g).abs() > near) {
+            fractions.push(f);
+        }
+    }
+    fractions.sort_by(f64::total_cmp);
+    let side = |k: usize| {
+        let mut own: Vec<f64> = fractions.clone();
+        if k == 1 && !seam.same_direction {
+            own = own.into_iter().rev().map(|f| 1.0 - f).collect();
+        }
+        let piece = &pattern.pieces[&seam.sides[k].piece];
+        let mut places = vec![place(piece, sides[k][0].edge, sides[k][0].from)];
+        places.extend(own.into_iter().map(|f| at(piece, &sides[k], f * totals[k])));
+        let last = sides[k][sides[k].len() - 1];
+        places.push(place(piece, last.edge, last.to));
+        places
+    };
+    Ok([side(0), side(1)])
+}
+
+/// The place `along` metres from the start of `portions`.
+fn at(piece: &Piece, portions: &[Portion], along: f64) -> Place {
+    let mut left = along;
+    for portion in portions {
+        if left <= portion.length + SAME_PLACE {
+            let share = if portion.length > 0.0 { (left / portion.length).clamp(0.0, 1.0) } else { 0.0 };
+            return place(piece, portion.edge, portion.from + share * (portion.to - portion.from));
+        }
+        left -= portion.length;
+    }
+    let last = portions[portions.len() - 1];
+    place(piece, last.edge, last.to)
+}
+
+/// Near an end of the edge that end itself; the end of an edge is the start of the next.
+fn place(piece: &Piece, edge: usize, at: f64) -> Place {
+    let length = piece.edge_length(edge);
+    match at {
+        _ if at * length < SAME_PLACE => Place { edge, at: 0.0 },
+        _ if (1.0 - at) * length < SAME_PLACE => Place { edge: piece.next_edge(edge), at: 0.0 },
+        _ => Place { edge, at },
+    }
+}
+
+/// The parts of edges a stretch runs over. None when it is not on the piece, or has no length.
+fn portions(pattern: &Pattern, stretch: &Stretch) -> Option<Vec<Portion>> {
+    let piece = pattern.pieces.get(&stretch.piece)?;
+    let parts: Vec<Portion> = stretch
+        .parts(piece)?
+        .into_iter()
+        .map(|(edge, from, to)| Portion { edge, from, to, length: piece.edge_length(edge) * (to - from) })
+        .collect();
+    (parts.iter().map(|p| p.length).sum::<f64>() > SAME_PLACE).then_some(parts)
+}
