@@ -1,12 +1,15 @@
 //! Ten thousand commands at random on three bodies: everything stays finite, nothing panics, the same commands give the
 //! same bits, and undo returns every bit of document and cloth.
 
+#[path = "common/chance.rs"]
+mod chance;
 mod common;
 mod exact;
 
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
+use chance::Chance;
 use glam::{DVec2, DVec3};
 use toile::drag::{DragMode, Ray};
 use toile::geometry::ids::{MarkId, PieceId, PinId};
@@ -24,35 +27,6 @@ const COMMANDS: usize = 3334;
 const MOST_STEPS: usize = 1000;
 /// Metres: small garments.
 const EDGE: f64 = 0.07;
-
-/// A linear congruential generator (Knuth's MMIX constants); the upper bits count.
-struct Chance(u64);
-
-impl Chance {
-    fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        self.0 >> 33
-    }
-
-    /// 0..n.
-    fn below(&mut self, n: u64) -> u64 {
-        self.bits() % n
-    }
-
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.bits() as f64 / (1u64 << 31) as f64
-    }
-
-    /// Seldom no number at all.
-    fn number(&mut self, low: f64, high: f64) -> f64 {
-        match self.below(400) {
-            0 => f64::NAN,
-            1 => 1e300,
-            2 => 0.0,
-            _ => self.between(low, high),
-        }
-    }
-}
 
 /// A closed ring about y: two limbs for cloth to lie on, and a hole to fall through.
 fn torus(radius: f64, thick: f64, round: u32, sides: u32) -> TriMesh {

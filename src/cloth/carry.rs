@@ -2,6 +2,7 @@
 
 use crate::cloth::locate::FlatPiece;
 use crate::cloth::{ClothState, Garment};
+use crate::pattern::edit::Carried;
 
 /// For each vertex of the mesh carried to: vertices of the mesh carried from, and their shares (their sum is one).
 #[derive(Clone, Debug, Default)]
@@ -15,15 +16,23 @@ impl Carry {
     /// the nearest triangle is extended there. A vertex on a seam is the mean of what its pieces say.
     /// Vertices of pieces that `from` lacks get no share.
     pub fn new(from: &Garment, to: &Garment) -> Self {
+        Self::moved(from, to, &[])
+    }
+
+    /// The same between meshes of two patterns, where places of pieces have moved as `carried` tells.
+    pub fn moved(from: &Garment, to: &Garment, carried: &[Carried]) -> Self {
         let mut said: Vec<Vec<(u32, f64)>> = vec![Vec::new(); to.vertex_count];
         let mut corners = to.corners.as_slice();
         while let Some(piece) = corners.first().map(|c| c.piece) {
             let count = corners.iter().take_while(|c| c.piece == piece).count();
             let (mine, rest) = corners.split_at(count);
             corners = rest;
-            let flat = FlatPiece::new(from, piece);
+            let way = carried.iter().find(|way| way.to == piece);
+            let flat = FlatPiece::new(from, way.map_or(piece, |way| way.from));
+            let back = way.map(|way| way.map.inverse());
             for corner in mine {
-                let place = flat.nearest(from, corner.uv);
+                let uv = back.map_or(corner.uv, |back| back.transform_point2(corner.uv));
+                let place = flat.nearest(from, uv);
                 said[corner.vertex as usize].extend(place.iter().flat_map(|place| place.vertices(from)));
             }
         }

@@ -184,7 +184,8 @@ pub fn mirrored(edges: &[Edge]) -> Vec<Edge> {
 
 /// The mirror image of a point in the line x = 0.
 pub fn mirror(p: DVec2) -> DVec2 {
-    DVec2::new(-p.x, p.y)
+    // Zero stays zero, not minus zero.
+    DVec2::new(0.0 - p.x, p.y)
 }
 
 /// A circular arc by its centre.

@@ -2,6 +2,7 @@
 
 pub mod curve;
 pub mod cut;
+pub mod edit;
 pub mod piece;
 pub mod sampling;
 pub mod seam;

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::drag::{DragMode, Ray};
 use crate::geometry::ids::{MarkId, PieceId, PinId, SeamId};
+use crate::pattern::edit::PatternEdit;
 use crate::pattern::{Edge, Pattern, Piece, PlanePose, Seam};
 use crate::session::document::{BodyChoice, Settings};
 use crate::wrap::{ClothSide, Marks};
@@ -40,6 +41,8 @@ pub enum Command {
     RenamePiece { piece: PieceId, name: String },
     /// Move, turn or flip a piece on the table.
     SetPiecePose { piece: PieceId, pose: PlanePose },
+    /// Edit the pattern: all of it or nothing. `anew` within a gesture: in place of what the gesture did before.
+    EditPattern { edits: Vec<PatternEdit>, anew: bool },
     /// Redraw a piece. A sewn piece keeps its number of edges.
     SetOutline { piece: PieceId, outline: Vec<Edge> },
     /// Sew two edges together.

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use crate::body::Surface;
 use crate::contact::Bone;
 use crate::pattern::Problem;
+use crate::pattern::edit::Carried;
 use crate::session::body::{Body, BodyCache};
 use crate::session::command::{Command, Rejection};
 use crate::session::document::Document;
@@ -44,6 +45,8 @@ pub struct Session {
     last_gesture: u64,
     /// The gesture whose end has not been recorded yet.
     open_gesture: Option<GestureId>,
+    /// Where the last edit of the pattern in this gesture has moved places to, from where they were before the gesture.
+    moved: Option<(GestureId, Vec<Carried>)>,
     /// The command after which the document was last saved.
     saved_seq: u64,
     /// Marks that found no place on the body, and the strokes there were after that.
@@ -95,6 +98,7 @@ impl Session {
             last_seq: 0,
             last_gesture: 0,
             open_gesture: None,
+            moved: None,
             saved_seq: 0,
             lost_marks: None,
             replaying: false,
@@ -256,12 +260,19 @@ impl Session {
                 request: None,
                 problems: Vec::new(),
             }),
-            _ => self.plan_edit(command),
+            _ => self.plan_edit(command, gesture),
         }
     }
 
-    fn plan_edit(&mut self, command: &Command) -> Result<Plan, Rejection> {
-        let edit = edit::edit(&self.document, command, &mut self.bodies)?;
+    fn plan_edit(&mut self, command: &Command, gesture: GestureId) -> Result<Plan, Rejection> {
+        // A drag of the pattern: in place of what the gesture did so far.
+        let anew = matches!(command, Command::EditPattern { anew: true, .. });
+        let begun = anew && self.history.is_open(gesture.0);
+        let start = self.history.last_done().filter(|_| begun).map(|step| step.document.clone());
+        let mut edit = edit::edit(start.as_ref().unwrap_or(&self.document), command, &mut self.bodies)?;
+        if begun && edit.cloth == ClothChange::None {
+            edit.cloth = ClothChange::Resew(Vec::new()); // Back to how it was.
+        }
         let request = match edit.cloth {
             ClothChange::None => None,
             ClothChange::Wrap => {
@@ -273,6 +284,19 @@ impl Session {
                 Some(RequestKind::Rewrap { source, body, pairs: pairs.clone() })
             }
             ClothChange::Clear => Some(RequestKind::Clear),
+            ClothChange::Resew(ref carried) => {
+                let since = match &self.moved {
+                    Some((of, before)) if begun && *of == gesture => Carried::since(before, carried),
+                    _ => carried.clone(),
+                };
+                self.moved = Some((gesture, carried.clone()));
+                Some(RequestKind::Resew {
+                    pattern: Arc::clone(&edit.document.pattern),
+                    marks: Arc::clone(&edit.document.marks),
+                    pins: edit.document.pinned_places(),
+                    carried: Arc::new(since),
+                })
+            }
             ClothChange::SetPins => Some(RequestKind::SetPins(edit.document.pinned_places())),
             ClothChange::Grab { at, mode } => Some(RequestKind::Grab { at, mode, bones: self.bones() }),
             ClothChange::DragTo(ray) => Some(RequestKind::DragTo(ray)),

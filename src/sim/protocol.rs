@@ -10,6 +10,7 @@ use crate::cloth::{ClothState, Garment};
 use crate::contact::Bone;
 use crate::drag::{DragMode, Ray};
 use crate::geometry::ids::PieceId;
+use crate::pattern::edit::Carried;
 use crate::pattern::{Pattern, Problem};
 use crate::relax::RelaxSettings;
 use crate::sim::fault::Fault;
@@ -57,6 +58,9 @@ pub enum RequestKind {
     /// Grow the dressed cloth anew from the pairs of marks with these numbers (none: all), as far as pins let it. Where
     /// nothing is dressed, or the pattern has changed since, all of it is wrapped by them.
     Rewrap { source: Arc<GarmentSource>, body: Arc<Surface>, pairs: Vec<usize> },
+    /// The pattern was edited: the dressed cloth is cut anew and lies where the same places lay, then settles. `carried`:
+    /// pieces whose places have moved. Nothing happens where nothing is dressed.
+    Resew { pattern: Arc<Pattern>, marks: Arc<Marks>, pins: Arc<Vec<ClothPlace>>, carried: Arc<Vec<Carried>> },
     /// Take over cloth that was dressed before (from a project file). It is at rest until something changes.
     Adopt { source: Arc<GarmentSource>, body: Arc<Surface>, cloth: Arc<ClothState> },
     /// Relax differently from now on.

@@ -197,6 +197,11 @@ impl Simulation {
             RequestKind::Adopt { source, body, cloth } => {
                 self.set_world(World::adopted(source, body, cloth)?);
             }
+            RequestKind::Resew { pattern, marks, pins, carried } => {
+                if let Some(world) = self.world.resewn(pattern, marks, pins, &carried) {
+                    self.set_world(world);
+                }
+            }
             RequestKind::SetRelax(relax) => self.world.set_relax(relax),
             RequestKind::SetRelaxing(on) => self.world.relaxing = on,
             RequestKind::SetPins(places) => self.world.set_pins(&places),

@@ -8,11 +8,13 @@ use crate::body::Surface;
 use crate::cloth::{self, Carry, ClothState, Counters, FlatPiece, Garment, Skip};
 use crate::contact::{Bone, Bones, Splits};
 use crate::drag::{DragMode, Dragging, Ray};
-use crate::pattern::Problem;
+use crate::geometry::ids::PieceId;
+use crate::pattern::edit::Carried;
+use crate::pattern::{Pattern, Problem, ProblemKind};
 use crate::relax::RelaxSettings;
 use crate::sim::hash::cloth_hash;
 use crate::sim::protocol::{ClothPlace, GarmentSource};
-use crate::wrap::{Dressed, Dressing, Phase, coarser};
+use crate::wrap::{Dressed, Dressing, Marks, Phase, coarser};
 
 /// The state of the simulation.
 #[derive(Clone, Debug)]
@@ -121,6 +123,49 @@ impl World {
         Self { places, pinned: Arc::new(pinned), ..Self::begun(source, body, garment, problems, begun) }
     }
 
+    /// The dressed cloth cut and sewn anew after `pattern`: the same place of a piece lies where it lay, then all settles.
+    /// Cloth that is still growing begins again. None where nothing is dressed.
+    pub fn resewn(
+        &mut self,
+        pattern: Arc<Pattern>,
+        marks: Arc<Marks>,
+        places: Arc<Vec<ClothPlace>>,
+        carried: &[Carried],
+    ) -> Option<Self> {
+        let (old, body) = (self.garment.clone()?, self.body.clone()?);
+        self.release();
+        let source =
+            Arc::new(GarmentSource { pattern, marks, ..GarmentSource::clone(self.source.as_ref()?) });
+        if self.dressing.as_ref().is_some_and(|dressing| dressing.relaxer().is_none()) {
+            return Some(Self { relaxing: self.relaxing, places, ..Self::wrapped(source, body) });
+        }
+        let (garment, mut problems) = cloth::build(&source.pattern, source.edge_length);
+        let garment = Arc::new(garment);
+        let mut cloth = unlaid(&garment);
+        Carry::moved(&old, &garment, carried).places(&self.cloth, &mut cloth);
+        let under = |place: &ClothPlace| vertex_under(&garment, &cloth, *place).map(|(v, _)| v);
+        let pinned: Vec<Option<u32>> = places.iter().map(under).collect();
+        let dressing = Dressing::resumed(Arc::clone(&garment), Arc::clone(&body), source.relax, &cloth);
+        let dressing = dressing.map(|mut dressing| {
+            dressing.fix(&pinned.iter().flatten().copied().collect::<Vec<u32>>());
+            dressing.settle_again();
+            Arc::new(dressing)
+        });
+        problems.extend(unlaid_pieces(&garment, &cloth));
+        Some(Self {
+            source: Some(source),
+            body: Some(body),
+            garment: Some(garment),
+            cloth: Arc::new(cloth),
+            dressing,
+            places,
+            pinned: Arc::new(pinned),
+            relaxing: self.relaxing,
+            problems: Arc::new(problems),
+            ..Self::default()
+        })
+    }
+
     /// The cloth of `old`, which lies, in the mesh of `source`: the same flat point, the same place.
     fn recut(&self, source: &GarmentSource, old: Arc<Garment>) -> Cut {
         let same = |old: &GarmentSource| {
@@ -132,8 +177,7 @@ impl World {
             return Cut { is_as_before: true, garment: old, cloth, pinned, problems: Vec::new() };
         }
         let (garment, problems) = cloth::build(&source.pattern, source.edge_length);
-        let count = garment.vertex_count;
-        let mut cloth = ClothState { positions: vec![DVec3::ZERO; count], mapped: vec![false; count] };
+        let mut cloth = unlaid(&garment);
         Carry::new(&old, &garment).places(&self.cloth, &mut cloth);
         let pinned = self.places.iter().map(|&p| vertex_under(&garment, &cloth, p).map(|(v, _)| v)).collect();
         Cut { is_as_before: false, garment: Arc::new(garment), cloth: Arc::new(cloth), pinned, problems }
@@ -353,6 +397,28 @@ struct Cut {
     cloth: Arc<ClothState>,
     pinned: Vec<Option<u32>>,
     problems: Vec<Problem>,
+}
+
+fn unlaid(garment: &Garment) -> ClothState {
+    let count = garment.vertex_count;
+    ClothState { positions: vec![DVec3::ZERO; count], mapped: vec![false; count] }
+}
+
+/// Pieces that came to a dressed garment and do not lie yet.
+fn unlaid_pieces(garment: &Garment, cloth: &ClothState) -> Vec<Problem> {
+    let lies = |piece: PieceId| {
+        let mut of_piece =
+            garment.triangles.iter().zip(&garment.triangle_pieces).filter(|(_, p)| **p == piece);
+        of_piece.any(|(t, _)| t.iter().all(|&v| cloth.mapped[v as usize]))
+    };
+    let unlaid = garment.pieces.iter().filter(|(id, _)| !lies(*id));
+    unlaid
+        .map(|(id, name)| Problem {
+            kind: ProblemKind::Dressing,
+            place: format!("{name} ({id})"),
+            words: "it came to the dressed garment and does not lie yet; wrap again to lay it".to_owned(),
+        })
+        .collect()
 }
 
 /// The laid vertex nearest to a flat place, and where that place is, metres.

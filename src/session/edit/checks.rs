@@ -4,7 +4,8 @@ use glam::{DVec2, DVec3};
 
 use crate::contact::Bone;
 use crate::geometry::ids::{MarkId, PieceId, SeamId};
-use crate::pattern::{Edge, EdgeShape, Pattern, Piece, PlanePose, Seam, curve};
+use crate::pattern::edit::{WIDEST_ALLOWANCE, is_symmetric};
+use crate::pattern::{Edge, EdgeShape, InternalLine, Pattern, Piece, PlanePose};
 use crate::session::command::Rejection;
 use crate::session::document::{BodyChoice, Settings};
 use crate::sim::ClothPlace;
@@ -18,8 +19,6 @@ const MOST_EDGES: usize = 10_000;
 pub const MOST_PIECES: usize = 1_000;
 /// Metres: nothing lies further from the origin.
 const FARTHEST: f64 = 1e4;
-/// Metres of seam allowance.
-pub const WIDEST_ALLOWANCE: f64 = 0.2;
 /// Characters of a name.
 const LONGEST_NAME: usize = 200;
 
@@ -87,13 +86,16 @@ pub fn outline(outline: &[Edge]) -> Result<(), Rejection> {
 }
 
 fn edge(edge: &Edge) -> bool {
-    point_2d(edge.start)
-        && match edge.shape {
-            EdgeShape::Line => true,
-            EdgeShape::Arc { radius, .. } => radius.is_finite() && radius > 0.0 && radius <= FARTHEST,
-            EdgeShape::Quadratic { control } => point_2d(control),
-            EdgeShape::Cubic { controls } => controls.into_iter().all(point_2d),
-        }
+    point_2d(edge.start) && is_shape(&edge.shape)
+}
+
+fn is_shape(shape: &EdgeShape) -> bool {
+    match *shape {
+        EdgeShape::Line => true,
+        EdgeShape::Arc { radius, .. } => radius.is_finite() && radius > 0.0 && radius <= FARTHEST,
+        EdgeShape::Quadratic { control } => point_2d(control),
+        EdgeShape::Cubic { controls } => controls.into_iter().all(point_2d),
+    }
 }
 
 pub fn piece(piece: &Piece) -> Result<(), Rejection> {
@@ -110,21 +112,41 @@ pub fn piece(piece: &Piece) -> Result<(), Rejection> {
     }
 }
 
+/// A line inside a piece.
+pub fn line(line: &InternalLine) -> Result<(), Rejection> {
+    name_or_none(&line.name)?;
+    if line.edges.is_empty() || line.edges.len() > MOST_EDGES {
+        return Err(Rejection(format!("a line inside a piece has 1 to {MOST_EDGES} edges")));
+    }
+    if !point_2d(line.end) || !line.edges.iter().all(edge) {
+        return Err(Rejection::new("a line inside a piece has a number that means no place"));
+    }
+    Ok(())
+}
+
+/// A point of the table or of a piece's plane.
+pub fn place(p: DVec2) -> Result<(), Rejection> {
+    if point_2d(p) {
+        return Ok(());
+    }
+    Err(Rejection(format!("a place is not within {FARTHEST} m of the origin")))
+}
+
+/// The curve of an edge.
+pub fn shape(shape: &EdgeShape) -> Result<(), Rejection> {
+    if is_shape(shape) {
+        return Ok(());
+    }
+    Err(Rejection::new("the curve has a number that means no place"))
+}
+
 /// Lines, notches and the rest that is drawn on a piece.
 fn inside(piece: &Piece) -> Result<(), Rejection> {
     let lines = &piece.lines;
     if piece.holes.len() + lines.len() + piece.notches.len() > MOST_EDGES {
         return Err(Rejection(format!("a piece may have {MOST_EDGES} holes, lines and notches")));
     }
-    for line in lines {
-        name_or_none(&line.name)?;
-        if line.edges.is_empty() || line.edges.len() > MOST_EDGES {
-            return Err(Rejection(format!("a line inside a piece has 1 to {MOST_EDGES} edges")));
-        }
-        if !point_2d(line.end) || !line.edges.iter().all(edge) {
-            return Err(Rejection::new("a line inside has a number that means no place"));
-        }
-    }
+    lines.iter().try_for_each(line)?;
     if !piece.cut_line.is_empty() {
         outline(&piece.cut_line).map_err(|why| Rejection(format!("the cut line: {why}")))?;
     }
@@ -140,30 +162,6 @@ fn inside(piece: &Piece) -> Result<(), Rejection> {
         true => Err(Rejection::new("it is called symmetric, but its halves differ")),
         false => Ok(()),
     }
-}
-
-/// Whether a closed line is its own mirror image as [`Piece::symmetric`] asks, to the last bit.
-pub fn is_symmetric(edges: &[Edge]) -> bool {
-    let half = edges.len() / 2;
-    let drawn = |e: &Edge| (e.start, e.shape, e.smooth);
-    edges.len().is_multiple_of(2)
-        && edges[0].start.x == 0.0
-        && edges[half].start.x == 0.0
-        && curve::mirrored(edges).iter().map(drawn).eq(edges.iter().map(drawn))
-}
-
-/// That a seam joins what is there, and keeps a ratio that can be.
-pub fn seam(pattern: &Pattern, seam: &Seam) -> Result<(), Rejection> {
-    for side in &seam.sides {
-        let piece = find_piece(pattern, side.piece)?;
-        if side.edge >= piece.edge_count() {
-            return Err(Rejection(format!("{} has no edge {}", piece.name, side.edge + 1)));
-        }
-        if side.parts(piece).is_none() {
-            return Err(Rejection(format!("there is no such stretch on {}", piece.name)));
-        }
-    }
-    seam.ratio.map_or(Ok(()), |ratio| within("the ratio of a seam", ratio, 0.01, 100.0))
 }
 
 /// Every piece and seam of a whole pattern, and that its counter is ahead of its ids.

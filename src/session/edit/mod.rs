@@ -4,6 +4,7 @@ mod body;
 mod checks;
 mod drag;
 mod marks;
+mod pattern;
 mod pieces;
 mod seams;
 mod settings;
@@ -12,6 +13,7 @@ mod wrap;
 use std::sync::Arc;
 
 use crate::drag::{DragMode, Ray};
+use crate::pattern::edit::Carried;
 use crate::pattern::{Pattern, Problem};
 use crate::relax::RelaxSettings;
 use crate::session::body::BodyCache;
@@ -32,6 +34,8 @@ pub enum ClothChange {
     Rewrap(Vec<usize>),
     /// Take the cloth off.
     Clear,
+    /// The pattern was edited: the dressed cloth follows. What is drawn on these pieces was moved.
+    Resew(Vec<Carried>),
     /// Relax differently.
     SetRelax(RelaxSettings),
     /// Pin it where the document's pins are.
@@ -77,7 +81,9 @@ impl Edit {
     pub fn kind(&self) -> StepKind {
         match self.cloth {
             ClothChange::Wrap | ClothChange::Rewrap(_) => StepKind::Wrap,
-            ClothChange::Clear | ClothChange::SetPins | ClothChange::Grab { .. } => StepKind::Cloth,
+            ClothChange::Clear | ClothChange::Resew(_) | ClothChange::SetPins | ClothChange::Grab { .. } => {
+                StepKind::Cloth
+            }
             _ => StepKind::Edit,
         }
     }
@@ -112,6 +118,7 @@ fn untied(document: &Document, command: &Command, bodies: &mut BodyCache) -> Res
         Command::DeletePiece { piece } => pieces::delete(new, *piece),
         Command::RenamePiece { piece, name } => pieces::rename(new, *piece, name),
         Command::SetPiecePose { piece, pose } => pieces::set_pose(new, *piece, *pose),
+        Command::EditPattern { edits, .. } => pattern::edit(new, edits),
         Command::SetOutline { piece, outline } => pieces::set_outline(new, *piece, outline),
         Command::AddSeam { seam } => seams::add(new, *seam),
         Command::DeleteSeam { seam } => seams::delete(new, *seam),

@@ -1,0 +1,419 @@
+//! Cutting pieces in two, darts, and what is drawn on a piece: notches, lines, holes.
+
+use std::sync::Arc;
+
+use glam::DVec2;
+
+use crate::geometry::ids::{PieceId, SeamId};
+use crate::pattern::edit::lines::{self, fraction_at, halves};
+use crate::pattern::edit::pieces::{change, fresh_name};
+use crate::pattern::edit::symmetry::loosen;
+use crate::pattern::edit::{Carried, Change, find, points, symmetric_image};
+use crate::pattern::{Edge, EdgeRef, InternalLine, Notch, Pattern, Piece, Seam, Stretch};
+
+/// The ends of a cut may miss the outline by this much, metres.
+const NEAR: f64 = 2e-3;
+/// An end of a cut this near a point is that point, metres.
+const AT_POINT: f64 = 1e-4;
+/// Chords by which curves are judged, metres.
+const TOLERANCE: f64 = 1e-4;
+/// The least a dart measures, metres.
+const SMALLEST_DART: f64 = 1e-3;
+
+pub(super) fn cut(
+    pattern: &mut Pattern,
+    id: PieceId,
+    line: &InternalLine,
+    sew: bool,
+) -> Result<Change, String> {
+    let name = find(pattern, id)?.name.clone();
+    let Some(first) = line.edges.first() else { return Err("the cut has no line".to_owned()) };
+    let (from, to) = (first.start, line.end);
+    loosen(pattern, id);
+    let miss = |_| format!("a cut goes from edge to edge of {name}");
+    let a = point_on_outline(pattern, id, from).map_err(miss)?;
+    let a_place = find(pattern, id)?.edge(a).start;
+    let b = point_on_outline(pattern, id, to).map_err(miss)?;
+    // The second point may have moved the first one up.
+    let piece = find(pattern, id)?;
+    let a = (0..piece.outline.len()).find(|&i| piece.edge(i).start == a_place).unwrap_or(a);
+    let n = piece.outline.len();
+    let mut path = line.clone();
+    (path.edges[0].start, path.end) = (piece.edge(a).start, piece.edge(b).start);
+    if a == b || (path.edges.len() == 1 && ((a + 1) % n == b || (b + 1) % n == a) && is_straight(piece, a, b))
+    {
+        return Err(format!("the cut does not cut {name}"));
+    }
+    inside(piece, &path).map_err(|()| format!("the cut leaves {name} between its ends"))?;
+    for point in [a, b] {
+        lines::split_seams_at(pattern, EdgeRef { piece: id, edge: point });
+    }
+    let piece = find(pattern, id)?.clone();
+    let run = |from: usize, to: usize| -> Vec<usize> {
+        let count = (to + n - from) % n;
+        (0..count).map(|k| (from + k) % n).collect()
+    };
+    let forward: Vec<Edge> = path.edges.clone();
+    let back = backwards(&path);
+    let m = forward.len();
+    let halves = [(run(a, b), back), (run(b, a), forward)];
+    let outlines: Vec<Vec<Edge>> = halves
+        .iter()
+        .map(|(own, closing)| own.iter().map(|&i| piece.outline[i].clone()).chain(closing.clone()).collect())
+        .collect();
+    let polygons: Vec<Vec<DVec2>> =
+        outlines.iter().map(|o| crate::pattern::piece::flattened_loop(o, TOLERANCE)).collect();
+    let mut parts: Vec<Piece> = outlines
+        .into_iter()
+        .map(|outline| Piece {
+            outline,
+            holes: Vec::new(),
+            lines: Vec::new(),
+            notches: Vec::new(),
+            cut_line: Vec::new(),
+            ..Piece::clone(&piece)
+        })
+        .collect();
+    let which = |p: DVec2| usize::from(!contains(&polygons[0], p));
+    // The new number of each edge: which part, and where in it.
+    let mut numbers: Vec<(usize, usize)> = vec![(0, 0); piece.edge_count()];
+    for (part, (own, _)) in halves.iter().enumerate() {
+        for (k, &i) in own.iter().enumerate() {
+            numbers[i] = (part, k);
+        }
+    }
+    let mut old_first = n;
+    for hole in &piece.holes {
+        let part = which(hole[0].start);
+        let first = parts[part].edge_count();
+        for k in 0..hole.len() {
+            numbers[old_first + k] = (part, first + k);
+        }
+        old_first += hole.len();
+        parts[part].holes.push(hole.clone());
+    }
+    for line in &piece.lines {
+        parts[which(line.edges[0].start)].lines.push(line.clone());
+    }
+    for notch in &piece.notches {
+        let (part, edge) = numbers[notch.edge];
+        parts[part].notches.push(Notch { edge, ..*notch });
+    }
+    let other_name = fresh_name(pattern, &name);
+    let mut second = parts.pop().unwrap_or_default();
+    second.name = other_name;
+    pattern.pieces.insert(id, Arc::new(parts.pop().unwrap_or_default()));
+    let other = pattern.add_piece(second);
+    let ids = [id, other];
+    for seam in pattern.seams.values_mut() {
+        for side in seam.sides.iter_mut().filter(|side| side.piece == id) {
+            let (part, edge) = numbers[side.edge];
+            (side.piece, side.edge) = (ids[part], edge);
+        }
+    }
+    if sew {
+        let [one, two] =
+            [0, 1].map(|part| Stretch { further: m - 1, ..Stretch::edge(ids[part], halves[part].0.len()) });
+        pattern.add_seam(Seam { sides: [one, two], same_direction: false, ratio: Some(1.0) });
+    }
+    let carried = [0, 1]
+        .map(|part| Carried {
+            from: id,
+            to: ids[part],
+            map: glam::DAffine2::IDENTITY,
+            inside: Some(polygons[part].clone()),
+        })
+        .to_vec();
+    Ok(Change { carried, ..Change::new(format!("cut {name}")) })
+}
+
+fn is_straight(piece: &Piece, a: usize, b: usize) -> bool {
+    let n = piece.outline.len();
+    let edge = if (a + 1) % n == b { a } else { b };
+    matches!(piece.outline[edge].shape, crate::pattern::EdgeShape::Line)
+}
+
+/// The edges of an open line from its end to its start.
+fn backwards(line: &InternalLine) -> Vec<Edge> {
+    let n = line.edges.len();
+    let end = |i: usize| line.edges.get(i + 1).map_or(line.end, |e| e.start);
+    (0..n)
+        .rev()
+        .map(|i| Edge { start: end(i), shape: line.edges[i].shape.reversed(), ..Edge::default() })
+        .collect()
+}
+
+/// That an open line lies on the cloth between its ends, and does not cross itself or a closed line of the piece.
+fn inside(piece: &Piece, path: &InternalLine) -> Result<(), ()> {
+    let points = path.flattened(TOLERANCE);
+    let outline = piece.flattened(TOLERANCE);
+    let count = points.len();
+    let on_cloth = |p: DVec2| {
+        contains(&outline, p)
+            && piece
+                .holes
+                .iter()
+                .all(|hole| !contains(&crate::pattern::piece::flattened_loop(hole, TOLERANCE), p))
+    };
+    let middles = points.windows(2).map(|w| (w[0] + w[1]) / 2.0);
+    if !middles.chain(points[1..count - 1].iter().copied()).all(on_cloth) {
+        return Err(());
+    }
+    let crosses = |a: DVec2, b: DVec2, c: DVec2, d: DVec2| {
+        let side = |p: DVec2, q: DVec2, r: DVec2| (q - p).perp_dot(r - p);
+        side(a, b, c) * side(a, b, d) < 0.0 && side(c, d, a) * side(c, d, b) < 0.0
+    };
+    let own = |i: usize| (points[i], points[i + 1]);
+    let itself =
+        (0..count - 1).any(|i| (i + 2..count - 1).any(|j| crosses(own(i).0, own(i).1, own(j).0, own(j).1)));
+    let closed = std::iter::once(outline)
+        .chain(piece.holes.iter().map(|h| crate::pattern::piece::flattened_loop(h, TOLERANCE)));
+    // Beside its ends it may not touch the outline; there it does.
+    let (start, end) = (points[0], points[count - 1]);
+    let clear = |p: DVec2| p.distance(start) > 2.0 * TOLERANCE && p.distance(end) > 2.0 * TOLERANCE;
+    let meets = closed.into_iter().any(|line| {
+        (0..line.len()).any(|k| {
+            let (c, d) = (line[k], line[(k + 1) % line.len()]);
+            (0..count - 1).any(|i| {
+                let (a, b) = own(i);
+                crosses(a, b, c, d) && clear(crossing_of(a, b, c, d))
+            })
+        })
+    });
+    if itself || meets { Err(()) } else { Ok(()) }
+}
+
+fn crossing_of(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> DVec2 {
+    let t = (c - a).perp_dot(d - c) / (b - a).perp_dot(d - c);
+    a + (b - a) * t
+}
+
+/// Whether `p` lies inside a closed polyline, by the even-odd rule.
+pub fn contains(polygon: &[DVec2], p: DVec2) -> bool {
+    let n = polygon.len();
+    let crosses = |i: &usize| {
+        let (a, b) = (polygon[*i], polygon[(i + 1) % n]);
+        (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)
+    };
+    (0..n).filter(crosses).count() % 2 == 1
+}
+
+/// The number of the outline's point at `p`, put there when there is none. Err when the outline is too far.
+fn point_on_outline(pattern: &mut Pattern, id: PieceId, p: DVec2) -> Result<usize, ()> {
+    let piece = pattern.pieces.get(&id).ok_or(())?;
+    let near = (0..piece.outline.len()).map(|edge| {
+        let (at, distance) = nearest_on_edge(piece, edge, p);
+        (edge, at, distance)
+    });
+    let (edge, at, distance) = near.min_by(|a, b| a.2.total_cmp(&b.2)).ok_or(())?;
+    if distance > NEAR {
+        return Err(());
+    }
+    let length = piece.exact_edge_length(edge);
+    if at * length < AT_POINT {
+        return Ok(edge);
+    }
+    if (1.0 - at) * length < AT_POINT {
+        return Ok(piece.next_edge(edge));
+    }
+    lines::insert_points(pattern, EdgeRef { piece: id, edge }, &[at]);
+    Ok(edge + 1)
+}
+
+/// The place of an edge nearest to `p`: the fraction of its arc length, and how far it is, metres.
+pub fn nearest_on_edge(piece: &Piece, edge: usize, p: DVec2) -> (f64, f64) {
+    use kurbo::{ParamCurve, ParamCurveArclen, ParamCurveNearest};
+    let (mut best, mut before) = ((0.0, f64::INFINITY), 0.0);
+    for segment in piece.edge_segments(edge) {
+        let near = segment.nearest(kurbo::Point::new(p.x, p.y), 1e-9);
+        if near.distance_sq < best.1 {
+            best = (before + segment.subsegment(0.0..near.t).arclen(1e-10), near.distance_sq);
+        }
+        before += segment.arclen(1e-10);
+    }
+    ((best.0 / before.max(f64::MIN_POSITIVE)).clamp(0.0, 1.0), best.1.sqrt())
+}
+
+pub(super) fn dart(
+    pattern: &mut Pattern,
+    edge: EdgeRef,
+    at: f64,
+    width: f64,
+    depth: f64,
+) -> Result<Change, String> {
+    let piece = find(pattern, edge.piece)?.clone();
+    points::edge_number(&piece, edge.edge)?;
+    let length = piece.exact_edge_length(edge.edge);
+    let (from, to) = (at - width / 2.0 / length, at + width / 2.0 / length);
+    let room = SMALLEST_DART / length;
+    if !(width >= SMALLEST_DART && depth >= SMALLEST_DART && from > room && to < 1.0 - room) {
+        return Err(format!(
+            "a dart {:.1} cm wide does not fit on an edge of {:.1} cm there",
+            width * 100.0,
+            length * 100.0
+        ));
+    }
+    let image = symmetric_image(&piece, edge.edge);
+    let mut sites = vec![(edge.edge, from, to)];
+    sites.extend(image.map(|image| (image, 1.0 - to, 1.0 - from)));
+    sites.sort_by_key(|site| std::cmp::Reverse(site.0));
+    for (number, from, to) in sites {
+        one_dart(pattern, EdgeRef { edge: number, ..edge }, from, to, depth)?;
+    }
+    Ok(Change::new(format!("cut a dart into {}", piece.name)))
+}
+
+fn one_dart(pattern: &mut Pattern, edge: EdgeRef, from: f64, to: f64, depth: f64) -> Result<(), String> {
+    lines::insert_points(pattern, edge, &[from, to]);
+    let mouth = EdgeRef { edge: edge.edge + 1, ..edge };
+    let piece = find(pattern, edge.piece)?.clone();
+    let (k, first) = piece.loop_of(mouth.edge);
+    let (a, b) = piece.edge_ends(mouth.edge);
+    // The cloth lies to the left of a line drawn counter-clockwise; a hole's is the other way.
+    let ccw = (piece.signed_area() > 0.0) == (k == 0 || hole_runs_as_outline(&piece, k));
+    let inward = (b - a).perp().normalize_or_zero() * if ccw { 1.0 } else { -1.0 };
+    let tip = (a + b) / 2.0 + inward * depth;
+    let outline = piece.flattened(TOLERANCE);
+    if !contains(&outline, tip) {
+        return Err(format!("the tip of the dart lies outside {}", piece.name));
+    }
+    // The edge was sewn whole: now its two parts are sewn, one behind the other, to the whole of what it met.
+    let seams: Vec<(SeamId, Seam)> = pattern.seams.iter().map(|(&id, &seam)| (id, seam)).collect();
+    for (id, seam) in seams {
+        for side in 0..2 {
+            let stretch = &seam.sides[side];
+            let ends = [mouth.edge, piece.next_edge(mouth.edge)].map(|edge| EdgeRef { edge, ..mouth });
+            let [Some(until), Some(on)] = ends.map(|end| fraction_at(pattern, stretch, end)) else {
+                continue;
+            };
+            if let Some([before, behind]) = halves(pattern, &seam, side, until, on) {
+                pattern.seams.insert(id, before);
+                pattern.add_seam(behind);
+            }
+        }
+    }
+    let mut edges = piece.loop_edges(k).clone();
+    let own = mouth.edge - first;
+    edges[own] = Edge { start: a, ..Edge::default() };
+    edges.insert(own + 1, Edge { start: tip, ..Edge::default() });
+    if let Some(behind) = edges.get_mut(own + 2) {
+        behind.smooth = false;
+    }
+    let map = (0..edges.len() - 1)
+        .map(|i| match i {
+            _ if i < own => vec![lines::Part::whole(i)],
+            _ if i == own => Vec::new(),
+            _ => vec![lines::Part::whole(i + 1)],
+        })
+        .collect();
+    lines::replace(pattern, edge.piece, k, edges, &map);
+    let legs = [mouth.edge, mouth.edge + 1].map(|edge| Stretch::edge(mouth.piece, edge));
+    pattern.add_seam(Seam { sides: legs, same_direction: false, ratio: Some(1.0) });
+    Ok(())
+}
+
+/// Whether hole `k` runs the way round that the outline does.
+fn hole_runs_as_outline(piece: &Piece, k: usize) -> bool {
+    let area = |p: Vec<DVec2>| (0..p.len()).map(|i| p[i].perp_dot(p[(i + 1) % p.len()])).sum::<f64>();
+    let hole = area(crate::pattern::piece::flattened_loop(piece.loop_edges(k), TOLERANCE));
+    // Cloth lies to its left only where it runs against the outline.
+    hole * piece.signed_area() < 0.0
+}
+
+pub(super) fn add_notch(pattern: &mut Pattern, edge: EdgeRef, at: f64) -> Result<Change, String> {
+    let piece = find(pattern, edge.piece)?;
+    points::edge_number(piece, edge.edge)?;
+    if !(0.0..=1.0).contains(&at) {
+        return Err("a notch lies on its edge".to_owned());
+    }
+    let image = symmetric_image(piece, edge.edge).map(|image| Notch { edge: image, at: 1.0 - at });
+    change(pattern, edge.piece, |p| {
+        p.notches.push(Notch { edge: edge.edge, at });
+        p.notches.extend(image);
+    });
+    Ok(Change::new("add a notch"))
+}
+
+pub(super) fn delete_notch(pattern: &mut Pattern, id: PieceId, notch: usize) -> Result<Change, String> {
+    let piece = find(pattern, id)?;
+    if notch >= piece.notches.len() {
+        return Err(format!("{} has no notch {}", piece.name, notch + 1));
+    }
+    change(pattern, id, |p| {
+        p.notches.remove(notch);
+    });
+    Ok(Change::new("take a notch away"))
+}
+
+pub(super) fn add_line(pattern: &mut Pattern, id: PieceId, line: &InternalLine) -> Result<Change, String> {
+    find(pattern, id)?;
+    change(pattern, id, |p| p.lines.push(line.clone()));
+    Ok(Change::new("draw a line"))
+}
+
+pub(super) fn delete_line(pattern: &mut Pattern, id: PieceId, line: usize) -> Result<Change, String> {
+    let piece = find(pattern, id)?;
+    if line >= piece.lines.len() {
+        return Err(format!("{} has no line {}", piece.name, line + 1));
+    }
+    change(pattern, id, |p| {
+        p.lines.remove(line);
+    });
+    Ok(Change::new("take a line away"))
+}
+
+pub(super) fn add_hole(pattern: &mut Pattern, id: PieceId, edges: &[Edge]) -> Result<Change, String> {
+    let piece = find(pattern, id)?;
+    let outline = piece.flattened(TOLERANCE);
+    let hole = crate::pattern::piece::flattened_loop(edges, TOLERANCE);
+    if edges.len() < 2 || !hole.iter().all(|&p| contains(&outline, p)) {
+        return Err(format!("a hole lies inside the outline of {}", piece.name));
+    }
+    change(pattern, id, |p| p.holes.push(edges.to_vec()));
+    Ok(Change::new("cut a hole"))
+}
+
+pub(super) fn delete_hole(pattern: &mut Pattern, id: PieceId, hole: usize) -> Result<Change, String> {
+    let piece = find(pattern, id)?;
+    if hole >= piece.holes.len() {
+        return Err(format!("{} has no hole {}", piece.name, hole + 1));
+    }
+    drop_hole(pattern, id, hole);
+    Ok(Change::new("close a hole"))
+}
+
+/// Takes hole `hole` away, with the seams on it; the numbers of later holes' edges move up.
+pub(super) fn drop_hole(pattern: &mut Pattern, id: PieceId, hole: usize) {
+    let Some(piece) = pattern.pieces.get(&id).cloned() else { return };
+    let first: usize = piece.loops().take(hole + 1).map(Vec::len).sum();
+    let count = piece.holes[hole].len();
+    let gone = |edge: usize| (first..first + count).contains(&edge);
+    let moved = |edge: usize| if edge >= first { edge - count } else { edge };
+    pattern.seams.retain(|_, seam| seam.sides.iter().all(|side| side.piece != id || !gone(side.edge)));
+    for seam in pattern.seams.values_mut() {
+        for side in seam.sides.iter_mut().filter(|side| side.piece == id) {
+            side.edge = moved(side.edge);
+        }
+    }
+    change(pattern, id, |p| {
+        p.holes.remove(hole);
+        p.notches.retain(|notch| !gone(notch.edge));
+        p.notches.iter_mut().for_each(|notch| notch.edge = moved(notch.edge));
+    });
+}
+
+pub(super) fn set_grainline(
+    pattern: &mut Pattern,
+    id: PieceId,
+    grainline: Option<[DVec2; 2]>,
+) -> Result<Change, String> {
+    let piece = find(pattern, id)?;
+    if let Some([tail, head]) = grainline
+        && tail.distance(head) < AT_POINT
+    {
+        return Err("a grainline has two ends".to_owned());
+    }
+    let label = format!("draw the grain of {}", piece.name);
+    change(pattern, id, |p| p.grainline = grainline);
+    Ok(Change::new(label))
+}

@@ -1,0 +1,220 @@
+//! Whole pieces.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+use glam::{DAffine2, DMat2, DVec2};
+
+use crate::geometry::ids::PieceId;
+use crate::pattern::edit::{Carried, Change, find, lines, points};
+use crate::pattern::{Edge, EdgeRef, EdgeShape, InternalLine, Pattern, Piece, PlanePose, Seam, curve};
+
+/// Metres of seam allowance.
+pub const WIDEST_ALLOWANCE: f64 = 0.2;
+/// A cubic takes the place of an arc up to this turn, radians: to 3e-5 of its radius.
+const LONGEST_ARC: f64 = std::f64::consts::FRAC_PI_4;
+/// Factors of one scaling.
+const SCALES: std::ops::RangeInclusive<f64> = 1e-3..=1e3;
+
+pub(super) fn add(pattern: &mut Pattern, piece: &Arc<Piece>) -> Change {
+    let mut piece = Piece::clone(piece);
+    piece.twin = None;
+    let label = format!("add {}", piece.name);
+    pattern.add_piece(piece);
+    Change::new(label)
+}
+
+pub(super) fn delete(pattern: &mut Pattern, ids: &[PieceId]) -> Result<Change, String> {
+    let label = named(pattern, "delete", ids)?;
+    for id in ids {
+        if let Some(twin) = pattern.pieces.get(id).and_then(|p| p.twin) {
+            change(pattern, twin, |p| p.twin = None);
+        }
+        pattern.pieces.remove(id);
+        pattern.seams.retain(|_, seam| seam.sides.iter().all(|side| side.piece != *id));
+    }
+    Ok(Change::new(label))
+}
+
+pub(super) fn duplicate(pattern: &mut Pattern, ids: &[PieceId], offset: DVec2) -> Result<Change, String> {
+    let label = named(pattern, "duplicate", ids)?;
+    let originals: BTreeSet<PieceId> = ids.iter().copied().collect();
+    let mut copies: BTreeMap<PieceId, PieceId> = BTreeMap::new();
+    for &id in &originals {
+        let mut copy = Piece::clone(find(pattern, id)?);
+        copy.pose.offset += offset;
+        copy.name = fresh_name(pattern, &copy.name);
+        copies.insert(id, pattern.add_piece(copy));
+    }
+    for &copy in copies.values() {
+        // Copies of twins are twins of each other; the copy of one alone is nobody's.
+        change(pattern, copy, |p| p.twin = p.twin.and_then(|twin| copies.get(&twin).copied()));
+    }
+    let inner: Vec<Seam> = pattern.seams.values().copied().collect();
+    for seam in inner {
+        if let [Some(&a), Some(&b)] = seam.sides.map(|side| copies.get(&side.piece)) {
+            let [mut one, mut other] = seam.sides;
+            (one.piece, other.piece) = (a, b);
+            pattern.add_seam(Seam { sides: [one, other], ..seam });
+        }
+    }
+    Ok(Change::new(label))
+}
+
+pub(super) fn place(pattern: &mut Pattern, poses: &[(PieceId, PlanePose)]) -> Result<Change, String> {
+    let ids: Vec<PieceId> = poses.iter().map(|(id, _)| *id).collect();
+    let label = named(pattern, "move", &ids)?;
+    for &(id, pose) in poses {
+        change(pattern, id, |p| p.pose = pose);
+    }
+    Ok(Change::new(label))
+}
+
+pub(super) fn scale(
+    pattern: &mut Pattern,
+    ids: &[PieceId],
+    about: DVec2,
+    factor: DVec2,
+) -> Result<Change, String> {
+    let label = named(pattern, "scale", ids)?;
+    if !SCALES.contains(&factor.x) || !SCALES.contains(&factor.y) {
+        return Err(format!("a piece is scaled by {} to {}", SCALES.start(), SCALES.end()));
+    }
+    let ids: BTreeSet<PieceId> = ids.iter().copied().collect();
+    let mut result = Change::new(label);
+    for &id in &ids {
+        if factor.x != factor.y {
+            let twin = find(pattern, id)?.twin;
+            [Some(id), twin].into_iter().flatten().for_each(|id| split_arcs(pattern, id));
+        }
+        let piece = find(pattern, id)?;
+        if piece.twin.is_some_and(|twin| twin < id && ids.contains(&twin)) {
+            continue; // It follows its twin.
+        }
+        let mut new = Piece::clone(piece);
+        let centre = piece.pose.piece_from_plane(about);
+        // A symmetric piece stays so: its middle stays where it is.
+        let fixed = if piece.symmetric { DVec2::new(0.0, centre.y) } else { centre };
+        let map = DAffine2::from_mat2_translation(DMat2::from_diagonal(factor), fixed - factor * fixed);
+        map_piece(&mut new, map);
+        new.pose.offset += new.pose.plane_from_piece(fixed) - new.pose.plane_from_piece(centre);
+        let moved = new.pose.plane_from_piece(map.transform_point2(centre)) - about;
+        new.pose.offset -= moved;
+        result.held.extend((0..new.edge_count()).map(|edge| EdgeRef { piece: id, edge }));
+        result.carried.push(Carried { from: id, to: id, map, inside: None });
+        if let Some(twin) = piece.twin {
+            let image = DAffine2::from_mat2_translation(
+                DMat2::from_diagonal(factor),
+                curve::mirror(fixed - factor * fixed),
+            );
+            result.carried.push(Carried { from: twin, to: twin, map: image, inside: None });
+        }
+        pattern.pieces.insert(id, Arc::new(new));
+    }
+    Ok(result)
+}
+
+/// Long arcs become several, each near enough to a cubic.
+fn split_arcs(pattern: &mut Pattern, id: PieceId) {
+    let Some(piece) = pattern.pieces.get(&id).cloned() else { return };
+    for edge in (0..piece.edge_count()).rev() {
+        let (a, b) = piece.edge_ends(edge);
+        if let Some(arc) = curve::arc(a, piece.edge(edge).shape, b) {
+            let parts = (arc.turn.abs() / LONGEST_ARC).ceil().max(1.0) as usize;
+            let fractions: Vec<f64> = (1..parts).map(|k| k as f64 / parts as f64).collect();
+            lines::insert_points(pattern, EdgeRef { piece: id, edge }, &fractions);
+        }
+    }
+}
+
+/// Takes everything drawn on a piece to its image.
+pub(super) fn map_piece(piece: &mut Piece, map: DAffine2) {
+    let scale = DVec2::new(map.matrix2.x_axis.length(), map.matrix2.y_axis.length());
+    let alike = (scale.x / scale.y - 1.0).abs() < 1e-12;
+    let edges = |edges: &mut Vec<Edge>, end: Option<DVec2>| {
+        let ends: Vec<DVec2> = (0..edges.len())
+            .map(|i| edges.get(i + 1).map_or(end.unwrap_or(edges[0].start), |next| next.start))
+            .collect();
+        for (edge, end) in edges.iter_mut().zip(ends) {
+            edge.shape = match edge.shape {
+                EdgeShape::Arc { radius, large, sweep } if alike => {
+                    EdgeShape::Arc { radius: radius * scale.x, large, sweep }
+                }
+                // Pressed into an ellipse it is no arc any more.
+                EdgeShape::Arc { .. } => {
+                    EdgeShape::Cubic { controls: points::as_cubic(edge.start, edge.shape, end) }
+                        .mapped(false, |p| map.transform_point2(p))
+                }
+                shape => shape.mapped(false, |p| map.transform_point2(p)),
+            };
+            edge.start = map.transform_point2(edge.start);
+        }
+    };
+    edges(&mut piece.outline, None);
+    piece.holes.iter_mut().for_each(|hole| edges(hole, None));
+    edges(&mut piece.cut_line, None);
+    for InternalLine { edges: own, end, .. } in &mut piece.lines {
+        edges(own, Some(*end));
+        *end = map.transform_point2(*end);
+    }
+    piece.grainline = piece.grainline.map(|ends| ends.map(|p| map.transform_point2(p)));
+}
+
+pub(super) fn rename(pattern: &mut Pattern, id: PieceId, name: &str) -> Result<Change, String> {
+    let label = format!("rename {} to {name}", find(pattern, id)?.name);
+    change(pattern, id, |p| name.clone_into(&mut p.name));
+    Ok(Change::new(label))
+}
+
+pub(super) fn set_all(
+    pattern: &mut Pattern,
+    ids: &[PieceId],
+    what: &str,
+    set: impl Fn(&mut Piece),
+) -> Result<Change, String> {
+    let label = named(pattern, what, ids)?;
+    for &id in ids {
+        change(pattern, id, &set);
+    }
+    Ok(Change::new(label))
+}
+
+pub(super) fn set_allowance(pattern: &mut Pattern, ids: &[PieceId], width: f64) -> Result<Change, String> {
+    if !(0.0..=WIDEST_ALLOWANCE).contains(&width) {
+        return Err(format!("a seam allowance is 0 to {WIDEST_ALLOWANCE} m wide"));
+    }
+    let set = |p: &mut Piece| {
+        p.allowance = width;
+        p.cut_line.clear();
+    };
+    set_all(pattern, ids, "set the seam allowance of", set)
+}
+
+/// Changes a piece that is there.
+pub(super) fn change(pattern: &mut Pattern, id: PieceId, set: impl FnOnce(&mut Piece)) {
+    if let Some(piece) = pattern.pieces.get_mut(&id) {
+        set(Arc::make_mut(piece));
+    }
+}
+
+/// "move front", "move 3 pieces"; Err when one of them is not there, or none is named.
+pub(super) fn named(pattern: &Pattern, what: &str, ids: &[PieceId]) -> Result<String, String> {
+    for &id in ids {
+        find(pattern, id)?;
+    }
+    match ids {
+        [] => Err("no piece was named".to_owned()),
+        [one] => Ok(format!("{what} {}", find(pattern, *one)?.name)),
+        _ => Ok(format!("{what} {} pieces", ids.len())),
+    }
+}
+
+/// `name`, with a number no piece has yet: "sleeve 2".
+pub(super) fn fresh_name(pattern: &Pattern, name: &str) -> String {
+    let stem = match name.rsplit_once(' ') {
+        Some((stem, number)) if !number.is_empty() && number.bytes().all(|b| b.is_ascii_digit()) => stem,
+        _ => name,
+    };
+    let taken = |name: &String| pattern.pieces.values().any(|p| p.name == *name);
+    (2..).map(|n| format!("{stem} {n}")).find(|name| !taken(name)).unwrap_or_default()
+}

@@ -1,0 +1,335 @@
+//! Points and curves of closed lines.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+use glam::DVec2;
+
+use crate::pattern::edit::lines::{self, Part, previous};
+use crate::pattern::edit::{Change, PointRef, find, symmetric_image};
+use crate::pattern::{Edge, EdgeRef, EdgeShape, Pattern, Piece, curve};
+
+/// Tangents that differ by less than this run on smoothly, radians.
+const SMOOTH: f64 = 1e-7;
+
+pub(super) fn move_points(pattern: &mut Pattern, moves: &[(PointRef, DVec2)]) -> Result<Change, String> {
+    if moves.is_empty() {
+        return Err("no point was named".to_owned());
+    }
+    let mut of_piece: BTreeMap<_, BTreeMap<usize, DVec2>> = BTreeMap::new();
+    for (point, to) in moves {
+        let piece = find(pattern, point.piece)?;
+        point_number(piece, point.point)?;
+        let moved = of_piece.entry(point.piece).or_default();
+        let n = piece.outline.len();
+        let on_axis = piece.symmetric && (point.point == 0 || point.point == n / 2);
+        let to = if on_axis { DVec2::new(0.0, to.y) } else { *to };
+        moved.insert(point.point, to);
+        if piece.symmetric && point.point > n / 2 && point.point < n {
+            moved.insert(n - point.point, curve::mirror(to));
+        }
+    }
+    let mut held = BTreeSet::new();
+    for (id, moved) in of_piece {
+        let piece = find(pattern, id)?;
+        let mut places: Vec<DVec2> = (0..piece.edge_count()).map(|i| piece.edge(i).start).collect();
+        let mut new = Piece::clone(piece);
+        for (&i, &to) in &moved {
+            places[i] = to;
+            held.insert(EdgeRef { piece: id, edge: i });
+        }
+        put_all(&mut new, &places);
+        new.cut_line.clear();
+        for &i in moved.keys() {
+            smooth_around(&mut new, i);
+        }
+        pattern.pieces.insert(id, Arc::new(new));
+    }
+    let what =
+        if moves.len() == 1 { "move a point".to_owned() } else { format!("move {} points", moves.len()) };
+    Ok(Change { held, ..Change::new(what) })
+}
+
+pub(super) fn set_edge(pattern: &mut Pattern, edge: EdgeRef, shape: EdgeShape) -> Result<Change, String> {
+    let piece = find(pattern, edge.piece)?;
+    edge_number(piece, edge.edge)?;
+    let (a, b) = piece.edge_ends(edge.edge);
+    if let EdgeShape::Arc { radius, .. } = shape
+        && radius < a.distance(b) / 2.0 * (1.0 - 1e-9)
+    {
+        return Err(format!(
+            "an arc between points {:.1} cm apart has a radius of {:.1} cm at least",
+            a.distance(b) * 100.0,
+            a.distance(b) * 50.0
+        ));
+    }
+    let mut new = Piece::clone(piece);
+    new.cut_line.clear();
+    let mut set = |edge: usize, shape: EdgeShape| {
+        shape_mut(&mut new, edge).shape = shape;
+        let (before, behind) = (previous(&new, edge), new.next_edge(edge));
+        if new.edge(edge).smooth {
+            let leaving = tangents(&new, edge)[0];
+            turn_end(&mut new, before, leaving);
+        }
+        if new.edge(behind).smooth {
+            let arriving = tangents(&new, edge)[1];
+            turn_start(&mut new, behind, arriving);
+        }
+    };
+    set(edge.edge, shape);
+    if let Some(image) = symmetric_image(piece, edge.edge) {
+        set(image, shape.reversed().mapped(true, curve::mirror));
+    }
+    let held = [edge.edge, new.next_edge(edge.edge)].map(|e| EdgeRef { edge: e, ..edge });
+    pattern.pieces.insert(edge.piece, Arc::new(new));
+    Ok(Change { held: held.into(), ..Change::new("bend an edge") })
+}
+
+pub(super) fn insert(pattern: &mut Pattern, edge: EdgeRef, at: f64) -> Result<Change, String> {
+    let piece = find(pattern, edge.piece)?;
+    edge_number(piece, edge.edge)?;
+    if !(at > 0.0 && at < 1.0) {
+        return Err("a point on an edge lies between its ends".to_owned());
+    }
+    let image = symmetric_image(piece, edge.edge);
+    // The later edge first: its points do not renumber the earlier.
+    let mut sites = vec![(edge.edge, at)];
+    sites.extend(image.map(|image| (image, 1.0 - at)));
+    sites.sort_by_key(|site| std::cmp::Reverse(site.0));
+    for (number, at) in sites {
+        lines::insert_points(pattern, EdgeRef { edge: number, ..edge }, &[at]);
+    }
+    Ok(Change::new("add a point"))
+}
+
+pub(super) fn delete(pattern: &mut Pattern, point: PointRef) -> Result<Change, String> {
+    let piece = find(pattern, point.piece)?;
+    point_number(piece, point.point)?;
+    let n = piece.outline.len();
+    let mut sites = vec![point.point];
+    if piece.symmetric && point.point < n {
+        if point.point == 0 || point.point == n / 2 {
+            return Err(format!("this point is the middle of {}: unlink its halves first", piece.name));
+        }
+        sites.push(n - point.point);
+    }
+    let (k, _) = piece.loop_of(point.point);
+    if piece.loop_edges(k).len() < 2 + sites.len() {
+        return Err("a closed line needs two points at least".to_owned());
+    }
+    sites.sort_unstable();
+    for &site in sites.iter().rev() {
+        join(pattern, EdgeRef { piece: point.piece, edge: site });
+    }
+    Ok(Change::new("take a point away"))
+}
+
+/// Makes one edge of the two that meet at the start of `point`.
+fn join(pattern: &mut Pattern, point: EdgeRef) {
+    let Some(piece) = pattern.pieces.get(&point.piece) else { return };
+    let before = previous(piece, point.edge);
+    let (a, m) = piece.edge_ends(before);
+    let (_, b) = piece.edge_ends(point.edge);
+    let shapes = [before, point.edge].map(|i| piece.edge(i).shape);
+    let lengths = [before, point.edge].map(|i| piece.exact_edge_length(i));
+    let shape = joined([a, m, b], shapes);
+    let (k, first) = piece.loop_of(point.edge);
+    let mut edges = piece.loop_edges(k).clone();
+    let n = edges.len();
+    let (own, gone) = (before - first, point.edge - first);
+    edges[own].shape = shape;
+    edges.remove(gone);
+    let share = lengths[0] / (lengths[0] + lengths[1]).max(f64::MIN_POSITIVE);
+    let kept = if gone < own { own - 1 } else { own };
+    let map = (0..n)
+        .map(|i| match i {
+            _ if i == own => vec![Part { old: [0.0, 1.0], edge: kept, new: [0.0, share] }],
+            _ if i == gone => vec![Part { old: [0.0, 1.0], edge: kept, new: [share, 1.0] }],
+            _ => vec![Part::whole(if i > gone { i - 1 } else { i })],
+        })
+        .collect();
+    lines::replace(pattern, point.piece, k, edges, &map);
+}
+
+/// One curve for two that meet: it starts and ends as they do. Parts of one curve give that curve again.
+fn joined([a, m, b]: [DVec2; 3], [first, second]: [EdgeShape; 2]) -> EdgeShape {
+    match (first, second) {
+        (EdgeShape::Line, EdgeShape::Line) => return EdgeShape::Line,
+        (EdgeShape::Arc { radius, sweep, .. }, EdgeShape::Arc { .. }) => {
+            if let (Some(one), Some(other)) = (curve::arc(a, first, m), curve::arc(m, second, b))
+                && one.centre.distance(other.centre) < 1e-6 * radius
+                && one.turn * other.turn > 0.0
+            {
+                let large = (one.turn + other.turn).abs() > std::f64::consts::PI;
+                return EdgeShape::Arc { radius, large, sweep };
+            }
+        }
+        _ => {}
+    }
+    let [c, d] = as_cubic(a, first, m);
+    let [e, f] = as_cubic(m, second, b);
+    let (arriving, leaving) = (m.distance(d), e.distance(m));
+    let t = (arriving / (arriving + leaving).max(f64::MIN_POSITIVE)).clamp(0.1, 0.9);
+    EdgeShape::Cubic { controls: [a + (c - a) / t, b + (f - b) / (1.0 - t)] }
+}
+
+/// The control points of a cubic that runs as the curve does; exactly, but for arcs.
+pub(super) fn as_cubic(a: DVec2, shape: EdgeShape, b: DVec2) -> [DVec2; 2] {
+    match shape {
+        EdgeShape::Line => [a.lerp(b, 1.0 / 3.0), a.lerp(b, 2.0 / 3.0)],
+        EdgeShape::Quadratic { control } => [a.lerp(control, 2.0 / 3.0), b.lerp(control, 2.0 / 3.0)],
+        EdgeShape::Cubic { controls } => controls,
+        EdgeShape::Arc { .. } => match curve::arc(a, shape, b) {
+            None => as_cubic(a, EdgeShape::Line, b),
+            Some(arc) => {
+                // The usual handle: four thirds of the tangent of a quarter of the turn.
+                let handle = arc.radius * (4.0 / 3.0) * (arc.turn / 4.0).tan();
+                let way = |angle: f64| DVec2::from_angle(angle).perp() * handle;
+                [a + way(arc.start), b - way(arc.start + arc.turn)]
+            }
+        },
+    }
+}
+
+pub(super) fn set_smooth(pattern: &mut Pattern, point: PointRef, smooth: bool) -> Result<Change, String> {
+    let piece = find(pattern, point.piece)?;
+    point_number(piece, point.point)?;
+    let mut new = Piece::clone(piece);
+    new.cut_line.clear();
+    let n = new.outline.len();
+    let mut sites = vec![point.point];
+    if piece.symmetric && point.point < n {
+        sites.push((n - point.point) % n);
+    }
+    for site in sites {
+        shape_mut(&mut new, site).smooth = smooth;
+        if !smooth {
+            continue;
+        }
+        let (before, own) = (previous(&new, site), site);
+        let straight = |i: usize| matches!(new.edge(i).shape, EdgeShape::Line);
+        if straight(before) && straight(own) {
+            for i in [before, own] {
+                let (a, b) = new.edge_ends(i);
+                let controls = as_cubic(a, EdgeShape::Line, b);
+                shape_mut(&mut new, i).shape = EdgeShape::Cubic { controls };
+            }
+        }
+        smooth_point(&mut new, site);
+    }
+    pattern.pieces.insert(point.piece, Arc::new(new));
+    Ok(Change::new(if smooth { "make a point smooth" } else { "make a corner" }))
+}
+
+/// Puts every point where `places` says; curves turn and scale with their chords.
+pub(super) fn put_all(piece: &mut Piece, places: &[DVec2]) {
+    let count = piece.edge_count();
+    let carried: Vec<EdgeShape> = (0..count)
+        .map(|i| {
+            let (a, b) = piece.edge_ends(i);
+            piece.edge(i).shape.carried([a, b], [places[i], places[piece.next_edge(i)]])
+        })
+        .collect();
+    for i in 0..count {
+        let edge = shape_mut(piece, i);
+        (edge.start, edge.shape) = (places[i], carried[i]);
+    }
+}
+
+/// Lets the line run on smoothly at all points that should be. True where it had to turn a tangent.
+pub(super) fn smooth_all(pattern: &mut Pattern) -> bool {
+    let mut turned = false;
+    for piece in pattern.pieces.values_mut() {
+        let count = piece.edge_count();
+        for i in (0..count).filter(|&i| piece.edge(i).smooth).collect::<Vec<_>>() {
+            if !runs_on(piece, i) {
+                turned |= smooth_point(Arc::make_mut(piece), i);
+            }
+        }
+    }
+    turned
+}
+
+/// Smooth points at and beside point `i` run on smoothly again.
+fn smooth_around(piece: &mut Piece, i: usize) {
+    for j in [previous(piece, i), i, piece.next_edge(i)] {
+        if piece.edge(j).smooth && !runs_on(piece, j) {
+            smooth_point(piece, j);
+        }
+    }
+}
+
+fn runs_on(piece: &Piece, i: usize) -> bool {
+    let arriving = tangents(piece, previous(piece, i))[1];
+    arriving.angle_to(tangents(piece, i)[0]).abs() <= SMOOTH
+}
+
+/// Turns the tangents at a point to one direction: that of a straight edge or an arc, or half-way between two curves.
+/// False where nothing can be turned.
+fn smooth_point(piece: &mut Piece, i: usize) -> bool {
+    let before = previous(piece, i);
+    let bends = |p: &Piece, i: usize| {
+        matches!(p.edge(i).shape, EdgeShape::Cubic { .. } | EdgeShape::Quadratic { .. })
+    };
+    let (arriving, leaving) = (tangents(piece, before)[1], tangents(piece, i)[0]);
+    let way = match (bends(piece, before), bends(piece, i)) {
+        (false, false) => return false,
+        (true, false) => leaving,
+        (false, true) => arriving,
+        (true, true) => (arriving + leaving).try_normalize().unwrap_or(leaving),
+    };
+    turn_end(piece, before, way);
+    turn_start(piece, i, way);
+    true
+}
+
+/// Unit directions in which edge `i` leaves its start and arrives at its end.
+fn tangents(piece: &Piece, i: usize) -> [DVec2; 2] {
+    let (a, b) = piece.edge_ends(i);
+    let shape = piece.edge(i).shape;
+    if let Some(arc) = curve::arc(a, shape, b) {
+        let way = |angle: f64| DVec2::from_angle(angle).perp() * arc.turn.signum();
+        return [way(arc.start), way(arc.start + arc.turn)];
+    }
+    let [c, d] = as_cubic(a, shape, b);
+    let way = |v: DVec2, other: DVec2| v.try_normalize().unwrap_or(other.normalize_or_zero());
+    [way(c - a, b - a), way(b - d, b - a)]
+}
+
+fn turn_start(piece: &mut Piece, i: usize, way: DVec2) {
+    let (a, b) = piece.edge_ends(i);
+    let shape = piece.edge(i).shape;
+    if matches!(shape, EdgeShape::Cubic { .. } | EdgeShape::Quadratic { .. }) && way != DVec2::ZERO {
+        let [c, d] = as_cubic(a, shape, b);
+        shape_mut(piece, i).shape = EdgeShape::Cubic { controls: [a + way * a.distance(c), d] };
+    }
+}
+
+fn turn_end(piece: &mut Piece, i: usize, way: DVec2) {
+    let (a, b) = piece.edge_ends(i);
+    let shape = piece.edge(i).shape;
+    if matches!(shape, EdgeShape::Cubic { .. } | EdgeShape::Quadratic { .. }) && way != DVec2::ZERO {
+        let [c, d] = as_cubic(a, shape, b);
+        shape_mut(piece, i).shape = EdgeShape::Cubic { controls: [c, b - way * b.distance(d)] };
+    }
+}
+
+pub(super) fn shape_mut(piece: &mut Piece, i: usize) -> &mut Edge {
+    let (k, first) = piece.loop_of(i);
+    &mut piece.loop_edges_mut(k)[i - first]
+}
+
+pub(super) fn edge_number(piece: &Piece, edge: usize) -> Result<(), String> {
+    if edge < piece.edge_count() {
+        return Ok(());
+    }
+    Err(format!("{} has no edge {}", piece.name, edge + 1))
+}
+
+fn point_number(piece: &Piece, point: usize) -> Result<(), String> {
+    if point < piece.edge_count() {
+        return Ok(());
+    }
+    Err(format!("{} has no point {}", piece.name, point + 1))
+}

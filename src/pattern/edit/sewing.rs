@@ -1,0 +1,99 @@
+//! Seams.
+
+use crate::geometry::ids::SeamId;
+use crate::pattern::edit::{Change, find};
+use crate::pattern::{Pattern, Seam, Stretch};
+
+/// Two stretches of one edge may have this much in common, metres.
+const TOUCHING: f64 = 1e-6;
+/// The ratio of a gather, at least and at most.
+const RATIOS: std::ops::RangeInclusive<f64> = 0.01..=100.0;
+
+pub(super) fn sew(pattern: &mut Pattern, seam: Seam) -> Result<Change, String> {
+    fits(pattern, &seam)?;
+    let names: Vec<String> = seam.sides.iter().map(|side| pattern.pieces[&side.piece].name.clone()).collect();
+    let held = held(pattern, &seam.sides[0]);
+    pattern.add_seam(seam);
+    Ok(Change { held, ..Change::new(format!("sew {} to {}", names[0], names[1])) })
+}
+
+/// That a seam joins what is there and free.
+pub fn fits(pattern: &Pattern, seam: &Seam) -> Result<(), String> {
+    sound(pattern, seam)?;
+    if overlap(pattern, &seam.sides[0], &seam.sides[1]).is_some() {
+        return Err("an edge cannot be sewn to itself".to_owned());
+    }
+    for side in seam.sides {
+        let others = pattern.seams.values().flat_map(|s| &s.sides);
+        if let Some(edge) = others.filter_map(|other| overlap(pattern, &side, other)).next() {
+            return Err(format!("edge {} of {} is sewn already", edge + 1, pattern.pieces[&side.piece].name));
+        }
+    }
+    Ok(())
+}
+
+/// That a seam joins what is there, and keeps a ratio that can be.
+pub fn sound(pattern: &Pattern, seam: &Seam) -> Result<(), String> {
+    for side in &seam.sides {
+        let piece = find(pattern, side.piece)?;
+        if side.edge >= piece.edge_count() {
+            return Err(format!("{} has no edge {}", piece.name, side.edge + 1));
+        }
+        if side.parts(piece).is_none() {
+            return Err(format!("there is no such stretch on {}", piece.name));
+        }
+    }
+    match seam.ratio {
+        Some(ratio) if !RATIOS.contains(&ratio) => {
+            Err(format!("one side of a seam is {} to {} times the other", RATIOS.start(), RATIOS.end()))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// An edge that both stretches run over in part.
+fn overlap(pattern: &Pattern, one: &Stretch, other: &Stretch) -> Option<usize> {
+    if one.piece != other.piece {
+        return None;
+    }
+    let piece = pattern.pieces.get(&one.piece)?;
+    let (parts, others) = (one.parts(piece)?, other.parts(piece)?);
+    let both = |(edge, from, to): &(usize, f64, f64)| {
+        let length = piece.edge_length(*edge);
+        others.iter().any(|(e, f, t)| e == edge && (to.min(*t) - from.max(*f)) * length > TOUCHING)
+    };
+    parts.iter().find(|part| both(part)).map(|part| part.0)
+}
+
+/// The points of a side: they stay when the other side must follow.
+fn held(pattern: &Pattern, side: &Stretch) -> std::collections::BTreeSet<crate::pattern::EdgeRef> {
+    let Some(piece) = pattern.pieces.get(&side.piece) else { return Default::default() };
+    let parts = side.parts(piece).unwrap_or_default();
+    let points = parts.iter().flat_map(|part| [part.0, piece.next_edge(part.0)]);
+    points.map(|edge| crate::pattern::EdgeRef { piece: side.piece, edge }).collect()
+}
+
+pub(super) fn unpick(pattern: &mut Pattern, seams: &[SeamId]) -> Result<Change, String> {
+    for seam in seams {
+        pattern.seams.remove(seam).ok_or_else(|| format!("there is no {seam}"))?;
+    }
+    Ok(Change::new(match seams {
+        [one] => format!("unpick {one}"),
+        _ => format!("unpick {} seams", seams.len()),
+    }))
+}
+
+pub(super) fn turn(pattern: &mut Pattern, id: SeamId) -> Result<Change, String> {
+    let seam = pattern.seams.get_mut(&id).ok_or_else(|| format!("there is no {id}"))?;
+    seam.same_direction = !seam.same_direction;
+    Ok(Change::new(format!("turn {id} round")))
+}
+
+pub(super) fn set_ratio(pattern: &mut Pattern, id: SeamId, ratio: Option<f64>) -> Result<Change, String> {
+    let seam = *pattern.seams.get(&id).ok_or_else(|| format!("there is no {id}"))?;
+    let new = Seam { ratio, ..seam };
+    sound(pattern, &new)?;
+    let held = held(pattern, &seam.sides[0]);
+    pattern.seams.insert(id, new);
+    Ok(Change { held, ..Change::new(format!("change the gather of {id}")) })
+}

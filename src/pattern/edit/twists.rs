@@ -1,0 +1,110 @@
+//! Which way seams run, solved over the whole garment.
+//!
+//! Every outline runs counter-clockwise seen from its front, so a seam joins front to front when start meets end. A piece
+//! all of whose seams say otherwise is not twisted but drawn from its back: it is turned over. What disagrees then is.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use crate::geometry::ids::{PieceId, SeamId};
+use crate::pattern::edit::symmetry::loosen;
+use crate::pattern::edit::{Change, mirror};
+use crate::pattern::{Notch, Pattern, Piece, Stretch, curve};
+
+/// Pieces to turn over, and seams that join the front of a piece to the back of another even so: longer seams are
+/// believed first, and in each sewn part the fewer pieces are turned.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Twists {
+    /// Drawn from their backs.
+    pub pieces: Vec<PieceId>,
+    /// Crossed.
+    pub seams: Vec<SeamId>,
+}
+
+/// What is twisted in `pattern`.
+pub fn twists(pattern: &Pattern) -> Twists {
+    let sides = over(pattern);
+    let turned = |side: &Stretch| sides.get(&side.piece).copied().unwrap_or(false);
+    let wrong = pattern
+        .seams
+        .iter()
+        .filter(|(_, seam)| seam.same_direction != (turned(&seam.sides[0]) != turned(&seam.sides[1])));
+    Twists {
+        seams: wrong.map(|(&id, _)| id).collect(),
+        pieces: sides.iter().filter(|(_, over)| **over).map(|(&id, _)| id).collect(),
+    }
+}
+
+/// `same_direction` of a seam between these sides that twists nothing.
+pub fn untwisted(pattern: &Pattern, sides: &[Stretch; 2]) -> bool {
+    let over = over(pattern);
+    let turned = |side: &Stretch| over.get(&side.piece).copied().unwrap_or(false);
+    turned(&sides[0]) != turned(&sides[1])
+}
+
+/// For each piece whether it is drawn from its back, as most of its seams say.
+fn over(pattern: &Pattern) -> BTreeMap<PieceId, bool> {
+    let length = |side: &Stretch| pattern.pieces.get(&side.piece).and_then(|p| side.length(p)).unwrap_or(0.0);
+    let mut seams: Vec<_> =
+        pattern.seams.iter().map(|(id, seam)| (length(&seam.sides[0]), *id, seam)).collect();
+    seams.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+    // A forest of the longest seams; each piece knows its root and whether it faces as the root does.
+    let mut root: BTreeMap<PieceId, (PieceId, bool)> =
+        pattern.pieces.keys().map(|&id| (id, (id, false))).collect();
+    for (_, _, seam) in seams {
+        let [Some(&(a, over_a)), Some(&(b, over_b))] = [0, 1].map(|k| root.get(&seam.sides[k].piece)) else {
+            continue;
+        };
+        if a != b {
+            let flip = (over_a != over_b) != seam.same_direction;
+            for of in root.values_mut().filter(|of| of.0 == b) {
+                *of = (a, of.1 != flip);
+            }
+        }
+    }
+    let mut count: BTreeMap<PieceId, [usize; 2]> = BTreeMap::new();
+    for &(of, over) in root.values() {
+        count.entry(of).or_default()[usize::from(over)] += 1;
+    }
+    root.into_iter().map(|(id, (of, over))| (id, over != (count[&of][1] > count[&of][0]))).collect()
+}
+
+pub(super) fn untwist_all(pattern: &mut Pattern) -> Result<Change, String> {
+    let found = twists(pattern);
+    if found == Twists::default() {
+        return Err("no seam is twisted".to_owned());
+    }
+    for id in &found.seams {
+        if let Some(seam) = pattern.seams.get_mut(id) {
+            seam.same_direction = !seam.same_direction;
+        }
+    }
+    for &id in &found.pieces {
+        turn_over(pattern, id);
+    }
+    Ok(Change::new("untwist the seams"))
+}
+
+/// Draws a piece the other way round: its back becomes its front. Seams join the same places as before.
+fn turn_over(pattern: &mut Pattern, id: PieceId) {
+    loosen(pattern, id);
+    let Some(old) = pattern.pieces.get(&id).cloned() else { return };
+    let mut new = Piece::clone(&old);
+    new.outline = curve::reversed(&old.outline);
+    new.holes = old.holes.iter().map(|hole| curve::reversed(hole)).collect();
+    let image = |n: &Notch| Notch { edge: mirror::image_edge(&old, n.edge), at: 1.0 - n.at };
+    new.notches = old.notches.iter().map(image).collect();
+    for seam in pattern.seams.values_mut() {
+        for side in seam.sides.iter_mut().filter(|side| side.piece == id) {
+            let last = (0..side.further).fold(side.edge, |edge, _| old.next_edge(edge));
+            *side = Stretch {
+                edge: mirror::image_edge(&old, last),
+                from: 1.0 - side.to,
+                to: 1.0 - side.from,
+                ..*side
+            };
+            seam.same_direction = !seam.same_direction;
+        }
+    }
+    pattern.pieces.insert(id, Arc::new(new));
+}

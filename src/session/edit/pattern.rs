@@ -1,0 +1,117 @@
+//! The pattern: what an editor does to it, and what lies on it.
+
+use std::sync::Arc;
+
+use crate::geometry::ids::PieceId;
+use crate::pattern::edit::{self, Carried, PatternEdit};
+use crate::pattern::{Pattern, Piece};
+use crate::session::command::Rejection;
+use crate::session::document::Document;
+use crate::session::edit::marks::remove_number;
+use crate::session::edit::{ClothChange, Edit, checks};
+
+/// Changes one command may hold.
+const MOST_EDITS: usize = 10_000;
+
+pub fn edit(mut document: Document, edits: &[PatternEdit]) -> Result<Edit, Rejection> {
+    if edits.is_empty() || edits.len() > MOST_EDITS {
+        return Err(Rejection(format!("a command holds 1 to {MOST_EDITS} changes")));
+    }
+    let before = Arc::clone(&document.pattern);
+    let (mut label, mut carried) = (None, Vec::new());
+    for edit in edits {
+        check(edit)?;
+        let edited = edit::apply(&document.pattern, edit).map_err(Rejection)?;
+        carry(&mut document, &edited.carried);
+        carried = Carried::then(&carried, edited.carried);
+        document.pattern = Arc::new(edited.pattern);
+        label.get_or_insert(edited.label);
+    }
+    checks::pattern(&document.pattern)?;
+    forget_gone(&mut document);
+    let edit = Edit::new(label.unwrap_or_default(), document);
+    match is_cut_alike(&before, &edit.document.pattern) {
+        true => Ok(edit),
+        false => Ok(edit.with(ClothChange::Resew(carried))),
+    }
+}
+
+/// What holds for the numbers and names of a change by itself.
+fn check(edit: &PatternEdit) -> Result<(), Rejection> {
+    match edit {
+        PatternEdit::AddPiece { piece } => checks::piece(piece),
+        PatternEdit::Rename { name, .. } => checks::name(name),
+        PatternEdit::Place { poses } => poses.iter().try_for_each(|(_, pose)| checks::pose(pose)),
+        PatternEdit::MovePoints { points } => points.iter().try_for_each(|(_, to)| checks::place(*to)),
+        PatternEdit::Duplicate { offset, .. } | PatternEdit::AddTwin { offset, .. } => checks::place(*offset),
+        PatternEdit::Scale { about, factor, .. } => {
+            checks::place(*about)?;
+            checks::place(*factor)
+        }
+        PatternEdit::MakeSymmetric { axis, .. } => axis.iter().try_for_each(|&p| checks::place(p)),
+        PatternEdit::SetGrainline { grainline, .. } => {
+            grainline.iter().flatten().try_for_each(|&p| checks::place(p))
+        }
+        PatternEdit::SetEdge { shape, .. } => checks::shape(shape),
+        PatternEdit::Cut { line, .. } | PatternEdit::AddLine { line, .. } => checks::line(line),
+        PatternEdit::AddHole { edges, .. } => checks::outline(edges),
+        _ => Ok(()),
+    }
+}
+
+/// Strokes and pins go where their places go.
+fn carry(document: &mut Document, carried: &[Carried]) {
+    if carried.is_empty() {
+        return;
+    }
+    let place = |piece: PieceId, middle: glam::DVec2| {
+        carried.iter().filter(|c| c.from == piece).find(|c| {
+            let inside = |line: &Vec<glam::DVec2>| edit::contains(line, c.map.transform_point2(middle));
+            c.inside.as_ref().is_none_or(inside)
+        })
+    };
+    let marks = Arc::make_mut(&mut document.marks);
+    for mark in &mut marks.cloth {
+        if let Some(carried) = place(mark.piece, mark.points[mark.points.len() / 2]) {
+            mark.piece = carried.to;
+            mark.points.iter_mut().for_each(|p| *p = carried.map.transform_point2(*p));
+        }
+    }
+    let pins = Arc::make_mut(&mut document.pins);
+    for pin in pins {
+        if let Some(carried) = place(pin.place.piece, pin.place.at) {
+            pin.place.piece = carried.to;
+            pin.place.at = carried.map.transform_point2(pin.place.at);
+        }
+    }
+}
+
+/// Strokes on pieces that are gone go with their partners, and pins.
+fn forget_gone(document: &mut Document) {
+    let pieces = &document.pattern.pieces;
+    let gone = |piece: &PieceId| !pieces.contains_key(piece);
+    if document.marks.cloth.iter().any(|mark| gone(&mark.piece)) {
+        let marks = Arc::make_mut(&mut document.marks);
+        while let Some(i) = marks.cloth.iter().position(|m| gone(&m.piece)) {
+            remove_number(marks, i + 1);
+        }
+    }
+    if document.pins.iter().any(|pin| gone(&pin.place.piece)) {
+        Arc::make_mut(&mut document.pins).retain(|pin| !gone(&pin.place.piece));
+    }
+}
+
+/// Whether two patterns give the same cloth: nothing that is cut or sewn differs.
+fn is_cut_alike(one: &Pattern, other: &Pattern) -> bool {
+    let alike =
+        |a: &Arc<Piece>, b: &Arc<Piece>| Arc::ptr_eq(a, b) || (a.outline == b.outline && a.holes == b.holes);
+    let pieces = one.pieces.len() == other.pieces.len()
+        && one.pieces.iter().zip(&other.pieces).all(|((i, a), (j, b))| i == j && alike(a, b));
+    let seams = one.seams.len() == other.seams.len()
+        && one
+            .seams
+            .iter()
+            .zip(&other.seams)
+            .all(|((i, a), (j, b))| i == j && a.sides == b.sides && a.same_direction == b.same_direction);
+    pieces && seams
+}
