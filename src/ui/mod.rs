@@ -20,6 +20,7 @@ mod pick;
 mod player;
 mod preferences;
 mod run;
+mod safety;
 pub mod scene;
 mod scene_pane;
 mod side_panel;
