@@ -16,7 +16,7 @@ use tempfile::tempdir;
 use toile::geometry::ids::{MarkId, PieceId};
 use toile::pattern::PlanePose;
 use toile::pattern::edit::{PatternEdit, PointRef};
-use toile::session::recovery::{About, Found, Keeper, Left, left};
+use toile::session::recovery::{About, Copying, Found, Keeper, Left, left};
 use toile::session::{Command, Document, Project, Session, project_file};
 use toile::sim::{Runner, Simulation};
 use toile::wrap::ClothSide;
@@ -27,9 +27,14 @@ fn about() -> About {
 
 /// Copies the session's work, as the window does.
 fn copy(keeper: &mut Keeper, s: &mut Session) {
-    let project = s.project();
-    let journal = keeper.copy(&project, &about()).expect("copied");
+    begin_copy(keeper, s).write(&s.project()).expect("copied");
+}
+
+/// Begins a copy that somebody else writes.
+fn begin_copy(keeper: &mut Keeper, s: &mut Session) -> Copying {
+    let (journal, copying) = keeper.copy(&about()).expect("begun");
     s.mark_copied(Some(journal));
+    copying
 }
 
 fn random(c: &mut Chance) -> Command {
@@ -173,6 +178,23 @@ fn a_journal_cut_anywhere_gives_what_came_before() {
             assert_eq!(command, &Command::RenamePiece { piece: PieceId(1), name: name.clone() });
         }
     }
+}
+
+#[test]
+fn a_copy_that_was_never_written_is_made_up_for_by_the_journals() {
+    let root = tempdir().expect("a folder");
+    let mut s = session();
+    let mut keeper = Keeper::begin(root.path()).expect("begun");
+    copy(&mut keeper, &mut s);
+    for name in ["one", "two"] {
+        s.apply_alone(Command::RenamePiece { piece: PieceId(1), name: name.to_owned() }).expect("renamed");
+        drop(begin_copy(&mut keeper, &mut s));
+    }
+    s.apply_alone(Command::RenamePiece { piece: PieceId(2), name: "three".to_owned() }).expect("renamed");
+    drop(keeper);
+    let found = only(root.path()).read().expect("read");
+    assert_eq!((found.commands.len(), found.lost), (3, 0));
+    assert!(same(restored(found).document(), s.document()));
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! Work kept safe from crashes, and offered again after one.
 
 use std::path::{Path, PathBuf};
+use std::thread::JoinHandle;
 use std::time::{Duration, SystemTime};
 
 use crate::session::Session;
@@ -31,6 +32,8 @@ pub fn usual_root() -> Option<PathBuf> {
 #[derive(Debug, Default)]
 pub struct Safety {
     keeper: Option<Keeper>,
+    /// A copy being written, so that the window need not wait for the disk.
+    writing: Option<JoinHandle<Result<(), String>>>,
     /// When the newest copy was made, in the window's time.
     copied: f64,
     /// The newest copy, if there is one, is of work that is saved.
@@ -42,7 +45,7 @@ impl Safety {
     pub fn begin(root: &Path) -> (Self, Vec<Left>, Option<String>) {
         let found = left(root);
         match Keeper::begin(root) {
-            Ok(keeper) => (Self { keeper: Some(keeper), copied: 0.0, fresh: true }, found, None),
+            Ok(keeper) => (Self { keeper: Some(keeper), fresh: true, ..Self::default() }, found, None),
             Err(why) => (Self::default(), found, Some(format!("{}: {why}", root.display()))),
         }
     }
@@ -62,6 +65,13 @@ impl Safety {
         busy: bool,
         at_rest: bool,
     ) -> Result<(), String> {
+        if let Err(why) = self.join(false) {
+            self.give_up(session);
+            return Err(why);
+        }
+        if self.writing.is_some() {
+            return Ok(()); // One after the other; the journals tell the rest.
+        }
         let Some(keeper) = &mut self.keeper else { return Ok(()) };
         let since = now - self.copied;
         let due = !session.is_copied() && !busy && since > if at_rest { SOONEST } else { LATEST };
@@ -70,19 +80,34 @@ impl Safety {
         }
         let name = path.map_or_else(|| "untitled".to_owned(), files::stem);
         let about = About { name, path: path.map(Path::to_owned), unsaved: session.is_modified() };
-        let project = session.project();
-        match keeper.copy(&project, &about) {
-            Ok(journal) => {
-                session.mark_copied(Some(journal));
-                (self.copied, self.fresh) = (now, false);
-                Ok(())
-            }
-            Err(why) => {
-                self.keeper = None;
-                session.mark_copied(None);
-                Err(why.to_string())
-            }
+        let begun = keeper.copy(&about).map_err(|why| why.to_string()).and_then(|(journal, copying)| {
+            let project = session.project();
+            let writing = move || copying.write(&project).map_err(|why| why.to_string());
+            let thread = std::thread::Builder::new().name("copy".to_owned());
+            self.writing = Some(thread.spawn(writing).map_err(|why| why.to_string())?);
+            session.mark_copied(Some(journal));
+            Ok(())
+        });
+        (self.copied, self.fresh) = (now, false);
+        if begun.is_err() {
+            self.give_up(session);
         }
+        begun
+    }
+
+    /// Waits for a copy that is being written, if it is finished or `at_any_rate`.
+    fn join(&mut self, at_any_rate: bool) -> Result<(), String> {
+        match self.writing.take_if(|writing| at_any_rate || writing.is_finished()) {
+            Some(writing) => {
+                writing.join().unwrap_or_else(|_| Err("the copy could not be written".to_owned()))
+            }
+            None => Ok(()),
+        }
+    }
+
+    fn give_up(&mut self, session: &mut Session) {
+        self.keeper = None;
+        session.mark_copied(None);
     }
 
     /// In how many seconds a copy is due that nothing else would wake the window for.
@@ -93,6 +118,7 @@ impl Safety {
 
     /// The window closes as it should: what is not saved is not wanted.
     pub fn finish(&mut self) {
+        self.join(true).ok();
         if let Some(keeper) = self.keeper.take() {
             keeper.finish().ok();
         }
@@ -161,7 +187,7 @@ impl App {
         }
         // The old copy goes only when the new session has one of its own.
         self.tend_safety(ctx);
-        if self.session.is_copied() {
+        if self.session.is_copied() && self.safety.join(true).is_ok() {
             left.forget().ok();
         }
     }

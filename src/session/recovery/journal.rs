@@ -37,9 +37,7 @@ pub struct Journal {
 impl Journal {
     /// An empty one at `path`.
     pub(super) fn begin(path: &Path) -> io::Result<Self> {
-        let file = File::create(path)?;
-        file.sync_all()?;
-        Ok(Self { file, since_sync: 0 })
+        Ok(Self { file: File::create(path)?, since_sync: 0 })
     }
 
     /// Writes down a command of a gesture.

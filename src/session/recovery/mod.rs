@@ -68,27 +68,42 @@ impl Keeper {
         Err(io::Error::other("too many sessions were left in this folder"))
     }
 
-    /// Copies `project`; the journal returned takes the commands from here on. The copy before and its journal stay until
-    /// the next.
-    pub fn copy(&mut self, project: &Project, about: &About) -> Result<Journal, ProjectFileError> {
+    /// Begins a copy: the journal takes the commands from here on, and the copy is written by whoever has the time. Until
+    /// it is, the copy before and all journals since tell the same.
+    pub fn copy(&mut self, about: &About) -> io::Result<(Journal, Copying)> {
         let number = self.number + 1;
-        project_file::save(&copy_path(&self.folder, number), project)?;
-        let path = journal_path(&self.folder, number);
-        let at = |source| ProjectFileError::File { path: path.clone(), source };
-        let journal = Journal::begin(&path).map_err(at)?;
-        let text = serde_json::to_vec_pretty(about).unwrap_or_default();
-        fs::write(self.folder.join(ABOUT), text).map_err(at)?;
+        let journal = Journal::begin(&journal_path(&self.folder, number))?;
         self.number = number;
-        for old in 1..number.saturating_sub(1) {
-            fs::remove_file(copy_path(&self.folder, old)).ok();
-            fs::remove_file(journal_path(&self.folder, old)).ok();
-        }
-        Ok(journal)
+        Ok((journal, Copying { folder: self.folder.clone(), number, about: about.clone() }))
     }
 
     /// The work is safe elsewhere, or not wanted: nothing is left behind.
     pub fn finish(self) -> io::Result<()> {
         fs::remove_dir_all(&self.folder)
+    }
+}
+
+/// A copy to be written, on any thread; one after the other.
+#[derive(Debug)]
+pub struct Copying {
+    folder: PathBuf,
+    number: u64,
+    about: About,
+}
+
+impl Copying {
+    /// Writes the copy. The one before and its journal stay until the next.
+    pub fn write(self, project: &Project) -> Result<(), ProjectFileError> {
+        let Self { folder, number, about } = self;
+        let path = copy_path(&folder, number);
+        project_file::save(&path, project)?;
+        let text = serde_json::to_vec_pretty(&about).unwrap_or_default();
+        fs::write(folder.join(ABOUT), text).map_err(|source| ProjectFileError::File { path, source })?;
+        for old in 1..number.saturating_sub(1) {
+            fs::remove_file(copy_path(&folder, old)).ok();
+            fs::remove_file(journal_path(&folder, old)).ok();
+        }
+        Ok(())
     }
 }
 
@@ -131,7 +146,8 @@ impl Left {
         lock.try_lock().ok()?;
         let about = fs::read(folder.join(ABOUT)).ok().and_then(|text| serde_json::from_slice(&text).ok());
         let about: About = about.unwrap_or(About { unsaved: true, ..About::default() });
-        let nothing_since = |newest| fs::metadata(journal_path(&folder, newest)).is_ok_and(|j| j.len() == 0);
+        let is_empty = |number| fs::metadata(journal_path(&folder, number)).map_or(true, |j| j.len() == 0);
+        let nothing_since = |newest| is_empty(newest) && is_empty(newest + 1);
         if newest(&folder).is_none_or(|newest| !about.unsaved && nothing_since(newest)) {
             // It died before its first copy, or with all work saved: there is nothing to lose.
             fs::remove_dir_all(&folder).ok();
@@ -140,27 +156,28 @@ impl Left {
         Some(Self { about, folder, lock })
     }
 
-    /// Reads it: the newest copy, or the one before with its journal where the newest is damaged.
+    /// Reads it: the newest copy, or the one before where the newest is damaged, and all journals since.
     pub fn read(&self) -> Result<Found, ProjectFileError> {
         let newest = newest(&self.folder).unwrap_or(1);
-        let first_error = match project_file::open(&copy_path(&self.folder, newest)) {
-            Ok(project) => {
-                let (commands, lost) = journal::read(&journal_path(&self.folder, newest));
-                return Ok(Found { project, commands, lost });
+        let mut number = newest;
+        let project = match project_file::open(&copy_path(&self.folder, newest)) {
+            Ok(project) => project,
+            Err(error) => {
+                number = newest.saturating_sub(1);
+                project_file::open(&copy_path(&self.folder, number)).map_err(|_| error)?
             }
-            Err(error) => error,
         };
-        let before = newest.saturating_sub(1);
-        let Ok(project) = project_file::open(&copy_path(&self.folder, before)) else {
-            return Err(first_error);
-        };
-        let (mut commands, mut lost) = journal::read(&journal_path(&self.folder, before));
-        let (more, more_lost) = journal::read(&journal_path(&self.folder, newest));
-        if lost == 0 {
-            commands.extend(more);
-            lost = more_lost;
-        } else {
-            lost += more.len() + more_lost;
+        let (mut commands, mut lost) = (Vec::new(), 0);
+        while journal_path(&self.folder, number).exists() {
+            let (more, more_lost) = journal::read(&journal_path(&self.folder, number));
+            // Behind a gap nothing can be done again.
+            if lost == 0 {
+                commands.extend(more);
+                lost = more_lost;
+            } else {
+                lost += more.len() + more_lost;
+            }
+            number += 1;
         }
         Ok(Found { project, commands, lost })
     }
