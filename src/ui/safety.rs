@@ -45,7 +45,9 @@ impl Safety {
     pub fn begin(root: &Path) -> (Self, Vec<Left>, Option<String>) {
         let found = left(root);
         match Keeper::begin(root) {
-            Ok(keeper) => (Self { keeper: Some(keeper), fresh: true, ..Self::default() }, found, None),
+            Ok(keeper) => {
+                (Self { keeper: Some(keeper), writing: None, copied: 0.0, fresh: true }, found, None)
+            }
             Err(why) => (Self::default(), found, Some(format!("{}: {why}", root.display()))),
         }
     }
@@ -122,6 +124,13 @@ impl Safety {
         if let Some(keeper) = self.keeper.take() {
             keeper.finish().ok();
         }
+    }
+}
+
+impl Drop for Safety {
+    /// Also where the window falls over: a copy under way is worth waiting for.
+    fn drop(&mut self) {
+        self.join(true).ok();
     }
 }
 
