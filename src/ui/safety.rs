@@ -195,6 +195,7 @@ impl App {
             )),
         }
         // The old copy goes only when the new session has one of its own.
+        self.safety.join(true).ok();
         self.tend_safety(ctx);
         if self.session.is_copied() && self.safety.join(true).is_ok() {
             left.forget().ok();
