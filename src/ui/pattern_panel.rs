@@ -5,7 +5,7 @@ use egui::{Align, Button, Grid, Key, Layout, RichText, TextEdit, WidgetInfo};
 use glam::DVec2;
 
 use crate::geometry::ids::{PieceId, SeamId};
-use crate::pattern::edit::{PatternEdit, PointRef};
+use crate::pattern::edit::{PatternEdit, PointRef, WIDEST_ALLOWANCE};
 use crate::pattern::{EdgeRef, EdgeShape, Piece, PlanePose, Seam};
 use crate::session::Command;
 use crate::ui::actions::Action;
@@ -95,13 +95,14 @@ impl PatternPanel {
                     }));
                 }
             }
-            let label = weak(ui, told, "Allowance");
+        });
+        ui.horizontal(|ui| {
+            let label = weak(ui, told, "Seam allowance");
             let old = pieces[0].1.allowance;
             if let Some(width) = length_field(ui, "allowance", &label, old, unit) {
-                let width = width.clamp(0.0, 0.2);
+                let width = width.clamp(0.0, WIDEST_ALLOWANCE);
                 asks.push(ask(vec![PatternEdit::SetAllowance { pieces: ids.clone(), width }]));
             }
-            ui.end_row();
         });
         let seen = [Action::Twin, Action::MakeSymmetric, Action::Unlink, Action::Fold];
         action_row(ui, told, &seen, asks);

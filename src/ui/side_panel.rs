@@ -8,6 +8,7 @@ use crate::body::Surface;
 use crate::pattern::Problem;
 use crate::session::{Command, Document, Settings};
 use crate::sim::Fault;
+use crate::ui::actions::Tool;
 use crate::ui::asks::{Ask, Asks};
 use crate::ui::marks_panel::MarksPanel;
 use crate::ui::pattern_panel::{PatternPanel, seams_ui};
@@ -46,16 +47,27 @@ pub fn side_panel_ui(
 ) {
     let Told { document, palette, .. } = *told;
     ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
-        if !told.selection.is_empty() {
-            section(ui, "Selected", true, |ui| pattern.inspector_ui(ui, told, asks));
+        // What the tool in hand is about comes first.
+        let on_pattern = !matches!(told.now.tool, Tool::Mark | Tool::Erase | Tool::Drag(_) | Tool::Pin);
+        if on_pattern {
+            pattern_ui(ui, told, pattern, asks);
         }
         section(ui, "Marks", true, |ui| marks.ui(ui, told, asks));
         section(ui, "Problems", true, |ui| problems_ui(ui, told, asks));
         section(ui, "Cloth", true, |ui| settings_ui(ui, &document.settings, palette, asks));
-        section(ui, "Pieces", true, |ui| pattern.outliner_ui(ui, told, asks));
-        let seams = format!("Seams ({})", document.pattern.seams.len());
-        section(ui, &seams, false, |ui| seams_ui(ui, told, asks));
+        if !on_pattern {
+            pattern_ui(ui, told, pattern, asks);
+        }
     });
+}
+
+fn pattern_ui(ui: &mut egui::Ui, told: &Told<'_>, pattern: &mut PatternPanel, asks: &mut Asks) {
+    if !told.selection.is_empty() {
+        section(ui, "Selected", true, |ui| pattern.inspector_ui(ui, told, asks));
+    }
+    section(ui, "Pieces", true, |ui| pattern.outliner_ui(ui, told, asks));
+    let seams = format!("Seams ({})", told.document.pattern.seams.len());
+    section(ui, &seams, false, |ui| seams_ui(ui, told, asks));
 }
 
 fn section(ui: &mut egui::Ui, title: &str, open: bool, contents: impl FnOnce(&mut egui::Ui)) {

@@ -198,6 +198,9 @@ impl Drawing<'_> {
             let Some(sides) = ends.on_table(table.pattern()) else { continue };
             let ink = self.seam_ink(id, ends);
             for side in &sides {
+                if !has_badge(table, id, side) {
+                    continue;
+                }
                 self.direction(side, ink);
                 let Some(at) = badge_place(side).map(|p| self.place(p)) else { continue };
                 if self.pane.contains(at) {
@@ -257,6 +260,13 @@ impl Drawing<'_> {
     }
 }
 
+/// A side that is short on the screen has its badge only while its seam stands out.
+pub fn has_badge(table: &Table<'_>, id: SeamId, side: &[DVec2]) -> bool {
+    let length: f64 = side.windows(2).map(|w| w[0].distance(w[1])).sum();
+    let item = Item::Seam(id);
+    length > table.reach(34.0) || table.laid.highlight == Some(item) || table.laid.selection.has(item)
+}
+
 /// Where the badge of a sewn side sits.
 pub fn badge_place(side: &[DVec2]) -> Option<DVec2> {
     let middle = side.len() / 2;
@@ -270,9 +280,12 @@ pub fn badge_place(side: &[DVec2]) -> Option<DVec2> {
 /// Its name, and what is special about it.
 fn words_on(piece: &Piece, front: bool) -> String {
     let mut words = piece.name.clone();
-    for (is_so, sign) in
-        [(!front, " (back)"), (piece.twin.is_some(), " ⇋"), (piece.symmetric, " ⇹"), (piece.locked, " 🔒")]
-    {
+    for (is_so, sign) in [
+        (!front, " (back)"),
+        (piece.twin.is_some(), " · twin"),
+        (piece.symmetric, " · symmetric"),
+        (piece.locked, " · locked"),
+    ] {
         if is_so {
             words.push_str(sign);
         }

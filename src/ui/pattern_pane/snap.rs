@@ -7,10 +7,11 @@ use super::table::{Guide, Table};
 use crate::pattern::EdgeRef;
 use crate::pattern::edit::PointRef;
 
-/// How near things draw the pointer on, points on the screen: points, middles, edges, guides, grid.
-const PULL: [f64; 5] = [10.0, 9.0, 7.0, 6.0, 5.0];
-/// Lines of the grid nearer to each other than this draw nothing on.
-const FINEST_GRID: f64 = 11.0;
+/// How near things draw the pointer on, points on the screen: points, middles, edges, guides.
+const PULL: [f64; 4] = [10.0, 9.0, 7.0, 6.0];
+/// Places that nothing draws on are rounded to steps no shorter than this, points on the screen: round measures, and no
+/// hand can tell.
+const FINEST_STEP: f64 = 3.0;
 
 /// A place, and what it was drawn on by.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -89,32 +90,27 @@ impl Table<'_> {
         near.then_some(Snapped { place: on_curve, by: Some(Snap::Edge(hit.edge, hit.at)) })
     }
 
-    /// By guides, then by the grid, each way by itself.
+    /// By guides, and to round measures, each way by itself.
     fn by_lines(&self, p: DVec2) -> Snapped {
-        let (mut place, mut by) = (p, None);
+        let (mut place, mut by) = (self.rounded(p), Some(Snap::Grid));
         for guide in self.guides {
             let (line, own) = match guide {
                 Guide::Upright(x) => (*x, &mut place.x),
                 Guide::Level(y) => (*y, &mut place.y),
             };
-            if (line - *own).abs() <= self.reach(PULL[3]) {
+            if (line - *own).abs() <= self.reach(PULL[3] + FINEST_STEP / 2.0) {
                 (*own, by) = (line, Some(Snap::Guide));
             }
         }
-        let step = self.grid_step();
-        let on_grid = (p / step).round() * step;
-        let near = (on_grid - p).abs().cmple(DVec2::splat(self.reach(PULL[4])));
-        match by {
-            None if near.all() => Snapped { place: on_grid, by: Some(Snap::Grid) },
-            by => Snapped { place, by },
-        }
+        Snapped { place, by }
     }
 
-    /// Between the lines of the grid that draw on, metres.
-    pub fn grid_step(&self) -> f64 {
+    /// The nearest round measures, as fine as can be told apart at this scale.
+    pub fn rounded(&self, p: DVec2) -> DVec2 {
         let steps = self.laid.unit.steps();
-        let shown = steps.iter().find(|&&step| step * self.view.scale >= FINEST_GRID);
-        *shown.unwrap_or(&steps[steps.len() - 1])
+        let fine = steps.iter().find(|&&step| step * self.view.scale >= FINEST_STEP);
+        let step = *fine.unwrap_or(&steps[steps.len() - 1]);
+        (p / step).round() * step
     }
 }
 

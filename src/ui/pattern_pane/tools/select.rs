@@ -12,7 +12,7 @@ use crate::pattern::edit::{PatternEdit, PointRef};
 use crate::ui::asks::{Ask, Asks};
 use crate::ui::pattern_pane::draw::Drawing;
 use crate::ui::pattern_pane::input::Input;
-use crate::ui::pattern_pane::snap::Snapped;
+use crate::ui::pattern_pane::snap::{Snap, Snapped, on_eighth};
 use crate::ui::pattern_pane::table::Table;
 use crate::ui::selection::{Item, Selection};
 use crate::ui::units::{Typed, degrees};
@@ -367,7 +367,7 @@ fn snapped_move(
     before: DVec2,
 ) -> (DVec2, Option<Snapped>) {
     if input.held.shift {
-        let by = super::super::snap::on_eighth(DVec2::ZERO, by);
+        let by = on_eighth(DVec2::ZERO, by);
         return (by, None);
     }
     let moves = |point: PointRef| moving.contains(&point.piece);
@@ -375,15 +375,17 @@ fn snapped_move(
     let drawn_on = own.filter_map(|start| {
         let snapped = table.snapped(start + by, None, input.held, moves);
         let rank = match snapped.by? {
-            super::super::snap::Snap::Point => 0,
-            super::super::snap::Snap::Middle | super::super::snap::Snap::Guide => 1,
-            super::super::snap::Snap::Edge(..) => 2,
-            _ => 3,
+            Snap::Point => 0,
+            Snap::Middle | Snap::Guide => 1,
+            Snap::Edge(..) => 2,
+            Snap::Grid | Snap::Angle => return None,
         };
         Some((rank, snapped.place.distance(start + by), snapped, snapped.place - start))
     });
     let best = drawn_on.min_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
-    best.map_or((by, None), |(_, _, snapped, by)| (by, Some(snapped)))
+    let is_free = !table.laid.snapping || input.held.alt || input.held.command;
+    let round = if is_free { by } else { table.rounded(by) };
+    best.map_or((round, None), |(_, _, snapped, by)| (by, Some(snapped)))
 }
 
 /// What a box touches.

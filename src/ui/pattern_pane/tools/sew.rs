@@ -11,7 +11,7 @@ use crate::pattern::edit::{PatternEdit, untwisted};
 use crate::pattern::{EdgeRef, Pattern, Piece, Seam, Stretch};
 use crate::ui::asks::{Ask, Asks};
 use crate::ui::pattern_pane::draw::Drawing;
-use crate::ui::pattern_pane::draw_pieces::{BADGE, EQUAL, badge_place};
+use crate::ui::pattern_pane::draw_pieces::{BADGE, EQUAL, badge_place, has_badge};
 use crate::ui::pattern_pane::input::Input;
 use crate::ui::pattern_pane::table::{OnEdge, REACH, Table};
 use crate::ui::selection::{Item, Selection};
@@ -97,7 +97,8 @@ fn badge_at(table: &Table<'_>, p: DVec2) -> Option<SeamId> {
     let near =
         table.threads.all().filter(|(_, ends)| ends.is_seen(table.pattern())).filter_map(|(id, ends)| {
             let sides = ends.on_table(table.pattern())?;
-            let least = sides.iter().filter_map(distance).reduce(f64::min)?;
+            let shown = sides.iter().filter(|side| has_badge(table, id, side));
+            let least = shown.filter_map(distance).reduce(f64::min)?;
             (least <= reach).then_some((id, least))
         });
     near.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(id, _)| id)
