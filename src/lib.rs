@@ -18,7 +18,7 @@
 //! | `drag`     | paper A: dependency graph, motion in local frames, pushpins | relax, contact, cloth, body, pattern, geometry |
 //! | `fit`      | what is read off a garment: strain, crossings, openings, the report | cloth, body, pattern, geometry |
 //! | `sim`      | owner of the moving state: stages, protocol, checkpoints, thread, state hash | the above |
-//! | `session`  | what the user has done: document, command, history, recording, replay, project file | sim and below, io |
+//! | `session`  | what the user has done: document, command, history, recording, replay, project file, recovery | sim and below, io |
 //! | `io`       | obj, glb, garmentcode json: bytes in, checked data out, and back | cloth, body, pattern, geometry |
 //! | `render`   | plain buffers in, pixels out: camera, passes, offscreen target | nothing of ours |
 //! | `ui`       | egui: app, actions, panes, tools | session and below, render |

@@ -506,3 +506,35 @@ fn a_thousand_changes_are_undone_to_the_last_bit() {
     (0..1000).for_each(|_| session.apply_alone(Command::Redo).expect("done again"));
     assert_eq!(session.document().pattern, last);
 }
+
+/// Drags each point of a pattern a little way in turn; how many of the drags could be done.
+fn drag_each_point(pattern: &Pattern, by: DVec2) -> (usize, usize) {
+    let (mut done, mut all) = (0, 0);
+    for (&id, piece) in &pattern.pieces {
+        for i in 0..piece.edge_count() {
+            all += 1;
+            let to = piece.edge(i).start + by;
+            let Ok(edited) = apply(pattern, &PatternEdit::MovePoints { points: vec![(point(id, i), to)] })
+            else {
+                continue;
+            };
+            check(&edited.pattern);
+            done += 1;
+        }
+    }
+    (done, all)
+}
+
+#[test]
+fn every_point_of_every_sample_can_be_dragged_and_its_seams_follow() {
+    for sample in toile::session::samples::Sample::ALL {
+        let mut pattern =
+            Pattern::clone(&sample.project(&toile::body::mannequin::default()).document.pattern);
+        pattern.keep_ratios();
+        check(&pattern);
+        for by in [v(0.01, 0.0), v(-0.01, 0.02)] {
+            let (done, all) = drag_each_point(&pattern, by);
+            assert_eq!(done, all, "{sample:?} by {by}");
+        }
+    }
+}

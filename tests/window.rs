@@ -22,6 +22,8 @@ mod files;
 mod hand;
 #[path = "window/mouse.rs"]
 mod mouse;
+#[path = "window/safety.rs"]
+mod safety;
 
 type Window = Harness<'static, Option<App>>;
 

@@ -1,6 +1,7 @@
 //! Sewing: triangulated pieces merged along their seams into one mesh.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use glam::DVec2;
 
@@ -8,21 +9,30 @@ use crate::cloth::{Corner, Garment};
 use crate::geometry::adjacency::Adjacency;
 use crate::geometry::ids::{PieceId, SeamId};
 use crate::pattern::sampling::sampling;
-use crate::pattern::triangulate::triangulated;
+use crate::pattern::triangulate::Meshes;
 use crate::pattern::{CutPattern, EdgeRef, EdgeSeam, Pattern, PieceMesh, Problem, ProblemKind};
 
 /// The sewn garment of a pattern at about `edge_length` metres, and what a person should know or mend.
 /// One bad piece does not stop the others.
 pub fn build(pattern: &Pattern, edge_length: f64) -> (Garment, Vec<Problem>) {
+    build_again(pattern, edge_length, &mut Meshes::default())
+}
+
+/// The same; pieces that have not changed since `meshes` was last used are not triangulated again.
+pub fn build_again(pattern: &Pattern, edge_length: f64, meshes: &mut Meshes) -> (Garment, Vec<Problem>) {
     let (cut, mut problems) = CutPattern::new(pattern);
     let sampling = sampling(&cut, edge_length, &mut problems);
-    let meshes = triangulated(&cut, &sampling, edge_length, &mut problems);
+    let meshes = meshes.update(&cut, &sampling, edge_length, &mut problems);
     let garment = sewn(pattern, &meshes, &sampling.seams);
     report_twisted(pattern, &garment, &mut problems);
     (garment, problems)
 }
 
-fn sewn(pattern: &Pattern, meshes: &BTreeMap<PieceId, PieceMesh>, seams: &[(SeamId, EdgeSeam)]) -> Garment {
+fn sewn(
+    pattern: &Pattern,
+    meshes: &BTreeMap<PieceId, Arc<PieceMesh>>,
+    seams: &[(SeamId, EdgeSeam)],
+) -> Garment {
     let mut first_corner = BTreeMap::new();
     let mut corners: Vec<Corner> = Vec::new();
     for (&piece, mesh) in meshes {
@@ -73,7 +83,7 @@ fn front_rest(mesh: &PieceMesh, t: &[u32; 3]) -> [DVec2; 3] {
 
 fn paired_corners(
     seam: &EdgeSeam,
-    meshes: &BTreeMap<PieceId, PieceMesh>,
+    meshes: &BTreeMap<PieceId, Arc<PieceMesh>>,
     first_corner: &BTreeMap<PieceId, u32>,
 ) -> Vec<[u32; 2]> {
     let side = |s: &EdgeRef| -> Vec<u32> {

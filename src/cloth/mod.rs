@@ -9,7 +9,7 @@ pub mod locate;
 pub mod refine;
 pub mod skips;
 
-pub use build::build;
+pub use build::{build, build_again};
 pub use carry::Carry;
 pub use counters::Counters;
 pub use distance::{EdgeMetric, Reached};

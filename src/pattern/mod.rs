@@ -51,6 +51,19 @@ impl Pattern {
         self.pieces.iter().find(|(_, p)| p.name == name).map(|(&id, _)| id)
     }
 
+    /// From now on editing keeps the lengths of all seams as they are to each other: those that differ are gathers.
+    pub fn keep_ratios(&mut self) {
+        let Self { pieces, seams, .. } = self;
+        for seam in seams.values_mut() {
+            let length = |k: usize| seam.sides[k].length(pieces.get(&seam.sides[k].piece)?);
+            if let (Some(one), Some(other)) = (length(0), length(1))
+                && edit::RATIOS.contains(&(one / other))
+            {
+                seam.ratio = Some(one / other);
+            }
+        }
+    }
+
     fn fresh_id(&mut self) -> u32 {
         self.next_id += 1;
         self.next_id

@@ -1,6 +1,7 @@
 //! Flat pieces to triangles: constrained Delaunay with refinement (spade), seeded by a triangular lattice.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 use glam::DVec2;
 use spade::{AngleLimit, ConstrainedDelaunayTriangulation, Point2, RefinementParameters, Triangulation};
@@ -31,23 +32,52 @@ pub struct PieceMesh {
     pub front_is_far: bool,
 }
 
-/// Triangulates every piece it can; what it cannot is among `problems`, by name.
-pub fn triangulated(
-    pattern: &CutPattern,
-    sampling: &Sampling,
+/// Triangulated pieces, kept for the next time.
+#[derive(Clone, Debug, Default)]
+pub struct Meshes {
+    made: BTreeMap<PieceId, (Key, Arc<PieceMesh>)>,
     edge_length: f64,
-    problems: &mut Vec<Problem>,
-) -> BTreeMap<PieceId, PieceMesh> {
-    let mut meshes = BTreeMap::new();
-    for (&id, piece) in &pattern.pieces {
-        match piece_mesh(pattern, id, piece, &sampling.intervals[&id], edge_length) {
-            Ok(mesh) => {
-                meshes.insert(id, mesh);
+    /// Pieces triangulated the last time, not taken as they were.
+    pub fresh: usize,
+}
+
+/// What a mesh is made from: the piece and the intervals of its edges.
+type Key = (Arc<Piece>, Vec<usize>);
+
+impl Meshes {
+    /// Triangulates every piece it can; what it cannot is among `problems`, by name. Pieces that are as they were, with as
+    /// many points on their edges, are not triangulated again.
+    pub fn update(
+        &mut self,
+        pattern: &CutPattern,
+        sampling: &Sampling,
+        edge_length: f64,
+        problems: &mut Vec<Problem>,
+    ) -> BTreeMap<PieceId, Arc<PieceMesh>> {
+        let before = std::mem::take(&mut self.made);
+        let same_size = self.edge_length == edge_length;
+        (self.edge_length, self.fresh) = (edge_length, 0);
+        for (&id, piece) in &pattern.pieces {
+            let intervals = &sampling.intervals[&id];
+            let same = |(old, of_edges): &Key| {
+                of_edges == intervals
+                    && (Arc::ptr_eq(old, piece) || (old.outline == piece.outline && old.holes == piece.holes))
+            };
+            let kept = before.get(&id).filter(|(key, _)| same_size && same(key));
+            let mesh = match kept {
+                Some((_, mesh)) => Ok(Arc::clone(mesh)),
+                None => piece_mesh(pattern, id, piece, intervals, edge_length).map(Arc::new),
+            };
+            self.fresh += usize::from(kept.is_none());
+            match mesh {
+                Ok(mesh) => {
+                    self.made.insert(id, ((Arc::clone(piece), intervals.clone()), mesh));
+                }
+                Err(problem) => problems.push(problem),
             }
-            Err(problem) => problems.push(problem),
         }
+        self.made.iter().map(|(&id, (_, mesh))| (id, Arc::clone(mesh))).collect()
     }
-    meshes
 }
 
 fn piece_mesh(

@@ -12,6 +12,7 @@ pub mod marks_file;
 pub mod project;
 pub mod project_file;
 pub mod recording;
+pub mod recovery;
 pub mod replay;
 pub mod samples;
 #[expect(clippy::module_inception, reason = "a file is named by what it holds")]

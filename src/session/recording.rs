@@ -11,6 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::session::command::Command;
 use crate::session::project::Project;
+use crate::session::recovery::Journal;
 use crate::sim::Event;
 
 /// What the header says it is.
@@ -92,6 +93,8 @@ pub struct Recorder {
     gesture: (u64, u64),
     file: Option<BufWriter<File>>,
     file_error: Option<std::io::Error>,
+    journal: Option<Journal>,
+    journal_error: Option<std::io::Error>,
 }
 
 impl Recorder {
@@ -103,6 +106,8 @@ impl Recorder {
             gesture: (0, 0),
             file: None,
             file_error: None,
+            journal: None,
+            journal_error: None,
         };
         recorder.write(&Line::Header {
             format: FORMAT.to_owned(),
@@ -128,6 +133,16 @@ impl Recorder {
         Ok(())
     }
 
+    /// Writes commands from now on to `journal`, and no longer to the one before.
+    pub fn journal_to(&mut self, journal: Option<Journal>) {
+        self.journal = journal;
+    }
+
+    /// Why the journal was given up, told once.
+    pub fn take_journal_error(&mut self) -> Option<std::io::Error> {
+        self.journal_error.take()
+    }
+
     /// Why the file was given up, told once.
     pub fn take_file_error(&mut self) -> Option<std::io::Error> {
         self.file_error.take()
@@ -135,6 +150,12 @@ impl Recorder {
 
     /// A command was carried out.
     pub fn command(&mut self, seq: u64, gesture: u64, command: Command) {
+        if let Some(journal) = &mut self.journal
+            && let Err(error) = journal.append(gesture, &command)
+        {
+            self.journal_error = Some(error);
+            self.journal = None;
+        }
         if self.gesture.1 == 0 || self.gesture.0 != gesture {
             self.gesture = (gesture, self.gesture.1 + 1);
         }

@@ -14,6 +14,7 @@ use crate::session::hashes::DocumentHasher;
 use crate::session::history::{History, Step, StepKind};
 use crate::session::project::{Dressed, Project};
 use crate::session::recording::Recorder;
+use crate::session::recovery::Journal;
 use crate::sim::{Event, GarmentSource, Request, RequestKind, Runner, Snapshot};
 use crate::wrap::Marks;
 
@@ -48,9 +49,15 @@ pub struct Session {
     /// Where the last edit of the pattern in this gesture has moved places to, from where they were before the gesture.
     moved: Option<(GestureId, Vec<Carried>)>,
     /// The command after which the document was last saved.
-    saved_seq: u64,
+    saved_seq: Option<u64>,
     /// Marks that found no place on the body, and the strokes there were after that.
     lost_marks: Option<(Arc<Marks>, Vec<Problem>)>,
+    /// Steps that could be undone and redone when the work was last copied, as far as they still can.
+    copied_steps: (usize, usize),
+    /// A step from before the last copy was undone or redone: the commands since do not tell how things stand.
+    needs_copy: bool,
+    /// The command after which the work was last copied.
+    copied_seq: u64,
     /// In a replay the recording says when history is forgotten.
     replaying: bool,
 }
@@ -99,8 +106,11 @@ impl Session {
             last_gesture: 0,
             open_gesture: None,
             moved: None,
-            saved_seq: 0,
+            saved_seq: Some(0),
             lost_marks: None,
+            copied_steps: (0, 0),
+            needs_copy: false,
+            copied_seq: 0,
             replaying: false,
         };
         session.ask_for_hash();
@@ -219,12 +229,36 @@ impl Session {
 
     /// The project was saved as it is now.
     pub fn mark_saved(&mut self) {
-        self.saved_seq = self.last_seq;
+        self.saved_seq = Some(self.last_seq);
     }
 
     /// Whether a command was given since the project was opened or saved.
     pub fn is_modified(&self) -> bool {
-        self.saved_seq != self.last_seq
+        self.saved_seq != Some(self.last_seq)
+    }
+
+    /// What the project holds is in no file of the person's: it was recovered.
+    pub fn mark_modified(&mut self) {
+        self.saved_seq = None;
+    }
+
+    /// The work was copied as it is now, for recovery: `journal` takes the commands from here on.
+    pub fn mark_copied(&mut self, journal: Option<Journal>) {
+        self.recorder.journal_to(journal);
+        self.copied_seq = self.last_seq;
+        self.copied_steps = (self.history.done().len(), self.history.undone_count());
+        self.needs_copy = false;
+    }
+
+    /// Whether a command was given since the work was last copied.
+    pub fn is_copied(&self) -> bool {
+        self.copied_seq == self.last_seq
+    }
+
+    /// Whether the last copy and the commands since it do not tell how things stand: a step from before it was undone or
+    /// redone.
+    pub fn needs_copy(&self) -> bool {
+        self.needs_copy
     }
 
     /// The recording so far, as JSON lines.
@@ -370,6 +404,7 @@ impl Session {
     fn carry_out(&mut self, plan: Plan, gesture: GestureId) {
         let seq = self.last_seq;
         let before = std::mem::replace(&mut self.document, plan.document);
+        let back = !matches!(plan.history, HistoryChange::None | HistoryChange::Push { .. });
         if !plan.problems.is_empty() {
             self.lost_marks = Some((Arc::clone(&self.document.marks), plan.problems));
         }
@@ -390,6 +425,9 @@ impl Session {
             HistoryChange::DropLast => self.history.drop_last(),
             HistoryChange::Forget { before_seq } => self.history.forget(before_seq),
         }
+        let (done, undone) = (self.history.done().len(), self.history.undone_count());
+        self.needs_copy |= back && (done < self.copied_steps.0 || undone < self.copied_steps.1);
+        self.copied_steps = (self.copied_steps.0.min(done), self.copied_steps.1.min(undone));
         if let Some(kind) = plan.request {
             self.runner.send(Request { seq, checkpoint: keeps, kind });
         }

@@ -10,6 +10,7 @@ use crate::contact::{Bone, Bones, Splits};
 use crate::drag::{DragMode, Dragging, Ray};
 use crate::geometry::ids::PieceId;
 use crate::pattern::edit::Carried;
+use crate::pattern::triangulate::Meshes;
 use crate::pattern::{Pattern, Problem, ProblemKind};
 use crate::relax::RelaxSettings;
 use crate::sim::hash::cloth_hash;
@@ -43,6 +44,8 @@ pub struct World {
     pub relaxing: bool,
     /// What building and wrapping found wrong.
     pub problems: Arc<Vec<Problem>>,
+    /// The flat pieces as they were triangulated while the pattern was edited.
+    pub meshes: Arc<Meshes>,
 }
 
 impl Default for World {
@@ -60,6 +63,7 @@ impl Default for World {
             splits: None,
             relaxing: true,
             problems: Arc::default(),
+            meshes: Arc::default(),
         }
     }
 }
@@ -67,7 +71,8 @@ impl Default for World {
 impl World {
     /// A garment just built and pasted to its marks.
     pub fn wrapped(source: Arc<GarmentSource>, body: Arc<Surface>) -> Self {
-        let (garment, problems) = cloth::build(&source.pattern, source.edge_length);
+        let mut meshes = Meshes::default();
+        let (garment, problems) = cloth::build_again(&source.pattern, source.edge_length, &mut meshes);
         let garment = Arc::new(garment);
         let coarser = match source.relax.skips.allow(Skip::Fine) {
             true => coarser(&source.pattern, &garment, source.edge_length, body.scale()),
@@ -80,7 +85,7 @@ impl World {
             &source.marks,
             source.relax,
         );
-        Self::begun(source, body, garment, problems, begun)
+        Self { meshes: Arc::new(meshes), ..Self::begun(source, body, garment, problems, begun) }
     }
 
     fn begun(
@@ -139,7 +144,9 @@ impl World {
         if self.dressing.as_ref().is_some_and(|dressing| dressing.relaxer().is_none()) {
             return Some(Self { relaxing: self.relaxing, places, ..Self::wrapped(source, body) });
         }
-        let (garment, mut problems) = cloth::build(&source.pattern, source.edge_length);
+        let mut meshes = Arc::clone(&self.meshes);
+        let (garment, mut problems) =
+            cloth::build_again(&source.pattern, source.edge_length, Arc::make_mut(&mut meshes));
         let garment = Arc::new(garment);
         let mut cloth = unlaid(&garment);
         Carry::moved(&old, &garment, carried).places(&self.cloth, &mut cloth);
@@ -162,6 +169,7 @@ impl World {
             pinned: Arc::new(pinned),
             relaxing: self.relaxing,
             problems: Arc::new(problems),
+            meshes,
             ..Self::default()
         })
     }

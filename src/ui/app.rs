@@ -24,6 +24,7 @@ use crate::ui::pattern_panel::PatternPanel;
 use crate::ui::picking::Picks;
 use crate::ui::player::Player;
 use crate::ui::preferences::Preferences;
+use crate::ui::safety::Safety;
 use crate::ui::scene_pane::{self, ScenePane, Seen};
 use crate::ui::selection::Selection;
 use crate::ui::side_panel::Told;
@@ -64,7 +65,10 @@ pub struct App {
     pub(super) preferences_path: Option<PathBuf>,
     /// To be done once the project is saved.
     pub(super) after_save: Option<Action>,
-    drag: Option<GestureId>,
+    pub(super) safety: Safety,
+    /// What the project's file was when it was opened or saved here.
+    pub(super) on_disk: Option<files::OnDisk>,
+    pub(super) drag: Option<GestureId>,
     /// The last wrap asked for, and what was then the tick of the simulation.
     wrap_seq: Option<u64>,
     title: String,
@@ -80,6 +84,7 @@ impl App {
         graphics: Option<egui_wgpu::RenderState>,
     ) -> std::io::Result<Self> {
         theme::install(ctx);
+        let on_disk = path.as_deref().and_then(files::OnDisk::of);
         ctx.options_mut(|options| {
             // Closing goes by our own question; plus, minus and zero belong to the panes.
             options.quit_shortcuts.clear();
@@ -108,6 +113,8 @@ impl App {
             preferences: Preferences::default(),
             preferences_path: None,
             after_save: None,
+            safety: Safety::default(),
+            on_disk,
             drag: None,
             wrap_seq: None,
             title: String::new(),
@@ -137,6 +144,16 @@ impl App {
         &self.session
     }
 
+    /// The session, to be given commands as by a person.
+    pub fn session_mut(&mut self) -> &mut Session {
+        &mut self.session
+    }
+
+    /// Saves the project to `path`; asks first where somebody else has changed it.
+    pub fn save_as(&mut self, ctx: &egui::Context, path: &Path) -> Result<(), String> {
+        self.save_to(ctx, path)
+    }
+
     /// From where the body is seen.
     pub fn camera(&self) -> Camera {
         self.scene_pane.camera
@@ -163,7 +180,9 @@ impl App {
             Ok(runner) => self.session = Session::new(project, runner),
             Err(e) => return self.messages.error(format!("The simulation could not be started: {e}")),
         }
+        self.on_disk = path.as_deref().and_then(files::OnDisk::of);
         self.path = path;
+        self.safety.work_is_saved();
         self.drag = None;
         self.wrap_seq = None;
         self.selected = None;
@@ -204,6 +223,7 @@ impl App {
         self.dropped_files(&ctx);
         self.guard_closing(&ctx);
         self.set_title(&ctx);
+        self.tend_safety(&ctx);
     }
 
     /// What is on the screen: the document, or a demo.
@@ -512,6 +532,12 @@ impl App {
             }
             Answer::Discard(action) => self.act_unguarded(ctx, action),
             Answer::File(purpose, path) => self.file(ctx, purpose, &path),
+            Answer::Restore(left) => self.restore(ctx, *left),
+            Answer::SaveAs => self.ask_file(Purpose::Save),
+            Answer::Overwrite(path) => {
+                self.on_disk = None;
+                self.file(ctx, Purpose::Save, &path);
+            }
             Answer::Body(raw) => {
                 if let Err(words) = self.take_body(*raw) {
                     self.messages.error(words);
@@ -606,19 +632,7 @@ impl App {
         Ok(())
     }
 
-    pub(super) fn save_to(&mut self, ctx: &egui::Context, path: &Path) -> Result<(), String> {
-        let project = self.session.project();
-        files::save(path, &project)?;
-        self.session.mark_saved();
-        self.path = Some(path.to_owned());
-        self.wrote(path);
-        if let Some(action) = self.after_save.take() {
-            self.act_unguarded(ctx, action);
-        }
-        Ok(())
-    }
-
-    fn wrote(&mut self, path: &Path) {
+    pub(super) fn wrote(&mut self, path: &Path) {
         self.messages.tell(format!("Written: {}", path.display()));
     }
 }

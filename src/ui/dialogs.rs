@@ -10,6 +10,7 @@ use std::time::{Duration, Instant};
 use egui::{Id, Modal, ScrollArea, TextEdit};
 
 use crate::body::Unit;
+use crate::session::recovery::Left;
 use crate::ui::actions::Action;
 use crate::ui::files::{Purpose, RawBody};
 use crate::ui::mouse::Mouse;
@@ -28,6 +29,10 @@ pub enum Dialog {
     Unit { raw: Box<RawBody> },
     /// Keys, and what this mouse does.
     Shortcuts { mouse: Mouse },
+    /// Work that sessions left behind which did not end well, and what it is called.
+    Recover { found: Vec<(Left, String)> },
+    /// The project's file was changed by somebody else since it was opened or saved.
+    ChangedOnDisk { path: PathBuf },
 }
 
 /// What was answered.
@@ -45,6 +50,12 @@ pub enum Answer {
     File(Purpose, PathBuf),
     /// This body, in the unit it says.
     Body(Box<RawBody>),
+    /// Take this work up again; the rest is offered the next time.
+    Restore(Box<Left>),
+    /// Save over what somebody else wrote.
+    Overwrite(PathBuf),
+    /// Save under another name.
+    SaveAs,
 }
 
 impl Answer {
@@ -62,6 +73,8 @@ impl Dialog {
             Self::Path { purpose, text } => path_ui(ctx, *purpose, text),
             Self::Unit { raw } => unit_ui(ctx, raw),
             Self::Shortcuts { mouse } => shortcuts_ui(ctx, *mouse),
+            Self::Recover { found } => recover_ui(ctx, found),
+            Self::ChangedOnDisk { path } => changed_ui(ctx, path),
         }
     }
 }
@@ -85,6 +98,69 @@ fn unsaved_ui(ctx: &egui::Context, then: Action) -> Answer {
                 answer = Answer::Cancel;
             }
             answer
+        })
+        .inner
+    });
+    let closed = shown.should_close();
+    shown.inner.or_cancel(closed)
+}
+
+fn recover_ui(ctx: &egui::Context, found: &mut Vec<(Left, String)>) -> Answer {
+    let shown = Modal::new(Id::unique("recover")).show(ctx, |ui| {
+        ui.set_width(420.0);
+        ui.heading("Go on with unsaved work?");
+        ui.add_space(4.0);
+        ui.label("Toile did not end as it should. This was not saved:");
+        ui.add_space(6.0);
+        let (mut restored, mut forgotten) = (None, None);
+        ScrollArea::vertical().max_height(240.0).show(ui, |ui| {
+            for (i, (left, words)) in found.iter().enumerate() {
+                ui.horizontal(|ui| {
+                    if ui.button("Restore").clicked() {
+                        restored = Some(i);
+                    }
+                    if ui.button("Delete").on_hover_text("This work is gone then").clicked() {
+                        forgotten = Some(i);
+                    }
+                    let label = ui.label(words);
+                    if let Some(path) = &left.about.path {
+                        label.on_hover_text(path.display().to_string());
+                    }
+                });
+            }
+        });
+        ui.add_space(10.0);
+        let later = ui.button("Later").on_hover_text("It is offered again the next time").clicked();
+        if let Some(i) = forgotten {
+            found.remove(i).0.forget().ok();
+        }
+        match restored {
+            Some(i) => Answer::Restore(Box::new(found.remove(i).0)),
+            None if later || found.is_empty() => Answer::Cancel,
+            None => Answer::None,
+        }
+    });
+    let closed = shown.should_close();
+    shown.inner.or_cancel(closed)
+}
+
+fn changed_ui(ctx: &egui::Context, path: &Path) -> Answer {
+    let shown = Modal::new(Id::unique("changed")).show(ctx, |ui| {
+        ui.set_width(400.0);
+        ui.heading("The file has changed");
+        ui.add_space(4.0);
+        ui.label(format!("{} was changed by another program since you opened or saved it.", path.display()));
+        ui.add_space(10.0);
+        ui.horizontal(|ui| {
+            if ui.button("Save as…").clicked() {
+                Answer::SaveAs
+            } else if ui.button("Save over it").on_hover_text("The other version stays as .bak").clicked() {
+                Answer::Overwrite(path.to_owned())
+            } else if ui.button("Cancel").clicked() {
+                Answer::Cancel
+            } else {
+                Answer::None
+            }
         })
         .inner
     });

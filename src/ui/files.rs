@@ -68,6 +68,21 @@ impl Purpose {
     }
 }
 
+/// What tells that a file is still as it was written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct OnDisk {
+    bytes: u64,
+    modified: Option<std::time::SystemTime>,
+}
+
+impl OnDisk {
+    /// Of the file at `path`; none when there is none.
+    pub fn of(path: &Path) -> Option<Self> {
+        let file = std::fs::metadata(path).ok()?;
+        Some(Self { bytes: file.len(), modified: file.modified().ok() })
+    }
+}
+
 /// Reads a project.
 pub fn open(path: &Path) -> Result<Project, String> {
     project_file::open(path).map_err(|e| in_words(path, "opened", e))
@@ -162,7 +177,8 @@ fn read(path: &Path) -> Result<Vec<u8>, String> {
     std::fs::read(path).map_err(|e| in_words(path, "read", e))
 }
 
-fn stem(path: &Path) -> String {
+/// The name of a file without its extension.
+pub fn stem(path: &Path) -> String {
     path.file_stem().map_or_else(|| "file".to_owned(), |n| n.to_string_lossy().into_owned())
 }
 

@@ -25,6 +25,7 @@ mod picking;
 mod player;
 mod preferences;
 mod run;
+mod safety;
 pub mod scene;
 mod scene_pane;
 mod selection;

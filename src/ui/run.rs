@@ -8,7 +8,7 @@ use anyhow::{Context, anyhow};
 
 use crate::session::Project;
 use crate::ui::app::App;
-use crate::ui::preferences;
+use crate::ui::{preferences, safety};
 
 /// Opens the window on `project`, which came from the file `path`, and returns when it is closed. Everything done is also
 /// written to `record`.
@@ -28,6 +28,9 @@ pub fn run(project: Project, path: Option<PathBuf>, record: Option<File>) -> any
         let mut app = App::new(&cc.egui_ctx, project, path, cc.wgpu_render_state.clone())?;
         if let Some(path) = preferences::usual_path() {
             app.keep_preferences(&cc.egui_ctx, path);
+        }
+        if let Some(root) = safety::usual_root() {
+            app.keep_safe(&root);
         }
         if let Some(file) = record {
             app.record_to(file)?;
@@ -56,5 +59,9 @@ fn words(error: &eframe::Error) -> String {
 impl eframe::App for App {
     fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
         App::ui(self, ui);
+    }
+
+    fn on_exit(&mut self) {
+        self.finish();
     }
 }

@@ -20,7 +20,7 @@ use crate::geometry::ids::{PieceId, SeamId};
 use crate::pattern::{Edge, EdgeRef, EdgeShape, InternalLine, Pattern, Piece, PlanePose, Seam, curve};
 pub use cutting::{contains, nearest_on_edge};
 pub use pieces::WIDEST_ALLOWANCE;
-pub use sewing::{fits, sound};
+pub use sewing::{RATIOS, fits, sound};
 pub use twists::{Twists, twists, untwisted};
 
 /// A corner or other point of a closed line: where the edge of the same number starts.

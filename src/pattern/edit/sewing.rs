@@ -7,7 +7,7 @@ use crate::pattern::{Pattern, Seam, Stretch};
 /// Two stretches of one edge may have this much in common, metres.
 const TOUCHING: f64 = 1e-6;
 /// The ratio of a gather, at least and at most.
-const RATIOS: std::ops::RangeInclusive<f64> = 0.01..=100.0;
+pub const RATIOS: std::ops::RangeInclusive<f64> = 0.01..=100.0;
 
 pub(super) fn sew(pattern: &mut Pattern, seam: Seam) -> Result<Change, String> {
     fits(pattern, &seam)?;

@@ -1,5 +1,7 @@
 //! Drawing outlines: one half with a straight middle, mirrored, or a whole piece edge by edge.
 
+use std::sync::Arc;
+
 use glam::{DQuat, DVec2, DVec3};
 
 use crate::geometry::ids::PieceId;
@@ -109,4 +111,21 @@ pub fn sheet(rows: Vec<Vec<Piece>>) -> Vec<Piece> {
         top -= height + GAP;
     }
     all
+}
+
+/// Seam allowance of the samples, metres.
+const ALLOWANCE: f64 = 0.01;
+
+/// What a pattern needs to be cut out and edited: grain, allowance, seams that keep their lengths.
+pub fn finish(pattern: &mut Pattern) {
+    for piece in pattern.pieces.values_mut() {
+        let piece = Arc::make_mut(piece);
+        let outline = piece.flattened(1e-3);
+        let lower = outline.iter().copied().reduce(DVec2::min).unwrap_or_default();
+        let upper = outline.iter().copied().reduce(DVec2::max).unwrap_or_default();
+        let (middle, half) = ((lower + upper) / 2.0, (upper - lower) * 0.3);
+        piece.grainline = Some([middle - half * DVec2::Y, middle + half * DVec2::Y]);
+        piece.allowance = ALLOWANCE;
+    }
+    pattern.keep_ratios();
 }

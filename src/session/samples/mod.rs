@@ -61,13 +61,14 @@ impl Sample {
     /// The sample drafted for `body`, with its marks.
     pub fn project(self, body: &Mannequin) -> Project {
         let form = Form::new(body);
-        let (pattern, marks) = match self {
+        let (mut pattern, marks) = match self {
             Self::Tshirt => tshirt::tshirt(&form),
             Self::Skirt => skirt::skirt(&form),
             Self::Dress => dress::dress(&form),
             Self::Trousers => trousers::trousers(&form),
             Self::Scarf => scarf::scarf(&form),
         };
+        draft::finish(&mut pattern);
         let mut document = Document {
             pattern: Arc::new(pattern),
             body: BodyChoice::Mannequin(body.measurements),

@@ -1,0 +1,77 @@
+//! Commands written as they are given, each line with its own checksum.
+
+use std::fs::File;
+use std::io::{self, Write};
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+
+use crate::session::command::Command;
+
+/// Commands after which the disk is told to keep what it was given; the system keeps it at once.
+const SYNC_EVERY: u32 = 50;
+/// Bytes a journal may have when it is read.
+const MOST_BYTES: u64 = 1 << 30;
+
+/// One line, read.
+#[derive(Deserialize)]
+struct Entry {
+    gesture: u64,
+    command: Command,
+}
+
+/// One line, written.
+#[derive(Serialize)]
+struct EntryRef<'a> {
+    gesture: u64,
+    command: &'a Command,
+}
+
+/// A journal being written.
+#[derive(Debug)]
+pub struct Journal {
+    file: File,
+    since_sync: u32,
+}
+
+impl Journal {
+    /// An empty one at `path`.
+    pub(super) fn begin(path: &Path) -> io::Result<Self> {
+        Ok(Self { file: File::create(path)?, since_sync: 0 })
+    }
+
+    /// Writes down a command of a gesture.
+    pub fn append(&mut self, gesture: u64, command: &Command) -> io::Result<()> {
+        let json = serde_json::to_string(&EntryRef { gesture, command }).map_err(io::Error::other)?;
+        let line = format!("{:08x} {json}\n", crc32fast::hash(json.as_bytes()));
+        self.file.write_all(line.as_bytes())?;
+        self.since_sync += 1;
+        if self.since_sync >= SYNC_EVERY {
+            self.since_sync = 0;
+            self.file.sync_data()?;
+        }
+        Ok(())
+    }
+}
+
+/// The commands in the journal at `path`, up to the first line that is not as it was written, and how many lines are lost
+/// by that. A last line that was cut off counts as one.
+pub(super) fn read(path: &Path) -> (Vec<(u64, Command)>, usize) {
+    let small = std::fs::metadata(path).is_ok_and(|file| file.len() <= MOST_BYTES);
+    let bytes = if small { std::fs::read(path).unwrap_or_default() } else { Vec::new() };
+    let mut lines = bytes.split(|&b| b == b'\n').filter(|line| !line.is_empty());
+    let mut commands = Vec::new();
+    while let Some(line) = lines.next() {
+        match entry(line) {
+            Some(entry) => commands.push((entry.gesture, entry.command)),
+            None => return (commands, 1 + lines.count()),
+        }
+    }
+    (commands, 0)
+}
+
+fn entry(line: &[u8]) -> Option<Entry> {
+    let (sum, json) = line.split_at_checked(9)?;
+    let right = format!("{:08x} ", crc32fast::hash(json));
+    (sum == right.as_bytes()).then(|| serde_json::from_slice(json).ok())?
+}
