@@ -12,6 +12,7 @@ use crate::ui::app::App;
 use crate::ui::dialogs::Dialog;
 use crate::ui::files::{self, Purpose};
 use crate::ui::ghosts::Ghosts;
+use crate::ui::pattern_pane::Fit;
 use crate::ui::preferences::Preferences;
 use crate::wrap::{BodyMark, ClothMark};
 
@@ -48,7 +49,28 @@ impl App {
             Action::SuggestMarks => self.suggest_marks(),
             Action::AcceptMarks => self.accept_marks(),
             Action::DismissMarks => self.ghosts = None,
+            Action::Delete if self.selected.is_some() => self.change_selected(Action::DeleteMark),
             Action::DeleteMark | Action::RaiseMark | Action::LowerMark => self.change_selected(action),
+            Action::Delete
+            | Action::SelectAll
+            | Action::Duplicate
+            | Action::Twin
+            | Action::MakeSymmetric
+            | Action::Unfold
+            | Action::Fold
+            | Action::Unlink
+            | Action::TurnOver
+            | Action::ToggleLock
+            | Action::Hide
+            | Action::ShowPieces
+            | Action::InsertPoint
+            | Action::ToggleSmooth
+            | Action::Straighten
+            | Action::Curve
+            | Action::TurnSeam
+            | Action::MakeEqual
+            | Action::FreeLengths
+            | Action::Untwist => self.change_pattern(action),
             Action::ClearMarks => self.apply(Command::ClearMarks),
             Action::ClearPins => self.apply(Command::ClearPins),
             Action::ToggleLaser => self.laser = !self.laser,
@@ -64,9 +86,16 @@ impl App {
                 let on = !self.session.snapshot().relaxing;
                 self.apply(Command::SetRelaxing { on });
             }
-            Action::Look(_) | Action::FrameAll | Action::ToggleParallel | Action::ToggleFreeTurning => {
-                self.change_view(action);
-            }
+            Action::Look(_)
+            | Action::FrameAll
+            | Action::FrameSelection
+            | Action::TrueSize
+            | Action::ClearGuides
+            | Action::ToggleParallel
+            | Action::ToggleFreeTurning => self.change_view(ctx, action),
+            Action::NextPane => self.next_pane(ctx),
+            Action::ToggleSnapping => self.snapping = !self.snapping,
+            Action::Unit(unit) => self.prefer(Preferences { unit, ..self.preferences }),
             Action::ToggleCloth => self.show_cloth = !self.show_cloth,
             Action::TogglePanel => self.show_panel = !self.show_panel,
             Action::Theme(theme) => {
@@ -142,12 +171,17 @@ impl App {
         }
     }
 
-    fn change_view(&mut self, action: Action) {
+    fn change_view(&mut self, ctx: &egui::Context, action: Action) {
         let scene = &mut self.scene_pane;
         match action {
             Action::Look(view) => scene.camera.look(view),
-            Action::FrameAll if self.pattern_pane.hovered => self.pattern_pane.fit = true,
+            Action::FrameAll if self.pattern_pane.hovered || self.pattern_pane.has_focus(ctx) => {
+                self.pattern_pane.fit = true
+            }
             Action::FrameAll => scene.frame = Some(None),
+            Action::FrameSelection => self.pattern_pane.show = Some(Fit::Selection),
+            Action::TrueSize => self.pattern_pane.show = Some(Fit::TrueSize),
+            Action::ClearGuides => self.pattern_pane.clear_guides(),
             Action::ToggleParallel => {
                 scene.camera.projection = match scene.camera.projection {
                     Projection::Perspective => Projection::Orthographic,

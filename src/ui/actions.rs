@@ -7,6 +7,7 @@ use crate::render::View;
 use crate::session::demos::Demo;
 use crate::session::samples::Sample;
 use crate::ui::mouse::Mouse;
+use crate::ui::units::LengthUnit;
 
 /// What the left mouse button does in the panes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -16,8 +17,30 @@ pub enum Tool {
     Mark,
     /// Takes marks away.
     Erase,
-    /// Moves and flips pieces.
+    /// Selects, moves, scales, turns and flips pieces.
     Move,
+    /// Moves points, edges and curves of pieces.
+    Points,
+    /// Draws pieces point by point.
+    Pen,
+    /// Draws rectangular pieces.
+    Rectangle,
+    /// Draws round pieces.
+    Ellipse,
+    /// Sews edges together.
+    Sew,
+    /// Draws lines on pieces.
+    Line,
+    /// Cuts holes into pieces.
+    Hole,
+    /// Cuts pieces in two.
+    Cut,
+    /// Cuts darts into edges.
+    Dart,
+    /// Cuts notches into edges.
+    Notch,
+    /// Draws the arrow along the warp.
+    Grain,
     /// Drags dressed cloth.
     Drag(DragMode),
     /// Pins dressed cloth to where it is.
@@ -40,6 +63,7 @@ pub enum Action {
     Quit,
     Undo,
     Redo,
+    Delete,
     DeleteMark,
     RaiseMark,
     LowerMark,
@@ -50,6 +74,25 @@ pub enum Action {
     DismissMarks,
     ToggleLaser,
     Choose(Tool),
+    SelectAll,
+    Duplicate,
+    Twin,
+    MakeSymmetric,
+    Unfold,
+    Fold,
+    Unlink,
+    TurnOver,
+    ToggleLock,
+    Hide,
+    ShowPieces,
+    InsertPoint,
+    ToggleSmooth,
+    Straighten,
+    Curve,
+    TurnSeam,
+    MakeEqual,
+    FreeLengths,
+    Untwist,
     Wrap,
     Rewrap,
     CancelWrap,
@@ -57,6 +100,12 @@ pub enum Action {
     ToggleRelaxing,
     Look(View),
     FrameAll,
+    FrameSelection,
+    TrueSize,
+    NextPane,
+    ToggleSnapping,
+    ClearGuides,
+    Unit(LengthUnit),
     ToggleParallel,
     ToggleFreeTurning,
     ToggleCloth,
@@ -79,19 +128,23 @@ pub struct Entry {
     pub keys: Vec<KeyboardShortcut>,
 }
 
-const fn key(key: Key) -> KeyboardShortcut {
+pub(super) const fn key(key: Key) -> KeyboardShortcut {
     KeyboardShortcut::new(Modifiers::NONE, key)
 }
 
-const fn ctrl(key: Key) -> KeyboardShortcut {
+pub(super) const fn shift(key: Key) -> KeyboardShortcut {
+    KeyboardShortcut::new(Modifiers::SHIFT, key)
+}
+
+pub(super) const fn ctrl(key: Key) -> KeyboardShortcut {
     KeyboardShortcut::new(Modifiers::COMMAND, key)
 }
 
-const fn ctrl_shift(key: Key) -> KeyboardShortcut {
+pub(super) const fn ctrl_shift(key: Key) -> KeyboardShortcut {
     KeyboardShortcut::new(Modifiers::COMMAND.plus(Modifiers::SHIFT), key)
 }
 
-fn entry(text: &'static str, tip: &'static str, keys: &[KeyboardShortcut]) -> Entry {
+pub(super) fn entry(text: &'static str, tip: &'static str, keys: &[KeyboardShortcut]) -> Entry {
     Entry { text, tip, keys: keys.to_vec() }
 }
 
@@ -116,9 +169,12 @@ impl Action {
             Self::Quit => entry("Quit", "Leave Toile", &[ctrl(Key::Q)]),
             Self::Undo => entry("Undo", "Take the last step back", &[ctrl(Key::Z)]),
             Self::Redo => entry("Redo", "Do the step again", &[ctrl_shift(Key::Z), ctrl(Key::Y)]),
-            Self::DeleteMark => {
-                entry("Delete mark", "Take the selected mark away", &[key(Key::Delete), key(Key::Backspace)])
-            }
+            Self::Delete => entry(
+                "Delete",
+                "Take away what is selected: marks, pieces, points, seams",
+                &[key(Key::Delete), key(Key::Backspace)],
+            ),
+            Self::DeleteMark => entry("Delete mark", "Take the selected mark away", &[]),
             Self::RaiseMark => {
                 entry("Move mark up", "Give the selected mark the number before", &[ctrl(Key::ArrowUp)])
             }
@@ -140,29 +196,26 @@ impl Action {
                 "Strokes go through: front and back of the body, and every piece that lies there",
                 &[key(Key::L)],
             ),
-            Self::Choose(Tool::Mark) => entry(
-                "Mark",
-                "Paint a mark with the left button, on a piece and then on the body where it should lie",
-                &[key(Key::K)],
-            ),
-            Self::Choose(Tool::Erase) => entry("Erase", "Click a mark to take it away", &[key(Key::X)]),
-            Self::Choose(Tool::Move) => {
-                entry("Move", "Drag pieces on the table; double-click turns one over", &[key(Key::V)])
-            }
-            Self::Choose(Tool::Drag(DragMode::Surface)) => {
-                entry("Drag", "Drag the cloth along the skin; pins hold it back", &[key(Key::D)])
-            }
-            Self::Choose(Tool::Drag(DragMode::Vertex)) => {
-                entry("Drag a point", "Drag one point of the cloth; the rest follows as it relaxes", &[])
-            }
-            Self::Choose(Tool::Drag(DragMode::Rigid)) => {
-                entry("Drag rigidly", "Move the whole cloth through space", &[])
-            }
-            Self::Choose(Tool::Pin) => entry(
-                "Pin",
-                "Click to pin the cloth where it is, drag for a row of pins, click a pin to pull it out",
-                &[key(Key::P)],
-            ),
+            Self::Choose(tool) => tool.entry(),
+            Self::SelectAll
+            | Self::Duplicate
+            | Self::Twin
+            | Self::MakeSymmetric
+            | Self::Unfold
+            | Self::Fold
+            | Self::Unlink
+            | Self::TurnOver
+            | Self::ToggleLock
+            | Self::Hide
+            | Self::ShowPieces
+            | Self::InsertPoint
+            | Self::ToggleSmooth
+            | Self::Straighten
+            | Self::Curve
+            | Self::TurnSeam
+            | Self::MakeEqual
+            | Self::FreeLengths
+            | Self::Untwist => self.pattern_entry(),
             Self::ClearPins => entry("Pull all pins out", "Nothing holds the cloth any more", &[]),
             Self::Wrap => {
                 entry("Wrap", "Grow the cloth round the body so that the marks meet", &[key(Key::Enter)])
@@ -185,6 +238,22 @@ impl Action {
                 "Fit everything in the pane under the pointer",
                 &[key(Key::F), key(Key::Home)],
             ),
+            Self::FrameSelection => {
+                entry("Show the selection", "Fit what is selected in the pattern pane", &[shift(Key::F)])
+            }
+            Self::TrueSize => entry(
+                "True size",
+                "Show the pattern as large as it is, on a screen that tells its size",
+                &[ctrl(Key::Num0)],
+            ),
+            Self::NextPane => entry("Next pane", "Give the keyboard to the next pane", &[key(Key::F6)]),
+            Self::ToggleSnapping => entry(
+                "Snap",
+                "Points, edges, guides and the grid draw the pointer on; Alt keeps it free",
+                &[shift(Key::G)],
+            ),
+            Self::ClearGuides => entry("Clear guides", "Guides are dragged out of the rulers", &[]),
+            Self::Unit(unit) => entry(unit.name(), "Show lengths in this unit", &[]),
             Self::ToggleParallel => {
                 entry("Parallel projection", "Near and far look the same size", &[key(Key::Num5)])
             }
@@ -211,7 +280,7 @@ impl Action {
             .iter()
             .flat_map(|&action| action.entry().keys.into_iter().map(move |k| (action, k)))
             .collect();
-        all.sort_by_key(|(_, k)| !(k.modifiers.shift && k.modifiers.command));
+        all.sort_by_key(|(_, k)| 2 - i32::from(k.modifiers.shift) - i32::from(k.modifiers.command));
         all
     }
 
@@ -221,6 +290,9 @@ impl Action {
             self,
             Self::Look(_)
                 | Self::FrameAll
+                | Self::TrueSize
+                | Self::NextPane
+                | Self::Unit(_)
                 | Self::ToggleParallel
                 | Self::ToggleFreeTurning
                 | Self::TogglePanel
@@ -268,13 +340,39 @@ const ALL: &[Action] = &[
     Action::Quit,
     Action::Undo,
     Action::Redo,
-    Action::DeleteMark,
+    Action::Delete,
     Action::RaiseMark,
     Action::LowerMark,
     Action::ToggleLaser,
     Action::Choose(Tool::Mark),
     Action::Choose(Tool::Erase),
     Action::Choose(Tool::Move),
+    Action::Choose(Tool::Points),
+    Action::Choose(Tool::Pen),
+    Action::Choose(Tool::Rectangle),
+    Action::Choose(Tool::Ellipse),
+    Action::Choose(Tool::Sew),
+    Action::Choose(Tool::Line),
+    Action::Choose(Tool::Hole),
+    Action::Choose(Tool::Cut),
+    Action::Choose(Tool::Dart),
+    Action::Choose(Tool::Notch),
+    Action::Choose(Tool::Grain),
+    Action::SelectAll,
+    Action::Duplicate,
+    Action::Twin,
+    Action::MakeSymmetric,
+    Action::Unfold,
+    Action::TurnOver,
+    Action::ToggleLock,
+    Action::Hide,
+    Action::ShowPieces,
+    Action::TurnSeam,
+    Action::Untwist,
+    Action::FrameSelection,
+    Action::TrueSize,
+    Action::NextPane,
+    Action::ToggleSnapping,
     Action::Choose(Tool::Drag(DragMode::Surface)),
     Action::Choose(Tool::Pin),
     Action::Rewrap,

@@ -12,6 +12,7 @@ use crate::sim::{Runner, Simulation, Snapshot, thread::DEFAULT_RATE_HZ};
 use crate::ui::actions::{Action, Tool};
 use crate::ui::asks::{Ask, Asks};
 use crate::ui::dialogs::{Answer, Dialog, NativeDialog};
+use crate::ui::edits::Picked;
 use crate::ui::files::{self, Purpose, RawBody};
 use crate::ui::ghosts::Ghosts;
 use crate::ui::marks_panel::MarksPanel;
@@ -19,10 +20,13 @@ use crate::ui::messages::Messages;
 use crate::ui::mouse::Mouse;
 use crate::ui::pattern_pane::view::TableView;
 use crate::ui::pattern_pane::{self, Laid, PatternPane};
+use crate::ui::pattern_panel::PatternPanel;
+use crate::ui::picking::Picks;
 use crate::ui::player::Player;
 use crate::ui::preferences::Preferences;
 use crate::ui::safety::Safety;
 use crate::ui::scene_pane::{self, ScenePane, Seen};
+use crate::ui::selection::Selection;
 use crate::ui::side_panel::Told;
 use crate::ui::situation::Situation;
 use crate::ui::theme::{self, Palette};
@@ -38,7 +42,12 @@ pub struct App {
     pub(super) laser: bool,
     /// The mark chosen in a pane or in the list.
     pub(super) selected: Option<MarkId>,
+    /// What is selected of the pattern.
+    pub(super) picks: Picks,
+    /// What lies near draws the pointer on.
+    pub(super) snapping: bool,
     marks_panel: MarksPanel,
+    pattern_panel: PatternPanel,
     /// Marks proposed and not accepted yet.
     pub(super) ghosts: Option<Ghosts>,
     pub(super) pattern_pane: PatternPane,
@@ -87,7 +96,10 @@ impl App {
             tool: Tool::Mark,
             laser: false,
             selected: None,
+            picks: Picks::default(),
+            snapping: true,
             marks_panel: MarksPanel::default(),
+            pattern_panel: PatternPanel::default(),
             ghosts: None,
             pattern_pane: PatternPane::fitted(),
             scene_pane: ScenePane::new(graphics),
@@ -174,6 +186,7 @@ impl App {
         self.drag = None;
         self.wrap_seq = None;
         self.selected = None;
+        self.picks = Picks::default();
         self.ghosts = None;
         self.pattern_pane = PatternPane::fitted();
         self.scene_pane.frame = Some(Some(crate::render::View::Front));
@@ -188,6 +201,7 @@ impl App {
         let document = self.shown().document().clone();
         let snapshot = Arc::clone(self.shown().snapshot());
         self.ghosts = self.ghosts.take().filter(|g| g.fit(&document, self.shown().surface()));
+        self.carry_selection(&document);
         let now = self.situation(&ctx, &document, &snapshot);
         let palette = Palette::of(ctx.theme());
         let mut asks = Asks::new();
@@ -238,20 +252,21 @@ impl App {
             .show(ui, |ui| menu::menu_bar_ui(ui, now, asks));
         Panel::top("tools").frame(thick).show(ui, |ui| toolbar::toolbar_ui(ui, now, palette, asks));
         Panel::bottom("status").frame(thin).exact_size(status::HEIGHT).show(ui, |ui| {
-            status::status_ui(ui, now, &self.hint(document, now), palette);
+            status::status_ui(ui, now, &self.hint(document, now, palette), palette);
         });
         if self.show_panel {
             Panel::right("side").default_size(256.0).size_range(220.0..=420.0).frame(thick).show(ui, |ui| {
                 let told = Told {
                     document,
                     surface: surface.as_ref(),
+                    selection: &self.picks.selection,
                     problems: &snapshot.problems,
                     verdict: snapshot.verdict.as_ref().map_or(&[], |found| found),
                     lost: &lost,
                     now,
                     palette,
                 };
-                side_panel::side_panel_ui(ui, &told, &mut self.marks_panel, asks);
+                side_panel::side_panel_ui(ui, &told, &mut self.marks_panel, &mut self.pattern_panel, asks);
             });
         }
         let half = ui.available_width() * 0.46;
@@ -259,12 +274,13 @@ impl App {
         Panel::left("table").frame(Frame::new()).default_size(half).size_range(160.0..=least).show(
             ui,
             |ui| {
-                let selected = now.selected.map(|(mark, _)| mark);
-                let ghosts = self.ghosts.as_ref().map(|g| &*g.marks);
-                let (tool, mouse, laser) = (now.tool, now.mouse, self.laser);
-                let laid = Laid { document, tool, mouse, laser, selected, ghosts, palette };
-                self.pattern_pane.ui(ui, &laid, asks);
-                if document.pattern.pieces.is_empty() {
+                let mut pane = std::mem::take(&mut self.pattern_pane);
+                pane.ui(ui, &self.laid(document, now, palette), asks);
+                self.pattern_pane = pane;
+                if let Some(response) = self.pattern_pane.response.take() {
+                    response.context_menu(|ui| menu::context_ui(ui, now, asks));
+                }
+                if document.pattern.pieces.is_empty() && matches!(now.tool, Tool::Mark | Tool::Move) {
                     let area = ui.max_rect().shrink2(egui::vec2(20.0, ui.max_rect().height() * 0.36));
                     ui.scope_builder(egui::UiBuilder::new().max_rect(area), |ui| {
                         pattern_pane::empty_ui(ui, asks);
@@ -274,6 +290,7 @@ impl App {
         );
         CentralPanel::default().frame(Frame::new()).show(ui, |ui| {
             let cloth = snapshot.drawn().filter(|_| self.show_cloth && snapshot.is_dressed());
+            let stand_out = self.picks.standing_out(now.highlight);
             let seen = Seen {
                 document,
                 body: surface.as_ref(),
@@ -286,6 +303,7 @@ impl App {
                 mouse: now.mouse,
                 laser: self.laser,
                 selected: now.selected.map(|(mark, _)| mark),
+                stand_out: &stand_out,
                 ghosts: self.ghosts.as_ref().map(|g| &g.marks),
                 look: theme::look(ui.ctx().theme()),
                 palette,
@@ -294,15 +312,31 @@ impl App {
         });
     }
 
-    fn hint(&self, document: &Document, now: &Situation) -> String {
+    fn laid<'a>(&'a self, document: &'a Document, now: &'a Situation, palette: &'a Palette) -> Laid<'a> {
+        Laid {
+            document,
+            tool: now.tool,
+            mouse: now.mouse,
+            laser: now.laser,
+            selected: now.selected.map(|(mark, _)| mark),
+            selection: &self.picks.selection,
+            highlight: now.highlight,
+            unit: now.unit,
+            snapping: self.snapping,
+            ghosts: self.ghosts.as_ref().map(|g| &*g.marks),
+            palette,
+        }
+    }
+
+    fn hint(&self, document: &Document, now: &Situation, palette: &Palette) -> String {
         let mouse = now.mouse;
         let next = |painted: usize| painted + 1;
         if self.demo.is_some() {
             "A demo is shown. Drag: turn · Wheel: zoom · Esc: back to your work".to_owned()
         } else if self.ghosts.is_some() {
             "Proposed marks: Enter takes them, Esc forgets them.".to_owned()
-        } else if self.pattern_pane.hovered {
-            pattern_pane::hint(self.tool, mouse, self.laser, next(document.marks.cloth.len()))
+        } else if self.pattern_pane.hovered || self.pattern_pane.is_busy() {
+            self.pattern_pane.hint(&self.laid(document, now, palette))
         } else if self.scene_pane.hovered {
             scene_pane::hint(self.tool, mouse, self.laser, now.dressed, next(document.marks.body.len()))
         } else {
@@ -320,6 +354,11 @@ impl App {
             tool: if self.demo.is_some() { Tool::Move } else { self.tool },
             mouse: if self.demo.is_some() { Mouse::Clo } else { self.preferences.mouse },
             laser: self.laser,
+            picked: Picked::new(&document.pattern, &self.picks.selection),
+            twisted: self.pattern_pane.has_twisted(),
+            snapping: self.snapping,
+            highlight: self.highlight(),
+            unit: self.preferences.unit,
             selected: self.selected.and_then(|mark| Some((mark, document.marks.place(mark)?))),
             pieces: document.pattern.pieces.len(),
             marks: [document.marks.cloth.len(), document.marks.body.len()],
@@ -364,12 +403,14 @@ impl App {
         if self.dialog.is_some() || ctx.text_edit_focused() {
             return;
         }
-        let focused = ctx.memory(|m| m.focused().is_some());
+        let table = &self.pattern_pane;
+        let focused = ctx.memory(|m| m.focused().is_some()) && !table.has_focus(ctx);
         let menu = egui::Popup::is_any_open(ctx);
         if now.demo && !menu && ctx.input_mut(|i| i.consume_key(Modifiers::NONE, Key::Escape)) {
             return asks.push(Ask::Act(Action::StopDemo));
         }
-        let drawing = self.pattern_pane.stroke().is_some() || !self.scene_pane.stroke().is_empty();
+        let drawing = table.is_busy() || !self.scene_pane.stroke().is_empty();
+        let at_table = table.hovered || table.has_focus(ctx);
         if now.proposed > 0 && !menu && !drawing {
             for action in [Action::AcceptMarks, Action::DismissMarks] {
                 let keys = action.entry().keys;
@@ -386,12 +427,17 @@ impl App {
         for (action, keys) in Action::with_keys() {
             // A focused button takes Enter and Space for itself; Space over the table moves the view; Esc first gives up a
             // stroke.
+            let of_table = [Key::Enter, Key::Backspace, Key::Delete].contains(&keys.logical_key);
+            let is_figure = keys.logical_key.symbol_or_name().parse::<u8>().is_ok();
             let taken = Action::is_plain(keys)
                 && (menu
                     || (focused && [Key::Enter, Key::Space].contains(&keys.logical_key))
-                    || (action == Action::ToggleRelaxing && self.pattern_pane.hovered)
+                    || (table.is_busy() && of_table)
+                    || (table.takes_numbers() && at_table && is_figure)
+                    || (action == Action::ToggleRelaxing && at_table)
                     || (action == Action::CancelWrap && (drawing || self.drag.is_some())));
-            if !taken && ctx.input_mut(|i| i.consume_shortcut(&keys)) && now.why_not(action).is_none() {
+            // What cannot be chosen now leaves its keys to the panes.
+            if !taken && now.why_not(action).is_none() && ctx.input_mut(|i| i.consume_shortcut(&keys)) {
                 asks.push(Ask::Act(action));
             }
         }
@@ -400,11 +446,17 @@ impl App {
     fn carry_out(&mut self, ctx: &egui::Context, ask: Ask) {
         match ask {
             Ask::Act(action) => self.act(ctx, action),
-            Ask::Do(command) => self.apply(command),
+            Ask::Do(command) => self.apply_and_select(command),
             Ask::Drag(command) => self.drag(command),
             Ask::EndDrag => self.end_drag(),
             Ask::CancelDrag => self.cancel_drag(),
-            Ask::Select(mark) => self.selected = mark,
+            Ask::Select(mark) => {
+                self.selected = mark;
+                if mark.is_some() {
+                    self.pick(Selection::default());
+                }
+            }
+            Ask::Pick(selection) => self.pick(selection),
             Ask::ShowMarks(numbers) => self.show_marks(&numbers),
             Ask::Say(words) => self.messages.tell(words),
         }

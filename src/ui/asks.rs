@@ -3,6 +3,7 @@
 use crate::geometry::ids::MarkId;
 use crate::session::Command;
 use crate::ui::actions::Action;
+use crate::ui::selection::Selection;
 
 /// One wish.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,6 +20,8 @@ pub enum Ask {
     CancelDrag,
     /// Select a mark, or none.
     Select(Option<MarkId>),
+    /// Select this of the pattern, and nothing else.
+    Pick(Selection),
     /// Select the first of the pairs of marks with these numbers (from 1), and show them all.
     ShowMarks(Vec<usize>),
     /// Say something to the person.

@@ -9,6 +9,7 @@ use crate::ui::actions::{Action, Tool, VIEWS};
 use crate::ui::asks::{Ask, Asks};
 use crate::ui::mouse::Mouse;
 use crate::ui::situation::Situation;
+use crate::ui::units::LengthUnit;
 
 /// Draws the menu bar.
 pub fn menu_bar_ui(ui: &mut egui::Ui, now: &Situation, asks: &mut Asks) {
@@ -17,10 +18,13 @@ pub fn menu_bar_ui(ui: &mut egui::Ui, now: &Situation, asks: &mut Asks) {
         ui.menu_button("Edit", |ui| {
             items(ui, now, asks, &[Action::Undo, Action::Redo]);
             ui.separator();
+            items(ui, now, asks, &[Action::SelectAll, Action::Duplicate, Action::Delete]);
+            ui.separator();
             items(ui, now, asks, &[Action::RaiseMark, Action::LowerMark, Action::DeleteMark]);
             ui.separator();
             items(ui, now, asks, &[Action::ToggleLaser, Action::SuggestMarks, Action::ClearMarks]);
         });
+        ui.menu_button("Pattern", |ui| pattern_ui(ui, now, asks));
         ui.menu_button("Garment", |ui| {
             items(ui, now, asks, &[Action::Wrap, Action::Rewrap, Action::CancelWrap, Action::Unwrap]);
             ui.separator();
@@ -53,10 +57,80 @@ fn file_ui(ui: &mut egui::Ui, now: &Situation, asks: &mut Asks) {
     items(ui, now, asks, &[Action::Quit]);
 }
 
+fn pattern_ui(ui: &mut egui::Ui, now: &Situation, asks: &mut Asks) {
+    ui.menu_button("Tools", |ui| {
+        let groups: [&[Tool]; 3] = [
+            &[Tool::Move, Tool::Points, Tool::Sew],
+            &[Tool::Pen, Tool::Rectangle, Tool::Ellipse],
+            &[Tool::Line, Tool::Hole, Tool::Cut, Tool::Dart, Tool::Notch, Tool::Grain],
+        ];
+        for (i, tools) in groups.into_iter().enumerate() {
+            if i > 0 {
+                ui.separator();
+            }
+            tools.iter().for_each(|&tool| item(ui, now, asks, Action::Choose(tool)));
+        }
+    });
+    ui.separator();
+    selection_ui(ui, now, asks);
+    ui.separator();
+    items(ui, now, asks, &[Action::Untwist, Action::ShowPieces]);
+}
+
+/// What can be done with what is selected on the table.
+pub fn selection_ui(ui: &mut egui::Ui, now: &Situation, asks: &mut Asks) {
+    items(
+        ui,
+        now,
+        asks,
+        &[Action::Twin, Action::MakeSymmetric, Action::Unfold, Action::Fold, Action::Unlink],
+    );
+    ui.separator();
+    items(ui, now, asks, &[Action::TurnOver, Action::ToggleLock, Action::Hide]);
+    ui.separator();
+    items(ui, now, asks, &[Action::InsertPoint, Action::ToggleSmooth, Action::Straighten, Action::Curve]);
+    ui.separator();
+    items(ui, now, asks, &[Action::TurnSeam, Action::MakeEqual, Action::FreeLengths]);
+}
+
+/// What a right click on the table offers.
+pub fn context_ui(ui: &mut egui::Ui, now: &Situation, asks: &mut Asks) {
+    let picked = &now.picked;
+    let mut groups: Vec<&[Action]> = Vec::new();
+    if picked.points + picked.edges > 0 {
+        groups.push(&[
+            Action::InsertPoint,
+            Action::ToggleSmooth,
+            Action::Straighten,
+            Action::Curve,
+            Action::Unfold,
+        ]);
+    }
+    if picked.seams > 0 {
+        groups.push(&[Action::TurnSeam, Action::MakeEqual, Action::FreeLengths]);
+    }
+    if picked.pieces > 0 {
+        groups.push(&[Action::Duplicate, Action::Twin, Action::MakeSymmetric, Action::Fold, Action::Unlink]);
+        groups.push(&[Action::TurnOver, Action::ToggleLock, Action::Hide]);
+    }
+    groups.push(&[Action::Delete, Action::SelectAll, Action::ShowPieces]);
+    groups.push(&[Action::FrameAll, Action::FrameSelection]);
+    for (i, group) in groups.into_iter().enumerate() {
+        if i > 0 {
+            ui.separator();
+        }
+        items(ui, now, asks, group);
+    }
+}
+
 fn view_ui(ui: &mut egui::Ui, now: &Situation, asks: &mut Asks) {
     items(ui, now, asks, &VIEWS.map(Action::Look));
     ui.separator();
     items(ui, now, asks, &[Action::FrameAll, Action::ToggleParallel, Action::ToggleFreeTurning]);
+    ui.separator();
+    items(ui, now, asks, &[Action::FrameSelection, Action::TrueSize]);
+    items(ui, now, asks, &[Action::ToggleSnapping, Action::ClearGuides]);
+    ui.menu_button("Unit", |ui| items(ui, now, asks, &LengthUnit::ALL.map(Action::Unit)));
     ui.separator();
     items(ui, now, asks, &[Action::ToggleCloth, Action::TogglePanel]);
     ui.separator();

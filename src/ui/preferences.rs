@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::ui::files;
 use crate::ui::mouse::Mouse;
+use crate::ui::units::LengthUnit;
 
 /// Bytes a file of preferences may have.
 const MOST_BYTES: u64 = 1 << 20;
@@ -21,6 +22,9 @@ pub struct Preferences {
     /// Dark, light or as the system.
     #[serde(deserialize_with = "or_default")]
     pub theme: Theme,
+    /// What lengths are shown in.
+    #[serde(deserialize_with = "or_default")]
+    pub unit: LengthUnit,
 }
 
 /// See [`ThemePreference`].
@@ -104,7 +108,7 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("deep/preferences.json");
         assert_eq!(Preferences::read(&path), Preferences::default());
-        let preferences = Preferences { mouse: Mouse::Blender, theme: Theme::Light };
+        let preferences = Preferences { mouse: Mouse::Blender, theme: Theme::Light, unit: LengthUnit::Inch };
         preferences.write(&path).expect("written");
         assert_eq!(Preferences::read(&path), preferences);
         for broken in ["", "{", "[1, 2]", "\u{0}", "{\"mouse\": 7}", "nonsense"] {

@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 
-use glam::{DVec3, Vec2, Vec3};
+use glam::{DVec2, DVec3, Vec2, Vec3};
 
 use crate::body::Surface;
 use crate::cloth::{ClothState, FlatPiece, FlatPlace, Garment};
 use crate::geometry::adjacency::NONE;
-use crate::geometry::ids::MarkId;
+use crate::geometry::ids::{MarkId, PieceId};
 use crate::geometry::mesh::vertex_normals;
 use crate::render::{BODY, CLOTH_BACK, CLOTH_FRONT, Ground, Label, Mesh, Polyline, Rgb, Scene, mark_colour};
 use crate::wrap::{ClothMark, Marks};
@@ -35,6 +35,8 @@ pub struct Shown<'a> {
     pub selected: Option<MarkId>,
     /// Marks proposed and not accepted yet.
     pub ghosts: Option<&'a Marks>,
+    /// Lines of pieces that stand out, each in its piece's own plane.
+    pub outlines: &'a [(PieceId, Vec<DVec2>)],
 }
 
 impl Shown<'_> {
@@ -94,6 +96,8 @@ const UNREACHED: Rgb = [150, 158, 172];
 const PIN_LENGTH: f32 = 0.014;
 const NEEDLE: [u8; 4] = [70, 74, 84, 255];
 const PIN_HEAD: [u8; 4] = [214, 48, 49, 255];
+/// Lines that stand out, sRGB and opacity.
+const STANDS_OUT: [u8; 4] = [20, 132, 214, 255];
 const HEM: [u8; 4] = [52, 84, 56, 170];
 
 impl Scenery {
@@ -113,6 +117,7 @@ impl Scenery {
                 scene.lines.extend(drawn.lines.iter().cloned());
                 push_pins(shown.pinned, drawn, scale, &mut scene);
             }
+            push_outlines(garment, state, shown.outlines, scale, &mut scene);
             if let Some(marks) = shown.marks {
                 self.find_places(garment, marks);
                 covered = self.cloth_marks(garment, state, shown, scale, &mut scene);
@@ -244,6 +249,26 @@ fn push_pins(pinned: &[Option<u32>], cloth: &DrawnCloth, scale: f32, scene: &mut
         };
         scene.lines.push(line(vec![at, head], NEEDLE, 1.6, 0.003));
         scene.lines.push(line(vec![head], PIN_HEAD, 9.0, 0.006));
+    }
+}
+
+/// Lines of pieces where they lie on the body.
+fn push_outlines(
+    garment: &Garment,
+    state: &ClothState,
+    outlines: &[(PieceId, Vec<DVec2>)],
+    scale: f32,
+    scene: &mut Scene,
+) {
+    for (piece, points) in outlines {
+        let flat = FlatPiece::new(garment, *piece);
+        let place = |p: &DVec2| Some(flat.nearest(garment, *p)?.point(garment, state)?.as_vec3());
+        let points: Vec<Vec3> = points.iter().filter_map(place).collect();
+        if points.len() > 1 {
+            let mut line = thin_line(points, STANDS_OUT, 4.0, scale);
+            (line.lift, line.halo, line.halo_width) = (ON_CLOTH.0 * scale, WHITE, 1.2);
+            scene.lines.push(line);
+        }
     }
 }
 

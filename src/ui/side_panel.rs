@@ -8,8 +8,11 @@ use crate::body::Surface;
 use crate::pattern::Problem;
 use crate::session::{Command, Document, Settings};
 use crate::sim::Fault;
+use crate::ui::actions::Tool;
 use crate::ui::asks::{Ask, Asks};
 use crate::ui::marks_panel::MarksPanel;
+use crate::ui::pattern_panel::{PatternPanel, seams_ui};
+use crate::ui::selection::Selection;
 use crate::ui::situation::Situation;
 use crate::ui::theme::Palette;
 
@@ -20,6 +23,8 @@ pub struct Told<'a> {
     pub document: &'a Document,
     /// Its body.
     pub surface: Option<&'a Arc<Surface>>,
+    /// What is selected of the pattern.
+    pub selection: &'a Selection,
     /// What is wrong with the garment.
     pub problems: &'a [Problem],
     /// What is wrong with the cloth as it lies.
@@ -33,25 +38,48 @@ pub struct Told<'a> {
 }
 
 /// Draws the panel.
-pub fn side_panel_ui(ui: &mut egui::Ui, told: &Told<'_>, marks: &mut MarksPanel, asks: &mut Asks) {
+pub fn side_panel_ui(
+    ui: &mut egui::Ui,
+    told: &Told<'_>,
+    marks: &mut MarksPanel,
+    pattern: &mut PatternPanel,
+    asks: &mut Asks,
+) {
     let Told { document, palette, .. } = *told;
     ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
-        section(ui, "Marks", |ui| marks.ui(ui, told, asks));
-        section(ui, "Problems", |ui| problems_ui(ui, told, asks));
-        section(ui, "Cloth", |ui| settings_ui(ui, &document.settings, palette, asks));
+        // What the tool in hand is about comes first.
+        let on_pattern = !matches!(told.now.tool, Tool::Mark | Tool::Erase | Tool::Drag(_) | Tool::Pin);
+        if on_pattern {
+            pattern_ui(ui, told, pattern, asks);
+        }
+        section(ui, "Marks", true, |ui| marks.ui(ui, told, asks));
+        section(ui, "Problems", true, |ui| problems_ui(ui, told, asks));
+        section(ui, "Cloth", true, |ui| settings_ui(ui, &document.settings, palette, asks));
+        if !on_pattern {
+            pattern_ui(ui, told, pattern, asks);
+        }
     });
 }
 
-fn section(ui: &mut egui::Ui, title: &str, contents: impl FnOnce(&mut egui::Ui)) {
+fn pattern_ui(ui: &mut egui::Ui, told: &Told<'_>, pattern: &mut PatternPanel, asks: &mut Asks) {
+    if !told.selection.is_empty() {
+        section(ui, "Selected", true, |ui| pattern.inspector_ui(ui, told, asks));
+    }
+    section(ui, "Pieces", true, |ui| pattern.outliner_ui(ui, told, asks));
+    let seams = format!("Seams ({})", told.document.pattern.seams.len());
+    section(ui, &seams, false, |ui| seams_ui(ui, told, asks));
+}
+
+fn section(ui: &mut egui::Ui, title: &str, open: bool, contents: impl FnOnce(&mut egui::Ui)) {
     ui.add_space(4.0);
-    CollapsingHeader::new(RichText::new(title).strong().size(14.0)).default_open(true).show_unindented(
-        ui,
-        |ui| {
-            ui.add_space(2.0);
-            contents(ui);
-            ui.add_space(6.0);
-        },
-    );
+    // "Seams (12)" is the same section as "Seams (13)".
+    let id = title.split(' ').next();
+    let header = CollapsingHeader::new(RichText::new(title).strong().size(14.0));
+    header.id_salt(id).default_open(open).show_unindented(ui, |ui| {
+        ui.add_space(2.0);
+        contents(ui);
+        ui.add_space(6.0);
+    });
 }
 
 fn settings_ui(ui: &mut egui::Ui, settings: &Settings, palette: &Palette, asks: &mut Asks) {

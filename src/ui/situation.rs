@@ -5,7 +5,10 @@ use egui::ThemePreference;
 use crate::drag::DragMode;
 use crate::geometry::ids::MarkId;
 use crate::ui::actions::{Action, Tool};
+use crate::ui::edits::Picked;
 use crate::ui::mouse::Mouse;
+use crate::ui::selection::Item;
+use crate::ui::units::LengthUnit;
 use crate::wrap::{MarkPlace, Phase};
 
 /// How things stand in this frame.
@@ -27,6 +30,16 @@ pub struct Situation {
     pub marks: [usize; 2],
     /// Pins in the cloth.
     pub pins: usize,
+    /// What is selected of the pattern.
+    pub picked: Picked,
+    /// Seams join fronts to backs.
+    pub twisted: bool,
+    /// What lies near draws the pointer on.
+    pub snapping: bool,
+    /// What of the pattern the pointer is over, in either pane.
+    pub highlight: Option<Item>,
+    /// What lengths are shown in.
+    pub unit: LengthUnit,
     /// The selected mark.
     pub selected: Option<(MarkId, MarkPlace)>,
     /// Pairs of marks proposed and not accepted yet.
@@ -107,6 +120,26 @@ impl Situation {
                 }
                 Some(_) => None,
             },
+            Action::Delete => unless(self.selected.is_some() || self.picked.deletable, "Nothing is selected"),
+            Action::SelectAll => unless(self.pieces > 0, "There is no piece on the table"),
+            Action::Duplicate
+            | Action::Twin
+            | Action::MakeSymmetric
+            | Action::TurnOver
+            | Action::ToggleLock
+            | Action::Hide => unless(self.picked.pieces > 0, "No piece is selected"),
+            Action::Unfold => unless(self.picked.straight, "Select a straight edge of an outline first"),
+            Action::Fold => unless(self.picked.symmetric, "Select a symmetric piece first"),
+            Action::Unlink => unless(self.picked.linked, "Select a twin or a symmetric piece first"),
+            Action::ShowPieces => unless(self.picked.hidden, "No piece is hidden"),
+            Action::InsertPoint | Action::Straighten | Action::Curve => {
+                unless(self.picked.edges > 0, "No edge is selected")
+            }
+            Action::ToggleSmooth => unless(self.picked.points > 0, "No point is selected"),
+            Action::TurnSeam | Action::MakeEqual | Action::FreeLengths => {
+                unless(self.picked.seams > 0, "No seam is selected")
+            }
+            Action::Untwist => unless(self.twisted, "No seam is twisted"),
             Action::ClearMarks => unless(self.marks[0] + self.marks[1] > 0, "There are no marks"),
             _ => None,
         }
@@ -119,6 +152,9 @@ impl Situation {
             Action::Choose(Tool::Drag(DragMode::Surface)) => matches!(self.tool, Tool::Drag(_)),
             Action::Choose(tool) => self.tool == tool,
             Action::ToggleLaser => self.laser,
+            Action::ToggleLock => self.picked.locked,
+            Action::ToggleSnapping => self.snapping,
+            Action::Unit(unit) => self.unit == unit,
             Action::ToggleRelaxing => self.relaxing,
             Action::ToggleCloth => self.show_cloth,
             Action::TogglePanel => self.show_panel,

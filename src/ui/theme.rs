@@ -35,6 +35,12 @@ pub struct Palette {
     pub weak: Color32,
     /// Small frames over a pane.
     pub overlay: Color32,
+    /// Lines laid on the table to draw along.
+    pub guide: Color32,
+    /// Inside of points that can be taken hold of.
+    pub knob: Color32,
+    /// Saturation and value of the colours that tell seams apart.
+    pub seam_tone: [f32; 2],
 }
 
 impl Palette {
@@ -55,7 +61,10 @@ impl Palette {
                 warning: rgb(0x8a5a00),
                 error: rgb(0xb3261e),
                 weak: rgb(0x58626d),
-                overlay: Color32::from_rgba_unmultiplied(255, 255, 255, 225),
+                overlay: Color32::from_rgba_unmultiplied(255, 255, 255, 235),
+                guide: rgb(0x3b8fc4),
+                knob: rgb(0xffffff),
+                seam_tone: [0.85, 0.66],
             },
             Theme::Dark => Self {
                 accent: rgb(0x2f8560),
@@ -71,9 +80,22 @@ impl Palette {
                 warning: rgb(0xf0b95a),
                 error: rgb(0xff8a80),
                 weak: rgb(0xa9b2bc),
-                overlay: Color32::from_rgba_unmultiplied(36, 39, 44, 225),
+                overlay: Color32::from_rgba_unmultiplied(36, 39, 44, 235),
+                guide: rgb(0x4f9fd0),
+                knob: rgb(0x1e2125),
+                seam_tone: [0.66, 0.92],
             },
         }
+    }
+}
+
+impl Palette {
+    /// The colour of the seam with this number, the same on both its edges; neighbours differ.
+    pub fn seam(&self, number: u32) -> Color32 {
+        let [saturation, value] = self.seam_tone;
+        // The golden ratio: however many there are, their hues lie apart.
+        let hue = (number as f32 * 0.618_034).fract();
+        egui::ecolor::Hsva::new(hue, saturation, value, 1.0).into()
     }
 }
 

@@ -15,7 +15,7 @@ const HEIGHT: f32 = 30.0;
 pub fn toolbar_ui(ui: &mut egui::Ui, now: &Situation, palette: &Palette, asks: &mut Asks) {
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
-        for tool in [Tool::Mark, Tool::Erase, Tool::Move, Tool::Drag(DragMode::Surface), Tool::Pin] {
+        for tool in [Tool::Mark, Tool::Erase, Tool::Drag(DragMode::Surface), Tool::Pin] {
             plain(ui, now, asks, Action::Choose(tool), None);
         }
         gap(ui);

@@ -1,15 +1,16 @@
-//! Draws the table: grid, pieces, threads, marks.
+//! Draws the table: grid, marks, and what tools need.
 
-use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, Vec2, pos2};
+use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, Vec2};
 use glam::DVec2;
 
-use super::shapes::{PieceShape, Shapes};
-use super::threads::Threads;
+use super::snap::{Snap, Snapped};
+use super::table::Guide;
 use super::view::TableView;
-use crate::geometry::ids::{MarkId, PieceId, SeamId};
-use crate::pattern::{Pattern, Piece};
+use crate::geometry::ids::MarkId;
+use crate::pattern::Pattern;
 use crate::render::mark_colour;
 use crate::ui::theme::{Palette, colour};
+use crate::ui::units::LengthUnit;
 use crate::wrap::Marks;
 
 /// What is drawn on, and how.
@@ -40,20 +41,13 @@ pub struct MarkLook {
     pub ghost: bool,
 }
 
-/// Whether the front of `piece` is seen.
-pub fn front_is_seen(piece: &Piece, shape: &PieceShape) -> bool {
-    shape.drawn_from_front != piece.pose.flipped
-}
-
 impl Drawing<'_> {
-    /// Background with a grid of ten centimetres.
-    pub fn table(&self) {
+    /// Background with a grid that grows finer as the view comes nearer.
+    pub fn table(&self, unit: LengthUnit) {
         self.painter.rect_filled(self.pane, 0.0, self.palette.table);
-        for (step, ink) in [(0.1, self.palette.table_grid), (0.5, self.palette.table_grid_strong)] {
-            if self.view.scale * step < 14.0 {
-                continue;
-            }
-            let (lower, upper) = self.view.seen(self.pane);
+        let (lower, upper) = self.view.seen(self.pane);
+        let steps = unit.steps().iter().copied().filter(|step| step * self.view.scale >= 11.0);
+        for (step, ink) in steps.zip([self.palette.table_grid, self.palette.table_grid_strong]) {
             for i in (lower.x / step).ceil() as i64..=(upper.x / step).floor() as i64 {
                 let x = self.place(DVec2::new(i as f64 * step, 0.0)).x;
                 self.painter.vline(x, self.pane.y_range(), Stroke::new(1.0, ink));
@@ -65,71 +59,102 @@ impl Drawing<'_> {
         }
     }
 
-    /// All pieces; `lifted` is under the pointer.
-    pub fn pieces(&self, pattern: &Pattern, shapes: &Shapes, lifted: Option<PieceId>) {
-        for (&id, piece) in &pattern.pieces {
-            if let Some(shape) = shapes.of(id) {
-                self.piece(piece, shape, lifted == Some(id));
-            }
-        }
-    }
-
-    fn piece(&self, piece: &Piece, shape: &PieceShape, lifted: bool) {
-        let place = |p: DVec2| self.place(piece.pose.plane_from_piece(p));
-        let front = front_is_seen(piece, shape);
-        let [fill, line] = if front { self.palette.front } else { self.palette.back };
-        let mut mesh = egui::Mesh::default();
-        for t in &shape.fill {
-            let base = mesh.vertices.len() as u32;
-            t.iter().for_each(|&p| mesh.colored_vertex(place(p), fill));
-            mesh.add_triangle(base, base + 1, base + 2);
-            mesh.add_triangle(base, base + 2, base + 3);
-        }
-        self.painter.add(Shape::mesh(mesh));
-        for closed in std::iter::once(&shape.outline).chain(&shape.holes) {
-            let points: Vec<Pos2> = closed.iter().map(|&p| place(p)).collect();
-            self.painter.add(Shape::closed_line(points, Stroke::new(if lifted { 2.4 } else { 1.5 }, line)));
-        }
-    }
-
-    /// Names of the pieces, on a patch of the piece's own colour so that marks do not run through them.
-    pub fn names(&self, pattern: &Pattern, shapes: &Shapes) {
-        let size = (self.view.scale * 0.028).clamp(10.5, 15.0) as f32;
-        for (&id, piece) in &pattern.pieces {
-            let Some(shape) = shapes.of(id) else { continue };
-            let front = front_is_seen(piece, shape);
-            let fill = if front { self.palette.front[0] } else { self.palette.back[0] };
-            let name = if front { piece.name.clone() } else { format!("{} (back)", piece.name) };
-            let ink = self.palette.piece_text;
-            let text = self.painter.layout_no_wrap(name, FontId::proportional(size), ink);
-            let middle = self.place(piece.pose.plane_from_piece(shape.middle));
-            let at = Rect::from_center_size(middle, text.size());
-            self.painter.rect_filled(at.expand2(Vec2::new(5.0, 1.5)), 5.0, fill.gamma_multiply(0.88));
-            self.painter.galley(at.min, text, ink);
-        }
-    }
-
-    /// Threads between sewn edges; those of `near` stand out.
-    pub fn seams(&self, pattern: &Pattern, threads: &Threads, near: Option<SeamId>) {
-        for (id, ends) in threads.all() {
-            let Some([from, to]) = ends.on_table(pattern) else { continue };
-            let chosen = near == Some(id);
-            let ink = if chosen { self.palette.accent } else { self.palette.thread.gamma_multiply(0.38) };
-            for (&p, &q) in from.iter().zip(&to) {
-                self.painter.line_segment([self.place(p), self.place(q)], Stroke::new(1.0, ink));
-            }
-            if chosen {
-                for points in [from, to] {
-                    self.polyline(&points, Stroke::new(3.0, self.palette.accent));
+    /// Lines to draw along.
+    pub fn guides<'g>(&self, guides: impl Iterator<Item = &'g Guide>) {
+        let stroke = Stroke::new(1.0, self.palette.guide);
+        for guide in guides {
+            match *guide {
+                Guide::Upright(x) => {
+                    self.painter.vline(self.place(DVec2::new(x, 0.0)).x, self.pane.y_range(), stroke)
                 }
+                Guide::Level(y) => {
+                    self.painter.hline(self.pane.x_range(), self.place(DVec2::new(0.0, y)).y, stroke)
+                }
+            };
+        }
+    }
+
+    /// A point that can be taken hold of.
+    pub fn knob(&self, p: DVec2, is_round: bool, is_chosen: bool) {
+        let at = self.place(p);
+        let (paper, ink) = (self.palette.knob, self.palette.accent);
+        let paper = if is_chosen { ink } else { paper };
+        if is_round {
+            self.painter.circle(at, 4.0, paper, Stroke::new(1.4, ink));
+        } else {
+            let square = Rect::from_center_size(at, Vec2::splat(7.0));
+            self.painter.rect(square, 1.0, paper, Stroke::new(1.4, ink), egui::StrokeKind::Middle);
+        }
+    }
+
+    /// Words on a small patch, beside a point of the screen.
+    pub fn chip(&self, at: Pos2, words: &str) {
+        self.chip_in(at, words, self.palette.weak);
+    }
+
+    /// The same in another ink.
+    pub fn chip_in(&self, at: Pos2, words: &str, ink: Color32) {
+        let text = self.painter.layout_no_wrap(words.to_owned(), FontId::proportional(12.0), ink);
+        let size = text.size() + Vec2::new(12.0, 6.0);
+        let room = self.pane.shrink(4.0);
+        let least = room.min.to_vec2();
+        let most = (room.max - size).to_vec2().max(least);
+        let corner = (at + Vec2::new(14.0, 16.0)).to_vec2().clamp(least, most).to_pos2();
+        let patch = Rect::from_min_size(corner, size);
+        self.painter.rect(
+            patch,
+            5.0,
+            self.palette.overlay,
+            Stroke::new(1.0, self.palette.table_grid_strong),
+            egui::StrokeKind::Inside,
+        );
+        self.painter.galley(corner + Vec2::new(6.0, 3.0), text, ink);
+    }
+
+    /// Where the pointer was drawn on, and by what.
+    pub fn snapped(&self, snapped: &Snapped) {
+        let at = self.place(snapped.place);
+        let Some(by) = snapped.by else { return };
+        let ink = Stroke::new(1.6, self.palette.guide);
+        match by {
+            Snap::Grid | Snap::Guide => {
+                self.painter.line_segment([at - Vec2::X * 5.0, at + Vec2::X * 5.0], ink);
+                self.painter.line_segment([at - Vec2::Y * 5.0, at + Vec2::Y * 5.0], ink);
+            }
+            Snap::Angle => {
+                self.painter.circle_stroke(at, 4.0, ink);
+            }
+            Snap::Point | Snap::Middle | Snap::Edge(..) => {
+                let square = Rect::from_center_size(at, Vec2::splat(11.0));
+                self.painter.rect_stroke(square, 0.0, ink, egui::StrokeKind::Middle);
+                let font = FontId::proportional(11.0);
+                let place = at + Vec2::new(-9.0, -9.0);
+                self.painter.text(place, Align2::RIGHT_BOTTOM, by.name(), font, self.palette.guide);
             }
         }
+    }
+
+    /// The keyboard's cursor.
+    pub fn cross(&self, p: DVec2) {
+        let at = self.place(p);
+        for way in [Vec2::X, Vec2::Y] {
+            let (far, near) = (way * 14.0, way * 4.0);
+            let stroke = Stroke::new(2.0, self.palette.accent);
+            self.painter.line_segment([at - far, at - near], stroke);
+            self.painter.line_segment([at + near, at + far], stroke);
+        }
+    }
+
+    /// A dashed line.
+    pub fn dashed(&self, points: &[DVec2], stroke: Stroke) {
+        let placed: Vec<Pos2> = points.iter().map(|&p| self.place(p)).collect();
+        self.painter.extend(Shape::dashed_line(&placed, stroke, 6.0, 4.0));
     }
 
     /// All marks with their numbers; `near` is under the pointer.
     pub fn marks(&self, pattern: &Pattern, marks: &Marks, near: Option<MarkId>, selected: Option<MarkId>) {
         for (i, mark) in marks.cloth.iter().enumerate() {
-            if let Some(piece) = pattern.pieces.get(&mark.piece) {
+            if let Some(piece) = pattern.pieces.get(&mark.piece).filter(|piece| !piece.hidden) {
                 let points: Vec<DVec2> =
                     mark.points.iter().map(|&p| piece.pose.plane_from_piece(p)).collect();
                 let look = MarkLook {
@@ -187,7 +212,8 @@ impl Drawing<'_> {
         self.painter.text(at, Align2::CENTER_CENTER, text, FontId::proportional(12.0), letters);
     }
 
-    fn polyline(&self, points: &[DVec2], stroke: Stroke) {
+    /// A line with round ends.
+    pub fn polyline(&self, points: &[DVec2], stroke: Stroke) {
         let placed: Vec<Pos2> = points.iter().map(|&p| self.place(p)).collect();
         // Round ends, as egui draws none.
         for end in [placed.first(), placed.last()].into_iter().flatten() {
@@ -196,24 +222,8 @@ impl Drawing<'_> {
         self.painter.add(Shape::line(placed, stroke));
     }
 
-    fn place(&self, p: DVec2) -> Pos2 {
+    /// Where a point of the table is on the screen.
+    pub fn place(&self, p: DVec2) -> Pos2 {
         self.view.screen_from_table(self.pane, p)
-    }
-
-    /// A scale bar of a round length in the lower left corner.
-    pub fn scale_bar(&self) {
-        let steps = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0];
-        let Some(&length) = steps.iter().find(|&&l| l * self.view.scale >= 46.0) else { return };
-        let width = (length * self.view.scale) as f32;
-        let left = pos2(self.pane.left() + 14.0, self.pane.bottom() - 14.0);
-        let stroke = Stroke::new(1.5, self.palette.weak);
-        self.painter.line_segment([left, left + Vec2::new(width, 0.0)], stroke);
-        for x in [0.0, width] {
-            let end = left + Vec2::new(x, 0.0);
-            self.painter.line_segment([end - Vec2::new(0.0, 3.5), end + Vec2::new(0.0, 3.5)], stroke);
-        }
-        let words = if length < 1.0 { format!("{:.0} cm", length * 100.0) } else { format!("{length:.0} m") };
-        let at = left + Vec2::new(width / 2.0, -4.0);
-        self.painter.text(at, Align2::CENTER_BOTTOM, words, FontId::proportional(11.0), self.palette.weak);
     }
 }

@@ -1,59 +1,91 @@
-//! The pattern pane: flat pieces on a table, painted and moved with the pointer.
+//! The pattern pane: flat pieces on a table, drawn, sewn, painted and moved with pointer and keys.
 
 mod draw;
+mod draw_pieces;
+mod entry;
+mod input;
+mod names;
+mod options;
+mod rulers;
 pub mod shapes;
+mod snap;
+mod strip;
+mod table;
 pub mod threads;
+pub mod tools;
 pub mod view;
 
 use egui::accesskit::Role;
-use egui::{CursorIcon, Event, Key, PointerButton, Pos2, Rect, Response, Sense, WidgetInfo};
+use egui::{Event, EventFilter, Key, PointerButton, Rect, Response, Sense, Stroke, WidgetInfo};
 use glam::DVec2;
 
-use crate::geometry::ids::{MarkId, PieceId, SeamId};
-use crate::pattern::{Pattern, PlanePose};
+use crate::geometry::ids::MarkId;
+use crate::session::Document;
 use crate::session::samples::Sample;
-use crate::session::{Command, Document};
 use crate::ui::actions::{Action, Tool};
-use crate::ui::asks::{Ask, Asks, in_one_step};
-use crate::ui::clicks::clicks;
+use crate::ui::asks::{Ask, Asks};
 use crate::ui::mouse::{Deed, Mouse};
-use crate::ui::stroke;
+use crate::ui::selection::{Item, Selection};
 use crate::ui::theme::Palette;
-use crate::wrap::{ClothSide, Marks};
-use draw::{Drawing, MarkLook, front_is_seen};
+use crate::ui::units::LengthUnit;
+use crate::wrap::Marks;
+use draw::Drawing;
+use entry::Entry;
+use input::Input;
+pub use names::seam_words;
+pub use options::Options;
+use rulers::Rulers;
 use shapes::Shapes;
-use threads::{Threads, to_polyline};
+use table::{Guide, Table};
+use threads::Threads;
+use tools::{PatternTool, machine};
 use view::TableView;
 
 /// Logarithm of the zoom for each point the pointer moves.
 const ZOOM: f64 = 0.008;
-/// How near to a mark or an edge a click counts, points on the screen.
-const REACH: f64 = 12.0;
+/// The keyboard's cursor goes so many times as far as what arrow keys nudge.
+const CURSOR_STEPS: f64 = 10.0;
 
-/// The table as it is seen, and the drag under way.
+/// What is to be shown in the next frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fit {
+    All,
+    Selection,
+    TrueSize,
+}
+
+/// The table as it is seen, and what the tool in hand is at.
 #[derive(Debug, Default)]
 pub struct PatternPane {
     /// Which part of the table is seen.
     pub view: TableView,
     /// Show the whole pattern in the next frame.
     pub fit: bool,
+    /// Show something else in the next frame.
+    pub show: Option<Fit>,
     /// Whether the pointer was over the pane in the last frame.
     pub hovered: bool,
     /// Where it was on the screen in the last frame.
     pub area: Option<Rect>,
+    /// The widget, for the keyboard.
+    pub id: Option<egui::Id>,
+    /// For the menu of a right click, in this frame.
+    pub response: Option<Response>,
+    /// What was under the pointer in the last frame.
+    pub under: Option<Item>,
+    /// How tools work.
+    pub options: Options,
+    guides: Vec<Guide>,
+    /// One is being dragged out of a ruler.
+    new_guide: Option<Guide>,
     shapes: Shapes,
     threads: Threads,
-    drag: Option<Drag>,
-}
-
-#[derive(Debug)]
-enum Drag {
-    /// Strokes, each in its piece's own plane: the topmost piece's first, those of pieces under it only with the laser.
-    Paint(Vec<(PieceId, Vec<DVec2>)>),
-    /// A piece and where it was held.
-    Piece { piece: PieceId, held: DVec2, pose: PlanePose },
-    /// Given up; the button is still down.
-    Over,
+    tool: Option<(Tool, Box<dyn PatternTool>)>,
+    entry: Option<Entry>,
+    /// The keyboard's cursor, on the table.
+    cursor: Option<DVec2>,
+    /// What was under way was given up and the button is still down.
+    over: bool,
 }
 
 /// What the pane shows, and what the pointer does there.
@@ -69,18 +101,18 @@ pub struct Laid<'a> {
     pub laser: bool,
     /// The mark that stands out.
     pub selected: Option<MarkId>,
+    /// What is selected of the pattern.
+    pub selection: &'a Selection,
+    /// What the pointer is over, in this pane or the other.
+    pub highlight: Option<Item>,
+    /// What lengths are shown in.
+    pub unit: LengthUnit,
+    /// What lies near draws the pointer on.
+    pub snapping: bool,
     /// Marks proposed and not accepted yet.
     pub ghosts: Option<&'a Marks>,
     /// Colours.
     pub palette: &'a Palette,
-}
-
-/// What lies under the pointer.
-#[derive(Clone, Copy, Debug, Default)]
-struct Under {
-    mark: Option<MarkId>,
-    piece: Option<PieceId>,
-    seam: Option<SeamId>,
 }
 
 impl PatternPane {
@@ -89,49 +121,144 @@ impl PatternPane {
         Self { fit: true, ..Self::default() }
     }
 
-    /// Draws the pane and listens to the pointer.
+    /// Draws the pane and listens to pointer and keys.
     pub fn ui(&mut self, ui: &mut egui::Ui, laid: &Laid<'_>, asks: &mut Asks) {
-        let Laid { document, tool, .. } = *laid;
-        let pattern = &*document.pattern;
+        let pattern = &*laid.document.pattern;
         self.shapes.update(pattern);
         self.threads.update(pattern, &self.shapes);
-        let pane = ui.available_rect_before_wrap();
-        let response = ui.allocate_rect(pane, Sense::click_and_drag());
+        let whole = ui.available_rect_before_wrap();
+        ui.allocate_rect(whole, Sense::hover());
+        let (strip, rest) = strip::beside(whole);
+        strip::strip_ui(ui, strip, laid, asks);
+        let (rulers, pane) = Rulers::around(rest);
+        let id = ui.scope_id().with("table");
+        let response = ui.interact(pane, id, Sense::click_and_drag());
         response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, "Pattern pane"));
         self.hovered = response.contains_pointer();
-        self.area = Some(pane);
-        if std::mem::take(&mut self.fit) {
-            self.view.fit(pane, pattern);
-        }
+        (self.area, self.id) = (Some(pane), Some(id));
+        self.fit_if_asked(laid, pane);
         self.move_view(ui, laid.mouse, pane, &response);
-        let hovered = response.hover_pos().filter(|_| self.drag.is_none());
-        let under = hovered.map(|at| self.under(document, pane, at)).unwrap_or_default();
-        self.listen(ui, laid, pane, &response, under, asks);
-        self.set_cursor(ui, tool, under, &response);
-        self.draw(ui, laid, pane, under);
-        publish_marks(ui, document, &document.marks, "Mark", pane, &self.view);
-        if let Some(ghosts) = laid.ghosts {
-            publish_marks(ui, document, ghosts, "Proposed mark", pane, &self.view);
+        let mut tool = self.in_hand(laid.tool, asks);
+        let input = self.input(ui, laid, pane, &response, &mut *tool, asks);
+        let table = self.table(laid, pane);
+        tool.step(&table, &input, asks);
+        if tool.is_dragging() && ui.input(|i| i.key_pressed(Key::Escape)) {
+            tool.give_up(asks);
+        }
+        let at = input.hover.filter(|_| response.contains_pointer() || self.cursor.is_some());
+        let under = at.filter(|_| !tool.is_dragging()).and_then(|at| tool.under(&table, table.at(at)));
+        if let Some(at) = response.hover_pos() {
+            ui.ctx().set_cursor_icon(tool.cursor(&table, table.at(at)));
+        }
+        let drawing =
+            Drawing { painter: ui.painter_at(pane), pane, view: &table.view, palette: laid.palette };
+        draw_table(&drawing, &table, self.new_guide.as_ref(), at);
+        tool.draw(&drawing, &table, &input);
+        if let Some(p) = self.cursor {
+            drawing.cross(p);
+        }
+        if response.has_focus() {
+            let ring = Stroke::new(1.5, laid.palette.accent);
+            drawing.painter.rect_stroke(pane, 0.0, ring, egui::StrokeKind::Inside);
+        }
+        names::publish(ui, &table);
+        let mut options = self.options;
+        options::options_ui(ui, &table, &mut options, asks);
+        let dragged = rulers.ui(ui, &table.view, pane, laid.unit, laid.palette, at);
+        self.take_entry(ui, laid, pane, &mut *tool, asks);
+        (self.response, self.options) = (Some(response), options);
+        (self.under, self.tool) = (under, Some((laid.tool, tool)));
+        self.take_guide(pane, dragged);
+    }
+
+    /// The mark being painted, or anything else under way that Esc gives up.
+    pub fn is_busy(&self) -> bool {
+        self.entry.is_some() || self.tool.as_ref().is_some_and(|(_, tool)| tool.is_busy())
+    }
+
+    /// Figures typed now are the tool's, not shortcuts.
+    pub fn takes_numbers(&self) -> bool {
+        self.tool.as_ref().is_some_and(|(_, tool)| tool.takes_numbers())
+    }
+
+    /// The keyboard is the pane's.
+    pub fn has_focus(&self, ctx: &egui::Context) -> bool {
+        self.id.is_some() && ctx.memory(|m| m.focused()) == self.id
+    }
+
+    /// Takes all guides away.
+    pub fn clear_guides(&mut self) {
+        self.guides.clear();
+    }
+
+    /// Seams that join the front of one piece to the back of another.
+    pub fn has_twisted(&self) -> bool {
+        self.threads.twisted().next().is_some()
+    }
+
+    /// What the mouse does here, for the status bar.
+    pub fn hint(&self, laid: &Laid<'_>) -> String {
+        let view = format!("{} · F: show all", laid.mouse.table_hint());
+        match (&self.tool, self.area) {
+            (Some((_, tool)), Some(pane)) => format!("{} · {view}", tool.hint(&self.table(laid, pane))),
+            _ => view,
         }
     }
 
-    /// The stroke under way, in its piece's plane.
-    pub fn stroke(&self) -> Option<(PieceId, &[DVec2])> {
-        match &self.drag {
-            Some(Drag::Paint(strokes)) => strokes.first().map(|(piece, points)| (*piece, &points[..])),
-            _ => None,
+    fn table<'a>(&'a self, laid: &'a Laid<'a>, pane: Rect) -> Table<'a> {
+        let (view, options) = (self.view, self.options);
+        Table {
+            laid,
+            shapes: &self.shapes,
+            threads: &self.threads,
+            guides: &self.guides,
+            view,
+            pane,
+            options,
+        }
+    }
+
+    /// The machine of the chosen tool; the one before gives up what it was at.
+    fn in_hand(&mut self, chosen: Tool, asks: &mut Asks) -> Box<dyn PatternTool> {
+        match self.tool.take() {
+            Some((tool, machine)) if tool == chosen => machine,
+            before => {
+                if let Some((_, mut tool)) = before {
+                    tool.give_up(asks);
+                }
+                (self.entry, self.cursor) = (None, None);
+                machine(chosen)
+            }
+        }
+    }
+
+    fn fit_if_asked(&mut self, laid: &Laid<'_>, pane: Rect) {
+        let pattern = &*laid.document.pattern;
+        let show = self.show.take().or(std::mem::take(&mut self.fit).then_some(Fit::All));
+        match show {
+            Some(Fit::All) => self.view.fit(pane, pattern),
+            Some(Fit::Selection) => {
+                let touched = laid.selection.pieces_touched();
+                match self.table(laid, pane).bounds(touched.into_iter()) {
+                    Some(bounds) => self.view.fit_box(pane, bounds),
+                    None => self.view.fit(pane, pattern),
+                }
+            }
+            Some(Fit::TrueSize) => self.view.true_size(),
+            None => {}
         }
     }
 
     fn move_view(&mut self, ui: &egui::Ui, mouse: Mouse, pane: Rect, response: &Response) {
-        let space = ui.input(|i| i.key_down(Key::Space)) && self.drag.is_none();
+        let busy = self.tool.as_ref().is_some_and(|(_, tool)| tool.is_dragging());
+        let space = ui.input(|i| i.key_down(Key::Space)) && !busy;
         let held = ui.input(|i| i.modifiers);
         let buttons = [PointerButton::Primary, PointerButton::Secondary, PointerButton::Middle];
         let pressed = buttons.into_iter().find(|&button| response.dragged_by(button));
         let moved = response.drag_delta();
         match pressed.and_then(|button| mouse.deed(button, held)) {
             _ if space && pressed == Some(PointerButton::Primary) => self.view.pan(moved),
-            Some(Deed::Pan | Deed::Turn | Deed::HandOrTurn) if self.drag.is_none() => self.view.pan(moved),
+            Some(Deed::Pan | Deed::Turn | Deed::HandOrTurn) if !busy => self.view.pan(moved),
             Some(Deed::Zoom) => self.view.zoom(pane, pane.center(), (f64::from(-moved.y) * ZOOM).exp()),
             _ => {}
         }
@@ -144,274 +271,162 @@ impl PatternPane {
         }
     }
 
-    fn under(&self, document: &Document, pane: Rect, at: Pos2) -> Under {
-        let table = self.view.table_from_screen(pane, at);
-        let reach = REACH / self.view.scale;
-        Under {
-            mark: mark_at(document, table, reach),
-            piece: self.shapes.at(&document.pattern, table).map(|(id, _)| id),
-            seam: self.threads.near(&document.pattern, table, reach / 2.0),
-        }
-    }
-
-    fn listen(
+    /// What pointer and keys did, for the tool. Keys are the pane's while it has the keyboard, or nothing else has and the
+    /// pointer is over it.
+    fn input(
         &mut self,
         ui: &egui::Ui,
         laid: &Laid<'_>,
         pane: Rect,
         response: &Response,
-        under: Under,
+        tool: &mut dyn PatternTool,
         asks: &mut Asks,
-    ) {
-        let Laid { document, tool, .. } = *laid;
-        let (space, erasing) =
-            ui.input(|i| (i.key_down(Key::Space), tool == Tool::Erase || i.modifiers.command));
-        let held = ui.input(|i| i.modifiers);
-        let of_tool = !space && laid.mouse.deed(PointerButton::Primary, held) == Some(Deed::Tool);
-        for at in clicks(ui, response, PointerButton::Primary).into_iter().filter(|_| of_tool) {
-            let mark = self.under(document, pane, at).mark;
-            match (mark, tool) {
-                (Some(mark), _) if erasing => asks.push(Ask::Do(Command::DeleteMark { mark })),
-                (Some(_), Tool::Mark | Tool::Move) => asks.push(Ask::Select(mark)),
-                (None, Tool::Move) => asks.push(Ask::Select(None)),
-                (None, Tool::Mark) if !erasing => self.dot(laid, pane, at, asks),
-                _ => {}
-            }
+    ) -> Input {
+        if self.entry.is_some() {
+            return Input { hover: response.hover_pos(), ..Input::default() };
         }
-        if tool == Tool::Move
-            && response.double_clicked()
-            && let Some(piece) = under.piece
-        {
-            asks.extend(self.turned_over(&document.pattern, piece).map(Ask::Do));
+        if self.over {
+            self.over = ui.input(|i| i.pointer.primary_down());
+            return Input { hover: response.hover_pos(), ..Input::default() };
         }
-        if response.drag_started_by(PointerButton::Primary) && of_tool && !erasing {
-            self.start_drag(ui, laid, pane);
+        let mut input = Input::of_pointer(ui, response, laid.mouse, tool.is_dragging());
+        if !input.clicks.is_empty() || input.pressed.is_some() {
+            response.request_focus();
         }
-        if self.drag.is_some() {
-            self.go_on(ui, laid, pane, asks);
-            let lost = ui.input(|i| {
-                i.events.contains(&Event::WindowFocused(false)) || i.events.contains(&Event::PointerGone)
-            });
-            if ui.input(|i| i.key_pressed(Key::Escape)) {
-                self.cancel(asks);
-            } else if !ui.input(|i| i.pointer.primary_down()) || lost {
-                self.finish(document, asks);
-            }
+        let nothing_else = ui.ctx().memory(|m| m.focused()).is_none();
+        if response.has_focus() || (nothing_else && self.hovered) {
+            input.read_keys(ui);
+            self.escape(ui, laid, tool, asks);
         }
+        if response.has_focus() {
+            let filter =
+                EventFilter { tab: true, horizontal_arrows: true, vertical_arrows: true, escape: true };
+            ui.ctx().memory_mut(|m| m.set_focus_lock_filter(response.id, filter));
+            let held = input.held;
+            let tabs = ui.input(|i| i.num_presses(Key::Tab) as i32);
+            input.next = if held.shift { -tabs } else { tabs };
+        }
+        self.move_cursor(ui, response, pane, tool, &mut input);
+        input
     }
 
-    fn dot(&self, laid: &Laid<'_>, pane: Rect, at: Pos2, asks: &mut Asks) {
-        let pattern = &laid.document.pattern;
-        let table = self.view.table_from_screen(pane, at);
-        let hit = self.shapes.all_at(pattern, table).take(if laid.laser { usize::MAX } else { 1 });
-        let dots: Vec<_> = hit.map(|(piece, p)| (piece, vec![p])).collect();
-        match dots.is_empty() {
-            false => in_one_step(self.painted(pattern, dots), asks),
-            true if pattern.pieces.is_empty() => {}
-            true => asks.push(Ask::Say("Marks are painted on the pieces: press on one of them.".to_owned())),
-        }
-    }
-
-    fn start_drag(&mut self, ui: &egui::Ui, laid: &Laid<'_>, pane: Rect) {
-        let Laid { document, tool, laser, .. } = *laid;
-        let Some(origin) = ui.input(|i| i.pointer.press_origin()) else { return };
-        let table = self.view.table_from_screen(pane, origin);
-        let Some((piece, p)) = self.shapes.at(&document.pattern, table) else { return };
-        self.drag = match tool {
-            Tool::Mark => {
-                let mut strokes = vec![(piece, vec![p])];
-                go_through(&mut strokes, &self.shapes, &document.pattern, table, laser);
-                Some(Drag::Paint(strokes))
-            }
-            Tool::Move => document.pattern.pieces.get(&piece).map(|found| Drag::Piece {
-                piece,
-                held: table,
-                pose: found.pose,
-            }),
-            Tool::Erase | Tool::Drag(_) | Tool::Pin => None,
-        };
-    }
-
-    /// Follows the pointer through every place it was in since the last frame.
-    fn go_on(&mut self, ui: &egui::Ui, laid: &Laid<'_>, pane: Rect, asks: &mut Asks) {
-        let trail: Vec<Pos2> = ui.input(|i| {
-            let moved = i.events.iter().filter_map(|e| match e {
-                Event::PointerMoved(p) => Some(*p),
-                _ => None,
-            });
-            moved.collect()
-        });
-        match &mut self.drag {
-            Some(Drag::Paint(strokes)) => {
-                let pattern = &laid.document.pattern;
-                for at in trail {
-                    let table = self.view.table_from_screen(pane, at);
-                    go_through(strokes, &self.shapes, pattern, table, laid.laser);
-                }
-            }
-            Some(Drag::Piece { piece, held, pose }) => {
-                if let Some(&at) = trail.last() {
-                    let moved = self.view.table_from_screen(pane, at) - *held;
-                    let pose = PlanePose { offset: pose.offset + moved, ..*pose };
-                    asks.push(Ask::Drag(Command::SetPiecePose { piece: *piece, pose }));
-                }
-            }
-            Some(Drag::Over) | None => {}
-        }
-    }
-
-    fn finish(&mut self, document: &Document, asks: &mut Asks) {
-        match self.drag.take() {
-            Some(Drag::Paint(mut strokes)) => {
-                for (_, points) in &mut strokes {
-                    *points = stroke::finished(points);
-                }
-                in_one_step(self.painted(&document.pattern, strokes), asks);
-            }
-            Some(Drag::Piece { .. }) => asks.push(Ask::EndDrag),
-            Some(Drag::Over) | None => {}
-        }
-    }
-
-    fn cancel(&mut self, asks: &mut Asks) {
-        if matches!(self.drag, Some(Drag::Piece { .. })) {
-            asks.push(Ask::CancelDrag);
-        }
-        self.drag = Some(Drag::Over);
-    }
-
-    /// The commands that paint `strokes`: the first on the side that is seen, the others on the outer side of their
-    /// pieces, however they lie: nobody means to turn half a garment inside out.
-    fn painted(&self, pattern: &Pattern, strokes: Vec<(PieceId, Vec<DVec2>)>) -> Vec<Command> {
-        let seen = |piece: PieceId| Some(front_is_seen(pattern.pieces.get(&piece)?, self.shapes.of(piece)?));
-        let command = |(i, (piece, points)): (usize, (PieceId, Vec<DVec2>))| {
-            let front = seen(piece)? || i > 0;
-            let side = if front { ClothSide::Front } else { ClothSide::Back };
-            Some(Command::AddClothMark { piece, side, points })
-        };
-        strokes.into_iter().enumerate().filter_map(command).collect()
-    }
-
-    /// Mirrors a piece about the upright line through its middle.
-    fn turned_over(&self, pattern: &Pattern, id: PieceId) -> Option<Command> {
-        let (piece, shape) = (pattern.pieces.get(&id)?, self.shapes.of(id)?);
-        let middle = piece.pose.plane_from_piece(shape.middle);
-        let turned =
-            PlanePose { offset: DVec2::ZERO, rotation: -piece.pose.rotation, flipped: !piece.pose.flipped };
-        let offset = middle - turned.plane_from_piece(shape.middle);
-        Some(Command::SetPiecePose { piece: id, pose: PlanePose { offset, ..turned } })
-    }
-
-    fn set_cursor(&self, ui: &egui::Ui, tool: Tool, under: Under, response: &Response) {
-        if !response.contains_pointer() {
+    /// Esc gives up what is under way; then the selection; then the tool; then the keyboard.
+    fn escape(&mut self, ui: &egui::Ui, laid: &Laid<'_>, tool: &mut dyn PatternTool, asks: &mut Asks) {
+        if !ui.input(|i| i.key_pressed(Key::Escape)) {
             return;
         }
-        let erasing = tool == Tool::Erase || ui.input(|i| i.modifiers.command);
-        ui.ctx().set_cursor_icon(match (tool, &self.drag) {
-            (_, Some(Drag::Piece { .. })) => CursorIcon::Grabbing,
-            _ if erasing && under.mark.is_some() => CursorIcon::PointingHand,
-            (Tool::Move, _) if under.piece.is_some() => CursorIcon::Grab,
-            (Tool::Mark, _) if under.piece.is_some() || self.drag.is_some() => CursorIcon::Crosshair,
-            _ => CursorIcon::Default,
-        });
+        let painting = matches!(laid.tool, Tool::Mark | Tool::Erase | Tool::Move | Tool::Drag(_) | Tool::Pin);
+        if tool.is_busy() {
+            self.over = tool.is_dragging();
+            tool.give_up(asks);
+        } else if !laid.selection.is_empty() {
+            asks.push(Ask::Pick(Selection::default()));
+        } else if !painting {
+            asks.push(Ask::Act(Action::Choose(Tool::Move)));
+        } else if let Some(id) = self.id {
+            ui.ctx().memory_mut(|m| m.surrender_focus(id));
+        }
     }
 
-    fn draw(&self, ui: &egui::Ui, laid: &Laid<'_>, pane: Rect, under: Under) {
-        let Laid { document, palette, selected, .. } = *laid;
-        let pattern = &*document.pattern;
-        let drawing = Drawing { painter: ui.painter_at(pane), pane, view: &self.view, palette };
-        drawing.table();
-        drawing.pieces(pattern, &self.shapes, under.piece);
-        drawing.seams(pattern, &self.threads, under.seam);
-        drawing.marks(pattern, &document.marks, under.mark, selected);
-        if let Some(ghosts) = laid.ghosts {
-            drawing.ghosts(pattern, ghosts);
+    /// While a tool draws, arrow keys move a cursor and Space presses there. The pointer takes over when it moves.
+    fn move_cursor(
+        &mut self,
+        ui: &egui::Ui,
+        response: &Response,
+        pane: Rect,
+        tool: &dyn PatternTool,
+        input: &mut Input,
+    ) {
+        if ui.input(|i| i.pointer.is_moving()) || !tool.draws() || !response.has_focus() {
+            self.cursor = None;
         }
-        if let Some((id, points)) = self.stroke()
-            && let Some(piece) = pattern.pieces.get(&id)
-        {
-            let points: Vec<DVec2> = points.iter().map(|&p| piece.pose.plane_from_piece(p)).collect();
-            let number = document.marks.cloth.len() + 1;
-            let paired = number <= document.marks.body.len();
-            drawing.mark(&points, number, MarkLook { paired, ..MarkLook::default() });
+        if !tool.draws() || !response.has_focus() {
+            return;
         }
-        drawing.names(pattern, &self.shapes);
-        drawing.scale_bar();
+        if input.nudge != DVec2::ZERO {
+            let middle = || ((self.view.centre / 0.01).round()) * 0.01;
+            let from = self.cursor.unwrap_or_else(middle);
+            self.cursor = Some(from + input.nudge * CURSOR_STEPS);
+            input.nudge = DVec2::ZERO;
+        }
+        if let Some(p) = self.cursor {
+            let at = self.view.screen_from_table(pane, p);
+            input.hover = Some(at);
+            input.held.shift = false;
+            if ui.input(|i| i.key_pressed(Key::Space)) {
+                input.clicks.push(at);
+            }
+        }
+    }
+
+    /// A figure typed opens a small field; what is entered there goes to the tool.
+    fn take_entry(
+        &mut self,
+        ui: &mut egui::Ui,
+        laid: &Laid<'_>,
+        pane: Rect,
+        tool: &mut dyn PatternTool,
+        asks: &mut Asks,
+    ) {
+        let active = self.hovered || self.has_focus(ui.ctx()) || tool.is_dragging();
+        if self.entry.is_none() && active && tool.takes_numbers() && !ui.ctx().text_edit_focused() {
+            let at = ui.input(|i| i.pointer.hover_pos()).filter(|at| pane.contains(*at));
+            self.entry = Entry::opened(ui, at.unwrap_or(pane.center()));
+        }
+        let Some(mut entry) = self.entry.take() else { return };
+        let table = self.table(laid, pane);
+        let stays = entry.ui(ui, laid, |typed| tool.typed(&table, typed, asks));
+        if stays {
+            self.entry = Some(entry);
+        } else {
+            // The next figure is typed to the pane as well.
+            let id = self.id.unwrap_or(egui::Id::NULL);
+            ui.ctx().memory_mut(|m| m.request_focus(id));
+        }
+    }
+
+    fn take_guide(&mut self, pane: Rect, dragged: Option<(Guide, bool)>) {
+        self.new_guide = None;
+        let Some((guide, let_go)) = dragged else { return };
+        let (lower, upper) = self.view.seen(pane);
+        let inside = match guide {
+            Guide::Upright(x) => (lower.x..upper.x).contains(&x),
+            Guide::Level(y) => (lower.y..upper.y).contains(&y),
+        };
+        match (inside, let_go) {
+            (true, true) => self.guides.push(guide),
+            (true, false) => self.new_guide = Some(guide),
+            _ => {}
+        }
     }
 }
 
-/// Takes the strokes on to a point of the table. Off the first piece nothing is painted; with the laser every piece below
-/// gets its own stroke as soon as the pointer is over it.
-fn go_through(
-    strokes: &mut Vec<(PieceId, Vec<DVec2>)>,
-    shapes: &Shapes,
-    pattern: &Pattern,
-    table: DVec2,
-    laser: bool,
-) {
-    let Some(&(first, _)) = strokes.first() else { return };
-    let below = shapes.all_at(pattern, table).skip_while(|(piece, _)| *piece != first);
-    for (piece, p) in below.take(if laser { usize::MAX } else { 1 }) {
-        match strokes.iter_mut().find(|(painted, _)| *painted == piece) {
-            Some((_, points)) if points.last().is_none_or(|l| l.distance(p) > 1e-4) => points.push(p),
-            Some(_) => {}
-            None => strokes.push((piece, vec![p])),
-        }
+fn draw_table(drawing: &Drawing<'_>, table: &Table<'_>, new_guide: Option<&Guide>, at: Option<egui::Pos2>) {
+    let Laid { document, selected, ghosts, tool, .. } = *table.laid;
+    let pattern = &*document.pattern;
+    drawing.table(table.laid.unit);
+    drawing.pieces(table);
+    drawing.seams(table);
+    drawing.edges_standing_out(table);
+    let near = at.and_then(|at| table.mark_at(table.at(at)));
+    drawing.marks(pattern, &document.marks, near, selected);
+    if let Some(ghosts) = ghosts {
+        drawing.ghosts(pattern, ghosts);
     }
-}
-
-/// What the pointer does here, for the status bar.
-pub fn hint(tool: Tool, mouse: Mouse, laser: bool, next: usize) -> String {
-    let view = format!("{} · F: show all", mouse.table_hint());
-    match tool {
-        Tool::Mark if laser => {
-            format!("Drag: paint marks {next}… on every piece that lies here · L: only the topmost · {view}")
-        }
-        Tool::Mark => {
-            format!(
-                "Drag: paint mark {next} on the cloth · Click: a dot, or select a mark · Ctrl+click: erase · {view}"
-            )
-        }
-        Tool::Erase => format!("Click a mark: take it away · {view}"),
-        Tool::Drag(_) | Tool::Pin => format!("The cloth is dragged and pinned on the body · {view}"),
-        Tool::Move => format!("Drag a piece: move it · Double-click: turn it over · {view}"),
+    drawing.names(table);
+    if tool == Tool::Sew {
+        drawing.badges(table);
     }
+    drawing.guides(table.guides.iter().chain(new_guide));
 }
 
-fn mark_at(document: &Document, table: DVec2, reach: f64) -> Option<MarkId> {
-    let distance = |mark: &crate::wrap::ClothMark| {
-        let pose = document.pattern.pieces.get(&mark.piece)?.pose;
-        let points: Vec<DVec2> = mark.points.iter().map(|&p| pose.plane_from_piece(p)).collect();
-        Some((mark.id, to_polyline(table, &points)))
-    };
-    document
-        .marks
-        .cloth
-        .iter()
-        .filter_map(distance)
-        .filter(|(_, d)| *d <= reach)
-        .min_by(|a, b| a.1.total_cmp(&b.1))
-        .map(|(id, _)| id)
-}
-
-/// Tells screen readers and tests where each mark is.
-fn publish_marks(
-    ui: &egui::Ui,
-    document: &Document,
-    marks: &Marks,
-    what: &str,
-    pane: Rect,
-    view: &TableView,
-) {
-    for (i, mark) in marks.cloth.iter().enumerate() {
-        if let (Some(piece), Some(&first)) = (document.pattern.pieces.get(&mark.piece), mark.points.first()) {
-            let at = view.screen_from_table(pane, piece.pose.plane_from_piece(first));
-            let rect = Rect::from_center_size(at, egui::vec2(12.0, 12.0));
-            let node = ui.interact(rect, ui.scope_id().with((what, "on the cloth", i)), Sense::hover());
-            node.widget_info(|| {
-                WidgetInfo::labeled(Role::Label, true, format!("{what} {} on the cloth", i + 1))
-            });
+/// Whether anything typed since the last frame begins a number.
+fn begins_number(event: &Event) -> Option<String> {
+    match event {
+        Event::Text(text) if text.starts_with(|c: char| c.is_ascii_digit() || "@.(-".contains(c)) => {
+            Some(text.clone())
         }
+        _ => None,
     }
 }
 
@@ -419,8 +434,11 @@ fn publish_marks(
 pub fn empty_ui(ui: &mut egui::Ui, asks: &mut Asks) {
     ui.vertical_centered(|ui| {
         ui.heading("An empty table");
-        ui.label("Open a sample, or bring a pattern of your own.");
+        ui.label("Draw a piece, open a sample, or bring a pattern of your own.");
         ui.add_space(6.0);
+        if ui.button("Draw a rectangle").clicked() {
+            asks.push(Ask::Act(Action::Choose(Tool::Rectangle)));
+        }
         if ui.button("Open the T-shirt").clicked() {
             asks.push(Ask::Act(Action::Sample(Sample::Tshirt)));
         }

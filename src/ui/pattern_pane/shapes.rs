@@ -7,7 +7,7 @@ use glam::DVec2;
 
 use crate::geometry::ids::PieceId;
 use crate::pattern::piece::flattened_loop;
-use crate::pattern::{Pattern, Piece};
+use crate::pattern::{Pattern, Piece, curve};
 
 /// Chords stay this close to the outline, metres.
 const TOLERANCE: f64 = 4e-4;
@@ -22,10 +22,22 @@ pub struct PieceShape {
     pub outline: Vec<DVec2>,
     /// The holes, closed.
     pub holes: Vec<Vec<DVec2>>,
+    /// Each edge from its start to its end.
+    pub edges: Vec<Vec<DVec2>>,
+    /// Arc length of each edge, metres.
+    pub lengths: Vec<f64>,
+    /// Each line drawn inside.
+    pub lines: Vec<Vec<DVec2>>,
+    /// Where each notch is, and the way into the cloth.
+    pub notches: Vec<(DVec2, DVec2)>,
+    /// The line it is cut on, closed; empty without allowance.
+    pub cut: Vec<DVec2>,
     /// Filled by trapezoids: four corners each.
     pub fill: Vec<[DVec2; 4]>,
     /// A good place for the name.
     pub middle: DVec2,
+    /// Lower and upper corner.
+    pub bounds: [DVec2; 2],
     /// The side the outline is drawn from is the front.
     pub drawn_from_front: bool,
 }
@@ -35,11 +47,20 @@ impl PieceShape {
         let outline = piece.flattened(TOLERANCE);
         let holes: Vec<Vec<DVec2>> = piece.holes.iter().map(|hole| flattened_loop(hole, TOLERANCE)).collect();
         let fill = trapezoids(std::iter::once(&outline).chain(&holes));
+        let drawn_from_front = area(&outline) >= 0.0;
+        let edges: Vec<Vec<DVec2>> = (0..piece.edge_count()).map(|i| flat_edge(piece, i)).collect();
+        let bound = |start, pick: fn(DVec2, DVec2) -> DVec2| outline.iter().copied().fold(start, pick);
         Self {
             piece: Arc::clone(piece),
             version,
             middle: middle(&fill),
-            drawn_from_front: area(&outline) >= 0.0,
+            bounds: [bound(DVec2::INFINITY, DVec2::min), bound(DVec2::NEG_INFINITY, DVec2::max)],
+            lengths: (0..piece.edge_count()).map(|i| piece.edge_length(i)).collect(),
+            lines: piece.lines.iter().map(|line| line.flattened(TOLERANCE)).collect(),
+            notches: notches(piece),
+            cut: cut_line(piece, &outline, drawn_from_front),
+            drawn_from_front,
+            edges,
             fill,
             outline,
             holes,
@@ -51,6 +72,71 @@ impl PieceShape {
         let lines = std::iter::once(&self.outline).chain(&self.holes);
         lines.flat_map(|line| sides(line)).filter(|&[a, b]| crosses(a, b, p)).count() % 2 == 1
     }
+
+    /// The four corners of its box.
+    pub fn corners(&self) -> [DVec2; 4] {
+        let [a, b] = self.bounds;
+        [a, DVec2::new(b.x, a.y), b, DVec2::new(a.x, b.y)]
+    }
+}
+
+fn flat_edge(piece: &Piece, i: usize) -> Vec<DVec2> {
+    let (a, b) = piece.edge_ends(i);
+    let mut points = Vec::new();
+    curve::flatten(a, piece.edge(i).shape, b, TOLERANCE, &mut points);
+    points.push(b);
+    points
+}
+
+fn notches(piece: &Piece) -> Vec<(DVec2, DVec2)> {
+    let place = |edge: usize, at: f64| {
+        let near = [at - 1e-3, at, at + 1e-3].map(|f| f.clamp(0.0, 1.0));
+        let p = piece.edge_points(edge, &near);
+        let along = (p[2] - p[0]).normalize_or_zero();
+        // Cloth lies on the left of a line that runs counter-clockwise round it.
+        (p[1], along.perp() * if cloth_is_left(piece, edge) { 1.0 } else { -1.0 })
+    };
+    let known = piece.notches.iter().filter(|n| n.edge < piece.edge_count());
+    known.map(|n| place(n.edge, n.at)).collect()
+}
+
+/// Whether the cloth lies left of an edge, as it is drawn.
+pub fn cloth_is_left(piece: &Piece, edge: usize) -> bool {
+    let (line, _) = piece.loop_of(edge);
+    let turns_left = area(&flattened_loop(piece.loop_edges(line), TOLERANCE * 10.0)) >= 0.0;
+    turns_left == (line == 0)
+}
+
+/// The line a piece is cut on: what a file gave, or the outline moved out by the allowance.
+fn cut_line(piece: &Piece, outline: &[DVec2], drawn_from_front: bool) -> Vec<DVec2> {
+    if !piece.cut_line.is_empty() {
+        return flattened_loop(&piece.cut_line, TOLERANCE);
+    }
+    if piece.allowance <= 0.0 {
+        return Vec::new();
+    }
+    let out = if drawn_from_front { -piece.allowance } else { piece.allowance };
+    moved_out(outline, out)
+}
+
+/// A closed line moved to its left by `by` metres, corners drawn out to a point or, where that is far, cut off.
+fn moved_out(line: &[DVec2], by: f64) -> Vec<DVec2> {
+    let n = line.len();
+    let normal = |i: usize| (line[(i + 1) % n] - line[i]).normalize_or_zero().perp();
+    let mut moved = Vec::with_capacity(n);
+    for i in 0..n {
+        let (before, after) = (normal((i + n - 1) % n), normal(i));
+        let middle = (before + after) / 2.0;
+        // A corner of 60 degrees is drawn out to twice the allowance; a sharper one is cut off there.
+        if middle.length_squared() > 0.2 {
+            moved.push(line[i] + middle / middle.length_squared() * by);
+        } else {
+            let along = (before.perp() - after.perp()).normalize_or_zero() * -by;
+            moved.push(line[i] + before * by + along);
+            moved.push(line[i] + after * by + along);
+        }
+    }
+    moved
 }
 
 /// Shapes of the pieces of the pattern drawn last.
@@ -90,15 +176,23 @@ impl Shapes {
     /// All pieces under a point of the table, topmost first, and the point in the plane of each.
     pub fn all_at(&self, pattern: &Pattern, table: DVec2) -> impl Iterator<Item = (PieceId, DVec2)> {
         pattern.pieces.iter().rev().filter_map(move |(&id, piece)| {
+            if piece.hidden {
+                return None;
+            }
             let p = piece.pose.piece_from_plane(table);
             self.of(id)?.contains(p).then_some((id, p))
         })
     }
 }
 
-/// Moving a piece on the table does not change its shape.
+/// Moving or renaming a piece does not change its shape.
 fn same_outline(a: &Piece, b: &Piece) -> bool {
-    a.outline == b.outline && a.holes == b.holes
+    a.outline == b.outline
+        && a.holes == b.holes
+        && a.lines == b.lines
+        && a.notches == b.notches
+        && a.allowance == b.allowance
+        && a.cut_line == b.cut_line
 }
 
 fn area(outline: &[DVec2]) -> f64 {

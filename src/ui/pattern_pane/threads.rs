@@ -6,6 +6,7 @@ use glam::DVec2;
 
 use super::shapes::Shapes;
 use crate::geometry::ids::{PieceId, SeamId};
+use crate::pattern::edit::twists;
 use crate::pattern::{Pattern, Seam};
 
 /// Distance between threads, metres, within limits.
@@ -17,6 +18,10 @@ pub struct Ends {
     key: (Seam, [u64; 2]),
     pieces: [PieceId; 2],
     points: [Vec<DVec2>; 2],
+    /// Lengths of both sides, metres.
+    pub lengths: [f64; 2],
+    /// It joins the front of one piece to the back of another.
+    pub is_twisted: bool,
 }
 
 impl Ends {
@@ -27,6 +32,11 @@ impl Ends {
             Some(self.points[k].iter().map(|&p| pose.plane_from_piece(p)).collect())
         };
         Some([side(0)?, side(1)?])
+    }
+
+    /// Whether it is drawn: where one of its pieces is hidden it is not.
+    pub fn is_seen(&self, pattern: &Pattern) -> bool {
+        self.pieces.iter().all(|id| pattern.pieces.get(id).is_some_and(|piece| !piece.hidden))
     }
 }
 
@@ -39,12 +49,20 @@ pub struct Threads {
 impl Threads {
     /// Brings the threads up to date; `shapes` must be.
     pub fn update(&mut self, pattern: &Pattern, shapes: &Shapes) {
+        let before = self.seams.len();
         self.seams.retain(|id, ends| pattern.seams.get(id).and_then(|s| key(s, shapes)) == Some(ends.key));
+        let kept = self.seams.len();
         for (&id, seam) in &pattern.seams {
             if !self.seams.contains_key(&id)
                 && let Some(ends) = ends(pattern, seam, shapes)
             {
                 self.seams.insert(id, ends);
+            }
+        }
+        if self.seams.len() != kept || kept != before {
+            let found = twists(pattern);
+            for (id, ends) in &mut self.seams {
+                ends.is_twisted = found.seams.contains(id);
             }
         }
     }
@@ -54,17 +72,25 @@ impl Threads {
         self.seams.iter().map(|(&id, ends)| (id, ends))
     }
 
-    /// The seam with an edge within `reach` metres of a point of the table.
-    pub fn near(&self, pattern: &Pattern, table: DVec2, reach: f64) -> Option<SeamId> {
+    /// The threads of one seam.
+    pub fn of(&self, id: SeamId) -> Option<&Ends> {
+        self.seams.get(&id)
+    }
+
+    /// Seams that are twisted, in id order.
+    pub fn twisted(&self) -> impl Iterator<Item = SeamId> {
+        self.all().filter(|(_, ends)| ends.is_twisted).map(|(id, _)| id)
+    }
+
+    /// The seam with a thread within `reach` metres of a point of the table.
+    pub fn thread_near(&self, pattern: &Pattern, table: DVec2, reach: f64) -> Option<SeamId> {
         let distance = |ends: &Ends| {
-            let sides = ends.on_table(pattern)?;
-            sides.iter().map(|points| to_polyline(table, points)).reduce(f64::min)
+            let [from, to] = ends.on_table(pattern)?;
+            from.iter().zip(&to).map(|(&p, &q)| to_polyline(table, &[p, q])).reduce(f64::min)
         };
-        self.all()
-            .filter_map(|(id, ends)| Some((id, distance(ends)?)))
-            .filter(|(_, d)| *d <= reach)
-            .min_by(|a, b| a.1.total_cmp(&b.1))
-            .map(|(id, _)| id)
+        let seen = self.all().filter(|(_, ends)| ends.is_seen(pattern));
+        let near = seen.filter_map(|(id, ends)| Some((id, distance(ends)?))).filter(|(_, d)| *d <= reach);
+        near.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(id, _)| id)
     }
 }
 
@@ -90,6 +116,20 @@ fn key(seam: &Seam, shapes: &Shapes) -> Option<(Seam, [u64; 2])> {
 fn ends(pattern: &Pattern, seam: &Seam, shapes: &Shapes) -> Option<Ends> {
     let [a, b] = seam.sides;
     let (first, second) = (pattern.pieces.get(&a.piece)?, pattern.pieces.get(&b.piece)?);
+    let lengths = [a.length(first)?, b.length(second)?];
+    Some(Ends {
+        key: key(seam, shapes)?,
+        pieces: [a.piece, b.piece],
+        points: threads(pattern, seam)?,
+        lengths,
+        is_twisted: false,
+    })
+}
+
+/// Where the threads of a seam begin and end, each side in its own piece's plane, paired.
+pub fn threads(pattern: &Pattern, seam: &Seam) -> Option<[Vec<DVec2>; 2]> {
+    let [a, b] = seam.sides;
+    let (first, second) = (pattern.pieces.get(&a.piece)?, pattern.pieces.get(&b.piece)?);
     let count = (a.length(first)? / SPACING).ceil().clamp(2.0, 24.0) as usize;
     let at: Vec<f64> = (0..=count).map(|i| i as f64 / count as f64).collect();
     let from = a.points(first, &at)?;
@@ -97,5 +137,5 @@ fn ends(pattern: &Pattern, seam: &Seam, shapes: &Shapes) -> Option<Ends> {
     if !seam.same_direction {
         to.reverse();
     }
-    Some(Ends { key: key(seam, shapes)?, pieces: [a.piece, b.piece], points: [from, to] })
+    Some([from, to])
 }

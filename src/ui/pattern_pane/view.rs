@@ -52,10 +52,20 @@ impl TableView {
     /// Shows the whole pattern.
     pub fn fit(&mut self, pane: Rect, pattern: &Pattern) {
         let (lower, upper) = bounds(pattern).unwrap_or((DVec2::splat(-0.5), DVec2::splat(0.5)));
+        self.fit_box(pane, [lower, upper]);
+    }
+
+    /// Shows everything between two corners of the table.
+    pub fn fit_box(&mut self, pane: Rect, [lower, upper]: [DVec2; 2]) {
         let size = (upper - lower).max(DVec2::splat(0.05));
         let room = pane.shrink(28.0).size().max(Vec2::splat(20.0));
         self.scale = (f64::from(room.x) / size.x).min(f64::from(room.y) / size.y).clamp(FARTHEST, CLOSEST);
         self.centre = (lower + upper) / 2.0;
+    }
+
+    /// As large as cloth on the table: a point is a 96th of an inch on screens that say the truth.
+    pub fn true_size(&mut self) {
+        self.scale = 96.0 / 0.0254;
     }
 
     /// The part of the table that is seen: lower and upper corner.
@@ -71,6 +81,7 @@ fn bounds(pattern: &Pattern) -> Option<(DVec2, DVec2)> {
     pattern
         .pieces
         .values()
+        .filter(|piece| !piece.hidden)
         .flat_map(|piece| {
             let pose = piece.pose;
             piece.flattened(2e-3).into_iter().map(move |p| pose.plane_from_piece(p))

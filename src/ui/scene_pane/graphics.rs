@@ -9,6 +9,7 @@ use crate::body::Surface;
 use crate::cloth::ClothState;
 use crate::geometry::ids::MarkId;
 use crate::render::{Camera, Gpu, Look, OffscreenTarget, RenderError, Renderer, Scene};
+use crate::ui::selection::Item;
 use crate::wrap::Marks;
 
 /// What a picture depends on: with the same key nothing is drawn again.
@@ -38,16 +39,32 @@ pub struct Key {
     pub selected: Option<MarkId>,
     /// With which proposed marks.
     pub ghosts: Option<Arc<Marks>>,
+    /// With which edges and seams standing out.
+    pub stand_out: Vec<Item>,
 }
 
 impl PartialEq for Key {
     fn eq(&self, other: &Self) -> bool {
-        let Self { camera, look, size, body, cloth, marks, stroke, near, selected, ghosts, pinned, dragged } =
-            self;
+        let Self {
+            camera,
+            look,
+            size,
+            body,
+            cloth,
+            marks,
+            stroke,
+            near,
+            selected,
+            ghosts,
+            pinned,
+            dragged,
+            stand_out,
+        } = self;
         *camera == other.camera
             && *look == other.look
             && *size == other.size
             && *stroke == other.stroke
+            && *stand_out == other.stand_out
             && *near == other.near
             && *selected == other.selected
             && same(body, &other.body)

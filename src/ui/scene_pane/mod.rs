@@ -2,6 +2,7 @@
 
 mod graphics;
 mod hand;
+mod outlines;
 
 use std::sync::Arc;
 
@@ -23,11 +24,13 @@ use crate::ui::asks::{Ask, Asks, in_one_step};
 use crate::ui::clicks::clicks;
 use crate::ui::mouse::{Deed, Mouse};
 use crate::ui::scene::{Scenery, Shown};
+use crate::ui::selection::Item;
 use crate::ui::stroke;
 use crate::ui::theme::Palette;
 use crate::wrap::Marks;
 pub use graphics::{Graphics, Key};
 use hand::{Reach, begun, cloth_at, next_in_row, pins};
+use outlines::{edge_under, outlines};
 
 /// Radians the view turns for each point the pointer moves.
 const TURN: f32 = 0.0085;
@@ -65,6 +68,8 @@ pub struct Seen<'a> {
     pub laser: bool,
     /// The mark that stands out.
     pub selected: Option<MarkId>,
+    /// What of the pattern stands out: what is selected, and what the pointer is over in either pane.
+    pub stand_out: &'a [Item],
     /// Marks proposed and not accepted yet.
     pub ghosts: Option<&'a Arc<Marks>>,
     /// Colours and light.
@@ -86,6 +91,10 @@ pub struct ScenePane {
     pub hovered: bool,
     /// Where it was on the screen in the last frame.
     pub area: Option<Rect>,
+    /// The widget, for the keyboard.
+    pub id: Option<egui::Id>,
+    /// What of the pattern was under the pointer in the last frame.
+    pub under: Option<Item>,
     /// The renderer; none without a graphics adapter.
     pub graphics: Option<Graphics>,
     scenery: Scenery,
@@ -128,13 +137,15 @@ impl ScenePane {
         let response = ui.allocate_rect(pane, Sense::click_and_drag());
         response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, "Body pane"));
         self.hovered = response.contains_pointer();
-        self.area = Some(pane);
+        (self.area, self.id) = (Some(pane), Some(response.id));
         self.frame_if_asked(seen, pane);
         self.move_view(ui, seen, pane, &response);
         let near = self.mark_under(seen, pane, &response);
         self.listen(ui, seen, pane, &response, asks);
         self.set_cursor(ui, seen, near, pane, &response);
         let reach = self.reach_under(seen, pane, &response);
+        let hovered = response.hover_pos().filter(|_| self.drag.is_none());
+        self.under = hovered.and_then(|at| edge_under(seen, self.ray(pane, at)));
         self.draw(ui, &Seen { dragged: seen.dragged.or(reach.as_ref()), ..*seen }, near, pane);
         publish_marks(ui, &seen.document.marks, "Mark", pane, &self.camera);
         if let Some(ghosts) = seen.ghosts {
@@ -559,7 +570,9 @@ impl ScenePane {
             dragged: seen.dragged.cloned(),
             selected: seen.selected,
             ghosts: seen.ghosts.cloned(),
+            stand_out: if seen.cloth.is_some() { seen.stand_out.to_vec() } else { Vec::new() },
         };
+        let outlines = outlines(&seen.document.pattern, &key.stand_out);
         let shown = Shown {
             body: seen.body,
             cloth: seen.cloth,
@@ -571,6 +584,7 @@ impl ScenePane {
             dragged: seen.dragged,
             selected: seen.selected,
             ghosts: seen.ghosts.map(|g| &**g),
+            outlines: &outlines,
         };
         match graphics.picture(key, || self.scenery.scene(&shown)) {
             Ok(texture) => {
@@ -616,9 +630,9 @@ pub fn hint(tool: Tool, mouse: Mouse, laser: bool, dressed: bool, next: usize) -
             format!("Drag on the body: paint mark {next} · Click: {click} · Ctrl+click: erase · {view}")
         }
         Tool::Erase => format!("Click a mark: take it away · {view}"),
-        Tool::Move => format!("Drag: turn · {view}"),
-        Tool::Drag(_) => format!("Drag the cloth · Esc: put it back · {view}"),
         Tool::Pin => format!("Click: pin the cloth, or pull the pin out · Drag: a row of pins · {view}"),
+        Tool::Drag(_) => format!("Drag the cloth · Esc: put it back · {view}"),
+        _ => format!("Drag: turn · {view}"),
     }
 }
 

@@ -1,0 +1,112 @@
+//! How tools and what is done to the pattern are shown and reached.
+
+use egui::Key;
+
+use crate::drag::DragMode;
+use crate::ui::actions::{Action, Entry, Tool, ctrl, ctrl_shift, entry, key, shift};
+
+impl Tool {
+    /// How it is shown and reached.
+    pub fn entry(self) -> Entry {
+        match self {
+            Self::Mark => entry(
+                "Mark",
+                "Paint a mark with the left button, on a piece and then on the body where it should lie",
+                &[key(Key::K)],
+            ),
+            Self::Erase => entry("Erase", "Click a mark to take it away", &[key(Key::X)]),
+            Self::Move => entry(
+                "Move",
+                "Select, move, scale and turn pieces on the table; double-click turns one over",
+                &[key(Key::V)],
+            ),
+            Self::Points => {
+                entry("Edit points", "Move points, edges and the handles of curves", &[key(Key::A)])
+            }
+            Self::Pen => entry("Pen", "Draw a piece: a click is a corner, a drag a curve", &[key(Key::B)]),
+            Self::Rectangle => entry("Rectangle", "Draw a rectangular piece", &[key(Key::R)]),
+            Self::Ellipse => entry("Ellipse", "Draw a round piece", &[key(Key::E)]),
+            Self::Sew => entry(
+                "Sew",
+                "Click an edge and the one it is sewn to, or drag along stretches",
+                &[key(Key::S)],
+            ),
+            Self::Line => entry("Line", "Draw a line inside a piece", &[key(Key::I)]),
+            Self::Hole => entry("Hole", "Cut a hole into a piece", &[key(Key::O)]),
+            Self::Cut => entry("Cut", "Cut a piece in two along a line from edge to edge", &[key(Key::C)]),
+            Self::Dart => entry("Dart", "Drag from an edge into the cloth", &[key(Key::T)]),
+            Self::Notch => entry("Notch", "Click an edge where something is to meet", &[key(Key::J)]),
+            Self::Grain => entry("Grainline", "Drag along the warp of a piece", &[key(Key::G)]),
+            Self::Drag(DragMode::Surface) => {
+                entry("Drag", "Drag the cloth along the skin; pins hold it back", &[key(Key::D)])
+            }
+            Self::Drag(DragMode::Vertex) => {
+                entry("Drag a point", "Drag one point of the cloth; the rest follows as it relaxes", &[])
+            }
+            Self::Drag(DragMode::Rigid) => entry("Drag rigidly", "Move the whole cloth through space", &[]),
+            Self::Pin => entry(
+                "Pin",
+                "Click to pin the cloth where it is, drag for a row of pins, click a pin to pull it out",
+                &[key(Key::P)],
+            ),
+        }
+    }
+}
+
+impl Action {
+    /// How what is done to the pattern is shown and reached.
+    pub(super) fn pattern_entry(self) -> Entry {
+        match self {
+            Self::SelectAll => entry("Select all", "Select every piece that is shown", &[ctrl(Key::A)]),
+            Self::Duplicate => {
+                entry("Duplicate", "Copy the selected pieces and the seams among them", &[ctrl(Key::D)])
+            }
+            Self::Twin => entry(
+                "Add a twin",
+                "Lay the mirror image of the selected pieces beside them; both stay mirror images",
+                &[ctrl_shift(Key::D)],
+            ),
+            Self::MakeSymmetric => entry(
+                "Make symmetric",
+                "Mirror the left half over: of the upright middle, or of the line through two selected points",
+                &[ctrl(Key::M)],
+            ),
+            Self::Unfold => {
+                entry("Unfold", "Open half a piece out along the selected straight edge", &[ctrl(Key::U)])
+            }
+            Self::Fold => entry("Fold", "Keep the left half of a symmetric piece only", &[]),
+            Self::Unlink => {
+                entry("Unlink", "The selected pieces no longer follow their twins or their other half", &[])
+            }
+            Self::TurnOver => entry("Turn over", "See the other side of the selected pieces", &[key(Key::M)]),
+            Self::ToggleLock => {
+                entry("Lock", "Keep the selected pieces from being changed by the pointer", &[ctrl(Key::L)])
+            }
+            Self::Hide => {
+                entry("Hide", "Do not show the selected pieces; they are sewn all the same", &[ctrl(Key::H)])
+            }
+            Self::ShowPieces => entry("Show all pieces", "Show hidden pieces again", &[ctrl_shift(Key::H)]),
+            Self::InsertPoint => {
+                entry("Insert a point", "Put a point in the middle of the selected edges", &[])
+            }
+            Self::ToggleSmooth => {
+                entry("Smooth", "The outline runs on smoothly at the selected points, or breaks there", &[])
+            }
+            Self::Straighten => entry("Straight", "Make the selected edges straight", &[]),
+            Self::Curve => entry("Curve", "Give the selected edges handles to bend them by", &[]),
+            Self::TurnSeam => {
+                entry("Turn seam round", "Sew the selected seams the other way round", &[shift(Key::S)])
+            }
+            Self::MakeEqual => {
+                entry("Make equal", "Give both sides of the selected seams one length, and keep it", &[])
+            }
+            Self::FreeLengths => {
+                entry("Free lengths", "Each side of the selected seams may change alone", &[])
+            }
+            Self::Untwist => {
+                entry("Untwist all seams", "Turn every seam that joins a front to a back", &[key(Key::U)])
+            }
+            _ => entry("", "", &[]),
+        }
+    }
+}

@@ -1,0 +1,308 @@
+//! Draws pieces with what lies on them, and the threads between them.
+
+use egui::{Color32, FontId, Pos2, Rect, Shape, Stroke, Vec2, pos2};
+use glam::DVec2;
+
+use super::draw::Drawing;
+use super::shapes::PieceShape;
+use super::table::Table;
+use super::threads::Ends;
+use crate::geometry::ids::SeamId;
+use crate::pattern::{Piece, Stretch};
+use crate::ui::actions::Tool;
+use crate::ui::selection::Item;
+use crate::ui::signs::{self, Sign};
+
+/// Whether the front of `piece` is seen.
+pub fn front_is_seen(piece: &Piece, shape: &PieceShape) -> bool {
+    shape.drawn_from_front != piece.pose.flipped
+}
+
+/// How strongly seams are drawn that nobody is asking after.
+const FAINT: f32 = 0.42;
+/// Radius of a seam's badge, points.
+pub const BADGE: f32 = 7.5;
+/// Lengths that differ by more than this share do so on purpose.
+pub const EQUAL: f64 = 0.01;
+
+impl Drawing<'_> {
+    /// All pieces in view.
+    pub fn pieces(&self, table: &Table<'_>) {
+        for (id, piece, shape) in table.seen() {
+            if self.is_in_view(piece, shape) {
+                let item = Item::Piece(id);
+                let look = [table.laid.selection.has(item), table.laid.highlight == Some(item)];
+                self.piece(piece, shape, look);
+            }
+        }
+    }
+
+    /// Whether any of a piece's box is in the pane.
+    pub fn is_in_view(&self, piece: &Piece, shape: &PieceShape) -> bool {
+        let corners = shape.corners().map(|p| self.place(piece.pose.plane_from_piece(p)));
+        let room = (piece.allowance * self.view.scale) as f32 + 8.0;
+        Rect::from_points(&corners).expand(room).intersects(self.pane)
+    }
+
+    fn piece(&self, piece: &Piece, shape: &PieceShape, [selected, near]: [bool; 2]) {
+        let place = |p: DVec2| self.place(piece.pose.plane_from_piece(p));
+        let front = front_is_seen(piece, shape);
+        let [fill, line] = if front { self.palette.front } else { self.palette.back };
+        let mut mesh = egui::Mesh::default();
+        mesh.reserve_vertices(shape.fill.len() * 4);
+        mesh.reserve_triangles(shape.fill.len() * 2);
+        for t in &shape.fill {
+            let base = mesh.vertices.len() as u32;
+            t.iter().for_each(|&p| mesh.colored_vertex(place(p), fill));
+            mesh.add_triangle(base, base + 1, base + 2);
+            mesh.add_triangle(base, base + 2, base + 3);
+        }
+        self.painter.add(Shape::mesh(mesh));
+        if !shape.cut.is_empty() {
+            let mut points: Vec<DVec2> = shape.cut.iter().map(|&p| piece.pose.plane_from_piece(p)).collect();
+            points.extend(points.first().copied());
+            self.dashed(&points, Stroke::new(1.0, line.gamma_multiply(0.75)));
+        }
+        let (width, ink) = match (selected, near) {
+            (true, _) => (2.4, self.palette.accent),
+            (false, true) => (2.4, line),
+            _ => (1.4, line),
+        };
+        for closed in std::iter::once(&shape.outline).chain(&shape.holes) {
+            let points: Vec<Pos2> = closed.iter().map(|&p| place(p)).collect();
+            self.painter.add(Shape::closed_line(points, Stroke::new(width, ink)));
+        }
+        for points in &shape.lines {
+            let points: Vec<Pos2> = points.iter().map(|&p| place(p)).collect();
+            self.painter.add(Shape::line(points, Stroke::new(1.2, line)));
+        }
+        for &(at, way) in &shape.notches {
+            let ends = [at, at + way * 0.006].map(place);
+            self.painter.line_segment(ends, Stroke::new(2.2, line));
+        }
+        if let Some(ends) = piece.grainline {
+            self.arrow(ends.map(place), Stroke::new(1.3, line));
+        }
+        if piece.symmetric {
+            let [lower, upper] = shape.bounds;
+            let ends = [DVec2::new(0.0, lower.y), DVec2::new(0.0, upper.y)];
+            let ends = ends.map(|p| piece.pose.plane_from_piece(p));
+            self.dashed(&ends, Stroke::new(1.0, line.gamma_multiply(0.8)));
+        }
+    }
+
+    fn arrow(&self, [tail, head]: [Pos2; 2], stroke: Stroke) {
+        let along = (head - tail).normalized();
+        if (head - tail).length() < 12.0 {
+            return;
+        }
+        self.painter.line_segment([tail, head], stroke);
+        for side in [1.0, -1.0] {
+            let barb = head - along * 8.0 + along.rot90() * (4.0 * side);
+            self.painter.line_segment([head, barb], stroke);
+        }
+    }
+
+    /// Names of the pieces, on a patch of the piece's own colour so that marks do not run through them. Where there is no
+    /// room a name is cut short; where another has it already, it waits until the pointer is over its piece.
+    pub fn names(&self, table: &Table<'_>) {
+        let size = (self.view.scale * 0.028).clamp(10.5, 15.0) as f32;
+        let mut taken: Vec<Rect> = Vec::new();
+        let stands_out = |id| {
+            let item = Item::Piece(id);
+            table.laid.selection.has(item) || table.laid.highlight == Some(item)
+        };
+        let (first, rest): (Vec<_>, Vec<_>) = table.seen().partition(|(id, ..)| stands_out(*id));
+        for (id, piece, shape) in first.into_iter().chain(rest) {
+            if !self.is_in_view(piece, shape) {
+                continue;
+            }
+            let front = front_is_seen(piece, shape);
+            let fill = if front { self.palette.front[0] } else { self.palette.back[0] };
+            let name = words_on(piece, front);
+            let corners = shape.corners().map(|p| self.place(piece.pose.plane_from_piece(p)));
+            let room = Rect::from_points(&corners).width() * 1.15;
+            let ink = self.palette.piece_text;
+            let mut job = egui::text::LayoutJob::simple_singleline(name, FontId::proportional(size), ink);
+            if !stands_out(id) {
+                job.wrap = egui::text::TextWrapping::truncate_at_width(room.max(26.0));
+            }
+            let text = self.painter.layout_job(job);
+            let middle = self.place(piece.pose.plane_from_piece(shape.middle));
+            let at = Rect::from_center_size(middle, text.size());
+            let patch = at.expand2(Vec2::new(5.0, 1.5));
+            if taken.iter().any(|other| other.intersects(patch)) {
+                continue;
+            }
+            taken.push(patch);
+            self.painter.rect_filled(patch, 5.0, fill.gamma_multiply(0.88));
+            self.painter.galley(at.min, text, ink);
+        }
+    }
+
+    /// Threads between sewn edges, and the edges in the colour of their seam.
+    pub fn seams(&self, table: &Table<'_>) {
+        let near = match table.laid.highlight {
+            Some(Item::Seam(id)) => Some(id),
+            _ => None,
+        };
+        let sewing = table.laid.tool == Tool::Sew;
+        let mut mesh = egui::Mesh::default();
+        let mut loud = Vec::new();
+        for (id, ends) in table.threads.all() {
+            let stands_out = near == Some(id) || table.laid.selection.seams.contains(&id);
+            if !ends.is_seen(table.pattern()) {
+                continue;
+            }
+            let Some(sides) = ends.on_table(table.pattern()) else { continue };
+            let sides = sides.map(|side| side.iter().map(|&p| self.place(p)).collect::<Vec<Pos2>>());
+            let all = Rect::from_points(&[&sides[0][..], &sides[1][..]].concat());
+            if !all.intersects(self.pane) {
+                continue;
+            }
+            if stands_out {
+                loud.push((id, ends, sides));
+                continue;
+            }
+            let ink = self.seam_ink(id, ends);
+            let strength = if sewing || ends.is_twisted { 0.7 } else { FAINT };
+            self.threads(&mut mesh, &sides, ink.gamma_multiply(strength), 1.0);
+            for side in &sides {
+                strip(&mut mesh, side, ink.gamma_multiply(if sewing { 1.0 } else { 0.8 }), 2.0);
+            }
+        }
+        for (id, ends, sides) in &loud {
+            let ink = self.seam_ink(*id, ends);
+            self.threads(&mut mesh, sides, ink, 1.4);
+            for side in sides {
+                strip(&mut mesh, side, ink, 4.0);
+            }
+        }
+        self.painter.add(Shape::mesh(mesh));
+    }
+
+    /// Twisted seams are in the colour of warnings.
+    pub fn seam_ink(&self, id: SeamId, ends: &Ends) -> Color32 {
+        if ends.is_twisted { self.palette.error } else { self.palette.seam(id.0) }
+    }
+
+    fn threads(&self, mesh: &mut egui::Mesh, [from, to]: &[Vec<Pos2>; 2], ink: Color32, width: f32) {
+        for (&p, &q) in from.iter().zip(to) {
+            strip(mesh, &[p, q], ink, width);
+        }
+    }
+
+    /// A round sign in the middle of each sewn stretch: a click turns the seam round. A tick tells where it begins.
+    pub fn badges(&self, table: &Table<'_>) {
+        for (id, ends) in table.threads.all().filter(|(_, ends)| ends.is_seen(table.pattern())) {
+            let Some(sides) = ends.on_table(table.pattern()) else { continue };
+            let ink = self.seam_ink(id, ends);
+            for side in &sides {
+                if !has_badge(table, id, side) {
+                    continue;
+                }
+                self.direction(side, ink);
+                let Some(at) = badge_place(side).map(|p| self.place(p)) else { continue };
+                if self.pane.contains(at) {
+                    self.painter.circle(at, BADGE, ink, Stroke::new(1.4, self.palette.halo));
+                    let inside = Rect::from_center_size(at, Vec2::splat(BADGE * 1.15));
+                    signs::draw(&self.painter, inside, Sign::Turn, true, self.palette.knob);
+                }
+            }
+        }
+    }
+
+    /// A short tick near the end where the seam's threads begin.
+    pub fn direction(&self, side: &[DVec2], ink: Color32) {
+        let [first, second, ..] = side else { return };
+        let along = (self.place(*second) - self.place(*first)).normalized();
+        let at = self.place(*first) + along * 7.0;
+        self.painter
+            .line_segment([at - along.rot90() * 5.0, at + along.rot90() * 5.0], Stroke::new(2.0, ink));
+    }
+
+    /// One seam as it would be sewn.
+    pub fn seam_to_be(&self, table: &Table<'_>, seam: &crate::pattern::Seam, ink: Color32) {
+        let Some(sides) = super::threads::threads(table.pattern(), seam) else { return };
+        let pose = |k: usize| table.pattern().pieces[&seam.sides[k].piece].pose;
+        let mut mesh = egui::Mesh::default();
+        let placed: Vec<Vec<DVec2>> =
+            (0..2).map(|k| sides[k].iter().map(|&p| pose(k).plane_from_piece(p)).collect()).collect();
+        let screen = |k: usize| placed[k].iter().map(|&p| self.place(p)).collect::<Vec<Pos2>>();
+        self.threads(&mut mesh, &[screen(0), screen(1)], ink, 1.4);
+        self.painter.add(Shape::mesh(mesh));
+        for side in &placed {
+            self.direction(side, ink);
+        }
+    }
+
+    /// A stretch of outline that stands out.
+    pub fn stretch(&self, table: &Table<'_>, stretch: Stretch, ink: Color32, width: f32) {
+        let Some(piece) = table.pattern().pieces.get(&stretch.piece) else { return };
+        let at: Vec<f64> = (0..=32).map(|i| f64::from(i) / 32.0).collect();
+        if let Some(points) = stretch.points(piece, &at) {
+            let points: Vec<DVec2> = points.iter().map(|&p| piece.pose.plane_from_piece(p)).collect();
+            self.polyline(&points, Stroke::new(width, ink));
+        }
+    }
+
+    /// Edges that are selected or under the pointer.
+    pub fn edges_standing_out(&self, table: &Table<'_>) {
+        let near = match table.laid.highlight {
+            Some(Item::Edge(edge)) => Some(edge),
+            _ => None,
+        };
+        for &edge in table.laid.selection.edges.iter().chain(&near) {
+            if let Some(points) = table.edge(edge) {
+                self.polyline(&points, Stroke::new(3.4, self.palette.accent));
+            }
+        }
+    }
+}
+
+/// A side that is short on the screen has its badge only while its seam stands out.
+pub fn has_badge(table: &Table<'_>, id: SeamId, side: &[DVec2]) -> bool {
+    let length: f64 = side.windows(2).map(|w| w[0].distance(w[1])).sum();
+    let item = Item::Seam(id);
+    length > table.reach(34.0) || table.laid.highlight == Some(item) || table.laid.selection.has(item)
+}
+
+/// Where the badge of a sewn side sits.
+pub fn badge_place(side: &[DVec2]) -> Option<DVec2> {
+    let middle = side.len() / 2;
+    Some(match side.len() {
+        0 => return None,
+        n if n % 2 == 1 => side[middle],
+        _ => side[middle - 1].midpoint(side[middle]),
+    })
+}
+
+/// Its name, and what is special about it.
+fn words_on(piece: &Piece, front: bool) -> String {
+    let mut words = piece.name.clone();
+    for (is_so, sign) in [
+        (!front, " (back)"),
+        (piece.twin.is_some(), " · twin"),
+        (piece.symmetric, " · symmetric"),
+        (piece.locked, " · locked"),
+    ] {
+        if is_so {
+            words.push_str(sign);
+        }
+    }
+    words
+}
+
+/// A line as two triangles a segment: many of them cost little.
+fn strip(mesh: &mut egui::Mesh, points: &[Pos2], ink: Color32, width: f32) {
+    for w in points.windows(2) {
+        let along = (w[1] - w[0]).normalized() * (width / 2.0);
+        let across = along.rot90();
+        let base = mesh.vertices.len() as u32;
+        for p in [w[0] + across, w[1] + across, w[1] - across, w[0] - across] {
+            mesh.colored_vertex(pos2(p.x, p.y), ink);
+        }
+        mesh.add_triangle(base, base + 1, base + 2);
+        mesh.add_triangle(base, base + 2, base + 3);
+    }
+}

@@ -1,0 +1,76 @@
+//! Tells screen readers and tests what lies where on the table.
+
+use egui::accesskit::Role;
+use egui::{Rect, Sense, WidgetInfo, vec2};
+use glam::DVec2;
+
+use super::draw_pieces::badge_place;
+use super::table::Table;
+use crate::pattern::{EdgeRef, Pattern, Seam};
+use crate::ui::actions::Tool;
+use crate::wrap::Marks;
+
+/// Puts a node at everything in view: pieces, edges, seams, marks; points while they are edited.
+pub fn publish(ui: &egui::Ui, table: &Table<'_>) {
+    let unit = table.laid.unit;
+    for (id, piece, shape) in table.seen() {
+        let name = &piece.name;
+        let middle = piece.pose.plane_from_piece(shape.middle);
+        node(ui, table, ("piece", id.0), middle, || format!("Piece {name}"));
+        for (i, length) in shape.lengths.iter().enumerate() {
+            let line = &shape.edges[i];
+            let on = badge_place(line).unwrap_or_default();
+            let on = if line.len() == 2 { line[0].midpoint(line[1]) } else { on };
+            let words = || format!("{name}, edge {}: {}", i + 1, unit.text(*length));
+            node(ui, table, ("edge", id.0, i), piece.pose.plane_from_piece(on), words);
+        }
+    }
+    if table.laid.tool == Tool::Points {
+        for (point, p) in table.points() {
+            let name = &table.pattern().pieces[&point.piece].name;
+            let words = || format!("{name}, point {}", point.point + 1);
+            node(ui, table, ("point", point.piece.0, point.point), p, words);
+        }
+    }
+    for (id, ends) in table.threads.all().filter(|(_, ends)| ends.is_seen(table.pattern())) {
+        let at = ends.on_table(table.pattern()).and_then(|[from, _]| badge_place(&from));
+        if let (Some(at), Some(seam)) = (at, table.pattern().seams.get(&id)) {
+            let twisted = if ends.is_twisted { ", twisted" } else { "" };
+            let words = || format!("Seam: {}{twisted}", seam_words(table.pattern(), seam));
+            node(ui, table, ("seam", id.0), at, words);
+        }
+    }
+    marks(ui, table, &table.laid.document.marks, "Mark");
+    if let Some(ghosts) = table.laid.ghosts {
+        marks(ui, table, ghosts, "Proposed mark");
+    }
+}
+
+/// What a seam joins, in words.
+pub fn seam_words(pattern: &Pattern, seam: &Seam) -> String {
+    let side = |k: usize| {
+        let EdgeRef { piece, edge } = seam.sides[k].first_edge();
+        let name = pattern.pieces.get(&piece).map_or("?", |piece| &piece.name);
+        format!("{name} edge {}", edge + 1)
+    };
+    format!("{} – {}", side(0), side(1))
+}
+
+fn marks(ui: &egui::Ui, table: &Table<'_>, marks: &Marks, what: &str) {
+    for (i, mark) in marks.cloth.iter().enumerate() {
+        let piece = table.pattern().pieces.get(&mark.piece).filter(|piece| !piece.hidden);
+        if let (Some(piece), Some(&first)) = (piece, mark.points.first()) {
+            let words = || format!("{what} {} on the cloth", i + 1);
+            node(ui, table, (what, i), piece.pose.plane_from_piece(first), words);
+        }
+    }
+}
+
+fn node(ui: &egui::Ui, table: &Table<'_>, salt: impl egui::AsIdSalt, p: DVec2, words: impl Fn() -> String) {
+    let at = table.screen(p);
+    if table.pane.contains(at) {
+        let rect = Rect::from_center_size(at, vec2(12.0, 12.0));
+        let node = ui.interact(rect, ui.scope_id().with(salt), Sense::hover());
+        node.widget_info(|| WidgetInfo::labeled(Role::Label, true, words()));
+    }
+}

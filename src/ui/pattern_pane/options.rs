@@ -1,0 +1,90 @@
+//! How tools work: a small bar over the table with what the chosen tool can be told.
+
+use egui::{Frame, Rect, RichText, UiBuilder, vec2};
+
+use super::table::Table;
+use crate::ui::actions::{Action, Tool};
+use crate::ui::asks::{Ask, Asks};
+use crate::ui::fields::length_field;
+
+/// Kept while the program runs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Options {
+    /// The two sides of a cut are sewn together again.
+    pub sew_cut: bool,
+    /// Of the next dart, metres.
+    pub dart_width: f64,
+    /// Of the next dart, metres.
+    pub dart_depth: f64,
+    /// Editing keeps the lengths of sewn edges as they are to each other.
+    pub keep_equal: bool,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self { sew_cut: true, dart_width: 0.025, dart_depth: 0.1, keep_equal: true }
+    }
+}
+
+/// The bar; nothing for tools that need none.
+pub fn options_ui(ui: &mut egui::Ui, table: &Table<'_>, options: &mut Options, asks: &mut Asks) {
+    let twisted = table.threads.twisted().count();
+    let wanted = match table.laid.tool {
+        Tool::Cut | Tool::Dart => true,
+        Tool::Sew => true,
+        _ => twisted > 0,
+    };
+    if !wanted {
+        return;
+    }
+    let area = Rect::from_min_size(table.pane.min + vec2(8.0, 6.0), vec2(table.pane.width() - 16.0, 30.0));
+    let palette = table.laid.palette;
+    ui.scope_builder(
+        UiBuilder::new().max_rect(area).layout(egui::Layout::left_to_right(egui::Align::Center)),
+        |ui| {
+            Frame::new()
+                .fill(palette.overlay)
+                .corner_radius(6)
+                .inner_margin(egui::Margin::symmetric(8, 2))
+                .show(ui, |ui| {
+                    let weak = |text: &str| RichText::new(text).color(palette.weak).size(12.5);
+                    match table.laid.tool {
+                        Tool::Cut => {
+                            let tip = "The two sides of the cut become a seam";
+                            ui.checkbox(&mut options.sew_cut, "Sew it together again").on_hover_text(tip);
+                        }
+                        Tool::Dart => {
+                            let unit = table.laid.unit;
+                            for (label, value) in
+                                [("Width", &mut options.dart_width), ("Depth", &mut options.dart_depth)]
+                            {
+                                let name = ui.label(weak(label));
+                                let new = length_field(ui, ("dart", label), &name, *value, unit);
+                                *value = new.map_or(*value, |new| new.clamp(0.001, 1.0));
+                            }
+                        }
+                        Tool::Sew => {
+                            let tip = "Editing one sewn edge changes the other, too";
+                            ui.checkbox(&mut options.keep_equal, "Keep lengths equal").on_hover_text(tip);
+                        }
+                        _ => {}
+                    }
+                    if twisted > 0 {
+                        let words =
+                            if twisted == 1 { "1 twisted seam" } else { &format!("{twisted} twisted seams") };
+                        ui.label(RichText::new(words).color(palette.error).size(12.5));
+                        let entry = Action::Untwist.entry();
+                        let keys =
+                            entry.keys.first().map(|k| ui.ctx().format_shortcut(k)).unwrap_or_default();
+                        if ui
+                            .small_button(entry.text)
+                            .on_hover_text(format!("{}  ({keys})", entry.tip))
+                            .clicked()
+                        {
+                            asks.push(Ask::Act(Action::Untwist));
+                        }
+                    }
+                });
+        },
+    );
+}

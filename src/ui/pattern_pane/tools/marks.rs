@@ -1,0 +1,166 @@
+//! Paints marks on pieces, and takes them away.
+
+use egui::CursorIcon;
+use glam::DVec2;
+
+use super::PatternTool;
+use crate::geometry::ids::PieceId;
+use crate::session::Command;
+use crate::ui::asks::{Ask, Asks, in_one_step};
+use crate::ui::pattern_pane::draw::{Drawing, MarkLook};
+use crate::ui::pattern_pane::draw_pieces::front_is_seen;
+use crate::ui::pattern_pane::input::Input;
+use crate::ui::pattern_pane::table::Table;
+use crate::ui::stroke;
+use crate::wrap::ClothSide;
+
+/// One stroke on one piece, in the piece's own plane.
+type Stroke = (PieceId, Vec<DVec2>);
+
+/// The tools Mark and Erase.
+#[derive(Debug)]
+pub struct Marks {
+    erases: bool,
+    /// Strokes under way: the topmost piece's first, those of pieces under it only with the laser.
+    strokes: Option<Vec<Stroke>>,
+}
+
+impl Marks {
+    /// Paints.
+    pub fn painting() -> Self {
+        Self { erases: false, strokes: None }
+    }
+
+    /// Takes away.
+    pub fn erasing() -> Self {
+        Self { erases: true, strokes: None }
+    }
+
+    fn click(&self, table: &Table<'_>, p: DVec2, erasing: bool, asks: &mut Asks) {
+        match table.mark_at(p) {
+            Some(mark) if erasing => asks.push(Ask::Do(Command::DeleteMark { mark })),
+            Some(mark) if !self.erases => asks.push(Ask::Select(Some(mark))),
+            None if !erasing => dot(table, p, asks),
+            _ => {}
+        }
+    }
+}
+
+impl PatternTool for Marks {
+    fn step(&mut self, table: &Table<'_>, input: &Input, asks: &mut Asks) {
+        let erasing = self.erases || input.held.command;
+        for &at in &input.clicks {
+            self.click(table, table.at(at), erasing, asks);
+        }
+        if let Some(at) = input.pressed.filter(|_| !erasing)
+            && let Some((piece, p)) = table.piece_at(table.at(at))
+        {
+            let mut strokes = vec![(piece, vec![p])];
+            go_through(&mut strokes, table, table.at(at));
+            self.strokes = Some(strokes);
+        }
+        if let Some(strokes) = &mut self.strokes {
+            for &at in &input.trail {
+                go_through(strokes, table, table.at(at));
+            }
+        }
+        if input.let_go
+            && let Some(mut strokes) = self.strokes.take()
+        {
+            for (_, points) in &mut strokes {
+                *points = stroke::finished(points);
+            }
+            in_one_step(painted(table, strokes), asks);
+        }
+    }
+
+    fn draw(&self, drawing: &Drawing<'_>, table: &Table<'_>, _input: &Input) {
+        if let Some((id, points)) = self.stroke()
+            && let Some(piece) = table.pattern().pieces.get(&id)
+        {
+            let points: Vec<DVec2> = points.iter().map(|&p| piece.pose.plane_from_piece(p)).collect();
+            let marks = &table.laid.document.marks;
+            let number = marks.cloth.len() + 1;
+            let paired = number <= marks.body.len();
+            drawing.mark(&points, number, MarkLook { paired, ..MarkLook::default() });
+        }
+    }
+
+    fn is_busy(&self) -> bool {
+        self.strokes.is_some()
+    }
+
+    fn is_dragging(&self) -> bool {
+        self.strokes.is_some()
+    }
+
+    fn takes_numbers(&self) -> bool {
+        false
+    }
+
+    fn give_up(&mut self, _asks: &mut Asks) {
+        self.strokes = None;
+    }
+
+    fn stroke(&self) -> Option<(PieceId, &[DVec2])> {
+        self.strokes.as_ref()?.first().map(|(piece, points)| (*piece, &points[..]))
+    }
+
+    fn cursor(&self, table: &Table<'_>, at: DVec2) -> CursorIcon {
+        let on_mark = table.mark_at(at).is_some();
+        match (self.erases, on_mark) {
+            (true, true) => CursorIcon::PointingHand,
+            (false, _) if self.is_busy() || table.piece_at(at).is_some() => CursorIcon::Crosshair,
+            _ => CursorIcon::Default,
+        }
+    }
+
+    fn hint(&self, table: &Table<'_>) -> String {
+        let next = table.laid.document.marks.cloth.len() + 1;
+        match (self.erases, table.laid.laser) {
+            (true, _) => "Click a mark: take it away".to_owned(),
+            (_, true) => {
+                format!("Drag: paint marks {next}… on every piece that lies here · L: only the topmost")
+            }
+            _ => format!(
+                "Drag: paint mark {next} on the cloth · Click: a dot, or select a mark · Ctrl+click: erase"
+            ),
+        }
+    }
+}
+
+fn dot(table: &Table<'_>, p: DVec2, asks: &mut Asks) {
+    let hit = table.shapes.all_at(table.pattern(), p).take(if table.laid.laser { usize::MAX } else { 1 });
+    let dots: Vec<Stroke> = hit.map(|(piece, p)| (piece, vec![p])).collect();
+    match dots.is_empty() {
+        false => in_one_step(painted(table, dots), asks),
+        true if table.pattern().pieces.is_empty() => {}
+        true => asks.push(Ask::Say("Marks are painted on the pieces: press on one of them.".to_owned())),
+    }
+}
+
+/// Takes the strokes on to a point of the table. Off the first piece nothing is painted; with the laser every piece below
+/// gets its own stroke as soon as the pointer is over it.
+fn go_through(strokes: &mut Vec<Stroke>, table: &Table<'_>, p: DVec2) {
+    let Some(&(first, _)) = strokes.first() else { return };
+    let below = table.shapes.all_at(table.pattern(), p).skip_while(|(piece, _)| *piece != first);
+    for (piece, p) in below.take(if table.laid.laser { usize::MAX } else { 1 }) {
+        match strokes.iter_mut().find(|(painted, _)| *painted == piece) {
+            Some((_, points)) if points.last().is_none_or(|l| l.distance(p) > 1e-4) => points.push(p),
+            Some(_) => {}
+            None => strokes.push((piece, vec![p])),
+        }
+    }
+}
+
+/// The commands that paint `strokes`: the first on the side that is seen, the others on the outer side of their
+/// pieces, however they lie: nobody means to turn half a garment inside out.
+fn painted(table: &Table<'_>, strokes: Vec<Stroke>) -> Vec<Command> {
+    let command = |(i, (piece, points)): (usize, Stroke)| {
+        let (found, shape) = table.piece(piece)?;
+        let front = front_is_seen(found, shape) || i > 0;
+        let side = if front { ClothSide::Front } else { ClothSide::Back };
+        Some(Command::AddClothMark { piece, side, points })
+    };
+    strokes.into_iter().enumerate().filter_map(command).collect()
+}

@@ -1,0 +1,178 @@
+//! What the left button does on the table: one small machine for each tool, one file each.
+
+mod grain;
+mod marks;
+mod on_edge;
+mod pen;
+mod points;
+mod select;
+mod sew;
+mod shape;
+
+use egui::CursorIcon;
+use glam::DVec2;
+
+use super::draw::Drawing;
+use super::input::Input;
+use super::table::Table;
+use crate::geometry::ids::PieceId;
+use crate::pattern::edit::PatternEdit;
+use crate::pattern::{Edge, Pattern, Piece, PlanePose};
+use crate::session::Command;
+use crate::ui::actions::Tool;
+use crate::ui::asks::{Ask, Asks};
+use crate::ui::selection::Item;
+use crate::ui::units::Typed;
+
+/// A tool. It reads the table and asks; what it remembers is only what is under way.
+pub trait PatternTool: std::fmt::Debug {
+    /// Takes what pointer and keys did.
+    fn step(&mut self, table: &Table<'_>, input: &Input, asks: &mut Asks);
+
+    /// Draws what is under way.
+    fn draw(&self, _drawing: &Drawing<'_>, _table: &Table<'_>, _input: &Input) {}
+
+    /// Something is under way: Esc gives it up.
+    fn is_busy(&self) -> bool {
+        false
+    }
+
+    /// Gives up what is under way.
+    fn give_up(&mut self, _asks: &mut Asks) {}
+
+    /// The button is down and the tool follows it.
+    fn is_dragging(&self) -> bool {
+        false
+    }
+
+    /// Numbers can be typed now.
+    fn takes_numbers(&self) -> bool {
+        self.is_busy()
+    }
+
+    /// Takes typed numbers. The error is in words.
+    fn typed(&mut self, _table: &Table<'_>, _typed: Typed, _asks: &mut Asks) -> Result<(), String> {
+        Err("nothing here can be typed".to_owned())
+    }
+
+    /// Draws at free places: the keyboard moves a cursor.
+    fn draws(&self) -> bool {
+        false
+    }
+
+    /// What a click there would be about.
+    fn under(&self, table: &Table<'_>, p: DVec2) -> Option<Item> {
+        table.piece_at(p).map(|(piece, _)| Item::Piece(piece))
+    }
+
+    /// Over the table.
+    fn cursor(&self, _table: &Table<'_>, _at: DVec2) -> CursorIcon {
+        CursorIcon::Default
+    }
+
+    /// The points of the mark being painted, in its piece's plane.
+    fn stroke(&self) -> Option<(PieceId, &[DVec2])> {
+        None
+    }
+
+    /// What the mouse does now, for the status bar.
+    fn hint(&self, table: &Table<'_>) -> String;
+}
+
+/// The machine of a tool.
+pub fn machine(tool: Tool) -> Box<dyn PatternTool> {
+    match tool {
+        Tool::Mark => Box::new(marks::Marks::painting()),
+        Tool::Erase => Box::new(marks::Marks::erasing()),
+        Tool::Move => Box::<select::Select>::default(),
+        Tool::Drag(_) | Tool::Pin => Box::new(select::Select::idle()),
+        Tool::Points => Box::<points::Points>::default(),
+        Tool::Pen => Box::new(pen::Pen::new(pen::Makes::Piece)),
+        Tool::Line => Box::new(pen::Pen::new(pen::Makes::Line)),
+        Tool::Hole => Box::new(pen::Pen::new(pen::Makes::Hole)),
+        Tool::Cut => Box::new(pen::Pen::new(pen::Makes::Cut)),
+        Tool::Rectangle => Box::new(shape::Shape::rectangle()),
+        Tool::Ellipse => Box::new(shape::Shape::ellipse()),
+        Tool::Dart => Box::new(on_edge::OnEdgeTool::dart()),
+        Tool::Notch => Box::new(on_edge::OnEdgeTool::notch()),
+        Tool::Grain => Box::<grain::Grain>::default(),
+        Tool::Sew => Box::<sew::Sew>::default(),
+    }
+}
+
+/// Asks for changes as a step of their own.
+fn done(edits: Vec<PatternEdit>) -> Ask {
+    Ask::Do(Command::EditPattern { edits, anew: false })
+}
+
+/// Asks for changes to what was there when the drag began.
+fn dragged(edits: Vec<PatternEdit>) -> Ask {
+    Ask::Drag(Command::EditPattern { edits, anew: true })
+}
+
+/// A closed line in the plane of a piece at `pose`, from one on the table.
+fn in_piece(edges: &[Edge], pose: &PlanePose) -> Vec<Edge> {
+    let own = |p: DVec2| pose.piece_from_plane(p);
+    let edge = |edge: &Edge| Edge {
+        start: own(edge.start),
+        shape: edge.shape.mapped(pose.flipped, own),
+        smooth: edge.smooth,
+        label: None,
+    };
+    edges.iter().map(edge).collect()
+}
+
+/// A new piece whose outline is this closed line on the table, its front up.
+fn new_piece(pattern: &Pattern, edges: &[Edge]) -> Piece {
+    let starts = edges.iter().map(|edge| edge.start);
+    let [lower, upper] =
+        starts.fold([DVec2::INFINITY, DVec2::NEG_INFINITY], |[a, b], p| [a.min(p), b.max(p)]);
+    let pose = PlanePose { offset: (lower + upper) / 2.0, ..PlanePose::default() };
+    let mut piece =
+        Piece { name: free_name(pattern), outline: in_piece(edges, &pose), pose, ..Piece::default() };
+    if piece.signed_area() < 0.0 {
+        piece.outline = turned_round(&piece.outline);
+    }
+    piece
+}
+
+fn free_name(pattern: &Pattern) -> String {
+    let names = (1..).map(|i| format!("Piece {i}"));
+    names.into_iter().find(|name| pattern.piece_named(name).is_none()).unwrap_or_default()
+}
+
+/// The closed line the other way round.
+fn turned_round(edges: &[Edge]) -> Vec<Edge> {
+    let n = edges.len();
+    let edge = |i: usize| Edge {
+        start: edges[(n - i) % n].start,
+        shape: edges[n - 1 - i].shape.reversed(),
+        smooth: edges[(n - i) % n].smooth,
+        label: edges[n - 1 - i].label.clone(),
+    };
+    (0..n).map(edge).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pattern::EdgeShape;
+
+    #[test]
+    fn what_is_drawn_clockwise_lies_front_up_all_the_same() {
+        let corner = |x: f64, y: f64, shape| Edge { start: DVec2::new(x, y), shape, ..Edge::default() };
+        let bend = EdgeShape::Quadratic { control: DVec2::new(1.5, 0.5) };
+        let edges = [
+            corner(0.0, 0.0, EdgeShape::Line),
+            corner(0.0, 1.0, EdgeShape::Line),
+            corner(1.0, 1.0, bend),
+            corner(1.0, 0.0, EdgeShape::Line),
+        ];
+        let piece = new_piece(&Pattern::default(), &edges);
+        assert_eq!(piece.name, "Piece 1");
+        assert!((piece.signed_area() - (1.0 + 1.0 / 6.0)).abs() < 1e-3, "{}", piece.signed_area());
+        let placed: Vec<DVec2> = piece.outline.iter().map(|e| piece.pose.plane_from_piece(e.start)).collect();
+        assert_eq!(placed, [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(DVec2::from));
+        assert_eq!(piece.outline[1].shape, EdgeShape::Quadratic { control: DVec2::new(1.0, 0.0) });
+    }
+}

@@ -1,0 +1,455 @@
+//! Edits outlines: moves points, edges and the handles of curves; double-clicks insert points and smooth corners.
+
+use std::collections::BTreeSet;
+
+use egui::{CursorIcon, Pos2, Rect, Stroke};
+use glam::DVec2;
+
+use super::select::next;
+use super::{PatternTool, done, dragged};
+use crate::geometry::ids::PieceId;
+use crate::pattern::edit::{PatternEdit, PointRef};
+use crate::pattern::{EdgeRef, EdgeShape};
+use crate::ui::asks::{Ask, Asks};
+use crate::ui::pattern_pane::draw::Drawing;
+use crate::ui::pattern_pane::input::Input;
+use crate::ui::pattern_pane::snap::Snapped;
+use crate::ui::pattern_pane::table::{OnEdge, REACH, Table};
+use crate::ui::selection::{Item, Selection};
+use crate::ui::units::{Typed, degrees};
+
+/// The tool Edit points.
+#[derive(Debug, Default)]
+pub struct Points {
+    drag: Option<Drag>,
+}
+
+#[derive(Debug)]
+enum Drag {
+    /// The points the box holds are selected.
+    Box { from: DVec2, to: DVec2, add: bool },
+    /// Points where they lay on the table, and the place they are held at.
+    Move { held: DVec2, points: Vec<(PointRef, DVec2)>, by: DVec2, snapped: Option<Snapped> },
+    /// An edge as it was, bent through the pointer.
+    Bend { edge: EdgeRef, ends: [DVec2; 2], shape: EdgeShape, at: f64, held: DVec2 },
+    /// A handle of a curve.
+    Handle { edge: EdgeRef, shape: EdgeShape, which: usize, to: DVec2 },
+}
+
+/// A handle of a curve: its edge, which of its control points it is, where it and the point it belongs to are on the table.
+type CurveHandle = (EdgeRef, usize, DVec2, DVec2);
+
+impl Points {
+    fn press(&mut self, table: &Table<'_>, input: &Input, at: Pos2, asks: &mut Asks) {
+        let p = table.at(at);
+        if let Some((edge, which, to, _)) = handle_at(table, p).filter(|h| table.is_free(h.0.piece)) {
+            let shape = table.pattern().pieces[&edge.piece].edge(edge.edge).shape;
+            self.drag = Some(Drag::Handle { edge, shape, which, to });
+            return;
+        }
+        let free = |piece: PieceId, asks: &mut Asks| {
+            let is_free = table.is_free(piece);
+            if !is_free {
+                asks.push(Ask::Say("This piece is locked.".to_owned()));
+            }
+            is_free
+        };
+        if let Some(point) = table.point_at(p) {
+            if free(point.piece, asks) {
+                let selection = self.taken(table, Item::Point(point), input, asks);
+                let held = table.point(point).unwrap_or(p);
+                self.drag = Some(Drag::Move {
+                    held,
+                    points: held_points(table, &selection),
+                    by: DVec2::ZERO,
+                    snapped: None,
+                });
+            }
+        } else if let Some(hit) = table.edge_at(p) {
+            if free(hit.edge.piece, asks) {
+                self.press_edge(table, input, hit, asks);
+            }
+        } else {
+            self.drag = Some(Drag::Box { from: p, to: p, add: input.held.shift });
+        }
+    }
+
+    fn press_edge(&mut self, table: &Table<'_>, input: &Input, hit: OnEdge, asks: &mut Asks) {
+        let piece = &table.pattern().pieces[&hit.edge.piece];
+        let (shape, (a, b)) = (piece.edge(hit.edge.edge).shape, piece.edge_ends(hit.edge.edge));
+        if shape != EdgeShape::Line || input.held.alt {
+            let held = piece.pose.piece_from_plane(hit.place);
+            self.drag = Some(Drag::Bend { edge: hit.edge, ends: [a, b], shape, at: hit.at, held });
+            return;
+        }
+        let selection = self.taken(table, Item::Edge(hit.edge), input, asks);
+        let points = held_points(table, &selection);
+        self.drag = Some(Drag::Move { held: hit.place, points, by: DVec2::ZERO, snapped: None });
+    }
+
+    /// What is moved when `item` is taken hold of: it alone, or everything selected when it is one of that.
+    fn taken(&self, table: &Table<'_>, item: Item, input: &Input, asks: &mut Asks) -> Selection {
+        let selection = table.laid.selection;
+        if selection.has(item) {
+            return selection.clone();
+        }
+        let selection = selection.clicked(Some(item), input.held.shift);
+        asks.push(Ask::Pick(selection.clone()));
+        selection
+    }
+
+    fn follow(&mut self, table: &Table<'_>, input: &Input, at: Pos2, asks: &mut Asks) {
+        let p = table.at(at);
+        match &mut self.drag {
+            Some(Drag::Box { to, .. }) => *to = p,
+            Some(Drag::Move { held, points, by, snapped }) => {
+                let moving: BTreeSet<PointRef> = points.iter().map(|(point, _)| *point).collect();
+                let found = table.snapped(p, Some(*held), input.held, |point| moving.contains(&point));
+                (*by, *snapped) = (found.place - *held, found.by.map(|_| found));
+                asks.extend(moved(table, points, *by).map(|edit| dragged(vec![edit])));
+            }
+            Some(Drag::Bend { edge, ends, shape, at, held }) => {
+                let Some(piece) = table.pattern().pieces.get(&edge.piece) else { return };
+                let to = piece.pose.piece_from_plane(p);
+                let shape = bent(*ends, *shape, *at, *held, to);
+                asks.push(dragged(vec![PatternEdit::SetEdge { edge: *edge, shape }]));
+            }
+            Some(Drag::Handle { edge, shape, which, to }) => {
+                let found = table.snapped(p, None, input.held, |point| point.piece == edge.piece);
+                *to = found.place;
+                let edit = handle_set(table, *edge, *shape, *which, *to);
+                asks.extend(edit.map(|edit| dragged(vec![edit])));
+            }
+            None => {}
+        }
+    }
+
+    fn finish(&mut self, table: &Table<'_>, asks: &mut Asks) {
+        match self.drag.take() {
+            Some(Drag::Box { from, to, add }) => {
+                let (lower, upper) = (from.min(to), from.max(to));
+                let inside = |p: DVec2| p.cmpge(lower).all() && p.cmple(upper).all();
+                let mut selection = if add { table.laid.selection.clone() } else { Selection::default() };
+                selection.points.extend(table.points().filter(|(_, p)| inside(*p)).map(|(point, _)| point));
+                asks.push(Ask::Pick(selection));
+            }
+            Some(_) => asks.push(Ask::EndDrag),
+            None => {}
+        }
+    }
+
+    fn double_click(&self, table: &Table<'_>, p: DVec2, asks: &mut Asks) {
+        let Some(item) = self.under(table, p) else { return };
+        let edit = match item {
+            Item::Point(point) if table.is_free(point.piece) => {
+                let smooth = !table.pattern().pieces[&point.piece].edge(point.point).smooth;
+                PatternEdit::SetSmooth { point, smooth }
+            }
+            Item::Edge(edge) if table.is_free(edge.piece) => {
+                let Some(hit) = table.edge_at(p) else { return };
+                let at = hit.at.clamp(0.01, 0.99);
+                PatternEdit::InsertPoint { edge, at: nice_fraction(at, table.reach(REACH), table, edge) }
+            }
+            _ => return,
+        };
+        asks.push(done(vec![edit]));
+    }
+}
+
+/// The middle of an edge where it is near enough.
+fn nice_fraction(at: f64, reach: f64, table: &Table<'_>, edge: EdgeRef) -> f64 {
+    let length = table.piece(edge.piece).map_or(1.0, |(_, shape)| shape.lengths[edge.edge]);
+    if (at - 0.5).abs() * length <= reach { 0.5 } else { at }
+}
+
+impl PatternTool for Points {
+    fn step(&mut self, table: &Table<'_>, input: &Input, asks: &mut Asks) {
+        for &at in &input.clicks {
+            let p = table.at(at);
+            if handle_at(table, p).is_none() {
+                let item = self.under(table, p);
+                asks.push(Ask::Pick(table.laid.selection.clicked(item, input.held.shift)));
+            }
+        }
+        if input.double
+            && let Some(at) = input.hover
+        {
+            self.double_click(table, table.at(at), asks);
+        }
+        if let Some(at) = input.pressed {
+            self.press(table, input, at, asks);
+        }
+        if let Some(&at) = input.trail.last() {
+            self.follow(table, input, at, asks);
+        }
+        if input.let_go {
+            self.finish(table, asks);
+        }
+        if input.nudge != DVec2::ZERO && self.drag.is_none() {
+            let points = held_points(table, table.laid.selection);
+            asks.extend(moved(table, &points, input.nudge).map(|edit| done(vec![edit])));
+        }
+        if input.next != 0 {
+            let all: Vec<Item> = table.points().map(|(point, _)| Item::Point(point)).collect();
+            let chosen = table.laid.selection.points.last().map(|&point| Item::Point(point));
+            asks.extend(next(&all, chosen, input.next).map(|item| Ask::Pick(Selection::of(item))));
+        }
+    }
+
+    fn draw(&self, drawing: &Drawing<'_>, table: &Table<'_>, input: &Input) {
+        let stroke = Stroke::new(1.2, drawing.palette.accent.gamma_multiply(0.8));
+        for (_, _, p, end) in curve_handles(table) {
+            drawing.painter.line_segment([drawing.place(p), drawing.place(end)], stroke);
+            drawing.knob(p, true, false);
+        }
+        for (point, p) in table.points() {
+            if drawing.pane.contains(drawing.place(p)) {
+                let is_smooth = table.pattern().pieces[&point.piece].edge(point.point).smooth;
+                drawing.knob(p, is_smooth, table.laid.selection.points.contains(&point));
+            }
+        }
+        let at = input.hover.unwrap_or(drawing.pane.center());
+        match &self.drag {
+            Some(Drag::Box { from, to, .. }) => {
+                let area = Rect::from_two_pos(drawing.place(*from), drawing.place(*to));
+                let ink = drawing.palette.accent;
+                let kind = egui::StrokeKind::Inside;
+                drawing.painter.rect(area, 0.0, ink.gamma_multiply(0.12), Stroke::new(1.0, ink), kind);
+            }
+            Some(Drag::Move { by, snapped, points, .. }) => {
+                if let Some(snapped) = snapped {
+                    drawing.snapped(snapped);
+                }
+                drawing.chip(at, &readout(table, points, *by));
+            }
+            Some(Drag::Bend { edge, .. } | Drag::Handle { edge, .. }) => {
+                if let Some((_, shape)) = table.piece(edge.piece) {
+                    drawing.chip(at, &table.laid.unit.text(shape.lengths[edge.edge]));
+                }
+            }
+            None => {}
+        }
+    }
+
+    fn is_busy(&self) -> bool {
+        self.drag.is_some()
+    }
+
+    fn is_dragging(&self) -> bool {
+        self.drag.is_some()
+    }
+
+    fn takes_numbers(&self) -> bool {
+        matches!(self.drag, Some(Drag::Move { .. }))
+    }
+
+    fn typed(&mut self, table: &Table<'_>, typed: Typed, asks: &mut Asks) -> Result<(), String> {
+        let Some(Drag::Move { points, by, .. }) = &self.drag else {
+            return Err("drag a point, then type".to_owned());
+        };
+        let by = match (typed, &points[..]) {
+            (Typed::Length(far), _) => by.normalize_or(DVec2::X) * far,
+            (Typed::By(by), _) => by,
+            (Typed::At(p), [(_, from)]) => p - *from,
+            (Typed::At(by), _) => by,
+        };
+        asks.extend(moved(table, points, by).map(|edit| dragged(vec![edit])));
+        asks.push(Ask::EndDrag);
+        self.drag = None;
+        Ok(())
+    }
+
+    fn give_up(&mut self, asks: &mut Asks) {
+        if !matches!(self.drag.take(), None | Some(Drag::Box { .. })) {
+            asks.push(Ask::CancelDrag);
+        }
+    }
+
+    fn under(&self, table: &Table<'_>, p: DVec2) -> Option<Item> {
+        let point = table.point_at(p).map(Item::Point);
+        let edge = || table.edge_at(p).map(|hit| Item::Edge(hit.edge));
+        point.or_else(edge).or_else(|| table.piece_at(p).map(|(piece, _)| Item::Piece(piece)))
+    }
+
+    fn cursor(&self, table: &Table<'_>, at: DVec2) -> CursorIcon {
+        match self.under(table, at) {
+            _ if self.drag.is_some() => CursorIcon::Grabbing,
+            Some(Item::Point(_) | Item::Edge(_)) => CursorIcon::PointingHand,
+            _ if handle_at(table, at).is_some() => CursorIcon::PointingHand,
+            _ => CursorIcon::Default,
+        }
+    }
+
+    fn hint(&self, _table: &Table<'_>) -> String {
+        match &self.drag {
+            Some(Drag::Move { .. }) => {
+                "Type a place (30,40), a way (@10,0) or how far (5) · Shift: straight or slanting · Alt: do not snap · Esc: back"
+            }
+            Some(_) => "Alt: do not snap · Esc: back",
+            None => {
+                "Drag a point or an edge · Alt+drag an edge: bend it · Double-click an edge: insert a point; a point: corner or smooth · Delete: take it away"
+            }
+        }
+        .to_owned()
+    }
+}
+
+/// Selected points and the ends of selected edges, where they are on the table. Of locked pieces none.
+fn held_points(table: &Table<'_>, selection: &Selection) -> Vec<(PointRef, DVec2)> {
+    let mut points = selection.points.clone();
+    for &EdgeRef { piece, edge } in &selection.edges {
+        if let Some(found) = table.pattern().pieces.get(&piece).filter(|p| edge < p.edge_count()) {
+            points.extend([edge, found.next_edge(edge)].map(|point| PointRef { piece, point }));
+        }
+    }
+    let free = points.into_iter().filter(|point| table.is_free(point.piece));
+    free.filter_map(|point| Some((point, table.point(point)?))).collect()
+}
+
+fn moved(table: &Table<'_>, points: &[(PointRef, DVec2)], by: DVec2) -> Option<PatternEdit> {
+    let own = |&(point, p): &(PointRef, DVec2)| {
+        let pose = table.pattern().pieces.get(&point.piece)?.pose;
+        Some((point, pose.piece_from_plane(p + by)))
+    };
+    let points: Vec<_> = points.iter().filter_map(own).collect();
+    (!points.is_empty()).then_some(PatternEdit::MovePoints { points })
+}
+
+/// One point: where it is. Two of one edge: how long that is, and which way it runs.
+fn readout(table: &Table<'_>, points: &[(PointRef, DVec2)], by: DVec2) -> String {
+    let unit = table.laid.unit;
+    match points {
+        [(point, p)] => {
+            let at = *p + by;
+            let mut words = format!("{}, {}", unit.number(at.x), unit.text(at.y));
+            if let Some((piece, shape)) = table.piece(point.piece) {
+                let (line, first) = piece.loop_of(point.point);
+                let count = piece.loop_edges(line).len();
+                let before = first + (point.point - first + count - 1) % count;
+                words += &format!(
+                    "   edges {} and {}",
+                    unit.number(shape.lengths[before]),
+                    unit.text(shape.lengths[point.point])
+                );
+            }
+            words
+        }
+        _ => format!("{}  {}°", unit.text(by.length()), degrees(by.to_angle())),
+    }
+}
+
+/// Handles of curves beside selected points and edges, and of the piece under the pointer when nothing is selected.
+fn curve_handles(table: &Table<'_>) -> Vec<CurveHandle> {
+    let selection = table.laid.selection;
+    let mut pieces = selection.pieces_touched();
+    if let (
+        true,
+        Some(Item::Piece(piece) | Item::Edge(EdgeRef { piece, .. }) | Item::Point(PointRef { piece, .. })),
+    ) = (pieces.is_empty(), table.laid.highlight)
+    {
+        pieces.insert(piece);
+    }
+    let mut all = Vec::new();
+    for id in pieces {
+        let Some(piece) = table.pattern().pieces.get(&id).filter(|piece| !piece.hidden) else { continue };
+        for i in 0..piece.edge_count() {
+            let place = |p: DVec2| piece.pose.plane_from_piece(p);
+            let (a, b) = piece.edge_ends(i);
+            let edge = EdgeRef { piece: id, edge: i };
+            match piece.edge(i).shape {
+                EdgeShape::Line | EdgeShape::Arc { .. } => {}
+                EdgeShape::Quadratic { control } => all.push((edge, 0, place(control), place(a))),
+                EdgeShape::Cubic { controls: [c, d] } => {
+                    all.extend([(edge, 0, place(c), place(a)), (edge, 1, place(d), place(b))]);
+                }
+            }
+        }
+    }
+    all
+}
+
+fn handle_at(table: &Table<'_>, p: DVec2) -> Option<CurveHandle> {
+    let near = curve_handles(table).into_iter().filter(|h| h.2.distance(p) <= table.reach(REACH * 0.8));
+    let points = table.point_at(p);
+    // Where a handle lies on a point the point is meant.
+    let near = near.filter(|h| {
+        points.is_none_or(|point| table.point(point).is_none_or(|q| q.distance(p) > h.2.distance(p)))
+    });
+    near.min_by(|a, b| a.2.distance(p).total_cmp(&b.2.distance(p)))
+}
+
+fn handle_set(
+    table: &Table<'_>,
+    edge: EdgeRef,
+    shape: EdgeShape,
+    which: usize,
+    to: DVec2,
+) -> Option<PatternEdit> {
+    let to = table.pattern().pieces.get(&edge.piece)?.pose.piece_from_plane(to);
+    let shape = match shape {
+        EdgeShape::Quadratic { .. } => EdgeShape::Quadratic { control: to },
+        EdgeShape::Cubic { mut controls } => {
+            controls[which] = to;
+            EdgeShape::Cubic { controls }
+        }
+        other => other,
+    };
+    Some(PatternEdit::SetEdge { edge, shape })
+}
+
+/// The curve from `a` to `b` bent so that what was at `held`, a share `at` of the way, comes to lie at `to`. All in the
+/// piece's own plane.
+fn bent([a, b]: [DVec2; 2], shape: EdgeShape, at: f64, held: DVec2, to: DVec2) -> EdgeShape {
+    let t = at.clamp(0.15, 0.85);
+    let by = to - held;
+    match shape {
+        EdgeShape::Line => EdgeShape::Quadratic { control: (a + b) / 2.0 + by / (2.0 * t * (1.0 - t)) },
+        EdgeShape::Quadratic { control } => {
+            EdgeShape::Quadratic { control: control + by / (2.0 * t * (1.0 - t)) }
+        }
+        EdgeShape::Cubic { controls } => {
+            EdgeShape::Cubic { controls: controls.map(|c| c + by / (3.0 * t * (1.0 - t))) }
+        }
+        EdgeShape::Arc { .. } => arc_through(a, to, b),
+    }
+}
+
+/// The arc from `a` to `b` through `p`; straight when they lie on a line.
+fn arc_through(a: DVec2, p: DVec2, b: DVec2) -> EdgeShape {
+    let (u, v) = (p - a, b - a);
+    let turn = u.perp_dot(v);
+    if turn.abs() < 1e-6 * v.length_squared() {
+        return EdgeShape::Line;
+    }
+    // The centre, from `a`: as far from all three.
+    let (uu, vv) = (u.length_squared(), v.length_squared());
+    let centre = DVec2::new(v.y * uu - u.y * vv, u.x * vv - v.x * uu) / (2.0 * turn);
+    // On the same side of the chord as `p`: more than half a circle.
+    let large = v.perp_dot(centre) * v.perp_dot(u) > 0.0;
+    EdgeShape::Arc { radius: centre.length(), large, sweep: turn > 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pattern::curve;
+
+    #[test]
+    fn a_bent_edge_goes_through_the_pointer() {
+        let (a, b) = (DVec2::ZERO, DVec2::new(2.0, 0.0));
+        for shape in [
+            EdgeShape::Line,
+            EdgeShape::Quadratic { control: DVec2::new(1.0, 0.5) },
+            EdgeShape::Cubic { controls: [DVec2::new(0.5, 0.5), DVec2::new(1.5, 0.5)] },
+            EdgeShape::Arc { radius: 1.5, large: false, sweep: true },
+        ] {
+            let held = curve::points(a, shape, b, &[0.5])[0];
+            for to in [DVec2::new(1.0, 0.7), DVec2::new(1.0, -0.6), DVec2::new(1.0, 1.8)] {
+                let new = bent([a, b], shape, 0.5, held, to);
+                let p = curve::points(a, new, b, &[0.5])[0];
+                assert!((p - to).length() < 1e-6, "{shape:?} to {to}: {p}");
+            }
+        }
+        assert_eq!(arc_through(a, DVec2::new(1.0, 0.0), b), EdgeShape::Line);
+    }
+}

@@ -1,0 +1,92 @@
+//! The selection of the pattern: what picks it, what it goes through, and what is done to it.
+
+use std::sync::Arc;
+
+use crate::pattern::Pattern;
+use crate::session::{Command, Document};
+use crate::ui::actions::Action;
+use crate::ui::app::App;
+use crate::ui::edits;
+use crate::ui::selection::{Item, Selection};
+
+/// What is selected, and of which pattern.
+#[derive(Debug, Default)]
+pub struct Picks {
+    /// What is selected.
+    pub selection: Selection,
+    of: Arc<Pattern>,
+}
+
+impl Picks {
+    /// Edges and seams that are selected, and the one the pointer is over.
+    pub fn standing_out(&self, highlight: Option<Item>) -> Vec<Item> {
+        let Selection { edges, seams, .. } = &self.selection;
+        let chosen = edges.iter().map(|&edge| Item::Edge(edge)).chain(seams.iter().map(|&id| Item::Seam(id)));
+        let near = highlight.filter(|item| matches!(item, Item::Edge(_) | Item::Seam(_)));
+        chosen.chain(near).collect()
+    }
+}
+
+impl App {
+    /// Forgets what is selected that is there no longer.
+    pub(super) fn carry_selection(&mut self, document: &Document) {
+        let old = std::mem::replace(&mut self.picks.of, Arc::clone(&document.pattern));
+        self.picks.selection.carried(&old, &document.pattern);
+    }
+
+    /// What the pointer is over, in either pane.
+    pub(super) fn highlight(&self) -> Option<Item> {
+        let pattern = &self.picks.of;
+        self.pattern_pane.under.or(self.scene_pane.under).filter(|item| item.is_in(pattern))
+    }
+
+    /// Selects this, and no mark.
+    pub(super) fn pick(&mut self, selection: Selection) {
+        if !selection.is_empty() {
+            self.selected = None;
+        }
+        self.picks.selection = selection;
+    }
+
+    /// Carries out `command`; pieces and seams that are new are selected.
+    pub(super) fn apply_and_select(&mut self, command: Command) {
+        let is_edit = matches!(command, Command::EditPattern { .. });
+        let before = Arc::clone(&self.session.document().pattern);
+        self.apply(command);
+        let after = &self.session.document().pattern;
+        if !is_edit || Arc::ptr_eq(&before, after) {
+            return;
+        }
+        let pieces = after.pieces.keys().filter(|id| !before.pieces.contains_key(id)).copied();
+        let mut new = Selection::of_pieces(pieces);
+        if new.is_empty() {
+            new.seams.extend(after.seams.keys().filter(|id| !before.seams.contains_key(id)));
+        }
+        if !new.is_empty() {
+            self.picks = Picks { selection: new, of: Arc::clone(after) };
+            self.selected = None;
+        }
+    }
+
+    /// Does something to what is selected.
+    pub(super) fn change_pattern(&mut self, action: Action) {
+        let pattern = Arc::clone(&self.session.document().pattern);
+        if action == Action::SelectAll {
+            return self.pick(Selection::all(&pattern));
+        }
+        let edits = edits::edits(action, &pattern, &self.picks.selection);
+        if !edits.is_empty() {
+            self.apply_and_select(Command::EditPattern { edits, anew: false });
+        }
+    }
+
+    /// The keyboard goes to the pattern pane, and from there to the body pane.
+    pub(super) fn next_pane(&self, ctx: &egui::Context) {
+        let panes = [self.pattern_pane.id, self.scene_pane.id];
+        let focused = ctx.memory(|m| m.focused());
+        let next = if focused.is_some() && focused == panes[0] { panes[1] } else { panes[0] };
+        if let Some(id) = next {
+            ctx.memory_mut(|m| m.request_focus(id));
+        }
+    }
+}

@@ -1,0 +1,176 @@
+//! What is selected of the pattern, and what the pointer is over: seen in both panes, never in the document.
+
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+use crate::geometry::ids::{PieceId, SeamId};
+use crate::pattern::edit::PointRef;
+use crate::pattern::{EdgeRef, Pattern};
+
+/// What is selected. Kinds may be mixed; tools select of the kind they work on.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Selection {
+    /// Whole pieces.
+    pub pieces: BTreeSet<PieceId>,
+    /// Points of outlines and holes.
+    pub points: BTreeSet<PointRef>,
+    /// Edges of outlines and holes.
+    pub edges: BTreeSet<EdgeRef>,
+    /// Seams.
+    pub seams: BTreeSet<SeamId>,
+}
+
+/// One thing of the pattern.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Item {
+    Piece(PieceId),
+    Point(PointRef),
+    Edge(EdgeRef),
+    Seam(SeamId),
+}
+
+impl Item {
+    /// Whether `pattern` has it.
+    pub fn is_in(self, pattern: &Pattern) -> bool {
+        let edge = |piece: PieceId, i: usize| pattern.pieces.get(&piece).is_some_and(|p| i < p.edge_count());
+        match self {
+            Self::Piece(piece) => pattern.pieces.contains_key(&piece),
+            Self::Point(PointRef { piece, point }) => edge(piece, point),
+            Self::Edge(EdgeRef { piece, edge: i }) => edge(piece, i),
+            Self::Seam(seam) => pattern.seams.contains_key(&seam),
+        }
+    }
+}
+
+impl Selection {
+    /// Just one thing.
+    pub fn of(item: Item) -> Self {
+        let mut selection = Self::default();
+        selection.toggle(item);
+        selection
+    }
+
+    /// These pieces.
+    pub fn of_pieces(pieces: impl IntoIterator<Item = PieceId>) -> Self {
+        Self { pieces: pieces.into_iter().collect(), ..Self::default() }
+    }
+
+    /// Nothing is selected.
+    pub fn is_empty(&self) -> bool {
+        let Self { pieces, points, edges, seams } = self;
+        pieces.is_empty() && points.is_empty() && edges.is_empty() && seams.is_empty()
+    }
+
+    /// Whether `item` is selected.
+    pub fn has(&self, item: Item) -> bool {
+        match item {
+            Item::Piece(id) => self.pieces.contains(&id),
+            Item::Point(id) => self.points.contains(&id),
+            Item::Edge(id) => self.edges.contains(&id),
+            Item::Seam(id) => self.seams.contains(&id),
+        }
+    }
+
+    /// Selects `item`, or no longer.
+    pub fn toggle(&mut self, item: Item) {
+        fn flip<T: Ord>(set: &mut BTreeSet<T>, x: T) {
+            if !set.remove(&x) {
+                set.insert(x);
+            }
+        }
+        match item {
+            Item::Piece(id) => flip(&mut self.pieces, id),
+            Item::Point(id) => flip(&mut self.points, id),
+            Item::Edge(id) => flip(&mut self.edges, id),
+            Item::Seam(id) => flip(&mut self.seams, id),
+        }
+    }
+
+    /// After a click on `item`: that alone, or with Shift one more or one less.
+    pub fn clicked(&self, item: Option<Item>, add: bool) -> Self {
+        match item {
+            None if add => self.clone(),
+            None => Self::default(),
+            Some(item) if add => {
+                let mut new = self.clone();
+                new.toggle(item);
+                new
+            }
+            Some(item) => Self::of(item),
+        }
+    }
+
+    /// Selected pieces, and those that selected points and edges are of.
+    pub fn pieces_touched(&self) -> BTreeSet<PieceId> {
+        let points = self.points.iter().map(|p| p.piece);
+        let edges = self.edges.iter().map(|e| e.piece);
+        self.pieces.iter().copied().chain(points).chain(edges).collect()
+    }
+
+    /// Everything that can be seen.
+    pub fn all(pattern: &Pattern) -> Self {
+        Self::of_pieces(pattern.pieces.iter().filter(|(_, p)| !p.hidden).map(|(&id, _)| id))
+    }
+
+    /// What is left of it when `old` becomes `new`. Points and edges of a piece whose edges are numbered anew are not.
+    pub fn carried(&mut self, old: &Arc<Pattern>, new: &Arc<Pattern>) {
+        if Arc::ptr_eq(old, new) {
+            return;
+        }
+        let edges = |pattern: &Pattern, id: &PieceId| pattern.pieces.get(id).map(|p| p.edge_count());
+        let same = |id: &PieceId| edges(old, id) == edges(new, id);
+        self.pieces.retain(|id| Item::Piece(*id).is_in(new));
+        self.points.retain(|p| same(&p.piece) && Item::Point(*p).is_in(new));
+        self.edges.retain(|e| same(&e.piece) && Item::Edge(*e).is_in(new));
+        self.seams.retain(|id| Item::Seam(*id).is_in(new));
+    }
+
+    /// In words, for the status bar and screen readers.
+    pub fn words(&self) -> String {
+        let count = |n: usize, one: &str| match n {
+            0 => None,
+            1 => Some(format!("1 {one}")),
+            _ => Some(format!("{n} {one}s")),
+        };
+        let parts = [
+            count(self.pieces.len(), "piece"),
+            count(self.edges.len(), "edge"),
+            count(self.points.len(), "point"),
+            count(self.seams.len(), "seam"),
+        ];
+        parts.into_iter().flatten().collect::<Vec<_>>().join(", ")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pattern::Piece;
+    use glam::DVec2;
+
+    #[test]
+    fn clicks_select_and_shift_adds_and_takes_away() {
+        let [a, b] = [1, 2].map(|i| Item::Piece(PieceId(i)));
+        let one = Selection::default().clicked(Some(a), false);
+        let both = one.clicked(Some(b), true);
+        assert!(both.has(a) && both.has(b));
+        assert_eq!(both.words(), "2 pieces");
+        assert_eq!(both.clicked(Some(b), true), one);
+        assert_eq!(both.clicked(None, true), both);
+        assert!(both.clicked(None, false).is_empty());
+    }
+
+    #[test]
+    fn what_is_gone_or_numbered_anew_is_not_selected() {
+        let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(DVec2::from);
+        let mut pattern = Pattern::default();
+        let ids = [(); 2].map(|()| pattern.add_piece(Piece::polygon("p", &square)));
+        let old = Arc::new(pattern.clone());
+        pattern.pieces.remove(&ids[0]);
+        Arc::make_mut(pattern.pieces.get_mut(&ids[1]).expect("a piece")).outline.pop();
+        let mut selection = Selection::of_pieces(ids);
+        selection.edges.insert(EdgeRef { piece: ids[1], edge: 0 });
+        selection.carried(&old, &Arc::new(pattern));
+        assert_eq!(selection, Selection::of_pieces([ids[1]]));
+    }
+}
