@@ -313,6 +313,8 @@ impl Dragging {
         let cap = RELAX_CAP * self.relaxer.surface.scale();
         let step =
             GlobalStep { cap, contact: CONTACT, hold: HAND_WEIGHT, slack: 0.0, unfold: true, weight: true };
-        self.relaxer.global_steps(state, step, &PACES)
+        // The other modes leave it to relaxation how far the rest of the cloth follows: one plain step, as in the paper.
+        let paces = if self.mode == DragMode::Surface { &PACES[..] } else { &[1.0] };
+        self.relaxer.global_steps(state, step, paces)
     }
 }
