@@ -7,5 +7,7 @@ pub mod limits;
 pub mod obj;
 mod polygon;
 mod sheet;
+pub mod written;
 
 pub use limits::Limits;
+pub use written::Written;
