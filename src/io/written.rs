@@ -25,6 +25,7 @@ pub(super) enum Part {
     EdgeNames,
     Holes,
     Lines,
+    LineNames,
     Notches,
     Grainline,
     Allowance,
@@ -32,7 +33,7 @@ pub(super) enum Part {
     Symmetry,
     Twin,
     Placement,
-    BodyPart,
+    PlaceOnBody,
     Seams,
     Ratios,
 }
@@ -45,6 +46,7 @@ impl Part {
             Self::EdgeNames => "names of edges",
             Self::Holes => "holes",
             Self::Lines => "internal lines",
+            Self::LineNames => "names of internal lines",
             Self::Notches => "notches",
             Self::Grainline => "the grainline",
             Self::Allowance => "the seam allowance",
@@ -52,7 +54,7 @@ impl Part {
             Self::Symmetry => "that the halves stay mirror images",
             Self::Twin => "that it mirrors another piece",
             Self::Placement => "its place round the body",
-            Self::BodyPart => "the part of the body it belongs to",
+            Self::PlaceOnBody => "the part of the body it belongs to",
             Self::Seams => "seams",
             Self::Ratios => "that lengths of seams are kept",
         }
@@ -118,6 +120,7 @@ fn parts_of_piece(piece: &Piece) -> Vec<Part> {
         (Part::EdgeNames, edges().any(|e| e.label.is_some())),
         (Part::Holes, !holes.is_empty()),
         (Part::Lines, !lines.is_empty()),
+        (Part::LineNames, lines.iter().any(|l| !l.name.is_empty())),
         (Part::Notches, !notches.is_empty()),
         (Part::Grainline, grainline.is_some()),
         (Part::Allowance, *allowance > 0.0),
@@ -125,7 +128,7 @@ fn parts_of_piece(piece: &Piece) -> Vec<Part> {
         (Part::Symmetry, *symmetric),
         (Part::Twin, twin.is_some()),
         (Part::Placement, placement.is_some()),
-        (Part::BodyPart, label.is_some()),
+        (Part::PlaceOnBody, label.is_some()),
     ];
     has.into_iter().filter(|(_, has)| *has).map(|(part, _)| part).collect()
 }

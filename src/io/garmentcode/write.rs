@@ -17,7 +17,7 @@ use crate::pattern::{
 
 const UNITS_IN_METRE: f64 = 100.0;
 /// What a specification says of a pattern.
-const HOLDS: [Part; 5] = [Part::Curves, Part::EdgeNames, Part::Placement, Part::BodyPart, Part::Seams];
+const HOLDS: [Part; 5] = [Part::Curves, Part::EdgeNames, Part::Placement, Part::PlaceOnBody, Part::Seams];
 /// A panel has at least so many edges.
 const FEWEST_EDGES: usize = 3;
 
