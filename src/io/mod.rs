@@ -7,6 +7,7 @@ pub mod json;
 pub mod limits;
 pub mod obj;
 pub mod pattern_file;
+pub mod pdf;
 mod polygon;
 pub mod scale;
 mod sheet;
