@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use toile::body::{Unit, import};
-use toile::io::{garmentcode, obj};
+use toile::io::{garmentcode, obj, pattern_file};
 
 fn folder(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/bad").join(name)
@@ -32,6 +32,64 @@ fn check(format: &str, answer: impl Fn(&[u8]) -> Option<String>) {
 #[test]
 fn patterns() {
     check("garmentcode", |bytes| garmentcode::read(bytes).err().map(|e| e.to_string()));
+}
+
+/// Errors as they are; of files that can be read the notes, and what keeps their pieces from being sewn.
+fn drawing(bytes: &[u8]) -> Option<String> {
+    match pattern_file::read(bytes, None) {
+        Err(error) => Some(error.to_string()),
+        Ok(read) => {
+            let (_, problems) = toile::cloth::build(&read.pattern, 0.05);
+            let problems = problems.iter().map(|p| format!("problem: {}: {}", p.place, p.words));
+            let told: Vec<String> = read.notes.iter().map(|n| format!("note: {n}")).chain(problems).collect();
+            (!told.is_empty()).then(|| told.join("\n"))
+        }
+    }
+}
+
+#[test]
+fn svg_drawings() {
+    check("svg", drawing);
+}
+
+#[test]
+fn dxf_drawings() {
+    // An empty file has no format, so the reader of this one is asked.
+    check("dxf", |bytes| match toile::io::dxf::read(bytes, None) {
+        Err(error) => Some(error.to_string()),
+        Ok(_) => drawing(bytes),
+    });
+}
+
+/// A hundred thousand groups in each other are too large for a file here.
+#[test]
+fn the_deepest_drawing_is_refused_at_once() {
+    let deep = format!("<svg xmlns=\"http://www.w3.org/2000/svg\">{}", "<g>".repeat(100_000));
+    let start = Instant::now();
+    let error = pattern_file::read(deep.as_bytes(), None).expect_err("too deep").to_string();
+    assert!(
+        error.contains("nested more than 200 deep") && start.elapsed() < Duration::from_secs(1),
+        "{error}"
+    );
+}
+
+/// Twenty thousand points at random: no curve runs through them, and none is looked for long.
+#[test]
+fn a_polyline_without_sense_takes_no_time() {
+    let mut seed = 1u64;
+    let mut next = || {
+        seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (seed >> 40) as f64 / f64::from(1 << 24) * 600.0
+    };
+    let points: String = (0..20_000).map(|_| format!("{},{} ", next(), next())).collect();
+    let svg = format!(
+        r#"<svg xmlns="http://www.w3.org/2000/svg" width="600mm" height="600mm" viewBox="0 0 600 600">
+        <polygon points="{points}"/></svg>"#
+    );
+    let start = Instant::now();
+    let read = pattern_file::read(svg.as_bytes(), None).expect("a piece, if a bad one");
+    assert!(start.elapsed() < Duration::from_secs(2), "{:?}", start.elapsed());
+    assert_eq!(read.pattern.pieces.len(), 1);
 }
 
 #[test]
@@ -72,7 +130,10 @@ fn mangled_files_never_panic() {
         seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
         (seed >> 33) as usize % below
     };
-    for original in [obj_text.as_bytes(), &json] {
+    let of = |name: &str| std::fs::read(folder("").join(name)).expect("the file");
+    let drawings = [of("svg/41_self_crossing.svg"), of("dxf/52_other_shapes.dxf"), of("dxf/48_count.dxf")];
+    let originals = [obj_text.as_bytes(), &json].into_iter().chain(drawings.iter().map(Vec::as_slice));
+    for original in originals {
         for _ in 0..3000 {
             let mut bytes = original.to_vec();
             for _ in 0..=next(3) {
@@ -87,6 +148,7 @@ fn mangled_files_never_panic() {
                 let _ = import(read.mesh, Unit::Metre);
             }
             let _ = garmentcode::read(&bytes);
+            let _ = pattern_file::read(&bytes, None);
         }
     }
 }

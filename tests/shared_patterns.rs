@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use kurbo::ParamCurve;
 use toile::io::garmentcode;
 use toile::pattern::{Pattern, Piece};
 
@@ -87,6 +88,55 @@ fn patterns_of_the_older_dialect_are_read_whole() {
 fn the_commented_template_is_read() {
     let Some(pattern) = read("garment-pattern-generator/template_spec_with_comments.jsonc") else { return };
     assert_eq!((pattern.pieces.len(), pattern.seams.len()), (2, 2));
+}
+
+/// Outlines and places of two patterns agree within 1e-9 m, and their seams join the same edges.
+fn check_same(name: &str, a: &Pattern, b: &Pattern) {
+    assert_eq!(a.pieces.len(), b.pieces.len(), "{name}");
+    let near = |p: glam::DVec3, q: glam::DVec3| assert!(p.distance(q) < 1e-9, "{name}: {p} {q}");
+    for (p, q) in a.pieces.values().zip(b.pieces.values()) {
+        assert_eq!((&p.name, &p.label, p.outline.len()), (&q.name, &q.label, q.outline.len()), "{name}");
+        for i in 0..p.outline.len() {
+            assert_eq!(p.outline[i].label, q.outline[i].label, "{name}");
+            // By their parameters: places by arc length are only to 1e-7.
+            let points = |piece: &Piece| -> Vec<glam::DVec2> {
+                let at = |s: &kurbo::PathSeg| [0.0, 0.25, 0.5, 0.75, 1.0].map(|t| s.eval(t));
+                let points = piece.edge_segments(i).iter().flat_map(at).collect::<Vec<_>>();
+                points.into_iter().map(|p| glam::DVec2::new(p.x, p.y)).collect()
+            };
+            for (at, again) in points(p).into_iter().zip(points(q)) {
+                near(at.extend(0.0), again.extend(0.0));
+                let place = |piece: &Piece, at: glam::DVec2| {
+                    piece.placement.map_or(glam::DVec3::ZERO, |s| s.rotation * at.extend(0.0) + s.translation)
+                };
+                near(place(p, at), place(q, again));
+            }
+        }
+    }
+    let seams = |pattern: &Pattern| pattern.seams.values().copied().collect::<Vec<_>>();
+    assert_eq!(seams(a), seams(b), "{name}");
+}
+
+#[test]
+fn garmentcode_goes_out_and_in_again_unchanged() {
+    let Some(data) = data() else { return };
+    let mut count = 0;
+    for folder in ["garmentcode", "garment-pattern-generator"] {
+        let files = std::fs::read_dir(data.join("patterns").join(folder)).expect("the folder");
+        for file in files.map(|f| f.expect("an entry").file_name().to_string_lossy().into_owned()) {
+            let name = format!("{folder}/{file}");
+            if !file.contains(".json") || file.contains("_design") {
+                continue;
+            }
+            let pattern = read(&name).expect("data");
+            let written = garmentcode::write(&pattern);
+            assert!(written.left_out.is_empty(), "{name}: {:?}", written.left_out);
+            let again = garmentcode::read(&written.bytes).unwrap_or_else(|e| panic!("{name}: {e}"));
+            check_same(&name, &pattern, &again);
+            count += 1;
+        }
+    }
+    assert_eq!(count, 17, "every pattern of the folders");
 }
 
 #[test]

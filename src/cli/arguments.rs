@@ -6,6 +6,8 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::body::Unit;
 use crate::cloth::Skips;
+use crate::io::pdf::Paper;
+use crate::io::scale::DrawingUnit;
 use crate::render::View;
 
 /// Dress a body in cloth: draw and sew flat pieces, paint marks, press Wrap.
@@ -48,6 +50,10 @@ pub struct InputOptions {
     /// The unit of the body file: m, dm, cm, mm or in; without it the body's height tells
     #[arg(long)]
     pub unit: Option<Unit>,
+    /// What a unit of a DXF or SVG pattern is: mm, cm, m, in, px, px90 or pt; without it the file tells, or the question
+    /// is asked by an error
+    #[arg(long, value_name = "UNIT")]
+    pub scale: Option<DrawingUnit>,
     /// Takes the marks from this JSON file
     #[arg(long, value_name = "FILE", conflicts_with = "suggest_marks")]
     pub marks: Option<PathBuf>,
@@ -170,7 +176,7 @@ pub struct Render {
     pub turntable: Option<u32>,
 }
 
-/// Makes a project of pattern (GarmentCode JSON) and body (OBJ) files
+/// Makes a project of pattern (GarmentCode JSON, DXF-AAMA/ASTM, SVG) and body (OBJ) files
 #[derive(Debug, Args)]
 pub struct Import {
     /// At most one pattern and one body
@@ -183,14 +189,21 @@ pub struct Import {
     pub input: InputOptions,
 }
 
-/// Writes the dressed cloth of a project: .obj (cloth alone) or .glb (with the body)
+/// Writes the pattern as .json (GarmentCode), .dxf (AAMA/ASTM), .svg (1 unit = 1 mm) or .pdf (true size), or the dressed
+/// cloth of a project as .obj (alone) or .glb (with the body)
 #[derive(Debug, Args)]
 pub struct Export {
-    /// A dressed project
+    /// A project, a pattern or a sample (sample:NAME); for .obj and .glb a dressed project
     pub project: PathBuf,
     /// The file to write; its ending says in which format
-    #[arg(short, long, value_name = "FILE")]
+    #[arg(short, long, visible_alias = "out", value_name = "FILE")]
     pub output: PathBuf,
+    /// What a PDF is printed on: a4 or letter, to be glued together, or one large page
+    #[arg(long, default_value_t, value_name = "a4|letter|one")]
+    pub paper: Paper,
+    /// What a unit of a DXF or SVG pattern that is read is: mm, cm, m, in, px, px90 or pt
+    #[arg(long, value_name = "UNIT")]
+    pub scale: Option<DrawingUnit>,
 }
 
 /// Says what is wrong with a project, pattern or body, in words

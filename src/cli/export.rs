@@ -1,18 +1,34 @@
-//! `toile export`: the dressed cloth in another format.
+//! `toile export`: the pattern or the dressed cloth in another format.
 
 use crate::cli::arguments::{Export, InputOptions};
 use crate::cli::failure::Failure;
 use crate::cli::{formats, input, output, run};
 
-/// Writes the cloth as the file's ending says.
+/// Endings of patterns, and of dressed cloth.
+const ENDINGS: [&str; 6] = ["json", "dxf", "svg", "pdf", "obj", "glb"];
+
+/// Writes the pattern or the cloth as the file's ending says.
 pub fn export(arguments: &Export) -> Result<(), Failure> {
     let ending =
         arguments.output.extension().and_then(|e| e.to_str()).unwrap_or_default().to_ascii_lowercase();
-    if !["obj", "glb"].contains(&ending.as_str()) {
-        let words = format!("{}: the ending must be .obj or .glb", arguments.output.display());
+    if !ENDINGS.contains(&ending.as_str()) {
+        let words = format!(
+            "{}: the ending must be .json, .dxf, .svg or .pdf for the pattern, .obj or .glb for the dressed cloth",
+            arguments.output.display()
+        );
         return Err(Failure::Usage(words));
     }
-    let input = input::load(&arguments.project, &InputOptions::default())?;
+    let options = InputOptions { scale: arguments.scale, ..InputOptions::default() };
+    let input = input::load(&arguments.project, &options)?;
+    if !["obj", "glb"].contains(&ending.as_str()) {
+        let pattern = &input.project.document.pattern;
+        let written = formats::pattern_bytes(&ending, pattern, &input.name, arguments.paper)
+            .map_err(|why| Failure::input(&arguments.project, why))?;
+        for line in &written.left_out {
+            output::complain(&format!("{}: {line}", arguments.output.display()));
+        }
+        return output::write(&arguments.output, &written.bytes);
+    }
     let session = run::opened(input.project, &arguments.project)?;
     let snapshot = session.snapshot();
     let (true, Some((garment, cloth)), Some(source)) =

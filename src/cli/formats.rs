@@ -9,12 +9,35 @@ use crate::cli::failure::Failure;
 use crate::cli::output;
 use crate::cloth::{ClothState, Garment};
 use crate::geometry::mesh::TriMesh;
-use crate::io::{garmentcode, glb, obj};
+use crate::io::pattern_file::{self, PatternFileError};
+use crate::io::pdf::{self, Paper, PdfError};
+use crate::io::scale::DrawingUnit;
+use crate::io::{Written, dxf, garmentcode, glb, obj, svg};
 use crate::pattern::Pattern;
 
-/// A pattern in a file of one of the known formats.
-pub fn pattern(path: &Path, bytes: &[u8]) -> Result<Pattern, Failure> {
-    garmentcode::read(bytes).map_err(|e| Failure::input(path, e))
+/// A pattern in a file of one of the known formats. Doubts about it are told.
+pub fn pattern(path: &Path, bytes: &[u8], scale: Option<DrawingUnit>) -> Result<Pattern, Failure> {
+    let read = pattern_file::read(bytes, scale).map_err(|error| match error {
+        PatternFileError::OverLimit(words) => Failure::Limit(format!("{}: {words}", path.display())),
+        PatternFileError::Scale(question) => {
+            Failure::input(path, format!("{question}: say which with --scale"))
+        }
+        error => Failure::input(path, error),
+    })?;
+    for note in &read.notes {
+        output::complain(&format!("{}: note: {note}", path.display()));
+    }
+    Ok(read.pattern)
+}
+
+/// A pattern as a file with this ending: json, dxf, svg or pdf.
+pub fn pattern_bytes(ending: &str, pattern: &Pattern, name: &str, paper: Paper) -> Result<Written, PdfError> {
+    match ending {
+        "json" => Ok(garmentcode::write(pattern)),
+        "dxf" => Ok(dxf::write(pattern)),
+        "svg" => Ok(svg::write(pattern)),
+        _ => pdf::write(pattern, name, paper),
+    }
 }
 
 /// The body in an OBJ file, checked. Without a unit the one that gives a person's height is taken, and said.

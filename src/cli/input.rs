@@ -9,6 +9,8 @@ use crate::body::{Imported, Unit};
 use crate::cli::arguments::InputOptions;
 use crate::cli::failure::Failure;
 use crate::cli::{formats, output};
+use crate::io::pattern_file;
+use crate::io::scale::DrawingUnit;
 use crate::pattern::Pattern;
 use crate::session::body::{Body, surface_of};
 use crate::session::carry::carried;
@@ -44,7 +46,7 @@ pub struct Input {
 
 /// Reads the project, pattern or sample called `path` and does with it what `options` say.
 pub fn load(path: &Path, options: &InputOptions) -> Result<Input, Failure> {
-    let (mut project, is_project_file) = match content(path, options.unit)? {
+    let (mut project, is_project_file) = match content(path, options.unit, options.scale)? {
         Content::Project(project) => (project, sample_name(path).is_none()),
         Content::Pattern(pattern) => {
             let mut project = Project::default();
@@ -76,7 +78,7 @@ pub fn name_of(path: &Path) -> String {
 }
 
 /// Reads `path` and finds out what it is by its contents.
-pub fn content(path: &Path, unit: Option<Unit>) -> Result<Content, Failure> {
+pub fn content(path: &Path, unit: Option<Unit>, scale: Option<DrawingUnit>) -> Result<Content, Failure> {
     if let Some(name) = sample_name(path) {
         return sample(path, name).map(Content::Project);
     }
@@ -84,8 +86,8 @@ pub fn content(path: &Path, unit: Option<Unit>) -> Result<Content, Failure> {
     if project_file::is_project(&bytes) {
         return project_file::from_bytes(&bytes).map(Content::Project).map_err(|e| project_failure(path, e));
     }
-    if looks_like_json(&bytes) {
-        return formats::pattern(path, &bytes).map(Content::Pattern);
+    if bytes.trim_ascii().is_empty() || pattern_file::format(&bytes).is_some() {
+        return formats::pattern(path, &bytes, scale).map(Content::Pattern);
     }
     formats::body(path, &bytes, unit).map(Content::Body)
 }
@@ -101,11 +103,6 @@ fn sample(path: &Path, name: &str) -> Result<Project, Failure> {
     };
     let figure = mannequin(&Measurements::default()).map_err(|e| Failure::input(path, e))?;
     Ok(sample.project(&figure))
-}
-
-fn looks_like_json(bytes: &[u8]) -> bool {
-    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    bytes.trim_ascii_start().first().is_none_or(|b| b"{[\"".contains(b))
 }
 
 fn read(path: &Path) -> Result<Vec<u8>, Failure> {

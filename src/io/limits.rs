@@ -13,6 +13,20 @@ pub struct Limits {
     pub faces: usize,
     /// Pieces of one pattern.
     pub pieces: usize,
+    /// Shapes and texts of one DXF drawing.
+    pub dxf_entities: usize,
+    /// Numbers and texts of one shape of a DXF drawing.
+    pub dxf_tags: usize,
+    /// Blocks inside blocks.
+    pub block_depth: usize,
+    /// Elements of one SVG drawing.
+    pub svg_nodes: usize,
+    /// Elements of an SVG drawing inside each other.
+    pub svg_depth: usize,
+    /// Lines and curves of one drawing.
+    pub path_segments: usize,
+    /// Closed lines of one drawing.
+    pub contours: usize,
     /// Corners of one face.
     pub face_corners: usize,
     /// Groups, objects and materials together.
@@ -33,6 +47,13 @@ impl Default for Limits {
             vertices: 5_000_000,
             faces: 10_000_000,
             pieces: 1000,
+            dxf_entities: 1_000_000,
+            dxf_tags: 2_000_000,
+            block_depth: 16,
+            svg_nodes: 200_000,
+            svg_depth: 200,
+            path_segments: 1_000_000,
+            contours: 5000,
             face_corners: 4096,
             groups: 10_000,
             name_bytes: 1024,

@@ -1,11 +1,19 @@
 //! Bytes in, checked data out, and back. Nothing here opens a file: callers hand over bytes and name the place.
 
+pub mod dxf;
 pub mod garmentcode;
 pub mod glb;
 pub mod json;
 pub mod limits;
 pub mod obj;
+pub mod pattern_file;
+pub mod pdf;
 mod polygon;
+pub mod scale;
 mod sheet;
+pub mod svg;
+mod trace;
+pub mod written;
 
 pub use limits::Limits;
+pub use written::Written;

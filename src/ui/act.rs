@@ -38,6 +38,7 @@ impl App {
             Action::ImportPattern => self.ask_file(Purpose::ImportPattern),
             Action::ImportBody => self.ask_file(Purpose::ImportBody),
             Action::UseMannequin => self.apply(files::use_mannequin()),
+            Action::ExportPattern => self.ask_file(Purpose::ExportPattern),
             Action::Export => self.ask_file(Purpose::Export),
             Action::SaveRecording => self.ask_file(Purpose::Recording),
             Action::Quit => {

@@ -56,6 +56,7 @@ pub enum Action {
     Save,
     SaveAs,
     ImportPattern,
+    ExportPattern,
     ImportBody,
     UseMannequin,
     Export,
@@ -158,10 +159,15 @@ impl Action {
             Self::Save => entry("Save", "Save the project", &[ctrl(Key::S)]),
             Self::SaveAs => entry("Save as…", "Save the project under another name", &[ctrl_shift(Key::S)]),
             Self::ImportPattern => {
-                entry("Import pattern…", "Take the pieces and seams of a GarmentCode file", &[ctrl(Key::I)])
+                entry("Import pattern…", "Take the pieces of a DXF, SVG or GarmentCode file", &[ctrl(Key::I)])
             }
             Self::ImportBody => entry("Import body…", "Take a body from an OBJ file", &[]),
             Self::UseMannequin => entry("Use the mannequin", "Go back to the built-in figure", &[]),
+            Self::ExportPattern => entry(
+                "Export pattern…",
+                "Write the pieces as .pdf in true size, .svg, .dxf or .json (GarmentCode)",
+                &[ctrl_shift(Key::E)],
+            ),
             Self::Export => entry("Export…", "Write the dressed garment as .obj or .glb", &[ctrl(Key::E)]),
             Self::SaveRecording => {
                 entry("Save recording…", "Write everything done so far as a script that can be replayed", &[])
@@ -336,6 +342,7 @@ const ALL: &[Action] = &[
     Action::Save,
     Action::SaveAs,
     Action::ImportPattern,
+    Action::ExportPattern,
     Action::Export,
     Action::Quit,
     Action::Undo,

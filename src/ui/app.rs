@@ -6,6 +6,7 @@ use std::sync::Arc;
 use egui::{CentralPanel, Frame, Key, KeyboardShortcut, Margin, Modifiers, Panel, ViewportCommand};
 
 use crate::geometry::ids::MarkId;
+use crate::io::scale::DrawingUnit;
 use crate::render::Camera;
 use crate::session::{Command, Document, GestureId, Notice, Project, Session};
 use crate::sim::{Runner, Simulation, Snapshot, thread::DEFAULT_RATE_HZ};
@@ -13,7 +14,7 @@ use crate::ui::actions::{Action, Tool};
 use crate::ui::asks::{Ask, Asks};
 use crate::ui::dialogs::{Answer, Dialog, NativeDialog};
 use crate::ui::edits::Picked;
-use crate::ui::files::{self, Purpose, RawBody};
+use crate::ui::files::{self, PatternImport, Purpose, RawBody};
 use crate::ui::ghosts::Ghosts;
 use crate::ui::marks_panel::MarksPanel;
 use crate::ui::messages::Messages;
@@ -538,6 +539,11 @@ impl App {
                 self.on_disk = None;
                 self.file(ctx, Purpose::Save, &path);
             }
+            Answer::Pattern(path, unit) => {
+                if let Err(words) = self.import_pattern(&path, Some(unit)) {
+                    self.messages.error(words);
+                }
+            }
             Answer::Body(raw) => {
                 if let Err(words) = self.take_body(*raw) {
                     self.messages.error(words);
@@ -552,10 +558,10 @@ impl App {
             let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
             match extension.as_deref() {
                 Some("toile") => self.file(ctx, Purpose::Open, &path),
-                Some("json") => self.file(ctx, Purpose::ImportPattern, &path),
+                Some("json" | "dxf" | "svg") => self.file(ctx, Purpose::ImportPattern, &path),
                 Some("obj") => self.file(ctx, Purpose::ImportBody, &path),
                 _ => self.messages.error(format!(
-                    "{} is neither a project (.toile), a pattern (.json) nor a body (.obj)",
+                    "{} is neither a project (.toile), a pattern (.dxf, .svg, .json) nor a body (.obj)",
                     path.display()
                 )),
             }
@@ -594,15 +600,13 @@ impl App {
         let done = match purpose {
             Purpose::Open => files::open(path).map(|p| self.replace(ctx, p, Some(path.to_owned()))),
             Purpose::Save => self.save_to(ctx, path),
-            Purpose::ImportPattern => files::import_pattern(path).map(|command| {
-                self.apply(command);
-                self.pattern_pane.fit = true;
-            }),
+            Purpose::ImportPattern => self.import_pattern(path, None),
             Purpose::ImportBody => files::read_body(path).and_then(|raw| self.import_body(raw)),
             Purpose::Export => {
                 let pattern = &self.session.document().pattern;
                 files::export(path, self.session.snapshot(), pattern).map(|()| self.wrote(path))
             }
+            Purpose::ExportPattern => self.export_pattern(path),
             Purpose::Recording => {
                 let text = self.recording();
                 files::write(path, text.as_bytes()).map(|()| self.wrote(path))
@@ -612,6 +616,33 @@ impl App {
             self.after_save = None;
             self.messages.error(words);
         }
+    }
+
+    /// Asks for the unit first when the file does not say it.
+    fn import_pattern(&mut self, path: &Path, unit: Option<DrawingUnit>) -> Result<(), String> {
+        match files::import_pattern(path, unit)? {
+            PatternImport::Pattern(command, notes) => {
+                self.apply(command);
+                self.pattern_pane.fit = true;
+                if !notes.is_empty() {
+                    self.messages.tell(notes.join("; "));
+                }
+            }
+            PatternImport::Question(question) => {
+                let unit = question.candidates.first().copied().unwrap_or_default();
+                self.dialog = Some(Dialog::Scale { path: path.to_owned(), question, unit });
+            }
+        }
+        Ok(())
+    }
+
+    fn export_pattern(&mut self, path: &Path) -> Result<(), String> {
+        let left_out = files::export_pattern(path, &self.session.document().pattern)?;
+        self.wrote(path);
+        if !left_out.is_empty() {
+            self.messages.tell(left_out.join("; "));
+        }
+        Ok(())
     }
 
     /// Asks for the unit first when there is a doubt.

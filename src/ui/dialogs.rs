@@ -10,6 +10,7 @@ use std::time::{Duration, Instant};
 use egui::{Id, Modal, ScrollArea, TextEdit};
 
 use crate::body::Unit;
+use crate::io::scale::{DrawingUnit, ScaleQuestion};
 use crate::session::recovery::Left;
 use crate::ui::actions::Action;
 use crate::ui::files::{Purpose, RawBody};
@@ -27,6 +28,8 @@ pub enum Dialog {
     Path { purpose: Purpose, text: String },
     /// The unit of a body.
     Unit { raw: Box<RawBody> },
+    /// How large the drawing in a file is.
+    Scale { path: PathBuf, question: ScaleQuestion, unit: DrawingUnit },
     /// Keys, and what this mouse does.
     Shortcuts { mouse: Mouse },
     /// Work that sessions left behind which did not end well, and what it is called.
@@ -56,6 +59,8 @@ pub enum Answer {
     Overwrite(PathBuf),
     /// Save under another name.
     SaveAs,
+    /// The pattern in this file, whose unit is this.
+    Pattern(PathBuf, DrawingUnit),
 }
 
 impl Answer {
@@ -72,6 +77,7 @@ impl Dialog {
             Self::Unsaved { then } => unsaved_ui(ctx, *then),
             Self::Path { purpose, text } => path_ui(ctx, *purpose, text),
             Self::Unit { raw } => unit_ui(ctx, raw),
+            Self::Scale { path, question, unit } => scale_ui(ctx, path, question, unit),
             Self::Shortcuts { mouse } => shortcuts_ui(ctx, *mouse),
             Self::Recover { found } => recover_ui(ctx, found),
             Self::ChangedOnDisk { path } => changed_ui(ctx, path),
@@ -215,6 +221,36 @@ fn unit_ui(ctx: &egui::Context, raw: &mut RawBody) -> Answer {
         ui.horizontal(|ui| {
             if ui.button("Take it").clicked() {
                 Answer::Body(Box::new(raw.clone()))
+            } else if ui.button("Cancel").clicked() {
+                Answer::Cancel
+            } else {
+                Answer::None
+            }
+        })
+        .inner
+    });
+    let closed = shown.should_close();
+    shown.inner.or_cancel(closed)
+}
+
+fn scale_ui(ctx: &egui::Context, path: &Path, question: &ScaleQuestion, unit: &mut DrawingUnit) -> Answer {
+    let shown = Modal::new(Id::unique("scale")).show(ctx, |ui| {
+        ui.set_width(420.0);
+        ui.heading("How large is the pattern?");
+        ui.add_space(4.0);
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        ui.label(format!("{name}: {}.", question.why));
+        ui.add_space(4.0);
+        for &candidate in &question.candidates {
+            let size = question.size(candidate) * 100.0;
+            let words =
+                format!("{}: the largest piece is {:.1} × {:.1} cm", candidate.long(), size.x, size.y);
+            ui.radio_value(unit, candidate, words);
+        }
+        ui.add_space(8.0);
+        ui.horizontal(|ui| {
+            if ui.button("Take it").clicked() {
+                Answer::Pattern(path.to_owned(), *unit)
             } else if ui.button("Cancel").clicked() {
                 Answer::Cancel
             } else {

@@ -5,7 +5,10 @@ use std::sync::Arc;
 
 use crate::body::{Unit, guess_unit, import, mannequin};
 use crate::geometry::mesh::TriMesh;
-use crate::io::{garmentcode, glb, obj};
+use crate::io::pattern_file::{self, PatternFileError};
+use crate::io::pdf::{self, Paper};
+use crate::io::scale::{DrawingUnit, ScaleQuestion};
+use crate::io::{dxf, garmentcode, glb, obj, svg};
 use crate::pattern::Pattern;
 use crate::session::samples::Sample;
 use crate::session::{BodyChoice, Command, Project, project_file};
@@ -24,6 +27,8 @@ pub enum Purpose {
     ImportBody,
     /// Write the dressed garment.
     Export,
+    /// Write the pattern.
+    ExportPattern,
     /// Write the recording.
     Recording,
 }
@@ -37,6 +42,7 @@ impl Purpose {
             Self::ImportPattern => "Import a pattern",
             Self::ImportBody => "Import a body",
             Self::Export => "Export the dressed garment",
+            Self::ExportPattern => "Export the pattern",
             Self::Recording => "Save the recording",
         }
     }
@@ -45,7 +51,8 @@ impl Purpose {
     pub fn filter(self) -> (&'static str, &'static [&'static str]) {
         match self {
             Self::Open | Self::Save => ("Toile project", &["toile"]),
-            Self::ImportPattern => ("GarmentCode pattern", &["json"]),
+            Self::ImportPattern => ("Pattern", &["dxf", "svg", "json"]),
+            Self::ExportPattern => ("Pattern", &["pdf", "svg", "dxf", "json"]),
             Self::ImportBody => ("OBJ body", &["obj"]),
             Self::Export => ("Garment", &["obj", "glb"]),
             Self::Recording => ("Recording", &["jsonl"]),
@@ -54,7 +61,7 @@ impl Purpose {
 
     /// Whether a file is written.
     pub fn writes(self) -> bool {
-        matches!(self, Self::Save | Self::Export | Self::Recording)
+        matches!(self, Self::Save | Self::Export | Self::ExportPattern | Self::Recording)
     }
 
     /// The name a new file gets.
@@ -62,6 +69,7 @@ impl Purpose {
         let stem = match self {
             Self::Recording => "recording",
             Self::Export => "garment",
+            Self::ExportPattern => "pattern",
             _ => "untitled",
         };
         format!("{stem}.{}", self.filter().1[0])
@@ -104,10 +112,41 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<(), String> {
     write().map_err(|e: std::io::Error| in_words(path, "written", e))
 }
 
-/// Reads a pattern. The command replaces what is on the table.
-pub fn import_pattern(path: &Path) -> Result<Command, String> {
-    let pattern = garmentcode::read(&read(path)?).map_err(|e| in_words(path, "imported", e))?;
-    Ok(Command::ReplacePattern { name: stem(path), pattern: Arc::new(pattern), marks: Arc::default() })
+/// What a file of a pattern gives.
+#[derive(Debug)]
+pub enum PatternImport {
+    /// The command that replaces what is on the table, and what a person should know about it.
+    Pattern(Command, Vec<String>),
+    /// It does not say how large it is.
+    Question(ScaleQuestion),
+}
+
+/// Reads a pattern. `unit` is the answer to the question how large it is.
+pub fn import_pattern(path: &Path, unit: Option<DrawingUnit>) -> Result<PatternImport, String> {
+    match pattern_file::read(&read(path)?, unit) {
+        Ok(read) => {
+            let pattern = Arc::new(read.pattern);
+            let command = Command::ReplacePattern { name: stem(path), pattern, marks: Arc::default() };
+            Ok(PatternImport::Pattern(command, read.notes))
+        }
+        Err(PatternFileError::Scale(question)) => Ok(PatternImport::Question(question)),
+        Err(error) => Err(in_words(path, "imported", error)),
+    }
+}
+
+/// Writes `pattern` as the name of the file says; a PDF on A4. Returns what the format does not hold.
+pub fn export_pattern(path: &Path, pattern: &Pattern) -> Result<Vec<String>, String> {
+    let written = match path.extension().map(|e| e.to_string_lossy().to_lowercase()).as_deref() {
+        Some("json") => garmentcode::write(pattern),
+        Some("dxf") => dxf::write(pattern),
+        Some("svg") => svg::write(pattern),
+        Some("pdf") => {
+            pdf::write(pattern, &stem(path), Paper::A4).map_err(|e| in_words(path, "written", e))?
+        }
+        _ => return Err(in_words(path, "written", "the name must end in .pdf, .svg, .dxf or .json")),
+    };
+    write(path, &written.bytes)?;
+    Ok(written.left_out)
 }
 
 /// A body as its file has it.

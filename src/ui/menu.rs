@@ -52,7 +52,7 @@ fn file_ui(ui: &mut egui::Ui, now: &Situation, asks: &mut Asks) {
     ui.separator();
     items(ui, now, asks, &[Action::ImportPattern, Action::ImportBody, Action::UseMannequin]);
     ui.separator();
-    items(ui, now, asks, &[Action::Export, Action::SaveRecording]);
+    items(ui, now, asks, &[Action::ExportPattern, Action::Export, Action::SaveRecording]);
     ui.separator();
     items(ui, now, asks, &[Action::Quit]);
 }

@@ -89,6 +89,7 @@ impl Situation {
             _ if self.demo && !action.is_for_demos() => Some("A demo is shown: stop it first"),
             Action::Undo => unless(self.undo.is_some(), "There is nothing to undo"),
             Action::Redo => unless(self.redo.is_some(), "There is nothing to redo"),
+            Action::ExportPattern => unless(self.pieces > 0, "There is no piece on the table"),
             Action::Wrap if self.pieces == 0 => Some("There is no piece on the table"),
             Action::Wrap if !self.has_body => Some("There is no body"),
             Action::Wrap if self.wrapping => Some("The cloth is growing"),

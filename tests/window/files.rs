@@ -31,6 +31,36 @@ fn a_body_in_centimetres_is_asked_about() {
 }
 
 #[test]
+fn a_drawing_without_a_size_is_asked_about() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("front.svg");
+    let svg =
+        r#"<svg xmlns="http://www.w3.org/2000/svg"><path id="front" d="M 0 0 H 500 V 600 H 0 Z"/></svg>"#;
+    std::fs::write(&path, svg).expect("a file");
+    let mut window = window();
+    window.get_by_label("File").click();
+    window.run_steps(3);
+    window.get_by_label_contains("Import pattern…").click();
+    window.run_steps(3);
+    if window.query_by_label("Read").is_none() {
+        println!("skipped: this desktop may have a dialog of its own");
+        return;
+    }
+    window.get_by_role(egui::accesskit::Role::TextInput).focus();
+    window.run_steps(2);
+    window.get_by_role(egui::accesskit::Role::TextInput).type_text(&path.display().to_string());
+    window.run_steps(2);
+    window.get_by_label("Read").click();
+    window.run_steps(3);
+    assert!(window.query_by_label("millimetres: the largest piece is 50.0 × 60.0 cm").is_some());
+    window.get_by_label("Take it").click();
+    window.run_steps(3);
+    let pattern = &app(&window).session().document().pattern;
+    let area: f64 = pattern.pieces.values().map(|p| p.signed_area()).sum();
+    assert!((area - 0.3).abs() < 1e-6, "{area}");
+}
+
+#[test]
 fn closing_with_changes_asks_first() {
     let mut window = window();
     let close = |window: &mut Window| {

@@ -1,7 +1,5 @@
-//! Patterns of GarmentCode and of its predecessor, the Garment Pattern Generator, from their JSON.
+//! Bytes of a specification to a pattern.
 //!
-//! M. Korosteleva and S.-H. Lee, "Generating Datasets of 3D Garments with Sewing Patterns", 2021;
-//! M. Korosteleva and O. Sorkine-Hornung, "GarmentCode: Programming Parametric Sewing Patterns", 2023.
 //! The two dialects differ in `curvature`: the older one has only quadratic Béziers, written as a plain pair.
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -15,9 +13,9 @@ use crate::io::sheet;
 use crate::pattern::{Edge, EdgeRef, EdgeShape, Pattern, Piece, Seam, SpacePose};
 
 /// Edges shorter than this (metres) have no length.
-const SHORTEST_EDGE: f64 = 1e-6;
+pub(super) const SHORTEST_EDGE: f64 = 1e-6;
 /// Relative control points further from their edge than this many edge lengths are a fault of the file.
-const LARGEST_CURVATURE: f64 = 100.0;
+pub(super) const LARGEST_CURVATURE: f64 = 100.0;
 /// Rotations beyond two turns (degrees) are not degrees.
 const LARGEST_ANGLE: f64 = 720.0;
 
@@ -292,5 +290,5 @@ fn edge_ref(side: &At<'_>, ids: &BTreeMap<&str, PieceId>, pattern: &Pattern) -> 
 }
 
 #[cfg(test)]
-#[path = "garmentcode_tests.rs"]
+#[path = "read_tests.rs"]
 mod tests;

@@ -1,0 +1,388 @@
+//! DXF bytes to a pattern.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use dxf::entities::{Entity, EntityType, Insert};
+use dxf::{Block, Drawing, Point};
+use glam::{DMat2, DVec2};
+
+use super::clean::{self, Clean};
+use super::{layer, pieces, units};
+use crate::io::Limits;
+use crate::io::pattern_file::{PatternFileError, ReadPattern};
+use crate::io::scale::DrawingUnit;
+use crate::io::trace;
+use crate::pattern::{Edge, EdgeShape};
+
+/// A line as drawn.
+#[derive(Clone, Debug)]
+pub struct DrawnLine {
+    /// None where the name of the layer has no number.
+    pub layer: Option<u32>,
+    pub shape: LineShape,
+    pub is_closed: bool,
+}
+
+/// Its points, or, where arcs are among them, its edges and end.
+#[derive(Clone, Debug)]
+pub enum LineShape {
+    Points(Vec<DVec2>),
+    Edges(Vec<Edge>, DVec2),
+}
+
+impl LineShape {
+    /// Its corners.
+    pub fn points(&self) -> Vec<DVec2> {
+        match self {
+            Self::Points(points) => points.clone(),
+            Self::Edges(edges, _) => edges.iter().map(|e| e.start).collect(),
+        }
+    }
+}
+
+/// What belongs together: the contents of a block.
+#[derive(Clone, Debug, Default)]
+pub struct Drawn {
+    pub name: String,
+    pub texts: Vec<(Option<u32>, String, DVec2)>,
+    pub lines: Vec<DrawnLine>,
+    pub points: Vec<(Option<u32>, DVec2)>,
+}
+
+/// Reads a pattern. `unit` goes before what the file says.
+///
+/// # Errors
+/// What cannot be read, with its line; more than [`Limits`] allows; or which unit it is in.
+pub fn read(bytes: &[u8], unit: Option<DrawingUnit>) -> Result<ReadPattern, PatternFileError> {
+    let mut clean = clean::clean(bytes)?;
+    let drawing = Drawing::load_with_encoding(&mut clean.text.as_bytes(), encoding_rs::UTF_8)
+        .map_err(|e| PatternFileError::Whole(format!("no sound DXF: {e}")))?;
+    let mut notes = std::mem::take(&mut clean.notes);
+    let blocks: Vec<&Block> = drawing.blocks().filter(|b| !b.name.starts_with(['*', '$'])).collect();
+    check_nesting(&blocks)?;
+    let loose = drawn("drawing", drawing.entities(), &mut notes)?;
+    let mut all = Vec::new();
+    for (block, insert) in blocks.iter().zip(inserts(&blocks, &drawing, &mut notes)?) {
+        let mut contents = drawn(&block.name, block.entities.iter(), &mut notes)?;
+        if let Some(insert) = insert {
+            contents.transform(&placed(insert, &block.base_point, &mut notes));
+        }
+        all.push(contents);
+    }
+    let texts: Vec<String> =
+        all.iter().chain([&loose]).flat_map(|d| d.texts.iter().map(|(_, text, _)| text.clone())).collect();
+    if all.iter().all(|d| d.lines.is_empty()) {
+        all = pieces::told_apart(loose)?;
+    }
+    let largest = pieces::largest(&all);
+    if largest.max_element() <= 0.0 {
+        return Err(nothing(&clean, &notes));
+    }
+    let unit = match unit {
+        Some(unit) => unit,
+        None => {
+            let (unit, note) = units::unit(&clean, &texts, largest)?;
+            notes.extend(note);
+            unit
+        }
+    };
+    let limits = Limits::default();
+    let scale = Placing { matrix: DMat2::from_diagonal(DVec2::splat(unit.metres())), offset: DVec2::ZERO };
+    for contents in &mut all {
+        contents.transform(&scale);
+        contents.check(limits.pattern_coordinate)?;
+    }
+    let traced = pieces::traced(all, &mut notes);
+    if traced.is_empty() {
+        return Err(nothing(&clean, &notes));
+    }
+    if traced.len() > limits.pieces {
+        let words = format!("{} pieces; {} are allowed", traced.len(), limits.pieces);
+        return Err(PatternFileError::OverLimit(words));
+    }
+    let (pattern, more) = trace::pattern(traced);
+    notes.extend(more);
+    Ok(ReadPattern { pattern, notes })
+}
+
+fn nothing(clean: &Clean, notes: &[String]) -> PatternFileError {
+    let words = match clean.entities {
+        0 => "there is nothing drawn in it".to_owned(),
+        n => format!("there is no closed line among the {n} shapes and texts in it"),
+    };
+    PatternFileError::Whole(std::iter::once(&words).chain(notes).cloned().collect::<Vec<_>>().join("; "))
+}
+
+/// Blocks that contain each other would be without end.
+fn check_nesting(blocks: &[&Block]) -> Result<(), PatternFileError> {
+    let limits = Limits::default();
+    let children: BTreeMap<&str, BTreeSet<&str>> = blocks
+        .iter()
+        .map(|block| {
+            let inside = block.entities.iter().filter_map(|e| match &e.specific {
+                EntityType::Insert(insert) => Some(insert.name.as_str()),
+                _ => None,
+            });
+            (block.name.as_str(), inside.collect())
+        })
+        .collect();
+    // The longest way down from each block, found level by level.
+    let mut level: BTreeSet<&str> =
+        children.iter().filter(|(_, c)| !c.is_empty()).map(|(&name, _)| name).collect();
+    for _ in 0..limits.block_depth {
+        level = level.iter().filter_map(|name| children.get(name)).flatten().copied().collect();
+        level.retain(|name| children.get(name).is_some_and(|c| !c.is_empty()));
+        if level.is_empty() {
+            return Ok(());
+        }
+    }
+    let names: Vec<&str> = level.into_iter().take(3).collect();
+    Err(PatternFileError::OverLimit(format!(
+        "block {}: blocks inside blocks without end, or more than {} deep",
+        names.join(", "),
+        limits.block_depth
+    )))
+}
+
+/// For each block where it is inserted. Blocks of one name are told apart by their order, if there are as many inserts.
+fn inserts<'a>(
+    blocks: &[&Block],
+    drawing: &'a Drawing,
+    notes: &mut Vec<String>,
+) -> Result<Vec<Option<&'a Insert>>, PatternFileError> {
+    let key = |name: &str| name.to_uppercase();
+    let mut by_name: BTreeMap<String, Vec<&Insert>> = BTreeMap::new();
+    let mut copies = 0u64;
+    let limits = Limits::default();
+    for entity in drawing.entities() {
+        if let EntityType::Insert(insert) = &entity.specific {
+            copies +=
+                u64::from(insert.row_count.unsigned_abs()) * u64::from(insert.column_count.unsigned_abs());
+            by_name.entry(key(&insert.name)).or_default().push(insert);
+        }
+    }
+    if copies > limits.pieces as u64 {
+        let words = format!("blocks are inserted {copies} times; {} pieces are allowed", limits.pieces);
+        return Err(PatternFileError::OverLimit(words));
+    }
+    let mut same: BTreeMap<String, usize> = BTreeMap::new();
+    for block in blocks {
+        *same.entry(key(&block.name)).or_default() += 1;
+    }
+    let mut met: BTreeMap<String, usize> = BTreeMap::new();
+    let mut found = Vec::new();
+    for block in blocks {
+        let name = key(&block.name);
+        let of_name = by_name.get(&name).map_or(&[][..], Vec::as_slice);
+        let order = met.entry(name.clone()).or_default();
+        let insert = if of_name.len() == same[&name] { of_name.get(*order).copied() } else { None };
+        if same[&name] == 1 && of_name.len() > 1 {
+            notes.push(format!("{}: placed {} times, read once", block.name, of_name.len()));
+        }
+        found.push(insert.or_else(|| (same[&name] == 1).then(|| of_name.first().copied()).flatten()));
+        *order += 1;
+    }
+    Ok(found)
+}
+
+/// A map of the plane that keeps shapes.
+#[derive(Clone, Copy, Debug)]
+pub struct Placing {
+    matrix: DMat2,
+    offset: DVec2,
+}
+
+impl Placing {
+    fn apply(&self, p: DVec2) -> DVec2 {
+        self.matrix * p + self.offset
+    }
+}
+
+fn placed(insert: &Insert, base: &Point, notes: &mut Vec<String>) -> Placing {
+    let (x, mut y) = (insert.x_scale_factor, insert.y_scale_factor);
+    if (x.abs() - y.abs()).abs() > 1e-9 * x.abs() || x == 0.0 {
+        notes.push(format!("{}: stretched when inserted; read as it is in its block", insert.name));
+        return Placing { matrix: DMat2::IDENTITY, offset: DVec2::ZERO };
+    }
+    if y == 0.0 {
+        y = x;
+    }
+    let matrix = DMat2::from_angle(insert.rotation.to_radians()) * DMat2::from_diagonal(DVec2::new(x, y));
+    Placing { matrix, offset: at(&insert.location) - matrix * at(base) }
+}
+
+impl Drawn {
+    fn transform(&mut self, placing: &Placing) {
+        let turns = placing.matrix.determinant() < 0.0;
+        let scale = placing.matrix.determinant().abs().sqrt();
+        let shape = |shape: EdgeShape| match shape.mapped(turns, |p| placing.apply(p)) {
+            EdgeShape::Arc { radius, large, sweep } => {
+                EdgeShape::Arc { radius: radius * scale, large, sweep }
+            }
+            other => other,
+        };
+        for line in &mut self.lines {
+            match &mut line.shape {
+                LineShape::Points(points) => points.iter_mut().for_each(|p| *p = placing.apply(*p)),
+                LineShape::Edges(edges, end) => {
+                    for edge in edges {
+                        edge.start = placing.apply(edge.start);
+                        edge.shape = shape(edge.shape);
+                    }
+                    *end = placing.apply(*end);
+                }
+            }
+        }
+        self.points.iter_mut().for_each(|(_, p)| *p = placing.apply(*p));
+        self.texts.iter_mut().for_each(|(_, _, p)| *p = placing.apply(*p));
+    }
+
+    fn check(&self, largest: f64) -> Result<(), PatternFileError> {
+        let points = self.lines.iter().flat_map(|l| l.shape.points());
+        match points
+            .chain(self.points.iter().map(|(_, p)| *p))
+            .find(|p| !p.is_finite() || p.abs().max_element() > largest)
+        {
+            None => Ok(()),
+            Some(p) => {
+                let words = format!("a point at {:.3} m, {:.3} m is beyond {largest} m", p.x, p.y);
+                Err(PatternFileError::bad(format!("block {}", self.name), words))
+            }
+        }
+    }
+}
+
+/// The shapes and texts of a block.
+fn drawn<'a>(
+    name: &str,
+    entities: impl Iterator<Item = &'a Entity>,
+    notes: &mut Vec<String>,
+) -> Result<Drawn, PatternFileError> {
+    let mut drawn = Drawn { name: readable(name), ..Drawn::default() };
+    let mut nested = 0;
+    for entity in entities {
+        let layer = layer_number(&entity.common.layer);
+        if layer.is_some_and(|l| layer::COPIES.contains(&l)) {
+            continue;
+        }
+        let mut line = |shape, is_closed| drawn.lines.push(DrawnLine { layer, shape, is_closed });
+        match &entity.specific {
+            EntityType::Line(l) => line(LineShape::Points(vec![at(&l.p1), at(&l.p2)]), false),
+            EntityType::Polyline(poly) => {
+                let vertices = poly.vertices().map(|v| (at(&v.location), v.bulge));
+                line(shape(vertices.collect(), poly.is_closed()), poly.is_closed());
+            }
+            EntityType::LwPolyline(poly) => {
+                let vertices = poly.vertices.iter().map(|v| (DVec2::new(v.x, v.y), v.bulge));
+                line(shape(vertices.collect(), poly.is_closed()), poly.is_closed());
+            }
+            EntityType::Arc(arc) => {
+                let [from, to] = [arc.start_angle, arc.end_angle].map(f64::to_radians);
+                let turn = (to - from).rem_euclid(std::f64::consts::TAU);
+                let on = |angle: f64| at(&arc.center) + DVec2::from_angle(angle) * arc.radius;
+                let shape =
+                    EdgeShape::Arc { radius: arc.radius, large: turn > std::f64::consts::PI, sweep: true };
+                line(
+                    LineShape::Edges(vec![Edge { start: on(from), shape, ..Edge::default() }], on(to)),
+                    false,
+                );
+            }
+            EntityType::Circle(circle) => {
+                let half = |side: f64| Edge {
+                    start: at(&circle.center) + DVec2::X * circle.radius * side,
+                    shape: EdgeShape::Arc { radius: circle.radius, large: false, sweep: true },
+                    smooth: true,
+                    ..Edge::default()
+                };
+                let edges = vec![half(1.0), half(-1.0)];
+                let end = edges[0].start;
+                line(LineShape::Edges(edges, end), true);
+            }
+            EntityType::ModelPoint(point) => drawn.points.push((layer, at(&point.location))),
+            EntityType::Text(text) => drawn.texts.push((layer, readable(&text.value), at(&text.location))),
+            EntityType::MText(text) => {
+                let whole = text.extended_text.concat() + &text.text;
+                drawn.texts.push((layer, readable(&whole), at(&text.insertion_point)));
+            }
+            EntityType::Insert(_) => nested += 1,
+            _ => {}
+        }
+    }
+    if nested > 0 && !drawn.lines.is_empty() {
+        notes.push(format!("{name}: {nested} blocks inside it were left out"));
+    }
+    let limits = Limits::default();
+    let segments: usize = drawn.lines.iter().map(|l| l.shape.points().len()).sum();
+    if segments > limits.path_segments {
+        let words = format!("block {name}: {segments} points; {} are allowed", limits.path_segments);
+        return Err(PatternFileError::OverLimit(words));
+    }
+    Ok(drawn)
+}
+
+fn at(p: &Point) -> DVec2 {
+    DVec2::new(p.x, p.y)
+}
+
+/// Points, or where a bulge says so, arcs between them. A bulge is the tangent of a quarter of the arc's angle.
+fn shape(vertices: Vec<(DVec2, f64)>, is_closed: bool) -> LineShape {
+    if vertices.iter().all(|(_, bulge)| *bulge == 0.0) {
+        return LineShape::Points(vertices.into_iter().map(|(p, _)| p).collect());
+    }
+    let n = vertices.len();
+    let end = vertices[if is_closed { 0 } else { n - 1 }].0;
+    let count = if is_closed { n } else { n - 1 };
+    let edges = (0..count).map(|i| {
+        let ((start, bulge), (to, _)) = (vertices[i], vertices[(i + 1) % n]);
+        let radius = start.distance(to) * (1.0 + bulge * bulge) / (4.0 * bulge.abs());
+        let shape = match bulge {
+            0.0 => EdgeShape::Line,
+            _ => EdgeShape::Arc { radius, large: bulge.abs() > 1.0, sweep: bulge > 0.0 },
+        };
+        Edge { start, shape, ..Edge::default() }
+    });
+    LineShape::Edges(edges.collect(), end)
+}
+
+/// "1", "01", "L1" and "LAYER_1" are layer 1.
+fn layer_number(name: &str) -> Option<u32> {
+    let digits = name.trim_start_matches(|c: char| !c.is_ascii_digit());
+    digits.parse().ok()
+}
+
+/// A text without control characters, no longer than names may be.
+fn readable(text: &str) -> String {
+    let limit = Limits::default().name_bytes;
+    let mut short = String::new();
+    for c in unescaped(text.trim()).chars().filter(|c| !c.is_control()) {
+        if short.len() + c.len_utf8() > limit {
+            break;
+        }
+        short.push(c);
+    }
+    short
+}
+
+/// With the letters that R12 writes as `\U+00E9`.
+fn unescaped(text: &str) -> String {
+    let mut parts = text.split("\\U+");
+    let mut out = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        let letter = part.get(..4).and_then(|hex| char::from_u32(u32::from_str_radix(hex, 16).ok()?));
+        match letter {
+            Some(letter) => {
+                out.push(letter);
+                out.push_str(&part[4..]);
+            }
+            None => {
+                out.push_str("\\U+");
+                out.push_str(part);
+            }
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+#[path = "read_tests.rs"]
+mod tests;

@@ -1,0 +1,81 @@
+//! How long a unit of a DXF drawing is.
+
+use glam::DVec2;
+
+use super::clean::Clean;
+use crate::io::pattern_file::PatternFileError;
+use crate::io::scale::{DrawingUnit, ScaleQuestion};
+
+/// The larger side of the largest piece of a garment, metres: from a child's collar to a circle skirt.
+const LIKELY: std::ops::RangeInclusive<f64> = 0.12..=2.6;
+/// What is believed when it is said.
+const POSSIBLE: std::ops::RangeInclusive<f64> = 0.1..=5.0;
+
+/// The unit of a drawing whose largest piece is `largest` units in size, and a note where it was not simply said.
+pub fn unit(
+    clean: &Clean,
+    texts: &[String],
+    largest: DVec2,
+) -> Result<(DrawingUnit, Option<String>), PatternFileError> {
+    let side = largest.max_element();
+    let possible = |unit: DrawingUnit| POSSIBLE.contains(&(side * unit.metres()));
+    let (said, by) = match (said_in_text(texts), said_in_header(clean)) {
+        (Some(unit), _) => (unit, "the text UNITS"),
+        (None, Some(unit)) => (unit, "the header"),
+        (None, None) => return guessed(largest),
+    };
+    if possible(said) {
+        return Ok((said, None));
+    }
+    let why = format!(
+        "{by} says {}, but then the largest piece would be {:.1} cm long",
+        said.long(),
+        side * said.metres() * 100.0
+    );
+    let others = candidates().filter(|&unit| unit != said && possible(unit));
+    Err(question(why, largest, others.chain([said]).collect()))
+}
+
+fn candidates() -> impl Iterator<Item = DrawingUnit> {
+    [DrawingUnit::Millimetre, DrawingUnit::Centimetre, DrawingUnit::Inch, DrawingUnit::Metre].into_iter()
+}
+
+fn question(why: String, largest: DVec2, candidates: Vec<DrawingUnit>) -> PatternFileError {
+    PatternFileError::Scale(ScaleQuestion { why, largest, candidates })
+}
+
+/// `UNITS: METRIC` are millimetres.
+fn said_in_text(texts: &[String]) -> Option<DrawingUnit> {
+    let value = texts.iter().find_map(|text| {
+        let (key, value) = text.split_once(':')?;
+        key.trim().eq_ignore_ascii_case("UNITS").then(|| value.trim().to_ascii_uppercase())
+    })?;
+    match value.as_str() {
+        "METRIC" | "MM" | "MILLIMETERS" | "MILLIMETRES" => Some(DrawingUnit::Millimetre),
+        "CM" | "CENTIMETERS" | "CENTIMETRES" => Some(DrawingUnit::Centimetre),
+        "ENGLISH" | "IMPERIAL" | "INCH" | "INCHES" => Some(DrawingUnit::Inch),
+        _ => None,
+    }
+}
+
+/// `$INSUNITS`, or that measures are in inches. That measures are metric does not tell which.
+fn said_in_header(clean: &Clean) -> Option<DrawingUnit> {
+    match clean.units {
+        Some(1) => Some(DrawingUnit::Inch),
+        Some(4) => Some(DrawingUnit::Millimetre),
+        Some(5) => Some(DrawingUnit::Centimetre),
+        Some(6) => Some(DrawingUnit::Metre),
+        _ => None,
+    }
+}
+
+/// Where nothing is said: the unit that makes the largest piece one of a garment, if only one does.
+fn guessed(largest: DVec2) -> Result<(DrawingUnit, Option<String>), PatternFileError> {
+    let fitting: Vec<DrawingUnit> =
+        candidates().filter(|unit| LIKELY.contains(&(largest.max_element() * unit.metres()))).collect();
+    match fitting[..] {
+        [unit] => Ok((unit, Some(format!("taken to be in {}, by the size of its pieces", unit.long())))),
+        [] => Err(question("it does not say its unit".to_owned(), largest, candidates().collect())),
+        _ => Err(question("it does not say its unit".to_owned(), largest, fitting)),
+    }
+}

@@ -1,0 +1,204 @@
+//! A pattern as DXF R12 in millimetres: a block a piece, in the layers of ASTM D6673, which are those of AAMA-292 and more.
+
+use std::collections::BTreeSet;
+
+use dxf::entities::{Entity, EntityType, Insert, Line, ModelPoint, Polyline, Text, Vertex};
+use dxf::enums::AcadVersion;
+use dxf::tables::Layer;
+use dxf::{Block, Drawing, Point};
+use glam::DVec2;
+
+use super::layer;
+use super::pieces::line_layer;
+use crate::io::Written;
+use crate::io::trace::contour::Contour;
+use crate::io::trace::fit::Knot;
+use crate::io::trace::{self, Traced, allowance, sample};
+use crate::io::written::{self, Part};
+use crate::pattern::{Pattern, Piece};
+
+/// What the layers hold.
+const HOLDS: [Part; 8] = [
+    Part::Curves,
+    Part::SmoothPoints,
+    Part::Holes,
+    Part::Lines,
+    Part::Notches,
+    Part::Grainline,
+    Part::Allowance,
+    Part::CutLine,
+];
+/// Millimetres in a metre.
+const SCALE: f64 = 1000.0;
+/// Letters of texts are this high, millimetres.
+const LETTERS: f64 = 6.0;
+/// Characters of a block's name in R12.
+const LONGEST_NAME: usize = 31;
+
+/// Writes `pattern` as it lies on the table. Curves become polylines whose points stay within 0.05 mm of them; read by
+/// this program they are the same curves again.
+pub fn write(pattern: &Pattern) -> Written {
+    let mut drawing = Drawing::new();
+    drawing.header.version = AcadVersion::R12;
+    drawing.header.drawing_code_page = "ANSI_1252".to_owned();
+    for number in [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 14] {
+        drawing.add_layer(Layer { name: number.to_string(), ..Layer::default() });
+    }
+    let mut names = BTreeSet::new();
+    let corners: Vec<DVec2> =
+        pattern.pieces.values().flat_map(|piece| trace::on_table(piece).bounds()).collect();
+    let (lower, upper) = Contour::new(corners).bounds();
+    drawing.header.minimum_drawing_extents = point(lower);
+    drawing.header.maximum_drawing_extents = point(upper);
+    for piece in pattern.pieces.values() {
+        let name = block_name(&piece.name, &mut names);
+        let entities = entities(&mut drawing, piece);
+        let block = Block { name: name.clone(), layer: "1".to_owned(), entities, ..Block::default() };
+        drawing.add_block(block);
+        drawing.add_entity(on(layer::BOUNDARY, EntityType::Insert(Insert { name, ..Insert::default() })));
+    }
+    for (i, words) in
+        ["STYLE NAME: PATTERN", "AUTHOR: TOILE", "SAMPLE SIZE: 1", "UNITS: METRIC"].iter().enumerate()
+    {
+        let at = DVec2::new(0.0, -2.0 * LETTERS * i as f64);
+        drawing.add_entity(text(layer::BOUNDARY, at, words));
+    }
+    let mut bytes = Vec::new();
+    let mut holds = HOLDS.to_vec();
+    let mut lines = pattern.pieces.values().flat_map(|piece| &piece.lines);
+    if lines.all(|line| line_layer(&line.name).is_some()) {
+        holds.push(Part::LineNames);
+    }
+    let mut left_out = written::left_out(pattern, &holds);
+    // Writing to memory fails only for a drawing that R12 cannot hold, and all of this it can.
+    if let Err(error) = drawing.save(&mut bytes) {
+        left_out.push(format!("the drawing could not be written: {error}"));
+    }
+    Written { bytes: without_times(&bytes), left_out }
+}
+
+/// Without the header's times of day, so that the same pattern gives the same bytes.
+fn without_times(bytes: &[u8]) -> Vec<u8> {
+    let lines: Vec<&[u8]> = bytes.split_inclusive(|b| *b == b'\n').collect();
+    let mut out = Vec::with_capacity(bytes.len());
+    let mut i = 0;
+    while i < lines.len() {
+        let is_time =
+            lines[i].trim_ascii() == b"9" && lines.get(i + 1).is_some_and(|l| l.starts_with(b"$TD"));
+        if is_time {
+            // 9, the name, 40, the value.
+            i += 4;
+        } else {
+            out.extend_from_slice(lines[i]);
+            i += 1;
+        }
+    }
+    out
+}
+
+/// Capital letters, digits, "_" and "-", and no name twice.
+fn block_name(name: &str, taken: &mut BTreeSet<String>) -> String {
+    let plain: String = name
+        .chars()
+        .map(|c| if c.is_ascii_alphanumeric() || c == '-' { c.to_ascii_uppercase() } else { '_' })
+        .take(LONGEST_NAME - 5)
+        .collect();
+    let plain = if plain.is_empty() { "PIECE".to_owned() } else { plain };
+    let mut unique = plain.clone();
+    let mut number = 2;
+    while !taken.insert(unique.clone()) {
+        unique = format!("{plain}_{number}");
+        number += 1;
+    }
+    unique
+}
+
+fn entities(drawing: &mut Drawing, piece: &Piece) -> Vec<Entity> {
+    let Traced { name, outline, cut_line, holes, lines, notches, grainline } = trace::on_table(piece);
+    let mut sheet = Sheet { drawing, entities: Vec::new() };
+    let cut = if cut_line.is_empty() { &outline } else { &cut_line };
+    sheet.closed(layer::BOUNDARY, cut);
+    if !cut_line.is_empty() {
+        sheet.closed(layer::SEAM, &outline);
+    }
+    for hole in &holes {
+        sheet.closed(layer::CUT_OUT, hole);
+    }
+    for line in &lines {
+        let (mut points, mut knots) = sample::open(&line.edges, line.end);
+        points.push(line.end);
+        knots.push(Knot::Corner);
+        sheet.polyline(line_layer(&line.name).unwrap_or(layer::INTERNAL), &points, &knots, false);
+    }
+    for at in notches {
+        sheet.notch(allowance::notch_tip(&outline, &cut_line, at));
+    }
+    if let Some([tail, head]) = grainline {
+        let line = Line { p1: point(tail), p2: point(head), ..Line::default() };
+        sheet.entities.push(on(layer::GRAIN, EntityType::Line(line)));
+    }
+    let middle = Contour::new(outline.iter().map(|e| e.start).collect()).middle();
+    let words = [format!("PIECE NAME: {name}"), "SIZE: 1".to_owned(), "QUANTITY: 1".to_owned()];
+    for (i, words) in words.iter().enumerate() {
+        let at = middle * SCALE - DVec2::Y * (2.0 * LETTERS * i as f64);
+        sheet.entities.push(text(layer::BOUNDARY, at, words));
+    }
+    sheet.entities
+}
+
+struct Sheet<'d> {
+    drawing: &'d mut Drawing,
+    entities: Vec<Entity>,
+}
+
+impl Sheet<'_> {
+    fn closed(&mut self, number: u32, edges: &[crate::pattern::Edge]) {
+        let (points, knots) = sample::closed(edges);
+        self.polyline(number, &points, &knots, true);
+    }
+
+    fn polyline(&mut self, number: u32, points: &[DVec2], knots: &[Knot], is_closed: bool) {
+        let mut line = Polyline { contains_vertices: true, ..Polyline::default() };
+        line.set_is_closed(is_closed);
+        for &p in points {
+            line.add_vertex(self.drawing, Vertex { location: point(p), ..Vertex::default() });
+        }
+        self.entities.push(on(number, EntityType::Polyline(line)));
+        for (&p, knot) in points.iter().zip(knots) {
+            let layers: &[u32] = match knot {
+                Knot::Corner | Knot::Unknown => &[layer::CORNER],
+                Knot::Curve => &[layer::CURVE],
+                Knot::Smooth => &[layer::CORNER, layer::CURVE],
+            };
+            let mark = EntityType::ModelPoint(ModelPoint { location: point(p), ..ModelPoint::default() });
+            self.entities.extend(layers.iter().map(|&l| on(l, mark.clone())));
+        }
+    }
+
+    fn notch(&mut self, [at, inward]: [DVec2; 2]) {
+        let angle = inward.to_angle().to_degrees().rem_euclid(360.0);
+        let mark = ModelPoint { location: point(at), angle, ..ModelPoint::default() };
+        self.entities.push(on(layer::NOTCH, EntityType::ModelPoint(mark)));
+    }
+}
+
+fn on(number: u32, shape: EntityType) -> Entity {
+    let mut entity = Entity::new(shape);
+    entity.common.layer = number.to_string();
+    entity
+}
+
+fn point(p: DVec2) -> Point {
+    Point::new(p.x * SCALE, p.y * SCALE, 0.0)
+}
+
+/// `at` in millimetres.
+fn text(number: u32, at: DVec2, words: &str) -> Entity {
+    let text = Text {
+        location: Point::new(at.x, at.y, 0.0),
+        text_height: LETTERS,
+        value: words.to_owned(),
+        ..Text::default()
+    };
+    on(number, EntityType::Text(text))
+}

@@ -1,0 +1,209 @@
+//! Patterns as PDF at their true size: on one page, or on pages of a printer's paper to be glued together.
+//!
+//! The first page of several is an overview: how the pages lie, and a square of 50 mm to measure before cutting.
+
+mod draw;
+mod paper;
+
+use glam::DVec2;
+use krilla::Document;
+use krilla::metadata::Metadata;
+use krilla::page::PageSettings;
+
+use crate::io::Written;
+use crate::io::trace::{self, Traced};
+use crate::io::written::{self, Part};
+use crate::pattern::Pattern;
+use draw::{Canvas, Pens};
+pub use paper::Paper;
+use paper::{MARGIN, Tiling};
+
+/// Everything that a person with scissors needs; what only machines need is no loss on paper.
+const HOLDS: [Part; 14] = [
+    Part::Curves,
+    Part::SmoothPoints,
+    Part::EdgeNames,
+    Part::Holes,
+    Part::Lines,
+    Part::LineNames,
+    Part::Notches,
+    Part::Grainline,
+    Part::Allowance,
+    Part::CutLine,
+    Part::Symmetry,
+    Part::Twin,
+    Part::Placement,
+    Part::PlaceOnBody,
+];
+/// A side of the square to measure, millimetres.
+const SQUARE: f64 = 50.0;
+/// Room for the square and its words under the pieces of one page, millimetres.
+const FOOT: f64 = 75.0;
+/// Sides of a page of PDF, millimetres: 14400 points.
+const LARGEST_PAGE: f64 = 14_400.0 / POINTS;
+/// Points in a millimetre.
+const POINTS: f64 = 72.0 / 25.4;
+
+/// Why there is no PDF.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum PdfError {
+    /// Nothing to print.
+    #[error("the pattern has no pieces")]
+    Empty,
+    /// One page cannot be this large.
+    #[error(
+        "one page would be {width} × {height} mm, and a PDF page is at most {most} mm long; print on A4 or Letter"
+    )]
+    TooLarge {
+        /// Millimetres.
+        width: u64,
+        /// Millimetres.
+        height: u64,
+        /// Millimetres.
+        most: u64,
+    },
+    /// More pages than anyone glues together.
+    #[error("it would take {0} pages; {MOST_PAGES} are allowed: check the size of the pattern")]
+    TooManyPages(usize),
+    /// The PDF library said no.
+    #[error("the PDF could not be made: {0}")]
+    Library(String),
+}
+
+const MOST_PAGES: usize = 2000;
+
+/// Writes `pattern` as it lies on the table, named `name`.
+///
+/// # Errors
+/// See [`PdfError`].
+pub fn write(pattern: &Pattern, name: &str, paper: Paper) -> Result<Written, PdfError> {
+    let pieces: Vec<Traced> = pattern.pieces.values().map(|piece| trace::on_table(piece)).collect();
+    if pieces.is_empty() {
+        return Err(PdfError::Empty);
+    }
+    let mut document = Document::new();
+    document.set_metadata(Metadata::new().title(name.to_owned()).creator("Toile".to_owned()));
+    let pens = Pens::new().ok_or_else(|| PdfError::Library("its letters cannot be read".to_owned()))?;
+    let sheet = Sheet::new(&pieces);
+    match paper.size() {
+        None => sheet.one_page(&mut document, &pens, name)?,
+        Some(size) => sheet.tiles(&mut document, &pens, name, size)?,
+    }
+    let bytes = document.finish().map_err(|e| PdfError::Library(format!("{e:?}")))?;
+    Ok(Written { bytes, left_out: written::left_out(pattern, &HOLDS) })
+}
+
+/// All pieces with the box around them, millimetres, y down from the upper left corner.
+struct Sheet<'a> {
+    pieces: Vec<(&'a Traced, [DVec2; 2])>,
+    /// Of the table: what becomes the origin, millimetres with y up.
+    corner: DVec2,
+    size: DVec2,
+}
+
+impl<'a> Sheet<'a> {
+    fn new(pieces: &'a [Traced]) -> Self {
+        let around = |piece: &Traced| {
+            let [lower, upper] = piece.bounds().map(|p| p * 1000.0);
+            [lower - DVec2::ONE, upper + DVec2::ONE]
+        };
+        let boxes: Vec<[DVec2; 2]> = pieces.iter().map(around).collect();
+        let lower = boxes.iter().map(|b| b[0]).reduce(DVec2::min).unwrap_or_default();
+        let upper = boxes.iter().map(|b| b[1]).reduce(DVec2::max).unwrap_or_default();
+        let corner = DVec2::new(lower.x, upper.y);
+        let down = |p: DVec2| DVec2::new(p.x - corner.x, corner.y - p.y);
+        let on_sheet = boxes.iter().map(|[lo, hi]| {
+            let (a, b) = (down(*lo), down(*hi));
+            [a.min(b), a.max(b)]
+        });
+        Self { pieces: pieces.iter().zip(on_sheet).collect(), corner, size: upper - lower }
+    }
+
+    /// Draws the pieces that reach into the box from `from` to `to` of the sheet, its corner at `at` of the page.
+    fn draw(&self, canvas: &mut Canvas<'_, '_>, [from, to]: [DVec2; 2], at: DVec2) {
+        canvas.shift = DVec2::new(self.corner.x, self.corner.y) + DVec2::new(from.x - at.x, at.y - from.y);
+        for (piece, [lower, upper]) in &self.pieces {
+            if (lower.cmple(to) & upper.cmpge(from)).all() {
+                canvas.piece(piece);
+            }
+        }
+    }
+
+    fn one_page(&self, document: &mut Document, pens: &Pens, name: &str) -> Result<(), PdfError> {
+        let size = self.size + DVec2::new(2.0 * MARGIN, 2.0 * MARGIN + FOOT);
+        let size = size.max(DVec2::new(120.0, 0.0));
+        if size.max_element() > LARGEST_PAGE {
+            let [width, height] = [size.x, size.y].map(|mm| mm.ceil() as u64);
+            return Err(PdfError::TooLarge { width, height, most: LARGEST_PAGE as u64 });
+        }
+        let mut page = document.start_page_with(settings(size)?);
+        let mut surface = page.surface();
+        let mut canvas = Canvas::new(&mut surface, pens);
+        self.draw(&mut canvas, [DVec2::ZERO, self.size], DVec2::splat(MARGIN));
+        let foot = DVec2::new(MARGIN, size.y - MARGIN - SQUARE);
+        canvas.test_square(foot, SQUARE);
+        canvas.text(foot + DVec2::new(SQUARE + 6.0, 24.0), 5.0, name);
+        Ok(())
+    }
+
+    fn tiles(&self, document: &mut Document, pens: &Pens, name: &str, paper: DVec2) -> Result<(), PdfError> {
+        let boxes: Vec<[DVec2; 2]> = self.pieces.iter().map(|(_, b)| *b).collect();
+        let tiling = Tiling::new(self.size, paper, &boxes);
+        if tiling.tiles.len() > MOST_PAGES {
+            return Err(PdfError::TooManyPages(tiling.tiles.len()));
+        }
+        let mut page = document.start_page_with(settings(paper)?);
+        let mut surface = page.surface();
+        self.overview(&mut Canvas::new(&mut surface, pens), name, paper, &tiling);
+        surface.finish();
+        page.finish();
+        for (i, tile) in tiling.tiles.iter().enumerate() {
+            let mut page = document.start_page_with(settings(paper)?);
+            let mut surface = page.surface();
+            let mut canvas = Canvas::new(&mut surface, pens);
+            let corner = DVec2::splat(MARGIN);
+            canvas.clip([corner, corner + tiling.frame]);
+            self.draw(&mut canvas, [tile.from, tile.from + tiling.frame], corner);
+            canvas.unclip();
+            let words = format!("{name}: page {} of {}", i + 1, tiling.tiles.len());
+            canvas.page_marks(tile, &tiling, &words);
+        }
+        Ok(())
+    }
+
+    /// How the pages lie, small, and the square to measure.
+    fn overview(&self, canvas: &mut Canvas<'_, '_>, name: &str, paper: DVec2, tiling: &Tiling) {
+        let left = MARGIN + 5.0;
+        canvas.text(DVec2::new(left, MARGIN + 10.0), 7.0, name);
+        let rows = tiling.tiles.len();
+        let words = [
+            format!("{rows} pages of {} by {} mm. Print at 100 %, not fitted to the page.", paper.x, paper.y),
+            "Measure the square. Cut or fold along the frames, lay equal letters on each other, glue."
+                .to_owned(),
+            "Black: cut. Blue: sew. Grey: lines on the piece, and the way of the grain.".to_owned(),
+        ];
+        for (i, words) in words.iter().enumerate() {
+            canvas.text(DVec2::new(left, MARGIN + 19.0 + 5.5 * i as f64), 3.5, words);
+        }
+        canvas.test_square(DVec2::new(left, MARGIN + 40.0), SQUARE);
+        let room = [DVec2::new(left, MARGIN + 105.0), paper - DVec2::splat(MARGIN + 5.0)];
+        let whole = tiling.whole();
+        let scale = ((room[1] - room[0]) / whole).min_element().min(0.25);
+        for tile in &tiling.tiles {
+            let from = room[0] + tile.from * scale;
+            canvas.frame([from, from + tiling.frame * scale]);
+            canvas.grey_text(from + DVec2::new(1.0, 4.0), 3.0, &tile.name());
+        }
+        for (piece, _) in &self.pieces {
+            canvas.miniature(piece, self.corner, room[0], scale);
+        }
+    }
+}
+
+fn settings(size: DVec2) -> Result<PageSettings, PdfError> {
+    let [width, height] = [size.x, size.y].map(|mm| (mm * POINTS) as f32);
+    PageSettings::from_wh(width, height).ok_or_else(|| PdfError::Library("a page without size".to_owned()))
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,285 @@
+//! SVG bytes to a pattern.
+
+use glam::DVec2;
+use usvg::tiny_skia_path::{PathSegment, Point, Transform};
+
+use super::clean::{self, Clean, Root, Shape};
+use super::pieces;
+use crate::io::Limits;
+use crate::io::pattern_file::{PatternFileError, ReadPattern};
+use crate::io::scale::{DrawingUnit, ScaleQuestion};
+use crate::io::trace;
+use crate::pattern::{Edge, EdgeShape};
+
+/// Ends nearer than this meet, metres.
+const MEETING: f64 = 1e-4;
+/// Edges shorter than this are left out, metres.
+const SHORTEST: f64 = 1e-6;
+/// Sides of the largest piece of a garment, metres.
+const LIKELY: std::ops::RangeInclusive<f64> = 0.12..=2.6;
+/// Width and height may say scales that differ by this share.
+const SAME_SCALE: f64 = 0.01;
+
+/// One line of a path.
+#[derive(Clone, Debug)]
+pub struct Line {
+    /// In the order of the file: lines of one path have one number.
+    pub path: usize,
+    pub shape: Shape,
+    pub edges: Vec<Edge>,
+    pub end: DVec2,
+    pub is_closed: bool,
+}
+
+/// Reads a pattern. `unit` is what a user unit of the drawing is and goes before what the file says.
+///
+/// # Errors
+/// What cannot be read and why; more than [`Limits`] allows; or how long a unit is.
+pub fn read(bytes: &[u8], unit: Option<DrawingUnit>) -> Result<ReadPattern, PatternFileError> {
+    let Clean { text, shapes, mut notes, root } = clean::clean(bytes)?;
+    let tree = usvg::Tree::from_str(&text, &usvg::Options::default())
+        .map_err(|e| PatternFileError::Whole(format!("no sound SVG: {e}")))?;
+    let mut lines = Vec::new();
+    let mut paths = 0;
+    let mut groups = vec![tree.root().children().iter()];
+    while let Some(group) = groups.last_mut() {
+        match group.next() {
+            None => {
+                groups.pop();
+            }
+            Some(usvg::Node::Group(inner)) => groups.push(inner.children().iter()),
+            Some(usvg::Node::Path(path)) => {
+                let shape = shapes.get(path.id()).cloned().unwrap_or_default();
+                lines_of(path, paths, &shape, &mut lines)?;
+                paths += 1;
+            }
+            Some(_) => {}
+        }
+    }
+    let origin = root.view_box.map_or(DVec2::ZERO, |[x, y, ..]| DVec2::new(x, y));
+    let metres = match unit {
+        Some(unit) => unit.metres(),
+        None => metres_per_unit(&root, largest(&lines))?,
+    };
+    let limit = Limits::default().pattern_coordinate;
+    for line in &mut lines {
+        line.put_in_metres(origin, metres);
+        let beyond = |p: DVec2| !p.is_finite() || p.abs().max_element() > limit;
+        if line.edges.iter().any(|e| beyond(e.start)) || beyond(line.end) {
+            let name = line.shape.name.clone().unwrap_or_else(|| "a path".to_owned());
+            return Err(PatternFileError::bad(name, format!("it reaches beyond {limit} m")));
+        }
+        line.tidy();
+    }
+    lines.retain(|line| !line.edges.is_empty());
+    let frame = root.view_box.map(|[.., w, h]| DVec2::new(w, h) * metres);
+    let traced = pieces::traced(lines, root.is_ours, frame, &mut notes)?;
+    if traced.is_empty() {
+        let why = std::iter::once("there is no closed line in it".to_owned()).chain(notes);
+        return Err(PatternFileError::Whole(why.collect::<Vec<_>>().join("; ")));
+    }
+    let limits = Limits::default();
+    if traced.len() > limits.pieces {
+        let words = format!("{} pieces; {} are allowed", traced.len(), limits.pieces);
+        return Err(PatternFileError::OverLimit(words));
+    }
+    let (pattern, more) = trace::pattern(traced);
+    notes.extend(more);
+    Ok(ReadPattern { pattern, notes })
+}
+
+fn lines_of(
+    path: &usvg::Path,
+    number: usize,
+    shape: &Shape,
+    lines: &mut Vec<Line>,
+) -> Result<(), PatternFileError> {
+    let limits = Limits::default();
+    let transform = path.abs_transform();
+    let at = |p: Point| placed(transform, p);
+    let begin = |start: DVec2| Line {
+        path: number,
+        shape: shape.clone(),
+        edges: Vec::new(),
+        end: start,
+        is_closed: false,
+    };
+    let mut line: Option<Line> = None;
+    for segment in path.data().segments() {
+        let (shape, end) = match segment {
+            PathSegment::MoveTo(p) => {
+                lines.extend(line.take());
+                line = Some(begin(at(p)));
+                continue;
+            }
+            PathSegment::Close => {
+                if let Some(mut closed) = line.take() {
+                    let start = closed.edges.first().map_or(closed.end, |e| e.start);
+                    if closed.end != start {
+                        closed.edges.push(Edge { start: closed.end, ..Edge::default() });
+                        closed.end = start;
+                    }
+                    closed.is_closed = true;
+                    lines.push(closed);
+                    line = Some(begin(start));
+                }
+                continue;
+            }
+            PathSegment::LineTo(p) => (EdgeShape::Line, at(p)),
+            PathSegment::QuadTo(c, p) => (EdgeShape::Quadratic { control: at(c) }, at(p)),
+            PathSegment::CubicTo(c, d, p) => (EdgeShape::Cubic { controls: [at(c), at(d)] }, at(p)),
+        };
+        if let Some(line) = &mut line {
+            line.edges.push(Edge { start: line.end, shape, ..Edge::default() });
+            line.end = end;
+        }
+    }
+    lines.extend(line);
+    lines.retain(|line| !line.edges.is_empty());
+    if lines.len() > limits.path_segments || path.data().len() > limits.path_segments {
+        let words = format!("more than {} lines and curves", limits.path_segments);
+        return Err(PatternFileError::OverLimit(words));
+    }
+    Ok(())
+}
+
+fn placed(t: Transform, p: Point) -> DVec2 {
+    let [sx, ky, kx, sy, tx, ty] = [t.sx, t.ky, t.kx, t.sy, t.tx, t.ty].map(f64::from);
+    let (x, y) = (f64::from(p.x), f64::from(p.y));
+    DVec2::new(sx * x + kx * y + tx, ky * x + sy * y + ty)
+}
+
+impl Line {
+    /// From user units with y down, the box's corner at zero, to metres with y up.
+    fn put_in_metres(&mut self, origin: DVec2, metres: f64) {
+        let map = |p: DVec2| DVec2::new(p.x + origin.x, -(p.y + origin.y)) * metres;
+        for edge in &mut self.edges {
+            edge.start = map(edge.start);
+            edge.shape = edge.shape.mapped(true, map);
+        }
+        self.end = map(self.end);
+    }
+
+    /// Takes away edges of no length; closes lines whose ends meet.
+    fn tidy(&mut self) {
+        let ends: Vec<DVec2> = self.edges.iter().skip(1).map(|e| e.start).chain([self.end]).collect();
+        let mut ends = ends.into_iter();
+        self.edges.retain(|e| {
+            let long = |c: DVec2| c.distance(e.start) > SHORTEST;
+            ends.next().is_some_and(long)
+                || match e.shape {
+                    EdgeShape::Quadratic { control } => long(control),
+                    EdgeShape::Cubic { controls } => controls.into_iter().any(long),
+                    EdgeShape::Line | EdgeShape::Arc { .. } => false,
+                }
+        });
+        if let Some(first) = self.edges.first()
+            && self.edges.len() > 1
+            && first.start.distance(self.end) < MEETING
+        {
+            self.end = first.start;
+            self.is_closed = true;
+        }
+    }
+}
+
+/// Width and height of the largest closed line, or of everything where none is closed, in user units.
+fn largest(lines: &[Line]) -> DVec2 {
+    let size = |line: &Line| {
+        let points = line.edges.iter().map(|e| e.start).chain([line.end]);
+        let lower = points.clone().reduce(DVec2::min).unwrap_or_default();
+        points.reduce(DVec2::max).unwrap_or_default() - lower
+    };
+    let is_closed = |line: &&Line| {
+        line.is_closed || line.edges.first().is_some_and(|e| e.start.distance(line.end) < 1e-3)
+    };
+    let closed = lines.iter().filter(is_closed).map(size);
+    let all = lines.iter().map(size);
+    let larger = |a: DVec2, b: DVec2| if b.max_element() > a.max_element() { b } else { a };
+    closed.reduce(larger).or_else(|| all.reduce(larger)).unwrap_or_default()
+}
+
+/// What the root's width, height and box make of a user unit; a question where they do not say it.
+fn metres_per_unit(root: &Root, largest: DVec2) -> Result<f64, PatternFileError> {
+    let ask = |why: &str| {
+        let mut candidates = vec![DrawingUnit::Millimetre, DrawingUnit::Pixel];
+        if root.is_old_inkscape {
+            candidates.insert(0, DrawingUnit::OldPixel);
+        }
+        if root.is_illustrator {
+            candidates.insert(0, DrawingUnit::Point);
+        }
+        for other in [DrawingUnit::OldPixel, DrawingUnit::Point, DrawingUnit::Centimetre, DrawingUnit::Inch] {
+            if !candidates.contains(&other) {
+                candidates.push(other);
+            }
+        }
+        let likely = |unit: &DrawingUnit| LIKELY.contains(&(largest.max_element() * unit.metres()));
+        if candidates.iter().any(likely) {
+            candidates.retain(likely);
+        }
+        Err(PatternFileError::Scale(ScaleQuestion { why: why.to_owned(), largest, candidates }))
+    };
+    let [width, height] = [&root.width, &root.height].map(|text| text.as_deref().map(length));
+    for (name, said, text) in [("width", width, &root.width), ("height", height, &root.height)] {
+        if let (Some(Length::Bad), Some(text)) = (said, text) {
+            let shown: String = text.chars().take(30).collect();
+            return Err(PatternFileError::bad("<svg>", format!("the {name} {shown:?} is no size")));
+        }
+    }
+    match (width, height, root.view_box) {
+        (Some(Length::Metres(w)), Some(Length::Metres(h)), Some([_, _, box_w, box_h])) => {
+            let (across, up) = (w / box_w, h / box_h);
+            if (across / up - 1.0).abs() > SAME_SCALE {
+                return ask("its width and height give different scales");
+            }
+            Ok(across)
+        }
+        (Some(Length::Metres(w)), None, Some([_, _, box_w, _])) => Ok(w / box_w),
+        (None, Some(Length::Metres(h)), Some([.., box_h])) => Ok(h / box_h),
+        (Some(Length::Metres(_)), _, None) | (_, Some(Length::Metres(_)), None) => {
+            if root.is_old_inkscape {
+                return ask("it has no viewBox, and old Inkscape had other pixels");
+            }
+            Ok(DrawingUnit::Pixel.metres())
+        }
+        (None, None, _) => ask("it does not say its size"),
+        _ => ask("its size is in pixels or percent"),
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Length {
+    Metres(f64),
+    /// Pixels, no unit or percent.
+    Relative,
+    Bad,
+}
+
+fn length(text: &str) -> Length {
+    let text = text.trim();
+    let at = text
+        .find(|c: char| c.is_ascii_alphabetic() && c != 'e' && c != 'E' || c == '%')
+        .unwrap_or(text.len());
+    let (number, unit) = text.split_at(at);
+    let metres = match unit.trim() {
+        "mm" => 1e-3,
+        "cm" => 1e-2,
+        "m" => 1.0,
+        "in" => 25.4e-3,
+        "pt" => 25.4e-3 / 72.0,
+        "pc" => 25.4e-3 / 6.0,
+        "Q" => 0.25e-3,
+        "" | "px" | "%" => 0.0,
+        _ => return Length::Bad,
+    };
+    match number.trim().parse::<f64>() {
+        Ok(x) if x > 0.0 && x < 1e7 && metres > 0.0 => Length::Metres(x * metres),
+        Ok(x) if x > 0.0 && x < 1e7 => Length::Relative,
+        _ => Length::Bad,
+    }
+}
+
+#[cfg(test)]
+#[path = "read_tests.rs"]
+mod tests;

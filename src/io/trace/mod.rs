@@ -1,0 +1,209 @@
+//! Lines of a drawing become pieces of a pattern.
+
+pub mod allowance;
+pub mod contour;
+pub mod fit;
+pub mod sample;
+
+use std::sync::Arc;
+
+use glam::DVec2;
+use kurbo::{ParamCurve, ParamCurveArclen, ParamCurveNearest};
+
+use crate::io::sheet;
+use crate::pattern::piece::flattened_loop;
+use crate::pattern::{Edge, InternalLine, Notch, Pattern, Piece, PlanePose, curve};
+use contour::Contour;
+
+/// Chords of outlines where shapes are compared, metres.
+const CHORDS: f64 = 2e-4;
+/// Notches further from every edge (metres) belong to something else.
+const NOTCH_REACH: f64 = 0.06;
+/// Places on curves are found to this accuracy, metres.
+const FINE: f64 = 1e-10;
+/// So many pairs of pieces with overlapping boxes are no layout.
+const MOST_CLOSE: usize = 300;
+/// Notches of one piece.
+const MOST_NOTCHES: usize = 1000;
+/// The widest seam allowance a piece may have, metres.
+const WIDEST_ALLOWANCE: f64 = 0.2;
+
+/// A piece as it was drawn, seen from its front, in the pattern plane, metres.
+#[derive(Clone, Debug, Default)]
+pub struct Traced {
+    /// Shown to people.
+    pub name: String,
+    /// The line it is sewn on.
+    pub outline: Vec<Edge>,
+    /// The line it is cut on, where the file has one.
+    pub cut_line: Vec<Edge>,
+    /// Closed lines cut out.
+    pub holes: Vec<Vec<Edge>>,
+    /// Lines drawn inside.
+    pub lines: Vec<InternalLine>,
+    /// Places near edges.
+    pub notches: Vec<DVec2>,
+    /// From tail to head.
+    pub grainline: Option<[DVec2; 2]>,
+}
+
+impl Traced {
+    /// Lowest and highest corner of the box around everything drawn, metres.
+    pub fn bounds(&self) -> [DVec2; 2] {
+        let line = if self.cut_line.is_empty() { &self.outline } else { &self.cut_line };
+        let mut points = flattened_loop(line, CHORDS);
+        points.extend(self.lines.iter().flat_map(|l| l.flattened(CHORDS)));
+        points.extend(self.grainline.iter().flatten());
+        let (lower, upper) = Contour::new(points).bounds();
+        [lower, upper]
+    }
+}
+
+/// A piece as it lies on the table, seen from its front: to be drawn in other programs. Metres.
+pub fn on_table(piece: &Piece) -> Traced {
+    let pose = &piece.pose;
+    let outline_area = piece.signed_area() * if pose.flipped { -1.0 } else { 1.0 };
+    // A piece that shows its back is turned over in its place.
+    let centre = pose.plane_from_piece(Contour::new(piece.flattened(CHORDS)).middle());
+    let turns_over = outline_area < 0.0;
+    let place = |p: DVec2| {
+        let q = pose.plane_from_piece(p);
+        if turns_over { DVec2::new(2.0 * centre.x - q.x, q.y) } else { q }
+    };
+    let turns = pose.flipped != turns_over;
+    let placed = |edges: &[Edge]| -> Vec<Edge> {
+        let placed =
+            |e: &Edge| Edge { start: place(e.start), shape: e.shape.mapped(turns, place), ..e.clone() };
+        edges.iter().map(placed).collect()
+    };
+    Traced {
+        name: piece.name.clone(),
+        outline: placed(&piece.outline),
+        cut_line: placed(&allowance::cut_line(piece)),
+        holes: piece.holes.iter().map(|hole| placed(hole)).collect(),
+        lines: piece
+            .lines
+            .iter()
+            .map(|l| InternalLine { edges: placed(&l.edges), end: place(l.end), name: l.name.clone() })
+            .collect(),
+        notches: piece.notches.iter().map(|n| place(piece.edge_points(n.edge, &[n.at])[0])).collect(),
+        grainline: piece.grainline.map(|ends| ends.map(place)),
+    }
+}
+
+/// A pattern of these pieces, lying as they were drawn unless two would overlap, and what could not be used.
+pub fn pattern(traced: Vec<Traced>) -> (Pattern, Vec<String>) {
+    let mut pattern = Pattern::default();
+    let mut notes = Vec::new();
+    for piece in traced {
+        let name = piece.name.clone();
+        let (piece, lost) = piece_of(piece);
+        if lost > 0 {
+            notes.push(format!("{name}: {lost} notches are on no edge; they were left out"));
+        }
+        pattern.add_piece(piece);
+    }
+    if lie_apart(&pattern) {
+        centre(&mut pattern)
+    } else {
+        sheet::lay_out(&mut pattern)
+    }
+    (pattern, notes)
+}
+
+/// The piece around the middle of its box, and how many notches found no edge.
+fn piece_of(traced: Traced) -> (Piece, usize) {
+    let Traced { name, outline, cut_line, holes, lines, notches, grainline } = traced;
+    let outline = counter_clockwise(outline);
+    let cut_line = counter_clockwise(cut_line);
+    let middle = Contour::new(flattened_loop(&outline, CHORDS)).middle();
+    let allowance = allowance_between(&outline, &cut_line);
+    let mut piece = Piece {
+        name,
+        outline: moved(outline, middle),
+        holes: holes.into_iter().map(|hole| moved(hole, middle)).collect(),
+        lines: lines
+            .into_iter()
+            .map(|l| InternalLine { edges: moved(l.edges, middle), end: l.end - middle, name: l.name })
+            .collect(),
+        grainline: grainline.map(|ends| ends.map(|p| p - middle)),
+        allowance,
+        cut_line: moved(cut_line, middle),
+        pose: PlanePose { offset: middle, ..PlanePose::default() },
+        ..Piece::default()
+    };
+    let found: Vec<Notch> =
+        notches.iter().take(MOST_NOTCHES).filter_map(|&p| notch(&piece, p - middle)).collect();
+    let lost = notches.len() - found.len();
+    piece.notches = found;
+    (piece, lost)
+}
+
+fn counter_clockwise(edges: Vec<Edge>) -> Vec<Edge> {
+    let area = Contour::new(flattened_loop(&edges, CHORDS)).signed_area();
+    if area < 0.0 { curve::reversed(&edges) } else { edges }
+}
+
+fn moved(edges: Vec<Edge>, origin: DVec2) -> Vec<Edge> {
+    let moved = |e: Edge| Edge { start: e.start - origin, shape: e.shape.mapped(false, |p| p - origin), ..e };
+    edges.into_iter().map(moved).collect()
+}
+
+/// The usual distance between two lines, to half a millimetre.
+fn allowance_between(outline: &[Edge], cut_line: &[Edge]) -> f64 {
+    if cut_line.is_empty() {
+        return 0.0;
+    }
+    let [inner, outer] = [outline, cut_line].map(|edges| Contour::coarse(flattened_loop(edges, CHORDS)));
+    let mut distances: Vec<f64> = inner.spread().into_iter().map(|p| outer.distance(p)).collect();
+    distances.sort_by(f64::total_cmp);
+    let usual = distances.get(distances.len() / 2).copied().unwrap_or(0.0);
+    ((usual * 2e3).round() / 2e3).min(WIDEST_ALLOWANCE)
+}
+
+/// The place on an edge nearest to `p`.
+fn notch(piece: &Piece, p: DVec2) -> Option<Notch> {
+    let (notch, distance) =
+        (0..piece.edge_count()).map(|edge| nearest_on(piece, edge, p)).min_by(|a, b| a.1.total_cmp(&b.1))?;
+    (distance <= NOTCH_REACH).then_some(notch)
+}
+
+fn nearest_on(piece: &Piece, edge: usize, p: DVec2) -> (Notch, f64) {
+    let segments = piece.edge_segments(edge);
+    let lengths: Vec<f64> = segments.iter().map(|s| s.arclen(FINE)).collect();
+    let total: f64 = lengths.iter().sum();
+    let (mut before, mut best) = (0.0, (0.0, f64::INFINITY));
+    for (segment, length) in segments.iter().zip(lengths) {
+        let near = segment.nearest(kurbo::Point::new(p.x, p.y), FINE);
+        if near.distance_sq < best.1 {
+            best = (before + segment.subsegment(0.0..near.t).arclen(FINE), near.distance_sq);
+        }
+        before += length;
+    }
+    let at = if total > 0.0 { (best.0 / total).clamp(0.0, 1.0) } else { 0.0 };
+    (Notch { edge, at }, best.1.sqrt())
+}
+
+/// Whether no piece lies on another where they were drawn.
+fn lie_apart(pattern: &Pattern) -> bool {
+    let shapes: Vec<Contour> = pattern
+        .pieces
+        .values()
+        .map(|p| Contour::coarse(p.flattened(1e-3).into_iter().map(|q| p.pose.plane_from_piece(q)).collect()))
+        .collect();
+    let pairs = shapes.iter().enumerate().flat_map(|(i, a)| shapes[..i].iter().map(move |b| (a, b)));
+    let close: Vec<(&Contour, &Contour)> =
+        pairs.filter(|(a, b)| a.boxes_overlap(b)).take(MOST_CLOSE + 1).collect();
+    close.len() <= MOST_CLOSE && close.into_iter().all(|(a, b)| !a.overlaps(b))
+}
+
+fn centre(pattern: &mut Pattern) {
+    let points = pattern
+        .pieces
+        .values()
+        .flat_map(|p| p.flattened(1e-3).into_iter().map(|q| p.pose.plane_from_piece(q)).collect::<Vec<_>>());
+    let middle = Contour::new(points.collect()).middle();
+    for piece in pattern.pieces.values_mut() {
+        Arc::make_mut(piece).pose.offset -= middle;
+    }
+}

@@ -1,0 +1,171 @@
+//! A pattern as a file, and what of it the file does not hold, in words.
+
+use std::collections::BTreeMap;
+
+use crate::geometry::ids::SeamId;
+use crate::pattern::{Edge, EdgeShape, InternalLine, Pattern, Piece, Seam};
+
+/// Names listed before the rest are only counted.
+const NAMED: usize = 3;
+
+/// A file ready to be written.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Written {
+    /// Its contents.
+    pub bytes: Vec<u8>,
+    /// What the format cannot hold, a line each; nothing when all of the pattern is there.
+    pub left_out: Vec<String>,
+}
+
+/// What a pattern may have and a format may lack.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Part {
+    Curves,
+    SmoothPoints,
+    EdgeNames,
+    Holes,
+    Lines,
+    LineNames,
+    Notches,
+    Grainline,
+    Allowance,
+    CutLine,
+    Symmetry,
+    Twin,
+    Placement,
+    PlaceOnBody,
+    Seams,
+    Ratios,
+}
+
+impl Part {
+    fn words(self) -> &'static str {
+        match self {
+            Self::Curves => "curves (written as short straight lines)",
+            Self::SmoothPoints => "which points are smooth",
+            Self::EdgeNames => "names of edges",
+            Self::Holes => "holes",
+            Self::Lines => "internal lines",
+            Self::LineNames => "names of internal lines",
+            Self::Notches => "notches",
+            Self::Grainline => "the grainline",
+            Self::Allowance => "the seam allowance",
+            Self::CutLine => "the cut line",
+            Self::Symmetry => "that the halves stay mirror images",
+            Self::Twin => "that it mirrors another piece",
+            Self::Placement => "its place round the body",
+            Self::PlaceOnBody => "the part of the body it belongs to",
+            Self::Seams => "seams",
+            Self::Ratios => "that lengths of seams are kept",
+        }
+    }
+}
+
+/// A line for each part of `pattern` that is none of those the format `holds`.
+pub(super) fn left_out(pattern: &Pattern, holds: &[Part]) -> Vec<String> {
+    let mut missing: BTreeMap<Part, Vec<&str>> = BTreeMap::new();
+    for piece in pattern.pieces.values() {
+        for part in parts_of_piece(piece) {
+            missing.entry(part).or_default().push(&piece.name);
+        }
+    }
+    let mut lines: Vec<String> = missing
+        .into_iter()
+        .filter(|(part, _)| !holds.contains(part))
+        .map(|(part, names)| format!("{}: not in the file: {}", listed(&names), part.words()))
+        .collect();
+    let count = |part: Part, has: fn(&Seam) -> bool| {
+        let count = pattern.seams.values().filter(|seam| has(seam)).count();
+        (count > 0 && !holds.contains(&part)).then(|| format!("{count} seams: {}", part.words()))
+    };
+    if let Some(line) = count(Part::Seams, |_| true) {
+        lines.push(line.replace(": seams", ": not in the file"));
+    } else if let Some(line) = count(Part::Ratios, |seam| seam.ratio.is_some()) {
+        lines.push(line.replace(": ", ": not in the file: "));
+    }
+    lines
+}
+
+/// A line about seams that could not be written.
+pub(super) fn seams_left_out(seams: &[SeamId], why: &str) -> Option<String> {
+    let names: Vec<String> = seams.iter().map(ToString::to_string).collect();
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    (!seams.is_empty()).then(|| format!("{}: not in the file: {why}", listed(&names)))
+}
+
+fn parts_of_piece(piece: &Piece) -> Vec<Part> {
+    // Named one by one, so that a new field is not forgotten. What belongs to the editor and not to the garment, such as
+    // where a piece lies on the table, is no loss.
+    let Piece {
+        name: _,
+        outline,
+        holes,
+        lines,
+        notches,
+        grainline,
+        allowance,
+        cut_line,
+        symmetric,
+        twin,
+        locked: _,
+        hidden: _,
+        pose: _,
+        placement,
+        label,
+    } = piece;
+    let edges = || outline.iter().chain(holes.iter().flatten()).chain(lines.iter().flat_map(line_edges));
+    let has = [
+        (Part::Curves, edges().any(|e| e.shape != EdgeShape::Line)),
+        (Part::SmoothPoints, edges().any(|e| e.smooth)),
+        (Part::EdgeNames, edges().any(|e| e.label.is_some())),
+        (Part::Holes, !holes.is_empty()),
+        (Part::Lines, !lines.is_empty()),
+        (Part::LineNames, lines.iter().any(|l| !l.name.is_empty())),
+        (Part::Notches, !notches.is_empty()),
+        (Part::Grainline, grainline.is_some()),
+        (Part::Allowance, *allowance > 0.0),
+        (Part::CutLine, !cut_line.is_empty()),
+        (Part::Symmetry, *symmetric),
+        (Part::Twin, twin.is_some()),
+        (Part::Placement, placement.is_some()),
+        (Part::PlaceOnBody, label.is_some()),
+    ];
+    has.into_iter().filter(|(_, has)| *has).map(|(part, _)| part).collect()
+}
+
+fn line_edges(line: &InternalLine) -> &[Edge] {
+    &line.edges
+}
+
+/// "front, back, sleeve and 2 more".
+fn listed(names: &[&str]) -> String {
+    let first = names[..names.len().min(NAMED)].join(", ");
+    match names.len().saturating_sub(NAMED) {
+        0 => first,
+        more => format!("{first} and {more} more"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec2;
+
+    use super::*;
+    use crate::pattern::Notch;
+
+    #[test]
+    fn what_is_missing_is_told_in_a_line_each() {
+        let mut pattern = Pattern::default();
+        for i in 0..5 {
+            let mut piece = Piece::polygon(&format!("p{i}"), &[DVec2::ZERO, DVec2::X, DVec2::Y]);
+            piece.notches.push(Notch { edge: 0, at: 0.5 });
+            piece.allowance = 0.01;
+            pattern.add_piece(piece);
+        }
+        assert_eq!(
+            left_out(&pattern, &[Part::Allowance]),
+            ["p0, p1, p2 and 2 more: not in the file: notches"]
+        );
+        assert!(left_out(&pattern, &[Part::Allowance, Part::Notches]).is_empty());
+    }
+}
