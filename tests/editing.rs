@@ -121,6 +121,9 @@ fn the_other_side_of_a_seam_follows() {
     assert!(other_end < 1e-3, "{other_end}");
     let [a, b] = moved.seams.values().next().unwrap().sides.map(|side| length(&moved, &side));
     assert!((a - b).abs() < 1e-11 && a > 0.44, "{a} {b}");
+    // There the point moves that is sewn to the dragged one: the lower end, not the upper.
+    let way = |i: usize| moved.pieces[&B].edge(i).start.distance(pattern.pieces[&B].edge(i).start);
+    assert!(way(0) > 20.0 * way(3), "{} {}", way(0), way(3));
 }
 
 #[test]

@@ -14,6 +14,8 @@ use glam::{DVec2, DVec3};
 use toile::drag::{DragMode, Ray};
 use toile::geometry::ids::{MarkId, PieceId, PinId};
 use toile::geometry::mesh::TriMesh;
+use toile::pattern::edit::{PatternEdit, PointRef};
+use toile::pattern::{EdgeRef, Pattern};
 use toile::relax::RelaxSettings;
 use toile::session::recording::Recording;
 use toile::session::replay::Replay;
@@ -159,7 +161,8 @@ impl Fuzz {
 
     fn command(&mut self) -> Command {
         let mark = MarkId(1 + self.chance.below(u64::from(self.session.document().last_mark) + 2) as u32);
-        match self.chance.below(24) {
+        match self.chance.below(27) {
+            24..=26 => Command::EditPattern { edits: vec![self.edit()], anew: false },
             0..=1 => {
                 let (piece, count) = (self.piece(), 1 + self.chance.below(4));
                 let side = if self.chance.below(8) == 0 { ClothSide::Back } else { ClothSide::Front };
@@ -193,6 +196,34 @@ impl Fuzz {
         }
     }
 
+    /// Changes the pattern a little.
+    fn edit(&mut self) -> PatternEdit {
+        let id = self.piece();
+        let piece = self.session.document().pattern.pieces.get(&id).cloned();
+        let count = piece.as_ref().map_or(4, |piece| piece.edge_count());
+        let c = &mut self.chance;
+        let point = c.below(count as u64) as usize;
+        let edge = EdgeRef { piece: id, edge: point };
+        match c.below(if count > 8 { 6 } else { 5 }) {
+            0..=1 => {
+                let start = piece.map_or(DVec2::ZERO, |piece| piece.edge(point).start);
+                let to = start + DVec2::new(c.number(-0.01, 0.01), c.number(-0.01, 0.01));
+                PatternEdit::MovePoints { points: vec![(PointRef { piece: id, point }, to)] }
+            }
+            2 => PatternEdit::InsertPoint { edge, at: c.number(0.1, 0.9) },
+            3 => {
+                let seam = self.session.document().pattern.seams.keys().next().copied().unwrap_or_default();
+                PatternEdit::SetRatio { seam, ratio: [None, Some(1.0)][self.chance.below(2) as usize] }
+            }
+            4 => PatternEdit::Scale {
+                pieces: vec![id],
+                about: DVec2::ZERO,
+                factor: DVec2::new(c.number(0.97, 1.03), c.number(0.97, 1.03)),
+            },
+            _ => PatternEdit::DeletePoint { point: PointRef { piece: id, point } },
+        }
+    }
+
     /// Carries out `command` and holds it against what undo and redo should do. Whether it was not refused.
     fn apply(&mut self, command: Command, gesture: GestureId) -> bool {
         self.given += 1;
@@ -209,6 +240,8 @@ impl Fuzz {
         let is_undo = command == Command::Undo;
         let is_redo = command == Command::Redo;
         let is_wrap = command == Command::Wrap;
+        let (is_edit, old) =
+            (matches!(command, Command::EditPattern { .. }), before.document.pattern.clone());
         let applied = self.session.apply(command, gesture).is_ok();
         if !applied {
             let now = Kept { document: self.session.document().clone(), cloth: Some(self.cloth()) };
@@ -224,6 +257,9 @@ impl Fuzz {
                 assert_eq!(self.cloth(), cloth, "other cloth: {words}");
             }
         } else if is_step {
+            let new = &self.session.document().pattern;
+            let cut = |p: &Pattern| -> Vec<_> { p.pieces.values().map(|p| p.outline.clone()).collect() };
+            let touches = touches || (is_edit && cut(&old) != cut(new));
             self.undone.clear();
             self.done.push(Kept { cloth: before.cloth.filter(|_| touches), ..before });
             if self.done.len() > MOST_STEPS {

@@ -62,10 +62,16 @@ impl ClosestTree {
     /// The nearest point on `triangles`. Of those that share the point the lowest.
     pub fn nearest_of(&self, p: DVec3, triangles: impl Iterator<Item = u32>) -> Option<(DVec3, u32, Part)> {
         let far = |t: u32| {
-            let (point, part) = self.on(self.slots[t as usize] as usize, p);
-            ((point - p).length_squared(), (point, t, part))
+            let found = self.on_triangle(p, t);
+            ((found.0 - p).length_squared(), found)
         };
         triangles.map(far).min_by(|(a, x), (b, y)| a.total_cmp(b).then(x.1.cmp(&y.1))).map(|(_, found)| found)
+    }
+
+    /// The nearest point on `triangle`.
+    pub fn on_triangle(&self, p: DVec3, triangle: u32) -> (DVec3, u32, Part) {
+        let (point, part) = self.on(self.slots[triangle as usize] as usize, p);
+        (point, triangle, part)
     }
 
     /// Calls `found` for every triangle within `reach` metres of `p`, in no order of meaning.
@@ -107,6 +113,7 @@ pub fn pseudonormal(
 }
 
 /// The point of triangle `abc` nearest to `p` (Ericson, Real-Time Collision Detection, 5.1.5).
+#[inline]
 pub fn closest_on_triangle(p: DVec3, a: DVec3, b: DVec3, c: DVec3) -> (DVec3, Part) {
     let (ab, ac, ap) = (b - a, c - a, p - a);
     let (d1, d2) = (ab.dot(ap), ac.dot(ap));

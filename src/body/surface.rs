@@ -113,6 +113,11 @@ impl Surface {
         self.signed(p, found)
     }
 
+    /// How far `p` is from `triangle`, metres.
+    pub fn distance_to(&self, p: DVec3, triangle: u32) -> f64 {
+        self.closest.on_triangle(p, triangle).0.distance(p)
+    }
+
     /// How much farther from `p` than `distance` all triangles are that do not touch `triangle`, metres: at least this, and
     /// `most` where there are none so near.
     pub fn gap_round(&self, p: DVec3, triangle: u32, distance: f64, most: f64) -> f64 {
@@ -120,6 +125,38 @@ impl Surface {
         let touches = |t: u32| self.mesh.triangles[t as usize].iter().any(|v| own.contains(v));
         let next = self.closest.nearest_but(p, distance + most, touches);
         next.map_or(most, |(point, ..)| (point - p).length() - distance)
+    }
+
+    /// Where a walk from `triangle` ends that goes on to the triangle next to it while that is nearer to `p`: the nearest point
+    /// of the surface round about, but not of parts that are nearer elsewhere.
+    pub fn nearest_by_walk(&self, p: DVec3, triangle: u32) -> Nearest {
+        let mut at = self.closest.on_triangle(p, triangle);
+        let mut least = at.0.distance_squared(p);
+        loop {
+            let (_, triangle, part) = at;
+            let before = least;
+            let mut look = |t: u32| {
+                let other = self.closest.on_triangle(p, t);
+                let distance = other.0.distance_squared(p);
+                if distance < least {
+                    (at, least) = (other, distance);
+                }
+            };
+            match part {
+                Part::Face => {}
+                Part::Side(k) => match self.adjacency.across[triangle as usize][k] {
+                    NONE => {}
+                    other => look(other),
+                },
+                Part::Corner(k) => {
+                    let corner = self.mesh.triangles[triangle as usize][k];
+                    self.adjacency.vertex_triangles.of(corner).iter().for_each(|&t| look(t));
+                }
+            }
+            if least >= before {
+                return self.signed(p, at);
+            }
+        }
     }
 
     /// `triangle` and those that touch it, each once.

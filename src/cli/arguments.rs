@@ -113,7 +113,7 @@ impl Dress {
 #[derive(Clone, Copy, Debug, Default, Args)]
 pub struct WorkOptions {
     /// Does all the work that is usually skipped, to compare: certificates, planes, triangles, faces, crossings, refactor,
-    /// fine, edges, bones, or all; several with commas
+    /// fine, edges, bones, walks, or all; several with commas
     #[arg(long, value_name = "NAME", default_value = "", hide_default_value = true, value_parser = skips)]
     pub no_skip: Skips,
 }

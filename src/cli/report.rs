@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use serde::Serialize;
 
-use crate::body::Surface;
+use crate::body::{Surface, landmarks};
 use crate::cli::arguments::PictureOptions;
 use crate::cli::failure::Failure;
 use crate::cli::picture::Artist;
@@ -28,6 +28,9 @@ pub struct Report {
     at_rest: bool,
     #[serde(flatten)]
     fit: fit::Report,
+    /// Where it is tightest, when it does not fit everywhere.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    tight: Option<fit::Tight>,
     /// Why this is not a dressed garment; empty when it is.
     faults: Vec<Fault>,
     /// How long each pair of marks was before the wrap.
@@ -125,7 +128,7 @@ pub fn write(
     let state_hash = Hex(state_hash(session)?).to_string();
     let snapshot = session.snapshot();
     let start = Instant::now();
-    let Measured { fit, faults, marks, mark_error } = measured(snapshot)?;
+    let Measured { fit, tight, faults, marks, mark_error } = measured(snapshot)?;
     seconds.measure = start.elapsed().as_secs_f64();
     let at_rest = snapshot.phase == Some(Phase::AtRest);
     if let (Some((garment, cloth)), Some(source)) = (snapshot.drawn(), &snapshot.source) {
@@ -144,6 +147,7 @@ pub fn write(
         inputs: Vec::new(),
         ticks: snapshot.tick,
         at_rest,
+        tight,
         faults: faults.into_iter().chain((!at_rest).then(still_moving)).collect(),
         fit,
         marks,
@@ -164,6 +168,7 @@ pub fn state_hash(session: &mut Session) -> Result<u64, Failure> {
 /// What is read off a garment.
 struct Measured {
     fit: fit::Report,
+    tight: Option<fit::Tight>,
     faults: Vec<Fault>,
     marks: Vec<PairLengths>,
     mark_error: MarkError,
@@ -177,11 +182,12 @@ fn measured(snapshot: &Snapshot) -> Result<Measured, Failure> {
     };
     let index = fit::BodyIndex::new(body);
     let fit = fit::measure(&source.pattern, garment, cloth, &index);
+    let tight = fit::tightest(&fit, garment, cloth, || landmarks::found(&body.mesh));
     let faults = sim::faults(&fit, source, garment, cloth, &index);
     let offset = source.relax.offset * body.scale();
     let marks = stretches(&source.marks, body, offset).into_iter().map(PairLengths::from).collect();
     let mark_error = mark_error(garment, cloth, body, &source.marks, offset);
-    Ok(Measured { fit, faults, marks, mark_error })
+    Ok(Measured { fit, tight, faults, marks, mark_error })
 }
 
 fn still_moving() -> Fault {
@@ -223,8 +229,9 @@ impl Report {
 
     /// One line for people.
     pub fn verdict(&self) -> String {
+        let tight = self.tight.as_ref().map_or(String::new(), |tight| format!(" (tightest: {tight})"));
         let figures = format!(
-            "{} triangles, strain p99 {:.1} %, marks met within {:.1} mm, {:.2} s",
+            "{} triangles, strain p99 {:.1} %{tight}, marks met within {:.1} mm, {:.2} s",
             self.fit.triangles,
             self.fit.strain.p99 * 100.0,
             self.mark_error.max * 1000.0,

@@ -23,11 +23,13 @@ pub enum Skip {
     Edges,
     /// Edges that cannot come as deep into the body as its bones lie are not tested against them.
     Bones,
+    /// While cloth is dragged on within a tick the skin next to it is walked to, and searched for at the end of it.
+    Walks,
 }
 
 impl Skip {
     /// All of them, in the order of [`Skip::name`].
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Certificates,
         Self::Planes,
         Self::Triangles,
@@ -37,6 +39,7 @@ impl Skip {
         Self::Fine,
         Self::Edges,
         Self::Bones,
+        Self::Walks,
     ];
 
     /// As it is typed.
@@ -51,6 +54,7 @@ impl Skip {
             Self::Fine => "fine",
             Self::Edges => "edges",
             Self::Bones => "bones",
+            Self::Walks => "walks",
         }
     }
 

@@ -1,8 +1,9 @@
 //! For each cloth vertex the part of the body near it (paper A's track point), asked for only when it may have changed.
 //!
 //! The paper walks from the last triangle to nearer neighbours, which misses parts that were never covered and parts that
-//! come from elsewhere. Here every answer is that of the exact tree; a walk round the last triangle replaces it only where
-//! a certificate says that nothing else can be nearer (ALGORITHMS.md 1.A7).
+//! come from elsewhere. Here every answer is that of the exact tree; a look round the last triangle replaces it only where
+//! a certificate says that nothing else can be nearer (ALGORITHMS.md 1.A7), and the paper's walk only on the way to where the
+//! next exact one is asked for.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -46,9 +47,13 @@ enum Track {
     /// stays outside until it has moved that far.
     Clear { at: DVec3, distance: f64 },
     /// Found: near, inside, or outside as far as the plane was from `at`. While it moves less than `slack` metres its
-    /// nearest point is on `triangle` or those that touch it.
-    Found { at: DVec3, plane: Plane, triangle: u32, slack: f32 },
+    /// nearest point is on `triangle` or those that touch it. [`WALKED`]: found by walking, for the time being;
+    /// all of the body is then at least `least` metres away.
+    Found { at: DVec3, plane: Plane, triangle: u32, slack: f32, least: f32 },
 }
+
+/// The slack of what was found by walking: no part of the body far from the last one was looked at.
+const WALKED: f32 = f32::NEG_INFINITY;
 
 /// What bringing a track up to date took.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -65,12 +70,14 @@ pub struct Tracker {
     tracks: Vec<Track>,
     /// Of the last update: planes of what is farther are not given out.
     reach: f64,
+    /// Cloth that lay near the skin walks there from where it was, until this is false again: then it asks anew.
+    pub walks: bool,
 }
 
 impl Tracker {
     /// Nothing known yet about `count` vertices.
     pub fn new(count: usize) -> Self {
-        Self { tracks: vec![Track::Unknown; count], reach: 0.0 }
+        Self { tracks: vec![Track::Unknown; count], reach: 0.0, walks: false }
     }
 
     /// Brings the tracks of all mapped vertices up to date. Those within `reach` metres of the skin have a plane afterwards.
@@ -83,7 +90,7 @@ impl Tracker {
         counters: &mut Counters,
     ) {
         self.reach = reach;
-        let ask = Ask { surface, reach, scale: surface.scale(), skips };
+        let ask = Ask { surface, reach, scale: surface.scale(), skips, walks: self.walks };
         let [queries, gaps, walks] = self
             .tracks
             .par_iter_mut()
@@ -109,7 +116,7 @@ impl Tracker {
         counters: &mut Counters,
     ) -> Option<Plane> {
         self.reach = reach;
-        let ask = Ask { surface, reach, scale: surface.scale(), skips };
+        let ask = Ask { surface, reach, scale: surface.scale(), skips, walks: self.walks };
         let [queries, gaps, walks] = work(ask.refresh(&mut self.tracks[vertex as usize], position));
         counters.contact_queries += queries;
         counters.contact_gaps += gaps;
@@ -131,14 +138,16 @@ impl Tracker {
         match self.tracks[vertex] {
             Track::Unknown => f64::NEG_INFINITY,
             Track::Clear { at, distance } => distance - p.distance(at),
-            Track::Found { at, plane, .. } => plane.height(at) - p.distance(at),
+            Track::Found { at, least, .. } => f64::from(least) - p.distance(at),
         }
     }
 
     /// A vertex was carried to `position` along its plane's normal: its nearest point of the skin is the same.
     pub fn moved_along_normal(&mut self, vertex: usize, position: DVec3) {
-        if let Track::Found { at, slack, .. } = &mut self.tracks[vertex] {
-            *slack -= ((position - *at).length() as f32).next_up();
+        if let Track::Found { at, slack, least, .. } = &mut self.tracks[vertex] {
+            let moved = ((position - *at).length() as f32).next_up();
+            *slack -= moved;
+            *least -= moved;
             *at = position;
         }
     }
@@ -170,6 +179,7 @@ struct Ask<'a> {
     reach: f64,
     scale: f64,
     skips: Skips,
+    walks: bool,
 }
 
 impl Ask<'_> {
@@ -184,12 +194,26 @@ impl Ask<'_> {
                 // It was outside and cannot have come through the whole body: no need to look farther than this.
                 SIGHT * self.scale
             }
-            Track::Found { at, plane, triangle, slack } => {
+            Track::Found { slack: WALKED, plane, .. } if !self.walks => {
+                if plane.height(p) > 0.0 {
+                    SIGHT * self.scale
+                } else {
+                    f64::INFINITY
+                }
+            }
+            Track::Found { at, plane, triangle, slack, least } => {
                 let moved = (p - at).length();
                 let kept = allow(Skip::Planes) && moved < PLANE_REUSE * self.scale;
                 let clear = allow(Skip::Certificates) && plane.height(at) - moved > self.reach;
                 if kept || clear {
                     return Effort::Nothing;
+                }
+                if self.walks && allow(Skip::Walks) {
+                    let near = self.surface.nearest_by_walk(p, triangle);
+                    let least = least - (moved as f32).next_up();
+                    let plane = Plane { point: near.point, normal: near.normal };
+                    *track = Track::Found { at: p, plane, triangle: near.triangle, slack: WALKED, least };
+                    return Effort::Walk;
                 }
                 if allow(Skip::Triangles) && moved < f64::from(slack) {
                     let left = slack - (moved as f32).next_up();
@@ -200,7 +224,8 @@ impl Ask<'_> {
                 // No farther than it can have come, and no farther than a Clear one is looked for.
                 let height = plane.height(at);
                 let most = height.abs() + moved + CERTAIN * self.scale;
-                if height > 0.0 { most.min(SIGHT * self.scale) } else { most }
+                let most = if height > 0.0 { most.min(SIGHT * self.scale) } else { most };
+                most.min(self.surface.distance_to(p, triangle) + CERTAIN * self.scale)
             }
             Track::Unknown => f64::INFINITY,
         };
@@ -220,5 +245,6 @@ impl Ask<'_> {
 
 /// The plane of `n`, found from `p`. The `slack` is that of `triangle`.
 fn found(p: DVec3, n: Nearest, slack: f32, triangle: u32) -> Track {
-    Track::Found { at: p, plane: Plane { point: n.point, normal: n.normal }, triangle, slack }
+    let plane = Plane { point: n.point, normal: n.normal };
+    Track::Found { at: p, plane, triangle, slack, least: (n.distance as f32).next_down() }
 }

@@ -1,5 +1,7 @@
 //! The dependency graph of a drag: from which neighbours each vertex takes its motion (paper A, Figure 8).
 
+use rayon::prelude::*;
+
 use crate::cloth::EdgeMetric;
 use crate::drag::pins::share;
 
@@ -9,6 +11,8 @@ pub struct Graph {
     order: Vec<u32>,
     starts: Vec<u32>,
     parents: Vec<u32>,
+    /// Whose parent each of `parents` is.
+    children: Vec<u32>,
     shares: Vec<f64>,
 }
 
@@ -36,6 +40,7 @@ impl Graph {
             if graph.parents.len() == before && v != hand {
                 continue; // Cut off by pins.
             }
+            graph.children.resize(graph.parents.len(), v);
             within[v as usize] = true;
             graph.order.push(v);
             graph.shares.push(shares[v as usize]);
@@ -52,6 +57,11 @@ impl Graph {
     /// True when even the hand is pinned.
     pub fn is_empty(&self) -> bool {
         self.order.is_empty()
+    }
+
+    /// Every parent with its child, in the order of [`Graph::steps`].
+    pub fn links(&self) -> impl IndexedParallelIterator<Item = (u32, u32)> {
+        self.parents.par_iter().copied().zip(self.children.par_iter().copied())
     }
 
     /// Vertices with the share of the motion that pins leave them (0..=1), parents before children, and their parents. The

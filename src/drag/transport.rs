@@ -1,6 +1,7 @@
 //! Motion carried from vertex to vertex in local frames (paper A, "Surface dragging").
 
 use glam::{DMat3, DVec3};
+use rayon::prelude::*;
 
 use crate::drag::Graph;
 
@@ -9,45 +10,56 @@ const UPRIGHT: f64 = 1e-4;
 /// When the mean of the carried motions is shorter than this share of their length, they really cancel.
 const CANCELLED: f64 = 0.2;
 
+/// Links one thread takes at a time.
+const LEAST_SHARE: usize = 512;
+
 /// The motion of every vertex of `graph` when the first moves by `hand`; zero elsewhere. Not weakened by pins: shares
 /// would multiply on the way. `normals` are unit, one per vertex.
 pub fn motions(graph: &Graph, positions: &[DVec3], normals: &[DVec3], hand: DVec3) -> Vec<DVec3> {
+    let turn_of = |(parent, child): (u32, u32)| {
+        let (p, c) = (parent as usize, child as usize);
+        turn(positions[c] - positions[p], normals[p], normals[c])
+    };
+    let turns: Vec<DMat3> = graph.links().with_min_len(LEAST_SHARE).map(turn_of).collect();
+    let mut turns = turns.iter();
     let mut motions = vec![DVec3::ZERO; positions.len()];
+    let mut lengths = vec![0.0; positions.len()];
     for (child, _, parents) in graph.steps() {
         let c = child as usize;
         if parents.is_empty() {
-            motions[c] = hand;
+            (motions[c], lengths[c]) = (hand, hand.length());
             continue;
         }
-        let (mut sum, mut lengths) = (DVec3::ZERO, 0.0);
-        for &parent in parents {
-            let p = parent as usize;
-            let along = positions[c] - positions[p];
-            sum += carried(motions[p], along, normals[p], normals[c]);
-            lengths += motions[p].length();
+        let (mut sum, mut all) = (DVec3::ZERO, 0.0);
+        for (&parent, turn) in parents.iter().zip(&mut turns) {
+            sum += *turn * motions[parent as usize];
+            all += lengths[parent as usize];
         }
         let count = parents.len() as f64;
-        let (mean, length) = (sum / count, lengths / count);
+        let (mean, length) = (sum / count, all / count);
         // Averaging directions shortens; a drag keeps its length.
         let short = mean.length();
-        motions[c] = if short > CANCELLED * length && short > 0.0 { mean * (length / short) } else { mean };
+        (motions[c], lengths[c]) = match short > CANCELLED * length && short > 0.0 {
+            true => (mean * (length / short), length),
+            false => (mean, short),
+        };
     }
     motions
 }
 
-/// `motion` at a parent with normal `from`, carried to a child `along` away with normal `to`.
-fn carried(motion: DVec3, along: DVec3, from: DVec3, to: DVec3) -> DVec3 {
+/// Takes a motion at a parent with normal `from` to a child `along` away with normal `to`.
+fn turn(along: DVec3, from: DVec3, to: DVec3) -> DMat3 {
     match (frame(along, from), frame(along, to)) {
-        (Some(parent), Some(child)) => child * (parent.transpose() * motion),
-        _ => glam::DQuat::from_rotation_arc(from, to) * motion,
+        (Some(parent), Some(child)) => child * parent.transpose(),
+        _ => DMat3::from_quat(glam::DQuat::from_rotation_arc(from, to)),
     }
 }
 
 fn frame(along: DVec3, normal: DVec3) -> Option<DMat3> {
-    let u = along.normalize_or_zero();
-    let flat = u - normal * u.dot(normal);
-    (flat.length() > UPRIGHT).then(|| {
-        let x = flat.normalize();
+    let flat = along - normal * along.dot(normal);
+    let (length, all) = (flat.length_squared(), along.length_squared());
+    (length > UPRIGHT * UPRIGHT * all && length > 0.0).then(|| {
+        let x = flat / length.sqrt();
         DMat3::from_cols(x, normal.cross(x), normal)
     })
 }
@@ -61,13 +73,13 @@ mod tests {
         let at = |angle: f64| DVec3::new(angle.cos(), 0.3 * angle, angle.sin());
         let normal = |angle: f64| DVec3::new(angle.cos(), 0.0, angle.sin());
         let round = |angle: f64| DVec3::new(-angle.sin(), 0.0, angle.cos());
-        let carried = carried(round(0.2) + DVec3::Y, at(0.5) - at(0.2), normal(0.2), normal(0.5));
+        let carried = turn(at(0.5) - at(0.2), normal(0.2), normal(0.5)) * (round(0.2) + DVec3::Y);
         assert!((carried - (round(0.5) + DVec3::Y)).length() < 1e-12, "{carried}");
     }
 
     #[test]
     fn along_the_normal_there_is_still_a_way() {
-        let carried = carried(DVec3::X, DVec3::Y, DVec3::Y, DVec3::Z);
+        let carried = turn(DVec3::Y, DVec3::Y, DVec3::Z) * DVec3::X;
         assert!((carried - DVec3::X).length() < 1e-12);
     }
 }

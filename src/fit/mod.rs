@@ -7,10 +7,12 @@ mod openings;
 mod report;
 mod shape;
 mod spots;
+mod tight;
 mod verdict;
 
 pub use on_body::BodyIndex;
 pub use openings::Opening;
 pub use report::{Clearance, Penetration, PieceChange, Report, Seams, Strain, measure};
 pub use spots::Spot;
+pub use tight::{Tight, tightest};
 pub use verdict::{faults, verdict};

@@ -4,12 +4,15 @@
 //! zero, so that dx = -alpha K (sum K X) / (sum K^2) keeps momentum and, at alpha 1, flattens that hinge exactly.
 
 use glam::{DVec2, DVec3};
+use rayon::prelude::*;
 
 use crate::cloth::Garment;
 
 /// Skin belongs to one surface when the cosines of its normals to their mean are above the second, to two limbs or the two
 /// sides of a fold when below the first.
 const AGREE: [f64; 2] = [0.7, 0.9];
+/// Hinges one thread takes at a time.
+const LEAST_SHARE: usize = 512;
 
 /// One inner edge and its two opposite vertices.
 #[derive(Clone, Copy, Debug)]
@@ -51,16 +54,23 @@ impl Hinges {
         self.hinges.len() * size_of::<Hinge>() + self.per_vertex.bytes()
     }
 
-    /// The flattening move of `vertex`: the mean over its hinges, `alpha` in 0..=1. `lies` tells of every vertex how it lies,
-    /// None where it is not laid. A hinge that lies on the body is bent as the body is: of it only what stands out from the
-    /// skin is flattened, for to flatten all of it would strain the cloth.
-    pub fn displacement(&self, vertex: u32, positions: &[DVec3], lies: &[Option<Lie>], alpha: f64) -> DVec3 {
+    /// For each hinge what has to go of it, by its size. `lies` tells of every vertex how it lies, None where it is not laid.
+    /// A hinge that lies on the body is bent as the body is: of it only what stands out from the skin is flattened, for to
+    /// flatten all of it would strain the cloth.
+    pub fn bends(&self, positions: &[DVec3], lies: &[Option<Lie>]) -> Vec<DVec3> {
+        let bend = |hinge: &Hinge| {
+            let size: f64 = hinge.k.iter().map(|k| k * k).sum();
+            hinge.bend(positions, lies).unwrap_or_default() / size
+        };
+        self.hinges.par_iter().with_min_len(LEAST_SHARE).map(bend).collect()
+    }
+
+    /// The flattening move of `vertex`: the mean over its hinges, `alpha` in 0..=1, when they are bent by `bends`.
+    pub fn displacement(&self, vertex: u32, bends: &[DVec3], alpha: f64) -> DVec3 {
         let mine = self.per_vertex.of(vertex);
         let move_of = |&slot: &u32| {
-            let hinge = &self.hinges[slot as usize / 4];
-            let bend = hinge.bend(positions, lies).unwrap_or_default();
-            let size: f64 = hinge.k.iter().map(|k| k * k).sum();
-            bend * (-alpha * hinge.k[slot as usize % 4] / size)
+            let at = slot as usize / 4;
+            bends[at] * (-alpha * self.hinges[at].k[slot as usize % 4])
         };
         mine.iter().map(move_of).sum::<DVec3>() / mine.len().max(1) as f64
     }

@@ -1,16 +1,14 @@
 //! The global step: with every triangle's turn held, all vertices at once.
 //!
 //! The energy sum over triangles of sum over corners |x - c - R w|^2 has, with c eliminated, the constant matrix
-//! sum of (I - 1 1^T / 3): a graph Laplacian, factored by sparse Cholesky (faer). Contact sits on its diagonal, with the same
+//! sum of (I - 1 1^T / 3): a graph Laplacian, factored by sparse Cholesky. Contact sits on its diagonal, with the same
 //! active set on the right-hand side; the factor is renewed when that set has changed by more than a fiftieth.
 
-use faer::Side;
-use faer::linalg::solvers::Solve;
-use faer::sparse::linalg::solvers::{Llt, SymbolicLlt};
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
 use glam::DVec3;
 
 use crate::cloth::{Counters, Garment};
+use crate::relax::factor::{Factor, Symbolic};
 
 /// Refactor when more than this share of the weights on the diagonal changed, unless told otherwise.
 pub const STALE_SHARE: f64 = 0.02;
@@ -19,7 +17,7 @@ pub const STALE_SHARE: f64 = 0.02;
 #[derive(Clone, Debug)]
 pub struct GlobalSolver {
     pattern: SymbolicSparseColMat<usize>,
-    symbolic: SymbolicLlt<usize>,
+    symbolic: Symbolic,
     /// Where each vertex's diagonal value stands.
     diagonal: Vec<usize>,
     /// Where each edge's value stands.
@@ -28,7 +26,7 @@ pub struct GlobalSolver {
     base: Vec<f64>,
     /// Diagonal weights that are in the factor.
     weights: Vec<f64>,
-    factor: Option<Llt<usize, f64>>,
+    factor: Option<Factor>,
     stale_share: f64,
 }
 
@@ -63,7 +61,7 @@ impl GlobalSolver {
         }
         let values = rows.len();
         let pattern = SymbolicSparseColMat::new_checked(n, n, starts, None, rows);
-        let symbolic = SymbolicLlt::try_new(pattern.as_ref(), Side::Lower).ok()?;
+        let symbolic = Symbolic::new(pattern.as_ref())?;
         Some(Self {
             pattern,
             symbolic,
@@ -110,14 +108,14 @@ impl GlobalSolver {
         self.factor = None;
     }
 
-    /// Solves for positions, in place of `sums`: on entry the right-hand side (turned corners summed, plus weight times
-    /// target). `weights` stands on the diagonal; where the factor holds older ones, `target_of` moves the right-hand side
-    /// to match, so that matrix and right-hand side always agree.
+    /// Solves for how far each vertex goes, in place of the `forces` on them (of turned corners, and others). `weights`
+    /// stands on the diagonal and pulls each vertex by the way to its target in `pulls`; where the factor holds older
+    /// weights, those pull, so that matrix and right-hand side always agree.
     pub fn solve(
         &mut self,
         weights: &[f64],
-        sums: &mut [DVec3],
-        target_of: impl Fn(usize) -> DVec3,
+        forces: &mut [DVec3],
+        pulls: &[DVec3],
         counters: &mut Counters,
     ) -> bool {
         if self.factor.is_none() || self.stale(weights) {
@@ -125,19 +123,13 @@ impl GlobalSolver {
             if !self.refactor(counters) {
                 return false;
             }
-        } else {
-            for v in 0..sums.len() {
-                if weights[v] != self.weights[v] {
-                    sums[v] += target_of(v) * (self.weights[v] - weights[v]);
-                }
-            }
         }
         let Some(factor) = &self.factor else { return false };
-        let n = sums.len();
-        let mut rhs = faer::Mat::<f64>::from_fn(n, 3, |i, j| sums[i][j]);
-        factor.solve_in_place(rhs.as_mut());
-        for (i, s) in sums.iter_mut().enumerate() {
-            *s = DVec3::new(rhs[(i, 0)], rhs[(i, 1)], rhs[(i, 2)]);
+        for ((force, pull), weight) in forces.iter_mut().zip(pulls).zip(&self.weights) {
+            *force += *pull * *weight;
+        }
+        if !factor.solve(forces) {
+            return false;
         }
         counters.solves += 1;
         true
@@ -154,7 +146,7 @@ impl GlobalSolver {
             values[slot] += self.weights[v];
         }
         let matrix = SparseColMatRef::new(self.pattern.as_ref(), &values);
-        self.factor = Llt::try_new_with_symbolic(self.symbolic.clone(), matrix, Side::Lower).ok();
+        self.factor = self.symbolic.factor(matrix);
         counters.factorisations += 1;
         self.factor.is_some()
     }

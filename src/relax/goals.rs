@@ -7,58 +7,68 @@ use glam::{DVec2, DVec3};
 
 use crate::relax::Rotation;
 
+/// No turn is better than another when the best one matches by less than this share of what it could.
+const UNTURNED: f64 = 1e-3;
+/// A triangle is collapsed when its height is less than this share of its first side.
+const COLLAPSED: f64 = 1e-6;
+
 /// Corners of the flat shape `rest` (about its centroid, front up), turned in the plane of `corners` to lie closest to
-/// them, relative to their centroid. `keep` is used where no turn is better than another (collapsed or mirrored).
-pub fn turned_rest(corners: [DVec3; 3], rest: &[DVec2; 3], keep: DVec3, by: Rotation) -> [DVec3; 3] {
-    let centre = (corners[0] + corners[1] + corners[2]) / 3.0;
-    let area = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-    in_plane(corners, centre, rest, [area, keep], by)
+/// them, relative to their centroid. Where they are collapsed, `keep` tells the normal of the plane.
+#[inline]
+pub fn turned_rest(
+    corners: [DVec3; 3],
+    rest: &[DVec2; 3],
+    keep: impl FnOnce() -> DVec3,
+    by: Rotation,
+) -> [DVec3; 3] {
+    let (u, v) = (corners[1] - corners[0], corners[2] - corners[0]);
+    let area = u.cross(v);
+    let (length, size) = (u.length(), area.length());
+    // In the plane of u and v: u points along x, v lies above it.
+    if size > COLLAPSED * length * length && length > 0.0 {
+        let x = u / length;
+        let y = (area / size).cross(x);
+        let (p, q) = (v.dot(x), size / length);
+        let centre = DVec2::new(length + p, q) / 3.0;
+        let flat = [-centre, DVec2::new(length, 0.0) - centre, DVec2::new(p, q) - centre];
+        return turned([x, y], flat, rest, by);
+    }
+    turned_rest_facing(corners, rest, area.try_normalize().unwrap_or_else(keep), by)
 }
 
 /// The same in the plane across `normal` (paper A's temporary normal): a triangle that faces away from it is turned over.
 pub fn turned_rest_facing(corners: [DVec3; 3], rest: &[DVec2; 3], normal: DVec3, by: Rotation) -> [DVec3; 3] {
+    let n = normal.try_normalize().unwrap_or(DVec3::Z);
     let centre = (corners[0] + corners[1] + corners[2]) / 3.0;
-    in_plane(corners, centre, rest, [normal, normal], by)
-}
-
-fn in_plane(
-    corners: [DVec3; 3],
-    centre: DVec3,
-    rest: &[DVec2; 3],
-    [normal, keep]: [DVec3; 2],
-    by: Rotation,
-) -> [DVec3; 3] {
-    let mut n = normal.normalize_or_zero();
-    if n == DVec3::ZERO {
-        n = keep.try_normalize().unwrap_or(DVec3::Z);
-    }
     let edge = corners[1] - corners[0];
     let x = (edge - n * n.dot(edge)).try_normalize().unwrap_or_else(|| n.any_orthonormal_vector());
     let y = n.cross(x);
-    let mut turn = DVec2::ZERO;
-    let mut size = 0.0;
-    for k in 0..3 {
-        let z = DVec2::new((corners[k] - centre).dot(x), (corners[k] - centre).dot(y));
-        let w = rest[k];
-        let share = match by {
-            Rotation::LeastSquares => 1.0,
-            Rotation::Paper => 1.0 / w.length().max(f64::MIN_POSITIVE),
-        };
-        turn += DVec2::new(z.dot(w), w.perp_dot(z)) * share;
-        size += z.length() * w.length() * share;
-    }
-    let length = turn.length();
+    let flat = corners.map(|p| DVec2::new((p - centre).dot(x), (p - centre).dot(y)));
+    turned([x, y], flat, rest, by)
+}
+
+/// `rest` turned to lie closest to `flat`, both about their centroids, in the plane of the axes `x` and `y`.
+#[inline(always)]
+fn turned([x, y]: [DVec3; 2], flat: [DVec2; 3], rest: &[DVec2; 3], by: Rotation) -> [DVec3; 3] {
+    let wanted = match by {
+        Rotation::LeastSquares => *rest,
+        Rotation::Paper => rest.map(DVec2::normalize_or_zero),
+    };
+    let one = |k: usize| DVec2::new(flat[k].dot(wanted[k]), wanted[k].perp_dot(flat[k]));
+    let turn = one(0) + one(1) + one(2);
+    let size = |of: &[DVec2; 3]| of[0].length_squared() + of[1].length_squared() + of[2].length_squared();
+    let (present, wanted) = (size(&flat), size(&wanted));
+    let length = turn.length_squared();
     // Undefined for a mirrored triangle: its longest edge (here the first) keeps its direction.
-    let turn = if length > 1e-3 * size && length > 0.0 {
-        turn / length
+    let turn = if length > UNTURNED * UNTURNED * present * wanted && length > 0.0 {
+        turn / length.sqrt()
     } else {
         let w = rest[1] - rest[0];
         DVec2::new(w.x, -w.y).normalize_or(DVec2::X)
     };
-    rest.map(|w| {
-        let r = turn.rotate(w);
-        x * r.x + y * r.y
-    })
+    let (x, y) = (x * turn.x + y * turn.y, y * turn.x - x * turn.y);
+    let [u, v, w] = *rest;
+    [x * u.x + y * u.y, x * v.x + y * v.y, x * w.x + y * w.y]
 }
 
 #[cfg(test)]
@@ -76,7 +86,7 @@ mod tests {
         let corners = placed(0.7, DVec3::new(3.0, 2.0, 1.0));
         let centre = corners.iter().sum::<DVec3>() / 3.0;
         for (goal, corner) in
-            turned_rest(corners, &REST, DVec3::Z, Rotation::LeastSquares).iter().zip(corners)
+            turned_rest(corners, &REST, || DVec3::Z, Rotation::LeastSquares).iter().zip(corners)
         {
             assert!((*goal + centre - corner).length() < 1e-12);
         }
@@ -85,7 +95,7 @@ mod tests {
     #[test]
     fn a_stretched_triangle_keeps_its_direction() {
         let corners = placed(0.4, DVec3::ZERO).map(|p| p * 1.3);
-        let goals = turned_rest(corners, &REST, DVec3::Z, Rotation::LeastSquares);
+        let goals = turned_rest(corners, &REST, || DVec3::Z, Rotation::LeastSquares);
         let exact = placed(0.4, DVec3::ZERO);
         for (goal, exact) in goals.iter().zip(exact) {
             assert!((*goal - exact).length() < 1e-12);
@@ -102,7 +112,7 @@ mod tests {
     #[test]
     fn a_collapsed_triangle_gives_finite_goals() {
         for corners in [[DVec3::ONE; 3], [DVec3::ZERO, DVec3::X, DVec3::X * 2.0]] {
-            let goals = turned_rest(corners, &REST, DVec3::Y, Rotation::LeastSquares);
+            let goals = turned_rest(corners, &REST, || DVec3::Y, Rotation::LeastSquares);
             assert!(goals.iter().all(|g| g.is_finite()));
             assert!((goals[1] - goals[0]).length() > 1.0);
         }
@@ -122,7 +132,7 @@ mod tests {
                 let corners = placed(next() * 3.0, DVec3::ZERO);
                 let strained = corners.map(|p| p + DVec3::new(next(), next(), 0.0) * 0.1 * 2.0);
                 let [a, b] = [Rotation::LeastSquares, Rotation::Paper]
-                    .map(|by| turned_rest(strained, &REST, DVec3::Z, by))
+                    .map(|by| turned_rest(strained, &REST, || DVec3::Z, by))
                     .map(|goals| goals[1] - goals[0]);
                 a.angle_between(b).to_degrees()
             })

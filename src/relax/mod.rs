@@ -1,8 +1,10 @@
 //! Paper A's relaxation: shape match, flatten, gravity, friction.
 
+mod factor;
 pub mod flatten;
 pub mod global;
 pub mod goals;
+mod matching;
 pub mod memory;
 pub mod relaxer;
 pub mod settings;

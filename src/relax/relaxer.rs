@@ -13,7 +13,8 @@ use crate::contact::{Bones, Faces, Plane, Splits, Tracker, layers};
 use crate::geometry::crossings::meetings;
 use crate::relax::flatten::{Hinges, Lie};
 use crate::relax::global::{GlobalSolver, STALE_SHARE};
-use crate::relax::goals::{turned_rest, turned_rest_facing};
+use crate::relax::goals::turned_rest;
+use crate::relax::matching::{Matching, body_normal};
 use crate::relax::wants::Wants;
 use crate::relax::{Memory, RelaxSettings};
 
@@ -30,8 +31,6 @@ const USUAL_FRICTION: f64 = 0.3;
 const MOST_HELD: f64 = 50.0;
 /// Vertices one thread takes at a time.
 const LEAST_SHARE: usize = 512;
-/// A triangle is turned over when its normal and that of the cloth round it have a smaller cosine.
-const FLIPPED: f64 = -0.2;
 /// How far from skin that is looked after, metres on a body 1.5 m large.
 const WRONG_SIDE_REACH: f64 = 0.015;
 /// A place where cloth passes through itself counts for so many faults: finer meshes seldom mend it.
@@ -92,14 +91,12 @@ pub struct Relaxer {
     /// Vertices that do not move: under a pushpin, in the hand, or not to be rewrapped.
     fixed: Vec<bool>,
     previous: Vec<DVec3>,
-    turned: Vec<[DVec3; 3]>,
-    /// Of each triangle in the last global step.
-    energies: Vec<f64>,
+    matching: Matching,
     /// Sum over the laid triangles of sum over corners |w|^2: what energies are compared with.
     size: f64,
     weights: Vec<f64>,
-    sums: Vec<DVec3>,
-    laplacian: Vec<DVec3>,
+    /// On each vertex; then how far it goes.
+    forces: Vec<DVec3>,
     areas: Vec<f64>,
     /// With how much force each vertex clings to skin it touches, per unit of friction.
     cling: Vec<f64>,
@@ -136,12 +133,10 @@ impl Relaxer {
             held: vec![None; n],
             fixed: vec![false; n],
             previous: vec![DVec3::ZERO; n],
-            turned: vec![[DVec3::ZERO; 3]; garment.triangles.len()],
-            energies: vec![0.0; garment.triangles.len()],
+            matching: Matching::new(&garment),
             size: 0.0,
             weights: vec![0.0; n],
-            sums: vec![DVec3::ZERO; n],
-            laplacian: vec![DVec3::ZERO; n],
+            forces: vec![DVec3::ZERO; n],
             areas: vertex_areas(&garment),
             cling: vec![0.0; n],
             normals: vec![DVec3::ZERO; n],
@@ -161,11 +156,12 @@ impl Relaxer {
         let cloth = n * (vector + size_of::<bool>());
         let remembered = n * (3 * vector + 2 * size_of::<f64>() + size_of::<bool>())
             + self.held.len() * size_of::<Option<DVec3>>();
+        let [corners, pulls] = self.matching.bytes();
         Memory {
             garment: self.garment.bytes(),
             state: cloth + remembered + self.tracker.bytes() + self.faces.bytes() + self.splits.bytes(),
-            tables: self.hinges.bytes() + self.solver.bytes(),
-            scratch: self.turned.len() * 3 * vector + n * (3 * vector + 3 * size_of::<f64>()),
+            tables: self.hinges.bytes() + self.solver.bytes() + corners,
+            scratch: pulls + n * (2 * vector + 3 * size_of::<f64>()),
         }
     }
 
@@ -204,6 +200,11 @@ impl Relaxer {
         self.tracker.update(&self.surface, state, reach, self.settings.skips, &mut self.counters);
     }
 
+    /// From now on cloth near the skin walks along it from where it was, or (false) asks for it exactly.
+    pub fn walk(&mut self, walks: bool) {
+        self.tracker.walks = walks;
+    }
+
     /// The skin near `vertex` as it was last tracked.
     pub fn plane(&self, vertex: u32) -> Option<Plane> {
         self.tracker.plane(vertex as usize)
@@ -232,7 +233,7 @@ impl Relaxer {
     /// What matching costs: the sum over triangles of sum over corners |x - c - R w|^2 before the last global step, against
     /// that of |w|^2. About the mean square strain.
     pub fn energy(&self) -> f64 {
-        self.energies.iter().sum::<f64>() / self.size.max(f64::MIN_POSITIVE)
+        self.matching.energy() / self.size.max(f64::MIN_POSITIVE)
     }
 
     /// Tells the matrix which triangles take part.
@@ -253,6 +254,13 @@ impl Relaxer {
 
     /// One global step. Returns the longest move, metres.
     pub fn global_step(&mut self, state: &mut ClothState, step: GlobalStep) -> f64 {
+        self.global_steps(state, step, &[1.0])
+    }
+
+    /// One global step after the other in the same contacts, for each of `paces` one that goes so many times as far as
+    /// solved; the last one flattens. Cloth that is pulled into the body takes one plain step: there the planes of the skin
+    /// say little about where it comes to. Returns the longest move over all, metres.
+    pub fn global_steps(&mut self, state: &mut ClothState, step: GlobalStep, paces: &[f64]) -> f64 {
         let offset = self.offset();
         let mut reach = offset * 2.0 + step.cap.min(offset);
         if step.unfold {
@@ -261,18 +269,22 @@ impl Relaxer {
         }
         self.tracker.update(&self.surface, state, reach, self.settings.skips, &mut self.counters);
         self.keep_pressure(step.contact);
-        self.turn_triangles(state, step.unfold);
+        self.find_cling(state);
         let weighs = step.weight && self.touches_anything(state);
-        self.gather(state, weighs);
-        let targets = self.weigh(state, step);
-        let solved = self.solver.solve(&self.weights, &mut self.sums, |v| targets[v], &mut self.counters);
-        if !solved {
-            return 0.0;
+        let before = state.positions.clone();
+        let paces = if self.is_inside(state) { &[1.0] } else { paces };
+        for (k, &pace) in paces.iter().enumerate() {
+            let normals = step.unfold.then_some(&*self.normals);
+            self.matching.turn(&self.garment, state, &self.tracker, normals, self.settings.rotation);
+            let pulls = self.weigh(state, step, weighs, pace);
+            if !self.solver.solve(&self.weights, &mut self.forces, &pulls, &mut self.counters) {
+                break;
+            }
+            self.previous.copy_from_slice(&state.positions);
+            self.advance(state, step.cap, pace, k + 1 == paces.len());
         }
-        self.previous.copy_from_slice(&state.positions);
-        let longest = self.advance(state, step);
         self.place_split(state);
-        longest
+        before.iter().zip(&state.positions).map(|(a, b)| (*a - *b).length()).fold(0.0, f64::max)
     }
 
     /// Joins split edges that have been clear of the body in many looks.
@@ -320,33 +332,10 @@ impl Relaxer {
         self.contact = contact;
     }
 
-    fn turn_triangles(&mut self, state: &ClothState, unfold: bool) {
-        let (garment, tracker, normals) = (&*self.garment, &self.tracker, &self.normals);
-        let by = self.settings.rotation;
-        self.turned.par_iter_mut().zip(&mut self.energies).enumerate().for_each(|(t, (turned, energy))| {
-            let vs = garment.triangles[t];
-            if !vs.iter().all(|&v| state.mapped[v as usize]) {
-                (*turned, *energy) = ([DVec3::ZERO; 3], 0.0);
-                return;
-            }
-            let corners = vs.map(|v| state.positions[v as usize]);
-            let rest = &garment.rest[t];
-            let keep = body_normal(tracker, &vs).unwrap_or(DVec3::Z);
-            let cloth: DVec3 =
-                if unfold { vs.iter().map(|&v| normals[v as usize]).sum() } else { DVec3::ZERO };
-            *turned = match cloth.try_normalize() {
-                Some(n) if faces_away(corners, n) => turned_rest_facing(corners, rest, n, by),
-                _ => turned_rest(corners, rest, keep, by),
-            };
-            let centre = (corners[0] + corners[1] + corners[2]) / 3.0;
-            *energy = (0..3).map(|k| (corners[k] - centre - turned[k]).length_squared()).sum();
-        });
-    }
-
-    /// Completes the right-hand side, sets the weights, and returns what they pull towards.
-    fn weigh(&mut self, state: &ClothState, step: GlobalStep) -> Vec<DVec3> {
+    /// Fills in the force on each vertex (of its triangles, gravity and friction) and the weights, and returns the ways on
+    /// which those pull.
+    fn weigh(&mut self, state: &ClothState, step: GlobalStep, weighs: bool, pace: f64) -> Vec<DVec3> {
         let scale = self.surface.scale();
-        self.find_cling(state);
         let wants = Wants {
             tracker: &self.tracker,
             normals: &self.normals,
@@ -356,32 +345,38 @@ impl Relaxer {
             held: &self.held,
             previous: &self.previous,
             step,
+            pace,
             offset: self.settings.offset * scale,
             friction: self.settings.friction,
             cling: &self.cling,
             reach: WRONG_SIDE_REACH * scale,
             scale,
         };
-        let (laplacian, mapped, fixed) = (&self.laplacian, &state.mapped, &self.fixed);
+        let gravity = if weighs { self.settings.gravity } else { 0.0 };
+        let (matching, areas, stretch) = (&self.matching, &self.areas, self.settings.stretch);
+        let (mapped, fixed) = (&state.mapped, &self.fixed);
         self.push
             .par_iter_mut()
-            .zip(&mut self.sums)
+            .zip(&mut self.forces)
             .zip(&mut self.weights)
             .with_min_len(LEAST_SHARE)
             .enumerate()
-            .map(|(v, ((push, sum), weight))| {
-                let x = state.positions[v];
-                let target;
-                (*weight, target) = match (mapped[v], fixed[v]) {
-                    (true, false) => wants.of(v, x, push, sum),
-                    (true, true) => (FIXED_WEIGHT, x),
-                    (false, _) => (UNMAPPED_WEIGHT, x),
+            .map(|(v, ((push, force), weight))| {
+                *force = matching.force(v as u32) * stretch + DVec3::NEG_Y * (gravity * areas[v]);
+                let pull;
+                (*weight, pull) = match (mapped[v], fixed[v]) {
+                    (true, false) => wants.of(v, state.positions[v], push, force),
+                    (true, true) => (FIXED_WEIGHT, DVec3::ZERO),
+                    (false, _) => (UNMAPPED_WEIGHT, DVec3::ZERO),
                 };
-                *sum += laplacian[v];
-                *sum += target * *weight;
-                target
+                pull
             })
             .collect()
+    }
+
+    fn is_inside(&self, state: &ClothState) -> bool {
+        let height = |v: usize| self.tracker.plane(v).map(|plane| plane.height(state.positions[v]));
+        (0..state.positions.len()).any(|v| state.mapped[v] && height(v).is_some_and(|h| h < 0.0))
     }
 
     /// Cloth that has lost all touch would fall for ever: it floats.
@@ -407,35 +402,11 @@ impl Relaxer {
         self.cling.iter_mut().zip(&self.areas).for_each(|(cling, area)| *cling = area * each);
     }
 
-    /// Fills `sums` with the force on each vertex (turned corners less present ones, and gravity) and `laplacian` with the
-    /// matrix times the positions; together they are the right-hand side.
-    fn gather(&mut self, state: &ClothState, weight: bool) {
-        let (garment, turned) = (&*self.garment, &self.turned);
-        let gravity = if weight { self.settings.gravity } else { 0.0 };
-        let (areas, stretch) = (&self.areas, self.settings.stretch);
-        self.sums.par_iter_mut().zip(self.laplacian.par_iter_mut()).enumerate().for_each(
-            |(v, (sum, lap))| {
-                *sum = DVec3::NEG_Y * (gravity * areas[v]);
-                *lap = DVec3::ZERO;
-                for &t in garment.adjacency.vertex_triangles.of(v as u32) {
-                    let vs = garment.triangles[t as usize];
-                    if !vs.iter().all(|&w| state.mapped[w as usize]) {
-                        continue;
-                    }
-                    let k = vs.iter().position(|&w| w == v as u32).unwrap_or(0);
-                    let corners = vs.map(|w| state.positions[w as usize]);
-                    let from_centre = corners[k] - (corners[0] + corners[1] + corners[2]) / 3.0;
-                    *sum += (turned[t as usize][k] - from_centre) * stretch;
-                    *lap += from_centre;
-                }
-            },
-        );
-    }
-
-    fn advance(&mut self, state: &mut ClothState, step: GlobalStep) -> f64 {
+    /// Goes `pace` times as far as solved.
+    fn advance(&mut self, state: &mut ClothState, cap: f64, pace: f64, flattens: bool) {
         let offset = self.offset();
         let (mapped, fixed) = (&state.mapped, &self.fixed);
-        let lies = self.lies(state);
+        let bends = if flattens { self.hinges.bends(&self.previous, &self.lies(state)) } else { Vec::new() };
         let mut new: Vec<DVec3> = (0..state.positions.len())
             .into_par_iter()
             .with_min_len(LEAST_SHARE)
@@ -444,8 +415,10 @@ impl Relaxer {
                 if !mapped[v] || fixed[v] {
                     return old;
                 }
-                let mut shift = (self.sums[v] - old).clamp_length_max(step.cap);
-                shift += self.hinges.displacement(v as u32, &self.previous, &lies, self.settings.flatten);
+                let mut shift = (self.forces[v] * pace).clamp_length_max(cap);
+                if flattens {
+                    shift += self.hinges.displacement(v as u32, &bends, self.settings.flatten);
+                }
                 let new = old + shift;
                 match self.tracker.plane(v) {
                     Some(plane) => {
@@ -459,9 +432,7 @@ impl Relaxer {
         if !self.bones.is_empty() {
             self.keep_off_bones(state, &mut new);
         }
-        let longest = new.iter().zip(&self.previous).map(|(n, o)| (*n - *o).length()).fold(0.0, f64::max);
         state.positions = new;
-        longest
     }
 
     /// How each vertex lay before this step; None where no cloth is laid.
@@ -472,7 +443,8 @@ impl Relaxer {
             let height = plane.height(self.previous[v]) - self.lift[v] - offset;
             Some(Lie { normal: plane.normal, height, touch: 1.0 - (height / offset).clamp(0.0, 1.0) })
         };
-        (0..state.positions.len()).map(|v| state.mapped[v].then(|| lie(v).unwrap_or_default())).collect()
+        let vertices = (0..state.positions.len()).into_par_iter().with_min_len(LEAST_SHARE);
+        vertices.map(|v| state.mapped[v].then(|| lie(v).unwrap_or_default())).collect()
     }
 
     /// A local pass over `vertices`: each goes the way of the mean of its triangles' goals, over-relaxed by `factor` in
@@ -483,10 +455,9 @@ impl Relaxer {
             let vs = garment.triangles[t as usize];
             let corners = vs.map(|v| state.positions[v as usize]);
             let centre = (corners[0] + corners[1] + corners[2]) / 3.0;
-            let n = body_normal(&self.tracker, &vs).unwrap_or(DVec3::Z);
-            self.turned[t as usize] =
-                turned_rest(corners, &garment.rest[t as usize], n, self.settings.rotation)
-                    .map(|r| r + centre);
+            let n = || body_normal(&self.tracker, &vs).unwrap_or(DVec3::Z);
+            let turned = turned_rest(corners, &garment.rest[t as usize], n, self.settings.rotation);
+            self.matching.pulls[t as usize] = [0, 1, 2].map(|k| turned[k] + centre - corners[k]);
         }
         self.counters.local_triangles += triangles.len() as u64;
         let offset = self.offset();
@@ -499,12 +470,12 @@ impl Relaxer {
                     let vs = garment.triangles[t as usize];
                     if vs.iter().all(|&w| state.mapped[w as usize]) {
                         let k = vs.iter().position(|&w| w == v).unwrap_or(0);
-                        sum += self.turned[t as usize][k];
+                        sum += self.matching.pulls[t as usize][k];
                         count += 1.0;
                     }
                 }
                 let x = state.positions[v as usize];
-                if count == 0.0 || self.fixed[v as usize] { x } else { x + (sum / count - x) * factor }
+                if count == 0.0 || self.fixed[v as usize] { x } else { x + sum / count * factor }
             })
             .collect();
         for (&v, new) in vertices.iter().zip(moved) {
@@ -659,14 +630,4 @@ fn normal_round(garment: &Garment, state: &ClothState, v: u32) -> DVec3 {
         })
         .sum();
     sum.normalize_or_zero()
-}
-
-fn body_normal(tracker: &Tracker, vs: &[u32; 3]) -> Option<DVec3> {
-    let sum: DVec3 = vs.iter().filter_map(|&v| tracker.plane(v as usize)).map(|p| p.normal).sum();
-    sum.try_normalize()
-}
-
-fn faces_away(corners: [DVec3; 3], normal: DVec3) -> bool {
-    let n = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize_or_zero();
-    n.dot(normal) < FLIPPED
 }

@@ -38,6 +38,8 @@ pub(super) struct Wants<'a> {
     /// Positions before the last step.
     pub previous: &'a [DVec3],
     pub step: GlobalStep,
+    /// How many times as far as solved the step goes.
+    pub pace: f64,
     /// Metres.
     pub offset: f64,
     /// Coulomb's coefficient.
@@ -51,16 +53,16 @@ pub(super) struct Wants<'a> {
 }
 
 impl Wants<'_> {
-    /// Weight and target of the mapped vertex `v` at `x`. Its contact multiplier `push` grows by what is lacking to the
+    /// Weight of the mapped vertex `v` at `x`, and the way to its target. Its contact multiplier `push` grows by what is lacking to the
     /// offset, and friction takes from the `force` on it.
     pub fn of(&self, v: usize, x: DVec3, push: &mut f64, force: &mut DVec3) -> (f64, DVec3) {
         let away = SEND_AWAY * self.scale;
         let contact = self.step.contact;
         let mut weight = PROXIMAL_WEIGHT;
-        let mut pull = x * PROXIMAL_WEIGHT;
+        let mut pull = DVec3::ZERO;
         let mut want = |w: f64, target: DVec3| {
             weight += w;
-            pull += target * w;
+            pull += (target - x) * w;
         };
         for (weight, way) in [(contact, self.sent[v]), (PARTING_WEIGHT, self.parted[v])] {
             if way != DVec3::ZERO {
@@ -103,7 +105,8 @@ impl Wants<'_> {
         let slid = self.previous[v] != DVec3::ZERO;
         let slide = if slid { tangential(x - self.previous[v]) } else { DVec3::ZERO };
         let momentum = if self.step.weight { WEIGHTED_MOMENTUM } else { SLIDE_MOMENTUM };
-        target + slide.clamp_length_max(self.step.cap) * momentum
+        // What is tried again must not grow by being gone farther than solved.
+        target + slide.clamp_length_max(self.step.cap) * (momentum / self.pace)
     }
 
     /// Coulomb friction: what a contact takes of the force along the skin, as far as its pressure allows. Cloth also clings

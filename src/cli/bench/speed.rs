@@ -197,7 +197,7 @@ fn drag(scene: &Scene, runs: usize) -> Result<[Row; 2], Failure> {
 fn substeps(skirt: &Wrapped, hand: &Hand, runs: usize) -> Result<Row, Failure> {
     let scene_name = "substep of dragging the skirt along the body";
     let (mut all, mut each, mut hashes, mut worst_tick) = (Vec::new(), Vec::new(), Vec::new(), 0.0f64);
-    let (mut counters, mut before) = Default::default();
+    let (mut counters, mut before, mut done) = (Counters::default(), Counters::default(), 0);
     for _ in 0..runs {
         let mut dragging = hand.take(skirt)?;
         before = dragging.counters();
@@ -206,20 +206,20 @@ fn substeps(skirt: &Wrapped, hand: &Hand, runs: usize) -> Result<Row, Failure> {
         for tick in 1..=DRAG_TICKS {
             interrupt::check()?;
             dragging.drag_to(hand.pointer(tick));
-            let (solves, start) = (dragging.counters().solves, Instant::now());
+            let (substeps, start) = (dragging.substeps(), Instant::now());
             dragging.step(&mut state, true);
             let seconds = start.elapsed().as_secs_f64();
-            let count = dragging.counters().solves - solves;
+            let count = dragging.substeps() - substeps;
             each.push(seconds / count.max(1) as f64);
             worst_tick = worst_tick.max(seconds);
             sum += seconds;
         }
         all.push(sum);
-        counters = dragging.counters();
+        (counters, done) = (dragging.counters(), dragging.substeps());
         hashes.push(cloth_hash(&state, Some(Phase::Settling), true));
     }
     let substep = median(each);
-    let done = (counters.solves - before.solves) as f64;
+    let done = done as f64;
     let queries = |c: &Counters| c.contact_queries + c.contact_gaps;
     let asked = queries(&counters) - queries(&before);
     let checked = (counters.contact_checks - before.contact_checks).max(1);

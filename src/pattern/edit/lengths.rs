@@ -12,17 +12,21 @@ use faer::linalg::solvers::Solve;
 use glam::DVec2;
 
 use crate::geometry::ids::{PieceId, SeamId};
-use crate::pattern::edit::mirror::Dofs;
+use crate::pattern::edit::mirror::{self, Dofs};
 use crate::pattern::edit::points;
-use crate::pattern::{EdgeRef, Pattern, Piece, Stretch};
+use crate::pattern::{EdgeRef, Pattern, Piece, Seam, Stretch};
 
 /// Lengths that differ by less than this are equal, metres.
 const EQUAL: f64 = 1e-11;
+/// A seam that misses its ratio by more than this is not kept, metres.
+const KEPT: f64 = 5e-10;
 const MOST_STEPS: usize = 60;
 /// Rounds of keeping lengths and smoothness by turns.
 const MOST_ROUNDS: usize = 12;
-/// How readily points of an edited piece move, where those of others have 1.
-const SAME_PIECE: f64 = 1e-3;
+/// How readily points move that are sewn to none that was moved, where those that are have 1.
+const BESIDE: f64 = 1e-2;
+/// How readily points of an edited piece move.
+const SAME_PIECE: f64 = 1e-4;
 /// How readily points move that were put where they are.
 const HELD: f64 = 1e-6;
 /// No piece is left with less than this share of its area.
@@ -39,8 +43,22 @@ pub(super) fn keep(pattern: &mut Pattern, held: &BTreeSet<EdgeRef>) -> Result<()
         if round + 1 == MOST_ROUNDS || !points::smooth_all(pattern) {
             break;
         }
+        mirror::mend_all(pattern, &[]);
     }
-    Ok(())
+    mirror::mend_all(pattern, &[]);
+    match worst(pattern) {
+        Some((seam, error)) if error > KEPT => Err(seam),
+        _ => Ok(()),
+    }
+}
+
+/// The seam that misses its ratio most, and by how much, metres.
+fn worst(pattern: &Pattern) -> Option<(SeamId, f64)> {
+    let error = |(&id, seam): (&SeamId, &Seam)| {
+        let length = |k: usize| seam.sides[k].length(pattern.pieces.get(&seam.sides[k].piece)?);
+        Some((id, (length(0)? - seam.ratio? * length(1)?).abs()))
+    };
+    pattern.seams.iter().filter_map(error).max_by(|a, b| a.1.total_cmp(&b.1))
 }
 
 /// An edge's share of a side: its points, and how long a stretch of it is for each metre of chord.
@@ -78,7 +96,8 @@ fn solve(pattern: &mut Pattern, held: &BTreeSet<EdgeRef>) -> Result<(), SeamId> 
         return Ok(());
     }
     faer::set_global_parallelism(faer::Par::Seq);
-    let weights = dofs.weights(|point| weight(held, point));
+    let followers = followers(pattern, held);
+    let weights = dofs.weights(|point| weight(held, &followers, point));
     for _ in 0..MOST_STEPS {
         let rows: Vec<BTreeMap<usize, DVec2>> = constraints.iter().map(|c| gradient(c, &dofs, &x)).collect();
         let n = rows.len();
@@ -151,12 +170,45 @@ fn solve(pattern: &mut Pattern, held: &BTreeSet<EdgeRef>) -> Result<(), SeamId> 
     }
 }
 
-fn weight(held: &BTreeSet<EdgeRef>, point: EdgeRef) -> f64 {
+/// Points that are sewn to those in `held`, at the ends of seams, over any number of seams.
+fn followers(pattern: &Pattern, held: &BTreeSet<EdgeRef>) -> BTreeSet<EdgeRef> {
+    let ends = |side: &Stretch| -> Option<[Option<EdgeRef>; 2]> {
+        let piece = pattern.pieces.get(&side.piece)?;
+        let (last, ..) = *side.parts(piece)?.last()?;
+        let point = |at_point: bool, edge| at_point.then_some(EdgeRef { piece: side.piece, edge });
+        Some([point(side.from == 0.0, side.edge), point(side.to == 1.0, piece.next_edge(last))])
+    };
+    let mut pairs: Vec<[EdgeRef; 2]> = Vec::new();
+    for seam in pattern.seams.values().filter(|seam| seam.ratio.is_some()) {
+        let (Some(one), Some(mut other)) = (ends(&seam.sides[0]), ends(&seam.sides[1])) else { continue };
+        if !seam.same_direction {
+            other.reverse();
+        }
+        pairs.extend(one.into_iter().zip(other).filter_map(|(a, b)| Some([a?, b?])));
+    }
+    let mut found = held.clone();
+    loop {
+        let before = found.len();
+        for [a, b] in &pairs {
+            if found.contains(a) || found.contains(b) {
+                found.extend([*a, *b]);
+            }
+        }
+        if found.len() == before {
+            return found;
+        }
+    }
+}
+
+fn weight(held: &BTreeSet<EdgeRef>, followers: &BTreeSet<EdgeRef>, point: EdgeRef) -> f64 {
     if held.contains(&point) {
         return HELD;
     }
+    if followers.contains(&point) {
+        return 1.0;
+    }
     let edited = held.range(EdgeRef { edge: 0, ..point }..).next().is_some_and(|h| h.piece == point.piece);
-    if edited { SAME_PIECE } else { 1.0 }
+    if edited { SAME_PIECE } else { BESIDE }
 }
 
 fn side_terms(pattern: &Pattern, side: &Stretch, sign: f64, terms: &mut Vec<Term>) -> Option<()> {

@@ -192,7 +192,6 @@ pub fn apply(pattern: &Pattern, edit: &PatternEdit) -> Result<Edited, String> {
     }
     mirror::mend_all(&mut new, &named);
     lengths::keep(&mut new, &change.held).map_err(|seam| words_for(&new, seam))?;
-    mirror::mend_all(&mut new, &[]);
     for (id, piece) in &new.pieces {
         let same = pattern.pieces.get(id).is_some_and(|old| Arc::ptr_eq(old, piece));
         if !same && (0..piece.edge_count()).any(|i| is_short(piece, i)) {
