@@ -326,9 +326,8 @@ fn a_box_selects_what_it_touches_and_delete_takes_it_away() {
 fn locked_pieces_stay_and_hidden_ones_are_not_there() {
     let mut window = window_on(squares());
     press(&mut window, Key::V);
-    window.run_steps(20);
     window.get_by_label("Lock A").click();
-    window.run_steps(6);
+    window.run_steps(3);
     assert_eq!(steps(&window), ["lock A"]);
     let from = place(&window, "Piece A");
     drag(&mut window, from, from + Vec2::new(40.0, 40.0));

@@ -486,8 +486,9 @@ impl App {
 
     fn drag(&mut self, command: Command) {
         let gesture = *self.drag.get_or_insert_with(|| self.session.begin_gesture());
+        // The hand may go on to where it can be done: no error that stays.
         if let Err(why) = self.session.apply(command, gesture) {
-            self.messages.error(sentence(&why.0));
+            self.messages.tell(sentence(&why.0));
         }
     }
 

@@ -6,6 +6,8 @@ use crate::ui::units::{LengthUnit, degrees, length, number};
 
 /// Of a field, points.
 const WIDTH: f32 = 68.0;
+/// Round the text in it.
+const MARGIN: egui::Margin = egui::Margin::symmetric(4, 3);
 
 /// A length in metres. Some: another one was typed.
 pub fn length_field(
@@ -50,7 +52,9 @@ fn field(
     let id = ui.scope_id().with(salt);
     let typed = ui.data(|d| d.get_temp::<String>(id));
     let mut text = typed.unwrap_or_else(|| shown.to_owned());
-    let response = ui.add_sized([WIDTH, 22.0], TextEdit::singleline(&mut text).id(id)).labelled_by(label.id);
+    let response = ui
+        .add_sized([WIDTH, 22.0], TextEdit::singleline(&mut text).id(id).margin(MARGIN))
+        .labelled_by(label.id);
     let wrong = (text != shown).then(|| read(&text).err()).flatten();
     if let Some(why) = &wrong {
         response.show_tooltip_text(egui::RichText::new(why).color(ui.visuals().error_fg_color));

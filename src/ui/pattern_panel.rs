@@ -1,7 +1,7 @@
 //! The pattern in the side panel: numbers of what is selected, and lists of pieces and seams.
 
 use egui::accesskit::Role;
-use egui::{Align, Button, Grid, Key, Layout, RichText, TextEdit, WidgetInfo};
+use egui::{Button, Grid, Key, RichText, TextEdit, WidgetInfo};
 use glam::DVec2;
 
 use crate::geometry::ids::{PieceId, SeamId};
@@ -136,27 +136,25 @@ impl PatternPanel {
             ui.label(RichText::new("None").color(told.palette.weak));
         }
         for (&id, piece) in &pattern.pieces {
+            // Signs come first: on the right the scroll bar would lie over them.
             ui.horizontal(|ui| {
-                ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                    let words = |what: &str| format!("{what} {}", piece.name);
-                    let tip = "Locked pieces are not changed by the pointer";
-                    if sign_button(ui, Sign::Lock, piece.locked, &words("Lock"), tip) {
-                        let locked = !piece.locked;
-                        asks.push(ask(vec![PatternEdit::SetLocked { pieces: vec![id], locked }]));
-                    }
-                    let tip = "Hidden pieces are not shown here; they are sewn all the same";
-                    if sign_button(ui, Sign::Eye, !piece.hidden, &words("Show"), tip) {
-                        let hidden = !piece.hidden;
-                        asks.push(ask(vec![PatternEdit::SetHidden { pieces: vec![id], hidden }]));
-                    }
-                    ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-                        let signs = [(piece.symmetric, " · symmetric"), (piece.twin.is_some(), " · twin")];
-                        let signs: String = signs.iter().filter(|s| s.0).map(|s| s.1).collect();
-                        let text = RichText::new(format!("{}{signs}", piece.name));
-                        let text = if piece.hidden { text.color(told.palette.weak) } else { text };
-                        row(ui, told, Item::Piece(id), text, &format!("Select {}", piece.name), asks);
-                    });
-                });
+                ui.spacing_mut().item_spacing.x = 3.0;
+                let words = |what: &str| format!("{what} {}", piece.name);
+                let tip = "Hidden pieces are not shown here; they are sewn all the same";
+                if sign_button(ui, Sign::Eye, !piece.hidden, &words("Show"), tip) {
+                    let hidden = !piece.hidden;
+                    asks.push(ask(vec![PatternEdit::SetHidden { pieces: vec![id], hidden }]));
+                }
+                let tip = "Locked pieces are not changed by the pointer";
+                if sign_button(ui, Sign::Lock, piece.locked, &words("Lock"), tip) {
+                    let locked = !piece.locked;
+                    asks.push(ask(vec![PatternEdit::SetLocked { pieces: vec![id], locked }]));
+                }
+                let signs = [(piece.symmetric, " · symmetric"), (piece.twin.is_some(), " · twin")];
+                let signs: String = signs.iter().filter(|s| s.0).map(|s| s.1).collect();
+                let text = RichText::new(format!("{}{signs}", piece.name));
+                let text = if piece.hidden { text.color(told.palette.weak) } else { text };
+                row(ui, told, Item::Piece(id), text, &format!("Select {}", piece.name), asks);
             });
         }
     }
@@ -171,29 +169,19 @@ pub fn seams_ui(ui: &mut egui::Ui, told: &Told<'_>, asks: &mut Asks) {
     }
     for (&id, seam) in &pattern.seams {
         ui.horizontal(|ui| {
-            let (dot, _) = ui.allocate_exact_size(egui::vec2(12.0, 16.0), egui::Sense::hover());
+            ui.spacing_mut().item_spacing.x = 3.0;
+            let (dot, _) = ui.allocate_exact_size(egui::vec2(14.0, 16.0), egui::Sense::hover());
             ui.painter().circle_filled(dot.center(), 4.5, told.palette.seam(id.0));
-            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                let words = |what: &str| format!("{what}: {}", seam_words(pattern, seam));
-                if sign_button(ui, Sign::Cross, true, &words("Unpick"), "Undo this seam") {
-                    asks.push(ask(vec![PatternEdit::Unpick { seams: vec![id] }]));
-                }
-                let tip = "Sew it the other way round";
-                if sign_button(ui, Sign::Turn, true, &words("Turn round"), tip) {
-                    asks.push(ask(vec![PatternEdit::TurnSeam { seam: id }]));
-                }
-                ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-                    let words = seam_words(pattern, seam);
-                    row(
-                        ui,
-                        told,
-                        Item::Seam(id),
-                        RichText::new(&words).size(12.5),
-                        &format!("Select {words}"),
-                        asks,
-                    );
-                });
-            });
+            let words = |what: &str| format!("{what}: {}", seam_words(pattern, seam));
+            if sign_button(ui, Sign::Turn, true, &words("Turn round"), "Sew it the other way round") {
+                asks.push(ask(vec![PatternEdit::TurnSeam { seam: id }]));
+            }
+            if sign_button(ui, Sign::Cross, true, &words("Unpick"), "Undo this seam") {
+                asks.push(ask(vec![PatternEdit::Unpick { seams: vec![id] }]));
+            }
+            let words = seam_words(pattern, seam);
+            let text = RichText::new(&words).size(12.5);
+            row(ui, told, Item::Seam(id), text, &format!("Select {words}"), asks);
         });
     }
 }

@@ -154,8 +154,17 @@ impl PatternPane {
             Drawing { painter: ui.painter_at(pane), pane, view: &table.view, palette: laid.palette };
         draw_table(&drawing, &table, self.new_guide.as_ref(), at);
         tool.draw(&drawing, &table, &input);
+        // A right click is about what lies there.
+        if response.secondary_clicked()
+            && let Some(item) = under.filter(|item| !laid.selection.has(*item))
+        {
+            asks.push(Ask::Pick(Selection::of(item)));
+        }
         if let Some(p) = self.cursor {
             drawing.cross(p);
+        }
+        if let Some(at) = at {
+            drawing.place_told(table.at(at), laid.unit);
         }
         if response.has_focus() {
             let ring = Stroke::new(1.5, laid.palette.accent);

@@ -124,16 +124,16 @@ fn moved_out(line: &[DVec2], by: f64) -> Vec<DVec2> {
     let n = line.len();
     let normal = |i: usize| (line[(i + 1) % n] - line[i]).normalize_or_zero().perp();
     let mut moved = Vec::with_capacity(n);
-    for i in 0..n {
+    for (i, &corner) in line.iter().enumerate() {
         let (before, after) = (normal((i + n - 1) % n), normal(i));
         let middle = (before + after) / 2.0;
         // A corner of 60 degrees is drawn out to twice the allowance; a sharper one is cut off there.
         if middle.length_squared() > 0.2 {
-            moved.push(line[i] + middle / middle.length_squared() * by);
+            moved.push(corner + middle / middle.length_squared() * by);
         } else {
             let along = (before.perp() - after.perp()).normalize_or_zero() * -by;
-            moved.push(line[i] + before * by + along);
-            moved.push(line[i] + after * by + along);
+            moved.push(corner + before * by + along);
+            moved.push(corner + after * by + along);
         }
     }
     moved

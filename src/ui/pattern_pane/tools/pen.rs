@@ -153,8 +153,8 @@ impl Pen {
         let last = self.points.last()?.at;
         let ends = edges.iter().skip(1).map(|e| e.start).chain([last]);
         let middles = edges.iter().zip(ends).map(|(edge, end)| edge.start.midpoint(end));
-        let hit = middles.filter_map(|p| table.piece_at(p)).map(|(id, _)| id).find(|&id| table.is_free(id));
-        hit
+        let mut hits = middles.filter_map(|p| table.piece_at(p)).map(|(id, _)| id);
+        hits.find(|&id| table.is_free(id))
     }
 }
 

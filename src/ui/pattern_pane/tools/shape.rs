@@ -157,7 +157,7 @@ impl PatternTool for Shape {
         let from = self.from.unwrap_or_default();
         // Typed without signs it grows the way the pointer goes.
         let way = self.next.map_or(DVec2::ONE, |next| next.place - from);
-        let signed = |size: f64, way: f64| if self.dragging && way < 0.0 { -size } else { size };
+        let signed = |size: f64, way: f64| if way < 0.0 { -size } else { size };
         self.make(table, from + DVec2::new(signed(size.x, way.x), signed(size.y, way.y)), asks);
         Ok(())
     }
