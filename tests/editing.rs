@@ -353,6 +353,18 @@ fn a_piece_drawn_from_its_back_is_turned_over_and_its_seams_stay() {
 }
 
 #[test]
+fn a_hole_runs_against_its_outline_however_it_is_drawn() {
+    let pattern = two();
+    let ring = Piece::polygon("", &[v(0.1, 0.1), v(0.2, 0.1), v(0.2, 0.2)]).outline;
+    for edges in [ring.clone(), curve::reversed(&ring)] {
+        let holed = done(&pattern, PatternEdit::AddHole { piece: A, edges });
+        let hole = Piece { outline: holed.pieces[&A].holes[0].clone(), ..Piece::default() };
+        assert!(hole.signed_area() < 0.0);
+    }
+    refused(&pattern, PatternEdit::AddHole { piece: A, edges: rectangle("", 0.5, 0.1).outline }, "inside");
+}
+
+#[test]
 fn scaling_keeps_what_it_scales_about_and_arcs_become_ellipses() {
     let mut pattern = Pattern::default();
     let mut disc = Piece::polygon("disc", &[v(0.1, 0.0), v(-0.1, 0.0)]);

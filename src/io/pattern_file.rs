@@ -90,11 +90,14 @@ pub fn read(bytes: &[u8], unit: Option<DrawingUnit>) -> Result<ReadPattern, Patt
         let words = format!("the file has {} bytes; {} are allowed", bytes.len(), limits.file_bytes);
         return Err(PatternFileError::OverLimit(words));
     }
-    match format(bytes) {
-        Some(PatternFormat::Dxf) => dxf::read(bytes, unit),
-        Some(PatternFormat::Svg) => svg::read(bytes, unit),
+    let mut read = match format(bytes) {
+        Some(PatternFormat::Dxf) => dxf::read(bytes, unit)?,
+        Some(PatternFormat::Svg) => svg::read(bytes, unit)?,
         Some(PatternFormat::Json) | None => {
-            Ok(ReadPattern { pattern: garmentcode::read(bytes)?, notes: Vec::new() })
+            ReadPattern { pattern: garmentcode::read(bytes)?, notes: Vec::new() }
         }
-    }
+    };
+    // No format tells which seams are gathers: editing keeps what is there.
+    read.pattern.keep_ratios();
+    Ok(read)
 }

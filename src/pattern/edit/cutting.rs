@@ -9,7 +9,7 @@ use crate::pattern::edit::lines::{self, fraction_at, halves};
 use crate::pattern::edit::pieces::{change, fresh_name};
 use crate::pattern::edit::symmetry::loosen;
 use crate::pattern::edit::{Carried, Change, find, points, symmetric_image};
-use crate::pattern::{Edge, EdgeRef, InternalLine, Notch, Pattern, Piece, Seam, Stretch};
+use crate::pattern::{Edge, EdgeRef, InternalLine, Notch, Pattern, Piece, Seam, Stretch, curve};
 
 /// The ends of a cut may miss the outline by this much, metres.
 const NEAR: f64 = 2e-3;
@@ -369,7 +369,11 @@ pub(super) fn add_hole(pattern: &mut Pattern, id: PieceId, edges: &[Edge]) -> Re
     if edges.len() < 2 || !hole.iter().all(|&p| contains(&outline, p)) {
         return Err(format!("a hole lies inside the outline of {}", piece.name));
     }
-    change(pattern, id, |p| p.holes.push(edges.to_vec()));
+    // Cloth lies on the same side of all closed lines, so that seams join them front to front.
+    let area: f64 = (0..hole.len()).map(|i| hole[i].perp_dot(hole[(i + 1) % hole.len()])).sum();
+    let against = area * piece.signed_area() < 0.0;
+    let edges = if against { edges.to_vec() } else { curve::reversed(edges) };
+    change(pattern, id, |p| p.holes.push(edges));
     Ok(Change::new("cut a hole"))
 }
 
