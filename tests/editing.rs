@@ -326,6 +326,18 @@ fn a_twisted_seam_is_found_and_mended() {
 }
 
 #[test]
+fn one_crossed_seam_among_others_is_the_only_one_found() {
+    for sample in toile::session::samples::Sample::ALL {
+        let pattern = sample.project(&toile::body::mannequin::default()).document.pattern;
+        assert_eq!(twists(&pattern), Twists::default(), "{sample:?}");
+        for &seam in pattern.seams.keys() {
+            let crossed = done(&pattern, PatternEdit::TurnSeam { seam });
+            assert_eq!(twists(&crossed), Twists { pieces: vec![], seams: vec![seam] }, "{sample:?}");
+        }
+    }
+}
+
+#[test]
 fn a_piece_drawn_from_its_back_is_turned_over_and_its_seams_stay() {
     let mut pattern = two();
     let c = pattern.add_piece(rectangle("inside out", 0.3, 0.4));

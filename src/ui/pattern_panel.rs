@@ -292,10 +292,15 @@ fn seam_ui(ui: &mut egui::Ui, told: &Told<'_>, id: SeamId, asks: &mut Asks) {
 }
 
 /// How the lengths of both sides are held to each other.
+/// No gather anybody would see: patterns from files seldom have lengths that are equal to the last digit.
+fn is_equal(ratio: f64) -> bool {
+    (ratio - 1.0).abs() < 5e-4
+}
+
 fn ratio_ui(ui: &mut egui::Ui, told: &Told<'_>, seam: SeamId, old: &Seam, present: f64, asks: &mut Asks) {
     let set = |ratio: Option<f64>| ask(vec![PatternEdit::SetRatio { seam, ratio }]);
     ui.horizontal_wrapped(|ui| {
-        let equal = old.ratio == Some(1.0);
+        let equal = old.ratio.is_some_and(is_equal);
         let text = if equal { "Equal" } else { "Make equal" };
         if ui.selectable_label(equal, text).on_hover_text("Both sides have one length, and keep it").clicked()
         {
@@ -311,7 +316,7 @@ fn ratio_ui(ui: &mut egui::Ui, told: &Told<'_>, seam: SeamId, old: &Seam, presen
             asks.push(set(None));
         }
     });
-    if let Some(ratio) = old.ratio.filter(|ratio| *ratio != 1.0) {
+    if let Some(ratio) = old.ratio.filter(|ratio| !is_equal(*ratio)) {
         ui.horizontal(|ui| {
             let label = weak(ui, told, "Ratio");
             if let Some(new) = number_field(ui, "ratio", &label, ratio).filter(|r| (0.1..=10.0).contains(r)) {

@@ -9,10 +9,10 @@ use std::sync::Arc;
 use crate::geometry::ids::{PieceId, SeamId};
 use crate::pattern::edit::symmetry::loosen;
 use crate::pattern::edit::{Change, mirror};
-use crate::pattern::{Notch, Pattern, Piece, Stretch, curve};
+use crate::pattern::{Notch, Pattern, Piece, Seam, Stretch, curve};
 
-/// Pieces to turn over, and seams that join the front of a piece to the back of another even so: longer seams are
-/// believed first, and in each sewn part the fewer pieces are turned.
+/// Pieces to turn over, and seams that join the front of a piece to the back of another even so: each piece lies as
+/// most of its seams say.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Twists {
     /// Drawn from their backs.
@@ -42,16 +42,33 @@ pub fn untwisted(pattern: &Pattern, sides: &[Stretch; 2]) -> bool {
     turned(&sides[0]) != turned(&sides[1])
 }
 
-/// For each piece whether it is drawn from its back, as most of its seams say.
+/// A seam and the length of its first side, metres.
+type Measured<'a> = (f64, &'a Seam);
+
+/// For each piece whether it is drawn from its back, as most of its seams say. Begun from the pieces as they are drawn and
+/// from a forest of the longest seams; what leaves fewer seams crossed is taken, of equals the pieces as they are drawn.
 fn over(pattern: &Pattern) -> BTreeMap<PieceId, bool> {
     let length = |side: &Stretch| pattern.pieces.get(&side.piece).and_then(|p| side.length(p)).unwrap_or(0.0);
-    let mut seams: Vec<_> =
-        pattern.seams.iter().map(|(id, seam)| (length(&seam.sides[0]), *id, seam)).collect();
-    seams.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-    // A forest of the longest seams; each piece knows its root and whether it faces as the root does.
+    let mut seams: Vec<Measured<'_>> =
+        pattern.seams.values().map(|seam| (length(&seam.sides[0]), seam)).collect();
+    seams.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let as_drawn = pattern.pieces.keys().map(|&id| (id, false)).collect();
+    let [drawn, believed] = [as_drawn, by_forest(pattern, &seams)].map(|start| improved(start, &seams));
+    let crossed = |over: &BTreeMap<PieceId, bool>| seams.iter().filter(|(_, s)| is_crossed(over, s)).count();
+    if crossed(&believed) < crossed(&drawn) { believed } else { drawn }
+}
+
+fn is_crossed(over: &BTreeMap<PieceId, bool>, seam: &Seam) -> bool {
+    let turned = |k: usize| over.get(&seam.sides[k].piece).copied().unwrap_or(false);
+    (turned(0) != turned(1)) != seam.same_direction
+}
+
+/// Each piece as the longest seams to the others say; in each sewn part the fewer pieces are turned.
+fn by_forest(pattern: &Pattern, seams: &[Measured<'_>]) -> BTreeMap<PieceId, bool> {
+    // Each piece knows its root and whether it faces as the root does.
     let mut root: BTreeMap<PieceId, (PieceId, bool)> =
         pattern.pieces.keys().map(|&id| (id, (id, false))).collect();
-    for (_, _, seam) in seams {
+    for (_, seam) in seams {
         let [Some(&(a, over_a)), Some(&(b, over_b))] = [0, 1].map(|k| root.get(&seam.sides[k].piece)) else {
             continue;
         };
@@ -67,6 +84,27 @@ fn over(pattern: &Pattern) -> BTreeMap<PieceId, bool> {
         count.entry(of).or_default()[usize::from(over)] += 1;
     }
     root.into_iter().map(|(id, (of, over))| (id, over != (count[&of][1] > count[&of][0]))).collect()
+}
+
+/// Turns pieces over, one at a time, as long as that leaves fewer seams crossed.
+fn improved(mut over: BTreeMap<PieceId, bool>, seams: &[Measured<'_>]) -> BTreeMap<PieceId, bool> {
+    for _ in 0..over.len() {
+        let mut doubt: BTreeMap<PieceId, i64> = BTreeMap::new();
+        for (_, seam) in seams {
+            let [a, b] = [0, 1].map(|k| seam.sides[k].piece);
+            if a != b {
+                let weight = if is_crossed(&over, seam) { 1 } else { -1 };
+                *doubt.entry(a).or_default() += weight;
+                *doubt.entry(b).or_default() += weight;
+            }
+        }
+        let most = doubt.into_iter().max_by_key(|&(piece, doubt)| (doubt, std::cmp::Reverse(piece)));
+        match most.filter(|(_, doubt)| *doubt > 0).and_then(|(piece, _)| over.get_mut(&piece)) {
+            Some(turned) => *turned = !*turned,
+            None => break,
+        }
+    }
+    over
 }
 
 pub(super) fn untwist_all(pattern: &mut Pattern) -> Result<Change, String> {
