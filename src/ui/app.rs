@@ -3,36 +3,30 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use egui::{CentralPanel, Frame, Key, KeyboardShortcut, Margin, Modifiers, Panel, ViewportCommand};
+use egui::ViewportCommand;
 
 use crate::geometry::ids::MarkId;
-use crate::io::scale::DrawingUnit;
 use crate::render::Camera;
-use crate::session::{Command, Document, GestureId, Notice, Project, Session};
-use crate::sim::{Runner, Simulation, Snapshot, thread::DEFAULT_RATE_HZ};
+use crate::session::{Command, GestureId, Notice, Project, Session};
+use crate::sim::{Runner, Simulation, thread::DEFAULT_RATE_HZ};
 use crate::ui::actions::{Action, Tool};
 use crate::ui::asks::{Ask, Asks};
 use crate::ui::dialogs::{Answer, Dialog, NativeDialog};
-use crate::ui::edits::Picked;
-use crate::ui::files::{self, PatternImport, Purpose, RawBody};
+use crate::ui::files::{self, Purpose};
 use crate::ui::ghosts::Ghosts;
 use crate::ui::marks_panel::MarksPanel;
 use crate::ui::messages::Messages;
-use crate::ui::mouse::Mouse;
+use crate::ui::pattern_pane::PatternPane;
 use crate::ui::pattern_pane::view::TableView;
-use crate::ui::pattern_pane::{self, Laid, PatternPane};
 use crate::ui::pattern_panel::PatternPanel;
 use crate::ui::picking::Picks;
 use crate::ui::player::Player;
 use crate::ui::preferences::Preferences;
 use crate::ui::safety::Safety;
-use crate::ui::scene_pane::{self, ScenePane, Seen};
+use crate::ui::scene_pane::ScenePane;
 use crate::ui::selection::Selection;
-use crate::ui::side_panel::Told;
-use crate::ui::situation::Situation;
+use crate::ui::status;
 use crate::ui::theme::{self, Palette};
-use crate::ui::{menu, side_panel, status, toolbar};
-use crate::wrap::Phase;
 
 /// The window's state. What the user has done is the session's; the rest is how it is looked at.
 #[derive(Debug)]
@@ -47,8 +41,8 @@ pub struct App {
     pub(super) picks: Picks,
     /// What lies near draws the pointer on.
     pub(super) snapping: bool,
-    marks_panel: MarksPanel,
-    pattern_panel: PatternPanel,
+    pub(super) marks_panel: MarksPanel,
+    pub(super) pattern_panel: PatternPanel,
     /// Marks proposed and not accepted yet.
     pub(super) ghosts: Option<Ghosts>,
     pub(super) pattern_pane: PatternPane,
@@ -71,7 +65,7 @@ pub struct App {
     pub(super) on_disk: Option<files::OnDisk>,
     pub(super) drag: Option<GestureId>,
     /// The last wrap asked for, and what was then the tick of the simulation.
-    wrap_seq: Option<u64>,
+    pub(super) wrap_seq: Option<u64>,
     title: String,
     frames: u64,
 }
@@ -232,159 +226,6 @@ impl App {
         self.demo.as_ref().map_or(&self.session, |(player, ..)| player.session())
     }
 
-    fn panels(
-        &mut self,
-        ui: &mut egui::Ui,
-        document: &Document,
-        snapshot: &Snapshot,
-        now: &Situation,
-        palette: &Palette,
-        asks: &mut Asks,
-    ) {
-        let bar = |ui: &egui::Ui, y: i8| {
-            Frame::new().fill(ui.visuals().panel_fill).inner_margin(Margin::symmetric(10, y))
-        };
-        let (thin, thick) = (bar(ui, 3), bar(ui, 6));
-        let surface = self.shown().surface().cloned();
-        let lost = self.shown().problems().to_vec();
-        Panel::top("menu")
-            .frame(thin)
-            .show_separator_line(false)
-            .show(ui, |ui| menu::menu_bar_ui(ui, now, asks));
-        Panel::top("tools").frame(thick).show(ui, |ui| toolbar::toolbar_ui(ui, now, palette, asks));
-        Panel::bottom("status").frame(thin).exact_size(status::HEIGHT).show(ui, |ui| {
-            status::status_ui(ui, now, &self.hint(document, now, palette), palette);
-        });
-        if self.show_panel {
-            Panel::right("side").default_size(256.0).size_range(220.0..=420.0).frame(thick).show(ui, |ui| {
-                let told = Told {
-                    document,
-                    surface: surface.as_ref(),
-                    selection: &self.picks.selection,
-                    problems: &snapshot.problems,
-                    verdict: snapshot.verdict.as_ref().map_or(&[], |found| found),
-                    lost: &lost,
-                    now,
-                    palette,
-                };
-                side_panel::side_panel_ui(ui, &told, &mut self.marks_panel, &mut self.pattern_panel, asks);
-            });
-        }
-        let half = ui.available_width() * 0.46;
-        let least = (ui.available_width() - 200.0).max(160.0);
-        Panel::left("table").frame(Frame::new()).default_size(half).size_range(160.0..=least).show(
-            ui,
-            |ui| {
-                let mut pane = std::mem::take(&mut self.pattern_pane);
-                pane.ui(ui, &self.laid(document, now, palette), asks);
-                self.pattern_pane = pane;
-                if let Some(response) = self.pattern_pane.response.take() {
-                    response.context_menu(|ui| menu::context_ui(ui, now, asks));
-                }
-                if document.pattern.pieces.is_empty() && matches!(now.tool, Tool::Mark | Tool::Move) {
-                    let area = ui.max_rect().shrink2(egui::vec2(20.0, ui.max_rect().height() * 0.36));
-                    ui.scope_builder(egui::UiBuilder::new().max_rect(area), |ui| {
-                        pattern_pane::empty_ui(ui, asks);
-                    });
-                }
-            },
-        );
-        CentralPanel::default().frame(Frame::new()).show(ui, |ui| {
-            let cloth = snapshot.drawn().filter(|_| self.show_cloth && snapshot.is_dressed());
-            let stand_out = self.picks.standing_out(now.highlight);
-            let seen = Seen {
-                document,
-                body: surface.as_ref(),
-                cloth,
-                pinned: &snapshot.pinned,
-                dragged: snapshot.dragged.as_ref(),
-                growing: now.wrapping,
-                working: now.working,
-                tool: now.tool,
-                mouse: now.mouse,
-                laser: self.laser,
-                selected: now.selected.map(|(mark, _)| mark),
-                stand_out: &stand_out,
-                ghosts: self.ghosts.as_ref().map(|g| &g.marks),
-                look: theme::look(ui.ctx().theme()),
-                palette,
-            };
-            self.scene_pane.ui(ui, &seen, asks);
-        });
-    }
-
-    fn laid<'a>(&'a self, document: &'a Document, now: &'a Situation, palette: &'a Palette) -> Laid<'a> {
-        Laid {
-            document,
-            tool: now.tool,
-            mouse: now.mouse,
-            laser: now.laser,
-            selected: now.selected.map(|(mark, _)| mark),
-            selection: &self.picks.selection,
-            highlight: now.highlight,
-            unit: now.unit,
-            snapping: self.snapping,
-            ghosts: self.ghosts.as_ref().map(|g| &*g.marks),
-            palette,
-        }
-    }
-
-    fn hint(&self, document: &Document, now: &Situation, palette: &Palette) -> String {
-        let mouse = now.mouse;
-        let next = |painted: usize| painted + 1;
-        if self.demo.is_some() {
-            "A demo is shown. Drag: turn · Wheel: zoom · Esc: back to your work".to_owned()
-        } else if self.ghosts.is_some() {
-            "Proposed marks: Enter takes them, Esc forgets them.".to_owned()
-        } else if self.pattern_pane.hovered || self.pattern_pane.is_busy() {
-            self.pattern_pane.hint(&self.laid(document, now, palette))
-        } else if self.scene_pane.hovered {
-            scene_pane::hint(self.tool, mouse, self.laser, now.dressed, next(document.marks.body.len()))
-        } else {
-            "Paint a mark on a piece and one on the body where it should lie, then press Wrap.".to_owned()
-        }
-    }
-
-    fn situation(&self, ctx: &egui::Context, document: &Document, snapshot: &Snapshot) -> Situation {
-        let asked = self.demo.is_none() && self.wrap_seq.is_some_and(|seq| snapshot.seq < seq);
-        let growing = snapshot.phase == Some(Phase::Growing) && snapshot.working;
-        Situation {
-            undo: self.shown().undo_label().map(str::to_owned),
-            redo: self.shown().redo_label().map(str::to_owned),
-            // In a demo the mouse only turns the view.
-            tool: if self.demo.is_some() { Tool::Move } else { self.tool },
-            mouse: if self.demo.is_some() { Mouse::Clo } else { self.preferences.mouse },
-            laser: self.laser,
-            picked: Picked::new(&document.pattern, &self.picks.selection),
-            twisted: self.pattern_pane.has_twisted(),
-            snapping: self.snapping,
-            highlight: self.highlight(),
-            unit: self.preferences.unit,
-            selected: self.selected.and_then(|mark| Some((mark, document.marks.place(mark)?))),
-            pieces: document.pattern.pieces.len(),
-            marks: [document.marks.cloth.len(), document.marks.body.len()],
-            pins: document.pins.len(),
-            proposed: self.ghosts.as_ref().map_or(0, |g| g.marks.pairs().count()),
-            has_body: self.shown().surface().is_some(),
-            demo: self.demo.is_some(),
-            dressed: snapshot.is_dressed(),
-            wrapped: self.shown().can_cancel_wrap(),
-            wrapping: asked || growing,
-            working: asked || snapshot.working,
-            dragging: snapshot.dragged.is_some(),
-            relaxing: snapshot.relaxing,
-            phase: snapshot.phase,
-            progress: snapshot.progress,
-            tick: snapshot.tick,
-            triangles: snapshot.garment.as_ref().map_or(0, |g| g.triangles.len()),
-            show_cloth: self.show_cloth,
-            show_panel: self.show_panel,
-            parallel: self.scene_pane.camera.projection == crate::render::Projection::Orthographic,
-            free_turning: self.scene_pane.free_turning,
-            theme: ctx.options(|o| o.theme_preference),
-        }
-    }
-
     fn take_notices(&mut self) {
         if let Some(why) = self.session.recorder().take_file_error() {
             self.messages.error(format!("The recording is no longer written to its file: {why}"));
@@ -396,50 +237,6 @@ impl App {
                 Notice::HistoryShortened => {
                     self.messages.tell("Older steps can no longer be undone, to save memory.");
                 }
-            }
-        }
-    }
-
-    fn keys(&self, ctx: &egui::Context, now: &Situation, asks: &mut Asks) {
-        if self.dialog.is_some() || ctx.text_edit_focused() {
-            return;
-        }
-        let table = &self.pattern_pane;
-        let focused = ctx.memory(|m| m.focused().is_some()) && !table.has_focus(ctx);
-        let menu = egui::Popup::is_any_open(ctx);
-        if now.demo && !menu && ctx.input_mut(|i| i.consume_key(Modifiers::NONE, Key::Escape)) {
-            return asks.push(Ask::Act(Action::StopDemo));
-        }
-        let drawing = table.is_busy() || !self.scene_pane.stroke().is_empty();
-        let at_table = table.hovered || table.has_focus(ctx);
-        if now.proposed > 0 && !menu && !drawing {
-            for action in [Action::AcceptMarks, Action::DismissMarks] {
-                let keys = action.entry().keys;
-                let wanted = |k: &KeyboardShortcut| !(focused && k.logical_key == Key::Enter);
-                if keys.iter().filter(|k| wanted(k)).any(|k| ctx.input_mut(|i| i.consume_shortcut(k))) {
-                    asks.push(Ask::Act(action));
-                }
-            }
-        }
-        let escape = ctx.input(|i| i.key_pressed(Key::Escape)) && !menu && !drawing && !now.wrapping;
-        if escape && self.selected.is_some() {
-            asks.push(Ask::Select(None));
-        }
-        for (action, keys) in Action::with_keys() {
-            // A focused button takes Enter and Space for itself; Space over the table moves the view; Esc first gives up a
-            // stroke.
-            let of_table = [Key::Enter, Key::Backspace, Key::Delete].contains(&keys.logical_key);
-            let is_figure = keys.logical_key.symbol_or_name().parse::<u8>().is_ok();
-            let taken = Action::is_plain(keys)
-                && (menu
-                    || (focused && [Key::Enter, Key::Space].contains(&keys.logical_key))
-                    || (table.is_busy() && of_table)
-                    || (table.takes_numbers() && at_table && is_figure)
-                    || (action == Action::ToggleRelaxing && at_table)
-                    || (action == Action::CancelWrap && (drawing || self.drag.is_some())));
-            // What cannot be chosen now leaves its keys to the panes.
-            if !taken && now.why_not(action).is_none() && ctx.input_mut(|i| i.consume_shortcut(&keys)) {
-                asks.push(Ask::Act(action));
             }
         }
     }
@@ -553,22 +350,6 @@ impl App {
         }
     }
 
-    fn dropped_files(&mut self, ctx: &egui::Context) {
-        let dropped = ctx.input(|i| i.raw.dropped_files.clone());
-        for path in dropped.into_iter().map(|f| f.path().to_owned()) {
-            let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
-            match extension.as_deref() {
-                Some("toile") => self.file(ctx, Purpose::Open, &path),
-                Some("json" | "dxf" | "svg") => self.file(ctx, Purpose::ImportPattern, &path),
-                Some("obj") => self.file(ctx, Purpose::ImportBody, &path),
-                _ => self.messages.error(format!(
-                    "{} is neither a project (.toile), a pattern (.dxf, .svg, .json) nor a body (.obj)",
-                    path.display()
-                )),
-            }
-        }
-    }
-
     fn guard_closing(&mut self, ctx: &egui::Context) {
         if ctx.input(|i| i.viewport().close_requested()) && !self.may_close && self.session.is_modified() {
             ctx.send_viewport_cmd(ViewportCommand::CancelClose);
@@ -584,88 +365,6 @@ impl App {
             ctx.send_viewport_cmd(ViewportCommand::Title(title.clone()));
             self.title = title;
         }
-    }
-
-    /// Asks the person for a file.
-    pub(super) fn ask_file(&mut self, purpose: Purpose) {
-        match NativeDialog::open(purpose, self.path.as_deref()) {
-            Some(native) => self.native = Some(native),
-            None => {
-                let text = if purpose.writes() { purpose.default_name() } else { String::new() };
-                self.dialog = Some(Dialog::Path { purpose, text });
-            }
-        }
-    }
-
-    fn file(&mut self, ctx: &egui::Context, purpose: Purpose, path: &Path) {
-        let done = match purpose {
-            Purpose::Open => files::open(path).map(|p| self.replace(ctx, p, Some(path.to_owned()))),
-            Purpose::Save => self.save_to(ctx, path),
-            Purpose::ImportPattern => self.import_pattern(path, None),
-            Purpose::ImportBody => files::read_body(path).and_then(|raw| self.import_body(raw)),
-            Purpose::Export => {
-                let pattern = &self.session.document().pattern;
-                files::export(path, self.session.snapshot(), pattern).map(|()| self.wrote(path))
-            }
-            Purpose::ExportPattern => self.export_pattern(path),
-            Purpose::Recording => {
-                let text = self.recording();
-                files::write(path, text.as_bytes()).map(|()| self.wrote(path))
-            }
-        };
-        if let Err(words) = done {
-            self.after_save = None;
-            self.messages.error(words);
-        }
-    }
-
-    /// Asks for the unit first when the file does not say it.
-    fn import_pattern(&mut self, path: &Path, unit: Option<DrawingUnit>) -> Result<(), String> {
-        match files::import_pattern(path, unit)? {
-            PatternImport::Pattern(command, notes) => {
-                self.apply(command);
-                self.pattern_pane.fit = true;
-                if !notes.is_empty() {
-                    self.messages.tell(notes.join("; "));
-                }
-            }
-            PatternImport::Question(question) => {
-                let unit = question.candidates.first().copied().unwrap_or_default();
-                self.dialog = Some(Dialog::Scale { path: path.to_owned(), question, unit });
-            }
-        }
-        Ok(())
-    }
-
-    fn export_pattern(&mut self, path: &Path) -> Result<(), String> {
-        let left_out = files::export_pattern(path, &self.session.document().pattern)?;
-        self.wrote(path);
-        if !left_out.is_empty() {
-            self.messages.tell(left_out.join("; "));
-        }
-        Ok(())
-    }
-
-    /// Asks for the unit first when there is a doubt.
-    fn import_body(&mut self, raw: RawBody) -> Result<(), String> {
-        if raw.is_doubtful {
-            self.dialog = Some(Dialog::Unit { raw: Box::new(raw) });
-            return Ok(());
-        }
-        self.take_body(raw)
-    }
-
-    fn take_body(&mut self, raw: RawBody) -> Result<(), String> {
-        let (command, notes) = files::take_body(raw)?;
-        self.apply(command);
-        if !notes.is_empty() {
-            self.messages.tell(notes.join("; "));
-        }
-        Ok(())
-    }
-
-    pub(super) fn wrote(&mut self, path: &Path) {
-        self.messages.tell(format!("Written: {}", path.display()));
     }
 }
 

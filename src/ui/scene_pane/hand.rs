@@ -3,18 +3,19 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use egui::{Rect, Response};
+use egui::{Key as Button, PointerButton, Pos2, Rect, Response};
 use glam::DVec3;
 
+use super::sight::REACH;
+use super::{Drag, ScenePane, Seen, is_lost, size_of, within};
 use crate::cloth::{EdgeMetric, FlatPiece, Garment};
 use crate::drag::{DragMode, Graph, Ray};
 use crate::geometry::ids::{PieceId, PinId};
 use crate::session::{Command, Pin};
 use crate::sim::ClothPlace;
 use crate::ui::actions::Tool;
-use crate::ui::asks::Ask;
+use crate::ui::asks::{Ask, Asks};
 use crate::ui::pick::{ClothHit, cloth_under};
-use crate::ui::scene_pane::{ScenePane, Seen};
 
 /// Pins of a row stand this far apart, metres on a body 1.5 m large.
 const ROW_STEP: f64 = 0.03;
@@ -111,5 +112,75 @@ impl ScenePane {
         let (hand, _) = shares.into_iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
         let pins = seen.pinned.iter().flatten().copied().collect();
         self.reach.of(garment, &state.mapped, hand, pins)
+    }
+
+    /// A click with the pin tool: pulls the pin out that is there, or sticks one in.
+    pub(super) fn pin_or_pull(&self, seen: &Seen<'_>, pane: Rect, at: Pos2) -> Option<Ask> {
+        let hit = cloth_at(seen, self.ray(pane, at))?;
+        let away = |p: DVec3| {
+            self.camera.project(p.as_vec3(), size_of(pane)).map(|q| q.pixel.distance(within(pane, at)))
+        };
+        let near = pins(seen)
+            .into_iter()
+            .filter_map(|(id, place)| Some((id, away(place)?)))
+            .filter(|&(_, away)| away <= REACH)
+            .min_by(|a, b| a.1.total_cmp(&b.1));
+        Some(Ask::Do(match near {
+            Some((pin, _)) => Command::DeletePin { pin },
+            None => Command::AddPin { piece: hit.place.piece, at: hit.place.at },
+        }))
+    }
+
+    /// Takes cloth in the hand or begins a row of pins; false when there is no cloth under the pointer.
+    pub(super) fn take_cloth(
+        &mut self,
+        ui: &egui::Ui,
+        seen: &Seen<'_>,
+        pane: Rect,
+        button: PointerButton,
+        asks: &mut Asks,
+    ) -> bool {
+        let origin = ui.input(|i| i.pointer.press_origin());
+        let hit = origin.filter(|_| !seen.growing).and_then(|at| cloth_at(seen, self.ray(pane, at)));
+        let Some(hit) = hit else { return false };
+        let row = seen.tool == Tool::Pin && button == PointerButton::Primary;
+        let tool = if row || matches!(seen.tool, Tool::Drag(_)) { seen.tool } else { Tool::default() };
+        asks.push(begun(&Seen { tool, ..*seen }, &hit));
+        self.drag = Some(if row { Drag::Row(hit.point) } else { Drag::Cloth(button) });
+        true
+    }
+
+    pub(super) fn go_on_by_hand(&mut self, ui: &egui::Ui, seen: &Seen<'_>, pane: Rect, asks: &mut Asks) {
+        let at = ui.input(|i| i.pointer.latest_pos());
+        let moved = ui.input(|i| i.pointer.delta() != egui::Vec2::ZERO);
+        match (&mut self.drag, at) {
+            (Some(Drag::Cloth(_)), Some(at)) if moved => {
+                asks.push(Ask::Drag(Command::DragTo { ray: self.ray(pane, at) }));
+            }
+            (Some(Drag::Row(last)), Some(at)) => {
+                let last = *last;
+                if let Some(hit) = cloth_at(seen, self.ray(pane, at))
+                    && let Some(ask) = next_in_row(seen, last, &hit)
+                {
+                    asks.push(ask);
+                    self.drag = Some(Drag::Row(hit.point));
+                }
+            }
+            _ => {}
+        }
+        let button = match self.drag {
+            Some(Drag::Cloth(button)) => button,
+            _ => PointerButton::Primary,
+        };
+        if ui.input(|i| i.key_pressed(Button::Escape)) {
+            asks.push(Ask::CancelDrag);
+            self.drag = Some(Drag::Over);
+        } else if ui.input(|i| !i.pointer.button_down(button) || is_lost(i)) {
+            if matches!(self.drag, Some(Drag::Cloth(_))) {
+                asks.push(Ask::Drag(Command::Release));
+            }
+            asks.push(Ask::EndDrag);
+            self.drag = None;
+        }
     }
 }

@@ -1,47 +1,39 @@
 //! The body pane: the body and the cloth on it, turned and painted with the pointer.
 
+mod drawing;
 mod graphics;
 mod hand;
+mod hint;
 mod outlines;
+mod overlay;
+mod sight;
+mod view;
 
 use std::sync::Arc;
 
 use egui::accesskit::Role;
-use egui::{
-    Align2, Color32, CursorIcon, Event, FontId, Key as Button, PointerButton, Pos2, Rect, Response, Sense,
-    WidgetInfo,
-};
-use glam::{DVec2, DVec3, UVec2, Vec2, Vec3};
+use egui::{CursorIcon, Event, Key as Button, PointerButton, Pos2, Rect, Response, Sense, WidgetInfo};
+use glam::{DVec3, Vec2};
 
 use crate::body::Surface;
 use crate::cloth::{ClothState, Garment};
-use crate::drag::Ray;
 use crate::geometry::ids::MarkId;
-use crate::render::{Camera, Look, Projection, View};
+use crate::render::{Camera, Look, View};
 use crate::session::{Command, Document};
-use crate::ui::actions::{Action, Tool, VIEWS};
+use crate::ui::actions::Tool;
 use crate::ui::asks::{Ask, Asks, in_one_step};
 use crate::ui::clicks::clicks;
 use crate::ui::mouse::{Deed, Mouse};
-use crate::ui::scene::{Scenery, Shown};
+use crate::ui::scene::Scenery;
 use crate::ui::selection::Item;
 use crate::ui::stroke;
 use crate::ui::theme::Palette;
 use crate::wrap::Marks;
 pub use graphics::{Graphics, Key};
-use hand::{Reach, begun, cloth_at, next_in_row, pins};
-use outlines::{edge_under, outlines};
-
-/// Radians the view turns for each point the pointer moves.
-const TURN: f32 = 0.0085;
-/// Logarithm of the zoom for each point the pointer moves.
-const ZOOM: f32 = 0.008;
-/// How near to a mark a click counts, points on the screen.
-const REACH: f32 = 12.0;
-/// What is shown by itself has so much room round it, metres on a body 1.5 m large.
-const ROOM: f64 = 0.18;
-/// Pictures drawn by a processor shrink by this much while things move.
-const DRAFT: f32 = 0.7;
+use hand::{Reach, cloth_at};
+pub use hint::hint;
+use outlines::edge_under;
+use overlay::{publish_marks, view_buttons};
 
 /// What the pane shows.
 #[derive(Clone, Copy)]
@@ -154,24 +146,6 @@ impl ScenePane {
         view_buttons(ui, pane, seen.palette, asks);
     }
 
-    /// What is shown changes to `body`, and is to be seen as the camera stands.
-    pub fn keep_view(&mut self, body: Option<Arc<Surface>>) {
-        (self.framed_body, self.frame) = (body, None);
-    }
-
-    /// Turns to `points` on `body` and comes near enough to see them well.
-    pub fn show(&mut self, points: &[DVec3], body: &Surface) {
-        let out: DVec3 = points.iter().map(|&p| body.nearest(p).normal).sum();
-        if DVec2::new(out.x, out.z).length() > 0.2 * points.len() as f64 {
-            self.camera.look(View::Angles { yaw: out.x.atan2(out.z).to_degrees() as f32, pitch: 10.0 });
-        }
-        let room = ROOM * body.scale();
-        let around = |p: &DVec3| [-1.0, 1.0].map(|s| (*p + DVec3::splat(s * room)).as_vec3());
-        let around: Vec<Vec3> = points.iter().flat_map(around).collect();
-        let aspect = self.area.map_or(1.0, |pane| pane.width() / pane.height().max(1.0));
-        self.camera.frame_points(&around, aspect);
-    }
-
     /// The stroke under way on the near side.
     pub fn stroke(&self) -> &[DVec3] {
         self.strokes().map_or(&[], |[near, _]| near)
@@ -183,122 +157,6 @@ impl ScenePane {
             Some(Drag::Paint(strokes)) => Some(strokes),
             _ => None,
         }
-    }
-
-    fn frame_if_asked(&mut self, seen: &Seen<'_>, pane: Rect) {
-        let Some(body) = seen.body else { return };
-        if !self.framed_body.as_ref().is_some_and(|b| Arc::ptr_eq(b, body)) {
-            let first = self.framed_body.is_none();
-            self.framed_body = Some(Arc::clone(body));
-            self.frame = self.frame.or(Some(first.then_some(View::Front)));
-        }
-        let (lower, upper) = everything(seen, body);
-        self.camera.set_bounds(lower, upper);
-        if let Some(view) = self.frame.take() {
-            if let Some(view) = view {
-                self.camera.look(view);
-            }
-            let points: Vec<Vec3> =
-                body.mesh.positions.iter().chain(on_body(seen)).map(|p| p.as_vec3()).collect();
-            self.camera.frame_points(&points, pane.width() / pane.height().max(1.0));
-        }
-    }
-
-    fn move_view(&mut self, ui: &egui::Ui, seen: &Seen<'_>, pane: Rect, response: &Response) {
-        let before = self.camera;
-        let size = size_of(pane);
-        let moved = response.drag_delta();
-        match self.drag {
-            _ if !response.dragged() => {}
-            Some(Drag::View(Deed::Pan, _)) => self.camera.pan(Vec2::new(moved.x, moved.y), size),
-            Some(Drag::View(Deed::Zoom, _)) => {
-                self.camera.zoom((moved.y * ZOOM).exp(), self.camera.pivot);
-            }
-            Some(Drag::View(..)) => self.turn(response, pane),
-            _ => {}
-        }
-        if let Some(at) = response.hover_pos() {
-            let (wheel, pinch) = ui.input(|i| (i.smooth_scroll_delta().y, i.zoom_delta()));
-            let factor = (-wheel * 0.0025).exp() / pinch;
-            if (factor - 1.0).abs() > 1e-5 {
-                let target = match self.pick(seen, pane, at) {
-                    Some(hit) => hit.as_vec3(),
-                    None => self.camera.point_on_pivot_plane(within(pane, at), size),
-                };
-                self.camera.zoom(factor, target);
-            }
-        }
-        self.moving = self.camera != before;
-    }
-
-    fn turn(&mut self, response: &Response, pane: Rect) {
-        let moved = response.drag_delta();
-        if self.free_turning {
-            if let Some(at) = response.interact_pointer_pos() {
-                self.camera.trackball(within(pane, at - moved), within(pane, at), size_of(pane));
-            }
-        } else {
-            self.camera.orbit(Vec2::new(moved.x, moved.y) * TURN);
-        }
-    }
-
-    /// The point of the body under a point of the screen.
-    fn pick(&self, seen: &Seen<'_>, pane: Rect, at: Pos2) -> Option<DVec3> {
-        let ray = self.camera.ray(within(pane, at), size_of(pane));
-        let hit = seen.body?.ray(ray.origin.as_dvec3(), ray.direction.as_dvec3())?;
-        Some(hit.point)
-    }
-
-    /// The point of the body furthest behind a point of the screen, where the skin looks away.
-    fn pick_far(&self, seen: &Seen<'_>, pane: Rect, at: Pos2) -> Option<DVec3> {
-        let ray = self.camera.ray(within(pane, at), size_of(pane));
-        let (origin, direction) = (ray.origin.as_dvec3(), ray.direction.as_dvec3().normalize_or_zero());
-        let body = seen.body?;
-        let (lower, upper) = body.bounds();
-        let beyond = ((lower + upper) / 2.0).distance(origin) + (upper - lower).length();
-        Some(body.ray(origin + direction * beyond, -direction)?.point)
-    }
-
-    /// Where a stroke at a point of the screen lies: on the near side, with the laser on the far side, too.
-    fn hits(&self, seen: &Seen<'_>, pane: Rect, at: Pos2) -> [Option<DVec3>; 2] {
-        let near = self.pick(seen, pane, at);
-        [near, near.filter(|_| seen.laser).and_then(|_| self.pick_far(seen, pane, at))]
-    }
-
-    fn mark_under(&self, seen: &Seen<'_>, pane: Rect, response: &Response) -> Option<MarkId> {
-        self.mark_at(seen, pane, response.hover_pos().filter(|_| self.drag.is_none())?)
-    }
-
-    /// The mark on the body within reach of a point of the screen that is not behind the body.
-    fn mark_at(&self, seen: &Seen<'_>, pane: Rect, at: Pos2) -> Option<MarkId> {
-        let (at, size) = (within(pane, at), size_of(pane));
-        let distance = |points: &[DVec3]| {
-            points
-                .iter()
-                .filter_map(|p| self.camera.project(p.as_vec3(), size).map(|q| (q.pixel.distance(at), *p)))
-                .min_by(|a, b| a.0.total_cmp(&b.0))
-        };
-        seen.document
-            .marks
-            .body
-            .iter()
-            .filter_map(|mark| Some((mark.id, distance(&mark.points)?)))
-            .filter(|(_, (d, p))| *d <= REACH && self.is_in_sight(seen, *p))
-            .min_by(|a, b| a.1.0.total_cmp(&b.1.0))
-            .map(|(id, _)| id)
-    }
-
-    fn is_in_sight(&self, seen: &Seen<'_>, point: DVec3) -> bool {
-        let eye = match self.camera.projection {
-            Projection::Perspective => self.camera.eye(),
-            Projection::Orthographic => {
-                point.as_vec3() + self.camera.towards_eye() * self.camera.bounds.1 * 4.0
-            }
-        };
-        let (eye, away) = (eye.as_dvec3(), (point - eye.as_dvec3()).length());
-        seen.body
-            .and_then(|b| b.ray(eye, point - eye))
-            .is_none_or(|hit| hit.distance > away - 0.01 * seen.body.map_or(1.0, |b| b.scale()))
     }
 
     fn listen(&mut self, ui: &egui::Ui, seen: &Seen<'_>, pane: Rect, response: &Response, asks: &mut Asks) {
@@ -372,81 +230,6 @@ impl ScenePane {
             }
             (_, Tool::Pin) => asks.extend(self.pin_or_pull(seen, pane, at)),
             _ => {}
-        }
-    }
-
-    fn ray(&self, pane: Rect, at: Pos2) -> Ray {
-        let ray = self.camera.ray(within(pane, at), size_of(pane));
-        Ray { origin: ray.origin.as_dvec3(), direction: ray.direction.as_dvec3() }
-    }
-
-    /// A click with the pin tool: pulls the pin out that is there, or sticks one in.
-    fn pin_or_pull(&self, seen: &Seen<'_>, pane: Rect, at: Pos2) -> Option<Ask> {
-        let hit = cloth_at(seen, self.ray(pane, at))?;
-        let away = |p: DVec3| {
-            self.camera.project(p.as_vec3(), size_of(pane)).map(|q| q.pixel.distance(within(pane, at)))
-        };
-        let near = pins(seen)
-            .into_iter()
-            .filter_map(|(id, place)| Some((id, away(place)?)))
-            .filter(|&(_, away)| away <= REACH)
-            .min_by(|a, b| a.1.total_cmp(&b.1));
-        Some(Ask::Do(match near {
-            Some((pin, _)) => Command::DeletePin { pin },
-            None => Command::AddPin { piece: hit.place.piece, at: hit.place.at },
-        }))
-    }
-
-    /// Takes cloth in the hand or begins a row of pins; false when there is no cloth under the pointer.
-    fn take_cloth(
-        &mut self,
-        ui: &egui::Ui,
-        seen: &Seen<'_>,
-        pane: Rect,
-        button: PointerButton,
-        asks: &mut Asks,
-    ) -> bool {
-        let origin = ui.input(|i| i.pointer.press_origin());
-        let hit = origin.filter(|_| !seen.growing).and_then(|at| cloth_at(seen, self.ray(pane, at)));
-        let Some(hit) = hit else { return false };
-        let row = seen.tool == Tool::Pin && button == PointerButton::Primary;
-        let tool = if row || matches!(seen.tool, Tool::Drag(_)) { seen.tool } else { Tool::default() };
-        asks.push(begun(&Seen { tool, ..*seen }, &hit));
-        self.drag = Some(if row { Drag::Row(hit.point) } else { Drag::Cloth(button) });
-        true
-    }
-
-    fn go_on_by_hand(&mut self, ui: &egui::Ui, seen: &Seen<'_>, pane: Rect, asks: &mut Asks) {
-        let at = ui.input(|i| i.pointer.latest_pos());
-        let moved = ui.input(|i| i.pointer.delta() != egui::Vec2::ZERO);
-        match (&mut self.drag, at) {
-            (Some(Drag::Cloth(_)), Some(at)) if moved => {
-                asks.push(Ask::Drag(Command::DragTo { ray: self.ray(pane, at) }));
-            }
-            (Some(Drag::Row(last)), Some(at)) => {
-                let last = *last;
-                if let Some(hit) = cloth_at(seen, self.ray(pane, at))
-                    && let Some(ask) = next_in_row(seen, last, &hit)
-                {
-                    asks.push(ask);
-                    self.drag = Some(Drag::Row(hit.point));
-                }
-            }
-            _ => {}
-        }
-        let button = match self.drag {
-            Some(Drag::Cloth(button)) => button,
-            _ => PointerButton::Primary,
-        };
-        if ui.input(|i| i.key_pressed(Button::Escape)) {
-            asks.push(Ask::CancelDrag);
-            self.drag = Some(Drag::Over);
-        } else if ui.input(|i| !i.pointer.button_down(button) || is_lost(i)) {
-            if matches!(self.drag, Some(Drag::Cloth(_))) {
-                asks.push(Ask::Drag(Command::Release));
-            }
-            asks.push(Ask::EndDrag);
-            self.drag = None;
         }
     }
 
@@ -535,105 +318,11 @@ impl ScenePane {
             _ => CursorIcon::Default,
         });
     }
-
-    fn draw(&mut self, ui: &egui::Ui, seen: &Seen<'_>, near: Option<MarkId>, pane: Rect) {
-        let painter = ui.painter_at(pane);
-        let [stroke, far_stroke] = self.strokes().cloned().unwrap_or_default();
-        let Some(graphics) = &mut self.graphics else {
-            let words = "No graphics adapter: the body cannot be shown.";
-            painter.text(
-                pane.center(),
-                Align2::CENTER_CENTER,
-                words,
-                FontId::proportional(14.0),
-                seen.palette.weak,
-            );
-            return;
-        };
-        let draft = graphics.is_slow() && (self.moving || seen.working || !stroke.is_empty());
-        let scale = ui.ctx().pixels_per_point() * if draft { DRAFT } else { 1.0 };
-        let pixels = (pane.size() * scale).round();
-        let key = Key {
-            camera: self.camera,
-            look: Look {
-                pixels_per_point: scale,
-                occlusion: if draft { 0.0 } else { seen.look.occlusion },
-                ..seen.look
-            },
-            size: UVec2::new(pixels.x.max(1.0) as u32, pixels.y.max(1.0) as u32),
-            body: seen.body.cloned(),
-            cloth: seen.cloth.map(|(_, state)| Arc::clone(state)),
-            marks: Some(Arc::clone(&seen.document.marks)),
-            stroke: stroke.len() + far_stroke.len(),
-            near,
-            pinned: Some(Arc::clone(seen.pinned)),
-            dragged: seen.dragged.cloned(),
-            selected: seen.selected,
-            ghosts: seen.ghosts.cloned(),
-            stand_out: if seen.cloth.is_some() { seen.stand_out.to_vec() } else { Vec::new() },
-        };
-        let outlines = outlines(&seen.document.pattern, &key.stand_out);
-        let shown = Shown {
-            body: seen.body,
-            cloth: seen.cloth,
-            marks: Some(&seen.document.marks),
-            stroke: &stroke,
-            far_stroke: &far_stroke,
-            near,
-            pinned: seen.pinned,
-            dragged: seen.dragged,
-            selected: seen.selected,
-            ghosts: seen.ghosts.map(|g| &**g),
-            outlines: &outlines,
-        };
-        match graphics.picture(key, || self.scenery.scene(&shown)) {
-            Ok(texture) => {
-                let whole = Rect::from_min_max(Pos2::ZERO, Pos2::new(1.0, 1.0));
-                painter.image(texture, pane, whole, Color32::WHITE);
-            }
-            Err(error) => {
-                let font = FontId::proportional(14.0);
-                painter.text(
-                    pane.center(),
-                    Align2::CENTER_CENTER,
-                    error.to_string(),
-                    font,
-                    seen.palette.error,
-                );
-            }
-        }
-        if draft {
-            // The finished picture follows as soon as nothing moves.
-            ui.ctx().request_repaint_after(std::time::Duration::from_millis(120));
-        }
-    }
 }
 
 /// Whether the release of a button would not be seen.
 fn is_lost(input: &egui::InputState) -> bool {
     input.events.contains(&Event::WindowFocused(false)) || input.events.contains(&Event::PointerGone)
-}
-
-/// What the pointer does here, for the status bar.
-pub fn hint(tool: Tool, mouse: Mouse, laser: bool, dressed: bool, next: usize) -> String {
-    let view = mouse.view_hint();
-    match tool {
-        Tool::Mark if laser => {
-            let far = next + 1;
-            format!(
-                "Drag: paint mark {next} on the near side and {far} on the far side · L: only the near · {view}"
-            )
-        }
-        Tool::Mark => {
-            let click =
-                if dressed && mouse == Mouse::Paper { "pin the cloth" } else { "a dot, or select a mark" };
-            format!("Drag on the body: paint mark {next} · Click: {click} · Ctrl+click: erase · {view}")
-        }
-        Tool::Erase => format!("Click a mark: take it away · {view}"),
-        Tool::Pin => format!("Click: pin the cloth, or pull the pin out · Drag: a row of pins · {view}"),
-        Tool::Drag(_) => format!("Drag the cloth · Esc: put it back · {view}"),
-        _ => format!("Drag: turn · {view}"),
-    }
 }
 
 /// The commands that paint `strokes`, laid back on the skin after smoothing. Empty ones are left out.
@@ -643,58 +332,10 @@ fn painted(seen: &Seen<'_>, strokes: [Vec<DVec3>; 2]) -> Vec<Command> {
     strokes.map(|points| Command::AddBodyMark { points: points.into_iter().map(on_skin).collect() }).collect()
 }
 
-/// Points of the cloth that lie on the body.
-fn on_body<'a>(seen: &Seen<'a>) -> impl Iterator<Item = &'a DVec3> + use<'a> {
-    let state = seen.cloth.map(|(_, state)| state);
-    state.into_iter().flat_map(|s| s.positions.iter().zip(&s.mapped).filter(|(_, m)| **m).map(|(p, _)| p))
-}
-
-fn everything(seen: &Seen<'_>, body: &Surface) -> (Vec3, Vec3) {
-    let (lower, upper) =
-        on_body(seen).fold(body.bounds(), |(lower, upper), p| (lower.min(*p), upper.max(*p)));
-    (lower.as_vec3(), upper.as_vec3())
-}
-
 fn size_of(pane: Rect) -> Vec2 {
     Vec2::new(pane.width().max(1.0), pane.height().max(1.0))
 }
 
 fn within(pane: Rect, at: Pos2) -> Vec2 {
     Vec2::new(at.x - pane.left(), at.y - pane.top())
-}
-
-/// Small buttons over the lower right corner, where they hide only floor.
-fn view_buttons(ui: &mut egui::Ui, pane: Rect, palette: &Palette, asks: &mut Asks) {
-    let area = Rect::from_min_max(
-        Pos2::new(pane.left() + 8.0, pane.bottom() - 34.0),
-        Pos2::new(pane.right() - 8.0, pane.bottom() - 8.0),
-    );
-    let layout = egui::Layout::right_to_left(egui::Align::Center);
-    ui.scope_builder(egui::UiBuilder::new().max_rect(area).layout(layout), |ui| {
-        ui.spacing_mut().item_spacing.x = 4.0;
-        let all = std::iter::once(Action::FrameAll).chain(VIEWS[..5].iter().rev().map(|&v| Action::Look(v)));
-        for action in all {
-            let entry = action.entry();
-            let button =
-                egui::Button::new(egui::RichText::new(entry.text).size(12.5)).fill(palette.overlay).small();
-            if ui.add(button).on_hover_text(entry.tip).clicked() {
-                asks.push(Ask::Act(action));
-            }
-        }
-    });
-}
-
-/// Tells screen readers and tests where each mark is.
-fn publish_marks(ui: &egui::Ui, marks: &Marks, what: &str, pane: Rect, camera: &Camera) {
-    for (i, mark) in marks.body.iter().enumerate() {
-        let place = mark.points.first().and_then(|p| camera.project(p.as_vec3(), size_of(pane)));
-        if let Some(place) = place {
-            let at = pane.min + egui::vec2(place.pixel.x, place.pixel.y);
-            let rect = Rect::from_center_size(at, egui::vec2(12.0, 12.0));
-            let node = ui.interact(rect, ui.scope_id().with((what, "on the body", i)), Sense::hover());
-            node.widget_info(|| {
-                WidgetInfo::labeled(Role::Label, true, format!("{what} {} on the body", i + 1))
-            });
-        }
-    }
 }

@@ -1,0 +1,108 @@
+//! Files that come into the window and leave it.
+
+use std::path::Path;
+
+use crate::io::scale::DrawingUnit;
+use crate::ui::app::App;
+use crate::ui::dialogs::{Dialog, NativeDialog};
+use crate::ui::files::{self, PatternImport, Purpose, RawBody};
+
+impl App {
+    /// Asks the person for a file.
+    pub(super) fn ask_file(&mut self, purpose: Purpose) {
+        match NativeDialog::open(purpose, self.path.as_deref()) {
+            Some(native) => self.native = Some(native),
+            None => {
+                let text = if purpose.writes() { purpose.default_name() } else { String::new() };
+                self.dialog = Some(Dialog::Path { purpose, text });
+            }
+        }
+    }
+
+    pub(super) fn file(&mut self, ctx: &egui::Context, purpose: Purpose, path: &Path) {
+        let done = match purpose {
+            Purpose::Open => files::open(path).map(|p| self.replace(ctx, p, Some(path.to_owned()))),
+            Purpose::Save => self.save_to(ctx, path),
+            Purpose::ImportPattern => self.import_pattern(path, None),
+            Purpose::ImportBody => files::read_body(path).and_then(|raw| self.import_body(raw)),
+            Purpose::Export => {
+                let pattern = &self.session.document().pattern;
+                files::export(path, self.session.snapshot(), pattern).map(|()| self.wrote(path))
+            }
+            Purpose::ExportPattern => self.export_pattern(path),
+            Purpose::Recording => {
+                let text = self.recording();
+                files::write(path, text.as_bytes()).map(|()| self.wrote(path))
+            }
+        };
+        if let Err(words) = done {
+            self.after_save = None;
+            self.messages.error(words);
+        }
+    }
+
+    /// Asks for the unit first when the file does not say it.
+    pub(super) fn import_pattern(&mut self, path: &Path, unit: Option<DrawingUnit>) -> Result<(), String> {
+        match files::import_pattern(path, unit)? {
+            PatternImport::Pattern(command, notes) => {
+                self.apply(command);
+                self.pattern_pane.fit = true;
+                if !notes.is_empty() {
+                    self.messages.tell(notes.join("; "));
+                }
+            }
+            PatternImport::Question(question) => {
+                let unit = question.candidates.first().copied().unwrap_or_default();
+                self.dialog = Some(Dialog::Scale { path: path.to_owned(), question, unit });
+            }
+        }
+        Ok(())
+    }
+
+    pub(super) fn export_pattern(&mut self, path: &Path) -> Result<(), String> {
+        let left_out = files::export_pattern(path, &self.session.document().pattern)?;
+        self.wrote(path);
+        if !left_out.is_empty() {
+            self.messages.tell(left_out.join("; "));
+        }
+        Ok(())
+    }
+
+    /// Asks for the unit first when there is a doubt.
+    pub(super) fn import_body(&mut self, raw: RawBody) -> Result<(), String> {
+        if raw.is_doubtful {
+            self.dialog = Some(Dialog::Unit { raw: Box::new(raw) });
+            return Ok(());
+        }
+        self.take_body(raw)
+    }
+
+    pub(super) fn take_body(&mut self, raw: RawBody) -> Result<(), String> {
+        let (command, notes) = files::take_body(raw)?;
+        self.apply(command);
+        if !notes.is_empty() {
+            self.messages.tell(notes.join("; "));
+        }
+        Ok(())
+    }
+
+    pub(super) fn wrote(&mut self, path: &Path) {
+        self.messages.tell(format!("Written: {}", path.display()));
+    }
+
+    pub(super) fn dropped_files(&mut self, ctx: &egui::Context) {
+        let dropped = ctx.input(|i| i.raw.dropped_files.clone());
+        for path in dropped.into_iter().map(|f| f.path().to_owned()) {
+            let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
+            match extension.as_deref() {
+                Some("toile") => self.file(ctx, Purpose::Open, &path),
+                Some("json" | "dxf" | "svg") => self.file(ctx, Purpose::ImportPattern, &path),
+                Some("obj") => self.file(ctx, Purpose::ImportBody, &path),
+                _ => self.messages.error(format!(
+                    "{} is neither a project (.toile), a pattern (.dxf, .svg, .json) nor a body (.obj)",
+                    path.display()
+                )),
+            }
+        }
+    }
+}

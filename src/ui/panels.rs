@@ -1,0 +1,178 @@
+//! The panels and panes of one frame, and what they are shown.
+
+use egui::{CentralPanel, Frame, Margin, Panel};
+
+use crate::session::Document;
+use crate::sim::Snapshot;
+use crate::ui::actions::Tool;
+use crate::ui::app::App;
+use crate::ui::asks::Asks;
+use crate::ui::edits::Picked;
+use crate::ui::mouse::Mouse;
+use crate::ui::pattern_pane::{self, Laid};
+use crate::ui::scene_pane::{self, Seen};
+use crate::ui::side_panel::Told;
+use crate::ui::situation::Situation;
+use crate::ui::theme::{self, Palette};
+use crate::ui::{menu, side_panel, status, toolbar};
+use crate::wrap::Phase;
+
+impl App {
+    pub(super) fn panels(
+        &mut self,
+        ui: &mut egui::Ui,
+        document: &Document,
+        snapshot: &Snapshot,
+        now: &Situation,
+        palette: &Palette,
+        asks: &mut Asks,
+    ) {
+        let bar = |ui: &egui::Ui, y: i8| {
+            Frame::new().fill(ui.visuals().panel_fill).inner_margin(Margin::symmetric(10, y))
+        };
+        let (thin, thick) = (bar(ui, 3), bar(ui, 6));
+        let surface = self.shown().surface().cloned();
+        let lost = self.shown().problems().to_vec();
+        Panel::top("menu")
+            .frame(thin)
+            .show_separator_line(false)
+            .show(ui, |ui| menu::menu_bar_ui(ui, now, asks));
+        Panel::top("tools").frame(thick).show(ui, |ui| toolbar::toolbar_ui(ui, now, palette, asks));
+        Panel::bottom("status").frame(thin).exact_size(status::HEIGHT).show(ui, |ui| {
+            status::status_ui(ui, now, &self.hint(document, now, palette), palette);
+        });
+        if self.show_panel {
+            Panel::right("side").default_size(256.0).size_range(220.0..=420.0).frame(thick).show(ui, |ui| {
+                let told = Told {
+                    document,
+                    surface: surface.as_ref(),
+                    selection: &self.picks.selection,
+                    problems: &snapshot.problems,
+                    verdict: snapshot.verdict.as_ref().map_or(&[], |found| found),
+                    lost: &lost,
+                    now,
+                    palette,
+                };
+                side_panel::side_panel_ui(ui, &told, &mut self.marks_panel, &mut self.pattern_panel, asks);
+            });
+        }
+        let half = ui.available_width() * 0.46;
+        let least = (ui.available_width() - 200.0).max(160.0);
+        Panel::left("table").frame(Frame::new()).default_size(half).size_range(160.0..=least).show(
+            ui,
+            |ui| {
+                let mut pane = std::mem::take(&mut self.pattern_pane);
+                pane.ui(ui, &self.laid(document, now, palette), asks);
+                self.pattern_pane = pane;
+                if let Some(response) = self.pattern_pane.response.take() {
+                    response.context_menu(|ui| menu::context_ui(ui, now, asks));
+                }
+                if document.pattern.pieces.is_empty() && matches!(now.tool, Tool::Mark | Tool::Move) {
+                    let area = ui.max_rect().shrink2(egui::vec2(20.0, ui.max_rect().height() * 0.36));
+                    ui.scope_builder(egui::UiBuilder::new().max_rect(area), |ui| {
+                        pattern_pane::empty_ui(ui, asks);
+                    });
+                }
+            },
+        );
+        CentralPanel::default().frame(Frame::new()).show(ui, |ui| {
+            let cloth = snapshot.drawn().filter(|_| self.show_cloth && snapshot.is_dressed());
+            let stand_out = self.picks.standing_out(now.highlight);
+            let seen = Seen {
+                document,
+                body: surface.as_ref(),
+                cloth,
+                pinned: &snapshot.pinned,
+                dragged: snapshot.dragged.as_ref(),
+                growing: now.wrapping,
+                working: now.working,
+                tool: now.tool,
+                mouse: now.mouse,
+                laser: self.laser,
+                selected: now.selected.map(|(mark, _)| mark),
+                stand_out: &stand_out,
+                ghosts: self.ghosts.as_ref().map(|g| &g.marks),
+                look: theme::look(ui.ctx().theme()),
+                palette,
+            };
+            self.scene_pane.ui(ui, &seen, asks);
+        });
+    }
+
+    fn laid<'a>(&'a self, document: &'a Document, now: &'a Situation, palette: &'a Palette) -> Laid<'a> {
+        Laid {
+            document,
+            tool: now.tool,
+            mouse: now.mouse,
+            laser: now.laser,
+            selected: now.selected.map(|(mark, _)| mark),
+            selection: &self.picks.selection,
+            highlight: now.highlight,
+            unit: now.unit,
+            snapping: self.snapping,
+            ghosts: self.ghosts.as_ref().map(|g| &*g.marks),
+            palette,
+        }
+    }
+
+    fn hint(&self, document: &Document, now: &Situation, palette: &Palette) -> String {
+        let mouse = now.mouse;
+        let next = |painted: usize| painted + 1;
+        if self.demo.is_some() {
+            "A demo is shown. Drag: turn · Wheel: zoom · Esc: back to your work".to_owned()
+        } else if self.ghosts.is_some() {
+            "Proposed marks: Enter takes them, Esc forgets them.".to_owned()
+        } else if self.pattern_pane.hovered || self.pattern_pane.is_busy() {
+            self.pattern_pane.hint(&self.laid(document, now, palette))
+        } else if self.scene_pane.hovered {
+            scene_pane::hint(self.tool, mouse, self.laser, now.dressed, next(document.marks.body.len()))
+        } else {
+            "Paint a mark on a piece and one on the body where it should lie, then press Wrap.".to_owned()
+        }
+    }
+
+    pub(super) fn situation(
+        &self,
+        ctx: &egui::Context,
+        document: &Document,
+        snapshot: &Snapshot,
+    ) -> Situation {
+        let asked = self.demo.is_none() && self.wrap_seq.is_some_and(|seq| snapshot.seq < seq);
+        let growing = snapshot.phase == Some(Phase::Growing) && snapshot.working;
+        Situation {
+            undo: self.shown().undo_label().map(str::to_owned),
+            redo: self.shown().redo_label().map(str::to_owned),
+            // In a demo the mouse only turns the view.
+            tool: if self.demo.is_some() { Tool::Move } else { self.tool },
+            mouse: if self.demo.is_some() { Mouse::Clo } else { self.preferences.mouse },
+            laser: self.laser,
+            picked: Picked::new(&document.pattern, &self.picks.selection),
+            twisted: self.pattern_pane.has_twisted(),
+            snapping: self.snapping,
+            highlight: self.highlight(),
+            unit: self.preferences.unit,
+            selected: self.selected.and_then(|mark| Some((mark, document.marks.place(mark)?))),
+            pieces: document.pattern.pieces.len(),
+            marks: [document.marks.cloth.len(), document.marks.body.len()],
+            pins: document.pins.len(),
+            proposed: self.ghosts.as_ref().map_or(0, |g| g.marks.pairs().count()),
+            has_body: self.shown().surface().is_some(),
+            demo: self.demo.is_some(),
+            dressed: snapshot.is_dressed(),
+            wrapped: self.shown().can_cancel_wrap(),
+            wrapping: asked || growing,
+            working: asked || snapshot.working,
+            dragging: snapshot.dragged.is_some(),
+            relaxing: snapshot.relaxing,
+            phase: snapshot.phase,
+            progress: snapshot.progress,
+            tick: snapshot.tick,
+            triangles: snapshot.garment.as_ref().map_or(0, |g| g.triangles.len()),
+            show_cloth: self.show_cloth,
+            show_panel: self.show_panel,
+            parallel: self.scene_pane.camera.projection == crate::render::Projection::Orthographic,
+            free_turning: self.scene_pane.free_turning,
+            theme: ctx.options(|o| o.theme_preference),
+        }
+    }
+}

@@ -1,0 +1,89 @@
+//! The picture of the scene in its pane.
+
+use std::sync::Arc;
+
+use egui::{Align2, Color32, FontId, Pos2, Rect};
+use glam::UVec2;
+
+use super::outlines::outlines;
+use super::{Key, ScenePane, Seen};
+use crate::geometry::ids::MarkId;
+use crate::render::Look;
+use crate::ui::scene::Shown;
+
+/// Pictures drawn by a processor shrink by this much while things move.
+const DRAFT: f32 = 0.7;
+
+impl ScenePane {
+    pub(super) fn draw(&mut self, ui: &egui::Ui, seen: &Seen<'_>, near: Option<MarkId>, pane: Rect) {
+        let painter = ui.painter_at(pane);
+        let [stroke, far_stroke] = self.strokes().cloned().unwrap_or_default();
+        let Some(graphics) = &mut self.graphics else {
+            let words = "No graphics adapter: the body cannot be shown.";
+            painter.text(
+                pane.center(),
+                Align2::CENTER_CENTER,
+                words,
+                FontId::proportional(14.0),
+                seen.palette.weak,
+            );
+            return;
+        };
+        let draft = graphics.is_slow() && (self.moving || seen.working || !stroke.is_empty());
+        let scale = ui.ctx().pixels_per_point() * if draft { DRAFT } else { 1.0 };
+        let pixels = (pane.size() * scale).round();
+        let key = Key {
+            camera: self.camera,
+            look: Look {
+                pixels_per_point: scale,
+                occlusion: if draft { 0.0 } else { seen.look.occlusion },
+                ..seen.look
+            },
+            size: UVec2::new(pixels.x.max(1.0) as u32, pixels.y.max(1.0) as u32),
+            body: seen.body.cloned(),
+            cloth: seen.cloth.map(|(_, state)| Arc::clone(state)),
+            marks: Some(Arc::clone(&seen.document.marks)),
+            stroke: stroke.len() + far_stroke.len(),
+            near,
+            pinned: Some(Arc::clone(seen.pinned)),
+            dragged: seen.dragged.cloned(),
+            selected: seen.selected,
+            ghosts: seen.ghosts.cloned(),
+            stand_out: if seen.cloth.is_some() { seen.stand_out.to_vec() } else { Vec::new() },
+        };
+        let outlines = outlines(&seen.document.pattern, &key.stand_out);
+        let shown = Shown {
+            body: seen.body,
+            cloth: seen.cloth,
+            marks: Some(&seen.document.marks),
+            stroke: &stroke,
+            far_stroke: &far_stroke,
+            near,
+            pinned: seen.pinned,
+            dragged: seen.dragged,
+            selected: seen.selected,
+            ghosts: seen.ghosts.map(|g| &**g),
+            outlines: &outlines,
+        };
+        match graphics.picture(key, || self.scenery.scene(&shown)) {
+            Ok(texture) => {
+                let whole = Rect::from_min_max(Pos2::ZERO, Pos2::new(1.0, 1.0));
+                painter.image(texture, pane, whole, Color32::WHITE);
+            }
+            Err(error) => {
+                let font = FontId::proportional(14.0);
+                painter.text(
+                    pane.center(),
+                    Align2::CENTER_CENTER,
+                    error.to_string(),
+                    font,
+                    seen.palette.error,
+                );
+            }
+        }
+        if draft {
+            // The finished picture follows as soon as nothing moves.
+            ui.ctx().request_repaint_after(std::time::Duration::from_millis(120));
+        }
+    }
+}
