@@ -10,6 +10,7 @@ use glam::{DVec2, DVec3};
 
 use crate::body::measure::{hull_perimeter, section};
 use crate::geometry::mesh::TriMesh;
+use crate::geometry::polygon::signed_area;
 
 /// Levels are tried in steps of this share of the height.
 const STEP: f64 = 0.005;
@@ -257,8 +258,7 @@ fn arm_rings(mesh: &TriMesh, shoulder: DVec3, hand: DVec3) -> Option<Vec<(String
 }
 
 fn area(outline: &[DVec2]) -> f64 {
-    let n = outline.len();
-    ((0..n).map(|i| outline[i].perp_dot(outline[(i + 1) % n])).sum::<f64>() / 2.0).abs()
+    signed_area(outline).abs()
 }
 
 fn centre(outline: &[DVec2]) -> DVec2 {

@@ -7,6 +7,7 @@ pub mod crossings;
 pub mod ids;
 pub mod mesh;
 pub mod orient;
+pub mod polygon;
 pub mod problem;
 pub mod shapes;
 pub mod walk;

@@ -5,6 +5,7 @@ use kurbo::{ParamCurveArclen, PathSeg};
 use serde::{Deserialize, Serialize};
 
 use crate::geometry::ids::PieceId;
+use crate::geometry::polygon::signed_area;
 use crate::pattern::curve;
 
 /// Arc lengths are computed to this accuracy (metres).
@@ -237,8 +238,7 @@ impl Piece {
     /// Signed area of the outline flattened to 0.1 mm, square metres; positive when it runs counter-clockwise. Holes
     /// count as cloth.
     pub fn signed_area(&self) -> f64 {
-        let p = self.flattened(1e-4);
-        (0..p.len()).map(|i| p[i].perp_dot(p[(i + 1) % p.len()]) / 2.0).sum()
+        signed_area(&self.flattened(1e-4))
     }
 }
 

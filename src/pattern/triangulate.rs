@@ -7,6 +7,7 @@ use glam::DVec2;
 use spade::{AngleLimit, ConstrainedDelaunayTriangulation, Point2, RefinementParameters, Triangulation};
 
 use crate::geometry::ids::PieceId;
+use crate::geometry::polygon::{contains, signed_area};
 use crate::pattern::sampling::Sampling;
 use crate::pattern::{CutPattern, EdgeRef, EdgeShape, Piece, Problem, ProblemKind};
 
@@ -234,9 +235,7 @@ impl Lines {
 
     /// What is wrong with a hole that lies outside the outline or inside another; the lines do not cross.
     fn misplaced_hole(&self) -> Option<String> {
-        let inside = |k: usize, p: DVec2| {
-            row_crossings(self.of_loop(k), p.y).iter().filter(|&&x| x < p.x).count() % 2 == 1
-        };
+        let inside = |k: usize, p: DVec2| contains(self.of_loop(k), p);
         let holes = 1..self.starts.len() - 1;
         holes.clone().find_map(|k| {
             let p = *self.of_loop(k).first()?;
@@ -251,10 +250,6 @@ impl Lines {
 
 fn edge_of(edge_points: &[Vec<u32>], segment: usize) -> usize {
     edge_points.iter().position(|e| e[..e.len() - 1].contains(&(segment as u32))).unwrap_or(0)
-}
-
-fn signed_area(p: &[DVec2]) -> f64 {
-    (0..p.len()).map(|i| p[i].perp_dot(p[(i + 1) % p.len()]) / 2.0).sum()
 }
 
 fn segments_meet(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> bool {

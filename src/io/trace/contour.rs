@@ -2,6 +2,8 @@
 
 use glam::DVec2;
 
+use crate::geometry::polygon;
+
 /// A cut line runs mostly within this of its seam line, metres.
 const USUAL_ALLOWANCE: f64 = 0.03;
 /// ... and everywhere within this: corners and hems, metres.
@@ -72,10 +74,7 @@ impl Contour {
         if (p.cmplt(self.lower) | p.cmpgt(self.upper)).any() {
             return false;
         }
-        let crosses = |(a, b): (DVec2, DVec2)| {
-            (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)
-        };
-        self.sides().filter(|&side| crosses(side)).count() % 2 == 1
+        polygon::contains(&self.points, p)
     }
 
     /// Whether all of `other` is inside, as far as its corners tell.

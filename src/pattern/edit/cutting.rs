@@ -5,10 +5,12 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use crate::geometry::ids::{PieceId, SeamId};
+use crate::geometry::polygon::{contains, signed_area};
 use crate::pattern::edit::lines::{self, fraction_at, halves};
 use crate::pattern::edit::pieces::{change, fresh_name};
 use crate::pattern::edit::symmetry::loosen;
 use crate::pattern::edit::{Carried, Change, find, points, symmetric_image};
+use crate::pattern::piece::flattened_loop;
 use crate::pattern::{Edge, EdgeRef, InternalLine, Notch, Pattern, Piece, Seam, Stretch, curve};
 
 /// The ends of a cut may miss the outline by this much, metres.
@@ -61,8 +63,7 @@ pub(super) fn cut(
         .iter()
         .map(|(own, closing)| own.iter().map(|&i| piece.outline[i].clone()).chain(closing.clone()).collect())
         .collect();
-    let polygons: Vec<Vec<DVec2>> =
-        outlines.iter().map(|o| crate::pattern::piece::flattened_loop(o, TOLERANCE)).collect();
+    let polygons: Vec<Vec<DVec2>> = outlines.iter().map(|o| flattened_loop(o, TOLERANCE)).collect();
     let mut parts: Vec<Piece> = outlines
         .into_iter()
         .map(|outline| Piece {
@@ -149,11 +150,7 @@ fn inside(piece: &Piece, path: &InternalLine) -> Result<(), ()> {
     let outline = piece.flattened(TOLERANCE);
     let count = points.len();
     let on_cloth = |p: DVec2| {
-        contains(&outline, p)
-            && piece
-                .holes
-                .iter()
-                .all(|hole| !contains(&crate::pattern::piece::flattened_loop(hole, TOLERANCE), p))
+        contains(&outline, p) && piece.holes.iter().all(|hole| !contains(&flattened_loop(hole, TOLERANCE), p))
     };
     let middles = points.windows(2).map(|w| (w[0] + w[1]) / 2.0);
     if !middles.chain(points[1..count - 1].iter().copied()).all(on_cloth) {
@@ -166,8 +163,7 @@ fn inside(piece: &Piece, path: &InternalLine) -> Result<(), ()> {
     let own = |i: usize| (points[i], points[i + 1]);
     let itself =
         (0..count - 1).any(|i| (i + 2..count - 1).any(|j| crosses(own(i).0, own(i).1, own(j).0, own(j).1)));
-    let closed = std::iter::once(outline)
-        .chain(piece.holes.iter().map(|h| crate::pattern::piece::flattened_loop(h, TOLERANCE)));
+    let closed = std::iter::once(outline).chain(piece.holes.iter().map(|h| flattened_loop(h, TOLERANCE)));
     // Beside its ends it may not touch the outline; there it does.
     let (start, end) = (points[0], points[count - 1]);
     let clear = |p: DVec2| p.distance(start) > 2.0 * TOLERANCE && p.distance(end) > 2.0 * TOLERANCE;
@@ -186,16 +182,6 @@ fn inside(piece: &Piece, path: &InternalLine) -> Result<(), ()> {
 fn crossing_of(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> DVec2 {
     let t = (c - a).perp_dot(d - c) / (b - a).perp_dot(d - c);
     a + (b - a) * t
-}
-
-/// Whether `p` lies inside a closed polyline, by the even-odd rule.
-pub fn contains(polygon: &[DVec2], p: DVec2) -> bool {
-    let n = polygon.len();
-    let crosses = |i: &usize| {
-        let (a, b) = (polygon[*i], polygon[(i + 1) % n]);
-        (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)
-    };
-    (0..n).filter(crosses).count() % 2 == 1
 }
 
 /// The number of the outline's point at `p`, put there when there is none. Err when the outline is too far.
@@ -314,8 +300,7 @@ fn one_dart(pattern: &mut Pattern, edge: EdgeRef, from: f64, to: f64, depth: f64
 
 /// Whether hole `k` runs the way round that the outline does.
 fn hole_runs_as_outline(piece: &Piece, k: usize) -> bool {
-    let area = |p: Vec<DVec2>| (0..p.len()).map(|i| p[i].perp_dot(p[(i + 1) % p.len()])).sum::<f64>();
-    let hole = area(crate::pattern::piece::flattened_loop(piece.loop_edges(k), TOLERANCE));
+    let hole = signed_area(&flattened_loop(piece.loop_edges(k), TOLERANCE));
     // Cloth lies to its left only where it runs against the outline.
     hole * piece.signed_area() < 0.0
 }
@@ -365,13 +350,12 @@ pub(super) fn delete_line(pattern: &mut Pattern, id: PieceId, line: usize) -> Re
 pub(super) fn add_hole(pattern: &mut Pattern, id: PieceId, edges: &[Edge]) -> Result<Change, String> {
     let piece = find(pattern, id)?;
     let outline = piece.flattened(TOLERANCE);
-    let hole = crate::pattern::piece::flattened_loop(edges, TOLERANCE);
+    let hole = flattened_loop(edges, TOLERANCE);
     if edges.len() < 2 || !hole.iter().all(|&p| contains(&outline, p)) {
         return Err(format!("a hole lies inside the outline of {}", piece.name));
     }
     // Cloth lies on the same side of all closed lines, so that seams join them front to front.
-    let area: f64 = (0..hole.len()).map(|i| hole[i].perp_dot(hole[(i + 1) % hole.len()])).sum();
-    let against = area * piece.signed_area() < 0.0;
+    let against = signed_area(&hole) * piece.signed_area() < 0.0;
     let edges = if against { edges.to_vec() } else { curve::reversed(edges) };
     change(pattern, id, |p| p.holes.push(edges));
     Ok(Change::new("cut a hole"))

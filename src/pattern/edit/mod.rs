@@ -18,9 +18,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::geometry::ids::{PieceId, SeamId};
 use crate::pattern::{Edge, EdgeRef, EdgeShape, InternalLine, Pattern, Piece, PlanePose, Seam, curve};
-pub use cutting::{contains, nearest_on_edge};
+pub use cutting::nearest_on_edge;
 pub use pieces::WIDEST_ALLOWANCE;
-pub use sewing::{RATIOS, fits, sound};
+pub use sewing::{RATIOS, sound};
 pub use twists::{Twists, twists, untwisted};
 
 /// A corner or other point of a closed line: where the edge of the same number starts.
@@ -59,6 +59,8 @@ pub enum PatternEdit {
     Unlink { piece: PieceId },
     /// Lay pieces elsewhere on the table.
     Place { poses: Vec<(PieceId, PlanePose)> },
+    /// Redraw the outline of a piece. A sewn piece keeps its number of edges.
+    SetOutline { piece: PieceId, outline: Vec<Edge> },
     /// Scale pieces in their own planes by `factor` (x, y; over 0) about a point of the table.
     Scale { pieces: Vec<PieceId>, about: DVec2, factor: DVec2 },
     /// Give a piece another name.
@@ -230,6 +232,7 @@ fn carry_out(pattern: &mut Pattern, edit: &PatternEdit) -> Result<Change, String
         PatternEdit::Fold { piece } => symmetry::fold(pattern, *piece),
         PatternEdit::Unlink { piece } => symmetry::unlink(pattern, *piece),
         PatternEdit::Place { poses } => pieces::place(pattern, poses),
+        PatternEdit::SetOutline { piece, outline } => pieces::set_outline(pattern, *piece, outline),
         PatternEdit::Scale { pieces, about, factor } => pieces::scale(pattern, pieces, *about, *factor),
         PatternEdit::Rename { piece, name } => pieces::rename(pattern, *piece, name),
         PatternEdit::SetLocked { pieces, locked } => {
@@ -278,7 +281,8 @@ fn pieces_named(edit: &PatternEdit) -> Vec<PieceId> {
         | PatternEdit::DeleteLine { piece, .. }
         | PatternEdit::AddHole { piece, .. }
         | PatternEdit::DeleteHole { piece, .. }
-        | PatternEdit::SetGrainline { piece, .. } => vec![*piece],
+        | PatternEdit::SetGrainline { piece, .. }
+        | PatternEdit::SetOutline { piece, .. } => vec![*piece],
         _ => Vec::new(),
     }
 }

@@ -6,7 +6,8 @@ use std::sync::Arc;
 use glam::{DAffine2, DMat2, DVec2};
 
 use crate::geometry::ids::PieceId;
-use crate::pattern::edit::{Carried, Change, find, lines, points};
+use crate::pattern::edit::lines::{self, Part};
+use crate::pattern::edit::{Carried, Change, find, is_symmetric, points};
 use crate::pattern::{Edge, EdgeRef, EdgeShape, InternalLine, Pattern, Piece, PlanePose, Seam, curve};
 
 /// Metres of seam allowance.
@@ -68,6 +69,26 @@ pub(super) fn place(pattern: &mut Pattern, poses: &[(PieceId, PlanePose)]) -> Re
         change(pattern, id, |p| p.pose = pose);
     }
     Ok(Change::new(label))
+}
+
+pub(super) fn set_outline(pattern: &mut Pattern, id: PieceId, outline: &[Edge]) -> Result<Change, String> {
+    let piece = find(pattern, id)?.clone();
+    let is_sewn = |id| pattern.seams.values().any(|s| s.sides.iter().any(|side| side.piece == id));
+    let (old, new) = (piece.outline.len(), outline.len());
+    if old != new && (is_sewn(id) || piece.twin.is_some_and(is_sewn)) {
+        return Err(format!(
+            "{} is sewn by its {old} edges: undo its seams before giving it {new}",
+            piece.name
+        ));
+    }
+    if piece.symmetric && !is_symmetric(outline) {
+        return Err(format!("{} is symmetric, this outline is not: unlink its halves first", piece.name));
+    }
+    // Edges keep their numbers as far as there are any; those of holes count on behind them.
+    let map = (0..old).map(|i| if i < new { vec![Part::whole(i)] } else { Vec::new() }).collect();
+    lines::replace(pattern, id, 0, outline.to_vec(), &map);
+    let held = (0..new).map(|edge| EdgeRef { piece: id, edge }).collect();
+    Ok(Change { held, ..Change::new(format!("redraw {}", piece.name)) })
 }
 
 pub(super) fn scale(

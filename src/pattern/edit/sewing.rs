@@ -18,7 +18,7 @@ pub(super) fn sew(pattern: &mut Pattern, seam: Seam) -> Result<Change, String> {
 }
 
 /// That a seam joins what is there and free.
-pub fn fits(pattern: &Pattern, seam: &Seam) -> Result<(), String> {
+fn fits(pattern: &Pattern, seam: &Seam) -> Result<(), String> {
     sound(pattern, seam)?;
     if overlap(pattern, &seam.sides[0], &seam.sides[1]).is_some() {
         return Err("an edge cannot be sewn to itself".to_owned());

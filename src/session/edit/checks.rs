@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use crate::contact::Bone;
-use crate::geometry::ids::{MarkId, PieceId, SeamId};
+use crate::geometry::ids::{MarkId, PieceId};
 use crate::pattern::edit::{WIDEST_ALLOWANCE, is_symmetric};
 use crate::pattern::{Edge, EdgeShape, InternalLine, Pattern, Piece, PlanePose};
 use crate::session::command::Rejection;
@@ -214,13 +214,6 @@ pub fn cloth_place(pattern: &Pattern, place: ClothPlace) -> Result<(), Rejection
         return Ok(());
     }
     Err(Rejection::new("the place on the cloth is not a finite number"))
-}
-
-pub fn find_seam(pattern: &Pattern, id: SeamId) -> Result<(), Rejection> {
-    if pattern.seams.contains_key(&id) {
-        return Ok(());
-    }
-    Err(Rejection(format!("there is no {id}")))
 }
 
 pub fn settings(settings: &Settings) -> Result<(), Rejection> {

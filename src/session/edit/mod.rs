@@ -5,15 +5,13 @@ mod checks;
 mod drag;
 mod marks;
 mod pattern;
-mod pieces;
-mod seams;
 mod settings;
 mod wrap;
 
 use std::sync::Arc;
 
 use crate::drag::{DragMode, Ray};
-use crate::pattern::edit::Carried;
+use crate::pattern::edit::{Carried, PatternEdit};
 use crate::pattern::{Pattern, Problem};
 use crate::relax::RelaxSettings;
 use crate::session::body::BodyCache;
@@ -114,16 +112,23 @@ fn untied(document: &Document, command: &Command, bodies: &mut BodyCache) -> Res
         Command::RenameMark { mark, name } => marks::rename(new, *mark, name),
         Command::ClearMarks => marks::clear(new),
         Command::SetMarks { marks } => marks::set(new, marks),
-        Command::AddPiece { piece } => pieces::add(new, piece),
-        Command::DeletePiece { piece } => pieces::delete(new, *piece),
-        Command::RenamePiece { piece, name } => pieces::rename(new, *piece, name),
-        Command::SetPiecePose { piece, pose } => pieces::set_pose(new, *piece, *pose),
+        Command::ReplacePattern { name, pattern, marks } => pattern::replace_all(new, name, pattern, marks),
         Command::EditPattern { edits, .. } => pattern::edit(new, edits),
-        Command::SetOutline { piece, outline } => pieces::set_outline(new, *piece, outline),
-        Command::AddSeam { seam } => seams::add(new, *seam),
-        Command::DeleteSeam { seam } => seams::delete(new, *seam),
-        Command::ReverseSeam { seam } => seams::reverse(new, *seam),
-        Command::ReplacePattern { name, pattern, marks } => pieces::replace_all(new, name, pattern, marks),
+        // As recordings have had it from the beginning.
+        Command::AddPiece { piece } => edit_by(new, PatternEdit::AddPiece { piece: Arc::clone(piece) }),
+        Command::DeletePiece { piece } => edit_by(new, PatternEdit::DeletePieces { pieces: vec![*piece] }),
+        Command::RenamePiece { piece, name } => {
+            edit_by(new, PatternEdit::Rename { piece: *piece, name: name.clone() })
+        }
+        Command::SetPiecePose { piece, pose } => {
+            edit_by(new, PatternEdit::Place { poses: vec![(*piece, *pose)] })
+        }
+        Command::SetOutline { piece, outline } => {
+            edit_by(new, PatternEdit::SetOutline { piece: *piece, outline: outline.clone() })
+        }
+        Command::AddSeam { seam } => edit_by(new, PatternEdit::Sew { seam: *seam }),
+        Command::DeleteSeam { seam } => edit_by(new, PatternEdit::Unpick { seams: vec![*seam] }),
+        Command::ReverseSeam { seam } => edit_by(new, PatternEdit::TurnSeam { seam: *seam }),
         Command::SetBody { body } => body::set(new, body, bodies),
         Command::SetBones { bones } => body::set_bones(new, bones.as_deref()),
         Command::SetSettings { settings } => settings::set(new, settings),
@@ -143,6 +148,10 @@ fn untied(document: &Document, command: &Command, bodies: &mut BodyCache) -> Res
         | Command::CancelGesture
         | Command::ForgetHistory { .. } => Err(Rejection::new("this command is the session's own")),
     }
+}
+
+fn edit_by(document: Document, edit: PatternEdit) -> Result<Edit, Rejection> {
+    pattern::edit(document, &[edit])
 }
 
 /// What no command would have let into `document`; for documents from files.

@@ -3,12 +3,14 @@
 use std::sync::Arc;
 
 use crate::geometry::ids::PieceId;
+use crate::geometry::polygon;
 use crate::pattern::edit::{self, Carried, PatternEdit};
 use crate::pattern::{Pattern, Piece};
 use crate::session::command::Rejection;
 use crate::session::document::Document;
 use crate::session::edit::marks::remove_number;
 use crate::session::edit::{ClothChange, Edit, checks};
+use crate::wrap::Marks;
 
 /// Changes one command may hold.
 const MOST_EDITS: usize = 10_000;
@@ -36,10 +38,27 @@ pub fn edit(mut document: Document, edits: &[PatternEdit]) -> Result<Edit, Rejec
     }
 }
 
+/// Another pattern with its strokes.
+pub fn replace_all(
+    mut document: Document,
+    name: &str,
+    pattern: &Arc<Pattern>,
+    marks: &Arc<Marks>,
+) -> Result<Edit, Rejection> {
+    checks::name(name)?;
+    checks::pattern(pattern)?;
+    checks::marks(marks, pattern)?;
+    document.pattern = Arc::clone(pattern);
+    document.take_marks(Arc::clone(marks));
+    document.drop_pins();
+    Ok(Edit::new(format!("take {name}"), document).with(ClothChange::Clear))
+}
+
 /// What holds for the numbers and names of a change by itself.
 fn check(edit: &PatternEdit) -> Result<(), Rejection> {
     match edit {
         PatternEdit::AddPiece { piece } => checks::piece(piece),
+        PatternEdit::SetOutline { outline, .. } => checks::outline(outline),
         PatternEdit::Rename { name, .. } => checks::name(name),
         PatternEdit::Place { poses } => poses.iter().try_for_each(|(_, pose)| checks::pose(pose)),
         PatternEdit::MovePoints { points } => points.iter().try_for_each(|(_, to)| checks::place(*to)),
@@ -66,7 +85,7 @@ fn carry(document: &mut Document, carried: &[Carried]) {
     }
     let place = |piece: PieceId, middle: glam::DVec2| {
         carried.iter().filter(|c| c.from == piece).find(|c| {
-            let inside = |line: &Vec<glam::DVec2>| edit::contains(line, c.map.transform_point2(middle));
+            let inside = |line: &Vec<glam::DVec2>| polygon::contains(line, c.map.transform_point2(middle));
             c.inside.as_ref().is_none_or(inside)
         })
     };

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use crate::geometry::ids::PieceId;
+use crate::geometry::polygon::{is_inside, sides, signed_area};
 use crate::pattern::piece::flattened_loop;
 use crate::pattern::{Pattern, Piece, curve};
 
@@ -47,7 +48,7 @@ impl PieceShape {
         let outline = piece.flattened(TOLERANCE);
         let holes: Vec<Vec<DVec2>> = piece.holes.iter().map(|hole| flattened_loop(hole, TOLERANCE)).collect();
         let fill = trapezoids(std::iter::once(&outline).chain(&holes));
-        let drawn_from_front = area(&outline) >= 0.0;
+        let drawn_from_front = signed_area(&outline) >= 0.0;
         let edges: Vec<Vec<DVec2>> = (0..piece.edge_count()).map(|i| flat_edge(piece, i)).collect();
         let bound = |start, pick: fn(DVec2, DVec2) -> DVec2| outline.iter().copied().fold(start, pick);
         Self {
@@ -70,7 +71,7 @@ impl PieceShape {
     /// Whether `p`, in the piece's own plane, lies on the cloth.
     pub fn contains(&self, p: DVec2) -> bool {
         let lines = std::iter::once(&self.outline).chain(&self.holes);
-        lines.flat_map(|line| sides(line)).filter(|&[a, b]| crosses(a, b, p)).count() % 2 == 1
+        is_inside(lines.flat_map(|line| sides(line)), p)
     }
 
     /// The four corners of its box.
@@ -103,7 +104,7 @@ fn notches(piece: &Piece) -> Vec<(DVec2, DVec2)> {
 /// Whether the cloth lies left of an edge, as it is drawn.
 pub fn cloth_is_left(piece: &Piece, edge: usize) -> bool {
     let (line, _) = piece.loop_of(edge);
-    let turns_left = area(&flattened_loop(piece.loop_edges(line), TOLERANCE * 10.0)) >= 0.0;
+    let turns_left = signed_area(&flattened_loop(piece.loop_edges(line), TOLERANCE * 10.0)) >= 0.0;
     turns_left == (line == 0)
 }
 
@@ -193,19 +194,6 @@ fn same_outline(a: &Piece, b: &Piece) -> bool {
         && a.notches == b.notches
         && a.allowance == b.allowance
         && a.cut_line == b.cut_line
-}
-
-fn area(outline: &[DVec2]) -> f64 {
-    let n = outline.len();
-    (0..n).map(|i| outline[i].perp_dot(outline[(i + 1) % n]) / 2.0).sum()
-}
-
-fn sides(line: &[DVec2]) -> impl Iterator<Item = [DVec2; 2]> {
-    (0..line.len()).map(|i| [line[i], line[(i + 1) % line.len()]])
-}
-
-fn crosses(a: DVec2, b: DVec2, p: DVec2) -> bool {
-    (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)
 }
 
 /// The inside by the even-odd rule, cut into slabs at every corner: also right for outlines that cross themselves, up to the
