@@ -13,12 +13,14 @@ impl App {
             return;
         }
         let table = &self.pattern_pane;
-        let focused = ctx.memory(|m| m.focused().is_some()) && !table.has_focus(ctx);
+        let scene = &self.scene_pane;
+        let focused =
+            ctx.memory(|m| m.focused().is_some()) && !table.has_focus(ctx) && !scene.has_focus(ctx);
         let menu = egui::Popup::is_any_open(ctx);
         if now.demo && !menu && ctx.input_mut(|i| i.consume_key(Modifiers::NONE, Key::Escape)) {
             return asks.push(Ask::Act(Action::StopDemo));
         }
-        let drawing = table.is_busy() || !self.scene_pane.stroke().is_empty();
+        let drawing = table.is_busy() || !scene.stroke().is_empty();
         let at_table = table.hovered || table.has_focus(ctx);
         if now.proposed > 0 && !menu && !drawing {
             for action in [Action::AcceptMarks, Action::DismissMarks] {
@@ -42,6 +44,7 @@ impl App {
                 && (menu
                     || (focused && [Key::Enter, Key::Space].contains(&keys.logical_key))
                     || (table.is_busy() && of_table)
+                    || (scene.has_focus(ctx) && scene.takes_key(keys.logical_key))
                     || (table.takes_numbers() && at_table && is_figure)
                     || (action == Action::ToggleRelaxing && at_table)
                     || (action == Action::CancelWrap && (drawing || self.drag.is_some())));

@@ -3,7 +3,7 @@
 use super::*;
 
 #[test]
-fn two_rectangles_are_drawn_and_sewn_by_keys_alone() {
+fn two_rectangles_are_drawn_sewn_marked_and_wrapped_by_keys_alone() {
     let mut window = window();
     press(&mut window, Key::R);
     press(&mut window, Key::F6);
@@ -32,6 +32,75 @@ fn two_rectangles_are_drawn_and_sewn_by_keys_alone() {
     let sewn = pattern(&window);
     let seam = sewn.seams.values().next().expect("a seam");
     assert_eq!(seam.sides.map(|side| side.edge), [1, 3]);
+    // A stroke down the middle of each piece, from corner to corner; the table's middle is where its axes cross.
+    let go = |window: &mut Window, keys: &[(Modifiers, Key)]| {
+        keys.iter().for_each(|&(held, arrow)| key(window, held, arrow));
+    };
+    let [left, right, up, down] =
+        [Key::ArrowLeft, Key::ArrowRight, Key::ArrowUp, Key::ArrowDown].map(|key| (Modifiers::SHIFT, key));
+    press(&mut window, Key::K);
+    let fine_right = [(Modifiers::NONE, Key::ArrowRight); 5];
+    for way in [vec![left, left, up, up], [vec![right; 3], fine_right.to_vec(), vec![up]].concat()] {
+        go(&mut window, &way);
+        press(&mut window, Key::Space);
+        go(&mut window, &[down]);
+        press(&mut window, Key::Space);
+        press(&mut window, Key::Enter);
+    }
+    let painted = app(&window).session().document().marks.clone();
+    let ends: Vec<[DVec2; 2]> = painted
+        .cloth
+        .iter()
+        .map(|mark| {
+            let pose = pattern(&window).pieces[&mark.piece].pose;
+            [mark.points[0], mark.points[mark.points.len() - 1]].map(|p| pose.plane_from_piece(p))
+        })
+        .collect();
+    let meant = [[-0.2, 0.2, -0.2, 0.1], [0.15, 0.2, 0.15, 0.1]];
+    assert_eq!(ends.len(), 2);
+    for (ends, [a, b, c, d]) in ends.iter().zip(meant) {
+        assert!(ends[0].distance(DVec2::new(a, b)) < 1e-9 && ends[1].distance(DVec2::new(c, d)) < 1e-9);
+    }
+    // And two down the body, past its middle.
+    press(&mut window, Key::F6);
+    let arrows = |window: &mut Window, key: Key, times: usize| (0..times).for_each(|_| press(window, key));
+    // The first arrow shows the cross.
+    arrows(&mut window, Key::ArrowUp, 8);
+    for (sideways, times) in [(Key::ArrowLeft, 1), (Key::ArrowRight, 4)] {
+        arrows(&mut window, sideways, times);
+        press(&mut window, Key::Space);
+        arrows(&mut window, Key::ArrowDown, 5);
+        press(&mut window, Key::Space);
+        press(&mut window, Key::Enter);
+        arrows(&mut window, Key::ArrowUp, 5);
+    }
+    assert_eq!(app(&window).session().document().marks.body.len(), 2);
+    press(&mut window, Key::Enter);
+    wait(&mut window, "the wrap", |app| app.session().snapshot().is_dressed());
+}
+
+#[test]
+fn escape_gives_a_stroke_by_keys_up_and_backspace_takes_a_corner_back() {
+    let mut window = window_on(squares());
+    press(&mut window, Key::K);
+    press(&mut window, Key::F6);
+    // From the middle between the squares into one.
+    key(&mut window, Modifiers::SHIFT, Key::ArrowLeft);
+    let painted = |window: &Window| app(window).session().document().marks.cloth.clone();
+    let corner = |window: &mut Window| {
+        press(window, Key::ArrowLeft);
+        press(window, Key::Space);
+    };
+    (0..2).for_each(|_| corner(&mut window));
+    press(&mut window, Key::Escape);
+    press(&mut window, Key::Enter);
+    assert!(painted(&window).is_empty());
+    (0..3).for_each(|_| corner(&mut window));
+    press(&mut window, Key::Backspace);
+    press(&mut window, Key::Enter);
+    let marks = painted(&window);
+    let points = &marks[0].points;
+    assert!((points[0].distance(points[points.len() - 1]) - 0.01).abs() < 1e-9, "a step of the cursor");
 }
 
 #[test]

@@ -13,6 +13,8 @@ pub struct Input {
     pub hover: Option<Pos2>,
     /// Where was clicked, in order.
     pub clicks: Vec<Pos2>,
+    /// The clicks are presses of Space at the keyboard's cursor.
+    pub by_keys: bool,
     /// The last click was the second of two.
     pub double: bool,
     /// A drag began there.

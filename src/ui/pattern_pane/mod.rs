@@ -364,6 +364,7 @@ impl PatternPane {
             input.held.shift = false;
             if ui.input(|i| i.key_pressed(Key::Space)) {
                 input.clicks.push(at);
+                input.by_keys = true;
             }
         }
     }

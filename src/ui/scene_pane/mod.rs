@@ -4,6 +4,7 @@ mod drawing;
 mod graphics;
 mod hand;
 mod hint;
+mod keys;
 mod outlines;
 mod overlay;
 mod sight;
@@ -32,6 +33,7 @@ use crate::wrap::Marks;
 pub use graphics::{Graphics, Key};
 use hand::{Reach, cloth_at};
 pub use hint::hint;
+use keys::ByKeys;
 use outlines::edge_under;
 use overlay::{publish_marks, view_buttons};
 
@@ -91,6 +93,7 @@ pub struct ScenePane {
     pub graphics: Option<Graphics>,
     scenery: Scenery,
     drag: Option<Drag>,
+    by_keys: ByKeys,
     reach: Reach,
     /// Where the pointer of the drag was last followed to.
     followed: Option<Pos2>,
@@ -134,11 +137,13 @@ impl ScenePane {
         self.move_view(ui, seen, pane, &response);
         let near = self.mark_under(seen, pane, &response);
         self.listen(ui, seen, pane, &response, asks);
+        self.listen_to_keys(ui, seen, pane, &response, asks);
         self.set_cursor(ui, seen, near, pane, &response);
         let reach = self.reach_under(seen, pane, &response);
         let hovered = response.hover_pos().filter(|_| self.drag.is_none());
         self.under = hovered.and_then(|at| edge_under(seen, self.ray(pane, at)));
         self.draw(ui, &Seen { dragged: seen.dragged.or(reach.as_ref()), ..*seen }, near, pane);
+        self.by_keys.draw(&ui.painter_at(pane), pane, response.has_focus(), seen.palette);
         publish_marks(ui, &seen.document.marks, "Mark", pane, &self.camera);
         if let Some(ghosts) = seen.ghosts {
             publish_marks(ui, ghosts, "Proposed mark", pane, &self.camera);
@@ -155,7 +160,7 @@ impl ScenePane {
     fn strokes(&self) -> Option<&[Vec<DVec3>; 2]> {
         match &self.drag {
             Some(Drag::Paint(strokes)) => Some(strokes),
-            _ => None,
+            _ => self.by_keys.strokes(),
         }
     }
 

@@ -12,6 +12,7 @@ use crate::ui::pattern_pane::draw_pieces::front_is_seen;
 use crate::ui::pattern_pane::input::Input;
 use crate::ui::pattern_pane::table::Table;
 use crate::ui::stroke;
+use crate::ui::units::Typed;
 use crate::wrap::ClothSide;
 
 /// One stroke on one piece, in the piece's own plane.
@@ -23,17 +24,22 @@ pub struct Marks {
     erases: bool,
     /// Strokes under way: the topmost piece's first, those of pieces under it only with the laser.
     strokes: Option<Vec<Stroke>>,
+    /// By keys a stroke runs straight from corner to corner: those so far, on the table.
+    corners: Vec<DVec2>,
 }
+
+/// A stroke by keys is followed in steps of this, metres.
+const FOLLOW_STEP: f64 = 0.002;
 
 impl Marks {
     /// Paints.
     pub fn painting() -> Self {
-        Self { erases: false, strokes: None }
+        Self { erases: false, strokes: None, corners: Vec::new() }
     }
 
     /// Takes away.
     pub fn erasing() -> Self {
-        Self { erases: true, strokes: None }
+        Self { erases: true, strokes: None, corners: Vec::new() }
     }
 
     fn click(&self, table: &Table<'_>, p: DVec2, erasing: bool, asks: &mut Asks) {
@@ -44,13 +50,44 @@ impl Marks {
             _ => {}
         }
     }
+
+    fn add_corner(&mut self, table: &Table<'_>, p: DVec2, asks: &mut Asks) {
+        if self.corners.is_empty() && table.piece_at(p).is_none() {
+            asks.push(Ask::Say("Marks are painted on the pieces: begin on one of them.".to_owned()));
+        } else if self.corners.last() != Some(&p) {
+            self.corners.push(p);
+        }
+    }
+
+    fn paint_corners(&mut self, table: &Table<'_>, asks: &mut Asks) {
+        let corners = std::mem::take(&mut self.corners);
+        let Some((piece, first)) = corners.first().and_then(|&p| table.piece_at(p)) else { return };
+        let mut strokes = vec![(piece, vec![first])];
+        go_through(&mut strokes, table, corners[0]);
+        for w in corners.windows(2) {
+            let steps = (w[0].distance(w[1]) / FOLLOW_STEP).ceil().max(1.0);
+            for i in 1..=steps as u32 {
+                go_through(&mut strokes, table, w[0].lerp(w[1], f64::from(i) / steps));
+            }
+        }
+        paint(table, strokes, asks);
+    }
 }
 
 impl PatternTool for Marks {
     fn step(&mut self, table: &Table<'_>, input: &Input, asks: &mut Asks) {
         let erasing = self.erases || input.held.command;
         for &at in &input.clicks {
-            self.click(table, table.at(at), erasing, asks);
+            match input.by_keys && !erasing {
+                true => self.add_corner(table, table.at(at), asks),
+                false => self.click(table, table.at(at), erasing, asks),
+            }
+        }
+        if input.backspace {
+            self.corners.pop();
+        }
+        if input.enter && !self.corners.is_empty() {
+            self.paint_corners(table, asks);
         }
         if let Some(at) = input.pressed.filter(|_| !erasing)
             && let Some((piece, p)) = table.piece_at(table.at(at))
@@ -65,16 +102,19 @@ impl PatternTool for Marks {
             }
         }
         if input.let_go
-            && let Some(mut strokes) = self.strokes.take()
+            && let Some(strokes) = self.strokes.take()
         {
-            for (_, points) in &mut strokes {
-                *points = stroke::finished(points);
-            }
-            in_one_step(painted(table, strokes), asks);
+            paint(table, strokes, asks);
         }
     }
 
-    fn draw(&self, drawing: &Drawing<'_>, table: &Table<'_>, _input: &Input) {
+    fn draw(&self, drawing: &Drawing<'_>, table: &Table<'_>, input: &Input) {
+        if !self.corners.is_empty() {
+            let next = input.hover.map(|at| table.at(at));
+            let line: Vec<DVec2> = self.corners.iter().copied().chain(next).collect();
+            drawing.polyline(&line, egui::Stroke::new(2.0, drawing.palette.accent));
+            self.corners.iter().for_each(|&corner| drawing.knob(corner, false, false));
+        }
         if let Some((id, points)) = self.stroke()
             && let Some(piece) = table.pattern().pieces.get(&id)
         {
@@ -87,19 +127,35 @@ impl PatternTool for Marks {
     }
 
     fn is_busy(&self) -> bool {
-        self.strokes.is_some()
+        self.strokes.is_some() || !self.corners.is_empty()
     }
 
     fn is_dragging(&self) -> bool {
         self.strokes.is_some()
     }
 
+    fn draws(&self) -> bool {
+        true
+    }
+
     fn takes_numbers(&self) -> bool {
-        false
+        !self.corners.is_empty()
+    }
+
+    fn typed(&mut self, table: &Table<'_>, typed: Typed, asks: &mut Asks) -> Result<(), String> {
+        let last = *self.corners.last().ok_or("the first corner is set with the arrow keys and Space")?;
+        let at = match typed {
+            Typed::At(p) => p,
+            Typed::By(by) => last + by,
+            Typed::Length(_) => return Err("the next corner needs both: 30,40 or @0,12".to_owned()),
+        };
+        self.add_corner(table, at, asks);
+        Ok(())
     }
 
     fn give_up(&mut self, _asks: &mut Asks) {
         self.strokes = None;
+        self.corners.clear();
     }
 
     fn stroke(&self) -> Option<(PieceId, &[DVec2])> {
@@ -117,6 +173,11 @@ impl PatternTool for Marks {
 
     fn hint(&self, table: &Table<'_>) -> String {
         let next = table.laid.document.marks.cloth.len() + 1;
+        if !self.corners.is_empty() {
+            return format!(
+                "Arrows and Space: the next corner · Enter: paint mark {next} · Backspace: one corner back · Esc: give up"
+            );
+        }
         match (self.erases, table.laid.laser) {
             (true, _) => "Click a mark: take it away".to_owned(),
             (_, true) => {
@@ -127,6 +188,13 @@ impl PatternTool for Marks {
             ),
         }
     }
+}
+
+fn paint(table: &Table<'_>, mut strokes: Vec<Stroke>, asks: &mut Asks) {
+    for (_, points) in &mut strokes {
+        *points = stroke::finished(points);
+    }
+    in_one_step(painted(table, strokes), asks);
 }
 
 fn dot(table: &Table<'_>, p: DVec2, asks: &mut Asks) {
