@@ -155,6 +155,21 @@ impl EdgeShape {
     }
 }
 
+/// The arc from `a` to `b` through `p`; straight when they lie on a line.
+pub fn arc_through(a: DVec2, p: DVec2, b: DVec2) -> EdgeShape {
+    let (u, v) = (p - a, b - a);
+    let turn = u.perp_dot(v);
+    if turn.abs() < 1e-6 * v.length_squared() {
+        return EdgeShape::Line;
+    }
+    // The centre, from `a`: as far from all three.
+    let (uu, vv) = (u.length_squared(), v.length_squared());
+    let centre = DVec2::new(v.y * uu - u.y * vv, u.x * vv - v.x * uu) / (2.0 * turn);
+    // On the same side of the chord as `p`: more than half a circle.
+    let large = v.perp_dot(centre) * v.perp_dot(u) > 0.0;
+    EdgeShape::Arc { radius: centre.length(), large, sweep: turn > 0.0 }
+}
+
 /// A closed line run the other way; edge i of n becomes edge n-1-i.
 pub fn reversed(edges: &[Edge]) -> Vec<Edge> {
     let n = edges.len();

@@ -68,6 +68,7 @@ impl App {
             | Action::ToggleSmooth
             | Action::Straighten
             | Action::Curve
+            | Action::Arc
             | Action::TurnSeam
             | Action::MakeEqual
             | Action::FreeLengths

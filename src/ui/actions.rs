@@ -90,6 +90,7 @@ pub enum Action {
     ToggleSmooth,
     Straighten,
     Curve,
+    Arc,
     TurnSeam,
     MakeEqual,
     FreeLengths,
@@ -218,6 +219,7 @@ impl Action {
             | Self::ToggleSmooth
             | Self::Straighten
             | Self::Curve
+            | Self::Arc
             | Self::TurnSeam
             | Self::MakeEqual
             | Self::FreeLengths

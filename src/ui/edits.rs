@@ -5,10 +5,11 @@ use std::collections::BTreeSet;
 use glam::DVec2;
 
 use crate::geometry::ids::PieceId;
-use crate::pattern::edit::PatternEdit;
-use crate::pattern::{EdgeRef, EdgeShape, Pattern, Piece, PlanePose};
+use crate::pattern::edit::{PatternEdit, PointRef};
+use crate::pattern::{EdgeRef, EdgeShape, Pattern, Piece, PlanePose, curve};
 use crate::ui::actions::Action;
-use crate::ui::selection::Selection;
+use crate::ui::pattern_pane::shapes::cloth_is_left;
+use crate::ui::selection::{LineRef, Selection};
 
 /// Between a piece and the twin laid beside it, metres.
 const BESIDE: f64 = 0.03;
@@ -20,7 +21,7 @@ pub fn edits(action: Action, pattern: &Pattern, selection: &Selection) -> Vec<Pa
     let touched = selection.pieces_touched();
     let pieces: Vec<PieceId> = touched.iter().copied().collect();
     match action {
-        Action::Delete => deletions(selection),
+        Action::Delete => deletions(pattern, selection),
         Action::Duplicate if !pieces.is_empty() => vec![PatternEdit::Duplicate { pieces, offset: COPY }],
         Action::Twin => {
             let alone = pieces.into_iter().filter(|id| pattern.pieces[id].twin.is_none());
@@ -74,7 +75,7 @@ pub fn edits(action: Action, pattern: &Pattern, selection: &Selection) -> Vec<Pa
             edges.map(|&edge| PatternEdit::InsertPoint { edge, at: 0.5 }).collect()
         }
         Action::ToggleSmooth => {
-            let is_smooth = |point: &crate::pattern::edit::PointRef| {
+            let is_smooth = |point: &PointRef| {
                 pattern.pieces.get(&point.piece).is_some_and(|piece| piece.edge(point.point).smooth)
             };
             let smooth = !selection.points.iter().all(is_smooth);
@@ -85,6 +86,7 @@ pub fn edits(action: Action, pattern: &Pattern, selection: &Selection) -> Vec<Pa
             selection.edges.iter().map(straight).collect()
         }
         Action::Curve => selection.edges.iter().filter_map(|edge| curved(pattern, *edge)).collect(),
+        Action::Arc => selection.edges.iter().filter_map(|edge| rounded(pattern, *edge)).collect(),
         Action::TurnSeam => selection.seams.iter().map(|&seam| PatternEdit::TurnSeam { seam }).collect(),
         Action::MakeEqual => {
             selection.seams.iter().map(|&seam| PatternEdit::SetRatio { seam, ratio: Some(1.0) }).collect()
@@ -101,15 +103,29 @@ fn of_each(pieces: &[PieceId], edit: impl Fn(PieceId) -> Option<PatternEdit>) ->
     pieces.iter().filter_map(|&id| edit(id)).collect()
 }
 
-fn deletions(selection: &Selection) -> Vec<PatternEdit> {
-    let Selection { pieces, points, edges: _, seams } = selection;
+/// Selected pieces, points, lines and seams; of a hole whose edge is selected the whole.
+fn deletions(pattern: &Pattern, selection: &Selection) -> Vec<PatternEdit> {
+    let Selection { pieces, points, edges, lines, seams } = selection;
     let mut all = Vec::new();
     if !seams.is_empty() {
         all.push(PatternEdit::Unpick { seams: seams.iter().copied().collect() });
     }
     // From the last on: the numbers of those before stay.
-    let points = points.iter().rev().filter(|point| !pieces.contains(&point.piece));
+    let is_left = |piece: &PieceId| !pieces.contains(piece) && pattern.pieces.contains_key(piece);
+    let lines = lines.iter().rev().filter(|line| is_left(&line.piece));
+    all.extend(lines.map(|&LineRef { piece, line }| PatternEdit::DeleteLine { piece, line }));
+    let edges = edges.iter().filter(|edge| is_left(&edge.piece));
+    let loops: BTreeSet<(PieceId, usize)> =
+        edges.map(|edge| (edge.piece, pattern.pieces[&edge.piece].loop_of(edge.edge).0)).collect();
+    let holes = || loops.iter().rev().filter_map(|&(piece, i)| Some((piece, i.checked_sub(1)?)));
+    let goes = |point: &PointRef| {
+        holes().any(|(piece, hole)| {
+            piece == point.piece && pattern.pieces[&piece].loop_of(point.point).0 == hole + 1
+        })
+    };
+    let points = points.iter().rev().filter(|point| is_left(&point.piece) && !goes(point));
     all.extend(points.map(|&point| PatternEdit::DeletePoint { point }));
+    all.extend(holes().map(|(piece, hole)| PatternEdit::DeleteHole { piece, hole }));
     if !pieces.is_empty() {
         all.push(PatternEdit::DeletePieces { pieces: pieces.iter().copied().collect() });
     }
@@ -138,6 +154,22 @@ fn curved(pattern: &Pattern, edge: EdgeRef) -> Option<PatternEdit> {
         }
     };
     Some(PatternEdit::SetEdge { edge, shape: EdgeShape::Cubic { controls } })
+}
+
+/// An arc through the middle of a curve; of a straight edge one that bulges out of the cloth by a tenth of its length.
+fn rounded(pattern: &Pattern, edge: EdgeRef) -> Option<PatternEdit> {
+    let piece = pattern.pieces.get(&edge.piece)?;
+    let (a, b) = piece.edge_ends(edge.edge);
+    let middle = match piece.edge(edge.edge).shape {
+        EdgeShape::Arc { .. } => return None,
+        EdgeShape::Line => {
+            let out = if cloth_is_left(piece, edge.edge) { -0.1 } else { 0.1 };
+            a.midpoint(b) + (b - a).perp() * out
+        }
+        _ => piece.edge_points(edge.edge, &[0.5])[0],
+    };
+    let shape = curve::arc_through(a, middle, b);
+    (shape != EdgeShape::Line).then_some(PatternEdit::SetEdge { edge, shape })
 }
 
 /// The line a piece is mirrored in, in its own plane: through two of its selected points, along its selected edge, or
@@ -217,7 +249,7 @@ impl Picked {
             linked: pieces().any(|piece| piece.symmetric || piece.twin.is_some()),
             straight: selection.edges.iter().any(|edge| is_straight(pattern, *edge)),
             locked: !touched.is_empty() && pieces().all(|piece| piece.locked),
-            deletable: !deletions(selection).is_empty(),
+            deletable: !deletions(pattern, selection).is_empty(),
             hidden: pattern.pieces.values().any(|piece| piece.hidden),
         }
     }
@@ -226,8 +258,6 @@ impl Picked {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::pattern::curve;
-    use crate::pattern::edit::PointRef;
     use std::sync::Arc;
 
     fn square() -> (Pattern, PieceId) {

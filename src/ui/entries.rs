@@ -94,6 +94,9 @@ impl Action {
             }
             Self::Straighten => entry("Straight", "Make the selected edges straight", &[]),
             Self::Curve => entry("Curve", "Give the selected edges handles to bend them by", &[]),
+            Self::Arc => {
+                entry("Arc", "Make the selected edges round: arcs of circles, bent by dragging", &[])
+            }
             Self::TurnSeam => {
                 entry("Turn seam round", "Sew the selected seams the other way round", &[shift(Key::S)])
             }

@@ -88,7 +88,12 @@ pub fn selection_ui(ui: &mut egui::Ui, now: &Situation, asks: &mut Asks) {
     ui.separator();
     items(ui, now, asks, &[Action::TurnOver, Action::ToggleLock, Action::Hide]);
     ui.separator();
-    items(ui, now, asks, &[Action::InsertPoint, Action::ToggleSmooth, Action::Straighten, Action::Curve]);
+    items(
+        ui,
+        now,
+        asks,
+        &[Action::InsertPoint, Action::ToggleSmooth, Action::Straighten, Action::Curve, Action::Arc],
+    );
     ui.separator();
     items(ui, now, asks, &[Action::TurnSeam, Action::MakeEqual, Action::FreeLengths]);
 }
@@ -103,6 +108,7 @@ pub fn context_ui(ui: &mut egui::Ui, now: &Situation, asks: &mut Asks) {
             Action::ToggleSmooth,
             Action::Straighten,
             Action::Curve,
+            Action::Arc,
             Action::Unfold,
         ]);
     }

@@ -249,7 +249,12 @@ fn edge_ui(ui: &mut egui::Ui, told: &Told<'_>, edge: EdgeRef, asks: &mut Asks) {
             ui.end_row();
         }
     });
-    action_row(ui, told, &[Action::InsertPoint, Action::Straighten, Action::Curve, Action::Unfold], asks);
+    action_row(
+        ui,
+        told,
+        &[Action::InsertPoint, Action::Straighten, Action::Curve, Action::Arc, Action::Unfold],
+        asks,
+    );
 }
 
 fn point_ui(ui: &mut egui::Ui, told: &Told<'_>, point: PointRef, asks: &mut Asks) {
@@ -291,12 +296,12 @@ fn seam_ui(ui: &mut egui::Ui, told: &Told<'_>, id: SeamId, asks: &mut Asks) {
     });
 }
 
-/// How the lengths of both sides are held to each other.
 /// No gather anybody would see: patterns from files seldom have lengths that are equal to the last digit.
 fn is_equal(ratio: f64) -> bool {
     (ratio - 1.0).abs() < 5e-4
 }
 
+/// How the lengths of both sides are held to each other.
 fn ratio_ui(ui: &mut egui::Ui, told: &Told<'_>, seam: SeamId, old: &Seam, present: f64, asks: &mut Asks) {
     let set = |ratio: Option<f64>| ask(vec![PatternEdit::SetRatio { seam, ratio }]);
     ui.horizontal_wrapped(|ui| {

@@ -7,6 +7,15 @@ use crate::geometry::ids::{PieceId, SeamId};
 use crate::pattern::edit::PointRef;
 use crate::pattern::{EdgeRef, Pattern};
 
+/// A line drawn inside a piece, by its number from 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct LineRef {
+    /// The piece.
+    pub piece: PieceId,
+    /// Which of its lines.
+    pub line: usize,
+}
+
 /// What is selected. Kinds may be mixed; tools select of the kind they work on.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Selection {
@@ -16,6 +25,8 @@ pub struct Selection {
     pub points: BTreeSet<PointRef>,
     /// Edges of outlines and holes.
     pub edges: BTreeSet<EdgeRef>,
+    /// Lines drawn inside pieces.
+    pub lines: BTreeSet<LineRef>,
     /// Seams.
     pub seams: BTreeSet<SeamId>,
 }
@@ -26,6 +37,7 @@ pub enum Item {
     Piece(PieceId),
     Point(PointRef),
     Edge(EdgeRef),
+    Line(LineRef),
     Seam(SeamId),
 }
 
@@ -37,6 +49,9 @@ impl Item {
             Self::Piece(piece) => pattern.pieces.contains_key(&piece),
             Self::Point(PointRef { piece, point }) => edge(piece, point),
             Self::Edge(EdgeRef { piece, edge: i }) => edge(piece, i),
+            Self::Line(LineRef { piece, line }) => {
+                pattern.pieces.get(&piece).is_some_and(|p| line < p.lines.len())
+            }
             Self::Seam(seam) => pattern.seams.contains_key(&seam),
         }
     }
@@ -57,8 +72,9 @@ impl Selection {
 
     /// Nothing is selected.
     pub fn is_empty(&self) -> bool {
-        let Self { pieces, points, edges, seams } = self;
-        pieces.is_empty() && points.is_empty() && edges.is_empty() && seams.is_empty()
+        let Self { pieces, points, edges, lines, seams } = self;
+        let outlines = pieces.is_empty() && points.is_empty() && edges.is_empty();
+        outlines && lines.is_empty() && seams.is_empty()
     }
 
     /// Whether `item` is selected.
@@ -67,6 +83,7 @@ impl Selection {
             Item::Piece(id) => self.pieces.contains(&id),
             Item::Point(id) => self.points.contains(&id),
             Item::Edge(id) => self.edges.contains(&id),
+            Item::Line(id) => self.lines.contains(&id),
             Item::Seam(id) => self.seams.contains(&id),
         }
     }
@@ -82,6 +99,7 @@ impl Selection {
             Item::Piece(id) => flip(&mut self.pieces, id),
             Item::Point(id) => flip(&mut self.points, id),
             Item::Edge(id) => flip(&mut self.edges, id),
+            Item::Line(id) => flip(&mut self.lines, id),
             Item::Seam(id) => flip(&mut self.seams, id),
         }
     }
@@ -100,11 +118,12 @@ impl Selection {
         }
     }
 
-    /// Selected pieces, and those that selected points and edges are of.
+    /// Selected pieces, and those that selected points, edges and lines are of.
     pub fn pieces_touched(&self) -> BTreeSet<PieceId> {
         let points = self.points.iter().map(|p| p.piece);
         let edges = self.edges.iter().map(|e| e.piece);
-        self.pieces.iter().copied().chain(points).chain(edges).collect()
+        let lines = self.lines.iter().map(|l| l.piece);
+        self.pieces.iter().copied().chain(points).chain(edges).chain(lines).collect()
     }
 
     /// Everything that can be seen.
@@ -122,6 +141,8 @@ impl Selection {
         self.pieces.retain(|id| Item::Piece(*id).is_in(new));
         self.points.retain(|p| same(&p.piece) && Item::Point(*p).is_in(new));
         self.edges.retain(|e| same(&e.piece) && Item::Edge(*e).is_in(new));
+        let lines = |pattern: &Pattern, id: &PieceId| pattern.pieces.get(id).map(|p| p.lines.len());
+        self.lines.retain(|l| lines(old, &l.piece) == lines(new, &l.piece) && Item::Line(*l).is_in(new));
         self.seams.retain(|id| Item::Seam(*id).is_in(new));
     }
 
@@ -136,6 +157,7 @@ impl Selection {
             count(self.pieces.len(), "piece"),
             count(self.edges.len(), "edge"),
             count(self.points.len(), "point"),
+            count(self.lines.len(), "line"),
             count(self.seams.len(), "seam"),
         ];
         parts.into_iter().flatten().collect::<Vec<_>>().join(", ")

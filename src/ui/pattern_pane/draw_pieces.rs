@@ -10,7 +10,7 @@ use super::threads::Ends;
 use crate::geometry::ids::SeamId;
 use crate::pattern::{Piece, Stretch};
 use crate::ui::actions::Tool;
-use crate::ui::selection::Item;
+use crate::ui::selection::{Item, LineRef};
 use crate::ui::signs::{self, Sign};
 
 /// Whether the front of `piece` is seen.
@@ -246,7 +246,7 @@ impl Drawing<'_> {
         }
     }
 
-    /// Edges that are selected or under the pointer.
+    /// Edges and lines that are selected or under the pointer.
     pub fn edges_standing_out(&self, table: &Table<'_>) {
         let near = match table.laid.highlight {
             Some(Item::Edge(edge)) => Some(edge),
@@ -255,6 +255,18 @@ impl Drawing<'_> {
         for &edge in table.laid.selection.edges.iter().chain(&near) {
             if let Some(points) = table.edge(edge) {
                 self.polyline(&points, Stroke::new(3.4, self.palette.accent));
+            }
+        }
+        let near = match table.laid.highlight {
+            Some(Item::Line(line)) => Some(line),
+            _ => None,
+        };
+        for &LineRef { piece, line } in table.laid.selection.lines.iter().chain(&near) {
+            if let Some((found, shape)) = table.piece(piece)
+                && let Some(points) = shape.lines.get(line)
+            {
+                let points: Vec<DVec2> = points.iter().map(|&p| found.pose.plane_from_piece(p)).collect();
+                self.polyline(&points, Stroke::new(3.0, self.palette.accent));
             }
         }
     }

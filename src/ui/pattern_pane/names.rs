@@ -26,6 +26,13 @@ pub fn publish(ui: &egui::Ui, table: &Table<'_>) {
         }
     }
     if table.laid.tool == Tool::Points {
+        for (id, piece, shape) in table.seen() {
+            for (i, line) in shape.lines.iter().enumerate() {
+                let on = badge_place(line).unwrap_or_default();
+                let words = || format!("{}, line {}", piece.name, i + 1);
+                node(ui, table, ("line", id.0, i), piece.pose.plane_from_piece(on), words);
+            }
+        }
         for (point, p) in table.points() {
             let name = &table.pattern().pieces[&point.piece].name;
             let words = || format!("{name}, point {}", point.point + 1);

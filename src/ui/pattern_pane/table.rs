@@ -10,6 +10,7 @@ use super::{Laid, Options};
 use crate::geometry::ids::{MarkId, PieceId, SeamId};
 use crate::pattern::edit::PointRef;
 use crate::pattern::{EdgeRef, Pattern, Piece};
+use crate::ui::selection::LineRef;
 
 /// How near to a mark or a point a click counts, points on the screen.
 pub const REACH: f64 = 10.0;
@@ -152,6 +153,17 @@ impl<'a> Table<'a> {
     /// The nearest place on an edge a click is near enough to.
     pub fn edge_at(&self, p: DVec2) -> Option<OnEdge> {
         self.edge_near(p, NEAR_EDGE)
+    }
+
+    /// The line drawn inside a piece a click is near enough to; of several the topmost piece's.
+    pub fn line_at(&self, p: DVec2) -> Option<LineRef> {
+        let all = self.seen().flat_map(|(piece, found, shape)| {
+            let own = found.pose.piece_from_plane(p);
+            let far = move |line: &Vec<DVec2>| to_polyline(own, line);
+            shape.lines.iter().enumerate().map(move |(line, points)| (LineRef { piece, line }, far(points)))
+        });
+        let near = all.filter(|(_, d)| *d <= self.reach(NEAR_EDGE));
+        near.min_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0))).map(|(line, _)| line)
     }
 
     /// The seam with a thread there.

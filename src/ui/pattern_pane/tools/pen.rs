@@ -6,7 +6,7 @@ use glam::DVec2;
 use super::{PatternTool, done, in_piece, new_piece, turned_round};
 use crate::geometry::ids::PieceId;
 use crate::pattern::edit::PatternEdit;
-use crate::pattern::{Edge, EdgeShape, InternalLine, Piece};
+use crate::pattern::{Edge, EdgeShape, InternalLine, Piece, curve};
 use crate::ui::asks::{Ask, Asks};
 use crate::ui::pattern_pane::draw::Drawing;
 use crate::ui::pattern_pane::input::Input;
@@ -43,11 +43,13 @@ pub struct Pen {
 }
 
 /// A point on the table, metres.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 struct PenPoint {
     at: DVec2,
     /// Where the line leaves it for, when it is smooth; it comes from the other side.
     handle: Option<DVec2>,
+    /// What the arc to the next point goes through, when it is one.
+    through: Option<DVec2>,
 }
 
 impl Pen {
@@ -95,7 +97,7 @@ impl Pen {
         if self.points.last().is_some_and(|last| last.at.distance(at) < 1e-6) {
             return;
         }
-        self.points.push(PenPoint { at, handle: None });
+        self.points.push(PenPoint { at, ..PenPoint::default() });
     }
 
     /// The piece the line is drawn on.
@@ -119,7 +121,7 @@ impl Pen {
     }
 
     fn finish(&mut self, table: &Table<'_>, asks: &mut Asks) {
-        let curved = self.points.iter().any(|p| p.handle.is_some());
+        let curved = self.points.iter().any(|p| p.handle.is_some() || p.through.is_some());
         let Some(first) = self.points.first().copied() else { return };
         if self.points.len() < self.least() && !(curved && self.points.len() == 2) {
             let least = self.least();
@@ -167,6 +169,9 @@ fn round_hole(table: &Table<'_>, piece: PieceId, edges: Vec<Edge>) -> Vec<Edge> 
 }
 
 fn shape_between(p: PenPoint, q: PenPoint) -> EdgeShape {
+    if let Some(through) = p.through {
+        return curve::arc_through(p.at, through, q.at);
+    }
     if p.handle.is_none() && q.handle.is_none() {
         return EdgeShape::Line;
     }
@@ -180,7 +185,11 @@ impl PatternTool for Pen {
     fn step(&mut self, table: &Table<'_>, input: &Input, asks: &mut Asks) {
         for &at in &input.clicks {
             let p = table.at(at);
-            if self.closes(table, p) {
+            if input.held.command
+                && let Some(last) = self.points.last_mut()
+            {
+                last.through = Some(p);
+            } else if self.closes(table, p) {
                 self.finish(table, asks);
             } else {
                 let place = self.snapped(table, p, input).place;
@@ -209,7 +218,11 @@ impl PatternTool for Pen {
             self.pulling = false;
         }
         if input.backspace {
-            self.points.pop();
+            // First the arc, then the point it goes out from.
+            let arc = self.points.last_mut().and_then(|last| last.through.take());
+            if arc.is_none() {
+                self.points.pop();
+            }
         }
         if input.enter && !self.points.is_empty() {
             self.finish(table, asks);
@@ -236,8 +249,12 @@ impl PatternTool for Pen {
         let Some(next) = &self.next else { return };
         let closes = self.closes(table, next.place);
         if let Some(last) = self.points.last() {
-            let end = if closes { self.points[0] } else { PenPoint { at: next.place, handle: None } };
+            let end =
+                if closes { self.points[0] } else { PenPoint { at: next.place, ..PenPoint::default() } };
             let line = flat(*last, end);
+            if let Some(through) = last.through {
+                drawing.painter.circle_filled(drawing.place(through), 3.0, ink);
+            }
             drawing.polyline(&line, Stroke::new(1.4, ink.gamma_multiply(0.7)));
             let length: f64 = line.windows(2).map(|w| w[0].distance(w[1])).sum();
             let turn = degrees((end.at - last.at).to_angle());
@@ -319,7 +336,7 @@ impl PatternTool for Pen {
         match self.points.len() {
             0 => format!("Draw {what} · Click: a corner · Drag: a curve · Type a place: 30,40"),
             _ => format!(
-                "{ends} · Backspace: one point back · Type 12, @10,0 or 10<45 · Shift: 45° · Esc: give up"
+                "{ends} · Ctrl+click: an arc through here · Backspace: one back · Type 12, @10,0 or 10<45 · Shift: 45° · Esc: give up"
             ),
         }
     }
@@ -327,7 +344,7 @@ impl PatternTool for Pen {
 
 fn flat(p: PenPoint, q: PenPoint) -> Vec<DVec2> {
     let mut points = Vec::new();
-    crate::pattern::curve::flatten(p.at, shape_between(p, q), q.at, 5e-4, &mut points);
+    curve::flatten(p.at, shape_between(p, q), q.at, 5e-4, &mut points);
     points.push(q.at);
     points
 }

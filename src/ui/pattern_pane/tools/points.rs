@@ -9,7 +9,7 @@ use super::select::next;
 use super::{PatternTool, done, dragged};
 use crate::geometry::ids::PieceId;
 use crate::pattern::edit::{PatternEdit, PointRef};
-use crate::pattern::{EdgeRef, EdgeShape};
+use crate::pattern::{EdgeRef, EdgeShape, curve};
 use crate::ui::asks::{Ask, Asks};
 use crate::ui::pattern_pane::draw::Drawing;
 use crate::ui::pattern_pane::input::Input;
@@ -78,6 +78,9 @@ impl Points {
         let piece = &table.pattern().pieces[&hit.edge.piece];
         let (shape, (a, b)) = (piece.edge(hit.edge.edge).shape, piece.edge_ends(hit.edge.edge));
         if shape != EdgeShape::Line || input.held.alt {
+            // As an arc with Shift: bent through the pointer wherever it begins.
+            let arc = EdgeShape::Arc { radius: a.distance(b), large: false, sweep: true };
+            let shape = if input.held.shift { arc } else { shape };
             let held = piece.pose.piece_from_plane(hit.place);
             self.drag = Some(Drag::Bend { edge: hit.edge, ends: [a, b], shape, at: hit.at, held });
             return;
@@ -268,13 +271,14 @@ impl PatternTool for Points {
     fn under(&self, table: &Table<'_>, p: DVec2) -> Option<Item> {
         let point = table.point_at(p).map(Item::Point);
         let edge = || table.edge_at(p).map(|hit| Item::Edge(hit.edge));
-        point.or_else(edge).or_else(|| table.piece_at(p).map(|(piece, _)| Item::Piece(piece)))
+        let line = || table.line_at(p).map(Item::Line);
+        point.or_else(edge).or_else(line).or_else(|| table.piece_at(p).map(|(piece, _)| Item::Piece(piece)))
     }
 
     fn cursor(&self, table: &Table<'_>, at: DVec2) -> CursorIcon {
         match self.under(table, at) {
             _ if self.drag.is_some() => CursorIcon::Grabbing,
-            Some(Item::Point(_) | Item::Edge(_)) => CursorIcon::PointingHand,
+            Some(Item::Point(_) | Item::Edge(_) | Item::Line(_)) => CursorIcon::PointingHand,
             _ if handle_at(table, at).is_some() => CursorIcon::PointingHand,
             _ => CursorIcon::Default,
         }
@@ -287,7 +291,7 @@ impl PatternTool for Points {
             }
             Some(_) => "Alt: do not snap · Esc: back",
             None => {
-                "Drag a point or an edge · Alt+drag an edge: bend it · Double-click an edge: insert a point; a point: corner or smooth · Delete: take it away"
+                "Drag a point or an edge · Alt+drag an edge: bend it, with Shift to an arc · Double-click an edge: insert a point; a point: corner or smooth · Delete: take it away"
             }
         }
         .to_owned()
@@ -410,29 +414,13 @@ fn bent([a, b]: [DVec2; 2], shape: EdgeShape, at: f64, held: DVec2, to: DVec2) -
         EdgeShape::Cubic { controls } => {
             EdgeShape::Cubic { controls: controls.map(|c| c + by / (3.0 * t * (1.0 - t))) }
         }
-        EdgeShape::Arc { .. } => arc_through(a, to, b),
+        EdgeShape::Arc { .. } => curve::arc_through(a, to, b),
     }
-}
-
-/// The arc from `a` to `b` through `p`; straight when they lie on a line.
-fn arc_through(a: DVec2, p: DVec2, b: DVec2) -> EdgeShape {
-    let (u, v) = (p - a, b - a);
-    let turn = u.perp_dot(v);
-    if turn.abs() < 1e-6 * v.length_squared() {
-        return EdgeShape::Line;
-    }
-    // The centre, from `a`: as far from all three.
-    let (uu, vv) = (u.length_squared(), v.length_squared());
-    let centre = DVec2::new(v.y * uu - u.y * vv, u.x * vv - v.x * uu) / (2.0 * turn);
-    // On the same side of the chord as `p`: more than half a circle.
-    let large = v.perp_dot(centre) * v.perp_dot(u) > 0.0;
-    EdgeShape::Arc { radius: centre.length(), large, sweep: turn > 0.0 }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::pattern::curve;
 
     #[test]
     fn a_bent_edge_goes_through_the_pointer() {
@@ -450,6 +438,6 @@ mod tests {
                 assert!((p - to).length() < 1e-6, "{shape:?} to {to}: {p}");
             }
         }
-        assert_eq!(arc_through(a, DVec2::new(1.0, 0.0), b), EdgeShape::Line);
+        assert_eq!(curve::arc_through(a, DVec2::new(1.0, 0.0), b), EdgeShape::Line);
     }
 }
