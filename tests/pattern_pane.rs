@@ -11,6 +11,8 @@ use toile::pattern::{Pattern, Piece, Seam, Stretch};
 use toile::session::{Document, Project};
 use toile::ui::App;
 
+#[path = "pattern_pane/details.rs"]
+mod details;
 #[path = "pattern_pane/keyboard.rs"]
 mod keyboard;
 #[path = "pattern_pane/speed.rs"]

@@ -3,6 +3,7 @@
 mod draw;
 mod draw_pieces;
 mod entry;
+mod guides;
 mod input;
 mod names;
 mod options;
@@ -31,6 +32,7 @@ use crate::ui::units::LengthUnit;
 use crate::wrap::Marks;
 use draw::Drawing;
 use entry::Entry;
+use guides::Guides;
 use input::Input;
 pub use names::seam_words;
 pub use options::Options;
@@ -75,9 +77,7 @@ pub struct PatternPane {
     pub under: Option<Item>,
     /// How tools work.
     pub options: Options,
-    guides: Vec<Guide>,
-    /// One is being dragged out of a ruler.
-    new_guide: Option<Guide>,
+    guides: Guides,
     shapes: Shapes,
     threads: Threads,
     tool: Option<(Tool, Box<dyn PatternTool>)>,
@@ -139,7 +139,12 @@ impl PatternPane {
         self.fit_if_asked(laid, pane);
         self.move_view(ui, laid.mouse, pane, &response);
         let mut tool = self.in_hand(laid.tool, asks);
-        let input = self.input(ui, laid, pane, &response, &mut *tool, asks);
+        let mut input = self.input(ui, laid, pane, &response, &mut *tool, asks);
+        let free = laid.tool == Tool::Move && self.is_bare(laid, pane, &input);
+        let mut guides = std::mem::take(&mut self.guides);
+        let escape = ui.input(|i| i.key_pressed(Key::Escape));
+        guides.step(&self.view, pane, free, &mut input, escape, |p| self.table(laid, pane).rounded(p));
+        self.guides = guides;
         let table = self.table(laid, pane);
         tool.step(&table, &input, asks);
         if tool.is_dragging() && ui.input(|i| i.key_pressed(Key::Escape)) {
@@ -148,11 +153,12 @@ impl PatternPane {
         let at = input.hover.filter(|_| response.contains_pointer() || self.cursor.is_some());
         let under = at.filter(|_| !tool.is_dragging()).and_then(|at| tool.under(&table, table.at(at)));
         if let Some(at) = response.hover_pos() {
-            ui.ctx().set_cursor_icon(tool.cursor(&table, table.at(at)));
+            let icon = self.guides.cursor().unwrap_or_else(|| tool.cursor(&table, table.at(at)));
+            ui.ctx().set_cursor_icon(icon);
         }
         let drawing =
             Drawing { painter: ui.painter_at(pane), pane, view: &table.view, palette: laid.palette };
-        draw_table(&drawing, &table, self.new_guide.as_ref(), at);
+        draw_table(&drawing, &table, self.guides.new.as_ref(), at);
         tool.draw(&drawing, &table, &input);
         // A right click is about what lies there.
         if response.secondary_clicked()
@@ -177,7 +183,7 @@ impl PatternPane {
         self.take_entry(ui, laid, pane, &mut *tool, asks);
         (self.response, self.options) = (Some(response), options);
         (self.under, self.tool) = (under, Some((laid.tool, tool)));
-        self.take_guide(pane, dragged);
+        self.guides.take(&self.view, pane, dragged);
     }
 
     /// The mark being painted, or anything else under way that Esc gives up.
@@ -197,7 +203,7 @@ impl PatternPane {
 
     /// Takes all guides away.
     pub fn clear_guides(&mut self) {
-        self.guides.clear();
+        self.guides.all.clear();
     }
 
     /// Seams that join the front of one piece to the back of another.
@@ -208,6 +214,9 @@ impl PatternPane {
     /// What the mouse does here, for the status bar.
     pub fn hint(&self, laid: &Laid<'_>) -> String {
         let view = format!("{} · F: show all", laid.mouse.table_hint());
+        if self.guides.cursor().is_some() {
+            return format!("Drag the guide; back to its ruler: take it away · {view}");
+        }
         match (&self.tool, self.area) {
             (Some((_, tool)), Some(pane)) => format!("{} · {view}", tool.hint(&self.table(laid, pane))),
             _ => view,
@@ -220,7 +229,7 @@ impl PatternPane {
             laid,
             shapes: &self.shapes,
             threads: &self.threads,
-            guides: &self.guides,
+            guides: &self.guides.all,
             view,
             pane,
             options,
@@ -298,7 +307,8 @@ impl PatternPane {
             self.over = ui.input(|i| i.pointer.primary_down());
             return Input { hover: response.hover_pos(), ..Input::default() };
         }
-        let mut input = Input::of_pointer(ui, response, laid.mouse, tool.is_dragging());
+        let mut input =
+            Input::of_pointer(ui, response, laid.mouse, tool.is_dragging() || self.guides.is_held());
         if !input.clicks.is_empty() || input.pressed.is_some() {
             response.request_focus();
         }
@@ -395,19 +405,12 @@ impl PatternPane {
         }
     }
 
-    fn take_guide(&mut self, pane: Rect, dragged: Option<(Guide, bool)>) {
-        self.new_guide = None;
-        let Some((guide, let_go)) = dragged else { return };
-        let (lower, upper) = self.view.seen(pane);
-        let inside = match guide {
-            Guide::Upright(x) => (lower.x..upper.x).contains(&x),
-            Guide::Level(y) => (lower.y..upper.y).contains(&y),
-        };
-        match (inside, let_go) {
-            (true, true) => self.guides.push(guide),
-            (true, false) => self.new_guide = Some(guide),
-            _ => {}
-        }
+    /// Whether there is nothing but the table where the pointer is.
+    fn is_bare(&self, laid: &Laid<'_>, pane: Rect, input: &Input) -> bool {
+        let table = self.table(laid, pane);
+        input.pressed.or(input.hover).map(|at| table.at(at)).is_some_and(|p| {
+            table.piece_at(p).is_none() && table.edge_at(p).is_none() && table.thread_at(p).is_none()
+        })
     }
 }
 

@@ -1,0 +1,146 @@
+//! Lines, holes, arcs, guides; pieces folded, unfolded and made symmetric.
+
+use toile::pattern::{EdgeShape, InternalLine};
+
+use super::*;
+
+/// The first square with a line and a square hole.
+fn detailed() -> Pattern {
+    let mut pattern = squares();
+    let id = pattern.piece_named("A").expect("a square");
+    let piece = Arc::make_mut(pattern.pieces.get_mut(&id).expect("the square"));
+    let line =
+        |ends: &[[f64; 2]]| Piece::polygon("", &ends.iter().map(|&p| DVec2::from(p)).collect::<Vec<_>>());
+    let edges = vec![line(&[[0.02, 0.03], [0.1, 0.03], [0.1, 0.05]]).outline[0].clone()];
+    piece.lines.push(InternalLine { edges, end: DVec2::new(0.18, 0.03), name: String::new() });
+    piece.holes.push(line(&[[0.08, 0.1], [0.08, 0.14], [0.12, 0.14], [0.12, 0.1]]).outline);
+    pattern
+}
+
+#[test]
+fn a_line_is_clicked_and_deleted_and_so_is_a_hole_by_an_edge_of_it() {
+    let mut window = window_on(detailed());
+    press(&mut window, Key::A);
+    let line = place(&window, "A, line 1");
+    click(&mut window, line);
+    press(&mut window, Key::Delete);
+    let left = pattern(&window);
+    assert!(piece(&left, "A").lines.is_empty() && piece(&left, "A").holes.len() == 1);
+    let edge = place(&window, "A, edge 6");
+    click(&mut window, edge + Vec2::new(0.0, 3.0));
+    press(&mut window, Key::Delete);
+    assert!(piece(&pattern(&window), "A").holes.is_empty());
+    assert_eq!(pattern(&window).pieces.len(), 2);
+    key(&mut window, Modifiers::COMMAND, Key::Z);
+    key(&mut window, Modifiers::COMMAND, Key::Z);
+    assert_eq!(pattern(&window), detailed());
+}
+
+#[test]
+fn the_pen_draws_an_arc_through_where_ctrl_clicks() {
+    let mut window = window();
+    press(&mut window, Key::B);
+    let [a, b, top] = [[-100.0, 0.0], [100.0, 0.0], [0.0, -100.0]].map(|[x, y]| at(&window, x, y));
+    click(&mut window, a);
+    click(&mut window, b);
+    click_with(&mut window, top, Modifiers::COMMAND);
+    click(&mut window, a);
+    press(&mut window, Key::Enter);
+    let drawn = pattern(&window);
+    let piece = piece(&drawn, "Piece 1");
+    let arcs: Vec<usize> = (0..2).filter(|&i| matches!(piece.edge(i).shape, EdgeShape::Arc { .. })).collect();
+    assert_eq!((piece.outline.len(), arcs.len()), (2, 1));
+    let length = piece.edge_ends(0).0.distance(piece.edge_ends(0).1);
+    let half = std::f64::consts::PI * length * length / 8.0;
+    assert!((piece.signed_area() / half - 1.0).abs() < 0.02, "{} {half}", piece.signed_area());
+}
+
+#[test]
+fn selected_edges_become_arcs_that_stay_arcs_when_bent() {
+    let mut window = window_on(squares());
+    press(&mut window, Key::A);
+    let edge = place(&window, "A, edge 1");
+    click(&mut window, edge);
+    window.get_by_label("Arc").click();
+    window.run_steps(3);
+    let shape = |window: &Window| piece(&pattern(window), "A").edge(0).shape;
+    let radius = |shape| match shape {
+        EdgeShape::Arc { radius, .. } => radius,
+        other => panic!("an arc, not {other:?}"),
+    };
+    let first = radius(shape(&window));
+    assert!((first - 0.26).abs() < 1e-9, "a sagitta of a tenth: {first}");
+    let edge = place(&window, "A, edge 1");
+    drag(&mut window, edge, edge + Vec2::new(0.0, 30.0));
+    assert!(radius(shape(&window)) < first);
+}
+
+#[test]
+fn guides_are_dragged_out_moved_and_taken_back() {
+    let mut window = window_on(squares());
+    press(&mut window, Key::V);
+    let ruler = window.get_by_label("Ruler beside the pattern").rect().center();
+    // Between the squares, where nothing else lies.
+    let [first, second] = [-6.0, 12.0].map(|x| at(&window, x, 0.0));
+    drag(&mut window, ruler, first);
+    drag(&mut window, first, second);
+    // A corner dragged near the guide is drawn on to it.
+    let guide = |window: &mut Window, near: Pos2| {
+        press(window, Key::R);
+        let corner = near - Vec2::new(0.0, 160.0);
+        drag(window, corner - Vec2::new(60.0, 60.0), corner + Vec2::new(3.0, 0.0));
+        let drawn = bounds(piece(&pattern(window), "Piece 1"))[1].x;
+        key(window, Modifiers::COMMAND, Key::Z);
+        press(window, Key::V);
+        drawn
+    };
+    let scale = (second.x - first.x) as f64;
+    let lies = guide(&mut window, second);
+    drag(&mut window, second, first);
+    let moved = guide(&mut window, first);
+    assert!(lies > moved && scale > 0.0, "{lies} {moved}");
+    drag(&mut window, first, ruler);
+    let count = steps(&window).len();
+    let gone = guide(&mut window, first);
+    assert_eq!(steps(&window).len(), count, "guides are no steps");
+    assert!((gone - moved).abs() > 1e-4, "nothing draws on any more");
+}
+
+#[test]
+fn pieces_are_made_symmetric_folded_and_unfolded() {
+    let mut window = window_on(squares());
+    press(&mut window, Key::V);
+    let middle = place(&window, "Piece A");
+    click(&mut window, middle);
+    key(&mut window, Modifiers::COMMAND, Key::M);
+    assert!(piece(&pattern(&window), "A").symmetric);
+    let whole = piece(&pattern(&window), "A").signed_area();
+    window.get_by_label("Fold").click();
+    window.run_steps(3);
+    let folded = pattern(&window);
+    assert!(!piece(&folded, "A").symmetric);
+    assert!((piece(&folded, "A").signed_area() - whole / 2.0).abs() < 1e-9);
+    press(&mut window, Key::A);
+    let edge = place(&window, "B, edge 2");
+    click(&mut window, edge);
+    key(&mut window, Modifiers::COMMAND, Key::U);
+    let unfolded = pattern(&window);
+    assert!(piece(&unfolded, "B").symmetric);
+    assert!((piece(&unfolded, "B").signed_area() - 2.0 * whole).abs() < 1e-9);
+}
+
+#[test]
+fn a_piece_is_scaled_by_its_handles() {
+    let mut window = window_on(squares());
+    press(&mut window, Key::V);
+    let middle = place(&window, "Piece A");
+    click(&mut window, middle);
+    let corner = [place(&window, "A, edge 2").x, place(&window, "A, edge 3").y];
+    let corner = Pos2::from(corner);
+    let before = bounds(piece(&pattern(&window), "A"));
+    drag(&mut window, corner, corner + Vec2::new(30.0, -30.0));
+    let after = bounds(piece(&pattern(&window), "A"));
+    assert!(after[0].distance(before[0]) < 1e-9, "the far corner stays");
+    let grown = (after[1] - after[0]) / (before[1] - before[0]);
+    assert!(grown.x > 1.05 && (grown.x - grown.y).abs() < 0.02, "{grown}");
+}
