@@ -105,6 +105,7 @@ impl App {
                 self.prefer(Preferences { theme: theme.into(), ..self.preferences });
             }
             Action::Mouse(mouse) => self.prefer(Preferences { mouse, ..self.preferences }),
+            Action::Paper(paper) => self.prefer(Preferences { paper, ..self.preferences }),
             Action::Demo(demo) => self.begin_demo(demo),
             Action::StopDemo => self.stop_demo(),
             Action::Shortcuts => self.dialog = Some(Dialog::Shortcuts { mouse: self.preferences.mouse }),

@@ -3,6 +3,7 @@
 use egui::{Key, KeyboardShortcut, Modifiers, ThemePreference};
 
 use crate::drag::DragMode;
+use crate::io::pdf::Paper;
 use crate::render::View;
 use crate::session::demos::Demo;
 use crate::session::samples::Sample;
@@ -114,6 +115,7 @@ pub enum Action {
     TogglePanel,
     Theme(ThemePreference),
     Mouse(Mouse),
+    Paper(Paper),
     Shortcuts,
     Demo(Demo),
     StopDemo,
@@ -276,6 +278,13 @@ impl Action {
             Self::Theme(ThemePreference::Dark) => entry("Dark", "Light text on dark", &[]),
             Self::Theme(ThemePreference::System) => entry("As the system", "Follow the desktop", &[]),
             Self::Mouse(mouse) => entry(mouse.name(), mouse.tip(), &[]),
+            Self::Paper(Paper::A4) => entry("A4", "Patterns as PDF are A4 pages to be glued together", &[]),
+            Self::Paper(Paper::Letter) => {
+                entry("Letter", "Patterns as PDF are Letter pages to be glued together", &[])
+            }
+            Self::Paper(Paper::One) => {
+                entry("One page", "Patterns as PDF are one page as large as it must be, for a plotter", &[])
+            }
             Self::Demo(demo) => entry(demo.name(), demo.tells(), &[]),
             Self::StopDemo => entry("Stop the demo", "Go back to your own work", &[]),
             Self::Shortcuts => entry("Keys and mouse", "What each key and button does", &[key(Key::F1)]),
@@ -306,6 +315,7 @@ impl Action {
                 | Self::TogglePanel
                 | Self::Theme(_)
                 | Self::Mouse(_)
+                | Self::Paper(_)
                 | Self::Shortcuts
                 | Self::Demo(_)
                 | Self::StopDemo

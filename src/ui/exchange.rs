@@ -60,7 +60,7 @@ impl App {
     }
 
     pub(super) fn export_pattern(&mut self, path: &Path) -> Result<(), String> {
-        let left_out = files::export_pattern(path, &self.session.document().pattern)?;
+        let left_out = files::export_pattern(path, &self.session.document().pattern, self.preferences.paper)?;
         self.wrote(path);
         if !left_out.is_empty() {
             self.messages.tell(left_out.join("; "));

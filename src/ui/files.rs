@@ -134,15 +134,13 @@ pub fn import_pattern(path: &Path, unit: Option<DrawingUnit>) -> Result<PatternI
     }
 }
 
-/// Writes `pattern` as the name of the file says; a PDF on A4. Returns what the format does not hold.
-pub fn export_pattern(path: &Path, pattern: &Pattern) -> Result<Vec<String>, String> {
+/// Writes `pattern` as the name of the file says; a PDF on `paper`. Returns what the format does not hold.
+pub fn export_pattern(path: &Path, pattern: &Pattern, paper: Paper) -> Result<Vec<String>, String> {
     let written = match path.extension().map(|e| e.to_string_lossy().to_lowercase()).as_deref() {
         Some("json") => garmentcode::write(pattern),
         Some("dxf") => dxf::write(pattern),
         Some("svg") => svg::write(pattern),
-        Some("pdf") => {
-            pdf::write(pattern, &stem(path), Paper::A4).map_err(|e| in_words(path, "written", e))?
-        }
+        Some("pdf") => pdf::write(pattern, &stem(path), paper).map_err(|e| in_words(path, "written", e))?,
         _ => return Err(in_words(path, "written", "the name must end in .pdf, .svg, .dxf or .json")),
     };
     write(path, &written.bytes)?;

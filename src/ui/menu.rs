@@ -3,6 +3,7 @@
 use egui::{Button, ThemePreference};
 
 use crate::drag::DragMode;
+use crate::io::pdf::Paper;
 use crate::session::demos::Demo;
 use crate::session::samples::Sample;
 use crate::ui::actions::{Action, Tool, VIEWS};
@@ -52,7 +53,9 @@ fn file_ui(ui: &mut egui::Ui, now: &Situation, asks: &mut Asks) {
     ui.separator();
     items(ui, now, asks, &[Action::ImportPattern, Action::ImportBody, Action::UseMannequin]);
     ui.separator();
-    items(ui, now, asks, &[Action::ExportPattern, Action::Export, Action::SaveRecording]);
+    items(ui, now, asks, &[Action::ExportPattern]);
+    ui.menu_button("Paper", |ui| items(ui, now, asks, &Paper::ALL.map(Action::Paper)));
+    items(ui, now, asks, &[Action::Export, Action::SaveRecording]);
     ui.separator();
     items(ui, now, asks, &[Action::Quit]);
 }

@@ -147,6 +147,7 @@ impl App {
             // In a demo the mouse only turns the view.
             tool: if self.demo.is_some() { Tool::Move } else { self.tool },
             mouse: if self.demo.is_some() { Mouse::Clo } else { self.preferences.mouse },
+            paper: self.preferences.paper,
             laser: self.laser,
             picked: Picked::new(&document.pattern, &self.picks.selection),
             twisted: self.pattern_pane.has_twisted(),

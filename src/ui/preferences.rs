@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use egui::ThemePreference;
 use serde::{Deserialize, Serialize};
 
+use crate::io::pdf::Paper;
 use crate::ui::files;
 use crate::ui::mouse::Mouse;
 use crate::ui::units::LengthUnit;
@@ -25,6 +26,9 @@ pub struct Preferences {
     /// What lengths are shown in.
     #[serde(deserialize_with = "or_default")]
     pub unit: LengthUnit,
+    /// What patterns are printed on.
+    #[serde(deserialize_with = "or_default")]
+    pub paper: Paper,
 }
 
 /// See [`ThemePreference`].
@@ -108,7 +112,12 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("deep/preferences.json");
         assert_eq!(Preferences::read(&path), Preferences::default());
-        let preferences = Preferences { mouse: Mouse::Blender, theme: Theme::Light, unit: LengthUnit::Inch };
+        let preferences = Preferences {
+            mouse: Mouse::Blender,
+            theme: Theme::Light,
+            unit: LengthUnit::Inch,
+            paper: Paper::One,
+        };
         preferences.write(&path).expect("written");
         assert_eq!(Preferences::read(&path), preferences);
         for broken in ["", "{", "[1, 2]", "\u{0}", "{\"mouse\": 7}", "nonsense"] {

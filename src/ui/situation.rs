@@ -4,6 +4,7 @@ use egui::ThemePreference;
 
 use crate::drag::DragMode;
 use crate::geometry::ids::MarkId;
+use crate::io::pdf::Paper;
 use crate::ui::actions::{Action, Tool};
 use crate::ui::edits::Picked;
 use crate::ui::mouse::Mouse;
@@ -22,6 +23,8 @@ pub struct Situation {
     pub tool: Tool,
     /// What all mouse buttons do.
     pub mouse: Mouse,
+    /// What patterns are printed on.
+    pub paper: Paper,
     /// Strokes go through everything under the pointer.
     pub laser: bool,
     /// Pieces on the table.
@@ -133,7 +136,7 @@ impl Situation {
             Action::Fold => unless(self.picked.symmetric, "Select a symmetric piece first"),
             Action::Unlink => unless(self.picked.linked, "Select a twin or a symmetric piece first"),
             Action::ShowPieces => unless(self.picked.hidden, "No piece is hidden"),
-            Action::InsertPoint | Action::Straighten | Action::Curve => {
+            Action::InsertPoint | Action::Straighten | Action::Curve | Action::Arc => {
                 unless(self.picked.edges > 0, "No edge is selected")
             }
             Action::ToggleSmooth => unless(self.picked.points > 0, "No point is selected"),
@@ -163,6 +166,7 @@ impl Situation {
             Action::ToggleFreeTurning => self.free_turning,
             Action::Theme(theme) => self.theme == theme,
             Action::Mouse(mouse) => self.mouse == mouse,
+            Action::Paper(paper) => self.paper == paper,
             _ => false,
         }
     }

@@ -4,6 +4,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use glam::DVec2;
+use serde::{Deserialize, Serialize};
 
 /// Around what is printed, millimetres: printers do not reach the edge.
 pub const MARGIN: f64 = 10.0;
@@ -11,7 +12,8 @@ pub const MARGIN: f64 = 10.0;
 pub const OVERLAP: f64 = 10.0;
 
 /// What a pattern is printed on.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Paper {
     /// 210 × 297 mm, glued together.
     #[default]
