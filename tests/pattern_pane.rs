@@ -15,8 +15,6 @@ use toile::ui::App;
 mod details;
 #[path = "pattern_pane/keyboard.rs"]
 mod keyboard;
-#[path = "pattern_pane/speed.rs"]
-mod speed;
 
 type Window = Harness<'static, Option<App>>;
 
