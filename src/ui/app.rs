@@ -154,6 +154,11 @@ impl App {
         self.scene_pane.camera
     }
 
+    /// Where a point of the table is on the screen; none before the first frame.
+    pub fn on_screen(&self, p: glam::DVec2) -> Option<egui::Pos2> {
+        Some(self.pattern_pane.view.screen_from_table(self.pattern_pane.area?, p))
+    }
+
     /// While the pointer is over cloth that pins hold back: how much of a drag would reach each vertex, 0..=1.
     pub fn reach(&self) -> Option<&[f32]> {
         self.scene_pane.reached()
