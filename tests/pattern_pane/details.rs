@@ -59,7 +59,7 @@ fn the_pen_draws_an_arc_through_where_ctrl_clicks() {
 fn selected_edges_become_arcs_that_stay_arcs_when_bent() {
     let mut window = window_on(squares());
     press(&mut window, Key::A);
-    let edge = place(&window, "A, edge 1");
+    let edge = place(&window, "A, edge 1:");
     click(&mut window, edge);
     window.get_by_label("Arc").click();
     window.run_steps(3);
@@ -70,7 +70,7 @@ fn selected_edges_become_arcs_that_stay_arcs_when_bent() {
     };
     let first = radius(shape(&window));
     assert!((first - 0.26).abs() < 1e-9, "a sagitta of a tenth: {first}");
-    let edge = place(&window, "A, edge 1");
+    let edge = place(&window, "A, edge 1:");
     drag(&mut window, edge, edge + Vec2::new(0.0, 30.0));
     assert!(radius(shape(&window)) < first);
 }
@@ -136,7 +136,7 @@ fn a_piece_is_scaled_by_its_handles() {
     let middle = place(&window, "Piece A");
     click(&mut window, middle);
     let corner = [place(&window, "A, edge 2").x, place(&window, "A, edge 3").y];
-    let corner = Pos2::from(corner);
+    let corner = Pos2::from(corner) + Vec2::new(7.0, -7.0);
     let before = bounds(piece(&pattern(&window), "A"));
     drag(&mut window, corner, corner + Vec2::new(30.0, -30.0));
     let after = bounds(piece(&pattern(&window), "A"));
