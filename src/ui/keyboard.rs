@@ -14,8 +14,7 @@ impl App {
         }
         let table = &self.pattern_pane;
         let scene = &self.scene_pane;
-        let focused =
-            ctx.memory(|m| m.focused().is_some()) && !table.has_focus(ctx) && !scene.has_focus(ctx);
+        let focused = ctx.memory(|m| m.focused().is_some()) && !table.has_focus(ctx) && !scene.has_focus(ctx);
         let menu = egui::Popup::is_any_open(ctx);
         if now.demo && !menu && ctx.input_mut(|i| i.consume_key(Modifiers::NONE, Key::Escape)) {
             return asks.push(Ask::Act(Action::StopDemo));
