@@ -3,7 +3,7 @@
 //! A flat pattern and a body go in; numbered marks say where the cloth goes; a dressed garment comes out.
 //!
 //! ```text
-//! cli, ui → session → sim → {wrap, drag} → relax → contact → {cloth, body} → pattern → geometry
+//! cli, ui → session → sim → {wrap, drag, drape} → relax → contact → {cloth, body} → pattern → geometry
 //! ```
 //!
 //! | folder | holds | may use |
@@ -16,6 +16,7 @@
 //! | `relax`    | paper A's relaxation: shape match, flatten, gravity, friction | contact, cloth, body, geometry |
 //! | `wrap`     | paper A: marks, root edges, growth | relax, contact, cloth, body, pattern, geometry |
 //! | `drag`     | paper A: dependency graph, motion in local frames, pushpins | relax, contact, cloth, body, pattern, geometry |
+//! | `drape`    | physics: membrane, bending, contact in implicit and in small steps, straight to rest | contact, cloth, body, geometry |
 //! | `fit`      | what is read off a garment: strain, crossings, openings, the report | cloth, body, pattern, geometry |
 //! | `sim`      | owner of the moving state: stages, protocol, checkpoints, thread, state hash | the above |
 //! | `session`  | what the user has done: document, command, history, recording, replay, project file, recovery | sim and below, io |
@@ -39,6 +40,7 @@ pub mod cli;
 pub mod cloth;
 pub mod contact;
 pub mod drag;
+pub mod drape;
 pub mod fit;
 pub mod geometry;
 pub mod io;

@@ -1,0 +1,240 @@
+//! Bending: a quadratic energy in the positions, exact for cylinders on any mesh.
+//!
+//! Each vertex reads the second derivatives x,11 x,12 x,22 off the quadratic of weighted least squares through it and its
+//! neighbours, laid flat in the pattern plane. For a surface that keeps its lengths these vectors are normal to it, so that their
+//! dot products are the curvatures' products: the energy A/2 (B1 |x,11|² + B2 |x,22|² + 2 B12 x,11·x,22 + 4 B33 |x,12|²) needs no
+//! normal, is quadratic and does not change when the cloth turns.
+//!
+//! This is the smoothed hinge of Liang (arXiv 2502.10872) but for two things. Its normal is not lagged, for there is none. And its
+//! quadratics through the six corners of a triangle and its neighbours measure a cylinder's energy as exactly, but the cloth finds
+//! shapes that they do not see: where diagonals turn all of them are centred on every other vertex, and a cantilever of
+//! such triangles hangs down more than twice as far as it should.
+
+use glam::{DVec2, DVec3};
+
+use crate::cloth::fabric::Bending as Stiffness;
+use crate::drape::sheet::Sheet;
+
+/// Beyond this a fit amplifies noise: the greatest coefficient of a second derivative times the squared size of the triangle.
+const MOST_GAIN: f64 = 20.0;
+/// Pivots of a fit below this share of the largest: the points do not tell a quadratic.
+const LEAST_PIVOT: f64 = 1e-6;
+
+/// A sparse symmetric matrix Q, N/m: the energy is xᵀQx/2 in each axis.
+#[derive(Clone, Debug)]
+pub struct Bending {
+    /// Row starts in `columns` and `values`.
+    starts: Vec<u32>,
+    columns: Vec<u32>,
+    values: Vec<f64>,
+}
+
+/// Second derivatives as sums over vertices, 1/m².
+#[derive(Clone, Debug)]
+pub struct Stencil {
+    /// The vertices.
+    pub vertices: Vec<u32>,
+    /// For each vertex its weight in x,11 (warp), x,22 (weft) and x,12.
+    pub weights: Vec<[f64; 3]>,
+}
+
+impl Bending {
+    /// Of all triangles of `sheet`; without stiffness empty.
+    pub fn new(sheet: &Sheet, stiffness: &Stiffness) -> Self {
+        let mut entries: Vec<(u32, u32, f64)> = Vec::new();
+        if stiffness.warp > 0.0 || stiffness.weft > 0.0 || stiffness.bias > 0.0 {
+            for (v, area) in nearest_areas(sheet).into_iter().enumerate() {
+                if let Some(stencil) = stencil(sheet, v as u32) {
+                    add_energy(&stencil, stiffness, area, &mut entries);
+                }
+            }
+        }
+        Self::summed(sheet.len(), entries)
+    }
+
+    fn summed(rows: usize, mut entries: Vec<(u32, u32, f64)>) -> Self {
+        entries.sort_by_key(|&(i, j, _)| (i, j));
+        let (mut columns, mut values) = (Vec::new(), Vec::<f64>::new());
+        let mut starts = vec![0u32; rows + 1];
+        let mut last = None;
+        for (i, j, value) in entries {
+            match values.last_mut() {
+                Some(sum) if last == Some((i, j)) => *sum += value,
+                _ => {
+                    columns.push(j);
+                    values.push(value);
+                    starts[i as usize + 1] += 1;
+                }
+            }
+            last = Some((i, j));
+        }
+        for i in 0..rows {
+            starts[i + 1] += starts[i];
+        }
+        Self { starts, columns, values }
+    }
+
+    /// J.
+    pub fn energy(&self, x: &[DVec3]) -> f64 {
+        (0..x.len()).map(|i| (x[i] - x[0]).dot(self.row_times(i, x))).sum::<f64>() / 2.0
+    }
+
+    /// Adds the gradient, N, and gives the energy.
+    pub fn add_gradient(&self, x: &[DVec3], gradient: &mut [DVec3]) -> f64 {
+        if self.values.is_empty() {
+            return 0.0;
+        }
+        let mut energy = 0.0;
+        for (i, g) in gradient.iter_mut().enumerate() {
+            let force = self.row_times(i, x);
+            energy += force.dot(x[i] - x[0]) / 2.0;
+            *g += force;
+        }
+        energy
+    }
+
+    /// The entries of row `i`: column and value.
+    pub fn row(&self, i: usize) -> impl Iterator<Item = (u32, f64)> {
+        let range = self.starts[i] as usize..self.starts[i + 1] as usize;
+        self.columns[range.clone()].iter().copied().zip(self.values[range].iter().copied())
+    }
+
+    fn row_times(&self, i: usize, x: &[DVec3]) -> DVec3 {
+        // Rows sum to zero: differences keep their digits far from the origin.
+        self.row(i).fold(DVec3::ZERO, |sum, (j, q)| sum + (x[j as usize] - x[i]) * q)
+    }
+}
+
+/// The area that lies nearest to each vertex, m²; of obtuse triangles half goes to the obtuse corner (Meyer et al. 2003, 3.3).
+/// Where valences differ, thirds of triangles would make every other vertex bend more easily, and all cloth with it.
+fn nearest_areas(sheet: &Sheet) -> Vec<f64> {
+    let mut areas = vec![0.0; sheet.len()];
+    for ((vs, p), area) in sheet.triangles.iter().zip(&sheet.rest).zip(&sheet.areas) {
+        let sides = [0, 1, 2].map(|k| (p[(k + 1) % 3] - p[k], p[(k + 2) % 3] - p[k]));
+        let obtuse = sides.iter().position(|(u, v)| u.dot(*v) < 0.0);
+        let cotangents = sides.map(|(u, v)| u.dot(v) / (2.0 * area));
+        for k in 0..3 {
+            let (u, v) = sides[k];
+            let [b, c] = [cotangents[(k + 1) % 3], cotangents[(k + 2) % 3]];
+            areas[vs[k] as usize] += match obtuse {
+                Some(at) => area * if at == k { 0.5 } else { 0.25 },
+                None => (u.length_squared() * c + v.length_squared() * b) / 8.0,
+            };
+        }
+    }
+    areas
+}
+
+fn add_energy(stencil: &Stencil, b: &Stiffness, area: f64, entries: &mut Vec<(u32, u32, f64)>) {
+    let (cross, twist) = (b.cross(), b.twist());
+    for (&i, a) in stencil.vertices.iter().zip(&stencil.weights) {
+        for (&j, c) in stencil.vertices.iter().zip(&stencil.weights) {
+            let along = b.warp * a[0] * c[0] + b.weft * a[1] * c[1];
+            let across = cross * (a[0] * c[1] + a[1] * c[0]);
+            entries.push((i, j, area * (along + across + 4.0 * twist * a[2] * c[2])));
+        }
+    }
+}
+
+/// How vertex `v` of `sheet` reads second derivatives: off its neighbours; on the border, and where these are too few, off
+/// theirs too. None where that is too few.
+pub fn stencil(sheet: &Sheet, v: u32) -> Option<Stencil> {
+    let t = *sheet.adjacency.vertex_triangles.of(v).first()?;
+    let own = sheet.rest[t as usize];
+    let k = sheet.triangles[t as usize].iter().position(|&c| c == v)?;
+    let size = sheet.areas[t as usize].sqrt();
+    let round = |t: u32, _: usize| sheet.triangles[t as usize].contains(&v);
+    let near = patch(sheet, t, &own, round);
+    let inner = sheet.adjacency.vertex_triangles.of(v).len() + 1 == near.len();
+    if inner && let Some(stencil) = fitted(&near, own[k], size) {
+        return Some(stencil);
+    }
+    let beside = |t: u32, steps: usize| {
+        let vs = sheet.triangles[t as usize];
+        steps < 8 && vs.iter().any(|&c| near.iter().any(|&(n, _)| n == c))
+    };
+    fitted(&patch(sheet, t, &own, beside), own[k], size)
+}
+
+/// The vertices of `t` and of triangles reached from it, laid flat step by step. `goes` says which triangle after how many
+/// steps.
+fn patch(sheet: &Sheet, t: u32, own: &[DVec2; 3], goes: impl Fn(u32, usize) -> bool) -> Vec<(u32, DVec2)> {
+    let mut points: Vec<(u32, DVec2)> = sheet.triangles[t as usize].into_iter().zip(*own).collect();
+    let mut laid = vec![(t, *own, 0)];
+    let mut at = 0;
+    while at < laid.len() {
+        let (from, corners, steps) = laid[at];
+        for k in 0..3 {
+            let Some((other, flat)) = sheet.unfolded(from, &corners, k) else { continue };
+            if goes(other, steps) && laid.iter().all(|&(known, ..)| known != other) {
+                laid.push((other, flat, steps + 1));
+                for (v, p) in sheet.triangles[other as usize].into_iter().zip(flat) {
+                    if points.iter().all(|&(known, _)| known != v) {
+                        points.push((v, p));
+                    }
+                }
+            }
+        }
+        at += 1;
+    }
+    points
+}
+
+/// The quadratic of least squares through `points`, weighted by nearness to `centre`; for six points the one through them.
+fn fitted(points: &[(u32, DVec2)], centre: DVec2, size: f64) -> Option<Stencil> {
+    if points.len() < 6 {
+        return None;
+    }
+    let rows: Vec<[f64; 6]> = points.iter().map(|&(_, p)| monomials((p - centre) / size)).collect();
+    let nearness: Vec<f64> =
+        points.iter().map(|&(_, p)| (0.1 + (p - centre).length_squared() / (size * size)).powi(-2)).collect();
+    let mut normal = [[0.0; 6]; 6];
+    for (row, w) in rows.iter().zip(&nearness) {
+        for i in 0..6 {
+            for j in 0..6 {
+                normal[i][j] += w * row[i] * row[j];
+            }
+        }
+    }
+    let inverse = inverse(normal)?;
+    let second = |row: &[f64; 6], w: f64, of: usize| -> f64 {
+        (0..6).map(|j| inverse[of][j] * row[j]).sum::<f64>() * w / (size * size)
+    };
+    let weights: Vec<[f64; 3]> =
+        rows.iter().zip(&nearness).map(|(row, &w)| [4, 3, 5].map(|of| second(row, w, of))).collect();
+    let gain = weights.iter().flatten().fold(0.0, |most: f64, w| most.max(w.abs())) * size * size;
+    (gain <= MOST_GAIN).then(|| Stencil { vertices: points.iter().map(|&(v, _)| v).collect(), weights })
+}
+
+/// 1, u, v, u²/2, v²/2, uv.
+fn monomials(p: DVec2) -> [f64; 6] {
+    [1.0, p.x, p.y, p.x * p.x / 2.0, p.y * p.y / 2.0, p.x * p.y]
+}
+
+/// By Gauss–Jordan with the largest pivot of each column.
+fn inverse(mut a: [[f64; 6]; 6]) -> Option<[[f64; 6]; 6]> {
+    let mut b = [[0.0; 6]; 6];
+    (0..6).for_each(|i| b[i][i] = 1.0);
+    let largest = a.iter().flatten().fold(0.0, |most: f64, v| most.max(v.abs()));
+    for c in 0..6 {
+        let pivot = (c..6).max_by(|&i, &j| a[i][c].abs().total_cmp(&a[j][c].abs()))?;
+        if a[pivot][c].abs() <= LEAST_PIVOT * largest {
+            return None;
+        }
+        a.swap(c, pivot);
+        b.swap(c, pivot);
+        let over = 1.0 / a[c][c];
+        for j in 0..6 {
+            a[c][j] *= over;
+            b[c][j] *= over;
+        }
+        for i in (0..6).filter(|&i| i != c) {
+            let times = a[i][c];
+            for j in 0..6 {
+                a[i][j] -= times * a[c][j];
+                b[i][j] -= times * b[c][j];
+            }
+        }
+    }
+    Some(b)
+}

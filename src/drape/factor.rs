@@ -1,0 +1,160 @@
+//! A sparse Cholesky factor (faer) of a matrix of 3 × 3 blocks, ordered block by block.
+
+use std::sync::Arc;
+
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::cholesky::llt::factor::LltRegularization;
+use faer::perm::PermRef;
+use faer::sparse::linalg::cholesky::supernodal::SymbolicSupernodalCholesky;
+use faer::sparse::linalg::cholesky::{
+    CholeskySymbolicParams, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
+    factorize_symbolic_cholesky,
+};
+use faer::sparse::linalg::{SupernodalThreshold, SymbolicSupernodalParams};
+use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
+use faer::{Par, Side, Spec};
+
+/// What sums run in at once: their order is fixed, whatever the machine has.
+const LANES: usize = 8;
+
+/// Where the numbers of a factor stand.
+#[derive(Clone, Debug)]
+pub(super) struct Symbolic(Arc<SymbolicCholesky<usize>>);
+
+/// The numbers.
+#[derive(Clone, Debug)]
+pub(super) struct Factor {
+    symbolic: Symbolic,
+    values: Vec<f64>,
+}
+
+impl Symbolic {
+    /// For a matrix of which the lower triangle is given, its rows eliminated in `order`. None when it does not fit in memory.
+    pub fn new(pattern: SymbolicSparseColMatRef<'_, usize>, order: &[usize]) -> Option<Self> {
+        let mut back = vec![0; order.len()];
+        order.iter().enumerate().for_each(|(at, &row)| back[row] = at);
+        let order = PermRef::new_checked(order, &back, order.len());
+        let params = CholeskySymbolicParams {
+            supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
+            supernodal_params: SymbolicSupernodalParams { relax: Some(&RELAX) },
+            ..Default::default()
+        };
+        let ordering = SymmetricOrdering::Custom(order);
+        let symbolic = factorize_symbolic_cholesky(pattern, Side::Lower, ordering, params);
+        Some(Self(Arc::new(symbolic.ok()?)))
+    }
+
+    /// Numbers a factor has.
+    pub fn len(&self) -> usize {
+        self.0.len_val()
+    }
+
+    /// Columns whose rows below them are the same stand together.
+    fn groups(&self) -> Option<&SymbolicSupernodalCholesky<usize>> {
+        match self.0.raw() {
+            SymbolicCholeskyRaw::Supernodal(groups) => Some(groups),
+            SymbolicCholeskyRaw::Simplicial(_) => None,
+        }
+    }
+
+    /// Factors `matrix`. None when it is not positive definite, or does not fit in memory.
+    pub fn factor(&self, matrix: SparseColMatRef<'_, usize, f64>, memory: Option<Factor>) -> Option<Factor> {
+        let mut values = memory.map(|f| f.values).unwrap_or_default();
+        values.clear();
+        values.resize(self.0.len_val(), 0.0);
+        let need = self.0.factorize_numeric_llt_scratch::<f64>(Par::Seq, Spec::default());
+        let mut memory = MemBuffer::try_new(need).ok()?;
+        let stack = MemStack::new(&mut memory);
+        self.0
+            .factorize_numeric_llt(
+                &mut values,
+                matrix,
+                Side::Lower,
+                LltRegularization::default(),
+                Par::Seq,
+                stack,
+                Spec::default(),
+            )
+            .ok()?;
+        values.iter().all(|v| v.is_finite()).then(|| Factor { symbolic: self.clone(), values })
+    }
+}
+
+/// Groups of up to so many columns may be joined when they then hold at most this share of zeros.
+const RELAX: [(usize, f64); 3] = [(4, 1.0), (16, 0.8), (48, 0.1)];
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let mut sums = [0.0; LANES];
+    let (a, b) = (a.chunks_exact(LANES), b.chunks_exact(LANES));
+    let rest: f64 = a.remainder().iter().zip(b.remainder()).map(|(a, b)| a * b).sum();
+    for (a, b) in a.zip(b) {
+        for k in 0..LANES {
+            sums[k] += a[k] * b[k];
+        }
+    }
+    sums.iter().sum::<f64>() + rest
+}
+
+fn add_times(sum: &mut [f64], column: &[f64], times: f64) {
+    sum.iter_mut().zip(column).for_each(|(sum, l)| *sum += l * times);
+}
+
+impl Factor {
+    /// Solves in place of the right-hand side. False when there is nothing to solve with.
+    pub fn solve(&self, side: &mut [f64]) -> bool {
+        let (Some(groups), Some(order)) = (self.symbolic.groups(), self.symbolic.0.perm()) else {
+            return false;
+        };
+        let (forward, _) = order.arrays();
+        let mut x: Vec<f64> = forward.iter().map(|&v| side[v]).collect();
+        let mut below: Vec<f64> = Vec::new();
+        for s in 0..groups.n_supernodes() {
+            let group = self.group(groups, s);
+            below.clear();
+            below.resize(group.rows.len(), 0.0);
+            let own = &mut x[group.start..group.start + group.size];
+            for (j, column) in group.columns().enumerate() {
+                own[j] /= column[j];
+                let done = own[j];
+                add_times(&mut own[j + 1..], &column[j + 1..group.size], -done);
+                add_times(&mut below, &column[group.size..], done);
+            }
+            for (&row, sum) in group.rows.iter().zip(&below) {
+                x[row] -= sum;
+            }
+        }
+        for s in (0..groups.n_supernodes()).rev() {
+            let group = self.group(groups, s);
+            below.clear();
+            below.extend(group.rows.iter().map(|&row| x[row]));
+            let own = &mut x[group.start..group.start + group.size];
+            for (j, column) in group.columns().enumerate().rev() {
+                let sum = dot(&below, &column[group.size..]) + dot(&own[j + 1..], &column[j + 1..group.size]);
+                own[j] = (own[j] - sum) / column[j];
+            }
+        }
+        forward.iter().zip(&x).for_each(|(&v, &x)| side[v] = x);
+        true
+    }
+
+    fn group<'a>(&'a self, groups: &'a SymbolicSupernodalCholesky<usize>, s: usize) -> Group<'a> {
+        let (start, end) = (groups.supernode_begin()[s], groups.supernode_end()[s]);
+        let rows = &groups.row_idx()[groups.col_ptr_for_row_idx()[s]..][..groups.nnz_per_super()[s]];
+        let values = &self.values[groups.col_ptr_for_val()[s]..groups.col_ptr_for_val()[s + 1]];
+        Group { start, size: end - start, rows, values }
+    }
+}
+
+/// Columns that stand together: a triangle on the diagonal, and the rows below it.
+struct Group<'a> {
+    start: usize,
+    size: usize,
+    rows: &'a [usize],
+    values: &'a [f64],
+}
+
+impl Group<'_> {
+    fn columns(&self) -> impl DoubleEndedIterator<Item = &[f64]> + ExactSizeIterator {
+        self.values.chunks_exact(self.size + self.rows.len())
+    }
+}

@@ -1,0 +1,207 @@
+//! Cloth against itself: vertices against triangles and edges against edges, kept a thickness apart.
+//!
+//! Pairs that could meet in a step are gathered when it begins, with the side they are on. A pair keeps its side: whoever comes
+//! through in an iterate is pushed back to where it came from, so that a fast step does not tangle.
+
+use glam::{DMat3, DVec3};
+
+use crate::body::closest::{Part, closest_on_triangle};
+use crate::drape::sheet::Sheet;
+use crate::geometry::bvh::{Aabb, Bvh};
+
+/// Of the mean edge: nearer than this in the flat cloth is no contact.
+const MOST_THICKNESS: f64 = 0.7;
+
+/// What may meet in one step, and what does.
+#[derive(Clone, Debug, Default)]
+pub struct Itself {
+    thickness: f64,
+    pairs: Vec<Pair>,
+    active: Vec<Push>,
+    stiffness: Vec<f64>,
+    /// Pairs looked at since the start.
+    pub looked_at: u64,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Pair {
+    /// A vertex and a triangle's corners, or the ends of two edges.
+    vertices: [u32; 4],
+    edges: bool,
+    side: f64,
+}
+
+/// Distance as a sum over four vertices: n·Σ w x.
+#[derive(Clone, Copy, Debug)]
+struct Push {
+    vertices: [u32; 4],
+    weights: [f64; 4],
+    normal: DVec3,
+    depth: f64,
+    stiffness: f64,
+}
+
+impl Itself {
+    /// Cloth that keeps `thickness` metres from itself; contact stiffness per vertex, N/m. Thickness zero: it passes through.
+    pub fn new(sheet: &Sheet, thickness: f64, stiffness: Vec<f64>) -> Self {
+        let thickness = thickness.min(MOST_THICKNESS * sheet.mean_edge());
+        Self { thickness, stiffness, ..Self::default() }
+    }
+
+    /// Gathers what could meet while each vertex moves at most `reach` metres from `x`.
+    pub fn gather(&mut self, sheet: &Sheet, x: &[DVec3], reach: &[f64]) {
+        self.pairs.clear();
+        self.active.clear();
+        if self.thickness == 0.0 {
+            return;
+        }
+        let grown = |vs: &[u32]| {
+            let points = Aabb::around(&vs.iter().map(|&v| x[v as usize]).collect::<Vec<_>>());
+            let most = vs.iter().map(|&v| reach[v as usize]).fold(0.0, f64::max) + self.thickness / 2.0;
+            Aabb { lower: points.lower - most, upper: points.upper + most }
+        };
+        let neighbours = &sheet.adjacency.vertex_neighbours;
+        let near = |a: u32, b: u32| a == b || neighbours.of(a).binary_search(&b).is_ok();
+        let boxes: Vec<Aabb> = sheet.triangles.iter().map(|vs| grown(vs)).collect();
+        let tree = Bvh::new(&boxes);
+        for v in 0..x.len() as u32 {
+            tree.near(&grown(&[v]), |t| {
+                let [a, b, c] = sheet.triangles[t as usize];
+                self.looked_at += 1;
+                if near(v, a) || near(v, b) || near(v, c) {
+                    return;
+                }
+                let [pa, pb, pc] = [a, b, c].map(|i| x[i as usize]);
+                let side = (pb - pa).cross(pc - pa).dot(x[v as usize] - pa).signum();
+                self.pairs.push(Pair { vertices: [v, a, b, c], edges: false, side });
+            });
+        }
+        let edges = &sheet.adjacency.edges;
+        let boxes: Vec<Aabb> = edges.iter().map(|e| grown(e)).collect();
+        let tree = Bvh::new(&boxes);
+        for (e, &[a, b]) in edges.iter().enumerate() {
+            tree.near(&boxes[e], |f| {
+                if f as usize <= e {
+                    return;
+                }
+                let [c, d] = edges[f as usize];
+                self.looked_at += 1;
+                if near(a, c) || near(a, d) || near(b, c) || near(b, d) {
+                    return;
+                }
+                let [pa, pb, pc, pd] = [a, b, c, d].map(|i| x[i as usize]);
+                let side = (pb - pa).cross(pd - pc).dot(pc - pa).signum();
+                self.pairs.push(Pair { vertices: [a, b, c, d], edges: true, side });
+            });
+        }
+        // The order of a tree is no order of meaning.
+        self.pairs.sort_by_key(|p| (p.edges, p.vertices));
+    }
+
+    /// Adds the gradient at `x`, N, and gives the energy, J.
+    pub fn add_gradient(&mut self, x: &[DVec3], gradient: &mut [DVec3]) -> f64 {
+        self.active.clear();
+        let mut energy = 0.0;
+        for pair in &self.pairs {
+            let found = if pair.edges { edge_push(pair, x) } else { corner_push(pair, x) };
+            let Some((weights, normal, distance)) = found else { continue };
+            let depth = self.thickness - distance;
+            if depth <= 0.0 {
+                continue;
+            }
+            let share = |(v, w): (&u32, &f64)| w.abs() * self.stiffness[*v as usize];
+            let stiffness = pair.vertices.iter().zip(&weights).map(share).sum::<f64>() / 2.0;
+            energy += stiffness * depth * depth / 2.0;
+            for (&v, w) in pair.vertices.iter().zip(weights) {
+                gradient[v as usize] -= normal * (w * depth * stiffness);
+            }
+            self.active.push(Push { vertices: pair.vertices, weights, normal, depth, stiffness });
+        }
+        energy
+    }
+
+    /// Moves `x` so that no pair is nearer than the thickness, each vertex by its share of `inverse_mass`, pair after pair.
+    pub fn project(&self, x: &mut [DVec3], inverse_mass: &[f64]) {
+        for pair in &self.pairs {
+            let found = if pair.edges { edge_push(pair, x) } else { corner_push(pair, x) };
+            let Some((weights, normal, distance)) = found else { continue };
+            let depth = self.thickness - distance;
+            let whole: f64 =
+                pair.vertices.iter().zip(&weights).map(|(&v, w)| w * w * inverse_mass[v as usize]).sum();
+            if depth > 0.0 && whole > 0.0 {
+                for (&v, w) in pair.vertices.iter().zip(weights) {
+                    x[v as usize] += normal * (depth * w * inverse_mass[v as usize] / whole);
+                }
+            }
+        }
+    }
+
+    /// Blocks on the diagonal that bound the Hessian from above, N/m: those between vertices are left to them, so that the
+    /// matrix keeps its pattern.
+    pub fn hessian(&self, mut block: impl FnMut(u32, DMat3)) {
+        for push in &self.active {
+            let n = push.normal;
+            let outer = DMat3::from_cols(n * n.x, n * n.y, n * n.z);
+            let whole: f64 = push.weights.iter().map(|w| w.abs()).sum();
+            for (&v, w) in push.vertices.iter().zip(push.weights) {
+                block(v, outer * (push.stiffness * w.abs() * whole));
+            }
+        }
+    }
+
+    /// Whether anything of the cloth pushes vertex by vertex.
+    pub fn mark_touching(&self, touching: &mut [bool]) {
+        for push in &self.active {
+            push.vertices.iter().for_each(|&v| touching[v as usize] = true);
+        }
+    }
+
+    /// Largest depth into the thickness, metres.
+    pub fn deepest(&self) -> f64 {
+        self.active.iter().map(|p| p.depth).fold(0.0, f64::max)
+    }
+}
+
+/// Weights, direction and distance of a vertex before a triangle. None beyond its border on the other side.
+fn corner_push(pair: &Pair, x: &[DVec3]) -> Option<([f64; 4], DVec3, f64)> {
+    let [p, a, b, c] = pair.vertices.map(|v| x[v as usize]);
+    let normal = (b - a).cross(c - a).normalize_or_zero() * pair.side;
+    let (near, part) = closest_on_triangle(p, a, b, c);
+    let signed = normal.dot(p - near);
+    if matches!(part, Part::Face) {
+        let (u, v) = barycentric(near, a, b, c)?;
+        return Some(([1.0, u + v - 1.0, -u, -v], normal, signed));
+    }
+    if signed < 0.0 {
+        return None;
+    }
+    let way = p - near;
+    let distance = way.length();
+    let (u, v) = barycentric(near, a, b, c)?;
+    (distance > 0.0).then(|| ([1.0, u + v - 1.0, -u, -v], way / distance, distance))
+}
+
+fn barycentric(p: DVec3, a: DVec3, b: DVec3, c: DVec3) -> Option<(f64, f64)> {
+    let (u, v, w) = (b - a, c - a, p - a);
+    let (uu, uv, vv, wu, wv) = (u.dot(u), u.dot(v), v.dot(v), w.dot(u), w.dot(v));
+    let whole = uu * vv - uv * uv;
+    (whole > 0.0).then(|| ((vv * wu - uv * wv) / whole, (uu * wv - uv * wu) / whole))
+}
+
+/// Weights, direction and distance of two edges that cross within their lengths.
+fn edge_push(pair: &Pair, x: &[DVec3]) -> Option<([f64; 4], DVec3, f64)> {
+    let [a, b, c, d] = pair.vertices.map(|v| x[v as usize]);
+    let (u, v, w) = (b - a, d - c, c - a);
+    let (uu, uv, vv, uw, vw) = (u.dot(u), u.dot(v), v.dot(v), u.dot(w), v.dot(w));
+    let whole = uu * vv - uv * uv;
+    // Nearly parallel edges meet at their ends, which the vertices see.
+    if whole <= 1e-6 * uu * vv {
+        return None;
+    }
+    let (s, t) = ((vv * uw - uv * vw) / whole, (uv * uw - uu * vw) / whole);
+    if !(0.0..=1.0).contains(&s) || !(0.0..=1.0).contains(&t) {
+        return None;
+    }
+    let normal = u.cross(v).normalize_or_zero() * pair.side;
+    Some(([s - 1.0, -s, 1.0 - t, t], normal, normal.dot(w)))
+}

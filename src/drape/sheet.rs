@@ -1,0 +1,142 @@
+//! A sheet of cloth as a triangle mesh with a flat rest shape: what does not change while it moves.
+
+use glam::{DMat2, DVec2};
+
+use crate::geometry::adjacency::{Adjacency, NONE};
+
+/// Rest triangles smaller than this share of the mean are no cloth.
+const LEAST_AREA: f64 = 1e-8;
+
+/// Connectivity, rest shape and masses. Rest coordinates stand at the corners of each triangle, so that pieces may be sewn.
+#[derive(Clone, Debug)]
+pub struct Sheet {
+    /// Corner vertices, counter-clockwise on the cloth's front.
+    pub triangles: Vec<[u32; 3]>,
+    /// The same corners in the pattern plane (x along the weft, y along the warp), metres; counter-clockwise.
+    pub rest: Vec<[DVec2; 3]>,
+    /// Area of each rest triangle, m².
+    pub areas: Vec<f64>,
+    /// A third of the area round each vertex, m².
+    pub vertex_area: Vec<f64>,
+    /// Neighbours.
+    pub adjacency: Adjacency,
+}
+
+/// Why triangles are no sheet.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum SheetError {
+    /// Nothing to simulate.
+    #[error("there is no triangle")]
+    Empty,
+    /// A corner that is no vertex, or not finite.
+    #[error("triangle {0} (from 0) has a corner that is missing or not finite")]
+    Corner(usize),
+    /// No area, or mirrored.
+    #[error("triangle {0} (from 0) has no area in its rest shape")]
+    Area(usize),
+    /// A vertex without cloth.
+    #[error("vertex {0} (from 0) belongs to no triangle")]
+    Lonely(usize),
+}
+
+impl Sheet {
+    /// Over vertices `0..vertices`. Triangles that lie mirrored in the pattern plane are taken as seen from behind.
+    pub fn new(
+        vertices: usize,
+        triangles: Vec<[u32; 3]>,
+        mut rest: Vec<[DVec2; 3]>,
+    ) -> Result<Self, SheetError> {
+        if triangles.is_empty() || rest.len() != triangles.len() {
+            return Err(SheetError::Empty);
+        }
+        for (t, (vs, corners)) in triangles.iter().zip(&mut rest).enumerate() {
+            let known = vs.iter().all(|&v| (v as usize) < vertices) && corners.iter().all(|c| c.is_finite());
+            if !known {
+                return Err(SheetError::Corner(t));
+            }
+            if signed_area(corners) < 0.0 {
+                corners.iter_mut().for_each(|c| c.x = -c.x);
+            }
+        }
+        let areas: Vec<f64> = rest.iter().map(signed_area).collect();
+        let mean = areas.iter().sum::<f64>() / areas.len() as f64;
+        if let Some(t) = areas.iter().position(|&a| a.is_nan() || a <= LEAST_AREA * mean) {
+            return Err(SheetError::Area(t));
+        }
+        let mut vertex_area = vec![0.0; vertices];
+        for (vs, area) in triangles.iter().zip(&areas) {
+            vs.iter().for_each(|&v| vertex_area[v as usize] += area / 3.0);
+        }
+        if let Some(v) = vertex_area.iter().position(|&a| a == 0.0) {
+            return Err(SheetError::Lonely(v));
+        }
+        let adjacency = Adjacency::new(vertices, &triangles);
+        Ok(Self { triangles, rest, areas, vertex_area, adjacency })
+    }
+
+    /// Number of vertices.
+    pub fn len(&self) -> usize {
+        self.vertex_area.len()
+    }
+
+    /// Never: a sheet has triangles.
+    pub fn is_empty(&self) -> bool {
+        self.vertex_area.is_empty()
+    }
+
+    /// Rest length of edge `e` (of the adjacency), metres: over the triangles beside it the mean.
+    pub fn rest_length(&self, e: usize) -> f64 {
+        let beside = self.adjacency.edge_triangles.of(e as u32);
+        let length = |&t: &u32| {
+            let k = self.side_of(t, e as u32);
+            let corners = &self.rest[t as usize];
+            corners[k].distance(corners[(k + 1) % 3])
+        };
+        beside.iter().map(length).sum::<f64>() / beside.len() as f64
+    }
+
+    /// Mean rest length of all edges, metres.
+    pub fn mean_edge(&self) -> f64 {
+        let count = self.adjacency.edges.len();
+        (0..count).map(|e| self.rest_length(e)).sum::<f64>() / count as f64
+    }
+
+    /// Which side of triangle `t` edge `e` is.
+    fn side_of(&self, t: u32, e: u32) -> usize {
+        self.adjacency.triangle_edges[t as usize].iter().position(|&x| x == e).unwrap_or(0)
+    }
+
+    /// The triangle across side `k` of `t`, and where its corners lie when it is laid flat beside `t`, whose own corners lie
+    /// at `own`.
+    pub fn unfolded(&self, t: u32, own: &[DVec2; 3], k: usize) -> Option<(u32, [DVec2; 3])> {
+        let other = self.adjacency.across[t as usize][k];
+        if other == NONE {
+            return None;
+        }
+        let j = self.side_of(other, self.adjacency.triangle_edges[t as usize][k]);
+        let corners = &self.rest[other as usize];
+        // Where cloth turns its back the neighbour runs the shared side in the same direction.
+        let same_way = self.triangles[other as usize][j] == self.triangles[t as usize][k];
+        let (a, b) = (own[k], own[(k + 1) % 3]);
+        let (mut p, mut q) = (corners[j], corners[(j + 1) % 3]);
+        let mut laid = *corners;
+        if same_way {
+            let mirrored = |c: DVec2| DVec2::new(-c.x, c.y);
+            laid = laid.map(mirrored);
+            (p, q) = (mirrored(p), mirrored(q));
+        } else {
+            std::mem::swap(&mut p, &mut q);
+        }
+        let (from, to) = ((q - p).normalize_or_zero(), (b - a).normalize_or_zero());
+        let turn = DMat2::from_cols(
+            DVec2::new(from.dot(to), from.perp_dot(to)),
+            DVec2::new(-from.perp_dot(to), from.dot(to)),
+        );
+        let (middle, place) = ((p + q) / 2.0, (a + b) / 2.0);
+        Some((other, laid.map(|c| place + turn * (c - middle))))
+    }
+}
+
+fn signed_area(corners: &[DVec2; 3]) -> f64 {
+    (corners[1] - corners[0]).perp_dot(corners[2] - corners[0]) / 2.0
+}

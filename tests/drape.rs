@@ -1,0 +1,12 @@
+//! Physics of cloth against exact answers.
+
+#[path = "drape/bends.rs"]
+mod bends;
+#[path = "drape/meshes.rs"]
+mod meshes;
+#[path = "drape/moves.rs"]
+mod moves;
+#[path = "drape/patches.rs"]
+mod patches;
+#[path = "drape/rests.rs"]
+mod rests;
