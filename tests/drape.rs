@@ -2,6 +2,8 @@
 
 #[path = "drape/bends.rs"]
 mod bends;
+#[path = "drape/capstan.rs"]
+mod capstan;
 #[path = "drape/meshes.rs"]
 mod meshes;
 #[path = "drape/moves.rs"]

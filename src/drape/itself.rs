@@ -12,6 +12,9 @@ use crate::geometry::bvh::{Aabb, Bvh};
 /// Of the mean edge: nearer than this in the flat cloth is no contact.
 const MOST_THICKNESS: f64 = 0.7;
 
+/// Of a vertex's expected way that is looked over.
+const LOOK_AHEAD: f64 = 1.5;
+
 /// What may meet in one step, and what does.
 #[derive(Clone, Debug, Default)]
 pub struct Itself {
@@ -28,7 +31,10 @@ struct Pair {
     /// A vertex and a triangle's corners, or the ends of two edges.
     vertices: [u32; 4],
     edges: bool,
+    /// On which side the first is of the second, ±1; 0 while they are not before one another.
     side: f64,
+    /// How far one can come towards the other, metres: who seems farther behind has come round, not through.
+    reach: f64,
 }
 
 /// Distance as a sum over four vertices: n·Σ w x.
@@ -48,32 +54,43 @@ impl Itself {
         Self { thickness, stiffness, ..Self::default() }
     }
 
-    /// Gathers what could meet while each vertex moves at most `reach` metres from `x`.
-    pub fn gather(&mut self, sheet: &Sheet, x: &[DVec3], reach: &[f64]) {
+    /// Gathers what could meet while the vertices at `x` move about as far as `ways` and `slack` metres more.
+    pub fn gather(&mut self, sheet: &Sheet, x: &[DVec3], ways: &[DVec3], slack: f64) {
         self.pairs.clear();
         self.active.clear();
         if self.thickness == 0.0 {
             return;
         }
+        let drift = ways.iter().sum::<DVec3>() / ways.len() as f64;
+        let near = self.thickness + slack;
         let grown = |vs: &[u32]| {
-            let points = Aabb::around(&vs.iter().map(|&v| x[v as usize]).collect::<Vec<_>>());
-            let most = vs.iter().map(|&v| reach[v as usize]).fold(0.0, f64::max) + self.thickness / 2.0;
-            Aabb { lower: points.lower - most, upper: points.upper + most }
+            let now = vs.iter().map(|&v| x[v as usize]);
+            let then = vs.iter().map(|&v| x[v as usize] + (ways[v as usize] - drift) * LOOK_AHEAD);
+            let points = Aabb::around(&now.chain(then).collect::<Vec<_>>());
+            Aabb { lower: points.lower - near / 2.0, upper: points.upper + near / 2.0 }
         };
         let neighbours = &sheet.adjacency.vertex_neighbours;
-        let near = |a: u32, b: u32| a == b || neighbours.of(a).binary_search(&b).is_ok();
+        let beside = |a: u32, b: u32| a == b || neighbours.of(a).binary_search(&b).is_ok();
+        // Neighbours in the cloth move alike: what counts is how much farther the one goes than the other.
+        let apart = |a: &[u32], b: &[u32]| {
+            let ways = a.iter().flat_map(|&a| b.iter().map(move |&b| ways[a as usize] - ways[b as usize]));
+            near + LOOK_AHEAD * ways.map(|w| w.length()).fold(0.0, f64::max)
+        };
         let boxes: Vec<Aabb> = sheet.triangles.iter().map(|vs| grown(vs)).collect();
         let tree = Bvh::new(&boxes);
         for v in 0..x.len() as u32 {
             tree.near(&grown(&[v]), |t| {
-                let [a, b, c] = sheet.triangles[t as usize];
+                let vs @ [a, b, c] = sheet.triangles[t as usize];
                 self.looked_at += 1;
-                if near(v, a) || near(v, b) || near(v, c) {
+                if beside(v, a) || beside(v, b) || beside(v, c) {
                     return;
                 }
-                let [pa, pb, pc] = [a, b, c].map(|i| x[i as usize]);
-                let side = (pb - pa).cross(pc - pa).dot(x[v as usize] - pa).signum();
-                self.pairs.push(Pair { vertices: [v, a, b, c], edges: false, side });
+                let (p, [pa, pb, pc]) = (x[v as usize], vs.map(|i| x[i as usize]));
+                let reach = apart(&[v], &vs);
+                if closest_on_triangle(p, pa, pb, pc).0.distance(p) <= reach {
+                    let side = (pb - pa).cross(pc - pa).dot(p - pa).signum();
+                    self.pairs.push(Pair { vertices: [v, a, b, c], edges: false, side, reach });
+                }
             });
         }
         let edges = &sheet.adjacency.edges;
@@ -86,12 +103,16 @@ impl Itself {
                 }
                 let [c, d] = edges[f as usize];
                 self.looked_at += 1;
-                if near(a, c) || near(a, d) || near(b, c) || near(b, d) {
+                if beside(a, c) || beside(a, d) || beside(b, c) || beside(b, d) {
                     return;
                 }
-                let [pa, pb, pc, pd] = [a, b, c, d].map(|i| x[i as usize]);
-                let side = (pb - pa).cross(pd - pc).dot(pc - pa).signum();
-                self.pairs.push(Pair { vertices: [a, b, c, d], edges: true, side });
+                let ends = [a, b, c, d].map(|i| x[i as usize]);
+                let reach = apart(&[a, b], &[c, d]);
+                if segments_apart(ends) <= reach {
+                    let [pa, pb, pc, pd] = ends;
+                    let side = (pb - pa).cross(pd - pc).dot(pc - pa).signum();
+                    self.pairs.push(Pair { vertices: [a, b, c, d], edges: true, side, reach });
+                }
             });
         }
         // The order of a tree is no order of meaning.
@@ -106,7 +127,7 @@ impl Itself {
             let found = if pair.edges { edge_push(pair, x) } else { corner_push(pair, x) };
             let Some((weights, normal, distance)) = found else { continue };
             let depth = self.thickness - distance;
-            if depth <= 0.0 {
+            if depth <= 0.0 || distance < -pair.reach {
                 continue;
             }
             let share = |(v, w): (&u32, &f64)| w.abs() * self.stiffness[*v as usize];
@@ -120,15 +141,24 @@ impl Itself {
         energy
     }
 
-    /// Moves `x` so that no pair is nearer than the thickness, each vertex by its share of `inverse_mass`, pair after pair.
-    pub fn project(&self, x: &mut [DVec3], inverse_mass: &[f64]) {
-        for pair in &self.pairs {
-            let found = if pair.edges { edge_push(pair, x) } else { corner_push(pair, x) };
-            let Some((weights, normal, distance)) = found else { continue };
+    /// Moves `x` so that no pair is nearer than the thickness, each vertex by its share of `inverse_mass`, pair after pair. Called
+    /// every small step, it sees who comes before whom, and on which side.
+    pub fn project(&mut self, x: &mut [DVec3], inverse_mass: &[f64]) {
+        for pair in &mut self.pairs {
+            let turned = Pair { side: if pair.side == 0.0 { 1.0 } else { pair.side }, ..*pair };
+            let found = if pair.edges { edge_push(&turned, x) } else { corner_push(&turned, x) };
+            let Some((weights, normal, distance)) = found else {
+                pair.side = 0.0;
+                continue;
+            };
+            if pair.side == 0.0 {
+                pair.side = if distance < 0.0 { -1.0 } else { 1.0 };
+                continue;
+            }
             let depth = self.thickness - distance;
-            let whole: f64 =
-                pair.vertices.iter().zip(&weights).map(|(&v, w)| w * w * inverse_mass[v as usize]).sum();
-            if depth > 0.0 && whole > 0.0 {
+            let share = |(&v, w): (&u32, &f64)| w * w * inverse_mass[v as usize];
+            let whole: f64 = pair.vertices.iter().zip(&weights).map(share).sum();
+            if depth > 0.0 && depth < 2.0 * self.thickness && whole > 0.0 {
                 for (&v, w) in pair.vertices.iter().zip(weights) {
                     x[v as usize] += normal * (depth * w * inverse_mass[v as usize] / whole);
                 }
@@ -204,4 +234,18 @@ fn edge_push(pair: &Pair, x: &[DVec3]) -> Option<([f64; 4], DVec3, f64)> {
     }
     let normal = u.cross(v).normalize_or_zero() * pair.side;
     Some(([s - 1.0, -s, 1.0 - t, t], normal, normal.dot(w)))
+}
+
+/// The distance of the segments ab and cd (Ericson, Real-Time Collision Detection, 5.1.9).
+fn segments_apart([a, b, c, d]: [DVec3; 4]) -> f64 {
+    let (u, v, w) = (b - a, d - c, a - c);
+    let (uu, uv, vv, uw, vw) = (u.dot(u), u.dot(v), v.dot(v), u.dot(w), v.dot(w));
+    if uu == 0.0 || vv == 0.0 {
+        return w.length().min((b - c).length());
+    }
+    let whole = uu * vv - uv * uv;
+    let s = if whole > 1e-12 * uu * vv { ((uv * vw - vv * uw) / whole).clamp(0.0, 1.0) } else { 0.0 };
+    let t = ((uv * s + vw) / vv).clamp(0.0, 1.0);
+    let s = ((uv * t - uw) / uu).clamp(0.0, 1.0);
+    (w + u * s - v * t).length()
 }

@@ -12,8 +12,9 @@ use crate::drape::limits::StrainLimits;
 use crate::drape::state::State;
 use crate::drape::steps::Scene;
 
-/// A body's nearest point is looked up again after so much of the offset, or of a step's way.
-const STALE: f64 = 0.25;
+/// A body's nearest point is looked up again after a way of so many offsets: over a round of radius R what is taken for its plane
+/// then is off by twice the offset squared over R.
+const STALE: f64 = 2.0;
 /// Of the limit of stability that bending's steps take.
 const SAFE: f64 = 0.5;
 
@@ -109,8 +110,9 @@ impl SmallSteps {
         let every = self.bending_every(small).min(count);
         let drag = (-scene.damping * small).exp();
         let vertices = state.positions.len();
-        let reach: Vec<f64> = self.reach(scene, state, h);
-        itself.gather(&scene.sheet, &state.positions, &reach);
+        let ways: Vec<DVec3> = state.velocities.iter().map(|v| *v * h).collect();
+        let slack = scene.gravity.length() * h * h;
+        itself.gather(&scene.sheet, &state.positions, &ways, slack);
         let mut bent = vec![DVec3::ZERO; vertices];
         let mut before = state.positions.clone();
         for s in 0..count {
@@ -170,13 +172,6 @@ impl SmallSteps {
             0.0 => usize::MAX,
             rate => ((SAFE * 2.0 / rate) as usize).max(1),
         }
-    }
-
-    fn reach(&self, scene: &Scene, state: &State, h: f64) -> Vec<f64> {
-        let count = state.velocities.len() as f64;
-        let drift = state.velocities.iter().sum::<DVec3>() / count;
-        let fall = scene.gravity.length() * h * h;
-        state.velocities.iter().map(|v| 1.5 * (*v - drift).length() * h + fall).collect()
     }
 
     #[allow(clippy::too_many_arguments, reason = "one use")]

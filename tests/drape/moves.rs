@@ -271,3 +271,39 @@ fn what_is_lost_is_taken_back() {
     assert!(drape.state() == &before);
     let _: &Scene = &drape.scene;
 }
+
+/// A strip folded over and let fall on itself: the upper layer stays above the lower.
+#[test]
+fn cloth_does_not_pass_through_itself() {
+    let sheet = flat(Kind::Diagonal, DVec2::new(0.1, 0.3), [5, 15]);
+    for method in [Method::SmallSteps, Method::Implicit] {
+        let mut scene = scene(&sheet, &soft(), vec![false; sheet.points.len()]);
+        scene.collider = Some(plate(DMat3::IDENTITY));
+        // The lower half lies, then it turns round a bow of 1 cm radius; the upper half lies 2 cm above.
+        let bow = 0.01 * std::f64::consts::PI;
+        let x = sheet.placed(|p| {
+            let s = p.y - 0.16;
+            if s < 0.0 {
+                DVec3::new(s, 0.003, p.x)
+            } else if s < bow {
+                let angle = s / 0.01;
+                DVec3::new(0.01 * angle.sin(), 0.013 - 0.01 * angle.cos(), p.x)
+            } else {
+                DVec3::new(bow - s, 0.023, p.x)
+            }
+        });
+        let mut settings = settings(method);
+        settings.self_collision = true;
+        settings.accuracy = 1e-4;
+        let mut drape = Drape::new(scene, State::at_rest(x), settings, 1.0 / 60.0).expect("room");
+        for _ in 0..30 {
+            drape.step(1.0 / 60.0).expect("a step");
+        }
+        let x = &drape.state().positions;
+        let lower =
+            sheet.points.iter().zip(x).filter(|(p, _)| p.y < 0.12).map(|(_, x)| x.y).fold(0.0, f64::max);
+        let upper =
+            sheet.points.iter().zip(x).filter(|(p, _)| p.y > 0.22).map(|(_, x)| x.y).fold(1.0, f64::min);
+        assert!(upper > lower + 1e-3, "{method:?}: {upper} above {lower}");
+    }
+}
