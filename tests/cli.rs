@@ -17,3 +17,5 @@ mod program;
 mod replay;
 #[path = "cli/signals.rs"]
 mod signals;
+#[path = "cli/simulate.rs"]
+mod simulate;

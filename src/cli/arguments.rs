@@ -35,6 +35,7 @@ pub enum Task {
     Import(Import),
     Export(Export),
     Check(Check),
+    Simulate(Simulate),
     Bench(Bench),
 }
 
@@ -154,6 +155,22 @@ pub struct Replay {
     /// Prints the outcome as JSON
     #[arg(long)]
     pub json: bool,
+    /// Number of threads; the result is the same
+    #[arg(long)]
+    pub threads: Option<usize>,
+}
+
+/// Moves any cloth mesh by physics: writes positions.f32 (start and every frame, vertices × 3, little-endian) and
+/// simulate.json
+#[derive(Debug, Args)]
+pub struct Simulate {
+    /// JSON: {"cloth": OBJ, "seconds": 2} and, each with a default, "pins": [0-based ids], "collider": OBJ or [OBJ per frame],
+    /// "fabric": preset or object, "density_kg_per_m2", "gravity": [0, -9.81, 0], "fps": 60, "self_collision": false,
+    /// "thickness_m", "strain": 0.01, "solver": "implicit" or "small_steps", "steps_per_frame": 1, "integrator": "bdf2"
+    pub scene: PathBuf,
+    /// The folder to write to
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
     /// Number of threads; the result is the same
     #[arg(long)]
     pub threads: Option<usize>,

@@ -17,6 +17,7 @@ mod render;
 mod replay;
 mod report;
 mod run;
+mod simulate;
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::process::ExitCode;
@@ -59,6 +60,7 @@ fn carry_out(arguments: Arguments) -> Result<(), Failure> {
         Some(Task::Import(import)) => import::import(&import),
         Some(Task::Export(export)) => export::export(&export),
         Some(Task::Check(check)) => check::check(&check),
+        Some(Task::Simulate(simulate)) => run::on_threads(simulate.threads, || simulate::simulate(&simulate)),
         Some(Task::Bench(bench)) => run::on_threads(bench.threads, || bench::bench(&bench)),
     }
 }

@@ -1,0 +1,249 @@
+//! A scene as its file tells it, checked.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use glam::{DVec2, DVec3};
+use serde::Deserialize;
+
+use crate::body::Surface;
+use crate::cli::failure::Failure;
+use crate::cli::input;
+use crate::cloth::Fabric;
+use crate::drape::{Elastic, Integrator, Method, Scene, Sheet};
+use crate::geometry::mesh::TriMesh;
+use crate::io::obj::ObjError;
+use crate::io::{cloth_obj, obj};
+
+/// Share of the membrane's stiffness that is left where it is pressed.
+const COMPRESSION: f64 = 0.1;
+/// Frames that a scene may have.
+const MOST_FRAMES: f64 = 100_000.0;
+
+/// The file.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SceneFile {
+    cloth: PathBuf,
+    #[serde(default)]
+    pins: Vec<usize>,
+    #[serde(default)]
+    seams: Vec<[usize; 2]>,
+    #[serde(default)]
+    collider: Option<Colliders>,
+    #[serde(default)]
+    fabric: Option<FabricChoice>,
+    #[serde(default)]
+    density_kg_per_m2: Option<f64>,
+    #[serde(default = "gravity")]
+    gravity: [f64; 3],
+    pub seconds: f64,
+    #[serde(default = "fps")]
+    pub fps: f64,
+    #[serde(default)]
+    pub self_collision: bool,
+    #[serde(default)]
+    thickness_m: Option<f64>,
+    /// Beyond the fabric's own, 0.01 without.
+    #[serde(default)]
+    pub strain: Option<f64>,
+    /// Without, the program chooses.
+    #[serde(default)]
+    pub solver: Option<SolverChoice>,
+    /// Implicit steps in each frame.
+    #[serde(default = "one")]
+    pub steps_per_frame: u32,
+    #[serde(default)]
+    pub integrator: Option<IntegratorChoice>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(untagged)]
+enum Colliders {
+    One(PathBuf),
+    Frames(Vec<PathBuf>),
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(untagged)]
+enum FabricChoice {
+    Preset(String),
+    Own(Fabric),
+}
+
+/// Who moves the cloth.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum SolverChoice {
+    Implicit,
+    SmallSteps,
+}
+
+/// How implicit steps cut time.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum IntegratorChoice {
+    Euler,
+    Bdf2,
+}
+
+impl From<SolverChoice> for Method {
+    fn from(choice: SolverChoice) -> Self {
+        match choice {
+            SolverChoice::Implicit => Self::Implicit,
+            SolverChoice::SmallSteps => Self::SmallSteps,
+        }
+    }
+}
+
+impl From<IntegratorChoice> for Integrator {
+    fn from(choice: IntegratorChoice) -> Self {
+        match choice {
+            IntegratorChoice::Euler => Self::Euler,
+            IntegratorChoice::Bdf2 => Self::Bdf2,
+        }
+    }
+}
+
+fn gravity() -> [f64; 3] {
+    [0.0, -9.81, 0.0]
+}
+
+fn fps() -> f64 {
+    60.0
+}
+
+fn one() -> u32 {
+    1
+}
+
+/// A scene ready to run.
+pub struct Loaded {
+    pub file: SceneFile,
+    pub scene: Scene,
+    pub positions: Vec<DVec3>,
+    pub fabric: Fabric,
+    /// Distance kept from bodies and from itself, metres.
+    pub thickness: f64,
+    /// Bodies frame by frame; one that stays, or none.
+    pub bodies: Vec<TriMesh>,
+}
+
+impl SceneFile {
+    /// Frames after the start.
+    pub fn frames(&self) -> usize {
+        (self.seconds * self.fps).round() as usize
+    }
+
+    fn problem(&self) -> Option<String> {
+        let range = |what: &str, value: f64, most: f64| {
+            (!(value > 0.0 && value <= most))
+                .then(|| format!("{what} is {value}, not above 0 and at most {most}"))
+        };
+        range("seconds", self.seconds, 1e5)
+            .or_else(|| range("fps", self.fps, 1e5))
+            .or_else(|| range("seconds times fps", self.seconds * self.fps, MOST_FRAMES))
+            .or_else(|| range("strain", self.strain.unwrap_or(0.01), 0.5))
+            .or_else(|| range("steps_per_frame", f64::from(self.steps_per_frame), 1e4))
+            .or_else(|| {
+                let known = self.gravity.iter().all(|g| g.is_finite() && g.abs() <= 1e4);
+                (!known).then(|| "gravity is not three numbers within ±10000 m/s²".to_owned())
+            })
+            .or_else(|| {
+                (!self.seams.is_empty()).then(|| "seams cannot be sewn here yet: leave them out".to_owned())
+            })
+    }
+}
+
+/// Reads the scene at `path` and all it names, relative to its folder.
+pub fn load(path: &Path) -> Result<Loaded, Failure> {
+    let file: SceneFile = serde_json::from_slice(&input::read(path)?).map_err(|e| Failure::input(path, e))?;
+    if let Some(words) = file.problem() {
+        return Err(Failure::input(path, words));
+    }
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let fabric = fabric_of(&file).map_err(|words| Failure::input(path, words))?;
+    let place = folder.join(&file.cloth);
+    let cloth = cloth_obj::read(&input::read(&place)?).map_err(|e| obj_failure(&place, e))?;
+    let positions = cloth.mesh.positions.clone();
+    let flat = || (0..cloth.mesh.triangles.len()).map(|t| laid_flat(cloth.mesh.corners(t))).collect();
+    let rest = cloth.rest.clone().unwrap_or_else(flat);
+    let sheet = Sheet::new(positions.len(), cloth.mesh.triangles.clone(), rest)
+        .map_err(|e| Failure::input(&place, e))?;
+    let mut pinned = vec![false; positions.len()];
+    for &pin in &file.pins {
+        let Some(held) = pinned.get_mut(pin) else {
+            let words = format!("pin {pin}: the cloth has vertices 0 to {}", positions.len() - 1);
+            return Err(Failure::input(path, words));
+        };
+        *held = true;
+    }
+    let bodies = bodies_of(&file, folder)?;
+    let mass = sheet.vertex_area.iter().map(|a| a * fabric.density_kg_per_m2).collect();
+    let elastic = Elastic::new(&sheet, &fabric, COMPRESSION);
+    let gravity = DVec3::from_array(file.gravity);
+    let damping = fabric.damping_per_s;
+    let scene = Scene { sheet, elastic, mass, pinned, gravity, damping, collider: None };
+    let thickness = file.thickness_m.unwrap_or(fabric.thickness_m);
+    Ok(Loaded { file, scene, positions, fabric, thickness, bodies })
+}
+
+/// A triangle in its own plane, its first side along x.
+fn laid_flat([a, b, c]: [DVec3; 3]) -> [DVec2; 3] {
+    let (u, w) = (b - a, c - a);
+    let along = u.normalize_or_zero();
+    let up = u.cross(w).cross(along).normalize_or_zero();
+    [DVec2::ZERO, DVec2::new(u.length(), 0.0), DVec2::new(w.dot(along), w.dot(up))]
+}
+
+fn fabric_of(file: &SceneFile) -> Result<Fabric, String> {
+    let mut fabric = match &file.fabric {
+        None => Fabric::preset("cotton").cloned().ok_or("there is no preset cotton")?,
+        Some(FabricChoice::Own(fabric)) => fabric.clone(),
+        Some(FabricChoice::Preset(name)) => Fabric::preset(name).cloned().ok_or_else(|| {
+            let names: Vec<&str> = Fabric::presets().iter().map(|f| f.name.as_str()).collect();
+            format!("there is no fabric {name:?}; there are {}", names.join(", "))
+        })?,
+    };
+    if let Some(density) = file.density_kg_per_m2 {
+        fabric.density_kg_per_m2 = density;
+    }
+    if let Some(thickness) = file.thickness_m {
+        fabric.thickness_m = thickness;
+    }
+    match fabric.problem() {
+        Some(words) => Err(words),
+        None => Ok(fabric),
+    }
+}
+
+fn bodies_of(file: &SceneFile, folder: &Path) -> Result<Vec<TriMesh>, Failure> {
+    let paths = match &file.collider {
+        None => return Ok(Vec::new()),
+        Some(Colliders::One(path)) => std::slice::from_ref(path),
+        Some(Colliders::Frames(paths)) => paths.as_slice(),
+    };
+    let mut bodies: Vec<TriMesh> = Vec::new();
+    for path in paths {
+        let place = folder.join(path);
+        let body = obj::read(&input::read(&place)?).map_err(|e| obj_failure(&place, e))?.mesh;
+        if bodies.first().is_some_and(|first| first.triangles != body.triangles) {
+            return Err(Failure::input(&place, "its triangles are not those of the first collider"));
+        }
+        bodies.push(body);
+    }
+    Ok(bodies)
+}
+
+/// A body ready for contact.
+pub fn surface(path: &Path, body: &TriMesh) -> Result<Arc<Surface>, Failure> {
+    let surface = Surface::new(body.clone());
+    surface.map(Arc::new).ok_or_else(|| Failure::input(path, "a collider has no surface"))
+}
+
+fn obj_failure(path: &Path, error: ObjError) -> Failure {
+    match error {
+        ObjError::OverLimit(_) => Failure::Limit(format!("{}: {error}", path.display())),
+        _ => Failure::input(path, error),
+    }
+}
