@@ -70,8 +70,7 @@ fn line_vertex(in: Stroke, @builtin(vertex_index) i: u32) -> Capsule {
     return out;
 }
 
-@fragment
-fn line_fragment(in: Capsule) -> @location(0) vec4f {
+fn inked(in: Capsule) -> vec4f {
     let p = in.clip.xy - in.ends.xy;
     let ab = in.ends.zw - in.ends.xy;
     let t = clamp(dot(p, ab) / max(dot(ab, ab), 1e-6), 0.0, 1.0);
@@ -81,4 +80,16 @@ fn line_fragment(in: Capsule) -> @location(0) vec4f {
         discard;
     }
     return vec4f(in.colour.rgb, in.colour.a * cover);
+}
+
+@fragment
+fn line_fragment(in: Capsule) -> @location(0) vec4f {
+    return inked(in);
+}
+
+// What shows through.
+@fragment
+fn faint_fragment(in: Capsule) -> @location(0) vec4f {
+    let ink = inked(in);
+    return vec4f(ink.rgb, ink.a * 0.4);
 }

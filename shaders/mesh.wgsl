@@ -31,8 +31,7 @@ fn mesh_vertex(in: MeshVertex) -> Shaded {
     return out;
 }
 
-@fragment
-fn mesh_fragment(in: Shaded, @builtin(front_facing) front: bool) -> @location(0) vec4f {
+fn shaded(in: Shaded, front: bool) -> vec3f {
     let side = select(-1.0, 1.0, front);
     let normal = normalize(in.normal + vec3f(0.0, 1e-9, 0.0)) * side;
     let eye = select(frame.towards_eye.xyz, normalize(frame.eye.xyz - in.world), frame.eye.w > 0.5);
@@ -60,7 +59,18 @@ fn mesh_fragment(in: Shaded, @builtin(front_facing) front: bool) -> @location(0)
     colour += albedo * sheen + vec3f(0.05 * polish * shadow);
     // A thin dark contour where the surface turns away.
     colour *= mix(0.5, 1.0, smoothstep(0.0, 0.34, facing));
-    return vec4f(encoded(colour) + dither(in.clip.xy), 1.0);
+    return encoded(colour) + dither(in.clip.xy);
+}
+
+@fragment
+fn mesh_fragment(in: Shaded, @builtin(front_facing) front: bool) -> @location(0) vec4f {
+    return vec4f(shaded(in, front), 1.0);
+}
+
+// The same, for coverage by alpha: half of the samples, or half of the light.
+@fragment
+fn sheer_fragment(in: Shaded, @builtin(front_facing) front: bool) -> @location(0) vec4f {
+    return vec4f(shaded(in, front), 0.45);
 }
 
 @vertex

@@ -173,3 +173,73 @@ fn a_picture_that_is_too_large_is_refused_in_words() {
         .expect_err("too large");
     assert!(error.to_string().contains("1000000 x 10 pixels"), "{error}");
 }
+
+#[test]
+fn a_picture_that_is_cut_out_is_transparent_beside_and_opaque_on_things() {
+    let Some(mut studio) = studio() else { return };
+    let ground = Some(Ground { height: -0.5, centre: Vec2::ZERO, radius: 2.0 });
+    let meshes = vec![Arc::new(sphere(0.5, CLOTH_FRONT, CLOTH_BACK))];
+    let scene = Scene { meshes, ground, ..Default::default() };
+    let draw = |studio: &mut Studio, cut_out| {
+        studio.picture(&scene, View::Front, &Look { cut_out, ..Look::light() }, SIZE).expect("a picture")
+    };
+    let [whole, cut] = [false, true].map(|cut_out| draw(&mut studio, cut_out));
+    assert!(whole.pixels().all(|p| p[3] == 255));
+    assert_eq!(cut.get_pixel(0, 0).0, [0; 4]);
+    assert_eq!(cut.get_pixel(160, 235).0[3], 0, "no floor");
+    assert_eq!(pixel(&cut, 160, 120), pixel(&whole, 160, 120));
+    // At its rim the colour is the sphere's own, only thinner.
+    let straight = toile::render::straightened(cut.clone());
+    let rim = straight.pixels().filter(|p| (40..200).contains(&p[3]));
+    let green = rim.filter(|p| p[1] >= p[0] && p[1] > p[2]).count();
+    let thin = straight.pixels().filter(|p| (40..200).contains(&p[3])).count();
+    assert!(thin > 50 && green * 10 > thin * 9, "{green} of {thin}");
+}
+
+#[test]
+fn cloth_shows_its_triangles_and_a_body_what_is_behind_it() {
+    let Some(mut studio) = studio() else { return };
+    let mut cloth = sphere(0.3, [0, 255, 0], [0, 255, 0]);
+    cloth.cloth = 1.0;
+    let scene = Scene {
+        meshes: vec![Arc::new(cloth), Arc::new(sphere(0.5, [255, 0, 0], [255, 0, 0]))],
+        ..Default::default()
+    };
+    let middle = |studio: &mut Studio, look: Look| {
+        let image = studio.picture(&scene, View::Front, &look, SIZE).expect("a picture");
+        pixel(&image, 160, 120)
+    };
+    let [_, g, _] = middle(&mut studio, Look::light());
+    assert!(g < 60, "the cloth is inside the body: {g}");
+    let [r, g, _] = middle(&mut studio, Look { sheer: true, ..Look::light() });
+    assert!(r > 60 && g > 60, "{r} {g}");
+    let outside = Scene { meshes: vec![Arc::clone(&scene.meshes[0])], ..Default::default() };
+    let mean = |studio: &mut Studio, wire| {
+        let look = Look { wire, ..Look::light() };
+        let image = studio.picture(&outside, View::Front, &look, SIZE).expect("a picture");
+        image.pixels().map(|p| u64::from(p[1])).sum::<u64>() / u64::from(SIZE.x * SIZE.y)
+    };
+    let (plain, wired) = (mean(&mut studio, false), mean(&mut studio, true));
+    assert!(wired + 3 < plain, "dark lines over it: {plain} {wired}");
+}
+
+#[test]
+fn with_x_ray_lines_show_faintly_through_what_hides_them() {
+    let Some(mut studio) = studio() else { return };
+    let line = Polyline {
+        points: vec![Vec3::new(-0.1, 0.0, -0.5), Vec3::new(0.1, 0.0, -0.5)],
+        colour: [0, 0, 255, 255],
+        width: 6.0,
+        ..Default::default()
+    };
+    let meshes = vec![Arc::new(sphere(0.5, BODY, BODY))];
+    let scene = Scene { meshes, lines: vec![line], ..Default::default() };
+    let blue = |studio: &mut Studio, xray| {
+        let look = Look { xray, ..Look::light() };
+        let image = studio.picture(&scene, View::Front, &look, SIZE).expect("a picture");
+        let [r, _, b] = pixel(&image, 160, 120);
+        b - r
+    };
+    assert!(blue(&mut studio, false) < 10);
+    assert!(blue(&mut studio, true) > 40);
+}

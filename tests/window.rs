@@ -24,6 +24,8 @@ mod hand;
 mod mouse;
 #[path = "window/safety.rs"]
 mod safety;
+#[path = "window/shell.rs"]
+mod shell;
 
 type Window = Harness<'static, Option<App>>;
 

@@ -17,7 +17,7 @@ use crate::render::View;
 #[derive(Debug, Parser)]
 #[command(name = "toile", version, args_conflicts_with_subcommands = true)]
 pub struct Arguments {
-    /// Opens the editor on this project, pattern or sample (sample:NAME); without one, on the sample T-shirt
+    /// Opens the editor on this project, pattern or sample (sample:NAME); without one, on the start page
     pub project: Option<PathBuf>,
     /// Writes everything done to this file as it happens
     #[arg(long, value_name = "FILE")]
@@ -108,7 +108,7 @@ impl Dress {
             save: None,
             record: None,
             max_ticks: MAX_TICKS,
-            picture: PictureOptions { view: View::ThreeQuarter, size: [1280, 800] },
+            picture: PictureOptions { view: View::ThreeQuarter, size: [1280, 800], transparent: false },
             work: WorkOptions::default(),
             json: false,
             threads: None,
@@ -132,12 +132,15 @@ fn skips(text: &str) -> Result<Skips, String> {
 /// How a picture is taken.
 #[derive(Clone, Copy, Debug, Args)]
 pub struct PictureOptions {
-    /// front, back, left, right, top, three-quarter, or YAW,PITCH in degrees
+    /// front, back, left, right, top, below, three-quarter, or YAW,PITCH in degrees
     #[arg(long, default_value = "front", value_parser = view, allow_hyphen_values = true)]
     pub view: View,
     /// Width and height in pixels
     #[arg(long, default_value = "1280x800", value_parser = size)]
     pub size: [u32; 2],
+    /// Draws neither background nor floor
+    #[arg(long)]
+    pub transparent: bool,
 }
 
 /// Runs a recording, compares its hashes, and stops at the first difference

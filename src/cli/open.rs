@@ -9,7 +9,7 @@ use crate::cli::{dress, input, output};
 
 /// Where it is dressed to when there is no display.
 const SAMPLE_OUT: &str = "toile-out";
-/// What opens when nothing is named.
+/// What is dressed when nothing is named.
 const FIRST_SAMPLE: &str = "sample:tshirt";
 
 /// Opens the editor and returns when it is closed.
@@ -17,17 +17,17 @@ pub fn open(project: Option<&Path>, record: Option<&Path>) -> Result<(), Failure
     if !has_display() && project.is_none() && record.is_none() {
         return dress_the_sample();
     }
-    let path = project.unwrap_or(Path::new(FIRST_SAMPLE));
-    let input = input::load(path, &InputOptions::default())?;
+    let input = project.map(|path| input::load(path, &InputOptions::default())).transpose()?;
     if !has_display() {
-        return Err(Failure::Graphics(no_display(path)));
+        return Err(Failure::Graphics(no_display(project.unwrap_or(Path::new(FIRST_SAMPLE)))));
     }
     let record = match record {
         Some(path) => Some(File::create(path).map_err(|e| Failure::file(path, e))?),
         None => None,
     };
-    let file = input.is_project_file.then(|| path.to_owned());
-    crate::ui::run(input.project, file, record).map_err(|e| Failure::Graphics(e.to_string()))
+    let file = project.filter(|_| input.as_ref().is_some_and(|i| i.is_project_file)).map(Path::to_owned);
+    crate::ui::run(input.map(|input| input.project), file, record)
+        .map_err(|e| Failure::Graphics(e.to_string()))
 }
 
 /// What a first look gets where no window can open.

@@ -4,9 +4,10 @@ use glam::UVec2;
 
 use crate::cli::arguments::PictureOptions;
 use crate::cli::failure::Failure;
-use crate::render::{Look, RenderError, Studio, png};
+use crate::render::{Look, RenderError, Studio, png, straightened};
 use crate::session::Session;
-use crate::ui::scene::{Scenery, Shown};
+use crate::ui::portrait::portrait;
+use crate::ui::scene::Scenery;
 
 /// Draws sessions; opens the graphics adapter once.
 pub struct Artist {
@@ -22,19 +23,11 @@ impl Artist {
 
     /// The body, the cloth and, where there is no cloth yet, the marks of `session` as a PNG.
     pub fn png(&mut self, session: &Session, options: &PictureOptions) -> Result<Vec<u8>, Failure> {
-        let snapshot = session.snapshot();
-        let dressed = snapshot.is_dressed();
-        let shown = Shown {
-            body: snapshot.body.as_ref().filter(|_| dressed).or(session.surface()),
-            cloth: snapshot.drawn().filter(|_| dressed),
-            marks: (!dressed).then_some(&session.document().marks),
-            pinned: &snapshot.pinned,
-            ..Shown::default()
-        };
-        let scene = self.scenery.scene(&shown);
+        let scene = portrait(&mut self.scenery, session, false, true);
         let size = UVec2::from_array(options.size);
-        let picture = self.studio.picture(&scene, options.view, &Look::light(), size).map_err(failure)?;
-        png(&picture).map_err(failure)
+        let look = Look { cut_out: options.transparent, ..Look::light() };
+        let picture = self.studio.picture(&scene, options.view, &look, size).map_err(failure)?;
+        png(&if options.transparent { straightened(picture) } else { picture }).map_err(failure)
     }
 }
 

@@ -1,12 +1,13 @@
 //! `toile render`: a picture of a project as it is.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use crate::cli::arguments::{PictureOptions, Render};
 use crate::cli::failure::Failure;
 use crate::cli::picture::Artist;
 use crate::cli::{input, interrupt, output, run};
 use crate::render::View;
+use crate::ui::portrait::{numbered, turned};
 
 /// One picture, or a full turn of them.
 pub fn render(arguments: &Render) -> Result<(), Failure> {
@@ -25,23 +26,6 @@ fn pictures(arguments: &Render) -> Vec<(PathBuf, View)> {
     let Some(count) = arguments.turntable else {
         return vec![(arguments.output.clone(), arguments.picture.view)];
     };
-    let (yaw, pitch) = arguments.picture.view.angles();
-    let digits = (count - 1).to_string().len().max(2);
-    let picture = |i: u32| {
-        let turned = yaw.to_degrees() + 360.0 * i as f32 / count as f32;
-        let view = View::Angles { yaw: turned, pitch: pitch.to_degrees() };
-        (numbered(&arguments.output, i, digits), view)
-    };
+    let picture = |i: u32| (numbered(&arguments.output, i, count), turned(arguments.picture.view, i, count));
     (0..count).map(picture).collect()
-}
-
-/// "a/b.png" becomes "a/b-07.png".
-fn numbered(path: &Path, i: u32, digits: usize) -> PathBuf {
-    let mut name = path.file_stem().unwrap_or_default().to_owned();
-    name.push(format!("-{i:0digits$}"));
-    if let Some(extension) = path.extension() {
-        name.push(".");
-        name.push(extension);
-    }
-    path.with_file_name(name)
 }

@@ -18,6 +18,8 @@ pub(super) struct DeviceMesh {
     pub(super) vertices: wgpu::Buffer,
     pub(super) indices: wgpu::Buffer,
     pub(super) index_count: u32,
+    /// Ends of every edge, for the wireframe; made when they are first drawn.
+    pub(super) edges: Option<(wgpu::Buffer, u32)>,
     pub(super) material: wgpu::BindGroup,
 }
 
@@ -36,21 +38,26 @@ struct Material {
     back: Vec4,
 }
 
-/// The meshes of one picture, those of the last one reused.
+/// The meshes of one picture, those of the last one reused. `wire`: with the edges of cloth.
 pub(super) fn upload(
     gpu: &Gpu,
     pipelines: &Pipelines,
     mut last: Vec<DeviceMesh>,
     meshes: &[Arc<Mesh>],
+    wire: bool,
 ) -> Result<Vec<DeviceMesh>, RenderError> {
-    meshes
+    let mut all: Vec<DeviceMesh> = meshes
         .iter()
         .filter(|m| !m.triangles.is_empty())
         .map(|mesh| match last.iter().position(|d| Arc::ptr_eq(&d.mesh, mesh)) {
             Some(i) => Ok(last.swap_remove(i)),
             None => DeviceMesh::new(gpu, pipelines, mesh),
         })
-        .collect()
+        .collect::<Result<_, _>>()?;
+    for mesh in all.iter_mut().filter(|m| wire && m.is_cloth() && m.edges.is_none()) {
+        mesh.edges = Some(mesh.edge_buffer(gpu));
+    }
+    Ok(all)
 }
 
 impl DeviceMesh {
@@ -80,9 +87,35 @@ impl DeviceMesh {
             vertices: buffer("vertices", bytemuck::cast_slice(&vertices(mesh)), wgpu::BufferUsages::VERTEX),
             indices: buffer("indices", bytemuck::cast_slice(&indices), wgpu::BufferUsages::INDEX),
             index_count: indices.len() as u32 * 3,
+            edges: None,
             material: bind(gpu, &pipelines.material_layout, &[material.as_entire_binding()]),
         })
     }
+
+    /// Woven cloth, not skin.
+    pub(super) fn is_cloth(&self) -> bool {
+        self.mesh.cloth > 0.5
+    }
+
+    fn edge_buffer(&self, gpu: &Gpu) -> (wgpu::Buffer, u32) {
+        let edges = edges(&self.mesh.triangles, self.mesh.positions.len() as u32);
+        let buffer = gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+            label: Some("edges"),
+            contents: bytemuck::cast_slice(&edges),
+            usage: wgpu::BufferUsages::INDEX,
+        });
+        (buffer, edges.len() as u32 * 2)
+    }
+}
+
+/// Both ends of every edge, each once.
+fn edges(triangles: &[[u32; 3]], count: u32) -> Vec<[u32; 2]> {
+    let inside = triangles.iter().filter(|t| t.iter().all(|&v| v < count));
+    let ends = inside.flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
+    let mut all: Vec<[u32; 2]> = ends.map(|[a, b]| [a.min(b), a.max(b)]).collect();
+    all.sort_unstable();
+    all.dedup();
+    all
 }
 
 fn vertices(mesh: &Mesh) -> Vec<Vertex> {
@@ -128,4 +161,15 @@ pub(super) fn bind(
         .map(|(i, resource)| wgpu::BindGroupEntry { binding: i as u32, resource: resource.clone() })
         .collect();
     gpu.device.create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout, entries: &entries })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_edge_is_drawn_once() {
+        let two = [[0, 1, 2], [2, 1, 3], [0, 1, 9]];
+        assert_eq!(edges(&two, 4), [[0, 1], [0, 2], [1, 2], [1, 3], [2, 3]]);
+    }
 }

@@ -35,6 +35,8 @@ pub enum RenderError {
     #[error("the picture could not be encoded: {0}")]
     Encode(#[from] image::ImageError),
     /// Not the name of a view.
-    #[error("unknown view {0:?}: use front, back, left, right, top, three-quarter or YAW,PITCH in degrees")]
+    #[error(
+        "unknown view {0:?}: use front, back, left, right, top, below, three-quarter or YAW,PITCH in degrees"
+    )]
     UnknownView(String),
 }

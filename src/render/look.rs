@@ -23,6 +23,14 @@ pub struct Look {
     pub occlusion: f32,
     /// Logical pixels to pixels.
     pub pixels_per_point: f32,
+    /// The edges of the triangles of cloth are drawn over it.
+    pub wire: bool,
+    /// What is no cloth is half transparent.
+    pub sheer: bool,
+    /// Lines and labels show faintly through what hides them.
+    pub xray: bool,
+    /// Neither background nor floor: the picture is transparent where nothing is.
+    pub cut_out: bool,
 }
 
 /// Outside of the cloth: the soft green of paper A's figures.
@@ -45,6 +53,10 @@ impl Look {
             shadow: 0.48,
             occlusion: 0.85,
             pixels_per_point: 1.0,
+            wire: false,
+            sheer: false,
+            xray: false,
+            cut_out: false,
         }
     }
 

@@ -1,7 +1,7 @@
 //! Plain buffers in, pixels out. Knows cameras, meshes and lines, and nothing of cloth or bodies.
 //!
 //! A picture takes up to six passes: shadow map; depth and normals at half size; hollows (ambient occlusion) and their blur;
-//! then background, floor, meshes and lines with light, at four samples a pixel.
+//! then background, floor, meshes, wires and lines with light, at four samples a pixel.
 
 mod buffers;
 pub mod camera;
@@ -22,7 +22,7 @@ pub use camera::{Camera, PixelRay, Projected, Projection};
 pub use error::RenderError;
 pub use gpu::Gpu;
 pub use look::{BODY, CLOTH_BACK, CLOTH_FRONT, Look, mark_colour};
-pub use picture::{Studio, picture, png, save_png};
+pub use picture::{Studio, picture, png, save_png, straightened};
 pub use renderer::Renderer;
 pub use scene::{Ground, Label, Mesh, Polyline, Rgb, Scene};
 pub use target::OffscreenTarget;

@@ -65,6 +65,18 @@ pub fn picture(scene: &Scene, view: View, look: &Look, size: UVec2) -> Result<im
     Studio::new()?.picture(scene, view, look, size)
 }
 
+/// A picture drawn with [`Look::cut_out`] as image files have it: colours not multiplied with opacity.
+pub fn straightened(mut picture: image::RgbaImage) -> image::RgbaImage {
+    for pixel in picture.pixels_mut() {
+        let [r, g, b, a] = pixel.0;
+        if a > 0 {
+            let straight = |c: u8| ((u32::from(c) * 255 + u32::from(a) / 2) / u32::from(a)).min(255) as u8;
+            pixel.0 = [straight(r), straight(g), straight(b), a];
+        }
+    }
+    picture
+}
+
 /// Encodes `picture` as PNG bytes.
 pub fn png(picture: &image::RgbaImage) -> Result<Vec<u8>, RenderError> {
     let mut bytes = std::io::Cursor::new(Vec::new());

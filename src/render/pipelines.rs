@@ -22,6 +22,12 @@ pub(super) struct Pipelines {
     pub(super) ground: wgpu::RenderPipeline,
     pub(super) mesh: wgpu::RenderPipeline,
     pub(super) line: wgpu::RenderPipeline,
+    /// Meshes that can be seen through.
+    pub(super) sheer: wgpu::RenderPipeline,
+    /// Edges of triangles.
+    pub(super) wire: wgpu::RenderPipeline,
+    /// Lines, whatever hides them.
+    pub(super) faint: wgpu::RenderPipeline,
 }
 
 /// A mesh vertex: position, normal, colour.
@@ -43,6 +49,7 @@ impl Pipelines {
         let blur = make.module(&shaders::blur());
         let background = make.module(&shaders::background());
         let line = make.module(&shaders::line());
+        let wire = make.module(&shaders::wire());
         let opaque = Some(wgpu::ColorTargetState::from(COLOUR));
         let blended = Some(wgpu::ColorTargetState {
             blend: Some(wgpu::BlendState::ALPHA_BLENDING),
@@ -98,9 +105,33 @@ impl Pipelines {
                 extra: &[&light_layout, &material_layout],
                 fragment: Some(("mesh_fragment", opaque)),
                 depth: Some(nearer),
-                vertices: meshes,
+                vertices: meshes.clone(),
                 samples,
                 ..Pass::new(&mesh, "mesh_vertex")
+            }),
+            sheer: make.pipeline(Pass {
+                extra: &[&light_layout, &material_layout],
+                fragment: Some(("sheer_fragment", Some(sheer_target(samples)))),
+                depth: Some(nearer),
+                vertices: meshes.clone(),
+                samples,
+                covers_by_alpha: samples > 1,
+                ..Pass::new(&mesh, "mesh_vertex")
+            }),
+            wire: make.pipeline(Pass {
+                fragment: Some(("wire_fragment", blended.clone())),
+                depth: Some(tested),
+                vertices: meshes.clone(),
+                samples,
+                topology: wgpu::PrimitiveTopology::LineList,
+                ..Pass::new(&wire, "wire_vertex")
+            }),
+            faint: make.pipeline(Pass {
+                fragment: Some(("faint_fragment", blended.clone())),
+                depth: Some(untested),
+                vertices: Some(stroke_instances()),
+                samples,
+                ..Pass::new(&line, "line_vertex")
             }),
             line: make.pipeline(Pass {
                 fragment: Some(("line_fragment", blended)),
@@ -128,6 +159,8 @@ struct Pass<'a> {
     depth: Option<(wgpu::CompareFunction, bool)>,
     bias: wgpu::DepthBiasState,
     samples: u32,
+    covers_by_alpha: bool,
+    topology: wgpu::PrimitiveTopology,
 }
 
 impl<'a> Pass<'a> {
@@ -141,6 +174,8 @@ impl<'a> Pass<'a> {
             depth: None,
             bias: wgpu::DepthBiasState::default(),
             samples: 1,
+            covers_by_alpha: false,
+            topology: wgpu::PrimitiveTopology::TriangleList,
         }
     }
 }
@@ -183,7 +218,7 @@ impl Maker<'_> {
                 compilation_options: Default::default(),
                 buffers: &[pass.vertices].into_iter().filter(Option::is_some).collect::<Vec<_>>(),
             },
-            primitive: wgpu::PrimitiveState::default(),
+            primitive: wgpu::PrimitiveState { topology: pass.topology, ..Default::default() },
             depth_stencil: pass.depth.map(|(compare, write)| wgpu::DepthStencilState {
                 format: DEPTH,
                 depth_write_enabled: Some(write),
@@ -191,11 +226,26 @@ impl Maker<'_> {
                 stencil: Default::default(),
                 bias: pass.bias,
             }),
-            multisample: wgpu::MultisampleState { count: pass.samples, ..Default::default() },
+            multisample: wgpu::MultisampleState {
+                count: pass.samples,
+                alpha_to_coverage_enabled: pass.covers_by_alpha,
+                ..Default::default()
+            },
             fragment,
             multiview_mask: None,
             cache: None,
         })
+    }
+}
+
+/// With several samples a pixel alpha takes some of them, in whatever order things are drawn; else it blends.
+fn sheer_target(samples: u32) -> wgpu::ColorTargetState {
+    let blend = (samples == 1).then_some(wgpu::BlendState::ALPHA_BLENDING);
+    wgpu::ColorTargetState {
+        blend,
+        // What is seen through it is opaque already.
+        write_mask: wgpu::ColorWrites::COLOR,
+        ..wgpu::ColorTargetState::from(COLOUR)
     }
 }
 

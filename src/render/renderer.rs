@@ -61,14 +61,15 @@ impl Renderer {
         target: &OffscreenTarget,
     ) -> Result<(), RenderError> {
         let scope = gpu.device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
-        self.meshes = upload(gpu, &self.pipelines, std::mem::take(&mut self.meshes), &scene.meshes)?;
+        self.meshes =
+            upload(gpu, &self.pipelines, std::mem::take(&mut self.meshes), &scene.meshes, look.wire)?;
         let bound = self.bind(gpu, scene, camera, look, target);
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         self.draw_shadow_map(&mut encoder, &bound);
         if look.occlusion > 0.0 {
             self.draw_hollows(&mut encoder, &bound, target);
         }
-        self.draw_picture(&mut encoder, &bound, target);
+        self.draw_picture(&mut encoder, &bound, look, target);
         gpu.queue.submit([encoder.finish()]);
         match pollster::block_on(scope.pop()) {
             Some(e) => Err(RenderError::Device(e.to_string())),
@@ -114,12 +115,28 @@ impl Renderer {
                 (init("strokes", bytes, wgpu::BufferUsages::VERTEX), strokes.len() as u32)
             }),
             // Seen from below, the floor would only be in the way.
-            ground: scene.ground.is_some_and(|g| camera.eye().y > g.height),
+            ground: scene.ground.is_some_and(|g| camera.eye().y > g.height) && !look.cut_out,
         }
     }
 
-    fn draw_meshes(&self, pass: &mut wgpu::RenderPass<'_>, with_material: bool) {
+    fn draw_wires(&self, pass: &mut wgpu::RenderPass<'_>) {
+        pass.set_pipeline(&self.pipelines.wire);
         for mesh in &self.meshes {
+            if let Some((edges, count)) = &mesh.edges {
+                pass.set_vertex_buffer(0, mesh.vertices.slice(..));
+                pass.set_index_buffer(edges.slice(..), wgpu::IndexFormat::Uint32);
+                pass.draw_indexed(0..*count, 0, 0..1);
+            }
+        }
+    }
+
+    fn draw_meshes(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        with_material: bool,
+        which: impl Fn(&DeviceMesh) -> bool,
+    ) {
+        for mesh in self.meshes.iter().filter(|mesh| which(mesh)) {
             if with_material {
                 pass.set_bind_group(2, &mesh.material, &[]);
             }
@@ -133,7 +150,7 @@ impl Renderer {
         let mut pass = begin(encoder, "shadow map", None, Some((&self.shadow_map, 1.0)));
         pass.set_bind_group(0, &bound.frame, &[]);
         pass.set_pipeline(&self.pipelines.shadow);
-        self.draw_meshes(&mut pass, false);
+        self.draw_meshes(&mut pass, false, |_| true);
     }
 
     fn draw_hollows(&self, encoder: &mut wgpu::CommandEncoder, bound: &Bound, target: &OffscreenTarget) {
@@ -146,7 +163,7 @@ impl Renderer {
                 pass.draw(0..6, 0..1);
             }
             pass.set_pipeline(&self.pipelines.depth);
-            self.draw_meshes(&mut pass, false);
+            self.draw_meshes(&mut pass, false, |_| true);
         }
         for (label, pipeline, inputs, output) in [
             ("hollows", &self.pipelines.hollows, &bound.hollows, &target.rough_hollows),
@@ -160,25 +177,46 @@ impl Renderer {
         }
     }
 
-    fn draw_picture(&self, encoder: &mut wgpu::CommandEncoder, bound: &Bound, target: &OffscreenTarget) {
+    fn draw_picture(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        bound: &Bound,
+        look: &Look,
+        target: &OffscreenTarget,
+    ) {
         let colour = match &target.samples {
             Some(samples) => (samples, Some(&target.picture_view)),
             None => (&target.picture_view, None),
         };
         let mut pass = begin(encoder, "picture", Some(colour), Some((&target.depth, 0.0)));
         pass.set_bind_group(0, &bound.frame, &[]);
-        pass.set_pipeline(&self.pipelines.background);
-        pass.draw(0..3, 0..1);
+        if !look.cut_out {
+            pass.set_pipeline(&self.pipelines.background);
+            pass.draw(0..3, 0..1);
+        }
         pass.set_bind_group(1, &bound.light, &[]);
         if bound.ground {
             pass.set_pipeline(&self.pipelines.ground);
             pass.draw(0..6, 0..1);
         }
+        // Without a background there is nothing to be seen through it.
+        let sheer = look.sheer && !look.cut_out;
         pass.set_pipeline(&self.pipelines.mesh);
-        self.draw_meshes(&mut pass, true);
+        self.draw_meshes(&mut pass, true, |mesh| !sheer || mesh.is_cloth());
+        if sheer {
+            pass.set_pipeline(&self.pipelines.sheer);
+            self.draw_meshes(&mut pass, true, |mesh| !mesh.is_cloth());
+        }
+        if look.wire {
+            self.draw_wires(&mut pass);
+        }
         if let Some((strokes, count)) = &bound.strokes {
-            pass.set_pipeline(&self.pipelines.line);
             pass.set_vertex_buffer(0, strokes.slice(..));
+            if look.xray {
+                pass.set_pipeline(&self.pipelines.faint);
+                pass.draw(0..6, 0..*count);
+            }
+            pass.set_pipeline(&self.pipelines.line);
             pass.draw(0..6, 0..*count);
         }
     }
@@ -197,7 +235,7 @@ fn begin<'e>(
             depth_slice: None,
             resolve_target,
             ops: wgpu::Operations {
-                load: wgpu::LoadOp::Clear(wgpu::Color::BLACK),
+                load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
                 store: if resolve_target.is_some() { wgpu::StoreOp::Discard } else { wgpu::StoreOp::Store },
             },
         })]

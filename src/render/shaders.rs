@@ -32,6 +32,10 @@ pub(super) fn line() -> Shader {
     shader("line.wgsl", &[FRAME], include_str!("../../shaders/line.wgsl"))
 }
 
+pub(super) fn wire() -> Shader {
+    shader("wire.wgsl", &[FRAME], include_str!("../../shaders/wire.wgsl"))
+}
+
 pub(super) fn depth() -> Shader {
     shader("depth.wgsl", &[FRAME], include_str!("../../shaders/depth.wgsl"))
 }
@@ -50,7 +54,7 @@ mod tests {
 
     #[test]
     fn every_shader_is_valid() {
-        for shader in [background(), ground(), mesh(), line(), depth(), hollows(), blur()] {
+        for shader in [background(), ground(), mesh(), line(), wire(), depth(), hollows(), blur()] {
             let module = naga::front::wgsl::parse_str(&shader.text)
                 .unwrap_or_else(|e| panic!("{}:\n{}", shader.name, e.emit_to_string(&shader.text)));
             let mut validator = naga::valid::Validator::new(
@@ -67,9 +71,9 @@ mod tests {
     #[test]
     fn every_file_is_used() {
         let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/shaders");
-        let used = ["frame.wgsl", "light.wgsl"]
-            .into_iter()
-            .chain([background(), ground(), mesh(), line(), depth(), hollows(), blur()].map(|s| s.name));
+        let used = ["frame.wgsl", "light.wgsl"].into_iter().chain(
+            [background(), ground(), mesh(), line(), wire(), depth(), hollows(), blur()].map(|s| s.name),
+        );
         let used: std::collections::BTreeSet<String> = used.map(str::to_owned).collect();
         let found: std::collections::BTreeSet<String> = std::fs::read_dir(folder)
             .expect("shaders")

@@ -18,6 +18,8 @@ pub enum View {
     Right,
     /// From above, the front at the bottom of the picture.
     Top,
+    /// From below, the front at the top of the picture.
+    Below,
     /// From the front, a little to the body's left and from above.
     ThreeQuarter,
     /// Degrees: yaw from the front towards the body's left, pitch upwards (-90..=90).
@@ -38,6 +40,7 @@ impl View {
             Self::Left => (90.0, 0.0),
             Self::Right => (-90.0, 0.0),
             Self::Top => (0.0, 90.0),
+            Self::Below => (0.0, -90.0),
             Self::ThreeQuarter => (32.0, 12.0),
             Self::Angles { yaw, pitch } => (yaw, pitch.clamp(-90.0, 90.0)),
         };
@@ -55,6 +58,7 @@ impl FromStr for View {
             "left" => Self::Left,
             "right" => Self::Right,
             "top" => Self::Top,
+            "below" => Self::Below,
             "three-quarter" | "three_quarter" => Self::ThreeQuarter,
             _ => angles(s).ok_or_else(|| RenderError::UnknownView(s.to_owned()))?,
         })

@@ -99,6 +99,11 @@ impl History {
         &self.done
     }
 
+    /// Undone steps, the next one to be redone last.
+    pub fn undone(&self) -> &[Step] {
+        &self.undone
+    }
+
     /// Number of steps that can be redone.
     pub fn undone_count(&self) -> usize {
         self.undone.len()

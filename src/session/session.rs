@@ -208,6 +208,11 @@ impl Session {
         self.history.done().iter().map(|step| step.label.as_str())
     }
 
+    /// Labels of the steps that can be done again, the next one first.
+    pub fn undone_labels(&self) -> impl Iterator<Item = &str> {
+        self.history.undone().iter().rev().map(|step| step.label.as_str())
+    }
+
     /// Whether the newest step that touched the cloth is a wrap: `CancelWrap` takes it back.
     pub fn can_cancel_wrap(&self) -> bool {
         let newest = self.history.done().iter().rev().find(|step| step.kind != StepKind::Edit);

@@ -13,13 +13,25 @@ use crate::ui::dialogs::Dialog;
 use crate::ui::files::{self, Purpose};
 use crate::ui::ghosts::Ghosts;
 use crate::ui::pattern_pane::Fit;
-use crate::ui::preferences::Preferences;
 use crate::wrap::{BodyMark, ClothMark};
 
 impl App {
     /// Carries out `action`; one that would lose unsaved changes asks first.
     pub(super) fn act(&mut self, ctx: &egui::Context, action: Action) {
-        let leaves = matches!(action, Action::New | Action::Open | Action::Quit | Action::Sample(_));
+        if let Action::OpenRecent(i) = action {
+            // Which one that is may have changed when the present work has been saved.
+            let file = self.shell.recent.files().get(usize::from(i));
+            self.shell.opening = file.map(|file| file.path.clone());
+        }
+        let leaves = matches!(
+            action,
+            Action::New
+                | Action::Open
+                | Action::OpenRecent(_)
+                | Action::Quit
+                | Action::Sample(_)
+                | Action::Tour
+        );
         if leaves && self.session.is_modified() {
             self.dialog = Some(Dialog::Unsaved { then: action });
         } else {
@@ -29,6 +41,9 @@ impl App {
 
     /// Carries out `action`.
     pub(super) fn act_unguarded(&mut self, ctx: &egui::Context, action: Action) {
+        if self.shell.start.is_some() && !action.stays_on_start_page() {
+            self.leave_start_page();
+        }
         match action {
             Action::New => self.replace(ctx, Project::default(), None),
             Action::Sample(sample) => self.replace(ctx, files::sample(sample), None),
@@ -97,28 +112,30 @@ impl App {
             | Action::ToggleFreeTurning => self.change_view(ctx, action),
             Action::NextPane => self.next_pane(ctx),
             Action::ToggleSnapping => self.snapping = !self.snapping,
-            Action::Unit(unit) => self.prefer(Preferences { unit, ..self.preferences }),
+            Action::Unit(unit) => self.prefer(ctx, |p| p.unit = unit),
             Action::ToggleCloth => self.show_cloth = !self.show_cloth,
             Action::TogglePanel => self.show_panel = !self.show_panel,
-            Action::Theme(theme) => {
-                ctx.set_theme(theme);
-                self.prefer(Preferences { theme: theme.into(), ..self.preferences });
-            }
-            Action::Mouse(mouse) => self.prefer(Preferences { mouse, ..self.preferences }),
-            Action::Paper(paper) => self.prefer(Preferences { paper, ..self.preferences }),
+            Action::Theme(theme) => self.prefer(ctx, |p| p.theme = theme.into()),
+            Action::Mouse(mouse) => self.prefer(ctx, |p| p.mouse = mouse),
+            Action::Paper(paper) => self.prefer(ctx, |p| p.paper = paper),
             Action::Demo(demo) => self.begin_demo(demo),
             Action::StopDemo => self.stop_demo(),
-            Action::Shortcuts => self.dialog = Some(Dialog::Shortcuts { mouse: self.preferences.mouse }),
-        }
-    }
-
-    /// From now on, and the next time.
-    fn prefer(&mut self, preferences: Preferences) {
-        self.preferences = preferences;
-        if let Some(path) = &self.preferences_path
-            && let Err(words) = preferences.write(path)
-        {
-            self.messages.error(format!("Your preferences could not be kept: {words}"));
+            Action::Shortcuts => {
+                let keymap = Arc::clone(&self.preferences.keymap);
+                self.dialog = Some(Dialog::Shortcuts { mouse: self.preferences.mouse, keymap });
+            }
+            Action::OpenRecent(_)
+            | Action::ClearRecent
+            | Action::StartPage
+            | Action::Picture
+            | Action::Preferences
+            | Action::ToggleWire
+            | Action::ToggleSheer
+            | Action::ToggleXray
+            | Action::ToggleHistory
+            | Action::ToggleLog
+            | Action::CommandPalette
+            | Action::Tour => self.act_on_shell(ctx, action),
         }
     }
 
@@ -175,6 +192,7 @@ impl App {
     }
 
     fn change_view(&mut self, ctx: &egui::Context, action: Action) {
+        let at_body = self.is_at_body(ctx);
         let scene = &mut self.scene_pane;
         match action {
             Action::Look(view) => scene.camera.look(view),
@@ -182,6 +200,7 @@ impl App {
                 self.pattern_pane.fit = true
             }
             Action::FrameAll => scene.frame = Some(None),
+            Action::FrameSelection if at_body => self.frame_selected_on_body(),
             Action::FrameSelection => self.pattern_pane.show = Some(Fit::Selection),
             Action::TrueSize => self.pattern_pane.show = Some(Fit::TrueSize),
             Action::ClearGuides => self.pattern_pane.clear_guides(),

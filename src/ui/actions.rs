@@ -52,8 +52,12 @@ pub enum Tool {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Action {
     New,
+    StartPage,
     Sample(Sample),
     Open,
+    /// The file with this place in the list of those opened before, from 0.
+    OpenRecent(u8),
+    ClearRecent,
     Save,
     SaveAs,
     ImportPattern,
@@ -61,7 +65,9 @@ pub enum Action {
     ImportBody,
     UseMannequin,
     Export,
+    Picture,
     SaveRecording,
+    Preferences,
     Quit,
     Undo,
     Redo,
@@ -112,11 +118,18 @@ pub enum Action {
     ToggleParallel,
     ToggleFreeTurning,
     ToggleCloth,
+    ToggleWire,
+    ToggleSheer,
+    ToggleXray,
     TogglePanel,
+    ToggleHistory,
+    ToggleLog,
     Theme(ThemePreference),
     Mouse(Mouse),
     Paper(Paper),
+    CommandPalette,
     Shortcuts,
+    Tour,
     Demo(Demo),
     StopDemo,
 }
@@ -243,14 +256,26 @@ impl Action {
                 entry("Relax", "Let the cloth even itself out, or hold it still", &[key(Key::Space)])
             }
             Self::Look(view) => look_entry(view),
-            Self::FrameAll => entry(
-                "Show all",
-                "Fit everything in the pane under the pointer",
-                &[key(Key::F), key(Key::Home)],
-            ),
-            Self::FrameSelection => {
-                entry("Show the selection", "Fit what is selected in the pattern pane", &[shift(Key::F)])
+            Self::StartPage
+            | Self::OpenRecent(_)
+            | Self::ClearRecent
+            | Self::Picture
+            | Self::Preferences
+            | Self::ToggleWire
+            | Self::ToggleSheer
+            | Self::ToggleXray
+            | Self::ToggleHistory
+            | Self::ToggleLog
+            | Self::CommandPalette
+            | Self::Tour => self.shell_entry(),
+            Self::FrameAll => {
+                entry("Show all", "Fit everything in the pane under the pointer", &[key(Key::Home)])
             }
+            Self::FrameSelection => entry(
+                "Show the selection",
+                "Fit what is selected in the pane under the pointer, or everything where nothing is",
+                &[key(Key::F), key(Key::Period), shift(Key::F)],
+            ),
             Self::TrueSize => entry(
                 "True size",
                 "Show the pattern as large as it is, on a screen that tells its size",
@@ -291,22 +316,20 @@ impl Action {
         }
     }
 
-    /// Everything with keys, longest combinations first so that Ctrl+Shift+Z is not taken for Ctrl+Z.
-    pub fn with_keys() -> Vec<(Self, KeyboardShortcut)> {
-        let mut all: Vec<(Self, KeyboardShortcut)> = ALL
-            .iter()
-            .flat_map(|&action| action.entry().keys.into_iter().map(move |k| (action, k)))
-            .collect();
-        all.sort_by_key(|(_, k)| 2 - i32::from(k.modifiers.shift) - i32::from(k.modifiers.command));
-        all
-    }
-
     /// Whether it may be chosen while a demo is shown: what changes nothing but the view.
     pub fn is_for_demos(self) -> bool {
         matches!(
             self,
             Self::Look(_)
                 | Self::FrameAll
+                | Self::FrameSelection
+                | Self::ToggleWire
+                | Self::ToggleSheer
+                | Self::ToggleXray
+                | Self::ToggleLog
+                | Self::CommandPalette
+                | Self::Preferences
+                | Self::Picture
                 | Self::TrueSize
                 | Self::NextPane
                 | Self::Unit(_)
@@ -323,6 +346,23 @@ impl Action {
         )
     }
 
+    /// Whether the start page stays when it is chosen there; everything else goes to the panes.
+    pub fn stays_on_start_page(self) -> bool {
+        matches!(
+            self,
+            Self::StartPage
+                | Self::Open
+                | Self::OpenRecent(_)
+                | Self::ClearRecent
+                | Self::Preferences
+                | Self::Shortcuts
+                | Self::Quit
+                | Self::Unit(_)
+                | Self::Theme(_)
+                | Self::Mouse(_)
+        )
+    }
+
     /// Whether a plain key belongs to it, which a focused widget may want for itself.
     pub fn is_plain(shortcut: KeyboardShortcut) -> bool {
         shortcut.modifiers.is_none()
@@ -336,6 +376,7 @@ fn look_entry(view: View) -> Entry {
         View::Right => entry("Right", "Look from the body's right", &[key(Key::Num3)]),
         View::Left => entry("Left", "Look from the body's left", &[ctrl(Key::Num3)]),
         View::Top => entry("Top", "Look from above", &[key(Key::Num7)]),
+        View::Below => entry("Below", "Look from below", &[ctrl(Key::Num7)]),
         View::ThreeQuarter => {
             entry("Three-quarter", "Look from the front and left, a little above", &[key(Key::Num2)])
         }
@@ -344,87 +385,5 @@ fn look_entry(view: View) -> Entry {
 }
 
 /// Views with a name, in menu order.
-pub const VIEWS: [View; 6] =
-    [View::Front, View::Back, View::Left, View::Right, View::Top, View::ThreeQuarter];
-
-/// Actions whose keys are listened to. Those of proposed marks come before them all, while there are any.
-const ALL: &[Action] = &[
-    Action::New,
-    Action::Open,
-    Action::Save,
-    Action::SaveAs,
-    Action::ImportPattern,
-    Action::ExportPattern,
-    Action::Export,
-    Action::Quit,
-    Action::Undo,
-    Action::Redo,
-    Action::Delete,
-    Action::RaiseMark,
-    Action::LowerMark,
-    Action::ToggleLaser,
-    Action::Choose(Tool::Mark),
-    Action::Choose(Tool::Erase),
-    Action::Choose(Tool::Move),
-    Action::Choose(Tool::Points),
-    Action::Choose(Tool::Pen),
-    Action::Choose(Tool::Rectangle),
-    Action::Choose(Tool::Ellipse),
-    Action::Choose(Tool::Sew),
-    Action::Choose(Tool::Line),
-    Action::Choose(Tool::Hole),
-    Action::Choose(Tool::Cut),
-    Action::Choose(Tool::Dart),
-    Action::Choose(Tool::Notch),
-    Action::Choose(Tool::Grain),
-    Action::SelectAll,
-    Action::Duplicate,
-    Action::Twin,
-    Action::MakeSymmetric,
-    Action::Unfold,
-    Action::TurnOver,
-    Action::ToggleLock,
-    Action::Hide,
-    Action::ShowPieces,
-    Action::TurnSeam,
-    Action::Untwist,
-    Action::FrameSelection,
-    Action::TrueSize,
-    Action::NextPane,
-    Action::ToggleSnapping,
-    Action::Choose(Tool::Drag(DragMode::Surface)),
-    Action::Choose(Tool::Pin),
-    Action::Rewrap,
-    Action::Wrap,
-    Action::CancelWrap,
-    Action::ToggleRelaxing,
-    Action::Look(View::Front),
-    Action::Look(View::Back),
-    Action::Look(View::Left),
-    Action::Look(View::Right),
-    Action::Look(View::Top),
-    Action::Look(View::ThreeQuarter),
-    Action::FrameAll,
-    Action::ToggleParallel,
-    Action::ToggleCloth,
-    Action::TogglePanel,
-    Action::Shortcuts,
-];
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn no_key_does_two_things() {
-        let all = Action::with_keys();
-        for (i, (a, k)) in all.iter().enumerate() {
-            for (b, other) in &all[i + 1..] {
-                assert!(k != other, "{a:?} and {b:?} share {k:?}");
-            }
-        }
-        let redo = all.iter().position(|(a, _)| *a == Action::Redo).expect("redo");
-        let undo = all.iter().position(|(a, _)| *a == Action::Undo).expect("undo");
-        assert!(redo < undo);
-    }
-}
+pub const VIEWS: [View; 7] =
+    [View::Front, View::Back, View::Left, View::Right, View::Top, View::Below, View::ThreeQuarter];

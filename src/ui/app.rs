@@ -20,11 +20,15 @@ use crate::ui::pattern_pane::PatternPane;
 use crate::ui::pattern_pane::view::TableView;
 use crate::ui::pattern_panel::PatternPanel;
 use crate::ui::picking::Picks;
+use crate::ui::picture_page::PictureOptions;
 use crate::ui::player::Player;
 use crate::ui::preferences::Preferences;
+use crate::ui::recent::Recent;
 use crate::ui::safety::Safety;
+use crate::ui::scene::Scenery;
 use crate::ui::scene_pane::ScenePane;
 use crate::ui::selection::Selection;
+use crate::ui::shell::Shell;
 use crate::ui::status;
 use crate::ui::theme::{self, Palette};
 
@@ -66,6 +70,14 @@ pub struct App {
     pub(super) drag: Option<GestureId>,
     /// The last wrap asked for, and what was then the tick of the simulation.
     pub(super) wrap_seq: Option<u64>,
+    /// What stands round the panes.
+    pub(super) shell: Shell,
+    /// How the last picture was wanted.
+    pub(super) picture_options: PictureOptions,
+    /// For pictures that are written.
+    pub(super) scenery: Scenery,
+    /// Light on dark, in the last frame.
+    pub(super) dark: bool,
     title: String,
     frames: u64,
 }
@@ -112,6 +124,10 @@ impl App {
             on_disk,
             drag: None,
             wrap_seq: None,
+            shell: Shell::default(),
+            picture_options: PictureOptions::default(),
+            scenery: Scenery::default(),
+            dark: false,
             title: String::new(),
             frames: 0,
         })
@@ -120,8 +136,9 @@ impl App {
     /// Prefers what `path` says, and keeps there what is preferred from now on.
     pub fn keep_preferences(&mut self, ctx: &egui::Context, path: PathBuf) {
         self.preferences = Preferences::read(&path);
-        ctx.set_theme(egui::ThemePreference::from(self.preferences.theme));
+        self.shell.recent = Recent::read(path.with_file_name("recent.json"));
         self.preferences_path = Some(path);
+        self.live_by_preferences(ctx);
     }
 
     /// Writes everything done, from the beginning, to `file` as well.
@@ -188,6 +205,7 @@ impl App {
         self.selected = None;
         self.picks = Picks::default();
         self.ghosts = None;
+        self.leave_start_page();
         self.pattern_pane = PatternPane::fitted();
         self.scene_pane.frame = Some(Some(crate::render::View::Front));
     }
@@ -204,9 +222,15 @@ impl App {
         self.carry_selection(&document);
         let now = self.situation(&ctx, &document, &snapshot);
         let palette = Palette::of(ctx.theme());
+        self.dark = ctx.theme() == egui::Theme::Dark;
         let mut asks = Asks::new();
         self.keys(&ctx, &now, &mut asks);
-        self.panels(ui, &document, &snapshot, &now, &palette, &mut asks);
+        if self.shell.start.is_some() {
+            self.start_page(ui, &now, &palette, &mut asks);
+        } else {
+            self.panels(ui, &document, &snapshot, &now, &palette, &mut asks);
+        }
+        self.over_panes(&ctx, &now, &palette, &mut asks);
         self.messages.ui(&ctx, &palette, status::HEIGHT);
         if let (Some((player, ..)), Some(table)) = (&self.demo, self.pattern_pane.area) {
             player.ui(&ctx, &palette, table, &mut asks);
@@ -262,6 +286,7 @@ impl App {
             Ask::Pick(selection) => self.pick(selection),
             Ask::ShowMarks(numbers) => self.show_marks(&numbers),
             Ask::Say(words) => self.messages.tell(words),
+            Ask::Jump(steps) => self.jump(steps),
         }
     }
 
@@ -321,7 +346,7 @@ impl App {
             }
         }
         let Some(dialog) = &mut self.dialog else { return };
-        let answer = dialog.ui(ctx);
+        let answer = dialog.ui(ctx, &mut self.shell.thumbnails);
         if matches!(answer, Answer::None) {
             return;
         }

@@ -24,6 +24,8 @@ pub enum Ask {
     Pick(Selection),
     /// Select the first of the pairs of marks with these numbers (from 1), and show them all.
     ShowMarks(Vec<usize>),
+    /// Go so many steps back (less than 0) or forth in the history.
+    Jump(i32),
     /// Say something to the person.
     Say(String),
 }

@@ -14,7 +14,9 @@ use crate::io::scale::{DrawingUnit, ScaleQuestion};
 use crate::session::recovery::Left;
 use crate::ui::actions::Action;
 use crate::ui::files::{Purpose, RawBody};
+use crate::ui::keymap::Keymap;
 use crate::ui::mouse::Mouse;
+use crate::ui::thumbnails::{Subject, Thumbnails};
 
 /// A dialog that says "cancelled" sooner than a hand can click has not been shown at all.
 const TOO_QUICK: Duration = Duration::from_millis(400);
@@ -31,7 +33,7 @@ pub enum Dialog {
     /// How large the drawing in a file is.
     Scale { path: PathBuf, question: ScaleQuestion, unit: DrawingUnit },
     /// Keys, and what this mouse does.
-    Shortcuts { mouse: Mouse },
+    Shortcuts { mouse: Mouse, keymap: Arc<Keymap> },
     /// Work that sessions left behind which did not end well, and what it is called.
     Recover { found: Vec<(Left, String)> },
     /// The project's file was changed by somebody else since it was opened or saved.
@@ -72,14 +74,14 @@ impl Answer {
 
 impl Dialog {
     /// Shows the dialog.
-    pub fn ui(&mut self, ctx: &egui::Context) -> Answer {
+    pub fn ui(&mut self, ctx: &egui::Context, thumbnails: &mut Thumbnails) -> Answer {
         match self {
             Self::Unsaved { then } => unsaved_ui(ctx, *then),
             Self::Path { purpose, text } => path_ui(ctx, *purpose, text),
             Self::Unit { raw } => unit_ui(ctx, raw),
             Self::Scale { path, question, unit } => scale_ui(ctx, path, question, unit),
-            Self::Shortcuts { mouse } => shortcuts_ui(ctx, *mouse),
-            Self::Recover { found } => recover_ui(ctx, found),
+            Self::Shortcuts { mouse, keymap } => shortcuts_ui(ctx, *mouse, keymap),
+            Self::Recover { found } => recover_ui(ctx, found, thumbnails),
             Self::ChangedOnDisk { path } => changed_ui(ctx, path),
         }
     }
@@ -111,17 +113,18 @@ fn unsaved_ui(ctx: &egui::Context, then: Action) -> Answer {
     shown.inner.or_cancel(closed)
 }
 
-fn recover_ui(ctx: &egui::Context, found: &mut Vec<(Left, String)>) -> Answer {
+fn recover_ui(ctx: &egui::Context, found: &mut Vec<(Left, String)>, thumbnails: &mut Thumbnails) -> Answer {
     let shown = Modal::new(Id::unique("recover")).show(ctx, |ui| {
-        ui.set_width(420.0);
+        ui.set_width(460.0);
         ui.heading("Go on with unsaved work?");
         ui.add_space(4.0);
         ui.label("Toile did not end as it should. This was not saved:");
         ui.add_space(6.0);
         let (mut restored, mut forgotten) = (None, None);
-        ScrollArea::vertical().max_height(240.0).show(ui, |ui| {
+        ScrollArea::vertical().max_height(300.0).show(ui, |ui| {
             for (i, (left, words)) in found.iter().enumerate() {
                 ui.horizontal(|ui| {
+                    picture_ui(ui, left, thumbnails);
                     if ui.button("Restore").clicked() {
                         restored = Some(i);
                     }
@@ -148,6 +151,17 @@ fn recover_ui(ctx: &egui::Context, found: &mut Vec<(Left, String)>) -> Answer {
     });
     let closed = shown.should_close();
     shown.inner.or_cancel(closed)
+}
+
+/// What the work looked like when it was copied last, as soon as it is drawn.
+fn picture_ui(ui: &mut egui::Ui, left: &Left, thumbnails: &mut Thumbnails) {
+    let (rect, _) = ui.allocate_exact_size(egui::vec2(56.0, 70.0), egui::Sense::hover());
+    ui.painter().rect_filled(rect, 4.0, ui.visuals().faint_bg_color);
+    let Some(copy) = left.copy() else { return };
+    if let Some(texture) = thumbnails.get(ui.ctx(), &Subject::Project(copy)) {
+        let whole = egui::Rect::from_min_max(egui::Pos2::ZERO, egui::Pos2::new(1.0, 1.0));
+        ui.painter().image(texture.id(), rect, whole, egui::Color32::WHITE);
+    }
 }
 
 fn changed_ui(ctx: &egui::Context, path: &Path) -> Answer {
@@ -316,7 +330,7 @@ pub fn with_extension(path: PathBuf, purpose: Purpose) -> PathBuf {
     name.into()
 }
 
-fn shortcuts_ui(ctx: &egui::Context, mouse: Mouse) -> Answer {
+fn shortcuts_ui(ctx: &egui::Context, mouse: Mouse, keymap: &Keymap) -> Answer {
     let shown = Modal::new(Id::unique("shortcuts")).show(ctx, |ui| {
         ui.set_width(560.0);
         ui.heading("Keys and mouse");
@@ -335,7 +349,7 @@ fn shortcuts_ui(ctx: &egui::Context, mouse: Mouse) -> Answer {
             ui.add_space(8.0);
             ui.strong("Keys");
             egui::Grid::new("keys").num_columns(3).spacing([24.0, 5.0]).striped(true).show(ui, |ui| {
-                let mut all = Action::with_keys();
+                let mut all = keymap.bound();
                 all.sort_by_key(|(action, _)| action.entry().text);
                 for (action, keys) in all {
                     ui.label(ctx.format_shortcut(&keys));

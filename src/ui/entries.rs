@@ -112,4 +112,41 @@ impl Action {
             _ => entry("", "", &[]),
         }
     }
+
+    /// How what belongs to the window itself is shown and reached.
+    pub(super) fn shell_entry(self) -> Entry {
+        match self {
+            Self::StartPage => {
+                entry("Start page", "Begin anew, open a file or a sample, or take the tour", &[])
+            }
+            Self::OpenRecent(_) => entry("Open again", "Open a file that was open before", &[]),
+            Self::ClearRecent => entry("Clear the list", "Forget which files were open before", &[]),
+            Self::Picture => entry(
+                "Save a picture…",
+                "Write the body pane as PNG: any size, any side, on nothing at all, or a full turn",
+                &[ctrl_shift(Key::P)],
+            ),
+            Self::Preferences => {
+                entry("Preferences…", "Theme, size, units, mouse, keys", &[ctrl(Key::Comma)])
+            }
+            Self::ToggleWire => entry("Wireframe", "Show the triangles of the cloth", &[key(Key::W)]),
+            Self::ToggleSheer => {
+                entry("See through the body", "The body is half transparent", &[key(Key::Q)])
+            }
+            Self::ToggleXray => entry(
+                "X-ray",
+                "Marks, pins and seams show through; hidden ones can be clicked",
+                &[key(Key::Y)],
+            ),
+            Self::ToggleHistory => entry("History", "Every step; a click goes back to it", &[]),
+            Self::ToggleLog => entry("Messages", "What was told so far, to be read again and copied", &[]),
+            Self::CommandPalette => entry(
+                "Find a command…",
+                "Type a few letters of what you want to do",
+                &[ctrl(Key::P), key(Key::F3)],
+            ),
+            Self::Tour => entry("Tour", "From an empty table to a dressed body in five steps", &[]),
+            _ => entry("", "", &[]),
+        }
+    }
 }

@@ -3,8 +3,10 @@
 use std::path::Path;
 
 use crate::io::scale::DrawingUnit;
+use crate::ui::actions::Action;
 use crate::ui::app::App;
 use crate::ui::dialogs::{Dialog, NativeDialog};
+use crate::ui::drop_overlay::Dropped;
 use crate::ui::files::{self, PatternImport, Purpose, RawBody};
 
 impl App {
@@ -21,7 +23,15 @@ impl App {
 
     pub(super) fn file(&mut self, ctx: &egui::Context, purpose: Purpose, path: &Path) {
         let done = match purpose {
-            Purpose::Open => files::open(path).map(|p| self.replace(ctx, p, Some(path.to_owned()))),
+            Purpose::Open => files::open(path).map(|project| {
+                self.replace(ctx, project, Some(path.to_owned()));
+                self.remember(path);
+            }),
+            Purpose::Picture => self.write_picture(path),
+            Purpose::Turn => {
+                self.begin_turn(path);
+                Ok(())
+            }
             Purpose::Save => self.save_to(ctx, path),
             Purpose::ImportPattern => self.import_pattern(path, None),
             Purpose::ImportBody => files::read_body(path).and_then(|raw| self.import_body(raw)),
@@ -93,12 +103,15 @@ impl App {
     pub(super) fn dropped_files(&mut self, ctx: &egui::Context) {
         let dropped = ctx.input(|i| i.raw.dropped_files.clone());
         for path in dropped.into_iter().map(|f| f.path().to_owned()) {
-            let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
-            match extension.as_deref() {
-                Some("toile") => self.file(ctx, Purpose::Open, &path),
-                Some("json" | "dxf" | "svg") => self.file(ctx, Purpose::ImportPattern, &path),
-                Some("obj") => self.file(ctx, Purpose::ImportBody, &path),
-                _ => self.messages.error(format!(
+            match Dropped::of(&path) {
+                Dropped::Project if self.session.is_modified() => {
+                    self.shell.opening = Some(path);
+                    self.dialog = Some(Dialog::Unsaved { then: Action::OpenRecent(0) });
+                }
+                Dropped::Project => self.file(ctx, Purpose::Open, &path),
+                Dropped::Pattern => self.file(ctx, Purpose::ImportPattern, &path),
+                Dropped::Body => self.file(ctx, Purpose::ImportBody, &path),
+                Dropped::Nothing => self.messages.error(format!(
                     "{} is neither a project (.toile), a pattern (.dxf, .svg, .json) nor a body (.obj)",
                     path.display()
                 )),

@@ -31,6 +31,10 @@ pub enum Purpose {
     ExportPattern,
     /// Write the recording.
     Recording,
+    /// Write a picture of the body pane.
+    Picture,
+    /// Write a turn of pictures.
+    Turn,
 }
 
 impl Purpose {
@@ -44,6 +48,8 @@ impl Purpose {
             Self::Export => "Export the dressed garment",
             Self::ExportPattern => "Export the pattern",
             Self::Recording => "Save the recording",
+            Self::Picture => "Save a picture",
+            Self::Turn => "Save a turn of pictures",
         }
     }
 
@@ -56,12 +62,16 @@ impl Purpose {
             Self::ImportBody => ("OBJ body", &["obj"]),
             Self::Export => ("Garment", &["obj", "glb"]),
             Self::Recording => ("Recording", &["jsonl"]),
+            Self::Picture | Self::Turn => ("Picture", &["png"]),
         }
     }
 
     /// Whether a file is written.
     pub fn writes(self) -> bool {
-        matches!(self, Self::Save | Self::Export | Self::ExportPattern | Self::Recording)
+        matches!(
+            self,
+            Self::Save | Self::Export | Self::ExportPattern | Self::Recording | Self::Picture | Self::Turn
+        )
     }
 
     /// The name a new file gets.
@@ -70,6 +80,8 @@ impl Purpose {
             Self::Recording => "recording",
             Self::Export => "garment",
             Self::ExportPattern => "pattern",
+            Self::Picture => "picture",
+            Self::Turn => "turn",
             _ => "untitled",
         };
         format!("{stem}.{}", self.filter().1[0])

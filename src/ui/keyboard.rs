@@ -9,7 +9,7 @@ use crate::ui::situation::Situation;
 
 impl App {
     pub(super) fn keys(&self, ctx: &egui::Context, now: &Situation, asks: &mut Asks) {
-        if self.dialog.is_some() || ctx.text_edit_focused() {
+        if self.dialog.is_some() || self.shell.is_asking() || ctx.text_edit_focused() {
             return;
         }
         let table = &self.pattern_pane;
@@ -34,11 +34,14 @@ impl App {
         if escape && self.selected.is_some() {
             asks.push(Ask::Select(None));
         }
-        for (action, keys) in Action::with_keys() {
+        for (action, keys) in now.keymap.bound() {
             // A focused button takes Enter and Space for itself; Space over the table moves the view; Esc first gives up a
             // stroke.
             let of_table = [Key::Enter, Key::Backspace, Key::Delete].contains(&keys.logical_key);
             let is_figure = keys.logical_key.symbol_or_name().parse::<u8>().is_ok();
+            if self.shell.start.is_some() && !(action.stays_on_start_page() || action == Action::New) {
+                continue;
+            }
             let taken = Action::is_plain(keys)
                 && (menu
                     || (focused && [Key::Enter, Key::Space].contains(&keys.logical_key))

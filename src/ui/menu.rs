@@ -24,6 +24,8 @@ pub fn menu_bar_ui(ui: &mut egui::Ui, now: &Situation, asks: &mut Asks) {
             items(ui, now, asks, &[Action::RaiseMark, Action::LowerMark, Action::DeleteMark]);
             ui.separator();
             items(ui, now, asks, &[Action::ToggleLaser, Action::SuggestMarks, Action::ClearMarks]);
+            ui.separator();
+            items(ui, now, asks, &[Action::Preferences]);
         });
         ui.menu_button("Pattern", |ui| pattern_ui(ui, now, asks));
         ui.menu_button("Garment", |ui| {
@@ -48,6 +50,8 @@ fn file_ui(ui: &mut egui::Ui, now: &Situation, asks: &mut Asks) {
         }
     });
     items(ui, now, asks, &[Action::Open]);
+    ui.menu_button("Open recent", |ui| recent_ui(ui, now, asks));
+    items(ui, now, asks, &[Action::StartPage]);
     ui.separator();
     items(ui, now, asks, &[Action::Save, Action::SaveAs]);
     ui.separator();
@@ -55,9 +59,32 @@ fn file_ui(ui: &mut egui::Ui, now: &Situation, asks: &mut Asks) {
     ui.separator();
     items(ui, now, asks, &[Action::ExportPattern]);
     ui.menu_button("Paper", |ui| items(ui, now, asks, &Paper::ALL.map(Action::Paper)));
-    items(ui, now, asks, &[Action::Export, Action::SaveRecording]);
+    items(ui, now, asks, &[Action::Export, Action::Picture, Action::SaveRecording]);
     ui.separator();
     items(ui, now, asks, &[Action::Quit]);
+}
+
+fn recent_ui(ui: &mut egui::Ui, now: &Situation, asks: &mut Asks) {
+    if now.recent.is_empty() {
+        ui.weak("No file was open before");
+    }
+    for (i, file) in now.recent.iter().enumerate() {
+        let (name, folder) = file.name();
+        let why_not = now.why_not(Action::OpenRecent(i as u8));
+        let button = Button::new(name).shortcut_text(folder).min_size(egui::vec2(260.0, 0.0));
+        let response = ui.add_enabled(why_not.is_none(), button);
+        let words = format!("Open again: {}", file.name().0);
+        response.widget_info(|| {
+            egui::WidgetInfo::labeled(egui::accesskit::Role::Button, why_not.is_none(), words.clone())
+        });
+        let response = response.on_hover_text(file.path.display().to_string());
+        if response.on_disabled_hover_text(why_not.unwrap_or_default()).clicked() {
+            asks.push(Ask::Act(Action::OpenRecent(i as u8)));
+            ui.close();
+        }
+    }
+    ui.separator();
+    item(ui, now, asks, Action::ClearRecent);
 }
 
 fn pattern_ui(ui: &mut egui::Ui, now: &Situation, asks: &mut Asks) {
@@ -133,15 +160,17 @@ pub fn context_ui(ui: &mut egui::Ui, now: &Situation, asks: &mut Asks) {
 }
 
 fn view_ui(ui: &mut egui::Ui, now: &Situation, asks: &mut Asks) {
-    items(ui, now, asks, &VIEWS.map(Action::Look));
+    ui.menu_button("Look from", |ui| items(ui, now, asks, &VIEWS.map(Action::Look)));
+    items(ui, now, asks, &[Action::FrameAll, Action::FrameSelection, Action::TrueSize]);
+    items(ui, now, asks, &[Action::ToggleParallel, Action::ToggleFreeTurning]);
     ui.separator();
-    items(ui, now, asks, &[Action::FrameAll, Action::ToggleParallel, Action::ToggleFreeTurning]);
+    items(ui, now, asks, &[Action::ToggleWire, Action::ToggleSheer, Action::ToggleXray]);
     ui.separator();
-    items(ui, now, asks, &[Action::FrameSelection, Action::TrueSize]);
     items(ui, now, asks, &[Action::ToggleSnapping, Action::ClearGuides]);
     ui.menu_button("Unit", |ui| items(ui, now, asks, &LengthUnit::ALL.map(Action::Unit)));
     ui.separator();
     items(ui, now, asks, &[Action::ToggleCloth, Action::TogglePanel]);
+    items(ui, now, asks, &[Action::ToggleHistory, Action::ToggleLog]);
     ui.separator();
     ui.menu_button("Theme", |ui| {
         let themes = [ThemePreference::Dark, ThemePreference::Light, ThemePreference::System];
@@ -151,8 +180,9 @@ fn view_ui(ui: &mut egui::Ui, now: &Situation, asks: &mut Asks) {
 }
 
 fn help_ui(ui: &mut egui::Ui, now: &Situation, asks: &mut Asks) {
-    items(ui, now, asks, &[Action::Shortcuts]);
+    items(ui, now, asks, &[Action::CommandPalette, Action::Shortcuts]);
     ui.separator();
+    items(ui, now, asks, &[Action::Tour]);
     ui.menu_button("Demos", |ui| {
         items(ui, now, asks, &Demo::ALL.map(Action::Demo));
     });
@@ -166,10 +196,9 @@ fn items(ui: &mut egui::Ui, now: &Situation, asks: &mut Asks, actions: &[Action]
 }
 
 fn item(ui: &mut egui::Ui, now: &Situation, asks: &mut Asks, action: Action) {
-    let entry = action.entry();
     let why_not = now.why_not(action);
     let mut button = Button::selectable(now.is_on(action), now.text(action));
-    if let Some(keys) = entry.keys.first() {
+    if let Some(keys) = now.keymap.keys(action).first() {
         button = button.shortcut_text(ui.ctx().format_shortcut(keys));
     }
     let response = ui.add_enabled(why_not.is_none(), button.min_size(egui::vec2(190.0, 0.0)));

@@ -11,6 +11,9 @@ const SHOWN: Duration = Duration::from_secs(6);
 /// Messages shown at once; older ones go.
 const MOST: usize = 4;
 
+/// Messages that can be read again.
+const MOST_LOGGED: usize = 500;
+
 /// One message.
 #[derive(Debug)]
 struct Message {
@@ -19,10 +22,22 @@ struct Message {
     since: Instant,
 }
 
+/// Something that was told.
+#[derive(Debug)]
+struct Told {
+    words: String,
+    is_error: bool,
+    /// Since the first message.
+    after: Duration,
+}
+
 /// Messages, oldest first.
 #[derive(Debug, Default)]
 pub struct Messages {
     all: Vec<Message>,
+    /// All of them, to be read again.
+    log: Vec<Told>,
+    begun: Option<Instant>,
 }
 
 impl Messages {
@@ -39,8 +54,15 @@ impl Messages {
     fn push(&mut self, words: String, is_error: bool) {
         self.all.retain(|m| m.words != words);
         if self.all.len() >= MOST {
-            self.all.remove(0);
+            // Errors wait for somebody to read them.
+            let oldest = self.all.iter().position(|m| !m.is_error).unwrap_or(0);
+            self.all.remove(oldest);
         }
+        let after = self.begun.get_or_insert_with(Instant::now).elapsed();
+        if self.log.len() >= MOST_LOGGED {
+            self.log.remove(0);
+        }
+        self.log.push(Told { words: words.clone(), is_error, after });
         self.all.push(Message { words, is_error, since: Instant::now() });
     }
 
@@ -52,6 +74,28 @@ impl Messages {
         };
         ctx.request_repaint_after(SHOWN.saturating_sub(next.elapsed()) + Duration::from_millis(20));
         self.show(ctx, palette, above);
+    }
+
+    /// Everything told so far, a line each.
+    pub fn text(&self) -> String {
+        self.log.iter().map(|told| format!("{}\n", told.line())).collect()
+    }
+
+    /// Everything told so far, each line with a button that copies it.
+    pub fn log_ui(&self, ui: &mut egui::Ui, palette: &Palette) {
+        if self.log.is_empty() {
+            ui.label(egui::RichText::new("Nothing was told yet").color(palette.weak));
+        }
+        for told in &self.log {
+            ui.horizontal_top(|ui| {
+                if ui.small_button("Copy").clicked() {
+                    ui.ctx().copy_text(told.words.clone());
+                }
+                let text = egui::RichText::new(told.line());
+                let text = if told.is_error { text.color(palette.error) } else { text };
+                ui.add(egui::Label::new(text).wrap().selectable(true));
+            });
+        }
     }
 
     fn show(&mut self, ctx: &egui::Context, palette: &Palette, above: f32) {
@@ -73,6 +117,13 @@ impl Messages {
         if let Some(i) = closed {
             self.all.remove(i);
         }
+    }
+}
+
+impl Told {
+    fn line(&self) -> String {
+        let (seconds, kind) = (self.after.as_secs(), if self.is_error { "Error: " } else { "" });
+        format!("{:02}:{:02}  {kind}{}", seconds / 60, seconds % 60, self.words)
     }
 }
 

@@ -1,5 +1,7 @@
 //! The panels and panes of one frame, and what they are shown.
 
+use std::sync::Arc;
+
 use egui::{CentralPanel, Frame, Margin, Panel};
 
 use crate::session::Document;
@@ -56,6 +58,7 @@ impl App {
                 side_panel::side_panel_ui(ui, &told, &mut self.marks_panel, &mut self.pattern_panel, asks);
             });
         }
+        self.drawer_panel(ui, now, palette, asks);
         let half = ui.available_width() * 0.46;
         let least = (ui.available_width() - 200.0).max(160.0);
         Panel::left("table").frame(Frame::new()).default_size(half).size_range(160.0..=least).show(
@@ -92,7 +95,7 @@ impl App {
                 selected: now.selected.map(|(mark, _)| mark),
                 stand_out: &stand_out,
                 ghosts: self.ghosts.as_ref().map(|g| &g.marks),
-                look: theme::look(ui.ctx().theme()),
+                look: self.shell.sight.on(theme::look(ui.ctx().theme())),
                 palette,
             };
             self.scene_pane.ui(ui, &seen, asks);
@@ -176,6 +179,12 @@ impl App {
             parallel: self.scene_pane.camera.projection == crate::render::Projection::Orthographic,
             free_turning: self.scene_pane.free_turning,
             theme: ctx.options(|o| o.theme_preference),
+            keymap: Arc::clone(&self.preferences.keymap),
+            recent: Arc::clone(self.shell.recent.files()),
+            sight: self.shell.sight,
+            drawer: self.shell.drawer,
+            has_graphics: self.scene_pane.graphics.is_some(),
+            picturing: self.shell.turn.is_some(),
         }
     }
 }

@@ -1,12 +1,14 @@
 //! What a person prefers, kept between runs. A file that cannot be read is as good as none.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use egui::ThemePreference;
 use serde::{Deserialize, Serialize};
 
 use crate::io::pdf::Paper;
 use crate::ui::files;
+use crate::ui::keymap::Keymap;
 use crate::ui::mouse::Mouse;
 use crate::ui::units::LengthUnit;
 
@@ -14,7 +16,7 @@ use crate::ui::units::LengthUnit;
 const MOST_BYTES: u64 = 1 << 20;
 
 /// What there is to prefer.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Preferences {
     /// What the mouse buttons do.
@@ -29,6 +31,57 @@ pub struct Preferences {
     /// What patterns are printed on.
     #[serde(deserialize_with = "or_default")]
     pub paper: Paper,
+    /// How large everything in the window is.
+    #[serde(deserialize_with = "or_default")]
+    pub scale: Scale,
+    /// How often unsaved work is copied.
+    #[serde(deserialize_with = "or_default")]
+    pub copies: Copies,
+    /// Which keys do what.
+    #[serde(deserialize_with = "or_default")]
+    pub keymap: Arc<Keymap>,
+}
+
+/// Size of the interface, per cent.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct Scale(pub u16);
+
+impl Default for Scale {
+    fn default() -> Self {
+        Self(100)
+    }
+}
+
+impl Scale {
+    /// Those that can be chosen.
+    pub const ALL: [u16; 11] = [75, 85, 100, 110, 125, 150, 175, 200, 225, 250, 300];
+
+    /// As a factor, 0.75..=3.
+    pub fn factor(self) -> f32 {
+        f32::from(self.0.clamp(75, 300)) / 100.0
+    }
+}
+
+/// Seconds between two copies of unsaved work, at the least.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct Copies(pub u16);
+
+impl Default for Copies {
+    fn default() -> Self {
+        Self(10)
+    }
+}
+
+impl Copies {
+    /// Those that can be chosen.
+    pub const ALL: [u16; 5] = [10, 30, 60, 120, 300];
+
+    /// 5..=600.
+    pub fn seconds(self) -> f64 {
+        f64::from(self.0.clamp(5, 600))
+    }
 }
 
 /// See [`ThemePreference`].
@@ -117,6 +170,8 @@ mod tests {
             theme: Theme::Light,
             unit: LengthUnit::Inch,
             paper: Paper::One,
+            scale: Scale(150),
+            ..Preferences::default()
         };
         preferences.write(&path).expect("written");
         assert_eq!(Preferences::read(&path), preferences);

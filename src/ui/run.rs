@@ -8,11 +8,11 @@ use anyhow::{Context, anyhow};
 
 use crate::session::Project;
 use crate::ui::app::App;
-use crate::ui::{preferences, safety};
+use crate::ui::{preferences, safety, thumbnails};
 
-/// Opens the window on `project`, which came from the file `path`, and returns when it is closed. Everything done is also
-/// written to `record`.
-pub fn run(project: Project, path: Option<PathBuf>, record: Option<File>) -> anyhow::Result<()> {
+/// Opens the window on `project`, which came from the file `path`, or on the start page, and returns when it is closed.
+/// Everything done is also written to `record`.
+pub fn run(project: Option<Project>, path: Option<PathBuf>, record: Option<File>) -> anyhow::Result<()> {
     let options = eframe::NativeOptions {
         viewport: egui::ViewportBuilder::default()
             .with_title("Toile")
@@ -25,9 +25,20 @@ pub fn run(project: Project, path: Option<PathBuf>, record: Option<File>) -> any
         if let Some(state) = &cc.wgpu_render_state {
             state.device.on_uncaptured_error(Arc::new(|e| tracing::error!("graphics: {e}")));
         }
-        let mut app = App::new(&cc.egui_ctx, project, path, cc.wgpu_render_state.clone())?;
+        let is_start = project.is_none();
+        let project = project.unwrap_or_default();
+        let mut app = App::new(&cc.egui_ctx, project, path.clone(), cc.wgpu_render_state.clone())?;
         if let Some(path) = preferences::usual_path() {
             app.keep_preferences(&cc.egui_ctx, path);
+        }
+        if let Some(folder) = thumbnails::usual_folder() {
+            app.keep_thumbnails(folder);
+        }
+        if let Some(path) = &path {
+            app.remember(path);
+        }
+        if is_start {
+            app.begin_at_start_page();
         }
         if let Some(root) = safety::usual_root() {
             app.keep_safe(&root);

@@ -10,10 +10,8 @@ use crate::ui::app::App;
 use crate::ui::dialogs::Dialog;
 use crate::ui::files;
 
-/// A copy is made no sooner than this after the one before, seconds; where a step is undone that is older than it, at once.
-const SOONEST: f64 = 10.0;
-/// And no later than this while the cloth does not come to rest, seconds.
-const LATEST: f64 = 60.0;
+/// A copy is made no later than this after the time for one while the cloth does not come to rest, seconds.
+const LATEST: f64 = 50.0;
 
 /// Where this system keeps work that is not saved yet. None where there is no home.
 pub fn usual_root() -> Option<PathBuf> {
@@ -38,6 +36,9 @@ pub struct Safety {
     copied: f64,
     /// The newest copy, if there is one, is of work that is saved.
     fresh: bool,
+    /// A copy is made no sooner than this after the one before, seconds; where a step is undone that is older than it, at
+    /// once.
+    pub soonest: f64,
 }
 
 impl Safety {
@@ -45,9 +46,11 @@ impl Safety {
     pub fn begin(root: &Path) -> (Self, Vec<Left>, Option<String>) {
         let found = left(root);
         match Keeper::begin(root) {
-            Ok(keeper) => {
-                (Self { keeper: Some(keeper), writing: None, copied: 0.0, fresh: true }, found, None)
-            }
+            Ok(keeper) => (
+                Self { keeper: Some(keeper), writing: None, copied: 0.0, fresh: true, soonest: 10.0 },
+                found,
+                None,
+            ),
             Err(why) => (Self::default(), found, Some(format!("{}: {why}", root.display()))),
         }
     }
@@ -76,7 +79,7 @@ impl Safety {
         }
         let Some(keeper) = &mut self.keeper else { return Ok(()) };
         let since = now - self.copied;
-        let due = !session.is_copied() && !busy && since > if at_rest { SOONEST } else { LATEST };
+        let due = !session.is_copied() && !busy && since > self.soonest + if at_rest { 0.0 } else { LATEST };
         if !(self.fresh || session.needs_copy() || due) {
             return Ok(());
         }
@@ -115,7 +118,7 @@ impl Safety {
     /// In how many seconds a copy is due that nothing else would wake the window for.
     pub fn due_in(&self, session: &Session, now: f64) -> Option<Duration> {
         let waits = self.keeper.is_some() && !session.is_copied();
-        waits.then(|| Duration::from_secs_f64((self.copied + SOONEST + 0.5 - now).max(0.5)))
+        waits.then(|| Duration::from_secs_f64((self.copied + self.soonest + 0.5 - now).max(0.5)))
     }
 
     /// The window closes as it should: what is not saved is not wanted.
@@ -157,6 +160,7 @@ impl App {
         let (now, held) = ctx.input(|i| (i.time, i.pointer.any_down()));
         let at_rest = !self.session.snapshot().working;
         let busy = held || self.drag.is_some();
+        self.safety.soonest = self.preferences.copies.seconds();
         if let Err(words) = self.safety.tend(&mut self.session, self.path.as_deref(), now, busy, at_rest) {
             self.messages.error(format!("Unsaved work is no longer kept safe: {words}"));
         }
@@ -217,6 +221,7 @@ impl App {
         self.safety.work_is_saved();
         self.on_disk = files::OnDisk::of(path);
         self.path = Some(path.to_owned());
+        self.remember(path);
         self.wrote(path);
         if let Some(action) = self.after_save.take() {
             self.act_unguarded(ctx, action);

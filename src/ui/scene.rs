@@ -10,6 +10,7 @@ use crate::geometry::adjacency::NONE;
 use crate::geometry::ids::{MarkId, PieceId};
 use crate::geometry::mesh::vertex_normals;
 use crate::render::{BODY, CLOTH_BACK, CLOTH_FRONT, Ground, Label, Mesh, Polyline, Rgb, Scene, mark_colour};
+use crate::ui::stitches::stitched;
 use crate::wrap::{ClothMark, Marks};
 
 /// What is to be seen.
@@ -168,7 +169,7 @@ impl Scenery {
         let on_body = |t: &[u32; 3]| t.iter().all(|&v| state.mapped[v as usize]);
         let triangles: Vec<[u32; 3]> = garment.triangles.iter().copied().filter(on_body).collect();
         let normals = vertex_normals(&state.positions, &triangles);
-        let mut lines = seam_lines(garment, state, scale);
+        let mut lines = stitched(seam_lines(garment, state, scale), scale);
         lines.extend(hem_lines(garment, state, scale));
         self.cloth = Some(DrawnCloth {
             garment: Arc::clone(garment),

@@ -1,14 +1,20 @@
 //! What menus, buttons and panels need to know to show themselves.
 
+use std::sync::Arc;
+
 use egui::ThemePreference;
 
 use crate::drag::DragMode;
 use crate::geometry::ids::MarkId;
 use crate::io::pdf::Paper;
 use crate::ui::actions::{Action, Tool};
+use crate::ui::drawer::Drawer;
 use crate::ui::edits::Picked;
+use crate::ui::keymap::Keymap;
 use crate::ui::mouse::Mouse;
+use crate::ui::recent::RecentFile;
 use crate::ui::selection::Item;
+use crate::ui::shell::Sight;
 use crate::ui::units::LengthUnit;
 use crate::wrap::{MarkPlace, Phase};
 
@@ -81,6 +87,18 @@ pub struct Situation {
     pub demo: bool,
     /// Dark, light or as the system.
     pub theme: ThemePreference,
+    /// Which keys do what.
+    pub keymap: Arc<Keymap>,
+    /// Files that were open before.
+    pub recent: Arc<Vec<RecentFile>>,
+    /// What is drawn of body and cloth besides their surfaces.
+    pub sight: Sight,
+    /// What is open below the panes.
+    pub drawer: Option<Drawer>,
+    /// The body can be drawn.
+    pub has_graphics: bool,
+    /// A picture or a turn of them is being made.
+    pub picturing: bool,
 }
 
 impl Situation {
@@ -90,6 +108,13 @@ impl Situation {
         match action {
             Action::StopDemo => unless(self.demo, "No demo is shown"),
             _ if self.demo && !action.is_for_demos() => Some("A demo is shown: stop it first"),
+            Action::OpenRecent(i) => match self.recent.get(usize::from(i)) {
+                None => Some("No such file was open"),
+                Some(file) => unless(file.is_there, "The file is no longer there"),
+            },
+            Action::ClearRecent => unless(!self.recent.is_empty(), "No file was open before"),
+            Action::Picture if self.picturing => Some("A turn of pictures is being made"),
+            Action::Picture => unless(self.has_graphics, "There is no graphics adapter to draw with"),
             Action::Undo => unless(self.undo.is_some(), "There is nothing to undo"),
             Action::Redo => unless(self.redo.is_some(), "There is nothing to redo"),
             Action::ExportPattern => unless(self.pieces > 0, "There is no piece on the table"),
@@ -165,6 +190,11 @@ impl Situation {
             Action::ToggleParallel => self.parallel,
             Action::ToggleFreeTurning => self.free_turning,
             Action::Theme(theme) => self.theme == theme,
+            Action::ToggleWire => self.sight.wire,
+            Action::ToggleSheer => self.sight.sheer,
+            Action::ToggleXray => self.sight.xray,
+            Action::ToggleHistory => self.drawer == Some(Drawer::History),
+            Action::ToggleLog => self.drawer == Some(Drawer::Log),
             Action::Mouse(mouse) => self.mouse == mouse,
             Action::Paper(paper) => self.paper == paper,
             _ => false,
@@ -174,6 +204,11 @@ impl Situation {
     /// The text of `action`, with what undo and redo are about.
     pub fn text(&self, action: Action) -> String {
         let plain = action.entry().text;
+        if let Action::OpenRecent(i) = action
+            && let Some(file) = self.recent.get(usize::from(i))
+        {
+            return file.name().0;
+        }
         match (action, &self.undo, &self.redo) {
             (Action::Undo, Some(what), _) | (Action::Redo, _, Some(what)) => format!("{plain} {what}"),
             _ => plain.to_owned(),

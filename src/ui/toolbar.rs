@@ -75,7 +75,7 @@ fn primary(
 fn press(ui: &mut egui::Ui, now: &Situation, asks: &mut Asks, action: Action, button: Button<'_>) {
     let entry = action.entry();
     let why_not = now.why_not(action);
-    let keys = entry.keys.first().map(|k| format!("  ({})", ui.ctx().format_shortcut(k)));
+    let keys = now.keymap.keys(action).first().map(|k| format!("  ({})", ui.ctx().format_shortcut(k)));
     let tip = match action {
         Action::Undo | Action::Redo => now.text(action),
         _ => entry.tip.to_owned(),

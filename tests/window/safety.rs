@@ -82,3 +82,55 @@ fn a_file_that_somebody_else_changed_is_not_written_over() {
     assert_eq!(now.document.pattern.pieces.values().next().expect("a piece").name, "mine");
     assert!(!app(&window).session().is_modified());
 }
+
+/// Set for a copy of a test that may write no more than a few hundred bytes: where it saves.
+const FULL: &str = "TOILE_TEST_FULL_DISK";
+
+#[test]
+fn a_disk_that_is_full_leaves_the_file_and_the_document() {
+    if let Some(path) = std::env::var_os(FULL) {
+        return on_a_full_disk(Path::new(&path));
+    }
+    if !cfg!(unix) {
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("mine.toile");
+    project_file::save(&path, &project()).expect("saved");
+    let before = std::fs::read(&path).expect("the file");
+    // As on a full disk, writing stops with an error in the middle of the file.
+    let script = "trap '' XFSZ; ulimit -f 1; exec \"$0\" --exact safety::a_disk_that_is_full_leaves_the_file_and_the_document";
+    let mut process = std::process::Command::new("sh");
+    process.arg("-c").arg(script).arg(std::env::current_exe().expect("this test")).env(FULL, &path);
+    let output = process.output().expect("started");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stdout));
+    assert_eq!(std::fs::read(&path).expect("the file"), before);
+    let left: Vec<_> = std::fs::read_dir(folder.path()).expect("the folder").flatten().collect();
+    assert_eq!(left.len(), 1, "nothing half written is left: {left:?}");
+}
+
+fn on_a_full_disk(path: &Path) {
+    let mut window = window();
+    rename(&mut window, "mine");
+    let ctx = window.ctx.clone();
+    let words = window.state_mut().as_mut().expect("the app").save_as(&ctx, path).expect_err("no room");
+    assert!(words.contains("mine.toile could not be saved"), "{words}");
+    assert!(app(&window).session().is_modified());
+    assert_eq!(name(&window), "mine");
+}
+
+#[test]
+fn a_file_in_a_folder_that_is_gone_is_not_taken_for_saved() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("mine.toile");
+    let mut window = window();
+    let save = |window: &mut Window| {
+        let ctx = window.ctx.clone();
+        window.state_mut().as_mut().expect("the app").save_as(&ctx, &path)
+    };
+    save(&mut window).expect("saved");
+    rename(&mut window, "mine");
+    folder.close().expect("removed");
+    save(&mut window).expect_err("there is no such folder");
+    assert!(app(&window).session().is_modified());
+}

@@ -187,6 +187,11 @@ impl Left {
         self.folder.join(ABOUT)
     }
 
+    /// The newest copy; what was done after it is in journals. None: there is none that was written whole.
+    pub fn copy(&self) -> Option<PathBuf> {
+        Some(copy_path(&self.folder, newest(&self.folder)?))
+    }
+
     /// Removes it: it was taken over, or is not wanted.
     pub fn forget(self) -> io::Result<()> {
         let Self { folder, lock, .. } = self;

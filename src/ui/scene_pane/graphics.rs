@@ -8,7 +8,7 @@ use glam::UVec2;
 use crate::body::Surface;
 use crate::cloth::ClothState;
 use crate::geometry::ids::MarkId;
-use crate::render::{Camera, Gpu, Look, OffscreenTarget, RenderError, Renderer, Scene};
+use crate::render::{Camera, Gpu, Look, OffscreenTarget, RenderError, Renderer, Scene, straightened};
 use crate::ui::selection::Item;
 use crate::wrap::Marks;
 
@@ -125,6 +125,20 @@ impl Graphics {
             self.drawn = Some(key);
         }
         Ok(texture)
+    }
+
+    /// A picture of its own, of `size` pixels; what is shown stays as it is. Waits for the device.
+    pub fn photograph(
+        &mut self,
+        scene: &Scene,
+        camera: &Camera,
+        look: &Look,
+        size: UVec2,
+    ) -> Result<image::RgbaImage, RenderError> {
+        let target = OffscreenTarget::new(&self.gpu, size)?;
+        self.renderer.draw(&self.gpu, scene, camera, look, &target)?;
+        let picture = target.read(&self.gpu)?;
+        Ok(if look.cut_out { straightened(picture) } else { picture })
     }
 
     fn target_of(&mut self, size: UVec2) -> Result<TextureId, RenderError> {

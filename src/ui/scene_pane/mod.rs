@@ -1,5 +1,6 @@
 //! The body pane: the body and the cloth on it, turned and painted with the pointer.
 
+mod cube;
 mod drawing;
 mod graphics;
 mod hand;
@@ -30,6 +31,7 @@ use crate::ui::selection::Item;
 use crate::ui::stroke;
 use crate::ui::theme::Palette;
 use crate::wrap::Marks;
+use cube::view_cube;
 pub use graphics::{Graphics, Key};
 use hand::{Reach, cloth_at};
 pub use hint::hint;
@@ -148,7 +150,8 @@ impl ScenePane {
         if let Some(ghosts) = seen.ghosts {
             publish_marks(ui, ghosts, "Proposed mark", pane, &self.camera);
         }
-        view_buttons(ui, pane, seen.palette, asks);
+        view_cube(ui, pane, &self.camera, seen.palette, asks);
+        view_buttons(ui, pane, seen, asks);
     }
 
     /// The stroke under way on the near side.

@@ -3,15 +3,14 @@
 use egui::accesskit::Role;
 use egui::{Pos2, Rect, Sense, WidgetInfo};
 
-use super::size_of;
-use crate::render::Camera;
-use crate::ui::actions::{Action, VIEWS};
+use super::{Seen, size_of};
+use crate::render::{Camera, Look};
+use crate::ui::actions::Action;
 use crate::ui::asks::{Ask, Asks};
-use crate::ui::theme::Palette;
 use crate::wrap::Marks;
 
-/// Small buttons over the lower right corner, where they hide only floor.
-pub(super) fn view_buttons(ui: &mut egui::Ui, pane: Rect, palette: &Palette, asks: &mut Asks) {
+/// Small buttons over the lower right corner, where they hide only floor: how body and cloth are drawn, and all of them.
+pub(super) fn view_buttons(ui: &mut egui::Ui, pane: Rect, seen: &Seen<'_>, asks: &mut Asks) {
     let area = Rect::from_min_max(
         Pos2::new(pane.left() + 8.0, pane.bottom() - 34.0),
         Pos2::new(pane.right() - 8.0, pane.bottom() - 8.0),
@@ -19,11 +18,17 @@ pub(super) fn view_buttons(ui: &mut egui::Ui, pane: Rect, palette: &Palette, ask
     let layout = egui::Layout::right_to_left(egui::Align::Center);
     ui.scope_builder(egui::UiBuilder::new().max_rect(area).layout(layout), |ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
-        let all = std::iter::once(Action::FrameAll).chain(VIEWS[..5].iter().rev().map(|&v| Action::Look(v)));
-        for action in all {
+        let Look { wire, sheer, xray, .. } = seen.look;
+        for (action, on) in [
+            (Action::FrameAll, false),
+            (Action::ToggleXray, xray),
+            (Action::ToggleSheer, sheer),
+            (Action::ToggleWire, wire),
+        ] {
             let entry = action.entry();
-            let button =
-                egui::Button::new(egui::RichText::new(entry.text).size(12.5)).fill(palette.overlay).small();
+            let text = egui::RichText::new(entry.text).size(12.5);
+            let button = egui::Button::new(text).selected(on).small();
+            let button = if on { button } else { button.fill(seen.palette.overlay) };
             if ui.add(button).on_hover_text(entry.tip).clicked() {
                 asks.push(Ask::Act(action));
             }

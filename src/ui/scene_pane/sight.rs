@@ -66,6 +66,9 @@ impl ScenePane {
             }
         };
         let (eye, away) = (eye.as_dvec3(), (point - eye.as_dvec3()).length());
+        if seen.look.xray {
+            return true;
+        }
         seen.body
             .and_then(|b| b.ray(eye, point - eye))
             .is_none_or(|hit| hit.distance > away - 0.01 * seen.body.map_or(1.0, |b| b.scale()))

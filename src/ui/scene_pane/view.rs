@@ -29,6 +29,11 @@ impl ScenePane {
         if DVec2::new(out.x, out.z).length() > 0.2 * points.len() as f64 {
             self.camera.look(View::Angles { yaw: out.x.atan2(out.z).to_degrees() as f32, pitch: 10.0 });
         }
+        self.come_near(points, body);
+    }
+
+    /// Comes near enough to `points` on `body` to see them well, without turning.
+    pub fn come_near(&mut self, points: &[DVec3], body: &Surface) {
         let room = ROOM * body.scale();
         let around = |p: &DVec3| [-1.0, 1.0].map(|s| (*p + DVec3::splat(s * room)).as_vec3());
         let around: Vec<Vec3> = points.iter().flat_map(around).collect();

@@ -1,0 +1,388 @@
+//! Start page, tour, command palette, preferences, history, messages.
+
+use toile::session::project_file;
+
+use super::*;
+
+fn act(window: &mut Window, label: &str) {
+    window.get_by_label(label).click();
+    window.run_steps(4);
+}
+
+fn menu(window: &mut Window, menu: &str, entry: &str) {
+    act(window, menu);
+    window.get_by_label_contains(entry).click();
+    window.run_steps(4);
+}
+
+fn edit(window: &mut Window, change: impl FnOnce(&mut App, &egui::Context)) {
+    let ctx = window.ctx.clone();
+    change(window.state_mut().as_mut().expect("the app"), &ctx);
+    window.run_steps(3);
+}
+
+fn type_into(window: &mut Window, text: &str) {
+    window.event(Event::Text(text.to_owned()));
+    window.run_steps(3);
+}
+
+#[test]
+fn a_command_is_found_by_a_few_letters_and_carried_out() {
+    let mut window = window();
+    key(&mut window, Modifiers::COMMAND, Key::P);
+    assert!(window.query_by_label("Find a command").is_some());
+    type_into(&mut window, "sel al");
+    assert!(window.query_by_label("Command Select all").is_some());
+    key(&mut window, Modifiers::NONE, Key::Enter);
+    assert!(window.query_by_label("Find a command").is_none(), "it closes");
+    key(&mut window, Modifiers::NONE, Key::Delete);
+    assert!(app(&window).session().document().pattern.pieces.is_empty(), "all were selected, and deleted");
+}
+
+#[test]
+fn a_command_that_cannot_be_chosen_says_why_in_the_palette() {
+    let mut window = window();
+    key(&mut window, Modifiers::NONE, Key::F3);
+    type_into(&mut window, "rewrap");
+    assert!(window.query_by_label("Rewrap: There is no cloth on the body").is_some());
+    key(&mut window, Modifiers::NONE, Key::Enter);
+    assert!(window.query_by_label_contains("Rewrap: There is no cloth on the body.").is_some(), "told again");
+    key(&mut window, Modifiers::NONE, Key::F3);
+    type_into(&mut window, "v");
+    key(&mut window, Modifiers::NONE, Key::Escape);
+    assert!(window.query_by_label("Find a command").is_none());
+    assert_eq!(app(&window).session().undo_label(), None, "letters that are typed choose no tool");
+}
+
+#[test]
+fn the_palette_is_walked_through_with_arrows() {
+    let mut window = window();
+    key(&mut window, Modifiers::COMMAND, Key::P);
+    let chosen = |window: &Window, label: &str| {
+        let toggled = window.get_by_label(label).accesskit_node().toggled();
+        toggled == Some(egui::accesskit::Toggled::True)
+    };
+    assert!(chosen(&window, "Command New") && !chosen(&window, "Command Start page"));
+    key(&mut window, Modifiers::NONE, Key::ArrowDown);
+    assert!(!chosen(&window, "Command New") && chosen(&window, "Command Start page"));
+    key(&mut window, Modifiers::NONE, Key::Enter);
+    assert!(window.query_by_label("Sample T-shirt").is_some(), "the start page");
+    key(&mut window, Modifiers::NONE, Key::Escape);
+    assert!(window.query_by_label("Body pane").is_some());
+}
+
+#[test]
+fn sides_of_the_view_cube_can_be_clicked() {
+    let mut window = window();
+    for (label, out) in [
+        ("Orientation cube: left", glam::Vec3::X),
+        ("Orientation cube: top", glam::Vec3::Y),
+        ("Orientation cube: back", glam::Vec3::NEG_Z),
+        ("Orientation cube: below", glam::Vec3::NEG_Y),
+        ("Orientation cube: front", glam::Vec3::Z),
+    ] {
+        act(&mut window, label);
+        assert!((app(&window).camera().towards_eye() - out).length() < 1e-5, "{label}");
+    }
+}
+
+#[test]
+fn figures_look_from_every_side_and_turn_perspective_off() {
+    let mut window = window();
+    let to_body = pane(&window, "Body pane").center();
+    move_to(&mut window, to_body);
+    for (modifiers, figure, out) in [
+        (Modifiers::NONE, Key::Num3, glam::Vec3::NEG_X),
+        (Modifiers::COMMAND, Key::Num3, glam::Vec3::X),
+        (Modifiers::COMMAND, Key::Num1, glam::Vec3::NEG_Z),
+        (Modifiers::COMMAND, Key::Num7, glam::Vec3::NEG_Y),
+        (Modifiers::NONE, Key::Num7, glam::Vec3::Y),
+        (Modifiers::NONE, Key::Num1, glam::Vec3::Z),
+    ] {
+        key(&mut window, modifiers, figure);
+        assert!((app(&window).camera().towards_eye() - out).length() < 1e-5, "{figure:?}");
+    }
+    key(&mut window, Modifiers::NONE, Key::Num5);
+    assert_eq!(app(&window).camera().projection, toile::render::Projection::Orthographic);
+}
+
+#[test]
+fn what_is_selected_or_everything_is_brought_into_the_body_pane() {
+    let mut window = window();
+    paint_both(&mut window);
+    let to_body = pane(&window, "Body pane").center();
+    move_to(&mut window, to_body);
+    key(&mut window, Modifiers::NONE, Key::Home);
+    let whole = app(&window).camera().distance;
+    window.get_by_label("body: select mark 1 on the body").click();
+    window.run_steps(3);
+    let to_body = pane(&window, "Body pane").center();
+    move_to(&mut window, to_body);
+    key(&mut window, Modifiers::NONE, Key::F);
+    let near = app(&window).camera().distance;
+    assert!(near < 0.9 * whole, "{near} {whole}");
+    key(&mut window, Modifiers::NONE, Key::Home);
+    let again = app(&window).camera().distance;
+    // The side panel tells of the selected mark now, and takes a little of the pane's width for that.
+    assert!((again / whole - 1.0).abs() < 0.02, "{again} {whole} {near}");
+    key(&mut window, Modifiers::NONE, Key::Period);
+    assert!(
+        (app(&window).camera().distance / near - 1.0).abs() < 1e-3,
+        "the key of the number block does the same"
+    );
+}
+
+/// A window on its start page, with a list of files in `folder`.
+fn start_window(folder: &std::path::Path) -> Window {
+    let mut window = window_on(Project::default(), None);
+    edit(&mut window, |app, ctx| {
+        app.keep_preferences(ctx, folder.join("preferences.json"));
+        app.begin_at_start_page();
+    });
+    window
+}
+
+#[test]
+fn the_start_page_opens_samples_and_what_was_open_before() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("my shirt ü.toile");
+    project_file::save(&path, &project()).expect("saved");
+    let mut first = window_on(project(), None);
+    edit(&mut first, |app, ctx| {
+        app.keep_preferences(ctx, folder.path().join("preferences.json"));
+        app.save_as(ctx, &path).expect("saved");
+        app.save_as(ctx, &folder.path().join("gone.toile")).expect("saved");
+    });
+    std::fs::remove_file(folder.path().join("gone.toile")).expect("removed");
+    let mut window = start_window(folder.path());
+    for label in
+        ["Tour: dressed in five steps", "New: an empty table", "Open…", "Sample T-shirt", "Sample Scarf"]
+    {
+        assert!(window.query_by_label(label).is_some(), "{label}");
+    }
+    let gone = window.get_by_label_contains("Open gone in");
+    assert!(gone.accesskit_node().is_disabled(), "a file that is not there cannot be opened");
+    key(&mut window, Modifiers::NONE, Key::Num1);
+    assert!(window.query_by_label("Sample T-shirt").is_some(), "nor by its number");
+    key(&mut window, Modifiers::NONE, Key::Num2);
+    assert!(window.query_by_label("Sample T-shirt").is_none());
+    assert_eq!(app(&window).session().document(), &project().document);
+    menu(&mut window, "File", "Start page");
+    window.get_by_label_contains("Open my shirt ü in");
+    act(&mut window, "Clear");
+    assert!(window.query_by_label_contains("Open my shirt").is_none());
+    act(&mut window, "Sample Scarf");
+    assert_eq!(app(&window).session().document().pattern.pieces.len(), 1);
+    assert!(window.query_by_label("Pattern pane").is_some());
+}
+
+#[test]
+fn a_file_opened_before_is_opened_from_the_menu_after_a_question() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("recent work.toile");
+    let mut window = window();
+    edit(&mut window, |app, ctx| {
+        app.keep_preferences(ctx, folder.path().join("preferences.json"));
+        app.save_as(ctx, &path).expect("saved");
+    });
+    let saved = app(&window).session().document().clone();
+    let at = pane(&window, "Pattern pane").center();
+    drag(&mut window, &[at], PointerButton::Primary);
+    act(&mut window, "File");
+    window.get_by_label_contains("Open recent").click();
+    window.run_steps(4);
+    window.get_by_label("Open again: recent work").click();
+    window.run_steps(4);
+    act(&mut window, "Don't save");
+    assert_eq!(app(&window).session().document(), &saved);
+}
+
+#[test]
+fn the_tour_goes_from_an_empty_table_to_a_dressed_body_and_begins_again() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = start_window(folder.path());
+    act(&mut window, "Tour: dressed in five steps");
+    window.get_by_label_contains("Flat pieces");
+    act(&mut window, "Take the T-shirt's pieces");
+    assert!(app(&window).session().document().pattern.pieces.len() >= 4);
+    assert_eq!(counts(&window), [0, 0], "marks are the person's");
+    act(&mut window, "Next");
+    act(&mut window, "Skip this step");
+    act(&mut window, "Back");
+    window.get_by_label_contains("A mark on the cloth");
+    act(&mut window, "Leave the tour");
+    assert!(window.query_by_label("Leave the tour").is_none());
+    menu(&mut window, "Help", "Tour");
+    act(&mut window, "Don't save");
+    assert!(window.query_by_label_contains("Flat pieces").is_some());
+    for _ in 0..3 {
+        act(&mut window, "Skip this step");
+    }
+    // On another pattern than the T-shirt's there is nothing to be painted; the step only waits.
+    window.get_by_label("Paint all the marks");
+    assert!(window.query_by_label("This step is done").is_none());
+}
+
+#[test]
+fn preferences_change_at_once_are_kept_and_reset() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("preferences.json");
+    let mut window = window();
+    edit(&mut window, |app, ctx| app.keep_preferences(ctx, path.clone()));
+    key(&mut window, Modifiers::COMMAND, Key::Comma);
+    act(&mut window, "Inches");
+    act(&mut window, "Light");
+    assert_eq!(window.ctx.theme(), egui::Theme::Light);
+    act(&mut window, "Size of everything: 100 %");
+    act(&mut window, "150 %");
+    assert!((window.ctx.zoom_factor() - 1.5).abs() < 1e-6);
+    let kept = std::fs::read_to_string(&path).expect("kept");
+    for word in ["inch", "light", "150"] {
+        assert!(kept.contains(word), "{word} in {kept}");
+    }
+    act(&mut window, "Reset this page");
+    assert!((window.ctx.zoom_factor() - 1.0).abs() < 1e-6);
+    act(&mut window, "Done");
+    assert!(window.query_by_label("Reset this page").is_none());
+}
+
+#[test]
+fn a_key_is_given_to_another_action_after_a_warning() {
+    let mut window = window();
+    key(&mut window, Modifiers::COMMAND, Key::Comma);
+    act(&mut window, "Keys");
+    window.get_by_label("Find an action").focus();
+    window.run_steps(2);
+    type_into(&mut window, "wireframe");
+    window.get_by_label_contains("Key of Wireframe").click();
+    window.run_steps(3);
+    key(&mut window, Modifiers::NONE, Key::L);
+    assert!(window.query_by_label_contains("is the key of Laser already").is_some());
+    act(&mut window, "Use it for Wireframe");
+    assert!(window.query_by_label("Key of Wireframe: L").is_some());
+    act(&mut window, "Done");
+    key(&mut window, Modifiers::NONE, Key::L);
+    let on = |window: &Window| {
+        window.get_by_label("Wireframe").accesskit_node().toggled() == Some(egui::accesskit::Toggled::True)
+    };
+    assert!(on(&window));
+    key(&mut window, Modifiers::NONE, Key::L);
+    assert!(!on(&window), "the new key");
+    assert!(window.get_by_label("Laser").accesskit_node().toggled() != Some(egui::accesskit::Toggled::True));
+}
+
+#[test]
+fn a_click_in_the_history_goes_there_and_back() {
+    let mut window = window();
+    for x in [-60.0, 0.0, 60.0] {
+        let at = pane(&window, "Pattern pane").center() + Vec2::new(x, 0.0);
+        drag(&mut window, &[at], PointerButton::Primary);
+    }
+    menu(&mut window, "View", "History");
+    let steps = |window: &Window| window.get_all_by_label_contains("Step ").count();
+    assert_eq!(steps(&window), 4);
+    act(&mut window, "Step As it was opened");
+    assert_eq!(counts(&window), [0, 0]);
+    assert_eq!(steps(&window), 4, "what was undone is still there");
+    window.get_by_label_contains("Step 2").click();
+    window.run_steps(4);
+    assert_eq!(counts(&window), [2, 0]);
+}
+
+#[test]
+fn what_was_told_is_read_again_and_copied() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = window();
+    edit(&mut window, |app, ctx| app.save_as(ctx, &folder.path().join("a.toile")).expect("saved"));
+    menu(&mut window, "View", "Messages");
+    assert!(window.query_all_by_label_contains("Written:").count() >= 2, "over the panes, and in the list");
+    window.get_by_label("Copy all").click();
+    let mut copied = String::new();
+    for _ in 0..4 {
+        window.run_steps(1);
+        for command in &window.output().platform_output.commands {
+            if let egui::OutputCommand::CopyText(text) = command {
+                copied.clone_from(text);
+            }
+        }
+    }
+    assert!(copied.contains("Written:"), "{copied:?}");
+}
+
+#[test]
+fn files_held_over_the_window_are_told_what_becomes_of_them() {
+    let mut window = window();
+    let hold = |window: &mut Window, name: Option<&str>| {
+        let files = name.map(|name| egui::HoveredFile { path: Some(name.into()), ..Default::default() });
+        window.input_mut().hovered_files = files.into_iter().collect();
+        window.run_steps(2);
+    };
+    for (name, left, right) in [
+        ("a/front.dxf", "Lay the pieces of front.dxf on the table", "Nothing changes here"),
+        ("a/anna.obj", "Nothing changes here", "anna.obj becomes the body"),
+        ("a/shirt.toile", "Open the project shirt.toile", "with its body and cloth"),
+        ("a/photo.jpg", "photo.jpg: not a project", "nor a body (.obj)"),
+    ] {
+        hold(&mut window, Some(name));
+        window.get_by_label_contains(&format!("pattern pane: {left}"));
+        window.get_by_label_contains(&format!("body pane: {right}"));
+    }
+    hold(&mut window, None);
+    assert!(window.query_by_label_contains("pattern pane: ").is_none());
+}
+
+#[test]
+fn losing_the_pointer_or_the_window_ends_every_drag_in_the_body_pane() {
+    for lost in [Event::PointerGone, Event::WindowFocused(false)] {
+        for with in [PointerButton::Primary, PointerButton::Secondary, PointerButton::Middle] {
+            let mut window = window();
+            let path = line(pane(&window, "Body pane"), Vec2::new(60.0, 0.0));
+            press_along(&mut window, &path, with);
+            window.event(lost.clone());
+            window.run_steps(2);
+            let camera = app(&window).camera();
+            for &at in &path {
+                move_to(&mut window, at);
+            }
+            assert_eq!(app(&window).camera(), camera, "{with:?} {lost:?}");
+            assert!(counts(&window)[1] <= 1);
+        }
+    }
+}
+
+#[test]
+fn nothing_is_drawn_on_a_start_page_that_is_left_alone() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = start_window(folder.path());
+    window.run_steps(30);
+    let root = &window.output().viewport_output[&egui::ViewportId::ROOT];
+    assert!(root.repaint_delay > Duration::from_secs(3600), "asks for a frame in {:?}", root.repaint_delay);
+}
+
+#[test]
+fn a_picture_of_any_size_is_written_with_nothing_behind_it() {
+    let Some(device) = egui_wgpu_device() else { return };
+    if std::env::var_os("DBUS_SESSION_BUS_ADDRESS").is_some() {
+        println!("skipped: this desktop may have a dialog of its own");
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = window_on(project(), Some(device));
+    key(&mut window, Modifiers::COMMAND.plus(Modifiers::SHIFT), Key::P);
+    act(&mut window, "none: transparent, without floor");
+    act(&mut window, "Choose a file…");
+    window.get_by_role(egui::accesskit::Role::TextInput).focus();
+    window.run_steps(2);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    window.run_steps(1);
+    let path = folder.path().join("ball.png");
+    window.get_by_role(egui::accesskit::Role::TextInput).type_text(&path.display().to_string());
+    window.run_steps(2);
+    act(&mut window, "Write");
+    let picture = image::open(&path).expect("a picture").to_rgba8();
+    let pane = pane(&window, "Body pane");
+    assert_eq!(picture.width(), pane.width().round() as u32);
+    let alpha = |x: u32, y: u32| picture.get_pixel(x, y)[3];
+    assert_eq!(alpha(0, 0), 0, "nothing behind it");
+    assert_eq!(alpha(picture.width() / 2, picture.height() / 2), 255, "the ball");
+}
