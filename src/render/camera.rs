@@ -330,6 +330,22 @@ mod tests {
     }
 
     #[test]
+    fn nothing_before_the_eye_is_cut_off_at_any_zoom() {
+        for mut camera in both() {
+            let target = Vec3::new(0.1, 1.2, 0.25);
+            for factor in std::iter::repeat_n(0.5, 14).chain(std::iter::repeat_n(2.0, 30)) {
+                camera.zoom(factor, target);
+                // What is zoomed to, and what stands a little nearer or behind it.
+                for part in [-0.5, 0.0, 0.9] {
+                    let point = target + camera.towards_eye() * (camera.distance * part).min(0.2);
+                    let clip = camera.projection(SIZE.x / SIZE.y) * camera.view() * point.extend(1.0);
+                    assert!(clip.z >= 0.0 && clip.z <= clip.w, "{clip} at {} {part}", camera.distance);
+                }
+            }
+        }
+    }
+
+    #[test]
     fn orbit_stops_upright_at_the_poles_and_follows_the_pointer() {
         let mut camera = Camera::default();
         camera.orbit(Vec2::new(0.0, 10.0));

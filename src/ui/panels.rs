@@ -183,7 +183,7 @@ impl App {
             recent: Arc::clone(self.shell.recent.files()),
             sight: self.shell.sight,
             drawer: self.shell.drawer,
-            has_graphics: self.scene_pane.graphics.is_some(),
+            adapter: self.scene_pane.graphics.as_ref().map(|g| g.adapter_name().to_owned()),
             picturing: self.shell.turn.is_some(),
         }
     }

@@ -95,8 +95,8 @@ pub struct Situation {
     pub sight: Sight,
     /// What is open below the panes.
     pub drawer: Option<Drawer>,
-    /// The body can be drawn.
-    pub has_graphics: bool,
+    /// What draws the body; None: nothing can.
+    pub adapter: Option<String>,
     /// A picture or a turn of them is being made.
     pub picturing: bool,
 }
@@ -114,7 +114,7 @@ impl Situation {
             },
             Action::ClearRecent => unless(!self.recent.is_empty(), "No file was open before"),
             Action::Picture if self.picturing => Some("A turn of pictures is being made"),
-            Action::Picture => unless(self.has_graphics, "There is no graphics adapter to draw with"),
+            Action::Picture => unless(self.adapter.is_some(), "There is no graphics adapter to draw with"),
             Action::Undo => unless(self.undo.is_some(), "There is nothing to undo"),
             Action::Redo => unless(self.redo.is_some(), "There is nothing to redo"),
             Action::ExportPattern => unless(self.pieces > 0, "There is no piece on the table"),

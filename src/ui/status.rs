@@ -13,6 +13,12 @@ pub const HEIGHT: f32 = 28.0;
 pub fn status_ui(ui: &mut egui::Ui, now: &Situation, hint: &str, palette: &Palette) {
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
         let weak = |text: String| RichText::new(text).color(palette.weak).size(12.0);
+        if let Some(adapter) = &now.adapter {
+            ui.label(weak(short(adapter))).on_hover_text(format!("Drawn by {adapter}"));
+            ui.separator();
+        }
+        ui.label(weak(now.unit.sign().trim().to_owned())).on_hover_text("Lengths are shown in this unit");
+        ui.separator();
         if now.triangles > 0 {
             ui.label(weak(format!("tick {}", now.tick)));
             ui.separator();
@@ -44,6 +50,12 @@ fn phase_words(now: &Situation) -> String {
     }
 }
 
+/// The name of an adapter without what stands in brackets, and not too long.
+fn short(adapter: &str) -> String {
+    let name = adapter.split(" (").next().unwrap_or_default();
+    if name.chars().count() <= 22 { name.to_owned() } else { name.chars().take(21).chain(['…']).collect() }
+}
+
 /// 12345 as "12 345".
 fn grouped(n: usize) -> String {
     let digits = n.to_string();
@@ -55,4 +67,16 @@ fn grouped(n: usize) -> String {
         out.push(c);
     }
     out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_and_names_are_short() {
+        assert_eq!(grouped(1_234_567), "1\u{2009}234\u{2009}567");
+        assert_eq!(short("llvmpipe (LLVM 19.1, 256 bits) (Vulkan)"), "llvmpipe");
+        assert_eq!(short("An adapter of a very long name indeed").chars().count(), 22);
+    }
 }

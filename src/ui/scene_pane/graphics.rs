@@ -109,6 +109,11 @@ impl Graphics {
         Self { state, gpu, renderer, target: None, drawn: None, pictures: 0 }
     }
 
+    /// What draws, for people.
+    pub fn adapter_name(&self) -> &str {
+        &self.gpu.adapter_name
+    }
+
     /// A processor does the drawing.
     pub fn is_slow(&self) -> bool {
         self.gpu.software
