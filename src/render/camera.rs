@@ -337,7 +337,7 @@ mod tests {
                 camera.zoom(factor, target);
                 // What is zoomed to, and what stands a little nearer or behind it.
                 for part in [-0.5, 0.0, 0.9] {
-                    let point = target + camera.towards_eye() * (camera.distance * part).min(0.2);
+                    let point = target + camera.towards_eye() * (camera.distance * part).clamp(-0.2, 0.2);
                     let clip = camera.projection(SIZE.x / SIZE.y) * camera.view() * point.extend(1.0);
                     assert!(clip.z >= 0.0 && clip.z <= clip.w, "{clip} at {} {part}", camera.distance);
                 }
