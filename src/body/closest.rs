@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use crate::geometry::adjacency::{Adjacency, NONE};
+use crate::geometry::bvh::Aabb;
 use crate::geometry::bvh4::Bvh4;
 use crate::geometry::mesh::TriMesh;
 
@@ -35,6 +36,14 @@ impl ClosestTree {
         let mut slots = vec![0; tree.items.len()];
         tree.items.iter().enumerate().for_each(|(slot, &t)| slots[t as usize] = slot as u32);
         Self { tree, corners, slots }
+    }
+
+    /// The same triangles where `mesh` has them now: cheaper than a new tree, as boxes are fitted, not sorted.
+    pub fn moved(&self, mesh: &TriMesh) -> Self {
+        let mut moved = self.clone();
+        moved.corners = self.tree.items.iter().map(|&t| mesh.corners(t as usize)).collect();
+        moved.tree.refit(|slot| Aabb::around(&moved.corners[slot]));
+        moved
     }
 
     /// The nearest point within `limit` metres, its triangle, and where on that it lies. Of triangles that share the point

@@ -1,9 +1,12 @@
 //! A body as contact sees it: nearest point with sign, rays, bounds.
 
+use std::sync::{Arc, OnceLock};
+
 use glam::{DVec3, Vec3};
 use parry3d::math::Pose;
 use parry3d::query::{Ray, RayCast};
 use parry3d::shape::TriMesh as ParryMesh;
+use rayon::prelude::*;
 
 use crate::body::closest::{ClosestTree, Part, pseudonormal};
 use crate::geometry::adjacency::{Adjacency, NONE};
@@ -12,6 +15,9 @@ use crate::geometry::mesh::TriMesh;
 
 /// A ray that slipped between triangles is cast again so far beside itself, metres on a body 1.5 m large.
 const RAY_ASIDE: f64 = 1e-5;
+
+/// Normals one thread takes at a time.
+const LEAST_SHARE: usize = 1024;
 
 /// The nearest point of a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,13 +50,14 @@ pub struct Surface {
     /// Closed, manifold, outward; metres. `body::import` reports what is not.
     pub mesh: TriMesh,
     /// Neighbours.
-    pub adjacency: Adjacency,
+    pub adjacency: Arc<Adjacency>,
     /// Unit normal per triangle.
     pub face_normals: Vec<DVec3>,
     /// Angle-weighted unit normal per vertex.
     pub vertex_normals: Vec<DVec3>,
     closest: ClosestTree,
-    parry: ParryMesh,
+    // Rays are cast at few bodies; the tree they need is made for the first.
+    parry: OnceLock<Option<ParryMesh>>,
     // Rays run in f32 about this point, so that bodies far from the origin keep their accuracy.
     origin: DVec3,
     lower: DVec3,
@@ -66,20 +73,47 @@ impl std::fmt::Debug for Surface {
 impl Surface {
     /// Builds the queries over `mesh`. None when the mesh has no triangle or parry3d refuses it.
     pub fn new(mesh: TriMesh) -> Option<Self> {
+        let adjacency = Arc::new(Adjacency::new(mesh.positions.len(), &mesh.triangles));
+        let closest = ClosestTree::new(&mesh);
+        let surface = Self::with(mesh, adjacency, closest);
+        surface.parry().is_some().then_some(surface)
+    }
+
+    /// The same body with its vertices elsewhere, vertex for vertex: what depends on the topology is shared, the tree is
+    /// fitted. None when there are more or fewer `positions` than vertices, or one is not finite.
+    pub fn reposed(&self, positions: Vec<DVec3>) -> Option<Self> {
+        if positions.len() != self.mesh.positions.len() || positions.iter().any(|p| !p.is_finite()) {
+            return None;
+        }
+        let mesh = TriMesh { positions, triangles: self.mesh.triangles.clone() };
+        let closest = self.closest.moved(&mesh);
+        Some(Self::with(mesh, Arc::clone(&self.adjacency), closest))
+    }
+
+    fn with(mesh: TriMesh, adjacency: Arc<Adjacency>, closest: ClosestTree) -> Self {
         let (lower, upper) = mesh.bounds();
         let origin = (lower + upper) / 2.0;
-        let vertices: Vec<Vec3> = mesh.positions.iter().map(|&p| (p - origin).as_vec3()).collect();
-        let parry = ParryMesh::new(vertices, mesh.triangles.clone()).ok()?;
-        let adjacency = Adjacency::new(mesh.positions.len(), &mesh.triangles);
-        let face_normals = (0..mesh.triangles.len())
+        let face_normals: Vec<DVec3> = (0..mesh.triangles.len())
+            .into_par_iter()
+            .with_min_len(LEAST_SHARE)
             .map(|t| {
                 let [a, b, c] = mesh.corners(t);
                 (b - a).cross(c - a).normalize_or_zero()
             })
-            .collect::<Vec<_>>();
-        let vertex_normals = angle_weighted_normals(&mesh, &face_normals);
-        let closest = ClosestTree::new(&mesh);
-        Some(Self { mesh, adjacency, face_normals, vertex_normals, closest, parry, origin, lower, upper })
+            .collect();
+        let vertex_normals = angle_weighted_normals(&mesh, &adjacency, &face_normals);
+        let parry = OnceLock::new();
+        Self { mesh, adjacency, face_normals, vertex_normals, closest, parry, origin, lower, upper }
+    }
+
+    /// What rays are cast at; None when parry3d refuses the mesh.
+    fn parry(&self) -> Option<&ParryMesh> {
+        let build = || {
+            let vertices: Vec<Vec3> =
+                self.mesh.positions.iter().map(|&p| (p - self.origin).as_vec3()).collect();
+            ParryMesh::new(vertices, self.mesh.triangles.clone()).ok()
+        };
+        self.parry.get_or_init(build).as_ref()
     }
 
     /// Lower and upper corner of the bounding box.
@@ -105,6 +139,36 @@ impl Surface {
     /// The point of the surface nearest to `p`, if it is within `limit` metres.
     pub fn nearest_within(&self, p: DVec3, limit: f64) -> Option<Nearest> {
         self.closest.nearest(p, limit).map(|found| self.signed(p, found))
+    }
+
+    /// The points of the surface within `reach` metres of `p` than which none round about is nearer, with their triangles:
+    /// nearest first, equally near ones by triangle. Of triangles that share such a point the lowest has it.
+    pub fn nearest_round_about(&self, p: DVec3, reach: f64) -> Vec<(DVec3, u32)> {
+        let mut found: Vec<(f64, u32, DVec3)> = Vec::new();
+        self.closest.within(p, reach, |t| {
+            let (point, _, part) = self.closest.on_triangle(p, t);
+            let far = point.distance_squared(p);
+            let beats = |&other: &u32| {
+                let others = self.closest.on_triangle(p, other).0.distance_squared(p);
+                others < far || (others == far && other < t)
+            };
+            let beaten = match part {
+                Part::Face => false,
+                Part::Side(k) => match self.adjacency.across[t as usize][k] {
+                    NONE => false,
+                    other => beats(&other),
+                },
+                Part::Corner(k) => {
+                    let corner = self.mesh.triangles[t as usize][k];
+                    self.adjacency.vertex_triangles.of(corner).iter().any(beats)
+                }
+            };
+            if !beaten {
+                found.push((far, t, point));
+            }
+        });
+        found.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        found.into_iter().map(|(_, t, point)| (point, t)).collect()
     }
 
     /// The point nearest to `p` on `triangle` and the triangles that touch it.
@@ -253,7 +317,7 @@ impl Surface {
 
     fn cast(&self, origin: DVec3, direction: DVec3) -> Option<Hit> {
         let ray = Ray::new((origin - self.origin).as_vec3(), direction.as_vec3());
-        let hit = self.parry.cast_ray_and_get_normal(&Pose::IDENTITY, &ray, f32::MAX, false)?;
+        let hit = self.parry()?.cast_ray_and_get_normal(&Pose::IDENTITY, &ray, f32::MAX, false)?;
         let triangle = hit.subshape;
         let distance = f64::from(hit.time_of_impact);
         Some(Hit {
@@ -270,16 +334,22 @@ impl Surface {
     }
 }
 
-fn angle_weighted_normals(mesh: &TriMesh, face_normals: &[DVec3]) -> Vec<DVec3> {
-    let mut normals = vec![DVec3::ZERO; mesh.positions.len()];
-    for (t, vs) in mesh.triangles.iter().enumerate() {
-        let p = mesh.corners(t);
-        for k in 0..3 {
-            let (u, v) = (p[(k + 1) % 3] - p[k], p[(k + 2) % 3] - p[k]);
-            normals[vs[k] as usize] += face_normals[t] * u.cross(v).length().atan2(u.dot(v));
-        }
-    }
-    normals.into_iter().map(DVec3::normalize_or_zero).collect()
+/// Gathered vertex by vertex in the order of the triangles: the same bits on any number of threads.
+fn angle_weighted_normals(mesh: &TriMesh, adjacency: &Adjacency, face_normals: &[DVec3]) -> Vec<DVec3> {
+    let weighted = |v: u32, t: u32| {
+        let p = mesh.corners(t as usize);
+        let k = mesh.triangles[t as usize].iter().position(|&w| w == v).unwrap_or(0);
+        let (a, b) = (p[(k + 1) % 3] - p[k], p[(k + 2) % 3] - p[k]);
+        face_normals[t as usize] * a.cross(b).length().atan2(a.dot(b))
+    };
+    (0..mesh.positions.len() as u32)
+        .into_par_iter()
+        .with_min_len(LEAST_SHARE)
+        .map(|v| {
+            let around = adjacency.vertex_triangles.of(v).iter();
+            around.fold(DVec3::ZERO, |sum, &t| sum + weighted(v, t)).normalize_or_zero()
+        })
+        .collect()
 }
 
 #[cfg(test)]
@@ -307,6 +377,33 @@ mod tests {
         assert!((inside.normal - DVec3::Z).length() < 1e-9);
         // Off a corner the nearest face alone could give either sign.
         assert!(cube.nearest(DVec3::splat(1.1)).distance > 0.0);
+    }
+
+    #[test]
+    fn a_reposed_body_is_the_one_built_anew() {
+        let cube = cube();
+        let turned = |p: &DVec3| DVec3::new(p.y * 2.0, -p.x, p.z + p.x * 0.3);
+        let positions: Vec<DVec3> = cube.mesh.positions.iter().map(turned).collect();
+        let reposed = cube.reposed(positions.clone()).expect("as many vertices");
+        let anew = Surface::new(TriMesh { positions, ..cube.mesh.clone() }).expect("a body");
+        assert_eq!(reposed.vertex_normals, anew.vertex_normals);
+        for i in 0..50 {
+            let p = DVec3::new(f64::from(i % 5) - 1.5, f64::from(i % 7) * 0.4 - 1.6, f64::from(i) * 0.04);
+            assert_eq!(reposed.nearest(p), anew.nearest(p));
+        }
+        let down = reposed.ray(DVec3::new(1.0, -0.5, 9.0), -DVec3::Z).expect("a hit").point;
+        assert!(down.distance(anew.ray(DVec3::new(1.0, -0.5, 9.0), -DVec3::Z).expect("a hit").point) < 1e-6);
+        assert!(cube.reposed(vec![DVec3::ZERO; 7]).is_none() && cube.reposed(vec![DVec3::NAN; 8]).is_none());
+    }
+
+    #[test]
+    fn between_two_walls_both_are_nearest_round_about() {
+        let cube = cube();
+        let middle = cube.nearest_round_about(DVec3::new(0.5, 0.45, 0.55), 0.48);
+        let points: Vec<DVec3> = middle.iter().map(|(point, _)| *point).collect();
+        assert_eq!(points, [DVec3::new(0.5, 0.0, 0.55), DVec3::new(0.5, 0.45, 1.0)]);
+        // Off a corner, three faces share the one nearest point.
+        assert_eq!(cube.nearest_round_about(DVec3::splat(1.1), 1.0).len(), 1);
     }
 
     #[test]

@@ -3,7 +3,7 @@
 
 use glam::DVec3;
 
-use crate::geometry::bvh::Bvh;
+use crate::geometry::bvh::{Aabb, Bvh};
 
 /// Marks a child that is a leaf; the rest is its first place times eight, plus how many items it has.
 const LEAF: u32 = 1 << 31;
@@ -21,6 +21,16 @@ struct Node {
 }
 
 impl Node {
+    /// Around all four; boxes that are not there are empty.
+    fn bounds(&self) -> Aabb {
+        let least =
+            |of: &[[f64; 4]; 3]| DVec3::from_array(of.map(|c| c.into_iter().fold(f64::INFINITY, f64::min)));
+        let most = |of: &[[f64; 4]; 3]| {
+            DVec3::from_array(of.map(|c| c.into_iter().fold(f64::NEG_INFINITY, f64::max)))
+        };
+        Aabb { lower: least(&self.lower), upper: most(&self.upper) }
+    }
+
     /// Squares of the distances from `p` to the four boxes.
     fn distances_squared(&self, p: DVec3) -> [f64; 4] {
         let mut sum = [0.0; 4];
@@ -81,6 +91,29 @@ impl Bvh4 {
             self.nodes[place].children[k] = child;
         }
         place as u32
+    }
+
+    /// Fits the boxes to items that have moved: `bounds` tells where each place's item is now. The tree keeps its shape, so
+    /// that queries stay exact, though slower where what was near has gone apart.
+    pub fn refit(&mut self, bounds: impl Fn(usize) -> Aabb) {
+        // Children come after their parents.
+        for at in (0..self.nodes.len()).rev() {
+            for k in 0..4 {
+                let child = self.nodes[at].children[k];
+                let fitted = match child {
+                    NONE => continue,
+                    leaf if leaf & LEAF != 0 => {
+                        let (first, count) = (((leaf & !LEAF) / 8) as usize, (leaf % 8) as usize);
+                        (first..first + count).fold(Aabb::EMPTY, |b, slot| b.joined(&bounds(slot)))
+                    }
+                    inner => self.nodes[inner as usize].bounds(),
+                };
+                for axis in 0..3 {
+                    self.nodes[at].lower[axis][k] = fitted.lower[axis];
+                    self.nodes[at].upper[axis][k] = fitted.upper[axis];
+                }
+            }
+        }
     }
 
     /// The place in [`Bvh4::items`] of the item nearest to `p` within the square root of `limit`, and the square of its
@@ -147,7 +180,6 @@ impl Bvh4 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::bvh::Aabb;
 
     fn points(count: u32) -> Vec<DVec3> {
         let at = |i: u32, k: u32| f64::from((i * k) % 997) / 996.0;
@@ -167,6 +199,24 @@ mod tests {
                 assert_eq!(found.map(|(slot, d)| (tree.items[slot], d)), exact);
                 let nearer = exact.expect("one").1 * 0.99;
                 assert_eq!(tree.nearest(query, nearer, |s| far(tree.items[s])), None);
+            }
+        }
+    }
+
+    #[test]
+    fn a_refitted_tree_finds_what_brute_force_finds() {
+        for count in [0, 1, 4, 5, 300] {
+            let before = points(count);
+            let boxes: Vec<Aabb> = before.iter().map(|p| Aabb::around(&[*p])).collect();
+            let mut tree = Bvh4::new(Bvh::new(&boxes));
+            let after: Vec<DVec3> = before.iter().map(|p| DVec3::new(p.z * 2.0, p.x - p.y, p.y)).collect();
+            let items = tree.items.clone();
+            tree.refit(|slot| Aabb::around(&[after[items[slot] as usize]]));
+            for query in before.iter().map(|p| *p * 1.4 - 0.2) {
+                let far = |i: u32| (after[i as usize] - query).length_squared();
+                let exact = (0..count).map(far).fold(f64::INFINITY, f64::min);
+                let found = tree.nearest(query, f64::INFINITY, |slot| far(tree.items[slot]));
+                assert_eq!(found.map(|(_, d)| d), Some(exact));
             }
         }
     }
