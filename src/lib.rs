@@ -3,7 +3,7 @@
 //! A flat pattern and a body go in; numbered marks say where the cloth goes; a dressed garment comes out.
 //!
 //! ```text
-//! cli, ui → session → sim → {wrap, drag, drape} → relax → contact → {cloth, body} → pattern → geometry
+//! cli, ui → session → sim → {wrap, drag, drape, repose} → relax → contact → {cloth, body} → pattern → geometry
 //! ```
 //!
 //! | folder | holds | may use |
@@ -17,7 +17,8 @@
 //! | `wrap`     | paper A: marks, root edges, growth | relax, contact, cloth, body, pattern, geometry |
 //! | `drag`     | paper A: dependency graph, motion in local frames, pushpins | relax, contact, cloth, body, pattern, geometry |
 //! | `drape`    | physics: membrane, bending, contact in implicit and in small steps, straight to rest | contact, cloth, body, geometry |
-//! | `fit`      | what is read off a garment: strain, crossings, openings, the report | cloth, body, pattern, geometry |
+//! | `repose`   | paper C: distance map, conforming to another pose of the body, recovery, strain control | relax, contact, cloth, body, pattern, geometry |
+//! | `fit`      | what is read off a garment: strain, crossings, openings, the report, maps | cloth, body, pattern, geometry |
 //! | `sim`      | owner of the moving state: stages, protocol, checkpoints, thread, state hash | the above |
 //! | `session`  | what the user has done: document, command, history, recording, replay, project file, recovery | sim and below, io |
 //! | `io`       | obj, glb; patterns as garmentcode json, dxf, svg, pdf: bytes in, checked data out, and back | cloth, body, pattern, geometry |
@@ -47,6 +48,7 @@ pub mod io;
 pub mod pattern;
 pub mod relax;
 pub mod render;
+pub mod repose;
 pub mod session;
 pub mod sim;
 pub mod ui;

@@ -6,6 +6,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::body::Unit;
 use crate::cloth::Skips;
+use crate::fit::MapKind;
 use crate::io::pdf::Paper;
 use crate::io::scale::DrawingUnit;
 use crate::render::View;
@@ -36,6 +37,8 @@ pub enum Task {
     Export(Export),
     Check(Check),
     Simulate(Simulate),
+    Repose(Repose),
+    Fit(Fit),
     Bench(Bench),
 }
 
@@ -177,6 +180,79 @@ pub struct Simulate {
     /// Number of threads; the result is the same
     #[arg(long)]
     pub threads: Option<usize>,
+}
+
+/// Carries the dressed garment of a project to its body in other poses, and writes the same files as dress
+///
+/// A project without dressed cloth is dressed first. The body of each pose has the triangles of the dressed one, vertex for
+/// vertex; several poses, always from the one that was dressed, get a folder each.
+#[derive(Debug, Args)]
+pub struct Repose {
+    /// Dressed project, as saved by dress --save; or a sample (sample:NAME)
+    pub project: PathBuf,
+    /// The body in another pose (OBJ); several times for several poses
+    #[arg(long = "body", value_name = "FILE", required = true)]
+    pub bodies: Vec<PathBuf>,
+    /// The unit of the body files: m, dm, cm, mm or in; without it the body's height tells
+    #[arg(long)]
+    pub unit: Option<Unit>,
+    /// The folder to write to
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+    /// Lets the cloth settle in each pose, with its weight and friction
+    #[arg(long)]
+    pub settle: bool,
+    /// Also writes the project in the pose to this file
+    #[arg(long, value_name = "PROJECT")]
+    pub save: Option<PathBuf>,
+    /// Gives up after so many ticks (exit code 4)
+    #[arg(long, default_value_t = MAX_TICKS)]
+    pub max_ticks: u64,
+    #[command(flatten)]
+    pub picture: PictureOptions,
+    /// Prints the report
+    #[arg(long)]
+    pub json: bool,
+    /// Number of threads; the result is the same
+    #[arg(long)]
+    pub threads: Option<usize>,
+}
+
+/// Reads maps off the dressed garment of a project: figures as JSON and CSV, pictures with their legend
+///
+/// Writes fit.json (range, statistics for the garment and each piece, histogram), and of each map NAME.csv (a row for each
+/// vertex), NAME-triangles.csv and NAME.png.
+#[derive(Debug, Args)]
+pub struct Fit {
+    /// Dressed project, as saved by dress --save or repose --save
+    pub project: PathBuf,
+    /// warp, weft, shear, area, ease, curvature, mean-curvature, seams; strain for the first four, or all; several times
+    /// for several maps
+    #[arg(long = "map", value_name = "NAME", required = true, value_parser = maps)]
+    pub maps: Vec<Maps>,
+    /// The folder to write to
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+    #[command(flatten)]
+    pub picture: PictureOptions,
+    /// Prints fit.json
+    #[arg(long)]
+    pub json: bool,
+    /// Number of threads; the result is the same
+    #[arg(long)]
+    pub threads: Option<usize>,
+}
+
+/// One map or several.
+#[derive(Clone, Debug)]
+pub struct Maps(pub Vec<MapKind>);
+
+fn maps(text: &str) -> Result<Maps, String> {
+    match text {
+        "all" => Ok(Maps(MapKind::ALL.to_vec())),
+        "strain" => Ok(Maps(vec![MapKind::Warp, MapKind::Weft, MapKind::Shear, MapKind::Area])),
+        _ => text.parse().map(|kind| Maps(vec![kind])).map_err(|e: String| format!("{e}, strain, all")),
+    }
 }
 
 /// Draws a project as it is

@@ -77,7 +77,8 @@ fn dress_one(project: &Path, folder: &Path, arguments: &Dress) -> Result<Report,
     Ok(report)
 }
 
-fn wrap(session: &mut Session, project: &Path, seconds: &mut Seconds) -> Result<(), Failure> {
+/// Begins the wrap; says what stands in its way.
+pub fn wrap(session: &mut Session, project: &Path, seconds: &mut Seconds) -> Result<(), Failure> {
     let start = Instant::now();
     session.apply_alone(Command::Wrap).map_err(|why| Failure::input(project, why))?;
     session.update();

@@ -105,7 +105,7 @@ fn sample(path: &Path, name: &str) -> Result<Project, Failure> {
     Ok(sample.project(&figure))
 }
 
-/// The whole file.
+/// All of the file at `path`.
 pub fn read(path: &Path) -> Result<Vec<u8>, Failure> {
     let file_failure = |error| Failure::file(path, error);
     let size = fs::metadata(path).map_err(file_failure)?.len();

@@ -6,6 +6,7 @@ mod check;
 mod dress;
 mod export;
 mod failure;
+mod fit;
 mod formats;
 mod import;
 mod input;
@@ -16,6 +17,7 @@ mod picture;
 mod render;
 mod replay;
 mod report;
+mod repose;
 mod run;
 mod simulate;
 
@@ -56,6 +58,8 @@ fn carry_out(arguments: Arguments) -> Result<(), Failure> {
         None => open::open(arguments.project.as_deref(), arguments.record.as_deref()),
         Some(Task::Dress(dress)) => run::on_threads(dress.threads, || dress::dress(&dress)),
         Some(Task::Replay(replay)) => run::on_threads(replay.threads, || replay::replay(&replay)),
+        Some(Task::Repose(repose)) => run::on_threads(repose.threads, || repose::repose(&repose)),
+        Some(Task::Fit(fit)) => run::on_threads(fit.threads, || fit::fit(&fit)),
         Some(Task::Render(render)) => render::render(&render),
         Some(Task::Import(import)) => import::import(&import),
         Some(Task::Export(export)) => export::export(&export),

@@ -4,10 +4,11 @@ use glam::UVec2;
 
 use crate::cli::arguments::PictureOptions;
 use crate::cli::failure::Failure;
-use crate::render::{Look, RenderError, Studio, png, straightened};
+use crate::render::{Legend, Look, RenderError, Rgb, Studio, png, straightened};
 use crate::session::Session;
+use crate::ui::mapped::mapped;
 use crate::ui::portrait::portrait;
-use crate::ui::scene::Scenery;
+use crate::ui::scene::{Scenery, Shown};
 
 /// Draws sessions; opens the graphics adapter once.
 pub struct Artist {
@@ -19,6 +20,23 @@ impl Artist {
     /// Opens the best graphics adapter there is.
     pub fn new() -> Result<Self, Failure> {
         Ok(Self { studio: Studio::new().map_err(failure)?, scenery: Scenery::default() })
+    }
+
+    /// The cloth of `session` in `colours`, one for each vertex as it is drawn, with `legend`, as a PNG.
+    pub fn map(
+        &mut self,
+        session: &Session,
+        colours: &[Rgb],
+        legend: &Legend,
+        options: &PictureOptions,
+    ) -> Result<Vec<u8>, Failure> {
+        let snapshot = session.snapshot();
+        let shown = Shown { body: snapshot.body.as_ref(), cloth: snapshot.drawn(), ..Shown::default() };
+        let scene = mapped(self.scenery.scene(&shown), colours);
+        let size = UVec2::from_array(options.size);
+        let mut picture = self.studio.picture(&scene, options.view, &Look::light(), size).map_err(failure)?;
+        legend.burn(&mut picture);
+        png(&picture).map_err(failure)
     }
 
     /// The body, the cloth and, where there is no cloth yet, the marks of `session` as a PNG.

@@ -12,6 +12,7 @@ use crate::cli::picture::Artist;
 use crate::cli::{formats, output, run};
 use crate::fit;
 use crate::pattern::{Problem, ProblemKind};
+use crate::repose::Outcome;
 use crate::session::recording::Hex;
 use crate::session::{Document, Session};
 use crate::sim::{self, Fault, Snapshot, Stats};
@@ -36,6 +37,9 @@ pub struct Report {
     /// How long each pair of marks was before the wrap.
     marks: Vec<PairLengths>,
     mark_error: MarkError,
+    /// What came of carrying it to another pose.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reposed: Option<Outcome>,
     problems: Vec<Problem>,
     seconds: Seconds,
     counters: Stats,
@@ -105,7 +109,10 @@ pub struct Seconds {
     pub grow: f64,
     /// Ticks that settled it.
     pub settle: f64,
-    /// The whole of a replay, instead of the four above.
+    /// Carrying the cloth to another pose, with binding it to the body for the first one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub repose: Option<f64>,
+    /// The whole of a replay, instead of those above.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub replay: Option<f64>,
     /// Reading the figures off.
@@ -152,6 +159,7 @@ pub fn write(
         fit,
         marks,
         mark_error,
+        reposed: snapshot.reposed,
         problems: snapshot.problems.to_vec(),
         seconds,
         counters: snapshot.stats,

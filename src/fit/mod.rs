@@ -1,7 +1,8 @@
-//! What is read off a garment: strain, crossings, openings, the report.
+//! What is read off a garment: strain, crossings, openings, the report, maps.
 
 pub mod exact;
 mod laid;
+pub mod maps;
 mod on_body;
 mod openings;
 mod report;
@@ -10,6 +11,7 @@ mod spots;
 mod tight;
 mod verdict;
 
+pub use maps::{Map, MapKind, Worn};
 pub use on_body::BodyIndex;
 pub use openings::Opening;
 pub use report::{Clearance, Penetration, PieceChange, Report, Seams, Strain, measure};

@@ -225,6 +225,18 @@ impl Relaxer {
         self.tracker.moved_along_normal(vertex as usize, position);
     }
 
+    /// From now on the cloth lies on `surface`: nothing known of contact with the old one holds.
+    pub fn change_body(&mut self, surface: Arc<Surface>) {
+        self.surface = surface;
+        self.tracker.forget();
+        self.splits = Splits::default();
+        self.faces = Faces::default();
+        self.push.fill(0.0);
+        self.lift.fill(0.0);
+        self.sent.fill(DVec3::ZERO);
+        self.parted.fill(DVec3::ZERO);
+    }
+
     /// Cloth that was carried elsewhere is not sliding.
     pub fn forget_motion(&mut self, state: &ClothState) {
         self.previous.copy_from_slice(&state.positions);

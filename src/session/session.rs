@@ -336,6 +336,10 @@ impl Session {
                     carried: Arc::new(since),
                 })
             }
+            ClothChange::Repose { settle } => {
+                let body = self.bodies.surface(&edit.document.body)?;
+                Some(RequestKind::Repose { body, marks: Arc::clone(&edit.document.marks), settle })
+            }
             ClothChange::SetPins => Some(RequestKind::SetPins(edit.document.pinned_places())),
             ClothChange::Grab { at, mode } => Some(RequestKind::Grab { at, mode, bones: self.bones() }),
             ClothChange::DragTo(ray) => Some(RequestKind::DragTo(ray)),

@@ -3,6 +3,7 @@
 mod checkpoints;
 pub mod fault;
 pub mod hash;
+mod posed;
 pub mod protocol;
 pub mod runner;
 pub mod simulation;

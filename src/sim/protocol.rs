@@ -13,6 +13,7 @@ use crate::geometry::ids::PieceId;
 use crate::pattern::edit::Carried;
 use crate::pattern::{Pattern, Problem};
 use crate::relax::RelaxSettings;
+use crate::repose::Outcome;
 use crate::sim::fault::Fault;
 use crate::sim::stats::Stats;
 use crate::wrap::{Marks, Phase};
@@ -63,6 +64,9 @@ pub enum RequestKind {
     Resew { pattern: Arc<Pattern>, marks: Arc<Marks>, pins: Arc<Vec<ClothPlace>>, carried: Arc<Vec<Carried>> },
     /// Take over cloth that was dressed before (from a project file). It is at rest until something changes.
     Adopt { source: Arc<GarmentSource>, body: Arc<Surface>, cloth: Arc<ClothState> },
+    /// The body takes another pose: `body` has the triangles of the one that is dressed. The cloth goes along and, with
+    /// `settle`, settles there. Nothing happens where nothing is dressed.
+    Repose { body: Arc<Surface>, marks: Arc<Marks>, settle: bool },
     /// Relax differently from now on.
     SetRelax(RelaxSettings),
     /// Exactly these places of the cloth are pinned to where they are.
@@ -117,6 +121,8 @@ pub struct Snapshot {
     pub stats: Stats,
     /// What building and wrapping found wrong.
     pub problems: Arc<Vec<Problem>>,
+    /// What came of the last change of pose, while the cloth lies as it left it.
+    pub reposed: Option<Outcome>,
     /// What is wrong with the cloth as it lies; None until somebody has looked.
     pub verdict: Option<Arc<Vec<Fault>>>,
 }

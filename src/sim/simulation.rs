@@ -150,6 +150,7 @@ impl Simulation {
             working: !world.is_at_rest(),
             stats: Stats { work: world.work(), ..self.stats },
             problems: Arc::clone(&world.problems),
+            reposed: world.outcome(),
             verdict: self.verdict.clone(),
         }
     }
@@ -199,6 +200,11 @@ impl Simulation {
             }
             RequestKind::Resew { pattern, marks, pins, carried } => {
                 if let Some(world) = self.world.resewn(pattern, marks, pins, &carried) {
+                    self.set_world(world);
+                }
+            }
+            RequestKind::Repose { body, marks, settle } => {
+                if let Some(world) = self.world.reposed(body, marks, settle)? {
                     self.set_world(world);
                 }
             }

@@ -14,6 +14,7 @@ use crate::pattern::triangulate::Meshes;
 use crate::pattern::{Pattern, Problem, ProblemKind};
 use crate::relax::RelaxSettings;
 use crate::sim::hash::cloth_hash;
+use crate::sim::posed::Posed;
 use crate::sim::protocol::{ClothPlace, GarmentSource};
 use crate::wrap::{Dressed, Dressing, Marks, Phase, coarser};
 
@@ -46,6 +47,8 @@ pub struct World {
     pub problems: Arc<Vec<Problem>>,
     /// The flat pieces as they were triangulated while the pattern was edited.
     pub meshes: Arc<Meshes>,
+    /// The last change of pose.
+    pub posed: Option<Arc<Posed>>,
 }
 
 impl Default for World {
@@ -64,6 +67,7 @@ impl Default for World {
             relaxing: true,
             problems: Arc::default(),
             meshes: Arc::default(),
+            posed: None,
         }
     }
 }
@@ -282,7 +286,7 @@ impl World {
         }
     }
 
-    fn settle(&mut self) {
+    pub(super) fn settle(&mut self) {
         self.resume();
         let pinned = self.pinned_vertices();
         if let Some(dressing) = &mut self.dressing {

@@ -21,6 +21,7 @@ mod files;
 mod ghosts;
 mod keyboard;
 mod keymap;
+pub mod mapped;
 mod marks_panel;
 mod menu;
 mod messages;

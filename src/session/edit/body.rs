@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::contact::Bone;
-use crate::session::body::BodyCache;
+use crate::session::body::{Body, BodyCache};
 use crate::session::carry::carried;
 use crate::session::command::Rejection;
 use crate::session::document::{BodyChoice, Document};
@@ -27,6 +27,42 @@ pub fn set(mut document: Document, body: &BodyChoice, bodies: &mut BodyCache) ->
     document.bones = None;
     document.body = body.clone();
     Ok(Edit { problems, ..Edit::new("change the body", document).with(ClothChange::Clear) })
+}
+
+/// The same body in another pose; the cloth goes along.
+pub fn repose(
+    mut document: Document,
+    body: &BodyChoice,
+    settle: bool,
+    bodies: &mut BodyCache,
+) -> Result<Edit, Rejection> {
+    checks::body(body)?;
+    if document.body == *body {
+        return Err(Rejection::new("that is the body's pose already"));
+    }
+    let (from, to) = (bodies.body(&document.body)?, bodies.body(body)?);
+    let counts = |body: &Body| (body.surface.mesh.positions.len(), body.surface.mesh.triangles.len());
+    if from.surface.mesh.triangles != to.surface.mesh.triangles {
+        let (is, was) = (counts(&to), counts(&from));
+        let words = match is == was {
+            true => "its triangles join other vertices".to_owned(),
+            false => format!(
+                "it has {} vertices and {} triangles, the dressed one {} and {}",
+                is.0, is.1, was.0, was.1
+            ),
+        };
+        return Err(Rejection(format!(
+            "{} is not {} in another pose: {words}",
+            body.name(),
+            document.body.name()
+        )));
+    }
+    let (marks, problems) = carried(&document.marks, Some(&from), &to, body.name());
+    document.marks = Arc::new(marks);
+    // Bones drawn by hand stay where the old pose had them.
+    document.bones = None;
+    document.body = body.clone();
+    Ok(Edit { problems, ..Edit::new("change the pose", document).with(ClothChange::Repose { settle }) })
 }
 
 /// Bones drawn by the user, or the body's own again.

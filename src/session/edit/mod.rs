@@ -34,6 +34,8 @@ pub enum ClothChange {
     Clear,
     /// The pattern was edited: the dressed cloth follows. What is drawn on these pieces was moved.
     Resew(Vec<Carried>),
+    /// The body takes the pose of the document's; then, perhaps, the cloth settles.
+    Repose { settle: bool },
     /// Relax differently.
     SetRelax(RelaxSettings),
     /// Pin it where the document's pins are.
@@ -79,9 +81,11 @@ impl Edit {
     pub fn kind(&self) -> StepKind {
         match self.cloth {
             ClothChange::Wrap | ClothChange::Rewrap(_) => StepKind::Wrap,
-            ClothChange::Clear | ClothChange::Resew(_) | ClothChange::SetPins | ClothChange::Grab { .. } => {
-                StepKind::Cloth
-            }
+            ClothChange::Clear
+            | ClothChange::Resew(_)
+            | ClothChange::Repose { .. }
+            | ClothChange::SetPins
+            | ClothChange::Grab { .. } => StepKind::Cloth,
             _ => StepKind::Edit,
         }
     }
@@ -130,6 +134,7 @@ fn untied(document: &Document, command: &Command, bodies: &mut BodyCache) -> Res
         Command::DeleteSeam { seam } => edit_by(new, PatternEdit::Unpick { seams: vec![*seam] }),
         Command::ReverseSeam { seam } => edit_by(new, PatternEdit::TurnSeam { seam: *seam }),
         Command::SetBody { body } => body::set(new, body, bodies),
+        Command::Repose { body, settle } => body::repose(new, body, *settle, bodies),
         Command::SetBones { bones } => body::set_bones(new, bones.as_deref()),
         Command::SetSettings { settings } => settings::set(new, settings),
         Command::Wrap => wrap::wrap(new),

@@ -1,0 +1,202 @@
+//! `toile fit`: maps over the dressed garment, as figures and pictures.
+
+use std::fmt::Write;
+
+use serde::Serialize;
+
+use crate::cli::arguments::{Fit, InputOptions};
+use crate::cli::failure::Failure;
+use crate::cli::picture::Artist;
+use crate::cli::{input, interrupt, output, run};
+use crate::cloth::{ClothState, Garment};
+use crate::fit::maps::{Histogram, MapStats, PieceStats};
+use crate::fit::{Map, MapKind, Worn};
+use crate::render::{Legend, Palette, Rgb};
+use crate::session::Session;
+
+/// `fit.json`.
+#[derive(Debug, Serialize)]
+struct Figures {
+    version: &'static str,
+    name: String,
+    triangles: usize,
+    vertices: usize,
+    maps: Vec<MapFigures>,
+    /// Why there are no pictures, if there are none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pictures_left_out: Option<String>,
+}
+
+/// One map. All values are in its unit.
+#[derive(Debug, Serialize)]
+struct MapFigures {
+    map: MapKind,
+    title: &'static str,
+    unit: &'static str,
+    /// What the legend spans.
+    range: [f64; 2],
+    #[serde(flatten)]
+    stats: MapStats,
+    pieces: Vec<PieceStats>,
+    histogram: Histogram,
+}
+
+/// Every map asked for, once.
+pub fn fit(arguments: &Fit) -> Result<(), Failure> {
+    let input = input::load(&arguments.project, &InputOptions::default())?;
+    let session = run::opened(input.project, &arguments.project)?;
+    let snapshot = session.snapshot();
+    let (Some((garment, state)), Some(surface), Some(source)) =
+        (snapshot.drawn(), &snapshot.body, &snapshot.source)
+    else {
+        let words = "there is no cloth on its body: dress it first (toile dress PROJECT --save DRESSED)";
+        return Err(Failure::input(&arguments.project, words));
+    };
+    let worn = Worn { pattern: &source.pattern, garment, state, surface };
+    output::make_folder(&arguments.out)?;
+    let mut kinds: Vec<MapKind> = arguments.maps.iter().flat_map(|maps| maps.0.iter().copied()).collect();
+    kinds.sort_unstable();
+    kinds.dedup();
+    let mut pictures = Pictures::new()?;
+    let mut figures = Figures {
+        version: env!("CARGO_PKG_VERSION"),
+        name: input.name,
+        triangles: garment.triangles.len(),
+        vertices: garment.vertex_count,
+        maps: Vec::new(),
+        pictures_left_out: pictures.left_out.clone(),
+    };
+    for kind in kinds {
+        interrupt::check()?;
+        let map = Map::new(kind, worn);
+        let write = |name: String, bytes: &[u8]| output::write(&arguments.out.join(name), bytes);
+        write(format!("{}.csv", kind.name()), vertices_csv(&map, garment, state).as_bytes())?;
+        write(format!("{}-triangles.csv", kind.name()), triangles_csv(&map, garment).as_bytes())?;
+        if let Some(png) = pictures.png(&map, &session, arguments)? {
+            write(format!("{}.png", kind.name()), &png)?;
+        }
+        let line = map_figures(&map, garment);
+        if !arguments.json {
+            output::say(&line.words());
+        }
+        figures.maps.push(line);
+    }
+    let mut text = serde_json::to_string_pretty(&figures).map_err(|e| Failure::Internal(e.to_string()))?;
+    if arguments.json {
+        output::say(&text);
+    }
+    text.push('\n');
+    output::write(&arguments.out.join("fit.json"), text.as_bytes())
+}
+
+fn map_figures(map: &Map, garment: &Garment) -> MapFigures {
+    let (unit, times) = map.kind.unit();
+    let scaled = Map { kind: map.kind, vertices: times_all(&map.vertices, times), triangles: Vec::new() };
+    let range = scaled.range();
+    MapFigures {
+        map: map.kind,
+        title: map.kind.title(),
+        unit,
+        range,
+        stats: scaled.stats(),
+        pieces: scaled.pieces(garment),
+        histogram: scaled.histogram(range),
+    }
+}
+
+fn times_all(values: &[f64], times: f64) -> Vec<f64> {
+    values.iter().map(|v| v * times).collect()
+}
+
+impl MapFigures {
+    /// One line for people.
+    fn words(&self) -> String {
+        let Self { title, unit, stats, .. } = self;
+        if stats.count == 0 {
+            return format!("{title}: no values");
+        }
+        let MapStats { count, p01, median, p99, min, max, .. } = stats;
+        format!(
+            "{title}: median {median:.2} {unit}, p1 {p01:.2}, p99 {p99:.2}, from {min:.2} to {max:.2}, at {count} vertices"
+        )
+    }
+}
+
+/// A row for each flat corner that has a value: vertices on seams stand in it once for each piece.
+fn vertices_csv(map: &Map, garment: &Garment, state: &ClothState) -> String {
+    let (unit, times) = map.kind.unit();
+    let mut csv = format!("piece,u_m,v_m,vertex,x_m,y_m,z_m,{}\n", column(map.kind, unit));
+    for corner in &garment.corners {
+        let (v, name) = (corner.vertex as usize, piece_name(garment, corner.piece));
+        let (value, p) = (map.vertices[v] * times, state.positions[v]);
+        if value.is_finite() {
+            let [u, w] = corner.uv.to_array();
+            // Writing to a string cannot fail.
+            writeln!(csv, "{name},{u:.6},{w:.6},{v},{:.6},{:.6},{:.6},{value:.6}", p.x, p.y, p.z).ok();
+        }
+    }
+    csv
+}
+
+fn triangles_csv(map: &Map, garment: &Garment) -> String {
+    let (unit, times) = map.kind.unit();
+    let mut csv = format!("piece,triangle,vertex_0,vertex_1,vertex_2,{}\n", column(map.kind, unit));
+    for (t, (vs, piece)) in garment.triangles.iter().zip(&garment.triangle_pieces).enumerate() {
+        let value = map.triangles[t] * times;
+        if value.is_finite() {
+            let name = piece_name(garment, *piece);
+            writeln!(csv, "{name},{t},{},{},{},{value:.6}", vs[0], vs[1], vs[2]).ok();
+        }
+    }
+    csv
+}
+
+/// "ease_mm".
+fn column(kind: MapKind, unit: &str) -> String {
+    let unit = match unit {
+        "%" => "percent",
+        "1/m" => "per_m",
+        unit => unit,
+    };
+    format!("{}_{unit}", kind.name().replace('-', "_"))
+}
+
+/// As CSV wants it (RFC 4180): in quotes, those in it doubled.
+fn piece_name(garment: &Garment, piece: crate::geometry::ids::PieceId) -> String {
+    let name = garment.pieces.iter().find(|(id, _)| *id == piece).map_or("", |(_, name)| name);
+    format!("\"{}\"", name.replace('"', "\"\""))
+}
+
+/// Draws maps, if there is a graphics adapter.
+struct Pictures {
+    artist: Option<Artist>,
+    left_out: Option<String>,
+}
+
+impl Pictures {
+    fn new() -> Result<Self, Failure> {
+        match Artist::new() {
+            Ok(artist) => Ok(Self { artist: Some(artist), left_out: None }),
+            Err(Failure::Graphics(words)) => {
+                output::complain(&format!("pictures left out: {words}"));
+                Ok(Self { artist: None, left_out: Some(words) })
+            }
+            Err(failure) => Err(failure),
+        }
+    }
+
+    fn png(&mut self, map: &Map, session: &Session, arguments: &Fit) -> Result<Option<Vec<u8>>, Failure> {
+        let Some(artist) = &mut self.artist else { return Ok(None) };
+        let range = map.range();
+        let palette = if map.kind.is_signed() { Palette::Diverging } else { Palette::Sequential };
+        let colours: Vec<Rgb> = map.vertices.iter().map(|&v| palette.colour(v, range)).collect();
+        let (unit, times) = map.kind.unit();
+        let legend = Legend {
+            title: map.kind.title().to_owned(),
+            unit: unit.to_owned(),
+            range: range.map(|v| v * times),
+            palette,
+        };
+        artist.map(session, &colours, &legend, &arguments.picture).map(Some)
+    }
+}

@@ -1,0 +1,104 @@
+//! `toile repose`: the dressed garment goes along to other poses of its body.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::Instant;
+
+use crate::cli::arguments::{InputOptions, Repose};
+use crate::cli::failure::Failure;
+use crate::cli::report::{Report, Seconds};
+use crate::cli::{dress, formats, input, interrupt, output, report, run};
+use crate::session::{BodyChoice, Command, Notice, Session, project_file};
+
+/// Each pose in turn, from the one that was dressed; the first that fails a check gives the exit code.
+pub fn repose(arguments: &Repose) -> Result<(), Failure> {
+    let several = arguments.bodies.len() > 1;
+    if several && arguments.save.is_some() {
+        return Err(Failure::Usage("--save takes one pose, not several".to_owned()));
+    }
+    let start = Instant::now();
+    let input = input::load(&arguments.project, &InputOptions::default())?;
+    let poses: Vec<BodyChoice> =
+        arguments.bodies.iter().map(|path| posed(path, arguments)).collect::<Result<_, _>>()?;
+    let mut session = run::opened(input.project, &arguments.project)?;
+    let mut seconds = Seconds { load: start.elapsed().as_secs_f64(), ..Seconds::default() };
+    dress_first(&mut session, arguments, &mut seconds)?;
+    let mut first_failure = None;
+    for (i, (pose, path)) in poses.into_iter().zip(&arguments.bodies).enumerate() {
+        interrupt::check()?;
+        let folder = if several { numbered(&arguments.out, i, path) } else { arguments.out.clone() };
+        let name = format!("{} on {}", input.name, pose.name());
+        let carried = one(&mut session, pose, path, arguments, seconds);
+        let mut report = report::write(&mut session, &name, &made(&folder)?, &arguments.picture, carried?)?;
+        report.inputs = input.files.iter().cloned().chain([path.display().to_string()]).collect();
+        report.finish(&folder, start)?;
+        tell(&report, arguments.json, several)?;
+        first_failure = first_failure.or(report.failed_check());
+    }
+    if let Some(path) = &arguments.save {
+        project_file::save(path, &session.project()).map_err(|e| input::project_failure(path, e))?;
+    }
+    first_failure.map_or(Ok(()), |words| Err(Failure::Check(words)))
+}
+
+fn made(folder: &Path) -> Result<PathBuf, Failure> {
+    output::make_folder(folder)?;
+    Ok(folder.to_owned())
+}
+
+fn tell(report: &Report, json: bool, several: bool) -> Result<(), Failure> {
+    output::say(&match (json, several) {
+        (true, true) => report.json_line()?,
+        (true, false) => report.json()?,
+        (false, _) => report.verdict(),
+    });
+    Ok(())
+}
+
+/// "out/03-walk4" for the fourth pose, of the file "walk4.obj".
+fn numbered(out: &Path, i: usize, path: &Path) -> PathBuf {
+    out.join(format!("{i:02}-{}", input::name_of(path)))
+}
+
+fn posed(path: &Path, arguments: &Repose) -> Result<BodyChoice, Failure> {
+    let body = formats::body(path, &input::read(path)?, arguments.unit)?;
+    if !body.is_usable() {
+        let faults: Vec<&str> = body.problems.iter().map(|p| p.words.as_str()).collect();
+        return Err(Failure::input(path, faults.join("; ")));
+    }
+    Ok(BodyChoice::Imported { name: input::name_of(path), mesh: Arc::new(body.mesh) })
+}
+
+/// A project that holds no dressed cloth is dressed as `toile dress` would.
+fn dress_first(session: &mut Session, arguments: &Repose, seconds: &mut Seconds) -> Result<(), Failure> {
+    if session.snapshot().is_dressed() {
+        return Ok(());
+    }
+    output::complain(&format!("{}: not dressed yet: dressing it first", arguments.project.display()));
+    dress::wrap(session, &arguments.project, seconds)?;
+    run::to_rest(session, arguments.max_ticks, seconds)
+}
+
+/// Carries the cloth to `pose`, read from `path`.
+fn one(
+    session: &mut Session,
+    pose: BodyChoice,
+    path: &Path,
+    arguments: &Repose,
+    mut seconds: Seconds,
+) -> Result<Seconds, Failure> {
+    let start = Instant::now();
+    if session.document().body == pose {
+        return Ok(seconds); // The pose it is in.
+    }
+    let command = Command::Repose { body: pose, settle: arguments.settle };
+    session.apply_alone(command).map_err(|why| Failure::input(path, why))?;
+    for notice in session.update() {
+        if let Notice::Failed { words, .. } = notice {
+            return Err(Failure::input(path, words));
+        }
+    }
+    seconds.repose = Some(start.elapsed().as_secs_f64());
+    run::to_rest(session, arguments.max_ticks, &mut seconds)?;
+    Ok(seconds)
+}

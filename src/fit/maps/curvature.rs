@@ -1,0 +1,61 @@
+//! How the cloth is curved at its vertices.
+
+use glam::DVec3;
+
+use crate::fit::maps::{Worn, laid_corners, per_vertex};
+
+/// Paper C's curvature: the largest angle between the normals of two triangles that share the vertex, radians. NaN where
+/// fewer than two have an area.
+pub(super) fn largest_angle(worn: Worn<'_>) -> Vec<f64> {
+    per_vertex(worn, |v| {
+        let around = worn.garment.adjacency.vertex_triangles.of(v).iter();
+        let normals: Vec<DVec3> = around
+            .filter_map(|&t| laid_corners(worn, t as usize))
+            .filter_map(|[a, b, c]| (b - a).cross(c - a).try_normalize())
+            .collect();
+        let pairs = normals.iter().enumerate().flat_map(|(i, n)| normals[..i].iter().map(move |m| (n, m)));
+        // Of small angles the cosine tells nothing.
+        pairs.map(|(n, m)| n.cross(*m).length().atan2(n.dot(*m))).reduce(f64::max).unwrap_or(f64::NAN)
+    })
+}
+
+/// Mean curvature, 1/m: half the length of the cotangent Laplacian of the position over the mixed Voronoi area, positive
+/// where the front side bulges (Meyer, Desbrun, Schröder and Barr, Discrete differential-geometry operators for triangulated
+/// 2-manifolds, 2003, eqs. 8 and 10). NaN on borders, where half of the neighbourhood is missing.
+pub(super) fn mean(worn: Worn<'_>) -> Vec<f64> {
+    let adjacency = &worn.garment.adjacency;
+    let mut border = vec![false; worn.garment.vertex_count];
+    for (e, ends) in adjacency.edges.iter().enumerate() {
+        let around = adjacency.edge_triangles.of(e as u32);
+        if around.len() != 2 || around.iter().any(|&t| laid_corners(worn, t as usize).is_none()) {
+            ends.iter().for_each(|&v| border[v as usize] = true);
+        }
+    }
+    per_vertex(worn, |v| if border[v as usize] { f64::NAN } else { mean_at(worn, v) })
+}
+
+fn mean_at(worn: Worn<'_>, v: u32) -> f64 {
+    let (mut laplacian, mut area, mut normal) = (DVec3::ZERO, 0.0, DVec3::ZERO);
+    for &t in worn.garment.adjacency.vertex_triangles.of(v) {
+        let Some(corners) = laid_corners(worn, t as usize) else { continue };
+        let k = worn.garment.triangles[t as usize].iter().position(|&w| w == v).unwrap_or(0);
+        let [p, q, r] = [corners[k], corners[(k + 1) % 3], corners[(k + 2) % 3]];
+        let twice = (q - p).cross(r - p);
+        let size = twice.length();
+        if size == 0.0 {
+            continue;
+        }
+        let cotangent = |at: DVec3, one: DVec3, other: DVec3| (one - at).dot(other - at) / size;
+        let (at_p, at_q, at_r) = (cotangent(p, q, r), cotangent(q, r, p), cotangent(r, p, q));
+        laplacian += (p - q) * at_r + (p - r) * at_q;
+        normal += twice;
+        area += if at_p < 0.0 {
+            size / 4.0
+        } else if at_q < 0.0 || at_r < 0.0 {
+            size / 8.0
+        } else {
+            ((p - q).length_squared() * at_r + (p - r).length_squared() * at_q) / 8.0
+        };
+    }
+    if area > 0.0 { laplacian.length().copysign(laplacian.dot(normal)) / (4.0 * area) } else { f64::NAN }
+}

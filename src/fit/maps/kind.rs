@@ -1,0 +1,92 @@
+//! What can be mapped.
+
+use serde::{Deserialize, Serialize};
+
+/// What a map shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum MapKind {
+    /// Stretch along the grain: length over flat length, less one.
+    Warp,
+    /// The same across the grain.
+    Weft,
+    /// By how much the angle between grain and weft is no longer a right one, radians; positive: narrower.
+    Shear,
+    /// Area over flat area, less one.
+    Area,
+    /// The gap to the body, metres; negative inside.
+    Ease,
+    /// Paper C's: the largest angle between the normals of triangles that share the vertex, radians.
+    Curvature,
+    /// Mean curvature (half the sum of the principal ones), 1/m; positive where the front side bulges out.
+    MeanCurvature,
+    /// Stretch along seams: length over the flat length of both sides' mean, less one. Only on seams.
+    Seams,
+}
+
+impl MapKind {
+    /// Every kind, in the order of menus.
+    pub const ALL: [Self; 8] = [
+        Self::Warp,
+        Self::Weft,
+        Self::Shear,
+        Self::Area,
+        Self::Ease,
+        Self::Curvature,
+        Self::MeanCurvature,
+        Self::Seams,
+    ];
+
+    /// As on the command line and in file names.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Warp => "warp",
+            Self::Weft => "weft",
+            Self::Shear => "shear",
+            Self::Area => "area",
+            Self::Ease => "ease",
+            Self::Curvature => "curvature",
+            Self::MeanCurvature => "mean-curvature",
+            Self::Seams => "seams",
+        }
+    }
+
+    /// For people.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Warp => "Strain along the grain",
+            Self::Weft => "Strain across the grain",
+            Self::Shear => "Shear",
+            Self::Area => "Change of area",
+            Self::Ease => "Ease: gap to the body",
+            Self::Curvature => "Largest angle at the vertex",
+            Self::MeanCurvature => "Mean curvature",
+            Self::Seams => "Strain along seams",
+        }
+    }
+
+    /// The unit it is shown in, and what a value is multiplied by for that.
+    pub fn unit(self) -> (&'static str, f64) {
+        match self {
+            Self::Warp | Self::Weft | Self::Area | Self::Seams => ("%", 100.0),
+            Self::Shear | Self::Curvature => ("deg", 180.0 / std::f64::consts::PI),
+            Self::Ease => ("mm", 1000.0),
+            Self::MeanCurvature => ("1/m", 1.0),
+        }
+    }
+
+    /// Whether values of both signs mean opposite things: a palette with zero in its middle is meet.
+    pub fn is_signed(self) -> bool {
+        !matches!(self, Self::Ease | Self::Curvature)
+    }
+}
+
+impl std::str::FromStr for MapKind {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        Self::ALL.into_iter().find(|kind| kind.name() == text).ok_or_else(|| {
+            format!("there is no map {text:?}; there are {}", Self::ALL.map(Self::name).join(", "))
+        })
+    }
+}

@@ -1,0 +1,105 @@
+//! Maps over dressed cloth: one value for each triangle and each vertex, computed when asked for.
+
+mod curvature;
+mod kind;
+mod stats;
+mod strain;
+
+#[cfg(test)]
+mod tests;
+
+pub use kind::MapKind;
+pub use stats::{Histogram, MapStats, PieceStats};
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use crate::body::Surface;
+use crate::cloth::{ClothState, Garment};
+use crate::pattern::Pattern;
+
+/// Vertices or triangles one thread takes at a time.
+const LEAST_SHARE: usize = 256;
+
+/// The values of a map; NaN where there is none: cloth that is not laid, borders where a curvature has no meaning.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Map {
+    /// What is mapped.
+    pub kind: MapKind,
+    /// One per sewn vertex, in the unit of the kind.
+    pub vertices: Vec<f64>,
+    /// One per triangle: its own where the kind has one, else the mean over its corners.
+    pub triangles: Vec<f64>,
+}
+
+/// Dressed cloth that maps are read off.
+#[derive(Clone, Copy, Debug)]
+pub struct Worn<'a> {
+    /// What the garment was built from: its pieces tell the grain.
+    pub pattern: &'a Pattern,
+    /// The cloth.
+    pub garment: &'a Garment,
+    /// Where it is.
+    pub state: &'a ClothState,
+    /// The body.
+    pub surface: &'a Surface,
+}
+
+impl Map {
+    /// The map of `kind` over `worn`. Same input, same bits, on any number of threads.
+    pub fn new(kind: MapKind, worn: Worn<'_>) -> Self {
+        match kind {
+            MapKind::Warp | MapKind::Weft | MapKind::Shear | MapKind::Area => {
+                Self::of_triangles(kind, worn, strain::strain(kind, worn))
+            }
+            MapKind::Ease => Self::of_vertices(kind, worn, ease(worn)),
+            MapKind::Curvature => Self::of_vertices(kind, worn, curvature::largest_angle(worn)),
+            MapKind::MeanCurvature => Self::of_vertices(kind, worn, curvature::mean(worn)),
+            MapKind::Seams => Self::of_vertices(kind, worn, strain::seams(worn)),
+        }
+    }
+
+    /// Vertices have the mean of their triangles, by flat area.
+    fn of_triangles(kind: MapKind, worn: Worn<'_>, triangles: Vec<f64>) -> Self {
+        let garment = worn.garment;
+        let mean = |v: u32| {
+            let around = garment.adjacency.vertex_triangles.of(v).iter();
+            let valued = around.map(|&t| t as usize).filter(|&t| triangles[t].is_finite());
+            let (sum, weights) = valued.fold((0.0, 0.0), |(sum, weights), t| {
+                let [a, b, c] = garment.rest[t];
+                let area = (b - a).perp_dot(c - a) / 2.0;
+                (sum + triangles[t] * area, weights + area)
+            });
+            if weights > 0.0 { sum / weights } else { f64::NAN }
+        };
+        let vertices = per_vertex(worn, mean);
+        Self { kind, vertices, triangles }
+    }
+
+    fn of_vertices(kind: MapKind, worn: Worn<'_>, vertices: Vec<f64>) -> Self {
+        let mean = |vs: &[u32; 3]| vs.iter().map(|&v| vertices[v as usize]).sum::<f64>() / 3.0;
+        Self { kind, triangles: worn.garment.triangles.iter().map(mean).collect(), vertices }
+    }
+}
+
+/// A value for each laid vertex.
+fn per_vertex(worn: Worn<'_>, value: impl Fn(u32) -> f64 + Sync) -> Vec<f64> {
+    let laid = |v: u32| worn.state.mapped.get(v as usize) == Some(&true);
+    (0..worn.garment.vertex_count as u32)
+        .into_par_iter()
+        .with_min_len(LEAST_SHARE)
+        .map(|v| if laid(v) { value(v) } else { f64::NAN })
+        .collect()
+}
+
+/// Whether all corners of a triangle are laid, and where they are.
+fn laid_corners(worn: Worn<'_>, t: usize) -> Option<[DVec3; 3]> {
+    let vs = worn.garment.triangles[t];
+    let laid = vs.iter().all(|&v| worn.state.mapped.get(v as usize) == Some(&true));
+    laid.then(|| vs.map(|v| worn.state.positions[v as usize]))
+}
+
+/// The gap to the body, metres; negative inside.
+fn ease(worn: Worn<'_>) -> Vec<f64> {
+    per_vertex(worn, |v| worn.surface.nearest(worn.state.positions[v as usize]).distance)
+}

@@ -1,0 +1,87 @@
+//! How triangles and seams are strained.
+
+use std::collections::BTreeMap;
+
+use glam::{DMat2, DVec2, DVec3};
+use rayon::prelude::*;
+
+use crate::fit::maps::{LEAST_SHARE, MapKind, Worn, laid_corners};
+use crate::geometry::ids::PieceId;
+
+/// A triangle flatter than this share of its longest side squared has no strain.
+const FLAT: f64 = 1e-9;
+/// Edges shorter than this (metres) have no strain.
+const SHORTEST: f64 = 1e-9;
+
+/// The strain of each triangle: warp, weft, shear or area. With F the deformation gradient from the flat plane to space and
+/// w and f unit vectors along and across the grain there: |F w| - 1, |F f| - 1, the angle by which F w and F f are nearer to each
+/// other than a right angle, |F w x F f| - 1.
+pub(super) fn strain(kind: MapKind, worn: Worn<'_>) -> Vec<f64> {
+    let grain: BTreeMap<PieceId, DVec2> = worn
+        .pattern
+        .pieces
+        .iter()
+        .map(|(&id, piece)| {
+            let along = piece.grainline.map_or(DVec2::Y, |[a, b]| b - a);
+            (id, along.try_normalize().unwrap_or(DVec2::Y))
+        })
+        .collect();
+    (0..worn.garment.triangles.len())
+        .into_par_iter()
+        .with_min_len(LEAST_SHARE)
+        .map(|t| {
+            let along = grain.get(&worn.garment.triangle_pieces[t]).copied().unwrap_or(DVec2::Y);
+            let images = laid_corners(worn, t).and_then(|corners| images(worn, t, corners, along));
+            images.map_or(f64::NAN, |[warp, weft]| match kind {
+                MapKind::Warp => warp.length() - 1.0,
+                MapKind::Weft => weft.length() - 1.0,
+                MapKind::Shear => warp.dot(weft).atan2(warp.cross(weft).length()),
+                _ => warp.cross(weft).length() - 1.0,
+            })
+        })
+        .collect()
+}
+
+/// Where the unit vectors along and across the grain go.
+fn images(worn: Worn<'_>, t: usize, [a, b, c]: [DVec3; 3], along: DVec2) -> Option<[DVec3; 2]> {
+    let [p, q, r] = worn.garment.triangle_corners[t].map(|corner| worn.garment.corners[corner as usize].uv);
+    let flat = DMat2::from_cols(q - p, r - p);
+    let size = (q - p).length_squared().max((r - p).length_squared());
+    if flat.determinant().abs() <= FLAT * size {
+        return None;
+    }
+    let back = flat.inverse();
+    let image = |way: DVec2| {
+        let shares = back * way;
+        (b - a) * shares.x + (c - a) * shares.y
+    };
+    Some([image(along), image(along.perp())])
+}
+
+/// Stretch along seams, at their vertices: of the edges on both sides together. NaN off seams.
+pub(super) fn seams(worn: Worn<'_>) -> Vec<f64> {
+    let garment = worn.garment;
+    let mut lengths = vec![[0.0; 2]; garment.vertex_count];
+    let laid = |v: u32| worn.state.mapped.get(v as usize) == Some(&true);
+    for pairs in garment.seam_pairs.iter().flat_map(|(_, pairs)| pairs.windows(2)) {
+        let sides = [0, 1].map(|side| [pairs[0][side], pairs[1][side]].map(|c| garment.corners[c as usize]));
+        // Two seams of one name can follow each other in the list without touching.
+        if sides.iter().any(|[a, b]| a.piece != b.piece || !laid(a.vertex) || !laid(b.vertex)) {
+            continue;
+        }
+        let [a, b] = sides[0].map(|c| c.vertex);
+        if !garment.adjacency.vertex_neighbours.of(a).contains(&b) {
+            continue;
+        }
+        let flat = sides.iter().map(|[a, b]| a.uv.distance(b.uv)).sum::<f64>() / 2.0;
+        let length = worn.state.positions[a as usize].distance(worn.state.positions[b as usize]);
+        for v in [a, b] {
+            let [sum, flats] = &mut lengths[v as usize];
+            (*sum, *flats) = (*sum + length, *flats + flat);
+        }
+    }
+    lengths
+        .into_iter()
+        .map(|[length, flat]| if flat > SHORTEST { length / flat - 1.0 } else { f64::NAN })
+        .collect()
+}

@@ -1,0 +1,42 @@
+//! Mesh conforming: each vertex goes along with the skin it is bound to (paper C).
+//!
+//! The paper's P' = Q' + R |PQ| is a matrix times a number; meant is P' = Q' + R (P - Q) (ALGORITHMS.md 1.C), over all
+//! bindings of a vertex the weighted mean.
+
+use glam::{DQuat, DVec3};
+use rayon::prelude::*;
+
+use crate::body::Surface;
+use crate::repose::distance_map::{Binding, DistanceMap, at};
+use crate::repose::turns::{mean, turns};
+
+/// Vertices one thread takes at a time.
+const LEAST_SHARE: usize = 256;
+
+/// Where `positions`, bound by `map` to `from`, are on `to`, a body of the same topology. Vertices bound to skin that has
+/// not moved keep their bits, and those bound to nothing stay.
+pub fn conformed(map: &DistanceMap, from: &Surface, to: &Surface, positions: &[DVec3]) -> Vec<DVec3> {
+    let mut used: Vec<u32> =
+        map.bindings().iter().flat_map(|b| from.mesh.triangles[b.triangle as usize]).collect();
+    used.sort_unstable();
+    used.dedup();
+    let found = turns(from, to, &used);
+    let mut of_vertex: Vec<Option<DQuat>> = vec![None; from.mesh.positions.len()];
+    used.iter().zip(found).for_each(|(&v, turn)| of_vertex[v as usize] = turn);
+    let moved = |binding: &Binding| {
+        let corners = from.mesh.triangles[binding.triangle as usize];
+        corners.iter().any(|&v| of_vertex[v as usize].is_some())
+    };
+    let image = |binding: &Binding| {
+        let corners = from.mesh.triangles[binding.triangle as usize];
+        let turned = |k: usize| of_vertex[corners[k] as usize].unwrap_or(DQuat::IDENTITY);
+        let turn = mean((0..3).map(|k| (turned(k), binding.shares[k])));
+        let point = at(binding.shares, to.mesh.corners(binding.triangle as usize));
+        (point + turn * binding.beside) * binding.weight
+    };
+    let place = |v: usize| match map.of(v) {
+        bindings if bindings.iter().any(moved) => bindings.iter().map(image).sum(),
+        _ => positions[v],
+    };
+    (0..positions.len()).into_par_iter().with_min_len(LEAST_SHARE).map(place).collect()
+}

@@ -1,0 +1,135 @@
+//! The distance map: to which points of the skin each cloth vertex is bound (paper C, "distance map").
+//!
+//! The paper binds to the nearest body *vertex* of overlapping boxes; here it is the nearest *point*, found exactly. Between
+//! two limbs (armpit, crotch) several points are about equally near: up to [`MOST`] are blended, so that neighbours bound to
+//! different limbs do not part (ALGORITHMS.md 1.C).
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use crate::body::Surface;
+use crate::cloth::ClothState;
+
+/// A vertex is bound to so many points at most,
+const MOST: usize = 4;
+/// which are no farther than so many times the nearest,
+const FARTHEST: f64 = 1.3;
+/// and apart from each other by this share of that distance: nearer ones belong to one hollow.
+const APART: f64 = 0.5;
+/// Vertices one thread takes at a time.
+const LEAST_SHARE: usize = 32;
+
+/// A vertex bound to a point of the skin.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Binding {
+    /// The triangle that the point lies on.
+    pub triangle: u32,
+    /// Where on it, in barycentric coordinates.
+    pub shares: [f64; 3],
+    /// From the point to the vertex, metres, while the body stood as it was bound to.
+    pub beside: DVec3,
+    /// How much of the vertex goes along with it, 0..=1; over all of a vertex the sum is one.
+    pub weight: f64,
+}
+
+/// The bindings of all vertices of a garment.
+#[derive(Clone, Debug, Default)]
+pub struct DistanceMap {
+    starts: Vec<u32>,
+    bindings: Vec<Binding>,
+    /// How high each vertex lay above its nearest skin, metres, negative inside; infinite where no cloth was laid.
+    pub heights: Vec<f64>,
+}
+
+impl DistanceMap {
+    /// Binds the laid vertices of `cloth` to `surface`; the others to nothing.
+    pub fn new(surface: &Surface, cloth: &ClothState) -> Self {
+        let bound: Vec<(Vec<Binding>, f64)> = cloth
+            .positions
+            .par_iter()
+            .zip(&cloth.mapped)
+            .with_min_len(LEAST_SHARE)
+            .map(|(&p, &mapped)| if mapped { bound(surface, p) } else { (Vec::new(), f64::INFINITY) })
+            .collect();
+        let mut map = Self { starts: vec![0], ..Self::default() };
+        for (bindings, height) in bound {
+            map.bindings.extend(bindings);
+            map.starts.push(map.bindings.len() as u32);
+            map.heights.push(height);
+        }
+        map
+    }
+
+    /// What `vertex` is bound to, the nearest first.
+    pub fn of(&self, vertex: usize) -> &[Binding] {
+        &self.bindings[self.starts[vertex] as usize..self.starts[vertex + 1] as usize]
+    }
+
+    /// All bindings.
+    pub fn bindings(&self) -> &[Binding] {
+        &self.bindings
+    }
+
+    /// Number of vertices.
+    pub fn len(&self) -> usize {
+        self.heights.len()
+    }
+
+    /// Whether there is no vertex.
+    pub fn is_empty(&self) -> bool {
+        self.heights.is_empty()
+    }
+}
+
+/// The bindings of a vertex at `p`, and its height.
+fn bound(surface: &Surface, p: DVec3) -> (Vec<Binding>, f64) {
+    let nearest = surface.nearest(p);
+    let least = nearest.distance.abs();
+    let mut chosen = vec![(nearest.point, nearest.triangle)];
+    for (point, triangle) in surface.nearest_round_about(p, least * FARTHEST) {
+        if chosen.len() < MOST && chosen.iter().all(|(other, _)| other.distance(point) > APART * least) {
+            chosen.push((point, triangle));
+        }
+    }
+    // Fading out towards the farthest, so that what is bound to more or fewer points lies side by side.
+    let weight = |point: DVec3| {
+        let t = (FARTHEST - p.distance(point) / least.max(f64::MIN_POSITIVE)) / (FARTHEST - 1.0);
+        let t = t.clamp(0.0, 1.0);
+        t * t * (3.0 - 2.0 * t)
+    };
+    let weights: Vec<f64> = match chosen.len() {
+        1 => vec![1.0],
+        _ => chosen.iter().map(|(point, _)| weight(*point)).collect(),
+    };
+    let sum: f64 = weights.iter().sum();
+    let binding = |((point, triangle), weight): ((DVec3, u32), f64)| {
+        let shares = barycentric(point, surface.mesh.corners(triangle as usize));
+        // From the point that the shares give: then a body that has not moved leaves the vertex where it is.
+        let point = at(shares, surface.mesh.corners(triangle as usize));
+        Binding { triangle, shares, beside: p - point, weight: weight / sum }
+    };
+    let bindings = chosen.into_iter().zip(weights).filter(|(_, w)| *w > 0.0).map(binding).collect();
+    (bindings, nearest.distance)
+}
+
+/// The point with barycentric coordinates `shares` on a triangle.
+pub(super) fn at(shares: [f64; 3], [a, b, c]: [DVec3; 3]) -> DVec3 {
+    a * shares[0] + b * shares[1] + c * shares[2]
+}
+
+/// Barycentric coordinates of a point on a triangle (Ericson, Real-Time Collision Detection, 3.4); of one without area
+/// those of the nearest corner.
+fn barycentric(p: DVec3, [a, b, c]: [DVec3; 3]) -> [f64; 3] {
+    let (u, v, w) = (b - a, c - a, p - a);
+    let (uu, uv, vv, wu, wv) = (u.dot(u), u.dot(v), v.dot(v), w.dot(u), w.dot(v));
+    let det = uu * vv - uv * uv;
+    if det <= f64::EPSILON * uu * vv {
+        let far = [a, b, c].map(|q| q.distance_squared(p));
+        let nearest = (0..3).min_by(|&i, &j| far[i].total_cmp(&far[j])).unwrap_or(0);
+        return [0, 1, 2].map(|k| f64::from(u8::from(k == nearest)));
+    }
+    let (s, t) = ((vv * wu - uv * wv) / det, (uu * wv - uv * wu) / det);
+    let shares = [1.0 - s - t, s, t].map(|x| x.clamp(0.0, 1.0));
+    let sum: f64 = shares.iter().sum();
+    shares.map(|x| x / sum)
+}

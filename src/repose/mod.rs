@@ -1,0 +1,16 @@
+//! Paper C (Zhong, "Fast Virtual Garment Dressing on Posed Human Model"): dressed cloth goes along when its body takes
+//! another pose.
+
+mod between;
+mod conform;
+mod distance_map;
+mod excess;
+mod reposer;
+mod turns;
+
+#[cfg(test)]
+mod tests;
+
+pub use conform::conformed;
+pub use distance_map::{Binding, DistanceMap};
+pub use reposer::{Care, Outcome, Reposer};

@@ -1,0 +1,286 @@
+//! Dressed cloth carried to other poses of its body, always from the pose it was dressed in: poses do not wear it out.
+
+use std::sync::Arc;
+
+use glam::{DVec2, DVec3};
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use crate::body::Surface;
+use crate::cloth::{ClothState, Garment};
+use crate::relax::{GlobalStep, RelaxSettings, Relaxer};
+use crate::repose::between::between;
+use crate::repose::conform::conformed;
+use crate::repose::distance_map::DistanceMap;
+use crate::repose::excess::Lengths;
+
+/// Conforming that strained no more than this, and left nothing inside, is left as it is.
+const EXACT: f64 = 1e-6;
+/// A vertex moves no farther in one global step, metres on a body 1.5 m large.
+const STEP_CAP: f64 = 0.02;
+/// Weight of contact in the global steps.
+const CONTACT: f64 = 0.1;
+/// How many times as far as solved each global step in the same contacts goes.
+const PACES: [f64; 3] = [1.7; 3];
+/// Global steps in each pose on the way.
+const STEPS_PER_SUBSTEP: usize = 12;
+/// Global steps between two looks at the strain.
+const STEPS_PER_LOOK: usize = 4;
+/// Layers that run through each other are parted every so many steps.
+const STEPS_PER_PARTING: usize = 8;
+/// Edges and faces keep this share of the offset.
+const FACE_CLEARANCE: f64 = 0.25;
+/// Vertices keep this share of the offset in any case.
+const VERTEX_CLEARANCE: f64 = 0.25;
+/// So often is a vertex sent out of the body at the end: the nearest skin may be another one then.
+const SENDS: usize = 4;
+/// Vertices one thread takes at a time.
+const LEAST_SHARE: usize = 128;
+
+/// How much is done to carry cloth over.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Care {
+    /// Strain beyond what it had before that 99 of 100 edges shall not exceed, 0..=0.1.
+    pub excess: f64,
+    /// Global steps at most, 0..=1000.
+    pub most_steps: usize,
+    /// Poses on the way at most, 0..=50: where conforming alone would strain it too much, it goes there by turns of a few
+    /// degrees.
+    pub most_substeps: usize,
+    /// So often at most, 0..=20, faces that cut the body are raised, faces on the wrong side sent off, and layers that
+    /// run through each other parted, each followed by steps.
+    pub mends: usize,
+}
+
+impl Care {
+    /// For a picture every frame.
+    pub const LIVE: Self = Self { excess: 0.01, most_steps: 12, most_substeps: 0, mends: 0 };
+    /// For cloth that stays as it comes out.
+    pub const THOROUGH: Self = Self { excess: 0.01, most_steps: 120, most_substeps: 12, mends: 6 };
+}
+
+/// What came of it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Outcome {
+    /// |l / l_before - 1| that 99 of 100 edges do not exceed, after conforming,
+    pub conformed_p99: f64,
+    /// and at the end.
+    pub excess_p99: f64,
+    /// Vertices that conforming put into the body,
+    pub conformed_inside: usize,
+    /// and that are there at the end, by the nearest skin.
+    pub inside: usize,
+    /// Poses on the way.
+    pub substeps: usize,
+    /// Global steps done.
+    pub steps: usize,
+    /// Times it was mended.
+    pub mends: usize,
+}
+
+/// A dressed garment bound to its body.
+#[derive(Clone, Debug)]
+pub struct Reposer {
+    from: Arc<Surface>,
+    cloth: ClothState,
+    map: DistanceMap,
+    lengths: Lengths,
+    /// Relaxes towards the shape that every triangle had when bound: what it was strained already, it may stay.
+    relaxer: Relaxer,
+}
+
+impl Reposer {
+    /// Binds `cloth` as it lies on `surface`. None when its matrix cannot be factored (out of memory).
+    pub fn new(
+        garment: &Garment,
+        surface: Arc<Surface>,
+        cloth: ClothState,
+        settings: RelaxSettings,
+    ) -> Option<Self> {
+        let map = DistanceMap::new(&surface, &cloth);
+        let lengths = Lengths::of(garment, &cloth);
+        let as_it_lies = Arc::new(with_shape_of(garment, &cloth));
+        let mut relaxer = Relaxer::new(as_it_lies, Arc::clone(&surface), settings)?;
+        relaxer.set_mapped(&cloth.mapped);
+        Some(Self { from: surface, cloth, map, lengths, relaxer })
+    }
+
+    /// The body the cloth was bound to.
+    pub fn from(&self) -> &Arc<Surface> {
+        &self.from
+    }
+
+    /// The distance map.
+    pub fn map(&self) -> &DistanceMap {
+        &self.map
+    }
+
+    /// Where the cloth is on `to`, the same body in another pose. None when `to` has another topology.
+    pub fn reposed(&mut self, to: &Arc<Surface>, care: Care) -> Option<(ClothState, Outcome)> {
+        if to.mesh.triangles != self.from.mesh.triangles {
+            return None;
+        }
+        let mut outcome = Outcome::default();
+        let positions = conformed(&self.map, &self.from, to, &self.cloth.positions);
+        let mut state = ClothState { positions, mapped: self.cloth.mapped.clone() };
+        if state.positions == self.cloth.positions && to.mesh.positions == self.from.mesh.positions {
+            return Some((state, outcome));
+        }
+        outcome.conformed_p99 = self.lengths.p99(&state);
+        let bodies = if outcome.conformed_p99 > care.excess {
+            between(&self.from, to, care.most_substeps)
+        } else {
+            Vec::new()
+        };
+        outcome.substeps = bodies.len();
+        if !bodies.is_empty() {
+            state = self.through(bodies, to, care, &mut outcome);
+        }
+        self.enter(to, &state);
+        outcome.conformed_inside = self.recover(&mut state, &self.map.heights.clone());
+        outcome.excess_p99 = outcome.conformed_p99;
+        if outcome.conformed_inside > 0 || outcome.conformed_p99 > EXACT {
+            self.control(&mut state, care, &mut outcome);
+            outcome.inside = self.send_out(&mut state);
+            outcome.excess_p99 = self.lengths.p99(&state);
+        }
+        Some((state, outcome))
+    }
+
+    /// Goes through `bodies`, the poses on the way, bound anew to each; then on to `to`.
+    fn through(
+        &mut self,
+        bodies: Vec<Arc<Surface>>,
+        to: &Arc<Surface>,
+        care: Care,
+        outcome: &mut Outcome,
+    ) -> ClothState {
+        let first = &bodies[0];
+        let positions = conformed(&self.map, &self.from, first, &self.cloth.positions);
+        let mut state = ClothState { positions, mapped: self.cloth.mapped.clone() };
+        let mut heights = self.map.heights.clone();
+        for (i, body) in bodies.iter().enumerate() {
+            self.enter(body, &state);
+            self.recover(&mut state, &heights);
+            for k in 0..STEPS_PER_SUBSTEP {
+                self.step(&mut state, care, k + 1);
+                outcome.steps += 1;
+            }
+            let map = DistanceMap::new(body, &state);
+            let next = bodies.get(i + 1).unwrap_or(to);
+            state.positions = conformed(&map, body, next, &state.positions);
+            heights = map.heights;
+        }
+        state
+    }
+
+    /// The cloth, as it lies in `state`, is on `body` now.
+    fn enter(&mut self, body: &Arc<Surface>, state: &ClothState) {
+        self.relaxer.change_body(Arc::clone(body));
+        self.relaxer.forget_motion(state);
+    }
+
+    /// Penetration recovery: P = Q + max(|PQ|, o) n with the exact closest point and its pseudonormal; the length is the
+    /// height at which the vertex was bound, so that layers keep their order. Returns how many were inside.
+    fn recover(&mut self, state: &mut ClothState, heights: &[f64]) -> usize {
+        let offset = self.relaxer.offset();
+        self.relaxer.track(state, 2.0 * offset);
+        let mut inside = 0;
+        for v in (0..state.positions.len()).filter(|&v| state.mapped[v]) {
+            let Some(plane) = self.relaxer.plane(v as u32) else { continue };
+            let height = plane.height(state.positions[v]);
+            if height < 0.0 {
+                inside += 1;
+                let wanted = heights[v].clamp(VERTEX_CLEARANCE * offset, 2.0 * offset);
+                state.positions[v] = plane.point + plane.normal * wanted;
+            }
+        }
+        inside
+    }
+
+    /// Strain control: global steps in contact until the strain is what it may be, then mending.
+    fn control(&mut self, state: &mut ClothState, care: Care, outcome: &mut Outcome) {
+        for done in 1..=care.most_steps {
+            self.step(state, care, done);
+            outcome.steps += 1;
+            if !done.is_multiple_of(STEPS_PER_LOOK) || self.lengths.p99(state) > care.excess {
+                continue;
+            }
+            if outcome.mends == care.mends || !self.mend(state) {
+                break;
+            }
+            outcome.mends += 1;
+        }
+    }
+
+    /// The `done`-th global step in these contacts.
+    fn step(&mut self, state: &mut ClothState, care: Care, done: usize) {
+        let step = GlobalStep {
+            cap: STEP_CAP * self.relaxer.surface.scale(),
+            contact: CONTACT,
+            hold: 0.0,
+            slack: 0.0,
+            unfold: care.mends > 0,
+            weight: false,
+        };
+        self.relaxer.global_steps(state, step, &PACES);
+        if care.mends > 0 && done.is_multiple_of(STEPS_PER_PARTING) && self.relaxer.part_layers(state) == 0 {
+            self.relaxer.ease_parting();
+        }
+    }
+
+    /// Raises faces that cut the body, sends faces on the wrong side off, and parts layers. Whether there were any.
+    fn mend(&mut self, state: &mut ClothState) -> bool {
+        let clearance = self.relaxer.offset() * FACE_CLEARANCE;
+        let wrong = self.relaxer.lift_faces(state, clearance) + self.relaxer.send_wrong_faces(state);
+        wrong + self.relaxer.part_layers(state) > 0
+    }
+
+    /// Vertices still in the body go to the nearest skin above them. Returns how many stay inside: between parts of a body
+    /// that cross there is no way out.
+    fn send_out(&self, state: &mut ClothState) -> usize {
+        let surface = &self.relaxer.surface;
+        let least = VERTEX_CLEARANCE * self.relaxer.offset();
+        let sent = |(p, &mapped): (&mut DVec3, &bool)| {
+            for _ in 0..SENDS {
+                match mapped.then(|| surface.nearest(*p)) {
+                    Some(skin) if skin.distance < 0.0 => *p = skin.point + skin.normal * least,
+                    _ => return false,
+                }
+            }
+            surface.nearest(*p).distance < 0.0
+        };
+        let ClothState { positions, mapped } = state;
+        positions
+            .par_iter_mut()
+            .zip(mapped.par_iter())
+            .with_min_len(LEAST_SHARE)
+            .filter_map(|x| sent(x).then_some(()))
+            .count()
+    }
+}
+
+/// `garment` with the flat shape that each laid triangle has where it lies.
+fn with_shape_of(garment: &Garment, cloth: &ClothState) -> Garment {
+    let mut shaped = garment.clone();
+    for (vs, rest) in garment.triangles.iter().zip(&mut shaped.rest) {
+        if vs.iter().all(|&v| cloth.mapped[v as usize])
+            && let Some(shape) = flat_shape(vs.map(|v| cloth.positions[v as usize]))
+        {
+            *rest = shape;
+        }
+    }
+    shaped
+}
+
+/// A triangle laid flat about its centroid, counter-clockwise. None where it has no area.
+fn flat_shape([a, b, c]: [DVec3; 3]) -> Option<[DVec2; 3]> {
+    let (u, v) = (b - a, c - a);
+    let (length, size) = (u.length(), u.cross(v).length());
+    if size <= f64::EPSILON * length * length || length == 0.0 {
+        return None;
+    }
+    let corners = [DVec2::ZERO, DVec2::new(length, 0.0), DVec2::new(u.dot(v) / length, size / length)];
+    let centre = (corners[1] + corners[2]) / 3.0;
+    Some(corners.map(|corner| corner - centre))
+}

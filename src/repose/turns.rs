@@ -1,0 +1,116 @@
+//! How the skin round each vertex of a body turns from one pose to another.
+//!
+//! A triangle's turn is the rotation of the polar decomposition of its deformation gradient, the normal going to the normal:
+//! the full frame, not the smallest rotation between the normals, which would lose the turn about them and has none for
+//! opposite ones (ALGORITHMS.md 1.C). A vertex has the mean of its triangles', so that neighbouring points of the skin turn
+//! alike.
+
+use glam::{DMat3, DQuat, DVec2, DVec3};
+use rayon::prelude::*;
+
+use crate::body::Surface;
+
+/// Vertices one thread takes at a time.
+const LEAST_SHARE: usize = 256;
+/// A triangle turns nothing when its height is less than this share of its first side.
+const COLLAPSED: f64 = 1e-9;
+
+/// The turn of each vertex that is asked for; None where neither it nor its triangles have moved.
+pub(super) fn turns(from: &Surface, to: &Surface, vertices: &[u32]) -> Vec<Option<DQuat>> {
+    let (before, after) = (&from.mesh.positions, &to.mesh.positions);
+    let moved = |v: u32| before[v as usize] != after[v as usize];
+    let turn = |&v: &u32| {
+        let around = from.adjacency.vertex_triangles.of(v);
+        if !around.iter().flat_map(|&t| from.mesh.triangles[t as usize]).any(moved) {
+            return None;
+        }
+        let turns = around.iter().map(|&t| {
+            let corners = from.mesh.corners(t as usize);
+            (triangle_turn(corners, to.mesh.corners(t as usize)), area(corners))
+        });
+        Some(mean(turns))
+    };
+    vertices.par_iter().with_min_len(LEAST_SHARE).map(turn).collect()
+}
+
+/// The weighted mean of rotations that are not far apart; unturned where there is none.
+pub(super) fn mean(turns: impl Iterator<Item = (DQuat, f64)>) -> DQuat {
+    let mut sum = DQuat::from_xyzw(0.0, 0.0, 0.0, 0.0);
+    for (turn, weight) in turns {
+        let near = if sum.dot(turn) < 0.0 { -turn } else { turn };
+        sum = sum + near * weight;
+    }
+    if sum.length_squared() > f64::MIN_POSITIVE { sum.normalize() } else { DQuat::IDENTITY }
+}
+
+fn area([a, b, c]: [DVec3; 3]) -> f64 {
+    (b - a).cross(c - a).length() / 2.0
+}
+
+/// The rotation in the polar decomposition of the map that takes a triangle and its normal to another.
+pub(super) fn triangle_turn(from: [DVec3; 3], to: [DVec3; 3]) -> DQuat {
+    let (Some((frame_from, flat_from)), Some((frame_to, flat_to))) = (framed(from), framed(to)) else {
+        return DQuat::IDENTITY;
+    };
+    // In the plane, first sides lie along x: the gradient is [[s, k], [0, t]], and its turn is known in closed form.
+    let s = flat_to[0].x / flat_from[0].x;
+    let k = (flat_to[1].x - s * flat_from[1].x) / flat_from[1].y;
+    let t = flat_to[1].y / flat_from[1].y;
+    let in_plane = DMat3::from_rotation_z(-k.atan2(s + t));
+    DQuat::from_mat3(&(frame_to * in_plane * frame_from.transpose()))
+}
+
+/// A frame of a triangle (first side, in the plane across it, normal) and its sides from the first corner in it.
+fn framed([a, b, c]: [DVec3; 3]) -> Option<(DMat3, [DVec2; 2])> {
+    let (u, v) = (b - a, c - a);
+    let (length, normal) = (u.length(), u.cross(v));
+    let size = normal.length();
+    if size <= COLLAPSED * length * length || length == 0.0 {
+        return None;
+    }
+    let (x, z) = (u / length, normal / size);
+    let frame = DMat3::from_cols(x, z.cross(x), z);
+    Some((frame, [DVec2::new(length, 0.0), DVec2::new(v.dot(x), size / length)]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FROM: [DVec3; 3] =
+        [DVec3::new(0.3, 0.1, -0.2), DVec3::new(1.2, 0.4, 0.1), DVec3::new(0.5, 1.1, 0.3)];
+
+    #[test]
+    fn a_turned_triangle_gives_its_turn_also_about_its_normal_and_over_its_head() {
+        for axis in [DVec3::X, DVec3::new(1.0, 2.0, -0.5).normalize(), (FROM[1] - FROM[0]).normalize()] {
+            for angle in [0.0, 1e-7, 0.4, 2.0, std::f64::consts::PI] {
+                let turn = DQuat::from_axis_angle(axis, angle);
+                let found = triangle_turn(FROM, FROM.map(|p| turn * p + DVec3::Y));
+                assert!((found.dot(turn).abs() - 1.0).abs() < 1e-12, "{axis} {angle}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_stretch_turns_nothing() {
+        let flat = FROM.map(|p| DVec3::new(p.x, p.y, 0.0));
+        // A symmetric map in the plane is a stretch: its polar factor is the identity.
+        let stretched = flat.map(|p| DVec3::new(1.4 * p.x + 0.3 * p.y, 0.3 * p.x + 0.9 * p.y, 0.0));
+        let turn = triangle_turn(flat, stretched);
+        assert!(turn.to_scaled_axis().length() < 1e-12, "{turn}");
+    }
+
+    #[test]
+    fn a_collapsed_triangle_turns_nothing() {
+        assert_eq!(triangle_turn([DVec3::ZERO; 3], FROM), DQuat::IDENTITY);
+        assert_eq!(triangle_turn(FROM, [DVec3::ZERO, DVec3::X, DVec3::X * 2.0]), DQuat::IDENTITY);
+    }
+
+    #[test]
+    fn a_mean_is_halfway_whatever_the_signs() {
+        let turn = |angle: f64| DQuat::from_rotation_y(angle);
+        let found = mean([(turn(0.2), 1.0), (-turn(0.6), 1.0)].into_iter());
+        assert!((found.dot(turn(0.4)).abs() - 1.0).abs() < 1e-12);
+        assert_eq!(mean(std::iter::empty()), DQuat::IDENTITY);
+    }
+}

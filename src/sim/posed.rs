@@ -1,0 +1,74 @@
+//! Cloth that went along when its body took another pose.
+
+use std::sync::Arc;
+
+use crate::body::Surface;
+use crate::cloth::ClothState;
+use crate::contact::Splits;
+use crate::repose::{Care, Outcome, Reposer};
+use crate::sim::world::World;
+use crate::wrap::Marks;
+
+/// A change of pose. While the cloth lies as it left it, the next one starts from the pose that the cloth was dressed in:
+/// through however many poses it goes, it comes back to where it lay.
+#[derive(Clone, Debug)]
+pub struct Posed {
+    reposer: Reposer,
+    cloth: Arc<ClothState>,
+    outcome: Outcome,
+}
+
+impl World {
+    /// The dressed cloth on its body in the pose of `body`. None where nothing is dressed; cloth that still grows begins again
+    /// there. The error is in words.
+    pub fn reposed(
+        &mut self,
+        body: Arc<Surface>,
+        marks: Arc<Marks>,
+        settle: bool,
+    ) -> Result<Option<Self>, String> {
+        let (Some(garment), Some(from), Some(source)) = (&self.garment, &self.body, &self.source) else {
+            return Ok(None);
+        };
+        let mut source = Arc::clone(source);
+        Arc::make_mut(&mut source).marks = marks;
+        if self.dressing.as_ref().is_some_and(|dressing| dressing.relaxer().is_none()) {
+            let places = Arc::clone(&self.places);
+            return Ok(Some(Self { relaxing: self.relaxing, places, ..Self::wrapped(source, body) }));
+        }
+        let (garment, from) = (Arc::clone(garment), Arc::clone(from));
+        let known = self.lying_as_posed().map(|posed| posed.reposer.clone());
+        self.release();
+        let new = || Reposer::new(&garment, from, ClothState::clone(&self.cloth), source.relax);
+        let mut reposer =
+            known.or_else(new).ok_or("the garment is too large for this machine's memory".to_owned())?;
+        let (cloth, outcome) = reposer
+            .reposed(&body, Care::THOROUGH)
+            .ok_or("the body in the new pose has other triangles than the dressed one".to_owned())?;
+        let cloth = Arc::new(cloth);
+        let splits = Splits::of_lying(&garment, &cloth, &body, source.relax.offset).map(Arc::new);
+        let posed = Some(Arc::new(Posed { reposer, cloth: Arc::clone(&cloth), outcome }));
+        let mut world = Self {
+            source: Some(source),
+            body: Some(body),
+            cloth,
+            dressing: None,
+            splits,
+            posed,
+            ..self.clone()
+        };
+        if settle {
+            world.settle();
+        }
+        Ok(Some(world))
+    }
+
+    /// What came of the last change of pose, while the cloth lies as it left it.
+    pub fn outcome(&self) -> Option<Outcome> {
+        self.lying_as_posed().map(|posed| posed.outcome)
+    }
+
+    fn lying_as_posed(&self) -> Option<&Arc<Posed>> {
+        self.posed.as_ref().filter(|posed| Arc::ptr_eq(&posed.cloth, &self.cloth))
+    }
+}
