@@ -26,6 +26,8 @@ const PACES: [f64; 3] = [1.7; 3];
 const STEPS_PER_SUBSTEP: usize = 12;
 /// Global steps between two looks at the strain.
 const STEPS_PER_LOOK: usize = 4;
+/// A mend has so many steps to take effect.
+const STEPS_PER_MEND: usize = 8;
 /// Layers that run through each other are parted every so many steps.
 const STEPS_PER_PARTING: usize = 8;
 /// Edges and faces keep this share of the offset.
@@ -47,8 +49,8 @@ pub struct Care {
     /// Poses on the way at most, 0..=50: where conforming alone would strain it too much, it goes there by turns of a few
     /// degrees.
     pub most_substeps: usize,
-    /// So often at most, 0..=20, faces that cut the body are raised, faces on the wrong side sent off, and layers that
-    /// run through each other parted, each followed by steps.
+    /// So often at most, 0..=20, faces that cut the body are raised at the end, followed by some steps. With any, cloth that
+    /// faces the skin of another limb is sent off it all along, and layers that run through each other are parted.
     pub mends: usize,
 }
 
@@ -56,7 +58,7 @@ impl Care {
     /// For a picture every frame.
     pub const LIVE: Self = Self { excess: 0.01, most_steps: 12, most_substeps: 0, mends: 0 };
     /// For cloth that stays as it comes out.
-    pub const THOROUGH: Self = Self { excess: 0.01, most_steps: 120, most_substeps: 12, mends: 6 };
+    pub const THOROUGH: Self = Self { excess: 0.01, most_steps: 120, most_substeps: 12, mends: 3 };
 }
 
 /// What came of it.
@@ -198,16 +200,20 @@ impl Reposer {
         inside
     }
 
-    /// Strain control: global steps in contact until the strain is what it may be, then mending.
+    /// Strain control: global steps in contact until the strain is what it may be; then faces that cut the body are raised.
     fn control(&mut self, state: &mut ClothState, care: Care, outcome: &mut Outcome) {
         for done in 1..=care.most_steps {
             self.step(state, care, done);
             outcome.steps += 1;
-            if !done.is_multiple_of(STEPS_PER_LOOK) || self.lengths.p99(state) > care.excess {
-                continue;
-            }
-            if outcome.mends == care.mends || !self.mend(state) {
+            if done.is_multiple_of(STEPS_PER_LOOK) && self.lengths.p99(state) <= care.excess {
                 break;
+            }
+        }
+        let clearance = self.relaxer.offset() * FACE_CLEARANCE;
+        while outcome.mends < care.mends && self.relaxer.lift_faces(state, clearance) > 0 {
+            for done in 1..=STEPS_PER_MEND {
+                self.step(state, care, done);
+                outcome.steps += 1;
             }
             outcome.mends += 1;
         }
@@ -227,13 +233,6 @@ impl Reposer {
         if care.mends > 0 && done.is_multiple_of(STEPS_PER_PARTING) && self.relaxer.part_layers(state) == 0 {
             self.relaxer.ease_parting();
         }
-    }
-
-    /// Raises faces that cut the body, sends faces on the wrong side off, and parts layers. Whether there were any.
-    fn mend(&mut self, state: &mut ClothState) -> bool {
-        let clearance = self.relaxer.offset() * FACE_CLEARANCE;
-        let wrong = self.relaxer.lift_faces(state, clearance) + self.relaxer.send_wrong_faces(state);
-        wrong + self.relaxer.part_layers(state) > 0
     }
 
     /// Vertices still in the body go to the nearest skin above them. Returns how many stay inside: between parts of a body
