@@ -124,7 +124,9 @@ fn the_largest_angle_is_that_of_a_fold() {
     });
     let map = folded.map(MapKind::Curvature);
     let on_seam = folded.map(MapKind::Seams);
-    for (angle, seam) in map.vertices.iter().zip(&on_seam.vertices) {
+    // A corner in one triangle has no angle.
+    assert!(map.vertices.iter().filter(|angle| angle.is_nan()).count() <= 4);
+    for (angle, seam) in map.vertices.iter().zip(&on_seam.vertices).filter(|(angle, _)| !angle.is_nan()) {
         let exact = if seam.is_finite() { fold } else { 0.0 };
         assert!((angle - exact).abs() < 1e-9, "{angle} for {exact}");
     }
