@@ -38,7 +38,7 @@ pub(super) fn mean(turns: impl Iterator<Item = (DQuat, f64)>) -> DQuat {
     let mut sum = DQuat::from_xyzw(0.0, 0.0, 0.0, 0.0);
     for (turn, weight) in turns {
         let near = if sum.dot(turn) < 0.0 { -turn } else { turn };
-        sum = sum + near * weight;
+        sum += near * weight;
     }
     if sum.length_squared() > f64::MIN_POSITIVE { sum.normalize() } else { DQuat::IDENTITY }
 }
