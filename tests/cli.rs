@@ -15,6 +15,8 @@ mod patterns;
 mod program;
 #[path = "cli/replay.rs"]
 mod replay;
+#[path = "cli/repose.rs"]
+mod repose;
 #[path = "cli/signals.rs"]
 mod signals;
 #[path = "cli/simulate.rs"]

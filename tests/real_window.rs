@@ -172,6 +172,20 @@ fn twin(project: &Project) -> Harness<'static, Option<App>> {
     window
 }
 
+/// Where a point of the table is on the screen.
+fn on_screen(twin: &Harness<'_, Option<App>>, p: DVec2) -> Pos2 {
+    twin.state().as_ref().and_then(|app| app.on_screen(p)).expect("a frame was drawn")
+}
+
+/// The straight line nearest to pairs of values, as a function.
+fn line_through(pairs: &[[f64; 2]]) -> impl Fn(f64) -> f64 + use<> {
+    let n = pairs.len() as f64;
+    let [x, y] = [0, 1].map(|k| pairs.iter().map(|pair| pair[k]).sum::<f64>() / n);
+    let slope = pairs.iter().map(|p| (p[0] - x) * (p[1] - y)).sum::<f64>()
+        / pairs.iter().map(|p| (p[0] - x).powi(2)).sum::<f64>();
+    move |value| y + slope * (value - x)
+}
+
 /// A level stroke round the front of the hips as seen by the twin's camera, from left to right, and how long it and the
 /// one behind it are on the skin, metres.
 fn round_the_hips(twin: &Harness<'_, Option<App>>, body: &Surface, y: f64) -> (Vec<Pos2>, [f64; 2]) {
@@ -219,15 +233,16 @@ fn a_skirt_is_drawn_sewn_marked_and_dressed_with_the_pointer() {
 
     // Front and back, side by side, further apart than corners draw each other on.
     let shown = twin(&empty);
-    let at = |p: DVec2| shown.state().as_ref().and_then(|app| app.on_screen(p)).expect("a frame was drawn");
     let choose = |tool: &str| screen.click(shown.get_by_label(tool).rect().center());
+    let at = |p: DVec2| on_screen(&shown, p);
+    let mut drawn_from = Vec::new();
     for left in [-0.03 - width, 0.03] {
         choose("Rectangle");
         let ends = [DVec2::new(left, 0.2), DVec2::new(left + width, 0.2 - height)];
         screen.drag(&[at(ends[0]), at(ends[0].midpoint(ends[1])), at(ends[1])]);
+        drawn_from.push(ends.map(at));
     }
     let drawn = screen.saved(&file, "two pieces", |p| p.document.pattern.pieces.len() == 2);
-
     // The side seams: the right edge of each to the left edge of the other.
     let pieces: Vec<_> = drawn.document.pattern.pieces.values().cloned().collect();
     let boxes = pieces.iter().map(|piece| {
@@ -236,6 +251,22 @@ fn a_skirt_is_drawn_sewn_marked_and_dressed_with_the_pointer() {
         corners.iter().fold([corners[0]; 2], |[a, b], &p| [a.min(p), b.max(p)])
     });
     let boxes: Vec<[DVec2; 2]> = boxes.collect();
+    // What was drawn tells where the table lies on this screen: the twin's panes may be some points wider.
+    let corners = boxes.iter().zip(&drawn_from);
+    let [xs, ys]: [Vec<[f64; 2]>; 2] = corners
+        .flat_map(|(&[lower, upper], &[first, last])| {
+            [
+                ([lower.x, first.x.into()], [upper.y, first.y.into()]),
+                ([upper.x, last.x.into()], [lower.y, last.y.into()]),
+            ]
+        })
+        .fold([Vec::new(), Vec::new()], |[mut xs, mut ys], (x, y)| {
+            xs.push(x);
+            ys.push(y);
+            [xs, ys]
+        });
+    let (across, up) = (line_through(&xs), line_through(&ys));
+    let at = |p: DVec2| pos2(across(p.x) as f32, up(p.y) as f32);
     let side = |i: usize, right: bool, lift: f64| {
         let [lower, upper] = boxes[i];
         DVec2::new(if right { upper.x } else { lower.x }, (lower.y + upper.y) / 2.0 + lift)

@@ -221,7 +221,7 @@ pub struct Repose {
 /// Reads maps off the dressed garment of a project: figures as JSON and CSV, pictures with their legend
 ///
 /// Writes fit.json (range, statistics for the garment and each piece, histogram), and of each map NAME.csv (a row for each
-/// vertex), NAME-triangles.csv and NAME.png.
+/// vertex of each piece), NAME-triangles.csv and NAME.png.
 #[derive(Debug, Args)]
 pub struct Fit {
     /// Dressed project, as saved by dress --save or repose --save

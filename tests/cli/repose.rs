@@ -1,0 +1,85 @@
+//! `toile repose` and `toile fit` from outside.
+
+use glam::{DQuat, DVec3};
+
+use crate::program::Place;
+
+/// Vertices of an OBJ file.
+fn vertices(text: &str) -> Vec<DVec3> {
+    let numbers =
+        |line: &str| -> Vec<f64> { line.split_whitespace().filter_map(|w| w.parse().ok()).collect() };
+    let found = text.lines().filter_map(|line| line.strip_prefix("v ")).map(numbers);
+    found.map(|n| DVec3::new(n[0], n[1], n[2])).collect()
+}
+
+/// The OBJ file with every vertex moved.
+fn moved(text: &str, to: impl Fn(DVec3) -> DVec3) -> String {
+    let mut places = vertices(text).into_iter().map(to);
+    let line = |line: &str| match line.starts_with("v ").then(|| places.next()).flatten() {
+        Some(p) => format!("v {} {} {}\n", p.x, p.y, p.z),
+        None => format!("{line}\n"),
+    };
+    text.lines().map(line).collect()
+}
+
+/// The ball with its patches on it, in "dressed.toile", and the files of `toile dress` in "out".
+fn dressed() -> Place {
+    let place = Place::with_ball();
+    place.run("dress ball.toile --out out --save dressed.toile");
+    assert!(!place.names("out").is_empty());
+    place
+}
+
+#[test]
+fn cloth_goes_along_with_a_body_that_turns() {
+    let place = dressed();
+    let turn = DQuat::from_rotation_y(0.7) * DQuat::from_rotation_x(0.3);
+    let there = move |p: DVec3| turn * p + DVec3::new(0.1, 0.05, -0.2);
+    place.write("posed.obj", moved(&place.read("out/body.obj"), there));
+    let report =
+        place.run("repose dressed.toile --body posed.obj --unit m --out posed --save posed.toile --json");
+    assert!([0, 1].contains(&report.code), "{report:#?}");
+    let (before, after) =
+        (vertices(&place.read("out/garment.obj")), vertices(&place.read("posed/garment.obj")));
+    assert_eq!(before.len(), after.len());
+    let worst = before.iter().zip(&after).map(|(&p, q)| there(p).distance(*q)).fold(0.0, f64::max);
+    assert!(worst < 1e-4, "{worst}");
+    place.ends(0, "check posed.toile");
+}
+
+#[test]
+fn a_body_of_other_triangles_and_two_saves_are_refused_in_words() {
+    let place = dressed();
+    let other = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+    place.write("other.obj", other);
+    let refused = place.ends(3, "repose dressed.toile --body other.obj --unit m --out posed");
+    assert!(refused.err.contains("other.obj"), "{refused:#?}");
+    place.ends(2, "repose dressed.toile --body a.obj --body b.obj --out posed --save one.toile");
+    place.ends(6, "repose dressed.toile --body nowhere.obj --out posed");
+}
+
+#[test]
+fn maps_are_written_as_figures() {
+    let place = dressed();
+    place.ends(0, "fit dressed.toile --map strain --map ease --map curvature --out maps");
+    let figures = place.json("maps/fit.json");
+    let maps = figures["maps"].as_array().expect("maps");
+    let names: Vec<&str> = maps.iter().filter_map(|map| map["map"].as_str()).collect();
+    for name in ["warp", "weft", "shear", "area", "ease", "curvature"] {
+        assert!(names.contains(&name), "{names:?}");
+    }
+    // Vertices on the seam stand in it once for each piece.
+    let text = place.read("maps/ease.csv");
+    let vertices: std::collections::BTreeSet<&str> =
+        text.lines().skip(1).filter_map(|row| row.split(',').nth(3)).collect();
+    assert_eq!(vertices.len() as u64, figures["vertices"].as_u64().expect("a count"));
+    let ease = maps.iter().find(|map| map["map"] == "ease").expect("ease");
+    assert!(ease["mean"].as_f64().expect("a mean") > 0.0, "{ease}");
+}
+
+#[test]
+fn a_project_without_cloth_has_no_maps() {
+    let place = Place::with_ball();
+    place.ends_with_words(3, "fit ball.toile --map ease --out maps", "dress it first");
+    place.ends_with_words(2, "fit ball.toile --map warmth --out maps", "warmth");
+}
