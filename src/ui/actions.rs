@@ -353,6 +353,7 @@ impl Action {
             Self::StartPage
                 | Self::Open
                 | Self::OpenRecent(_)
+                | Self::CommandPalette
                 | Self::ClearRecent
                 | Self::Preferences
                 | Self::Shortcuts
@@ -360,6 +361,7 @@ impl Action {
                 | Self::Unit(_)
                 | Self::Theme(_)
                 | Self::Mouse(_)
+                | Self::Paper(_)
         )
     }
 

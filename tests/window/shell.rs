@@ -351,6 +351,22 @@ fn losing_the_pointer_or_the_window_ends_every_drag_in_the_body_pane() {
 }
 
 #[test]
+fn the_palette_opens_over_the_start_page_and_escape_closes_it_alone() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = start_window(folder.path());
+    let is_there = |window: &Window, label: &str| window.query_by_label(label).is_some();
+    key(&mut window, Modifiers::COMMAND, Key::P);
+    assert!(is_there(&window, "Find a command") && is_there(&window, "Tour: dressed in five steps"));
+    key(&mut window, Modifiers::NONE, Key::Escape);
+    assert!(!is_there(&window, "Find a command") && is_there(&window, "Tour: dressed in five steps"));
+    key(&mut window, Modifiers::NONE, Key::F3);
+    type_into(&mut window, "scarf");
+    key(&mut window, Modifiers::NONE, Key::Enter);
+    assert!(!is_there(&window, "Tour: dressed in five steps"));
+    assert!(!app(&window).session().document().pattern.pieces.is_empty(), "the sample is open");
+}
+
+#[test]
 fn nothing_is_drawn_on_a_start_page_that_is_left_alone() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = start_window(folder.path());
