@@ -2,7 +2,9 @@
 //! seconds at 60 frames. Prints seconds of work per simulated second, edge strain and depth. With the argument `reference` the
 //! small sheets are also held against implicit steps of 1/480 s.
 
-use std::f64::consts::{PI, TAU};
+#[path = "../tests/common/mod.rs"]
+mod common;
+
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -10,7 +12,6 @@ use glam::{DVec2, DVec3};
 use toile::body::Surface;
 use toile::cloth::Fabric;
 use toile::drape::{Collider, Drape, DrapeSettings, Elastic, Integrator, Method, Scene, Sheet, State};
-use toile::geometry::mesh::TriMesh;
 
 const FRAMES: usize = 120;
 const RADIUS: f64 = 0.3;
@@ -23,28 +24,7 @@ enum Peer {
 }
 
 fn ball() -> Collider {
-    let (rings, sectors) = (80u32, 128u32);
-    let mut positions = vec![DVec3::Y * RADIUS];
-    for i in 1..rings {
-        let (sin, cos) = (PI * f64::from(i) / f64::from(rings)).sin_cos();
-        for j in 0..sectors {
-            let (z, x) = (TAU * f64::from(j) / f64::from(sectors)).sin_cos();
-            positions.push(DVec3::new(x * sin, cos, -z * sin) * RADIUS);
-        }
-    }
-    positions.push(DVec3::NEG_Y * RADIUS);
-    let last = positions.len() as u32 - 1;
-    let at = |i: u32, j: u32| 1 + (i - 1) * sectors + j % sectors;
-    let mut triangles = Vec::new();
-    for j in 0..sectors {
-        triangles.push([0, at(1, j), at(1, j + 1)]);
-        triangles.push([last, at(rings - 1, j + 1), at(rings - 1, j)]);
-        for i in 1..rings - 1 {
-            triangles.push([at(i, j), at(i + 1, j), at(i + 1, j + 1)]);
-            triangles.push([at(i, j), at(i + 1, j + 1), at(i, j + 1)]);
-        }
-    }
-    Collider::still(Arc::new(Surface::new(TriMesh { positions, triangles }).expect("a ball")))
+    Collider::still(Arc::new(Surface::new(common::ball(RADIUS, 80, 128)).expect("a ball")))
 }
 
 fn drape(peer: Peer, n: u32, method: Method, self_collision: bool, step: f64) -> Drape {

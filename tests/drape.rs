@@ -4,6 +4,7 @@
 mod bends;
 #[path = "drape/capstan.rs"]
 mod capstan;
+mod common;
 #[path = "drape/meshes.rs"]
 mod meshes;
 #[path = "drape/moves.rs"]

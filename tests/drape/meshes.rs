@@ -126,29 +126,3 @@ pub fn settled(scene: &Scene, extra: &[DVec3], settings: &SettleSettings, mut x:
 pub fn near(what: &str, found: f64, exact: f64, tolerance: f64) {
     assert!(((found - exact) / exact).abs() <= tolerance, "{what}: {found}, exactly {exact}");
 }
-
-/// A closed ball, outward.
-pub fn ball(radius: f64, rings: u32, sectors: u32) -> (Vec<DVec3>, Vec<[u32; 3]>) {
-    use std::f64::consts::{PI, TAU};
-    let mut positions = vec![DVec3::new(0.0, radius, 0.0)];
-    for i in 1..rings {
-        let (sin, cos) = (PI * f64::from(i) / f64::from(rings)).sin_cos();
-        for j in 0..sectors {
-            let (z, x) = (TAU * f64::from(j) / f64::from(sectors)).sin_cos();
-            positions.push(DVec3::new(x * sin, cos, -z * sin) * radius);
-        }
-    }
-    positions.push(DVec3::new(0.0, -radius, 0.0));
-    let last = positions.len() as u32 - 1;
-    let at = |i: u32, j: u32| 1 + (i - 1) * sectors + j % sectors;
-    let mut triangles = Vec::new();
-    for j in 0..sectors {
-        triangles.push([0, at(1, j), at(1, j + 1)]);
-        triangles.push([last, at(rings - 1, j + 1), at(rings - 1, j)]);
-        for i in 1..rings - 1 {
-            triangles.push([at(i, j), at(i + 1, j), at(i + 1, j + 1)]);
-            triangles.push([at(i, j), at(i + 1, j + 1), at(i, j + 1)]);
-        }
-    }
-    (positions, triangles)
-}

@@ -8,7 +8,7 @@ use toile::cloth::Fabric;
 use toile::drape::{Collider, Drape, DrapeSettings, Integrator, Method, Scene, State};
 use toile::geometry::mesh::TriMesh;
 
-use crate::meshes::{Kind, ball, flat, near, scene};
+use crate::meshes::{Kind, flat, near, scene};
 
 pub fn settings(method: Method) -> DrapeSettings {
     DrapeSettings {
@@ -196,7 +196,7 @@ fn fast_cloth_does_not_pass_through_a_ball() {
     for method in [Method::Implicit, Method::SmallSteps] {
         let sheet = flat(Kind::Diagonal, DVec2::splat(0.06), [4, 4]);
         let mut scene = scene(&sheet, &soft(), vec![false; sheet.points.len()]);
-        let (positions, triangles) = ball(0.1, 24, 48);
+        let TriMesh { positions, triangles } = crate::common::ball(0.1, 24, 48);
         scene.collider =
             Some(Collider::still(Arc::new(Surface::new(TriMesh { positions, triangles }).expect("a ball"))));
         let positions = sheet.placed(|p| DVec3::new(p.x - 0.03, 0.4, p.y - 0.03));
@@ -219,7 +219,7 @@ fn cloth_on_a_ball_neither_blows_up_nor_sticks_stretched() {
     let sheet = flat(Kind::Diagonal, DVec2::splat(0.6), [14, 14]);
     for method in [Method::Implicit, Method::SmallSteps] {
         let mut scene = scene(&sheet, &soft(), vec![false; sheet.points.len()]);
-        let (positions, triangles) = ball(0.2, 24, 48);
+        let TriMesh { positions, triangles } = crate::common::ball(0.2, 24, 48);
         scene.collider =
             Some(Collider::still(Arc::new(Surface::new(TriMesh { positions, triangles }).expect("a ball"))));
         let x = sheet.placed(|p| DVec3::new(p.x - 0.3, 0.22, p.y - 0.3));

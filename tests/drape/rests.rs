@@ -4,6 +4,7 @@ use glam::{DVec2, DVec3};
 use toile::cloth::Fabric;
 use toile::drape::settle::SettleSettings;
 use toile::drape::{Elastic, Scene, Sheet};
+use toile::geometry::mesh::TriMesh;
 
 use crate::meshes::{Kind, flat, near, scene, settled};
 
@@ -58,7 +59,7 @@ fn b8_a_hanging_sheet_stretches_by_its_own_weight() {
 
 /// A sphere of flat triangles, each its own rest shape.
 fn sphere(radius: f64, rings: u32, sectors: u32) -> (Sheet, Vec<DVec3>) {
-    let (positions, triangles) = crate::meshes::ball(radius, rings, sectors);
+    let TriMesh { positions, triangles } = crate::common::ball(radius, rings, sectors);
     let rest = triangles
         .iter()
         .map(|vs| {
