@@ -13,6 +13,8 @@ mod live;
 mod project_files;
 #[path = "sessions/recordings.rs"]
 mod recordings;
+#[path = "sessions/reposing.rs"]
+mod reposing;
 #[path = "sessions/rewrapping.rs"]
 mod rewrapping;
 #[path = "sessions/scenario.rs"]
