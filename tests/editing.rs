@@ -223,6 +223,78 @@ fn twins_are_images_of_each_other_until_unlinked() {
     assert_eq!(moved.pieces[&B], alone.pieces[&B]);
 }
 
+/// A symmetric body, 40 cm wide at its foot, and a pair of twin sleeves.
+fn body_and_sleeves() -> Pattern {
+    let mut pattern = Pattern::default();
+    let corners = [v(0.0, 0.0), v(0.2, 0.0), v(0.15, 0.5), v(0.0, 0.55)];
+    pattern.add_piece(Piece::polygon("body", &corners));
+    let pattern = done(&pattern, PatternEdit::Unfold { edge: edge(A, 3) });
+    let sleeve = PatternEdit::AddPiece { piece: Arc::new(rectangle("left sleeve", 0.3, 0.25)) };
+    let pattern = done(&pattern, sleeve);
+    done(&pattern, PatternEdit::AddTwin { piece: B, offset: v(0.5, 0.0) })
+}
+
+#[test]
+fn what_is_done_to_a_seam_is_done_to_its_image() {
+    let pattern = body_and_sleeves();
+    let twin = pattern.pieces[&B].twin.expect("a twin");
+    let n = pattern.pieces[&A].outline.len();
+    // Part of the side of the body to the end of the sleeve.
+    let of_body = Stretch { piece: A, edge: 1, from: 0.25, further: 0, to: 0.75 };
+    let seam = Seam { sides: [of_body, Stretch::edge(B, 3)], same_direction: false, ratio: None };
+    let sewn = done(&pattern, PatternEdit::Sew { seam });
+    assert_eq!(sewn.seams.len(), 2);
+    let (own, image) = (sewn.seams.keys().next().copied(), sewn.seams.keys().last().copied());
+    let (own, image) = (own.expect("a seam"), image.expect("its image"));
+    let [on_body, on_sleeve] = sewn.seams[&image].sides;
+    assert_eq!(on_body, Stretch { piece: A, edge: n - 2, ..of_body });
+    assert_eq!(on_sleeve, Stretch::edge(twin, 0));
+    // The ends that meet are images of the ends that meet.
+    let ends = |id: SeamId, k: usize| {
+        let side = sewn.seams[&id].sides[k];
+        side.points(&sewn.pieces[&side.piece], &[0.0, 1.0]).expect("it is there")
+    };
+    for k in 0..2 {
+        let (a, b) = (ends(own, k), ends(image, k));
+        for (p, q) in [(a[0], b[1]), (a[1], b[0])] {
+            assert!(curve::mirror(p).distance(q) < 1e-12, "{p} and {q}");
+        }
+    }
+
+    let turned = done(&sewn, PatternEdit::TurnSeam { seam: image });
+    assert!(turned.seams.values().all(|seam| seam.same_direction));
+    let gathered = done(&sewn, PatternEdit::SetRatio { seam: own, ratio: Some(1.2) });
+    assert!(gathered.seams.values().all(|seam| seam.ratio == Some(1.2)));
+    assert!(done(&sewn, PatternEdit::Unpick { seams: vec![image] }).seams.is_empty());
+    assert!(done(&sewn, PatternEdit::Unpick { seams: vec![own, image] }).seams.is_empty());
+    // A twin comes sewn as the piece is.
+    let again = done(&sewn, PatternEdit::DeletePieces { pieces: vec![twin] });
+    assert_eq!(again.seams.len(), 1);
+    assert_eq!(done(&again, PatternEdit::AddTwin { piece: B, offset: v(0.5, 0.0) }).seams.len(), 2);
+}
+
+#[test]
+fn a_seam_without_a_free_image_is_sewn_alone() {
+    let pattern = body_and_sleeves();
+    let twin = pattern.pieces[&B].twin.expect("a twin");
+    let sew = |pattern: &Pattern, one: EdgeRef, other: EdgeRef| {
+        done(pattern, PatternEdit::Sew { seam: Seam::of_edges([one, other], false) })
+    };
+    // Its own image.
+    let between = sew(&pattern, edge(B, 1), edge(twin, 2));
+    assert_eq!(between.seams.len(), 1);
+    let kept = done(&between, PatternEdit::Unpick { seams: between.seams.keys().copied().collect() });
+    assert!(kept.seams.is_empty());
+    // One end of the twin is taken.
+    let unlinked = done(&pattern, PatternEdit::Unlink { piece: A });
+    let taken = sew(&unlinked, edge(A, 1), edge(twin, 0));
+    assert_eq!(
+        sew(&taken, edge(A, 2), edge(B, 3)).seams.len(),
+        2,
+        "nothing is the image of an unlinked piece"
+    );
+}
+
 #[test]
 fn a_piece_is_made_symmetric_unfolded_and_folded() {
     let mut pattern = Pattern::default();

@@ -7,7 +7,7 @@ use glam::{DQuat, DVec2, DVec3};
 
 use crate::geometry::ids::PieceId;
 use crate::pattern::curve::{self, mirror};
-use crate::pattern::{EdgeRef, InternalLine, Notch, Pattern, Piece, SpacePose};
+use crate::pattern::{EdgeRef, InternalLine, Notch, Pattern, Piece, Seam, SpacePose, Stretch};
 
 /// The points that can be moved, and how all others follow from them.
 pub(super) struct Dofs {
@@ -100,6 +100,33 @@ pub(super) fn image_edge(piece: &Piece, i: usize) -> usize {
     let (k, first) = piece.loop_of(i);
     let n = piece.loop_edges(k).len();
     first + n - 1 - (i - first)
+}
+
+/// The image of a seam: on the twins of its pieces, or on the other half of symmetric ones. None where a side has none, or
+/// the seam is its own image.
+pub(super) fn image_seam(pattern: &Pattern, seam: &Seam) -> Option<Seam> {
+    let [one, other] = seam.sides;
+    let sides = [image_stretch(pattern, &one)?, image_stretch(pattern, &other)?];
+    let is_own = sides == seam.sides || sides == [other, one];
+    // Gone through the other way, both of them.
+    (!is_own).then_some(Seam { sides, ..*seam })
+}
+
+fn image_stretch(pattern: &Pattern, side: &Stretch) -> Option<Stretch> {
+    let piece = pattern.pieces.get(&side.piece)?;
+    let on = piece.twin.or_else(|| piece.symmetric.then_some(side.piece))?;
+    let parts = side.parts(piece)?;
+    let (&(first, from, _), &(last, _, to)) = (parts.first()?, parts.last()?);
+    if piece.twin.is_none() && piece.loop_of(first).0 != 0 {
+        return None;
+    }
+    Some(Stretch {
+        piece: on,
+        edge: image_edge(piece, last),
+        from: 1.0 - to,
+        further: parts.len() - 1,
+        to: 1.0 - from,
+    })
 }
 
 /// Takes the shape of `twin` over: everything but name, place, lock and visibility is the image of it.

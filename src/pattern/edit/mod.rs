@@ -46,7 +46,8 @@ pub enum PatternEdit {
     DeletePieces { pieces: Vec<PieceId> },
     /// Copy pieces and the seams among them, moved by `offset` on the table.
     Duplicate { pieces: Vec<PieceId>, offset: DVec2 },
-    /// Lay a mirror image of a piece on the table, moved by `offset`; the two stay mirror images.
+    /// Lay a mirror image of a piece on the table, moved by `offset`, sewn as the piece is where what it is sewn to has an
+    /// image; the two stay mirror images.
     AddTwin { piece: PieceId, offset: DVec2 },
     /// Make a piece its own mirror image in the line through two points: what lies left of the line, seen from its first
     /// to its second point, is mirrored over it and replaces what lies right of it.
@@ -104,7 +105,8 @@ pub enum PatternEdit {
     /// Cloth left outside the outline, metres.
     SetAllowance { pieces: Vec<PieceId>, width: f64 },
 
-    /// Sew two stretches. A seam with a ratio gets it at once.
+    /// Sew two stretches. A seam with a ratio gets it at once. Where both have an image, on twins or symmetric halves, and
+    /// that is free, it is sewn too; this and the next three do to the image of a seam what they do to the seam.
     Sew { seam: Seam },
     /// Undo seams.
     Unpick { seams: Vec<SeamId> },
@@ -191,6 +193,9 @@ pub fn apply(pattern: &Pattern, edit: &PatternEdit) -> Result<Edited, String> {
     let named = pieces_named(edit);
     for twin_edit in named.iter().filter_map(|&id| for_twin(pattern, id, edit)) {
         carry_out(&mut new, &twin_edit)?;
+    }
+    if let Some(edit) = sewing::for_images(pattern, &new, edit) {
+        carry_out(&mut new, &edit)?;
     }
     mirror::mend_all(&mut new, &named);
     lengths::keep(&mut new, &change.held).map_err(|seam| words_for(&new, seam))?;

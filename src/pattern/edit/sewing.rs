@@ -1,11 +1,16 @@
 //! Seams.
 
+use std::collections::BTreeSet;
+
 use crate::geometry::ids::SeamId;
-use crate::pattern::edit::{Change, find};
+use crate::pattern::edit::mirror::image_seam;
+use crate::pattern::edit::{Change, PatternEdit, find};
 use crate::pattern::{Pattern, Seam, Stretch};
 
 /// Two stretches of one edge may have this much in common, metres.
 const TOUCHING: f64 = 1e-6;
+/// Ends of stretches nearer than this fraction of their edge are one place.
+const SAME_PLACE: f64 = 1e-9;
 /// The ratio of a gather, at least and at most.
 pub const RATIOS: std::ops::RangeInclusive<f64> = 0.01..=100.0;
 
@@ -17,8 +22,54 @@ pub(super) fn sew(pattern: &mut Pattern, seam: Seam) -> Result<Change, String> {
     Ok(Change { held, ..Change::new(format!("sew {} to {}", names[0], names[1])) })
 }
 
+/// What an edit of seams does to their images on twins and symmetric halves; nothing where there are none, or where the
+/// image cannot be sewn because something else is there. `before`: without the edit; `after`: with it.
+pub(super) fn for_images(before: &Pattern, after: &Pattern, edit: &PatternEdit) -> Option<PatternEdit> {
+    let image = |id: &SeamId| {
+        let image = image_seam(before, before.seams.get(id)?)?;
+        let found = before.seams.iter().find(|(_, seam)| is_same(seam, &image));
+        found.map(|(&other, _)| other).filter(|other| other != id)
+    };
+    Some(match edit {
+        PatternEdit::Sew { seam } => {
+            let seam = image_seam(after, seam)?;
+            fits(after, &seam).ok()?;
+            PatternEdit::Sew { seam }
+        }
+        PatternEdit::Unpick { seams } => {
+            let images: BTreeSet<SeamId> = seams.iter().filter_map(image).collect();
+            let seams: Vec<SeamId> = images.into_iter().filter(|id| !seams.contains(id)).collect();
+            if seams.is_empty() {
+                return None;
+            }
+            PatternEdit::Unpick { seams }
+        }
+        PatternEdit::TurnSeam { seam } => PatternEdit::TurnSeam { seam: image(seam)? },
+        PatternEdit::SetRatio { seam, ratio } => {
+            let id = image(seam)?;
+            let drawn = image_seam(before, before.seams.get(seam)?)?;
+            let is_turned = !near(&drawn.sides[0], &before.seams.get(&id)?.sides[0]);
+            let ratio = if is_turned { ratio.map(f64::recip) } else { *ratio };
+            PatternEdit::SetRatio { seam: id, ratio }
+        }
+        _ => return None,
+    })
+}
+
+/// Whether two seams join the same, the same way round; which side comes first does not matter.
+fn is_same(one: &Seam, other: &Seam) -> bool {
+    let [a, b] = &one.sides;
+    let [c, d] = &other.sides;
+    one.same_direction == other.same_direction && (near(a, c) && near(b, d) || near(a, d) && near(b, c))
+}
+
+fn near(a: &Stretch, b: &Stretch) -> bool {
+    let fractions = (a.from - b.from).abs().max((a.to - b.to).abs());
+    a.piece == b.piece && a.edge == b.edge && a.further == b.further && fractions < SAME_PLACE
+}
+
 /// That a seam joins what is there and free.
-fn fits(pattern: &Pattern, seam: &Seam) -> Result<(), String> {
+pub(super) fn fits(pattern: &Pattern, seam: &Seam) -> Result<(), String> {
     sound(pattern, seam)?;
     if overlap(pattern, &seam.sides[0], &seam.sides[1]).is_some() {
         return Err("an edge cannot be sewn to itself".to_owned());
@@ -66,7 +117,7 @@ fn overlap(pattern: &Pattern, one: &Stretch, other: &Stretch) -> Option<usize> {
 }
 
 /// The points of a side: they stay when the other side must follow.
-fn held(pattern: &Pattern, side: &Stretch) -> std::collections::BTreeSet<crate::pattern::EdgeRef> {
+fn held(pattern: &Pattern, side: &Stretch) -> BTreeSet<crate::pattern::EdgeRef> {
     let Some(piece) = pattern.pieces.get(&side.piece) else { return Default::default() };
     let parts = side.parts(piece).unwrap_or_default();
     let points = parts.iter().flat_map(|part| [part.0, piece.next_edge(part.0)]);

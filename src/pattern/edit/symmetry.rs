@@ -7,8 +7,8 @@ use crate::geometry::ids::PieceId;
 use crate::pattern::edit::lines::{self, LineMap, Part};
 use crate::pattern::edit::mirror::{self, image_line, image_placement, take_image};
 use crate::pattern::edit::pieces::{change, fresh_name, map_piece};
-use crate::pattern::edit::{Carried, Change, find};
-use crate::pattern::{Edge, EdgeRef, EdgeShape, Notch, Pattern, Piece, PlanePose, SpacePose, curve};
+use crate::pattern::edit::{Carried, Change, find, sewing};
+use crate::pattern::{Edge, EdgeRef, EdgeShape, Notch, Pattern, Piece, PlanePose, Seam, SpacePose, curve};
 
 /// Points this near the middle lie on it, metres.
 const ON_AXIS: f64 = 1e-6;
@@ -30,6 +30,14 @@ pub(super) fn add_twin(pattern: &mut Pattern, id: PieceId, offset: DVec2) -> Res
     };
     let twin = pattern.add_piece(twin);
     change(pattern, id, |p| p.twin = Some(twin));
+    let seams: Vec<Seam> = pattern.seams.values().copied().collect();
+    for seam in seams.iter().filter(|seam| seam.sides.iter().any(|side| side.piece == id)) {
+        if let Some(image) = mirror::image_seam(pattern, seam)
+            && sewing::fits(pattern, &image).is_ok()
+        {
+            pattern.add_seam(image);
+        }
+    }
     Ok(Change::new(format!("mirror {}", piece.name)))
 }
 
