@@ -176,7 +176,13 @@ impl Fuzz {
             11..=13 => Command::AddPin { piece: self.piece(), at: self.flat() },
             14..=15 => {
                 let last = u64::from(self.session.document().last_pin);
-                Command::DeletePin { pin: PinId(1 + self.chance.below(last + 1) as u32) }
+                let pin = PinId(1 + self.chance.below(last + 1) as u32);
+                match self.chance.below(6) {
+                    0 => Command::MovePin { pin, piece: self.piece(), at: self.flat() },
+                    1 => Command::LockPins { pins: vec![pin], locked: self.chance.below(2) == 0 },
+                    2 => Command::ClearPins,
+                    _ => Command::DeletePin { pin },
+                }
             }
             16 => {
                 let c = &mut self.chance;
@@ -230,7 +236,12 @@ impl Fuzz {
         let before = Kept { document: self.session.document().clone(), cloth: Some(self.cloth()) };
         let (relax, cloth_before) = (before.document.settings.relax, before.cloth);
         let touches = match &command {
-            Command::Wrap | Command::AddPin { .. } | Command::DeletePin { .. } | Command::Grab { .. } => true,
+            Command::Wrap
+            | Command::AddPin { .. }
+            | Command::DeletePin { .. }
+            | Command::ClearPins
+            | Command::MovePin { .. }
+            | Command::Grab { .. } => true,
             Command::SetSettings { settings } => settings.relax != relax,
             _ => false,
         };

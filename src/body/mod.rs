@@ -1,5 +1,6 @@
 //! The body the cloth is put on.
 
+pub mod bones;
 pub mod closest;
 pub mod import;
 pub mod landmarks;
@@ -9,6 +10,7 @@ pub mod sections;
 pub mod skeleton;
 pub mod surface;
 pub mod unit;
+pub mod up;
 pub mod warp;
 
 pub use import::{BodyReport, Imported, import};
@@ -18,3 +20,4 @@ pub use sections::Trunk;
 pub use skeleton::{Joint, Skeleton};
 pub use surface::{Hit, Nearest, Surface};
 pub use unit::{Unit, guess_unit};
+pub use up::UpAxis;

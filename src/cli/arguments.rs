@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
-use crate::body::Unit;
+use crate::body::{Unit, UpAxis};
 use crate::cloth::Skips;
 use crate::fit::MapKind;
 use crate::io::pdf::Paper;
@@ -45,15 +45,25 @@ pub enum Task {
 /// A wrap that is not at rest by then trembles.
 const MAX_TICKS: u64 = 20_000;
 
+/// How a file of a body is to be read.
+#[derive(Clone, Copy, Debug, Default, Args)]
+pub struct BodyFile {
+    /// The unit of body files: m, dm, cm, mm or in; without it the body's height tells
+    #[arg(long)]
+    pub unit: Option<Unit>,
+    /// The axis of body files that points up: y or z
+    #[arg(long, value_name = "AXIS", default_value_t)]
+    pub up: UpAxis,
+}
+
 /// What an input needs besides its file.
 #[derive(Clone, Debug, Default, Args)]
 pub struct InputOptions {
     /// Puts the cloth on this body (OBJ); "mannequin" is the built-in figure
     #[arg(long, value_name = "FILE")]
     pub body: Option<PathBuf>,
-    /// The unit of the body file: m, dm, cm, mm or in; without it the body's height tells
-    #[arg(long)]
-    pub unit: Option<Unit>,
+    #[command(flatten)]
+    pub body_file: BodyFile,
     /// What a unit of a DXF or SVG pattern is: mm, cm, m, in, px, px90 or pt; without it the file tells, or the question
     /// is asked by an error
     #[arg(long, value_name = "UNIT")]
@@ -193,9 +203,8 @@ pub struct Repose {
     /// The body in another pose (OBJ); several times for several poses
     #[arg(long = "body", value_name = "FILE", required = true)]
     pub bodies: Vec<PathBuf>,
-    /// The unit of the body files: m, dm, cm, mm or in; without it the body's height tells
-    #[arg(long)]
-    pub unit: Option<Unit>,
+    #[command(flatten)]
+    pub body_file: BodyFile,
     /// The folder to write to
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,

@@ -27,7 +27,7 @@ struct Findings {
 
 /// Prints what was found. Problems that are more than notes make the check fail.
 pub fn check(arguments: &Check) -> Result<(), Failure> {
-    let findings = match input::content(&arguments.file, arguments.input.unit, arguments.input.scale)? {
+    let findings = match input::content(&arguments.file, arguments.input.body_file, arguments.input.scale)? {
         Content::Body(body) => {
             let triangles = body.mesh.triangles.len();
             Findings { triangles, problems: body.problems, notes: body.notes, ..Findings::default() }

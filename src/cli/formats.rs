@@ -5,6 +5,7 @@ use std::path::Path;
 use crate::body::Unit;
 use crate::body::import::{Imported, import};
 use crate::body::unit::guess_unit;
+use crate::cli::arguments::BodyFile;
 use crate::cli::failure::Failure;
 use crate::cli::output;
 use crate::cloth::{ClothState, Garment};
@@ -40,13 +41,14 @@ pub fn pattern_bytes(ending: &str, pattern: &Pattern, name: &str, paper: Paper) 
     }
 }
 
-/// The body in an OBJ file, checked. Without a unit the one that gives a person's height is taken, and said.
-pub fn body(path: &Path, bytes: &[u8], unit: Option<Unit>) -> Result<Imported, Failure> {
-    let read = obj::read(bytes).map_err(|error| match error {
+/// The body in an OBJ file, upright and checked. Without a unit the one that gives a person's height is taken, and said.
+pub fn body(path: &Path, bytes: &[u8], how: BodyFile) -> Result<Imported, Failure> {
+    let mut read = obj::read(bytes).map_err(|error| match error {
         obj::ObjError::OverLimit(words) => Failure::Limit(format!("{}: {words}", path.display())),
         error => Failure::input(path, error),
     })?;
-    let unit = match unit {
+    how.up.set_upright(&mut read.mesh);
+    let unit = match how.unit {
         Some(unit) => unit,
         None => unit_by_height(path, &read.mesh)?,
     };
@@ -57,8 +59,9 @@ fn unit_by_height(path: &Path, mesh: &TriMesh) -> Result<Unit, Failure> {
     let (lower, upper) = mesh.bounds();
     let height = upper.y - lower.y;
     let Some(unit) = guess_unit(height) else {
-        let words =
-            format!("it is {height} units high, which no unit makes a body's height: give one with --unit");
+        let words = format!(
+            "it is {height} units high, which no unit makes a body's height: give one with --unit, or --up z where it lies"
+        );
         return Err(Failure::input(path, words));
     };
     if unit != Unit::Metre {

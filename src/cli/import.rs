@@ -11,7 +11,7 @@ pub fn import(arguments: &Import) -> Result<(), Failure> {
     let mut project = Project::default();
     let (mut patterns, mut bodies) = (0, 0);
     for path in &arguments.files {
-        match input::content(path, arguments.input.unit, arguments.input.scale)? {
+        match input::content(path, arguments.input.body_file, arguments.input.scale)? {
             Content::Pattern(pattern) => {
                 patterns += 1;
                 input::take_pattern(&mut project, pattern);

@@ -4,9 +4,9 @@ use std::fs;
 use std::path::Path;
 use std::sync::Arc;
 
+use crate::body::Imported;
 use crate::body::mannequin::{Measurements, mannequin};
-use crate::body::{Imported, Unit};
-use crate::cli::arguments::InputOptions;
+use crate::cli::arguments::{BodyFile, InputOptions};
 use crate::cli::failure::Failure;
 use crate::cli::{formats, output};
 use crate::io::pattern_file;
@@ -46,7 +46,7 @@ pub struct Input {
 
 /// Reads the project, pattern or sample called `path` and does with it what `options` say.
 pub fn load(path: &Path, options: &InputOptions) -> Result<Input, Failure> {
-    let (mut project, is_project_file) = match content(path, options.unit, options.scale)? {
+    let (mut project, is_project_file) = match content(path, options.body_file, options.scale)? {
         Content::Project(project) => (project, sample_name(path).is_none()),
         Content::Pattern(pattern) => {
             let mut project = Project::default();
@@ -78,7 +78,7 @@ pub fn name_of(path: &Path) -> String {
 }
 
 /// Reads `path` and finds out what it is by its contents.
-pub fn content(path: &Path, unit: Option<Unit>, scale: Option<DrawingUnit>) -> Result<Content, Failure> {
+pub fn content(path: &Path, how: BodyFile, scale: Option<DrawingUnit>) -> Result<Content, Failure> {
     if let Some(name) = sample_name(path) {
         return sample(path, name).map(Content::Project);
     }
@@ -89,7 +89,7 @@ pub fn content(path: &Path, unit: Option<Unit>, scale: Option<DrawingUnit>) -> R
     if bytes.trim_ascii().is_empty() || pattern_file::format(&bytes).is_some() {
         return formats::pattern(path, &bytes, scale).map(Content::Pattern);
     }
-    formats::body(path, &bytes, unit).map(Content::Body)
+    formats::body(path, &bytes, how).map(Content::Body)
 }
 
 fn sample_name(path: &Path) -> Option<&str> {
@@ -176,7 +176,7 @@ pub fn take_options(project: &mut Project, path: &Path, options: &InputOptions) 
         Some(body) if body == Path::new(MANNEQUIN) => set_body(project, body, BodyChoice::default())?,
         Some(body) => {
             let bytes = read(body)?;
-            take_body(project, body, formats::body(body, &bytes, options.unit)?)?;
+            take_body(project, body, formats::body(body, &bytes, options.body_file)?)?;
         }
         None => {}
     }

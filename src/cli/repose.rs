@@ -61,7 +61,7 @@ fn numbered(out: &Path, i: usize, path: &Path) -> PathBuf {
 }
 
 fn posed(path: &Path, arguments: &Repose) -> Result<BodyChoice, Failure> {
-    let body = formats::body(path, &input::read(path)?, arguments.unit)?;
+    let body = formats::body(path, &input::read(path)?, arguments.body_file)?;
     if !body.is_usable() {
         let faults: Vec<&str> = body.problems.iter().map(|p| p.words.as_str()).collect();
         return Err(Failure::input(path, faults.join("; ")));

@@ -6,7 +6,10 @@ use std::str::FromStr;
 use glam::DVec2;
 
 /// What a number in a drawing may count.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(
+    Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize,
+)]
+#[serde(rename_all = "snake_case")]
 pub enum DrawingUnit {
     /// 1 mm.
     #[default]

@@ -3,7 +3,7 @@
 use std::sync::{Arc, OnceLock};
 
 use crate::body::mannequin::mannequin;
-use crate::body::{Landmarks, Surface, landmarks};
+use crate::body::{Landmarks, Surface, bones, landmarks};
 use crate::contact::Bone;
 use crate::geometry::mesh::TriMesh;
 use crate::session::command::Rejection;
@@ -17,8 +17,8 @@ const MOST_KEPT: usize = 4;
 pub struct Body {
     /// Its skin.
     pub surface: Arc<Surface>,
-    /// Bones it was made with.
-    pub bones: Arc<Vec<Bone>>,
+    /// Bones it was made with, or those found in it; looked for once.
+    bones: OnceLock<Arc<Vec<Bone>>>,
     /// Landmarks it was made with.
     own: Option<Landmarks>,
     /// Those found on its skin; looked for once.
@@ -32,11 +32,22 @@ impl Body {
             BodyChoice::Mannequin(measurements) => {
                 let figure = mannequin(measurements).map_err(|e| Rejection(e.to_string()))?;
                 let surface = ready(figure.mesh.clone(), "the mannequin")?;
-                (surface, figure.skeleton.six_segments(), Some(figure.landmarks.clone()))
+                let bones = Arc::new(figure.skeleton.six_segments());
+                (surface, OnceLock::from(bones), Some(figure.landmarks.clone()))
             }
-            BodyChoice::Imported { name, mesh } => (ready(mesh.as_ref().clone(), name)?, Vec::new(), None),
+            BodyChoice::Imported { name, mesh } => {
+                (ready(mesh.as_ref().clone(), name)?, OnceLock::new(), None)
+            }
         };
-        Ok(Self { surface, bones: Arc::new(bones), own, found: OnceLock::new() })
+        Ok(Self { surface, bones, own, found: OnceLock::new() })
+    }
+
+    /// What cloth cannot be pulled across: its skeleton, or bones between the landmarks of a body that looks human.
+    pub fn bones(&self) -> &Arc<Vec<Bone>> {
+        self.bones.get_or_init(|| {
+            let marks = self.landmarks();
+            Arc::new(marks.map(|marks| bones::extracted(&self.surface, marks)).unwrap_or_default())
+        })
     }
 
     /// Its named points, if it has any.

@@ -77,8 +77,14 @@ pub enum Command {
     AddPin { piece: PieceId, at: DVec2 },
     /// Pull a pin out.
     DeletePin { pin: PinId },
-    /// Pull all pins out.
+    /// Pull all pins out that are not locked.
     ClearPins,
+    /// Pull these pins out.
+    DeletePins { pins: Vec<PinId> },
+    /// Stick a pin in elsewhere.
+    MovePin { pin: PinId, piece: PieceId, at: DVec2 },
+    /// Lock pins, so that they can be neither moved nor pulled out, or unlock them.
+    LockPins { pins: Vec<PinId>, locked: bool },
     /// Take the dressed cloth in the hand at a place of a piece. The drag lasts until `Release`; `CancelGesture` takes all
     /// of it back.
     Grab { piece: PieceId, at: DVec2, mode: DragMode },

@@ -45,10 +45,17 @@ pub struct Pin {
     /// Where it is stuck in.
     #[serde(flatten)]
     pub place: ClothPlace,
+    /// Stays until it is unlocked.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub locked: bool,
 }
 
 fn is_empty(pins: &Arc<Vec<Pin>>) -> bool {
     pins.is_empty()
+}
+
+fn is_false(flag: &bool) -> bool {
+    !flag
 }
 
 fn is_zero(number: &u32) -> bool {

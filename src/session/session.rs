@@ -367,9 +367,9 @@ impl Session {
         Ok((Arc::new(source), body))
     }
 
-    /// Those drawn, or else the body's own.
-    fn bones(&mut self) -> Arc<Vec<Bone>> {
-        let own = |body: Arc<Body>| Arc::clone(&body.bones);
+    /// What cloth cannot be pulled across: the bones drawn, or else the body's own.
+    pub fn bones(&mut self) -> Arc<Vec<Bone>> {
+        let own = |body: Arc<Body>| Arc::clone(body.bones());
         let drawn = self.document.bones.clone();
         drawn.or_else(|| self.bodies.body(&self.document.body).ok().map(own)).unwrap_or_default()
     }

@@ -39,6 +39,7 @@ fn the_unit_is_given_or_told_by_the_height() {
     place.write("speck.obj", ball(1e-5, 6, 8));
     place.ends_with_words(3, "check speck.obj", "--unit");
     place.ends_with_words(2, &format!("{dress} d --body metres.obj --unit furlong"), "furlong");
+    place.ends_with_words(2, &format!("{dress} d --body metres.obj --up x"), "no axis that points up");
 }
 
 #[test]

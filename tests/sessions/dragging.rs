@@ -184,3 +184,45 @@ fn each_control_of_relaxation_works_on_dressed_cloth_and_is_taken_back() {
         Replay::new(recording).run().expect("the same hashes");
     }
 }
+
+#[test]
+fn locked_pins_stay_and_the_others_go_elsewhere_or_out() {
+    let mut s = dressed();
+    for x in [0.02, 0.1, 0.2] {
+        s.apply_alone(Command::AddPin { piece: PIECE, at: DVec2::new(x, 0.28) }).expect("pinned");
+    }
+    let ids = |s: &Session| s.document().pins.iter().map(|pin| pin.id.0).collect::<Vec<_>>();
+    let refused = |s: &mut Session, command: Command| {
+        let before = s.document().clone();
+        let why = s.apply_alone(command).expect_err("refused");
+        assert_eq!(*s.document(), before);
+        why.0
+    };
+    s.apply_alone(Command::LockPins { pins: vec![PinId(2)], locked: true }).expect("locked");
+    assert!(refused(&mut s, Command::DeletePin { pin: PinId(2) }).contains("pin 2 is locked"));
+    let both = vec![PinId(1), PinId(2)];
+    assert!(refused(&mut s, Command::DeletePins { pins: both }).contains("locked"));
+    let at = DVec2::new(0.15, 0.1);
+    assert!(refused(&mut s, Command::MovePin { pin: PinId(2), piece: PIECE, at }).contains("locked"));
+    assert!(
+        refused(&mut s, Command::LockPins { pins: vec![PinId(9)], locked: true }).contains("there is no")
+    );
+
+    s.apply_alone(Command::MovePin { pin: PinId(1), piece: PIECE, at }).expect("moved");
+    assert_eq!(s.document().pins[0].place.at, at);
+    run(&mut s, 2000);
+    let vertex = s.snapshot().pinned[0].expect("on the cloth") as usize;
+    let place = s.snapshot().cloth.positions[vertex];
+    run(&mut s, 200);
+    assert_eq!(s.snapshot().cloth.positions[vertex], place, "it holds where it is now");
+
+    s.apply_alone(Command::ClearPins).expect("the others");
+    assert_eq!(ids(&s), [2]);
+    assert!(refused(&mut s, Command::ClearPins).contains("all pins are locked"));
+    s.apply_alone(Command::Undo).expect("undone");
+    assert_eq!(ids(&s), [1, 2, 3]);
+    s.apply_alone(Command::LockPins { pins: vec![PinId(2)], locked: false }).expect("unlocked");
+    s.apply_alone(Command::DeletePins { pins: vec![PinId(1), PinId(2)] }).expect("pulled out");
+    assert_eq!(ids(&s), [3]);
+    assert_eq!(s.undo_label(), Some("pull 2 pins out"));
+}

@@ -24,24 +24,76 @@ pub fn add_pin(mut document: Document, piece: PieceId, at: DVec2) -> Result<Edit
         return Err(Rejection::new("there is a pin already"));
     }
     document.last_pin += 1;
-    let pin = Pin { id: PinId(document.last_pin), place };
+    let pin = Pin { id: PinId(document.last_pin), place, locked: false };
     Arc::make_mut(&mut document.pins).push(pin);
     Ok(Edit::new("pin", document).with(ClothChange::SetPins))
 }
 
-pub fn delete_pin(mut document: Document, pin: PinId) -> Result<Edit, Rejection> {
-    let at = document.pins.iter().position(|p| p.id == pin);
-    let at = at.ok_or_else(|| Rejection(format!("there is no {pin}")))?;
-    Arc::make_mut(&mut document.pins).remove(at);
-    Ok(Edit::new("pull a pin out", document).with(ClothChange::SetPins))
+pub fn delete_pin(document: Document, pin: PinId) -> Result<Edit, Rejection> {
+    delete_pins(document, &[pin])
+}
+
+pub fn delete_pins(mut document: Document, pins: &[PinId]) -> Result<Edit, Rejection> {
+    for &pin in pins {
+        loose(&document, pin)?;
+    }
+    let label = match pins {
+        [] => return Err(Rejection::new("no pin is named")),
+        [_] => "pull a pin out".to_owned(),
+        _ => format!("pull {} pins out", pins.len()),
+    };
+    Arc::make_mut(&mut document.pins).retain(|pin| !pins.contains(&pin.id));
+    Ok(Edit::new(label, document).with(ClothChange::SetPins))
 }
 
 pub fn clear_pins(mut document: Document) -> Result<Edit, Rejection> {
     if document.pins.is_empty() {
         return Err(Rejection::new("there are no pins"));
     }
-    document.drop_pins();
+    if document.pins.iter().all(|pin| pin.locked) {
+        return Err(Rejection::new("all pins are locked"));
+    }
+    Arc::make_mut(&mut document.pins).retain(|pin| pin.locked);
     Ok(Edit::new("pull all pins out", document).with(ClothChange::SetPins))
+}
+
+pub fn move_pin(mut document: Document, pin: PinId, piece: PieceId, at: DVec2) -> Result<Edit, Rejection> {
+    let place = ClothPlace { piece, at };
+    checks::cloth_place(&document.pattern, place)?;
+    let index = loose(&document, pin)?;
+    if document.pins.iter().any(|other| other.id != pin && other.place == place) {
+        return Err(Rejection::new("there is a pin already"));
+    }
+    Arc::make_mut(&mut document.pins)[index].place = place;
+    Ok(Edit::new("move a pin", document).with(ClothChange::SetPins))
+}
+
+pub fn lock_pins(mut document: Document, pins: &[PinId], locked: bool) -> Result<Edit, Rejection> {
+    let what = if locked { "lock" } else { "unlock" };
+    let label = match pins {
+        [] => return Err(Rejection::new("no pin is named")),
+        [pin] => format!("{what} {pin}"),
+        _ => format!("{what} {} pins", pins.len()),
+    };
+    for &pin in pins {
+        let index = find(&document, pin)?;
+        Arc::make_mut(&mut document.pins)[index].locked = locked;
+    }
+    Ok(Edit::new(label, document))
+}
+
+fn find(document: &Document, pin: PinId) -> Result<usize, Rejection> {
+    let index = document.pins.iter().position(|p| p.id == pin);
+    index.ok_or_else(|| Rejection(format!("there is no {pin}")))
+}
+
+/// Where a pin stands among all, if it may be moved.
+fn loose(document: &Document, pin: PinId) -> Result<usize, Rejection> {
+    let index = find(document, pin)?;
+    if document.pins[index].locked {
+        return Err(Rejection(format!("{pin} is locked: unlock it first")));
+    }
+    Ok(index)
 }
 
 pub fn grab(document: Document, piece: PieceId, at: DVec2, mode: DragMode) -> Result<Edit, Rejection> {
