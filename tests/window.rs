@@ -22,6 +22,8 @@ mod files;
 mod hand;
 #[path = "window/mouse.rs"]
 mod mouse;
+#[path = "window/pictures.rs"]
+mod pictures;
 #[path = "window/safety.rs"]
 mod safety;
 #[path = "window/shell.rs"]

@@ -4,7 +4,6 @@ use std::sync::Arc;
 
 use bytemuck::{Pod, Zeroable};
 use glam::{Vec3, Vec4};
-use wgpu::util::DeviceExt;
 
 use super::frame::linear;
 use super::pipelines::{MESH_STRIDE, Pipelines};
@@ -72,20 +71,17 @@ impl DeviceMesh {
         let count = mesh.positions.len() as u32;
         let indices: Vec<[u32; 3]> =
             mesh.triangles.iter().copied().filter(|t| t.iter().all(|&v| v < count)).collect();
-        let buffer = |label, contents: &[u8], usage| {
-            gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-                label: Some(label),
-                contents,
-                usage,
-            })
-        };
         let material =
             Material { front: linear(mesh.front).extend(mesh.cloth), back: linear(mesh.back).extend(0.0) };
-        let material = buffer("material", bytemuck::bytes_of(&material), wgpu::BufferUsages::UNIFORM);
+        let material = gpu.buffer("material", bytemuck::bytes_of(&material), wgpu::BufferUsages::UNIFORM);
         Ok(Self {
             mesh: Arc::clone(mesh),
-            vertices: buffer("vertices", bytemuck::cast_slice(&vertices(mesh)), wgpu::BufferUsages::VERTEX),
-            indices: buffer("indices", bytemuck::cast_slice(&indices), wgpu::BufferUsages::INDEX),
+            vertices: gpu.buffer(
+                "vertices",
+                bytemuck::cast_slice(&vertices(mesh)),
+                wgpu::BufferUsages::VERTEX,
+            ),
+            indices: gpu.buffer("indices", bytemuck::cast_slice(&indices), wgpu::BufferUsages::INDEX),
             index_count: indices.len() as u32 * 3,
             edges: None,
             material: bind(gpu, &pipelines.material_layout, &[material.as_entire_binding()]),
@@ -99,11 +95,7 @@ impl DeviceMesh {
 
     fn edge_buffer(&self, gpu: &Gpu) -> (wgpu::Buffer, u32) {
         let edges = edges(&self.mesh.triangles, self.mesh.positions.len() as u32);
-        let buffer = gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-            label: Some("edges"),
-            contents: bytemuck::cast_slice(&edges),
-            usage: wgpu::BufferUsages::INDEX,
-        });
+        let buffer = gpu.buffer("edges", bytemuck::cast_slice(&edges), wgpu::BufferUsages::INDEX);
         (buffer, edges.len() as u32 * 2)
     }
 }

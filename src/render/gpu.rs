@@ -58,6 +58,26 @@ impl Gpu {
         }
     }
 
+    /// A buffer that holds `contents`. On a device that is lost it holds nothing, and nothing panics.
+    pub(super) fn buffer(&self, label: &str, contents: &[u8], usage: wgpu::BufferUsages) -> wgpu::Buffer {
+        let unpadded = contents.len() as u64;
+        let size = unpadded.next_multiple_of(wgpu::COPY_BUFFER_ALIGNMENT).max(wgpu::COPY_BUFFER_ALIGNMENT);
+        let buffer = self.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some(label),
+            size,
+            usage: usage | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        });
+        if unpadded == size {
+            self.queue.write_buffer(&buffer, 0, contents);
+        } else {
+            let mut padded = contents.to_vec();
+            padded.resize(size as usize, 0);
+            self.queue.write_buffer(&buffer, 0, &padded);
+        }
+        buffer
+    }
+
     /// The longest side of a texture, pixels.
     pub fn max_side(&self) -> u32 {
         self.device.limits().max_texture_dimension_2d

@@ -1,7 +1,5 @@
 //! Draws a scene: shadow map, depth and normals, hollows, then everything with light.
 
-use wgpu::util::DeviceExt;
-
 use glam::UVec2;
 
 use super::buffers::{DeviceMesh, bind, upload};
@@ -85,15 +83,8 @@ impl Renderer {
         look: &Look,
         target: &OffscreenTarget,
     ) -> Bound {
-        let init = |label, contents: &[u8], usage| {
-            gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-                label: Some(label),
-                contents,
-                usage,
-            })
-        };
         let frame = Frame::new(camera, scene, look, target.size);
-        let frame = init("frame", bytemuck::bytes_of(&frame), wgpu::BufferUsages::UNIFORM);
+        let frame = gpu.buffer("frame", bytemuck::bytes_of(&frame), wgpu::BufferUsages::UNIFORM);
         let strokes = strokes(&scene.lines, &scene.labels, look.pixels_per_point);
         let view = wgpu::BindingResource::TextureView;
         let p = &self.pipelines;
@@ -112,7 +103,7 @@ impl Renderer {
             blur: bind(gpu, &p.blur_layout, &[view(&target.rough_hollows)]),
             strokes: (!strokes.is_empty()).then(|| {
                 let bytes = bytemuck::cast_slice(&strokes);
-                (init("strokes", bytes, wgpu::BufferUsages::VERTEX), strokes.len() as u32)
+                (gpu.buffer("strokes", bytes, wgpu::BufferUsages::VERTEX), strokes.len() as u32)
             }),
             // Seen from below, the floor would only be in the way.
             ground: scene.ground.is_some_and(|g| camera.eye().y > g.height) && !look.cut_out,

@@ -12,6 +12,7 @@ use crate::ui::app::App;
 use crate::ui::dialogs::Dialog;
 use crate::ui::files::{self, Purpose};
 use crate::ui::ghosts::Ghosts;
+use crate::ui::panes::Panes;
 use crate::ui::pattern_pane::Fit;
 use crate::wrap::{BodyMark, ClothMark};
 
@@ -45,11 +46,18 @@ impl App {
             self.leave_start_page();
         }
         match action {
-            Action::New => self.replace(ctx, Project::default(), None),
-            Action::Sample(sample) => self.replace(ctx, files::sample(sample), None),
+            Action::New => self.replace(Project::default(), None),
+            Action::Sample(sample) => self.replace(files::sample(sample), None),
             Action::Open => self.ask_file(Purpose::Open),
             Action::Save => self.save(ctx),
             Action::SaveAs => self.ask_file(Purpose::Save),
+            Action::SaveCopy => self.ask_file(Purpose::Copy),
+            Action::SaveNext => self.save_next(ctx),
+            Action::Revert => {
+                if let Some(path) = self.path.clone() {
+                    self.dialog = Some(Dialog::Revert { path });
+                }
+            }
             Action::ImportPattern => self.ask_file(Purpose::ImportPattern),
             Action::ImportBody => self.ask_file(Purpose::ImportBody),
             Action::UseMannequin => self.apply(files::use_mannequin()),
@@ -90,6 +98,8 @@ impl App {
             | Action::Untwist => self.change_pattern(action),
             Action::ClearMarks => self.apply(Command::ClearMarks),
             Action::ClearPins => self.apply(Command::ClearPins),
+            Action::OwnBones => self.apply(Command::SetBones { bones: None }),
+            Action::NoBones => self.apply(Command::SetBones { bones: Some(Vec::new()) }),
             Action::ToggleLaser => self.laser = !self.laser,
             Action::Choose(tool) => self.tool = tool,
             Action::Wrap => {
@@ -114,6 +124,11 @@ impl App {
             Action::ToggleSnapping => self.snapping = !self.snapping,
             Action::Unit(unit) => self.prefer(ctx, |p| p.unit = unit),
             Action::ToggleCloth => self.show_cloth = !self.show_cloth,
+            Action::Show(panes) => self.prefer(ctx, |p| {
+                // Chosen again, both come back.
+                p.layout.panes = if p.layout.panes == panes { Panes::Both } else { panes };
+            }),
+            Action::SwapPanes => self.prefer(ctx, |p| p.layout.swapped = !p.layout.swapped),
             Action::TogglePanel => self.show_panel = !self.show_panel,
             Action::Theme(theme) => self.prefer(ctx, |p| p.theme = theme.into()),
             Action::Mouse(mouse) => self.prefer(ctx, |p| p.mouse = mouse),
@@ -132,6 +147,7 @@ impl App {
             | Action::ToggleWire
             | Action::ToggleSheer
             | Action::ToggleXray
+            | Action::TogglePairs
             | Action::ToggleHistory
             | Action::ToggleLog
             | Action::CommandPalette

@@ -8,6 +8,7 @@ use crate::render::View;
 use crate::session::demos::Demo;
 use crate::session::samples::Sample;
 use crate::ui::mouse::Mouse;
+use crate::ui::panes::Panes;
 use crate::ui::units::LengthUnit;
 
 /// What the left mouse button does in the panes.
@@ -46,6 +47,8 @@ pub enum Tool {
     Drag(DragMode),
     /// Pins dressed cloth to where it is.
     Pin,
+    /// Draws bones in the body.
+    Bone,
 }
 
 /// Something that can be chosen.
@@ -60,6 +63,9 @@ pub enum Action {
     ClearRecent,
     Save,
     SaveAs,
+    SaveCopy,
+    SaveNext,
+    Revert,
     ImportPattern,
     ExportPattern,
     ImportBody,
@@ -77,6 +83,8 @@ pub enum Action {
     LowerMark,
     ClearMarks,
     ClearPins,
+    OwnBones,
+    NoBones,
     SuggestMarks,
     AcceptMarks,
     DismissMarks,
@@ -121,7 +129,10 @@ pub enum Action {
     ToggleWire,
     ToggleSheer,
     ToggleXray,
+    TogglePairs,
     TogglePanel,
+    Show(Panes),
+    SwapPanes,
     ToggleHistory,
     ToggleLog,
     Theme(ThemePreference),
@@ -174,6 +185,15 @@ impl Action {
             Self::Open => entry("Open…", "Open a project", &[ctrl(Key::O)]),
             Self::Save => entry("Save", "Save the project", &[ctrl(Key::S)]),
             Self::SaveAs => entry("Save as…", "Save the project under another name", &[ctrl_shift(Key::S)]),
+            Self::SaveCopy => {
+                entry("Save a copy…", "Save the project under another name and go on with this one", &[])
+            }
+            Self::SaveNext => entry(
+                "Save the next version",
+                "Save the project beside its file, with the next number in its name",
+                &[KeyboardShortcut::new(Modifiers::COMMAND.plus(Modifiers::ALT), Key::S)],
+            ),
+            Self::Revert => entry("Revert…", "Go back to what the file holds", &[]),
             Self::ImportPattern => {
                 entry("Import pattern…", "Take the pieces of a DXF, SVG or GarmentCode file", &[ctrl(Key::I)])
             }
@@ -239,6 +259,10 @@ impl Action {
             | Self::MakeEqual
             | Self::FreeLengths
             | Self::Untwist => self.pattern_entry(),
+            Self::OwnBones => {
+                entry("The body's own bones", "Those it came with, or those found in it, and none drawn", &[])
+            }
+            Self::NoBones => entry("No bones", "Cloth can be pulled across everything", &[]),
             Self::ClearPins => entry("Pull all pins out", "Nothing holds the cloth any more", &[]),
             Self::Wrap => {
                 entry("Wrap", "Grow the cloth round the body so that the marks meet", &[key(Key::Enter)])
@@ -264,6 +288,9 @@ impl Action {
             | Self::ToggleWire
             | Self::ToggleSheer
             | Self::ToggleXray
+            | Self::TogglePairs
+            | Self::Show(_)
+            | Self::SwapPanes
             | Self::ToggleHistory
             | Self::ToggleLog
             | Self::CommandPalette
@@ -281,7 +308,11 @@ impl Action {
                 "Show the pattern as large as it is, on a screen that tells its size",
                 &[ctrl(Key::Num0)],
             ),
-            Self::NextPane => entry("Next pane", "Give the keyboard to the next pane", &[key(Key::F6)]),
+            Self::NextPane => entry(
+                "Next pane",
+                "Give the keyboard to the pattern, the body, the side panel or the tools",
+                &[key(Key::F6)],
+            ),
             Self::ToggleSnapping => entry(
                 "Snap",
                 "Points, edges, guides and the grid draw the pointer on; Alt keeps it free",
@@ -326,6 +357,7 @@ impl Action {
                 | Self::ToggleWire
                 | Self::ToggleSheer
                 | Self::ToggleXray
+                | Self::TogglePairs
                 | Self::ToggleLog
                 | Self::CommandPalette
                 | Self::Preferences

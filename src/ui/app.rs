@@ -16,6 +16,7 @@ use crate::ui::files::{self, Purpose};
 use crate::ui::ghosts::Ghosts;
 use crate::ui::marks_panel::MarksPanel;
 use crate::ui::messages::Messages;
+use crate::ui::pace::Pacer;
 use crate::ui::pattern_pane::PatternPane;
 use crate::ui::pattern_pane::view::TableView;
 use crate::ui::pattern_panel::PatternPanel;
@@ -24,6 +25,7 @@ use crate::ui::picture_page::PictureOptions;
 use crate::ui::player::Player;
 use crate::ui::preferences::Preferences;
 use crate::ui::recent::Recent;
+use crate::ui::reopening::Wakeup;
 use crate::ui::safety::Safety;
 use crate::ui::scene::Scenery;
 use crate::ui::scene_pane::ScenePane;
@@ -76,10 +78,16 @@ pub struct App {
     pub(super) picture_options: PictureOptions,
     /// For pictures that are written.
     pub(super) scenery: Scenery,
+    /// Wakes the window when the simulation has something new.
+    pub(super) wakeup: Wakeup,
+    /// The window closes only to be opened again.
+    pub(super) moving: bool,
     /// Light on dark, in the last frame.
     pub(super) dark: bool,
+    /// Measures how fast everything goes.
+    pub(super) pacer: Pacer,
     title: String,
-    frames: u64,
+    pub(super) frames: u64,
 }
 
 impl App {
@@ -90,15 +98,13 @@ impl App {
         path: Option<PathBuf>,
         graphics: Option<egui_wgpu::RenderState>,
     ) -> std::io::Result<Self> {
-        theme::install(ctx);
+        Self::set_up(ctx);
         let on_disk = path.as_deref().and_then(files::OnDisk::of);
-        ctx.options_mut(|options| {
-            // Closing goes by our own question; plus, minus and zero belong to the panes.
-            options.quit_shortcuts.clear();
-            options.zoom_with_keyboard = false;
-        });
+        let wakeup = Wakeup::new(ctx);
         Ok(Self {
-            session: Session::new(project, runner(ctx)?),
+            session: Session::new(project, runner(&wakeup)?),
+            wakeup,
+            moving: false,
             path,
             tool: Tool::Mark,
             laser: false,
@@ -128,9 +134,20 @@ impl App {
             picture_options: PictureOptions::default(),
             scenery: Scenery::default(),
             dark: false,
+            pacer: Pacer::default(),
             title: String::new(),
             frames: 0,
         })
+    }
+
+    /// What every window needs.
+    pub(super) fn set_up(ctx: &egui::Context) {
+        theme::install(ctx);
+        ctx.options_mut(|options| {
+            // Closing goes by our own question; plus, minus and zero belong to the panes.
+            options.quit_shortcuts.clear();
+            options.zoom_with_keyboard = false;
+        });
     }
 
     /// Prefers what `path` says, and keeps there what is preferred from now on.
@@ -192,8 +209,8 @@ impl App {
     }
 
     /// Starts over with `project`.
-    pub(super) fn replace(&mut self, ctx: &egui::Context, project: Project, path: Option<PathBuf>) {
-        match runner(ctx) {
+    pub(super) fn replace(&mut self, project: Project, path: Option<PathBuf>) {
+        match runner(&self.wakeup) {
             Ok(runner) => self.session = Session::new(project, runner),
             Err(e) => return self.messages.error(format!("The simulation could not be started: {e}")),
         }
@@ -248,6 +265,12 @@ impl App {
         self.guard_closing(&ctx);
         self.set_title(&ctx);
         self.tend_safety(&ctx);
+        self.tend_graphics(&ctx);
+    }
+
+    /// The next frame sets the title.
+    pub(super) fn forget_title(&mut self) {
+        self.title.clear();
     }
 
     /// What is on the screen: the document, or a demo.
@@ -368,11 +391,13 @@ impl App {
                 self.file(ctx, Purpose::Save, &path);
             }
             Answer::Pattern(path, unit) => {
+                self.prefer(ctx, |p| p.answers.keep_drawing(&path, unit));
                 if let Err(words) = self.import_pattern(&path, Some(unit)) {
                     self.messages.error(words);
                 }
             }
             Answer::Body(raw) => {
+                self.prefer(ctx, |p| p.answers.body = Some((raw.unit, raw.up)));
                 if let Err(words) = self.take_body(*raw) {
                     self.messages.error(words);
                 }
@@ -399,9 +424,9 @@ impl App {
 }
 
 /// A simulation on its own thread that wakes the window when there is something new.
-fn runner(ctx: &egui::Context) -> std::io::Result<Runner> {
-    let ctx = ctx.clone();
-    Runner::threaded(Simulation::default(), DEFAULT_RATE_HZ, Box::new(move || ctx.request_repaint()))
+fn runner(wakeup: &Wakeup) -> std::io::Result<Runner> {
+    let wakeup = wakeup.clone();
+    Runner::threaded(Simulation::default(), DEFAULT_RATE_HZ, Box::new(move || wakeup.wake()))
 }
 
 fn sentence(words: &str) -> String {

@@ -9,6 +9,7 @@ use crate::session::demos::Demo;
 use crate::session::samples::Sample;
 use crate::ui::actions::{Action, Tool};
 use crate::ui::mouse::Mouse;
+use crate::ui::panes::Panes;
 use crate::ui::units::LengthUnit;
 
 /// Actions that can be chosen at any time. Not those of proposed marks, whose keys come before all others while there are
@@ -24,6 +25,9 @@ pub const ALL: &[Action] = &[
     Action::Open,
     Action::Save,
     Action::SaveAs,
+    Action::SaveCopy,
+    Action::SaveNext,
+    Action::Revert,
     Action::ImportPattern,
     Action::ImportBody,
     Action::UseMannequin,
@@ -86,6 +90,9 @@ pub const ALL: &[Action] = &[
     Action::Choose(Tool::Drag(DragMode::Vertex)),
     Action::Choose(Tool::Drag(DragMode::Rigid)),
     Action::Choose(Tool::Pin),
+    Action::Choose(Tool::Bone),
+    Action::OwnBones,
+    Action::NoBones,
     Action::ClearPins,
     Action::Look(View::Front),
     Action::Look(View::Back),
@@ -103,9 +110,14 @@ pub const ALL: &[Action] = &[
     Action::ToggleWire,
     Action::ToggleSheer,
     Action::ToggleXray,
+    Action::TogglePairs,
     Action::ToggleSnapping,
     Action::ClearGuides,
     Action::TogglePanel,
+    Action::Show(Panes::Both),
+    Action::Show(Panes::Pattern),
+    Action::Show(Panes::Body),
+    Action::SwapPanes,
     Action::ToggleHistory,
     Action::ToggleLog,
     Action::NextPane,
@@ -152,6 +164,9 @@ impl Action {
             | Self::ClearRecent
             | Self::Save
             | Self::SaveAs
+            | Self::SaveCopy
+            | Self::SaveNext
+            | Self::Revert
             | Self::ImportPattern
             | Self::ImportBody
             | Self::UseMannequin
@@ -177,7 +192,9 @@ impl Action {
             | Self::ToggleLaser
             | Self::Preferences => "Edit",
             Self::Choose(Tool::Mark | Tool::Erase) => "Tools",
-            Self::Choose(Tool::Drag(_) | Tool::Pin)
+            Self::Choose(Tool::Drag(_) | Tool::Pin | Tool::Bone)
+            | Self::OwnBones
+            | Self::NoBones
             | Self::ClearPins
             | Self::Wrap
             | Self::Rewrap
@@ -221,7 +238,10 @@ impl Action {
             | Self::ToggleWire
             | Self::ToggleSheer
             | Self::ToggleXray
+            | Self::TogglePairs
             | Self::TogglePanel
+            | Self::Show(_)
+            | Self::SwapPanes
             | Self::ToggleHistory
             | Self::ToggleLog => "View",
         }

@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 
 use egui::{Id, Modal, ScrollArea, TextEdit};
 
-use crate::body::Unit;
+use crate::body::{Unit, UpAxis};
 use crate::io::scale::{DrawingUnit, ScaleQuestion};
 use crate::session::recovery::Left;
 use crate::ui::actions::Action;
@@ -28,6 +28,8 @@ pub enum Dialog {
     Unsaved { then: Action },
     /// A path typed by hand, where the desktop offers no dialog.
     Path { purpose: Purpose, text: String },
+    /// Whether to go back to what is in this file.
+    Revert { path: PathBuf },
     /// The unit of a body.
     Unit { raw: Box<RawBody> },
     /// How large the drawing in a file is.
@@ -78,6 +80,7 @@ impl Dialog {
         match self {
             Self::Unsaved { then } => unsaved_ui(ctx, *then),
             Self::Path { purpose, text } => path_ui(ctx, *purpose, text),
+            Self::Revert { path } => revert_ui(ctx, path),
             Self::Unit { raw } => unit_ui(ctx, raw),
             Self::Scale { path, question, unit } => scale_ui(ctx, path, question, unit),
             Self::Shortcuts { mouse, keymap } => shortcuts_ui(ctx, *mouse, keymap),
@@ -188,6 +191,28 @@ fn changed_ui(ctx: &egui::Context, path: &Path) -> Answer {
     shown.inner.or_cancel(closed)
 }
 
+fn revert_ui(ctx: &egui::Context, path: &Path) -> Answer {
+    let shown = Modal::new(Id::unique("revert")).show(ctx, |ui| {
+        ui.set_width(400.0);
+        ui.heading("Go back to the saved version?");
+        ui.add_space(4.0);
+        ui.label(format!("What has changed since {} was saved will be gone.", path.display()));
+        ui.add_space(10.0);
+        ui.horizontal(|ui| {
+            if ui.button("Go back").clicked() {
+                Answer::File(Purpose::Open, path.to_owned())
+            } else if ui.button("Cancel").clicked() {
+                Answer::Cancel
+            } else {
+                Answer::None
+            }
+        })
+        .inner
+    });
+    let closed = shown.should_close();
+    shown.inner.or_cancel(closed)
+}
+
 fn path_ui(ctx: &egui::Context, purpose: Purpose, text: &mut String) -> Answer {
     let shown = Modal::new(Id::unique("path")).show(ctx, |ui| {
         ui.set_width(460.0);
@@ -228,9 +253,15 @@ fn unit_ui(ctx: &egui::Context, raw: &mut RawBody) -> Answer {
         ui.heading(format!("In which unit is {}?", raw.name));
         ui.add_space(4.0);
         for unit in Unit::ALL {
-            let words = format!("{unit}: the body is {:.2} m tall", raw.height * unit.metres());
+            let words = format!("{unit}: the body is {:.2} m tall", raw.height(unit));
             ui.radio_value(&mut raw.unit, unit, words);
         }
+        ui.add_space(6.0);
+        ui.label("Which axis points up?");
+        ui.horizontal(|ui| {
+            ui.radio_value(&mut raw.up, UpAxis::Y, "y up");
+            ui.radio_value(&mut raw.up, UpAxis::Z, "z up");
+        });
         ui.add_space(8.0);
         ui.horizontal(|ui| {
             if ui.button("Take it").clicked() {

@@ -105,7 +105,7 @@ fn of_each(pieces: &[PieceId], edit: impl Fn(PieceId) -> Option<PatternEdit>) ->
 
 /// Selected pieces, points, lines and seams; of a hole whose edge is selected the whole.
 fn deletions(pattern: &Pattern, selection: &Selection) -> Vec<PatternEdit> {
-    let Selection { pieces, points, edges, lines, seams } = selection;
+    let Selection { pieces, points, edges, lines, seams, .. } = selection;
     let mut all = Vec::new();
     if !seams.is_empty() {
         all.push(PatternEdit::Unpick { seams: seams.iter().copied().collect() });
@@ -221,6 +221,7 @@ pub struct Picked {
     pub points: usize,
     pub edges: usize,
     pub seams: usize,
+    pub pins: usize,
     /// One of the pieces is its own mirror image.
     pub symmetric: bool,
     /// One of the pieces follows another, or its other half.
@@ -245,11 +246,12 @@ impl Picked {
             points: selection.points.len(),
             edges: selection.edges.len(),
             seams: selection.seams.len(),
+            pins: selection.pins.len(),
             symmetric: pieces().any(|piece| piece.symmetric),
             linked: pieces().any(|piece| piece.symmetric || piece.twin.is_some()),
             straight: selection.edges.iter().any(|edge| is_straight(pattern, *edge)),
             locked: !touched.is_empty() && pieces().all(|piece| piece.locked),
-            deletable: !deletions(pattern, selection).is_empty(),
+            deletable: !selection.pins.is_empty() || !deletions(pattern, selection).is_empty(),
             hidden: pattern.pieces.values().any(|piece| piece.hidden),
         }
     }

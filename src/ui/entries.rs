@@ -4,6 +4,7 @@ use egui::Key;
 
 use crate::drag::DragMode;
 use crate::ui::actions::{Action, Entry, Tool, ctrl, ctrl_shift, entry, key, shift};
+use crate::ui::panes::Panes;
 
 impl Tool {
     /// How it is shown and reached.
@@ -49,6 +50,11 @@ impl Tool {
                 "Click to pin the cloth where it is, drag for a row of pins, click a pin to pull it out",
                 &[key(Key::P)],
             ),
+            Self::Bone => entry(
+                "Draw bones",
+                "Drag through the body to draw a bone, which cloth cannot be pulled across; Ctrl+click takes one away",
+                &[],
+            ),
         }
     }
 }
@@ -79,9 +85,11 @@ impl Action {
                 entry("Unlink", "The selected pieces no longer follow their twins or their other half", &[])
             }
             Self::TurnOver => entry("Turn over", "See the other side of the selected pieces", &[key(Key::M)]),
-            Self::ToggleLock => {
-                entry("Lock", "Keep the selected pieces from being changed by the pointer", &[ctrl(Key::L)])
-            }
+            Self::ToggleLock => entry(
+                "Lock",
+                "Keep the selected pieces from being changed by the pointer, or the selected pins where they are",
+                &[ctrl(Key::L)],
+            ),
             Self::Hide => {
                 entry("Hide", "Do not show the selected pieces; they are sewn all the same", &[ctrl(Key::H)])
             }
@@ -138,6 +146,21 @@ impl Action {
                 "Marks, pins and seams show through; hidden ones can be clicked",
                 &[key(Key::Y)],
             ),
+            Self::TogglePairs => entry(
+                "Pair lines",
+                "Join each mark on the table to its partner on the body until the cloth is dressed",
+                &[],
+            ),
+            Self::Show(Panes::Both) => {
+                entry("Pattern and body", "Show both panes side by side", &[ctrl(Key::F9)])
+            }
+            Self::Show(Panes::Pattern) => {
+                entry("Only the pattern", "The pattern takes the whole window", &[key(Key::F9)])
+            }
+            Self::Show(Panes::Body) => {
+                entry("Only the body", "The body takes the whole window", &[key(Key::F10)])
+            }
+            Self::SwapPanes => entry("Body on the left", "The panes change places", &[]),
             Self::ToggleHistory => entry("History", "Every step; a click goes back to it", &[]),
             Self::ToggleLog => entry("Messages", "What was told so far, to be read again and copied", &[]),
             Self::CommandPalette => entry(

@@ -24,7 +24,7 @@ impl App {
     pub(super) fn file(&mut self, ctx: &egui::Context, purpose: Purpose, path: &Path) {
         let done = match purpose {
             Purpose::Open => files::open(path).map(|project| {
-                self.replace(ctx, project, Some(path.to_owned()));
+                self.replace(project, Some(path.to_owned()));
                 self.remember(path);
             }),
             Purpose::Picture => self.write_picture(path),
@@ -33,6 +33,7 @@ impl App {
                 Ok(())
             }
             Purpose::Save => self.save_to(ctx, path),
+            Purpose::Copy => files::save(path, &self.session.project()).map(|()| self.wrote(path)),
             Purpose::ImportPattern => self.import_pattern(path, None),
             Purpose::ImportBody => files::read_body(path).and_then(|raw| self.import_body(raw)),
             Purpose::Export => {
@@ -51,6 +52,14 @@ impl App {
         }
     }
 
+    /// Saves beside the project's file, under the next number; from then on that is its file.
+    pub(super) fn save_next(&mut self, ctx: &egui::Context) {
+        let Some(path) = self.path.as_deref().map(files::next_version) else { return };
+        if let Err(words) = self.save_to(ctx, &path) {
+            self.messages.error(words);
+        }
+    }
+
     /// Asks for the unit first when the file does not say it.
     pub(super) fn import_pattern(&mut self, path: &Path, unit: Option<DrawingUnit>) -> Result<(), String> {
         match files::import_pattern(path, unit)? {
@@ -62,7 +71,9 @@ impl App {
                 }
             }
             PatternImport::Question(question) => {
-                let unit = question.candidates.first().copied().unwrap_or_default();
+                let before = self.preferences.answers.drawing(path);
+                let before = before.filter(|unit| question.candidates.contains(unit));
+                let unit = before.or(question.candidates.first().copied()).unwrap_or_default();
                 self.dialog = Some(Dialog::Scale { path: path.to_owned(), question, unit });
             }
         }
@@ -79,8 +90,9 @@ impl App {
     }
 
     /// Asks for the unit first when there is a doubt.
-    pub(super) fn import_body(&mut self, raw: RawBody) -> Result<(), String> {
+    pub(super) fn import_body(&mut self, mut raw: RawBody) -> Result<(), String> {
         if raw.is_doubtful {
+            raw.answered_before(self.preferences.answers.body);
             self.dialog = Some(Dialog::Unit { raw: Box::new(raw) });
             return Ok(());
         }

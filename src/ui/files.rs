@@ -3,7 +3,9 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use crate::body::{Unit, guess_unit, import, mannequin};
+use glam::DVec3;
+
+use crate::body::{Unit, UpAxis, guess_unit, import, mannequin};
 use crate::geometry::mesh::TriMesh;
 use crate::io::pattern_file::{self, PatternFileError};
 use crate::io::pdf::{self, Paper};
@@ -21,6 +23,8 @@ pub enum Purpose {
     Open,
     /// Save the project.
     Save,
+    /// Save a copy of the project.
+    Copy,
     /// Read a pattern.
     ImportPattern,
     /// Read a body.
@@ -43,6 +47,7 @@ impl Purpose {
         match self {
             Self::Open => "Open a project",
             Self::Save => "Save the project",
+            Self::Copy => "Save a copy of the project",
             Self::ImportPattern => "Import a pattern",
             Self::ImportBody => "Import a body",
             Self::Export => "Export the dressed garment",
@@ -56,7 +61,7 @@ impl Purpose {
     /// Kind of file in words, and its extensions.
     pub fn filter(self) -> (&'static str, &'static [&'static str]) {
         match self {
-            Self::Open | Self::Save => ("Toile project", &["toile"]),
+            Self::Open | Self::Save | Self::Copy => ("Toile project", &["toile"]),
             Self::ImportPattern => ("Pattern", &["dxf", "svg", "json"]),
             Self::ExportPattern => ("Pattern", &["pdf", "svg", "dxf", "json"]),
             Self::ImportBody => ("OBJ body", &["obj"]),
@@ -70,7 +75,13 @@ impl Purpose {
     pub fn writes(self) -> bool {
         matches!(
             self,
-            Self::Save | Self::Export | Self::ExportPattern | Self::Recording | Self::Picture | Self::Turn
+            Self::Save
+                | Self::Copy
+                | Self::Export
+                | Self::ExportPattern
+                | Self::Recording
+                | Self::Picture
+                | Self::Turn
         )
     }
 
@@ -166,8 +177,10 @@ pub struct RawBody {
     pub name: String,
     /// In the file's unit.
     pub mesh: TriMesh,
-    /// Of the file's unit, lowest to highest point.
-    pub height: f64,
+    /// Sides of its bounding box, in the file's unit.
+    pub size: DVec3,
+    /// What points up in the file.
+    pub up: UpAxis,
     /// What the unit probably is.
     pub unit: Unit,
     /// The guess is only one of several, or there is none.
@@ -178,14 +191,32 @@ pub struct RawBody {
 pub fn read_body(path: &Path) -> Result<RawBody, String> {
     let mesh = obj::read(&read(path)?).map_err(|e| in_words(path, "imported", e))?.mesh;
     let (lower, upper) = mesh.bounds();
-    let height = (upper - lower).y;
-    let guess = guess_unit(height);
-    let is_doubtful = guess != Some(Unit::Metre);
-    Ok(RawBody { name: stem(path), mesh, height, unit: guess.unwrap_or_default(), is_doubtful })
+    let size = upper - lower;
+    let up = UpAxis::guess(size);
+    let guess = guess_unit(up.height(size));
+    let is_doubtful = guess != Some(Unit::Metre) || up != UpAxis::Y;
+    Ok(RawBody { name: stem(path), mesh, size, up, unit: guess.unwrap_or_default(), is_doubtful })
+}
+
+impl RawBody {
+    /// How tall it stands, metres.
+    pub fn height(&self, unit: Unit) -> f64 {
+        self.up.height(self.size) * unit.metres()
+    }
+
+    /// Takes what was answered for files of this kind before, where a body would be as tall as bodies are.
+    pub fn answered_before(&mut self, before: Option<(Unit, UpAxis)>) {
+        if let Some((unit, up)) = before
+            && guess_unit(up.height(self.size) * unit.metres() / Unit::Metre.metres()) == Some(Unit::Metre)
+        {
+            (self.unit, self.up) = (unit, up);
+        }
+    }
 }
 
 /// The command that takes `raw` as the body, and what was put right on the way.
-pub fn take_body(raw: RawBody) -> Result<(Command, Vec<String>), String> {
+pub fn take_body(mut raw: RawBody) -> Result<(Command, Vec<String>), String> {
+    raw.up.set_upright(&mut raw.mesh);
     let imported = import(raw.mesh, raw.unit);
     if !imported.is_usable() {
         let faults: Vec<String> = imported.problems.into_iter().map(|p| p.words).collect();
@@ -224,6 +255,24 @@ pub fn use_mannequin() -> Command {
 
 fn read(path: &Path) -> Result<Vec<u8>, String> {
     std::fs::read(path).map_err(|e| in_words(path, "read", e))
+}
+
+/// "shirt-2.toile" for "shirt.toile", "shirt-8.toile" for "shirt-7.toile": the next one that is not there yet.
+pub fn next_version(path: &Path) -> std::path::PathBuf {
+    let name = stem(path);
+    let (base, number) = match name.rsplit_once('-') {
+        Some((base, digits)) if !base.is_empty() && digits.len() < 9 => match digits.parse::<u32>() {
+            Ok(number) => (base.to_owned(), number),
+            Err(_) => (name.clone(), 1),
+        },
+        _ => (name.clone(), 1),
+    };
+    let named = |number: u32| path.with_file_name(format!("{base}-{number}.toile"));
+    let mut next = number + 1;
+    while named(next).exists() {
+        next += 1;
+    }
+    named(next)
 }
 
 /// The name of a file without its extension.

@@ -13,6 +13,7 @@ use crate::ui::actions::Action;
 use crate::ui::asks::{Ask, Asks};
 use crate::ui::side_panel::Told;
 use crate::ui::theme::colour;
+use crate::ui::units::signed;
 use crate::wrap::{MarkPlace, Marks, PairStretch, stretches};
 
 /// What the list remembers from frame to frame.
@@ -202,7 +203,7 @@ fn stretch_ui(ui: &mut egui::Ui, told: &Told<'_>, pair: &PairStretch) {
         ui.label(RichText::new("point").color(told.palette.weak).size(12.5));
         return;
     }
-    let percent = format!("{:+.1} %", pair.stretch() * 100.0);
+    let percent = format!("{} %", signed(pair.stretch() * 100.0, 1));
     let text = RichText::new(&percent).size(12.5);
     let ink = if pair.is_large() { told.palette.error } else { told.palette.weak };
     let text = if pair.is_large() { text.strong().color(ink) } else { text.color(ink) };

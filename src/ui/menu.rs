@@ -9,6 +9,7 @@ use crate::session::samples::Sample;
 use crate::ui::actions::{Action, Tool, VIEWS};
 use crate::ui::asks::{Ask, Asks};
 use crate::ui::mouse::Mouse;
+use crate::ui::panes::Panes;
 use crate::ui::situation::Situation;
 use crate::ui::units::LengthUnit;
 
@@ -36,6 +37,8 @@ pub fn menu_bar_ui(ui: &mut egui::Ui, now: &Situation, asks: &mut Asks) {
             let drags = [DragMode::Surface, DragMode::Vertex, DragMode::Rigid];
             items(ui, now, asks, &drags.map(|mode| Action::Choose(Tool::Drag(mode))));
             items(ui, now, asks, &[Action::Choose(Tool::Pin), Action::ClearPins]);
+            ui.separator();
+            items(ui, now, asks, &[Action::Choose(Tool::Bone), Action::OwnBones, Action::NoBones]);
         });
         ui.menu_button("View", |ui| view_ui(ui, now, asks));
         ui.menu_button("Help", |ui| help_ui(ui, now, asks));
@@ -53,7 +56,7 @@ fn file_ui(ui: &mut egui::Ui, now: &Situation, asks: &mut Asks) {
     ui.menu_button("Open recent", |ui| recent_ui(ui, now, asks));
     items(ui, now, asks, &[Action::StartPage]);
     ui.separator();
-    items(ui, now, asks, &[Action::Save, Action::SaveAs]);
+    items(ui, now, asks, &[Action::Save, Action::SaveAs, Action::SaveCopy, Action::SaveNext, Action::Revert]);
     ui.separator();
     items(ui, now, asks, &[Action::ImportPattern, Action::ImportBody, Action::UseMannequin]);
     ui.separator();
@@ -164,11 +167,15 @@ fn view_ui(ui: &mut egui::Ui, now: &Situation, asks: &mut Asks) {
     items(ui, now, asks, &[Action::FrameAll, Action::FrameSelection, Action::TrueSize]);
     items(ui, now, asks, &[Action::ToggleParallel, Action::ToggleFreeTurning]);
     ui.separator();
-    items(ui, now, asks, &[Action::ToggleWire, Action::ToggleSheer, Action::ToggleXray]);
+    items(ui, now, asks, &[Action::ToggleWire, Action::ToggleSheer, Action::ToggleXray, Action::TogglePairs]);
     ui.separator();
     items(ui, now, asks, &[Action::ToggleSnapping, Action::ClearGuides]);
     ui.menu_button("Unit", |ui| items(ui, now, asks, &LengthUnit::ALL.map(Action::Unit)));
     ui.separator();
+    ui.menu_button("Panes", |ui| {
+        items(ui, now, asks, &Panes::ALL.map(Action::Show));
+        items(ui, now, asks, &[Action::SwapPanes]);
+    });
     items(ui, now, asks, &[Action::ToggleCloth, Action::TogglePanel]);
     items(ui, now, asks, &[Action::ToggleHistory, Action::ToggleLog]);
     ui.separator();

@@ -2,8 +2,9 @@
 
 use std::sync::Arc;
 
-use egui::{CentralPanel, Frame, Margin, Panel};
+use egui::{Frame, Margin, Panel};
 
+use crate::pattern::Pattern;
 use crate::session::Document;
 use crate::sim::Snapshot;
 use crate::ui::actions::Tool;
@@ -11,11 +12,15 @@ use crate::ui::app::App;
 use crate::ui::asks::Asks;
 use crate::ui::edits::Picked;
 use crate::ui::mouse::Mouse;
-use crate::ui::pattern_pane::{self, Laid};
-use crate::ui::scene_pane::{self, Seen};
+use crate::ui::panes::{Layout, Panes};
+use crate::ui::pattern_pane::Laid;
+use crate::ui::preferences_page::points_per_metre;
+use crate::ui::scene_pane;
+use crate::ui::selection::Item;
 use crate::ui::side_panel::Told;
-use crate::ui::situation::Situation;
-use crate::ui::theme::{self, Palette};
+use crate::ui::situation::{Situation, Work};
+use crate::ui::theme::Palette;
+use crate::ui::units::LengthUnit;
 use crate::ui::{menu, side_panel, status, toolbar};
 use crate::wrap::Phase;
 
@@ -39,10 +44,13 @@ impl App {
             .frame(thin)
             .show_separator_line(false)
             .show(ui, |ui| menu::menu_bar_ui(ui, now, asks));
-        Panel::top("tools").frame(thick).show(ui, |ui| toolbar::toolbar_ui(ui, now, palette, asks));
+        Panel::top("tools").frame(thick).show(ui, |ui| {
+            self.shell.first_tool = toolbar::toolbar_ui(ui, now, palette, asks);
+        });
         Panel::bottom("status").frame(thin).exact_size(status::HEIGHT).show(ui, |ui| {
             status::status_ui(ui, now, &self.hint(document, now, palette), palette);
         });
+        self.shell.first_of_panel = None;
         if self.show_panel {
             Panel::right("side").default_size(256.0).size_range(220.0..=420.0).frame(thick).show(ui, |ui| {
                 let told = Told {
@@ -55,54 +63,21 @@ impl App {
                     now,
                     palette,
                 };
-                side_panel::side_panel_ui(ui, &told, &mut self.marks_panel, &mut self.pattern_panel, asks);
+                let (marks, pattern) = (&mut self.marks_panel, &mut self.pattern_panel);
+                let first = side_panel::side_panel_ui(ui, &told, marks, pattern, asks);
+                self.shell.first_of_panel = first;
             });
         }
         self.drawer_panel(ui, now, palette, asks);
-        let half = ui.available_width() * 0.46;
-        let least = (ui.available_width() - 200.0).max(160.0);
-        Panel::left("table").frame(Frame::new()).default_size(half).size_range(160.0..=least).show(
-            ui,
-            |ui| {
-                let mut pane = std::mem::take(&mut self.pattern_pane);
-                pane.ui(ui, &self.laid(document, now, palette), asks);
-                self.pattern_pane = pane;
-                if let Some(response) = self.pattern_pane.response.take() {
-                    response.context_menu(|ui| menu::context_ui(ui, now, asks));
-                }
-                if document.pattern.pieces.is_empty() && matches!(now.tool, Tool::Mark | Tool::Move) {
-                    let area = ui.max_rect().shrink2(egui::vec2(20.0, ui.max_rect().height() * 0.36));
-                    ui.scope_builder(egui::UiBuilder::new().max_rect(area), |ui| {
-                        pattern_pane::empty_ui(ui, asks);
-                    });
-                }
-            },
-        );
-        CentralPanel::default().frame(Frame::new()).show(ui, |ui| {
-            let cloth = snapshot.drawn().filter(|_| self.show_cloth && snapshot.is_dressed());
-            let stand_out = self.picks.standing_out(now.highlight);
-            let seen = Seen {
-                document,
-                body: surface.as_ref(),
-                cloth,
-                pinned: &snapshot.pinned,
-                dragged: snapshot.dragged.as_ref(),
-                growing: now.wrapping,
-                working: now.working,
-                tool: now.tool,
-                mouse: now.mouse,
-                laser: self.laser,
-                selected: now.selected.map(|(mark, _)| mark),
-                stand_out: &stand_out,
-                ghosts: self.ghosts.as_ref().map(|g| &g.marks),
-                look: self.shell.sight.on(theme::look(ui.ctx().theme())),
-                palette,
-            };
-            self.scene_pane.ui(ui, &seen, asks);
-        });
+        self.panes(ui, document, snapshot, now, palette, asks);
     }
 
-    fn laid<'a>(&'a self, document: &'a Document, now: &'a Situation, palette: &'a Palette) -> Laid<'a> {
+    pub(super) fn laid<'a>(
+        &'a self,
+        document: &'a Document,
+        now: &'a Situation,
+        palette: &'a Palette,
+    ) -> Laid<'a> {
         Laid {
             document,
             tool: now.tool,
@@ -111,6 +86,7 @@ impl App {
             selected: now.selected.map(|(mark, _)| mark),
             selection: &self.picks.selection,
             highlight: now.highlight,
+            points_per_metre: now.points_per_metre,
             unit: now.unit,
             snapping: self.snapping,
             ghosts: self.ghosts.as_ref().map(|g| &*g.marks),
@@ -130,21 +106,35 @@ impl App {
         } else if self.pattern_pane.hovered || self.pattern_pane.is_busy() {
             self.pattern_pane.hint(&self.laid(document, now, palette))
         } else if self.scene_pane.hovered {
-            scene_pane::hint(self.tool, mouse, self.laser, now.dressed, next(document.marks.body.len()))
+            let words =
+                scene_pane::hint(self.tool, mouse, self.laser, now.dressed, next(document.marks.body.len()));
+            match now.highlight.and_then(|item| edge_words(&document.pattern, item, now.unit)) {
+                Some(edge) => format!("{edge} · {words}"),
+                None => words,
+            }
         } else {
             "Paint a mark on a piece and one on the body where it should lie, then press Wrap.".to_owned()
         }
     }
 
     pub(super) fn situation(
-        &self,
+        &mut self,
         ctx: &egui::Context,
         document: &Document,
         snapshot: &Snapshot,
     ) -> Situation {
         let asked = self.demo.is_none() && self.wrap_seq.is_some_and(|seq| snapshot.seq < seq);
         let growing = snapshot.phase == Some(Phase::Growing) && snapshot.working;
+        let work = match snapshot.phase {
+            _ if snapshot.dragged.is_some() => Some(Work::Hand),
+            Some(Phase::Growing) => Some(Work::Growing),
+            Some(Phase::Settling) => Some(Work::Settling),
+            _ => None,
+        };
+        let work = work.filter(|_| snapshot.working).map(|work| (work, snapshot.progress));
+        let pace = self.pacer.frame(ctx.input(|i| i.time), self.frames, snapshot.tick, work);
         Situation {
+            pace,
             undo: self.shown().undo_label().map(str::to_owned),
             redo: self.shown().redo_label().map(str::to_owned),
             // In a demo the mouse only turns the view.
@@ -156,6 +146,7 @@ impl App {
             twisted: self.pattern_pane.has_twisted(),
             snapping: self.snapping,
             highlight: self.highlight(),
+            points_per_metre: points_per_metre(ctx, self.preferences.screen),
             unit: self.preferences.unit,
             selected: self.selected.and_then(|mark| Some((mark, document.marks.place(mark)?))),
             pieces: document.pattern.pieces.len(),
@@ -174,6 +165,13 @@ impl App {
             progress: snapshot.progress,
             tick: snapshot.tick,
             triangles: snapshot.garment.as_ref().map_or(0, |g| g.triangles.len()),
+            // Demos and the tour point at both.
+            layout: if self.demo.is_some() || self.shell.tour.is_some() {
+                Layout { panes: Panes::Both, ..self.preferences.layout }
+            } else {
+                self.preferences.layout
+            },
+            has_file: self.path.is_some(),
             show_cloth: self.show_cloth,
             show_panel: self.show_panel,
             parallel: self.scene_pane.camera.projection == crate::render::Projection::Orthographic,
@@ -187,4 +185,11 @@ impl App {
             picturing: self.shell.turn.is_some(),
         }
     }
+}
+
+/// Which edge this is and how long it is drawn.
+fn edge_words(pattern: &Pattern, item: Item, unit: LengthUnit) -> Option<String> {
+    let Item::Edge(edge) = item else { return None };
+    let piece = pattern.pieces.get(&edge.piece).filter(|piece| edge.edge < piece.edge_count())?;
+    Some(format!("{}, edge {}: {}", piece.name, edge.edge + 1, unit.text(piece.edge_length(edge.edge))))
 }

@@ -15,6 +15,7 @@ use crate::ui::pattern_pane::seam_words;
 use crate::ui::selection::{Item, Selection};
 use crate::ui::side_panel::Told;
 use crate::ui::signs::{Sign, sign_button};
+use crate::ui::units::signed;
 
 /// What the lists remember from frame to frame.
 #[derive(Debug, Default)]
@@ -289,7 +290,11 @@ fn seam_ui(ui: &mut egui::Ui, told: &Told<'_>, id: SeamId, asks: &mut Asks) {
     let words = format!("{} on {}", unit.text(a), unit.text(b));
     ui.label(words);
     let ink = if percent.abs() > 1.0 { told.palette.warning } else { told.palette.weak };
-    ui.label(RichText::new(format!("Difference {more:+.1} mm ({percent:+.2} %)")).color(ink).size(12.5));
+    ui.label(
+        RichText::new(format!("Difference {} mm ({} %)", signed(more, 1), signed(percent, 2)))
+            .color(ink)
+            .size(12.5),
+    );
     ratio_ui(ui, told, id, seam, a / b.max(1e-9), asks);
     ui.horizontal(|ui| {
         action_row(ui, told, &[Action::TurnSeam, Action::Delete], asks);

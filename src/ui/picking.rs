@@ -2,12 +2,14 @@
 
 use std::sync::Arc;
 
+use crate::geometry::ids::PinId;
 use crate::pattern::Pattern;
 use crate::session::{Command, Document};
 use crate::ui::actions::Action;
 use crate::ui::app::App;
 use crate::ui::edits;
 use crate::ui::selection::{Item, Selection};
+use crate::ui::shell::Shell;
 
 /// What is selected, and of which pattern.
 #[derive(Debug, Default)]
@@ -32,10 +34,11 @@ impl App {
     pub(super) fn carry_selection(&mut self, document: &Document) {
         let old = std::mem::replace(&mut self.picks.of, Arc::clone(&document.pattern));
         self.picks.selection.carried(&old, &document.pattern);
+        self.picks.selection.pins.retain(|&id| document.pins.iter().any(|pin| pin.id == id));
     }
 
     /// What the pointer is over, in either pane.
-    pub(super) fn highlight(&self) -> Option<Item> {
+    pub fn highlight(&self) -> Option<Item> {
         let pattern = &self.picks.of;
         self.pattern_pane.under.or(self.scene_pane.under).filter(|item| item.is_in(pattern))
     }
@@ -74,17 +77,30 @@ impl App {
         if action == Action::SelectAll {
             return self.pick(Selection::all(&pattern));
         }
+        let pins: Vec<PinId> = self.picks.selection.pins.iter().copied().collect();
+        if !pins.is_empty() {
+            let all = &self.session.document().pins;
+            let locked = !all.iter().all(|pin| pin.locked || !pins.contains(&pin.id));
+            return match action {
+                Action::Delete => self.apply(Command::DeletePins { pins }),
+                Action::ToggleLock => self.apply(Command::LockPins { pins, locked }),
+                _ => {}
+            };
+        }
         let edits = edits::edits(action, &pattern, &self.picks.selection);
         if !edits.is_empty() {
             self.apply_and_select(Command::EditPattern { edits, anew: false });
         }
     }
 
-    /// The keyboard goes to the pattern pane, and from there to the body pane.
-    pub(super) fn next_pane(&self, ctx: &egui::Context) {
-        let panes = [self.pattern_pane.id, self.scene_pane.id];
+    /// The keyboard goes from pattern to body, side panel and toolbar, and round; from anywhere else to the pattern.
+    pub(super) fn next_pane(&mut self, ctx: &egui::Context) {
+        let Shell { first_of_panel, first_tool, .. } = self.shell;
+        let panes = [self.pattern_pane.id, self.scene_pane.id, first_of_panel, first_tool];
         let focused = ctx.memory(|m| m.focused());
-        let next = if focused.is_some() && focused == panes[0] { panes[1] } else { panes[0] };
+        let at = focused.and_then(|id| panes.iter().position(|&pane| pane == Some(id)));
+        let from = at.map_or(0, |at| at + 1);
+        let next = (0..panes.len()).find_map(|i| panes[(from + i) % panes.len()]);
         if let Some(id) = next {
             ctx.memory_mut(|m| m.request_focus(id));
         }

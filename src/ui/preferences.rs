@@ -1,15 +1,20 @@
 //! What a person prefers, kept between runs. A file that cannot be read is as good as none.
 
+use std::collections::BTreeMap;
+use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use egui::ThemePreference;
 use serde::{Deserialize, Serialize};
 
+use crate::body::{Unit, UpAxis};
 use crate::io::pdf::Paper;
+use crate::io::scale::DrawingUnit;
 use crate::ui::files;
 use crate::ui::keymap::Keymap;
 use crate::ui::mouse::Mouse;
+use crate::ui::panes::Layout;
 use crate::ui::units::LengthUnit;
 
 /// Bytes a file of preferences may have.
@@ -34,6 +39,15 @@ pub struct Preferences {
     /// How large everything in the window is.
     #[serde(deserialize_with = "or_default")]
     pub scale: Scale,
+    /// Which panes are shown, and where.
+    #[serde(deserialize_with = "or_default")]
+    pub layout: Layout,
+    /// How fine the screen is.
+    #[serde(deserialize_with = "or_default")]
+    pub screen: Screen,
+    /// How files that do not say it were last answered to be.
+    #[serde(deserialize_with = "or_default")]
+    pub answers: Answers,
     /// How often unsaved work is copied.
     #[serde(deserialize_with = "or_default")]
     pub copies: Copies,
@@ -60,6 +74,55 @@ impl Scale {
     /// As a factor, 0.75..=3.
     pub fn factor(self) -> f32 {
         f32::from(self.0.clamp(75, 300)) / 100.0
+    }
+}
+
+/// What was answered when a file did not say how large it is.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Answers {
+    /// Unit and upright axis of bodies.
+    pub body: Option<(Unit, UpAxis)>,
+    /// What a unit of a drawing is, by the ending of its name in small letters.
+    pub drawings: BTreeMap<String, DrawingUnit>,
+}
+
+impl Answers {
+    /// For drawings with the ending of `path`.
+    pub fn drawing(&self, path: &Path) -> Option<DrawingUnit> {
+        self.drawings.get(&ending(path)).copied()
+    }
+
+    /// `unit` is the answer for drawings with the ending of `path`.
+    pub fn keep_drawing(&mut self, path: &Path, unit: DrawingUnit) {
+        self.drawings.insert(ending(path), unit);
+    }
+}
+
+fn ending(path: &Path) -> String {
+    path.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default()
+}
+
+/// How fine the screen is, as a person has measured it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct Screen(pub Option<f32>);
+
+impl Screen {
+    /// Pixels in an inch that a screen can have.
+    pub const PIXELS: RangeInclusive<f32> = 40.0..=600.0;
+    /// Points in an inch where nobody has measured, on a screen that is honest about its scale.
+    const USUAL: f32 = 96.0;
+
+    /// Pixels in an inch; `native`: pixels in a point before the window is scaled.
+    pub fn pixels_per_inch(self, native: f32) -> f32 {
+        let said = self.0.filter(|said| Self::PIXELS.contains(said));
+        said.unwrap_or(Self::USUAL * native)
+    }
+
+    /// Points in a metre; `per_point`: pixels in a point of the window as it is scaled.
+    pub fn points_per_metre(self, native: f32, per_point: f32) -> f64 {
+        f64::from(self.pixels_per_inch(native)) / f64::from(per_point) / 0.0254
     }
 }
 
@@ -171,6 +234,11 @@ mod tests {
             unit: LengthUnit::Inch,
             paper: Paper::One,
             scale: Scale(150),
+            screen: Screen(Some(109.0)),
+            answers: Answers {
+                body: Some((Unit::Millimetre, UpAxis::Z)),
+                drawings: [("svg".to_owned(), DrawingUnit::Inch)].into(),
+            },
             ..Preferences::default()
         };
         preferences.write(&path).expect("written");
@@ -184,5 +252,16 @@ mod tests {
         assert_eq!(Preferences::read(&path), Preferences { theme: Theme::Dark, ..Preferences::default() });
         assert_eq!(Preferences::read(folder.path()), Preferences::default(), "a folder is no file");
         assert!(preferences.write(folder.path()).is_err());
+    }
+
+    #[test]
+    fn true_size_is_that_of_the_screen_and_not_of_the_scale_of_the_window() {
+        let near = |a: f64, b: f64| assert!((a - b).abs() < 1e-6 * b, "{a} is not {b}");
+        near(Screen::default().points_per_metre(1.0, 1.0), 96.0 / 0.0254);
+        near(Screen::default().points_per_metre(2.0, 2.0), 96.0 / 0.0254);
+        near(Screen(Some(254.0)).points_per_metre(1.0, 1.0), 10_000.0);
+        near(Screen(Some(254.0)).points_per_metre(1.0, 2.0), 5_000.0);
+        // What no screen has counts as not said.
+        near(Screen(Some(7.0)).points_per_metre(1.0, 2.0), 48.0 / 0.0254);
     }
 }

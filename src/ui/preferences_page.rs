@@ -2,16 +2,19 @@
 
 use std::sync::Arc;
 
-use egui::{ComboBox, Event, Id, Key, KeyboardShortcut, Modal, RichText, ScrollArea, TextEdit};
+use egui::{ComboBox, DragValue, Event, Id, Key, KeyboardShortcut, Modal, RichText, ScrollArea, TextEdit};
 
 use crate::ui::actions::Action;
 use crate::ui::catalogue::ALL;
 use crate::ui::keymap::{Keymap, pressed};
 use crate::ui::mouse::Mouse;
-use crate::ui::preferences::{Copies, Preferences, Scale, Theme};
+use crate::ui::preferences::{Copies, Preferences, Scale, Screen, Theme};
 use crate::ui::signs::{Sign, sign_button};
 use crate::ui::theme::Palette;
 use crate::ui::units::LengthUnit;
+
+/// How long the bar is that a ruler is held against, metres.
+const RULER: f64 = 0.05;
 
 /// What is being changed.
 #[derive(Debug, Default)]
@@ -173,6 +176,51 @@ fn combo_name(response: &egui::Response, name: &str, chosen: &str) {
     response.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::ComboBox, true, words.clone()));
 }
 
+/// Points of this window in a metre of `screen`.
+pub(super) fn points_per_metre(ctx: &egui::Context, screen: Screen) -> f64 {
+    screen.points_per_metre(ctx.native_pixels_per_point().unwrap_or(1.0), ctx.pixels_per_point())
+}
+
+/// A bar that is to be made as long as it says, so that *True size* is true.
+fn screen_ui(ui: &mut egui::Ui, screen: &mut Screen, palette: &Palette) {
+    ui.vertical(|ui| {
+        let native = ui.ctx().native_pixels_per_point().unwrap_or(1.0);
+        let mut pixels = screen.pixels_per_inch(native);
+        ui.horizontal(|ui| {
+            let value = DragValue::new(&mut pixels)
+                .range(Screen::PIXELS)
+                .speed(0.2)
+                .max_decimals(1)
+                .suffix(" pixels an inch");
+            let value = ui.add(value);
+            value.widget_info(|| {
+                egui::WidgetInfo::labeled(
+                    egui::accesskit::Role::SpinButton,
+                    true,
+                    "Pixels an inch of the screen",
+                )
+            });
+            if value.changed() {
+                *screen = Screen(Some(pixels));
+            }
+            if screen.0.is_some() && ui.small_button("as usual").clicked() {
+                *screen = Screen::default();
+            }
+        });
+        let length = (points_per_metre(ui.ctx(), *screen) * RULER) as f32;
+        let (rect, _) = ui.allocate_exact_size(egui::vec2(length, 14.0), egui::Sense::hover());
+        let line = egui::Stroke::new(1.5, ui.visuals().text_color());
+        ui.painter().hline(rect.x_range(), rect.center().y, line);
+        for i in 0..=5 {
+            let x = egui::lerp(rect.x_range(), i as f32 / 5.0);
+            let half = if i % 5 == 0 { 6.0 } else { 3.5 };
+            ui.painter().vline(x, rect.center().y - half..=rect.center().y + half, line);
+        }
+        let tip = "Hold a ruler here: the bar is 5 cm long. Then a pattern at 1:1 is as large as cloth.";
+        ui.label(RichText::new(tip).color(palette.weak).size(12.0));
+    });
+}
+
 fn general_ui(ui: &mut egui::Ui, preferences: &mut Preferences, palette: &Palette, height: f32) {
     ScrollArea::vertical().max_height(height).show(ui, |ui| {
         egui::Grid::new("general").num_columns(2).spacing([24.0, 12.0]).show(ui, |ui| {
@@ -201,6 +249,9 @@ fn general_ui(ui: &mut egui::Ui, preferences: &mut Preferences, palette: &Palett
                     ui.selectable_value(&mut preferences.unit, unit, unit.name());
                 }
             });
+            ui.end_row();
+            ui.label("Fineness of the screen");
+            screen_ui(ui, &mut preferences.screen, palette);
             ui.end_row();
             ui.label("Mouse");
             ui.vertical(|ui| {

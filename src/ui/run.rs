@@ -1,8 +1,10 @@
 //! Opens the window.
 
+use std::cell::RefCell;
 use std::fs::File;
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::path::PathBuf;
-use std::sync::Arc;
+use std::rc::Rc;
 
 use anyhow::{Context, anyhow};
 
@@ -10,47 +12,101 @@ use crate::session::Project;
 use crate::ui::app::App;
 use crate::ui::{preferences, safety, thumbnails};
 
+/// A device that is lost more often than this will not stay.
+const MOST_LOSSES: usize = 5;
+
 /// Opens the window on `project`, which came from the file `path`, or on the start page, and returns when it is closed.
-/// Everything done is also written to `record`.
+/// Everything done is also written to `record`. A window whose graphics device is lost is opened anew.
 pub fn run(project: Option<Project>, path: Option<PathBuf>, record: Option<File>) -> anyhow::Result<()> {
-    let options = eframe::NativeOptions {
-        viewport: egui::ViewportBuilder::default()
-            .with_title("Toile")
-            .with_app_id("toile")
-            .with_inner_size([1400.0, 880.0])
-            .with_min_inner_size([880.0, 540.0]),
-        ..Default::default()
-    };
-    let create: eframe::AppCreator<'_> = Box::new(move |cc| {
-        if let Some(state) = &cc.wgpu_render_state {
-            state.device.on_uncaptured_error(Arc::new(|e| tracing::error!("graphics: {e}")));
+    let kept: Kept = Rc::default();
+    let mut first = Some((project, path, record));
+    for _ in 0..=MOST_LOSSES {
+        let options = eframe::NativeOptions {
+            viewport: egui::ViewportBuilder::default()
+                .with_title("Toile")
+                .with_app_id("toile")
+                .with_inner_size([1400.0, 880.0])
+                .with_min_inner_size([880.0, 540.0]),
+            ..Default::default()
+        };
+        let (shared, first) = (Rc::clone(&kept), first.take());
+        let create: eframe::AppCreator<'_> = Box::new(move |cc| {
+            let mut app = shared.borrow_mut();
+            match (first, app.as_mut()) {
+                (Some((project, path, record)), _) => *app = Some(opened(cc, project, path, record)?),
+                (None, Some(app)) => app.move_into(&cc.egui_ctx, cc.wgpu_render_state.clone()),
+                (None, None) => {}
+            }
+            drop(app);
+            Ok(Box::new(Window(shared)))
+        });
+        // egui itself may panic when it draws with a device that is gone.
+        let ended = catch_unwind(AssertUnwindSafe(|| eframe::run_native("Toile", options, create)));
+        match ended {
+            Ok(ended) => {
+                ended.map_err(|e| anyhow!(words(&e))).context("the window could not be opened")?;
+            }
+            Err(_) if kept.try_borrow().is_ok_and(|app| app.as_ref().is_some_and(App::is_moving)) => {}
+            Err(panic) => resume_unwind(panic),
         }
-        let is_start = project.is_none();
-        let project = project.unwrap_or_default();
-        let mut app = App::new(&cc.egui_ctx, project, path.clone(), cc.wgpu_render_state.clone())?;
-        if let Some(path) = preferences::usual_path() {
-            app.keep_preferences(&cc.egui_ctx, path);
+        if !kept.borrow().as_ref().is_some_and(App::is_moving) {
+            return Ok(());
         }
-        if let Some(folder) = thumbnails::usual_folder() {
-            app.keep_thumbnails(folder);
+    }
+    Err(anyhow!(
+        "the graphics device was lost again and again; the work is offered when Toile is started next"
+    ))
+}
+
+fn opened(
+    cc: &eframe::CreationContext<'_>,
+    project: Option<Project>,
+    path: Option<PathBuf>,
+    record: Option<File>,
+) -> std::io::Result<App> {
+    let is_start = project.is_none();
+    let project = project.unwrap_or_default();
+    let mut app = App::new(&cc.egui_ctx, project, path.clone(), cc.wgpu_render_state.clone())?;
+    if let Some(path) = preferences::usual_path() {
+        app.keep_preferences(&cc.egui_ctx, path);
+    }
+    if let Some(folder) = thumbnails::usual_folder() {
+        app.keep_thumbnails(folder);
+    }
+    if let Some(path) = &path {
+        app.remember(path);
+    }
+    if is_start {
+        app.begin_at_start_page();
+    }
+    if let Some(root) = safety::usual_root() {
+        app.keep_safe(&root);
+    }
+    if let Some(file) = record {
+        app.record_to(file)?;
+    }
+    Ok(app)
+}
+
+/// The app, which outlives its windows.
+type Kept = Rc<RefCell<Option<App>>>;
+
+struct Window(Kept);
+
+impl eframe::App for Window {
+    fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
+        if let Some(app) = self.0.borrow_mut().as_mut() {
+            app.ui(ui);
         }
-        if let Some(path) = &path {
-            app.remember(path);
+    }
+
+    fn on_exit(&mut self) {
+        if let Some(app) = self.0.borrow_mut().as_mut()
+            && !app.is_moving()
+        {
+            app.finish();
         }
-        if is_start {
-            app.begin_at_start_page();
-        }
-        if let Some(root) = safety::usual_root() {
-            app.keep_safe(&root);
-        }
-        if let Some(file) = record {
-            app.record_to(file)?;
-        }
-        Ok(Box::new(app))
-    });
-    eframe::run_native("Toile", options, create)
-        .map_err(|e| anyhow!(words(&e)))
-        .context("the window could not be opened")
+    }
 }
 
 /// What went wrong, and what to do about it where that is known.
@@ -64,15 +120,5 @@ fn words(error: &eframe::Error) -> String {
             format!("the connection to the display broke (code {code})")
         }
         other => other.to_string(),
-    }
-}
-
-impl eframe::App for App {
-    fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
-        App::ui(self, ui);
-    }
-
-    fn on_exit(&mut self) {
-        self.finish();
     }
 }

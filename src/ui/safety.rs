@@ -178,7 +178,7 @@ impl App {
             Ok(found) => found,
             Err(why) => return self.messages.error(format!("This work cannot be read; it is kept: {why}")),
         };
-        self.replace(ctx, found.project, left.about.path.clone());
+        self.replace(found.project, left.about.path.clone());
         self.session.mark_modified();
         let (mut open, mut refused) = (None, 0);
         for (gesture, command) in found.commands {

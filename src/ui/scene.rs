@@ -6,12 +6,22 @@ use glam::{DVec2, DVec3, Vec2, Vec3};
 
 use crate::body::Surface;
 use crate::cloth::{ClothState, FlatPiece, FlatPlace, Garment};
+use crate::contact::Bone;
 use crate::geometry::adjacency::NONE;
 use crate::geometry::ids::{MarkId, PieceId};
 use crate::geometry::mesh::vertex_normals;
 use crate::render::{BODY, CLOTH_BACK, CLOTH_FRONT, Ground, Label, Mesh, Polyline, Rgb, Scene, mark_colour};
 use crate::ui::stitches::stitched;
 use crate::wrap::{ClothMark, Marks};
+
+/// How a pin is drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct PinLook {
+    /// It can be neither moved nor pulled out.
+    pub locked: bool,
+    /// It is selected.
+    pub selected: bool,
+}
 
 /// What is to be seen.
 #[derive(Clone, Copy, Debug, Default)]
@@ -30,6 +40,10 @@ pub struct Shown<'a> {
     pub near: Option<MarkId>,
     /// Vertices under pins.
     pub pinned: &'a [Option<u32>],
+    /// How each of those is drawn; more than these as usual.
+    pub pins: &'a [PinLook],
+    /// Bones, seen through the body.
+    pub bones: &'a [Bone],
     /// How much of a drag reaches each vertex of the cloth, 0..=1.
     pub dragged: Option<&'a Arc<Vec<f32>>>,
     /// The mark that stands out.
@@ -95,6 +109,9 @@ const SEAM: [u8; 4] = [66, 78, 70, 150];
 const UNREACHED: Rgb = [150, 158, 172];
 /// How far a pin's head stands off the cloth, metres on a body of 1.5 m.
 const PIN_LENGTH: f32 = 0.014;
+/// Half a diagonal of the collar of a locked pin, metres on a body of 1.5 m.
+const COLLAR: f32 = 0.013;
+const BONE: [u8; 4] = [250, 246, 228, 255];
 const NEEDLE: [u8; 4] = [70, 74, 84, 255];
 const PIN_HEAD: [u8; 4] = [214, 48, 49, 255];
 /// Lines that stand out, sRGB and opacity.
@@ -116,7 +133,7 @@ impl Scenery {
             if let Some(drawn) = &self.cloth {
                 scene.meshes.push(Arc::clone(&drawn.mesh));
                 scene.lines.extend(drawn.lines.iter().cloned());
-                push_pins(shown.pinned, drawn, scale, &mut scene);
+                push_pins(shown, drawn, scale, &mut scene);
             }
             push_outlines(garment, state, shown.outlines, scale, &mut scene);
             if let Some(marks) = shown.marks {
@@ -124,6 +141,7 @@ impl Scenery {
                 covered = self.cloth_marks(garment, state, shown, scale, &mut scene);
             }
         }
+        push_bones(shown.bones, scale, &mut scene);
         if let Some(marks) = shown.marks {
             body_marks(marks, shown, covered, scale, &mut scene);
         }
@@ -231,12 +249,14 @@ fn tints(shares: &[f32], state: &ClothState) -> Vec<Rgb> {
     if far.len() == state.positions.len() { far } else { Vec::new() }
 }
 
-/// A needle with a head on each pinned vertex.
-fn push_pins(pinned: &[Option<u32>], cloth: &DrawnCloth, scale: f32, scene: &mut Scene) {
-    for v in pinned.iter().flatten().map(|&v| v as usize) {
-        let (Some(&at), Some(&normal)) = (cloth.mesh.positions.get(v), cloth.mesh.normals.get(v)) else {
-            continue;
-        };
+/// A needle with a head on each pinned vertex: a larger one where the pin is selected, a square collar at its foot where it
+/// is locked.
+fn push_pins(shown: &Shown<'_>, cloth: &DrawnCloth, scale: f32, scene: &mut Scene) {
+    let looks = shown.pins.iter().copied().chain(std::iter::repeat(PinLook::default()));
+    for (v, look) in shown.pinned.iter().zip(looks) {
+        let v = v.map(|v| v as usize);
+        let place = v.and_then(|v| Some((*cloth.mesh.positions.get(v)?, *cloth.mesh.normals.get(v)?)));
+        let Some((at, normal)) = place else { continue };
         let head = at + normal * (PIN_LENGTH * scale);
         let line = |points, colour, width, lift| Polyline {
             points,
@@ -248,8 +268,38 @@ fn push_pins(pinned: &[Option<u32>], cloth: &DrawnCloth, scale: f32, scene: &mut
             lift_widths: 1.0,
             closed: false,
         };
+        if look.locked {
+            let (side, up) = (normal.any_orthonormal_vector(), normal);
+            let (one, other) = (side * (COLLAR * scale), up.cross(side) * (COLLAR * scale));
+            let foot = at + normal * (0.001 * scale);
+            let corners = vec![foot + one, foot + other, foot - one, foot - other];
+            scene.lines.push(Polyline { closed: true, ..line(corners, NEEDLE, 3.0, 0.004) });
+        }
         scene.lines.push(line(vec![at, head], NEEDLE, 1.6, 0.003));
-        scene.lines.push(line(vec![head], PIN_HEAD, 9.0, 0.006));
+        let (ink, width) = match look {
+            PinLook { selected: true, .. } => (STANDS_OUT, 13.0),
+            PinLook { locked: true, .. } => (NEEDLE, 9.0),
+            _ => (PIN_HEAD, 9.0),
+        };
+        scene.lines.push(line(vec![head], ink, width, 0.006));
+    }
+}
+
+/// Bones, each with a joint at either end, through whatever lies before them.
+fn push_bones(bones: &[Bone], scale: f32, scene: &mut Scene) {
+    for bone in bones {
+        let ends = bone.map(|p| p.as_vec3());
+        let line = |points: Vec<Vec3>, width| Polyline {
+            points,
+            colour: BONE,
+            width,
+            halo: NEEDLE,
+            halo_width: 1.2,
+            lift: BEHIND.0 * scale,
+            ..Polyline::default()
+        };
+        scene.lines.push(line(ends.to_vec(), 4.0));
+        scene.lines.extend(ends.map(|end| line(vec![end], 9.0)));
     }
 }
 

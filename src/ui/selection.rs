@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use crate::geometry::ids::{PieceId, SeamId};
+use crate::geometry::ids::{PieceId, PinId, SeamId};
 use crate::pattern::edit::PointRef;
 use crate::pattern::{EdgeRef, Pattern};
 
@@ -29,6 +29,8 @@ pub struct Selection {
     pub lines: BTreeSet<LineRef>,
     /// Seams.
     pub seams: BTreeSet<SeamId>,
+    /// Pins in the dressed cloth: these, or something of the pattern.
+    pub pins: BTreeSet<PinId>,
 }
 
 /// One thing of the pattern.
@@ -72,9 +74,9 @@ impl Selection {
 
     /// Nothing is selected.
     pub fn is_empty(&self) -> bool {
-        let Self { pieces, points, edges, lines, seams } = self;
+        let Self { pieces, points, edges, lines, seams, pins } = self;
         let outlines = pieces.is_empty() && points.is_empty() && edges.is_empty();
-        outlines && lines.is_empty() && seams.is_empty()
+        outlines && lines.is_empty() && seams.is_empty() && pins.is_empty()
     }
 
     /// Whether `item` is selected.
@@ -110,12 +112,21 @@ impl Selection {
             None if add => self.clone(),
             None => Self::default(),
             Some(item) if add => {
-                let mut new = self.clone();
+                let mut new = Self { pins: BTreeSet::new(), ..self.clone() };
                 new.toggle(item);
                 new
             }
             Some(item) => Self::of(item),
         }
+    }
+
+    /// After a click on a pin: that alone, or with Shift one pin more or one less.
+    pub fn clicked_pin(&self, pin: PinId, add: bool) -> Self {
+        let mut pins = if add { self.pins.clone() } else { BTreeSet::new() };
+        if !pins.remove(&pin) {
+            pins.insert(pin);
+        }
+        Self { pins, ..Self::default() }
     }
 
     /// Selected pieces, and those that selected points, edges and lines are of.
@@ -159,6 +170,7 @@ impl Selection {
             count(self.points.len(), "point"),
             count(self.lines.len(), "line"),
             count(self.seams.len(), "seam"),
+            count(self.pins.len(), "pin"),
         ];
         parts.into_iter().flatten().collect::<Vec<_>>().join(", ")
     }
@@ -180,6 +192,18 @@ mod tests {
         assert_eq!(both.clicked(Some(b), true), one);
         assert_eq!(both.clicked(None, true), both);
         assert!(both.clicked(None, false).is_empty());
+    }
+
+    #[test]
+    fn pins_are_selected_for_themselves() {
+        let piece = Selection::of(Item::Piece(PieceId(1)));
+        let one = piece.clicked_pin(PinId(3), true);
+        assert_eq!(one.words(), "1 pin");
+        let two = one.clicked_pin(PinId(4), true);
+        assert_eq!(two.words(), "2 pins");
+        assert_eq!(two.clicked_pin(PinId(4), true), one);
+        assert_eq!(two.clicked_pin(PinId(4), false).words(), "1 pin");
+        assert_eq!(two.clicked(Some(Item::Piece(PieceId(1))), true), piece);
     }
 
     #[test]

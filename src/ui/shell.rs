@@ -23,7 +23,7 @@ use crate::ui::turn::Turn;
 use crate::ui::{drop_overlay, status};
 
 /// What of body and cloth is drawn besides their surfaces.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sight {
     /// Edges of the cloth's triangles.
     pub wire: bool,
@@ -31,12 +31,20 @@ pub struct Sight {
     pub sheer: bool,
     /// Marks, pins and seams show through.
     pub xray: bool,
+    /// Marks on the table are joined to their partners on the body.
+    pub pairs: bool,
+}
+
+impl Default for Sight {
+    fn default() -> Self {
+        Self { wire: false, sheer: false, xray: false, pairs: true }
+    }
 }
 
 impl Sight {
     /// `look` with it.
     pub fn on(self, look: Look) -> Look {
-        let Self { wire, sheer, xray } = self;
+        let Self { wire, sheer, xray, .. } = self;
         Look { wire, sheer, xray, ..look }
     }
 }
@@ -64,6 +72,9 @@ pub struct Shell {
     pub opening: Option<std::path::PathBuf>,
     /// How body and cloth are drawn.
     pub sight: Sight,
+    /// What gets the keyboard with the toolbar and with the side panel.
+    pub first_tool: Option<egui::Id>,
+    pub first_of_panel: Option<egui::Id>,
     /// Small pictures of samples and projects.
     pub thumbnails: Thumbnails,
 }
@@ -105,10 +116,11 @@ impl App {
             Action::ToggleWire => self.shell.sight.wire = !self.shell.sight.wire,
             Action::ToggleSheer => self.shell.sight.sheer = !self.shell.sight.sheer,
             Action::ToggleXray => self.shell.sight.xray = !self.shell.sight.xray,
+            Action::TogglePairs => self.shell.sight.pairs = !self.shell.sight.pairs,
             Action::ToggleHistory => self.shell.drawer = toggled(Drawer::History),
             Action::ToggleLog => self.shell.drawer = toggled(Drawer::Log),
             Action::CommandPalette => self.shell.palette = Some(CommandPalette::default()),
-            Action::Tour => self.begin_tour(ctx),
+            Action::Tour => self.begin_tour(),
             _ => {}
         }
     }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use egui::{CollapsingHeader, RichText, ScrollArea, Slider};
+use egui::{CollapsingHeader, Id, RichText, ScrollArea, Slider};
 
 use crate::body::Surface;
 use crate::pattern::Problem;
@@ -12,6 +12,7 @@ use crate::ui::actions::Tool;
 use crate::ui::asks::{Ask, Asks};
 use crate::ui::marks_panel::MarksPanel;
 use crate::ui::pattern_panel::{PatternPanel, seams_ui};
+use crate::ui::pins_panel::pins_ui;
 use crate::ui::selection::Selection;
 use crate::ui::situation::Situation;
 use crate::ui::theme::Palette;
@@ -37,49 +38,59 @@ pub struct Told<'a> {
     pub palette: &'a Palette,
 }
 
-/// Draws the panel.
+/// Draws the panel. Returns its first widget, for the keyboard.
 pub fn side_panel_ui(
     ui: &mut egui::Ui,
     told: &Told<'_>,
     marks: &mut MarksPanel,
     pattern: &mut PatternPanel,
     asks: &mut Asks,
-) {
+) -> Option<Id> {
     let Told { document, palette, .. } = *told;
+    let mut first = None;
     ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
         // What the tool in hand is about comes first.
-        let on_pattern = !matches!(told.now.tool, Tool::Mark | Tool::Erase | Tool::Drag(_) | Tool::Pin);
+        let on_pattern =
+            !matches!(told.now.tool, Tool::Mark | Tool::Erase | Tool::Drag(_) | Tool::Pin | Tool::Bone);
         if on_pattern {
-            pattern_ui(ui, told, pattern, asks);
+            first = Some(pattern_ui(ui, told, pattern, asks));
         }
-        section(ui, "Marks", true, |ui| marks.ui(ui, told, asks));
+        let marks = section(ui, "Marks", true, |ui| marks.ui(ui, told, asks));
+        first = first.or(Some(marks));
+        if !document.pins.is_empty() {
+            let title = format!("Pins ({})", document.pins.len());
+            section(ui, &title, true, |ui| pins_ui(ui, told, asks));
+        }
         section(ui, "Problems", true, |ui| problems_ui(ui, told, asks));
         section(ui, "Cloth", true, |ui| settings_ui(ui, &document.settings, palette, asks));
         if !on_pattern {
             pattern_ui(ui, told, pattern, asks);
         }
     });
+    first
 }
 
-fn pattern_ui(ui: &mut egui::Ui, told: &Told<'_>, pattern: &mut PatternPanel, asks: &mut Asks) {
-    if !told.selection.is_empty() {
-        section(ui, "Selected", true, |ui| pattern.inspector_ui(ui, told, asks));
-    }
-    section(ui, "Pieces", true, |ui| pattern.outliner_ui(ui, told, asks));
+fn pattern_ui(ui: &mut egui::Ui, told: &Told<'_>, pattern: &mut PatternPanel, asks: &mut Asks) -> Id {
+    let of_pattern = !told.selection.is_empty() && told.selection.pins.is_empty();
+    let selected =
+        of_pattern.then(|| section(ui, "Selected", true, |ui| pattern.inspector_ui(ui, told, asks)));
+    let pieces = section(ui, "Pieces", true, |ui| pattern.outliner_ui(ui, told, asks));
     let seams = format!("Seams ({})", told.document.pattern.seams.len());
     section(ui, &seams, false, |ui| seams_ui(ui, told, asks));
+    selected.unwrap_or(pieces)
 }
 
-fn section(ui: &mut egui::Ui, title: &str, open: bool, contents: impl FnOnce(&mut egui::Ui)) {
+fn section(ui: &mut egui::Ui, title: &str, open: bool, contents: impl FnOnce(&mut egui::Ui)) -> Id {
     ui.add_space(4.0);
     // "Seams (12)" is the same section as "Seams (13)".
     let id = title.split(' ').next();
     let header = CollapsingHeader::new(RichText::new(title).strong().size(14.0));
-    header.id_salt(id).default_open(open).show_unindented(ui, |ui| {
+    let shown = header.id_salt(id).default_open(open).show_unindented(ui, |ui| {
         ui.add_space(2.0);
         contents(ui);
         ui.add_space(6.0);
     });
+    shown.header_response.id
 }
 
 fn settings_ui(ui: &mut egui::Ui, settings: &Settings, palette: &Palette, asks: &mut Asks) {

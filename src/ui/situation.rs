@@ -12,11 +12,24 @@ use crate::ui::drawer::Drawer;
 use crate::ui::edits::Picked;
 use crate::ui::keymap::Keymap;
 use crate::ui::mouse::Mouse;
+use crate::ui::pace::Pace;
+use crate::ui::panes::Layout;
 use crate::ui::recent::RecentFile;
 use crate::ui::selection::Item;
 use crate::ui::shell::Sight;
 use crate::ui::units::LengthUnit;
 use crate::wrap::{MarkPlace, Phase};
+
+/// What the simulation is at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Work {
+    /// The cloth grows.
+    Growing,
+    /// It settles.
+    Settling,
+    /// It follows the hand.
+    Hand,
+}
 
 /// How things stand in this frame.
 #[derive(Clone, Debug)]
@@ -47,6 +60,10 @@ pub struct Situation {
     pub snapping: bool,
     /// What of the pattern the pointer is over, in either pane.
     pub highlight: Option<Item>,
+    /// How many points of the screen a metre takes.
+    pub points_per_metre: f64,
+    /// How fast window and simulation go.
+    pub pace: Pace,
     /// What lengths are shown in.
     pub unit: LengthUnit,
     /// The selected mark.
@@ -77,8 +94,12 @@ pub struct Situation {
     pub triangles: usize,
     /// The cloth is drawn.
     pub show_cloth: bool,
+    /// Which panes are shown, and where.
+    pub layout: Layout,
     /// The side panel is open.
     pub show_panel: bool,
+    /// The project is in a file.
+    pub has_file: bool,
     /// Near and far look the same size.
     pub parallel: bool,
     /// The view turns like a ball.
@@ -117,6 +138,7 @@ impl Situation {
             Action::Picture => unless(self.adapter.is_some(), "There is no graphics adapter to draw with"),
             Action::Undo => unless(self.undo.is_some(), "There is nothing to undo"),
             Action::Redo => unless(self.redo.is_some(), "There is nothing to redo"),
+            Action::Revert | Action::SaveNext => unless(self.has_file, "The project was not saved yet"),
             Action::ExportPattern => unless(self.pieces > 0, "There is no piece on the table"),
             Action::Wrap if self.pieces == 0 => Some("There is no piece on the table"),
             Action::Wrap if !self.has_body => Some("There is no body"),
@@ -135,6 +157,9 @@ impl Situation {
             Action::Choose(Tool::Drag(_) | Tool::Pin) => {
                 unless(self.dressed, "There is no cloth on the body")
             }
+            Action::Choose(Tool::Bone) | Action::OwnBones | Action::NoBones => {
+                unless(self.has_body, "There is no body")
+            }
             Action::ClearPins => unless(self.pins > 0, "There are no pins"),
             Action::Unwrap | Action::ToggleCloth | Action::Export | Action::ToggleRelaxing => {
                 unless(self.dressed, "There is no cloth on the body")
@@ -151,12 +176,12 @@ impl Situation {
             },
             Action::Delete => unless(self.selected.is_some() || self.picked.deletable, "Nothing is selected"),
             Action::SelectAll => unless(self.pieces > 0, "There is no piece on the table"),
-            Action::Duplicate
-            | Action::Twin
-            | Action::MakeSymmetric
-            | Action::TurnOver
-            | Action::ToggleLock
-            | Action::Hide => unless(self.picked.pieces > 0, "No piece is selected"),
+            Action::Duplicate | Action::Twin | Action::MakeSymmetric | Action::TurnOver | Action::Hide => {
+                unless(self.picked.pieces > 0, "No piece is selected")
+            }
+            Action::ToggleLock => {
+                unless(self.picked.pieces + self.picked.pins > 0, "No piece or pin is selected")
+            }
             Action::Unfold => unless(self.picked.straight, "Select a straight edge of an outline first"),
             Action::Fold => unless(self.picked.symmetric, "Select a symmetric piece first"),
             Action::Unlink => unless(self.picked.linked, "Select a twin or a symmetric piece first"),
@@ -182,11 +207,14 @@ impl Situation {
             Action::Choose(tool) => self.tool == tool,
             Action::ToggleLaser => self.laser,
             Action::ToggleLock => self.picked.locked,
+            Action::TogglePairs => self.sight.pairs,
             Action::ToggleSnapping => self.snapping,
             Action::Unit(unit) => self.unit == unit,
             Action::ToggleRelaxing => self.relaxing,
             Action::ToggleCloth => self.show_cloth,
             Action::TogglePanel => self.show_panel,
+            Action::Show(panes) => self.layout.panes == panes,
+            Action::SwapPanes => self.layout.swapped,
             Action::ToggleParallel => self.parallel,
             Action::ToggleFreeTurning => self.free_turning,
             Action::Theme(theme) => self.theme == theme,

@@ -2,6 +2,7 @@
 
 use egui::{Align, Layout, ProgressBar, RichText};
 
+use crate::ui::pace::{Pace, left_words};
 use crate::ui::situation::Situation;
 use crate::ui::theme::Palette;
 use crate::wrap::Phase;
@@ -25,6 +26,14 @@ pub fn status_ui(ui: &mut egui::Ui, now: &Situation, hint: &str, palette: &Palet
             ui.label(weak(format!("{} triangles", grouped(now.triangles))));
             ui.separator();
         }
+        if let Some(words) = pace_words(&now.pace) {
+            let tip = "Pictures of the window a second, and how long a tick of the simulation takes";
+            ui.label(weak(words)).on_hover_text(tip);
+            ui.separator();
+        }
+        if let Some(seconds) = now.pace.left {
+            ui.label(RichText::new(left_words(seconds)).size(12.0));
+        }
         if now.working && now.phase.is_some() && !now.dragging {
             let bar = ProgressBar::new(now.progress as f32).desired_width(96.0).desired_height(8.0);
             ui.add(bar.fill(palette.accent));
@@ -35,6 +44,15 @@ pub fn status_ui(ui: &mut egui::Ui, now: &Situation, hint: &str, palette: &Palet
             ui.add(egui::Label::new(weak(hint.to_owned())).truncate());
         });
     });
+}
+
+fn pace_words(pace: &Pace) -> Option<String> {
+    let frames = format!("{:.0} fps", pace.frames?);
+    Some(match pace.tick_ms {
+        Some(ms) if ms < 10.0 => format!("{frames}, {ms:.1} ms a tick"),
+        Some(ms) => format!("{frames}, {ms:.0} ms a tick"),
+        None => frames,
+    })
 }
 
 fn phase_words(now: &Situation) -> String {

@@ -86,6 +86,11 @@ impl Thumbnails {
         }
     }
 
+    /// Those that there are belong to a window that is gone.
+    pub fn begin_anew(&mut self) {
+        (self.worker, self.pictures) = (None, BTreeMap::new());
+    }
+
     /// Makes no more: the processor is needed for other things. What is still missing is asked for again later.
     pub fn rest(&mut self) {
         if self.worker.take().is_some() {

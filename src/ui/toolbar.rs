@@ -1,6 +1,6 @@
 //! Tools, undo, and the one big button.
 
-use egui::{Align, Button, Layout, RichText};
+use egui::{Align, Button, Id, Layout, RichText};
 
 use crate::drag::DragMode;
 use crate::ui::actions::{Action, Tool};
@@ -11,12 +11,14 @@ use crate::ui::theme::Palette;
 /// Height of the buttons, points.
 const HEIGHT: f32 = 30.0;
 
-/// Draws the toolbar.
-pub fn toolbar_ui(ui: &mut egui::Ui, now: &Situation, palette: &Palette, asks: &mut Asks) {
+/// Draws the toolbar. Returns its first button, for the keyboard.
+pub fn toolbar_ui(ui: &mut egui::Ui, now: &Situation, palette: &Palette, asks: &mut Asks) -> Option<Id> {
+    let mut first = None;
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
         for tool in [Tool::Mark, Tool::Erase, Tool::Drag(DragMode::Surface), Tool::Pin] {
-            plain(ui, now, asks, Action::Choose(tool), None);
+            let id = plain(ui, now, asks, Action::Choose(tool), None);
+            first = first.or(Some(id));
         }
         gap(ui);
         plain(ui, now, asks, Action::ToggleLaser, None);
@@ -36,6 +38,7 @@ pub fn toolbar_ui(ui: &mut egui::Ui, now: &Situation, palette: &Palette, asks: &
             plain(ui, now, asks, Action::ToggleCloth, None);
         });
     });
+    first
 }
 
 fn gap(ui: &mut egui::Ui) {
@@ -44,11 +47,11 @@ fn gap(ui: &mut egui::Ui) {
     ui.add_space(6.0);
 }
 
-fn plain(ui: &mut egui::Ui, now: &Situation, asks: &mut Asks, action: Action, text: Option<&str>) {
+fn plain(ui: &mut egui::Ui, now: &Situation, asks: &mut Asks, action: Action, text: Option<&str>) -> Id {
     let entry = action.entry();
     let button =
         Button::new(text.unwrap_or(entry.text)).selected(now.is_on(action)).min_size(egui::vec2(0.0, HEIGHT));
-    press(ui, now, asks, action, button);
+    press(ui, now, asks, action, button)
 }
 
 fn primary(
@@ -72,7 +75,7 @@ fn primary(
     press(ui, now, asks, action, Button::new(text).fill(button_fill).min_size(egui::vec2(108.0, HEIGHT)));
 }
 
-fn press(ui: &mut egui::Ui, now: &Situation, asks: &mut Asks, action: Action, button: Button<'_>) {
+fn press(ui: &mut egui::Ui, now: &Situation, asks: &mut Asks, action: Action, button: Button<'_>) -> Id {
     let entry = action.entry();
     let why_not = now.why_not(action);
     let keys = now.keymap.keys(action).first().map(|k| format!("  ({})", ui.ctx().format_shortcut(k)));
@@ -87,4 +90,5 @@ fn press(ui: &mut egui::Ui, now: &Situation, asks: &mut Asks, action: Action, bu
     if response.clicked() {
         asks.push(Ask::Act(action));
     }
+    response.id
 }

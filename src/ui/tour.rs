@@ -79,8 +79,8 @@ impl Tour {
 
 impl App {
     /// Begins it on an empty table; the caller has asked about unsaved changes.
-    pub(super) fn begin_tour(&mut self, ctx: &egui::Context) {
-        self.replace(ctx, Project::default(), None);
+    pub(super) fn begin_tour(&mut self) {
+        self.replace(Project::default(), None);
         self.leave_start_page();
         self.tool = Tool::Mark;
         self.shell.tour = Some(Tour::default());

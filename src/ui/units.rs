@@ -70,6 +70,13 @@ impl LengthUnit {
     }
 }
 
+/// `x` with its sign, to so many digits; what rounds to nothing has no sign.
+pub fn signed(x: f64, digits: usize) -> String {
+    let text = format!("{x:+.digits$}");
+    let is_nothing = text[1..].chars().all(|c| c == '0' || c == '.');
+    if is_nothing { text[1..].to_owned() } else { text }
+}
+
 /// Angles as people read them.
 pub fn degrees(radians: f64) -> String {
     let text = format!("{:.1}", radians.to_degrees());
@@ -368,6 +375,11 @@ mod tests {
         let Ok(Typed::By(p)) = read("10<90") else { panic!("polar") };
         assert!((p - DVec2::new(0.0, 0.1)).length() < 1e-12);
         assert!(read("10,").is_err());
+    }
+
+    #[test]
+    fn nothing_has_no_sign() {
+        assert_eq!([0.26, -0.04, 0.0, -1.0].map(|x| signed(x, 1)), ["+0.3", "0.0", "0.0", "-1.0"]);
     }
 
     #[test]

@@ -127,3 +127,119 @@ fn what_a_pin_holds_back_is_shown_before_the_drag() {
     assert_eq!(shares[pin], 0.0);
     assert!(shares.iter().any(|&share| share > 0.9));
 }
+
+#[test]
+fn an_edge_under_the_pointer_is_told_and_shown_in_both_panes() {
+    let mut window = dressed_window();
+    let area = pane(&window, "Body pane");
+    let told = |window: &Window| window.query_by_label_contains("Square, edge 2: 40 cm ·").is_some();
+    let shown = |window: &Window| app(window).highlight();
+    move_to(&mut window, area.left_top() + Vec2::splat(40.0));
+    window.run_steps(2);
+    assert_eq!(shown(&window), None);
+    assert!(!told(&window));
+    // From the middle of the cloth to the right: it ends at the second edge of the square.
+    let mut x = 0.0;
+    while !told(&window) && x < area.width() / 2.0 {
+        x += 2.0;
+        move_to(&mut window, area.center() + Vec2::X * x);
+        window.run_steps(1);
+    }
+    let edge = shown(&window).expect("an edge of the cloth");
+    assert!(told(&window), "{edge:?} is told");
+    // The same edge on the table, and its line on the cloth.
+    let table = pane(&window, "Pattern pane");
+    move_to(&mut window, table.center());
+    window.run_steps(2);
+    assert_eq!(shown(&window), None);
+    let mut x = 0.0;
+    while shown(&window).is_none() && x < table.width() / 2.0 {
+        x += 2.0;
+        move_to(&mut window, table.center() + Vec2::X * x);
+        window.run_steps(1);
+    }
+    assert_eq!(shown(&window), Some(edge));
+}
+
+#[test]
+fn pins_are_selected_locked_moved_and_pulled_out_together() {
+    let mut window = dressed_window();
+    key(&mut window, Modifiers::NONE, Key::P);
+    let middle = pane(&window, "Body pane").center();
+    for x in [-60.0, 0.0, 60.0] {
+        drag(&mut window, &[middle + Vec2::X * x], PointerButton::Primary);
+    }
+    let ids = |window: &Window| -> Vec<u32> {
+        app(window).session().document().pins.iter().map(|pin| pin.id.0).collect()
+    };
+    assert_eq!(ids(&window), [1, 2, 3]);
+    wait(&mut window, "the pins", |app| app.session().snapshot().pinned.iter().flatten().count() == 3);
+    window.run_steps(3);
+    for pin in 1..=3 {
+        let label = format!("Pin {pin}");
+        let node = window.get_by_label(&label).rect().center();
+        assert!(node.distance(middle + Vec2::X * [-60.0, 0.0, 60.0][pin - 1]) < 14.0, "{label} at {node}");
+    }
+
+    // From the list, and by Shift and a click on a pin.
+    window.get_by_label("Select Pin 1").click();
+    window.run_steps(3);
+    let at = window.get_by_label("Pin 3").rect().center();
+    move_to(&mut window, at);
+    window.event(Event::ModifiersChanged(Modifiers::SHIFT));
+    button(&mut window, at, PointerButton::Primary, true, Modifiers::SHIFT);
+    button(&mut window, at, PointerButton::Primary, false, Modifiers::SHIFT);
+    window.event(Event::ModifiersChanged(Modifiers::NONE));
+    window.run_steps(3);
+    key(&mut window, Modifiers::COMMAND, Key::L);
+    let locked = |window: &Window| -> Vec<bool> {
+        app(window).session().document().pins.iter().map(|pin| pin.locked).collect()
+    };
+    assert_eq!(locked(&window), [true, false, true]);
+    window.get_by_label("Pin 3, locked");
+    key(&mut window, Modifiers::NONE, Key::Delete);
+    assert_eq!(ids(&window).len(), 3, "locked ones stay");
+    key(&mut window, Modifiers::COMMAND, Key::L);
+    assert_eq!(locked(&window), [false; 3]);
+    key(&mut window, Modifiers::NONE, Key::Delete);
+    assert_eq!(ids(&window), [2]);
+
+    // By hand to another place of the cloth, in one step.
+    let from = window.get_by_label("Pin 2").rect().center();
+    let before = app(&window).session().document().pins[0].place.at;
+    drag(&mut window, &[from, from + Vec2::Y * 12.0, from + Vec2::Y * 30.0], PointerButton::Primary);
+    assert_eq!(ids(&window), [2]);
+    let after = app(&window).session().document().pins[0].place.at;
+    assert!(after.y < before.y - 0.005, "from {before} to {after}");
+    assert_eq!(app(&window).session().undo_label(), Some("move a pin"));
+    key(&mut window, Modifiers::COMMAND, Key::Z);
+    assert_eq!(app(&window).session().document().pins[0].place.at, before);
+}
+
+#[test]
+fn bones_are_drawn_through_the_body_and_taken_away() {
+    let mut window = window();
+    let choose = |window: &mut Window, entry: &str| {
+        window.get_by_label("Garment").click();
+        window.run_steps(3);
+        window.get_by_label(entry).click();
+        window.run_steps(4);
+    };
+    choose(&mut window, "Draw bones");
+    let bones = |window: &Window| app(window).session().document().bones.clone();
+    let middle = pane(&window, "Body pane").center();
+    let path = line(pane(&window, "Body pane"), Vec2::new(50.0, 0.0));
+    drag(&mut window, &path, PointerButton::Primary);
+    let drawn = bones(&window).expect("a bone");
+    let [a, b] = drawn[0];
+    assert!(a.z.abs() < 0.03 && b.z.abs() < 0.03, "it lies in the middle of the ball: {a}, {b}");
+    assert!((b.x - a.x).abs() > 0.03);
+    move_to(&mut window, middle + Vec2::X * 25.0);
+    window.event(Event::ModifiersChanged(Modifiers::COMMAND));
+    button(&mut window, middle + Vec2::X * 25.0, PointerButton::Primary, true, Modifiers::COMMAND);
+    button(&mut window, middle + Vec2::X * 25.0, PointerButton::Primary, false, Modifiers::COMMAND);
+    window.run_steps(2);
+    assert_eq!(bones(&window).map(|bones| bones.len()), Some(0));
+    choose(&mut window, "The body's own bones");
+    assert_eq!(bones(&window), None);
+}

@@ -134,3 +134,38 @@ fn a_file_in_a_folder_that_is_gone_is_not_taken_for_saved() {
     save(&mut window).expect_err("there is no such folder");
     assert!(app(&window).session().is_modified());
 }
+
+#[test]
+fn a_lost_graphics_device_takes_nothing_with_it() {
+    let Some(device) = egui_wgpu_device() else { return };
+    let mut window = window_on(project(), Some(device.clone()));
+    paint_both(&mut window);
+    rename(&mut window, "precious");
+    let picture = |window: &mut Window| {
+        key(window, Modifiers::NONE, Key::Num1);
+        window.run_steps(3);
+        let app = window.state_mut().as_mut().expect("the app");
+        app.picture_of_body(glam::UVec2::new(320, 200)).expect("a picture")
+    };
+    let (before, document) = (picture(&mut window), app(&window).session().document().clone());
+    device.device.destroy();
+    // The next picture finds out.
+    key(&mut window, Modifiers::NONE, Key::Num3);
+    window.run_steps(3);
+    assert!(app(&window).is_moving(), "the window closes");
+    let commands =
+        |window: &Window| window.output().viewport_output[&egui::ViewportId::ROOT].commands.clone();
+    assert!(!commands(&window).contains(&egui::ViewportCommand::CancelClose));
+
+    let again = egui_wgpu_device().expect("a second device");
+    let ctx = window.ctx.clone();
+    window.state_mut().as_mut().expect("the app").move_into(&ctx, Some(again));
+    window.run_steps(3);
+    assert!(!app(&window).is_moving());
+    assert_eq!(app(&window).session().document(), &document);
+    assert_eq!(app(&window).session().undo_label(), Some("rename Square to precious"));
+    assert_eq!(picture(&mut window), before, "the same picture by another device");
+    assert!(window.query_by_label_contains("Nothing of your work is lost").is_some());
+    key(&mut window, Modifiers::COMMAND, Key::Z);
+    assert_eq!(name(&window), "Square");
+}

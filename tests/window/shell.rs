@@ -402,3 +402,86 @@ fn a_picture_of_any_size_is_written_with_nothing_behind_it() {
     assert_eq!(alpha(0, 0), 0, "nothing behind it");
     assert_eq!(alpha(picture.width() / 2, picture.height() / 2), 255, "the ball");
 }
+
+#[test]
+fn f6_goes_through_pattern_body_panel_and_tools_and_round() {
+    let mut window = window();
+    let focused = |window: &Window| {
+        let id = window.ctx.memory(|m| m.focused());
+        ["Pattern pane", "Body pane", "Marks", "Mark"].into_iter().find(|label| {
+            window.query_all_by_label(label).any(|node| node.accesskit_node().is_focused()) && id.is_some()
+        })
+    };
+    let mut seen = Vec::new();
+    for _ in 0..5 {
+        key(&mut window, Modifiers::NONE, Key::F6);
+        seen.push(focused(&window).unwrap_or("nothing"));
+    }
+    assert_eq!(seen, ["Pattern pane", "Body pane", "Marks", "Mark", "Pattern pane"]);
+}
+
+#[test]
+fn lines_join_the_pairs_of_marks_until_they_are_hidden() {
+    let mut window = window();
+    paint_both(&mut window);
+    let lines = |window: &mut Window| {
+        window.run_steps(2);
+        let shapes = &window.output().shapes;
+        let is_curve = |shape: &egui::Shape| matches!(shape, egui::Shape::CubicBezier(_));
+        shapes.iter().filter(|clipped| is_curve(&clipped.shape)).count()
+    };
+    // There are other curves, the pieces' own.
+    let with = lines(&mut window);
+    menu(&mut window, "View", "Pair lines");
+    assert_eq!(lines(&mut window) + 1, with);
+    menu(&mut window, "View", "Pair lines");
+    assert_eq!(lines(&mut window), with);
+}
+
+#[test]
+fn panes_are_swapped_and_one_takes_the_whole_window() {
+    let mut window = window();
+    let whole = pane(&window, "Pattern pane").union(pane(&window, "Body pane"));
+    assert!(pane(&window, "Pattern pane").right() <= pane(&window, "Body pane").left());
+    key(&mut window, Modifiers::NONE, Key::F10);
+    assert!(window.query_by_label("Pattern pane").is_none());
+    assert!(pane(&window, "Body pane").width() >= whole.width());
+    key(&mut window, Modifiers::NONE, Key::F9);
+    assert!(window.query_by_label("Body pane").is_none());
+    // Keys of the pane that is not there go nowhere.
+    key(&mut window, Modifiers::NONE, Key::F6);
+    key(&mut window, Modifiers::NONE, Key::F6);
+    assert!(window.query_by_label("Body pane").is_none());
+    key(&mut window, Modifiers::NONE, Key::F9);
+    assert!(window.query_by_label("Body pane").is_some(), "chosen again, both come back");
+    window.get_by_label("View").click();
+    window.run_steps(3);
+    window.get_by_label_contains("Panes").click();
+    window.run_steps(3);
+    window.get_by_label_contains("Body on the left").click();
+    window.run_steps(4);
+    assert!(pane(&window, "Body pane").right() <= pane(&window, "Pattern pane").left());
+    // The body is still painted on where it now is.
+    paint_both(&mut window);
+    assert_eq!(counts(&window), [1, 1]);
+}
+
+#[test]
+fn a_window_of_any_size_and_shape_is_drawn() {
+    let mut window = window_on(project(), egui_wgpu_device());
+    paint_both(&mut window);
+    let sizes =
+        [[1.0, 1.0], [1280.0, 1.0], [1.0, 900.0], [16384.0, 1.0], [90.0, 60.0], [300.0, 200.0], [0.0, 0.0]];
+    for _ in 0..4 {
+        for [width, height] in sizes {
+            window.set_size(Vec2::new(width, height));
+            window.run_steps(2);
+        }
+        window.set_size(Vec2::new(1280.0, 720.0));
+        window.run_steps(2);
+    }
+    assert!(pane(&window, "Pattern pane").width() > 200.0 && pane(&window, "Body pane").width() > 200.0);
+    // Everything is where it was.
+    paint_both(&mut window);
+    assert_eq!(counts(&window), [2, 2]);
+}

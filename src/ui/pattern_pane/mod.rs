@@ -105,6 +105,8 @@ pub struct Laid<'a> {
     pub selection: &'a Selection,
     /// What the pointer is over, in this pane or the other.
     pub highlight: Option<Item>,
+    /// How many points of the screen a metre takes.
+    pub points_per_metre: f64,
     /// What lengths are shown in.
     pub unit: LengthUnit,
     /// What lies near draws the pointer on.
@@ -262,7 +264,7 @@ impl PatternPane {
                     None => self.view.fit(pane, pattern),
                 }
             }
-            Some(Fit::TrueSize) => self.view.true_size(),
+            Some(Fit::TrueSize) => self.view.true_size(laid.points_per_metre),
             None => {}
         }
     }
@@ -334,7 +336,10 @@ impl PatternPane {
         if !ui.input(|i| i.key_pressed(Key::Escape)) {
             return;
         }
-        let painting = matches!(laid.tool, Tool::Mark | Tool::Erase | Tool::Move | Tool::Drag(_) | Tool::Pin);
+        let painting = matches!(
+            laid.tool,
+            Tool::Mark | Tool::Erase | Tool::Move | Tool::Drag(_) | Tool::Pin | Tool::Bone
+        );
         if tool.is_busy() {
             self.over = tool.is_dragging();
             tool.give_up(asks);

@@ -63,9 +63,9 @@ impl TableView {
         self.centre = (lower + upper) / 2.0;
     }
 
-    /// As large as cloth on the table: a point is a 96th of an inch on screens that say the truth.
-    pub fn true_size(&mut self) {
-        self.scale = 96.0 / 0.0254;
+    /// As large as cloth on the table, on a screen with so many points in a metre.
+    pub fn true_size(&mut self, points_per_metre: f64) {
+        self.scale = points_per_metre.clamp(FARTHEST, CLOSEST);
     }
 
     /// The part of the table that is seen: lower and upper corner.

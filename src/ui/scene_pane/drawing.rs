@@ -9,7 +9,14 @@ use super::outlines::outlines;
 use super::{Key, ScenePane, Seen};
 use crate::geometry::ids::MarkId;
 use crate::render::Look;
-use crate::ui::scene::Shown;
+use crate::session::Pin;
+use crate::ui::scene::{PinLook, Shown};
+
+/// How each pin is drawn.
+fn pin_looks(seen: &Seen<'_>) -> Vec<PinLook> {
+    let look = |pin: &Pin| PinLook { locked: pin.locked, selected: seen.selected_pins.contains(&pin.id) };
+    seen.document.pins.iter().map(look).collect()
+}
 
 /// Pictures drawn by a processor shrink by this much while things move.
 const DRAFT: f32 = 0.7;
@@ -18,6 +25,7 @@ impl ScenePane {
     pub(super) fn draw(&mut self, ui: &egui::Ui, seen: &Seen<'_>, near: Option<MarkId>, pane: Rect) {
         let painter = ui.painter_at(pane);
         let [stroke, far_stroke] = self.strokes().cloned().unwrap_or_default();
+        let bones = self.shown_bones(seen);
         let Some(graphics) = &mut self.graphics else {
             let words = "No graphics adapter: the body cannot be shown.";
             painter.text(
@@ -46,11 +54,14 @@ impl ScenePane {
             stroke: stroke.len() + far_stroke.len(),
             near,
             pinned: Some(Arc::clone(seen.pinned)),
+            pins: pin_looks(seen),
+            bones,
             dragged: seen.dragged.cloned(),
             selected: seen.selected,
             ghosts: seen.ghosts.cloned(),
             stand_out: if seen.cloth.is_some() { seen.stand_out.to_vec() } else { Vec::new() },
         };
+        let (pins, bones) = (key.pins.clone(), key.bones.clone());
         let outlines = outlines(&seen.document.pattern, &key.stand_out);
         let shown = Shown {
             body: seen.body,
@@ -60,6 +71,8 @@ impl ScenePane {
             far_stroke: &far_stroke,
             near,
             pinned: seen.pinned,
+            pins: &pins,
+            bones: &bones,
             dragged: seen.dragged,
             selected: seen.selected,
             ghosts: seen.ghosts.map(|g| &**g),

@@ -1,14 +1,16 @@
 //! Our own picture of the scene, kept as a texture that egui shows.
 
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use egui::TextureId;
 use glam::UVec2;
 
 use crate::body::Surface;
 use crate::cloth::ClothState;
+use crate::contact::Bone;
 use crate::geometry::ids::MarkId;
 use crate::render::{Camera, Gpu, Look, OffscreenTarget, RenderError, Renderer, Scene, straightened};
+use crate::ui::scene::PinLook;
 use crate::ui::selection::Item;
 use crate::wrap::Marks;
 
@@ -33,6 +35,10 @@ pub struct Key {
     pub near: Option<MarkId>,
     /// With which pins.
     pub pinned: Option<Arc<Vec<Option<u32>>>>,
+    /// How those are drawn.
+    pub pins: Vec<PinLook>,
+    /// With which bones.
+    pub bones: Vec<Bone>,
     /// With which drag.
     pub dragged: Option<Arc<Vec<f32>>>,
     /// The mark that stands out.
@@ -57,6 +63,8 @@ impl PartialEq for Key {
             selected,
             ghosts,
             pinned,
+            pins,
+            bones,
             dragged,
             stand_out,
         } = self;
@@ -64,6 +72,8 @@ impl PartialEq for Key {
             && *look == other.look
             && *size == other.size
             && *stroke == other.stroke
+            && *pins == other.pins
+            && *bones == other.bones
             && *stand_out == other.stand_out
             && *near == other.near
             && *selected == other.selected
@@ -93,6 +103,8 @@ pub struct Graphics {
     drawn: Option<Key>,
     /// Pictures drawn so far.
     pub pictures: u64,
+    /// Why the device is gone.
+    lost: Arc<Mutex<Option<String>>>,
 }
 
 impl std::fmt::Debug for Graphics {
@@ -106,7 +118,18 @@ impl Graphics {
     pub fn new(state: egui_wgpu::RenderState) -> Self {
         let gpu = Gpu::from_parts(&state.adapter, state.device.clone(), state.queue.clone());
         let renderer = Renderer::new(&gpu);
-        Self { state, gpu, renderer, target: None, drawn: None, pictures: 0 }
+        let lost = Arc::new(Mutex::new(None));
+        let told = Arc::clone(&lost);
+        state.device.on_uncaptured_error(Arc::new(|e| tracing::error!("graphics: {e}")));
+        state.device.set_device_lost_callback(move |reason, words| {
+            *told.lock().unwrap_or_else(PoisonError::into_inner) = Some(format!("{reason:?}: {words}"));
+        });
+        Self { state, gpu, renderer, target: None, drawn: None, pictures: 0, lost }
+    }
+
+    /// Why nothing can be drawn any more; None while the device is there.
+    pub fn lost(&self) -> Option<String> {
+        self.lost.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
     /// What draws, for people.
@@ -121,6 +144,11 @@ impl Graphics {
 
     /// The picture for `key`, drawn only when it differs from the last one. `scene` makes what is to be drawn.
     pub fn picture(&mut self, key: Key, scene: impl FnOnce() -> Scene) -> Result<TextureId, RenderError> {
+        // A device that is gone says so only when it is asked.
+        self.state.device.poll(wgpu::PollType::Poll).ok();
+        if let Some(why) = self.lost() {
+            return Err(RenderError::Device(why));
+        }
         let texture = self.target_of(key.size)?;
         if self.drawn.as_ref() != Some(&key)
             && let Some((target, _)) = &self.target

@@ -3,11 +3,12 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use egui::{Key as Button, PointerButton, Pos2, Rect, Response};
+use egui::accesskit::Role;
+use egui::{Key as Button, PointerButton, Pos2, Rect, Response, WidgetInfo};
 use glam::DVec3;
 
 use super::sight::REACH;
-use super::{Drag, ScenePane, Seen, is_lost, size_of, within};
+use super::{Drag, ScenePane, Seen, is_lost};
 use crate::cloth::{EdgeMetric, FlatPiece, Garment};
 use crate::drag::{DragMode, Graph, Ray};
 use crate::geometry::ids::{PieceId, PinId};
@@ -16,6 +17,8 @@ use crate::sim::ClothPlace;
 use crate::ui::actions::Tool;
 use crate::ui::asks::{Ask, Asks};
 use crate::ui::pick::{ClothHit, cloth_under};
+use crate::ui::pins_panel::named;
+use crate::ui::selection::Selection;
 
 /// Pins of a row stand this far apart, metres on a body 1.5 m large.
 const ROW_STEP: f64 = 0.03;
@@ -117,18 +120,40 @@ impl ScenePane {
     /// A click with the pin tool: pulls the pin out that is there, or sticks one in.
     pub(super) fn pin_or_pull(&self, seen: &Seen<'_>, pane: Rect, at: Pos2) -> Option<Ask> {
         let hit = cloth_at(seen, self.ray(pane, at))?;
-        let away = |p: DVec3| {
-            self.camera.project(p.as_vec3(), size_of(pane)).map(|q| q.pixel.distance(within(pane, at)))
-        };
-        let near = pins(seen)
-            .into_iter()
-            .filter_map(|(id, place)| Some((id, away(place)?)))
-            .filter(|&(_, away)| away <= REACH)
-            .min_by(|a, b| a.1.total_cmp(&b.1));
-        Some(Ask::Do(match near {
-            Some((pin, _)) => Command::DeletePin { pin },
+        Some(Ask::Do(match self.pin_at(seen, pane, at) {
+            Some(pin) => Command::DeletePin { pin },
             None => Command::AddPin { piece: hit.place.piece, at: hit.place.at },
         }))
+    }
+
+    /// The pin within reach of a point of the screen that the body does not hide.
+    pub(super) fn pin_at(&self, seen: &Seen<'_>, pane: Rect, at: Pos2) -> Option<PinId> {
+        let away = |p: DVec3| self.place_of(p, pane).map(|place| place.distance(at));
+        let near = pins(seen)
+            .into_iter()
+            .filter_map(|(id, place)| Some((id, place, away(place)?)))
+            .filter(|&(_, place, away)| away <= REACH && self.is_in_sight(seen, place));
+        near.min_by(|a, b| a.2.total_cmp(&b.2)).map(|(id, ..)| id)
+    }
+
+    /// A click that selects a pin: with the tool that selects, or with Shift and the tool for pins.
+    pub(super) fn picked_pin(&self, seen: &Seen<'_>, pane: Rect, at: Pos2, add: bool) -> Option<Ask> {
+        let selects = seen.tool == Tool::Move || (add && seen.tool == Tool::Pin);
+        let pin = self.pin_at(seen, pane, at).filter(|_| selects)?;
+        let before = Selection { pins: seen.selected_pins.clone(), ..Selection::default() };
+        Some(Ask::Pick(before.clicked_pin(pin, add)))
+    }
+
+    /// Tells screen readers and tests where each pin is.
+    pub(super) fn publish_pins(&self, ui: &egui::Ui, seen: &Seen<'_>, pane: Rect) {
+        for (pin, (id, place)) in seen.document.pins.iter().zip(pins(seen)) {
+            let Some(at) = self.place_of(place, pane).filter(|_| pin.id == id) else { continue };
+            let rect = Rect::from_center_size(at, egui::vec2(12.0, 12.0));
+            let node = ui.interact(rect, ui.scope_id().with(("pin", id)), egui::Sense::hover());
+            let words = format!("{}{}", named(id), if pin.locked { ", locked" } else { "" });
+            let selected = seen.selected_pins.contains(&id);
+            node.widget_info(|| WidgetInfo::selected(Role::Label, true, selected, &words));
+        }
     }
 
     /// Takes cloth in the hand or begins a row of pins; false when there is no cloth under the pointer.
@@ -143,6 +168,11 @@ impl ScenePane {
         let origin = ui.input(|i| i.pointer.press_origin());
         let hit = origin.filter(|_| !seen.growing).and_then(|at| cloth_at(seen, self.ray(pane, at)));
         let Some(hit) = hit else { return false };
+        let pin = origin.filter(|_| seen.tool == Tool::Pin && button == PointerButton::Primary);
+        if let Some(pin) = pin.and_then(|at| self.pin_at(seen, pane, at)) {
+            self.drag = Some(Drag::Pin(pin));
+            return true;
+        }
         let row = seen.tool == Tool::Pin && button == PointerButton::Primary;
         let tool = if row || matches!(seen.tool, Tool::Drag(_)) { seen.tool } else { Tool::default() };
         asks.push(begun(&Seen { tool, ..*seen }, &hit));
@@ -164,6 +194,13 @@ impl ScenePane {
                 {
                     asks.push(ask);
                     self.drag = Some(Drag::Row(hit.point));
+                }
+            }
+            (Some(Drag::Pin(pin)), Some(at)) if moved => {
+                let pin = *pin;
+                if let Some(hit) = cloth_at(seen, self.ray(pane, at)) {
+                    let ClothPlace { piece, at } = hit.place;
+                    asks.push(Ask::Drag(Command::MovePin { pin, piece, at }));
                 }
             }
             _ => {}

@@ -21,6 +21,7 @@ pub fn hint(tool: Tool, mouse: Mouse, laser: bool, dressed: bool, next: usize) -
         Tool::Erase => format!("Click a mark: take it away · {view}"),
         Tool::Pin => format!("Click: pin the cloth, or pull the pin out · Drag: a row of pins · {view}"),
         Tool::Drag(_) => format!("Drag the cloth · Esc: put it back · {view}"),
+        Tool::Bone => format!("Drag through the body: a bone · Ctrl+click a bone: take it away · {view}"),
         _ => format!("Drag: turn · {view}"),
     }
 }

@@ -167,7 +167,7 @@ impl ScenePane {
                     None => asks.push(Ask::Say("There is no cloth under the cross.".to_owned())),
                 }
             }
-            _ => self.click(seen, pane, at, seen.tool == Tool::Erase, asks),
+            _ => self.click(seen, pane, at, [seen.tool == Tool::Erase, false], asks),
         }
     }
 

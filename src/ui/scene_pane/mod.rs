@@ -1,5 +1,6 @@
 //! The body pane: the body and the cloth on it, turned and painted with the pointer.
 
+mod bones;
 mod cube;
 mod drawing;
 mod graphics;
@@ -11,6 +12,7 @@ mod overlay;
 mod sight;
 mod view;
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use egui::accesskit::Role;
@@ -19,7 +21,8 @@ use glam::{DVec3, Vec2};
 
 use crate::body::Surface;
 use crate::cloth::{ClothState, Garment};
-use crate::geometry::ids::MarkId;
+use crate::contact::Bone;
+use crate::geometry::ids::{MarkId, PinId};
 use crate::render::{Camera, Look, View};
 use crate::session::{Command, Document};
 use crate::ui::actions::Tool;
@@ -64,6 +67,10 @@ pub struct Seen<'a> {
     pub laser: bool,
     /// The mark that stands out.
     pub selected: Option<MarkId>,
+    /// Bones of the body, while they are worked on.
+    pub bones: &'a [Bone],
+    /// Pins that are selected.
+    pub selected_pins: &'a BTreeSet<PinId>,
     /// What of the pattern stands out: what is selected, and what the pointer is over in either pane.
     pub stand_out: &'a [Item],
     /// Marks proposed and not accepted yet.
@@ -118,6 +125,10 @@ enum Drag {
     Cloth(PointerButton),
     /// A row of pins, the last of which is here.
     Row(DVec3),
+    /// A pin is stuck in elsewhere.
+    Pin(PinId),
+    /// A bone, from end to end.
+    Bone([DVec3; 2]),
     /// Given up; the button is still down.
     Over,
 }
@@ -150,6 +161,7 @@ impl ScenePane {
         if let Some(ghosts) = seen.ghosts {
             publish_marks(ui, ghosts, "Proposed mark", pane, &self.camera);
         }
+        self.publish_pins(ui, seen, pane);
         view_cube(ui, pane, &self.camera, seen.palette, asks);
         view_buttons(ui, pane, seen, asks);
     }
@@ -172,14 +184,14 @@ impl ScenePane {
         let held = ui.input(|i| i.modifiers);
         let of_tool = seen.mouse.deed(PointerButton::Primary, held) == Some(Deed::Tool);
         for at in clicks(ui, response, PointerButton::Primary).into_iter().filter(|_| of_tool) {
-            self.click(seen, pane, at, erasing, asks);
+            self.click(seen, pane, at, [erasing, held.shift], asks);
         }
         for button in [PointerButton::Primary, PointerButton::Secondary, PointerButton::Middle] {
             if response.drag_started_by(button) {
                 self.begin(ui, seen, pane, (button, seen.mouse.deed(button, held)), erasing, asks);
             }
         }
-        if matches!(self.drag, Some(Drag::Cloth(_) | Drag::Row(_))) {
+        if matches!(self.drag, Some(Drag::Cloth(_) | Drag::Row(_) | Drag::Pin(_))) {
             self.go_on_by_hand(ui, seen, pane, asks);
         } else if let Some(Drag::View(_, button)) = self.drag {
             if ui.input(|i| !i.pointer.button_down(button) || is_lost(i)) {
@@ -191,7 +203,13 @@ impl ScenePane {
             if ui.input(|i| i.key_pressed(Button::Escape)) {
                 self.drag = Some(Drag::Over);
             } else if !ui.input(|i| i.pointer.primary_down()) || lost {
-                in_one_step(self.finish(seen), asks);
+                match self.drag {
+                    Some(Drag::Bone(bone)) => {
+                        self.drag = None;
+                        self.end_bone(seen, bone, asks);
+                    }
+                    _ => in_one_step(self.finish(seen), asks),
+                }
             }
         }
     }
@@ -221,8 +239,11 @@ impl ScenePane {
         };
     }
 
-    fn click(&self, seen: &Seen<'_>, pane: Rect, at: Pos2, erasing: bool, asks: &mut Asks) {
+    fn click(&self, seen: &Seen<'_>, pane: Rect, at: Pos2, [erasing, add]: [bool; 2], asks: &mut Asks) {
         let near = self.mark_at(seen, pane, at);
+        if let Some(pin) = self.picked_pin(seen, pane, at, add) {
+            return asks.push(pin);
+        }
         match (near, seen.tool) {
             (Some(mark), _) if erasing => asks.push(Ask::Do(Command::DeleteMark { mark })),
             (Some(_), Tool::Mark | Tool::Move) => asks.push(Ask::Select(near)),
@@ -236,6 +257,7 @@ impl ScenePane {
                 let dots = self.hits(seen, pane, at).map(|hit| hit.into_iter().collect());
                 in_one_step(painted(seen, dots), asks);
             }
+            (_, Tool::Bone) if erasing => asks.extend(self.delete_bone(seen, pane, at)),
             (_, Tool::Pin) => asks.extend(self.pin_or_pull(seen, pane, at)),
             _ => {}
         }
@@ -248,6 +270,11 @@ impl ScenePane {
             return;
         }
         let origin = ui.input(|i| i.pointer.press_origin());
+        let bone = origin.filter(|_| seen.tool == Tool::Bone && !erasing);
+        if let Some(end) = bone.and_then(|at| self.within_body(seen, pane, at)) {
+            self.drag = Some(Drag::Bone([end; 2]));
+            return;
+        }
         let [near, far] = origin.map_or([None; 2], |at| self.hits(seen, pane, at));
         self.followed = origin;
         self.drag = Some(match near {
@@ -260,6 +287,9 @@ impl ScenePane {
 
     /// Follows the pointer through every place it was in since the last frame, and between them: a fast hand leaves few.
     fn go_on(&mut self, ui: &egui::Ui, seen: &Seen<'_>, pane: Rect) {
+        if matches!(self.drag, Some(Drag::Bone(_))) {
+            return self.draw_bone(seen, pane, ui.input(|i| i.pointer.latest_pos()));
+        }
         if !matches!(self.drag, Some(Drag::Paint(_))) {
             return;
         }
@@ -307,8 +337,8 @@ impl ScenePane {
         let Some(at) = response.hover_pos() else { return };
         let erasing = seen.tool == Tool::Erase || ui.input(|i| i.modifiers.command);
         ui.ctx().set_cursor_icon(match &self.drag {
-            Some(Drag::View(..) | Drag::Cloth(_)) => CursorIcon::Grabbing,
-            Some(Drag::Paint(_)) => CursorIcon::Crosshair,
+            Some(Drag::View(..) | Drag::Cloth(_) | Drag::Pin(_)) => CursorIcon::Grabbing,
+            Some(Drag::Paint(_) | Drag::Bone(_)) => CursorIcon::Crosshair,
             _ if response.dragged() => CursorIcon::Grabbing,
             _ if erasing && near.is_some() => CursorIcon::PointingHand,
             _ if matches!(seen.tool, Tool::Drag(_) | Tool::Pin)
@@ -320,7 +350,10 @@ impl ScenePane {
                     CursorIcon::Grab
                 }
             }
-            _ if seen.tool == Tool::Mark && !erasing && self.pick(seen, pane, at).is_some() => {
+            _ if matches!(seen.tool, Tool::Mark | Tool::Bone)
+                && !erasing
+                && self.pick(seen, pane, at).is_some() =>
+            {
                 CursorIcon::Crosshair
             }
             _ => CursorIcon::Default,

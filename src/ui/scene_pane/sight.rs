@@ -58,7 +58,14 @@ impl ScenePane {
             .map(|(id, _)| id)
     }
 
-    pub(super) fn is_in_sight(&self, seen: &Seen<'_>, point: DVec3) -> bool {
+    /// Where a point of the scene is on the screen.
+    pub fn place_of(&self, point: DVec3, pane: Rect) -> Option<Pos2> {
+        let place = self.camera.project(point.as_vec3(), size_of(pane))?;
+        Some(pane.min + egui::vec2(place.pixel.x, place.pixel.y))
+    }
+
+    /// Whether the body does not hide a point.
+    pub fn is_in_sight(&self, seen: &Seen<'_>, point: DVec3) -> bool {
         let eye = match self.camera.projection {
             Projection::Perspective => self.camera.eye(),
             Projection::Orthographic => {

@@ -15,6 +15,7 @@ use crate::ui::pattern_pane::draw_pieces::{BADGE, EQUAL, badge_place, has_badge}
 use crate::ui::pattern_pane::input::Input;
 use crate::ui::pattern_pane::table::{OnEdge, REACH, Table};
 use crate::ui::selection::{Item, Selection};
+use crate::ui::units::signed;
 
 /// The tool Sew.
 #[derive(Debug, Default)]
@@ -233,7 +234,8 @@ impl PatternTool for Sew {
 pub fn compared(table: &Table<'_>, [a, b]: [f64; 2]) -> String {
     let unit = table.laid.unit;
     let percent = (a / b.max(1e-9) - 1.0) * 100.0;
-    format!("{} on {}   {:+.1} mm ({percent:+.1} %)", unit.number(a), unit.text(b), (a - b) * 1000.0)
+    let more = signed((a - b) * 1000.0, 1);
+    format!("{} on {}   {more} mm ({} %)", unit.number(a), unit.text(b), signed(percent, 1))
 }
 
 fn told_difference(table: &Table<'_>, sides: &[Vec<Stretch>; 2]) -> Option<String> {
