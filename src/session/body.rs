@@ -3,6 +3,7 @@
 use std::sync::{Arc, OnceLock};
 
 use crate::body::mannequin::mannequin;
+use crate::body::pose::rig;
 use crate::body::{Landmarks, Surface, landmarks};
 use crate::contact::Bone;
 use crate::geometry::mesh::TriMesh;
@@ -33,6 +34,12 @@ impl Body {
                 let figure = mannequin(measurements).map_err(|e| Rejection(e.to_string()))?;
                 let surface = ready(figure.mesh.clone(), "the mannequin")?;
                 (surface, figure.skeleton.six_segments(), Some(figure.landmarks.clone()))
+            }
+            BodyChoice::Posed { measurements, pose } => {
+                let rig = rig(measurements).map_err(|e| Rejection(e.to_string()))?;
+                let posed = rig.posed(pose);
+                let posed = posed.ok_or_else(|| Rejection::new("the mannequin cannot take this pose"))?;
+                (posed.surface, posed.skeleton.six_segments(), Some(posed.landmarks))
             }
             BodyChoice::Imported { name, mesh } => (ready(mesh.as_ref().clone(), name)?, Vec::new(), None),
         };
