@@ -134,6 +134,8 @@ impl App {
             | Action::ToggleXray
             | Action::ToggleHistory
             | Action::ToggleLog
+            | Action::Map(_)
+            | Action::ToggleMapTable
             | Action::CommandPalette
             | Action::Tour => self.act_on_shell(ctx, action),
         }

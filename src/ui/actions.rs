@@ -3,6 +3,7 @@
 use egui::{Key, KeyboardShortcut, Modifiers, ThemePreference};
 
 use crate::drag::DragMode;
+use crate::fit::MapKind;
 use crate::io::pdf::Paper;
 use crate::render::View;
 use crate::session::demos::Demo;
@@ -124,6 +125,9 @@ pub enum Action {
     TogglePanel,
     ToggleHistory,
     ToggleLog,
+    /// Colours the cloth; None: as it is.
+    Map(Option<MapKind>),
+    ToggleMapTable,
     Theme(ThemePreference),
     Mouse(Mouse),
     Paper(Paper),
@@ -266,8 +270,11 @@ impl Action {
             | Self::ToggleXray
             | Self::ToggleHistory
             | Self::ToggleLog
+            | Self::ToggleMapTable
             | Self::CommandPalette
             | Self::Tour => self.shell_entry(),
+            Self::Map(None) => entry("No map", "Show the cloth in its own colours", &[]),
+            Self::Map(Some(kind)) => entry(kind.title(), kind.tip(), &[]),
             Self::FrameAll => {
                 entry("Show all", "Fit everything in the pane under the pointer", &[key(Key::Home)])
             }
@@ -327,6 +334,8 @@ impl Action {
                 | Self::ToggleSheer
                 | Self::ToggleXray
                 | Self::ToggleLog
+                | Self::Map(_)
+                | Self::ToggleMapTable
                 | Self::CommandPalette
                 | Self::Preferences
                 | Self::Picture

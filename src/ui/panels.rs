@@ -16,7 +16,7 @@ use crate::ui::scene_pane::{self, Seen};
 use crate::ui::side_panel::Told;
 use crate::ui::situation::Situation;
 use crate::ui::theme::{self, Palette};
-use crate::ui::{menu, side_panel, status, toolbar};
+use crate::ui::{maps, menu, side_panel, status, toolbar};
 use crate::wrap::Phase;
 
 impl App {
@@ -55,7 +55,8 @@ impl App {
                     now,
                     palette,
                 };
-                side_panel::side_panel_ui(ui, &told, &mut self.marks_panel, &mut self.pattern_panel, asks);
+                let (marks, pattern) = (&mut self.marks_panel, &mut self.pattern_panel);
+                side_panel::side_panel_ui(ui, &told, marks, pattern, &mut self.shell.pose, asks);
             });
         }
         self.drawer_panel(ui, now, palette, asks);
@@ -87,6 +88,7 @@ impl App {
                 cloth,
                 pinned: &snapshot.pinned,
                 dragged: snapshot.dragged.as_ref(),
+                map: self.shell.maps.shown(),
                 growing: now.wrapping,
                 working: now.working,
                 tool: now.tool,
@@ -99,6 +101,10 @@ impl App {
                 palette,
             };
             self.scene_pane.ui(ui, &seen, asks);
+            if let (Some(map), Some(pane)) = (seen.map, self.scene_pane.area) {
+                let value = self.scene_pane.value.or(self.pattern_pane.value);
+                maps::legend_ui(ui, pane, map, value, palette, asks);
+            }
         });
     }
 
@@ -114,6 +120,7 @@ impl App {
             unit: now.unit,
             snapping: self.snapping,
             ghosts: self.ghosts.as_ref().map(|g| &*g.marks),
+            map: self.shell.maps.shown(),
             palette,
         }
     }
@@ -168,6 +175,7 @@ impl App {
             wrapped: self.shown().can_cancel_wrap(),
             wrapping: asked || growing,
             working: asked || snapshot.working,
+            caught_up: snapshot.seq >= self.shown().last_seq(),
             dragging: snapshot.dragged.is_some(),
             relaxing: snapshot.relaxing,
             phase: snapshot.phase,
@@ -183,6 +191,7 @@ impl App {
             recent: Arc::clone(self.shell.recent.files()),
             sight: self.shell.sight,
             drawer: self.shell.drawer,
+            map: self.shell.maps.kind(),
             adapter: self.scene_pane.graphics.as_ref().map(|g| g.adapter_name().to_owned()),
             picturing: self.shell.turn.is_some(),
         }

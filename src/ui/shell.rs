@@ -10,7 +10,9 @@ use crate::ui::asks::Asks;
 use crate::ui::command_palette::CommandPalette;
 use crate::ui::drawer::Drawer;
 use crate::ui::files::Purpose;
+use crate::ui::maps::MapView;
 use crate::ui::picture_page::PicturePage;
+use crate::ui::pose_panel::PosePanel;
 use crate::ui::preferences::Preferences;
 use crate::ui::preferences_page::PreferencesPage;
 use crate::ui::recent::Recent;
@@ -64,6 +66,10 @@ pub struct Shell {
     pub opening: Option<std::path::PathBuf>,
     /// How body and cloth are drawn.
     pub sight: Sight,
+    /// Poses of the mannequin.
+    pub pose: PosePanel,
+    /// What cloth is coloured by.
+    pub maps: MapView,
     /// Small pictures of samples and projects.
     pub thumbnails: Thumbnails,
 }
@@ -107,6 +113,8 @@ impl App {
             Action::ToggleXray => self.shell.sight.xray = !self.shell.sight.xray,
             Action::ToggleHistory => self.shell.drawer = toggled(Drawer::History),
             Action::ToggleLog => self.shell.drawer = toggled(Drawer::Log),
+            Action::Map(kind) => self.shell.maps.choose(kind),
+            Action::ToggleMapTable => self.shell.drawer = toggled(Drawer::Map),
             Action::CommandPalette => self.shell.palette = Some(CommandPalette::default()),
             Action::Tour => self.begin_tour(ctx),
             _ => {}

@@ -12,6 +12,7 @@ use crate::ui::actions::Tool;
 use crate::ui::asks::{Ask, Asks};
 use crate::ui::marks_panel::MarksPanel;
 use crate::ui::pattern_panel::{PatternPanel, seams_ui};
+use crate::ui::pose_panel::PosePanel;
 use crate::ui::selection::Selection;
 use crate::ui::situation::Situation;
 use crate::ui::theme::Palette;
@@ -43,6 +44,7 @@ pub fn side_panel_ui(
     told: &Told<'_>,
     marks: &mut MarksPanel,
     pattern: &mut PatternPanel,
+    pose: &mut PosePanel,
     asks: &mut Asks,
 ) {
     let Told { document, palette, .. } = *told;
@@ -54,6 +56,7 @@ pub fn side_panel_ui(
         }
         section(ui, "Marks", true, |ui| marks.ui(ui, told, asks));
         section(ui, "Problems", true, |ui| problems_ui(ui, told, asks));
+        section(ui, "Pose", false, |ui| pose.ui(ui, told, asks));
         section(ui, "Cloth", true, |ui| settings_ui(ui, &document.settings, palette, asks));
         if !on_pattern {
             pattern_ui(ui, told, pattern, asks);

@@ -8,7 +8,7 @@ use glam::UVec2;
 use crate::body::Surface;
 use crate::cloth::ClothState;
 use crate::geometry::ids::MarkId;
-use crate::render::{Camera, Gpu, Look, OffscreenTarget, RenderError, Renderer, Scene, straightened};
+use crate::render::{Camera, Gpu, Look, OffscreenTarget, RenderError, Renderer, Rgb, Scene, straightened};
 use crate::ui::selection::Item;
 use crate::wrap::Marks;
 
@@ -35,6 +35,8 @@ pub struct Key {
     pub pinned: Option<Arc<Vec<Option<u32>>>>,
     /// With which drag.
     pub dragged: Option<Arc<Vec<f32>>>,
+    /// In the colours of which map.
+    pub map: Option<Arc<Vec<Rgb>>>,
     /// The mark that stands out.
     pub selected: Option<MarkId>,
     /// With which proposed marks.
@@ -58,6 +60,7 @@ impl PartialEq for Key {
             ghosts,
             pinned,
             dragged,
+            map,
             stand_out,
         } = self;
         *camera == other.camera
@@ -72,6 +75,7 @@ impl PartialEq for Key {
             && same(marks, &other.marks)
             && same(pinned, &other.pinned)
             && same(dragged, &other.dragged)
+            && same(map, &other.map)
             && same(ghosts, &other.ghosts)
     }
 }
