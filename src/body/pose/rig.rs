@@ -36,7 +36,7 @@ pub struct Rig {
     rebuild: Rebuild,
     /// For each of `JOINTS` its share at each vertex, 0..=1.
     shares: Vec<Vec<f64>>,
-    /// Vertices that no joint turns.
+    /// Vertices of the pelvis: those that every joint turns by less than half.
     still: Vec<u32>,
 }
 
@@ -72,7 +72,7 @@ impl Rig {
         let surface = Arc::new(Surface::new(figure.mesh.clone())?);
         let rebuild = Rebuild::new(&figure.mesh)?;
         let shares = shares(&figure, &rebuild)?;
-        let is_still = |v: &u32| shares.iter().all(|of| of[*v as usize] < 0.01);
+        let is_still = |v: &u32| shares.iter().all(|of| of[*v as usize] < 0.5);
         let still = (0..figure.mesh.positions.len() as u32).filter(is_still).collect();
         Some(Self { figure, surface, rebuild, shares, still })
     }
@@ -97,13 +97,20 @@ impl Rig {
 
     /// The turn of each triangle.
     fn gradients(&self, turns: &[DVec3]) -> Vec<DMat3> {
+        let part = |j: usize| JOINTS[j].0.split('_').next();
         let turned: Vec<usize> = (0..turns.len()).filter(|&j| turns[j] != DVec3::ZERO).collect();
+        let turned: Vec<&[usize]> = turned.chunk_by(|&i, &j| part(i) == part(j)).collect();
         let gradient = |corners: &[u32; 3]| {
             let mut whole = DQuat::IDENTITY;
-            for &j in &turned {
-                let share = corners.iter().map(|&v| self.shares[j][v as usize]).sum::<f64>() / 3.0;
-                if share > LEAST {
-                    whole *= DQuat::from_scaled_axis(turns[j] * share);
+            for joints in &turned {
+                // Both sides at once: where both have a share, neither comes first.
+                let turn = |&j: &usize| {
+                    let share = corners.iter().map(|&v| self.shares[j][v as usize]).sum::<f64>() / 3.0;
+                    if share > LEAST { turns[j] * share } else { DVec3::ZERO }
+                };
+                let turn: DVec3 = joints.iter().map(turn).sum();
+                if turn != DVec3::ZERO {
+                    whole *= DQuat::from_scaled_axis(turn);
                 }
             }
             DMat3::from_quat(whole)
