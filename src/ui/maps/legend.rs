@@ -9,7 +9,7 @@ use crate::ui::asks::{Ask, Asks};
 use crate::ui::theme::{Palette, colour};
 
 /// Width of the whole, points.
-const WIDTH: f32 = 196.0;
+const WIDTH: f32 = 222.0;
 /// Height of the bar of colours, points.
 const BAR: f32 = 150.0;
 /// Its width.
@@ -26,7 +26,7 @@ pub fn legend_ui(
     palette: &Palette,
     asks: &mut Asks,
 ) {
-    let size = vec2(WIDTH, BAR + 108.0);
+    let size = vec2(WIDTH, BAR + 142.0);
     if pane.width() < WIDTH + 24.0 || pane.height() < size.y + 60.0 {
         return;
     }
@@ -98,13 +98,10 @@ fn bar_ui(ui: &mut egui::Ui, map: &ShownMap, value: Option<f64>, palette: &Palet
         let y = at(((value - map.range[0]) / span).clamp(0.0, 1.0));
         let stroke = Stroke::new(2.0, palette.accent);
         painter.hline(bar.left()..=bar.right() + 5.0, y, stroke);
-        painter.text(
-            pos2(left + 2.0, y),
-            Align2::LEFT_CENTER,
-            map.words(value),
-            FontId::proportional(12.5),
-            ink,
-        );
+        let text = painter.layout_no_wrap(map.words(value), FontId::proportional(12.5), ink);
+        let place = Align2::RIGHT_CENTER.anchor_size(pos2(whole.right() - 3.0, y), text.size());
+        painter.rect_filled(place.expand2(vec2(3.0, 1.0)), 3.0, palette.overlay.to_opaque());
+        painter.galley(place.min, text, ink);
     }
 }
 
@@ -162,6 +159,6 @@ fn range_ui(ui: &mut egui::Ui, map: &ShownMap, palette: &Palette, asks: &mut Ask
             }
         });
     });
-    let words = format!("median {} · 99 % below {}", map.words(map.stats.median), map.words(map.stats.p99));
+    let words = format!("median {}, 99 % below {}", map.words(map.stats.median), map.words(map.stats.p99));
     ui.add(egui::Label::new(egui::RichText::new(words).size(11.5).color(palette.weak)).truncate());
 }
