@@ -20,6 +20,8 @@ mod demos;
 mod files;
 #[path = "window/hand.rs"]
 mod hand;
+#[path = "window/maps.rs"]
+mod maps;
 #[path = "window/mouse.rs"]
 mod mouse;
 #[path = "window/pictures.rs"]

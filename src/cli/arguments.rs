@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
-use crate::body::{Unit, UpAxis};
+use crate::body::{NamedPose, Unit, UpAxis};
 use crate::cloth::Skips;
 use crate::fit::MapKind;
 use crate::io::pdf::Paper;
@@ -64,6 +64,10 @@ pub struct InputOptions {
     pub body: Option<PathBuf>,
     #[command(flatten)]
     pub body_file: BodyFile,
+    /// The mannequin in this pose, bare: a, t, standing, walking, running, sitting, arms-up or kung-fu; the marks go along,
+    /// cloth comes off
+    #[arg(long, value_name = "NAME")]
+    pub pose: Option<NamedPose>,
     /// What a unit of a DXF or SVG pattern is: mm, cm, m, in, px, px90 or pt; without it the file tells, or the question
     /// is asked by an error
     #[arg(long, value_name = "UNIT")]
@@ -201,8 +205,11 @@ pub struct Repose {
     /// Dressed project, as saved by dress --save; or a sample (sample:NAME)
     pub project: PathBuf,
     /// The body in another pose (OBJ); several times for several poses
-    #[arg(long = "body", value_name = "FILE", required = true)]
+    #[arg(long = "body", value_name = "FILE", required_unless_present = "poses")]
     pub bodies: Vec<PathBuf>,
+    /// The mannequin in this pose: a, t, standing, walking, running, sitting, arms-up or kung-fu; several times for several
+    #[arg(long = "pose", value_name = "NAME")]
+    pub poses: Vec<NamedPose>,
     #[command(flatten)]
     pub body_file: BodyFile,
     /// The folder to write to

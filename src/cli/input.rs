@@ -180,6 +180,11 @@ pub fn take_options(project: &mut Project, path: &Path, options: &InputOptions) 
         }
         None => {}
     }
+    if let Some(pose) = options.pose {
+        let posed = project.document.body.in_named_pose(pose);
+        let words = "its body is from a file: only the mannequin takes a pose by name";
+        set_body(project, path, posed.ok_or_else(|| Failure::input(path, words))?)?;
+    }
     if let Some(edge_length) = options.edge_length {
         project.document.settings.edge_length = edge_length;
     }

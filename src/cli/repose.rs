@@ -12,25 +12,34 @@ use crate::session::{BodyChoice, Command, Notice, Session, project_file};
 
 /// Each pose in turn, from the one that was dressed; the first that fails a check gives the exit code.
 pub fn repose(arguments: &Repose) -> Result<(), Failure> {
-    let several = arguments.bodies.len() > 1;
+    let several = arguments.bodies.len() + arguments.poses.len() > 1;
     if several && arguments.save.is_some() {
         return Err(Failure::Usage("--save takes one pose, not several".to_owned()));
     }
     let start = Instant::now();
     let input = input::load(&arguments.project, &InputOptions::default())?;
-    let poses: Vec<BodyChoice> =
-        arguments.bodies.iter().map(|path| posed(path, arguments)).collect::<Result<_, _>>()?;
+    let mut poses: Vec<(BodyChoice, String)> = Vec::new();
+    for path in &arguments.bodies {
+        poses.push((posed(path, arguments)?, path.display().to_string()));
+    }
+    for &pose in &arguments.poses {
+        let body = input.project.document.body.in_named_pose(pose);
+        let words = "its body is from a file: only the mannequin takes a pose by name (--pose)";
+        let body = body.ok_or_else(|| Failure::input(&arguments.project, words))?;
+        poses.push((body, pose.name().to_owned()));
+    }
     let mut session = run::opened(input.project, &arguments.project)?;
     let mut seconds = Seconds { load: start.elapsed().as_secs_f64(), ..Seconds::default() };
     dress_first(&mut session, arguments, &mut seconds)?;
     let mut first_failure = None;
-    for (i, (pose, path)) in poses.into_iter().zip(&arguments.bodies).enumerate() {
+    for (i, (pose, from)) in poses.into_iter().enumerate() {
+        let path = Path::new(&from);
         interrupt::check()?;
         let folder = if several { numbered(&arguments.out, i, path) } else { arguments.out.clone() };
-        let name = format!("{} on {}", input.name, pose.name());
+        let name = format!("{} on {}", input.name, input::name_of(path));
         let carried = one(&mut session, pose, path, arguments, seconds);
         let mut report = report::write(&mut session, &name, &made(&folder)?, &arguments.picture, carried?)?;
-        report.inputs = input.files.iter().cloned().chain([path.display().to_string()]).collect();
+        report.inputs = input.files.iter().cloned().chain([from.clone()]).collect();
         report.finish(&folder, start)?;
         tell(&report, arguments.json, several)?;
         first_failure = first_failure.or(report.failed_check());
@@ -91,7 +100,7 @@ fn one(
     if session.document().body == pose {
         return Ok(seconds); // The pose it is in.
     }
-    let command = Command::Repose { body: pose, settle: arguments.settle };
+    let command = Command::Repose { body: pose, settle: arguments.settle, draft: false };
     session.apply_alone(command).map_err(|why| Failure::input(path, why))?;
     for notice in session.update() {
         if let Notice::Failed { words, .. } = notice {

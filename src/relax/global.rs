@@ -8,7 +8,7 @@ use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
 use glam::DVec3;
 
 use crate::cloth::{Counters, Garment};
-use crate::relax::factor::{Factor, Symbolic};
+use crate::geometry::factor::{Factor, Symbolic};
 
 /// Refactor when more than this share of the weights on the diagonal changed, unless told otherwise.
 pub const STALE_SHARE: f64 = 0.02;

@@ -1,6 +1,5 @@
 //! Paper A's relaxation: shape match, flatten, gravity, friction.
 
-mod factor;
 pub mod flatten;
 pub mod global;
 pub mod goals;

@@ -556,6 +556,11 @@ impl Relaxer {
         }
     }
 
+    /// By how much the offset of a vertex is raised, metres, so that the faces round it keep clear of the body.
+    pub fn lift(&self, vertex: u32) -> f64 {
+        self.lift.get(vertex as usize).copied().unwrap_or_default()
+    }
+
     /// Where faces or edges come too near the body between their vertices: splits edges that cut it, and raises the offset of
     /// the others' vertices. Returns at how many faces.
     pub fn lift_faces(&mut self, state: &ClothState, clearance: f64) -> usize {

@@ -20,6 +20,11 @@ impl Lengths {
         Self { edges: edges.filter(|(_, l)| *l > SHORTEST).collect() }
     }
 
+    /// Each edge with the length it had.
+    pub fn edges(&self) -> &[([u32; 2], f64)] {
+        &self.edges
+    }
+
     /// |l / l_before - 1| that 99 of 100 edges do not exceed; zero without edges.
     pub fn p99(&self, cloth: &ClothState) -> f64 {
         let change = |&([a, b], before): &([u32; 2], f64)| {

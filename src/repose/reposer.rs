@@ -8,11 +8,13 @@ use serde::{Deserialize, Serialize};
 
 use crate::body::Surface;
 use crate::cloth::{ClothState, Garment};
+use crate::geometry::rebuild::Rebuild;
 use crate::relax::{GlobalStep, RelaxSettings, Relaxer};
 use crate::repose::between::between;
 use crate::repose::conform::conformed;
 use crate::repose::distance_map::DistanceMap;
 use crate::repose::excess::Lengths;
+use crate::repose::limit::{limited, raised};
 
 /// Conforming that strained no more than this, and left nothing inside, is left as it is.
 const EXACT: f64 = 1e-6;
@@ -28,6 +30,8 @@ const STEPS_PER_SUBSTEP: usize = 12;
 const STEPS_PER_LOOK: usize = 4;
 /// A mend has so many steps to take effect.
 const STEPS_PER_MEND: usize = 8;
+/// Strain is spread, and faces that cut the body are raised, so many times for each mend.
+const LIMITS_PER_MEND: usize = 2;
 /// Layers that run through each other are parted every so many steps.
 const STEPS_PER_PARTING: usize = 8;
 /// Edges and faces keep this share of the offset.
@@ -89,6 +93,8 @@ pub struct Reposer {
     lengths: Lengths,
     /// Relaxes towards the shape that every triangle had when bound: what it was strained already, it may stay.
     relaxer: Relaxer,
+    /// Makes the poses on the way.
+    rebuild: Option<Arc<Rebuild>>,
 }
 
 impl Reposer {
@@ -104,7 +110,7 @@ impl Reposer {
         let as_it_lies = Arc::new(with_shape_of(garment, &cloth));
         let mut relaxer = Relaxer::new(as_it_lies, Arc::clone(&surface), settings)?;
         relaxer.set_mapped(&cloth.mapped);
-        Some(Self { from: surface, cloth, map, lengths, relaxer })
+        Some(Self { from: surface, cloth, map, lengths, relaxer, rebuild: None })
     }
 
     /// The body the cloth was bound to.
@@ -130,7 +136,7 @@ impl Reposer {
         }
         outcome.conformed_p99 = self.lengths.p99(&state);
         let bodies = if outcome.conformed_p99 > care.excess {
-            between(&self.from, to, care.most_substeps)
+            between(&self.from, to, care.most_substeps, &mut self.rebuild)
         } else {
             Vec::new()
         };
@@ -200,7 +206,8 @@ impl Reposer {
         inside
     }
 
-    /// Strain control: global steps in contact until the strain is what it may be; then faces that cut the body are raised.
+    /// Strain control: global steps in contact until the strain is what it may be; then faces that cut the body are raised,
+    /// and strain that is left in a few places is spread.
     fn control(&mut self, state: &mut ClothState, care: Care, outcome: &mut Outcome) {
         for done in 1..=care.most_steps {
             self.step(state, care, done);
@@ -216,6 +223,16 @@ impl Reposer {
                 outcome.steps += 1;
             }
             outcome.mends += 1;
+        }
+        for _ in 0..LIMITS_PER_MEND * care.mends {
+            if self.lengths.p99(state) <= care.excess {
+                break;
+            }
+            limited(&self.lengths, &mut self.relaxer, state, care.excess);
+            if self.relaxer.lift_faces(state, clearance) == 0 {
+                break;
+            }
+            raised(&mut self.relaxer, state);
         }
     }
 

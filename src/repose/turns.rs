@@ -60,6 +60,16 @@ pub(super) fn triangle_turn(from: [DVec3; 3], to: [DVec3; 3]) -> DQuat {
     DQuat::from_mat3(&(frame_to * in_plane * frame_from.transpose()))
 }
 
+/// The map that takes a triangle and its unit normal to another. None where one of them has no area.
+pub(super) fn gradient(from: [DVec3; 3], to: [DVec3; 3]) -> Option<DMat3> {
+    framed(from)?;
+    let columns = |[a, b, c]: [DVec3; 3]| {
+        let normal = (b - a).cross(c - a);
+        DMat3::from_cols(b - a, c - a, normal / normal.length())
+    };
+    framed(to).map(|_| columns(to) * columns(from).inverse())
+}
+
 /// A frame of a triangle (first side, in the plane across it, normal) and its sides from the first corner in it.
 fn framed([a, b, c]: [DVec3; 3]) -> Option<(DMat3, [DVec2; 2])> {
     let (u, v) = (b - a, c - a);

@@ -3,6 +3,7 @@
 use std::sync::{Arc, OnceLock};
 
 use crate::body::mannequin::mannequin;
+use crate::body::pose::rig;
 use crate::body::{Landmarks, Surface, bones, landmarks};
 use crate::contact::Bone;
 use crate::geometry::mesh::TriMesh;
@@ -37,6 +38,13 @@ impl Body {
             }
             BodyChoice::Imported { name, mesh } => {
                 (ready(mesh.as_ref().clone(), name)?, OnceLock::new(), None)
+            }
+            BodyChoice::Posed { measurements, pose } => {
+                let rig = rig(measurements).map_err(|e| Rejection(e.to_string()))?;
+                let posed = rig.posed(pose);
+                let posed = posed.ok_or_else(|| Rejection::new("the mannequin cannot take this pose"))?;
+                let bones = Arc::new(posed.skeleton.six_segments());
+                (posed.surface, OnceLock::from(bones), Some(posed.landmarks))
             }
         };
         Ok(Self { surface, bones, own, found: OnceLock::new() })

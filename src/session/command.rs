@@ -57,8 +57,14 @@ pub enum Command {
     /// Take another body. The cloth comes off; the strokes on the old body are carried to the new one where they find a place.
     SetBody { body: BodyChoice },
     /// The body takes another pose: `body` has its triangles, vertex for vertex. The dressed cloth goes along, and with
-    /// `settle` it settles there. Strokes on the body follow their triangles.
-    Repose { body: BodyChoice, settle: bool },
+    /// `settle` it settles there. Strokes on the body follow their triangles. A `draft` is for a pose that is still being
+    /// chosen: quick, and not so exact.
+    Repose {
+        body: BodyChoice,
+        settle: bool,
+        #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+        draft: bool,
+    },
     /// Draw bones in the body, from end to end, which cloth in the hand cannot be pulled across; none: the body's own again.
     SetBones { bones: Option<Vec<[DVec3; 2]>> },
     /// Change mesh size and how the cloth relaxes.

@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use crate::body::mannequin::Measurements;
+use crate::body::mannequin::{Measurements, mannequin};
+use crate::body::{NamedPose, Pose};
 use crate::contact::Bone;
 use crate::geometry::ids::{MarkId, PinId};
 use crate::geometry::mesh::TriMesh;
@@ -107,6 +108,8 @@ impl Document {
 pub enum BodyChoice {
     /// The built-in dressmaker's figure, made to measurements.
     Mannequin(Measurements),
+    /// The same with its joints turned.
+    Posed { measurements: Measurements, pose: Pose },
     /// A mesh from a file. It may have faults: `session::body` tells.
     Imported {
         name: String,
@@ -116,10 +119,42 @@ pub enum BodyChoice {
 }
 
 impl BodyChoice {
+    /// The mannequin of this body in `pose`; without any turn it is the built one. None for a body from a file.
+    pub fn posed(&self, pose: Pose) -> Option<Self> {
+        let measurements = self.measurements()?;
+        Some(match pose.turns.is_empty() {
+            true => Self::Mannequin(measurements),
+            false => Self::Posed { measurements, pose },
+        })
+    }
+
+    /// The mannequin of this body in a pose with a name. None for a body from a file, and for measurements that make none.
+    pub fn in_named_pose(&self, pose: NamedPose) -> Option<Self> {
+        let figure = mannequin(&self.measurements()?).ok()?;
+        self.posed(pose.pose(&figure.skeleton))
+    }
+
+    /// What the mannequin is built to. None for a body from a file.
+    pub fn measurements(&self) -> Option<Measurements> {
+        match self {
+            Self::Mannequin(measurements) | Self::Posed { measurements, .. } => Some(*measurements),
+            Self::Imported { .. } => None,
+        }
+    }
+
+    /// How its joints are turned; not at all as it was built. None for a body from a file.
+    pub fn pose(&self) -> Option<Pose> {
+        match self {
+            Self::Mannequin(_) => Some(Pose::default()),
+            Self::Posed { pose, .. } => Some(pose.clone()),
+            Self::Imported { .. } => None,
+        }
+    }
+
     /// For people.
     pub fn name(&self) -> &str {
         match self {
-            Self::Mannequin(_) => "mannequin",
+            Self::Mannequin(_) | Self::Posed { .. } => "mannequin",
             Self::Imported { name, .. } => name,
         }
     }
@@ -129,6 +164,9 @@ impl PartialEq for BodyChoice {
     fn eq(&self, other: &Self) -> bool {
         match (self, other) {
             (Self::Mannequin(one), Self::Mannequin(other)) => one == other,
+            (Self::Posed { measurements, pose }, Self::Posed { measurements: other, pose: other_pose }) => {
+                measurements == other && pose == other_pose
+            }
             (Self::Imported { name, mesh }, Self::Imported { name: other_name, mesh: other_mesh }) => {
                 name == other_name && (Arc::ptr_eq(mesh, other_mesh) || mesh == other_mesh)
             }

@@ -336,9 +336,9 @@ impl Session {
                     carried: Arc::new(since),
                 })
             }
-            ClothChange::Repose { settle } => {
+            ClothChange::Repose { settle, draft } => {
                 let body = self.bodies.surface(&edit.document.body)?;
-                Some(RequestKind::Repose { body, marks: Arc::clone(&edit.document.marks), settle })
+                Some(RequestKind::Repose { body, marks: Arc::clone(&edit.document.marks), settle, draft })
             }
             ClothChange::SetPins => Some(RequestKind::SetPins(edit.document.pinned_places())),
             ClothChange::Grab { at, mode } => Some(RequestKind::Grab { at, mode, bones: self.bones() }),

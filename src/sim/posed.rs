@@ -26,6 +26,7 @@ impl World {
         body: Arc<Surface>,
         marks: Arc<Marks>,
         settle: bool,
+        care: Care,
     ) -> Result<Option<Self>, String> {
         let (Some(garment), Some(from), Some(source)) = (&self.garment, &self.body, &self.source) else {
             return Ok(None);
@@ -43,7 +44,7 @@ impl World {
         let mut reposer =
             known.or_else(new).ok_or("the garment is too large for this machine's memory".to_owned())?;
         let (cloth, outcome) = reposer
-            .reposed(&body, Care::THOROUGH)
+            .reposed(&body, care)
             .ok_or("the body in the new pose has other triangles than the dressed one".to_owned())?;
         let cloth = Arc::new(cloth);
         let splits = Splits::of_lying(&garment, &cloth, &body, source.relax.offset).map(Arc::new);

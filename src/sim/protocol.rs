@@ -65,8 +65,8 @@ pub enum RequestKind {
     /// Take over cloth that was dressed before (from a project file). It is at rest until something changes.
     Adopt { source: Arc<GarmentSource>, body: Arc<Surface>, cloth: Arc<ClothState> },
     /// The body takes another pose: `body` has the triangles of the one that is dressed. The cloth goes along and, with
-    /// `settle`, settles there. Nothing happens where nothing is dressed.
-    Repose { body: Arc<Surface>, marks: Arc<Marks>, settle: bool },
+    /// `settle`, settles there; a `draft` is quick and not so exact. Nothing happens where nothing is dressed.
+    Repose { body: Arc<Surface>, marks: Arc<Marks>, settle: bool, draft: bool },
     /// Relax differently from now on.
     SetRelax(RelaxSettings),
     /// Exactly these places of the cloth are pinned to where they are.

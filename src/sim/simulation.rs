@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use crate::cloth::Skips;
 use crate::fit::{BodyIndex, measure};
+use crate::repose::Care;
 use crate::sim::checkpoints::{Checkpoints, DEFAULT_CAPACITY};
 use crate::sim::fault::{Fault, faults};
 use crate::sim::protocol::{Event, Request, RequestKind, Snapshot};
@@ -203,8 +204,9 @@ impl Simulation {
                     self.set_world(world);
                 }
             }
-            RequestKind::Repose { body, marks, settle } => {
-                if let Some(world) = self.world.reposed(body, marks, settle)? {
+            RequestKind::Repose { body, marks, settle, draft } => {
+                let care = if draft { Care::LIVE } else { Care::THOROUGH };
+                if let Some(world) = self.world.reposed(body, marks, settle, care)? {
                     self.set_world(world);
                 }
             }

@@ -150,6 +150,8 @@ impl App {
             | Action::TogglePairs
             | Action::ToggleHistory
             | Action::ToggleLog
+            | Action::Map(_)
+            | Action::ToggleMapTable
             | Action::CommandPalette
             | Action::Tour => self.act_on_shell(ctx, action),
         }

@@ -3,6 +3,7 @@
 use egui::{Key, KeyboardShortcut, Modifiers, ThemePreference};
 
 use crate::drag::DragMode;
+use crate::fit::MapKind;
 use crate::io::pdf::Paper;
 use crate::render::View;
 use crate::session::demos::Demo;
@@ -135,6 +136,9 @@ pub enum Action {
     SwapPanes,
     ToggleHistory,
     ToggleLog,
+    /// Colours the cloth; None: as it is.
+    Map(Option<MapKind>),
+    ToggleMapTable,
     Theme(ThemePreference),
     Mouse(Mouse),
     Paper(Paper),
@@ -293,8 +297,11 @@ impl Action {
             | Self::SwapPanes
             | Self::ToggleHistory
             | Self::ToggleLog
+            | Self::ToggleMapTable
             | Self::CommandPalette
             | Self::Tour => self.shell_entry(),
+            Self::Map(None) => entry("No map", "Show the cloth in its own colours", &[]),
+            Self::Map(Some(kind)) => entry(kind.title(), kind.tip(), &[]),
             Self::FrameAll => {
                 entry("Show all", "Fit everything in the pane under the pointer", &[key(Key::Home)])
             }
@@ -359,6 +366,8 @@ impl Action {
                 | Self::ToggleXray
                 | Self::TogglePairs
                 | Self::ToggleLog
+                | Self::Map(_)
+                | Self::ToggleMapTable
                 | Self::CommandPalette
                 | Self::Preferences
                 | Self::Picture

@@ -208,6 +208,11 @@ impl App {
         self.scene_pane.graphics.as_ref().map_or(0, |g| g.pictures)
     }
 
+    /// Maps over the cloth worked out so far.
+    pub fn maps(&self) -> u64 {
+        self.shell.maps.computed()
+    }
+
     /// Starts over with `project`.
     pub(super) fn replace(&mut self, project: Project, path: Option<PathBuf>) {
         match runner(&self.wakeup) {
@@ -237,6 +242,7 @@ impl App {
         let snapshot = Arc::clone(self.shown().snapshot());
         self.ghosts = self.ghosts.take().filter(|g| g.fit(&document, self.shown().surface()));
         self.carry_selection(&document);
+        self.shell.maps.look(&snapshot);
         let now = self.situation(&ctx, &document, &snapshot);
         let palette = Palette::of(ctx.theme());
         self.dark = ctx.theme() == egui::Theme::Dark;
@@ -308,6 +314,7 @@ impl App {
             }
             Ask::Pick(selection) => self.pick(selection),
             Ask::ShowMarks(numbers) => self.show_marks(&numbers),
+            Ask::MapRange(kind, range) => self.shell.maps.set_range(kind, range),
             Ask::Say(words) => self.messages.tell(words),
             Ask::Jump(steps) => self.jump(steps),
         }

@@ -1,5 +1,6 @@
 //! What panes and panels ask for. They read the document and never change it.
 
+use crate::fit::MapKind;
 use crate::geometry::ids::MarkId;
 use crate::session::Command;
 use crate::ui::actions::Action;
@@ -26,6 +27,8 @@ pub enum Ask {
     ShowMarks(Vec<usize>),
     /// Go so many steps back (less than 0) or forth in the history.
     Jump(i32),
+    /// Let the colours of a map span this, in the unit that is shown; None: as far as its values do.
+    MapRange(MapKind, Option<[f64; 2]>),
     /// Say something to the person.
     Say(String),
 }

@@ -3,6 +3,7 @@
 use egui::ThemePreference;
 
 use crate::drag::DragMode;
+use crate::fit::MapKind;
 use crate::io::pdf::Paper;
 use crate::render::View;
 use crate::session::demos::Demo;
@@ -120,6 +121,16 @@ pub const ALL: &[Action] = &[
     Action::SwapPanes,
     Action::ToggleHistory,
     Action::ToggleLog,
+    Action::Map(None),
+    Action::Map(Some(MapKind::Warp)),
+    Action::Map(Some(MapKind::Weft)),
+    Action::Map(Some(MapKind::Shear)),
+    Action::Map(Some(MapKind::Area)),
+    Action::Map(Some(MapKind::Ease)),
+    Action::Map(Some(MapKind::Curvature)),
+    Action::Map(Some(MapKind::MeanCurvature)),
+    Action::Map(Some(MapKind::Seams)),
+    Action::ToggleMapTable,
     Action::NextPane,
     Action::Unit(LengthUnit::Cm),
     Action::Unit(LengthUnit::Mm),
@@ -222,6 +233,7 @@ impl Action {
             | Self::Untwist => "Pattern",
             Self::Unit(_) => "View › Unit",
             Self::Theme(_) => "View › Theme",
+            Self::Map(_) | Self::ToggleMapTable => "View › Map",
             Self::Mouse(_) => "View › Mouse",
             Self::Shortcuts | Self::CommandPalette | Self::Tour | Self::StopDemo => "Help",
             Self::Demo(_) => "Help › Demos",
@@ -261,6 +273,9 @@ mod tests {
         }
         for sample in Sample::ALL {
             assert!(ALL.contains(&Action::Sample(sample)), "{sample:?}");
+        }
+        for kind in MapKind::ALL {
+            assert!(ALL.contains(&Action::Map(Some(kind))), "{kind:?}");
         }
         for demo in Demo::ALL {
             assert!(ALL.contains(&Action::Demo(demo)), "{demo:?}");

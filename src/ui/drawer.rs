@@ -5,6 +5,7 @@ use egui::{Frame, Margin, Panel, RichText, ScrollArea};
 use crate::ui::actions::Action;
 use crate::ui::app::App;
 use crate::ui::asks::{Ask, Asks};
+use crate::ui::maps;
 use crate::ui::situation::Situation;
 use crate::ui::theme::Palette;
 
@@ -15,6 +16,8 @@ pub enum Drawer {
     History,
     /// Messages of this session.
     Log,
+    /// What the map shows, in figures.
+    Map,
 }
 
 impl App {
@@ -35,7 +38,7 @@ impl App {
             .size_range(90.0..=360.0)
             .show(ui, |ui| {
                 ui.horizontal(|ui| {
-                    for action in [Action::ToggleHistory, Action::ToggleLog] {
+                    for action in [Action::ToggleHistory, Action::ToggleLog, Action::ToggleMapTable] {
                         let tab = egui::Button::selectable(now.is_on(action), action.entry().text);
                         if ui.add(tab).clicked() && !now.is_on(action) {
                             asks.push(Ask::Act(action));
@@ -46,19 +49,29 @@ impl App {
                             asks.push(Ask::Act(match drawer {
                                 Drawer::History => Action::ToggleHistory,
                                 Drawer::Log => Action::ToggleLog,
+                                Drawer::Map => Action::ToggleMapTable,
                             }));
                         }
-                        if drawer == Drawer::Log && ui.button("Copy all").clicked() {
-                            ui.ctx().copy_text(self.messages.text());
+                        let text = match drawer {
+                            Drawer::History => None,
+                            Drawer::Log => Some(self.messages.text()),
+                            Drawer::Map => self.shell.maps.shown().map(maps::table_text),
+                        };
+                        if let Some(text) = text
+                            && ui.button("Copy all").clicked()
+                        {
+                            ui.ctx().copy_text(text);
                         }
                     });
                 });
-                ScrollArea::vertical().auto_shrink([false, false]).stick_to_bottom(true).show(ui, |ui| {
-                    match drawer {
+                ScrollArea::both().auto_shrink([false, false]).stick_to_bottom(drawer != Drawer::Map).show(
+                    ui,
+                    |ui| match drawer {
                         Drawer::History => self.history_ui(ui, palette, asks),
                         Drawer::Log => self.messages.log_ui(ui, palette),
-                    }
-                });
+                        Drawer::Map => maps::table_ui(ui, self.shell.maps.shown(), palette),
+                    },
+                );
             });
     }
 

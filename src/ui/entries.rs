@@ -163,6 +163,9 @@ impl Action {
             Self::SwapPanes => entry("Body on the left", "The panes change places", &[]),
             Self::ToggleHistory => entry("History", "Every step; a click goes back to it", &[]),
             Self::ToggleLog => entry("Messages", "What was told so far, to be read again and copied", &[]),
+            Self::ToggleMapTable => {
+                entry("Table of the map", "What the map shows, in figures, piece by piece", &[])
+            }
             Self::CommandPalette => entry(
                 "Find a command…",
                 "Type a few letters of what you want to do",

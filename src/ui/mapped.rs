@@ -11,16 +11,21 @@ const PLAIN: Rgb = [255; 3];
 /// keeps its own.
 pub fn mapped(mut scene: Scene, colours: &[Rgb]) -> Scene {
     for mesh in &mut scene.meshes {
-        if mesh.cloth > 0.0 && mesh.positions.len() == colours.len() {
-            let coloured = Mesh {
-                colours: colours.to_vec(),
-                front: PLAIN,
-                back: PLAIN,
-                cloth: 0.0,
-                ..Mesh::clone(mesh)
-            };
+        if mesh.cloth > 0.0
+            && let Some(coloured) = in_colours(mesh, colours)
+        {
             *mesh = Arc::new(coloured);
         }
     }
     scene
+}
+
+/// A mesh in `colours`, one for each vertex. None for another number of them.
+pub fn in_colours(mesh: &Mesh, colours: &[Rgb]) -> Option<Mesh> {
+    (mesh.positions.len() == colours.len()).then(|| Mesh {
+        colours: colours.to_vec(),
+        front: PLAIN,
+        back: PLAIN,
+        ..mesh.clone()
+    })
 }

@@ -8,6 +8,7 @@ use crate::session::demos::Demo;
 use crate::session::samples::Sample;
 use crate::ui::actions::{Action, Tool, VIEWS};
 use crate::ui::asks::{Ask, Asks};
+use crate::ui::maps;
 use crate::ui::mouse::Mouse;
 use crate::ui::panes::Panes;
 use crate::ui::situation::Situation;
@@ -168,6 +169,11 @@ fn view_ui(ui: &mut egui::Ui, now: &Situation, asks: &mut Asks) {
     items(ui, now, asks, &[Action::ToggleParallel, Action::ToggleFreeTurning]);
     ui.separator();
     items(ui, now, asks, &[Action::ToggleWire, Action::ToggleSheer, Action::ToggleXray, Action::TogglePairs]);
+    ui.menu_button("Map", |ui| {
+        maps::choices().for_each(|kind| item(ui, now, asks, Action::Map(kind)));
+        ui.separator();
+        item(ui, now, asks, Action::ToggleMapTable);
+    });
     ui.separator();
     items(ui, now, asks, &[Action::ToggleSnapping, Action::ClearGuides]);
     ui.menu_button("Unit", |ui| items(ui, now, asks, &LengthUnit::ALL.map(Action::Unit)));

@@ -64,7 +64,7 @@ impl App {
                     palette,
                 };
                 let (marks, pattern) = (&mut self.marks_panel, &mut self.pattern_panel);
-                let first = side_panel::side_panel_ui(ui, &told, marks, pattern, asks);
+                let first = side_panel::side_panel_ui(ui, &told, marks, pattern, &mut self.shell.pose, asks);
                 self.shell.first_of_panel = first;
             });
         }
@@ -90,6 +90,7 @@ impl App {
             unit: now.unit,
             snapping: self.snapping,
             ghosts: self.ghosts.as_ref().map(|g| &*g.marks),
+            map: self.shell.maps.shown(),
             palette,
         }
     }
@@ -159,6 +160,7 @@ impl App {
             wrapped: self.shown().can_cancel_wrap(),
             wrapping: asked || growing,
             working: asked || snapshot.working,
+            caught_up: snapshot.seq >= self.shown().last_seq(),
             dragging: snapshot.dragged.is_some(),
             relaxing: snapshot.relaxing,
             phase: snapshot.phase,
@@ -181,6 +183,7 @@ impl App {
             recent: Arc::clone(self.shell.recent.files()),
             sight: self.shell.sight,
             drawer: self.shell.drawer,
+            map: self.shell.maps.kind(),
             adapter: self.scene_pane.graphics.as_ref().map(|g| g.adapter_name().to_owned()),
             picturing: self.shell.turn.is_some(),
         }

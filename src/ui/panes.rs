@@ -17,7 +17,7 @@ use crate::ui::scene_pane::Seen;
 use crate::ui::selection::Item;
 use crate::ui::situation::Situation;
 use crate::ui::theme::{self, Palette};
-use crate::ui::{menu, pattern_pane};
+use crate::ui::{maps, menu, pattern_pane};
 
 /// Below this width both panes are small, points.
 const NARROW: f32 = 500.0;
@@ -139,6 +139,10 @@ impl App {
         let mut pane = std::mem::take(&mut self.scene_pane);
         pane.ui(ui, &self.seen(ui, with, surface.as_ref(), &stand_out), asks);
         self.scene_pane = pane;
+        if let (Some(map), Some(pane)) = (self.shell.maps.shown(), self.scene_pane.area) {
+            let value = self.scene_pane.value.or(self.pattern_pane.value);
+            maps::legend_ui(ui, pane, map, value, with.palette, asks);
+        }
     }
 
     fn seen<'a>(
@@ -155,6 +159,7 @@ impl App {
             cloth: snapshot.drawn().filter(|_| self.show_cloth && snapshot.is_dressed()),
             pinned: &snapshot.pinned,
             dragged: snapshot.dragged.as_ref(),
+            map: self.shell.maps.shown(),
             growing: now.wrapping,
             working: now.working,
             tool: now.tool,

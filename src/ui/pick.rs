@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::cloth::{ClothState, Garment};
+use crate::cloth::{ClothState, FlatPlace, Garment};
 use crate::drag::Ray;
 use crate::sim::ClothPlace;
 
@@ -11,6 +11,8 @@ use crate::sim::ClothPlace;
 pub struct ClothHit {
     /// In the flat pattern.
     pub place: ClothPlace,
+    /// In the triangle that is met.
+    pub flat: FlatPlace,
     /// In space, metres.
     pub point: DVec3,
     /// From the ray's origin, metres.
@@ -36,7 +38,8 @@ pub fn cloth_under(garment: &Garment, state: &ClothState, ray: &Ray) -> Option<C
     let [a, b, c] = garment.triangle_corners[t].map(|c| garment.corners[c as usize].uv);
     let at = a + (b - a) * uv.x + (c - a) * uv.y;
     let place = ClothPlace { piece: garment.triangle_pieces[t], at };
-    Some(ClothHit { place, point: ray.origin + direction * distance, distance })
+    let flat = FlatPlace { triangle: t as u32, shares: [1.0 - uv.x - uv.y, uv.x, uv.y] };
+    Some(ClothHit { place, flat, point: ray.origin + direction * distance, distance })
 }
 
 /// Distance along the ray and barycentric weights of the second and third corner (Moeller and Trumbore 1997).

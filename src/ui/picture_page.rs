@@ -9,6 +9,7 @@ use crate::render::{Camera, Look, Projection, View, png};
 use crate::ui::actions::{Action, VIEWS};
 use crate::ui::app::App;
 use crate::ui::files::{self, Purpose};
+use crate::ui::mapped::mapped;
 use crate::ui::portrait::portrait;
 use crate::ui::theme::{self, Palette};
 
@@ -181,6 +182,11 @@ impl App {
     ) -> Result<Vec<u8>, String> {
         let session = self.demo.as_ref().map_or(&self.session, |(player, ..)| player.session());
         let scene = portrait(&mut self.scenery, session, options.marks, options.marks);
+        let map = self.shell.maps.shown();
+        let scene = match map {
+            Some(map) => mapped(scene, &map.colours),
+            None => scene,
+        };
         let Some(graphics) = &mut self.scene_pane.graphics else {
             return Err("There is no graphics adapter to draw with".to_owned());
         };
@@ -193,7 +199,16 @@ impl App {
             ..self.shell.sight.on(theme::look(theme))
         };
         let picture = graphics.photograph(&scene, camera, &look, options.size);
-        picture.and_then(|picture| png(&picture)).map_err(|e| format!("There is no picture: {e}"))
+        let with_legend = |mut picture| {
+            if let Some(map) = map {
+                map.legend().burn(&mut picture);
+            }
+            picture
+        };
+        picture
+            .map(with_legend)
+            .and_then(|picture| png(&picture))
+            .map_err(|e| format!("There is no picture: {e}"))
     }
 }
 

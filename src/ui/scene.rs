@@ -11,6 +11,7 @@ use crate::geometry::adjacency::NONE;
 use crate::geometry::ids::{MarkId, PieceId};
 use crate::geometry::mesh::vertex_normals;
 use crate::render::{BODY, CLOTH_BACK, CLOTH_FRONT, Ground, Label, Mesh, Polyline, Rgb, Scene, mark_colour};
+use crate::ui::mapped::in_colours;
 use crate::ui::stitches::stitched;
 use crate::wrap::{ClothMark, Marks};
 
@@ -46,6 +47,8 @@ pub struct Shown<'a> {
     pub bones: &'a [Bone],
     /// How much of a drag reaches each vertex of the cloth, 0..=1.
     pub dragged: Option<&'a Arc<Vec<f32>>>,
+    /// The colours of a map, one for each vertex of the cloth, instead of its own.
+    pub map: Option<&'a Arc<Vec<Rgb>>>,
     /// The mark that stands out.
     pub selected: Option<MarkId>,
     /// Marks proposed and not accepted yet.
@@ -75,6 +78,7 @@ struct DrawnCloth {
     garment: Arc<Garment>,
     state: Arc<ClothState>,
     dragged: Option<Arc<Vec<f32>>>,
+    map: Option<Arc<Vec<Rgb>>>,
     mesh: Arc<Mesh>,
     lines: Vec<Polyline>,
 }
@@ -129,7 +133,7 @@ impl Scenery {
         }
         let mut covered = 0;
         if let Some((garment, state)) = shown.cloth {
-            self.draw_cloth(garment, state, shown.dragged, scale);
+            self.draw_cloth(garment, state, shown, scale);
             if let Some(drawn) = &self.cloth {
                 scene.meshes.push(Arc::clone(&drawn.mesh));
                 scene.lines.extend(drawn.lines.iter().cloned());
@@ -169,17 +173,13 @@ impl Scenery {
         }
     }
 
-    fn draw_cloth(
-        &mut self,
-        garment: &Arc<Garment>,
-        state: &Arc<ClothState>,
-        dragged: Option<&Arc<Vec<f32>>>,
-        scale: f32,
-    ) {
+    fn draw_cloth(&mut self, garment: &Arc<Garment>, state: &Arc<ClothState>, shown: &Shown<'_>, scale: f32) {
+        let Shown { dragged, map, .. } = *shown;
         let kept = self.cloth.as_ref().is_some_and(|c| {
             Arc::ptr_eq(&c.garment, garment)
                 && Arc::ptr_eq(&c.state, state)
                 && c.dragged.as_ref().map(Arc::as_ptr) == dragged.map(Arc::as_ptr)
+                && c.map.as_ref().map(Arc::as_ptr) == map.map(Arc::as_ptr)
         });
         if kept || state.positions.len() != garment.vertex_count {
             return;
@@ -189,19 +189,21 @@ impl Scenery {
         let normals = vertex_normals(&state.positions, &triangles);
         let mut lines = stitched(seam_lines(garment, state, scale), scale);
         lines.extend(hem_lines(garment, state, scale));
+        let mesh = Mesh {
+            colours: dragged.map(|shares| tints(shares, state)).unwrap_or_default(),
+            positions: state.positions.iter().map(|p| p.as_vec3()).collect(),
+            normals: normals.iter().map(|n| n.as_vec3()).collect(),
+            triangles,
+            front: CLOTH_FRONT,
+            back: CLOTH_BACK,
+            cloth: 1.0,
+        };
         self.cloth = Some(DrawnCloth {
             garment: Arc::clone(garment),
             state: Arc::clone(state),
             dragged: dragged.cloned(),
-            mesh: Arc::new(Mesh {
-                colours: dragged.map(|shares| tints(shares, state)).unwrap_or_default(),
-                positions: state.positions.iter().map(|p| p.as_vec3()).collect(),
-                normals: normals.iter().map(|n| n.as_vec3()).collect(),
-                triangles,
-                front: CLOTH_FRONT,
-                back: CLOTH_BACK,
-                cloth: 1.0,
-            }),
+            map: map.cloned(),
+            mesh: Arc::new(map.and_then(|colours| in_colours(&mesh, colours)).unwrap_or(mesh)),
             lines,
         });
     }

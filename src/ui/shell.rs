@@ -10,7 +10,9 @@ use crate::ui::asks::Asks;
 use crate::ui::command_palette::CommandPalette;
 use crate::ui::drawer::Drawer;
 use crate::ui::files::Purpose;
+use crate::ui::maps::MapView;
 use crate::ui::picture_page::PicturePage;
+use crate::ui::pose_panel::PosePanel;
 use crate::ui::preferences::Preferences;
 use crate::ui::preferences_page::PreferencesPage;
 use crate::ui::recent::Recent;
@@ -75,6 +77,10 @@ pub struct Shell {
     /// What gets the keyboard with the toolbar and with the side panel.
     pub first_tool: Option<egui::Id>,
     pub first_of_panel: Option<egui::Id>,
+    /// Poses of the mannequin.
+    pub pose: PosePanel,
+    /// What cloth is coloured by.
+    pub maps: MapView,
     /// Small pictures of samples and projects.
     pub thumbnails: Thumbnails,
 }
@@ -119,6 +125,8 @@ impl App {
             Action::TogglePairs => self.shell.sight.pairs = !self.shell.sight.pairs,
             Action::ToggleHistory => self.shell.drawer = toggled(Drawer::History),
             Action::ToggleLog => self.shell.drawer = toggled(Drawer::Log),
+            Action::Map(kind) => self.shell.maps.choose(kind),
+            Action::ToggleMapTable => self.shell.drawer = toggled(Drawer::Map),
             Action::CommandPalette => self.shell.palette = Some(CommandPalette::default()),
             Action::Tour => self.begin_tour(),
             _ => {}

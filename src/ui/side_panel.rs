@@ -13,6 +13,7 @@ use crate::ui::asks::{Ask, Asks};
 use crate::ui::marks_panel::MarksPanel;
 use crate::ui::pattern_panel::{PatternPanel, seams_ui};
 use crate::ui::pins_panel::pins_ui;
+use crate::ui::pose_panel::PosePanel;
 use crate::ui::selection::Selection;
 use crate::ui::situation::Situation;
 use crate::ui::theme::Palette;
@@ -44,6 +45,7 @@ pub fn side_panel_ui(
     told: &Told<'_>,
     marks: &mut MarksPanel,
     pattern: &mut PatternPanel,
+    pose: &mut PosePanel,
     asks: &mut Asks,
 ) -> Option<Id> {
     let Told { document, palette, .. } = *told;
@@ -62,6 +64,7 @@ pub fn side_panel_ui(
             section(ui, &title, true, |ui| pins_ui(ui, told, asks));
         }
         section(ui, "Problems", true, |ui| problems_ui(ui, told, asks));
+        section(ui, "Pose", false, |ui| pose.ui(ui, told, asks));
         section(ui, "Cloth", true, |ui| settings_ui(ui, &document.settings, palette, asks));
         if !on_pattern {
             pattern_ui(ui, told, pattern, asks);

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use egui::ThemePreference;
 
 use crate::drag::DragMode;
+use crate::fit::MapKind;
 use crate::geometry::ids::MarkId;
 use crate::io::pdf::Paper;
 use crate::ui::actions::{Action, Tool};
@@ -80,6 +81,8 @@ pub struct Situation {
     pub wrapping: bool,
     /// The simulation has something to do.
     pub working: bool,
+    /// The simulation has done what it was asked for so far.
+    pub caught_up: bool,
     /// Cloth is in the hand.
     pub dragging: bool,
     /// False while held still.
@@ -116,6 +119,8 @@ pub struct Situation {
     pub sight: Sight,
     /// What is open below the panes.
     pub drawer: Option<Drawer>,
+    /// What the cloth is coloured by.
+    pub map: Option<MapKind>,
     /// What draws the body; None: nothing can.
     pub adapter: Option<String>,
     /// A picture or a turn of them is being made.
@@ -161,9 +166,11 @@ impl Situation {
                 unless(self.has_body, "There is no body")
             }
             Action::ClearPins => unless(self.pins > 0, "There are no pins"),
-            Action::Unwrap | Action::ToggleCloth | Action::Export | Action::ToggleRelaxing => {
-                unless(self.dressed, "There is no cloth on the body")
-            }
+            Action::Unwrap
+            | Action::ToggleCloth
+            | Action::Export
+            | Action::ToggleRelaxing
+            | Action::Map(Some(_)) => unless(self.dressed, "There is no cloth on the body"),
             Action::DeleteMark | Action::RaiseMark | Action::LowerMark => match &self.selected {
                 None => Some("No mark is selected: click one"),
                 Some((_, place)) if action == Action::RaiseMark => {
@@ -223,6 +230,8 @@ impl Situation {
             Action::ToggleXray => self.sight.xray,
             Action::ToggleHistory => self.drawer == Some(Drawer::History),
             Action::ToggleLog => self.drawer == Some(Drawer::Log),
+            Action::ToggleMapTable => self.drawer == Some(Drawer::Map),
+            Action::Map(kind) => self.map == kind,
             Action::Mouse(mouse) => self.mouse == mouse,
             Action::Paper(paper) => self.paper == paper,
             _ => false,

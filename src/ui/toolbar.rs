@@ -5,6 +5,7 @@ use egui::{Align, Button, Id, Layout, RichText};
 use crate::drag::DragMode;
 use crate::ui::actions::{Action, Tool};
 use crate::ui::asks::{Ask, Asks};
+use crate::ui::maps::chooser_ui;
 use crate::ui::situation::Situation;
 use crate::ui::theme::Palette;
 
@@ -36,6 +37,7 @@ pub fn toolbar_ui(ui: &mut egui::Ui, now: &Situation, palette: &Palette, asks: &
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             plain(ui, now, asks, Action::TogglePanel, None);
             plain(ui, now, asks, Action::ToggleCloth, None);
+            chooser_ui(ui, now, asks);
         });
     });
     first

@@ -12,7 +12,7 @@ fn rows(out: &str) -> Vec<Value> {
 fn speed_has_a_row_for_every_scene() {
     let place = Place::new();
     let rows = rows(&place.ends(0, "bench speed --runs 2 --triangles 500 --threads 2 --json").out);
-    assert_eq!(rows.len(), 6, "{rows:#?}");
+    assert_eq!(rows.len(), 9, "{rows:#?}");
     for row in &rows {
         assert!(row["scene"].as_str().is_some_and(|s| !s.is_empty()));
         assert!(row["triangles"].as_u64().is_some_and(|t| t > 300), "{row}");

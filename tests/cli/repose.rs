@@ -59,6 +59,24 @@ fn a_body_of_other_triangles_and_two_saves_are_refused_in_words() {
 }
 
 #[test]
+fn the_mannequin_takes_poses_by_name_and_bodies_from_files_do_not() {
+    let place = dressed();
+    place.ends_with_words(3, "repose dressed.toile --pose t --out posed", "--pose");
+    place.ends_with_words(2, "repose dressed.toile --pose flying --out posed", "kung-fu");
+    place.ends_with_words(2, "repose dressed.toile --out posed", "--body");
+    let report = place.run("dress sample:scarf --edge-length 0.05 --save scarf.toile --out scarf");
+    assert!([0, 1].contains(&report.code), "{report:#?}");
+    let report = place.run("repose scarf.toile --pose t --pose walking --out posed");
+    assert!([0, 1].contains(&report.code), "{report:#?}");
+    let height = |name: &str| {
+        let body = vertices(&place.read(name));
+        body.iter().filter(|p| p.x.abs() > 0.5).map(|p| p.y).fold(f64::NEG_INFINITY, f64::max)
+    };
+    assert!(height("posed/00-t/body.obj") > 1.3, "the arms are up");
+    assert!(vertices(&place.read("posed/01-walking/body.obj")).iter().all(|p| p.x.abs() < 0.45));
+}
+
+#[test]
 fn maps_are_written_as_figures() {
     let place = dressed();
     place.ends(0, "fit dressed.toile --map strain --map ease --map curvature --out maps");

@@ -3,9 +3,12 @@
 use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
+use toile::body::{NamedPose, mannequin};
 use toile::session::recording::Recording;
 use toile::session::replay::Replay;
+use toile::session::samples::Sample;
 use toile::session::{BodyChoice, Command, Session};
+use toile::sim::{Runner, Simulation};
 use toile::wrap::Phase;
 
 use crate::common::{ball, cloth_hash, run, session};
@@ -15,7 +18,7 @@ fn turned() -> Command {
     let mut mesh = ball(0.75, 24, 48);
     mesh.positions.iter_mut().for_each(|p| *p = turn * *p + DVec3::X * 0.1);
     let body = BodyChoice::Imported { name: "turned".to_owned(), mesh: Arc::new(mesh) };
-    Command::Repose { body, settle: false }
+    Command::Repose { body, settle: false, draft: false }
 }
 
 fn dressed() -> Session {
@@ -50,6 +53,37 @@ fn a_body_of_other_triangles_is_no_pose() {
     let mut s = dressed();
     let before = s.document().clone();
     let other = BodyChoice::Imported { name: "other".to_owned(), mesh: Arc::new(ball(0.75, 12, 24)) };
-    assert!(s.apply_alone(Command::Repose { body: other, settle: false }).is_err());
+    assert!(s.apply_alone(Command::Repose { body: other, settle: false, draft: false }).is_err());
     assert!(*s.document() == before);
+}
+
+#[test]
+fn a_pose_of_the_mannequin_is_stored_undone_and_replayed() {
+    let figure = mannequin::default();
+    let mut project = Sample::Scarf.project(&figure);
+    project.document.settings.edge_length = 0.05;
+    let mut s = Session::new(project, Runner::inline(Simulation::default()));
+    s.apply_alone(Command::Wrap).expect("wrapped");
+    run(&mut s, 3000);
+    let before = cloth_hash(&mut s);
+    let body = s.document().body.in_named_pose(NamedPose::Running).expect("the mannequin");
+    let draft = s.document().body.in_named_pose(NamedPose::T).expect("the mannequin");
+    let gesture = s.begin_gesture();
+    s.apply(Command::Repose { body: draft, settle: false, draft: true }, gesture).expect("a draft");
+    s.apply(Command::Repose { body: body.clone(), settle: false, draft: false }, gesture).expect("posed");
+    s.end_gesture(gesture);
+    run(&mut s, 10);
+    let there = cloth_hash(&mut s);
+    assert!(there != before && s.document().body == body);
+    assert!(s.surface().expect("a body").nearest(s.snapshot().cloth.positions[0]).distance > 0.0);
+    let stored = serde_json::to_string(&s.document().body).expect("JSON");
+    assert_eq!(serde_json::from_str::<BodyChoice>(&stored).expect("read back"), body);
+    s.apply_alone(Command::Undo).expect("one step");
+    run(&mut s, 1);
+    assert_eq!(cloth_hash(&mut s), before);
+    s.apply_alone(Command::Redo).expect("again");
+    run(&mut s, 10);
+    assert_eq!(cloth_hash(&mut s), there);
+    let recording = Recording::parse(&s.recording()).expect("a recording");
+    Replay::new(recording).run().expect("the same hashes");
 }

@@ -141,7 +141,10 @@ pub fn skeleton(figure: &Figure, field: &Field) -> Skeleton {
         let at = |p: DVec3| DVec3::new(p.x * sign, p.y, p.z);
         let named = |name: &str| format!("{name}_{side}");
         let arm = |along: f64| at(field.arm_centre(figure.along_arm(along)));
-        let shoulder = s.add(named("shoulder"), Some(chest), at(figure.shoulder_joint()));
+        let joint = figure.shoulder_joint();
+        let collar = DVec3::new(0.25 * joint.x, joint.y, joint.z);
+        let collar = s.add(named("collar"), Some(chest), at(collar));
+        let shoulder = s.add(named("shoulder"), Some(collar), at(joint));
         let elbow = s.add(named("elbow"), Some(shoulder), arm(nominal::ELBOW_AT));
         let wrist = s.add(named("wrist"), Some(elbow), arm(nominal::WRIST_AT));
         s.add(named("knuckles"), Some(wrist), arm(0.65));

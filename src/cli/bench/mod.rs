@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod plot;
+mod poses;
 mod row;
 mod scenes;
 mod speed;

@@ -1,21 +1,30 @@
 //! How the cloth is curved at its vertices.
 
 use glam::DVec3;
+use rayon::prelude::*;
 
-use crate::fit::maps::{Worn, laid_corners, per_vertex};
+use crate::fit::maps::{LEAST_SHARE, Worn, laid_corners, per_vertex};
 
 /// Paper C's curvature: the largest angle between the normals of two triangles that share the vertex, radians. NaN where
 /// fewer than two have an area.
 pub(super) fn largest_angle(worn: Worn<'_>) -> Vec<f64> {
+    let normals: Vec<DVec3> = (0..worn.garment.triangles.len())
+        .into_par_iter()
+        .with_min_len(LEAST_SHARE)
+        .map(|t| {
+            laid_corners(worn, t).map_or(DVec3::ZERO, |[a, b, c]| (b - a).cross(c - a).normalize_or_zero())
+        })
+        .collect();
     per_vertex(worn, |v| {
-        let around = worn.garment.adjacency.vertex_triangles.of(v).iter();
-        let normals: Vec<DVec3> = around
-            .filter_map(|&t| laid_corners(worn, t as usize))
-            .filter_map(|[a, b, c]| (b - a).cross(c - a).try_normalize())
-            .collect();
-        let pairs = normals.iter().enumerate().flat_map(|(i, n)| normals[..i].iter().map(move |m| (n, m)));
-        // Of small angles the cosine tells nothing.
-        pairs.map(|(n, m)| n.cross(*m).length().atan2(n.dot(*m))).reduce(f64::max).unwrap_or(f64::NAN)
+        let around = worn.garment.adjacency.vertex_triangles.of(v);
+        let normal = |t: &u32| Some(normals[*t as usize]).filter(|n| *n != DVec3::ZERO);
+        // The chord between two unit normals grows with the angle, and tells small ones, as the cosine does not.
+        let mut widest = f64::NAN;
+        for (i, n) in around.iter().enumerate().filter_map(|(i, t)| Some((i, normal(t)?))) {
+            let chords = around[..i].iter().filter_map(normal).map(|m| m.distance_squared(n));
+            widest = chords.fold(widest, f64::max);
+        }
+        2.0 * (widest.sqrt() / 2.0).clamp(0.0, 1.0).asin()
     })
 }
 

@@ -65,6 +65,34 @@ impl MapKind {
         }
     }
 
+    /// On a button.
+    pub fn short(self) -> &'static str {
+        match self {
+            Self::Warp => "Warp strain",
+            Self::Weft => "Weft strain",
+            Self::Shear => "Shear",
+            Self::Area => "Area",
+            Self::Ease => "Ease",
+            Self::Curvature => "Angles",
+            Self::MeanCurvature => "Curvature",
+            Self::Seams => "Seams",
+        }
+    }
+
+    /// In tooltips.
+    pub fn tip(self) -> &'static str {
+        match self {
+            Self::Warp => "How much the cloth is stretched along its grainline",
+            Self::Weft => "How much the cloth is stretched across its grainline",
+            Self::Shear => "By how much warp and weft no longer cross at a right angle",
+            Self::Area => "How much larger the cloth is than it lies flat",
+            Self::Ease => "How far the cloth is from the skin",
+            Self::Curvature => "How sharply the cloth is folded at each point",
+            Self::MeanCurvature => "Where the cloth bulges out and where it is hollow",
+            Self::Seams => "How much seams are stretched",
+        }
+    }
+
     /// The unit it is shown in, and what a value is multiplied by for that.
     pub fn unit(self) -> (&'static str, f64) {
         match self {

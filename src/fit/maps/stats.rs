@@ -71,7 +71,11 @@ impl Map {
 
     /// What its legend spans: from the first to the last hundredth, about zero where the signs matter.
     pub fn range(&self) -> [f64; 2] {
-        let stats = self.stats();
+        self.range_of(&self.stats())
+    }
+
+    /// The same, where [`Map::stats`] are known.
+    pub fn range_of(&self, stats: &MapStats) -> [f64; 2] {
         if self.kind.is_signed() {
             let most = stats.p01.abs().max(stats.p99.abs());
             return [-most, most];

@@ -33,13 +33,10 @@ pub fn set(mut document: Document, body: &BodyChoice, bodies: &mut BodyCache) ->
 pub fn repose(
     mut document: Document,
     body: &BodyChoice,
-    settle: bool,
+    [settle, draft]: [bool; 2],
     bodies: &mut BodyCache,
 ) -> Result<Edit, Rejection> {
     checks::body(body)?;
-    if document.body == *body {
-        return Err(Rejection::new("that is the body's pose already"));
-    }
     let (from, to) = (bodies.body(&document.body)?, bodies.body(body)?);
     let counts = |body: &Body| (body.surface.mesh.positions.len(), body.surface.mesh.triangles.len());
     if from.surface.mesh.triangles != to.surface.mesh.triangles {
@@ -62,7 +59,10 @@ pub fn repose(
     // Bones drawn by hand stay where the old pose had them.
     document.bones = None;
     document.body = body.clone();
-    Ok(Edit { problems, ..Edit::new("change the pose", document).with(ClothChange::Repose { settle }) })
+    Ok(Edit {
+        problems,
+        ..Edit::new("change the pose", document).with(ClothChange::Repose { settle, draft })
+    })
 }
 
 /// Bones drawn by the user, or the body's own again.

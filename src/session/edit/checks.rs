@@ -236,6 +236,10 @@ fn within(what: &str, value: f64, least: f64, most: f64) -> Result<(), Rejection
 pub fn body(body: &BodyChoice) -> Result<(), Rejection> {
     match body {
         BodyChoice::Mannequin(measurements) => measurements.check().map_err(|e| Rejection(e.to_string())),
+        BodyChoice::Posed { measurements, pose } => {
+            measurements.check().map_err(|e| Rejection(e.to_string()))?;
+            pose.problem().map_or(Ok(()), |why| Err(Rejection(why)))
+        }
         BodyChoice::Imported { name: body_name, mesh } => {
             name(body_name)?;
             if mesh.positions.iter().any(|p| !p.is_finite()) {

@@ -35,7 +35,7 @@ pub enum ClothChange {
     /// The pattern was edited: the dressed cloth follows. What is drawn on these pieces was moved.
     Resew(Vec<Carried>),
     /// The body takes the pose of the document's; then, perhaps, the cloth settles.
-    Repose { settle: bool },
+    Repose { settle: bool, draft: bool },
     /// Relax differently.
     SetRelax(RelaxSettings),
     /// Pin it where the document's pins are.
@@ -134,7 +134,7 @@ fn untied(document: &Document, command: &Command, bodies: &mut BodyCache) -> Res
         Command::DeleteSeam { seam } => edit_by(new, PatternEdit::Unpick { seams: vec![*seam] }),
         Command::ReverseSeam { seam } => edit_by(new, PatternEdit::TurnSeam { seam: *seam }),
         Command::SetBody { body } => body::set(new, body, bodies),
-        Command::Repose { body, settle } => body::repose(new, body, *settle, bodies),
+        Command::Repose { body, settle, draft } => body::repose(new, body, [*settle, *draft], bodies),
         Command::SetBones { bones } => body::set_bones(new, bones.as_deref()),
         Command::SetSettings { settings } => settings::set(new, settings),
         Command::Wrap => wrap::wrap(new),

@@ -7,11 +7,13 @@ use super::draw::Drawing;
 use super::shapes::PieceShape;
 use super::table::Table;
 use super::threads::Ends;
-use crate::geometry::ids::SeamId;
+use crate::geometry::ids::{PieceId, SeamId};
 use crate::pattern::{Piece, Stretch};
 use crate::ui::actions::Tool;
+use crate::ui::maps::ShownMap;
 use crate::ui::selection::{Item, LineRef};
 use crate::ui::signs::{self, Sign};
+use crate::ui::theme::colour;
 
 /// Whether the front of `piece` is seen.
 pub fn front_is_seen(piece: &Piece, shape: &PieceShape) -> bool {
@@ -32,7 +34,7 @@ impl Drawing<'_> {
             if self.is_in_view(piece, shape) {
                 let item = Item::Piece(id);
                 let look = [table.laid.selection.has(item), table.laid.highlight == Some(item)];
-                self.piece(piece, shape, look);
+                self.piece(piece, shape, look, table.laid.map.map(|map| (map, id)));
             }
         }
     }
@@ -44,7 +46,13 @@ impl Drawing<'_> {
         Rect::from_points(&corners).expand(room).intersects(self.pane)
     }
 
-    fn piece(&self, piece: &Piece, shape: &PieceShape, [selected, near]: [bool; 2]) {
+    fn piece(
+        &self,
+        piece: &Piece,
+        shape: &PieceShape,
+        [selected, near]: [bool; 2],
+        map: Option<(&ShownMap, PieceId)>,
+    ) {
         let place = |p: DVec2| self.place(piece.pose.plane_from_piece(p));
         let front = front_is_seen(piece, shape);
         let [fill, line] = if front { self.palette.front } else { self.palette.back };
@@ -56,6 +64,11 @@ impl Drawing<'_> {
             t.iter().for_each(|&p| mesh.colored_vertex(place(p), fill));
             mesh.add_triangle(base, base + 1, base + 2);
             mesh.add_triangle(base, base + 2, base + 3);
+        }
+        for corners in map.into_iter().flat_map(|(map, id)| map.flat(id)) {
+            let base = mesh.vertices.len() as u32;
+            corners.iter().for_each(|&(p, ink)| mesh.colored_vertex(place(p), colour(ink)));
+            mesh.add_triangle(base, base + 1, base + 2);
         }
         self.painter.add(Shape::mesh(mesh));
         if !shape.cut.is_empty() {

@@ -25,6 +25,7 @@ use crate::session::Document;
 use crate::session::samples::Sample;
 use crate::ui::actions::{Action, Tool};
 use crate::ui::asks::{Ask, Asks};
+use crate::ui::maps::{ShownMap, probe_ui};
 use crate::ui::mouse::{Deed, Mouse};
 use crate::ui::selection::{Item, Selection};
 use crate::ui::theme::Palette;
@@ -75,6 +76,8 @@ pub struct PatternPane {
     pub response: Option<Response>,
     /// What was under the pointer in the last frame.
     pub under: Option<Item>,
+    /// The value of the map under the pointer in the last frame.
+    pub value: Option<f64>,
     /// How tools work.
     pub options: Options,
     guides: Guides,
@@ -113,6 +116,8 @@ pub struct Laid<'a> {
     pub snapping: bool,
     /// Marks proposed and not accepted yet.
     pub ghosts: Option<&'a Marks>,
+    /// What pieces are coloured by, instead of their own colours.
+    pub map: Option<&'a ShownMap>,
     /// Colours.
     pub palette: &'a Palette,
 }
@@ -174,6 +179,12 @@ impl PatternPane {
         if let Some(at) = at {
             drawing.place_told(table.at(at), laid.unit);
         }
+        let value = at.and_then(|at| {
+            let (map, (piece, p)) = (laid.map?, table.piece_at(table.at(at))?);
+            let value = map.value_on(piece, p);
+            probe_ui(ui, pane, at, map, value, "", laid.palette);
+            value
+        });
         if response.has_focus() {
             let ring = Stroke::new(1.5, laid.palette.accent);
             drawing.painter.rect_stroke(pane, 0.0, ring, egui::StrokeKind::Inside);
@@ -184,7 +195,7 @@ impl PatternPane {
         let dragged = rulers.ui(ui, &table.view, pane, laid.unit, laid.palette, at);
         self.take_entry(ui, laid, pane, &mut *tool, asks);
         (self.response, self.options) = (Some(response), options);
-        (self.under, self.tool) = (under, Some((laid.tool, tool)));
+        (self.under, self.tool, self.value) = (under, Some((laid.tool, tool)), value);
         self.guides.take(&self.view, pane, dragged);
     }
 

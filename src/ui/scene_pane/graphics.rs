@@ -9,7 +9,7 @@ use crate::body::Surface;
 use crate::cloth::ClothState;
 use crate::contact::Bone;
 use crate::geometry::ids::MarkId;
-use crate::render::{Camera, Gpu, Look, OffscreenTarget, RenderError, Renderer, Scene, straightened};
+use crate::render::{Camera, Gpu, Look, OffscreenTarget, RenderError, Renderer, Rgb, Scene, straightened};
 use crate::ui::scene::PinLook;
 use crate::ui::selection::Item;
 use crate::wrap::Marks;
@@ -41,6 +41,8 @@ pub struct Key {
     pub bones: Vec<Bone>,
     /// With which drag.
     pub dragged: Option<Arc<Vec<f32>>>,
+    /// In the colours of which map.
+    pub map: Option<Arc<Vec<Rgb>>>,
     /// The mark that stands out.
     pub selected: Option<MarkId>,
     /// With which proposed marks.
@@ -66,6 +68,7 @@ impl PartialEq for Key {
             pins,
             bones,
             dragged,
+            map,
             stand_out,
         } = self;
         *camera == other.camera
@@ -82,6 +85,7 @@ impl PartialEq for Key {
             && same(marks, &other.marks)
             && same(pinned, &other.pinned)
             && same(dragged, &other.dragged)
+            && same(map, &other.map)
             && same(ghosts, &other.ghosts)
     }
 }

@@ -9,6 +9,7 @@ mod hint;
 mod keys;
 mod outlines;
 mod overlay;
+mod probe;
 mod sight;
 mod view;
 
@@ -28,6 +29,7 @@ use crate::session::{Command, Document};
 use crate::ui::actions::Tool;
 use crate::ui::asks::{Ask, Asks, in_one_step};
 use crate::ui::clicks::clicks;
+use crate::ui::maps::ShownMap;
 use crate::ui::mouse::{Deed, Mouse};
 use crate::ui::scene::Scenery;
 use crate::ui::selection::Item;
@@ -55,6 +57,8 @@ pub struct Seen<'a> {
     pub pinned: &'a Arc<Vec<Option<u32>>>,
     /// How much of the drag under way reaches each vertex.
     pub dragged: Option<&'a Arc<Vec<f32>>>,
+    /// What the cloth is coloured by, instead of its own colours.
+    pub map: Option<&'a ShownMap>,
     /// Whether cloth is still being laid.
     pub growing: bool,
     /// Whether the cloth is moving.
@@ -98,6 +102,8 @@ pub struct ScenePane {
     pub id: Option<egui::Id>,
     /// What of the pattern was under the pointer in the last frame.
     pub under: Option<Item>,
+    /// The value of the map under the pointer in the last frame.
+    pub value: Option<f64>,
     /// The renderer; none without a graphics adapter.
     pub graphics: Option<Graphics>,
     scenery: Scenery,
@@ -156,6 +162,7 @@ impl ScenePane {
         let hovered = response.hover_pos().filter(|_| self.drag.is_none());
         self.under = hovered.and_then(|at| edge_under(seen, self.ray(pane, at)));
         self.draw(ui, &Seen { dragged: seen.dragged.or(reach.as_ref()), ..*seen }, near, pane);
+        self.probe(ui, seen, pane, hovered);
         self.by_keys.draw(&ui.painter_at(pane), pane, response.has_focus(), seen.palette);
         publish_marks(ui, &seen.document.marks, "Mark", pane, &self.camera);
         if let Some(ghosts) = seen.ghosts {

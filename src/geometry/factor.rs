@@ -20,11 +20,11 @@ const LANES: usize = 4;
 
 /// Where the numbers of a factor stand.
 #[derive(Clone, Debug)]
-pub(super) struct Symbolic(Arc<SymbolicCholesky<usize>>);
+pub struct Symbolic(Arc<SymbolicCholesky<usize>>);
 
 /// The numbers.
 #[derive(Clone, Debug)]
-pub(super) struct Factor {
+pub struct Factor {
     symbolic: Symbolic,
     values: Vec<f64>,
 }

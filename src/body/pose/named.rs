@@ -1,0 +1,196 @@
+//! Poses with a name.
+
+use glam::DVec3;
+
+use crate::body::pose::Pose;
+use crate::body::skeleton::Skeleton;
+
+/// A pose with a name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NamedPose {
+    /// As it was built: arms half up.
+    A,
+    /// Arms level.
+    T,
+    /// Arms down.
+    Standing,
+    /// In the middle of a step.
+    Walking,
+    /// In the middle of a leap.
+    Running,
+    /// On a chair.
+    Sitting,
+    /// Both arms up.
+    ArmsUp,
+    /// A deep stance, one fist forward.
+    KungFu,
+}
+
+/// One joint on both sides is named by what comes before this.
+const SIDES: [(&str, f64); 2] = [("left", 1.0), ("right", -1.0)];
+/// Of the way that an arm is raised this share is the collar's.
+const COLLAR: f64 = 0.25;
+
+impl NamedPose {
+    /// All, in the order of menus.
+    pub const ALL: [Self; 8] = [
+        Self::A,
+        Self::T,
+        Self::Standing,
+        Self::Walking,
+        Self::Running,
+        Self::Sitting,
+        Self::ArmsUp,
+        Self::KungFu,
+    ];
+
+    /// As on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::A => "a",
+            Self::T => "t",
+            Self::Standing => "standing",
+            Self::Walking => "walking",
+            Self::Running => "running",
+            Self::Sitting => "sitting",
+            Self::ArmsUp => "arms-up",
+            Self::KungFu => "kung-fu",
+        }
+    }
+
+    /// For people.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::A => "A: arms half up",
+            Self::T => "T: arms level",
+            Self::Standing => "Standing",
+            Self::Walking => "Walking",
+            Self::Running => "Running",
+            Self::Sitting => "Sitting",
+            Self::ArmsUp => "Arms up",
+            Self::KungFu => "Kung-fu",
+        }
+    }
+
+    /// The turns of the joints of `skeleton` that take it into this pose.
+    pub fn pose(self, skeleton: &Skeleton) -> Pose {
+        let mut figure = Posing { pose: Pose::default(), hanging: hanging(skeleton) };
+        match self {
+            Self::A => {}
+            Self::T => SIDES.iter().for_each(|side| figure.raise(side, 90.0)),
+            Self::Standing => {
+                for side in &SIDES {
+                    figure.raise(side, 9.0);
+                    figure.elbow(side, 12.0);
+                }
+            }
+            Self::Walking => figure.walking(),
+            Self::Running => figure.running(),
+            Self::Sitting => figure.sitting(),
+            Self::ArmsUp => SIDES.iter().for_each(|side| figure.raise(side, 165.0)),
+            Self::KungFu => figure.kung_fu(),
+        }
+        figure.pose
+    }
+}
+
+impl std::str::FromStr for NamedPose {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        Self::ALL.into_iter().find(|pose| pose.name() == text).ok_or_else(|| {
+            format!("there is no pose {text:?}; there are {}", Self::ALL.map(Self::name).join(", "))
+        })
+    }
+}
+
+/// The angle between the left arm and straight down, radians.
+fn hanging(skeleton: &Skeleton) -> f64 {
+    let arm = skeleton.position("elbow_left").zip(skeleton.position("shoulder_left"));
+    arm.map_or(0.0, |(elbow, shoulder)| (elbow.x - shoulder.x).atan2(shoulder.y - elbow.y))
+}
+
+/// A pose being made. Angles in degrees.
+struct Posing {
+    pose: Pose,
+    hanging: f64,
+}
+
+type Side = (&'static str, f64);
+
+impl Posing {
+    fn add(&mut self, joint: &str, turn: [f64; 3]) {
+        self.pose.add(joint, DVec3::from_array(turn.map(f64::to_radians)));
+    }
+
+    /// Turns a joint of one side; x forth (below zero) and back, y and z as on the left.
+    fn on(&mut self, (name, sign): &Side, joint: &str, [x, y, z]: [f64; 3]) {
+        self.add(&format!("{joint}_{name}"), [x, y * sign, z * sign]);
+    }
+
+    /// The arm stands off by so much from straight down, sideways.
+    fn raise(&mut self, side: &Side, angle: f64) {
+        let turn = angle - self.hanging.to_degrees();
+        self.on(side, "collar", [0.0, 0.0, COLLAR * turn.max(0.0)]);
+        self.on(side, "shoulder", [0.0, 0.0, turn - COLLAR * turn.max(0.0)]);
+    }
+
+    /// The forearm is bent forward, whichever way the arm is held.
+    fn elbow(&mut self, side: &Side, angle: f64) {
+        // Across the built arm, in the plane of both arms.
+        let (sin, cos) = self.hanging.sin_cos();
+        self.on(side, "elbow", [-angle * cos, -angle * sin, 0.0]);
+    }
+
+    /// Forth by so much, and to the side.
+    fn leg(&mut self, side: &Side, [forth, aside]: [f64; 2], knee: f64, ankle: f64) {
+        self.on(side, "hip", [0.0, 0.0, aside]);
+        self.on(side, "hip", [-forth, 0.0, 0.0]);
+        self.on(side, "knee", [knee, 0.0, 0.0]);
+        self.on(side, "ankle", [ankle, 0.0, 0.0]);
+    }
+
+    /// Hangs at its side, swung forth by so much, bent.
+    fn arm(&mut self, side: &Side, aside: f64, forth: f64, elbow: f64) {
+        self.raise(side, aside);
+        self.on(side, "shoulder", [-forth, 0.0, 0.0]);
+        self.elbow(side, elbow);
+    }
+
+    fn walking(&mut self) {
+        let [left, right] = &SIDES;
+        self.leg(left, [24.0, 0.0], 6.0, -4.0);
+        self.leg(right, [-14.0, 0.0], 24.0, 14.0);
+        self.arm(left, 11.0, -20.0, 14.0);
+        self.arm(right, 11.0, 22.0, 22.0);
+        self.add("chest", [0.0, -5.0, 0.0]);
+    }
+
+    fn running(&mut self) {
+        let [left, right] = &SIDES;
+        self.add("spine", [6.0, 0.0, 0.0]);
+        self.add("chest", [4.0, -10.0, 0.0]);
+        self.add("neck", [-8.0, 6.0, 0.0]);
+        self.leg(left, [58.0, 3.0], 78.0, 8.0);
+        self.leg(right, [-22.0, 0.0], 48.0, 24.0);
+        self.arm(left, 16.0, -38.0, 80.0);
+        self.arm(right, 16.0, 34.0, 82.0);
+    }
+
+    fn sitting(&mut self) {
+        for side in &SIDES {
+            self.leg(side, [86.0, 6.0], 86.0, 0.0);
+            self.arm(side, 12.0, 24.0, 42.0);
+        }
+    }
+
+    fn kung_fu(&mut self) {
+        let [left, right] = &SIDES;
+        self.leg(left, [58.0, 18.0], 62.0, 0.0);
+        self.leg(right, [-16.0, 26.0], 12.0, -6.0);
+        self.add("chest", [0.0, 12.0, 0.0]);
+        self.add("neck", [0.0, -10.0, 0.0]);
+        self.arm(left, 34.0, 40.0, 92.0);
+        self.arm(right, 24.0, 78.0, 8.0);
+    }
+}

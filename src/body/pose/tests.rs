@@ -1,0 +1,115 @@
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use super::*;
+use crate::body::Skeleton;
+use crate::body::mannequin::{self, Measurements};
+use crate::body::measure::{Tape, girth};
+use crate::geometry::mesh::TriMesh;
+
+fn usual() -> Arc<Rig> {
+    rig(&Measurements::default()).expect("the mannequin")
+}
+
+fn posed(pose: NamedPose) -> Posed {
+    let rig = usual();
+    rig.posed(&pose.pose(&rig.figure().skeleton)).expect("a pose")
+}
+
+#[test]
+fn the_built_pose_is_the_built_body() {
+    let rig = usual();
+    let same = rig.posed(&Pose::default()).expect("a pose");
+    let built = &rig.figure().mesh.positions;
+    let floor = built.iter().map(|p| p.y).fold(f64::INFINITY, f64::min);
+    for (p, q) in built.iter().zip(&same.surface.mesh.positions) {
+        assert!((*p - DVec3::Y * floor).distance(*q) < 1e-9, "{p} {q}");
+    }
+    assert_eq!(rig.figure().mesh, mannequin::default().mesh);
+}
+
+#[test]
+fn every_pose_keeps_the_body_full_and_its_bones_long() {
+    let rig = usual();
+    let built = rig.figure();
+    for pose in NamedPose::ALL {
+        let posed = posed(pose);
+        let volume = posed.surface.mesh.volume() / built.mesh.volume();
+        // Deep bends press the skin into itself at groin and knee.
+        let bends = [NamedPose::Running, NamedPose::Sitting, NamedPose::KungFu].contains(&pose);
+        let least = if bends { 0.90 } else { 0.97 };
+        assert!((least..1.03).contains(&volume), "{pose:?}: {volume} of the volume");
+        for side in ["left", "right"] {
+            for (a, b) in [("shoulder", "elbow"), ("elbow", "wrist"), ("hip", "knee"), ("knee", "ankle")] {
+                let length = |skeleton: &Skeleton| {
+                    let at = |name: &str| skeleton.position(&format!("{name}_{side}")).expect("a joint");
+                    at(a).distance(at(b))
+                };
+                let ratio = length(&posed.skeleton) / length(&built.skeleton);
+                assert!((0.90..1.05).contains(&ratio), "{pose:?}: {a} to {b} {side} is {ratio} as long");
+            }
+        }
+        let lowest = posed.surface.mesh.positions.iter().map(|p| p.y).fold(f64::INFINITY, f64::min);
+        assert!(lowest.abs() < 1e-9, "{pose:?} stands at {lowest}");
+    }
+}
+
+#[test]
+fn bent_elbows_and_knees_keep_their_girth() {
+    let built = Arc::clone(usual().figure());
+    for (pose, joint, before, beyond) in [
+        (NamedPose::Running, "elbow_left", "shoulder_left", "wrist_left"),
+        (NamedPose::Running, "knee_left", "hip_left", "ankle_left"),
+        (NamedPose::Sitting, "knee_right", "hip_right", "ankle_right"),
+    ] {
+        let at = |skeleton: &Skeleton, name: &str| skeleton.position(name).expect("a joint");
+        let round = |mesh: &TriMesh, skeleton: &Skeleton| {
+            let [a, b, c] = [before, joint, beyond].map(|name| at(skeleton, name));
+            let normal = ((b - a).normalize() + (c - b).normalize()).normalize();
+            girth(mesh, &Tape { name: joint, origin: b, normal }).expect("a section")
+        };
+        let posed = posed(pose);
+        let ratio = round(&posed.surface.mesh, &posed.skeleton) / round(&built.mesh, &built.skeleton);
+        assert!((0.9..1.35).contains(&ratio), "{pose:?}: {joint} is {ratio} as far round");
+    }
+}
+
+#[test]
+fn both_sides_are_mirror_images_where_the_pose_is() {
+    for pose in [NamedPose::T, NamedPose::Sitting, NamedPose::ArmsUp] {
+        let skeleton = posed(pose).skeleton;
+        for name in ["elbow", "wrist", "knee", "ankle"] {
+            let at = |side: &str| skeleton.position(&format!("{name}_{side}")).expect("a joint");
+            let [left, right] = [at("left"), at("right")];
+            assert!((left - DVec3::new(-right.x, right.y, right.z)).length() < 2e-3, "{pose:?} {name}");
+        }
+    }
+}
+
+#[test]
+fn joints_are_where_the_pose_says() {
+    let at = |pose, name: &str| posed(pose).skeleton.position(name).expect("a joint");
+    let arm = |pose| (at(pose, "elbow_left") - at(pose, "shoulder_left")).normalize();
+    assert!(arm(NamedPose::T).x > 0.99, "{}", arm(NamedPose::T));
+    assert!(arm(NamedPose::Standing).y < -0.96, "{}", arm(NamedPose::Standing));
+    assert!(arm(NamedPose::ArmsUp).y > 0.90, "{}", arm(NamedPose::ArmsUp));
+    let thigh = (at(NamedPose::Sitting, "knee_left") - at(NamedPose::Sitting, "hip_left")).normalize();
+    assert!(thigh.z > 0.94, "{thigh}");
+}
+
+#[test]
+fn half_way_is_half_the_turn_and_nonsense_is_named() {
+    let skeleton = &usual().figure().skeleton.clone();
+    let [a, t] = [NamedPose::A, NamedPose::T].map(|pose| pose.pose(skeleton));
+    let half = a.towards(&t, 0.5);
+    assert!((half.turns["shoulder_left"] * 2.0).distance(t.turns["shoulder_left"]) < 1e-12);
+    assert_eq!(t.towards(&a, 1.0), a);
+    assert_eq!(half.problem(), None);
+    let mut odd = Pose::default();
+    odd.turns.insert("tail".to_owned(), DVec3::X);
+    assert!(odd.problem().expect("no such joint").contains("tail"));
+    let mut far = Pose::default();
+    far.turns.insert("neck".to_owned(), DVec3::X * 4.0);
+    assert!(far.problem().expect("too far").contains("neck"));
+}

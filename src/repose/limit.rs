@@ -1,0 +1,66 @@
+//! Strain limiting (Provot 1995, "Deformation Constraints in a Mass-Spring Model to Describe Rigid Cloth Behavior"): what
+//! the global steps leave is little strain nearly everywhere and much of it in a few places. Here every edge beyond its limit
+//! is brought back to it, one after the other, until its neighbours have taken up the rest.
+
+use crate::cloth::ClothState;
+use crate::relax::Relaxer;
+use crate::repose::excess::Lengths;
+
+/// Edges are brought to this share of what they may be strained, so that what is mended afterwards has some left.
+const AIM: f64 = 0.8;
+/// Each correction goes so many times as far as it must (over-relaxation; below 2).
+const PACE: f64 = 1.5;
+/// Times that all edges are looked at with the same contacts.
+const SWEEPS: usize = 12;
+/// Contacts are looked for anew so often at most.
+const ROUNDS: usize = 30;
+/// Skin is looked for within so many offsets.
+const REACH: f64 = 4.0;
+/// Vertices are kept above the skin by this share of the offset.
+const CLEARANCE: f64 = 0.5;
+
+/// Brings the edges of `state` within `most` of their `lengths`, its vertices out of the body. What is over then is left.
+pub(super) fn limited(lengths: &Lengths, relaxer: &mut Relaxer, state: &mut ClothState, most: f64) {
+    for _ in 0..ROUNDS {
+        relaxer.track(state, REACH * relaxer.offset());
+        for sweep in 0..SWEEPS {
+            // To and fro, so that neither end of the garment is favoured.
+            match sweep % 2 {
+                0 => lengths.edges().iter().for_each(|edge| limit(state, edge, most * AIM)),
+                _ => lengths.edges().iter().rev().for_each(|edge| limit(state, edge, most * AIM)),
+            }
+            raise(relaxer, state);
+        }
+        if lengths.p99(state) <= most * (1.0 + AIM) / 2.0 {
+            break;
+        }
+    }
+}
+
+/// Brings vertices up to where faces round them keep clear of the body.
+pub(super) fn raised(relaxer: &mut Relaxer, state: &mut ClothState) {
+    relaxer.track(state, REACH * relaxer.offset());
+    raise(relaxer, state);
+}
+
+fn limit(state: &mut ClothState, &([a, b], before): &([u32; 2], f64), most: f64) {
+    let [a, b] = [a as usize, b as usize];
+    let side = state.positions[b] - state.positions[a];
+    let length = side.length();
+    let wanted = length.clamp(before * (1.0 - most), before * (1.0 + most));
+    if wanted != length && length > 0.0 {
+        let half = side * (PACE * (length - wanted) / length / 2.0);
+        state.positions[a] += half;
+        state.positions[b] -= half;
+    }
+}
+
+fn raise(relaxer: &Relaxer, state: &mut ClothState) {
+    let least = CLEARANCE * relaxer.offset();
+    for (v, p) in state.positions.iter_mut().enumerate() {
+        if let Some(plane) = relaxer.plane(v as u32) {
+            let lacks = least + relaxer.lift(v as u32) - plane.height(*p);
+            *p += plane.normal * lacks.max(0.0);
+        }
+    }
+}

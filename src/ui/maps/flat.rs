@@ -1,0 +1,43 @@
+//! The map on the flat pieces.
+
+use glam::DVec2;
+
+use super::ShownMap;
+use crate::cloth::FlatPlace;
+use crate::geometry::ids::PieceId;
+use crate::render::Rgb;
+
+/// How far outside a triangle a point still belongs to it, barycentric.
+const EDGE: f64 = 1e-6;
+
+impl ShownMap {
+    /// The triangles of `piece` in its own plane, with a colour for each corner.
+    pub fn flat(&self, piece: PieceId) -> impl Iterator<Item = [(DVec2, Rgb); 3]> {
+        let corner = |c: u32| {
+            let corner = self.garment.corners[c as usize];
+            (corner.uv, self.colours[corner.vertex as usize])
+        };
+        let own = self.garment.triangle_corners.iter().zip(&self.garment.triangle_pieces);
+        own.filter(move |(_, of)| **of == piece).map(move |(corners, _)| corners.map(corner))
+    }
+
+    /// The value at a point of a piece's own plane.
+    pub fn value_on(&self, piece: PieceId, p: DVec2) -> Option<f64> {
+        let triangles = 0..self.garment.triangles.len();
+        let mut own = triangles.filter(|&t| self.garment.triangle_pieces[t] == piece);
+        let place = own.find_map(|t| {
+            let corners = self.garment.triangle_corners[t].map(|c| self.garment.corners[c as usize].uv);
+            let shares = shares(corners, p).filter(|shares| shares.iter().all(|&s| s >= -EDGE))?;
+            Some(FlatPlace { triangle: t as u32, shares })
+        });
+        self.value(place?)
+    }
+}
+
+/// Barycentric coordinates; None in a triangle without area.
+fn shares([a, b, c]: [DVec2; 3], p: DVec2) -> Option<[f64; 3]> {
+    let area = (b - a).perp_dot(c - a);
+    let [s, t] = [(c - b).perp_dot(p - b) / area, (a - c).perp_dot(p - c) / area];
+    let shares = [s, t, 1.0 - s - t];
+    shares.iter().all(|s| s.is_finite()).then_some(shares)
+}

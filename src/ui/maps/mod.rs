@@ -1,0 +1,183 @@
+//! Maps over the dressed cloth, in both panes: worked out while one is shown and the cloth has changed, never else.
+
+mod chooser;
+mod flat;
+mod legend;
+mod probe;
+mod table;
+
+use std::collections::BTreeMap;
+use std::sync::{Arc, OnceLock};
+
+use crate::body::Surface;
+use crate::cloth::{ClothState, FlatPlace, Garment};
+use crate::fit::maps::{Histogram, MapStats, PieceStats};
+use crate::fit::{Map, MapKind, Worn};
+use crate::render::{Legend, Palette, Rgb};
+use crate::sim::{GarmentSource, Snapshot};
+pub use chooser::{choices, chooser_ui};
+pub use legend::legend_ui;
+pub use probe::probe_ui;
+pub use table::{table_ui, text as table_text};
+
+/// Which map is shown, and the newest one.
+#[derive(Debug, Default)]
+pub struct MapView {
+    kind: Option<MapKind>,
+    /// Ranges chosen by hand, in the units that people see.
+    ranges: BTreeMap<MapKind, [f64; 2]>,
+    shown: Option<ShownMap>,
+    /// Maps worked out so far.
+    computed: u64,
+}
+
+/// A map as it is shown.
+#[derive(Debug)]
+pub struct ShownMap {
+    source: Arc<GarmentSource>,
+    garment: Arc<Garment>,
+    state: Arc<ClothState>,
+    body: Arc<Surface>,
+    map: Map,
+    /// Of all its values.
+    pub stats: MapStats,
+    pieces: OnceLock<Vec<PieceStats>>,
+    /// What the colours span, in the unit of the map.
+    range: [f64; 2],
+    is_automatic: bool,
+    /// One for each vertex of the cloth as it is drawn.
+    pub colours: Arc<Vec<Rgb>>,
+    histogram: Histogram,
+}
+
+impl MapView {
+    /// What is shown.
+    pub fn kind(&self) -> Option<MapKind> {
+        self.kind
+    }
+
+    /// Shows this from now on.
+    pub fn choose(&mut self, kind: Option<MapKind>) {
+        self.kind = kind;
+    }
+
+    /// Lets the colours of `kind` span `range`, in the unit that people see; None: as far as its values do.
+    pub fn set_range(&mut self, kind: MapKind, range: Option<[f64; 2]>) {
+        match range {
+            Some(range) => self.ranges.insert(kind, range),
+            None => self.ranges.remove(&kind),
+        };
+    }
+
+    /// Maps worked out so far.
+    pub fn computed(&self) -> u64 {
+        self.computed
+    }
+
+    /// The map over the cloth as it lay at the last [`MapView::look`].
+    pub fn shown(&self) -> Option<&ShownMap> {
+        self.shown.as_ref()
+    }
+
+    /// Reads the map off the cloth of `snapshot`, unless none is shown or that was done before.
+    pub fn look(&mut self, snapshot: &Snapshot) {
+        let worn = snapshot.drawn().zip(snapshot.body.as_ref()).zip(snapshot.source.as_ref());
+        let (Some(kind), Some((((garment, state), body), source))) =
+            (self.kind.filter(|_| snapshot.is_dressed()), worn)
+        else {
+            self.shown = None;
+            return;
+        };
+        let by_hand = self.ranges.get(&kind).map(|range| range.map(|v| v / kind.unit().1));
+        if let Some(shown) = &mut self.shown
+            && shown.map.kind == kind
+            && shown.is_of(source, garment, state, body)
+        {
+            shown.span(by_hand);
+            return;
+        }
+        self.computed += 1;
+        let map = Map::new(kind, Worn { pattern: &source.pattern, garment, state, surface: body });
+        let mut shown = ShownMap {
+            source: Arc::clone(source),
+            garment: Arc::clone(garment),
+            state: Arc::clone(state),
+            body: Arc::clone(body),
+            stats: map.stats(),
+            pieces: OnceLock::new(),
+            range: [f64::NAN; 2],
+            is_automatic: false,
+            colours: Arc::default(),
+            histogram: Histogram { borders: Vec::new(), counts: Vec::new() },
+            map,
+        };
+        shown.span(by_hand);
+        self.shown = Some(shown);
+    }
+}
+
+impl ShownMap {
+    fn is_of(
+        &self,
+        source: &Arc<GarmentSource>,
+        garment: &Arc<Garment>,
+        state: &Arc<ClothState>,
+        body: &Arc<Surface>,
+    ) -> bool {
+        Arc::ptr_eq(&self.source, source)
+            && Arc::ptr_eq(&self.garment, garment)
+            && Arc::ptr_eq(&self.state, state)
+            && Arc::ptr_eq(&self.body, body)
+    }
+
+    /// Lets the colours span `range`, or as far as the values do.
+    fn span(&mut self, by_hand: Option<[f64; 2]>) {
+        self.is_automatic = by_hand.is_none();
+        let range = by_hand.unwrap_or_else(|| self.map.range_of(&self.stats));
+        if range == self.range {
+            return;
+        }
+        let palette = self.palette();
+        self.colours = Arc::new(self.map.vertices.iter().map(|&v| palette.colour(v, range)).collect());
+        self.histogram = self.map.histogram(range);
+        self.range = range;
+    }
+
+    /// What is mapped.
+    pub fn kind(&self) -> MapKind {
+        self.map.kind
+    }
+
+    fn palette(&self) -> Palette {
+        if self.map.kind.is_signed() { Palette::Diverging } else { Palette::Sequential }
+    }
+
+    /// For pictures.
+    pub fn legend(&self) -> Legend {
+        let (unit, times) = self.map.kind.unit();
+        Legend {
+            title: self.map.kind.title().to_owned(),
+            unit: unit.to_owned(),
+            range: self.range.map(|v| v * times),
+            palette: self.palette(),
+        }
+    }
+
+    /// The value at a place of the cloth; None where there is none.
+    pub fn value(&self, place: FlatPlace) -> Option<f64> {
+        let vertices = place.vertices(&self.garment);
+        let value = vertices.iter().map(|&(v, share)| self.map.vertices[v as usize] * share).sum::<f64>();
+        value.is_finite().then_some(value)
+    }
+
+    /// "12.3 mm".
+    pub fn words(&self, value: f64) -> String {
+        let (unit, times) = self.map.kind.unit();
+        format!("{:.1} {unit}", value * times + 0.0)
+    }
+
+    /// Piece by piece; counted when first asked for.
+    pub fn pieces(&self) -> &[PieceStats] {
+        self.pieces.get_or_init(|| self.map.pieces(&self.garment))
+    }
+}

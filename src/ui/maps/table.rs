@@ -1,0 +1,56 @@
+//! The map in figures, piece by piece.
+
+use egui::RichText;
+
+use super::ShownMap;
+use crate::fit::maps::{MapStats, PieceStats};
+use crate::ui::theme::Palette;
+
+const HEADINGS: [&str; 8] = ["Piece", "Vertices", "Least", "1 %", "Median", "Mean", "99 %", "Most"];
+
+/// Draws the table; a heading tells what is mapped and in which unit.
+pub fn table_ui(ui: &mut egui::Ui, map: Option<&ShownMap>, palette: &Palette) {
+    let Some(map) = map else {
+        ui.label(RichText::new("No map is shown: choose one in View › Map").color(palette.weak));
+        return;
+    };
+    let (unit, _) = map.kind().unit();
+    ui.label(RichText::new(format!("{}, {unit}", map.kind().title())).strong());
+    egui::Grid::new("map by pieces").num_columns(HEADINGS.len()).spacing([18.0, 4.0]).striped(true).show(
+        ui,
+        |ui| {
+            for heading in HEADINGS {
+                ui.label(RichText::new(heading).color(palette.weak).size(12.0));
+            }
+            ui.end_row();
+            for cells in rows(map) {
+                for (i, cell) in cells.iter().enumerate() {
+                    let text = if i == 0 { RichText::new(cell) } else { RichText::new(cell).monospace() };
+                    ui.label(text);
+                }
+                ui.end_row();
+            }
+        },
+    );
+}
+
+/// As tab-separated text with a line of headings.
+pub fn text(map: &ShownMap) -> String {
+    let (unit, _) = map.kind().unit();
+    let head = HEADINGS.join("\t");
+    let lines: Vec<String> = rows(map).map(|cells| cells.join("\t")).collect();
+    format!("{}, {unit}\n{head}\n{}\n", map.kind().title(), lines.join("\n"))
+}
+
+fn rows(map: &ShownMap) -> impl Iterator<Item = [String; 8]> {
+    let (_, times) = map.kind().unit();
+    let whole = ("All", &map.stats);
+    let pieces = map.pieces().iter().map(|PieceStats { piece, stats }| (piece.as_str(), stats));
+    std::iter::once(whole).chain(pieces).map(move |(name, stats)| {
+        let MapStats { count, min, p01, median, mean, p99, max } = *stats;
+        let value = |v: f64| if count == 0 { "–".to_owned() } else { format!("{:.1}", v * times + 0.0) };
+        let figures = [min, p01, median, mean, p99, max].map(value);
+        let [min, p01, median, mean, p99, max] = figures;
+        [name.to_owned(), count.to_string(), min, p01, median, mean, p99, max]
+    })
+}

@@ -1,0 +1,143 @@
+//! Maps over the cloth: chosen, read, ranged, told in figures, burnt into pictures; and free when none is shown.
+
+use super::hand::dressed_window;
+use super::*;
+
+fn choose(window: &mut Window, entry: &str) {
+    for label in ["View", "Map", entry] {
+        window.get_by_label(label).click();
+        window.run_steps(4);
+    }
+}
+
+fn has(window: &Window, words: &str) -> bool {
+    window.query_by_label_contains(words).is_some()
+}
+
+#[test]
+fn a_map_is_worked_out_once_and_none_costs_nothing() {
+    let mut window = dressed_window();
+    window.run_steps(10);
+    assert_eq!(app(&window).maps(), 0, "no map is shown");
+    choose(&mut window, "Ease: gap to the body");
+    assert_eq!(app(&window).maps(), 1);
+    window.run_steps(30);
+    assert_eq!(app(&window).maps(), 1, "the cloth lies still");
+    choose(&mut window, "Strain along the grain");
+    assert_eq!(app(&window).maps(), 2);
+    // Cloth that changes is read anew as long as the map is shown.
+    key(&mut window, Modifiers::COMMAND, Key::Z);
+    wait(&mut window, "the undo", |app| !app.session().snapshot().is_dressed());
+    key(&mut window, Modifiers::COMMAND.plus(Modifiers::SHIFT), Key::Z);
+    wait(&mut window, "the redo", |app| app.session().snapshot().is_dressed());
+    window.run_steps(2);
+    let read = app(&window).maps();
+    assert!(read > 2, "the cloth came back");
+    window.get_by_label("Close the map").click();
+    window.run_steps(3);
+    assert!(!has(&window, "Legend"));
+    key(&mut window, Modifiers::COMMAND, Key::Z);
+    wait(&mut window, "the undo", |app| !app.session().snapshot().is_dressed());
+    assert_eq!(app(&window).maps(), read, "nothing is read off when nothing is shown");
+}
+
+#[test]
+fn a_map_is_found_by_a_few_letters_and_waits_for_cloth() {
+    let mut window = window();
+    window.get_by_label("View").click();
+    window.run_steps(4);
+    window.get_by_label("Map").click();
+    window.run_steps(4);
+    assert!(window.get_by_label("Shear").accesskit_node().is_disabled(), "there is no cloth");
+    let mut window = dressed_window();
+    key(&mut window, Modifiers::COMMAND, Key::P);
+    window.event(Event::Text("map shear".to_owned()));
+    window.run_steps(3);
+    key(&mut window, Modifiers::NONE, Key::Enter);
+    assert!(has(&window, "Legend: Shear"));
+    for (button, entry) in [("Map: Shear", "Mean curvature"), ("Map: Curvature", "No map")] {
+        window.get_by_label(button).click();
+        window.run_steps(4);
+        window.get_by_label(entry).click();
+        window.run_steps(4);
+    }
+    assert!(!has(&window, "Legend") && window.query_by_label("Map: No map").is_some());
+}
+
+#[test]
+fn the_value_under_the_pointer_is_told_in_both_panes() {
+    let mut window = dressed_window();
+    choose(&mut window, "Ease: gap to the body");
+    let body = pane(&window, "Body pane").center();
+    move_to(&mut window, body);
+    window.run_steps(2);
+    let told = window.get_by_label_contains(" mm, Square");
+    let words = told.accesskit_node().value().expect("what the label says");
+    let ease: f64 = words.split(' ').next().and_then(|v| v.parse().ok()).expect("a number");
+    let skin = Surface::new(ball(0.25)).expect("a ball");
+    let cloth = &app(&window).session().snapshot().cloth.positions;
+    let from_middle = |p: &&DVec3| p.distance(DVec3::Z * 0.25);
+    let under = cloth.iter().min_by(|p, q| from_middle(p).total_cmp(&from_middle(q))).expect("cloth");
+    let there = skin.nearest(*under).distance * 1000.0;
+    assert!((ease - there).abs() < 3.0, "{ease} mm told, {there} mm beside it");
+    let off = pane(&window, "Body pane").right_bottom() - Vec2::new(220.0, 80.0);
+    move_to(&mut window, off);
+    window.run_steps(2);
+    assert!(!has(&window, " mm, Square"), "beside the cloth");
+}
+
+#[test]
+fn the_range_is_set_by_hand_and_comes_back() {
+    let mut window = dressed_window();
+    choose(&mut window, "Ease: gap to the body");
+    let legend = |window: &Window| {
+        window.get_by_label_contains("Legend:").accesskit_node().label().expect("a label").clone()
+    };
+    let automatic = legend(&window);
+    window.get_by_label("Automatic range").click();
+    window.run_steps(3);
+    assert_eq!(legend(&window), automatic, "what it was is where one begins");
+    let field = window.get_by_label("Range to");
+    field.click();
+    window.run_steps(3);
+    key(&mut window, Modifiers::COMMAND, Key::A);
+    window.event(Event::Text("60".to_owned()));
+    key(&mut window, Modifiers::NONE, Key::Enter);
+    window.run_steps(3);
+    assert!(legend(&window).contains("to 60.00 mm"), "{}", legend(&window));
+    assert_eq!(app(&window).maps(), 1, "another range is no other map");
+    window.get_by_label("Automatic range").click();
+    window.run_steps(3);
+    assert_eq!(legend(&window), automatic);
+}
+
+#[test]
+fn a_map_is_told_in_figures_piece_by_piece() {
+    let mut window = dressed_window();
+    choose(&mut window, "Change of area");
+    choose(&mut window, "Table of the map");
+    for words in ["Change of area, %", "All", "Square", "Median", "Copy all"] {
+        assert!(window.query_all_by_label(words).next().is_some(), "{words}");
+    }
+    choose(&mut window, "No map");
+    assert!(has(&window, "No map is shown"));
+}
+
+#[test]
+fn the_mannequin_is_posed_from_the_side_panel() {
+    let mut window = window_on(Project::default(), None);
+    window.get_by_label("Pose").click();
+    window.run_steps(8);
+    let body = |window: &Window| app(window).session().document().body.clone();
+    window.get_by_label("Pose Sitting").click();
+    window.run_steps(4);
+    let sitting = BodyChoice::default().in_named_pose(toile::body::NamedPose::Sitting);
+    assert_eq!(Some(body(&window)), sitting);
+    assert_eq!(app(&window).session().undo_label(), Some("change the pose"));
+    assert!(has(&window, "On the way to Sitting"));
+    window.get_by_label("Pose A: arms half up").click();
+    window.run_steps(4);
+    assert_eq!(body(&window), BodyChoice::default());
+    key(&mut window, Modifiers::COMMAND, Key::Z);
+    assert_eq!(Some(body(&window)), sitting);
+}
