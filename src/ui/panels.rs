@@ -170,6 +170,8 @@ impl App {
             working: asked || snapshot.working,
             dragging: snapshot.dragged.is_some(),
             relaxing: snapshot.relaxing,
+            placed: document.pattern.pieces.values().any(|piece| piece.placement.is_some()),
+            drape: snapshot.drape,
             phase: snapshot.phase,
             progress: snapshot.progress,
             tick: snapshot.tick,

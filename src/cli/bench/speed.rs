@@ -7,6 +7,7 @@ use std::time::Instant;
 use glam::DVec3;
 
 use crate::body::{Surface, mannequin};
+use crate::cli::bench::drape::drape;
 use crate::cli::bench::row::{Check, Figure, Row, Unit};
 use crate::cli::bench::scenes::{Scene, Wrapped, edge_length};
 use crate::cli::bench::tube::{Errors, Tube};
@@ -55,7 +56,9 @@ pub fn speed(
         tell(&row)?;
     }
     tell(&closest(&shirt.surface, &worn.state, runs)?)?;
-    tell(&idle(&shirt)?)
+    tell(&idle(&shirt)?)?;
+    let dress = Scene::sample(Sample::Dress, &body, triangles)?.skipping(skips);
+    tell(&drape(&dress, runs)?)
 }
 
 fn cylinder(triangles: usize, runs: usize, skips: Skips) -> Result<Row, Failure> {
