@@ -16,7 +16,7 @@
 //! | `relax`    | paper A's relaxation: shape match, flatten, gravity, friction | contact, cloth, body, geometry |
 //! | `wrap`     | paper A: marks, root edges, growth | relax, contact, cloth, body, pattern, geometry |
 //! | `drag`     | paper A: dependency graph, motion in local frames, pushpins | relax, contact, cloth, body, pattern, geometry |
-//! | `drape`    | physics: membrane, bending, contact in implicit and in small steps, straight to rest | contact, cloth, body, geometry |
+//! | `drape`    | physics: membrane, bending, contact in implicit and in small steps, straight to rest; a garment on its body; sewing | contact, cloth, body, geometry |
 //! | `repose`   | paper C: distance map, conforming to another pose of the body, recovery, strain control | relax, contact, cloth, body, pattern, geometry |
 //! | `fit`      | what is read off a garment: strain, crossings, openings, the report, maps | cloth, body, pattern, geometry |
 //! | `sim`      | owner of the moving state: stages, protocol, checkpoints, thread, state hash | the above |

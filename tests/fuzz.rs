@@ -194,7 +194,9 @@ impl Fuzz {
                     offset: c.number(0.0, 0.05),
                     ..RelaxSettings::default()
                 };
-                Command::SetSettings { settings: Settings { edge_length: c.number(0.06, 0.12), relax } }
+                Command::SetSettings {
+                    settings: Settings { edge_length: c.number(0.06, 0.12), relax, ..Settings::default() },
+                }
             }
             17 => Command::SetSettings { settings: Settings { edge_length: EDGE, ..Settings::default() } },
             18..=21 => Command::Undo,

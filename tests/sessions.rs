@@ -7,6 +7,8 @@ mod commands;
 mod common;
 #[path = "sessions/dragging.rs"]
 mod dragging;
+#[path = "sessions/draping.rs"]
+mod draping;
 #[path = "sessions/live.rs"]
 mod live;
 #[path = "sessions/project_files.rs"]

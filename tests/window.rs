@@ -16,6 +16,8 @@ use toile::wrap::ClothSide;
 
 #[path = "window/demos.rs"]
 mod demos;
+#[path = "window/draping.rs"]
+mod draping;
 #[path = "window/files.rs"]
 mod files;
 #[path = "window/hand.rs"]
@@ -553,7 +555,7 @@ fn what_was_done_in_the_window_replays_to_the_same_hashes() {
     window.get_by_label("Wrap").click();
     window.run_steps(2);
     wait(&mut window, "the wrap", |app| app.session().snapshot().is_dressed());
-    key(&mut window, Modifiers::NONE, Key::Space);
+    key(&mut window, Modifiers::SHIFT, Key::Space);
     wait(&mut window, "the pause", |app| !app.session().snapshot().working);
     let text = window.state_mut().as_mut().expect("the app").recording();
     let recording = toile::session::recording::Recording::parse(&text).expect("a recording");
@@ -627,7 +629,7 @@ fn what_was_done_is_shown_without_waiting_for_the_next_event() {
 #[test]
 fn letters_choose_tools_even_after_a_slider_was_used() {
     let mut window = window();
-    let slider = window.get_by_role_and_label(egui::accesskit::Role::Slider, "Friction").rect();
+    let slider = window.get_by_role_and_label(egui::accesskit::Role::Slider, "Triangle size").rect();
     drag(&mut window, &line(slider, Vec2::new(10.0, 0.0)), PointerButton::Primary);
     assert_eq!(app(&window).session().step_labels().count(), 1, "one drag is one step");
     let chosen = |w: &Window, label: &str| {

@@ -83,7 +83,8 @@ pub struct InputOptions {
     pub edge_length: Option<f64>,
 }
 
-/// Wraps by the marks, relaxes to rest, and writes garment.obj, body.obj, report.json and view.png
+/// Wraps by the marks or, without any, sews from where the pieces are placed; relaxes to rest, and writes garment.obj,
+/// body.obj, report.json and view.png
 #[derive(Debug, Args)]
 pub struct Dress {
     /// Projects, patterns or samples (sample:NAME); several get a folder each
@@ -94,6 +95,12 @@ pub struct Dress {
     pub out: PathBuf,
     #[command(flatten)]
     pub input: InputOptions,
+    /// Then lets weight and fabric drape it until it rests
+    #[arg(long)]
+    pub drape: bool,
+    /// What all pieces are made of that have no fabric of their own: a preset
+    #[arg(long, value_name = "NAME")]
+    pub fabric: Option<String>,
     /// Also writes the dressed project to this file
     #[arg(long, value_name = "PROJECT")]
     pub save: Option<PathBuf>,
@@ -122,6 +129,8 @@ impl Dress {
             projects: vec![project.to_owned()],
             out: out.to_owned(),
             input: InputOptions::default(),
+            drape: false,
+            fabric: None,
             save: None,
             record: None,
             max_ticks: MAX_TICKS,

@@ -1,4 +1,4 @@
-//! `toile dress`: wrap by the marks, relax to rest, write what came out.
+//! `toile dress`: wrap by the marks, relax to rest, drape, write what came out.
 
 use std::fs::File;
 use std::path::{Path, PathBuf};
@@ -63,8 +63,15 @@ fn dress_one(project: &Path, folder: &Path, arguments: &Dress) -> Result<Report,
         session.recorder().also_to(file).map_err(|e| Failure::file(path, e))?;
     }
     run::simulation(&mut session)?.set_skips(arguments.work.no_skip);
-    wrap(&mut session, project, &mut seconds)?;
+    if let Some(fabric) = &arguments.fabric {
+        let command = Command::SetFabric { piece: None, fabric: Some(fabric.clone()) };
+        session.apply_alone(command).map_err(|why| Failure::Usage(why.0))?;
+    }
+    dress_by(&mut session, project, &mut seconds)?;
     run::to_rest(&mut session, arguments.max_ticks, &mut seconds)?;
+    if arguments.drape {
+        run::drape(&mut session, project, arguments.max_ticks, &mut seconds)?;
+    }
     if let Some(error) = session.recorder().take_file_error() {
         return Err(Failure::file(arguments.record.as_deref().unwrap_or(Path::new("recording")), error));
     }
@@ -77,10 +84,29 @@ fn dress_one(project: &Path, folder: &Path, arguments: &Dress) -> Result<Report,
     Ok(report)
 }
 
+/// By its marks; without any, from where its pieces are placed.
+fn dress_by(session: &mut Session, project: &Path, seconds: &mut Seconds) -> Result<(), Failure> {
+    let document = session.document();
+    let placed = document.pattern.pieces.values().any(|piece| piece.placement.is_some());
+    match document.marks.pairs().next().is_none() && placed {
+        true => begin(session, project, seconds, Command::Sew),
+        false => wrap(session, project, seconds),
+    }
+}
+
 /// Begins the wrap; says what stands in its way.
 pub fn wrap(session: &mut Session, project: &Path, seconds: &mut Seconds) -> Result<(), Failure> {
+    begin(session, project, seconds, Command::Wrap)
+}
+
+fn begin(
+    session: &mut Session,
+    project: &Path,
+    seconds: &mut Seconds,
+    command: Command,
+) -> Result<(), Failure> {
     let start = Instant::now();
-    session.apply_alone(Command::Wrap).map_err(|why| Failure::input(project, why))?;
+    session.apply_alone(command).map_err(|why| Failure::input(project, why))?;
     session.update();
     seconds.build = start.elapsed().as_secs_f64();
     let problems: Vec<String> = session

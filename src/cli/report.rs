@@ -15,7 +15,7 @@ use crate::pattern::{Problem, ProblemKind};
 use crate::repose::Outcome;
 use crate::session::recording::Hex;
 use crate::session::{Document, Session};
-use crate::sim::{self, Fault, Snapshot, Stats};
+use crate::sim::{self, DrapeState, Fault, Snapshot, Stats};
 use crate::wrap::{MarkError, PairStretch, Phase, mark_error, stretches};
 
 /// `report.json`.
@@ -40,6 +40,9 @@ pub struct Report {
     /// What came of carrying it to another pose.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reposed: Option<Outcome>,
+    /// How draping ended.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    drape: Option<DrapeState>,
     problems: Vec<Problem>,
     seconds: Seconds,
     counters: Stats,
@@ -109,6 +112,9 @@ pub struct Seconds {
     pub grow: f64,
     /// Ticks that settled it.
     pub settle: f64,
+    /// Draping it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub drape: Option<f64>,
     /// Carrying the cloth to another pose, with binding it to the body for the first one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub repose: Option<f64>,
@@ -160,6 +166,7 @@ pub fn write(
         marks,
         mark_error,
         reposed: snapshot.reposed,
+        drape: snapshot.drape,
         problems: snapshot.problems.to_vec(),
         seconds,
         counters: snapshot.stats,

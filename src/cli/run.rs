@@ -6,7 +6,7 @@ use std::time::Instant;
 use crate::cli::failure::Failure;
 use crate::cli::report::Seconds;
 use crate::cli::{interrupt, output};
-use crate::session::{Notice, Project, Session};
+use crate::session::{Command, Notice, Project, Session};
 use crate::sim::{Runner, Simulation};
 use crate::wrap::Phase;
 
@@ -71,6 +71,26 @@ pub fn to_rest(session: &mut Session, max_ticks: u64, seconds: &mut Seconds) -> 
         }
     }
     Ok(())
+}
+
+/// Drapes what lies until it rests.
+pub fn drape(
+    session: &mut Session,
+    project: &Path,
+    max_ticks: u64,
+    seconds: &mut Seconds,
+) -> Result<(), Failure> {
+    let mut of_drape = Seconds::default();
+    session.apply_alone(Command::SetDraping { on: true }).map_err(|why| Failure::input(project, why))?;
+    to_rest(session, max_ticks, &mut of_drape)?;
+    seconds.drape = Some(of_drape.settle);
+    match session.snapshot().drape {
+        Some(_) => Ok(()),
+        None => {
+            let words: Vec<&str> = session.snapshot().problems.iter().map(|p| p.words.as_str()).collect();
+            Err(Failure::input(project, format!("it was not draped: {}", words.join("; "))))
+        }
+    }
 }
 
 fn show_progress(simulation: &Simulation) {

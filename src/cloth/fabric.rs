@@ -63,6 +63,9 @@ pub struct Bending {
 }
 
 impl Fabric {
+    /// The preset that cloth is made of when nothing else was chosen.
+    pub const USUAL: &str = "cotton";
+
     /// Alike in all directions: Young's modulus times thickness in N/m, Poisson's ratio, plate stiffness in N·m, kg/m².
     pub fn isotropic(stiffness: f64, poisson: f64, bending: f64, density_kg_per_m2: f64) -> Self {
         Self {

@@ -41,12 +41,19 @@ pub struct Stencil {
 impl Bending {
     /// Of all triangles of `sheet`; without stiffness empty.
     pub fn new(sheet: &Sheet, stiffness: &Stiffness) -> Self {
+        Self::of(sheet, |_| stiffness)
+    }
+
+    /// The same with a stiffness for each vertex.
+    pub fn of<'a>(sheet: &Sheet, stiffness: impl Fn(u32) -> &'a Stiffness) -> Self {
         let mut entries: Vec<(u32, u32, f64)> = Vec::new();
-        if stiffness.warp > 0.0 || stiffness.weft > 0.0 || stiffness.bias > 0.0 {
-            for (v, area) in nearest_areas(sheet).into_iter().enumerate() {
-                if let Some(stencil) = stencil(sheet, v as u32) {
-                    add_energy(&stencil, stiffness, area, &mut entries);
-                }
+        for (v, area) in nearest_areas(sheet).into_iter().enumerate() {
+            let v = v as u32;
+            let own = stiffness(v);
+            if (own.warp > 0.0 || own.weft > 0.0 || own.bias > 0.0)
+                && let Some(stencil) = stencil(sheet, v)
+            {
+                add_energy(&stencil, own, area, &mut entries);
             }
         }
         Self::summed(sheet.len(), entries)
@@ -101,7 +108,12 @@ impl Bending {
 
     fn row_times(&self, i: usize, x: &[DVec3]) -> DVec3 {
         // Rows sum to zero: differences keep their digits far from the origin.
-        self.row(i).fold(DVec3::ZERO, |sum, (j, q)| sum + (x[j as usize] - x[i]) * q)
+        let range = self.starts[i] as usize..self.starts[i + 1] as usize;
+        let (at, mut sum) = (x[i], DVec3::ZERO);
+        for (&j, &q) in self.columns[range.clone()].iter().zip(&self.values[range]) {
+            sum += (x[j as usize] - at) * q;
+        }
+        sum
     }
 }
 

@@ -3,9 +3,13 @@
 //! Pairs that could meet in a step are gathered when it begins, with the side they are on. A pair keeps its side: whoever comes
 //! through in an iterate is pushed back to where it came from, so that a fast step does not tangle.
 
+use std::sync::Arc;
+
 use glam::{DMat3, DVec3};
+use rayon::prelude::*;
 
 use crate::body::closest::{Part, closest_on_triangle};
+use crate::cloth::Garment;
 use crate::drape::sheet::Sheet;
 use crate::geometry::bvh::{Aabb, Bvh};
 
@@ -15,6 +19,9 @@ const MOST_THICKNESS: f64 = 0.7;
 /// Of a vertex's expected way that is looked over.
 const LOOK_AHEAD: f64 = 1.5;
 
+/// Vertices or edges one thread takes at a time.
+const LEAST_SHARE: usize = 256;
+
 /// What may meet in one step, and what does.
 #[derive(Clone, Debug, Default)]
 pub struct Itself {
@@ -22,8 +29,34 @@ pub struct Itself {
     pairs: Vec<Pair>,
     active: Vec<Push>,
     stiffness: Vec<f64>,
+    /// What is to be sewn counts as sewn.
+    pub sewn: Option<Arc<Sides>>,
+    /// Vertices that pass through the cloth, as long as they are to be untangled; empty for none.
+    pub free: Vec<bool>,
+    /// Of triangles and of edges.
+    trees: [Bvh; 2],
+    /// Where the vertices were when pairs were last gathered ahead.
+    gathered: Vec<DVec3>,
     /// Pairs looked at since the start.
     pub looked_at: u64,
+    /// How often pairs were gathered.
+    pub gatherings: u64,
+}
+
+/// The sides of seams that are still open.
+#[derive(Clone, Debug)]
+pub struct Sides {
+    /// For each vertex that of `garment` which it will be.
+    pub will_be: Vec<u32>,
+    /// The garment with its seams shut.
+    pub garment: Arc<Garment>,
+}
+
+impl Sides {
+    fn beside(&self, a: u32, b: u32) -> bool {
+        let [a, b] = [a, b].map(|v| self.will_be[v as usize]);
+        a == b || self.garment.adjacency.vertex_neighbours.of(a).binary_search(&b).is_ok()
+    }
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -54,6 +87,30 @@ impl Itself {
         Self { thickness, stiffness, ..Self::default() }
     }
 
+    /// The same as [`gather`](Self::gather), with pairs that last until a vertex has left its expected way by `margin` metres.
+    /// Does nothing while those from the last time do.
+    pub fn gather_ahead(&mut self, sheet: &Sheet, x: &[DVec3], ways: &[DVec3], margin: f64) {
+        if self.thickness == 0.0 {
+            return;
+        }
+        let lasts = self.gathered.len() == x.len() && {
+            let mean = |of: &dyn Fn(usize) -> DVec3| (0..x.len()).map(of).sum::<DVec3>() / x.len() as f64;
+            let drift = mean(&|i| x[i] + ways[i] - self.gathered[i]);
+            (0..x.len())
+                .all(|i| (x[i] + ways[i] - self.gathered[i] - drift).length_squared() < margin * margin)
+        };
+        if !lasts {
+            self.gather(sheet, x, ways, 2.0 * margin);
+            self.gathered.clear();
+            self.gathered.extend_from_slice(x);
+        }
+    }
+
+    /// Pairs are gathered again next time.
+    pub fn forget(&mut self) {
+        self.gathered.clear();
+    }
+
     /// Gathers what could meet while the vertices at `x` move about as far as `ways` and `slack` metres more.
     pub fn gather(&mut self, sheet: &Sheet, x: &[DVec3], ways: &[DVec3], slack: f64) {
         self.pairs.clear();
@@ -69,41 +126,61 @@ impl Itself {
             let points = Aabb::around(&now.chain(then).collect::<Vec<_>>());
             Aabb { lower: points.lower - near / 2.0, upper: points.upper + near / 2.0 }
         };
-        let neighbours = &sheet.adjacency.vertex_neighbours;
-        let beside = |a: u32, b: u32| a == b || neighbours.of(a).binary_search(&b).is_ok();
+        let sewn = self.sewn.as_deref();
+        let beside = |a: u32, b: u32| match sewn {
+            None => a == b || sheet.adjacency.vertex_neighbours.of(a).binary_search(&b).is_ok(),
+            Some(sides) => sides.beside(a, b),
+        };
         // Neighbours in the cloth move alike: what counts is how much farther the one goes than the other.
         let apart = |a: &[u32], b: &[u32]| {
             let ways = a.iter().flat_map(|&a| b.iter().map(move |&b| ways[a as usize] - ways[b as usize]));
             near + LOOK_AHEAD * ways.map(|w| w.length()).fold(0.0, f64::max)
         };
-        let boxes: Vec<Aabb> = sheet.triangles.iter().map(|vs| grown(vs)).collect();
-        let tree = Bvh::new(&boxes);
-        for v in 0..x.len() as u32 {
-            tree.near(&grown(&[v]), |t| {
+        let is_free = |vs: &[u32]| !self.free.is_empty() && vs.iter().any(|&v| self.free[v as usize]);
+        let of_triangles: Vec<Aabb> = sheet.triangles.par_iter().map(|vs| grown(vs)).collect();
+        refit(&mut self.trees[0], &of_triangles);
+        let tree = &self.trees[0];
+        let at_corners = (0..x.len() as u32).into_par_iter().with_min_len(LEAST_SHARE).map(|v| {
+            let (mut pairs, mut looked_at) = (Vec::new(), 0u64);
+            if is_free(&[v]) {
+                return (pairs, looked_at);
+            }
+            let own = grown(&[v]);
+            tree.near(&own, |t| {
+                if !of_triangles[t as usize].meets(&own) {
+                    return;
+                }
                 let vs @ [a, b, c] = sheet.triangles[t as usize];
-                self.looked_at += 1;
-                if beside(v, a) || beside(v, b) || beside(v, c) {
+                looked_at += 1;
+                if beside(v, a) || beside(v, b) || beside(v, c) || is_free(&vs) {
                     return;
                 }
                 let (p, [pa, pb, pc]) = (x[v as usize], vs.map(|i| x[i as usize]));
                 let reach = apart(&[v], &vs);
                 if closest_on_triangle(p, pa, pb, pc).0.distance(p) <= reach {
                     let side = (pb - pa).cross(pc - pa).dot(p - pa).signum();
-                    self.pairs.push(Pair { vertices: [v, a, b, c], edges: false, side, reach });
+                    pairs.push(Pair { vertices: [v, a, b, c], edges: false, side, reach });
                 }
             });
-        }
+            (pairs, looked_at)
+        });
+        let mut found: Vec<(Vec<Pair>, u64)> = at_corners.collect();
         let edges = &sheet.adjacency.edges;
-        let boxes: Vec<Aabb> = edges.iter().map(|e| grown(e)).collect();
-        let tree = Bvh::new(&boxes);
-        for (e, &[a, b]) in edges.iter().enumerate() {
+        let boxes: Vec<Aabb> = edges.par_iter().map(|e| grown(e)).collect();
+        refit(&mut self.trees[1], &boxes);
+        let tree = &self.trees[1];
+        let at_edges = edges.par_iter().enumerate().with_min_len(LEAST_SHARE).map(|(e, &[a, b])| {
+            let (mut pairs, mut looked_at) = (Vec::new(), 0u64);
+            if is_free(&[a, b]) {
+                return (pairs, looked_at);
+            }
             tree.near(&boxes[e], |f| {
-                if f as usize <= e {
+                if f as usize <= e || !boxes[f as usize].meets(&boxes[e]) {
                     return;
                 }
                 let [c, d] = edges[f as usize];
-                self.looked_at += 1;
-                if beside(a, c) || beside(a, d) || beside(b, c) || beside(b, d) {
+                looked_at += 1;
+                if beside(a, c) || beside(a, d) || beside(b, c) || beside(b, d) || is_free(&[c, d]) {
                     return;
                 }
                 let ends = [a, b, c, d].map(|i| x[i as usize]);
@@ -111,10 +188,15 @@ impl Itself {
                 if segments_apart(ends) <= reach {
                     let [pa, pb, pc, pd] = ends;
                     let side = (pb - pa).cross(pd - pc).dot(pc - pa).signum();
-                    self.pairs.push(Pair { vertices: [a, b, c, d], edges: true, side, reach });
+                    pairs.push(Pair { vertices: [a, b, c, d], edges: true, side, reach });
                 }
             });
-        }
+            (pairs, looked_at)
+        });
+        found.par_extend(at_edges);
+        self.looked_at += found.iter().map(|(_, looked_at)| looked_at).sum::<u64>();
+        self.pairs = found.into_iter().flat_map(|(pairs, _)| pairs).collect();
+        self.gatherings += 1;
         // The order of a tree is no order of meaning.
         self.pairs.sort_by_key(|p| (p.edges, p.vertices));
     }
@@ -189,6 +271,14 @@ impl Itself {
     /// Largest depth into the thickness, metres.
     pub fn deepest(&self) -> f64 {
         self.active.iter().map(|p| p.depth).fold(0.0, f64::max)
+    }
+}
+
+/// Cloth keeps its neighbours: a tree made once stays a good one.
+fn refit(tree: &mut Bvh, boxes: &[Aabb]) {
+    match tree.items.len() == boxes.len() {
+        true => tree.refit(boxes),
+        false => *tree = Bvh::new(boxes),
     }
 }
 

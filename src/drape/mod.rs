@@ -17,10 +17,12 @@ pub mod limits;
 pub mod membrane;
 pub mod newton;
 pub mod settle;
+pub mod sewing;
 pub mod sheet;
 pub mod small_steps;
 pub mod state;
 pub mod steps;
+pub mod worn;
 
 pub use contact::{Collider, Contacts};
 pub use drape::{Drape, DrapeError, DrapeSettings, Method};
@@ -28,3 +30,4 @@ pub use elastic::Elastic;
 pub use sheet::{Sheet, SheetError};
 pub use state::State;
 pub use steps::{Integrator, Scene, Steps};
+pub use worn::{Undrapable, Worn, WornSettings};

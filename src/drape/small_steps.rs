@@ -6,9 +6,11 @@
 
 use glam::DVec3;
 
+use crate::drape::bending::Bending;
 use crate::drape::contact::Collider;
 use crate::drape::itself::Itself;
 use crate::drape::limits::StrainLimits;
+use crate::drape::sheet::Sheet;
 use crate::drape::state::State;
 use crate::drape::steps::Scene;
 
@@ -16,19 +18,39 @@ use crate::drape::steps::Scene;
 /// then is off by twice the offset squared over R.
 const STALE: f64 = 2.0;
 /// Of the limit of stability that bending's steps take.
-const SAFE: f64 = 0.5;
+const SAFE: f64 = 0.9;
+/// Threads pull no faster than so, m/s: what cloth and body hold against that stays open.
+const THREAD_SPEED: f64 = 2.0;
+/// Ends so near, metres, stay together though the body pushes them apart.
+const NEARLY_SHUT: f64 = 0.002;
+/// Cloth that is deeper in a body than its own motion brought it comes out so fast, m/s, and without momentum.
+const EASE: f64 = 0.3;
 
 /// The solver with its memory.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct SmallSteps {
     /// In groups without common vertices, so that the work on one edge does not wait for that on the one before.
     edges: Vec<Edge>,
+    /// Of the edges, N/m.
+    stiffness: Vec<f64>,
+    /// Strain beyond which edges are rigid.
+    limit: f64,
     inverse_mass: Vec<f64>,
+    /// Area per mass of each vertex, m²/kg.
+    spread: Vec<f64>,
     /// Bending's greatest angular frequency, 1/s.
     bending_rate: f64,
     /// For which step the edges are made ready, s.
     ready_for: f64,
     planes: Vec<Plane>,
+    /// Per vertex more than the offset, metres.
+    lift: Vec<f64>,
+    /// Whether depth that motion did not bring leaves without momentum: for a body that does not push.
+    eases: bool,
+    /// A vertex that is pulled.
+    pub hand: Option<Hand>,
+    /// Threads.
+    pub ties: Vec<Tie>,
     /// Velocities are those of half a step ago, s.
     lag: f64,
     /// Nearest points looked up.
@@ -37,14 +59,70 @@ pub struct SmallSteps {
     pub skipped: u64,
 }
 
+/// A spring between two vertices.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spring {
+    /// The vertices.
+    pub ends: [u32; 2],
+    /// At rest, metres.
+    pub length: f64,
+    /// N/m.
+    pub stiffness: f64,
+}
+
+/// A thread between two vertices: it is no longer than so much.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tie {
+    /// The vertices.
+    pub ends: [u32; 2],
+    /// Metres.
+    pub length: f64,
+}
+
+/// What pulls one vertex towards a place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hand {
+    /// Which.
+    pub vertex: u32,
+    /// Where to, metres.
+    pub target: DVec3,
+    /// N/m.
+    pub stiffness: f64,
+    /// The most it pulls with, N.
+    pub most: f64,
+}
+
+/// What acts on cloth besides its edges.
+#[derive(Clone, Copy, Debug)]
+pub struct Surroundings<'a> {
+    /// Of the cloth.
+    pub bending: &'a Bending,
+    /// So many seconds of velocity resist bending as if they were shape: damping in proportion to stiffness.
+    pub bending_damping: f64,
+    /// m/s².
+    pub gravity: DVec3,
+    /// Rate at which motion dies away, 1/s.
+    pub damping: f64,
+    /// A body.
+    pub collider: Option<&'a Collider>,
+    /// Distance kept from it, metres.
+    pub offset: f64,
+    /// Coulomb's coefficient per vertex.
+    pub friction: &'a [f64],
+    /// The greatest pressure that friction knows, Pa: what strain control moves it should not hold.
+    pub grip: f64,
+}
+
+/// As little as a pass needs: it is bound by how fast edges come from memory.
 #[derive(Clone, Copy, Debug)]
 struct Edge {
     ends: [u32; 2],
     /// Rest length squared, m².
     squared: f64,
-    stiffness: f64,
     /// Shares of the correction that each end takes.
     shares: [f64; 2],
+    /// How many times as much they take beyond the limit.
+    stiffen: f64,
 }
 
 /// What a vertex knows of a body: beyond the plane n·x = height it is free.
@@ -69,30 +147,86 @@ pub fn substeps(h: f64, strain: f64, gravity: f64, extent: f64, edge: f64) -> us
 impl SmallSteps {
     /// `stiffness` of the membrane, N/m.
     pub fn new(scene: &Scene, stiffness: f64) -> Self {
-        let sheet = &scene.sheet;
-        let springs = StrainLimits::new(sheet, 0.0, stiffness);
-        let edges = springs.springs().map(|(ends, length, stiffness)| Edge {
-            ends,
-            squared: length * length,
-            stiffness,
-            shares: [0.0; 2],
-        });
-        let edges = in_groups(sheet.len(), &edges.collect::<Vec<_>>());
-        let inverse = |(m, pinned): (&f64, &bool)| if *pinned { 0.0 } else { 1.0 / m };
-        let bending = &scene.elastic.bending;
+        let limits = StrainLimits::new(&scene.sheet, 0.0, stiffness);
+        let springs = limits.springs().map(|(ends, length, stiffness)| Spring { ends, length, stiffness });
+        Self::of(springs, f64::MAX, &scene.sheet, &scene.elastic.bending, &scene.mass, &scene.pinned)
+    }
+
+    /// Of any springs, rigid beyond a strain of `limit`. `mass` in kg per vertex; `pinned` vertices stay.
+    pub fn of(
+        springs: impl Iterator<Item = Spring>,
+        limit: f64,
+        sheet: &Sheet,
+        bending: &Bending,
+        mass: &[f64],
+        pinned: &[bool],
+    ) -> Self {
+        let springs = in_groups(mass.len(), &springs.collect::<Vec<_>>());
+        let edge =
+            |s: &Spring| Edge { ends: s.ends, squared: s.length * s.length, shares: [0.0; 2], stiffen: 1.0 };
         // Gershgorin's bound.
-        let most = |i: usize| bending.row(i).map(|(_, q)| q.abs()).sum::<f64>() / scene.mass[i];
-        let bending_rate = (0..sheet.len()).map(most).fold(0.0, f64::max).sqrt();
+        let most = |i: usize| bending.row(i).map(|(_, q)| q.abs()).sum::<f64>() / mass[i];
+        let bending_rate = (0..mass.len()).map(most).fold(0.0, f64::max).sqrt();
+        let inverse = |(m, pinned): (&f64, &bool)| if *pinned { 0.0 } else { 1.0 / m };
         Self {
-            edges,
-            inverse_mass: scene.mass.iter().zip(&scene.pinned).map(inverse).collect(),
+            edges: springs.iter().map(edge).collect(),
+            stiffness: springs.iter().map(|s| s.stiffness).collect(),
+            limit,
+            inverse_mass: mass.iter().zip(pinned).map(inverse).collect(),
+            spread: sheet.vertex_area.iter().zip(mass).map(|(area, m)| area / m).collect(),
             bending_rate,
             ready_for: 0.0,
-            planes: vec![Plane::default(); sheet.len()],
+            planes: vec![Plane::default(); mass.len()],
+            lift: vec![0.0; mass.len()],
+            eases: false,
+            hand: None,
+            ties: Vec::new(),
             lag: 0.0,
             queries: 0,
             skipped: 0,
         }
+    }
+
+    /// For a body at rest: see [`EASE`].
+    pub fn easing(self) -> Self {
+        Self { eases: true, ..self }
+    }
+
+    /// From now on exactly these vertices stay.
+    pub fn pin(&mut self, mass: &[f64], pinned: &[bool]) {
+        let inverse = |(m, pinned): (&f64, &bool)| if *pinned { 0.0 } else { 1.0 / m };
+        self.inverse_mass = mass.iter().zip(pinned).map(inverse).collect();
+        self.ready_for = 0.0;
+    }
+
+    /// 1/kg per vertex; zero where it is pinned.
+    pub fn inverse_mass(&self) -> &[f64] {
+        &self.inverse_mass
+    }
+
+    /// Per vertex more than the offset from the body, metres.
+    pub fn lift(&self) -> &[f64] {
+        &self.lift
+    }
+
+    /// Changes it. Known planes go along.
+    pub fn set_lift(&mut self, lift: &[f64]) {
+        for ((plane, old), new) in self.planes.iter_mut().zip(&mut self.lift).zip(lift) {
+            plane.height += new - *old;
+            *old = *new;
+        }
+    }
+
+    /// The skin near a vertex as it was last looked up: its unit normal, and the height of `x` above the offset and the lift.
+    /// None where it is far.
+    pub fn height(&self, v: usize, x: DVec3) -> Option<(DVec3, f64)> {
+        let plane = &self.planes[v];
+        (plane.normal != DVec3::ZERO).then(|| (plane.normal, plane.normal.dot(x) - plane.height))
+    }
+
+    /// What is known of the body counts no more.
+    pub fn forget_planes(&mut self) {
+        self.planes.fill(Plane::default());
     }
 
     /// Goes `h` seconds on in `count` steps. `offset` and `friction` as in [`Contacts`](crate::drape::contact::Contacts).
@@ -105,22 +239,52 @@ impl SmallSteps {
         h: f64,
         count: usize,
     ) {
-        let small = h / count as f64;
-        self.ready(small);
-        let every = self.bending_every(small).min(count);
-        let drag = (-scene.damping * small).exp();
-        let vertices = state.positions.len();
         let ways: Vec<DVec3> = state.velocities.iter().map(|v| *v * h).collect();
         let slack = scene.gravity.length() * h * h;
         itself.gather(&scene.sheet, &state.positions, &ways, slack);
-        let mut bent = vec![DVec3::ZERO; vertices];
+        let friction = vec![friction; state.positions.len()];
+        let around = Surroundings {
+            bending: &scene.elastic.bending,
+            bending_damping: 0.0,
+            gravity: scene.gravity,
+            damping: scene.damping,
+            collider: scene.collider.as_ref(),
+            offset,
+            friction: &friction,
+            grip: f64::INFINITY,
+        };
+        self.advance(&around, state, itself, h, count);
+    }
+
+    /// The same where pairs of the cloth with itself were gathered before.
+    pub fn advance(
+        &mut self,
+        around: &Surroundings<'_>,
+        state: &mut State,
+        itself: &mut Itself,
+        h: f64,
+        count: usize,
+    ) {
+        let small = h / count as f64;
+        self.ready(small);
+        let every = self.bending_every(small, around.bending_damping).min(count);
+        let drag = (-around.damping * small).exp();
+        let mut bent = vec![DVec3::ZERO; state.positions.len()];
         let mut before = state.positions.clone();
         for s in 0..count {
             let x = &mut state.positions;
             let kick = if s == 0 { self.lag + small / 2.0 } else { small };
             if s % every == 0 && self.bending_rate > 0.0 {
                 bent.fill(DVec3::ZERO);
-                scene.elastic.bending.add_gradient(x, &mut bent);
+                if around.bending_damping > 0.0 {
+                    // Quadratic: the force at x + τ v is that of the shape and of its change.
+                    for (ahead, (x, v)) in before.iter_mut().zip(x.iter().zip(&state.velocities)) {
+                        *ahead = *x + *v * around.bending_damping;
+                    }
+                    around.bending.add_gradient(&before, &mut bent);
+                } else {
+                    around.bending.add_gradient(x, &mut bent);
+                }
                 let span = small * every.min(count - s) as f64;
                 for (v, (f, w)) in state.velocities.iter_mut().zip(bent.iter().zip(&self.inverse_mass)) {
                     *v -= *f * (span * w);
@@ -129,24 +293,52 @@ impl SmallSteps {
             before.copy_from_slice(x);
             for (i, v) in state.velocities.iter_mut().enumerate() {
                 if self.inverse_mass[i] > 0.0 {
-                    *v = *v * drag + scene.gravity * kick;
+                    *v = *v * drag + around.gravity * kick;
                     x[i] += *v * small;
                 }
             }
-            project(&self.edges, x);
+            project(&self.edges, self.limit, x);
             itself.project(x, &self.inverse_mass);
-            if let Some(collider) = &scene.collider {
+            self.pull(x, small);
+            self.draw(x, f64::INFINITY, small);
+            if let Some(collider) = around.collider {
                 let left = 1.0 - (s + 1) as f64 / count as f64;
-                self.collide(collider, &before, x, offset, friction, left, 1.0 / count as f64);
+                self.collide(around, collider, &mut before, x, (left, 1.0 / count as f64), small);
+                self.draw(x, NEARLY_SHUT, small);
             }
             for (v, (now, then)) in state.velocities.iter_mut().zip(x.iter().zip(&before)) {
                 *v = (*now - *then) / small;
             }
         }
         self.lag = small / 2.0;
-        if scene.collider.as_ref().is_some_and(|c| !c.motion.is_empty()) {
+        if around.collider.is_some_and(|c| !c.motion.is_empty()) {
             self.planes.fill(Plane::default());
         }
+    }
+
+    /// Shortens threads of ends no farther apart than `within` metres.
+    fn draw(&self, x: &mut [DVec3], within: f64, small: f64) {
+        for tie in &self.ties {
+            let [a, b] = tie.ends.map(|v| v as usize);
+            let along = x[b] - x[a];
+            let distance = along.length();
+            let (over, [wa, wb]) = (distance - tie.length, [a, b].map(|v| self.inverse_mass[v]));
+            if over > 0.0 && distance <= within && wa + wb > 0.0 {
+                let pull = along * (over.min(THREAD_SPEED * small) / distance / (wa + wb));
+                x[a] += pull * wa;
+                x[b] -= pull * wb;
+            }
+        }
+    }
+
+    /// The hand's pull in one small step.
+    fn pull(&self, x: &mut [DVec3], small: f64) {
+        let Some(hand) = self.hand else { return };
+        let v = hand.vertex as usize;
+        let softness = 1.0 / (hand.stiffness * small * small);
+        let share = self.inverse_mass[v] / (self.inverse_mass[v] + softness);
+        let most = hand.most * self.inverse_mass[v] * small * small;
+        x[v] += ((hand.target - x[v]) * share).clamp_length_max(most);
     }
 
     /// Velocities at the end of the step, m/s: what they are behind, gravity makes up for.
@@ -159,31 +351,32 @@ impl SmallSteps {
             return;
         }
         self.ready_for = h;
-        for edge in &mut self.edges {
+        for (edge, stiffness) in self.edges.iter_mut().zip(&self.stiffness) {
             let [a, b] = edge.ends.map(|v| self.inverse_mass[v as usize]);
-            let whole = a + b + 1.0 / (edge.stiffness * h * h);
+            let whole = a + b + 1.0 / (stiffness * h * h);
             edge.shares = [a / whole, b / whole];
+            edge.stiffen = if a + b > 0.0 { whole / (a + b) } else { 1.0 };
         }
     }
 
     /// Bending acts once in so many small steps.
-    fn bending_every(&self, small: f64) -> usize {
-        match self.bending_rate * small {
-            0.0 => usize::MAX,
-            rate => ((SAFE * 2.0 / rate) as usize).max(1),
+    fn bending_every(&self, small: f64, damping: f64) -> usize {
+        if self.bending_rate == 0.0 {
+            return usize::MAX;
         }
+        // The explicit step is stable while it is shorter than 2/ω, and than 2/(ω² τ) with damping.
+        let rate = self.bending_rate * (1.0 + self.bending_rate * damping);
+        ((SAFE * 2.0 / (rate * small)) as usize).max(1)
     }
 
-    #[allow(clippy::too_many_arguments, reason = "one use")]
     fn collide(
         &mut self,
+        around: &Surroundings<'_>,
         collider: &Collider,
-        before: &[DVec3],
+        before: &mut [DVec3],
         x: &mut [DVec3],
-        offset: f64,
-        friction: f64,
-        left: f64,
-        part: f64,
+        (left, part): (f64, f64),
+        small: f64,
     ) {
         for (i, x) in x.iter_mut().enumerate() {
             if self.inverse_mass[i] == 0.0 {
@@ -192,19 +385,27 @@ impl SmallSteps {
             let plane = &mut self.planes[i];
             if x.distance_squared(plane.place) > plane.good_for * plane.good_for {
                 self.queries += 1;
-                *plane = look(collider, *x, before[i], offset, left);
+                *plane = look(collider, *x, before[i], around.offset + self.lift[i], left);
             } else if plane.normal == DVec3::ZERO {
                 self.skipped += 1;
                 continue;
             }
-            let depth = plane.height - plane.normal.dot(*x);
+            let mut depth = plane.height - plane.normal.dot(*x);
+            if self.eases {
+                let old = plane.height - plane.normal.dot(before[i]);
+                if old > 0.0 {
+                    let eased = old.min(EASE * small);
+                    depth -= old - eased;
+                    before[i] += plane.normal * eased;
+                }
+            }
             if depth > 0.0 {
                 *x += plane.normal * depth;
                 let carried = collider.carried_near(before[i]) * part;
                 let slip = *x - before[i] - carried;
                 let slip = slip - plane.normal * slip.dot(plane.normal);
                 let length = slip.length();
-                let hold = friction * depth;
+                let hold = around.friction[i] * depth.min(around.grip * self.spread[i] * small * small);
                 *x -= if length <= hold { slip } else { slip * (hold / length) };
             }
         }
@@ -236,19 +437,21 @@ fn look(collider: &Collider, x: DVec3, before: DVec3, offset: f64, left: f64) ->
 
 /// Pulls every edge towards its length. With d² for l² the correction (d² - l²)/(d² + l²) is that of length to second order in
 /// the strain, without a root.
-fn project(edges: &[Edge], x: &mut [DVec3]) {
+fn project(edges: &[Edge], limit: f64, x: &mut [DVec3]) {
     for edge in edges {
         let [a, b] = edge.ends.map(|v| v as usize);
         let along = x[b] - x[a];
         let squared = along.length_squared();
-        let pull = along * ((squared - edge.squared) / (squared + edge.squared));
+        let strain = (squared - edge.squared) / (squared + edge.squared);
+        let over = strain - strain.clamp(-limit, limit);
+        let pull = along * (strain + over * (edge.stiffen - 1.0));
         x[a] += pull * edge.shares[0];
         x[b] -= pull * edge.shares[1];
     }
 }
 
 /// The edges group by group, no vertex twice in a group; within one as they were.
-fn in_groups(vertices: usize, edges: &[Edge]) -> Vec<Edge> {
+fn in_groups(vertices: usize, edges: &[Spring]) -> Vec<Spring> {
     let mut taken = vec![0u64; vertices];
     let mut groups: Vec<(u32, usize)> = Vec::with_capacity(edges.len());
     for (e, edge) in edges.iter().enumerate() {

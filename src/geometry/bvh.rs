@@ -100,14 +100,34 @@ impl Bvh {
         self.grow(boxes, right, first + middle);
     }
 
+    /// The same tree round boxes that have moved: as many as it was made of.
+    pub fn refit(&mut self, boxes: &[Aabb]) {
+        // Children come after their parents.
+        for at in (0..self.nodes.len()).rev() {
+            let node = &self.nodes[at];
+            let bounds = if node.is_leaf() {
+                let first = node.first as usize;
+                let items = &self.items[first..first + node.count as usize];
+                items.iter().fold(Aabb::EMPTY, |b, &i| b.joined(&boxes[i as usize]))
+            } else {
+                self.nodes[at + 1].bounds.joined(&self.nodes[node.right as usize].bounds)
+            };
+            self.nodes[at].bounds = bounds;
+        }
+    }
+
     /// Calls `found` for every item whose leaf's box meets `query`; the caller tests the item itself.
     pub fn near(&self, query: &Aabb, mut found: impl FnMut(u32)) {
         if self.nodes.is_empty() {
             return;
         }
-        let mut open = vec![0usize];
-        while let Some(at) = open.pop() {
-            let node = &self.nodes[at];
+        // Halving: no tree of 2³² items is deeper than this.
+        let mut open = [0u32; 40];
+        let mut count = 1;
+        while count > 0 {
+            count -= 1;
+            let at = open[count];
+            let node = &self.nodes[at as usize];
             if !node.bounds.meets(query) {
                 continue;
             }
@@ -115,8 +135,8 @@ impl Bvh {
                 let first = node.first as usize;
                 self.items[first..first + node.count as usize].iter().copied().for_each(&mut found);
             } else {
-                open.push(node.right as usize);
-                open.push(at + 1);
+                (open[count], open[count + 1]) = (node.right, at + 1);
+                count += 2;
             }
         }
     }
@@ -143,6 +163,23 @@ mod tests {
             points.chunks_exact(2).map(|p| Aabb::around(&[p[0], p[0] + (p[1] - 0.5) * 0.2])).collect();
         let tree = Bvh::new(&boxes);
         for query in boxes.iter().step_by(7) {
+            let mut found = Vec::new();
+            tree.near(query, |i| found.extend(boxes[i as usize].meets(query).then_some(i)));
+            found.sort_unstable();
+            let exact: Vec<u32> =
+                (0..boxes.len() as u32).filter(|&i| boxes[i as usize].meets(query)).collect();
+            assert_eq!(found, exact);
+        }
+    }
+
+    #[test]
+    fn a_tree_refitted_finds_what_a_new_one_finds() {
+        let (before, after) = (points(200), points(400));
+        let small = |p: &DVec3| Aabb::around(&[*p - 0.03, *p + 0.03]);
+        let boxes: Vec<Aabb> = after[200..].iter().map(small).collect();
+        let mut tree = Bvh::new(&before.iter().map(small).collect::<Vec<_>>());
+        tree.refit(&boxes);
+        for query in &boxes {
             let mut found = Vec::new();
             tree.near(query, |i| found.extend(boxes[i as usize].meets(query).then_some(i)));
             found.sort_unstable();

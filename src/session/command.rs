@@ -101,6 +101,16 @@ pub enum Command {
     /// Pause or go on relaxing. Not an undo step.
     SetRelaxing { on: bool },
 
+    /// Sew the garment together from where its pieces are placed in space, and drape it.
+    Sew,
+    /// Let physics move the dressed cloth until it rests (all of it one undo step), or stop that (no step).
+    SetDraping { on: bool },
+    /// The same for so many ticks, 1..=600.
+    StepDraping { ticks: u32 },
+    /// What a piece is made of, or (no piece) all that have no fabric of their own. No fabric: that of all the others, or the
+    /// usual one.
+    SetFabric { piece: Option<PieceId>, fabric: Option<String> },
+
     /// Take the last step back, document and cloth.
     Undo,
     /// Do it again.

@@ -1,13 +1,15 @@
 //! The document: all that is the user's own. Cheap to copy.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
 use crate::body::mannequin::{Measurements, mannequin};
 use crate::body::{NamedPose, Pose};
+use crate::cloth::Fabric;
 use crate::contact::Bone;
-use crate::geometry::ids::{MarkId, PinId};
+use crate::geometry::ids::{MarkId, PieceId, PinId};
 use crate::geometry::mesh::TriMesh;
 use crate::pattern::Pattern;
 use crate::relax::RelaxSettings;
@@ -34,8 +36,36 @@ pub struct Document {
     /// Bones drawn in the body, which cloth cannot be pulled across. None: the body's own.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bones: Option<Arc<Vec<Bone>>>,
+    /// What the cloth is made of.
+    #[serde(default, skip_serializing_if = "Fabrics::is_usual")]
+    pub fabrics: Fabrics,
     /// Mesh size and relaxation.
     pub settings: Settings,
+}
+
+/// Names of fabrics.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Fabrics {
+    /// Of every piece that has none of its own; None: [`Fabric::USUAL`].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub all: Option<String>,
+    /// Of single pieces.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub pieces: BTreeMap<PieceId, String>,
+}
+
+impl Fabrics {
+    /// Nothing was chosen.
+    pub fn is_usual(&self) -> bool {
+        *self == Self::default()
+    }
+
+    /// The name of what `piece` (None: all others) is made of.
+    pub fn name(&self, piece: Option<PieceId>) -> &str {
+        let own = piece.and_then(|piece| self.pieces.get(&piece));
+        own.or(self.all.as_ref()).map_or(Fabric::USUAL, |name| name)
+    }
 }
 
 /// A pushpin: the cloth under it stays where it is on the body.
@@ -73,6 +103,7 @@ impl Default for Document {
             pins: Arc::default(),
             last_pin: 0,
             bones: None,
+            fabrics: Fabrics::default(),
             settings: Settings::default(),
         }
     }
@@ -189,11 +220,21 @@ pub struct Settings {
     pub edge_length: f64,
     /// How the cloth relaxes.
     pub relax: RelaxSettings,
+    /// Strain beyond which draped cloth is rigid, 0.001..=0.2.
+    #[serde(skip_serializing_if = "is_usual_strain")]
+    pub strain: f64,
+}
+
+/// One percent, as in paper B.
+const USUAL_STRAIN: f64 = 0.01;
+
+fn is_usual_strain(strain: &f64) -> bool {
+    *strain == USUAL_STRAIN
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { edge_length: 0.02, relax: RelaxSettings::default() }
+        Self { edge_length: 0.02, relax: RelaxSettings::default(), strain: USUAL_STRAIN }
     }
 }
 

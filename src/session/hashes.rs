@@ -20,7 +20,7 @@ pub struct DocumentHasher {
 impl DocumentHasher {
     /// Hash of `document` and of the numbers of steps that can be undone and redone.
     pub fn hash(&mut self, document: &Document, done: usize, undone: usize) -> u64 {
-        let Document { pattern, body, marks, last_mark, pins, last_pin, bones, settings } = document;
+        let Document { pattern, body, marks, last_mark, pins, last_pin, bones, fabrics, settings } = document;
         let mut hash = Fnv::default();
         hash.number(shared(&mut self.pattern, pattern));
         hash.number(shared(&mut self.marks, marks));
@@ -32,6 +32,9 @@ impl DocumentHasher {
         }
         if let Some(bones) = bones {
             hash.number(json_hash(&**bones));
+        }
+        if !fabrics.is_usual() {
+            hash.number(json_hash(fabrics));
         }
         hash.number(json_hash(settings));
         hash.number(done as u64);

@@ -19,6 +19,6 @@ pub mod samples;
 pub mod session;
 
 pub use command::{Command, Rejection};
-pub use document::{BodyChoice, Document, Pin, Settings};
+pub use document::{BodyChoice, Document, Fabrics, Pin, Settings};
 pub use project::{Dressed, Project};
 pub use session::{GestureId, Notice, Session};

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use crate::body::Surface;
+use crate::cloth::Fabric;
 use crate::contact::Bone;
 use crate::pattern::Problem;
 use crate::pattern::edit::Carried;
@@ -15,7 +16,7 @@ use crate::session::history::{History, Step, StepKind};
 use crate::session::project::{Dressed, Project};
 use crate::session::recording::Recorder;
 use crate::session::recovery::Journal;
-use crate::sim::{Event, GarmentSource, Request, RequestKind, Runner, Snapshot};
+use crate::sim::{DrapeSource, Event, GarmentSource, Request, RequestKind, Runner, Snapshot};
 use crate::wrap::Marks;
 
 /// One pointer drag, one press of a button: one undo step.
@@ -346,6 +347,17 @@ impl Session {
             ClothChange::Release => Some(RequestKind::Release),
             ClothChange::SetRelax(relax) => Some(RequestKind::SetRelax(relax)),
             ClothChange::SetRelaxing(on) => Some(RequestKind::SetRelaxing(on)),
+            ClothChange::Sew => {
+                let (source, body) = self.garment_source()?;
+                Some(RequestKind::Sew { source, body, fabrics: drape_source(&edit.document)? })
+            }
+            ClothChange::SetDraping(on) => {
+                Some(RequestKind::SetDraping { on, source: drape_source(&edit.document)? })
+            }
+            ClothChange::StepDraping(ticks) => {
+                Some(RequestKind::StepDraping { ticks, source: drape_source(&edit.document)? })
+            }
+            ClothChange::SetFabrics => Some(RequestKind::SetFabrics(drape_source(&edit.document)?)),
         };
         let kind = edit.kind();
         let history = if edit.is_step() {
@@ -478,6 +490,20 @@ impl Session {
         };
         debug_assert!(forgotten.is_ok(), "forgetting is never refused");
     }
+}
+
+/// What the document's cloth is made of.
+fn drape_source(document: &Document) -> Result<Arc<DrapeSource>, Rejection> {
+    let fabric = |name: &str| {
+        Fabric::preset(name).cloned().ok_or_else(|| Rejection(format!("there is no fabric {name:?}")))
+    };
+    let fabrics = &document.fabrics;
+    let of_pieces = fabrics.pieces.iter().map(|(&piece, name)| Ok((piece, fabric(name)?)));
+    Ok(Arc::new(DrapeSource {
+        fabric: fabric(fabrics.name(None))?,
+        of_pieces: of_pieces.collect::<Result<_, Rejection>>()?,
+        strain: document.settings.strain,
+    }))
 }
 
 impl Plan {

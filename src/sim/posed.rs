@@ -37,6 +37,9 @@ impl World {
             let places = Arc::clone(&self.places);
             return Ok(Some(Self { relaxing: self.relaxing, places, ..Self::wrapped(source, body) }));
         }
+        if let Some(world) = self.placed_again(Arc::clone(&source), Arc::clone(&body)) {
+            return world.map(Some);
+        }
         let (garment, from) = (Arc::clone(garment), Arc::clone(from));
         let known = self.lying_as_posed().map(|posed| posed.reposer.clone());
         self.release();
@@ -56,6 +59,7 @@ impl World {
             dressing: None,
             splits,
             posed,
+            draping: None,
             ..self.clone()
         };
         if settle {

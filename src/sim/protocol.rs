@@ -14,6 +14,7 @@ use crate::pattern::edit::Carried;
 use crate::pattern::{Pattern, Problem};
 use crate::relax::RelaxSettings;
 use crate::repose::Outcome;
+use crate::sim::draped::DrapeSource;
 use crate::sim::fault::Fault;
 use crate::sim::stats::Stats;
 use crate::wrap::{Marks, Phase};
@@ -79,6 +80,14 @@ pub enum RequestKind {
     Release,
     /// Pause (false) or go on (true).
     SetRelaxing(bool),
+    /// Let physics move the cloth, once all of it lies, until it rests; or stop that. Nothing happens where there is none.
+    SetDraping { on: bool, source: Arc<DrapeSource> },
+    /// The same for so many ticks.
+    StepDraping { ticks: u32, source: Arc<DrapeSource> },
+    /// Build the garment, sew it together from where its pieces were placed, and drape it.
+    Sew { source: Arc<GarmentSource>, body: Arc<Surface>, fabrics: Arc<DrapeSource> },
+    /// What is draped is made of something else.
+    SetFabrics(Arc<DrapeSource>),
     /// Take the cloth off.
     Clear,
     /// Return, bit for bit, to the state before the request numbered `before_seq`.
@@ -125,6 +134,32 @@ pub struct Snapshot {
     pub reposed: Option<Outcome>,
     /// What is wrong with the cloth as it lies; None until somebody has looked.
     pub verdict: Option<Arc<Vec<Fault>>>,
+    /// How draping stands; None where nothing is draped.
+    pub drape: Option<DrapeState>,
+}
+
+impl DrapeState {
+    /// 0..=1: how many of the powers of ten between free fall and rest (1 %) what moves the cloth has fallen by.
+    pub fn progress(&self) -> f64 {
+        (-self.residual.max(f64::MIN_POSITIVE).log10() / 2.0).clamp(0.0, 1.0)
+    }
+}
+
+/// How draping stands.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct DrapeState {
+    /// Until the cloth rests; false: paused.
+    pub on: bool,
+    /// For all cloth to lie.
+    pub waits: bool,
+    /// It has not come to rest or to its last tick.
+    pub runs: bool,
+    /// The forces that move the cloth as a share of its weight: Σ m |Δv| / Δt over Σ m g.
+    pub residual: f64,
+    /// The fastest vertex, m/s.
+    pub speed: f64,
+    /// Small steps in each tick.
+    pub substeps: usize,
 }
 
 impl Snapshot {

@@ -153,6 +153,7 @@ impl Simulation {
             problems: Arc::clone(&world.problems),
             reposed: world.outcome(),
             verdict: self.verdict.clone(),
+            drape: world.drape_state(),
         }
     }
 
@@ -212,6 +213,12 @@ impl Simulation {
             }
             RequestKind::SetRelax(relax) => self.world.set_relax(relax),
             RequestKind::SetRelaxing(on) => self.world.relaxing = on,
+            RequestKind::SetDraping { on, source } => self.world.set_draping(on, source),
+            RequestKind::StepDraping { ticks, source } => self.world.drape_for(Some(ticks), source),
+            RequestKind::Sew { source, body, fabrics } => {
+                self.set_world(World::placed(source, body, fabrics)?);
+            }
+            RequestKind::SetFabrics(source) => self.world.set_fabrics(source),
             RequestKind::SetPins(places) => self.world.set_pins(&places),
             RequestKind::Grab { at, mode, bones } => self.world.grab(at, mode, &bones),
             RequestKind::DragTo(pointer) => self.world.drag_to(pointer),
@@ -228,6 +235,7 @@ impl Simulation {
             RequestKind::Wrap { source, .. }
             | RequestKind::Rewrap { source, .. }
             | RequestKind::Adopt { source, .. }
+            | RequestKind::Sew { source, .. }
                 if source.relax.skips != self.skips =>
             {
                 Arc::make_mut(source).relax.skips = self.skips;
@@ -269,6 +277,7 @@ impl Simulation {
 
     fn fail(&mut self, words: String) {
         self.world.relaxing = false;
+        self.world.stop_draping();
         self.stats.failures += 1;
         self.events.push(Event::Failed { tick: self.tick, seq: self.seq, words });
     }

@@ -13,9 +13,11 @@ use crate::pattern::edit::Carried;
 use crate::pattern::triangulate::Meshes;
 use crate::pattern::{Pattern, Problem, ProblemKind};
 use crate::relax::RelaxSettings;
+use crate::sim::draped::Draping;
 use crate::sim::hash::cloth_hash;
 use crate::sim::posed::Posed;
 use crate::sim::protocol::{ClothPlace, GarmentSource};
+use crate::sim::sewn::Placed;
 use crate::wrap::{Dressed, Dressing, Marks, Phase, coarser};
 
 /// The state of the simulation.
@@ -49,6 +51,10 @@ pub struct World {
     pub meshes: Arc<Meshes>,
     /// The last change of pose.
     pub posed: Option<Arc<Posed>>,
+    /// Physics: has the cloth, or waits for it to lie.
+    pub draping: Option<Arc<Draping>>,
+    /// Pieces being sewn from where they were placed: `garment` is then the one with open seams.
+    pub sewing: Option<Arc<Placed>>,
 }
 
 impl Default for World {
@@ -68,6 +74,8 @@ impl Default for World {
             problems: Arc::default(),
             meshes: Arc::default(),
             posed: None,
+            draping: None,
+            sewing: None,
         }
     }
 }
@@ -145,6 +153,9 @@ impl World {
         self.release();
         let source =
             Arc::new(GarmentSource { pattern, marks, ..GarmentSource::clone(self.source.as_ref()?) });
+        if let Some(Ok(world)) = self.placed_again(Arc::clone(&source), Arc::clone(&body)) {
+            return Some(Self { places, ..world });
+        }
         if self.dressing.as_ref().is_some_and(|dressing| dressing.relaxer().is_none()) {
             return Some(Self { relaxing: self.relaxing, places, ..Self::wrapped(source, body) });
         }
@@ -229,6 +240,9 @@ impl World {
         if let Some(dragging) = &mut self.dragging {
             return Arc::make_mut(dragging).set_settings(relax);
         }
+        if self.is_draped() || self.sewing.is_some() {
+            return;
+        }
         self.resume();
         if let Some(dressing) = &mut self.dressing {
             Arc::make_mut(dressing).set_settings(relax);
@@ -240,10 +254,13 @@ impl World {
         let before = self.pinned_vertices();
         self.places = Arc::new(places.to_vec());
         self.pinned = Arc::new(places.iter().map(|&place| Some(self.under(place)?.0)).collect());
-        if self.dragging.is_some() {
-            return; // What is in the hand settles later.
+        if self.dragging.is_some() || self.sewing.is_some() {
+            return; // What is in the hand settles later, and what is being sewn is pinned when it lies.
         }
         let pinned = self.pinned_vertices();
+        if self.pin_draped(&pinned) {
+            return;
+        }
         if before.iter().any(|v| !pinned.contains(v)) {
             self.settle();
         } else if let Some(dressing) = &mut self.dressing {
@@ -258,6 +275,9 @@ impl World {
     /// Takes the cloth at `at` in the hand. Cloth that is not there, or still grows, stays as it is.
     pub fn grab(&mut self, at: ClothPlace, mode: DragMode, bones: &[Bone]) {
         self.release();
+        if self.sewing.is_some() || self.grab_draped(at) {
+            return;
+        }
         let Some((hand, place)) = self.under(at) else { return };
         self.resume();
         let Some(mut relaxer) = self.dressing.as_ref().and_then(|d| d.relaxer()).cloned() else { return };
@@ -271,6 +291,7 @@ impl World {
 
     /// The hand is there now.
     pub fn drag_to(&mut self, pointer: Ray) {
+        self.drag_draped(pointer);
         if let Some(dragging) = &mut self.dragging {
             Arc::make_mut(dragging).drag_to(pointer);
         }
@@ -278,6 +299,7 @@ impl World {
 
     /// Lets go of what is in the hand; it settles.
     pub fn release(&mut self) {
+        self.release_draped();
         if let Some(dragging) = self.dragging.take() {
             let relaxer = Arc::unwrap_or_clone(dragging).into_relaxer();
             self.dressing = Some(Arc::new(Dressing::lying(relaxer, &self.cloth)));
@@ -296,7 +318,7 @@ impl World {
         }
     }
 
-    fn under(&self, place: ClothPlace) -> Option<(u32, DVec3)> {
+    pub(super) fn under(&self, place: ClothPlace) -> Option<(u32, DVec3)> {
         vertex_under(self.garment.as_deref()?, &self.cloth, place)
     }
 
@@ -339,7 +361,11 @@ impl World {
 
     /// One tick of work.
     pub fn step(&mut self) {
-        if let Some(dragging) = &mut self.dragging {
+        if self.sewing.is_some() {
+            self.sew();
+        } else if self.drapes_now() {
+            self.drape();
+        } else if let Some(dragging) = &mut self.dragging {
             Arc::make_mut(dragging).step(Arc::make_mut(&mut self.cloth), self.relaxing);
         } else if let Some(dressing) = &mut self.dressing {
             let lay = dressing.relaxer().is_some();
@@ -356,11 +382,23 @@ impl World {
         if let Some(dragging) = &self.dragging {
             return Some(if dragging.is_still() { Phase::AtRest } else { Phase::Settling });
         }
+        if self.sewing.is_some() {
+            return Some(Phase::Growing);
+        }
+        if self.drapes_now() {
+            return Some(Phase::Settling);
+        }
         Some(self.dressing.as_ref().map_or(Phase::AtRest, |d| d.phase()))
     }
 
     /// 0..=1 over growing and settling.
     pub fn progress(&self) -> f64 {
+        if let Some(progress) = self.sewing.as_ref().map(|placed| placed.progress()) {
+            return progress;
+        }
+        if let Some(drape) = self.drape_state().filter(|drape| drape.runs && !drape.waits) {
+            return drape.progress();
+        }
         self.dressing.as_ref().map_or(1.0, |d| d.progress())
     }
 
@@ -368,6 +406,12 @@ impl World {
     pub fn is_at_rest(&self) -> bool {
         if let Some(dragging) = &self.dragging {
             return dragging.is_still();
+        }
+        if self.sewing.is_some() {
+            return !self.relaxing;
+        }
+        if self.drapes_now() {
+            return false;
         }
         !self.relaxing || self.dressing.as_ref().is_none_or(|d| d.phase() == Phase::AtRest)
     }

@@ -113,6 +113,15 @@ impl App {
                 let on = !self.session.snapshot().relaxing;
                 self.apply(Command::SetRelaxing { on });
             }
+            Action::Sew => {
+                self.show_cloth = true;
+                self.apply(Command::Sew);
+            }
+            Action::ToggleDrape => {
+                let on = self.session.snapshot().drape.is_none_or(|drape| !drape.on || !drape.runs);
+                self.apply(Command::SetDraping { on });
+            }
+            Action::StepDrape => self.apply(Command::StepDraping { ticks: 1 }),
             Action::Look(_)
             | Action::FrameAll
             | Action::FrameSelection

@@ -115,7 +115,10 @@ pub enum Action {
     Rewrap,
     CancelWrap,
     Unwrap,
+    Sew,
     ToggleRelaxing,
+    ToggleDrape,
+    StepDrape,
     Look(View),
     FrameAll,
     FrameSelection,
@@ -281,8 +284,20 @@ impl Action {
             }
             Self::Unwrap => entry("Take the cloth off", "The body is bare again; the marks stay", &[]),
             Self::ToggleRelaxing => {
-                entry("Relax", "Let the cloth even itself out, or hold it still", &[key(Key::Space)])
+                let keys = &[KeyboardShortcut::new(Modifiers::SHIFT, Key::Space)];
+                entry("Relax", "Let the cloth even itself out, or hold it still", keys)
             }
+            Self::Sew => entry(
+                "Sew from placement",
+                "Put the pieces where their file places them, draw the seams shut, and drape",
+                &[],
+            ),
+            Self::ToggleDrape => entry(
+                "Drape",
+                "Let weight and fabric move the dressed cloth until it rests, or pause",
+                &[key(Key::Space)],
+            ),
+            Self::StepDrape => entry("Drape a step", "Drape for a sixtieth of a second", &[]),
             Self::Look(view) => look_entry(view),
             Self::StartPage
             | Self::OpenRecent(_)

@@ -323,7 +323,7 @@ impl App {
     /// Carries out `command` as a step of its own; a refusal is told.
     pub(super) fn apply(&mut self, command: Command) {
         self.end_drag();
-        let is_wrap = matches!(command, Command::Wrap | Command::Rewrap { .. });
+        let is_wrap = matches!(command, Command::Wrap | Command::Rewrap { .. } | Command::Sew);
         let is_body = matches!(command, Command::SetBody { .. });
         match self.session.apply_alone(command) {
             Ok(()) if is_wrap => self.wrap_seq = Some(self.session.last_seq()),

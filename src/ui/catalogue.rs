@@ -87,6 +87,9 @@ pub const ALL: &[Action] = &[
     Action::CancelWrap,
     Action::Unwrap,
     Action::ToggleRelaxing,
+    Action::Sew,
+    Action::ToggleDrape,
+    Action::StepDrape,
     Action::Choose(Tool::Drag(DragMode::Surface)),
     Action::Choose(Tool::Drag(DragMode::Vertex)),
     Action::Choose(Tool::Drag(DragMode::Rigid)),
@@ -211,7 +214,10 @@ impl Action {
             | Self::Rewrap
             | Self::CancelWrap
             | Self::Unwrap
-            | Self::ToggleRelaxing => "Garment",
+            | Self::ToggleRelaxing
+            | Self::Sew
+            | Self::ToggleDrape
+            | Self::StepDrape => "Garment",
             Self::Choose(_) => "Pattern › Tools",
             Self::Twin
             | Self::MakeSymmetric

@@ -48,7 +48,7 @@ impl App {
                     || (table.is_busy() && of_table)
                     || (scene.has_focus(ctx) && scene.takes_key(keys.logical_key))
                     || (table.takes_numbers() && at_table && is_figure)
-                    || (action == Action::ToggleRelaxing && at_table)
+                    || (keys.logical_key == Key::Space && at_table)
                     || (action == Action::CancelWrap && (drawing || self.drag.is_some())));
             // What cannot be chosen now leaves its keys to the panes.
             if !taken && now.why_not(action).is_none() && ctx.input_mut(|i| i.consume_shortcut(&keys)) {

@@ -32,8 +32,9 @@ pub fn menu_bar_ui(ui: &mut egui::Ui, now: &Situation, asks: &mut Asks) {
         ui.menu_button("Pattern", |ui| pattern_ui(ui, now, asks));
         ui.menu_button("Garment", |ui| {
             items(ui, now, asks, &[Action::Wrap, Action::Rewrap, Action::CancelWrap, Action::Unwrap]);
+            items(ui, now, asks, &[Action::Sew]);
             ui.separator();
-            items(ui, now, asks, &[Action::ToggleRelaxing]);
+            items(ui, now, asks, &[Action::ToggleRelaxing, Action::ToggleDrape, Action::StepDrape]);
             ui.separator();
             let drags = [DragMode::Surface, DragMode::Vertex, DragMode::Rigid];
             items(ui, now, asks, &drags.map(|mode| Action::Choose(Tool::Drag(mode))));

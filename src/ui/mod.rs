@@ -16,6 +16,7 @@ mod drop_overlay;
 mod edits;
 mod entries;
 mod exchange;
+mod fabric_panel;
 mod fields;
 mod files;
 mod ghosts;

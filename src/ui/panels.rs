@@ -163,6 +163,8 @@ impl App {
             caught_up: snapshot.seq >= self.shown().last_seq(),
             dragging: snapshot.dragged.is_some(),
             relaxing: snapshot.relaxing,
+            placed: document.pattern.pieces.values().any(|piece| piece.placement.is_some()),
+            drape: snapshot.drape,
             phase: snapshot.phase,
             progress: snapshot.progress,
             tick: snapshot.tick,

@@ -10,6 +10,7 @@ use crate::session::{Command, Document, Settings};
 use crate::sim::Fault;
 use crate::ui::actions::Tool;
 use crate::ui::asks::{Ask, Asks};
+use crate::ui::fabric_panel;
 use crate::ui::marks_panel::MarksPanel;
 use crate::ui::pattern_panel::{PatternPanel, seams_ui};
 use crate::ui::pins_panel::pins_ui;
@@ -64,6 +65,7 @@ pub fn side_panel_ui(
             section(ui, &title, true, |ui| pins_ui(ui, told, asks));
         }
         section(ui, "Problems", true, |ui| problems_ui(ui, told, asks));
+        section(ui, "Fabric", true, |ui| fabric_panel::fabric_ui(ui, told, asks));
         section(ui, "Pose", false, |ui| pose.ui(ui, told, asks));
         section(ui, "Cloth", true, |ui| settings_ui(ui, &document.settings, palette, asks));
         if !on_pattern {
@@ -157,6 +159,15 @@ fn settings_ui(ui: &mut egui::Ui, settings: &Settings, palette: &Palette, asks: 
         0.0..=1.5,
         1.0,
         "",
+    );
+    slider(
+        ui,
+        "Stretches at most",
+        "Strain beyond which draped cloth is rigid",
+        &mut new.strain,
+        0.1..=20.0,
+        100.0,
+        " %",
     );
     ui.add_space(2.0);
     if ui.add_enabled(*settings != Settings::default(), egui::Button::new("As at first").small()).clicked() {

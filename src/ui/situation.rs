@@ -8,6 +8,7 @@ use crate::drag::DragMode;
 use crate::fit::MapKind;
 use crate::geometry::ids::MarkId;
 use crate::io::pdf::Paper;
+use crate::sim::DrapeState;
 use crate::ui::actions::{Action, Tool};
 use crate::ui::drawer::Drawer;
 use crate::ui::edits::Picked;
@@ -87,6 +88,10 @@ pub struct Situation {
     pub dragging: bool,
     /// False while held still.
     pub relaxing: bool,
+    /// A piece is placed in space.
+    pub placed: bool,
+    /// How draping stands.
+    pub drape: Option<DrapeState>,
     /// How far the dressing has come.
     pub phase: Option<Phase>,
     /// 0..=1.
@@ -166,10 +171,20 @@ impl Situation {
                 unless(self.has_body, "There is no body")
             }
             Action::ClearPins => unless(self.pins > 0, "There are no pins"),
+            Action::Sew if self.wrapping => Some("The cloth is growing"),
+            Action::Sew if !self.has_body => Some("There is no body"),
+            Action::Sew => {
+                unless(self.placed, "No piece is placed in space: only some files tell where theirs go")
+            }
+            Action::StepDrape if self.drape.is_some_and(|drape| drape.on && drape.runs) => {
+                Some("It drapes: pause it first")
+            }
             Action::Unwrap
             | Action::ToggleCloth
             | Action::Export
             | Action::ToggleRelaxing
+            | Action::ToggleDrape
+            | Action::StepDrape
             | Action::Map(Some(_)) => unless(self.dressed, "There is no cloth on the body"),
             Action::DeleteMark | Action::RaiseMark | Action::LowerMark => match &self.selected {
                 None => Some("No mark is selected: click one"),
@@ -218,6 +233,7 @@ impl Situation {
             Action::ToggleSnapping => self.snapping,
             Action::Unit(unit) => self.unit == unit,
             Action::ToggleRelaxing => self.relaxing,
+            Action::ToggleDrape => self.drape.is_some_and(|drape| drape.on && drape.runs),
             Action::ToggleCloth => self.show_cloth,
             Action::TogglePanel => self.show_panel,
             Action::Show(panes) => self.layout.panes == panes,

@@ -2,6 +2,7 @@
 
 use egui::{Align, Layout, ProgressBar, RichText};
 
+use crate::sim::DrapeState;
 use crate::ui::pace::{Pace, left_words};
 use crate::ui::situation::Situation;
 use crate::ui::theme::Palette;
@@ -61,10 +62,20 @@ fn phase_words(now: &Situation) -> String {
         _ if now.wrapping && now.phase != Some(Phase::Growing) => "Cutting the cloth".to_owned(),
         None => "No cloth on the body".to_owned(),
         Some(_) if now.dragging => "In your hand".to_owned(),
+        Some(_) if now.drape.is_some_and(|drape| !drape.waits) => drape_words(now.drape),
         Some(_) if !now.relaxing => "Held still".to_owned(),
         Some(Phase::Growing) => format!("Growing {percent} %"),
         Some(Phase::Settling) => format!("Settling {percent} %"),
         Some(Phase::AtRest) => "At rest".to_owned(),
+    }
+}
+
+/// What moves the cloth still, as a share of its weight.
+fn drape_words(drape: Option<DrapeState>) -> String {
+    match drape {
+        Some(drape) if drape.runs => format!("Draping: {:.1} % out of balance", drape.residual * 100.0),
+        Some(drape) if !drape.on => "Draping paused".to_owned(),
+        _ => "Draped, at rest".to_owned(),
     }
 }
 

@@ -34,6 +34,7 @@ pub fn toolbar_ui(ui: &mut egui::Ui, now: &Situation, palette: &Palette, asks: &
         }
         gap(ui);
         plain(ui, now, asks, Action::ToggleRelaxing, None);
+        plain(ui, now, asks, Action::ToggleDrape, None);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             plain(ui, now, asks, Action::TogglePanel, None);
             plain(ui, now, asks, Action::ToggleCloth, None);

@@ -12,7 +12,7 @@ fn rows(out: &str) -> Vec<Value> {
 fn speed_has_a_row_for_every_scene() {
     let place = Place::new();
     let rows = rows(&place.ends(0, "bench speed --runs 2 --triangles 500 --threads 2 --json").out);
-    assert_eq!(rows.len(), 9, "{rows:#?}");
+    assert_eq!(rows.len(), 10, "{rows:#?}");
     for row in &rows {
         assert!(row["scene"].as_str().is_some_and(|s| !s.is_empty()));
         assert!(row["triangles"].as_u64().is_some_and(|t| t > 300), "{row}");
@@ -26,6 +26,7 @@ fn speed_has_a_row_for_every_scene() {
     }
     // What does not hang on the machine: cloth at rest takes no step, dragged cloth stays out of the body.
     assert_eq!(rows[5]["checks"][0]["value"], 0.0);
+    assert!(rows[6]["scene"].as_str().is_some_and(|s| s.contains("drape")));
     assert_eq!(rows[3]["checks"][1]["value"], 0.0, "{}", rows[3]);
     assert!(rows[0]["counters"]["solves"].as_u64().is_some_and(|s| s > 0));
     assert!(place.names("").is_empty());

@@ -50,7 +50,11 @@ fn command() -> impl Strategy<Value = Command> {
         1 => (2..5u32).prop_map(|id| Command::DeleteSeam { seam: SeamId(id) }),
         1 => (2..5u32).prop_map(|id| Command::ReverseSeam { seam: SeamId(id) }),
         1 => (0.0..1.1f64).prop_map(|flatten| Command::SetSettings {
-            settings: Settings { edge_length: 0.06, relax: RelaxSettings { flatten, ..RelaxSettings::default() } },
+            settings: Settings {
+                edge_length: 0.06,
+                relax: RelaxSettings { flatten, ..RelaxSettings::default() },
+                ..Settings::default()
+            },
         }),
         3 => Just(Command::Wrap),
         1 => Just(Command::CancelWrap),

@@ -1,6 +1,7 @@
 //! `toile bench`: how fast and how accurate the program is on this machine.
 
 mod accuracy;
+mod drape;
 mod plot;
 mod poses;
 mod row;

@@ -7,6 +7,7 @@ use std::time::Instant;
 use glam::DVec3;
 
 use crate::body::{Surface, mannequin};
+use crate::cli::bench::drape::drape;
 use crate::cli::bench::poses::poses;
 use crate::cli::bench::row::{Check, Figure, Row, Unit};
 use crate::cli::bench::scenes::{Scene, Wrapped, edge_length};
@@ -57,6 +58,8 @@ pub fn speed(
     }
     tell(&closest(&shirt.surface, &worn.state, runs)?)?;
     tell(&idle(&shirt)?)?;
+    let dress = Scene::sample(Sample::Dress, &body, triangles)?.skipping(skips);
+    tell(&drape(&dress, runs)?)?;
     poses(&shirt, &worn, runs)?.iter().try_for_each(tell)
 }
 

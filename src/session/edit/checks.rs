@@ -217,7 +217,8 @@ pub fn cloth_place(pattern: &Pattern, place: ClothPlace) -> Result<(), Rejection
 }
 
 pub fn settings(settings: &Settings) -> Result<(), Rejection> {
-    let Settings { edge_length, relax } = settings;
+    let Settings { edge_length, relax, strain } = settings;
+    within("the strain that cloth may have", *strain, 0.001, 0.2)?;
     within("the mesh size", *edge_length, 0.002, 0.2)?;
     within("stretch", relax.stretch, 0.0, 1.0)?;
     within("flattening", relax.flatten, 0.0, 1.0)?;

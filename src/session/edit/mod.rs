@@ -3,6 +3,7 @@
 mod body;
 mod checks;
 mod drag;
+mod drape;
 mod marks;
 mod pattern;
 mod settings;
@@ -48,6 +49,14 @@ pub enum ClothChange {
     Release,
     /// Pause or go on.
     SetRelaxing(bool),
+    /// Sew it from where its pieces are placed.
+    Sew,
+    /// Drape it, or stop that.
+    SetDraping(bool),
+    /// Drape it for so many ticks.
+    StepDraping(u32),
+    /// It is made of what the document says now.
+    SetFabrics,
 }
 
 /// What a command does.
@@ -74,17 +83,27 @@ impl Edit {
 
     /// Whether it is a step of undo: pausing is not, and a drag's step begins with taking hold.
     pub fn is_step(&self) -> bool {
-        !matches!(self.cloth, ClothChange::SetRelaxing(_) | ClothChange::DragTo(_) | ClothChange::Release)
+        let is_none = matches!(
+            self.cloth,
+            ClothChange::SetRelaxing(_)
+                | ClothChange::SetDraping(false)
+                | ClothChange::DragTo(_)
+                | ClothChange::Release
+        );
+        !is_none
     }
 
     /// What history remembers of it.
     pub fn kind(&self) -> StepKind {
         match self.cloth {
-            ClothChange::Wrap | ClothChange::Rewrap(_) => StepKind::Wrap,
+            ClothChange::Wrap | ClothChange::Rewrap(_) | ClothChange::Sew => StepKind::Wrap,
             ClothChange::Clear
             | ClothChange::Resew(_)
             | ClothChange::Repose { .. }
             | ClothChange::SetPins
+            | ClothChange::SetDraping(true)
+            | ClothChange::StepDraping(_)
+            | ClothChange::SetFabrics
             | ClothChange::Grab { .. } => StepKind::Cloth,
             _ => StepKind::Edit,
         }
@@ -150,6 +169,10 @@ fn untied(document: &Document, command: &Command, bodies: &mut BodyCache) -> Res
         Command::DragTo { ray } => drag::drag_to(new, *ray),
         Command::Release => Ok(Edit::new("let go", new).with(ClothChange::Release)),
         Command::SetRelaxing { on } => wrap::set_relaxing(new, *on),
+        Command::Sew => drape::sew(new),
+        Command::SetDraping { on } => drape::set_draping(new, *on),
+        Command::StepDraping { ticks } => drape::step(new, *ticks),
+        Command::SetFabric { piece, fabric } => drape::set_fabric(new, *piece, fabric.as_deref()),
         Command::CancelWrap
         | Command::Undo
         | Command::Redo
@@ -164,7 +187,7 @@ fn edit_by(document: Document, edit: PatternEdit) -> Result<Edit, Rejection> {
 
 /// What no command would have let into `document`; for documents from files.
 pub fn document_problem(document: &Document) -> Option<String> {
-    let Document { pattern, body, marks, last_mark, pins, last_pin, bones, settings } = document;
+    let Document { pattern, body, marks, last_mark, pins, last_pin, bones, fabrics, settings } = document;
     if marks.ids().max().is_some_and(|id| id.0 > *last_mark) {
         return Some("the counter of marks is behind their ids".to_owned());
     }
@@ -178,6 +201,7 @@ pub fn document_problem(document: &Document) -> Option<String> {
         .or_else(|| checks::marks(marks, pattern).err().map(|why| why.0))
         .or_else(|| checks::body(body).err().map(|why| why.0))
         .or_else(|| bones.as_ref().and_then(|bones| checks::bones(bones).err()).map(|why| why.0))
+        .or_else(|| drape::unknown_fabric(fabrics).map(|why| why.0))
         .or_else(|| checks::settings(settings).err().map(|why| why.0))
 }
 

@@ -7,7 +7,12 @@ use crate::session::edit::{ClothChange, Edit, checks};
 pub fn set(mut document: Document, settings: &Settings) -> Result<Edit, Rejection> {
     checks::settings(settings)?;
     let relax_changed = document.settings.relax != settings.relax;
+    let strain_changed = document.settings.strain != settings.strain;
     document.settings = *settings;
     let edit = Edit::new("change settings", document);
-    Ok(if relax_changed { edit.with(ClothChange::SetRelax(settings.relax)) } else { edit })
+    Ok(match (relax_changed, strain_changed) {
+        (true, _) => edit.with(ClothChange::SetRelax(settings.relax)),
+        (false, true) => edit.with(ClothChange::SetFabrics),
+        (false, false) => edit,
+    })
 }

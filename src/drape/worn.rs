@@ -1,0 +1,571 @@
+//! A garment on a body at rest: draped by small steps until it rests too.
+//!
+//! Chosen over implicit steps by measurement (`toile bench speed`): on a body most of a garment is held by contact, what hangs is
+//! short, and the law of small steps then asks for few of them.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use glam::{DVec2, DVec3};
+
+use crate::body::Surface;
+use crate::cloth::{ClothState, Counters, Fabric, Garment, Skips};
+use crate::contact::faces::Lying;
+use crate::contact::{Faces, layers};
+use crate::drape::bending::Bending;
+use crate::drape::contact::Collider;
+use crate::drape::itself::{Itself, Sides};
+use crate::drape::sheet::Sheet;
+use crate::drape::small_steps::{Hand, SmallSteps, Spring, Surroundings, Tie, substeps};
+use crate::drape::state::State;
+use crate::geometry::ids::PieceId;
+
+/// Seconds a tick goes on.
+pub const TICK: f64 = 1.0 / 60.0;
+/// m/s².
+const GRAVITY: DVec3 = DVec3::new(0.0, -9.81, 0.0);
+/// Nearest that cloth comes to skin, metres: its thickness, and what skin gives way.
+const SKIN: f64 = 0.001;
+/// Faces and edges keep this share of the distance.
+const FACE_CLEARANCE: f64 = 0.5;
+/// Vertices are raised at most by so many distances to keep faces between them off the body.
+const MOST_LIFT: f64 = 8.0;
+/// Faces are looked after once in so many ticks.
+const LIFT_TICKS: u64 = 6;
+/// Layers that run through each other are looked after once in so many ticks.
+const PART_TICKS: u64 = 4;
+/// And parted by so much each time, metres.
+const PARTING: f64 = 0.0005;
+/// Air takes this share of motion, 1/s.
+const AIR: f64 = 1.5;
+/// So many seconds of velocity resist bending as if they were shape.
+const BENDING_DAMPING: f64 = 0.001;
+/// The greatest pressure that friction knows, Pa: some times what cloth weighs. What presses more is strain control, of which one
+/// pass in each small step feels far softer than the cloth is; held by friction of the full pressure, tight cloth would keep
+/// whatever strain it came with (ALGORITHMS.md 0.5).
+const GRIP: f64 = 10.0;
+/// Pairs of the cloth with itself last until a vertex is so far off its way, metres.
+const MARGIN: f64 = 0.002;
+/// At rest when no vertex goes farther in a tick, metres,
+const REST_WAY: f64 = 5e-5;
+/// and the forces that move the cloth are no larger a share of its weight,
+const REST_RESIDUAL: f64 = 0.01;
+/// for so many ticks.
+const QUIET_TICKS: u32 = 12;
+/// Time goes slower when so many times as much moves, for half as many ticks.
+const ROUGHLY: f64 = 4.0;
+/// Cloth that is as good as still is calmed: what little moves then creeps or trembles. Seconds until that begins,
+const CALM_AFTER: f64 = 0.5;
+/// by how much air thickens in each second from then on, 1/s²,
+const CALMING: f64 = 10.0;
+/// and how far, 1/s: slow swings are then about critically damped.
+const CALMEST: f64 = 8.0;
+/// One pass in a small step leaves edges as soft as mass over its square, which is far softer than woven cloth: what hangs from
+/// a tight place stretches that. So when all is still, time goes slower by these factors, one after the other, each of them a
+/// quarter of the strain that is left.
+const PACES: [f64; 3] = [1.0, 0.5, 0.25];
+/// Cloth is taken to rest after so many ticks in any case.
+const MOST_TICKS: u64 = 1200;
+/// A hand pulls with so much, N/m, and at most with so many times the garment's weight.
+const HAND: (f64, f64) = (60.0, 1.0);
+
+/// What one is asked for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WornSettings {
+    /// Strain beyond which cloth is rigid, 1e-3..=0.2.
+    pub strain: f64,
+    /// Whether it meets itself.
+    pub self_collision: bool,
+    /// What may be left out.
+    pub skips: Skips,
+}
+
+/// Why a garment cannot be draped, in words.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{0}")]
+pub struct Undrapable(pub String);
+
+/// How far it is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Progress {
+    /// Ticks since it began or was disturbed.
+    pub ticks: u64,
+    /// What moves it: Σ m |Δv| / Δt over its weight.
+    pub residual: f64,
+    /// The fastest vertex, m/s.
+    pub speed: f64,
+    /// Whether it lies still.
+    pub at_rest: bool,
+}
+
+/// What does not change while it is draped.
+#[derive(Debug)]
+struct Fixed {
+    garment: Arc<Garment>,
+    sheet: Sheet,
+    /// The garment's number of each vertex here: those that are laid, in an order in which neighbours are near.
+    vertices: Vec<u32>,
+    /// The other way round; `u32::MAX` where nothing is laid.
+    own: Vec<u32>,
+    bending: Bending,
+    mass: Vec<f64>,
+    friction: Vec<f64>,
+    collider: Collider,
+    offset: f64,
+    damping: f64,
+}
+
+/// A garment that is being draped.
+#[derive(Clone, Debug)]
+pub struct Worn {
+    fixed: Arc<Fixed>,
+    settings: WornSettings,
+    small: SmallSteps,
+    itself: Itself,
+    state: State,
+    faces: Faces,
+    /// How far each vertex came in the last tick, metres.
+    ways: Vec<DVec3>,
+    pinned: Vec<bool>,
+    substeps: usize,
+    /// Without weight and friction.
+    floats: bool,
+    progress: Progress,
+    /// Which of [`PACES`] time goes at.
+    pace: usize,
+    quiet: u32,
+    /// Places where layers ran through each other when last looked at.
+    crossings: usize,
+    /// Faces that came too near the body when last looked at.
+    lacking: usize,
+    /// Work done.
+    pub counters: Counters,
+}
+
+impl Worn {
+    /// The laid part of `garment` where it lies, of `fabrics` by piece (else `default`). Vertices `pins` stay.
+    pub fn new(
+        garment: Arc<Garment>,
+        cloth: &ClothState,
+        surface: Arc<Surface>,
+        (fabrics, default): (&BTreeMap<PieceId, Fabric>, &Fabric),
+        pins: &[u32],
+        settings: WornSettings,
+    ) -> Result<Self, Undrapable> {
+        Self::made(garment, cloth, surface, (fabrics, default), pins, settings, None)
+    }
+
+    /// The same of a garment that has a vertex for each corner of `sewn`, which it is to become.
+    pub fn unsewn(
+        garment: Arc<Garment>,
+        cloth: &ClothState,
+        surface: Arc<Surface>,
+        fabrics: (&BTreeMap<PieceId, Fabric>, &Fabric),
+        settings: WornSettings,
+        sewn: Arc<Garment>,
+    ) -> Result<Self, Undrapable> {
+        let mut worn = Self::made(garment, cloth, surface, fabrics, &[], settings, Some(&*sewn))?;
+        let will_be = worn.fixed.vertices.iter().map(|&c| sewn.corners[c as usize].vertex).collect();
+        worn.itself.sewn = Some(Arc::new(Sides { will_be, garment: sewn }));
+        Ok(worn)
+    }
+
+    fn made(
+        garment: Arc<Garment>,
+        cloth: &ClothState,
+        surface: Arc<Surface>,
+        (fabrics, default): (&BTreeMap<PieceId, Fabric>, &Fabric),
+        pins: &[u32],
+        settings: WornSettings,
+        sewn: Option<&Garment>,
+    ) -> Result<Self, Undrapable> {
+        let laid: Vec<usize> = (0..garment.triangles.len())
+            .filter(|&t| garment.triangles[t].iter().all(|&v| cloth.mapped[v as usize]))
+            .collect();
+        let (vertices, own) = ordered(&garment, &laid);
+        let fabric = |t: usize| fabrics.get(&garment.triangle_pieces[t]).unwrap_or(default);
+        let triangles = laid.iter().map(|&t| garment.triangles[t].map(|v| own[v as usize])).collect();
+        let rest: Vec<[DVec2; 3]> = laid.iter().map(|&t| garment.rest[t]).collect();
+        let sheet = Sheet::new(vertices.len(), triangles, rest)
+            .map_err(|why| Undrapable(format!("the cloth cannot be draped: {why}")))?;
+        let of_triangle: Vec<&Fabric> = laid.iter().map(|&t| fabric(t)).collect();
+        let first = |v: u32| of_triangle[sheet.adjacency.vertex_triangles.of(v)[0] as usize];
+        let mut mass = vec![0.0; sheet.len()];
+        for ((vs, area), fabric) in sheet.triangles.iter().zip(&sheet.areas).zip(&of_triangle) {
+            vs.iter().for_each(|&v| mass[v as usize] += fabric.density_kg_per_m2 * area / 3.0);
+        }
+        let most = |of: fn(&Fabric) -> f64| of_triangle.iter().map(|f| of(f)).fold(0.0, f64::max);
+        let (thickness, damping) = (most(|f| f.thickness_m), most(|f| f.damping_per_s));
+        let bending = Bending::of(&sheet, |v| &first(v).bending);
+        let friction = (0..sheet.len() as u32).map(|v| first(v).friction).collect();
+        let positions: Vec<DVec3> = vertices.iter().map(|&v| cloth.positions[v as usize]).collect();
+        let (low, high) =
+            positions.iter().fold((f64::MAX, f64::MIN), |(low, high), p| (p.y.min(low), p.y.max(high)));
+        let edge = sheet.mean_edge();
+        let count = substeps(TICK, settings.strain, GRAVITY.length(), (high - low).max(edge), edge);
+        let mut pinned = vec![false; sheet.len()];
+        pins.iter().filter_map(|&v| own_number(&own, v)).for_each(|v| pinned[v] = true);
+        let sides = shortest_sides(sewn.unwrap_or(&*garment));
+        let name = |v: u32| match (sewn, vertices[v as usize]) {
+            (Some(sewn), c) => sewn.corners[c as usize].vertex,
+            (None, v) => v,
+        };
+        let length = |[a, b]: [u32; 2]| {
+            let (a, b) = (name(a), name(b));
+            sides.get(&[a.min(b), a.max(b)]).copied()
+        };
+        let springs = springs(&sheet, &of_triangle, length);
+        let small = SmallSteps::of(springs, settings.strain, &sheet, &bending, &mass, &pinned);
+        let itself = Itself::new(&sheet, if settings.self_collision { thickness } else { 0.0 }, Vec::new());
+        let offset = thickness + SKIN;
+        let collider = Collider::still(surface);
+        let damping = damping + AIR;
+        let mut worn = Self {
+            settings,
+            small: small.easing(),
+            itself,
+            ways: vec![DVec3::ZERO; sheet.len()],
+            state: State::at_rest(positions),
+            faces: Faces::default(),
+            pinned,
+            substeps: count,
+            floats: false,
+            progress: Progress { ticks: 0, residual: 1.0, speed: 0.0, at_rest: false },
+            pace: 0,
+            quiet: 0,
+            crossings: 0,
+            lacking: 0,
+            counters: Counters::default(),
+            fixed: Arc::new(Fixed {
+                garment,
+                sheet,
+                vertices,
+                own,
+                bending,
+                mass,
+                friction,
+                collider,
+                offset,
+                damping,
+            }),
+        };
+        worn.part(cloth);
+        Ok(worn)
+    }
+
+    /// How far it is.
+    pub fn progress(&self) -> Progress {
+        self.progress
+    }
+
+    /// Distance kept from the skin, metres.
+    pub fn offset(&self) -> f64 {
+        self.fixed.offset
+    }
+
+    /// Small steps in each tick.
+    pub fn substeps(&self) -> usize {
+        self.substeps
+    }
+
+    /// Places where the cloth passes through itself, and faces that come too near the body, when last looked at.
+    pub fn faults(&self) -> (usize, usize) {
+        (self.crossings, self.lacking)
+    }
+
+    /// How often pairs of the cloth with itself were gathered.
+    pub fn gatherings(&self) -> u64 {
+        self.itself.gatherings
+    }
+
+    /// From now on exactly these vertices stay; cloth at rest wakes.
+    pub fn pin(&mut self, pins: &[u32]) {
+        self.pinned.fill(false);
+        let fixed = Arc::clone(&self.fixed);
+        pins.iter().filter_map(|&v| own_number(&fixed.own, v)).for_each(|v| self.pinned[v] = true);
+        self.small.pin(&fixed.mass, &self.pinned);
+        for (v, velocity) in self.state.velocities.iter_mut().enumerate() {
+            if self.pinned[v] {
+                *velocity = DVec3::ZERO;
+            }
+        }
+        self.wake();
+    }
+
+    /// Takes `vertex` in the hand, where it is. Nothing happens where no cloth is laid.
+    pub fn take(&mut self, vertex: u32) {
+        let Some(v) = own_number(&self.fixed.own, vertex) else { return };
+        let weight: f64 = self.fixed.mass.iter().sum::<f64>() * GRAVITY.length();
+        let (stiffness, times) = HAND;
+        let target = self.state.positions[v];
+        self.small.hand = Some(Hand { vertex: v as u32, target, stiffness, most: times * weight });
+        self.wake();
+    }
+
+    /// Where what is in the hand is, metres.
+    pub fn in_hand(&self) -> Option<DVec3> {
+        self.small.hand.map(|hand| self.state.positions[hand.vertex as usize])
+    }
+
+    /// The hand goes there.
+    pub fn pull_to(&mut self, target: DVec3) {
+        if let Some(hand) = &mut self.small.hand {
+            hand.target = target;
+            self.wake();
+        }
+    }
+
+    /// Lets go.
+    pub fn let_go(&mut self) {
+        self.small.hand = None;
+        self.wake();
+    }
+
+    /// From now on nothing has weight, and nothing rubs; `substeps` in each tick.
+    pub fn float(&mut self, substeps: usize) {
+        (self.floats, self.substeps) = (true, substeps);
+    }
+
+    /// From now on exactly these threads hold; their ends are vertices of the garment.
+    pub fn tie(&mut self, ties: &[Tie]) {
+        let own = |tie: &Tie| {
+            let [a, b] = tie.ends.map(|v| own_number(&self.fixed.own, v));
+            Some(Tie { ends: [a? as u32, b? as u32], length: tie.length })
+        };
+        self.small.ties = ties.iter().filter_map(own).collect();
+    }
+
+    /// Mass, kg, and velocity, m/s, of the garment's vertex `v`; None where it is not laid.
+    pub fn motion(&self, v: u32) -> Option<(f64, DVec3)> {
+        let v = own_number(&self.fixed.own, v)?;
+        Some((self.fixed.mass[v], self.state.velocities[v]))
+    }
+
+    /// The garment's vertices move so, m/s.
+    pub fn set_velocities(&mut self, velocities: &[DVec3]) {
+        for (v, velocity) in self.state.velocities.iter_mut().enumerate() {
+            if !self.pinned[v] {
+                *velocity = velocities[self.fixed.vertices[v] as usize];
+            }
+        }
+    }
+
+    /// What was at rest moves again, as far as it must.
+    pub fn wake(&mut self) {
+        (self.quiet, self.pace) = (0, 0);
+        self.progress = Progress { ticks: 0, at_rest: false, ..self.progress };
+    }
+
+    /// A tick: [`TICK`] seconds, or fewer of cloth that is nearly still. `cloth` is the garment's, and gets where it is then.
+    pub fn tick(&mut self, cloth: &mut ClothState) -> Result<(), Undrapable> {
+        let fixed = Arc::clone(&self.fixed);
+        let before = self.state.clone();
+        self.itself.gather_ahead(&fixed.sheet, &before.positions, &self.ways, MARGIN);
+        let span = TICK * PACES[self.pace];
+        let seconds = self.progress.ticks as f64 * TICK;
+        let around = Surroundings {
+            bending: &fixed.bending,
+            bending_damping: BENDING_DAMPING,
+            gravity: if self.floats { DVec3::ZERO } else { GRAVITY },
+            damping: fixed.damping
+                + (CALMING * (seconds - CALM_AFTER)).clamp(0.0, CALMEST) / PACES[self.pace],
+            collider: Some(&fixed.collider),
+            offset: fixed.offset,
+            friction: &fixed.friction,
+            grip: if self.floats { 0.0 } else { GRIP },
+        };
+        let asked = self.small.queries;
+        self.small.advance(&around, &mut self.state, &mut self.itself, span, self.substeps);
+        self.counters.contact_queries += self.small.queries - asked;
+        self.counters.contact_checks += (self.substeps * before.positions.len()) as u64;
+        if let Some(lost) = self.state.lost() {
+            self.state = before;
+            return Err(Undrapable(format!("vertex {} of the cloth went nowhere", fixed.vertices[lost])));
+        }
+        self.measure(&before, span);
+        self.write(cloth);
+        let enough = if self.is_slowest() { QUIET_TICKS } else { QUIET_TICKS / 2 };
+        let (ticks, quiet) = (self.progress.ticks, self.quiet >= enough);
+        if quiet || ticks.is_multiple_of(LIFT_TICKS) {
+            self.lift(cloth);
+        }
+        if quiet || (self.crossings > 0 && ticks.is_multiple_of(PART_TICKS)) {
+            self.part(cloth);
+        }
+        if quiet && !self.is_slowest() && self.small.hand.is_none() {
+            self.slow_down();
+        } else {
+            let sound = self.lacking == 0 && self.crossings == 0;
+            self.progress.at_rest = self.small.hand.is_none() && ((quiet && sound) || ticks >= MOST_TICKS);
+        }
+        Ok(())
+    }
+
+    fn is_slowest(&self) -> bool {
+        self.floats || self.pace + 1 == PACES.len()
+    }
+
+    fn slow_down(&mut self) {
+        let slower = PACES[self.pace + 1] / PACES[self.pace];
+        self.ways.iter_mut().for_each(|way| *way *= slower);
+        (self.pace, self.quiet) = (self.pace + 1, 0);
+    }
+
+    /// What moved in the last `span` seconds.
+    fn measure(&mut self, before: &State, span: f64) {
+        let mass = &self.fixed.mass;
+        let (mut unbalanced, mut fastest) = (0.0, 0.0f64);
+        for (v, way) in self.ways.iter_mut().enumerate() {
+            let now = self.state.positions[v] - before.positions[v];
+            unbalanced += mass[v] * (now - *way).length() / (span * span);
+            fastest = fastest.max(now.length() / span);
+            *way = now;
+        }
+        let weight = mass.iter().sum::<f64>() * GRAVITY.length();
+        let (residual, speed) = (unbalanced / weight, fastest);
+        self.progress = Progress { ticks: self.progress.ticks + 1, residual, speed, at_rest: false };
+        let roughly = if self.is_slowest() { 1.0 } else { ROUGHLY };
+        let still = speed * span < REST_WAY * roughly && residual < REST_RESIDUAL * roughly;
+        self.quiet = if still { self.quiet + 1 } else { 0 };
+    }
+
+    fn write(&self, cloth: &mut ClothState) {
+        for (&v, x) in self.fixed.vertices.iter().zip(&self.state.positions) {
+            cloth.positions[v as usize] = *x;
+        }
+    }
+
+    /// Raises vertices of faces that come too near the body between them.
+    fn lift(&mut self, cloth: &ClothState) {
+        let fixed = Arc::clone(&self.fixed);
+        let (garment, surface) = (&*fixed.garment, &*fixed.collider.surface);
+        let mut near = vec![false; garment.vertex_count];
+        for (v, x) in self.state.positions.iter().enumerate() {
+            near[fixed.vertices[v] as usize] = self.small.height(v, *x).is_some();
+        }
+        let lying = Lying { garment, surface, state: cloth, skips: self.settings.skips, split: None };
+        let clearance = FACE_CLEARANCE * fixed.offset;
+        let lacking = self.faces.lacking(lying, &near, clearance, &mut self.counters);
+        let mut raised = self.small.lift().to_vec();
+        self.lacking = 0;
+        for (vs, &lack) in garment.triangles.iter().zip(&lacking) {
+            for v in vs.iter().filter_map(|&v| own_number(&fixed.own, v)) {
+                let most = MOST_LIFT * fixed.offset;
+                if lack > 0.0 && raised[v] < most {
+                    let wanted = (self.small.lift()[v] + lack).min(most);
+                    self.lacking += usize::from(wanted > raised[v]);
+                    raised[v] = raised[v].max(wanted);
+                }
+            }
+        }
+        self.small.set_lift(&raised);
+    }
+
+    /// Sends layers that run through each other apart.
+    fn part(&mut self, cloth: &ClothState) {
+        if !self.settings.self_collision {
+            return;
+        }
+        let fixed = Arc::clone(&self.fixed);
+        let (ways, places) = layers::parting(&fixed.garment, cloth);
+        self.counters.self_tests += 1;
+        let was = self.crossings;
+        self.crossings = places;
+        if places == 0 && was == 0 {
+            return;
+        }
+        let mut free = vec![false; fixed.vertices.len()];
+        for (v, x) in self.state.positions.iter_mut().enumerate() {
+            let way = ways[fixed.vertices[v] as usize];
+            if way != DVec3::ZERO {
+                free[v] = true;
+                fixed
+                    .sheet
+                    .adjacency
+                    .vertex_neighbours
+                    .of(v as u32)
+                    .iter()
+                    .for_each(|&w| free[w as usize] = true);
+                if !self.pinned[v] {
+                    *x += way * PARTING;
+                }
+            }
+        }
+        self.itself.free = if places > 0 { free } else { Vec::new() };
+        self.itself.forget();
+    }
+}
+
+fn own_number(own: &[u32], v: u32) -> Option<usize> {
+    own.get(v as usize).filter(|&&o| o != u32::MAX).map(|&o| o as usize)
+}
+
+/// The vertices of the triangles `laid` in an order in which neighbours are near, and the other way round.
+fn ordered(garment: &Garment, laid: &[usize]) -> (Vec<u32>, Vec<u32>) {
+    let mut is_laid = vec![false; garment.vertex_count];
+    laid.iter().flat_map(|&t| garment.triangles[t]).for_each(|v| is_laid[v as usize] = true);
+    let mut own = vec![u32::MAX; garment.vertex_count];
+    let mut vertices: Vec<u32> = Vec::new();
+    for start in 0..garment.vertex_count as u32 {
+        if !is_laid[start as usize] || own[start as usize] != u32::MAX {
+            continue;
+        }
+        own[start as usize] = vertices.len() as u32;
+        vertices.push(start);
+        let mut at = vertices.len() - 1;
+        while at < vertices.len() {
+            for &w in garment.adjacency.vertex_neighbours.of(vertices[at]) {
+                if is_laid[w as usize] && own[w as usize] == u32::MAX {
+                    own[w as usize] = vertices.len() as u32;
+                    vertices.push(w);
+                }
+            }
+            at += 1;
+        }
+    }
+    (vertices, own)
+}
+
+/// Rest length of each edge, by its vertices in order, metres. Where a seam gathers cloth that of the shorter side: the longer one
+/// has no vertex more there, so that it cannot fold between two.
+fn shortest_sides(garment: &Garment) -> BTreeMap<[u32; 2], f64> {
+    let mut sides = BTreeMap::new();
+    for (vs, rest) in garment.triangles.iter().zip(&garment.rest) {
+        for k in 0..3 {
+            let l = (k + 1) % 3;
+            let ends = [vs[k].min(vs[l]), vs[k].max(vs[l])];
+            let length = rest[k].distance(rest[l]);
+            sides.entry(ends).and_modify(|known: &mut f64| *known = known.min(length)).or_insert(length);
+        }
+    }
+    sides
+}
+
+/// A spring along each edge: Young's modulus in its direction times its share of area (Van Gelder 1998).
+fn springs<'a>(
+    sheet: &'a Sheet,
+    fabrics: &'a [&Fabric],
+    length: impl Fn([u32; 2]) -> Option<f64> + 'a,
+) -> impl Iterator<Item = Spring> + 'a {
+    let adjacency = &sheet.adjacency;
+    adjacency.edges.iter().enumerate().map(move |(e, &ends)| {
+        let length = length(ends).unwrap_or_else(|| sheet.rest_length(e));
+        let beside = adjacency.edge_triangles.of(e as u32);
+        let stiffness = |&t: &u32| {
+            let t = t as usize;
+            let k = adjacency.triangle_edges[t].iter().position(|&x| x == e as u32).unwrap_or(0);
+            let along = (sheet.rest[t][(k + 1) % 3] - sheet.rest[t][k]).normalize_or_zero();
+            modulus(fabrics[t], along) * sheet.areas[t]
+        };
+        let stiffness = beside.iter().map(stiffness).sum::<f64>() / (length * length);
+        Spring { ends, length, stiffness }
+    })
+}
+
+/// Young's modulus times thickness along `along` (x weft, y warp; unit) of an orthotropic sheet, N/m.
+fn modulus(fabric: &Fabric, along: DVec2) -> f64 {
+    let stretch = &fabric.stretch;
+    let (w, f) = (along.y * along.y, along.x * along.x);
+    let mixed = 1.0 / stretch.shear - 2.0 * stretch.poisson / (stretch.warp * stretch.weft).sqrt();
+    1.0 / (w * w / stretch.warp + f * f / stretch.weft + w * f * mixed)
+}

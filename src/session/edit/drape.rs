@@ -1,0 +1,72 @@
+//! Draping, and what the cloth is made of.
+
+use crate::cloth::Fabric;
+use crate::geometry::ids::PieceId;
+use crate::session::command::Rejection;
+use crate::session::document::{Document, Fabrics};
+use crate::session::edit::{ClothChange, Edit, checks};
+
+/// Ten seconds.
+const MOST_TICKS: u32 = 600;
+
+pub fn sew(mut document: Document) -> Result<Edit, Rejection> {
+    let mut pieces = document.pattern.pieces.values();
+    if !pieces.any(|piece| piece.placement.is_some()) {
+        return Err(Rejection::new(
+            "no piece is placed in space: paint marks and wrap, or import a pattern that tells where its pieces go",
+        ));
+    }
+    // They held cloth that lay elsewhere.
+    document.drop_pins();
+    Ok(Edit::new("sew", document).with(ClothChange::Sew))
+}
+
+pub fn set_draping(document: Document, on: bool) -> Result<Edit, Rejection> {
+    let label = if on { "drape" } else { "stop draping" };
+    Ok(Edit::new(label, document).with(ClothChange::SetDraping(on)))
+}
+
+pub fn step(document: Document, ticks: u32) -> Result<Edit, Rejection> {
+    if !(1..=MOST_TICKS).contains(&ticks) {
+        return Err(Rejection(format!("cloth is draped for 1 to {MOST_TICKS} ticks at a time, not {ticks}")));
+    }
+    Ok(Edit::new("drape a step", document).with(ClothChange::StepDraping(ticks)))
+}
+
+pub fn set_fabric(
+    mut document: Document,
+    piece: Option<PieceId>,
+    fabric: Option<&str>,
+) -> Result<Edit, Rejection> {
+    if let Some(piece) = piece {
+        checks::find_piece(&document.pattern, piece)?;
+    }
+    known(fabric)?;
+    let name = fabric.map(str::to_owned);
+    match (piece, name) {
+        (None, name) => document.fabrics.all = name,
+        (Some(piece), Some(name)) => {
+            document.fabrics.pieces.insert(piece, name);
+        }
+        (Some(piece), None) => {
+            document.fabrics.pieces.remove(&piece);
+        }
+    }
+    Ok(Edit::new("change the fabric", document).with(ClothChange::SetFabrics))
+}
+
+fn known(name: Option<&str>) -> Result<(), Rejection> {
+    match name.filter(|name| Fabric::preset(name).is_none()) {
+        None => Ok(()),
+        Some(name) => {
+            let names: Vec<&str> = Fabric::presets().iter().map(|f| &*f.name).collect();
+            Err(Rejection(format!("there is no fabric {name:?}; there are {}", names.join(", "))))
+        }
+    }
+}
+
+/// What no command would have let in.
+pub fn unknown_fabric(fabrics: &Fabrics) -> Option<Rejection> {
+    let Fabrics { all, pieces } = fabrics;
+    all.iter().chain(pieces.values()).find_map(|name| known(Some(name)).err())
+}

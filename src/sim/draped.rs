@@ -1,0 +1,229 @@
+//! Draping: physics moves the garment that lies on the body, until it rests.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use crate::cloth::Fabric;
+use crate::contact::Splits;
+use crate::drag::Ray;
+use crate::drape::{Undrapable, Worn, WornSettings};
+use crate::geometry::ids::PieceId;
+use crate::sim::protocol::{ClothPlace, DrapeState};
+use crate::sim::world::World;
+use crate::wrap::Phase;
+
+/// What the cloth is made of, and how much it may stretch.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DrapeSource {
+    /// Of every piece that has none of its own.
+    pub fabric: Fabric,
+    /// Of single pieces.
+    pub of_pieces: BTreeMap<PieceId, Fabric>,
+    /// Strain beyond which cloth is rigid, 1e-3..=0.2.
+    pub strain: f64,
+}
+
+/// Draping under way, paused, or at rest.
+#[derive(Clone, Debug)]
+pub struct Draping {
+    source: Arc<DrapeSource>,
+    /// None while it waits for the cloth to lie.
+    worn: Option<Worn>,
+    /// Ticks left; None: until it rests.
+    left: Option<u32>,
+    /// A hand pulls.
+    held: bool,
+}
+
+impl Draping {
+    fn runs(&self) -> bool {
+        self.left != Some(0) && self.worn.as_ref().is_none_or(|worn| !worn.progress().at_rest)
+    }
+}
+
+impl World {
+    /// Drapes from now on, as soon as all cloth lies, or (false) stops. Nothing happens where nothing is dressed.
+    pub fn set_draping(&mut self, on: bool, source: Arc<DrapeSource>) {
+        self.release();
+        match on {
+            true => self.drape_for(None, source),
+            false => self.stop_draping(),
+        }
+    }
+
+    /// Drapes for so many ticks.
+    pub fn drape_for(&mut self, ticks: Option<u32>, source: Arc<DrapeSource>) {
+        if self.sewing.is_some() || (!self.cloth.mapped.contains(&true) && self.dressing.is_none()) {
+            return; // Sewing ends with draping.
+        }
+        let known = self.draping.take().filter(|draping| draping.source == source);
+        let mut draping = known
+            .map_or_else(|| Draping { source, worn: None, left: ticks, held: false }, Arc::unwrap_or_clone);
+        draping.left = ticks;
+        if let Some(worn) = draping.worn.as_mut().filter(|worn| worn.progress().at_rest) {
+            worn.wake();
+        }
+        self.draping = Some(Arc::new(draping));
+    }
+
+    /// Cloth that is draped stays as it is.
+    pub fn stop_draping(&mut self) {
+        let Some(draping) = &mut self.draping else { return };
+        if draping.worn.is_none() {
+            self.draping = None;
+            return;
+        }
+        Arc::make_mut(draping).left = Some(0);
+        self.split_draped();
+    }
+
+    /// What is draped is made of something else from now on.
+    pub fn set_fabrics(&mut self, source: Arc<DrapeSource>) {
+        if let Some(draping) = &mut self.draping {
+            let draping = Arc::make_mut(draping);
+            (draping.source, draping.worn, draping.held) = (source, None, false);
+            self.dragged = None;
+        }
+    }
+
+    /// What is about to be draped moves already, m/s.
+    pub(super) fn begin_moving(&mut self, velocities: &[DVec3]) {
+        if let Err(Undrapable(words)) = self.begin_draping() {
+            return self.fail_draping(words);
+        }
+        if let Some(worn) = self.draping.as_mut().and_then(|d| Arc::make_mut(d).worn.as_mut()) {
+            worn.set_velocities(velocities);
+        }
+    }
+
+    /// Whether the next tick drapes.
+    pub(super) fn drapes_now(&self) -> bool {
+        let lies = self.dragging.is_none()
+            && self.dressing.as_ref().is_none_or(|dressing| {
+                dressing.phase() == Phase::AtRest || (!self.relaxing && dressing.relaxer().is_some())
+            });
+        self.draping.as_ref().is_some_and(|draping| draping.runs() && (draping.worn.is_some() || lies))
+    }
+
+    /// Whether physics has the cloth, moving or not.
+    pub(super) fn is_draped(&self) -> bool {
+        self.draping.as_ref().is_some_and(|draping| draping.worn.is_some())
+    }
+
+    /// A tick of it.
+    pub(super) fn drape(&mut self) {
+        if !self.is_draped()
+            && let Err(Undrapable(words)) = self.begin_draping()
+        {
+            return self.fail_draping(words);
+        }
+        let Some(draping) = self.draping.as_mut().map(Arc::make_mut) else { return };
+        let Some(worn) = &mut draping.worn else { return };
+        if let Err(Undrapable(words)) = worn.tick(Arc::make_mut(&mut self.cloth)) {
+            return self.fail_draping(words);
+        }
+        draping.left = draping.left.map(|left| left.saturating_sub(1));
+        if !draping.runs() {
+            self.split_draped();
+        }
+    }
+
+    fn begin_draping(&mut self) -> Result<(), Undrapable> {
+        let (Some(garment), Some(body), Some(source), Some(draping)) =
+            (&self.garment, &self.body, &self.source, &mut self.draping)
+        else {
+            return Err(Undrapable("there is no cloth on the body".to_owned()));
+        };
+        let settings =
+            WornSettings { strain: draping.source.strain, self_collision: true, skips: source.relax.skips };
+        let fabrics = Arc::clone(&draping.source);
+        let pins: Vec<u32> = self.pinned.iter().flatten().copied().collect();
+        let worn = Worn::new(
+            Arc::clone(garment),
+            &self.cloth,
+            Arc::clone(body),
+            (&fabrics.of_pieces, &fabrics.fabric),
+            &pins,
+            settings,
+        )?;
+        Arc::make_mut(draping).worn = Some(worn);
+        (self.dressing, self.splits, self.posed) = (None, None, None);
+        Ok(())
+    }
+
+    fn fail_draping(&mut self, words: String) {
+        self.draping = None;
+        self.tell("garment".to_owned(), words);
+    }
+
+    /// Where it rests, edges that would cut the body are split.
+    fn split_draped(&mut self) {
+        if let (Some(garment), Some(body), Some(worn)) =
+            (&self.garment, &self.body, self.draping.as_ref().and_then(|d| d.worn.as_ref()))
+        {
+            let offset = worn.offset() / body.scale();
+            self.splits = Splits::of_lying(garment, &self.cloth, body, offset).map(Arc::new);
+        }
+    }
+
+    /// Pins hold what is draped. False where nothing is.
+    pub(super) fn pin_draped(&mut self, pins: &[u32]) -> bool {
+        let Some(worn) = self.draping.as_mut().and_then(|d| Arc::make_mut(d).worn.as_mut()) else {
+            return false;
+        };
+        worn.pin(pins);
+        true
+    }
+
+    /// Takes cloth in the hand while it drapes. False where it does not: other hands take it then.
+    pub(super) fn grab_draped(&mut self, at: ClothPlace) -> bool {
+        if !self.draping.as_ref().is_some_and(|d| d.left.is_none() && d.worn.is_some()) {
+            self.draping = None;
+            return false;
+        }
+        if let (Some((vertex, _)), Some(draping)) = (self.under(at), &mut self.draping) {
+            let draping = Arc::make_mut(draping);
+            draping.held = true;
+            draping.worn.iter_mut().for_each(|worn| worn.take(vertex));
+            let mut dragged = vec![0.0; self.cloth.positions.len()];
+            dragged[vertex as usize] = 1.0;
+            self.dragged = Some(Arc::new(dragged));
+        }
+        true
+    }
+
+    /// The hand goes to where `pointer` passes nearest to what is in it.
+    pub(super) fn drag_draped(&mut self, pointer: Ray) {
+        let Some(draping) = self.draping.as_mut().filter(|d| d.held) else { return };
+        let Some(worn) = &mut Arc::make_mut(draping).worn else { return };
+        if let (Some(at), Some(way)) = (worn.in_hand(), pointer.direction.try_normalize()) {
+            worn.pull_to(pointer.origin + way * (at - pointer.origin).dot(way));
+        }
+    }
+
+    /// Lets go of it.
+    pub(super) fn release_draped(&mut self) {
+        if let Some(draping) = self.draping.as_mut().filter(|d| d.held) {
+            let draping = Arc::make_mut(draping);
+            draping.held = false;
+            draping.worn.iter_mut().for_each(Worn::let_go);
+            self.dragged = None;
+        }
+    }
+
+    /// How draping stands; None where there is none.
+    pub fn drape_state(&self) -> Option<DrapeState> {
+        let draping = self.draping.as_ref()?;
+        let progress = draping.worn.as_ref().map(Worn::progress);
+        Some(DrapeState {
+            on: draping.left.is_none(),
+            waits: progress.is_none(),
+            runs: draping.runs(),
+            residual: progress.map_or(1.0, |p| p.residual),
+            speed: progress.map_or(0.0, |p| p.speed),
+            substeps: draping.worn.as_ref().map_or(0, Worn::substeps),
+        })
+    }
+}

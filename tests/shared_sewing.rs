@@ -1,0 +1,61 @@
+//! Garments made by others, sewn from where their files place them and draped, with no setting of their own. Needs `TOILE_DATA`.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use toile::body::{Unit, import};
+use toile::fit::{BodyIndex, Report, measure};
+use toile::io::{garmentcode, obj};
+use toile::session::{BodyChoice, Command, Document, Project, Session};
+use toile::sim::{Runner, Simulation};
+use toile::wrap::Phase;
+
+fn data() -> Option<PathBuf> {
+    let folder = std::env::var_os("TOILE_DATA").map(PathBuf::from);
+    if folder.is_none() {
+        println!("TOILE_DATA is not set: nothing is sewn");
+    }
+    folder
+}
+
+fn sewn(pattern: &str) -> Option<Report> {
+    let data = data()?;
+    let bytes = std::fs::read(data.join("bodies/garmentcode/mean_all.obj")).expect("a body");
+    let body = import(obj::read(&bytes).expect("an OBJ").mesh, Unit::Metre);
+    let path = data.join("patterns/garmentcode").join(format!("{pattern}_specification.json"));
+    let pattern = garmentcode::read(&std::fs::read(path).expect("a pattern")).expect("GarmentCode");
+    let document = Document {
+        pattern: Arc::new(pattern),
+        body: BodyChoice::Imported { name: "mean".to_owned(), mesh: Arc::new(body.mesh) },
+        ..Document::default()
+    };
+    let project = Project { document, dressed: None };
+    let mut s = Session::new(project, Runner::inline(Simulation::default()));
+    s.apply_alone(Command::Sew).expect("placed");
+    while s.runner().simulation().expect("inline").tick() {}
+    s.update();
+    let snapshot = s.snapshot();
+    assert_eq!(snapshot.phase, Some(Phase::AtRest));
+    let (garment, cloth) = snapshot.drawn().expect("a garment");
+    let (source, body) =
+        (snapshot.source.as_ref().expect("a source"), snapshot.body.as_ref().expect("a body"));
+    Some(measure(&source.pattern, garment, cloth, &BodyIndex::new(body)))
+}
+
+/// Sewn, nothing in the body, the body through all its openings. Stretch only: where cloth is gathered its edges along the seam
+/// are as much shorter as it is gathered.
+fn check(pattern: &str, openings: usize, p99: f64, crossings: usize) {
+    let Some(report) = sewn(pattern) else { return };
+    println!("{pattern}: p99 {:.4}, {} self crossings", report.strain.p99, report.self_crossings);
+    assert_eq!((report.pieces_in_space, report.unmapped_vertices), (1, 0), "{pattern}");
+    assert_eq!(report.openings.iter().filter(|o| o.body_through).count(), openings, "{pattern}");
+    assert_eq!(report.penetration.vertices + report.penetration.faces, 0, "{pattern}");
+    assert_eq!(report.edges_through_body + report.body_edges_through_garment, 0, "{pattern}");
+    assert!(report.self_crossings <= crossings, "{pattern}: {} self crossings", report.self_crossings);
+    assert!(report.strain.stretch_p99 <= p99, "{pattern}: p99 stretch {}", report.strain.stretch_p99);
+}
+
+#[test]
+fn the_gathered_skirt_is_sewn_and_draped() {
+    check("skirt2_mean_all", 2, 0.04, 0);
+}

@@ -1,0 +1,60 @@
+//! Draping dressed cloth in the window.
+
+use super::hand::{dressed_window, positions};
+use super::*;
+
+fn drape(window: &Window) -> Option<toile::sim::DrapeState> {
+    app(window).session().snapshot().drape
+}
+
+#[test]
+fn the_button_drapes_and_space_pauses() {
+    let mut window = dressed_window();
+    let (before, steps) = (positions(&window), app(&window).session().step_labels().count());
+    window.get_by_label("Drape").click();
+    window.run_steps(2);
+    let moves = |app: &App| app.session().snapshot().drape.is_some_and(|d| d.runs && !d.waits);
+    wait(&mut window, "the drape", moves);
+    assert!(window.query_by_label_contains("out of balance").is_some());
+    key(&mut window, Modifiers::NONE, Key::Space);
+    wait(&mut window, "the pause", |app| app.session().snapshot().drape.is_some_and(|d| !d.on));
+    window.run_steps(2);
+    assert!(window.query_by_label("Draping paused").is_some());
+    assert!(positions(&window) != before, "the cloth did not move");
+    assert_eq!(app(&window).session().step_labels().count(), steps + 1);
+    window.get_by_label("Drape a step").click();
+    window.run_steps(2);
+    assert_eq!(app(&window).session().undo_label(), Some("drape a step"));
+    for _ in 0..2 {
+        key(&mut window, Modifiers::COMMAND, Key::Z);
+    }
+    wait(&mut window, "the undo", |app| app.session().snapshot().cloth.positions == before);
+    assert!(drape(&window).is_none());
+}
+
+#[test]
+fn cloth_is_grabbed_while_it_drapes() {
+    let mut window = dressed_window();
+    key(&mut window, Modifiers::NONE, Key::Space);
+    wait(&mut window, "the drape", |app| app.session().snapshot().drape.is_some_and(|d| !d.waits));
+    key(&mut window, Modifiers::NONE, Key::D);
+    let area = pane(&window, "Body pane");
+    press_along(&mut window, &line(area, Vec2::new(30.0, 0.0)), PointerButton::Primary);
+    wait(&mut window, "the grab", |app| app.session().snapshot().dragged.is_some());
+    assert!(drape(&window).is_some_and(|d| d.runs), "physics goes on");
+    key(&mut window, Modifiers::NONE, Key::Escape);
+    wait(&mut window, "letting go", |app| app.session().snapshot().dragged.is_none());
+}
+
+#[test]
+fn fabrics_are_chosen_from_lists() {
+    let mut window = window();
+    let fabrics = |window: &Window| app(window).session().document().fabrics.clone();
+    window.get_by_label("All pieces").click();
+    window.run_steps(3);
+    window.get_by_label("woven-heavy").click();
+    window.run_steps(3);
+    assert_eq!(fabrics(&window).name(None), "woven-heavy");
+    key(&mut window, Modifiers::COMMAND, Key::Z);
+    assert_eq!(fabrics(&window).name(None), "cotton");
+}
