@@ -30,6 +30,8 @@ const STEPS_PER_SUBSTEP: usize = 12;
 const STEPS_PER_LOOK: usize = 4;
 /// A mend has so many steps to take effect.
 const STEPS_PER_MEND: usize = 8;
+/// Where the excess that 99 of 100 edges do not exceed is larger than this, there is nowhere to spread it to.
+const TOO_TIGHT: f64 = 0.05;
 /// Strain is spread, and faces that cut the body are raised, so many times for each mend.
 const LIMITS_PER_MEND: usize = 2;
 /// Layers that run through each other are parted every so many steps.
@@ -224,6 +226,16 @@ impl Reposer {
             }
             outcome.mends += 1;
         }
+        self.spread(state, care, clearance);
+    }
+
+    /// Spreads strain that is left in a few places, unless there is so much of it that the cloth is too tight; takes it back
+    /// where that did not help.
+    fn spread(&mut self, state: &mut ClothState, care: Care, clearance: f64) {
+        let (before, was) = (state.clone(), self.lengths.p99(state));
+        if was > TOO_TIGHT {
+            return;
+        }
         for _ in 0..LIMITS_PER_MEND * care.mends {
             if self.lengths.p99(state) <= care.excess {
                 break;
@@ -233,6 +245,9 @@ impl Reposer {
                 break;
             }
             raised(&mut self.relaxer, state);
+        }
+        if self.lengths.p99(state) > was {
+            *state = before;
         }
     }
 

@@ -80,7 +80,7 @@ fn the_value_under_the_pointer_is_told_in_both_panes() {
     let under = cloth.iter().min_by(|p, q| from_middle(p).total_cmp(&from_middle(q))).expect("cloth");
     let there = skin.nearest(*under).distance * 1000.0;
     assert!((ease - there).abs() < 3.0, "{ease} mm told, {there} mm beside it");
-    let off = pane(&window, "Body pane").right_bottom() - Vec2::new(220.0, 80.0);
+    let off = pane(&window, "Body pane").left_top() + Vec2::splat(6.0);
     move_to(&mut window, off);
     window.run_steps(2);
     assert!(!has(&window, " mm, Square"), "beside the cloth");
