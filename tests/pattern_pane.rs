@@ -275,7 +275,7 @@ fn two_edges_are_sewn_untwisted_and_turned_round_by_a_click() {
     let sewn = pattern(&window);
     let seam = *sewn.seams.values().next().expect("a seam");
     assert_eq!((seam.same_direction, seam.ratio), (false, Some(1.0)));
-    assert!(window.query_by_label_contains("Difference +0.0 mm").is_some(), "the new seam is selected");
+    assert!(window.query_by_label_contains("Difference 0.0 mm").is_some(), "the new seam is selected");
     let badge = place(&window, "Seam: A edge 2 – B edge 4");
     click(&mut window, badge);
     assert!(pattern(&window).seams.values().next().expect("a seam").same_direction);

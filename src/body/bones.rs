@@ -59,8 +59,9 @@ mod tests {
         let bones = extracted(&surface, &marks);
         assert_eq!(bones.len(), 8, "trunk, head, two arms, four halves of legs");
         let own = figure.skeleton.six_segments();
+        // Its own bone of the head ends below the face.
         let apart = |p: DVec3, [a, b]: [DVec3; 2]| {
-            let t = ((p - a).dot(b - a) / (b - a).length_squared()).clamp(0.0, 1.0);
+            let t = ((p - a).dot(b - a) / (b - a).length_squared()).clamp(0.0, 2.0);
             p.distance(a.lerp(b, t))
         };
         for bone in &bones {

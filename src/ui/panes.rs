@@ -91,7 +91,7 @@ impl App {
         CentralPanel::default().frame(Frame::new()).show(ui, |ui| {
             self.pane_ui(ui, last_is_body, &with, asks);
             if panes == Panes::Both && self.shell.sight.pairs {
-                let surface = self.shown().surface().cloned();
+                let surface = self.body_shown(snapshot);
                 pair_lines_ui(
                     ui,
                     &self.seen(ui, &with, surface.as_ref(), &[]),
@@ -135,7 +135,7 @@ impl App {
 
     fn body_ui(&mut self, ui: &mut egui::Ui, with: &PaneContents<'_>, asks: &mut Asks) {
         let stand_out = self.picks.standing_out(with.now.highlight);
-        let surface = self.shown().surface().cloned();
+        let surface = self.body_shown(with.snapshot);
         let mut pane = std::mem::take(&mut self.scene_pane);
         pane.ui(ui, &self.seen(ui, with, surface.as_ref(), &stand_out), asks);
         self.scene_pane = pane;
@@ -143,6 +143,13 @@ impl App {
             let value = self.scene_pane.value.or(self.pattern_pane.value);
             maps::legend_ui(ui, pane, map, value, with.palette, asks);
         }
+    }
+
+    /// While the cloth has not followed the body to another pose yet, the pose it still lies on.
+    fn body_shown(&self, snapshot: &Snapshot) -> Option<Arc<Surface>> {
+        let shown = self.shown();
+        let follows = snapshot.is_dressed() && snapshot.seq < shown.last_seq();
+        snapshot.body.as_ref().filter(|_| follows).or(shown.surface()).cloned()
     }
 
     fn seen<'a>(

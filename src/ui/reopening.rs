@@ -7,7 +7,6 @@ use glam::UVec2;
 
 use crate::ui::app::App;
 use crate::ui::picture_page::PictureOptions;
-use crate::ui::scene_pane::ScenePane;
 
 /// Wakes whichever window there is.
 #[derive(Clone, Debug)]
@@ -52,8 +51,7 @@ impl App {
     pub fn move_into(&mut self, ctx: &egui::Context, graphics: Option<egui_wgpu::RenderState>) {
         Self::set_up(ctx);
         self.wakeup.set(ctx);
-        let before = std::mem::replace(&mut self.scene_pane, ScenePane::new(graphics));
-        (self.scene_pane.camera, self.scene_pane.free_turning) = (before.camera, before.free_turning);
+        self.scene_pane = std::mem::take(&mut self.scene_pane).drawn_by(graphics);
         self.shell.thumbnails.begin_anew();
         self.shell.turn = None;
         self.native = None;

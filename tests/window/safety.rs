@@ -145,7 +145,8 @@ fn a_lost_graphics_device_takes_nothing_with_it() {
         key(window, Modifiers::NONE, Key::Num1);
         window.run_steps(3);
         let app = window.state_mut().as_mut().expect("the app");
-        app.picture_of_body(glam::UVec2::new(320, 200)).expect("a picture")
+        let bytes = app.picture_of_body(glam::UVec2::new(320, 200)).expect("a picture");
+        image::load_from_memory(&bytes).expect("a PNG").to_rgb8()
     };
     let (before, document) = (picture(&mut window), app(&window).session().document().clone());
     device.device.destroy();
@@ -164,7 +165,10 @@ fn a_lost_graphics_device_takes_nothing_with_it() {
     assert!(!app(&window).is_moving());
     assert_eq!(app(&window).session().document(), &document);
     assert_eq!(app(&window).session().undo_label(), Some("rename Square to precious"));
-    assert_eq!(picture(&mut window), before, "the same picture by another device");
+    let after = picture(&mut window);
+    let far = |(a, b): (&u8, &u8)| a.abs_diff(*b) > 2;
+    let other = after.iter().zip(before.iter()).filter(|pair| far(*pair)).count();
+    assert_eq!(other, 0, "the same picture by another device");
     assert!(window.query_by_label_contains("Nothing of your work is lost").is_some());
     key(&mut window, Modifiers::COMMAND, Key::Z);
     assert_eq!(name(&window), "Square");

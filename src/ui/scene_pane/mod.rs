@@ -145,6 +145,11 @@ impl ScenePane {
         Self { graphics: device.map(Graphics::new), ..Self::default() }
     }
 
+    /// The same pane, seen as before, drawn by another device.
+    pub fn drawn_by(self, device: Option<egui_wgpu::RenderState>) -> Self {
+        Self { graphics: device.map(Graphics::new), drag: None, ..self }
+    }
+
     /// Draws the pane and listens to the pointer.
     pub fn ui(&mut self, ui: &mut egui::Ui, seen: &Seen<'_>, asks: &mut Asks) {
         let pane = ui.available_rect_before_wrap();
