@@ -90,30 +90,45 @@ impl Dialog {
     }
 }
 
-fn unsaved_ui(ctx: &egui::Context, then: Action) -> Answer {
-    let shown = Modal::new(Id::unique("unsaved")).show(ctx, |ui| {
-        ui.set_width(340.0);
-        ui.heading("Save the changes?");
+/// A question with a row of buttons: what each says, a tip, and the answer it gives. The last one leaves things as they are.
+fn question_ui(
+    ctx: &egui::Context,
+    id: &str,
+    heading: &str,
+    words: &str,
+    buttons: Vec<(&str, &str, Answer)>,
+) -> Answer {
+    let shown = Modal::new(Id::unique(id)).show(ctx, |ui| {
+        ui.set_width(400.0);
+        ui.heading(heading);
         ui.add_space(4.0);
-        ui.label("This project has changes that are not saved.");
+        ui.label(words);
         ui.add_space(10.0);
         ui.horizontal(|ui| {
-            let mut answer = Answer::None;
-            if ui.button("Save").clicked() {
-                answer = Answer::SaveThen(then);
+            let mut given = Answer::None;
+            for (text, tip, answer) in buttons {
+                let button = ui.button(text);
+                let button = if tip.is_empty() { button } else { button.on_hover_text(tip) };
+                if button.clicked() {
+                    given = answer;
+                }
             }
-            if ui.button("Don't save").clicked() {
-                answer = Answer::Discard(then);
-            }
-            if ui.button("Cancel").clicked() {
-                answer = Answer::Cancel;
-            }
-            answer
+            given
         })
         .inner
     });
     let closed = shown.should_close();
     shown.inner.or_cancel(closed)
+}
+
+fn unsaved_ui(ctx: &egui::Context, then: Action) -> Answer {
+    let words = "This project has changes that are not saved.";
+    let buttons = vec![
+        ("Save", "", Answer::SaveThen(then)),
+        ("Don't save", "", Answer::Discard(then)),
+        ("Cancel", "", Answer::Cancel),
+    ];
+    question_ui(ctx, "unsaved", "Save the changes?", words, buttons)
 }
 
 fn recover_ui(ctx: &egui::Context, found: &mut Vec<(Left, String)>, thumbnails: &mut Thumbnails) -> Answer {
@@ -168,49 +183,20 @@ fn picture_ui(ui: &mut egui::Ui, left: &Left, thumbnails: &mut Thumbnails) {
 }
 
 fn changed_ui(ctx: &egui::Context, path: &Path) -> Answer {
-    let shown = Modal::new(Id::unique("changed")).show(ctx, |ui| {
-        ui.set_width(400.0);
-        ui.heading("The file has changed");
-        ui.add_space(4.0);
-        ui.label(format!("{} was changed by another program since you opened or saved it.", path.display()));
-        ui.add_space(10.0);
-        ui.horizontal(|ui| {
-            if ui.button("Save as…").clicked() {
-                Answer::SaveAs
-            } else if ui.button("Save over it").on_hover_text("The other version stays as .bak").clicked() {
-                Answer::Overwrite(path.to_owned())
-            } else if ui.button("Cancel").clicked() {
-                Answer::Cancel
-            } else {
-                Answer::None
-            }
-        })
-        .inner
-    });
-    let closed = shown.should_close();
-    shown.inner.or_cancel(closed)
+    let words = format!("{} was changed by another program since you opened or saved it.", path.display());
+    let buttons = vec![
+        ("Save as…", "", Answer::SaveAs),
+        ("Save over it", "The other version stays as .bak", Answer::Overwrite(path.to_owned())),
+        ("Cancel", "", Answer::Cancel),
+    ];
+    question_ui(ctx, "changed", "The file has changed", &words, buttons)
 }
 
 fn revert_ui(ctx: &egui::Context, path: &Path) -> Answer {
-    let shown = Modal::new(Id::unique("revert")).show(ctx, |ui| {
-        ui.set_width(400.0);
-        ui.heading("Go back to the saved version?");
-        ui.add_space(4.0);
-        ui.label(format!("What has changed since {} was saved will be gone.", path.display()));
-        ui.add_space(10.0);
-        ui.horizontal(|ui| {
-            if ui.button("Go back").clicked() {
-                Answer::File(Purpose::Open, path.to_owned())
-            } else if ui.button("Cancel").clicked() {
-                Answer::Cancel
-            } else {
-                Answer::None
-            }
-        })
-        .inner
-    });
-    let closed = shown.should_close();
-    shown.inner.or_cancel(closed)
+    let words = format!("What has changed since {} was saved will be gone.", path.display());
+    let back = Answer::File(Purpose::Open, path.to_owned());
+    let buttons = vec![("Go back", "", back), ("Cancel", "", Answer::Cancel)];
+    question_ui(ctx, "revert", "Go back to the saved version?", &words, buttons)
 }
 
 fn path_ui(ctx: &egui::Context, purpose: Purpose, text: &mut String) -> Answer {

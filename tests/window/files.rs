@@ -1,20 +1,18 @@
 //! Files and what would be lost.
 
+use std::path::Path;
+
 use super::*;
 
-#[test]
-fn a_body_in_centimetres_is_asked_about() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let path = folder.path().join("ball.obj");
-    std::fs::write(&path, toile::io::obj::mesh("ball", &ball(85.0))).expect("a file");
-    let mut window = window();
+/// Chooses `entry` of the file menu and types the path of the file. False where the desktop has a dialog of its own.
+fn read_file(window: &mut Window, entry: &str, path: &Path) -> bool {
     window.get_by_label("File").click();
     window.run_steps(3);
-    window.get_by_label("Import body…").click();
+    window.get_by_label_contains(entry).click();
     window.run_steps(3);
     if window.query_by_label("Read").is_none() {
         println!("skipped: this desktop may have a dialog of its own");
-        return;
+        return false;
     }
     window.get_by_role(egui::accesskit::Role::TextInput).focus();
     window.run_steps(2);
@@ -22,6 +20,18 @@ fn a_body_in_centimetres_is_asked_about() {
     window.run_steps(2);
     window.get_by_label("Read").click();
     window.run_steps(3);
+    true
+}
+
+#[test]
+fn a_body_in_centimetres_is_asked_about() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("ball.obj");
+    std::fs::write(&path, toile::io::obj::mesh("ball", &ball(85.0))).expect("a file");
+    let mut window = window();
+    if !read_file(&mut window, "Import body…", &path) {
+        return;
+    }
     assert!(window.query_by_label("cm: the body is 1.70 m tall").is_some());
     window.get_by_label("Take it").click();
     window.run_steps(3);
@@ -40,24 +50,7 @@ fn a_body_that_lies_is_set_upright_and_the_answer_is_proposed_next_time() {
     }
     std::fs::write(&path, toile::io::obj::mesh("long", &mesh)).expect("a file");
     let mut window = window();
-    let ask = |window: &mut Window| {
-        window.get_by_label("File").click();
-        window.run_steps(3);
-        window.get_by_label("Import body…").click();
-        window.run_steps(3);
-        if window.query_by_label("Read").is_none() {
-            return false;
-        }
-        window.get_by_role(egui::accesskit::Role::TextInput).focus();
-        window.run_steps(2);
-        window.get_by_role(egui::accesskit::Role::TextInput).type_text(&path.display().to_string());
-        window.run_steps(2);
-        window.get_by_label("Read").click();
-        window.run_steps(3);
-        true
-    };
-    if !ask(&mut window) {
-        println!("skipped: this desktop may have a dialog of its own");
+    if !read_file(&mut window, "Import body…", &path) {
         return;
     }
     // Guessed from its sides; told as tall as it would then stand.
@@ -74,7 +67,7 @@ fn a_body_that_lies_is_set_upright_and_the_answer_is_proposed_next_time() {
         upper - lower
     };
     assert!((size(&window).y - 1.7).abs() < 1e-6 && size(&window).z < 0.6);
-    assert!(ask(&mut window));
+    assert!(read_file(&mut window, "Import body…", &path));
     let is_on = |window: &Window, label: &str| {
         let node = window.get_by_label(label).accesskit_node().toggled();
         node == Some(egui::accesskit::Toggled::True)
@@ -90,20 +83,9 @@ fn a_drawing_without_a_size_is_asked_about() {
         r#"<svg xmlns="http://www.w3.org/2000/svg"><path id="front" d="M 0 0 H 500 V 600 H 0 Z"/></svg>"#;
     std::fs::write(&path, svg).expect("a file");
     let mut window = window();
-    window.get_by_label("File").click();
-    window.run_steps(3);
-    window.get_by_label_contains("Import pattern…").click();
-    window.run_steps(3);
-    if window.query_by_label("Read").is_none() {
-        println!("skipped: this desktop may have a dialog of its own");
+    if !read_file(&mut window, "Import pattern…", &path) {
         return;
     }
-    window.get_by_role(egui::accesskit::Role::TextInput).focus();
-    window.run_steps(2);
-    window.get_by_role(egui::accesskit::Role::TextInput).type_text(&path.display().to_string());
-    window.run_steps(2);
-    window.get_by_label("Read").click();
-    window.run_steps(3);
     assert!(window.query_by_label("millimetres: the largest piece is 50.0 × 60.0 cm").is_some());
     window.get_by_label("Take it").click();
     window.run_steps(3);
