@@ -10,7 +10,7 @@
 //! | --- | --- | --- |
 //! | `geometry` | ids, curves, meshes and adjacency, sparse factors, no cloth words | nothing of ours |
 //! | `pattern`  | the flat garment: piece, seam, edges cut for sewing, editing that keeps seam lengths and symmetry, triangulation, problems a person can fix | geometry |
-//! | `body`     | surface (nearest point, ray, walk), import checks, mannequin, skeleton, poses, landmarks, measurements | geometry |
+//! | `body`     | surface (nearest point, ray, walk), import checks, mannequin, skeleton, poses, bones, landmarks, measurements | geometry |
 //! | `cloth`    | the sewn garment as solvers see it: topology and rest shape, moving state | pattern, geometry |
 //! | `contact`  | cloth against body, its bones, and itself; where edges are split | cloth, body, geometry |
 //! | `relax`    | paper A's relaxation: shape match, flatten, gravity, friction | contact, cloth, body, geometry |

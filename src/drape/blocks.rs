@@ -3,9 +3,9 @@
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
 use glam::{DMat3, DVec3};
 
-use crate::drape::factor::{Factor, Symbolic};
 use crate::drape::ordering::nested_dissection;
 use crate::geometry::adjacency::Lists;
+use crate::geometry::factor::{Factor, Symbolic};
 
 /// The lower triangle, column by column.
 #[derive(Debug)]
@@ -59,13 +59,13 @@ impl BlockMatrix {
         let order: Vec<usize> = order.iter().flat_map(|&v| (0..3).map(move |r| 3 * v as usize + r)).collect();
         let values = vec![0.0; rows.len()];
         let pattern = SymbolicSparseColMat::new_checked(3 * vertices, 3 * vertices, columns, None, rows);
-        let symbolic = Symbolic::new(pattern.as_ref(), &order)?;
+        let symbolic = Symbolic::ordered(pattern.as_ref(), &order)?;
         Some(Self { below, starts, pattern, symbolic, values })
     }
 
     /// Numbers in its factor.
     pub fn fill(&self) -> usize {
-        self.symbolic.len()
+        self.symbolic.fill()
     }
 
     /// Where the block of rows of `i` and columns of `j` stands. None where there is none.
@@ -150,7 +150,7 @@ impl BlockMatrix {
 pub(super) fn solve(factor: &Factor, side: &mut [DVec3], scratch: &mut Vec<f64>) -> bool {
     scratch.clear();
     scratch.extend(side.iter().flat_map(|s| s.to_array()));
-    let solved = factor.solve(scratch);
+    let solved = factor.solve_one(scratch);
     side.iter_mut().zip(scratch.chunks_exact(3)).for_each(|(s, x)| *s = DVec3::new(x[0], x[1], x[2]));
     solved
 }

@@ -4,7 +4,6 @@
 //! chooses. [`settle`] finds the rest directly. Positions are f64: in f32 the fall of a small step is lost below rounding.
 
 mod blocks;
-mod factor;
 mod ordering;
 
 pub mod bending;

@@ -8,9 +8,9 @@ use glam::{DMat3, DVec3};
 use crate::drape::blocks::{BlockMatrix, Slot, solve};
 use crate::drape::contact::{Collider, Contacts};
 use crate::drape::elastic::Elastic;
-use crate::drape::factor::Factor;
 use crate::drape::itself::Itself;
 use crate::drape::sheet::Sheet;
+use crate::geometry::factor::Factor;
 
 /// Halvings before a direction is given up.
 const MOST_HALVINGS: usize = 12;

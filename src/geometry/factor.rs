@@ -1,22 +1,26 @@
-//! A sparse Cholesky factor (faer), solved for all three axes at once: with so few right-hand sides the calls of a general
-//! solver cost more than the numbers.
+//! A sparse Cholesky factor (faer), solved for one right-hand side or for all three axes at once: with so few of them the calls
+//! of a general solver cost more than the numbers.
 
 use std::sync::Arc;
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::LltRegularization;
-use faer::sparse::linalg::SupernodalThreshold;
+use faer::perm::PermRef;
 use faer::sparse::linalg::cholesky::supernodal::SymbolicSupernodalCholesky;
 use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
     factorize_symbolic_cholesky,
 };
+use faer::sparse::linalg::{SupernodalThreshold, SymbolicSupernodalParams};
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Par, Side, Spec};
 use glam::DVec3;
 
-/// What sums run in at once: their order is fixed, whatever the machine has.
-const LANES: usize = 4;
+/// What sums run in at once, for three axes and for one: their order is fixed, whatever the machine has.
+const LANES: [usize; 2] = [4, 8];
+/// In a matrix with an order of its own, groups of up to so many columns may be joined when they then hold at most this share
+/// of zeros.
+const RELAX: [(usize, f64); 3] = [(4, 1.0), (16, 0.8), (48, 0.1)];
 
 /// Where the numbers of a factor stand.
 #[derive(Clone, Debug)]
@@ -32,12 +36,35 @@ pub struct Factor {
 impl Symbolic {
     /// For a matrix of which the lower triangle is given. None when it does not fit in memory.
     pub fn new(pattern: SymbolicSparseColMatRef<'_, usize>) -> Option<Self> {
+        Self::by(pattern, SymmetricOrdering::Amd, Default::default())
+    }
+
+    /// The same with rows eliminated in `order`.
+    pub fn ordered(pattern: SymbolicSparseColMatRef<'_, usize>, order: &[usize]) -> Option<Self> {
+        let mut back = vec![0; order.len()];
+        order.iter().enumerate().for_each(|(at, &row)| back[row] = at);
+        let order = PermRef::new_checked(order, &back, order.len());
+        let params = SymbolicSupernodalParams { relax: Some(&RELAX) };
+        Self::by(pattern, SymmetricOrdering::Custom(order), params)
+    }
+
+    fn by(
+        pattern: SymbolicSparseColMatRef<'_, usize>,
+        ordering: SymmetricOrdering<'_, usize>,
+        supernodal_params: SymbolicSupernodalParams<'_>,
+    ) -> Option<Self> {
         let params = CholeskySymbolicParams {
             supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
+            supernodal_params,
             ..Default::default()
         };
-        let symbolic = factorize_symbolic_cholesky(pattern, Side::Lower, SymmetricOrdering::Amd, params);
+        let symbolic = factorize_symbolic_cholesky(pattern, Side::Lower, ordering, params);
         Some(Self(Arc::new(symbolic.ok()?)))
+    }
+
+    /// Numbers a factor has.
+    pub fn fill(&self) -> usize {
+        self.0.len_val()
     }
 
     /// Columns whose rows below them are the same stand together.
@@ -48,25 +75,27 @@ impl Symbolic {
         }
     }
 
-    /// Factors `matrix`. None when it is not positive definite, or does not fit in memory.
-    pub fn factor(&self, matrix: SparseColMatRef<'_, usize, f64>) -> Option<Factor> {
-        let mut values = vec![0.0; self.0.len_val()];
+    /// Factors `matrix`, in the memory of a factor that is no longer needed. None when it is not positive definite, or does not
+    /// fit in memory.
+    pub fn factor(&self, matrix: SparseColMatRef<'_, usize, f64>, memory: Option<Factor>) -> Option<Factor> {
+        let mut values = memory.map(|f| f.values).unwrap_or_default();
+        values.clear();
+        values.resize(self.0.len_val(), 0.0);
         let need = self.0.factorize_numeric_llt_scratch::<f64>(Par::Seq, Spec::default());
         let mut memory = MemBuffer::try_new(need).ok()?;
         let stack = MemStack::new(&mut memory);
-        let regularization = LltRegularization::default();
         self.0
             .factorize_numeric_llt(
                 &mut values,
                 matrix,
                 Side::Lower,
-                regularization,
+                LltRegularization::default(),
                 Par::Seq,
                 stack,
                 Spec::default(),
             )
             .ok()?;
-        Some(Factor { symbolic: self.clone(), values })
+        values.iter().all(|v| v.is_finite()).then(|| Factor { symbolic: self.clone(), values })
     }
 }
 
@@ -83,12 +112,12 @@ impl Below {
 
     fn add(&mut self, column: &[f64], times: DVec3) {
         for (axis, times) in self.0.iter_mut().zip(times.to_array()) {
-            axis.iter_mut().zip(column).for_each(|(sum, l)| *sum += l * times);
+            add_times(axis, column, times);
         }
     }
 
     fn dot(&self, column: &[f64]) -> DVec3 {
-        DVec3::from_array([0, 1, 2].map(|axis| dot(&self.0[axis], column)))
+        DVec3::from_array([0, 1, 2].map(|axis| dot::<{ LANES[0] }>(&self.0[axis], column)))
     }
 
     fn get(&self, row: usize) -> DVec3 {
@@ -100,7 +129,7 @@ impl Below {
     }
 }
 
-fn dot(a: &[f64], b: &[f64]) -> f64 {
+fn dot<const LANES: usize>(a: &[f64], b: &[f64]) -> f64 {
     let mut sums = [0.0; LANES];
     let (a, b) = (a.chunks_exact(LANES), b.chunks_exact(LANES));
     let rest: f64 = a.remainder().iter().zip(b.remainder()).map(|(a, b)| a * b).sum();
@@ -112,8 +141,12 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
     sums.iter().sum::<f64>() + rest
 }
 
+fn add_times(sum: &mut [f64], column: &[f64], times: f64) {
+    sum.iter_mut().zip(column).for_each(|(sum, l)| *sum += l * times);
+}
+
 impl Factor {
-    /// Solves in place of the right-hand sides. False when there is nothing to solve with.
+    /// Solves in place of the right-hand sides, one an axis. False when there is nothing to solve with.
     pub fn solve(&self, sides: &mut [DVec3]) -> bool {
         let (Some(groups), Some(order)) = (self.symbolic.groups(), self.symbolic.0.perm()) else {
             return false;
@@ -153,6 +186,44 @@ impl Factor {
             }
         }
         sides.iter_mut().zip(back).for_each(|(side, &at)| *side = x[at]);
+        true
+    }
+
+    /// Solves in place of the right-hand side. False when there is nothing to solve with.
+    pub fn solve_one(&self, side: &mut [f64]) -> bool {
+        let (Some(groups), Some(order)) = (self.symbolic.groups(), self.symbolic.0.perm()) else {
+            return false;
+        };
+        let (forward, _) = order.arrays();
+        let mut x: Vec<f64> = forward.iter().map(|&v| side[v]).collect();
+        let mut below: Vec<f64> = Vec::new();
+        for s in 0..groups.n_supernodes() {
+            let group = self.group(groups, s);
+            below.clear();
+            below.resize(group.rows.len(), 0.0);
+            let own = &mut x[group.start..group.start + group.size];
+            for (j, column) in group.columns().enumerate() {
+                own[j] /= column[j];
+                let done = own[j];
+                add_times(&mut own[j + 1..], &column[j + 1..group.size], -done);
+                add_times(&mut below, &column[group.size..], done);
+            }
+            for (&row, sum) in group.rows.iter().zip(&below) {
+                x[row] -= sum;
+            }
+        }
+        for s in (0..groups.n_supernodes()).rev() {
+            let group = self.group(groups, s);
+            below.clear();
+            below.extend(group.rows.iter().map(|&row| x[row]));
+            let own = &mut x[group.start..group.start + group.size];
+            for (j, column) in group.columns().enumerate().rev() {
+                let sum = dot::<{ LANES[1] }>(&below, &column[group.size..])
+                    + dot::<{ LANES[1] }>(&own[j + 1..], &column[j + 1..group.size]);
+                own[j] = (own[j] - sum) / column[j];
+            }
+        }
+        forward.iter().zip(&x).for_each(|(&v, &x)| side[v] = x);
         true
     }
 

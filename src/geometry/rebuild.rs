@@ -160,7 +160,7 @@ impl Laplacian {
         }
         let pattern = SymbolicSparseColMat::new_checked(n, n, starts, None, rows);
         let symbolic = Symbolic::new(pattern.as_ref())?;
-        Some(Self { factor: symbolic.factor(SparseColMatRef::new(pattern.as_ref(), &values))? })
+        Some(Self { factor: symbolic.factor(SparseColMatRef::new(pattern.as_ref(), &values), None)? })
     }
 }
 

@@ -146,7 +146,7 @@ impl GlobalSolver {
             values[slot] += self.weights[v];
         }
         let matrix = SparseColMatRef::new(self.pattern.as_ref(), &values);
-        self.factor = self.symbolic.factor(matrix);
+        self.factor = self.symbolic.factor(matrix, self.factor.take());
         counters.factorisations += 1;
         self.factor.is_some()
     }
