@@ -141,6 +141,16 @@ impl Surface {
         self.closest.nearest(p, limit).map(|found| self.signed(p, found))
     }
 
+    /// The same without the triangles that are `left_out`.
+    pub fn nearest_within_but(
+        &self,
+        p: DVec3,
+        limit: f64,
+        left_out: impl Fn(u32) -> bool,
+    ) -> Option<Nearest> {
+        self.closest.nearest_but(p, limit, left_out).map(|found| self.signed(p, found))
+    }
+
     /// The points of the surface within `reach` metres of `p` than which none round about is nearer, with their triangles:
     /// nearest first, equally near ones by triangle. Of triangles that share such a point the lowest has it.
     pub fn nearest_round_about(&self, p: DVec3, reach: f64) -> Vec<(DVec3, u32)> {

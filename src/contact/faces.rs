@@ -7,6 +7,7 @@ use rayon::prelude::*;
 use crate::body::Surface;
 use crate::cloth::refine::Refined;
 use crate::cloth::{ClothState, Counters, Garment, Skip, Skips};
+use crate::contact::Apart;
 
 /// How many clearances deep a face may lie in the body and still be found: its corners are above the skin.
 const LOOK_INTO: f64 = 5.0;
@@ -62,6 +63,8 @@ pub struct Lying<'a> {
     pub skips: Skips,
     /// The garment with its split edges, and where that is.
     pub split: Option<(&'a Refined, &'a ClothState)>,
+    /// Skin that some vertices do not touch.
+    pub apart: Option<&'a Apart>,
 }
 
 impl Lying<'_> {
@@ -69,6 +72,12 @@ impl Lying<'_> {
         let vs = self.garment.triangles[t];
         let laid = vs.iter().all(|&v| self.state.mapped[v as usize]);
         laid.then(|| vs.map(|v| self.state.positions[v as usize]))
+    }
+
+    /// Whether face `t` does not touch `triangle` of the body.
+    fn leaves_out(&self, t: usize, triangle: u32) -> bool {
+        let vs = &self.garment.triangles[t];
+        self.apart.is_some_and(|apart| vs.iter().any(|&v| apart.leaves_out(v as usize, triangle)))
     }
 }
 
@@ -102,7 +111,7 @@ impl Faces {
                     return 0.0;
                 }
                 *asked = SAMPLES.len() as u32;
-                let (lack, clear) = look(corners, lying.surface, clearance, limit, ahead);
+                let (lack, clear) = look(corners, lying, t, [clearance, limit, ahead]);
                 known.clear = (clear as f32).next_down();
                 lack
             })
@@ -113,7 +122,7 @@ impl Faces {
             refined.opened.iter().for_each(|&t| lacking[t as usize] = 0.0);
             for (t, &from) in (refined.first_cut..).zip(&refined.cut_from) {
                 let corners = refined.garment.triangles[t].map(|v| state.positions[v as usize]);
-                let (lack, _) = look(corners, lying.surface, clearance, limit, ahead);
+                let (lack, _) = look(corners, lying, from as usize, [clearance, limit, ahead]);
                 let all = &mut lacking[from as usize];
                 *all = all.max(lack);
                 counters.face_queries += SAMPLES.len() as u64;
@@ -145,6 +154,9 @@ impl Faces {
                     (known.right, known.turn) = (ahead as f32, f32::INFINITY);
                     return None;
                 };
+                if lying.leaves_out(t, near.triangle) {
+                    return None;
+                }
                 let distance = near.distance.abs();
                 if distance > reach {
                     (known.right, known.turn) = (((distance - reach) as f32).next_down(), f32::INFINITY);
@@ -198,13 +210,13 @@ impl Faces {
     }
 }
 
-/// What a face lacks to the clearance, and how far it may move before it lacks anything (not more than `ahead`). Points
+/// What a face, or a cut of face `t`, lacks to the clearance, and how far it may move before it lacks anything (not more than `ahead`). Points
 /// deeper in the body than `limit` are not found.
-fn look(corners: [DVec3; 3], surface: &Surface, clearance: f64, limit: f64, ahead: f64) -> (f64, f64) {
+fn look(corners: [DVec3; 3], lying: Lying<'_>, t: usize, [clearance, limit, ahead]: [f64; 3]) -> (f64, f64) {
     let (mut lack, mut clear) = (0.0f64, f64::INFINITY);
     for share in &SAMPLES {
         let p = corners[0] * share[0] + corners[1] * share[1] + corners[2] * share[2];
-        match surface.nearest_within(p, limit + ahead) {
+        match lying.surface.nearest_within_but(p, limit + ahead, |triangle| lying.leaves_out(t, triangle)) {
             Some(n) if n.distance.abs() <= limit => {
                 lack = lack.max(clearance - n.distance);
                 clear = clear.min(n.distance - clearance);

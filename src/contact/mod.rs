@@ -1,11 +1,13 @@
 //! Cloth against body, and against itself.
 
+pub mod apart;
 pub mod bones;
 pub mod faces;
 pub mod layers;
 pub mod splits;
 pub mod tracker;
 
+pub use apart::Apart;
 pub use bones::{Bone, Bones};
 pub use faces::Faces;
 pub use splits::Splits;

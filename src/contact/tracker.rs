@@ -5,11 +5,14 @@
 //! a certificate says that nothing else can be nearer (ALGORITHMS.md 1.A7), and the paper's walk only on the way to where the
 //! next exact one is asked for.
 
+use std::sync::Arc;
+
 use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::body::{Nearest, Surface};
 use crate::cloth::{ClothState, Counters, Skip, Skips};
+use crate::contact::Apart;
 
 /// A track plane is kept while its vertex has moved less than this, metres on a body 1.5 m large.
 const PLANE_REUSE: f64 = 0.0002;
@@ -72,12 +75,14 @@ pub struct Tracker {
     reach: f64,
     /// Cloth that lay near the skin walks there from where it was, until this is false again: then it asks anew.
     pub walks: bool,
+    /// Skin that some vertices do not touch.
+    pub apart: Option<Arc<Apart>>,
 }
 
 impl Tracker {
     /// Nothing known yet about `count` vertices.
     pub fn new(count: usize) -> Self {
-        Self { tracks: vec![Track::Unknown; count], reach: 0.0, walks: false }
+        Self { tracks: vec![Track::Unknown; count], reach: 0.0, walks: false, apart: None }
     }
 
     /// Brings the tracks of all mapped vertices up to date. Those within `reach` metres of the skin have a plane afterwards.
@@ -90,14 +95,22 @@ impl Tracker {
         counters: &mut Counters,
     ) {
         self.reach = reach;
-        let ask = Ask { surface, reach, scale: surface.scale(), skips, walks: self.walks };
+        let ask = Ask {
+            surface,
+            reach,
+            scale: surface.scale(),
+            skips,
+            walks: self.walks,
+            apart: self.apart.as_deref(),
+        };
         let [queries, gaps, walks] = self
             .tracks
             .par_iter_mut()
             .zip(&state.positions)
             .zip(&state.mapped)
-            .filter(|(_, mapped)| **mapped)
-            .map(|((track, &p), _)| work(ask.refresh(track, p)))
+            .enumerate()
+            .filter(|(_, (_, mapped))| **mapped)
+            .map(|(v, ((track, &p), _))| work(ask.refresh(track, v, p)))
             .reduce(|| [0; 3], |a, b| [a[0] + b[0], a[1] + b[1], a[2] + b[2]]);
         counters.contact_queries += queries;
         counters.contact_gaps += gaps;
@@ -116,8 +129,16 @@ impl Tracker {
         counters: &mut Counters,
     ) -> Option<Plane> {
         self.reach = reach;
-        let ask = Ask { surface, reach, scale: surface.scale(), skips, walks: self.walks };
-        let [queries, gaps, walks] = work(ask.refresh(&mut self.tracks[vertex as usize], position));
+        let ask = Ask {
+            surface,
+            reach,
+            scale: surface.scale(),
+            skips,
+            walks: self.walks,
+            apart: self.apart.as_deref(),
+        };
+        let [queries, gaps, walks] =
+            work(ask.refresh(&mut self.tracks[vertex as usize], vertex as usize, position));
         counters.contact_queries += queries;
         counters.contact_gaps += gaps;
         counters.contact_walks += walks;
@@ -180,10 +201,11 @@ struct Ask<'a> {
     scale: f64,
     skips: Skips,
     walks: bool,
+    apart: Option<&'a Apart>,
 }
 
 impl Ask<'_> {
-    fn refresh(&self, track: &mut Track, p: DVec3) -> Effort {
+    fn refresh(&self, track: &mut Track, v: usize, p: DVec3) -> Effort {
         let allow = |skip| self.skips.allow(skip);
         let mut slow = false;
         let far = match *track {
@@ -230,7 +252,8 @@ impl Ask<'_> {
             Track::Unknown => f64::INFINITY,
         };
         let far = far.max(self.reach);
-        let Some(n) = self.surface.nearest_within(p, far) else {
+        let left_out = |t: u32| self.apart.is_some_and(|apart| apart.leaves_out(v, t));
+        let Some(n) = self.surface.nearest_within_but(p, far, left_out) else {
             *track = Track::Clear { at: p, distance: far };
             return Effort::Query;
         };

@@ -443,7 +443,8 @@ impl Worn {
         for (v, x) in self.state.positions.iter().enumerate() {
             near[fixed.vertices[v] as usize] = self.small.height(v, *x).is_some();
         }
-        let lying = Lying { garment, surface, state: cloth, skips: self.settings.skips, split: None };
+        let lying =
+            Lying { garment, surface, state: cloth, skips: self.settings.skips, split: None, apart: None };
         let clearance = FACE_CLEARANCE * fixed.offset;
         let lacking = self.faces.lacking(lying, &near, clearance, &mut self.counters);
         let mut raised = self.small.lift().to_vec();

@@ -9,7 +9,7 @@ use crate::body::Surface;
 use crate::cloth::{Carry, ClothState, Counters, Garment, Skip};
 use crate::contact::faces::Lying;
 use crate::contact::splits::{Ground, Suspects};
-use crate::contact::{Bones, Faces, Plane, Splits, Tracker, layers};
+use crate::contact::{Apart, Bones, Faces, Plane, Splits, Tracker, layers};
 use crate::geometry::crossings::meetings;
 use crate::relax::flatten::{Hinges, Lie};
 use crate::relax::global::{GlobalSolver, STALE_SHARE};
@@ -235,6 +235,13 @@ impl Relaxer {
         self.lift.fill(0.0);
         self.sent.fill(DVec3::ZERO);
         self.parted.fill(DVec3::ZERO);
+    }
+
+    /// From now on some vertices do not touch some skin.
+    pub fn keep_apart(&mut self, apart: Option<Arc<Apart>>) {
+        self.tracker.apart = apart;
+        self.tracker.forget();
+        self.faces = Faces::default();
     }
 
     /// Cloth that was carried elsewhere is not sliding.
@@ -522,7 +529,8 @@ impl Relaxer {
     /// For each face that faces the skin next to it the way off that skin.
     fn wrong_faces(&mut self, state: &ClothState) -> Vec<Option<DVec3>> {
         let (garment, surface, skips) = (&*self.garment, &*self.surface, self.settings.skips);
-        self.faces.wrong(Lying { garment, surface, state, skips, split: None }, &mut self.counters)
+        let apart = self.tracker.apart.as_deref();
+        self.faces.wrong(Lying { garment, surface, state, skips, split: None, apart }, &mut self.counters)
     }
 
     /// In how many places the cloth passes through the body or itself, or shows the body its outer side, by weight.
@@ -570,7 +578,8 @@ impl Relaxer {
         let split_state = refined.as_ref().map(|r| self.splits.state(r, state));
         let (garment, surface, skips) = (&*self.garment, &*self.surface, self.settings.skips);
         let split = refined.as_deref().zip(split_state.as_ref());
-        let lying = Lying { garment, surface, state, skips, split };
+        let apart = self.tracker.apart.as_deref();
+        let lying = Lying { garment, surface, state, skips, split, apart };
         let mut lacking = self.faces.lacking(lying, &near, clearance, &mut self.counters);
         let lack = lacking.iter().filter(|&&l| l > 0.0).count();
         if lack > 0 && self.splitting {

@@ -16,6 +16,16 @@ const LEAST_SHARE: usize = 256;
 /// Where `positions`, bound by `map` to `from`, are on `to`, a body of the same topology. Vertices bound to skin that has
 /// not moved keep their bits, and those bound to nothing stay.
 pub fn conformed(map: &DistanceMap, from: &Surface, to: &Surface, positions: &[DVec3]) -> Vec<DVec3> {
+    carried(map, from, to, positions).into_iter().map(|(p, _)| p).collect()
+}
+
+/// The same, each with how its skin has turned.
+pub(super) fn carried(
+    map: &DistanceMap,
+    from: &Surface,
+    to: &Surface,
+    positions: &[DVec3],
+) -> Vec<(DVec3, DQuat)> {
     let mut used: Vec<u32> =
         map.bindings().iter().flat_map(|b| from.mesh.triangles[b.triangle as usize]).collect();
     used.sort_unstable();
@@ -27,16 +37,22 @@ pub fn conformed(map: &DistanceMap, from: &Surface, to: &Surface, positions: &[D
         let corners = from.mesh.triangles[binding.triangle as usize];
         corners.iter().any(|&v| of_vertex[v as usize].is_some())
     };
-    let image = |binding: &Binding| {
+    let turn_of = |binding: &Binding| {
         let corners = from.mesh.triangles[binding.triangle as usize];
         let turned = |k: usize| of_vertex[corners[k] as usize].unwrap_or(DQuat::IDENTITY);
-        let turn = mean((0..3).map(|k| (turned(k), binding.shares[k])));
+        mean((0..3).map(|k| (turned(k), binding.shares[k])))
+    };
+    let image = |binding: &Binding, turn: DQuat| {
         let point = at(binding.shares, to.mesh.corners(binding.triangle as usize));
         (point + turn * binding.beside) * binding.weight
     };
     let place = |v: usize| match map.of(v) {
-        bindings if bindings.iter().any(moved) => bindings.iter().map(image).sum(),
-        _ => positions[v],
+        bindings if bindings.iter().any(moved) => {
+            let turns = || bindings.iter().map(|binding| (turn_of(binding), binding.weight));
+            let place = bindings.iter().zip(turns()).map(|(binding, (turn, _))| image(binding, turn)).sum();
+            (place, mean(turns()))
+        }
+        _ => (positions[v], DQuat::IDENTITY),
     };
     (0..positions.len()).into_par_iter().with_min_len(LEAST_SHARE).map(place).collect()
 }

@@ -9,6 +9,7 @@ use rayon::prelude::*;
 
 use crate::body::Surface;
 use crate::cloth::ClothState;
+use crate::contact::Apart;
 
 /// A vertex is bound to so many points at most,
 const MOST: usize = 4;
@@ -44,12 +45,21 @@ pub struct DistanceMap {
 impl DistanceMap {
     /// Binds the laid vertices of `cloth` to `surface`; the others to nothing.
     pub fn new(surface: &Surface, cloth: &ClothState) -> Self {
+        Self::apart(surface, cloth, None)
+    }
+
+    /// The same to none of the skin that `apart` leaves out.
+    pub fn apart(surface: &Surface, cloth: &ClothState, apart: Option<&Apart>) -> Self {
         let bound: Vec<(Vec<Binding>, f64)> = cloth
             .positions
             .par_iter()
             .zip(&cloth.mapped)
+            .enumerate()
             .with_min_len(LEAST_SHARE)
-            .map(|(&p, &mapped)| if mapped { bound(surface, p) } else { (Vec::new(), f64::INFINITY) })
+            .map(|(v, (&p, &mapped))| match mapped {
+                true => bound(surface, p, |t| apart.is_some_and(|apart| apart.leaves_out(v, t))),
+                false => (Vec::new(), f64::INFINITY),
+            })
             .collect();
         let mut map = Self { starts: vec![0], ..Self::default() };
         for (bindings, height) in bound {
@@ -82,11 +92,15 @@ impl DistanceMap {
 }
 
 /// The bindings of a vertex at `p`, and its height.
-fn bound(surface: &Surface, p: DVec3) -> (Vec<Binding>, f64) {
-    let nearest = surface.nearest(p);
+fn bound(surface: &Surface, p: DVec3, left_out: impl Fn(u32) -> bool) -> (Vec<Binding>, f64) {
+    let nearest = surface.nearest_within_but(p, f64::INFINITY, &left_out);
+    let nearest = nearest.unwrap_or_else(|| surface.nearest(p));
     let least = nearest.distance.abs();
     let mut chosen = vec![(nearest.point, nearest.triangle)];
     for (point, triangle) in surface.nearest_round_about(p, least * FARTHEST) {
+        if left_out(triangle) {
+            continue;
+        }
         if chosen.len() < MOST && chosen.iter().all(|(other, _)| other.distance(point) > APART * least) {
             chosen.push((point, triangle));
         }

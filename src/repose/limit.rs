@@ -8,20 +8,23 @@ use crate::repose::excess::Lengths;
 
 /// Edges are brought to this share of what they may be strained, so that what is mended afterwards has some left.
 const AIM: f64 = 0.8;
-/// Each correction goes so many times as far as it must (over-relaxation; below 2).
-const PACE: f64 = 1.5;
 /// Times that all edges are looked at with the same contacts.
 const SWEEPS: usize = 12;
-/// Contacts are looked for anew so often at most.
-const ROUNDS: usize = 30;
 /// Skin is looked for within so many offsets.
 const REACH: f64 = 4.0;
 /// Vertices are kept above the skin by this share of the offset.
 const CLEARANCE: f64 = 0.5;
 
-/// Brings the edges of `state` within `most` of their `lengths`, its vertices out of the body. What is over then is left.
-pub(super) fn limited(lengths: &Lengths, relaxer: &mut Relaxer, state: &mut ClothState, most: f64) {
-    for _ in 0..ROUNDS {
+/// Brings the edges of `state` within `most` of their `lengths`, its vertices out of the body, looking for contacts anew
+/// `rounds` times at most. What is over then is left.
+pub(super) fn limited(
+    lengths: &Lengths,
+    relaxer: &mut Relaxer,
+    state: &mut ClothState,
+    most: f64,
+    rounds: usize,
+) {
+    for _ in 0..rounds {
         relaxer.track(state, REACH * relaxer.offset());
         for sweep in 0..SWEEPS {
             // To and fro, so that neither end of the garment is favoured.
@@ -49,7 +52,7 @@ fn limit(state: &mut ClothState, &([a, b], before): &([u32; 2], f64), most: f64)
     let length = side.length();
     let wanted = length.clamp(before * (1.0 - most), before * (1.0 + most));
     if wanted != length && length > 0.0 {
-        let half = side * (PACE * (length - wanted) / length / 2.0);
+        let half = side * ((length - wanted) / length / 2.0);
         state.positions[a] += half;
         state.positions[b] -= half;
     }

@@ -5,6 +5,7 @@ mod between;
 mod conform;
 mod distance_map;
 mod excess;
+mod folds;
 mod limit;
 mod reposer;
 mod turns;

@@ -2,18 +2,20 @@
 
 use std::sync::Arc;
 
-use glam::{DVec2, DVec3};
+use glam::{DQuat, DVec2, DVec3};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::body::Surface;
-use crate::cloth::{ClothState, Garment};
+use crate::cloth::{ClothState, Counters, Garment};
+use crate::contact::{Apart, layers};
 use crate::geometry::rebuild::Rebuild;
 use crate::relax::{GlobalStep, RelaxSettings, Relaxer};
 use crate::repose::between::between;
-use crate::repose::conform::conformed;
+use crate::repose::conform::{carried, conformed};
 use crate::repose::distance_map::DistanceMap;
 use crate::repose::excess::Lengths;
+use crate::repose::folds::Folds;
 use crate::repose::limit::{limited, raised};
 
 /// Conforming that strained no more than this, and left nothing inside, is left as it is.
@@ -24,18 +26,28 @@ const STEP_CAP: f64 = 0.02;
 const CONTACT: f64 = 0.1;
 /// How many times as far as solved each global step in the same contacts goes.
 const PACES: [f64; 3] = [1.7; 3];
-/// Global steps in each pose on the way.
+/// Global steps in each pose on the way at most.
 const STEPS_PER_SUBSTEP: usize = 12;
+/// Conforming that strained more than this is not tried to be mended at once, but through poses on the way.
+const AT_ONCE: f64 = 0.15;
+/// Global steps that spread the strain over so much cloth that edge by edge the rest is done.
+const FEW_STEPS: usize = 8;
 /// Global steps between two looks at the strain.
 const STEPS_PER_LOOK: usize = 4;
+/// Contacts are looked for anew so often while strain is spread: for cloth that stays,
+const ROUNDS: usize = 60;
+/// and for a picture.
+const LIVE_ROUNDS: usize = 6;
 /// A mend has so many steps to take effect.
 const STEPS_PER_MEND: usize = 8;
+/// Strain that 99 of 100 edges do not exceed is spread edge by edge.
+const SPREADABLE: f64 = 0.03;
 /// Where the excess that 99 of 100 edges do not exceed is larger than this, there is nowhere to spread it to.
 const TOO_TIGHT: f64 = 0.05;
 /// Strain is spread, and faces that cut the body are raised, so many times for each mend.
 const LIMITS_PER_MEND: usize = 2;
 /// Layers that run through each other are parted every so many steps.
-const STEPS_PER_PARTING: usize = 8;
+const STEPS_PER_PARTING: usize = 4;
 /// Edges and faces keep this share of the offset.
 const FACE_CLEARANCE: f64 = 0.25;
 /// Vertices keep this share of the offset in any case.
@@ -62,7 +74,7 @@ pub struct Care {
 
 impl Care {
     /// For a picture every frame.
-    pub const LIVE: Self = Self { excess: 0.01, most_steps: 12, most_substeps: 0, mends: 0 };
+    pub const LIVE: Self = Self { excess: 0.01, most_steps: 4, most_substeps: 0, mends: 0 };
     /// For cloth that stays as it comes out.
     pub const THOROUGH: Self = Self { excess: 0.01, most_steps: 120, most_substeps: 12, mends: 3 };
 }
@@ -97,6 +109,13 @@ pub struct Reposer {
     relaxer: Relaxer,
     /// Makes the poses on the way.
     rebuild: Option<Arc<Rebuild>>,
+    folds: Folds,
+    /// In so many places layers ran through each other.
+    crossings: usize,
+    /// Parts of the body that cross each other in the pose.
+    apart: Option<Arc<Apart>>,
+    /// Where the last picture left each vertex beside its conformed place, before the skin turned.
+    beside: Option<Vec<DVec3>>,
 }
 
 impl Reposer {
@@ -112,12 +131,20 @@ impl Reposer {
         let as_it_lies = Arc::new(with_shape_of(garment, &cloth));
         let mut relaxer = Relaxer::new(as_it_lies, Arc::clone(&surface), settings)?;
         relaxer.set_mapped(&cloth.mapped);
-        Some(Self { from: surface, cloth, map, lengths, relaxer, rebuild: None })
+        let folds = Folds::of(garment, &cloth);
+        let crossings = layers::parting(garment, &cloth).1;
+        let (rebuild, apart, beside) = (None, None, None);
+        Some(Self { from: surface, cloth, map, lengths, relaxer, rebuild, folds, crossings, apart, beside })
     }
 
     /// The body the cloth was bound to.
     pub fn from(&self) -> &Arc<Surface> {
         &self.from
+    }
+
+    /// Work done so far.
+    pub fn counters(&self) -> Counters {
+        self.relaxer.counters
     }
 
     /// The distance map.
@@ -126,35 +153,98 @@ impl Reposer {
     }
 
     /// Where the cloth is on `to`, the same body in another pose. None when `to` has another topology.
+    ///
+    /// It goes there at once, and with care through poses on the way where that does not come out well.
     pub fn reposed(&mut self, to: &Arc<Surface>, care: Care) -> Option<(ClothState, Outcome)> {
         if to.mesh.triangles != self.from.mesh.triangles {
             return None;
         }
         let mut outcome = Outcome::default();
-        let positions = conformed(&self.map, &self.from, to, &self.cloth.positions);
-        let mut state = ClothState { positions, mapped: self.cloth.mapped.clone() };
+        let carried = carried(&self.map, &self.from, to, &self.cloth.positions);
+        let conformed: Vec<DVec3> = carried.iter().map(|(p, _)| *p).collect();
+        let mut state = ClothState { positions: conformed.clone(), mapped: self.cloth.mapped.clone() };
         if state.positions == self.cloth.positions && to.mesh.positions == self.from.mesh.positions {
             return Some((state, outcome));
         }
         outcome.conformed_p99 = self.lengths.p99(&state);
-        let bodies = if outcome.conformed_p99 > care.excess {
-            between(&self.from, to, care.most_substeps, &mut self.rebuild)
-        } else {
-            Vec::new()
-        };
-        outcome.substeps = bodies.len();
-        if !bodies.is_empty() {
-            state = self.through(bodies, to, care, &mut outcome);
+        if care.mends == 0 {
+            self.go_on(&mut state, &carried, outcome.conformed_p99);
         }
+        let heights = self.map.heights.clone();
+        self.apart = None;
         self.enter(to, &state);
-        outcome.conformed_inside = self.recover(&mut state, &self.map.heights.clone());
-        outcome.excess_p99 = outcome.conformed_p99;
-        if outcome.conformed_inside > 0 || outcome.conformed_p99 > EXACT {
-            self.control(&mut state, care, &mut outcome);
-            outcome.inside = self.send_out(&mut state);
-            outcome.excess_p99 = self.lengths.p99(&state);
+        outcome.conformed_inside = self.recover(&mut state, &heights);
+        if outcome.conformed_inside > 0 && care.mends > 0 {
+            self.apart = self.parts_of(to);
+            if self.apart.is_some() {
+                state.positions.clone_from(&conformed);
+                self.enter(to, &state);
+                outcome.conformed_inside = self.recover(&mut state, &heights);
+            }
+        }
+        outcome.excess_p99 = self.lengths.p99(&state);
+        if outcome.conformed_inside == 0 && outcome.excess_p99 <= EXACT {
+            return Some((state, outcome));
+        }
+        let at_once = outcome.conformed_p99 <= AT_ONCE || care.most_substeps == 0;
+        if at_once {
+            self.control(&mut state, care, FEW_STEPS.min(care.most_steps), &mut outcome);
+            self.finish(&mut state, &mut outcome);
+        }
+        if care.most_substeps > 0 && !(at_once && self.is_well(&state, care, outcome)) {
+            let bodies = between(&self.from, to, care.most_substeps, &mut self.rebuild);
+            (outcome.substeps, outcome.mends) = (bodies.len(), 0);
+            if bodies.is_empty() {
+                state.positions = conformed;
+            } else {
+                state = self.through(bodies, to, care, &mut outcome);
+            }
+            self.enter(to, &state);
+            self.recover(&mut state, &heights);
+            self.control(&mut state, care, care.most_steps, &mut outcome);
+            self.finish(&mut state, &mut outcome);
+        }
+        if care.mends == 0 {
+            let beside = |((p, (q, turn)), _): ((&DVec3, &(DVec3, DQuat)), &bool)| turn.inverse() * (*p - *q);
+            self.beside = Some(state.positions.iter().zip(&carried).zip(&state.mapped).map(beside).collect());
         }
         Some((state, outcome))
+    }
+
+    /// Where the last picture of a sequence left the cloth beside the places that conforming gives it, it starts in the next
+    /// one, if that strains it less: from picture to picture little changes.
+    fn go_on(&self, state: &mut ClothState, carried: &[(DVec3, DQuat)], conformed_p99: f64) {
+        let Some(beside) = &self.beside else { return };
+        let near = |((p, turn), beside): (&(DVec3, DQuat), &DVec3)| *p + *turn * *beside;
+        let positions = carried.iter().zip(beside).map(near).collect();
+        let near = ClothState { positions, mapped: state.mapped.clone() };
+        if self.lengths.p99(&near) < conformed_p99 {
+            *state = near;
+        }
+    }
+
+    fn finish(&self, state: &mut ClothState, outcome: &mut Outcome) {
+        outcome.inside = self.send_out(state);
+        outcome.excess_p99 = self.lengths.p99(state);
+    }
+
+    /// Which skin of `body` cloth does not touch, by the skin it was bound to.
+    fn parts_of(&self, body: &Surface) -> Option<Arc<Apart>> {
+        let bound: Vec<Option<u32>> =
+            (0..self.map.len()).map(|v| self.map.of(v).first().map(|b| b.triangle)).collect();
+        Apart::of(body, &bound).map(Arc::new)
+    }
+
+    /// Whether the strain is what it may be, and the cloth has no more faults than when it was bound.
+    fn is_well(&mut self, state: &ClothState, care: Care, outcome: Outcome) -> bool {
+        if outcome.excess_p99 > care.excess || outcome.inside > 0 {
+            return false;
+        }
+        let clearance = self.relaxer.offset() * FACE_CLEARANCE;
+        self.relaxer.track(state, 2.0 * self.relaxer.offset());
+        self.relaxer.lift_faces(state, clearance) == 0
+            && self.folds.count(state) <= self.folds.bound
+            && self.relaxer.part_layers(state) <= self.crossings
     }
 
     /// Goes through `bodies`, the poses on the way, bound anew to each; then on to `to`.
@@ -172,11 +262,14 @@ impl Reposer {
         for (i, body) in bodies.iter().enumerate() {
             self.enter(body, &state);
             self.recover(&mut state, &heights);
-            for k in 0..STEPS_PER_SUBSTEP {
-                self.step(&mut state, care, k + 1);
+            for done in 1..=STEPS_PER_SUBSTEP {
+                self.step(&mut state, care, done);
                 outcome.steps += 1;
+                if done.is_multiple_of(STEPS_PER_LOOK) && self.lengths.p99(&state) <= SPREADABLE {
+                    break;
+                }
             }
-            let map = DistanceMap::new(body, &state);
+            let map = DistanceMap::apart(body, &state, self.apart.as_deref());
             let next = bodies.get(i + 1).unwrap_or(to);
             state.positions = conformed(&map, body, next, &state.positions);
             heights = map.heights;
@@ -187,6 +280,7 @@ impl Reposer {
     /// The cloth, as it lies in `state`, is on `body` now.
     fn enter(&mut self, body: &Arc<Surface>, state: &ClothState) {
         self.relaxer.change_body(Arc::clone(body));
+        self.relaxer.keep_apart(self.apart.clone());
         self.relaxer.forget_motion(state);
     }
 
@@ -210,11 +304,14 @@ impl Reposer {
 
     /// Strain control: global steps in contact until the strain is what it may be; then faces that cut the body are raised,
     /// and strain that is left in a few places is spread.
-    fn control(&mut self, state: &mut ClothState, care: Care, outcome: &mut Outcome) {
-        for done in 1..=care.most_steps {
+    fn control(&mut self, state: &mut ClothState, care: Care, most: usize, outcome: &mut Outcome) {
+        for done in 1..=most {
             self.step(state, care, done);
             outcome.steps += 1;
-            if done.is_multiple_of(STEPS_PER_LOOK) && self.lengths.p99(state) <= care.excess {
+            // What is folded over does not come apart edge by edge.
+            let spreads = done >= FEW_STEPS && self.folds.count(state) == 0;
+            let enough = if spreads { SPREADABLE } else { care.excess };
+            if done.is_multiple_of(STEPS_PER_LOOK) && self.lengths.p99(state) <= enough {
                 break;
             }
         }
@@ -236,11 +333,14 @@ impl Reposer {
         if was > TOO_TIGHT {
             return;
         }
+        if care.mends == 0 && was > care.excess {
+            limited(&self.lengths, &mut self.relaxer, state, care.excess, LIVE_ROUNDS);
+        }
         for _ in 0..LIMITS_PER_MEND * care.mends {
             if self.lengths.p99(state) <= care.excess {
                 break;
             }
-            limited(&self.lengths, &mut self.relaxer, state, care.excess);
+            limited(&self.lengths, &mut self.relaxer, state, care.excess, ROUNDS);
             if self.relaxer.lift_faces(state, clearance) == 0 {
                 break;
             }
@@ -272,19 +372,22 @@ impl Reposer {
     fn send_out(&self, state: &mut ClothState) -> usize {
         let surface = &self.relaxer.surface;
         let least = VERTEX_CLEARANCE * self.relaxer.offset();
-        let sent = |(p, &mapped): (&mut DVec3, &bool)| {
+        let sent = |(v, (p, &mapped)): (usize, (&mut DVec3, &bool))| {
+            let left_out = |t: u32| self.apart.as_ref().is_some_and(|apart| apart.leaves_out(v, t));
+            let near = |p: DVec3| surface.nearest_within_but(p, f64::INFINITY, left_out);
             for _ in 0..SENDS {
-                match mapped.then(|| surface.nearest(*p)) {
-                    Some(skin) if skin.distance < 0.0 => *p = skin.point + skin.normal * least,
+                match near(*p) {
+                    Some(skin) if mapped && skin.distance < 0.0 => *p = skin.point + skin.normal * least,
                     _ => return false,
                 }
             }
-            surface.nearest(*p).distance < 0.0
+            near(*p).is_some_and(|skin| skin.distance < 0.0)
         };
         let ClothState { positions, mapped } = state;
         positions
             .par_iter_mut()
             .zip(mapped.par_iter())
+            .enumerate()
             .with_min_len(LEAST_SHARE)
             .filter_map(|x| sent(x).then_some(()))
             .count()

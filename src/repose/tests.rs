@@ -153,6 +153,43 @@ fn a_bent_arm_stays_outside_of_its_sleeve_which_keeps_its_lengths() {
 }
 
 #[test]
+fn from_picture_to_picture_the_strain_gets_no_more() {
+    let (_, state, mut reposer, surface) = reposer();
+    let to = moved(&surface, |p| bent(p, 0.4));
+    let strained =
+        |reposer: &mut Reposer| reposer.reposed(&to, Care::LIVE).expect("the same body").1.excess_p99;
+    let first = strained(&mut reposer);
+    let later = (0..6).map(|_| strained(&mut reposer)).last().expect("six");
+    assert!(later <= first.max(Care::LIVE.excess), "{first}, {later}");
+    let (back, _) = reposer.reposed(&moved(&surface, |p| p), Care::LIVE).expect("the same body");
+    assert_eq!(back, state, "the pose it was dressed in still leaves every bit");
+}
+
+#[test]
+fn an_arm_that_runs_through_the_trunk_leaves_the_cloth_of_the_trunk() {
+    let (garment, state) = sleeve();
+    let (mut both, other) = (arm(), crate::geometry::shapes::cylinder(0.03, 0.8, 24, 60));
+    let first = both.positions.len() as u32;
+    // Beside the trunk, across it.
+    both.positions.extend(other.positions.iter().map(|p| DVec3::new(p.z + 0.3, p.x + 0.45, p.y - 0.4)));
+    both.triangles.extend(other.triangles.iter().map(|t| t.map(|v| v + first)));
+    let surface = Arc::new(Surface::new(both).expect("two bodies"));
+    let settings = RelaxSettings::default();
+    let mut reposer = Reposer::new(&garment, Arc::clone(&surface), state.clone(), settings).expect("it fits");
+    let mut positions = surface.mesh.positions.clone();
+    positions[first as usize..].iter_mut().for_each(|p| p.x -= 0.23);
+    let to = Arc::new(surface.reposed(positions).expect("as many vertices"));
+    let of_trunk = arm().triangles.len() as u32;
+    let within = |p: &&DVec3| {
+        let skin = to.nearest_within_but(**p, 1.0, |t| t < of_trunk);
+        skin.is_some_and(|skin| skin.distance < 0.0)
+    };
+    assert!(state.positions.iter().filter(within).count() > 10, "the arm runs through the cloth");
+    let (reposed, outcome) = reposer.reposed(&to, Care::THOROUGH).expect("the same body");
+    assert_eq!((reposed, outcome.inside), (state, 0));
+}
+
+#[test]
 fn threads_do_not_change_a_bit() {
     let run = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");

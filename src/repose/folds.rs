@@ -1,0 +1,44 @@
+//! Where cloth is folded over: neighbouring faces that look against each other.
+
+use glam::DVec3;
+
+use crate::cloth::{ClothState, Garment};
+
+/// Faces are folded over when their normals have a smaller cosine.
+const FOLDED: f64 = -0.2;
+
+/// The inner edges of a garment.
+#[derive(Clone, Debug)]
+pub(super) struct Folds {
+    faces: Vec<[[u32; 3]; 2]>,
+    /// Edges that were folded over when the cloth was bound.
+    pub bound: usize,
+}
+
+impl Folds {
+    /// Of the laid part of `garment`.
+    pub fn of(garment: &Garment, cloth: &ClothState) -> Self {
+        let laid = |t: u32| garment.triangles[t as usize].iter().all(|&v| cloth.mapped[v as usize]);
+        let sides = |e: usize| match garment.adjacency.edge_triangles.of(e as u32) {
+            &[s, t] if laid(s) && laid(t) => Some([s, t].map(|t| garment.triangles[t as usize])),
+            _ => None,
+        };
+        let faces = (0..garment.adjacency.edges.len()).filter_map(sides).collect();
+        let mut folds = Self { faces, bound: 0 };
+        folds.bound = folds.count(cloth);
+        folds
+    }
+
+    /// Edges that are folded over.
+    pub fn count(&self, cloth: &ClothState) -> usize {
+        let normal = |vs: [u32; 3]| {
+            let [a, b, c] = vs.map(|v| cloth.positions[v as usize]);
+            (b - a).cross(c - a)
+        };
+        let folded = |[s, t]: &&[[u32; 3]; 2]| {
+            let [m, n]: [DVec3; 2] = [normal(*s), normal(*t)];
+            m.dot(n) < FOLDED * m.length() * n.length()
+        };
+        self.faces.iter().filter(folded).count()
+    }
+}
