@@ -14,6 +14,8 @@ use crate::geometry::winding::Winding;
 
 /// Cloth nearer to the skin than this (metres) must show it its inner side.
 pub(super) const NEAR: f64 = 0.02;
+/// Cloth so near, metres, is the other layer of a fold.
+const FOLD: f64 = 0.03;
 /// A triangle whose normal has a smaller cosine with the skin's than this lies wrong side out.
 pub(super) const WRONG_SIDE: f64 = -0.2;
 /// A triangle of the body is hidden when a point this far (metres) before it lies inside the body.
@@ -81,6 +83,7 @@ pub(super) struct OnBody {
     pub body_edges_through_garment: usize,
     pub faces_near_body: usize,
     pub flipped_faces: usize,
+    pub faces_in_folds: usize,
     pub clearance: Clearance,
     pub openings: Vec<Opening>,
 }
@@ -92,13 +95,14 @@ pub(super) fn on_body(laid: &Laid, cloth_tree: &Bvh, body: &BodyIndex<'_>) -> On
     let through_cloth = meetings(&body_mesh.positions, body_edges, &laid.mesh, cloth_tree);
     let (distances, penetrating_vertices) = distances(laid, body);
     let cut = cut_faces(laid, &through_body, &through_cloth, &penetrating_vertices);
-    let (near, flipped) = flipped_faces(laid, body);
+    let wrong = wrong_side_out(laid, body);
     OnBody {
         penetration: penetration(laid, body, &distances, &cut),
         edges_through_body: through_body.iter().filter(|&&[_, t]| body.is_skin(t)).count(),
         body_edges_through_garment: through_cloth.iter().filter(|&&[e, _]| body.is_skin_edge(e)).count(),
-        faces_near_body: near,
-        flipped_faces: flipped,
+        faces_near_body: wrong.iter().filter(|f| f.is_some()).count(),
+        flipped_faces: wrong.iter().filter(|f| **f == Some(true)).count(),
+        faces_in_folds: faces_in_folds(laid, cloth_tree, body, &wrong),
         clearance: Clearance { median: quantile(&distances, 0.5), p95: quantile(&distances, 0.95) },
         openings: openings(&laid.mesh, body_mesh, body.winding.tree(), |t| body.is_skin(t)),
     }
@@ -181,14 +185,26 @@ fn face_depth(corners: [DVec3; 3], body: &BodyIndex<'_>) -> Option<f64> {
         .reduce(f64::max)
 }
 
-/// Triangles near the body, and those of them that show it their outer side: any of the facets they are nearest to.
-fn flipped_faces(laid: &Laid, body: &BodyIndex<'_>) -> (usize, usize) {
-    let found = wrong_side_out(laid, body);
-    let near = found.iter().filter(|f| f.is_some()).count();
-    (near, found.iter().filter(|f| **f == Some(true)).count())
+/// Triangles that show the body their outer side and lie in a fold: on them or under them, no farther than [`FOLD`], lies cloth
+/// the right way round.
+fn faces_in_folds(laid: &Laid, cloth_tree: &Bvh, body: &BodyIndex<'_>, wrong: &[Option<bool>]) -> usize {
+    let (mut ends, mut segments) = (Vec::new(), Vec::new());
+    for t in (0..wrong.len()).filter(|&t| wrong[t] == Some(true)) {
+        let [a, b, c] = laid.mesh.corners(t);
+        let middle = (a + b + c) / 3.0;
+        let skin = body.surface.nearest(middle);
+        let first = ends.len() as u32;
+        ends.extend([middle - skin.normal * skin.distance.clamp(0.0, FOLD), middle + skin.normal * FOLD]);
+        segments.push([first, first + 1]);
+    }
+    let mut folded = vec![false; segments.len()];
+    for [s, t] in meetings(&ends, &segments, &laid.mesh, cloth_tree) {
+        folded[s as usize] |= wrong[t as usize] != Some(true);
+    }
+    folded.iter().filter(|f| **f).count()
 }
 
-/// Of each triangle near the body: whether it shows it its outer side.
+/// Of each triangle near the body: whether it shows any of the facets it is nearest to its outer side.
 pub(super) fn wrong_side_out(laid: &Laid, body: &BodyIndex<'_>) -> Vec<Option<bool>> {
     (0..laid.mesh.triangles.len())
         .into_par_iter()

@@ -57,6 +57,9 @@ pub struct Report {
     pub faces_near_body: usize,
     /// Those of them that show the body their outer side.
     pub flipped_faces: usize,
+    /// Those of these that lie in folds: on them or under them is cloth the right way round.
+    #[serde(default)]
+    pub faces_in_folds: usize,
     /// How far above the skin the vertices lie.
     pub clearance: Clearance,
     /// Hems, neck, cuffs; longest first.
@@ -161,6 +164,7 @@ pub fn measure(pattern: &Pattern, garment: &Garment, state: &ClothState, body: &
         body_edges_through_garment: sits.body_edges_through_garment,
         faces_near_body: sits.faces_near_body,
         flipped_faces: sits.flipped_faces,
+        faces_in_folds: sits.faces_in_folds,
         clearance: sits.clearance,
         openings: sits.openings,
     }

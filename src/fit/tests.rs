@@ -4,7 +4,7 @@ use super::*;
 use crate::body::Surface;
 use crate::body::closest::closest_on_triangle;
 use crate::fit::on_body::{NEAR, WRONG_SIDE};
-use crate::fit::verdict;
+use crate::fit::{faults, verdict};
 use crate::geometry::mesh::TriMesh;
 use crate::pattern::{EdgeRef, Piece, Seam};
 
@@ -144,7 +144,32 @@ fn a_sleeve_turned_inside_out_is_found() {
     let r = exact_radius();
     let report = report(&sleeve(r, |p| p * DVec3::new(-1.0, 1.0, 1.0)), cylinder(r - 0.01, 0.2, 1.2, 48, 20));
     assert_eq!(report.flipped_faces, report.triangles);
+    assert_eq!(report.faces_in_folds, 0);
     assert!(words(&report).contains("wrong side out"));
+    assert!(!faults(&report, true).is_empty(), "however it came to be so");
+}
+
+#[test]
+fn a_fold_all_round_is_told_from_cloth_inside_out() {
+    let r = exact_radius();
+    // Up, down again for 4 cm a little farther out, and up again still farther out.
+    let folded = |p: DVec3| {
+        let (up, out) = match p.y - 0.5 {
+            h if h < 0.14 => (h, 0.0),
+            h if h < 0.18 => (0.28 - h, 0.004),
+            h => (h - 0.08, 0.008),
+        };
+        DVec3::new(p.x * (r + out) / r, 0.5 + up, p.z * (r + out) / r)
+    };
+    let report = report(&sleeve(r, folded), cylinder(r - 0.004, 0.2, 1.2, 96, 40));
+    assert!(report.flipped_faces > 50, "{}", report.flipped_faces);
+    assert_eq!(report.faces_in_folds, report.flipped_faces);
+    let tells = |draped| {
+        let found = faults(&report, draped);
+        found.iter().any(|(problem, _)| problem.words.contains("wrong side out"))
+    };
+    assert!(tells(false), "a wrap should not fold");
+    assert!(!tells(true));
 }
 
 #[test]

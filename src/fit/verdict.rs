@@ -12,15 +12,15 @@ const EDGES_PER_TEAR: usize = 1000;
 
 /// Every fault of a dressed garment; empty when it is sewn, on the body, outside of it and the right way round.
 pub fn verdict(report: &Report) -> Vec<Problem> {
-    faults(report).into_iter().map(|(problem, _)| problem).collect()
+    faults(report, false).into_iter().map(|(problem, _)| problem).collect()
 }
 
-/// The same, and where on the garment each is.
-pub fn faults(report: &Report) -> Vec<(Problem, Spot)> {
+/// The same, and where on the garment each is. Cloth that was `draped` may fold.
+pub fn faults(report: &Report, draped: bool) -> Vec<(Problem, Spot)> {
     let mut faults = Faults::default();
     faults.placing(report);
     faults.sewing(report);
-    faults.body(report);
+    faults.body(report, draped);
     faults.openings(report);
     faults.cloth(report);
     faults.0
@@ -84,7 +84,7 @@ impl Faults {
         }
     }
 
-    fn body(&mut self, report: &Report) {
+    fn body(&mut self, report: &Report, draped: bool) {
         let p = &report.penetration;
         if p.vertices > 0 || p.faces > 0 {
             let depth = p.max_depth * 1000.0;
@@ -102,8 +102,8 @@ impl Faults {
             let words = format!("cloth and skin cut through each other in {} places", edges + body_edges);
             self.tell(Spot::Through, "body", words);
         }
-        if report.flipped_faces > 0 {
-            let n = report.flipped_faces;
+        let n = report.flipped_faces - if draped { report.faces_in_folds } else { 0 };
+        if n > 0 {
             self.tell(Spot::WrongSide, "garment", format!("{n} triangles lie wrong side out"));
         }
     }

@@ -32,15 +32,16 @@ pub struct Concerned {
     pub stretch: f64,
 }
 
-/// The faults of a garment that was measured.
+/// The faults of a garment that was measured; see [`fit::faults`].
 pub fn faults(
     report: &Report,
     source: &GarmentSource,
     garment: &Garment,
     cloth: &ClothState,
     body: &BodyIndex<'_>,
+    draped: bool,
 ) -> Vec<Fault> {
-    let found = fit::faults(report);
+    let found = fit::faults(report, draped);
     if found.is_empty() {
         return Vec::new();
     }

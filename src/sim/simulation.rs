@@ -173,7 +173,7 @@ impl Simulation {
         let look = || {
             let index = BodyIndex::new(body);
             let report = measure(&source.pattern, garment, cloth, &index);
-            faults(&report, source, garment, cloth, &index)
+            faults(&report, source, garment, cloth, &index, world.is_draped())
         };
         match catch_unwind(AssertUnwindSafe(look)) {
             Ok(found) => self.verdict = Some(Arc::new(found)),
