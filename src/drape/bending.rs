@@ -11,6 +11,7 @@
 //! such triangles hangs down more than twice as far as it should.
 
 use glam::{DVec2, DVec3};
+use rayon::prelude::*;
 
 use crate::cloth::fabric::Bending as Stiffness;
 use crate::drape::sheet::Sheet;
@@ -19,6 +20,9 @@ use crate::drape::sheet::Sheet;
 const MOST_GAIN: f64 = 20.0;
 /// Pivots of a fit below this share of the largest: the points do not tell a quadratic.
 const LEAST_PIVOT: f64 = 1e-6;
+
+/// Rows one thread takes at a time.
+const LEAST_SHARE: usize = 1024;
 
 /// A sparse symmetric matrix Q, N/m: the energy is xᵀQx/2 in each axis.
 #[derive(Clone, Debug)]
@@ -98,6 +102,12 @@ impl Bending {
             *g += force;
         }
         energy
+    }
+
+    /// Writes the gradient, N, times a factor for each vertex.
+    pub fn write_forces(&self, x: &[DVec3], forces: &mut [DVec3], factor: impl Fn(usize) -> f64 + Sync) {
+        let rows = forces.par_iter_mut().enumerate().with_min_len(LEAST_SHARE);
+        rows.for_each(|(i, force)| *force = self.row_times(i, x) * factor(i));
     }
 
     /// The entries of row `i`: column and value.

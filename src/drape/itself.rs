@@ -16,6 +16,10 @@ use crate::geometry::bvh::{Aabb, Bvh};
 /// Of the mean edge: nearer than this in the flat cloth is no contact.
 const MOST_THICKNESS: f64 = 0.7;
 
+/// What is beside one another in the flat cloth and nearer than this share of the thickness is so by its cut. (Pairs that are
+/// pushed by springs and not put in their place leave all that is beside one another alone: bent sharply it would fly apart.)
+const HINGED: f64 = 0.5;
+
 /// Of a vertex's expected way that is looked over.
 const LOOK_AHEAD: f64 = 1.5;
 
@@ -37,6 +41,8 @@ pub struct Itself {
     trees: [Bvh; 2],
     /// Where the vertices were when pairs were last gathered ahead.
     gathered: Vec<DVec3>,
+    /// And how far beside the mean of all they were looked ahead for then.
+    ahead: Vec<DVec3>,
     /// Pairs looked at since the start.
     pub looked_at: u64,
     /// How often pairs were gathered.
@@ -50,13 +56,6 @@ pub struct Sides {
     pub will_be: Vec<u32>,
     /// The garment with its seams shut.
     pub garment: Arc<Garment>,
-}
-
-impl Sides {
-    fn beside(&self, a: u32, b: u32) -> bool {
-        let [a, b] = [a, b].map(|v| self.will_be[v as usize]);
-        a == b || self.garment.adjacency.vertex_neighbours.of(a).binary_search(&b).is_ok()
-    }
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -87,22 +86,36 @@ impl Itself {
         Self { thickness, stiffness, ..Self::default() }
     }
 
-    /// The same as [`gather`](Self::gather), with pairs that last until a vertex has left its expected way by `margin` metres.
-    /// Does nothing while those from the last time do.
-    pub fn gather_ahead(&mut self, sheet: &Sheet, x: &[DVec3], ways: &[DVec3], margin: f64) {
+    /// The same as [`gather`](Self::gather), with pairs that last until a vertex has left the way expected of it then by `margin`
+    /// metres. Does nothing while those from the last time do, also when the vertices have moved by `soon`.
+    pub fn gather_ahead(
+        &mut self,
+        sheet: &Sheet,
+        x: &[DVec3],
+        ways: &[DVec3],
+        soon: impl Fn(usize) -> DVec3,
+        margin: f64,
+    ) {
         if self.thickness == 0.0 {
             return;
         }
         let lasts = self.gathered.len() == x.len() && {
             let mean = |of: &dyn Fn(usize) -> DVec3| (0..x.len()).map(of).sum::<DVec3>() / x.len() as f64;
-            let drift = mean(&|i| x[i] + ways[i] - self.gathered[i]);
-            (0..x.len())
-                .all(|i| (x[i] + ways[i] - self.gathered[i] - drift).length_squared() < margin * margin)
+            let come = |i: usize| x[i] + soon(i) - self.gathered[i];
+            let drift = mean(&come);
+            (0..x.len()).all(|i| {
+                let (come, ahead) = (come(i) - drift, self.ahead[i]);
+                let along = (come.dot(ahead) / ahead.length_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+                (come - ahead * along).length_squared() < margin * margin
+            })
         };
         if !lasts {
-            self.gather(sheet, x, ways, 2.0 * margin);
+            self.gather_pairs(sheet, x, ways, 2.0 * margin, HINGED * self.thickness);
+            let drift = ways.iter().sum::<DVec3>() / ways.len() as f64;
             self.gathered.clear();
             self.gathered.extend_from_slice(x);
+            self.ahead.clear();
+            self.ahead.extend(ways.iter().map(|way| (*way - drift) * LOOK_AHEAD));
         }
     }
 
@@ -113,6 +126,11 @@ impl Itself {
 
     /// Gathers what could meet while the vertices at `x` move about as far as `ways` and `slack` metres more.
     pub fn gather(&mut self, sheet: &Sheet, x: &[DVec3], ways: &[DVec3], slack: f64) {
+        self.gather_pairs(sheet, x, ways, slack, f64::INFINITY);
+    }
+
+    /// What is beside one another in the flat cloth counts as joined where it is nearer than `hinge` metres.
+    fn gather_pairs(&mut self, sheet: &Sheet, x: &[DVec3], ways: &[DVec3], slack: f64, hinge: f64) {
         self.pairs.clear();
         self.active.clear();
         if self.thickness == 0.0 {
@@ -126,10 +144,21 @@ impl Itself {
             let points = Aabb::around(&now.chain(then).collect::<Vec<_>>());
             Aabb { lower: points.lower - near / 2.0, upper: points.upper + near / 2.0 }
         };
-        let sewn = self.sewn.as_deref();
-        let beside = |a: u32, b: u32| match sewn {
-            None => a == b || sheet.adjacency.vertex_neighbours.of(a).binary_search(&b).is_ok(),
-            Some(sides) => sides.beside(a, b),
+        // What is joined bends like a hinge and cannot meet; what is beside one another can, where it is not near anyway.
+        let (names, adjacency) = match self.sewn.as_deref() {
+            None => (None, &sheet.adjacency),
+            Some(sides) => (Some(&sides.will_be), &sides.garment.adjacency),
+        };
+        let name = |v: u32| names.map_or(v, |names| names[v as usize]);
+        let joined = |a: &[u32], b: &[u32]| a.iter().any(|&a| b.iter().any(|&b| name(a) == name(b)));
+        let hinged = |a: &[u32], b: &[u32], distance: f64| {
+            let beside = |a, b| adjacency.vertex_neighbours.of(name(a)).binary_search(&name(b)).is_ok();
+            let any = |of: &dyn Fn(u32, u32) -> bool| a.iter().any(|&a| b.iter().any(|&b| of(a, b)));
+            // What a seam has yet to bring beside one another must not be kept apart.
+            let closes = |a: u32, b: u32| {
+                beside(a, b) && sheet.adjacency.vertex_neighbours.of(a).binary_search(&b).is_err()
+            };
+            any(&beside) && (distance < hinge || (names.is_some() && any(&closes)))
         };
         // Neighbours in the cloth move alike: what counts is how much farther the one goes than the other.
         let apart = |a: &[u32], b: &[u32]| {
@@ -152,12 +181,13 @@ impl Itself {
                 }
                 let vs @ [a, b, c] = sheet.triangles[t as usize];
                 looked_at += 1;
-                if beside(v, a) || beside(v, b) || beside(v, c) || is_free(&vs) {
+                if joined(&[v], &vs) || is_free(&vs) {
                     return;
                 }
                 let (p, [pa, pb, pc]) = (x[v as usize], vs.map(|i| x[i as usize]));
                 let reach = apart(&[v], &vs);
-                if closest_on_triangle(p, pa, pb, pc).0.distance(p) <= reach {
+                let distance = closest_on_triangle(p, pa, pb, pc).0.distance(p);
+                if distance <= reach && !hinged(&[v], &vs, distance) {
                     let side = (pb - pa).cross(pc - pa).dot(p - pa).signum();
                     pairs.push(Pair { vertices: [v, a, b, c], edges: false, side, reach });
                 }
@@ -180,12 +210,13 @@ impl Itself {
                 }
                 let [c, d] = edges[f as usize];
                 looked_at += 1;
-                if beside(a, c) || beside(a, d) || beside(b, c) || beside(b, d) || is_free(&[c, d]) {
+                if joined(&[a, b], &[c, d]) || is_free(&[c, d]) {
                     return;
                 }
                 let ends = [a, b, c, d].map(|i| x[i as usize]);
                 let reach = apart(&[a, b], &[c, d]);
-                if segments_apart(ends) <= reach {
+                let distance = segments_apart(ends);
+                if distance <= reach && !hinged(&[a, b], &[c, d], distance) {
                     let [pa, pb, pc, pd] = ends;
                     let side = (pb - pa).cross(pd - pc).dot(pc - pa).signum();
                     pairs.push(Pair { vertices: [a, b, c, d], edges: true, side, reach });

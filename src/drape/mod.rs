@@ -14,6 +14,7 @@ pub mod elastic;
 pub mod itself;
 pub mod limits;
 pub mod membrane;
+pub mod net;
 pub mod newton;
 pub mod settle;
 pub mod sewing;

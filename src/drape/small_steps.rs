@@ -4,12 +4,16 @@
 //! law says how small the steps must be. Edges stand for the membrane as springs (Van Gelder 1998), so that shear and Poisson's
 //! ratio are those of a net; bending is an explicit force, in as few of the steps as is stable.
 
+use std::ops::Range;
+
 use glam::DVec3;
+use rayon::prelude::*;
 
 use crate::drape::bending::Bending;
 use crate::drape::contact::Collider;
 use crate::drape::itself::Itself;
 use crate::drape::limits::StrainLimits;
+use crate::drape::net::{Net, Spring};
 use crate::drape::sheet::Sheet;
 use crate::drape::state::State;
 use crate::drape::steps::Scene;
@@ -29,19 +33,12 @@ const EASE: f64 = 0.3;
 /// The solver with its memory.
 #[derive(Clone, Debug)]
 pub struct SmallSteps {
-    /// In groups without common vertices, so that the work on one edge does not wait for that on the one before.
-    edges: Vec<Edge>,
-    /// Of the edges, N/m.
-    stiffness: Vec<f64>,
-    /// Strain beyond which edges are rigid.
-    limit: f64,
+    net: Net,
     inverse_mass: Vec<f64>,
     /// Area per mass of each vertex, m²/kg.
     spread: Vec<f64>,
     /// Bending's greatest angular frequency, 1/s.
     bending_rate: f64,
-    /// For which step the edges are made ready, s.
-    ready_for: f64,
     planes: Vec<Plane>,
     /// Per vertex more than the offset, metres.
     lift: Vec<f64>,
@@ -57,17 +54,6 @@ pub struct SmallSteps {
     pub queries: u64,
     /// Vertices known to be far without one.
     pub skipped: u64,
-}
-
-/// A spring between two vertices.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Spring {
-    /// The vertices.
-    pub ends: [u32; 2],
-    /// At rest, metres.
-    pub length: f64,
-    /// N/m.
-    pub stiffness: f64,
 }
 
 /// A thread between two vertices: it is no longer than so much.
@@ -113,18 +99,6 @@ pub struct Surroundings<'a> {
     pub grip: f64,
 }
 
-/// As little as a pass needs: it is bound by how fast edges come from memory.
-#[derive(Clone, Copy, Debug)]
-struct Edge {
-    ends: [u32; 2],
-    /// Rest length squared, m².
-    squared: f64,
-    /// Shares of the correction that each end takes.
-    shares: [f64; 2],
-    /// How many times as much they take beyond the limit.
-    stiffen: f64,
-}
-
 /// What a vertex knows of a body: beyond the plane n·x = height it is free.
 #[derive(Clone, Copy, Debug, Default)]
 struct Plane {
@@ -161,21 +135,15 @@ impl SmallSteps {
         mass: &[f64],
         pinned: &[bool],
     ) -> Self {
-        let springs = in_groups(mass.len(), &springs.collect::<Vec<_>>());
-        let edge =
-            |s: &Spring| Edge { ends: s.ends, squared: s.length * s.length, shares: [0.0; 2], stiffen: 1.0 };
         // Gershgorin's bound.
         let most = |i: usize| bending.row(i).map(|(_, q)| q.abs()).sum::<f64>() / mass[i];
         let bending_rate = (0..mass.len()).map(most).fold(0.0, f64::max).sqrt();
         let inverse = |(m, pinned): (&f64, &bool)| if *pinned { 0.0 } else { 1.0 / m };
         Self {
-            edges: springs.iter().map(edge).collect(),
-            stiffness: springs.iter().map(|s| s.stiffness).collect(),
-            limit,
+            net: Net::new(mass.len(), &springs.collect::<Vec<_>>(), limit),
             inverse_mass: mass.iter().zip(pinned).map(inverse).collect(),
             spread: sheet.vertex_area.iter().zip(mass).map(|(area, m)| area / m).collect(),
             bending_rate,
-            ready_for: 0.0,
             planes: vec![Plane::default(); mass.len()],
             lift: vec![0.0; mass.len()],
             eases: false,
@@ -196,7 +164,7 @@ impl SmallSteps {
     pub fn pin(&mut self, mass: &[f64], pinned: &[bool]) {
         let inverse = |(m, pinned): (&f64, &bool)| if *pinned { 0.0 } else { 1.0 / m };
         self.inverse_mass = mass.iter().zip(pinned).map(inverse).collect();
-        self.ready_for = 0.0;
+        self.net.forget();
     }
 
     /// 1/kg per vertex; zero where it is pinned.
@@ -266,44 +234,64 @@ impl SmallSteps {
         count: usize,
     ) {
         let small = h / count as f64;
-        self.ready(small);
+        self.net.ready(small, &self.inverse_mass);
         let every = self.bending_every(small, around.bending_damping).min(count);
         let drag = (-around.damping * small).exp();
+        // A blow now and then, which keeps energy, shakes cloth that should come to rest; a force that is held comes late by
+        // half of the time it is held, for which it looks ahead.
+        let holds = around.bending_damping > 0.0;
         let mut bent = vec![DVec3::ZERO; state.positions.len()];
         let mut before = state.positions.clone();
         for s in 0..count {
             let x = &mut state.positions;
             let kick = if s == 0 { self.lag + small / 2.0 } else { small };
             if s % every == 0 && self.bending_rate > 0.0 {
-                bent.fill(DVec3::ZERO);
-                if around.bending_damping > 0.0 {
-                    // Quadratic: the force at x + τ v is that of the shape and of its change.
-                    for (ahead, (x, v)) in before.iter_mut().zip(x.iter().zip(&state.velocities)) {
-                        *ahead = *x + *v * around.bending_damping;
-                    }
-                    around.bending.add_gradient(&before, &mut bent);
-                } else {
-                    around.bending.add_gradient(x, &mut bent);
-                }
                 let span = small * every.min(count - s) as f64;
-                for (v, (f, w)) in state.velocities.iter_mut().zip(bent.iter().zip(&self.inverse_mass)) {
-                    *v -= *f * (span * w);
+                if holds {
+                    // Quadratic: the force at x + τ v is that of the shape and of its change.
+                    let ahead = around.bending_damping + span / 2.0;
+                    for (place, (x, v)) in before.iter_mut().zip(x.iter().zip(&state.velocities)) {
+                        *place = *x + *v * ahead;
+                    }
+                    around.bending.write_forces(&before, &mut bent, |i| small * self.inverse_mass[i]);
+                } else {
+                    around.bending.write_forces(x, &mut bent, |i| span * self.inverse_mass[i]);
+                    state.velocities.iter_mut().zip(&bent).for_each(|(v, b)| *v -= *b);
+                    bent.fill(DVec3::ZERO);
                 }
             }
-            before.copy_from_slice(x);
-            for (i, v) in state.velocities.iter_mut().enumerate() {
-                if self.inverse_mass[i] > 0.0 {
-                    *v = *v * drag + around.gravity * kick;
-                    x[i] += *v * small;
+            let net = &self.net;
+            let mut work = shares(net, x, &mut before, &mut state.velocities, &mut self.planes);
+            side_by_side(&mut work, |p, share| {
+                let Share { first, x, before, velocities, .. } = share;
+                before.copy_from_slice(x);
+                for (i, (x, v)) in x.iter_mut().zip(velocities.iter_mut()).enumerate() {
+                    if self.inverse_mass[*first + i] > 0.0 {
+                        *v = *v * drag + around.gravity * kick - bent[*first + i];
+                        *x += *v * small;
+                    }
                 }
-            }
-            project(&self.edges, self.limit, x);
+                net.project_part(p, x);
+            });
+            net.project_between(x);
             itself.project(x, &self.inverse_mass);
             self.pull(x, small);
             self.draw(x, f64::INFINITY, small);
             if let Some(collider) = around.collider {
                 let left = 1.0 - (s + 1) as f64 / count as f64;
-                self.collide(around, collider, &mut before, x, (left, 1.0 / count as f64), small);
+                let scene = Colliding { around, collider, left, part: 1.0 / count as f64, small };
+                let mut work = shares(&self.net, x, &mut before, &mut state.velocities, &mut self.planes);
+                let this = Knowing {
+                    inverse_mass: &self.inverse_mass,
+                    lift: &self.lift,
+                    spread: &self.spread,
+                    eases: self.eases,
+                };
+                let looked = side_by_side(&mut work, |_, share| this.collide(&scene, share));
+                for (queries, skipped) in looked {
+                    self.queries += queries;
+                    self.skipped += skipped;
+                }
                 self.draw(x, NEARLY_SHUT, small);
             }
             for (v, (now, then)) in state.velocities.iter_mut().zip(x.iter().zip(&before)) {
@@ -346,19 +334,6 @@ impl SmallSteps {
         v + scene.gravity * self.lag
     }
 
-    fn ready(&mut self, h: f64) {
-        if self.ready_for == h {
-            return;
-        }
-        self.ready_for = h;
-        for (edge, stiffness) in self.edges.iter_mut().zip(&self.stiffness) {
-            let [a, b] = edge.ends.map(|v| self.inverse_mass[v as usize]);
-            let whole = a + b + 1.0 / (stiffness * h * h);
-            edge.shares = [a / whole, b / whole];
-            edge.stiffen = if a + b > 0.0 { whole / (a + b) } else { 1.0 };
-        }
-    }
-
     /// Bending acts once in so many small steps.
     fn bending_every(&self, small: f64, damping: f64) -> usize {
         if self.bending_rate == 0.0 {
@@ -368,47 +343,110 @@ impl SmallSteps {
         let rate = self.bending_rate * (1.0 + self.bending_rate * damping);
         ((SAFE * 2.0 / (rate * small)) as usize).max(1)
     }
+}
 
-    fn collide(
-        &mut self,
-        around: &Surroundings<'_>,
-        collider: &Collider,
-        before: &mut [DVec3],
-        x: &mut [DVec3],
-        (left, part): (f64, f64),
-        small: f64,
-    ) {
-        for (i, x) in x.iter_mut().enumerate() {
+/// What one part of the cloth is worked on with.
+struct Share<'a> {
+    /// Its first vertex.
+    first: usize,
+    x: &'a mut [DVec3],
+    before: &'a mut [DVec3],
+    velocities: &'a mut [DVec3],
+    planes: &'a mut [Plane],
+}
+
+/// Everything cut into the parts of `net`.
+fn shares<'a>(
+    net: &Net,
+    mut x: &'a mut [DVec3],
+    mut before: &'a mut [DVec3],
+    mut velocities: &'a mut [DVec3],
+    mut planes: &'a mut [Plane],
+) -> Vec<Share<'a>> {
+    fn taken<'a, T>(from: &mut &'a mut [T], count: usize) -> &'a mut [T] {
+        let (head, tail) = std::mem::take(from).split_at_mut(count);
+        *from = tail;
+        head
+    }
+    let share = |part: Range<usize>| Share {
+        first: part.start,
+        x: taken(&mut x, part.len()),
+        before: taken(&mut before, part.len()),
+        velocities: taken(&mut velocities, part.len()),
+        planes: taken(&mut planes, part.len()),
+    };
+    net.parts().map(share).collect()
+}
+
+/// Does `work` on each share, on several threads where there are several.
+fn side_by_side<T: Send>(
+    shares: &mut [Share<'_>],
+    work: impl Fn(usize, &mut Share<'_>) -> T + Sync,
+) -> Vec<T> {
+    match shares {
+        [one] => vec![work(0, one)],
+        many => many.par_iter_mut().enumerate().map(|(p, share)| work(p, share)).collect(),
+    }
+}
+
+/// A small step against a body.
+struct Colliding<'a> {
+    around: &'a Surroundings<'a>,
+    collider: &'a Collider,
+    /// Of the body's motion is still to come,
+    left: f64,
+    /// and comes in this step.
+    part: f64,
+    small: f64,
+}
+
+/// What is known of each vertex.
+struct Knowing<'a> {
+    inverse_mass: &'a [f64],
+    lift: &'a [f64],
+    spread: &'a [f64],
+    eases: bool,
+}
+
+impl Knowing<'_> {
+    /// Keeps the vertices of `share` off the body, and rubs them on it. How many nearest points were looked up, and how many
+    /// vertices were known to be far.
+    fn collide(&self, scene: &Colliding<'_>, share: &mut Share<'_>) -> (u64, u64) {
+        let Colliding { around, collider, left, part, small } = *scene;
+        let (mut queries, mut skipped) = (0, 0);
+        for (k, x) in share.x.iter_mut().enumerate() {
+            let i = share.first + k;
             if self.inverse_mass[i] == 0.0 {
                 continue;
             }
-            let plane = &mut self.planes[i];
+            let (plane, before) = (&mut share.planes[k], &mut share.before[k]);
             if x.distance_squared(plane.place) > plane.good_for * plane.good_for {
-                self.queries += 1;
-                *plane = look(collider, *x, before[i], around.offset + self.lift[i], left);
+                queries += 1;
+                *plane = look(collider, *x, *before, around.offset + self.lift[i], left);
             } else if plane.normal == DVec3::ZERO {
-                self.skipped += 1;
+                skipped += 1;
                 continue;
             }
             let mut depth = plane.height - plane.normal.dot(*x);
             if self.eases {
-                let old = plane.height - plane.normal.dot(before[i]);
+                let old = plane.height - plane.normal.dot(*before);
                 if old > 0.0 {
                     let eased = old.min(EASE * small);
                     depth -= old - eased;
-                    before[i] += plane.normal * eased;
+                    *before += plane.normal * eased;
                 }
             }
             if depth > 0.0 {
                 *x += plane.normal * depth;
-                let carried = collider.carried_near(before[i]) * part;
-                let slip = *x - before[i] - carried;
+                let carried = collider.carried_near(*before) * part;
+                let slip = *x - *before - carried;
                 let slip = slip - plane.normal * slip.dot(plane.normal);
                 let length = slip.length();
                 let hold = around.friction[i] * depth.min(around.grip * self.spread[i] * small * small);
                 *x -= if length <= hold { slip } else { slip * (hold / length) };
             }
         }
+        (queries, skipped)
     }
 }
 
@@ -433,34 +471,4 @@ fn look(collider: &Collider, x: DVec3, before: DVec3, offset: f64, left: f64) ->
     }
     let good_for = if moving > 0.0 { 0.0 } else { STALE * offset.max(1e-4) };
     Plane { normal, height: normal.dot(point) + offset, place: x, good_for }
-}
-
-/// Pulls every edge towards its length. With d² for l² the correction (d² - l²)/(d² + l²) is that of length to second order in
-/// the strain, without a root.
-fn project(edges: &[Edge], limit: f64, x: &mut [DVec3]) {
-    for edge in edges {
-        let [a, b] = edge.ends.map(|v| v as usize);
-        let along = x[b] - x[a];
-        let squared = along.length_squared();
-        let strain = (squared - edge.squared) / (squared + edge.squared);
-        let over = strain - strain.clamp(-limit, limit);
-        let pull = along * (strain + over * (edge.stiffen - 1.0));
-        x[a] += pull * edge.shares[0];
-        x[b] -= pull * edge.shares[1];
-    }
-}
-
-/// The edges group by group, no vertex twice in a group; within one as they were.
-fn in_groups(vertices: usize, edges: &[Spring]) -> Vec<Spring> {
-    let mut taken = vec![0u64; vertices];
-    let mut groups: Vec<(u32, usize)> = Vec::with_capacity(edges.len());
-    for (e, edge) in edges.iter().enumerate() {
-        let [a, b] = edge.ends.map(|v| v as usize);
-        let group = (taken[a] | taken[b]).trailing_ones().min(63);
-        taken[a] |= 1 << group;
-        taken[b] |= 1 << group;
-        groups.push((group, e));
-    }
-    groups.sort_unstable();
-    groups.into_iter().map(|(_, e)| edges[e]).collect()
 }

@@ -15,8 +15,9 @@ use crate::contact::{Faces, layers};
 use crate::drape::bending::Bending;
 use crate::drape::contact::Collider;
 use crate::drape::itself::{Itself, Sides};
+use crate::drape::net::Spring;
 use crate::drape::sheet::Sheet;
-use crate::drape::small_steps::{Hand, SmallSteps, Spring, Surroundings, Tie, substeps};
+use crate::drape::small_steps::{Hand, SmallSteps, Surroundings, Tie, substeps};
 use crate::drape::state::State;
 use crate::geometry::ids::PieceId;
 
@@ -28,12 +29,18 @@ const GRAVITY: DVec3 = DVec3::new(0.0, -9.81, 0.0);
 const SKIN: f64 = 0.001;
 /// Faces and edges keep this share of the distance.
 const FACE_CLEARANCE: f64 = 0.5;
+/// Those that lack no more than this share of that are left as they are.
+const NEARLY_CLEAR: f64 = 0.02;
 /// Vertices are raised at most by so many distances to keep faces between them off the body.
 const MOST_LIFT: f64 = 8.0;
 /// Faces are looked after once in so many ticks.
 const LIFT_TICKS: u64 = 6;
-/// Layers that run through each other are looked after once in so many ticks.
+/// Layers that run through each other are looked for after the first tick, which is the roughest, and once in so many,
+const LOOK_TICKS: u64 = 12;
+/// and looked after once in so many.
 const PART_TICKS: u64 = 4;
+/// So often in a row without fewer of them: then they stay, and the report tells them.
+const MOST_PARTINGS: u32 = 40;
 /// And parted by so much each time, metres.
 const PARTING: f64 = 0.0005;
 /// Air takes this share of motion, 1/s.
@@ -46,14 +53,16 @@ const BENDING_DAMPING: f64 = 0.001;
 const GRIP: f64 = 10.0;
 /// Pairs of the cloth with itself last until a vertex is so far off its way, metres.
 const MARGIN: f64 = 0.002;
+/// Small steps between two looks at whether they last: never fewer,
+const LEAST_STRETCH: usize = 3;
+/// nor more in the first tick, when nothing is known of how it moves.
+const FIRST_STRETCH: usize = 8;
 /// At rest when no vertex goes farther in a tick, metres,
 const REST_WAY: f64 = 5e-5;
 /// and the forces that move the cloth are no larger a share of its weight,
 const REST_RESIDUAL: f64 = 0.01;
 /// for so many ticks.
 const QUIET_TICKS: u32 = 12;
-/// Time goes slower when so many times as much moves, for half as many ticks.
-const ROUGHLY: f64 = 4.0;
 /// Cloth that is as good as still is calmed: what little moves then creeps or trembles. Seconds until that begins,
 const CALM_AFTER: f64 = 0.5;
 /// by how much air thickens in each second from then on, 1/s²,
@@ -61,9 +70,13 @@ const CALMING: f64 = 10.0;
 /// and how far, 1/s: slow swings are then about critically damped.
 const CALMEST: f64 = 8.0;
 /// One pass in a small step leaves edges as soft as mass over its square, which is far softer than woven cloth: what hangs from
-/// a tight place stretches that. So when all is still, time goes slower by these factors, one after the other, each of them a
-/// quarter of the strain that is left.
-const PACES: [f64; 3] = [1.0, 0.5, 0.25];
+/// a tight place stretches that. So once the cloth has come down, which is when the forces that move it are no larger a share
+/// of its weight than this,
+const DOWN: f64 = 0.1;
+/// time goes slower by this factor with every tick,
+const SLOWING: f64 = 0.9;
+/// down to this: strain that is left then is its square of what it was.
+const SLOWEST: f64 = 0.25;
 /// Cloth is taken to rest after so many ticks in any case.
 const MOST_TICKS: u64 = 1200;
 /// A hand pulls with so much, N/m, and at most with so many times the garment's weight.
@@ -131,11 +144,13 @@ pub struct Worn {
     /// Without weight and friction.
     floats: bool,
     progress: Progress,
-    /// Which of [`PACES`] time goes at.
-    pace: usize,
+    /// How fast time goes, [`SLOWEST`]..=1.
+    pace: f64,
     quiet: u32,
     /// Places where layers ran through each other when last looked at.
     crossings: usize,
+    /// The fewest of them since there were none, and how often in a row there were no fewer.
+    parting: (usize, u32),
     /// Faces that came too near the body when last looked at.
     lacking: usize,
     /// Work done.
@@ -231,9 +246,10 @@ impl Worn {
             substeps: count,
             floats: false,
             progress: Progress { ticks: 0, residual: 1.0, speed: 0.0, at_rest: false },
-            pace: 0,
+            pace: 1.0,
             quiet: 0,
             crossings: 0,
+            parting: (usize::MAX, 0),
             lacking: 0,
             counters: Counters::default(),
             fixed: Arc::new(Fixed {
@@ -352,7 +368,7 @@ impl Worn {
 
     /// What was at rest moves again, as far as it must.
     pub fn wake(&mut self) {
-        (self.quiet, self.pace) = (0, 0);
+        (self.quiet, self.pace, self.parting) = (0, 1.0, (usize::MAX, 0));
         self.progress = Progress { ticks: 0, at_rest: false, ..self.progress };
     }
 
@@ -360,22 +376,30 @@ impl Worn {
     pub fn tick(&mut self, cloth: &mut ClothState) -> Result<(), Undrapable> {
         let fixed = Arc::clone(&self.fixed);
         let before = self.state.clone();
-        self.itself.gather_ahead(&fixed.sheet, &before.positions, &self.ways, MARGIN);
-        let span = TICK * PACES[self.pace];
+        let span = TICK * self.pace;
         let seconds = self.progress.ticks as f64 * TICK;
         let around = Surroundings {
             bending: &fixed.bending,
             bending_damping: BENDING_DAMPING,
             gravity: if self.floats { DVec3::ZERO } else { GRAVITY },
-            damping: fixed.damping
-                + (CALMING * (seconds - CALM_AFTER)).clamp(0.0, CALMEST) / PACES[self.pace],
+            damping: fixed.damping + (CALMING * (seconds - CALM_AFTER)).clamp(0.0, CALMEST) / self.pace,
             collider: Some(&fixed.collider),
             offset: fixed.offset,
             friction: &fixed.friction,
             grip: if self.floats { 0.0 } else { GRIP },
         };
         let asked = self.small.queries;
-        self.small.advance(&around, &mut self.state, &mut self.itself, span, self.substeps);
+        let small = span / self.substeps as f64;
+        let mut left = self.substeps;
+        while left > 0 {
+            let count = self.stretch(small).min(left);
+            let ways: Vec<DVec3> = self.state.velocities.iter().map(|v| *v * span).collect();
+            let part = count as f64 / self.substeps as f64;
+            let soon = |v: usize| ways[v] * part;
+            self.itself.gather_ahead(&fixed.sheet, &self.state.positions, &ways, soon, MARGIN);
+            self.small.advance(&around, &mut self.state, &mut self.itself, small * count as f64, count);
+            left -= count;
+        }
         self.counters.contact_queries += self.small.queries - asked;
         self.counters.contact_checks += (self.substeps * before.positions.len()) as u64;
         if let Some(lost) = self.state.lost() {
@@ -384,31 +408,46 @@ impl Worn {
         }
         self.measure(&before, span);
         self.write(cloth);
-        let enough = if self.is_slowest() { QUIET_TICKS } else { QUIET_TICKS / 2 };
-        let (ticks, quiet) = (self.progress.ticks, self.quiet >= enough);
+        let (ticks, quiet) = (self.progress.ticks, self.quiet >= QUIET_TICKS);
         if quiet || ticks.is_multiple_of(LIFT_TICKS) {
             self.lift(cloth);
         }
-        if quiet || (self.crossings > 0 && ticks.is_multiple_of(PART_TICKS)) {
+        let every = if self.crossings > 0 { PART_TICKS } else { LOOK_TICKS };
+        let tangled = self.parting.1 >= MOST_PARTINGS;
+        if (quiet || ticks == 1 || ticks.is_multiple_of(every)) && !tangled {
             self.part(cloth);
         }
-        if quiet && !self.is_slowest() && self.small.hand.is_none() {
-            self.slow_down();
-        } else {
-            let sound = self.lacking == 0 && self.crossings == 0;
-            self.progress.at_rest = self.small.hand.is_none() && ((quiet && sound) || ticks >= MOST_TICKS);
+        let sound = self.lacking == 0 && (self.crossings == 0 || tangled);
+        if quiet && !sound {
+            self.quiet = 0;
+        }
+        if self.small.hand.is_none() {
+            let slowed = self.slow_down();
+            self.progress.at_rest = (quiet && sound && !slowed) || ticks >= MOST_TICKS;
         }
         Ok(())
     }
 
-    fn is_slowest(&self) -> bool {
-        self.floats || self.pace + 1 == PACES.len()
+    /// Small steps in which no vertex comes far from the others: pairs of the cloth with itself are looked after between.
+    fn stretch(&self, small: f64) -> usize {
+        let velocities = &self.state.velocities;
+        let drift = velocities.iter().sum::<DVec3>() / velocities.len() as f64;
+        let fastest = velocities.iter().map(|v| v.distance_squared(drift)).fold(0.0, f64::max).sqrt();
+        let most = if self.progress.ticks == 0 { FIRST_STRETCH } else { self.substeps };
+        ((MARGIN / (fastest * small)) as usize).clamp(LEAST_STRETCH, most.max(LEAST_STRETCH))
     }
 
-    fn slow_down(&mut self) {
-        let slower = PACES[self.pace + 1] / PACES[self.pace];
-        self.ways.iter_mut().for_each(|way| *way *= slower);
-        (self.pace, self.quiet) = (self.pace + 1, 0);
+    /// Makes time go slower where it should. False when it does not.
+    fn slow_down(&mut self) -> bool {
+        let begins = self.pace < 1.0 || self.progress.residual < DOWN;
+        if self.floats || self.pace == SLOWEST || !begins {
+            return false;
+        }
+        let slower = (self.pace * SLOWING).max(SLOWEST);
+        self.ways.iter_mut().for_each(|way| *way *= slower / self.pace);
+        self.pace = slower;
+        self.quiet = 0;
+        true
     }
 
     /// What moved in the last `span` seconds.
@@ -424,8 +463,7 @@ impl Worn {
         let weight = mass.iter().sum::<f64>() * GRAVITY.length();
         let (residual, speed) = (unbalanced / weight, fastest);
         self.progress = Progress { ticks: self.progress.ticks + 1, residual, speed, at_rest: false };
-        let roughly = if self.is_slowest() { 1.0 } else { ROUGHLY };
-        let still = speed * span < REST_WAY * roughly && residual < REST_RESIDUAL * roughly;
+        let still = speed * span < REST_WAY && residual < REST_RESIDUAL;
         self.quiet = if still { self.quiet + 1 } else { 0 };
     }
 
@@ -452,7 +490,7 @@ impl Worn {
         for (vs, &lack) in garment.triangles.iter().zip(&lacking) {
             for v in vs.iter().filter_map(|&v| own_number(&fixed.own, v)) {
                 let most = MOST_LIFT * fixed.offset;
-                if lack > 0.0 && raised[v] < most {
+                if lack > NEARLY_CLEAR * clearance && raised[v] < most {
                     let wanted = (self.small.lift()[v] + lack).min(most);
                     self.lacking += usize::from(wanted > raised[v]);
                     raised[v] = raised[v].max(wanted);
@@ -472,6 +510,11 @@ impl Worn {
         self.counters.self_tests += 1;
         let was = self.crossings;
         self.crossings = places;
+        self.parting = match (places, self.parting) {
+            (0, _) => (usize::MAX, 0),
+            (_, (fewest, _)) if places < fewest => (places, 0),
+            (_, (fewest, times)) => (fewest, times + 1),
+        };
         if places == 0 && was == 0 {
             return;
         }
