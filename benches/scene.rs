@@ -9,7 +9,7 @@ use glam::{DVec3, UVec2, Vec2, Vec3};
 use toile::body::Surface;
 use toile::geometry::mesh::{TriMesh, vertex_normals};
 use toile::render::{
-    BODY, CLOTH_BACK, CLOTH_FRONT, Camera, Gpu, Look, Mesh, OffscreenTarget, Renderer, Scene, View,
+    BODY, CLOTH_BACK, CLOTH_FRONT, Camera, Gpu, Look, Mesh, OffscreenTarget, Quality, Renderer, Scene, View,
 };
 
 const SIZE: UVec2 = UVec2::new(1280, 800);
@@ -83,14 +83,13 @@ fn pictures(c: &mut Criterion) {
     let cloths = [0.21, 0.211].map(|r| drawn(&barrel(r, 100, 200, false), CLOTH_FRONT, CLOTH_BACK, 1.0));
     let scene =
         |i: usize| Scene { meshes: vec![Arc::clone(&body), Arc::clone(&cloths[i])], ..Scene::default() };
-    for (name, size, occlusion) in [
-        ("finished", SIZE, true),
+    for (name, size, quality) in [
+        ("finished", SIZE, Quality::Finished),
         // What a processor draws while things move.
-        ("draft", (SIZE.as_vec2() * 0.7).as_uvec2(), false),
+        ("draft", (SIZE.as_vec2() * 0.8).as_uvec2(), Quality::Draft),
     ] {
-        let target = OffscreenTarget::new(&gpu, size).expect("a target");
-        let whole = Look::light();
-        let look = Look { occlusion: if occlusion { whole.occlusion } else { 0.0 }, ..whole };
+        let target = OffscreenTarget::new(&gpu, size, quality).expect("a target");
+        let look = Look::light();
         let mut draw = |scene: &Scene, camera: &Camera| {
             renderer.draw(&gpu, scene, camera, &look, &target).expect("a picture");
             gpu.device.poll(wgpu::PollType::wait_indefinitely()).expect("it ends");

@@ -1,7 +1,7 @@
 // Shadow and hollows, as mesh.wgsl and ground.wgsl read them. Appended to frame.wgsl.
-@group(1) @binding(0) var shadow_map: texture_depth_2d;
-@group(1) @binding(1) var shadow_sampler: sampler_comparison;
-@group(1) @binding(2) var hollow_map: texture_2d<f32>;
+@group(2) @binding(0) var shadow_map: texture_depth_2d;
+@group(2) @binding(1) var shadow_sampler: sampler_comparison;
+@group(2) @binding(2) var hollow_map: texture_2d<f32>;
 
 // 1 in the light, 0 in shadow; `spread` in texels of the shadow map.
 fn lit(world: vec3f, spread: f32, pixel: vec2f) -> f32 {

@@ -30,5 +30,5 @@ pub use palette::Palette;
 pub use picture::{Studio, picture, png, save_png, straightened};
 pub use renderer::Renderer;
 pub use scene::{Ground, Label, Mesh, Polyline, Rgb, Scene};
-pub use target::OffscreenTarget;
+pub use target::{OffscreenTarget, Quality};
 pub use view::View;

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use glam::UVec2;
 
-use super::{Camera, Gpu, Look, OffscreenTarget, RenderError, Renderer, Scene, View};
+use super::{Camera, Gpu, Look, OffscreenTarget, Quality, RenderError, Renderer, Scene, View};
 
 /// A device and renderer for pictures without a window; made once for many pictures.
 #[derive(Debug)]
@@ -37,7 +37,7 @@ impl Studio {
     ) -> Result<image::RgbaImage, RenderError> {
         let target = match self.target.take().filter(|t| t.size == size) {
             Some(target) => target,
-            None => OffscreenTarget::new(&self.gpu, size)?,
+            None => OffscreenTarget::new(&self.gpu, size, Quality::Finished)?,
         };
         self.renderer.draw(&self.gpu, scene, camera, look, &target)?;
         let picture = target.read(&self.gpu);

@@ -2,7 +2,7 @@
 
 use super::gpu::{COLOUR, DEPTH};
 use super::shaders::{self, Shader};
-use super::target::{HOLLOWS, NORMALS};
+use super::target::{HOLLOWS, NORMALS, Quality};
 use super::{Gpu, strokes::Stroke};
 
 /// Everything that lives as long as the device.
@@ -18,9 +18,19 @@ pub(super) struct Pipelines {
     pub(super) depth_ground: wgpu::RenderPipeline,
     pub(super) hollows: wgpu::RenderPipeline,
     pub(super) blur: wgpu::RenderPipeline,
+    finished: Pictured,
+    /// Made when the first draft is drawn.
+    draft: Option<Pictured>,
+}
+
+/// What the picture itself is drawn with.
+#[derive(Debug)]
+pub(super) struct Pictured {
     pub(super) background: wgpu::RenderPipeline,
     pub(super) ground: wgpu::RenderPipeline,
-    pub(super) mesh: wgpu::RenderPipeline,
+    pub(super) cloth: wgpu::RenderPipeline,
+    /// Meshes that are no cloth: in a draft without their far side.
+    pub(super) skin: wgpu::RenderPipeline,
     pub(super) line: wgpu::RenderPipeline,
     /// Meshes that can be seen through.
     pub(super) sheer: wgpu::RenderPipeline,
@@ -43,22 +53,9 @@ impl Pipelines {
 
         let make = Maker { gpu, frame: &frame_layout };
         let mesh = make.module(&shaders::mesh());
-        let ground = make.module(&shaders::ground());
         let depth = make.module(&shaders::depth());
         let hollows = make.module(&shaders::hollows());
         let blur = make.module(&shaders::blur());
-        let background = make.module(&shaders::background());
-        let line = make.module(&shaders::line());
-        let wire = make.module(&shaders::wire());
-        let opaque = Some(wgpu::ColorTargetState::from(COLOUR));
-        let blended = Some(wgpu::ColorTargetState {
-            blend: Some(wgpu::BlendState::ALPHA_BLENDING),
-            ..wgpu::ColorTargetState::from(COLOUR)
-        });
-        let samples = gpu.samples;
-        let nearer = (wgpu::CompareFunction::GreaterEqual, true);
-        let tested = (wgpu::CompareFunction::GreaterEqual, false);
-        let untested = (wgpu::CompareFunction::Always, false);
         let meshes = Some(mesh_vertices());
         Self {
             shadow: make.pipeline(Pass {
@@ -69,77 +66,27 @@ impl Pipelines {
             }),
             depth: make.pipeline(Pass {
                 fragment: Some(("depth_fragment", Some(NORMALS.into()))),
-                depth: Some(nearer),
+                depth: Some(NEARER),
                 vertices: meshes.clone(),
                 ..Pass::new(&depth, "depth_vertex")
             }),
             depth_ground: make.pipeline(Pass {
                 fragment: Some(("depth_fragment", Some(NORMALS.into()))),
-                depth: Some(nearer),
+                depth: Some(NEARER),
                 ..Pass::new(&depth, "depth_ground_vertex")
             }),
             hollows: make.pipeline(Pass {
-                extra: &[&hollows_layout],
+                extra: &[Some(&hollows_layout)],
                 fragment: Some(("hollows_fragment", Some(HOLLOWS.into()))),
                 ..Pass::new(&hollows, "hollows_vertex")
             }),
             blur: make.pipeline(Pass {
-                extra: &[&blur_layout],
+                extra: &[Some(&blur_layout)],
                 fragment: Some(("blur_fragment", Some(HOLLOWS.into()))),
                 ..Pass::new(&blur, "blur_vertex")
             }),
-            background: make.pipeline(Pass {
-                fragment: Some(("background_fragment", opaque.clone())),
-                depth: Some(untested),
-                samples,
-                ..Pass::new(&background, "background_vertex")
-            }),
-            ground: make.pipeline(Pass {
-                extra: &[&light_layout],
-                fragment: Some(("ground_fragment", blended.clone())),
-                depth: Some(tested),
-                samples,
-                ..Pass::new(&ground, "ground_vertex")
-            }),
-            mesh: make.pipeline(Pass {
-                extra: &[&light_layout, &material_layout],
-                fragment: Some(("mesh_fragment", opaque)),
-                depth: Some(nearer),
-                vertices: meshes.clone(),
-                samples,
-                ..Pass::new(&mesh, "mesh_vertex")
-            }),
-            sheer: make.pipeline(Pass {
-                extra: &[&light_layout, &material_layout],
-                fragment: Some(("sheer_fragment", Some(sheer_target(samples)))),
-                depth: Some(nearer),
-                vertices: meshes.clone(),
-                samples,
-                covers_by_alpha: samples > 1,
-                ..Pass::new(&mesh, "mesh_vertex")
-            }),
-            wire: make.pipeline(Pass {
-                fragment: Some(("wire_fragment", blended.clone())),
-                depth: Some(tested),
-                vertices: meshes.clone(),
-                samples,
-                topology: wgpu::PrimitiveTopology::LineList,
-                ..Pass::new(&wire, "wire_vertex")
-            }),
-            faint: make.pipeline(Pass {
-                fragment: Some(("faint_fragment", blended.clone())),
-                depth: Some(untested),
-                vertices: Some(stroke_instances()),
-                samples,
-                ..Pass::new(&line, "line_vertex")
-            }),
-            line: make.pipeline(Pass {
-                fragment: Some(("line_fragment", blended)),
-                depth: Some(tested),
-                vertices: Some(stroke_instances()),
-                samples,
-                ..Pass::new(&line, "line_vertex")
-            }),
+            finished: Pictured::finished(&make, gpu.samples, &light_layout, &material_layout),
+            draft: None,
             frame_layout,
             light_layout,
             material_layout,
@@ -147,20 +94,140 @@ impl Pipelines {
             blur_layout,
         }
     }
+
+    /// Makes what drafts are drawn with, unless it is there.
+    pub(super) fn prepare_drafts(&mut self, gpu: &Gpu) {
+        if self.draft.is_none() {
+            let make = Maker { gpu, frame: &self.frame_layout };
+            self.draft = Some(Pictured::draft(&make, &self.material_layout));
+        }
+    }
+
+    /// What a picture is drawn with. Drafts must have been prepared.
+    pub(super) fn pictured(&self, quality: Quality) -> &Pictured {
+        match quality {
+            Quality::Finished => &self.finished,
+            Quality::Draft => self.draft.as_ref().unwrap_or(&self.finished),
+        }
+    }
+}
+
+/// Nearer things hide what is behind them.
+const NEARER: (wgpu::CompareFunction, bool) = (wgpu::CompareFunction::GreaterEqual, true);
+/// Hidden by what is nearer, hides nothing.
+const TESTED: (wgpu::CompareFunction, bool) = (wgpu::CompareFunction::GreaterEqual, false);
+/// Neither.
+const UNTESTED: (wgpu::CompareFunction, bool) = (wgpu::CompareFunction::Always, false);
+
+impl Pictured {
+    fn finished(
+        make: &Maker<'_>,
+        samples: u32,
+        light: &wgpu::BindGroupLayout,
+        material: &wgpu::BindGroupLayout,
+    ) -> Self {
+        let (mesh, ground) = (make.module(&shaders::mesh()), make.module(&shaders::ground()));
+        let opaque = Pass {
+            extra: &[Some(material), Some(light)],
+            fragment: Some(("mesh_fragment", Some(COLOUR.into()))),
+            depth: Some(NEARER),
+            vertices: Some(mesh_vertices()),
+            samples,
+            ..Pass::new(&mesh, "mesh_vertex")
+        };
+        let ground = Pass {
+            extra: &[None, Some(light)],
+            fragment: Some(("ground_fragment", Some(blended()))),
+            depth: Some(TESTED),
+            samples,
+            ..Pass::new(&ground, "ground_vertex")
+        };
+        let sheer = ("sheer_fragment", Some(sheer_target(samples)));
+        Self::of(make, samples, ground, opaque.clone(), opaque, sheer)
+    }
+
+    /// Lit at the vertices, without textures.
+    fn draft(make: &Maker<'_>, material: &wgpu::BindGroupLayout) -> Self {
+        let (mesh, ground) = (make.module(&shaders::draft()), make.module(&shaders::draft_ground()));
+        let cloth = Pass {
+            extra: &[Some(material)],
+            fragment: Some(("draft_fragment", Some(COLOUR.into()))),
+            depth: Some(NEARER),
+            vertices: Some(mesh_vertices()),
+            ..Pass::new(&mesh, "draft_vertex")
+        };
+        let ground = Pass {
+            fragment: Some(("draft_ground_fragment", Some(blended()))),
+            depth: Some(TESTED),
+            ..Pass::new(&ground, "ground_vertex")
+        };
+        let skin = Pass { cull: Some(wgpu::Face::Back), ..cloth.clone() };
+        let sheer = ("draft_sheer_fragment", Some(sheer_target(1)));
+        Self::of(make, 1, ground, cloth, skin, sheer)
+    }
+
+    fn of(
+        make: &Maker<'_>,
+        samples: u32,
+        ground: Pass<'_>,
+        cloth: Pass<'_>,
+        skin: Pass<'_>,
+        sheer: (&str, Option<wgpu::ColorTargetState>),
+    ) -> Self {
+        let background = make.module(&shaders::background());
+        let line = make.module(&shaders::line());
+        let wire = make.module(&shaders::wire());
+        let strokes = |fragment, depth| Pass {
+            fragment: Some((fragment, Some(blended()))),
+            depth: Some(depth),
+            vertices: Some(stroke_instances()),
+            samples,
+            ..Pass::new(&line, "line_vertex")
+        };
+        Self {
+            background: make.pipeline(Pass {
+                fragment: Some(("background_fragment", Some(COLOUR.into()))),
+                depth: Some(UNTESTED),
+                samples,
+                ..Pass::new(&background, "background_vertex")
+            }),
+            ground: make.pipeline(ground),
+            sheer: make.pipeline(Pass {
+                fragment: Some(sheer),
+                covers_by_alpha: samples > 1,
+                ..skin.clone()
+            }),
+            cloth: make.pipeline(cloth),
+            skin: make.pipeline(skin),
+            wire: make.pipeline(Pass {
+                fragment: Some(("wire_fragment", Some(blended()))),
+                depth: Some(TESTED),
+                vertices: Some(mesh_vertices()),
+                samples,
+                topology: wgpu::PrimitiveTopology::LineList,
+                ..Pass::new(&wire, "wire_vertex")
+            }),
+            faint: make.pipeline(strokes("faint_fragment", UNTESTED)),
+            line: make.pipeline(strokes("line_fragment", TESTED)),
+        }
+    }
 }
 
 /// What distinguishes one pass from another.
+#[derive(Clone)]
 struct Pass<'a> {
     module: &'a wgpu::ShaderModule,
     vertex: &'a str,
     fragment: Option<(&'a str, Option<wgpu::ColorTargetState>)>,
-    extra: &'a [&'a wgpu::BindGroupLayout],
+    /// Groups after the frame's.
+    extra: &'a [Option<&'a wgpu::BindGroupLayout>],
     vertices: Option<wgpu::VertexBufferLayout<'a>>,
     depth: Option<(wgpu::CompareFunction, bool)>,
     bias: wgpu::DepthBiasState,
     samples: u32,
     covers_by_alpha: bool,
     topology: wgpu::PrimitiveTopology,
+    cull: Option<wgpu::Face>,
 }
 
 impl<'a> Pass<'a> {
@@ -176,6 +243,7 @@ impl<'a> Pass<'a> {
             samples: 1,
             covers_by_alpha: false,
             topology: wgpu::PrimitiveTopology::TriangleList,
+            cull: None,
         }
     }
 }
@@ -195,7 +263,7 @@ impl Maker<'_> {
 
     fn pipeline(&self, pass: Pass<'_>) -> wgpu::RenderPipeline {
         let groups: Vec<Option<&wgpu::BindGroupLayout>> =
-            std::iter::once(Some(self.frame)).chain(pass.extra.iter().map(|&l| Some(l))).collect();
+            std::iter::once(Some(self.frame)).chain(pass.extra.iter().copied()).collect();
         let layout = self.gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some(pass.vertex),
             bind_group_layouts: &groups,
@@ -218,7 +286,11 @@ impl Maker<'_> {
                 compilation_options: Default::default(),
                 buffers: &[pass.vertices].into_iter().filter(Option::is_some).collect::<Vec<_>>(),
             },
-            primitive: wgpu::PrimitiveState { topology: pass.topology, ..Default::default() },
+            primitive: wgpu::PrimitiveState {
+                topology: pass.topology,
+                cull_mode: pass.cull,
+                ..Default::default()
+            },
             depth_stencil: pass.depth.map(|(compare, write)| wgpu::DepthStencilState {
                 format: DEPTH,
                 depth_write_enabled: Some(write),
@@ -235,6 +307,13 @@ impl Maker<'_> {
             multiview_mask: None,
             cache: None,
         })
+    }
+}
+
+fn blended() -> wgpu::ColorTargetState {
+    wgpu::ColorTargetState {
+        blend: Some(wgpu::BlendState::ALPHA_BLENDING),
+        ..wgpu::ColorTargetState::from(COLOUR)
     }
 }
 

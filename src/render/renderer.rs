@@ -5,10 +5,10 @@ use glam::UVec2;
 use super::buffers::{DeviceMesh, bind, upload};
 use super::frame::Frame;
 use super::gpu::DEPTH;
-use super::pipelines::Pipelines;
+use super::pipelines::{Pictured, Pipelines};
 use super::strokes::strokes;
-use super::target::texture;
-use super::{Camera, Gpu, Look, OffscreenTarget, RenderError, Scene};
+use super::target::{HalfSize, texture};
+use super::{Camera, Gpu, Look, OffscreenTarget, Quality, RenderError, Scene};
 
 /// Pipelines, shadow map and the meshes of the last picture. One per device.
 #[derive(Debug)]
@@ -22,9 +22,8 @@ pub struct Renderer {
 /// What one picture binds.
 struct Bound {
     frame: wgpu::BindGroup,
-    light: wgpu::BindGroup,
-    hollows: wgpu::BindGroup,
-    blur: wgpu::BindGroup,
+    /// None in a draft.
+    light: Option<wgpu::BindGroup>,
     strokes: Option<(wgpu::Buffer, u32)>,
     ground: bool,
 }
@@ -63,9 +62,14 @@ impl Renderer {
             upload(gpu, &self.pipelines, std::mem::take(&mut self.meshes), &scene.meshes, look.wire)?;
         let bound = self.bind(gpu, scene, camera, look, target);
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        self.draw_shadow_map(&mut encoder, &bound);
-        if look.occlusion > 0.0 {
-            self.draw_hollows(&mut encoder, &bound, target);
+        if let Some(half) = &target.half {
+            self.draw_shadow_map(&mut encoder, &bound);
+            if look.occlusion > 0.0 {
+                self.draw_hollows(gpu, &mut encoder, &bound, half);
+            }
+        }
+        if target.quality == Quality::Draft {
+            self.pipelines.prepare_drafts(gpu);
         }
         self.draw_picture(&mut encoder, &bound, look, target);
         gpu.queue.submit([encoder.finish()]);
@@ -90,17 +94,10 @@ impl Renderer {
         let p = &self.pipelines;
         Bound {
             frame: bind(gpu, &p.frame_layout, &[frame.as_entire_binding()]),
-            light: bind(
-                gpu,
-                &p.light_layout,
-                &[
-                    view(&self.shadow_map),
-                    wgpu::BindingResource::Sampler(&self.shadow_sampler),
-                    view(&target.hollows),
-                ],
-            ),
-            hollows: bind(gpu, &p.hollows_layout, &[view(&target.half_depth), view(&target.half_normals)]),
-            blur: bind(gpu, &p.blur_layout, &[view(&target.rough_hollows)]),
+            light: target.half.as_ref().map(|half| {
+                let sampler = wgpu::BindingResource::Sampler(&self.shadow_sampler);
+                bind(gpu, &p.light_layout, &[view(&self.shadow_map), sampler, view(&half.hollows)])
+            }),
             strokes: (!strokes.is_empty()).then(|| {
                 let bytes = bytemuck::cast_slice(&strokes);
                 (gpu.buffer("strokes", bytes, wgpu::BufferUsages::VERTEX), strokes.len() as u32)
@@ -110,8 +107,8 @@ impl Renderer {
         }
     }
 
-    fn draw_wires(&self, pass: &mut wgpu::RenderPass<'_>) {
-        pass.set_pipeline(&self.pipelines.wire);
+    fn draw_wires(&self, pass: &mut wgpu::RenderPass<'_>, with: &Pictured) {
+        pass.set_pipeline(&with.wire);
         for mesh in &self.meshes {
             if let Some((edges, count)) = &mesh.edges {
                 pass.set_vertex_buffer(0, mesh.vertices.slice(..));
@@ -129,7 +126,7 @@ impl Renderer {
     ) {
         for mesh in self.meshes.iter().filter(|mesh| which(mesh)) {
             if with_material {
-                pass.set_bind_group(2, &mesh.material, &[]);
+                pass.set_bind_group(1, &mesh.material, &[]);
             }
             pass.set_vertex_buffer(0, mesh.vertices.slice(..));
             pass.set_index_buffer(mesh.indices.slice(..), wgpu::IndexFormat::Uint32);
@@ -144,10 +141,12 @@ impl Renderer {
         self.draw_meshes(&mut pass, false, |_| true);
     }
 
-    fn draw_hollows(&self, encoder: &mut wgpu::CommandEncoder, bound: &Bound, target: &OffscreenTarget) {
+    fn draw_hollows(&self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, bound: &Bound, half: &HalfSize) {
+        let view = wgpu::BindingResource::TextureView;
+        let hollows = bind(gpu, &self.pipelines.hollows_layout, &[view(&half.depth), view(&half.normals)]);
+        let blur = bind(gpu, &self.pipelines.blur_layout, &[view(&half.rough_hollows)]);
         {
-            let mut pass =
-                begin(encoder, "depth", Some((&target.half_normals, None)), Some((&target.half_depth, 0.0)));
+            let mut pass = begin(encoder, "depth", Some((&half.normals, None)), Some((&half.depth, 0.0)));
             pass.set_bind_group(0, &bound.frame, &[]);
             if bound.ground {
                 pass.set_pipeline(&self.pipelines.depth_ground);
@@ -157,8 +156,8 @@ impl Renderer {
             self.draw_meshes(&mut pass, false, |_| true);
         }
         for (label, pipeline, inputs, output) in [
-            ("hollows", &self.pipelines.hollows, &bound.hollows, &target.rough_hollows),
-            ("blur", &self.pipelines.blur, &bound.blur, &target.hollows),
+            ("hollows", &self.pipelines.hollows, &hollows, &half.rough_hollows),
+            ("blur", &self.pipelines.blur, &blur, &half.hollows),
         ] {
             let mut pass = begin(encoder, label, Some((output, None)), None);
             pass.set_bind_group(0, &bound.frame, &[]);
@@ -179,35 +178,36 @@ impl Renderer {
             Some(samples) => (samples, Some(&target.picture_view)),
             None => (&target.picture_view, None),
         };
+        let with = self.pipelines.pictured(target.quality);
         let mut pass = begin(encoder, "picture", Some(colour), Some((&target.depth, 0.0)));
         pass.set_bind_group(0, &bound.frame, &[]);
         if !look.cut_out {
-            pass.set_pipeline(&self.pipelines.background);
+            pass.set_pipeline(&with.background);
             pass.draw(0..3, 0..1);
         }
-        pass.set_bind_group(1, &bound.light, &[]);
+        if let Some(light) = &bound.light {
+            pass.set_bind_group(2, light, &[]);
+        }
         if bound.ground {
-            pass.set_pipeline(&self.pipelines.ground);
+            pass.set_pipeline(&with.ground);
             pass.draw(0..6, 0..1);
         }
         // Without a background there is nothing to be seen through it.
         let sheer = look.sheer && !look.cut_out;
-        pass.set_pipeline(&self.pipelines.mesh);
-        self.draw_meshes(&mut pass, true, |mesh| !sheer || mesh.is_cloth());
-        if sheer {
-            pass.set_pipeline(&self.pipelines.sheer);
-            self.draw_meshes(&mut pass, true, |mesh| !mesh.is_cloth());
-        }
+        pass.set_pipeline(&with.cloth);
+        self.draw_meshes(&mut pass, true, DeviceMesh::is_cloth);
+        pass.set_pipeline(if sheer { &with.sheer } else { &with.skin });
+        self.draw_meshes(&mut pass, true, |mesh| !mesh.is_cloth());
         if look.wire {
-            self.draw_wires(&mut pass);
+            self.draw_wires(&mut pass, with);
         }
         if let Some((strokes, count)) = &bound.strokes {
             pass.set_vertex_buffer(0, strokes.slice(..));
             if look.xray {
-                pass.set_pipeline(&self.pipelines.faint);
+                pass.set_pipeline(&with.faint);
                 pass.draw(0..6, 0..*count);
             }
-            pass.set_pipeline(&self.pipelines.line);
+            pass.set_pipeline(&with.line);
             pass.draw(0..6, 0..*count);
         }
     }

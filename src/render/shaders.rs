@@ -11,6 +11,8 @@ pub(super) struct Shader {
 
 const FRAME: &str = include_str!("../../shaders/frame.wgsl");
 const LIGHT: &str = include_str!("../../shaders/light.wgsl");
+const MATERIAL: &str = include_str!("../../shaders/material.wgsl");
+const FLOOR: &str = include_str!("../../shaders/floor.wgsl");
 
 fn shader(name: &'static str, headers: &[&str], own: &str) -> Shader {
     Shader { name, text: format!("{}\n{own}", headers.join("\n")) }
@@ -21,11 +23,19 @@ pub(super) fn background() -> Shader {
 }
 
 pub(super) fn ground() -> Shader {
-    shader("ground.wgsl", &[FRAME, LIGHT], include_str!("../../shaders/ground.wgsl"))
+    shader("ground.wgsl", &[FRAME, LIGHT, FLOOR], include_str!("../../shaders/ground.wgsl"))
 }
 
 pub(super) fn mesh() -> Shader {
-    shader("mesh.wgsl", &[FRAME, LIGHT], include_str!("../../shaders/mesh.wgsl"))
+    shader("mesh.wgsl", &[FRAME, LIGHT, MATERIAL], include_str!("../../shaders/mesh.wgsl"))
+}
+
+pub(super) fn draft() -> Shader {
+    shader("draft.wgsl", &[FRAME, MATERIAL], include_str!("../../shaders/draft.wgsl"))
+}
+
+pub(super) fn draft_ground() -> Shader {
+    shader("draft_ground.wgsl", &[FRAME, FLOOR], include_str!("../../shaders/draft_ground.wgsl"))
 }
 
 pub(super) fn line() -> Shader {
@@ -52,9 +62,13 @@ pub(super) fn blur() -> Shader {
 mod tests {
     use super::*;
 
+    fn all() -> [Shader; 10] {
+        [background(), ground(), mesh(), line(), wire(), depth(), hollows(), blur(), draft(), draft_ground()]
+    }
+
     #[test]
     fn every_shader_is_valid() {
-        for shader in [background(), ground(), mesh(), line(), wire(), depth(), hollows(), blur()] {
+        for shader in all() {
             let module = naga::front::wgsl::parse_str(&shader.text)
                 .unwrap_or_else(|e| panic!("{}:\n{}", shader.name, e.emit_to_string(&shader.text)));
             let mut validator = naga::valid::Validator::new(
@@ -71,9 +85,8 @@ mod tests {
     #[test]
     fn every_file_is_used() {
         let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/shaders");
-        let used = ["frame.wgsl", "light.wgsl"].into_iter().chain(
-            [background(), ground(), mesh(), line(), wire(), depth(), hollows(), blur()].map(|s| s.name),
-        );
+        let headers = ["frame.wgsl", "light.wgsl", "material.wgsl", "floor.wgsl"];
+        let used = headers.into_iter().chain(all().map(|s| s.name));
         let used: std::collections::BTreeSet<String> = used.map(str::to_owned).collect();
         let found: std::collections::BTreeSet<String> = std::fs::read_dir(folder)
             .expect("shaders")

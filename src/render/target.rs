@@ -10,19 +10,38 @@ use super::{Gpu, RenderError};
 /// How long a picture may take to come back from the device.
 const READBACK_SECONDS: u64 = 30;
 
+/// How much work a picture is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Quality {
+    /// Shadows, hollows, smooth edges.
+    #[default]
+    Finished,
+    /// For a processor while things move: light alone, one sample a pixel, the far side of the body left out.
+    Draft,
+}
+
 /// Textures of one picture size.
 #[derive(Debug)]
 pub struct OffscreenTarget {
     /// Pixels.
     pub size: UVec2,
+    /// How it is drawn on.
+    pub quality: Quality,
     /// The finished picture, gamma-encoded, opaque.
     pub picture: wgpu::Texture,
     /// A view of `picture`.
     pub picture_view: wgpu::TextureView,
     pub(super) samples: Option<wgpu::TextureView>,
     pub(super) depth: wgpu::TextureView,
-    pub(super) half_depth: wgpu::TextureView,
-    pub(super) half_normals: wgpu::TextureView,
+    /// None in a draft.
+    pub(super) half: Option<HalfSize>,
+}
+
+/// What hollows are found from, at half the size.
+#[derive(Debug)]
+pub(super) struct HalfSize {
+    pub(super) depth: wgpu::TextureView,
+    pub(super) normals: wgpu::TextureView,
     pub(super) rough_hollows: wgpu::TextureView,
     pub(super) hollows: wgpu::TextureView,
 }
@@ -32,9 +51,19 @@ pub(super) const HOLLOWS: wgpu::TextureFormat = wgpu::TextureFormat::Rg16Float;
 /// Format of the view-space normals.
 pub(super) const NORMALS: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
+impl Quality {
+    /// Samples a pixel.
+    pub(super) fn samples(self, gpu: &Gpu) -> u32 {
+        match self {
+            Self::Finished => gpu.samples,
+            Self::Draft => 1,
+        }
+    }
+}
+
 impl OffscreenTarget {
     /// Makes the textures. `size` in pixels, at least 1 x 1.
-    pub fn new(gpu: &Gpu, size: UVec2) -> Result<Self, RenderError> {
+    pub fn new(gpu: &Gpu, size: UVec2, quality: Quality) -> Result<Self, RenderError> {
         let size = size.max(UVec2::ONE);
         if size.max_element() > gpu.max_side() {
             return Err(RenderError::TooLarge {
@@ -47,18 +76,25 @@ impl OffscreenTarget {
         let view = |label, size, format, samples, usage| {
             texture(gpu, label, size, format, samples, usage).create_view(&Default::default())
         };
-        let half = (size + 1) / 2;
+        let halved = |size: UVec2| {
+            let half = (size + 1) / 2;
+            HalfSize {
+                depth: view("half depth", half, DEPTH, 1, read),
+                normals: view("half normals", half, NORMALS, 1, read),
+                rough_hollows: view("rough hollows", half, HOLLOWS, 1, read),
+                hollows: view("hollows", half, HOLLOWS, 1, read),
+            }
+        };
+        let samples = quality.samples(gpu);
         let picture = texture(gpu, "picture", size, COLOUR, 1, read | wgpu::TextureUsages::COPY_SRC);
         Ok(Self {
             size,
+            quality,
             picture_view: picture.create_view(&Default::default()),
             picture,
-            samples: (gpu.samples > 1).then(|| view("samples", size, COLOUR, gpu.samples, used)),
-            depth: view("depth", size, DEPTH, gpu.samples, used),
-            half_depth: view("half depth", half, DEPTH, 1, read),
-            half_normals: view("half normals", half, NORMALS, 1, read),
-            rough_hollows: view("rough hollows", half, HOLLOWS, 1, read),
-            hollows: view("hollows", half, HOLLOWS, 1, read),
+            samples: (samples > 1).then(|| view("samples", size, COLOUR, samples, used)),
+            depth: view("depth", size, DEPTH, samples, used),
+            half: (quality == Quality::Finished).then(|| halved(size)),
         })
     }
 

@@ -8,7 +8,7 @@ use glam::UVec2;
 use super::outlines::outlines;
 use super::{Key, ScenePane, Seen};
 use crate::geometry::ids::MarkId;
-use crate::render::Look;
+use crate::render::{Look, Quality};
 use crate::session::Pin;
 use crate::ui::scene::{PinLook, Shown};
 
@@ -19,7 +19,7 @@ fn pin_looks(seen: &Seen<'_>) -> Vec<PinLook> {
 }
 
 /// Pictures drawn by a processor shrink by this much while things move.
-const DRAFT: f32 = 0.7;
+const DRAFT: f32 = 0.8;
 
 impl ScenePane {
     pub(super) fn draw(&mut self, ui: &egui::Ui, seen: &Seen<'_>, near: Option<MarkId>, pane: Rect) {
@@ -42,11 +42,8 @@ impl ScenePane {
         let pixels = (pane.size() * scale).round();
         let key = Key {
             camera: self.camera,
-            look: Look {
-                pixels_per_point: scale,
-                occlusion: if draft { 0.0 } else { seen.look.occlusion },
-                ..seen.look
-            },
+            look: Look { pixels_per_point: scale, ..seen.look },
+            quality: if draft { Quality::Draft } else { Quality::Finished },
             size: UVec2::new(pixels.x.max(1.0) as u32, pixels.y.max(1.0) as u32),
             body: seen.body.cloned(),
             cloth: seen.cloth.map(|(_, state)| Arc::clone(state)),

@@ -9,7 +9,9 @@ use crate::body::Surface;
 use crate::cloth::ClothState;
 use crate::contact::Bone;
 use crate::geometry::ids::MarkId;
-use crate::render::{Camera, Gpu, Look, OffscreenTarget, RenderError, Renderer, Rgb, Scene, straightened};
+use crate::render::{
+    Camera, Gpu, Look, OffscreenTarget, Quality, RenderError, Renderer, Rgb, Scene, straightened,
+};
 use crate::ui::scene::PinLook;
 use crate::ui::selection::Item;
 use crate::wrap::Marks;
@@ -23,6 +25,8 @@ pub struct Key {
     pub look: Look,
     /// Pixels.
     pub size: UVec2,
+    /// With how much work.
+    pub quality: Quality,
     /// Of what.
     pub body: Option<Arc<Surface>>,
     /// With which cloth.
@@ -57,6 +61,7 @@ impl PartialEq for Key {
             camera,
             look,
             size,
+            quality,
             body,
             cloth,
             marks,
@@ -74,6 +79,7 @@ impl PartialEq for Key {
         *camera == other.camera
             && *look == other.look
             && *size == other.size
+            && *quality == other.quality
             && *stroke == other.stroke
             && *pins == other.pins
             && *bones == other.bones
@@ -153,7 +159,7 @@ impl Graphics {
         if let Some(why) = self.lost() {
             return Err(RenderError::Device(why));
         }
-        let texture = self.target_of(key.size)?;
+        let texture = self.target_of(key.size, key.quality)?;
         if self.drawn.as_ref() != Some(&key)
             && let Some((target, _)) = &self.target
         {
@@ -172,21 +178,21 @@ impl Graphics {
         look: &Look,
         size: UVec2,
     ) -> Result<image::RgbaImage, RenderError> {
-        let target = OffscreenTarget::new(&self.gpu, size)?;
+        let target = OffscreenTarget::new(&self.gpu, size, Quality::Finished)?;
         self.renderer.draw(&self.gpu, scene, camera, look, &target)?;
         let picture = target.read(&self.gpu)?;
         Ok(if look.cut_out { straightened(picture) } else { picture })
     }
 
-    fn target_of(&mut self, size: UVec2) -> Result<TextureId, RenderError> {
+    fn target_of(&mut self, size: UVec2, quality: Quality) -> Result<TextureId, RenderError> {
         let size = size.min(UVec2::splat(self.gpu.max_side()));
         if let Some((target, texture)) = &self.target
-            && target.size == size
+            && (target.size, target.quality) == (size, quality)
         {
             return Ok(*texture);
         }
         self.drawn = None;
-        let target = OffscreenTarget::new(&self.gpu, size)?;
+        let target = OffscreenTarget::new(&self.gpu, size, quality)?;
         let mut egui = self.state.renderer.write();
         let filter = wgpu::FilterMode::Linear;
         let texture = match self.target.take() {
