@@ -129,7 +129,8 @@ impl App {
             | Action::ClearGuides
             | Action::ToggleParallel
             | Action::ToggleFreeTurning => self.change_view(ctx, action),
-            Action::NextPane => self.next_pane(ctx),
+            Action::NextPane => self.next_pane(ctx, false),
+            Action::PreviousPane => self.next_pane(ctx, true),
             Action::ToggleSnapping => self.snapping = !self.snapping,
             Action::Unit(unit) => self.prefer(ctx, |p| p.unit = unit),
             Action::ToggleCloth => self.show_cloth = !self.show_cloth,

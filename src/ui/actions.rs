@@ -124,6 +124,7 @@ pub enum Action {
     FrameSelection,
     TrueSize,
     NextPane,
+    PreviousPane,
     ToggleSnapping,
     ClearGuides,
     Unit(LengthUnit),
@@ -335,6 +336,7 @@ impl Action {
                 "Give the keyboard to the pattern, the body, the side panel or the tools",
                 &[key(Key::F6)],
             ),
+            Self::PreviousPane => entry("Previous pane", "The same, the other way round", &[shift(Key::F6)]),
             Self::ToggleSnapping => entry(
                 "Snap",
                 "Points, edges, guides and the grid draw the pointer on; Alt keeps it free",
@@ -388,6 +390,7 @@ impl Action {
                 | Self::Picture
                 | Self::TrueSize
                 | Self::NextPane
+                | Self::PreviousPane
                 | Self::Unit(_)
                 | Self::ToggleParallel
                 | Self::ToggleFreeTurning

@@ -152,10 +152,19 @@ impl App {
 
     /// Prefers what `path` says, and keeps there what is preferred from now on.
     pub fn keep_preferences(&mut self, ctx: &egui::Context, path: PathBuf) {
-        self.preferences = Preferences::read(&path);
+        let (preferences, words) = Preferences::read(&path);
+        self.preferences = preferences;
+        if let Some(words) = words {
+            self.messages.error(words);
+        }
         self.shell.recent = Recent::read(path.with_file_name("recent.json"));
         self.preferences_path = Some(path);
         self.live_by_preferences(ctx);
+    }
+
+    /// Tells the person something that is to be read.
+    pub fn warn(&mut self, words: &str) {
+        self.messages.error(words);
     }
 
     /// Writes everything done, from the beginning, to `file` as well.

@@ -135,6 +135,7 @@ pub const ALL: &[Action] = &[
     Action::Map(Some(MapKind::Seams)),
     Action::ToggleMapTable,
     Action::NextPane,
+    Action::PreviousPane,
     Action::Unit(LengthUnit::Cm),
     Action::Unit(LengthUnit::Mm),
     Action::Unit(LengthUnit::Inch),
@@ -248,6 +249,7 @@ impl Action {
             | Self::FrameSelection
             | Self::TrueSize
             | Self::NextPane
+            | Self::PreviousPane
             | Self::ToggleSnapping
             | Self::ClearGuides
             | Self::ToggleParallel

@@ -55,6 +55,7 @@ mod side_panel;
 mod signs;
 mod situation;
 mod start_page;
+mod starts;
 mod status;
 mod stitches;
 mod stroke;

@@ -93,10 +93,13 @@ impl App {
         }
     }
 
-    /// The keyboard goes from pattern to body, side panel and toolbar, and round; from anywhere else to the pattern.
-    pub(super) fn next_pane(&mut self, ctx: &egui::Context) {
+    /// The keyboard goes from pattern to body, side panel and toolbar, and round, or `back`; from anywhere else to the first.
+    pub(super) fn next_pane(&mut self, ctx: &egui::Context, back: bool) {
         let Shell { first_of_panel, first_tool, .. } = self.shell;
-        let panes = [self.pattern_pane.id, self.scene_pane.id, first_of_panel, first_tool];
+        let mut panes = [self.pattern_pane.id, self.scene_pane.id, first_of_panel, first_tool];
+        if back {
+            panes.reverse();
+        }
         let focused = ctx.memory(|m| m.focused());
         let at = focused.and_then(|id| panes.iter().position(|&pane| pane == Some(id)));
         let from = at.map_or(0, |at| at + 1);

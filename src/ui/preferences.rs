@@ -1,4 +1,4 @@
-//! What a person prefers, kept between runs. A file that cannot be read is as good as none.
+//! What a person prefers, kept between runs. A file that cannot be read is set aside.
 
 use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
@@ -188,11 +188,32 @@ where
 }
 
 impl Preferences {
-    /// Those in `path`. Where there is no such file, or it says nothing that can be understood: the usual ones.
-    pub fn read(path: &Path) -> Self {
+    fn understood(path: &Path) -> Option<Self> {
         let is_small = std::fs::metadata(path).is_ok_and(|file| file.is_file() && file.len() <= MOST_BYTES);
         let text = if is_small { std::fs::read_to_string(path).ok() } else { None };
-        text.and_then(|text| serde_json::from_str(&text).ok()).unwrap_or_default()
+        text.and_then(|text| serde_json::from_str(&text).ok())
+    }
+
+    /// Those in `path`; the usual ones where there is no such file. One that is there and cannot be understood is set aside
+    /// under another name, so that what is preferred from now on does not replace it; also that name, in words.
+    pub fn read(path: &Path) -> (Self, Option<String>) {
+        if let Some(understood) = Self::understood(path) {
+            return (understood, None);
+        }
+        let words = std::fs::symlink_metadata(path).is_ok().then(|| {
+            let beside = |n: u32| path.with_extension(format!("unreadable-{n}.json"));
+            let free = (1..1000).map(beside).find(|aside| std::fs::symlink_metadata(aside).is_err());
+            let free = free.filter(|_| path.is_file());
+            let set_aside =
+                free.as_ref().and_then(|aside| std::fs::rename(path, aside).ok()).and(free.as_ref());
+            match set_aside {
+                Some(aside) => {
+                    format!("The preferences could not be read. They were set aside as {}.", aside.display())
+                }
+                None => format!("The preferences in {} cannot be read.", path.display()),
+            }
+        });
+        (Self::default(), words)
     }
 
     /// Writes them to `path`: the whole new file or the whole old one. The error is in words.
@@ -226,8 +247,9 @@ mod tests {
     #[test]
     fn what_was_written_is_read_and_what_is_broken_is_not() {
         let folder = tempfile::tempdir().expect("a folder");
+        let read = |path: &Path| Preferences::read(path).0;
         let path = folder.path().join("deep/preferences.json");
-        assert_eq!(Preferences::read(&path), Preferences::default());
+        assert_eq!(read(&path), Preferences::default());
         let preferences = Preferences {
             mouse: Mouse::Blender,
             theme: Theme::Light,
@@ -242,16 +264,45 @@ mod tests {
             ..Preferences::default()
         };
         preferences.write(&path).expect("written");
-        assert_eq!(Preferences::read(&path), preferences);
+        assert_eq!(read(&path), preferences);
         for broken in ["", "{", "[1, 2]", "\u{0}", "{\"mouse\": 7}", "nonsense"] {
             std::fs::write(&path, broken).expect("written");
-            assert_eq!(Preferences::read(&path), Preferences::default(), "{broken:?}");
+            assert_eq!(read(&path), Preferences::default(), "{broken:?}");
         }
         std::fs::write(&path, "{\"mouse\": \"from_2040\", \"theme\": \"dark\", \"more\": []}")
             .expect("written");
-        assert_eq!(Preferences::read(&path), Preferences { theme: Theme::Dark, ..Preferences::default() });
-        assert_eq!(Preferences::read(folder.path()), Preferences::default(), "a folder is no file");
+        assert_eq!(read(&path), Preferences { theme: Theme::Dark, ..Preferences::default() });
+        assert_eq!(read(folder.path()), Preferences::default(), "a folder is no file");
         assert!(preferences.write(folder.path()).is_err());
+    }
+
+    #[test]
+    fn preferences_cut_anywhere_are_set_aside() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("preferences.json");
+        let preferences = Preferences { theme: Theme::Light, scale: Scale(150), ..Preferences::default() };
+        assert_eq!(Preferences::read(&path), (Preferences::default(), None), "nothing is there");
+        preferences.write(&path).expect("written");
+        let whole = std::fs::read(&path).expect("read");
+        for cut in (0..whole.len() - 2).step_by(37) {
+            std::fs::write(&path, &whole[..cut]).expect("written");
+            let (read, words) = Preferences::read(&path);
+            assert_eq!(read, Preferences::default());
+            let words = words.expect("it is told");
+            assert!(words.contains("unreadable-1.json"), "{words}");
+            let aside = folder.path().join("preferences.unreadable-1.json");
+            assert_eq!(std::fs::read(&aside).expect("still there"), &whole[..cut]);
+            assert!(!path.exists());
+            std::fs::remove_file(aside).expect("removed");
+        }
+        // Nothing that was set aside is lost to what is set aside next.
+        for n in 1..4 {
+            std::fs::write(&path, format!("broken {n}")).expect("written");
+            let words = Preferences::read(&path).1.expect("it is told");
+            assert!(words.contains(&format!("unreadable-{n}.json")), "{words}");
+        }
+        preferences.write(&path).expect("written");
+        assert_eq!(Preferences::read(&path), (preferences, None));
     }
 
     #[test]

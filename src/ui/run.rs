@@ -3,13 +3,15 @@
 use std::cell::RefCell;
 use std::fs::File;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::rc::Rc;
+use std::time::Instant;
 
 use anyhow::{Context, anyhow};
 
 use crate::session::Project;
 use crate::ui::app::App;
+use crate::ui::starts::{PLAIN, STARTED, Starts, prefer_processor};
 use crate::ui::{preferences, safety, thumbnails};
 
 /// A device that is lost more often than this will not stay.
@@ -20,8 +22,12 @@ const MOST_LOSSES: usize = 5;
 pub fn run(project: Option<Project>, path: Option<PathBuf>, record: Option<File>) -> anyhow::Result<()> {
     let kept: Kept = Rc::default();
     let mut first = Some((project, path, record));
+    let root = safety::usual_root();
+    let starts = root.as_deref().and_then(Path::parent).map(Starts::begin);
+    let is_plain = starts.as_ref().is_some_and(Starts::is_plain);
+    let starting: Starting = Rc::new(RefCell::new(starts.map(|starts| (starts, Instant::now()))));
     for _ in 0..=MOST_LOSSES {
-        let options = eframe::NativeOptions {
+        let mut options = eframe::NativeOptions {
             viewport: egui::ViewportBuilder::default()
                 .with_title("Toile")
                 .with_app_id("toile")
@@ -29,16 +35,22 @@ pub fn run(project: Option<Project>, path: Option<PathBuf>, record: Option<File>
                 .with_min_inner_size([880.0, 540.0]),
             ..Default::default()
         };
+        if is_plain {
+            prefer_processor(&mut options);
+        }
+        let starting = Rc::clone(&starting);
         let (shared, first) = (Rc::clone(&kept), first.take());
         let create: eframe::AppCreator<'_> = Box::new(move |cc| {
             let mut app = shared.borrow_mut();
             match (first, app.as_mut()) {
-                (Some((project, path, record)), _) => *app = Some(opened(cc, project, path, record)?),
+                (Some((project, path, record)), _) => {
+                    *app = Some(opened(cc, project, path, record, is_plain)?)
+                }
                 (None, Some(app)) => app.move_into(&cc.egui_ctx, cc.wgpu_render_state.clone()),
                 (None, None) => {}
             }
             drop(app);
-            Ok(Box::new(Window(shared)))
+            Ok(Box::new(Window { app: shared, starting }))
         });
         // egui itself may panic when it draws with a device that is gone.
         let ended = catch_unwind(AssertUnwindSafe(|| eframe::run_native("Toile", options, create)));
@@ -63,15 +75,20 @@ fn opened(
     project: Option<Project>,
     path: Option<PathBuf>,
     record: Option<File>,
+    is_plain: bool,
 ) -> std::io::Result<App> {
     let is_start = project.is_none();
     let project = project.unwrap_or_default();
     let mut app = App::new(&cc.egui_ctx, project, path.clone(), cc.wgpu_render_state.clone())?;
-    if let Some(path) = preferences::usual_path() {
-        app.keep_preferences(&cc.egui_ctx, path);
-    }
-    if let Some(folder) = thumbnails::usual_folder() {
-        app.keep_thumbnails(folder);
+    if is_plain {
+        app.warn(PLAIN);
+    } else {
+        if let Some(path) = preferences::usual_path() {
+            app.keep_preferences(&cc.egui_ctx, path);
+        }
+        if let Some(folder) = thumbnails::usual_folder() {
+            app.keep_thumbnails(folder);
+        }
     }
     if let Some(path) = &path {
         app.remember(path);
@@ -91,17 +108,42 @@ fn opened(
 /// The app, which outlives its windows.
 type Kept = Rc<RefCell<Option<App>>>;
 
-struct Window(Kept);
+/// This start, until it is known to have succeeded, and when it began.
+type Starting = Rc<RefCell<Option<(Starts, Instant)>>>;
+
+struct Window {
+    app: Kept,
+    starting: Starting,
+}
+
+impl Window {
+    /// The window is open; `closes`: and is closed as it should be.
+    fn tell_start(&self, ctx: &egui::Context, closes: bool) {
+        let mut starting = self.starting.borrow_mut();
+        let Some(waits) = starting.as_ref().map(|(_, begun)| STARTED.saturating_sub(begun.elapsed())) else {
+            return;
+        };
+        if waits.is_zero() || closes {
+            if let Some((starts, _)) = starting.take() {
+                starts.well();
+            }
+        } else {
+            ctx.request_repaint_after(waits);
+        }
+    }
+}
 
 impl eframe::App for Window {
     fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
-        if let Some(app) = self.0.borrow_mut().as_mut() {
+        self.tell_start(ui.ctx(), false);
+        if let Some(app) = self.app.borrow_mut().as_mut() {
             app.ui(ui);
         }
     }
 
     fn on_exit(&mut self) {
-        if let Some(app) = self.0.borrow_mut().as_mut()
+        self.tell_start(&egui::Context::default(), true);
+        if let Some(app) = self.app.borrow_mut().as_mut()
             && !app.is_moving()
         {
             app.finish();

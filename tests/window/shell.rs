@@ -404,7 +404,7 @@ fn a_picture_of_any_size_is_written_with_nothing_behind_it() {
 }
 
 #[test]
-fn f6_goes_through_pattern_body_panel_and_tools_and_round() {
+fn f6_goes_through_pattern_body_panel_and_tools_and_round_and_with_shift_back() {
     let mut window = window();
     let focused = |window: &Window| {
         let id = window.ctx.memory(|m| m.focused());
@@ -418,6 +418,12 @@ fn f6_goes_through_pattern_body_panel_and_tools_and_round() {
         seen.push(focused(&window).unwrap_or("nothing"));
     }
     assert_eq!(seen, ["Pattern pane", "Body pane", "Marks", "Mark", "Pattern pane"]);
+    seen.clear();
+    for _ in 0..4 {
+        key(&mut window, Modifiers::SHIFT, Key::F6);
+        seen.push(focused(&window).unwrap_or("nothing"));
+    }
+    assert_eq!(seen, ["Mark", "Marks", "Body pane", "Pattern pane"]);
 }
 
 #[test]
