@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::{DQuat, DVec2, DVec3};
 use toile::body::{Surface, mannequin};
 use toile::cloth::{ClothState, build};
-use toile::contact::layers::parting;
+use toile::contact::Met;
 use toile::fit::{BodyIndex, measure, verdict};
 use toile::geometry::ids::PieceId;
 use toile::pattern::{Edge, EdgeRef, EdgeShape, Pattern, Piece, Seam, SpacePose};
@@ -33,8 +33,9 @@ fn check(apart: f64) {
             DVec3::new(0.2 - corner.uv.x, corner.uv.y, -height)
         };
     }
-    let (ways, places) = parting(&garment, &state);
-    assert!(places > 0);
+    let met = Met::new(&garment, &state);
+    assert!(!met.places.is_empty());
+    let ways = met.ways(&garment, &state);
     let sent: Vec<f64> = garment
         .corners
         .iter()
@@ -51,6 +52,44 @@ fn layers_with_outer_sides_facing_part() {
 #[test]
 fn layers_with_inner_sides_facing_part() {
     check(-0.01);
+}
+
+/// A tube whose front is pushed through its back by 5 cm: what has come out there is sent back, all of it, and nothing else.
+#[test]
+fn what_is_deep_on_the_wrong_side_knows_its_way_out() {
+    let (round, high) = (0.6, 0.3);
+    let mut pattern = Pattern::default();
+    let corners = [[0.0, 0.0], [round, 0.0], [round, high], [0.0, high]].map(DVec2::from);
+    let piece = pattern.add_piece(Piece::polygon("tube", &corners));
+    pattern.add_seam(Seam::of_edges([1, 3].map(|edge| EdgeRef { piece, edge }), false));
+    let (garment, _) = build(&pattern, 0.01);
+    for inside_out in [1.0, -1.0] {
+        let mut state = ClothState {
+            positions: vec![DVec3::ZERO; garment.vertex_count],
+            mapped: vec![true; garment.vertex_count],
+        };
+        for corner in &garment.corners {
+            let turn = (corner.uv.x / round - 0.5) * std::f64::consts::TAU;
+            let radius = round / std::f64::consts::TAU;
+            let from = DVec2::new(corner.uv.x - round / 2.0, corner.uv.y - high / 2.0).length();
+            let dent = (2.0 * radius + 0.05) * (-(from / 0.04).powi(4)).exp();
+            let at = DVec3::new(radius * turn.sin(), corner.uv.y, radius * turn.cos() - dent);
+            state.positions[corner.vertex as usize] = DVec3::new(at.x * inside_out, at.y, at.z);
+        }
+        let met = Met::new(&garment, &state);
+        assert!(!met.places.is_empty());
+        let (ways, any) = met.ways_out(&garment, &state);
+        assert!(any);
+        let back = -round / std::f64::consts::TAU;
+        let farthest =
+            (0..garment.vertex_count).min_by(|&a, &b| state.positions[a].z.total_cmp(&state.positions[b].z));
+        let farthest = farthest.expect("a vertex");
+        assert!(state.positions[farthest].z < back - 0.04);
+        assert!(ways[farthest].z > 0.9, "{}", ways[farthest]);
+        assert_eq!(met.ways(&garment, &state)[farthest], DVec3::ZERO, "it is far from where layers meet");
+        let far = |v: usize| (state.positions[v].y - high / 2.0).abs() > 0.09;
+        assert!((0..garment.vertex_count).filter(|&v| far(v)).all(|v| ways[v] == DVec3::ZERO));
+    }
 }
 
 /// Front and back of a skirt that is a whole ring of cloth, `waist` and `length` metres.

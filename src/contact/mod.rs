@@ -4,11 +4,13 @@ pub mod apart;
 pub mod bones;
 pub mod faces;
 pub mod layers;
+mod pockets;
 pub mod splits;
 pub mod tracker;
 
 pub use apart::Apart;
 pub use bones::{Bone, Bones};
 pub use faces::Faces;
+pub use layers::Met;
 pub use splits::Splits;
 pub use tracker::{Plane, Tracker};

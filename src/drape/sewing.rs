@@ -19,6 +19,8 @@ use crate::geometry::ids::{PieceId, SeamId};
 
 /// Sides nearer than this are one, metres (paper B).
 pub const SHUT: f64 = 1e-5;
+/// Seams that stay farther open than this before they are pulled shut are told, metres.
+const TOLD: f64 = 5e-4;
 /// How fast a seam shrinks, m/s; it takes between so many ticks.
 const SHRINK: (f64, [u32; 2]) = (0.4, [45, 120]);
 /// Seams have so many ticks more to come together, and then those of [`SLIDE`].
@@ -51,7 +53,7 @@ pub struct Sewn {
     pub cloth: ClothState,
     /// Of its vertices, m/s.
     pub velocities: Vec<DVec3>,
-    /// Seams that did not come together, with their widest gap, metres.
+    /// Seams that did not come together, by more than half a millimetre, with their widest gap, metres.
     pub open: Vec<(SeamId, f64)>,
 }
 
@@ -143,7 +145,7 @@ impl Sewing {
                 mapped: sums.iter().map(|(m, ..)| *m > 0.0).collect(),
             },
             velocities: sums.iter().map(|(m, _, v)| mean(*v, *m)).collect(),
-            open: widest.filter(|(_, gap)| *gap > SHUT).collect(),
+            open: widest.filter(|(_, gap)| *gap > TOLD).collect(),
         }
     }
 }

@@ -11,7 +11,7 @@ use glam::{DVec2, DVec3};
 use crate::body::Surface;
 use crate::cloth::{ClothState, Counters, Fabric, Garment, Skips};
 use crate::contact::faces::Lying;
-use crate::contact::{Faces, layers};
+use crate::contact::{Faces, Met};
 use crate::drape::bending::Bending;
 use crate::drape::contact::Collider;
 use crate::drape::itself::{Itself, Sides};
@@ -43,6 +43,10 @@ const PART_TICKS: u64 = 4;
 const MOST_PARTINGS: u32 = 40;
 /// And parted by so much each time, metres.
 const PARTING: f64 = 0.0005;
+/// So often what lies deep is sent out by as much in one go.
+const MOST_PULLS: usize = 80;
+/// And so often in a row in vain: then it is left where it is.
+const MOST_IN_VAIN: u32 = 3;
 /// Air takes this share of motion, 1/s.
 const AIR: f64 = 1.5;
 /// So many seconds of velocity resist bending as if they were shape.
@@ -151,6 +155,8 @@ pub struct Worn {
     crossings: usize,
     /// The fewest of them since there were none, and how often in a row there were no fewer.
     parting: (usize, u32),
+    /// How often in a row what lay deep did not come out.
+    in_vain: u32,
     /// Faces that came too near the body when last looked at.
     lacking: usize,
     /// Work done.
@@ -250,6 +256,7 @@ impl Worn {
             quiet: 0,
             crossings: 0,
             parting: (usize::MAX, 0),
+            in_vain: 0,
             lacking: 0,
             counters: Counters::default(),
             fixed: Arc::new(Fixed {
@@ -265,7 +272,7 @@ impl Worn {
                 damping,
             }),
         };
-        worn.part(cloth);
+        worn.part(&mut cloth.clone());
         Ok(worn)
     }
 
@@ -368,7 +375,7 @@ impl Worn {
 
     /// What was at rest moves again, as far as it must.
     pub fn wake(&mut self) {
-        (self.quiet, self.pace, self.parting) = (0, 1.0, (usize::MAX, 0));
+        (self.quiet, self.pace, self.parting, self.in_vain) = (0, 1.0, (usize::MAX, 0), 0);
         self.progress = Progress { ticks: 0, at_rest: false, ..self.progress };
     }
 
@@ -501,18 +508,18 @@ impl Worn {
     }
 
     /// Sends layers that run through each other apart.
-    fn part(&mut self, cloth: &ClothState) {
+    fn part(&mut self, cloth: &mut ClothState) {
         if !self.settings.self_collision {
             return;
         }
         let fixed = Arc::clone(&self.fixed);
-        let (ways, places) = layers::parting(&fixed.garment, cloth);
         self.counters.self_tests += 1;
+        let (ways, places) = self.untangle(cloth);
         let was = self.crossings;
         self.crossings = places;
         self.parting = match (places, self.parting) {
             (0, _) => (usize::MAX, 0),
-            (_, (fewest, _)) if places < fewest => (places, 0),
+            (places, (fewest, _)) if places < fewest => (places, 0),
             (_, (fewest, times)) => (fewest, times + 1),
         };
         if places == 0 && was == 0 {
@@ -523,13 +530,8 @@ impl Worn {
             let way = ways[fixed.vertices[v] as usize];
             if way != DVec3::ZERO {
                 free[v] = true;
-                fixed
-                    .sheet
-                    .adjacency
-                    .vertex_neighbours
-                    .of(v as u32)
-                    .iter()
-                    .for_each(|&w| free[w as usize] = true);
+                let around = fixed.sheet.adjacency.vertex_neighbours.of(v as u32);
+                around.iter().for_each(|&w| free[w as usize] = true);
                 if !self.pinned[v] {
                     *x += way * PARTING;
                 }
@@ -537,6 +539,52 @@ impl Worn {
         }
         self.itself.free = if places > 0 { free } else { Vec::new() };
         self.itself.forget();
+    }
+
+    /// Takes what lies deep on the wrong side of other cloth out at once: let go half way it would go back. Where that leads
+    /// nowhere all stays as it is. For each vertex where to send it, and in how many places the cloth then still runs through
+    /// itself.
+    fn untangle(&mut self, cloth: &mut ClothState) -> (Vec<DVec3>, usize) {
+        let fixed = Arc::clone(&self.fixed);
+        let garment = &*fixed.garment;
+        let met = Met::new(garment, cloth);
+        let mut best = (met.ways(garment, cloth), met.places.len());
+        if self.itself.sewn.is_some() || self.in_vain >= MOST_IN_VAIN {
+            return best;
+        }
+        let (mut ways, deep) = met.ways_out(garment, cloth);
+        if !deep {
+            return best;
+        }
+        self.in_vain += 1;
+        let mut least = self.state.clone();
+        for _ in 0..MOST_PULLS {
+            for (v, x) in self.state.positions.iter_mut().enumerate() {
+                let way = ways[fixed.vertices[v] as usize];
+                if way == DVec3::ZERO || self.pinned[v] {
+                    continue;
+                }
+                *x += way * PARTING;
+                self.state.velocities[v] = DVec3::ZERO;
+                if let Some((normal, height)) = self.small.height(v, *x) {
+                    *x -= normal * height.min(0.0);
+                }
+            }
+            self.write(cloth);
+            let met = Met::new(garment, cloth);
+            if met.places.len() < best.1 {
+                best = (met.ways(garment, cloth), met.places.len());
+                least = self.state.clone();
+            }
+            if best.1 == 0 {
+                self.in_vain = 0;
+                break;
+            }
+            ways = met.ways_out(garment, cloth).0;
+        }
+        self.state = least;
+        self.write(cloth);
+        best
     }
 }
 

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use crate::geometry::borders::border_loops;
 use crate::geometry::bvh::{Aabb, Bvh};
 use crate::geometry::crossings::segment_meets_triangle;
 use crate::geometry::mesh::TriMesh;
@@ -15,39 +16,6 @@ pub struct Opening {
     pub height: f64,
     /// Whether the body passes through the fan spanned over it from its middle.
     pub body_through: bool,
-}
-
-/// Chains of edges of one triangle each, as vertices in order. Where borders touch in a vertex they may be joined to one.
-pub(super) fn border_loops(mesh: &TriMesh) -> Vec<Vec<u32>> {
-    let directed = || (0..3).flat_map(|k| mesh.triangles.iter().map(move |t| [t[k], t[(k + 1) % 3]]));
-    let mut keys: Vec<[u32; 2]> = directed().map(|[a, b]| [a.min(b), a.max(b)]).collect();
-    keys.sort_unstable();
-    let once = |[a, b]: [u32; 2]| {
-        let key = [a.min(b), a.max(b)];
-        let first = keys.partition_point(|k| *k < key);
-        keys.get(first + 1) != Some(&key)
-    };
-    let mut next: Vec<Vec<u32>> = vec![Vec::new(); mesh.positions.len()];
-    let mut starts = Vec::new();
-    for [a, b] in directed().filter(|&e| once(e)) {
-        starts.push(a);
-        next[a as usize].push(b);
-    }
-    let mut loops = Vec::new();
-    for start in starts {
-        let (mut chain, mut at) = (Vec::new(), start);
-        while let Some(b) = next[at as usize].pop() {
-            chain.push(at);
-            at = b;
-            if at == start {
-                break;
-            }
-        }
-        if !chain.is_empty() {
-            loops.push(chain);
-        }
-    }
-    loops
 }
 
 /// The openings, longest first. `skin(t)` says whether triangle `t` of `body` lies on its outside; `tree` is over them.

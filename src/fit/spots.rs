@@ -7,7 +7,7 @@ use glam::DVec3;
 use crate::cloth::{ClothState, Garment};
 use crate::fit::laid::Laid;
 use crate::fit::on_body::{BodyIndex, wrong_side_out};
-use crate::fit::openings::border_loops;
+use crate::geometry::borders::border_loops;
 use crate::geometry::crossings::{meetings, self_crossings};
 
 /// The edges strained most count as the place of strain: so large a share of them.

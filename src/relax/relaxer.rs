@@ -9,7 +9,7 @@ use crate::body::Surface;
 use crate::cloth::{Carry, ClothState, Counters, Garment, Skip};
 use crate::contact::faces::Lying;
 use crate::contact::splits::{Ground, Suspects};
-use crate::contact::{Apart, Bones, Faces, Plane, Splits, Tracker, layers};
+use crate::contact::{Apart, Bones, Faces, Met, Plane, Splits, Tracker};
 use crate::geometry::crossings::meetings;
 use crate::relax::flatten::{Hinges, Lie};
 use crate::relax::global::{GlobalSolver, STALE_SHARE};
@@ -542,17 +542,17 @@ impl Relaxer {
         let body = &self.surface.mesh;
         meetings(&drawn.positions, &edges, body, &body.tree()).len()
             + self.wrong_faces(state).iter().flatten().count()
-            + layers::parting(&self.garment, state).1 * CROSSINGS_WEIGH
+            + Met::new(&self.garment, state).places.len() * CROSSINGS_WEIGH
     }
 
     /// Sends layers that run into each other apart. Returns in how many places they do.
     pub fn part_layers(&mut self, state: &ClothState) -> usize {
         self.counters.self_tests += 1;
-        let (ways, places) = layers::parting(&self.garment, state);
-        for (parted, way) in self.parted.iter_mut().zip(ways) {
+        let met = Met::new(&self.garment, state);
+        for (parted, way) in self.parted.iter_mut().zip(met.ways(&self.garment, state)) {
             *parted = *parted * STILL_PARTING + way;
         }
-        places
+        met.places.len()
     }
 
     /// Layers that lie apart are sent apart less and less: held there for ever, they would be strained.

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::body::Surface;
 use crate::cloth::{ClothState, Counters, Garment};
-use crate::contact::{Apart, layers};
+use crate::contact::{Apart, Met};
 use crate::geometry::rebuild::Rebuild;
 use crate::relax::{GlobalStep, RelaxSettings, Relaxer};
 use crate::repose::between::between;
@@ -132,7 +132,7 @@ impl Reposer {
         let mut relaxer = Relaxer::new(as_it_lies, Arc::clone(&surface), settings)?;
         relaxer.set_mapped(&cloth.mapped);
         let folds = Folds::of(garment, &cloth);
-        let crossings = layers::parting(garment, &cloth).1;
+        let crossings = Met::new(garment, &cloth).places.len();
         let (rebuild, apart, beside) = (None, None, None);
         Some(Self { from: surface, cloth, map, lengths, relaxer, rebuild, folds, crossings, apart, beside })
     }

@@ -289,3 +289,28 @@ fn trousers_drape_to_rest_on_several_threads_without_passing_through_themselves(
     assert!(report.strain.p99 < 0.02, "strain {}", report.strain.p99);
     assert_eq!(draped(3).1, hash, "the same bits");
 }
+
+/// Legs that went through each other by centimetres hold each other fast with pairs of what is near: they know no way out.
+#[test]
+fn trouser_legs_that_are_deep_in_each_other_come_out() {
+    let mannequin = mannequin(&Measurements::default()).expect("a mannequin");
+    let mut s = Session::new(Sample::Trousers.project(&mannequin), Runner::inline(Simulation::default()));
+    s.apply_alone(Command::Wrap).expect("wrapped");
+    run(&mut s, 3000);
+    let mut project = s.project();
+    let dressed = project.dressed.as_mut().expect("cloth");
+    let (crotch, wide, deep) = (0.7, 0.09, 0.08);
+    for p in &mut Arc::make_mut(&mut dressed.cloth).positions {
+        let down = ((crotch - p.y) / 0.1).clamp(0.0, 1.0);
+        p.x -= p.x.signum() * deep * down * (1.0 - p.x.abs() / wide).max(0.0);
+    }
+    let mut s = Session::new(project, Runner::inline(Simulation::default()));
+    s.update();
+    assert!(measured(&s).self_crossings > 100, "they are in each other");
+    s.apply_alone(Command::SetDraping { on: true }).expect("draped");
+    run(&mut s, 1300);
+    let report = measured(&s);
+    assert_eq!(report.self_crossings, 0);
+    assert_eq!(report.penetration.vertices + report.edges_through_body, 0);
+    assert!(report.strain.p99 < 0.02, "strain {}", report.strain.p99);
+}

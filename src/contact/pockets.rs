@@ -1,0 +1,97 @@
+//! Parts of the cloth that have run into other parts of it: one trouser leg into the other, a sleeve into the side, a fold
+//! through the layer behind.
+//!
+//! With its openings closed, cloth winds once round what it encloses; counted at its own points, more than never and less than
+//! once, as sharply as it may be folded there. Where a part of it lies within another part it winds once more, and where it has
+//! come out through another, once less. So it is known which way is out, however deep it lies: pairs of what is near and lines
+//! that shrink (see [`layers`](crate::contact::layers)) do not know it.
+
+use std::collections::VecDeque;
+
+use glam::DVec3;
+
+use crate::cloth::Garment;
+use crate::geometry::borders::border_loops;
+use crate::geometry::mesh::TriMesh;
+use crate::geometry::winding::Winding;
+
+/// Points that are asked how often cloth winds round what it encloses.
+const ASKED: usize = 15;
+/// Of the winding number: what is taken for certain is so far beyond what there can be.
+const CERTAIN: f64 = 0.03;
+
+/// For each vertex how much more often than it should the cloth winds round it: 0 where all is well, or nothing is known.
+/// `mesh` are the laid triangles of `garment`; `crossed` tells of each of its edges whether other cloth of it passes it.
+pub fn pockets(garment: &Garment, mesh: &TriMesh, crossed: &[bool]) -> Vec<i8> {
+    let part = parts(garment, mesh);
+    let mut deep = vec![0; garment.vertex_count];
+    let mut asked = vec![false; garment.vertex_count];
+    let ends = |e: usize| garment.adjacency.edges[e];
+    for first in 0..crossed.len() {
+        let [a, _] = ends(first);
+        if !crossed[first] || asked[a as usize] {
+            continue;
+        }
+        let whole = part[a as usize];
+        let closed = closed(mesh, |v| part[v as usize] == whole);
+        let winding = Winding::new(&closed);
+        let usual = usual(&winding, mesh, |v| part[v as usize] == whole);
+        let own = (0..crossed.len()).filter(|&e| crossed[e] && part[ends(e)[0] as usize] == whole);
+        let mut open: VecDeque<u32> = own.flat_map(ends).collect();
+        while let Some(v) = open.pop_front() {
+            if std::mem::replace(&mut asked[v as usize], true) {
+                continue;
+            }
+            let winds = winding.at(mesh.positions[v as usize]) - usual;
+            let more = i8::from(winds > 1.0 + CERTAIN) - i8::from(winds < -CERTAIN);
+            if more != 0 {
+                deep[v as usize] = more;
+                open.extend(
+                    garment.adjacency.vertex_neighbours.of(v).iter().filter(|&&w| part[w as usize] == whole),
+                );
+            }
+        }
+    }
+    deep
+}
+
+/// How often cloth winds round the one side of itself at most of its points, the whole number below.
+fn usual(winding: &Winding<'_>, mesh: &TriMesh, chosen: impl Fn(u32) -> bool) -> f64 {
+    let own: Vec<u32> = (0..mesh.positions.len() as u32).filter(|&v| chosen(v)).collect();
+    let count = own.len().min(ASKED);
+    let at = |k: usize| winding.at(mesh.positions[own[k * own.len() / count] as usize]).floor();
+    let mut found: Vec<f64> = (0..count).map(at).collect();
+    found.sort_by(f64::total_cmp);
+    found.get(count / 2).copied().unwrap_or_default()
+}
+
+/// The triangles whose vertices are `chosen`, with a fan over each border.
+fn closed(mesh: &TriMesh, chosen: impl Fn(u32) -> bool) -> TriMesh {
+    let triangles = mesh.triangles.iter().copied().filter(|vs| chosen(vs[0])).collect();
+    let mut closed = TriMesh { positions: mesh.positions.clone(), triangles };
+    for border in border_loops(&closed) {
+        let middle = closed.positions.len() as u32;
+        let sum: DVec3 = border.iter().map(|&v| mesh.positions[v as usize]).sum();
+        closed.positions.push(sum / border.len() as f64);
+        let next = border.iter().cycle().skip(1);
+        closed.triangles.extend(border.iter().zip(next).map(|(&a, &b)| [b, a, middle]));
+    }
+    closed
+}
+
+/// For each vertex the first of those it hangs together with; `u32::MAX` where nothing is laid.
+fn parts(garment: &Garment, mesh: &TriMesh) -> Vec<u32> {
+    let mut laid = vec![false; garment.vertex_count];
+    mesh.triangles.iter().flatten().for_each(|&v| laid[v as usize] = true);
+    let mut part = vec![u32::MAX; garment.vertex_count];
+    for start in (0..garment.vertex_count as u32).filter(|&v| laid[v as usize]) {
+        let mut open = vec![start];
+        while let Some(v) = open.pop() {
+            if part[v as usize] == u32::MAX && laid[v as usize] {
+                part[v as usize] = start;
+                open.extend(garment.adjacency.vertex_neighbours.of(v));
+            }
+        }
+    }
+    part
+}
