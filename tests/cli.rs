@@ -9,6 +9,8 @@ mod bodies;
 mod common;
 #[path = "cli/dress.rs"]
 mod dress;
+#[path = "cli/faults.rs"]
+mod faults;
 #[path = "cli/patterns.rs"]
 mod patterns;
 #[path = "cli/program.rs"]

@@ -1,6 +1,7 @@
 //! The renderer against known pictures. Without a graphics adapter the picture tests say so and pass.
 
 use std::sync::Arc;
+use std::time::Duration;
 
 use glam::{UVec2, Vec2, Vec3};
 use toile::render::{
@@ -172,6 +173,17 @@ fn a_picture_that_is_too_large_is_refused_in_words() {
         .picture(&Scene::default(), View::Front, &Look::light(), UVec2::new(1_000_000, 10))
         .expect_err("too large");
     assert!(error.to_string().contains("1000000 x 10 pixels"), "{error}");
+}
+
+#[test]
+fn an_adapter_that_does_not_answer_is_not_waited_for_without_end() {
+    let Some(mut studio) = studio() else { return };
+    let scene = Scene { meshes: vec![Arc::new(sphere(0.5, CLOTH_FRONT, CLOTH_BACK))], ..Default::default() };
+    studio.set_patience(Duration::ZERO);
+    let picture = studio.picture(&scene, View::Front, &Look::light(), UVec2::new(2000, 1500));
+    assert!(matches!(picture, Err(RenderError::Timeout(_))), "it was ready at once");
+    studio.set_patience(Duration::from_secs(60));
+    studio.picture(&scene, View::Front, &Look::light(), SIZE).expect("the next one comes");
 }
 
 #[test]

@@ -4,9 +4,8 @@ use std::fs;
 use std::io::{IsTerminal, Write};
 use std::path::Path;
 
-use atomic_write_file::AtomicWriteFile;
-
 use crate::cli::failure::Failure;
+use crate::session::whole_file;
 
 /// A line on standard output. A reader that has gone away is no failure.
 pub fn say(words: &str) {
@@ -30,11 +29,7 @@ pub fn progress(words: &str) {
 
 /// Writes the whole of `bytes` to `path`, or leaves what was there.
 pub fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    let written = AtomicWriteFile::open(path).and_then(|mut file| {
-        file.write_all(bytes)?;
-        file.commit()
-    });
-    written.map_err(|error| Failure::file(path, error))
+    whole_file::write(path, bytes).map_err(|error| Failure::file(path, error))
 }
 
 /// Makes `folder` and those above it.

@@ -26,8 +26,8 @@ pub enum RenderError {
         limit: String,
     },
     /// The adapter did not answer.
-    #[error("the graphics adapter did not finish the picture within {0} seconds")]
-    Timeout(u64),
+    #[error("the graphics adapter did not finish the picture within {} seconds", .0.as_secs())]
+    Timeout(std::time::Duration),
     /// The adapter reported an error.
     #[error("the graphics adapter reported an error: {0}")]
     Device(String),

@@ -1,6 +1,7 @@
 //! A graphics device: made without a window, or borrowed from one.
 
 use std::sync::Arc;
+use std::time::Duration;
 
 use super::RenderError;
 
@@ -8,6 +9,9 @@ use super::RenderError;
 pub const COLOUR: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 /// Depth format. Reversed: 1 at the near plane, 0 far away, so that floats keep their relative accuracy.
 pub const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
+
+/// How long pictures are waited for: a processor takes seconds for the largest.
+const PATIENCE: Duration = Duration::from_secs(30);
 
 /// A device and its queue.
 #[derive(Clone, Debug)]
@@ -22,6 +26,8 @@ pub struct Gpu {
     pub software: bool,
     /// Samples a pixel: 4, or 1 where the adapter cannot.
     pub samples: u32,
+    /// How long a picture is waited for.
+    pub patience: Duration,
 }
 
 impl Gpu {
@@ -55,6 +61,7 @@ impl Gpu {
             software: info.device_type == wgpu::DeviceType::Cpu,
             device,
             queue,
+            patience: PATIENCE,
         }
     }
 

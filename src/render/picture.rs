@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use std::time::Duration;
+
 use glam::UVec2;
 
 use super::{Camera, Gpu, Look, OffscreenTarget, Quality, RenderError, Renderer, Scene, View};
@@ -20,6 +22,11 @@ impl Studio {
         let gpu = Gpu::headless()?;
         let renderer = Renderer::new(&gpu);
         Ok(Self { gpu, renderer, target: None })
+    }
+
+    /// Pictures are waited for so long.
+    pub fn set_patience(&mut self, patience: Duration) {
+        self.gpu.patience = patience;
     }
 
     /// The adapter that draws, for people.

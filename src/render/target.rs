@@ -1,14 +1,9 @@
 //! What is drawn on, and how its pixels come back.
 
-use std::time::Duration;
-
 use glam::UVec2;
 
 use super::gpu::{COLOUR, DEPTH};
 use super::{Gpu, RenderError};
-
-/// How long a picture may take to come back from the device.
-const READBACK_SECONDS: u64 = 30;
 
 /// How much work a picture is.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -161,12 +156,11 @@ fn mapped(gpu: &Gpu, buffer: &wgpu::Buffer) -> Result<Vec<u8>, RenderError> {
         // The receiver is gone only after a timeout, when nobody waits for the answer.
         let _ = send.send(r);
     });
-    let wait =
-        wgpu::PollType::Wait { submission_index: None, timeout: Some(Duration::from_secs(READBACK_SECONDS)) };
-    gpu.device.poll(wait).map_err(|_| RenderError::Timeout(READBACK_SECONDS))?;
+    let wait = wgpu::PollType::Wait { submission_index: None, timeout: Some(gpu.patience) };
+    gpu.device.poll(wait).map_err(|_| RenderError::Timeout(gpu.patience))?;
     receive
-        .recv_timeout(Duration::from_secs(READBACK_SECONDS))
-        .map_err(|_| RenderError::Timeout(READBACK_SECONDS))?
+        .recv_timeout(gpu.patience)
+        .map_err(|_| RenderError::Timeout(gpu.patience))?
         .map_err(|e| RenderError::Device(e.to_string()))?;
     let view = buffer.get_mapped_range(..).map_err(|e| RenderError::Device(e.to_string()))?;
     Ok(view.to_vec())

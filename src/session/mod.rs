@@ -17,6 +17,7 @@ pub mod replay;
 pub mod samples;
 #[expect(clippy::module_inception, reason = "a file is named by what it holds")]
 pub mod session;
+pub mod whole_file;
 
 pub use command::{Command, Rejection};
 pub use document::{BodyChoice, Document, Fabrics, Pin, Settings};

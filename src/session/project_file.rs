@@ -8,7 +8,6 @@ use std::io::{Cursor, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use atomic_write_file::AtomicWriteFile;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 use zip::write::SimpleFileOptions;
@@ -18,6 +17,7 @@ use crate::cloth::ClothState;
 use crate::geometry::mesh::TriMesh;
 use crate::session::document::BodyChoice;
 use crate::session::project::Project;
+use crate::session::whole_file;
 
 /// What the file says it is.
 pub const FORMAT: &str = "toile-project";
@@ -83,17 +83,28 @@ pub fn open(path: &Path) -> Result<Project, ProjectFileError> {
     from_bytes(&fs::read(path).map_err(file_error)?)
 }
 
-/// Writes `project` to `path`; what was there before stays as `PATH.bak`.
+/// Writes `project` to `path`; what was there before stays as `PATH.bak`. A write-protected file is refused.
 pub fn save(path: &Path, project: &Project) -> Result<(), ProjectFileError> {
+    save_by(path, project, whole_file::write)
+}
+
+/// The same over a file that may be write-protected.
+pub fn save_over(path: &Path, project: &Project) -> Result<(), ProjectFileError> {
+    save_by(path, project, whole_file::replace)
+}
+
+fn save_by(
+    path: &Path,
+    project: &Project,
+    write: impl Fn(&Path, &[u8]) -> std::io::Result<()>,
+) -> Result<(), ProjectFileError> {
     let file_error = |source| ProjectFileError::File { path: path.to_owned(), source };
     let bytes = to_bytes(project)?;
     if from_bytes(&bytes)? != *project {
         return Err(contents("the project did not survive being written: nothing was saved"));
     }
     keep_backup(path).map_err(file_error)?;
-    let mut file = AtomicWriteFile::open(path).map_err(file_error)?;
-    file.write_all(&bytes).map_err(file_error)?;
-    file.commit().map_err(file_error)
+    write(path, &bytes).map_err(file_error)
 }
 
 fn keep_backup(path: &Path) -> std::io::Result<()> {
@@ -104,9 +115,7 @@ fn keep_backup(path: &Path) -> std::io::Result<()> {
     };
     let mut name = path.as_os_str().to_owned();
     name.push(".bak");
-    let mut file = AtomicWriteFile::open(PathBuf::from(name))?;
-    file.write_all(&old)?;
-    file.commit()
+    whole_file::replace(&PathBuf::from(name), &old)
 }
 
 /// The project in `bytes`.

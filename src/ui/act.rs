@@ -245,12 +245,7 @@ impl App {
 
     fn save(&mut self, ctx: &egui::Context) {
         match self.path.clone() {
-            Some(path) => {
-                if let Err(words) = self.save_to(ctx, &path) {
-                    self.after_save = None;
-                    self.messages.error(words);
-                }
-            }
+            Some(path) => self.save_or_ask(ctx, &path),
             None => self.ask_file(Purpose::Save),
         }
     }

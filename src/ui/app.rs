@@ -402,6 +402,7 @@ impl App {
             Answer::File(purpose, path) => self.file(ctx, purpose, &path),
             Answer::Restore(left) => self.restore(ctx, *left),
             Answer::SaveAs => self.ask_file(Purpose::Save),
+            Answer::Replace(path) => self.save_over(ctx, &path),
             Answer::Overwrite(path) => {
                 self.on_disk = None;
                 self.file(ctx, Purpose::Save, &path);

@@ -12,6 +12,7 @@ use egui::{Id, Modal, ScrollArea, TextEdit};
 use crate::body::{Unit, UpAxis};
 use crate::io::scale::{DrawingUnit, ScaleQuestion};
 use crate::session::recovery::Left;
+use crate::session::whole_file;
 use crate::ui::actions::Action;
 use crate::ui::files::{Purpose, RawBody};
 use crate::ui::keymap::Keymap;
@@ -40,6 +41,8 @@ pub enum Dialog {
     Recover { found: Vec<(Left, String)> },
     /// The project's file was changed by somebody else since it was opened or saved.
     ChangedOnDisk { path: PathBuf },
+    /// The project could not be saved there, and why.
+    NotSaved { path: PathBuf, words: String },
 }
 
 /// What was answered.
@@ -61,6 +64,8 @@ pub enum Answer {
     Restore(Box<Left>),
     /// Save over what somebody else wrote.
     Overwrite(PathBuf),
+    /// Save over a file that is write-protected.
+    Replace(PathBuf),
     /// Save under another name.
     SaveAs,
     /// The pattern in this file, whose unit is this.
@@ -86,6 +91,7 @@ impl Dialog {
             Self::Shortcuts { mouse, keymap } => shortcuts_ui(ctx, *mouse, keymap),
             Self::Recover { found } => recover_ui(ctx, found, thumbnails),
             Self::ChangedOnDisk { path } => changed_ui(ctx, path),
+            Self::NotSaved { path, words } => not_saved_ui(ctx, path, words),
         }
     }
 }
@@ -190,6 +196,17 @@ fn changed_ui(ctx: &egui::Context, path: &Path) -> Answer {
         ("Cancel", "", Answer::Cancel),
     ];
     question_ui(ctx, "changed", "The file has changed", &words, buttons)
+}
+
+fn not_saved_ui(ctx: &egui::Context, path: &Path, words: &str) -> Answer {
+    let mut buttons = vec![("Save as…", "", Answer::SaveAs)];
+    if whole_file::is_protected(path) {
+        let tip = "It stays write-protected; the version before stays as .bak";
+        buttons.push(("Replace it anyway", tip, Answer::Replace(path.to_owned())));
+    }
+    buttons.push(("Cancel", "", Answer::Cancel));
+    let words = format!("{words}.\n{} is as it was; your work is kept here.", path.display());
+    question_ui(ctx, "not saved", "Not saved", &words, buttons)
 }
 
 fn revert_ui(ctx: &egui::Context, path: &Path) -> Answer {

@@ -32,7 +32,10 @@ impl App {
                 self.begin_turn(path);
                 Ok(())
             }
-            Purpose::Save => self.save_to(ctx, path),
+            Purpose::Save => {
+                self.save_or_ask(ctx, path);
+                Ok(())
+            }
             Purpose::Copy => files::save(path, &self.session.project()).map(|()| self.wrote(path)),
             Purpose::ImportPattern => self.import_pattern(path, None),
             Purpose::ImportBody => files::read_body(path).and_then(|raw| self.import_body(raw)),
@@ -55,9 +58,7 @@ impl App {
     /// Saves beside the project's file, under the next number; from then on that is its file.
     pub(super) fn save_next(&mut self, ctx: &egui::Context) {
         let Some(path) = self.path.as_deref().map(files::next_version) else { return };
-        if let Err(words) = self.save_to(ctx, &path) {
-            self.messages.error(words);
-        }
+        self.save_or_ask(ctx, &path);
     }
 
     /// Asks for the unit first when the file does not say it.

@@ -13,7 +13,7 @@ use crate::io::scale::{DrawingUnit, ScaleQuestion};
 use crate::io::{dxf, garmentcode, glb, obj, svg};
 use crate::pattern::Pattern;
 use crate::session::samples::Sample;
-use crate::session::{BodyChoice, Command, Project, project_file};
+use crate::session::{BodyChoice, Command, Project, project_file, whole_file};
 use crate::sim::Snapshot;
 
 /// What a file dialog is for.
@@ -124,15 +124,14 @@ pub fn save(path: &Path, project: &Project) -> Result<(), String> {
     project_file::save(path, project).map_err(|e| in_words(path, "saved", e))
 }
 
+/// The same over a file that is write-protected.
+pub fn save_over(path: &Path, project: &Project) -> Result<(), String> {
+    project_file::save_over(path, project).map_err(|e| in_words(path, "saved", e))
+}
+
 /// Writes a file, whole or not at all.
 pub fn write(path: &Path, bytes: &[u8]) -> Result<(), String> {
-    use std::io::Write;
-    let write = || {
-        let mut file = atomic_write_file::AtomicWriteFile::open(path)?;
-        file.write_all(bytes)?;
-        file.commit()
-    };
-    write().map_err(|e: std::io::Error| in_words(path, "written", e))
+    whole_file::write(path, bytes).map_err(|e| in_words(path, "written", e))
 }
 
 /// What a file of a pattern gives.

@@ -206,6 +206,13 @@ impl App {
         }
     }
 
+    /// Saves there, or asks what to do where that cannot be.
+    pub(super) fn save_or_ask(&mut self, ctx: &egui::Context, path: &Path) {
+        if let Err(words) = self.save_to(ctx, path) {
+            self.dialog = Some(Dialog::NotSaved { path: path.to_owned(), words });
+        }
+    }
+
     pub(super) fn save_to(&mut self, ctx: &egui::Context, path: &Path) -> Result<(), String> {
         let ours = self.path.as_deref() == Some(path);
         if ours
@@ -215,8 +222,20 @@ impl App {
             self.dialog = Some(Dialog::ChangedOnDisk { path: path.to_owned() });
             return Ok(());
         }
-        let project = self.session.project();
-        files::save(path, &project)?;
+        files::save(path, &self.session.project())?;
+        self.is_saved(ctx, path);
+        Ok(())
+    }
+
+    /// Saves there also where that is write-protected.
+    pub(super) fn save_over(&mut self, ctx: &egui::Context, path: &Path) {
+        match files::save_over(path, &self.session.project()) {
+            Ok(()) => self.is_saved(ctx, path),
+            Err(words) => self.messages.error(words),
+        }
+    }
+
+    fn is_saved(&mut self, ctx: &egui::Context, path: &Path) {
         self.session.mark_saved();
         self.safety.work_is_saved();
         self.on_disk = files::OnDisk::of(path);
@@ -226,7 +245,6 @@ impl App {
         if let Some(action) = self.after_save.take() {
             self.act_unguarded(ctx, action);
         }
-        Ok(())
     }
 }
 

@@ -12,7 +12,7 @@ use crate::program::{Place, ended};
 fn slow_place() -> Place {
     let place = Place::new();
     let mut project = crate::common::project();
-    project.document.settings.edge_length = 0.004;
+    project.document.settings.edge_length = 0.002;
     place.save("slow.toile", &project);
     place
 }

@@ -136,6 +136,53 @@ fn a_file_in_a_folder_that_is_gone_is_not_taken_for_saved() {
 }
 
 #[test]
+fn a_save_that_cannot_be_asks_where_else() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("mine.toile");
+    let mut window = window();
+    let ctx = window.ctx.clone();
+    window.state_mut().as_mut().expect("the app").save_as(&ctx, &path).expect("saved");
+    rename(&mut window, "mine");
+    folder.close().expect("removed");
+    key(&mut window, Modifiers::COMMAND, Key::S);
+    window.run_steps(3);
+    window.get_by_label_contains("mine.toile could not be saved");
+    assert!(window.query_by_label("Replace it anyway").is_none());
+    window.get_by_label("Save as…").click();
+    window.run_steps(3);
+    assert!(window.query_by_label_contains("could not be saved").is_none());
+    assert!(app(&window).session().is_modified());
+}
+
+#[test]
+fn a_file_that_is_write_protected_is_replaced_only_when_that_is_meant() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("mine.toile");
+    let mut window = window();
+    let ctx = window.ctx.clone();
+    window.state_mut().as_mut().expect("the app").save_as(&ctx, &path).expect("saved");
+    let before = std::fs::read(&path).expect("the file");
+    rename(&mut window, "mine");
+    let mut permissions = std::fs::metadata(&path).expect("the file").permissions();
+    permissions.set_readonly(true);
+    std::fs::set_permissions(&path, permissions).expect("protected");
+    key(&mut window, Modifiers::COMMAND, Key::S);
+    window.run_steps(3);
+    window.get_by_label_contains("it is write-protected");
+    window.get_by_label("Cancel").click();
+    window.run_steps(3);
+    assert_eq!(std::fs::read(&path).expect("the file"), before);
+    assert!(app(&window).session().is_modified());
+    key(&mut window, Modifiers::COMMAND, Key::S);
+    window.run_steps(3);
+    window.get_by_label("Replace it anyway").click();
+    window.run_steps(3);
+    assert!(!app(&window).session().is_modified());
+    assert_ne!(std::fs::read(&path).expect("the file"), before);
+    assert!(std::fs::metadata(&path).expect("the file").permissions().readonly(), "it stays so");
+}
+
+#[test]
 fn a_lost_graphics_device_takes_nothing_with_it() {
     let Some(device) = egui_wgpu_device() else { return };
     let mut window = window_on(project(), Some(device.clone()));
