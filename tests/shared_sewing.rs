@@ -59,3 +59,14 @@ fn check(pattern: &str, openings: usize, p99: f64, crossings: usize) {
 fn the_gathered_skirt_is_sewn_and_draped() {
     check("skirt2_mean_all", 2, 0.04, 0);
 }
+
+/// Legs that are wide for their body begin in each other: their flat pieces overlap where they are placed.
+#[test]
+fn trousers_are_sewn_and_their_legs_come_apart() {
+    check("pants_mean_all", 3, 0.07, 0);
+}
+
+#[test]
+fn the_tee_is_sewn_round_armpits_in_which_skin_meets_skin() {
+    check("tee_mean_all", 4, 0.07, 0);
+}

@@ -29,6 +29,10 @@ const THREAD_SPEED: f64 = 2.0;
 const NEARLY_SHUT: f64 = 0.002;
 /// Cloth that is deeper in a body than its own motion brought it comes out so fast, m/s, and without momentum.
 const EASE: f64 = 0.3;
+/// Skin seen next to skin whose normal has a smaller cosine with its own makes a crease: cloth is kept off both,
+const CREASE: f64 = 0.5;
+/// as long as it is no farther from where the first was seen than so many offsets.
+const CREASE_REACH: f64 = 4.0;
 
 /// The solver with its memory.
 #[derive(Clone, Debug)]
@@ -40,6 +44,8 @@ pub struct SmallSteps {
     /// Bending's greatest angular frequency, 1/s.
     bending_rate: f64,
     planes: Vec<Plane>,
+    /// Of each part of the net, vertices in creases, and the skin beside that in `planes`.
+    creases: Vec<Creases>,
     /// Per vertex more than the offset, metres.
     lift: Vec<f64>,
     /// Whether depth that motion did not bring leaves without momentum: for a body that does not push.
@@ -99,6 +105,9 @@ pub struct Surroundings<'a> {
     pub grip: f64,
 }
 
+/// Vertices in creases of a body, and what they know of the skin they do not see.
+type Creases = Vec<(usize, Plane)>;
+
 /// What a vertex knows of a body: beyond the plane n·x = height it is free.
 #[derive(Clone, Copy, Debug, Default)]
 struct Plane {
@@ -139,8 +148,11 @@ impl SmallSteps {
         let most = |i: usize| bending.row(i).map(|(_, q)| q.abs()).sum::<f64>() / mass[i];
         let bending_rate = (0..mass.len()).map(most).fold(0.0, f64::max).sqrt();
         let inverse = |(m, pinned): (&f64, &bool)| if *pinned { 0.0 } else { 1.0 / m };
+        let net = Net::new(mass.len(), &springs.collect::<Vec<_>>(), limit);
+        let parts = net.parts().len();
         Self {
-            net: Net::new(mass.len(), &springs.collect::<Vec<_>>(), limit),
+            creases: vec![Vec::new(); parts],
+            net,
             inverse_mass: mass.iter().zip(pinned).map(inverse).collect(),
             spread: sheet.vertex_area.iter().zip(mass).map(|(area, m)| area / m).collect(),
             bending_rate,
@@ -195,6 +207,7 @@ impl SmallSteps {
     /// What is known of the body counts no more.
     pub fn forget_planes(&mut self) {
         self.planes.fill(Plane::default());
+        self.creases.iter_mut().for_each(Vec::clear);
     }
 
     /// Goes `h` seconds on in `count` steps. `offset` and `friction` as in [`Contacts`](crate::drape::contact::Contacts).
@@ -261,7 +274,8 @@ impl SmallSteps {
                 }
             }
             let net = &self.net;
-            let mut work = shares(net, x, &mut before, &mut state.velocities, &mut self.planes);
+            let of_body = (&mut self.planes[..], &mut self.creases[..]);
+            let mut work = shares(net, x, &mut before, &mut state.velocities, of_body);
             side_by_side(&mut work, |p, share| {
                 let Share { first, x, before, velocities, .. } = share;
                 before.copy_from_slice(x);
@@ -280,7 +294,8 @@ impl SmallSteps {
             if let Some(collider) = around.collider {
                 let left = 1.0 - (s + 1) as f64 / count as f64;
                 let scene = Colliding { around, collider, left, part: 1.0 / count as f64, small };
-                let mut work = shares(&self.net, x, &mut before, &mut state.velocities, &mut self.planes);
+                let of_body = (&mut self.planes[..], &mut self.creases[..]);
+                let mut work = shares(&self.net, x, &mut before, &mut state.velocities, of_body);
                 let this = Knowing {
                     inverse_mass: &self.inverse_mass,
                     lift: &self.lift,
@@ -300,7 +315,7 @@ impl SmallSteps {
         }
         self.lag = small / 2.0;
         if around.collider.is_some_and(|c| !c.motion.is_empty()) {
-            self.planes.fill(Plane::default());
+            self.forget_planes();
         }
     }
 
@@ -353,6 +368,7 @@ struct Share<'a> {
     before: &'a mut [DVec3],
     velocities: &'a mut [DVec3],
     planes: &'a mut [Plane],
+    creases: &'a mut Creases,
 }
 
 /// Everything cut into the parts of `net`.
@@ -361,21 +377,22 @@ fn shares<'a>(
     mut x: &'a mut [DVec3],
     mut before: &'a mut [DVec3],
     mut velocities: &'a mut [DVec3],
-    mut planes: &'a mut [Plane],
+    (mut planes, creases): (&'a mut [Plane], &'a mut [Creases]),
 ) -> Vec<Share<'a>> {
     fn taken<'a, T>(from: &mut &'a mut [T], count: usize) -> &'a mut [T] {
         let (head, tail) = std::mem::take(from).split_at_mut(count);
         *from = tail;
         head
     }
-    let share = |part: Range<usize>| Share {
+    let share = |(part, creases): (Range<usize>, &'a mut Creases)| Share {
         first: part.start,
         x: taken(&mut x, part.len()),
         before: taken(&mut before, part.len()),
         velocities: taken(&mut velocities, part.len()),
         planes: taken(&mut planes, part.len()),
+        creases,
     };
-    net.parts().map(share).collect()
+    net.parts().zip(creases).map(share).collect()
 }
 
 /// Does `work` on each share, on several threads where there are several.
@@ -422,7 +439,13 @@ impl Knowing<'_> {
             let (plane, before) = (&mut share.planes[k], &mut share.before[k]);
             if x.distance_squared(plane.place) > plane.good_for * plane.good_for {
                 queries += 1;
+                let seen = *plane;
                 *plane = look(collider, *x, *before, around.offset + self.lift[i], left);
+                let both = seen.normal != DVec3::ZERO && plane.normal != DVec3::ZERO;
+                if both && seen.normal.dot(plane.normal) < CREASE {
+                    share.creases.retain(|(known, _)| *known != i);
+                    share.creases.push((i, seen));
+                }
             } else if plane.normal == DVec3::ZERO {
                 skipped += 1;
                 continue;
@@ -445,6 +468,15 @@ impl Knowing<'_> {
                 let hold = around.friction[i] * depth.min(around.grip * self.spread[i] * small * small);
                 *x -= if length <= hold { slip } else { slip * (hold / length) };
             }
+        }
+        let reach = CREASE_REACH * around.offset;
+        share
+            .creases
+            .retain(|(i, plane)| share.x[i - share.first].distance_squared(plane.place) < reach * reach);
+        for (i, plane) in share.creases.iter() {
+            let x = &mut share.x[i - share.first];
+            let depth = plane.height - plane.normal.dot(*x);
+            *x += plane.normal * depth.clamp(0.0, EASE * small);
         }
         (queries, skipped)
     }

@@ -19,7 +19,9 @@ use crate::drape::net::Spring;
 use crate::drape::sheet::Sheet;
 use crate::drape::small_steps::{Hand, SmallSteps, Surroundings, Tie, substeps};
 use crate::drape::state::State;
+use crate::geometry::crossings::meetings;
 use crate::geometry::ids::PieceId;
+use crate::geometry::mesh::TriMesh;
 
 /// Seconds a tick goes on.
 pub const TICK: f64 = 1.0 / 60.0;
@@ -417,7 +419,7 @@ impl Worn {
         self.write(cloth);
         let (ticks, quiet) = (self.progress.ticks, self.quiet >= QUIET_TICKS);
         if quiet || ticks.is_multiple_of(LIFT_TICKS) {
-            self.lift(cloth);
+            self.lift(cloth, quiet);
         }
         let every = if self.crossings > 0 { PART_TICKS } else { LOOK_TICKS };
         let tangled = self.parting.1 >= MOST_PARTINGS;
@@ -480,8 +482,8 @@ impl Worn {
         }
     }
 
-    /// Raises vertices of faces that come too near the body between them.
-    fn lift(&mut self, cloth: &ClothState) {
+    /// Raises vertices of faces that come too near the body between them; `precise`: also where only an edge does.
+    fn lift(&mut self, cloth: &ClothState, precise: bool) {
         let fixed = Arc::clone(&self.fixed);
         let (garment, surface) = (&*fixed.garment, &*fixed.collider.surface);
         let mut near = vec![false; garment.vertex_count];
@@ -504,7 +506,35 @@ impl Worn {
                 }
             }
         }
+        if precise && self.lacking == 0 {
+            self.lift_cuts(cloth, &mut raised);
+        }
         self.small.set_lift(&raised);
+    }
+
+    /// Raises what an edge of the body passes through, or passes through it: samples of a face miss the sharpest edges.
+    fn lift_cuts(&mut self, cloth: &ClothState, raised: &mut [f64]) {
+        let fixed = Arc::clone(&self.fixed);
+        let (garment, surface) = (&*fixed.garment, &*fixed.collider.surface);
+        let laid = |vs: &[u32]| vs.iter().all(|&v| own_number(&fixed.own, v).is_some());
+        let edges: Vec<[u32; 2]> = garment.adjacency.edges.iter().copied().filter(|e| laid(e)).collect();
+        let triangles = garment.triangles.iter().copied().filter(|vs| laid(vs)).collect();
+        let mesh = TriMesh { positions: cloth.positions.clone(), triangles };
+        let body = &surface.mesh;
+        let mut cut = vec![false; raised.len()];
+        let mut mark =
+            |vs: &[u32]| vs.iter().filter_map(|&v| own_number(&fixed.own, v)).for_each(|v| cut[v] = true);
+        for [e, _] in meetings(&mesh.positions, &edges, body, &body.tree()) {
+            mark(&edges[e as usize]);
+        }
+        for [_, t] in meetings(&body.positions, &surface.adjacency.edges, &mesh, &mesh.tree()) {
+            mark(&mesh.triangles[t as usize]);
+        }
+        let most = MOST_LIFT * fixed.offset;
+        for (raised, _) in raised.iter_mut().zip(cut).filter(|(raised, cut)| *cut && **raised < most) {
+            *raised = (*raised + FACE_CLEARANCE * fixed.offset).min(most);
+            self.lacking += 1;
+        }
     }
 
     /// Sends layers that run through each other apart.
