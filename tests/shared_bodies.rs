@@ -5,6 +5,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use glam::{DVec2, DVec3};
+use toile::body::readings::readings;
 use toile::body::{Imported, Surface, Unit, guess_unit, import, landmarks};
 use toile::io::obj;
 use toile::session::body::surface_of;
@@ -80,6 +81,25 @@ fn landmarks_are_found_on_humans() {
         assert!(left > 0.35 && (left + right).abs() < 0.01, "{name}: {left} {right}");
         let arms_hang = !name.contains("tpose");
         assert_eq!(found.get("forearm_left_front").is_some(), arms_hang, "{name}");
+    }
+}
+
+/// What the body's own list of measures says, where it means the same, in centimetres.
+#[test]
+fn a_body_reads_as_its_makers_say() {
+    let Some(body) = body("garmentcode/mean_all.obj") else { return };
+    let found = readings(&body.mesh).expect("a human");
+    for (name, told) in [
+        ("height", 171.99),
+        ("bust", 99.84),
+        ("underbust", 86.25),
+        ("waist", 84.33),
+        ("hip", 103.48),
+        ("thigh", 60.20),
+        ("wrist", 16.59),
+    ] {
+        let read = found.iter().find(|r| r.name == name).expect(name).metres * 100.0;
+        assert!((read - told).abs() < 1.0, "{name}: told {told} cm, read {read:.2} cm");
     }
 }
 

@@ -7,6 +7,7 @@ pub mod landmarks;
 pub mod mannequin;
 pub mod measure;
 pub mod pose;
+pub mod readings;
 pub mod sections;
 pub mod skeleton;
 pub mod surface;

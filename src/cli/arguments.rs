@@ -36,6 +36,7 @@ pub enum Task {
     Import(Import),
     Export(Export),
     Check(Check),
+    Measure(Measure),
     Simulate(Simulate),
     Repose(Repose),
     Fit(Fit),
@@ -335,6 +336,18 @@ pub struct Check {
     #[command(flatten)]
     pub input: InputOptions,
     /// Prints {pieces, seams, triangles, problems}
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Reads girths, heights, widths and depths off a standing human body
+#[derive(Debug, Args)]
+pub struct Measure {
+    /// Body (OBJ), or a project with its body; sample:NAME for the mannequin
+    pub file: PathBuf,
+    #[command(flatten)]
+    pub body_file: BodyFile,
+    /// Prints {body, readings: [{name, metres, height}]} in metres
     #[arg(long)]
     pub json: bool,
 }

@@ -11,6 +11,7 @@ mod formats;
 mod import;
 mod input;
 mod interrupt;
+mod measure;
 mod open;
 mod output;
 mod picture;
@@ -64,6 +65,7 @@ fn carry_out(arguments: Arguments) -> Result<(), Failure> {
         Some(Task::Import(import)) => import::import(&import),
         Some(Task::Export(export)) => export::export(&export),
         Some(Task::Check(check)) => check::check(&check),
+        Some(Task::Measure(measure)) => measure::measure(&measure),
         Some(Task::Simulate(simulate)) => run::on_threads(simulate.threads, || simulate::simulate(&simulate)),
         Some(Task::Bench(bench)) => run::on_threads(bench.threads, || bench::bench(&bench)),
     }

@@ -26,6 +26,20 @@ fn place() -> Place {
 }
 
 #[test]
+fn a_body_is_measured() {
+    let place = Place::new();
+    let table = place.ends(0, "measure sample:tshirt").out;
+    assert!(table.lines().any(|line| line.starts_with("waist") && line.contains("70.6 cm")), "{table}");
+    let told: serde_json::Value =
+        serde_json::from_str(&place.ends(0, "measure sample:tshirt --json").out).expect("JSON");
+    let hip =
+        told["readings"].as_array().expect("a list").iter().find(|r| r["name"] == "hip").expect("a hip");
+    assert!((hip["metres"].as_f64().expect("a number") - 0.98).abs() < 0.01);
+    place.write("box.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+    place.ends_with_words(3, "measure box.obj --unit m", "does not look like a standing human");
+}
+
+#[test]
 fn the_unit_is_given_or_told_by_the_height() {
     let place = place();
     let dress = "dress ball.toile --marks marks.json --out";

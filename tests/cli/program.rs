@@ -108,9 +108,10 @@ pub fn adapter_required() -> bool {
 fn help_and_version_are_no_failure() {
     let place = Place::new();
     let help = place.ends(0, "--help").out;
-    for task in
-        ["dress", "repose", "replay", "render", "fit", "import", "export", "check", "simulate", "bench"]
-    {
+    for task in [
+        "dress", "repose", "replay", "render", "fit", "import", "export", "check", "measure", "simulate",
+        "bench",
+    ] {
         assert!(help.contains(&format!("\n  {task} ")), "{help}");
         assert!(place.ends(0, &format!("{task} --help")).out.contains("Usage"));
     }

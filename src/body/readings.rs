@@ -1,0 +1,199 @@
+//! What the tape reads on a standing human body, whoever made it: girths, heights, lengths, widths and depths.
+//!
+//! The places are those of dressmaking: waist where the trunk is thinnest, hip where it is fullest below, bust through the
+//! foremost point of the chest, neck where it is thinnest, thigh just below the crotch, calf where the lower leg is fullest,
+//! ankle and wrist where they are thinnest.
+
+use glam::{DVec2, DVec3};
+
+use crate::body::landmarks::{self, Landmarks};
+use crate::body::measure::{Tape, girth, hull_perimeter, section};
+use crate::geometry::mesh::TriMesh;
+
+/// Levels are tried in steps of this share of the height.
+const STEP: f64 = 0.004;
+/// The thigh is measured this share of the height below the crotch.
+const BELOW_CROTCH: f64 = 0.008;
+
+/// The knee, as a share of the inside of the leg.
+const KNEE: f64 = 0.595;
+
+/// One measure of a body.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct Reading {
+    /// In words: `bust`, `inside leg`.
+    pub name: &'static str,
+    /// Metres.
+    pub metres: f64,
+    /// How high it was taken above the floor, metres; None where that says nothing.
+    pub height: Option<f64>,
+}
+
+/// All measures that can be read on `mesh`: closed, y up, facing +z, arms down or spread. None when it does not look like a
+/// human.
+pub fn readings(mesh: &TriMesh) -> Option<Vec<Reading>> {
+    let marks = landmarks::found(mesh)?;
+    let (low, high) = mesh.bounds();
+    let reader = Reader { mesh, floor: low.y, tall: high.y - low.y, middle: marks.get("crotch")?.x };
+    let mut all = vec![Reading { name: "height", metres: reader.tall, height: None }];
+    reader.trunk(&marks, &mut all)?;
+    reader.leg(&marks, &mut all)?;
+    reader.arm(&marks, &mut all);
+    Some(all)
+}
+
+struct Reader<'a> {
+    mesh: &'a TriMesh,
+    floor: f64,
+    tall: f64,
+    middle: f64,
+}
+
+impl Reader<'_> {
+    /// The part of the level section at `y` that lies on both sides of the middle.
+    fn trunk_at(&self, y: f64) -> Option<Vec<DVec3>> {
+        let loops = section(self.mesh, DVec3::Y * y, DVec3::Y).into_iter();
+        let across = |points: &Vec<DVec3>| {
+            points.iter().any(|p| p.x < self.middle) && points.iter().any(|p| p.x > self.middle)
+        };
+        loops.filter(across).max_by(|a, b| round(a).total_cmp(&round(b)))
+    }
+
+    /// The level between two at which `worth` is most, with that.
+    fn best(&self, from: f64, to: f64, worth: impl Fn(f64) -> Option<f64>) -> Option<(f64, f64)> {
+        let count = ((to - from) / (STEP * self.tall)).ceil().max(1.0) as usize;
+        let levels = (0..=count).map(|k| from + (to - from) * k as f64 / count as f64);
+        levels.filter_map(|y| Some((y, worth(y)?))).max_by(|a, b| a.1.total_cmp(&b.1))
+    }
+
+    fn trunk(&self, marks: &Landmarks, all: &mut Vec<Reading>) -> Option<()> {
+        let y = |name: &str| marks.get(name).map(|p| p.y);
+        let (crotch, hip, waist, chest) =
+            (y("crotch")?, y("hip_front")?, y("waist_front")?, y("chest_front")?);
+        let near = 0.02 * self.tall;
+        let tape = |y: f64| self.trunk_at(y).map(|points| round(&points));
+        let (waist, _) = self.best(waist - near, waist + near, |y| tape(y).map(|l| -l))?;
+        let (hip, _) = self.best(hip - near, hip + near, tape)?;
+        let front = |y: f64| self.trunk_at(y)?.iter().map(|p| p.z).max_by(f64::total_cmp);
+        let (bust, _) = self.best((waist + chest) / 2.0, chest + 2.0 * near, front)?;
+        let neck = y("throat_front")?;
+        let (neck, _) = self.best(neck - near, neck + near, |y| tape(y).map(|l| -l))?;
+        // Where the chest begins to come forward: the tape is at its sharpest turn from level to level.
+        let d = 2.0 * STEP * self.tall;
+        let hollow = |y: f64| Some(tape(y + d)? + tape(y - d)? - 2.0 * tape(y)?);
+        let (under, _) = self.best(waist + near, bust - near, hollow)?;
+        let names = [("neck", neck), ("bust", bust), ("underbust", under), ("waist", waist), ("hip", hip)];
+        for (name, y) in names {
+            all.push(Reading { name, metres: tape(y)?, height: Some(y - self.floor) });
+        }
+        for (width, depth, y) in [
+            ("bust width", "bust depth", bust),
+            ("waist width", "waist depth", waist),
+            ("hip width", "hip depth", hip),
+        ] {
+            let points = self.trunk_at(y)?;
+            let span = |of: fn(&DVec3) -> f64| {
+                let all = points.iter().map(of);
+                all.clone().fold(f64::MIN, f64::max) - all.fold(f64::MAX, f64::min)
+            };
+            all.push(Reading { name: width, metres: span(|p| p.x), height: Some(y - self.floor) });
+            all.push(Reading { name: depth, metres: span(|p| p.z), height: Some(y - self.floor) });
+        }
+        let heights = [("waist height", waist), ("hip height", hip), ("inside leg", crotch)];
+        all.extend(heights.map(|(name, y)| Reading { name, metres: y - self.floor, height: None }));
+        Some(())
+    }
+
+    /// The left one.
+    fn leg(&self, marks: &Landmarks, all: &mut Vec<Reading>) -> Option<()> {
+        let crotch = marks.get("crotch")?.y;
+        let tape = |y: f64| {
+            let beside = |points: &Vec<DVec3>| points.iter().all(|p| p.x > self.middle);
+            let loops = section(self.mesh, DVec3::Y * y, DVec3::Y).into_iter().filter(beside);
+            // The hand hangs farther out.
+            loops
+                .min_by(|a, b| out(a, self.middle).total_cmp(&out(b, self.middle)))
+                .map(|points| round(&points))
+        };
+        let leg = crotch - self.floor;
+        let at = |share: f64| self.floor + share * leg;
+        let (calf, _) = self.best(at(0.3), at(0.52), tape)?;
+        let (ankle, _) = self.best(at(0.165), at(0.25), |y| tape(y).map(|l| -l))?;
+        let knee = at(KNEE);
+        let thigh = crotch - BELOW_CROTCH * self.tall;
+        for (name, y) in [
+            ("thigh", thigh),
+            ("mid thigh", (crotch + knee) / 2.0),
+            ("knee", knee),
+            ("calf", calf),
+            ("ankle", ankle),
+        ] {
+            all.push(Reading { name, metres: tape(y)?, height: Some(y - self.floor) });
+        }
+        Some(())
+    }
+
+    /// The left one, where it is spread; nothing where it is not.
+    fn arm(&self, marks: &Landmarks, all: &mut Vec<Reading>) -> Option<()> {
+        let (below, lower) = (marks.get("arm_upper_below_left")?, marks.get("arm_lower_below_left")?);
+        let (above, lower_above) = (marks.get("arm_upper_above_left")?, marks.get("arm_lower_above_left")?);
+        let (from, to) = ((below + above) / 2.0, (lower + lower_above) / 2.0);
+        let along = (to - from).try_normalize()?;
+        let hand = (marks.get("hand_left")? - from).dot(along);
+        let round = |s: f64| {
+            let tape = Tape { name: "arm", origin: from + along * s, normal: along };
+            girth(self.mesh, &tape)
+        };
+        let upper = self.best(-0.06 * self.tall, 0.04 * self.tall, round)?.1;
+        let wrist = -self.best(0.45 * hand, 0.8 * hand, |s| round(s).map(|l| -l))?.1;
+        all.push(Reading { name: "upper arm", metres: upper, height: None });
+        all.push(Reading { name: "wrist", metres: wrist, height: None });
+        Some(())
+    }
+}
+
+/// A level tape round `points`, metres.
+fn round(points: &[DVec3]) -> f64 {
+    hull_perimeter(points.iter().map(|p| DVec2::new(p.x, p.z)).collect())
+}
+
+fn out(points: &[DVec3], middle: f64) -> f64 {
+    points.iter().map(|p| p.x - middle).fold(f64::MAX, f64::min)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::body::mannequin;
+
+    #[test]
+    fn the_mannequin_reads_as_it_was_built() {
+        let figure = mannequin::default();
+        let found = readings(&figure.mesh).expect("a human");
+        let m = &figure.measurements;
+        for (name, built, share) in [
+            ("height", m.height, 0.01),
+            ("neck", m.neck, 0.01),
+            ("bust", m.bust, 0.01),
+            ("waist", m.waist, 0.01),
+            ("hip", m.hip, 0.01),
+            ("thigh", m.upper_thigh, 0.01),
+            // Its own crotch lies where the legs' axes part, a little above where the skin does.
+            ("mid thigh", m.mid_thigh, 0.02),
+            ("knee", m.knee, 0.01),
+            ("calf", m.calf, 0.01),
+            // Built at the ankle bone; thinnest a little below.
+            ("ankle", m.ankle, 0.015),
+            ("upper arm", m.upper_arm, 0.01),
+            ("wrist", m.wrist, 0.01),
+        ] {
+            let read = found.iter().find(|r| r.name == name).expect(name).metres;
+            assert!((read / built - 1.0).abs() < share, "{name}: built {built} m, read {read} m");
+        }
+    }
+
+    #[test]
+    fn a_box_is_no_human() {
+        assert!(readings(&TriMesh::default()).is_none());
+    }
+}

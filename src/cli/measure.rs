@@ -1,0 +1,46 @@
+//! `toile measure`: what the tape reads on a body.
+
+use serde::Serialize;
+
+use crate::body::readings::{Reading, readings};
+use crate::cli::arguments::Measure;
+use crate::cli::failure::Failure;
+use crate::cli::input::{self, Content};
+use crate::cli::output;
+use crate::session::body::surface_of;
+
+#[derive(Serialize)]
+struct Told {
+    body: String,
+    readings: Vec<Reading>,
+}
+
+/// Prints the measures of a body, in centimetres, or as JSON in metres.
+pub fn measure(arguments: &Measure) -> Result<(), Failure> {
+    let path = &arguments.file;
+    let found = match input::content(path, arguments.body_file, None)? {
+        Content::Body(body) if body.is_usable() => readings(&body.mesh),
+        Content::Body(body) => {
+            let words: Vec<String> = body.problems.iter().map(|p| p.words.clone()).collect();
+            return Err(Failure::input(path, words.join("; ")));
+        }
+        Content::Project(project) => {
+            let surface = surface_of(&project.document.body).map_err(|why| Failure::input(path, why))?;
+            readings(&surface.mesh)
+        }
+        Content::Pattern(_) => return Err(Failure::input(path, "this is a pattern: it has no body")),
+    };
+    let no_human = "it does not look like a standing human: nothing can be measured on it";
+    let readings = found.ok_or_else(|| Failure::input(path, no_human))?;
+    if arguments.json {
+        let told = Told { body: input::name_of(path), readings };
+        let text = serde_json::to_string_pretty(&told).map_err(|e| Failure::Internal(e.to_string()))?;
+        output::say(&text);
+        return Ok(());
+    }
+    for Reading { name, metres, height } in readings {
+        let at = height.map_or(String::new(), |height| format!("   at {:.1}", height * 100.0));
+        output::say(&format!("{name:<14}{:>8.1} cm{at}", metres * 100.0));
+    }
+    Ok(())
+}
