@@ -80,14 +80,18 @@ fn pictures(c: &mut Criterion) {
     println!("drawn by {}", gpu.adapter_name);
     let mut renderer = Renderer::new(&gpu);
     let body = drawn(&body, BODY, BODY, 0.0);
-    let cloths = [0.21, 0.211].map(|r| drawn(&barrel(r, 100, 200, false), CLOTH_FRONT, CLOTH_BACK, 1.0));
-    let scene =
-        |i: usize| Scene { meshes: vec![Arc::clone(&body), Arc::clone(&cloths[i])], ..Scene::default() };
-    for (name, size, quality) in [
-        ("finished", SIZE, Quality::Finished),
-        // What a processor draws while things move.
-        ("draft", (SIZE.as_vec2() * 0.8).as_uvec2(), Quality::Draft),
+    // What a processor draws while things move.
+    let draft = ((SIZE.as_vec2() * 0.8).as_uvec2(), Quality::Draft);
+    for (name, rings, (size, quality)) in [
+        ("finished, 10,000 triangles", 50, (SIZE, Quality::Finished)),
+        ("draft, 10,000 triangles", 50, draft),
+        ("finished", 100, (SIZE, Quality::Finished)),
+        ("draft", 100, draft),
     ] {
+        let cloth = |r: f64| drawn(&barrel(r, rings, 2 * rings, false), CLOTH_FRONT, CLOTH_BACK, 1.0);
+        let cloths = [0.21, 0.211].map(cloth);
+        let scene =
+            |i: usize| Scene { meshes: vec![Arc::clone(&body), Arc::clone(&cloths[i])], ..Scene::default() };
         let target = OffscreenTarget::new(&gpu, size, quality).expect("a target");
         let look = Look::light();
         let mut draw = |scene: &Scene, camera: &Camera| {

@@ -59,6 +59,7 @@ mod starts;
 mod status;
 mod stitches;
 mod stroke;
+mod tape_panel;
 mod theme;
 mod thumbnails;
 mod toolbar;

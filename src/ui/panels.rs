@@ -64,7 +64,8 @@ impl App {
                     palette,
                 };
                 let (marks, pattern) = (&mut self.marks_panel, &mut self.pattern_panel);
-                let first = side_panel::side_panel_ui(ui, &told, marks, pattern, &mut self.shell.pose, asks);
+                let of_body = (&mut self.shell.pose, &mut self.shell.tape);
+                let first = side_panel::side_panel_ui(ui, &told, marks, pattern, of_body, asks);
                 self.shell.first_of_panel = first;
             });
         }

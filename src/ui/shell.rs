@@ -18,6 +18,7 @@ use crate::ui::preferences_page::PreferencesPage;
 use crate::ui::recent::Recent;
 use crate::ui::situation::Situation;
 use crate::ui::start_page::StartPage;
+use crate::ui::tape_panel::TapePanel;
 use crate::ui::theme::Palette;
 use crate::ui::thumbnails::Thumbnails;
 use crate::ui::tour::Tour;
@@ -79,6 +80,8 @@ pub struct Shell {
     pub first_of_panel: Option<egui::Id>,
     /// Poses of the mannequin.
     pub pose: PosePanel,
+    /// Measures of the body.
+    pub tape: TapePanel,
     /// What cloth is coloured by.
     pub maps: MapView,
     /// Small pictures of samples and projects.

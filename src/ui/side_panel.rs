@@ -17,6 +17,7 @@ use crate::ui::pins_panel::pins_ui;
 use crate::ui::pose_panel::PosePanel;
 use crate::ui::selection::Selection;
 use crate::ui::situation::Situation;
+use crate::ui::tape_panel::TapePanel;
 use crate::ui::theme::Palette;
 
 /// What the panel tells of.
@@ -46,7 +47,7 @@ pub fn side_panel_ui(
     told: &Told<'_>,
     marks: &mut MarksPanel,
     pattern: &mut PatternPanel,
-    pose: &mut PosePanel,
+    (pose, tape): (&mut PosePanel, &mut TapePanel),
     asks: &mut Asks,
 ) -> Option<Id> {
     let Told { document, palette, .. } = *told;
@@ -67,6 +68,7 @@ pub fn side_panel_ui(
         section(ui, "Problems", true, |ui| problems_ui(ui, told, asks));
         section(ui, "Fabric", true, |ui| fabric_panel::fabric_ui(ui, told, asks));
         section(ui, "Pose", false, |ui| pose.ui(ui, told, asks));
+        section(ui, "Measures of the body", false, |ui| tape.ui(ui, told));
         section(ui, "Cloth", true, |ui| settings_ui(ui, &document.settings, palette, asks));
         if !on_pattern {
             pattern_ui(ui, told, pattern, asks);

@@ -141,3 +141,18 @@ fn the_mannequin_is_posed_from_the_side_panel() {
     key(&mut window, Modifiers::COMMAND, Key::Z);
     assert_eq!(Some(body(&window)), sitting);
 }
+
+#[test]
+fn the_side_panel_tells_what_the_tape_reads() {
+    let mut window = window_on(Project::default(), None);
+    window.get_by_label("Measures of the body").click();
+    for _ in 0..600 {
+        window.run_steps(2);
+        if window.query_by_label("underbust").is_some() {
+            break;
+        }
+        std::thread::sleep(std::time::Duration::from_millis(50));
+    }
+    assert!(window.query_by_label("waist").is_some());
+    assert!(window.query_by_label("70.6 cm").is_some(), "the mannequin's waist");
+}
