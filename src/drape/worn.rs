@@ -79,6 +79,8 @@ const CALMEST: f64 = 8.0;
 /// a tight place stretches that. So once the cloth has come down, which is when the forces that move it are no larger a share
 /// of its weight than this,
 const DOWN: f64 = 0.1;
+/// or after so many ticks, what is caught somewhere may tremble for ever,
+const DOWN_BY: u64 = 300;
 /// time goes slower by this factor with every tick,
 const SLOWING: f64 = 0.9;
 /// down to this: strain that is left then is its square of what it was.
@@ -448,7 +450,7 @@ impl Worn {
 
     /// Makes time go slower where it should. False when it does not.
     fn slow_down(&mut self) -> bool {
-        let begins = self.pace < 1.0 || self.progress.residual < DOWN;
+        let begins = self.pace < 1.0 || self.progress.residual < DOWN || self.progress.ticks > DOWN_BY;
         if self.floats || self.pace == SLOWEST || !begins {
             return false;
         }
