@@ -95,14 +95,7 @@ impl Tracker {
         counters: &mut Counters,
     ) {
         self.reach = reach;
-        let ask = Ask {
-            surface,
-            reach,
-            scale: surface.scale(),
-            skips,
-            walks: self.walks,
-            apart: self.apart.as_deref(),
-        };
+        let ask = Ask::new(surface, reach, skips, self.walks, self.apart.as_deref());
         let [queries, gaps, walks] = self
             .tracks
             .par_iter_mut()
@@ -129,14 +122,7 @@ impl Tracker {
         counters: &mut Counters,
     ) -> Option<Plane> {
         self.reach = reach;
-        let ask = Ask {
-            surface,
-            reach,
-            scale: surface.scale(),
-            skips,
-            walks: self.walks,
-            apart: self.apart.as_deref(),
-        };
+        let ask = Ask::new(surface, reach, skips, self.walks, self.apart.as_deref());
         let [queries, gaps, walks] =
             work(ask.refresh(&mut self.tracks[vertex as usize], vertex as usize, position));
         counters.contact_queries += queries;
@@ -204,7 +190,11 @@ struct Ask<'a> {
     apart: Option<&'a Apart>,
 }
 
-impl Ask<'_> {
+impl<'a> Ask<'a> {
+    fn new(surface: &'a Surface, reach: f64, skips: Skips, walks: bool, apart: Option<&'a Apart>) -> Self {
+        Self { surface, reach, scale: surface.scale(), skips, walks, apart }
+    }
+
     fn refresh(&self, track: &mut Track, v: usize, p: DVec3) -> Effort {
         let allow = |skip| self.skips.allow(skip);
         let mut slow = false;
