@@ -12,6 +12,7 @@ use crate::io::pdf::{self, Paper};
 use crate::io::scale::{DrawingUnit, ScaleQuestion};
 use crate::io::{dxf, garmentcode, glb, obj, svg};
 use crate::pattern::Pattern;
+use crate::session::project_file::ProjectFileError;
 use crate::session::samples::Sample;
 use crate::session::{BodyChoice, Command, Project, project_file, whole_file};
 use crate::sim::Snapshot;
@@ -116,17 +117,17 @@ impl OnDisk {
 
 /// Reads a project.
 pub fn open(path: &Path) -> Result<Project, String> {
-    project_file::open(path).map_err(|e| in_words(path, "opened", e))
+    project_file::open(path).map_err(|e| in_words(path, "opened", reason(e)))
 }
 
 /// Writes a project.
 pub fn save(path: &Path, project: &Project) -> Result<(), String> {
-    project_file::save(path, project).map_err(|e| in_words(path, "saved", e))
+    project_file::save(path, project).map_err(|e| in_words(path, "saved", reason(e)))
 }
 
 /// The same over a file that is write-protected.
 pub fn save_over(path: &Path, project: &Project) -> Result<(), String> {
-    project_file::save_over(path, project).map_err(|e| in_words(path, "saved", e))
+    project_file::save_over(path, project).map_err(|e| in_words(path, "saved", reason(e)))
 }
 
 /// Writes a file, whole or not at all.
@@ -277,6 +278,14 @@ pub fn next_version(path: &Path) -> std::path::PathBuf {
 /// The name of a file without its extension.
 pub fn stem(path: &Path) -> String {
     path.file_stem().map_or_else(|| "file".to_owned(), |n| n.to_string_lossy().into_owned())
+}
+
+/// Without the name of the file, which is told before.
+fn reason(error: ProjectFileError) -> String {
+    match error {
+        ProjectFileError::File { source, .. } => source.to_string(),
+        other => other.to_string(),
+    }
 }
 
 fn in_words(path: &Path, done: &str, why: impl std::fmt::Display) -> String {
