@@ -8,6 +8,7 @@ use glam::{DVec2, DVec3};
 
 use crate::body::landmarks::{self, Landmarks};
 use crate::body::measure::{Tape, girth, hull_perimeter, section};
+use crate::body::sections::{Level, trunk_at};
 use crate::geometry::mesh::TriMesh;
 
 /// Levels are tried in steps of this share of the height.
@@ -50,13 +51,8 @@ struct Reader<'a> {
 }
 
 impl Reader<'_> {
-    /// The part of the level section at `y` that lies on both sides of the middle.
-    fn trunk_at(&self, y: f64) -> Option<Vec<DVec3>> {
-        let loops = section(self.mesh, DVec3::Y * y, DVec3::Y).into_iter();
-        let across = |points: &Vec<DVec3>| {
-            points.iter().any(|p| p.x < self.middle) && points.iter().any(|p| p.x > self.middle)
-        };
-        loops.filter(across).max_by(|a, b| round(a).total_cmp(&round(b)))
+    fn trunk_at(&self, y: f64) -> Option<Level> {
+        trunk_at(self.mesh, y, self.middle)
     }
 
     /// The level between two at which `worth` is most, with that.
@@ -71,10 +67,10 @@ impl Reader<'_> {
         let (crotch, hip, waist, chest) =
             (y("crotch")?, y("hip_front")?, y("waist_front")?, y("chest_front")?);
         let near = 0.02 * self.tall;
-        let tape = |y: f64| self.trunk_at(y).map(|points| round(&points));
+        let tape = |y: f64| self.trunk_at(y).map(|level| level.girth);
         let (waist, _) = self.best(waist - near, waist + near, |y| tape(y).map(|l| -l))?;
         let (hip, _) = self.best(hip - near, hip + near, tape)?;
-        let front = |y: f64| self.trunk_at(y)?.iter().map(|p| p.z).max_by(f64::total_cmp);
+        let front = |y: f64| self.trunk_at(y)?.points.iter().map(|p| p.z).max_by(f64::total_cmp);
         let (bust, _) = self.best((waist + chest) / 2.0, chest + 2.0 * near, front)?;
         let neck = y("throat_front")?;
         let (neck, _) = self.best(neck - near, neck + near, |y| tape(y).map(|l| -l))?;
@@ -91,7 +87,7 @@ impl Reader<'_> {
             ("waist width", "waist depth", waist),
             ("hip width", "hip depth", hip),
         ] {
-            let points = self.trunk_at(y)?;
+            let points = self.trunk_at(y)?.points;
             let span = |of: fn(&DVec3) -> f64| {
                 let all = points.iter().map(of);
                 all.clone().fold(f64::MIN, f64::max) - all.fold(f64::MAX, f64::min)

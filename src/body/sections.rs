@@ -4,6 +4,7 @@ use glam::{DVec2, DVec3};
 
 use crate::body::Surface;
 use crate::body::measure::{hull_perimeter, section};
+use crate::geometry::mesh::TriMesh;
 
 /// How many sections are made of a body's height.
 const LEVELS: usize = 160;
@@ -49,7 +50,8 @@ impl Trunk {
         let tall = upper.y - lower.y;
         let middle = middle(surface);
         let height = |k: usize| lower.y + tall * (k as f64 + 0.5) / LEVELS as f64;
-        let levels: Vec<Option<Level>> = (0..LEVELS).map(|k| trunk_at(surface, height(k), middle)).collect();
+        let levels: Vec<Option<Level>> =
+            (0..LEVELS).map(|k| trunk_at(&surface.mesh, height(k), middle)).collect();
         let start = (BELLY * LEVELS as f64) as usize;
         let bottom = (0..=start).rev().take_while(|&k| levels[k].is_some()).last()?;
         let top = (start..LEVELS).take_while(|&k| levels[k].is_some()).last()?;
@@ -106,8 +108,8 @@ fn middle(surface: &Surface) -> f64 {
 }
 
 /// The largest section at `height` that crosses the middle.
-fn trunk_at(surface: &Surface, height: f64, middle: f64) -> Option<Level> {
-    section(&surface.mesh, DVec3::Y * height, DVec3::Y)
+pub(super) fn trunk_at(mesh: &TriMesh, height: f64, middle: f64) -> Option<Level> {
+    section(mesh, DVec3::Y * height, DVec3::Y)
         .into_iter()
         .filter(|points| {
             points.iter().any(|p| p.x < middle) && points.iter().any(|p| p.x > middle) && points.len() > 3
