@@ -13,6 +13,7 @@ use rayon::prelude::*;
 use crate::body::{Nearest, Surface};
 use crate::cloth::{ClothState, Counters, Skip, Skips};
 use crate::contact::Apart;
+use crate::geometry::adjacency::NONE;
 
 /// A track plane is kept while its vertex has moved less than this, metres on a body 1.5 m large.
 const PLANE_REUSE: f64 = 0.0002;
@@ -44,8 +45,8 @@ impl Plane {
 
 #[derive(Clone, Copy, Debug)]
 enum Track {
-    /// Not asked yet.
-    Unknown,
+    /// Not asked yet on this body; on the last one `triangle` was near, or none.
+    Unknown { triangle: u32 },
     /// Outside, and at least `distance` from the skin when it was at `at`: the signed distance is 1-Lipschitz, so it
     /// stays outside until it has moved that far.
     Clear { at: DVec3, distance: f64 },
@@ -82,7 +83,7 @@ pub struct Tracker {
 impl Tracker {
     /// Nothing known yet about `count` vertices.
     pub fn new(count: usize) -> Self {
-        Self { tracks: vec![Track::Unknown; count], reach: 0.0, walks: false, apart: None }
+        Self { tracks: vec![Track::Unknown { triangle: NONE }; count], reach: 0.0, walks: false, apart: None }
     }
 
     /// Brings the tracks of all mapped vertices up to date. Those within `reach` metres of the skin have a plane afterwards.
@@ -143,7 +144,7 @@ impl Tracker {
     /// At least so far outside of the body (negative: perhaps inside) a vertex at `p` is by what is known of it.
     pub fn at_least(&self, vertex: usize, p: DVec3) -> f64 {
         match self.tracks[vertex] {
-            Track::Unknown => f64::NEG_INFINITY,
+            Track::Unknown { .. } => f64::NEG_INFINITY,
             Track::Clear { at, distance } => distance - p.distance(at),
             Track::Found { at, least, .. } => f64::from(least) - p.distance(at),
         }
@@ -164,9 +165,15 @@ impl Tracker {
         self.tracks.len() * size_of::<Track>()
     }
 
-    /// Forgets everything: the body has changed.
+    /// Forgets everything, as the body has changed, but where on it to begin to look.
     pub fn forget(&mut self) {
-        self.tracks.fill(Track::Unknown);
+        for track in &mut self.tracks {
+            let triangle = match *track {
+                Track::Unknown { triangle } | Track::Found { triangle, .. } => triangle,
+                Track::Clear { .. } => NONE,
+            };
+            *track = Track::Unknown { triangle };
+        }
     }
 }
 
@@ -193,6 +200,12 @@ struct Ask<'a> {
 impl<'a> Ask<'a> {
     fn new(surface: &'a Surface, reach: f64, skips: Skips, walks: bool, apart: Option<&'a Apart>) -> Self {
         Self { surface, reach, scale: surface.scale(), skips, walks, apart }
+    }
+
+    /// Whether `triangle` is one of this body, and `v` may touch it.
+    fn is_known(&self, v: usize, triangle: u32) -> bool {
+        (triangle as usize) < self.surface.mesh.triangles.len()
+            && !self.apart.is_some_and(|apart| apart.leaves_out(v, triangle))
     }
 
     fn refresh(&self, track: &mut Track, v: usize, p: DVec3) -> Effort {
@@ -239,7 +252,11 @@ impl<'a> Ask<'a> {
                 let most = if height > 0.0 { most.min(SIGHT * self.scale) } else { most };
                 most.min(self.surface.distance_to(p, triangle) + CERTAIN * self.scale)
             }
-            Track::Unknown => f64::INFINITY,
+            // In another pose of the same body what was near still is.
+            Track::Unknown { triangle } if self.is_known(v, triangle) => {
+                self.surface.distance_to(p, triangle) + CERTAIN * self.scale
+            }
+            Track::Unknown { .. } => f64::INFINITY,
         };
         let far = far.max(self.reach);
         let left_out = |t: u32| self.apart.is_some_and(|apart| apart.leaves_out(v, t));

@@ -210,6 +210,11 @@ impl Relaxer {
         self.tracker.plane(vertex as usize)
     }
 
+    /// Whether `vertex` at `p` is outside of the body by what is known of it. When not, it may still be.
+    pub fn is_clear(&self, vertex: u32, p: DVec3) -> bool {
+        self.tracker.at_least(vertex as usize, p) > 0.0
+    }
+
     /// Normals of the cloth, front up, one per vertex.
     pub fn cloth_normals(&self, state: &ClothState) -> Vec<DVec3> {
         vertex_normals(&self.garment, state)

@@ -8,6 +8,7 @@ mod excess;
 mod folds;
 mod limit;
 mod reposer;
+mod transfer;
 mod turns;
 
 #[cfg(test)]

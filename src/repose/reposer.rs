@@ -17,6 +17,7 @@ use crate::repose::distance_map::DistanceMap;
 use crate::repose::excess::Lengths;
 use crate::repose::folds::Folds;
 use crate::repose::limit::{limited, raised};
+use crate::repose::transfer::Transfer;
 
 /// Conforming that strained no more than this, and left nothing inside, is left as it is.
 const EXACT: f64 = 1e-6;
@@ -84,6 +85,8 @@ impl Care {
 pub struct Outcome {
     /// |l / l_before - 1| that 99 of 100 edges do not exceed, after conforming,
     pub conformed_p99: f64,
+    /// after the shapes of the triangles were joined,
+    pub joined_p99: f64,
     /// and at the end.
     pub excess_p99: f64,
     /// Vertices that conforming put into the body,
@@ -104,6 +107,7 @@ pub struct Reposer {
     from: Arc<Surface>,
     cloth: ClothState,
     map: DistanceMap,
+    transfer: Transfer,
     lengths: Lengths,
     /// Relaxes towards the shape that every triangle had when bound: what it was strained already, it may stay.
     relaxer: Relaxer,
@@ -128,13 +132,26 @@ impl Reposer {
     ) -> Option<Self> {
         let map = DistanceMap::new(&surface, &cloth);
         let lengths = Lengths::of(garment, &cloth);
+        let transfer = Transfer::new(garment, &cloth, surface.scale())?;
         let as_it_lies = Arc::new(with_shape_of(garment, &cloth));
         let mut relaxer = Relaxer::new(as_it_lies, Arc::clone(&surface), settings)?;
         relaxer.set_mapped(&cloth.mapped);
         let folds = Folds::of(garment, &cloth);
         let crossings = Met::new(garment, &cloth).places.len();
         let (rebuild, apart, beside) = (None, None, None);
-        Some(Self { from: surface, cloth, map, lengths, relaxer, rebuild, folds, crossings, apart, beside })
+        Some(Self {
+            from: surface,
+            cloth,
+            map,
+            transfer,
+            lengths,
+            relaxer,
+            rebuild,
+            folds,
+            crossings,
+            apart,
+            beside,
+        })
     }
 
     /// The body the cloth was bound to.
@@ -160,15 +177,21 @@ impl Reposer {
             return None;
         }
         let mut outcome = Outcome::default();
-        let carried = carried(&self.map, &self.from, to, &self.cloth.positions);
+        let mut carried = carried(&self.map, &self.from, to, &self.cloth.positions);
         let conformed: Vec<DVec3> = carried.iter().map(|(p, _)| *p).collect();
         let mut state = ClothState { positions: conformed.clone(), mapped: self.cloth.mapped.clone() };
         if state.positions == self.cloth.positions && to.mesh.positions == self.from.mesh.positions {
             return Some((state, outcome));
         }
         outcome.conformed_p99 = self.lengths.p99(&state);
+        if outcome.conformed_p99 > EXACT {
+            let garment = &self.relaxer.garment;
+            self.transfer.join(garment, &self.cloth, &mut carried, &mut self.relaxer.counters);
+            carried.iter().zip(&mut state.positions).for_each(|((place, _), p)| *p = *place);
+            outcome.joined_p99 = self.lengths.p99(&state);
+        }
         if care.mends == 0 {
-            self.go_on(&mut state, &carried, outcome.conformed_p99);
+            self.go_on(&mut state, &carried, outcome.joined_p99);
         }
         let heights = self.map.heights.clone();
         self.apart = None;
@@ -177,7 +200,7 @@ impl Reposer {
         if outcome.conformed_inside > 0 && care.mends > 0 {
             self.apart = self.parts_of(to);
             if self.apart.is_some() {
-                state.positions.clone_from(&conformed);
+                carried.iter().zip(&mut state.positions).for_each(|((place, _), p)| *p = *place);
                 self.enter(to, &state);
                 outcome.conformed_inside = self.recover(&mut state, &heights);
             }
@@ -186,7 +209,7 @@ impl Reposer {
         if outcome.conformed_inside == 0 && outcome.excess_p99 <= EXACT {
             return Some((state, outcome));
         }
-        let at_once = outcome.conformed_p99 <= AT_ONCE || care.most_substeps == 0;
+        let at_once = outcome.joined_p99 <= AT_ONCE || care.most_substeps == 0;
         if at_once {
             self.control(&mut state, care, FEW_STEPS.min(care.most_steps), &mut outcome);
             self.finish(&mut state, &mut outcome);
@@ -211,14 +234,14 @@ impl Reposer {
         Some((state, outcome))
     }
 
-    /// Where the last picture of a sequence left the cloth beside the places that conforming gives it, it starts in the next
+    /// Where the last picture of a sequence left the cloth beside the places that carrying gives it, it starts in the next
     /// one, if that strains it less: from picture to picture little changes.
-    fn go_on(&self, state: &mut ClothState, carried: &[(DVec3, DQuat)], conformed_p99: f64) {
+    fn go_on(&self, state: &mut ClothState, carried: &[(DVec3, DQuat)], joined_p99: f64) {
         let Some(beside) = &self.beside else { return };
         let near = |((p, turn), beside): (&(DVec3, DQuat), &DVec3)| *p + *turn * *beside;
         let positions = carried.iter().zip(beside).map(near).collect();
         let near = ClothState { positions, mapped: state.mapped.clone() };
-        if self.lengths.p99(&near) < conformed_p99 {
+        if self.lengths.p99(&near) < joined_p99 {
             *state = near;
         }
     }
@@ -375,6 +398,9 @@ impl Reposer {
         let sent = |(v, (p, &mapped)): (usize, (&mut DVec3, &bool))| {
             let left_out = |t: u32| self.apart.as_ref().is_some_and(|apart| apart.leaves_out(v, t));
             let near = |p: DVec3| surface.nearest_within_but(p, f64::INFINITY, left_out);
+            if self.relaxer.is_clear(v as u32, *p) {
+                return false;
+            }
             for _ in 0..SENDS {
                 match near(*p) {
                     Some(skin) if mapped && skin.distance < 0.0 => *p = skin.point + skin.normal * least,
