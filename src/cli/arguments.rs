@@ -69,6 +69,12 @@ pub struct InputOptions {
     /// cloth comes off
     #[arg(long, value_name = "NAME")]
     pub pose: Option<NamedPose>,
+    /// Wears the pattern of this file over it, and over those named before, each on a layer of its own
+    #[arg(long, value_name = "PROJECT")]
+    pub over: Vec<PathBuf>,
+    /// Places its pieces so much higher round the body, metres: for files that count from another place than the floor
+    #[arg(long, value_name = "METRES", allow_negative_numbers = true)]
+    pub raise: Option<f64>,
     /// What a unit of a DXF or SVG pattern is: mm, cm, m, in, px, px90 or pt; without it the file tells, or the question
     /// is asked by an error
     #[arg(long, value_name = "UNIT")]

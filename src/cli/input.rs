@@ -180,6 +180,23 @@ pub fn take_options(project: &mut Project, path: &Path, options: &InputOptions) 
         }
         None => {}
     }
+    let pattern = &mut project.document.pattern;
+    if let Some(by) = options.raise {
+        raise(Arc::make_mut(pattern), by).map_err(|words| Failure::input(path, words))?;
+    }
+    for over in &options.over {
+        let mut outer = match content(over, options.body_file, options.scale)? {
+            Content::Project(outer) => Arc::unwrap_or_clone(outer.document.pattern),
+            Content::Pattern(outer) => outer,
+            Content::Body(_) => return Err(Failure::input(over, "this is a body: it is named with --body")),
+        };
+        if let Some(by) = options.raise {
+            raise(&mut outer, by).map_err(|words| Failure::input(over, words))?;
+        }
+        let worn = Arc::make_mut(pattern).wear_over(&outer, &name_of(over));
+        worn.map_err(|words| Failure::input(over, words))?;
+        project.dressed = None;
+    }
     if let Some(pose) = options.pose {
         let posed = project.document.body.in_named_pose(pose);
         let words = "its body is from a file: only the mannequin takes a pose by name";
@@ -196,6 +213,24 @@ pub fn take_options(project: &mut Project, path: &Path, options: &InputOptions) 
         suggest_marks(project, path)?;
     }
     Ok(())
+}
+
+/// Places all placed pieces `by` metres higher.
+fn raise(pattern: &mut Pattern, by: f64) -> Result<(), String> {
+    if !by.is_finite() {
+        return Err("--raise takes a number of metres".to_owned());
+    }
+    let mut placed = false;
+    for piece in pattern.pieces.values_mut().filter(|piece| piece.placement.is_some()) {
+        if let Some(pose) = &mut Arc::make_mut(piece).placement {
+            pose.translation.y += by;
+            placed = true;
+        }
+    }
+    match placed {
+        true => Ok(()),
+        false => Err("none of its pieces is placed in space: there is nothing to raise".to_owned()),
+    }
 }
 
 fn suggest_marks(project: &mut Project, path: &Path) -> Result<(), Failure> {

@@ -52,7 +52,11 @@ fn sewn(
     let vertex_count = name_vertices(&mut corners, &seam_pairs);
     let mut garment = Garment { vertex_count, seam_pairs, ..Garment::default() };
     for (&piece, mesh) in meshes {
-        garment.pieces.push((piece, pattern.pieces[&piece].name.clone()));
+        let flat = &pattern.pieces[&piece];
+        garment.pieces.push((piece, flat.name.clone()));
+        if flat.layer > 0 {
+            garment.layers.insert(piece, flat.layer);
+        }
         let first = first_corner[&piece];
         for t in &mesh.triangles {
             let cs = t.map(|v| v + first);

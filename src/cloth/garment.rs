@@ -1,5 +1,7 @@
 //! Fixed topology and rest shape of the sewn garment, and its moving state.
 
+use std::collections::BTreeMap;
+
 use glam::{DVec2, DVec3};
 
 use crate::geometry::adjacency::Adjacency;
@@ -37,6 +39,8 @@ pub struct Garment {
     pub seam_pairs: Vec<(SeamId, Vec<[u32; 2]>)>,
     /// Names of the pieces that are in it, in id order.
     pub pieces: Vec<(PieceId, String)>,
+    /// The layers of those that are not worn next to the skin.
+    pub layers: BTreeMap<PieceId, u8>,
 }
 
 impl Garment {
@@ -44,6 +48,11 @@ impl Garment {
     pub fn mean_edge(&self) -> f64 {
         let sides = |rest: &[DVec2; 3]| (0..3).map(|k| (rest[(k + 1) % 3] - rest[k]).length()).sum::<f64>();
         self.rest.iter().map(sides).sum::<f64>() / (3 * self.rest.len()).max(1) as f64
+    }
+
+    /// The layer that a piece is worn on; 0 lies next to the skin.
+    pub fn layer(&self, piece: PieceId) -> u8 {
+        self.layers.get(&piece).copied().unwrap_or(0)
     }
 
     /// Bytes it takes.

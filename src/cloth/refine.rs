@@ -167,6 +167,7 @@ impl Builder<'_> {
             vertex_count: plain.vertex_count + slaves.len(),
             corners: order.iter().map(|&c| corners[c as usize]).collect(),
             pieces: plain.pieces.clone(),
+            layers: plain.layers.clone(),
             seam_pairs: plain.seam_pairs.clone(),
             ..Garment::default()
         };

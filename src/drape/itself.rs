@@ -3,6 +3,7 @@
 //! Pairs that could meet in a step are gathered when it begins, with the side they are on. A pair keeps its side: whoever comes
 //! through in an iterate is pushed back to where it came from, so that a fast step does not tangle.
 
+use std::cmp::Ordering;
 use std::sync::Arc;
 
 use glam::{DMat3, DVec3};
@@ -35,8 +36,13 @@ pub struct Itself {
     stiffness: Vec<f64>,
     /// What is to be sewn counts as sewn.
     pub sewn: Option<Arc<Sides>>,
+    /// So much deeper than it is thick cloth of different layers may come in a small step and still be known to have come
+    /// through, metres.
+    pub quick: f64,
     /// Vertices that pass through the cloth, as long as they are to be untangled; empty for none.
     pub free: Vec<bool>,
+    /// Of each vertex: a higher layer stays on the outer side of a lower one. Empty: there is one.
+    pub layers: Vec<u8>,
     /// Of triangles and of edges.
     trees: [Bvh; 2],
     /// Where the vertices were when pairs were last gathered ahead.
@@ -65,6 +71,8 @@ struct Pair {
     edges: bool,
     /// On which side the first is of the second, ±1; 0 while they are not before one another.
     side: f64,
+    /// They are of different layers: the side is known.
+    layered: bool,
     /// How far one can come towards the other, metres: who seems farther behind has come round, not through.
     reach: f64,
 }
@@ -165,15 +173,22 @@ impl Itself {
             let ways = a.iter().flat_map(|&a| b.iter().map(move |&b| ways[a as usize] - ways[b as usize]));
             near + LOOK_AHEAD * ways.map(|w| w.length()).fold(0.0, f64::max)
         };
-        let is_free = |vs: &[u32]| !self.free.is_empty() && vs.iter().any(|&v| self.free[v as usize]);
+        let layer = |vs: &[u32]| self.layers.get(vs[0] as usize).copied().unwrap_or(0);
+        let is_free = |a: &[u32], b: &[u32]| {
+            let any = |vs: &[u32]| vs.iter().any(|&v| self.free[v as usize]);
+            !self.free.is_empty() && layer(a) == layer(b) && (any(a) || any(b))
+        };
+        let layer = &layer;
+        // Of triangle `t`, not of unit length: the way its outer side looks.
+        let out = |t: u32| {
+            let [a, b, c] = sheet.triangles[t as usize].map(|v| x[v as usize]);
+            (b - a).cross(c - a)
+        };
         let of_triangles: Vec<Aabb> = sheet.triangles.par_iter().map(|vs| grown(vs)).collect();
         refit(&mut self.trees[0], &of_triangles);
         let tree = &self.trees[0];
         let at_corners = (0..x.len() as u32).into_par_iter().with_min_len(LEAST_SHARE).map(|v| {
             let (mut pairs, mut looked_at) = (Vec::new(), 0u64);
-            if is_free(&[v]) {
-                return (pairs, looked_at);
-            }
             let own = grown(&[v]);
             tree.near(&own, |t| {
                 if !of_triangles[t as usize].meets(&own) {
@@ -181,15 +196,26 @@ impl Itself {
                 }
                 let vs @ [a, b, c] = sheet.triangles[t as usize];
                 looked_at += 1;
-                if joined(&[v], &vs) || is_free(&vs) {
+                if joined(&[v], &vs) || is_free(&[v], &vs) {
                     return;
                 }
                 let (p, [pa, pb, pc]) = (x[v as usize], vs.map(|i| x[i as usize]));
                 let reach = apart(&[v], &vs);
                 let distance = closest_on_triangle(p, pa, pb, pc).0.distance(p);
                 if distance <= reach && !hinged(&[v], &vs, distance) {
-                    let side = (pb - pa).cross(pc - pa).dot(p - pa).signum();
-                    pairs.push(Pair { vertices: [v, a, b, c], edges: false, side, reach });
+                    let (own, other) = (layer(&[v]), layer(&vs));
+                    let side = match own.cmp(&other) {
+                        Ordering::Less => -1.0,
+                        Ordering::Equal => out(t).dot(p - pa).signum(),
+                        Ordering::Greater => 1.0,
+                    };
+                    pairs.push(Pair {
+                        vertices: [v, a, b, c],
+                        edges: false,
+                        side,
+                        layered: own != other,
+                        reach,
+                    });
                 }
             });
             (pairs, looked_at)
@@ -201,16 +227,13 @@ impl Itself {
         let tree = &self.trees[1];
         let at_edges = edges.par_iter().enumerate().with_min_len(LEAST_SHARE).map(|(e, &[a, b])| {
             let (mut pairs, mut looked_at) = (Vec::new(), 0u64);
-            if is_free(&[a, b]) {
-                return (pairs, looked_at);
-            }
             tree.near(&boxes[e], |f| {
                 if f as usize <= e || !boxes[f as usize].meets(&boxes[e]) {
                     return;
                 }
                 let [c, d] = edges[f as usize];
                 looked_at += 1;
-                if joined(&[a, b], &[c, d]) || is_free(&[c, d]) {
+                if joined(&[a, b], &[c, d]) || is_free(&[a, b], &[c, d]) {
                     return;
                 }
                 let ends = [a, b, c, d].map(|i| x[i as usize]);
@@ -218,8 +241,21 @@ impl Itself {
                 let distance = segments_apart(ends);
                 if distance <= reach && !hinged(&[a, b], &[c, d], distance) {
                     let [pa, pb, pc, pd] = ends;
-                    let side = (pb - pa).cross(pd - pc).dot(pc - pa).signum();
-                    pairs.push(Pair { vertices: [a, b, c, d], edges: true, side, reach });
+                    let (own, other) = (layer(&[a, b]), layer(&[c, d]));
+                    let outwards = |e: u32| beside_edge(sheet, e).map(out).sum::<DVec3>();
+                    let across = (pb - pa).cross(pd - pc);
+                    let side = match own.cmp(&other) {
+                        Ordering::Less => across.dot(outwards(e as u32)).signum(),
+                        Ordering::Equal => across.dot(pc - pa).signum(),
+                        Ordering::Greater => -across.dot(outwards(f)).signum(),
+                    };
+                    pairs.push(Pair {
+                        vertices: [a, b, c, d],
+                        edges: true,
+                        side,
+                        layered: own != other,
+                        reach,
+                    });
                 }
             });
             (pairs, looked_at)
@@ -261,7 +297,7 @@ impl Itself {
             let turned = Pair { side: if pair.side == 0.0 { 1.0 } else { pair.side }, ..*pair };
             let found = if pair.edges { edge_push(&turned, x) } else { corner_push(&turned, x) };
             let Some((weights, normal, distance)) = found else {
-                pair.side = 0.0;
+                pair.side = if pair.layered { pair.side } else { 0.0 };
                 continue;
             };
             if pair.side == 0.0 {
@@ -271,7 +307,8 @@ impl Itself {
             let depth = self.thickness - distance;
             let share = |(&v, w): (&u32, &f64)| w * w * inverse_mass[v as usize];
             let whole: f64 = pair.vertices.iter().zip(&weights).map(share).sum();
-            if depth > 0.0 && depth < 2.0 * self.thickness && whole > 0.0 {
+            let most = 2.0 * self.thickness + if pair.layered { self.quick } else { 0.0 };
+            if depth > 0.0 && depth < most && whole > 0.0 {
                 for (&v, w) in pair.vertices.iter().zip(weights) {
                     x[v as usize] += normal * (depth * w * inverse_mass[v as usize] / whole);
                 }
@@ -303,6 +340,10 @@ impl Itself {
     pub fn deepest(&self) -> f64 {
         self.active.iter().map(|p| p.depth).fold(0.0, f64::max)
     }
+}
+
+fn beside_edge(sheet: &Sheet, edge: u32) -> impl Iterator<Item = u32> {
+    sheet.adjacency.edge_triangles.of(edge).iter().copied()
 }
 
 /// Cloth keeps its neighbours: a tree made once stays a good one.

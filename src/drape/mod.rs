@@ -7,11 +7,13 @@ mod blocks;
 mod ordering;
 
 pub mod bending;
+pub mod clear;
 pub mod contact;
 #[allow(clippy::module_inception, reason = "the room is named after what it makes")]
 pub mod drape;
 pub mod elastic;
 pub mod itself;
+mod laid;
 pub mod limits;
 pub mod membrane;
 pub mod net;

@@ -37,7 +37,9 @@ pub struct Sewing {
     worn: Worn,
     sewn: Arc<Garment>,
     open: Arc<Garment>,
-    /// Sewn corners and how far they were apart, metres.
+    /// For each vertex of `open` that of `sewn`.
+    becomes: Arc<Vec<u32>>,
+    /// Vertices of `open` that are sewn together, and how far apart they were, metres.
     threads: Vec<([u32; 2], f64)>,
     closing: u32,
     ticks: u32,
@@ -57,38 +59,68 @@ pub struct Sewn {
     pub open: Vec<(SeamId, f64)>,
 }
 
+/// What is sewn in one go.
+#[derive(Clone, Copy)]
+pub struct Stage<'a> {
+    /// The flat corners of the garment lie there, metres; None: not placed.
+    pub places: &'a [Option<DVec3>],
+    /// Pieces that are sewn now.
+    pub now: &'a dyn Fn(PieceId) -> bool,
+    /// The garment's cloth: what of it is laid already was sewn before; it gives way to what is sewn over it.
+    pub worn: &'a ClothState,
+}
+
 impl Sewing {
-    /// Of `garment`, whose flat corners lie at `places` (None: not placed). The rest as for [`Worn::new`].
+    /// Of `garment`, as `stage` says. The rest as for [`Worn::new`].
     pub fn new(
         garment: Arc<Garment>,
-        places: &[Option<DVec3>],
+        stage: Stage<'_>,
         surface: Arc<Surface>,
         fabrics: (&BTreeMap<PieceId, Fabric>, &Fabric),
         settings: WornSettings,
     ) -> Result<(Self, ClothState), Undrapable> {
-        let open = Arc::new(unsewn(&garment));
-        let cloth = ClothState {
-            positions: places.iter().map(|p| p.unwrap_or_default()).collect(),
-            mapped: places.iter().map(Option::is_some).collect(),
+        let (open, becomes) = unsewn(&garment, stage.now);
+        let mut cloth = ClothState {
+            positions: becomes.iter().map(|&v| stage.worn.positions[v as usize]).collect(),
+            mapped: vec![false; open.vertex_count],
         };
-        if !cloth.mapped.contains(&true) {
+        let mut inner = Vec::new();
+        let mut some = false;
+        for (corner, place) in open.corners.iter().zip(stage.places) {
+            let v = corner.vertex as usize;
+            if !(stage.now)(corner.piece) {
+                if stage.worn.mapped[becomes[v] as usize] && !cloth.mapped[v] {
+                    cloth.mapped[v] = true;
+                    inner.push(corner.vertex);
+                }
+            } else if let Some(place) = place {
+                (cloth.positions[v], cloth.mapped[v], some) = (*place, true, true);
+            }
+        }
+        if !some {
             return Err(Undrapable("none of its pieces is placed in space".to_owned()));
         }
-        let sewn = Arc::clone(&garment);
-        let mut worn = Worn::unsewn(Arc::clone(&open), &cloth, surface, fabrics, settings, sewn)?;
+        let (open, becomes) = (Arc::new(open), Arc::new(becomes));
+        let will_be = (Arc::clone(&garment), Arc::clone(&becomes));
+        let mut worn = Worn::unsewn(Arc::clone(&open), &cloth, surface, fabrics, settings, will_be)?;
         worn.float(SUBSTEPS);
+        if !inner.is_empty() {
+            worn.pull_over(&inner);
+        }
         let pairs = garment.seam_pairs.iter().flat_map(|(_, pairs)| pairs);
         let threads: Vec<([u32; 2], f64)> = pairs
-            .filter(|pair| pair.iter().all(|&c| cloth.mapped[c as usize]))
-            .map(|&[a, b]| ([a, b], cloth.positions[a as usize].distance(cloth.positions[b as usize])))
+            .map(|pair| pair.map(|c| open.corners[c as usize].vertex))
+            .filter(|[a, b]| a != b && cloth.mapped[*a as usize] && cloth.mapped[*b as usize])
+            .map(|[a, b]| ([a, b], cloth.positions[a as usize].distance(cloth.positions[b as usize])))
             .collect();
         let widest = threads.iter().map(|t| t.1).fold(0.0, f64::max);
         let (speed, [least, most]) = SHRINK;
         let closing = ((widest / speed / TICK).ceil() as u32).clamp(least, most);
-        Ok((Self { worn, sewn: garment, open, threads, closing, ticks: 0, shut: 0, widest }, cloth))
+        let sewing = Self { worn, sewn: garment, open, becomes, threads, closing, ticks: 0, shut: 0, widest };
+        Ok((sewing, cloth))
     }
 
-    /// The garment with its seams open: a vertex for each flat corner.
+    /// The garment with the seams of what is sewn now open: a vertex for each flat corner there.
     pub fn garment(&self) -> &Arc<Garment> {
         &self.open
     }
@@ -124,18 +156,21 @@ impl Sewing {
     pub fn merged(&self, cloth: &ClothState) -> Sewn {
         let count = self.sewn.vertex_count;
         let mut sums = vec![(0.0, DVec3::ZERO, DVec3::ZERO); count];
-        for (c, corner) in self.sewn.corners.iter().enumerate() {
-            if let Some((mass, velocity)) = self.worn.motion(c as u32) {
-                let (m, x, v) = &mut sums[corner.vertex as usize];
+        for (o, &vertex) in self.becomes.iter().enumerate() {
+            if let Some((mass, velocity)) = self.worn.motion(o as u32) {
+                let (m, x, v) = &mut sums[vertex as usize];
                 *m += mass;
-                *x += cloth.positions[c] * mass;
+                *x += cloth.positions[o] * mass;
                 *v += velocity * mass;
             }
         }
         let mean = |sum: DVec3, m: f64| if m > 0.0 { sum / m } else { DVec3::ZERO };
-        let gap = |&[a, b]: &[u32; 2]| match cloth.mapped[a as usize] && cloth.mapped[b as usize] {
-            true => cloth.positions[a as usize].distance(cloth.positions[b as usize]),
-            false => 0.0,
+        let gap = |pair: &[u32; 2]| {
+            let [a, b] = pair.map(|c| self.open.corners[c as usize].vertex as usize);
+            match cloth.mapped[a] && cloth.mapped[b] {
+                true => cloth.positions[a].distance(cloth.positions[b]),
+                false => 0.0,
+            }
         };
         let widest =
             self.sewn.seam_pairs.iter().map(|(id, pairs)| (*id, pairs.iter().map(gap).fold(0.0, f64::max)));
@@ -150,17 +185,28 @@ impl Sewing {
     }
 }
 
-/// The same pieces, none sewn.
-fn unsewn(garment: &Garment) -> Garment {
-    let vertex_count = garment.corners.len();
+/// The same pieces, those that are sewn `now` not yet: they have a vertex for each flat corner. For each vertex that of
+/// `garment` which it becomes.
+fn unsewn(garment: &Garment, now: &dyn Fn(PieceId) -> bool) -> (Garment, Vec<u32>) {
     let mut corners = garment.corners.clone();
-    corners.iter_mut().zip(0..).for_each(|(corner, c)| corner.vertex = c);
-    Garment {
-        vertex_count,
-        triangles: garment.triangle_corners.clone(),
-        corners,
-        adjacency: Adjacency::new(vertex_count, &garment.triangle_corners),
-        seam_pairs: Vec::new(),
-        ..garment.clone()
+    let mut shared: Vec<Option<u32>> = vec![None; garment.vertex_count];
+    let mut becomes = Vec::new();
+    for corner in &mut corners {
+        let sewn = corner.vertex;
+        let mut add = || {
+            becomes.push(sewn);
+            becomes.len() as u32 - 1
+        };
+        corner.vertex = match now(corner.piece) {
+            true => add(),
+            false => *shared[sewn as usize].get_or_insert_with(add),
+        };
     }
+    let vertex_of = |vs: &[u32; 3]| vs.map(|c| corners[c as usize].vertex);
+    let triangles: Vec<[u32; 3]> = garment.triangle_corners.iter().map(vertex_of).collect();
+    let vertex_count = becomes.len();
+    let adjacency = Adjacency::new(vertex_count, &triangles);
+    let open =
+        Garment { vertex_count, triangles, corners, adjacency, seam_pairs: Vec::new(), ..garment.clone() };
+    (open, becomes)
 }

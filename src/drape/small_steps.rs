@@ -24,7 +24,7 @@ const STALE: f64 = 2.0;
 /// Of the limit of stability that bending's steps take.
 const SAFE: f64 = 0.9;
 /// Threads pull no faster than so, m/s: what cloth and body hold against that stays open.
-const THREAD_SPEED: f64 = 2.0;
+pub const THREAD_SPEED: f64 = 2.0;
 /// Ends so near, metres, stay together though the body pushes them apart.
 const NEARLY_SHUT: f64 = 0.002;
 /// Cloth that is deeper in a body than its own motion brought it comes out so fast, m/s, and without momentum.

@@ -15,9 +15,9 @@ use crate::contact::{Faces, Met};
 use crate::drape::bending::Bending;
 use crate::drape::contact::Collider;
 use crate::drape::itself::{Itself, Sides};
-use crate::drape::net::Spring;
+use crate::drape::laid::{ordered, shortest_sides, springs};
 use crate::drape::sheet::Sheet;
-use crate::drape::small_steps::{Hand, SmallSteps, Surroundings, Tie, substeps};
+use crate::drape::small_steps::{Hand, SmallSteps, Surroundings, THREAD_SPEED, Tie, substeps};
 use crate::drape::state::State;
 use crate::geometry::crossings::meetings;
 use crate::geometry::ids::PieceId;
@@ -57,6 +57,8 @@ const BENDING_DAMPING: f64 = 0.001;
 /// pass in each small step feels far softer than the cloth is; held by friction of the full pressure, tight cloth would keep
 /// whatever strain it came with (ALGORITHMS.md 0.5).
 const GRIP: f64 = 10.0;
+/// Layers that came so much deeper into each other in a small step than they are thick, metres, are put apart all the same.
+const QUICK: f64 = 0.002;
 /// Pairs of the cloth with itself last until a vertex is so far off its way, metres.
 const MARGIN: f64 = 0.002;
 /// Small steps between two looks at whether they last: never fewer,
@@ -151,6 +153,8 @@ pub struct Worn {
     substeps: usize,
     /// Without weight and friction.
     floats: bool,
+    /// While it floats, what there is of friction all the same: of what lies below.
+    rubs: Option<Vec<f64>>,
     progress: Progress,
     /// How fast time goes, [`SLOWEST`]..=1.
     pace: f64,
@@ -180,17 +184,18 @@ impl Worn {
         Self::made(garment, cloth, surface, (fabrics, default), pins, settings, None)
     }
 
-    /// The same of a garment that has a vertex for each corner of `sewn`, which it is to become.
+    /// The same of a garment that is to become another, with the vertex of that for each of its own.
     pub fn unsewn(
         garment: Arc<Garment>,
         cloth: &ClothState,
         surface: Arc<Surface>,
         fabrics: (&BTreeMap<PieceId, Fabric>, &Fabric),
         settings: WornSettings,
-        sewn: Arc<Garment>,
+        (sewn, becomes): (Arc<Garment>, Arc<Vec<u32>>),
     ) -> Result<Self, Undrapable> {
-        let mut worn = Self::made(garment, cloth, surface, fabrics, &[], settings, Some(&*sewn))?;
-        let will_be = worn.fixed.vertices.iter().map(|&c| sewn.corners[c as usize].vertex).collect();
+        let will_be = Some((&*sewn, &becomes[..]));
+        let mut worn = Self::made(garment, cloth, surface, fabrics, &[], settings, will_be)?;
+        let will_be = worn.fixed.vertices.iter().map(|&v| becomes[v as usize]).collect();
         worn.itself.sewn = Some(Arc::new(Sides { will_be, garment: sewn }));
         Ok(worn)
     }
@@ -202,7 +207,7 @@ impl Worn {
         (fabrics, default): (&BTreeMap<PieceId, Fabric>, &Fabric),
         pins: &[u32],
         settings: WornSettings,
-        sewn: Option<&Garment>,
+        sewn: Option<(&Garment, &[u32])>,
     ) -> Result<Self, Undrapable> {
         let laid: Vec<usize> = (0..garment.triangles.len())
             .filter(|&t| garment.triangles[t].iter().all(|&v| cloth.mapped[v as usize]))
@@ -230,9 +235,9 @@ impl Worn {
         let count = substeps(TICK, settings.strain, GRAVITY.length(), (high - low).max(edge), edge);
         let mut pinned = vec![false; sheet.len()];
         pins.iter().filter_map(|&v| own_number(&own, v)).for_each(|v| pinned[v] = true);
-        let sides = shortest_sides(sewn.unwrap_or(&*garment));
+        let sides = shortest_sides(sewn.map_or(&*garment, |(sewn, _)| sewn));
         let name = |v: u32| match (sewn, vertices[v as usize]) {
-            (Some(sewn), c) => sewn.corners[c as usize].vertex,
+            (Some((_, becomes)), v) => becomes[v as usize],
             (None, v) => v,
         };
         let length = |[a, b]: [u32; 2]| {
@@ -241,7 +246,14 @@ impl Worn {
         };
         let springs = springs(&sheet, &of_triangle, length);
         let small = SmallSteps::of(springs, settings.strain, &sheet, &bending, &mass, &pinned);
-        let itself = Itself::new(&sheet, if settings.self_collision { thickness } else { 0.0 }, Vec::new());
+        let mut itself =
+            Itself::new(&sheet, if settings.self_collision { thickness } else { 0.0 }, Vec::new());
+        if !garment.layers.is_empty() {
+            let piece = |t: u32| garment.triangle_pieces[laid[t as usize]];
+            let layer = |v: u32| garment.layer(piece(sheet.adjacency.vertex_triangles.of(v)[0]));
+            itself.layers = (0..sheet.len() as u32).map(layer).collect();
+            itself.quick = QUICK;
+        }
         let offset = thickness + SKIN;
         let collider = Collider::still(surface);
         let damping = damping + AIR;
@@ -255,6 +267,7 @@ impl Worn {
             pinned,
             substeps: count,
             floats: false,
+            rubs: None,
             progress: Progress { ticks: 0, residual: 1.0, speed: 0.0, at_rest: false },
             pace: 1.0,
             quiet: 0,
@@ -353,6 +366,15 @@ impl Worn {
         (self.floats, self.substeps) = (true, substeps);
     }
 
+    /// From now on threads pull the rest of it over what lies at the garment's vertices `inner`.
+    pub fn pull_over(&mut self, inner: &[u32]) {
+        self.itself.quick = 2.0 * THREAD_SPEED * TICK / self.substeps as f64;
+        let mut rubs = vec![0.0; self.fixed.vertices.len()];
+        let own = inner.iter().filter_map(|&v| own_number(&self.fixed.own, v));
+        own.for_each(|v| rubs[v] = self.fixed.friction[v]);
+        self.rubs = Some(rubs);
+    }
+
     /// From now on exactly these threads hold; their ends are vertices of the garment.
     pub fn tie(&mut self, ties: &[Tie]) {
         let own = |tie: &Tie| {
@@ -396,8 +418,8 @@ impl Worn {
             damping: fixed.damping + (CALMING * (seconds - CALM_AFTER)).clamp(0.0, CALMEST) / self.pace,
             collider: Some(&fixed.collider),
             offset: fixed.offset,
-            friction: &fixed.friction,
-            grip: if self.floats { 0.0 } else { GRIP },
+            friction: self.rubs.as_ref().unwrap_or(&fixed.friction),
+            grip: if self.floats && self.rubs.is_none() { 0.0 } else { GRIP },
         };
         let asked = self.small.queries;
         let small = span / self.substeps as f64;
@@ -622,74 +644,4 @@ impl Worn {
 
 fn own_number(own: &[u32], v: u32) -> Option<usize> {
     own.get(v as usize).filter(|&&o| o != u32::MAX).map(|&o| o as usize)
-}
-
-/// The vertices of the triangles `laid` in an order in which neighbours are near, and the other way round.
-fn ordered(garment: &Garment, laid: &[usize]) -> (Vec<u32>, Vec<u32>) {
-    let mut is_laid = vec![false; garment.vertex_count];
-    laid.iter().flat_map(|&t| garment.triangles[t]).for_each(|v| is_laid[v as usize] = true);
-    let mut own = vec![u32::MAX; garment.vertex_count];
-    let mut vertices: Vec<u32> = Vec::new();
-    for start in 0..garment.vertex_count as u32 {
-        if !is_laid[start as usize] || own[start as usize] != u32::MAX {
-            continue;
-        }
-        own[start as usize] = vertices.len() as u32;
-        vertices.push(start);
-        let mut at = vertices.len() - 1;
-        while at < vertices.len() {
-            for &w in garment.adjacency.vertex_neighbours.of(vertices[at]) {
-                if is_laid[w as usize] && own[w as usize] == u32::MAX {
-                    own[w as usize] = vertices.len() as u32;
-                    vertices.push(w);
-                }
-            }
-            at += 1;
-        }
-    }
-    (vertices, own)
-}
-
-/// Rest length of each edge, by its vertices in order, metres. Where a seam gathers cloth that of the shorter side: the longer one
-/// has no vertex more there, so that it cannot fold between two.
-fn shortest_sides(garment: &Garment) -> BTreeMap<[u32; 2], f64> {
-    let mut sides = BTreeMap::new();
-    for (vs, rest) in garment.triangles.iter().zip(&garment.rest) {
-        for k in 0..3 {
-            let l = (k + 1) % 3;
-            let ends = [vs[k].min(vs[l]), vs[k].max(vs[l])];
-            let length = rest[k].distance(rest[l]);
-            sides.entry(ends).and_modify(|known: &mut f64| *known = known.min(length)).or_insert(length);
-        }
-    }
-    sides
-}
-
-/// A spring along each edge: Young's modulus in its direction times its share of area (Van Gelder 1998).
-fn springs<'a>(
-    sheet: &'a Sheet,
-    fabrics: &'a [&Fabric],
-    length: impl Fn([u32; 2]) -> Option<f64> + 'a,
-) -> impl Iterator<Item = Spring> + 'a {
-    let adjacency = &sheet.adjacency;
-    adjacency.edges.iter().enumerate().map(move |(e, &ends)| {
-        let length = length(ends).unwrap_or_else(|| sheet.rest_length(e));
-        let beside = adjacency.edge_triangles.of(e as u32);
-        let stiffness = |&t: &u32| {
-            let t = t as usize;
-            let k = adjacency.triangle_edges[t].iter().position(|&x| x == e as u32).unwrap_or(0);
-            let along = (sheet.rest[t][(k + 1) % 3] - sheet.rest[t][k]).normalize_or_zero();
-            modulus(fabrics[t], along) * sheet.areas[t]
-        };
-        let stiffness = beside.iter().map(stiffness).sum::<f64>() / (length * length);
-        Spring { ends, length, stiffness }
-    })
-}
-
-/// Young's modulus times thickness along `along` (x weft, y warp; unit) of an orthotropic sheet, N/m.
-fn modulus(fabric: &Fabric, along: DVec2) -> f64 {
-    let stretch = &fabric.stretch;
-    let (w, f) = (along.y * along.y, along.x * along.x);
-    let mixed = 1.0 / stretch.shear - 2.0 * stretch.poisson / (stretch.warp * stretch.weft).sqrt();
-    1.0 / (w * w / stretch.warp + f * f / stretch.weft + w * f * mixed)
 }

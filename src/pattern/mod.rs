@@ -3,6 +3,7 @@
 pub mod curve;
 pub mod cut;
 pub mod edit;
+pub mod layers;
 pub mod piece;
 pub mod sampling;
 pub mod seam;

@@ -137,6 +137,9 @@ pub struct Piece {
     /// Not drawn in the pattern pane. It is sewn all the same.
     #[serde(default, skip_serializing_if = "is_false")]
     pub hidden: bool,
+    /// Worn over all pieces of a lower layer, 0..=[`MOST_LAYER`](crate::pattern::layers::MOST_LAYER); layer 0 lies next to the skin.
+    #[serde(default, skip_serializing_if = "is_skin")]
+    pub layer: u8,
     /// Where it lies in the pattern pane.
     pub pose: PlanePose,
     /// Where the source file put it round the body, if it did.
@@ -267,6 +270,10 @@ impl InternalLine {
 
 fn is_false(flag: &bool) -> bool {
     !flag
+}
+
+fn is_skin(layer: &u8) -> bool {
+    *layer == 0
 }
 
 fn is_zero(x: &f64) -> bool {

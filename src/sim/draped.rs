@@ -125,8 +125,12 @@ impl World {
             return self.fail_draping(words);
         }
         draping.left = draping.left.map(|left| left.saturating_sub(1));
+        let rests = worn.progress().at_rest;
         if !draping.runs() {
             self.split_draped();
+        }
+        if rests {
+            self.sew_next_layer();
         }
     }
 

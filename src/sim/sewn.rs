@@ -5,21 +5,57 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use crate::body::Surface;
-use crate::cloth::{self, ClothState, Garment};
-use crate::drape::sewing::Sewing;
+use crate::cloth::{self, ClothState, Garment, Skips};
+use crate::drape::clear::cleared;
+use crate::drape::sewing::{Sewing, Stage};
 use crate::drape::{Undrapable, WornSettings};
+use crate::geometry::ids::PieceId;
 use crate::pattern::triangulate::Meshes;
 use crate::pattern::{Problem, ProblemKind};
 use crate::sim::draped::DrapeSource;
 use crate::sim::protocol::GarmentSource;
-use crate::sim::world::World;
+use crate::sim::world::{World, unlaid};
+
+/// A garment that is sewn layer by layer, the innermost first: each over those that lie already (paper B, "multi-layer").
+#[derive(Debug)]
+pub struct Outfit {
+    garment: Arc<Garment>,
+    /// Where its flat corners were placed, metres.
+    places: Vec<Option<DVec3>>,
+    fabrics: Arc<DrapeSource>,
+}
+
+impl Outfit {
+    /// The first layer above `inner`, or of all, that has a placed piece.
+    fn next(&self, inner: Option<u8>) -> Option<u8> {
+        let placed = self.garment.corners.iter().zip(&self.places).filter(|(_, place)| place.is_some());
+        let layers = placed.map(|(corner, _)| self.garment.layer(corner.piece));
+        layers.filter(|&layer| inner.is_none_or(|inner| layer > inner)).min()
+    }
+
+    /// Begins to sew `layer` over what is laid of `worn`.
+    fn begun(
+        &self,
+        layer: u8,
+        worn: &ClothState,
+        body: &Arc<Surface>,
+        skips: Skips,
+    ) -> Result<(Sewing, ClothState), Undrapable> {
+        let settings = WornSettings { strain: self.fabrics.strain, self_collision: true, skips };
+        let of = (&self.fabrics.of_pieces, &self.fabrics.fabric);
+        let now = |piece: PieceId| self.garment.layer(piece) == layer;
+        let places = cleared(&self.garment, worn, &self.places, &now);
+        let stage = Stage { places: &places, now: &now, worn };
+        Sewing::new(Arc::clone(&self.garment), stage, Arc::clone(body), of, settings)
+    }
+}
 
 /// Pieces on their way to one another.
 #[derive(Clone, Debug)]
 pub struct Placed {
     sewing: Sewing,
-    garment: Arc<Garment>,
-    pub(super) fabrics: Arc<DrapeSource>,
+    outfit: Arc<Outfit>,
+    layer: u8,
 }
 
 impl Placed {
@@ -51,17 +87,17 @@ impl World {
                 problems.push(Problem { kind: ProblemKind::Dressing, place, words });
             }
         }
-        let settings =
-            WornSettings { strain: fabrics.strain, self_collision: true, skips: source.relax.skips };
-        let of = (&fabrics.of_pieces, &fabrics.fabric);
-        let (sewing, cloth) = Sewing::new(Arc::clone(&garment), &places, Arc::clone(&body), of, settings)
+        let outfit = Outfit { garment: Arc::clone(&garment), places, fabrics };
+        let layer = outfit.next(None).ok_or("none of its pieces is placed in space")?;
+        let (sewing, cloth) = outfit
+            .begun(layer, &unlaid(&garment), &body, source.relax.skips)
             .map_err(|Undrapable(words)| words)?;
         Ok(Self {
             source: Some(source),
             body: Some(body),
             garment: Some(Arc::clone(sewing.garment())),
             cloth: Arc::new(cloth),
-            sewing: Some(Arc::new(Placed { sewing, garment, fabrics })),
+            sewing: Some(Arc::new(Placed { sewing, outfit: Arc::new(outfit), layer })),
             problems: Arc::new(problems),
             meshes: Arc::new(meshes),
             ..Self::default()
@@ -74,7 +110,7 @@ impl World {
         source: Arc<GarmentSource>,
         body: Arc<Surface>,
     ) -> Option<Result<Self, String>> {
-        let fabrics = Arc::clone(&self.sewing.as_ref()?.fabrics);
+        let fabrics = Arc::clone(&self.sewing.as_ref()?.outfit.fabrics);
         let places = Arc::clone(&self.places);
         Some(Self::placed(source, body, fabrics).map(|world| Self { places, ..world }))
     }
@@ -95,7 +131,8 @@ impl World {
     fn finish_sewing(&mut self) {
         let Some(placed) = self.sewing.take() else { return };
         let sewn = placed.sewing.merged(&self.cloth);
-        self.garment = Some(Arc::clone(&placed.garment));
+        let outfit = &placed.outfit;
+        self.garment = Some(Arc::clone(&outfit.garment));
         self.cloth = Arc::new(ClothState::clone(&sewn.cloth));
         for (seam, gap) in sewn.open {
             let words = format!(
@@ -104,9 +141,25 @@ impl World {
             );
             self.tell(seam.to_string(), words);
         }
-        self.drape_for(None, Arc::clone(&placed.fabrics));
+        self.drape_for(None, Arc::clone(&outfit.fabrics));
         self.begin_moving(&sewn.velocities);
         self.set_pins(&Arc::clone(&self.places));
+        self.outer = outfit.next(Some(placed.layer)).map(|layer| (Arc::clone(outfit), layer));
+    }
+
+    /// What has come to rest is dressed over, where there is more to wear.
+    pub(super) fn sew_next_layer(&mut self) {
+        let Some((outfit, layer)) = self.outer.take() else { return };
+        let (Some(body), Some(source)) = (&self.body, &self.source) else { return };
+        match outfit.begun(layer, &self.cloth, body, source.relax.skips) {
+            Ok((sewing, cloth)) => {
+                (self.draping, self.splits) = (None, None);
+                self.garment = Some(Arc::clone(sewing.garment()));
+                self.cloth = Arc::new(cloth);
+                self.sewing = Some(Arc::new(Placed { sewing, outfit, layer }));
+            }
+            Err(Undrapable(words)) => self.tell("garment".to_owned(), words),
+        }
     }
 
     pub(super) fn tell(&mut self, place: String, words: String) {

@@ -17,7 +17,7 @@ use crate::sim::draped::Draping;
 use crate::sim::hash::cloth_hash;
 use crate::sim::posed::Posed;
 use crate::sim::protocol::{ClothPlace, GarmentSource};
-use crate::sim::sewn::Placed;
+use crate::sim::sewn::{Outfit, Placed};
 use crate::wrap::{Dressed, Dressing, Marks, Phase, coarser};
 
 /// The state of the simulation.
@@ -55,6 +55,8 @@ pub struct World {
     pub draping: Option<Arc<Draping>>,
     /// Pieces being sewn from where they were placed: `garment` is then the one with open seams.
     pub sewing: Option<Arc<Placed>>,
+    /// What is sewn over the cloth once it rests, and its next layer.
+    pub outer: Option<(Arc<Outfit>, u8)>,
 }
 
 impl Default for World {
@@ -76,6 +78,7 @@ impl Default for World {
             posed: None,
             draping: None,
             sewing: None,
+            outer: None,
         }
     }
 }
@@ -455,7 +458,8 @@ struct Cut {
     problems: Vec<Problem>,
 }
 
-fn unlaid(garment: &Garment) -> ClothState {
+/// No cloth of `garment`.
+pub(super) fn unlaid(garment: &Garment) -> ClothState {
     let count = garment.vertex_count;
     ClothState { positions: vec![DVec3::ZERO; count], mapped: vec![false; count] }
 }

@@ -6,6 +6,7 @@ use glam::DVec2;
 
 use crate::geometry::ids::{PieceId, SeamId};
 use crate::pattern::edit::{PatternEdit, PointRef, WIDEST_ALLOWANCE};
+use crate::pattern::layers::MOST_LAYER;
 use crate::pattern::{EdgeRef, EdgeShape, Piece, PlanePose, Seam};
 use crate::session::Command;
 use crate::ui::actions::Action;
@@ -104,6 +105,15 @@ impl PatternPanel {
                 let width = width.clamp(0.0, WIDEST_ALLOWANCE);
                 asks.push(ask(vec![PatternEdit::SetAllowance { pieces: ids.clone(), width }]));
             }
+        });
+        ui.horizontal(|ui| {
+            let label = weak(ui, told, "Layer");
+            let old = pieces[0].1.layer;
+            if let Some(new) = number_field(ui, "layer", &label, f64::from(old)) {
+                let layer = new.round().clamp(0.0, f64::from(MOST_LAYER)) as u8;
+                asks.push(ask(vec![PatternEdit::SetLayer { pieces: ids.clone(), layer }]));
+            }
+            weak(ui, told, "0 next to the skin");
         });
         let seen = [Action::Twin, Action::MakeSymmetric, Action::Unlink, Action::Fold];
         action_row(ui, told, &seen, asks);

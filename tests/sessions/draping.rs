@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DQuat, DVec2, DVec3};
 use toile::body::mannequin::{Measurements, mannequin};
-use toile::cloth::Fabric;
+use toile::cloth::{Corner, Fabric};
 use toile::drag::{DragMode, Ray};
 use toile::fit::{BodyIndex, Report, measure};
 use toile::geometry::ids::PieceId;
@@ -246,6 +246,46 @@ fn placed_pieces_are_sewn_and_draped() {
     // The ball is through the hem; the narrower end stands above it.
     assert_eq!(report.openings.iter().map(|o| o.body_through).collect::<Vec<_>>(), [true, false]);
     assert_eq!(s.undo_label(), Some("sew"));
+    s.apply_alone(Command::Undo).expect("undone");
+    s.update();
+    assert!(!s.snapshot().is_dressed());
+}
+
+/// Both are placed at one place, as files of two garments are: the outer one is made room for, and the inner one gives way.
+#[test]
+fn what_is_worn_over_is_sewn_over_what_lies() {
+    let mut outfit = placed([0.39, 0.28], -0.02, 0.2, 0.018).project();
+    let outer = placed([0.42, 0.3], -0.04, 0.2, 0.018).project().document.pattern;
+    let mut spindle = ball(0.12, 24, 48);
+    spindle.positions.iter_mut().for_each(|p| p.y *= 3.0);
+    outfit.document.body = BodyChoice::Imported { name: "spindle".to_owned(), mesh: Arc::new(spindle) };
+    Arc::make_mut(&mut outfit.document.pattern).wear_over(&outer, "coat").expect("two layers");
+    let layers: Vec<u8> = outfit.document.pattern.pieces.values().map(|p| p.layer).collect();
+    assert_eq!(layers, [0, 0, 1, 1]);
+    let mut s = Session::new(outfit, Runner::inline(Simulation::default()));
+    s.apply_alone(Command::Sew).expect("sewn");
+    s.update();
+    let laid = |s: &Session| s.snapshot().cloth.mapped.iter().filter(|m| **m).count();
+    let first = laid(&s);
+    assert!(first < s.snapshot().cloth.mapped.len(), "the outer layer waits");
+    run(&mut s, 3000);
+    assert_eq!(s.snapshot().phase, Some(Phase::AtRest));
+    assert!(s.snapshot().problems.is_empty(), "{:?}", s.snapshot().problems);
+    let report = measured(&s);
+    assert_eq!((report.seams.open, report.unmapped_vertices, report.self_crossings), (0, 0, 0));
+    assert_eq!(report.penetration.vertices + report.penetration.faces + report.edges_through_body, 0);
+    // At each height the outer one is farther out.
+    let garment = s.snapshot().garment.clone().expect("a garment");
+    let far = |inner: bool, band: i32| {
+        let at = |c: &Corner| s.snapshot().cloth.positions[c.vertex as usize];
+        let own = garment.corners.iter().filter(|c| (c.piece == LEFT || c.piece == RIGHT) == inner);
+        let there: Vec<f64> =
+            own.map(at).filter(|p| (p.y / 0.02).floor() as i32 == band).map(|p| p.x.hypot(p.z)).collect();
+        (!there.is_empty()).then(|| there.iter().sum::<f64>() / there.len() as f64)
+    };
+    let bands: Vec<[f64; 2]> =
+        (-8..8).filter_map(|band| Some([far(true, band)?, far(false, band)?])).collect();
+    assert!(bands.len() > 3 && bands.iter().all(|[inner, outer]| outer > inner), "{bands:?}");
     s.apply_alone(Command::Undo).expect("undone");
     s.update();
     assert!(!s.snapshot().is_dressed());

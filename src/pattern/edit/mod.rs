@@ -17,6 +17,7 @@ use glam::{DAffine2, DVec2};
 use serde::{Deserialize, Serialize};
 
 use crate::geometry::ids::{PieceId, SeamId};
+use crate::pattern::layers::MOST_LAYER;
 use crate::pattern::{Edge, EdgeRef, EdgeShape, InternalLine, Pattern, Piece, PlanePose, Seam, curve};
 pub use cutting::nearest_on_edge;
 pub use pieces::WIDEST_ALLOWANCE;
@@ -70,6 +71,8 @@ pub enum PatternEdit {
     SetLocked { pieces: Vec<PieceId>, locked: bool },
     /// Hide pieces in the pane, or not.
     SetHidden { pieces: Vec<PieceId>, hidden: bool },
+    /// Wear pieces on another layer, 0..=15: over all pieces of lower ones. Counts when they are sewn the next time.
+    SetLayer { pieces: Vec<PieceId>, layer: u8 },
 
     /// Move points. The curves beside them turn and scale with their chords.
     MovePoints { points: Vec<(PointRef, DVec2)> },
@@ -247,6 +250,12 @@ fn carry_out(pattern: &mut Pattern, edit: &PatternEdit) -> Result<Change, String
         PatternEdit::SetHidden { pieces, hidden } => {
             let what = if *hidden { "hide" } else { "show" };
             pieces::set_all(pattern, pieces, what, |p| p.hidden = *hidden)
+        }
+        PatternEdit::SetLayer { pieces, layer } => {
+            if *layer > MOST_LAYER {
+                return Err(format!("layer {layer} is none: there are 0 to {MOST_LAYER}"));
+            }
+            pieces::set_all(pattern, pieces, "wear on another layer", |p| p.layer = *layer)
         }
         PatternEdit::MovePoints { points } => points::move_points(pattern, points),
         PatternEdit::SetEdge { edge, shape } => points::set_edge(pattern, *edge, *shape),
