@@ -10,7 +10,7 @@ use crate::fit::laid::Laid;
 use crate::fit::on_body::{BodyIndex, on_body};
 use crate::fit::openings::Opening;
 use crate::fit::shape;
-use crate::geometry::ids::PieceId;
+use crate::geometry::ids::{PieceId, SeamId};
 use crate::pattern::Pattern;
 
 /// A seam whose two sides are nowhere further apart than this (metres) is closed.
@@ -33,6 +33,9 @@ pub struct Report {
     pub pieces: Vec<PieceChange>,
     /// The seams.
     pub seams: Seams,
+    /// Those that are open, by number and pieces.
+    #[serde(default)]
+    pub open_seams: Vec<String>,
     /// Sewn vertices that belong to more than one piece.
     pub vertices_shared_by_pieces: usize,
     /// Parts connected in space.
@@ -152,6 +155,7 @@ pub fn measure(pattern: &Pattern, garment: &Garment, state: &ClothState, body: &
         strain,
         pieces,
         seams: seams(pattern, garment, state),
+        open_seams: open_seams(pattern, garment, state),
         vertices_shared_by_pieces: shape::vertices_shared_by_pieces(&laid),
         pieces_in_space: shape::pieces_in_space(&laid),
         pieces_expected: pieces_expected(pattern),
@@ -186,6 +190,19 @@ fn seams(pattern: &Pattern, garment: &Garment, state: &ClothState) -> Seams {
     }
     found.open = pattern.seams.len().max(garment.seam_pairs.len()) - found.closed;
     found
+}
+
+/// "seam 2 (front and back)" for each seam of the pattern that does not hold everywhere.
+fn open_seams(pattern: &Pattern, garment: &Garment, state: &ClothState) -> Vec<String> {
+    let holds = |pairs: &[[u32; 2]]| widest_gap(garment, state, pairs).is_some_and(|gap| gap <= CLOSED);
+    let is_closed = |id: &SeamId| {
+        let mut parts = garment.seam_pairs.iter().filter(|(of, _)| of == id).peekable();
+        parts.peek().is_some() && parts.all(|(_, pairs)| holds(pairs))
+    };
+    let name = |id: PieceId| pattern.pieces.get(&id).map_or_else(|| id.to_string(), |p| p.name.clone());
+    let open = pattern.seams.iter().filter(|(id, _)| !is_closed(id));
+    open.map(|(id, seam)| format!("{id} ({} and {})", name(seam.sides[0].piece), name(seam.sides[1].piece)))
+        .collect()
 }
 
 /// The widest gap of a seam, metres; none when one of its points lies nowhere.

@@ -99,6 +99,17 @@ fn a_sleeve_that_fits_has_no_faults() {
 }
 
 #[test]
+fn an_open_seam_is_named() {
+    let r = exact_radius();
+    let mut sleeve = sleeve(r, |p| p);
+    let (id, seam) = sleeve.pattern.seams.iter().next().map(|(id, seam)| (*id, *seam)).expect("a seam");
+    sleeve.garment.seam_pairs.retain(|(known, _)| *known != id);
+    let [a, b] = seam.sides.map(|side| sleeve.pattern.pieces[&side.piece].name.clone());
+    let words = words(&report(&sleeve, cylinder(r - 0.01, 0.2, 1.2, 48, 20)));
+    assert!(words.starts_with(&format!("seams: 1 of 2 seams are open: {id} ({a} and {b}); ")), "{words}");
+}
+
+#[test]
 fn strain_is_that_of_the_circumference() {
     let r = exact_radius();
     let report = report(&sleeve(r * 1.1, |p| p), cylinder(r, 0.2, 1.2, 48, 20));

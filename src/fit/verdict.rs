@@ -10,6 +10,9 @@ const MOST_STRAIN: f64 = 0.25;
 /// Cloth or a seam has torn where more than one edge in so many is stretched to twice its length: fewer are slivers.
 const EDGES_PER_TEAR: usize = 1000;
 
+/// Seams named in one fault.
+const MOST_NAMED: usize = 3;
+
 /// Every fault of a dressed garment; empty when it is sewn, on the body, outside of it and the right way round.
 pub fn verdict(report: &Report) -> Vec<Problem> {
     faults(report, false).into_iter().map(|(problem, _)| problem).collect()
@@ -67,10 +70,16 @@ impl Faults {
         let seams = &report.seams;
         if seams.open > 0 {
             let gap = seams.max_gap * 1000.0;
+            let mut named: Vec<&str> = report.open_seams.iter().map(String::as_str).collect();
+            if named.len() > MOST_NAMED {
+                named.truncate(MOST_NAMED);
+                named.push("…");
+            }
             let words = format!(
-                "{} of {} seams are open; the widest gap is {gap:.1} mm",
+                "{} of {} seams are open: {}; the widest gap is {gap:.1} mm",
                 seams.open,
-                seams.open + seams.closed
+                seams.open + seams.closed,
+                named.join(", ")
             );
             self.tell(Spot::Seams, "seams", words);
         }
