@@ -92,11 +92,18 @@ pub struct InputOptions {
 
 /// Wraps by the marks or, without any, sews from where the pieces are placed; relaxes to rest, and writes garment.obj,
 /// body.obj, report.json and view.png
+///
+/// Several projects are dressed one after the other: each gets a folder and, on standard output, a line with what came of it
+/// (with --json an object). The exit code is the greatest that any of them would have had alone. An interrupted run leaves
+/// the folders of those it had done, whole.
 #[derive(Debug, Args)]
 pub struct Dress {
     /// Projects, patterns or samples (sample:NAME); several get a folder each
-    #[arg(required = true, value_name = "PROJECT")]
+    #[arg(required_unless_present = "list", value_name = "PROJECT")]
     pub projects: Vec<PathBuf>,
+    /// Also those that this file names, one a line, relative to its own folder; lines that begin with # are skipped
+    #[arg(long, value_name = "FILE")]
+    pub list: Option<PathBuf>,
     /// The folder to write to
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
@@ -121,7 +128,13 @@ pub struct Dress {
     pub picture: PictureOptions,
     #[command(flatten)]
     pub work: WorkOptions,
-    /// Prints the report
+    /// Leaves what was already made from the same bytes with the same options and the same version of the program
+    #[arg(long, conflicts_with_all = ["save", "record"])]
+    pub resume: bool,
+    /// Tells which of several projects is begun also where standard error is no terminal
+    #[arg(long)]
+    pub progress: bool,
+    /// Prints the report; of several projects a line each
     #[arg(long)]
     pub json: bool,
     /// Number of threads; the result is the same
@@ -134,6 +147,7 @@ impl Dress {
     pub fn sample(project: &Path, out: &Path) -> Self {
         Self {
             projects: vec![project.to_owned()],
+            list: None,
             out: out.to_owned(),
             input: InputOptions::default(),
             drape: false,
@@ -143,6 +157,8 @@ impl Dress {
             max_ticks: MAX_TICKS,
             picture: PictureOptions { view: View::ThreeQuarter, size: [1280, 800], transparent: false },
             work: WorkOptions::default(),
+            resume: false,
+            progress: false,
             json: false,
             threads: None,
         }

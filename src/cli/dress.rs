@@ -1,61 +1,52 @@
 //! `toile dress`: wrap by the marks, relax to rest, drape, write what came out.
 
 use std::fs::File;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::Instant;
 
 use crate::cli::arguments::Dress;
 use crate::cli::failure::Failure;
-use crate::cli::report::{Report, Seconds};
-use crate::cli::{input, output, report, run};
+use crate::cli::made_from::made_from;
+use crate::cli::report::Seconds;
+use crate::cli::verdict::Verdict;
+use crate::cli::{batch, input, output, report, run};
 use crate::session::{Command, Session, project_file};
 
-/// Dresses every project named. With several each gets a folder and a line; the first failure gives the exit code.
+/// Dresses the project named, or each of several.
 pub fn dress(arguments: &Dress) -> Result<(), Failure> {
-    if let [project] = &arguments.projects[..] {
-        let report = dress_one(project, &arguments.out, arguments)?;
-        output::say(&if arguments.json { report.json()? } else { report.verdict() });
-        return report.failed_check().map_or(Ok(()), |words| Err(Failure::Check(words)));
-    }
-    if arguments.save.is_some() || arguments.record.is_some() {
-        return Err(Failure::Usage("--save and --record take one project, not several".to_owned()));
-    }
-    let mut first_failure = None;
-    for (project, folder) in arguments.projects.iter().zip(folders(arguments)) {
-        let failure = match dress_one(project, &folder, arguments) {
-            Err(signal @ Failure::Signal(_)) => return Err(signal),
-            Err(failure) => {
-                output::say(&format!("{}: failed: {failure}", project.display()));
-                Some(failure)
-            }
-            Ok(report) => {
-                output::say(&if arguments.json { report.json_line()? } else { report.verdict() });
-                report.failed_check().map(Failure::Check)
-            }
-        };
-        first_failure = first_failure.or(failure);
-    }
-    first_failure.map_or(Ok(()), Err)
+    let ([project], None) = (&arguments.projects[..], &arguments.list) else {
+        return batch::batch(arguments);
+    };
+    let Done { verdict, report, resumed } = dress_one(project, &arguments.out, arguments)?;
+    output::say(&match (arguments.json, resumed) {
+        (true, _) => report,
+        (false, false) => verdict.to_string(),
+        (false, true) => format!("{verdict} (done before)"),
+    });
+    verdict.failed_check().map_or(Ok(()), |words| Err(Failure::Check(words)))
 }
 
-/// A folder for each project, named like it; equal names get a number.
-fn folders(arguments: &Dress) -> Vec<PathBuf> {
-    let mut names: Vec<String> = Vec::new();
-    for project in &arguments.projects {
-        let stem = input::name_of(project);
-        let taken = |name: &String| names.contains(name);
-        let numbered = (2..).map(|i| format!("{stem}-{i}"));
-        let name = std::iter::once(stem.clone()).chain(numbered).find(|n| !taken(n)).unwrap_or(stem);
-        names.push(name);
-    }
-    names.iter().map(|name| arguments.out.join(name)).collect()
+/// A project with its files written.
+pub struct Done {
+    pub verdict: Verdict,
+    /// The text of report.json, without its last line's end.
+    pub report: String,
+    /// It was there, made from the same.
+    pub resumed: bool,
 }
 
-fn dress_one(project: &Path, folder: &Path, arguments: &Dress) -> Result<Report, Failure> {
+/// Dresses `project` into `folder`, unless it is there and `arguments` leave it then.
+pub fn dress_one(project: &Path, folder: &Path, arguments: &Dress) -> Result<Done, Failure> {
     let start = Instant::now();
+    let made_from = made_from(project, arguments)?;
+    if arguments.resume
+        && let Some((verdict, report)) = Verdict::stored(folder, &made_from)
+    {
+        return Ok(Done { verdict, report, resumed: true });
+    }
     let mut seconds = Seconds::default();
     let input = input::load(project, &arguments.input)?;
-    output::make_folder(folder)?;
+    output::make_folder(&arguments.out)?;
     let mut session = run::opened(input.project, project)?;
     seconds.load = start.elapsed().as_secs_f64();
     if let Some(path) = &arguments.record {
@@ -79,9 +70,9 @@ fn dress_one(project: &Path, folder: &Path, arguments: &Dress) -> Result<Report,
         project_file::save(path, &session.project()).map_err(|e| input::project_failure(path, e))?;
     }
     let mut report = report::write(&mut session, &input.name, folder, &arguments.picture, seconds)?;
-    report.inputs = input.files;
+    (report.inputs, report.made_from) = (input.files, Some(made_from));
     report.finish(folder, start)?;
-    Ok(report)
+    Ok(Done { verdict: report.verdict()?, report: report.json()?, resumed: false })
 }
 
 /// By its marks; without any, from where its pieces are placed.

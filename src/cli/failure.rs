@@ -30,7 +30,7 @@ pub enum Failure {
     #[error("{0}")]
     Internal(String),
     /// A signal came.
-    #[error("stopped by signal {0}; nothing was written")]
+    #[error("stopped by signal {0}; no file is half written")]
     Signal(u8),
 }
 

@@ -92,6 +92,19 @@ pub fn content(path: &Path, how: BodyFile, scale: Option<DrawingUnit>) -> Result
     formats::body(path, &bytes, how).map(Content::Body)
 }
 
+/// Whether `path` names a built-in sample.
+pub fn is_sample(path: &Path) -> bool {
+    sample_name(path).is_some()
+}
+
+/// The bytes that `path` stands for: those of the file, or the name of what is built in.
+pub fn bytes_of(path: &Path) -> Result<Vec<u8>, Failure> {
+    match path.to_str() {
+        Some(name) if is_sample(path) || name == MANNEQUIN => Ok(name.as_bytes().to_vec()),
+        _ => read(path),
+    }
+}
+
 fn sample_name(path: &Path) -> Option<&str> {
     path.to_str()?.strip_prefix(SAMPLE)
 }

@@ -1,6 +1,7 @@
 //! The command line: one file per subcommand, nothing but arguments, calls and printing.
 
 mod arguments;
+mod batch;
 mod bench;
 mod check;
 mod dress;
@@ -11,6 +12,7 @@ mod formats;
 mod import;
 mod input;
 mod interrupt;
+mod made_from;
 mod measure;
 mod open;
 mod output;
@@ -21,6 +23,7 @@ mod report;
 mod repose;
 mod run;
 mod simulate;
+mod verdict;
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::process::ExitCode;

@@ -1,7 +1,7 @@
 //! Printing and writing. A closed output ends nothing, a file is whole or not there.
 
 use std::fs;
-use std::io::{IsTerminal, Write};
+use std::io::{ErrorKind, IsTerminal, Write};
 use std::path::Path;
 
 use crate::cli::failure::Failure;
@@ -19,9 +19,14 @@ pub fn complain(words: &str) {
     err.write_all(words.as_bytes()).and_then(|()| err.write_all(b"\n")).ok();
 }
 
+/// Whether a person sees standard error at once.
+pub fn is_watched() -> bool {
+    std::io::stderr().is_terminal()
+}
+
 /// Overwrites the last line of standard error, on a terminal only.
 pub fn progress(words: &str) {
-    if std::io::stderr().is_terminal() {
+    if is_watched() {
         let mut err = std::io::stderr().lock();
         write!(err, "\r\x1b[K{words}").and_then(|()| err.flush()).ok();
     }
@@ -30,6 +35,14 @@ pub fn progress(words: &str) {
 /// Writes the whole of `bytes` to `path`, or leaves what was there.
 pub fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     whole_file::write(path, bytes).map_err(|error| Failure::file(path, error))
+}
+
+/// Removes the file at `path`, there or not.
+pub fn take_away(path: &Path) -> Result<(), Failure> {
+    match fs::remove_file(path) {
+        Err(error) if error.kind() != ErrorKind::NotFound => Err(Failure::file(path, error)),
+        _ => Ok(()),
+    }
 }
 
 /// Makes `folder` and those above it.

@@ -66,7 +66,6 @@ pub fn replay(arguments: &arguments::Replay) -> Result<(), Failure> {
         return Err(Failure::Check("the recording holds no hash: nothing was compared".to_owned()));
     }
     if let Some(folder) = &arguments.out {
-        output::make_folder(folder)?;
         let seconds = Seconds { replay: Some(start.elapsed().as_secs_f64()), ..Seconds::default() };
         let name = input::name_of(path);
         let mut report = report::write(replay.session(), &name, folder, &arguments.picture, seconds)?;

@@ -9,6 +9,7 @@ use crate::body::{Surface, landmarks};
 use crate::cli::arguments::PictureOptions;
 use crate::cli::failure::Failure;
 use crate::cli::picture::Artist;
+use crate::cli::verdict::Verdict;
 use crate::cli::{formats, output, run};
 use crate::fit;
 use crate::pattern::{Problem, ProblemKind};
@@ -18,6 +19,9 @@ use crate::session::{Document, Session};
 use crate::sim::{self, DrapeState, Fault, Snapshot, Stats};
 use crate::wrap::{MarkError, PairStretch, Phase, mark_error, stretches};
 
+/// The report's own.
+pub const FILE_NAME: &str = "report.json";
+
 /// `report.json`.
 #[derive(Debug, Serialize)]
 pub struct Report {
@@ -25,6 +29,9 @@ pub struct Report {
     name: String,
     /// Files and samples read.
     pub inputs: Vec<String>,
+    /// See [`crate::cli::made_from`].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub made_from: Option<String>,
     ticks: u64,
     at_rest: bool,
     #[serde(flatten)]
@@ -129,7 +136,8 @@ pub struct Seconds {
     pub total: f64,
 }
 
-/// Writes garment.obj, body.obj and view.png of `session` to `folder`. `Report::finish` writes report.json.
+/// Writes garment.obj, body.obj and view.png of `session` to `folder`, which is made. `Report::finish` writes report.json, which
+/// is gone until then: where there is one, the other files are whole and of the same garment.
 pub fn write(
     session: &mut Session,
     name: &str,
@@ -144,6 +152,8 @@ pub fn write(
     let Measured { fit, tight, faults, marks, mark_error } = measured(snapshot)?;
     seconds.measure = start.elapsed().as_secs_f64();
     let at_rest = snapshot.phase == Some(Phase::AtRest);
+    output::make_folder(folder)?;
+    output::take_away(&folder.join(FILE_NAME))?;
     if let (Some((garment, cloth)), Some(source)) = (snapshot.drawn(), &snapshot.source) {
         let bytes = formats::garment_obj(garment, cloth, &source.pattern);
         output::write(&folder.join("garment.obj"), &bytes)?;
@@ -158,6 +168,7 @@ pub fn write(
         version: env!("CARGO_PKG_VERSION"),
         name: name.to_owned(),
         inputs: Vec::new(),
+        made_from: None,
         ticks: snapshot.tick,
         at_rest,
         tight,
@@ -229,7 +240,7 @@ impl Report {
         self.seconds.total = start.elapsed().as_secs_f64();
         let mut text = self.json()?;
         text.push('\n');
-        output::write(&folder.join("report.json"), text.as_bytes())
+        output::write(&folder.join(FILE_NAME), text.as_bytes())
     }
 
     /// The report on several lines.
@@ -242,26 +253,9 @@ impl Report {
         serde_json::to_string(self).map_err(|e| Failure::Internal(e.to_string()))
     }
 
-    /// One line for people.
-    pub fn verdict(&self) -> String {
-        let tight = self.tight.as_ref().map_or(String::new(), |tight| format!(" (tightest: {tight})"));
-        let figures = format!(
-            "{} triangles, strain p99 {:.1} %{tight}, marks met within {:.1} mm, {:.2} s",
-            self.fit.triangles,
-            self.fit.strain.p99 * 100.0,
-            self.mark_error.max * 1000.0,
-            self.seconds.total
-        );
-        match self.failed_check() {
-            None => format!("{}: dressed, {figures}", self.name),
-            Some(words) => format!("{}: not dressed: {words}; {figures}", self.name),
-        }
-    }
-
-    /// Why this is not a dressed garment.
-    pub fn failed_check(&self) -> Option<String> {
-        let words: Vec<String> =
-            self.faults.iter().map(|f| format!("{}: {}", f.problem.place, f.problem.words)).collect();
-        (!words.is_empty()).then(|| words.join("; "))
+    /// What of it says whether this is a dressed garment.
+    pub fn verdict(&self) -> Result<Verdict, Failure> {
+        let read = serde_json::to_value(self).and_then(serde_json::from_value);
+        read.map_err(|e| Failure::Internal(e.to_string()))
     }
 }

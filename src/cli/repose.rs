@@ -38,11 +38,12 @@ pub fn repose(arguments: &Repose) -> Result<(), Failure> {
         let folder = if several { numbered(&arguments.out, i, path) } else { arguments.out.clone() };
         let name = format!("{} on {}", input.name, input::name_of(path));
         let carried = one(&mut session, pose, path, arguments, seconds);
-        let mut report = report::write(&mut session, &name, &made(&folder)?, &arguments.picture, carried?)?;
+        let mut report = report::write(&mut session, &name, &folder, &arguments.picture, carried?)?;
         report.inputs = input.files.iter().cloned().chain([from.clone()]).collect();
         report.finish(&folder, start)?;
-        tell(&report, arguments.json, several)?;
-        first_failure = first_failure.or(report.failed_check());
+        let verdict = report.verdict()?;
+        output::say(&if arguments.json { printed(&report, several)? } else { verdict.to_string() });
+        first_failure = first_failure.or(verdict.failed_check());
     }
     if let Some(path) = &arguments.save {
         project_file::save(path, &session.project()).map_err(|e| input::project_failure(path, e))?;
@@ -50,18 +51,8 @@ pub fn repose(arguments: &Repose) -> Result<(), Failure> {
     first_failure.map_or(Ok(()), |words| Err(Failure::Check(words)))
 }
 
-fn made(folder: &Path) -> Result<PathBuf, Failure> {
-    output::make_folder(folder)?;
-    Ok(folder.to_owned())
-}
-
-fn tell(report: &Report, json: bool, several: bool) -> Result<(), Failure> {
-    output::say(&match (json, several) {
-        (true, true) => report.json_line()?,
-        (true, false) => report.json()?,
-        (false, _) => report.verdict(),
-    });
-    Ok(())
+fn printed(report: &Report, several: bool) -> Result<String, Failure> {
+    if several { report.json_line() } else { report.json() }
 }
 
 /// "out/03-walk4" for the fourth pose, of the file "walk4.obj".

@@ -12,7 +12,7 @@ const SAMPLES: usize = 51;
 
 /// Distances between points of cloth marks and the points of their partners at the same fraction of their length, at the
 /// offset above the skin; metres.
-#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct MarkError {
     /// How many points were compared: points of marks that lie on cloth that lies on the body.
     pub points: usize,

@@ -51,22 +51,6 @@ fn the_report_is_printed_and_the_same_on_any_number_of_threads() {
 }
 
 #[test]
-fn several_projects_get_a_folder_and_a_line_each() {
-    let place = Place::with_ball();
-    place.write("broken.toile", "{}");
-    std::fs::create_dir(place.path("sub")).expect("made");
-    std::fs::copy(place.path("ball.toile"), place.path("sub/ball.toile")).expect("copied");
-    let done = place.ends(3, "dress ball.toile broken.toile sub/ball.toile --out out");
-    let lines: Vec<&str> = done.out.lines().collect();
-    assert!(
-        lines.len() == 3 && lines[0].starts_with("ball: dressed") && lines[2].starts_with("ball: dressed")
-    );
-    assert!(lines[1].starts_with("broken.toile: failed: "), "{lines:?}");
-    assert_eq!(place.names("out"), ["ball", "ball-2"]);
-    assert_eq!(place.names("out/ball-2"), ["body.obj", "garment.obj", "report.json"]);
-}
-
-#[test]
 fn what_cannot_be_dressed_is_told_and_writes_nothing() {
     let place = Place::new();
     let mut project = crate::common::project();

@@ -1,0 +1,48 @@
+//! What a result was made from, as one number: the bytes of its inputs, the options that can change it, and the version of
+//! the program. Names and times of files play no part.
+
+use std::path::Path;
+
+use crate::cli::arguments::{Dress, InputOptions};
+use crate::cli::failure::Failure;
+use crate::cli::input;
+use crate::session::recording::Hex;
+use crate::sim::hash::Fnv;
+
+/// Of `project` dressed as `arguments` say.
+pub fn made_from(project: &Path, arguments: &Dress) -> Result<String, Failure> {
+    let Dress {
+        projects: _,
+        list: _,
+        out: _,
+        input: InputOptions { body, body_file, pose, scale, marks, suggest_marks, edge_length },
+        drape,
+        fabric,
+        save: _,
+        record: _,
+        max_ticks,
+        picture,
+        work,
+        resume: _,
+        progress: _,
+        json: _,
+        threads: _,
+    } = arguments;
+    let of_input = (body_file, pose, scale, suggest_marks, edge_length);
+    let options = (of_input, drape, fabric, max_ticks, picture, work);
+    let mut hash = Fnv::default();
+    let mut take = |bytes: &[u8]| {
+        hash.number(bytes.len() as u64);
+        hash.bytes(bytes);
+    };
+    take(env!("CARGO_PKG_VERSION").as_bytes());
+    take(format!("{options:?}").as_bytes());
+    take(&input::bytes_of(project)?);
+    for file in [body, marks] {
+        match file {
+            Some(path) => take(&input::bytes_of(path)?),
+            None => take(&[]),
+        }
+    }
+    Ok(Hex(hash.finish()).to_string())
+}
