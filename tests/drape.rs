@@ -13,3 +13,5 @@ mod moves;
 mod patches;
 #[path = "drape/rests.rs"]
 mod rests;
+#[path = "drape/stability.rs"]
+mod stability;

@@ -96,7 +96,7 @@ impl Drape {
     /// Goes `h` seconds on, or stays where it is.
     pub fn step(&mut self, h: f64) -> Result<(), DrapeError> {
         let before = self.state.clone();
-        match &mut self.solver {
+        let lost = match &mut self.solver {
             Solver::Implicit(steps) => {
                 let edge = self.scene.sheet.mean_edge();
                 let settings = NewtonSettings {
@@ -109,14 +109,16 @@ impl Drape {
                 let solved = steps.step(&self.scene, &mut self.state, contacts, itself, &settings, h);
                 self.residual = solved.residual;
                 self.unconverged += u64::from(!solved.converged);
+                solved.lost
             }
             Solver::Small(small, count) => {
                 let contact = (self.settings.thickness, self.settings.friction);
                 small.step(&self.scene, &mut self.state, &mut self.itself, contact, h, *count);
                 self.residual = 0.0;
+                None
             }
-        }
-        match self.state.lost() {
+        };
+        match lost.or(self.state.lost()) {
             None => Ok(()),
             Some(vertex) => {
                 self.state = before;

@@ -52,6 +52,8 @@ pub struct Solved {
     pub converged: bool,
     /// The last factor was of the whole Hessian, which was positive definite.
     pub stable: bool,
+    /// The first vertex on which the force is no number.
+    pub lost: Option<usize>,
 }
 
 /// Work done since the start.
@@ -196,6 +198,7 @@ impl Newton {
             }
         }
         solved.stable = self.whole;
+        solved.lost = gradient.iter().position(|g| !g.is_finite());
         solved
     }
 
@@ -366,7 +369,8 @@ impl Newton {
     }
 }
 
-/// The length of the longest.
+/// The length of the longest; NaN where one is.
 pub fn largest(vectors: &[DVec3]) -> f64 {
-    vectors.iter().map(|v| v.length_squared()).fold(0.0, f64::max).sqrt()
+    let longer = |most: f64, next: f64| if next > most || next.is_nan() { next } else { most };
+    vectors.iter().map(|v| v.length_squared()).fold(0.0, longer).sqrt()
 }
