@@ -9,6 +9,8 @@ mod common;
 mod meshes;
 #[path = "drape/moves.rs"]
 mod moves;
+#[path = "drape/panels.rs"]
+mod panels;
 #[path = "drape/patches.rs"]
 mod patches;
 #[path = "drape/rests.rs"]

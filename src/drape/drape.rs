@@ -14,6 +14,10 @@ use crate::drape::steps::{CONTACT_OVER_INERTIA, Integrator, Scene, Steps};
 const SMALL_PER_EDGE: f64 = 1.0;
 const IMPLICIT_PER_NUMBER: f64 = 2.5;
 
+/// A sheet held by two corners strains so many times as much, at its worst hundredth of edges, as the law for a held row says:
+/// measured 3.0, 3.3 and 3.3 at 1, 10 and 40 thousand triangles.
+const MOST_CONCENTRATION: f64 = 4.0;
+
 /// How cloth is moved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
@@ -177,10 +181,20 @@ impl Drape {
     }
 }
 
+/// How many times as much hangs from a pinned vertex as from one of a row of `row` that is held as a whole, as far as the strain
+/// of all but the edges next to it feels it.
+fn concentration(pinned: &[bool], row: f64) -> f64 {
+    match pinned.iter().filter(|held| **held).count() {
+        0 => 1.0,
+        held => (row / held as f64).clamp(1.0, MOST_CONCENTRATION),
+    }
+}
+
 fn chosen(scene: &Scene, settings: &DrapeSettings, h: f64) -> Result<Solver, DrapeError> {
     let sheet = &scene.sheet;
-    let extent = sheet.areas.iter().sum::<f64>().sqrt();
-    let count = substeps(h, settings.strain, scene.gravity.length(), extent, sheet.mean_edge());
+    let (extent, edge) = (sheet.areas.iter().sum::<f64>().sqrt(), sheet.mean_edge());
+    let hanging = extent * concentration(&scene.pinned, extent / edge);
+    let count = substeps(h, settings.strain, scene.gravity.length(), hanging, edge);
     let small = || Solver::Small(Box::new(SmallSteps::new(scene, settings.stiffness)), count);
     let implicit = || Steps::new(scene, settings.integrator).ok_or(DrapeError::Memory);
     match settings.method {
