@@ -15,5 +15,7 @@ mod panels;
 mod patches;
 #[path = "drape/rests.rs"]
 mod rests;
+#[path = "drape/springs.rs"]
+mod springs;
 #[path = "drape/stability.rs"]
 mod stability;

@@ -15,7 +15,7 @@ pub struct Elastic {
     pub membrane: Membrane,
     /// Bending.
     pub bending: Bending,
-    /// Edges that may not become longer.
+    /// Springs along edges, for strain control or in place of the membrane.
     pub limits: Option<StrainLimits>,
     /// Over-pressure behind the cloth (against its front normal's back), Pa. Zero for none.
     pub pressure: f64,
@@ -31,6 +31,16 @@ impl Elastic {
             limits: None,
             pressure: 0.0,
             triangles: sheet.triangles.clone(),
+        }
+    }
+
+    /// The same with a net of springs in place of the membrane, alike in warp and weft; compression as stiff as tension.
+    pub fn of_springs(sheet: &Sheet, fabric: &Fabric) -> Self {
+        let stiffness = (fabric.stretch.warp * fabric.stretch.weft).sqrt();
+        Self {
+            membrane: Membrane::new(sheet, [0.0; 4], 1.0),
+            limits: Some(StrainLimits::net(sheet, stiffness)),
+            ..Self::new(sheet, fabric, 1.0)
         }
     }
 

@@ -332,7 +332,7 @@ impl Newton {
             }
         }
         if let Some(limits) = &task.elastic.limits {
-            limits.hessian(x, |[a, b], block| {
+            limits.hessian(x, exact, |[a, b], block| {
                 matrix.add(self.diagonal[a as usize], &block);
                 matrix.add(self.diagonal[b as usize], &block);
                 if let Some(slot) = matrix.slot(b, a) {

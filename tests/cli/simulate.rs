@@ -75,6 +75,25 @@ fn pins_hold_and_a_floor_carries_whatever_the_solver() {
 }
 
 #[test]
+fn a_membrane_of_springs_is_chosen_by_name() {
+    let place = Place::new();
+    place.write("cloth.obj", square(true));
+    let lowest = |membrane: &str, solver: &str| {
+        let scene = format!(
+            r#"{{"cloth": "cloth.obj", "pins": [0, 4], "seconds": 0.5, "solver": "{solver}", "membrane": "{membrane}"}}"#
+        );
+        place.write("scene.json", scene);
+        place.ends_with_words(0, "simulate scene.json --out out", "");
+        let told = place.json("out/simulate.json")["membrane"].clone();
+        (told, positions(&place, 30).chunks_exact(3).map(|p| p[1]).fold(f32::MAX, f32::min))
+    };
+    let [(first, triangles), (second, springs)] = ["triangles", "springs"].map(|m| lowest(m, "implicit"));
+    assert_eq!((first, second), ("triangles".into(), "springs".into()));
+    assert!(triangles != springs && (triangles - springs).abs() < 0.02, "{triangles} and {springs}");
+    assert_eq!(lowest("triangles", "small_steps").0, "springs", "what they have");
+}
+
+#[test]
 fn a_rising_floor_lifts_the_cloth() {
     let place = Place::new();
     place.write("cloth.obj", square(true));

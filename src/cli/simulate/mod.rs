@@ -10,11 +10,11 @@ use serde::Serialize;
 
 use crate::cli::arguments::Simulate;
 use crate::cli::failure::Failure;
-use crate::cli::simulate::scene::Loaded;
+use crate::cli::simulate::scene::{Loaded, MembraneChoice};
 use crate::cli::simulate::times::cpu_seconds;
 use crate::cli::{interrupt, output};
 use crate::drape::newton::Work;
-use crate::drape::{Collider, Drape, DrapeSettings, Integrator, State};
+use crate::drape::{Collider, Drape, DrapeSettings, Integrator, Method, State};
 
 /// Beyond the fabric's own.
 const STRAIN: f64 = 0.01;
@@ -30,6 +30,8 @@ struct Report {
     fps: f64,
     fabric: String,
     solver: String,
+    /// What resisted stretching.
+    membrane: MembraneChoice,
     build_s: f64,
     /// Of each frame, and their sums. Null where the system does not tell.
     cpu_s: Vec<Option<f64>>,
@@ -96,7 +98,7 @@ pub fn simulate(arguments: &Simulate) -> Result<(), Failure> {
         write_positions(&mut bytes, &drape.state().positions);
     }
     output::progress("");
-    let residual_n = matches!(drape.method(), crate::drape::Method::Implicit).then(|| drape.residual());
+    let residual_n = (drape.method() == Method::Implicit).then(|| drape.residual());
     let report = Report {
         frames: frames + 1,
         vertices: drape.scene.sheet.len(),
@@ -104,6 +106,10 @@ pub fn simulate(arguments: &Simulate) -> Result<(), Failure> {
         fps: file.fps,
         fabric: fabric.name,
         solver: drape.chosen(),
+        membrane: match drape.method() {
+            Method::Implicit => file.membrane,
+            Method::SmallSteps => MembraneChoice::Springs,
+        },
         build_s,
         cpu_s_in_all: cpu_s.iter().copied().sum(),
         wall_s_in_all: wall_s.iter().sum(),

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use crate::body::Surface;
 use crate::cli::failure::Failure;
@@ -55,6 +55,9 @@ pub struct SceneFile {
     pub steps_per_frame: u32,
     #[serde(default)]
     pub integrator: Option<IntegratorChoice>,
+    /// What resists stretching in implicit steps; small steps have springs.
+    #[serde(default)]
+    pub membrane: MembraneChoice,
 }
 
 #[derive(Debug, Deserialize)]
@@ -77,6 +80,17 @@ enum FabricChoice {
 pub enum SolverChoice {
     Implicit,
     SmallSteps,
+}
+
+/// What resists stretching.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum MembraneChoice {
+    /// Triangles of constant strain.
+    #[default]
+    Triangles,
+    /// A net of springs along their sides (paper B).
+    Springs,
 }
 
 /// How implicit steps cut time.
@@ -180,7 +194,10 @@ pub fn load(path: &Path) -> Result<Loaded, Failure> {
     }
     let bodies = bodies_of(&file, folder)?;
     let mass = sheet.vertex_area.iter().map(|a| a * fabric.density_kg_per_m2).collect();
-    let elastic = Elastic::new(&sheet, &fabric, COMPRESSION);
+    let elastic = match file.membrane {
+        MembraneChoice::Triangles => Elastic::new(&sheet, &fabric, COMPRESSION),
+        MembraneChoice::Springs => Elastic::of_springs(&sheet, &fabric),
+    };
     let gravity = DVec3::from_array(file.gravity);
     let damping = fabric.damping_per_s;
     let scene = Scene { sheet, elastic, mass, pinned, gravity, damping, collider: None };
