@@ -223,8 +223,9 @@ impl SmallSteps {
         count: usize,
     ) {
         let ways: Vec<DVec3> = state.velocities.iter().map(|v| *v * h).collect();
+        // What no motion so far tells of.
         let slack = scene.gravity.length() * h * h;
-        itself.gather(&scene.sheet, &state.positions, &ways, slack);
+        itself.gather_ahead(&scene.sheet, &state.positions, &ways, |v| ways[v], slack);
         let friction = vec![friction; state.positions.len()];
         let around = Surroundings {
             bending: &scene.elastic.bending,

@@ -6,6 +6,7 @@ use glam::{DMat3, DVec2, DVec3};
 use toile::body::Surface;
 use toile::cloth::Fabric;
 use toile::drape::{Collider, Drape, DrapeSettings, Integrator, Method, Scene, State};
+use toile::geometry::crossings::self_crossings;
 use toile::geometry::mesh::TriMesh;
 
 use crate::meshes::{Kind, flat, near, scene};
@@ -306,4 +307,33 @@ fn cloth_does_not_pass_through_itself() {
             sheet.points.iter().zip(x).filter(|(p, _)| p.y > 0.22).map(|(_, x)| x.y).fold(1.0, f64::min);
         assert!(upper > lower + 1e-3, "{method:?}: {upper} above {lower}");
     }
+}
+
+/// A square metre dropped on a ball folds sharply, also beside what lies next to it.
+#[test]
+fn cloth_dropped_on_a_ball_does_not_run_through_itself() {
+    let sheet = flat(Kind::Alternating, DVec2::splat(1.0), [22, 22]);
+    let fabric = Fabric::isotropic(5000.0, 0.3, 4e-5, 0.2);
+    let mut scene = scene(&sheet, &fabric, vec![false; sheet.points.len()]);
+    let ball = crate::common::ball(0.3, 40, 80);
+    scene.collider = Some(Collider::still(Arc::new(Surface::new(ball).expect("a ball"))));
+    let x = sheet.placed(|p| DVec3::new(p.x - 0.5, 0.35, 0.5 - p.y));
+    let mut settings = settings(Method::SmallSteps);
+    (settings.stiffness, settings.thickness, settings.self_collision) = (5000.0, 3e-3, true);
+    let mut drape = Drape::new(scene, State::at_rest(x), settings, 1.0 / 60.0).expect("room");
+    let (edges, triangles) = (drape.scene.sheet.adjacency.edges.clone(), drape.scene.sheet.triangles.clone());
+    for frame in 0..90 {
+        drape.step(1.0 / 60.0).expect("a step");
+        let mesh = TriMesh { positions: drape.state().positions.clone(), triangles: triangles.clone() };
+        let crossings = self_crossings(&mesh, &edges, &mesh.tree()).len();
+        assert_eq!(crossings, 0, "frame {frame}");
+    }
+    let (sheet, x) = (&drape.scene.sheet, &drape.state().positions);
+    let strain = |(e, &[a, b]): (usize, &[u32; 2])| {
+        (x[a as usize].distance(x[b as usize]) / sheet.rest_length(e) - 1.0).abs()
+    };
+    let mut strains: Vec<f64> = edges.iter().enumerate().map(strain).collect();
+    strains.sort_by(f64::total_cmp);
+    let p99 = strains[strains.len() * 99 / 100];
+    assert!(p99 < 0.01, "p99 strain {p99}");
 }
