@@ -1,5 +1,6 @@
 //! Plain bodies whose answers are known exactly, for benches and tests.
 
+use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
 use glam::DVec3;
@@ -29,4 +30,53 @@ pub fn cylinder(radius: f64, height: f64, round: u32, rows: u32) -> TriMesh {
         mesh.triangles.extend([[bottom, j, i], [bottom + 1, top + i, top + j]]);
     }
     mesh
+}
+
+/// A ball of `radius` metres about the origin: an icosahedron whose triangles are cut in four so many times.
+pub fn icosphere(radius: f64, cuts: u32) -> TriMesh {
+    let golden = (1.0 + 5f64.sqrt()) / 2.0;
+    let mut positions: Vec<DVec3> = Vec::new();
+    for (a, b) in [(1.0, golden), (-1.0, golden), (1.0, -golden), (-1.0, -golden)] {
+        positions.extend([DVec3::new(a, b, 0.0), DVec3::new(0.0, a, b), DVec3::new(b, 0.0, a)]);
+    }
+    // Three corners at the least distance from each other are a triangle; its front is outside.
+    let near = |a: usize, b: usize| positions[a].distance_squared(positions[b]) < 4.1;
+    let mut triangles: Vec<[u32; 3]> = Vec::new();
+    for (a, b, c) in (0..12).flat_map(|a| (a + 1..12).flat_map(move |b| (b + 1..12).map(move |c| (a, b, c))))
+    {
+        if near(a, b) && near(b, c) && near(c, a) {
+            let outside = positions[a].dot(positions[b].cross(positions[c])) > 0.0;
+            let corners = if outside { [a, b, c] } else { [a, c, b] };
+            triangles.push(corners.map(|v| v as u32));
+        }
+    }
+    for _ in 0..cuts {
+        let mut middles: BTreeMap<(u32, u32), u32> = BTreeMap::new();
+        let mut middle = |a: u32, b: u32| {
+            *middles.entry((a.min(b), a.max(b))).or_insert_with(|| {
+                positions.push((positions[a as usize] + positions[b as usize]) / 2.0);
+                positions.len() as u32 - 1
+            })
+        };
+        let cut = |[a, b, c]: [u32; 3]| {
+            let [ab, bc, ca] = [middle(a, b), middle(b, c), middle(c, a)];
+            [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]
+        };
+        triangles = triangles.into_iter().flat_map(cut).collect();
+    }
+    positions.iter_mut().for_each(|x| *x = x.normalize() * radius);
+    TriMesh { positions, triangles }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_icosphere_is_a_closed_ball() {
+        let ball = icosphere(0.3, 3);
+        assert_eq!((ball.triangles.len(), ball.positions.len()), (1280, 642));
+        let whole = 2.0 / 3.0 * TAU * 0.3f64.powi(3);
+        assert!((ball.volume() / whole - 1.0).abs() < 0.01, "{} of {whole}", ball.volume());
+    }
 }

@@ -48,6 +48,28 @@ fn accuracy_is_printed_and_drawn() {
 }
 
 #[test]
+fn physics_has_a_row_for_every_scene_and_size() {
+    let place = Place::new();
+    let done = place.ends(0, "bench drape --runs 1 --triangles 400 --plot cost.svg --json");
+    let rows = rows(&done.out);
+    assert_eq!(rows.len(), 9, "{rows:#?}");
+    for row in &rows {
+        assert!(row["checks"][0]["value"].as_f64().is_some_and(|s| s > 0.0 && s < 60.0), "{row}");
+        let strain = row["checks"].as_array().and_then(|c| c.iter().find(|c| c["what"] == "p99 strain"));
+        assert!(strain.is_none_or(|s| s["value"].as_f64().is_some_and(|s| s < 0.02)), "{row}");
+    }
+    // What does not hang on the machine: it falls as it should, and stays out of the ball and of itself.
+    for row in &rows[3..6] {
+        assert!(row["checks"][2]["value"].as_f64().is_some_and(|off| off < 1e-6), "{row}");
+        assert_eq!(row["checks"][3]["met"], "goal", "{row}");
+        assert_eq!(row["checks"][4]["value"], 0.0, "{row}");
+    }
+    let svg = place.read("cost.svg");
+    assert!(svg.starts_with("<svg") && svg.contains("</svg>") && !svg.contains("NaN"));
+    assert_eq!(svg.matches("<circle").count(), 9);
+}
+
+#[test]
 fn wrong_arguments_are_told() {
     let place = Place::new();
     place.ends_with_words(2, "bench length", "speed");

@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use crate::cli::bench::plot;
 use crate::cli::bench::scenes::Scene;
 use crate::cli::bench::tube::{Errors, Tube};
 use crate::cli::failure::Failure;
@@ -44,6 +45,21 @@ pub struct Point {
 pub struct Curve {
     pub scene: &'static str,
     pub points: Vec<Point>,
+}
+
+/// Error against time as a picture.
+pub fn plotted(curves: &[Curve]) -> String {
+    let point = |p: &Point| plot::Point {
+        across: p.seconds,
+        up: p.excess_p99,
+        label: format!("{:.0} mm", p.edge_length * 1000.0),
+    };
+    let curve = |c: &Curve| plot::Curve { name: c.scene, points: c.points.iter().map(point).collect() };
+    plot::svg(&plot::Plot {
+        across: ("time to rest", plot::seconds),
+        up: ("p99 strain in excess of the exact map's", plot::percent),
+        curves: curves.iter().map(curve).collect(),
+    })
 }
 
 /// Calls `tell` with every point as it is done.

@@ -6,22 +6,28 @@ mod plot;
 mod poses;
 mod row;
 mod scenes;
+mod sheets;
 mod speed;
+mod torso;
 mod tube;
 
 use serde::Serialize;
 
 use crate::cli::arguments::{Bench, BenchKind};
+use crate::cli::bench::row::Row;
 use crate::cli::failure::Failure;
 use crate::cli::output;
 
 /// Runs every scene asked for and prints a row for each as it is done.
 pub fn bench(arguments: &Bench) -> Result<(), Failure> {
     let asked = |kind| arguments.what.is_none_or(|what| what == kind);
-    if arguments.plot.is_some() && !asked(BenchKind::Accuracy) {
-        return Err(Failure::Usage("--plot draws what accuracy measures".to_owned()));
+    if arguments.plot.is_some() && arguments.what == Some(BenchKind::Speed) {
+        return Err(Failure::Usage("--plot draws what accuracy and drape measure".to_owned()));
     }
     let runs = usize::from(arguments.runs);
+    if arguments.what == Some(BenchKind::Drape) {
+        return drape_scenes(arguments, runs);
+    }
     if asked(BenchKind::Speed) {
         speed::speed(arguments.triangles as usize, runs, arguments.work.no_skip, |row| {
             say(row, arguments.json)
@@ -30,10 +36,46 @@ pub fn bench(arguments: &Bench) -> Result<(), Failure> {
     if asked(BenchKind::Accuracy) {
         let curves = accuracy::accuracy(runs, |row| say(row, arguments.json))?;
         if let Some(path) = &arguments.plot {
-            output::write(path, plot::svg(&curves).as_bytes())?;
+            output::write(path, accuracy::plotted(&curves).as_bytes())?;
         }
     }
     Ok(())
+}
+
+/// The coarsest cloth, triangles.
+const COARSEST: usize = 200;
+
+/// Scenes of cloth under physics at three sizes: a tenth, once and four times as many triangles as asked for.
+fn drape_scenes(arguments: &Bench, runs: usize) -> Result<(), Failure> {
+    let size = arguments.triangles as usize;
+    let sizes = [(size / 10).max(COARSEST), size, size * 4];
+    let mut rows: Vec<Row> = Vec::new();
+    let mut tell = |row: Row| {
+        say(&row, arguments.json)?;
+        rows.push(row);
+        Ok(())
+    };
+    sheets::sheets(sizes, runs, &mut tell)?;
+    torso::torso(sizes, runs, &mut tell)?;
+    match &arguments.plot {
+        Some(path) => output::write(path, costs(&rows).as_bytes()),
+        None => Ok(()),
+    }
+}
+
+/// What each scene costs, first check of its rows, against its size.
+fn costs(rows: &[Row]) -> String {
+    let point = |row: &Row| plot::Point {
+        across: row.triangles as f64,
+        up: row.checks.first().map_or(f64::NAN, |check| check.value),
+        label: format!("{}", row.triangles),
+    };
+    let curve = |rows: &[Row]| plot::Curve { name: rows[1].scene, points: rows.iter().map(point).collect() };
+    plot::svg(&plot::Plot {
+        across: ("triangles", |power| format!("{}", 10f64.powi(power))),
+        up: ("processor seconds: of a second of a sheet, of sewing a dress", plot::seconds),
+        curves: rows.chunks_exact(3).map(curve).collect(),
+    })
 }
 
 fn say<R: Serialize + std::fmt::Display>(row: &R, json: bool) -> Result<(), Failure> {

@@ -73,6 +73,7 @@ pub enum Unit {
     /// More is better.
     PerSecond,
     EdgeLengths,
+    Metres,
 }
 
 impl Check {
@@ -98,6 +99,7 @@ impl Unit {
             Self::Count => format!("{value:.0}"),
             Self::PerSecond => format!("{:.2} M/s", value / 1e6),
             Self::EdgeLengths => format!("{value:.3} l"),
+            Self::Metres => format!("{:.2} mm", value * 1e3),
         }
     }
 }

@@ -1,7 +1,7 @@
 //! `toile simulate`: any cloth mesh under physics, for comparison with other programs.
 
 mod scene;
-mod times;
+pub mod times;
 
 use std::time::Instant;
 

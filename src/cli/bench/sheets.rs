@@ -1,0 +1,269 @@
+//! A sheet of cloth that swings on two pins, and one that falls on a ball: the scenes other programs were measured in.
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use glam::{DVec2, DVec3};
+
+use crate::body::Surface;
+use crate::cli::bench::row::{Check, Figure, Row, Unit};
+use crate::cli::bench::{median, one_hash};
+use crate::cli::failure::Failure;
+use crate::cli::interrupt;
+use crate::cli::simulate::times::cpu_seconds;
+use crate::cloth::Fabric;
+use crate::drape::{Collider, Drape, DrapeSettings, Elastic, Integrator, Method, Scene, Sheet, State};
+use crate::geometry::crossings::self_crossings;
+use crate::geometry::mesh::TriMesh;
+use crate::geometry::shapes;
+use crate::sim::hash::Fnv;
+
+/// Frames of a second,
+const FPS: f64 = 60.0;
+/// and in all.
+const FRAMES: usize = 120;
+/// After so many the sheet on pins is held against implicit steps, and that over the ball still falls free.
+const SWUNG: usize = 30;
+const FALLEN: usize = 5;
+/// kg/m², and m/s² down.
+const DENSITY: f64 = 0.2;
+const GRAVITY: f64 = 9.81;
+/// Nearly inextensible: N/m, Poisson's ratio, N·m.
+const STIFFNESS: (f64, f64, f64) = (5000.0, 0.3, 4e-5);
+/// Distance kept from the ball and from itself, metres.
+const THICKNESS: f64 = 3e-3;
+/// Of the ball, and how far the sheet begins above it, metres.
+const RADIUS: f64 = 0.3;
+const ABOVE: f64 = 0.05;
+
+/// What happens to a sheet of 1 m².
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Happening {
+    /// Released flat, two corners pinned.
+    Swings,
+    /// Dropped 5 cm on a ball; it meets itself.
+    Falls,
+}
+
+/// What a happening takes in seconds of processor for each of the sheet's at a thousand, ten thousand and forty thousand
+/// triangles: that of the best other program that is faithful, and ours to reach. No other one got to forty thousand.
+const LIMITS: [(Happening, [(f64, f64); 3]); 2] = [
+    (Happening::Swings, [(0.21, 0.04), (7.7, 0.8), (5.0, 5.0)]),
+    (Happening::Falls, [(0.136, 0.06), (12.8, 1.2), (8.0, 8.0)]),
+];
+
+/// The names of both at the three sizes.
+const NAMES: [[&str; 3]; 2] = [
+    ["sheet on two pins, a tenth", "sheet on two pins", "sheet on two pins, four times"],
+    ["sheet on a ball, a tenth", "sheet on a ball", "sheet on a ball, four times"],
+];
+
+/// The rows of both with about so many triangles each.
+pub fn sheets(
+    sizes: [usize; 3],
+    runs: usize,
+    mut tell: impl FnMut(Row) -> Result<(), Failure>,
+) -> Result<(), Failure> {
+    for ((happening, limits), names) in LIMITS.into_iter().zip(NAMES) {
+        let reference = match happening {
+            Happening::Swings => {
+                Some(fall_after(&mut Run::new(happening, sizes[0], Some(Method::Implicit))?, SWUNG)?)
+            }
+            Happening::Falls => None,
+        };
+        for ((size, limits), name) in sizes.into_iter().zip(limits).zip(names) {
+            tell(row(name, happening, (size, runs), limits, reference)?)?;
+        }
+    }
+    Ok(())
+}
+
+/// A sheet on its way.
+struct Run {
+    drape: Drape,
+    start: Vec<DVec3>,
+    /// The deepest that a vertex was in the ball after any frame, metres.
+    deepest: f64,
+}
+
+impl Run {
+    fn new(happening: Happening, triangles: usize, method: Option<Method>) -> Result<Self, Failure> {
+        let (sheet, start) = flat(triangles)?;
+        let (stretch, poisson, bending) = STIFFNESS;
+        let mut fabric = Fabric::isotropic(stretch, poisson, bending, DENSITY);
+        fabric.thickness_m = THICKNESS;
+        let last = start.len() - 1;
+        let side = (start.len() as f64).sqrt().round() as usize;
+        let swings = happening == Happening::Swings;
+        let pinned = (0..=last).map(|v| swings && (v == 0 || v == side - 1)).collect();
+        let collider = match happening {
+            Happening::Swings => None,
+            Happening::Falls => Some(Collider::still(Arc::new(ball()?))),
+        };
+        let scene = Scene {
+            elastic: Elastic::new(&sheet, &fabric, 0.1),
+            mass: sheet.vertex_area.iter().map(|a| a * DENSITY).collect(),
+            sheet,
+            pinned,
+            gravity: DVec3::NEG_Y * GRAVITY,
+            damping: 0.0,
+            collider,
+        };
+        let settings = DrapeSettings {
+            method,
+            strain: 0.01,
+            thickness: THICKNESS,
+            friction: fabric.friction,
+            self_collision: !swings,
+            integrator: Integrator::Bdf2,
+            stiffness: stretch,
+            accuracy: 1e-4,
+        };
+        let drape = Drape::new(scene, State::at_rest(start.clone()), settings, 1.0 / FPS)
+            .map_err(|e| Failure::Limit(e.to_string()))?;
+        Ok(Self { drape, start, deepest: f64::NEG_INFINITY })
+    }
+
+    fn frame(&mut self) -> Result<(), Failure> {
+        interrupt::check()?;
+        self.drape.step(1.0 / FPS).map_err(|e| Failure::Internal(e.to_string()))
+    }
+
+    /// Looks how deep the cloth is.
+    fn look(&mut self) {
+        if self.drape.scene.collider.is_some() {
+            let depth = |x: &DVec3| RADIUS - x.length();
+            let deepest = self.drape.state().positions.iter().map(depth).fold(f64::NEG_INFINITY, f64::max);
+            self.deepest = self.deepest.max(deepest);
+        }
+    }
+
+    /// Mean height lost, metres.
+    fn fall(&self) -> f64 {
+        let lost = self.start.iter().zip(&self.drape.state().positions).map(|(from, to)| from.y - to.y);
+        lost.sum::<f64>() / self.start.len() as f64
+    }
+
+    /// p99 and the largest of |l / l0 - 1|.
+    fn strain(&self) -> (f64, f64) {
+        let (sheet, x) = (&self.drape.scene.sheet, &self.drape.state().positions);
+        let of = |(e, &[a, b]): (usize, &[u32; 2])| {
+            (x[a as usize].distance(x[b as usize]) / sheet.rest_length(e) - 1.0).abs()
+        };
+        let mut strains: Vec<f64> = sheet.adjacency.edges.iter().enumerate().map(of).collect();
+        strains.sort_unstable_by(f64::total_cmp);
+        (strains[strains.len() * 99 / 100], strains[strains.len() - 1])
+    }
+
+    fn crossings(&self) -> usize {
+        let sheet = &self.drape.scene.sheet;
+        let positions = self.drape.state().positions.clone();
+        let mesh = TriMesh { positions, triangles: sheet.triangles.clone() };
+        self_crossings(&mesh, &sheet.adjacency.edges, &mesh.tree()).len()
+    }
+
+    fn hash(&self) -> u64 {
+        let mut hash = Fnv::default();
+        self.drape.state().positions.iter().for_each(|x| hash.point(*x));
+        hash.finish()
+    }
+}
+
+fn fall_after(run: &mut Run, frames: usize) -> Result<f64, Failure> {
+    (0..frames).try_for_each(|_| run.frame())?;
+    Ok(run.fall())
+}
+
+fn row(
+    scene: &'static str,
+    happening: Happening,
+    (size, runs): (usize, usize),
+    (solid, goal): (f64, f64),
+    reference: Option<f64>,
+) -> Result<Row, Failure> {
+    let (mut wall, mut processor, mut hashes) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut last, mut early) = (None, 0.0);
+    let when = if happening == Happening::Swings { SWUNG } else { FALLEN };
+    for _ in 0..runs.max(1) {
+        let mut run = Run::new(happening, size, None)?;
+        let (mut seconds, mut cpu) = (0.0, 0.0);
+        for frame in 1..=FRAMES {
+            let (start, before) = (Instant::now(), cpu_seconds());
+            run.frame()?;
+            let taken = start.elapsed().as_secs_f64();
+            seconds += taken;
+            cpu += before.and_then(|before| Some(cpu_seconds()? - before)).unwrap_or(taken);
+            run.look();
+            if frame == when {
+                early = run.fall();
+            }
+        }
+        wall.push(seconds);
+        processor.push(cpu / (FRAMES as f64 / FPS));
+        hashes.push(run.hash());
+        last = Some(run);
+    }
+    let run = last.ok_or_else(|| Failure::Internal("no run was made".to_owned()))?;
+    let (p99, largest) = run.strain();
+    // Free fall is known exactly.
+    let exact = reference.unwrap_or(GRAVITY * (FALLEN as f64 / FPS).powi(2) / 2.0);
+    let what = match happening {
+        Happening::Swings => "fall in half a second against implicit steps",
+        Happening::Falls => "free fall against the exact one",
+    };
+    let off = Check::new(what, (early / exact - 1.0).abs(), Unit::Share, 0.03, 0.01);
+    let mut checks = vec![
+        Check::new("processor time for a second of it", median(processor), Unit::Seconds, solid, goal),
+        Check::new("p99 strain", p99, Unit::Share, 0.01, 0.01),
+        off,
+    ];
+    if happening == Happening::Falls {
+        let crossings = run.crossings() as f64;
+        checks.push(Check::new("deepest in the ball in any frame", run.deepest, Unit::Metres, 5e-4, 5e-4));
+        checks.push(Check::new("self crossings at the end", crossings, Unit::Count, 0.0, 0.0));
+    }
+    let work = run.drape.work();
+    let count = |what, value: u64| Figure { what, value: value as f64, unit: Unit::Count };
+    Ok(Row {
+        scene,
+        triangles: run.drape.scene.sheet.triangles.len(),
+        runs,
+        seconds: median(wall),
+        threads: rayon::current_num_threads(),
+        checks,
+        figures: vec![
+            Figure { what: "largest strain", value: largest, unit: Unit::Share },
+            count("small steps a frame, 0: implicit", run.drape.substeps() as u64),
+            count("nearest points of the ball looked up", work.queries),
+            count("vertices known to be far without", work.skipped_queries),
+            count("pairs of cloth and cloth looked at", work.self_pairs),
+        ],
+        counters: None,
+        hash: one_hash(scene, &hashes)?,
+    })
+}
+
+/// A square of 1 m² of about so many triangles, its diagonals turning like a chessboard, lying above the ball.
+fn flat(triangles: usize) -> Result<(Sheet, Vec<DVec3>), Failure> {
+    let cells = ((triangles as f64 / 2.0).sqrt().round() as u32).max(2);
+    let at = |k: u32| f64::from(k) / f64::from(cells);
+    let points: Vec<DVec2> =
+        (0..=cells).flat_map(|j| (0..=cells).map(move |i| DVec2::new(at(i), at(j)))).collect();
+    let corner = |i: u32, j: u32| j * (cells + 1) + i;
+    let mut corners = Vec::new();
+    for (i, j) in (0..cells).flat_map(|j| (0..cells).map(move |i| (i, j))) {
+        let [a, b, c, d] = [corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)];
+        corners.extend(if (i + j) % 2 == 0 { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] });
+    }
+    let rest = corners.iter().map(|vs| vs.map(|v| points[v as usize])).collect();
+    let height = RADIUS + ABOVE;
+    let start = points.iter().map(|p| DVec3::new(p.x - 0.5, height, 0.5 - p.y)).collect();
+    let sheet = Sheet::new(points.len(), corners, rest).map_err(|e| Failure::Internal(e.to_string()))?;
+    Ok((sheet, start))
+}
+
+/// Of 20,480 triangles.
+fn ball() -> Result<Surface, Failure> {
+    Surface::new(shapes::icosphere(RADIUS, 5))
+        .ok_or_else(|| Failure::Internal("a ball without a surface".to_owned()))
+}
