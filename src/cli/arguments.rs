@@ -275,8 +275,8 @@ pub struct Repose {
 pub struct Fit {
     /// Dressed project, as saved by dress --save or repose --save
     pub project: PathBuf,
-    /// warp, weft, shear, area, ease, curvature, mean-curvature, seams; strain for the first four, or all; several times
-    /// for several maps
+    /// warp, weft, shear, area, ease, curvature, mean-curvature, seams, pressure; strain for the first four, or
+    /// all; several times for several maps
     #[arg(long = "map", value_name = "NAME", required = true, value_parser = maps)]
     pub maps: Vec<Maps>,
     /// The folder to write to

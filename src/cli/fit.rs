@@ -10,9 +10,9 @@ use crate::cli::picture::Artist;
 use crate::cli::{input, interrupt, output, run};
 use crate::cloth::{ClothState, Garment};
 use crate::fit::maps::{Histogram, MapStats, PieceStats};
-use crate::fit::{Map, MapKind, Worn};
+use crate::fit::{Map, MapKind};
 use crate::render::{Legend, Palette, Rgb};
-use crate::session::Session;
+use crate::session::{Outfit, Session};
 
 /// `fit.json`.
 #[derive(Debug, Serialize)]
@@ -45,14 +45,11 @@ struct MapFigures {
 pub fn fit(arguments: &Fit) -> Result<(), Failure> {
     let input = input::load(&arguments.project, &InputOptions::default())?;
     let session = run::opened(input.project, &arguments.project)?;
-    let snapshot = session.snapshot();
-    let (Some((garment, state)), Some(surface), Some(source)) =
-        (snapshot.drawn(), &snapshot.body, &snapshot.source)
-    else {
+    let Some(outfit) = Outfit::of(session.snapshot(), &session.document().fabrics) else {
         let words = "there is no cloth on its body: dress it first (toile dress PROJECT --save DRESSED)";
         return Err(Failure::input(&arguments.project, words));
     };
-    let worn = Worn { pattern: &source.pattern, garment, state, surface };
+    let (garment, state) = (&*outfit.garment, &*outfit.state);
     output::make_folder(&arguments.out)?;
     let mut kinds: Vec<MapKind> = arguments.maps.iter().flat_map(|maps| maps.0.iter().copied()).collect();
     kinds.sort_unstable();
@@ -68,7 +65,7 @@ pub fn fit(arguments: &Fit) -> Result<(), Failure> {
     };
     for kind in kinds {
         interrupt::check()?;
-        let map = Map::new(kind, worn);
+        let map = Map::new(kind, outfit.worn());
         let write = |name: String, bytes: &[u8]| output::write(&arguments.out.join(name), bytes);
         write(format!("{}.csv", kind.name()), vertices_csv(&map, garment, state).as_bytes())?;
         write(format!("{}-triangles.csv", kind.name()), triangles_csv(&map, garment).as_bytes())?;

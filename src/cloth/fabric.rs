@@ -2,6 +2,7 @@
 
 use std::sync::LazyLock;
 
+use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 /// The presets, with the source of each figure.
@@ -141,6 +142,34 @@ impl Stretch {
     }
 }
 
+/// The tangent (as [`Stretch::tangent`] gives it) of cloth that wrinkles along its threads where they would be pressed, at the
+/// strain (e11, e22, 2 e12): of the relaxed energy min over a, b ≥ 0 of W(e11 + a, e22 + b), which is convex and once
+/// differentiable (after Pipkin 1986, with wrinkles across warp and weft only, so that the minimum has a closed form).
+pub fn wrinkled(tangent: [f64; 4], e: [f64; 3]) -> [f64; 4] {
+    let [c11, c22, c12, shear] = tangent;
+    let (warp, weft) = (c11 * e[0] + c12 * e[1], c12 * e[0] + c22 * e[1]);
+    let alone = |c: f64, other: f64| c - c12 * c12 / other;
+    if warp >= 0.0 && weft >= 0.0 {
+        tangent
+    } else if e[0] > 0.0 && weft < 0.0 {
+        [alone(c11, c22), 0.0, 0.0, shear]
+    } else if e[1] > 0.0 && warp < 0.0 {
+        [0.0, alone(c22, c11), 0.0, shear]
+    } else {
+        [0.0, 0.0, 0.0, shear]
+    }
+}
+
+/// Stress (s11, s22, s12), N/m, of Green strain (e11, e22, 2 e12) under a tangent C11, C22, C12 and shear.
+pub fn stress([c11, c22, c12, shear]: [f64; 4], e: [f64; 3]) -> [f64; 3] {
+    [c11 * e[0] + c12 * e[1], c12 * e[0] + c22 * e[1], shear * e[2]]
+}
+
+/// Green strain (e11, e22, 2 e12) where the unit vectors along warp and weft have become `f0` and `f1`.
+pub fn green([f0, f1]: [DVec3; 2]) -> [f64; 3] {
+    [(f0.length_squared() - 1.0) / 2.0, (f1.length_squared() - 1.0) / 2.0, f0.dot(f1)]
+}
+
 impl Bending {
     /// The moment that goes with 2 k12, N·m: from curvature along the bias, which is k11 = k22 = k12.
     pub fn twist(&self) -> f64 {
@@ -176,6 +205,19 @@ mod tests {
         let [c11, c22, c12, g] = fabric.stretch.tangent();
         assert!((c11 - c12 * c12 / c22 - 1000.0).abs() < 1e-9, "pulled with free sides");
         assert!((g - (c11 - c12) / 2.0).abs() < 1e-9, "isotropy");
+    }
+
+    #[test]
+    fn pressed_threads_carry_nothing() {
+        let tangent = Fabric::isotropic(1000.0, 0.3, 1e-5, 0.2).stretch.tangent();
+        let relaxed = |e| stress(wrinkled(tangent, e), e);
+        assert_eq!(relaxed([0.1, 0.1, 0.0]), stress(tangent, [0.1, 0.1, 0.0]));
+        assert_eq!(relaxed([-0.1, -0.1, 0.0]), [0.0; 3]);
+        // Pulled along one thread and free to narrow: Young's modulus alone.
+        for (e, k) in [([0.1, -0.2, 0.0], 0), ([-0.2, 0.1, 0.0], 1)] {
+            let found = relaxed(e);
+            assert!((found[k] - 100.0).abs() < 1e-9 && found[1 - k] == 0.0, "{found:?}");
+        }
     }
 
     #[test]

@@ -3,11 +3,11 @@
 //! With F the deformation gradient from the pattern plane to space, E = (FᵀF - I)/2 and the tangent C of
 //! [`Stretch::tangent`](crate::cloth::fabric::Stretch::tangent) the energy per area is W(E) = E:C:E/2. Cloth wrinkles where it is
 //! pressed: of the energy only the share `compression` stays there. The rest is the membrane relaxed over wrinkles along the
-//! threads, min over a, b ≥ 0 of W(e11 + a, e22 + b), which is convex and once differentiable (after Pipkin 1986, with wrinkles
-//! across warp and weft only, so that the minimum has a closed form).
+//! threads, see [`wrinkled`].
 
 use glam::{DMat3, DVec2, DVec3};
 
+use crate::cloth::fabric::{green, stress, wrinkled};
 use crate::drape::sheet::Sheet;
 
 /// All triangles of a sheet.
@@ -103,26 +103,18 @@ impl Membrane {
 
     /// Green strain along warp, weft and twice the shear of triangle `t`.
     pub fn strain(&self, t: usize, x: &[DVec3]) -> [f64; 3] {
-        strain(self.elements[t].frame(x))
+        green(self.elements[t].frame(x))
     }
 
     fn response(&self, frame: [DVec3; 2]) -> Response {
-        let e = strain(frame);
+        let e = green(frame);
         let plain = plain(self.tangent, e);
         let pressed = plain.stress[0] < 0.0 || plain.stress[1] < 0.0;
-        if self.compression >= 1.0 || !pressed { plain } else { self.softened(e, &plain) }
+        if self.compression >= 1.0 || !pressed { plain } else { self.softened(e) }
     }
 
-    fn softened(&self, e: [f64; 3], plain: &Response) -> Response {
-        let [c11, c22, c12, shear] = self.tangent;
-        let alone = |c: f64, other: f64| c - c12 * c12 / other;
-        let relaxed = if e[0] > 0.0 && plain.stress[1] < 0.0 {
-            [alone(c11, c22), 0.0, 0.0, shear]
-        } else if e[1] > 0.0 && plain.stress[0] < 0.0 {
-            [0.0, alone(c22, c11), 0.0, shear]
-        } else {
-            [0.0, 0.0, 0.0, shear]
-        };
+    fn softened(&self, e: [f64; 3]) -> Response {
+        let relaxed = wrinkled(self.tangent, e);
         let soft = self.compression;
         let mix = [0, 1, 2, 3].map(|i| soft * self.tangent[i] + (1.0 - soft) * relaxed[i]);
         self::plain(mix, e)
@@ -139,13 +131,8 @@ impl Element {
     }
 }
 
-fn strain([f0, f1]: [DVec3; 2]) -> [f64; 3] {
-    [(f0.length_squared() - 1.0) / 2.0, (f1.length_squared() - 1.0) / 2.0, f0.dot(f1)]
-}
-
 fn plain(tangent: [f64; 4], e: [f64; 3]) -> Response {
-    let [c11, c22, c12, shear] = tangent;
-    let stress = [c11 * e[0] + c12 * e[1], c12 * e[0] + c22 * e[1], shear * e[2]];
+    let stress = stress(tangent, e);
     Response { energy: (stress[0] * e[0] + stress[1] * e[1] + stress[2] * e[2]) / 2.0, stress, tangent }
 }
 

@@ -66,6 +66,12 @@ impl Fabrics {
         let own = piece.and_then(|piece| self.pieces.get(&piece));
         own.or(self.all.as_ref()).map_or(Fabric::USUAL, |name| name)
     }
+
+    /// What each piece of `pattern` is made of.
+    pub fn of(&self, pattern: &Pattern) -> BTreeMap<PieceId, Fabric> {
+        let fabric = |&id: &PieceId| Some((id, Fabric::preset(self.name(Some(id)))?.clone()));
+        pattern.pieces.keys().filter_map(fabric).collect()
+    }
 }
 
 /// A pushpin: the cloth under it stays where it is on the body.

@@ -9,6 +9,7 @@ pub mod edit;
 pub mod hashes;
 pub mod history;
 pub mod marks_file;
+pub mod outfit;
 pub mod project;
 pub mod project_file;
 pub mod recording;
@@ -21,5 +22,6 @@ pub mod whole_file;
 
 pub use command::{Command, Rejection};
 pub use document::{BodyChoice, Document, Fabrics, Pin, Settings};
+pub use outfit::Outfit;
 pub use project::{Dressed, Project};
 pub use session::{GestureId, Notice, Session};

@@ -133,6 +133,7 @@ pub const ALL: &[Action] = &[
     Action::Map(Some(MapKind::Curvature)),
     Action::Map(Some(MapKind::MeanCurvature)),
     Action::Map(Some(MapKind::Seams)),
+    Action::Map(Some(MapKind::Pressure)),
     Action::ToggleMapTable,
     Action::NextPane,
     Action::PreviousPane,

@@ -13,6 +13,7 @@ use crate::cli::interrupt;
 use crate::cloth::ClothState;
 use crate::fit::{Map, MapKind, Worn};
 use crate::repose::{Care, Outcome, Reposer};
+use crate::session::Fabrics;
 use crate::sim::hash::{Fnv, cloth_hash};
 use crate::wrap::Phase;
 
@@ -115,8 +116,15 @@ fn carry(
 
 /// Every map there is.
 fn maps(scene: &Scene, worn: &Wrapped, runs: usize) -> Result<Row, Failure> {
-    let shown =
-        Worn { pattern: &scene.pattern, garment: &worn.garment, state: &worn.state, surface: &scene.surface };
+    let fabrics = Fabrics::default().of(&scene.pattern);
+    let shown = Worn {
+        pattern: &scene.pattern,
+        garment: &worn.garment,
+        state: &worn.state,
+        surface: &scene.surface,
+        fabrics: &fabrics,
+        offset: scene.relax.offset * scene.surface.scale(),
+    };
     let (mut seconds, mut hashes) = (Vec::new(), Vec::new());
     let mut each = vec![Vec::new(); MapKind::ALL.len()];
     for _ in 0..runs {

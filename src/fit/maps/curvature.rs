@@ -46,25 +46,46 @@ pub(super) fn mean(worn: Worn<'_>) -> Vec<f64> {
 fn mean_at(worn: Worn<'_>, v: u32) -> f64 {
     let (mut laplacian, mut area, mut normal) = (DVec3::ZERO, 0.0, DVec3::ZERO);
     for &t in worn.garment.adjacency.vertex_triangles.of(v) {
-        let Some(corners) = laid_corners(worn, t as usize) else { continue };
-        let k = worn.garment.triangles[t as usize].iter().position(|&w| w == v).unwrap_or(0);
-        let [p, q, r] = [corners[k], corners[(k + 1) % 3], corners[(k + 2) % 3]];
-        let twice = (q - p).cross(r - p);
-        let size = twice.length();
-        if size == 0.0 {
+        let Some(Corner { sides: [to_q, to_r], cotangents: [_, at_q, at_r], share, .. }) = corner(worn, t, v)
+        else {
             continue;
-        }
-        let cotangent = |at: DVec3, one: DVec3, other: DVec3| (one - at).dot(other - at) / size;
-        let (at_p, at_q, at_r) = (cotangent(p, q, r), cotangent(q, r, p), cotangent(r, p, q));
-        laplacian += (p - q) * at_r + (p - r) * at_q;
-        normal += twice;
-        area += if at_p < 0.0 {
-            size / 4.0
-        } else if at_q < 0.0 || at_r < 0.0 {
-            size / 8.0
-        } else {
-            ((p - q).length_squared() * at_r + (p - r).length_squared() * at_q) / 8.0
         };
+        laplacian -= to_q * at_r + to_r * at_q;
+        normal += to_q.cross(to_r);
+        area += share;
     }
     if area > 0.0 { laplacian.length().copysign(laplacian.dot(normal)) / (4.0 * area) } else { f64::NAN }
+}
+
+/// A laid triangle as one of its corners sees it.
+pub(super) struct Corner {
+    /// To the two others, metres.
+    sides: [DVec3; 2],
+    /// Of the angles, its own first.
+    cotangents: [f64; 3],
+    /// Its share of the triangle's area, m²: the mixed Voronoi area of Meyer et al.
+    pub share: f64,
+    /// The whole area, m².
+    pub area: f64,
+}
+
+/// Triangle `t` as its vertex `v` sees it. None where it is not laid or has no area.
+pub(super) fn corner(worn: Worn<'_>, t: u32, v: u32) -> Option<Corner> {
+    let corners = laid_corners(worn, t as usize)?;
+    let k = worn.garment.triangles[t as usize].iter().position(|&w| w == v)?;
+    let [p, q, r] = [corners[k], corners[(k + 1) % 3], corners[(k + 2) % 3]];
+    let size = (q - p).cross(r - p).length();
+    if size == 0.0 {
+        return None;
+    }
+    let cotangent = |at: DVec3, one: DVec3, other: DVec3| (one - at).dot(other - at) / size;
+    let cotangents @ [at_p, at_q, at_r] = [cotangent(p, q, r), cotangent(q, r, p), cotangent(r, p, q)];
+    let share = if at_p < 0.0 {
+        size / 4.0
+    } else if at_q < 0.0 || at_r < 0.0 {
+        size / 8.0
+    } else {
+        ((p - q).length_squared() * at_r + (p - r).length_squared() * at_q) / 8.0
+    };
+    Some(Corner { sides: [q - p, r - p], cotangents, share, area: size / 2.0 })
 }

@@ -22,11 +22,13 @@ pub enum MapKind {
     MeanCurvature,
     /// Stretch along seams: length over the flat length of both sides' mean, less one. Only on seams.
     Seams,
+    /// How hard the cloth presses on the skin, Pa. Only where it lies on it.
+    Pressure,
 }
 
 impl MapKind {
     /// Every kind, in the order of menus.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Warp,
         Self::Weft,
         Self::Shear,
@@ -35,6 +37,7 @@ impl MapKind {
         Self::Curvature,
         Self::MeanCurvature,
         Self::Seams,
+        Self::Pressure,
     ];
 
     /// As on the command line and in file names.
@@ -48,6 +51,7 @@ impl MapKind {
             Self::Curvature => "curvature",
             Self::MeanCurvature => "mean-curvature",
             Self::Seams => "seams",
+            Self::Pressure => "pressure",
         }
     }
 
@@ -62,6 +66,7 @@ impl MapKind {
             Self::Curvature => "Largest angle at the vertex",
             Self::MeanCurvature => "Mean curvature",
             Self::Seams => "Strain along seams",
+            Self::Pressure => "Pressure on the skin",
         }
     }
 
@@ -76,6 +81,7 @@ impl MapKind {
             Self::Curvature => "Angles",
             Self::MeanCurvature => "Curvature",
             Self::Seams => "Seams",
+            Self::Pressure => "Pressure",
         }
     }
 
@@ -90,6 +96,7 @@ impl MapKind {
             Self::Curvature => "How sharply the cloth is folded at each point",
             Self::MeanCurvature => "Where the cloth bulges out and where it is hollow",
             Self::Seams => "How much seams are stretched",
+            Self::Pressure => "How hard the cloth presses where it lies on the skin",
         }
     }
 
@@ -100,12 +107,18 @@ impl MapKind {
             Self::Shear | Self::Curvature => ("deg", 180.0 / std::f64::consts::PI),
             Self::Ease => ("mm", 1000.0),
             Self::MeanCurvature => ("1/m", 1.0),
+            Self::Pressure => ("kPa", 1e-3),
         }
     }
 
     /// Whether values of both signs mean opposite things: a palette with zero in its middle is meet.
     pub fn is_signed(self) -> bool {
-        !matches!(self, Self::Ease | Self::Curvature)
+        !matches!(self, Self::Ease | Self::Curvature | Self::Pressure)
+    }
+
+    /// Digits that a value in its unit is told with.
+    pub fn digits(self) -> usize {
+        if self == Self::Pressure { 2 } else { 1 }
     }
 }
 

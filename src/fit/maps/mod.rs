@@ -2,6 +2,7 @@
 
 mod curvature;
 mod kind;
+mod pressure;
 mod stats;
 mod strain;
 
@@ -11,11 +12,14 @@ mod tests;
 pub use kind::MapKind;
 pub use stats::{Histogram, MapStats, PieceStats};
 
+use std::collections::BTreeMap;
+
 use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::body::Surface;
-use crate::cloth::{ClothState, Garment};
+use crate::cloth::{ClothState, Fabric, Garment};
+use crate::geometry::ids::PieceId;
 use crate::pattern::Pattern;
 
 /// Vertices or triangles one thread takes at a time.
@@ -43,6 +47,10 @@ pub struct Worn<'a> {
     pub state: &'a ClothState,
     /// The body.
     pub surface: &'a Surface,
+    /// What each piece is made of; those that are not in it press on nothing.
+    pub fabrics: &'a BTreeMap<PieceId, Fabric>,
+    /// How far off the skin a wrap keeps cloth, metres.
+    pub offset: f64,
 }
 
 impl Map {
@@ -56,6 +64,7 @@ impl Map {
             MapKind::Curvature => Self::of_vertices(kind, worn, curvature::largest_angle(worn)),
             MapKind::MeanCurvature => Self::of_vertices(kind, worn, curvature::mean(worn)),
             MapKind::Seams => Self::of_vertices(kind, worn, strain::seams(worn)),
+            MapKind::Pressure => Self::of_vertices(kind, worn, pressure::pressure(worn)),
         }
     }
 

@@ -7,6 +7,7 @@ use rayon::prelude::*;
 
 use crate::fit::maps::{LEAST_SHARE, MapKind, Worn, laid_corners};
 use crate::geometry::ids::PieceId;
+use crate::pattern::Piece;
 
 /// A triangle flatter than this share of its longest side squared has no strain.
 const FLAT: f64 = 1e-9;
@@ -17,15 +18,7 @@ const SHORTEST: f64 = 1e-9;
 /// w and f unit vectors along and across the grain there: |F w| - 1, |F f| - 1, the angle by which F w and F f are nearer to each
 /// other than a right angle, |F w x F f| - 1.
 pub(super) fn strain(kind: MapKind, worn: Worn<'_>) -> Vec<f64> {
-    let grain: BTreeMap<PieceId, DVec2> = worn
-        .pattern
-        .pieces
-        .iter()
-        .map(|(&id, piece)| {
-            let along = piece.grainline.map_or(DVec2::Y, |[a, b]| b - a);
-            (id, along.try_normalize().unwrap_or(DVec2::Y))
-        })
-        .collect();
+    let grain = grain(worn);
     (0..worn.garment.triangles.len())
         .into_par_iter()
         .with_min_len(LEAST_SHARE)
@@ -42,8 +35,22 @@ pub(super) fn strain(kind: MapKind, worn: Worn<'_>) -> Vec<f64> {
         .collect()
 }
 
+/// Which way the warp of each piece runs in its plane.
+pub(super) fn grain(worn: Worn<'_>) -> BTreeMap<PieceId, DVec2> {
+    let along =
+        |piece: &Piece| piece.grainline.and_then(|[a, b]| (b - a).try_normalize()).unwrap_or(DVec2::Y);
+    worn.pattern.pieces.iter().map(|(&id, piece)| (id, along(piece))).collect()
+}
+
 /// Where the unit vectors along and across the grain go.
 fn images(worn: Worn<'_>, t: usize, [a, b, c]: [DVec3; 3], along: DVec2) -> Option<[DVec3; 2]> {
+    let (_, slopes) = flat(worn, t, along)?;
+    Some(slopes.map(|slope| (b - a) * slope.y + (c - a) * slope.z))
+}
+
+/// The flat area of a triangle, m², and how the hat functions of its corners rise along and across the grain, 1/m. None where
+/// it has none.
+pub(super) fn flat(worn: Worn<'_>, t: usize, along: DVec2) -> Option<(f64, [DVec3; 2])> {
     let [p, q, r] = worn.garment.triangle_corners[t].map(|corner| worn.garment.corners[corner as usize].uv);
     let flat = DMat2::from_cols(q - p, r - p);
     let size = (q - p).length_squared().max((r - p).length_squared());
@@ -51,11 +58,11 @@ fn images(worn: Worn<'_>, t: usize, [a, b, c]: [DVec3; 3], along: DVec2) -> Opti
         return None;
     }
     let back = flat.inverse();
-    let image = |way: DVec2| {
-        let shares = back * way;
-        (b - a) * shares.x + (c - a) * shares.y
+    let slopes = |way: DVec2| {
+        let rise = back * way;
+        DVec3::new(-(rise.x + rise.y), rise.x, rise.y)
     };
-    Some([image(along), image(along.perp())])
+    Some((flat.determinant().abs() / 2.0, [slopes(along), slopes(along.perp())]))
 }
 
 /// Stretch along seams, at their vertices: of the edges on both sides together. NaN off seams.

@@ -16,6 +16,15 @@ struct Sheets {
 }
 
 const SIDE: f64 = 0.3;
+/// Wrapped cloth is kept so far off the skin.
+const OFFSET: f64 = 0.004;
+
+/// Unlike in its directions, so that they cannot be taken for one another.
+fn fabric() -> Fabric {
+    let mut fabric = Fabric::isotropic(1000.0, 0.2, 1e-5, 0.25);
+    fabric.stretch.weft = 700.0;
+    fabric
+}
 
 fn sheets(edge: f64, place: impl Fn(DVec2) -> DVec3) -> Sheets {
     let sheet = [DVec2::ZERO, DVec2::X * SIDE, DVec2::splat(SIDE), DVec2::Y * SIDE];
@@ -44,7 +53,8 @@ fn tetrahedron() -> TriMesh {
 impl Sheets {
     fn map(&self, kind: MapKind) -> Map {
         let Self { pattern, garment, state, surface } = self;
-        Map::new(kind, Worn { pattern, garment, state, surface })
+        let fabrics = pattern.pieces.keys().map(|&id| (id, fabric())).collect();
+        Map::new(kind, Worn { pattern, garment, state, surface, fabrics: &fabrics, offset: OFFSET })
     }
 
     /// Every value of the map that is there is `exact`.
@@ -155,4 +165,95 @@ fn cloth_that_is_not_laid_has_no_values() {
         assert_eq!(sheets.map(kind).stats().count, 0, "{kind:?}");
         assert_eq!(kind.name().parse::<MapKind>(), Ok(kind));
     }
+}
+
+/// Cloth wound round a prism of `n` sides inscribed in a cylinder of `radius`, stretched by `hoop` round it and by `along` its
+/// axis; the body is a prism with the same sides `OFFSET` below.
+fn tube(n: u32, radius: f64, hoop: f64, along: f64) -> Sheets {
+    let side = 2.0 * radius * (std::f64::consts::PI / f64::from(n)).sin();
+    let rows = 6;
+    let round = |radius: f64, k: u32, y: f64| {
+        let a = f64::from(k) / f64::from(n) * std::f64::consts::TAU;
+        DVec3::new(radius * a.sin(), y, radius * a.cos())
+    };
+    let mut pattern = Pattern::default();
+    let piece = pattern.add_piece(Piece::polygon("tube", &[DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y]));
+    let mut garment = Garment { vertex_count: (n * rows) as usize, ..Garment::default() };
+    garment.pieces.push((piece, "tube".to_owned()));
+    for row in 0..rows {
+        for k in 0..=n {
+            let uv = DVec2::new(f64::from(k) * side / hoop, f64::from(row) * side / along);
+            garment.corners.push(crate::cloth::Corner { piece, uv, vertex: row * n + k % n });
+        }
+    }
+    for (row, k) in (0..rows - 1).flat_map(|row| (0..n).map(move |k| (row, k))) {
+        let c = row * (n + 1) + k;
+        for corners in [[c, c + 1, c + n + 2], [c, c + n + 2, c + n + 1]] {
+            garment.triangle_corners.push(corners);
+            garment.triangles.push(corners.map(|c| garment.corners[c as usize].vertex));
+            garment.rest.push(corners.map(|c| garment.corners[c as usize].uv));
+            garment.triangle_pieces.push(piece);
+        }
+    }
+    garment.adjacency = crate::geometry::adjacency::Adjacency::new(garment.vertex_count, &garment.triangles);
+    let place = |v: u32| round(radius, v % n, f64::from(v / n) * side);
+    let positions = (0..n * rows).map(place).collect();
+    let state = ClothState { positions, mapped: vec![true; garment.vertex_count] };
+    let body = radius - OFFSET;
+    let mut skin = TriMesh::default();
+    for y in [-1.0, 1.0] {
+        skin.positions.extend((0..n).map(|k| round(body, k, y)));
+    }
+    for k in 0..n {
+        let b = (k + 1) % n;
+        skin.triangles.extend([[k, b, b + n], [k, b + n, k + n]]);
+    }
+    Sheets { pattern, garment, state, surface: Surface::new(skin).expect("a body") }
+}
+
+/// What the fabric pulls with along its weft, held so long along the warp, N/m of its width now.
+fn hoop_tension(hoop: f64, along: f64) -> f64 {
+    let strain = |stretch: f64| (stretch * stretch - 1.0) / 2.0;
+    let [_, weft, cross, _] = fabric().stretch.tangent();
+    // Cauchy's: F S Fᵀ over the change of area.
+    (weft * strain(hoop) + cross * strain(along)) * hoop / along
+}
+
+#[test]
+fn a_stretched_tube_presses_with_its_tension_over_the_radius() {
+    for (n, hoop, along) in [(24, 1.05, 1.0), (24, 1.2, 1.1), (96, 1.05, 1.0)] {
+        let radius = 0.08;
+        let exact = hoop_tension(hoop, along) / radius;
+        assert!(exact > 100.0, "{exact} Pa");
+        tube(n, radius, hoop, along).check(MapKind::Pressure, exact, 1e-9 * exact);
+    }
+}
+
+#[test]
+fn a_tube_that_is_too_wide_or_hangs_off_the_skin_does_not_press() {
+    tube(24, 0.08, 0.97, 1.0).check(MapKind::Pressure, 0.0, 1e-12);
+    let mut away = tube(24, 0.08, 1.05, 1.0);
+    away.state.positions.iter_mut().for_each(|p| *p += DVec3::new(p.x, 0.0, p.z).normalize() * 2.0 * OFFSET);
+    assert_eq!(away.map(MapKind::Pressure).stats().count, 0);
+}
+
+#[test]
+fn cloth_on_a_table_presses_with_its_weight() {
+    let mut laid = sheets(0.03, |p| DVec3::new(p.x, OFFSET - 0.02, -p.y));
+    laid.surface.mesh.positions.iter_mut().for_each(|p| *p = DVec3::new(p.x, p.z, -p.y));
+    laid.surface = Surface::new(laid.surface.mesh.clone()).expect("a body");
+    laid.check(MapKind::Pressure, 0.25 * 9.81, 1e-9);
+}
+
+#[test]
+fn an_uneven_mesh_round_a_cylinder_presses_alike_in_the_mean() {
+    let (radius, hoop) = (0.2, 1.05);
+    let mut wound = sheets(0.01, |p| {
+        let a = p.x * hoop / radius;
+        DVec3::new(radius * a.sin(), p.y, radius * a.cos())
+    });
+    wound.surface = tube(400, radius, 1.0, 1.0).surface;
+    let stats = wound.map(MapKind::Pressure).stats();
+    let exact = hoop_tension(hoop, 1.0) / radius;
+    assert!((stats.median / exact - 1.0).abs() < 0.01, "{stats:?}, exactly {exact}");
 }

@@ -9,12 +9,12 @@ mod table;
 use std::collections::BTreeMap;
 use std::sync::{Arc, OnceLock};
 
-use crate::body::Surface;
-use crate::cloth::{ClothState, FlatPlace, Garment};
+use crate::cloth::FlatPlace;
 use crate::fit::maps::{Histogram, MapStats, PieceStats};
-use crate::fit::{Map, MapKind, Worn};
+use crate::fit::{Map, MapKind};
 use crate::render::{Legend, Palette, Rgb};
-use crate::sim::{GarmentSource, Snapshot};
+use crate::session::{Fabrics, Outfit};
+use crate::sim::Snapshot;
 pub use chooser::{choices, chooser_ui};
 pub use legend::legend_ui;
 pub use probe::probe_ui;
@@ -34,10 +34,7 @@ pub struct MapView {
 /// A map as it is shown.
 #[derive(Debug)]
 pub struct ShownMap {
-    source: Arc<GarmentSource>,
-    garment: Arc<Garment>,
-    state: Arc<ClothState>,
-    body: Arc<Surface>,
+    outfit: Outfit,
     map: Map,
     /// Of all its values.
     pub stats: MapStats,
@@ -79,30 +76,25 @@ impl MapView {
         self.shown.as_ref()
     }
 
-    /// Reads the map off the cloth of `snapshot`, unless none is shown or that was done before.
-    pub fn look(&mut self, snapshot: &Snapshot) {
-        let worn = snapshot.drawn().zip(snapshot.body.as_ref()).zip(snapshot.source.as_ref());
-        let (Some(kind), Some((((garment, state), body), source))) =
-            (self.kind.filter(|_| snapshot.is_dressed()), worn)
-        else {
+    /// Reads the map off the cloth of `snapshot`, made of `fabrics`, unless none is shown or that was done before.
+    pub fn look(&mut self, snapshot: &Snapshot, fabrics: &Fabrics) {
+        let outfit = self.kind.and_then(|_| Outfit::of(snapshot, fabrics));
+        let (Some(kind), Some(outfit)) = (self.kind, outfit) else {
             self.shown = None;
             return;
         };
         let by_hand = self.ranges.get(&kind).map(|range| range.map(|v| v / kind.unit().1));
         if let Some(shown) = &mut self.shown
             && shown.map.kind == kind
-            && shown.is_of(source, garment, state, body)
+            && shown.outfit.is(&outfit)
         {
             shown.span(by_hand);
             return;
         }
         self.computed += 1;
-        let map = Map::new(kind, Worn { pattern: &source.pattern, garment, state, surface: body });
+        let map = Map::new(kind, outfit.worn());
         let mut shown = ShownMap {
-            source: Arc::clone(source),
-            garment: Arc::clone(garment),
-            state: Arc::clone(state),
-            body: Arc::clone(body),
+            outfit,
             stats: map.stats(),
             pieces: OnceLock::new(),
             range: [f64::NAN; 2],
@@ -117,19 +109,6 @@ impl MapView {
 }
 
 impl ShownMap {
-    fn is_of(
-        &self,
-        source: &Arc<GarmentSource>,
-        garment: &Arc<Garment>,
-        state: &Arc<ClothState>,
-        body: &Arc<Surface>,
-    ) -> bool {
-        Arc::ptr_eq(&self.source, source)
-            && Arc::ptr_eq(&self.garment, garment)
-            && Arc::ptr_eq(&self.state, state)
-            && Arc::ptr_eq(&self.body, body)
-    }
-
     /// Lets the colours span `range`, or as far as the values do.
     fn span(&mut self, by_hand: Option<[f64; 2]>) {
         self.is_automatic = by_hand.is_none();
@@ -165,7 +144,7 @@ impl ShownMap {
 
     /// The value at a place of the cloth; None where there is none.
     pub fn value(&self, place: FlatPlace) -> Option<f64> {
-        let vertices = place.vertices(&self.garment);
+        let vertices = place.vertices(&self.outfit.garment);
         let value = vertices.iter().map(|&(v, share)| self.map.vertices[v as usize] * share).sum::<f64>();
         value.is_finite().then_some(value)
     }
@@ -173,11 +152,11 @@ impl ShownMap {
     /// "12.3 mm".
     pub fn words(&self, value: f64) -> String {
         let (unit, times) = self.map.kind.unit();
-        format!("{:.1} {unit}", value * times + 0.0)
+        format!("{:.*} {unit}", self.map.kind.digits(), value * times + 0.0)
     }
 
     /// Piece by piece; counted when first asked for.
     pub fn pieces(&self) -> &[PieceStats] {
-        self.pieces.get_or_init(|| self.map.pieces(&self.garment))
+        self.pieces.get_or_init(|| self.map.pieces(&self.outfit.garment))
     }
 }

@@ -43,12 +43,13 @@ pub fn text(map: &ShownMap) -> String {
 }
 
 fn rows(map: &ShownMap) -> impl Iterator<Item = [String; 8]> {
-    let (_, times) = map.kind().unit();
+    let ((_, times), digits) = (map.kind().unit(), map.kind().digits());
     let whole = ("All", &map.stats);
     let pieces = map.pieces().iter().map(|PieceStats { piece, stats }| (piece.as_str(), stats));
     std::iter::once(whole).chain(pieces).map(move |(name, stats)| {
         let MapStats { count, min, p01, median, mean, p99, max } = *stats;
-        let value = |v: f64| if count == 0 { "–".to_owned() } else { format!("{:.1}", v * times + 0.0) };
+        let value =
+            |v: f64| if count == 0 { "–".to_owned() } else { format!("{:.digits$}", v * times + 0.0) };
         let figures = [min, p01, median, mean, p99, max].map(value);
         let [min, p01, median, mean, p99, max] = figures;
         [name.to_owned(), count.to_string(), min, p01, median, mean, p99, max]

@@ -1,0 +1,62 @@
+//! Dressed cloth with all that is needed to read anything off it.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use crate::body::Surface;
+use crate::cloth::{ClothState, Fabric, Garment};
+use crate::fit::Worn;
+use crate::geometry::ids::PieceId;
+use crate::session::document::Fabrics;
+use crate::sim::{GarmentSource, Snapshot};
+
+/// A dressed garment as it is drawn and measured.
+#[derive(Clone, Debug)]
+pub struct Outfit {
+    /// What it was built from.
+    pub source: Arc<GarmentSource>,
+    /// The cloth.
+    pub garment: Arc<Garment>,
+    /// Where it lies.
+    pub state: Arc<ClothState>,
+    /// The body it lies on.
+    pub body: Arc<Surface>,
+    /// What each of its pieces is made of.
+    pub fabrics: BTreeMap<PieceId, Fabric>,
+}
+
+impl Outfit {
+    /// That of `snapshot`, made of `fabrics`. None while there is no cloth on the body.
+    pub fn of(snapshot: &Snapshot, fabrics: &Fabrics) -> Option<Self> {
+        let (garment, state) = snapshot.drawn().filter(|_| snapshot.is_dressed())?;
+        let (source, body) = (snapshot.source.as_ref()?, snapshot.body.as_ref()?);
+        Some(Self {
+            source: Arc::clone(source),
+            garment: Arc::clone(garment),
+            state: Arc::clone(state),
+            body: Arc::clone(body),
+            fabrics: fabrics.of(&source.pattern),
+        })
+    }
+
+    /// As maps are read off it.
+    pub fn worn(&self) -> Worn<'_> {
+        Worn {
+            pattern: &self.source.pattern,
+            garment: &self.garment,
+            state: &self.state,
+            surface: &self.body,
+            fabrics: &self.fabrics,
+            offset: self.source.relax.offset * self.body.scale(),
+        }
+    }
+
+    /// Whether nothing that can be read off it differs: it is the same cloth on the same body, not merely alike.
+    pub fn is(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.source, &other.source)
+            && Arc::ptr_eq(&self.garment, &other.garment)
+            && Arc::ptr_eq(&self.state, &other.state)
+            && Arc::ptr_eq(&self.body, &other.body)
+            && self.fabrics == other.fabrics
+    }
+}
