@@ -13,6 +13,8 @@ mod common;
 mod dress;
 #[path = "cli/faults.rs"]
 mod faults;
+#[path = "cli/fit_page.rs"]
+mod fit_page;
 #[path = "cli/patterns.rs"]
 mod patterns;
 #[path = "cli/program.rs"]

@@ -64,7 +64,8 @@ pub fn girth(mesh: &TriMesh, tape: &Tape) -> Option<f64> {
         .min_by(f64::total_cmp)
 }
 
-fn encloses_origin(polygon: &[DVec2]) -> bool {
+/// Whether a closed line in a plane goes round the origin.
+pub fn encloses_origin(polygon: &[DVec2]) -> bool {
     let turned: f64 = (0..polygon.len())
         .map(|i| {
             let (a, b) = (polygon[i], polygon[(i + 1) % polygon.len()]);

@@ -20,7 +20,7 @@ const BELOW_CROTCH: f64 = 0.008;
 const KNEE: f64 = 0.595;
 
 /// One measure of a body.
-#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
 pub struct Reading {
     /// In words: `bust`, `inside leg`.
     pub name: &'static str,
@@ -28,6 +28,23 @@ pub struct Reading {
     pub metres: f64,
     /// How high it was taken above the floor, metres; None where that says nothing.
     pub height: Option<f64>,
+    /// Where a girth was taken, with its origin inside; None of what is no girth.
+    #[serde(skip)]
+    pub tape: Option<Tape>,
+}
+
+impl Reading {
+    /// What has no height of its own.
+    fn plain(name: &'static str, metres: f64) -> Self {
+        Self { name, metres, ..Self::default() }
+    }
+
+    /// A level girth round `points`, which lie at `y`.
+    fn round(name: &'static str, points: &[DVec3], floor: f64) -> Self {
+        let origin = points.iter().sum::<DVec3>() / points.len().max(1) as f64;
+        let tape = Some(Tape { name, origin, normal: DVec3::Y });
+        Self { name, metres: round(points), height: Some(origin.y - floor), tape }
+    }
 }
 
 /// All measures that can be read on `mesh`: closed, y up, facing +z, arms down or spread. None when it does not look like a
@@ -36,7 +53,7 @@ pub fn readings(mesh: &TriMesh) -> Option<Vec<Reading>> {
     let marks = landmarks::found(mesh)?;
     let (low, high) = mesh.bounds();
     let reader = Reader { mesh, floor: low.y, tall: high.y - low.y, middle: marks.get("crotch")?.x };
-    let mut all = vec![Reading { name: "height", metres: reader.tall, height: None }];
+    let mut all = vec![Reading::plain("height", reader.tall)];
     reader.trunk(&marks, &mut all)?;
     reader.leg(&marks, &mut all)?;
     reader.arm(&marks, &mut all);
@@ -80,7 +97,7 @@ impl Reader<'_> {
         let (under, _) = self.best(waist + near, bust - near, hollow)?;
         let names = [("neck", neck), ("bust", bust), ("underbust", under), ("waist", waist), ("hip", hip)];
         for (name, y) in names {
-            all.push(Reading { name, metres: tape(y)?, height: Some(y - self.floor) });
+            all.push(Reading::round(name, &self.trunk_at(y)?.points, self.floor));
         }
         for (width, depth, y) in [
             ("bust width", "bust depth", bust),
@@ -92,25 +109,25 @@ impl Reader<'_> {
                 let all = points.iter().map(of);
                 all.clone().fold(f64::MIN, f64::max) - all.fold(f64::MAX, f64::min)
             };
-            all.push(Reading { name: width, metres: span(|p| p.x), height: Some(y - self.floor) });
-            all.push(Reading { name: depth, metres: span(|p| p.z), height: Some(y - self.floor) });
+            let height = Some(y - self.floor);
+            all.push(Reading { height, ..Reading::plain(width, span(|p| p.x)) });
+            all.push(Reading { height, ..Reading::plain(depth, span(|p| p.z)) });
         }
         let heights = [("waist height", waist), ("hip height", hip), ("inside leg", crotch)];
-        all.extend(heights.map(|(name, y)| Reading { name, metres: y - self.floor, height: None }));
+        all.extend(heights.map(|(name, y)| Reading::plain(name, y - self.floor)));
         Some(())
     }
 
     /// The left one.
     fn leg(&self, marks: &Landmarks, all: &mut Vec<Reading>) -> Option<()> {
         let crotch = marks.get("crotch")?.y;
-        let tape = |y: f64| {
+        let line = |y: f64| {
             let beside = |points: &Vec<DVec3>| points.iter().all(|p| p.x > self.middle);
             let loops = section(self.mesh, DVec3::Y * y, DVec3::Y).into_iter().filter(beside);
             // The hand hangs farther out.
-            loops
-                .min_by(|a, b| out(a, self.middle).total_cmp(&out(b, self.middle)))
-                .map(|points| round(&points))
+            loops.min_by(|a, b| out(a, self.middle).total_cmp(&out(b, self.middle)))
         };
+        let tape = |y: f64| line(y).map(|points| round(&points));
         let leg = crotch - self.floor;
         let at = |share: f64| self.floor + share * leg;
         let (calf, _) = self.best(at(0.3), at(0.52), tape)?;
@@ -124,7 +141,7 @@ impl Reader<'_> {
             ("calf", calf),
             ("ankle", ankle),
         ] {
-            all.push(Reading { name, metres: tape(y)?, height: Some(y - self.floor) });
+            all.push(Reading::round(name, &line(y)?, self.floor));
         }
         Some(())
     }
@@ -136,14 +153,13 @@ impl Reader<'_> {
         let (from, to) = ((below + above) / 2.0, (lower + lower_above) / 2.0);
         let along = (to - from).try_normalize()?;
         let hand = (marks.get("hand_left")? - from).dot(along);
-        let round = |s: f64| {
-            let tape = Tape { name: "arm", origin: from + along * s, normal: along };
-            girth(self.mesh, &tape)
-        };
-        let upper = self.best(-0.06 * self.tall, 0.04 * self.tall, round)?.1;
-        let wrist = -self.best(0.45 * hand, 0.8 * hand, |s| round(s).map(|l| -l))?.1;
-        all.push(Reading { name: "upper arm", metres: upper, height: None });
-        all.push(Reading { name: "wrist", metres: wrist, height: None });
+        let tape = |name, s: f64| Tape { name, origin: from + along * s, normal: along };
+        let round = |s: f64| girth(self.mesh, &tape("arm", s));
+        let (upper, fullest) = self.best(-0.06 * self.tall, 0.04 * self.tall, round)?;
+        let (wrist, thinnest) = self.best(0.45 * hand, 0.8 * hand, |s| round(s).map(|l| -l))?;
+        for (name, s, metres) in [("upper arm", upper, fullest), ("wrist", wrist, -thinnest)] {
+            all.push(Reading { tape: Some(tape(name, s)), ..Reading::plain(name, metres) });
+        }
         Some(())
     }
 }

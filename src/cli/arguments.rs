@@ -270,18 +270,22 @@ pub struct Repose {
 /// Reads maps off the dressed garment of a project: figures as JSON and CSV, pictures with their legend
 ///
 /// Writes fit.json (range, statistics for the garment and each piece, histogram), and of each map NAME.csv (a row for each
-/// vertex of each piece), NAME-triangles.csv and NAME.png.
+/// vertex of each piece), NAME-triangles.csv and NAME.png. With --page the fit report: views, girths with their ease, seams,
+/// strain and maps on one page that needs nothing else.
 #[derive(Debug, Args)]
 pub struct Fit {
     /// Dressed project, as saved by dress --save or repose --save
     pub project: PathBuf,
     /// warp, weft, shear, area, ease, curvature, mean-curvature, seams, pressure; strain for the first four, or
     /// all; several times for several maps
-    #[arg(long = "map", value_name = "NAME", required = true, value_parser = maps)]
+    #[arg(long = "map", value_name = "NAME", required_unless_present = "page", requires = "out", value_parser = maps)]
     pub maps: Vec<Maps>,
-    /// The folder to write to
-    #[arg(long, value_name = "DIR")]
-    pub out: PathBuf,
+    /// The folder to write maps to
+    #[arg(long, value_name = "DIR", requires = "maps")]
+    pub out: Option<PathBuf>,
+    /// Writes the fit report to this file (HTML)
+    #[arg(long, value_name = "FILE")]
+    pub page: Option<PathBuf>,
     #[command(flatten)]
     pub picture: PictureOptions,
     /// Prints fit.json

@@ -1,6 +1,7 @@
-//! `toile fit`: maps over the dressed garment, as figures and pictures.
+//! `toile fit`: maps over the dressed garment, as figures and pictures, and the fit report.
 
 use std::fmt::Write;
+use std::path::Path;
 
 use serde::Serialize;
 
@@ -13,6 +14,7 @@ use crate::fit::maps::{Histogram, MapStats, PieceStats};
 use crate::fit::{Map, MapKind};
 use crate::render::{Legend, Palette, Rgb};
 use crate::session::{Outfit, Session};
+use crate::ui::fit_page::FitPage;
 
 /// `fit.json`.
 #[derive(Debug, Serialize)]
@@ -41,7 +43,7 @@ struct MapFigures {
     histogram: Histogram,
 }
 
-/// Every map asked for, once.
+/// Every map asked for, once, and the page.
 pub fn fit(arguments: &Fit) -> Result<(), Failure> {
     let input = input::load(&arguments.project, &InputOptions::default())?;
     let session = run::opened(input.project, &arguments.project)?;
@@ -49,15 +51,43 @@ pub fn fit(arguments: &Fit) -> Result<(), Failure> {
         let words = "there is no cloth on its body: dress it first (toile dress PROJECT --save DRESSED)";
         return Err(Failure::input(&arguments.project, words));
     };
+    let mut pictures = Pictures::new()?;
+    if let Some(folder) = &arguments.out {
+        maps(arguments, folder, &session, &outfit, input.name.clone(), &mut pictures)?;
+    }
+    if let Some(path) = &arguments.page {
+        page(path, &session, &input.name, &mut pictures)?;
+    }
+    Ok(())
+}
+
+/// The fit report, without pictures where there is no graphics adapter.
+fn page(path: &Path, session: &Session, name: &str, pictures: &mut Pictures) -> Result<(), Failure> {
+    let no_cloth = || Failure::Internal("the cloth has gone".to_owned());
+    let mut page = FitPage::of(session, name).ok_or_else(no_cloth)?;
+    match (&mut pictures.artist, &pictures.left_out) {
+        (Some(artist), _) => artist.page(&mut page)?,
+        (None, why) => page.leave_pictures_out(why.clone().unwrap_or_default()),
+    }
+    output::write(path, page.html().as_bytes())
+}
+
+fn maps(
+    arguments: &Fit,
+    folder: &Path,
+    session: &Session,
+    outfit: &Outfit,
+    name: String,
+    pictures: &mut Pictures,
+) -> Result<(), Failure> {
     let (garment, state) = (&*outfit.garment, &*outfit.state);
-    output::make_folder(&arguments.out)?;
+    output::make_folder(folder)?;
     let mut kinds: Vec<MapKind> = arguments.maps.iter().flat_map(|maps| maps.0.iter().copied()).collect();
     kinds.sort_unstable();
     kinds.dedup();
-    let mut pictures = Pictures::new()?;
     let mut figures = Figures {
         version: env!("CARGO_PKG_VERSION"),
-        name: input.name,
+        name,
         triangles: garment.triangles.len(),
         vertices: garment.vertex_count,
         maps: Vec::new(),
@@ -66,10 +96,10 @@ pub fn fit(arguments: &Fit) -> Result<(), Failure> {
     for kind in kinds {
         interrupt::check()?;
         let map = Map::new(kind, outfit.worn());
-        let write = |name: String, bytes: &[u8]| output::write(&arguments.out.join(name), bytes);
+        let write = |name: String, bytes: &[u8]| output::write(&folder.join(name), bytes);
         write(format!("{}.csv", kind.name()), vertices_csv(&map, garment, state).as_bytes())?;
         write(format!("{}-triangles.csv", kind.name()), triangles_csv(&map, garment).as_bytes())?;
-        if let Some(png) = pictures.png(&map, &session, arguments)? {
+        if let Some(png) = pictures.png(&map, session, arguments)? {
             write(format!("{}.png", kind.name()), &png)?;
         }
         let line = map_figures(&map, garment);
@@ -83,7 +113,7 @@ pub fn fit(arguments: &Fit) -> Result<(), Failure> {
         output::say(&text);
     }
     text.push('\n');
-    output::write(&arguments.out.join("fit.json"), text.as_bytes())
+    output::write(&folder.join("fit.json"), text.as_bytes())
 }
 
 fn map_figures(map: &Map, garment: &Garment) -> MapFigures {

@@ -38,7 +38,7 @@ pub fn measure(arguments: &Measure) -> Result<(), Failure> {
         output::say(&text);
         return Ok(());
     }
-    for Reading { name, metres, height } in readings {
+    for Reading { name, metres, height, .. } in readings {
         let at = height.map_or(String::new(), |height| format!("   at {:.1}", height * 100.0));
         output::say(&format!("{name:<14}{:>8.1} cm{at}", metres * 100.0));
     }

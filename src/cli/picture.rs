@@ -4,8 +4,10 @@ use glam::UVec2;
 
 use crate::cli::arguments::PictureOptions;
 use crate::cli::failure::Failure;
+use crate::cli::interrupt;
 use crate::render::{Legend, Look, RenderError, Rgb, Studio, png, straightened};
 use crate::session::Session;
+use crate::ui::fit_page::FitPage;
 use crate::ui::mapped::mapped;
 use crate::ui::portrait::portrait;
 use crate::ui::scene::{Scenery, Shown};
@@ -37,6 +39,18 @@ impl Artist {
         let mut picture = self.studio.picture(&scene, options.view, &Look::light(), size).map_err(failure)?;
         legend.burn(&mut picture);
         png(&picture).map_err(failure)
+    }
+
+    /// All pictures of `page`.
+    pub fn page(&mut self, page: &mut FitPage) -> Result<(), Failure> {
+        while page.progress().0 < page.progress().1 {
+            interrupt::check()?;
+            page.draw_next(|scene, camera, look, size| {
+                self.studio.draw(scene, camera, look, size).map(straightened)
+            })
+            .map_err(failure)?;
+        }
+        Ok(())
     }
 
     /// The body, the cloth and, where there is no cloth yet, the marks of `session` as a PNG.

@@ -1,20 +1,24 @@
 //! What is read off a garment: strain, crossings, openings, the report, maps.
 
 pub mod exact;
+mod girth;
 mod laid;
 pub mod maps;
 mod on_body;
 mod openings;
 mod report;
+mod seams;
 mod shape;
 mod spots;
 mod tight;
 mod verdict;
 
+pub use girth::{Girth, girth};
 pub use maps::{Map, MapKind, Worn};
 pub use on_body::BodyIndex;
 pub use openings::Opening;
 pub use report::{Clearance, Penetration, PieceChange, Report, Seams, Strain, measure};
+pub use seams::SeamFit;
 pub use spots::Spot;
 pub use tight::{Tight, tightest};
 pub use verdict::{faults, verdict};

@@ -14,7 +14,7 @@ use crate::geometry::ids::{PieceId, SeamId};
 use crate::pattern::Pattern;
 
 /// A seam whose two sides are nowhere further apart than this (metres) is closed.
-const CLOSED: f64 = 1e-4;
+pub(super) const CLOSED: f64 = 1e-4;
 
 /// Everything measured on a garment, over the triangles that lie in space.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -206,7 +206,7 @@ fn open_seams(pattern: &Pattern, garment: &Garment, state: &ClothState) -> Vec<S
 }
 
 /// The widest gap of a seam, metres; none when one of its points lies nowhere.
-fn widest_gap(garment: &Garment, state: &ClothState, pairs: &[[u32; 2]]) -> Option<f64> {
+pub(super) fn widest_gap(garment: &Garment, state: &ClothState, pairs: &[[u32; 2]]) -> Option<f64> {
     pairs.iter().try_fold(0.0, |widest: f64, pair| {
         let [a, b] = pair.map(|c| garment.corners[c as usize].vertex as usize);
         let lie = [a, b].iter().all(|&v| state.mapped.get(v) == Some(&true));

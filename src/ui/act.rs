@@ -63,6 +63,7 @@ impl App {
             Action::UseMannequin => self.apply(files::use_mannequin()),
             Action::ExportPattern => self.ask_file(Purpose::ExportPattern),
             Action::Export => self.ask_file(Purpose::Export),
+            Action::FitPage => self.ask_file(Purpose::FitPage),
             Action::SaveRecording => self.ask_file(Purpose::Recording),
             Action::Quit => {
                 self.may_close = true;

@@ -72,6 +72,7 @@ pub enum Action {
     ImportBody,
     UseMannequin,
     Export,
+    FitPage,
     Picture,
     SaveRecording,
     Preferences,
@@ -213,6 +214,11 @@ impl Action {
                 &[ctrl_shift(Key::E)],
             ),
             Self::Export => entry("Export…", "Write the dressed garment as .obj or .glb", &[ctrl(Key::E)]),
+            Self::FitPage => entry(
+                "Fit report…",
+                "Write views, ease, seams, strain and maps of the dressed garment on one page (HTML)",
+                &[],
+            ),
             Self::SaveRecording => {
                 entry("Save recording…", "Write everything done so far as a script that can be replayed", &[])
             }

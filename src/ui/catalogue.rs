@@ -34,6 +34,7 @@ pub const ALL: &[Action] = &[
     Action::UseMannequin,
     Action::ExportPattern,
     Action::Export,
+    Action::FitPage,
     Action::Picture,
     Action::SaveRecording,
     Action::ClearRecent,
@@ -188,6 +189,7 @@ impl Action {
             | Self::UseMannequin
             | Self::ExportPattern
             | Self::Export
+            | Self::FitPage
             | Self::Picture
             | Self::SaveRecording
             | Self::Quit => "File",

@@ -32,6 +32,10 @@ impl App {
                 self.begin_turn(path);
                 Ok(())
             }
+            Purpose::FitPage => {
+                self.begin_fit_page(path);
+                Ok(())
+            }
             Purpose::Save => {
                 self.save_or_ask(ctx, path);
                 Ok(())

@@ -40,6 +40,8 @@ pub enum Purpose {
     Picture,
     /// Write a turn of pictures.
     Turn,
+    /// Write the fit report.
+    FitPage,
 }
 
 impl Purpose {
@@ -56,6 +58,7 @@ impl Purpose {
             Self::Recording => "Save the recording",
             Self::Picture => "Save a picture",
             Self::Turn => "Save a turn of pictures",
+            Self::FitPage => "Write the fit report",
         }
     }
 
@@ -69,6 +72,7 @@ impl Purpose {
             Self::Export => ("Garment", &["obj", "glb"]),
             Self::Recording => ("Recording", &["jsonl"]),
             Self::Picture | Self::Turn => ("Picture", &["png"]),
+            Self::FitPage => ("Page", &["html"]),
         }
     }
 
@@ -83,6 +87,7 @@ impl Purpose {
                 | Self::Recording
                 | Self::Picture
                 | Self::Turn
+                | Self::FitPage
         )
     }
 
@@ -94,6 +99,7 @@ impl Purpose {
             Self::ExportPattern => "pattern",
             Self::Picture => "picture",
             Self::Turn => "turn",
+            Self::FitPage => "fit",
             _ => "untitled",
         };
         format!("{stem}.{}", self.filter().1[0])

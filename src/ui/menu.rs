@@ -64,7 +64,7 @@ fn file_ui(ui: &mut egui::Ui, now: &Situation, asks: &mut Asks) {
     ui.separator();
     items(ui, now, asks, &[Action::ExportPattern]);
     ui.menu_button("Paper", |ui| items(ui, now, asks, &Paper::ALL.map(Action::Paper)));
-    items(ui, now, asks, &[Action::Export, Action::Picture, Action::SaveRecording]);
+    items(ui, now, asks, &[Action::Export, Action::FitPage, Action::Picture, Action::SaveRecording]);
     ui.separator();
     items(ui, now, asks, &[Action::Quit]);
 }

@@ -188,7 +188,7 @@ impl App {
             drawer: self.shell.drawer,
             map: self.shell.maps.kind(),
             adapter: self.scene_pane.graphics.as_ref().map(|g| g.adapter_name().to_owned()),
-            picturing: self.shell.turn.is_some(),
+            picturing: self.shell.turn.is_some() || self.shell.reporting.is_some(),
         }
     }
 }

@@ -53,7 +53,7 @@ impl App {
         self.wakeup.set(ctx);
         self.scene_pane = std::mem::take(&mut self.scene_pane).drawn_by(graphics);
         self.shell.thumbnails.begin_anew();
-        self.shell.turn = None;
+        (self.shell.turn, self.shell.reporting) = (None, None);
         self.native = None;
         self.end_drag();
         self.live_by_preferences(ctx);

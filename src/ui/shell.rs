@@ -16,6 +16,7 @@ use crate::ui::pose_panel::PosePanel;
 use crate::ui::preferences::Preferences;
 use crate::ui::preferences_page::PreferencesPage;
 use crate::ui::recent::Recent;
+use crate::ui::reporting::Reporting;
 use crate::ui::situation::Situation;
 use crate::ui::start_page::StartPage;
 use crate::ui::tape_panel::TapePanel;
@@ -67,6 +68,8 @@ pub struct Shell {
     pub picture: Option<PicturePage>,
     /// A turn of pictures being written.
     pub turn: Option<Turn>,
+    /// A fit report under way.
+    pub reporting: Option<Reporting>,
     /// What is open below the panes.
     pub drawer: Option<Drawer>,
     /// Files that were open before.
@@ -156,6 +159,7 @@ impl App {
         self.preferences_ui(ctx, palette);
         self.picture_ui(ctx, palette);
         self.go_on_turning(ctx, palette, status::HEIGHT);
+        self.go_on_reporting(ctx, palette, status::HEIGHT);
         drop_overlay::ui(ctx, palette, [self.pattern_pane.area, self.scene_pane.area]);
     }
 

@@ -128,7 +128,7 @@ pub struct Situation {
     pub map: Option<MapKind>,
     /// What draws the body; None: nothing can.
     pub adapter: Option<String>,
-    /// A picture or a turn of them is being made.
+    /// A turn of pictures or a fit report is being made.
     pub picturing: bool,
 }
 
@@ -144,7 +144,7 @@ impl Situation {
                 Some(file) => unless(file.is_there, "The file is no longer there"),
             },
             Action::ClearRecent => unless(!self.recent.is_empty(), "No file was open before"),
-            Action::Picture if self.picturing => Some("A turn of pictures is being made"),
+            Action::Picture | Action::FitPage if self.picturing => Some("Pictures are being made"),
             Action::Picture => unless(self.adapter.is_some(), "There is no graphics adapter to draw with"),
             Action::Undo => unless(self.undo.is_some(), "There is nothing to undo"),
             Action::Redo => unless(self.redo.is_some(), "There is nothing to redo"),
@@ -182,6 +182,7 @@ impl Situation {
             Action::Unwrap
             | Action::ToggleCloth
             | Action::Export
+            | Action::FitPage
             | Action::ToggleRelaxing
             | Action::ToggleDrape
             | Action::StepDrape

@@ -31,7 +31,7 @@ impl TapePanel {
         match (&self.read, &self.coming) {
             (Some(read), _) => {
                 Grid::new("tape").num_columns(2).striped(true).spacing([12.0, 2.0]).show(ui, |ui| {
-                    for Reading { name, metres, height } in read {
+                    for Reading { name, metres, height, .. } in read {
                         let label = ui.label(*name);
                         // Tapes are read to the millimetre.
                         let text = |metres: f64| told.now.unit.text((metres * 1e3).round() / 1e3);

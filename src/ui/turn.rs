@@ -46,22 +46,25 @@ impl App {
         if turn.done == count {
             return self.messages.tell(format!("Written: {count} pictures, the last {}", path.display()));
         }
-        let mut stopped = false;
-        let area = Area::new(Id::unique("turn")).order(Order::Foreground);
-        area.anchor(Align2::CENTER_BOTTOM, [0.0, -above - 14.0]).show(ctx, |ui| {
-            Frame::popup(ui.style()).show(ui, |ui| {
-                ui.horizontal(|ui| {
-                    ui.label(format!("Picture {} of {count}", turn.done));
-                    let bar = egui::ProgressBar::new(turn.done as f32 / count as f32).fill(palette.accent);
-                    ui.add(bar.desired_width(160.0).desired_height(8.0));
-                    stopped = ui.button("Stop").clicked();
-                });
-            });
-        });
-        if stopped {
+        if progress_ui(ctx, palette, above, turn.done as usize, count as usize) {
             return self.messages.tell(format!("Stopped after {} of {count} pictures", turn.done));
         }
         self.shell.turn = Some(turn);
         ctx.request_repaint();
     }
+}
+
+/// How many of `count` pictures are done, low in the window, `above` its edge; true: they shall be stopped.
+pub fn progress_ui(ctx: &egui::Context, palette: &Palette, above: f32, done: usize, count: usize) -> bool {
+    let area = Area::new(Id::unique("pictures")).order(Order::Foreground);
+    let shown = area.anchor(Align2::CENTER_BOTTOM, [0.0, -above - 14.0]).show(ctx, |ui| {
+        let row = |ui: &mut egui::Ui| {
+            ui.label(format!("Picture {done} of {count}"));
+            let bar = egui::ProgressBar::new(done as f32 / count as f32).fill(palette.accent);
+            ui.add(bar.desired_width(160.0).desired_height(8.0));
+            ui.button("Stop").clicked()
+        };
+        Frame::popup(ui.style()).show(ui, |ui| ui.horizontal(row).inner).inner
+    });
+    shown.inner
 }

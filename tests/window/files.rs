@@ -191,3 +191,29 @@ fn a_copy_a_next_version_and_the_way_back() {
     window.run_steps(3);
     assert!(is(&window, "second") && !app(&window).session().is_modified());
 }
+
+#[test]
+fn the_fit_report_is_written_where_it_is_asked_for() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("fit.html");
+    let mut window = super::hand::dressed_window();
+    window.get_by_label("File").click();
+    window.run_steps(3);
+    window.get_by_label_contains("Fit report…").click();
+    window.run_steps(3);
+    if window.query_by_label("Write").is_none() {
+        println!("skipped: this desktop may have a dialog of its own");
+        return;
+    }
+    window.get_by_role(egui::accesskit::Role::TextInput).focus();
+    window.run_steps(2);
+    key(&mut window, Modifiers::COMMAND, Key::A);
+    window.get_by_role(egui::accesskit::Role::TextInput).type_text(&path.display().to_string());
+    window.run_steps(2);
+    window.get_by_label("Write").click();
+    // A picture a frame, where there is an adapter.
+    window.run_steps(30);
+    let page = std::fs::read_to_string(&path).expect("the page");
+    assert!(page.contains("Garment and body") && page.ends_with("</html>"));
+    assert!(window.query_by_label_contains("Written: ").is_some());
+}

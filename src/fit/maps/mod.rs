@@ -7,7 +7,7 @@ mod stats;
 mod strain;
 
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;
 
 pub use kind::MapKind;
 pub use stats::{Histogram, MapStats, PieceStats};

@@ -8,14 +8,14 @@ use crate::geometry::mesh::TriMesh;
 use crate::pattern::{EdgeRef, Pattern, Piece, Seam};
 
 /// Two sheets side by side, sewn along the edge between them, laid by `place` from where they lie together.
-struct Sheets {
-    pattern: Pattern,
-    garment: Garment,
-    state: ClothState,
-    surface: Surface,
+pub struct Sheets {
+    pub pattern: Pattern,
+    pub garment: Garment,
+    pub state: ClothState,
+    pub surface: Surface,
 }
 
-const SIDE: f64 = 0.3;
+pub const SIDE: f64 = 0.3;
 /// Wrapped cloth is kept so far off the skin.
 const OFFSET: f64 = 0.004;
 
@@ -26,7 +26,7 @@ fn fabric() -> Fabric {
     fabric
 }
 
-fn sheets(edge: f64, place: impl Fn(DVec2) -> DVec3) -> Sheets {
+pub fn sheets(edge: f64, place: impl Fn(DVec2) -> DVec3) -> Sheets {
     let sheet = [DVec2::ZERO, DVec2::X * SIDE, DVec2::splat(SIDE), DVec2::Y * SIDE];
     let mut pattern = Pattern::default();
     let [left, right] = ["left", "right"].map(|name| pattern.add_piece(Piece::polygon(name, &sheet)));
@@ -169,7 +169,7 @@ fn cloth_that_is_not_laid_has_no_values() {
 
 /// Cloth wound round a prism of `n` sides inscribed in a cylinder of `radius`, stretched by `hoop` round it and by `along` its
 /// axis; the body is a prism with the same sides `OFFSET` below.
-fn tube(n: u32, radius: f64, hoop: f64, along: f64) -> Sheets {
+pub fn tube(n: u32, radius: f64, hoop: f64, along: f64) -> Sheets {
     let side = 2.0 * radius * (std::f64::consts::PI / f64::from(n)).sin();
     let rows = 6;
     let round = |radius: f64, k: u32, y: f64| {

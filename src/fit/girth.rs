@@ -1,0 +1,107 @@
+//! The tape on the garment: how long the cloth is round the body.
+
+use std::collections::BTreeMap;
+
+use glam::{DVec2, DVec3};
+
+use crate::body::measure::{Tape, encloses_origin};
+use crate::cloth::{ClothState, Garment};
+use crate::fit::laid::Laid;
+
+/// Round a garment where a plane cuts it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Girth {
+    /// Along the cloth as it lies, every fold with it, metres.
+    pub worn: f64,
+    /// Of the same threads in the flat pattern, metres.
+    pub flat: f64,
+}
+
+/// From one edge of the cloth over a triangle to the next.
+struct Step {
+    to: [u32; 2],
+    from: DVec3,
+    worn: f64,
+    flat: f64,
+}
+
+/// Round the cloth in the plane of `tape`: of the closed lines round its origin, and not round the point `but`, the shortest, which
+/// is the innermost layer. None where no cloth goes all the way round.
+pub fn girth(garment: &Garment, state: &ClothState, tape: &Tape, but: Option<DVec3>) -> Option<Girth> {
+    let mut steps = steps(garment, &Laid::new(garment, state), tape);
+    let (x, y) = tape.normal.any_orthonormal_pair();
+    let in_plane = |p: DVec3| DVec2::new((p - tape.origin).dot(x), (p - tape.origin).dot(y));
+    let round_both = |points: &[DVec2]| {
+        but.is_some_and(|but| encloses_origin(&points.iter().map(|p| p - in_plane(but)).collect::<Vec<_>>()))
+    };
+    let mut least: Option<Girth> = None;
+    while let Some((&first, _)) = steps.first_key_value() {
+        let (mut edge, mut round) = (first, Girth { worn: 0.0, flat: 0.0 });
+        let mut points = Vec::new();
+        while let Some(step) = steps.remove(&edge) {
+            points.push(in_plane(step.from));
+            round = Girth { worn: round.worn + step.worn, flat: round.flat + step.flat };
+            edge = step.to;
+        }
+        let counts = edge == first && encloses_origin(&points) && !round_both(&points);
+        if counts && least.is_none_or(|least| round.worn < least.worn) {
+            least = Some(round);
+        }
+    }
+    least
+}
+
+/// By the edge each begins at. Cloth turns its front outward, so that each edge begins one at most.
+fn steps(garment: &Garment, laid: &Laid, tape: &Tape) -> BTreeMap<[u32; 2], Step> {
+    let above = |v: u32| (laid.mesh.positions[v as usize] - tape.origin).dot(tape.normal);
+    let mut steps = BTreeMap::new();
+    for (vs, corners) in laid.mesh.triangles.iter().zip(&laid.corners) {
+        let heights = vs.map(above);
+        let side = |down: bool| {
+            (0..3).find(|&k| (heights[k] >= 0.0) == down && (heights[(k + 1) % 3] >= 0.0) != down)
+        };
+        let (Some(i), Some(j)) = (side(true), side(false)) else { continue };
+        let met = |k: usize| {
+            let (a, b) = (k, (k + 1) % 3);
+            let share = heights[a] / (heights[a] - heights[b]);
+            let [p, q] = [a, b].map(|k| laid.mesh.positions[vs[k] as usize]);
+            let [u, w] = [a, b].map(|k| garment.corners[corners[k] as usize].uv);
+            (p.lerp(q, share), u.lerp(w, share), [vs[a].min(vs[b]), vs[a].max(vs[b])])
+        };
+        let ((from, flat_from, begins), (to, flat_to, ends)) = (met(i), met(j));
+        let step = Step { to: ends, from, worn: from.distance(to), flat: flat_from.distance(flat_to) };
+        steps.entry(begins).or_insert(step);
+    }
+    steps
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fit::maps::tests::tube;
+
+    #[test]
+    fn a_tube_is_as_long_round_as_its_sides_and_flat_as_it_was_cut() {
+        let (n, radius, hoop) = (24, 0.08, 1.05);
+        let wound = tube(n, radius, hoop, 1.0);
+        let tape = |x: f64, y: f64| Tape { name: "tube", origin: DVec3::new(x, y, 0.0), normal: DVec3::Y };
+        let around = |tape: &Tape, but| girth(&wound.garment, &wound.state, tape, but);
+        let round = f64::from(n) * 2.0 * radius * (std::f64::consts::PI / f64::from(n)).sin();
+        let found = around(&tape(0.01, 0.03), None).expect("cloth all round");
+        assert!((found.worn - round).abs() < 1e-12, "{found:?}, {round} round");
+        assert!((found.flat - round / hoop).abs() < 1e-12, "{found:?}, {} flat", round / hoop);
+        // Beside it, above it, and round both legs there is no girth.
+        assert_eq!(around(&tape(0.1, 0.03), None), None);
+        assert_eq!(around(&tape(0.0, 1.0), None), None);
+        assert_eq!(around(&tape(0.01, 0.03), Some(DVec3::new(-0.03, 0.03, 0.0))), None);
+        assert!(around(&tape(0.01, 0.03), Some(DVec3::new(-0.3, 0.03, 0.0))).is_some());
+    }
+
+    #[test]
+    fn cloth_that_is_open_goes_round_nothing() {
+        let mut wound = tube(24, 0.08, 1.0, 1.0);
+        wound.state.mapped[24] = false;
+        let tape = Tape { name: "tube", origin: DVec3::Y * 0.025, normal: DVec3::Y };
+        assert_eq!(girth(&wound.garment, &wound.state, &tape, None), None);
+    }
+}

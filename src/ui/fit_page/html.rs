@@ -1,0 +1,194 @@
+//! The page itself.
+
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+
+use crate::fit::MapKind;
+use crate::ui::fit_page::drawing::drawing;
+use crate::ui::fit_page::facts::{Facts, MapFacts};
+use crate::ui::fit_page::legend::{legend, minus};
+use crate::ui::fit_page::pictures::Picture;
+use crate::ui::fit_page::tables;
+
+const STYLE: &str = include_str!("style.css");
+/// Nothing is fetched from anywhere.
+const POLICY: &str = "default-src 'none'; img-src data:; style-src 'unsafe-inline'";
+
+/// The whole page; `left_out`: why it has no pictures.
+pub fn page(facts: &Facts, pictures: &[Picture], left_out: Option<&str>) -> String {
+    let title = format!("{}: fit report", facts.name);
+    html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta http-equiv="Content-Security-Policy" content=(POLICY);
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                meta name="generator" content={ "Toile " (env!("CARGO_PKG_VERSION")) };
+                title { (title) }
+                style { (PreEscaped(STYLE)) }
+            }
+            body {
+                (header(facts))
+                (verdict(facts))
+                @if let Some(why) = left_out {
+                    p.note { "The pictures are left out: " (why) "." }
+                }
+                (views(pictures))
+                (figures(facts))
+                (girths(facts))
+                (maps(facts, pictures))
+                (pattern(facts))
+                (body(facts))
+                footer {
+                    "Toile " (env!("CARGO_PKG_VERSION")) ". Lengths in centimetres, heights above the floor. Of each map 1 % and \
+                     99 % of the vertices lie below and above the two values given."
+                }
+            }
+        }
+    }
+    .into_string()
+}
+
+fn header(facts: &Facts) -> Markup {
+    let pieces = facts.outfit.garment.pieces.len();
+    html! {
+        header {
+            p.kind { "Fit report" }
+            h1 { (facts.name) }
+            p.sub {
+                (pieces) @if pieces == 1 { " piece" } @else { " pieces" }
+                " on " (facts.body) ", " (facts.report.triangles) " triangles of "
+                (format!("{:.0}", facts.outfit.garment.mean_edge() * 1e3)) " mm"
+            }
+        }
+    }
+}
+
+fn verdict(facts: &Facts) -> Markup {
+    html! {
+        section.verdict.bad[!facts.problems.is_empty()] {
+            @if facts.problems.is_empty() {
+                p { strong { "Dressed." } " All seams are sewn, the cloth lies outside the body and the right way round." }
+            } @else {
+                p { strong { "Not right yet." } }
+                ul { @for problem in &facts.problems { li { strong { (problem.place) } ": " (problem.words) } } }
+            }
+            @if let Some(tight) = &facts.tight { p { "Tightest: " (tight) } }
+        }
+    }
+}
+
+fn views(pictures: &[Picture]) -> Markup {
+    html! {
+        @if pictures.iter().any(|picture| picture.kind.is_none()) {
+            section.views { @for picture in pictures.iter().filter(|picture| picture.kind.is_none()) {
+                (figure(picture))
+            } }
+        }
+    }
+}
+
+fn figure(picture: &Picture) -> Markup {
+    let what = picture.kind.map_or("The garment", MapKind::title);
+    html! {
+        figure {
+            img src=(picture.source) width=(picture.size.x) height=(picture.size.y) alt={ (what) ", " (picture.side) };
+            figcaption { (picture.side) }
+        }
+    }
+}
+
+/// The few that sum the garment up.
+fn figures(facts: &Facts) -> Markup {
+    let report = &facts.report;
+    let closed = facts.seams.iter().filter(|seam| seam.is_closed()).count();
+    let weight: f64 = facts.outfit.garment.rest.iter().zip(&facts.outfit.garment.triangle_pieces).fold(
+        0.0,
+        |sum, ([a, b, c], piece)| {
+            let density = facts.outfit.fabrics.get(piece).map_or(0.0, |fabric| fabric.density_kg_per_m2);
+            sum + (b - a).perp_dot(c - a).abs() / 2.0 * density
+        },
+    );
+    let pressure = facts.maps.iter().find(|map| map.map.kind == MapKind::Pressure).map(|map| map.map.stats());
+    let all: [(String, &str, &str); 5] = [
+        (format!("{closed} of {}", facts.seams.len()), "", "seams closed"),
+        (format!("{:.1}", report.strain.stretch_p99 * 100.0), "%", "stretched where it is tightest"),
+        (minus(&format!("{:.0}", report.clearance.median * 1e3)), "mm", "off the skin, half of it less"),
+        (
+            pressure.map_or_else(|| "–".to_owned(), |p| format!("{:.2}", p.p99 / 1e3)),
+            "kPa",
+            "on the skin where it presses most",
+        ),
+        (format!("{:.0}", weight * 1e3), "g", "of cloth"),
+    ];
+    html! {
+        section.figures { @for (value, unit, words) in all {
+            div { p.value { (value) @if !unit.is_empty() { span { " " (unit) } } } p.weak { (words) } }
+        } }
+    }
+}
+
+fn girths(facts: &Facts) -> Markup {
+    html! {
+        section {
+            h2 { "Garment and body" }
+            @if facts.girths.is_empty() {
+                p.weak { "The cloth goes all the way round nowhere that the body is measured." }
+            } @else {
+                p.lead { "Ease is what the pattern has round the body beyond the body's own girth." }
+                (tables::girths(facts))
+            }
+            @if !facts.report.openings.is_empty() { (tables::openings(facts)) }
+        }
+    }
+}
+
+fn maps(facts: &Facts, pictures: &[Picture]) -> Markup {
+    html! {
+        section {
+            h2 { "Maps" }
+            @for map in facts.maps.iter().filter(|map| map.map.stats().count > 0) { (map_ui(map, pictures)) }
+        }
+    }
+}
+
+fn map_ui(map: &MapFacts, pictures: &[Picture]) -> Markup {
+    let kind = map.map.kind;
+    let ((unit, times), digits) = (kind.unit(), kind.digits());
+    let stats = map.map.stats();
+    let value = |v: f64| format!("{} {unit}", minus(&format!("{:.digits$}", v * times)));
+    html! {
+        div.map {
+            div.words {
+                h3 { (kind.title()) }
+                p { (kind.tip()) "." }
+                (legend(map))
+                p.weak { "Median " (value(stats.median)) ", from " (value(stats.p01)) " to " (value(stats.p99)) }
+            }
+            @for picture in pictures.iter().filter(|picture| picture.kind == Some(kind)) { (figure(picture)) }
+        }
+    }
+}
+
+fn pattern(facts: &Facts) -> Markup {
+    html! {
+        section {
+            h2 { "Pattern and seams" }
+            (drawing(&facts.outfit.source.pattern))
+            @if !facts.seams.is_empty() { (tables::seams(facts)) }
+        }
+        section {
+            h2 { "Pieces and fabrics" }
+            (tables::pieces(facts))
+            (tables::fabrics(facts))
+        }
+    }
+}
+
+fn body(facts: &Facts) -> Markup {
+    html! {
+        @if !facts.readings.is_empty() {
+            section.together { h2 { "Measures of the body" } div.columns { (tables::readings(facts)) } }
+        }
+    }
+}

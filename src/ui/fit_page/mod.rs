@@ -1,0 +1,62 @@
+//! The fit report as one page: what a designer reads off a dressed garment. No egui here: the command line writes it too.
+
+mod drawing;
+mod facts;
+mod html;
+mod legend;
+mod pictures;
+mod tables;
+
+use crate::render::{Camera, Look, RenderError, Scene};
+use crate::session::Session;
+use crate::ui::fit_page::facts::Facts;
+use crate::ui::fit_page::pictures::{Picture, Shot};
+use crate::ui::scene::Scenery;
+use glam::UVec2;
+
+/// A page in the making: its figures are read off at once, its pictures drawn one by one.
+#[derive(Debug)]
+pub struct FitPage {
+    facts: Facts,
+    shots: Vec<Shot>,
+    /// Those of `shots` that are drawn, in their order.
+    pictures: Vec<Picture>,
+    scenery: Scenery,
+    left_out: Option<String>,
+}
+
+impl FitPage {
+    /// Of the garment that `session` has on its body, called `name`. None while there is none.
+    pub fn of(session: &Session, name: &str) -> Option<Self> {
+        let facts = Facts::of(session, name)?;
+        let shots = pictures::shots(&facts);
+        Some(Self { facts, shots, pictures: Vec::new(), scenery: Scenery::default(), left_out: None })
+    }
+
+    /// How many pictures are drawn, and how many there will be.
+    pub fn progress(&self) -> (usize, usize) {
+        (self.pictures.len(), self.shots.len())
+    }
+
+    /// Draws the next picture by `draw`, whose colours are not multiplied with opacity.
+    pub fn draw_next(
+        &mut self,
+        draw: impl FnOnce(&Scene, &Camera, &Look, UVec2) -> Result<image::RgbaImage, RenderError>,
+    ) -> Result<(), RenderError> {
+        let Some(shot) = self.shots.get(self.pictures.len()) else { return Ok(()) };
+        let picture = shot.picture(&mut self.scenery, &self.facts.outfit, draw)?;
+        self.pictures.push(picture);
+        Ok(())
+    }
+
+    /// The page will have no pictures, and say why.
+    pub fn leave_pictures_out(&mut self, why: String) {
+        self.pictures.clear();
+        self.left_out = Some(why);
+    }
+
+    /// The page, complete in itself.
+    pub fn html(&self) -> String {
+        html::page(&self.facts, &self.pictures, self.left_out.as_deref())
+    }
+}

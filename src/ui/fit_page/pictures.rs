@@ -1,0 +1,123 @@
+//! The pictures of the page: what each shows, and how it gets into the page.
+
+use std::sync::Arc;
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use glam::{UVec2, Vec3};
+
+use crate::fit::MapKind;
+use crate::render::{Camera, Look, Palette, Projection, RenderError, Rgb, Scene, View, png};
+use crate::session::Outfit;
+use crate::ui::fit_page::facts::{Facts, MapFacts};
+use crate::ui::mapped::mapped;
+use crate::ui::scene::{Scenery, Shown};
+
+/// Sides of the garment, as a person goes round it, and how wide their pictures are, pixels: arms are spread sideways. The page's
+/// columns stand in the same ratio.
+const SIDES: [(View, &str, u32); 4] = [
+    (View::Front, "Front", 640),
+    (View::Right, "Right", 300),
+    (View::Back, "Back", 640),
+    (View::Left, "Left", 300),
+];
+/// How high they are.
+const HEIGHT: u32 = 760;
+/// Of a map over the garment, pixels.
+const MAP: UVec2 = UVec2::new(600, 600);
+
+/// A picture to be drawn.
+#[derive(Debug)]
+pub struct Shot {
+    /// The map that it shows; None: the garment in its own colours.
+    kind: Option<MapKind>,
+    colours: Option<Arc<Vec<Rgb>>>,
+    view: View,
+    side: &'static str,
+    /// Pixels.
+    size: UVec2,
+}
+
+/// A picture that is drawn.
+#[derive(Debug)]
+pub struct Picture {
+    /// The map that it shows; None: the garment in its own colours.
+    pub kind: Option<MapKind>,
+    /// "Front".
+    pub side: &'static str,
+    /// Pixels.
+    pub size: UVec2,
+    /// As the source of an image: a data URI.
+    pub source: String,
+}
+
+/// All pictures of the page, in its order.
+pub fn shots(facts: &Facts) -> Vec<Shot> {
+    let views = SIDES.map(|(view, side, width)| {
+        let size = UVec2::new(width, HEIGHT);
+        Shot { kind: None, colours: None, view, side, size }
+    });
+    let maps = facts.maps.iter().filter(|map| map.map.stats().count > 0).flat_map(|map| {
+        let colours = Arc::new(colours(map));
+        [0, 2].map(|side| {
+            let (view, side, _) = SIDES[side];
+            Shot { kind: Some(map.map.kind), colours: Some(Arc::clone(&colours)), view, side, size: MAP }
+        })
+    });
+    views.into_iter().chain(maps).collect()
+}
+
+/// How the values of `kind` become colours.
+pub fn palette(kind: MapKind) -> Palette {
+    if kind.is_signed() { Palette::Diverging } else { Palette::Sequential }
+}
+
+fn colours(map: &MapFacts) -> Vec<Rgb> {
+    let palette = palette(map.map.kind);
+    map.map.vertices.iter().map(|&v| palette.colour(v, map.range)).collect()
+}
+
+impl Shot {
+    /// Draws it by `draw`, with nothing behind the figure, so that it stands on the page.
+    pub fn picture(
+        &self,
+        scenery: &mut Scenery,
+        outfit: &Outfit,
+        draw: impl FnOnce(&Scene, &Camera, &Look, UVec2) -> Result<image::RgbaImage, RenderError>,
+    ) -> Result<Picture, RenderError> {
+        let shown = Shown {
+            body: Some(&outfit.body),
+            cloth: Some((&outfit.garment, &outfit.state)),
+            ..Shown::default()
+        };
+        let scene = scenery.scene(&shown);
+        let scene = match &self.colours {
+            Some(colours) => mapped(scene, colours),
+            None => scene,
+        };
+        let look = Look { cut_out: true, ..Look::light() };
+        let png = png(&draw(&scene, &self.camera(&scene, outfit), &look, self.size)?)?;
+        let source = format!("data:image/png;base64,{}", STANDARD.encode(png));
+        Ok(Picture { kind: self.kind, side: self.side, size: self.size, source })
+    }
+
+    /// Parallel, so that sizes can be compared. Views of the figure have one scale; maps are seen from nearer, as far as the cloth
+    /// goes.
+    fn camera(&self, scene: &Scene, outfit: &Outfit) -> Camera {
+        let mut camera = Camera { projection: Projection::Orthographic, ..Camera::default() };
+        let aspect = |size: UVec2| size.x as f32 / size.y as f32;
+        let points = scene.points();
+        camera.look(View::Front);
+        camera.frame_points(&points, aspect(UVec2::new(SIDES[0].2, HEIGHT)));
+        let (scale, bounds) = (camera.distance, camera.bounds);
+        camera.look(self.view);
+        if self.colours.is_none() {
+            camera.frame_points(&points, aspect(self.size));
+            return Camera { distance: camera.distance.max(scale), ..camera };
+        }
+        let laid = outfit.state.positions.iter().zip(&outfit.state.mapped).filter(|(_, mapped)| **mapped);
+        camera.frame_points(&laid.map(|(p, _)| p.as_vec3()).collect::<Vec<Vec3>>(), aspect(self.size));
+        // The body is larger than what is framed.
+        Camera { bounds, ..camera }
+    }
+}

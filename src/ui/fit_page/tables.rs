@@ -1,0 +1,191 @@
+//! The tables of the page. Lengths in centimetres.
+
+use maud::{Markup, html};
+
+use crate::body::readings::Reading;
+use crate::cloth::Fabric;
+use crate::fit::SeamFit;
+use crate::fit::maps::MapStats;
+use crate::geometry::ids::PieceId;
+use crate::ui::fit_page::facts::Facts;
+use crate::ui::fit_page::legend::minus;
+
+/// Where there is no value.
+const NONE: &str = "–";
+/// Sides that differ by less (a share) are alike: nothing is gathered.
+const ALIKE: f64 = 0.005;
+
+fn cm(metres: f64) -> String {
+    minus(&format!("{:.1}", metres * 100.0))
+}
+
+fn signed_cm(metres: f64) -> String {
+    minus(&format!("{:+.1}", metres * 100.0))
+}
+
+/// A share in percent, with its sign.
+fn percent(share: f64) -> String {
+    minus(&format!("{:+.1}", share * 100.0))
+}
+
+fn or_none(value: Option<f64>, words: impl Fn(f64) -> String) -> String {
+    value.map_or_else(|| NONE.to_owned(), words)
+}
+
+/// The first `words` columns hold words.
+fn head(words: usize, columns: &[&str]) -> Markup {
+    html! { thead { tr { @for (i, column) in columns.iter().enumerate() {
+        th.words[i < words] { (column) }
+    } } } }
+}
+
+/// Body and garment at each girth of the body where cloth goes all the way round, with the ease.
+pub fn girths(facts: &Facts) -> Markup {
+    html! {
+        table {
+            (head(1, &["", "Height", "Body", "Pattern", "Ease", "Ease, %", "As worn", "Stretch, %"]))
+            tbody { @for (i, girth) in &facts.girths {
+                @let Reading { name, metres, height, .. } = &facts.readings[*i];
+                tr {
+                    th.words { (name) }
+                    td.weak { (or_none(*height, cm)) }
+                    td { (cm(*metres)) }
+                    td { (cm(girth.flat)) }
+                    td.strong { (signed_cm(girth.flat - metres)) }
+                    td { (percent(girth.flat / metres - 1.0)) }
+                    td { (cm(girth.worn)) }
+                    td { (percent(girth.worn / girth.flat - 1.0)) }
+                }
+            } }
+        }
+    }
+}
+
+/// What the tape reads on the body.
+pub fn readings(facts: &Facts) -> Markup {
+    html! {
+        table {
+            (head(1, &["", "cm", "Height"]))
+            tbody { @for Reading { name, metres, height, .. } in &facts.readings {
+                tr { th.words { (name) } td { (cm(*metres)) } td.weak { (or_none(*height, cm)) } }
+            } }
+        }
+    }
+}
+
+/// Every seam of the pattern.
+pub fn seams(facts: &Facts) -> Markup {
+    html! {
+        table.seams {
+            (head(2, &["Seam", "Joins", "Lengths", "Gather", "As worn", "Stretch, %", ""]))
+            tbody { @for seam in &facts.seams {
+                tr {
+                    th.number { (seam.seam.0) }
+                    td.words { @for (k, (piece, edge)) in seam.sides.iter().enumerate() {
+                        @if k > 0 { span.weak { " with " } }
+                        (piece) span.weak { " edge " (edge) }
+                    } }
+                    td { (or_none(seam.flat[0], cm)) span.weak { " / " } (or_none(seam.flat[1], cm)) }
+                    td { (or_none(seam.gather(), gather)) }
+                    td { (or_none(seam.worn, cm)) }
+                    td { (or_none(seam.stretch(), percent)) }
+                    td.words.end { @if seam.is_closed() { span.good { "closed" } } @else { span.bad { (missing(seam)) } } }
+                }
+            } }
+        }
+    }
+}
+
+fn gather(ratio: f64) -> String {
+    if ratio < 1.0 + ALIKE { NONE.to_owned() } else { format!("{ratio:.2} : 1") }
+}
+
+/// Why a seam is not closed.
+fn missing(seam: &SeamFit) -> String {
+    match seam.gap {
+        Some(gap) => format!("open by {:.1} mm", gap * 1e3),
+        None if seam.flat.contains(&None) => "one side is not there".to_owned(),
+        None => "not sewn".to_owned(),
+    }
+}
+
+/// Fabric, size and strain of each piece.
+pub fn pieces(facts: &Facts) -> Markup {
+    let spread = |stats: &MapStats, times: f64| {
+        let value = |v: f64| minus(&format!("{:.1}", v * times));
+        if stats.count == 0 {
+            NONE.to_owned()
+        } else {
+            format!("{} … {}", value(stats.p01), value(stats.p99))
+        }
+    };
+    let percents = 100.0;
+    let degrees = 180.0 / std::f64::consts::PI;
+    let garment = &facts.outfit.garment;
+    html! {
+        table {
+            (head(2, &["Piece", "Fabric", "Cloth, dm²", "Area, %", "Warp, %", "Weft, %", "Shear, °"]))
+            tbody { @for (i, (id, name)) in garment.pieces.iter().enumerate() {
+                @let change = facts.report.pieces.get(i);
+                @let [warp, weft, shear] = facts.strains.each_ref().map(|pieces| &pieces[i].stats);
+                tr {
+                    th.words { (name) }
+                    td.words { (facts.outfit.fabrics.get(id).map_or(NONE, |fabric| &fabric.name)) }
+                    td { (format!("{:.1}", flat_area(facts, *id) * 100.0)) }
+                    td { (or_none(change.map(|change| change.area_change), percent)) }
+                    td { (spread(warp, percents)) }
+                    td { (spread(weft, percents)) }
+                    td { (spread(shear, degrees)) }
+                }
+            } }
+        }
+    }
+}
+
+/// m².
+fn flat_area(facts: &Facts, id: PieceId) -> f64 {
+    let garment = &facts.outfit.garment;
+    let own = garment.rest.iter().zip(&garment.triangle_pieces).filter(|(_, piece)| **piece == id);
+    own.map(|([a, b, c], _)| (b - a).perp_dot(c - a).abs() / 2.0).sum()
+}
+
+/// What the fabrics of the garment are.
+pub fn fabrics(facts: &Facts) -> Markup {
+    let mut fabrics: Vec<&Fabric> = facts.outfit.fabrics.values().collect();
+    fabrics.sort_by(|a, b| a.name.cmp(&b.name));
+    fabrics.dedup();
+    html! {
+        table {
+            (head(1, &["Fabric", "g/m²", "Warp, N/m", "Weft, N/m", "Shear, N/m", "Bending, µN·m", "Thickness, mm"]))
+            tbody { @for fabric in fabrics {
+                tr {
+                    th.words { (fabric.name) }
+                    td { (format!("{:.0}", fabric.density_kg_per_m2 * 1e3)) }
+                    td { (format!("{:.0}", fabric.stretch.warp)) }
+                    td { (format!("{:.0}", fabric.stretch.weft)) }
+                    td { (format!("{:.0}", fabric.stretch.shear)) }
+                    td { (format!("{:.0} / {:.0}", fabric.bending.warp * 1e6, fabric.bending.weft * 1e6)) }
+                    td { (format!("{:.2}", fabric.thickness_m * 1e3)) }
+                }
+            } }
+        }
+    }
+}
+
+/// Hems, neck, cuffs.
+pub fn openings(facts: &Facts) -> Markup {
+    html! {
+        table {
+            (head(1, &["Opening", "Height", "As worn", ""]))
+            tbody { @for (i, opening) in facts.report.openings.iter().enumerate() {
+                tr {
+                    th.words { (i + 1) }
+                    td.weak { (cm(opening.height)) }
+                    td { (cm(opening.length)) }
+                    td.words.end { @if opening.body_through { span.good { "the body passes through" } }
+                        @else { span.weak { "the body does not pass through" } } }
+                }
+            } }
+        }
+    }
+}
