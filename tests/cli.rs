@@ -9,6 +9,8 @@ mod bench;
 #[path = "cli/bodies.rs"]
 mod bodies;
 mod common;
+#[path = "cli/compare.rs"]
+mod compare;
 #[path = "cli/dress.rs"]
 mod dress;
 #[path = "cli/faults.rs"]

@@ -40,6 +40,7 @@ pub enum Task {
     Simulate(Simulate),
     Repose(Repose),
     Fit(Fit),
+    Compare(Compare),
     Bench(Bench),
 }
 
@@ -306,6 +307,38 @@ fn maps(text: &str) -> Result<Maps, String> {
         "strain" => Ok(Maps(vec![MapKind::Warp, MapKind::Weft, MapKind::Shear, MapKind::Area])),
         _ => text.parse().map(|kind| Maps(vec![kind])).map_err(|e: String| format!("{e}, strain, all")),
     }
+}
+
+/// Holds two dressed projects of the same pieces against each other: other poses, sizes, fabrics or bodies
+///
+/// Writes compare.json (of each map the mean, the 99th hundredth and the most of the difference for the garment and each piece;
+/// areas, girths), pieces.csv, girths.csv, and of each map NAME.csv (a row for each vertex of each piece of the second) and
+/// NAME.png: the first, the second, and the second less the first. Values are matched by their place in the pattern.
+#[derive(Debug, Args)]
+pub struct Compare {
+    /// Dressed project, as saved by dress --save or repose --save
+    pub first: PathBuf,
+    /// Another one with the same pieces
+    pub second: PathBuf,
+    /// warp, weft, shear, area, ease, curvature, mean-curvature, seams, pressure; strain for the first four, or
+    /// all; several times for several maps
+    #[arg(long = "map", value_name = "NAME", required = true, value_parser = maps)]
+    pub maps: Vec<Maps>,
+    /// The folder to write to
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+    /// front, back, left, right, top, below, three-quarter, or YAW,PITCH in degrees
+    #[arg(long, default_value = "front", value_parser = view, allow_hyphen_values = true)]
+    pub view: View,
+    /// Width and height of each of the three, in pixels
+    #[arg(long, default_value = "800x800", value_parser = size)]
+    pub size: [u32; 2],
+    /// Prints compare.json
+    #[arg(long)]
+    pub json: bool,
+    /// Number of threads; the result is the same
+    #[arg(long)]
+    pub threads: Option<usize>,
 }
 
 /// Draws a project as it is

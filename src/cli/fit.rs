@@ -5,14 +5,15 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use crate::cli::arguments::{Fit, InputOptions};
+use crate::cli::arguments::{Fit, InputOptions, Maps, PictureOptions};
 use crate::cli::failure::Failure;
 use crate::cli::picture::Artist;
 use crate::cli::{input, interrupt, output, run};
 use crate::cloth::{ClothState, Garment};
 use crate::fit::maps::{Histogram, MapStats, PieceStats};
 use crate::fit::{Map, MapKind};
-use crate::render::{Legend, Palette, Rgb};
+use crate::geometry::ids::PieceId;
+use crate::render::{Legend, Palette, Rgb, png};
 use crate::session::{Outfit, Session};
 use crate::ui::fit_page::FitPage;
 
@@ -53,7 +54,7 @@ pub fn fit(arguments: &Fit) -> Result<(), Failure> {
     };
     let mut pictures = Pictures::new()?;
     if let Some(folder) = &arguments.out {
-        maps(arguments, folder, &session, &outfit, input.name.clone(), &mut pictures)?;
+        maps(arguments, folder, &outfit, input.name.clone(), &mut pictures)?;
     }
     if let Some(path) = &arguments.page {
         page(path, &session, &input.name, &mut pictures)?;
@@ -75,16 +76,12 @@ fn page(path: &Path, session: &Session, name: &str, pictures: &mut Pictures) -> 
 fn maps(
     arguments: &Fit,
     folder: &Path,
-    session: &Session,
     outfit: &Outfit,
     name: String,
     pictures: &mut Pictures,
 ) -> Result<(), Failure> {
     let (garment, state) = (&*outfit.garment, &*outfit.state);
     output::make_folder(folder)?;
-    let mut kinds: Vec<MapKind> = arguments.maps.iter().flat_map(|maps| maps.0.iter().copied()).collect();
-    kinds.sort_unstable();
-    kinds.dedup();
     let mut figures = Figures {
         version: env!("CARGO_PKG_VERSION"),
         name,
@@ -93,13 +90,13 @@ fn maps(
         maps: Vec::new(),
         pictures_left_out: pictures.left_out.clone(),
     };
-    for kind in kinds {
+    for kind in kinds(&arguments.maps) {
         interrupt::check()?;
         let map = Map::new(kind, outfit.worn());
         let write = |name: String, bytes: &[u8]| output::write(&folder.join(name), bytes);
         write(format!("{}.csv", kind.name()), vertices_csv(&map, garment, state).as_bytes())?;
         write(format!("{}-triangles.csv", kind.name()), triangles_csv(&map, garment).as_bytes())?;
-        if let Some(png) = pictures.png(&map, session, arguments)? {
+        if let Some(png) = pictures.png(&map, outfit, arguments)? {
             write(format!("{}.png", kind.name()), &png)?;
         }
         let line = map_figures(&map, garment);
@@ -114,6 +111,14 @@ fn maps(
     }
     text.push('\n');
     output::write(&folder.join("fit.json"), text.as_bytes())
+}
+
+/// Each map that is asked for, once, in the order of menus.
+pub fn kinds(asked: &[Maps]) -> Vec<MapKind> {
+    let mut kinds: Vec<MapKind> = asked.iter().flat_map(|maps| maps.0.iter().copied()).collect();
+    kinds.sort_unstable();
+    kinds.dedup();
+    kinds
 }
 
 fn map_figures(map: &Map, garment: &Garment) -> MapFigures {
@@ -179,7 +184,7 @@ fn triangles_csv(map: &Map, garment: &Garment) -> String {
 }
 
 /// "ease_mm".
-fn column(kind: MapKind, unit: &str) -> String {
+pub fn column(kind: MapKind, unit: &str) -> String {
     let unit = match unit {
         "%" => "percent",
         "1/m" => "per_m",
@@ -188,20 +193,26 @@ fn column(kind: MapKind, unit: &str) -> String {
     format!("{}_{unit}", kind.name().replace('-', "_"))
 }
 
+fn piece_name(garment: &Garment, piece: PieceId) -> String {
+    quoted(garment.pieces.iter().find(|(id, _)| *id == piece).map_or("", |(_, name)| name))
+}
+
 /// As CSV wants it (RFC 4180): in quotes, those in it doubled.
-fn piece_name(garment: &Garment, piece: crate::geometry::ids::PieceId) -> String {
-    let name = garment.pieces.iter().find(|(id, _)| *id == piece).map_or("", |(_, name)| name);
-    format!("\"{}\"", name.replace('"', "\"\""))
+pub fn quoted(words: &str) -> String {
+    format!("\"{}\"", words.replace('"', "\"\""))
 }
 
 /// Draws maps, if there is a graphics adapter.
-struct Pictures {
-    artist: Option<Artist>,
-    left_out: Option<String>,
+pub struct Pictures {
+    /// None where there is none.
+    pub artist: Option<Artist>,
+    /// Why not.
+    pub left_out: Option<String>,
 }
 
 impl Pictures {
-    fn new() -> Result<Self, Failure> {
+    /// Without an adapter that is told, and is no failure.
+    pub fn new() -> Result<Self, Failure> {
         match Artist::new() {
             Ok(artist) => Ok(Self { artist: Some(artist), left_out: None }),
             Err(Failure::Graphics(words)) => {
@@ -212,7 +223,7 @@ impl Pictures {
         }
     }
 
-    fn png(&mut self, map: &Map, session: &Session, arguments: &Fit) -> Result<Option<Vec<u8>>, Failure> {
+    fn png(&mut self, map: &Map, outfit: &Outfit, arguments: &Fit) -> Result<Option<Vec<u8>>, Failure> {
         let Some(artist) = &mut self.artist else { return Ok(None) };
         let range = map.range();
         let palette = if map.kind.is_signed() { Palette::Diverging } else { Palette::Sequential };
@@ -224,6 +235,8 @@ impl Pictures {
             range: range.map(|v| v * times),
             palette,
         };
-        artist.map(session, &colours, &legend, &arguments.picture).map(Some)
+        let PictureOptions { view, size, .. } = arguments.picture;
+        let picture = artist.coloured(outfit, &colours, &legend, view, size)?;
+        png(&picture).map(Some).map_err(|e| Failure::Internal(e.to_string()))
     }
 }

@@ -4,6 +4,7 @@ mod arguments;
 mod batch;
 mod bench;
 mod check;
+mod compare;
 mod dress;
 mod export;
 mod failure;
@@ -64,6 +65,7 @@ fn carry_out(arguments: Arguments) -> Result<(), Failure> {
         Some(Task::Replay(replay)) => run::on_threads(replay.threads, || replay::replay(&replay)),
         Some(Task::Repose(repose)) => run::on_threads(repose.threads, || repose::repose(&repose)),
         Some(Task::Fit(fit)) => run::on_threads(fit.threads, || fit::fit(&fit)),
+        Some(Task::Compare(compare)) => run::on_threads(compare.threads, || compare::compare(&compare)),
         Some(Task::Render(render)) => render::render(&render),
         Some(Task::Import(import)) => import::import(&import),
         Some(Task::Export(export)) => export::export(&export),

@@ -1,12 +1,13 @@
 //! Pictures without a window.
 
 use glam::UVec2;
+use image::RgbaImage;
 
 use crate::cli::arguments::PictureOptions;
 use crate::cli::failure::Failure;
 use crate::cli::interrupt;
-use crate::render::{Legend, Look, RenderError, Rgb, Studio, png, straightened};
-use crate::session::Session;
+use crate::render::{Legend, Look, RenderError, Rgb, Studio, View, png, straightened};
+use crate::session::{Outfit, Session};
 use crate::ui::fit_page::FitPage;
 use crate::ui::mapped::mapped;
 use crate::ui::portrait::portrait;
@@ -24,21 +25,22 @@ impl Artist {
         Ok(Self { studio: Studio::new().map_err(failure)?, scenery: Scenery::default() })
     }
 
-    /// The cloth of `session` in `colours`, one for each vertex as it is drawn, with `legend`, as a PNG.
-    pub fn map(
+    /// The cloth of `outfit` on its body in `colours`, one for each vertex, with `legend`.
+    pub fn coloured(
         &mut self,
-        session: &Session,
+        outfit: &Outfit,
         colours: &[Rgb],
         legend: &Legend,
-        options: &PictureOptions,
-    ) -> Result<Vec<u8>, Failure> {
-        let snapshot = session.snapshot();
-        let shown = Shown { body: snapshot.body.as_ref(), cloth: snapshot.drawn(), ..Shown::default() };
+        view: View,
+        size: [u32; 2],
+    ) -> Result<RgbaImage, Failure> {
+        let cloth = Some((&outfit.garment, &outfit.state));
+        let shown = Shown { body: Some(&outfit.body), cloth, ..Shown::default() };
         let scene = mapped(self.scenery.scene(&shown), colours);
-        let size = UVec2::from_array(options.size);
-        let mut picture = self.studio.picture(&scene, options.view, &Look::light(), size).map_err(failure)?;
+        let size = UVec2::from_array(size);
+        let mut picture = self.studio.picture(&scene, view, &Look::light(), size).map_err(failure)?;
         legend.burn(&mut picture);
-        png(&picture).map_err(failure)
+        Ok(picture)
     }
 
     /// All pictures of `page`.

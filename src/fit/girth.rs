@@ -5,8 +5,12 @@ use std::collections::BTreeMap;
 use glam::{DVec2, DVec3};
 
 use crate::body::measure::{Tape, encloses_origin};
+use crate::body::readings::Reading;
 use crate::cloth::{ClothState, Garment};
 use crate::fit::laid::Laid;
+
+/// Parts of a body whose middles are farther from each other, metres, are two.
+const APART: f64 = 0.04;
 
 /// Round a garment where a plane cuts it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,6 +53,18 @@ pub fn girth(garment: &Garment, state: &ClothState, tape: &Tape, but: Option<DVe
         }
     }
     least
+}
+
+/// Where each girth in `readings` was taken on the body, by its place there; those where cloth goes all the way round. What goes
+/// round both legs is not round the one that was measured.
+pub fn girths(garment: &Garment, state: &ClothState, readings: &[Reading]) -> Vec<(usize, Girth)> {
+    let tapes = readings.iter().enumerate().filter_map(|(i, reading)| Some((i, reading.tape.as_ref()?)));
+    let hip = readings.iter().find(|reading| reading.name == "hip").and_then(|hip| hip.tape.as_ref());
+    let other = |tape: &Tape| {
+        let beside = DVec3 { x: 2.0 * hip?.origin.x - tape.origin.x, ..tape.origin };
+        Some(beside).filter(|beside| tape.normal == DVec3::Y && beside.distance(tape.origin) > APART)
+    };
+    tapes.filter_map(|(i, tape)| Some((i, girth(garment, state, tape, other(tape))?))).collect()
 }
 
 /// By the edge each begins at. Cloth turns its front outward, so that each edge begins one at most.

@@ -1,5 +1,6 @@
 //! What is read off a garment: strain, crossings, openings, the report, maps.
 
+mod compare;
 pub mod exact;
 mod girth;
 mod laid;
@@ -13,7 +14,8 @@ mod spots;
 mod tight;
 mod verdict;
 
-pub use girth::{Girth, girth};
+pub use compare::{Change, Matching, Unlike};
+pub use girth::{Girth, girth, girths};
 pub use maps::{Map, MapKind, Worn};
 pub use on_body::BodyIndex;
 pub use openings::Opening;

@@ -110,7 +110,7 @@ fn help_and_version_are_no_failure() {
     let help = place.ends(0, "--help").out;
     for task in [
         "dress", "repose", "replay", "render", "fit", "import", "export", "check", "measure", "simulate",
-        "bench",
+        "bench", "compare",
     ] {
         assert!(help.contains(&format!("\n  {task} ")), "{help}");
         assert!(place.ends(0, &format!("{task} --help")).out.contains("Usage"));

@@ -51,10 +51,14 @@ fn tetrahedron() -> TriMesh {
 }
 
 impl Sheets {
-    fn map(&self, kind: MapKind) -> Map {
+    pub fn map(&self, kind: MapKind) -> Map {
+        self.with_worn(|worn| Map::new(kind, worn))
+    }
+
+    pub fn with_worn<T>(&self, read: impl FnOnce(Worn<'_>) -> T) -> T {
         let Self { pattern, garment, state, surface } = self;
         let fabrics = pattern.pieces.keys().map(|&id| (id, fabric())).collect();
-        Map::new(kind, Worn { pattern, garment, state, surface, fabrics: &fabrics, offset: OFFSET })
+        read(Worn { pattern, garment, state, surface, fabrics: &fabrics, offset: OFFSET })
     }
 
     /// Every value of the map that is there is `exact`.

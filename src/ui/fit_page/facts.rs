@@ -1,9 +1,6 @@
 //! What the page tells, read off the garment.
 
-use glam::DVec3;
-
 use crate::body::landmarks;
-use crate::body::measure::Tape;
 use crate::body::readings::{Reading, readings};
 use crate::fit::maps::PieceStats;
 use crate::fit::{self, BodyIndex, Girth, Map, MapKind, Report, SeamFit};
@@ -14,9 +11,6 @@ use crate::sim;
 /// Maps of the page, in its order.
 pub const MAPS: [MapKind; 5] =
     [MapKind::Warp, MapKind::Weft, MapKind::Ease, MapKind::MeanCurvature, MapKind::Pressure];
-
-/// Parts of a body whose middles are farther from each other, metres, are two.
-const APART: f64 = 0.04;
 
 /// Everything on the page but its pictures.
 #[derive(Debug)]
@@ -75,7 +69,7 @@ impl Facts {
                 .chain(snapshot.problems.iter().filter(|p| !p.kind.is_note()).cloned())
                 .collect(),
             tight: tight.map(|tight| tight.to_string()),
-            girths: girths(&outfit, &readings),
+            girths: fit::girths(garment, state, &readings),
             seams: SeamFit::all(&source.pattern, garment, state),
             maps: MAPS.map(|kind| MapFacts::from(map(kind))).into(),
             strains: [MapKind::Warp, MapKind::Weft, MapKind::Shear].map(|kind| map(kind).pieces(garment)),
@@ -90,17 +84,4 @@ impl From<Map> for MapFacts {
     fn from(map: Map) -> Self {
         Self { range: map.range(), map }
     }
-}
-
-/// Where cloth goes round both legs it is not round the one that was measured.
-fn girths(outfit: &Outfit, readings: &[Reading]) -> Vec<(usize, Girth)> {
-    let tapes = readings.iter().enumerate().filter_map(|(i, reading)| Some((i, reading.tape.as_ref()?)));
-    let hip = readings.iter().find(|reading| reading.name == "hip").and_then(|hip| hip.tape.as_ref());
-    let other = |tape: &Tape| {
-        let beside =
-            hip.map(|hip| DVec3::new(2.0 * hip.origin.x - tape.origin.x, tape.origin.y, tape.origin.z));
-        beside.filter(|beside| tape.normal == DVec3::Y && beside.distance(tape.origin) > APART)
-    };
-    let girth = |(i, tape)| Some((i, fit::girth(&outfit.garment, &outfit.state, tape, other(tape))?));
-    tapes.filter_map(girth).collect()
 }
