@@ -60,6 +60,13 @@ pub fn readings(mesh: &TriMesh) -> Option<Vec<Reading>> {
     Some(all)
 }
 
+/// Round the trunk `height` metres above the floor; `middle` lies between left and right. None where nothing crosses it.
+pub fn round_at(mesh: &TriMesh, height: f64, middle: f64) -> Option<Reading> {
+    let floor = mesh.bounds().0.y;
+    let level = trunk_at(mesh, floor + height, middle)?;
+    Some(Reading::round("girth", &level.points, floor))
+}
+
 struct Reader<'a> {
     mesh: &'a TriMesh,
     floor: f64,
@@ -202,6 +209,18 @@ mod tests {
             let read = found.iter().find(|r| r.name == name).expect(name).metres;
             assert!((read / built - 1.0).abs() < share, "{name}: built {built} m, read {read} m");
         }
+    }
+
+    #[test]
+    fn the_tape_reads_at_any_height() {
+        let figure = mannequin::default();
+        let found = readings(&figure.mesh).expect("a human");
+        for name in ["bust", "waist", "hip"] {
+            let reading = found.iter().find(|r| r.name == name).expect(name);
+            let there = round_at(&figure.mesh, reading.height.expect("a level"), 0.0).expect("a trunk");
+            assert!((there.metres - reading.metres).abs() < 1e-9, "{name}: {there:?}");
+        }
+        assert_eq!(round_at(&figure.mesh, 0.3, 0.0), None, "legs");
     }
 
     #[test]

@@ -56,6 +56,7 @@ impl App {
                 let told = Told {
                     document,
                     surface: surface.as_ref(),
+                    snapshot,
                     selection: &self.picks.selection,
                     problems: &snapshot.problems,
                     verdict: snapshot.verdict.as_ref().map_or(&[], |found| found),

@@ -7,7 +7,7 @@ use egui::{CollapsingHeader, Id, RichText, ScrollArea, Slider};
 use crate::body::Surface;
 use crate::pattern::Problem;
 use crate::session::{Command, Document, Settings};
-use crate::sim::Fault;
+use crate::sim::{Fault, Snapshot};
 use crate::ui::actions::Tool;
 use crate::ui::asks::{Ask, Asks};
 use crate::ui::fabric_panel;
@@ -27,6 +27,8 @@ pub struct Told<'a> {
     pub document: &'a Document,
     /// Its body.
     pub surface: Option<&'a Arc<Surface>>,
+    /// The cloth.
+    pub snapshot: &'a Snapshot,
     /// What is selected of the pattern.
     pub selection: &'a Selection,
     /// What is wrong with the garment.

@@ -1,5 +1,7 @@
 //! Maps over the cloth: chosen, read, ranged, told in figures, burnt into pictures; and free when none is shown.
 
+use toile::session::samples::Sample;
+
 use super::hand::dressed_window;
 use super::*;
 
@@ -155,4 +157,38 @@ fn the_side_panel_tells_what_the_tape_reads() {
     }
     assert!(window.query_by_label("waist").is_some());
     assert!(window.query_by_label("70.6 cm").is_some(), "the mannequin's waist");
+}
+
+#[test]
+fn the_side_panel_tells_how_much_wider_the_garment_is() {
+    let skirt = Sample::Skirt.project(&toile::body::mannequin::default());
+    let mut window = window_on(skirt, None);
+    // So that there is room for all of them.
+    for section in ["Marks", "Problems", "Fabric", "Measures of the body"] {
+        window.get_by_label(section).click();
+        window.run_steps(20);
+    }
+    assert!(!has(&window, "Ease"), "there is no cloth");
+    window.get_by_label("Wrap").click();
+    window.run_steps(2);
+    wait(&mut window, "the cloth to rest", |app| {
+        let snapshot = app.session().snapshot();
+        snapshot.is_dressed() && !snapshot.working
+    });
+    for _ in 0..600 {
+        window.run_steps(2);
+        if window.query_all_by_label_contains("+").count() > 2 {
+            break;
+        }
+        std::thread::sleep(std::time::Duration::from_millis(50));
+    }
+    assert!(window.query_by_label("Ease").is_some());
+    // The skirt goes round waist and hip, and the tape at the height of the waist reads the same again.
+    let eases: Vec<String> = window
+        .query_all_by_label_contains(" cm")
+        .filter_map(|node| node.accesskit_node().value())
+        .filter(|label| label.starts_with('+'))
+        .collect();
+    assert_eq!(eases.len(), 3, "{eases:?}");
+    assert_eq!(eases[0], eases[2], "{eases:?}");
 }
