@@ -97,6 +97,9 @@ fn a_body_reads_as_its_makers_say() {
         ("hip", 103.48),
         ("thigh", 60.20),
         ("wrist", 16.59),
+        // Height less the head's.
+        ("nape height", 145.66),
+        ("back neck to waist", 36.89),
     ] {
         let read = found.iter().find(|r| r.name == name).expect(name).metres * 100.0;
         assert!((read - told).abs() < 1.0, "{name}: told {told} cm, read {read:.2} cm");

@@ -1,13 +1,13 @@
 //! What the tape reads on a standing human body, whoever made it: girths, heights, lengths, widths and depths.
 //!
 //! The places are those of dressmaking: waist where the trunk is thinnest, hip where it is fullest below, bust through the
-//! foremost point of the chest, neck where it is thinnest, thigh just below the crotch, calf where the lower leg is fullest,
-//! ankle and wrist where they are thinnest.
+//! foremost point of the chest, neck where it is thinnest, nape where the neck runs into the back, thigh just below the crotch,
+//! calf where the lower leg is fullest, ankle and wrist where they are thinnest.
 
 use glam::{DVec2, DVec3};
 
 use crate::body::landmarks::{self, Landmarks};
-use crate::body::measure::{Tape, girth, hull_perimeter, section};
+use crate::body::measure::{Tape, girth, hull_perimeter, length, section};
 use crate::body::sections::{Level, trunk_at};
 use crate::geometry::mesh::TriMesh;
 
@@ -15,6 +15,14 @@ use crate::geometry::mesh::TriMesh;
 const STEP: f64 = 0.004;
 /// The thigh is measured this share of the height below the crotch.
 const BELOW_CROTCH: f64 = 0.008;
+
+/// The middle of the back is followed in steps of this share of the height,
+const BACK_STEP: f64 = 0.002;
+/// to so far above the throat.
+const ABOVE_THROAT: f64 = 0.015;
+/// The nape is where it runs forward most over so many steps to either side: over 3 % of the height, the length of a vertebra or
+/// two, which neither a crease of the neck nor the bend of the whole back moves.
+const NAPE: usize = 7;
 
 /// The knee, as a share of the inside of the leg.
 const KNEE: f64 = 0.595;
@@ -122,7 +130,30 @@ impl Reader<'_> {
         }
         let heights = [("waist height", waist), ("hip height", hip), ("inside leg", crotch)];
         all.extend(heights.map(|(name, y)| Reading::plain(name, y - self.floor)));
+        self.back([waist, bust, y("throat_front")?], all);
         Some(())
+    }
+
+    /// Along the middle of the back from the waist; the nape lies above the bust.
+    fn back(&self, [waist, bust, throat]: [f64; 3], all: &mut Vec<Reading>) -> Option<()> {
+        let step = BACK_STEP * self.tall;
+        let top = throat + ABOVE_THROAT * self.tall;
+        let levels = (0..).map(|k| waist + f64::from(k) * step).take_while(|y| *y <= top);
+        let line: Vec<DVec2> = levels.map_while(|y| Some(DVec2::new(y, self.back_at(y)?))).collect();
+        let forward = |k: &usize| line[k + NAPE].y - line[k - NAPE].y;
+        let above_bust = (NAPE..line.len().checked_sub(NAPE)?).filter(|&k| line[k].x > bust);
+        let nape = above_bust.max_by(|a, b| forward(a).total_cmp(&forward(b)))?;
+        all.push(Reading::plain("nape height", line[nape].x - self.floor));
+        all.push(Reading::plain("back neck to waist", length(&line[..=nape])));
+        Some(())
+    }
+
+    /// How far back the trunk goes in its middle.
+    fn back_at(&self, y: f64) -> Option<f64> {
+        let points = self.trunk_at(y)?.points;
+        let sides = points.iter().zip(points.iter().cycle().skip(1));
+        let across = sides.filter(|(p, q)| (p.x < self.middle) != (q.x < self.middle));
+        across.map(|(p, q)| p.lerp(*q, (self.middle - p.x) / (q.x - p.x)).z).min_by(f64::total_cmp)
     }
 
     /// The left one.
@@ -209,6 +240,19 @@ mod tests {
             let read = found.iter().find(|r| r.name == name).expect(name).metres;
             assert!((read / built - 1.0).abs() < share, "{name}: built {built} m, read {read} m");
         }
+    }
+
+    #[test]
+    fn the_back_is_followed_up_to_the_nape() {
+        let figure = mannequin::default();
+        let found = readings(&figure.mesh).expect("a human");
+        let read = |name: &str| found.iter().find(|r| r.name == name).expect(name).metres;
+        let [nape, waist, back] = ["nape height", "waist height", "back neck to waist"].map(read);
+        let mark = |name: &str| figure.landmarks.get(name).expect(name).y;
+        // Below the tape round the neck, above the tips of the shoulders.
+        assert!(mark("shoulder_left") < nape && nape < mark("neck_back"), "{nape}");
+        // A little longer than straight down.
+        assert!((1.0..1.05).contains(&(back / (nape - waist))), "{back} over {}", nape - waist);
     }
 
     #[test]
