@@ -9,7 +9,7 @@ use serde::Serialize;
 use crate::body::readings::{Reading, readings};
 use crate::cli::arguments::{Compare, InputOptions};
 use crate::cli::failure::Failure;
-use crate::cli::fit::{Pictures, column, kinds, quoted};
+use crate::cli::fit::{Pictures, column, dressed, kinds, quoted};
 use crate::cli::{input, interrupt, output, run};
 use crate::fit::{Change, Map, MapKind, Matching, girths};
 use crate::geometry::ids::PieceId;
@@ -124,12 +124,7 @@ pub fn compare(arguments: &Compare) -> Result<(), Failure> {
 fn side(path: &Path) -> Result<Side, Failure> {
     let input = input::load(path, &InputOptions::default())?;
     let session = run::opened(input.project, path)?;
-    let outfit = Outfit::of(session.snapshot(), &session.document().fabrics).ok_or_else(|| {
-        Failure::input(
-            path,
-            "there is no cloth on its body: dress it first (toile dress PROJECT --save DRESSED)",
-        )
-    })?;
+    let outfit = dressed(&session, path)?;
     let readings = readings(&outfit.body.mesh).unwrap_or_default();
     Ok(Side { name: input.name, outfit, readings })
 }

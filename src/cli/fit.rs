@@ -48,10 +48,7 @@ struct MapFigures {
 pub fn fit(arguments: &Fit) -> Result<(), Failure> {
     let input = input::load(&arguments.project, &InputOptions::default())?;
     let session = run::opened(input.project, &arguments.project)?;
-    let Some(outfit) = Outfit::of(session.snapshot(), &session.document().fabrics) else {
-        let words = "there is no cloth on its body: dress it first (toile dress PROJECT --save DRESSED)";
-        return Err(Failure::input(&arguments.project, words));
-    };
+    let outfit = dressed(&session, &arguments.project)?;
     let mut pictures = Pictures::new()?;
     if let Some(folder) = &arguments.out {
         maps(arguments, folder, &outfit, input.name.clone(), &mut pictures)?;
@@ -60,6 +57,13 @@ pub fn fit(arguments: &Fit) -> Result<(), Failure> {
         page(path, &session, &input.name, &mut pictures)?;
     }
     Ok(())
+}
+
+/// What `session`, read from `path`, has on its body.
+pub fn dressed(session: &Session, path: &Path) -> Result<Outfit, Failure> {
+    let words = "there is no cloth on its body: dress it first (toile dress PROJECT --save DRESSED)";
+    let outfit = Outfit::of(session.snapshot(), &session.document().fabrics);
+    outfit.ok_or_else(|| Failure::input(path, words))
 }
 
 /// The fit report, without pictures where there is no graphics adapter.

@@ -10,8 +10,8 @@ use crate::ui::fit_page::pictures::Picture;
 use crate::ui::fit_page::tables;
 
 const STYLE: &str = include_str!("style.css");
-/// Nothing is fetched from anywhere.
-const POLICY: &str = "default-src 'none'; img-src data:; style-src 'unsafe-inline'";
+/// Nothing is fetched from anywhere; the style stands in the page.
+const POLICY: &str = include_str!("policy.txt");
 
 /// The whole page; `left_out`: why it has no pictures.
 pub fn page(facts: &Facts, pictures: &[Picture], left_out: Option<&str>) -> String {
