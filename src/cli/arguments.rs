@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
+use crate::body::pose::anatomy::JointAngle;
 use crate::body::{NamedPose, Unit, UpAxis};
 use crate::cloth::Skips;
 use crate::fit::MapKind;
@@ -239,11 +240,20 @@ pub struct Repose {
     /// Dressed project, as saved by dress --save; or a sample (sample:NAME)
     pub project: PathBuf,
     /// The body in another pose (OBJ); several times for several poses
-    #[arg(long = "body", value_name = "FILE", required_unless_present = "poses")]
+    #[arg(long = "body", value_name = "FILE", required_unless_present_any = ["poses", "joints", "joint_files"])]
     pub bodies: Vec<PathBuf>,
     /// The mannequin in this pose: a, t, standing, walking, running, sitting, arms-up or kung-fu; several times for several
     #[arg(long = "pose", value_name = "NAME")]
     pub poses: Vec<NamedPose>,
+    /// The mannequin with this joint turned, in degrees from hanging arms, straight limbs: left_elbow=60,
+    /// right_hip.abduction=20 (flexion, abduction or twist); several times for one pose of several joints, on top of the
+    /// pose that --pose names, or of the one it is in
+    #[arg(long = "joint", value_name = "JOINT=DEGREES", allow_hyphen_values = true)]
+    pub joints: Vec<JointAngle>,
+    /// The same in a JSON file: {"left_elbow": 60, "right_hip": {"flexion": 30, "abduction": 20}}; several times for
+    /// several poses
+    #[arg(long = "joints", value_name = "JSON")]
+    pub joint_files: Vec<PathBuf>,
     #[command(flatten)]
     pub body_file: BodyFile,
     /// The folder to write to

@@ -4,30 +4,23 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
 
+use crate::body::pose::anatomy::JointAngle;
 use crate::cli::arguments::{InputOptions, Repose};
 use crate::cli::failure::Failure;
 use crate::cli::report::{Report, Seconds};
 use crate::cli::{dress, formats, input, interrupt, output, report, run};
+use crate::io::joints;
 use crate::session::{BodyChoice, Command, Notice, Session, project_file};
 
 /// Each pose in turn, from the one that was dressed; the first that fails a check gives the exit code.
 pub fn repose(arguments: &Repose) -> Result<(), Failure> {
-    let several = arguments.bodies.len() + arguments.poses.len() > 1;
+    let several = count(arguments) > 1;
     if several && arguments.save.is_some() {
         return Err(Failure::Usage("--save takes one pose, not several".to_owned()));
     }
     let start = Instant::now();
     let input = input::load(&arguments.project, &InputOptions::default())?;
-    let mut poses: Vec<(BodyChoice, String)> = Vec::new();
-    for path in &arguments.bodies {
-        poses.push((posed(path, arguments)?, path.display().to_string()));
-    }
-    for &pose in &arguments.poses {
-        let body = input.project.document.body.in_named_pose(pose);
-        let words = "its body is from a file: only the mannequin takes a pose by name (--pose)";
-        let body = body.ok_or_else(|| Failure::input(&arguments.project, words))?;
-        poses.push((body, pose.name().to_owned()));
-    }
+    let poses = poses(arguments, &input.project.document.body)?;
     let mut session = run::opened(input.project, &arguments.project)?;
     let mut seconds = Seconds { load: start.elapsed().as_secs_f64(), ..Seconds::default() };
     dress_first(&mut session, arguments, &mut seconds)?;
@@ -49,6 +42,55 @@ pub fn repose(arguments: &Repose) -> Result<(), Failure> {
         project_file::save(path, &session.project()).map_err(|e| input::project_failure(path, e))?;
     }
     first_failure.map_or(Ok(()), |words| Err(Failure::Check(words)))
+}
+
+/// How many poses are asked for.
+fn count(arguments: &Repose) -> usize {
+    let Repose { bodies, poses, joints, joint_files, .. } = arguments;
+    // Joints are turned in the pose that is named.
+    let by_hand = joint_files.len() + usize::from(!joints.is_empty());
+    bodies.len() + if by_hand > 0 { by_hand } else { poses.len() }
+}
+
+/// What is asked for, and what each is called: files, names, joints.
+fn poses(arguments: &Repose, dressed: &BodyChoice) -> Result<Vec<(BodyChoice, String)>, Failure> {
+    let mut poses: Vec<(BodyChoice, String)> = Vec::new();
+    for path in &arguments.bodies {
+        poses.push((posed(path, arguments)?, path.display().to_string()));
+    }
+    let has_joints = !arguments.joints.is_empty() || !arguments.joint_files.is_empty();
+    if has_joints && arguments.poses.len() > 1 {
+        let words = "--joint turns the joints of one pose: name one with --pose, not several";
+        return Err(Failure::Usage(words.to_owned()));
+    }
+    let mut base = dressed.clone();
+    for &pose in &arguments.poses {
+        let body = dressed.in_named_pose(pose);
+        let words = "its body is from a file: only the mannequin takes a pose by name (--pose)";
+        let body = body.ok_or_else(|| Failure::input(&arguments.project, words))?;
+        match has_joints {
+            true => base = body,
+            false => poses.push((body, pose.name().to_owned())),
+        }
+    }
+    for path in &arguments.joint_files {
+        let angles = joints::read(&input::read(path)?).map_err(|e| Failure::input(path, e))?;
+        poses.push((turned(&base, &angles, path)?, path.display().to_string()));
+    }
+    if !arguments.joints.is_empty() {
+        poses.push((turned(&base, &arguments.joints, &arguments.project)?, "joints".to_owned()));
+    }
+    Ok(poses)
+}
+
+/// The mannequin of `base` with joints turned; `path` tells where that was asked for.
+fn turned(base: &BodyChoice, angles: &[JointAngle], path: &Path) -> Result<BodyChoice, Failure> {
+    let words = "its body is from a file: only the mannequin has joints to turn (--joint)";
+    let (Some(anatomy), Some(pose)) = (base.anatomy(), base.pose()) else {
+        return Err(Failure::input(path, words));
+    };
+    let pose = anatomy.with(&pose, angles).map_err(|why| Failure::input(path, why))?;
+    base.posed(pose).ok_or_else(|| Failure::input(path, words))
 }
 
 fn printed(report: &Report, several: bool) -> Result<String, Failure> {

@@ -4,6 +4,7 @@ pub mod cloth_obj;
 pub mod dxf;
 pub mod garmentcode;
 pub mod glb;
+pub mod joints;
 pub mod json;
 pub mod limits;
 pub mod obj;

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use crate::body::mannequin::{Measurements, mannequin};
+use crate::body::pose::anatomy::Anatomy;
 use crate::body::{NamedPose, Pose};
 use crate::cloth::Fabric;
 use crate::contact::Bone;
@@ -169,6 +170,12 @@ impl BodyChoice {
     pub fn in_named_pose(&self, pose: NamedPose) -> Option<Self> {
         let figure = mannequin(&self.measurements()?).ok()?;
         self.posed(pose.pose(&figure.skeleton))
+    }
+
+    /// The axes of the mannequin's joints. None for a body from a file, and for measurements that make none.
+    pub fn anatomy(&self) -> Option<Anatomy> {
+        let figure = mannequin(&self.measurements()?).ok()?;
+        Some(Anatomy::new(&figure.skeleton))
     }
 
     /// What the mannequin is built to. None for a body from a file.

@@ -21,6 +21,7 @@ mod fields;
 mod files;
 pub mod fit_page;
 mod ghosts;
+mod joint_panel;
 mod keyboard;
 mod keymap;
 pub mod mapped;

@@ -5,6 +5,7 @@ use egui::{Button, Slider};
 use crate::body::NamedPose;
 use crate::session::{BodyChoice, Command};
 use crate::ui::asks::{Ask, Asks};
+use crate::ui::joint_panel::JointPanel;
 use crate::ui::side_panel::Told;
 
 /// Which pose was chosen last, and how far the mannequin has gone to it.
@@ -12,11 +13,12 @@ use crate::ui::side_panel::Told;
 pub struct PosePanel {
     to: NamedPose,
     share: f64,
+    joints: JointPanel,
 }
 
 impl Default for PosePanel {
     fn default() -> Self {
-        Self { to: NamedPose::Standing, share: 0.0 }
+        Self { to: NamedPose::Standing, share: 0.0, joints: JointPanel::default() }
     }
 }
 
@@ -34,6 +36,7 @@ impl PosePanel {
         ui.add_enabled_ui(enabled, |ui| {
             self.names_ui(ui, body, asks);
             self.way_ui(ui, told, asks);
+            self.joints.ui(ui, told, asks);
         });
     }
 
@@ -62,8 +65,7 @@ impl PosePanel {
         });
     }
 
-    /// A slider from the built pose to the chosen one. While it is dragged the cloth follows as quickly as it can; where it
-    /// is let go, it follows exactly.
+    /// A slider from the built pose to the chosen one.
     fn way_ui(&mut self, ui: &mut egui::Ui, told: &Told<'_>, asks: &mut Asks) {
         if self.to == NamedPose::A {
             return;
@@ -76,23 +78,35 @@ impl PosePanel {
         if response.changed() {
             self.share = percent / 100.0;
         }
-        let done = response.drag_stopped() || (response.changed() && !response.dragged());
-        let follow = response.dragged() && response.changed() && told.now.caught_up;
-        if !done && !follow {
-            return;
-        }
-        let Some(body) = part(&told.document.body, self.to, self.share) else { return };
-        // What was shown as a draft is done again with care.
-        if body != told.document.body || done {
-            asks.push(Ask::Drag(posed(body, !done)));
-        }
-        if done {
-            asks.push(Ask::EndDrag);
-        }
+        follow_ui(&response, told, || part(&told.document.body, self.to, self.share), asks);
     }
 }
 
-fn posed(body: BodyChoice, draft: bool) -> Command {
+/// The body goes along with a slider. While it is dragged the cloth follows as quickly as it can; where it is let go, it
+/// follows exactly.
+pub fn follow_ui(
+    slider: &egui::Response,
+    told: &Told<'_>,
+    body: impl FnOnce() -> Option<BodyChoice>,
+    asks: &mut Asks,
+) {
+    let done = slider.drag_stopped() || (slider.changed() && !slider.dragged());
+    let follow = slider.dragged() && slider.changed() && told.now.caught_up;
+    if !done && !follow {
+        return;
+    }
+    let Some(body) = body() else { return };
+    // What was shown as a draft is done again with care.
+    if body != told.document.body || done {
+        asks.push(Ask::Drag(posed(body, !done)));
+    }
+    if done {
+        asks.push(Ask::EndDrag);
+    }
+}
+
+/// Asks for the dressed body in another pose.
+pub fn posed(body: BodyChoice, draft: bool) -> Command {
     Command::Repose { body, settle: false, draft }
 }
 

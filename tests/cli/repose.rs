@@ -77,6 +77,32 @@ fn the_mannequin_takes_poses_by_name_and_bodies_from_files_do_not() {
 }
 
 #[test]
+fn joints_are_turned_by_hand_within_their_ranges() {
+    let place = dressed();
+    place.ends_with_words(3, "repose dressed.toile --joint left_elbow=60 --out posed", "only the mannequin");
+    place.ends_with_words(2, "repose dressed.toile --joint left_elbow=160 --out posed", "0° to 150°");
+    place.ends_with_words(2, "repose dressed.toile --joint tail=10 --out posed", "left_elbow");
+    place.ends_with_words(2, "repose dressed.toile --joint head=1 --pose t --pose a --out posed", "--pose");
+    place.write("far.json", r#"{"left_knee": 200}"#);
+    place.ends_with_words(3, "repose dressed.toile --joints far.json --out posed", "far.json: /left_knee");
+    let report = place.run("dress sample:scarf --edge-length 0.05 --save scarf.toile --out scarf");
+    assert!([0, 1].contains(&report.code), "{report:#?}");
+    place.write("kick.json", r#"{"right_hip": {"flexion": 80}}"#);
+    let report =
+        place.run("repose scarf.toile --pose standing --joint left_elbow=90 --joints kick.json --out posed");
+    assert!([0, 1].contains(&report.code), "{report:#?}");
+    let body = |name: &str| vertices(&place.read(&format!("posed/{name}/body.obj")));
+    let (kick, bent) = (body("00-kick"), body("01-joints"));
+    let farthest = |body: &[DVec3], sign: f64, low: f64, high: f64| {
+        let there = body.iter().filter(|p| p.x * sign > 0.0 && (low..high).contains(&p.y));
+        there.map(|p| p.z).fold(f64::NEG_INFINITY, f64::max)
+    };
+    assert!(farthest(&kick, -1.0, 0.7, 1.5) > 0.5, "the right leg is up in front");
+    assert!(farthest(&bent, 1.0, 0.8, 1.2) > 0.3, "the left forearm is in front");
+    assert!(farthest(&bent, -1.0, 0.8, 1.2) < 0.25, "the right one is not");
+}
+
+#[test]
 fn maps_are_written_as_figures() {
     let place = dressed();
     place.ends(0, "fit dressed.toile --map strain --map ease --map curvature --out maps");

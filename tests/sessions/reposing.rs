@@ -59,6 +59,21 @@ fn a_body_of_other_triangles_is_no_pose() {
 
 #[test]
 fn a_pose_of_the_mannequin_is_stored_undone_and_replayed() {
+    carried_and_back(|body| body.in_named_pose(NamedPose::Running).expect("the mannequin"));
+}
+
+#[test]
+fn joints_turned_by_hand_are_stored_undone_and_replayed() {
+    carried_and_back(|body| {
+        let angles = ["left_shoulder.abduction=70", "right_elbow=90", "chest.twist=15"];
+        let angles = angles.map(|text| text.parse().expect("an angle"));
+        let anatomy = body.anatomy().expect("the mannequin");
+        let pose = anatomy.with(&body.pose().expect("a pose"), &angles).expect("within the ranges");
+        body.posed(pose).expect("the mannequin")
+    });
+}
+
+fn carried_and_back(pose: impl Fn(&BodyChoice) -> BodyChoice) {
     let figure = mannequin::default();
     let mut project = Sample::Scarf.project(&figure);
     project.document.settings.edge_length = 0.05;
@@ -66,7 +81,7 @@ fn a_pose_of_the_mannequin_is_stored_undone_and_replayed() {
     s.apply_alone(Command::Wrap).expect("wrapped");
     run(&mut s, 3000);
     let before = cloth_hash(&mut s);
-    let body = s.document().body.in_named_pose(NamedPose::Running).expect("the mannequin");
+    let body = pose(&s.document().body);
     let draft = s.document().body.in_named_pose(NamedPose::T).expect("the mannequin");
     let gesture = s.begin_gesture();
     s.apply(Command::Repose { body: draft, settle: false, draft: true }, gesture).expect("a draft");

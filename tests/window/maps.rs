@@ -145,6 +145,45 @@ fn the_mannequin_is_posed_from_the_side_panel() {
 }
 
 #[test]
+fn joints_are_turned_by_a_slider_reset_and_mirrored() {
+    let mut window = window_on(Project::default(), None);
+    window.get_by_label("Pose").click();
+    window.run_steps(8);
+    let pose = |window: &Window| app(window).session().document().body.pose().expect("the mannequin");
+    let slider = |window: &Window| {
+        window.get_by_role_and_label(egui::accesskit::Role::Slider, "Left elbow: Flexion").rect()
+    };
+    window.get_by_role_and_label(egui::accesskit::Role::Slider, "Left elbow: Flexion").scroll_to_me();
+    window.run_steps(8);
+    // The knob stands at 0°, at the left end of the rail.
+    let rail = slider(&window);
+    let from = Pos2::new(rail.left() + 6.0, rail.center().y);
+    let path: Vec<Pos2> = (0..8).map(|i| from + Vec2::new(8.0 * i as f32, 0.0)).collect();
+    drag(&mut window, &path, PointerButton::Primary);
+    window.run_steps(4);
+    let bent = pose(&window);
+    let turn = bent.turn("elbow_left").to_axis_angle().1.to_degrees();
+    assert!((20.0..=150.0).contains(&turn), "{turn}");
+    assert_eq!(bent.turns.len(), 1, "only the elbow");
+    assert_eq!(app(&window).session().step_labels().collect::<Vec<_>>(), ["change the pose"], "one step");
+    window.get_by_label("Mirror left to right").click();
+    window.run_steps(4);
+    assert_eq!(pose(&window).turns.len(), 2);
+    window.get_by_label("Reset joint").click();
+    window.run_steps(4);
+    assert_eq!(pose(&window).turns.keys().collect::<Vec<_>>(), ["elbow_right"]);
+    for _ in 0..2 {
+        key(&mut window, Modifiers::COMMAND, Key::Z);
+    }
+    assert_eq!(pose(&window), bent, "bit for bit");
+    // Beyond the end of the rail it is as far as the joint goes.
+    let far: Vec<Pos2> = (0..8).map(|i| path[7] + Vec2::new(60.0 * i as f32, 0.0)).collect();
+    drag(&mut window, &far, PointerButton::Primary);
+    let turn = pose(&window).turn("elbow_left").to_axis_angle().1.to_degrees();
+    assert!((turn - 150.0).abs() < 1e-6, "{turn}");
+}
+
+#[test]
 fn the_side_panel_tells_what_the_tape_reads() {
     let mut window = window_on(Project::default(), None);
     window.get_by_label("Measures of the body").click();

@@ -1,5 +1,6 @@
 //! Poses of the mannequin: how its joints are turned, and its skin with them.
 
+pub mod anatomy;
 mod named;
 mod regions;
 mod rig;
@@ -13,6 +14,8 @@ use serde::{Deserialize, Serialize};
 
 pub use named::NamedPose;
 pub use rig::{Posed, Rig, rig};
+
+use crate::body::skeleton::Skeleton;
 
 /// No joint turns further, radians.
 pub const FURTHEST: f64 = 2.9;
@@ -36,6 +39,14 @@ impl Pose {
     pub fn add(&mut self, joint: &str, turn: DVec3) {
         let both = DQuat::from_scaled_axis(turn) * self.turn(joint);
         self.turns.insert(joint.to_owned(), shortest(both).to_scaled_axis());
+    }
+
+    /// Turns a joint by `turn` from how it was built, and by nothing else.
+    pub fn set(&mut self, joint: &str, turn: DVec3) {
+        match turn == DVec3::ZERO {
+            true => self.turns.remove(joint),
+            false => self.turns.insert(joint.to_owned(), turn),
+        };
     }
 
     /// On the way to `other`, each joint turning evenly: 0 this, 1 `other`.
@@ -64,6 +75,12 @@ impl Pose {
             true => None,
         })
     }
+}
+
+/// The angle between the left arm and straight down, radians.
+fn hanging(skeleton: &Skeleton) -> f64 {
+    let arm = skeleton.position("elbow_left").zip(skeleton.position("shoulder_left"));
+    arm.map_or(0.0, |(elbow, shoulder)| (elbow.x - shoulder.x).atan2(shoulder.y - elbow.y))
 }
 
 /// The same rotation by no more than half a turn.

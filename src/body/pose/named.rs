@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::body::pose::Pose;
+use crate::body::pose::{Pose, hanging};
 use crate::body::skeleton::Skeleton;
 
 /// A pose with a name.
@@ -102,12 +102,6 @@ impl std::str::FromStr for NamedPose {
             format!("there is no pose {text:?}; there are {}", Self::ALL.map(Self::name).join(", "))
         })
     }
-}
-
-/// The angle between the left arm and straight down, radians.
-fn hanging(skeleton: &Skeleton) -> f64 {
-    let arm = skeleton.position("elbow_left").zip(skeleton.position("shoulder_left"));
-    arm.map_or(0.0, |(elbow, shoulder)| (elbow.x - shoulder.x).atan2(shoulder.y - elbow.y))
 }
 
 /// A pose being made. Angles in degrees.

@@ -113,3 +113,64 @@ fn half_way_is_half_the_turn_and_nonsense_is_named() {
     far.turns.insert("neck".to_owned(), DVec3::X * 4.0);
     assert!(far.problem().expect("too far").contains("neck"));
 }
+
+#[test]
+fn an_elbow_bent_by_a_right_angle_keeps_forearm_and_volume() {
+    let rig = usual();
+    let built = rig.figure();
+    let anatomy = anatomy::Anatomy::new(&built.skeleton);
+    let at = |skeleton: &Skeleton, name: &str| skeleton.position(name).expect("a joint");
+    let forearm = |skeleton: &Skeleton| at(skeleton, "wrist_left") - at(skeleton, "elbow_left");
+    // From ring to ring of its skin, where the bend does not reach.
+    let along = forearm(&built.skeleton).normalize();
+    let ring = |mesh: &TriMesh, from: f64| {
+        let places = built.mesh.positions.iter().zip(&mesh.positions).filter_map(|(p, q)| {
+            let beside = *p - at(&built.skeleton, "elbow_left");
+            let is_here =
+                (from..from + 0.02).contains(&beside.dot(along)) && beside.reject_from(along).length() < 0.07;
+            is_here.then_some(*q)
+        });
+        let places: Vec<DVec3> = places.collect();
+        places.iter().sum::<DVec3>() / places.len() as f64
+    };
+    let length = |mesh: &TriMesh| ring(mesh, 0.08).distance(ring(mesh, 0.20));
+    let hand = |skeleton: &Skeleton| (at(skeleton, "knuckles_left") - at(skeleton, "wrist_left")).normalize();
+    let bent = |degrees: f64| {
+        let angle = format!("left_elbow={degrees}").parse().expect("an angle");
+        let pose = anatomy.with(&Pose::default(), &[angle]).expect("a pose");
+        rig.posed(&pose).expect("the mannequin bent")
+    };
+    for degrees in [45.0, 90.0] {
+        let bent = bent(degrees);
+        let volume = bent.surface.mesh.volume() / built.mesh.volume();
+        assert!((volume - 1.0).abs() < 5e-3, "{degrees}: {volume} of the volume");
+        let skin = length(&bent.surface.mesh) / length(&built.mesh);
+        assert!((skin - 1.0).abs() < 0.005, "{degrees}: the forearm is {skin} as long");
+        let bone = forearm(&bent.skeleton).length() / forearm(&built.skeleton).length();
+        assert!((bone - 1.0).abs() < 0.05, "{degrees}: its bone is {bone} as long");
+        let turn = anatomy.turn(anatomy::Limb::named("left_elbow").expect("it"), [degrees, 0.0, 0.0]);
+        let turned = DQuat::from_scaled_axis(turn) * hand(&built.skeleton);
+        assert!(turned.angle_between(hand(&bent.skeleton)).to_degrees() < 2.0, "{degrees}: the hand");
+        let arm = arm_volume(&bent.surface.mesh, &built.mesh) / arm_volume(&built.mesh, &built.mesh);
+        // The crook is pressed in.
+        assert!((0.95..1.01).contains(&arm), "{degrees}: {arm} of the arm's volume");
+    }
+}
+
+/// Of the left arm from the middle of the upper arm on, where `built` has it, closed there by a cone.
+fn arm_volume(mesh: &TriMesh, built: &TriMesh) -> f64 {
+    let from = |least: f64| move |t: &&[u32; 3]| t.iter().all(|&v| built.positions[v as usize].x > least);
+    let [cut, beyond] = [0.30, 0.32];
+    let ring: Vec<DVec3> = built
+        .triangles
+        .iter()
+        .filter(|t| from(cut)(t) && !from(beyond)(t))
+        .flat_map(|t| t.map(|v| mesh.positions[v as usize]))
+        .collect();
+    let middle = ring.iter().sum::<DVec3>() / ring.len() as f64;
+    let cone = |t: &[u32; 3]| {
+        let [a, b, c] = t.map(|v| mesh.positions[v as usize] - middle);
+        a.cross(b).dot(c) / 6.0
+    };
+    built.triangles.iter().filter(from(cut)).map(cone).sum()
+}
