@@ -1,5 +1,6 @@
 //! Bytes in, checked data out, and back. Nothing here opens a file: callers hand over bytes and name the place.
 
+pub mod bvh;
 pub mod cloth_obj;
 pub mod dxf;
 pub mod garmentcode;

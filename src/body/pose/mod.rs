@@ -1,6 +1,8 @@
 //! Poses of the mannequin: how its joints are turned, and its skin with them.
 
 pub mod anatomy;
+mod matching;
+pub mod motion;
 mod named;
 mod regions;
 mod rig;

@@ -14,6 +14,7 @@ use rayon::prelude::*;
 use crate::body::landmarks::Landmarks;
 use crate::body::mannequin::{Mannequin, MannequinError, Measurements, mannequin};
 use crate::body::pose::Pose;
+use crate::body::pose::motion::Placement;
 use crate::body::pose::regions::{JOINTS, Regions};
 use crate::body::skeleton::{Joint, Skeleton};
 use crate::body::surface::Surface;
@@ -84,15 +85,30 @@ impl Rig {
 
     /// The figure in `pose`. None when a turn in it is no number.
     pub fn posed(&self, pose: &Pose) -> Option<Posed> {
-        let turns: Vec<DVec3> =
-            JOINTS.iter().map(|(name, _)| pose.turns.get(*name).copied().unwrap_or_default()).collect();
-        let built = &self.figure.mesh.positions;
-        let mut positions = self.rebuild.positions(&self.gradients(&turns), |v| built[v])?;
+        let mut positions = self.positions(pose)?;
         self.put_down(&mut positions);
         let skeleton = self.skeleton(&positions, pose);
         let landmarks = self.figure.landmarks.clone().map(|p| self.carried(p, &positions));
         let surface = Arc::new(self.surface.reposed(positions)?);
         Some(Posed { surface, skeleton, landmarks })
+    }
+
+    /// Its skin in `pose`, its pelvis turned about itself and moved from where it was built: on no floor. None when a turn
+    /// or the place is no number.
+    pub fn placed(&self, pose: &Pose, place: &Placement) -> Option<Arc<Surface>> {
+        let mut positions = self.positions(pose)?;
+        let pelvis = self.figure.skeleton.position("pelvis")?;
+        let aside = self.middle(&self.figure.mesh.positions) - self.middle(&positions);
+        positions.iter_mut().for_each(|p| *p = place.turn * (*p + aside - pelvis) + pelvis + place.shift);
+        self.surface.reposed(positions).map(Arc::new)
+    }
+
+    /// Vertices in `pose`, somewhere.
+    fn positions(&self, pose: &Pose) -> Option<Vec<DVec3>> {
+        let turns: Vec<DVec3> =
+            JOINTS.iter().map(|(name, _)| pose.turns.get(*name).copied().unwrap_or_default()).collect();
+        let built = &self.figure.mesh.positions;
+        self.rebuild.positions(&self.gradients(&turns), |v| built[v])
     }
 
     /// The turn of each triangle.
@@ -120,13 +136,15 @@ impl Rig {
 
     /// The pelvis stays over its place, and the lowest point on the floor.
     fn put_down(&self, positions: &mut [DVec3]) {
-        let middle = |at: &[DVec3]| {
-            self.still.iter().map(|&v| at[v as usize]).sum::<DVec3>() / self.still.len().max(1) as f64
-        };
-        let aside = middle(&self.figure.mesh.positions) - middle(positions);
+        let aside = self.middle(&self.figure.mesh.positions) - self.middle(positions);
         let lowest = positions.iter().map(|p| p.y).fold(f64::INFINITY, f64::min);
         let shift = DVec3::new(aside.x, -lowest, aside.z);
         positions.iter_mut().for_each(|p| *p += shift);
+    }
+
+    /// Of the pelvis.
+    fn middle(&self, positions: &[DVec3]) -> DVec3 {
+        self.still.iter().map(|&v| positions[v as usize]).sum::<DVec3>() / self.still.len().max(1) as f64
     }
 
     /// Each joint as it lies in the skin round it.

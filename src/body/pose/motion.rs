@@ -1,0 +1,211 @@
+//! Motions of other skeletons put on the mannequin.
+//!
+//! Each joint of the mannequin takes the whole rotation, from the rest pose on, of the joint that means the same, so that it
+//! does not matter how many joints the other skeleton has in between. Limbs that rest in other directions (arms level in one,
+//! half up in the other) are first laid along each other by the shortest turn. The pelvis keeps its path, scaled by the length
+//! of the legs.
+
+use glam::{DQuat, DVec3};
+
+use crate::body::pose::matching::matched;
+use crate::body::pose::regions::JOINTS;
+use crate::body::pose::{FURTHEST, Pose, shortest};
+use crate::body::skeleton::Skeleton;
+
+/// What a number of a frame does to its joint.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Channel {
+    /// Moves it along x, y or z (0..=2) of its parent, in the clip's unit, in place of its offset.
+    Position(usize),
+    /// Turns it about x, y or z (0..=2), degrees, after the channels before it.
+    Rotation(usize),
+}
+
+/// A joint of a clip.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ClipJoint {
+    /// As in the file.
+    pub name: String,
+    /// Lower than its own index; None for the root.
+    pub parent: Option<usize>,
+    /// From its parent in the rest pose, in the clip's unit.
+    pub offset: DVec3,
+    /// In the order of the numbers of a frame.
+    pub channels: Vec<Channel>,
+    /// Ends of bones that begin at it and have no joint there.
+    pub ends: Vec<DVec3>,
+}
+
+/// A skeleton in motion, y up. In the rest pose nothing is turned.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Clip {
+    /// Parents first, the root at the head.
+    pub joints: Vec<ClipJoint>,
+    /// From frame to frame, above zero.
+    pub seconds_per_frame: f64,
+    /// Of all frames, one after the other; in each the channels of all joints.
+    pub values: Vec<f64>,
+}
+
+impl Clip {
+    /// Numbers in a frame.
+    pub fn channels(&self) -> usize {
+        self.joints.iter().map(|joint| joint.channels.len()).sum()
+    }
+
+    /// Frames.
+    pub fn frames(&self) -> usize {
+        self.values.len().checked_div(self.channels()).unwrap_or(0)
+    }
+
+    /// Where each joint is in a frame and how it is turned, against the rest pose.
+    fn places(&self, frame: usize) -> Vec<(DQuat, DVec3)> {
+        let channels = self.channels();
+        let mut values = self.values[frame * channels..(frame + 1) * channels].iter();
+        let mut places: Vec<(DQuat, DVec3)> = Vec::with_capacity(self.joints.len());
+        for joint in &self.joints {
+            let (mut turn, mut at) = (DQuat::IDENTITY, joint.offset);
+            for (channel, &value) in joint.channels.iter().zip(&mut values) {
+                match *channel {
+                    Channel::Position(axis) => at[axis] = value,
+                    Channel::Rotation(axis) => {
+                        turn *= DQuat::from_axis_angle(DVec3::AXES[axis], value.to_radians());
+                    }
+                }
+            }
+            let (before, from) = joint.parent.map_or((DQuat::IDENTITY, DVec3::ZERO), |p| places[p]);
+            places.push(((before * turn).normalize(), from + before * at));
+        }
+        places
+    }
+
+    /// Where the joints are in the rest pose, the root at its offset.
+    fn resting(&self) -> Vec<DVec3> {
+        let mut places: Vec<DVec3> = Vec::with_capacity(self.joints.len());
+        for joint in &self.joints {
+            places.push(joint.parent.map_or(DVec3::ZERO, |p| places[p]) + joint.offset);
+        }
+        places
+    }
+}
+
+/// Where the mannequin's pelvis is, against the built pose.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Placement {
+    /// How it is turned, about itself.
+    pub turn: DQuat,
+    /// Where it has moved to, metres.
+    pub shift: DVec3,
+}
+
+/// Bones whose directions are laid along each other.
+const LIMBS: [(&str, &str); 4] =
+    [("shoulder", "elbow"), ("elbow", "wrist"), ("hip", "knee"), ("knee", "ankle")];
+
+/// Which joints of a clip move which of the mannequin's.
+#[derive(Clone, Debug)]
+pub struct Retarget {
+    /// For each of `JOINTS` the joint of the clip.
+    sources: Vec<Option<usize>>,
+    /// For each of `JOINTS` how its limb is laid along the clip's.
+    along: Vec<DQuat>,
+    /// For each of `JOINTS` the one before it; None: the pelvis.
+    parents: Vec<Option<usize>>,
+    pelvis: usize,
+    /// Metres in the clip's unit, after which the legs are as long as the mannequin's.
+    scale: f64,
+    /// The pelvis stands so high in the rest pose, in the clip's unit.
+    standing: f64,
+    /// Joints of the clip that move nothing, in its order.
+    pub unused: Vec<String>,
+    /// Joints of the mannequin that nothing moves.
+    pub unmoved: Vec<&'static str>,
+}
+
+impl Retarget {
+    /// From `clip` to the mannequin of `skeleton`. The error, in words: no limb was found.
+    pub fn new(clip: &Clip, skeleton: &Skeleton) -> Result<Self, String> {
+        let names: Vec<&str> = clip.joints.iter().map(|joint| joint.name.as_str()).collect();
+        let found = matched(&names);
+        let sources: Vec<Option<usize>> = JOINTS.iter().map(|(name, _)| found.get(*name).copied()).collect();
+        if sources.iter().all(Option::is_none) {
+            let first: Vec<&str> = names.iter().copied().take(12).collect();
+            return Err(format!("none of its joints is known by name: {}", first.join(", ")));
+        }
+        let rest = clip.resting();
+        let index = |name: &str| JOINTS.iter().position(|(joint, _)| *joint == name);
+        let parents = JOINTS.iter().map(|(name, _)| {
+            let joint = skeleton.index(name).map(|i| &skeleton.joints[i])?;
+            index(&skeleton.joints[joint.parent?].name)
+        });
+        let mut along = vec![DQuat::IDENTITY; JOINTS.len()];
+        let (mut own_legs, mut clip_legs) = (0.0, 0.0);
+        for side in ["left", "right"] {
+            for (from, to) in LIMBS {
+                let [from, to] = [from, to].map(|part| format!("{part}_{side}"));
+                let (Some(k), Some(own)) =
+                    (index(&from), skeleton.position(&to).zip(skeleton.position(&from)))
+                else {
+                    continue;
+                };
+                let there = sources[k].zip(found.get(to.as_str()).copied());
+                let Some((a, b)) = there else { continue };
+                let (own, theirs) = (own.0 - own.1, rest[b] - rest[a]);
+                if let (Some(own), Some(theirs)) = (own.try_normalize(), theirs.try_normalize()) {
+                    along[k] = DQuat::from_rotation_arc(own, theirs);
+                }
+                if from.starts_with("hip") || from.starts_with("knee") {
+                    own_legs += own.length();
+                    clip_legs += theirs.length();
+                }
+            }
+            // The hand is in line with the forearm.
+            if let (Some(elbow), Some(wrist)) =
+                (index(&format!("elbow_{side}")), index(&format!("wrist_{side}")))
+            {
+                along[wrist] = along[elbow];
+            }
+        }
+        let pelvis = found.get("pelvis").copied().unwrap_or(0);
+        let lowest = rest.iter().zip(&clip.joints).flat_map(|(&at, joint)| {
+            std::iter::once(at.y).chain(joint.ends.iter().map(move |end| at.y + end.y))
+        });
+        let standing = rest[pelvis].y - lowest.fold(f64::INFINITY, f64::min);
+        let own_standing = skeleton.position("pelvis").map_or(1.0, |pelvis| pelvis.y);
+        let scale = match (clip_legs > 0.0, standing > 0.0) {
+            (true, _) => own_legs / clip_legs,
+            (false, true) => own_standing / standing,
+            (false, false) => 1.0,
+        };
+        let used = |i: &usize| *i == pelvis || sources.contains(&Some(*i));
+        let unused = (0..names.len()).filter(|i| !used(i)).map(|i| names[i].to_owned()).collect();
+        let unmoved = JOINTS.iter().zip(&sources).filter(|(_, source)| source.is_none());
+        let unmoved = unmoved.map(|((name, _), _)| *name).collect();
+        Ok(Self { parents: parents.collect(), along, pelvis, scale, standing, unused, unmoved, sources })
+    }
+
+    /// The mannequin in a frame of `clip`, and where it is: sideways from where it is in frame `first`.
+    pub fn frame(&self, clip: &Clip, first: usize, frame: usize) -> (Pose, Placement) {
+        let places = clip.places(frame);
+        let pelvis = places[self.pelvis];
+        let mut whole: Vec<DQuat> = Vec::with_capacity(JOINTS.len());
+        let mut pose = Pose::default();
+        for (k, (name, _)) in JOINTS.iter().enumerate() {
+            let before = self.parents[k].map_or(pelvis.0, |parent| whole[parent]);
+            let own = self.sources[k].map_or(before, |source| places[source].0 * self.along[k]);
+            whole.push(own);
+            let turn = shortest((before.inverse() * own).normalize()).to_scaled_axis();
+            if self.sources[k].is_some() {
+                // Short of the limit, whatever rounding does.
+                pose.set(name, turn.clamp_length_max(FURTHEST * (1.0 - 1e-12)));
+            }
+        }
+        let begun = clip.places(first)[self.pelvis].1;
+        let moved = pelvis.1 - DVec3::new(begun.x, self.standing, begun.z);
+        (pose, Placement { turn: pelvis.0, shift: moved * self.scale })
+    }
+}
+
+#[cfg(test)]
+#[path = "motion_tests.rs"]
+mod tests;

@@ -1,0 +1,306 @@
+//! Motions from Biovision hierarchy files (BVH): a skeleton, then rows of numbers, one for each frame.
+//!
+//! The format is described in Meredith and Maddock 2001, "Motion Capture File Formats Explained" (University of Sheffield,
+//! CS-01-11). A reader of our own: the format is a page, and what there is for it (`bvh_anim`) has had no release since 2020
+//! and does not tell the line of every fault.
+
+use glam::DVec3;
+
+use crate::body::pose::motion::{Channel, Clip, ClipJoint};
+use crate::io::Limits;
+
+/// Joints a skeleton may have.
+const MOST_JOINTS: usize = 2000;
+/// Joints inside each other.
+const DEEPEST: usize = 200;
+/// Channels of a joint.
+const MOST_CHANNELS: usize = 6;
+/// Numbers of all frames together.
+const MOST_VALUES: usize = 50_000_000;
+/// Absolute value of any number.
+const LARGEST: f64 = 1e7;
+/// From frame to frame, seconds.
+const FRAME_TIME: std::ops::RangeInclusive<f64> = 1e-4..=100.0;
+
+/// Why a file is no motion.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum BvhError {
+    /// A fault in one line.
+    #[error("line {line}: {words}")]
+    Line {
+        /// From 1.
+        line: usize,
+        /// What is wrong.
+        words: String,
+    },
+    /// More than is read.
+    #[error("over the limit: {0}")]
+    OverLimit(String),
+}
+
+/// Whether `bytes` begin like a motion.
+pub fn is_bvh(bytes: &[u8]) -> bool {
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes).trim_ascii_start();
+    bytes.get(..9).is_some_and(|head| head.eq_ignore_ascii_case(b"HIERARCHY"))
+}
+
+/// Reads a motion, in the unit of the file, as it stands there.
+pub fn read(bytes: &[u8]) -> Result<Clip, BvhError> {
+    let most = Limits::default().file_bytes;
+    if bytes.len() > most {
+        return Err(BvhError::OverLimit(format!("the file has more than {most} bytes")));
+    }
+    // Only names may be in another encoding.
+    let text = String::from_utf8_lossy(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes));
+    let mut lines = Lines::new(&text);
+    let joints = hierarchy(&mut lines)?;
+    let (frames, seconds_per_frame) = header(&mut lines)?;
+    let mut clip = Clip { joints, seconds_per_frame, values: Vec::new() };
+    rows(&mut lines, frames, &mut clip)?;
+    Ok(clip)
+}
+
+/// The lines with something in them.
+struct Lines<'a> {
+    rest: Vec<(usize, &'a str)>,
+    next: usize,
+}
+
+impl<'a> Lines<'a> {
+    fn new(text: &'a str) -> Self {
+        // Old Macintosh ends of lines too.
+        let numbered = text.split('\n').enumerate().map(|(i, line)| (i + 1, line.trim()));
+        let ends = !text.contains('\n') && text.contains('\r');
+        let rest = match ends {
+            true => text.split('\r').enumerate().map(|(i, line)| (i + 1, line.trim())).collect::<Vec<_>>(),
+            false => numbered.collect(),
+        };
+        Self { rest: rest.into_iter().filter(|(_, line)| !line.is_empty()).collect(), next: 0 }
+    }
+
+    /// The number of the line read last, or of the first.
+    fn number(&self) -> usize {
+        let last = self.next.saturating_sub(1).min(self.rest.len().saturating_sub(1));
+        self.rest.get(last).map_or(1, |(number, _)| *number)
+    }
+
+    fn fault(&self, words: impl Into<String>) -> BvhError {
+        BvhError::Line { line: self.number(), words: words.into() }
+    }
+
+    fn line(&mut self, expected: &str) -> Result<&'a str, BvhError> {
+        let Some((_, line)) = self.rest.get(self.next) else {
+            return Err(self.fault(format!("the file ends here, where {expected} should follow")));
+        };
+        self.next += 1;
+        Ok(line)
+    }
+
+    fn peek(&self) -> Option<&'a str> {
+        self.rest.get(self.next).map(|(_, line)| *line)
+    }
+}
+
+/// A word at the head of `line`, in any case, and what follows it.
+fn after<'a>(line: &'a str, keyword: &str) -> Option<&'a str> {
+    let head = line.get(..keyword.len()).filter(|head| head.eq_ignore_ascii_case(keyword))?;
+    let rest = &line[head.len()..];
+    (rest.is_empty() || rest.starts_with(|c: char| c.is_whitespace() || c == '{' || c == ':'))
+        .then_some(rest.trim())
+}
+
+fn short(word: &str) -> String {
+    word.chars().filter(|c| !c.is_control()).take(40).collect()
+}
+
+fn number(lines: &Lines<'_>, word: &str) -> Result<f64, BvhError> {
+    match word.parse::<f64>() {
+        Ok(x) if x.is_finite() && x.abs() <= LARGEST => Ok(x),
+        Ok(x) => Err(lines.fault(format!("{x} is out of range"))),
+        Err(_) => Err(lines.fault(format!("{:?} is no number", short(word)))),
+    }
+}
+
+fn hierarchy(lines: &mut Lines<'_>) -> Result<Vec<ClipJoint>, BvhError> {
+    let first = lines.line("HIERARCHY")?;
+    if after(first, "HIERARCHY").is_none() {
+        return Err(lines.fault(format!("a motion begins with HIERARCHY, not with {:?}", short(first))));
+    }
+    let line = lines.line("ROOT")?;
+    let name =
+        after(line, "ROOT").ok_or_else(|| lines.fault(format!("expected ROOT, found {:?}", short(line))))?;
+    let mut joints = Vec::new();
+    // The joints being read, outermost first.
+    let mut open = vec![begin(lines, &mut joints, name, None)?];
+    while let Some(&joint) = open.last() {
+        let line = lines.line("a joint, its offset, its channels or }")?;
+        if line == "}" {
+            open.pop();
+        } else if let Some(numbers) = after(line, "OFFSET") {
+            joints[joint].offset = offset(lines, numbers)?;
+        } else if let Some(words) = after(line, "CHANNELS") {
+            joints[joint].channels = channels(lines, words)?;
+        } else if let Some(name) = after(line, "JOINT") {
+            if open.len() == DEEPEST {
+                return Err(BvhError::OverLimit(format!("more than {DEEPEST} joints inside each other")));
+            }
+            open.push(begin(lines, &mut joints, name, Some(joint))?);
+        } else if after(line, "End").is_some() {
+            let end = end(lines, line)?;
+            joints[joint].ends.push(end);
+        } else {
+            let words = format!("expected JOINT, End Site, OFFSET, CHANNELS or }}, found {:?}", short(line));
+            return Err(lines.fault(words));
+        }
+    }
+    Ok(joints)
+}
+
+/// A joint up to its brace.
+fn begin(
+    lines: &mut Lines<'_>,
+    joints: &mut Vec<ClipJoint>,
+    name: &str,
+    parent: Option<usize>,
+) -> Result<usize, BvhError> {
+    let (name, has_brace) = name.strip_suffix('{').map_or((name, false), |name| (name.trim(), true));
+    let name: String = name.chars().filter(|c| !c.is_control()).collect();
+    if name.is_empty() {
+        return Err(lines.fault("a joint without a name"));
+    }
+    if name.len() > Limits::default().name_bytes {
+        return Err(lines.fault("the name of the joint is too long"));
+    }
+    if joints.len() == MOST_JOINTS {
+        return Err(BvhError::OverLimit(format!("more than {MOST_JOINTS} joints")));
+    }
+    if !has_brace {
+        brace(lines)?;
+    }
+    joints.push(ClipJoint { name, parent, offset: DVec3::ZERO, channels: Vec::new(), ends: Vec::new() });
+    Ok(joints.len() - 1)
+}
+
+fn brace(lines: &mut Lines<'_>) -> Result<(), BvhError> {
+    match lines.line("{")? {
+        "{" => Ok(()),
+        line => Err(lines.fault(format!("expected {{, found {:?}", short(line)))),
+    }
+}
+
+/// "End Site { OFFSET x y z }".
+fn end(lines: &mut Lines<'_>, line: &str) -> Result<DVec3, BvhError> {
+    if !line.ends_with('{') {
+        brace(lines)?;
+    }
+    let line = lines.line("OFFSET")?;
+    let numbers = after(line, "OFFSET")
+        .ok_or_else(|| lines.fault(format!("expected OFFSET, found {:?}", short(line))))?;
+    let offset = offset(lines, numbers)?;
+    match lines.line("}")? {
+        "}" => Ok(offset),
+        line => Err(lines.fault(format!("expected }}, found {:?}", short(line)))),
+    }
+}
+
+fn offset(lines: &Lines<'_>, numbers: &str) -> Result<DVec3, BvhError> {
+    let numbers: Vec<f64> =
+        numbers.split_whitespace().map(|word| number(lines, word)).collect::<Result<_, _>>()?;
+    match numbers[..] {
+        [x, y, z] => Ok(DVec3::new(x, y, z)),
+        _ => Err(lines.fault(format!("an offset has three numbers, this one {}", numbers.len()))),
+    }
+}
+
+fn channels(lines: &Lines<'_>, words: &str) -> Result<Vec<Channel>, BvhError> {
+    let mut words = words.split_whitespace();
+    let count = words.next().and_then(|word| word.parse::<usize>().ok());
+    let count = count.filter(|&count| count <= MOST_CHANNELS);
+    let count = count
+        .ok_or_else(|| lines.fault(format!("CHANNELS takes a number from 0 to {MOST_CHANNELS} first")))?;
+    let mut channels = Vec::new();
+    for word in words {
+        let channel = match word.to_ascii_lowercase().as_str() {
+            "xposition" => Channel::Position(0),
+            "yposition" => Channel::Position(1),
+            "zposition" => Channel::Position(2),
+            "xrotation" => Channel::Rotation(0),
+            "yrotation" => Channel::Rotation(1),
+            "zrotation" => Channel::Rotation(2),
+            _ => return Err(lines.fault(format!("there is no channel {:?}", short(word)))),
+        };
+        if channels.contains(&channel) {
+            return Err(lines.fault(format!("the channel {word} is there twice")));
+        }
+        channels.push(channel);
+    }
+    match channels.len() == count {
+        true => Ok(channels),
+        false => Err(lines.fault(format!("{count} channels are announced, {} are named", channels.len()))),
+    }
+}
+
+/// "MOTION", "Frames: 60", "Frame Time: 0.0333".
+fn header(lines: &mut Lines<'_>) -> Result<(usize, f64), BvhError> {
+    let line = lines.line("MOTION")?;
+    if after(line, "MOTION").is_none() {
+        let words = match after(line, "ROOT") {
+            Some(_) => "a second ROOT: only files of one skeleton are read".to_owned(),
+            None => format!("expected MOTION, found {:?}", short(line)),
+        };
+        return Err(lines.fault(words));
+    }
+    let frames = told(lines, "Frames")?;
+    if frames < 1.0 || frames.fract() != 0.0 {
+        return Err(lines.fault("a motion has one frame or more"));
+    }
+    let time = told(lines, "Frame Time")?;
+    match FRAME_TIME.contains(&time) {
+        true => Ok((frames as usize, time)),
+        false => Err(lines.fault(format!("{time} is no number of seconds from frame to frame"))),
+    }
+}
+
+/// The number in a line "NAME: number".
+fn told(lines: &mut Lines<'_>, name: &str) -> Result<f64, BvhError> {
+    let line = lines.line(name)?;
+    let value = after(line, name).and_then(|rest| rest.strip_prefix(':'));
+    let value = value.ok_or_else(|| lines.fault(format!("expected \"{name}:\", found {:?}", short(line))))?;
+    number(lines, value.trim())
+}
+
+fn rows(lines: &mut Lines<'_>, frames: usize, clip: &mut Clip) -> Result<(), BvhError> {
+    let channels = clip.channels();
+    if channels == 0 {
+        return Err(lines.fault("no joint has a channel: nothing moves"));
+    }
+    if frames.saturating_mul(channels) > MOST_VALUES {
+        return Err(BvhError::OverLimit(format!("more than {MOST_VALUES} numbers in all frames")));
+    }
+    for frame in 0..frames {
+        let line = lines.line(&format!("frame {} of {frames}", frame + 1))?;
+        let before = clip.values.len();
+        for word in line.split_whitespace() {
+            let value = number(lines, word)?;
+            if clip.values.len() - before == channels {
+                return Err(lines.fault(format!("a frame has {channels} numbers, this one more")));
+            }
+            clip.values.push(value);
+        }
+        let found = clip.values.len() - before;
+        if found < channels {
+            return Err(lines.fault(format!("a frame has {channels} numbers, this one {found}")));
+        }
+    }
+    if let Some(line) = lines.peek() {
+        lines.next += 1;
+        return Err(
+            lines.fault(format!("{frames} frames are announced, and still {:?} follows", short(line)))
+        );
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+#[path = "bvh_tests.rs"]
+mod tests;
