@@ -2,6 +2,8 @@
 //!
 //! Texture coordinates are the pattern plane in metres, u = x and v = 1 - y, since glTF counts v downward.
 
+pub mod animated;
+
 use glam::{DVec2, DVec3};
 use gltf_json::accessor::{ComponentType, GenericComponentType, Type};
 use gltf_json::buffer::{Buffer, Target, View};
@@ -24,6 +26,16 @@ pub struct Dressed<'a> {
     pub state: &'a ClothState,
     /// For the poses of the pieces in the pattern plane.
     pub pattern: &'a Pattern,
+}
+
+impl Dressed<'_> {
+    /// Triangles that lie on the body.
+    fn laid(&self) -> Vec<usize> {
+        let is_laid = |t: &usize| {
+            self.garment.triangles[*t].iter().all(|&v| self.state.mapped.get(v as usize) == Some(&true))
+        };
+        (0..self.garment.triangles.len()).filter(is_laid).collect()
+    }
 }
 
 /// Base colours, linear RGB, 0..=1.
@@ -89,9 +101,7 @@ impl Builder {
         let front = self.material("cloth, front", colours.front);
         let back = self.material("cloth, back", colours.back);
         let Dressed { garment, state, .. } = dressed;
-        let triangles: Vec<usize> = (0..garment.triangles.len())
-            .filter(|&t| garment.triangles[t].iter().all(|&v| state.mapped.get(v as usize) == Some(&true)))
-            .collect();
+        let triangles = dressed.laid();
         let on_body: Vec<[u32; 3]> = triangles.iter().map(|&t| garment.triangles[t]).collect();
         let normals = vertex_normals(&state.positions, &on_body);
         for (id, name) in &garment.pieces {
@@ -164,7 +174,7 @@ impl Builder {
                 high[k] = high[k].max(v[k]);
             }
         }
-        let view = self.view(bytemuck::cast_slice(&vectors), Target::ArrayBuffer);
+        let view = self.view(bytemuck::cast_slice(&vectors), Some(Target::ArrayBuffer));
         let mut accessor = accessor(view, vectors.len(), ComponentType::F32, Type::Vec3);
         if with_bounds {
             accessor.min = Some(gltf_json::serialize::to_value(low).unwrap_or_default());
@@ -175,17 +185,17 @@ impl Builder {
 
     fn texture_coordinates(&mut self, uv: &[DVec2]) -> Index<Accessor> {
         let uv: Vec<[f32; 2]> = uv.iter().map(|p| [p.x as f32, (1.0 - p.y) as f32]).collect();
-        let view = self.view(bytemuck::cast_slice(&uv), Target::ArrayBuffer);
+        let view = self.view(bytemuck::cast_slice(&uv), Some(Target::ArrayBuffer));
         self.root.push(accessor(view, uv.len(), ComponentType::F32, Type::Vec2))
     }
 
     fn triangles(&mut self, triangles: &[[u32; 3]]) -> Index<Accessor> {
-        let view = self.view(bytemuck::cast_slice(triangles), Target::ElementArrayBuffer);
+        let view = self.view(bytemuck::cast_slice(triangles), Some(Target::ElementArrayBuffer));
         self.root.push(accessor(view, triangles.len() * 3, ComponentType::U32, Type::Scalar))
     }
 
     /// Every element is 4-byte numbers, so that every view begins at a multiple of 4, as the format asks.
-    fn view(&mut self, bytes: &[u8], target: Target) -> Index<View> {
+    fn view(&mut self, bytes: &[u8], target: Option<Target>) -> Index<View> {
         let byte_offset = self.data.len();
         self.data.extend_from_slice(bytes);
         self.root.push(View {
@@ -194,7 +204,7 @@ impl Builder {
             byte_offset: Some(USize64::from(byte_offset)),
             byte_stride: None,
             name: None,
-            target: Some(Checked::Valid(target)),
+            target: target.map(Checked::Valid),
             extensions: None,
             extras: Default::default(),
         })
@@ -311,7 +321,7 @@ mod tests {
     use crate::pattern::{EdgeRef, Piece, Seam};
 
     /// Two squares sewn along one edge, bent at the seam.
-    fn two_squares() -> (Pattern, Garment, ClothState) {
+    pub(super) fn two_squares() -> (Pattern, Garment, ClothState) {
         let square = [DVec2::ZERO, DVec2::X * 0.1, DVec2::splat(0.1), DVec2::Y * 0.1];
         let mut pattern = Pattern::default();
         let ids = ["a", "b"].map(|name| pattern.add_piece(Piece::polygon(name, &square)));
@@ -328,7 +338,7 @@ mod tests {
         (pattern, garment, ClothState { positions, mapped })
     }
 
-    fn parsed(bytes: &[u8]) -> (Root, &[u8]) {
+    pub(super) fn parsed(bytes: &[u8]) -> (Root, &[u8]) {
         assert_eq!(&bytes[..4], b"glTF");
         let number = |at: usize| u32::from_le_bytes(bytes[at..at + 4].try_into().expect("4 bytes")) as usize;
         assert_eq!(number(8), bytes.len());

@@ -1,0 +1,213 @@
+//! Scenes that move: every frame after the first is a morph target of each mesh, and an animation leads their weights from
+//! one to the next, straight in between.
+//!
+//! Morph targets are the one way of glTF 2.0 to move single vertices (section 3.7.2.2). They hold places and normals as
+//! 32-bit floats: a vertex of the body costs 24 bytes a frame, one of the cloth, whose two sides have normals of their own, 36.
+
+use glam::DVec3;
+use gltf_json::accessor::{ComponentType, Type};
+use gltf_json::animation::{Animation, Channel, Interpolation, Property, Sampler, Target};
+use gltf_json::mesh::MorphTarget;
+use gltf_json::validation::Checked;
+use gltf_json::{Accessor, Index};
+
+use super::{Builder, Colours, Dressed, GlbError, PieceArrays, accessor};
+use crate::cloth::ClothState;
+use crate::geometry::mesh::{TriMesh, vertex_normals};
+
+/// Where everything is in one frame.
+#[derive(Clone, Debug)]
+pub struct Frame {
+    /// Vertices of the garment, metres.
+    pub cloth: Vec<DVec3>,
+    /// Vertices of the body, metres.
+    pub body: Vec<DVec3>,
+}
+
+/// Bytes that a frame takes in the file, about.
+pub fn bytes_per_frame(cloth_vertices: usize, body_vertices: usize) -> usize {
+    36 * cloth_vertices + 24 * body_vertices
+}
+
+/// Writes the garment and the body through `frames`, so many a second. The frames have the vertices of `dressed` and of
+/// `body`, which is only taken for its triangles. Triangles not yet on the body are left out.
+pub fn write_animated(
+    dressed: Dressed<'_>,
+    body: &TriMesh,
+    frames: &[Frame],
+    frames_per_second: f64,
+    colours: &Colours,
+) -> Result<Vec<u8>, GlbError> {
+    let first = frames.first().ok_or(GlbError::Empty)?;
+    let mut builder = Builder::new();
+    let [front, back] = [("cloth, front", colours.front), ("cloth, back", colours.back)]
+        .map(|(name, colour)| builder.material(name, colour));
+    let cloth =
+        |frame: &Frame| ClothState { positions: frame.cloth.clone(), mapped: dressed.state.mapped.clone() };
+    let state = cloth(first);
+    let triangles = Dressed { state: &state, ..dressed }.laid();
+    let on_body: Vec<[u32; 3]> = triangles.iter().map(|&t| dressed.garment.triangles[t]).collect();
+    for (id, name) in &dressed.garment.pieces {
+        let own = || triangles.iter().copied().filter(|&t| dressed.garment.triangle_pieces[t] == *id);
+        let arrays = |frame: &Frame| {
+            let state = cloth(frame);
+            let normals = vertex_normals(&state.positions, &on_body);
+            PieceArrays::new(&Dressed { state: &state, ..dressed }, *id, own(), &normals)
+        };
+        let shown = arrays(first);
+        if shown.triangles.is_empty() {
+            continue;
+        }
+        builder.piece(name, &shown, [front, back]);
+        let others = frames[1..].iter().map(arrays);
+        let moves = others.map(|piece| (piece.positions, piece.normals));
+        builder.moving((&shown.positions, &shown.normals), moves, 2);
+    }
+    builder.body(&TriMesh { positions: first.body.clone(), triangles: body.triangles.clone() }, colours);
+    let normals = vertex_normals(&first.body, &body.triangles);
+    let others = frames[1..].iter();
+    let moves = others.map(|frame| (frame.body.clone(), vertex_normals(&frame.body, &body.triangles)));
+    builder.moving((&first.body, &normals), moves, 1);
+    if frames.len() > 1 {
+        builder.animation(frames.len(), frames_per_second);
+    }
+    builder.finish()
+}
+
+fn less(of: &[DVec3], by: &[DVec3]) -> Vec<DVec3> {
+    of.iter().zip(by).map(|(p, q)| *p - *q).collect()
+}
+
+impl Builder {
+    /// Gives the last mesh, whose vertices and normals are `first`, a morph target for each of `moves`. Of its primitives,
+    /// one or two, the second has the normals the other way round.
+    fn moving(
+        &mut self,
+        first: (&[DVec3], &[DVec3]),
+        moves: impl Iterator<Item = (Vec<DVec3>, Vec<DVec3>)>,
+        primitives: usize,
+    ) {
+        let mut targets: Vec<Vec<MorphTarget>> = vec![Vec::new(); primitives];
+        for (positions, normals) in moves {
+            let positions = self.vectors(&less(&positions, first.0), true);
+            let turned = less(&normals, first.1);
+            for (side, targets) in targets.iter_mut().enumerate() {
+                let normals: Vec<DVec3> = turned.iter().map(|&n| if side == 0 { n } else { -n }).collect();
+                let normals = Some(self.vectors(&normals, false));
+                targets.push(MorphTarget { positions: Some(positions), normals, tangents: None });
+            }
+        }
+        let Some(mesh) = self.root.meshes.last_mut() else { return };
+        let count = targets.first().map_or(0, Vec::len);
+        if count == 0 {
+            return;
+        }
+        mesh.weights = Some(vec![0.0; count]);
+        for (primitive, targets) in mesh.primitives.iter_mut().zip(targets) {
+            primitive.targets = Some(targets);
+        }
+    }
+
+    /// Leads the weights of all meshes through `frames` frames: in the first all are none, in every other one its own is one.
+    fn animation(&mut self, frames: usize, frames_per_second: f64) {
+        let times: Vec<f32> = (0..frames).map(|i| (i as f64 / frames_per_second) as f32).collect();
+        let targets = frames - 1;
+        let mut weights = vec![0.0_f32; frames * targets];
+        (0..targets).for_each(|i| weights[(i + 1) * targets + i] = 1.0);
+        let input = self.scalars(&times);
+        let end = times.last().copied().unwrap_or_default();
+        let bounds = |value: f32| gltf_json::serialize::to_value([value]).ok();
+        let of_times = &mut self.root.accessors[input.value()];
+        (of_times.min, of_times.max) = (bounds(0.0), bounds(end));
+        let output = self.scalars(&weights);
+        let sampler = Sampler {
+            extensions: None,
+            extras: Default::default(),
+            input,
+            interpolation: Checked::Valid(Interpolation::Linear),
+            output,
+        };
+        let channel = |&node| Channel {
+            sampler: Index::new(0),
+            target: Target {
+                extensions: None,
+                extras: Default::default(),
+                node,
+                path: Checked::Valid(Property::MorphTargetWeights),
+            },
+            extensions: None,
+            extras: Default::default(),
+        };
+        let channels = self.nodes.iter().map(channel).collect();
+        self.root.push(Animation {
+            extensions: None,
+            extras: Default::default(),
+            channels,
+            name: Some("sequence".to_owned()),
+            samplers: vec![sampler],
+        });
+    }
+
+    /// Numbers that no vertex has.
+    fn scalars(&mut self, numbers: &[f32]) -> Index<Accessor> {
+        let view = self.view(bytemuck::cast_slice(numbers), None);
+        self.root.push(accessor(view, numbers.len(), ComponentType::F32, Type::Scalar))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::{parsed, two_squares};
+    use super::*;
+
+    /// The vectors of an accessor.
+    fn vectors(root: &gltf_json::Root, data: &[u8], at: Index<Accessor>) -> Vec<DVec3> {
+        let accessor = root.get(at).expect("an accessor");
+        let view = root.get(accessor.buffer_view.expect("a view")).expect("a view");
+        let start = view.byte_offset.map_or(0, |o| o.0 as usize);
+        let number = |k: usize| {
+            let bytes = data[start + 4 * k..start + 4 * k + 4].try_into().expect("4 bytes");
+            f64::from(f32::from_le_bytes(bytes))
+        };
+        (0..accessor.count.0 as usize)
+            .map(|i| DVec3::from_array([0, 1, 2].map(|k| number(3 * i + k))))
+            .collect()
+    }
+
+    #[test]
+    fn every_frame_is_its_morph_target_over_the_first() {
+        let (pattern, garment, state) = two_squares();
+        let body = TriMesh { positions: vec![DVec3::ZERO, DVec3::X, DVec3::Y], triangles: vec![[0, 1, 2]] };
+        let frame = |i: usize| {
+            let shift = DVec3::new(0.1, -0.2, 0.3) * i as f64;
+            let cloth = state.positions.iter().map(|p| *p + shift * (1.0 + p.x)).collect();
+            Frame { cloth, body: body.positions.iter().map(|p| *p - shift).collect() }
+        };
+        let frames: Vec<Frame> = (0..4).map(frame).collect();
+        let dressed = Dressed { garment: &garment, state: &state, pattern: &pattern };
+        let bytes = write_animated(dressed, &body, &frames, 25.0, &Colours::default()).expect("a file");
+        let (root, data) = parsed(&bytes);
+        assert_eq!((root.meshes.len(), root.animations.len()), (3, 1));
+        let channels = &root.animations[0].channels;
+        assert_eq!(channels.iter().map(|c| c.target.node.value()).collect::<Vec<_>>(), [0, 1, 2]);
+        let sampler = &root.animations[0].samplers[0];
+        let end = root.get(sampler.input).and_then(|times| times.max.clone()).expect("an end");
+        assert!((end[0].as_f64().expect("seconds") - 3.0 / 25.0).abs() < 1e-6);
+        assert_eq!(root.get(sampler.output).expect("weights").count.0, 4 * 3);
+        for mesh in &root.meshes {
+            assert_eq!(mesh.weights.as_deref(), Some(&[0.0; 3][..]));
+            for primitive in &mesh.primitives {
+                assert_eq!(primitive.targets.as_ref().map(Vec::len), Some(3));
+            }
+        }
+        let skin = &root.meshes[2].primitives[0];
+        let at = |semantic| skin.attributes[&Checked::Valid(semantic)];
+        let base = vectors(&root, data, at(gltf_json::mesh::Semantic::Positions));
+        for (i, target) in skin.targets.iter().flatten().enumerate() {
+            let moved = vectors(&root, data, target.positions.expect("places"));
+            for (v, p) in frames[i + 1].body.iter().enumerate() {
+                assert!((base[v] + moved[v]).distance(*p) < 1e-6, "frame {} vertex {v}", i + 1);
+            }
+        }
+    }
+}
