@@ -21,7 +21,7 @@
 //! | `fit`      | what is read off a garment: strain, crossings, openings, the report, maps | cloth, body, pattern, geometry |
 //! | `sim`      | owner of the moving state: stages, protocol, checkpoints, thread, state hash | the above |
 //! | `session`  | what the user has done: document, command, history, recording, replay, project file, recovery | sim and below, io |
-//! | `io`       | obj, glb; patterns as garmentcode json, dxf, svg, pdf: bytes in, checked data out, and back | cloth, body, pattern, geometry |
+//! | `io`       | obj, gltf, bvh; patterns as garmentcode json, dxf, svg, pdf: bytes in, checked data out, and back | cloth, body, pattern, geometry |
 //! | `render`   | plain buffers in, pixels out: camera, passes, offscreen target | nothing of ours |
 //! | `ui`       | egui: app, actions, panes, tools | session and below, render |
 //! | `cli`      | one file per subcommand: arguments, calls, printing | session and below, render, ui |

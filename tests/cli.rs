@@ -17,6 +17,8 @@ mod dress;
 mod faults;
 #[path = "cli/fit_page.rs"]
 mod fit_page;
+#[path = "cli/gltf.rs"]
+mod gltf;
 #[path = "cli/patterns.rs"]
 mod patterns;
 #[path = "cli/program.rs"]
@@ -25,6 +27,8 @@ mod program;
 mod replay;
 #[path = "cli/repose.rs"]
 mod repose;
+#[path = "cli/sequence.rs"]
+mod sequence;
 #[path = "cli/signals.rs"]
 mod signals;
 #[path = "cli/simulate.rs"]

@@ -57,6 +57,8 @@ pub struct BodyReport {
 pub struct Imported {
     /// Metres, triangles outward.
     pub mesh: TriMesh,
+    /// Of each of its vertices which of the file's it is.
+    pub kept: Vec<u32>,
     /// What was found.
     pub report: BodyReport,
     /// Why cloth cannot be put on it; empty for a usable body.
@@ -80,15 +82,16 @@ pub fn import(mut mesh: TriMesh, unit: Unit) -> Imported {
     let mut report = BodyReport::default();
     if mesh.positions.iter().any(|p| !p.is_finite() || p.abs().max_element() > FARTHEST) {
         let words = format!("a coordinate is not finite or beyond {FARTHEST} m");
-        return Imported { mesh, report, problems: vec![problem(words)], notes: Vec::new() };
+        let (kept, notes) = (Vec::new(), Vec::new());
+        return Imported { mesh, kept, report, problems: vec![problem(words)], notes };
     }
     join(&mut mesh, &mut report);
-    drop_isolated(&mut mesh, &mut report);
+    let kept = drop_isolated(&mut mesh, &mut report);
     turn_outward(&mut mesh, &mut report);
     count(&mesh, &mut report);
     let problems = problems(&mesh, &report);
     let notes = notes(&report, unit);
-    Imported { mesh, report, problems, notes }
+    Imported { mesh, kept, report, problems, notes }
 }
 
 /// Joins vertices of the same place, if that leaves fewer open edges: meshes come split along the seams of their texture.
@@ -115,7 +118,8 @@ fn join(mesh: &mut TriMesh, report: &mut BodyReport) {
     }
 }
 
-fn drop_isolated(mesh: &mut TriMesh, report: &mut BodyReport) {
+/// Returns which vertices stay.
+fn drop_isolated(mesh: &mut TriMesh, report: &mut BodyReport) -> Vec<u32> {
     let mut used = vec![false; mesh.positions.len()];
     for &v in mesh.triangles.iter().flatten() {
         used[v as usize] = true;
@@ -132,6 +136,7 @@ fn drop_isolated(mesh: &mut TriMesh, report: &mut BodyReport) {
     for v in mesh.triangles.iter_mut().flatten() {
         *v = new_id[*v as usize];
     }
+    (0u32..).zip(used).filter_map(|(v, is_used)| is_used.then_some(v)).collect()
 }
 
 fn turn_outward(mesh: &mut TriMesh, report: &mut BodyReport) {

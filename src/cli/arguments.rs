@@ -1,5 +1,6 @@
 //! What can be typed.
 
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -62,7 +63,7 @@ pub struct BodyFile {
 /// What an input needs besides its file.
 #[derive(Clone, Debug, Default, Args)]
 pub struct InputOptions {
-    /// Puts the cloth on this body (OBJ); "mannequin" is the built-in figure
+    /// Puts the cloth on this body (OBJ, glTF); "mannequin" is the built-in figure
     #[arg(long, value_name = "FILE")]
     pub body: Option<PathBuf>,
     #[command(flatten)]
@@ -239,8 +240,8 @@ pub struct Simulate {
 pub struct Repose {
     /// Dressed project, as saved by dress --save; or a sample (sample:NAME)
     pub project: PathBuf,
-    /// The body in another pose (OBJ); several times for several poses
-    #[arg(long = "body", value_name = "FILE", required_unless_present_any = ["poses", "joints", "joint_files"])]
+    /// The body in another pose (OBJ, glTF); several times for several poses
+    #[arg(long = "body", value_name = "FILE", required_unless_present_any = ["poses", "joints", "joint_files", "motion"])]
     pub bodies: Vec<PathBuf>,
     /// The mannequin in this pose: a, t, standing, walking, running, sitting, arms-up or kung-fu; several times for several
     #[arg(long = "pose", value_name = "NAME")]
@@ -256,6 +257,23 @@ pub struct Repose {
     pub joint_files: Vec<PathBuf>,
     #[command(flatten)]
     pub body_file: BodyFile,
+    /// Takes the bodies as the frames of a motion, each carried on from the one before, and writes garment_0000.obj and up,
+    /// sequence.glb (body and garment, animated) and report.json; a body may be a folder of OBJ files, or "walk*.obj"
+    #[arg(long, conflicts_with_all = ["poses", "joints", "joint_files", "settle", "save"])]
+    pub sequence: bool,
+    /// Takes the frames of a motion, and writes the same: captured (BVH), which the mannequin makes, its joints found by
+    /// name; or the first animation of a body in glTF
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["bodies", "poses", "joints", "joint_files", "settle", "save"])]
+    pub motion: Option<PathBuf>,
+    /// Only these frames of it, counted from 0, the last left out
+    #[arg(long, value_name = "FROM..TO", value_parser = frame_range)]
+    pub frames: Option<Range<usize>>,
+    /// Only every so many of them
+    #[arg(long, value_name = "COUNT", default_value_t = 1, value_parser = step)]
+    pub every: usize,
+    /// Frames a second of sequence.glb; without it those of the motion, or 30
+    #[arg(long, value_parser = frame_rate)]
+    pub fps: Option<f64>,
     /// The folder to write to
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
@@ -368,7 +386,7 @@ pub struct Render {
     pub turntable: Option<u32>,
 }
 
-/// Makes a project of pattern (GarmentCode JSON, DXF-AAMA/ASTM, SVG) and body (OBJ) files
+/// Makes a project of pattern (GarmentCode JSON, DXF-AAMA/ASTM, SVG) and body (OBJ, glTF) files
 #[derive(Debug, Args)]
 pub struct Import {
     /// At most one pattern and one body
@@ -401,7 +419,7 @@ pub struct Export {
 /// Says what is wrong with a project, pattern or body, in words
 #[derive(Debug, Args)]
 pub struct Check {
-    /// Project, pattern, sample (sample:NAME) or body (OBJ)
+    /// Project, pattern, sample (sample:NAME) or body (OBJ, glTF)
     pub file: PathBuf,
     #[command(flatten)]
     pub input: InputOptions,
@@ -413,7 +431,7 @@ pub struct Check {
 /// Reads girths, heights, widths and depths off a standing human body
 #[derive(Debug, Args)]
 pub struct Measure {
-    /// Body (OBJ), or a project with its body; sample:NAME for the mannequin
+    /// Body (OBJ, glTF), or a project with its body; sample:NAME for the mannequin
     pub file: PathBuf,
     #[command(flatten)]
     pub body_file: BodyFile,
@@ -455,6 +473,21 @@ pub enum BenchKind {
     Accuracy,
     /// Cost of cloth under physics at a tenth, once and four times --triangles: sheets that swing and fall, a dress sewn
     Drape,
+}
+
+fn frame_range(text: &str) -> Result<Range<usize>, String> {
+    let ends = text.split_once("..").and_then(|(from, to)| Some((from.parse().ok()?, to.parse().ok()?)));
+    let range = ends.filter(|(from, to)| from < to).map(|(from, to)| from..to);
+    range.ok_or_else(|| format!("{text:?} is not FROM..TO, the first less than the second"))
+}
+
+fn step(text: &str) -> Result<usize, String> {
+    text.parse().ok().filter(|&n| n > 0).ok_or_else(|| format!("{text:?} is not a number from 1 on"))
+}
+
+fn frame_rate(text: &str) -> Result<f64, String> {
+    let rate = text.parse::<f64>().ok().filter(|rate| (0.1..=1000.0).contains(rate));
+    rate.ok_or_else(|| format!("{text:?} is not a number of frames a second from 0.1 to 1000"))
 }
 
 fn view(text: &str) -> Result<View, String> {

@@ -7,13 +7,15 @@ use crate::body::import::{Imported, import};
 use crate::body::unit::guess_unit;
 use crate::cli::arguments::BodyFile;
 use crate::cli::failure::Failure;
-use crate::cli::output;
+use crate::cli::{input, output};
 use crate::cloth::{ClothState, Garment};
 use crate::geometry::mesh::TriMesh;
+use crate::io::body_file::{self, BodyFileError};
+use crate::io::glb::animated::{Frame, write_animated};
 use crate::io::pattern_file::{self, PatternFileError};
 use crate::io::pdf::{self, Paper, PdfError};
 use crate::io::scale::DrawingUnit;
-use crate::io::{Written, dxf, garmentcode, glb, obj, svg};
+use crate::io::{Written, dxf, garmentcode, glb, gltf, obj, svg};
 use crate::pattern::Pattern;
 
 /// A pattern in a file of one of the known formats. Doubts about it are told.
@@ -41,20 +43,64 @@ pub fn pattern_bytes(ending: &str, pattern: &Pattern, name: &str, paper: Paper) 
     }
 }
 
-/// The body in an OBJ file, upright and checked. Without a unit the one that gives a person's height is taken, and said.
+/// The body in a file (OBJ, glTF), upright and checked. Without a unit the one that gives a person's height is taken, and
+/// said.
 pub fn body(path: &Path, bytes: &[u8], how: BodyFile) -> Result<Imported, Failure> {
-    let mut read = obj::read(bytes).map_err(|error| match error {
-        obj::ObjError::OverLimit(words) => Failure::Limit(format!("{}: {words}", path.display())),
-        error => Failure::input(path, error),
-    })?;
-    how.up.set_upright(&mut read.mesh);
-    let unit = match how.unit {
-        Some(unit) => unit,
-        None => unit_by_height(path, &read.mesh)?,
-    };
-    Ok(import(read.mesh, unit))
+    let mesh = body_mesh(path, bytes, how)?;
+    let unit = body_unit(path, bytes, &mesh, how)?;
+    Ok(import(mesh, unit))
 }
 
+/// The same in the file's own unit, as it stands there but upright.
+pub fn body_mesh(path: &Path, bytes: &[u8], how: BodyFile) -> Result<TriMesh, Failure> {
+    let mut mesh = body_file::read(path, bytes, &neighbour).map_err(|error| body_failure(path, error))?;
+    how.up.set_upright(&mut mesh);
+    Ok(mesh)
+}
+
+/// The glTF scene in a file.
+pub fn model(path: &Path, bytes: &[u8]) -> Result<gltf::Model, Failure> {
+    body_file::model(path, bytes, &neighbour).map_err(|error| body_failure(path, error))
+}
+
+/// The unit of a body as [`body_mesh`] gives it.
+pub fn body_unit(path: &Path, bytes: &[u8], mesh: &TriMesh, how: BodyFile) -> Result<Unit, Failure> {
+    let (lower, upper) = mesh.bounds();
+    match how.unit {
+        Some(unit) => Ok(unit),
+        // Metres, by the format, unless that makes no sense and another unit does.
+        None if gltf::is_gltf(bytes) && guess_unit(upper.y - lower.y).is_none() => Ok(Unit::Metre),
+        None => unit_by_height(path, mesh),
+    }
+}
+
+/// A body has the triangles of the dressed one, or an error names `path` and tells the difference.
+pub fn same_triangles(path: &Path, body: &TriMesh, dressed: &TriMesh) -> Result<(), Failure> {
+    let counts = |mesh: &TriMesh| [mesh.positions.len(), mesh.triangles.len()];
+    let words = match (counts(body), counts(dressed)) {
+        (is, was) if is == was && body.triangles == dressed.triangles => return Ok(()),
+        (is, was) if is == was => {
+            "its triangles join other vertices than those of the dressed body".to_owned()
+        }
+        ([v, t], [was_v, was_t]) => {
+            format!("it has {v} vertices and {t} triangles, the dressed body {was_v} and {was_t}")
+        }
+    };
+    Err(Failure::input(path, words))
+}
+
+fn neighbour(path: &Path) -> Result<Vec<u8>, String> {
+    input::read(path).map_err(|failure| failure.to_string())
+}
+
+fn body_failure(path: &Path, error: BodyFileError) -> Failure {
+    match error {
+        BodyFileError::OverLimit(words) => Failure::Limit(format!("{}: {words}", path.display())),
+        error => Failure::input(path, error),
+    }
+}
+
+/// The unit that makes `mesh` as high as a person, said when it is not the metre.
 fn unit_by_height(path: &Path, mesh: &TriMesh) -> Result<Unit, Failure> {
     let (lower, upper) = mesh.bounds();
     let height = upper.y - lower.y;
@@ -89,4 +135,18 @@ pub fn scene_glb(
 ) -> Result<Vec<u8>, Failure> {
     let dressed = glb::Dressed { garment, state: cloth, pattern };
     glb::write(Some(dressed), body, &glb::Colours::default()).map_err(|e| Failure::Limit(e.to_string()))
+}
+
+/// Dressed cloth and its body through frames as binary glTF.
+pub fn sequence_glb(
+    garment: &Garment,
+    cloth: &ClothState,
+    pattern: &Pattern,
+    body: &TriMesh,
+    frames: &[Frame],
+    fps: f64,
+) -> Result<Vec<u8>, Failure> {
+    let dressed = glb::Dressed { garment, state: cloth, pattern };
+    let written = write_animated(dressed, body, frames, fps, &glb::Colours::default());
+    written.map_err(|e| Failure::Limit(e.to_string()))
 }

@@ -9,8 +9,8 @@ use crate::body::mannequin::{Measurements, mannequin};
 use crate::cli::arguments::{BodyFile, InputOptions};
 use crate::cli::failure::Failure;
 use crate::cli::{formats, output};
-use crate::io::pattern_file;
 use crate::io::scale::DrawingUnit;
+use crate::io::{gltf, pattern_file};
 use crate::pattern::Pattern;
 use crate::session::body::{Body, surface_of};
 use crate::session::carry::carried;
@@ -86,7 +86,8 @@ pub fn content(path: &Path, how: BodyFile, scale: Option<DrawingUnit>) -> Result
     if project_file::is_project(&bytes) {
         return project_file::from_bytes(&bytes).map(Content::Project).map_err(|e| project_failure(path, e));
     }
-    if bytes.trim_ascii().is_empty() || pattern_file::format(&bytes).is_some() {
+    let is_pattern = !gltf::is_gltf(&bytes) && pattern_file::format(&bytes).is_some();
+    if bytes.trim_ascii().is_empty() || is_pattern {
         return formats::pattern(path, &bytes, scale).map(Content::Pattern);
     }
     formats::body(path, &bytes, how).map(Content::Body)

@@ -23,6 +23,7 @@ mod replay;
 mod report;
 mod repose;
 mod run;
+mod sequence;
 mod simulate;
 mod verdict;
 
@@ -63,7 +64,13 @@ fn carry_out(arguments: Arguments) -> Result<(), Failure> {
         None => open::open(arguments.project.as_deref(), arguments.record.as_deref()),
         Some(Task::Dress(dress)) => run::on_threads(dress.threads, || dress::dress(&dress)),
         Some(Task::Replay(replay)) => run::on_threads(replay.threads, || replay::replay(&replay)),
-        Some(Task::Repose(repose)) => run::on_threads(repose.threads, || repose::repose(&repose)),
+        Some(Task::Repose(repose)) => run::on_threads(repose.threads, || {
+            if repose.sequence || repose.motion.is_some() {
+                sequence::sequence(&repose)
+            } else {
+                repose::repose(&repose)
+            }
+        }),
         Some(Task::Fit(fit)) => run::on_threads(fit.threads, || fit::fit(&fit)),
         Some(Task::Compare(compare)) => run::on_threads(compare.threads, || compare::compare(&compare)),
         Some(Task::Render(render)) => render::render(&render),

@@ -112,7 +112,7 @@ fn posed(path: &Path, arguments: &Repose) -> Result<BodyChoice, Failure> {
 }
 
 /// A project that holds no dressed cloth is dressed as `toile dress` would.
-fn dress_first(session: &mut Session, arguments: &Repose, seconds: &mut Seconds) -> Result<(), Failure> {
+pub fn dress_first(session: &mut Session, arguments: &Repose, seconds: &mut Seconds) -> Result<(), Failure> {
     if session.snapshot().is_dressed() {
         return Ok(());
     }

@@ -27,8 +27,6 @@ fn angle(name: &str, degrees: &At<'_>) -> Result<JointAngle, JsonError> {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
-
     #[test]
     fn joints_are_read_and_faults_are_placed() {
         let read = |text: &str| super::read(text.as_bytes());

@@ -1,10 +1,12 @@
 //! Bytes in, checked data out, and back. Nothing here opens a file: callers hand over bytes and name the place.
 
+pub mod body_file;
 pub mod bvh;
 pub mod cloth_obj;
 pub mod dxf;
 pub mod garmentcode;
 pub mod glb;
+pub mod gltf;
 pub mod joints;
 pub mod json;
 pub mod limits;

@@ -26,7 +26,7 @@ impl Dropped {
         match extension.as_deref() {
             Some("toile") => Self::Project,
             Some("json" | "dxf" | "svg") => Self::Pattern,
-            Some("obj") => Self::Body,
+            Some("obj" | "glb" | "gltf") => Self::Body,
             _ => Self::Nothing,
         }
     }
@@ -41,7 +41,7 @@ impl Dropped {
             Self::Body => [None, Some(format!("{name} becomes the body"))],
             Self::Nothing => [
                 Some(format!("{name}: not a project (.toile) or pattern (.dxf, .svg, .json)")),
-                Some("nor a body (.obj)".to_owned()),
+                Some("nor a body (.obj, .glb, .gltf)".to_owned()),
             ],
         }
     }
@@ -97,6 +97,7 @@ mod tests {
             ("b.Svg", Dropped::Pattern),
             ("c.json", Dropped::Pattern),
             ("d.obj", Dropped::Body),
+            ("d.GLB", Dropped::Body),
             ("e.png", Dropped::Nothing),
             ("toile", Dropped::Nothing),
         ] {

@@ -129,7 +129,7 @@ impl App {
                 Dropped::Pattern => self.file(ctx, Purpose::ImportPattern, &path),
                 Dropped::Body => self.file(ctx, Purpose::ImportBody, &path),
                 Dropped::Nothing => self.messages.error(format!(
-                    "{} is neither a project (.toile), a pattern (.dxf, .svg, .json) nor a body (.obj)",
+                    "{} is neither a project (.toile), a pattern (.dxf, .svg, .json) nor a body (.obj, .glb, .gltf)",
                     path.display()
                 )),
             }

@@ -7,6 +7,7 @@ use glam::DVec3;
 
 use crate::body::{Unit, UpAxis, guess_unit, import, mannequin};
 use crate::geometry::mesh::TriMesh;
+use crate::io::body_file;
 use crate::io::pattern_file::{self, PatternFileError};
 use crate::io::pdf::{self, Paper};
 use crate::io::scale::{DrawingUnit, ScaleQuestion};
@@ -68,7 +69,7 @@ impl Purpose {
             Self::Open | Self::Save | Self::Copy => ("Toile project", &["toile"]),
             Self::ImportPattern => ("Pattern", &["dxf", "svg", "json"]),
             Self::ExportPattern => ("Pattern", &["pdf", "svg", "dxf", "json"]),
-            Self::ImportBody => ("OBJ body", &["obj"]),
+            Self::ImportBody => ("Body", &["obj", "glb", "gltf"]),
             Self::Export => ("Garment", &["obj", "glb"]),
             Self::Recording => ("Recording", &["jsonl"]),
             Self::Picture | Self::Turn => ("Picture", &["png"]),
@@ -195,7 +196,7 @@ pub struct RawBody {
 
 /// Reads a body; its unit may still have to be asked for.
 pub fn read_body(path: &Path) -> Result<RawBody, String> {
-    let mesh = obj::read(&read(path)?).map_err(|e| in_words(path, "imported", e))?.mesh;
+    let mesh = body_file::read(path, &read(path)?, &read).map_err(|e| in_words(path, "imported", e))?;
     let (lower, upper) = mesh.bounds();
     let size = upper - lower;
     let up = UpAxis::guess(size);

@@ -5,7 +5,7 @@ use glam::{DQuat, DVec3};
 use crate::program::Place;
 
 /// Vertices of an OBJ file.
-fn vertices(text: &str) -> Vec<DVec3> {
+pub fn vertices(text: &str) -> Vec<DVec3> {
     let numbers =
         |line: &str| -> Vec<f64> { line.split_whitespace().filter_map(|w| w.parse().ok()).collect() };
     let found = text.lines().filter_map(|line| line.strip_prefix("v ")).map(numbers);
@@ -13,7 +13,7 @@ fn vertices(text: &str) -> Vec<DVec3> {
 }
 
 /// The OBJ file with every vertex moved.
-fn moved(text: &str, to: impl Fn(DVec3) -> DVec3) -> String {
+pub fn moved(text: &str, to: impl Fn(DVec3) -> DVec3) -> String {
     let mut places = vertices(text).into_iter().map(to);
     let line = |line: &str| match line.starts_with("v ").then(|| places.next()).flatten() {
         Some(p) => format!("v {} {} {}\n", p.x, p.y, p.z),
@@ -23,7 +23,7 @@ fn moved(text: &str, to: impl Fn(DVec3) -> DVec3) -> String {
 }
 
 /// The ball with its patches on it, in "dressed.toile", and the files of `toile dress` in "out".
-fn dressed() -> Place {
+pub fn dressed() -> Place {
     let place = Place::with_ball();
     place.run("dress ball.toile --out out --save dressed.toile");
     assert!(!place.names("out").is_empty());

@@ -321,7 +321,7 @@ fn files_held_over_the_window_are_told_what_becomes_of_them() {
         ("a/front.dxf", "Lay the pieces of front.dxf on the table", "Nothing changes here"),
         ("a/anna.obj", "Nothing changes here", "anna.obj becomes the body"),
         ("a/shirt.toile", "Open the project shirt.toile", "with its body and cloth"),
-        ("a/photo.jpg", "photo.jpg: not a project", "nor a body (.obj)"),
+        ("a/photo.jpg", "photo.jpg: not a project", "nor a body (.obj, .glb, .gltf)"),
     ] {
         hold(&mut window, Some(name));
         window.get_by_label_contains(&format!("pattern pane: {left}"));

@@ -305,9 +305,9 @@ impl Anatomy {
                 ]
             }
         };
-        // Less what rounding adds: a joint that is not turned reads 0°.
+        // Less what rounding adds: a joint that is not turned reads 0°, and not -0°.
         own.map(|angle| (angle * frame.determinant()).to_degrees())
-            .map(|degrees| (degrees * 1e9).round() / 1e9)
+            .map(|degrees| (degrees * 1e9).round() / 1e9 + 0.0)
     }
 
     /// Gives `limb` these angles in `pose`.

@@ -1,7 +1,7 @@
 //! Which joint of another skeleton is which of the mannequin's, by name.
 //!
 //! Known are the names of the CMU motion library and of Mixamo (both after MotionBuilder), of Poser and Daz, of 3ds Max
-//! bipeds, of Unreal, and plain words. Case, separators and what stands before a colon do not count.
+//! bipeds, of Unreal and MakeHuman, and plain words. Case, separators and what stands before a colon do not count.
 
 use std::collections::BTreeMap;
 
@@ -9,12 +9,12 @@ use std::collections::BTreeMap;
 /// skeleton and another in the next ("LeftShoulder" is Mixamo's collar, and elsewhere the shoulder), the joint named further
 /// up takes it last.
 const LIMBS: [(&str, &[&str]); 7] = [
-    ("shoulder", &["arm", "upperarm", "uparm", "shldr", "shldrbend", "shoulder"]),
+    ("shoulder", &["arm", "upperarm", "upperarm01", "uparm", "shldr", "shldrbend", "shoulder"]),
     ("collar", &["collar", "clavicle", "shoulder"]),
-    ("elbow", &["forearm", "lowerarm", "lowarm", "forearmbend", "elbow"]),
+    ("elbow", &["forearm", "lowerarm", "lowerarm01", "lowarm", "forearmbend", "elbow"]),
     ("wrist", &["hand", "wrist"]),
-    ("hip", &["upleg", "upperleg", "thigh", "thighbend", "hip"]),
-    ("knee", &["leg", "lowerleg", "lowleg", "shin", "calf", "knee"]),
+    ("hip", &["upleg", "upperleg", "upperleg01", "thigh", "thighbend", "hip"]),
+    ("knee", &["leg", "lowerleg", "lowerleg01", "lowleg", "shin", "calf", "knee"]),
     ("ankle", &["foot", "ankle"]),
 ];
 /// And those in the middle.

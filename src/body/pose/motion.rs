@@ -5,6 +5,8 @@
 //! half up in the other) are first laid along each other by the shortest turn. The pelvis keeps its path, scaled by the length
 //! of the legs.
 
+use std::collections::BTreeMap;
+
 use glam::{DQuat, DVec3};
 
 use crate::body::pose::matching::matched;
@@ -98,6 +100,20 @@ pub struct Placement {
     pub shift: DVec3,
 }
 
+/// Numbers count up the spine in some skeletons and down in others: the chest is the joint above.
+fn upright(found: &mut BTreeMap<String, usize>, clip: &Clip) {
+    let Some((spine, chest)) = found.get("spine").copied().zip(found.get("chest").copied()) else { return };
+    let mut above = clip.joints[spine].parent;
+    while let Some(joint) = above {
+        if joint == chest {
+            found.insert("spine".to_owned(), chest);
+            found.insert("chest".to_owned(), spine);
+            return;
+        }
+        above = clip.joints[joint].parent;
+    }
+}
+
 /// Bones whose directions are laid along each other.
 const LIMBS: [(&str, &str); 4] =
     [("shoulder", "elbow"), ("elbow", "wrist"), ("hip", "knee"), ("knee", "ankle")];
@@ -126,7 +142,8 @@ impl Retarget {
     /// From `clip` to the mannequin of `skeleton`. The error, in words: no limb was found.
     pub fn new(clip: &Clip, skeleton: &Skeleton) -> Result<Self, String> {
         let names: Vec<&str> = clip.joints.iter().map(|joint| joint.name.as_str()).collect();
-        let found = matched(&names);
+        let mut found = matched(&names);
+        upright(&mut found, clip);
         let sources: Vec<Option<usize>> = JOINTS.iter().map(|(name, _)| found.get(*name).copied()).collect();
         if sources.iter().all(Option::is_none) {
             let first: Vec<&str> = names.iter().copied().take(12).collect();

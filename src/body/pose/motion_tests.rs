@@ -113,6 +113,21 @@ fn the_pelvis_keeps_its_path_by_the_length_of_the_legs() {
 }
 
 #[test]
+fn a_spine_that_is_counted_down_is_the_right_way_up() {
+    let skeleton = skeleton();
+    let name = |name: &str| match name {
+        "spine" => "spine03".to_owned(),
+        "chest" => "spine01".to_owned(),
+        other => other.to_owned(),
+    };
+    let mut clip = clip_of(&skeleton, name);
+    let place = rotations_of(&clip, "spine01");
+    clip.values[place] = 10.0;
+    let (pose, _) = Retarget::new(&clip, &skeleton).expect("a mannequin").frame(&clip, 0, 0);
+    assert!(pose.turns["chest"].distance(DVec3::Z * 10_f64.to_radians()) < 1e-7, "{pose:?}");
+}
+
+#[test]
 fn what_means_nothing_is_listed() {
     let skeleton = skeleton();
     let clip = clip_of(&skeleton, |name| if name == "head" { "antenna".to_owned() } else { name.to_owned() });

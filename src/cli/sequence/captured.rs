@@ -1,0 +1,65 @@
+//! Frames of a sequence as a captured motion (BVH) that the mannequin makes.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use crate::body::Surface;
+use crate::body::pose::motion::{Clip, Retarget};
+use crate::body::pose::{Rig, rig};
+use crate::cli::failure::Failure;
+use crate::io::bvh::{self, BvhError};
+use crate::session::BodyChoice;
+
+/// A motion put on the mannequin.
+pub struct Captured {
+    clip: Clip,
+    retarget: Retarget,
+    rig: Arc<Rig>,
+    /// Sideways it is where it was built in this one.
+    first: usize,
+}
+
+impl Captured {
+    /// The motion in `bytes`, read from `path`, for the mannequin of `body`, where it was built in frame `first`.
+    pub fn new(path: &Path, bytes: &[u8], body: &BodyChoice, first: usize) -> Result<Self, Failure> {
+        let clip = bvh::read(bytes).map_err(|error| match error {
+            BvhError::OverLimit(words) => Failure::Limit(format!("{}: {words}", path.display())),
+            error => Failure::input(path, error),
+        })?;
+        let words = "a BVH motion is for the mannequin, and the body of this project is from a file";
+        let measurements = body.measurements().ok_or_else(|| Failure::input(path, words))?;
+        let rig = rig(&measurements).map_err(|error| Failure::input(path, error))?;
+        let retarget = Retarget::new(&clip, &rig.figure().skeleton);
+        Ok(Self { retarget: retarget.map_err(|why| Failure::input(path, why))?, clip, rig, first })
+    }
+
+    /// Frames of the file.
+    pub fn frames(&self) -> usize {
+        self.clip.frames()
+    }
+
+    /// Frames a second of the file.
+    pub fn fps(&self) -> f64 {
+        1.0 / self.clip.seconds_per_frame
+    }
+
+    /// Which joints found no partner, in words.
+    pub fn notes(&self) -> Vec<String> {
+        let Retarget { unused, unmoved, .. } = &self.retarget;
+        let mut notes = Vec::new();
+        if !unused.is_empty() {
+            notes.push(format!("joints that move nothing of the mannequin: {}", unused.join(", ")));
+        }
+        if !unmoved.is_empty() {
+            notes.push(format!("joints of the mannequin that nothing moves: {}", unmoved.join(", ")));
+        }
+        notes
+    }
+
+    /// The mannequin in frame `i` of the file.
+    pub fn body(&self, i: usize) -> Result<Arc<Surface>, Failure> {
+        let (pose, place) = self.retarget.frame(&self.clip, self.first, i);
+        let body = self.rig.placed(&pose, &place);
+        body.ok_or_else(|| Failure::Check(format!("the mannequin cannot take the pose of frame {}", i + 1)))
+    }
+}

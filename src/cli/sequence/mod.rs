@@ -1,0 +1,331 @@
+//! `toile repose --sequence` and `--motion`: the dressed garment through the frames of a motion, each carried on from the frame before.
+
+mod animated;
+mod captured;
+mod files;
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::Instant;
+
+use serde::Serialize;
+
+use crate::body::Surface;
+use crate::cli::arguments::{InputOptions, Repose};
+use crate::cli::failure::Failure;
+use crate::cli::report::Seconds;
+use crate::cli::{formats, input, interrupt, output, repose, run};
+use crate::fit;
+use crate::io::glb::animated::{Frame, bytes_per_frame};
+use crate::io::gltf;
+use crate::repose::{Care, Reposer};
+use crate::session::recording::Hex;
+use crate::session::{BodyChoice, Session};
+use crate::sim::Snapshot;
+use crate::sim::hash::{Fnv, cloth_hash};
+use crate::wrap::Phase;
+
+use animated::Animated;
+use captured::Captured;
+use files::Files;
+
+/// Frames one sequence may have.
+const MOST_FRAMES: usize = 10_000;
+/// Frames a second of bodies in files.
+const USUAL_FPS: f64 = 30.0;
+/// Bytes that an animated file may take: its lengths are 32-bit.
+const MOST_BYTES: usize = u32::MAX as usize;
+
+/// Where the bodies of the frames come from.
+enum Source {
+    Files(Files),
+    Captured(Captured),
+    Animated(Box<Animated>, PathBuf),
+}
+
+impl Source {
+    /// What moves in the file at `path`: its frames, how many there are in a second, and what was not understood.
+    fn moving(
+        path: &Path,
+        arguments: &Repose,
+        body: &BodyChoice,
+    ) -> Result<(Self, usize, f64, Vec<String>), Failure> {
+        let bytes = input::read(path)?;
+        if gltf::is_gltf(&bytes) {
+            let fps = arguments.fps.map_or(USUAL_FPS, |fps| fps * arguments.every as f64);
+            let animated = Animated::new(path, &bytes, arguments.body_file, fps)?;
+            let (count, notes) = (animated.frames(), animated.notes());
+            return Ok((Self::Animated(Box::new(animated), path.to_owned()), count, fps, notes));
+        }
+        let first = arguments.frames.as_ref().map_or(0, |range| range.start);
+        let captured = Captured::new(path, &bytes, body, first)?;
+        let (count, fps, notes) = (captured.frames(), captured.fps(), captured.notes());
+        Ok((Self::Captured(captured), count, fps, notes))
+    }
+}
+
+/// The frames to make.
+struct Motion {
+    source: Source,
+    /// Of those that there are, from 0.
+    frames: Vec<usize>,
+    /// Frames a second.
+    fps: f64,
+    /// What was not understood of it.
+    notes: Vec<String>,
+    /// What was read.
+    inputs: Vec<PathBuf>,
+}
+
+impl Motion {
+    fn new(arguments: &Repose, body: &BodyChoice) -> Result<Self, Failure> {
+        let (source, count, own_fps, notes) = match &arguments.motion {
+            Some(path) => Source::moving(path, arguments, body)?,
+            None => {
+                let files = Files::new(&arguments.bodies, arguments.body_file)?;
+                let count = files.paths.len();
+                (Source::Files(files), count, USUAL_FPS, Vec::new())
+            }
+        };
+        let frames = chosen(arguments, count)?;
+        let inputs = match &source {
+            Source::Files(files) => frames.iter().map(|&i| files.paths[i].clone()).collect(),
+            Source::Captured(_) | Source::Animated(..) => arguments.motion.iter().cloned().collect(),
+        };
+        let fps = arguments.fps.unwrap_or(own_fps / arguments.every as f64);
+        Ok(Self { source, frames, fps, notes, inputs })
+    }
+
+    /// What frame `i` is called, for people.
+    fn name(&self, i: usize) -> String {
+        match &self.source {
+            Source::Files(files) => files.paths[self.frames[i]].display().to_string(),
+            Source::Captured(_) | Source::Animated(..) => {
+                format!("frame {} of the motion", self.frames[i] + 1)
+            }
+        }
+    }
+
+    /// The body in frame `i`, with the triangles of `dressed`.
+    fn body(&mut self, i: usize, dressed: &Surface) -> Result<Arc<Surface>, Failure> {
+        match &mut self.source {
+            Source::Files(files) => files.body(self.frames[i], dressed),
+            Source::Captured(captured) => captured.body(self.frames[i]),
+            Source::Animated(animated, path) => animated.body(self.frames[i], dressed, path),
+        }
+    }
+}
+
+/// Which of `count` frames are asked for.
+fn chosen(arguments: &Repose, count: usize) -> Result<Vec<usize>, Failure> {
+    if count == 0 {
+        let words = "--sequence takes bodies: --body FILE, several times, or a folder";
+        return Err(Failure::Usage(words.to_owned()));
+    }
+    let range = arguments.frames.clone().unwrap_or(0..count);
+    if range.end > count {
+        let words = format!("--frames {}..{}: there are {count} frames", range.start, range.end);
+        return Err(Failure::Usage(words));
+    }
+    match range.len().div_ceil(arguments.every) {
+        n if n > MOST_FRAMES => Err(Failure::Limit(format!("{n} frames, at most {MOST_FRAMES} are made"))),
+        _ => Ok(range.step_by(arguments.every).collect()),
+    }
+}
+
+/// What was found in one frame.
+#[derive(Debug, Serialize)]
+struct Line {
+    frame: usize,
+    name: String,
+    file: String,
+    /// Vertices inside the body.
+    inside: usize,
+    /// Edges of the cloth that cross the skin.
+    through: usize,
+    /// Strain beyond what the dressed cloth had, which 99 of 100 edges do not exceed.
+    excess_p99: f64,
+    /// Strain from the flat pattern.
+    strain_p99: f64,
+    seconds: f64,
+}
+
+/// `report.json`.
+#[derive(Debug, Serialize)]
+struct Summary {
+    version: &'static str,
+    name: String,
+    inputs: Vec<String>,
+    frames_per_second: f64,
+    /// Of the animated file.
+    bytes: usize,
+    frames: Vec<Line>,
+    notes: Vec<String>,
+    state_hash: String,
+    seconds: Seconds,
+}
+
+/// All frames, from the pose that was dressed; one with cloth inside the body gives the exit code.
+pub fn sequence(arguments: &Repose) -> Result<(), Failure> {
+    let start = Instant::now();
+    let input = input::load(&arguments.project, &InputOptions::default())?;
+    let mut motion = Motion::new(arguments, &input.project.document.body)?;
+    for note in &motion.notes {
+        output::complain(&format!("note: {note}"));
+    }
+    let mut session = run::opened(input.project, &arguments.project)?;
+    let mut seconds = Seconds { load: start.elapsed().as_secs_f64(), ..Seconds::default() };
+    repose::dress_first(&mut session, arguments, &mut seconds)?;
+    let snapshot = Arc::clone(session.snapshot());
+    let body = body_of(&session, &snapshot, &arguments.project)?;
+    check_size(&snapshot, &body, motion.frames.len())?;
+    output::make_folder(&arguments.out)?;
+    let mut carrier = Carrier::new(&snapshot, Arc::clone(&body), &arguments.project)?;
+    let (mut frames, mut lines, mut hash) = (Vec::new(), Vec::new(), Fnv::default());
+    let count = motion.frames.len();
+    for i in 0..count {
+        interrupt::check()?;
+        output::progress(&format!("frame {} of {count}", i + 1));
+        let surface = motion.body(i, &body)?;
+        let (frame, line) = carrier.frame(i, &surface, &motion.name(i), &arguments.out, &mut hash)?;
+        output::progress("");
+        tell(&line, count, arguments.json)?;
+        frames.push(frame);
+        lines.push(line);
+    }
+    seconds.repose = Some(lines.iter().map(|line: &Line| line.seconds).sum());
+    let bytes = carrier.animated(&body, &frames, motion.fps)?;
+    output::write(&arguments.out.join("sequence.glb"), &bytes)?;
+    seconds.total = start.elapsed().as_secs_f64();
+    let fault = fault(&lines);
+    let read = motion.inputs.iter().map(|path| path.display().to_string());
+    let summary = Summary {
+        version: env!("CARGO_PKG_VERSION"),
+        name: input.name,
+        inputs: input.files.into_iter().chain(read).collect(),
+        frames_per_second: motion.fps,
+        bytes: bytes.len(),
+        frames: lines,
+        notes: motion.notes,
+        state_hash: Hex(hash.finish()).to_string(),
+        seconds,
+    };
+    let text = serde_json::to_string_pretty(&summary).map_err(|e| Failure::Internal(e.to_string()))?;
+    output::write(&arguments.out.join("report.json"), format!("{text}\n").as_bytes())?;
+    if !arguments.json {
+        let (mean, mib) =
+            (summary.seconds.repose.unwrap_or_default() / count as f64, bytes.len() as f64 / 1048576.0);
+        output::say(&format!("{count} frames, {:.0} ms each, sequence.glb of {mib:.1} MiB", mean * 1000.0));
+    }
+    fault.map_or(Ok(()), |words| Err(Failure::Check(words)))
+}
+
+fn body_of(session: &Session, snapshot: &Snapshot, project: &Path) -> Result<Arc<Surface>, Failure> {
+    let body = snapshot.body.as_ref().or(session.surface()).cloned();
+    body.ok_or_else(|| Failure::input(project, "there is no cloth on the body"))
+}
+
+/// Refused before the work is done: what would not fit in the file.
+fn check_size(snapshot: &Snapshot, body: &Surface, frames: usize) -> Result<(), Failure> {
+    let cloth = snapshot.garment.as_ref().map_or(0, |garment| garment.corners.len());
+    let each = bytes_per_frame(cloth, body.mesh.positions.len());
+    if each.saturating_mul(frames) < MOST_BYTES {
+        return Ok(());
+    }
+    let words = format!(
+        "{frames} frames of {each} bytes are more than a glTF file can hold: take at most {}",
+        MOST_BYTES / each
+    );
+    Err(Failure::Limit(words))
+}
+
+fn tell(line: &Line, count: usize, json: bool) -> Result<(), Failure> {
+    if json {
+        let text = serde_json::to_string(line).map_err(|e| Failure::Internal(e.to_string()))?;
+        output::say(&text);
+        return Ok(());
+    }
+    let Line { frame, name, inside, through, excess_p99, seconds, .. } = line;
+    output::say(&format!(
+        "frame {} of {count}, {name}: {inside} vertices inside, {through} edges through, strain p99 {:+.1} %, {:.0} ms",
+        frame + 1,
+        excess_p99 * 100.0,
+        seconds * 1000.0
+    ));
+    Ok(())
+}
+
+/// What is wrong with the frames.
+fn fault(lines: &[Line]) -> Option<String> {
+    let worst = lines.iter().max_by_key(|line| (line.inside, std::cmp::Reverse(line.frame)))?;
+    let bad = lines.iter().filter(|line| line.inside > 0).count();
+    let words = || {
+        format!(
+            "{bad} of {} frames have cloth inside the body; most in frame {} ({}): {} vertices",
+            lines.len(),
+            worst.frame + 1,
+            worst.name,
+            worst.inside
+        )
+    };
+    (bad > 0).then(words)
+}
+
+/// The garment, going along.
+struct Carrier<'a> {
+    snapshot: &'a Snapshot,
+    reposer: Reposer,
+}
+
+impl<'a> Carrier<'a> {
+    fn new(snapshot: &'a Snapshot, body: Arc<Surface>, project: &Path) -> Result<Self, Failure> {
+        let (Some(garment), Some(source)) = (&snapshot.garment, &snapshot.source) else {
+            return Err(Failure::input(project, "there is no cloth on the body"));
+        };
+        let cloth = snapshot.cloth.as_ref().clone();
+        let reposer = Reposer::new(garment, body, cloth, source.relax);
+        let words = "the garment is too large for this machine's memory";
+        Ok(Self { snapshot, reposer: reposer.ok_or_else(|| Failure::Limit(words.to_owned()))? })
+    }
+
+    /// Carries the cloth to `surface`, measures it and writes it to "garment_0000.obj".
+    fn frame(
+        &mut self,
+        i: usize,
+        surface: &Arc<Surface>,
+        name: &str,
+        out: &Path,
+        hash: &mut Fnv,
+    ) -> Result<(Frame, Line), Failure> {
+        let (Some(garment), Some(source)) = (&self.snapshot.garment, &self.snapshot.source) else {
+            return Err(Failure::Internal("the garment is gone".to_owned()));
+        };
+        let start = Instant::now();
+        let done = self.reposer.reposed(surface, Care::LIVE);
+        let (state, outcome) =
+            done.ok_or_else(|| Failure::Internal("a frame of another body was let through".to_owned()))?;
+        let seconds = start.elapsed().as_secs_f64();
+        let fit = fit::measure(&source.pattern, garment, &state, &fit::BodyIndex::new(surface));
+        hash.number(cloth_hash(&state, Some(Phase::AtRest), true));
+        let file = PathBuf::from(format!("garment_{i:04}.obj"));
+        output::write(&out.join(&file), &formats::garment_obj(garment, &state, &source.pattern))?;
+        let line = Line {
+            frame: i,
+            name: name.to_owned(),
+            file: file.display().to_string(),
+            inside: fit.penetration.vertices,
+            through: fit.edges_through_body,
+            excess_p99: outcome.excess_p99,
+            strain_p99: fit.strain.p99,
+            seconds,
+        };
+        Ok((Frame { cloth: state.positions, body: surface.mesh.positions.clone() }, line))
+    }
+
+    fn animated(&self, body: &Surface, frames: &[Frame], fps: f64) -> Result<Vec<u8>, Failure> {
+        let (Some(garment), Some(source)) = (&self.snapshot.garment, &self.snapshot.source) else {
+            return Err(Failure::Internal("the garment is gone".to_owned()));
+        };
+        formats::sequence_glb(garment, &self.snapshot.cloth, &source.pattern, &body.mesh, frames, fps)
+    }
+}

@@ -1,0 +1,225 @@
+//! Bodies and animations in glTF: a cylinder on two bones that bends in its middle by a right angle in one second.
+
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
+
+use base64::Engine as _;
+use glam::{DQuat, DVec3};
+use toile::geometry::ids::{MarkId, PieceId};
+use toile::geometry::mesh::TriMesh;
+use toile::geometry::shapes::cylinder;
+use toile::io::gltf::{self, Model};
+use toile::session::BodyChoice;
+use toile::wrap::{BodyMark, ClothMark, ClothSide, Marks};
+
+use crate::common;
+use crate::program::Place;
+use crate::repose::vertices;
+
+/// Metres: where it bends.
+const MIDDLE: f64 = 0.5;
+
+fn limb() -> TriMesh {
+    cylinder(0.12, 1.0, 24, 30)
+}
+
+/// How much of a vertex hangs on the upper bone.
+fn share(p: DVec3) -> f64 {
+    match p.y - MIDDLE {
+        d if d.abs() < 1e-9 => 0.5,
+        d => f64::from(u8::from(d > 0.0)),
+    }
+}
+
+/// Where a vertex is when the upper bone is turned by `angle` about z.
+fn bent(p: DVec3, angle: f64) -> DVec3 {
+    let middle = DVec3::Y * MIDDLE;
+    p.lerp(DQuat::from_rotation_z(angle) * (p - middle) + middle, share(p))
+}
+
+/// The JSON text and the binary part.
+fn skinned(uri: Option<&str>) -> (String, Vec<u8>) {
+    let mesh = limb();
+    let mut data: Vec<u8> = Vec::new();
+    let mut views = Vec::new();
+    let mut view = |bytes: Vec<u8>| {
+        views.push(format!(
+            r#"{{"buffer": 0, "byteOffset": {}, "byteLength": {}}}"#,
+            data.len(),
+            bytes.len()
+        ));
+        data.extend(bytes);
+        data.resize(data.len().next_multiple_of(4), 0);
+    };
+    let floats = |values: &[f64]| values.iter().flat_map(|&x| (x as f32).to_le_bytes()).collect::<Vec<u8>>();
+    view(floats(&mesh.positions.iter().flat_map(|p| p.to_array()).collect::<Vec<_>>()));
+    view(mesh.triangles.iter().flatten().flat_map(|v| v.to_le_bytes()).collect());
+    view(mesh.positions.iter().flat_map(|_| [0, 1, 0, 0]).collect());
+    view(floats(
+        &mesh.positions.iter().flat_map(|&p| [1.0 - share(p), share(p), 0.0, 0.0]).collect::<Vec<_>>(),
+    ));
+    // What takes the scene into the frame of each bone: columns of matrices.
+    let bind =
+        |height: f64| [1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, -height, 0.0, 1.0];
+    view(floats(&[bind(0.0), bind(MIDDLE)].concat()));
+    view(floats(&[0.0, 1.0]));
+    let turn = DQuat::from_rotation_z(FRAC_PI_2);
+    view(floats(&[[0.0, 0.0, 0.0, 1.0], turn.to_array()].concat()));
+    let (vertices, corners) = (mesh.positions.len(), mesh.triangles.len() * 3);
+    let uri = uri.map(|uri| format!(r#""uri": "{uri}", "#)).unwrap_or_default();
+    let json = format!(
+        r#"{{"asset": {{"version": "2.0"}}, "scene": 0, "scenes": [{{"nodes": [0, 1]}}],
+        "nodes": [{{"mesh": 0, "skin": 0, "translation": [5, 5, 5]}}, {{"children": [2]}},
+            {{"translation": [0, {MIDDLE}, 0]}}],
+        "meshes": [{{"primitives": [{{"attributes": {{"POSITION": 0, "JOINTS_0": 2, "WEIGHTS_0": 3}}, "indices": 1}}]}}],
+        "skins": [{{"joints": [1, 2], "inverseBindMatrices": 4}}],
+        "animations": [{{"name": "bend", "samplers": [{{"input": 5, "output": 6}}],
+            "channels": [{{"sampler": 0, "target": {{"node": 2, "path": "rotation"}}}}]}}],
+        "accessors": [
+            {{"bufferView": 0, "componentType": 5126, "count": {vertices}, "type": "VEC3",
+                "min": [-0.12, 0, -0.12], "max": [0.12, 1, 0.12]}},
+            {{"bufferView": 1, "componentType": 5125, "count": {corners}, "type": "SCALAR"}},
+            {{"bufferView": 2, "componentType": 5121, "count": {vertices}, "type": "VEC4"}},
+            {{"bufferView": 3, "componentType": 5126, "count": {vertices}, "type": "VEC4"}},
+            {{"bufferView": 4, "componentType": 5126, "count": 2, "type": "MAT4"}},
+            {{"bufferView": 5, "componentType": 5126, "count": 2, "type": "SCALAR", "min": [0], "max": [1]}},
+            {{"bufferView": 6, "componentType": 5126, "count": 2, "type": "VEC4"}}],
+        "bufferViews": [{}], "buffers": [{{{uri}"byteLength": {}}}]}}"#,
+        views.join(", "),
+        data.len()
+    );
+    (json, data)
+}
+
+fn glb() -> Vec<u8> {
+    let (mut json, data) = skinned(None);
+    json += &" ".repeat(json.len().next_multiple_of(4) - json.len());
+    let length = (28 + json.len() + data.len()) as u32;
+    let mut bytes = b"glTF\x02\0\0\0".to_vec();
+    bytes.extend(length.to_le_bytes());
+    for (kind, chunk) in [(b"JSON", json.as_bytes()), (b"BIN\0", &data)] {
+        bytes.extend((chunk.len() as u32).to_le_bytes());
+        bytes.extend(kind);
+        bytes.extend(chunk);
+    }
+    bytes
+}
+
+fn alone(bytes: &[u8]) -> Result<Model, gltf::GltfError> {
+    gltf::read(bytes, &|name| Err(format!("{name} is not there")))
+}
+
+fn check(model: &Model) {
+    let flat = limb();
+    assert_eq!(model.mesh().triangles, flat.triangles);
+    assert_eq!(model.animations().collect::<Vec<_>>(), ["bend"]);
+    assert_eq!(model.seconds(0), Some(1.0));
+    let times = [
+        (None, 0.0),
+        (Some((0, 0.0)), 0.0),
+        (Some((0, 0.5)), FRAC_PI_4),
+        (Some((0, 1.0)), FRAC_PI_2),
+        (Some((0, 9.0)), FRAC_PI_2),
+    ];
+    for (at, angle) in times {
+        let there = model.positions(at);
+        let worst = there.iter().zip(&flat.positions).map(|(p, &q)| p.distance(bent(q, angle)));
+        let worst = worst.fold(0.0, f64::max);
+        assert!(worst < 1e-6, "{at:?}: {worst}");
+    }
+}
+
+#[test]
+fn a_skinned_cylinder_bends_exactly_in_every_kind_of_file() {
+    check(&alone(&glb()).expect("a binary file"));
+    let (json, data) = skinned(Some("limb.bin"));
+    let beside = gltf::read(json.as_bytes(), &|name| {
+        (name == "limb.bin").then(|| data.clone()).ok_or_else(String::new)
+    });
+    check(&beside.expect("a text with a file"));
+    let inline = base64::engine::general_purpose::STANDARD.encode(&data);
+    let (json, _) = skinned(Some(&format!("data:application/octet-stream;base64,{inline}")));
+    check(&alone(json.as_bytes()).expect("a text with all in it"));
+    let why = alone(skinned(Some("limb.bin")).0.as_bytes()).expect_err("no file").to_string();
+    assert!(why.contains("limb.bin is not there"), "{why}");
+}
+
+#[test]
+fn faulty_scenes_are_refused_in_words() {
+    let (json, data) = skinned(Some("limb.bin"));
+    let read = |json: &str| gltf::read(json.as_bytes(), &|_| Ok(data.clone()));
+    for (from, to, words) in [
+        (
+            r#""count": 2, "type": "MAT4""#,
+            r#""count": 3, "type": "MAT4""#,
+            "accessor 4 reaches beyond its buffer",
+        ),
+        (r#""JOINTS_0": 2"#, r#""JOINTS_0": 3"#, "does not hold whole numbers"),
+        (r#""joints": [1, 2]"#, r#""joints": [1]"#, "a joint that skin 0 has not"),
+        (r#"{"children": [2]}"#, r#"{"children": [1, 2]}"#, "ring"),
+        (r#""indices": 1"#, r#""indices": 6"#, "mesh 0, primitive 0"),
+        (r#""target": {"node": 2"#, r#""target": {"node": 9"#, "the node that it moves is not there"),
+        (r#""POSITION": 0"#, r#""POSITION": 90"#, "no glTF that can be read"),
+        (r#""indices": 1"#, r#""indices": 60"#, "no glTF that can be read"),
+        (r#""path": "rotation""#, r#""path": "rotten""#, "what it moves of the node is not known"),
+        (r#""path": "rotation""#, r#""path": "scale""#, "animation 0, channel 0"),
+        (r#""nodes": [0, 1]"#, r#""nodes": [1]"#, "no triangles"),
+    ] {
+        let changed = json.replacen(from, to, 1);
+        assert_ne!(changed, json, "{from}");
+        let why = read(&changed).expect_err(to).to_string();
+        assert!(why.contains(words), "{to}: {why}");
+    }
+    let bytes = glb();
+    for at in (0..bytes.len()).step_by(7) {
+        let _ = alone(&bytes[..at]);
+    }
+    for at in 0..3000 {
+        for byte in [0, b'9', b'}', 0xff] {
+            let mut bytes = bytes.clone();
+            bytes[at] = byte;
+            if let Ok(model) = alone(&bytes) {
+                let _ = model.positions(Some((0, 0.3)));
+            }
+        }
+    }
+}
+
+#[test]
+fn cloth_goes_along_with_an_animated_body() {
+    let place = Place::new();
+    place.write("limb.glb", glb());
+    place.ends(0, "check limb.glb --unit m");
+    let model = alone(&glb()).expect("a binary file");
+    let mut project = common::project();
+    let body = BodyChoice::Imported { name: "limb".to_owned(), mesh: std::sync::Arc::new(model.mesh()) };
+    project.document.body = body;
+    let line = |at: &dyn Fn(f64) -> DVec3| (0..=8).map(|i| at(f64::from(i) / 8.0)).collect::<Vec<_>>();
+    let marks = Marks {
+        cloth: vec![ClothMark {
+            id: MarkId(1),
+            piece: PieceId(1),
+            side: ClothSide::Front,
+            points: line(&|t| DVec3::new(0.2, 0.05 + 0.2 * t, 0.0)).iter().map(|p| p.truncate()).collect(),
+        }],
+        body: vec![BodyMark { id: MarkId(2), points: line(&|t| DVec3::new(0.0, 0.6 + 0.2 * t, 0.12)) }],
+        ..Marks::default()
+    };
+    (project.document.marks, project.document.last_mark) = (marks.into(), 2);
+    place.save("marked.toile", &project);
+    let ended = place.run("dress marked.toile --out out --save dressed.toile");
+    assert!([0, 1].contains(&ended.code), "{ended:#?}");
+    let ended = place.run("repose dressed.toile --motion limb.glb --unit m --fps 10 --out posed");
+    assert!([0, 1].contains(&ended.code), "{ended:#?}");
+    let report = place.json("posed/report.json");
+    let frames = report["frames"].as_array().expect("frames");
+    assert!(frames.len() == 11 && frames.iter().all(|frame| frame["inside"] == 0), "{frames:?}");
+    let [before, after] =
+        ["posed/garment_0000.obj", "posed/garment_0010.obj"].map(|name| vertices(&place.read(name)));
+    // Above the bend all is turned with the bone.
+    let above = before.iter().zip(&after).filter(|(p, _)| p.y > 0.65);
+    let far: Vec<f64> = above.map(|(&p, q)| bent(p, FRAC_PI_2).distance(*q)).collect();
+    let worst = far.iter().copied().fold(0.0, f64::max);
+    assert!(far.len() > 5 && worst < 0.01, "{} vertices, {worst}", far.len());
+    let still = place.run("repose dressed.toile --motion marked.toile --out still");
+    assert!(still.code == 3 && still.err.contains("marked.toile"), "{still:#?}");
+}
