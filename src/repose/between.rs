@@ -50,16 +50,9 @@ pub(super) fn between(
     }
     let made = rebuild.take().or_else(|| Rebuild::new(&from.mesh).map(Arc::new));
     let Some(made) = made else { return Vec::new() };
-    let centre = |positions: &[DVec3]| positions.iter().sum::<DVec3>() / positions.len().max(1) as f64;
-    let (here, there) = (centre(&from.mesh.positions), centre(&to.mesh.positions));
-    let back: Vec<DVec3> = to.mesh.positions.iter().map(|&p| whole.inverse() * (p - there) + here).collect();
-    let ways = Ways::new(from, &back);
+    let standing = Standing::new(from, to, whole);
     let body = |i: usize| {
-        let share = i as f64 / (count + 1) as f64;
-        let straight = |v: usize| from.mesh.positions[v].lerp(back[v], share);
-        let mut positions = made.positions(&ways.at(share), straight)?;
-        let shift = here - centre(&positions);
-        positions.iter_mut().for_each(|p| *p += shift);
+        let positions = standing.at(from, &made, i as f64 / (count + 1) as f64)?;
         from.reposed(positions).map(Arc::new)
     };
     let bodies = (1..=count).filter_map(body).collect();
@@ -67,7 +60,84 @@ pub(super) fn between(
     bodies
 }
 
+/// From one pose of a body to another, the whole of it too.
+#[derive(Debug)]
+pub struct Way {
+    from: Arc<Surface>,
+    to: Arc<Surface>,
+    rebuild: Rebuild,
+    standing: Standing,
+}
+
+impl Way {
+    /// None when `to` has other triangles than `from`, or where memory runs out.
+    pub fn new(from: &Arc<Surface>, to: &Arc<Surface>) -> Option<Self> {
+        let count = from.mesh.positions.len();
+        if from.mesh.triangles != to.mesh.triangles || to.mesh.positions.len() != count {
+            return None;
+        }
+        let vertices: Vec<u32> = (0..count as u32).collect();
+        let turned = turns(from, to, &vertices);
+        let whole = mean(turned.into_iter().map(|turn| (turn.unwrap_or(DQuat::IDENTITY), 1.0)));
+        let standing = Standing::new(from, to, whole);
+        Some(Self {
+            from: Arc::clone(from),
+            to: Arc::clone(to),
+            rebuild: Rebuild::new(&from.mesh)?,
+            standing,
+        })
+    }
+
+    /// Where the vertices are at `share` of the way: at 0 and 1, bit for bit, as in the two poses.
+    pub fn positions(&self, share: f64) -> Option<Vec<DVec3>> {
+        if share <= 0.0 || share >= 1.0 {
+            let end = if share <= 0.0 { &self.from } else { &self.to };
+            return Some(end.mesh.positions.clone());
+        }
+        let mut positions = self.standing.at(&self.from, &self.rebuild, share)?;
+        let Standing { whole, here, there, .. } = self.standing;
+        let turn = DQuat::IDENTITY.slerp(if whole.w < 0.0 { -whole } else { whole }, share);
+        let middle = here.lerp(there, share);
+        positions.iter_mut().for_each(|p| *p = turn * (*p - here) + middle);
+        Some(positions)
+    }
+}
+
+/// The way to a pose without the turn and shift of the whole body.
+#[derive(Debug)]
+struct Standing {
+    ways: Ways,
+    /// The other pose, as it would stand like the first.
+    back: Vec<DVec3>,
+    whole: DQuat,
+    here: DVec3,
+    there: DVec3,
+}
+
+impl Standing {
+    fn new(from: &Surface, to: &Surface, whole: DQuat) -> Self {
+        let (here, there) = (centre(&from.mesh.positions), centre(&to.mesh.positions));
+        let back: Vec<DVec3> =
+            to.mesh.positions.iter().map(|&p| whole.inverse() * (p - there) + here).collect();
+        Self { ways: Ways::new(from, &back), back, whole, here, there }
+    }
+
+    /// The vertices at `share` of the way.
+    fn at(&self, from: &Surface, rebuild: &Rebuild, share: f64) -> Option<Vec<DVec3>> {
+        let straight = |v: usize| from.mesh.positions[v].lerp(self.back[v], share);
+        let mut positions = rebuild.positions(&self.ways.at(share), straight)?;
+        let shift = self.here - centre(&positions);
+        positions.iter_mut().for_each(|p| *p += shift);
+        Some(positions)
+    }
+}
+
+fn centre(positions: &[DVec3]) -> DVec3 {
+    positions.iter().sum::<DVec3>() / positions.len().max(1) as f64
+}
+
 /// How each triangle goes from one pose to another.
+#[derive(Debug)]
 struct Ways {
     /// Rotation vectors, radians.
     turns: Vec<DVec3>,
@@ -181,6 +251,27 @@ mod tests {
             let length = row(body, 48).distance(row(body, 80));
             assert!((length - 0.4).abs() < 2e-3, "the forearm is {length} m long");
         }
+    }
+
+    #[test]
+    fn a_way_begins_and_ends_exactly_and_turns_the_whole_evenly() {
+        let [straight, _] = arm(1.0);
+        let turn = DQuat::from_rotation_y(1.2);
+        let moved = straight.mesh.positions.iter().map(|p| turn * *p + DVec3::X).collect();
+        let moved = Arc::new(straight.reposed(moved).expect("as many vertices"));
+        let way = Way::new(&straight, &moved).expect("the same triangles");
+        assert_eq!(way.positions(0.0).as_ref(), Some(&straight.mesh.positions));
+        assert_eq!(way.positions(1.0).as_ref(), Some(&moved.mesh.positions));
+        let half = way.positions(0.5).expect("a body");
+        let middle = centre(&straight.mesh.positions);
+        let there = centre(&moved.mesh.positions);
+        let turn = DQuat::from_rotation_y(0.6);
+        for (p, q) in straight.mesh.positions.iter().zip(&half) {
+            let expected = turn * (*p - middle) + middle.lerp(there, 0.5);
+            assert!(expected.distance(*q) < 1e-6, "{expected} {q}");
+        }
+        let other = Arc::new(Surface::new(cylinder(0.05, 1.0, 12, 80)).expect("a body"));
+        assert!(Way::new(&straight, &other).is_none());
     }
 
     #[test]

@@ -14,6 +14,7 @@ mod turns;
 #[cfg(test)]
 mod tests;
 
+pub use between::Way;
 pub use conform::conformed;
 pub use distance_map::{Binding, DistanceMap};
 pub use reposer::{Care, Outcome, Reposer};

@@ -7,8 +7,9 @@ use crate::body::pose::rig;
 use crate::body::{Landmarks, Surface, bones, landmarks};
 use crate::contact::Bone;
 use crate::geometry::mesh::TriMesh;
+use crate::repose::Way;
 use crate::session::command::Rejection;
-use crate::session::document::BodyChoice;
+use crate::session::document::{Aim, BodyChoice};
 
 /// Bodies kept, so that undo of a change of body is quick.
 const MOST_KEPT: usize = 4;
@@ -80,6 +81,8 @@ impl Body {
 #[derive(Debug, Default)]
 pub struct BodyCache {
     kept: Vec<(BodyChoice, Arc<Body>)>,
+    /// The last way that was gone.
+    way: Option<(Arc<Aim>, Way)>,
 }
 
 impl BodyCache {
@@ -97,6 +100,25 @@ impl BodyCache {
         }
         self.kept.push((choice.clone(), Arc::clone(&body)));
         Ok(body)
+    }
+
+    /// The body at `share` of the way that `aim` tells. The error says why there is none.
+    pub fn between(&mut self, aim: &Arc<Aim>, share: f64) -> Result<BodyChoice, Rejection> {
+        if share == 0.0 || share == 1.0 {
+            return Ok(if share == 0.0 { aim.from.clone() } else { aim.to.clone() });
+        }
+        if self.way.as_ref().is_none_or(|(of, _)| !Arc::ptr_eq(of, aim)) {
+            let (from, to) = (self.surface(&aim.from)?, self.surface(&aim.to)?);
+            let words = format!("there is no way from {} to {}", aim.from.name(), aim.to.name());
+            let way = Way::new(&from, &to).ok_or(Rejection(words))?;
+            self.way = Some((Arc::clone(aim), way));
+        }
+        let way = self.way.as_ref().map(|(_, way)| way);
+        let positions = way.and_then(|way| way.positions(share));
+        let positions = positions.ok_or_else(|| Rejection::new("the body cannot take a pose on this way"))?;
+        let triangles = self.surface(&aim.from)?.mesh.triangles.clone();
+        let mesh = Arc::new(TriMesh { positions, triangles });
+        Ok(BodyChoice::Imported { name: aim.to.name().to_owned(), mesh })
     }
 
     /// The surface of `choice`. The error says why cloth cannot be put on it.

@@ -65,6 +65,15 @@ pub enum Command {
         #[serde(default, skip_serializing_if = "std::ops::Not::not")]
         draft: bool,
     },
+    /// Choose another pose of the body, from a file: `body` has its triangles, vertex for vertex. It stays where it is.
+    AimPose { body: BodyChoice },
+    /// The body goes from the pose in which the other was chosen to that one, so far (0..=1) that its limbs keep their size
+    /// on the way; cloth, strokes and `draft` as with `Repose`.
+    PoseTowards {
+        share: f64,
+        #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+        draft: bool,
+    },
     /// Draw bones in the body, from end to end, which cloth in the hand cannot be pulled across; none: the body's own again.
     SetBones { bones: Option<Vec<[DVec3; 2]>> },
     /// Change mesh size and how the cloth relaxes.

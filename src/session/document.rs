@@ -34,6 +34,9 @@ pub struct Document {
     /// The last number given to a pin.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub last_pin: u32,
+    /// The pose from a file that the body is led to.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub aim: Option<Arc<Aim>>,
     /// Bones drawn in the body, which cloth cannot be pulled across. None: the body's own.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bones: Option<Arc<Vec<Bone>>>,
@@ -42,6 +45,15 @@ pub struct Document {
     pub fabrics: Fabrics,
     /// Mesh size and relaxation.
     pub settings: Settings,
+}
+
+/// From one pose of a body to another.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Aim {
+    /// As it was when the other was chosen.
+    pub from: BodyChoice,
+    /// The same triangles in the other pose.
+    pub to: BodyChoice,
 }
 
 /// Names of fabrics.
@@ -109,6 +121,7 @@ impl Default for Document {
             last_mark: 0,
             pins: Arc::default(),
             last_pin: 0,
+            aim: None,
             bones: None,
             fabrics: Fabrics::default(),
             settings: Settings::default(),

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use serde::Serialize;
 
 use crate::pattern::Pattern;
-use crate::session::document::{BodyChoice, Document};
+use crate::session::document::{Aim, BodyChoice, Document};
 use crate::sim::hash::{Fnv, hash_of};
 use crate::wrap::Marks;
 
@@ -15,12 +15,14 @@ pub struct DocumentHasher {
     pattern: Option<(Arc<Pattern>, u64)>,
     marks: Option<(Arc<Marks>, u64)>,
     body: Option<(BodyChoice, u64)>,
+    aim: Option<(Arc<Aim>, u64)>,
 }
 
 impl DocumentHasher {
     /// Hash of `document` and of the numbers of steps that can be undone and redone.
     pub fn hash(&mut self, document: &Document, done: usize, undone: usize) -> u64 {
-        let Document { pattern, body, marks, last_mark, pins, last_pin, bones, fabrics, settings } = document;
+        let Document { pattern, body, marks, last_mark, pins, last_pin, aim, bones, fabrics, settings } =
+            document;
         let mut hash = Fnv::default();
         hash.number(shared(&mut self.pattern, pattern));
         hash.number(shared(&mut self.marks, marks));
@@ -29,6 +31,9 @@ impl DocumentHasher {
         if !pins.is_empty() || *last_pin > 0 {
             hash.number(json_hash(&**pins));
             hash.number(u64::from(*last_pin));
+        }
+        if let Some(aim) = aim {
+            hash.number(shared(&mut self.aim, aim));
         }
         if let Some(bones) = bones {
             hash.number(json_hash(&**bones));

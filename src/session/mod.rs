@@ -21,7 +21,7 @@ pub mod session;
 pub mod whole_file;
 
 pub use command::{Command, Rejection};
-pub use document::{BodyChoice, Document, Fabrics, Pin, Settings};
+pub use document::{Aim, BodyChoice, Document, Fabrics, Pin, Settings};
 pub use outfit::Outfit;
 pub use project::{Dressed, Project};
 pub use session::{GestureId, Notice, Session};

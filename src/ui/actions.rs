@@ -70,6 +70,7 @@ pub enum Action {
     ImportPattern,
     ExportPattern,
     ImportBody,
+    PoseFromFile,
     UseMannequin,
     Export,
     FitPage,
@@ -206,7 +207,12 @@ impl Action {
             Self::ImportPattern => {
                 entry("Import pattern…", "Take the pieces of a DXF, SVG or GarmentCode file", &[ctrl(Key::I)])
             }
-            Self::ImportBody => entry("Import body…", "Take a body from an OBJ file", &[]),
+            Self::ImportBody => entry("Import body…", "Take a body from an OBJ or glTF file", &[]),
+            Self::PoseFromFile => entry(
+                "Pose from a file…",
+                "Lead the body to its pose in an OBJ or glTF file, or the mannequin through a BVH motion",
+                &[],
+            ),
             Self::UseMannequin => entry("Use the mannequin", "Go back to the built-in figure", &[]),
             Self::ExportPattern => entry(
                 "Export pattern…",

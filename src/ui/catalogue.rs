@@ -31,6 +31,7 @@ pub const ALL: &[Action] = &[
     Action::Revert,
     Action::ImportPattern,
     Action::ImportBody,
+    Action::PoseFromFile,
     Action::UseMannequin,
     Action::ExportPattern,
     Action::Export,
@@ -186,6 +187,7 @@ impl Action {
             | Self::Revert
             | Self::ImportPattern
             | Self::ImportBody
+            | Self::PoseFromFile
             | Self::UseMannequin
             | Self::ExportPattern
             | Self::Export

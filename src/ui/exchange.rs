@@ -7,7 +7,8 @@ use crate::ui::actions::Action;
 use crate::ui::app::App;
 use crate::ui::dialogs::{Dialog, NativeDialog};
 use crate::ui::drop_overlay::Dropped;
-use crate::ui::files::{self, PatternImport, Purpose, RawBody};
+use crate::ui::files::{self, PatternImport, PoseFile, Purpose, RawBody};
+use crate::ui::posed_motion::PosedMotion;
 
 impl App {
     /// Asks the person for a file.
@@ -43,6 +44,7 @@ impl App {
             Purpose::Copy => files::save(path, &self.session.project()).map(|()| self.wrote(path)),
             Purpose::ImportPattern => self.import_pattern(path, None),
             Purpose::ImportBody => files::read_body(path).and_then(|raw| self.import_body(raw)),
+            Purpose::Pose => self.take_pose(path),
             Purpose::Export => {
                 let pattern = &self.session.document().pattern;
                 files::export(path, self.session.snapshot(), pattern).map(|()| self.wrote(path))
@@ -109,6 +111,25 @@ impl App {
         self.apply(command);
         if !notes.is_empty() {
             self.messages.tell(notes.join("; "));
+        }
+        Ok(())
+    }
+
+    /// A pose of the body to be led to, or a motion that the mannequin can make.
+    fn take_pose(&mut self, path: &Path) -> Result<(), String> {
+        let dressed = self.session.surface().ok_or("There is no body that could take a pose")?;
+        match files::read_pose(path, &dressed.mesh)? {
+            PoseFile::Body(command) => self.apply(command),
+            PoseFile::Motion(clip) => {
+                let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+                let body = &self.session.document().body;
+                let motion =
+                    PosedMotion::new(name, clip, body).map_err(|why| format!("{}: {why}", path.display()))?;
+                if let Some(words) = motion.note() {
+                    self.messages.tell(words);
+                }
+                self.shell.pose.take_motion(motion);
+            }
         }
         Ok(())
     }

@@ -5,13 +5,14 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
+use crate::body::pose::motion::Clip;
 use crate::body::{Unit, UpAxis, guess_unit, import, mannequin};
 use crate::geometry::mesh::TriMesh;
 use crate::io::body_file;
 use crate::io::pattern_file::{self, PatternFileError};
 use crate::io::pdf::{self, Paper};
 use crate::io::scale::{DrawingUnit, ScaleQuestion};
-use crate::io::{dxf, garmentcode, glb, obj, svg};
+use crate::io::{bvh, dxf, garmentcode, glb, obj, svg};
 use crate::pattern::Pattern;
 use crate::session::project_file::ProjectFileError;
 use crate::session::samples::Sample;
@@ -31,6 +32,8 @@ pub enum Purpose {
     ImportPattern,
     /// Read a body.
     ImportBody,
+    /// Read another pose of the body, or a motion.
+    Pose,
     /// Write the dressed garment.
     Export,
     /// Write the pattern.
@@ -54,6 +57,7 @@ impl Purpose {
             Self::Copy => "Save a copy of the project",
             Self::ImportPattern => "Import a pattern",
             Self::ImportBody => "Import a body",
+            Self::Pose => "Take a pose from a file",
             Self::Export => "Export the dressed garment",
             Self::ExportPattern => "Export the pattern",
             Self::Recording => "Save the recording",
@@ -70,6 +74,7 @@ impl Purpose {
             Self::ImportPattern => ("Pattern", &["dxf", "svg", "json"]),
             Self::ExportPattern => ("Pattern", &["pdf", "svg", "dxf", "json"]),
             Self::ImportBody => ("Body", &["obj", "glb", "gltf"]),
+            Self::Pose => ("Body or motion", &["obj", "glb", "gltf", "bvh"]),
             Self::Export => ("Garment", &["obj", "glb"]),
             Self::Recording => ("Recording", &["jsonl"]),
             Self::Picture | Self::Turn => ("Picture", &["png"]),
@@ -221,8 +226,39 @@ impl RawBody {
     }
 }
 
+/// A pose in a file.
+pub enum PoseFile {
+    /// Of the body.
+    Body(Command),
+    /// Captured.
+    Motion(Clip),
+}
+
+/// Reads a pose of a body that looks like `dressed`: its own triangles elsewhere, in the unit that makes their sides as long
+/// as there; or a motion.
+pub fn read_pose(path: &Path, dressed: &TriMesh) -> Result<PoseFile, String> {
+    let bytes = read(path)?;
+    if bvh::is_bvh(&bytes) {
+        return bvh::read(&bytes).map(PoseFile::Motion).map_err(|e| in_words(path, "read", e));
+    }
+    let raw = RawBody { up: UpAxis::Y, ..read_body(path)? };
+    let sides = |mesh: &TriMesh| {
+        let sides = (0..mesh.triangles.len()).map(|t| mesh.corners(t)).map(|[a, b, _]| a.distance(b));
+        sides.sum::<f64>() / mesh.triangles.len().max(1) as f64
+    };
+    let metres = sides(dressed) / sides(&raw.mesh);
+    let far = |unit: &Unit| (unit.metres() / metres).ln().abs();
+    let unit = Unit::ALL.into_iter().min_by(|a, b| far(a).total_cmp(&far(b))).unwrap_or_default();
+    let body = imported(RawBody { unit, ..raw })?.0;
+    Ok(PoseFile::Body(Command::AimPose { body }))
+}
+
 /// The command that takes `raw` as the body, and what was put right on the way.
-pub fn take_body(mut raw: RawBody) -> Result<(Command, Vec<String>), String> {
+pub fn take_body(raw: RawBody) -> Result<(Command, Vec<String>), String> {
+    imported(raw).map(|(body, notes)| (Command::SetBody { body }, notes))
+}
+
+fn imported(mut raw: RawBody) -> Result<(BodyChoice, Vec<String>), String> {
     raw.up.set_upright(&mut raw.mesh);
     let imported = import(raw.mesh, raw.unit);
     if !imported.is_usable() {
@@ -230,7 +266,7 @@ pub fn take_body(mut raw: RawBody) -> Result<(Command, Vec<String>), String> {
         return Err(format!("{} cannot be used as a body: {}", raw.name, faults.join("; ")));
     }
     let body = BodyChoice::Imported { name: raw.name, mesh: Arc::new(imported.mesh) };
-    Ok((Command::SetBody { body }, imported.notes))
+    Ok((body, imported.notes))
 }
 
 /// Writes the dressed garment of `snapshot`, as .glb with its body; `pattern` gives the places on the table.

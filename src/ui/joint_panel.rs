@@ -6,7 +6,7 @@ use glam::DVec3;
 use crate::body::Pose;
 use crate::body::pose::anatomy::{Anatomy, Limb, mirrored_to_the_right};
 use crate::ui::asks::{Ask, Asks};
-use crate::ui::pose_panel::{follow_ui, posed};
+use crate::ui::pose_panel::{follow, let_go, posed};
 use crate::ui::side_panel::Told;
 
 /// Width of the list, points.
@@ -97,7 +97,12 @@ impl JointPanel {
             if response.changed() {
                 self.given = Some((anatomy.turn(limb, new), new));
             }
-            follow_ui(&response, told, || told.document.body.posed(turned), asks);
+            let body = &told.document.body;
+            if let (Some(done), Some(new)) = (let_go(&response, told), body.posed(turned))
+                && (done || new != *body)
+            {
+                follow(posed(new, !done), done, asks);
+            }
         }
     }
 }

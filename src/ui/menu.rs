@@ -60,7 +60,12 @@ fn file_ui(ui: &mut egui::Ui, now: &Situation, asks: &mut Asks) {
     ui.separator();
     items(ui, now, asks, &[Action::Save, Action::SaveAs, Action::SaveCopy, Action::SaveNext, Action::Revert]);
     ui.separator();
-    items(ui, now, asks, &[Action::ImportPattern, Action::ImportBody, Action::UseMannequin]);
+    items(
+        ui,
+        now,
+        asks,
+        &[Action::ImportPattern, Action::ImportBody, Action::UseMannequin, Action::PoseFromFile],
+    );
     ui.separator();
     items(ui, now, asks, &[Action::ExportPattern]);
     ui.menu_button("Paper", |ui| items(ui, now, asks, &Paper::ALL.map(Action::Paper)));

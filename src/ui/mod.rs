@@ -43,6 +43,7 @@ mod pins_panel;
 mod player;
 pub mod portrait;
 mod pose_panel;
+mod posed_motion;
 mod preferences;
 mod preferences_page;
 mod recent;

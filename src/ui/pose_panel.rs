@@ -1,11 +1,15 @@
 //! The section of the side panel that poses the mannequin.
 
-use egui::{Button, Slider};
+use std::sync::Arc;
+
+use egui::{Button, RichText, Slider};
 
 use crate::body::NamedPose;
-use crate::session::{BodyChoice, Command};
+use crate::session::{Aim, BodyChoice, Command};
+use crate::ui::actions::Action;
 use crate::ui::asks::{Ask, Asks};
 use crate::ui::joint_panel::JointPanel;
+use crate::ui::posed_motion::PosedMotion;
 use crate::ui::side_panel::Told;
 
 /// Which pose was chosen last, and how far the mannequin has gone to it.
@@ -14,11 +18,15 @@ pub struct PosePanel {
     to: NamedPose,
     share: f64,
     joints: JointPanel,
+    /// The pose from a file that the body is led to, and how far it is.
+    aim: Option<(Arc<Aim>, f64)>,
+    /// A motion, and the frame it is at, from 1.
+    motion: Option<(PosedMotion, usize)>,
 }
 
 impl Default for PosePanel {
     fn default() -> Self {
-        Self { to: NamedPose::Standing, share: 0.0, joints: JointPanel::default() }
+        Self { to: NamedPose::Standing, share: 0.0, joints: JointPanel::default(), aim: None, motion: None }
     }
 }
 
@@ -26,17 +34,19 @@ impl PosePanel {
     /// Draws the section.
     pub fn ui(&mut self, ui: &mut egui::Ui, told: &Told<'_>, asks: &mut Asks) {
         let body = &told.document.body;
-        if body.measurements().is_none() {
-            let words =
-                "The body is from a file: it takes the poses that other files of it have (toile repose).";
-            ui.add(egui::Label::new(egui::RichText::new(words).color(told.palette.weak)).wrap());
-            return;
-        }
+        let has_joints = body.measurements().is_some();
         let enabled = !told.now.wrapping && !told.now.demo;
         ui.add_enabled_ui(enabled, |ui| {
-            self.names_ui(ui, body, asks);
-            self.way_ui(ui, told, asks);
-            self.joints.ui(ui, told, asks);
+            if has_joints {
+                self.names_ui(ui, body, asks);
+                self.way_ui(ui, told, asks);
+                self.joints.ui(ui, told, asks);
+            } else {
+                let words =
+                    "The body is from a file: it takes the poses that other files of the same mesh have.";
+                ui.add(egui::Label::new(RichText::new(words).color(told.palette.weak)).wrap());
+            }
+            self.files_ui(ui, told, asks);
         });
     }
 
@@ -71,35 +81,88 @@ impl PosePanel {
             return;
         }
         let text = format!("On the way to {}", self.to.title());
-        ui.label(egui::RichText::new(&text).color(told.palette.weak).size(12.5));
-        let mut percent = (self.share * 100.0).round();
-        let response = ui.add(Slider::new(&mut percent, 0.0..=100.0).suffix(" %").step_by(1.0));
-        response.widget_info(|| egui::WidgetInfo::slider(true, percent, "On the way to the pose"));
-        if response.changed() {
-            self.share = percent / 100.0;
+        let done = percent_ui(ui, told, &text, "On the way to the pose", &mut self.share);
+        let body = &told.document.body;
+        if let (Some(done), Some(new)) = (done, part(body, self.to, self.share))
+            && (done || new != *body)
+        {
+            follow(posed(new, !done), done, asks);
         }
-        follow_ui(&response, told, || part(&told.document.body, self.to, self.share), asks);
+    }
+
+    /// The way to a pose from a file, or through a motion.
+    fn files_ui(&mut self, ui: &mut egui::Ui, told: &Told<'_>, asks: &mut Asks) {
+        ui.add_space(4.0);
+        if ui.button("From a file…").on_hover_text(Action::PoseFromFile.entry().tip).clicked() {
+            asks.push(Ask::Act(Action::PoseFromFile));
+        }
+        if let Some(aim) = &told.document.aim {
+            if self.aim.as_ref().is_none_or(|(of, _)| !Arc::ptr_eq(of, aim)) {
+                self.aim = Some((Arc::clone(aim), 0.0));
+            }
+            if let Some((_, share)) = &mut self.aim {
+                if ui.ctx().dragged_id().is_none() {
+                    // As undo left it, too.
+                    let at = |end: &BodyChoice| told.document.body == *end;
+                    *share = if at(&aim.from) {
+                        0.0
+                    } else if at(&aim.to) {
+                        1.0
+                    } else {
+                        *share
+                    };
+                }
+                let text = format!("On the way to {}", aim.to.name());
+                if let Some(done) = percent_ui(ui, told, &text, "On the way to the pose of the file", share) {
+                    follow(Command::PoseTowards { share: *share, draft: !done }, done, asks);
+                }
+            }
+        }
+        if let Some((motion, frame)) = &mut self.motion
+            && told.document.body.measurements().is_some()
+        {
+            ui.label(RichText::new(&motion.name).color(told.palette.weak).size(12.5));
+            let slider = Slider::new(frame, 1..=motion.frames()).prefix("frame ");
+            let response = ui.add(slider);
+            response.widget_info(|| egui::WidgetInfo::slider(true, *frame as f64, "Frame of the motion"));
+            let body = &told.document.body;
+            if let (Some(done), Some(new)) = (let_go(&response, told), motion.body(body, *frame - 1))
+                && (done || new != *body)
+            {
+                follow(posed(new, !done), done, asks);
+            }
+        }
+    }
+
+    /// A motion was read.
+    pub fn take_motion(&mut self, motion: PosedMotion) {
+        self.motion = Some((motion, 1));
     }
 }
 
-/// The body goes along with a slider. While it is dragged the cloth follows as quickly as it can; where it is let go, it
-/// follows exactly.
-pub fn follow_ui(
-    slider: &egui::Response,
-    told: &Told<'_>,
-    body: impl FnOnce() -> Option<BodyChoice>,
-    asks: &mut Asks,
-) {
+/// A slider of a share of the way. Some when it was moved: whether it was let go, too.
+fn percent_ui(ui: &mut egui::Ui, told: &Told<'_>, text: &str, name: &str, share: &mut f64) -> Option<bool> {
+    ui.label(RichText::new(text).color(told.palette.weak).size(12.5));
+    let mut percent = (*share * 100.0).round();
+    let response = ui.add(Slider::new(&mut percent, 0.0..=100.0).suffix(" %").step_by(1.0));
+    response.widget_info(|| egui::WidgetInfo::slider(true, percent, name));
+    if response.changed() {
+        *share = percent / 100.0;
+    }
+    let_go(&response, told)
+}
+
+/// Whether a slider that leads the body was let go (the cloth follows exactly), or is dragged (it follows as quickly as it
+/// can). None while there is nothing to do.
+pub fn let_go(slider: &egui::Response, told: &Told<'_>) -> Option<bool> {
     let done = slider.drag_stopped() || (slider.changed() && !slider.dragged());
-    let follow = slider.dragged() && slider.changed() && told.now.caught_up;
-    if !done && !follow {
-        return;
-    }
-    let Some(body) = body() else { return };
-    // What was shown as a draft is done again with care.
-    if body != told.document.body || done {
-        asks.push(Ask::Drag(posed(body, !done)));
-    }
+    let follows = slider.dragged() && slider.changed() && told.now.caught_up;
+    (done || follows).then_some(done)
+}
+
+/// Asks for a command of such a slider. What was shown as a draft is done again with care.
+pub fn follow(command: Command, done: bool, asks: &mut Asks) {
+    asks.push(Ask::Drag(command));
     if done {
         asks.push(Ask::EndDrag);
     }

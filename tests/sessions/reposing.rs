@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
 use toile::body::{NamedPose, mannequin};
+use toile::session::project_file;
 use toile::session::recording::Recording;
 use toile::session::replay::Replay;
 use toile::session::samples::Sample;
@@ -55,6 +56,41 @@ fn a_body_of_other_triangles_is_no_pose() {
     let other = BodyChoice::Imported { name: "other".to_owned(), mesh: Arc::new(ball(0.75, 12, 24)) };
     assert!(s.apply_alone(Command::Repose { body: other, settle: false, draft: false }).is_err());
     assert!(*s.document() == before);
+}
+
+#[test]
+fn a_way_to_a_pose_is_stored_undone_and_replayed() {
+    let mut s = dressed();
+    let before = (s.document().clone(), cloth_hash(&mut s));
+    assert!(s.apply_alone(Command::PoseTowards { share: 0.5, draft: false }).is_err(), "to nowhere");
+    let Command::Repose { body, .. } = turned() else { panic!("a pose") };
+    s.apply_alone(Command::AimPose { body: body.clone() }).expect("chosen");
+    assert!(s.document().body == before.0.body, "it stays where it is");
+    assert!(s.apply_alone(Command::PoseTowards { share: 1.5, draft: false }).is_err());
+    let gesture = s.begin_gesture();
+    for (share, draft) in [(0.3, true), (0.6, true), (0.5, false)] {
+        s.apply(Command::PoseTowards { share, draft }, gesture).expect("on the way");
+    }
+    s.end_gesture(gesture);
+    run(&mut s, 200);
+    let half = cloth_hash(&mut s);
+    let p = s.surface().expect("a body").mesh.positions[7];
+    let expected = DQuat::from_rotation_y(0.2) * ball(0.75, 24, 48).positions[7] + DVec3::X * 0.05;
+    // Rebuilt from the turns of its triangles.
+    assert!(half != before.1 && p.distance(expected) < 1e-3, "{p} {expected}");
+    let kept = project_file::to_bytes(&s.project()).expect("bytes");
+    assert!(project_file::from_bytes(&kept).expect("read back") == s.project());
+    s.apply_alone(Command::PoseTowards { share: 1.0, draft: false }).expect("there");
+    assert!(s.document().body == body);
+    for _ in 0..2 {
+        s.apply_alone(Command::Undo).expect("undone");
+    }
+    run(&mut s, 1);
+    assert_eq!(cloth_hash(&mut s), before.1);
+    s.apply_alone(Command::Undo).expect("undone");
+    assert!(*s.document() == before.0);
+    let recording = Recording::parse(&s.recording()).expect("a recording");
+    Replay::new(recording).run().expect("the same hashes");
 }
 
 #[test]

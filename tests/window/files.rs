@@ -76,6 +76,105 @@ fn a_body_that_lies_is_set_upright_and_the_answer_is_proposed_next_time() {
 }
 
 #[test]
+fn the_body_is_led_to_its_pose_in_a_file() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("turned.obj");
+    let mut mesh = ball(0.25);
+    let turn = glam::DQuat::from_rotation_y(1.0);
+    // In centimetres: the sides of its triangles tell.
+    mesh.positions.iter_mut().for_each(|p| *p = turn * *p * 100.0);
+    std::fs::write(&path, toile::io::obj::mesh("turned", &mesh)).expect("a file");
+    let mut window = window();
+    let body = |window: &Window| app(window).session().document().body.clone();
+    let before = body(&window);
+    if !read_file(&mut window, "Pose from a file…", &path) {
+        return;
+    }
+    assert_eq!(app(&window).session().undo_label(), Some("choose a pose"));
+    window.get_by_label("Pose").click();
+    window.run_steps(8);
+    let label = "On the way to the pose of the file";
+    window.get_by_role_and_label(egui::accesskit::Role::Slider, label).scroll_to_me();
+    window.run_steps(8);
+    let rail = window.get_by_role_and_label(egui::accesskit::Role::Slider, label).rect();
+    let from = Pos2::new(rail.left() + 6.0, rail.center().y);
+    let path: Vec<Pos2> = (0..8).map(|i| from + Vec2::new(7.0 * i as f32, 0.0)).collect();
+    drag(&mut window, &path, PointerButton::Primary);
+    window.run_steps(4);
+    let angle = |window: &Window| {
+        let there = app(window).session().surface().expect("a body").mesh.positions[30];
+        let here = ball(0.25).positions[30];
+        DVec2::new(here.x, here.z).angle_to(DVec2::new(there.x, there.z)).abs()
+    };
+    assert!((0.1..0.9).contains(&angle(&window)), "{}", angle(&window));
+    let far: Vec<Pos2> = (0..8).map(|i| path[7] + Vec2::new(60.0 * i as f32, 0.0)).collect();
+    drag(&mut window, &far, PointerButton::Primary);
+    window.run_steps(4);
+    assert!((angle(&window) - 1.0).abs() < 1e-6, "{}", angle(&window));
+    for _ in 0..2 {
+        key(&mut window, Modifiers::COMMAND, Key::Z);
+    }
+    assert_eq!(body(&window), before);
+    // Another body is no pose of this one.
+    let other = folder.path().join("other.obj");
+    std::fs::write(&other, "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n")
+        .expect("it");
+    assert!(read_file(&mut window, "Pose from a file…", &other));
+    assert!(window.query_by_label_contains("is not ball in another pose").is_some());
+}
+
+/// A hip and a left upper leg that swings forth.
+const SWING: &str = "HIERARCHY
+ROOT Hips
+{
+  OFFSET 0 90 0
+  CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation
+  JOINT LeftUpLeg
+  {
+    OFFSET 9 -5 0
+    CHANNELS 3 Zrotation Xrotation Yrotation
+    End Site
+    {
+      OFFSET 0 -40 0
+    }
+  }
+}
+MOTION
+Frames: 41
+Frame Time: 0.05
+";
+
+#[test]
+fn the_mannequin_is_led_through_a_motion() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("swing.bvh");
+    let rows: String = (0..41).map(|i| format!("0 90 0 0 0 0 0 -{i} 0\n")).collect();
+    std::fs::write(&path, format!("{SWING}{rows}")).expect("a file");
+    let mut window = window_on(Project::default(), None);
+    if !read_file(&mut window, "Pose from a file…", &path) {
+        return;
+    }
+    assert!(window.query_by_label_contains("that nothing moves: spine").is_some());
+    window.get_by_label("Pose").click();
+    window.run_steps(8);
+    window.get_by_role_and_label(egui::accesskit::Role::Slider, "Frame of the motion").scroll_to_me();
+    window.run_steps(8);
+    let rail = window.get_by_role_and_label(egui::accesskit::Role::Slider, "Frame of the motion").rect();
+    let path: Vec<Pos2> =
+        (0..8).map(|i| Pos2::new(rail.left() + 6.0 + 80.0 * i as f32, rail.center().y)).collect();
+    drag(&mut window, &path, PointerButton::Primary);
+    window.run_steps(4);
+    let pose = app(&window).session().document().body.pose().expect("the mannequin");
+    let (axis, angle) = pose.turn("hip_left").to_axis_angle();
+    assert!((angle.to_degrees() - 40.0).abs() < 1e-6 && axis.x < -0.99, "{axis} {angle}");
+    let bytes = "HIERARCHY\nROOT Hips\n{\n  OFFSET 0 zero 0\n";
+    let odd = folder.path().join("odd.bvh");
+    std::fs::write(&odd, bytes).expect("a file");
+    assert!(read_file(&mut window, "Pose from a file…", &odd));
+    assert!(window.query_by_label_contains("line 4: \"zero\" is no number").is_some());
+}
+
+#[test]
 fn a_drawing_without_a_size_is_asked_about() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("front.svg");

@@ -6,7 +6,7 @@ use crate::contact::Bone;
 use crate::session::body::{Body, BodyCache};
 use crate::session::carry::carried;
 use crate::session::command::Rejection;
-use crate::session::document::{BodyChoice, Document};
+use crate::session::document::{Aim, BodyChoice, Document};
 use crate::session::edit::{ClothChange, Edit, checks};
 
 /// Strokes on the old body are carried to the new one.
@@ -24,7 +24,7 @@ pub fn set(mut document: Document, body: &BodyChoice, bodies: &mut BodyCache) ->
         problems = lost;
     }
     document.drop_pins();
-    document.bones = None;
+    (document.bones, document.aim) = (None, None);
     document.body = body.clone();
     Ok(Edit { problems, ..Edit::new("change the body", document).with(ClothChange::Clear) })
 }
@@ -38,22 +38,7 @@ pub fn repose(
 ) -> Result<Edit, Rejection> {
     checks::body(body)?;
     let (from, to) = (bodies.body(&document.body)?, bodies.body(body)?);
-    let counts = |body: &Body| (body.surface.mesh.positions.len(), body.surface.mesh.triangles.len());
-    if from.surface.mesh.triangles != to.surface.mesh.triangles {
-        let (is, was) = (counts(&to), counts(&from));
-        let words = match is == was {
-            true => "its triangles join other vertices".to_owned(),
-            false => format!(
-                "it has {} vertices and {} triangles, the dressed one {} and {}",
-                is.0, is.1, was.0, was.1
-            ),
-        };
-        return Err(Rejection(format!(
-            "{} is not {} in another pose: {words}",
-            body.name(),
-            document.body.name()
-        )));
-    }
+    same_triangles((&to, body), (&from, &document.body))?;
     let (marks, problems) = carried(&document.marks, Some(&from), &to, body.name());
     document.marks = Arc::new(marks);
     // Bones drawn by hand stay where the old pose had them.
@@ -63,6 +48,50 @@ pub fn repose(
         problems,
         ..Edit::new("change the pose", document).with(ClothChange::Repose { settle, draft })
     })
+}
+
+/// Another body must be the dressed one in another pose.
+fn same_triangles(
+    (to, other): (&Body, &BodyChoice),
+    (from, own): (&Body, &BodyChoice),
+) -> Result<(), Rejection> {
+    let counts = |body: &Body| (body.surface.mesh.positions.len(), body.surface.mesh.triangles.len());
+    if from.surface.mesh.triangles == to.surface.mesh.triangles {
+        return Ok(());
+    }
+    let (is, was) = (counts(to), counts(from));
+    let words = match is == was {
+        true => "its triangles join other vertices".to_owned(),
+        false => format!(
+            "it has {} vertices and {} triangles, the dressed one {} and {}",
+            is.0, is.1, was.0, was.1
+        ),
+    };
+    Err(Rejection(format!("{} is not {} in another pose: {words}", other.name(), own.name())))
+}
+
+/// Another pose of the body, to be led to.
+pub fn aim(mut document: Document, body: &BodyChoice, bodies: &mut BodyCache) -> Result<Edit, Rejection> {
+    checks::body(body)?;
+    let (from, to) = (bodies.body(&document.body)?, bodies.body(body)?);
+    same_triangles((&to, body), (&from, &document.body))?;
+    document.aim = Some(Arc::new(Aim { from: document.body.clone(), to: body.clone() }));
+    Ok(Edit::new("choose a pose", document))
+}
+
+/// The body so far on the way to that pose; the cloth goes along.
+pub fn towards(
+    document: Document,
+    share: f64,
+    draft: bool,
+    bodies: &mut BodyCache,
+) -> Result<Edit, Rejection> {
+    if !(0.0..=1.0).contains(&share) {
+        return Err(Rejection(format!("a share of the way is from 0 to 1, not {share}")));
+    }
+    let aim = document.aim.clone().ok_or_else(|| Rejection::new("no pose from a file was chosen"))?;
+    let body = bodies.between(&aim, share)?;
+    repose(document, &body, [false, draft], bodies)
 }
 
 /// Bones drawn by the user, or the body's own again.

@@ -154,6 +154,8 @@ fn untied(document: &Document, command: &Command, bodies: &mut BodyCache) -> Res
         Command::ReverseSeam { seam } => edit_by(new, PatternEdit::TurnSeam { seam: *seam }),
         Command::SetBody { body } => body::set(new, body, bodies),
         Command::Repose { body, settle, draft } => body::repose(new, body, [*settle, *draft], bodies),
+        Command::AimPose { body } => body::aim(new, body, bodies),
+        Command::PoseTowards { share, draft } => body::towards(new, *share, *draft, bodies),
         Command::SetBones { bones } => body::set_bones(new, bones.as_deref()),
         Command::SetSettings { settings } => settings::set(new, settings),
         Command::Wrap => wrap::wrap(new),
@@ -187,7 +189,8 @@ fn edit_by(document: Document, edit: PatternEdit) -> Result<Edit, Rejection> {
 
 /// What no command would have let into `document`; for documents from files.
 pub fn document_problem(document: &Document) -> Option<String> {
-    let Document { pattern, body, marks, last_mark, pins, last_pin, bones, fabrics, settings } = document;
+    let Document { pattern, body, marks, last_mark, pins, last_pin, aim, bones, fabrics, settings } =
+        document;
     if marks.ids().max().is_some_and(|id| id.0 > *last_mark) {
         return Some("the counter of marks is behind their ids".to_owned());
     }
@@ -200,6 +203,10 @@ pub fn document_problem(document: &Document) -> Option<String> {
         })
         .or_else(|| checks::marks(marks, pattern).err().map(|why| why.0))
         .or_else(|| checks::body(body).err().map(|why| why.0))
+        .or_else(|| {
+            let ends = aim.iter().flat_map(|aim| [&aim.from, &aim.to]);
+            ends.into_iter().find_map(|end| checks::body(end).err()).map(|why| why.0)
+        })
         .or_else(|| bones.as_ref().and_then(|bones| checks::bones(bones).err()).map(|why| why.0))
         .or_else(|| drape::unknown_fabric(fabrics).map(|why| why.0))
         .or_else(|| checks::settings(settings).err().map(|why| why.0))
