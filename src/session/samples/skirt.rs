@@ -11,8 +11,8 @@ use crate::geometry::ids::PieceId;
 use crate::pattern::{Pattern, Piece};
 use crate::wrap::Marks;
 
-/// Added to the waist girth, metres.
-const WAIST_EASE: f64 = 0.034;
+/// Added to the waist girth, metres: what the distance that cloth keeps all round takes, and a little.
+const WAIST_EASE: f64 = 0.032;
 /// Added to the hip girth.
 const HIP_EASE: f64 = 0.06;
 /// Taken in by each of the four darts.
@@ -79,8 +79,7 @@ pub fn panel(name: &str, cut: &Cut) -> Piece {
     let slope = side.y / side.x;
     let middle = 0.52 * side.x;
     let [inner, outer] = [middle - width / 2.0, middle + width / 2.0].map(|x| DVec2::new(x, x * slope));
-    // Across the waist line, so that both legs are as long.
-    let tip = DVec2::new(middle, middle * slope) + DVec2::new(slope, -1.0).normalize() * depth;
+    let tip = DVec2::new(middle, middle * slope - depth);
     let flip = |p: DVec2| DVec2::new(-p.x, p.y);
     let below = at_hip + (at_hip - hem).normalize() * (0.45 * cut.hip_depth);
     let above = DVec2::new(side.x + 0.30 * (hip - side.x), side.y - 0.30 * cut.hip_depth);
