@@ -177,7 +177,8 @@ impl Drape {
             Solver::Small(small, _) => Work {
                 queries: small.queries,
                 skipped_queries: small.skipped,
-                self_pairs: self.itself.looked_at,
+                self_pairs: self.itself.looked_at + self.itself.pairs_seen,
+                skipped_self_pairs: self.itself.pairs_skipped,
                 ..Work::default()
             },
         }

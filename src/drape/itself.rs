@@ -9,8 +9,10 @@ use std::sync::Arc;
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 
-use crate::body::closest::{Part, closest_on_triangle};
+use crate::body::closest::closest_on_triangle;
 use crate::cloth::Garment;
+use crate::drape::near::Near;
+use crate::drape::pair::{Pair, segments_apart};
 use crate::drape::sheet::Sheet;
 use crate::geometry::bvh::{Aabb, Bvh};
 
@@ -20,6 +22,14 @@ const MOST_THICKNESS: f64 = 0.7;
 /// What is beside one another in the flat cloth and nearer than this share of the thickness is so by its cut. (Pairs that are
 /// pushed by springs and not put in their place leave all that is beside one another alone: bent sharply it would fly apart.)
 const HINGED: f64 = 0.5;
+
+/// Pairs are gathered ahead for so much unexpected motion, as a share of the thickness, and of what is between that and where cloth
+/// that bends comes near its own neighbours, which is half an edge; but no less than for a share of the thickness.
+const MARGIN: f64 = 0.5;
+const LEAST_MARGIN: f64 = 0.05;
+
+/// In fewer small steps than the shortest stretch has, pairs would not pay for being gathered.
+const MOST_STRETCHES: usize = 8;
 
 /// Of a vertex's expected way that is looked over.
 const LOOK_AHEAD: f64 = 1.5;
@@ -49,10 +59,17 @@ pub struct Itself {
     gathered: Vec<DVec3>,
     /// And how far beside the mean of all they were looked ahead for then.
     ahead: Vec<DVec3>,
+    near: Near,
     /// Pairs looked at since the start.
     pub looked_at: u64,
     /// How often pairs were gathered.
     pub gatherings: u64,
+    /// How often those that can touch soon were found among them.
+    pub siftings: u64,
+    /// Pairs looked at in small steps.
+    pub pairs_seen: u64,
+    /// Pairs gathered that were known not to touch in one.
+    pub pairs_skipped: u64,
 }
 
 /// The sides of seams that are still open.
@@ -62,19 +79,6 @@ pub struct Sides {
     pub will_be: Vec<u32>,
     /// The garment with its seams shut.
     pub garment: Arc<Garment>,
-}
-
-#[derive(Clone, Copy, Debug)]
-struct Pair {
-    /// A vertex and a triangle's corners, or the ends of two edges.
-    vertices: [u32; 4],
-    edges: bool,
-    /// On which side the first is of the second, ±1; 0 while they are not before one another.
-    side: f64,
-    /// They are of different layers: the side is known.
-    layered: bool,
-    /// How far one can come towards the other, metres: who seems farther behind has come round, not through.
-    reach: f64,
 }
 
 /// Distance as a sum over four vertices: n·Σ w x.
@@ -107,24 +111,69 @@ impl Itself {
         if self.thickness == 0.0 {
             return;
         }
-        let lasts = self.gathered.len() == x.len() && {
-            let mean = |of: &dyn Fn(usize) -> DVec3| (0..x.len()).map(of).sum::<DVec3>() / x.len() as f64;
-            let come = |i: usize| x[i] + soon(i) - self.gathered[i];
-            let drift = mean(&come);
-            (0..x.len()).all(|i| {
-                let (come, ahead) = (come(i) - drift, self.ahead[i]);
-                let along = (come.dot(ahead) / ahead.length_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
-                (come - ahead * along).length_squared() < margin * margin
-            })
-        };
-        if !lasts {
+        if !self.lasts(x, soon, margin) {
+            let behind = self.behind(x);
             self.gather_pairs(sheet, x, ways, 2.0 * margin, HINGED * self.thickness);
+            self.keep_sides(&behind);
             let drift = ways.iter().sum::<DVec3>() / ways.len() as f64;
             self.gathered.clear();
             self.gathered.extend_from_slice(x);
             self.ahead.clear();
             self.ahead.extend(ways.iter().map(|way| (*way - drift) * LOOK_AHEAD));
         }
+    }
+
+    /// Whether the pairs gathered ahead are all that may meet yet: no vertex, at `x` and moved by `soon`, is `margin` metres off the
+    /// way expected of it.
+    pub fn lasts(&self, x: &[DVec3], soon: impl Fn(usize) -> DVec3, margin: f64) -> bool {
+        if self.thickness == 0.0 {
+            return true;
+        }
+        if self.gathered.len() != x.len() {
+            return false;
+        }
+        let come = |i: usize| x[i] + soon(i) - self.gathered[i];
+        let drift = (0..x.len()).map(come).sum::<DVec3>() / x.len() as f64;
+        (0..x.len()).all(|i| {
+            let (come, ahead) = (come(i) - drift, self.ahead[i]);
+            let along = (come.dot(ahead) / ahead.length_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+            (come - ahead * along).length_squared() < margin * margin
+        })
+    }
+
+    /// Pairs that have come through each other, in their order.
+    fn behind(&self, x: &[DVec3]) -> Vec<Pair> {
+        let is_behind = |pair: &&Pair| {
+            let found = if pair.layered || pair.side == 0.0 { None } else { pair.found(x) };
+            found.is_some_and(|(_, _, distance)| distance < 0.0 && distance > -self.thickness)
+        };
+        self.near.pairs.iter().map(|&p| &self.pairs[p as usize]).filter(is_behind).copied().collect()
+    }
+
+    /// What came through just now goes back to where it came from.
+    fn keep_sides(&mut self, behind: &[Pair]) {
+        for pair in behind {
+            if let Ok(i) = self.pairs.binary_search_by_key(&pair.key(), Pair::key) {
+                self.pairs[i].side = pair.side;
+            }
+        }
+    }
+
+    /// A margin that keeps the pairs few, metres.
+    pub fn margin(&self, sheet: &Sheet) -> f64 {
+        let free = self.thickness.min(sheet.mean_edge() / 2.0 - self.thickness);
+        (MARGIN * free).max(LEAST_MARGIN * self.thickness)
+    }
+
+    /// Stretches, at least one, that a step of `h` seconds is best cut into, each with pairs of its own: at `velocities` no vertex
+    /// goes much more than an edge's length beside the mean in any.
+    pub fn stretches(&self, sheet: &Sheet, velocities: &[DVec3], h: f64) -> usize {
+        if self.thickness == 0.0 {
+            return 1;
+        }
+        let mean = velocities.iter().sum::<DVec3>() / velocities.len() as f64;
+        let fastest = velocities.iter().map(|v| v.distance_squared(mean)).fold(0.0, f64::max).sqrt();
+        ((fastest * h / sheet.mean_edge()).ceil() as usize).clamp(1, MOST_STRETCHES)
     }
 
     /// Pairs are gathered again next time.
@@ -140,6 +189,7 @@ impl Itself {
     /// What is beside one another in the flat cloth counts as joined where it is nearer than `hinge` metres.
     fn gather_pairs(&mut self, sheet: &Sheet, x: &[DVec3], ways: &[DVec3], slack: f64, hinge: f64) {
         self.pairs.clear();
+        self.near.forget();
         self.active.clear();
         if self.thickness == 0.0 {
             return;
@@ -215,6 +265,7 @@ impl Itself {
                         side,
                         layered: own != other,
                         reach,
+                        near: true,
                     });
                 }
             });
@@ -255,6 +306,7 @@ impl Itself {
                         side,
                         layered: own != other,
                         reach,
+                        near: true,
                     });
                 }
             });
@@ -265,7 +317,7 @@ impl Itself {
         self.pairs = found.into_iter().flat_map(|(pairs, _)| pairs).collect();
         self.gatherings += 1;
         // The order of a tree is no order of meaning.
-        self.pairs.sort_by_key(|p| (p.edges, p.vertices));
+        self.pairs.sort_by_key(Pair::key);
     }
 
     /// Adds the gradient at `x`, N, and gives the energy, J.
@@ -273,8 +325,7 @@ impl Itself {
         self.active.clear();
         let mut energy = 0.0;
         for pair in &self.pairs {
-            let found = if pair.edges { edge_push(pair, x) } else { corner_push(pair, x) };
-            let Some((weights, normal, distance)) = found else { continue };
+            let Some((weights, normal, distance)) = pair.found(x) else { continue };
             let depth = self.thickness - distance;
             if depth <= 0.0 || distance < -pair.reach {
                 continue;
@@ -293,17 +344,16 @@ impl Itself {
     /// Moves `x` so that no pair is nearer than the thickness, each vertex by its share of `inverse_mass`, pair after pair. Called
     /// every small step, it sees who comes before whom, and on which side.
     pub fn project(&mut self, x: &mut [DVec3], inverse_mass: &[f64]) {
-        for pair in &mut self.pairs {
-            let turned = Pair { side: if pair.side == 0.0 { 1.0 } else { pair.side }, ..*pair };
-            let found = if pair.edges { edge_push(&turned, x) } else { corner_push(&turned, x) };
-            let Some((weights, normal, distance)) = found else {
-                pair.side = if pair.layered { pair.side } else { 0.0 };
-                continue;
-            };
-            if pair.side == 0.0 {
-                pair.side = if distance < 0.0 { -1.0 } else { 1.0 };
-                continue;
-            }
+        if self.pairs.len() <= x.len() {
+            self.near.all(self.pairs.len());
+        } else if !self.near.holds(x) {
+            self.find_near(x);
+        }
+        self.pairs_seen += self.near.pairs.len() as u64;
+        self.pairs_skipped += (self.pairs.len() - self.near.pairs.len()) as u64;
+        for &p in &self.near.pairs {
+            let pair = &mut self.pairs[p as usize];
+            let Some((weights, normal, distance)) = pair.see(x) else { continue };
             let depth = self.thickness - distance;
             let share = |(&v, w): (&u32, &f64)| w * w * inverse_mass[v as usize];
             let whole: f64 = pair.vertices.iter().zip(&weights).map(share).sum();
@@ -314,6 +364,35 @@ impl Itself {
                 }
             }
         }
+    }
+
+    /// Finds the pairs that can come within the thickness while each vertex at `x` keeps to its room. The others know their side
+    /// from here.
+    fn find_near(&mut self, x: &[DVec3]) {
+        self.near.begin(x, self.thickness);
+        let (room, thickness) = (&self.near.room, self.thickness);
+        self.pairs.par_iter_mut().with_min_len(LEAST_SHARE).for_each(|pair| {
+            let reach = |vs: &[u32]| vs.iter().map(|&v| room[v as usize]).fold(0.0, f64::max);
+            let reach = thickness + pair.elements().map(reach).iter().sum::<f64>();
+            let was_near = std::mem::take(&mut pair.near);
+            if was_near && !pair.layered && pair.see(x).is_some_and(|(_, _, signed)| signed < 0.0) {
+                pair.near = true;
+                return;
+            }
+            if pair.at_least_apart(x) >= reach {
+                return;
+            }
+            let distance = pair.distance(x);
+            pair.near = distance < reach;
+            if pair.near && !was_near && !pair.layered && distance >= thickness {
+                pair.side = 0.0;
+                pair.see(x);
+            }
+        });
+        let near = |(i, pair): (usize, &Pair)| pair.near.then_some(i as u32);
+        self.near.pairs.clear();
+        self.near.pairs.extend(self.pairs.iter().enumerate().filter_map(near));
+        self.siftings += 1;
     }
 
     /// Blocks on the diagonal that bound the Hessian from above, N/m: those between vertices are left to them, so that the
@@ -354,60 +433,56 @@ fn refit(tree: &mut Bvh, boxes: &[Aabb]) {
     }
 }
 
-/// Weights, direction and distance of a vertex before a triangle. None beyond its border on the other side.
-fn corner_push(pair: &Pair, x: &[DVec3]) -> Option<([f64; 4], DVec3, f64)> {
-    let [p, a, b, c] = pair.vertices.map(|v| x[v as usize]);
-    let normal = (b - a).cross(c - a).normalize_or_zero() * pair.side;
-    let (near, part) = closest_on_triangle(p, a, b, c);
-    let signed = normal.dot(p - near);
-    if matches!(part, Part::Face) {
-        let (u, v) = barycentric(near, a, b, c)?;
-        return Some(([1.0, u + v - 1.0, -u, -v], normal, signed));
-    }
-    if signed < 0.0 {
-        return None;
-    }
-    let way = p - near;
-    let distance = way.length();
-    let (u, v) = barycentric(near, a, b, c)?;
-    (distance > 0.0).then(|| ([1.0, u + v - 1.0, -u, -v], way / distance, distance))
-}
+#[cfg(test)]
+mod tests {
+    use glam::DVec2;
 
-fn barycentric(p: DVec3, a: DVec3, b: DVec3, c: DVec3) -> Option<(f64, f64)> {
-    let (u, v, w) = (b - a, c - a, p - a);
-    let (uu, uv, vv, wu, wv) = (u.dot(u), u.dot(v), v.dot(v), w.dot(u), w.dot(v));
-    let whole = uu * vv - uv * uv;
-    (whole > 0.0).then(|| ((vv * wu - uv * wv) / whole, (uu * wv - uv * wu) / whole))
-}
+    use super::*;
 
-/// Weights, direction and distance of two edges that cross within their lengths.
-fn edge_push(pair: &Pair, x: &[DVec3]) -> Option<([f64; 4], DVec3, f64)> {
-    let [a, b, c, d] = pair.vertices.map(|v| x[v as usize]);
-    let (u, v, w) = (b - a, d - c, c - a);
-    let (uu, uv, vv, uw, vw) = (u.dot(u), u.dot(v), v.dot(v), u.dot(w), v.dot(w));
-    let whole = uu * vv - uv * uv;
-    // Nearly parallel edges meet at their ends, which the vertices see.
-    if whole <= 1e-6 * uu * vv {
-        return None;
+    /// A square metre rolled up and shaken: its vertices at `seconds`.
+    fn shaken(sheet: &Sheet, seconds: f64) -> Vec<DVec3> {
+        let place = |p: &DVec2| {
+            let (turn, radius) = (9.0 * p.x, 0.04 + 0.01 * p.x + 0.004 * (11.0 * seconds).sin());
+            let sway = 0.01 * (7.0 * seconds + 23.0 * p.y + 5.0 * p.x).sin();
+            DVec3::new(radius * turn.cos() + sway, p.y, radius * turn.sin() + seconds * seconds)
+        };
+        (0..=20u32)
+            .flat_map(|j| (0..=20u32).map(move |i| DVec2::new(f64::from(i), f64::from(j)) / 20.0))
+            .take(sheet.vertex_area.len())
+            .map(|p| place(&p))
+            .collect()
     }
-    let (s, t) = ((vv * uw - uv * vw) / whole, (uv * uw - uu * vw) / whole);
-    if !(0.0..=1.0).contains(&s) || !(0.0..=1.0).contains(&t) {
-        return None;
-    }
-    let normal = u.cross(v).normalize_or_zero() * pair.side;
-    Some(([s - 1.0, -s, 1.0 - t, t], normal, normal.dot(w)))
-}
 
-/// The distance of the segments ab and cd (Ericson, Real-Time Collision Detection, 5.1.9).
-fn segments_apart([a, b, c, d]: [DVec3; 4]) -> f64 {
-    let (u, v, w) = (b - a, d - c, a - c);
-    let (uu, uv, vv, uw, vw) = (u.dot(u), u.dot(v), v.dot(v), u.dot(w), v.dot(w));
-    if uu == 0.0 || vv == 0.0 {
-        return w.length().min((b - c).length());
+    fn sheet() -> Sheet {
+        let corner = |i: u32, j: u32| j * 21 + i;
+        let squares = (0..20u32).flat_map(|j| (0..20u32).map(move |i| (i, j)));
+        let triangles = squares.flat_map(|(i, j)| {
+            let [a, b, c, d] = [corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)];
+            [[a, b, c], [a, c, d]]
+        });
+        let triangles: Vec<[u32; 3]> = triangles.collect();
+        let flat = |v: u32| DVec2::new(f64::from(v % 21), f64::from(v / 21)) / 20.0;
+        let rest = triangles.iter().map(|vs| vs.map(flat)).collect();
+        Sheet::new(21 * 21, triangles, rest).expect("a sheet")
     }
-    let whole = uu * vv - uv * uv;
-    let s = if whole > 1e-12 * uu * vv { ((uv * vw - vv * uw) / whole).clamp(0.0, 1.0) } else { 0.0 };
-    let t = ((uv * s + vw) / vv).clamp(0.0, 1.0);
-    let s = ((uv * t - uw) / uu).clamp(0.0, 1.0);
-    (w + u * s - v * t).length()
+
+    #[test]
+    fn pairs_left_out_of_small_steps_do_not_touch_in_them() {
+        let sheet = sheet();
+        let mut itself = Itself::new(&sheet, 0.012, vec![1.0; 21 * 21]);
+        let start = shaken(&sheet, 0.0);
+        itself.gather(&sheet, &start, &vec![DVec3::ZERO; start.len()], 0.03);
+        assert!(itself.pairs.len() > start.len(), "so few that all are looked at");
+        let mut left_out = 0;
+        for step in 1..400 {
+            let mut x = shaken(&sheet, f64::from(step) * 5e-4);
+            // Nothing moves: what is looked for is only who is looked at.
+            itself.project(&mut x, &vec![0.0; start.len()]);
+            for pair in itself.pairs.iter().filter(|pair| !pair.near) {
+                left_out += 1;
+                assert!(pair.distance(&x) >= itself.thickness, "{pair:?} in step {step}");
+            }
+        }
+        assert!(itself.siftings > 5 && left_out > 0 && itself.pairs_skipped > itself.pairs_seen);
+    }
 }

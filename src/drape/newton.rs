@@ -73,6 +73,8 @@ pub struct Work {
     pub skipped_queries: u64,
     /// Pairs of cloth and cloth looked at.
     pub self_pairs: u64,
+    /// Pairs known not to touch in a small step.
+    pub skipped_self_pairs: u64,
 }
 
 /// The solver with all its memory.

@@ -36,6 +36,9 @@ const CREASE_REACH: f64 = 4.0;
 /// It comes off the one it does not see no faster than so, m/s.
 const CREASE_SPEED: f64 = 1.5;
 
+/// So often in a step it is seen whether the cloth is where it was expected: what runs against something is not.
+const LOOKS: usize = 12;
+
 /// The solver with its memory.
 #[derive(Clone, Debug)]
 pub struct SmallSteps {
@@ -222,10 +225,6 @@ impl SmallSteps {
         h: f64,
         count: usize,
     ) {
-        let ways: Vec<DVec3> = state.velocities.iter().map(|v| *v * h).collect();
-        // What no motion so far tells of.
-        let slack = scene.gravity.length() * h * h;
-        itself.gather_ahead(&scene.sheet, &state.positions, &ways, |v| ways[v], slack);
         let friction = vec![friction; state.positions.len()];
         let around = Surroundings {
             bending: &scene.elastic.bending,
@@ -237,7 +236,24 @@ impl SmallSteps {
             friction: &friction,
             grip: f64::INFINITY,
         };
-        self.advance(&around, state, itself, h, count);
+        // Pairs that may meet are many where the way that is looked ahead over is long.
+        // A body's motion is that of the whole step.
+        let whole = scene.collider.as_ref().is_some_and(|c| !c.motion.is_empty());
+        let stretches = if whole { 1 } else { itself.stretches(&scene.sheet, &state.velocities, h) };
+        let margin = itself.margin(&scene.sheet);
+        let (small, ahead) = (h / count as f64, h / stretches as f64);
+        let every = (count / LOOKS).max(1);
+        let mut left = count;
+        while left > 0 {
+            let ways: Vec<DVec3> = state.velocities.iter().map(|v| *v * ahead).collect();
+            itself.gather_ahead(&scene.sheet, &state.positions, &ways, |_| DVec3::ZERO, margin);
+            let mut since = 0;
+            let lasts = |itself: &Itself, x: &[DVec3]| {
+                since += 1;
+                whole || since % every != 0 || itself.lasts(x, |_| DVec3::ZERO, margin)
+            };
+            left -= self.advance_while(&around, state, itself, (small, left), lasts);
+        }
     }
 
     /// The same where pairs of the cloth with itself were gathered before.
@@ -249,13 +265,25 @@ impl SmallSteps {
         h: f64,
         count: usize,
     ) {
-        let small = h / count as f64;
+        self.advance_while(around, state, itself, (h / count as f64, count), |_, _| true);
+    }
+
+    /// At most `count` steps of `small` seconds, as long as what is asked after each says so. How many it did.
+    fn advance_while(
+        &mut self,
+        around: &Surroundings<'_>,
+        state: &mut State,
+        itself: &mut Itself,
+        (small, count): (f64, usize),
+        mut goes_on: impl FnMut(&Itself, &[DVec3]) -> bool,
+    ) -> usize {
         self.net.ready(small, &self.inverse_mass);
         let every = self.bending_every(small, around.bending_damping).min(count);
         let drag = (-around.damping * small).exp();
         // A blow now and then, which keeps energy, shakes cloth that should come to rest; a force that is held comes late by
         // half of the time it is held, for which it looks ahead.
         let holds = around.bending_damping > 0.0;
+        let mut done = 0;
         let mut bent = vec![DVec3::ZERO; state.positions.len()];
         let mut before = state.positions.clone();
         for s in 0..count {
@@ -315,11 +343,16 @@ impl SmallSteps {
             for (v, (now, then)) in state.velocities.iter_mut().zip(x.iter().zip(&before)) {
                 *v = (*now - *then) / small;
             }
+            done += 1;
+            if !goes_on(itself, &state.positions) {
+                break;
+            }
         }
         self.lag = small / 2.0;
         if around.collider.is_some_and(|c| !c.motion.is_empty()) {
             self.forget_planes();
         }
+        done
     }
 
     /// Shortens threads of ends no farther apart than `within` metres.

@@ -237,6 +237,7 @@ fn row(
             count("nearest points of the ball looked up", work.queries),
             count("vertices known to be far without", work.skipped_queries),
             count("pairs of cloth and cloth looked at", work.self_pairs),
+            count("known not to touch in a small step", work.skipped_self_pairs),
         ],
         counters: None,
         hash: one_hash(scene, &hashes)?,

@@ -1,0 +1,134 @@
+//! Two places of cloth that may meet: a vertex and a triangle, or two edges.
+
+use glam::DVec3;
+
+use crate::body::closest::{Part, closest_on_triangle};
+
+/// The share of each vertex in their distance, its direction, and how large it is, metres: below zero on the other side.
+pub(super) type Found = ([f64; 4], DVec3, f64);
+
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pair {
+    /// A vertex and a triangle's corners, or the ends of two edges.
+    pub vertices: [u32; 4],
+    pub edges: bool,
+    /// On which side the first is of the second, ±1; 0 while they are not before one another.
+    pub side: f64,
+    /// They are of different layers: the side is known.
+    pub layered: bool,
+    /// How far one can come towards the other, metres: who seems farther behind has come round, not through.
+    pub reach: f64,
+    /// It is among those looked at in every small step.
+    pub near: bool,
+}
+
+impl Pair {
+    /// What pairs are put in order by.
+    pub fn key(&self) -> (bool, [u32; 4]) {
+        (self.edges, self.vertices)
+    }
+
+    /// The vertices of the first and of the second.
+    pub fn elements(&self) -> [&[u32]; 2] {
+        let (first, second) = self.vertices.split_at(if self.edges { 2 } else { 1 });
+        [first, second]
+    }
+
+    /// No more than their distance, metres: that of the balls round them.
+    pub fn at_least_apart(&self, x: &[DVec3]) -> f64 {
+        let ball = |vs: &[u32]| {
+            let middle = vs.iter().map(|&v| x[v as usize]).sum::<DVec3>() / vs.len() as f64;
+            let radius =
+                vs.iter().map(|&v| x[v as usize].distance_squared(middle)).fold(0.0, f64::max).sqrt();
+            (middle, radius)
+        };
+        let [(a, r), (b, s)] = self.elements().map(ball);
+        a.distance(b) - r - s
+    }
+
+    /// Metres, from whatever part of the one to whatever part of the other.
+    pub fn distance(&self, x: &[DVec3]) -> f64 {
+        let [a, b, c, d] = self.vertices.map(|v| x[v as usize]);
+        match self.edges {
+            true => segments_apart([a, b, c, d]),
+            false => closest_on_triangle(a, b, c, d).0.distance(a),
+        }
+    }
+
+    /// Weights, direction and distance of the two before one another, as it is known on which side.
+    pub fn found(&self, x: &[DVec3]) -> Option<Found> {
+        if self.edges { crossing(self, x) } else { corner(self, x) }
+    }
+
+    /// The same; none also where they come to be before one another now: then it is seen on which side.
+    pub fn see(&mut self, x: &[DVec3]) -> Option<Found> {
+        let turned = Self { side: if self.side == 0.0 { 1.0 } else { self.side }, ..*self };
+        let Some((weights, normal, distance)) = turned.found(x) else {
+            self.side = if self.layered { self.side } else { 0.0 };
+            return None;
+        };
+        if self.side == 0.0 {
+            self.side = if distance < 0.0 { -1.0 } else { 1.0 };
+            return None;
+        }
+        Some((weights, normal, distance))
+    }
+}
+
+/// Weights, direction and distance of a vertex before a triangle. None beyond its border on the other side.
+fn corner(pair: &Pair, x: &[DVec3]) -> Option<Found> {
+    let [p, a, b, c] = pair.vertices.map(|v| x[v as usize]);
+    let normal = (b - a).cross(c - a).normalize_or_zero() * pair.side;
+    let (near, part) = closest_on_triangle(p, a, b, c);
+    let signed = normal.dot(p - near);
+    if matches!(part, Part::Face) {
+        let (u, v) = barycentric(near, a, b, c)?;
+        return Some(([1.0, u + v - 1.0, -u, -v], normal, signed));
+    }
+    if signed < 0.0 {
+        return None;
+    }
+    let way = p - near;
+    let distance = way.length();
+    let (u, v) = barycentric(near, a, b, c)?;
+    (distance > 0.0).then(|| ([1.0, u + v - 1.0, -u, -v], way / distance, distance))
+}
+
+fn barycentric(p: DVec3, a: DVec3, b: DVec3, c: DVec3) -> Option<(f64, f64)> {
+    let (u, v, w) = (b - a, c - a, p - a);
+    let (uu, uv, vv, wu, wv) = (u.dot(u), u.dot(v), v.dot(v), w.dot(u), w.dot(v));
+    let whole = uu * vv - uv * uv;
+    (whole > 0.0).then(|| ((vv * wu - uv * wv) / whole, (uu * wv - uv * wu) / whole))
+}
+
+/// Weights, direction and distance of two edges that cross within their lengths.
+fn crossing(pair: &Pair, x: &[DVec3]) -> Option<Found> {
+    let [a, b, c, d] = pair.vertices.map(|v| x[v as usize]);
+    let (u, v, w) = (b - a, d - c, c - a);
+    let (uu, uv, vv, uw, vw) = (u.dot(u), u.dot(v), v.dot(v), u.dot(w), v.dot(w));
+    let whole = uu * vv - uv * uv;
+    // Nearly parallel edges meet at their ends, which the vertices see.
+    if whole <= 1e-6 * uu * vv {
+        return None;
+    }
+    let (s, t) = ((vv * uw - uv * vw) / whole, (uv * uw - uu * vw) / whole);
+    if !(0.0..=1.0).contains(&s) || !(0.0..=1.0).contains(&t) {
+        return None;
+    }
+    let normal = u.cross(v).normalize_or_zero() * pair.side;
+    Some(([s - 1.0, -s, 1.0 - t, t], normal, normal.dot(w)))
+}
+
+/// The distance of the segments ab and cd (Ericson, Real-Time Collision Detection, 5.1.9).
+pub(super) fn segments_apart([a, b, c, d]: [DVec3; 4]) -> f64 {
+    let (u, v, w) = (b - a, d - c, a - c);
+    let (uu, uv, vv, uw, vw) = (u.dot(u), u.dot(v), v.dot(v), u.dot(w), v.dot(w));
+    if uu == 0.0 || vv == 0.0 {
+        return w.length().min((b - c).length());
+    }
+    let whole = uu * vv - uv * uv;
+    let s = if whole > 1e-12 * uu * vv { ((uv * vw - vv * uw) / whole).clamp(0.0, 1.0) } else { 0.0 };
+    let t = ((uv * s + vw) / vv).clamp(0.0, 1.0);
+    let s = ((uv * t - uw) / uu).clamp(0.0, 1.0);
+    (w + u * s - v * t).length()
+}
