@@ -262,9 +262,12 @@ pub struct Repose {
     #[arg(long, conflicts_with_all = ["poses", "joints", "joint_files", "settle", "save"])]
     pub sequence: bool,
     /// Takes the frames of a motion, and writes the same: captured (BVH), which the mannequin makes, its joints found by
-    /// name; or the first animation of a body in glTF
+    /// name; or an animation of a body in glTF
     #[arg(long, value_name = "FILE", conflicts_with_all = ["bodies", "poses", "joints", "joint_files", "settle", "save"])]
     pub motion: Option<PathBuf>,
+    /// Which of the animations in the glTF file: by its name, or by its number from 1; without it the first
+    #[arg(long, value_name = "NAME_OR_NUMBER", requires = "motion")]
+    pub animation: Option<String>,
     /// Only these frames of it, counted from 0, the last left out
     #[arg(long, value_name = "FROM..TO", value_parser = frame_range)]
     pub frames: Option<Range<usize>>,

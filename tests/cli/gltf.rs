@@ -1,4 +1,5 @@
-//! Bodies and animations in glTF: a cylinder on two bones that bends in its middle by a right angle in one second.
+//! Bodies and animations in glTF: a cylinder on two bones that bends in its middle by a right angle in one second, or at its
+//! end.
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
@@ -73,6 +74,8 @@ fn skinned(uri: Option<&str>) -> (String, Vec<u8>) {
         "meshes": [{{"primitives": [{{"attributes": {{"POSITION": 0, "JOINTS_0": 2, "WEIGHTS_0": 3}}, "indices": 1}}]}}],
         "skins": [{{"joints": [1, 2], "inverseBindMatrices": 4}}],
         "animations": [{{"name": "bend", "samplers": [{{"input": 5, "output": 6}}],
+            "channels": [{{"sampler": 0, "target": {{"node": 2, "path": "rotation"}}}}]}},
+            {{"name": "snap", "samplers": [{{"input": 5, "output": 6, "interpolation": "STEP"}}],
             "channels": [{{"sampler": 0, "target": {{"node": 2, "path": "rotation"}}}}]}}],
         "accessors": [
             {{"bufferView": 0, "componentType": 5126, "count": {vertices}, "type": "VEC3",
@@ -111,14 +114,16 @@ fn alone(bytes: &[u8]) -> Result<Model, gltf::GltfError> {
 fn check(model: &Model) {
     let flat = limb();
     assert_eq!(model.mesh().triangles, flat.triangles);
-    assert_eq!(model.animations().collect::<Vec<_>>(), ["bend"]);
-    assert_eq!(model.seconds(0), Some(1.0));
+    assert_eq!(model.animations().collect::<Vec<_>>(), ["bend", "snap"]);
+    assert_eq!([0, 1, 2].map(|clip| model.seconds(clip)), [Some(1.0), Some(1.0), None]);
     let times = [
         (None, 0.0),
         (Some((0, 0.0)), 0.0),
         (Some((0, 0.5)), FRAC_PI_4),
         (Some((0, 1.0)), FRAC_PI_2),
         (Some((0, 9.0)), FRAC_PI_2),
+        (Some((1, 0.5)), 0.0),
+        (Some((1, 1.0)), FRAC_PI_2),
     ];
     for (at, angle) in times {
         let there = model.positions(at);
@@ -220,6 +225,22 @@ fn cloth_goes_along_with_an_animated_body() {
     let worst = off.fold(0.0, f64::max);
     let enough = before.len() > 5 && before.iter().all(|p| p.y > 0.65);
     assert!(enough && worst < 1e-6, "{} vertices, {worst}", before.len());
+    assert!(ended.err.contains("2 animations: 1 bend, 2 snap: the first is taken"), "{ended:#?}");
+    let other = |asked: &str| {
+        format!(
+            "repose dressed.toile --motion limb.glb --animation {asked} --unit m --fps 10 --frames 5..6 --out {asked}"
+        )
+    };
+    // The other one stands still until its end, by either name.
+    for asked in ["snap", "2"] {
+        let ended = place.run(&other(asked));
+        assert!([0, 1].contains(&ended.code) && !ended.err.contains("the first is taken"), "{ended:#?}");
+        let cloth = vertices(&place.read(&format!("{asked}/garment_0000.obj")));
+        let worst = before.iter().zip(&cloth).map(|(p, q)| p.distance(*q)).fold(0.0, f64::max);
+        assert!(worst < 1e-6, "{asked}: {worst}");
+    }
+    let why = "limb.glb: there is no animation \"leap\" in it; it has 2 animations: 1 bend, 2 snap";
+    place.ends_with_words(3, &other("leap"), why);
     let still = place.run("repose dressed.toile --motion marked.toile --out still");
     assert!(still.code == 3 && still.err.contains("marked.toile"), "{still:#?}");
 }

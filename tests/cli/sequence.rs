@@ -165,6 +165,7 @@ fn faulty_motions_are_refused_with_file_and_line() {
     place.ends_with_words(3, &run("cut.bvh"), "cut.bvh: line 38: a frame has 15 numbers");
     place.ends_with_words(3, &run("ball.toile"), "ball.toile: line 1");
     place.ends_with_words(3, "repose dressed.toile --motion bend.bvh --out posed", "is for the mannequin");
+    place.ends_with_words(3, &run("bend.bvh --animation walk"), "bend.bvh: --animation chooses among");
     place.ends_with_words(
         2,
         "repose dressed.toile --motion bend.bvh --body a.obj --out posed",

@@ -15,6 +15,8 @@ use crate::io::gltf::Model;
 /// An animated body.
 pub struct Animated {
     model: Model,
+    /// Which of its animations it goes through.
+    clip: usize,
     how: BodyFile,
     metres: f64,
     /// Of the file's vertices those that the body has, as it is at rest.
@@ -24,41 +26,95 @@ pub struct Animated {
 }
 
 impl Animated {
-    /// The body in `bytes`, read from `path`, so many frames a second. It is brought to metres as it is at rest.
-    pub fn new(path: &Path, bytes: &[u8], how: BodyFile, fps: f64) -> Result<Self, Failure> {
+    /// The body in `bytes`, read from `path`, through the animation `asked` for or its first, so many frames a second. It
+    /// is brought to metres as it is at rest.
+    pub fn new(
+        path: &Path,
+        bytes: &[u8],
+        how: BodyFile,
+        asked: Option<&str>,
+        fps: f64,
+    ) -> Result<Self, Failure> {
         let model = formats::model(path, bytes)?;
-        if model.animations().next().is_none() {
-            return Err(Failure::input(path, "there is no animation in it"));
-        }
+        let names: Vec<&str> = model.animations().collect();
+        let clip = clip(&names, asked).map_err(|words| Failure::input(path, words))?;
         let mut mesh = model.mesh();
         how.up.set_upright(&mut mesh);
         let unit = formats::body_unit(path, bytes, &mesh, how)?;
         let imported = import(mesh, unit);
-        Ok(Self { model, how, metres: unit.metres(), kept: imported.kept, at_rest: imported.mesh, fps })
+        Ok(Self { model, clip, how, metres: unit.metres(), kept: imported.kept, at_rest: imported.mesh, fps })
     }
 
-    /// Frames of its first animation, the last one included.
+    /// Frames of the animation, the last one included.
     pub fn frames(&self) -> usize {
-        ((self.model.seconds(0).unwrap_or(0.0) * self.fps + 1e-6).floor() as usize).saturating_add(1)
+        ((self.model.seconds(self.clip).unwrap_or(0.0) * self.fps + 1e-6).floor() as usize).saturating_add(1)
     }
 
-    /// Which animations are left out, in words.
-    pub fn notes(&self) -> Vec<String> {
+    /// Which animations are left out though none was `asked` for, in words.
+    pub fn notes(&self, asked: Option<&str>) -> Vec<String> {
         let names: Vec<&str> = self.model.animations().collect();
-        let words =
-            || format!("it has {} animations ({}): the first is taken", names.len(), names.join(", "));
-        if names.len() > 1 { vec![words()] } else { Vec::new() }
+        let words = || format!("it has {}: the first is taken (see --animation)", listed(&names));
+        if names.len() > 1 && asked.is_none() { vec![words()] } else { Vec::new() }
     }
 
     /// The body in frame `i`. At rest it must have the triangles of `dressed`.
     pub fn body(&self, i: usize, dressed: &Surface, path: &Path) -> Result<Arc<Surface>, Failure> {
         formats::same_triangles(path, &self.at_rest, &dressed.mesh)?;
-        let positions = self.model.positions(Some((0, i as f64 / self.fps)));
+        let positions = self.model.positions(Some((self.clip, i as f64 / self.fps)));
         let kept: Vec<DVec3> = self.kept.iter().map(|&v| positions[v as usize]).collect();
         let mut mesh = TriMesh { positions: kept, triangles: Vec::new() };
         self.how.up.set_upright(&mut mesh);
         mesh.positions.iter_mut().for_each(|p| *p *= self.metres);
         let words = || format!("frame {}: a vertex of it is no place", i + 1);
         dressed.reposed(mesh.positions).map(Arc::new).ok_or_else(|| Failure::input(path, words()))
+    }
+}
+
+/// Which of the animations of these names is `asked` for: by its name, or by its number from 1; the first if none is. The
+/// error, in words: there is none, or more than one.
+fn clip(names: &[&str], asked: Option<&str>) -> Result<usize, String> {
+    if names.is_empty() {
+        return Err("there is no animation in it".to_owned());
+    }
+    let Some(asked) = asked else { return Ok(0) };
+    let called: Vec<usize> = (0..names.len()).filter(|&i| names[i] == asked).collect();
+    match called[..] {
+        [one] => Ok(one),
+        [] => {
+            let number = asked.parse::<usize>().ok().and_then(|number| number.checked_sub(1));
+            let known = number.filter(|&i| i < names.len());
+            known.ok_or_else(|| format!("there is no animation {asked:?} in it; it has {}", listed(names)))
+        }
+        _ => Err(format!(
+            "{} animations in it are called {asked:?}: give a number; it has {}",
+            called.len(),
+            listed(names)
+        )),
+    }
+}
+
+/// "2 animations: 1 walk, 2 run".
+fn listed(names: &[&str]) -> String {
+    let each = names.iter().enumerate().map(|(i, name)| format!("{} {name}", i + 1).trim_end().to_owned());
+    let plural = if names.len() == 1 { "" } else { "s" };
+    format!("{} animation{plural}: {}", names.len(), each.collect::<Vec<_>>().join(", "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_animation_is_chosen_by_name_or_number() {
+        let names = ["walk", "run", "1", "", "run"];
+        assert_eq!(clip(&names, None), Ok(0));
+        assert_eq!(clip(&names, Some("walk")), Ok(0));
+        assert_eq!(clip(&names, Some("1")), Ok(2), "a name goes before a number");
+        assert_eq!(clip(&names, Some("5")), Ok(4));
+        for asked in ["0", "6", "-1", "jump", "99999999999999999999", "run"] {
+            let why = clip(&names, Some(asked)).expect_err(asked);
+            assert!(why.contains("5 animations: 1 walk, 2 run, 3 1, 4, 5 run"), "{why}");
+        }
+        assert!(clip(&[], None).is_err() && clip(&[], Some("1")).is_err());
     }
 }

@@ -53,9 +53,14 @@ impl Source {
         let bytes = input::read(path)?;
         if gltf::is_gltf(&bytes) {
             let fps = arguments.fps.map_or(USUAL_FPS, |fps| fps * arguments.every as f64);
-            let animated = Animated::new(path, &bytes, arguments.body_file, fps)?;
-            let (count, notes) = (animated.frames(), animated.notes());
+            let asked = arguments.animation.as_deref();
+            let animated = Animated::new(path, &bytes, arguments.body_file, asked, fps)?;
+            let (count, notes) = (animated.frames(), animated.notes(asked));
             return Ok((Self::Animated(Box::new(animated), path.to_owned()), count, fps, notes));
+        }
+        if arguments.animation.is_some() {
+            let words = "--animation chooses among those of a glTF body: this is none";
+            return Err(Failure::input(path, words));
         }
         let first = arguments.frames.as_ref().map_or(0, |range| range.start);
         let captured = Captured::new(path, &bytes, body, first)?;
