@@ -148,6 +148,78 @@ fn a_skinned_cylinder_bends_exactly_in_every_kind_of_file() {
     assert!(why.contains("limb.bin is not there"), "{why}");
 }
 
+/// The same, with the places of vertices 3 and 700 and the second time only as sparse values.
+fn sparse() -> (String, Vec<u8>) {
+    let (json, mut data) = skinned(Some("limb.bin"));
+    let full = data.len();
+    let mut kept = Vec::new();
+    for vertex in [3, 700] {
+        let place = &mut data[12 * vertex..12 * (vertex + 1)];
+        kept.extend_from_slice(place);
+        place.fill(0xff); // What is no number may stand where it is replaced.
+    }
+    let mut views = String::new();
+    for bytes in [&[3, 0, 0xbc, 2][..], &kept, &[1], &1_f32.to_le_bytes()] {
+        let (start, length) = (data.len(), bytes.len());
+        views += &format!(r#", {{"buffer": 0, "byteOffset": {start}, "byteLength": {length}}}"#);
+        data.extend(bytes);
+        data.resize(data.len().next_multiple_of(4), 0);
+    }
+    let places = r#""type": "VEC3", "sparse": {"count": 2, "indices": {"bufferView": 7, "componentType": 5123},
+        "values": {"bufferView": 8}},"#;
+    let times = r#"{"componentType": 5126, "sparse": {"count": 1, "indices": {"bufferView": 9, "componentType": 5121},
+        "values": {"bufferView": 10}},"#;
+    let json = json
+        .replacen(r#""type": "VEC3","#, places, 1)
+        .replacen(r#"{"bufferView": 5, "componentType": 5126,"#, times, 1)
+        .replacen(r#"], "buffers""#, &format!(r#"{views}], "buffers""#), 1)
+        .replacen(
+            &format!(r#""byteLength": {full}}}]}}"#),
+            &format!(r#""byteLength": {}}}]}}"#, data.len()),
+            1,
+        );
+    (json, data)
+}
+
+#[test]
+fn sparse_values_stand_for_those_they_replace() {
+    let (json, data) = sparse();
+    check(&gltf::read(json.as_bytes(), &|_| Ok(data.clone())).expect("a sparse file"));
+    for (from, to, words) in [
+        (
+            r#""bufferView": 7, "componentType": 5123"#,
+            r#""bufferView": 7, "componentType": 5121"#,
+            "do not rise",
+        ),
+        (
+            r#""bufferView": 9, "componentType": 5121"#,
+            r#""bufferView": 10, "componentType": 5125"#,
+            "below 2",
+        ),
+        (
+            r#""bufferView": 7, "componentType": 5123"#,
+            r#""bufferView": 7, "componentType": 5125"#,
+            "beyond its buffer",
+        ),
+        (r#"{"bufferView": 8}"#, r#"{"bufferView": 8, "byteOffset": 4}"#, "beyond its buffer"),
+        (r#"{"bufferView": 8}"#, r#"{"bufferView": 80}"#, "no glTF that can be read"),
+        (
+            r#"{"count": 2, "indices""#,
+            r#"{"count": 4000000000, "indices""#,
+            "accessor 0 reaches beyond its buffer",
+        ),
+    ] {
+        let changed = json.replacen(from, to, 1);
+        assert_ne!(changed, json, "{from}");
+        let why = gltf::read(changed.as_bytes(), &|_| Ok(data.clone())).expect_err(to).to_string();
+        assert!(why.contains(words), "{to}: {why}");
+    }
+    for length in (0..data.len()).step_by(5) {
+        let cut = gltf::read(json.as_bytes(), &|_| Ok(data[..length].to_vec()));
+        assert!(cut.is_err(), "cut after {length} bytes");
+    }
+}
+
 #[test]
 fn faulty_scenes_are_refused_in_words() {
     let (json, data) = skinned(Some("limb.bin"));

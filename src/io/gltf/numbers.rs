@@ -2,7 +2,8 @@
 
 use glam::DVec3;
 use gltf::Accessor;
-use gltf::accessor::{DataType, Dimensions};
+use gltf::accessor::{DataType, sparse::Sparse};
+use gltf::buffer::View;
 
 use super::{GltfError, fault};
 use crate::io::Limits;
@@ -67,43 +68,71 @@ impl Numbers<'_> {
         number: impl Fn(DataType, &[u8]) -> T,
     ) -> Result<Vec<[T; N]>, GltfError> {
         let place = format!("accessor {}", accessor.index());
-        let dimensions = match accessor.dimensions() {
-            Dimensions::Scalar => 1,
-            Dimensions::Vec2 => 2,
-            Dimensions::Vec3 => 3,
-            Dimensions::Vec4 | Dimensions::Mat2 => 4,
-            Dimensions::Mat3 => 9,
-            Dimensions::Mat4 => 16,
-        };
+        let dimensions = accessor.dimensions().multiplicity();
         if dimensions != N {
             return Err(fault(format!("{place} holds {dimensions} numbers at a time, not {N}")));
-        }
-        if accessor.sparse().is_some() {
-            return Err(fault(format!("{place} is sparse, which is not read: write it in full")));
         }
         let count = accessor.count();
         if count.saturating_mul(N) > MOST {
             return Err(GltfError::OverLimit(format!("{place} holds more than {MOST} numbers")));
         }
-        let Some(view) = accessor.view() else { return Ok(vec![[T::default(); N]; count]) };
-        let size = match accessor.data_type() {
-            DataType::I8 | DataType::U8 => 1,
-            DataType::I16 | DataType::U16 => 2,
-            DataType::U32 | DataType::F32 => 4,
+        let kind = accessor.data_type();
+        let size = kind.size();
+        let element = |bytes: &[u8]| {
+            let mut all = [T::default(); N];
+            let each = all.iter_mut().zip(bytes.chunks_exact(size));
+            each.for_each(|(slot, bytes)| *slot = number(kind, bytes));
+            all
         };
         let outside = || fault(format!("{place} reaches beyond its buffer"));
-        let stride = view.stride().unwrap_or(size * N);
-        let end = view.offset().checked_add(view.length()).ok_or_else(outside)?;
-        let buffer = self.buffers.get(view.buffer().index()).ok_or_else(outside)?;
-        let bytes = buffer.get(view.offset()..end).ok_or_else(outside)?;
-        let element = |i: usize| {
-            let start = i.checked_mul(stride)?.checked_add(accessor.offset())?;
-            let own = bytes.get(start..start.checked_add(size * N)?)?;
-            let mut all = [T::default(); N];
-            let each = all.iter_mut().zip(own.chunks_exact(size));
-            each.for_each(|(slot, bytes)| *slot = number(accessor.data_type(), bytes));
-            Some(all)
+        let mut elements = match accessor.view() {
+            Some(view) => {
+                let rows = self.rows(view, accessor.offset(), size * N, count).ok_or_else(outside)?;
+                rows.map(element).collect()
+            }
+            None => vec![[T::default(); N]; count],
         };
-        (0..count).map(|i| element(i).ok_or_else(outside)).collect()
+        if let Some(sparse) = accessor.sparse() {
+            let (places, values) = self.replaced(&sparse, size * N).ok_or_else(outside)?;
+            let mut before = None;
+            for (at, value) in places.zip(values) {
+                let slot = elements.get_mut(at).filter(|_| before < Some(at));
+                let words = || format!("{place}: the places of its sparse values do not rise below {count}");
+                *slot.ok_or_else(|| fault(words()))? = element(value);
+                before = Some(at);
+            }
+        }
+        Ok(elements)
+    }
+
+    /// Which elements a sparse accessor replaces, and by what, `size` bytes each.
+    fn replaced(
+        &self,
+        sparse: &Sparse<'_>,
+        size: usize,
+    ) -> Option<(impl Iterator<Item = usize>, impl Iterator<Item = &[u8]>)> {
+        let (places, values) = (sparse.indices(), sparse.values());
+        let bytes = self.rows(places.view(), places.offset(), places.index_type().size(), sparse.count())?;
+        let whole = |bytes: &[u8]| bytes.iter().rev().fold(0, |sum, &byte| sum << 8 | usize::from(byte));
+        Some((bytes.map(whole), self.rows(values.view(), values.offset(), size, sparse.count())?))
+    }
+
+    /// `count` rows of `size` bytes in `view`, from `offset` on; None where they reach beyond it or beyond its buffer.
+    fn rows(
+        &self,
+        view: View<'_>,
+        offset: usize,
+        size: usize,
+        count: usize,
+    ) -> Option<impl Iterator<Item = &[u8]>> {
+        let buffer = self.buffers.get(view.buffer().index())?;
+        let bytes = buffer.get(view.offset()..view.offset().checked_add(view.length())?)?;
+        let stride = view.stride().unwrap_or(size);
+        if let Some(last) = count.checked_sub(1) {
+            let end = last.checked_mul(stride)?.checked_add(offset)?.checked_add(size)?;
+            bytes.get(..end)?;
+        }
+        let start = move |i: usize| i * stride + offset;
+        Some((0..count).map(move |i| &bytes[start(i)..start(i) + size]))
     }
 }
