@@ -25,7 +25,7 @@ impl UpAxis {
     /// Both.
     pub const ALL: [Self; 2] = [Self::Y, Self::Z];
 
-    /// What a body with these sides of its bounding box (x, y, z) probably means: one that is much longer in z than in y
+    /// What a body or a skeleton with these sides of its bounding box (x, y, z) probably means: one that is much longer in z than in y
     /// would lie.
     pub fn guess(size: DVec3) -> Self {
         if size.z > LYING * size.y { Self::Z } else { Self::Y }
@@ -41,10 +41,14 @@ impl UpAxis {
 
     /// Turns `mesh` so that this axis becomes y.
     pub fn set_upright(self, mesh: &mut TriMesh) {
-        if self == Self::Z {
-            for p in &mut mesh.positions {
-                *p = DVec3::new(p.x, p.z, -p.y);
-            }
+        mesh.positions.iter_mut().for_each(|p| *p = self.upright(*p));
+    }
+
+    /// Where `p` is after this axis has become y.
+    pub fn upright(self, p: DVec3) -> DVec3 {
+        match self {
+            Self::Y => p,
+            Self::Z => DVec3::new(p.x, p.z, -p.y),
         }
     }
 }

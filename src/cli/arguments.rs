@@ -55,9 +55,9 @@ pub struct BodyFile {
     /// The unit of body files: m, dm, cm, mm or in; without it the body's height tells
     #[arg(long)]
     pub unit: Option<Unit>,
-    /// The axis of body files that points up: y or z
-    #[arg(long, value_name = "AXIS", default_value_t)]
-    pub up: UpAxis,
+    /// The axis of body files and motions that points up: y or z; without it y, or what a motion's skeleton tells
+    #[arg(long, value_name = "AXIS")]
+    pub up: Option<UpAxis>,
 }
 
 /// What an input needs besides its file.

@@ -54,7 +54,7 @@ pub fn body(path: &Path, bytes: &[u8], how: BodyFile) -> Result<Imported, Failur
 /// The same in the file's own unit, as it stands there but upright.
 pub fn body_mesh(path: &Path, bytes: &[u8], how: BodyFile) -> Result<TriMesh, Failure> {
     let mut mesh = body_file::read(path, bytes, &neighbour).map_err(|error| body_failure(path, error))?;
-    how.up.set_upright(&mut mesh);
+    how.up.unwrap_or_default().set_upright(&mut mesh);
     Ok(mesh)
 }
 

@@ -1,5 +1,6 @@
 //! A captured motion that the mannequin can be led through.
 
+use crate::body::UpAxis;
 use crate::body::mannequin::mannequin;
 use crate::body::pose::motion::{Clip, Retarget};
 use crate::session::BodyChoice;
@@ -11,15 +12,19 @@ pub struct PosedMotion {
     pub name: String,
     clip: Clip,
     retarget: Retarget,
+    up: UpAxis,
 }
 
 impl PosedMotion {
-    /// The motion `clip` for the mannequin of `body`. The error says in words why it cannot make it.
-    pub fn new(name: String, clip: Clip, body: &BodyChoice) -> Result<Self, String> {
+    /// The motion `clip` for the mannequin of `body`, set upright as its rest pose tells. The error says in words why it
+    /// cannot make it.
+    pub fn new(name: String, mut clip: Clip, body: &BodyChoice) -> Result<Self, String> {
         let measurements = body.measurements().ok_or("a BVH motion is for the mannequin")?;
         let figure = mannequin(&measurements).map_err(|e| e.to_string())?;
+        let up = clip.likely_up();
+        clip.set_upright(up);
         let retarget = Retarget::new(&clip, &figure.skeleton)?;
-        Ok(Self { name, clip, retarget })
+        Ok(Self { name, clip, retarget, up })
     }
 
     /// How many frames it has, one or more.
@@ -32,11 +37,14 @@ impl PosedMotion {
         body.posed(self.retarget.frame(&self.clip, 0, i).0)
     }
 
-    /// Which joints found no partner, in words.
+    /// How it was taken, and which joints found no partner, in words.
     pub fn note(&self) -> Option<String> {
         let Retarget { unused, unmoved, .. } = &self.retarget;
         let list = |words: &str, names: String| format!("{words}: {names}");
         let mut notes = Vec::new();
+        if self.up == UpAxis::Z {
+            notes.push("Its rest pose stands along z, which is taken to point up".to_owned());
+        }
         if !unused.is_empty() {
             notes.push(list("Joints that move nothing of the mannequin", unused.join(", ")));
         }

@@ -154,6 +154,69 @@ fn a_captured_motion_moves_the_mannequin() {
     assert!(walked.x.abs() < 0.01 && walked.y.abs() < 0.01, "{walked}");
 }
 
+/// `BEND` with z up: every offset and every row of numbers by hand.
+const UPRIGHT_IN_Z: &str = "HIERARCHY
+ROOT Hips
+{
+  OFFSET 0 0 0
+  CHANNELS 6 Xposition Yposition Zposition Yrotation Xrotation Zrotation
+  JOINT LeftArm
+  {
+    OFFSET 20 0 40
+    CHANNELS 3 Yrotation Xrotation Zrotation
+    JOINT LeftForeArm
+    {
+      OFFSET 20 0 -20
+      CHANNELS 3 Yrotation Xrotation Zrotation
+      JOINT LeftHand {
+        OFFSET 18 0 -18
+        CHANNELS 3 Yrotation Xrotation Zrotation
+        End Site
+        {
+          OFFSET 8 0 -8
+        }
+      }
+    }
+  }
+  JOINT Tail
+  {
+    OFFSET 0 10 -90
+    CHANNELS 0
+    End Site
+    {
+      OFFSET 0 10 0
+    }
+  }
+}
+MOTION
+Frames: 3
+Frame Time: 0.05
+0 0 90 0 0 0 0 0 0 0 0 0 0 0 0
+0 -50 90 0 0 0 0 0 0 0 -45 0 0 0 0
+0 -100 90 0 0 0 0 0 0 0 -90 0 0 0 0
+";
+
+#[test]
+fn a_motion_with_z_up_is_set_upright() {
+    let place = Place::new();
+    place.write("bend.bvh", BEND);
+    place.write("upright.bvh", UPRIGHT_IN_Z);
+    let dressed = place.run("dress sample:scarf --edge-length 0.05 --save scarf.toile --out scarf");
+    assert!([0, 1].contains(&dressed.code), "{dressed:#?}");
+    let last = |name: &str, up: &str| {
+        let ended =
+            place.run(&format!("repose scarf.toile --motion {name}.bvh {up} --frames 2..3 --out {name}"));
+        assert!([0, 1].contains(&ended.code), "{ended:#?}");
+        let is_told = ended.err.contains("z is taken to point up, by its rest pose (see --up)");
+        (place.read(&format!("{name}/garment_0000.obj")), is_told)
+    };
+    let bend = last("bend", "");
+    assert!(!bend.1 && last("bend", "--up y") == bend);
+    assert_eq!(last("upright", ""), (bend.0.clone(), true));
+    assert_eq!(last("upright", "--up z"), (bend.0.clone(), false));
+    assert_ne!(last("upright", "--up y").0, bend.0);
+}
+
 #[test]
 fn faulty_motions_are_refused_with_file_and_line() {
     let place = dressed();

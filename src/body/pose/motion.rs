@@ -9,6 +9,7 @@ use std::collections::BTreeMap;
 
 use glam::{DQuat, DVec3};
 
+use crate::body::UpAxis;
 use crate::body::pose::matching::matched;
 use crate::body::pose::regions::JOINTS;
 use crate::body::pose::{FURTHEST, Pose, shortest};
@@ -38,7 +39,7 @@ pub struct ClipJoint {
     pub ends: Vec<DVec3>,
 }
 
-/// A skeleton in motion, y up. In the rest pose nothing is turned.
+/// A skeleton in motion, in a file with any axis up; y up for the mannequin. In the rest pose nothing is turned.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Clip {
     /// Parents first, the root at the head.
@@ -79,6 +80,37 @@ impl Clip {
             places.push(((before * turn).normalize(), from + before * at));
         }
         places
+    }
+
+    /// The axis that its rest pose probably stands along.
+    pub fn likely_up(&self) -> UpAxis {
+        let (mut lower, mut upper) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        for (at, joint) in self.resting().into_iter().zip(&self.joints) {
+            for p in std::iter::once(at).chain(joint.ends.iter().map(|end| at + *end)) {
+                (lower, upper) = (lower.min(p), upper.max(p));
+            }
+        }
+        UpAxis::guess(upper - lower)
+    }
+
+    /// Turns all of it so that `up` becomes y.
+    pub fn set_upright(&mut self, up: UpAxis) {
+        // Which way each number points afterwards: a turn about -y is one by the negative angle.
+        let signs: Vec<f64> = self
+            .joints
+            .iter_mut()
+            .flat_map(|joint| {
+                joint.offset = up.upright(joint.offset);
+                joint.ends.iter_mut().for_each(|end| *end = up.upright(*end));
+                joint.channels.iter_mut().map(|channel| {
+                    let (Channel::Position(axis) | Channel::Rotation(axis)) = channel;
+                    let along = up.upright(DVec3::AXES[*axis]);
+                    *axis = along.abs().max_position();
+                    along[*axis]
+                })
+            })
+            .collect();
+        self.values.iter_mut().zip(signs.iter().cycle()).for_each(|(value, sign)| *value *= sign);
     }
 
     /// Where the joints are in the rest pose, the root at its offset.

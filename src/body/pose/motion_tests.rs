@@ -137,3 +137,38 @@ fn what_means_nothing_is_listed() {
     let clip = clip_of(&skeleton, |name| format!("bone {}", name.len()));
     assert!(Retarget::new(&clip, &skeleton).expect_err("nothing known").contains("bone"));
 }
+
+#[test]
+fn a_motion_with_z_up_is_the_same_motion() {
+    let skeleton = skeleton();
+    let mut clip = clip_of(&skeleton, str::to_owned);
+    // Any angles and places, no two alike.
+    let values = (0..2 * clip.channels()).map(|i| (i * 37 % 101) as f64 - 50.0);
+    clip.values = values.collect();
+    clip.joints[3].ends.push(DVec3::new(0.1, -0.2, 0.3));
+    assert_eq!(clip.likely_up(), UpAxis::Y);
+    let mut same = clip.clone();
+    same.set_upright(UpAxis::Y);
+    assert_eq!(same, clip);
+    // Three quarters of a turn back: y becomes z, and z becomes -y.
+    let mut lying = clip.clone();
+    (0..3).for_each(|_| lying.set_upright(UpAxis::Z));
+    assert_eq!(lying.joints[0].offset.z, clip.joints[0].offset.y);
+    assert_eq!(
+        lying.joints[0].channels[1..4],
+        [Channel::Position(2), Channel::Position(1), Channel::Rotation(1)]
+    );
+    assert_eq!((lying.values[1], lying.values[2]), (clip.values[1], -clip.values[2]));
+    assert_eq!(lying.likely_up(), UpAxis::Z);
+    let turn = DQuat::from_rotation_x(FRAC_PI_2);
+    for frame in 0..2 {
+        for ((there, at), (lain, lain_at)) in clip.places(frame).into_iter().zip(lying.places(frame)) {
+            assert!(
+                lain_at.distance(turn * at) < 1e-9
+                    && lain.angle_between(turn * there * turn.inverse()) < 1e-7
+            );
+        }
+    }
+    lying.set_upright(UpAxis::Z);
+    assert_eq!(lying, clip);
+}

@@ -39,7 +39,7 @@ impl Animated {
         let names: Vec<&str> = model.animations().collect();
         let clip = clip(&names, asked).map_err(|words| Failure::input(path, words))?;
         let mut mesh = model.mesh();
-        how.up.set_upright(&mut mesh);
+        how.up.unwrap_or_default().set_upright(&mut mesh);
         let unit = formats::body_unit(path, bytes, &mesh, how)?;
         let imported = import(mesh, unit);
         Ok(Self { model, clip, how, metres: unit.metres(), kept: imported.kept, at_rest: imported.mesh, fps })
@@ -63,7 +63,7 @@ impl Animated {
         let positions = self.model.positions(Some((self.clip, i as f64 / self.fps)));
         let kept: Vec<DVec3> = self.kept.iter().map(|&v| positions[v as usize]).collect();
         let mut mesh = TriMesh { positions: kept, triangles: Vec::new() };
-        self.how.up.set_upright(&mut mesh);
+        self.how.up.unwrap_or_default().set_upright(&mut mesh);
         mesh.positions.iter_mut().for_each(|p| *p *= self.metres);
         let words = || format!("frame {}: a vertex of it is no place", i + 1);
         dressed.reposed(mesh.positions).map(Arc::new).ok_or_else(|| Failure::input(path, words()))

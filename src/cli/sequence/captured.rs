@@ -3,9 +3,9 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use crate::body::Surface;
 use crate::body::pose::motion::{Clip, Retarget};
 use crate::body::pose::{Rig, rig};
+use crate::body::{Surface, UpAxis};
 use crate::cli::failure::Failure;
 use crate::io::bvh::{self, BvhError};
 use crate::session::BodyChoice;
@@ -17,20 +17,37 @@ pub struct Captured {
     rig: Arc<Rig>,
     /// Sideways it is where it was built in this one.
     first: usize,
+    /// Whether its rest pose alone told that z points up.
+    is_turned: bool,
 }
 
 impl Captured {
-    /// The motion in `bytes`, read from `path`, for the mannequin of `body`, where it was built in frame `first`.
-    pub fn new(path: &Path, bytes: &[u8], body: &BodyChoice, first: usize) -> Result<Self, Failure> {
-        let clip = bvh::read(bytes).map_err(|error| match error {
+    /// The motion in `bytes`, read from `path`, for the mannequin of `body`, where it was built in frame `first`. Without
+    /// an axis that points `up` its rest pose tells.
+    pub fn new(
+        path: &Path,
+        bytes: &[u8],
+        body: &BodyChoice,
+        up: Option<UpAxis>,
+        first: usize,
+    ) -> Result<Self, Failure> {
+        let mut clip = bvh::read(bytes).map_err(|error| match error {
             BvhError::OverLimit(words) => Failure::Limit(format!("{}: {words}", path.display())),
             error => Failure::input(path, error),
         })?;
+        let likely = clip.likely_up();
+        clip.set_upright(up.unwrap_or(likely));
         let words = "a BVH motion is for the mannequin, and the body of this project is from a file";
         let measurements = body.measurements().ok_or_else(|| Failure::input(path, words))?;
         let rig = rig(&measurements).map_err(|error| Failure::input(path, error))?;
         let retarget = Retarget::new(&clip, &rig.figure().skeleton);
-        Ok(Self { retarget: retarget.map_err(|why| Failure::input(path, why))?, clip, rig, first })
+        Ok(Self {
+            retarget: retarget.map_err(|why| Failure::input(path, why))?,
+            clip,
+            rig,
+            first,
+            is_turned: up.is_none() && likely == UpAxis::Z,
+        })
     }
 
     /// Frames of the file.
@@ -43,10 +60,13 @@ impl Captured {
         1.0 / self.clip.seconds_per_frame
     }
 
-    /// Which joints found no partner, in words.
+    /// How it was taken, and which joints found no partner, in words.
     pub fn notes(&self) -> Vec<String> {
         let Retarget { unused, unmoved, .. } = &self.retarget;
         let mut notes = Vec::new();
+        if self.is_turned {
+            notes.push("z is taken to point up, by its rest pose (see --up)".to_owned());
+        }
         if !unused.is_empty() {
             notes.push(format!("joints that move nothing of the mannequin: {}", unused.join(", ")));
         }

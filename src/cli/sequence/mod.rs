@@ -63,7 +63,7 @@ impl Source {
             return Err(Failure::input(path, words));
         }
         let first = arguments.frames.as_ref().map_or(0, |range| range.start);
-        let captured = Captured::new(path, &bytes, body, first)?;
+        let captured = Captured::new(path, &bytes, body, arguments.body_file.up, first)?;
         let (count, fps, notes) = (captured.frames(), captured.fps(), captured.notes());
         Ok((Self::Captured(captured), count, fps, notes))
     }
