@@ -104,7 +104,7 @@ fn is_empty(pins: &Arc<Vec<Pin>>) -> bool {
     pins.is_empty()
 }
 
-fn is_false(flag: &bool) -> bool {
+pub(super) fn is_false(flag: &bool) -> bool {
     !flag
 }
 

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::cloth::ClothState;
 use crate::pattern::Pattern;
 use crate::relax::RelaxSettings;
-use crate::session::document::Document;
+use crate::session::document::{Document, is_false};
 use crate::sim::GarmentSource;
 use crate::wrap::Marks;
 
@@ -31,6 +31,8 @@ pub struct Dressed {
     pub source: Arc<GarmentSource>,
     /// Where it is.
     pub cloth: Arc<ClothState>,
+    /// Physics has moved it since it was grown: folds are no fault. False for files from before this was told.
+    pub was_draped: bool,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -42,22 +44,26 @@ struct DressedData {
     relax: RelaxSettings,
     positions: Vec<DVec3>,
     mapped: Vec<bool>,
+    #[serde(default, skip_serializing_if = "is_false")]
+    was_draped: bool,
 }
 
 impl From<Dressed> for DressedData {
     fn from(dressed: Dressed) -> Self {
         let GarmentSource { pattern, marks, edge_length, relax } = Arc::unwrap_or_clone(dressed.source);
         let ClothState { positions, mapped } = Arc::unwrap_or_clone(dressed.cloth);
-        Self { pattern, marks, edge_length, relax, positions, mapped }
+        let was_draped = dressed.was_draped;
+        Self { pattern, marks, edge_length, relax, positions, mapped, was_draped }
     }
 }
 
 impl From<DressedData> for Dressed {
     fn from(data: DressedData) -> Self {
-        let DressedData { pattern, marks, edge_length, relax, positions, mapped } = data;
+        let DressedData { pattern, marks, edge_length, relax, positions, mapped, was_draped } = data;
         Self {
             source: Arc::new(GarmentSource { pattern, marks, edge_length, relax }),
             cloth: Arc::new(ClothState { positions, mapped }),
+            was_draped,
         }
     }
 }

@@ -88,8 +88,8 @@ impl Session {
         let mut bodies = BodyCache::default();
         let body = bodies.surface(&project.document.body);
         let recorder = Recorder::new(&project);
-        if let (Some(Dressed { source, cloth }), Ok(body)) = (project.dressed, body) {
-            let kind = RequestKind::Adopt { source, body, cloth };
+        if let (Some(Dressed { source, cloth, was_draped }), Ok(body)) = (project.dressed, body) {
+            let kind = RequestKind::Adopt { source, body, cloth, was_draped };
             runner.send(Request { seq: 0, checkpoint: false, kind });
             if !project.document.pins.is_empty() {
                 let kind = RequestKind::SetPins(project.document.pinned_places());
@@ -226,7 +226,8 @@ impl Session {
         let snapshot = self.runner.snapshot();
         let dressed = match &snapshot.source {
             Some(source) if snapshot.is_dressed() => {
-                Some(Dressed { source: Arc::clone(source), cloth: Arc::clone(&snapshot.cloth) })
+                let (source, cloth) = (Arc::clone(source), Arc::clone(&snapshot.cloth));
+                Some(Dressed { source, cloth, was_draped: snapshot.was_draped })
             }
             _ => None,
         };

@@ -154,6 +154,7 @@ impl World {
         )?;
         Arc::make_mut(draping).worn = Some(worn);
         (self.dressing, self.splits, self.posed) = (None, None, None);
+        self.was_draped = true;
         Ok(())
     }
 

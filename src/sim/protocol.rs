@@ -63,8 +63,9 @@ pub enum RequestKind {
     /// The pattern was edited: the dressed cloth is cut anew and lies where the same places lay, then settles. `carried`:
     /// pieces whose places have moved. Nothing happens where nothing is dressed.
     Resew { pattern: Arc<Pattern>, marks: Arc<Marks>, pins: Arc<Vec<ClothPlace>>, carried: Arc<Vec<Carried>> },
-    /// Take over cloth that was dressed before (from a project file). It is at rest until something changes.
-    Adopt { source: Arc<GarmentSource>, body: Arc<Surface>, cloth: Arc<ClothState> },
+    /// Take over cloth that was dressed before (from a project file), and perhaps draped. It is at rest until something
+    /// changes.
+    Adopt { source: Arc<GarmentSource>, body: Arc<Surface>, cloth: Arc<ClothState>, was_draped: bool },
     /// The body takes another pose: `body` has the triangles of the one that is dressed. The cloth goes along and, with
     /// `settle`, settles there; a `draft` is quick and not so exact. Nothing happens where nothing is dressed.
     Repose { body: Arc<Surface>, marks: Arc<Marks>, settle: bool, draft: bool },
@@ -136,6 +137,8 @@ pub struct Snapshot {
     pub verdict: Option<Arc<Vec<Fault>>>,
     /// How draping stands; None where nothing is draped.
     pub drape: Option<DrapeState>,
+    /// Physics has moved the cloth since it was grown: folds are no fault.
+    pub was_draped: bool,
 }
 
 impl DrapeState {

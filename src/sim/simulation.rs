@@ -154,6 +154,7 @@ impl Simulation {
             reposed: world.outcome(),
             verdict: self.verdict.clone(),
             drape: world.drape_state(),
+            was_draped: world.was_draped,
         }
     }
 
@@ -173,7 +174,7 @@ impl Simulation {
         let look = || {
             let index = BodyIndex::new(body);
             let report = measure(&source.pattern, garment, cloth, &index);
-            faults(&report, source, garment, cloth, &index, world.is_draped())
+            faults(&report, source, garment, cloth, &index, world.was_draped)
         };
         match catch_unwind(AssertUnwindSafe(look)) {
             Ok(found) => self.verdict = Some(Arc::new(found)),
@@ -197,8 +198,8 @@ impl Simulation {
                 let world = self.world.rewrapped(source, body, &pairs);
                 self.set_world(world);
             }
-            RequestKind::Adopt { source, body, cloth } => {
-                self.set_world(World::adopted(source, body, cloth)?);
+            RequestKind::Adopt { source, body, cloth, was_draped } => {
+                self.set_world(World::adopted(source, body, cloth, was_draped)?);
             }
             RequestKind::Resew { pattern, marks, pins, carried } => {
                 if let Some(world) = self.world.resewn(pattern, marks, pins, &carried) {

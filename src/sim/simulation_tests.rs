@@ -138,7 +138,8 @@ fn a_panic_in_a_step_is_taken_back_and_told() {
 fn cloth_of_another_size_is_not_adopted() {
     let mut simulation = wrapped();
     let before = simulation.hash();
-    let kind = RequestKind::Adopt { source: source(), body: ball(), cloth: Arc::default() };
+    let kind =
+        RequestKind::Adopt { source: source(), body: ball(), cloth: Arc::default(), was_draped: false };
     simulation.apply(request(2, kind));
     let words = failures(&mut simulation);
     assert!(words[0].contains("0 vertices"), "{words:?}");

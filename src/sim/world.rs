@@ -53,6 +53,8 @@ pub struct World {
     pub posed: Option<Arc<Posed>>,
     /// Physics: has the cloth, or waits for it to lie.
     pub draping: Option<Arc<Draping>>,
+    /// Physics has moved the cloth since it was grown: it may lie in folds, wherever it has gone since.
+    pub was_draped: bool,
     /// Pieces being sewn from where they were placed: `garment` is then the one with open seams.
     pub sewing: Option<Arc<Placed>>,
     /// What is sewn over the cloth once it rests, and its next layer.
@@ -77,6 +79,7 @@ impl Default for World {
             meshes: Arc::default(),
             posed: None,
             draping: None,
+            was_draped: false,
             sewing: None,
             outer: None,
         }
@@ -188,6 +191,7 @@ impl World {
             relaxing: self.relaxing,
             problems: Arc::new(problems),
             meshes,
+            was_draped: self.was_draped,
             ..Self::default()
         })
     }
@@ -209,11 +213,12 @@ impl World {
         Cut { is_as_before: false, garment: Arc::new(garment), cloth: Arc::new(cloth), pinned, problems }
     }
 
-    /// Cloth that was dressed before. The error is in words.
+    /// Cloth that was dressed before, and perhaps draped. The error is in words.
     pub fn adopted(
         source: Arc<GarmentSource>,
         body: Arc<Surface>,
         cloth: Arc<ClothState>,
+        was_draped: bool,
     ) -> Result<Self, String> {
         let (garment, problems) = cloth::build(&source.pattern, source.edge_length);
         let count = garment.vertex_count;
@@ -230,6 +235,7 @@ impl World {
             garment: Some(Arc::new(garment)),
             splits: splits.map(Arc::new),
             cloth,
+            was_draped,
             problems: Arc::new(problems),
             ..Self::default()
         })

@@ -48,6 +48,23 @@ fn cloth_goes_along_with_a_body_that_turns() {
 }
 
 #[test]
+fn cloth_that_was_draped_may_fold_after_it_was_saved_too() {
+    let place = Place::new();
+    place.ends(0, "dress sample:tshirt --edge-length 0.03 --drape --save draped.toile --out out");
+    let folds = |folder: &str| {
+        let report = place.json(&format!("{folder}/report.json"));
+        assert_eq!(report["faults"], serde_json::json!([]), "{folder}");
+        report["flipped_faces"].as_u64().expect("a number")
+    };
+    assert_ne!(folds("out"), 0, "this test needs folds");
+    place.ends(0, "repose draped.toile --pose a --save again.toile --out same");
+    place.ends(0, "repose again.toile --pose a --out again");
+    assert_eq!([folds("same"), folds("again")], [folds("out"); 2]);
+    place.ends(0, "fit again.toile --page fit.html");
+    assert!(!place.read("fit.html").contains("wrong side out"));
+}
+
+#[test]
 fn a_body_of_other_triangles_and_two_saves_are_refused_in_words() {
     let place = dressed();
     let other = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";

@@ -5,7 +5,8 @@ use std::path::Path;
 use proptest::prelude::*;
 use toile::geometry::ids::MarkId;
 use toile::session::project_file::{ProjectFileError, from_bytes, open, save, to_bytes};
-use toile::session::{BodyChoice, Command, Project};
+use toile::session::{BodyChoice, Command, Project, Session};
+use toile::sim::{Runner, Simulation};
 
 use crate::common::{project, run, session};
 
@@ -37,6 +38,37 @@ fn plain_and_dressed_projects_come_back_as_they_were() {
         assert_eq!(to_bytes(&project).expect("bytes"), bytes, "the same project gives the same bytes");
     }
     assert!(to_bytes(&plain()).expect("bytes").starts_with(b"{"));
+}
+
+#[test]
+fn it_is_kept_whether_cloth_was_draped_and_old_files_tell_nothing() {
+    let mut s = session();
+    s.apply_alone(Command::Wrap).expect("wrapped");
+    run(&mut s, 2000);
+    let told = |s: &mut Session| {
+        let project = s.project();
+        let text = serde_json::to_string(&project).expect("json");
+        assert_eq!(from_bytes(&to_bytes(&project).expect("bytes")).expect("a project"), project);
+        let was_draped = project.dressed.expect("cloth").was_draped;
+        assert_eq!(text.contains("was_draped"), was_draped, "cloth of the marks alone is written as before");
+        was_draped
+    };
+    assert!(!told(&mut s));
+    s.apply_alone(Command::StepDraping { ticks: 2 }).expect("draped");
+    run(&mut s, 20);
+    assert!(told(&mut s));
+    let mut again = Session::new(s.project(), Runner::inline(Simulation::default()));
+    again.update();
+    assert!(told(&mut again), "opened again");
+    s.apply_alone(Command::Undo).expect("undone");
+    run(&mut s, 20);
+    assert!(!told(&mut s));
+    s.apply_alone(Command::Redo).expect("done again");
+    run(&mut s, 20);
+    assert!(told(&mut s));
+    s.apply_alone(Command::Wrap).expect("wrapped anew");
+    run(&mut s, 20);
+    assert!(!told(&mut s));
 }
 
 #[test]

@@ -56,7 +56,7 @@ impl Facts {
         let Outfit { source, garment, state, body, .. } = &outfit;
         let index = BodyIndex::new(body);
         let report = fit::measure(&source.pattern, garment, state, &index);
-        let faults = sim::faults(&report, source, garment, state, &index, snapshot.drape.is_some());
+        let faults = sim::faults(&report, source, garment, state, &index, snapshot.was_draped);
         let tight = fit::tightest(&report, garment, state, || landmarks::found(&body.mesh));
         let readings = readings(&body.mesh).unwrap_or_default();
         let map = |kind| Map::new(kind, outfit.worn());
