@@ -45,6 +45,14 @@ fn cloth_goes_along_with_a_body_that_turns() {
     let worst = before.iter().zip(&after).map(|(&p, q)| there(p).distance(*q)).fold(0.0, f64::max);
     assert!(worst < 1e-4, "{worst}");
     place.ends(0, "check posed.toile");
+    // The marks on the body go along too.
+    let met = |folder: &str| {
+        let error = &place.json(&format!("{folder}/report.json"))["mark_error"];
+        assert_ne!(error["points"], 0);
+        ["mean", "max"].map(|of| error[of].as_f64().expect("metres"))
+    };
+    let [before, after] = ["out", "posed"].map(met);
+    assert!((0..2).all(|i| (before[i] - after[i]).abs() < 1e-4), "{before:?} {after:?}");
 }
 
 #[test]
