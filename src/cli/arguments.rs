@@ -60,14 +60,28 @@ pub struct BodyFile {
     pub up: Option<UpAxis>,
 }
 
+/// A size out of a table.
+#[derive(Clone, Debug, Default, Args)]
+pub struct SizeOptions {
+    /// A table of sizes (CSV): the mannequin's measurements at the heads of its columns, in cm or the unit named there, and a
+    /// row for each size, its name first; what it leaves out is in proportion
+    #[arg(long, value_name = "CSV", requires = "body_size")]
+    pub sizes: Option<PathBuf>,
+    /// The mannequin in the size that has this name in the table
+    #[arg(long, value_name = "NAME", requires = "sizes")]
+    pub body_size: Option<String>,
+}
+
 /// What an input needs besides its file.
 #[derive(Clone, Debug, Default, Args)]
 pub struct InputOptions {
     /// Puts the cloth on this body (OBJ, glTF); "mannequin" is the built-in figure
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", conflicts_with = "sizes")]
     pub body: Option<PathBuf>,
     #[command(flatten)]
     pub body_file: BodyFile,
+    #[command(flatten)]
+    pub sized: SizeOptions,
     /// The mannequin in this pose, bare: a, t, standing, walking, running, sitting, arms-up or kung-fu; the marks go along,
     /// cloth comes off
     #[arg(long, value_name = "NAME")]
@@ -435,9 +449,12 @@ pub struct Check {
 #[derive(Debug, Args)]
 pub struct Measure {
     /// Body (OBJ, glTF), or a project with its body; sample:NAME for the mannequin
-    pub file: PathBuf,
+    #[arg(required_unless_present = "sizes")]
+    pub file: Option<PathBuf>,
     #[command(flatten)]
     pub body_file: BodyFile,
+    #[command(flatten)]
+    pub sized: SizeOptions,
     /// Prints {body, readings: [{name, metres, height}]} in metres
     #[arg(long)]
     pub json: bool,

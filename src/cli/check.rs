@@ -36,7 +36,8 @@ pub fn check(arguments: &Check) -> Result<(), Failure> {
             let mut project = Project::default();
             input::take_pattern(&mut project, pattern);
             input::take_options(&mut project, &arguments.file, &arguments.input)?;
-            of_project(&project, arguments.input.body.is_some())
+            let options = &arguments.input;
+            of_project(&project, options.body.is_some() || options.sized.sizes.is_some())
         }
         Content::Project(mut project) => {
             input::take_options(&mut project, &arguments.file, &arguments.input)?;

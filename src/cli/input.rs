@@ -6,10 +6,11 @@ use std::sync::Arc;
 
 use crate::body::Imported;
 use crate::body::mannequin::{Measurements, mannequin};
-use crate::cli::arguments::{BodyFile, InputOptions};
+use crate::cli::arguments::{BodyFile, InputOptions, SizeOptions};
 use crate::cli::failure::Failure;
 use crate::cli::{formats, output};
 use crate::io::scale::DrawingUnit;
+use crate::io::sizes::{self, SizesError};
 use crate::io::{gltf, pattern_file};
 use crate::pattern::Pattern;
 use crate::session::body::{Body, surface_of};
@@ -64,7 +65,8 @@ pub fn load(path: &Path, options: &InputOptions) -> Result<Input, Failure> {
     if let Some(words) = project.problem() {
         return Err(Failure::input(path, words));
     }
-    let named = std::iter::once(path).chain(options.body.as_deref()).chain(options.marks.as_deref());
+    let read = [&options.body, &options.sized.sizes, &options.marks];
+    let named = std::iter::once(path).chain(read.into_iter().filter_map(Option::as_deref));
     let files = named.map(|p| p.display().to_string()).collect();
     Ok(Input { name: name_of(path), project, files, is_project_file })
 }
@@ -194,6 +196,11 @@ pub fn take_options(project: &mut Project, path: &Path, options: &InputOptions) 
         }
         None => {}
     }
+    if let Some((table, measurements)) = sized(&options.sized)? {
+        let body = BodyChoice::Mannequin(measurements);
+        let posed = project.document.body.pose().and_then(|pose| body.posed(pose));
+        set_body(project, table, posed.unwrap_or(body))?;
+    }
     let pattern = &mut project.document.pattern;
     if let Some(by) = options.raise {
         raise(Arc::make_mut(pattern), by).map_err(|words| Failure::input(path, words))?;
@@ -227,6 +234,17 @@ pub fn take_options(project: &mut Project, path: &Path, options: &InputOptions) 
         suggest_marks(project, path)?;
     }
     Ok(())
+}
+
+/// The size that is asked for, and the table it is in.
+pub fn sized(options: &SizeOptions) -> Result<Option<(&Path, Measurements)>, Failure> {
+    let (Some(path), Some(name)) = (&options.sizes, &options.body_size) else { return Ok(None) };
+    let size = sizes::read(&read(path)?).and_then(|sizes| sizes::chosen(&sizes, name)?.checked());
+    let size = size.map_err(|error| match error {
+        SizesError::OverLimit(words) => Failure::Limit(format!("{}: {words}", path.display())),
+        error => Failure::input(path, error),
+    });
+    Ok(Some((path, size?)))
 }
 
 /// Places all placed pieces `by` metres higher.

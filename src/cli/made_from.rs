@@ -15,7 +15,8 @@ pub fn made_from(project: &Path, arguments: &Dress) -> Result<String, Failure> {
         projects: _,
         list: _,
         out: _,
-        input: InputOptions { body, body_file, pose, over, raise, scale, marks, suggest_marks, edge_length },
+        input:
+            InputOptions { body, body_file, sized, pose, over, raise, scale, marks, suggest_marks, edge_length },
         drape,
         fabric,
         save: _,
@@ -28,7 +29,7 @@ pub fn made_from(project: &Path, arguments: &Dress) -> Result<String, Failure> {
         json: _,
         threads: _,
     } = arguments;
-    let of_input = (body_file, pose, over.len(), raise, scale, suggest_marks, edge_length);
+    let of_input = (body_file, &sized.body_size, pose, over.len(), raise, scale, suggest_marks, edge_length);
     let options = (of_input, drape, fabric, max_ticks, picture, work);
     let mut hash = Fnv::default();
     let mut take = |bytes: &[u8]| {
@@ -38,7 +39,8 @@ pub fn made_from(project: &Path, arguments: &Dress) -> Result<String, Failure> {
     take(env!("CARGO_PKG_VERSION").as_bytes());
     take(format!("{options:?}").as_bytes());
     take(&input::bytes_of(project)?);
-    for file in [body.as_ref(), marks.as_ref()].into_iter().chain(over.iter().map(Some)) {
+    for file in [body.as_ref(), sized.sizes.as_ref(), marks.as_ref()].into_iter().chain(over.iter().map(Some))
+    {
         match file {
             Some(path) => take(&input::bytes_of(path)?),
             None => take(&[]),

@@ -1,7 +1,10 @@
 //! `toile measure`: what the tape reads on a body.
 
+use std::path::Path;
+
 use serde::Serialize;
 
+use crate::body::mannequin::mannequin;
 use crate::body::readings::{Reading, readings};
 use crate::cli::arguments::Measure;
 use crate::cli::failure::Failure;
@@ -17,8 +20,37 @@ struct Told {
 
 /// Prints the measures of a body, in centimetres, or as JSON in metres.
 pub fn measure(arguments: &Measure) -> Result<(), Failure> {
-    let path = &arguments.file;
-    let found = match input::content(path, arguments.body_file, None)? {
+    let (path, found) = match (&arguments.file, input::sized(&arguments.sized)?) {
+        (Some(path), None) => (&**path, of_file(path, arguments)?),
+        (Some(path), Some(_)) => {
+            let words = "a file and --sizes: the size is measured on the mannequin, leave the file out";
+            return Err(Failure::Usage(format!("{}: {words}", path.display())));
+        }
+        (None, Some((table, measurements))) => {
+            let figure = mannequin(&measurements).map_err(|error| Failure::input(table, error))?;
+            (table, readings(&figure.mesh))
+        }
+        (None, None) => return Err(Failure::Usage("name a body, or a size".to_owned())),
+    };
+    let no_human = "it does not look like a standing human: nothing can be measured on it";
+    let readings = found.ok_or_else(|| Failure::input(path, no_human))?;
+    if arguments.json {
+        let name = arguments.sized.body_size.clone().unwrap_or_else(|| input::name_of(path));
+        let told = Told { body: name, readings };
+        let text = serde_json::to_string_pretty(&told).map_err(|e| Failure::Internal(e.to_string()))?;
+        output::say(&text);
+        return Ok(());
+    }
+    for Reading { name, metres, height, .. } in readings {
+        let at = height.map_or(String::new(), |height| format!("   at {:.1}", height * 100.0));
+        output::say(&format!("{name:<14}{:>8.1} cm{at}", metres * 100.0));
+    }
+    Ok(())
+}
+
+/// What the tape reads on the body in the file at `path`; None: it is no standing human.
+fn of_file(path: &Path, arguments: &Measure) -> Result<Option<Vec<Reading>>, Failure> {
+    Ok(match input::content(path, arguments.body_file, None)? {
         Content::Body(body) if body.is_usable() => readings(&body.mesh),
         Content::Body(body) => {
             let words: Vec<String> = body.problems.iter().map(|p| p.words.clone()).collect();
@@ -29,18 +61,5 @@ pub fn measure(arguments: &Measure) -> Result<(), Failure> {
             readings(&surface.mesh)
         }
         Content::Pattern(_) => return Err(Failure::input(path, "this is a pattern: it has no body")),
-    };
-    let no_human = "it does not look like a standing human: nothing can be measured on it";
-    let readings = found.ok_or_else(|| Failure::input(path, no_human))?;
-    if arguments.json {
-        let told = Told { body: input::name_of(path), readings };
-        let text = serde_json::to_string_pretty(&told).map_err(|e| Failure::Internal(e.to_string()))?;
-        output::say(&text);
-        return Ok(());
-    }
-    for Reading { name, metres, height, .. } in readings {
-        let at = height.map_or(String::new(), |height| format!("   at {:.1}", height * 100.0));
-        output::say(&format!("{name:<14}{:>8.1} cm{at}", metres * 100.0));
-    }
-    Ok(())
+    })
 }

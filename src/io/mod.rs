@@ -16,6 +16,7 @@ pub mod pdf;
 mod polygon;
 pub mod scale;
 mod sheet;
+pub mod sizes;
 pub mod svg;
 mod trace;
 pub mod written;

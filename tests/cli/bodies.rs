@@ -40,6 +40,59 @@ fn a_body_is_measured() {
 }
 
 #[test]
+fn the_mannequin_is_made_to_a_size_of_a_table() {
+    let place = Place::new();
+    place.write(
+        "sizes.csv",
+        "size,height,bust,waist (mm),hip\n36,168,84,660,90\n44,172,104,840,110\n60,172,190,,\n",
+    );
+    let measured = |size: &str, name: &str| {
+        let run = format!("measure --sizes sizes.csv --body-size {size} --json");
+        let told: serde_json::Value = serde_json::from_str(&place.ends(0, &run).out).expect("JSON");
+        assert_eq!(told["body"], size);
+        let reading =
+            told["readings"].as_array().expect("a list").iter().find(|r| r["name"] == name).cloned();
+        reading.expect(name)["metres"].as_f64().expect("a number")
+    };
+    for (size, name, metres) in
+        [("36", "bust", 0.84), ("36", "waist", 0.66), ("44", "bust", 1.04), ("44", "hip", 1.1)]
+    {
+        let is = measured(size, name);
+        assert!((is - metres).abs() < 0.01, "{size} {name}: {is}");
+    }
+    let dress =
+        |size: &str| format!("dress sample:skirt --sizes sizes.csv --body-size {size} --edge-length 0.04");
+    place.run(&format!("{} --out 36 --save 36.toile", dress("36")));
+    let height =
+        |name: &str| crate::repose::vertices(&place.read(name)).iter().map(|p| p.y).fold(0.0, f64::max);
+    assert!((height("36/body.obj") - 1.68).abs() < 0.005);
+    assert!(place.json("36/report.json")["inputs"].to_string().contains("sizes.csv"));
+    // In the pose it is in.
+    place.run(&format!("{} --pose t --out t", dress("36")));
+    let reach =
+        |name: &str| crate::repose::vertices(&place.read(name)).iter().map(|p| p.x).fold(0.0, f64::max);
+    assert!(reach("t/body.obj") > reach("36/body.obj") + 0.1);
+    for (code, run, words) in [
+        (
+            3,
+            format!("{} --out x", dress("38")),
+            "sizes.csv: there is no size \"38\" in it; there are 36, 44, 60",
+        ),
+        (
+            3,
+            format!("{} --out x", dress("60")),
+            "sizes.csv: row 4, column 3 (bust): size 60: bust is 190.0 cm; a mannequin",
+        ),
+        (2, format!("{} --body mannequin --out x", dress("36")), "cannot be used with"),
+        (2, "measure --sizes sizes.csv".to_owned(), "--body-size"),
+        (2, "measure sample:skirt --sizes sizes.csv --body-size 36".to_owned(), "leave the file out"),
+        (6, "measure --sizes nowhere.csv --body-size 36".to_owned(), "nowhere.csv"),
+    ] {
+        place.ends_with_words(code, &run, words);
+    }
+}
+
+#[test]
 fn the_unit_is_given_or_told_by_the_height() {
     let place = place();
     let dress = "dress ball.toile --marks marks.json --out";

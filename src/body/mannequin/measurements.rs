@@ -121,6 +121,46 @@ impl Measurements {
         ]
     }
 
+    /// Every measurement as `to` makes it of its name and what it is now.
+    pub fn mapped(&self, to: impl Fn(&'static str, f64) -> f64) -> Self {
+        let [
+            height,
+            bust,
+            waist,
+            abdomen,
+            hip,
+            half_across_shoulder,
+            neck,
+            arm_length,
+            upper_arm,
+            wrist,
+            upper_thigh,
+            mid_thigh,
+            knee,
+            calf,
+            ankle,
+            waist_to_ankle,
+        ] = self.named().map(|(name, value)| to(name, value));
+        Self {
+            height,
+            bust,
+            waist,
+            abdomen,
+            hip,
+            half_across_shoulder,
+            neck,
+            arm_length,
+            upper_arm,
+            wrist,
+            upper_thigh,
+            mid_thigh,
+            knee,
+            calf,
+            ankle,
+            waist_to_ankle,
+        }
+    }
+
     /// Refuses what no figure can have: each measurement against the default, scaled to the height, and a few against
     /// each other.
     pub fn check(&self) -> Result<(), OutOfRange> {

@@ -12,6 +12,7 @@ mod hand;
 mod landmarks;
 mod loft;
 mod measurements;
+mod partial;
 mod polygonise;
 mod proportions;
 mod remesh;

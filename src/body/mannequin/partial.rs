@@ -1,0 +1,65 @@
+//! A figure of which only some measurements are known: the others follow from these.
+
+use super::Measurements;
+
+/// Those on the upper body, which follow the bust.
+const OF_BUST: [&str; 3] = ["neck", "upper arm", "wrist"];
+/// Those on the legs, which follow the hip.
+const OF_HIP: [&str; 5] = ["upper thigh", "mid-thigh", "knee", "calf", "ankle"];
+
+impl Measurements {
+    /// The figure that has the measurements which `given` knows by the names of [`Measurements::named`], in metres. Those left
+    /// out are in proportion, as on the default figure: lengths and the great girths to the height, girths of neck and arms to
+    /// the bust, of legs to the hip; the abdomen lies between waist and hip. It may be out of range: see
+    /// [`Measurements::check`].
+    pub fn completed(given: impl Fn(&str) -> Option<f64>) -> Self {
+        let usual = Self::default();
+        let tall = given("height").map_or(1.0, |height| height / usual.height);
+        let great = |name: &str, usual: f64| given(name).unwrap_or(usual * tall);
+        let [bust, waist, hip] = [("bust", usual.bust), ("waist", usual.waist), ("hip", usual.hip)]
+            .map(|(name, x)| great(name, x));
+        let share = (usual.abdomen - usual.waist) / (usual.hip - usual.waist);
+        let following = |name: &str, value: f64| match name {
+            "bust" => bust,
+            "waist" => waist,
+            "hip" => hip,
+            "abdomen" => waist + share * (hip - waist),
+            _ if OF_BUST.contains(&name) => value * bust / usual.bust,
+            _ if OF_HIP.contains(&name) => value * hip / usual.hip,
+            _ => value * tall,
+        };
+        usual.mapped(|name, value| given(name).unwrap_or_else(|| following(name, value)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn completed(given: &[(&str, f64)]) -> Measurements {
+        Measurements::completed(|name| {
+            given.iter().find(|(known, _)| *known == name).map(|(_, value)| *value)
+        })
+    }
+
+    #[test]
+    fn nothing_given_is_the_default_and_all_given_is_taken() {
+        let usual = Measurements::default();
+        for (one, other) in completed(&[]).named().into_iter().zip(usual.named()) {
+            assert!((one.1 - other.1).abs() < 1e-15, "{one:?} {other:?}");
+        }
+        let all = Measurements { height: 1.7, waist: 0.68, knee: 0.36, ..usual };
+        assert_eq!(completed(&all.named()), all);
+    }
+
+    #[test]
+    fn what_is_left_out_follows() {
+        let usual = Measurements::default();
+        let small = completed(&[("height", usual.height * 0.9)]);
+        assert!((small.hip - usual.hip * 0.9).abs() < 1e-12 && small.check().is_ok(), "{small:?}");
+        let full = completed(&[("bust", 1.1), ("waist", 0.88), ("hip", 1.14)]);
+        assert!(full.abdomen > full.waist && full.abdomen < full.hip && full.height == usual.height);
+        assert!((full.upper_arm / full.bust - usual.upper_arm / usual.bust).abs() < 1e-12);
+        assert!((full.knee / full.hip - usual.knee / usual.hip).abs() < 1e-12 && full.check().is_ok());
+    }
+}

@@ -1,0 +1,221 @@
+//! Tables of sizes (CSV): a header with the measurements of the mannequin, then a row for each size, its name first.
+
+use crate::body::Unit;
+use crate::body::mannequin::Measurements;
+
+/// Bytes a table may have.
+const MOST_BYTES: usize = 1 << 20;
+/// Sizes a table may have.
+const MOST_SIZES: usize = 1000;
+/// A measurement that is more than this was given in another unit, metres.
+const LONGEST: f64 = 10.0;
+
+/// Why a file is no table of sizes.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum SizesError {
+    /// What is wrong with all of it.
+    #[error("{0}")]
+    File(String),
+    /// What is wrong in one place.
+    #[error("row {row}, column {column}: {words}")]
+    Cell {
+        /// The line of the file, from 1.
+        row: u64,
+        /// Its number from 1 and, below the header, what stands at its head.
+        column: String,
+        /// What is wrong.
+        words: String,
+    },
+    /// What is wrong with a size that follows from several of its cells.
+    #[error("row {row}: {words}")]
+    Row {
+        /// The line of the file, from 1.
+        row: u64,
+        /// What is wrong.
+        words: String,
+    },
+    /// More than is read.
+    #[error("over the limit: {0}")]
+    OverLimit(String),
+}
+
+/// A size: measurements that go by a name.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Size {
+    /// As in the table, without spaces round it; not empty.
+    pub name: String,
+    /// The figure; what the table leaves out is in proportion. It may be out of the mannequin's range.
+    pub measurements: Measurements,
+    /// The line it stands in, from 1.
+    row: u64,
+    /// Measurements that the table gives, and where.
+    given: Vec<(&'static str, String)>,
+}
+
+impl Size {
+    /// Its measurements, if a mannequin can be built to them; else an error that names the row, the column and the range.
+    pub fn checked(&self) -> Result<Measurements, SizesError> {
+        self.measurements.check().map(|()| self.measurements).map_err(|error| {
+            let column = self.given.iter().find(|(name, _)| *name == error.name);
+            let row = self.row;
+            match column {
+                Some((_, column)) => cell(row, column, format!("size {}: {error}", self.name)),
+                None => {
+                    let words =
+                        format!("size {}, what follows from its other measurements: {error}", self.name);
+                    SizesError::Row { row, words }
+                }
+            }
+        })
+    }
+}
+
+/// The size called `name`, of those in a table; the error tells which there are.
+pub fn chosen<'a>(sizes: &'a [Size], name: &str) -> Result<&'a Size, SizesError> {
+    let found = sizes.iter().find(|size| size.name == name.trim());
+    let names = || sizes.iter().map(|size| size.name.as_str()).collect::<Vec<_>>().join(", ");
+    found.ok_or_else(|| SizesError::File(format!("there is no size {name:?} in it; there are {}", names())))
+}
+
+/// A measurement that a column holds.
+struct Column {
+    name: &'static str,
+    unit: Unit,
+    /// For errors.
+    place: String,
+}
+
+/// Reads a table: cells parted by commas, semicolons or tabs, whichever stands in its header; numbers in centimetres where the
+/// header names no unit, with a decimal point or, unless commas part the cells, a comma. An empty cell leaves that
+/// measurement out.
+pub fn read(bytes: &[u8]) -> Result<Vec<Size>, SizesError> {
+    if bytes.len() > MOST_BYTES {
+        return Err(SizesError::OverLimit(format!("the file has more than {MOST_BYTES} bytes")));
+    }
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    let text = std::str::from_utf8(bytes).map_err(|e| {
+        SizesError::File(format!("it is no text in UTF-8, from byte {} on", e.valid_up_to() + 1))
+    })?;
+    let delimiter = delimiter(text);
+    let mut rows = csv::ReaderBuilder::new();
+    rows.has_headers(false).flexible(true).trim(csv::Trim::All).delimiter(delimiter);
+    let mut columns: Option<Vec<Column>> = None;
+    let mut sizes: Vec<Size> = Vec::new();
+    for row in rows.from_reader(text.as_bytes()).records() {
+        let cells = row.map_err(|e| SizesError::File(e.to_string()))?;
+        let line = cells.position().map_or(1, |position| line(text, position));
+        if cells.iter().all(str::is_empty) {
+            continue; // Spreadsheets write rows of nothing below the last.
+        }
+        let Some(columns) = &columns else {
+            columns = Some(header(&cells, line)?);
+            continue;
+        };
+        let size = size(&cells, line, columns, delimiter != b',')?;
+        if sizes.iter().any(|known| known.name == size.name) {
+            return Err(cell(line, "1", format!("the size {} is there twice", size.name)));
+        }
+        sizes.push(size);
+        if sizes.len() > MOST_SIZES {
+            return Err(SizesError::OverLimit(format!("more than {MOST_SIZES} sizes")));
+        }
+    }
+    match (columns, sizes.is_empty()) {
+        (None, _) => Err(SizesError::File("the file is empty".to_owned())),
+        (_, true) => Err(SizesError::File("there is no size below the header".to_owned())),
+        (_, false) => Ok(sizes),
+    }
+}
+
+fn cell(row: u64, column: impl Into<String>, words: impl Into<String>) -> SizesError {
+    SizesError::Cell { row, column: column.into(), words: words.into() }
+}
+
+/// The line in which a row begins, from 1.
+fn line(text: &str, position: &csv::Position) -> u64 {
+    // The crate gives the place before the empty lines that it skips.
+    let rest = &text.as_bytes()[(position.byte() as usize).min(text.len())..];
+    let skipped = rest.iter().take_while(|byte| matches!(byte, b'\r' | b'\n'));
+    position.line() + skipped.filter(|byte| **byte == b'\n').count() as u64
+}
+
+/// What parts the cells: spreadsheets of countries with a decimal comma write semicolons.
+fn delimiter(text: &str) -> u8 {
+    let header = text.lines().find(|line| !line.trim().is_empty()).unwrap_or_default();
+    *[b';', b'\t'].iter().find(|&&c| header.as_bytes().contains(&c)).unwrap_or(&b',')
+}
+
+/// The measurements behind the first column, which holds names.
+fn header(cells: &csv::StringRecord, line: u64) -> Result<Vec<Column>, SizesError> {
+    let mut columns: Vec<Column> = Vec::new();
+    for (i, head) in cells.iter().enumerate().skip(1) {
+        let number = (i + 1).to_string();
+        let (name, unit) = named(head).map_err(|words| cell(line, &number, words))?;
+        if columns.iter().any(|known| known.name == name) {
+            return Err(cell(line, &number, format!("the measurement {name} is there twice")));
+        }
+        columns.push(Column { name, unit, place: format!("{number} ({})", short(head)) });
+    }
+    match columns.is_empty() {
+        true => Err(cell(line, "2", format!("there is no measurement; there are {}", known()))),
+        false => Ok(columns),
+    }
+}
+
+/// "bust", "Upper_arm (mm)", "hip [in]" or "waist cm" as a measurement and its unit; the error is in words.
+fn named(head: &str) -> Result<(&'static str, Unit), String> {
+    let letters = |text: &str| -> String {
+        text.chars().filter(|c| c.is_alphanumeric()).collect::<String>().to_lowercase()
+    };
+    let measurement = |text: &str| {
+        let all = Measurements::default().named();
+        all.into_iter().map(|(name, _)| name).find(|name| letters(name) == letters(text))
+    };
+    if let Some(name) = measurement(head) {
+        return Ok((name, Unit::Centimetre));
+    }
+    let head = head.trim_end_matches([')', ']']);
+    let (text, unit) = head.rsplit_once(['(', '[', ' ', '_', '/']).unwrap_or((head, ""));
+    match (measurement(text), unit.parse::<Unit>()) {
+        (Some(name), Ok(unit)) => Ok((name, unit)),
+        (Some(_), Err(why)) => Err(why.to_string()),
+        (None, _) => Err(format!("there is no measurement {:?}; there are {}", short(head), known())),
+    }
+}
+
+fn known() -> String {
+    Measurements::default().named().map(|(name, _)| name).join(", ")
+}
+
+fn size(cells: &csv::StringRecord, line: u64, columns: &[Column], comma: bool) -> Result<Size, SizesError> {
+    let name = cells.get(0).filter(|name| !name.is_empty());
+    let name = name.ok_or_else(|| cell(line, "1", "a size without a name"))?.to_owned();
+    if cells.len() > columns.len() + 1 {
+        let words = format!(
+            "there is no measurement at the head of this cell, {:?}",
+            short(&cells[columns.len() + 1])
+        );
+        return Err(cell(line, (columns.len() + 2).to_string(), words));
+    }
+    let (mut given, mut places) = (Vec::new(), Vec::new());
+    for (column, text) in columns.iter().zip(cells.iter().skip(1)).filter(|(_, text)| !text.is_empty()) {
+        let text = if comma { text.replace(',', ".") } else { text.to_owned() };
+        let metres = text.parse::<f64>().map_or(f64::NAN, |number| number * column.unit.metres());
+        if !(metres > 0.0 && metres <= LONGEST) {
+            let words = format!("{:?} is no length in {}", short(&text), column.unit);
+            return Err(cell(line, &column.place, words));
+        }
+        given.push((column.name, metres));
+        places.push((column.name, column.place.clone()));
+    }
+    let of = |name: &str| given.iter().find(|(known, _)| *known == name).map(|(_, metres)| *metres);
+    Ok(Size { name, measurements: Measurements::completed(of), row: line, given: places })
+}
+
+fn short(text: &str) -> String {
+    text.chars().filter(|c| !c.is_control()).take(40).collect()
+}
+
+#[cfg(test)]
+#[path = "sizes_tests.rs"]
+mod tests;
