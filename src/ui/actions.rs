@@ -71,6 +71,7 @@ pub enum Action {
     ExportPattern,
     ImportBody,
     PoseFromFile,
+    Sizes,
     UseMannequin,
     Export,
     FitPage,
@@ -211,6 +212,11 @@ impl Action {
             Self::PoseFromFile => entry(
                 "Pose from a file…",
                 "Lead the body to its pose in an OBJ or glTF file, or the mannequin through a BVH motion",
+                &[],
+            ),
+            Self::Sizes => entry(
+                "Sizes from a table…",
+                "Read the sizes of a table (CSV), to build the mannequin to one of them",
                 &[],
             ),
             Self::UseMannequin => entry("Use the mannequin", "Go back to the built-in figure", &[]),

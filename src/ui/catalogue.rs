@@ -32,6 +32,7 @@ pub const ALL: &[Action] = &[
     Action::ImportPattern,
     Action::ImportBody,
     Action::PoseFromFile,
+    Action::Sizes,
     Action::UseMannequin,
     Action::ExportPattern,
     Action::Export,
@@ -188,6 +189,7 @@ impl Action {
             | Self::ImportPattern
             | Self::ImportBody
             | Self::PoseFromFile
+            | Self::Sizes
             | Self::UseMannequin
             | Self::ExportPattern
             | Self::Export

@@ -45,6 +45,7 @@ impl App {
             Purpose::ImportPattern => self.import_pattern(path, None),
             Purpose::ImportBody => files::read_body(path).and_then(|raw| self.import_body(raw)),
             Purpose::Pose => self.take_pose(path),
+            Purpose::Sizes => self.take_sizes(path),
             Purpose::Export => {
                 let pattern = &self.session.document().pattern;
                 files::export(path, self.session.snapshot(), pattern).map(|()| self.wrote(path))
@@ -131,6 +132,13 @@ impl App {
                 self.shell.pose.take_motion(motion);
             }
         }
+        Ok(())
+    }
+
+    /// A table of sizes to choose from; the side panel has them.
+    fn take_sizes(&mut self, path: &Path) -> Result<(), String> {
+        self.shell.tape.sizes.take(path, &files::read(path)?)?;
+        self.messages.tell("The sizes are listed in Measures of the body");
         Ok(())
     }
 

@@ -34,6 +34,8 @@ pub enum Purpose {
     ImportBody,
     /// Read another pose of the body, or a motion.
     Pose,
+    /// Read a table of sizes.
+    Sizes,
     /// Write the dressed garment.
     Export,
     /// Write the pattern.
@@ -58,6 +60,7 @@ impl Purpose {
             Self::ImportPattern => "Import a pattern",
             Self::ImportBody => "Import a body",
             Self::Pose => "Take a pose from a file",
+            Self::Sizes => "Read a table of sizes",
             Self::Export => "Export the dressed garment",
             Self::ExportPattern => "Export the pattern",
             Self::Recording => "Save the recording",
@@ -75,6 +78,7 @@ impl Purpose {
             Self::ExportPattern => ("Pattern", &["pdf", "svg", "dxf", "json"]),
             Self::ImportBody => ("Body", &["obj", "glb", "gltf"]),
             Self::Pose => ("Body or motion", &["obj", "glb", "gltf", "bvh"]),
+            Self::Sizes => ("Table of sizes", &["csv", "tsv", "txt"]),
             Self::Export => ("Garment", &["obj", "glb"]),
             Self::Recording => ("Recording", &["jsonl"]),
             Self::Picture | Self::Turn => ("Picture", &["png"]),
@@ -296,7 +300,8 @@ pub fn use_mannequin() -> Command {
     Command::SetBody { body: BodyChoice::default() }
 }
 
-fn read(path: &Path) -> Result<Vec<u8>, String> {
+/// All of the file at `path`; the error is in words.
+pub fn read(path: &Path) -> Result<Vec<u8>, String> {
     std::fs::read(path).map_err(|e| in_words(path, "read", e))
 }
 

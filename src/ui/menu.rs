@@ -64,7 +64,13 @@ fn file_ui(ui: &mut egui::Ui, now: &Situation, asks: &mut Asks) {
         ui,
         now,
         asks,
-        &[Action::ImportPattern, Action::ImportBody, Action::UseMannequin, Action::PoseFromFile],
+        &[
+            Action::ImportPattern,
+            Action::ImportBody,
+            Action::UseMannequin,
+            Action::Sizes,
+            Action::PoseFromFile,
+        ],
     );
     ui.separator();
     items(ui, now, asks, &[Action::ExportPattern]);

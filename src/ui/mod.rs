@@ -58,6 +58,7 @@ mod shell;
 mod side_panel;
 mod signs;
 mod situation;
+mod size_panel;
 mod start_page;
 mod starts;
 mod status;

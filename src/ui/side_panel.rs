@@ -70,7 +70,7 @@ pub fn side_panel_ui(
         section(ui, "Problems", true, |ui| problems_ui(ui, told, asks));
         section(ui, "Fabric", true, |ui| fabric_panel::fabric_ui(ui, told, asks));
         section(ui, "Pose", false, |ui| pose.ui(ui, told, asks));
-        section(ui, "Measures of the body", false, |ui| tape.ui(ui, told));
+        section(ui, "Measures of the body", false, |ui| tape.ui(ui, told, asks));
         section(ui, "Cloth", true, |ui| settings_ui(ui, &document.settings, palette, asks));
         if !on_pattern {
             pattern_ui(ui, told, pattern, asks);

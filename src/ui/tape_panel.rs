@@ -9,12 +9,16 @@ use crate::body::Surface;
 use crate::body::readings::{Reading, readings, round_at};
 use crate::fit::{Girth, girth, girths};
 use crate::session::Outfit;
+use crate::ui::asks::Asks;
 use crate::ui::fields::length_field;
 use crate::ui::side_panel::Told;
+use crate::ui::size_panel::SizePanel;
 
 /// Measures of the body, taken beside the window as soon as they are looked at, and of the garment where it rests.
 #[derive(Debug, Default)]
 pub struct TapePanel {
+    /// Sizes that the body can be built to.
+    pub sizes: SizePanel,
     of: Option<Arc<Surface>>,
     coming: Option<Receiver<Option<Vec<Reading>>>>,
     read: Option<Vec<Reading>>,
@@ -39,7 +43,8 @@ struct Chosen {
 
 impl TapePanel {
     /// Draws the section.
-    pub fn ui(&mut self, ui: &mut egui::Ui, told: &Told<'_>) {
+    pub fn ui(&mut self, ui: &mut egui::Ui, told: &Told<'_>, asks: &mut Asks) {
+        self.sizes.ui(ui, told, asks);
         let Some(surface) = told.surface else { return };
         if !self.of.as_ref().is_some_and(|of| Arc::ptr_eq(of, surface)) {
             self.begin(ui.ctx().clone(), surface);

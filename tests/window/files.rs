@@ -175,6 +175,39 @@ fn the_mannequin_is_led_through_a_motion() {
 }
 
 #[test]
+fn the_mannequin_is_built_to_a_size_of_a_table() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("women.csv");
+    std::fs::write(&path, "size,height,bust,waist,hip\n36,168,84,66,90\n60,172,190,,\n").expect("a file");
+    let mut window = window_on(Project::default(), None);
+    if !read_file(&mut window, "Sizes from a table…", &path) {
+        return;
+    }
+    assert!(window.query_by_label_contains("listed in Measures of the body").is_some());
+    window.get_by_label("Measures of the body").click();
+    window.run_steps(8);
+    let choose = |window: &mut Window, size: &str| {
+        window.get_by_role_and_label(egui::accesskit::Role::ComboBox, "Size").scroll_to_me();
+        window.run_steps(8);
+        window.get_by_role_and_label(egui::accesskit::Role::ComboBox, "Size").click();
+        window.run_steps(4);
+        window.get_by_label(size).click();
+        window.run_steps(8);
+    };
+    choose(&mut window, "60");
+    assert_eq!(app(&window).session().undo_label(), None, "no mannequin has this size");
+    window.key_press(egui::Key::Escape);
+    window.run_steps(4);
+    choose(&mut window, "36");
+    let measurements = app(&window).session().document().body.measurements().expect("the mannequin");
+    assert_eq!((measurements.height, measurements.hip), (1.68, 0.9));
+    assert_eq!(app(&window).session().undo_label(), Some("change the body"));
+    std::fs::write(&path, "size,bust\n36,wide\n").expect("a file");
+    assert!(read_file(&mut window, "Sizes from a table…", &path));
+    assert!(window.query_by_label_contains("row 2, column 2 (bust): \"wide\" is no length").is_some());
+}
+
+#[test]
 fn a_drawing_without_a_size_is_asked_about() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("front.svg");
