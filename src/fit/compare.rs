@@ -75,6 +75,13 @@ impl Matching {
         }
         sums.into_iter().map(|(sum, n)| if n > 0 { sum / n as f64 } else { f64::NAN }).collect()
     }
+
+    /// What a map over the second garment has more than the same over the first, at the second; NaN where either has no value.
+    pub fn difference(&self, first: (&Garment, &Map), second: (&Garment, &Map)) -> Map {
+        let before = self.carried(first.0, second.0, first.1);
+        let vertices: Vec<f64> = second.1.vertices.iter().zip(&before).map(|(b, a)| b - a).collect();
+        Map::between(second.1.kind, second.0, vertices)
+    }
 }
 
 impl Change {
@@ -195,6 +202,19 @@ mod tests {
                 assert!((found - exact).abs() < 1e-9, "{change:?}");
             }
         }
+    }
+
+    #[test]
+    fn a_difference_is_a_map_over_the_second() {
+        let (first, second) = (stretched(0.05, 0.01), stretched(0.031, 0.035));
+        let matching = first.with_worn(|a| second.with_worn(|b| Matching::new(a, b))).expect("alike");
+        let maps = [&first, &second].map(|sheets| sheets.map(MapKind::Warp));
+        let more = matching.difference((&first.garment, &maps[0]), (&second.garment, &maps[1]));
+        assert_eq!((more.kind, more.vertices.len()), (MapKind::Warp, second.garment.vertex_count));
+        assert_eq!(more.triangles.len(), second.garment.triangles.len());
+        assert!(more.vertices.iter().chain(&more.triangles).all(|v| (v - 0.025).abs() < 1e-9));
+        let [low, high] = more.range_about_zero(&more.stats());
+        assert!((high - 0.025).abs() < 1e-9 && low == -high);
     }
 
     #[test]

@@ -65,6 +65,7 @@ impl App {
             Action::UseMannequin => self.apply(files::use_mannequin()),
             Action::ExportPattern => self.ask_file(Purpose::ExportPattern),
             Action::Export => self.ask_file(Purpose::Export),
+            Action::Compare => self.ask_file(Purpose::Compare),
             Action::FitPage => self.ask_file(Purpose::FitPage),
             Action::SaveRecording => self.ask_file(Purpose::Recording),
             Action::Quit => {
@@ -165,6 +166,8 @@ impl App {
             | Action::ToggleLog
             | Action::Map(_)
             | Action::ToggleMapTable
+            | Action::ToggleDifference
+            | Action::CloseComparison
             | Action::CommandPalette
             | Action::Tour => self.act_on_shell(ctx, action),
         }

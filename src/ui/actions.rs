@@ -146,6 +146,9 @@ pub enum Action {
     /// Colours the cloth; None: as it is.
     Map(Option<MapKind>),
     ToggleMapTable,
+    Compare,
+    ToggleDifference,
+    CloseComparison,
     Theme(ThemePreference),
     Mouse(Mouse),
     Paper(Paper),
@@ -332,6 +335,9 @@ impl Action {
             | Self::ToggleHistory
             | Self::ToggleLog
             | Self::ToggleMapTable
+            | Self::Compare
+            | Self::ToggleDifference
+            | Self::CloseComparison
             | Self::CommandPalette
             | Self::Tour => self.shell_entry(),
             Self::Map(None) => entry("No map", "Show the cloth in its own colours", &[]),
@@ -403,6 +409,8 @@ impl Action {
                 | Self::ToggleLog
                 | Self::Map(_)
                 | Self::ToggleMapTable
+                | Self::ToggleDifference
+                | Self::CloseComparison
                 | Self::CommandPalette
                 | Self::Preferences
                 | Self::Picture

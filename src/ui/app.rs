@@ -237,6 +237,7 @@ impl App {
         self.picks = Picks::default();
         self.ghosts = None;
         self.leave_start_page();
+        self.shell.maps.compare(None);
         self.pattern_pane = PatternPane::fitted();
         self.scene_pane.frame = Some(Some(crate::render::View::Front));
     }

@@ -166,6 +166,15 @@ impl Action {
             Self::ToggleMapTable => {
                 entry("Table of the map", "What the map shows, in figures, piece by piece", &[])
             }
+            Self::Compare => entry(
+                "Compare with…",
+                "Show the dressed garment of another project of this pattern beside, and how the maps differ",
+                &[],
+            ),
+            Self::ToggleDifference => {
+                entry("Difference", "Colour the cloth by what it has more than the one beside", &[])
+            }
+            Self::CloseComparison => entry("End the comparison", "Show only this garment again", &[]),
             Self::CommandPalette => entry(
                 "Find a command…",
                 "Type a few letters of what you want to do",

@@ -3,11 +3,13 @@
 use std::path::Path;
 
 use crate::io::scale::DrawingUnit;
+use crate::session::Outfit;
 use crate::ui::actions::Action;
 use crate::ui::app::App;
 use crate::ui::dialogs::{Dialog, NativeDialog};
 use crate::ui::drop_overlay::Dropped;
 use crate::ui::files::{self, PatternImport, PoseFile, Purpose, RawBody};
+use crate::ui::maps::Comparison;
 use crate::ui::posed_motion::PosedMotion;
 
 impl App {
@@ -45,6 +47,7 @@ impl App {
             Purpose::ImportPattern => self.import_pattern(path, None),
             Purpose::ImportBody => files::read_body(path).and_then(|raw| self.import_body(raw)),
             Purpose::Pose => self.take_pose(path),
+            Purpose::Compare => self.compare_with(path),
             Purpose::Sizes => self.take_sizes(path),
             Purpose::Export => {
                 let pattern = &self.session.document().pattern;
@@ -132,6 +135,15 @@ impl App {
                 self.shell.pose.take_motion(motion);
             }
         }
+        Ok(())
+    }
+
+    /// Shows the garment of another project beside.
+    fn compare_with(&mut self, path: &Path) -> Result<(), String> {
+        let present = Outfit::of(self.session.snapshot(), &self.session.document().fabrics);
+        let present = present.ok_or("There is no cloth on the body to be compared")?;
+        self.shell.maps.compare(Some(Comparison::open(path, &present)?));
+        self.scene_pane.frame = Some(None);
         Ok(())
     }
 

@@ -48,6 +48,8 @@ pub enum Purpose {
     Turn,
     /// Write the fit report.
     FitPage,
+    /// Read another project, to compare with.
+    Compare,
 }
 
 impl Purpose {
@@ -67,13 +69,14 @@ impl Purpose {
             Self::Picture => "Save a picture",
             Self::Turn => "Save a turn of pictures",
             Self::FitPage => "Write the fit report",
+            Self::Compare => "Compare with another project",
         }
     }
 
     /// Kind of file in words, and its extensions.
     pub fn filter(self) -> (&'static str, &'static [&'static str]) {
         match self {
-            Self::Open | Self::Save | Self::Copy => ("Toile project", &["toile"]),
+            Self::Open | Self::Save | Self::Copy | Self::Compare => ("Toile project", &["toile"]),
             Self::ImportPattern => ("Pattern", &["dxf", "svg", "json"]),
             Self::ExportPattern => ("Pattern", &["pdf", "svg", "dxf", "json"]),
             Self::ImportBody => ("Body", &["obj", "glb", "gltf"]),

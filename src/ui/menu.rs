@@ -186,6 +186,10 @@ fn view_ui(ui: &mut egui::Ui, now: &Situation, asks: &mut Asks) {
         ui.separator();
         item(ui, now, asks, Action::ToggleMapTable);
     });
+    items(ui, now, asks, &[Action::Compare]);
+    if now.difference.is_some() {
+        items(ui, now, asks, &[Action::ToggleDifference, Action::CloseComparison]);
+    }
     ui.separator();
     items(ui, now, asks, &[Action::ToggleSnapping, Action::ClearGuides]);
     ui.menu_button("Unit", |ui| items(ui, now, asks, &LengthUnit::ALL.map(Action::Unit)));

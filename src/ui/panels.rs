@@ -188,6 +188,7 @@ impl App {
             sight: self.shell.sight,
             drawer: self.shell.drawer,
             map: self.shell.maps.kind(),
+            difference: self.shell.maps.beside().map(|beside| beside.difference),
             adapter: self.scene_pane.graphics.as_ref().map(|g| g.adapter_name().to_owned()),
             picturing: self.shell.turn.is_some() || self.shell.reporting.is_some(),
         }

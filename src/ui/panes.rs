@@ -143,6 +143,9 @@ impl App {
             let value = self.scene_pane.value.or(self.pattern_pane.value);
             maps::legend_ui(ui, pane, map, value, with.palette, asks);
         }
+        if let (Some(beside), Some(pane)) = (self.shell.maps.beside(), self.scene_pane.area) {
+            maps::beside_ui(ui, pane, beside, with.palette, asks);
+        }
     }
 
     /// While the cloth has not followed the body to another pose yet, the pose it still lies on.
@@ -167,6 +170,7 @@ impl App {
             pinned: &snapshot.pinned,
             dragged: snapshot.dragged.as_ref(),
             map: self.shell.maps.shown(),
+            beside: self.shell.maps.beside().and_then(|beside| beside.meshes()),
             growing: now.wrapping,
             working: now.working,
             tool: now.tool,

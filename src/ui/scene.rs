@@ -49,6 +49,8 @@ pub struct Shown<'a> {
     pub dragged: Option<&'a Arc<Vec<f32>>>,
     /// The colours of a map, one for each vertex of the cloth, instead of its own.
     pub map: Option<&'a Arc<Vec<Rgb>>>,
+    /// Another garment on its body, where it is drawn.
+    pub beside: &'a [Arc<Mesh>],
     /// The mark that stands out.
     pub selected: Option<MarkId>,
     /// Marks proposed and not accepted yet.
@@ -145,6 +147,7 @@ impl Scenery {
                 covered = self.cloth_marks(garment, state, shown, scale, &mut scene);
             }
         }
+        scene.meshes.extend(shown.beside.iter().cloned());
         push_bones(shown.bones, scale, &mut scene);
         if let Some(marks) = shown.marks {
             body_marks(marks, shown, covered, scale, &mut scene);
@@ -159,14 +162,7 @@ impl Scenery {
         match &self.body {
             Some((kept, mesh)) if Arc::ptr_eq(kept, body) => Arc::clone(mesh),
             _ => {
-                let mesh = Arc::new(Mesh {
-                    positions: body.mesh.positions.iter().map(|p| p.as_vec3()).collect(),
-                    normals: body.vertex_normals.iter().map(|n| n.as_vec3()).collect(),
-                    triangles: body.mesh.triangles.clone(),
-                    front: BODY,
-                    back: BODY,
-                    ..Mesh::default()
-                });
+                let mesh = Arc::new(body_mesh(body));
                 self.body = Some((Arc::clone(body), Arc::clone(&mesh)));
                 mesh
             }
@@ -184,19 +180,11 @@ impl Scenery {
         if kept || state.positions.len() != garment.vertex_count {
             return;
         }
-        let on_body = |t: &[u32; 3]| t.iter().all(|&v| state.mapped[v as usize]);
-        let triangles: Vec<[u32; 3]> = garment.triangles.iter().copied().filter(on_body).collect();
-        let normals = vertex_normals(&state.positions, &triangles);
         let mut lines = stitched(seam_lines(garment, state, scale), scale);
         lines.extend(hem_lines(garment, state, scale));
         let mesh = Mesh {
             colours: dragged.map(|shares| tints(shares, state)).unwrap_or_default(),
-            positions: state.positions.iter().map(|p| p.as_vec3()).collect(),
-            normals: normals.iter().map(|n| n.as_vec3()).collect(),
-            triangles,
-            front: CLOTH_FRONT,
-            back: CLOTH_BACK,
-            cloth: 1.0,
+            ..cloth_mesh(garment, state)
         };
         self.cloth = Some(DrawnCloth {
             garment: Arc::clone(garment),
@@ -239,6 +227,34 @@ impl Scenery {
             }
         }
         covered
+    }
+}
+
+/// A body in its own colour.
+pub fn body_mesh(body: &Surface) -> Mesh {
+    Mesh {
+        positions: body.mesh.positions.iter().map(|p| p.as_vec3()).collect(),
+        normals: body.vertex_normals.iter().map(|n| n.as_vec3()).collect(),
+        triangles: body.mesh.triangles.clone(),
+        front: BODY,
+        back: BODY,
+        ..Mesh::default()
+    }
+}
+
+/// The cloth that lies, in its own colours.
+pub fn cloth_mesh(garment: &Garment, state: &ClothState) -> Mesh {
+    let on_body = |t: &[u32; 3]| t.iter().all(|&v| state.mapped[v as usize]);
+    let triangles: Vec<[u32; 3]> = garment.triangles.iter().copied().filter(on_body).collect();
+    let normals = vertex_normals(&state.positions, &triangles);
+    Mesh {
+        positions: state.positions.iter().map(|p| p.as_vec3()).collect(),
+        normals: normals.iter().map(|n| n.as_vec3()).collect(),
+        triangles,
+        front: CLOTH_FRONT,
+        back: CLOTH_BACK,
+        cloth: 1.0,
+        ..Mesh::default()
     }
 }
 

@@ -132,6 +132,11 @@ impl App {
             Action::ToggleHistory => self.shell.drawer = toggled(Drawer::History),
             Action::ToggleLog => self.shell.drawer = toggled(Drawer::Log),
             Action::Map(kind) => self.shell.maps.choose(kind),
+            Action::ToggleDifference => self.shell.maps.toggle_difference(),
+            Action::CloseComparison => {
+                self.shell.maps.compare(None);
+                self.scene_pane.frame = Some(None);
+            }
             Action::ToggleMapTable => self.shell.drawer = toggled(Drawer::Map),
             Action::CommandPalette => self.shell.palette = Some(CommandPalette::default()),
             Action::Tour => self.begin_tour(),

@@ -126,6 +126,8 @@ pub struct Situation {
     pub drawer: Option<Drawer>,
     /// What the cloth is coloured by.
     pub map: Option<MapKind>,
+    /// Another garment is shown beside; whether the difference to it is.
+    pub difference: Option<bool>,
     /// What draws the body; None: nothing can.
     pub adapter: Option<String>,
     /// A turn of pictures or a fit report is being made.
@@ -183,10 +185,14 @@ impl Situation {
             | Action::ToggleCloth
             | Action::Export
             | Action::FitPage
+            | Action::Compare
             | Action::ToggleRelaxing
             | Action::ToggleDrape
             | Action::StepDrape
             | Action::Map(Some(_)) => unless(self.dressed, "There is no cloth on the body"),
+            Action::ToggleDifference | Action::CloseComparison => {
+                unless(self.difference.is_some(), "Nothing is shown beside: compare first")
+            }
             Action::DeleteMark | Action::RaiseMark | Action::LowerMark => match &self.selected {
                 None => Some("No mark is selected: click one"),
                 Some((_, place)) if action == Action::RaiseMark => {
@@ -249,6 +255,7 @@ impl Situation {
             Action::ToggleLog => self.drawer == Some(Drawer::Log),
             Action::ToggleMapTable => self.drawer == Some(Drawer::Map),
             Action::Map(kind) => self.map == kind,
+            Action::ToggleDifference => self.difference == Some(true),
             Action::Mouse(mouse) => self.mouse == mouse,
             Action::Paper(paper) => self.paper == paper,
             _ => false,

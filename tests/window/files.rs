@@ -6,7 +6,12 @@ use super::*;
 
 /// Chooses `entry` of the file menu and types the path of the file. False where the desktop has a dialog of its own.
 fn read_file(window: &mut Window, entry: &str, path: &Path) -> bool {
-    window.get_by_label("File").click();
+    read_by(window, "File", entry, path)
+}
+
+/// The same by any menu.
+pub fn read_by(window: &mut Window, menu: &str, entry: &str, path: &Path) -> bool {
+    window.get_by_label(menu).click();
     window.run_steps(3);
     window.get_by_label_contains(entry).click();
     window.run_steps(3);

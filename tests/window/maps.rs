@@ -1,7 +1,9 @@
 //! Maps over the cloth: chosen, read, ranged, told in figures, burnt into pictures; and free when none is shown.
 
 use toile::session::samples::Sample;
+use toile::session::{Dressed, project_file};
 
+use super::files::read_by;
 use super::hand::dressed_window;
 use super::*;
 
@@ -111,6 +113,85 @@ fn the_range_is_set_by_hand_and_comes_back() {
     window.get_by_label("Automatic range").click();
     window.run_steps(3);
     assert_eq!(legend(&window), automatic);
+}
+
+/// The dressed project of `window` with all cloth moved.
+fn moved(window: &Window, to: impl Fn(DVec3) -> DVec3) -> Project {
+    let session = app(window).session();
+    let snapshot = session.snapshot();
+    let mut cloth = snapshot.cloth.as_ref().clone();
+    cloth.positions.iter_mut().for_each(|p| *p = to(*p));
+    let source = snapshot.source.clone().expect("cloth");
+    let dressed = Some(Dressed { source, cloth: Arc::new(cloth), was_draped: false });
+    Project { document: session.document().clone(), dressed }
+}
+
+#[test]
+fn another_garment_is_shown_beside_and_the_difference_of_their_maps() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = dressed_window();
+    let path = folder.path().join("wide.toile");
+    project_file::save(&path, &moved(&window, |p| p * 1.02)).expect("saved");
+    if !read_by(&mut window, "View", "Compare with…", &path) {
+        return;
+    }
+    assert!(has(&window, "beside: wide"));
+    choose(&mut window, "Ease: gap to the body");
+    assert!(has(&window, "Legend: Ease: gap"));
+    window.get_by_label("Difference").click();
+    window.run_steps(4);
+    // All cloth is further away by 2 % of what it is from the middle of the ball.
+    let cloth = &app(&window).session().snapshot().cloth.positions;
+    let most = cloth.iter().map(|p| p.length() * 0.02 * 1000.0).fold(0.0, f64::max);
+    let legend = window.get_by_label_contains("Legend:").accesskit_node().label().expect("a label");
+    let words = legend.strip_prefix("Legend: Difference of ease, ").expect("a difference");
+    let range: Vec<f64> = words.split(' ').filter_map(|word| word.parse().ok()).collect();
+    let is_so = range[0] == -range[1] && (0.9 * most..most + 0.05).contains(&range[1]);
+    assert!(is_so && words.ends_with("mm"), "{legend}, at most {most}");
+    let body = pane(&window, "Body pane").center();
+    let on_cloth = (0..40).map(|i| body - Vec2::X * 5.0 * i as f32).find(|&at| {
+        move_to(&mut window, at);
+        window.run_steps(2);
+        has(&window, " mm, Square")
+    });
+    assert!(on_cloth.is_some(), "the cloth is on the left of the middle");
+    let told = window.get_by_label_contains(" mm, Square").accesskit_node().value().expect("what it says");
+    let value: f64 = told.split(' ').next().and_then(|v| v.parse().ok()).expect("a number");
+    assert!((-most - 0.05..-4.9).contains(&value), "{told}");
+    // What is taken off is compared with nothing, what is put on again is.
+    key(&mut window, Modifiers::COMMAND, Key::Z);
+    wait(&mut window, "the undo", |app| !app.session().snapshot().is_dressed());
+    window.run_steps(2);
+    assert!(!has(&window, "beside: wide"));
+    key(&mut window, Modifiers::COMMAND.plus(Modifiers::SHIFT), Key::Z);
+    wait(&mut window, "the redo", |app| app.session().snapshot().is_dressed());
+    window.run_steps(2);
+    assert!(has(&window, "beside: wide") && has(&window, "Legend: Difference of ease"));
+    window.get_by_label("Close the comparison").click();
+    window.run_steps(4);
+    assert!(!has(&window, "beside: wide") && has(&window, "Legend: Ease: gap"));
+}
+
+#[test]
+fn what_cannot_be_compared_is_refused_with_its_file() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = dressed_window();
+    let mut other = moved(&window, |p| p);
+    let dressed = other.dressed.as_mut().expect("cloth");
+    let pattern = Arc::make_mut(&mut Arc::make_mut(&mut dressed.source).pattern);
+    pattern.pieces.values_mut().for_each(|piece| Arc::make_mut(piece).name = "Round".to_owned());
+    for (name, project, words) in [
+        ("round.toile", other, "it has not the pieces of this pattern: the second has no piece"),
+        ("bare.toile", project(), "there is no cloth on its body"),
+    ] {
+        let path = folder.path().join(name);
+        project_file::save(&path, &project).expect("saved");
+        if !read_by(&mut window, "View", "Compare with…", &path) {
+            return;
+        }
+        assert!(has(&window, &format!("{name}: {words}")), "{name}");
+        assert!(!has(&window, "beside:"));
+    }
 }
 
 #[test]

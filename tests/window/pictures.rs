@@ -6,6 +6,8 @@ use egui_kittest::wgpu::WgpuTestRenderer;
 use egui_kittest::{SnapshotOptions, SnapshotResults};
 use toile::body::mannequin;
 use toile::session::samples::Sample;
+use toile::session::{Command, Session, project_file};
+use toile::sim::{Runner, Simulation};
 
 use super::*;
 
@@ -88,6 +90,34 @@ fn the_window_looks_as_it_did() {
         results.add(window.try_snapshot_options(name, &options()));
     }
     results.unwrap();
+}
+
+#[test]
+fn a_comparison_is_written_for_whoever_wants_to_look() {
+    let Some(folder) = std::env::var_os("TOILE_PICTURES").map(std::path::PathBuf::from) else { return };
+    let mut session = Session::new(project_of(Sample::Tshirt), Runner::inline(Simulation::default()));
+    for command in [Command::Wrap, Command::SetDraping { on: true }] {
+        session.apply_alone(command).expect("done");
+        while session.runner().simulation().expect("inline").tick() {}
+    }
+    let path = folder.join("draped.toile");
+    project_file::save(&path, &session.project()).expect("saved");
+    for (theme, mode) in [(Theme::Dark, "dark"), (Theme::Light, "light")] {
+        let setting = Setting { theme, ..PLAIN };
+        let Some(mut window) = drawn_window(project_of(Sample::Tshirt), setting) else { return };
+        dress(&mut window);
+        if !super::files::read_by(&mut window, "View", "Compare with…", &path) {
+            return;
+        }
+        keep(&mut window, &folder, &format!("beside-{mode}"));
+        for label in ["View", "Map", "Ease: gap to the body"] {
+            window.get_by_label(label).click();
+            window.run_steps(4);
+        }
+        keep(&mut window, &folder, &format!("beside-map-{mode}"));
+        window.get_by_label("Difference").click();
+        keep(&mut window, &folder, &format!("beside-difference-{mode}"));
+    }
 }
 
 /// Writes a picture of `window` into the folder that is asked for.

@@ -86,8 +86,13 @@ impl Map {
     }
 
     fn of_vertices(kind: MapKind, worn: Worn<'_>, vertices: Vec<f64>) -> Self {
+        Self::between(kind, worn.garment, vertices)
+    }
+
+    /// Triangles have the mean of their vertices.
+    pub(super) fn between(kind: MapKind, garment: &Garment, vertices: Vec<f64>) -> Self {
         let mean = |vs: &[u32; 3]| vs.iter().map(|&v| vertices[v as usize]).sum::<f64>() / 3.0;
-        Self { kind, triangles: worn.garment.triangles.iter().map(mean).collect(), vertices }
+        Self { kind, triangles: garment.triangles.iter().map(mean).collect(), vertices }
     }
 }
 

@@ -77,10 +77,15 @@ impl Map {
     /// The same, where [`Map::stats`] are known.
     pub fn range_of(&self, stats: &MapStats) -> [f64; 2] {
         if self.kind.is_signed() {
-            let most = stats.p01.abs().max(stats.p99.abs());
-            return [-most, most];
+            return self.range_about_zero(stats);
         }
         [stats.p01.min(0.0), stats.p99]
+    }
+
+    /// As far to both sides of zero as the hundredths of the values reach: for values that are a difference, whatever the kind.
+    pub fn range_about_zero(&self, stats: &MapStats) -> [f64; 2] {
+        let most = stats.p01.abs().max(stats.p99.abs());
+        [-most, most]
     }
 
     /// The histogram over `range`.

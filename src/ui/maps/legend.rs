@@ -47,7 +47,7 @@ pub fn legend_ui(
 
 fn title_ui(ui: &mut egui::Ui, map: &ShownMap, asks: &mut Asks) {
     let (unit, _) = map.kind().unit();
-    let text = egui::RichText::new(format!("{}, {unit}", map.kind().title())).size(12.5).strong();
+    let text = egui::RichText::new(format!("{}, {unit}", map.title())).size(12.5).strong();
     ui.horizontal(|ui| {
         ui.add(egui::Label::new(text).truncate());
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {

@@ -1,6 +1,8 @@
 //! Maps over the dressed cloth, in both panes: worked out while one is shown and the cloth has changed, never else.
 
+mod beside;
 mod chooser;
+mod comparison;
 mod flat;
 mod legend;
 mod probe;
@@ -15,7 +17,9 @@ use crate::fit::{Map, MapKind};
 use crate::render::{Legend, Palette, Rgb};
 use crate::session::{Fabrics, Outfit};
 use crate::sim::Snapshot;
+pub use beside::beside_ui;
 pub use chooser::{choices, chooser_ui};
+pub use comparison::Comparison;
 pub use legend::legend_ui;
 pub use probe::probe_ui;
 pub use table::{table_ui, text as table_text};
@@ -24,9 +28,11 @@ pub use table::{table_ui, text as table_text};
 #[derive(Debug, Default)]
 pub struct MapView {
     kind: Option<MapKind>,
-    /// Ranges chosen by hand, in the units that people see.
-    ranges: BTreeMap<MapKind, [f64; 2]>,
+    /// Ranges chosen by hand, of maps and of differences, in the units that people see.
+    ranges: BTreeMap<(MapKind, bool), [f64; 2]>,
     shown: Option<ShownMap>,
+    /// Another garment.
+    beside: Option<Comparison>,
     /// Maps worked out so far.
     computed: u64,
 }
@@ -36,6 +42,10 @@ pub struct MapView {
 pub struct ShownMap {
     outfit: Outfit,
     map: Map,
+    /// What it has more than the garment beside, not its own map.
+    is_difference: bool,
+    /// That was asked for: where the pieces differ there is none.
+    asks_difference: bool,
     /// Of all its values.
     pub stats: MapStats,
     pieces: OnceLock<Vec<PieceStats>>,
@@ -60,10 +70,29 @@ impl MapView {
 
     /// Lets the colours of `kind` span `range`, in the unit that people see; None: as far as its values do.
     pub fn set_range(&mut self, kind: MapKind, range: Option<[f64; 2]>) {
+        let of = (kind, self.shown.as_ref().is_some_and(|shown| shown.is_difference));
         match range {
-            Some(range) => self.ranges.insert(kind, range),
-            None => self.ranges.remove(&kind),
+            Some(range) => self.ranges.insert(of, range),
+            None => self.ranges.remove(&of),
         };
+    }
+
+    /// Shows `other` beside from now on; None: nothing.
+    pub fn compare(&mut self, other: Option<Comparison>) {
+        (self.beside, self.shown) = (other, None);
+    }
+
+    /// What is shown beside, while there is cloth to compare it with.
+    pub fn beside(&self) -> Option<&Comparison> {
+        self.beside.as_ref().filter(|beside| beside.meshes().is_some())
+    }
+
+    /// Shows the difference to the garment beside instead of the map, or the map again. Without a map that of the ease.
+    pub fn toggle_difference(&mut self) {
+        if let Some(beside) = &mut self.beside {
+            beside.difference = !beside.difference;
+            self.kind = self.kind.or(Some(MapKind::Ease));
+        }
     }
 
     /// Maps worked out so far.
@@ -78,23 +107,47 @@ impl MapView {
 
     /// Reads the map off the cloth of `snapshot`, made of `fabrics`, unless none is shown or that was done before.
     pub fn look(&mut self, snapshot: &Snapshot, fabrics: &Fabrics) {
-        let outfit = self.kind.and_then(|_| Outfit::of(snapshot, fabrics));
+        let is_wanted = self.kind.is_some() || self.beside.is_some();
+        let outfit = is_wanted.then(|| Outfit::of(snapshot, fabrics)).flatten();
+        self.look_at(outfit.as_ref());
+        let Some(beside) = &mut self.beside else { return };
+        match &outfit {
+            Some(outfit) => {
+                let own = self.shown.as_ref().filter(|shown| !shown.is_difference);
+                let colours = own.map(|shown| (shown.map.kind, shown.range, shown.palette()));
+                beside.draw_beside(outfit, colours);
+            }
+            None => beside.put_away(),
+        }
+    }
+
+    fn look_at(&mut self, outfit: Option<&Outfit>) {
         let (Some(kind), Some(outfit)) = (self.kind, outfit) else {
             self.shown = None;
             return;
         };
-        let by_hand = self.ranges.get(&kind).map(|range| range.map(|v| v / kind.unit().1));
+        let asks_difference = self.beside.as_ref().is_some_and(|beside| beside.difference);
+        let by_hand = |ranges: &BTreeMap<(MapKind, bool), [f64; 2]>, is_difference| {
+            ranges.get(&(kind, is_difference)).map(|range| range.map(|v| v / kind.unit().1))
+        };
         if let Some(shown) = &mut self.shown
             && shown.map.kind == kind
-            && shown.outfit.is(&outfit)
+            && shown.asks_difference == asks_difference
+            && shown.outfit.is(outfit)
         {
-            shown.span(by_hand);
+            shown.span(by_hand(&self.ranges, shown.is_difference));
             return;
         }
         self.computed += 1;
         let map = Map::new(kind, outfit.worn());
+        let compared = self.beside.as_mut().filter(|_| asks_difference);
+        let difference = compared.and_then(|beside| beside.less(outfit, &map));
+        let is_difference = difference.is_some();
+        let map = difference.unwrap_or(map);
         let mut shown = ShownMap {
-            outfit,
+            outfit: outfit.clone(),
+            is_difference,
+            asks_difference,
             stats: map.stats(),
             pieces: OnceLock::new(),
             range: [f64::NAN; 2],
@@ -103,7 +156,7 @@ impl MapView {
             histogram: Histogram { borders: Vec::new(), counts: Vec::new() },
             map,
         };
-        shown.span(by_hand);
+        shown.span(by_hand(&self.ranges, is_difference));
         self.shown = Some(shown);
     }
 }
@@ -112,7 +165,11 @@ impl ShownMap {
     /// Lets the colours span `range`, or as far as the values do.
     fn span(&mut self, by_hand: Option<[f64; 2]>) {
         self.is_automatic = by_hand.is_none();
-        let range = by_hand.unwrap_or_else(|| self.map.range_of(&self.stats));
+        let automatic = || match self.is_difference {
+            true => self.map.range_about_zero(&self.stats),
+            false => self.map.range_of(&self.stats),
+        };
+        let range = by_hand.unwrap_or_else(automatic);
         if range == self.range {
             return;
         }
@@ -127,15 +184,23 @@ impl ShownMap {
         self.map.kind
     }
 
+    /// What it is called.
+    pub fn title(&self) -> String {
+        match self.is_difference {
+            true => format!("Difference of {}", self.map.kind.short().to_lowercase()),
+            false => self.map.kind.title().to_owned(),
+        }
+    }
+
     fn palette(&self) -> Palette {
-        if self.map.kind.is_signed() { Palette::Diverging } else { Palette::Sequential }
+        if self.is_difference || self.map.kind.is_signed() { Palette::Diverging } else { Palette::Sequential }
     }
 
     /// For pictures.
     pub fn legend(&self) -> Legend {
         let (unit, times) = self.map.kind.unit();
         Legend {
-            title: self.map.kind.title().to_owned(),
+            title: self.title(),
             unit: unit.to_owned(),
             range: self.range.map(|v| v * times),
             palette: self.palette(),

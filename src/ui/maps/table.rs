@@ -15,7 +15,7 @@ pub fn table_ui(ui: &mut egui::Ui, map: Option<&ShownMap>, palette: &Palette) {
         return;
     };
     let (unit, _) = map.kind().unit();
-    ui.label(RichText::new(format!("{}, {unit}", map.kind().title())).strong());
+    ui.label(RichText::new(format!("{}, {unit}", map.title())).strong());
     egui::Grid::new("map by pieces").num_columns(HEADINGS.len()).spacing([18.0, 4.0]).striped(true).show(
         ui,
         |ui| {
@@ -39,7 +39,7 @@ pub fn text(map: &ShownMap) -> String {
     let (unit, _) = map.kind().unit();
     let head = HEADINGS.join("\t");
     let lines: Vec<String> = rows(map).map(|cells| cells.join("\t")).collect();
-    format!("{}, {unit}\n{head}\n{}\n", map.kind().title(), lines.join("\n"))
+    format!("{}, {unit}\n{head}\n{}\n", map.title(), lines.join("\n"))
 }
 
 fn rows(map: &ShownMap) -> impl Iterator<Item = [String; 8]> {

@@ -10,7 +10,7 @@ use crate::cloth::ClothState;
 use crate::contact::Bone;
 use crate::geometry::ids::MarkId;
 use crate::render::{
-    Camera, Gpu, Look, OffscreenTarget, Quality, RenderError, Renderer, Rgb, Scene, straightened,
+    Camera, Gpu, Look, Mesh, OffscreenTarget, Quality, RenderError, Renderer, Rgb, Scene, straightened,
 };
 use crate::ui::scene::PinLook;
 use crate::ui::selection::Item;
@@ -47,6 +47,8 @@ pub struct Key {
     pub dragged: Option<Arc<Vec<f32>>>,
     /// In the colours of which map.
     pub map: Option<Arc<Vec<Rgb>>>,
+    /// With which other garment.
+    pub beside: Option<Arc<Vec<Arc<Mesh>>>>,
     /// The mark that stands out.
     pub selected: Option<MarkId>,
     /// With which proposed marks.
@@ -74,6 +76,7 @@ impl PartialEq for Key {
             bones,
             dragged,
             map,
+            beside,
             stand_out,
         } = self;
         *camera == other.camera
@@ -92,6 +95,7 @@ impl PartialEq for Key {
             && same(pinned, &other.pinned)
             && same(dragged, &other.dragged)
             && same(map, &other.map)
+            && same(beside, &other.beside)
             && same(ghosts, &other.ghosts)
     }
 }

@@ -24,7 +24,7 @@ use crate::body::Surface;
 use crate::cloth::{ClothState, Garment};
 use crate::contact::Bone;
 use crate::geometry::ids::{MarkId, PinId};
-use crate::render::{Camera, Look, View};
+use crate::render::{Camera, Look, Mesh, View};
 use crate::session::{Command, Document};
 use crate::ui::actions::Tool;
 use crate::ui::asks::{Ask, Asks, in_one_step};
@@ -59,6 +59,8 @@ pub struct Seen<'a> {
     pub dragged: Option<&'a Arc<Vec<f32>>>,
     /// What the cloth is coloured by, instead of its own colours.
     pub map: Option<&'a ShownMap>,
+    /// Another garment on its body, beside this one.
+    pub beside: Option<&'a Arc<Vec<Arc<Mesh>>>>,
     /// Whether cloth is still being laid.
     pub growing: bool,
     /// Whether the cloth is moving.

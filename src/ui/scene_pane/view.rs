@@ -54,8 +54,8 @@ impl ScenePane {
             if let Some(view) = view {
                 self.camera.look(view);
             }
-            let points: Vec<Vec3> =
-                body.mesh.positions.iter().chain(on_body(seen)).map(|p| p.as_vec3()).collect();
+            let here = body.mesh.positions.iter().chain(on_body(seen)).map(|p| p.as_vec3());
+            let points: Vec<Vec3> = here.chain(beside(seen)).collect();
             self.camera.frame_points(&points, pane.width() / pane.height().max(1.0));
         }
     }
@@ -106,7 +106,12 @@ fn on_body<'a>(seen: &Seen<'a>) -> impl Iterator<Item = &'a DVec3> + use<'a> {
 }
 
 fn everything(seen: &Seen<'_>, body: &Surface) -> (Vec3, Vec3) {
-    let (lower, upper) =
-        on_body(seen).fold(body.bounds(), |(lower, upper), p| (lower.min(*p), upper.max(*p)));
-    (lower.as_vec3(), upper.as_vec3())
+    let bounds = body.bounds();
+    let points = on_body(seen).map(|p| p.as_vec3()).chain(beside(seen));
+    points.fold((bounds.0.as_vec3(), bounds.1.as_vec3()), |(lower, upper), p| (lower.min(p), upper.max(p)))
+}
+
+/// Points of the body and the garment beside.
+fn beside<'a>(seen: &Seen<'a>) -> impl Iterator<Item = Vec3> + use<'a> {
+    seen.beside.into_iter().flat_map(|meshes| meshes.iter().flat_map(|mesh| mesh.positions.iter().copied()))
 }

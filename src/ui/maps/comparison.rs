@@ -1,0 +1,111 @@
+//! Another garment of the same pieces beside the one on the body, and the difference of their maps.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use glam::{DVec3, Vec3};
+
+use crate::cloth::Garment;
+use crate::fit::{Map, MapKind, Matching};
+use crate::render::{Mesh, Palette};
+use crate::session::{Outfit, Session};
+use crate::sim::{Runner, Simulation};
+use crate::ui::files;
+use crate::ui::mapped::in_colours;
+use crate::ui::scene::{body_mesh, cloth_mesh};
+
+/// Between the two, as a share of the scale of a body.
+const GAP: f64 = 0.12;
+
+/// The garment of another project.
+#[derive(Debug)]
+pub struct Comparison {
+    /// Of its file.
+    pub name: String,
+    /// The present garment shows what it has more than this one, not its own map.
+    pub difference: bool,
+    outfit: Outfit,
+    /// With the garment that was matched last; the error tells which pieces differ.
+    matched: Option<(Arc<Garment>, Result<Matching, String>)>,
+    /// Its map, of the kind that was shown last.
+    map: Option<Map>,
+    drawn: Option<(Place, Arc<Vec<Arc<Mesh>>>)>,
+}
+
+/// Where it is drawn, and what its colours are and span.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Place {
+    shift: Vec3,
+    colours: Option<(MapKind, [f64; 2])>,
+}
+
+impl Comparison {
+    /// The garment in the project at `path`, to be held against `present`. The error is in words.
+    pub fn open(path: &Path, present: &Outfit) -> Result<Self, String> {
+        let fault = |words: &str| format!("{}: {words}", path.display());
+        let mut session = Session::new(files::open(path)?, Runner::inline(Simulation::default()));
+        session.update();
+        let outfit = Outfit::of(session.snapshot(), &session.document().fabrics);
+        let outfit = outfit.ok_or_else(|| fault("there is no cloth on its body"))?;
+        let matching = Matching::new(outfit.worn(), present.worn())
+            .map_err(|why| fault(&format!("it has not the pieces of this pattern: {why}")))?;
+        let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let matched = Some((Arc::clone(&present.garment), Ok(matching)));
+        Ok(Self { name, difference: false, outfit, matched, map: None, drawn: None })
+    }
+
+    /// Its own map of `kind`.
+    fn map(&mut self, kind: MapKind) -> &Map {
+        if self.map.as_ref().is_some_and(|map| map.kind != kind) {
+            self.map = None;
+        }
+        self.map.get_or_insert_with(|| Map::new(kind, self.outfit.worn()))
+    }
+
+    /// What `map` over `present` has more than the same over this garment. None where their pieces differ by now.
+    pub fn less(&mut self, present: &Outfit, map: &Map) -> Option<Map> {
+        if !self.matched.as_ref().is_some_and(|(of, _)| Arc::ptr_eq(of, &present.garment)) {
+            let matching = Matching::new(self.outfit.worn(), present.worn()).map_err(|why| why.to_string());
+            self.matched = Some((Arc::clone(&present.garment), matching));
+        }
+        self.map(map.kind);
+        let (Some((_, Ok(matching))), Some(own)) = (&self.matched, &self.map) else { return None };
+        Some(matching.difference((&self.outfit.garment, own), (&present.garment, map)))
+    }
+
+    /// Why there is no difference to `present`, in words.
+    pub fn unlike(&self) -> Option<&str> {
+        self.matched.as_ref()?.1.as_ref().err().map(String::as_str)
+    }
+
+    /// Draws it on the right of `present`, in the colours of the map whose kind and span are given.
+    pub(super) fn draw_beside(&mut self, present: &Outfit, colours: Option<(MapKind, [f64; 2], Palette)>) {
+        let ((_, right), (left, _)) = (present.body.bounds(), self.outfit.body.bounds());
+        let gap = GAP * present.body.scale();
+        let shift = (DVec3::X * (right.x - left.x + gap)).as_vec3();
+        let place = Place { shift, colours: colours.map(|(kind, range, _)| (kind, range)) };
+        if self.drawn.as_ref().is_some_and(|(drawn, _)| *drawn == place) {
+            return;
+        }
+        let mut cloth = cloth_mesh(&self.outfit.garment, &self.outfit.state);
+        if let Some((kind, range, palette)) = colours {
+            let inks: Vec<_> = self.map(kind).vertices.iter().map(|&v| palette.colour(v, range)).collect();
+            cloth = in_colours(&cloth, &inks).unwrap_or(cloth);
+        }
+        let meshes = [body_mesh(&self.outfit.body), cloth].map(|mut mesh| {
+            mesh.positions.iter_mut().for_each(|p| *p += shift);
+            Arc::new(mesh)
+        });
+        self.drawn = Some((place, Arc::new(meshes.into())));
+    }
+
+    /// There is no cloth to compare it with.
+    pub(super) fn put_away(&mut self) {
+        self.drawn = None;
+    }
+
+    /// As it is drawn; None while there is no cloth to compare it with.
+    pub fn meshes(&self) -> Option<&Arc<Vec<Arc<Mesh>>>> {
+        self.drawn.as_ref().map(|(_, meshes)| meshes)
+    }
+}
