@@ -83,6 +83,12 @@ pub struct OutOfRange {
 impl Measurements {
     /// Every measurement with its name, in the order of the fields.
     pub fn named(&self) -> [(&'static str, f64); 16] {
+        let mut own = *self;
+        own.named_mut().map(|(name, value)| (name, *value))
+    }
+
+    /// The same, to be changed.
+    pub fn named_mut(&mut self) -> [(&'static str, &mut f64); 16] {
         let Self {
             height,
             bust,
@@ -100,7 +106,7 @@ impl Measurements {
             calf,
             ankle,
             waist_to_ankle,
-        } = *self;
+        } = self;
         [
             ("height", height),
             ("bust", bust),
@@ -119,46 +125,6 @@ impl Measurements {
             ("ankle", ankle),
             ("waist to ankle", waist_to_ankle),
         ]
-    }
-
-    /// Every measurement as `to` makes it of its name and what it is now.
-    pub fn mapped(&self, to: impl Fn(&'static str, f64) -> f64) -> Self {
-        let [
-            height,
-            bust,
-            waist,
-            abdomen,
-            hip,
-            half_across_shoulder,
-            neck,
-            arm_length,
-            upper_arm,
-            wrist,
-            upper_thigh,
-            mid_thigh,
-            knee,
-            calf,
-            ankle,
-            waist_to_ankle,
-        ] = self.named().map(|(name, value)| to(name, value));
-        Self {
-            height,
-            bust,
-            waist,
-            abdomen,
-            hip,
-            half_across_shoulder,
-            neck,
-            arm_length,
-            upper_arm,
-            wrist,
-            upper_thigh,
-            mid_thigh,
-            knee,
-            calf,
-            ankle,
-            waist_to_ankle,
-        }
     }
 
     /// Refuses what no figure can have: each measurement against the default, scaled to the height, and a few against

@@ -28,7 +28,11 @@ impl Measurements {
             _ if OF_HIP.contains(&name) => value * hip / usual.hip,
             _ => value * tall,
         };
-        usual.mapped(|name, value| given(name).unwrap_or_else(|| following(name, value)))
+        let mut figure = usual;
+        for (name, value) in figure.named_mut() {
+            *value = given(name).unwrap_or_else(|| following(name, *value));
+        }
+        figure
     }
 }
 
