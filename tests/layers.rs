@@ -92,6 +92,49 @@ fn what_is_deep_on_the_wrong_side_knows_its_way_out() {
     }
 }
 
+/// A tube worn over another is pushed into it by 3 cm at its front: what is in there is sent out, and nothing of the inner one.
+#[test]
+fn what_is_worn_over_comes_out_of_what_lies_under() {
+    let high = 0.3;
+    let mut pattern = Pattern::default();
+    for (name, round, layer) in [("inner", 0.6, 0), ("outer", 0.63, 1)] {
+        let corners = [[0.0, 0.0], [round, 0.0], [round, high], [0.0, high]].map(DVec2::from);
+        let piece = pattern.add_piece(Piece { layer, ..Piece::polygon(name, &corners) });
+        pattern.add_seam(Seam::of_edges([1, 3].map(|edge| EdgeRef { piece, edge }), false));
+    }
+    let (garment, _) = build(&pattern, 0.01);
+    let mut state = ClothState {
+        positions: vec![DVec3::ZERO; garment.vertex_count],
+        mapped: vec![true; garment.vertex_count],
+    };
+    let mut over = vec![false; garment.vertex_count];
+    for corner in &garment.corners {
+        let is_over = garment.layer(corner.piece) == 1;
+        let round = if is_over { 0.63 } else { 0.6 };
+        let turn = (corner.uv.x / round - 0.5) * std::f64::consts::TAU;
+        let from = DVec2::new(corner.uv.x - round / 2.0, corner.uv.y - high / 2.0).length();
+        let dent = if is_over { 0.03 * (-(from / 0.04).powi(4)).exp() } else { 0.0 };
+        let radius = round / std::f64::consts::TAU - dent;
+        let v = corner.vertex as usize;
+        state.positions[v] = DVec3::new(radius * turn.sin(), corner.uv.y, radius * turn.cos());
+        over[v] = is_over;
+    }
+    let met = Met::new(&garment, &state);
+    assert!(!met.places.is_empty());
+    let (ways, any) = met.ways_out(&garment, &state);
+    assert!(any);
+    let radius = |v: usize| state.positions[v].x.hypot(state.positions[v].z);
+    // Not where the wall of the dent is steep, that has no clear way.
+    let deep = |v: &usize| over[*v] && radius(*v) < 0.6 / std::f64::consts::TAU - 0.02;
+    assert!((0..over.len()).filter(deep).count() > 10);
+    for v in (0..over.len()).filter(deep) {
+        assert!(ways[v].z > 0.7, "{} at {}", ways[v], state.positions[v]);
+        assert_eq!(met.ways(&garment, &state)[v], DVec3::ZERO, "it is far from where layers meet");
+    }
+    let behind = |v: usize| state.positions[v].z < 0.0;
+    assert!((0..over.len()).filter(|&v| behind(v)).all(|v| ways[v] == DVec3::ZERO));
+}
+
 /// Front and back of a skirt that is a whole ring of cloth, `waist` and `length` metres.
 fn ring_skirt(waist: f64, length: f64) -> Pattern {
     let inner = waist / std::f64::consts::TAU;

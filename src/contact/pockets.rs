@@ -20,6 +20,9 @@ const ASKED: usize = 15;
 /// Of the winding number: what is taken for certain is so far beyond what there can be.
 const CERTAIN: f64 = 0.03;
 
+/// What is wound round more often than so lies within.
+const WITHIN: f64 = 0.5;
+
 /// For each vertex how much more often than it should the cloth winds round it: 0 where all is well, or nothing is known.
 /// `mesh` are the laid triangles of `garment`; `crossed` tells of each of its edges whether other cloth of it passes it.
 pub fn pockets(garment: &Garment, mesh: &TriMesh, crossed: &[bool]) -> Vec<i8> {
@@ -52,7 +55,52 @@ pub fn pockets(garment: &Garment, mesh: &TriMesh, crossed: &[bool]) -> Vec<i8> {
             }
         }
     }
+    under(garment, mesh, crossed, &part, &mut deep);
     deep
+}
+
+/// Cloth of a higher layer that has come into what a lower one encloses, openings and all, is `deep` as if it had come out of other
+/// cloth: out is where it belongs.
+fn under(garment: &Garment, mesh: &TriMesh, crossed: &[bool], part: &[u32], deep: &mut [i8]) {
+    if garment.layers.is_empty() {
+        return;
+    }
+    let layers = layers(garment);
+    let mut inner: Vec<u32> = part.iter().copied().filter(|&p| p != u32::MAX).collect();
+    inner.sort_unstable();
+    inner.dedup();
+    for whole in inner {
+        let layer = layers[whole as usize];
+        let over = |v: u32| part[v as usize] != u32::MAX && layers[v as usize] > layer;
+        let ends = garment.adjacency.edges.iter().zip(crossed).filter(|(_, crossed)| **crossed);
+        let mut open: VecDeque<u32> = ends.flat_map(|(ends, _)| *ends).filter(|&v| over(v)).collect();
+        if open.is_empty() {
+            continue;
+        }
+        let closed = closed(mesh, |v| part[v as usize] == whole);
+        let winding = Winding::new(&closed);
+        if usual(&winding, mesh, |v| part[v as usize] == whole) != 0.0 {
+            continue; // It is inside out.
+        }
+        let mut asked = vec![false; part.len()];
+        while let Some(v) = open.pop_front() {
+            if !std::mem::replace(&mut asked[v as usize], true)
+                && winding.at(mesh.positions[v as usize]) > WITHIN
+            {
+                deep[v as usize] = -1;
+                open.extend(garment.adjacency.vertex_neighbours.of(v).iter().filter(|&&w| over(w)));
+            }
+        }
+    }
+}
+
+/// The layer of each vertex.
+fn layers(garment: &Garment) -> Vec<u8> {
+    let mut layers = vec![0; garment.vertex_count];
+    for (vs, &piece) in garment.triangles.iter().zip(&garment.triangle_pieces) {
+        vs.iter().for_each(|&v| layers[v as usize] = garment.layer(piece));
+    }
+    layers
 }
 
 /// How often cloth winds round the one side of itself at most of its points, the whole number below.
