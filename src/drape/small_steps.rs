@@ -37,7 +37,7 @@ const CREASE_REACH: f64 = 4.0;
 const CREASE_SPEED: f64 = 1.5;
 
 /// So often in a step it is seen whether the cloth is where it was expected: what runs against something is not.
-const LOOKS: usize = 12;
+const LOOKS: usize = 4;
 
 /// The solver with its memory.
 #[derive(Clone, Debug)]
