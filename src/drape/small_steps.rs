@@ -237,22 +237,20 @@ impl SmallSteps {
             grip: f64::INFINITY,
         };
         // Pairs that may meet are many where the way that is looked ahead over is long.
-        // A body's motion is that of the whole step.
-        let whole = scene.collider.as_ref().is_some_and(|c| !c.motion.is_empty());
-        let stretches = if whole { 1 } else { itself.stretches(&scene.sheet, &state.velocities, h) };
+        let stretches = itself.stretches(&scene.sheet, &state.velocities, h);
         let margin = itself.margin(&scene.sheet);
         let (small, ahead) = (h / count as f64, h / stretches as f64);
         let every = (count / LOOKS).max(1);
-        let mut left = count;
-        while left > 0 {
+        let mut done = 0;
+        while done < count {
             let ways: Vec<DVec3> = state.velocities.iter().map(|v| *v * ahead).collect();
             itself.gather_ahead(&scene.sheet, &state.positions, &ways, |_| DVec3::ZERO, margin);
             let mut since = 0;
             let lasts = |itself: &Itself, x: &[DVec3]| {
                 since += 1;
-                whole || since % every != 0 || itself.lasts(x, |_| DVec3::ZERO, margin)
+                since % every != 0 || itself.lasts(x, |_| DVec3::ZERO, margin)
             };
-            left -= self.advance_while(&around, state, itself, (small, left), lasts);
+            done += self.advance_while(&around, state, itself, (small, done..count), lasts);
         }
     }
 
@@ -265,20 +263,21 @@ impl SmallSteps {
         h: f64,
         count: usize,
     ) {
-        self.advance_while(around, state, itself, (h / count as f64, count), |_, _| true);
+        self.advance_while(around, state, itself, (h / count as f64, 0..count), |_, _| true);
     }
 
-    /// At most `count` steps of `small` seconds, as long as what is asked after each says so. How many it did.
+    /// Of a step cut into small ones of `small` seconds those in `range`, up to the step's end, as long as what is asked after each
+    /// says so. How many it did.
     fn advance_while(
         &mut self,
         around: &Surroundings<'_>,
         state: &mut State,
         itself: &mut Itself,
-        (small, count): (f64, usize),
+        (small, range): (f64, Range<usize>),
         mut goes_on: impl FnMut(&Itself, &[DVec3]) -> bool,
     ) -> usize {
         self.net.ready(small, &self.inverse_mass);
-        let every = self.bending_every(small, around.bending_damping).min(count);
+        let every = self.bending_every(small, around.bending_damping).min(range.len());
         let drag = (-around.damping * small).exp();
         // A blow now and then, which keeps energy, shakes cloth that should come to rest; a force that is held comes late by
         // half of the time it is held, for which it looks ahead.
@@ -286,11 +285,11 @@ impl SmallSteps {
         let mut done = 0;
         let mut bent = vec![DVec3::ZERO; state.positions.len()];
         let mut before = state.positions.clone();
-        for s in 0..count {
+        for s in 0..range.len() {
             let x = &mut state.positions;
             let kick = if s == 0 { self.lag + small / 2.0 } else { small };
             if s % every == 0 && self.bending_rate > 0.0 {
-                let span = small * every.min(count - s) as f64;
+                let span = small * every.min(range.len() - s) as f64;
                 if holds {
                     // Quadratic: the force at x + τ v is that of the shape and of its change.
                     let ahead = around.bending_damping + span / 2.0;
@@ -323,8 +322,8 @@ impl SmallSteps {
             self.pull(x, small);
             self.draw(x, f64::INFINITY, small);
             if let Some(collider) = around.collider {
-                let left = 1.0 - (s + 1) as f64 / count as f64;
-                let scene = Colliding { around, collider, left, part: 1.0 / count as f64, small };
+                let left = 1.0 - (range.start + s + 1) as f64 / range.end as f64;
+                let scene = Colliding { around, collider, left, part: 1.0 / range.end as f64, small };
                 let of_body = (&mut self.planes[..], &mut self.creases[..]);
                 let mut work = shares(&self.net, x, &mut before, &mut state.velocities, of_body);
                 let this = Knowing {
@@ -349,7 +348,7 @@ impl SmallSteps {
             }
         }
         self.lag = small / 2.0;
-        if around.collider.is_some_and(|c| !c.motion.is_empty()) {
+        if done == range.len() && around.collider.is_some_and(|c| !c.motion.is_empty()) {
             self.forget_planes();
         }
         done

@@ -337,3 +337,34 @@ fn cloth_dropped_on_a_ball_does_not_run_through_itself() {
     let p99 = strains[strains.len() * 99 / 100];
     assert!(p99 < 0.01, "p99 strain {p99}");
 }
+
+/// A ball that rises under a square metre, which folds over it: however its step is cut up, it goes its way once.
+#[test]
+fn cloth_that_meets_itself_rides_on_a_body_that_moves() {
+    let sheet = flat(Kind::Alternating, DVec2::splat(1.0), [22, 22]);
+    let fabric = Fabric::isotropic(5000.0, 0.3, 4e-5, 0.2);
+    let scene = scene(&sheet, &fabric, vec![false; sheet.points.len()]);
+    let x = sheet.placed(|p| DVec3::new(p.x - 0.5, 0.303, 0.5 - p.y));
+    let mut settings = settings(Method::SmallSteps);
+    (settings.stiffness, settings.thickness, settings.self_collision) = (5000.0, 3e-3, true);
+    let mut drape = Drape::new(scene, State::at_rest(x), settings, 1.0 / 60.0).expect("room");
+    let (edges, triangles) = (drape.scene.sheet.adjacency.edges.clone(), drape.scene.sheet.triangles.clone());
+    let way = DVec3::Y * 0.02;
+    for frame in 1..=40 {
+        let mut ball = crate::common::ball(0.3, 40, 80);
+        ball.positions.iter_mut().for_each(|p| *p += way * f64::from(frame));
+        let motion = vec![way; ball.positions.len()];
+        drape.scene.collider =
+            Some(Collider { surface: Arc::new(Surface::new(ball).expect("a ball")), motion });
+        drape.step(1.0 / 60.0).expect("a step");
+        let x = &drape.state().positions;
+        let heights = x.iter().map(|x| x.distance(way * f64::from(frame)) - 0.3);
+        let (lowest, top) =
+            (heights.fold(f64::MAX, f64::min), x.iter().map(|x| x.y).fold(f64::MIN, f64::max));
+        assert!(lowest > 0.001, "frame {frame}: {lowest}");
+        let above = top - way.y * f64::from(frame) - 0.3;
+        assert!(above < 0.012, "frame {frame}: {above} above the ball");
+        let mesh = TriMesh { positions: x.clone(), triangles: triangles.clone() };
+        assert_eq!(self_crossings(&mesh, &edges, &mesh.tree()).len(), 0, "frame {frame}");
+    }
+}
