@@ -53,8 +53,8 @@ pub struct Itself {
     pub free: Vec<bool>,
     /// Of each vertex: a higher layer stays on the outer side of a lower one. Empty: there is one.
     pub layers: Vec<u8>,
-    /// Of triangles and of edges.
-    trees: [Bvh; 2],
+    /// Of triangles, of edges and of vertices.
+    trees: [Bvh; 3],
     /// Where the vertices were when pairs were last gathered ahead.
     gathered: Vec<DVec3>,
     /// And how far beside the mean of all they were looked ahead for then.
@@ -221,7 +221,7 @@ impl Itself {
         // Neighbours in the cloth move alike: what counts is how much farther the one goes than the other.
         let apart = |a: &[u32], b: &[u32]| {
             let ways = a.iter().flat_map(|&a| b.iter().map(move |&b| ways[a as usize] - ways[b as usize]));
-            near + LOOK_AHEAD * ways.map(|w| w.length()).fold(0.0, f64::max)
+            near + LOOK_AHEAD * ways.map(|w| w.length_squared()).fold(0.0, f64::max).sqrt()
         };
         let layer = |vs: &[u32]| self.layers.get(vs[0] as usize).copied().unwrap_or(0);
         let is_free = |a: &[u32], b: &[u32]| {
@@ -236,14 +236,16 @@ impl Itself {
         };
         let of_triangles: Vec<Aabb> = sheet.triangles.par_iter().map(|vs| grown(vs)).collect();
         refit(&mut self.trees[0], &of_triangles);
-        let tree = &self.trees[0];
-        let at_corners = (0..x.len() as u32).into_par_iter().with_min_len(LEAST_SHARE).map(|v| {
+        let of_vertices: Vec<Aabb> = (0..x.len() as u32).into_par_iter().map(|v| grown(&[v])).collect();
+        refit(&mut self.trees[2], &of_vertices);
+        let edges = &sheet.adjacency.edges;
+        let boxes: Vec<Aabb> = edges.par_iter().map(|e| grown(e)).collect();
+        refit(&mut self.trees[1], &boxes);
+        let [triangles, tree, vertices] = &self.trees;
+        let leaves: Vec<u32> = vertices.leaves().collect();
+        let at_corners = leaves.par_iter().with_min_len(LEAST_SHARE).map(|&leaf| {
             let (mut pairs, mut looked_at) = (Vec::new(), 0u64);
-            let own = grown(&[v]);
-            tree.near(&own, |t| {
-                if !of_triangles[t as usize].meets(&own) {
-                    return;
-                }
+            let mut see = |v: u32, t: u32| {
                 let vs @ [a, b, c] = sheet.triangles[t as usize];
                 looked_at += 1;
                 if joined(&[v], &vs) || is_free(&[v], &vs) {
@@ -268,21 +270,24 @@ impl Itself {
                         near: true,
                     });
                 }
+            };
+            triangles.leaves_near(&vertices.nodes[leaf as usize].bounds, |other| {
+                each_that_meets(
+                    [vertices, triangles],
+                    [&of_vertices, &of_triangles],
+                    [leaf, other],
+                    &mut see,
+                );
             });
             (pairs, looked_at)
         });
         let mut found: Vec<(Vec<Pair>, u64)> = at_corners.collect();
-        let edges = &sheet.adjacency.edges;
-        let boxes: Vec<Aabb> = edges.par_iter().map(|e| grown(e)).collect();
-        refit(&mut self.trees[1], &boxes);
-        let tree = &self.trees[1];
-        let at_edges = edges.par_iter().enumerate().with_min_len(LEAST_SHARE).map(|(e, &[a, b])| {
+        let nodes = (0..tree.nodes.len() as u32).into_par_iter().with_min_len(LEAST_SHARE);
+        let at_edges = nodes.map(|node| {
             let (mut pairs, mut looked_at) = (Vec::new(), 0u64);
-            tree.near(&boxes[e], |f| {
-                if f as usize <= e || !boxes[f as usize].meets(&boxes[e]) {
-                    return;
-                }
-                let [c, d] = edges[f as usize];
+            let mut see = |e: u32, f: u32| {
+                let [e, f] = [e.min(f), e.max(f)];
+                let [[a, b], [c, d]] = [e, f].map(|e| edges[e as usize]);
                 looked_at += 1;
                 if joined(&[a, b], &[c, d]) || is_free(&[a, b], &[c, d]) {
                     return;
@@ -296,7 +301,7 @@ impl Itself {
                     let outwards = |e: u32| beside_edge(sheet, e).map(out).sum::<DVec3>();
                     let across = (pb - pa).cross(pd - pc);
                     let side = match own.cmp(&other) {
-                        Ordering::Less => across.dot(outwards(e as u32)).signum(),
+                        Ordering::Less => across.dot(outwards(e)).signum(),
                         Ordering::Equal => across.dot(pc - pa).signum(),
                         Ordering::Greater => -across.dot(outwards(f)).signum(),
                     };
@@ -309,6 +314,9 @@ impl Itself {
                         near: true,
                     });
                 }
+            };
+            tree.leaves_between(node, |one, other| {
+                each_that_meets([tree; 2], [&boxes; 2], [one, other], &mut see);
             });
             (pairs, looked_at)
         });
@@ -423,6 +431,21 @@ impl Itself {
 
 fn beside_edge(sheet: &Sheet, edge: u32) -> impl Iterator<Item = u32> {
     sheet.adjacency.edge_triangles.of(edge).iter().copied()
+}
+
+/// Calls `found` for every two items whose `boxes` meet, one of a leaf of the one tree and one of the other's; of one leaf alone
+/// for every two of it once.
+fn each_that_meets(trees: [&Bvh; 2], boxes: [&[Aabb]; 2], leaves: [u32; 2], mut found: impl FnMut(u32, u32)) {
+    let [ones, others] = [0, 1].map(|k| trees[k].items_of(leaves[k]));
+    let bounds = &trees[1].nodes[leaves[1] as usize].bounds;
+    let alone = std::ptr::eq(ones, others);
+    for (k, &i) in ones.iter().enumerate() {
+        let own = &boxes[0][i as usize];
+        if own.meets(bounds) {
+            let others = if alone { &others[k + 1..] } else { others };
+            others.iter().filter(|&&j| boxes[1][j as usize].meets(own)).for_each(|&j| found(i, j));
+        }
+    }
 }
 
 /// Cloth keeps its neighbours: a tree made once stays a good one.

@@ -118,6 +118,22 @@ impl Bvh {
 
     /// Calls `found` for every item whose leaf's box meets `query`; the caller tests the item itself.
     pub fn near(&self, query: &Aabb, mut found: impl FnMut(u32)) {
+        self.leaves_near(query, |leaf| self.items_of(leaf).iter().copied().for_each(&mut found));
+    }
+
+    /// The items of a leaf.
+    pub fn items_of(&self, leaf: u32) -> &[u32] {
+        let node = &self.nodes[leaf as usize];
+        &self.items[node.first as usize..(node.first + node.count) as usize]
+    }
+
+    /// The leaves.
+    pub fn leaves(&self) -> impl Iterator<Item = u32> {
+        (0u32..).zip(&self.nodes).filter(|(_, node)| node.is_leaf()).map(|(at, _)| at)
+    }
+
+    /// Calls `found` for every leaf whose box meets `query`.
+    pub fn leaves_near(&self, query: &Aabb, mut found: impl FnMut(u32)) {
         if self.nodes.is_empty() {
             return;
         }
@@ -132,11 +148,33 @@ impl Bvh {
                 continue;
             }
             if node.is_leaf() {
-                let first = node.first as usize;
-                self.items[first..first + node.count as usize].iter().copied().for_each(&mut found);
+                found(at);
             } else {
                 (open[count], open[count + 1]) = (node.right, at + 1);
                 count += 2;
+            }
+        }
+    }
+
+    /// Calls `found` for every two leaves whose boxes meet, one below each child of `node`; for a leaf with itself. So all nodes
+    /// together find every two leaves of the tree once.
+    pub fn leaves_between(&self, node: u32, mut found: impl FnMut(u32, u32)) {
+        if self.nodes[node as usize].is_leaf() {
+            found(node, node);
+            return;
+        }
+        let mut open = vec![[node + 1, self.nodes[node as usize].right]];
+        while let Some([a, b]) = open.pop() {
+            let [one, two] = [a, b].map(|at| &self.nodes[at as usize]);
+            if !one.bounds.meets(&two.bounds) {
+                continue;
+            }
+            if one.is_leaf() && two.is_leaf() {
+                found(a, b);
+            } else if two.is_leaf() || (!one.is_leaf() && one.count >= two.count) {
+                open.extend([[a + 1, b], [one.right, b]]);
+            } else {
+                open.extend([[a, b + 1], [a, two.right]]);
             }
         }
     }
@@ -187,6 +225,30 @@ mod tests {
                 (0..boxes.len() as u32).filter(|&i| boxes[i as usize].meets(query)).collect();
             assert_eq!(found, exact);
         }
+    }
+
+    #[test]
+    fn leaves_that_meet_hold_what_meets_by_brute_force() {
+        let points = points(900);
+        let boxes: Vec<Aabb> =
+            points.chunks_exact(2).map(|p| Aabb::around(&[p[0], p[0] + (p[1] - 0.5) * 0.2])).collect();
+        let tree = Bvh::new(&boxes);
+        let mut found = Vec::new();
+        for node in 0..tree.nodes.len() as u32 {
+            tree.leaves_between(node, |a, b| {
+                for &i in tree.items_of(a) {
+                    let more = tree.items_of(b).iter().filter(|&&j| a != b || i < j);
+                    let meets = |j: &&u32| boxes[**j as usize].meets(&boxes[i as usize]);
+                    found.extend(more.filter(meets).map(|&j| [i.min(j), i.max(j)]));
+                }
+            });
+        }
+        found.sort_unstable();
+        let count = boxes.len() as u32;
+        let all = (0..count).flat_map(|i| (i + 1..count).map(move |j| [i, j]));
+        let exact: Vec<[u32; 2]> =
+            all.filter(|pair| boxes[pair[0] as usize].meets(&boxes[pair[1] as usize])).collect();
+        assert_eq!(found, exact);
     }
 
     #[test]
