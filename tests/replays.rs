@@ -30,6 +30,7 @@ fn recordings() -> Vec<PathBuf> {
 fn bless() {
     for (name, project, play) in [
         ("ball.jsonl", common::project(), scenario::play as fn(&mut Session)),
+        ("frozen.jsonl", common::project(), scenario::frozen),
         ("laser.jsonl", common::tube_project(), scenario::laser),
     ] {
         let path = folder().join(name);

@@ -1,5 +1,7 @@
 //! Commands, undo, recordings and project files, through the library's front door.
 
+#[path = "sessions/activities.rs"]
+mod activities;
 #[path = "sessions/bodies.rs"]
 mod bodies;
 #[path = "sessions/commands.rs"]

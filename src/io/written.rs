@@ -112,6 +112,7 @@ fn parts_of_piece(piece: &Piece) -> Vec<Part> {
         locked: _,
         hidden: _,
         layer,
+        activity: _,
         pose: _,
         placement,
         label,

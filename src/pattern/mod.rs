@@ -1,5 +1,6 @@
 //! The flat garment.
 
+pub mod activity;
 pub mod curve;
 pub mod cut;
 pub mod edit;

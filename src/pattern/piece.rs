@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::geometry::ids::PieceId;
 use crate::geometry::polygon::signed_area;
+use crate::pattern::activity::Activity;
 use crate::pattern::curve;
 
 /// Arc lengths are computed to this accuracy (metres).
@@ -140,6 +141,9 @@ pub struct Piece {
     /// Worn over all pieces of a lower layer, 0..=[`MOST_LAYER`](crate::pattern::layers::MOST_LAYER); layer 0 lies next to the skin.
     #[serde(default, skip_serializing_if = "is_skin")]
     pub layer: u8,
+    /// Whether draping and relaxing move it.
+    #[serde(default, skip_serializing_if = "Activity::is_active")]
+    pub activity: Activity,
     /// Where it lies in the pattern pane.
     pub pose: PlanePose,
     /// Where the source file put it round the body, if it did.

@@ -359,6 +359,9 @@ impl Session {
                 Some(RequestKind::StepDraping { ticks, source: drape_source(&edit.document)? })
             }
             ClothChange::SetFabrics => Some(RequestKind::SetFabrics(drape_source(&edit.document)?)),
+            ClothChange::SetActivities => {
+                Some(RequestKind::SetActivities(Arc::new(edit.document.pattern.activities())))
+            }
         };
         let kind = edit.kind();
         let history = if edit.is_step() {

@@ -135,6 +135,7 @@ impl World {
     }
 
     fn begin_draping(&mut self) -> Result<(), Undrapable> {
+        let held = self.held();
         let (Some(garment), Some(body), Some(source), Some(draping)) =
             (&self.garment, &self.body, &self.source, &mut self.draping)
         else {
@@ -143,13 +144,12 @@ impl World {
         let settings =
             WornSettings { strain: draping.source.strain, self_collision: true, skips: source.relax.skips };
         let fabrics = Arc::clone(&draping.source);
-        let pins: Vec<u32> = self.pinned.iter().flatten().copied().collect();
         let worn = Worn::new(
             Arc::clone(garment),
             &self.cloth,
             Arc::clone(body),
             (&fabrics.of_pieces, &fabrics.fabric),
-            &pins,
+            &held,
             settings,
         )?;
         Arc::make_mut(draping).worn = Some(worn);
@@ -173,12 +173,12 @@ impl World {
         }
     }
 
-    /// Pins hold what is draped. False where nothing is.
-    pub(super) fn pin_draped(&mut self, pins: &[u32]) -> bool {
+    /// Exactly these vertices of what is draped stay. False where nothing is draped.
+    pub(super) fn hold_draped(&mut self, held: &[u32]) -> bool {
         let Some(worn) = self.draping.as_mut().and_then(|d| Arc::make_mut(d).worn.as_mut()) else {
             return false;
         };
-        worn.pin(pins);
+        worn.pin(held);
         true
     }
 

@@ -1,5 +1,6 @@
 //! Owner of the moving state: runs the stages, takes requests between ticks, keeps checkpoints, publishes snapshots.
 
+mod activity;
 mod checkpoints;
 pub mod draped;
 pub mod fault;

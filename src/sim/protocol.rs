@@ -1,5 +1,6 @@
 //! What goes into the simulation and what comes out.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use glam::DVec2;
@@ -10,6 +11,7 @@ use crate::cloth::{ClothState, Garment};
 use crate::contact::Bone;
 use crate::drag::{DragMode, Ray};
 use crate::geometry::ids::PieceId;
+use crate::pattern::activity::Activity;
 use crate::pattern::edit::Carried;
 use crate::pattern::{Pattern, Problem};
 use crate::relax::RelaxSettings;
@@ -89,6 +91,8 @@ pub enum RequestKind {
     Sew { source: Arc<GarmentSource>, body: Arc<Surface>, fabrics: Arc<DrapeSource> },
     /// What is draped is made of something else.
     SetFabrics(Arc<DrapeSource>),
+    /// These pieces are frozen or not, all others active.
+    SetActivities(Arc<BTreeMap<PieceId, Activity>>),
     /// Take the cloth off.
     Clear,
     /// Return, bit for bit, to the state before the request numbered `before_seq`.

@@ -220,6 +220,7 @@ impl Simulation {
                 self.set_world(World::placed(source, body, fabrics)?);
             }
             RequestKind::SetFabrics(source) => self.world.set_fabrics(source),
+            RequestKind::SetActivities(activities) => self.world.set_activities(&activities),
             RequestKind::SetPins(places) => self.world.set_pins(&places),
             RequestKind::Grab { at, mode, bones } => self.world.grab(at, mode, &bones),
             RequestKind::DragTo(pointer) => self.world.drag_to(pointer),

@@ -13,6 +13,7 @@ use crate::pattern::edit::Carried;
 use crate::pattern::triangulate::Meshes;
 use crate::pattern::{Pattern, Problem, ProblemKind};
 use crate::relax::RelaxSettings;
+use crate::sim::activity::frozen;
 use crate::sim::draped::Draping;
 use crate::sim::hash::cloth_hash;
 use crate::sim::posed::Posed;
@@ -133,13 +134,18 @@ impl World {
         let places = Arc::clone(&self.places);
         let here = self.body.as_ref().is_some_and(|old| Arc::ptr_eq(old, &body));
         let cut = self.garment.clone().filter(|_| here).map(|old| self.recut(&source, old));
-        let held = cut.filter(|cut| cut.is_as_before || cut.pinned.iter().any(|v| v.is_some()));
+        let holds = |cut: &Cut| {
+            cut.pinned.iter().any(|v| v.is_some())
+                || !frozen(&source.pattern, &cut.garment, &cut.cloth).is_empty()
+        };
+        let held = cut.filter(|cut| cut.is_as_before || holds(cut));
         let Some(Cut { garment, cloth, pinned, problems, .. }) = held else {
             let chosen = GarmentSource { marks: Arc::new(marks), ..GarmentSource::clone(&source) };
             let pinned = Arc::new(vec![None; places.len()]);
             return Self { source: Some(source), places, pinned, ..Self::wrapped(Arc::new(chosen), body) };
         };
-        let pins: Vec<u32> = pinned.iter().flatten().copied().collect();
+        let frozen = frozen(&source.pattern, &garment, &cloth);
+        let pins: Vec<u32> = pinned.iter().flatten().copied().chain(frozen).collect();
         let dressed = Dressed { cloth: &cloth, pins: &pins };
         let begun =
             Dressing::rewrapped(Arc::clone(&garment), Arc::clone(&body), &marks, source.relax, dressed);
@@ -175,7 +181,8 @@ impl World {
         let pinned: Vec<Option<u32>> = places.iter().map(under).collect();
         let dressing = Dressing::resumed(Arc::clone(&garment), Arc::clone(&body), source.relax, &cloth);
         let dressing = dressing.map(|mut dressing| {
-            dressing.fix(&pinned.iter().flatten().copied().collect::<Vec<u32>>());
+            let frozen = frozen(&source.pattern, &garment, &cloth);
+            dressing.fix(&pinned.iter().flatten().copied().chain(frozen).collect::<Vec<u32>>());
             dressing.settle_again();
             Arc::new(dressing)
         });
@@ -253,32 +260,21 @@ impl World {
             return;
         }
         self.resume();
-        if let Some(dressing) = &mut self.dressing {
-            Arc::make_mut(dressing).set_settings(relax);
+        let held = self.held();
+        if let Some(dressing) = self.dressing.as_mut().map(Arc::make_mut) {
+            dressing.set_settings(relax);
+            if dressing.relaxer().is_some() {
+                dressing.fix(&held);
+            }
         }
     }
 
     /// Exactly the vertices nearest to `places` are pinned. Cloth that lies wakes when a pin is pulled out.
     pub fn set_pins(&mut self, places: &[ClothPlace]) {
-        let before = self.pinned_vertices();
+        let before = self.held();
         self.places = Arc::new(places.to_vec());
         self.pinned = Arc::new(places.iter().map(|&place| Some(self.under(place)?.0)).collect());
-        if self.dragging.is_some() || self.sewing.is_some() {
-            return; // What is in the hand settles later, and what is being sewn is pinned when it lies.
-        }
-        let pinned = self.pinned_vertices();
-        if self.pin_draped(&pinned) {
-            return;
-        }
-        if before.iter().any(|v| !pinned.contains(v)) {
-            self.settle();
-        } else if let Some(dressing) = &mut self.dressing {
-            Arc::make_mut(dressing).fix(&pinned);
-        }
-    }
-
-    fn pinned_vertices(&self) -> Vec<u32> {
-        self.pinned.iter().flatten().copied().collect()
+        self.hold(&before);
     }
 
     /// Takes the cloth at `at` in the hand. Cloth that is not there, or still grows, stays as it is.
@@ -292,7 +288,7 @@ impl World {
         let Some(mut relaxer) = self.dressing.as_ref().and_then(|d| d.relaxer()).cloned() else { return };
         relaxer.bones = Arc::new(Bones::new(bones, &relaxer.surface));
         let beside = place - self.cloth.positions[hand as usize];
-        let dragging = Dragging::new(relaxer, &self.cloth, hand, beside, mode, &self.pinned_vertices());
+        let dragging = Dragging::new(relaxer, &self.cloth, hand, beside, mode, &self.held());
         self.dragged = Some(Arc::new(dragging.shares()));
         self.dragging = Some(Arc::new(dragging));
         self.dressing = None;
@@ -319,7 +315,7 @@ impl World {
 
     pub(super) fn settle(&mut self) {
         self.resume();
-        let pinned = self.pinned_vertices();
+        let pinned = self.held();
         if let Some(dressing) = &mut self.dressing {
             let dressing = Arc::make_mut(dressing);
             dressing.fix(&pinned);
@@ -348,7 +344,7 @@ impl World {
     fn resumed(&self) -> Option<Arc<Dressing>> {
         let (garment, body, source) = (self.garment.clone()?, self.body.clone()?, self.source.as_ref()?);
         let mut dressing = Dressing::resumed(garment, body, source.relax, &self.cloth)?;
-        dressing.fix(&self.pinned_vertices());
+        dressing.fix(&self.held());
         Some(Arc::new(dressing))
     }
 

@@ -89,6 +89,7 @@ impl App {
             | Action::Unlink
             | Action::TurnOver
             | Action::ToggleLock
+            | Action::ToggleFrozen
             | Action::Hide
             | Action::ShowPieces
             | Action::InsertPoint

@@ -103,6 +103,7 @@ pub enum Action {
     Unlink,
     TurnOver,
     ToggleLock,
+    ToggleFrozen,
     Hide,
     ShowPieces,
     InsertPoint,
@@ -277,6 +278,7 @@ impl Action {
             | Self::Unlink
             | Self::TurnOver
             | Self::ToggleLock
+            | Self::ToggleFrozen
             | Self::Hide
             | Self::ShowPieces
             | Self::InsertPoint

@@ -74,6 +74,7 @@ pub const ALL: &[Action] = &[
     Action::Unlink,
     Action::TurnOver,
     Action::ToggleLock,
+    Action::ToggleFrozen,
     Action::Hide,
     Action::ShowPieces,
     Action::InsertPoint,
@@ -237,6 +238,7 @@ impl Action {
             | Self::Unlink
             | Self::TurnOver
             | Self::ToggleLock
+            | Self::ToggleFrozen
             | Self::Hide
             | Self::ShowPieces
             | Self::InsertPoint

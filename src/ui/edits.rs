@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use glam::DVec2;
 
 use crate::geometry::ids::PieceId;
+use crate::pattern::activity::Activity;
 use crate::pattern::edit::{PatternEdit, PointRef};
 use crate::pattern::{EdgeRef, EdgeShape, Pattern, Piece, PlanePose, curve};
 use crate::ui::actions::Action;
@@ -58,6 +59,11 @@ pub fn edits(action: Action, pattern: &Pattern, selection: &Selection) -> Vec<Pa
         Action::ToggleLock if !pieces.is_empty() => {
             let locked = !pieces.iter().all(|id| pattern.pieces[id].locked);
             vec![PatternEdit::SetLocked { pieces, locked }]
+        }
+        Action::ToggleFrozen if !pieces.is_empty() => {
+            let all = pieces.iter().all(|id| pattern.pieces[id].activity == Activity::Frozen);
+            let activity = if all { Activity::Active } else { Activity::Frozen };
+            vec![PatternEdit::SetActivity { pieces, activity }]
         }
         Action::Hide if !pieces.is_empty() => vec![PatternEdit::SetHidden { pieces, hidden: true }],
         Action::ShowPieces => {
@@ -230,6 +236,8 @@ pub struct Picked {
     pub straight: bool,
     /// All of the pieces are locked.
     pub locked: bool,
+    /// What draping does with all of the pieces, where that is the same.
+    pub activity: Option<Activity>,
     /// Anything that can be deleted.
     pub deletable: bool,
     /// Some piece of the pattern is hidden.
@@ -241,6 +249,7 @@ impl Picked {
     pub fn new(pattern: &Pattern, selection: &Selection) -> Self {
         let touched: BTreeSet<PieceId> = selection.pieces_touched();
         let pieces = || touched.iter().filter_map(|id| pattern.pieces.get(id));
+        let first = pieces().next().map(|piece| piece.activity);
         Self {
             pieces: touched.len(),
             points: selection.points.len(),
@@ -251,6 +260,7 @@ impl Picked {
             linked: pieces().any(|piece| piece.symmetric || piece.twin.is_some()),
             straight: selection.edges.iter().any(|edge| is_straight(pattern, *edge)),
             locked: !touched.is_empty() && pieces().all(|piece| piece.locked),
+            activity: first.filter(|first| pieces().all(|piece| piece.activity == *first)),
             deletable: !selection.pins.is_empty() || !deletions(pattern, selection).is_empty(),
             hidden: pattern.pieces.values().any(|piece| piece.hidden),
         }

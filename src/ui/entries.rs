@@ -90,6 +90,11 @@ impl Action {
                 "Keep the selected pieces from being changed by the pointer, or the selected pins where they are",
                 &[ctrl(Key::L)],
             ),
+            Self::ToggleFrozen => entry(
+                "Freeze",
+                "Draping and relaxing leave the selected pieces where they lie on the body; others collide with them and hang from them",
+                &[ctrl(Key::K)],
+            ),
             Self::Hide => {
                 entry("Hide", "Do not show the selected pieces; they are sewn all the same", &[ctrl(Key::H)])
             }

@@ -34,6 +34,7 @@ mod pace;
 mod pair_lines;
 mod panels;
 mod panes;
+mod parted;
 mod pattern_pane;
 mod pattern_panel;
 mod pick;

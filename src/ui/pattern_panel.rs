@@ -5,6 +5,7 @@ use egui::{Button, Grid, Key, RichText, TextEdit, WidgetInfo};
 use glam::DVec2;
 
 use crate::geometry::ids::{PieceId, SeamId};
+use crate::pattern::activity::Activity;
 use crate::pattern::edit::{PatternEdit, PointRef, WIDEST_ALLOWANCE};
 use crate::pattern::layers::MOST_LAYER;
 use crate::pattern::{EdgeRef, EdgeShape, Piece, PlanePose, Seam};
@@ -115,6 +116,7 @@ impl PatternPanel {
             }
             weak(ui, told, "0 next to the skin");
         });
+        activity_ui(ui, told, &ids, asks);
         let seen = [Action::Twin, Action::MakeSymmetric, Action::Unlink, Action::Fold];
         action_row(ui, told, &seen, asks);
     }
@@ -161,7 +163,11 @@ impl PatternPanel {
                     let locked = !piece.locked;
                     asks.push(ask(vec![PatternEdit::SetLocked { pieces: vec![id], locked }]));
                 }
-                let signs = [(piece.symmetric, " · symmetric"), (piece.twin.is_some(), " · twin")];
+                let signs = [
+                    (piece.symmetric, " · symmetric"),
+                    (piece.twin.is_some(), " · twin"),
+                    (piece.activity == Activity::Frozen, " · frozen"),
+                ];
                 let signs: String = signs.iter().filter(|s| s.0).map(|s| s.1).collect();
                 let text = RichText::new(format!("{}{signs}", piece.name));
                 let text = if piece.hidden { text.color(told.palette.weak) } else { text };
@@ -225,6 +231,22 @@ fn action_row(ui: &mut egui::Ui, told: &Told<'_>, actions: &[Action], asks: &mut
 
 fn weak(ui: &mut egui::Ui, told: &Told<'_>, text: &str) -> egui::Response {
     ui.label(RichText::new(text).color(told.palette.weak).size(12.5))
+}
+
+/// What draping does with `pieces`.
+fn activity_ui(ui: &mut egui::Ui, told: &Told<'_>, pieces: &[PieceId], asks: &mut Asks) {
+    ui.horizontal(|ui| {
+        weak(ui, told, "Draping");
+        for (activity, text, tip) in [
+            (Activity::Active, "Active", "Draping and relaxing move it"),
+            (Activity::Frozen, "Frozen", Action::ToggleFrozen.entry().tip),
+        ] {
+            let is_so = told.now.picked.activity == Some(activity);
+            if ui.selectable_label(is_so, text).on_hover_text(tip).clicked() && !is_so {
+                asks.push(ask(vec![PatternEdit::SetActivity { pieces: pieces.to_vec(), activity }]));
+            }
+        }
+    });
 }
 
 fn edge_ui(ui: &mut egui::Ui, told: &Told<'_>, edge: EdgeRef, asks: &mut Asks) {

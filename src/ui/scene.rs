@@ -1,5 +1,6 @@
 //! From a body, marks and cloth to what the renderer draws. No egui here: the headless pictures use it too.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use glam::{DVec2, DVec3, Vec2, Vec3};
@@ -10,8 +11,10 @@ use crate::contact::Bone;
 use crate::geometry::adjacency::NONE;
 use crate::geometry::ids::{MarkId, PieceId};
 use crate::geometry::mesh::vertex_normals;
+use crate::pattern::activity::Activity;
 use crate::render::{BODY, CLOTH_BACK, CLOTH_FRONT, Ground, Label, Mesh, Polyline, Rgb, Scene, mark_colour};
 use crate::ui::mapped::in_colours;
+use crate::ui::parted::parted;
 use crate::ui::stitches::stitched;
 use crate::wrap::{ClothMark, Marks};
 
@@ -45,6 +48,8 @@ pub struct Shown<'a> {
     pub pins: &'a [PinLook],
     /// Bones, seen through the body.
     pub bones: &'a [Bone],
+    /// Pieces that are not active.
+    pub activities: Option<&'a BTreeMap<PieceId, Activity>>,
     /// How much of a drag reaches each vertex of the cloth, 0..=1.
     pub dragged: Option<&'a Arc<Vec<f32>>>,
     /// The colours of a map, one for each vertex of the cloth, instead of its own.
@@ -81,7 +86,9 @@ struct DrawnCloth {
     state: Arc<ClothState>,
     dragged: Option<Arc<Vec<f32>>>,
     map: Option<Arc<Vec<Rgb>>>,
-    mesh: Arc<Mesh>,
+    activities: BTreeMap<PieceId, Activity>,
+    /// With the same vertices.
+    meshes: Vec<Arc<Mesh>>,
     lines: Vec<Polyline>,
 }
 
@@ -137,7 +144,7 @@ impl Scenery {
         if let Some((garment, state)) = shown.cloth {
             self.draw_cloth(garment, state, shown, scale);
             if let Some(drawn) = &self.cloth {
-                scene.meshes.push(Arc::clone(&drawn.mesh));
+                scene.meshes.extend(drawn.meshes.iter().cloned());
                 scene.lines.extend(drawn.lines.iter().cloned());
                 push_pins(shown, drawn, scale, &mut scene);
             }
@@ -171,11 +178,13 @@ impl Scenery {
 
     fn draw_cloth(&mut self, garment: &Arc<Garment>, state: &Arc<ClothState>, shown: &Shown<'_>, scale: f32) {
         let Shown { dragged, map, .. } = *shown;
+        let activities = shown.activities.cloned().unwrap_or_default();
         let kept = self.cloth.as_ref().is_some_and(|c| {
             Arc::ptr_eq(&c.garment, garment)
                 && Arc::ptr_eq(&c.state, state)
                 && c.dragged.as_ref().map(Arc::as_ptr) == dragged.map(Arc::as_ptr)
                 && c.map.as_ref().map(Arc::as_ptr) == map.map(Arc::as_ptr)
+                && c.activities == activities
         });
         if kept || state.positions.len() != garment.vertex_count {
             return;
@@ -186,12 +195,15 @@ impl Scenery {
             colours: dragged.map(|shares| tints(shares, state)).unwrap_or_default(),
             ..cloth_mesh(garment, state)
         };
+        let coloured =
+            |mesh: Mesh| Arc::new(map.and_then(|colours| in_colours(&mesh, colours)).unwrap_or(mesh));
         self.cloth = Some(DrawnCloth {
             garment: Arc::clone(garment),
             state: Arc::clone(state),
             dragged: dragged.cloned(),
             map: map.cloned(),
-            mesh: Arc::new(map.and_then(|colours| in_colours(&mesh, colours)).unwrap_or(mesh)),
+            meshes: parted(mesh, garment, state, &activities).into_iter().map(coloured).collect(),
+            activities,
             lines,
         });
     }
@@ -271,9 +283,10 @@ fn tints(shares: &[f32], state: &ClothState) -> Vec<Rgb> {
 /// is locked.
 fn push_pins(shown: &Shown<'_>, cloth: &DrawnCloth, scale: f32, scene: &mut Scene) {
     let looks = shown.pins.iter().copied().chain(std::iter::repeat(PinLook::default()));
+    let Some(mesh) = cloth.meshes.first() else { return };
     for (v, look) in shown.pinned.iter().zip(looks) {
         let v = v.map(|v| v as usize);
-        let place = v.and_then(|v| Some((*cloth.mesh.positions.get(v)?, *cloth.mesh.normals.get(v)?)));
+        let place = v.and_then(|v| Some((*mesh.positions.get(v)?, *mesh.normals.get(v)?)));
         let Some((at, normal)) = place else { continue };
         let head = at + normal * (PIN_LENGTH * scale);
         let line = |points, colour, width, lift| Polyline {

@@ -8,6 +8,7 @@ use crate::drag::DragMode;
 use crate::fit::MapKind;
 use crate::geometry::ids::MarkId;
 use crate::io::pdf::Paper;
+use crate::pattern::activity::Activity;
 use crate::sim::DrapeState;
 use crate::ui::actions::{Action, Tool};
 use crate::ui::drawer::Drawer;
@@ -205,9 +206,12 @@ impl Situation {
             },
             Action::Delete => unless(self.selected.is_some() || self.picked.deletable, "Nothing is selected"),
             Action::SelectAll => unless(self.pieces > 0, "There is no piece on the table"),
-            Action::Duplicate | Action::Twin | Action::MakeSymmetric | Action::TurnOver | Action::Hide => {
-                unless(self.picked.pieces > 0, "No piece is selected")
-            }
+            Action::Duplicate
+            | Action::Twin
+            | Action::MakeSymmetric
+            | Action::TurnOver
+            | Action::ToggleFrozen
+            | Action::Hide => unless(self.picked.pieces > 0, "No piece is selected"),
             Action::ToggleLock => {
                 unless(self.picked.pieces + self.picked.pins > 0, "No piece or pin is selected")
             }
@@ -236,6 +240,7 @@ impl Situation {
             Action::Choose(tool) => self.tool == tool,
             Action::ToggleLaser => self.laser,
             Action::ToggleLock => self.picked.locked,
+            Action::ToggleFrozen => self.picked.activity == Some(Activity::Frozen),
             Action::TogglePairs => self.sight.pairs,
             Action::ToggleSnapping => self.snapping,
             Action::Unit(unit) => self.unit == unit,

@@ -2,6 +2,7 @@
 
 use egui::{Color32, CornerRadius, Margin, Stroke, Theme, Vec2, Visuals};
 
+use crate::pattern::activity::Activity;
 use crate::render::{Look, Rgb};
 
 /// Colours that egui has no place for.
@@ -21,6 +22,8 @@ pub struct Palette {
     pub front: [Color32; 2],
     /// A piece seen from its back, and its outline.
     pub back: [Color32; 2],
+    /// What the cloth of frozen pieces is mixed with.
+    pub frozen: Color32,
     /// Threads between sewn edges.
     pub thread: Color32,
     /// Names of pieces.
@@ -55,6 +58,7 @@ impl Palette {
                 table_grid_strong: rgb(0xe0e5ea),
                 front: [rgb(0xd9ead6), rgb(0x4b7d50)],
                 back: [rgb(0xf7dde2), rgb(0xa8616f)],
+                frozen: rgb(0xc4dcf7),
                 thread: rgb(0x8a939d),
                 piece_text: rgb(0x46564a),
                 halo: rgb(0xffffff),
@@ -74,6 +78,7 @@ impl Palette {
                 table_grid_strong: rgb(0x31363d),
                 front: [rgb(0x34493a), rgb(0x8fbf90)],
                 back: [rgb(0x553841), rgb(0xdfa4b1)],
+                frozen: rgb(0x2c4a72),
                 thread: rgb(0x8f99a4),
                 piece_text: rgb(0xcbd9cd),
                 halo: rgb(0xf4f6f8),
@@ -90,6 +95,15 @@ impl Palette {
 }
 
 impl Palette {
+    /// The cloth of a piece and its outline.
+    pub fn piece(&self, front: bool, activity: Activity) -> [Color32; 2] {
+        let [cloth, line] = if front { self.front } else { self.back };
+        match activity {
+            Activity::Active => [cloth, line],
+            Activity::Frozen => [cloth.lerp_to_gamma(self.frozen, 0.6), line],
+        }
+    }
+
     /// The colour of the seam with this number, the same on both its edges; neighbours differ.
     pub fn seam(&self, number: u32) -> Color32 {
         let [saturation, value] = self.seam_tone;
@@ -209,6 +223,8 @@ mod tests {
                 ("chosen", v.selection.stroke.color, v.selection.bg_fill),
                 ("front of pieces", p.piece_text, p.front[0]),
                 ("back of pieces", p.piece_text, p.back[0]),
+                ("frozen pieces", p.piece_text, p.piece(true, Activity::Frozen)[0]),
+                ("their backs", p.piece_text, p.piece(false, Activity::Frozen)[0]),
             ] {
                 let ratio = contrast(ink, paper);
                 assert!(ratio >= 4.5, "{theme:?} {what}: {ratio}");

@@ -2,6 +2,8 @@
 
 use glam::{DVec2, DVec3};
 use toile::geometry::ids::PieceId;
+use toile::pattern::activity::Activity;
+use toile::pattern::edit::PatternEdit;
 use toile::relax::RelaxSettings;
 use toile::session::{Command, Session, Settings};
 use toile::wrap::ClothSide;
@@ -22,6 +24,19 @@ pub fn laser(s: &mut Session) {
     }
     s.apply_alone(Command::Wrap).expect("wrapped");
     run(s, 2000);
+}
+
+/// One of two patches is frozen, the other drapes from it; then both drape.
+pub fn frozen(s: &mut Session) {
+    s.apply_alone(Command::Wrap).expect("wrapped");
+    run(s, 2000);
+    for activity in [Activity::Frozen, Activity::Active] {
+        let edits = vec![PatternEdit::SetActivity { pieces: vec![PieceId(1)], activity }];
+        s.apply_alone(Command::EditPattern { edits, anew: false }).expect("set");
+        s.apply_alone(Command::SetDraping { on: true }).expect("draped");
+        run(s, 40);
+    }
+    s.apply_alone(Command::SetDraping { on: false }).expect("paused");
 }
 
 /// A little of everything, with ticks between.

@@ -1,5 +1,7 @@
 //! Draping dressed cloth in the window.
 
+use toile::pattern::activity::Activity;
+
 use super::hand::{dressed_window, positions};
 use super::*;
 
@@ -57,4 +59,27 @@ fn fabrics_are_chosen_from_lists() {
     assert_eq!(fabrics(&window).name(None), "woven-heavy");
     key(&mut window, Modifiers::COMMAND, Key::Z);
     assert_eq!(fabrics(&window).name(None), "cotton");
+}
+
+#[test]
+fn a_piece_is_frozen_by_a_key_and_let_go_in_the_panel() {
+    let mut window = dressed_window();
+    let activity = |window: &Window| {
+        let pattern = &app(window).session().document().pattern;
+        pattern.pieces.values().next().expect("the square").activity
+    };
+    key(&mut window, Modifiers::NONE, Key::V);
+    key(&mut window, Modifiers::COMMAND, Key::A);
+    key(&mut window, Modifiers::COMMAND, Key::K);
+    assert_eq!(activity(&window), Activity::Frozen);
+    assert_eq!(app(&window).session().undo_label(), Some("freeze Square"));
+    let before = positions(&window);
+    key(&mut window, Modifiers::NONE, Key::Space);
+    let rests = |app: &App| app.session().snapshot().drape.is_some_and(|d| !d.waits && !d.runs);
+    wait(&mut window, "the drape", rests);
+    assert_eq!(positions(&window), before, "it stays");
+    window.get_by_label("Active").click();
+    window.run_steps(3);
+    assert_eq!(activity(&window), Activity::Active);
+    wait(&mut window, "the fall", |app| app.session().snapshot().cloth.positions != before);
 }

@@ -17,6 +17,7 @@ use glam::{DAffine2, DVec2};
 use serde::{Deserialize, Serialize};
 
 use crate::geometry::ids::{PieceId, SeamId};
+use crate::pattern::activity::Activity;
 use crate::pattern::layers::MOST_LAYER;
 use crate::pattern::{Edge, EdgeRef, EdgeShape, InternalLine, Pattern, Piece, PlanePose, Seam, curve};
 pub use cutting::nearest_on_edge;
@@ -73,6 +74,8 @@ pub enum PatternEdit {
     SetHidden { pieces: Vec<PieceId>, hidden: bool },
     /// Wear pieces on another layer, 0..=15: over all pieces of lower ones. Counts when they are sewn the next time.
     SetLayer { pieces: Vec<PieceId>, layer: u8 },
+    /// Freeze pieces where they lie on the body, or let draping and relaxing move them again.
+    SetActivity { pieces: Vec<PieceId>, activity: Activity },
 
     /// Move points. The curves beside them turn and scale with their chords.
     MovePoints { points: Vec<(PointRef, DVec2)> },
@@ -256,6 +259,13 @@ fn carry_out(pattern: &mut Pattern, edit: &PatternEdit) -> Result<Change, String
                 return Err(format!("layer {layer} is none: there are 0 to {MOST_LAYER}"));
             }
             pieces::set_all(pattern, pieces, "wear on another layer", |p| p.layer = *layer)
+        }
+        PatternEdit::SetActivity { pieces, activity } => {
+            let what = match activity {
+                Activity::Active => "let go of",
+                Activity::Frozen => "freeze",
+            };
+            pieces::set_all(pattern, pieces, what, |p| p.activity = *activity)
         }
         PatternEdit::MovePoints { points } => points::move_points(pattern, points),
         PatternEdit::SetEdge { edge, shape } => points::set_edge(pattern, *edge, *shape),

@@ -57,6 +57,8 @@ pub enum ClothChange {
     StepDraping(u32),
     /// It is made of what the document says now.
     SetFabrics,
+    /// Its pieces are frozen or not as the document says now.
+    SetActivities,
 }
 
 /// What a command does.
@@ -104,6 +106,7 @@ impl Edit {
             | ClothChange::SetDraping(true)
             | ClothChange::StepDraping(_)
             | ClothChange::SetFabrics
+            | ClothChange::SetActivities
             | ClothChange::Grab { .. } => StepKind::Cloth,
             _ => StepKind::Edit,
         }

@@ -32,10 +32,13 @@ pub fn edit(mut document: Document, edits: &[PatternEdit]) -> Result<Edit, Rejec
     checks::pattern(&document.pattern)?;
     forget_gone(&mut document);
     let edit = Edit::new(label.unwrap_or_default(), document);
-    match is_cut_alike(&before, &edit.document.pattern) {
-        true => Ok(edit),
-        false => Ok(edit.with(ClothChange::Resew(carried))),
-    }
+    let after = &edit.document.pattern;
+    let change = match is_cut_alike(&before, after) {
+        false => ClothChange::Resew(carried),
+        true if before.activities() != after.activities() => ClothChange::SetActivities,
+        true => ClothChange::None,
+    };
+    Ok(edit.with(change))
 }
 
 /// Another pattern with its strokes.

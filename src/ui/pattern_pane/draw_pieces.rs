@@ -8,6 +8,7 @@ use super::shapes::PieceShape;
 use super::table::Table;
 use super::threads::Ends;
 use crate::geometry::ids::{PieceId, SeamId};
+use crate::pattern::activity::Activity;
 use crate::pattern::{Piece, Stretch};
 use crate::ui::actions::Tool;
 use crate::ui::maps::ShownMap;
@@ -55,7 +56,7 @@ impl Drawing<'_> {
     ) {
         let place = |p: DVec2| self.place(piece.pose.plane_from_piece(p));
         let front = front_is_seen(piece, shape);
-        let [fill, line] = if front { self.palette.front } else { self.palette.back };
+        let [fill, line] = self.palette.piece(front, piece.activity);
         let mut mesh = egui::Mesh::default();
         mesh.reserve_vertices(shape.fill.len() * 4);
         mesh.reserve_triangles(shape.fill.len() * 2);
@@ -131,7 +132,7 @@ impl Drawing<'_> {
                 continue;
             }
             let front = front_is_seen(piece, shape);
-            let fill = if front { self.palette.front[0] } else { self.palette.back[0] };
+            let [fill, _] = self.palette.piece(front, piece.activity);
             let name = words_on(piece, front);
             let corners = shape.corners().map(|p| self.place(piece.pose.plane_from_piece(p)));
             let room = Rect::from_points(&corners).width() * 1.15;
@@ -310,6 +311,7 @@ fn words_on(piece: &Piece, front: bool) -> String {
         (piece.twin.is_some(), " · twin"),
         (piece.symmetric, " · symmetric"),
         (piece.locked, " · locked"),
+        (piece.activity == Activity::Frozen, " · frozen"),
     ] {
         if is_so {
             words.push_str(sign);

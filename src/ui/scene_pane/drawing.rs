@@ -53,6 +53,7 @@ impl ScenePane {
             pinned: Some(Arc::clone(seen.pinned)),
             pins: pin_looks(seen),
             bones,
+            activities: seen.document.pattern.activities(),
             dragged: seen.dragged.cloned(),
             map: seen.map.map(|map| Arc::clone(&map.colours)),
             beside: seen.beside.cloned(),
@@ -60,7 +61,7 @@ impl ScenePane {
             ghosts: seen.ghosts.cloned(),
             stand_out: if seen.cloth.is_some() { seen.stand_out.to_vec() } else { Vec::new() },
         };
-        let (pins, bones) = (key.pins.clone(), key.bones.clone());
+        let (pins, bones, activities) = (key.pins.clone(), key.bones.clone(), key.activities.clone());
         let outlines = outlines(&seen.document.pattern, &key.stand_out);
         let shown = Shown {
             body: seen.body,
@@ -72,6 +73,7 @@ impl ScenePane {
             pinned: seen.pinned,
             pins: &pins,
             bones: &bones,
+            activities: Some(&activities),
             dragged: seen.dragged,
             map: seen.map.map(|map| &map.colours),
             beside: seen.beside.map_or(&[], |meshes| meshes),

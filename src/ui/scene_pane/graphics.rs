@@ -1,5 +1,6 @@
 //! Our own picture of the scene, kept as a texture that egui shows.
 
+use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use egui::TextureId;
@@ -8,7 +9,8 @@ use glam::UVec2;
 use crate::body::Surface;
 use crate::cloth::ClothState;
 use crate::contact::Bone;
-use crate::geometry::ids::MarkId;
+use crate::geometry::ids::{MarkId, PieceId};
+use crate::pattern::activity::Activity;
 use crate::render::{
     Camera, Gpu, Look, Mesh, OffscreenTarget, Quality, RenderError, Renderer, Rgb, Scene, straightened,
 };
@@ -43,6 +45,8 @@ pub struct Key {
     pub pins: Vec<PinLook>,
     /// With which bones.
     pub bones: Vec<Bone>,
+    /// With which pieces not active.
+    pub activities: BTreeMap<PieceId, Activity>,
     /// With which drag.
     pub dragged: Option<Arc<Vec<f32>>>,
     /// In the colours of which map.
@@ -74,6 +78,7 @@ impl PartialEq for Key {
             pinned,
             pins,
             bones,
+            activities,
             dragged,
             map,
             beside,
@@ -86,6 +91,7 @@ impl PartialEq for Key {
             && *stroke == other.stroke
             && *pins == other.pins
             && *bones == other.bones
+            && *activities == other.activities
             && *stand_out == other.stand_out
             && *near == other.near
             && *selected == other.selected
