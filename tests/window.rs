@@ -32,6 +32,8 @@ mod pictures;
 mod safety;
 #[path = "window/shell.rs"]
 mod shell;
+#[path = "window/tight.rs"]
+mod tight;
 
 type Window = Harness<'static, Option<App>>;
 

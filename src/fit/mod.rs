@@ -22,5 +22,5 @@ pub use openings::Opening;
 pub use report::{Clearance, Penetration, PieceChange, Report, Seams, Strain, measure};
 pub use seams::SeamFit;
 pub use spots::Spot;
-pub use tight::{Tight, tightest};
+pub use tight::{Tight, TightPlace, tight_places, tightest};
 pub use verdict::{faults, verdict};

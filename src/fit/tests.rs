@@ -3,8 +3,9 @@ use glam::{DVec2, DVec3};
 use super::*;
 use crate::body::Surface;
 use crate::body::closest::closest_on_triangle;
+use crate::cloth::FlatPiece;
 use crate::fit::on_body::{NEAR, WRONG_SIDE};
-use crate::fit::{faults, verdict};
+use crate::fit::{Tight, faults, tight_places, tightest, verdict};
 use crate::geometry::mesh::TriMesh;
 use crate::pattern::{EdgeRef, Piece, Seam};
 
@@ -303,4 +304,43 @@ fn figures_agree_with_an_independent_judge() {
     near(upper.height, 0.8024929602249999);
     near(lower.length, 0.9172592530494994);
     assert!(!upper.body_through && lower.body_through);
+}
+
+/// A sleeve that is stretched upwards, most in the middle of each sheet: by these shares.
+fn tight(front: f64, back: f64) -> Vec<String> {
+    let r = WIDTH / std::f64::consts::PI;
+    let lifted = |p: DVec3| {
+        let share = if p.x > 0.0 { front } else { back } * p.x.abs() / r;
+        DVec3::new(p.x, 0.5 + (p.y - 0.5) * (1.0 + share), p.z)
+    };
+    let sleeve = sleeve(r, lifted);
+    let report = report(&sleeve, cylinder(0.1, 0.0, 1.5, 24, 30));
+    let places = tight_places(&report, &sleeve.garment, &sleeve.state, || None);
+    let most = tightest(&report, &sleeve.garment, &sleeve.state, || None);
+    assert_eq!(places.first().map(|place| &place.tight), most.as_ref());
+    for place in &places {
+        let flat = FlatPiece::new(&sleeve.garment, place.piece).inside(&sleeve.garment, place.flat);
+        let there = flat.and_then(|flat| flat.point(&sleeve.garment, &sleeve.state)).expect("on the piece");
+        assert!(there.distance(DVec3::from_array(place.tight.at)) < 1e-9, "{place:?}");
+        assert!(place.tight.strain > 0.1, "{place:?}");
+    }
+    places.into_iter().map(|place| place.tight.piece).collect()
+}
+
+#[test]
+fn tight_pieces_are_told_the_tightest_first() {
+    assert!(tight(0.0, 0.01).is_empty(), "it fits");
+    assert_eq!(tight(0.3, 0.0), ["front"]);
+    assert_eq!(tight(0.2995, 0.3), ["back", "front"]);
+}
+
+#[test]
+fn sides_of_limbs_are_told_in_words() {
+    let at = |landmark: &str| {
+        let landmark = Some(landmark.to_owned());
+        Tight { piece: "back".to_owned(), at: [0.0; 3], landmark, strain: 0.095 }.to_string()
+    };
+    assert_eq!(at("upper_arm_right_high_x"), "back near upper arm right, inside, +9.5 %");
+    assert_eq!(at("thigh_left_high_x"), "back near thigh left, outside, +9.5 %");
+    assert_eq!(at("waist_front"), "back near waist front, +9.5 %");
 }

@@ -1,8 +1,8 @@
-//! Where a garment is tightest: the place to look at, or to cut wider.
+//! Where a garment is tight: the places to look at, or to cut wider.
 
 use std::collections::BTreeMap;
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use serde::{Deserialize, Serialize};
 
 use crate::body::Landmarks;
@@ -13,6 +13,10 @@ use crate::geometry::ids::PieceId;
 
 /// A garment fits when its worst hundredth is strained by less.
 const FITS: f64 = 0.02;
+/// A piece is tight that has so large a share of what the tightest one has of the strain beyond that, or more.
+const SHARE: f64 = 0.1;
+/// Pieces told at most.
+const MOST_PLACES: usize = 5;
 
 /// The tightest place of a garment.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -27,9 +31,21 @@ pub struct Tight {
     pub strain: f64,
 }
 
+/// A tight place, and where that is on the flat cloth.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TightPlace {
+    /// The piece.
+    pub piece: PieceId,
+    /// In the piece's own plane, metres.
+    pub flat: DVec2,
+    /// In words.
+    pub tight: Tight,
+}
+
 /// An edge strained beyond what fits.
 struct Edge {
     middle: DVec3,
+    flat: DVec2,
     strain: f64,
 }
 
@@ -40,21 +56,40 @@ pub fn tightest(
     state: &ClothState,
     landmarks: impl FnOnce() -> Option<Landmarks>,
 ) -> Option<Tight> {
+    tight_places(report, garment, state, landmarks).into_iter().next().map(|place| place.tight)
+}
+
+/// Where the pieces that are tight are tightest, the tightest piece first; none where the garment fits.
+pub fn tight_places(
+    report: &Report,
+    garment: &Garment,
+    state: &ClothState,
+    landmarks: impl FnOnce() -> Option<Landmarks>,
+) -> Vec<TightPlace> {
     if report.strain.p99 <= FITS {
-        return None;
+        return Vec::new();
     }
-    let pieces = strained(garment, &Laid::new(garment, state));
     let beyond = |edges: &[Edge]| edges.iter().map(|e| e.strain.abs() - FITS).sum::<f64>();
-    let most = pieces.iter().max_by(|a, b| beyond(a.1).total_cmp(&beyond(b.1)).then(b.0.cmp(a.0)));
-    let (id, edges) = most?;
-    let middle = middle(edges)?;
-    let name = garment.pieces.iter().find(|(piece, _)| piece == id).map(|(_, name)| name.clone());
-    Some(Tight {
-        piece: name.unwrap_or_default(),
-        at: middle.middle.to_array(),
-        landmark: landmarks().and_then(|l| l.near(middle.middle, f64::INFINITY).map(str::to_owned)),
-        strain: middle.strain,
-    })
+    let pieces = strained(garment, &Laid::new(garment, state));
+    let mut pieces: Vec<(f64, PieceId, Vec<Edge>)> =
+        pieces.into_iter().map(|(id, edges)| (beyond(&edges), id, edges)).collect();
+    pieces.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+    let least = pieces.first().map_or(0.0, |(most, ..)| SHARE * most);
+    let landmarks = landmarks();
+    let place = |(_, id, edges): (f64, PieceId, Vec<Edge>)| {
+        let middle = middle(&edges)?;
+        let name = garment.pieces.iter().find(|(piece, _)| *piece == id).map(|(_, name)| name.clone());
+        let near = landmarks.as_ref().and_then(|l| l.near(middle.middle, f64::INFINITY));
+        let tight = Tight {
+            piece: name.unwrap_or_default(),
+            at: middle.middle.to_array(),
+            landmark: near.map(str::to_owned),
+            strain: middle.strain,
+        };
+        Some(TightPlace { piece: id, flat: middle.flat, tight })
+    };
+    let tight = pieces.into_iter().filter(|(beyond, ..)| *beyond >= least).take(MOST_PLACES);
+    tight.filter_map(place).collect()
 }
 
 /// The edges strained as much as the worst hundredth, piece by piece.
@@ -65,7 +100,7 @@ fn strained(garment: &Garment, laid: &Laid) -> BTreeMap<PieceId, Vec<Edge>> {
             let [a, b] = [vs[k], vs[j]].map(|v| laid.mesh.positions[v as usize]);
             let [p, q] = [corners[k], corners[j]].map(|c| garment.corners[c as usize].uv);
             let strain = a.distance(b) / p.distance(q).max(1e-9) - 1.0;
-            all.push((piece, Edge { middle: (a + b) / 2.0, strain }));
+            all.push((piece, Edge { middle: (a + b) / 2.0, flat: (p + q) / 2.0, strain }));
         }
     }
     all.sort_by(|a, b| b.1.strain.abs().total_cmp(&a.1.strain.abs()));
@@ -83,11 +118,20 @@ fn middle(edges: &[Edge]) -> Option<&Edge> {
     edges.iter().min_by(|a, b| far(a).total_cmp(&far(b)))
 }
 
+/// A landmark's name for people. Of a limb's sides the one towards the body is its inside; x grows to the body's left.
+fn plain(landmark: &str) -> String {
+    let sides = [("left_high_x", "left, outside"), ("left_low_x", "left, inside")];
+    let others = [("right_high_x", "right, inside"), ("right_low_x", "right, outside")];
+    let side = sides.into_iter().chain(others).find(|(end, _)| landmark.ends_with(end));
+    let named = side.map_or(landmark.to_owned(), |(end, words)| landmark.replace(end, words));
+    named.replace('_', " ")
+}
+
 impl std::fmt::Display for Tight {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "{}", self.piece)?;
         if let Some(landmark) = &self.landmark {
-            write!(f, " near {}", landmark.replace('_', " "))?;
+            write!(f, " near {}", plain(landmark))?;
         }
         write!(f, ", {:+.1} %", self.strain * 100.0)
     }

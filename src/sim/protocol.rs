@@ -10,6 +10,7 @@ use crate::body::Surface;
 use crate::cloth::{ClothState, Garment};
 use crate::contact::Bone;
 use crate::drag::{DragMode, Ray};
+use crate::fit::TightPlace;
 use crate::geometry::ids::PieceId;
 use crate::pattern::activity::Activity;
 use crate::pattern::edit::Carried;
@@ -139,6 +140,8 @@ pub struct Snapshot {
     pub reposed: Option<Outcome>,
     /// What is wrong with the cloth as it lies; None until somebody has looked.
     pub verdict: Option<Arc<Vec<Fault>>>,
+    /// Where it is tight, the tightest piece first; none until somebody has looked.
+    pub tight: Arc<Vec<TightPlace>>,
     /// How draping stands; None where nothing is draped.
     pub drape: Option<DrapeState>,
     /// Physics has moved the cloth since it was grown: folds are no fault.

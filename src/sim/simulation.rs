@@ -3,8 +3,9 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
+use crate::body::landmarks;
 use crate::cloth::Skips;
-use crate::fit::{BodyIndex, measure};
+use crate::fit::{BodyIndex, TightPlace, measure, tight_places};
 use crate::repose::Care;
 use crate::sim::checkpoints::{Checkpoints, DEFAULT_CAPACITY};
 use crate::sim::fault::{Fault, faults};
@@ -12,6 +13,13 @@ use crate::sim::protocol::{Event, Request, RequestKind, Snapshot};
 use crate::sim::stats::Stats;
 use crate::sim::world::World;
 use crate::wrap::Phase;
+
+/// What was seen of cloth that lies still.
+#[derive(Debug, Default)]
+struct Looked {
+    faults: Arc<Vec<Fault>>,
+    tight: Arc<Vec<TightPlace>>,
+}
 
 /// Runs the stages. Same requests in the same ticks give the same bits, on any thread.
 #[derive(Debug)]
@@ -22,7 +30,7 @@ pub struct Simulation {
     seq: u64,
     stats: Stats,
     events: Vec<Event>,
-    verdict: Option<Arc<Vec<Fault>>>,
+    looked: Option<Looked>,
     skips: Skips,
 }
 
@@ -42,7 +50,7 @@ impl Simulation {
             seq: 0,
             stats: Stats::default(),
             events: Vec::new(),
-            verdict: None,
+            looked: None,
             skips: Skips::default(),
         }
     }
@@ -61,7 +69,7 @@ impl Simulation {
             self.report_hash(Some(request.seq));
             return;
         }
-        self.verdict = None;
+        self.looked = None;
         let before = self.world.clone();
         if request.checkpoint {
             self.keep(request.seq);
@@ -86,7 +94,7 @@ impl Simulation {
             return false;
         }
         self.tick += 1;
-        self.verdict = None;
+        self.looked = None;
         self.count_tick();
         let problem = match catch_unwind(AssertUnwindSafe(|| self.world.step())) {
             Ok(()) => self.world.not_finite().map(not_a_number),
@@ -152,7 +160,8 @@ impl Simulation {
             stats: Stats { work: world.work(), ..self.stats },
             problems: Arc::clone(&world.problems),
             reposed: world.outcome(),
-            verdict: self.verdict.clone(),
+            verdict: self.looked.as_ref().map(|looked| Arc::clone(&looked.faults)),
+            tight: self.looked.as_ref().map_or_else(Arc::default, |looked| Arc::clone(&looked.tight)),
             drape: world.drape_state(),
             was_draped: world.was_draped,
         }
@@ -165,7 +174,7 @@ impl Simulation {
         let (Some(source), Some(garment), Some(body)) = (&world.source, &world.garment, &world.body) else {
             return false;
         };
-        if self.verdict.is_some() || !self.is_at_rest() || !world.cloth.mapped.contains(&true) {
+        if self.looked.is_some() || !self.is_at_rest() || !world.cloth.mapped.contains(&true) {
             return false;
         }
         let split = world.drawn();
@@ -174,12 +183,14 @@ impl Simulation {
         let look = || {
             let index = BodyIndex::new(body);
             let report = measure(&source.pattern, garment, cloth, &index);
-            faults(&report, source, garment, cloth, &index, world.was_draped)
+            let found = faults(&report, source, garment, cloth, &index, world.was_draped);
+            let tight = tight_places(&report, garment, cloth, || landmarks::found(&body.mesh));
+            Looked { faults: Arc::new(found), tight: Arc::new(tight) }
         };
         match catch_unwind(AssertUnwindSafe(look)) {
-            Ok(found) => self.verdict = Some(Arc::new(found)),
+            Ok(looked) => self.looked = Some(looked),
             Err(panic) => {
-                self.verdict = Some(Arc::default());
+                self.looked = Some(Looked::default());
                 self.fail(panic_words(&*panic));
             }
         }

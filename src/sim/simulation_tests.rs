@@ -179,4 +179,5 @@ fn cloth_that_lies_still_is_looked_at_once() {
     assert_eq!(simulation.hash(), hash);
     simulation.apply(request(9, RequestKind::SetRelaxing(false)));
     assert!(simulation.snapshot().verdict.is_none(), "an old verdict on what may have changed");
+    assert!(simulation.snapshot().tight.is_empty());
 }

@@ -324,6 +324,7 @@ impl App {
             }
             Ask::Pick(selection) => self.pick(selection),
             Ask::ShowMarks(numbers) => self.show_marks(&numbers),
+            Ask::ShowPlace(place) => self.show_place(place),
             Ask::MapRange(kind, range) => self.shell.maps.set_range(kind, range),
             Ask::Say(words) => self.messages.tell(words),
             Ask::Jump(steps) => self.jump(steps),

@@ -3,6 +3,7 @@
 use crate::fit::MapKind;
 use crate::geometry::ids::MarkId;
 use crate::session::Command;
+use crate::sim::ClothPlace;
 use crate::ui::actions::Action;
 use crate::ui::selection::Selection;
 
@@ -25,6 +26,8 @@ pub enum Ask {
     Pick(Selection),
     /// Select the first of the pairs of marks with these numbers (from 1), and show them all.
     ShowMarks(Vec<usize>),
+    /// Select the piece of this tight place, ring the place and turn the view to it.
+    ShowPlace(ClothPlace),
     /// Go so many steps back (less than 0) or forth in the history.
     Jump(i32),
     /// Let the colours of a map span this, in the unit that is shown; None: as far as its values do.

@@ -68,6 +68,7 @@ mod stroke;
 mod tape_panel;
 mod theme;
 mod thumbnails;
+mod tight;
 mod toolbar;
 mod tour;
 mod turn;

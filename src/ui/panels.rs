@@ -88,6 +88,7 @@ impl App {
             selected: now.selected.map(|(mark, _)| mark),
             selection: &self.picks.selection,
             highlight: now.highlight,
+            spot: self.spot(),
             points_per_metre: now.points_per_metre,
             unit: now.unit,
             snapping: self.snapping,

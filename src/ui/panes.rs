@@ -180,6 +180,7 @@ impl App {
             bones,
             selected_pins: &self.picks.selection.pins,
             stand_out,
+            spot: self.spot(),
             ghosts: self.ghosts.as_ref().map(|g| &g.marks),
             look: self.shell.sight.on(theme::look(ui.ctx().theme())),
             palette,

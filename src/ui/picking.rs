@@ -5,6 +5,7 @@ use std::sync::Arc;
 use crate::geometry::ids::PinId;
 use crate::pattern::Pattern;
 use crate::session::{Command, Document};
+use crate::sim::ClothPlace;
 use crate::ui::actions::Action;
 use crate::ui::app::App;
 use crate::ui::edits;
@@ -16,6 +17,8 @@ use crate::ui::shell::Shell;
 pub struct Picks {
     /// What is selected.
     pub selection: Selection,
+    /// The place of the selected piece that is ringed.
+    pub spot: Option<ClothPlace>,
     of: Arc<Pattern>,
 }
 
@@ -49,6 +52,7 @@ impl App {
             self.selected = None;
         }
         self.picks.selection = selection;
+        self.picks.spot = None;
     }
 
     /// Carries out `command`; pieces and seams that are new are selected.
@@ -66,7 +70,7 @@ impl App {
             new.seams.extend(after.seams.keys().filter(|id| !before.seams.contains_key(id)));
         }
         if !new.is_empty() {
-            self.picks = Picks { selection: new, of: Arc::clone(after) };
+            self.picks = Picks { selection: new, spot: None, of: Arc::clone(after) };
             self.selected = None;
         }
     }

@@ -19,6 +19,7 @@ use crate::ui::selection::Selection;
 use crate::ui::situation::Situation;
 use crate::ui::tape_panel::TapePanel;
 use crate::ui::theme::Palette;
+use crate::ui::tight::tight_ui;
 
 /// What the panel tells of.
 #[derive(Clone, Copy)]
@@ -189,22 +190,26 @@ fn settings_ui(ui: &mut egui::Ui, settings: &Settings, palette: &Palette, asks: 
 fn problems_ui(ui: &mut egui::Ui, told: &Told<'_>, asks: &mut Asks) {
     let palette = told.palette;
     let lonely: Vec<String> = unpaired(told.document).into_iter().collect();
-    if lonely.is_empty() && told.lost.is_empty() && told.problems.is_empty() && told.verdict.is_empty() {
+    let nothing = told.lost.is_empty() && told.problems.is_empty() && told.verdict.is_empty();
+    if lonely.is_empty() && nothing && told.snapshot.tight.is_empty() {
         ui.label(RichText::new("None").color(palette.weak));
         return;
     }
     for words in lonely {
-        problem_row(ui, palette.warning, &words, &[], asks);
+        problem_row(ui, palette.warning, &words, None, asks);
     }
     for problem in told.lost.iter().chain(told.problems) {
         let ink = if problem.kind.is_note() { palette.warning } else { palette.error };
-        problem_row(ui, ink, &format!("{}: {}", problem.place, problem.words), &[], asks);
+        problem_row(ui, ink, &format!("{}: {}", problem.place, problem.words), None, asks);
     }
     for Fault { problem, marks } in told.verdict {
         let numbers: Vec<usize> = marks.iter().map(|m| m.number).collect();
         let words = format!("{}: {}", problem.place, problem.words);
-        problem_row(ui, palette.error, &words, &numbers, asks);
+        let shows = (Ask::ShowMarks(numbers), "Show the marks concerned");
+        let shows = Some(shows).filter(|_| !marks.is_empty());
+        problem_row(ui, palette.error, &words, shows, asks);
     }
+    tight_ui(ui, told, asks);
     if !told.verdict.is_empty() && told.now.wrapped {
         ui.add_space(4.0);
         let tip = "What was on the body before this wrap comes back; then paint the marks anew";
@@ -214,20 +219,24 @@ fn problems_ui(ui: &mut egui::Ui, told: &Told<'_>, asks: &mut Asks) {
     }
 }
 
-/// A click on it shows the pairs of marks with these numbers.
-fn problem_row(ui: &mut egui::Ui, ink: egui::Color32, words: &str, marks: &[usize], asks: &mut Asks) {
+/// A click on it asks for what `shows` it, if anything does; with a tip.
+pub fn problem_row(
+    ui: &mut egui::Ui,
+    ink: egui::Color32,
+    words: &str,
+    shows: Option<(Ask, &str)>,
+    asks: &mut Asks,
+) {
     ui.horizontal_top(|ui| {
         let (sign, _) = ui.allocate_exact_size(egui::vec2(12.0, 16.0), egui::Sense::hover());
         ui.painter().circle_filled(sign.center(), 4.0, ink);
-        if marks.is_empty() {
+        let Some((ask, tip)) = shows else {
             ui.add(egui::Label::new(words).wrap());
             return;
-        }
+        };
         let row = ui.add(egui::Label::new(words).wrap().sense(egui::Sense::click()));
-        let row =
-            row.on_hover_text("Show the marks concerned").on_hover_cursor(egui::CursorIcon::PointingHand);
-        if row.clicked() {
-            asks.push(Ask::ShowMarks(marks.to_vec()));
+        if row.on_hover_text(tip).on_hover_cursor(egui::CursorIcon::PointingHand).clicked() {
+            asks.push(ask);
         }
     });
 }

@@ -4,7 +4,11 @@ use super::*;
 
 /// A window with cloth at rest on the body.
 pub fn dressed_window() -> Window {
-    let mut window = window();
+    dressed(window())
+}
+
+/// `window` with its cloth at rest on its body.
+pub fn dressed(mut window: Window) -> Window {
     paint_both(&mut window);
     window.get_by_label("Wrap").click();
     window.run_steps(2);

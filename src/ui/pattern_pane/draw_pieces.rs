@@ -15,6 +15,7 @@ use crate::ui::maps::ShownMap;
 use crate::ui::selection::{Item, LineRef};
 use crate::ui::signs::{self, Sign};
 use crate::ui::theme::colour;
+use crate::ui::tight::ring;
 
 /// Whether the front of `piece` is seen.
 pub fn front_is_seen(piece: &Piece, shape: &PieceShape) -> bool {
@@ -258,6 +259,15 @@ impl Drawing<'_> {
             let points: Vec<DVec2> = points.iter().map(|&p| piece.pose.plane_from_piece(p)).collect();
             self.polyline(&points, Stroke::new(width, ink));
         }
+    }
+
+    /// A ring round the place that is shown.
+    pub fn spot(&self, table: &Table<'_>) {
+        let Some((id, ring)) = table.laid.spot.map(ring) else { return };
+        let Some(piece) = table.pattern().pieces.get(&id) else { return };
+        let points: Vec<DVec2> = ring.into_iter().map(|p| piece.pose.plane_from_piece(p)).collect();
+        self.polyline(&points, Stroke::new(5.0, self.palette.halo));
+        self.polyline(&points, Stroke::new(3.0, self.palette.accent));
     }
 
     /// Edges and lines that are selected or under the pointer.

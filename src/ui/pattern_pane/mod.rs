@@ -23,6 +23,7 @@ use glam::DVec2;
 use crate::geometry::ids::MarkId;
 use crate::session::Document;
 use crate::session::samples::Sample;
+use crate::sim::ClothPlace;
 use crate::ui::actions::{Action, Tool};
 use crate::ui::asks::{Ask, Asks};
 use crate::ui::maps::{ShownMap, probe_ui};
@@ -108,6 +109,8 @@ pub struct Laid<'a> {
     pub selection: &'a Selection,
     /// What the pointer is over, in this pane or the other.
     pub highlight: Option<Item>,
+    /// The place that is ringed.
+    pub spot: Option<ClothPlace>,
     /// How many points of the screen a metre takes.
     pub points_per_metre: f64,
     /// What lengths are shown in.
@@ -437,6 +440,7 @@ fn draw_table(drawing: &Drawing<'_>, table: &Table<'_>, new_guide: Option<&Guide
     drawing.pieces(table);
     drawing.seams(table);
     drawing.edges_standing_out(table);
+    drawing.spot(table);
     let near = at.and_then(|at| table.mark_at(table.at(at)));
     drawing.marks(pattern, &document.marks, near, selected);
     if let Some(ghosts) = ghosts {

@@ -11,6 +11,7 @@ use crate::geometry::ids::MarkId;
 use crate::render::{Look, Quality};
 use crate::session::Pin;
 use crate::ui::scene::{PinLook, Shown};
+use crate::ui::tight::ring;
 
 /// How each pin is drawn.
 fn pin_looks(seen: &Seen<'_>) -> Vec<PinLook> {
@@ -59,10 +60,12 @@ impl ScenePane {
             beside: seen.beside.cloned(),
             selected: seen.selected,
             ghosts: seen.ghosts.cloned(),
+            spot: seen.spot,
             stand_out: if seen.cloth.is_some() { seen.stand_out.to_vec() } else { Vec::new() },
         };
         let (pins, bones, activities) = (key.pins.clone(), key.bones.clone(), key.activities.clone());
-        let outlines = outlines(&seen.document.pattern, &key.stand_out);
+        let mut outlines = outlines(&seen.document.pattern, &key.stand_out);
+        outlines.extend(seen.spot.map(ring));
         let shown = Shown {
             body: seen.body,
             cloth: seen.cloth,

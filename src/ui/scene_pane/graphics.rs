@@ -14,6 +14,7 @@ use crate::pattern::activity::Activity;
 use crate::render::{
     Camera, Gpu, Look, Mesh, OffscreenTarget, Quality, RenderError, Renderer, Rgb, Scene, straightened,
 };
+use crate::sim::ClothPlace;
 use crate::ui::scene::PinLook;
 use crate::ui::selection::Item;
 use crate::wrap::Marks;
@@ -59,6 +60,8 @@ pub struct Key {
     pub ghosts: Option<Arc<Marks>>,
     /// With which edges and seams standing out.
     pub stand_out: Vec<Item>,
+    /// With a ring round which place.
+    pub spot: Option<ClothPlace>,
 }
 
 impl PartialEq for Key {
@@ -83,6 +86,7 @@ impl PartialEq for Key {
             map,
             beside,
             stand_out,
+            spot,
         } = self;
         *camera == other.camera
             && *look == other.look
@@ -93,6 +97,7 @@ impl PartialEq for Key {
             && *bones == other.bones
             && *activities == other.activities
             && *stand_out == other.stand_out
+            && *spot == other.spot
             && *near == other.near
             && *selected == other.selected
             && same(body, &other.body)

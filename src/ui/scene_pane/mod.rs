@@ -26,6 +26,7 @@ use crate::contact::Bone;
 use crate::geometry::ids::{MarkId, PinId};
 use crate::render::{Camera, Look, Mesh, View};
 use crate::session::{Command, Document};
+use crate::sim::ClothPlace;
 use crate::ui::actions::Tool;
 use crate::ui::asks::{Ask, Asks, in_one_step};
 use crate::ui::clicks::clicks;
@@ -79,6 +80,8 @@ pub struct Seen<'a> {
     pub selected_pins: &'a BTreeSet<PinId>,
     /// What of the pattern stands out: what is selected, and what the pointer is over in either pane.
     pub stand_out: &'a [Item],
+    /// The place that is ringed.
+    pub spot: Option<ClothPlace>,
     /// Marks proposed and not accepted yet.
     pub ghosts: Option<&'a Arc<Marks>>,
     /// Colours and light.
