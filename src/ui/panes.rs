@@ -141,7 +141,7 @@ impl App {
         self.scene_pane = pane;
         if let (Some(map), Some(pane)) = (self.shell.maps.shown(), self.scene_pane.area) {
             let value = self.scene_pane.value.or(self.pattern_pane.value);
-            maps::legend_ui(ui, pane, map, value, with.palette, asks);
+            maps::legend_ui(ui, (pane, self.scene_pane.buttons), map, value, with.palette, asks);
         }
         if let (Some(beside), Some(pane)) = (self.shell.maps.beside(), self.scene_pane.area) {
             maps::beside_ui(ui, pane, beside, with.palette, asks);

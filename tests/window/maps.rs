@@ -312,3 +312,21 @@ fn the_side_panel_tells_how_much_wider_the_garment_is() {
     assert_eq!(eases.len(), 3, "{eases:?}");
     assert_eq!(eases[0], eases[2], "{eases:?}");
 }
+
+#[test]
+fn the_legend_leaves_the_buttons_of_a_narrow_pane_free() {
+    let mut window = dressed_window();
+    choose(&mut window, "Strain along the grain");
+    for size in [Vec2::new(1280.0, 720.0), Vec2::new(1000.0, 700.0)] {
+        window.set_size(size);
+        window.run_steps(4);
+        let legend = window.get_by_label_contains("Legend: ").rect();
+        let table = window.get_by_label("Table").rect();
+        let body = pane(&window, "Body pane");
+        assert!(body.contains_rect(legend) && body.contains_rect(table), "{legend} {table} in {body}");
+        for name in ["Wireframe", "See through the body", "X-ray", "Show all"] {
+            let button = window.get_by_label(name).rect();
+            assert!(!legend.union(table).expand(4.0).intersects(button), "{name} at {button}, {size}");
+        }
+    }
+}

@@ -17,21 +17,28 @@ const BAR_WIDTH: f32 = 16.0;
 /// From the bar to the histogram, where the values are written.
 const TICKS_WIDTH: f32 = 52.0;
 
-/// Draws the legend of `map` in the lower left corner of `pane`; `value`: what the pointer is over.
+/// From the legend to the pane's edges, points.
+const BESIDE: f32 = 10.0;
+
+/// Draws the legend of `map` in the lower left corner of `pane`, above the `buttons` there where both would not find room
+/// side by side; `value`: what the pointer is over.
 pub fn legend_ui(
     ui: &mut egui::Ui,
-    pane: Rect,
+    (pane, buttons): (Rect, Option<Rect>),
     map: &ShownMap,
     value: Option<f64>,
     palette: &Palette,
     asks: &mut Asks,
 ) {
     let size = vec2(WIDTH, BAR + 142.0);
-    if pane.width() < WIDTH + 24.0 || pane.height() < size.y + 60.0 {
+    let corner = pos2(pane.left() + BESIDE, pane.bottom() - size.y - BESIDE);
+    let mut area = Rect::from_min_size(corner, size);
+    if let Some(buttons) = buttons.filter(|buttons| buttons.expand(BESIDE).intersects(area)) {
+        area = area.translate(vec2(0.0, buttons.top() - BESIDE - area.bottom()));
+    }
+    if pane.width() < WIDTH + 24.0 || area.top() < pane.top() + 50.0 {
         return;
     }
-    let corner = pos2(pane.left() + 10.0, pane.bottom() - size.y - 10.0);
-    let area = Rect::from_min_size(corner, size);
     ui.scope_builder(egui::UiBuilder::new().max_rect(area), |ui| {
         let frame = Frame::new().fill(palette.overlay).inner_margin(Margin::same(9)).corner_radius(6);
         let frame = frame.stroke(Stroke::new(1.0, palette.table_grid_strong));

@@ -103,6 +103,8 @@ pub struct ScenePane {
     pub hovered: bool,
     /// Where it was on the screen in the last frame.
     pub area: Option<Rect>,
+    /// Where its small buttons were.
+    pub buttons: Option<Rect>,
     /// The widget, for the keyboard.
     pub id: Option<egui::Id>,
     /// What of the pattern was under the pointer in the last frame.
@@ -180,7 +182,7 @@ impl ScenePane {
         }
         self.publish_pins(ui, seen, pane);
         view_cube(ui, pane, &self.camera, seen.palette, asks);
-        view_buttons(ui, pane, seen, asks);
+        self.buttons = Some(view_buttons(ui, pane, seen, asks));
     }
 
     /// The stroke under way on the near side.

@@ -10,12 +10,14 @@ use crate::ui::asks::{Ask, Asks};
 use crate::wrap::Marks;
 
 /// Small buttons over the lower right corner, where they hide only floor: how body and cloth are drawn, and all of them.
-pub(super) fn view_buttons(ui: &mut egui::Ui, pane: Rect, seen: &Seen<'_>, asks: &mut Asks) {
+/// Returns where they are.
+pub(super) fn view_buttons(ui: &mut egui::Ui, pane: Rect, seen: &Seen<'_>, asks: &mut Asks) -> Rect {
     let area = Rect::from_min_max(
         Pos2::new(pane.left() + 8.0, pane.bottom() - 34.0),
         Pos2::new(pane.right() - 8.0, pane.bottom() - 8.0),
     );
     let layout = egui::Layout::right_to_left(egui::Align::Center);
+    let mut taken = Rect::NOTHING;
     ui.scope_builder(egui::UiBuilder::new().max_rect(area).layout(layout), |ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
         let Look { wire, sheer, xray, .. } = seen.look;
@@ -29,11 +31,14 @@ pub(super) fn view_buttons(ui: &mut egui::Ui, pane: Rect, seen: &Seen<'_>, asks:
             let text = egui::RichText::new(entry.text).size(12.5);
             let button = egui::Button::new(text).selected(on).small();
             let button = if on { button } else { button.fill(seen.palette.overlay) };
-            if ui.add(button).on_hover_text(entry.tip).clicked() {
+            let button = ui.add(button).on_hover_text(entry.tip);
+            taken |= button.rect;
+            if button.clicked() {
                 asks.push(Ask::Act(action));
             }
         }
     });
+    taken
 }
 
 /// Tells screen readers and tests where each mark is.
