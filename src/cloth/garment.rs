@@ -1,6 +1,6 @@
 //! Fixed topology and rest shape of the sewn garment, and its moving state.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use glam::{DVec2, DVec3};
 
@@ -53,6 +53,25 @@ impl Garment {
     /// The layer that a piece is worn on; 0 lies next to the skin.
     pub fn layer(&self, piece: PieceId) -> u8 {
         self.layers.get(&piece).copied().unwrap_or(0)
+    }
+
+    /// The same vertices and corners, without the triangles of these pieces.
+    pub fn without(&self, pieces: &BTreeSet<PieceId>) -> Self {
+        let kept: Vec<usize> =
+            (0..self.triangles.len()).filter(|&t| !pieces.contains(&self.triangle_pieces[t])).collect();
+        let triangles: Vec<[u32; 3]> = kept.iter().map(|&t| self.triangles[t]).collect();
+        Self {
+            vertex_count: self.vertex_count,
+            adjacency: Adjacency::new(self.vertex_count, &triangles),
+            triangles,
+            corners: self.corners.clone(),
+            triangle_corners: kept.iter().map(|&t| self.triangle_corners[t]).collect(),
+            triangle_pieces: kept.iter().map(|&t| self.triangle_pieces[t]).collect(),
+            rest: kept.iter().map(|&t| self.rest[t]).collect(),
+            seam_pairs: self.seam_pairs.clone(),
+            pieces: self.pieces.iter().filter(|(id, _)| !pieces.contains(id)).cloned().collect(),
+            layers: self.layers.clone(),
+        }
     }
 
     /// Bytes it takes.

@@ -215,9 +215,12 @@ pub(super) fn widest_gap(garment: &Garment, state: &ClothState, pairs: &[[u32; 2
     })
 }
 
-/// Groups of pieces that the seams join.
+/// Groups of pieces that the seams join; deactivated ones count for nothing.
 fn pieces_expected(pattern: &Pattern) -> usize {
-    let mut group: BTreeMap<PieceId, PieceId> = pattern.pieces.keys().map(|&id| (id, id)).collect();
+    let mut group: BTreeMap<PieceId, PieceId> = {
+        let pieces = pattern.pieces.iter().filter(|(_, piece)| !piece.activity.is_deactivated());
+        pieces.map(|(&id, _)| (id, id)).collect()
+    };
     for seam in pattern.seams.values() {
         let [Some(&a), Some(&b)] = seam.sides.map(|side| group.get(&side.piece)) else { continue };
         let (low, high) = (a.min(b), a.max(b));

@@ -16,12 +16,20 @@ pub enum Activity {
     Active,
     /// It stays where it is, its seams with others too; others lie on it and hang from it.
     Frozen,
+    /// It stays where it is and counts for nothing: nothing touches it, its seams to active pieces do not hold, it is neither
+    /// measured nor written.
+    Deactivated,
 }
 
 impl Activity {
     /// Moved, as every piece is at first.
     pub fn is_active(&self) -> bool {
         *self == Self::Active
+    }
+
+    /// It counts for nothing.
+    pub fn is_deactivated(&self) -> bool {
+        *self == Self::Deactivated
     }
 }
 

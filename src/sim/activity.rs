@@ -1,4 +1,4 @@
-//! What stays where it is: pinned vertices and frozen pieces.
+//! What stays where it is: pinned vertices, frozen and deactivated pieces.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -21,18 +21,35 @@ impl World {
                 Arc::make_mut(piece).activity = activity;
             }
         }
+        let asleep = self.active.is_some();
+        self.part_active();
+        if asleep || self.active.is_some() {
+            self.drape_anew();
+        }
         self.hold(&before);
     }
 
-    /// The vertices that stay: those under pins, then, unless a wrap lays them just now, those of frozen pieces.
+    /// Sets aside what is deactivated.
+    pub(super) fn part_active(&mut self) {
+        let activities = self.source.as_ref().map(|source| source.pattern.activities()).unwrap_or_default();
+        let asleep: BTreeSet<PieceId> = activities
+            .into_iter()
+            .filter(|(_, activity)| activity.is_deactivated())
+            .map(|(id, _)| id)
+            .collect();
+        let garment = self.garment.as_ref().filter(|_| !asleep.is_empty());
+        self.active = garment.map(|garment| Arc::new(garment.without(&asleep)));
+    }
+
+    /// The vertices that stay: those under pins, then, unless a wrap lays them just now, those that [`staying`] names.
     pub(super) fn held(&self) -> Vec<u32> {
         let pins = self.pinned.iter().flatten().copied();
         let grows = self.dressing.as_ref().is_some_and(|dressing| dressing.relaxer().is_none());
-        let frozen = match (&self.source, &self.garment) {
-            (Some(source), Some(garment)) if !grows => frozen(&source.pattern, garment, &self.cloth),
+        let staying = match (&self.source, &self.garment) {
+            (Some(source), Some(garment)) if !grows => staying(&source.pattern, garment, &self.cloth),
             _ => BTreeSet::new(),
         };
-        pins.chain(frozen).collect()
+        pins.chain(staying).collect()
     }
 
     /// Holds what stays now; where something that stayed `before` no longer does, the cloth settles.
@@ -53,14 +70,21 @@ impl World {
     }
 }
 
-/// The laid vertices of frozen pieces, seams with others among them.
-pub(super) fn frozen(pattern: &Pattern, garment: &Garment, cloth: &ClothState) -> BTreeSet<u32> {
+/// The laid vertices of frozen pieces, seams with others among them, and those of deactivated pieces alone.
+pub(super) fn staying(pattern: &Pattern, garment: &Garment, cloth: &ClothState) -> BTreeSet<u32> {
     let activities = pattern.activities();
     if activities.is_empty() {
         return BTreeSet::new();
     }
-    let is_frozen = |piece: &PieceId| activities.get(piece) == Some(&Activity::Frozen);
-    let pieces = garment.triangles.iter().zip(&garment.triangle_pieces);
-    let vertices = pieces.filter(|(_, piece)| is_frozen(piece)).flat_map(|(vs, _)| *vs);
-    vertices.filter(|&v| cloth.mapped[v as usize]).collect()
+    let of = |wanted: Activity| -> BTreeSet<u32> {
+        let activity = |piece: &PieceId| activities.get(piece).copied().unwrap_or_default();
+        let pieces = garment.triangles.iter().zip(&garment.triangle_pieces);
+        let vertices = pieces.filter(|(_, piece)| activity(piece) == wanted).flat_map(|(vs, _)| *vs);
+        vertices.filter(|&v| cloth.mapped[v as usize]).collect()
+    };
+    let (active, frozen, mut asleep) =
+        (of(Activity::Active), of(Activity::Frozen), of(Activity::Deactivated));
+    asleep.retain(|v| !active.contains(v));
+    asleep.extend(frozen);
+    asleep
 }

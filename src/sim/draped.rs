@@ -88,6 +88,13 @@ impl World {
         }
     }
 
+    /// What is draped is other pieces from now on.
+    pub(super) fn drape_anew(&mut self) {
+        if let Some(source) = self.draping.as_ref().map(|draping| Arc::clone(&draping.source)) {
+            self.set_fabrics(source);
+        }
+    }
+
     /// What is about to be draped moves already, m/s.
     pub(super) fn begin_moving(&mut self, velocities: &[DVec3]) {
         if let Err(Undrapable(words)) = self.begin_draping() {
@@ -145,7 +152,7 @@ impl World {
             WornSettings { strain: draping.source.strain, self_collision: true, skips: source.relax.skips };
         let fabrics = Arc::clone(&draping.source);
         let worn = Worn::new(
-            Arc::clone(garment),
+            Arc::clone(self.active.as_ref().unwrap_or(garment)),
             &self.cloth,
             Arc::clone(body),
             (&fabrics.of_pieces, &fabrics.fabric),

@@ -117,8 +117,8 @@ pub struct Snapshot {
     pub body: Option<Arc<Surface>>,
     /// Positions and which vertices are mapped. Empty without a garment.
     pub cloth: Arc<ClothState>,
-    /// The same as it is drawn and measured, where edges are split to go over the body: its vertices are those of
-    /// `garment`, then those put in. None where no edge is split.
+    /// The same as it is drawn, measured and written, where edges are split to go over the body, or without its deactivated
+    /// pieces: its vertices are those of `garment`, then those put in. None where no edge is split and all pieces count.
     pub split: Option<(Arc<Garment>, Arc<ClothState>)>,
     /// How far the dressing has come. None without a garment.
     pub phase: Option<Phase>,

@@ -263,6 +263,7 @@ impl Simulation {
         self.stats.wraps += u64::from(world.dressing.is_some());
         self.stats.triangles_built += world.garment.as_ref().map_or(0, |g| g.triangles.len() as u64);
         self.world = world;
+        self.world.part_active();
     }
 
     fn restore(&mut self, before_seq: u64) -> Result<(), String> {

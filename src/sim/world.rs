@@ -13,7 +13,7 @@ use crate::pattern::edit::Carried;
 use crate::pattern::triangulate::Meshes;
 use crate::pattern::{Pattern, Problem, ProblemKind};
 use crate::relax::RelaxSettings;
-use crate::sim::activity::frozen;
+use crate::sim::activity::staying;
 use crate::sim::draped::Draping;
 use crate::sim::hash::cloth_hash;
 use crate::sim::posed::Posed;
@@ -58,6 +58,8 @@ pub struct World {
     pub was_draped: bool,
     /// Pieces being sewn from where they were placed: `garment` is then the one with open seams.
     pub sewing: Option<Arc<Placed>>,
+    /// The garment without its deactivated pieces; None while it has none.
+    pub active: Option<Arc<Garment>>,
     /// What is sewn over the cloth once it rests, and its next layer.
     pub outer: Option<(Arc<Outfit>, u8)>,
 }
@@ -82,6 +84,7 @@ impl Default for World {
             draping: None,
             was_draped: false,
             sewing: None,
+            active: None,
             outer: None,
         }
     }
@@ -136,7 +139,7 @@ impl World {
         let cut = self.garment.clone().filter(|_| here).map(|old| self.recut(&source, old));
         let holds = |cut: &Cut| {
             cut.pinned.iter().any(|v| v.is_some())
-                || !frozen(&source.pattern, &cut.garment, &cut.cloth).is_empty()
+                || !staying(&source.pattern, &cut.garment, &cut.cloth).is_empty()
         };
         let held = cut.filter(|cut| cut.is_as_before || holds(cut));
         let Some(Cut { garment, cloth, pinned, problems, .. }) = held else {
@@ -144,8 +147,8 @@ impl World {
             let pinned = Arc::new(vec![None; places.len()]);
             return Self { source: Some(source), places, pinned, ..Self::wrapped(Arc::new(chosen), body) };
         };
-        let frozen = frozen(&source.pattern, &garment, &cloth);
-        let pins: Vec<u32> = pinned.iter().flatten().copied().chain(frozen).collect();
+        let staying = staying(&source.pattern, &garment, &cloth);
+        let pins: Vec<u32> = pinned.iter().flatten().copied().chain(staying).collect();
         let dressed = Dressed { cloth: &cloth, pins: &pins };
         let begun =
             Dressing::rewrapped(Arc::clone(&garment), Arc::clone(&body), &marks, source.relax, dressed);
@@ -179,20 +182,12 @@ impl World {
         Carry::moved(&old, &garment, carried).places(&self.cloth, &mut cloth);
         let under = |place: &ClothPlace| vertex_under(&garment, &cloth, *place).map(|(v, _)| v);
         let pinned: Vec<Option<u32>> = places.iter().map(under).collect();
-        let dressing = Dressing::resumed(Arc::clone(&garment), Arc::clone(&body), source.relax, &cloth);
-        let dressing = dressing.map(|mut dressing| {
-            let frozen = frozen(&source.pattern, &garment, &cloth);
-            dressing.fix(&pinned.iter().flatten().copied().chain(frozen).collect::<Vec<u32>>());
-            dressing.settle_again();
-            Arc::new(dressing)
-        });
         problems.extend(unlaid_pieces(&garment, &cloth));
-        Some(Self {
+        let mut world = Self {
             source: Some(source),
             body: Some(body),
             garment: Some(garment),
             cloth: Arc::new(cloth),
-            dressing,
             places,
             pinned: Arc::new(pinned),
             relaxing: self.relaxing,
@@ -200,7 +195,9 @@ impl World {
             meshes,
             was_draped: self.was_draped,
             ..Self::default()
-        })
+        };
+        world.settle();
+        Some(world)
     }
 
     /// The cloth of `old`, which lies, in the mesh of `source`: the same flat point, the same place.
@@ -354,8 +351,12 @@ impl World {
         dragging.or_else(|| self.dressing.as_ref().map(|d| d.counters())).unwrap_or_default()
     }
 
-    /// The garment as it is drawn and measured, where edges are split, and where that is; None where none is.
+    /// The garment as it is drawn and measured, where edges are split or pieces deactivated, and where that is; None where
+    /// none is.
     pub fn drawn(&self) -> Option<(Arc<Garment>, Arc<ClothState>)> {
+        if let Some(active) = self.active.as_ref().filter(|_| self.sewing.is_none()) {
+            return Some((Arc::clone(active), Arc::clone(&self.cloth)));
+        }
         let drawn = match (&self.dragging, &self.dressing) {
             (Some(dragging), _) => dragging.drawn(&self.cloth),
             (None, Some(dressing)) => dressing.relaxer().and_then(|relaxer| relaxer.drawn(&self.cloth)),

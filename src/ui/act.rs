@@ -90,6 +90,7 @@ impl App {
             | Action::TurnOver
             | Action::ToggleLock
             | Action::ToggleFrozen
+            | Action::ToggleDeactivated
             | Action::Hide
             | Action::ShowPieces
             | Action::InsertPoint

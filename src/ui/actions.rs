@@ -104,6 +104,7 @@ pub enum Action {
     TurnOver,
     ToggleLock,
     ToggleFrozen,
+    ToggleDeactivated,
     Hide,
     ShowPieces,
     InsertPoint,
@@ -279,6 +280,7 @@ impl Action {
             | Self::TurnOver
             | Self::ToggleLock
             | Self::ToggleFrozen
+            | Self::ToggleDeactivated
             | Self::Hide
             | Self::ShowPieces
             | Self::InsertPoint

@@ -75,6 +75,7 @@ pub const ALL: &[Action] = &[
     Action::TurnOver,
     Action::ToggleLock,
     Action::ToggleFrozen,
+    Action::ToggleDeactivated,
     Action::Hide,
     Action::ShowPieces,
     Action::InsertPoint,
@@ -239,6 +240,7 @@ impl Action {
             | Self::TurnOver
             | Self::ToggleLock
             | Self::ToggleFrozen
+            | Self::ToggleDeactivated
             | Self::Hide
             | Self::ShowPieces
             | Self::InsertPoint

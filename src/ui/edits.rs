@@ -60,11 +60,8 @@ pub fn edits(action: Action, pattern: &Pattern, selection: &Selection) -> Vec<Pa
             let locked = !pieces.iter().all(|id| pattern.pieces[id].locked);
             vec![PatternEdit::SetLocked { pieces, locked }]
         }
-        Action::ToggleFrozen if !pieces.is_empty() => {
-            let all = pieces.iter().all(|id| pattern.pieces[id].activity == Activity::Frozen);
-            let activity = if all { Activity::Active } else { Activity::Frozen };
-            vec![PatternEdit::SetActivity { pieces, activity }]
-        }
+        Action::ToggleFrozen => toggled(pattern, pieces, Activity::Frozen),
+        Action::ToggleDeactivated => toggled(pattern, pieces, Activity::Deactivated),
         Action::Hide if !pieces.is_empty() => vec![PatternEdit::SetHidden { pieces, hidden: true }],
         Action::ShowPieces => {
             let hidden = pattern.pieces.iter().filter(|(_, piece)| piece.hidden);
@@ -103,6 +100,13 @@ pub fn edits(action: Action, pattern: &Pattern, selection: &Selection) -> Vec<Pa
         Action::Untwist => vec![PatternEdit::UntwistSeams],
         _ => Vec::new(),
     }
+}
+
+/// Makes `pieces` what `activity` says, or active again where all are that.
+fn toggled(pattern: &Pattern, pieces: Vec<PieceId>, activity: Activity) -> Vec<PatternEdit> {
+    let all = pieces.iter().all(|id| pattern.pieces[id].activity == activity);
+    let activity = if all { Activity::Active } else { activity };
+    if pieces.is_empty() { Vec::new() } else { vec![PatternEdit::SetActivity { pieces, activity }] }
 }
 
 fn of_each(pieces: &[PieceId], edit: impl Fn(PieceId) -> Option<PatternEdit>) -> Vec<PatternEdit> {

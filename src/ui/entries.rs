@@ -95,6 +95,11 @@ impl Action {
                 "Draping and relaxing leave the selected pieces where they lie on the body; others collide with them and hang from them",
                 &[ctrl(Key::K)],
             ),
+            Self::ToggleDeactivated => entry(
+                "Deactivate",
+                "The selected pieces stay where they lie and count for nothing: nothing touches them, and their seams to others do not hold",
+                &[ctrl(Key::J)],
+            ),
             Self::Hide => {
                 entry("Hide", "Do not show the selected pieces; they are sewn all the same", &[ctrl(Key::H)])
             }

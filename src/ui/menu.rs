@@ -132,7 +132,18 @@ pub fn selection_ui(ui: &mut egui::Ui, now: &Situation, asks: &mut Asks) {
         &[Action::Twin, Action::MakeSymmetric, Action::Unfold, Action::Fold, Action::Unlink],
     );
     ui.separator();
-    items(ui, now, asks, &[Action::TurnOver, Action::ToggleLock, Action::ToggleFrozen, Action::Hide]);
+    items(
+        ui,
+        now,
+        asks,
+        &[
+            Action::TurnOver,
+            Action::ToggleLock,
+            Action::ToggleFrozen,
+            Action::ToggleDeactivated,
+            Action::Hide,
+        ],
+    );
     ui.separator();
     items(
         ui,
@@ -163,7 +174,13 @@ pub fn context_ui(ui: &mut egui::Ui, now: &Situation, asks: &mut Asks) {
     }
     if picked.pieces > 0 {
         groups.push(&[Action::Duplicate, Action::Twin, Action::MakeSymmetric, Action::Fold, Action::Unlink]);
-        groups.push(&[Action::TurnOver, Action::ToggleLock, Action::ToggleFrozen, Action::Hide]);
+        groups.push(&[
+            Action::TurnOver,
+            Action::ToggleLock,
+            Action::ToggleFrozen,
+            Action::ToggleDeactivated,
+            Action::Hide,
+        ]);
     }
     groups.push(&[Action::Delete, Action::SelectAll, Action::ShowPieces]);
     groups.push(&[Action::FrameAll, Action::FrameSelection]);

@@ -167,6 +167,7 @@ impl App {
             document,
             body,
             cloth: snapshot.drawn().filter(|_| self.show_cloth && snapshot.is_dressed()),
+            whole: snapshot.garment.as_ref().map(|garment| (garment, &snapshot.cloth)),
             pinned: &snapshot.pinned,
             dragged: snapshot.dragged.as_ref(),
             map: self.shell.maps.shown(),

@@ -1,4 +1,5 @@
-//! Cloth drawn so that frozen pieces are told from those that move. No egui here: the headless pictures use it too.
+//! Cloth drawn so that frozen and deactivated pieces are told from those that move. No egui here: the headless pictures use it
+//! too.
 
 use std::collections::BTreeMap;
 
@@ -9,8 +10,14 @@ use crate::render::{Mesh, Rgb};
 
 /// What the colours of frozen cloth are mixed with, and how much of it there is then.
 const ICE: (Rgb, f32) = ([96, 150, 226], 0.6);
+/// The same of deactivated cloth.
+const PALE: (Rgb, f32) = ([228, 228, 226], 0.8);
+/// Triangles of deactivated pieces are left out where what moved has drawn an edge out to more than so many times its length:
+/// their seams do not hold.
+const TORN: f64 = 1.5;
 
-/// `whole`, the drawn mesh of `garment`, with a mesh for the pieces of each activity: a triangle has one colour up to its seams.
+/// `whole`, the drawn mesh of `garment`, with a mesh for the active and one for the frozen pieces: a triangle has one colour up to
+/// its seams.
 pub fn parted(
     whole: Mesh,
     garment: &Garment,
@@ -21,21 +28,54 @@ pub fn parted(
         return vec![whole];
     }
     let of = |activity: Activity| {
-        let pieces = garment.triangles.iter().zip(&garment.triangle_pieces);
-        let all = pieces.filter(|(_, piece)| activities.get(piece).copied().unwrap_or_default() == activity);
-        let laid = |t: &[u32; 3]| t.iter().all(|&v| state.mapped[v as usize]);
-        let triangles: Vec<[u32; 3]> = all.map(|(t, _)| *t).filter(laid).collect();
-        let [front, back] = [whole.front, whole.back].map(|own| looks(own, activity));
-        Mesh { triangles, front, back, ..whole.clone() }
+        let is_laid = |t: usize| is_laid(garment, state, t);
+        part(&whole, garment, activities, activity, is_laid)
     };
     let parts = [Activity::Active, Activity::Frozen].map(of);
     parts.into_iter().filter(|mesh| !mesh.triangles.is_empty()).collect()
+}
+
+/// The deactivated pieces of `garment`, of which `whole` is the drawn mesh.
+pub fn deactivated(
+    whole: &Mesh,
+    garment: &Garment,
+    state: &ClothState,
+    activities: &BTreeMap<PieceId, Activity>,
+) -> Mesh {
+    let is_whole = |t: usize| is_laid(garment, state, t) && !is_torn(garment, state, t);
+    part(whole, garment, activities, Activity::Deactivated, is_whole)
+}
+
+fn part(
+    whole: &Mesh,
+    garment: &Garment,
+    activities: &BTreeMap<PieceId, Activity>,
+    activity: Activity,
+    is_seen: impl Fn(usize) -> bool,
+) -> Mesh {
+    let of = |t: &usize| activities.get(&garment.triangle_pieces[*t]).copied().unwrap_or_default();
+    let all = (0..garment.triangles.len()).filter(|t| of(t) == activity && is_seen(*t));
+    let triangles: Vec<[u32; 3]> = all.map(|t| garment.triangles[t]).collect();
+    let [front, back] = [whole.front, whole.back].map(|own| looks(own, activity));
+    Mesh { triangles, front, back, ..whole.clone() }
+}
+
+fn is_laid(garment: &Garment, state: &ClothState, t: usize) -> bool {
+    garment.triangles[t].iter().all(|&v| state.mapped[v as usize])
+}
+
+fn is_torn(garment: &Garment, state: &ClothState, t: usize) -> bool {
+    let (place, rest) = (garment.triangles[t].map(|v| state.positions[v as usize]), garment.rest[t]);
+    [(0, 1), (1, 2), (2, 0)]
+        .iter()
+        .any(|&(i, j)| place[i].distance(place[j]) > TORN * rest[i].distance(rest[j]))
 }
 
 fn looks(own: Rgb, activity: Activity) -> Rgb {
     let (other, share) = match activity {
         Activity::Active => return own,
         Activity::Frozen => ICE,
+        Activity::Deactivated => PALE,
     };
     [0, 1, 2].map(|k| (f32::from(own[k]) * (1.0 - share) + f32::from(other[k]) * share).round() as u8)
 }
@@ -44,17 +84,26 @@ fn looks(own: Rgb, activity: Activity) -> Rgb {
 mod tests {
     use super::*;
     use crate::render::CLOTH_FRONT;
+    use glam::{DVec2, DVec3};
 
-    #[test]
-    fn frozen_triangles_have_a_mesh_of_their_own() {
+    fn square() -> (Garment, ClothState, Mesh) {
+        let flat = [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y];
+        let triangles = vec![[0, 1, 2], [0, 2, 3]];
         let garment = Garment {
             vertex_count: 4,
-            triangles: vec![[0, 1, 2], [0, 2, 3]],
+            rest: triangles.iter().map(|t: &[u32; 3]| t.map(|v| flat[v as usize])).collect(),
+            triangles: triangles.clone(),
             triangle_pieces: vec![PieceId(1), PieceId(2)],
             ..Garment::default()
         };
-        let state = ClothState { positions: Vec::new(), mapped: vec![true; 4] };
-        let whole = Mesh { triangles: garment.triangles.clone(), front: CLOTH_FRONT, ..Mesh::default() };
+        let positions: Vec<DVec3> = flat.iter().map(|p| p.extend(0.0)).collect();
+        let whole = Mesh { triangles, front: CLOTH_FRONT, ..Mesh::default() };
+        (garment, ClothState { positions, mapped: vec![true; 4] }, whole)
+    }
+
+    #[test]
+    fn frozen_triangles_have_a_mesh_of_their_own() {
+        let (garment, state, whole) = square();
         let parts = |activities: &[(PieceId, Activity)]| {
             parted(whole.clone(), &garment, &state, &activities.iter().copied().collect())
         };
@@ -64,5 +113,17 @@ mod tests {
         assert_eq!(two[0].front, CLOTH_FRONT);
         assert!(two[1].front[2] > two[1].front[0] + 40, "{:?} is bluish", two[1].front);
         assert_eq!(parts(&[(PieceId(1), Activity::Frozen), (PieceId(2), Activity::Frozen)]).len(), 1);
+    }
+
+    #[test]
+    fn deactivated_triangles_are_pale_and_left_out_where_they_would_be_drawn_out() {
+        let (garment, mut state, whole) = square();
+        let activities = BTreeMap::from([(PieceId(1), Activity::Deactivated)]);
+        assert_eq!(parted(whole.clone(), &garment, &state, &activities)[0].triangles, [[0, 2, 3]]);
+        let mesh = deactivated(&whole, &garment, &state, &activities);
+        assert_eq!(mesh.triangles, [[0, 1, 2]]);
+        assert!(mesh.front.iter().zip(CLOTH_FRONT).all(|(pale, own)| *pale > own));
+        state.positions[2].y = 4.0;
+        assert!(deactivated(&whole, &garment, &state, &activities).triangles.is_empty());
     }
 }

@@ -167,6 +167,7 @@ impl PatternPanel {
                     (piece.symmetric, " · symmetric"),
                     (piece.twin.is_some(), " · twin"),
                     (piece.activity == Activity::Frozen, " · frozen"),
+                    (piece.activity.is_deactivated(), " · deactivated"),
                 ];
                 let signs: String = signs.iter().filter(|s| s.0).map(|s| s.1).collect();
                 let text = RichText::new(format!("{}{signs}", piece.name));
@@ -240,6 +241,7 @@ fn activity_ui(ui: &mut egui::Ui, told: &Told<'_>, pieces: &[PieceId], asks: &mu
         for (activity, text, tip) in [
             (Activity::Active, "Active", "Draping and relaxing move it"),
             (Activity::Frozen, "Frozen", Action::ToggleFrozen.entry().tip),
+            (Activity::Deactivated, "Deactivated", Action::ToggleDeactivated.entry().tip),
         ] {
             let is_so = told.now.picked.activity == Some(activity);
             if ui.selectable_label(is_so, text).on_hover_text(tip).clicked() && !is_so {

@@ -14,7 +14,7 @@ use crate::geometry::mesh::vertex_normals;
 use crate::pattern::activity::Activity;
 use crate::render::{BODY, CLOTH_BACK, CLOTH_FRONT, Ground, Label, Mesh, Polyline, Rgb, Scene, mark_colour};
 use crate::ui::mapped::in_colours;
-use crate::ui::parted::parted;
+use crate::ui::parted::{deactivated, parted};
 use crate::ui::stitches::stitched;
 use crate::wrap::{ClothMark, Marks};
 
@@ -50,6 +50,8 @@ pub struct Shown<'a> {
     pub bones: &'a [Bone],
     /// Pieces that are not active.
     pub activities: Option<&'a BTreeMap<PieceId, Activity>>,
+    /// With its deactivated pieces, where it lacks them.
+    pub whole: Option<(&'a Arc<Garment>, &'a Arc<ClothState>)>,
     /// How much of a drag reaches each vertex of the cloth, 0..=1.
     pub dragged: Option<&'a Arc<Vec<f32>>>,
     /// The colours of a map, one for each vertex of the cloth, instead of its own.
@@ -197,12 +199,20 @@ impl Scenery {
         };
         let coloured =
             |mesh: Mesh| Arc::new(map.and_then(|colours| in_colours(&mesh, colours)).unwrap_or(mesh));
+        let asleep = shown.whole.map(|(garment, state)| {
+            Arc::new(deactivated(&cloth_mesh(garment, state), garment, state, &activities))
+        });
+        let asleep = asleep.filter(|mesh| !mesh.triangles.is_empty());
         self.cloth = Some(DrawnCloth {
             garment: Arc::clone(garment),
             state: Arc::clone(state),
             dragged: dragged.cloned(),
             map: map.cloned(),
-            meshes: parted(mesh, garment, state, &activities).into_iter().map(coloured).collect(),
+            meshes: parted(mesh, garment, state, &activities)
+                .into_iter()
+                .map(coloured)
+                .chain(asleep)
+                .collect(),
             activities,
             lines,
         });
@@ -364,9 +374,10 @@ fn seam_lines(garment: &Garment, state: &ClothState, scale: f32) -> Vec<Polyline
         .seam_pairs
         .iter()
         .map(|(_, pairs)| {
-            let vertices = pairs.iter().map(|pair| garment.corners[pair[0] as usize].vertex as usize);
-            let points =
-                vertices.filter(|&v| state.mapped[v]).map(|v| state.positions[v].as_vec3()).collect();
+            let vertices = pairs.iter().map(|pair| garment.corners[pair[0] as usize].vertex);
+            let is_drawn =
+                |v: &u32| state.mapped[*v as usize] && !garment.adjacency.vertex_triangles.of(*v).is_empty();
+            let points = vertices.filter(is_drawn).map(|v| state.positions[v as usize].as_vec3()).collect();
             thin_line(points, SEAM, 1.3, scale)
         })
         .collect()

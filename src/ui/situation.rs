@@ -211,6 +211,7 @@ impl Situation {
             | Action::MakeSymmetric
             | Action::TurnOver
             | Action::ToggleFrozen
+            | Action::ToggleDeactivated
             | Action::Hide => unless(self.picked.pieces > 0, "No piece is selected"),
             Action::ToggleLock => {
                 unless(self.picked.pieces + self.picked.pins > 0, "No piece or pin is selected")
@@ -241,6 +242,7 @@ impl Situation {
             Action::ToggleLaser => self.laser,
             Action::ToggleLock => self.picked.locked,
             Action::ToggleFrozen => self.picked.activity == Some(Activity::Frozen),
+            Action::ToggleDeactivated => self.picked.activity == Some(Activity::Deactivated),
             Action::TogglePairs => self.sight.pairs,
             Action::ToggleSnapping => self.snapping,
             Action::Unit(unit) => self.unit == unit,

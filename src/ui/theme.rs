@@ -101,6 +101,9 @@ impl Palette {
         match activity {
             Activity::Active => [cloth, line],
             Activity::Frozen => [cloth.lerp_to_gamma(self.frozen, 0.6), line],
+            Activity::Deactivated => {
+                [cloth.lerp_to_gamma(self.table, 0.75), line.lerp_to_gamma(self.table, 0.4)]
+            }
         }
     }
 
@@ -224,7 +227,9 @@ mod tests {
                 ("front of pieces", p.piece_text, p.front[0]),
                 ("back of pieces", p.piece_text, p.back[0]),
                 ("frozen pieces", p.piece_text, p.piece(true, Activity::Frozen)[0]),
-                ("their backs", p.piece_text, p.piece(false, Activity::Frozen)[0]),
+                ("deactivated pieces", p.piece_text, p.piece(true, Activity::Deactivated)[0]),
+                ("their backs", p.piece_text, p.piece(false, Activity::Deactivated)[0]),
+                ("backs of frozen ones", p.piece_text, p.piece(false, Activity::Frozen)[0]),
             ] {
                 let ratio = contrast(ink, paper);
                 assert!(ratio >= 4.5, "{theme:?} {what}: {ratio}");

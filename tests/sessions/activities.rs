@@ -1,10 +1,11 @@
-//! Frozen pieces.
+//! Frozen and deactivated pieces.
 
 use glam::{DVec2, DVec3};
 use toile::drag::{DragMode, Ray};
+use toile::fit::{BodyIndex, measure};
 use toile::geometry::ids::PieceId;
 use toile::pattern::activity::Activity;
-use toile::pattern::edit::PatternEdit;
+use toile::pattern::edit::{PatternEdit, PointRef};
 use toile::relax::RelaxSettings;
 use toile::session::project_file::{from_bytes, to_bytes};
 use toile::session::{Command, Session, Settings};
@@ -123,6 +124,89 @@ fn a_project_keeps_what_is_frozen_and_old_ones_have_nothing() {
     again.update();
     drape(&mut again);
     assert_eq!(places(&again, LEFT), before, "opened again");
+}
+
+/// Where the vertices are that are of the left piece alone.
+fn left_alone(s: &Session) -> Vec<DVec3> {
+    let snapshot = s.snapshot();
+    let garment = snapshot.garment.as_ref().expect("dressed");
+    let shared: Vec<u32> = garment.corners.iter().filter(|c| c.piece == RIGHT).map(|c| c.vertex).collect();
+    let own = garment.corners.iter().filter(|c| c.piece == LEFT && !shared.contains(&c.vertex));
+    own.map(|c| snapshot.cloth.positions[c.vertex as usize]).collect()
+}
+
+#[test]
+fn a_deactivated_piece_stays_and_holds_nothing() {
+    let mut s = dressed();
+    let (before, lay, low) = (left_alone(&s), cloth_hash(&mut s), lowest(&s));
+    set(&mut s, Activity::Deactivated);
+    assert_eq!(s.undo_label(), Some("deactivate left"));
+    s.apply_alone(Command::SetDraping { on: true }).expect("draped");
+    run(&mut s, 90);
+    assert_eq!(left_alone(&s), before);
+    assert!(lowest(&s) < low - 0.3, "nothing holds the other: {} under {low}", lowest(&s));
+    let snapshot = s.snapshot();
+    let (counts, _) = snapshot.drawn().expect("cloth");
+    assert!(counts.triangle_pieces.iter().all(|piece| *piece == RIGHT), "neither drawn nor measured");
+    s.apply_alone(Command::Undo).expect("undone");
+    assert_eq!(left_alone(&s), before);
+    s.apply_alone(Command::Undo).expect("undone");
+    assert_eq!(cloth_hash(&mut s), lay);
+    s.update();
+    assert!(s.snapshot().drawn().is_some_and(|(all, _)| all.triangle_pieces.contains(&LEFT)));
+}
+
+#[test]
+fn what_is_deactivated_is_no_fault_and_comes_back_to_its_seams() {
+    let mut s = dressed();
+    set(&mut s, Activity::Deactivated);
+    s.apply_alone(Command::StepDraping { ticks: 20 }).expect("draped");
+    run(&mut s, 20);
+    assert!(s.runner().simulation().expect("inline").judge());
+    s.update();
+    let faults = s.snapshot().verdict.clone().expect("looked at");
+    assert!(faults.iter().all(|fault| !fault.problem.words.contains("torn")), "{faults:?}");
+    set(&mut s, Activity::Active);
+    s.apply_alone(Command::StepDraping { ticks: 60 }).expect("draped");
+    run(&mut s, 60);
+    let snapshot = s.snapshot();
+    let (garment, cloth) = snapshot.drawn().expect("cloth");
+    let source = snapshot.source.as_ref().expect("a pattern");
+    let report =
+        measure(&source.pattern, garment, cloth, &BodyIndex::new(snapshot.body.as_ref().expect("a body")));
+    assert!(report.strain.max < 0.5, "strain {}", report.strain.max);
+    assert_eq!((report.pieces.len(), report.not_finite_vertices), (2, 0));
+}
+
+#[test]
+fn where_all_is_deactivated_nothing_drapes() {
+    let mut s = dressed();
+    let lay = s.snapshot().cloth.positions.clone();
+    let edits = vec![PatternEdit::SetActivity { pieces: vec![LEFT, RIGHT], activity: Activity::Deactivated }];
+    s.apply_alone(Command::EditPattern { edits, anew: false }).expect("set");
+    s.apply_alone(Command::SetDraping { on: true }).expect("asked");
+    run(&mut s, 10);
+    assert_eq!(s.snapshot().cloth.positions, lay);
+    let told = s.snapshot().problems.iter().any(|problem| problem.words.contains("cannot be draped"));
+    assert!(told, "{:?}", s.snapshot().problems);
+}
+
+/// An edit of the other piece cuts the cloth anew: what stays, stays where the same places lay.
+#[test]
+fn an_edit_of_another_piece_leaves_it() {
+    for activity in [Activity::Frozen, Activity::Deactivated] {
+        let mut s = dressed();
+        set(&mut s, activity);
+        let before = left_alone(&s);
+        let point = PointRef { piece: RIGHT, point: 1 };
+        let edits = vec![PatternEdit::MovePoints { points: vec![(point, DVec2::new(0.27, 0.0))] }];
+        s.apply_alone(Command::EditPattern { edits, anew: false }).expect("edited");
+        run(&mut s, 300);
+        let after = left_alone(&s);
+        assert_eq!(after.len(), before.len());
+        let moved = after.iter().zip(&before).map(|(p, q)| p.distance(*q)).fold(0.0, f64::max);
+        assert!(moved < 1e-9, "{activity:?}: {moved}");
+    }
 }
 
 #[test]

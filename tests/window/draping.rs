@@ -83,3 +83,18 @@ fn a_piece_is_frozen_by_a_key_and_let_go_in_the_panel() {
     assert_eq!(activity(&window), Activity::Active);
     wait(&mut window, "the fall", |app| app.session().snapshot().cloth.positions != before);
 }
+
+#[test]
+fn a_piece_is_deactivated_by_a_key_and_told_in_the_list() {
+    let mut window = dressed_window();
+    key(&mut window, Modifiers::NONE, Key::V);
+    key(&mut window, Modifiers::COMMAND, Key::A);
+    for (activity, label) in
+        [(Activity::Deactivated, "deactivate Square"), (Activity::Active, "activate Square")]
+    {
+        key(&mut window, Modifiers::COMMAND, Key::J);
+        let pattern = app(&window).session().document().pattern.clone();
+        assert!(pattern.pieces.values().all(|piece| piece.activity == activity));
+        assert_eq!(app(&window).session().undo_label(), Some(label));
+    }
+}

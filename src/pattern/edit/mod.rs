@@ -74,7 +74,7 @@ pub enum PatternEdit {
     SetHidden { pieces: Vec<PieceId>, hidden: bool },
     /// Wear pieces on another layer, 0..=15: over all pieces of lower ones. Counts when they are sewn the next time.
     SetLayer { pieces: Vec<PieceId>, layer: u8 },
-    /// Freeze pieces where they lie on the body, or let draping and relaxing move them again.
+    /// Freeze pieces where they lie on the body, deactivate them there, or let draping and relaxing move them again.
     SetActivity { pieces: Vec<PieceId>, activity: Activity },
 
     /// Move points. The curves beside them turn and scale with their chords.
@@ -262,8 +262,9 @@ fn carry_out(pattern: &mut Pattern, edit: &PatternEdit) -> Result<Change, String
         }
         PatternEdit::SetActivity { pieces, activity } => {
             let what = match activity {
-                Activity::Active => "let go of",
+                Activity::Active => "activate",
                 Activity::Frozen => "freeze",
+                Activity::Deactivated => "deactivate",
             };
             pieces::set_all(pattern, pieces, what, |p| p.activity = *activity)
         }

@@ -322,6 +322,7 @@ fn words_on(piece: &Piece, front: bool) -> String {
         (piece.symmetric, " · symmetric"),
         (piece.locked, " · locked"),
         (piece.activity == Activity::Frozen, " · frozen"),
+        (piece.activity.is_deactivated(), " · deactivated"),
     ] {
         if is_so {
             words.push_str(sign);

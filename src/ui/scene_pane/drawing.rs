@@ -8,6 +8,7 @@ use glam::UVec2;
 use super::outlines::outlines;
 use super::{Key, ScenePane, Seen};
 use crate::geometry::ids::MarkId;
+use crate::pattern::activity::Activity;
 use crate::render::{Look, Quality};
 use crate::session::Pin;
 use crate::ui::scene::{PinLook, Shown};
@@ -77,6 +78,7 @@ impl ScenePane {
             pins: &pins,
             bones: &bones,
             activities: Some(&activities),
+            whole: seen.whole.filter(|_| activities.values().any(Activity::is_deactivated)),
             dragged: seen.dragged,
             map: seen.map.map(|map| &map.colours),
             beside: seen.beside.map_or(&[], |meshes| meshes),

@@ -54,6 +54,8 @@ pub struct Seen<'a> {
     pub body: Option<&'a Arc<Surface>>,
     /// The garment on it.
     pub cloth: Option<(&'a Arc<Garment>, &'a Arc<ClothState>)>,
+    /// The same with its deactivated pieces.
+    pub whole: Option<(&'a Arc<Garment>, &'a Arc<ClothState>)>,
     /// The vertex of the garment under each pin of the document.
     pub pinned: &'a Arc<Vec<Option<u32>>>,
     /// How much of the drag under way reaches each vertex.
