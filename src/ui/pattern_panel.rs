@@ -236,8 +236,10 @@ fn weak(ui: &mut egui::Ui, told: &Told<'_>, text: &str) -> egui::Response {
 
 /// What draping does with `pieces`.
 fn activity_ui(ui: &mut egui::Ui, told: &Told<'_>, pieces: &[PieceId], asks: &mut Asks) {
-    ui.horizontal(|ui| {
-        weak(ui, told, "Draping");
+    weak(ui, told, "Draping");
+    // Side by side with their label they would widen the panel, and move the body aside.
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing.x = 2.0;
         for (activity, text, tip) in [
             (Activity::Active, "Active", "Draping and relaxing move it"),
             (Activity::Frozen, "Frozen", Action::ToggleFrozen.entry().tip),

@@ -68,8 +68,10 @@ fn a_piece_is_frozen_by_a_key_and_let_go_in_the_panel() {
         let pattern = &app(window).session().document().pattern;
         pattern.pieces.values().next().expect("the square").activity
     };
+    let body_pane = pane(&window, "Body pane");
     key(&mut window, Modifiers::NONE, Key::V);
     key(&mut window, Modifiers::COMMAND, Key::A);
+    assert_eq!(pane(&window, "Body pane"), body_pane, "what the panel tells of a piece finds room in it");
     key(&mut window, Modifiers::COMMAND, Key::K);
     assert_eq!(activity(&window), Activity::Frozen);
     assert_eq!(app(&window).session().undo_label(), Some("freeze Square"));
