@@ -508,4 +508,27 @@ mod tests {
         }
         assert!(itself.siftings > 5 && left_out > 0 && itself.pairs_skipped > itself.pairs_seen);
     }
+
+    #[test]
+    fn pairs_gathered_ahead_are_all_that_touch_while_they_last() {
+        let (sheet, margin, ahead) = (sheet(), 0.002, 0.01);
+        let mut itself = Itself::new(&sheet, 0.012, vec![1.0; 21 * 21]);
+        let mut now = Itself::new(&sheet, 0.012, vec![1.0; 21 * 21]);
+        let mut touching = 0;
+        for step in 0..120 {
+            let seconds = f64::from(step) * 1e-3;
+            let [before, x, then] = [-1e-3, 0.0, 1e-3].map(|more| shaken(&sheet, seconds + more));
+            let ways: Vec<DVec3> =
+                before.iter().zip(&then).map(|(b, t)| (*t - *b) * (ahead / 2e-3)).collect();
+            itself.gather_ahead(&sheet, &x, &ways, |_| DVec3::ZERO, margin);
+            now.gather_pairs(&sheet, &x, &vec![DVec3::ZERO; x.len()], 0.0, HINGED * now.thickness);
+            for pair in now.pairs.iter().filter(|pair| pair.distance(&x) < now.thickness) {
+                touching += 1;
+                let known = itself.pairs.binary_search_by_key(&pair.key(), Pair::key);
+                assert!(known.is_ok(), "{pair:?} in step {step}");
+            }
+        }
+        let gathered = itself.gatherings;
+        assert!(touching > 1000 && (2..100).contains(&gathered), "{touching} {gathered}");
+    }
 }
