@@ -3,6 +3,7 @@
 mod bones;
 mod cube;
 mod drawing;
+mod facing;
 mod graphics;
 mod hand;
 mod hint;

@@ -3,8 +3,9 @@
 use std::sync::Arc;
 
 use egui::{Rect, Response};
-use glam::{DVec2, DVec3, Vec2, Vec3};
+use glam::{DVec3, Vec2, Vec3};
 
+use super::facing::facing;
 use super::{Drag, ScenePane, Seen, size_of, within};
 use crate::body::Surface;
 use crate::render::View;
@@ -25,9 +26,8 @@ impl ScenePane {
 
     /// Turns to `points` on `body` and comes near enough to see them well.
     pub fn show(&mut self, points: &[DVec3], body: &Surface) {
-        let out: DVec3 = points.iter().map(|&p| body.nearest(p).normal).sum();
-        if DVec2::new(out.x, out.z).length() > 0.2 * points.len() as f64 {
-            self.camera.look(View::Angles { yaw: out.x.atan2(out.z).to_degrees() as f32, pitch: 10.0 });
+        if let Some((yaw, pitch)) = facing(points, body) {
+            self.camera.look(View::Angles { yaw: yaw as f32, pitch: pitch as f32 });
         }
         self.come_near(points, body);
     }
