@@ -11,7 +11,7 @@ use crate::cli::picture::Artist;
 use crate::cli::{input, interrupt, output, run};
 use crate::cloth::{ClothState, Garment};
 use crate::fit::maps::{Histogram, MapStats, PieceStats};
-use crate::fit::{Map, MapKind};
+use crate::fit::{Map, MapKind, MapReader};
 use crate::geometry::ids::PieceId;
 use crate::render::{Legend, Palette, Rgb, png};
 use crate::session::{Outfit, Session};
@@ -94,9 +94,10 @@ fn maps(
         maps: Vec::new(),
         pictures_left_out: pictures.left_out.clone(),
     };
+    let reader = MapReader::new(outfit.worn());
     for kind in kinds(&arguments.maps) {
         interrupt::check()?;
-        let map = Map::new(kind, outfit.worn());
+        let map = reader.map(kind);
         let write = |name: String, bytes: &[u8]| output::write(&folder.join(name), bytes);
         write(format!("{}.csv", kind.name()), vertices_csv(&map, garment, state).as_bytes())?;
         write(format!("{}-triangles.csv", kind.name()), triangles_csv(&map, garment).as_bytes())?;

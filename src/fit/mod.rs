@@ -16,7 +16,7 @@ mod verdict;
 
 pub use compare::{Change, Matching, Unlike};
 pub use girth::{Girth, girth, girths};
-pub use maps::{Map, MapKind, Worn};
+pub use maps::{Map, MapKind, MapReader, Worn};
 pub use on_body::BodyIndex;
 pub use openings::Opening;
 pub use report::{Clearance, Penetration, PieceChange, Report, Seams, Strain, measure};

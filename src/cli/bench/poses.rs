@@ -11,7 +11,7 @@ use crate::cli::bench::{median, one_hash};
 use crate::cli::failure::Failure;
 use crate::cli::interrupt;
 use crate::cloth::ClothState;
-use crate::fit::{Map, MapKind, Worn};
+use crate::fit::{MapKind, MapReader, Worn};
 use crate::repose::{Care, Outcome, Reposer};
 use crate::session::Fabrics;
 use crate::sim::hash::{Fnv, cloth_hash};
@@ -130,9 +130,10 @@ fn maps(scene: &Scene, worn: &Wrapped, runs: usize) -> Result<Row, Failure> {
     for _ in 0..runs {
         interrupt::check()?;
         let (mut hash, start) = (Fnv::default(), Instant::now());
+        let reader = MapReader::new(shown);
         for (kind, each) in MapKind::ALL.into_iter().zip(&mut each) {
             let begun = Instant::now();
-            let map = Map::new(kind, shown);
+            let map = reader.map(kind);
             each.push(begun.elapsed().as_secs_f64());
             map.vertices.iter().for_each(|v| hash.number(v.to_bits()));
         }

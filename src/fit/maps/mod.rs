@@ -12,12 +12,13 @@ pub(super) mod tests;
 pub use kind::MapKind;
 pub use stats::{Histogram, MapStats, PieceStats};
 
+use std::cell::OnceCell;
 use std::collections::BTreeMap;
 
 use glam::DVec3;
 use rayon::prelude::*;
 
-use crate::body::Surface;
+use crate::body::{Nearest, Surface};
 use crate::cloth::{ClothState, Fabric, Garment};
 use crate::geometry::ids::PieceId;
 use crate::pattern::Pattern;
@@ -53,19 +54,47 @@ pub struct Worn<'a> {
     pub offset: f64,
 }
 
-impl Map {
-    /// The map of `kind` over `worn`. Same input, same bits, on any number of threads.
-    pub fn new(kind: MapKind, worn: Worn<'_>) -> Self {
+/// Reads several maps off the same cloth: the nearest points of the skin, which more than one kind needs, are found once.
+#[derive(Debug)]
+pub struct MapReader<'a> {
+    worn: Worn<'a>,
+    skin: OnceCell<Vec<Option<Nearest>>>,
+}
+
+impl<'a> MapReader<'a> {
+    /// Nothing is read yet.
+    pub fn new(worn: Worn<'a>) -> Self {
+        Self { worn, skin: OnceCell::new() }
+    }
+
+    /// The map of `kind`. Same input, same bits, on any number of threads.
+    pub fn map(&self, kind: MapKind) -> Map {
+        let worn = self.worn;
         match kind {
             MapKind::Warp | MapKind::Weft | MapKind::Shear | MapKind::Area => {
-                Self::of_triangles(kind, worn, strain::strain(kind, worn))
+                Map::of_triangles(kind, worn, strain::strain(kind, worn))
             }
-            MapKind::Ease => Self::of_vertices(kind, worn, ease(worn)),
-            MapKind::Curvature => Self::of_vertices(kind, worn, curvature::largest_angle(worn)),
-            MapKind::MeanCurvature => Self::of_vertices(kind, worn, curvature::mean(worn)),
-            MapKind::Seams => Self::of_vertices(kind, worn, strain::seams(worn)),
-            MapKind::Pressure => Self::of_vertices(kind, worn, pressure::pressure(worn)),
+            MapKind::Ease => Map::of_vertices(kind, worn, ease(self.skin())),
+            MapKind::Curvature => Map::of_vertices(kind, worn, curvature::largest_angle(worn)),
+            MapKind::MeanCurvature => Map::of_vertices(kind, worn, curvature::mean(worn)),
+            MapKind::Seams => Map::of_vertices(kind, worn, strain::seams(worn)),
+            MapKind::Pressure => Map::of_vertices(kind, worn, pressure::pressure(worn, self.skin())),
         }
+    }
+
+    /// The point of the skin nearest to each laid vertex.
+    fn skin(&self) -> &[Option<Nearest>] {
+        self.skin.get_or_init(|| {
+            let places = &self.worn.state.positions;
+            of_laid(self.worn, |v| self.worn.surface.nearest(places[v as usize]))
+        })
+    }
+}
+
+impl Map {
+    /// The map of `kind` over `worn` alone.
+    pub fn new(kind: MapKind, worn: Worn<'_>) -> Self {
+        MapReader::new(worn).map(kind)
     }
 
     /// Vertices have the mean of their triangles, by flat area.
@@ -96,13 +125,18 @@ impl Map {
     }
 }
 
-/// A value for each laid vertex.
+/// A value for each laid vertex, NaN for the others.
 fn per_vertex(worn: Worn<'_>, value: impl Fn(u32) -> f64 + Sync) -> Vec<f64> {
+    of_laid(worn, value).into_iter().map(|value| value.unwrap_or(f64::NAN)).collect()
+}
+
+/// What is told of each laid vertex.
+fn of_laid<T: Send>(worn: Worn<'_>, tell: impl Fn(u32) -> T + Sync) -> Vec<Option<T>> {
     let laid = |v: u32| worn.state.mapped.get(v as usize) == Some(&true);
     (0..worn.garment.vertex_count as u32)
         .into_par_iter()
         .with_min_len(LEAST_SHARE)
-        .map(|v| if laid(v) { value(v) } else { f64::NAN })
+        .map(|v| laid(v).then(|| tell(v)))
         .collect()
 }
 
@@ -114,6 +148,6 @@ fn laid_corners(worn: Worn<'_>, t: usize) -> Option<[DVec3; 3]> {
 }
 
 /// The gap to the body, metres; negative inside.
-fn ease(worn: Worn<'_>) -> Vec<f64> {
-    per_vertex(worn, |v| worn.surface.nearest(worn.state.positions[v as usize]).distance)
+fn ease(skin: &[Option<Nearest>]) -> Vec<f64> {
+    skin.iter().map(|skin| skin.map_or(f64::NAN, |skin| skin.distance)).collect()
 }

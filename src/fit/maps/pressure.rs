@@ -3,6 +3,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
+use crate::body::Nearest;
 use crate::cloth::fabric::{green, stress, wrinkled};
 use crate::fit::maps::curvature::corner;
 use crate::fit::maps::strain::{flat, grain};
@@ -20,14 +21,15 @@ const GRAVITY: DVec3 = DVec3::new(0.0, -9.81, 0.0);
 /// off; NaN where it does not lie on the skin, and without a fabric.
 ///
 /// What bending adds is left out: B/r³, 0.3 Pa for 4e-5 N·m and r = 5 cm. So is what layers above press.
-pub(super) fn pressure(worn: Worn<'_>) -> Vec<f64> {
-    let (garment, positions) = (worn.garment, &worn.state.positions);
+///
+/// `skin` is the nearest point of the body to each vertex.
+pub(super) fn pressure(worn: Worn<'_>, skin: &[Option<Nearest>]) -> Vec<f64> {
+    let garment = worn.garment;
     let forces = corner_forces(worn);
     per_vertex(worn, |v| {
-        let skin = worn.surface.nearest(positions[v as usize]);
-        if skin.distance > LIES * worn.offset {
+        let Some(skin) = skin[v as usize].filter(|skin| skin.distance <= LIES * worn.offset) else {
             return f64::NAN;
-        }
+        };
         let (mut inward, mut area) = (0.0, 0.0);
         for &t in garment.adjacency.vertex_triangles.of(v) {
             let Some(of_triangle) = &forces[t as usize] else { return f64::NAN };

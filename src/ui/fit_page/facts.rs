@@ -3,7 +3,7 @@
 use crate::body::landmarks;
 use crate::body::readings::{Reading, readings};
 use crate::fit::maps::PieceStats;
-use crate::fit::{self, BodyIndex, Girth, Map, MapKind, Report, SeamFit};
+use crate::fit::{self, BodyIndex, Girth, Map, MapKind, MapReader, Report, SeamFit};
 use crate::pattern::Problem;
 use crate::session::{Outfit, Session};
 use crate::sim;
@@ -59,7 +59,11 @@ impl Facts {
         let faults = sim::faults(&report, source, garment, state, &index, snapshot.was_draped);
         let tight = fit::tightest(&report, garment, state, || landmarks::found(&body.mesh));
         let readings = readings(&body.mesh).unwrap_or_default();
-        let map = |kind| Map::new(kind, outfit.worn());
+        let reader = MapReader::new(outfit.worn());
+        let (maps, strains) = (
+            MAPS.map(|kind| MapFacts::from(reader.map(kind))),
+            [MapKind::Warp, MapKind::Weft, MapKind::Shear].map(|kind| reader.map(kind).pieces(garment)),
+        );
         Some(Self {
             name: name.to_owned(),
             body: session.document().body.name().to_owned(),
@@ -71,8 +75,8 @@ impl Facts {
             tight: tight.map(|tight| tight.to_string()),
             girths: fit::girths(garment, state, &readings),
             seams: SeamFit::all(&source.pattern, garment, state),
-            maps: MAPS.map(|kind| MapFacts::from(map(kind))).into(),
-            strains: [MapKind::Warp, MapKind::Weft, MapKind::Shear].map(|kind| map(kind).pieces(garment)),
+            maps: maps.into(),
+            strains,
             report,
             readings,
             outfit,
