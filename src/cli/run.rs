@@ -10,12 +10,13 @@ use crate::session::{Command, Notice, Project, Session};
 use crate::sim::{Runner, Simulation};
 use crate::wrap::Phase;
 
-/// Calls `work` with `threads` workers for parallel steps; without a number, one for each processor.
+/// Calls `work` with `threads` workers for parallel steps; without a number, one for each processor. It runs on one of them: from
+/// another thread every parallel loop would be handed over and waited for.
 pub fn on_threads(
     threads: Option<usize>,
     work: impl FnOnce() -> Result<(), Failure> + Send,
 ) -> Result<(), Failure> {
-    let Some(threads) = threads else { return work() };
+    let Some(threads) = threads else { return rayon::scope(|_| work()) };
     if !(1..=1024).contains(&threads) {
         return Err(Failure::Usage("--threads takes a number from 1 to 1024".to_owned()));
     }

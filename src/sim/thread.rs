@@ -121,7 +121,9 @@ impl Worker {
             if !self.empty_inbox() {
                 return false;
             }
-            self.simulation.tick();
+            let simulation = &mut self.simulation;
+            // On a worker: from another thread every parallel loop in it would be handed over and waited for.
+            rayon::scope(|_| simulation.tick());
             self.publish();
             due = (due + self.period).max(Instant::now());
             if !self.wait_until(due) {
