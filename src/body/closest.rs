@@ -59,11 +59,15 @@ impl ClosestTree {
         limit: f64,
         left_out: impl Fn(u32) -> bool,
     ) -> Option<(DVec3, u32, Part)> {
-        let far = |slot: usize| match left_out(self.tree.items[slot]) {
-            true => f64::INFINITY,
-            false => (self.on(slot, p).0 - p).length_squared(),
-        };
-        let (slot, _) = self.tree.nearest(p, limit * limit, far)?;
+        let (slot, _) = self.tree.nearest(
+            p,
+            limit * limit,
+            #[inline(always)]
+            |slot| match left_out(self.tree.items[slot]) {
+                true => f64::INFINITY,
+                false => (self.on(slot, p).0 - p).length_squared(),
+            },
+        )?;
         let (point, part) = self.on(slot, p);
         Some((point, self.tree.items[slot], part))
     }
@@ -94,6 +98,7 @@ impl ClosestTree {
         });
     }
 
+    #[inline(always)]
     fn on(&self, slot: usize, p: DVec3) -> (DVec3, Part) {
         let [a, b, c] = self.corners[slot];
         closest_on_triangle(p, a, b, c)
@@ -122,7 +127,7 @@ pub fn pseudonormal(
 }
 
 /// The point of triangle `abc` nearest to `p` (Ericson, Real-Time Collision Detection, 5.1.5).
-#[inline]
+#[inline(always)]
 pub fn closest_on_triangle(p: DVec3, a: DVec3, b: DVec3, c: DVec3) -> (DVec3, Part) {
     let (ab, ac, ap) = (b - a, c - a, p - a);
     let (d1, d2) = (ab.dot(ap), ac.dot(ap));

@@ -192,7 +192,8 @@ impl Dragging {
             let wanted = self.motion(state);
             let motion = wanted.clamp_length_max(SUBSTEP * self.edge_length);
             let on = substep + 1 < MOST_SUBSTEPS && wanted.length() > (SUBSTEP + ARRIVED) * self.edge_length;
-            self.relaxer.walk(on);
+            // The last relaxation asks where the skin is exactly; on the way there a walk is enough.
+            self.relaxer.walk(on || (substep > 0 && relaxing));
             let arrived = motion.length() < ARRIVED * self.edge_length;
             if arrived && substep > 0 {
                 break;
@@ -201,6 +202,7 @@ impl Dragging {
             if !arrived {
                 moved = moved.max(self.move_along(state, motion));
             }
+            self.relaxer.walk(on);
             if relaxing {
                 moved = moved.max(self.relax(state));
             }

@@ -4,6 +4,7 @@
 use glam::DVec3;
 
 use crate::geometry::bvh::{Aabb, Bvh};
+use crate::geometry::wide::wide;
 
 /// Marks a child that is a leaf; the rest is its first place times eight, plus how many items it has.
 const LEAF: u32 = 1 << 31;
@@ -32,6 +33,7 @@ impl Node {
     }
 
     /// Squares of the distances from `p` to the four boxes.
+    #[inline(always)]
     fn distances_squared(&self, p: DVec3) -> [f64; 4] {
         let mut sum = [0.0; 4];
         for (axis, x) in p.to_array().into_iter().enumerate() {
@@ -126,21 +128,39 @@ impl Bvh4 {
     ) -> Option<(usize, f64)> {
         let mut best: Option<(usize, f64)> = None;
         let mut least = limit;
-        self.visit(p, limit, |slot| {
-            let d = distance_squared(slot);
-            let wins = |(other, _): (usize, f64)| self.items[slot] < self.items[other];
-            if d < least || (d == least && best.is_none_or(wins)) {
-                least = d;
-                best = Some((slot, d));
-            }
-            least
-        });
+        wide(
+            #[inline(always)]
+            || {
+                self.descend(
+                    p,
+                    limit,
+                    #[inline(always)]
+                    |slot| {
+                        let d = distance_squared(slot);
+                        let wins = |(other, _): (usize, f64)| self.items[slot] < self.items[other];
+                        if d < least || (d == least && best.is_none_or(wins)) {
+                            least = d;
+                            best = Some((slot, d));
+                        }
+                        least
+                    },
+                )
+            },
+        );
         best
     }
 
     /// Calls `look` with every place whose leaf's box is within the square root of a limit of `p`, nearer boxes first. The
     /// limit is `limit` at first, then what `look` said last.
-    pub fn visit(&self, p: DVec3, limit: f64, mut look: impl FnMut(usize) -> f64) {
+    pub fn visit(&self, p: DVec3, limit: f64, look: impl FnMut(usize) -> f64) {
+        wide(
+            #[inline(always)]
+            || self.descend(p, limit, look),
+        );
+    }
+
+    #[inline(always)]
+    fn descend(&self, p: DVec3, limit: f64, mut look: impl FnMut(usize) -> f64) {
         let mut least = limit;
         let mut open = [(0.0f64, 0u32); DEPTH];
         let mut waiting = usize::from(!self.nodes.is_empty());

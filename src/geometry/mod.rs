@@ -14,4 +14,5 @@ pub mod problem;
 pub mod rebuild;
 pub mod shapes;
 pub mod walk;
+pub mod wide;
 pub mod winding;

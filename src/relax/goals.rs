@@ -23,17 +23,35 @@ pub fn turned_rest(
 ) -> [DVec3; 3] {
     let (u, v) = (corners[1] - corners[0], corners[2] - corners[0]);
     let area = u.cross(v);
-    let (length, size) = (u.length(), area.length());
-    // In the plane of u and v: u points along x, v lies above it.
-    if size > COLLAPSED * length * length && length > 0.0 {
+    let (length, size) = (u.length_squared(), area.length());
+    if size > COLLAPSED * length && length > 0.0 {
+        let n = area * size.recip();
+        if by == Rotation::LeastSquares {
+            return turned_about(n, [u, v], rest);
+        }
+        // In the plane of u and v: u points along x, v lies above it.
+        let length = length.sqrt();
         let x = u / length;
-        let y = (area / size).cross(x);
         let (p, q) = (v.dot(x), size / length);
         let centre = DVec2::new(length + p, q) / 3.0;
         let flat = [-centre, DVec2::new(length, 0.0) - centre, DVec2::new(p, q) - centre];
-        return turned([x, y], flat, rest, by);
+        return turned([x, n.cross(x)], flat, rest, by);
     }
     turned_rest_facing(corners, rest, area.try_normalize().unwrap_or_else(keep), by)
+}
+
+/// `rest` turned about `n` to lie closest, in the sense of least squares, to a triangle with `sides` from its first corner, that
+/// `n` is the unit normal of. With a0 and a1 the sums over corners of place times rest.x and rest.y, the turned x axis goes
+/// along a0 + a1 x n: A plus its cofactors, whose length is the sum of the singular values of A and so never 0.
+#[inline(always)]
+fn turned_about(n: DVec3, [u, v]: [DVec3; 2], rest: &[DVec2; 3]) -> [DVec3; 3] {
+    let [a, b, c] = *rest;
+    // About the centroid the rest places sum to 0: from where the others are counted does not matter.
+    let (along_x, along_y) = (u * b.x + v * c.x, u * b.y + v * c.y);
+    let x = along_x + along_y.cross(n);
+    let x = x * x.length().recip();
+    let y = n.cross(x);
+    [x * a.x + y * a.y, x * b.x + y * b.y, x * c.x + y * c.y]
 }
 
 /// The same in the plane across `normal` (paper A's temporary normal): a triangle that faces away from it is turned over.
@@ -100,6 +118,16 @@ mod tests {
         for (goal, exact) in goals.iter().zip(exact) {
             assert!((*goal - exact).length() < 1e-12);
         }
+    }
+
+    /// The turn straight in space is the one in the plane.
+    #[test]
+    fn both_ways_to_the_least_squares_turn_agree() {
+        let corners = [DVec3::new(0.2, 0.1, -0.4), DVec3::new(2.9, 0.6, 0.3), DVec3::new(-0.3, 3.1, 1.0)];
+        let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+        let straight = turned_rest(corners, &REST, || DVec3::Z, Rotation::LeastSquares);
+        let in_plane = turned_rest_facing(corners, &REST, normal, Rotation::LeastSquares);
+        assert!(straight.iter().zip(in_plane).all(|(a, b)| (*a - b).length() < 1e-12));
     }
 
     #[test]

@@ -1,6 +1,9 @@
 //! A sparse Cholesky factor (faer), solved for one right-hand side or for all three axes at once: with so few of them the calls
 //! of a general solver cost more than the numbers.
 
+mod axes;
+mod trees;
+
 use std::sync::Arc;
 
 use faer::dyn_stack::{MemBuffer, MemStack};
@@ -16,15 +19,22 @@ use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Par, Side, Spec};
 use glam::DVec3;
 
-/// What sums run in at once, for three axes and for one: their order is fixed, whatever the machine has.
-const LANES: [usize; 2] = [4, 8];
+use crate::geometry::factor::axes::{Axes, axes, solve_axes};
+use crate::geometry::factor::trees::Trees;
+use crate::geometry::wide::wide;
+
+/// What sums run in at once for one axis: their order is fixed, whatever the machine has.
+const LANES: usize = 8;
 /// In a matrix with an order of its own, groups of up to so many columns may be joined when they then hold at most this share
 /// of zeros.
 const RELAX: [(usize, f64); 3] = [(4, 1.0), (16, 0.8), (48, 0.1)];
 
 /// Where the numbers of a factor stand.
 #[derive(Clone, Debug)]
-pub struct Symbolic(Arc<SymbolicCholesky<usize>>);
+pub struct Symbolic {
+    matrix: Arc<SymbolicCholesky<usize>>,
+    trees: Arc<Trees>,
+}
 
 /// The numbers.
 #[derive(Clone, Debug)]
@@ -58,18 +68,20 @@ impl Symbolic {
             supernodal_params,
             ..Default::default()
         };
-        let symbolic = factorize_symbolic_cholesky(pattern, Side::Lower, ordering, params);
-        Some(Self(Arc::new(symbolic.ok()?)))
+        let matrix = factorize_symbolic_cholesky(pattern, Side::Lower, ordering, params).ok()?;
+        let mut symbolic = Self { matrix: Arc::new(matrix), trees: Arc::default() };
+        symbolic.trees = Arc::new(symbolic.groups().map(trees).unwrap_or_default());
+        Some(symbolic)
     }
 
     /// Numbers a factor has.
     pub fn fill(&self) -> usize {
-        self.0.len_val()
+        self.matrix.len_val()
     }
 
     /// Columns whose rows below them are the same stand together.
     fn groups(&self) -> Option<&SymbolicSupernodalCholesky<usize>> {
-        match self.0.raw() {
+        match self.matrix.raw() {
             SymbolicCholeskyRaw::Supernodal(groups) => Some(groups),
             SymbolicCholeskyRaw::Simplicial(_) => None,
         }
@@ -80,11 +92,11 @@ impl Symbolic {
     pub fn factor(&self, matrix: SparseColMatRef<'_, usize, f64>, memory: Option<Factor>) -> Option<Factor> {
         let mut values = memory.map(|f| f.values).unwrap_or_default();
         values.clear();
-        values.resize(self.0.len_val(), 0.0);
-        let need = self.0.factorize_numeric_llt_scratch::<f64>(Par::Seq, Spec::default());
+        values.resize(self.matrix.len_val(), 0.0);
+        let need = self.matrix.factorize_numeric_llt_scratch::<f64>(Par::Seq, Spec::default());
         let mut memory = MemBuffer::try_new(need).ok()?;
         let stack = MemStack::new(&mut memory);
-        self.0
+        self.matrix
             .factorize_numeric_llt(
                 &mut values,
                 matrix,
@@ -99,37 +111,8 @@ impl Symbolic {
     }
 }
 
-/// Rows below a group, axis by axis.
-struct Below([Vec<f64>; 3]);
-
-impl Below {
-    fn clear(&mut self, count: usize) {
-        for axis in &mut self.0 {
-            axis.clear();
-            axis.resize(count, 0.0);
-        }
-    }
-
-    fn add(&mut self, column: &[f64], times: DVec3) {
-        for (axis, times) in self.0.iter_mut().zip(times.to_array()) {
-            add_times(axis, column, times);
-        }
-    }
-
-    fn dot(&self, column: &[f64]) -> DVec3 {
-        DVec3::from_array([0, 1, 2].map(|axis| dot::<{ LANES[0] }>(&self.0[axis], column)))
-    }
-
-    fn get(&self, row: usize) -> DVec3 {
-        DVec3::new(self.0[0][row], self.0[1][row], self.0[2][row])
-    }
-
-    fn set(&mut self, row: usize, x: DVec3) {
-        self.0.iter_mut().zip(x.to_array()).for_each(|(axis, x)| axis[row] = x);
-    }
-}
-
-fn dot<const LANES: usize>(a: &[f64], b: &[f64]) -> f64 {
+#[inline(always)]
+fn dot(a: &[f64], b: &[f64]) -> f64 {
     let mut sums = [0.0; LANES];
     let (a, b) = (a.chunks_exact(LANES), b.chunks_exact(LANES));
     let rest: f64 = a.remainder().iter().zip(b.remainder()).map(|(a, b)| a * b).sum();
@@ -141,57 +124,36 @@ fn dot<const LANES: usize>(a: &[f64], b: &[f64]) -> f64 {
     sums.iter().sum::<f64>() + rest
 }
 
+#[inline(always)]
 fn add_times(sum: &mut [f64], column: &[f64], times: f64) {
     sum.iter_mut().zip(column).for_each(|(sum, l)| *sum += l * times);
 }
 
 impl Factor {
-    /// Solves in place of the right-hand sides, one an axis. False when there is nothing to solve with.
+    /// Solves in place of the right-hand sides, one an axis. False when there is nothing to solve with. Same input, same bits, on
+    /// any number of threads.
     pub fn solve(&self, sides: &mut [DVec3]) -> bool {
-        let (Some(groups), Some(order)) = (self.symbolic.groups(), self.symbolic.0.perm()) else {
+        let (Some(groups), Some(order)) = (self.symbolic.groups(), self.symbolic.matrix.perm()) else {
             return false;
         };
         let (forward, back) = order.arrays();
-        let mut x: Vec<DVec3> = forward.iter().map(|&v| sides[v]).collect();
-        let mut below = Below(Default::default());
-        for s in 0..groups.n_supernodes() {
-            let group = self.group(groups, s);
-            below.clear(group.rows.len());
-            for (j, column) in group.columns().enumerate() {
-                let (at, own) = (group.start + j, &column[..group.size]);
-                x[at] /= own[j];
-                let done = x[at];
-                for i in j + 1..group.size {
-                    x[group.start + i] -= done * own[i];
-                }
-                below.add(&column[group.size..], done);
-            }
-            for (k, &row) in group.rows.iter().enumerate() {
-                x[row] -= below.get(k);
-            }
-        }
-        for s in (0..groups.n_supernodes()).rev() {
-            let group = self.group(groups, s);
-            below.clear(group.rows.len());
-            for (k, &row) in group.rows.iter().enumerate() {
-                below.set(k, x[row]);
-            }
-            for (j, column) in group.columns().enumerate().rev() {
-                let (at, own) = (group.start + j, &column[..group.size]);
-                let mut sum = below.dot(&column[group.size..]);
-                for i in j + 1..group.size {
-                    sum += x[group.start + i] * own[i];
-                }
-                x[at] = (x[at] - sum) / own[j];
-            }
-        }
-        sides.iter_mut().zip(back).for_each(|(side, &at)| *side = x[at]);
+        let mut x: Vec<Axes> = forward.iter().map(|&v| axes(sides[v])).collect();
+        solve_axes(|s| self.group(groups, s), &self.symbolic.trees, &mut x);
+        sides.iter_mut().zip(back).for_each(|(side, &at)| *side = DVec3::new(x[at][0], x[at][1], x[at][2]));
         true
     }
 
     /// Solves in place of the right-hand side. False when there is nothing to solve with.
     pub fn solve_one(&self, side: &mut [f64]) -> bool {
-        let (Some(groups), Some(order)) = (self.symbolic.groups(), self.symbolic.0.perm()) else {
+        wide(
+            #[inline(always)]
+            || self.solve_axis(side),
+        )
+    }
+
+    #[inline(always)]
+    fn solve_axis(&self, side: &mut [f64]) -> bool {
+        let (Some(groups), Some(order)) = (self.symbolic.groups(), self.symbolic.matrix.perm()) else {
             return false;
         };
         let (forward, _) = order.arrays();
@@ -218,8 +180,7 @@ impl Factor {
             below.extend(group.rows.iter().map(|&row| x[row]));
             let own = &mut x[group.start..group.start + group.size];
             for (j, column) in group.columns().enumerate().rev() {
-                let sum = dot::<{ LANES[1] }>(&below, &column[group.size..])
-                    + dot::<{ LANES[1] }>(&own[j + 1..], &column[j + 1..group.size]);
+                let sum = dot(&below, &column[group.size..]) + dot(&own[j + 1..], &column[j + 1..group.size]);
                 own[j] = (own[j] - sum) / column[j];
             }
         }
@@ -227,12 +188,32 @@ impl Factor {
         true
     }
 
+    #[inline(always)]
     fn group<'a>(&'a self, groups: &'a SymbolicSupernodalCholesky<usize>, s: usize) -> Group<'a> {
         let (start, end) = (groups.supernode_begin()[s], groups.supernode_end()[s]);
         let rows = &groups.row_idx()[groups.col_ptr_for_row_idx()[s]..][..groups.nnz_per_super()[s]];
         let values = &self.values[groups.col_ptr_for_val()[s]..groups.col_ptr_for_val()[s + 1]];
         Group { start, size: end - start, rows, values }
     }
+}
+
+/// What can be gone through at once.
+fn trees(groups: &SymbolicSupernodalCholesky<usize>) -> Trees {
+    let count = groups.n_supernodes();
+    let columns: Vec<_> =
+        (0..count).map(|s| groups.supernode_begin()[s]..groups.supernode_end()[s]).collect();
+    // A group hangs on the one that holds the first row below it.
+    let parent = |s: usize| match groups.nnz_per_super()[s] {
+        0 => count,
+        _ => {
+            let row = groups.row_idx()[groups.col_ptr_for_row_idx()[s]];
+            columns.partition_point(|columns| columns.end <= row)
+        }
+    };
+    let parents: Vec<usize> = (0..count).map(parent).collect();
+    let work: Vec<usize> =
+        (0..count).map(|s| groups.col_ptr_for_val()[s + 1] - groups.col_ptr_for_val()[s]).collect();
+    Trees::new(&columns, &parents, &work)
 }
 
 /// Columns that stand together: a triangle on the diagonal, and the rows below it.
@@ -244,6 +225,7 @@ struct Group<'a> {
 }
 
 impl Group<'_> {
+    #[inline(always)]
     fn columns(&self) -> impl DoubleEndedIterator<Item = &[f64]> + ExactSizeIterator {
         self.values.chunks_exact(self.size + self.rows.len())
     }
