@@ -10,6 +10,7 @@ pub mod gltf;
 pub mod joints;
 pub mod json;
 pub mod limits;
+pub mod moving_body;
 pub mod obj;
 pub mod pattern_file;
 pub mod pdf;

@@ -3,24 +3,18 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use glam::DVec3;
-
-use crate::body::{Surface, import};
+use crate::body::Surface;
 use crate::cli::arguments::BodyFile;
 use crate::cli::failure::Failure;
 use crate::cli::formats;
 use crate::geometry::mesh::TriMesh;
-use crate::io::gltf::Model;
+use crate::io::moving_body::MovingBody;
 
 /// An animated body.
 pub struct Animated {
-    model: Model,
+    body: MovingBody,
     /// Which of its animations it goes through.
     clip: usize,
-    how: BodyFile,
-    metres: f64,
-    /// Of the file's vertices those that the body has, as it is at rest.
-    kept: Vec<u32>,
     at_rest: TriMesh,
     fps: f64,
 }
@@ -38,21 +32,22 @@ impl Animated {
         let model = formats::model(path, bytes)?;
         let names: Vec<&str> = model.animations().collect();
         let clip = clip(&names, asked).map_err(|words| Failure::input(path, words))?;
+        let up = how.up.unwrap_or_default();
         let mut mesh = model.mesh();
-        how.up.unwrap_or_default().set_upright(&mut mesh);
+        up.set_upright(&mut mesh);
         let unit = formats::body_unit(path, bytes, &mesh, how)?;
-        let imported = import(mesh, unit);
-        Ok(Self { model, clip, how, metres: unit.metres(), kept: imported.kept, at_rest: imported.mesh, fps })
+        let (body, imported) = MovingBody::new(model, up, unit);
+        Ok(Self { body, clip, at_rest: imported.mesh, fps })
     }
 
     /// Frames of the animation, the last one included.
     pub fn frames(&self) -> usize {
-        ((self.model.seconds(self.clip).unwrap_or(0.0) * self.fps + 1e-6).floor() as usize).saturating_add(1)
+        ((self.body.seconds(self.clip).unwrap_or(0.0) * self.fps + 1e-6).floor() as usize).saturating_add(1)
     }
 
     /// Which animations are left out though none was `asked` for, in words.
     pub fn notes(&self, asked: Option<&str>) -> Vec<String> {
-        let names: Vec<&str> = self.model.animations().collect();
+        let names: Vec<&str> = self.body.animations().collect();
         let words = || format!("it has {}: the first is taken (see --animation)", listed(&names));
         if names.len() > 1 && asked.is_none() { vec![words()] } else { Vec::new() }
     }
@@ -60,13 +55,9 @@ impl Animated {
     /// The body in frame `i`. At rest it must have the triangles of `dressed`.
     pub fn body(&self, i: usize, dressed: &Surface, path: &Path) -> Result<Arc<Surface>, Failure> {
         formats::same_triangles(path, &self.at_rest, &dressed.mesh)?;
-        let positions = self.model.positions(Some((self.clip, i as f64 / self.fps)));
-        let kept: Vec<DVec3> = self.kept.iter().map(|&v| positions[v as usize]).collect();
-        let mut mesh = TriMesh { positions: kept, triangles: Vec::new() };
-        self.how.up.unwrap_or_default().set_upright(&mut mesh);
-        mesh.positions.iter_mut().for_each(|p| *p *= self.metres);
+        let positions = self.body.positions(Some((self.clip, i as f64 / self.fps)));
         let words = || format!("frame {}: a vertex of it is no place", i + 1);
-        dressed.reposed(mesh.positions).map(Arc::new).ok_or_else(|| Failure::input(path, words()))
+        dressed.reposed(positions).map(Arc::new).ok_or_else(|| Failure::input(path, words()))
     }
 }
 
