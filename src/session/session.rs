@@ -44,6 +44,8 @@ pub struct Session {
     bodies: BodyCache,
     hasher: DocumentHasher,
     last_seq: u64,
+    /// The last command that asked something of the simulation.
+    last_request: u64,
     last_gesture: u64,
     /// The gesture whose end has not been recorded yet.
     open_gesture: Option<GestureId>,
@@ -104,6 +106,7 @@ impl Session {
             bodies,
             hasher: DocumentHasher::default(),
             last_seq: 0,
+            last_request: 0,
             last_gesture: 0,
             open_gesture: None,
             moved: None,
@@ -277,6 +280,11 @@ impl Session {
     /// The recorder, to send lines to a file as well.
     pub fn recorder(&mut self) -> &mut Recorder {
         &mut self.recorder
+    }
+
+    /// Whether the simulation, as it was seen last, has taken up all that was asked of it.
+    pub fn is_caught_up(&self) -> bool {
+        self.runner.snapshot().seq >= self.last_request
     }
 
     /// The number of the last command.
@@ -454,6 +462,7 @@ impl Session {
         self.needs_copy |= back && (done < self.copied_steps.0 || undone < self.copied_steps.1);
         self.copied_steps = (self.copied_steps.0.min(done), self.copied_steps.1.min(undone));
         if let Some(kind) = plan.request {
+            self.last_request = seq;
             self.runner.send(Request { seq, checkpoint: keeps, kind });
         }
     }

@@ -163,7 +163,7 @@ impl App {
             wrapped: self.shown().can_cancel_wrap(),
             wrapping: asked || growing,
             working: asked || snapshot.working,
-            caught_up: snapshot.seq >= self.shown().last_seq(),
+            caught_up: self.shown().is_caught_up(),
             dragging: snapshot.dragged.is_some(),
             relaxing: snapshot.relaxing,
             placed: document.pattern.pieces.values().any(|piece| piece.placement.is_some()),
