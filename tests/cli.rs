@@ -19,6 +19,8 @@ mod faults;
 mod fit_page;
 #[path = "cli/gltf.rs"]
 mod gltf;
+#[path = "common/limb.rs"]
+mod limb;
 #[path = "cli/patterns.rs"]
 mod patterns;
 #[path = "cli/program.rs"]

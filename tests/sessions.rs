@@ -2,6 +2,8 @@
 
 #[path = "sessions/activities.rs"]
 mod activities;
+#[path = "sessions/animations.rs"]
+mod animations;
 #[path = "sessions/bodies.rs"]
 mod bodies;
 #[path = "sessions/commands.rs"]
@@ -11,6 +13,8 @@ mod common;
 mod dragging;
 #[path = "sessions/draping.rs"]
 mod draping;
+#[path = "common/limb.rs"]
+mod limb;
 #[path = "sessions/live.rs"]
 mod live;
 #[path = "sessions/project_files.rs"]

@@ -188,7 +188,7 @@ fn marks_on_arms_are_carried_between_spread_and_half_spread_arms() {
                 session.apply_alone(Command::AddBodyMark { points }).expect("painted");
             }
         }
-        session.apply_alone(Command::SetBody { body: choice(to) }).expect("taken");
+        session.apply_alone(Command::SetBody { body: choice(to), animations: None }).expect("taken");
         assert_eq!(session.problems(), [], "{} to {}", names[from], names[to]);
         let there = surface_of(&choice(to)).expect("a body");
         for ((side, before), mark) in painted.iter().zip(&session.document().marks.body) {

@@ -14,6 +14,8 @@ use toile::session::{BodyChoice, Document, Project};
 use toile::ui::App;
 use toile::wrap::ClothSide;
 
+#[path = "window/animations.rs"]
+mod animations;
 #[path = "window/demos.rs"]
 mod demos;
 #[path = "window/draping.rs"]
@@ -22,6 +24,8 @@ mod draping;
 mod files;
 #[path = "window/hand.rs"]
 mod hand;
+#[path = "common/limb.rs"]
+mod limb;
 #[path = "window/maps.rs"]
 mod maps;
 #[path = "window/mouse.rs"]

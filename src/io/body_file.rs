@@ -1,5 +1,7 @@
 //! Bodies from files, whichever format they are in: OBJ, or glTF as text or binary.
 
+use std::cell::RefCell;
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use crate::geometry::mesh::TriMesh;
@@ -51,6 +53,22 @@ pub fn model(
     load: &dyn Fn(&Path) -> Result<Vec<u8>, String>,
 ) -> Result<gltf::Model, BodyFileError> {
     Ok(gltf::read(bytes, &|name| load(&beside(path, name)?))?)
+}
+
+/// The same with the files that it names, which are in its folder.
+pub fn model_with_buffers(
+    path: &Path,
+    bytes: &[u8],
+    load: &dyn Fn(&Path) -> Result<Vec<u8>, String>,
+) -> Result<(gltf::Model, BTreeMap<String, Vec<u8>>), BodyFileError> {
+    let buffers = RefCell::new(BTreeMap::new());
+    let kept = |name: &str| {
+        let bytes = load(&beside(path, name)?)?;
+        buffers.borrow_mut().insert(name.to_owned(), bytes.clone());
+        Ok(bytes)
+    };
+    let model = gltf::read(bytes, &kept)?;
+    Ok((model, buffers.into_inner()))
 }
 
 /// The file called `name` in the folder of `path`: nothing outside of it is opened for a file from elsewhere.

@@ -9,6 +9,7 @@ use crate::drag::{DragMode, Ray};
 use crate::geometry::ids::{MarkId, PieceId, PinId, SeamId};
 use crate::pattern::edit::PatternEdit;
 use crate::pattern::{Edge, Pattern, Piece, PlanePose, Seam};
+use crate::session::animations::{Animations, Moment};
 use crate::session::document::{BodyChoice, Settings};
 use crate::wrap::{ClothSide, Marks};
 
@@ -54,8 +55,13 @@ pub enum Command {
     /// Start from another pattern with its strokes: a sample, an import. The cloth comes off.
     ReplacePattern { name: String, pattern: Arc<Pattern>, marks: Arc<Marks> },
 
-    /// Take another body. The cloth comes off; the strokes on the old body are carried to the new one where they find a place.
-    SetBody { body: BodyChoice },
+    /// Take another body, perhaps with animations that move it. The cloth comes off; the strokes on the old body are carried to
+    /// the new one where they find a place.
+    SetBody {
+        body: BodyChoice,
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        animations: Option<Arc<Animations>>,
+    },
     /// The body takes another pose: `body` has its triangles, vertex for vertex. The dressed cloth goes along, and with
     /// `settle` it settles there. Strokes on the body follow their triangles. A `draft` is for a pose that is still being
     /// chosen: quick, and not so exact.
@@ -71,6 +77,15 @@ pub enum Command {
     /// on the way; cloth, strokes and `draft` as with `Repose`.
     PoseTowards {
         share: f64,
+        #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+        draft: bool,
+    },
+    /// Take the animations of a file whose body has the triangles of the dressed one, vertex for vertex. It stays where it is.
+    TakeAnimations { animations: Arc<Animations> },
+    /// The body goes to this moment of its animations, or (none) to where it is at rest; cloth, strokes and `draft` as with
+    /// `Repose`.
+    Animate {
+        at: Option<Moment>,
         #[serde(default, skip_serializing_if = "std::ops::Not::not")]
         draft: bool,
     },

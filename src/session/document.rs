@@ -14,6 +14,7 @@ use crate::geometry::ids::{MarkId, PieceId, PinId};
 use crate::geometry::mesh::TriMesh;
 use crate::pattern::Pattern;
 use crate::relax::RelaxSettings;
+use crate::session::animations::{Animations, Moment};
 use crate::sim::ClothPlace;
 use crate::wrap::Marks;
 
@@ -37,6 +38,12 @@ pub struct Document {
     /// The pose from a file that the body is led to.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub aim: Option<Arc<Aim>>,
+    /// The animations of a file that the body can go through.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub animations: Option<Arc<Animations>>,
+    /// Where in them the body is. None: elsewhere, or at rest.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub moment: Option<Moment>,
     /// Bones drawn in the body, which cloth cannot be pulled across. None: the body's own.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bones: Option<Arc<Vec<Bone>>>,
@@ -122,6 +129,8 @@ impl Default for Document {
             pins: Arc::default(),
             last_pin: 0,
             aim: None,
+            animations: None,
+            moment: None,
             bones: None,
             fabrics: Fabrics::default(),
             settings: Settings::default(),

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use serde::Serialize;
 
 use crate::pattern::Pattern;
+use crate::session::animations::Animations;
 use crate::session::document::{Aim, BodyChoice, Document};
 use crate::sim::hash::{Fnv, hash_of};
 use crate::wrap::Marks;
@@ -16,13 +17,26 @@ pub struct DocumentHasher {
     marks: Option<(Arc<Marks>, u64)>,
     body: Option<(BodyChoice, u64)>,
     aim: Option<(Arc<Aim>, u64)>,
+    animations: Option<(Arc<Animations>, u64)>,
 }
 
 impl DocumentHasher {
     /// Hash of `document` and of the numbers of steps that can be undone and redone.
     pub fn hash(&mut self, document: &Document, done: usize, undone: usize) -> u64 {
-        let Document { pattern, body, marks, last_mark, pins, last_pin, aim, bones, fabrics, settings } =
-            document;
+        let Document {
+            pattern,
+            body,
+            marks,
+            last_mark,
+            pins,
+            last_pin,
+            aim,
+            animations,
+            moment,
+            bones,
+            fabrics,
+            settings,
+        } = document;
         let mut hash = Fnv::default();
         hash.number(shared(&mut self.pattern, pattern));
         hash.number(shared(&mut self.marks, marks));
@@ -34,6 +48,12 @@ impl DocumentHasher {
         }
         if let Some(aim) = aim {
             hash.number(shared(&mut self.aim, aim));
+        }
+        if let Some(animations) = animations {
+            hash.number(shared(&mut self.animations, animations));
+        }
+        if let Some(moment) = moment {
+            hash.number(json_hash(moment));
         }
         if let Some(bones) = bones {
             hash.number(json_hash(&**bones));

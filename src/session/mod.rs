@@ -1,5 +1,6 @@
 //! What the user has done: one stream of commands makes the document, its undo and its recordings.
 
+pub mod animations;
 pub mod body;
 pub mod carry;
 pub mod command;
@@ -20,6 +21,7 @@ pub mod samples;
 pub mod session;
 pub mod whole_file;
 
+pub use animations::{AnimatedFile, Animations, Moment};
 pub use command::{Command, Rejection};
 pub use document::{Aim, BodyChoice, Document, Fabrics, Pin, Settings};
 pub use outfit::Outfit;

@@ -216,7 +216,7 @@ impl Action {
             Self::ImportBody => entry("Import body…", "Take a body from an OBJ or glTF file", &[]),
             Self::PoseFromFile => entry(
                 "Pose from a file…",
-                "Lead the body to its pose in an OBJ or glTF file, or the mannequin through a BVH motion",
+                "Lead the body to its pose in an OBJ or glTF file or through the animations there, or the mannequin through a BVH motion",
                 &[],
             ),
             Self::Sizes => entry(

@@ -12,11 +12,11 @@ use crate::io::body_file;
 use crate::io::pattern_file::{self, PatternFileError};
 use crate::io::pdf::{self, Paper};
 use crate::io::scale::{DrawingUnit, ScaleQuestion};
-use crate::io::{bvh, dxf, garmentcode, glb, obj, svg};
+use crate::io::{bvh, dxf, garmentcode, glb, gltf, obj, svg};
 use crate::pattern::Pattern;
 use crate::session::project_file::ProjectFileError;
 use crate::session::samples::Sample;
-use crate::session::{BodyChoice, Command, Project, project_file, whole_file};
+use crate::session::{AnimatedFile, Animations, BodyChoice, Command, Project, project_file, whole_file};
 use crate::sim::Snapshot;
 
 /// What a file dialog is for.
@@ -204,17 +204,31 @@ pub struct RawBody {
     pub unit: Unit,
     /// The guess is only one of several, or there is none.
     pub is_doubtful: bool,
+    /// The file, if there are animations in it.
+    animated: Option<Box<AnimatedFile>>,
 }
 
 /// Reads a body; its unit may still have to be asked for.
 pub fn read_body(path: &Path) -> Result<RawBody, String> {
-    let mesh = body_file::read(path, &read(path)?, &read).map_err(|e| in_words(path, "imported", e))?;
+    let (bytes, name) = (read(path)?, stem(path));
+    let mut animated = None;
+    let mesh = if gltf::is_gltf(&bytes) {
+        let read = body_file::model_with_buffers(path, &bytes, &read);
+        let (model, buffers) = read.map_err(|e| in_words(path, "imported", e))?;
+        if model.animations().next().is_some() {
+            let (up, unit, name) = (UpAxis::default(), Unit::default(), name.clone());
+            animated = Some(Box::new(AnimatedFile { name, bytes, buffers, up, unit }));
+        }
+        model.mesh()
+    } else {
+        body_file::read(path, &bytes, &read).map_err(|e| in_words(path, "imported", e))?
+    };
     let (lower, upper) = mesh.bounds();
     let size = upper - lower;
     let up = UpAxis::guess(size);
     let guess = guess_unit(up.height(size));
     let is_doubtful = guess != Some(Unit::Metre) || up != UpAxis::Y;
-    Ok(RawBody { name: stem(path), mesh, size, up, unit: guess.unwrap_or_default(), is_doubtful })
+    Ok(RawBody { name, mesh, size, up, unit: guess.unwrap_or_default(), is_doubtful, animated })
 }
 
 impl RawBody {
@@ -235,7 +249,7 @@ impl RawBody {
 
 /// A pose in a file.
 pub enum PoseFile {
-    /// Of the body.
+    /// Of the body, or animations of it.
     Body(Command),
     /// Captured.
     Motion(Clip),
@@ -256,13 +270,25 @@ pub fn read_pose(path: &Path, dressed: &TriMesh) -> Result<PoseFile, String> {
     let metres = sides(dressed) / sides(&raw.mesh);
     let far = |unit: &Unit| (unit.metres() / metres).ln().abs();
     let unit = Unit::ALL.into_iter().min_by(|a, b| far(a).total_cmp(&far(b))).unwrap_or_default();
-    let body = imported(RawBody { unit, ..raw })?.0;
-    Ok(PoseFile::Body(Command::AimPose { body }))
+    let raw = RawBody { unit, ..raw };
+    Ok(PoseFile::Body(match animations(&raw)? {
+        Some(animations) => Command::TakeAnimations { animations },
+        None => Command::AimPose { body: imported(raw)?.0 },
+    }))
 }
 
 /// The command that takes `raw` as the body, and what was put right on the way.
 pub fn take_body(raw: RawBody) -> Result<(Command, Vec<String>), String> {
-    imported(raw).map(|(body, notes)| (Command::SetBody { body }, notes))
+    let animations = animations(&raw)?;
+    let (body, notes) = imported(raw)?;
+    Ok((Command::SetBody { body, animations }, notes))
+}
+
+/// Those of `raw`, if it has any.
+fn animations(raw: &RawBody) -> Result<Option<Arc<Animations>>, String> {
+    let Some(file) = raw.animated.as_deref() else { return Ok(None) };
+    let (animations, _) = Animations::new(AnimatedFile { up: raw.up, unit: raw.unit, ..file.clone() })?;
+    Ok(Some(Arc::new(animations)))
 }
 
 fn imported(mut raw: RawBody) -> Result<(BodyChoice, Vec<String>), String> {
@@ -300,7 +326,7 @@ pub fn sample(sample: Sample) -> Project {
 
 /// The command that brings the built-in figure back.
 pub fn use_mannequin() -> Command {
-    Command::SetBody { body: BodyChoice::default() }
+    Command::SetBody { body: BodyChoice::default(), animations: None }
 }
 
 /// All of the file at `path`; the error is in words.

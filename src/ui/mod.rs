@@ -4,6 +4,7 @@
 
 mod act;
 pub mod actions;
+mod animation_panel;
 pub mod app;
 mod asks;
 mod catalogue;

@@ -51,6 +51,7 @@ impl App {
             status::status_ui(ui, now, &self.hint(document, now, palette), palette);
         });
         self.shell.first_of_panel = None;
+        self.shell.pose.animation.play(ui.ctx(), document, now, asks);
         if self.show_panel {
             Panel::right("side").default_size(256.0).size_range(220.0..=420.0).frame(thick).show(ui, |ui| {
                 let told = Told {

@@ -7,6 +7,7 @@ use egui::{Button, RichText, Slider};
 use crate::body::NamedPose;
 use crate::session::{Aim, BodyChoice, Command};
 use crate::ui::actions::Action;
+use crate::ui::animation_panel::AnimationPanel;
 use crate::ui::asks::{Ask, Asks};
 use crate::ui::joint_panel::JointPanel;
 use crate::ui::posed_motion::PosedMotion;
@@ -18,6 +19,8 @@ pub struct PosePanel {
     to: NamedPose,
     share: f64,
     joints: JointPanel,
+    /// Of a body from a file.
+    pub animation: AnimationPanel,
     /// The pose from a file that the body is led to, and how far it is.
     aim: Option<(Arc<Aim>, f64)>,
     /// A motion, and the frame it is at, from 1.
@@ -26,7 +29,14 @@ pub struct PosePanel {
 
 impl Default for PosePanel {
     fn default() -> Self {
-        Self { to: NamedPose::Standing, share: 0.0, joints: JointPanel::default(), aim: None, motion: None }
+        Self {
+            to: NamedPose::Standing,
+            share: 0.0,
+            joints: JointPanel::default(),
+            animation: AnimationPanel::default(),
+            aim: None,
+            motion: None,
+        }
     }
 }
 
@@ -41,11 +51,12 @@ impl PosePanel {
                 self.names_ui(ui, body, asks);
                 self.way_ui(ui, told, asks);
                 self.joints.ui(ui, told, asks);
-            } else {
+            } else if told.document.animations.is_none() {
                 let words =
                     "The body is from a file: it takes the poses that other files of the same mesh have.";
                 ui.add(egui::Label::new(RichText::new(words).color(told.palette.weak)).wrap());
             }
+            self.animation.ui(ui, told, asks);
             self.files_ui(ui, told, asks);
         });
     }

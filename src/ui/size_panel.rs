@@ -60,7 +60,7 @@ fn size_ui(ui: &mut egui::Ui, size: &Size, is_taken: bool, body: &BodyChoice, as
             if button.on_hover_text(words).clicked() && !is_taken {
                 let built = BodyChoice::Mannequin(measurements);
                 let posed = body.pose().and_then(|pose| built.posed(pose));
-                asks.push(Ask::Do(Command::SetBody { body: posed.unwrap_or(built) }));
+                asks.push(Ask::Do(Command::SetBody { body: posed.unwrap_or(built), animations: None }));
             }
         }
         Err(why) => _ = button.on_disabled_hover_text(why.to_string()),

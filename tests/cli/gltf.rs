@@ -1,111 +1,13 @@
-//! Bodies and animations in glTF: a cylinder on two bones that bends in its middle by a right angle in one second, or at its
-//! end.
+//! Bodies and animations in glTF.
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
 use base64::Engine as _;
-use glam::{DQuat, DVec3};
-use toile::geometry::ids::{MarkId, PieceId};
-use toile::geometry::mesh::TriMesh;
-use toile::geometry::shapes::cylinder;
 use toile::io::gltf::{self, Model};
-use toile::session::BodyChoice;
-use toile::wrap::{BodyMark, ClothMark, ClothSide, Marks};
 
-use crate::common;
+use crate::limb::{self, bent, glb, limb, skinned};
 use crate::program::Place;
 use crate::repose::vertices;
-
-/// Metres: where it bends.
-const MIDDLE: f64 = 0.5;
-
-fn limb() -> TriMesh {
-    cylinder(0.12, 1.0, 24, 30)
-}
-
-/// How much of a vertex hangs on the upper bone.
-fn share(p: DVec3) -> f64 {
-    match p.y - MIDDLE {
-        d if d.abs() < 1e-9 => 0.5,
-        d => f64::from(u8::from(d > 0.0)),
-    }
-}
-
-/// Where a vertex is when the upper bone is turned by `angle` about z.
-fn bent(p: DVec3, angle: f64) -> DVec3 {
-    let middle = DVec3::Y * MIDDLE;
-    p.lerp(DQuat::from_rotation_z(angle) * (p - middle) + middle, share(p))
-}
-
-/// The JSON text and the binary part.
-fn skinned(uri: Option<&str>) -> (String, Vec<u8>) {
-    let mesh = limb();
-    let mut data: Vec<u8> = Vec::new();
-    let mut views = Vec::new();
-    let mut view = |bytes: Vec<u8>| {
-        views.push(format!(
-            r#"{{"buffer": 0, "byteOffset": {}, "byteLength": {}}}"#,
-            data.len(),
-            bytes.len()
-        ));
-        data.extend(bytes);
-        data.resize(data.len().next_multiple_of(4), 0);
-    };
-    let floats = |values: &[f64]| values.iter().flat_map(|&x| (x as f32).to_le_bytes()).collect::<Vec<u8>>();
-    view(floats(&mesh.positions.iter().flat_map(|p| p.to_array()).collect::<Vec<_>>()));
-    view(mesh.triangles.iter().flatten().flat_map(|v| v.to_le_bytes()).collect());
-    view(mesh.positions.iter().flat_map(|_| [0, 1, 0, 0]).collect());
-    view(floats(
-        &mesh.positions.iter().flat_map(|&p| [1.0 - share(p), share(p), 0.0, 0.0]).collect::<Vec<_>>(),
-    ));
-    // What takes the scene into the frame of each bone: columns of matrices.
-    let bind =
-        |height: f64| [1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, -height, 0.0, 1.0];
-    view(floats(&[bind(0.0), bind(MIDDLE)].concat()));
-    view(floats(&[0.0, 1.0]));
-    let turn = DQuat::from_rotation_z(FRAC_PI_2);
-    view(floats(&[[0.0, 0.0, 0.0, 1.0], turn.to_array()].concat()));
-    let (vertices, corners) = (mesh.positions.len(), mesh.triangles.len() * 3);
-    let uri = uri.map(|uri| format!(r#""uri": "{uri}", "#)).unwrap_or_default();
-    let json = format!(
-        r#"{{"asset": {{"version": "2.0"}}, "scene": 0, "scenes": [{{"nodes": [0, 1]}}],
-        "nodes": [{{"mesh": 0, "skin": 0, "translation": [5, 5, 5]}}, {{"children": [2]}},
-            {{"translation": [0, {MIDDLE}, 0]}}],
-        "meshes": [{{"primitives": [{{"attributes": {{"POSITION": 0, "JOINTS_0": 2, "WEIGHTS_0": 3}}, "indices": 1}}]}}],
-        "skins": [{{"joints": [1, 2], "inverseBindMatrices": 4}}],
-        "animations": [{{"name": "bend", "samplers": [{{"input": 5, "output": 6}}],
-            "channels": [{{"sampler": 0, "target": {{"node": 2, "path": "rotation"}}}}]}},
-            {{"name": "snap", "samplers": [{{"input": 5, "output": 6, "interpolation": "STEP"}}],
-            "channels": [{{"sampler": 0, "target": {{"node": 2, "path": "rotation"}}}}]}}],
-        "accessors": [
-            {{"bufferView": 0, "componentType": 5126, "count": {vertices}, "type": "VEC3",
-                "min": [-0.12, 0, -0.12], "max": [0.12, 1, 0.12]}},
-            {{"bufferView": 1, "componentType": 5125, "count": {corners}, "type": "SCALAR"}},
-            {{"bufferView": 2, "componentType": 5121, "count": {vertices}, "type": "VEC4"}},
-            {{"bufferView": 3, "componentType": 5126, "count": {vertices}, "type": "VEC4"}},
-            {{"bufferView": 4, "componentType": 5126, "count": 2, "type": "MAT4"}},
-            {{"bufferView": 5, "componentType": 5126, "count": 2, "type": "SCALAR", "min": [0], "max": [1]}},
-            {{"bufferView": 6, "componentType": 5126, "count": 2, "type": "VEC4"}}],
-        "bufferViews": [{}], "buffers": [{{{uri}"byteLength": {}}}]}}"#,
-        views.join(", "),
-        data.len()
-    );
-    (json, data)
-}
-
-fn glb() -> Vec<u8> {
-    let (mut json, data) = skinned(None);
-    json += &" ".repeat(json.len().next_multiple_of(4) - json.len());
-    let length = (28 + json.len() + data.len()) as u32;
-    let mut bytes = b"glTF\x02\0\0\0".to_vec();
-    bytes.extend(length.to_le_bytes());
-    for (kind, chunk) in [(b"JSON", json.as_bytes()), (b"BIN\0", &data)] {
-        bytes.extend((chunk.len() as u32).to_le_bytes());
-        bytes.extend(kind);
-        bytes.extend(chunk);
-    }
-    bytes
-}
 
 fn alone(bytes: &[u8]) -> Result<Model, gltf::GltfError> {
     gltf::read(bytes, &|name| Err(format!("{name} is not there")))
@@ -266,23 +168,7 @@ fn cloth_goes_along_with_an_animated_body() {
     let place = Place::new();
     place.write("limb.glb", glb());
     place.ends(0, "check limb.glb --unit m");
-    let model = alone(&glb()).expect("a binary file");
-    let mut project = common::project();
-    let body = BodyChoice::Imported { name: "limb".to_owned(), mesh: std::sync::Arc::new(model.mesh()) };
-    project.document.body = body;
-    let line = |at: &dyn Fn(f64) -> DVec3| (0..=8).map(|i| at(f64::from(i) / 8.0)).collect::<Vec<_>>();
-    let marks = Marks {
-        cloth: vec![ClothMark {
-            id: MarkId(1),
-            piece: PieceId(1),
-            side: ClothSide::Front,
-            points: line(&|t| DVec3::new(0.2, 0.05 + 0.2 * t, 0.0)).iter().map(|p| p.truncate()).collect(),
-        }],
-        body: vec![BodyMark { id: MarkId(2), points: line(&|t| DVec3::new(0.0, 0.74 + 0.2 * t, 0.12)) }],
-        ..Marks::default()
-    };
-    (project.document.marks, project.document.last_mark) = (marks.into(), 2);
-    place.save("marked.toile", &project);
+    place.save("marked.toile", &limb::project());
     let ended = place.run("dress marked.toile --out out --save dressed.toile");
     assert!([0, 1].contains(&ended.code), "{ended:#?}");
     let ended = place.run("repose dressed.toile --motion limb.glb --unit m --fps 10 --out posed");

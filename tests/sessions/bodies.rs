@@ -22,7 +22,7 @@ fn opened(project: Project) -> Session {
 }
 
 fn set(s: &mut Session, body: BodyChoice) {
-    s.apply_alone(Command::SetBody { body }).expect("set");
+    s.apply_alone(Command::SetBody { body, animations: None }).expect("set");
 }
 
 fn tall() -> Arc<Mannequin> {

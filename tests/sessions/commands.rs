@@ -66,9 +66,9 @@ fn refused_commands_leave_no_trace() {
     );
     refused(s, Command::SetSettings { settings: Settings { relax, ..Settings::default() } }, "stretch");
     let body = s.document().body.clone();
-    refused(s, Command::SetBody { body }, "already");
+    refused(s, Command::SetBody { body, animations: None }, "already");
     let body = BodyChoice::Imported { name: "nothing".to_owned(), mesh: Arc::default() };
-    refused(s, Command::SetBody { body }, "nothing");
+    refused(s, Command::SetBody { body, animations: None }, "nothing");
     refused(s, Command::Undo, "nothing to undo");
     refused(s, Command::Redo, "nothing to redo");
     refused(s, Command::CancelWrap, "no wrap");
@@ -124,8 +124,11 @@ fn another_body_takes_cloth_and_strokes_off() {
     run(&mut s, 3);
     assert!(s.snapshot().is_dressed());
     let mesh = Arc::new(crate::common::ball(0.5, 8, 12));
-    s.apply_alone(Command::SetBody { body: BodyChoice::Imported { name: "small".to_owned(), mesh } })
-        .expect("set");
+    s.apply_alone(Command::SetBody {
+        body: BodyChoice::Imported { name: "small".to_owned(), mesh },
+        animations: None,
+    })
+    .expect("set");
     s.update();
     assert!(!s.snapshot().is_dressed() && s.document().marks.body.is_empty());
     assert!(

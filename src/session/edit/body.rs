@@ -3,19 +3,29 @@
 use std::sync::Arc;
 
 use crate::contact::Bone;
-use crate::session::body::{Body, BodyCache};
+use crate::geometry::mesh::TriMesh;
+use crate::session::animations::{Animations, Moment};
+use crate::session::body::BodyCache;
 use crate::session::carry::carried;
 use crate::session::command::Rejection;
 use crate::session::document::{Aim, BodyChoice, Document};
 use crate::session::edit::{ClothChange, Edit, checks};
 
 /// Strokes on the old body are carried to the new one.
-pub fn set(mut document: Document, body: &BodyChoice, bodies: &mut BodyCache) -> Result<Edit, Rejection> {
+pub fn set(
+    mut document: Document,
+    body: &BodyChoice,
+    animations: Option<&Arc<Animations>>,
+    bodies: &mut BodyCache,
+) -> Result<Edit, Rejection> {
     checks::body(body)?;
     if document.body == *body {
         return Err(Rejection::new("that is the body already"));
     }
     let to = bodies.body(body)?;
+    if let Some(animations) = animations {
+        same_triangles((animations.mesh(), animations.name()), (&to.surface.mesh, body.name()))?;
+    }
     let mut problems = Vec::new();
     if !document.marks.body.is_empty() {
         let from = bodies.body(&document.body).ok();
@@ -25,6 +35,7 @@ pub fn set(mut document: Document, body: &BodyChoice, bodies: &mut BodyCache) ->
     }
     document.drop_pins();
     (document.bones, document.aim) = (None, None);
+    (document.animations, document.moment) = (animations.cloned(), None);
     document.body = body.clone();
     Ok(Edit { problems, ..Edit::new("change the body", document).with(ClothChange::Clear) })
 }
@@ -38,11 +49,11 @@ pub fn repose(
 ) -> Result<Edit, Rejection> {
     checks::body(body)?;
     let (from, to) = (bodies.body(&document.body)?, bodies.body(body)?);
-    same_triangles((&to, body), (&from, &document.body))?;
+    same_triangles((&to.surface.mesh, body.name()), (&from.surface.mesh, document.body.name()))?;
     let (marks, problems) = carried(&document.marks, Some(&from), &to, body.name());
     document.marks = Arc::new(marks);
     // Bones drawn by hand stay where the old pose had them.
-    document.bones = None;
+    (document.bones, document.moment) = (None, None);
     document.body = body.clone();
     Ok(Edit {
         problems,
@@ -51,12 +62,9 @@ pub fn repose(
 }
 
 /// Another body must be the dressed one in another pose.
-fn same_triangles(
-    (to, other): (&Body, &BodyChoice),
-    (from, own): (&Body, &BodyChoice),
-) -> Result<(), Rejection> {
-    let counts = |body: &Body| (body.surface.mesh.positions.len(), body.surface.mesh.triangles.len());
-    if from.surface.mesh.triangles == to.surface.mesh.triangles {
+fn same_triangles((to, other): (&TriMesh, &str), (from, own): (&TriMesh, &str)) -> Result<(), Rejection> {
+    let counts = |mesh: &TriMesh| (mesh.positions.len(), mesh.triangles.len());
+    if from.triangles == to.triangles {
         return Ok(());
     }
     let (is, was) = (counts(to), counts(from));
@@ -67,14 +75,14 @@ fn same_triangles(
             is.0, is.1, was.0, was.1
         ),
     };
-    Err(Rejection(format!("{} is not {} in another pose: {words}", other.name(), own.name())))
+    Err(Rejection(format!("{other} is not {own} in another pose: {words}")))
 }
 
 /// Another pose of the body, to be led to.
 pub fn aim(mut document: Document, body: &BodyChoice, bodies: &mut BodyCache) -> Result<Edit, Rejection> {
     checks::body(body)?;
     let (from, to) = (bodies.body(&document.body)?, bodies.body(body)?);
-    same_triangles((&to, body), (&from, &document.body))?;
+    same_triangles((&to.surface.mesh, body.name()), (&from.surface.mesh, document.body.name()))?;
     document.aim = Some(Arc::new(Aim { from: document.body.clone(), to: body.clone() }));
     Ok(Edit::new("choose a pose", document))
 }
@@ -92,6 +100,33 @@ pub fn towards(
     let aim = document.aim.clone().ok_or_else(|| Rejection::new("no pose from a file was chosen"))?;
     let body = bodies.between(&aim, share)?;
     repose(document, &body, [false, draft], bodies)
+}
+
+/// Animations that the body can go through.
+pub fn take_animations(
+    mut document: Document,
+    animations: &Arc<Animations>,
+    bodies: &mut BodyCache,
+) -> Result<Edit, Rejection> {
+    let own = bodies.surface(&document.body)?;
+    same_triangles((animations.mesh(), animations.name()), (&own.mesh, document.body.name()))?;
+    (document.animations, document.moment) = (Some(Arc::clone(animations)), None);
+    Ok(Edit::new("take animations", document))
+}
+
+/// The body at a moment of its animations, or at rest; the cloth goes along.
+pub fn animate(
+    document: Document,
+    at: Option<Moment>,
+    draft: bool,
+    bodies: &mut BodyCache,
+) -> Result<Edit, Rejection> {
+    let animations = document.animations.as_ref();
+    let animations = animations.ok_or_else(|| Rejection::new("the body has no animations"))?;
+    let body = animations.body(document.body.name(), at).map_err(Rejection)?;
+    let mut edit = repose(document, &body, [false, draft], bodies)?;
+    edit.document.moment = at;
+    Ok(edit)
 }
 
 /// Bones drawn by the user, or the body's own again.

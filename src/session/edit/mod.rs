@@ -155,10 +155,12 @@ fn untied(document: &Document, command: &Command, bodies: &mut BodyCache) -> Res
         Command::AddSeam { seam } => edit_by(new, PatternEdit::Sew { seam: *seam }),
         Command::DeleteSeam { seam } => edit_by(new, PatternEdit::Unpick { seams: vec![*seam] }),
         Command::ReverseSeam { seam } => edit_by(new, PatternEdit::TurnSeam { seam: *seam }),
-        Command::SetBody { body } => body::set(new, body, bodies),
+        Command::SetBody { body, animations } => body::set(new, body, animations.as_ref(), bodies),
         Command::Repose { body, settle, draft } => body::repose(new, body, [*settle, *draft], bodies),
         Command::AimPose { body } => body::aim(new, body, bodies),
         Command::PoseTowards { share, draft } => body::towards(new, *share, *draft, bodies),
+        Command::TakeAnimations { animations } => body::take_animations(new, animations, bodies),
+        Command::Animate { at, draft } => body::animate(new, *at, *draft, bodies),
         Command::SetBones { bones } => body::set_bones(new, bones.as_deref()),
         Command::SetSettings { settings } => settings::set(new, settings),
         Command::Wrap => wrap::wrap(new),
@@ -192,8 +194,20 @@ fn edit_by(document: Document, edit: PatternEdit) -> Result<Edit, Rejection> {
 
 /// What no command would have let into `document`; for documents from files.
 pub fn document_problem(document: &Document) -> Option<String> {
-    let Document { pattern, body, marks, last_mark, pins, last_pin, aim, bones, fabrics, settings } =
-        document;
+    let Document {
+        pattern,
+        body,
+        marks,
+        last_mark,
+        pins,
+        last_pin,
+        aim,
+        animations,
+        moment,
+        bones,
+        fabrics,
+        settings,
+    } = document;
     if marks.ids().max().is_some_and(|id| id.0 > *last_mark) {
         return Some("the counter of marks is behind their ids".to_owned());
     }
@@ -209,6 +223,13 @@ pub fn document_problem(document: &Document) -> Option<String> {
         .or_else(|| {
             let ends = aim.iter().flat_map(|aim| [&aim.from, &aim.to]);
             ends.into_iter().find_map(|end| checks::body(end).err()).map(|why| why.0)
+        })
+        .or_else(|| {
+            let at = (*moment)?;
+            match animations {
+                Some(animations) => animations.body(body.name(), Some(at)).err(),
+                None => Some("the body is in an animation that is not there".to_owned()),
+            }
         })
         .or_else(|| bones.as_ref().and_then(|bones| checks::bones(bones).err()).map(|why| why.0))
         .or_else(|| drape::unknown_fabric(fabrics).map(|why| why.0))

@@ -1,0 +1,103 @@
+//! A body from a glTF file is led through its animations.
+
+use egui::accesskit::Role;
+
+use super::*;
+use crate::files::read_by;
+
+fn window_on_limb() -> Option<(tempfile::TempDir, Window)> {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("limb.glb");
+    std::fs::write(&path, limb::glb()).expect("a file");
+    let mut window = window_on(limb::project(), None);
+    window.get_by_label("Wrap").click();
+    wait(&mut window, "the cloth to rest", |app| {
+        let snapshot = app.session().snapshot();
+        snapshot.is_dressed() && !snapshot.working
+    });
+    if !read_by(&mut window, "File", "Pose from a file…", &path) {
+        return None;
+    }
+    assert_eq!(app(&window).session().undo_label(), Some("take animations"));
+    window.get_by_label("Pose").click();
+    window.run_steps(8);
+    window.get_by_label("Rest pose").scroll_to_me();
+    window.run_steps(8);
+    Some((folder, window))
+}
+
+/// How far the upper end of the body has turned, radians.
+fn turned(app: &App) -> f64 {
+    let here = limb::limb();
+    let top = (0..here.positions.len()).find(|&v| here.positions[v].y > 0.999).expect("a top");
+    let there = app.session().surface().expect("a body").mesh.positions[top];
+    (0..=900)
+        .map(|i| f64::from(i) / 900.0 * std::f64::consts::FRAC_PI_2)
+        .min_by(|a, b| {
+            let off = |angle: f64| limb::bent(here.positions[top], angle).distance(there);
+            off(*a).total_cmp(&off(*b))
+        })
+        .expect("an angle")
+}
+
+#[test]
+fn the_slider_leads_body_and_cloth_through_the_animation() {
+    let Some((_folder, mut window)) = window_on_limb() else { return };
+    let rail = window.get_by_role_and_label(Role::Slider, "Time of the animation").rect();
+    let from = Pos2::new(rail.left() + 6.0, rail.center().y);
+    let path: Vec<Pos2> = (0..8).map(|i| from + Vec2::new(7.0 * i as f32, 0.0)).collect();
+    drag(&mut window, &path, PointerButton::Primary);
+    window.run_steps(4);
+    assert!((0.2..1.4).contains(&turned(app(&window))), "{}", turned(app(&window)));
+    let far: Vec<Pos2> = (0..8).map(|i| path[7] + Vec2::new(60.0 * i as f32, 0.0)).collect();
+    drag(&mut window, &far, PointerButton::Primary);
+    window.run_steps(4);
+    assert!((turned(app(&window)) - std::f64::consts::FRAC_PI_2).abs() < 1e-3, "{}", turned(app(&window)));
+    wait(&mut window, "the cloth", |app| app.session().is_caught_up());
+    let cloth = &app(&window).session().snapshot().cloth;
+    assert!(cloth.positions.iter().all(|p| p.x < -0.1), "beside the bend");
+    window.get_by_label("Rest pose").click();
+    window.run_steps(4);
+    assert!(turned(app(&window)) < 1e-3);
+    for _ in 0..3 {
+        key(&mut window, Modifiers::COMMAND, Key::Z);
+    }
+    let document = app(&window).session().document();
+    assert!(document.moment.is_none() && document.animations.is_some(), "one step each");
+}
+
+#[test]
+fn it_plays_until_it_is_stopped_and_ends_with_care() {
+    let Some((_folder, mut window)) = window_on_limb() else { return };
+    window.get_by_label("Play").click();
+    window.run_steps(2);
+    wait(&mut window, "the bend", |app| turned(app) > 0.5);
+    let recorded = |window: &mut Window| window.state_mut().as_mut().expect("the app").recording();
+    window.get_by_label("Stop").click();
+    window.run_steps(4);
+    let there = turned(app(&window));
+    window.run_steps(8);
+    assert_eq!(turned(app(&window)), there, "it stands still");
+    let text = recorded(&mut window);
+    let last = text.lines().rfind(|line| line.contains("animate")).expect("a command");
+    assert!(!last.contains("draft"), "{last}");
+    assert_eq!(app(&window).session().undo_label(), Some("change the pose"));
+    // Undo while it plays ends the play.
+    window.get_by_label("Play").click();
+    window.run_steps(6);
+    key(&mut window, Modifiers::COMMAND, Key::Z);
+    window.run_steps(4);
+    assert!(window.query_by_label("Play").is_some());
+}
+
+#[test]
+fn another_animation_of_the_list_begins_at_its_beginning() {
+    let Some((_folder, mut window)) = window_on_limb() else { return };
+    window.get_by_role_and_label(Role::ComboBox, "Animation").click();
+    window.run_steps(4);
+    window.get_by_label("snap").click();
+    window.run_steps(4);
+    let moment = app(&window).session().document().moment.expect("in it");
+    assert_eq!((moment.animation, moment.seconds), (1, 0.0));
+    assert!(turned(app(&window)) < 1e-3, "it snaps at its end");
+}
