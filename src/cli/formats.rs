@@ -1,6 +1,7 @@
 //! The formats of `io` as the command line names them.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use crate::body::Unit;
 use crate::body::import::{Imported, import};
@@ -17,6 +18,7 @@ use crate::io::pdf::{self, Paper, PdfError};
 use crate::io::scale::DrawingUnit;
 use crate::io::{Written, dxf, garmentcode, glb, gltf, obj, svg};
 use crate::pattern::Pattern;
+use crate::session::{AnimatedFile, Animations};
 
 /// A pattern in a file of one of the known formats. Doubts about it are told.
 pub fn pattern(path: &Path, bytes: &[u8], scale: Option<DrawingUnit>) -> Result<Pattern, Failure> {
@@ -63,8 +65,34 @@ pub fn model(path: &Path, bytes: &[u8]) -> Result<gltf::Model, Failure> {
     body_file::model(path, bytes, &neighbour).map_err(|error| body_failure(path, error))
 }
 
-/// The unit of a body as [`body_mesh`] gives it.
+/// The animations of the body in a file, taken as [`body`] takes it; None where there are none.
+pub fn animations(path: &Path, bytes: &[u8], how: BodyFile) -> Result<Option<Arc<Animations>>, Failure> {
+    if !gltf::is_gltf(bytes) {
+        return Ok(None);
+    }
+    let read = body_file::model_with_buffers(path, bytes, &neighbour);
+    let (model, buffers) = read.map_err(|error| body_failure(path, error))?;
+    if model.animations().next().is_none() {
+        return Ok(None);
+    }
+    let (mut mesh, up) = (model.mesh(), how.up.unwrap_or_default());
+    up.set_upright(&mut mesh);
+    let unit = known_unit(path, bytes, &mesh, how)?;
+    let file = AnimatedFile { name: input::name_of(path), bytes: bytes.to_vec(), buffers, up, unit };
+    let (animations, _) = Animations::new(file).map_err(|words| Failure::input(path, words))?;
+    Ok(Some(Arc::new(animations)))
+}
+
+/// The unit of a body as [`body_mesh`] gives it; said where its height alone tells that it is not the metre.
 pub fn body_unit(path: &Path, bytes: &[u8], mesh: &TriMesh, how: BodyFile) -> Result<Unit, Failure> {
+    let unit = known_unit(path, bytes, mesh, how)?;
+    if how.unit.is_none() && unit != Unit::Metre {
+        output::complain(&format!("{}: taken to be in {unit}, by its height (see --unit)", path.display()));
+    }
+    Ok(unit)
+}
+
+fn known_unit(path: &Path, bytes: &[u8], mesh: &TriMesh, how: BodyFile) -> Result<Unit, Failure> {
     let (lower, upper) = mesh.bounds();
     match how.unit {
         Some(unit) => Ok(unit),
@@ -100,20 +128,16 @@ fn body_failure(path: &Path, error: BodyFileError) -> Failure {
     }
 }
 
-/// The unit that makes `mesh` as high as a person, said when it is not the metre.
+/// The unit that makes `mesh` as high as a person.
 fn unit_by_height(path: &Path, mesh: &TriMesh) -> Result<Unit, Failure> {
     let (lower, upper) = mesh.bounds();
     let height = upper.y - lower.y;
-    let Some(unit) = guess_unit(height) else {
+    guess_unit(height).ok_or_else(|| {
         let words = format!(
             "it is {height} units high, which no unit makes a body's height: give one with --unit, or --up z where it lies"
         );
-        return Err(Failure::input(path, words));
-    };
-    if unit != Unit::Metre {
-        output::complain(&format!("{}: taken to be in {unit}, by its height (see --unit)", path.display()));
-    }
-    Ok(unit)
+        Failure::input(path, words)
+    })
 }
 
 /// A body as OBJ text.

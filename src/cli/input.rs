@@ -178,6 +178,7 @@ fn set_body(project: &mut Project, path: &Path, body: BodyChoice) -> Result<(), 
         }
     }
     document.body = body;
+    (document.animations, document.moment) = (None, None);
     project.dressed = None;
     Ok(())
 }
@@ -193,6 +194,7 @@ pub fn take_options(project: &mut Project, path: &Path, options: &InputOptions) 
         Some(body) => {
             let bytes = read(body)?;
             take_body(project, body, formats::body(body, &bytes, options.body_file)?)?;
+            project.document.animations = formats::animations(body, &bytes, options.body_file)?;
         }
         None => {}
     }

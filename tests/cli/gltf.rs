@@ -4,6 +4,7 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
 use base64::Engine as _;
 use toile::io::gltf::{self, Model};
+use toile::session::project_file;
 
 use crate::limb::{self, bent, glb, limb, skinned};
 use crate::program::Place;
@@ -168,6 +169,10 @@ fn cloth_goes_along_with_an_animated_body() {
     let place = Place::new();
     place.write("limb.glb", glb());
     place.ends(0, "check limb.glb --unit m");
+    place.save("still.toile", &limb::project());
+    place.run("dress still.toile --body limb.glb --unit m --out still --save kept.toile");
+    let kept = project_file::open(&place.path("kept.toile")).expect("a project").document.animations;
+    assert_eq!(kept.expect("kept for the window").names().collect::<Vec<_>>(), ["bend", "snap"]);
     place.save("marked.toile", &limb::project());
     let ended = place.run("dress marked.toile --out out --save dressed.toile");
     assert!([0, 1].contains(&ended.code), "{ended:#?}");
