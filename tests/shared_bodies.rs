@@ -88,7 +88,7 @@ fn landmarks_are_found_on_humans() {
 #[test]
 fn a_body_reads_as_its_makers_say() {
     let Some(body) = body("garmentcode/mean_all.obj") else { return };
-    let found = readings(&body.mesh).expect("a human");
+    let found = readings(&body.mesh, None).expect("a human");
     for (name, told) in [
         ("height", 171.99),
         ("bust", 99.84),
@@ -100,6 +100,8 @@ fn a_body_reads_as_its_makers_say() {
         // Height less the head's.
         ("nape height", 145.66),
         ("back neck to waist", 36.89),
+        ("shoulder width", 36.46),
+        ("arm length", 53.97),
     ] {
         let read = found.iter().find(|r| r.name == name).expect(name).metres * 100.0;
         assert!((read - told).abs() < 1.0, "{name}: told {told} cm, read {read:.2} cm");

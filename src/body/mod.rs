@@ -9,6 +9,7 @@ pub mod measure;
 pub mod pose;
 pub mod readings;
 pub mod sections;
+mod shoulders;
 pub mod skeleton;
 pub mod surface;
 pub mod unit;

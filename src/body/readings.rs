@@ -9,6 +9,7 @@ use glam::{DVec2, DVec3};
 use crate::body::landmarks::{self, Landmarks};
 use crate::body::measure::{Tape, girth, hull_perimeter, length, section};
 use crate::body::sections::{Level, trunk_at};
+use crate::body::shoulders::{Shoulders, outermost, ring};
 use crate::geometry::mesh::TriMesh;
 
 /// Levels are tried in steps of this share of the height.
@@ -56,15 +57,25 @@ impl Reading {
 }
 
 /// All measures that can be read on `mesh`: closed, y up, facing +z, arms down or spread. None when it does not look like a
-/// human.
-pub fn readings(mesh: &TriMesh) -> Option<Vec<Reading>> {
+/// human. A figure that was made with landmarks of its `own` is measured from its own shoulders, elbow and wrist.
+pub fn readings(mesh: &TriMesh, own: Option<&Landmarks>) -> Option<Vec<Reading>> {
     let marks = landmarks::found(mesh)?;
     let (low, high) = mesh.bounds();
     let reader = Reader { mesh, floor: low.y, tall: high.y - low.y, middle: marks.get("crotch")?.x };
+    let shoulders = own.and_then(Shoulders::own).or_else(|| Shoulders::found(mesh, &marks));
     let mut all = vec![Reading::plain("height", reader.tall)];
     reader.trunk(&marks, &mut all)?;
     reader.leg(&marks, &mut all)?;
-    reader.arm(&marks, &mut all);
+    let wrist = reader.arm(&marks, &mut all);
+    if let Some(shoulders) = shoulders {
+        reader.shoulders(&shoulders, &mut all);
+        let own = own.and_then(|own| Some([own.get("elbow_left")?, own.get("wrist_left")?]));
+        let length = match own {
+            Some([elbow, wrist]) => Some(shoulders.tips[0].distance(elbow) + elbow.distance(wrist)),
+            None => wrist.and_then(|(wrist, above)| shoulders.arm_length(mesh, wrist, above)),
+        };
+        all.extend(length.map(|metres| Reading::plain("arm length", metres)));
+    }
     Some(all)
 }
 
@@ -184,8 +195,16 @@ impl Reader<'_> {
         Some(())
     }
 
-    /// The left one, where it is spread; nothing where it is not.
-    fn arm(&self, marks: &Landmarks, all: &mut Vec<Reading>) -> Option<()> {
+    fn shoulders(&self, shoulders: &Shoulders, all: &mut Vec<Reading>) {
+        all.push(Reading::plain("shoulder width", shoulders.width()));
+        if let Some((metres, y)) = shoulders.across_back(self.mesh, self.middle) {
+            let height = Some(y - self.floor);
+            all.push(Reading { height, ..Reading::plain("across back", metres) });
+        }
+    }
+
+    /// The left one, where it is spread; nothing where it is not. Returns the outside of its wrist, and the way out.
+    fn arm(&self, marks: &Landmarks, all: &mut Vec<Reading>) -> Option<(DVec3, DVec3)> {
         let (below, lower) = (marks.get("arm_upper_below_left")?, marks.get("arm_lower_below_left")?);
         let (above, lower_above) = (marks.get("arm_upper_above_left")?, marks.get("arm_lower_above_left")?);
         let (from, to) = ((below + above) / 2.0, (lower + lower_above) / 2.0);
@@ -198,7 +217,9 @@ impl Reader<'_> {
         for (name, s, metres) in [("upper arm", upper, fullest), ("wrist", wrist, -thinnest)] {
             all.push(Reading { tape: Some(tape(name, s)), ..Reading::plain(name, metres) });
         }
-        Some(())
+        let above = (lower_above - lower).reject_from(along).try_normalize()?;
+        let ring = ring(self.mesh, from + along * wrist, along)?;
+        Some((outermost(&ring, above)?, above))
     }
 }
 
@@ -219,7 +240,7 @@ mod tests {
     #[test]
     fn the_mannequin_reads_as_it_was_built() {
         let figure = mannequin::default();
-        let found = readings(&figure.mesh).expect("a human");
+        let found = readings(&figure.mesh, Some(&figure.landmarks)).expect("a human");
         let m = &figure.measurements;
         for (name, built, share) in [
             ("height", m.height, 0.01),
@@ -236,6 +257,8 @@ mod tests {
             ("ankle", m.ankle, 0.015),
             ("upper arm", m.upper_arm, 0.01),
             ("wrist", m.wrist, 0.01),
+            ("shoulder width", 2.0 * m.half_across_shoulder, 0.01),
+            ("arm length", m.arm_length, 0.01),
         ] {
             let read = found.iter().find(|r| r.name == name).expect(name).metres;
             assert!((read / built - 1.0).abs() < share, "{name}: built {built} m, read {read} m");
@@ -243,9 +266,27 @@ mod tests {
     }
 
     #[test]
+    fn shoulders_are_found_where_none_are_given() {
+        let figure = mannequin::default();
+        let of = |own: Option<&Landmarks>| {
+            let found = readings(&figure.mesh, own).expect("a human");
+            ["shoulder width", "across back", "arm length"]
+                .map(|name| found.iter().find(|r| r.name == name).expect(name).metres)
+        };
+        let ([width, back, arm], [found_width, found_back, found_arm]) =
+            (of(Some(&figure.landmarks)), of(None));
+        assert!((0.9..1.0).contains(&(back / width)), "{back} {width}");
+        // Straight above the armpits, which lie farther in than its own tips; the arm begins there.
+        let armpits = figure.landmarks.get("armpit_left").expect("an armpit").x * 2.0;
+        assert!((found_width - armpits).abs() < 0.02, "{found_width} {armpits}");
+        assert!(found_width < width && found_back < back, "{found_width} {found_back}");
+        assert!((0.0..0.06).contains(&(found_arm - arm)), "{found_arm} {arm}");
+    }
+
+    #[test]
     fn the_back_is_followed_up_to_the_nape() {
         let figure = mannequin::default();
-        let found = readings(&figure.mesh).expect("a human");
+        let found = readings(&figure.mesh, Some(&figure.landmarks)).expect("a human");
         let read = |name: &str| found.iter().find(|r| r.name == name).expect(name).metres;
         let [nape, waist, back] = ["nape height", "waist height", "back neck to waist"].map(read);
         let mark = |name: &str| figure.landmarks.get(name).expect(name).y;
@@ -258,7 +299,7 @@ mod tests {
     #[test]
     fn the_tape_reads_at_any_height() {
         let figure = mannequin::default();
-        let found = readings(&figure.mesh).expect("a human");
+        let found = readings(&figure.mesh, Some(&figure.landmarks)).expect("a human");
         for name in ["bust", "waist", "hip"] {
             let reading = found.iter().find(|r| r.name == name).expect(name);
             let there = round_at(&figure.mesh, reading.height.expect("a level"), 0.0).expect("a trunk");
@@ -269,6 +310,6 @@ mod tests {
 
     #[test]
     fn a_box_is_no_human() {
-        assert!(readings(&TriMesh::default()).is_none());
+        assert!(readings(&TriMesh::default(), None).is_none());
     }
 }

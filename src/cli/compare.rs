@@ -6,7 +6,7 @@ use std::path::Path;
 use image::RgbaImage;
 use serde::Serialize;
 
-use crate::body::readings::{Reading, readings};
+use crate::body::readings::Reading;
 use crate::cli::arguments::{Compare, InputOptions};
 use crate::cli::failure::Failure;
 use crate::cli::fit::{Pictures, column, dressed, kinds, quoted};
@@ -15,6 +15,7 @@ use crate::fit::{Change, Map, MapKind, Matching, girths};
 use crate::geometry::ids::PieceId;
 use crate::render::{Legend, Palette, png};
 use crate::session::Outfit;
+use crate::session::body::readings_of;
 
 /// `compare.json`. The first of two values is always that of the first project.
 #[derive(Debug, Serialize)]
@@ -125,7 +126,7 @@ fn side(path: &Path) -> Result<Side, Failure> {
     let input = input::load(path, &InputOptions::default())?;
     let session = run::opened(input.project, path)?;
     let outfit = dressed(&session, path)?;
-    let readings = readings(&outfit.body.mesh).unwrap_or_default();
+    let readings = readings_of(&session.document().body, &outfit.body.mesh).unwrap_or_default();
     Ok(Side { name: input.name, outfit, readings })
 }
 

@@ -10,7 +10,7 @@ use crate::cli::arguments::Measure;
 use crate::cli::failure::Failure;
 use crate::cli::input::{self, Content};
 use crate::cli::output;
-use crate::session::body::surface_of;
+use crate::session::body::{readings_of, surface_of};
 
 #[derive(Serialize)]
 struct Told {
@@ -28,7 +28,7 @@ pub fn measure(arguments: &Measure) -> Result<(), Failure> {
         }
         (None, Some((table, measurements))) => {
             let figure = mannequin(&measurements).map_err(|error| Failure::input(table, error))?;
-            (table, readings(&figure.mesh))
+            (table, readings(&figure.mesh, Some(&figure.landmarks)))
         }
         (None, None) => return Err(Failure::Usage("name a body, or a size".to_owned())),
     };
@@ -51,14 +51,14 @@ pub fn measure(arguments: &Measure) -> Result<(), Failure> {
 /// What the tape reads on the body in the file at `path`; None: it is no standing human.
 fn of_file(path: &Path, arguments: &Measure) -> Result<Option<Vec<Reading>>, Failure> {
     Ok(match input::content(path, arguments.body_file, None)? {
-        Content::Body(body) if body.is_usable() => readings(&body.mesh),
+        Content::Body(body) if body.is_usable() => readings(&body.mesh, None),
         Content::Body(body) => {
             let words: Vec<String> = body.problems.iter().map(|p| p.words.clone()).collect();
             return Err(Failure::input(path, words.join("; ")));
         }
         Content::Project(project) => {
             let surface = surface_of(&project.document.body).map_err(|why| Failure::input(path, why))?;
-            readings(&surface.mesh)
+            readings_of(&project.document.body, &surface.mesh)
         }
         Content::Pattern(_) => return Err(Failure::input(path, "this is a pattern: it has no body")),
     })

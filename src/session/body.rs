@@ -4,6 +4,7 @@ use std::sync::{Arc, OnceLock};
 
 use crate::body::mannequin::mannequin;
 use crate::body::pose::rig;
+use crate::body::readings::{Reading, readings};
 use crate::body::{Landmarks, Surface, bones, landmarks};
 use crate::contact::Bone;
 use crate::geometry::mesh::TriMesh;
@@ -135,6 +136,20 @@ impl BodyCache {
 /// Makes the surface of `choice`.
 pub fn surface_of(choice: &BodyChoice) -> Result<Arc<Surface>, Rejection> {
     Body::new(choice).map(|body| body.surface)
+}
+
+/// What the tape reads on the body of `choice`, whose skin is `mesh`. None of what is no standing human.
+pub fn readings_of(choice: &BodyChoice, mesh: &TriMesh) -> Option<Vec<Reading>> {
+    let own = match choice {
+        BodyChoice::Mannequin(measurements) => {
+            mannequin(measurements).ok().map(|figure| figure.landmarks.clone())
+        }
+        BodyChoice::Posed { measurements, pose } => {
+            rig(measurements).ok().and_then(|rig| rig.posed(pose)).map(|posed| posed.landmarks)
+        }
+        BodyChoice::Imported { .. } => None,
+    };
+    readings(mesh, own.as_ref())
 }
 
 fn ready(mesh: TriMesh, name: &str) -> Result<Arc<Surface>, Rejection> {

@@ -6,9 +6,10 @@ use std::sync::mpsc::{Receiver, channel};
 use egui::{Grid, Label, RichText};
 
 use crate::body::Surface;
-use crate::body::readings::{Reading, readings, round_at};
+use crate::body::readings::{Reading, round_at};
 use crate::fit::{Girth, girth, girths};
-use crate::session::Outfit;
+use crate::session::body::readings_of;
+use crate::session::{BodyChoice, Outfit};
 use crate::ui::asks::Asks;
 use crate::ui::fields::length_field;
 use crate::ui::side_panel::Told;
@@ -47,7 +48,7 @@ impl TapePanel {
         self.sizes.ui(ui, told, asks);
         let Some(surface) = told.surface else { return };
         if !self.of.as_ref().is_some_and(|of| Arc::ptr_eq(of, surface)) {
-            self.begin(ui.ctx().clone(), surface);
+            self.begin(ui.ctx().clone(), surface, told.document.body.clone());
         }
         if let Some(read) = self.coming.as_ref().and_then(|coming| coming.try_recv().ok()) {
             (self.read, self.coming) = (read, None);
@@ -142,12 +143,12 @@ impl TapePanel {
         }
     }
 
-    fn begin(&mut self, ctx: egui::Context, surface: &Arc<Surface>) {
+    fn begin(&mut self, ctx: egui::Context, surface: &Arc<Surface>, choice: BodyChoice) {
         let (send, coming) = channel();
         let body = Arc::clone(surface);
         let work = move || {
             // Nobody waits any longer where the window has gone or the body is another.
-            send.send(readings(&body.mesh)).ok();
+            send.send(readings_of(&choice, &body.mesh)).ok();
             ctx.request_repaint();
         };
         let begun = std::thread::Builder::new().name("tape".to_owned()).spawn(work).is_ok();

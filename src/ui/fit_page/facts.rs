@@ -1,10 +1,11 @@
 //! What the page tells, read off the garment.
 
 use crate::body::landmarks;
-use crate::body::readings::{Reading, readings};
+use crate::body::readings::Reading;
 use crate::fit::maps::PieceStats;
 use crate::fit::{self, BodyIndex, Girth, Map, MapKind, MapReader, Report, SeamFit};
 use crate::pattern::Problem;
+use crate::session::body::readings_of;
 use crate::session::{Outfit, Session};
 use crate::sim;
 
@@ -58,7 +59,7 @@ impl Facts {
         let report = fit::measure(&source.pattern, garment, state, &index);
         let faults = sim::faults(&report, source, garment, state, &index, snapshot.was_draped);
         let tight = fit::tightest(&report, garment, state, || landmarks::found(&body.mesh));
-        let readings = readings(&body.mesh).unwrap_or_default();
+        let readings = readings_of(&session.document().body, &body.mesh).unwrap_or_default();
         let reader = MapReader::new(outfit.worn());
         let (maps, strains) = (
             MAPS.map(|kind| MapFacts::from(reader.map(kind))),
