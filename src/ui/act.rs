@@ -169,6 +169,7 @@ impl App {
             | Action::Map(_)
             | Action::ToggleMapTable
             | Action::ToggleDifference
+            | Action::ChangeSides
             | Action::CloseComparison
             | Action::CommandPalette
             | Action::Tour => self.act_on_shell(ctx, action),

@@ -150,6 +150,7 @@ pub enum Action {
     ToggleMapTable,
     Compare,
     ToggleDifference,
+    ChangeSides,
     CloseComparison,
     Theme(ThemePreference),
     Mouse(Mouse),
@@ -341,6 +342,7 @@ impl Action {
             | Self::ToggleMapTable
             | Self::Compare
             | Self::ToggleDifference
+            | Self::ChangeSides
             | Self::CloseComparison
             | Self::CommandPalette
             | Self::Tour => self.shell_entry(),
@@ -414,6 +416,7 @@ impl Action {
                 | Self::Map(_)
                 | Self::ToggleMapTable
                 | Self::ToggleDifference
+                | Self::ChangeSides
                 | Self::CloseComparison
                 | Self::CommandPalette
                 | Self::Preferences

@@ -252,6 +252,7 @@ impl App {
         let snapshot = Arc::clone(self.shown().snapshot());
         self.ghosts = self.ghosts.take().filter(|g| g.fit(&document, self.shown().surface()));
         self.carry_selection(&document);
+        self.take_comparison();
         self.shell.maps.look(&snapshot, &document.fabrics);
         let now = self.situation(&ctx, &document, &snapshot);
         let palette = Palette::of(ctx.theme());

@@ -184,6 +184,9 @@ impl Action {
             Self::ToggleDifference => {
                 entry("Difference", "Colour the cloth by what it has more than the one beside", &[])
             }
+            Self::ChangeSides => {
+                entry("Change sides", "The other garment stands on the other side of this one", &[])
+            }
             Self::CloseComparison => entry("End the comparison", "Show only this garment again", &[]),
             Self::CommandPalette => entry(
                 "Find a command…",

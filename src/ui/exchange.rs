@@ -9,7 +9,7 @@ use crate::ui::app::App;
 use crate::ui::dialogs::{Dialog, NativeDialog};
 use crate::ui::drop_overlay::Dropped;
 use crate::ui::files::{self, PatternImport, PoseFile, Purpose, RawBody};
-use crate::ui::maps::Comparison;
+use crate::ui::maps::Opening;
 use crate::ui::posed_motion::PosedMotion;
 
 impl App {
@@ -47,7 +47,7 @@ impl App {
             Purpose::ImportPattern => self.import_pattern(path, None),
             Purpose::ImportBody => files::read_body(path).and_then(|raw| self.import_body(raw)),
             Purpose::Pose => self.take_pose(path),
-            Purpose::Compare => self.compare_with(path),
+            Purpose::Compare => self.compare_with(ctx, path),
             Purpose::Sizes => self.take_sizes(path),
             Purpose::Export => {
                 let pattern = &self.session.document().pattern;
@@ -138,13 +138,20 @@ impl App {
         Ok(())
     }
 
-    /// Shows the garment of another project beside.
-    fn compare_with(&mut self, path: &Path) -> Result<(), String> {
+    /// Shows the garment of another project beside, once it is opened.
+    fn compare_with(&mut self, ctx: &egui::Context, path: &Path) -> Result<(), String> {
         let present = Outfit::of(self.session.snapshot(), &self.session.document().fabrics);
         let present = present.ok_or("There is no cloth on the body to be compared")?;
-        self.shell.maps.compare(Some(Comparison::open(path, &present)?));
-        self.scene_pane.frame = Some(None);
+        self.shell.maps.wait_for(Opening::begin(path, present, ctx)?);
         Ok(())
+    }
+
+    pub(super) fn take_comparison(&mut self) {
+        match self.shell.maps.take_opened() {
+            Ok(true) => self.scene_pane.frame = Some(None),
+            Ok(false) => {}
+            Err(words) => self.messages.error(words),
+        }
     }
 
     /// A table of sizes to choose from; the side panel has them.

@@ -205,7 +205,7 @@ fn view_ui(ui: &mut egui::Ui, now: &Situation, asks: &mut Asks) {
     });
     items(ui, now, asks, &[Action::Compare]);
     if now.difference.is_some() {
-        items(ui, now, asks, &[Action::ToggleDifference, Action::CloseComparison]);
+        items(ui, now, asks, &[Action::ToggleDifference, Action::ChangeSides, Action::CloseComparison]);
     }
     ui.separator();
     items(ui, now, asks, &[Action::ToggleSnapping, Action::ClearGuides]);

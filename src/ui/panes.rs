@@ -143,8 +143,13 @@ impl App {
             let value = self.scene_pane.value.or(self.pattern_pane.value);
             maps::legend_ui(ui, (pane, self.scene_pane.buttons), map, value, with.palette, asks);
         }
-        if let (Some(beside), Some(pane)) = (self.shell.maps.beside(), self.scene_pane.area) {
-            maps::beside_ui(ui, pane, beside, with.palette, asks);
+        match (self.shell.maps.opening(), self.shell.maps.beside(), self.scene_pane.area) {
+            (Some(opening), _, Some(pane)) => maps::opening_ui(ui, pane, opening, with.palette, asks),
+            (None, Some(beside), Some(pane)) => {
+                let placed = (beside, self.shell.maps.is_on_the_left());
+                maps::beside_ui(ui, pane, placed, with.palette, asks);
+            }
+            _ => {}
         }
     }
 

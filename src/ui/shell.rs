@@ -133,6 +133,10 @@ impl App {
             Action::ToggleLog => self.shell.drawer = toggled(Drawer::Log),
             Action::Map(kind) => self.shell.maps.choose(kind),
             Action::ToggleDifference => self.shell.maps.toggle_difference(),
+            Action::ChangeSides => {
+                self.shell.maps.change_sides();
+                self.scene_pane.frame = Some(None);
+            }
             Action::CloseComparison => {
                 self.shell.maps.compare(None);
                 self.scene_pane.frame = Some(None);

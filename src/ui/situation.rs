@@ -191,7 +191,7 @@ impl Situation {
             | Action::ToggleDrape
             | Action::StepDrape
             | Action::Map(Some(_)) => unless(self.dressed, "There is no cloth on the body"),
-            Action::ToggleDifference | Action::CloseComparison => {
+            Action::ToggleDifference | Action::ChangeSides | Action::CloseComparison => {
                 unless(self.difference.is_some(), "Nothing is shown beside: compare first")
             }
             Action::DeleteMark | Action::RaiseMark | Action::LowerMark => match &self.selected {

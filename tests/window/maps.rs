@@ -126,6 +126,17 @@ fn moved(window: &Window, to: impl Fn(DVec3) -> DVec3) -> Project {
     Project { document: session.document().clone(), dressed }
 }
 
+/// Waits while another project is opened beside the window.
+fn opened(window: &mut Window) {
+    let start = std::time::Instant::now();
+    while has(window, "opening ") {
+        assert!(start.elapsed().as_secs() < 20, "it takes too long");
+        std::thread::sleep(std::time::Duration::from_millis(5));
+        window.run_steps(1);
+    }
+    window.run_steps(2);
+}
+
 #[test]
 fn another_garment_is_shown_beside_and_the_difference_of_their_maps() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -135,7 +146,13 @@ fn another_garment_is_shown_beside_and_the_difference_of_their_maps() {
     if !read_by(&mut window, "View", "Compare with…", &path) {
         return;
     }
+    opened(&mut window);
     assert!(has(&window, "beside: wide"));
+    window.get_by_label("To the left").click();
+    window.run_steps(4);
+    assert!(has(&window, "To the right"), "it stands on the left");
+    window.get_by_label("To the right").click();
+    window.run_steps(4);
     choose(&mut window, "Ease: gap to the body");
     assert!(has(&window, "Legend: Ease: gap"));
     window.get_by_label("Difference").click();
@@ -189,6 +206,7 @@ fn what_cannot_be_compared_is_refused_with_its_file() {
         if !read_by(&mut window, "View", "Compare with…", &path) {
             return;
         }
+        opened(&mut window);
         assert!(has(&window, &format!("{name}: {words}")), "{name}");
         assert!(!has(&window, "beside:"));
     }

@@ -1,28 +1,52 @@
 //! The bar over the body pane while another garment is shown beside: what the present one shows, and an end to it.
 
 use egui::accesskit::Role;
-use egui::{Button, Frame, Margin, Rect, RichText, Stroke, WidgetInfo, vec2};
+use egui::{Button, Frame, Margin, Rect, RichText, Spinner, Stroke, WidgetInfo, vec2};
 
-use super::Comparison;
+use super::{Comparison, Opening};
 use crate::ui::actions::Action;
 use crate::ui::asks::{Ask, Asks};
 use crate::ui::theme::Palette;
 
 /// Its size, points.
-const SIZE: egui::Vec2 = vec2(330.0, 34.0);
+const SIZE: egui::Vec2 = vec2(390.0, 34.0);
 
-/// Draws the bar of `beside` in the upper left corner of `pane`.
-pub fn beside_ui(ui: &mut egui::Ui, pane: Rect, beside: &Comparison, palette: &Palette, asks: &mut Asks) {
-    let area = Rect::from_min_size(pane.min + vec2(10.0, 10.0), SIZE.min(pane.size()));
-    ui.scope_builder(egui::UiBuilder::new().max_rect(area), |ui| {
-        let frame = Frame::new().fill(palette.overlay).inner_margin(Margin::symmetric(9, 5)).corner_radius(6);
-        frame.stroke(Stroke::new(1.0, palette.table_grid_strong)).show(ui, |ui| {
-            ui.horizontal(|ui| bar_ui(ui, beside, asks));
+/// Draws the bar of `beside`, which stands on the left or on the right, in the upper left corner of `pane`.
+pub fn beside_ui(
+    ui: &mut egui::Ui,
+    pane: Rect,
+    (beside, on_the_left): (&Comparison, bool),
+    palette: &Palette,
+    asks: &mut Asks,
+) {
+    framed_ui(ui, pane, palette, |ui| bar_ui(ui, beside, on_the_left, asks));
+}
+
+/// Draws the bar while `opening` is on its way.
+pub fn opening_ui(ui: &mut egui::Ui, pane: Rect, opening: &Opening, palette: &Palette, asks: &mut Asks) {
+    framed_ui(ui, pane, palette, |ui| {
+        ui.add(Spinner::new().size(14.0));
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            close_ui(ui, asks);
+            let words = RichText::new(format!("opening {}…", opening.name)).size(12.5);
+            ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
+                ui.add(egui::Label::new(words).truncate());
+            });
         });
     });
 }
 
-fn bar_ui(ui: &mut egui::Ui, beside: &Comparison, asks: &mut Asks) {
+fn framed_ui(ui: &mut egui::Ui, pane: Rect, palette: &Palette, contents: impl FnOnce(&mut egui::Ui)) {
+    let area = Rect::from_min_size(pane.min + vec2(10.0, 10.0), SIZE.min(pane.size()));
+    ui.scope_builder(egui::UiBuilder::new().max_rect(area), |ui| {
+        let frame = Frame::new().fill(palette.overlay).inner_margin(Margin::symmetric(9, 5)).corner_radius(6);
+        frame.stroke(Stroke::new(1.0, palette.table_grid_strong)).show(ui, |ui| {
+            ui.horizontal(contents);
+        });
+    });
+}
+
+fn bar_ui(ui: &mut egui::Ui, beside: &Comparison, on_the_left: bool, asks: &mut Asks) {
     for (text, difference, tip) in [
         ("Both maps", false, "Both in the colours of the map"),
         ("Difference", true, "This garment in the colours of what it has more than the one beside"),
@@ -34,10 +58,11 @@ fn bar_ui(ui: &mut egui::Ui, beside: &Comparison, asks: &mut Asks) {
         }
     }
     ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-        let close = ui.add(Button::new("×").small().frame(false)).on_hover_text("No comparison");
-        close.widget_info(|| WidgetInfo::labeled(Role::Button, true, "Close the comparison"));
-        if close.clicked() {
-            asks.push(Ask::Act(Action::CloseComparison));
+        close_ui(ui, asks);
+        let side = if on_the_left { "To the right" } else { "To the left" };
+        let change = ui.button(side).on_hover_text(Action::ChangeSides.entry().tip);
+        if change.clicked() {
+            asks.push(Ask::Act(Action::ChangeSides));
         }
         let words = match beside.unlike() {
             Some(why) => RichText::new(why).color(ui.visuals().warn_fg_color),
@@ -45,4 +70,12 @@ fn bar_ui(ui: &mut egui::Ui, beside: &Comparison, asks: &mut Asks) {
         };
         ui.add(egui::Label::new(words.size(12.5)).truncate());
     });
+}
+
+fn close_ui(ui: &mut egui::Ui, asks: &mut Asks) {
+    let close = ui.add(Button::new("×").small().frame(false)).on_hover_text("No comparison");
+    close.widget_info(|| WidgetInfo::labeled(Role::Button, true, "Close the comparison"));
+    if close.clicked() {
+        asks.push(Ask::Act(Action::CloseComparison));
+    }
 }

@@ -78,11 +78,17 @@ impl Comparison {
         self.matched.as_ref()?.1.as_ref().err().map(String::as_str)
     }
 
-    /// Draws it on the right of `present`, in the colours of the map whose kind and span are given.
-    pub(super) fn draw_beside(&mut self, present: &Outfit, colours: Option<(MapKind, [f64; 2], Palette)>) {
-        let ((_, right), (left, _)) = (present.body.bounds(), self.outfit.body.bounds());
+    /// Draws it on the right of `present`, or on the left, in the colours of the map whose kind and span are given.
+    pub(super) fn draw_beside(
+        &mut self,
+        present: &Outfit,
+        on_the_left: bool,
+        colours: Option<(MapKind, [f64; 2], Palette)>,
+    ) {
+        let ((left, right), (own_left, own_right)) = (present.body.bounds(), self.outfit.body.bounds());
         let gap = GAP * present.body.scale();
-        let shift = (DVec3::X * (right.x - left.x + gap)).as_vec3();
+        let aside = if on_the_left { left.x - own_right.x - gap } else { right.x - own_left.x + gap };
+        let shift = (DVec3::X * aside).as_vec3();
         let place = Place { shift, colours: colours.map(|(kind, range, _)| (kind, range)) };
         if self.drawn.as_ref().is_some_and(|(drawn, _)| *drawn == place) {
             return;

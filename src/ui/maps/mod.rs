@@ -5,6 +5,7 @@ mod chooser;
 mod comparison;
 mod flat;
 mod legend;
+mod opening;
 mod probe;
 mod table;
 
@@ -17,10 +18,11 @@ use crate::fit::{Map, MapKind};
 use crate::render::{Legend, Palette, Rgb};
 use crate::session::{Fabrics, Outfit};
 use crate::sim::Snapshot;
-pub use beside::beside_ui;
+pub use beside::{beside_ui, opening_ui};
 pub use chooser::{choices, chooser_ui};
 pub use comparison::Comparison;
 pub use legend::legend_ui;
+pub use opening::Opening;
 pub use probe::probe_ui;
 pub use table::{table_ui, text as table_text};
 
@@ -33,6 +35,10 @@ pub struct MapView {
     shown: Option<ShownMap>,
     /// Another garment.
     beside: Option<Comparison>,
+    /// It is drawn on the left of the present one.
+    on_the_left: bool,
+    /// Another garment on its way.
+    opening: Option<Opening>,
     /// Maps worked out so far.
     computed: u64,
 }
@@ -79,7 +85,35 @@ impl MapView {
 
     /// Shows `other` beside from now on; None: nothing.
     pub fn compare(&mut self, other: Option<Comparison>) {
-        (self.beside, self.shown) = (other, None);
+        (self.beside, self.shown, self.opening) = (other, None, None);
+    }
+
+    /// Shows beside what is being opened, once it is there.
+    pub fn wait_for(&mut self, opening: Opening) {
+        self.opening = Some(opening);
+    }
+
+    /// What is being opened to be shown beside.
+    pub fn opening(&self) -> Option<&Opening> {
+        self.opening.as_ref()
+    }
+
+    /// Shows beside what has been opened. True if it does from now on; the error tells why it cannot be.
+    pub fn take_opened(&mut self) -> Result<bool, String> {
+        let Some(opened) = self.opening.as_ref().and_then(Opening::take) else { return Ok(false) };
+        self.opening = None;
+        self.compare(Some(opened?));
+        Ok(true)
+    }
+
+    /// Whether the other garment is drawn on the left.
+    pub fn is_on_the_left(&self) -> bool {
+        self.on_the_left
+    }
+
+    /// Draws the other garment on the other side.
+    pub fn change_sides(&mut self) {
+        self.on_the_left = !self.on_the_left;
     }
 
     /// What is shown beside, while there is cloth to compare it with.
@@ -115,7 +149,7 @@ impl MapView {
             Some(outfit) => {
                 let own = self.shown.as_ref().filter(|shown| !shown.is_difference);
                 let colours = own.map(|shown| (shown.map.kind, shown.range, shown.palette()));
-                beside.draw_beside(outfit, colours);
+                beside.draw_beside(outfit, self.on_the_left, colours);
             }
             None => beside.put_away(),
         }

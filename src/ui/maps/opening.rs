@@ -1,0 +1,41 @@
+//! Another project on its way to be compared with: opened and matched beside the window.
+
+use std::path::Path;
+use std::sync::mpsc::{Receiver, TryRecvError, channel};
+
+use super::Comparison;
+use crate::session::Outfit;
+
+/// A project being opened.
+#[derive(Debug)]
+pub struct Opening {
+    /// Of its file.
+    pub name: String,
+    coming: Receiver<Result<Comparison, String>>,
+}
+
+impl Opening {
+    /// Begins to open the project at `path`, to be held against `present`. The error is the system's, for want of a thread.
+    pub fn begin(path: &Path, present: Outfit, ctx: &egui::Context) -> Result<Self, String> {
+        let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let (send, coming) = channel();
+        let (path, ctx) = (path.to_owned(), ctx.clone());
+        let work = move || {
+            // Nobody waits any longer where it was called off.
+            send.send(Comparison::open(&path, &present)).ok();
+            ctx.request_repaint();
+        };
+        let thread = std::thread::Builder::new().name("comparison".to_owned()).spawn(work);
+        thread.map_err(|why| format!("{name} cannot be opened: {why}"))?;
+        Ok(Self { name, coming })
+    }
+
+    /// What came of it. None: it is still being opened.
+    pub fn take(&self) -> Option<Result<Comparison, String>> {
+        match self.coming.try_recv() {
+            Ok(opened) => Some(opened),
+            Err(TryRecvError::Empty) => None,
+            Err(TryRecvError::Disconnected) => Some(Err(format!("{} could not be opened", self.name))),
+        }
+    }
+}
