@@ -2,18 +2,24 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::pattern::activity::Activity;
 use crate::render::{Scene, View};
 use crate::session::Session;
 use crate::ui::scene::{Scenery, Shown};
 
-/// The body and the cloth on it; where `marks` or nothing is dressed yet also the marks, where `pins` the pins.
+/// The body and the cloth on it, frozen and deactivated pieces in their colours; where `marks` or nothing is dressed yet also
+/// the marks, where `pins` the pins.
 pub fn portrait(scenery: &mut Scenery, session: &Session, marks: bool, pins: bool) -> Scene {
     let snapshot = session.snapshot();
     let dressed = snapshot.is_dressed();
+    let activities = session.document().pattern.activities();
+    let whole = snapshot.garment.as_ref().map(|garment| (garment, &snapshot.cloth));
     scenery.scene(&Shown {
         body: snapshot.body.as_ref().filter(|_| dressed).or(session.surface()),
         cloth: snapshot.drawn().filter(|_| dressed),
         marks: (marks || !dressed).then_some(&session.document().marks),
+        activities: Some(&activities),
+        whole: whole.filter(|_| dressed && activities.values().any(Activity::is_deactivated)),
         pinned: if pins { &snapshot.pinned } else { &[] },
         ..Shown::default()
     })
@@ -40,6 +46,34 @@ pub fn numbered(path: &Path, i: u32, count: u32) -> PathBuf {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::body::mannequin;
+    use crate::pattern::edit::PatternEdit;
+    use crate::render::CLOTH_FRONT;
+    use crate::session::Command;
+    use crate::session::samples::Sample;
+    use crate::sim::{Runner, Simulation};
+
+    #[test]
+    fn a_deactivated_piece_is_shown_pale() {
+        let project = Sample::Skirt.project(&mannequin::default());
+        let mut session = Session::new(project, Runner::inline(Simulation::default()));
+        session.apply_alone(Command::Wrap).expect("wrapped");
+        while session.runner().simulation().is_some_and(Simulation::tick) {}
+        session.update();
+        let pale = |session: &Session| {
+            let scene = portrait(&mut Scenery::default(), session, false, false);
+            let is_pale = |own: [u8; 3]| own.iter().zip(CLOTH_FRONT).all(|(pale, usual)| *pale > usual);
+            let cloth = scene.meshes.iter().filter(|mesh| mesh.cloth > 0.0);
+            cloth.map(|mesh| (is_pale(mesh.front), mesh.triangles.len())).collect::<Vec<_>>()
+        };
+        let [(false, all)] = pale(&session)[..] else { panic!("one mesh of cloth") };
+        let piece = session.document().pattern.pieces.keys().next().copied().expect("a piece");
+        let edits = vec![PatternEdit::SetActivity { pieces: vec![piece], activity: Activity::Deactivated }];
+        session.apply_alone(Command::EditPattern { edits, anew: false }).expect("deactivated");
+        session.update();
+        let [(false, active), (true, asleep)] = pale(&session)[..] else { panic!("two meshes of cloth") };
+        assert!(active > 0 && asleep > 0 && active + asleep == all, "{active} {asleep} {all}");
+    }
 
     #[test]
     fn a_turn_is_numbered_and_goes_all_the_way_round() {
