@@ -23,6 +23,8 @@ mod project_files;
 mod recordings;
 #[path = "sessions/reposing.rs"]
 mod reposing;
+#[path = "sessions/resizing.rs"]
+mod resizing;
 #[path = "sessions/rewrapping.rs"]
 mod rewrapping;
 #[path = "sessions/scenario.rs"]

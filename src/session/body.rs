@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, OnceLock};
 
-use crate::body::mannequin::mannequin;
+use crate::body::mannequin::{Counterpart, mannequin};
 use crate::body::pose::rig;
 use crate::body::readings::{Reading, readings};
 use crate::body::{Landmarks, Surface, bones, landmarks};
@@ -120,6 +120,15 @@ impl BodyCache {
         let triangles = self.surface(&aim.from)?.mesh.triangles.clone();
         let mesh = Arc::new(TriMesh { positions, triangles });
         Ok(BodyChoice::Imported { name: aim.to.name().to_owned(), mesh })
+    }
+
+    /// The mannequin `to` in the triangles of the mannequin `from`. The error says why there is none.
+    pub fn in_triangles_of(&mut self, from: &BodyChoice, to: &BodyChoice) -> Result<Arc<Surface>, Rejection> {
+        let words = || Rejection(format!("{} is not {} in another size", to.name(), from.name()));
+        let figure = |choice: &BodyChoice| mannequin(&choice.measurements()?).ok();
+        let same = figure(from).zip(figure(to)).and_then(|(one, other)| Counterpart::new(&one, &other));
+        let positions = same.ok_or_else(words)?.positions(&self.surface(to)?.mesh);
+        self.surface(from)?.reposed(positions).map(Arc::new).ok_or_else(words)
     }
 
     /// The surface of `choice`. The error says why cloth cannot be put on it.

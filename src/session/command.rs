@@ -5,6 +5,7 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 use serde::{Deserialize, Serialize};
 
+use crate::body::mannequin::Measurements;
 use crate::drag::{DragMode, Ray};
 use crate::geometry::ids::{MarkId, PieceId, PinId, SeamId};
 use crate::pattern::edit::PatternEdit;
@@ -71,6 +72,9 @@ pub enum Command {
         #[serde(default, skip_serializing_if = "std::ops::Not::not")]
         draft: bool,
     },
+    /// The mannequin is built to other measurements, in the pose it stands in. The dressed cloth goes along and, unless it was
+    /// draped, settles there; strokes on the body are carried where they find a place.
+    ChangeSize { measurements: Measurements },
     /// Choose another pose of the body, from a file: `body` has its triangles, vertex for vertex. It stays where it is.
     AimPose { body: BodyChoice },
     /// The body goes from the pose in which the other was chosen to that one, so far (0..=1) that its limbs keep their size

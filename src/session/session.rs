@@ -350,6 +350,11 @@ impl Session {
                 let body = self.bodies.surface(&edit.document.body)?;
                 Some(RequestKind::Repose { body, marks: Arc::clone(&edit.document.marks), settle, draft })
             }
+            ClothChange::Resize => {
+                let through = self.bodies.in_triangles_of(&self.document.body, &edit.document.body)?;
+                let body = self.bodies.surface(&edit.document.body)?;
+                Some(RequestKind::Resize { through, body, marks: Arc::clone(&edit.document.marks) })
+            }
             ClothChange::SetPins => Some(RequestKind::SetPins(edit.document.pinned_places())),
             ClothChange::Grab { at, mode } => Some(RequestKind::Grab { at, mode, bones: self.bones() }),
             ClothChange::DragTo(ray) => Some(RequestKind::DragTo(ray)),

@@ -68,6 +68,31 @@ impl World {
         Ok(Some(world))
     }
 
+    /// The dressed cloth on `body`, its own in another size, of which `through` is the same in the triangles of its own. None
+    /// where nothing is dressed; cloth that still grows or is sewn begins again there. The error is in words.
+    pub fn resized(
+        &mut self,
+        through: Arc<Surface>,
+        body: Arc<Surface>,
+        marks: Arc<Marks>,
+    ) -> Result<Option<Self>, String> {
+        let grows = self.dressing.as_ref().is_some_and(|dressing| dressing.relaxer().is_none());
+        if grows || self.sewing.is_some() {
+            return self.reposed(body, marks, false, Care::THOROUGH);
+        }
+        let Some(world) = self.reposed(through, marks, false, Care::THOROUGH)? else { return Ok(None) };
+        let (garment, source) = (world.garment.as_ref(), world.source.as_ref());
+        let splits = garment.zip(source).and_then(|(garment, source)| {
+            Splits::of_lying(garment, &world.cloth, &body, source.relax.offset).map(Arc::new)
+        });
+        // Another pose is not gone to from triangles that the body has no longer.
+        let mut world = Self { body: Some(body), splits, posed: None, ..world };
+        if !world.was_draped {
+            world.settle();
+        }
+        Ok(Some(world))
+    }
+
     /// What came of the last change of pose, while the cloth lies as it left it.
     pub fn outcome(&self) -> Option<Outcome> {
         self.lying_as_posed().map(|posed| posed.outcome)

@@ -223,6 +223,11 @@ impl Simulation {
                     self.set_world(world);
                 }
             }
+            RequestKind::Resize { through, body, marks } => {
+                if let Some(world) = self.world.resized(through, body, marks)? {
+                    self.set_world(world);
+                }
+            }
             RequestKind::SetRelax(relax) => self.world.set_relax(relax),
             RequestKind::SetRelaxing(on) => self.world.relaxing = on,
             RequestKind::SetDraping { on, source } => self.world.set_draping(on, source),

@@ -336,7 +336,7 @@ impl App {
     pub(super) fn apply(&mut self, command: Command) {
         self.end_drag();
         let is_wrap = matches!(command, Command::Wrap | Command::Rewrap { .. } | Command::Sew);
-        let is_body = matches!(command, Command::SetBody { .. });
+        let is_body = matches!(command, Command::SetBody { .. } | Command::ChangeSize { .. });
         match self.session.apply_alone(command) {
             Ok(()) if is_wrap => self.wrap_seq = Some(self.session.last_seq()),
             Ok(()) if is_body => self.tell_lost_marks(),

@@ -56,11 +56,12 @@ fn size_ui(ui: &mut egui::Ui, size: &Size, is_taken: bool, body: &BodyChoice, as
     let button = ui.add_enabled(checked.is_ok(), Button::selectable(is_taken, &size.name));
     match checked {
         Ok(measurements) => {
-            let words = "The mannequin is built to this size: marks go along, the cloth comes off";
+            let words = "The mannequin is built to this size; marks and garment go along";
             if button.on_hover_text(words).clicked() && !is_taken {
-                let built = BodyChoice::Mannequin(measurements);
-                let posed = body.pose().and_then(|pose| built.posed(pose));
-                asks.push(Ask::Do(Command::SetBody { body: posed.unwrap_or(built), animations: None }));
+                asks.push(Ask::Do(match body.measurements() {
+                    Some(_) => Command::ChangeSize { measurements },
+                    None => Command::SetBody { body: BodyChoice::Mannequin(measurements), animations: None },
+                }));
             }
         }
         Err(why) => _ = button.on_disabled_hover_text(why.to_string()),

@@ -206,7 +206,7 @@ fn the_mannequin_is_built_to_a_size_of_a_table() {
     choose(&mut window, "36");
     let measurements = app(&window).session().document().body.measurements().expect("the mannequin");
     assert_eq!((measurements.height, measurements.hip), (1.68, 0.9));
-    assert_eq!(app(&window).session().undo_label(), Some("change the body"));
+    assert_eq!(app(&window).session().undo_label(), Some("change the size"));
     std::fs::write(&path, "size,bust\n36,wide\n").expect("a file");
     assert!(read_file(&mut window, "Sizes from a table…", &path));
     assert!(window.query_by_label_contains("row 2, column 2 (bust): \"wide\" is no length").is_some());

@@ -4,6 +4,7 @@
 //! `fit` corrects the stretch until the tape reads what was asked for, `polygonise` and `remesh` turn the skin's left
 //! half into even triangles, which are mirrored. The same measurements give the same bits.
 
+mod counterpart;
 mod editing;
 mod field;
 mod figure;
@@ -22,6 +23,7 @@ use std::sync::{Arc, Mutex, OnceLock};
 
 use glam::DVec3;
 
+pub use counterpart::Counterpart;
 pub use measurements::{Measurements, OutOfRange};
 
 use super::closest::closest_on_triangle;

@@ -2,10 +2,12 @@
 
 use std::sync::Arc;
 
+use crate::body::mannequin::Measurements;
 use crate::contact::Bone;
 use crate::geometry::mesh::TriMesh;
+use crate::pattern::Problem;
 use crate::session::animations::{Animations, Moment};
-use crate::session::body::BodyCache;
+use crate::session::body::{Body, BodyCache};
 use crate::session::carry::carried;
 use crate::session::command::Rejection;
 use crate::session::document::{Aim, BodyChoice, Document};
@@ -26,18 +28,44 @@ pub fn set(
     if let Some(animations) = animations {
         same_triangles((animations.mesh(), animations.name()), (&to.surface.mesh, body.name()))?;
     }
+    document.drop_pins();
+    let problems = replace(&mut document, body, &to, bodies);
+    document.animations = animations.cloned();
+    Ok(Edit { problems, ..Edit::new("change the body", document).with(ClothChange::Clear) })
+}
+
+/// The mannequin in another size, in the same pose; the cloth goes along.
+pub fn resize(
+    mut document: Document,
+    measurements: Measurements,
+    bodies: &mut BodyCache,
+) -> Result<Edit, Rejection> {
+    let pose = document.body.pose();
+    let pose = pose.ok_or_else(|| Rejection::new("only the mannequin is built to measurements"))?;
+    let built = BodyChoice::Mannequin(measurements);
+    let body = built.posed(pose).unwrap_or(built);
+    checks::body(&body)?;
+    if document.body == body {
+        return Err(Rejection::new("that is its size already"));
+    }
+    let to = bodies.body(&body)?;
+    let problems = replace(&mut document, &body, &to, bodies);
+    Ok(Edit { problems, ..Edit::new("change the size", document).with(ClothChange::Resize) })
+}
+
+/// Takes `body`, which is `to`, in place of the document's. Returns which strokes on that found no place on this one.
+fn replace(document: &mut Document, body: &BodyChoice, to: &Body, bodies: &mut BodyCache) -> Vec<Problem> {
     let mut problems = Vec::new();
     if !document.marks.body.is_empty() {
         let from = bodies.body(&document.body).ok();
-        let (marks, lost) = carried(&document.marks, from.as_deref(), &to, body.name());
+        let (marks, lost) = carried(&document.marks, from.as_deref(), to, body.name());
         document.marks = Arc::new(marks);
         problems = lost;
     }
-    document.drop_pins();
     (document.bones, document.aim) = (None, None);
-    (document.animations, document.moment) = (animations.cloned(), None);
+    (document.animations, document.moment) = (None, None);
     document.body = body.clone();
-    Ok(Edit { problems, ..Edit::new("change the body", document).with(ClothChange::Clear) })
+    problems
 }
 
 /// The same body in another pose; the cloth goes along.

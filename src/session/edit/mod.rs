@@ -37,6 +37,8 @@ pub enum ClothChange {
     Resew(Vec<Carried>),
     /// The body takes the pose of the document's; then, perhaps, the cloth settles.
     Repose { settle: bool, draft: bool },
+    /// The mannequin is of the document's size.
+    Resize,
     /// Relax differently.
     SetRelax(RelaxSettings),
     /// Pin it where the document's pins are.
@@ -102,6 +104,7 @@ impl Edit {
             ClothChange::Clear
             | ClothChange::Resew(_)
             | ClothChange::Repose { .. }
+            | ClothChange::Resize
             | ClothChange::SetPins
             | ClothChange::SetDraping(true)
             | ClothChange::StepDraping(_)
@@ -157,6 +160,7 @@ fn untied(document: &Document, command: &Command, bodies: &mut BodyCache) -> Res
         Command::ReverseSeam { seam } => edit_by(new, PatternEdit::TurnSeam { seam: *seam }),
         Command::SetBody { body, animations } => body::set(new, body, animations.as_ref(), bodies),
         Command::Repose { body, settle, draft } => body::repose(new, body, [*settle, *draft], bodies),
+        Command::ChangeSize { measurements } => body::resize(new, *measurements, bodies),
         Command::AimPose { body } => body::aim(new, body, bodies),
         Command::PoseTowards { share, draft } => body::towards(new, *share, *draft, bodies),
         Command::TakeAnimations { animations } => body::take_animations(new, animations, bodies),
