@@ -101,3 +101,24 @@ fn another_animation_of_the_list_begins_at_its_beginning() {
     assert_eq!((moment.animation, moment.seconds), (1, 0.0));
     assert!(turned(app(&window)) < 1e-3, "it snaps at its end");
 }
+
+#[test]
+fn a_body_is_imported_with_its_animations_in_one_step() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("limb.glb");
+    std::fs::write(&path, limb::glb()).expect("a file");
+    let mut window = window();
+    if !read_by(&mut window, "File", "Import body…", &path) {
+        return;
+    }
+    if window.query_by_label("Take it").is_some() {
+        window.get_by_label("Take it").click();
+        window.run_steps(3);
+    }
+    let session = app(&window).session();
+    assert_eq!(session.step_labels().collect::<Vec<_>>(), ["change the body"]);
+    let animations = session.document().animations.as_ref().expect("animations");
+    assert_eq!(animations.names().collect::<Vec<_>>(), ["bend", "snap"]);
+    key(&mut window, Modifiers::COMMAND, Key::Z);
+    assert!(app(&window).session().document().animations.is_none());
+}
