@@ -1,5 +1,7 @@
 //! Pictures without a window.
 
+use std::sync::Arc;
+
 use glam::UVec2;
 use image::RgbaImage;
 
@@ -9,9 +11,8 @@ use crate::cli::interrupt;
 use crate::render::{Legend, Look, RenderError, Rgb, Studio, View, png, straightened};
 use crate::session::{Outfit, Session};
 use crate::ui::fit_page::FitPage;
-use crate::ui::mapped::mapped;
-use crate::ui::portrait::portrait;
-use crate::ui::scene::{Scenery, Shown};
+use crate::ui::portrait::{Extras, portrait, worn_scene};
+use crate::ui::scene::Scenery;
 
 /// Draws sessions; opens the graphics adapter once.
 pub struct Artist {
@@ -34,9 +35,7 @@ impl Artist {
         view: View,
         size: [u32; 2],
     ) -> Result<RgbaImage, Failure> {
-        let cloth = Some((&outfit.garment, &outfit.state));
-        let shown = Shown { body: Some(&outfit.body), cloth, ..Shown::default() };
-        let scene = mapped(self.scenery.scene(&shown), colours);
+        let scene = worn_scene(&mut self.scenery, outfit, Some(&Arc::new(colours.to_vec())));
         let size = UVec2::from_array(size);
         let mut picture = self.studio.picture(&scene, view, &Look::light(), size).map_err(failure)?;
         legend.burn(&mut picture);
@@ -57,7 +56,7 @@ impl Artist {
 
     /// The body, the cloth and, where there is no cloth yet, the marks of `session` as a PNG.
     pub fn png(&mut self, session: &Session, options: &PictureOptions) -> Result<Vec<u8>, Failure> {
-        let scene = portrait(&mut self.scenery, session, false, true);
+        let scene = portrait(&mut self.scenery, session, Extras { pins: true, ..Extras::default() });
         let size = UVec2::from_array(options.size);
         let look = Look { cut_out: options.transparent, ..Look::light() };
         let picture = self.studio.picture(&scene, options.view, &look, size).map_err(failure)?;

@@ -19,6 +19,8 @@ pub struct Outfit {
     pub garment: Arc<Garment>,
     /// Where it lies.
     pub state: Arc<ClothState>,
+    /// The same with its deactivated pieces, where it has some: they are seen, and count for nothing.
+    pub whole: Option<(Arc<Garment>, Arc<ClothState>)>,
     /// The body it lies on.
     pub body: Arc<Surface>,
     /// What each of its pieces is made of.
@@ -30,7 +32,10 @@ impl Outfit {
     pub fn of(snapshot: &Snapshot, fabrics: &Fabrics) -> Option<Self> {
         let (garment, state) = snapshot.drawn().filter(|_| snapshot.is_dressed())?;
         let (source, body) = (snapshot.source.as_ref()?, snapshot.body.as_ref()?);
+        let sleeps = source.pattern.pieces.values().any(|piece| piece.activity.is_deactivated());
+        let whole = snapshot.garment.as_ref().filter(|_| sleeps);
         Some(Self {
+            whole: whole.map(|garment| (Arc::clone(garment), Arc::clone(&snapshot.cloth))),
             source: Arc::clone(source),
             garment: Arc::clone(garment),
             state: Arc::clone(state),

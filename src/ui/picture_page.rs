@@ -9,8 +9,7 @@ use crate::render::{Camera, Look, Projection, View, png};
 use crate::ui::actions::{Action, VIEWS};
 use crate::ui::app::App;
 use crate::ui::files::{self, Purpose};
-use crate::ui::mapped::mapped;
-use crate::ui::portrait::portrait;
+use crate::ui::portrait::{Extras, portrait};
 use crate::ui::theme::{self, Palette};
 
 /// Pixels a side.
@@ -164,7 +163,8 @@ impl App {
         let mut camera = self.scene_pane.camera;
         if let Some(view) = options.view {
             let session = self.demo.as_ref().map_or(&self.session, |(player, ..)| player.session());
-            let scene = portrait(&mut self.scenery, session, options.marks, options.marks);
+            let extras = Extras { marks: options.marks, pins: options.marks, map: None };
+            let scene = portrait(&mut self.scenery, session, extras);
             camera = Camera { projection: camera.projection, ..Camera::default() };
             camera.look(view);
             camera.frame_points(&scene.points(), options.size.x as f32 / options.size.y as f32);
@@ -181,12 +181,10 @@ impl App {
         camera: &Camera,
     ) -> Result<Vec<u8>, String> {
         let session = self.demo.as_ref().map_or(&self.session, |(player, ..)| player.session());
-        let scene = portrait(&mut self.scenery, session, options.marks, options.marks);
         let map = self.shell.maps.shown();
-        let scene = match map {
-            Some(map) => mapped(scene, &map.colours),
-            None => scene,
-        };
+        let colours = map.map(|map| &map.colours);
+        let extras = Extras { marks: options.marks, pins: options.marks, map: colours };
+        let scene = portrait(&mut self.scenery, session, extras);
         let Some(graphics) = &mut self.scene_pane.graphics else {
             return Err("There is no graphics adapter to draw with".to_owned());
         };

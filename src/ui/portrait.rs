@@ -1,15 +1,26 @@
 //! What a picture of a session shows, in the window and without one.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use crate::pattern::activity::Activity;
-use crate::render::{Scene, View};
-use crate::session::Session;
+use crate::render::{Rgb, Scene, View};
+use crate::session::{Outfit, Session};
 use crate::ui::scene::{Scenery, Shown};
 
-/// The body and the cloth on it, frozen and deactivated pieces in their colours; where `marks` or nothing is dressed yet also
-/// the marks, where `pins` the pins.
-pub fn portrait(scenery: &mut Scenery, session: &Session, marks: bool, pins: bool) -> Scene {
+/// What else a picture of a session shows.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Extras<'a> {
+    /// Marks also where the cloth is on the body.
+    pub marks: bool,
+    /// Pins.
+    pub pins: bool,
+    /// The colours of a map, one for each vertex of the cloth, instead of its own.
+    pub map: Option<&'a Arc<Vec<Rgb>>>,
+}
+
+/// The body and the cloth on it, frozen and deactivated pieces in their colours; where nothing is dressed yet also the marks.
+pub fn portrait(scenery: &mut Scenery, session: &Session, extras: Extras<'_>) -> Scene {
     let snapshot = session.snapshot();
     let dressed = snapshot.is_dressed();
     let activities = session.document().pattern.activities();
@@ -17,10 +28,24 @@ pub fn portrait(scenery: &mut Scenery, session: &Session, marks: bool, pins: boo
     scenery.scene(&Shown {
         body: snapshot.body.as_ref().filter(|_| dressed).or(session.surface()),
         cloth: snapshot.drawn().filter(|_| dressed),
-        marks: (marks || !dressed).then_some(&session.document().marks),
+        marks: (extras.marks || !dressed).then_some(&session.document().marks),
         activities: Some(&activities),
         whole: whole.filter(|_| dressed && activities.values().any(Activity::is_deactivated)),
-        pinned: if pins { &snapshot.pinned } else { &[] },
+        map: extras.map,
+        pinned: if extras.pins { &snapshot.pinned } else { &[] },
+        ..Shown::default()
+    })
+}
+
+/// The cloth of `outfit` on its body, in `colours` of a map, one for each vertex, or in its own; what of it is deactivated is
+/// pale.
+pub fn worn_scene(scenery: &mut Scenery, outfit: &Outfit, colours: Option<&Arc<Vec<Rgb>>>) -> Scene {
+    scenery.scene(&Shown {
+        body: Some(&outfit.body),
+        cloth: Some((&outfit.garment, &outfit.state)),
+        activities: Some(&outfit.source.pattern.activities()),
+        whole: outfit.whole.as_ref().map(|(garment, state)| (garment, state)),
+        map: colours,
         ..Shown::default()
     })
 }
@@ -61,7 +86,7 @@ mod tests {
         while session.runner().simulation().is_some_and(Simulation::tick) {}
         session.update();
         let pale = |session: &Session| {
-            let scene = portrait(&mut Scenery::default(), session, false, false);
+            let scene = portrait(&mut Scenery::default(), session, Extras::default());
             let is_pale = |own: [u8; 3]| own.iter().zip(CLOTH_FRONT).all(|(pale, usual)| *pale > usual);
             let cloth = scene.meshes.iter().filter(|mesh| mesh.cloth > 0.0);
             cloth.map(|mesh| (is_pale(mesh.front), mesh.triangles.len())).collect::<Vec<_>>()
@@ -73,6 +98,12 @@ mod tests {
         session.update();
         let [(false, active), (true, asleep)] = pale(&session)[..] else { panic!("two meshes of cloth") };
         assert!(active > 0 && asleep > 0 && active + asleep == all, "{active} {asleep} {all}");
+        let outfit = Outfit::of(session.snapshot(), &session.document().fabrics).expect("dressed");
+        let red = Arc::new(vec![[200, 0, 0]; outfit.garment.vertex_count]);
+        let scene = worn_scene(&mut Scenery::default(), &outfit, Some(&red));
+        let cloth = scene.meshes.iter().filter(|mesh| mesh.cloth > 0.0);
+        let inked: Vec<bool> = cloth.map(|mesh| mesh.colours.first() == Some(&[200, 0, 0])).collect();
+        assert_eq!(inked, [true, false], "a map is over what counts");
     }
 
     #[test]

@@ -15,7 +15,7 @@ use crate::session::samples::Sample;
 use crate::session::{Command, Project, Session, project_file};
 use crate::sim::{Runner, Simulation};
 use crate::ui::files;
-use crate::ui::portrait::portrait;
+use crate::ui::portrait::{Extras, portrait};
 use crate::ui::scene::Scenery;
 
 /// Pixels.
@@ -178,7 +178,7 @@ fn draw(session: &mut Session, artist: &mut Option<Studio>) -> Option<image::Rgb
         Some(studio) => studio,
         None => artist.insert(Studio::new().ok()?),
     };
-    let scene = portrait(&mut Scenery::default(), session, false, false);
+    let scene = portrait(&mut Scenery::default(), session, Extras::default());
     let look = Look { cut_out: true, ..Look::light() };
     Some(straightened(studio.picture(&scene, View::ThreeQuarter, &look, SIZE).ok()?))
 }

@@ -10,8 +10,8 @@ use crate::fit::MapKind;
 use crate::render::{Camera, Look, Palette, Projection, RenderError, Rgb, Scene, View, png};
 use crate::session::Outfit;
 use crate::ui::fit_page::facts::{Facts, MapFacts};
-use crate::ui::mapped::mapped;
-use crate::ui::scene::{Scenery, Shown};
+use crate::ui::portrait::worn_scene;
+use crate::ui::scene::Scenery;
 
 /// Sides of the garment, as a person goes round it, and how wide their pictures are, pixels: arms are spread sideways. The page's
 /// columns stand in the same ratio.
@@ -85,16 +85,7 @@ impl Shot {
         outfit: &Outfit,
         draw: impl FnOnce(&Scene, &Camera, &Look, UVec2) -> Result<image::RgbaImage, RenderError>,
     ) -> Result<Picture, RenderError> {
-        let shown = Shown {
-            body: Some(&outfit.body),
-            cloth: Some((&outfit.garment, &outfit.state)),
-            ..Shown::default()
-        };
-        let scene = scenery.scene(&shown);
-        let scene = match &self.colours {
-            Some(colours) => mapped(scene, colours),
-            None => scene,
-        };
+        let scene = worn_scene(scenery, outfit, self.colours.as_ref());
         let look = Look { cut_out: true, ..Look::light() };
         let png = png(&draw(&scene, &self.camera(&scene, outfit), &look, self.size)?)?;
         let source = format!("data:image/png;base64,{}", STANDARD.encode(png));
