@@ -31,7 +31,9 @@ const CONTACT: f64 = 0.01;
 const STALE_SHARE: f64 = 0.05;
 /// How many times as far as solved each global step of a relaxation goes: slow swings die out sooner, and as none is twice as
 /// far, none raises what a step minimises.
-const PACES: [f64; 3] = [1.7; 3];
+const PACES: [f64; 4] = [1.7; 4];
+/// A substep of the full length strains cloth the most and takes all of them; a shorter one is content with so many.
+const FEWER: usize = 3;
 /// No vertex moves farther in one relaxation, metres on a body 1.5 m large.
 const RELAX_CAP: f64 = 0.02;
 /// The hand has arrived this near to the pointer, in edge lengths.
@@ -190,8 +192,9 @@ impl Dragging {
         let mut moved = 0.0f64;
         for substep in 0..MOST_SUBSTEPS {
             let wanted = self.motion(state);
-            let motion = wanted.clamp_length_max(SUBSTEP * self.edge_length);
-            let on = substep + 1 < MOST_SUBSTEPS && wanted.length() > (SUBSTEP + ARRIVED) * self.edge_length;
+            let longest = SUBSTEP * self.edge_length;
+            let motion = wanted.clamp_length_max(longest);
+            let on = substep + 1 < MOST_SUBSTEPS && wanted.length() > longest + ARRIVED * self.edge_length;
             // The last relaxation asks where the skin is exactly; on the way there a walk is enough.
             self.relaxer.walk(on || (substep > 0 && relaxing));
             let arrived = motion.length() < ARRIVED * self.edge_length;
@@ -204,7 +207,7 @@ impl Dragging {
             }
             self.relaxer.walk(on);
             if relaxing {
-                moved = moved.max(self.relax(state));
+                moved = moved.max(self.relax(state, wanted.length() > longest));
             }
         }
         self.relaxer.split_edges(state, None);
@@ -311,12 +314,16 @@ impl Dragging {
         }
     }
 
-    fn relax(&mut self, state: &mut ClothState) -> f64 {
+    fn relax(&mut self, state: &mut ClothState, after_longest: bool) -> f64 {
         let cap = RELAX_CAP * self.relaxer.surface.scale();
         let step =
             GlobalStep { cap, contact: CONTACT, hold: HAND_WEIGHT, slack: 0.0, unfold: true, weight: true };
         // The other modes leave it to relaxation how far the rest of the cloth follows: one plain step, as in the paper.
-        let paces = if self.mode == DragMode::Surface { &PACES[..] } else { &[1.0] };
+        let paces = match self.mode {
+            DragMode::Surface if after_longest => &PACES[..],
+            DragMode::Surface => &PACES[..FEWER],
+            _ => &[1.0],
+        };
         self.relaxer.global_steps(state, step, paces)
     }
 }
