@@ -445,7 +445,7 @@ pub struct Check {
     pub json: bool,
 }
 
-/// Reads girths, heights, widths and depths off a standing human body
+/// Reads girths, heights, widths, depths, shoulders and arms off a standing human body
 #[derive(Debug, Args)]
 pub struct Measure {
     /// Body (OBJ, glTF), or a project with its body; sample:NAME for the mannequin
