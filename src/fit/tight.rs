@@ -15,6 +15,8 @@ use crate::geometry::ids::PieceId;
 const FITS: f64 = 0.02;
 /// A piece is tight that has so large a share of what the tightest one has of the strain beyond that, or more.
 const SHARE: f64 = 0.1;
+/// The edges about a place, metres: how strained it is they tell together, for one sliver tells nothing.
+const ABOUT: f64 = 0.03;
 /// Pieces told at most.
 const MOST_PLACES: usize = 5;
 
@@ -27,7 +29,7 @@ pub struct Tight {
     pub at: [f64; 3],
     /// The landmark of the body nearest to it; None of a body without.
     pub landmark: Option<String>,
-    /// Of the edge there: positive is stretched, negative pressed.
+    /// Of the strained edges about it, by their length: positive is stretched, negative pressed.
     pub strain: f64,
 }
 
@@ -46,6 +48,8 @@ pub struct TightPlace {
 struct Edge {
     middle: DVec3,
     flat: DVec2,
+    /// Flat, metres.
+    length: f64,
     strain: f64,
 }
 
@@ -69,7 +73,7 @@ pub fn tight_places(
     if report.strain.p99 <= FITS {
         return Vec::new();
     }
-    let beyond = |edges: &[Edge]| edges.iter().map(|e| e.strain.abs() - FITS).sum::<f64>();
+    let beyond = |edges: &[Edge]| edges.iter().map(|e| (e.strain.abs() - FITS) * e.length).sum::<f64>();
     let pieces = strained(garment, &Laid::new(garment, state));
     let mut pieces: Vec<(f64, PieceId, Vec<Edge>)> =
         pieces.into_iter().map(|(id, edges)| (beyond(&edges), id, edges)).collect();
@@ -84,7 +88,7 @@ pub fn tight_places(
             piece: name.unwrap_or_default(),
             at: middle.middle.to_array(),
             landmark: near.map(str::to_owned),
-            strain: middle.strain,
+            strain: strain_about(middle, &edges),
         };
         Some(TightPlace { piece: id, flat: middle.flat, tight })
     };
@@ -99,8 +103,9 @@ fn strained(garment: &Garment, laid: &Laid) -> BTreeMap<PieceId, Vec<Edge>> {
         for (k, j) in [(0, 1), (1, 2), (2, 0)] {
             let [a, b] = [vs[k], vs[j]].map(|v| laid.mesh.positions[v as usize]);
             let [p, q] = [corners[k], corners[j]].map(|c| garment.corners[c as usize].uv);
-            let strain = a.distance(b) / p.distance(q).max(1e-9) - 1.0;
-            all.push((piece, Edge { middle: (a + b) / 2.0, flat: (p + q) / 2.0, strain }));
+            let length = p.distance(q).max(1e-9);
+            let strain = a.distance(b) / length - 1.0;
+            all.push((piece, Edge { middle: (a + b) / 2.0, flat: (p + q) / 2.0, length, strain }));
         }
     }
     all.sort_by(|a, b| b.1.strain.abs().total_cmp(&a.1.strain.abs()));
@@ -113,9 +118,20 @@ fn strained(garment: &Garment, laid: &Laid) -> BTreeMap<PieceId, Vec<Edge>> {
 /// The edge from which the others are nearest, by their strain: between two tight places it is at one, not halfway.
 fn middle(edges: &[Edge]) -> Option<&Edge> {
     let far = |edge: &Edge| -> f64 {
-        edges.iter().map(|other| other.middle.distance(edge.middle) * other.strain.abs()).sum()
+        edges.iter().map(|o| o.middle.distance(edge.middle) * o.strain.abs() * o.length).sum()
     };
     edges.iter().min_by(|a, b| far(a).total_cmp(&far(b)))
+}
+
+/// Of those of `edges` about `middle` that are strained the way they are together, by their length.
+fn strain_about(middle: &Edge, edges: &[Edge]) -> f64 {
+    let about: Vec<&Edge> =
+        edges.iter().filter(|edge| edge.middle.distance(middle.middle) <= ABOUT).collect();
+    let all: f64 = about.iter().map(|edge| edge.strain * edge.length).sum();
+    let alike = about.iter().filter(|edge| edge.strain * all >= 0.0);
+    let (strain, length) =
+        alike.fold((0.0, 0.0), |(s, l), edge| (s + edge.strain * edge.length, l + edge.length));
+    strain / length
 }
 
 /// A landmark's name for people. Of a limb's sides the one towards the body is its inside; x grows to the body's left.
@@ -134,5 +150,29 @@ impl std::fmt::Display for Tight {
             write!(f, " near {}", plain(landmark))?;
         }
         write!(f, ", {:+.1} %", self.strain * 100.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sliver_does_not_tell_how_tight_a_place_is() {
+        let edge = |x: f64, length: f64, strain: f64| Edge {
+            middle: DVec3::new(x, 0.0, 0.0),
+            flat: DVec2::new(x, 0.0),
+            length,
+            strain,
+        };
+        let mut edges: Vec<Edge> = (0..9).map(|i| edge(0.002 * f64::from(i), 0.02, 0.1)).collect();
+        edges.push(edge(0.018, 0.001, 0.77));
+        // Pressed ones beside, and stretched ones elsewhere, are not of it.
+        edges.push(edge(0.01, 0.02, -0.05));
+        edges.push(edge(0.3, 0.02, 0.5));
+        let middle = middle(&edges).expect("edges");
+        assert!((0.004..=0.018).contains(&middle.middle.x), "{}", middle.middle.x);
+        let told = strain_about(middle, &edges);
+        assert!((told - (0.018 + 0.00077) / 0.181).abs() < 1e-12, "{told}");
     }
 }
