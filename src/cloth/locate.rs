@@ -3,6 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use crate::cloth::{ClothState, Garment};
+use crate::geometry::barycentric;
 use crate::geometry::bvh::{Aabb, Bvh};
 use crate::geometry::ids::PieceId;
 
@@ -69,7 +70,7 @@ impl FlatPiece {
             let mut best: Option<(f64, u32, [f64; 3])> = None;
             self.tree.near(&query, |i| {
                 let t = self.triangles[i as usize];
-                let Some(shares) = barycentric(flat(garment, t), p) else { return };
+                let Some(shares) = barycentric::in_plane(flat(garment, t), p) else { return };
                 let least = shares[0].min(shares[1]).min(shares[2]);
                 let better = |b: &(f64, u32, [f64; 3])| least > b.0 || (least == b.0 && t < b.1);
                 if best.as_ref().is_none_or(better) {
@@ -92,13 +93,6 @@ impl FlatPiece {
 
 fn flat(garment: &Garment, t: u32) -> [DVec2; 3] {
     garment.triangle_corners[t as usize].map(|c| garment.corners[c as usize].uv)
-}
-
-fn barycentric([a, b, c]: [DVec2; 3], p: DVec2) -> Option<[f64; 3]> {
-    let area = (b - a).perp_dot(c - a);
-    let shares = [(c - b).perp_dot(p - b) / area, (a - c).perp_dot(p - c) / area];
-    let shares = [shares[0], shares[1], 1.0 - shares[0] - shares[1]];
-    shares.iter().all(|s| s.is_finite()).then_some(shares)
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! Plain maths, no cloth words.
 
 pub mod adjacency;
+pub mod barycentric;
 pub mod borders;
 pub mod bvh;
 pub mod bvh4;

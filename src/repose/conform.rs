@@ -7,7 +7,8 @@ use glam::{DQuat, DVec3};
 use rayon::prelude::*;
 
 use crate::body::Surface;
-use crate::repose::distance_map::{Binding, DistanceMap, at};
+use crate::geometry::barycentric;
+use crate::repose::distance_map::{Binding, DistanceMap};
 use crate::repose::turns::{mean, turns};
 
 /// Vertices one thread takes at a time.
@@ -43,7 +44,7 @@ pub(super) fn carried(
         mean((0..3).map(|k| (turned(k), binding.shares[k])))
     };
     let image = |binding: &Binding, turn: DQuat| {
-        let point = at(binding.shares, to.mesh.corners(binding.triangle as usize));
+        let point = barycentric::place(binding.shares, to.mesh.corners(binding.triangle as usize));
         (point + turn * binding.beside) * binding.weight
     };
     let place = |v: usize| match map.of(v) {

@@ -10,6 +10,7 @@ use rayon::prelude::*;
 use crate::body::Surface;
 use crate::cloth::ClothState;
 use crate::contact::Apart;
+use crate::geometry::barycentric;
 
 /// A vertex is bound to so many points at most,
 const MOST: usize = 4;
@@ -117,33 +118,11 @@ fn bound(surface: &Surface, p: DVec3, left_out: impl Fn(u32) -> bool) -> (Vec<Bi
     };
     let sum: f64 = weights.iter().sum();
     let binding = |((point, triangle), weight): ((DVec3, u32), f64)| {
-        let shares = barycentric(point, surface.mesh.corners(triangle as usize));
+        let shares = barycentric::on_triangle(point, surface.mesh.corners(triangle as usize));
         // From the point that the shares give: then a body that has not moved leaves the vertex where it is.
-        let point = at(shares, surface.mesh.corners(triangle as usize));
+        let point = barycentric::place(shares, surface.mesh.corners(triangle as usize));
         Binding { triangle, shares, beside: p - point, weight: weight / sum }
     };
     let bindings = chosen.into_iter().zip(weights).filter(|(_, w)| *w > 0.0).map(binding).collect();
     (bindings, nearest.distance)
-}
-
-/// The point with barycentric coordinates `shares` on a triangle.
-pub(super) fn at(shares: [f64; 3], [a, b, c]: [DVec3; 3]) -> DVec3 {
-    a * shares[0] + b * shares[1] + c * shares[2]
-}
-
-/// Barycentric coordinates of a point on a triangle (Ericson, Real-Time Collision Detection, 3.4); of one without area
-/// those of the nearest corner.
-fn barycentric(p: DVec3, [a, b, c]: [DVec3; 3]) -> [f64; 3] {
-    let (u, v, w) = (b - a, c - a, p - a);
-    let (uu, uv, vv, wu, wv) = (u.dot(u), u.dot(v), v.dot(v), w.dot(u), w.dot(v));
-    let det = uu * vv - uv * uv;
-    if det <= f64::EPSILON * uu * vv {
-        let far = [a, b, c].map(|q| q.distance_squared(p));
-        let nearest = (0..3).min_by(|&i, &j| far[i].total_cmp(&far[j])).unwrap_or(0);
-        return [0, 1, 2].map(|k| f64::from(u8::from(k == nearest)));
-    }
-    let (s, t) = ((vv * wu - uv * wv) / det, (uu * wv - uv * wu) / det);
-    let shares = [1.0 - s - t, s, t].map(|x| x.clamp(0.0, 1.0));
-    let sum: f64 = shares.iter().sum();
-    shares.map(|x| x / sum)
 }

@@ -5,13 +5,14 @@ use glam::DVec3;
 use super::Mannequin;
 use crate::body::surface::Surface;
 use crate::body::warp::Warp;
+use crate::geometry::barycentric;
 use crate::geometry::mesh::TriMesh;
 
 /// For each vertex of one mannequin its place on another.
 #[derive(Clone, Debug)]
 pub struct Counterpart {
     /// A triangle of the other, and how much of each of its corners.
-    places: Vec<(u32, DVec3)>,
+    places: Vec<(u32, [f64; 3])>,
 }
 
 impl Counterpart {
@@ -25,27 +26,16 @@ impl Counterpart {
         let warp = Warp::new(&marks.chain(joints).collect::<Vec<_>>())?;
         let place = |p: &DVec3| {
             let near = skin.nearest(warp.image(*p));
-            (near.triangle, shares(skin.mesh.corners(near.triangle as usize), near.point))
+            (near.triangle, barycentric::on_triangle(near.point, skin.mesh.corners(near.triangle as usize)))
         };
         Some(Self { places: one.mesh.positions.iter().map(place).collect() })
     }
 
     /// Where the vertices of the one are on the skin of the other, which is `mesh` now: in any pose.
     pub fn positions(&self, mesh: &TriMesh) -> Vec<DVec3> {
-        let place = |(t, shares): &(u32, DVec3)| {
-            let [a, b, c] = mesh.corners(*t as usize);
-            a * shares.x + b * shares.y + c * shares.z
-        };
+        let place = |&(t, shares): &(u32, [f64; 3])| barycentric::place(shares, mesh.corners(t as usize));
         self.places.iter().map(place).collect()
     }
-}
-
-/// Barycentric coordinates of a point of a triangle; of the first corner where it has no area.
-fn shares([a, b, c]: [DVec3; 3], p: DVec3) -> DVec3 {
-    let normal = (b - a).cross(c - a);
-    let share = |u: DVec3, v: DVec3| (u - p).cross(v - p).dot(normal) / normal.length_squared();
-    let shares = DVec3::new(share(b, c), share(c, a), share(a, b));
-    if shares.is_finite() { shares } else { DVec3::X }
 }
 
 #[cfg(test)]

@@ -4,6 +4,7 @@ use glam::DVec2;
 
 use super::ShownMap;
 use crate::cloth::FlatPlace;
+use crate::geometry::barycentric;
 use crate::geometry::ids::PieceId;
 use crate::render::Rgb;
 
@@ -28,17 +29,10 @@ impl ShownMap {
         let place = own.find_map(|t| {
             let corners =
                 self.outfit.garment.triangle_corners[t].map(|c| self.outfit.garment.corners[c as usize].uv);
-            let shares = shares(corners, p).filter(|shares| shares.iter().all(|&s| s >= -EDGE))?;
+            let shares =
+                barycentric::in_plane(corners, p).filter(|shares| shares.iter().all(|&s| s >= -EDGE))?;
             Some(FlatPlace { triangle: t as u32, shares })
         });
         self.value(place?)
     }
-}
-
-/// Barycentric coordinates; None in a triangle without area.
-fn shares([a, b, c]: [DVec2; 3], p: DVec2) -> Option<[f64; 3]> {
-    let area = (b - a).perp_dot(c - a);
-    let [s, t] = [(c - b).perp_dot(p - b) / area, (a - c).perp_dot(p - c) / area];
-    let shares = [s, t, 1.0 - s - t];
-    shares.iter().all(|s| s.is_finite()).then_some(shares)
 }
