@@ -230,3 +230,83 @@ impl Group<'_> {
         self.values.chunks_exact(self.size + self.rows.len())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use faer::sparse::SymbolicSparseColMat;
+
+    use super::*;
+
+    const SIDE: usize = 60;
+
+    /// A membrane over a square of points, a little heavier from one to the next: its lower triangle, and where that stands.
+    fn membrane() -> (SymbolicSparseColMat<usize>, Vec<f64>) {
+        let (mut starts, mut rows, mut values) = (vec![0], Vec::new(), Vec::new());
+        for v in 0..SIDE * SIDE {
+            rows.push(v);
+            values.push(4.0 + 0.01 * (v % 7) as f64);
+            let right = (v % SIDE + 1 < SIDE).then_some(v + 1);
+            for row in right.into_iter().chain((v + SIDE < SIDE * SIDE).then_some(v + SIDE)) {
+                rows.push(row);
+                values.push(-1.0);
+            }
+            starts.push(rows.len());
+        }
+        (SymbolicSparseColMat::new_checked(SIDE * SIDE, SIDE * SIDE, starts, None, rows), values)
+    }
+
+    fn sides() -> Vec<DVec3> {
+        (0..SIDE * SIDE)
+            .map(|v| DVec3::new((v % 13) as f64, (v % 5) as f64 - 2.0, (v * v % 31) as f64))
+            .collect()
+    }
+
+    /// The trees gone through at once against the plain solve, axis by axis, and against the matrix itself.
+    #[test]
+    fn three_axes_at_once_are_what_one_after_the_other_gives() {
+        let (pattern, values) = membrane();
+        let symbolic = Symbolic::new(pattern.as_ref()).expect("memory");
+        assert!(
+            symbolic.trees.parts.len() > 2 && !symbolic.trees.top.is_empty(),
+            "{:?}",
+            symbolic.trees.parts
+        );
+        let matrix = SparseColMatRef::new(pattern.as_ref(), &values);
+        let factor = symbolic.factor(matrix, None).expect("positive definite");
+        let mut at_once = sides();
+        assert!(factor.solve(&mut at_once));
+        for axis in 0..3 {
+            let mut alone: Vec<f64> = sides().iter().map(|side| side[axis]).collect();
+            assert!(factor.solve_one(&mut alone));
+            let off = at_once.iter().zip(&alone).map(|(a, b)| (a[axis] - b).abs()).fold(0.0, f64::max);
+            assert!(off < 1e-12, "axis {axis}: {off}");
+        }
+        let mut left = sides();
+        for column in 0..SIDE * SIDE {
+            let stored = pattern.col_range(column);
+            for (&row, value) in pattern.row_idx()[stored.clone()].iter().zip(&values[stored]) {
+                left[row] -= at_once[column] * *value;
+                if row != column {
+                    left[column] -= at_once[row] * *value;
+                }
+            }
+        }
+        assert!(left.iter().all(|left| left.length() < 1e-11));
+    }
+
+    #[test]
+    fn any_number_of_threads_solves_to_the_same_bits() {
+        let (pattern, values) = membrane();
+        let symbolic = Symbolic::new(pattern.as_ref()).expect("memory");
+        let matrix = SparseColMatRef::new(pattern.as_ref(), &values);
+        let factor = symbolic.factor(matrix, None).expect("positive definite");
+        let on = |threads: usize| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+            let mut x = sides();
+            assert!(pool.install(|| factor.solve(&mut x)));
+            x
+        };
+        let one = on(1);
+        assert!([2, 3, 8].into_iter().all(|threads| on(threads) == one));
+    }
+}
