@@ -4,6 +4,8 @@ use glam::DVec3;
 
 /// Items in one leaf.
 const LEAF: usize = 4;
+/// Trees over more items grow on two threads.
+const MANY: usize = 1024;
 
 /// An axis-aligned box.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -71,33 +73,12 @@ pub struct Bvh {
 impl Bvh {
     /// Splits at the median of the longest side, down to leaves of a few boxes.
     pub fn new(boxes: &[Aabb]) -> Self {
-        let mut tree = Self { nodes: Vec::new(), items: (0..boxes.len() as u32).collect() };
+        let mut items: Vec<u32> = (0..boxes.len() as u32).collect();
+        let mut nodes = Vec::new();
         if !boxes.is_empty() {
-            let mut items = std::mem::take(&mut tree.items);
-            tree.grow(boxes, &mut items, 0);
-            tree.items = items;
+            grow(boxes, &mut items, 0, &mut nodes);
         }
-        tree
-    }
-
-    fn grow(&mut self, boxes: &[Aabb], items: &mut [u32], first: usize) {
-        let bounds = items.iter().fold(Aabb::EMPTY, |b, &i| b.joined(&boxes[i as usize]));
-        let node = self.nodes.len();
-        self.nodes.push(BvhNode { bounds, right: 0, first: first as u32, count: items.len() as u32 });
-        if items.len() <= LEAF {
-            return;
-        }
-        let axis = (bounds.upper - bounds.lower).max_position();
-        let place = |i: u32| boxes[i as usize].centre()[axis];
-        let middle = items.len() / 2;
-        items.select_nth_unstable_by(middle, |&i, &j| place(i).total_cmp(&place(j)).then(i.cmp(&j)));
-        let (left, right) = items.split_at_mut(middle);
-        // The order inside a half must not depend on how the median was found.
-        left.sort_unstable();
-        right.sort_unstable();
-        self.grow(boxes, left, first);
-        self.nodes[node].right = self.nodes.len() as u32;
-        self.grow(boxes, right, first + middle);
+        Self { nodes, items }
     }
 
     /// The same tree round boxes that have moved: as many as it was made of.
@@ -177,6 +158,40 @@ impl Bvh {
                 open.extend([[a, b + 1], [a, two.right]]);
             }
         }
+    }
+}
+
+/// Adds the tree over `items`, which are all items from the `first` on, to `nodes`.
+fn grow(boxes: &[Aabb], items: &mut [u32], first: usize, nodes: &mut Vec<BvhNode>) {
+    let bounds = items.iter().fold(Aabb::EMPTY, |b, &i| b.joined(&boxes[i as usize]));
+    let node = nodes.len();
+    nodes.push(BvhNode { bounds, right: 0, first: first as u32, count: items.len() as u32 });
+    if items.len() <= LEAF {
+        // Which items are in a leaf is certain; their order must not depend on how medians were found.
+        items.sort_unstable();
+        return;
+    }
+    let axis = (bounds.upper - bounds.lower).max_position();
+    let place = |i: u32| boxes[i as usize].centre()[axis];
+    let (middle, many) = (items.len() / 2, items.len() > MANY);
+    items.select_nth_unstable_by(middle, |&i, &j| place(i).total_cmp(&place(j)).then(i.cmp(&j)));
+    let (left, right) = items.split_at_mut(middle);
+    if many {
+        let half = |items: &mut [u32], first: usize| {
+            let mut nodes = Vec::new();
+            grow(boxes, items, first, &mut nodes);
+            nodes
+        };
+        for half in <[_; 2]>::from(rayon::join(|| half(left, first), || half(right, first + middle))) {
+            let base = nodes.len() as u32;
+            nodes[node].right = base;
+            let placed = |n: BvhNode| BvhNode { right: if n.is_leaf() { 0 } else { n.right + base }, ..n };
+            nodes.extend(half.into_iter().map(placed));
+        }
+    } else {
+        grow(boxes, left, first, nodes);
+        nodes[node].right = nodes.len() as u32;
+        grow(boxes, right, first + middle, nodes);
     }
 }
 

@@ -51,14 +51,57 @@ pub fn meetings(edge_positions: &[DVec3], edges: &[[u32; 2]], mesh: &TriMesh, tr
         .collect()
 }
 
-/// Pairs (place in `edges`, triangle) of one mesh that meet without sharing a vertex, ascending.
+/// Pairs (place in `edges`, triangle) of one mesh that meet without sharing a vertex, ascending. `edges` are those of the
+/// triangles of `mesh`, each with its smaller end first, ascending; `tree` is over the triangles.
 pub fn self_crossings(mesh: &TriMesh, edges: &[[u32; 2]], tree: &Bvh) -> Vec<[u32; 2]> {
-    let mut found = meetings(&mesh.positions, edges, mesh, tree);
-    found.retain(|&[e, t]| {
-        let corners = mesh.triangles[t as usize];
-        !edges[e as usize].iter().any(|v| corners.contains(v))
-    });
+    let boxes: Vec<Aabb> = (0..mesh.triangles.len()).map(|t| Aabb::around(&mesh.corners(t))).collect();
+    let nodes = (0..tree.nodes.len() as u32).into_par_iter().with_min_len(256);
+    let mut found: Vec<[u32; 2]> = nodes
+        .flat_map_iter(|node| {
+            let mut found = Vec::new();
+            tree.leaves_between(node, |one, other| {
+                let [ones, others] = [one, other].map(|leaf| tree.items_of(leaf));
+                for (k, &s) in ones.iter().enumerate() {
+                    let others = if one == other { &others[k + 1..] } else { others };
+                    for &t in others.iter().filter(|&&t| boxes[t as usize].meets(&boxes[s as usize])) {
+                        find_through(mesh, edges, &boxes, [s, t], &mut found);
+                        find_through(mesh, edges, &boxes, [t, s], &mut found);
+                    }
+                }
+            });
+            found
+        })
+        .collect();
+    found.sort_unstable();
+    // An edge between two triangles was seen from both.
+    found.dedup();
     found
+}
+
+/// Adds to `found` which of the edges of triangle `s` that have no vertex in common with triangle `t` pass through that.
+fn find_through(
+    mesh: &TriMesh,
+    edges: &[[u32; 2]],
+    boxes: &[Aabb],
+    [s, t]: [u32; 2],
+    found: &mut Vec<[u32; 2]>,
+) {
+    let [corners, others] = [s, t].map(|t| mesh.triangles[t as usize]);
+    let shared = corners.map(|v| others.contains(&v));
+    for k in 0..3 {
+        let after = (k + 1) % 3;
+        if shared[k] || shared[after] {
+            continue;
+        }
+        let edge = [corners[k].min(corners[after]), corners[k].max(corners[after])];
+        let segment = edge.map(|v| mesh.positions[v as usize]);
+        if Aabb::around(&segment).meets(&boxes[t as usize])
+            && segment_meets_triangle(segment, mesh.corners(t as usize))
+            && let Ok(e) = edges.binary_search(&edge)
+        {
+            found.push([e as u32, t]);
+        }
+    }
 }
 
 #[cfg(test)]
