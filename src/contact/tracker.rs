@@ -73,7 +73,7 @@ enum Effort {
 pub struct Tracker {
     tracks: Vec<Track>,
     /// Of the last update: planes of what is farther are not given out.
-    reach: f64,
+    pub reach: f64,
     /// Cloth that lay near the skin walks there from where it was, until this is false again: then it asks anew.
     pub walks: bool,
     /// Skin that some vertices do not touch.

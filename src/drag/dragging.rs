@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::cloth::{ClothState, Counters, EdgeMetric, Garment};
 use crate::drag::Graph;
 use crate::drag::transport::motions;
-use crate::relax::{GlobalStep, RelaxSettings, Relaxer, global};
+use crate::relax::{GlobalStep, Pace, RelaxSettings, Relaxer, global};
 
 /// No vertex moves farther in a substep, in edge lengths (ALGORITHMS.md 1.A5).
 const SUBSTEP: f64 = 0.25;
@@ -29,11 +29,8 @@ const HAND_WEIGHT: f64 = 1.0;
 const CONTACT: f64 = 0.01;
 /// The factor may lag behind the contacts by this share of the vertices: they come and go all the time while cloth slides.
 const STALE_SHARE: f64 = 0.05;
-/// How many times as far as solved each global step of a relaxation goes: slow swings die out sooner, and as none is twice as
-/// far, none raises what a step minimises.
-const PACES: [f64; 4] = [1.7; 4];
-/// A substep of the full length strains cloth the most and takes all of them; a shorter one is content with so many.
-const FEWER: usize = 3;
+/// How far the global steps of a relaxation go: what a plain one takes away less than a fifth of is too slow to be seen going.
+const PACES: [Pace; 3] = Pace::chebyshev(0.2);
 /// No vertex moves farther in one relaxation, metres on a body 1.5 m large.
 const RELAX_CAP: f64 = 0.02;
 /// The hand has arrived this near to the pointer, in edge lengths.
@@ -207,7 +204,7 @@ impl Dragging {
             }
             self.relaxer.walk(on);
             if relaxing {
-                moved = moved.max(self.relax(state, wanted.length() > longest));
+                moved = moved.max(self.relax(state));
             }
         }
         self.relaxer.split_edges(state, None);
@@ -314,16 +311,20 @@ impl Dragging {
         }
     }
 
-    fn relax(&mut self, state: &mut ClothState, after_longest: bool) -> f64 {
+    fn relax(&mut self, state: &mut ClothState) -> f64 {
         let cap = RELAX_CAP * self.relaxer.surface.scale();
         let step =
             GlobalStep { cap, contact: CONTACT, hold: HAND_WEIGHT, slack: 0.0, unfold: true, weight: true };
         // The other modes leave it to relaxation how far the rest of the cloth follows: one plain step, as in the paper.
         let paces = match self.mode {
-            DragMode::Surface if after_longest => &PACES[..],
-            DragMode::Surface => &PACES[..FEWER],
-            _ => &[1.0],
+            DragMode::Surface => &PACES[..],
+            _ => &[Pace::PLAIN],
         };
-        self.relaxer.global_steps(state, step, paces)
+        let moved = self.relaxer.global_steps(state, step, paces);
+        // On coarse cloth steps are long: the planes it slid along are not the skin where it came to.
+        if moved > self.relaxer.offset() {
+            self.relaxer.raise_out(state);
+        }
+        moved
     }
 }

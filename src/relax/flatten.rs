@@ -94,6 +94,9 @@ impl Hinge {
         let lies = [a?, b?, c?, d?];
         let all: DVec3 = (0..4).map(|i| positions[self.vertices[i] as usize] * self.k[i]).sum();
         let touch = lies.iter().map(|lie| lie.touch).fold(1.0, f64::min);
+        if touch == 0.0 {
+            return Some(all);
+        }
         let mean: DVec3 = lies.iter().map(|lie| lie.normal).sum::<DVec3>().normalize_or_zero();
         let agree = lies.iter().map(|lie| lie.normal.dot(mean)).fold(1.0, f64::min);
         let with_body = touch * ((agree - AGREE[0]) / (AGREE[1] - AGREE[0])).clamp(0.0, 1.0);

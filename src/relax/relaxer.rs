@@ -15,6 +15,7 @@ use crate::relax::flatten::{Hinges, Lie};
 use crate::relax::global::{GlobalSolver, STALE_SHARE};
 use crate::relax::goals::turned_rest;
 use crate::relax::matching::{Matching, body_normal};
+use crate::relax::pacing::Pace;
 use crate::relax::wants::Wants;
 use crate::relax::{Memory, RelaxSettings};
 
@@ -31,6 +32,8 @@ const USUAL_FRICTION: f64 = 0.3;
 const MOST_HELD: f64 = 50.0;
 /// Vertices one thread takes at a time.
 const LEAST_SHARE: usize = 512;
+/// Cloth on the skin keeps this share of the offset in any case.
+const LEAST_HEIGHT: f64 = 0.5;
 /// How far from skin that is looked after, metres on a body 1.5 m large.
 const WRONG_SIDE_REACH: f64 = 0.015;
 /// A place where cloth passes through itself counts for so many faults: finer meshes seldom mend it.
@@ -230,6 +233,21 @@ impl Relaxer {
         self.tracker.moved_along_normal(vertex as usize, position);
     }
 
+    /// Cloth that slid so far that it left the planes it slid along goes out of the skin it is next to now.
+    pub fn raise_out(&mut self, state: &mut ClothState) {
+        let least = self.offset() * LEAST_HEIGHT;
+        self.walk(true);
+        self.track(state, self.tracker.reach);
+        for v in (0..state.positions.len()).filter(|&v| state.mapped[v] && !self.fixed[v]) {
+            let Some(plane) = self.tracker.plane(v) else { continue };
+            let lacks = least - plane.height(state.positions[v]);
+            if lacks > 0.0 {
+                state.positions[v] += plane.normal * lacks;
+                self.tracker.moved_along_normal(v, state.positions[v]);
+            }
+        }
+    }
+
     /// From now on the cloth lies on `surface`: nothing known of contact with the old one holds.
     pub fn change_body(&mut self, surface: Arc<Surface>) {
         self.surface = surface;
@@ -278,13 +296,12 @@ impl Relaxer {
 
     /// One global step. Returns the longest move, metres.
     pub fn global_step(&mut self, state: &mut ClothState, step: GlobalStep) -> f64 {
-        self.global_steps(state, step, &[1.0])
+        self.global_steps(state, step, &[Pace::PLAIN])
     }
 
-    /// One global step after the other in the same contacts, for each of `paces` one that goes so many times as far as
-    /// solved; the last one flattens. Cloth that is pulled into the body takes one plain step: there the planes of the skin
+    /// One global step after the other in the same contacts, one for each of `paces`. Cloth that is pulled into the body takes one plain step: there the planes of the skin
     /// say little about where it comes to. Returns the longest move over all, metres.
-    pub fn global_steps(&mut self, state: &mut ClothState, step: GlobalStep, paces: &[f64]) -> f64 {
+    pub fn global_steps(&mut self, state: &mut ClothState, step: GlobalStep, paces: &[Pace]) -> f64 {
         let offset = self.offset();
         let mut reach = offset * 2.0 + step.cap.min(offset);
         if step.unfold {
@@ -296,16 +313,17 @@ impl Relaxer {
         self.find_cling(state);
         let weighs = step.weight && self.touches_anything(state);
         let before = state.positions.clone();
-        let paces = if self.is_inside(state) { &[1.0] } else { paces };
-        for (k, &pace) in paces.iter().enumerate() {
+        let paces = if self.is_inside(state) { &[Pace::PLAIN] } else { paces };
+        for &pace in paces {
             let normals = step.unfold.then_some(&*self.normals);
             self.matching.turn(&self.garment, state, &self.tracker, normals, self.settings.rotation);
-            let pulls = self.weigh(state, step, weighs, pace);
+            let pulls = self.weigh(state, step, weighs, pace.along);
             if !self.solver.solve(&self.weights, &mut self.forces, &pulls, &mut self.counters) {
                 break;
             }
+            self.go_on(state, pace);
             self.previous.copy_from_slice(&state.positions);
-            self.advance(state, step.cap, pace, k + 1 == paces.len());
+            self.advance(state, step.cap, pace.flattens);
         }
         self.place_split(state);
         before.iter().zip(&state.positions).map(|(a, b)| (*a - *b).length()).fold(0.0, f64::max)
@@ -426,8 +444,16 @@ impl Relaxer {
         self.cling.iter_mut().zip(&self.areas).for_each(|(cling, area)| *cling = area * each);
     }
 
-    /// Goes `pace` times as far as solved.
-    fn advance(&mut self, state: &mut ClothState, cap: f64, pace: f64, flattens: bool) {
+    /// Makes what was solved for as long as `pace` says.
+    fn go_on(&mut self, state: &ClothState, pace: Pace) {
+        let before = state.positions.iter().zip(&self.previous);
+        for (way, (x, previous)) in self.forces.iter_mut().zip(before) {
+            *way = *way * pace.along + (*x - *previous) * pace.on;
+        }
+    }
+
+    /// Goes as far as was solved for and made of it.
+    fn advance(&mut self, state: &mut ClothState, cap: f64, flattens: bool) {
         let offset = self.offset();
         let (mapped, fixed) = (&state.mapped, &self.fixed);
         let bends = if flattens { self.hinges.bends(&self.previous, &self.lies(state)) } else { Vec::new() };
@@ -439,14 +465,14 @@ impl Relaxer {
                 if !mapped[v] || fixed[v] {
                     return old;
                 }
-                let mut shift = (self.forces[v] * pace).clamp_length_max(cap);
+                let mut shift = self.forces[v].clamp_length_max(cap);
                 if flattens {
                     shift += self.hinges.displacement(v as u32, &bends, self.settings.flatten);
                 }
                 let new = old + shift;
                 match self.tracker.plane(v) {
                     Some(plane) => {
-                        let low = offset * 0.5 + self.lift[v] - plane.height(new);
+                        let low = offset * LEAST_HEIGHT + self.lift[v] - plane.height(new);
                         if low > 0.0 { new + plane.normal * low } else { new }
                     }
                     None => new,

@@ -10,7 +10,7 @@ use crate::body::Surface;
 use crate::cloth::{ClothState, Counters, Garment};
 use crate::contact::{Apart, Met};
 use crate::geometry::rebuild::Rebuild;
-use crate::relax::{GlobalStep, RelaxSettings, Relaxer};
+use crate::relax::{GlobalStep, Pace, RelaxSettings, Relaxer};
 use crate::repose::between::between;
 use crate::repose::conform::{carried, conformed};
 use crate::repose::distance_map::DistanceMap;
@@ -25,8 +25,8 @@ const EXACT: f64 = 1e-6;
 const STEP_CAP: f64 = 0.02;
 /// Weight of contact in the global steps.
 const CONTACT: f64 = 0.1;
-/// How many times as far as solved each global step in the same contacts goes.
-const PACES: [f64; 3] = [1.7; 3];
+/// Global steps in the same contacts. (By Chebyshev's semi-iteration cloth that crosses itself would swing itself up.)
+const PACES: [Pace; 3] = Pace::longer(1.7);
 /// Global steps in each pose on the way at most.
 const STEPS_PER_SUBSTEP: usize = 12;
 /// Conforming that strained more than this is not tried to be mended at once, but through poses on the way.
