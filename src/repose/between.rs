@@ -17,7 +17,7 @@ use crate::geometry::rebuild::Rebuild;
 use crate::repose::turns::{gradient, mean, triangle_turn, turns};
 
 /// No part of the body turns further between two poses, radians.
-const LARGEST_TURN: f64 = 0.15;
+const LARGEST_TURN: f64 = 0.2;
 /// Of all vertices this share may turn further: fingers and toes are not covered by cloth.
 const LEFT_OUT: f64 = 0.05;
 /// A triangle that turns less has no axis to speak of.
@@ -55,7 +55,7 @@ pub(super) fn between(
         let positions = standing.at(from, &made, i as f64 / (count + 1) as f64)?;
         from.reposed(positions).map(Arc::new)
     };
-    let bodies = (1..=count).filter_map(body).collect();
+    let bodies = (1..=count).into_par_iter().filter_map(body).collect();
     *rebuild = Some(made);
     bodies
 }

@@ -49,13 +49,16 @@ pub(super) fn raised(relaxer: &mut Relaxer, state: &mut ClothState) {
 fn limit(state: &mut ClothState, &([a, b], before): &([u32; 2], f64), most: f64) {
     let [a, b] = [a as usize, b as usize];
     let side = state.positions[b] - state.positions[a];
-    let length = side.length();
-    let wanted = length.clamp(before * (1.0 - most), before * (1.0 + most));
-    if wanted != length && length > 0.0 {
-        let half = side * ((length - wanted) / length / 2.0);
-        state.positions[a] += half;
-        state.positions[b] -= half;
+    let [least, most] = [before * (1.0 - most), before * (1.0 + most)];
+    let square = side.length_squared();
+    // Most edges are well within.
+    if (least * least..=most * most).contains(&square) || square == 0.0 {
+        return;
     }
+    let length = square.sqrt();
+    let half = side * ((length - length.clamp(least, most)) / length / 2.0);
+    state.positions[a] += half;
+    state.positions[b] -= half;
 }
 
 fn raise(relaxer: &Relaxer, state: &mut ClothState) {

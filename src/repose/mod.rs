@@ -7,6 +7,7 @@ mod distance_map;
 mod excess;
 mod folds;
 mod limit;
+mod looks;
 mod reposer;
 mod transfer;
 mod turns;

@@ -10,13 +10,14 @@ use crate::body::Surface;
 use crate::cloth::{ClothState, Counters, Garment};
 use crate::contact::{Apart, Met};
 use crate::geometry::rebuild::Rebuild;
-use crate::relax::{GlobalStep, Pace, RelaxSettings, Relaxer};
+use crate::relax::{GlobalStep, Pace, RelaxSettings, Relaxer, global};
 use crate::repose::between::between;
 use crate::repose::conform::{carried, conformed};
 use crate::repose::distance_map::DistanceMap;
 use crate::repose::excess::Lengths;
 use crate::repose::folds::Folds;
 use crate::repose::limit::{limited, raised};
+use crate::repose::looks::Looks;
 use crate::repose::transfer::Transfer;
 
 /// Conforming that strained no more than this, and left nothing inside, is left as it is.
@@ -27,6 +28,8 @@ const STEP_CAP: f64 = 0.02;
 const CONTACT: f64 = 0.1;
 /// Global steps in the same contacts. (By Chebyshev's semi-iteration cloth that crosses itself would swing itself up.)
 const PACES: [Pace; 3] = Pace::longer(1.7);
+/// For a picture the factor may lag behind the contacts by this share of the vertices.
+const LIVE_STALE_SHARE: f64 = 0.05;
 /// Global steps in each pose on the way at most.
 const STEPS_PER_SUBSTEP: usize = 12;
 /// Conforming that strained more than this is not tried to be mended at once, but through poses on the way.
@@ -176,6 +179,7 @@ impl Reposer {
         if to.mesh.triangles != self.from.mesh.triangles {
             return None;
         }
+        self.relaxer.refactor_beyond(if care.mends == 0 { LIVE_STALE_SHARE } else { global::STALE_SHARE });
         let mut outcome = Outcome::default();
         let mut carried = carried(&self.map, &self.from, to, &self.cloth.positions);
         let conformed: Vec<DVec3> = carried.iter().map(|(p, _)| *p).collect();
@@ -209,22 +213,30 @@ impl Reposer {
         if outcome.conformed_inside == 0 && outcome.excess_p99 <= EXACT {
             return Some((state, outcome));
         }
-        let at_once = outcome.joined_p99 <= AT_ONCE || care.most_substeps == 0;
-        if at_once {
+        let mut well = false;
+        let tried = outcome.joined_p99 <= AT_ONCE || care.most_substeps == 0;
+        if tried {
             self.control(&mut state, care, FEW_STEPS.min(care.most_steps), &mut outcome);
-            self.finish(&mut state, &mut outcome);
+            // Folds do not go away by spreading.
+            if care.most_substeps == 0 || self.folds.count(&state) <= self.folds.bound {
+                self.spread(&mut state, care);
+                self.finish(&mut state, &mut outcome);
+                well = care.most_substeps == 0 || self.is_well(&state, care, outcome);
+            }
         }
-        if care.most_substeps > 0 && !(at_once && self.is_well(&state, care, outcome)) {
+        if !well {
             let bodies = between(&self.from, to, care.most_substeps, &mut self.rebuild);
             (outcome.substeps, outcome.mends) = (bodies.len(), 0);
-            if bodies.is_empty() {
-                state.positions = conformed;
-            } else {
-                state = self.through(bodies, to, care, &mut outcome);
+            if !bodies.is_empty() || !tried {
+                state = match bodies.is_empty() {
+                    true => ClothState { positions: conformed, ..state },
+                    false => self.through(bodies, to, care, &mut outcome),
+                };
+                self.enter(to, &state);
+                self.recover(&mut state, &heights);
             }
-            self.enter(to, &state);
-            self.recover(&mut state, &heights);
             self.control(&mut state, care, care.most_steps, &mut outcome);
+            self.spread(&mut state, care);
             self.finish(&mut state, &mut outcome);
         }
         if care.mends == 0 {
@@ -285,6 +297,7 @@ impl Reposer {
         for (i, body) in bodies.iter().enumerate() {
             self.enter(body, &state);
             self.recover(&mut state, &heights);
+            self.relaxer.walk(true);
             for done in 1..=STEPS_PER_SUBSTEP {
                 self.step(&mut state, care, done);
                 outcome.steps += 1;
@@ -292,8 +305,9 @@ impl Reposer {
                     break;
                 }
             }
-            let map = DistanceMap::apart(body, &state, self.apart.as_deref());
+            self.relaxer.walk(false);
             let next = bodies.get(i + 1).unwrap_or(to);
+            let map = DistanceMap::apart(body, &state, self.apart.as_deref());
             state.positions = conformed(&map, body, next, &state.positions);
             heights = map.heights;
         }
@@ -325,19 +339,25 @@ impl Reposer {
         inside
     }
 
-    /// Strain control: global steps in contact until the strain is what it may be; then faces that cut the body are raised,
-    /// and strain that is left in a few places is spread.
+    /// Strain control: global steps in contact until the strain is what it may be, or so little that it can be spread; then
+    /// faces that cut the body are raised.
     fn control(&mut self, state: &mut ClothState, care: Care, most: usize, outcome: &mut Outcome) {
+        let mut looks = Looks::new(self.folds.bound);
         for done in 1..=most {
             self.step(state, care, done);
             outcome.steps += 1;
-            // What is folded over does not come apart edge by edge.
-            let spreads = done >= FEW_STEPS && self.folds.count(state) == 0;
-            let enough = if spreads { SPREADABLE } else { care.excess };
-            if done.is_multiple_of(STEPS_PER_LOOK) && self.lengths.p99(state) <= enough {
+            if !done.is_multiple_of(STEPS_PER_LOOK) {
+                continue;
+            }
+            let strain = self.lengths.p99(state);
+            looks.see(state, self.folds.count(state), strain);
+            // What is folded over does not come apart edge by edge; where cloth has to be folded it stays.
+            let spreads = done >= FEW_STEPS && looks.is_unfolded();
+            if strain <= if spreads { SPREADABLE } else { care.excess } {
                 break;
             }
         }
+        looks.give_back(state);
         let clearance = self.relaxer.offset() * FACE_CLEARANCE;
         while outcome.mends < care.mends && self.relaxer.lift_faces(state, clearance) > 0 {
             for done in 1..=STEPS_PER_MEND {
@@ -346,12 +366,12 @@ impl Reposer {
             }
             outcome.mends += 1;
         }
-        self.spread(state, care, clearance);
     }
 
     /// Spreads strain that is left in a few places, unless there is so much of it that the cloth is too tight; takes it back
     /// where that did not help.
-    fn spread(&mut self, state: &mut ClothState, care: Care, clearance: f64) {
+    fn spread(&mut self, state: &mut ClothState, care: Care) {
+        let clearance = self.relaxer.offset() * FACE_CLEARANCE;
         let (before, was) = (state.clone(), self.lengths.p99(state));
         if was > TOO_TIGHT {
             return;

@@ -1,0 +1,86 @@
+//! Looks at the folds of cloth that relaxes in another pose: whether they go away.
+
+use crate::cloth::ClothState;
+
+/// Cloth that shows no fewer folds in so many looks will not unfold.
+const AT_FOLDS: usize = 2;
+/// Cloth without folds is worth this share more strain.
+const WORTH: f64 = 0.1;
+
+/// What was seen so far.
+#[derive(Clone, Debug)]
+pub(super) struct Looks {
+    /// Edges that were folded over when the cloth was bound.
+    bound: usize,
+    folds: usize,
+    fewest: usize,
+    since_fewer: usize,
+    strain: f64,
+    /// The least strained cloth seen that had no more folds than when it was bound.
+    unfolded: Option<(ClothState, f64)>,
+}
+
+impl Looks {
+    /// Of cloth that was bound with so many edges folded over.
+    pub fn new(bound: usize) -> Self {
+        Self { bound, folds: 0, fewest: usize::MAX, since_fewer: 0, strain: 0.0, unfolded: None }
+    }
+
+    /// The cloth has so many `folds` now, and so much `strain`.
+    pub fn see(&mut self, state: &ClothState, folds: usize, strain: f64) {
+        (self.folds, self.strain) = (folds, strain);
+        self.since_fewer = if folds < self.fewest { 0 } else { self.since_fewer + 1 };
+        self.fewest = self.fewest.min(folds);
+        if folds <= self.bound && self.unfolded.as_ref().is_none_or(|(_, least)| strain < *least) {
+            self.unfolded = Some((state.clone(), strain));
+        }
+    }
+
+    /// Whether there are no folds, or they stay.
+    pub fn is_unfolded(&self) -> bool {
+        self.fewest == 0 || self.since_fewer >= AT_FOLDS
+    }
+
+    /// Gives cloth that has got folds back as it was without them, unless it was much more strained then.
+    pub fn give_back(self, state: &mut ClothState) {
+        if let Some((unfolded, strain)) = self.unfolded
+            && self.folds > self.bound
+            && strain <= self.strain * (1.0 + WORTH)
+        {
+            *state = unfolded;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+
+    fn cloth(at: f64) -> ClothState {
+        ClothState { positions: vec![DVec3::X * at], mapped: vec![true] }
+    }
+
+    #[test]
+    fn folds_that_stay_are_let_be() {
+        let mut looks = Looks::new(0);
+        for (folds, unfolded) in [(9, false), (7, false), (7, false), (8, true), (6, false), (0, true)] {
+            looks.see(&cloth(0.0), folds, 0.1);
+            assert_eq!(looks.is_unfolded(), unfolded, "{folds}");
+        }
+    }
+
+    #[test]
+    fn cloth_that_got_folds_is_given_back_without() {
+        for (strain, back) in [(0.081, 1.0), (0.05, 2.0)] {
+            let mut looks = Looks::new(1);
+            looks.see(&cloth(0.0), 3, 0.06);
+            looks.see(&cloth(1.0), 1, 0.082);
+            looks.see(&cloth(2.0), 2, strain);
+            let mut state = cloth(2.0);
+            looks.give_back(&mut state);
+            assert_eq!(state, cloth(back));
+        }
+    }
+}
