@@ -33,8 +33,17 @@ impl Lists {
 
     /// The items of `owner`.
     pub fn of(&self, owner: u32) -> &[u32] {
-        let (s, e) = (self.starts[owner as usize] as usize, self.starts[owner as usize + 1] as usize);
-        &self.items[s..e]
+        &self.items[self.places(owner)]
+    }
+
+    /// Where those stand among the items of all owners.
+    pub fn places(&self, owner: u32) -> std::ops::Range<usize> {
+        self.starts[owner as usize] as usize..self.starts[owner as usize + 1] as usize
+    }
+
+    /// The items of all owners.
+    pub fn items(&self) -> &[u32] {
+        &self.items
     }
 
     /// Bytes they take.

@@ -7,6 +7,7 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 use crate::cloth::Garment;
+use crate::geometry::adjacency::Lists;
 
 /// Skin belongs to one surface when the cosines of its normals to their mean are above the second, to two limbs or the two
 /// sides of a fold when below the first.
@@ -25,7 +26,10 @@ struct Hinge {
 #[derive(Clone, Debug, Default)]
 pub struct Hinges {
     hinges: Vec<Hinge>,
-    per_vertex: crate::geometry::adjacency::Lists,
+    /// For each vertex four times the hinge and the vertex's place in it,
+    per_vertex: Lists,
+    /// and for each of these what it has of K.
+    shares: Vec<f64>,
 }
 
 impl Hinges {
@@ -39,25 +43,29 @@ impl Hinges {
                 hinges.push(hinge);
             }
         }
-        let per_vertex = crate::geometry::adjacency::Lists::grouped(
+        let per_vertex = Lists::grouped(
             garment.vertex_count,
             hinges
                 .iter()
                 .enumerate()
                 .flat_map(|(h, hinge)| (0..4).map(move |k| (hinge.vertices[k], (h * 4 + k) as u32))),
         );
-        Self { hinges, per_vertex }
+        let share = |&slot: &u32| hinges[slot as usize / 4].k[slot as usize % 4];
+        let shares = per_vertex.items().iter().map(share).collect();
+        Self { hinges, per_vertex, shares }
     }
 
     /// Bytes they take.
     pub fn bytes(&self) -> usize {
-        self.hinges.len() * size_of::<Hinge>() + self.per_vertex.bytes()
+        self.hinges.len() * size_of::<Hinge>()
+            + self.per_vertex.bytes()
+            + self.shares.len() * size_of::<f64>()
     }
 
-    /// For each hinge what has to go of it, by its size. `lies` tells of every vertex how it lies, None where it is not laid.
+    /// For each hinge what has to go of it, by its size. `lies` tells of every vertex how it lies.
     /// A hinge that lies on the body is bent as the body is: of it only what stands out from the skin is flattened, for to
     /// flatten all of it would strain the cloth.
-    pub fn bends(&self, positions: &[DVec3], lies: &[Option<Lie>]) -> Vec<DVec3> {
+    pub fn bends(&self, positions: &[DVec3], lies: &Lies) -> Vec<DVec3> {
         let bend = |hinge: &Hinge| {
             let size: f64 = hinge.k.iter().map(|k| k * k).sum();
             hinge.bend(positions, lies).unwrap_or_default() / size
@@ -68,42 +76,43 @@ impl Hinges {
     /// The flattening move of `vertex`: the mean over its hinges, `alpha` in 0..=1, when they are bent by `bends`.
     pub fn displacement(&self, vertex: u32, bends: &[DVec3], alpha: f64) -> DVec3 {
         let mine = self.per_vertex.of(vertex);
-        let move_of = |&slot: &u32| {
-            let at = slot as usize / 4;
-            bends[at] * (-alpha * self.hinges[at].k[slot as usize % 4])
-        };
-        mine.iter().map(move_of).sum::<DVec3>() / mine.len().max(1) as f64
+        let shares = &self.shares[self.per_vertex.places(vertex)];
+        let move_of = |(&slot, &share): (&u32, &f64)| bends[slot as usize / 4] * (-alpha * share);
+        mine.iter().zip(shares).map(move_of).sum::<DVec3>() / mine.len().max(1) as f64
     }
 }
 
-/// How a vertex lies on the body.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Lie {
-    /// Of the skin next to it, outward; zero where there is none.
-    pub normal: DVec3,
-    /// Metres above the height it is kept at.
-    pub height: f64,
-    /// 1 on the skin, 0 where it is free of it, and between.
-    pub touch: f64,
+/// How vertices lie on the body.
+#[derive(Clone, Debug, Default)]
+pub struct Lies {
+    /// Of the skin next to each, outward; zero where there is none. With it, metres above the height that is kept.
+    pub skin: Vec<(DVec3, f64)>,
+    /// Of each: 1 on the skin, 0 where it is free of it, and between; [`NOT_LAID`].
+    pub touch: Vec<f64>,
 }
+
+/// Stands for how a vertex touches that is not laid.
+pub const NOT_LAID: f64 = -1.0;
 
 impl Hinge {
     /// What has to go, as sum of K X. None when not all of it is laid.
-    fn bend(&self, positions: &[DVec3], lies: &[Option<Lie>]) -> Option<DVec3> {
-        let [a, b, c, d] = self.vertices.map(|v| lies[v as usize]);
-        let lies = [a?, b?, c?, d?];
+    fn bend(&self, positions: &[DVec3], lies: &Lies) -> Option<DVec3> {
+        let touch = self.vertices.iter().map(|&v| lies.touch[v as usize]).fold(1.0, f64::min);
+        if touch < 0.0 {
+            return None;
+        }
         let all: DVec3 = (0..4).map(|i| positions[self.vertices[i] as usize] * self.k[i]).sum();
-        let touch = lies.iter().map(|lie| lie.touch).fold(1.0, f64::min);
         if touch == 0.0 {
             return Some(all);
         }
-        let mean: DVec3 = lies.iter().map(|lie| lie.normal).sum::<DVec3>().normalize_or_zero();
-        let agree = lies.iter().map(|lie| lie.normal.dot(mean)).fold(1.0, f64::min);
+        let lies = self.vertices.map(|v| lies.skin[v as usize]);
+        let mean: DVec3 = lies.iter().map(|(normal, _)| normal).sum::<DVec3>().normalize_or_zero();
+        let agree = lies.iter().map(|(normal, _)| normal.dot(mean)).fold(1.0, f64::min);
         let with_body = touch * ((agree - AGREE[0]) / (AGREE[1] - AGREE[0])).clamp(0.0, 1.0);
         if with_body == 0.0 {
             return Some(all);
         }
-        let standing_out: DVec3 = (0..4).map(|i| lies[i].normal * (lies[i].height * self.k[i])).sum();
+        let standing_out: DVec3 = (0..4).map(|i| lies[i].0 * (lies[i].1 * self.k[i])).sum();
         Some(all.lerp(standing_out, with_body))
     }
 }

@@ -5,6 +5,7 @@ pub mod global;
 pub mod goals;
 mod matching;
 pub mod memory;
+mod normals;
 mod pacing;
 pub mod relaxer;
 pub mod settings;

@@ -11,10 +11,11 @@ use crate::contact::faces::Lying;
 use crate::contact::splits::{Ground, Suspects};
 use crate::contact::{Apart, Bones, Faces, Met, Plane, Splits, Tracker};
 use crate::geometry::crossings::meetings;
-use crate::relax::flatten::{Hinges, Lie};
+use crate::relax::flatten::{Hinges, Lies, NOT_LAID};
 use crate::relax::global::{GlobalSolver, STALE_SHARE};
 use crate::relax::goals::turned_rest;
 use crate::relax::matching::{Matching, body_normal};
+use crate::relax::normals::{normal_round, vertex_normals};
 use crate::relax::pacing::Pace;
 use crate::relax::wants::Wants;
 use crate::relax::{Memory, RelaxSettings};
@@ -485,16 +486,20 @@ impl Relaxer {
         state.positions = new;
     }
 
-    /// How each vertex lay before this step; None where no cloth is laid.
-    fn lies(&self, state: &ClothState) -> Vec<Option<Lie>> {
+    /// How each vertex lay before this step.
+    fn lies(&self, state: &ClothState) -> Lies {
         let offset = self.offset();
         let lie = |v: usize| {
-            let plane = self.tracker.plane(v)?;
+            if !state.mapped[v] {
+                return (Default::default(), NOT_LAID);
+            }
+            let Some(plane) = self.tracker.plane(v) else { return Default::default() };
             let height = plane.height(self.previous[v]) - self.lift[v] - offset;
-            Some(Lie { normal: plane.normal, height, touch: 1.0 - (height / offset).clamp(0.0, 1.0) })
+            ((plane.normal, height), 1.0 - (height / offset).clamp(0.0, 1.0))
         };
         let vertices = (0..state.positions.len()).into_par_iter().with_min_len(LEAST_SHARE);
-        vertices.map(|v| state.mapped[v].then(|| lie(v).unwrap_or_default())).collect()
+        let (skin, touch) = vertices.map(lie).unzip();
+        Lies { skin, touch }
     }
 
     /// A local pass over `vertices`: each goes the way of the mean of its triangles' goals, over-relaxed by `factor` in
@@ -669,22 +674,4 @@ fn vertex_areas(garment: &Garment) -> Vec<f64> {
         }
     }
     areas
-}
-
-fn vertex_normals(garment: &Garment, state: &ClothState) -> Vec<DVec3> {
-    (0..garment.vertex_count as u32).into_par_iter().map(|v| normal_round(garment, state, v)).collect()
-}
-
-/// Area-weighted unit normal of the laid triangles round `v`, front up; zero where there is none.
-fn normal_round(garment: &Garment, state: &ClothState, v: u32) -> DVec3 {
-    let around = garment.adjacency.vertex_triangles.of(v).iter();
-    let sum: DVec3 = around
-        .map(|&t| garment.triangles[t as usize])
-        .filter(|vs| vs.iter().all(|&w| state.mapped[w as usize]))
-        .map(|vs| {
-            let [a, b, c] = vs.map(|w| state.positions[w as usize]);
-            (b - a).cross(c - a)
-        })
-        .sum();
-    sum.normalize_or_zero()
 }
