@@ -24,8 +24,8 @@ pub struct AnimationPanel {
 struct Play {
     /// When the clock of the window was looked at last, seconds.
     looked: f64,
-    /// What was asked for last, if anything was.
-    asked: Option<Moment>,
+    /// Where the body was when it began, then what was asked for last.
+    expected: Option<Moment>,
 }
 
 impl AnimationPanel {
@@ -86,7 +86,10 @@ impl AnimationPanel {
                     self.playing = None;
                     self.go(false, asks);
                 }
-                false => self.playing = Some(Play { looked: ui.input(|i| i.time), asked: None }),
+                false => {
+                    let (looked, expected) = (ui.input(|i| i.time), told.document.moment);
+                    self.playing = Some(Play { looked, expected });
+                }
             }
         }
         let is_off = told.document.moment.is_some() || plays;
@@ -101,13 +104,14 @@ impl AnimationPanel {
     pub fn play(&mut self, ctx: &egui::Context, document: &Document, now: &Situation, asks: &mut Asks) {
         let Some(play) = &mut self.playing else { return };
         let length = document.animations.as_ref().and_then(|all| all.seconds(self.animation));
-        let is_moved = play.asked.is_some() && play.asked != document.moment;
+        let is_moved = play.expected != document.moment;
         let Some(length) = length.filter(|_| !now.wrapping && !now.demo && !is_moved) else {
             self.playing = None;
             return;
         };
         ctx.request_repaint();
-        if !now.caught_up {
+        // What a person asks for comes first: it may end the play.
+        if !now.caught_up || !asks.is_empty() {
             return;
         }
         let time = ctx.input(|i| i.time);
@@ -116,7 +120,7 @@ impl AnimationPanel {
             self.seconds = 0.0;
         }
         play.looked = time;
-        play.asked = Some(Moment { animation: self.animation, seconds: self.seconds });
+        play.expected = Some(Moment { animation: self.animation, seconds: self.seconds });
         self.go(true, asks);
     }
 
