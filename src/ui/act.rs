@@ -61,6 +61,7 @@ impl App {
             Action::ImportPattern => self.ask_file(Purpose::ImportPattern),
             Action::ImportBody => self.ask_file(Purpose::ImportBody),
             Action::PoseFromFile => self.ask_file(Purpose::Pose),
+            Action::Sequence => self.ask_file(Purpose::Sequence),
             Action::Sizes => self.ask_file(Purpose::Sizes),
             Action::UseMannequin => self.apply(files::use_mannequin()),
             Action::ExportPattern => self.ask_file(Purpose::ExportPattern),

@@ -71,6 +71,8 @@ pub enum Action {
     ExportPattern,
     ImportBody,
     PoseFromFile,
+    /// Take numbered OBJ files as an animation of the body.
+    Sequence,
     Sizes,
     UseMannequin,
     Export,
@@ -218,6 +220,11 @@ impl Action {
             Self::PoseFromFile => entry(
                 "Pose from a file…",
                 "Lead the body to its pose in an OBJ or glTF file or through the animations there, or the mannequin through a BVH motion",
+                &[],
+            ),
+            Self::Sequence => entry(
+                "Sequence of OBJ files…",
+                "Take numbered OBJ files, one for each picture, as an animation of the body",
                 &[],
             ),
             Self::Sizes => entry(

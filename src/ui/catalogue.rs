@@ -32,6 +32,7 @@ pub const ALL: &[Action] = &[
     Action::ImportPattern,
     Action::ImportBody,
     Action::PoseFromFile,
+    Action::Sequence,
     Action::Sizes,
     Action::UseMannequin,
     Action::ExportPattern,
@@ -195,6 +196,7 @@ impl Action {
             | Self::ImportPattern
             | Self::ImportBody
             | Self::PoseFromFile
+            | Self::Sequence
             | Self::Sizes
             | Self::UseMannequin
             | Self::ExportPattern

@@ -10,6 +10,7 @@ use crate::ui::dialogs::{Dialog, NativeDialog};
 use crate::ui::drop_overlay::Dropped;
 use crate::ui::files::{self, PatternImport, PoseFile, Purpose, RawBody};
 use crate::ui::maps::Opening;
+use crate::ui::obj_sequence::read_sequence;
 use crate::ui::posed_motion::PosedMotion;
 
 impl App {
@@ -47,6 +48,7 @@ impl App {
             Purpose::ImportPattern => self.import_pattern(path, None),
             Purpose::ImportBody => files::read_body(path).and_then(|raw| self.import_body(raw)),
             Purpose::Pose => self.take_pose(path),
+            Purpose::Sequence => self.take_sequence(path),
             Purpose::Compare => self.compare_with(ctx, path),
             Purpose::Sizes => self.take_sizes(path),
             Purpose::Export => {
@@ -135,6 +137,15 @@ impl App {
                 self.shell.pose.take_motion(motion);
             }
         }
+        Ok(())
+    }
+
+    /// Takes the files numbered like this one as an animation; the side panel has it.
+    fn take_sequence(&mut self, path: &Path) -> Result<(), String> {
+        let dressed = self.session.surface().ok_or("There is no body that could take a pose")?;
+        let (command, count) = read_sequence(path, &dressed.mesh)?;
+        self.apply(command);
+        self.messages.tell(format!("{count} files are an animation under Pose, of 30 a second"));
         Ok(())
     }
 

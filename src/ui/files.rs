@@ -34,6 +34,8 @@ pub enum Purpose {
     ImportBody,
     /// Read another pose of the body, or a motion.
     Pose,
+    /// Read poses of the body in numbered files.
+    Sequence,
     /// Read a table of sizes.
     Sizes,
     /// Write the dressed garment.
@@ -62,6 +64,7 @@ impl Purpose {
             Self::ImportPattern => "Import a pattern",
             Self::ImportBody => "Import a body",
             Self::Pose => "Take a pose from a file",
+            Self::Sequence => "Take a sequence of OBJ files: choose any one of them",
             Self::Sizes => "Read a table of sizes",
             Self::Export => "Export the dressed garment",
             Self::ExportPattern => "Export the pattern",
@@ -81,6 +84,7 @@ impl Purpose {
             Self::ExportPattern => ("Pattern", &["pdf", "svg", "dxf", "json"]),
             Self::ImportBody => ("Body", &["obj", "glb", "gltf"]),
             Self::Pose => ("Body or motion", &["obj", "glb", "gltf", "bvh"]),
+            Self::Sequence => ("Body", &["obj"]),
             Self::Sizes => ("Table of sizes", &["csv", "tsv", "txt"]),
             Self::Export => ("Garment", &["obj", "glb"]),
             Self::Recording => ("Recording", &["jsonl"]),
@@ -263,18 +267,22 @@ pub fn read_pose(path: &Path, dressed: &TriMesh) -> Result<PoseFile, String> {
         return bvh::read(&bytes).map(PoseFile::Motion).map_err(|e| in_words(path, "read", e));
     }
     let raw = RawBody { up: UpAxis::Y, ..read_body(path)? };
-    let sides = |mesh: &TriMesh| {
-        let sides = (0..mesh.triangles.len()).map(|t| mesh.corners(t)).map(|[a, b, _]| a.distance(b));
-        sides.sum::<f64>() / mesh.triangles.len().max(1) as f64
-    };
-    let metres = sides(dressed) / sides(&raw.mesh);
-    let far = |unit: &Unit| (unit.metres() / metres).ln().abs();
-    let unit = Unit::ALL.into_iter().min_by(|a, b| far(a).total_cmp(&far(b))).unwrap_or_default();
-    let raw = RawBody { unit, ..raw };
+    let raw = RawBody { unit: unit_like(dressed, &raw.mesh), ..raw };
     Ok(PoseFile::Body(match animations(&raw)? {
         Some(animations) => Command::TakeAnimations { animations },
         None => Command::AimPose { body: imported(raw)?.0 },
     }))
+}
+
+/// The unit in which the triangles of `raw` have sides as long as those of `dressed`.
+pub(super) fn unit_like(dressed: &TriMesh, raw: &TriMesh) -> Unit {
+    let sides = |mesh: &TriMesh| {
+        let sides = (0..mesh.triangles.len()).map(|t| mesh.corners(t)).map(|[a, b, _]| a.distance(b));
+        sides.sum::<f64>() / mesh.triangles.len().max(1) as f64
+    };
+    let metres = sides(dressed) / sides(raw);
+    let far = |unit: &Unit| (unit.metres() / metres).ln().abs();
+    Unit::ALL.into_iter().min_by(|a, b| far(a).total_cmp(&far(b))).unwrap_or_default()
 }
 
 /// The command that takes `raw` as the body, and what was put right on the way.

@@ -70,6 +70,7 @@ fn file_ui(ui: &mut egui::Ui, now: &Situation, asks: &mut Asks) {
             Action::UseMannequin,
             Action::Sizes,
             Action::PoseFromFile,
+            Action::Sequence,
         ],
     );
     ui.separator();

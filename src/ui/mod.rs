@@ -31,6 +31,7 @@ mod marks_panel;
 mod menu;
 mod messages;
 mod mouse;
+mod obj_sequence;
 mod pace;
 mod pair_lines;
 mod panels;

@@ -9,13 +9,19 @@ fn window_on_limb() -> Option<(tempfile::TempDir, Window)> {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("limb.glb");
     std::fs::write(&path, limb::glb()).expect("a file");
+    let window = window_that_took("Pose from a file…", &path)?;
+    Some((folder, window))
+}
+
+/// With cloth on the limb, after the file was chosen by this entry of the menu.
+fn window_that_took(entry: &str, path: &std::path::Path) -> Option<Window> {
     let mut window = window_on(limb::project(), None);
     window.get_by_label("Wrap").click();
     wait(&mut window, "the cloth to rest", |app| {
         let snapshot = app.session().snapshot();
         snapshot.is_dressed() && !snapshot.working
     });
-    if !read_by(&mut window, "File", "Pose from a file…", &path) {
+    if !read_by(&mut window, "File", entry, path) {
         return None;
     }
     assert_eq!(app(&window).session().undo_label(), Some("take animations"));
@@ -23,7 +29,7 @@ fn window_on_limb() -> Option<(tempfile::TempDir, Window)> {
     window.run_steps(8);
     window.get_by_label("Rest pose").scroll_to_me();
     window.run_steps(8);
-    Some((folder, window))
+    Some(window)
 }
 
 /// How far the upper end of the body has turned, radians.
@@ -64,6 +70,28 @@ fn the_slider_leads_body_and_cloth_through_the_animation() {
     }
     let document = app(&window).session().document();
     assert!(document.moment.is_none() && document.animations.is_some(), "one step each");
+}
+
+#[test]
+fn numbered_files_of_the_body_are_an_animation_of_it() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |picture: u32| folder.path().join(format!("bend_{picture:02}.obj"));
+    for picture in 0..=8 {
+        let mut mesh = limb::limb();
+        let angle = 0.1 * f64::from(picture);
+        mesh.positions.iter_mut().for_each(|p| *p = limb::bent(*p, angle));
+        std::fs::write(path(picture), toile::io::obj::mesh("limb", &mesh)).expect("a file");
+    }
+    let Some(mut window) = window_that_took("Sequence of OBJ files…", &path(3)) else { return };
+    assert!(window.query_by_label("bend").is_some(), "called after the files");
+    let rail = window.get_by_role_and_label(Role::Slider, "Time of the animation").rect();
+    let from = Pos2::new(rail.left() + 6.0, rail.center().y);
+    let path: Vec<Pos2> = (0..12).map(|i| from + Vec2::new(40.0 * i as f32, 0.0)).collect();
+    drag(&mut window, &path, PointerButton::Primary);
+    window.run_steps(4);
+    assert!((turned(app(&window)) - 0.8).abs() < 2e-3, "{}", turned(app(&window)));
+    wait(&mut window, "the cloth", |app| app.session().is_caught_up());
+    assert!(app(&window).session().snapshot().is_dressed());
 }
 
 #[test]

@@ -63,11 +63,27 @@ pub fn write_animated(
         let moves = others.map(|piece| (piece.positions, piece.normals));
         builder.moving((&shown.positions, &shown.normals), moves, 2);
     }
-    builder.body(&TriMesh { positions: first.body.clone(), triangles: body.triangles.clone() }, colours);
-    let normals = vertex_normals(&first.body, &body.triangles);
-    let others = frames[1..].iter();
-    let moves = others.map(|frame| (frame.body.clone(), vertex_normals(&frame.body, &body.triangles)));
-    builder.moving((&first.body, &normals), moves, 1);
+    let bodies: Vec<&[DVec3]> = frames.iter().map(|frame| &*frame.body).collect();
+    builder.moving_body(&body.triangles, &bodies, colours);
+    if frames.len() > 1 {
+        builder.animation(frames.len(), frames_per_second);
+    }
+    builder.finish()
+}
+
+/// Writes a body of `triangles` through `frames`, the places of its vertices in metres, so many a second.
+pub fn write_moving_body(
+    triangles: &[[u32; 3]],
+    frames: &[Vec<DVec3>],
+    frames_per_second: f64,
+    colours: &Colours,
+) -> Result<Vec<u8>, GlbError> {
+    if frames.is_empty() {
+        return Err(GlbError::Empty);
+    }
+    let mut builder = Builder::new();
+    let bodies: Vec<&[DVec3]> = frames.iter().map(|frame| &**frame).collect();
+    builder.moving_body(triangles, &bodies, colours);
     if frames.len() > 1 {
         builder.animation(frames.len(), frames_per_second);
     }
@@ -79,6 +95,15 @@ fn less(of: &[DVec3], by: &[DVec3]) -> Vec<DVec3> {
 }
 
 impl Builder {
+    /// A body through `frames`, of which there is one at least.
+    fn moving_body(&mut self, triangles: &[[u32; 3]], frames: &[&[DVec3]], colours: &Colours) {
+        let [first, others @ ..] = frames else { return };
+        self.body(&TriMesh { positions: first.to_vec(), triangles: triangles.to_vec() }, colours);
+        let normals = vertex_normals(first, triangles);
+        let moves = others.iter().map(|frame| (frame.to_vec(), vertex_normals(frame, triangles)));
+        self.moving((first, &normals), moves, 1);
+    }
+
     /// Gives the last mesh, whose vertices and normals are `first`, a morph target for each of `moves`. Of its primitives,
     /// one or two, the second has the normals the other way round.
     fn moving(
