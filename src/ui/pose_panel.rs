@@ -47,6 +47,8 @@ impl PosePanel {
         let has_joints = body.measurements().is_some();
         let enabled = !told.now.wrapping && !told.now.demo;
         ui.add_enabled_ui(enabled, |ui| {
+            // First: in an animation the mannequin is a body like others, and what it has below goes away under the mouse.
+            self.animation.ui(ui, told, asks);
             if has_joints {
                 self.names_ui(ui, body, asks);
                 self.way_ui(ui, told, asks);
@@ -56,7 +58,6 @@ impl PosePanel {
                     "The body is from a file: it takes the poses that other files of the same mesh have.";
                 ui.add(egui::Label::new(RichText::new(words).color(told.palette.weak)).wrap());
             }
-            self.animation.ui(ui, told, asks);
             self.files_ui(ui, told, asks);
         });
     }

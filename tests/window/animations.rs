@@ -95,6 +95,40 @@ fn numbered_files_of_the_body_are_an_animation_of_it() {
 }
 
 #[test]
+fn a_drag_leads_the_mannequin_through_files_in_one_go() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |picture: u32| folder.path().join(format!("{picture}.obj"));
+    for picture in 0..3 {
+        let mut mesh = toile::body::mannequin::default().mesh.clone();
+        mesh.positions.iter_mut().for_each(|p| p.z += 0.02 * f64::from(picture) * p.y * p.y);
+        std::fs::write(path(picture), toile::io::obj::mesh("body", &mesh)).expect("a file");
+    }
+    let figure = toile::body::mannequin::default();
+    let mut window = window_on(toile::session::samples::Sample::Scarf.project(&figure), None);
+    if !read_by(&mut window, "File", "Sequence of OBJ files…", &path(0)) {
+        return;
+    }
+    assert_eq!(app(&window).session().undo_label(), Some("take animations"));
+    window.get_by_label("Pose").scroll_to_me();
+    window.run_steps(8);
+    window.get_by_label("Pose").click();
+    window.run_steps(8);
+    window.get_by_label("Rest pose").scroll_to_me();
+    window.run_steps(8);
+    let rail = window.get_by_role_and_label(Role::Slider, "Time of the animation").rect();
+    let from = Pos2::new(rail.left() + 6.0, rail.center().y);
+    let way: Vec<Pos2> = (0..12).map(|i| from + Vec2::new(40.0 * i as f32, 0.0)).collect();
+    drag(&mut window, &way, PointerButton::Primary);
+    window.run_steps(4);
+    let document = app(&window).session().document();
+    let moment = document.moment.expect("in the animation");
+    assert!((moment.seconds - 2.0 / 30.0).abs() < 1e-6, "{moment:?}");
+    assert!(document.body.measurements().is_none());
+    key(&mut window, Modifiers::COMMAND, Key::Z);
+    assert!(app(&window).session().document().body.measurements().is_some(), "in one step");
+}
+
+#[test]
 fn it_plays_until_it_is_stopped_and_ends_with_care() {
     let Some((_folder, mut window)) = window_on_limb() else { return };
     window.get_by_label("Play").click();
