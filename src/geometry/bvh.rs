@@ -210,6 +210,25 @@ mod tests {
     }
 
     #[test]
+    fn halves_grown_side_by_side_make_one_tree() {
+        let boxes: Vec<Aabb> = points(5 * MANY).iter().map(|p| Aabb::around(&[*p])).collect();
+        let tree = Bvh::new(&boxes);
+        let mut items = tree.items.clone();
+        items.sort_unstable();
+        assert!(items.iter().enumerate().all(|(i, &item)| item == i as u32), "each item once");
+        for (at, node) in tree.nodes.iter().enumerate() {
+            let below = &tree.items[node.first as usize..(node.first + node.count) as usize];
+            let bounds = below.iter().fold(Aabb::EMPTY, |b, &i| b.joined(&boxes[i as usize]));
+            assert_eq!(node.bounds, bounds, "node {at}");
+            if !node.is_leaf() {
+                let [left, right] = [at + 1, node.right as usize].map(|child| &tree.nodes[child]);
+                assert_eq!([left.first, right.first], [node.first, node.first + left.count], "node {at}");
+                assert_eq!(left.count + right.count, node.count, "node {at}");
+            }
+        }
+    }
+
+    #[test]
     fn a_query_finds_what_brute_force_finds() {
         let points = points(600);
         let boxes: Vec<Aabb> =
