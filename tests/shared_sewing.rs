@@ -70,3 +70,19 @@ fn trousers_are_sewn_and_their_legs_come_apart() {
 fn the_tee_is_sewn_round_armpits_in_which_skin_meets_skin() {
     check("tee_mean_all", 4, 0.07, 0);
 }
+
+/// Straps that were placed lower than the shoulders, and armholes wide enough for the arms to slip out of.
+#[test]
+fn a_sleeveless_dress_hangs_from_the_shoulders() {
+    check("rand_1003", 4, 0.02, 0);
+}
+
+#[test]
+fn a_hood_is_sewn_with_its_bodice_on_the_shoulders() {
+    check("hoody_mean", 4, 0.03, 0);
+}
+
+#[test]
+fn a_jumpsuit_has_arms_and_legs_in_its_sleeves_and_legs() {
+    check("js_mean_all", 5, 0.08, 0);
+}

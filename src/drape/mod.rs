@@ -20,6 +20,7 @@ mod near;
 pub mod net;
 pub mod newton;
 mod pair;
+mod routes;
 pub mod settle;
 pub mod sewing;
 pub mod sheet;

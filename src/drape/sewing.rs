@@ -2,8 +2,8 @@
 //!
 //! A seam is a thread of shrinking length between the two sides (zero-length constraints in the end), not a force: paper B's
 //! adaptive force is constant near the end and chatters there, and its printed signs and units do not agree (ALGORITHMS.md 1.B).
-//! What is kept of the paper: gravity and friction act only once all is sewn, sides are merged at 1e-5 m with mass and momentum
-//! kept, and seams that do not come together round this body are told.
+//! What is kept of the paper: gravity and friction act only once all is sewn, sides are merged with mass and momentum kept, and
+//! seams that do not come together round this body are told.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -12,22 +12,22 @@ use glam::DVec3;
 
 use crate::body::Surface;
 use crate::cloth::{ClothState, Fabric, Garment};
+use crate::drape::routes;
 use crate::drape::small_steps::Tie;
 use crate::drape::worn::{TICK, Undrapable, Worn, WornSettings};
 use crate::geometry::adjacency::Adjacency;
 use crate::geometry::ids::{PieceId, SeamId};
 
-/// Sides nearer than this are one, metres (paper B).
-pub const SHUT: f64 = 1e-5;
 /// Seams that stay farther open than this before they are pulled shut are told, metres.
 const TOLD: f64 = 5e-4;
 /// How fast a seam shrinks, m/s; it takes between so many ticks.
 const SHRINK: (f64, [u32; 2]) = (0.4, [45, 120]);
-/// Seams have so many ticks more to come together, and then those of [`SLIDE`].
-const PATIENCE: u32 = 90;
-/// What is sewn slides free of weight and friction to where it is least tight: until no vertex is faster, m/s, and for so many
-/// ticks.
-const SLIDE: (f64, [u32; 2]) = (0.02, [20, 150]);
+/// What is sewn then slides free of weight and friction to where it is least tight: until no vertex is faster, m/s,
+const SLOW: f64 = 0.02;
+/// for so many ticks,
+const STILL: u32 = 20;
+/// and for so many at most.
+const PATIENCE: u32 = 240;
 /// Small steps in each tick: nothing hangs yet.
 const SUBSTEPS: usize = 24;
 
@@ -39,13 +39,23 @@ pub struct Sewing {
     open: Arc<Garment>,
     /// For each vertex of `open` that of `sewn`.
     becomes: Arc<Vec<u32>>,
-    /// Vertices of `open` that are sewn together, and how far apart they were, metres.
-    threads: Vec<([u32; 2], f64)>,
+    threads: Vec<Thread>,
+    surface: Arc<Surface>,
     closing: u32,
     ticks: u32,
-    /// Since all seams were shut.
-    shut: u32,
+    /// Since nothing in it is fast.
+    still: u32,
     widest: f64,
+}
+
+/// What pulls two vertices of the open garment together.
+#[derive(Clone, Copy, Debug)]
+struct Thread {
+    ends: [u32; 2],
+    /// How long it was, metres.
+    length: f64,
+    /// The place that it runs over while the body is between its ends, metres.
+    over: Option<DVec3>,
 }
 
 /// What came of it.
@@ -102,21 +112,30 @@ impl Sewing {
         }
         let (open, becomes) = (Arc::new(open), Arc::new(becomes));
         let will_be = (Arc::clone(&garment), Arc::clone(&becomes));
-        let mut worn = Worn::unsewn(Arc::clone(&open), &cloth, surface, fabrics, settings, will_be)?;
+        let mut worn =
+            Worn::unsewn(Arc::clone(&open), &cloth, Arc::clone(&surface), fabrics, settings, will_be)?;
         worn.float(SUBSTEPS);
         if !inner.is_empty() {
             worn.pull_over(&inner);
         }
-        let pairs = garment.seam_pairs.iter().flat_map(|(_, pairs)| pairs);
-        let threads: Vec<([u32; 2], f64)> = pairs
-            .map(|pair| pair.map(|c| open.corners[c as usize].vertex))
-            .filter(|[a, b]| a != b && cloth.mapped[*a as usize] && cloth.mapped[*b as usize])
-            .map(|[a, b]| ([a, b], cloth.positions[a as usize].distance(cloth.positions[b as usize])))
-            .collect();
-        let widest = threads.iter().map(|t| t.1).fold(0.0, f64::max);
+        let seams = garment.seam_pairs.iter();
+        let threads: Vec<Thread> =
+            seams.flat_map(|(_, pairs)| threads(&open, &cloth, pairs, &surface)).collect();
+        let widest = threads.iter().map(|t| t.length).fold(0.0, f64::max);
         let (speed, [least, most]) = SHRINK;
         let closing = ((widest / speed / TICK).ceil() as u32).clamp(least, most);
-        let sewing = Self { worn, sewn: garment, open, becomes, threads, closing, ticks: 0, shut: 0, widest };
+        let sewing = Self {
+            worn,
+            sewn: garment,
+            open,
+            becomes,
+            threads,
+            surface,
+            closing,
+            ticks: 0,
+            still: 0,
+            widest,
+        };
         Ok((sewing, cloth))
     }
 
@@ -139,17 +158,20 @@ impl Sewing {
     pub fn tick(&mut self, cloth: &mut ClothState) -> Result<bool, Undrapable> {
         self.ticks += 1;
         let left = 1.0 - (f64::from(self.ticks) / f64::from(self.closing)).min(1.0);
-        let ties: Vec<Tie> =
-            self.threads.iter().map(|&(ends, length)| Tie { ends, length: length * left }).collect();
+        for thread in &mut self.threads {
+            let ends = thread.ends.map(|v| cloth.positions[v as usize]);
+            thread.over = thread.over.filter(|_| self.surface.meets_segment(ends));
+        }
+        let tie =
+            |thread: &Thread| Tie { ends: thread.ends, length: thread.length * left, over: thread.over };
+        let ties: Vec<Tie> = self.threads.iter().map(tie).collect();
         self.worn.tie(&ties);
         self.worn.tick(cloth)?;
         let gap = |[a, b]: [u32; 2]| cloth.positions[a as usize].distance(cloth.positions[b as usize]);
-        self.widest = self.threads.iter().map(|t| gap(t.0)).fold(0.0, f64::max);
-        let is_shut = self.ticks >= self.closing && self.widest <= SHUT;
-        self.shut = if is_shut { self.shut + 1 } else { 0 };
-        let (slow, [least, most]) = SLIDE;
-        let slid = self.shut >= most || (self.shut >= least && self.worn.progress().speed < slow);
-        Ok(slid || self.ticks >= self.closing + PATIENCE + most)
+        self.widest = self.threads.iter().map(|t| gap(t.ends)).fold(0.0, f64::max);
+        let is_slow = self.ticks >= self.closing && self.worn.progress().speed < SLOW;
+        self.still = if is_slow { self.still + 1 } else { 0 };
+        Ok(self.still >= STILL || self.ticks >= self.closing + PATIENCE)
     }
 
     /// Makes one of what is sewn, with the mass and momentum of its parts.
@@ -183,6 +205,22 @@ impl Sewing {
             open: widest.filter(|(_, gap)| *gap > TOLD).collect(),
         }
     }
+}
+
+/// The threads of a seam that has these `pairs` of flat corners.
+fn threads(garment: &Garment, cloth: &ClothState, pairs: &[[u32; 2]], surface: &Surface) -> Vec<Thread> {
+    let ends: Vec<[u32; 2]> = pairs
+        .iter()
+        .map(|pair| pair.map(|c| garment.corners[c as usize].vertex))
+        .filter(|[a, b]| a != b && cloth.mapped[*a as usize] && cloth.mapped[*b as usize])
+        .collect();
+    let places: Vec<[DVec3; 2]> = ends.iter().map(|ends| ends.map(|v| cloth.positions[v as usize])).collect();
+    let over = routes::over(surface, &places);
+    let thread = |((&ends, [a, b]), over): ((&[u32; 2], [DVec3; 2]), Option<DVec3>)| {
+        let length = over.map_or(a.distance(b), |over| a.distance(over) + over.distance(b));
+        Thread { ends, length, over }
+    };
+    ends.iter().zip(places).zip(over).map(thread).collect()
 }
 
 /// The same pieces, those that are sewn `now` not yet: they have a vertex for each flat corner. For each vertex that of

@@ -74,6 +74,8 @@ pub struct Tie {
     pub ends: [u32; 2],
     /// Metres.
     pub length: f64,
+    /// A place that it runs over, metres; None: straight.
+    pub over: Option<DVec3>,
 }
 
 /// What pulls one vertex towards a place.
@@ -358,13 +360,15 @@ impl SmallSteps {
     fn draw(&self, x: &mut [DVec3], within: f64, small: f64) {
         for tie in &self.ties {
             let [a, b] = tie.ends.map(|v| v as usize);
-            let along = x[b] - x[a];
-            let distance = along.length();
-            let (over, [wa, wb]) = (distance - tie.length, [a, b].map(|v| self.inverse_mass[v]));
-            if over > 0.0 && distance <= within && wa + wb > 0.0 {
-                let pull = along * (over.min(THREAD_SPEED * small) / distance / (wa + wb));
-                x[a] += pull * wa;
-                x[b] -= pull * wb;
+            let (from_a, from_b, distance) = match tie.over {
+                Some(place) => (place - x[a], place - x[b], place.distance(x[a]) + place.distance(x[b])),
+                None => (x[b] - x[a], x[a] - x[b], x[a].distance(x[b])),
+            };
+            let (long, [wa, wb]) = (distance - tie.length, [a, b].map(|v| self.inverse_mass[v]));
+            if long > 0.0 && distance <= within && wa + wb > 0.0 {
+                let pull = long.min(THREAD_SPEED * small) / (wa + wb);
+                x[a] += from_a.normalize_or_zero() * (pull * wa);
+                x[b] += from_b.normalize_or_zero() * (pull * wb);
             }
         }
     }

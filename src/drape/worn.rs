@@ -379,7 +379,7 @@ impl Worn {
     pub fn tie(&mut self, ties: &[Tie]) {
         let own = |tie: &Tie| {
             let [a, b] = tie.ends.map(|v| own_number(&self.fixed.own, v));
-            Some(Tie { ends: [a? as u32, b? as u32], length: tie.length })
+            Some(Tie { ends: [a? as u32, b? as u32], ..*tie })
         };
         self.small.ties = ties.iter().filter_map(own).collect();
     }
@@ -595,13 +595,28 @@ impl Worn {
         self.itself.forget();
     }
 
+    /// Where the cloth runs through itself. The sides of an open seam may: they are to be one.
+    fn met(&self, cloth: &ClothState) -> Met {
+        let garment = &*self.fixed.garment;
+        let mut met = Met::new(garment, cloth);
+        if let Some(sides) = &self.itself.sewn {
+            let becomes = |v: u32| own_number(&self.fixed.own, v).map_or(u32::MAX, |v| sides.will_be[v]);
+            let (edges, triangles) = (&garment.adjacency.edges, &met.mesh.triangles);
+            met.places.retain(|&[e, t]| {
+                let ends = edges[e as usize].map(becomes);
+                !triangles[t as usize].iter().any(|&v| ends.contains(&becomes(v)))
+            });
+        }
+        met
+    }
+
     /// Takes what lies deep on the wrong side of other cloth out at once: let go half way it would go back. Where that leads
     /// nowhere all stays as it is. For each vertex where to send it, and in how many places the cloth then still runs through
     /// itself.
     fn untangle(&mut self, cloth: &mut ClothState) -> (Vec<DVec3>, usize) {
         let fixed = Arc::clone(&self.fixed);
         let garment = &*fixed.garment;
-        let met = Met::new(garment, cloth);
+        let met = self.met(cloth);
         let mut best = (met.ways(garment, cloth), met.places.len());
         if self.itself.sewn.is_some() || self.in_vain >= MOST_IN_VAIN {
             return best;
@@ -625,7 +640,7 @@ impl Worn {
                 }
             }
             self.write(cloth);
-            let met = Met::new(garment, cloth);
+            let met = self.met(cloth);
             if met.places.len() < best.1 {
                 best = (met.ways(garment, cloth), met.places.len());
                 least = self.state.clone();

@@ -8,7 +8,9 @@ use toile::cloth::{Corner, Fabric};
 use toile::drag::{DragMode, Ray};
 use toile::fit::{BodyIndex, Report, measure};
 use toile::geometry::ids::PieceId;
-use toile::pattern::SpacePose;
+use toile::geometry::mesh::TriMesh;
+use toile::geometry::shapes::cylinder;
+use toile::pattern::{EdgeRef, Seam, SpacePose};
 use toile::session::recording::Recording;
 use toile::session::replay::Replay;
 use toile::session::samples::Sample;
@@ -249,6 +251,35 @@ fn placed_pieces_are_sewn_and_draped() {
     s.apply_alone(Command::Undo).expect("undone");
     s.update();
     assert!(!s.snapshot().is_dressed());
+}
+
+/// Two panels that hang from one seam, placed so that it lies below the widest part of what they should hang on: pulled
+/// straight together they would slide down along it.
+#[test]
+fn a_strap_that_was_placed_too_low_is_sewn_over_the_shoulder() {
+    let mut project = placed([0.1, 0.1], -0.23, 0.2, 0.015).project();
+    let document = &mut project.document;
+    let pattern = Arc::make_mut(&mut document.pattern);
+    pattern.seams.clear();
+    let tops = [LEFT, RIGHT].map(|piece| EdgeRef { piece, edge: 2 });
+    pattern.add_seam(Seam::of_edges(tops, false));
+    // Level; as thick as a shoulder with the chest below it, and 11 cm of it above the seam.
+    let TriMesh { positions, triangles } = cylinder(0.08, 0.6, 48, 40);
+    let down = |y: f64| if y < 0.0 { 3.0 * y } else { y };
+    let positions = positions.iter().map(|p| DVec3::new(p.y - 0.3, down(p.x), -p.z)).collect();
+    let mesh = Arc::new(TriMesh { positions, triangles });
+    document.body = BodyChoice::Imported { name: "bar".to_owned(), mesh };
+    let mut s = Session::new(project, Runner::inline(Simulation::default()));
+    s.apply_alone(Command::Sew).expect("sewn");
+    run(&mut s, 1500);
+    assert_eq!(s.snapshot().phase, Some(Phase::AtRest));
+    assert!(s.snapshot().problems.is_empty(), "{:?}", s.snapshot().problems);
+    let report = measured(&s);
+    assert_eq!((report.seams.open, report.unmapped_vertices, report.flipped_faces), (0, 0, 0));
+    assert_eq!(report.penetration.vertices + report.penetration.faces + report.edges_through_body, 0);
+    let heights = || s.snapshot().cloth.positions.iter().map(|p| p.y);
+    assert!((0.08..0.085).contains(&heights().fold(f64::MIN, f64::max)), "over the bar");
+    assert!(heights().fold(f64::MAX, f64::min) < -0.02, "down on both sides");
 }
 
 /// Both are placed at one place, as files of two garments are: the outer one is made room for, and the inner one gives way.
