@@ -16,6 +16,8 @@ use crate::geometry::winding::Winding;
 pub(super) const NEAR: f64 = 0.02;
 /// Cloth so near, metres, is the other layer of a fold.
 const FOLD: f64 = 0.03;
+/// Cloth that shows its inner side to skin no farther than this, metres, belongs to that skin, whatever it comes near to outside.
+const BETWEEN: f64 = 0.10;
 /// A triangle whose normal has a smaller cosine with the skin's than this lies wrong side out.
 pub(super) const WRONG_SIDE: f64 = -0.2;
 /// A triangle of the body is hidden when a point this far (metres) before it lies inside the body.
@@ -84,6 +86,7 @@ pub(super) struct OnBody {
     pub faces_near_body: usize,
     pub flipped_faces: usize,
     pub faces_in_folds: usize,
+    pub faces_between: usize,
     pub clearance: Clearance,
     pub openings: Vec<Opening>,
 }
@@ -96,13 +99,15 @@ pub(super) fn on_body(laid: &Laid, cloth_tree: &Bvh, body: &BodyIndex<'_>) -> On
     let (distances, penetrating_vertices) = distances(laid, body);
     let cut = cut_faces(laid, &through_body, &through_cloth, &penetrating_vertices);
     let wrong = wrong_side_out(laid, body);
+    let folded = in_folds(laid, cloth_tree, body, &wrong);
     OnBody {
         penetration: penetration(laid, body, &distances, &cut),
         edges_through_body: through_body.iter().filter(|&&[_, t]| body.is_skin(t)).count(),
         body_edges_through_garment: through_cloth.iter().filter(|&&[e, _]| body.is_skin_edge(e)).count(),
         faces_near_body: wrong.iter().filter(|f| f.is_some()).count(),
         flipped_faces: wrong.iter().filter(|f| **f == Some(true)).count(),
-        faces_in_folds: faces_in_folds(laid, cloth_tree, body, &wrong),
+        faces_in_folds: folded.iter().filter(|(_, folded)| *folded).count(),
+        faces_between: folded.iter().filter(|(t, folded)| !folded && is_between(laid, body, *t)).count(),
         clearance: Clearance { median: quantile(&distances, 0.5), p95: quantile(&distances, 0.95) },
         openings: openings(&laid.mesh, body_mesh, body.winding.tree(), |t| body.is_skin(t)),
     }
@@ -185,11 +190,17 @@ fn face_depth(corners: [DVec3; 3], body: &BodyIndex<'_>) -> Option<f64> {
         .reduce(f64::max)
 }
 
-/// Triangles that show the body their outer side and lie in a fold: on them or under them, no farther than [`FOLD`], lies cloth
-/// the right way round.
-fn faces_in_folds(laid: &Laid, cloth_tree: &Bvh, body: &BodyIndex<'_>, wrong: &[Option<bool>]) -> usize {
+/// Triangles that show the body their outer side, and whether they lie in a fold: on them or under them, no farther than
+/// [`FOLD`], lies cloth the right way round.
+fn in_folds(
+    laid: &Laid,
+    cloth_tree: &Bvh,
+    body: &BodyIndex<'_>,
+    wrong: &[Option<bool>],
+) -> Vec<(usize, bool)> {
+    let shown: Vec<usize> = (0..wrong.len()).filter(|&t| wrong[t] == Some(true)).collect();
     let (mut ends, mut segments) = (Vec::new(), Vec::new());
-    for t in (0..wrong.len()).filter(|&t| wrong[t] == Some(true)) {
+    for &t in &shown {
         let [a, b, c] = laid.mesh.corners(t);
         let middle = (a + b + c) / 3.0;
         let skin = body.surface.nearest(middle);
@@ -201,7 +212,16 @@ fn faces_in_folds(laid: &Laid, cloth_tree: &Bvh, body: &BodyIndex<'_>, wrong: &[
     for [s, t] in meetings(&ends, &segments, &laid.mesh, cloth_tree) {
         folded[s as usize] |= wrong[t as usize] != Some(true);
     }
-    folded.iter().filter(|f| **f).count()
+    shown.into_iter().zip(folded).collect()
+}
+
+/// Whether triangle `t` hangs between two parts of the body, the side of a loose bodice beside an arm: skin is before its inner
+/// side too, no farther than [`BETWEEN`].
+fn is_between(laid: &Laid, body: &BodyIndex<'_>, t: usize) -> bool {
+    let [a, b, c] = laid.mesh.corners(t);
+    let inward = -(b - a).cross(c - a).normalize_or_zero();
+    let hit = body.surface.ray((a + b + c) / 3.0, inward);
+    hit.is_some_and(|hit| hit.distance <= BETWEEN && hit.normal.dot(inward) < 0.0)
 }
 
 /// Of each triangle near the body: whether it shows any of the facets it is nearest to its outer side.

@@ -63,6 +63,9 @@ pub struct Report {
     /// Those of these that lie in folds: on them or under them is cloth the right way round.
     #[serde(default)]
     pub faces_in_folds: usize,
+    /// Those of the rest that hang between two parts of the body: they show their inner side to skin too.
+    #[serde(default)]
+    pub faces_between: usize,
     /// How far above the skin the vertices lie.
     pub clearance: Clearance,
     /// Hems, neck, cuffs; longest first.
@@ -169,6 +172,7 @@ pub fn measure(pattern: &Pattern, garment: &Garment, state: &ClothState, body: &
         faces_near_body: sits.faces_near_body,
         flipped_faces: sits.flipped_faces,
         faces_in_folds: sits.faces_in_folds,
+        faces_between: sits.faces_between,
         clearance: sits.clearance,
         openings: sits.openings,
     }

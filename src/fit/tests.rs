@@ -156,9 +156,23 @@ fn a_sleeve_turned_inside_out_is_found() {
     let r = exact_radius();
     let report = report(&sleeve(r, |p| p * DVec3::new(-1.0, 1.0, 1.0)), cylinder(r - 0.01, 0.2, 1.2, 48, 20));
     assert_eq!(report.flipped_faces, report.triangles);
-    assert_eq!(report.faces_in_folds, 0);
+    assert_eq!((report.faces_in_folds, report.faces_between), (0, 0));
     assert!(words(&report).contains("wrong side out"));
     assert!(!faults(&report, true).is_empty(), "however it came to be so");
+}
+
+/// The side of a loose bodice beside an arm shows the arm its outer side, and the trunk its inner one.
+#[test]
+fn loose_cloth_between_two_limbs_is_told_from_cloth_inside_out() {
+    let r = exact_radius();
+    let mut body = cylinder(0.05, 0.2, 1.2, 48, 20);
+    let (other, first) = (cylinder(0.03, 0.2, 1.2, 48, 20), body.positions.len() as u32);
+    body.positions.extend(other.positions.iter().map(|p| *p + DVec3::X * (r + 0.04)));
+    body.triangles.extend(other.triangles.iter().map(|t| t.map(|v| v + first)));
+    let report = report(&sleeve(r, |p| p), body);
+    assert!(report.flipped_faces > 10, "{}", report.flipped_faces);
+    assert_eq!((report.faces_in_folds, report.faces_between), (0, report.flipped_faces));
+    assert!(faults(&report, true).iter().all(|(fault, _)| !fault.words.contains("wrong side out")));
 }
 
 #[test]

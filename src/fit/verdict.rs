@@ -111,7 +111,8 @@ impl Faults {
             let words = format!("cloth and skin cut through each other in {} places", edges + body_edges);
             self.tell(Spot::Through, "body", words);
         }
-        let n = report.flipped_faces - if draped { report.faces_in_folds } else { 0 };
+        let lies_so = if draped { report.faces_in_folds + report.faces_between } else { 0 };
+        let n = report.flipped_faces - lies_so;
         if n > 0 {
             self.tell(Spot::WrongSide, "garment", format!("{n} triangles lie wrong side out"));
         }
