@@ -209,7 +209,7 @@ fn measured(snapshot: &Snapshot) -> Result<Measured, Failure> {
     let index = fit::BodyIndex::new(body);
     let fit = fit::measure(&source.pattern, garment, cloth, &index);
     let tight = fit::tightest(&fit, garment, cloth, || landmarks::found(&body.mesh));
-    let faults = sim::faults(&fit, source, garment, cloth, &index, snapshot.was_draped);
+    let faults = sim::faults(&fit, source, garment, cloth, &index, snapshot.lies());
     let offset = source.relax.offset * body.scale();
     let marks = stretches(&source.marks, body, offset).into_iter().map(PairLengths::from).collect();
     let mark_error = mark_error(garment, cloth, body, &source.marks, offset);

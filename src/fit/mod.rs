@@ -2,6 +2,7 @@
 
 mod compare;
 pub mod exact;
+mod fallen;
 mod girth;
 mod laid;
 pub mod maps;
@@ -15,6 +16,7 @@ mod tight;
 mod verdict;
 
 pub use compare::{Change, Matching, Unlike};
+pub use fallen::{Fallen, fallen};
 pub use girth::{Girth, girth, girths};
 pub use maps::{Map, MapKind, MapReader, Worn};
 pub use on_body::BodyIndex;

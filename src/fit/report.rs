@@ -219,8 +219,13 @@ pub(super) fn widest_gap(garment: &Garment, state: &ClothState, pairs: &[[u32; 2
     })
 }
 
-/// Groups of pieces that the seams join; deactivated ones count for nothing.
+/// Groups of pieces that the seams join.
 fn pieces_expected(pattern: &Pattern) -> usize {
+    groups(pattern).iter().filter(|(id, g)| id == g).count()
+}
+
+/// For each piece the lowest of those that the seams join it to; deactivated ones count for nothing.
+pub(super) fn groups(pattern: &Pattern) -> BTreeMap<PieceId, PieceId> {
     let mut group: BTreeMap<PieceId, PieceId> = {
         let pieces = pattern.pieces.iter().filter(|(_, piece)| !piece.activity.is_deactivated());
         pieces.map(|(&id, _)| (id, id)).collect()
@@ -232,7 +237,7 @@ fn pieces_expected(pattern: &Pattern) -> usize {
             *g = low;
         }
     }
-    group.iter().filter(|(id, g)| id == g).count()
+    group
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ use crate::body::Surface;
 use crate::body::closest::closest_on_triangle;
 use crate::cloth::FlatPiece;
 use crate::fit::on_body::{NEAR, WRONG_SIDE};
-use crate::fit::{Tight, faults, tight_places, tightest, verdict};
+use crate::fit::{Tight, fallen, faults, tight_places, tightest, verdict};
 use crate::geometry::mesh::TriMesh;
 use crate::pattern::{EdgeRef, Piece, Seam};
 
@@ -173,6 +173,26 @@ fn loose_cloth_between_two_limbs_is_told_from_cloth_inside_out() {
     assert!(report.flipped_faces > 10, "{}", report.flipped_faces);
     assert_eq!((report.faces_in_folds, report.faces_between), (0, report.flipped_faces));
     assert!(faults(&report, true).iter().all(|(fault, _)| !fault.words.contains("wrong side out")));
+}
+
+#[test]
+fn what_lies_much_lower_than_it_was_placed_has_fallen_down() {
+    let placed = |by: f64, placed: bool| {
+        let Sleeve { mut pattern, garment, state } = sleeve(0.1, |p| p - DVec3::Y * by);
+        for piece in pattern.pieces.values_mut().filter(|_| placed) {
+            let rotation = glam::DQuat::IDENTITY;
+            let translation = DVec3::new(0.0, 0.5, 0.2);
+            std::sync::Arc::make_mut(piece).placement =
+                Some(crate::pattern::SpacePose { rotation, translation });
+        }
+        fallen(&pattern, &garment, &state)
+    };
+    assert_eq!(
+        (placed(0.1, true), placed(-0.5, true), placed(0.5, false)),
+        (Vec::new(), Vec::new(), Vec::new())
+    );
+    let [found] = placed(0.3, true)[..] else { panic!("two sheets that are sewn fall together") };
+    assert!((found.by - 0.3).abs() < 1e-9 && found.piece < 2, "{found:?}");
 }
 
 #[test]

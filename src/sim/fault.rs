@@ -3,8 +3,8 @@
 use serde::Serialize;
 
 use crate::cloth::{ClothState, EdgeMetric, FlatPiece, Garment};
-use crate::fit::{self, BodyIndex, Report};
-use crate::pattern::Problem;
+use crate::fit::{self, BodyIndex, Fallen, Report};
+use crate::pattern::{Problem, ProblemKind};
 use crate::sim::protocol::GarmentSource;
 use crate::wrap::{Marks, PairStretch, stretches};
 
@@ -23,6 +23,15 @@ pub struct Fault {
     pub marks: Vec<Concerned>,
 }
 
+/// How the cloth came to lie.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Lies {
+    /// Physics moved it: it may fold.
+    pub draped: bool,
+    /// It was sewn from where its pieces were placed, and the body has not moved since.
+    pub sewn: bool,
+}
+
 /// A pair of marks.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Concerned {
@@ -39,9 +48,16 @@ pub fn faults(
     garment: &Garment,
     cloth: &ClothState,
     body: &BodyIndex<'_>,
-    draped: bool,
+    lies: Lies,
 ) -> Vec<Fault> {
-    let found = fit::faults(report, draped);
+    let mut found = fit::faults(report, lies.draped);
+    if lies.sewn {
+        found.extend(
+            fit::fallen(&source.pattern, garment, cloth)
+                .into_iter()
+                .map(|fallen| told_fallen(fallen, garment)),
+        );
+    }
     if found.is_empty() {
         return Vec::new();
     }
@@ -53,6 +69,14 @@ pub fn faults(
         Fault { problem: told(problem, &marks), marks }
     };
     found.into_iter().map(fault).collect()
+}
+
+fn told_fallen(fallen: Fallen, garment: &Garment) -> (Problem, fit::Spot) {
+    let place =
+        garment.pieces.get(fallen.piece).map_or_else(String::new, |(_, name)| format!("piece {name}"));
+    let words =
+        format!("it has slid down by {:.0} cm from where it was placed: nothing holds it", fallen.by * 100.0);
+    (Problem { kind: ProblemKind::Dressing, place, words }, fit::Spot::Piece(fallen.piece))
 }
 
 fn told(problem: Problem, marks: &[Concerned]) -> Problem {

@@ -15,7 +15,7 @@ pub mod thread;
 mod world;
 
 pub use draped::DrapeSource;
-pub use fault::{Concerned, Fault, faults};
+pub use fault::{Concerned, Fault, Lies, faults};
 pub use protocol::{ClothPlace, DrapeState, Event, GarmentSource, Request, RequestKind, Snapshot};
 pub use runner::Runner;
 pub use simulation::Simulation;

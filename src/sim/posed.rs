@@ -60,6 +60,7 @@ impl World {
             splits,
             posed,
             draping: None,
+            was_sewn: false,
             ..self.clone()
         };
         if settle {

@@ -18,7 +18,7 @@ use crate::pattern::{Pattern, Problem};
 use crate::relax::RelaxSettings;
 use crate::repose::Outcome;
 use crate::sim::draped::DrapeSource;
-use crate::sim::fault::Fault;
+use crate::sim::fault::{Fault, Lies};
 use crate::sim::stats::Stats;
 use crate::wrap::{Marks, Phase};
 
@@ -149,6 +149,8 @@ pub struct Snapshot {
     pub drape: Option<DrapeState>,
     /// Physics has moved the cloth since it was grown: folds are no fault.
     pub was_draped: bool,
+    /// It was sewn from where its pieces were placed, round the body as it is: it should lie about there.
+    pub was_sewn: bool,
 }
 
 impl DrapeState {
@@ -180,6 +182,11 @@ impl Snapshot {
     pub fn drawn(&self) -> Option<(&Arc<Garment>, &Arc<ClothState>)> {
         let whole = self.garment.as_ref().map(|garment| (garment, &self.cloth));
         self.split.as_ref().map(|(garment, cloth)| (garment, cloth)).or(whole)
+    }
+
+    /// How the cloth came to lie.
+    pub fn lies(&self) -> Lies {
+        Lies { draped: self.was_draped, sewn: self.was_sewn }
     }
 
     /// Whether there is cloth on the body, however little of it.

@@ -141,6 +141,7 @@ impl World {
             );
             self.tell(seam.to_string(), words);
         }
+        self.was_sewn = true;
         self.part_active();
         self.drape_for(None, Arc::clone(&outfit.fabrics));
         self.begin_moving(&sewn.velocities);

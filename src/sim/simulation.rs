@@ -8,7 +8,7 @@ use crate::cloth::Skips;
 use crate::fit::{BodyIndex, TightPlace, measure, tight_places};
 use crate::repose::Care;
 use crate::sim::checkpoints::{Checkpoints, DEFAULT_CAPACITY};
-use crate::sim::fault::{Fault, faults};
+use crate::sim::fault::{Fault, Lies, faults};
 use crate::sim::protocol::{Event, Request, RequestKind, Snapshot};
 use crate::sim::stats::Stats;
 use crate::sim::world::World;
@@ -164,6 +164,7 @@ impl Simulation {
             tight: self.looked.as_ref().map_or_else(Arc::default, |looked| Arc::clone(&looked.tight)),
             drape: world.drape_state(),
             was_draped: world.was_draped,
+            was_sewn: world.was_sewn,
         }
     }
 
@@ -180,10 +181,11 @@ impl Simulation {
         let split = world.drawn();
         let (garment, cloth) =
             split.as_ref().map_or((garment, &world.cloth), |(garment, cloth)| (garment, cloth));
+        let lies = Lies { draped: world.was_draped, sewn: world.was_sewn };
         let look = || {
             let index = BodyIndex::new(body);
             let report = measure(&source.pattern, garment, cloth, &index);
-            let found = faults(&report, source, garment, cloth, &index, world.was_draped);
+            let found = faults(&report, source, garment, cloth, &index, lies);
             let tight = tight_places(&report, garment, cloth, || landmarks::found(&body.mesh));
             Looked { faults: Arc::new(found), tight: Arc::new(tight) }
         };

@@ -56,6 +56,8 @@ pub struct World {
     pub draping: Option<Arc<Draping>>,
     /// Physics has moved the cloth since it was grown: it may lie in folds, wherever it has gone since.
     pub was_draped: bool,
+    /// It was sewn from where its pieces were placed, round the body as it is.
+    pub was_sewn: bool,
     /// Pieces being sewn from where they were placed: `garment` is then the one with open seams.
     pub sewing: Option<Arc<Placed>>,
     /// The garment without its deactivated pieces; None while it has none.
@@ -83,6 +85,7 @@ impl Default for World {
             posed: None,
             draping: None,
             was_draped: false,
+            was_sewn: false,
             sewing: None,
             active: None,
             outer: None,

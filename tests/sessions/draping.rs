@@ -15,7 +15,7 @@ use toile::session::recording::Recording;
 use toile::session::replay::Replay;
 use toile::session::samples::Sample;
 use toile::session::{BodyChoice, Command, Session, Settings};
-use toile::sim::{DrapeState, Runner, Simulation};
+use toile::sim::{DrapeState, Runner, Simulation, faults};
 use toile::wrap::Phase;
 
 use crate::common::{ball, cloth_hash, project, run, tube_project};
@@ -320,6 +320,31 @@ fn what_is_worn_over_is_sewn_over_what_lies() {
     s.apply_alone(Command::Undo).expect("undone");
     s.update();
     assert!(!s.snapshot().is_dressed());
+}
+
+/// A tube that is far too wide for what it is put round.
+#[test]
+fn what_falls_down_is_told() {
+    let mut project = placed([0.6, 0.6], -0.1, 0.2, 0.03).project();
+    let mut stick = ball(0.12, 24, 48);
+    stick.positions.iter_mut().for_each(|p| *p *= DVec3::new(0.5, 8.0, 0.5));
+    project.document.body = BodyChoice::Imported { name: "stick".to_owned(), mesh: Arc::new(stick) };
+    let mut s = Session::new(project, Runner::inline(Simulation::default()));
+    s.apply_alone(Command::Sew).expect("sewn");
+    let told = |s: &Session| {
+        let snapshot = s.snapshot();
+        let (garment, cloth) = snapshot.drawn().expect("cloth");
+        let (source, body) =
+            (snapshot.source.as_ref().expect("a source"), snapshot.body.as_ref().expect("a body"));
+        let faults = faults(&measured(s), source, garment, cloth, &BodyIndex::new(body), snapshot.lies());
+        faults.iter().any(|fault| fault.problem.words.contains("slid down by"))
+    };
+    while !s.snapshot().was_sewn {
+        assert!(run(&mut s, 1) > 0, "sewn in time");
+    }
+    assert!(!told(&s));
+    run(&mut s, 40);
+    assert!(told(&s));
 }
 
 #[test]

@@ -57,7 +57,7 @@ impl Facts {
         let Outfit { source, garment, state, body, .. } = &outfit;
         let index = BodyIndex::new(body);
         let report = fit::measure(&source.pattern, garment, state, &index);
-        let faults = sim::faults(&report, source, garment, state, &index, snapshot.was_draped);
+        let faults = sim::faults(&report, source, garment, state, &index, snapshot.lies());
         let tight = fit::tightest(&report, garment, state, || landmarks::found(&body.mesh));
         let readings = readings_of(&session.document().body, &body.mesh).unwrap_or_default();
         let reader = MapReader::new(outfit.worn());
