@@ -425,8 +425,13 @@ impl Worn {
         let small = span / self.substeps as f64;
         let mut left = self.substeps;
         while left > 0 {
-            let count = self.stretch(small).min(left);
-            let ways: Vec<DVec3> = self.state.velocities.iter().map(|v| *v * span).collect();
+            // What threads and cloth tug at trembles in place while it is sewn: its velocity tells nothing of where it goes.
+            let going: Vec<DVec3> = match self.floats && self.progress.ticks > 0 {
+                true => self.ways.iter().map(|way| *way / span).collect(),
+                false => self.state.velocities.clone(),
+            };
+            let count = self.stretch(&going, small).min(left);
+            let ways: Vec<DVec3> = going.iter().map(|v| *v * span).collect();
             let part = count as f64 / self.substeps as f64;
             let soon = |v: usize| ways[v] * part;
             self.itself.gather_ahead(&fixed.sheet, &self.state.positions, &ways, soon, MARGIN);
@@ -462,8 +467,7 @@ impl Worn {
     }
 
     /// Small steps in which no vertex comes far from the others: pairs of the cloth with itself are looked after between.
-    fn stretch(&self, small: f64) -> usize {
-        let velocities = &self.state.velocities;
+    fn stretch(&self, velocities: &[DVec3], small: f64) -> usize {
         let drift = velocities.iter().sum::<DVec3>() / velocities.len() as f64;
         let fastest = velocities.iter().map(|v| v.distance_squared(drift)).fold(0.0, f64::max).sqrt();
         let most = if self.progress.ticks == 0 { FIRST_STRETCH } else { self.substeps };
