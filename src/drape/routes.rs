@@ -64,7 +64,7 @@ mod tests {
         mesh
     }
 
-    /// From `before` the bar to behind it at these heights.
+    /// Threads from before the bar to behind it, at these heights.
     fn across(heights: &[f64]) -> Vec<[DVec3; 2]> {
         heights.iter().map(|&y| [DVec3::new(0.02, y, 0.25), DVec3::new(0.02, y, -0.2)]).collect()
     }
