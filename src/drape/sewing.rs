@@ -2,8 +2,7 @@
 //!
 //! A seam is a thread of shrinking length between the two sides (zero-length constraints in the end), not a force: paper B's
 //! adaptive force is constant near the end and chatters there, and its printed signs and units do not agree (ALGORITHMS.md 1.B).
-//! What is kept of the paper: gravity and friction act only once all is sewn, sides are merged with mass and momentum kept, and
-//! seams that do not come together round this body are told.
+//! What is kept of the paper: gravity and friction act only once all is sewn, sides are merged with mass and momentum kept.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -16,10 +15,8 @@ use crate::drape::routes;
 use crate::drape::small_steps::Tie;
 use crate::drape::worn::{TICK, Undrapable, Worn, WornSettings};
 use crate::geometry::adjacency::Adjacency;
-use crate::geometry::ids::{PieceId, SeamId};
+use crate::geometry::ids::PieceId;
 
-/// Seams that stay farther open than this before they are pulled shut are told, metres.
-const TOLD: f64 = 5e-4;
 /// How fast a seam shrinks, m/s; it takes between so many ticks.
 const SHRINK: (f64, [u32; 2]) = (0.4, [45, 120]);
 /// What is sewn then slides free of weight and friction to where it is least tight: until no vertex is faster, m/s,
@@ -65,8 +62,6 @@ pub struct Sewn {
     pub cloth: ClothState,
     /// Of its vertices, m/s.
     pub velocities: Vec<DVec3>,
-    /// Seams that did not come together, by more than half a millimetre, with their widest gap, metres.
-    pub open: Vec<(SeamId, f64)>,
 }
 
 /// What is sewn in one go.
@@ -187,22 +182,12 @@ impl Sewing {
             }
         }
         let mean = |sum: DVec3, m: f64| if m > 0.0 { sum / m } else { DVec3::ZERO };
-        let gap = |pair: &[u32; 2]| {
-            let [a, b] = pair.map(|c| self.open.corners[c as usize].vertex as usize);
-            match cloth.mapped[a] && cloth.mapped[b] {
-                true => cloth.positions[a].distance(cloth.positions[b]),
-                false => 0.0,
-            }
-        };
-        let widest =
-            self.sewn.seam_pairs.iter().map(|(id, pairs)| (*id, pairs.iter().map(gap).fold(0.0, f64::max)));
         Sewn {
             cloth: ClothState {
                 positions: sums.iter().map(|(m, x, _)| mean(*x, *m)).collect(),
                 mapped: sums.iter().map(|(m, ..)| *m > 0.0).collect(),
             },
             velocities: sums.iter().map(|(m, _, v)| mean(*v, *m)).collect(),
-            open: widest.filter(|(_, gap)| *gap > TOLD).collect(),
         }
     }
 }

@@ -137,6 +137,7 @@ impl World {
             self.split_draped();
         }
         if rests {
+            self.tell_short_seams();
             self.sew_next_layer();
         }
     }

@@ -51,7 +51,8 @@ pub fn faults(
     lies: Lies,
 ) -> Vec<Fault> {
     let mut found = fit::faults(report, lies.draped);
-    if lies.sewn {
+    // What could not be sewn to its neighbours falls off: that is told already.
+    if lies.sewn && report.seams.open == 0 {
         found.extend(
             fit::fallen(&source.pattern, garment, cloth)
                 .into_iter()

@@ -9,6 +9,7 @@ use crate::cloth::{self, ClothState, Garment, Skips};
 use crate::drape::clear::cleared;
 use crate::drape::sewing::{Sewing, Stage};
 use crate::drape::{Undrapable, WornSettings};
+use crate::fit::{ShortSeam, short_seams};
 use crate::geometry::ids::PieceId;
 use crate::pattern::triangulate::Meshes;
 use crate::pattern::{Problem, ProblemKind};
@@ -134,19 +135,28 @@ impl World {
         let outfit = &placed.outfit;
         self.garment = Some(Arc::clone(&outfit.garment));
         self.cloth = Arc::new(ClothState::clone(&sewn.cloth));
-        for (seam, gap) in sewn.open {
-            let words = format!(
-                "it does not come together round this body: {:.1} mm are missing; it was pulled shut",
-                gap * 1e3
-            );
-            self.tell(seam.to_string(), words);
-        }
-        self.was_sewn = true;
+        (self.was_sewn, self.seams_unseen) = (true, true);
         self.part_active();
         self.drape_for(None, Arc::clone(&outfit.fabrics));
         self.begin_moving(&sewn.velocities);
         self.set_pins(&Arc::clone(&self.places));
         self.outer = outfit.next(Some(placed.layer)).map(|layer| (Arc::clone(outfit), layer));
+    }
+
+    /// Once sewn cloth lies still: which seams are too short for this body. Before that the skin or folds may hold them open.
+    pub(super) fn tell_short_seams(&mut self) {
+        let Some(garment) = self.garment.clone().filter(|_| std::mem::take(&mut self.seams_unseen)) else {
+            return;
+        };
+        for ShortSeam { seam, stretch, missing } in short_seams(&garment, &self.cloth) {
+            let words = format!(
+                "it does not come together round this body: {:.1} mm are missing; the cloth beside it is stretched by up \
+                 to {:.1} %",
+                missing * 1e3,
+                stretch * 100.0
+            );
+            self.tell(seam.to_string(), words);
+        }
     }
 
     /// What has come to rest is dressed over, where there is more to wear.

@@ -58,6 +58,8 @@ pub struct World {
     pub was_draped: bool,
     /// It was sewn from where its pieces were placed, round the body as it is.
     pub was_sewn: bool,
+    /// Whether its seams came together is still to be told.
+    pub seams_unseen: bool,
     /// Pieces being sewn from where they were placed: `garment` is then the one with open seams.
     pub sewing: Option<Arc<Placed>>,
     /// The garment without its deactivated pieces; None while it has none.
@@ -86,6 +88,7 @@ impl Default for World {
             draping: None,
             was_draped: false,
             was_sewn: false,
+            seams_unseen: false,
             sewing: None,
             active: None,
             outer: None,
