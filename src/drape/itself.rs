@@ -3,7 +3,6 @@
 //! Pairs that could meet in a step are gathered when it begins, with the side they are on. A pair keeps its side: whoever comes
 //! through in an iterate is pushed back to where it came from, so that a fast step does not tangle.
 
-use std::cmp::Ordering;
 use std::sync::Arc;
 
 use glam::{DMat3, DVec3};
@@ -145,7 +144,9 @@ impl Itself {
     fn behind(&self, x: &[DVec3]) -> Vec<Pair> {
         let is_behind = |pair: &&Pair| {
             let found = if pair.layered || pair.side == 0.0 { None } else { pair.found(x) };
-            found.is_some_and(|(_, _, distance)| distance < 0.0 && distance > -self.thickness)
+            found.is_some_and(|(_, _, distance)| {
+                distance < 0.0 && distance > -self.thickness - if pair.between { self.quick } else { 0.0 }
+            })
         };
         self.near.pairs.iter().map(|&p| &self.pairs[p as usize]).filter(is_behind).copied().collect()
     }
@@ -224,15 +225,25 @@ impl Itself {
             near + LOOK_AHEAD * ways.map(|w| w.length_squared()).fold(0.0, f64::max).sqrt()
         };
         let layer = |vs: &[u32]| self.layers.get(vs[0] as usize).copied().unwrap_or(0);
-        let is_free = |a: &[u32], b: &[u32]| {
-            let any = |vs: &[u32]| vs.iter().any(|&v| self.free[v as usize]);
-            !self.free.is_empty() && layer(a) == layer(b) && (any(a) || any(b))
-        };
         let layer = &layer;
         // Of triangle `t`, not of unit length: the way its outer side looks.
         let out = |t: u32| {
             let [a, b, c] = sheet.triangles[t as usize].map(|v| x[v as usize]);
             (b - a).cross(c - a)
+        };
+        let out_at = |v: u32| sheet.adjacency.vertex_triangles.of(v).iter().map(|&t| out(t)).sum::<DVec3>();
+        let out_along = |e: u32| beside_edge(sheet, e).map(out).sum::<DVec3>();
+        // A higher layer is outside of what looks the same way as it does. In an armpit, and in folds, it is also before what
+        // looks towards it, or away from it: there it stays where it is.
+        let is_layered = |a: &[u32], b: &[u32], ways: &dyn Fn() -> [DVec3; 2]| {
+            layer(a) != layer(b) && {
+                let [a, b] = ways();
+                a.dot(b) > 0.0
+            }
+        };
+        let is_free = |a: &[u32], b: &[u32]| {
+            let any = |vs: &[u32]| vs.iter().any(|&v| self.free[v as usize]);
+            !self.free.is_empty() && (any(a) || any(b))
         };
         let of_triangles: Vec<Aabb> = sheet.triangles.par_iter().map(|vs| grown(vs)).collect();
         refit(&mut self.trees[0], &of_triangles);
@@ -248,24 +259,28 @@ impl Itself {
             let mut see = |v: u32, t: u32| {
                 let vs @ [a, b, c] = sheet.triangles[t as usize];
                 looked_at += 1;
-                if joined(&[v], &vs) || is_free(&[v], &vs) {
+                if joined(&[v], &vs) {
                     return;
                 }
                 let (p, [pa, pb, pc]) = (x[v as usize], vs.map(|i| x[i as usize]));
                 let reach = apart(&[v], &vs);
                 let distance = closest_on_triangle(p, pa, pb, pc).0.distance(p);
                 if distance <= reach && !hinged(&[v], &vs, distance) {
-                    let (own, other) = (layer(&[v]), layer(&vs));
-                    let side = match own.cmp(&other) {
-                        Ordering::Less => -1.0,
-                        Ordering::Equal => out(t).dot(p - pa).signum(),
-                        Ordering::Greater => 1.0,
+                    let layered = is_layered(&[v], &vs, &|| [out_at(v), out(t)]);
+                    if !layered && is_free(&[v], &vs) {
+                        return;
+                    }
+                    let side = match (layered, layer(&[v]) > layer(&vs)) {
+                        (false, _) => out(t).dot(p - pa).signum(),
+                        (true, true) => 1.0,
+                        (true, false) => -1.0,
                     };
                     pairs.push(Pair {
                         vertices: [v, a, b, c],
                         edges: false,
                         side,
-                        layered: own != other,
+                        layered,
+                        between: layer(&[v]) != layer(&vs),
                         reach,
                         near: true,
                     });
@@ -289,7 +304,7 @@ impl Itself {
                 let [e, f] = [e.min(f), e.max(f)];
                 let [[a, b], [c, d]] = [e, f].map(|e| edges[e as usize]);
                 looked_at += 1;
-                if joined(&[a, b], &[c, d]) || is_free(&[a, b], &[c, d]) {
+                if joined(&[a, b], &[c, d]) {
                     return;
                 }
                 let ends = [a, b, c, d].map(|i| x[i as usize]);
@@ -297,19 +312,22 @@ impl Itself {
                 let distance = segments_apart(ends);
                 if distance <= reach && !hinged(&[a, b], &[c, d], distance) {
                     let [pa, pb, pc, pd] = ends;
-                    let (own, other) = (layer(&[a, b]), layer(&[c, d]));
-                    let outwards = |e: u32| beside_edge(sheet, e).map(out).sum::<DVec3>();
+                    let layered = is_layered(&[a, b], &[c, d], &|| [e, f].map(out_along));
+                    if !layered && is_free(&[a, b], &[c, d]) {
+                        return;
+                    }
                     let across = (pb - pa).cross(pd - pc);
-                    let side = match own.cmp(&other) {
-                        Ordering::Less => across.dot(outwards(e)).signum(),
-                        Ordering::Equal => across.dot(pc - pa).signum(),
-                        Ordering::Greater => -across.dot(outwards(f)).signum(),
+                    let side = match (layered, layer(&[a, b]) > layer(&[c, d])) {
+                        (false, _) => across.dot(pc - pa).signum(),
+                        (true, true) => -across.dot(out_along(f)).signum(),
+                        (true, false) => across.dot(out_along(e)).signum(),
                     };
                     pairs.push(Pair {
                         vertices: [a, b, c, d],
                         edges: true,
                         side,
-                        layered: own != other,
+                        layered,
+                        between: layer(&[a, b]) != layer(&[c, d]),
                         reach,
                         near: true,
                     });
@@ -349,7 +367,7 @@ impl Itself {
         energy
     }
 
-    /// Moves `x` so that no pair is nearer than the thickness, each vertex by its share of `inverse_mass`, pair after pair. Called
+    /// Moves `x` so that no pair of one layer is nearer than the thickness, each vertex by its share of `inverse_mass`, pair after pair. Called
     /// every small step, it sees who comes before whom, and on which side.
     pub fn project(&mut self, x: &mut [DVec3], inverse_mass: &[f64]) {
         if self.pairs.len() <= x.len() {
@@ -361,17 +379,69 @@ impl Itself {
         self.pairs_skipped += (self.pairs.len() - self.near.pairs.len()) as u64;
         for &p in &self.near.pairs {
             let pair = &mut self.pairs[p as usize];
+            if pair.between {
+                continue;
+            }
             let Some((weights, normal, distance)) = pair.see(x) else { continue };
             let depth = self.thickness - distance;
             let share = |(&v, w): (&u32, &f64)| w * w * inverse_mass[v as usize];
             let whole: f64 = pair.vertices.iter().zip(&weights).map(share).sum();
-            let most = 2.0 * self.thickness + if pair.layered { self.quick } else { 0.0 };
-            if depth > 0.0 && depth < most && whole > 0.0 {
+            if depth > 0.0 && depth < 2.0 * self.thickness && whole > 0.0 {
                 for (&v, w) in pair.vertices.iter().zip(weights) {
                     x[v as usize] += normal * (depth * w * inverse_mass[v as usize] / whole);
                 }
             }
         }
+    }
+
+    /// The same, after it, of what is of different layers: of the lower one, what the body `carries` does not give way. Otherwise what
+    /// is pulled tight over it would sink into it, by what each small step pulls. Depth that was there `before` leaves by `ease`
+    /// metres at most, and without momentum. Gives the vertices it moved, some of them more than once.
+    pub fn project_layers(
+        &mut self,
+        (x, before): (&mut [DVec3], &mut [DVec3]),
+        inverse_mass: &[f64],
+        carries: impl Fn(usize, DVec3) -> bool,
+        ease: f64,
+    ) -> Vec<u32> {
+        let mut moved = Vec::new();
+        if self.layers.is_empty() {
+            return moved;
+        }
+        for &p in &self.near.pairs {
+            let pair = &mut self.pairs[p as usize];
+            if !pair.between {
+                continue;
+            }
+            let Some((weights, normal, distance)) = pair.see(x) else { continue };
+            let depth = self.thickness - distance;
+            if depth <= 0.0 || depth >= 2.0 * self.thickness + self.quick {
+                continue;
+            }
+            let layer = |v: u32| self.layers[v as usize];
+            let upper = pair.vertices.map(layer).into_iter().max();
+            let inverse = pair.vertices.map(|v| {
+                let is_fixed = Some(layer(v)) < upper && carries(v as usize, x[v as usize]);
+                if is_fixed { 0.0 } else { inverse_mass[v as usize] }
+            });
+            let whole: f64 = weights.iter().zip(&inverse).map(|(w, inverse)| w * w * inverse).sum();
+            if whole == 0.0 {
+                continue;
+            }
+            let way = |v: &u32, w: f64| normal.dot(x[*v as usize] - before[*v as usize]) * w;
+            let come = -pair.vertices.iter().zip(weights).map(|(v, w)| way(v, w)).sum::<f64>();
+            let now = come.clamp(0.0, depth);
+            let eased = (depth - now).min(ease);
+            for ((&v, w), inverse) in pair.vertices.iter().zip(weights).zip(inverse) {
+                let share = normal * (w * inverse / whole);
+                x[v as usize] += share * (now + eased);
+                before[v as usize] += share * eased;
+                if inverse > 0.0 {
+                    moved.push(v);
+                }
+            }
+        }
+        moved
     }
 
     /// Finds the pairs that can come within the thickness while each vertex at `x` keeps to its room. The others know their side
@@ -487,6 +557,55 @@ mod tests {
         let flat = |v: u32| DVec2::new(f64::from(v % 21), f64::from(v / 21)) / 20.0;
         let rest = triangles.iter().map(|vs| vs.map(flat)).collect();
         Sheet::new(21 * 21, triangles, rest).expect("a sheet")
+    }
+
+    /// A square of the lower layer, its outer side up, and half a millimetre above it one of the upper layer.
+    fn stacked(upper_looks_down: bool) -> (Itself, Sheet, Vec<DVec3>) {
+        let flat = [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y].map(|p| p * 0.02);
+        let square = |first: u32| [[0, 1, 2], [0, 2, 3]].map(|t: [u32; 3]| t.map(|k| first + k));
+        let mut triangles = square(0).to_vec();
+        triangles.extend(square(4).map(|[a, b, c]| if upper_looks_down { [a, c, b] } else { [a, b, c] }));
+        let rest = triangles.iter().map(|vs| vs.map(|v| flat[v as usize % 4])).collect();
+        let sheet = Sheet::new(8, triangles, rest).expect("a sheet");
+        let mut itself = Itself::new(&sheet, 1e-3, Vec::new());
+        itself.layers = [[0; 4], [1; 4]].concat();
+        let at = |z: f64| flat.map(|p| p.extend(z));
+        let x = [at(0.0), at(5e-4)].concat();
+        itself.gather_ahead(&sheet, &x, &[DVec3::ZERO; 8], |_| DVec3::ZERO, 1e-3);
+        (itself, sheet, x)
+    }
+
+    fn heights(x: &[DVec3]) -> [f64; 2] {
+        [0, 4].map(|first| x[first..first + 4].iter().map(|p| p.z).sum::<f64>() / 4.0)
+    }
+
+    #[test]
+    fn layers_that_look_at_each_other_stay_before_each_other() {
+        for looks_down in [false, true] {
+            let (mut itself, _, mut x) = stacked(looks_down);
+            for _ in 0..20 {
+                let mut before = x.clone();
+                itself.project(&mut x, &[1.0; 8]);
+                itself.project_layers((&mut x, &mut before), &[1.0; 8], |_, _| false, 1e-4);
+            }
+            let [lower, upper] = heights(&x);
+            assert!((upper - lower - 1e-3).abs() < 1e-5, "{lower} {upper}, looks down: {looks_down}");
+        }
+    }
+
+    #[test]
+    fn what_the_body_carries_does_not_give_way_to_what_lies_on_it() {
+        let (mut itself, _, mut x) = stacked(false);
+        let lower = x[..4].to_vec();
+        for _ in 0..40 {
+            let mut before = x.clone();
+            itself.project(&mut x, &[1.0; 8]);
+            itself.project_layers((&mut x, &mut before), &[1.0; 8], |v, _| v < 4, 1e-4);
+            // What was too deep before leaves slowly, and gains no speed.
+            assert!(x.iter().zip(&before).all(|(now, before)| now.distance(*before) < 1e-12));
+        }
+        assert_eq!(x[..4], lower);
+        assert!((heights(&x)[1] - 1e-3).abs() < 1e-5, "{:?}", heights(&x));
     }
 
     #[test]

@@ -14,8 +14,10 @@ pub(super) struct Pair {
     pub edges: bool,
     /// On which side the first is of the second, ±1; 0 while they are not before one another.
     pub side: f64,
-    /// They are of different layers: the side is known.
+    /// The side is known from their layers.
     pub layered: bool,
+    /// They are of different layers.
+    pub between: bool,
     /// How far one can come towards the other, metres: who seems farther behind has come round, not through.
     pub reach: f64,
     /// It is among those looked at in every small step.

@@ -37,6 +37,7 @@ pub struct Sewing {
     /// For each vertex of `open` that of `sewn`.
     becomes: Arc<Vec<u32>>,
     threads: Vec<Thread>,
+    /// The body, with what is worn on it already.
     surface: Arc<Surface>,
     closing: u32,
     ticks: u32,
@@ -113,6 +114,7 @@ impl Sewing {
         if !inner.is_empty() {
             worn.pull_over(&inner);
         }
+        let surface = with_cloth(surface, &open, &cloth, &inner);
         let seams = garment.seam_pairs.iter();
         let threads: Vec<Thread> =
             seams.flat_map(|(_, pairs)| threads(&open, &cloth, pairs, &surface)).collect();
@@ -190,6 +192,24 @@ impl Sewing {
             velocities: sums.iter().map(|(m, _, v)| mean(*v, *m)).collect(),
         }
     }
+}
+
+/// The body with those triangles of `cloth` all of whose vertices are among `inner`, as it lies.
+fn with_cloth(body: Arc<Surface>, garment: &Garment, cloth: &ClothState, inner: &[u32]) -> Arc<Surface> {
+    let mut is_inner = vec![false; garment.vertex_count];
+    inner.iter().for_each(|&v| is_inner[v as usize] = true);
+    let first = body.mesh.positions.len() as u32;
+    let lies = garment.triangles.iter().filter(|vs| vs.iter().all(|&v| is_inner[v as usize]));
+    let more: Vec<[u32; 3]> = lies.map(|vs| vs.map(|v| v + first)).collect();
+    if more.is_empty() {
+        return body;
+    }
+    let mut mesh = body.mesh.clone();
+    mesh.positions.extend(
+        cloth.positions.iter().zip(&is_inner).map(|(p, inner)| if *inner { *p } else { DVec3::ZERO }),
+    );
+    mesh.triangles.extend(more);
+    Surface::new(mesh).map_or(body, Arc::new)
 }
 
 /// The threads of a seam that has these `pairs` of flat corners.

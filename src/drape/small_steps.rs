@@ -33,6 +33,8 @@ const EASE: f64 = 0.3;
 const CREASE: f64 = 0.5;
 /// as long as it is no farther from where the first was seen than so many offsets.
 const CREASE_REACH: f64 = 4.0;
+/// Cloth carries what lies on it no farther above the skin than so many offsets more.
+const TOUCHES: f64 = 0.25;
 /// It comes off the one it does not see no faster than so, m/s.
 const CREASE_SPEED: f64 = 1.5;
 
@@ -338,6 +340,20 @@ impl SmallSteps {
                 for (queries, skipped) in looked {
                     self.queries += queries;
                     self.skipped += skipped;
+                }
+                let (planes, touches) = (&self.planes, TOUCHES * around.offset);
+                let carries = |v: usize, x: DVec3| {
+                    let Plane { normal, height, .. } = planes[v];
+                    normal != DVec3::ZERO && normal.dot(x) < height + touches
+                };
+                let moved =
+                    itself.project_layers((x, &mut before), &self.inverse_mass, carries, EASE * small);
+                if !moved.is_empty() {
+                    for (plane, (x, before)) in planes.iter().zip(x.iter_mut().zip(&mut before)) {
+                        let way = plane.normal * (plane.height - plane.normal.dot(*x)).max(0.0);
+                        *x += way;
+                        *before += way;
+                    }
                 }
                 self.draw(x, NEARLY_SHUT, small);
             }
