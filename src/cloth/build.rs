@@ -145,14 +145,9 @@ fn report_twisted(pattern: &Pattern, garment: &Garment, problems: &mut Vec<Probl
             a != b && forward > 1
         });
         if twisted {
-            let seam = pattern.seams[id];
             problems.push(Problem {
                 kind: ProblemKind::TwistedSeam,
-                place: format!(
-                    "{id}: {} and {}",
-                    crate::pattern::sampling::place(pattern, seam.sides[0].first_edge()),
-                    crate::pattern::sampling::place(pattern, seam.sides[1].first_edge())
-                ),
+                place: crate::pattern::sampling::seam_place(pattern, *id),
                 words: "it joins the front of one piece to the back of the other; reverse the seam"
                     .to_owned(),
             });

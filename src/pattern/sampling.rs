@@ -124,6 +124,17 @@ fn report_unsewn(pattern: &CutPattern, seams: &[(SeamId, EdgeSeam)], problems: &
     }
 }
 
+/// A seam with the edges it joins, in words.
+pub fn seam_place(pattern: &Pattern, id: SeamId) -> String {
+    pattern.seams.get(&id).map_or_else(
+        || id.to_string(),
+        |seam| {
+            let [a, b] = seam.sides.map(|side| place(pattern, side.first_edge()));
+            format!("{id}: {a} and {b}")
+        },
+    )
+}
+
 /// "front (piece 1), edge 3".
 pub fn place(pattern: &Pattern, edge: EdgeRef) -> String {
     match pattern.pieces.get(&edge.piece) {

@@ -11,6 +11,7 @@ use crate::drape::sewing::{Sewing, Stage};
 use crate::drape::{Undrapable, WornSettings};
 use crate::fit::{ShortSeam, short_seams};
 use crate::geometry::ids::PieceId;
+use crate::pattern::sampling;
 use crate::pattern::triangulate::Meshes;
 use crate::pattern::{Problem, ProblemKind};
 use crate::sim::draped::DrapeSource;
@@ -155,7 +156,10 @@ impl World {
                 missing * 1e3,
                 stretch * 100.0
             );
-            self.tell(seam.to_string(), words);
+            let pattern = self.source.as_ref().map(|source| &source.pattern);
+            let place =
+                pattern.map_or_else(|| seam.to_string(), |pattern| sampling::seam_place(pattern, seam));
+            self.tell(place, words);
         }
     }
 
