@@ -367,8 +367,8 @@ impl Itself {
         energy
     }
 
-    /// Moves `x` so that no pair of one layer is nearer than the thickness, each vertex by its share of `inverse_mass`, pair after pair. Called
-    /// every small step, it sees who comes before whom, and on which side.
+    /// Moves `x` so that no pair of one layer is nearer than the thickness, each vertex by its share of `inverse_mass`, pair after
+    /// pair. Called every small step, it sees who comes before whom, and on which side.
     pub fn project(&mut self, x: &mut [DVec3], inverse_mass: &[f64]) {
         if self.pairs.len() <= x.len() {
             self.near.all(self.pairs.len());
@@ -394,20 +394,20 @@ impl Itself {
         }
     }
 
-    /// The same, after it, of what is of different layers: of the lower one, what the body `carries` does not give way. Otherwise what
-    /// is pulled tight over it would sink into it, by what each small step pulls. Depth that was there `before` leaves by `ease`
-    /// metres at most, and without momentum. Gives the vertices it moved, some of them more than once.
+    /// The same, after it, of what is of different layers: of the lower one, what the body `carries` does not give way. Otherwise
+    /// what is pulled tight over it would sink into it, by what each small step pulls. Depth that was there `before` leaves by
+    /// `ease` metres at most, and without momentum. Whether anything moved.
     pub fn project_layers(
         &mut self,
         (x, before): (&mut [DVec3], &mut [DVec3]),
         inverse_mass: &[f64],
         carries: impl Fn(usize, DVec3) -> bool,
         ease: f64,
-    ) -> Vec<u32> {
-        let mut moved = Vec::new();
+    ) -> bool {
         if self.layers.is_empty() {
-            return moved;
+            return false;
         }
+        let mut moved = false;
         for &p in &self.near.pairs {
             let pair = &mut self.pairs[p as usize];
             if !pair.between {
@@ -436,10 +436,8 @@ impl Itself {
                 let share = normal * (w * inverse / whole);
                 x[v as usize] += share * (now + eased);
                 before[v as usize] += share * eased;
-                if inverse > 0.0 {
-                    moved.push(v);
-                }
             }
+            moved = true;
         }
         moved
     }

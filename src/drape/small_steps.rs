@@ -348,7 +348,8 @@ impl SmallSteps {
                 };
                 let moved =
                     itself.project_layers((x, &mut before), &self.inverse_mass, carries, EASE * small);
-                if !moved.is_empty() {
+                if moved {
+                    // The layers may have pushed one another into the body.
                     for (plane, (x, before)) in planes.iter().zip(x.iter_mut().zip(&mut before)) {
                         let way = plane.normal * (plane.height - plane.normal.dot(*x)).max(0.0);
                         *x += way;
