@@ -49,6 +49,17 @@ fn steps_round(surface: &Surface, [a, b]: [DVec3; 2], way: DVec3) -> Option<u32>
     (1..=MOST_STEPS).find(|&steps| is_free(steps)).map(|steps| steps + 1)
 }
 
+/// Whether a thread between `ends` that runs over `place` may be drawn straight without coming through the body. That the straight
+/// way is free is not enough: pieces that slid along an arm, to where both lie below it, would leave it for good.
+pub fn may_be_drawn(surface: &Surface, ends: [DVec3; 2], place: DVec3) -> bool {
+    let middle = (ends[0] + ends[1]) / 2.0;
+    let ways = (place.distance(middle) / STEP).ceil().max(1.0) as u32;
+    (0..ways).all(|k| {
+        let place = middle.lerp(place, f64::from(k) / f64::from(ways));
+        ends.iter().all(|&end| !surface.meets_segment([end, place]))
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -94,6 +105,14 @@ mod tests {
     fn threads_of_a_seam_run_on_one_side() {
         let places = over(&bar(), &across(&[0.045, 0.04, 0.03, 0.02, -0.005]));
         assert!(places.iter().all(|place| place.is_some_and(|p| p.y > 0.05)), "{places:?}");
+    }
+
+    #[test]
+    fn a_thread_is_drawn_straight_only_on_the_side_of_the_body_on_which_it_runs() {
+        let (bar, over) = (bar(), DVec3::new(0.02, 0.08, 0.0));
+        let [above, in_the_way, below] = [0.06, 0.02, -0.06].map(|y| across(&[y])[0]);
+        assert!(may_be_drawn(&bar, above, over) && !may_be_drawn(&bar, in_the_way, over));
+        assert!(!bar.meets_segment(below) && !may_be_drawn(&bar, below, over));
     }
 
     #[test]

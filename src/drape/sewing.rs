@@ -157,7 +157,7 @@ impl Sewing {
         let left = 1.0 - (f64::from(self.ticks) / f64::from(self.closing)).min(1.0);
         for thread in &mut self.threads {
             let ends = thread.ends.map(|v| cloth.positions[v as usize]);
-            thread.over = thread.over.filter(|_| self.surface.meets_segment(ends));
+            thread.over = thread.over.filter(|&over| !routes::may_be_drawn(&self.surface, ends, over));
         }
         let tie =
             |thread: &Thread| Tie { ends: thread.ends, length: thread.length * left, over: thread.over };
