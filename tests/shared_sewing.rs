@@ -96,6 +96,12 @@ fn a_jumpsuit_has_arms_and_legs_in_its_sleeves_and_legs() {
     check("js_mean_all", 5, 0.08, 0);
 }
 
+/// A fold in an armpit was drawn past shut: it is laid smooth.
+#[test]
+fn a_shirt_does_not_run_through_itself() {
+    check("shirt_mean", 4, 0.07, 0);
+}
+
 /// Its sleeves slide along the arms while they are sewn, until both sides of a seam lie below: the seam still closes above.
 #[test]
 fn a_jumpsuit_of_larger_triangles_has_its_arms_in_its_sleeves() {

@@ -16,6 +16,7 @@ pub mod itself;
 mod laid;
 pub mod limits;
 pub mod membrane;
+mod mend;
 mod near;
 pub mod net;
 pub mod newton;

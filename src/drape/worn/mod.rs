@@ -3,6 +3,8 @@
 //! Chosen over implicit steps by measurement (`toile bench speed`): on a body most of a garment is held by contact, what hangs is
 //! short, and the law of small steps then asks for few of them.
 
+mod tangles;
+
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -10,8 +12,8 @@ use glam::{DVec2, DVec3};
 
 use crate::body::Surface;
 use crate::cloth::{ClothState, Counters, Fabric, Garment, Skips};
+use crate::contact::Faces;
 use crate::contact::faces::Lying;
-use crate::contact::{Faces, Met};
 use crate::drape::bending::Bending;
 use crate::drape::contact::Collider;
 use crate::drape::itself::{Itself, Sides};
@@ -41,14 +43,6 @@ const LIFT_TICKS: u64 = 6;
 const LOOK_TICKS: u64 = 12;
 /// and looked after once in so many.
 const PART_TICKS: u64 = 4;
-/// So often in a row without fewer of them: then they stay, and the report tells them.
-const MOST_PARTINGS: u32 = 40;
-/// And parted by so much each time, metres.
-const PARTING: f64 = 0.0005;
-/// So often what lies deep is sent out by as much in one go.
-const MOST_PULLS: usize = 80;
-/// And so often in a row in vain: then it is left where it is.
-const MOST_IN_VAIN: u32 = 3;
 /// Air takes this share of motion, 1/s.
 const AIR: f64 = 1.5;
 /// So many seconds of velocity resist bending as if they were shape.
@@ -165,6 +159,8 @@ pub struct Worn {
     parting: (usize, u32),
     /// How often in a row what lay deep did not come out.
     in_vain: u32,
+    /// How often it was laid smooth since then.
+    mended: usize,
     /// Faces that came too near the body when last looked at.
     lacking: usize,
     /// Work done.
@@ -274,6 +270,7 @@ impl Worn {
             crossings: 0,
             parting: (usize::MAX, 0),
             in_vain: 0,
+            mended: 0,
             lacking: 0,
             counters: Counters::default(),
             fixed: Arc::new(Fixed {
@@ -401,7 +398,7 @@ impl Worn {
 
     /// What was at rest moves again, as far as it must.
     pub fn wake(&mut self) {
-        (self.quiet, self.pace, self.parting, self.in_vain) = (0, 1.0, (usize::MAX, 0), 0);
+        (self.quiet, self.pace, self.parting, self.in_vain, self.mended) = (0, 1.0, (usize::MAX, 0), 0, 0);
         self.progress = Progress { ticks: 0, at_rest: false, ..self.progress };
     }
 
@@ -451,11 +448,10 @@ impl Worn {
             self.lift(cloth, quiet);
         }
         let every = if self.crossings > 0 { PART_TICKS } else { LOOK_TICKS };
-        let tangled = self.parting.1 >= MOST_PARTINGS;
-        if (quiet || ticks == 1 || ticks.is_multiple_of(every)) && !tangled {
+        if (quiet || ticks == 1 || ticks.is_multiple_of(every)) && !self.is_tangled() {
             self.part(cloth);
         }
-        let sound = self.lacking == 0 && (self.crossings == 0 || tangled);
+        let sound = self.lacking == 0 && (self.crossings == 0 || self.is_tangled());
         if quiet && !sound {
             self.quiet = 0;
         }
@@ -563,101 +559,6 @@ impl Worn {
             *raised = (*raised + FACE_CLEARANCE * fixed.offset).min(most);
             self.lacking += 1;
         }
-    }
-
-    /// Sends layers that run through each other apart.
-    fn part(&mut self, cloth: &mut ClothState) {
-        if !self.settings.self_collision {
-            return;
-        }
-        let fixed = Arc::clone(&self.fixed);
-        self.counters.self_tests += 1;
-        let (ways, places) = self.untangle(cloth);
-        let was = self.crossings;
-        self.crossings = places;
-        self.parting = match (places, self.parting) {
-            (0, _) => (usize::MAX, 0),
-            (places, (fewest, _)) if places < fewest => (places, 0),
-            (_, (fewest, times)) => (fewest, times + 1),
-        };
-        if places == 0 && was == 0 {
-            return;
-        }
-        let mut free = vec![false; fixed.vertices.len()];
-        for (v, x) in self.state.positions.iter_mut().enumerate() {
-            let way = ways[fixed.vertices[v] as usize];
-            if way != DVec3::ZERO {
-                free[v] = true;
-                let around = fixed.sheet.adjacency.vertex_neighbours.of(v as u32);
-                around.iter().for_each(|&w| free[w as usize] = true);
-                if !self.pinned[v] {
-                    *x += way * PARTING;
-                }
-            }
-        }
-        self.itself.free = if places > 0 { free } else { Vec::new() };
-        self.itself.forget();
-    }
-
-    /// Where the cloth runs through itself. The sides of an open seam may: they are to be one.
-    fn met(&self, cloth: &ClothState) -> Met {
-        let garment = &*self.fixed.garment;
-        let mut met = Met::new(garment, cloth);
-        if let Some(sides) = &self.itself.sewn {
-            let becomes = |v: u32| own_number(&self.fixed.own, v).map_or(u32::MAX, |v| sides.will_be[v]);
-            let (edges, triangles) = (&garment.adjacency.edges, &met.mesh.triangles);
-            met.places.retain(|&[e, t]| {
-                let ends = edges[e as usize].map(becomes);
-                !triangles[t as usize].iter().any(|&v| ends.contains(&becomes(v)))
-            });
-        }
-        met
-    }
-
-    /// Takes what lies deep on the wrong side of other cloth out at once: let go half way it would go back. Where that leads
-    /// nowhere all stays as it is. For each vertex where to send it, and in how many places the cloth then still runs through
-    /// itself.
-    fn untangle(&mut self, cloth: &mut ClothState) -> (Vec<DVec3>, usize) {
-        let fixed = Arc::clone(&self.fixed);
-        let garment = &*fixed.garment;
-        let met = self.met(cloth);
-        let mut best = (met.ways(garment, cloth), met.places.len());
-        if self.itself.sewn.is_some() || self.in_vain >= MOST_IN_VAIN {
-            return best;
-        }
-        let (mut ways, deep) = met.ways_out(garment, cloth);
-        if !deep {
-            return best;
-        }
-        self.in_vain += 1;
-        let mut least = self.state.clone();
-        for _ in 0..MOST_PULLS {
-            for (v, x) in self.state.positions.iter_mut().enumerate() {
-                let way = ways[fixed.vertices[v] as usize];
-                if way == DVec3::ZERO || self.pinned[v] {
-                    continue;
-                }
-                *x += way * PARTING;
-                self.state.velocities[v] = DVec3::ZERO;
-                if let Some((normal, height)) = self.small.height(v, *x) {
-                    *x -= normal * height.min(0.0);
-                }
-            }
-            self.write(cloth);
-            let met = self.met(cloth);
-            if met.places.len() < best.1 {
-                best = (met.ways(garment, cloth), met.places.len());
-                least = self.state.clone();
-            }
-            if best.1 == 0 {
-                self.in_vain = 0;
-                break;
-            }
-            ways = met.ways_out(garment, cloth).0;
-        }
-        self.state = least;
-        self.write(cloth);
-        best
     }
 }
 
