@@ -37,6 +37,8 @@ pub struct Look {
 pub const CLOTH_FRONT: Rgb = [138, 186, 134];
 /// Inside of the cloth: pink.
 pub const CLOTH_BACK: Rgb = [231, 163, 176];
+/// Outsides of what is worn over that, layer by layer; from there on again: lake, straw, heather, slate.
+const OVER: [Rgb; 4] = [[128, 166, 200], [218, 190, 128], [182, 152, 192], [150, 158, 166]];
 /// The body: warm plaster.
 pub const BODY: Rgb = [222, 201, 184];
 
@@ -69,6 +71,14 @@ impl Look {
 impl Default for Look {
     fn default() -> Self {
         Self::light()
+    }
+}
+
+/// The outside of cloth that is worn on `layer`; 0 lies next to the skin.
+pub fn cloth_front(layer: u8) -> Rgb {
+    match usize::from(layer) {
+        0 => CLOTH_FRONT,
+        layer => OVER[(layer - 1) % OVER.len()],
     }
 }
 

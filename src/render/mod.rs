@@ -25,7 +25,7 @@ pub use camera::{Camera, PixelRay, Projected, Projection};
 pub use error::RenderError;
 pub use gpu::Gpu;
 pub use legend::Legend;
-pub use look::{BODY, CLOTH_BACK, CLOTH_FRONT, Look, mark_colour};
+pub use look::{BODY, CLOTH_BACK, CLOTH_FRONT, Look, cloth_front, mark_colour};
 pub use palette::Palette;
 pub use picture::{Studio, picture, png, save_png, straightened};
 pub use renderer::Renderer;

@@ -10,6 +10,7 @@ mod asks;
 mod catalogue;
 mod clicks;
 mod command_palette;
+mod covered;
 mod demo;
 mod dialogs;
 mod drawer;

@@ -1,12 +1,12 @@
-//! Cloth drawn so that frozen and deactivated pieces are told from those that move. No egui here: the headless pictures use it
-//! too.
+//! Cloth drawn so that garments worn over each other are told apart, and frozen and deactivated pieces from those that move. No
+//! egui here: the headless pictures use it too.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::cloth::{ClothState, Garment};
 use crate::geometry::ids::PieceId;
 use crate::pattern::activity::Activity;
-use crate::render::{Mesh, Rgb};
+use crate::render::{Mesh, Rgb, cloth_front};
 
 /// What the colours of frozen cloth are mixed with, and how much of it there is then.
 const ICE: (Rgb, f32) = ([96, 150, 226], 0.6);
@@ -16,23 +16,26 @@ const PALE: (Rgb, f32) = ([228, 228, 226], 0.8);
 /// their seams do not hold.
 const TORN: f64 = 1.5;
 
-/// `whole`, the drawn mesh of `garment`, with a mesh for the active and one for the frozen pieces: a triangle has one colour up to
-/// its seams.
+/// `whole`, the drawn mesh of `garment`, with a mesh for the active and one for the frozen pieces of each layer: a triangle has one
+/// colour up to its seams.
 pub fn parted(
     whole: Mesh,
     garment: &Garment,
     state: &ClothState,
     activities: &BTreeMap<PieceId, Activity>,
 ) -> Vec<Mesh> {
-    if activities.is_empty() {
+    if activities.is_empty() && garment.layers.is_empty() {
         return vec![whole];
     }
-    let of = |activity: Activity| {
-        let is_laid = |t: usize| is_laid(garment, state, t);
-        part(&whole, garment, activities, activity, is_laid)
+    let layers: BTreeSet<u8> = garment.pieces.iter().map(|(piece, _)| garment.layer(*piece)).collect();
+    let of = |layer: u8, activity: Activity| {
+        let is_of =
+            |t: usize| garment.layer(garment.triangle_pieces[t]) == layer && is_laid(garment, state, t);
+        part(&Mesh { front: cloth_front(layer), ..whole.clone() }, garment, activities, activity, is_of)
     };
-    let parts = [Activity::Active, Activity::Frozen].map(of);
-    parts.into_iter().filter(|mesh| !mesh.triangles.is_empty()).collect()
+    let looks = [Activity::Active, Activity::Frozen];
+    let parts = looks.into_iter().flat_map(|look| layers.iter().map(move |&layer| (layer, look)));
+    parts.map(|(layer, look)| of(layer, look)).filter(|mesh| !mesh.triangles.is_empty()).collect()
 }
 
 /// The deactivated pieces of `garment`, of which `whole` is the drawn mesh.
@@ -94,6 +97,7 @@ mod tests {
             rest: triangles.iter().map(|t: &[u32; 3]| t.map(|v| flat[v as usize])).collect(),
             triangles: triangles.clone(),
             triangle_pieces: vec![PieceId(1), PieceId(2)],
+            pieces: [1, 2].map(|id| (PieceId(id), id.to_string())).to_vec(),
             ..Garment::default()
         };
         let positions: Vec<DVec3> = flat.iter().map(|p| p.extend(0.0)).collect();
@@ -113,6 +117,21 @@ mod tests {
         assert_eq!(two[0].front, CLOTH_FRONT);
         assert!(two[1].front[2] > two[1].front[0] + 40, "{:?} is bluish", two[1].front);
         assert_eq!(parts(&[(PieceId(1), Activity::Frozen), (PieceId(2), Activity::Frozen)]).len(), 1);
+    }
+
+    #[test]
+    fn what_is_worn_over_other_cloth_has_another_colour() {
+        let (mut garment, state, whole) = square();
+        garment.layers = BTreeMap::from([(PieceId(2), 1)]);
+        let fronts = |activities: &BTreeMap<PieceId, Activity>| {
+            let meshes = parted(whole.clone(), &garment, &state, activities);
+            meshes.iter().map(|mesh| (mesh.triangles.clone(), mesh.front)).collect::<Vec<_>>()
+        };
+        let two = fronts(&BTreeMap::new());
+        assert_eq!(two, [(vec![[0, 1, 2]], CLOTH_FRONT), (vec![[0, 2, 3]], cloth_front(1))]);
+        assert!((1..=15).all(|layer| cloth_front(layer) != cloth_front(layer - 1)));
+        let frozen = fronts(&BTreeMap::from([(PieceId(2), Activity::Frozen)]));
+        assert!(frozen.len() == 2 && frozen[0] == two[0] && frozen[1].1 != two[1].1, "{frozen:?}");
     }
 
     #[test]

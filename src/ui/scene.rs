@@ -13,6 +13,7 @@ use crate::geometry::ids::{MarkId, PieceId};
 use crate::geometry::mesh::vertex_normals;
 use crate::pattern::activity::Activity;
 use crate::render::{BODY, CLOTH_BACK, CLOTH_FRONT, Ground, Label, Mesh, Polyline, Rgb, Scene, mark_colour};
+use crate::ui::covered::covered;
 use crate::ui::mapped::in_colours;
 use crate::ui::parted::{deactivated, parted};
 use crate::ui::stitches::stitched;
@@ -191,8 +192,10 @@ impl Scenery {
         if kept || state.positions.len() != garment.vertex_count {
             return;
         }
-        let mut lines = stitched(seam_lines(garment, state, scale), scale);
-        lines.extend(hem_lines(garment, state, scale));
+        let hidden = covered(garment, state, f64::from(scale));
+        let is_seen = |v: u32| !hidden.get(v as usize).is_some_and(|hidden| *hidden);
+        let mut lines = stitched(seam_lines(garment, state, &is_seen, scale), scale);
+        lines.extend(hem_lines(garment, state, &is_seen, scale));
         let mesh = Mesh {
             colours: dragged.map(|shares| tints(shares, state)).unwrap_or_default(),
             ..cloth_mesh(garment, state)
@@ -369,22 +372,33 @@ fn places_of(garment: &Garment, mark: &ClothMark) -> Vec<FlatPlace> {
     mark.points.iter().filter_map(|&p| piece.inside(garment, p)).collect()
 }
 
-fn seam_lines(garment: &Garment, state: &ClothState, scale: f32) -> Vec<Polyline> {
-    garment
-        .seam_pairs
-        .iter()
-        .map(|(_, pairs)| {
-            let vertices = pairs.iter().map(|pair| garment.corners[pair[0] as usize].vertex);
-            let is_drawn =
-                |v: &u32| state.mapped[*v as usize] && !garment.adjacency.vertex_triangles.of(*v).is_empty();
-            let points = vertices.filter(is_drawn).map(|v| state.positions[v as usize].as_vec3()).collect();
-            thin_line(points, SEAM, 1.3, scale)
-        })
-        .collect()
+fn seam_lines(
+    garment: &Garment,
+    state: &ClothState,
+    is_seen: &dyn Fn(u32) -> bool,
+    scale: f32,
+) -> Vec<Polyline> {
+    let is_drawn = |v: &u32| {
+        state.mapped[*v as usize] && !garment.adjacency.vertex_triangles.of(*v).is_empty() && is_seen(*v)
+    };
+    let mut lines = Vec::new();
+    for (_, pairs) in &garment.seam_pairs {
+        let vertices: Vec<u32> = pairs.iter().map(|pair| garment.corners[pair[0] as usize].vertex).collect();
+        for run in vertices.split(|v| !is_drawn(v)).filter(|run| run.len() > 1) {
+            let points = run.iter().map(|&v| state.positions[v as usize].as_vec3()).collect();
+            lines.push(thin_line(points, SEAM, 1.3, scale));
+        }
+    }
+    lines
 }
 
 /// The border of the cloth that is on the body: hems, and the front of a wrap that is growing.
-fn hem_lines(garment: &Garment, state: &ClothState, scale: f32) -> Vec<Polyline> {
+fn hem_lines(
+    garment: &Garment,
+    state: &ClothState,
+    is_seen: &dyn Fn(u32) -> bool,
+    scale: f32,
+) -> Vec<Polyline> {
     let on_body =
         |t: u32| t != NONE && garment.triangles[t as usize].iter().all(|&v| state.mapped[v as usize]);
     let mut lines = Vec::new();
@@ -398,6 +412,9 @@ fn hem_lines(garment: &Garment, state: &ClothState, scale: f32) -> Vec<Polyline>
             let across = garment.adjacency.across[t][k];
             if lonely || (across != NONE && !on_body(across)) {
                 let ends = [vertices[k], vertices[(k + 1) % 3]];
+                if !ends.into_iter().all(is_seen) {
+                    continue;
+                }
                 let points = ends.iter().map(|&v| state.positions[v as usize].as_vec3()).collect();
                 lines.push(thin_line(points, HEM, 1.5, scale));
             }

@@ -22,6 +22,8 @@ pub struct Palette {
     pub front: [Color32; 2],
     /// A piece seen from its back, and its outline.
     pub back: [Color32; 2],
+    /// The same of fronts of what is worn over other cloth, layer by layer: as light, and in the hues it has on the body.
+    pub over: [[Color32; 2]; 4],
     /// What the cloth of frozen pieces is mixed with.
     pub frozen: Color32,
     /// Threads between sewn edges.
@@ -58,6 +60,12 @@ impl Palette {
                 table_grid_strong: rgb(0xe0e5ea),
                 front: [rgb(0xd9ead6), rgb(0x4b7d50)],
                 back: [rgb(0xf7dde2), rgb(0xa8616f)],
+                over: [
+                    [rgb(0xd6e7f9), rgb(0x4b6f9b)],
+                    [rgb(0xf1e4cb), rgb(0x8a6d2a)],
+                    [rgb(0xf0e0f5), rgb(0x7d5f8c)],
+                    [rgb(0xe1e6eb), rgb(0x5f6b78)],
+                ],
                 frozen: rgb(0xc4dcf7),
                 thread: rgb(0x8a939d),
                 piece_text: rgb(0x46564a),
@@ -78,6 +86,12 @@ impl Palette {
                 table_grid_strong: rgb(0x31363d),
                 front: [rgb(0x34493a), rgb(0x8fbf90)],
                 back: [rgb(0x553841), rgb(0xdfa4b1)],
+                over: [
+                    [rgb(0x2c475c), rgb(0x8fb4dc)],
+                    [rgb(0x51431d), rgb(0xd6b875)],
+                    [rgb(0x503e56), rgb(0xc3a3d0)],
+                    [rgb(0x40454a), rgb(0xa9b4bf)],
+                ],
                 frozen: rgb(0x2c4a72),
                 thread: rgb(0x8f99a4),
                 piece_text: rgb(0xcbd9cd),
@@ -95,9 +109,13 @@ impl Palette {
 }
 
 impl Palette {
-    /// The cloth of a piece and its outline.
-    pub fn piece(&self, front: bool, activity: Activity) -> [Color32; 2] {
-        let [cloth, line] = if front { self.front } else { self.back };
+    /// The cloth of a piece and its outline. What is worn over other cloth is told apart as it is on the body.
+    pub fn piece(&self, front: bool, layer: u8, activity: Activity) -> [Color32; 2] {
+        let [cloth, line] = match (front, usize::from(layer)) {
+            (false, _) => self.back,
+            (true, 0) => self.front,
+            (true, layer) => self.over[(layer - 1) % self.over.len()],
+        };
         match activity {
             Activity::Active => [cloth, line],
             Activity::Frozen => [cloth.lerp_to_gamma(self.frozen, 0.6), line],
@@ -226,10 +244,14 @@ mod tests {
                 ("chosen", v.selection.stroke.color, v.selection.bg_fill),
                 ("front of pieces", p.piece_text, p.front[0]),
                 ("back of pieces", p.piece_text, p.back[0]),
-                ("frozen pieces", p.piece_text, p.piece(true, Activity::Frozen)[0]),
-                ("deactivated pieces", p.piece_text, p.piece(true, Activity::Deactivated)[0]),
-                ("their backs", p.piece_text, p.piece(false, Activity::Deactivated)[0]),
-                ("backs of frozen ones", p.piece_text, p.piece(false, Activity::Frozen)[0]),
+                ("pieces worn over others", p.piece_text, p.over[0][0]),
+                ("over those", p.piece_text, p.over[1][0]),
+                ("and those", p.piece_text, p.over[2][0]),
+                ("outermost pieces", p.piece_text, p.over[3][0]),
+                ("frozen pieces", p.piece_text, p.piece(true, 0, Activity::Frozen)[0]),
+                ("deactivated pieces", p.piece_text, p.piece(true, 0, Activity::Deactivated)[0]),
+                ("their backs", p.piece_text, p.piece(false, 0, Activity::Deactivated)[0]),
+                ("backs of frozen ones", p.piece_text, p.piece(false, 0, Activity::Frozen)[0]),
             ] {
                 let ratio = contrast(ink, paper);
                 assert!(ratio >= 4.5, "{theme:?} {what}: {ratio}");

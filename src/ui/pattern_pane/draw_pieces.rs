@@ -57,7 +57,7 @@ impl Drawing<'_> {
     ) {
         let place = |p: DVec2| self.place(piece.pose.plane_from_piece(p));
         let front = front_is_seen(piece, shape);
-        let [fill, line] = self.palette.piece(front, piece.activity);
+        let [fill, line] = self.palette.piece(front, piece.layer, piece.activity);
         let mut mesh = egui::Mesh::default();
         mesh.reserve_vertices(shape.fill.len() * 4);
         mesh.reserve_triangles(shape.fill.len() * 2);
@@ -133,7 +133,7 @@ impl Drawing<'_> {
                 continue;
             }
             let front = front_is_seen(piece, shape);
-            let [fill, _] = self.palette.piece(front, piece.activity);
+            let [fill, _] = self.palette.piece(front, piece.layer, piece.activity);
             let name = words_on(piece, front);
             let corners = shape.corners().map(|p| self.place(piece.pose.plane_from_piece(p)));
             let room = Rect::from_points(&corners).width() * 1.15;
