@@ -5,9 +5,6 @@
 //! like a film spanned in what is round about, with the body before it. A film has no folds. What is too much cloth in it swells
 //! once it is let go, and is kept apart from itself on the whole way.
 
-use std::cmp::Reverse;
-use std::collections::BinaryHeap;
-
 use glam::DVec3;
 
 use crate::body::Surface;
@@ -19,17 +16,15 @@ const LEAST_SHARE: f64 = 0.1;
 /// A part of the cloth that becomes a film.
 #[derive(Clone, Debug)]
 pub struct Film {
-    /// Ascending.
+    /// In the order in which they are moved.
     pub vertices: Vec<u32>,
     /// For each its neighbours with their shares.
     rows: Vec<Vec<(u32, f64)>>,
 }
 
 impl Film {
-    /// What is within `reach` metres of `seeds` along the flat cloth of `sheet`, but for what is `fixed`.
-    pub fn new(sheet: &Sheet, seeds: &[u32], reach: f64, fixed: &[bool]) -> Self {
-        let vertices: Vec<u32> =
-            within(sheet, seeds, reach).into_iter().filter(|&v| !fixed[v as usize]).collect();
+    /// Of these vertices of `sheet`.
+    pub fn new(sheet: &Sheet, vertices: Vec<u32>) -> Self {
         let rows = vertices.iter().map(|&v| row(sheet, v)).collect();
         Self { vertices, rows }
     }
@@ -48,34 +43,6 @@ impl Film {
             }
         }
     }
-}
-
-/// Vertices no farther than `reach` metres from `seeds` along edges of the flat cloth, ascending.
-fn within(sheet: &Sheet, seeds: &[u32], reach: f64) -> Vec<u32> {
-    let mut far = vec![f64::INFINITY; sheet.len()];
-    // Distances are not negative: their bits are ordered as they are.
-    let mut open: BinaryHeap<Reverse<(u64, u32)>> = BinaryHeap::new();
-    for &v in seeds {
-        far[v as usize] = 0.0;
-        open.push(Reverse((0, v)));
-    }
-    while let Some(Reverse((bits, v))) = open.pop() {
-        if f64::from_bits(bits) > far[v as usize] {
-            continue;
-        }
-        for &t in sheet.adjacency.vertex_triangles.of(v) {
-            let (vs, corners) = (&sheet.triangles[t as usize], &sheet.rest[t as usize]);
-            let Some(k) = vs.iter().position(|&w| w == v) else { continue };
-            for other in [(k + 1) % 3, (k + 2) % 3] {
-                let (w, next) = (vs[other], f64::from_bits(bits) + corners[k].distance(corners[other]));
-                if next < far[w as usize] && next <= reach {
-                    far[w as usize] = next;
-                    open.push(Reverse((next.to_bits(), w)));
-                }
-            }
-        }
-    }
-    (0..sheet.len() as u32).filter(|&v| far[v as usize].is_finite()).collect()
 }
 
 /// The neighbours of `v` with the share each has in where the film puts it: cotangents of the flat cloth, never negative.
@@ -131,29 +98,19 @@ mod tests {
     }
 
     #[test]
-    fn only_what_is_near_along_the_cloth_and_not_fixed_is_in_it() {
-        let sheet = strip(20);
-        let mut fixed = vec![false; sheet.len()];
-        fixed[31] = true;
-        let film = Film::new(&sheet, &[30], 0.021, &fixed);
-        assert!(film.vertices.iter().all(|&v| (24..39).contains(&v) && v != 31), "{:?}", film.vertices);
-        assert!([24, 30, 36].iter().all(|v| film.vertices.binary_search(v).is_ok()), "{:?}", film.vertices);
-    }
-
-    #[test]
     fn a_fold_becomes_flat_and_flat_cloth_stays() {
         let sheet = strip(20);
         let flat = lying(&sheet);
         let mut x = flat.clone();
         // A ridge that leans over and lies on what is beside it.
         (27..36).for_each(|v| x[v] += DVec3::new(0.02, 0.0, 0.015));
-        let film = Film::new(&sheet, &[28, 31, 34], 0.05, &vec![false; sheet.len()]);
+        let film = Film::new(&sheet, (15..48).collect());
         film.smooth(&mut x, 400, &column(9.0), 0.002);
         assert!(x.iter().all(|p| p.z.abs() < 1e-4), "a fold is left");
         assert!(x.windows(4).all(|w| w[3].x > w[0].x), "it runs back");
         // In the midst of it: at a border a film draws itself in.
         let mut x = flat.clone();
-        Film::new(&sheet, &[31], 0.005, &vec![false; sheet.len()]).smooth(&mut x, 1, &column(9.0), 0.002);
+        Film::new(&sheet, vec![31]).smooth(&mut x, 1, &column(9.0), 0.002);
         assert!(x.iter().zip(&flat).all(|(now, then)| now.distance(*then) < 1e-12));
     }
 
@@ -164,7 +121,7 @@ mod tests {
         let mut x = lying(&sheet);
         x.iter_mut().for_each(|p| *p += DVec3::new(-0.1, 0.0, 0.06));
         let body = column(0.0);
-        let film = Film::new(&sheet, &[31], 0.06, &vec![false; sheet.len()]);
+        let film = Film::new(&sheet, (15..48).collect());
         (0..6).for_each(|v| x[v].z = -0.05);
         (57..63).for_each(|v| x[v].z = -0.05);
         film.smooth(&mut x, 50, &body, 0.002);

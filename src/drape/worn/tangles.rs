@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use crate::cloth::ClothState;
+use crate::cloth::{ClothState, EdgeMetric};
 use crate::contact::Met;
 use crate::drape::mend::Film;
 use crate::drape::worn::{Worn, own_number};
@@ -139,12 +139,17 @@ impl Worn {
             let edge = fixed.garment.adjacency.edges[e as usize];
             edge.into_iter().chain(met.mesh.triangles[t as usize])
         };
-        let own = |v: u32| own_number(&fixed.own, v).map(|v| v as u32);
-        let seeds: Vec<u32> = met.places.iter().flat_map(of_place).filter_map(own).collect();
+        let sources: Vec<(u32, f64)> = met.places.iter().flat_map(of_place).map(|v| (v, 0.0)).collect();
+        let is_laid = |v: u32| own_number(&fixed.own, v).is_some();
+        let far = EdgeMetric::new(&fixed.garment).from(&sources, is_laid).distance;
         let was = self.state.clone();
         while let Some(&reach) = MENDS.get(self.mended) {
             self.mended += 1;
-            let film = Film::new(&fixed.sheet, &seeds, reach, &self.pinned);
+            let near = (0..self.pinned.len() as u32).filter(|v| {
+                let place = fixed.vertices[*v as usize];
+                far[place as usize] <= reach && !self.pinned[*v as usize]
+            });
+            let film = Film::new(&fixed.sheet, near.collect());
             for _ in 0..ROUNDS {
                 film.smooth(&mut self.state.positions, SWEEPS, &fixed.collider.surface, fixed.offset);
                 self.write(cloth);
