@@ -1,7 +1,6 @@
 //! A sheet of cloth that swings on two pins, and one that falls on a ball: the scenes other programs were measured in.
 
 use std::sync::Arc;
-use std::time::Instant;
 
 use glam::{DVec2, DVec3};
 
@@ -10,7 +9,7 @@ use crate::cli::bench::row::{Check, Figure, Row, Unit};
 use crate::cli::bench::{median, one_hash};
 use crate::cli::failure::Failure;
 use crate::cli::interrupt;
-use crate::cli::simulate::times::cpu_seconds;
+use crate::cli::simulate::times::Stopwatch;
 use crate::cloth::Fabric;
 use crate::drape::{Collider, Drape, DrapeSettings, Elastic, Integrator, Method, Scene, Sheet, State};
 use crate::geometry::crossings::self_crossings;
@@ -186,20 +185,16 @@ fn row(
     let when = if happening == Happening::Swings { SWUNG } else { FALLEN };
     for _ in 0..runs.max(1) {
         let mut run = Run::new(happening, size, None)?;
-        let (mut seconds, mut cpu) = (0.0, 0.0);
+        let mut watch = Stopwatch::default();
         for frame in 1..=FRAMES {
-            let (start, before) = (Instant::now(), cpu_seconds());
-            run.frame()?;
-            let taken = start.elapsed().as_secs_f64();
-            seconds += taken;
-            cpu += before.and_then(|before| Some(cpu_seconds()? - before)).unwrap_or(taken);
+            watch.time(|| run.frame())?;
             run.look();
             if frame == when {
                 early = run.fall();
             }
         }
-        wall.push(seconds);
-        processor.push(cpu / (FRAMES as f64 / FPS));
+        wall.push(watch.wall());
+        processor.push(watch.processor() / (FRAMES as f64 / FPS));
         hashes.push(run.hash());
         last = Some(run);
     }

@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 use std::sync::Arc;
-use std::time::Instant;
 
 use glam::{DQuat, DVec2, DVec3};
 
@@ -13,7 +12,7 @@ use crate::cli::bench::scenes::edge_length;
 use crate::cli::bench::{median, one_hash};
 use crate::cli::failure::Failure;
 use crate::cli::interrupt;
-use crate::cli::simulate::times::cpu_seconds;
+use crate::cli::simulate::times::Stopwatch;
 use crate::cloth::Fabric;
 use crate::fit::{self, BodyIndex};
 use crate::geometry::mesh::TriMesh;
@@ -101,29 +100,25 @@ fn row(
     let (mut wall, mut sewn, mut rested, mut hashes) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     let mut last = None;
     for _ in 0..runs.max(1) {
-        let (start, before) = (Instant::now(), cpu_seconds());
-        let taken = || {
-            let cpu = before.and_then(|before| Some(cpu_seconds()? - before));
-            cpu.unwrap_or_else(|| start.elapsed().as_secs_f64())
-        };
+        let mut watch = Stopwatch::default();
         let mut simulation = Simulation::default();
         let kind = RequestKind::Sew {
             source: Arc::clone(&source),
             body: Arc::clone(body),
             fabrics: Arc::clone(&fabrics),
         };
-        simulation.apply(Request { seq: 1, checkpoint: false, kind });
+        watch.time(|| simulation.apply(Request { seq: 1, checkpoint: false, kind }));
         let mut until_sewn = None;
         while !simulation.is_at_rest() && simulation.ticks() < MOST_TICKS {
             interrupt::check()?;
-            simulation.tick();
+            watch.time(|| simulation.tick());
             if simulation.phase() != Some(Phase::Growing) && until_sewn.is_none() {
-                until_sewn = Some(taken());
+                until_sewn = Some(watch.processor());
             }
         }
         sewn.push(until_sewn.unwrap_or(f64::NAN));
-        rested.push(taken());
-        wall.push(start.elapsed().as_secs_f64());
+        rested.push(watch.processor());
+        wall.push(watch.wall());
         hashes.push(simulation.hash());
         last = Some(simulation);
     }

@@ -1,28 +1,97 @@
-//! Processor time of the program.
+//! Seconds of work by the wall's clock and by the processor's.
 
-use std::fs;
+use std::sync::OnceLock;
+use std::time::{Duration, Instant};
 
-/// What Linux counts processor time in: 1/100 s on every machine (proc(5), sysconf(_SC_CLK_TCK)).
-const TICKS_PER_SECOND: f64 = 100.0;
+/// A time of the processor counts when it is so many steps of its clock long; a shorter one is mostly rounding.
+const STEPS: f64 = 20.0;
+/// A clock that stands still for longer than this while the processor is busy is of no use.
+const STANDS: Duration = Duration::from_millis(200);
 
-/// Seconds that all threads of the program have run so far; finer where the system tells more. None where it tells nothing.
+/// Seconds that all threads of the program have run so far; None where the system does not tell.
+#[cfg(unix)]
 pub fn cpu_seconds() -> Option<f64> {
-    fine().or_else(coarse)
+    let time = rustix::time::clock_gettime(rustix::time::ClockId::ProcessCPUTime);
+    Some(time.tv_sec as f64 + time.tv_nsec as f64 * 1e-9)
 }
 
-/// Nanoseconds by the scheduler, of each thread.
-fn fine() -> Option<f64> {
-    let mut nanoseconds = 0.0;
-    for task in fs::read_dir("/proc/self/task").ok()? {
-        let text = fs::read_to_string(task.ok()?.path().join("schedstat")).ok()?;
-        nanoseconds += text.split_whitespace().next()?.parse::<f64>().ok()?;
+/// Seconds that all threads of the program have run so far; None where the system does not tell.
+#[cfg(not(unix))]
+pub fn cpu_seconds() -> Option<f64> {
+    None
+}
+
+/// Adds up how long pieces of work take.
+#[derive(Default)]
+pub struct Stopwatch {
+    wall: f64,
+    cpu: Option<f64>,
+}
+
+impl Stopwatch {
+    pub fn time<T>(&mut self, work: impl FnOnce() -> T) -> T {
+        let (start, before) = (Instant::now(), cpu_seconds());
+        let result = work();
+        self.wall += start.elapsed().as_secs_f64();
+        if let (Some(before), Some(now)) = (before, cpu_seconds()) {
+            *self.cpu.get_or_insert(0.0) += now - before;
+        }
+        result
     }
-    Some(nanoseconds * 1e-9)
+
+    pub fn wall(&self) -> f64 {
+        self.wall
+    }
+
+    /// Seconds of processor, of all threads; those by the wall's clock where the processor's is missing or too coarse for what
+    /// was timed. Some systems count in hundredths of a second, by which short work takes none at all.
+    pub fn processor(&self) -> f64 {
+        known(self.cpu, clock_step()).unwrap_or(self.wall)
+    }
 }
 
-fn coarse() -> Option<f64> {
-    let text = fs::read_to_string("/proc/self/stat").ok()?;
-    let fields: Vec<&str> = text.rsplit(')').next()?.split_whitespace().collect();
-    let ticks = fields.get(11)?.parse::<f64>().ok()? + fields.get(12)?.parse::<f64>().ok()?;
-    Some(ticks / TICKS_PER_SECOND)
+fn known(cpu: Option<f64>, step: Option<f64>) -> Option<f64> {
+    cpu.zip(step).and_then(|(cpu, step)| (cpu > STEPS * step).then_some(cpu))
+}
+
+/// What the processor's clock counts in, in seconds, found by watching it: what systems say of it is not always so.
+fn clock_step() -> Option<f64> {
+    static STEP: OnceLock<Option<f64>> = OnceLock::new();
+    *STEP.get_or_init(|| {
+        let first = next_change(cpu_seconds()?)?;
+        next_change(first).map(|second| second - first)
+    })
+}
+
+fn next_change(of: f64) -> Option<f64> {
+    let start = Instant::now();
+    while start.elapsed() < STANDS {
+        let now = cpu_seconds()?;
+        if now > of {
+            return Some(now);
+        }
+    }
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_time_counts_when_its_clock_is_fine_enough_for_it() {
+        assert_eq!(known(Some(0.3), Some(0.01)), Some(0.3));
+        assert_eq!(known(Some(0.01), Some(0.01)), None);
+        assert_eq!(known(Some(0.0), Some(1e-7)), None);
+        assert_eq!(known(None, Some(0.01)), None);
+        assert_eq!(known(Some(0.3), None), None);
+    }
+
+    #[test]
+    fn work_takes_time_by_either_clock() {
+        let mut watch = Stopwatch::default();
+        let sum = watch.time(|| (0..200_000_u64).fold(0_u64, |a, b| std::hint::black_box(a ^ b)));
+        assert_eq!(sum, (0..200_000_u64).fold(0, |a, b| a ^ b));
+        assert!(watch.wall() > 0.0 && watch.processor() > 0.0);
+    }
 }
