@@ -306,7 +306,7 @@ fn placed() -> Project {
     let mut project = project();
     let pattern = Arc::make_mut(&mut project.document.pattern);
     for piece in pattern.pieces.values_mut() {
-        let placement = SpacePose { translation: DVec3::new(0.0, 0.0, 0.4), rotation: DQuat::IDENTITY };
+        let placement = SpacePose::flat(DVec3::new(0.0, 0.0, 0.4), DQuat::IDENTITY);
         let piece = Arc::make_mut(piece);
         piece.placement = Some(placement);
     }

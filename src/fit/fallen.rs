@@ -30,7 +30,7 @@ pub fn fallen(pattern: &Pattern, garment: &Garment, state: &ClothState) -> Vec<F
             if !state.mapped.get(v).is_some_and(|mapped| *mapped) {
                 return None;
             }
-            let height = (pose.rotation * corner.uv.extend(0.0) + pose.translation).y;
+            let height = pose.at(corner.uv).y;
             if height > placed.0 {
                 placed = (height, garment.pieces.iter().position(|(id, _)| *id == corner.piece));
             }

@@ -183,7 +183,7 @@ fn what_lies_much_lower_than_it_was_placed_has_fallen_down() {
             let rotation = glam::DQuat::IDENTITY;
             let translation = DVec3::new(0.0, 0.5, 0.2);
             std::sync::Arc::make_mut(piece).placement =
-                Some(crate::pattern::SpacePose { rotation, translation });
+                Some(crate::pattern::SpacePose::flat(translation, rotation));
         }
         fallen(&pattern, &garment, &state)
     };

@@ -34,6 +34,7 @@ pub(super) enum Part {
     Twin,
     Layer,
     Placement,
+    Roll,
     PlaceOnBody,
     Seams,
     Ratios,
@@ -56,6 +57,7 @@ impl Part {
             Self::Twin => "that it mirrors another piece",
             Self::Layer => "the layer it is worn on",
             Self::Placement => "its place round the body",
+            Self::Roll => "its roll round a limb",
             Self::PlaceOnBody => "the part of the body it belongs to",
             Self::Seams => "seams",
             Self::Ratios => "that lengths of seams are kept",
@@ -133,6 +135,7 @@ fn parts_of_piece(piece: &Piece) -> Vec<Part> {
         (Part::Twin, twin.is_some()),
         (Part::Layer, *layer > 0),
         (Part::Placement, placement.is_some()),
+        (Part::Roll, placement.is_some_and(|pose| pose.roll.is_some())),
         (Part::PlaceOnBody, label.is_some()),
     ];
     has.into_iter().filter(|(_, has)| *has).map(|(part, _)| part).collect()

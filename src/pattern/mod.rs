@@ -8,6 +8,7 @@ pub mod layers;
 pub mod piece;
 pub mod sampling;
 pub mod seam;
+pub mod space;
 pub mod triangulate;
 
 use std::collections::BTreeMap;
@@ -18,8 +19,9 @@ use serde::{Deserialize, Serialize};
 use crate::geometry::ids::{PieceId, SeamId};
 pub use crate::geometry::problem::{self, Problem, ProblemKind};
 pub use cut::CutPattern;
-pub use piece::{Edge, EdgeShape, InternalLine, Notch, Piece, PlanePose, SpacePose};
+pub use piece::{Edge, EdgeShape, InternalLine, Notch, Piece, PlanePose};
 pub use seam::{EdgeRef, EdgeSeam, Seam, Stretch};
+pub use space::{Roll, SpacePose};
 pub use triangulate::PieceMesh;
 
 /// Pieces and the seams between them. Ids come from `next_id` and are never used twice.

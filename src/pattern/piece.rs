@@ -1,13 +1,13 @@
 //! A flat piece of cloth: a closed outline, where it lies in the pattern plane, and where it was placed in space.
 
-use glam::{DQuat, DVec2, DVec3};
+use glam::DVec2;
 use kurbo::{ParamCurveArclen, PathSeg};
 use serde::{Deserialize, Serialize};
 
 use crate::geometry::ids::PieceId;
 use crate::geometry::polygon::signed_area;
 use crate::pattern::activity::Activity;
-use crate::pattern::curve;
+use crate::pattern::{SpacePose, curve};
 
 /// Arc lengths are computed to this accuracy (metres).
 pub const ARC_LENGTH_ACCURACY: f64 = 1e-7;
@@ -65,15 +65,6 @@ impl PlanePose {
         let p = DVec2::from_angle(-self.rotation).rotate(p - self.offset);
         if self.flipped { DVec2::new(-p.x, p.y) } else { p }
     }
-}
-
-/// A rigid placement in space: `world = rotation * (x, y, 0) + translation`.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct SpacePose {
-    /// Metres.
-    pub translation: DVec3,
-    /// Unit quaternion.
-    pub rotation: DQuat,
 }
 
 /// A line drawn on a piece that is not cut: to sew along, to fold, to place a pocket.
@@ -146,7 +137,7 @@ pub struct Piece {
     pub activity: Activity,
     /// Where it lies in the pattern pane.
     pub pose: PlanePose,
-    /// Where the source file put it round the body, if it did.
+    /// Where it stands round the body before it is sewn, if it was placed by a file or by hand.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub placement: Option<SpacePose>,
     /// A part of the body named by the source file ("arm", "leg", "body"), if any.

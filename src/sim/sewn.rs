@@ -78,8 +78,7 @@ impl World {
         let (garment, mut problems) = cloth::build_again(&source.pattern, source.edge_length, &mut meshes);
         let garment = Arc::new(garment);
         let place = |corner: &cloth::Corner| -> Option<DVec3> {
-            let pose = source.pattern.pieces.get(&corner.piece)?.placement?;
-            Some(pose.rotation * corner.uv.extend(0.0) + pose.translation)
+            Some(source.pattern.pieces.get(&corner.piece)?.placement?.at(corner.uv))
         };
         let places: Vec<Option<DVec3>> = garment.corners.iter().map(place).collect();
         for (id, name) in &garment.pieces {

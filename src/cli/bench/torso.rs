@@ -72,7 +72,7 @@ fn pattern() -> Pattern {
     let [front, back] = [("front", 0.0), ("back", TAU / 2.0)].map(|(name, turn)| {
         let rotation = DQuat::from_rotation_y(turn);
         let translation = rotation * DVec3::new(-PANEL.x / 2.0, LOW, APART / 2.0);
-        let placement = Some(SpacePose { translation, rotation });
+        let placement = Some(SpacePose::flat(translation, rotation));
         pattern.add_piece(Piece { placement, ..Piece::polygon(name, &corners) })
     });
     for (edge, other) in [(1, 3), (3, 1)] {

@@ -228,7 +228,7 @@ impl Convention {
                 DQuat::from_euler(EulerRot::ZYX, c, b, a)
             }
         };
-        Ok(Some(SpacePose { translation, rotation }))
+        Ok(Some(SpacePose::flat(translation, rotation)))
     }
 }
 

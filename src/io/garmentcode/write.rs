@@ -222,7 +222,7 @@ fn panel(piece: &Piece, is_relative: bool) -> Value {
     if let Some(label) = &piece.label {
         panel["label"] = json!(label);
     }
-    if let Some(SpacePose { translation, rotation }) = piece.placement {
+    if let Some(SpacePose { translation, rotation, .. }) = piece.placement {
         let (c, b, a) = rotation.normalize().to_euler(EulerRot::ZYX);
         panel["translation"] = json!((translation * UNITS_IN_METRE).to_array());
         panel["rotation"] = json!([a, b, c].map(f64::to_degrees));

@@ -7,7 +7,7 @@ use glam::{DQuat, DVec2, DVec3};
 
 use crate::geometry::ids::PieceId;
 use crate::pattern::curve::{self, mirror};
-use crate::pattern::{EdgeRef, InternalLine, Notch, Pattern, Piece, Seam, SpacePose, Stretch};
+use crate::pattern::{EdgeRef, InternalLine, Notch, Pattern, Piece, Roll, Seam, SpacePose, Stretch};
 
 /// The points that can be moved, and how all others follow from them.
 pub(super) struct Dofs {
@@ -155,7 +155,13 @@ pub(super) fn image_line(line: &InternalLine) -> InternalLine {
 /// A placement in space mirrored from left to right, for a piece that is mirrored in its own plane.
 pub(super) fn image_placement(pose: SpacePose) -> SpacePose {
     let (t, q) = (pose.translation, pose.rotation);
-    SpacePose { translation: DVec3::new(-t.x, t.y, t.z), rotation: DQuat::from_xyzw(q.x, -q.y, -q.z, q.w) }
+    let roll = pose.roll.map(|roll| Roll {
+        centre: curve::mirror(roll.centre),
+        along: curve::mirror(roll.along),
+        radius: roll.radius,
+    });
+    let rotation = DQuat::from_xyzw(q.x, -q.y, -q.z, q.w);
+    SpacePose { translation: DVec3::new(-t.x, t.y, t.z), rotation, roll }
 }
 
 /// Makes the right half of a symmetric outline the image of its left half, to the last bit.

@@ -19,7 +19,9 @@ use serde::{Deserialize, Serialize};
 use crate::geometry::ids::{PieceId, SeamId};
 use crate::pattern::activity::Activity;
 use crate::pattern::layers::MOST_LAYER;
-use crate::pattern::{Edge, EdgeRef, EdgeShape, InternalLine, Pattern, Piece, PlanePose, Seam, curve};
+use crate::pattern::{
+    Edge, EdgeRef, EdgeShape, InternalLine, Pattern, Piece, PlanePose, Seam, SpacePose, curve,
+};
 pub use cutting::nearest_on_edge;
 pub use pieces::WIDEST_ALLOWANCE;
 pub use sewing::{RATIOS, sound};
@@ -62,6 +64,8 @@ pub enum PatternEdit {
     Unlink { piece: PieceId },
     /// Lay pieces elsewhere on the table.
     Place { poses: Vec<(PieceId, PlanePose)> },
+    /// Stand pieces round the body, or (none) take them from there. They are sewn from where they stand.
+    PlaceInSpace { placements: Vec<(PieceId, Option<SpacePose>)> },
     /// Redraw the outline of a piece. A sewn piece keeps its number of edges.
     SetOutline { piece: PieceId, outline: Vec<Edge> },
     /// Scale pieces in their own planes by `factor` (x, y; over 0) about a point of the table.
@@ -243,6 +247,7 @@ fn carry_out(pattern: &mut Pattern, edit: &PatternEdit) -> Result<Change, String
         PatternEdit::Fold { piece } => symmetry::fold(pattern, *piece),
         PatternEdit::Unlink { piece } => symmetry::unlink(pattern, *piece),
         PatternEdit::Place { poses } => pieces::place(pattern, poses),
+        PatternEdit::PlaceInSpace { placements } => pieces::place_in_space(pattern, placements),
         PatternEdit::SetOutline { piece, outline } => pieces::set_outline(pattern, *piece, outline),
         PatternEdit::Scale { pieces, about, factor } => pieces::scale(pattern, pieces, *about, *factor),
         PatternEdit::Rename { piece, name } => pieces::rename(pattern, *piece, name),

@@ -8,7 +8,9 @@ use glam::{DAffine2, DMat2, DVec2};
 use crate::geometry::ids::PieceId;
 use crate::pattern::edit::lines::{self, Part};
 use crate::pattern::edit::{Carried, Change, find, is_symmetric, points};
-use crate::pattern::{Edge, EdgeRef, EdgeShape, InternalLine, Pattern, Piece, PlanePose, Seam, curve};
+use crate::pattern::{
+    Edge, EdgeRef, EdgeShape, InternalLine, Pattern, Piece, PlanePose, Seam, SpacePose, curve,
+};
 
 /// Metres of seam allowance.
 pub const WIDEST_ALLOWANCE: f64 = 0.2;
@@ -67,6 +69,19 @@ pub(super) fn place(pattern: &mut Pattern, poses: &[(PieceId, PlanePose)]) -> Re
     let label = named(pattern, "move", &ids)?;
     for &(id, pose) in poses {
         change(pattern, id, |p| p.pose = pose);
+    }
+    Ok(Change::new(label))
+}
+
+pub(super) fn place_in_space(
+    pattern: &mut Pattern,
+    placements: &[(PieceId, Option<SpacePose>)],
+) -> Result<Change, String> {
+    let ids: Vec<PieceId> = placements.iter().map(|(id, _)| *id).collect();
+    let what = if placements.iter().any(|(_, pose)| pose.is_some()) { "place" } else { "take from the body" };
+    let label = named(pattern, what, &ids)?;
+    for &(id, placement) in placements {
+        change(pattern, id, |p| p.placement = placement);
     }
     Ok(Change::new(label))
 }

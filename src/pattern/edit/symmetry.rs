@@ -8,7 +8,9 @@ use crate::pattern::edit::lines::{self, LineMap, Part};
 use crate::pattern::edit::mirror::{self, image_line, image_placement, take_image};
 use crate::pattern::edit::pieces::{change, fresh_name, map_piece};
 use crate::pattern::edit::{Carried, Change, find, sewing};
-use crate::pattern::{Edge, EdgeRef, EdgeShape, Notch, Pattern, Piece, PlanePose, Seam, SpacePose, curve};
+use crate::pattern::{
+    Edge, EdgeRef, EdgeShape, Notch, Pattern, Piece, PlanePose, Roll, Seam, SpacePose, curve,
+};
 
 /// Points this near the middle lie on it, metres.
 const ON_AXIS: f64 = 1e-6;
@@ -218,6 +220,11 @@ fn turn(pattern: &mut Pattern, id: PieceId, origin: DVec2, along: DVec2) -> DAff
             SpacePose {
                 translation: space.rotation * back.translation.extend(0.0) + space.translation,
                 rotation: space.rotation * glam::DQuat::from_rotation_z(turned),
+                roll: space.roll.map(|roll| Roll {
+                    centre: map.transform_point2(roll.centre),
+                    along: map.transform_vector2(roll.along),
+                    ..roll
+                }),
             }
         });
     });

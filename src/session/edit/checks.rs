@@ -5,7 +5,7 @@ use glam::{DVec2, DVec3};
 use crate::contact::Bone;
 use crate::geometry::ids::{MarkId, PieceId};
 use crate::pattern::edit::{WIDEST_ALLOWANCE, is_symmetric};
-use crate::pattern::{Edge, EdgeShape, InternalLine, Pattern, Piece, PlanePose};
+use crate::pattern::{Edge, EdgeShape, InternalLine, Pattern, Piece, PlanePose, SpacePose};
 use crate::session::command::Rejection;
 use crate::session::document::{BodyChoice, Settings};
 use crate::sim::ClothPlace;
@@ -105,10 +105,16 @@ pub fn piece(piece: &Piece) -> Result<(), Rejection> {
     piece.holes.iter().try_for_each(|hole| outline(hole))?;
     inside(piece)?;
     match &piece.placement {
-        Some(p) if !(p.translation.is_finite() && p.rotation.is_finite()) => {
-            Err(Rejection::new("the placement of the piece is not a finite number"))
-        }
-        _ => Ok(()),
+        Some(p) => space(p),
+        None => Ok(()),
+    }
+}
+
+/// A placement in space.
+pub fn space(pose: &SpacePose) -> Result<(), Rejection> {
+    match pose.is_sound() && pose.translation.abs().max_element() <= FARTHEST {
+        true => Ok(()),
+        false => Err(Rejection::new("the placement of the piece has a number that means no place")),
     }
 }
 

@@ -64,6 +64,9 @@ fn check(edit: &PatternEdit) -> Result<(), Rejection> {
         PatternEdit::SetOutline { outline, .. } => checks::outline(outline),
         PatternEdit::Rename { name, .. } => checks::name(name),
         PatternEdit::Place { poses } => poses.iter().try_for_each(|(_, pose)| checks::pose(pose)),
+        PatternEdit::PlaceInSpace { placements } => {
+            placements.iter().filter_map(|(_, pose)| pose.as_ref()).try_for_each(checks::space)
+        }
         PatternEdit::MovePoints { points } => points.iter().try_for_each(|(_, to)| checks::place(*to)),
         PatternEdit::Duplicate { offset, .. } | PatternEdit::AddTwin { offset, .. } => checks::place(*offset),
         PatternEdit::Scale { about, factor, .. } => {

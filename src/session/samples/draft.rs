@@ -76,7 +76,7 @@ pub fn edge_length(piece: &Piece, label: &str) -> f64 {
 
 /// A piece standing upright round the body, its origin at `at`, its outer side turned `turn` radians from +z towards +x.
 pub fn standing(at: DVec3, turn: f64) -> SpacePose {
-    SpacePose { translation: at, rotation: DQuat::from_rotation_y(turn) }
+    SpacePose::flat(at, DQuat::from_rotation_y(turn))
 }
 
 /// A piece that lies on the table with the lower left corner of its box at `corner`.
