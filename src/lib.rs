@@ -4,6 +4,7 @@
 //!
 //! ```text
 //! cli, ui → session → sim → {wrap, drag, drape, repose} → relax → contact → {cloth, body} → pattern → geometry
+//!             └ place → wrap
 //! ```
 //!
 //! | folder | holds | may use |
@@ -18,13 +19,14 @@
 //! | `drag`     | paper A: dependency graph, motion in local frames, pushpins | relax, contact, cloth, body, pattern, geometry |
 //! | `drape`    | physics: membrane, bending, contact in implicit and in small steps, straight to rest; a garment on its body; sewing | contact, cloth, body, geometry |
 //! | `repose`   | paper C: distance map, conforming to another pose of the body, recovery, strain control | relax, contact, cloth, body, pattern, geometry |
+//! | `place`    | where pieces stand in space before they are sewn: points round the body, tubes round limbs, a file's placement brought to another body | wrap, contact, body, pattern, geometry |
 //! | `fit`      | what is read off a garment: strain, crossings, openings, the report, maps | cloth, body, pattern, geometry |
 //! | `sim`      | owner of the moving state: stages, protocol, checkpoints, thread, state hash | the above |
-//! | `session`  | what the user has done: document, command, history, recording, replay, project file, recovery | sim and below, io |
+//! | `session`  | what the user has done: document, command, history, recording, replay, project file, recovery | sim and below, place, io |
 //! | `io`       | obj, gltf, bvh; patterns as garmentcode json, dxf, svg, pdf: bytes in, checked data out, and back | cloth, body, pattern, geometry |
 //! | `render`   | plain buffers in, pixels out: camera, passes, offscreen target | nothing of ours |
-//! | `ui`       | egui: app, actions, panes, tools | session and below, render |
-//! | `cli`      | one file per subcommand: arguments, calls, printing | session and below, render, ui |
+//! | `ui`       | egui: app, actions, panes, tools | session and below, place, render |
+//! | `cli`      | one file per subcommand: arguments, calls, printing | session and below, place, render, ui |
 //!
 //! Invariants:
 //! - Metres, radians, seconds; right-handed, y up, bodies face +z. Pattern planes have y up and their front towards the reader.
@@ -46,6 +48,7 @@ pub mod fit;
 pub mod geometry;
 pub mod io;
 pub mod pattern;
+pub mod place;
 pub mod relax;
 pub mod render;
 pub mod repose;

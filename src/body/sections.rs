@@ -79,10 +79,14 @@ impl Trunk {
 
     /// Where something `girth` metres round comes to lie when it slides down from the waist.
     pub fn rest_of(&self, girth: f64) -> Option<f64> {
-        let waist = (0..self.levels.len())
+        self.levels[..=self.waist()?].iter().rev().find(|l| l.girth >= girth).map(|l| l.height)
+    }
+
+    /// The thinnest level above the hips, by its number.
+    pub fn waist(&self) -> Option<usize> {
+        (0..self.levels.len())
             .filter(|&k| self.levels[k].height > self.hips())
-            .min_by(|&a, &b| self.levels[a].girth.total_cmp(&self.levels[b].girth))?;
-        self.levels[..=waist].iter().rev().find(|l| l.girth >= girth).map(|l| l.height)
+            .min_by(|&a, &b| self.levels[a].girth.total_cmp(&self.levels[b].girth))
     }
 
     /// Where the trunk is widest in its lower half.

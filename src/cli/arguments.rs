@@ -92,6 +92,10 @@ pub struct InputOptions {
     /// Places its pieces so much higher round the body, metres: for files that count from another place than the floor
     #[arg(long, value_name = "METRES", allow_negative_numbers = true)]
     pub raise: Option<f64>,
+    /// Leaves pieces where the pattern file places them. Otherwise pieces that are sewn without marks are brought to the
+    /// body where they stand too high or low for it, or sleeves stand beside its arms
+    #[arg(long)]
+    pub as_placed: bool,
     /// What a unit of a DXF or SVG pattern is: mm, cm, m, in, px, px90 or pt; without it the file tells, or the question
     /// is asked by an error
     #[arg(long, value_name = "UNIT")]

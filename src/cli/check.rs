@@ -35,12 +35,12 @@ pub fn check(arguments: &Check) -> Result<(), Failure> {
         Content::Pattern(pattern) => {
             let mut project = Project::default();
             input::take_pattern(&mut project, pattern);
-            input::take_options(&mut project, &arguments.file, &arguments.input)?;
+            input::take_options(&mut project, &arguments.file, false, &arguments.input)?;
             let options = &arguments.input;
             of_project(&project, options.body.is_some() || options.sized.sizes.is_some())
         }
         Content::Project(mut project) => {
-            input::take_options(&mut project, &arguments.file, &arguments.input)?;
+            input::take_options(&mut project, &arguments.file, false, &arguments.input)?;
             of_project(&project, true)
         }
     };

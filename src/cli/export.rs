@@ -18,7 +18,7 @@ pub fn export(arguments: &Export) -> Result<(), Failure> {
         );
         return Err(Failure::Usage(words));
     }
-    let options = InputOptions { scale: arguments.scale, ..InputOptions::default() };
+    let options = InputOptions { scale: arguments.scale, as_placed: true, ..InputOptions::default() };
     let input = input::load(&arguments.project, &options)?;
     if !["obj", "glb"].contains(&ending.as_str()) {
         let pattern = &input.project.document.pattern;

@@ -31,7 +31,7 @@ pub fn import(arguments: &Import) -> Result<(), Failure> {
     if patterns > 1 || bodies > 1 {
         return Err(Failure::Usage("import takes at most one pattern and one body".to_owned()));
     }
-    input::take_options(&mut project, &arguments.files[0], &arguments.input)?;
+    input::take_options(&mut project, &arguments.files[0], patterns > 0, &arguments.input)?;
     if let Some(words) = project.problem() {
         return Err(Failure::input(&arguments.files[0], words));
     }

@@ -13,11 +13,12 @@ use crate::io::scale::DrawingUnit;
 use crate::io::sizes::{self, SizesError};
 use crate::io::{gltf, pattern_file};
 use crate::pattern::Pattern;
+use crate::place::onto;
 use crate::session::body::{Body, surface_of};
 use crate::session::carry::carried;
 use crate::session::project_file::ProjectFileError;
 use crate::session::samples::Sample;
-use crate::session::{BodyChoice, Project, marks_file, project_file};
+use crate::session::{BodyChoice, Document, Project, marks_file, project_file};
 use crate::wrap::suggest;
 
 /// Begins the name of a built-in sample.
@@ -47,12 +48,12 @@ pub struct Input {
 
 /// Reads the project, pattern or sample called `path` and does with it what `options` say.
 pub fn load(path: &Path, options: &InputOptions) -> Result<Input, Failure> {
-    let (mut project, is_project_file) = match content(path, options.body_file, options.scale)? {
-        Content::Project(project) => (project, sample_name(path).is_none()),
+    let (mut project, is_file) = match content(path, options.body_file, options.scale)? {
+        Content::Project(project) => (project, false),
         Content::Pattern(pattern) => {
             let mut project = Project::default();
             take_pattern(&mut project, pattern);
-            (project, false)
+            (project, true)
         }
         Content::Body(_) => {
             return Err(Failure::input(
@@ -61,13 +62,14 @@ pub fn load(path: &Path, options: &InputOptions) -> Result<Input, Failure> {
             ));
         }
     };
-    take_options(&mut project, path, options)?;
+    take_options(&mut project, path, is_file, options)?;
     if let Some(words) = project.problem() {
         return Err(Failure::input(path, words));
     }
     let read = [&options.body, &options.sized.sizes, &options.marks];
     let named = std::iter::once(path).chain(read.into_iter().filter_map(Option::as_deref));
     let files = named.map(|p| p.display().to_string()).collect();
+    let is_project_file = !is_file && !is_sample(path);
     Ok(Input { name: name_of(path), project, files, is_project_file })
 }
 
@@ -183,8 +185,15 @@ fn set_body(project: &mut Project, path: &Path, body: BodyChoice) -> Result<(), 
     Ok(())
 }
 
-/// Does with `project`, read from `path`, what `options` say.
-pub fn take_options(project: &mut Project, path: &Path, options: &InputOptions) -> Result<(), Failure> {
+/// Does with `project`, read from `path`, what `options` say. `is_file`: its pattern stands as a file that knows no body
+/// says.
+pub fn take_options(
+    project: &mut Project,
+    path: &Path,
+    is_file: bool,
+    options: &InputOptions,
+) -> Result<(), Failure> {
+    let body_before = project.document.body.clone();
     if options.marks.is_some() || options.suggest_marks {
         // Others take their place.
         project.document.marks = Arc::default();
@@ -203,9 +212,22 @@ pub fn take_options(project: &mut Project, path: &Path, options: &InputOptions) 
         let posed = project.document.body.pose().and_then(|pose| body.posed(pose));
         set_body(project, table, posed.unwrap_or(body))?;
     }
-    let pattern = &mut project.document.pattern;
     if let Some(by) = options.raise {
-        raise(Arc::make_mut(pattern), by).map_err(|words| Failure::input(path, words))?;
+        raise(Arc::make_mut(&mut project.document.pattern), by)
+            .map_err(|words| Failure::input(path, words))?;
+    }
+    if let Some(pose) = options.pose {
+        let posed = project.document.body.in_named_pose(pose);
+        let words = "its body is from a file: only the mannequin takes a pose by name";
+        set_body(project, path, posed.ok_or_else(|| Failure::input(path, words))?)?;
+    }
+    // Marks say themselves where cloth goes.
+    let is_sewn =
+        options.marks.is_none() && !options.suggest_marks && project.document.marks.cloth.is_empty();
+    let is_brought = is_sewn && !options.as_placed;
+    let for_others = is_file || project.document.body != body_before;
+    if is_brought && for_others {
+        bring(&mut project.document, None, path)?;
     }
     for over in &options.over {
         let mut outer = match content(over, options.body_file, options.scale)? {
@@ -216,14 +238,13 @@ pub fn take_options(project: &mut Project, path: &Path, options: &InputOptions) 
         if let Some(by) = options.raise {
             raise(&mut outer, by).map_err(|words| Failure::input(over, words))?;
         }
+        if is_brought {
+            bring(&mut project.document, Some(&mut outer), over)?;
+        }
+        let pattern = &mut project.document.pattern;
         let worn = Arc::make_mut(pattern).wear_over(&outer, &name_of(over));
         worn.map_err(|words| Failure::input(over, words))?;
         project.dressed = None;
-    }
-    if let Some(pose) = options.pose {
-        let posed = project.document.body.in_named_pose(pose);
-        let words = "its body is from a file: only the mannequin takes a pose by name";
-        set_body(project, path, posed.ok_or_else(|| Failure::input(path, words))?)?;
     }
     if let Some(edge_length) = options.edge_length {
         project.document.settings.edge_length = edge_length;
@@ -265,6 +286,25 @@ fn raise(pattern: &mut Pattern, by: f64) -> Result<(), String> {
         true => Ok(()),
         false => Err("none of its pieces is placed in space: there is nothing to raise".to_owned()),
     }
+}
+
+/// Brings the placement of the document's pattern, or of `other`, to the document's body; says what it did.
+fn bring(document: &mut Document, other: Option<&mut Pattern>, path: &Path) -> Result<(), Failure> {
+    let body = Body::new(&document.body).map_err(|why| Failure::input(path, why))?;
+    let bones = document.bones.clone().unwrap_or_else(|| Arc::clone(body.bones()));
+    let offset = document.settings.relax.offset * body.surface.scale();
+    let pattern = other.unwrap_or_else(|| Arc::make_mut(&mut document.pattern));
+    let moved = onto(pattern, &body.surface, &bones, offset);
+    for (id, placement) in moved.placements {
+        if let Some(piece) = pattern.pieces.get_mut(&id) {
+            Arc::make_mut(piece).placement = placement;
+        }
+    }
+    if !moved.words.is_empty() {
+        let words = moved.words.join(", ");
+        output::complain(&format!("{}: note: placed for another body: {words}", path.display()));
+    }
+    Ok(())
 }
 
 fn suggest_marks(project: &mut Project, path: &Path) -> Result<(), Failure> {

@@ -16,7 +16,19 @@ pub fn made_from(project: &Path, arguments: &Dress) -> Result<String, Failure> {
         list: _,
         out: _,
         input:
-            InputOptions { body, body_file, sized, pose, over, raise, scale, marks, suggest_marks, edge_length },
+            InputOptions {
+                body,
+                body_file,
+                sized,
+                pose,
+                over,
+                raise,
+                as_placed,
+                scale,
+                marks,
+                suggest_marks,
+                edge_length,
+            },
         drape,
         fabric,
         save: _,
@@ -29,7 +41,8 @@ pub fn made_from(project: &Path, arguments: &Dress) -> Result<String, Failure> {
         json: _,
         threads: _,
     } = arguments;
-    let of_input = (body_file, &sized.body_size, pose, over.len(), raise, scale, suggest_marks, edge_length);
+    let placed = (raise, as_placed);
+    let of_input = (body_file, &sized.body_size, pose, over.len(), placed, scale, suggest_marks, edge_length);
     let options = (of_input, drape, fabric, max_ticks, picture, work);
     let mut hash = Fnv::default();
     let mut take = |bytes: &[u8]| {

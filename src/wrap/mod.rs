@@ -18,4 +18,4 @@ pub use dressing::{Dressed, Dressing, Phase};
 pub use mark_error::{MarkError, mark_error};
 pub use marks::{BodyMark, ClothMark, ClothSide, MarkPlace, Marks, Tie};
 pub use roots::{PairStretch, stretches};
-pub use suggest::suggested;
+pub use suggest::{Stand, stand, suggested};

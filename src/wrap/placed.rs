@@ -10,7 +10,9 @@ use crate::pattern::{CutPattern, EdgeRef, Piece, SpacePose};
 /// Pieces whose outer side looks this far (cosine) to the front or back are candidates for marks.
 const FRONT_OR_BACK: f64 = 0.7;
 /// A piece that comes this near to the plane between left and right belongs to the trunk, metres.
-const AT_THE_MIDDLE: f64 = 0.05;
+const AT_THE_MIDDLE: f64 = 0.08;
+/// What reaches as high as the highest, but for so much, is uppermost with it, metres.
+const AS_HIGH: f64 = 0.1;
 /// Seams that climb less than this cosine lie across, those that climb more than its complement run up and down.
 const ACROSS: f64 = 0.6;
 
@@ -23,6 +25,8 @@ pub(super) struct Panel<'a> {
     pub id: PieceId,
     pub piece: &'a Piece,
     pub pose: SpacePose,
+    /// How far above where the file placed it that is, metres.
+    pub lifted: f64,
     /// Unit, the way its outer side looks.
     pub normal: DVec3,
     pub outline: Vec<DVec2>,
@@ -161,7 +165,7 @@ pub(super) fn anchor(pattern: &CutPattern) -> Anchor<'_> {
     let height = |sides: &[EdgeRef; 2]| edge_middle(by_id[&sides[0].piece], sides[0].edge).y;
     let highest = shoulders.iter().map(height).fold(f64::NEG_INFINITY, f64::max);
     let shoulders: Vec<[EdgeRef; 2]> =
-        shoulders.iter().filter(|s| height(s) > highest - 2.0 * AT_THE_MIDDLE).copied().collect();
+        shoulders.iter().filter(|s| height(s) > highest - AS_HIGH).copied().collect();
     let shouldered = |p: &Panel| shoulders.iter().flatten().any(|s| s.piece == p.id);
     if !shoulders.is_empty() {
         return Anchor::Shoulders(panels.into_iter().filter(|p| shouldered(p)).collect(), shoulders);
@@ -172,7 +176,7 @@ pub(super) fn anchor(pattern: &CutPattern) -> Anchor<'_> {
     }
     let middle: Vec<Panel> = panels.into_iter().filter(Panel::at_the_middle).collect();
     let top = middle.iter().map(Panel::top).fold(f64::NEG_INFINITY, f64::max);
-    Anchor::Ring(middle.into_iter().filter(|p| p.top() > top - 2.0 * AT_THE_MIDDLE).collect())
+    Anchor::Ring(middle.into_iter().filter(|p| p.top() > top - AS_HIGH).collect())
 }
 
 /// Seams from a piece before the body to one behind it.
@@ -220,6 +224,21 @@ pub(super) fn edge_within(panel: &Panel, edge: usize, limit: f64) -> Option<DVec
     points.iter().copied().min_by(|a, b| (a.x.abs() - wanted).abs().total_cmp(&(b.x.abs() - wanted).abs()))
 }
 
+/// How broad those pieces are `depth` metres under their tops that look sideways and reach as high as `panels`, metres.
+pub(super) fn besides(pattern: &CutPattern, panels: &[Panel], depth: f64) -> impl Iterator<Item = f64> {
+    let top = panels.iter().map(Panel::top).fold(f64::NEG_INFINITY, f64::max);
+    let broad = move |panel: Panel| -> Option<f64> {
+        let along = panel.flat(DVec3::Y.cross(panel.normal))?;
+        let up = along.perp() * panel.flat(DVec3::Y)?.dot(along.perp()).signum();
+        let highest = panel.outline.iter().map(|p| p.dot(up)).fold(f64::NEG_INFINITY, f64::max);
+        let (a, b) = panel.run(along, (up * (highest - depth)).dot(along.perp()))?;
+        Some(a.distance(b))
+    };
+    let beside = placed_panels(pattern).into_iter().filter(|panel| !panel.facing());
+    let reaching = beside.filter(|panel| panel.top() > top - AS_HIGH);
+    reaching.filter_map(broad).collect::<Vec<_>>().into_iter()
+}
+
 fn placed_panels(pattern: &CutPattern) -> Vec<Panel<'_>> {
     let shifts = seam_shifts(pattern);
     pattern
@@ -227,9 +246,17 @@ fn placed_panels(pattern: &CutPattern) -> Vec<Panel<'_>> {
         .iter()
         .filter_map(|(&id, piece)| {
             let mut pose = piece.placement?;
-            pose.translation.y += shifts.get(&id).copied().unwrap_or(0.0);
+            let lifted = shifts.get(&id).copied().unwrap_or(0.0);
+            pose.translation.y += lifted;
             let side = if piece.signed_area() < 0.0 { DVec3::NEG_Z } else { DVec3::Z };
-            Some(Panel { id, piece, pose, normal: pose.rotation * side, outline: piece.flattened(1e-3) })
+            Some(Panel {
+                id,
+                piece,
+                pose,
+                lifted,
+                normal: pose.rotation * side,
+                outline: piece.flattened(1e-3),
+            })
         })
         .collect()
 }

@@ -11,7 +11,7 @@ use glam::{DVec2, DVec3};
 use crate::body::{Surface, Trunk};
 use crate::geometry::ids::MarkId;
 use crate::pattern::{CutPattern, EdgeRef, Pattern};
-use crate::wrap::placed::{Anchor, Panel, anchor, edge_within, ends_at, seams_among, sides};
+use crate::wrap::placed::{Anchor, Panel, anchor, besides, edge_within, ends_at, seams_among, sides};
 use crate::wrap::{BodyMark, ClothMark, ClothSide, Marks};
 
 /// A stroke ends where the skin turns away from its piece by more than this cosine.
@@ -79,6 +79,62 @@ pub fn suggested(pattern: &Pattern, surface: &Surface, offset: f64) -> Marks {
     marks
 }
 
+/// Where what carries a placed garment stands, and where it belongs on a body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stand {
+    /// The shoulder seams, or a ring that is to rest where it is too tight to slide farther, metres.
+    pub placed: f64,
+    /// The height of the skin there, metres.
+    pub body: f64,
+    /// What carries it stands between these corners, metres.
+    pub bounds: [DVec3; 2],
+    /// It hangs from the shoulders.
+    pub hangs: bool,
+}
+
+/// How high a placed garment stands and how high on `surface` it belongs; None where neither can be told: nothing is placed
+/// before or behind the body, or the body has no trunk. `offset` as for [`suggested`].
+pub fn stand(pattern: &Pattern, surface: &Surface, offset: f64) -> Option<Stand> {
+    let trunk = Trunk::new(surface)?;
+    let (cut, _) = CutPattern::new(pattern);
+    let lifted = |panels: &[Panel]| panels.iter().map(|p| p.lifted).sum::<f64>() / panels.len() as f64;
+    let bounds = |panels: &[Panel]| {
+        let all = || panels.iter().flat_map(|panel| panel.outline.iter().map(|&p| panel.world(p)));
+        [all().fold(DVec3::MAX, DVec3::min), all().fold(DVec3::MIN, DVec3::max)]
+    };
+    match anchor(&cut) {
+        Anchor::Shoulders(panels, seams) => {
+            let limit = shoulder_breadth(&trunk)?;
+            let edge = |edge: &EdgeRef| {
+                let panel = panels.iter().find(|p| p.id == edge.piece)?;
+                let at = edge_within(panel, edge.edge, limit)?;
+                Some((at.y - panel.lifted, on_shoulder(surface, &trunk, at.x)?.y))
+            };
+            let heights: Vec<(f64, f64)> = seams.iter().flatten().filter_map(edge).collect();
+            let sum = heights.iter().fold((0.0, 0.0), |sum, at| (sum.0 + at.0, sum.1 + at.1));
+            let count = heights.len() as f64;
+            let stand =
+                Stand { placed: sum.0 / count, body: sum.1 / count, bounds: bounds(&panels), hangs: true };
+            (!heights.is_empty()).then_some(stand)
+        }
+        Anchor::Ring(panels) => {
+            let depth = UNDER_TOP * surface.scale();
+            // Panels at the sides are no part of the ring here, but their seams are sides of those that are.
+            let sewn: Vec<EdgeRef> = cut.edge_seams().flat_map(|seam| seam.sides).collect();
+            let lines: Vec<Line> = panels.iter().map(|p| Line::under_top(p, depth, &sewn)).collect();
+            let beside: f64 = besides(&cut, &panels, depth).sum();
+            let along: f64 = lines.iter().map(Line::length).sum();
+            let girth = along + beside - std::f64::consts::TAU * offset;
+            // What is too wide to rest anywhere is put on at the waist.
+            let waist = trunk.levels.get(trunk.waist()?)?.height;
+            let body = trunk.rest_of(girth).filter(|_| girth > 0.0).unwrap_or(waist);
+            let top = panels.iter().map(Panel::top).max_by(f64::total_cmp)?;
+            let placed = placed_height(&lines).unwrap_or(top) - lifted(&panels);
+            Some(Stand { placed, body, bounds: bounds(&panels), hangs: false })
+        }
+    }
+}
+
 struct Stroke {
     panel: crate::geometry::ids::PieceId,
     cloth: Vec<DVec2>,
@@ -106,9 +162,7 @@ fn hung(
     seams: &[[EdgeRef; 2]],
     offset: f64,
 ) -> Option<Hung> {
-    let under_arm = trunk.nearest(trunk.armpit?)?;
-    let wide = under_arm.points.iter().map(|p| (p.x - trunk.middle).abs()).fold(0.0, f64::max);
-    let limit = wide * INSIDE_ARMS;
+    let limit = shoulder_breadth(trunk)?;
     let ways: Vec<(bool, f64, Way)> = seams
         .iter()
         .flatten()
@@ -140,20 +194,32 @@ fn hung(
     })
 }
 
-/// The way over the skin from the top of the shoulder at `x` down before or behind the body, with its length, metres.
-fn down_from_shoulder(surface: &Surface, trunk: &Trunk, x: f64, front: bool, offset: f64) -> Option<Way> {
+/// How far from the middle ways down from the shoulders may begin, metres; None for a body without arms.
+fn shoulder_breadth(trunk: &Trunk) -> Option<f64> {
+    let under_arm = trunk.nearest(trunk.armpit?)?;
+    Some(under_arm.points.iter().map(|p| (p.x - trunk.middle).abs()).fold(0.0, f64::max) * INSIDE_ARMS)
+}
+
+/// The top of the shoulder `x` metres left of the middle.
+fn on_shoulder(surface: &Surface, trunk: &Trunk, x: f64) -> Option<DVec3> {
     let (lower, upper) = surface.bounds();
     let x = x + trunk.middle;
     let steps = 40;
-    let ridge = (0..=steps)
+    (0..=steps)
         .filter_map(|k| {
             let z = lower.z + (upper.z - lower.z) * f64::from(k) / f64::from(steps);
             surface.ray(DVec3::new(x, trunk.neck, z), DVec3::NEG_Y).filter(|h| h.normal.y > 0.0)
         })
-        .max_by(|a, b| a.point.y.total_cmp(&b.point.y))?;
+        .map(|hit| hit.point)
+        .max_by(|a, b| a.y.total_cmp(&b.y))
+}
+
+/// The way over the skin from the top of the shoulder at `x` down before or behind the body, with its length, metres.
+fn down_from_shoulder(surface: &Surface, trunk: &Trunk, x: f64, front: bool, offset: f64) -> Option<Way> {
+    let ridge = on_shoulder(surface, trunk, x)?;
     let way = if front { DVec3::Z } else { DVec3::NEG_Z };
     let longest = LONGEST_DROP * surface.scale();
-    Some(march(surface, ridge.point, way, DVec3::Y, longest, offset, -2.0))
+    Some(march(surface, ridge, way, DVec3::Y, longest, offset, -2.0))
 }
 
 /// A line over a piece from right to left, that comes to a ring round the trunk. Between its runs are darts, sewn shut.
@@ -219,12 +285,14 @@ fn rest_height(trunk: &Trunk, lines: &[Line], offset: f64) -> Option<f64> {
     if girth <= 0.0 {
         return None;
     }
-    let placed = || {
-        let heights = lines.iter().flat_map(|l| l.runs.iter().flatten().map(|&p| l.panel.world(p).y));
-        let (sum, count) = heights.fold((0.0, 0.0), |(sum, count), y| (sum + y, count + 1.0));
-        sum / count
-    };
-    Some(trunk.rest_of(girth).unwrap_or_else(placed))
+    trunk.rest_of(girth).or_else(|| placed_height(lines))
+}
+
+/// The mean height at which the lines stand.
+fn placed_height(lines: &[Line]) -> Option<f64> {
+    let heights = lines.iter().flat_map(|l| l.runs.iter().flatten().map(|&p| l.panel.world(p).y));
+    let (sum, count) = heights.fold((0.0, 0.0), |(sum, count), y| (sum + y, count + 1.0));
+    (count > 0.0).then(|| sum / count)
 }
 
 /// A stroke for each side of each line along the trunk's section at `height`. All of a side, before and behind, are

@@ -1,0 +1,116 @@
+//! Which bone of a body is what.
+
+use std::fmt;
+
+use glam::DVec3;
+
+use crate::contact::Bone;
+
+/// A bone whose ends come this near to the plane between left and right belongs to the middle: share of the body's height.
+const MIDDLE: f64 = 0.05;
+
+/// What of the body a bone carries.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    Trunk,
+    Head,
+    Arm {
+        left: bool,
+    },
+    Leg {
+        left: bool,
+    },
+    /// Something else, by its number from 1.
+    Other(usize),
+}
+
+impl fmt::Display for Part {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let side = |left| if left { "left" } else { "right" };
+        match *self {
+            Self::Trunk => write!(f, "trunk"),
+            Self::Head => write!(f, "head"),
+            Self::Arm { left } => write!(f, "{} arm", side(left)),
+            Self::Leg { left } => write!(f, "{} leg", side(left)),
+            Self::Other(number) => write!(f, "bone {number}"),
+        }
+    }
+}
+
+/// A bone and what it is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limb {
+    pub part: Part,
+    /// From the end nearer to the trunk's middle to the other, metres; that of the trunk from below.
+    pub bone: Bone,
+}
+
+impl Limb {
+    /// Unit, from the first end to the second.
+    pub fn along(&self) -> DVec3 {
+        (self.bone[1] - self.bone[0]).normalize_or_zero()
+    }
+}
+
+/// What the bones of a body are, that is `tall` metres high. Two that run up the middle are trunk and head; the others hang
+/// from the trunk's upper or lower end. Without a trunk nothing has a name.
+pub fn limbs(bones: &[Bone], tall: f64) -> Vec<Limb> {
+    let centre = |[a, b]: &Bone| (*a + *b) / 2.0;
+    let middle = bones.iter().map(|bone| centre(bone).x).sum::<f64>() / bones.len().max(1) as f64;
+    let is_middle = |bone: &&Bone| bone.iter().all(|end| (end.x - middle).abs() < MIDDLE * tall);
+    let low = |a: &&Bone, b: &&Bone| centre(a).y.total_cmp(&centre(b).y);
+    let trunk = bones.iter().filter(is_middle).min_by(low).copied();
+    let number = |(k, &bone): (usize, &Bone)| {
+        let Some([hips, neck]) = trunk.map(sorted) else { return Limb { part: Part::Other(k + 1), bone } };
+        if trunk == Some(bone) {
+            return Limb { part: Part::Trunk, bone: [hips, neck] };
+        }
+        let nearest = |p: &DVec3| p.distance(hips).min(p.distance(neck));
+        let bone = if nearest(&bone[1]) < nearest(&bone[0]) { [bone[1], bone[0]] } else { bone };
+        let left = centre(&bone).x > middle;
+        let part = match bone[0].distance(neck) < bone[0].distance(hips) {
+            true if is_middle(&&bone) => Part::Head,
+            true => Part::Arm { left },
+            false if is_middle(&&bone) => Part::Other(k + 1),
+            false => Part::Leg { left },
+        };
+        Limb { part, bone }
+    };
+    bones.iter().enumerate().map(number).collect()
+}
+
+fn sorted([a, b]: Bone) -> Bone {
+    if a.y > b.y { [b, a] } else { [a, b] }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::body::{Surface, bones, landmarks, mannequin};
+
+    #[test]
+    fn the_bones_of_the_mannequin_have_their_names() {
+        let figure = mannequin::default();
+        let own = limbs(&figure.skeleton.six_segments(), 1.7);
+        let names: Vec<String> = own.iter().map(|l| l.part.to_string()).collect();
+        assert_eq!(names, ["trunk", "head", "left arm", "right arm", "left leg", "right leg"]);
+        for limb in &own[2..] {
+            assert!(limb.bone[0].x.abs() < limb.bone[1].x.abs() + 0.05, "{limb:?}");
+        }
+        let surface = Surface::new(figure.mesh.clone()).expect("a body");
+        let marks = landmarks::found(&figure.mesh).expect("a human");
+        let found = limbs(&bones::extracted(&surface, &marks), 1.7);
+        let names: Vec<String> = found.iter().map(|l| l.part.to_string()).collect();
+        let left = ["left leg", "left leg", "left arm"];
+        let right = ["right leg", "right leg", "right arm"];
+        assert_eq!(names, [&["trunk", "head"][..], &left, &right].concat());
+    }
+
+    #[test]
+    fn bones_of_something_else_are_numbered() {
+        let bones = [[DVec3::X, DVec3::X * 2.0], [DVec3::Z, DVec3::new(-1.0, 0.0, 2.0)]];
+        let names: Vec<String> = limbs(&bones, 1.0).iter().map(|l| l.part.to_string()).collect();
+        assert_eq!(names, ["bone 1", "bone 2"]);
+        assert!(limbs(&[], 1.0).is_empty());
+    }
+}

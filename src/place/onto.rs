@@ -1,0 +1,208 @@
+//! A file's placement brought to another body: pieces that stand round a body of another height, another origin or with its
+//! arms elsewhere are moved to where they stand round this one.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use glam::{DQuat, DVec3};
+
+use crate::body::{Surface, Trunk};
+use crate::contact::Bone;
+use crate::geometry::ids::PieceId;
+use crate::pattern::{CutPattern, EdgeRef, Pattern, SpacePose};
+use crate::place::limbs::{Part, limbs};
+use crate::wrap::{Stand, stand};
+
+/// A garment that stands no farther from where it belongs than this is left there, metres on a body 1.5 m large.
+const NEAR: f64 = 0.06;
+/// One that is held by a ring round the trunk may stand so far from where that would rest: it slides, and may be meant to sit
+/// higher or lower, metres on a body 1.5 m large.
+const RING_NEAR: f64 = 0.15;
+/// Pieces of an arm that stand along it to this angle are left so, radians.
+const ALONG: f64 = 0.3;
+/// Pieces of an arm stand wholly this far from the middle, as a share of the trunk's half breadth.
+const BESIDE: f64 = 0.7;
+/// Seams of a sleeve run along it when the cosine is larger.
+const RUNS_ALONG: f64 = 0.6;
+
+/// Where pieces go, and what was done to them in words.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Moved {
+    /// Of the pieces that move.
+    pub placements: Vec<(PieceId, Option<SpacePose>)>,
+    /// "raised by 1.10 m", "left sleeve turned by 47°".
+    pub words: Vec<String>,
+}
+
+/// Brings the placement of `pattern` to the body with these bones: all of it up or down and sideways to where what carries it
+/// belongs (shoulder seams on the shoulders, a waistband where it rests), and what is sewn round an arm on to that arm, along
+/// it (paper B, "initial positioning": the axis of a piece is turned on to its bone). What stands near enough stays.
+/// `offset` is the height of the cloth above the skin, metres.
+pub fn onto(pattern: &Pattern, surface: &Surface, bones: &[Bone], offset: f64) -> Moved {
+    let mut poses: BTreeMap<PieceId, SpacePose> =
+        pattern.pieces.iter().filter_map(|(&id, piece)| Some((id, piece.placement?))).collect();
+    let before = poses.clone();
+    let mut words = Vec::new();
+    let by = shift(pattern, surface, offset);
+    if by != DVec3::ZERO {
+        poses.values_mut().for_each(|pose| pose.translation += by);
+        words.extend(told(by));
+    }
+    let (lower, upper) = surface.bounds();
+    let arms = limbs(bones, upper.y - lower.y);
+    for left in [true, false] {
+        let Some(arm) = arms.iter().find(|limb| limb.part == Part::Arm { left }) else { continue };
+        let Some(group) = sleeve(pattern, surface, &poses, left) else { continue };
+        let (was, goes) = (group.along, arm.along());
+        let angle = was.angle_between(goes);
+        if angle.is_nan() || angle <= ALONG {
+            continue;
+        }
+        let turn = DQuat::from_rotation_arc(was, goes);
+        let turned: Vec<DVec3> =
+            group.outline(pattern, &poses).map(|p| turn * (p - group.armhole) + group.armhole).collect();
+        // Round the arm: the middle of what they span across it comes to its bone.
+        let across =
+            [DVec3::Z, goes.cross(DVec3::Z)].map(|way| (way - goes * goes.dot(way)).normalize_or_zero());
+        let by: DVec3 = across
+            .iter()
+            .map(|way| {
+                let spans = turned.iter().map(|p| p.dot(*way));
+                let (low, high) =
+                    spans.fold((f64::MAX, f64::MIN), |(low, high), s| (low.min(s), high.max(s)));
+                *way * (arm.bone[0].dot(*way) - (low + high) / 2.0)
+            })
+            .sum();
+        for id in &group.pieces {
+            poses.entry(*id).and_modify(|pose| *pose = pose.moved(turn, group.armhole, by));
+        }
+        let side = if left { "left" } else { "right" };
+        words.push(format!("{side} sleeve turned by {:.0}°", angle.to_degrees()));
+    }
+    let changed = poses.into_iter().filter(|(id, pose)| before.get(id) != Some(pose));
+    Moved { placements: changed.map(|(id, pose)| (id, Some(pose))).collect(), words }
+}
+
+/// How the whole garment goes; zero along axes along which it stands near enough.
+fn shift(pattern: &Pattern, surface: &Surface, offset: f64) -> DVec3 {
+    let near = NEAR * surface.scale();
+    let far = |by: f64| if by.abs() > near { by } else { 0.0 };
+    let (Some(Stand { placed, body, bounds, hangs }), Some(waist)) =
+        (stand(pattern, surface, offset), waist(surface))
+    else {
+        return DVec3::ZERO;
+    };
+    // What stands round the body stays where it is before, behind and beside it.
+    let sideways = |axis: usize| {
+        let (low, high) = (bounds[0][axis], bounds[1][axis]);
+        let (middle, breadth) = ((low + high) / 2.0, high - low);
+        let is_round = breadth > near && (waist[axis] - middle).abs() > breadth / 4.0;
+        if is_round { far(waist[axis] - middle) } else { 0.0 }
+    };
+    let up = body - placed;
+    let stays = up.abs() <= if hangs { near } else { RING_NEAR * surface.scale() };
+    DVec3::new(sideways(0), if stays { 0.0 } else { up }, sideways(2))
+}
+
+/// The middle of the trunk half way up.
+fn waist(surface: &Surface) -> Option<DVec3> {
+    let trunk = Trunk::new(surface)?;
+    let level = trunk.levels.get(trunk.levels.len() / 2)?;
+    let spans =
+        level.points.iter().fold((f64::MAX, f64::MIN), |(low, high), p| (low.min(p.z), high.max(p.z)));
+    Some(DVec3::new(trunk.middle, level.height, (spans.0 + spans.1) / 2.0))
+}
+
+fn told(by: DVec3) -> Vec<String> {
+    let ways = [["to the right", "to the left"], ["lowered", "raised"], ["back", "forward"]];
+    let words = |(axis, [less, more]): (usize, [&str; 2])| {
+        let way = if by[axis] < 0.0 { less } else { more };
+        (by[axis] != 0.0).then(|| match axis {
+            1 => format!("{way} by {:.2} m", by[axis].abs()),
+            _ => format!("moved {way} by {:.2} m", by[axis].abs()),
+        })
+    };
+    ways.into_iter().enumerate().filter_map(words).collect()
+}
+
+/// Pieces that go round one arm.
+struct Sleeve {
+    pieces: BTreeSet<PieceId>,
+    /// Where they are sewn to the rest, metres.
+    armhole: DVec3,
+    /// Unit, from there to their other end.
+    along: DVec3,
+}
+
+impl Sleeve {
+    fn outline<'a>(
+        &'a self,
+        pattern: &'a Pattern,
+        poses: &'a BTreeMap<PieceId, SpacePose>,
+    ) -> impl Iterator<Item = DVec3> + 'a {
+        self.pieces.iter().flat_map(move |id| {
+            let pose = poses[id];
+            pattern.pieces[id].outline.iter().map(move |edge| pose.at(edge.start))
+        })
+    }
+}
+
+/// The pieces of the left or right arm: those that a file or their name says are, or that stand wholly beside the trunk above
+/// the waist, with what else is sewn only to them. None where there are none, or nothing they are sewn to.
+fn sleeve(
+    pattern: &Pattern,
+    surface: &Surface,
+    poses: &BTreeMap<PieceId, SpacePose>,
+    left: bool,
+) -> Option<Sleeve> {
+    let trunk = Trunk::new(surface)?;
+    let waist = trunk.levels.get(trunk.levels.len() / 2)?;
+    let beside = waist.points.iter().map(|p| (p.x - trunk.middle).abs()).fold(0.0, f64::max) * BESIDE;
+    let side = if left { 1.0 } else { -1.0 };
+    let is_arm = |id: &PieceId, pose: &SpacePose| {
+        let piece = &pattern.pieces[id];
+        let corners: Vec<DVec3> = piece.outline.iter().map(|edge| pose.at(edge.start)).collect();
+        let middle = corners.iter().sum::<DVec3>() / corners.len().max(1) as f64;
+        let out = (middle.x - trunk.middle) * side;
+        let name = piece.name.to_lowercase();
+        let said = piece.label.as_deref() == Some("arm") || name.contains("sleeve") || name.contains("cuff");
+        let stands = corners.iter().all(|p| (p.x - trunk.middle) * side > beside) && middle.y > waist.height;
+        let elsewhere = piece.label.as_deref().is_some_and(|label| label != "arm");
+        out > 0.0 && (said || stands && !elsewhere)
+    };
+    let pieces: BTreeSet<PieceId> =
+        poses.iter().filter(|(id, pose)| is_arm(id, pose)).map(|(id, _)| *id).collect();
+    let (cut, _) = CutPattern::new(pattern);
+    let chord = |edge: &EdgeRef| {
+        let (piece, pose) = (cut.pieces.get(&edge.piece)?, poses.get(&edge.piece)?);
+        let (a, b) = (edge.edge < piece.edge_count()).then(|| piece.edge_ends(edge.edge))?;
+        Some([pose.at(a), pose.at(b)])
+    };
+    let (mut armhole, mut lengths) = (Vec::new(), Vec::new());
+    for seam in cut.edge_seams() {
+        let ours = seam.sides.map(|edge| pieces.contains(&edge.piece));
+        for (edge, ours_here) in seam.sides.iter().zip(ours) {
+            if ours == [true, true] {
+                lengths.extend(chord(edge));
+            } else if ours_here {
+                armhole.extend(chord(edge));
+            }
+        }
+    }
+    if armhole.is_empty() {
+        return None;
+    }
+    let armhole = armhole.iter().flatten().sum::<DVec3>() / (2 * armhole.len()) as f64;
+    let mut sleeve = Sleeve { pieces, armhole, along: DVec3::ZERO };
+    let (sum, count) = sleeve.outline(pattern, poses).fold((DVec3::ZERO, 0), |(sum, n), p| (sum + p, n + 1));
+    let outward = sum / f64::from(count) - armhole;
+    // Seams that run along it say more than the middle of what may be slanted.
+    let outward_unit = outward.normalize_or_zero();
+    let along: DVec3 = lengths
+        .iter()
+        .map(|[a, b]| (*b - *a, (*b - *a).normalize_or_zero().dot(outward_unit)))
+        .filter(|(_, cosine)| cosine.abs() > RUNS_ALONG)
+        .map(|(chord, cosine)| chord * cosine.signum())
+        .sum();
+    sleeve.along = along.try_normalize().or_else(|| outward.try_normalize())?;
+    Some(sleeve)
+}

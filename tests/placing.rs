@@ -1,0 +1,138 @@
+//! Placements of files brought to another body.
+
+use std::sync::Arc;
+
+use glam::{DQuat, DVec3};
+use toile::body::pose::rig;
+use toile::body::{Measurements, NamedPose, Surface, mannequin};
+use toile::contact::Bone;
+use toile::pattern::{Pattern, Piece};
+use toile::place::{Moved, Part, limbs, onto};
+use toile::session::samples::Sample;
+
+const OFFSET: f64 = 0.005;
+
+/// The T-shirt with its body. Its sleeves are drawn for arms held level: they are brought to those of the mannequin.
+fn tshirt() -> (Pattern, Surface, Vec<Bone>) {
+    let figure = mannequin::default();
+    let pattern = Arc::unwrap_or_clone(Sample::Tshirt.project(&figure).document.pattern);
+    let surface = Surface::new(figure.mesh.clone()).expect("a body");
+    let bones = figure.skeleton.six_segments();
+    let change = onto(&pattern, &surface, &bones, OFFSET);
+    (placed(&pattern, &change), surface, bones)
+}
+
+fn moved(pattern: &Pattern, turn: DQuat, by: DVec3) -> Pattern {
+    let mut moved = pattern.clone();
+    for piece in moved.pieces.values_mut() {
+        let piece = Arc::make_mut(piece);
+        piece.placement = piece.placement.map(|pose| pose.moved(turn, DVec3::ZERO, by));
+    }
+    moved
+}
+
+fn placed(pattern: &Pattern, change: &Moved) -> Pattern {
+    let mut placed = pattern.clone();
+    for (id, placement) in &change.placements {
+        Arc::make_mut(placed.pieces.get_mut(id).expect("a piece")).placement = *placement;
+    }
+    placed
+}
+
+fn farthest(one: &Pattern, other: &Pattern) -> f64 {
+    let apart = |(id, piece): (_, &Arc<Piece>)| {
+        let [a, b] = [piece.placement.expect("a"), other.pieces[id].placement.expect("b")];
+        piece.outline.iter().map(|e| a.at(e.start).distance(b.at(e.start))).fold(0.0, f64::max)
+    };
+    one.pieces.iter().map(apart).fold(0.0, f64::max)
+}
+
+#[test]
+fn what_stands_where_it_belongs_stays_to_the_last_bit() {
+    let (pattern, surface, bones) = tshirt();
+    let change = onto(&pattern, &surface, &bones, OFFSET);
+    assert_eq!((change.placements.len(), change.words.len()), (0, 0), "{:?}", change.words);
+}
+
+#[test]
+fn a_file_with_another_origin_is_brought_to_the_body_and_stays_there() {
+    let (pattern, surface, bones) = tshirt();
+    for by in [DVec3::new(0.0, -1.1, 0.0), DVec3::new(0.0, 0.3, -0.6)] {
+        let elsewhere = moved(&pattern, DQuat::IDENTITY, by);
+        let change = onto(&elsewhere, &surface, &bones, OFFSET);
+        let back = placed(&elsewhere, &change);
+        assert!(farthest(&back, &pattern) < 0.08, "{:?}: {}", change.words, farthest(&back, &pattern));
+        assert_eq!(onto(&back, &surface, &bones, OFFSET).placements, []);
+    }
+}
+
+#[test]
+fn pieces_go_to_a_body_that_stands_elsewhere() {
+    let (pattern, surface, bones) = tshirt();
+    let by = DVec3::new(0.4, 0.2, 1.0);
+    let mut mesh = surface.mesh.clone();
+    mesh.positions.iter_mut().for_each(|p| *p += by);
+    let bones: Vec<Bone> = bones.iter().map(|bone| bone.map(|end| end + by)).collect();
+    let change = onto(&pattern, &Surface::new(mesh).expect("a body"), &bones, OFFSET);
+    let there = placed(&pattern, &change);
+    let apart = farthest(&there, &moved(&pattern, DQuat::IDENTITY, by));
+    assert!(apart < 0.08, "{:?}: {apart}", change.words);
+}
+
+#[test]
+fn sleeves_turn_to_the_arms_of_another_pose() {
+    let (pattern, _, _) = tshirt();
+    let rig = rig(&Measurements::default()).expect("a rig");
+    let pose = NamedPose::T.pose(&mannequin::default().skeleton);
+    let posed = rig.posed(&pose).expect("a pose");
+    let bones = posed.skeleton.six_segments();
+    let change = onto(&pattern, &posed.surface, &bones, OFFSET);
+    assert_eq!(change.words.len(), 2, "{:?}", change.words);
+    let after = placed(&pattern, &change);
+    for limb in limbs(&bones, 1.7) {
+        let Part::Arm { left } = limb.part else { continue };
+        let sleeve = after.pieces.values().find(|piece| {
+            let at = piece.placement.expect("placed").translation.x;
+            piece.name.contains("sleeve") && (at > 0.0) == left
+        });
+        let sleeve = sleeve.expect("a sleeve");
+        let corners = sleeve.outline.iter().map(|e| sleeve.placement.expect("placed").at(e.start));
+        let middle = corners.sum::<DVec3>() / sleeve.outline.len() as f64;
+        let along = (middle - limb.bone[0]).dot(limb.along());
+        let off = (middle - limb.bone[0] - limb.along() * along) * DVec3::new(1.0, 1.0, 0.0);
+        assert!(off.length() < 0.08, "{} is {off} beside the arm", sleeve.name);
+    }
+}
+
+#[test]
+fn a_skirt_without_sleeves_only_goes_up_and_down() {
+    let figure = mannequin::default();
+    let surface = Surface::new(figure.mesh.clone()).expect("a body");
+    let bones = figure.skeleton.six_segments();
+    let pattern = Arc::unwrap_or_clone(Sample::Skirt.project(&figure).document.pattern);
+    assert_eq!(onto(&pattern, &surface, &bones, OFFSET).placements, []);
+    let low = moved(&pattern, DQuat::IDENTITY, DVec3::Y * -0.9);
+    let change = onto(&low, &surface, &bones, OFFSET);
+    let up: Vec<f64> = change
+        .placements
+        .iter()
+        .map(|(id, pose)| {
+            let moved =
+                pose.expect("a place").translation - low.pieces[id].placement.expect("one").translation;
+            assert_eq!((moved.x, moved.z), (0.0, 0.0));
+            moved.y
+        })
+        .collect();
+    assert!(up.len() == low.pieces.len() && up.iter().all(|y| (0.75..1.05).contains(y)), "{up:?}");
+}
+
+#[test]
+fn nothing_is_asked_of_a_body_that_is_no_human() {
+    let (pattern, _, _) = tshirt();
+    let mesh = toile::geometry::mesh::TriMesh {
+        positions: vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z],
+        triangles: vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]],
+    };
+    let surface = Surface::new(mesh).expect("a body");
+    assert_eq!(onto(&pattern, &surface, &[], OFFSET), Moved::default());
+}
