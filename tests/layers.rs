@@ -160,7 +160,7 @@ fn ring_skirt(waist: f64, length: f64) -> Pattern {
         let side = if front { 0.0 } else { std::f64::consts::PI };
         let rotation = DQuat::from_rotation_y(side);
         let translation = rotation * DVec3::new(0.0, 1.1, 0.2);
-        piece.placement = Some(SpacePose { translation, rotation });
+        piece.placement = Some(SpacePose::flat(translation, rotation));
         pattern.add_piece(piece)
     };
     let (front, back) = (add("skirt front", true), add("skirt back", false));

@@ -222,7 +222,7 @@ fn placed([bottom, top]: [f64; 2], low: f64, height: f64, edge_length: f64) -> S
         }
         let rotation = DQuat::from_rotation_y(turn);
         let translation = rotation * DVec3::new(-bottom / 2.0, low, 0.16);
-        piece.placement = Some(SpacePose { translation, rotation });
+        piece.placement = Some(SpacePose::flat(translation, rotation));
     }
     document.settings.edge_length = edge_length;
     let mesh = Arc::new(ball(0.12, 24, 48));
