@@ -36,6 +36,8 @@ mod pictures;
 mod safety;
 #[path = "window/shell.rs"]
 mod shell;
+#[path = "window/standing.rs"]
+mod standing;
 #[path = "window/tight.rs"]
 mod tight;
 

@@ -13,9 +13,9 @@ use crate::io::scale::DrawingUnit;
 use crate::io::sizes::{self, SizesError};
 use crate::io::{gltf, pattern_file};
 use crate::pattern::Pattern;
-use crate::place::onto;
 use crate::session::body::{Body, surface_of};
 use crate::session::carry::carried;
+use crate::session::placing::brought;
 use crate::session::project_file::ProjectFileError;
 use crate::session::samples::Sample;
 use crate::session::{BodyChoice, Document, Project, marks_file, project_file};
@@ -291,14 +291,9 @@ fn raise(pattern: &mut Pattern, by: f64) -> Result<(), String> {
 /// Brings the placement of the document's pattern, or of `other`, to the document's body; says what it did.
 fn bring(document: &mut Document, other: Option<&mut Pattern>, path: &Path) -> Result<(), Failure> {
     let body = Body::new(&document.body).map_err(|why| Failure::input(path, why))?;
-    let bones = document.bones.clone().unwrap_or_else(|| Arc::clone(body.bones()));
-    let offset = document.settings.relax.offset * body.surface.scale();
-    let pattern = other.unwrap_or_else(|| Arc::make_mut(&mut document.pattern));
-    let moved = onto(pattern, &body.surface, &bones, offset);
-    for (id, placement) in moved.placements {
-        if let Some(piece) = pattern.pieces.get_mut(&id) {
-            Arc::make_mut(piece).placement = placement;
-        }
+    let moved = brought(other.as_deref().unwrap_or(&document.pattern), document, &body);
+    if !moved.placements.is_empty() {
+        moved.carry_out(other.unwrap_or_else(|| Arc::make_mut(&mut document.pattern)));
     }
     if !moved.words.is_empty() {
         let words = moved.words.join(", ");

@@ -9,6 +9,9 @@ use crate::contact::Bone;
 /// A bone whose ends come this near to the plane between left and right belongs to the middle: share of the body's height.
 const MIDDLE: f64 = 0.05;
 
+/// Arms begin higher on the trunk than this share of it, legs lower.
+const ARMS: f64 = 0.3;
+
 /// What of the body a bone carries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
@@ -53,7 +56,7 @@ impl Limb {
 }
 
 /// What the bones of a body are, that is `tall` metres high. Two that run up the middle are trunk and head; the others hang
-/// from the trunk's upper or lower end. Without a trunk nothing has a name.
+/// from the upper or lower part of the trunk. Without a trunk nothing has a name.
 pub fn limbs(bones: &[Bone], tall: f64) -> Vec<Limb> {
     let centre = |[a, b]: &Bone| (*a + *b) / 2.0;
     let middle = bones.iter().map(|bone| centre(bone).x).sum::<f64>() / bones.len().max(1) as f64;
@@ -65,10 +68,11 @@ pub fn limbs(bones: &[Bone], tall: f64) -> Vec<Limb> {
         if trunk == Some(bone) {
             return Limb { part: Part::Trunk, bone: [hips, neck] };
         }
-        let nearest = |p: &DVec3| p.distance(hips).min(p.distance(neck));
-        let bone = if nearest(&bone[1]) < nearest(&bone[0]) { [bone[1], bone[0]] } else { bone };
+        let up = |p: DVec3| (p - hips).dot(neck - hips) / (neck - hips).length_squared();
+        let away = |p: DVec3| p.distance(hips.lerp(neck, up(p).clamp(0.0, 1.0)));
+        let bone = if away(bone[1]) < away(bone[0]) { [bone[1], bone[0]] } else { bone };
         let left = centre(&bone).x > middle;
-        let part = match bone[0].distance(neck) < bone[0].distance(hips) {
+        let part = match up(bone[0]) > ARMS {
             true if is_middle(&&bone) => Part::Head,
             true => Part::Arm { left },
             false if is_middle(&&bone) => Part::Other(k + 1),

@@ -7,4 +7,4 @@ pub mod points;
 
 pub use limbs::{Limb, Part, limbs};
 pub use onto::{Moved, onto};
-pub use points::{Point, points, stood_at};
+pub use points::{Point, points, rolled_up, stood_at};

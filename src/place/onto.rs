@@ -2,6 +2,7 @@
 //! arms elsewhere are moved to where they stand round this one.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
 
@@ -31,6 +32,17 @@ pub struct Moved {
     pub placements: Vec<(PieceId, Option<SpacePose>)>,
     /// "raised by 1.10 m", "left sleeve turned by 47°".
     pub words: Vec<String>,
+}
+
+impl Moved {
+    /// Moves the pieces of `pattern`.
+    pub fn carry_out(&self, pattern: &mut Pattern) {
+        for (id, placement) in &self.placements {
+            if let Some(piece) = pattern.pieces.get_mut(id) {
+                Arc::make_mut(piece).placement = *placement;
+            }
+        }
+    }
 }
 
 /// Brings the placement of `pattern` to the body with these bones: all of it up or down and sideways to where what carries it

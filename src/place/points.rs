@@ -13,6 +13,8 @@ const BEFORE: f64 = 0.05;
 const ROUND: f64 = 0.02;
 /// Pieces before and behind the body make way for what of it stands out by so much at most, metres on a body 1.5 m large.
 const STANDS_OUT: f64 = 0.25;
+/// Between the two sides of a piece that is rolled up, metres.
+const GAP: f64 = 0.01;
 /// A piece at a limb that would go round more than this share of it is rolled.
 const ROLLED: f64 = 0.55;
 
@@ -39,7 +41,7 @@ fn heights(part: Part, halves: bool) -> &'static [(&'static str, f64)] {
     match part {
         Part::Trunk => &[("hips", 0.1), ("waist", 0.45), ("chest", 0.75)],
         Part::Head => &[("head", 0.6)],
-        Part::Arm { .. } => &[("upper arm", 0.3), ("forearm", 0.8)],
+        Part::Arm { .. } => &[("upper arm", 0.15), ("forearm", 0.9)],
         Part::Leg { .. } if halves => &[("", 0.45)],
         Part::Leg { .. } => &[("thigh", 0.2), ("shin", 0.75)],
         Part::Other(_) => &[("near end", 0.15), ("middle", 0.5), ("far end", 0.85)],
@@ -107,17 +109,8 @@ fn ring(surface: &Surface, limb: &Limb, height: &str, share: f64) -> Vec<Point> 
 /// the limb where that is larger). `round`: rolled in any case, or flat.
 pub fn stood_at(piece: &Piece, point: &Point, surface: &Surface, round: Option<bool>) -> SpacePose {
     let scale = surface.scale();
-    let up = piece.pose.piece_from_plane(piece.pose.offset + DVec2::Y).normalize_or(DVec2::Y);
-    let across = -up.perp();
-    let outline = piece.flattened(1e-3);
-    let span = |way: DVec2| {
-        let all = outline.iter().map(|p| p.dot(way));
-        all.fold((f64::MAX, f64::MIN), |(low, high), s| (low.min(s), high.max(s)))
-    };
-    let [(left, right), (bottom, top)] = [span(across), span(up)];
-    let centre = across * ((left + right) / 2.0) + up * ((bottom + top) / 2.0);
+    let Frame { up, across, left, right, bottom, top, centre, outer } = Frame::new(piece);
     let width = right - left;
-    let outer = if piece.signed_area() < 0.0 { -1.0 } else { 1.0 };
     // Columns: where `across`, `up` and the plane's +z go.
     let z = point.out * outer;
     let to_world = DMat3::from_cols(point.up.cross(z), point.up, z);
@@ -148,6 +141,43 @@ pub fn stood_at(piece: &Piece, point: &Point, surface: &Surface, round: Option<b
         Some(local.z * outer).filter(|&by| before && by < most)
     });
     standing(stands_out.fold(0.0, f64::max) + BEFORE * scale, None)
+}
+
+/// A piece as it lies on the table: what is up there, and how far it reaches, metres in its own plane.
+struct Frame {
+    up: DVec2,
+    across: DVec2,
+    left: f64,
+    right: f64,
+    bottom: f64,
+    top: f64,
+    /// The middle of its box.
+    centre: DVec2,
+    /// 1 when its outer side looks along +z of its own plane, else -1.
+    outer: f64,
+}
+
+impl Frame {
+    fn new(piece: &Piece) -> Self {
+        let up = piece.pose.piece_from_plane(piece.pose.offset + DVec2::Y).normalize_or(DVec2::Y);
+        let across = -up.perp();
+        let outline = piece.flattened(1e-3);
+        let span = |way: DVec2| {
+            let all = outline.iter().map(|p| p.dot(way));
+            all.fold((f64::MAX, f64::MIN), |(low, high), s| (low.min(s), high.max(s)))
+        };
+        let [(left, right), (bottom, top)] = [span(across), span(up)];
+        let centre = across * ((left + right) / 2.0) + up * ((bottom + top) / 2.0);
+        let outer = if piece.signed_area() < 0.0 { -1.0 } else { 1.0 };
+        Self { up, across, left, right, bottom, top, centre, outer }
+    }
+}
+
+/// The same placement rolled about its middle into a tube that just closes, its outer side out (paper B, "self-rolling").
+pub fn rolled_up(piece: &Piece, pose: SpacePose) -> SpacePose {
+    let Frame { up, left, right, centre, outer, .. } = Frame::new(piece);
+    let radius = ((right - left) + GAP) / std::f64::consts::TAU;
+    SpacePose { roll: Some(Roll { centre, along: up, radius: radius * outer }), ..pose }
 }
 
 #[cfg(test)]
@@ -181,7 +211,7 @@ mod tests {
         names.dedup();
         assert_eq!(names.len(), points.len());
         for point in &points {
-            assert!(surface.nearest(point.at).distance.abs() < 1e-9, "{}", point.name);
+            assert!(surface.nearest(point.at).distance.abs() < 1e-5, "{}", point.name);
             assert!(point.out.dot(point.up).abs() < 1e-12 && point.reach <= point.girth_radius);
         }
         assert!(called(&points, "chest, front").out.z > 0.9);
@@ -221,17 +251,17 @@ mod tests {
     fn a_wide_piece_goes_round_a_limb_and_closes_there() {
         let (surface, points) = body();
         let point = called(&points, "left upper arm, outside");
-        let placed = stood_at(&panel(0.42, 0.2, PlanePose::default()), point, &surface, None);
+        let placed = stood_at(&panel(0.5, 0.2, PlanePose::default()), point, &surface, None);
         let roll = placed.roll.expect("a tube");
-        let gap = placed.at(DVec2::new(0.0, 0.1)).distance(placed.at(DVec2::new(0.42, 0.1)));
+        let gap = placed.at(DVec2::new(0.0, 0.1)).distance(placed.at(DVec2::new(0.5, 0.1)));
         assert!(gap < 0.06, "{gap} of a turn of {}", std::f64::consts::TAU * roll.radius);
         for k in 0..=20 {
-            let p = placed.at(DVec2::new(0.42 * f64::from(k) / 20.0, 0.1));
+            let p = placed.at(DVec2::new(0.5 * f64::from(k) / 20.0, 0.1));
             assert!(!surface.contains(p) && surface.nearest(p).distance < 0.12, "{k}");
         }
         assert!(stood_at(&panel(0.1, 0.2, PlanePose::default()), point, &surface, None).roll.is_none());
         assert!(
-            stood_at(&panel(0.42, 0.2, PlanePose::default()), point, &surface, Some(false)).roll.is_none()
+            stood_at(&panel(0.5, 0.2, PlanePose::default()), point, &surface, Some(false)).roll.is_none()
         );
     }
 }

@@ -11,6 +11,7 @@ pub mod hashes;
 pub mod history;
 pub mod marks_file;
 pub mod outfit;
+pub mod placing;
 pub mod project;
 pub mod project_file;
 pub mod recording;

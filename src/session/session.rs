@@ -5,14 +5,16 @@ use std::sync::Arc;
 use crate::body::Surface;
 use crate::cloth::Fabric;
 use crate::contact::Bone;
-use crate::pattern::Problem;
 use crate::pattern::edit::Carried;
+use crate::pattern::{Pattern, Problem};
+use crate::place::Moved;
 use crate::session::body::{Body, BodyCache};
 use crate::session::command::{Command, Rejection};
 use crate::session::document::Document;
 use crate::session::edit::{self, ClothChange};
 use crate::session::hashes::DocumentHasher;
 use crate::session::history::{History, Step, StepKind};
+use crate::session::placing;
 use crate::session::project::{Dressed, Project};
 use crate::session::recording::Recorder;
 use crate::session::recovery::Journal;
@@ -401,6 +403,12 @@ impl Session {
         let own = |body: Arc<Body>| Arc::clone(body.bones());
         let drawn = self.document.bones.clone();
         drawn.or_else(|| self.bodies.body(&self.document.body).ok().map(own)).unwrap_or_default()
+    }
+
+    /// How the placement of `pattern`, as a file has it, is brought to the body of the document; nothing without a body.
+    pub fn brought(&mut self, pattern: &Pattern) -> Moved {
+        let body = self.bodies.body(&self.document.body);
+        body.map(|body| placing::brought(pattern, &self.document, &body)).unwrap_or_default()
     }
 
     fn plan_undo(&self) -> Result<Plan, Rejection> {

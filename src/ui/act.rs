@@ -7,7 +7,7 @@ use glam::DVec3;
 
 use crate::render::Projection;
 use crate::session::{Command, Project};
-use crate::ui::actions::Action;
+use crate::ui::actions::{Action, Tool};
 use crate::ui::app::App;
 use crate::ui::dialogs::Dialog;
 use crate::ui::files::{self, Purpose};
@@ -102,7 +102,9 @@ impl App {
             | Action::TurnSeam
             | Action::MakeEqual
             | Action::FreeLengths
-            | Action::Untwist => self.change_pattern(action),
+            | Action::Untwist
+            | Action::ToggleRolled
+            | Action::Unplace => self.change_pattern(action),
             Action::ClearMarks => self.apply(Command::ClearMarks),
             Action::ClearPins => self.apply(Command::ClearPins),
             Action::OwnBones => self.apply(Command::SetBones { bones: None }),
@@ -120,7 +122,12 @@ impl App {
                 let on = !self.session.snapshot().relaxing;
                 self.apply(Command::SetRelaxing { on });
             }
+            Action::BringPieces => self.bring_pieces(),
             Action::Sew => {
+                if self.tool == Tool::Place {
+                    // What is sewn is looked at, not what stood before.
+                    self.tool = Tool::Move;
+                }
                 self.show_cloth = true;
                 self.apply(Command::Sew);
             }

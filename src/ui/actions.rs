@@ -38,6 +38,8 @@ pub enum Tool {
     Hole,
     /// Cuts pieces in two.
     Cut,
+    /// Stands pieces round the body, before they are sewn.
+    Place,
     /// Cuts darts into edges.
     Dart,
     /// Cuts notches into edges.
@@ -91,6 +93,12 @@ pub enum Action {
     ClearPins,
     OwnBones,
     NoBones,
+    /// Bring the pieces to where they belong on this body.
+    BringPieces,
+    /// Roll standing pieces, or make them flat.
+    ToggleRolled,
+    /// Take pieces from the body: they stand nowhere.
+    Unplace,
     SuggestMarks,
     AcceptMarks,
     DismissMarks,
@@ -304,6 +312,19 @@ impl Action {
                 entry("The body's own bones", "Those it came with, or those found in it, and none drawn", &[])
             }
             Self::NoBones => entry("No bones", "Cloth can be pulled across everything", &[]),
+            Self::BringPieces => entry(
+                "Bring pieces to the body",
+                "Move the pieces as a whole to where they belong on this body, and sleeves on to its arms",
+                &[],
+            ),
+            Self::ToggleRolled => {
+                entry("Roll", "Roll the pieces that stand round a limb into tubes, or make them flat", &[])
+            }
+            Self::Unplace => entry(
+                "Take pieces from the body",
+                "They stand nowhere and are not sewn from placement; the table keeps them",
+                &[],
+            ),
             Self::ClearPins => entry("Pull all pins out", "Nothing holds the cloth any more", &[]),
             Self::Wrap => {
                 entry("Wrap", "Grow the cloth round the body so that the marks meet", &[key(Key::Enter)])
@@ -323,7 +344,7 @@ impl Action {
             }
             Self::Sew => entry(
                 "Sew from placement",
-                "Put the pieces where their file places them, draw the seams shut, and drape",
+                "Draw the seams shut from where the pieces stand round the body, and drape",
                 &[],
             ),
             Self::ToggleDrape => entry(

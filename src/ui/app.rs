@@ -449,7 +449,7 @@ fn runner(wakeup: &Wakeup) -> std::io::Result<Runner> {
     Runner::threaded(Simulation::default(), DEFAULT_RATE_HZ, Box::new(move || wakeup.wake()))
 }
 
-fn sentence(words: &str) -> String {
+pub(super) fn sentence(words: &str) -> String {
     let mut letters = words.chars();
     let first = letters.next().map(|c| c.to_uppercase().to_string()).unwrap_or_default();
     format!("{first}{}.", letters.as_str())

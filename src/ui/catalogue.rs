@@ -93,6 +93,10 @@ pub const ALL: &[Action] = &[
     Action::CancelWrap,
     Action::Unwrap,
     Action::ToggleRelaxing,
+    Action::Choose(Tool::Place),
+    Action::BringPieces,
+    Action::ToggleRolled,
+    Action::Unplace,
     Action::Sew,
     Action::ToggleDrape,
     Action::StepDrape,
@@ -222,7 +226,7 @@ impl Action {
             | Self::ToggleLaser
             | Self::Preferences => "Edit",
             Self::Choose(Tool::Mark | Tool::Erase) => "Tools",
-            Self::Choose(Tool::Drag(_) | Tool::Pin | Tool::Bone)
+            Self::Choose(Tool::Drag(_) | Tool::Pin | Tool::Bone | Tool::Place)
             | Self::OwnBones
             | Self::NoBones
             | Self::ClearPins
@@ -231,6 +235,9 @@ impl Action {
             | Self::CancelWrap
             | Self::Unwrap
             | Self::ToggleRelaxing
+            | Self::BringPieces
+            | Self::ToggleRolled
+            | Self::Unplace
             | Self::Sew
             | Self::ToggleDrape
             | Self::StepDrape => "Garment",

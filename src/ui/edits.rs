@@ -7,7 +7,8 @@ use glam::DVec2;
 use crate::geometry::ids::PieceId;
 use crate::pattern::activity::Activity;
 use crate::pattern::edit::{PatternEdit, PointRef};
-use crate::pattern::{EdgeRef, EdgeShape, Pattern, Piece, PlanePose, curve};
+use crate::pattern::{EdgeRef, EdgeShape, Pattern, Piece, PlanePose, SpacePose, curve};
+use crate::place::rolled_up;
 use crate::ui::actions::Action;
 use crate::ui::pattern_pane::shapes::cloth_is_left;
 use crate::ui::selection::{LineRef, Selection};
@@ -97,9 +98,34 @@ pub fn edits(action: Action, pattern: &Pattern, selection: &Selection) -> Vec<Pa
         Action::FreeLengths => {
             selection.seams.iter().map(|&seam| PatternEdit::SetRatio { seam, ratio: None }).collect()
         }
+        Action::ToggleRolled => rolled(pattern, &touched),
+        Action::Unplace => {
+            let standing = touched.iter().filter(|id| pattern.pieces[id].placement.is_some());
+            let placements: Vec<_> = standing.map(|id| (*id, None)).collect();
+            if placements.is_empty() { Vec::new() } else { vec![PatternEdit::PlaceInSpace { placements }] }
+        }
         Action::Untwist => vec![PatternEdit::UntwistSeams],
         _ => Vec::new(),
     }
+}
+
+/// Rolls those of `pieces` that stand somewhere, or makes them flat where all of them are rolled.
+fn rolled(pattern: &Pattern, pieces: &BTreeSet<PieceId>) -> Vec<PatternEdit> {
+    let flat = is_rolled(pattern, pieces);
+    let turned = |id: &PieceId| {
+        let piece = pattern.pieces.get(id)?;
+        let pose = piece.placement?;
+        let pose = if flat { SpacePose { roll: None, ..pose } } else { rolled_up(piece, pose) };
+        Some((*id, Some(pose)))
+    };
+    let placements: Vec<_> = pieces.iter().filter_map(turned).collect();
+    if placements.is_empty() { Vec::new() } else { vec![PatternEdit::PlaceInSpace { placements }] }
+}
+
+/// Whether some of `pieces` stand round the body, and all that do are rolled.
+fn is_rolled(pattern: &Pattern, pieces: &BTreeSet<PieceId>) -> bool {
+    let mut standing = pieces.iter().filter_map(|id| pattern.pieces.get(id)?.placement).peekable();
+    standing.peek().is_some() && standing.all(|pose| pose.roll.is_some())
 }
 
 /// Makes `pieces` what `activity` says, or active again where all are that.
@@ -246,6 +272,10 @@ pub struct Picked {
     pub deletable: bool,
     /// Some piece of the pattern is hidden.
     pub hidden: bool,
+    /// One of the pieces stands round the body.
+    pub standing: bool,
+    /// All of those that do are rolled.
+    pub rolled: bool,
 }
 
 impl Picked {
@@ -267,6 +297,8 @@ impl Picked {
             activity: first.filter(|first| pieces().all(|piece| piece.activity == *first)),
             deletable: !selection.pins.is_empty() || !deletions(pattern, selection).is_empty(),
             hidden: pattern.pieces.values().any(|piece| piece.hidden),
+            standing: pieces().any(|piece| piece.placement.is_some()),
+            rolled: is_rolled(pattern, &touched),
         }
     }
 }

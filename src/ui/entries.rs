@@ -50,6 +50,11 @@ impl Tool {
                 "Click to pin the cloth where it is, drag for a row of pins, click a pin to pull it out",
                 &[key(Key::P)],
             ),
+            Self::Place => entry(
+                "Place pieces",
+                "Stand pieces round the body before they are sewn: select one, then click a dot; drag it, an arrow or a ring",
+                &[shift(Key::B)],
+            ),
             Self::Bone => entry(
                 "Draw bones",
                 "Drag through the body to draw a bone, which cloth cannot be pulled across; Ctrl+click takes one away",

@@ -1,11 +1,14 @@
 //! Files that come into the window and leave it.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use crate::io::scale::DrawingUnit;
-use crate::session::Outfit;
+use crate::pattern::edit::PatternEdit;
+use crate::place::Moved;
+use crate::session::{Command, Outfit};
 use crate::ui::actions::Action;
-use crate::ui::app::App;
+use crate::ui::app::{App, sentence};
 use crate::ui::dialogs::{Dialog, NativeDialog};
 use crate::ui::drop_overlay::Dropped;
 use crate::ui::files::{self, PatternImport, PoseFile, Purpose, RawBody};
@@ -76,7 +79,8 @@ impl App {
     /// Asks for the unit first when the file does not say it.
     pub(super) fn import_pattern(&mut self, path: &Path, unit: Option<DrawingUnit>) -> Result<(), String> {
         match files::import_pattern(path, unit)? {
-            PatternImport::Pattern(command, notes) => {
+            PatternImport::Pattern(command, mut notes) => {
+                let command = self.brought(command, &mut notes);
                 self.apply(command);
                 self.pattern_pane.fit = true;
                 if !notes.is_empty() {
@@ -91,6 +95,29 @@ impl App {
             }
         }
         Ok(())
+    }
+
+    /// A pattern that a file places for another body stands round the present one. What was done is told.
+    fn brought(&mut self, command: Command, notes: &mut Vec<String>) -> Command {
+        let Command::ReplacePattern { name, mut pattern, marks } = command else { return command };
+        let moved = self.session.brought(&pattern);
+        if !moved.placements.is_empty() {
+            moved.carry_out(Arc::make_mut(&mut pattern));
+            notes.push(format!("Its pieces were placed for another body: {}", moved.words.join(", ")));
+        }
+        Command::ReplacePattern { name, pattern, marks }
+    }
+
+    /// Moves the pieces as a whole to where they belong on the body, and sleeves to its arms.
+    pub(super) fn bring_pieces(&mut self) {
+        let pattern = Arc::clone(&self.session.document().pattern);
+        let Moved { placements, words } = self.session.brought(&pattern);
+        if placements.is_empty() {
+            return self.messages.tell("The pieces stand where they belong on this body".to_owned());
+        }
+        let edits = vec![PatternEdit::PlaceInSpace { placements }];
+        self.apply(Command::EditPattern { edits, anew: false });
+        self.messages.tell(sentence(&words.join(", ")));
     }
 
     pub(super) fn export_pattern(&mut self, path: &Path) -> Result<(), String> {

@@ -32,7 +32,9 @@ pub fn menu_bar_ui(ui: &mut egui::Ui, now: &Situation, asks: &mut Asks) {
         ui.menu_button("Pattern", |ui| pattern_ui(ui, now, asks));
         ui.menu_button("Garment", |ui| {
             items(ui, now, asks, &[Action::Wrap, Action::Rewrap, Action::CancelWrap, Action::Unwrap]);
-            items(ui, now, asks, &[Action::Sew]);
+            ui.separator();
+            items(ui, now, asks, &[Action::Choose(Tool::Place), Action::BringPieces]);
+            items(ui, now, asks, &[Action::ToggleRolled, Action::Unplace, Action::Sew]);
             ui.separator();
             items(ui, now, asks, &[Action::ToggleRelaxing, Action::ToggleDrape, Action::StepDrape]);
             ui.separator();

@@ -70,6 +70,10 @@ impl App {
         // Looked for only while they are worked on.
         let on_bones = now.tool == Tool::Bone && !now.demo;
         let bones = if on_bones { self.session.bones() } else { Arc::default() };
+        if now.tool == Tool::Place && !now.demo {
+            let (surface, bones) = (self.body_shown(snapshot), self.session.bones());
+            self.shell.placing.update(document, surface.as_ref(), &bones);
+        }
         let with = PaneContents { document, snapshot, now, palette, bones: &bones };
         let Layout { panes, swapped } = now.layout;
         if panes == Panes::Both {
@@ -168,15 +172,18 @@ impl App {
         stand_out: &'a [Item],
     ) -> Seen<'a> {
         let PaneContents { document, snapshot, now, palette, bones } = *with;
+        let selection = &self.picks.selection;
+        let places = (now.tool == Tool::Place && !now.demo).then(|| self.shell.placing.places(selection));
+        let beside = self.shell.maps.beside().and_then(|beside| beside.meshes());
         Seen {
             document,
             body,
-            cloth: snapshot.drawn().filter(|_| self.show_cloth && snapshot.is_dressed()),
+            cloth: snapshot.drawn().filter(|_| self.show_cloth && snapshot.is_dressed() && places.is_none()),
             whole: snapshot.garment.as_ref().map(|garment| (garment, &snapshot.cloth)),
             pinned: &snapshot.pinned,
             dragged: snapshot.dragged.as_ref(),
             map: self.shell.maps.shown(),
-            beside: self.shell.maps.beside().and_then(|beside| beside.meshes()),
+            beside: places.map(|places| places.standing.meshes()).or(beside),
             growing: now.wrapping,
             working: now.working,
             tool: now.tool,
@@ -184,6 +191,7 @@ impl App {
             laser: self.laser,
             selected: now.selected.map(|(mark, _)| mark),
             bones,
+            places,
             selected_pins: &self.picks.selection.pins,
             stand_out,
             spot: self.spot(),

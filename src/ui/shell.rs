@@ -12,6 +12,7 @@ use crate::ui::drawer::Drawer;
 use crate::ui::files::Purpose;
 use crate::ui::maps::MapView;
 use crate::ui::picture_page::PicturePage;
+use crate::ui::placing::Placing;
 use crate::ui::pose_panel::PosePanel;
 use crate::ui::preferences::Preferences;
 use crate::ui::preferences_page::PreferencesPage;
@@ -76,6 +77,8 @@ pub struct Shell {
     pub recent: Recent,
     /// The file that is opened next.
     pub opening: Option<std::path::PathBuf>,
+    /// What pieces are stood round the body by.
+    pub placing: Placing,
     /// How body and cloth are drawn.
     pub sight: Sight,
     /// What gets the keyboard with the toolbar and with the side panel.

@@ -173,12 +173,20 @@ impl Situation {
             Action::Choose(Tool::Bone) | Action::OwnBones | Action::NoBones => {
                 unless(self.has_body, "There is no body")
             }
+            Action::Choose(Tool::Place) if self.pieces == 0 => Some("There is no piece on the table"),
+            Action::Choose(Tool::Place) => unless(self.has_body, "There is no body"),
+            Action::BringPieces if !self.has_body => Some("There is no body"),
+            Action::BringPieces => unless(self.placed, "No piece stands round the body"),
+            Action::ToggleRolled | Action::Unplace => {
+                unless(self.picked.standing, "No piece that stands round the body is selected")
+            }
             Action::ClearPins => unless(self.pins > 0, "There are no pins"),
             Action::Sew if self.wrapping => Some("The cloth is growing"),
             Action::Sew if !self.has_body => Some("There is no body"),
-            Action::Sew => {
-                unless(self.placed, "No piece is placed in space: only some files tell where theirs go")
-            }
+            Action::Sew => unless(
+                self.placed,
+                "No piece stands round the body: place some first (Garment › Place pieces)",
+            ),
             Action::StepDrape if self.drape.is_some_and(|drape| drape.on && drape.runs) => {
                 Some("It drapes: pause it first")
             }
@@ -241,6 +249,7 @@ impl Situation {
             Action::Choose(tool) => self.tool == tool,
             Action::ToggleLaser => self.laser,
             Action::ToggleLock => self.picked.locked,
+            Action::ToggleRolled => self.picked.rolled,
             Action::ToggleFrozen => self.picked.activity == Some(Activity::Frozen),
             Action::ToggleDeactivated => self.picked.activity == Some(Activity::Deactivated),
             Action::TogglePairs => self.sight.pairs,

@@ -352,7 +352,7 @@ impl PatternPane {
         }
         let painting = matches!(
             laid.tool,
-            Tool::Mark | Tool::Erase | Tool::Move | Tool::Drag(_) | Tool::Pin | Tool::Bone
+            Tool::Mark | Tool::Erase | Tool::Move | Tool::Drag(_) | Tool::Pin | Tool::Bone | Tool::Place
         );
         if tool.is_busy() {
             self.over = tool.is_dragging();

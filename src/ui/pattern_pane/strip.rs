@@ -142,7 +142,7 @@ fn sign(painter: &Painter, area: Rect, tool: Tool, stroke: Stroke) {
             line(&[[0.5, 1.0], [0.5, 0.0]]);
             line(&[[0.25, 0.28], [0.5, 0.0], [0.75, 0.28]]);
         }
-        Tool::Mark | Tool::Erase | Tool::Drag(_) | Tool::Pin | Tool::Bone => {
+        Tool::Mark | Tool::Erase | Tool::Drag(_) | Tool::Pin | Tool::Bone | Tool::Place => {
             painter.circle_filled(pos2(area.center().x, area.center().y), 3.0, stroke.color);
         }
     }

@@ -203,6 +203,9 @@ impl ScenePane {
                     asks.push(Ask::Drag(Command::MovePin { pin, piece, at }));
                 }
             }
+            (Some(Drag::Stand(_)), Some(at)) if moved => {
+                asks.extend(self.stand_on(pane, at, ui.input(|i| i.modifiers.shift)));
+            }
             _ => {}
         }
         let button = match self.drag {

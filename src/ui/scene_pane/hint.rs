@@ -22,6 +22,9 @@ pub fn hint(tool: Tool, mouse: Mouse, laser: bool, dressed: bool, next: usize) -
         Tool::Pin => format!("Click: pin the cloth, or pull the pin out · Drag: a row of pins · {view}"),
         Tool::Drag(_) => format!("Drag the cloth · Esc: put it back · {view}"),
         Tool::Bone => format!("Drag through the body: a bone · Ctrl+click a bone: take it away · {view}"),
+        Tool::Place => format!(
+            "Click a piece, then a dot: it stands there · Drag a piece, an arrow or a ring: move or turn it · {view}"
+        ),
         _ => format!("Drag: turn · {view}"),
     }
 }

@@ -6,10 +6,12 @@ mod drawing;
 mod facing;
 mod graphics;
 mod hand;
+mod handles;
 mod hint;
 mod keys;
 mod outlines;
 mod overlay;
+mod place;
 mod probe;
 mod sight;
 mod view;
@@ -45,6 +47,8 @@ pub use hint::hint;
 use keys::ByKeys;
 use outlines::edge_under;
 use overlay::{publish_marks, view_buttons};
+pub use place::Places;
+use place::Stood;
 
 /// What the pane shows.
 #[derive(Clone, Copy)]
@@ -79,6 +83,8 @@ pub struct Seen<'a> {
     pub selected: Option<MarkId>,
     /// Bones of the body, while they are worked on.
     pub bones: &'a [Bone],
+    /// What pieces are stood by, while that is done: they are seen instead of the cloth.
+    pub places: Option<Places<'a>>,
     /// Pins that are selected.
     pub selected_pins: &'a BTreeSet<PinId>,
     /// What of the pattern stands out: what is selected, and what the pointer is over in either pane.
@@ -145,6 +151,8 @@ enum Drag {
     Pin(PinId),
     /// A bone, from end to end.
     Bone([DVec3; 2]),
+    /// Pieces that stand before they are sewn.
+    Stand(Stood),
     /// Given up; the button is still down.
     Over,
 }
@@ -178,6 +186,7 @@ impl ScenePane {
         self.under = hovered.and_then(|at| edge_under(seen, self.ray(pane, at)));
         self.draw(ui, &Seen { dragged: seen.dragged.or(reach.as_ref()), ..*seen }, near, pane);
         self.probe(ui, seen, pane, hovered);
+        self.places_ui(ui, seen, pane, asks);
         self.by_keys.draw(&ui.painter_at(pane), pane, response.has_focus(), seen.palette);
         publish_marks(ui, &seen.document.marks, "Mark", pane, &self.camera);
         if let Some(ghosts) = seen.ghosts {
@@ -213,7 +222,7 @@ impl ScenePane {
                 self.begin(ui, seen, pane, (button, seen.mouse.deed(button, held)), erasing, asks);
             }
         }
-        if matches!(self.drag, Some(Drag::Cloth(_) | Drag::Row(_) | Drag::Pin(_))) {
+        if matches!(self.drag, Some(Drag::Cloth(_) | Drag::Row(_) | Drag::Pin(_) | Drag::Stand(_))) {
             self.go_on_by_hand(ui, seen, pane, asks);
         } else if let Some(Drag::View(_, button)) = self.drag {
             if ui.input(|i| !i.pointer.button_down(button) || is_lost(i)) {
@@ -262,6 +271,9 @@ impl ScenePane {
     }
 
     fn click(&self, seen: &Seen<'_>, pane: Rect, at: Pos2, [erasing, add]: [bool; 2], asks: &mut Asks) {
+        if seen.tool == Tool::Place {
+            return self.click_standing(seen, pane, at, add || erasing, asks);
+        }
         let near = self.mark_at(seen, pane, at);
         if let Some(pin) = self.picked_pin(seen, pane, at, add) {
             return asks.push(pin);
@@ -292,6 +304,9 @@ impl ScenePane {
             return;
         }
         let origin = ui.input(|i| i.pointer.press_origin());
+        if seen.tool == Tool::Place && origin.is_some_and(|at| self.take_standing(seen, pane, at, asks)) {
+            return;
+        }
         let bone = origin.filter(|_| seen.tool == Tool::Bone && !erasing);
         if let Some(end) = bone.and_then(|at| self.within_body(seen, pane, at)) {
             self.drag = Some(Drag::Bone([end; 2]));
@@ -359,7 +374,7 @@ impl ScenePane {
         let Some(at) = response.hover_pos() else { return };
         let erasing = seen.tool == Tool::Erase || ui.input(|i| i.modifiers.command);
         ui.ctx().set_cursor_icon(match &self.drag {
-            Some(Drag::View(..) | Drag::Cloth(_) | Drag::Pin(_)) => CursorIcon::Grabbing,
+            Some(Drag::View(..) | Drag::Cloth(_) | Drag::Pin(_) | Drag::Stand(_)) => CursorIcon::Grabbing,
             Some(Drag::Paint(_) | Drag::Bone(_)) => CursorIcon::Crosshair,
             _ if response.dragged() => CursorIcon::Grabbing,
             _ if erasing && near.is_some() => CursorIcon::PointingHand,

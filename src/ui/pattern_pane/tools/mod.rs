@@ -84,7 +84,7 @@ pub fn machine(tool: Tool) -> Box<dyn PatternTool> {
     match tool {
         Tool::Mark => Box::new(marks::Marks::painting()),
         Tool::Erase => Box::new(marks::Marks::erasing()),
-        Tool::Move => Box::<select::Select>::default(),
+        Tool::Move | Tool::Place => Box::<select::Select>::default(),
         Tool::Drag(_) | Tool::Pin | Tool::Bone => Box::new(select::Select::idle()),
         Tool::Points => Box::<points::Points>::default(),
         Tool::Pen => Box::new(pen::Pen::new(pen::Makes::Piece)),
