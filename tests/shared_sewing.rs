@@ -6,6 +6,8 @@ use std::sync::Arc;
 use toile::body::{Unit, import};
 use toile::fit::{BodyIndex, Report, measure};
 use toile::io::{garmentcode, obj};
+use toile::session::body::Body;
+use toile::session::placing::brought;
 use toile::session::{BodyChoice, Command, Document, Project, Session, Settings};
 use toile::sim::{Runner, Simulation};
 use toile::wrap::Phase;
@@ -22,17 +24,26 @@ fn data() -> Option<PathBuf> {
 }
 
 fn sewn(pattern: &str, edge_length: f64) -> Option<Report> {
+    let pattern = format!("garmentcode/{pattern}_specification.json");
+    sewn_on("garmentcode/mean_all.obj", &pattern, edge_length)
+}
+
+/// Of the pattern in this file, on the body in that one.
+fn sewn_on(body: &str, pattern: &str, edge_length: f64) -> Option<Report> {
     let data = data()?;
-    let bytes = std::fs::read(data.join("bodies/garmentcode/mean_all.obj")).expect("a body");
+    let bytes = std::fs::read(data.join("bodies").join(body)).expect("a body");
     let body = import(obj::read(&bytes).expect("an OBJ").mesh, Unit::Metre);
-    let path = data.join("patterns/garmentcode").join(format!("{pattern}_specification.json"));
+    let path = data.join("patterns").join(pattern);
     let pattern = garmentcode::read(&std::fs::read(path).expect("a pattern")).expect("GarmentCode");
-    let document = Document {
+    let mut document = Document {
         pattern: Arc::new(pattern),
         body: BodyChoice::Imported { name: "mean".to_owned(), mesh: Arc::new(body.mesh) },
         settings: Settings { edge_length, ..Settings::default() },
         ..Document::default()
     };
+    let body = Body::new(&document.body).expect("a body that cloth can lie on");
+    let moved = brought(&document.pattern, &document, &body);
+    moved.carry_out(Arc::make_mut(&mut document.pattern));
     let project = Project { document, dressed: None };
     let mut s = Session::new(project, Runner::inline(Simulation::default()));
     s.apply_alone(Command::Sew).expect("placed");
@@ -106,4 +117,24 @@ fn a_shirt_does_not_run_through_itself() {
 #[test]
 fn a_jumpsuit_of_larger_triangles_has_its_arms_in_its_sleeves() {
     check_of(("js_mean_all", 0.025), 5, 0.10, 0);
+}
+
+/// Placed for arms half down, and for a body whose file counts from elsewhere.
+#[test]
+fn pieces_placed_for_another_body_are_sewn_round_this_one() {
+    let cases = [
+        ("garmentcode/mean_all_tpose.obj", "garmentcode/shirt_mean_specification.json", 4, 0.03),
+        ("makehuman/mh_male_rest.obj", "garmentcode/shirt_mean_specification.json", 4, 0.07),
+        ("makehuman/mh_female_tpose.obj", "garment-pattern-generator/pants_straight_sides.json", 3, 0.045),
+        ("makehuman/mh_female_tpose.obj", "garment-pattern-generator/skirt_4_panels.json", 2, 0.02),
+    ];
+    for (body, pattern, openings, p99) in cases {
+        let Some(report) = sewn_on(body, pattern, EDGE_LENGTH) else { return };
+        println!("{pattern} on {body}: p99 {:.4}, {} crossings", report.strain.p99, report.self_crossings);
+        assert_eq!((report.pieces_in_space, report.unmapped_vertices), (1, 0), "{pattern}");
+        assert_eq!(report.openings.iter().filter(|o| o.body_through).count(), openings, "{pattern}");
+        assert_eq!(report.self_crossings, 0, "{pattern} on {body}");
+        assert_eq!((report.penetration.vertices, report.edges_through_body), (0, 0), "{pattern} on {body}");
+        assert!(report.strain.p99 < p99, "{pattern} on {body}: {}", report.strain.p99);
+    }
 }
