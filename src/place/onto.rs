@@ -15,11 +15,15 @@ use crate::wrap::{Stand, stand};
 
 /// A garment that stands no farther from where it belongs than this is left there, metres on a body 1.5 m large.
 const NEAR: f64 = 0.06;
+/// The same where its sleeves have to be turned.
+const EXACT: f64 = 0.01;
 /// One that is held by a ring round the trunk may stand so far from where that would rest: it slides, and may be meant to sit
 /// higher or lower, metres on a body 1.5 m large.
 const RING_NEAR: f64 = 0.15;
 /// Pieces of an arm that stand along it to this angle are left so, radians.
 const ALONG: f64 = 0.3;
+/// An arm whose direction points to the front or back by more than this (sine) is stretched there.
+const FORWARD: f64 = 0.45;
 /// Pieces of an arm stand wholly this far from the middle, as a share of the trunk's half breadth.
 const BESIDE: f64 = 0.7;
 /// Seams of a sleeve run along it when the cosine is larger.
@@ -54,21 +58,25 @@ pub fn onto(pattern: &Pattern, surface: &Surface, bones: &[Bone], offset: f64) -
         pattern.pieces.iter().filter_map(|(&id, piece)| Some((id, piece.placement?))).collect();
     let before = poses.clone();
     let mut words = Vec::new();
-    let by = shift(pattern, surface, offset);
+    let (lower, upper) = surface.bounds();
+    let arms = limbs(bones, upper.y - lower.y);
+    let turned = |poses: &BTreeMap<PieceId, SpacePose>, left: bool| {
+        let arm = *arms.iter().find(|limb| limb.part == Part::Arm { left })?;
+        let group = sleeve(pattern, surface, poses, left)?;
+        let goes = towards(group.along, arm.along());
+        (group.along.angle_between(goes) > ALONG).then_some((arm, group, goes))
+    };
+    // Sleeves that are turned leave less room for what stands too low.
+    let is_other_pose = [true, false].into_iter().any(|left| turned(&poses, left).is_some());
+    let by = shift(pattern, surface, offset, if is_other_pose { EXACT } else { NEAR });
     if by != DVec3::ZERO {
         poses.values_mut().for_each(|pose| pose.translation += by);
         words.extend(told(by));
     }
-    let (lower, upper) = surface.bounds();
-    let arms = limbs(bones, upper.y - lower.y);
     for left in [true, false] {
-        let Some(arm) = arms.iter().find(|limb| limb.part == Part::Arm { left }) else { continue };
-        let Some(group) = sleeve(pattern, surface, &poses, left) else { continue };
-        let (was, goes) = (group.along, arm.along());
+        let Some((arm, group, goes)) = turned(&poses, left) else { continue };
+        let was = group.along;
         let angle = was.angle_between(goes);
-        if angle.is_nan() || angle <= ALONG {
-            continue;
-        }
         let turn = DQuat::from_rotation_arc(was, goes);
         let turned: Vec<DVec3> =
             group.outline(pattern, &poses).map(|p| turn * (p - group.armhole) + group.armhole).collect();
@@ -81,7 +89,11 @@ pub fn onto(pattern: &Pattern, surface: &Surface, bones: &[Bone], offset: f64) -
                 let spans = turned.iter().map(|p| p.dot(*way));
                 let (low, high) =
                     spans.fold((f64::MAX, f64::MIN), |(low, high), s| (low.min(s), high.max(s)));
-                *way * (arm.bone[0].dot(*way) - (low + high) / 2.0)
+                let up = *way * way.y.signum();
+                // What is wider than the arm hangs on it: more of it stands above.
+                let arm_is = surface.ray(arm.bone[0], up).map_or(0.0, |hit| hit.distance);
+                let slack = ((high - low) / 2.0 - arm_is).max(0.0);
+                *way * (arm.bone[0].dot(*way) - (low + high) / 2.0) + up * (slack / 2.0 * way.y.abs())
             })
             .sum();
         for id in &group.pieces {
@@ -94,8 +106,17 @@ pub fn onto(pattern: &Pattern, surface: &Surface, bones: &[Bone], offset: f64) -
     Moved { placements: changed.map(|(id, pose)| (id, Some(pose))).collect(), words }
 }
 
-/// How the whole garment goes; zero along axes along which it stands near enough.
-fn shift(pattern: &Pattern, surface: &Surface, offset: f64) -> DVec3 {
+/// Where a sleeve that runs `along` goes for an arm that runs `arm`: two halves before and behind stay so, upright, where the
+/// arm is not stretched far to the front or back.
+fn towards(along: DVec3, arm: DVec3) -> DVec3 {
+    let upright = (arm * DVec3::new(1.0, 1.0, 0.0)).normalize_or_zero();
+    let is_upright = along.z.abs() < FORWARD && arm.z.abs() < FORWARD && upright != DVec3::ZERO;
+    if is_upright { upright } else { arm }
+}
+
+/// How the whole garment goes; zero along axes along which it stands near enough. What hangs from the shoulders may do so
+/// `hung_near` metres from them on a body 1.5 m large.
+fn shift(pattern: &Pattern, surface: &Surface, offset: f64, hung_near: f64) -> DVec3 {
     let near = NEAR * surface.scale();
     let far = |by: f64| if by.abs() > near { by } else { 0.0 };
     let (Some(Stand { placed, body, bounds, hangs }), Some(waist)) =
@@ -111,7 +132,7 @@ fn shift(pattern: &Pattern, surface: &Surface, offset: f64) -> DVec3 {
         if is_round { far(waist[axis] - middle) } else { 0.0 }
     };
     let up = body - placed;
-    let stays = up.abs() <= if hangs { near } else { RING_NEAR * surface.scale() };
+    let stays = up.abs() <= surface.scale() * if hangs { hung_near } else { RING_NEAR };
     DVec3::new(sideways(0), if stays { 0.0 } else { up }, sideways(2))
 }
 
