@@ -54,6 +54,8 @@ impl Moved {
 /// it (paper B, "initial positioning": the axis of a piece is turned on to its bone). What stands near enough stays.
 /// `offset` is the height of the cloth above the skin, metres.
 pub fn onto(pattern: &Pattern, surface: &Surface, bones: &[Bone], offset: f64) -> Moved {
+    let Some(trunk) = Trunk::new(surface) else { return Moved::default() };
+    let (cut, _) = CutPattern::new(pattern);
     let mut poses: BTreeMap<PieceId, SpacePose> =
         pattern.pieces.iter().filter_map(|(&id, piece)| Some((id, piece.placement?))).collect();
     let before = poses.clone();
@@ -62,13 +64,15 @@ pub fn onto(pattern: &Pattern, surface: &Surface, bones: &[Bone], offset: f64) -
     let arms = limbs(bones, upper.y - lower.y);
     let turned = |poses: &BTreeMap<PieceId, SpacePose>, left: bool| {
         let arm = *arms.iter().find(|limb| limb.part == Part::Arm { left })?;
-        let group = sleeve(pattern, surface, poses, left)?;
+        let group = sleeve(&cut, &trunk, poses, left)?;
         let goes = towards(group.along, arm.along());
         (group.along.angle_between(goes) > ALONG).then_some((arm, group, goes))
     };
     // Sleeves that are turned leave less room for what stands too low.
     let is_other_pose = [true, false].into_iter().any(|left| turned(&poses, left).is_some());
-    let by = shift(pattern, surface, offset, if is_other_pose { EXACT } else { NEAR });
+    let near = if is_other_pose { EXACT } else { NEAR };
+    let by = stand(&cut, surface, &trunk, offset)
+        .map_or(DVec3::ZERO, |found| shift(found, waist(&trunk), surface.scale(), near));
     if by != DVec3::ZERO {
         poses.values_mut().for_each(|pose| pose.translation += by);
         words.extend(told(by));
@@ -79,7 +83,7 @@ pub fn onto(pattern: &Pattern, surface: &Surface, bones: &[Bone], offset: f64) -
         let angle = was.angle_between(goes);
         let turn = DQuat::from_rotation_arc(was, goes);
         let turned: Vec<DVec3> =
-            group.outline(pattern, &poses).map(|p| turn * (p - group.armhole) + group.armhole).collect();
+            group.outline(&cut, &poses).map(|p| turn * (p - group.armhole) + group.armhole).collect();
         // Round the arm: the middle of what they span across it comes to its bone.
         let across =
             [DVec3::Z, goes.cross(DVec3::Z)].map(|way| (way - goes * goes.dot(way)).normalize_or_zero());
@@ -116,14 +120,9 @@ fn towards(along: DVec3, arm: DVec3) -> DVec3 {
 
 /// How the whole garment goes; zero along axes along which it stands near enough. What hangs from the shoulders may do so
 /// `hung_near` metres from them on a body 1.5 m large.
-fn shift(pattern: &Pattern, surface: &Surface, offset: f64, hung_near: f64) -> DVec3 {
-    let near = NEAR * surface.scale();
+fn shift(Stand { placed, body, bounds, hangs }: Stand, waist: DVec3, scale: f64, hung_near: f64) -> DVec3 {
+    let near = NEAR * scale;
     let far = |by: f64| if by.abs() > near { by } else { 0.0 };
-    let (Some(Stand { placed, body, bounds, hangs }), Some(waist)) =
-        (stand(pattern, surface, offset), waist(surface))
-    else {
-        return DVec3::ZERO;
-    };
     // What stands round the body stays where it is before, behind and beside it.
     let sideways = |axis: usize| {
         let (low, high) = (bounds[0][axis], bounds[1][axis]);
@@ -132,17 +131,16 @@ fn shift(pattern: &Pattern, surface: &Surface, offset: f64, hung_near: f64) -> D
         if is_round { far(waist[axis] - middle) } else { 0.0 }
     };
     let up = body - placed;
-    let stays = up.abs() <= surface.scale() * if hangs { hung_near } else { RING_NEAR };
+    let stays = up.abs() <= scale * if hangs { hung_near } else { RING_NEAR };
     DVec3::new(sideways(0), if stays { 0.0 } else { up }, sideways(2))
 }
 
 /// The middle of the trunk half way up.
-fn waist(surface: &Surface) -> Option<DVec3> {
-    let trunk = Trunk::new(surface)?;
-    let level = trunk.levels.get(trunk.levels.len() / 2)?;
+fn waist(trunk: &Trunk) -> DVec3 {
+    let Some(level) = trunk.levels.get(trunk.levels.len() / 2) else { return DVec3::X * trunk.middle };
     let spans =
         level.points.iter().fold((f64::MAX, f64::MIN), |(low, high), p| (low.min(p.z), high.max(p.z)));
-    Some(DVec3::new(trunk.middle, level.height, (spans.0 + spans.1) / 2.0))
+    DVec3::new(trunk.middle, level.height, (spans.0 + spans.1) / 2.0)
 }
 
 fn told(by: DVec3) -> Vec<String> {
@@ -169,12 +167,12 @@ struct Sleeve {
 impl Sleeve {
     fn outline<'a>(
         &'a self,
-        pattern: &'a Pattern,
+        cut: &'a CutPattern,
         poses: &'a BTreeMap<PieceId, SpacePose>,
     ) -> impl Iterator<Item = DVec3> + 'a {
         self.pieces.iter().flat_map(move |id| {
             let pose = poses[id];
-            pattern.pieces[id].outline.iter().map(move |edge| pose.at(edge.start))
+            cut.pieces[id].outline.iter().map(move |edge| pose.at(edge.start))
         })
     }
 }
@@ -182,17 +180,16 @@ impl Sleeve {
 /// The pieces of the left or right arm: those that a file or their name says are, or that stand wholly beside the trunk above
 /// the waist, with what else is sewn only to them. None where there are none, or nothing they are sewn to.
 fn sleeve(
-    pattern: &Pattern,
-    surface: &Surface,
+    cut: &CutPattern,
+    trunk: &Trunk,
     poses: &BTreeMap<PieceId, SpacePose>,
     left: bool,
 ) -> Option<Sleeve> {
-    let trunk = Trunk::new(surface)?;
     let waist = trunk.levels.get(trunk.levels.len() / 2)?;
     let beside = waist.points.iter().map(|p| (p.x - trunk.middle).abs()).fold(0.0, f64::max) * BESIDE;
     let side = if left { 1.0 } else { -1.0 };
     let is_arm = |id: &PieceId, pose: &SpacePose| {
-        let piece = &pattern.pieces[id];
+        let piece = &cut.pieces[id];
         let corners: Vec<DVec3> = piece.outline.iter().map(|edge| pose.at(edge.start)).collect();
         let middle = corners.iter().sum::<DVec3>() / corners.len().max(1) as f64;
         let out = (middle.x - trunk.middle) * side;
@@ -204,7 +201,6 @@ fn sleeve(
     };
     let pieces: BTreeSet<PieceId> =
         poses.iter().filter(|(id, pose)| is_arm(id, pose)).map(|(id, _)| *id).collect();
-    let (cut, _) = CutPattern::new(pattern);
     let chord = |edge: &EdgeRef| {
         let (piece, pose) = (cut.pieces.get(&edge.piece)?, poses.get(&edge.piece)?);
         let (a, b) = (edge.edge < piece.edge_count()).then(|| piece.edge_ends(edge.edge))?;
@@ -226,7 +222,7 @@ fn sleeve(
     }
     let armhole = armhole.iter().flatten().sum::<DVec3>() / (2 * armhole.len()) as f64;
     let mut sleeve = Sleeve { pieces, armhole, along: DVec3::ZERO };
-    let (sum, count) = sleeve.outline(pattern, poses).fold((DVec3::ZERO, 0), |(sum, n), p| (sum + p, n + 1));
+    let (sum, count) = sleeve.outline(cut, poses).fold((DVec3::ZERO, 0), |(sum, n), p| (sum + p, n + 1));
     let outward = sum / f64::from(count) - armhole;
     // Seams that run along it say more than the middle of what may be slanted.
     let outward_unit = outward.normalize_or_zero();

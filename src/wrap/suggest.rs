@@ -93,22 +93,20 @@ pub struct Stand {
 }
 
 /// How high a placed garment stands and how high on `surface` it belongs; None where neither can be told: nothing is placed
-/// before or behind the body, or the body has no trunk. `offset` as for [`suggested`].
-pub fn stand(pattern: &Pattern, surface: &Surface, offset: f64) -> Option<Stand> {
-    let trunk = Trunk::new(surface)?;
-    let (cut, _) = CutPattern::new(pattern);
+/// before or behind the body. `trunk` is that of `surface`, `offset` as for [`suggested`].
+pub fn stand(cut: &CutPattern, surface: &Surface, trunk: &Trunk, offset: f64) -> Option<Stand> {
     let lifted = |panels: &[Panel]| panels.iter().map(|p| p.lifted).sum::<f64>() / panels.len() as f64;
     let bounds = |panels: &[Panel]| {
         let all = || panels.iter().flat_map(|panel| panel.outline.iter().map(|&p| panel.world(p)));
         [all().fold(DVec3::MAX, DVec3::min), all().fold(DVec3::MIN, DVec3::max)]
     };
-    match anchor(&cut) {
+    match anchor(cut) {
         Anchor::Shoulders(panels, seams) => {
-            let limit = shoulder_breadth(&trunk)?;
+            let limit = shoulder_breadth(trunk)?;
             let edge = |edge: &EdgeRef| {
                 let panel = panels.iter().find(|p| p.id == edge.piece)?;
                 let at = edge_within(panel, edge.edge, limit)?;
-                Some((at.y - panel.lifted, on_shoulder(surface, &trunk, at.x)?.y))
+                Some((at.y - panel.lifted, on_shoulder(surface, trunk, at.x)?.y))
             };
             let heights: Vec<(f64, f64)> = seams.iter().flatten().filter_map(edge).collect();
             let sum = heights.iter().fold((0.0, 0.0), |sum, at| (sum.0 + at.0, sum.1 + at.1));
@@ -122,7 +120,7 @@ pub fn stand(pattern: &Pattern, surface: &Surface, offset: f64) -> Option<Stand>
             // Panels at the sides are no part of the ring here, but their seams are sides of those that are.
             let sewn: Vec<EdgeRef> = cut.edge_seams().flat_map(|seam| seam.sides).collect();
             let lines: Vec<Line> = panels.iter().map(|p| Line::under_top(p, depth, &sewn)).collect();
-            let beside: f64 = besides(&cut, &panels, depth).sum();
+            let beside: f64 = besides(cut, &panels, depth).sum();
             let along: f64 = lines.iter().map(Line::length).sum();
             let girth = along + beside - std::f64::consts::TAU * offset;
             // What is too wide to rest anywhere is put on at the waist.
