@@ -39,7 +39,7 @@ pub struct Point {
 /// The places along a bone at which there are points: their names and shares of its length.
 fn heights(part: Part, halves: bool) -> &'static [(&'static str, f64)] {
     match part {
-        Part::Trunk => &[("hips", 0.1), ("waist", 0.45), ("chest", 0.75)],
+        Part::Trunk => &[("hips", 0.1), ("waist", 0.4), ("chest", 0.62)],
         Part::Head => &[("head", 0.6)],
         Part::Arm { .. } => &[("upper arm", 0.15), ("forearm", 0.9)],
         Part::Leg { .. } if halves => &[("", 0.45)],
@@ -215,6 +215,11 @@ mod tests {
             assert!(point.out.dot(point.up).abs() < 1e-12 && point.reach <= point.girth_radius);
         }
         assert!(called(&points, "chest, front").out.z > 0.9);
+        let beside = called(&points, "chest, left").at;
+        assert!(
+            beside.x < called(&points, "left upper arm, inside").at.x,
+            "under the arm, not beyond it: {beside}"
+        );
         assert!(called(&points, "waist, left").out.x > 0.9);
         assert!(called(&points, "left upper arm, outside").out.x > 0.3);
         assert!(called(&points, "right thigh, outside").out.x < -0.9);

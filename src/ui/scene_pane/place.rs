@@ -21,8 +21,8 @@ use crate::ui::standing::Standing;
 
 /// Radius of a dot, points.
 const DOT: f32 = 4.5;
-/// Dots are shown where the skin looks towards the eye by more than this cosine.
-const FACES: f64 = 0.12;
+/// Dots are shown where the skin looks towards the eye by more than this cosine: those at the outline of a limb, too.
+const FACES: f64 = -0.1;
 
 /// What is there to stand pieces by.
 #[derive(Clone, Copy, Debug)]
