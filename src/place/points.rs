@@ -106,8 +106,8 @@ fn ring(surface: &Surface, limb: &Limb, height: &str, share: f64) -> Vec<Point> 
 /// Where `piece` stands when it is put at `point`: its middle there, its outer side looking away from the body and what is
 /// up on the table pointing along the bone. Before, behind and beside the trunk it is flat, clear of what of the body stands
 /// out behind it; at a limb it is rolled where it goes round most of it (the radius of paper B's self-rolling, or that of
-/// the limb where that is larger). `round`: rolled in any case, or flat.
-pub fn stood_at(piece: &Piece, point: &Point, surface: &Surface, round: Option<bool>) -> SpacePose {
+/// the limb where that is larger).
+pub fn stood_at(piece: &Piece, point: &Point, surface: &Surface) -> SpacePose {
     let scale = surface.scale();
     let Frame { up, across, left, right, bottom, top, centre, outer } = Frame::new(piece);
     let width = right - left;
@@ -122,8 +122,7 @@ pub fn stood_at(piece: &Piece, point: &Point, surface: &Surface, round: Option<b
     };
     let is_limb = !matches!(point.part, Part::Trunk | Part::Head);
     let least = point.girth_radius + ROUND * scale;
-    let rolled = round.unwrap_or(is_limb && width > ROLLED * std::f64::consts::TAU * least);
-    if rolled {
+    if is_limb && width > ROLLED * std::f64::consts::TAU * least {
         let radius = least.max(width / std::f64::consts::TAU + ROUND * scale / 4.0);
         let roll = Roll { centre, along: up, radius: radius * outer };
         return standing(radius - point.reach, Some(roll));
@@ -238,7 +237,7 @@ mod tests {
                     let corners: Vec<DVec2> = piece.flattened(1e-3).into_iter().rev().collect();
                     piece = Piece { pose, ..Piece::polygon("mirrored", &corners) };
                 }
-                let placed = stood_at(&piece, point, &surface, None);
+                let placed = stood_at(&piece, point, &surface);
                 assert!(placed.is_sound() && placed.roll.is_none());
                 let outer = if piece.signed_area() < 0.0 { DVec3::NEG_Z } else { DVec3::Z };
                 assert!((placed.rotation * outer).distance(point.out) < 1e-12);
@@ -256,7 +255,7 @@ mod tests {
     fn a_wide_piece_goes_round_a_limb_and_closes_there() {
         let (surface, points) = body();
         let point = called(&points, "left upper arm, outside");
-        let placed = stood_at(&panel(0.5, 0.2, PlanePose::default()), point, &surface, None);
+        let placed = stood_at(&panel(0.5, 0.2, PlanePose::default()), point, &surface);
         let roll = placed.roll.expect("a tube");
         let gap = placed.at(DVec2::new(0.0, 0.1)).distance(placed.at(DVec2::new(0.5, 0.1)));
         assert!(gap < 0.06, "{gap} of a turn of {}", std::f64::consts::TAU * roll.radius);
@@ -264,9 +263,6 @@ mod tests {
             let p = placed.at(DVec2::new(0.5 * f64::from(k) / 20.0, 0.1));
             assert!(!surface.contains(p) && surface.nearest(p).distance < 0.12, "{k}");
         }
-        assert!(stood_at(&panel(0.1, 0.2, PlanePose::default()), point, &surface, None).roll.is_none());
-        assert!(
-            stood_at(&panel(0.5, 0.2, PlanePose::default()), point, &surface, Some(false)).roll.is_none()
-        );
+        assert!(stood_at(&panel(0.1, 0.2, PlanePose::default()), point, &surface).roll.is_none());
     }
 }

@@ -43,7 +43,7 @@ pub fn cloth_under(garment: &Garment, state: &ClothState, ray: &Ray) -> Option<C
 }
 
 /// Distance along the ray and barycentric weights of the second and third corner (Moeller and Trumbore 1997).
-fn meets(origin: DVec3, direction: DVec3, [a, b, c]: [DVec3; 3]) -> Option<(f64, DVec2)> {
+pub(super) fn meets(origin: DVec3, direction: DVec3, [a, b, c]: [DVec3; 3]) -> Option<(f64, DVec2)> {
     let (ab, ac) = (b - a, c - a);
     let across = direction.cross(ac);
     let det = ab.dot(across);

@@ -174,7 +174,7 @@ fn standing(pattern: &Pattern, id: PieceId) -> Option<(&Arc<Piece>, SpacePose)> 
 fn standing_under(seen: &Seen<'_>, places: &Places<'_>, ray: Ray) -> Option<(PieceId, DVec3)> {
     let (piece, at, far) = places.standing.under(ray)?;
     let skin = seen.body.and_then(|body| body.ray(ray.origin, ray.direction));
-    let is_hidden = skin.is_some_and(|hit| hit.point.distance(ray.origin) < far * ray.direction.length());
+    let is_hidden = skin.is_some_and(|hit| hit.point.distance(ray.origin) < far);
     (!is_hidden || seen.look.xray).then_some((piece, at))
 }
 
@@ -206,12 +206,12 @@ fn stand_at(seen: &Seen<'_>, places: &Places<'_>, point: &Point) -> Ask {
     let mut placements: Vec<(PieceId, Option<SpacePose>)> = Vec::new();
     for &id in places.selected {
         let Some(piece) = pattern.pieces.get(&id) else { continue };
-        placements.push((id, Some(stood_at(piece, point, body, None))));
+        placements.push((id, Some(stood_at(piece, point, body))));
         let twin = piece.twin.filter(|twin| !places.selected.contains(twin));
         if let (Some(twin), Some(opposite)) = (twin, opposite)
             && let Some(piece) = pattern.pieces.get(&twin)
         {
-            placements.push((twin, Some(stood_at(piece, opposite, body, None))));
+            placements.push((twin, Some(stood_at(piece, opposite, body))));
         }
     }
     Ask::Do(Command::EditPattern { edits: vec![PatternEdit::PlaceInSpace { placements }], anew: false })
