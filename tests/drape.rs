@@ -5,6 +5,8 @@ mod bends;
 #[path = "drape/capstan.rs"]
 mod capstan;
 mod common;
+#[path = "drape/crossings.rs"]
+mod crossings;
 #[path = "drape/cusick.rs"]
 mod cusick;
 #[path = "drape/inflates.rs"]

@@ -25,6 +25,11 @@ impl Collider {
         Self { surface, motion: Vec::new() }
     }
 
+    /// How far any of its vertices comes in the step, metres.
+    pub fn farthest(&self) -> f64 {
+        self.motion.iter().map(|m| m.length_squared()).fold(0.0, f64::max).sqrt()
+    }
+
     /// How far the body moves in the step where it is nearest to `x`.
     pub fn carried_near(&self, x: DVec3) -> DVec3 {
         if self.motion.is_empty() {

@@ -2,9 +2,10 @@
 
 use serde::Serialize;
 
+use crate::contact::Separation;
 use crate::drape::contact::Contacts;
-use crate::drape::itself::Itself;
 use crate::drape::newton::{NewtonSettings, Work, largest};
+use crate::drape::self_contact::SelfContact;
 use crate::drape::small_steps::{SmallSteps, substeps};
 use crate::drape::state::State;
 use crate::drape::steps::{CONTACT_OVER_INERTIA, Integrator, Scene, Steps};
@@ -68,7 +69,7 @@ pub struct Drape {
     state: State,
     settings: DrapeSettings,
     contacts: Contacts,
-    itself: Itself,
+    itself: SelfContact,
     solver: Solver,
     residual: f64,
     unconverged: u64,
@@ -87,7 +88,7 @@ impl Drape {
         let solver = chosen(&scene, &settings, h)?;
         let thickness = if settings.self_collision { settings.thickness } else { 0.0 };
         let stiffness = scene.mass.iter().map(|m| CONTACT_OVER_INERTIA * m / (h * h)).collect();
-        let itself = Itself::new(&scene.sheet, thickness, stiffness);
+        let itself = SelfContact::new(&scene.sheet, thickness, stiffness);
         let contacts = Contacts::new(count, settings.thickness, settings.friction);
         Ok(Self { scene, state, settings, contacts, itself, solver, residual: 0.0, unconverged: 0 })
     }
@@ -117,7 +118,7 @@ impl Drape {
             }
             Solver::Small(small, count) => {
                 let contact = (self.settings.thickness, self.settings.friction);
-                small.step(&self.scene, &mut self.state, &mut self.itself, contact, h, *count);
+                small.step(&self.scene, &mut self.state, contact, h, *count);
                 self.residual = 0.0;
                 None
             }
@@ -177,8 +178,7 @@ impl Drape {
             Solver::Small(small, _) => Work {
                 queries: small.queries,
                 skipped_queries: small.skipped,
-                self_pairs: self.itself.looked_at + self.itself.pairs_seen,
-                skipped_self_pairs: self.itself.pairs_skipped,
+                self_pairs: small.separation.as_ref().map_or(0, |separation| separation.counters.looked_at),
                 ..Work::default()
             },
         }
@@ -205,7 +205,13 @@ fn chosen(scene: &Scene, settings: &DrapeSettings, h: f64) -> Result<Solver, Dra
     let (extent, edge) = (sheet.areas.iter().sum::<f64>().sqrt(), sheet.mean_edge());
     let hanging = extent * concentration(scene, extent / edge);
     let count = substeps(h, settings.strain, scene.gravity.length(), hanging, edge);
-    let small = || Solver::Small(Box::new(SmallSteps::new(scene, settings.stiffness)), count);
+    let small = || {
+        let mut small = SmallSteps::new(scene, settings.stiffness);
+        if settings.self_collision {
+            small.separation = Some(separation(scene, settings.thickness));
+        }
+        Solver::Small(Box::new(small), count)
+    };
     let implicit = || Steps::new(scene, settings.integrator).ok_or(DrapeError::Memory);
     match settings.method {
         Some(Method::SmallSteps) => Ok(small()),
@@ -217,4 +223,11 @@ fn chosen(scene: &Scene, settings: &DrapeSettings, h: f64) -> Result<Solver, Dra
             Ok(if work <= other { small() } else { Solver::Implicit(Box::new(steps)) })
         }
     }
+}
+
+/// What keeps the cloth from crossing itself.
+fn separation(scene: &Scene, thickness: f64) -> Separation {
+    let sheet = &scene.sheet;
+    let rest: Vec<f64> = (0..sheet.adjacency.edges.len()).map(|e| sheet.rest_length(e)).collect();
+    Separation::new(sheet.len(), &sheet.triangles, &sheet.adjacency, (&rest, thickness), None, None)
 }

@@ -12,16 +12,14 @@ pub mod contact;
 #[allow(clippy::module_inception, reason = "the room is named after what it makes")]
 pub mod drape;
 pub mod elastic;
-pub mod itself;
 mod laid;
 pub mod limits;
 pub mod membrane;
-mod mend;
-mod near;
 pub mod net;
 pub mod newton;
 mod pair;
 mod routes;
+pub mod self_contact;
 pub mod settle;
 pub mod sewing;
 pub mod sheet;

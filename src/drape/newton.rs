@@ -8,7 +8,7 @@ use glam::{DMat3, DVec3};
 use crate::drape::blocks::{BlockMatrix, Slot, solve};
 use crate::drape::contact::{Collider, Contacts};
 use crate::drape::elastic::Elastic;
-use crate::drape::itself::Itself;
+use crate::drape::self_contact::SelfContact;
 use crate::drape::sheet::Sheet;
 use crate::geometry::factor::Factor;
 
@@ -153,7 +153,7 @@ impl Newton {
         &mut self,
         task: &Task,
         contacts: &mut Contacts,
-        itself: &mut Itself,
+        itself: &mut SelfContact,
         settings: &NewtonSettings,
         x: &mut Vec<DVec3>,
     ) -> Solved {
@@ -209,7 +209,7 @@ impl Newton {
         &mut self,
         task: &Task,
         contacts: &mut Contacts,
-        itself: &mut Itself,
+        itself: &mut SelfContact,
         x: &[DVec3],
         gradient: &mut [DVec3],
     ) -> f64 {
@@ -241,7 +241,7 @@ impl Newton {
         &mut self,
         task: &Task,
         contacts: &mut Contacts,
-        itself: &mut Itself,
+        itself: &mut SelfContact,
         x: &mut Vec<DVec3>,
         direction: &[DVec3],
         gradient: &mut Vec<DVec3>,
@@ -278,7 +278,7 @@ impl Newton {
         &mut self,
         task: &Task,
         contacts: &Contacts,
-        itself: &Itself,
+        itself: &SelfContact,
         exact: bool,
         x: &[DVec3],
     ) -> bool {
@@ -309,7 +309,7 @@ impl Newton {
         &mut self,
         task: &Task,
         contacts: &Contacts,
-        itself: &Itself,
+        itself: &SelfContact,
         exact: bool,
         x: &[DVec3],
         shift: f64,
@@ -351,7 +351,7 @@ impl Newton {
         &mut self,
         task: &Task,
         contacts: &Contacts,
-        itself: &Itself,
+        itself: &SelfContact,
         exact: bool,
         x: &[DVec3],
         gradient: &[DVec3],
@@ -366,7 +366,7 @@ impl Newton {
 
     /// Whether the whole Hessian at `x` is positive definite: the shape is stable.
     pub fn is_stable(&mut self, task: &Task, x: &[DVec3]) -> bool {
-        self.assemble(task, &Contacts::default(), &Itself::default(), true, x, 0.0);
+        self.assemble(task, &Contacts::default(), &SelfContact::default(), true, x, 0.0);
         self.matrix.factor(None).is_some()
     }
 }

@@ -14,14 +14,8 @@ pub(super) struct Pair {
     pub edges: bool,
     /// On which side the first is of the second, ±1; 0 while they are not before one another.
     pub side: f64,
-    /// The side is known from their layers.
-    pub layered: bool,
-    /// They are of different layers.
-    pub between: bool,
     /// How far one can come towards the other, metres: who seems farther behind has come round, not through.
     pub reach: f64,
-    /// It is among those looked at in every small step.
-    pub near: bool,
 }
 
 impl Pair {
@@ -30,50 +24,9 @@ impl Pair {
         (self.edges, self.vertices)
     }
 
-    /// The vertices of the first and of the second.
-    pub fn elements(&self) -> [&[u32]; 2] {
-        let (first, second) = self.vertices.split_at(if self.edges { 2 } else { 1 });
-        [first, second]
-    }
-
-    /// No more than their distance, metres: that of the balls round them.
-    pub fn at_least_apart(&self, x: &[DVec3]) -> f64 {
-        let ball = |vs: &[u32]| {
-            let middle = vs.iter().map(|&v| x[v as usize]).sum::<DVec3>() / vs.len() as f64;
-            let radius =
-                vs.iter().map(|&v| x[v as usize].distance_squared(middle)).fold(0.0, f64::max).sqrt();
-            (middle, radius)
-        };
-        let [(a, r), (b, s)] = self.elements().map(ball);
-        a.distance(b) - r - s
-    }
-
-    /// Metres, from whatever part of the one to whatever part of the other.
-    pub fn distance(&self, x: &[DVec3]) -> f64 {
-        let [a, b, c, d] = self.vertices.map(|v| x[v as usize]);
-        match self.edges {
-            true => segments_apart([a, b, c, d]),
-            false => closest_on_triangle(a, b, c, d).0.distance(a),
-        }
-    }
-
     /// Weights, direction and distance of the two before one another, as it is known on which side.
     pub fn found(&self, x: &[DVec3]) -> Option<Found> {
         if self.edges { crossing(self, x) } else { corner(self, x) }
-    }
-
-    /// The same; none also where they come to be before one another now: then it is seen on which side.
-    pub fn see(&mut self, x: &[DVec3]) -> Option<Found> {
-        let turned = Self { side: if self.side == 0.0 { 1.0 } else { self.side }, ..*self };
-        let Some((weights, normal, distance)) = turned.found(x) else {
-            self.side = if self.layered { self.side } else { 0.0 };
-            return None;
-        };
-        if self.side == 0.0 {
-            self.side = if distance < 0.0 { -1.0 } else { 1.0 };
-            return None;
-        }
-        Some((weights, normal, distance))
     }
 }
 

@@ -3,8 +3,8 @@
 use glam::DVec3;
 
 use crate::drape::contact::Contacts;
-use crate::drape::itself::Itself;
 use crate::drape::newton::{Loads, Newton, NewtonSettings, Solved, Task};
+use crate::drape::self_contact::SelfContact;
 use crate::drape::steps::Scene;
 
 /// Settings of a settling.
@@ -39,7 +39,7 @@ pub fn settle(
     let count = scene.sheet.len();
     let weight: f64 = scene.mass.iter().sum::<f64>() * scene.gravity.length();
     let scale = if settings.scale > 0.0 { settings.scale } else { weight };
-    let mut itself = Itself::default();
+    let mut itself = SelfContact::default();
     let stiffness: Vec<f64> = (0..count)
         .map(|v| if scene.pinned[v] { 0.0 } else { settings.contact_stiffness * scene.sheet.vertex_area[v] })
         .collect();

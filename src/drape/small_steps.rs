@@ -5,13 +5,16 @@
 //! ratio are those of a net; bending is an explicit force, in as few of the steps as is stable.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use glam::DVec3;
 use rayon::prelude::*;
 
+use crate::body::Surface;
+use crate::contact::separation::Touch;
+use crate::contact::{Obstacle, Separation};
 use crate::drape::bending::Bending;
 use crate::drape::contact::Collider;
-use crate::drape::itself::Itself;
 use crate::drape::limits::StrainLimits;
 use crate::drape::net::{Net, Spring};
 use crate::drape::sheet::Sheet;
@@ -33,13 +36,16 @@ const EASE: f64 = 0.3;
 const CREASE: f64 = 0.5;
 /// as long as it is no farther from where the first was seen than so many offsets.
 const CREASE_REACH: f64 = 4.0;
-/// Cloth carries what lies on it no farther above the skin than so many offsets more.
-const TOUCHES: f64 = 0.25;
 /// It comes off the one it does not see no faster than so, m/s.
 const CREASE_SPEED: f64 = 1.5;
 
-/// So often in a step it is seen whether the cloth is where it was expected: what runs against something is not.
-const LOOKS: usize = 4;
+/// What is near is looked for as far as a vertex comes in so many small steps,
+const AHEAD: f64 = 12.0;
+/// which is between these, metres.
+const REACH: (f64, f64) = (0.001, 0.05);
+/// What comes farther within a small step, as cloth that is struck does, goes on from where it is looked for anew, so often; then it
+/// stays there.
+const MOST_LOOKS: usize = 3;
 
 /// The solver with its memory.
 #[derive(Clone, Debug)]
@@ -61,6 +67,10 @@ pub struct SmallSteps {
     pub hand: Option<Hand>,
     /// Threads.
     pub ties: Vec<Tie>,
+    /// What keeps the cloth from crossing itself and the body.
+    pub separation: Option<Separation>,
+    /// The body it knows of a scene.
+    body: Option<Arc<Surface>>,
     /// Velocities are those of half a step ago, s.
     lag: f64,
     /// Nearest points looked up.
@@ -170,6 +180,8 @@ impl SmallSteps {
             eases: false,
             hand: None,
             ties: Vec::new(),
+            separation: None,
+            body: None,
             lag: 0.0,
             queries: 0,
             skipped: 0,
@@ -224,11 +236,11 @@ impl SmallSteps {
         &mut self,
         scene: &Scene,
         state: &mut State,
-        itself: &mut Itself,
         (offset, friction): (f64, f64),
         h: f64,
         count: usize,
     ) {
+        self.see_body(scene);
         let friction = vec![friction; state.positions.len()];
         let around = Surroundings {
             bending: &scene.elastic.bending,
@@ -240,60 +252,42 @@ impl SmallSteps {
             friction: &friction,
             grip: f64::INFINITY,
         };
-        // Pairs that may meet are many where the way that is looked ahead over is long.
-        let stretches = itself.stretches(&scene.sheet, &state.velocities, h);
-        let margin = itself.margin(&scene.sheet);
-        let (small, ahead) = (h / count as f64, h / stretches as f64);
-        let every = (count / LOOKS).max(1);
-        let mut done = 0;
-        while done < count {
-            let ways: Vec<DVec3> = state.velocities.iter().map(|v| *v * ahead).collect();
-            itself.gather_ahead(&scene.sheet, &state.positions, &ways, |_| DVec3::ZERO, margin);
-            let mut since = 0;
-            let lasts = |itself: &Itself, x: &[DVec3]| {
-                since += 1;
-                since % every != 0 || itself.lasts(x, |_| DVec3::ZERO, margin)
-            };
-            done += self.advance_while(&around, state, itself, (small, done..count), lasts);
+        self.advance(&around, state, h, count);
+    }
+
+    /// What the scene's body is now is not crossed from now on, unless it moves.
+    fn see_body(&mut self, scene: &Scene) {
+        let Some(separation) = &mut self.separation else { return };
+        let still = scene.collider.as_ref().filter(|collider| collider.motion.is_empty());
+        let surface = still.map(|collider| &collider.surface);
+        let is_known = match (surface, &self.body) {
+            (Some(surface), Some(known)) => Arc::ptr_eq(surface, known),
+            (None, None) => true,
+            _ => false,
+        };
+        if !is_known {
+            separation.set_obstacle(surface.map(|surface| Arc::new(Obstacle::of(surface))));
+            self.body = surface.cloned();
         }
     }
 
-    /// The same where pairs of the cloth with itself were gathered before.
-    pub fn advance(
-        &mut self,
-        around: &Surroundings<'_>,
-        state: &mut State,
-        itself: &mut Itself,
-        h: f64,
-        count: usize,
-    ) {
-        self.advance_while(around, state, itself, (h / count as f64, 0..count), |_, _| true);
-    }
-
-    /// Of a step cut into small ones of `small` seconds those in `range`, up to the step's end, as long as what is asked after each
-    /// says so. How many it did.
-    fn advance_while(
-        &mut self,
-        around: &Surroundings<'_>,
-        state: &mut State,
-        itself: &mut Itself,
-        (small, range): (f64, Range<usize>),
-        mut goes_on: impl FnMut(&Itself, &[DVec3]) -> bool,
-    ) -> usize {
+    /// Goes `h` seconds on in `count` steps.
+    pub fn advance(&mut self, around: &Surroundings<'_>, state: &mut State, h: f64, count: usize) {
+        let small = h / count as f64;
         self.net.ready(small, &self.inverse_mass);
-        let every = self.bending_every(small, around.bending_damping).min(range.len());
+        let every = self.bending_every(small, around.bending_damping).min(count);
         let drag = (-around.damping * small).exp();
         // A blow now and then, which keeps energy, shakes cloth that should come to rest; a force that is held comes late by
         // half of the time it is held, for which it looks ahead.
         let holds = around.bending_damping > 0.0;
-        let mut done = 0;
         let mut bent = vec![DVec3::ZERO; state.positions.len()];
         let mut before = state.positions.clone();
-        for s in 0..range.len() {
+        for s in 0..count {
+            self.look_ahead(around, state, (small, 1.0 / count as f64));
             let x = &mut state.positions;
             let kick = if s == 0 { self.lag + small / 2.0 } else { small };
             if s % every == 0 && self.bending_rate > 0.0 {
-                let span = small * every.min(range.len() - s) as f64;
+                let span = small * every.min(count - s) as f64;
                 if holds {
                     // Quadratic: the force at x + τ v is that of the shape and of its change.
                     let ahead = around.bending_damping + span / 2.0;
@@ -322,12 +316,16 @@ impl SmallSteps {
                 net.project_part(p, x);
             });
             net.project_between(x);
-            itself.project(x, &self.inverse_mass);
+            if let Some(separation) = &mut self.separation {
+                let friction = if around.grip > 0.0 { around.friction } else { &[] };
+                let touch = Touch { inverse_mass: &self.inverse_mass, friction, ease: EASE * small };
+                separation.push_apart(x, &mut before, touch);
+            }
             self.pull(x, small);
             self.draw(x, f64::INFINITY, small);
             if let Some(collider) = around.collider {
-                let left = 1.0 - (range.start + s + 1) as f64 / range.end as f64;
-                let scene = Colliding { around, collider, left, part: 1.0 / range.end as f64, small };
+                let left = 1.0 - (s + 1) as f64 / count as f64;
+                let scene = Colliding { around, collider, left, part: 1.0 / count as f64, small };
                 let of_body = (&mut self.planes[..], &mut self.creases[..]);
                 let mut work = shares(&self.net, x, &mut before, &mut state.velocities, of_body);
                 let this = Knowing {
@@ -341,36 +339,58 @@ impl SmallSteps {
                     self.queries += queries;
                     self.skipped += skipped;
                 }
-                let (planes, touches) = (&self.planes, TOUCHES * around.offset);
-                let carries = |v: usize, x: DVec3| {
-                    let Plane { normal, height, .. } = planes[v];
-                    normal != DVec3::ZERO && normal.dot(x) < height + touches
-                };
-                let moved =
-                    itself.project_layers((x, &mut before), &self.inverse_mass, carries, EASE * small);
-                if moved {
-                    // The layers may have pushed one another into the body.
-                    for (plane, (x, before)) in planes.iter().zip(x.iter_mut().zip(&mut before)) {
-                        let way = plane.normal * (plane.height - plane.normal.dot(*x)).max(0.0);
-                        *x += way;
-                        *before += way;
-                    }
-                }
                 self.draw(x, NEARLY_SHUT, small);
             }
-            for (v, (now, then)) in state.velocities.iter_mut().zip(x.iter().zip(&before)) {
+            self.truncate(around, &before, &mut state.positions, (small, 1.0 / count as f64));
+            for (v, (now, then)) in state.velocities.iter_mut().zip(state.positions.iter().zip(&before)) {
                 *v = (*now - *then) / small;
-            }
-            done += 1;
-            if !goes_on(itself, &state.positions) {
-                break;
             }
         }
         self.lag = small / 2.0;
-        if done == range.len() && around.collider.is_some_and(|c| !c.motion.is_empty()) {
+        if around.collider.is_some_and(|c| !c.motion.is_empty()) {
             self.forget_planes();
         }
-        done
+    }
+
+    /// Looks for what is near where some vertex is about to leave what is known.
+    fn look_ahead(&mut self, around: &Surroundings<'_>, state: &State, (small, part): (f64, f64)) {
+        let Some(separation) = &mut self.separation else { return };
+        if !separation.holds(|v| state.positions[v] + state.velocities[v] * small) {
+            let speed = |v: usize| state.velocities[v].length();
+            detect(separation, around, &state.positions, speed, (small, part));
+        }
+    }
+
+    /// Lets what came from `before` to `x` in a small step, `part` of the body's motion, come only as far as nothing crosses.
+    fn truncate(
+        &mut self,
+        around: &Surroundings<'_>,
+        before: &[DVec3],
+        x: &mut [DVec3],
+        (small, part): (f64, f64),
+    ) {
+        let Some(separation) = &mut self.separation else { return };
+        let whole = x.to_vec();
+        for _ in 0..MOST_LOOKS {
+            if separation.truncate(x) == 0 {
+                return;
+            }
+            detect(separation, around, x, |v| whole[v].distance(before[v]) / small, (small, part));
+            x.copy_from_slice(&whole);
+        }
+        separation.truncate(x);
+    }
+
+    /// Sends the vertices at `x` their `ways`, metres, as far as nothing comes to cross that does not.
+    pub fn send(&mut self, x: &mut [DVec3], collider: &Collider, ways: &[DVec3]) {
+        if let Some(separation) = &mut self.separation {
+            let reach = |v: usize| ways[v].length().max(REACH.0);
+            separation.detect(x, reach, |v| collider.surface.contains(x[v]));
+        }
+        x.iter_mut().zip(ways).for_each(|(x, way)| *x += *way);
+        if let Some(separation) = &mut self.separation {
+            separation.truncate(x);
+        }
     }
 
     /// Shortens threads of ends no farther apart than `within` metres.
@@ -414,6 +434,21 @@ impl SmallSteps {
         let rate = self.bending_rate * (1.0 + self.bending_rate * damping);
         ((SAFE * 2.0 / (rate * small)) as usize).max(1)
     }
+}
+
+/// Looks for what is near vertices at `x` that go as fast as `speed` tells, m/s.
+fn detect(
+    separation: &mut Separation,
+    around: &Surroundings<'_>,
+    x: &[DVec3],
+    speed: impl Fn(usize) -> f64,
+    (small, part): (f64, f64),
+) {
+    let span = AHEAD * small;
+    let of_body = around.collider.map_or(0.0, |collider| collider.farthest() * part * AHEAD);
+    let more = of_body + around.gravity.length() * span * span / 2.0;
+    let reach = |v: usize| (speed(v) * span + more).clamp(REACH.0, REACH.1);
+    separation.detect(x, reach, |v| around.collider.is_some_and(|c| c.surface.contains(x[v])));
 }
 
 /// What one part of the cloth is worked on with.
@@ -545,8 +580,7 @@ impl Knowing<'_> {
 fn look(collider: &Collider, x: DVec3, before: DVec3, offset: f64, left: f64) -> Plane {
     let back = collider.carried_near(x) * left;
     let near = collider.surface.nearest(x + back);
-    let moving = collider.motion.iter().map(|m| m.length_squared()).fold(0.0, f64::max).sqrt();
-    let clear = near.distance - offset - moving * left;
+    let clear = near.distance - offset - collider.farthest() * left;
     if clear > offset {
         return Plane { normal: DVec3::ZERO, height: 0.0, place: x, good_for: clear };
     }
@@ -560,6 +594,6 @@ fn look(collider: &Collider, x: DVec3, before: DVec3, offset: f64, left: f64) ->
     {
         (normal, point) = (hit.normal, hit.point - back);
     }
-    let good_for = if moving > 0.0 { 0.0 } else { STALE * offset.max(1e-4) };
+    let good_for = if collider.farthest() > 0.0 { 0.0 } else { STALE * offset.max(1e-4) };
     Plane { normal, height: normal.dot(point) + offset, place: x, good_for }
 }

@@ -8,8 +8,8 @@ use glam::DVec3;
 
 use crate::drape::contact::{Collider, Contacts};
 use crate::drape::elastic::Elastic;
-use crate::drape::itself::Itself;
 use crate::drape::newton::{Loads, Newton, NewtonSettings, Solved, Task};
+use crate::drape::self_contact::SelfContact;
 use crate::drape::sheet::Sheet;
 use crate::drape::state::State;
 
@@ -91,7 +91,7 @@ impl Steps {
         scene: &Scene,
         state: &mut State,
         contacts: &mut Contacts,
-        itself: &mut Itself,
+        itself: &mut SelfContact,
         settings: &NewtonSettings,
         h: f64,
     ) -> Solved {

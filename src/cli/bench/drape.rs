@@ -67,7 +67,7 @@ pub fn drape(scene: &Scene, runs: usize) -> Result<Row, Failure> {
             count("self crossings", report.self_crossings),
             count("ticks", ticks as usize),
             count("small steps a tick", worn.substeps()),
-            count("gatherings of pairs", worn.gatherings() as usize),
+            count("detections", worn.separation().detections as usize),
         ],
         counters: Some(worn.counters),
         hash: one_hash(scene_name, &hashes)?,

@@ -12,14 +12,13 @@ use glam::{DVec2, DVec3};
 
 use crate::body::Surface;
 use crate::cloth::{ClothState, Counters, Fabric, Garment, Skips};
-use crate::contact::Faces;
 use crate::contact::faces::Lying;
+use crate::contact::{Faces, Obstacle, Separation, separation};
 use crate::drape::bending::Bending;
 use crate::drape::contact::Collider;
-use crate::drape::itself::{Itself, Sides};
 use crate::drape::laid::{ordered, shortest_sides, springs};
 use crate::drape::sheet::Sheet;
-use crate::drape::small_steps::{Hand, SmallSteps, Surroundings, THREAD_SPEED, Tie, substeps};
+use crate::drape::small_steps::{Hand, SmallSteps, Surroundings, Tie, substeps};
 use crate::drape::state::State;
 use crate::geometry::crossings::meetings;
 use crate::geometry::ids::PieceId;
@@ -51,14 +50,6 @@ const BENDING_DAMPING: f64 = 0.001;
 /// pass in each small step feels far softer than the cloth is; held by friction of the full pressure, tight cloth would keep
 /// whatever strain it came with (ALGORITHMS.md 0.5).
 const GRIP: f64 = 10.0;
-/// Layers that came so much deeper into each other in a small step than they are thick, metres, are put apart all the same.
-const QUICK: f64 = 0.002;
-/// Pairs of the cloth with itself last until a vertex is so far off its way, metres.
-const MARGIN: f64 = 0.002;
-/// Small steps between two looks at whether they last: never fewer,
-const LEAST_STRETCH: usize = 3;
-/// nor more in the first tick, when nothing is known of how it moves.
-const FIRST_STRETCH: usize = 8;
 /// At rest when no vertex goes farther in a tick, metres,
 const REST_WAY: f64 = 5e-5;
 /// and the forces that move the cloth are no larger a share of its weight,
@@ -128,7 +119,9 @@ struct Fixed {
     mass: Vec<f64>,
     friction: Vec<f64>,
     collider: Collider,
+    obstacle: Arc<Obstacle>,
     offset: f64,
+    thickness: f64,
     damping: f64,
 }
 
@@ -138,7 +131,8 @@ pub struct Worn {
     fixed: Arc<Fixed>,
     settings: WornSettings,
     small: SmallSteps,
-    itself: Itself,
+    /// For each vertex the garment's that it will be sewn to become; None: nothing is to be sewn.
+    will_be: Option<Vec<u32>>,
     state: State,
     faces: Faces,
     /// How far each vertex came in the last tick, metres.
@@ -159,8 +153,6 @@ pub struct Worn {
     parting: (usize, u32),
     /// How often in a row what lay deep did not come out.
     in_vain: u32,
-    /// How often it was laid smooth since then.
-    mended: usize,
     /// Faces that came too near the body when last looked at.
     lacking: usize,
     /// Work done.
@@ -177,7 +169,9 @@ impl Worn {
         pins: &[u32],
         settings: WornSettings,
     ) -> Result<Self, Undrapable> {
-        Self::made(garment, cloth, surface, (fabrics, default), pins, settings, None)
+        let mut worn = Self::made(garment, cloth, surface, (fabrics, default), pins, settings, None)?;
+        worn.separate(cloth);
+        Ok(worn)
     }
 
     /// The same of a garment that is to become another, with the vertex of that for each of its own.
@@ -192,7 +186,8 @@ impl Worn {
         let will_be = Some((&*sewn, &becomes[..]));
         let mut worn = Self::made(garment, cloth, surface, fabrics, &[], settings, will_be)?;
         let will_be = worn.fixed.vertices.iter().map(|&v| becomes[v as usize]).collect();
-        worn.itself.sewn = Some(Arc::new(Sides { will_be, garment: sewn }));
+        worn.will_be = Some(will_be);
+        worn.separate(cloth);
         Ok(worn)
     }
 
@@ -242,21 +237,14 @@ impl Worn {
         };
         let springs = springs(&sheet, &of_triangle, length);
         let small = SmallSteps::of(springs, settings.strain, &sheet, &bending, &mass, &pinned);
-        let mut itself =
-            Itself::new(&sheet, if settings.self_collision { thickness } else { 0.0 }, Vec::new());
-        if !garment.layers.is_empty() {
-            let piece = |t: u32| garment.triangle_pieces[laid[t as usize]];
-            let layer = |v: u32| garment.layer(piece(sheet.adjacency.vertex_triangles.of(v)[0]));
-            itself.layers = (0..sheet.len() as u32).map(layer).collect();
-            itself.quick = QUICK;
-        }
         let offset = thickness + SKIN;
+        let obstacle = Arc::new(Obstacle::of(&surface));
         let collider = Collider::still(surface);
         let damping = damping + AIR;
-        let mut worn = Self {
+        let worn = Self {
             settings,
             small: small.easing(),
-            itself,
+            will_be: None,
             ways: vec![DVec3::ZERO; sheet.len()],
             state: State::at_rest(positions),
             faces: Faces::default(),
@@ -270,7 +258,6 @@ impl Worn {
             crossings: 0,
             parting: (usize::MAX, 0),
             in_vain: 0,
-            mended: 0,
             lacking: 0,
             counters: Counters::default(),
             fixed: Arc::new(Fixed {
@@ -282,12 +269,31 @@ impl Worn {
                 mass,
                 friction,
                 collider,
+                obstacle,
                 offset,
+                thickness,
                 damping,
             }),
         };
-        worn.part(&mut cloth.clone());
         Ok(worn)
+    }
+
+    /// From now on nothing crosses that does not yet; what does begins to come apart.
+    fn separate(&mut self, cloth: &ClothState) {
+        if !self.settings.self_collision {
+            return;
+        }
+        let Fixed { sheet, obstacle, thickness, .. } = &*self.fixed;
+        let rest: Vec<f64> = (0..sheet.adjacency.edges.len()).map(|e| sheet.rest_length(e)).collect();
+        self.small.separation = Some(Separation::new(
+            sheet.len(),
+            &sheet.triangles,
+            &sheet.adjacency,
+            (&rest, *thickness),
+            self.will_be.clone(),
+            Some(Arc::clone(obstacle)),
+        ));
+        self.part(&mut cloth.clone());
     }
 
     /// How far it is.
@@ -310,9 +316,9 @@ impl Worn {
         (self.crossings, self.lacking)
     }
 
-    /// How often pairs of the cloth with itself were gathered.
-    pub fn gatherings(&self) -> u64 {
-        self.itself.gatherings
+    /// What the contact of the cloth with itself and the body took.
+    pub fn separation(&self) -> separation::Counters {
+        self.small.separation.as_ref().map(|separation| separation.counters).unwrap_or_default()
     }
 
     /// From now on exactly these vertices stay; cloth at rest wakes.
@@ -365,7 +371,6 @@ impl Worn {
 
     /// From now on threads pull the rest of it over what lies at the garment's vertices `inner`.
     pub fn pull_over(&mut self, inner: &[u32]) {
-        self.itself.quick = 2.0 * THREAD_SPEED * TICK / self.substeps as f64;
         let mut rubs = vec![0.0; self.fixed.vertices.len()];
         let own = inner.iter().filter_map(|&v| own_number(&self.fixed.own, v));
         own.for_each(|v| rubs[v] = self.fixed.friction[v]);
@@ -398,7 +403,7 @@ impl Worn {
 
     /// What was at rest moves again, as far as it must.
     pub fn wake(&mut self) {
-        (self.quiet, self.pace, self.parting, self.in_vain, self.mended) = (0, 1.0, (usize::MAX, 0), 0, 0);
+        (self.quiet, self.pace, self.parting, self.in_vain) = (0, 1.0, (usize::MAX, 0), 0);
         self.progress = Progress { ticks: 0, at_rest: false, ..self.progress };
     }
 
@@ -419,22 +424,7 @@ impl Worn {
             grip: if self.floats && self.rubs.is_none() { 0.0 } else { GRIP },
         };
         let asked = self.small.queries;
-        let small = span / self.substeps as f64;
-        let mut left = self.substeps;
-        while left > 0 {
-            // What threads and cloth tug at trembles in place while it is sewn: its velocity tells nothing of where it goes.
-            let going: Vec<DVec3> = match self.floats && self.progress.ticks > 0 {
-                true => self.ways.iter().map(|way| *way / span).collect(),
-                false => self.state.velocities.clone(),
-            };
-            let count = self.stretch(&going, small).min(left);
-            let ways: Vec<DVec3> = going.iter().map(|v| *v * span).collect();
-            let part = count as f64 / self.substeps as f64;
-            let soon = |v: usize| ways[v] * part;
-            self.itself.gather_ahead(&fixed.sheet, &self.state.positions, &ways, soon, MARGIN);
-            self.small.advance(&around, &mut self.state, &mut self.itself, small * count as f64, count);
-            left -= count;
-        }
+        self.small.advance(&around, &mut self.state, span, self.substeps);
         self.counters.contact_queries += self.small.queries - asked;
         self.counters.contact_checks += (self.substeps * before.positions.len()) as u64;
         if let Some(lost) = self.state.lost() {
@@ -460,14 +450,6 @@ impl Worn {
             self.progress.at_rest = (quiet && sound && !slowed) || ticks >= MOST_TICKS;
         }
         Ok(())
-    }
-
-    /// Small steps in which no vertex comes far from the others: pairs of the cloth with itself are looked after between.
-    fn stretch(&self, velocities: &[DVec3], small: f64) -> usize {
-        let drift = velocities.iter().sum::<DVec3>() / velocities.len() as f64;
-        let fastest = velocities.iter().map(|v| v.distance_squared(drift)).fold(0.0, f64::max).sqrt();
-        let most = if self.progress.ticks == 0 { FIRST_STRETCH } else { self.substeps };
-        ((MARGIN / (fastest * small)) as usize).clamp(LEAST_STRETCH, most.max(LEAST_STRETCH))
     }
 
     /// Makes time go slower where it should. False when it does not.

@@ -1,0 +1,127 @@
+//! The thickness of cloth: what is nearer than it is pushed apart, and rubs.
+
+use glam::DVec3;
+
+use crate::contact::separation::features::{self, Seen};
+use crate::contact::separation::{Found, Separation};
+
+/// Features beside each other keep no more than this share of the rest length of the edge between them: a triangle of 30° has
+/// half of its side as its height, and half of that keeps them from being held apart by their own cut.
+const BESIDE: f64 = 0.25;
+
+/// Two features of the cloth that may come nearer than they should.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pair {
+    /// A vertex and a triangle's corners, or the ends of two edges.
+    vertices: [u32; 4],
+    is_edges: bool,
+    /// Their distance at the detection,
+    gap: f64,
+    /// and what they keep, metres.
+    thickness: f64,
+}
+
+impl Pair {
+    /// The vertices of the first and of the second.
+    fn features(&self) -> [&[u32]; 2] {
+        let (first, second) = self.vertices.split_at(if self.is_edges { 2 } else { 1 });
+        [first, second]
+    }
+}
+
+/// How what touches is pushed apart in a small step.
+#[derive(Clone, Copy, Debug)]
+pub struct Touch<'a> {
+    /// 1/kg per vertex; zero where it is held.
+    pub inverse_mass: &'a [f64],
+    /// Coulomb's coefficient per vertex; empty for none.
+    pub friction: &'a [f64],
+    /// Depth that motion did not bring leaves by no more than so many metres, and without momentum.
+    pub ease: f64,
+}
+
+/// The rest length of each edge between named vertices (None: their own names), the smaller first, sorted; the shortest of several.
+pub(super) fn rest_lengths(edges: &[[u32; 2]], rest: &[f64], names: Option<&[u32]>) -> Vec<([u32; 2], f64)> {
+    let name = |v: u32| names.map_or(v, |names| names[v as usize]);
+    let named = |[a, b]: [u32; 2]| [name(a).min(name(b)), name(a).max(name(b))];
+    let mut all: Vec<([u32; 2], f64)> = edges.iter().zip(rest).map(|(e, l)| (named(*e), *l)).collect();
+    all.sort_by(|(a, l), (b, k)| a.cmp(b).then(l.total_cmp(k)));
+    all.dedup_by_key(|(edge, _)| *edge);
+    all
+}
+
+impl Separation {
+    /// Keeps two features that may come nearer than the thickness while their vertices go `whole` metres between them.
+    pub(super) fn remember(&self, seen: &Seen, features: [&[u32]; 2], whole: f64, found: &mut Found) {
+        let [one, other] = features;
+        if seen.gap >= self.thickness + whole {
+            return;
+        }
+        let thickness = self.kept(one, other);
+        if seen.gap < thickness + whole {
+            let mut vertices = [0; 4];
+            one.iter().chain(other).zip(&mut vertices).for_each(|(v, place)| *place = *v);
+            found.pairs.push(Pair { vertices, is_edges: one.len() == 2, gap: seen.gap, thickness });
+        }
+    }
+
+    /// What two features keep, metres.
+    fn kept(&self, one: &[u32], other: &[u32]) -> f64 {
+        let name = |v: u32| self.names.as_ref().map_or(v, |names| names[v as usize]);
+        let length = |a: u32, b: u32| {
+            let edge = [name(a).min(name(b)), name(a).max(name(b))];
+            self.rest
+                .binary_search_by_key(&edge, |(edge, _)| *edge)
+                .map_or(f64::INFINITY, |at| self.rest[at].1)
+        };
+        let between = one.iter().flat_map(|&a| other.iter().map(move |&b| length(a, b)));
+        self.thickness.min(BESIDE * between.fold(f64::INFINITY, f64::min))
+    }
+
+    /// Pushes apart at `x` what is nearer than its thickness, and lets it rub along the way from `before`. To be called before
+    /// [`truncate`](Self::truncate), from a detection on.
+    pub fn push_apart(&mut self, x: &mut [DVec3], before: &mut [DVec3], touch: Touch<'_>) {
+        if self.anchors.len() != x.len() || self.pairs.is_empty() {
+            return;
+        }
+        self.come.clear();
+        self.come.extend(x.iter().zip(&self.anchors).map(|(x, anchor)| x.distance(*anchor)));
+        for pair in &self.pairs {
+            let come =
+                pair.features().map(|vs| vs.iter().map(|&v| self.come[v as usize]).fold(0.0, f64::max));
+            if pair.gap - come[0] - come[1] < pair.thickness {
+                push(pair, x, before, touch);
+            }
+        }
+    }
+}
+
+fn push(pair: &Pair, x: &mut [DVec3], before: &mut [DVec3], touch: Touch<'_>) {
+    let at = pair.vertices.map(|v| v as usize);
+    let (weights, way) = features::contact(pair.is_edges, at.map(|v| x[v]));
+    let distance = way.length();
+    let depth = pair.thickness - distance;
+    if depth <= 0.0 || distance == 0.0 {
+        return;
+    }
+    let inverse = at.map(|v| touch.inverse_mass[v]);
+    let whole: f64 = weights.iter().zip(&inverse).map(|(w, inverse)| w * w * inverse).sum();
+    if whole == 0.0 {
+        return;
+    }
+    let normal = way / distance;
+    let come: DVec3 = at.iter().zip(weights).map(|(&v, w)| (x[v] - before[v]) * w).sum();
+    let approach = -normal.dot(come);
+    let now = approach.clamp(0.0, depth);
+    let eased = (depth - now).min(touch.ease);
+    let slip = come + normal * approach;
+    let rubs = |v: usize| touch.friction.get(v).copied().unwrap_or(0.0);
+    let (length, friction) = (slip.length(), at.map(rubs).iter().sum::<f64>() / 4.0);
+    let hold = if length > 0.0 { (friction * now / length).min(1.0) } else { 0.0 };
+    for ((v, w), inverse) in at.into_iter().zip(weights).zip(inverse) {
+        let share = w * inverse / whole;
+        let out = normal * (share * eased);
+        x[v] += normal * (share * now) + out - slip * (share * hold);
+        before[v] += out;
+    }
+}
