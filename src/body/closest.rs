@@ -5,6 +5,7 @@ use glam::DVec3;
 use crate::geometry::adjacency::{Adjacency, NONE};
 use crate::geometry::bvh::Aabb;
 use crate::geometry::bvh4::Bvh4;
+use crate::geometry::crossings::segment_meets_triangle;
 use crate::geometry::mesh::TriMesh;
 
 /// Which part of a triangle a point lies on.
@@ -96,6 +97,16 @@ impl ClosestTree {
             }
             limit
         });
+    }
+
+    /// Whether the segment between `ends` meets a triangle, as `segment_meets_triangle` says. What it costs grows with the
+    /// triangles along the segment, not with its length.
+    pub fn meets_segment(&self, ends: [DVec3; 2]) -> bool {
+        self.tree.any_along(
+            ends,
+            #[inline(always)]
+            |slot| segment_meets_triangle(ends, self.corners[slot]),
+        )
     }
 
     #[inline(always)]
@@ -190,5 +201,47 @@ mod tests {
             // Winding tells inside from outside without any nearest point.
             assert_eq!(found.distance < 0.0, winding.contains(p), "{p}");
         }
+    }
+
+    /// Threads of two designs took twenty minutes a tick when all triangles of a ball as large as the thread were tested.
+    #[test]
+    fn a_segment_meets_what_it_meets_triangle_by_triangle() {
+        let mesh = mannequin::default().mesh.clone();
+        let surface = Surface::new(mesh.clone()).expect("triangles");
+        let (lower, upper) = surface.bounds();
+        let at = |i: u32, k: u32| f64::from((i * k) % 127) / 126.0 * 1.4 - 0.2;
+        let far = |i: u32| lower + (upper - lower) * DVec3::new(at(i, 13), at(i, 29), at(i, 51));
+        let corners = |i: u32| mesh.corners((i as usize * 7919) % mesh.triangles.len());
+        let mut segments: Vec<[DVec3; 2]> = Vec::new();
+        for i in 0..60 {
+            let ([a, b, c], p, q) = (corners(i), far(i), far(i + 77));
+            let middle = (a + b + c) / 3.0;
+            let out = (b - a).cross(c - a).normalize() * 0.002;
+            // Any; short; of no length, anywhere, in a face and at a vertex.
+            segments.extend([[p, q], [p, p + (q - p) * 0.01], [p; 2], [middle; 2], [a; 2]]);
+            // Through a face; to a vertex; to an edge; along an edge; in the plane of a face; along an axis.
+            segments.extend([[middle - out, middle + out], [p, a], [p, (a + b) / 2.0], [a, b]]);
+            segments.extend([[middle * 2.0 - c, c * 2.0 - middle], [p, DVec3::new(q.x, p.y, p.z)]]);
+            // Within: from just below the skin to a little deeper.
+            segments.push([middle - out, middle - out * 1.5]);
+        }
+        let mut met = 0;
+        for ends in &segments {
+            let plain = (0..mesh.triangles.len()).any(|t| segment_meets_triangle(*ends, mesh.corners(t)));
+            assert_eq!(surface.meets_segment(*ends), plain, "{ends:?}");
+            met += usize::from(plain);
+        }
+        assert!(met > 200 && segments.len() - met > 200, "{met} of {}", segments.len());
+    }
+
+    #[test]
+    fn a_segment_at_a_box_meets_its_faces_and_not_beyond() {
+        let mesh = crate::geometry::shapes::cylinder(0.5, 1.0, 4, 1);
+        let surface = Surface::new(mesh).expect("triangles");
+        let along = |x: f64, y: f64| [DVec3::new(x, y, -3.0), DVec3::new(x, y, 3.0)];
+        assert!(surface.meets_segment(along(0.01, 0.0)) && surface.meets_segment(along(0.01, 1.0)));
+        assert!(!surface.meets_segment(along(0.01, 1.0 + 1e-9)) && !surface.meets_segment(along(0.6, 0.5)));
+        assert!(!surface.meets_segment([DVec3::new(0.1, 0.4, 0.1), DVec3::new(-0.1, 0.6, -0.1)]), "inside");
+        assert!(!surface.meets_segment([DVec3::NAN, DVec3::X]));
     }
 }

@@ -10,7 +10,6 @@ use rayon::prelude::*;
 
 use crate::body::closest::{ClosestTree, Part, pseudonormal};
 use crate::geometry::adjacency::{Adjacency, NONE};
-use crate::geometry::crossings::segment_meets_triangle;
 use crate::geometry::mesh::TriMesh;
 
 /// A ray that slipped between triangles is cast again so far beside itself, metres on a body 1.5 m large.
@@ -301,12 +300,7 @@ impl Surface {
 
     /// Whether the segment between two points passes through the surface.
     pub fn meets_segment(&self, ends: [DVec3; 2]) -> bool {
-        let (middle, half) = ((ends[0] + ends[1]) / 2.0, ends[0].distance(ends[1]) / 2.0);
-        let mut meets = false;
-        self.closest.within(middle, half, |t| {
-            meets = meets || segment_meets_triangle(ends, self.mesh.corners(t as usize));
-        });
-        meets
+        self.closest.meets_segment(ends)
     }
 
     /// The first hit of a ray from `origin` along `direction` (any length) from either side.

@@ -5,6 +5,7 @@
 //! beside it instead, all those of a seam on the same side, until the straight way is free.
 
 use glam::DVec3;
+use rayon::prelude::*;
 
 use crate::body::Surface;
 
@@ -18,17 +19,19 @@ const MOST_STEPS: u32 = 20;
 /// For each of a seam's threads (ends in metres) the place over which it runs; None: straight, as it is free or nothing leads
 /// round.
 pub fn over(surface: &Surface, threads: &[[DVec3; 2]]) -> Vec<Option<DVec3>> {
-    let caught: Vec<bool> = threads.iter().map(|&ends| surface.meets_segment(ends)).collect();
-    let of_caught = || threads.iter().zip(&caught).filter(|(_, caught)| **caught).map(|(ends, _)| *ends);
-    let along: DVec3 = of_caught().map(|[a, b]| b - a).sum();
+    let caught: Vec<bool> = threads.par_iter().map(|&ends| surface.meets_segment(ends)).collect();
+    let of_caught: Vec<[DVec3; 2]> =
+        threads.iter().zip(&caught).filter(|(_, caught)| **caught).map(|(ends, _)| *ends).collect();
+    let along: DVec3 = of_caught.iter().map(|[a, b]| *b - *a).sum();
     let Some(along) = along.try_normalize() else { return vec![None; threads.len()] };
     let (u, v) = along.any_orthonormal_pair();
     let side = |k: u32| {
         let (sin, cos) = (std::f64::consts::TAU * f64::from(k) / f64::from(SIDES)).sin_cos();
         u * cos + v * sin
     };
-    let steps = |way: DVec3| {
-        of_caught().map(|ends| steps_round(surface, ends, way).unwrap_or(2 * MOST_STEPS)).sum::<u32>()
+    let steps = |way: DVec3| -> u32 {
+        let of_thread = |&ends: &[DVec3; 2]| steps_round(surface, ends, way).unwrap_or(2 * MOST_STEPS);
+        of_caught.par_iter().map(of_thread).sum()
     };
     let Some(way) = (0..SIDES).map(side).min_by_key(|&way| steps(way)) else {
         return vec![None; threads.len()];
@@ -37,7 +40,7 @@ pub fn over(surface: &Surface, threads: &[[DVec3; 2]]) -> Vec<Option<DVec3>> {
         let steps = caught.then(|| steps_round(surface, [a, b], way))??;
         Some((a + b) / 2.0 + way * (STEP * f64::from(steps)))
     };
-    threads.iter().zip(&caught).map(place).collect()
+    threads.par_iter().zip(&caught).map(place).collect()
 }
 
 /// How many steps towards `way` the middle of a thread has to go until the body is free of it; then one more.

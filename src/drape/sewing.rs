@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use glam::DVec3;
+use rayon::prelude::*;
 
 use crate::body::Surface;
 use crate::cloth::{ClothState, Fabric, Garment};
@@ -155,10 +156,11 @@ impl Sewing {
     pub fn tick(&mut self, cloth: &mut ClothState) -> Result<bool, Undrapable> {
         self.ticks += 1;
         let left = 1.0 - (f64::from(self.ticks) / f64::from(self.closing)).min(1.0);
-        for thread in &mut self.threads {
+        let surface = &self.surface;
+        self.threads.par_iter_mut().for_each(|thread| {
             let ends = thread.ends.map(|v| cloth.positions[v as usize]);
-            thread.over = thread.over.filter(|&over| !routes::may_be_drawn(&self.surface, ends, over));
-        }
+            thread.over = thread.over.filter(|&over| !routes::may_be_drawn(surface, ends, over));
+        });
         let tie =
             |thread: &Thread| Tie { ends: thread.ends, length: thread.length * left, over: thread.over };
         let ties: Vec<Tie> = self.threads.iter().map(tie).collect();

@@ -6,6 +6,8 @@ use glam::DVec3;
 const LEAF: usize = 4;
 /// Trees over more items grow on two threads.
 const MANY: usize = 1024;
+/// What rounding may cost a segment's test against a box, as a share of the largest coordinate.
+const SLACK: f64 = 1e-12;
 
 /// An axis-aligned box.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,6 +35,27 @@ impl Aabb {
     /// Whether they share a point.
     pub fn meets(&self, other: &Self) -> bool {
         self.lower.cmple(other.upper).all() && self.upper.cmpge(other.lower).all()
+    }
+
+    /// Whether the segment between `ends` may meet it: never false where it does; true also where they are apart by less than
+    /// rounding may cost.
+    pub fn meets_segment(&self, ends: [DVec3; 2]) -> bool {
+        let [p, q] = ends;
+        let (reach, half) = ((p - q).abs() / 2.0, (q - p) / 2.0);
+        let slack = SLACK * p.abs().max(q.abs()).max(self.lower.abs()).max(self.upper.abs()).max_element();
+        let away = (p + q) / 2.0 - self.centre();
+        let extent = (self.upper - self.lower) / 2.0 + slack;
+        if away.abs().cmpgt(extent + reach).any() {
+            return false;
+        }
+        // No axis parts them that is neither one of the box's nor at right angles to one of these and to the segment.
+        let apart = away.cross(half).abs();
+        let limit = DVec3::new(
+            extent.y * reach.z + extent.z * reach.y,
+            extent.z * reach.x + extent.x * reach.z,
+            extent.x * reach.y + extent.y * reach.x,
+        );
+        !apart.cmpgt(limit).any()
     }
 
     /// Its middle.
@@ -113,8 +136,22 @@ impl Bvh {
         (0u32..).zip(&self.nodes).filter(|(_, node)| node.is_leaf()).map(|(at, _)| at)
     }
 
+    /// Calls `found` for every item whose leaf's box the segment between `ends` meets; the caller tests the item itself. What
+    /// that costs grows with the items along the segment, where the box around it would hold all those beside it too.
+    pub fn along(&self, ends: [DVec3; 2], mut found: impl FnMut(u32)) {
+        self.leaves_where(
+            |bounds| bounds.meets_segment(ends),
+            |leaf| self.items_of(leaf).iter().copied().for_each(&mut found),
+        );
+    }
+
     /// Calls `found` for every leaf whose box meets `query`.
-    pub fn leaves_near(&self, query: &Aabb, mut found: impl FnMut(u32)) {
+    pub fn leaves_near(&self, query: &Aabb, found: impl FnMut(u32)) {
+        self.leaves_where(|bounds| bounds.meets(query), found);
+    }
+
+    /// Calls `found` for every leaf whose box, and those around it, are `met`.
+    fn leaves_where(&self, met: impl Fn(&Aabb) -> bool, mut found: impl FnMut(u32)) {
         if self.nodes.is_empty() {
             return;
         }
@@ -125,7 +162,7 @@ impl Bvh {
             count -= 1;
             let at = open[count];
             let node = &self.nodes[at as usize];
-            if !node.bounds.meets(query) {
+            if !met(&node.bounds) {
                 continue;
             }
             if node.is_leaf() {
@@ -242,6 +279,31 @@ mod tests {
                 (0..boxes.len() as u32).filter(|&i| boxes[i as usize].meets(query)).collect();
             assert_eq!(found, exact);
         }
+    }
+
+    #[test]
+    fn along_a_segment_is_all_that_it_meets_and_little_else() {
+        let points = points(4000);
+        let boxes: Vec<Aabb> =
+            points.chunks_exact(2).map(|p| Aabb::around(&[p[0], p[0] + (p[1] - 0.5) * 0.05])).collect();
+        let tree = Bvh::new(&boxes);
+        let steps = 2000;
+        let mut proposed = 0;
+        for ends in points.chunks_exact(2).step_by(40).map(|p| [p[0], p[1]]) {
+            let mut found = Vec::new();
+            tree.along(ends, |i| found.push(i));
+            found.sort_unstable();
+            proposed += found.len();
+            for k in 0..=steps {
+                let at = Aabb::around(&[ends[0].lerp(ends[1], f64::from(k) / f64::from(steps))]);
+                let met = (0..boxes.len() as u32).filter(|&i| boxes[i as usize].meets(&at));
+                met.for_each(|i| assert!(found.binary_search(&i).is_ok(), "{i} {ends:?}"));
+            }
+        }
+        assert!(proposed < 50 * boxes.len() / 8, "{proposed}");
+        let mut found = Vec::new();
+        tree.along([points[0]; 2], |i| found.push(i));
+        assert!(found.contains(&0), "a segment of no length at a corner of a box");
     }
 
     #[test]

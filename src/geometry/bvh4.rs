@@ -12,6 +12,8 @@ const LEAF: u32 = 1 << 31;
 const NONE: u32 = u32::MAX;
 /// Deep enough for a tree split at medians over all items there can be: three wait on each level.
 const DEPTH: usize = 64;
+/// What rounding may cost a test against a box, as a share of the largest coordinate.
+const SLACK: f64 = 1e-12;
 
 /// The boxes of four children, coordinate by coordinate.
 #[derive(Clone, Debug)]
@@ -47,6 +49,49 @@ impl Node {
             }
         }
         sum
+    }
+}
+
+/// A segment between two points, as boxes are tested against it.
+struct Slab {
+    middle: [f64; 3],
+    half: [f64; 3],
+    /// The absolute values of `half`.
+    reach: [f64; 3],
+    /// Boxes count as larger by so much on every side, metres: more than what is lost by rounding.
+    slack: f64,
+}
+
+impl Slab {
+    fn new([p, q]: [DVec3; 2], all: Aabb) -> Self {
+        let (middle, half) = ((p + q) / 2.0, (q - p) / 2.0);
+        let largest = [p, q, all.lower, all.upper].map(|p| p.abs().max_element());
+        let slack = SLACK * largest.into_iter().fold(0.0, f64::max);
+        Self { middle: middle.to_array(), half: half.to_array(), reach: half.abs().to_array(), slack }
+    }
+
+    /// Which of the four boxes it may meet: none is missed; boxes that it passes within the slack of may be among them. No
+    /// axis parts a segment from a box that is neither one of the box's nor at right angles to one of these and to the
+    /// segment (Ericson, Real-Time Collision Detection, 5.3.3).
+    #[inline(always)]
+    fn meets(&self, node: &Node) -> [bool; 4] {
+        let mut is_clear = [false; 4];
+        let (mut away, mut extent) = ([[0.0; 4]; 3], [[0.0; 4]; 3]);
+        for axis in 0..3 {
+            let (lower, upper) = (&node.lower[axis], &node.upper[axis]);
+            for k in 0..4 {
+                away[axis][k] = self.middle[axis] - (lower[k] + upper[k]) / 2.0;
+                extent[axis][k] = (upper[k] - lower[k]) / 2.0 + self.slack;
+                is_clear[k] |= away[axis][k].abs() > extent[axis][k] + self.reach[axis];
+            }
+        }
+        for [i, j] in [[0, 1], [1, 2], [2, 0]] {
+            for k in 0..4 {
+                let apart = (away[i][k] * self.half[j] - away[j][k] * self.half[i]).abs();
+                is_clear[k] |= apart > extent[i][k] * self.reach[j] + extent[j][k] * self.reach[i];
+            }
+        }
+        is_clear.map(|clear| !clear)
     }
 }
 
@@ -157,6 +202,42 @@ impl Bvh4 {
             #[inline(always)]
             || self.descend(p, limit, look),
         );
+    }
+
+    /// Whether `meets` says so of a place whose leaf's box the segment between `ends` meets. They are asked in a fixed order,
+    /// no more once one does.
+    pub fn any_along(&self, ends: [DVec3; 2], meets: impl FnMut(usize) -> bool) -> bool {
+        wide(
+            #[inline(always)]
+            || self.go_along(ends, meets),
+        )
+    }
+
+    #[inline(always)]
+    fn go_along(&self, ends: [DVec3; 2], mut meets: impl FnMut(usize) -> bool) -> bool {
+        let Some(root) = self.nodes.first() else { return false };
+        let slab = Slab::new(ends, root.bounds());
+        let mut open = [0u32; DEPTH];
+        let mut waiting = 1;
+        while waiting > 0 {
+            waiting -= 1;
+            let node = &self.nodes[open[waiting] as usize];
+            for (&child, met) in node.children.iter().zip(slab.meets(node)) {
+                if !met || child == NONE {
+                    continue;
+                }
+                if child & LEAF == 0 {
+                    open[waiting] = child;
+                    waiting += 1;
+                    continue;
+                }
+                let (first, count) = ((child & !LEAF) / 8, child % 8);
+                if (first..first + count).any(|slot| meets(slot as usize)) {
+                    return true;
+                }
+            }
+        }
+        false
     }
 
     #[inline(always)]

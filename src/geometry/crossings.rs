@@ -37,9 +37,8 @@ pub fn meetings(edge_positions: &[DVec3], edges: &[[u32; 2]], mesh: &TriMesh, tr
         .flat_map_iter(|(e, ends)| {
             let segment = ends.map(|v| edge_positions[v as usize]);
             let mut found = Vec::new();
-            let around = Aabb::around(&segment);
-            if around.meets(&all) {
-                tree.near(&around, |t| {
+            if Aabb::around(&segment).meets(&all) {
+                tree.along(segment, |t| {
                     if segment_meets_triangle(segment, mesh.corners(t as usize)) {
                         found.push([e as u32, t]);
                     }
