@@ -35,3 +35,5 @@ mod sequence;
 mod signals;
 #[path = "cli/simulate.rs"]
 mod simulate;
+#[path = "cli/starts.rs"]
+mod starts;

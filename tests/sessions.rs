@@ -29,6 +29,8 @@ mod resizing;
 mod rewrapping;
 #[path = "sessions/scenario.rs"]
 mod scenario;
+#[path = "sessions/starts.rs"]
+mod starts;
 #[path = "sessions/threads.rs"]
 mod threads;
 #[path = "sessions/undo.rs"]

@@ -20,6 +20,8 @@ mod animations;
 mod demos;
 #[path = "window/draping.rs"]
 mod draping;
+#[path = "window/dressing.rs"]
+mod dressing;
 #[path = "window/files.rs"]
 mod files;
 #[path = "window/hand.rs"]

@@ -12,6 +12,7 @@ use crate::fit::MapKind;
 use crate::io::pdf::Paper;
 use crate::io::scale::DrawingUnit;
 use crate::render::View;
+use crate::sim::Start;
 
 /// Dress a body in cloth: draw and sew flat pieces, paint marks, press Wrap.
 ///
@@ -111,8 +112,8 @@ pub struct InputOptions {
     pub edge_length: Option<f64>,
 }
 
-/// Wraps by the marks or, without any, sews from where the pieces are placed; relaxes to rest, and writes garment.obj,
-/// body.obj, report.json and view.png
+/// Wraps by the marks or, without any, by the best start (suggested marks, or sewn from where the pieces are placed; see
+/// --start); relaxes to rest, and writes garment.obj, body.obj, report.json and view.png
 ///
 /// Several projects are dressed one after the other: each gets a folder and, on standard output, a line with what came of it
 /// (with --json an object). The exit code is the greatest that any of them would have had alone. An interrupted run leaves
@@ -130,6 +131,10 @@ pub struct Dress {
     pub out: PathBuf,
     #[command(flatten)]
     pub input: InputOptions,
+    /// How a pattern without marks is put on: marks (suggested ones, then draped) or placement (sewn from there); without it
+    /// the first of these that ends without a fault. placement also leaves the marks of a project aside
+    #[arg(long, value_name = "marks|placement", conflicts_with_all = ["marks", "suggest_marks"])]
+    pub start: Option<Start>,
     /// Then lets weight and fabric drape it until it rests
     #[arg(long)]
     pub drape: bool,
@@ -171,6 +176,7 @@ impl Dress {
             list: None,
             out: out.to_owned(),
             input: InputOptions::default(),
+            start: None,
             drape: false,
             fabric: None,
             save: None,

@@ -11,6 +11,7 @@ use crate::cli::report::Seconds;
 use crate::cli::verdict::Verdict;
 use crate::cli::{batch, input, output, report, run};
 use crate::session::{Command, Session, project_file};
+use crate::sim::{Start, StartChoice, Started, Tried};
 
 /// Dresses the project named, or each of several.
 pub fn dress(arguments: &Dress) -> Result<(), Failure> {
@@ -58,9 +59,13 @@ pub fn dress_one(project: &Path, folder: &Path, arguments: &Dress) -> Result<Don
         let command = Command::SetFabric { piece: None, fabric: Some(fabric.clone()) };
         session.apply_alone(command).map_err(|why| Failure::Usage(why.0))?;
     }
-    dress_by(&mut session, project, &mut seconds)?;
+    dress_by(&mut session, project, arguments, &mut seconds)?;
     run::to_rest(&mut session, arguments.max_ticks, &mut seconds)?;
-    if arguments.drape {
+    let started = session.snapshot().started.clone();
+    if let Some(words) = started.as_deref().and_then(doubt) {
+        output::complain(&format!("{}: note: {words}", project.display()));
+    }
+    if arguments.drape && !started.is_some_and(|started| started.taken().draped) {
         run::drape(&mut session, project, arguments.max_ticks, &mut seconds)?;
     }
     if let Some(error) = session.recorder().take_file_error() {
@@ -75,14 +80,33 @@ pub fn dress_one(project: &Path, folder: &Path, arguments: &Dress) -> Result<Don
     Ok(Done { verdict: report.verdict()?, report: report.json()?, resumed: false })
 }
 
-/// By its marks; without any, from where its pieces are placed.
-fn dress_by(session: &mut Session, project: &Path, seconds: &mut Seconds) -> Result<(), Failure> {
+/// By its marks; without any, by the best start.
+fn dress_by(
+    session: &mut Session,
+    project: &Path,
+    arguments: &Dress,
+    seconds: &mut Seconds,
+) -> Result<(), Failure> {
     let document = session.document();
-    let placed = document.pattern.pieces.values().any(|piece| piece.placement.is_some());
-    match document.marks.pairs().next().is_none() && placed {
-        true => begin(session, project, seconds, Command::Sew),
-        false => wrap(session, project, seconds),
+    let is_placed = document.pattern.pieces.values().any(|piece| piece.placement.is_some());
+    let has_marks = document.marks.pairs().next().is_some() && arguments.start != Some(Start::Placement);
+    if has_marks || !(is_placed || arguments.start.is_some()) {
+        return wrap(session, project, seconds);
     }
+    let choice = StartChoice { only: arguments.start, draped: arguments.drape };
+    begin(session, project, seconds, Command::Dress { choice })
+}
+
+/// What is to be said where no start was without a fault.
+fn doubt(started: &Started) -> Option<String> {
+    let faults = |tried: &Tried| match tried.faults.len() {
+        1 => format!("{tried} has 1 fault"),
+        n => format!("{tried} has {n} faults"),
+    };
+    let all: Vec<String> = started.tried.iter().map(faults).collect();
+    let taken = started.taken();
+    (!taken.faults.is_empty())
+        .then(|| format!("no start is without a fault: {}; {taken} is taken", all.join(", ")))
 }
 
 /// Begins the wrap; says what stands in its way.

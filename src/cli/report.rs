@@ -16,7 +16,7 @@ use crate::pattern::{Problem, ProblemKind};
 use crate::repose::Outcome;
 use crate::session::recording::Hex;
 use crate::session::{Document, Session};
-use crate::sim::{self, DrapeState, Fault, Snapshot, Stats};
+use crate::sim::{self, DrapeState, Fault, Snapshot, Start, Started, Stats, Tried};
 use crate::wrap::{MarkError, PairStretch, Phase, mark_error, stretches};
 
 /// The report's own.
@@ -41,6 +41,9 @@ pub struct Report {
     tight: Option<fit::Tight>,
     /// Why this is not a dressed garment; empty when it is.
     faults: Vec<Fault>,
+    /// How it came on to the body, where it had no marks.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    start: Option<StartReport>,
     /// How long each pair of marks was before the wrap.
     marks: Vec<PairLengths>,
     mark_error: MarkError,
@@ -57,6 +60,35 @@ pub struct Report {
     /// Why there is no view.png, if there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pictures_left_out: Option<String>,
+}
+
+/// The start that was taken, and all that were tried.
+#[derive(Clone, Debug, Serialize)]
+struct StartReport {
+    taken: Start,
+    draped: bool,
+    tried: Vec<TriedReport>,
+}
+
+#[derive(Clone, Debug, Serialize)]
+struct TriedReport {
+    #[serde(flatten)]
+    tried: Tried,
+    /// Wall-clock seconds of its ticks, with judging it.
+    seconds: f64,
+}
+
+impl StartReport {
+    /// `seconds` are those of `started.tried`.
+    fn new(started: &Started, seconds: &[f64]) -> Self {
+        let seconds = seconds.iter().copied().chain(std::iter::repeat(0.0));
+        let tried = started.tried.iter().cloned().zip(seconds);
+        Self {
+            taken: started.taken().start,
+            draped: started.taken().draped,
+            tried: tried.map(|(tried, seconds)| TriedReport { tried, seconds }).collect(),
+        }
+    }
 }
 
 /// How long a pair of marks is on cloth and body.
@@ -109,7 +141,7 @@ impl std::fmt::Display for PairLengths {
 }
 
 /// Wall-clock seconds by phase.
-#[derive(Clone, Copy, Debug, Default, Serialize)]
+#[derive(Clone, Debug, Default, Serialize)]
 pub struct Seconds {
     /// Reading the input and making the body ready.
     pub load: f64,
@@ -134,6 +166,9 @@ pub struct Seconds {
     pub picture: f64,
     /// From the first byte read to the last written, this file left out.
     pub total: f64,
+    /// Ticks of each start that was tried.
+    #[serde(skip)]
+    pub starts: Vec<f64>,
 }
 
 /// Writes garment.obj, body.obj and view.png of `session` to `folder`, which is made. `Report::finish` writes report.json, which
@@ -173,6 +208,7 @@ pub fn write(
         at_rest,
         tight,
         faults: faults.into_iter().chain((!at_rest).then(still_moving)).collect(),
+        start: snapshot.started.as_deref().map(|started| StartReport::new(started, &seconds.starts)),
         fit,
         marks,
         mark_error,

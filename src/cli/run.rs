@@ -57,8 +57,12 @@ pub fn to_rest(session: &mut Session, max_ticks: u64, seconds: &mut Seconds) -> 
             let words = format!("the cloth still moves after {max_ticks} ticks (see --max-ticks)");
             return Err(Failure::Limit(words));
         }
-        let (phase, start) = (simulation.phase(), Instant::now());
+        let (phase, trying, start) = (simulation.phase(), simulation.trying(), Instant::now());
         simulation.tick();
+        if let Some((.., number)) = trying {
+            seconds.starts.resize(number + 1, 0.0);
+            seconds.starts[number] += start.elapsed().as_secs_f64();
+        }
         match phase {
             Some(Phase::Growing) => seconds.grow += start.elapsed().as_secs_f64(),
             _ => seconds.settle += start.elapsed().as_secs_f64(),
@@ -97,6 +101,11 @@ pub fn drape(
 fn show_progress(simulation: &Simulation) {
     let phase = if simulation.phase() == Some(Phase::Growing) { "growing" } else { "settling" };
     if simulation.ticks().is_multiple_of(8) {
-        output::progress(&format!("{phase} {:.0} %", simulation.progress() * 100.0));
+        let start = match simulation.trying() {
+            Some((start, true, _)) => format!("{start}, draped: "),
+            Some((start, false, _)) => format!("{start}: "),
+            None => String::new(),
+        };
+        output::progress(&format!("{start}{phase} {:.0} %", simulation.progress() * 100.0));
     }
 }

@@ -8,6 +8,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 use crate::cli::report::FILE_NAME;
 use crate::fit::{Penetration, Seams, Strain, Tight};
 use crate::pattern::Problem;
+use crate::sim::Start;
 use crate::wrap::MarkError;
 
 /// What is read off a report.
@@ -28,6 +29,9 @@ pub struct Verdict {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     tight: Option<Tight>,
     mark_error: MarkError,
+    /// How it came on to the body, where it had no marks.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    start: Option<TakenStart>,
     /// Why this is not a dressed garment: piece, seam or place, and words.
     faults: Vec<Fault>,
     /// What is wrong with the pattern, its seams and marks.
@@ -35,6 +39,13 @@ pub struct Verdict {
     /// Wall-clock seconds in all.
     #[serde(deserialize_with = "total")]
     seconds: f64,
+}
+
+/// The start that was taken.
+#[derive(Debug, Serialize, Deserialize)]
+struct TakenStart {
+    taken: Start,
+    draped: bool,
 }
 
 /// A fault without the marks near it: its words name them.
@@ -83,6 +94,14 @@ impl std::fmt::Display for Verdict {
             write!(f, " (tightest: {tight})")?;
         }
         let millimetres = self.mark_error.max * 1000.0;
-        write!(f, ", marks met within {millimetres:.1} mm, {:.2} s", self.seconds)
+        match &self.start {
+            Some(TakenStart { taken: Start::Placement, .. }) => write!(f, ", sewn from placement")?,
+            Some(TakenStart { taken: Start::Marks, draped: true }) => {
+                write!(f, ", by suggested marks, draped")?
+            }
+            Some(TakenStart { taken: Start::Marks, draped: false }) => write!(f, ", by suggested marks")?,
+            None => write!(f, ", marks met within {millimetres:.1} mm")?,
+        }
+        write!(f, ", {:.2} s", self.seconds)
     }
 }

@@ -12,6 +12,7 @@ use crate::pattern::edit::PatternEdit;
 use crate::pattern::{Edge, Pattern, Piece, PlanePose, Seam};
 use crate::session::animations::{Animations, Moment};
 use crate::session::document::{BodyChoice, Settings};
+use crate::sim::StartChoice;
 use crate::wrap::{ClothSide, Marks};
 
 /// One thing done. New things get their ids from the document's counters, so that a replay gives them the same.
@@ -131,6 +132,12 @@ pub enum Command {
 
     /// Sew the garment together from where its pieces are placed in space, and drape it.
     Sew,
+    /// Put the garment on by the best start: by marks, its own or suggested ones, and draped; else sewn from where its pieces are
+    /// placed. The first without a fault is taken.
+    Dress {
+        #[serde(default)]
+        choice: StartChoice,
+    },
     /// Let physics move the dressed cloth until it rests (all of it one undo step), or stop that (no step).
     SetDraping { on: bool },
     /// The same for so many ticks, 1..=600.

@@ -367,6 +367,11 @@ impl Session {
                 let (source, body) = self.garment_source()?;
                 Some(RequestKind::Sew { source, body, fabrics: drape_source(&edit.document)? })
             }
+            ClothChange::Dress(choice) => {
+                let (source, body) = self.garment_source()?;
+                let fabrics = drape_source(&edit.document)?;
+                Some(RequestKind::Dress { source, body, fabrics, choice })
+            }
             ClothChange::SetDraping(on) => {
                 Some(RequestKind::SetDraping { on, source: drape_source(&edit.document)? })
             }

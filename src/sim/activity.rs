@@ -7,6 +7,7 @@ use crate::cloth::{ClothState, Garment};
 use crate::geometry::ids::PieceId;
 use crate::pattern::Pattern;
 use crate::pattern::activity::Activity;
+use crate::sim::protocol::GarmentSource;
 use crate::sim::world::World;
 
 impl World {
@@ -14,13 +15,16 @@ impl World {
     pub fn set_activities(&mut self, activities: &BTreeMap<PieceId, Activity>) {
         let before = self.held();
         let Some(source) = &mut self.source else { return };
-        let pattern = Arc::make_mut(&mut Arc::make_mut(source).pattern);
-        for (id, piece) in &mut pattern.pieces {
-            let activity = activities.get(id).copied().unwrap_or_default();
-            if piece.activity != activity {
-                Arc::make_mut(piece).activity = activity;
+        let set = |source: &mut GarmentSource| {
+            for (id, piece) in &mut Arc::make_mut(&mut source.pattern).pieces {
+                let activity = activities.get(id).copied().unwrap_or_default();
+                if piece.activity != activity {
+                    Arc::make_mut(piece).activity = activity;
+                }
             }
-        }
+        };
+        set(Arc::make_mut(source));
+        self.change_trials(set);
         let asleep = self.active.is_some();
         self.part_active();
         if asleep || self.active.is_some() {

@@ -46,6 +46,7 @@ impl Draping {
 impl World {
     /// Drapes from now on, as soon as all cloth lies, or (false) stops. Nothing happens where nothing is dressed.
     pub fn set_draping(&mut self, on: bool, source: Arc<DrapeSource>) {
+        self.trials = None;
         self.release();
         match on {
             true => self.drape_for(None, source),
@@ -81,6 +82,7 @@ impl World {
 
     /// What is draped is made of something else from now on.
     pub fn set_fabrics(&mut self, source: Arc<DrapeSource>) {
+        self.change_trial_fabrics(&source);
         if let Some(draping) = &mut self.draping {
             let draping = Arc::make_mut(draping);
             (draping.source, draping.worn, draping.held) = (source, None, false);

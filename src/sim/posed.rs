@@ -32,7 +32,14 @@ impl World {
             return Ok(None);
         };
         let mut source = Arc::clone(source);
+        if let Some(trials) = &self.trials {
+            source = Arc::clone(trials.source());
+        }
         Arc::make_mut(&mut source).marks = marks;
+        if let Some(world) = self.tried_again(Arc::clone(&source), Arc::clone(&body)) {
+            let places = Arc::clone(&self.places);
+            return world.map(|world| Some(Self { places, ..world }));
+        }
         if self.dressing.as_ref().is_some_and(|dressing| dressing.relaxer().is_none()) {
             let places = Arc::clone(&self.places);
             return Ok(Some(Self { relaxing: self.relaxing, places, ..Self::wrapped(source, body) }));
@@ -78,7 +85,7 @@ impl World {
         marks: Arc<Marks>,
     ) -> Result<Option<Self>, String> {
         let grows = self.dressing.as_ref().is_some_and(|dressing| dressing.relaxer().is_none());
-        if grows || self.sewing.is_some() {
+        if grows || self.sewing.is_some() || self.trials.is_some() {
             return self.reposed(body, marks, false, Care::THOROUGH);
         }
         let Some(world) = self.reposed(through, marks, false, Care::THOROUGH)? else { return Ok(None) };

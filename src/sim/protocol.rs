@@ -19,6 +19,7 @@ use crate::relax::RelaxSettings;
 use crate::repose::Outcome;
 use crate::sim::draped::DrapeSource;
 use crate::sim::fault::{Fault, Lies};
+use crate::sim::starts::{Start, StartChoice, Started};
 use crate::sim::stats::Stats;
 use crate::wrap::{Marks, Phase};
 
@@ -93,6 +94,9 @@ pub enum RequestKind {
     StepDraping { ticks: u32, source: Arc<DrapeSource> },
     /// Build the garment, sew it together from where its pieces were placed, and drape it.
     Sew { source: Arc<GarmentSource>, body: Arc<Surface>, fabrics: Arc<DrapeSource> },
+    /// Build the garment and try the starts that `choice` allows, one after the other, until one has no fault. Cloth that is
+    /// taken in the hand, draped or wrapped meanwhile stays as it lies then.
+    Dress { source: Arc<GarmentSource>, body: Arc<Surface>, fabrics: Arc<DrapeSource>, choice: StartChoice },
     /// What is draped is made of something else.
     SetFabrics(Arc<DrapeSource>),
     /// These pieces are frozen or not, all others active.
@@ -151,6 +155,10 @@ pub struct Snapshot {
     pub was_draped: bool,
     /// It was sewn from where its pieces were placed, round the body as it is: it should lie about there.
     pub was_sewn: bool,
+    /// While starts are tried: the one under way, and whether it is draped already.
+    pub trying: Option<(Start, bool)>,
+    /// What came of the starts that were tried, until the cloth is dressed otherwise.
+    pub started: Option<Arc<Started>>,
 }
 
 impl DrapeState {

@@ -3,13 +3,13 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
-use crate::body::landmarks;
 use crate::cloth::Skips;
-use crate::fit::{BodyIndex, TightPlace, measure, tight_places};
+use crate::fit::TightPlace;
 use crate::repose::Care;
 use crate::sim::checkpoints::{Checkpoints, DEFAULT_CAPACITY};
-use crate::sim::fault::{Fault, Lies, faults};
+use crate::sim::fault::Fault;
 use crate::sim::protocol::{Event, Request, RequestKind, Snapshot};
+use crate::sim::starts::{Judged, Start};
 use crate::sim::stats::Stats;
 use crate::sim::world::World;
 use crate::wrap::Phase;
@@ -100,7 +100,9 @@ impl Simulation {
             Ok(()) => self.world.not_finite().map(not_a_number),
             Err(panic) => Some(panic_words(&*panic)),
         };
-        if let Some(words) = problem {
+        if let Some(words) = problem
+            && !self.world.break_start(words.clone())
+        {
             self.world = self.checkpoints.newest().cloned().unwrap_or_default();
             self.fail(words);
         }
@@ -128,6 +130,13 @@ impl Simulation {
     /// How far the dressing has come; None without a garment.
     pub fn phase(&self) -> Option<Phase> {
         self.world.phase()
+    }
+
+    /// While starts are tried: the one under way, whether it is draped already, and how many were judged before it.
+    pub fn trying(&self) -> Option<(Start, bool, usize)> {
+        let trials = self.world.trials.as_ref()?;
+        let (start, draped) = trials.now();
+        Some((start, draped, trials.count()))
     }
 
     /// 0..=1 over growing and settling.
@@ -165,6 +174,8 @@ impl Simulation {
             drape: world.drape_state(),
             was_draped: world.was_draped,
             was_sewn: world.was_sewn,
+            trying: world.trials.as_ref().map(|trials| trials.now()),
+            started: world.started.clone(),
         }
     }
 
@@ -172,25 +183,14 @@ impl Simulation {
     /// look at that had not been looked at before. Moves nothing.
     pub fn judge(&mut self) -> bool {
         let world = &self.world;
-        let (Some(source), Some(garment), Some(body)) = (&world.source, &world.garment, &world.body) else {
-            return false;
-        };
         if self.looked.is_some() || !self.is_at_rest() || !world.cloth.mapped.contains(&true) {
             return false;
         }
-        let split = world.drawn();
-        let (garment, cloth) =
-            split.as_ref().map_or((garment, &world.cloth), |(garment, cloth)| (garment, cloth));
-        let lies = Lies { draped: world.was_draped, sewn: world.was_sewn };
-        let look = || {
-            let index = BodyIndex::new(body);
-            let report = measure(&source.pattern, garment, cloth, &index);
-            let found = faults(&report, source, garment, cloth, &index, lies);
-            let tight = tight_places(&report, garment, cloth, || landmarks::found(&body.mesh));
-            Looked { faults: Arc::new(found), tight: Arc::new(tight) }
-        };
-        match catch_unwind(AssertUnwindSafe(look)) {
-            Ok(looked) => self.looked = Some(looked),
+        match catch_unwind(AssertUnwindSafe(|| world.judged())) {
+            Ok(None) => return false,
+            Ok(Some(Judged { faults, tight, .. })) => {
+                self.looked = Some(Looked { faults: Arc::new(faults), tight: Arc::new(tight) });
+            }
             Err(panic) => {
                 self.looked = Some(Looked::default());
                 self.fail(panic_words(&*panic));
@@ -233,9 +233,15 @@ impl Simulation {
             RequestKind::SetRelax(relax) => self.world.set_relax(relax),
             RequestKind::SetRelaxing(on) => self.world.relaxing = on,
             RequestKind::SetDraping { on, source } => self.world.set_draping(on, source),
-            RequestKind::StepDraping { ticks, source } => self.world.drape_for(Some(ticks), source),
+            RequestKind::StepDraping { ticks, source } => {
+                self.world.trials = None;
+                self.world.drape_for(Some(ticks), source);
+            }
             RequestKind::Sew { source, body, fabrics } => {
                 self.set_world(World::placed(source, body, fabrics)?);
+            }
+            RequestKind::Dress { source, body, fabrics, choice } => {
+                self.set_world(World::dressed(source, body, fabrics, choice)?);
             }
             RequestKind::SetFabrics(source) => self.world.set_fabrics(source),
             RequestKind::SetActivities(activities) => self.world.set_activities(&activities),
@@ -256,6 +262,7 @@ impl Simulation {
             | RequestKind::Rewrap { source, .. }
             | RequestKind::Adopt { source, .. }
             | RequestKind::Sew { source, .. }
+            | RequestKind::Dress { source, .. }
                 if source.relax.skips != self.skips =>
             {
                 Arc::make_mut(source).relax.skips = self.skips;

@@ -19,6 +19,7 @@ use crate::sim::hash::cloth_hash;
 use crate::sim::posed::Posed;
 use crate::sim::protocol::{ClothPlace, GarmentSource};
 use crate::sim::sewn::{Outfit, Placed};
+use crate::sim::starts::{Started, Trials};
 use crate::wrap::{Dressed, Dressing, Marks, Phase, coarser};
 
 /// The state of the simulation.
@@ -66,6 +67,10 @@ pub struct World {
     pub active: Option<Arc<Garment>>,
     /// What is sewn over the cloth once it rests, and its next layer.
     pub outer: Option<(Arc<Outfit>, u8)>,
+    /// Starts being tried: what lies is the one under way.
+    pub trials: Option<Arc<Trials>>,
+    /// What came of the starts that were tried; of cloth that was dressed otherwise nothing.
+    pub started: Option<Arc<Started>>,
 }
 
 impl Default for World {
@@ -92,6 +97,8 @@ impl Default for World {
             sewing: None,
             active: None,
             outer: None,
+            trials: None,
+            started: None,
         }
     }
 }
@@ -138,6 +145,7 @@ impl World {
     /// The dressed cloth grown anew from some pairs of marks. Where the pattern has changed since, it is recut first: pins
     /// hold what they held.
     pub fn rewrapped(&mut self, source: Arc<GarmentSource>, body: Arc<Surface>, pairs: &[usize]) -> Self {
+        self.trials = None;
         self.release();
         let marks = source.marks.only(pairs);
         let places = Arc::clone(&self.places);
@@ -174,6 +182,9 @@ impl World {
         self.release();
         let source =
             Arc::new(GarmentSource { pattern, marks, ..GarmentSource::clone(self.source.as_ref()?) });
+        if let Some(Ok(world)) = self.tried_again(Arc::clone(&source), Arc::clone(&body)) {
+            return Some(Self { places, ..world });
+        }
         if let Some(Ok(world)) = self.placed_again(Arc::clone(&source), Arc::clone(&body)) {
             return Some(Self { places, ..world });
         }
@@ -256,6 +267,7 @@ impl World {
         if let Some(source) = &mut self.source {
             Arc::make_mut(source).relax = relax;
         }
+        self.change_trials(|source| source.relax = relax);
         if let Some(dragging) = &mut self.dragging {
             return Arc::make_mut(dragging).set_settings(relax);
         }
@@ -282,6 +294,7 @@ impl World {
 
     /// Takes the cloth at `at` in the hand. Cloth that is not there, or still grows, stays as it is.
     pub fn grab(&mut self, at: ClothPlace, mode: DragMode, bones: &[Bone]) {
+        self.trials = None;
         self.release();
         if self.sewing.is_some() || self.grab_draped(at) {
             return;
@@ -373,6 +386,14 @@ impl World {
 
     /// One tick of work.
     pub fn step(&mut self) {
+        match self.trials {
+            Some(_) => self.try_on(),
+            None => self.advance(),
+        }
+    }
+
+    /// A tick of the cloth as it lies.
+    pub(super) fn advance(&mut self) {
         if self.sewing.is_some() {
             self.sew();
         } else if self.drapes_now() {
@@ -391,6 +412,9 @@ impl World {
     /// How far the dressing has come; None without a garment.
     pub fn phase(&self) -> Option<Phase> {
         self.garment.as_ref()?;
+        if self.trials.is_some() && self.lies_still() {
+            return Some(Phase::Settling);
+        }
         if let Some(dragging) = &self.dragging {
             return Some(if dragging.is_still() { Phase::AtRest } else { Phase::Settling });
         }
@@ -416,6 +440,11 @@ impl World {
 
     /// Whether a tick would change nothing.
     pub fn is_at_rest(&self) -> bool {
+        self.lies_still() && (self.trials.is_none() || !self.relaxing)
+    }
+
+    /// Whether the cloth as it lies has come to rest, or is held still.
+    pub(super) fn lies_still(&self) -> bool {
         if let Some(dragging) = &self.dragging {
             return dragging.is_still();
         }

@@ -111,6 +111,7 @@ impl App {
             Action::NoBones => self.apply(Command::SetBones { bones: Some(Vec::new()) }),
             Action::ToggleLaser => self.laser = !self.laser,
             Action::Choose(tool) => self.tool = tool,
+            Action::Dress => self.dress(),
             Action::Wrap => {
                 self.show_cloth = true;
                 self.apply(Command::Wrap);

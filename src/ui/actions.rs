@@ -126,6 +126,7 @@ pub enum Action {
     MakeEqual,
     FreeLengths,
     Untwist,
+    Dress,
     Wrap,
     Rewrap,
     CancelWrap,
@@ -326,6 +327,11 @@ impl Action {
                 &[],
             ),
             Self::ClearPins => entry("Pull all pins out", "Nothing holds the cloth any more", &[]),
+            Self::Dress => entry(
+                "Dress",
+                "Put the garment on by the best start: marks, its own or suggested ones, or sewn from placement",
+                &[ctrl(Key::Enter)],
+            ),
             Self::Wrap => {
                 entry("Wrap", "Grow the cloth round the body so that the marks meet", &[key(Key::Enter)])
             }

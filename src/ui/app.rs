@@ -8,7 +8,7 @@ use egui::ViewportCommand;
 use crate::geometry::ids::MarkId;
 use crate::render::Camera;
 use crate::session::{Command, GestureId, Notice, Project, Session};
-use crate::sim::{Runner, Simulation, thread::DEFAULT_RATE_HZ};
+use crate::sim::{Runner, Simulation, Started, thread::DEFAULT_RATE_HZ};
 use crate::ui::actions::{Action, Tool};
 use crate::ui::asks::{Ask, Asks};
 use crate::ui::dialogs::{Answer, Dialog, NativeDialog};
@@ -51,6 +51,8 @@ pub struct App {
     pub(super) pattern_panel: PatternPanel,
     /// Marks proposed and not accepted yet.
     pub(super) ghosts: Option<Ghosts>,
+    /// What came of the starts that were tried last, once it was told.
+    pub(super) started: Option<Arc<Started>>,
     pub(super) pattern_pane: PatternPane,
     pub(super) scene_pane: ScenePane,
     pub(super) show_cloth: bool,
@@ -114,6 +116,7 @@ impl App {
             marks_panel: MarksPanel::default(),
             pattern_panel: PatternPanel::default(),
             ghosts: None,
+            started: None,
             pattern_pane: PatternPane::fitted(),
             scene_pane: ScenePane::new(graphics),
             show_cloth: true,
@@ -235,7 +238,7 @@ impl App {
         self.wrap_seq = None;
         self.selected = None;
         self.picks = Picks::default();
-        self.ghosts = None;
+        (self.ghosts, self.started) = (None, None);
         self.leave_start_page();
         self.shell.maps.compare(None);
         self.pattern_pane = PatternPane::fitted();
@@ -250,6 +253,7 @@ impl App {
         self.play_demo(&ctx);
         let document = self.shown().document().clone();
         let snapshot = Arc::clone(self.shown().snapshot());
+        self.take_start(&document, &snapshot);
         self.ghosts = self.ghosts.take().filter(|g| g.fit(&document, self.shown().surface()));
         self.carry_selection(&document);
         self.take_comparison();
@@ -335,7 +339,8 @@ impl App {
     /// Carries out `command` as a step of its own; a refusal is told.
     pub(super) fn apply(&mut self, command: Command) {
         self.end_drag();
-        let is_wrap = matches!(command, Command::Wrap | Command::Rewrap { .. } | Command::Sew);
+        let is_wrap =
+            matches!(command, Command::Wrap | Command::Rewrap { .. } | Command::Sew | Command::Dress { .. });
         let is_body = matches!(command, Command::SetBody { .. } | Command::ChangeSize { .. });
         match self.session.apply_alone(command) {
             Ok(()) if is_wrap => self.wrap_seq = Some(self.session.last_seq()),

@@ -88,6 +88,7 @@ pub const ALL: &[Action] = &[
     Action::MakeEqual,
     Action::FreeLengths,
     Action::Untwist,
+    Action::Dress,
     Action::Wrap,
     Action::Rewrap,
     Action::CancelWrap,
@@ -230,6 +231,7 @@ impl Action {
             | Self::OwnBones
             | Self::NoBones
             | Self::ClearPins
+            | Self::Dress
             | Self::Wrap
             | Self::Rewrap
             | Self::CancelWrap

@@ -20,11 +20,16 @@ impl Ghosts {
     /// Marks for the pattern and body of `session`. None when none can be proposed.
     pub fn proposed(session: &Session) -> Option<Self> {
         let document = session.document();
-        let surface = Arc::clone(session.surface()?);
+        let surface = session.surface()?;
         let offset = document.settings.relax.offset * surface.scale();
-        let marks = Arc::new(suggested(&document.pattern, &surface, offset));
+        Self::of(Arc::new(suggested(&document.pattern, surface, offset)), session)
+    }
+
+    /// These marks, proposed for the pattern and body of `session`. None without a pair or a body.
+    pub fn of(marks: Arc<Marks>, session: &Session) -> Option<Self> {
         marks.pairs().next()?;
-        Some(Self { marks, pattern: Arc::clone(&document.pattern), surface })
+        let surface = Arc::clone(session.surface()?);
+        Some(Self { marks, pattern: Arc::clone(&session.document().pattern), surface })
     }
 
     /// Whether pieces and body are still those they were proposed for. Pieces may have been moved on the table.

@@ -31,7 +31,8 @@ pub fn menu_bar_ui(ui: &mut egui::Ui, now: &Situation, asks: &mut Asks) {
         });
         ui.menu_button("Pattern", |ui| pattern_ui(ui, now, asks));
         ui.menu_button("Garment", |ui| {
-            items(ui, now, asks, &[Action::Wrap, Action::Rewrap, Action::CancelWrap, Action::Unwrap]);
+            items(ui, now, asks, &[Action::Dress, Action::Wrap, Action::Rewrap, Action::CancelWrap]);
+            items(ui, now, asks, &[Action::Unwrap]);
             ui.separator();
             items(ui, now, asks, &[Action::Choose(Tool::Place), Action::BringPieces]);
             items(ui, now, asks, &[Action::ToggleRolled, Action::Unplace, Action::Sew]);

@@ -14,6 +14,7 @@ mod covered;
 mod demo;
 mod dialogs;
 mod drawer;
+mod dressing;
 mod drop_overlay;
 mod edits;
 mod entries;

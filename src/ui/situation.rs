@@ -9,7 +9,7 @@ use crate::fit::MapKind;
 use crate::geometry::ids::MarkId;
 use crate::io::pdf::Paper;
 use crate::pattern::activity::Activity;
-use crate::sim::DrapeState;
+use crate::sim::{DrapeState, Start};
 use crate::ui::actions::{Action, Tool};
 use crate::ui::drawer::Drawer;
 use crate::ui::edits::Picked;
@@ -81,6 +81,8 @@ pub struct Situation {
     pub wrapped: bool,
     /// A wrap was asked for and the cloth is not all on the body yet.
     pub wrapping: bool,
+    /// While starts are tried: the one under way, and whether it is draped already.
+    pub trying: Option<(Start, bool)>,
     /// The simulation has something to do.
     pub working: bool,
     /// The simulation has done what it was asked for so far.
@@ -153,17 +155,25 @@ impl Situation {
             Action::Redo => unless(self.redo.is_some(), "There is nothing to redo"),
             Action::Revert | Action::SaveNext => unless(self.has_file, "The project was not saved yet"),
             Action::ExportPattern => unless(self.pieces > 0, "There is no piece on the table"),
-            Action::Wrap if self.pieces == 0 => Some("There is no piece on the table"),
+            Action::Dress | Action::Wrap if self.pieces == 0 => Some("There is no piece on the table"),
+            Action::Dress if !self.has_body => Some("There is no body"),
+            Action::Dress if self.wrapping => Some("The cloth is growing"),
+            Action::Dress => unless(
+                self.placed || self.has_pairs(),
+                "No piece stands round the body, and there are no marks",
+            ),
+            Action::ToggleDrape | Action::StepDrape | Action::ToggleRelaxing if self.trying.is_some() => {
+                Some("The garment is being put on: cancel that first")
+            }
             Action::Wrap if !self.has_body => Some("There is no body"),
             Action::Wrap if self.wrapping => Some("The cloth is growing"),
-            Action::Wrap => unless(
-                self.marks[0].min(self.marks[1]) > 0,
-                "Paint at least one mark on a piece and one on the body first",
-            ),
+            Action::Wrap => {
+                unless(self.has_pairs(), "Paint at least one mark on a piece and one on the body first")
+            }
             Action::Rewrap if !self.dressed => Some("There is no cloth on the body"),
             Action::Rewrap if self.wrapping => Some("The cloth is growing"),
             Action::Rewrap => unless(
-                self.marks[0].min(self.marks[1]) > 0,
+                self.has_pairs(),
                 "Paint the new marks first: on a piece, and on the body where it should lie",
             ),
             Action::CancelWrap => unless(self.wrapping, "Nothing is growing"),
@@ -239,6 +249,16 @@ impl Situation {
             Action::ClearMarks => unless(self.marks[0] + self.marks[1] > 0, "There are no marks"),
             _ => None,
         }
+    }
+
+    /// Whether there is a pair of marks.
+    fn has_pairs(&self) -> bool {
+        self.marks[0].min(self.marks[1]) > 0
+    }
+
+    /// Whether *Dress* is what comes next, rather than *Wrap*: pieces stand round the body, and there are no marks.
+    pub fn is_for_dress(&self) -> bool {
+        self.placed && !self.has_pairs()
     }
 
     /// Whether `action` names something that is on.

@@ -3,6 +3,7 @@
 use egui::{Align, Layout, ProgressBar, RichText};
 
 use crate::sim::DrapeState;
+use crate::ui::dressing::trying_words;
 use crate::ui::pace::{Pace, left_words};
 use crate::ui::situation::Situation;
 use crate::ui::theme::Palette;
@@ -59,6 +60,9 @@ fn pace_words(pace: &Pace) -> Option<String> {
 fn phase_words(now: &Situation) -> String {
     let percent = (now.progress * 100.0).floor() as u32;
     match now.phase {
+        Some(_) if now.trying.is_some() => {
+            now.trying.map(|now| trying_words(now, percent)).unwrap_or_default()
+        }
         _ if now.wrapping && now.phase != Some(Phase::Growing) => "Cutting the cloth".to_owned(),
         None => "No cloth on the body".to_owned(),
         Some(_) if now.dragging => "In your hand".to_owned(),

@@ -29,6 +29,8 @@ pub fn toolbar_ui(ui: &mut egui::Ui, now: &Situation, palette: &Palette, asks: &
         gap(ui);
         if now.wrapping {
             primary(ui, now, asks, Action::CancelWrap, palette.error, palette);
+        } else if now.is_for_dress() {
+            primary(ui, now, asks, Action::Dress, palette.accent, palette);
         } else {
             primary(ui, now, asks, Action::Wrap, palette.accent, palette);
         }

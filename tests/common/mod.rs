@@ -6,10 +6,10 @@ use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 use std::time::Duration;
 
-use glam::{DVec2, DVec3};
+use glam::{DQuat, DVec2, DVec3};
 use toile::geometry::ids::{MarkId, PieceId};
 use toile::geometry::mesh::TriMesh;
-use toile::pattern::{EdgeRef, Pattern, Piece, Seam};
+use toile::pattern::{EdgeRef, Pattern, Piece, Seam, SpacePose};
 use toile::session::{BodyChoice, Document, Project, Session, Settings};
 use toile::sim::{Runner, Simulation};
 use toile::wrap::{BodyMark, ClothMark, ClothSide, Marks};
@@ -92,6 +92,30 @@ pub fn tube_project() -> Project {
     document.body = BodyChoice::Imported { name: "ball".to_owned(), mesh: Arc::new(ball(0.12, 12, 24)) };
     document.settings.edge_length = 0.03;
     Project { document, dressed: None }
+}
+
+/// A front and a back sewn into a tube, `bottom` and `top` metres wide, without marks: placed before and behind a spindle that
+/// is 75 cm round.
+pub fn placed_project(bottom: f64, top: f64) -> Project {
+    let mut project = tube_project();
+    let document = &mut project.document;
+    let (left, right, height) = ((bottom - top) / 2.0, (bottom + top) / 2.0, 0.2);
+    let corners = [(0.0, 0.0), (bottom, 0.0), (right, height), (left, height)].map(DVec2::from);
+    let pattern = Arc::make_mut(&mut document.pattern);
+    for (piece, turn) in [(1, 0.0), (2, std::f64::consts::PI)] {
+        let piece = Arc::make_mut(pattern.pieces.get_mut(&PieceId(piece)).expect("a piece"));
+        for (edge, corner) in piece.outline.iter_mut().zip(corners) {
+            edge.start = corner;
+        }
+        let rotation = DQuat::from_rotation_y(turn);
+        let translation = rotation * DVec3::new(-bottom / 2.0, -0.09, 0.16);
+        piece.placement = Some(SpacePose::flat(translation, rotation));
+    }
+    document.settings.edge_length = 0.025;
+    let mut mesh = ball(0.12, 24, 48);
+    mesh.positions.iter_mut().for_each(|p| p.y *= 3.0);
+    document.body = BodyChoice::Imported { name: "spindle".to_owned(), mesh: Arc::new(mesh) };
+    project
 }
 
 /// A session on the scene with the simulation inline.

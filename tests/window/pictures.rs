@@ -128,6 +128,22 @@ fn keep(window: &mut Window, folder: &std::path::Path, name: &str) {
 }
 
 #[test]
+fn suggested_marks_are_written_for_whoever_wants_to_look() {
+    let Some(folder) = std::env::var_os("TOILE_PICTURES").map(std::path::PathBuf::from) else { return };
+    std::fs::create_dir_all(&folder).expect("a folder");
+    let mut project = project_of(Sample::Dress);
+    project.document.take_marks(Arc::default());
+    let Some(mut window) = drawn_window(project, PLAIN) else { return };
+    keep(&mut window, &folder, "dress-is-next");
+    key(&mut window, Modifiers::COMMAND, Key::Enter);
+    wait(&mut window, "a start", |app| app.session().snapshot().trying.is_some_and(|now| now.1));
+    window.run_steps(3);
+    window.render().expect("a picture").save(folder.join("dress-tries.png")).expect("written");
+    wait(&mut window, "the garment", |app| app.session().snapshot().started.is_some());
+    keep(&mut window, &folder, "dress-ghosts");
+}
+
+#[test]
 fn pictures_are_written_for_whoever_wants_to_look() {
     let Some(folder) = std::env::var_os("TOILE_PICTURES").map(std::path::PathBuf::from) else { return };
     std::fs::create_dir_all(&folder).expect("a folder");

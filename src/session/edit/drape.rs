@@ -5,20 +5,36 @@ use crate::geometry::ids::PieceId;
 use crate::session::command::Rejection;
 use crate::session::document::{Document, Fabrics};
 use crate::session::edit::{ClothChange, Edit, checks};
+use crate::sim::{Start, StartChoice};
 
 /// Ten seconds.
 const MOST_TICKS: u32 = 600;
 
 pub fn sew(mut document: Document) -> Result<Edit, Rejection> {
-    let mut pieces = document.pattern.pieces.values();
-    if !pieces.any(|piece| piece.placement.is_some()) {
-        return Err(Rejection::new(
-            "no piece is placed in space: paint marks and wrap, or import a pattern that tells where its pieces go",
-        ));
-    }
+    check_placed(&document)?;
     // They held cloth that lay elsewhere.
     document.drop_pins();
     Ok(Edit::new("sew", document).with(ClothChange::Sew))
+}
+
+pub fn dress(mut document: Document, choice: StartChoice) -> Result<Edit, Rejection> {
+    let has_marks = document.marks.pairs().next().is_some() && choice.only != Some(Start::Placement);
+    if document.pattern.pieces.is_empty() {
+        return Err(Rejection::new("there is no piece of cloth to put on"));
+    }
+    if !has_marks {
+        check_placed(&document)?;
+    }
+    // They held cloth that lay elsewhere.
+    document.drop_pins();
+    Ok(Edit::new("dress", document).with(ClothChange::Dress(choice)))
+}
+
+fn check_placed(document: &Document) -> Result<(), Rejection> {
+    let mut pieces = document.pattern.pieces.values();
+    let is_placed = pieces.any(|piece| piece.placement.is_some());
+    let words = "no piece is placed in space: paint marks and wrap, or import a pattern that tells where its pieces go";
+    if is_placed { Ok(()) } else { Err(Rejection::new(words)) }
 }
 
 pub fn set_draping(document: Document, on: bool) -> Result<Edit, Rejection> {

@@ -20,7 +20,7 @@ use crate::session::carry;
 use crate::session::command::{Command, Rejection};
 use crate::session::document::Document;
 use crate::session::history::StepKind;
-use crate::sim::ClothPlace;
+use crate::sim::{ClothPlace, StartChoice};
 
 /// What a command asks of the simulation.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,6 +53,8 @@ pub enum ClothChange {
     SetRelaxing(bool),
     /// Sew it from where its pieces are placed.
     Sew,
+    /// Put it on by the best start.
+    Dress(StartChoice),
     /// Drape it, or stop that.
     SetDraping(bool),
     /// Drape it for so many ticks.
@@ -100,7 +102,9 @@ impl Edit {
     /// What history remembers of it.
     pub fn kind(&self) -> StepKind {
         match self.cloth {
-            ClothChange::Wrap | ClothChange::Rewrap(_) | ClothChange::Sew => StepKind::Wrap,
+            ClothChange::Wrap | ClothChange::Rewrap(_) | ClothChange::Sew | ClothChange::Dress(_) => {
+                StepKind::Wrap
+            }
             ClothChange::Clear
             | ClothChange::Resew(_)
             | ClothChange::Repose { .. }
@@ -181,6 +185,7 @@ fn untied(document: &Document, command: &Command, bodies: &mut BodyCache) -> Res
         Command::Release => Ok(Edit::new("let go", new).with(ClothChange::Release)),
         Command::SetRelaxing { on } => wrap::set_relaxing(new, *on),
         Command::Sew => drape::sew(new),
+        Command::Dress { choice } => drape::dress(new, *choice),
         Command::SetDraping { on } => drape::set_draping(new, *on),
         Command::StepDraping { ticks } => drape::step(new, *ticks),
         Command::SetFabric { piece, fabric } => drape::set_fabric(new, *piece, fabric.as_deref()),

@@ -1,0 +1,60 @@
+//! How dress puts a pattern without marks on.
+
+use crate::common::{placed_project, project};
+use crate::program::Place;
+
+/// Texts of a JSON array.
+fn texts(value: &serde_json::Value) -> Vec<String> {
+    let all = value.as_array().expect("an array").iter();
+    all.map(|text| text.as_str().expect("a text").to_owned()).collect()
+}
+
+fn faults(report: &serde_json::Value) -> Vec<String> {
+    let all = report["faults"].as_array().expect("faults").iter();
+    let text = |value: &serde_json::Value| value.as_str().expect("a text").to_owned();
+    all.map(|fault| format!("{}: {}", text(&fault["where"]), text(&fault["words"]))).collect()
+}
+
+#[test]
+fn the_best_start_is_taken_and_told() {
+    let place = Place::new();
+    place.save("tube.toile", &placed_project(0.39, 0.33));
+    for (option, taken, words) in
+        [("", "marks", "by suggested marks"), (" --start placement", "placement", "sewn from placement")]
+    {
+        let done = place.ends(0, &format!("dress tube.toile --out out{option}"));
+        assert!(done.out.starts_with("tube: dressed, ") && done.out.contains(words), "{done:#?}");
+        let report = place.json("out/report.json");
+        let start = &report["start"];
+        assert_eq!((&start["taken"], &start["draped"]), (&taken.into(), &true.into()), "{start:#}");
+        let last = start["tried"].as_array().and_then(|tried| tried.last()).expect("tried");
+        assert_eq!((&last["start"], texts(&last["faults"])), (&taken.into(), faults(&report)));
+        assert!(last["seconds"].as_f64().is_some_and(|s| s > 0.0) && last["ticks"].as_u64() > Some(1));
+    }
+}
+
+#[test]
+fn where_no_start_is_clean_the_exit_code_and_the_report_say_so() {
+    let place = Place::new();
+    place.save("narrow.toile", &placed_project(0.15, 0.15));
+    let done = place.ends(1, "dress narrow.toile --out out --json");
+    assert!(done.err.contains("no start is without a fault: marks has "), "{done:#?}");
+    let report = place.json("out/report.json");
+    let tried = report["start"]["tried"].as_array().expect("tried");
+    let all: Vec<Vec<String>> = tried.iter().map(|tried| texts(&tried["faults"])).collect();
+    assert!(all.iter().all(|faults| !faults.is_empty()) && all.contains(&faults(&report)), "{all:#?}");
+}
+
+#[test]
+fn a_start_that_cannot_be_begun_is_told() {
+    let place = Place::with_ball();
+    place.ends_with_words(3, "dress ball.toile --out out --start placement", "no piece is placed");
+    place.ends_with_words(2, "dress ball.toile --out out --start pins", "marks or placement");
+    place.ends_with_words(2, "dress ball.toile --out out --start marks --suggest-marks", "cannot be used");
+    place.ends(0, "dress ball.toile --out out --start marks");
+    assert!(place.json("out/report.json").get("start").is_none(), "it has marks of its own");
+    let mut unmarked = project();
+    unmarked.document.marks = Default::default();
+    place.save("unmarked.toile", &unmarked);
+    place.ends_with_words(3, "dress unmarked.toile --out out --start marks", "no piece is placed");
+}

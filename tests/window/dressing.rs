@@ -1,0 +1,62 @@
+//! Dressing by the best start in the window.
+
+use toile::session::samples::Sample;
+
+use super::hand::positions;
+use super::*;
+
+/// The skirt and the mannequin, without marks, coarse.
+fn skirt_window() -> Window {
+    let mut project = Sample::Skirt.project(&toile::body::mannequin::default());
+    project.document.take_marks(Arc::default());
+    project.document.settings.edge_length = 0.06;
+    window_on(project, None)
+}
+
+fn begin(window: &mut Window) {
+    assert!(window.query_by_label("Wrap").is_none(), "nothing can be wrapped yet");
+    window.get_by_label("Dress").click();
+    window.run_steps(2);
+}
+
+#[test]
+fn dress_takes_a_start_and_its_marks_can_be_kept() {
+    let mut window = skirt_window();
+    begin(&mut window);
+    assert!(window.query_by_label("Cancel").is_some());
+    wait(&mut window, "the garment", |app| app.session().snapshot().started.is_some());
+    window.run_steps(3);
+    assert!(window.query_by_label_contains("Dressed by suggested marks").is_some(), "it is told");
+    let dressed = positions(&window);
+    let proposed = app(&window).session().snapshot().source.as_ref().map(|source| source.marks.cloth.len());
+    assert_eq!(counts(&window), [0, 0]);
+    assert!(window.query_by_label("Proposed mark 1 on the cloth").is_some());
+    window.get_by_label("Accept").click();
+    window.run_steps(3);
+    assert_eq!(Some(counts(&window)[0]), proposed);
+    assert!(window.query_by_label("Wrap").is_some(), "now it can be wrapped");
+    assert_eq!(positions(&window), dressed, "the cloth stays");
+    for label in ["suggest marks", "dress"] {
+        assert_ne!(app(&window).session().undo_label(), None, "{label}");
+        key(&mut window, Modifiers::COMMAND, Key::Z);
+    }
+    wait(&mut window, "the undo", |app| !app.session().snapshot().is_dressed());
+    window.run_steps(2);
+    assert_eq!((counts(&window), app(&window).session().undo_label()), ([0, 0], None));
+    assert!(window.query_by_label("Accept").is_none(), "proposed marks go with the cloth");
+}
+
+#[test]
+fn esc_cancels_the_whole_run() {
+    let mut window = skirt_window();
+    begin(&mut window);
+    wait(&mut window, "a start", |app| app.session().snapshot().trying.is_some());
+    window.run_steps(2);
+    assert!(window.query_by_label_contains("By marks: ").is_some(), "it is told how far it has come");
+    key(&mut window, Modifiers::NONE, Key::Escape);
+    wait(&mut window, "the bare body", |app| {
+        let snapshot = app.session().snapshot();
+        !snapshot.is_dressed() && snapshot.trying.is_none()
+    });
+    assert_eq!(app(&window).session().undo_label(), None);
+}
