@@ -23,6 +23,7 @@
 //! | `fit`      | what is read off a garment: strain, crossings, openings, the report, maps | cloth, body, pattern, geometry |
 //! | `sim`      | owner of the moving state: stages, protocol, checkpoints, thread, state hash | the above |
 //! | `session`  | what the user has done: document, command, history, recording, replay, project file, recovery | sim and below, place, io |
+//! | `draft`    | garments of our own, drawn from a seed and drafted to the mannequin's measurements: parts, designs, the corpus | body, pattern, geometry |
 //! | `io`       | obj, gltf, bvh; patterns as garmentcode json, dxf, svg, pdf: bytes in, checked data out, and back | cloth, body, pattern, geometry |
 //! | `render`   | plain buffers in, pixels out: camera, passes, offscreen target | nothing of ours |
 //! | `ui`       | egui: app, actions, panes, tools | session and below, place, render |
@@ -42,6 +43,7 @@ pub mod body;
 pub mod cli;
 pub mod cloth;
 pub mod contact;
+pub mod draft;
 pub mod drag;
 pub mod drape;
 pub mod fit;

@@ -11,6 +11,8 @@ mod bodies;
 mod common;
 #[path = "cli/compare.rs"]
 mod compare;
+#[path = "cli/corpus.rs"]
+mod corpus;
 #[path = "cli/dress.rs"]
 mod dress;
 #[path = "cli/faults.rs"]

@@ -10,6 +10,7 @@ mod export;
 mod failure;
 mod fit;
 mod formats;
+mod generate;
 mod import;
 mod input;
 mod interrupt;
@@ -78,6 +79,7 @@ fn carry_out(arguments: Arguments) -> Result<(), Failure> {
         Some(Task::Export(export)) => export::export(&export),
         Some(Task::Check(check)) => check::check(&check),
         Some(Task::Measure(measure)) => measure::measure(&measure),
+        Some(Task::Generate(generate)) => generate::generate(&generate),
         Some(Task::Simulate(simulate)) => run::on_threads(simulate.threads, || simulate::simulate(&simulate)),
         Some(Task::Bench(bench)) => run::on_threads(bench.threads, || bench::bench(&bench)),
     }

@@ -74,6 +74,16 @@ impl Verdict {
             .map(|verdict| (verdict, text.trim_end().to_owned()))
     }
 
+    /// Why this is not a dressed garment: each fault's words, without its place.
+    pub fn reasons(&self) -> impl Iterator<Item = &str> {
+        self.faults.iter().map(|fault| fault.problem.words.as_str())
+    }
+
+    /// Wall-clock seconds in all.
+    pub fn seconds(&self) -> f64 {
+        self.seconds
+    }
+
     /// Why this is not a dressed garment.
     pub fn failed_check(&self) -> Option<String> {
         let words = |f: &Fault| format!("{}: {}", f.problem.place, f.problem.words);

@@ -1,6 +1,7 @@
 //! `toile bench`: how fast and how accurate the program is on this machine.
 
 mod accuracy;
+mod corpus;
 mod drape;
 mod plot;
 mod poses;
@@ -13,7 +14,7 @@ mod tube;
 
 use serde::Serialize;
 
-use crate::cli::arguments::{Bench, BenchKind};
+use crate::cli::arguments::{Bench, BenchKind, CorpusOptions};
 use crate::cli::bench::row::Row;
 use crate::cli::failure::Failure;
 use crate::cli::output;
@@ -21,8 +22,15 @@ use crate::cli::output;
 /// Runs every scene asked for and prints a row for each as it is done.
 pub fn bench(arguments: &Bench) -> Result<(), Failure> {
     let asked = |kind| arguments.what.is_none_or(|what| what == kind);
-    if arguments.plot.is_some() && arguments.what == Some(BenchKind::Speed) {
+    if arguments.plot.is_some() && matches!(arguments.what, Some(BenchKind::Speed | BenchKind::Corpus)) {
         return Err(Failure::Usage("--plot draws what accuracy and drape measure".to_owned()));
+    }
+    if arguments.what == Some(BenchKind::Corpus) {
+        return corpus::corpus(arguments);
+    }
+    if arguments.corpus != CorpusOptions::default() || arguments.out.is_some() {
+        let words = "--count, --seed, --shard, --body-sizes, --poses, --kinds and --out go with bench corpus";
+        return Err(Failure::Usage(words.to_owned()));
     }
     let runs = usize::from(arguments.runs);
     if arguments.what == Some(BenchKind::Drape) {

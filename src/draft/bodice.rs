@@ -1,0 +1,264 @@
+//! Bodices: front and back of the trunk, boxy or fitted by darts, whole or seamed down the middle.
+
+use glam::{DVec2, DVec3};
+use serde::Serialize;
+
+use crate::draft::form::{Form, Yoke};
+use crate::draft::garment::{Facing, Garment, Part, Run};
+use crate::draft::neckline::Neckline;
+use crate::draft::path::{Dart, Path, cubic_length, to_the_right};
+use crate::draft::random::Random;
+use crate::geometry::ids::PieceId;
+
+/// Moved from each quarter of the back to the front, metres: the bust takes more of the width.
+const FRONT_SHARE: f64 = 0.008;
+/// How far before and behind the skin pieces stand, metres.
+pub const CLEARANCE: f64 = 0.12;
+/// From the armpit down to the underarm point where the bodice has sleeves or none, metres.
+const UNDERARM_DROP: f64 = 0.030;
+
+/// Where a bodice ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Hem {
+    /// At the waist, to be sewn to a skirt or trousers, or free.
+    Waist,
+    /// At the hip.
+    Hip,
+    /// A third of the way from hip to knee.
+    Tunic,
+}
+
+/// How a bodice is cut; metres.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Bodice {
+    pub hem: Hem,
+    /// Added to the bust girth.
+    pub bust_ease: f64,
+    /// Added to the girth at the hem (where that is the waist: of the waist, darts taken in).
+    pub hem_ease: f64,
+    /// Waist darts of each quarter take in so much; only where the hem is the waist.
+    pub waist_dart: f64,
+    /// A dart in the front's side seam takes the length that the bust needs.
+    pub bust_dart: bool,
+    /// Front and back are seamed down the middle.
+    pub centre_seams: [bool; 2],
+    /// How much longer it is than from bust to waist, where it ends there.
+    pub blouse: f64,
+}
+
+impl Bodice {
+    /// Straight or widening, without darts.
+    pub fn boxy(random: &mut Random, hem: Hem) -> Self {
+        let bust_ease = random.between(0.08, 0.20);
+        Self {
+            hem,
+            bust_ease,
+            hem_ease: random.between(0.06, 0.16),
+            waist_dart: 0.0,
+            bust_dart: false,
+            centre_seams: [random.chance(0.25), random.chance(0.3)],
+            blouse: 0.0,
+        }
+    }
+
+    /// Taken in by darts, to the waist.
+    pub fn fitted(random: &mut Random) -> Self {
+        Self {
+            hem: Hem::Waist,
+            bust_ease: random.between(0.05, 0.09),
+            hem_ease: random.between(0.035, 0.06),
+            waist_dart: random.between(0.018, 0.032),
+            bust_dart: random.chance(0.6),
+            centre_seams: [random.chance(0.3), random.chance(0.4)],
+            blouse: 0.0,
+        }
+    }
+
+    /// Height of the hem below the bust line.
+    fn length(&self, form: &Form) -> f64 {
+        match self.hem {
+            Hem::Waist => form.bust - form.waist + self.blouse,
+            Hem::Hip => form.bust - form.hip + 0.01,
+            Hem::Tunic => form.bust - form.hip + (form.hip - form.knee) / 3.0,
+        }
+    }
+
+    /// Half the width of front or back at the hem, darts taken in.
+    fn hem_quarter(&self, form: &Form) -> f64 {
+        let m = &form.measurements;
+        let girth = match self.hem {
+            Hem::Waist => m.waist,
+            Hem::Hip => m.hip,
+            Hem::Tunic => m.hip + 0.04,
+        };
+        (girth + self.hem_ease) / 4.0
+    }
+}
+
+/// What a bodice's side goes up to.
+#[derive(Clone, Copy, Debug)]
+pub enum Armhole {
+    /// For a sleeve that is set in, or for none.
+    SetIn,
+    /// A raglan line up to the neckline.
+    Raglan,
+}
+
+/// Front and back with the places where more is sewn on.
+pub struct Trunk {
+    /// Front and back: one piece each, or a left and a right one.
+    pub sides: [Vec<PieceId>; 2],
+    /// Length of one armhole's line in front and behind, metres.
+    pub armhole_lengths: [f64; 2],
+    /// The shoulder seam that it was drafted with.
+    pub yoke: Yoke,
+    /// Height of the hem as placed, of front and back.
+    pub hem_height: [f64; 2],
+    /// Raglan sleeves reach to here on front and back, from the neck end of the shoulder seam.
+    pub raglan: [DVec2; 2],
+}
+
+impl Trunk {
+    /// The waist or hem, from the right of the body to the left.
+    pub fn hem(&self, garment: &Garment, side: usize) -> Run {
+        garment.run(&self.sides[side], "hem", DVec3::X)
+    }
+
+    /// The neckline, from the right of the body to the left.
+    pub fn neckline(&self, garment: &Garment, side: usize) -> Run {
+        garment.run(&self.sides[side], "neck", DVec3::X)
+    }
+
+    /// An armhole from below upwards.
+    pub fn armhole(&self, garment: &Garment, side: usize, hand: &str) -> Run {
+        garment.run(&self.sides[side], &format!("armhole {hand}"), DVec3::Y)
+    }
+}
+
+/// From the neck end of the shoulder seam to where a raglan line meets the neckline, in front and behind, metres.
+const RAGLAN_NECK: [DVec2; 2] = [DVec2::new(-0.010, -0.038), DVec2::new(-0.026, -0.010)];
+
+/// Drafts front and back, stands them round the body and sews shoulders, sides, middles and darts.
+pub fn bodice(garment: &mut Garment, form: &Form, cut: &Bodice, neck: &Neckline, armhole: Armhole) -> Trunk {
+    let yoke = form.yoke(form.across(neck.width), 0.0);
+    let hem = -cut.length(form);
+    let under = form.armpit.y - UNDERARM_DROP - form.bust;
+    let bust_dart = if cut.bust_dart { dart_intake(&yoke) } else { 0.0 };
+    let mut lengths = [0.0; 2];
+    let mut raglan = [DVec2::ZERO; 2];
+    let mut paths = Vec::new();
+    let mut side_length: Option<f64> = None;
+    for side in 0..2 {
+        let wider = if side == 0 { FRONT_SHARE } else { -FRONT_SHARE };
+        let quarter = (form.measurements.bust + cut.bust_ease) / 4.0 + wider;
+        let raised = if side == 0 { bust_dart } else { 0.0 };
+        let hem_end = DVec2::new(cut.hem_quarter(form) + cut.waist_dart, hem);
+        // Both sides of the side seam are as long as the front's without its dart.
+        let rise = match side_length {
+            None => under + raised - hem,
+            Some(length) => (length * length - (quarter - hem_end.x).powi(2)).sqrt(),
+        };
+        let underarm = DVec2::new(quarter, hem + rise);
+        side_length = Some(underarm.distance(hem_end) - raised);
+        let mut path = Path::from(DVec2::new(0.0, hem));
+        path = match cut.waist_dart > 0.0 {
+            true => {
+                let depth = (0.72 * -hem).min(if side == 0 { -hem - 0.025 } else { -hem });
+                let at = form.bust_point.x.min(0.5 * hem_end.x);
+                path.darted("hem", hem_end, Dart { at, width: cut.waist_dart, depth })
+            }
+            false => path.line("hem", hem_end),
+        };
+        path = match raised > 0.0 {
+            true => {
+                let length = hem_end.distance(underarm);
+                let at = length - (under + raised / 2.0 + 0.012).max(0.06);
+                let depth = (underarm.x - form.bust_point.x - 0.025).max(0.03);
+                path.darted("side", underarm, Dart { at, width: raised, depth })
+            }
+            false => path.line("side", underarm),
+        };
+        let tip = yoke.tip[side];
+        let corner = yoke.neck[side];
+        path = match armhole {
+            Armhole::SetIn => {
+                let depth = tip.y - underarm.y;
+                let chest = tip.x - 0.020 + wider;
+                let first = DVec2::new(chest + 0.006, underarm.y);
+                let second = DVec2::new(chest, tip.y - 0.45 * depth);
+                lengths[side] = cubic_length(underarm, [first, second], tip);
+                path.curve("armhole", first, second, tip).line("shoulder", corner)
+            }
+            Armhole::Raglan => {
+                let top = corner + RAGLAN_NECK[side];
+                raglan[side] = top;
+                let controls = raglan_controls(underarm, top);
+                lengths[side] = cubic_length(underarm, controls, top);
+                path.curve("armhole", controls[0], controls[1], top)
+            }
+        };
+        let low = DVec2::new(0.0, corner.y - neck.drops[side]);
+        paths.push(neck.drawn_down_to(path, side, low));
+    }
+    let placed = [0, 1].map(|side| placed_height(form, &yoke, side));
+    let mut sides = [Vec::new(), Vec::new()];
+    for (side, path) in paths.into_iter().enumerate() {
+        sides[side] = stand_side(garment, form, path, side, cut.centre_seams[side], placed[side]);
+    }
+    let [front, back] = &sides;
+    sew_trunk(garment, front, back);
+    let hem_height = placed.map(|bust| bust + hem);
+    Trunk { sides, armhole_lengths: lengths, yoke, hem_height, raglan }
+}
+
+/// Sews shoulders, sides, middle seams and darts of a trunk.
+pub fn sew_trunk(garment: &mut Garment, front: &[PieceId], back: &[PieceId]) {
+    garment.sew_darts(front);
+    garment.sew_darts(back);
+    garment.sew_alike(front, back, &["shoulder left", "shoulder right"], DVec3::X);
+    garment.sew_alike(front, back, &["side left", "side right"], DVec3::Y);
+    for pieces in [front, back] {
+        if let [left, right] = pieces {
+            garment.sew_alike(&[*left], &[*right], &["centre"], DVec3::Y);
+        }
+    }
+}
+
+/// Stands front (0) or back (1), drawn with the bust line at y = 0, whole or in two halves.
+pub fn stand_side(
+    garment: &mut Garment,
+    form: &Form,
+    half: Path,
+    side: usize,
+    in_halves: bool,
+    height: f64,
+) -> Vec<PieceId> {
+    let (name, facing) = [("front", Facing::Front), ("back", Facing::Back)][side];
+    let z = form.depth[side] + [CLEARANCE, -CLEARANCE][side];
+    let at = DVec3::new(0.0, height, z);
+    if !in_halves {
+        return vec![garment.stand(half.whole(name), Part::Body, facing, at)];
+    }
+    let left = half.half(&format!("{name} left"));
+    let right = to_the_right(&left);
+    [left, right].map(|piece| garment.stand(piece, Part::Body, facing, at)).into()
+}
+
+/// How high the bust line of front or back stands, so that its shoulder seam lies on the shoulder.
+pub fn placed_height(form: &Form, yoke: &Yoke, side: usize) -> f64 {
+    let middle = (yoke.neck[side] + yoke.tip[side]) / 2.0;
+    form.shoulder_at(middle.x).y + 0.01 - middle.y
+}
+
+/// What a bust dart takes in: how much longer the front is than the back, within what can be sewn flat.
+fn dart_intake(yoke: &Yoke) -> f64 {
+    (yoke.neck[0].y - yoke.neck[1].y).clamp(0.012, 0.035)
+}
+
+/// Controls of the raglan line from the underarm point up to the neckline.
+fn raglan_controls(underarm: DVec2, top: DVec2) -> [DVec2; 2] {
+    let along = top - underarm;
+    let inward = along.perp().normalize_or_zero();
+    [underarm + along * 0.25 + inward * 0.030, underarm + along * 0.60 + inward * 0.006]
+}

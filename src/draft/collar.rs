@@ -1,0 +1,52 @@
+//! Collars: a strip before and one behind, sewn to the neckline.
+
+use glam::{DVec2, DVec3};
+use serde::Serialize;
+
+use crate::draft::bodice::Trunk;
+use crate::draft::form::Form;
+use crate::draft::garment::{Facing, Garment, Part};
+use crate::draft::path::Path;
+use crate::draft::random::Random;
+
+/// How far before and behind the neck the strips stand, metres.
+const BESIDE: f64 = 0.10;
+
+/// How a collar is cut; metres.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Collar {
+    /// Height.
+    pub height: f64,
+    /// Length of its upper edge over that of the neckline: below 1 it leans to the neck, above it opens like a funnel.
+    pub flare: f64,
+}
+
+impl Collar {
+    /// A stand collar, a funnel or a turtleneck.
+    pub fn drawn(random: &mut Random) -> Self {
+        let (height, flare) = random.one_of([(0.035, 0.96), (0.045, 1.08), (0.08, 1.0), (0.065, 1.15)]);
+        Self { height: height * random.between(0.85, 1.15), flare }
+    }
+}
+
+/// Drafts both strips, stands them round the neck and sews them to the neckline of `trunk`.
+pub fn collar(garment: &mut Garment, form: &Form, cut: &Collar, trunk: &Trunk) {
+    let neck = form.shoulder_at(trunk.yoke.neck[0].x);
+    let strips = [0, 1].map(|side| {
+        let half = garment.length(&trunk.neckline(garment, side)) / 2.0;
+        let (name, facing) = [("collar front", Facing::Front), ("collar back", Facing::Back)][side];
+        let path = Path::from(DVec2::new(0.0, 0.0))
+            .line("collar seam", DVec2::new(half, 0.0))
+            .line("collar side", DVec2::new(half * cut.flare, cut.height))
+            .line("collar edge", DVec2::new(0.0, cut.height));
+        let z = neck.z + [BESIDE, -BESIDE][side];
+        let at = DVec3::new(0.0, neck.y + [0.0, 0.015][side], z);
+        garment.stand(path.whole(name), Part::Body, facing, at)
+    });
+    for (side, strip) in strips.into_iter().enumerate() {
+        let runs = [garment.run(&[strip], "collar seam", DVec3::X), trunk.neckline(garment, side)];
+        garment.sew(&runs[0], &runs[1]);
+    }
+    let labels = ["collar side left", "collar side right"];
+    garment.sew_alike(&strips[..1], &strips[1..], &labels, DVec3::Y);
+}

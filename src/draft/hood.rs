@@ -1,0 +1,79 @@
+//! Hoods: a left and a right half, sewn to each other over the crown and to the neckline.
+
+use std::f64::consts::FRAC_PI_2;
+
+use glam::{DQuat, DVec2, DVec3};
+use serde::Serialize;
+
+use crate::draft::bodice::Trunk;
+use crate::draft::form::Form;
+use crate::draft::garment::{Facing, Garment, Part};
+use crate::draft::path::{Path, to_the_right};
+use crate::draft::random::Random;
+
+/// How far beside the neck's middle the halves stand, metres.
+const BESIDE: f64 = 0.13;
+/// How steeply the neckline falls to the front and rises to the back on the hood, radians.
+const SLOPES: [f64; 2] = [0.62, 0.14];
+
+/// How a hood is cut; metres.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Hood {
+    /// Above the crown of the head.
+    pub above: f64,
+    /// From the back of the neckline out to the back of the head.
+    pub fullness: f64,
+}
+
+impl Hood {
+    /// Roomy.
+    pub fn drawn(random: &mut Random) -> Self {
+        Self { above: random.between(0.03, 0.07), fullness: random.between(0.02, 0.05) }
+    }
+}
+
+/// Drafts both halves, stands them beside the head and sews them to the neckline of `trunk`.
+pub fn hood(garment: &mut Garment, form: &Form, cut: &Hood, trunk: &Trunk) {
+    let half = |side: usize| garment.length(&trunk.neckline(garment, side)) / 2.0;
+    let (front, back) = (half(0), half(1));
+    let neck = form.shoulder_at(trunk.yoke.neck[0].x);
+    // Seen from the left of the body: the face looks to -x.
+    let face = DVec2::new(-SLOPES[0].cos(), -SLOPES[0].sin()) * front;
+    let nape = DVec2::from_angle(SLOPES[1]) * back;
+    let top = form.crown - neck.y + cut.above;
+    let occiput = DVec2::new(nape.x + cut.fullness, 0.55 * top);
+    let brow = DVec2::new(face.x - 0.015, top - 0.005);
+    let left = Path::from(face)
+        .line("neck front", DVec2::ZERO)
+        .line("neck back", nape)
+        .curve("crown", nape + DVec2::Y * 0.06, occiput - DVec2::Y * 0.07, occiput)
+        .curve(
+            "crown",
+            occiput + DVec2::Y * (0.30 * top),
+            DVec2::new(occiput.x - 0.06, top + 0.005),
+            DVec2::new(occiput.x - 0.10, top + 0.005),
+        )
+        .line("crown", brow)
+        .closed("hood left", "face");
+    let right = to_the_right(&left);
+    let at = DVec3::new(BESIDE, neck.y + 0.02, neck.z);
+    let pieces = [(left, 1.0), (right, -1.0)].map(|(piece, side)| {
+        let turn = DQuat::from_rotation_y(side * FRAC_PI_2);
+        garment.stand_turned(piece, Part::Body, Facing::Front, at * DVec3::new(side, 1.0, 1.0), turn)
+    });
+    let runs = pieces.map(|piece| garment.run(&[piece], "crown", DVec3::new(0.0, 1.0, 0.6)));
+    garment.sew(&runs[0], &runs[1]);
+    for (piece, side) in pieces.into_iter().zip(["left", "right"]) {
+        for (half, label) in ["neck front", "neck back"].into_iter().enumerate() {
+            let runs = [
+                garment.run(&[piece], label, DVec3::NEG_Z * if half == 0 { 1.0 } else { -1.0 }),
+                garment.run(
+                    &trunk.sides[half],
+                    &format!("neck {side}"),
+                    DVec3::X * if side == "left" { 1.0 } else { -1.0 },
+                ),
+            ];
+            garment.sew(&runs[0], &runs[1]);
+        }
+    }
+}

@@ -1,0 +1,157 @@
+//! Drawing outlines: open paths that are closed, or mirrored in the middle line of the body.
+
+use glam::DVec2;
+
+use crate::pattern::{Edge, EdgeShape, Piece, curve};
+
+/// An open line being drawn, with the cloth on its left.
+#[derive(Clone, Debug)]
+pub struct Path {
+    edges: Vec<Edge>,
+    at: DVec2,
+}
+
+impl Path {
+    /// Starts at `start`, metres.
+    pub fn from(start: DVec2) -> Self {
+        Self { edges: Vec::new(), at: start }
+    }
+
+    /// A straight edge called `label`.
+    pub fn line(self, label: &str, to: DVec2) -> Self {
+        self.edge(label, EdgeShape::Line, to)
+    }
+
+    /// A cubic edge called `label`.
+    pub fn curve(self, label: &str, first: DVec2, second: DVec2, to: DVec2) -> Self {
+        self.edge(label, EdgeShape::Cubic { controls: [first, second] }, to)
+    }
+
+    /// An arc of `radius` metres called `label`, no more than half a circle, counter-clockwise where `sweep`.
+    pub fn arc(self, label: &str, radius: f64, sweep: bool, to: DVec2) -> Self {
+        self.edge(label, EdgeShape::Arc { radius, large: false, sweep }, to)
+    }
+
+    /// A straight line called `label` with a dart: its middle `at` metres along the line, `width` wide, `depth` deep into
+    /// the cloth. The line without the dart is `width` shorter than the distance to `to`.
+    pub fn darted(self, label: &str, to: DVec2, dart: Dart) -> Self {
+        let Dart { at, width, depth } = dart;
+        let along = (to - self.at).normalize_or_zero();
+        let middle = self.at + along * at;
+        let [first, second] = [middle - along * (width / 2.0), middle + along * (width / 2.0)];
+        let leg = format!("dart {label}");
+        let tip = middle + along.perp() * depth;
+        self.line(label, first).line(&leg, tip).line(&leg, second).line(label, to)
+    }
+
+    /// Where it has come to, metres.
+    pub fn end(&self) -> DVec2 {
+        self.at
+    }
+
+    fn edge(mut self, label: &str, shape: EdgeShape, to: DVec2) -> Self {
+        self.edges.push(Edge { start: self.at, shape, label: Some(label.to_owned()), ..Edge::default() });
+        self.at = to;
+        self
+    }
+
+    /// The piece that it goes round; a straight edge called `last` leads back to the start where it has not come there.
+    pub fn closed(mut self, name: &str, last: &str) -> Piece {
+        let start = self.edges.first().map_or(self.at, |edge| edge.start);
+        if self.at.distance(start) > 1e-9 {
+            self = self.line(last, start);
+        }
+        Piece { name: name.to_owned(), outline: self.edges, ..Piece::default() }
+    }
+
+    /// Both halves in one: this one, whose ends lie on x = 0, at the left of the body, and its mirror image. "left" or
+    /// "right" is added to labels.
+    pub fn whole(self, name: &str) -> Piece {
+        let (left, end) = (self.edges, self.at);
+        let mut both = left.clone();
+        // Closed over the middle, mirrored, and that middle left out again.
+        let mut closed = left;
+        closed.push(Edge { start: end, ..Edge::default() });
+        let mut right = curve::mirrored(&closed);
+        right.remove(0);
+        // The mirror image starts where this ends: at the upper end of the middle.
+        both.iter_mut().for_each(|edge| edge.label = suffixed(edge, "left"));
+        right.iter_mut().for_each(|edge| edge.label = suffixed(edge, "right"));
+        both.extend(right);
+        Piece { name: name.to_owned(), outline: both, ..Piece::default() }
+    }
+
+    /// This left half alone, closed by an edge called "centre"; "left" is added to labels.
+    pub fn half(self, name: &str) -> Piece {
+        let mut piece = self.closed(name, "centre");
+        piece.outline.iter_mut().for_each(|edge| edge.label = suffixed(edge, "left"));
+        piece
+    }
+}
+
+/// A dart on a straight line; metres.
+#[derive(Clone, Copy, Debug)]
+pub struct Dart {
+    /// From the start of the line to the dart's middle.
+    pub at: f64,
+    /// Between its legs on the line.
+    pub width: f64,
+    /// From the line to its tip.
+    pub depth: f64,
+}
+
+fn suffixed(edge: &Edge, side: &str) -> Option<String> {
+    edge.label.as_ref().map(|label| format!("{label} {side}"))
+}
+
+/// `piece` of the left side mirrored to the right: "left" becomes "right" in its name and labels.
+pub fn to_the_right(piece: &Piece) -> Piece {
+    let mut outline = curve::mirrored(&piece.outline);
+    for edge in &mut outline {
+        edge.label = edge.label.as_ref().map(|label| label.replace("left", "right"));
+    }
+    Piece { name: piece.name.replace("left", "right"), outline, ..piece.clone() }
+}
+
+/// Length of the cubic from `a` to `b`, metres.
+pub fn cubic_length(a: DVec2, controls: [DVec2; 2], b: DVec2) -> f64 {
+    curve::exact_length(a, EdgeShape::Cubic { controls }, b)
+}
+
+/// Where `f`, which rises or falls all the way, is zero between `low` and `high`; the nearer end where it is not.
+pub fn solved(mut low: f64, mut high: f64, f: impl Fn(f64) -> f64) -> f64 {
+    let rising = f(high) > f(low);
+    for _ in 0..60 {
+        let middle = (low + high) / 2.0;
+        if (f(middle) > 0.0) == rising { high = middle } else { low = middle }
+    }
+    (low + high) / 2.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_whole_piece_is_its_own_mirror_image() {
+        let half = Path::from(DVec2::new(0.0, 0.0))
+            .darted("waist", DVec2::new(0.3, 0.0), Dart { at: 0.15, width: 0.02, depth: 0.1 })
+            .line("side", DVec2::new(0.25, 0.4))
+            .curve("neck", DVec2::new(0.2, 0.3), DVec2::new(0.1, 0.3), DVec2::new(0.0, 0.3));
+        let whole = half.clone().whole("front");
+        assert_eq!(whole.outline.len(), 12);
+        let one = half.half("front left");
+        assert!((whole.signed_area() - 2.0 * one.signed_area()).abs() < 1e-9 && one.signed_area() > 0.0);
+        let right = to_the_right(&one);
+        assert!((right.signed_area() - one.signed_area()).abs() < 1e-9);
+        assert_eq!(right.name, "front right");
+        let lengths: f64 = (0..6).map(|i| whole.exact_edge_length(i) - whole.exact_edge_length(11 - i)).sum();
+        assert!(lengths.abs() < 1e-12);
+    }
+
+    #[test]
+    fn roots_are_found() {
+        assert!((solved(0.0, 4.0, |x| x * x - 2.0) - 2.0_f64.sqrt()).abs() < 1e-12);
+        assert!((solved(0.0, 4.0, |x| 2.0 - x) - 2.0).abs() < 1e-12);
+    }
+}
