@@ -25,7 +25,7 @@ use crate::contact::separation::features::Seen;
 use crate::contact::separation::repulsion::Pair;
 pub use crate::contact::separation::repulsion::Touch;
 pub use crate::contact::separation::topology::Obstacle;
-use crate::contact::separation::topology::Topology;
+use crate::contact::separation::topology::{PlacedTriangle, Topology};
 use crate::geometry::adjacency::Adjacency;
 use crate::geometry::bvh::{Aabb, Bvh};
 
@@ -63,6 +63,8 @@ pub struct Separation {
     anchors: Vec<DVec3>,
     /// and how far each may go from there, metres.
     reach: Vec<f64>,
+    /// Its triangles there.
+    placed: Vec<PlacedTriangle>,
     /// Within so many metres squared, no plane and no reach is met.
     free: Vec<f64>,
     /// The planes of all vertices,
@@ -124,6 +126,7 @@ impl Separation {
             tree: Bvh::default(),
             anchors: Vec::new(),
             reach: Vec::new(),
+            placed: Vec::new(),
             free: Vec::new(),
             planes: Vec::new(),
             starts: Vec::new(),
@@ -162,8 +165,12 @@ impl Separation {
         self.reach.extend((0..x.len()).map(reach));
         self.anchors.clear();
         self.anchors.extend_from_slice(x);
-        let boxes: Vec<Aabb> =
-            self.cloth.triangles.par_iter().with_min_len(LEAST_SHARE).map(|vs| self.grown(vs)).collect();
+        let triangles = (0..self.cloth.triangles.len() as u32).into_par_iter().with_min_len(LEAST_SHARE);
+        triangles
+            .map(|t| PlacedTriangle::new(&self.cloth, &self.anchors, &self.reach, t))
+            .collect_into_vec(&mut self.placed);
+        let box_of = |placed: &PlacedTriangle| grown(&placed.around, placed.farthest + self.thickness / 2.0);
+        let boxes: Vec<Aabb> = self.placed.par_iter().with_min_len(LEAST_SHARE).map(box_of).collect();
         match self.tree.items.len() == boxes.len() {
             true => self.tree.refit(&boxes),
             false => self.tree = Bvh::new(&boxes),
@@ -178,13 +185,6 @@ impl Separation {
         self.pairs.clear();
         self.pairs.extend(found.iter().flat_map(|found| &found.pairs));
         self.sort(&found);
-    }
-
-    /// The box a triangle's vertices may reach.
-    fn grown(&self, vs: &[u32; 3]) -> Aabb {
-        let reach = self.reach_of(vs) + self.thickness / 2.0;
-        let around = Aabb::around(&vs.map(|v| self.anchors[v as usize]));
-        Aabb { lower: around.lower - reach, upper: around.upper + reach }
     }
 
     /// Calls `look` for every two triangles of the cloth whose `boxes` meet, and `look_at_obstacle` for every one of the cloth and one of
@@ -213,7 +213,7 @@ impl Separation {
                 let ones = tree.items_of(node);
                 obstacle.tree.leaves_near(&tree.nodes[node as usize].bounds, |leaf| {
                     for &t in obstacle.tree.items_of(leaf) {
-                        let around = &obstacle.boxes[t as usize];
+                        let around = &obstacle.placed[t as usize].around;
                         ones.iter()
                             .filter(|&&s| boxes[s as usize].meets(around))
                             .for_each(|&s| look_at_obstacle(s, t, &mut found));
@@ -239,41 +239,43 @@ impl Separation {
 
     /// Vertices that `s` owns, at `t`.
     fn vertices_at(&self, s: u32, t: u32, crossings: &Crossings, found: &mut Found) {
-        let vs = self.cloth.triangles[t as usize];
-        let corners = self.cloth.corners(&self.anchors, t);
-        let reach = self.reach_of(&vs);
-        let around = Aabb::around(&corners);
-        for v in self.cloth.vertices_of(s) {
-            let (p, own) = (self.anchors[v as usize], self.reach[v as usize]);
-            if self.joined(&[v], &vs)
-                || !holds(&around, p, own + reach + self.thickness)
+        let (own, other) = (&self.placed[s as usize], &self.placed[t as usize]);
+        for k in self.cloth.corners_of(s) {
+            let (v, p, reach) = (own.vertices[k], own.corners[k], own.reach[k]);
+            if !holds(&other.around, p, reach + other.farthest + self.thickness)
+                || self.joined(&[v], &other.vertices)
                 || crossings.vertex_is_free(v, t)
             {
                 continue;
             }
             found.looked_at += 1;
-            self.part(features::vertex_and_triangle(p, corners), [&[v], &vs], [own, reach], found);
+            let seen = features::vertex_and_triangle(p, other.corners);
+            self.part(seen, [&[v], &other.vertices], [reach, other.farthest], found);
         }
     }
 
     /// Edges that the triangles own, at each other.
     fn edges_at(&self, s: u32, t: u32, crossings: &Crossings, found: &mut Found) {
-        for e in self.cloth.edges_of(s) {
-            let (ends, one) = (self.cloth.edges[e as usize], self.cloth.ends(&self.anchors, e));
-            let own = self.reach_of(&ends);
-            let around = Aabb::around(&one);
-            for f in self.cloth.edges_of(t) {
-                let others = self.cloth.edges[f as usize];
-                let other = self.cloth.ends(&self.anchors, f);
-                let reach = self.reach_of(&others);
-                if self.joined(&ends, &others)
-                    || !near(&around, &Aabb::around(&other), own + reach + self.thickness)
+        let (own, other) = (&self.placed[s as usize], &self.placed[t as usize]);
+        for k in self.cloth.sides_of(s) {
+            let (e, ends, one, reach) =
+                (self.cloth.triangle_edges[s as usize][k], own.ends(k), own.side(k), own.side_reach(k));
+            let around = grown(&Aabb::around(&one), reach + self.thickness);
+            if !near(&around, &other.around, other.farthest) {
+                continue;
+            }
+            for m in self.cloth.sides_of(t) {
+                let (f, others, other_reach) =
+                    (self.cloth.triangle_edges[t as usize][m], other.ends(m), other.side_reach(m));
+                let two = other.side(m);
+                if !near(&around, &Aabb::around(&two), other_reach)
+                    || self.joined(&ends, &others)
                     || crossings.edges_are_free(e, f)
                 {
                     continue;
                 }
                 found.looked_at += 1;
-                self.part(features::edges(one, other), [&ends, &others], [own, reach], found);
+                self.part(features::edges(one, two), [&ends, &others], [reach, other_reach], found);
             }
         }
     }
@@ -281,34 +283,34 @@ impl Separation {
     /// Features of the cloth's triangle `s` and the obstacle's `t`.
     fn at_obstacle(&self, s: u32, t: u32, crossings: &Crossings, found: &mut Found) {
         let Some(obstacle) = self.obstacle.as_deref() else { return };
-        let (topology, still) = (&obstacle.topology, &obstacle.positions);
-        let corners = topology.corners(still, t);
-        for v in self.cloth.vertices_of(s) {
-            let (p, reach) = (self.anchors[v as usize], self.reach[v as usize]);
-            if !crossings.vertex_is_free_of_obstacle(v, t) && holds(&obstacle.boxes[t as usize], p, reach) {
+        let (own, other, topology) =
+            (&self.placed[s as usize], &obstacle.placed[t as usize], &obstacle.topology);
+        for k in self.cloth.corners_of(s) {
+            let (v, p, reach) = (own.vertices[k], own.corners[k], own.reach[k]);
+            if holds(&other.around, p, reach) && !crossings.vertex_is_free_of_obstacle(v, t) {
                 found.looked_at += 1;
-                self.hold(features::vertex_and_triangle(p, corners), &[v], reach, found);
+                self.hold(features::vertex_and_triangle(p, other.corners), &[v], reach, found);
             }
         }
-        let vs = self.cloth.triangles[s as usize];
-        let own = self.cloth.corners(&self.anchors, s);
-        let (around, reach) = (Aabb::around(&own), self.reach_of(&vs));
-        for v in topology.vertices_of(t) {
-            let p = still[v as usize];
-            if !crossings.triangle_is_free_of_obstacle(s, v) && holds(&around, p, reach) {
+        for k in topology.corners_of(t) {
+            let (v, p) = (other.vertices[k], other.corners[k]);
+            if holds(&own.around, p, own.farthest) && !crossings.triangle_is_free_of_obstacle(s, v) {
                 found.looked_at += 1;
-                let seen = features::vertex_and_triangle(p, own).map(turned);
-                self.hold(seen, &vs, reach, found);
+                let seen = features::vertex_and_triangle(p, own.corners).map(turned);
+                self.hold(seen, &own.vertices, own.farthest, found);
             }
         }
-        for e in self.cloth.edges_of(s) {
-            let (ends, one) = (self.cloth.edges[e as usize], self.cloth.ends(&self.anchors, e));
-            let (around, reach) = (Aabb::around(&one), self.reach_of(&ends));
-            for f in topology.edges_of(t) {
-                let other = topology.ends(still, f);
-                if !crossings.edge_is_free_of_obstacle(e, f) && near(&around, &Aabb::around(&other), reach) {
+        for k in self.cloth.sides_of(s) {
+            let (e, one, reach) = (self.cloth.triangle_edges[s as usize][k], own.side(k), own.side_reach(k));
+            let around = grown(&Aabb::around(&one), reach);
+            if !around.meets(&other.around) {
+                continue;
+            }
+            for m in topology.sides_of(t) {
+                let (f, two) = (topology.triangle_edges[t as usize][m], other.side(m));
+                if around.meets(&Aabb::around(&two)) && !crossings.edge_is_free_of_obstacle(e, f) {
                     found.looked_at += 1;
-                    self.hold(features::edges(one, other), &ends, reach, found);
+                    self.hold(features::edges(one, two), &own.ends(k), reach, found);
                 }
             }
         }
@@ -357,10 +359,6 @@ impl Separation {
         }
     }
 
-    fn reach_of(&self, vertices: &[u32]) -> f64 {
-        vertices.iter().map(|&v| self.reach[v as usize]).fold(0.0, f64::max)
-    }
-
     /// Whether two features share a vertex, or will.
     fn joined(&self, one: &[u32], other: &[u32]) -> bool {
         match &self.names {
@@ -392,11 +390,13 @@ impl Separation {
         self.counters.planes += self.planes.len() as u64;
     }
 
-    /// Whether all vertices that go where `then` tells stay within their reach.
-    pub fn holds(&self, then: impl Fn(usize) -> DVec3 + Sync) -> bool {
-        let stays = |v: usize| then(v).distance_squared(self.anchors[v]) <= self.reach[v] * self.reach[v];
-        !self.anchors.is_empty()
-            && (0..self.anchors.len()).into_par_iter().with_min_len(LEAST_SHARE).all(stays)
+    /// How many vertices leave their reach that go where `then` tells; all where nothing is known.
+    pub fn leaving(&self, then: impl Fn(usize) -> DVec3 + Sync) -> usize {
+        if self.anchors.is_empty() {
+            return usize::MAX;
+        }
+        let leaves = |&v: &usize| then(v).distance_squared(self.anchors[v]) > self.reach[v] * self.reach[v];
+        (0..self.anchors.len()).into_par_iter().with_min_len(LEAST_SHARE).filter(leaves).count()
     }
 
     /// Brings `x` back to where nothing can meet. How many vertices would have gone farther than their reach.
@@ -478,5 +478,9 @@ fn holds(around: &Aabb, p: DVec3, reach: f64) -> bool {
 }
 
 fn near(one: &Aabb, other: &Aabb, reach: f64) -> bool {
-    Aabb { lower: one.lower - reach, upper: one.upper + reach }.meets(other)
+    grown(one, reach).meets(other)
+}
+
+fn grown(around: &Aabb, reach: f64) -> Aabb {
+    Aabb { lower: around.lower - reach, upper: around.upper + reach }
 }

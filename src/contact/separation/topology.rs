@@ -42,16 +42,21 @@ impl Topology {
         }
     }
 
-    /// The vertices that triangle `t` owns.
-    pub fn vertices_of(&self, t: u32) -> impl Iterator<Item = u32> {
-        let (owned, vs) = (self.owned[t as usize], self.triangles[t as usize]);
-        (0..3).filter(move |k| owned & (1 << k) != 0).map(move |k: usize| vs[k])
+    /// The corners of triangle `t` that it owns, 0..3.
+    pub fn corners_of(&self, t: u32) -> impl Iterator<Item = usize> {
+        let owned = self.owned[t as usize];
+        (0..3).filter(move |k| owned & (1 << k) != 0)
+    }
+
+    /// The sides of triangle `t` that it owns: 0..3, from that corner to the next.
+    pub fn sides_of(&self, t: u32) -> impl Iterator<Item = usize> {
+        let owned = self.owned[t as usize];
+        (0..3).filter(move |k| owned & (8 << k) != 0)
     }
 
     /// The edges that triangle `t` owns.
     pub fn edges_of(&self, t: u32) -> impl Iterator<Item = u32> {
-        let (owned, es) = (self.owned[t as usize], self.triangle_edges[t as usize]);
-        (0..3).filter(move |k| owned & (8 << k) != 0).map(move |k: usize| es[k])
+        self.sides_of(t).map(move |k| self.triangle_edges[t as usize][k])
     }
 
     /// The corners of triangle `t`.
@@ -65,12 +70,50 @@ impl Topology {
     }
 }
 
+/// A triangle where it is at a detection.
+#[derive(Clone, Debug)]
+pub(super) struct PlacedTriangle {
+    pub vertices: [u32; 3],
+    pub corners: [DVec3; 3],
+    /// How far each corner may go, metres, and the farthest.
+    pub reach: [f64; 3],
+    pub farthest: f64,
+    /// Around the corners.
+    pub around: Aabb,
+}
+
+impl PlacedTriangle {
+    /// Triangle `t` of a mesh at `x`, whose vertices may go as far as `reach`, metres; empty: nowhere.
+    pub fn new(topology: &Topology, x: &[DVec3], reach: &[f64], t: u32) -> Self {
+        let vertices = topology.triangles[t as usize];
+        let corners = topology.corners(x, t);
+        let reach = vertices.map(|v| reach.get(v as usize).copied().unwrap_or_default());
+        let farthest = reach.into_iter().fold(0.0, f64::max);
+        Self { vertices, corners, reach, farthest, around: Aabb::around(&corners) }
+    }
+
+    /// The vertices of side `k`,
+    pub fn ends(&self, k: usize) -> [u32; 2] {
+        [self.vertices[k], self.vertices[(k + 1) % 3]]
+    }
+
+    /// where they are,
+    pub fn side(&self, k: usize) -> [DVec3; 2] {
+        [self.corners[k], self.corners[(k + 1) % 3]]
+    }
+
+    /// and the farther of how far they may go, metres.
+    pub fn side_reach(&self, k: usize) -> f64 {
+        self.reach[k].max(self.reach[(k + 1) % 3])
+    }
+}
+
 /// A mesh that does not move, in a tree.
 #[derive(Debug)]
 pub struct Obstacle {
     pub(super) topology: Topology,
     pub(super) positions: Vec<DVec3>,
-    pub(super) boxes: Vec<Aabb>,
+    pub(super) placed: Vec<PlacedTriangle>,
     pub(super) tree: Bvh,
 }
 
@@ -82,13 +125,10 @@ impl Obstacle {
 
     /// Of a mesh at these `positions`, metres.
     pub fn new(positions: &[DVec3], triangles: &[[u32; 3]], adjacency: &Adjacency) -> Self {
-        let boxes: Vec<Aabb> =
-            triangles.iter().map(|vs| Aabb::around(&vs.map(|v| positions[v as usize]))).collect();
-        Self {
-            topology: Topology::new(positions.len(), triangles, adjacency),
-            positions: positions.to_vec(),
-            tree: Bvh::new(&boxes),
-            boxes,
-        }
+        let topology = Topology::new(positions.len(), triangles, adjacency);
+        let placed: Vec<PlacedTriangle> =
+            (0..triangles.len() as u32).map(|t| PlacedTriangle::new(&topology, positions, &[], t)).collect();
+        let boxes: Vec<Aabb> = placed.iter().map(|placed| placed.around).collect();
+        Self { topology, positions: positions.to_vec(), tree: Bvh::new(&boxes), placed }
     }
 }
