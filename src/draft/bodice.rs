@@ -45,6 +45,8 @@ pub struct Bodice {
     pub centre_seams: [bool; 2],
     /// How much longer it is than from bust to waist, where it ends there.
     pub blouse: f64,
+    /// How much shorter its shoulder seam is than the shoulder: armholes without sleeves lie further in.
+    pub short_shoulder: f64,
 }
 
 impl Bodice {
@@ -59,6 +61,7 @@ impl Bodice {
             bust_dart: false,
             centre_seams: [random.chance(0.25), random.chance(0.3)],
             blouse: 0.0,
+            short_shoulder: 0.0,
         }
     }
 
@@ -72,6 +75,7 @@ impl Bodice {
             bust_dart: random.chance(0.6),
             centre_seams: [random.chance(0.3), random.chance(0.4)],
             blouse: 0.0,
+            short_shoulder: 0.0,
         }
     }
 
@@ -141,7 +145,7 @@ const RAGLAN_NECK: [DVec2; 2] = [DVec2::new(-0.010, -0.038), DVec2::new(-0.026, 
 
 /// Drafts front and back, stands them round the body and sews shoulders, sides, middles and darts.
 pub fn bodice(garment: &mut Garment, form: &Form, cut: &Bodice, neck: &Neckline, armhole: Armhole) -> Trunk {
-    let yoke = form.yoke(form.across(neck.width), 0.0);
+    let yoke = form.yoke(form.across(neck.width), cut.short_shoulder);
     let hem = -cut.length(form);
     let under = form.armpit.y - UNDERARM_DROP - form.bust;
     let bust_dart = if cut.bust_dart { dart_intake(&yoke) } else { 0.0 };

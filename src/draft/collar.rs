@@ -32,12 +32,15 @@ impl Collar {
 /// Drafts both strips, stands them round the neck and sews them to the neckline of `trunk`.
 pub fn collar(garment: &mut Garment, form: &Form, cut: &Collar, trunk: &Trunk) {
     let neck = form.shoulder_at(trunk.yoke.neck[0].x);
+    let halves = [0, 1].map(|side| garment.length(&trunk.neckline(garment, side)) / 2.0);
+    // Alike in front and behind, so that the sides are as long as each other.
+    let lean = (cut.flare - 1.0) * (halves[0] + halves[1]) / 2.0;
     let strips = [0, 1].map(|side| {
-        let half = garment.length(&trunk.neckline(garment, side)) / 2.0;
+        let half = halves[side];
         let (name, facing) = [("collar front", Facing::Front), ("collar back", Facing::Back)][side];
         let path = Path::from(DVec2::new(0.0, 0.0))
             .line("collar seam", DVec2::new(half, 0.0))
-            .line("collar side", DVec2::new(half * cut.flare, cut.height))
+            .line("collar side", DVec2::new(half + lean, cut.height))
             .line("collar edge", DVec2::new(0.0, cut.height));
         let z = neck.z + [BESIDE, -BESIDE][side];
         let at = DVec3::new(0.0, neck.y + [0.0, 0.015][side], z);

@@ -2,6 +2,7 @@
 
 use crate::body::NamedPose;
 use crate::draft::design::{Design, Kind};
+use crate::draft::random::Random;
 use crate::draft::sizes::BodySize;
 
 /// What a corpus is made of.
@@ -62,16 +63,16 @@ impl std::str::FromStr for Shard {
 }
 
 impl Corpus {
-    /// The cases of a shard. In the whole corpus every design comes once before any comes again on another body, and bodies
-    /// take turns; a shard takes every so manieth.
+    /// The cases of a shard. In the whole corpus every design comes once, on any of the bodies, before one comes again on the
+    /// next; a shard takes every so manieth.
     pub fn cases(&self, shard: Shard) -> Vec<Case> {
         let bodies: Vec<(BodySize, NamedPose)> =
             self.sizes.iter().flat_map(|&size| self.poses.iter().map(move |&pose| (size, pose))).collect();
         let count = bodies.len();
         let case = |round: usize, number: u32| {
-            // Designs take turns in their kinds; their bodies turn at another pace.
-            let turn = number as usize / 3 + number as usize + round;
-            let (size, pose) = bodies[turn % count];
+            // Each design begins elsewhere, whatever its number has in common with those of a shard.
+            let begins = Random::new(u64::from(number)).next() % count as u64;
+            let (size, pose) = bodies[(begins as usize + round) % count];
             Case { number, size, pose }
         };
         let all = (0..count).flat_map(|round| (0..self.designs).map(move |number| (round, number)));
@@ -81,6 +82,7 @@ impl Corpus {
 
     /// The design of a case.
     pub fn design(&self, case: &Case) -> Design {
-        Design::drawn(self.seed, case.number, if self.kinds.is_empty() { &Kind::ALL } else { &self.kinds })
+        let kinds: &[Kind] = if self.kinds.is_empty() { &Kind::ALL } else { &self.kinds };
+        Design::drawn(self.seed, case.number, kinds)
     }
 }

@@ -238,10 +238,13 @@ impl Upper {
     /// A boxy top of one of the kinds that have a bodice.
     fn loose(kind: Kind, random: &mut Random) -> Self {
         let hem = random.one_of([Hem::Hip, Hem::Hip, Hem::Tunic]);
-        let bodice = Bodice::boxy(random, hem);
+        let mut bodice = Bodice::boxy(random, hem);
         let close = matches!(kind, Kind::Collared | Kind::Hooded);
         let neckline = if close { Neckline::close(random) } else { Neckline::open(random) };
         let sleeveless = kind == Kind::Vest || close && random.chance(0.3);
+        if sleeveless {
+            bodice.short_shoulder = random.between(0.015, 0.035);
+        }
         Self {
             bodice,
             neckline,
@@ -254,10 +257,13 @@ impl Upper {
 
     /// A bodice to the waist, sleeves and collar as it comes.
     fn fitted(random: &mut Random) -> Self {
-        let bodice = Bodice::fitted(random);
+        let mut bodice = Bodice::fitted(random);
         let collar = random.chance(0.2).then(|| Collar::drawn(random));
         let neckline = if collar.is_some() { Neckline::close(random) } else { Neckline::open(random) };
         let sleeve = random.chance(0.6).then(|| Sleeve::drawn(random, true));
+        if sleeve.is_none() {
+            bodice.short_shoulder = random.between(0.015, 0.035);
+        }
         Self { bodice, neckline, sleeve, raglan: false, collar, hood: None }
     }
 

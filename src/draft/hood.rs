@@ -44,8 +44,8 @@ pub fn hood(garment: &mut Garment, form: &Form, cut: &Hood, trunk: &Trunk) {
     let occiput = DVec2::new(nape.x + cut.fullness, 0.55 * top);
     let brow = DVec2::new(face.x - 0.015, top - 0.005);
     let left = Path::from(face)
-        .line("neck front", DVec2::ZERO)
-        .line("neck back", nape)
+        .line("hood front", DVec2::ZERO)
+        .line("hood back", nape)
         .curve("crown", nape + DVec2::Y * 0.06, occiput - DVec2::Y * 0.07, occiput)
         .curve(
             "crown",
@@ -63,17 +63,14 @@ pub fn hood(garment: &mut Garment, form: &Form, cut: &Hood, trunk: &Trunk) {
     });
     let runs = pieces.map(|piece| garment.run(&[piece], "crown", DVec3::new(0.0, 1.0, 0.6)));
     garment.sew(&runs[0], &runs[1]);
-    for (piece, side) in pieces.into_iter().zip(["left", "right"]) {
-        for (half, label) in ["neck front", "neck back"].into_iter().enumerate() {
-            let runs = [
-                garment.run(&[piece], label, DVec3::NEG_Z * if half == 0 { 1.0 } else { -1.0 }),
-                garment.run(
-                    &trunk.sides[half],
-                    &format!("neck {side}"),
-                    DVec3::X * if side == "left" { 1.0 } else { -1.0 },
-                ),
-            ];
-            garment.sew(&runs[0], &runs[1]);
+    // From the middle of front and back to the shoulder seams.
+    let hands = [("left", DVec3::X), ("right", DVec3::NEG_X)];
+    let labels = [("hood front", DVec3::NEG_Z), ("hood back", DVec3::Z)];
+    for (piece, (hand, outwards)) in pieces.into_iter().zip(hands) {
+        for (half, (label, axis)) in labels.into_iter().enumerate() {
+            let own = garment.run(&[piece], label, axis);
+            let neckline = garment.run(&trunk.sides[half], &format!("neck {hand}"), outwards);
+            garment.sew(&own, &neckline);
         }
     }
 }

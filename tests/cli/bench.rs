@@ -70,10 +70,31 @@ fn physics_has_a_row_for_every_scene_and_size() {
 }
 
 #[test]
+fn the_corpus_is_dressed_and_judged() {
+    let place = Place::new();
+    let kinds = "--kinds straight-skirt,one-shoulder --count 2 --body-sizes s --poses a";
+    let done = place.ends(0, &format!("bench corpus {kinds} --json --out kept"));
+    let [summary] = &rows(&done.out)[..] else { panic!("one object: {}", done.out) };
+    assert_eq!(summary["all"]["garments"], 2, "{summary}");
+    assert_eq!(summary["all"]["clean"], 2, "{summary}");
+    assert_eq!(summary["kinds"].as_array().map(Vec::len), Some(2), "{summary}");
+    assert_eq!(place.names("kept"), ["sizes.csv"], "what is clean is not kept");
+    // The half of them.
+    let done = place.ends(0, &format!("bench corpus {kinds} --shard 1/2"));
+    assert!(done.out.contains("straight-skirt") && !done.out.contains("one-shoulder"), "{}", done.out);
+}
+
+#[test]
 fn wrong_arguments_are_told() {
     let place = Place::new();
     place.ends_with_words(2, "bench length", "speed");
     place.ends_with_words(2, "bench speed --plot a.svg", "--plot");
     place.ends_with_words(2, "bench --runs 0", "0");
     place.ends_with_words(2, "bench --triangles 7", "7");
+    place.ends_with_words(2, "bench speed --count 3", "bench corpus");
+    place.ends_with_words(2, "bench corpus --shard 3/2", "3/2");
+    place.ends_with_words(2, "bench corpus --body-sizes huge", "huge");
+    place.ends_with_words(2, "bench corpus --poses sitting", "sitting");
+    place.ends_with_words(2, "bench corpus --plot a.svg", "--plot");
+    place.ends_with_words(2, "generate", "--out");
 }

@@ -48,3 +48,22 @@ fn other_endings_and_papers_are_usage() {
     place.ends_with_words(2, "export sample:skirt -o skirt.png", ".json, .dxf, .svg or .pdf");
     place.ends_with_words(2, "export sample:skirt -o skirt.pdf --paper a5", "none of a4, letter, one");
 }
+
+#[test]
+fn garments_are_generated_the_same_each_time() {
+    let place = Place::new();
+    let of = "--count 6 --body-sizes m --kinds hooded,trousers";
+    place.ends(0, &format!("generate {of} --poses a,t --out one"));
+    place.ends(0, &format!("generate {of} --poses a,t --out two"));
+    let names = place.names("one");
+    assert_eq!(names.len(), 14, "twelve patterns, the sizes and a list: {names:?}");
+    for name in &names {
+        assert_eq!(place.read(&format!("one/{name}")), place.read(&format!("two/{name}")), "{name}");
+    }
+    assert_eq!(place.read("one/corpus.jsonl").lines().count(), 12);
+    let file = names.iter().find(|name| name.ends_with("hooded-m-t.json")).expect("a hooded top");
+    assert!(place.json(&format!("one/{file}"))["pattern"]["panels"]["hood left"]["translation"].is_array());
+    place.ends(0, &format!("check one/{file} --sizes one/sizes.csv --body-size m --pose t"));
+    place.ends(0, &format!("generate {of} --poses t --without-placement --out bare"));
+    assert!(place.json(&format!("bare/{file}"))["pattern"]["panels"]["hood left"]["translation"].is_null());
+}
