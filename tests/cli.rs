@@ -8,6 +8,8 @@ mod batch;
 mod bench;
 #[path = "cli/bodies.rs"]
 mod bodies;
+#[path = "common/chance.rs"]
+mod chance;
 mod common;
 #[path = "cli/compare.rs"]
 mod compare;
@@ -35,3 +37,5 @@ mod sequence;
 mod signals;
 #[path = "cli/simulate.rs"]
 mod simulate;
+#[path = "cli/stopped.rs"]
+mod stopped;

@@ -59,10 +59,12 @@ pub fn to_rest(session: &mut Session, max_ticks: u64, seconds: &mut Seconds) -> 
         }
         let (phase, start) = (simulation.phase(), Instant::now());
         simulation.tick();
+        let took = start.elapsed().as_secs_f64();
         match phase {
-            Some(Phase::Growing) => seconds.grow += start.elapsed().as_secs_f64(),
-            _ => seconds.settle += start.elapsed().as_secs_f64(),
+            Some(Phase::Growing) => seconds.grow += took,
+            _ => seconds.settle += took,
         }
+        seconds.longest_tick = seconds.longest_tick.max(took);
         show_progress(simulation);
     }
     output::progress("");
@@ -85,6 +87,7 @@ pub fn drape(
     session.apply_alone(Command::SetDraping { on: true }).map_err(|why| Failure::input(project, why))?;
     to_rest(session, max_ticks, &mut of_drape)?;
     seconds.drape = Some(of_drape.settle);
+    seconds.longest_tick = seconds.longest_tick.max(of_drape.longest_tick);
     match session.snapshot().drape {
         Some(_) => Ok(()),
         None => {
