@@ -33,7 +33,8 @@
 //! - Metres, radians, seconds; right-handed, y up, bodies face +z. Pattern planes have y up and their front towards the reader.
 //! - `geometry` and `render` use nothing of ours. `pattern` and `body` do not know each other.
 //! - `sim` never uses `session`: a request carries a garment source, never the document.
-//! - egui only in `ui`; wgpu only in `render` and `ui`; threads only in `sim::thread` (and rayon inside steps).
+//! - egui only in `ui`; wgpu only in `render` and `ui`; threads only in `sim::thread` (and rayon inside steps), and the one
+//!   that waits for signals in `cli::interrupt`.
 //! - No clock, no unseeded randomness, no hash-map iteration in `session`, `sim` or below.
 //! - Same input, same bits, on any number of threads.
 //!

@@ -8,6 +8,8 @@ mod batch;
 mod bench;
 #[path = "cli/bodies.rs"]
 mod bodies;
+#[path = "common/chance.rs"]
+mod chance;
 mod common;
 #[path = "cli/compare.rs"]
 mod compare;
@@ -39,3 +41,5 @@ mod signals;
 mod simulate;
 #[path = "cli/starts.rs"]
 mod starts;
+#[path = "cli/stopped.rs"]
+mod stopped;

@@ -1,7 +1,7 @@
 //! `toile compare`: two dressed projects held against each other, as figures and pictures.
 
 use std::fmt::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use image::RgbaImage;
 use serde::Serialize;
@@ -87,7 +87,7 @@ pub fn compare(arguments: &Compare) -> Result<(), Failure> {
             format!("it has not the pieces of {}: {why}", arguments.first.display()),
         )
     })?;
-    output::make_folder(&arguments.out)?;
+    let mut files: Vec<(PathBuf, Vec<u8>)> = Vec::new();
     let mut pictures = Pictures::new()?;
     let mut figures = Figures {
         version: env!("CARGO_PKG_VERSION"),
@@ -102,9 +102,10 @@ pub fn compare(arguments: &Compare) -> Result<(), Failure> {
     for kind in kinds(&arguments.maps) {
         interrupt::check()?;
         let compared = Compared::new(kind, &sides, &matching);
-        output::write(&arguments.out.join(format!("{}.csv", kind.name())), compared.csv(second).as_bytes())?;
+        let mut add = |name: String, bytes: Vec<u8>| files.push((arguments.out.join(name), bytes));
+        add(format!("{}.csv", kind.name()), compared.csv(second).into_bytes());
         if let Some(bytes) = compared.picture(&mut pictures, &sides, arguments)? {
-            output::write(&arguments.out.join(format!("{}.png", kind.name())), &bytes)?;
+            add(format!("{}.png", kind.name()), bytes);
         }
         let line = compared.figures(second);
         if !arguments.json {
@@ -112,14 +113,16 @@ pub fn compare(arguments: &Compare) -> Result<(), Failure> {
         }
         figures.maps.push(line);
     }
-    output::write(&arguments.out.join("pieces.csv"), pieces_csv(&figures).as_bytes())?;
-    output::write(&arguments.out.join("girths.csv"), girths_csv(&figures).as_bytes())?;
+    files.push((arguments.out.join("pieces.csv"), pieces_csv(&figures).into_bytes()));
+    files.push((arguments.out.join("girths.csv"), girths_csv(&figures).into_bytes()));
     let mut text = serde_json::to_string_pretty(&figures).map_err(|e| Failure::Internal(e.to_string()))?;
     if arguments.json {
         output::say(&text);
     }
     text.push('\n');
-    output::write(&arguments.out.join("compare.json"), text.as_bytes())
+    files.push((arguments.out.join("compare.json"), text.into_bytes()));
+    output::make_folder(&arguments.out)?;
+    output::write_together(&files)
 }
 
 fn side(path: &Path) -> Result<Side, Failure> {

@@ -74,7 +74,7 @@ pub fn dress_one(project: &Path, folder: &Path, arguments: &Dress) -> Result<Don
     if let Some(path) = &arguments.save {
         project_file::save(path, &session.project()).map_err(|e| input::project_failure(path, e))?;
     }
-    let mut report = report::write(&mut session, &input.name, folder, &arguments.picture, seconds)?;
+    let mut report = report::report(&mut session, &input.name, &arguments.picture, seconds)?;
     (report.inputs, report.made_from) = (input.files, Some(made_from));
     report.finish(folder, start)?;
     Ok(Done { verdict: report.verdict()?, report: report.json()?, resumed: false })

@@ -1,7 +1,7 @@
 //! `toile fit`: maps over the dressed garment, as figures and pictures, and the fit report.
 
 use std::fmt::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
@@ -85,7 +85,7 @@ fn maps(
     pictures: &mut Pictures,
 ) -> Result<(), Failure> {
     let (garment, state) = (&*outfit.garment, &*outfit.state);
-    output::make_folder(folder)?;
+    let mut files: Vec<(PathBuf, Vec<u8>)> = Vec::new();
     let mut figures = Figures {
         version: env!("CARGO_PKG_VERSION"),
         name,
@@ -98,11 +98,11 @@ fn maps(
     for kind in kinds(&arguments.maps) {
         interrupt::check()?;
         let map = reader.map(kind);
-        let write = |name: String, bytes: &[u8]| output::write(&folder.join(name), bytes);
-        write(format!("{}.csv", kind.name()), vertices_csv(&map, garment, state).as_bytes())?;
-        write(format!("{}-triangles.csv", kind.name()), triangles_csv(&map, garment).as_bytes())?;
+        let mut add = |name: String, bytes: Vec<u8>| files.push((folder.join(name), bytes));
+        add(format!("{}.csv", kind.name()), vertices_csv(&map, garment, state).into_bytes());
+        add(format!("{}-triangles.csv", kind.name()), triangles_csv(&map, garment).into_bytes());
         if let Some(png) = pictures.png(&map, outfit, arguments)? {
-            write(format!("{}.png", kind.name()), &png)?;
+            add(format!("{}.png", kind.name()), png);
         }
         let line = map_figures(&map, garment);
         if !arguments.json {
@@ -115,7 +115,9 @@ fn maps(
         output::say(&text);
     }
     text.push('\n');
-    output::write(&folder.join("fit.json"), text.as_bytes())
+    files.push((folder.join("fit.json"), text.into_bytes()));
+    output::make_folder(folder)?;
+    output::write_together(&files)
 }
 
 /// Each map that is asked for, once, in the order of menus.

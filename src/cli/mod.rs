@@ -36,6 +36,7 @@ use tracing_subscriber::EnvFilter;
 
 use crate::cli::arguments::{Arguments, Task};
 use crate::cli::failure::{Failure, PANIC};
+use crate::session::whole_file;
 
 /// The whole program. Never panics; what went wrong is on standard error, and the exit code says which kind.
 pub fn main() -> ExitCode {
@@ -53,7 +54,10 @@ fn run() -> u8 {
     match carry_out(arguments) {
         Ok(()) => 0,
         Err(failure) => {
-            output::complain(&format!("toile: {failure}"));
+            interrupt::tell(&failure);
+            if let Failure::Signal(_) = failure {
+                whole_file::remove_empty_folders();
+            }
             failure.exit_code()
         }
     }

@@ -1,8 +1,7 @@
 //! Printing and writing. A closed output ends nothing, a file is whole or not there.
 
-use std::fs;
-use std::io::{ErrorKind, IsTerminal, Write};
-use std::path::Path;
+use std::io::{IsTerminal, Write};
+use std::path::{Path, PathBuf};
 
 use crate::cli::failure::Failure;
 use crate::session::whole_file;
@@ -32,20 +31,25 @@ pub fn progress(words: &str) {
     }
 }
 
+/// Removes the file at `path`, there or not.
+pub fn take_away(path: &Path) -> Result<(), Failure> {
+    match std::fs::remove_file(path) {
+        Err(error) if error.kind() != std::io::ErrorKind::NotFound => Err(Failure::file(path, error)),
+        _ => Ok(()),
+    }
+}
+
 /// Writes the whole of `bytes` to `path`, or leaves what was there.
 pub fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     whole_file::write(path, bytes).map_err(|error| Failure::file(path, error))
 }
 
-/// Removes the file at `path`, there or not.
-pub fn take_away(path: &Path) -> Result<(), Failure> {
-    match fs::remove_file(path) {
-        Err(error) if error.kind() != ErrorKind::NotFound => Err(Failure::file(path, error)),
-        _ => Ok(()),
-    }
+/// Writes all of `files`, in this order, or leaves what was there: a signal comes before all of them or after.
+pub fn write_together(files: &[(PathBuf, Vec<u8>)]) -> Result<(), Failure> {
+    whole_file::write_together(files).map_err(|(path, error)| Failure::file(&path, error))
 }
 
-/// Makes `folder` and those above it.
+/// Makes `folder` and those above it. They go away again if a signal comes while they are empty.
 pub fn make_folder(folder: &Path) -> Result<(), Failure> {
-    fs::create_dir_all(folder).map_err(|error| Failure::file(folder, error))
+    whole_file::make_folder(folder).map_err(|error| Failure::file(folder, error))
 }

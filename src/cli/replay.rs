@@ -68,7 +68,7 @@ pub fn replay(arguments: &arguments::Replay) -> Result<(), Failure> {
     if let Some(folder) = &arguments.out {
         let seconds = Seconds { replay: Some(start.elapsed().as_secs_f64()), ..Seconds::default() };
         let name = input::name_of(path);
-        let mut report = report::write(replay.session(), &name, folder, &arguments.picture, seconds)?;
+        let mut report = report::report(replay.session(), &name, &arguments.picture, seconds)?;
         report.inputs = vec![path.display().to_string()];
         report.finish(folder, start)?;
     }

@@ -1,6 +1,6 @@
 //! What came out, in figures, and the files of it.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use serde::Serialize;
@@ -10,7 +10,7 @@ use crate::cli::arguments::PictureOptions;
 use crate::cli::failure::Failure;
 use crate::cli::picture::Artist;
 use crate::cli::verdict::Verdict;
-use crate::cli::{formats, output, run};
+use crate::cli::{formats, interrupt, output, run};
 use crate::fit;
 use crate::pattern::{Problem, ProblemKind};
 use crate::repose::Outcome;
@@ -60,6 +60,9 @@ pub struct Report {
     /// Why there is no view.png, if there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pictures_left_out: Option<String>,
+    /// What lies beside it: names and contents.
+    #[serde(skip)]
+    files: Vec<(&'static str, Vec<u8>)>,
 }
 
 /// The start that was taken, and all that were tried.
@@ -151,6 +154,8 @@ pub struct Seconds {
     pub grow: f64,
     /// Ticks that settled it.
     pub settle: f64,
+    /// The longest of all ticks: so long a signal may have to wait.
+    pub longest_tick: f64,
     /// Draping it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub drape: Option<f64>,
@@ -171,12 +176,10 @@ pub struct Seconds {
     pub starts: Vec<f64>,
 }
 
-/// Writes garment.obj, body.obj and view.png of `session` to `folder`, which is made. `Report::finish` writes report.json, which
-/// is gone until then: where there is one, the other files are whole and of the same garment.
-pub fn write(
+/// What there is to tell of `session`, with garment.obj, body.obj and view.png. [`Report::finish`] writes them.
+pub fn report(
     session: &mut Session,
     name: &str,
-    folder: &Path,
     picture: &PictureOptions,
     mut seconds: Seconds,
 ) -> Result<Report, Failure> {
@@ -187,17 +190,22 @@ pub fn write(
     let Measured { fit, tight, faults, marks, mark_error } = measured(snapshot)?;
     seconds.measure = start.elapsed().as_secs_f64();
     let at_rest = snapshot.phase == Some(Phase::AtRest);
-    output::make_folder(folder)?;
-    output::take_away(&folder.join(FILE_NAME))?;
+    let mut files: Vec<(&'static str, Vec<u8>)> = Vec::new();
     if let (Some((garment, cloth)), Some(source)) = (snapshot.drawn(), &snapshot.source) {
-        let bytes = formats::garment_obj(garment, cloth, &source.pattern);
-        output::write(&folder.join("garment.obj"), &bytes)?;
+        files.push(("garment.obj", formats::garment_obj(garment, cloth, &source.pattern)));
     }
     if let Some(body) = snapshot.body.as_ref().or(session.surface()) {
-        output::write(&folder.join("body.obj"), &formats::body_obj(&body.mesh))?;
+        files.push(("body.obj", formats::body_obj(&body.mesh)));
     }
     let start = Instant::now();
-    let pictures_left_out = draw(session, &folder.join("view.png"), picture)?;
+    interrupt::check()?;
+    let pictures_left_out = match draw(session, picture)? {
+        Ok(png) => {
+            files.push(("view.png", png));
+            None
+        }
+        Err(why) => Some(why),
+    };
     seconds.picture = start.elapsed().as_secs_f64();
     Ok(Report {
         version: env!("CARGO_PKG_VERSION"),
@@ -219,6 +227,7 @@ pub fn write(
         counters: snapshot.stats,
         state_hash,
         pictures_left_out,
+        files,
     })
 }
 
@@ -258,25 +267,32 @@ fn still_moving() -> Fault {
     Fault { problem, marks: Vec::new() }
 }
 
-/// Without a graphics adapter: why not.
-fn draw(session: &Session, path: &Path, options: &PictureOptions) -> Result<Option<String>, Failure> {
+/// A PNG; without a graphics adapter: why not.
+fn draw(session: &Session, options: &PictureOptions) -> Result<Result<Vec<u8>, String>, Failure> {
     match Artist::new().and_then(|mut artist| artist.png(session, options)) {
-        Ok(png) => output::write(path, &png).map(|()| None),
+        Ok(png) => Ok(Ok(png)),
         Err(Failure::Graphics(words)) => {
-            output::complain(&format!("{} left out: {words}", path.display()));
-            Ok(Some(words))
+            output::complain(&format!("view.png left out: {words}"));
+            Ok(Err(words))
         }
         Err(failure) => Err(failure),
     }
 }
 
 impl Report {
-    /// Writes report.json; `start` is when the work began.
+    /// Writes the files and report.json to `folder`, which is made; `start` is when the work began. All take their places
+    /// together. Should the machine fail meanwhile, there is no report.json: where there is one, the other files are whole and
+    /// of the same garment.
     pub fn finish(&mut self, folder: &Path, start: Instant) -> Result<(), Failure> {
         self.seconds.total = start.elapsed().as_secs_f64();
         let mut text = self.json()?;
         text.push('\n');
-        output::write(&folder.join(FILE_NAME), text.as_bytes())
+        output::make_folder(folder)?;
+        let placed = std::mem::take(&mut self.files).into_iter();
+        let mut files: Vec<(PathBuf, Vec<u8>)> =
+            placed.map(|(name, bytes)| (folder.join(name), bytes)).collect();
+        files.push((folder.join(FILE_NAME), text.into_bytes()));
+        output::write_together(&files)
     }
 
     /// The report on several lines.

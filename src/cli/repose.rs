@@ -31,7 +31,7 @@ pub fn repose(arguments: &Repose) -> Result<(), Failure> {
         let folder = if several { numbered(&arguments.out, i, path) } else { arguments.out.clone() };
         let name = format!("{} on {}", input.name, input::name_of(path));
         let carried = one(&mut session, pose, path, arguments, seconds.clone());
-        let mut report = report::write(&mut session, &name, &folder, &arguments.picture, carried?)?;
+        let mut report = report::report(&mut session, &name, &arguments.picture, carried?)?;
         report.inputs = input.files.iter().cloned().chain([from.clone()]).collect();
         report.finish(&folder, start)?;
         let verdict = report.verdict()?;

@@ -59,14 +59,16 @@ pub fn to_rest(session: &mut Session, max_ticks: u64, seconds: &mut Seconds) -> 
         }
         let (phase, trying, start) = (simulation.phase(), simulation.trying(), Instant::now());
         simulation.tick();
+        let took = start.elapsed().as_secs_f64();
         if let Some((.., number)) = trying {
             seconds.starts.resize(number + 1, 0.0);
-            seconds.starts[number] += start.elapsed().as_secs_f64();
+            seconds.starts[number] += took;
         }
         match phase {
-            Some(Phase::Growing) => seconds.grow += start.elapsed().as_secs_f64(),
-            _ => seconds.settle += start.elapsed().as_secs_f64(),
+            Some(Phase::Growing) => seconds.grow += took,
+            _ => seconds.settle += took,
         }
+        seconds.longest_tick = seconds.longest_tick.max(took);
         show_progress(simulation);
     }
     output::progress("");
@@ -89,6 +91,7 @@ pub fn drape(
     session.apply_alone(Command::SetDraping { on: true }).map_err(|why| Failure::input(project, why))?;
     to_rest(session, max_ticks, &mut of_drape)?;
     seconds.drape = Some(of_drape.settle);
+    seconds.longest_tick = seconds.longest_tick.max(of_drape.longest_tick);
     match session.snapshot().drape {
         Some(_) => Ok(()),
         None => {

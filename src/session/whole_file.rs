@@ -1,13 +1,148 @@
-//! Files that are written whole or not at all.
+//! Files that are written whole or not at all, one or several.
 
 use std::fs;
 use std::io::{Error, ErrorKind, Result, Write};
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError, TryLockError};
 
 use atomic_write_file::AtomicWriteFile;
 
 /// A chain of links that is longer goes round in a circle.
 const MOST_LINKS: usize = 40;
+
+/// Held while files take their places.
+static PLACING: Mutex<()> = Mutex::new(());
+/// Files that are being written beside their places.
+static BESIDE: Mutex<Vec<Known>> = Mutex::new(Vec::new());
+/// Folders that were made, each after the one it is in.
+static MADE: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
+/// What a file is found again by: the folder it is in, and the system's numbers of it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Known {
+    folder: PathBuf,
+    numbers: Option<[u64; 2]>,
+}
+
+/// As long as it lives no file is begun and none takes its place.
+#[derive(Debug)]
+pub struct HeldBack {
+    _placing: MutexGuard<'static, ()>,
+    beside: MutexGuard<'static, Vec<Known>>,
+    made: MutexGuard<'static, Vec<PathBuf>>,
+}
+
+impl HeldBack {
+    /// None while files take their places. Who ends the program holds it.
+    pub fn new() -> Option<Self> {
+        Some(Self { _placing: tried(&PLACING)?, beside: tried(&BESIDE)?, made: tried(&MADE)? })
+    }
+
+    /// Removes what is not in its place, and folders made for it that are empty.
+    pub fn remove_unplaced(&mut self) {
+        self.beside.drain(..).for_each(|known| known.remove());
+        remove_empty(&mut self.made);
+    }
+}
+
+impl Known {
+    /// Where it is no longer there nothing happens.
+    fn remove(self) {
+        let entries = fs::read_dir(&self.folder).into_iter().flatten().flatten();
+        let same = |entry: &fs::DirEntry| entry.metadata().is_ok_and(|data| numbers(&data) == self.numbers);
+        for entry in entries.filter(|entry| self.numbers.is_some() && same(entry)) {
+            fs::remove_file(entry.path()).ok();
+        }
+    }
+}
+
+fn tried<T>(lock: &'static Mutex<T>) -> Option<MutexGuard<'static, T>> {
+    match lock.try_lock() {
+        Ok(held) => Some(held),
+        Err(TryLockError::Poisoned(held)) => Some(held.into_inner()),
+        Err(TryLockError::WouldBlock) => None,
+    }
+}
+
+fn held<T>(lock: &'static Mutex<T>) -> MutexGuard<'static, T> {
+    lock.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+#[cfg(unix)]
+fn numbers(data: &fs::Metadata) -> Option<[u64; 2]> {
+    use std::os::unix::fs::MetadataExt;
+    Some([data.dev(), data.ino()])
+}
+
+#[cfg(not(unix))]
+fn numbers(_: &fs::Metadata) -> Option<[u64; 2]> {
+    None
+}
+
+/// A file on the disk of its place, not there yet; gone when it is dropped.
+struct Unplaced {
+    file: Option<AtomicWriteFile>,
+    known: Known,
+}
+
+impl Unplaced {
+    /// Holds the whole of `bytes`.
+    fn new(path: &Path, bytes: &[u8]) -> Result<Self> {
+        let path = followed(path)?;
+        let mut unplaced = Self::begun(&path)?;
+        if let Some(file) = &mut unplaced.file {
+            file.write_all(bytes)?;
+            // Also done by commit, which leaves its temporary file behind when it fails.
+            file.as_file().sync_all()?;
+        }
+        Ok(unplaced)
+    }
+
+    fn begun(path: &Path) -> Result<Self> {
+        let mut beside = held(&BESIDE);
+        let file = AtomicWriteFile::open(path)?;
+        let numbers = file.as_file().metadata().ok().and_then(|data| numbers(&data));
+        let folder = path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
+        let known = Known { folder: folder.to_owned(), numbers };
+        beside.push(known.clone());
+        Ok(Self { file: Some(file), known })
+    }
+
+    fn place(mut self) -> Result<()> {
+        self.file.take().map_or(Ok(()), AtomicWriteFile::commit)
+    }
+}
+
+impl Drop for Unplaced {
+    fn drop(&mut self) {
+        let mut beside = held(&BESIDE);
+        drop(self.file.take());
+        if let Some(at) = beside.iter().position(|known| *known == self.known) {
+            beside.swap_remove(at);
+        }
+    }
+}
+
+/// Makes `folder` and those above it, and remembers which were not there.
+pub fn make_folder(folder: &Path) -> Result<()> {
+    let mut made = held(&MADE);
+    let above: Vec<&Path> = folder.ancestors().take_while(|path| !path.exists()).collect();
+    fs::create_dir_all(folder)?;
+    made.extend(above.iter().rev().map(|path| path.to_path_buf()));
+    Ok(())
+}
+
+/// Removes folders that were made for files that never came.
+pub fn remove_empty_folders() {
+    remove_empty(&mut held(&MADE));
+}
+
+/// One that holds something stays.
+fn remove_empty(made: &mut Vec<PathBuf>) {
+    while let Some(folder) = made.pop() {
+        fs::remove_dir(folder).ok();
+    }
+}
 
 /// Writes the whole of `bytes` to `path`, or leaves what was there. Where `path` is a link it stays one, and what it leads to is
 /// written. A file that is write-protected is refused.
@@ -20,11 +155,32 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<()> {
 
 /// The same for a file that may be write-protected, and stays so.
 pub fn replace(path: &Path, bytes: &[u8]) -> Result<()> {
-    let mut file = AtomicWriteFile::open(followed(path)?)?;
-    file.write_all(bytes)?;
-    // Also done by commit, which leaves its temporary file behind when it fails.
-    file.as_file().sync_all()?;
-    file.commit()
+    let file = Unplaced::new(path, bytes)?;
+    let _placing = held(&PLACING);
+    file.place()
+}
+
+/// Writes all of `files`, paths with what they hold, and then puts them in their places one right after the other, in this
+/// order: a program that is ended by a signal has written all of them or none. Should the machine fail meanwhile, the last is
+/// not there: where it is, the others are those written with it. Write-protected ones are refused before any is written. The
+/// error is of the path beside it.
+pub fn write_together(files: &[(PathBuf, Vec<u8>)]) -> std::result::Result<(), (PathBuf, Error)> {
+    let mut written = Vec::new();
+    for (path, bytes) in files {
+        if is_protected(path) {
+            let error = Error::new(ErrorKind::PermissionDenied, "it is write-protected");
+            return Err((path.clone(), error));
+        }
+        written.push((path, Unplaced::new(path, bytes).map_err(|error| (path.clone(), error))?));
+    }
+    let _placing = held(&PLACING);
+    if let [.., (last, _)] = files {
+        match fs::remove_file(last) {
+            Err(error) if error.kind() != ErrorKind::NotFound => return Err((last.clone(), error)),
+            _ => {}
+        }
+    }
+    written.into_iter().try_for_each(|(path, file)| file.place().map_err(|error| (path.clone(), error)))
 }
 
 /// Whether there is a file that nobody is meant to change: a folder's permission to replace it does not count.
@@ -65,6 +221,48 @@ mod tests {
             assert!(fs::symlink_metadata(at(link)).expect("a link").is_symlink());
         }
         assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 3, "nothing else is left");
+    }
+
+    #[test]
+    fn several_are_written_or_none() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let at = |name: &str| folder.path().join(name);
+        let all = [(at("a"), b"1".to_vec()), (at("b"), b"2".to_vec())];
+        write_together(&all).expect("written");
+        assert_eq!(fs::read(at("b")).expect("a file"), b"2");
+        let lost = [(at("a"), b"3".to_vec()), (at("none/b"), b"4".to_vec())];
+        let (path, _) = write_together(&lost).expect_err("there is no such folder");
+        assert_eq!(path, at("none/b"));
+        assert_eq!(fs::read(at("a")).expect("a file"), b"1", "the first stays as it was");
+        assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 2, "nothing else is left");
+    }
+
+    #[test]
+    fn what_is_not_in_its_place_is_removed_and_nothing_else() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let at = |name: &str| folder.path().join(name);
+        fs::write(at("old"), b"old").expect("written");
+        fs::write(at(".old.abcdef"), b"of another program").expect("written");
+        let file = Unplaced::new(&at("old"), b"new").expect("written");
+        assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 3);
+        file.known.clone().remove();
+        assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 2);
+        drop(file);
+        assert_eq!(fs::read(at("old")).expect("a file"), b"old");
+    }
+
+    #[test]
+    fn folders_that_stayed_empty_are_removed_and_no_others() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let at = |name: &str| folder.path().join(name);
+        fs::create_dir(at("old")).expect("made");
+        for name in ["old", "old/new", "full/a", "empty/a/b"] {
+            make_folder(&at(name)).expect("made");
+        }
+        fs::write(at("full/a/file"), b"").expect("written");
+        remove_empty_folders();
+        let there = ["old", "old/new", "full/a/file", "empty"].map(|name| at(name).exists());
+        assert_eq!(there, [true, false, true, false]);
     }
 
     #[test]

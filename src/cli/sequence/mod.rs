@@ -185,6 +185,8 @@ pub fn sequence(arguments: &Repose) -> Result<(), Failure> {
     let body = body_of(&session, &snapshot, &arguments.project)?;
     check_size(&snapshot, &body, motion.frames.len())?;
     output::make_folder(&arguments.out)?;
+    // Of another motion: where there is one all frames are of the same.
+    output::take_away(&arguments.out.join("report.json"))?;
     let mut carrier = Carrier::new(&snapshot, Arc::clone(&body), &arguments.project)?;
     let (mut frames, mut lines, mut hash) = (Vec::new(), Vec::new(), Fnv::default());
     let count = motion.frames.len();
@@ -200,7 +202,6 @@ pub fn sequence(arguments: &Repose) -> Result<(), Failure> {
     }
     seconds.repose = Some(lines.iter().map(|line: &Line| line.seconds).sum());
     let bytes = carrier.animated(&body, &frames, motion.fps)?;
-    output::write(&arguments.out.join("sequence.glb"), &bytes)?;
     seconds.total = start.elapsed().as_secs_f64();
     let fault = fault(&lines);
     let read = motion.inputs.iter().map(|path| path.display().to_string());
@@ -216,10 +217,14 @@ pub fn sequence(arguments: &Repose) -> Result<(), Failure> {
         seconds,
     };
     let text = serde_json::to_string_pretty(&summary).map_err(|e| Failure::Internal(e.to_string()))?;
-    output::write(&arguments.out.join("report.json"), format!("{text}\n").as_bytes())?;
+    let (mean, mib) =
+        (summary.seconds.repose.unwrap_or_default() / count as f64, bytes.len() as f64 / 1048576.0);
+    let into = |name: &str, bytes: Vec<u8>| (arguments.out.join(name), bytes);
+    output::write_together(&[
+        into("sequence.glb", bytes),
+        into("report.json", format!("{text}\n").into_bytes()),
+    ])?;
     if !arguments.json {
-        let (mean, mib) =
-            (summary.seconds.repose.unwrap_or_default() / count as f64, bytes.len() as f64 / 1048576.0);
         output::say(&format!("{count} frames, {:.0} ms each, sequence.glb of {mib:.1} MiB", mean * 1000.0));
     }
     fault.map_or(Ok(()), |words| Err(Failure::Check(words)))

@@ -80,10 +80,10 @@ pub fn simulate(arguments: &Simulate) -> Result<(), Failure> {
     let frames = file.frames();
     let (mut cpu_s, mut wall_s) = (Vec::new(), Vec::new());
     for frame in 0..frames {
-        interrupt::check()?;
         output::progress(&format!("frame {} of {frames}", frame + 1));
         let (wall, cpu) = (Instant::now(), cpu_seconds());
         for part in 1..=file.steps_per_frame {
+            interrupt::check()?;
             let done = (
                 frame as f64 + f64::from(part) / f64::from(file.steps_per_frame),
                 f64::from(file.steps_per_frame),
@@ -120,10 +120,10 @@ pub fn simulate(arguments: &Simulate) -> Result<(), Failure> {
         edge_strain: strain(&drape),
         counters: drape.work(),
     };
-    output::make_folder(&arguments.out)?;
-    output::write(&arguments.out.join("positions.f32"), &bytes)?;
     let text = serde_json::to_string_pretty(&report).map_err(|e| Failure::Internal(e.to_string()))?;
-    output::write(&arguments.out.join("simulate.json"), text.as_bytes())?;
+    output::make_folder(&arguments.out)?;
+    let into = |name: &str, bytes: Vec<u8>| (arguments.out.join(name), bytes);
+    output::write_together(&[into("positions.f32", bytes), into("simulate.json", text.into_bytes())])?;
     output::say(&format!(
         "{}: {frames} frames of {} triangles by {}, {:.3} s, p99 edge strain {:.2} %",
         path.display(),
