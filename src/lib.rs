@@ -27,7 +27,7 @@
 //! | `io`       | obj, gltf, bvh; patterns as garmentcode json, dxf, svg, pdf: bytes in, checked data out, and back | cloth, body, pattern, geometry |
 //! | `render`   | plain buffers in, pixels out: camera, passes, offscreen target | nothing of ours |
 //! | `ui`       | egui: app, actions, panes, tools | session and below, place, render |
-//! | `cli`      | one file per subcommand: arguments, calls, printing | session and below, place, render, ui |
+//! | `cli`      | one file per subcommand: arguments, calls, printing | session and below, draft, place, render, ui |
 //!
 //! Invariants:
 //! - Metres, radians, seconds; right-handed, y up, bodies face +z. Pattern planes have y up and their front towards the reader.

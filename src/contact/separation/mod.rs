@@ -390,13 +390,11 @@ impl Separation {
         self.counters.planes += self.planes.len() as u64;
     }
 
-    /// How many vertices leave their reach that go where `then` tells; all where nothing is known.
-    pub fn leaving(&self, then: impl Fn(usize) -> DVec3 + Sync) -> usize {
-        if self.anchors.is_empty() {
-            return usize::MAX;
-        }
-        let leaves = |&v: &usize| then(v).distance_squared(self.anchors[v]) > self.reach[v] * self.reach[v];
-        (0..self.anchors.len()).into_par_iter().with_min_len(LEAST_SHARE).filter(leaves).count()
+    /// Whether all vertices that go where `then` tells stay within their reach.
+    pub fn holds(&self, then: impl Fn(usize) -> DVec3 + Sync) -> bool {
+        let stays = |v: usize| then(v).distance_squared(self.anchors[v]) <= self.reach[v] * self.reach[v];
+        !self.anchors.is_empty()
+            && (0..self.anchors.len()).into_par_iter().with_min_len(LEAST_SHARE).all(stays)
     }
 
     /// Brings `x` back to where nothing can meet. How many vertices would have gone farther than their reach.
