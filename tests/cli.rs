@@ -13,8 +13,6 @@ mod chance;
 mod common;
 #[path = "cli/compare.rs"]
 mod compare;
-#[path = "cli/corpus.rs"]
-mod corpus;
 #[path = "cli/dress.rs"]
 mod dress;
 #[path = "cli/faults.rs"]
