@@ -547,6 +547,9 @@ pub struct Bench {
     pub plot: Option<PathBuf>,
     #[command(flatten)]
     pub corpus: CorpusOptions,
+    /// Of the corpus, gives up on a garment after so many ticks; as dress does when left out
+    #[arg(long)]
+    pub max_ticks: Option<u64>,
     /// Of the corpus, keeps what was not dressed well in this folder: pattern, report, picture and the command line
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,

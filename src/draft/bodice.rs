@@ -145,7 +145,7 @@ const RAGLAN_NECK: [DVec2; 2] = [DVec2::new(-0.010, -0.038), DVec2::new(-0.026, 
 
 /// Drafts front and back, stands them round the body and sews shoulders, sides, middles and darts.
 pub fn bodice(garment: &mut Garment, form: &Form, cut: &Bodice, neck: &Neckline, armhole: Armhole) -> Trunk {
-    let yoke = form.yoke(form.across(neck.width), cut.short_shoulder);
+    let yoke = form.yoke(form.neck_width(neck.width), cut.short_shoulder);
     let hem = -cut.length(form);
     let under = form.armpit.y - UNDERARM_DROP - form.bust;
     let bust_dart = if cut.bust_dart { dart_intake(&yoke) } else { 0.0 };

@@ -48,7 +48,7 @@ impl Dolman {
 /// Drafts front and back, stands and sews them.
 pub fn dolman(garment: &mut Garment, form: &Form, cut: &Dolman, neck: &Neckline) {
     let m = &form.measurements;
-    let yoke = form.yoke(form.across(neck.width), 0.0);
+    let yoke = form.yoke(form.neck_width(neck.width), 0.0);
     // Front and back alike but for the neckline: loose cloth makes up the rest.
     let level = |ends: [DVec2; 2]| [(ends[0] + ends[1]) / 2.0; 2];
     let yoke = Yoke { neck: level(yoke.neck), tip: level(yoke.tip) };

@@ -12,6 +12,8 @@ const STEP: f64 = 0.01;
 const OFF_SKIN: f64 = 0.004;
 /// Shoulder seams fall by this share of how steeply the shoulder does: room for its roundness.
 const SLOPE_EASE: f64 = 0.85;
+/// Necklines are no wider than this share of the shoulders.
+const MOST_NECK: f64 = 0.64;
 
 /// The mannequin in a size and pose, as a pattern cutter sees it. Metres; heights above the ground.
 #[derive(Debug)]
@@ -114,9 +116,12 @@ impl Form {
         })
     }
 
-    /// `width` metres of the default figure, in proportion to the shoulders of this one.
-    pub fn across(&self, width: f64) -> f64 {
-        width * self.measurements.half_across_shoulder / Measurements::default().half_across_shoulder
+    /// From the middle to the neck end of a shoulder seam: `width` metres of the default figure, in proportion to the shoulders
+    /// or the neck of this one, whichever is larger; some of the shoulder is left.
+    pub fn neck_width(&self, width: f64) -> f64 {
+        let (own, usual) = (&self.measurements, Measurements::default());
+        let shoulders = own.half_across_shoulder / usual.half_across_shoulder;
+        (width * shoulders.max(own.neck / usual.neck)).min(MOST_NECK * own.half_across_shoulder)
     }
 
     /// The top of the shoulder at `x`, metres.

@@ -43,7 +43,7 @@ impl OneShoulder {
 /// Drafts front and back, stands and sews them.
 pub fn one_shoulder(garment: &mut Garment, form: &Form, cut: &OneShoulder) {
     let m = &form.measurements;
-    let yoke = form.yoke(form.across(cut.neck_width), 0.02);
+    let yoke = form.yoke(form.neck_width(cut.neck_width), 0.02);
     // Mirrored: the seam is drawn at the left.
     let level = |ends: [DVec2; 2]| [(ends[0] + ends[1]) / 2.0; 2];
     let yoke = Yoke { neck: level(yoke.neck), tip: level(yoke.tip) };

@@ -12,9 +12,9 @@ use crate::geometry::ids::PieceId;
 use crate::pattern::Piece;
 
 /// How far before and behind the arm's middle its two halves stand, metres.
-const BESIDE: f64 = 0.10;
-/// From the armpit out to the underarm point as placed, metres.
-const OUT: f64 = 0.03;
+const BESIDE: f64 = 0.12;
+/// From the armpit out to the underarm point as placed, and from the shoulder tip to the top of the cap, metres.
+const OUT: f64 = 0.02;
 /// Between a sleeve and its cuff as placed, metres.
 const CUFF_GAP: f64 = 0.03;
 /// A sleeve is at least so much longer than its cap, metres.
@@ -80,7 +80,8 @@ struct Halves {
 impl Halves {
     /// Those whose caps are as long as `caps` metres, where `length_of(half, cap, width)` is the length of a half's cap.
     fn new(cut: &Sleeve, form: &Form, caps: [f64; 2], length_of: impl Fn(usize, f64, f64) -> f64) -> Self {
-        let girth = form.measurements.upper_arm + cut.ease;
+        // A gathered cap is wider and higher alike.
+        let girth = (form.measurements.upper_arm + cut.ease) * cut.puff;
         let width =
             |half: usize, cap: f64| solved(0.01, 0.6, |width| length_of(half, cap, width) - caps[half]);
         let most = 0.95 * caps[0].min(caps[1]);
@@ -110,8 +111,8 @@ impl Halves {
         // Wider than the arm, it hangs on it: more of it lies below.
         let on_arm = arm.joint.truncate() + up * (half - 0.01);
         let underarm = on_arm + along * self.cap - up * (2.0 * half);
-        let out = (arm.armpit.x + OUT - underarm.x) / along.x.max(0.3);
-        on_arm + along * out.max(0.01)
+        let short = (arm.armpit.x - underarm.x).max(arm.tip.x - on_arm.x);
+        on_arm + along * ((short + OUT) / along.x.max(0.3)).max(0.0)
     }
 }
 

@@ -144,7 +144,8 @@ impl<'a> Work<'a> {
         dress.input.pose = (case.pose != NamedPose::A).then_some(case.pose);
         dress.picture.size = PICTURE;
         dress.work = self.arguments.work;
-        let command = command(name, case);
+        dress.max_ticks = self.arguments.max_ticks.unwrap_or(dress.max_ticks);
+        let command = command(name, case, self.arguments.max_ticks);
         let start = Instant::now();
         let done = catch_unwind(AssertUnwindSafe(|| dress_one(&pattern, &folder, &dress)))
             .unwrap_or_else(|_| Err(Failure::Internal("internal error, see above".to_owned())));
@@ -173,13 +174,16 @@ impl<'a> Work<'a> {
 }
 
 /// The command line that dresses a kept garment again, from the folder that failures are kept in.
-fn command(name: &str, case: &Case) -> String {
+fn command(name: &str, case: &Case, max_ticks: Option<u64>) -> String {
     let pose = match case.pose {
         NamedPose::A => String::new(),
         other => format!(" --pose {}", other.name()),
     };
+    let ticks = max_ticks.map(|ticks| format!(" --max-ticks {ticks}")).unwrap_or_default();
     let size = case.size.name;
-    format!("toile dress {name}/{name}.json --sizes {SIZES_FILE} --body-size {size}{pose} --out {name}")
+    format!(
+        "toile dress {name}/{name}.json --sizes {SIZES_FILE} --body-size {size}{pose}{ticks} --out {name}"
+    )
 }
 
 impl Summary {

@@ -28,8 +28,10 @@ pub fn bench(arguments: &Bench) -> Result<(), Failure> {
     if arguments.what == Some(BenchKind::Corpus) {
         return corpus::corpus(arguments);
     }
-    if arguments.corpus != CorpusOptions::default() || arguments.out.is_some() {
-        let words = "--count, --seed, --shard, --body-sizes, --poses, --kinds and --out go with bench corpus";
+    let of_corpus = arguments.out.is_some() || arguments.max_ticks.is_some();
+    if of_corpus || arguments.corpus != CorpusOptions::default() {
+        let words = "--count, --seed, --shard, --body-sizes, --poses, --kinds, --max-ticks and --out go with bench \
+                     corpus";
         return Err(Failure::Usage(words.to_owned()));
     }
     let runs = usize::from(arguments.runs);
