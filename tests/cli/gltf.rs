@@ -6,7 +6,7 @@ use base64::Engine as _;
 use toile::io::gltf::{self, Model};
 use toile::session::project_file;
 
-use crate::limb::{self, bent, glb, limb, skinned};
+use crate::common::limb::{self, bent, glb, limb, skinned};
 use crate::program::Place;
 use crate::repose::vertices;
 

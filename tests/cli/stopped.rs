@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 
 use glam::DVec3;
 
-use crate::chance::Chance;
+use crate::common::chance::Chance;
 use crate::program::{Ended, Place, ended};
 
 /// Seed of the moments at which signals come.

@@ -19,7 +19,6 @@ impl Chance {
     }
 
     /// Seldom no number at all.
-    #[allow(dead_code, reason = "not every suite uses it")]
     pub fn number(&mut self, low: f64, high: f64) -> f64 {
         match self.below(400) {
             0 => f64::NAN,

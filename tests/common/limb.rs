@@ -1,7 +1,5 @@
 //! A cylinder on two bones in glTF that bends in its middle by a right angle in one second (`bend`), or at its end (`snap`).
 
-#![allow(dead_code, reason = "not every suite uses all of it")]
-
 use std::f64::consts::FRAC_PI_2;
 
 use glam::{DQuat, DVec2, DVec3};

@@ -1,6 +1,11 @@
-//! A small scene that dresses in a blink: a patch of cloth with one pair of marks on a ball.
+//! A small scene that dresses in a blink: a patch of cloth with one pair of marks on a ball. Beside it what else several
+//! programs of tests share.
 
-#![allow(dead_code, reason = "not every suite uses all of it")]
+#![allow(dead_code, unused_imports, reason = "not every program uses all of it")]
+
+pub mod chance;
+pub mod exact;
+pub mod limb;
 
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;

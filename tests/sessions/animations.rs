@@ -11,8 +11,7 @@ use toile::session::replay::Replay;
 use toile::session::{AnimatedFile, Animations, Command, Moment, Session, project_file};
 use toile::sim::{Runner, Simulation};
 
-use crate::common::{ball, cloth_hash, run};
-use crate::limb;
+use crate::common::{ball, cloth_hash, limb, run};
 
 fn file() -> AnimatedFile {
     let (up, unit, buffers) = (UpAxis::Y, Unit::Metre, BTreeMap::new());

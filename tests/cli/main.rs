@@ -1,0 +1,22 @@
+//! The real program in an empty folder: files, words and exit codes.
+
+mod bad_input;
+mod batch;
+mod bench;
+mod bodies;
+#[path = "../common/mod.rs"]
+mod common;
+mod compare;
+mod dress;
+mod faults;
+mod fit_page;
+mod gltf;
+mod patterns;
+mod program;
+mod replay;
+mod repose;
+mod sequence;
+mod signals;
+mod simulate;
+mod starts;
+mod stopped;

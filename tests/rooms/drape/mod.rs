@@ -1,0 +1,16 @@
+//! Physics of cloth against exact answers.
+
+mod bends;
+mod capstan;
+mod crossings;
+mod cusick;
+mod inflates;
+mod meshes;
+mod moves;
+mod orders;
+mod panels;
+mod patches;
+mod rests;
+mod slips;
+mod springs;
+mod stability;

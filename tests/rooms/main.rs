@@ -1,0 +1,20 @@
+//! The rooms of the library, one by one, most of them against exact answers.
+
+mod answers;
+mod bad_inputs;
+mod bones;
+#[path = "../common/mod.rs"]
+mod common;
+mod converged;
+mod corpus;
+mod drag;
+mod drape;
+mod editing;
+mod layers;
+mod memory;
+mod pattern;
+mod placing;
+mod render;
+mod skips;
+mod splits;
+mod wrap;

@@ -1,0 +1,25 @@
+//! Commands, undo, recordings, replays and project files, through the library's front door.
+
+mod activities;
+mod animations;
+mod bodies;
+mod commands;
+#[path = "../common/mod.rs"]
+mod common;
+mod determinism;
+mod dragging;
+mod draping;
+mod fuzz;
+mod live;
+mod project_files;
+mod recordings;
+mod recovery;
+mod replays;
+mod reposing;
+mod resizing;
+mod rewrapping;
+mod samples;
+mod scenario;
+mod starts;
+mod threads;
+mod undo;
