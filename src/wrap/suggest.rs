@@ -48,17 +48,18 @@ pub fn suggested(pattern: &Pattern, surface: &Surface, offset: f64) -> Marks {
             if let (Some(trunk), Some(hung)) = (&trunk, hung) {
                 let lines: Vec<Line> =
                     panels.iter().map(|p| Line::level(p, at(p).unwrap_or(hung.body))).collect();
-                strokes.extend(ring(&lines, trunk, hung.body));
+                strokes.extend(ring(&lines, trunk, hung.body, 0.0));
             }
         }
         Anchor::Ring(panels) => {
             let depth = UNDER_TOP * surface.scale();
-            let sewn = seams_among(&cut, &panels);
+            let beside: f64 = besides(&cut, &panels, depth).sum();
+            let sewn = if beside > 0.0 { all_sewn(&cut) } else { seams_among(&cut, &panels) };
             let lines: Vec<Line> = panels.iter().map(|p| Line::under_top(p, depth, &sewn)).collect();
             if let Some(trunk) = &trunk
-                && let Some(height) = rest_height(trunk, &lines, offset)
+                && let Some(height) = rest_height(trunk, &lines, beside, offset)
             {
-                strokes.extend(ring(&lines, trunk, height));
+                strokes.extend(ring(&lines, trunk, height, beside / 2.0));
             }
             if strokes.is_empty() {
                 strokes.extend(panels.iter().filter_map(|p| sideways(p, surface, offset)));
@@ -118,7 +119,7 @@ pub fn stand(cut: &CutPattern, surface: &Surface, trunk: &Trunk, offset: f64) ->
         Anchor::Ring(panels) => {
             let depth = UNDER_TOP * surface.scale();
             // Panels at the sides are no part of the ring here, but their seams are sides of those that are.
-            let sewn: Vec<EdgeRef> = cut.edge_seams().flat_map(|seam| seam.sides).collect();
+            let sewn = all_sewn(cut);
             let lines: Vec<Line> = panels.iter().map(|p| Line::under_top(p, depth, &sewn)).collect();
             let beside: f64 = besides(cut, &panels, depth).sum();
             let along: f64 = lines.iter().map(Line::length).sum();
@@ -131,6 +132,11 @@ pub fn stand(cut: &CutPattern, surface: &Surface, trunk: &Trunk, offset: f64) ->
             Some(Stand { placed, body, bounds: bounds(&panels), hangs: false })
         }
     }
+}
+
+/// Every edge that is sewn to another.
+fn all_sewn(cut: &CutPattern) -> Vec<EdgeRef> {
+    cut.edge_seams().flat_map(|seam| seam.sides).collect()
 }
 
 struct Stroke {
@@ -277,9 +283,10 @@ impl<'a> Line<'a> {
     }
 }
 
-/// At which height of the trunk a ring of pieces rests.
-fn rest_height(trunk: &Trunk, lines: &[Line], offset: f64) -> Option<f64> {
-    let girth: f64 = lines.iter().map(Line::length).sum::<f64>() - std::f64::consts::TAU * offset;
+/// At which height of the trunk a ring of pieces rests that has `beside` metres more of pieces at the sides.
+fn rest_height(trunk: &Trunk, lines: &[Line], beside: f64, offset: f64) -> Option<f64> {
+    let along: f64 = lines.iter().map(Line::length).sum();
+    let girth = along + beside - std::f64::consts::TAU * offset;
     if girth <= 0.0 {
         return None;
     }
@@ -294,8 +301,8 @@ fn placed_height(lines: &[Line]) -> Option<f64> {
 }
 
 /// A stroke for each side of each line along the trunk's section at `height`. All of a side, before and behind, are
-/// stretched alike, so that they meet.
-fn ring(lines: &[Line], trunk: &Trunk, height: f64) -> Vec<Stroke> {
+/// stretched alike, so that they meet, or leave room between them for `beside` metres of cloth that gets no stroke.
+fn ring(lines: &[Line], trunk: &Trunk, height: f64, beside: f64) -> Vec<Stroke> {
     let Some(level) = trunk.nearest(height) else { return Vec::new() };
     let mut strokes = Vec::new();
     for left in [false, true] {
@@ -306,7 +313,7 @@ fn ring(lines: &[Line], trunk: &Trunk, height: f64) -> Vec<Stroke> {
             let ends = runs.iter().filter(|r| r.0.is_front() == front).filter_map(|r| r.1.last());
             ends.map(|e| e.1).fold(0.0, f64::max)
         };
-        let stretch = way.length() / (reach(true) + reach(false));
+        let stretch = way.length() / (reach(true) + reach(false) + beside);
         for (panel, run) in runs {
             let along = |s: f64| if panel.is_front() { s * stretch } else { way.length() - s * stretch };
             strokes.push(Stroke {
