@@ -12,10 +12,13 @@ use crate::draft::hood::{Hood, hood};
 use crate::draft::neckline::Neckline;
 use crate::draft::one_shoulder::{OneShoulder, one_shoulder};
 use crate::draft::random::Random;
-use crate::draft::skirt::{Skirt, skirt};
+use crate::draft::skirt::{Shape, Skirt, skirt};
 use crate::draft::sleeve::{self, Sleeve};
 use crate::draft::trousers::{Trousers, trousers};
 use crate::pattern::Pattern;
+
+/// Height of the waistband of a skirt whose own upper edge would give under its weight, being cut on the bias or gathered, metres.
+const LEAST_BAND: f64 = 0.03;
 
 /// What sort of garment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
@@ -200,7 +203,12 @@ impl Design {
                 (Some(Top::Cut(upper)), Some(Bottom::Trousers(legs(random))))
             }
         };
-        Self { kind, top, bottom, waist }
+        let gives = |skirt: &Skirt| {
+            matches!(skirt.shape, Shape::Circle { .. } | Shape::Gathered { .. } | Shape::Levels { .. })
+        };
+        let needs_band = matches!(&bottom, Some(Bottom::Skirt(skirt)) if gives(skirt));
+        let band = waist.band.or(needs_band.then_some(LEAST_BAND));
+        Self { kind, top, bottom, waist: Waist { band, ..waist } }
     }
 
     /// The pattern for the body of `form`, placed round it.

@@ -1,5 +1,6 @@
 //! What is read off a garment: strain, crossings, openings, the report, maps.
 
+mod causes;
 mod compare;
 pub mod exact;
 mod fallen;
@@ -16,6 +17,7 @@ mod spots;
 mod tight;
 mod verdict;
 
+pub use causes::{Causes, STRAINED, Smaller, Strained};
 pub use compare::{Change, Matching, Unlike};
 pub use fallen::{Fallen, fallen};
 pub use girth::{Girth, girth, girths};

@@ -6,6 +6,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use crate::cloth::{ClothState, Garment};
+use crate::fit::causes::{Causes, causes};
 use crate::fit::laid::Laid;
 use crate::fit::on_body::{BodyIndex, on_body};
 use crate::fit::openings::Opening;
@@ -29,6 +30,9 @@ pub struct Report {
     pub not_finite_vertices: usize,
     /// Strain of the edges.
     pub strain: Strain,
+    /// Why they are strained.
+    #[serde(default)]
+    pub strain_causes: Causes,
     /// What became of each piece, in id order.
     pub pieces: Vec<PieceChange>,
     /// The seams.
@@ -156,6 +160,7 @@ pub fn measure(pattern: &Pattern, garment: &Garment, state: &ClothState, body: &
         unmapped_vertices: unmapped,
         not_finite_vertices: not_finite(garment, state),
         strain,
+        strain_causes: causes(garment, state, &laid, body),
         pieces,
         seams: seams(pattern, garment, state),
         open_seams: open_seams(pattern, garment, state),

@@ -5,7 +5,7 @@ use crate::body::Surface;
 use crate::body::closest::closest_on_triangle;
 use crate::cloth::FlatPiece;
 use crate::fit::on_body::{NEAR, WRONG_SIDE};
-use crate::fit::{Tight, fallen, faults, tight_places, tightest, verdict};
+use crate::fit::{Causes, Smaller, Tight, fallen, faults, tight_places, tightest, verdict};
 use crate::geometry::mesh::TriMesh;
 use crate::pattern::{EdgeRef, Piece, Seam};
 
@@ -377,4 +377,17 @@ fn sides_of_limbs_are_told_in_words() {
     assert_eq!(at("upper_arm_right_high_x"), "back near upper arm right, inside, +9.5 %");
     assert_eq!(at("thigh_left_high_x"), "back near thigh left, outside, +9.5 %");
     assert_eq!(at("waist_front"), "back near waist front, +9.5 %");
+}
+
+#[test]
+fn what_is_not_dressed_and_too_small_is_told_by_how_much() {
+    let smaller = |by: f64| Smaller { place: "waist".to_owned(), body: 0.72, pattern: 0.72 - by };
+    let told = |self_crossings: usize, by: f64| {
+        let strain_causes = Causes { smaller: vec![smaller(by)], ..Causes::default() };
+        words(&Report { triangles: 1, self_crossings, strain_causes, ..Report::default() })
+    };
+    let words = "the pattern is 4.0 cm smaller than the body round the waist (68.0 for 72.0 cm)";
+    assert!(told(3, 0.04).ends_with(&format!("in 3 places; {words}\n")), "{}", told(3, 0.04));
+    assert!(!told(3, 0.005).contains("smaller"));
+    assert_eq!(told(0, 0.04), "");
 }

@@ -7,6 +7,9 @@ use crate::geometry::problem::{Problem, ProblemKind};
 /// Cloth stretched or pressed beyond this at its worst hundredth does not fit.
 const MOST_STRAIN: f64 = 0.25;
 
+/// A pattern that is smaller than the body by more is told so where it is not dressed, metres.
+const TOO_SMALL: f64 = 0.01;
+
 /// Cloth or a seam has torn where more than one edge in so many is stretched to twice its length: fewer are slivers.
 const EDGES_PER_TEAR: usize = 1000;
 
@@ -26,6 +29,7 @@ pub fn faults(report: &Report, draped: bool) -> Vec<(Problem, Spot)> {
     faults.body(report, draped);
     faults.openings(report);
     faults.cloth(report);
+    faults.fit(report);
     faults.0
 }
 
@@ -36,6 +40,15 @@ impl Faults {
     fn tell(&mut self, spot: Spot, place: impl Into<String>, words: String) {
         let problem = Problem { kind: ProblemKind::Dressing, place: place.into(), words };
         self.0.push((problem, spot));
+    }
+
+    /// What is too small cannot be mended by other marks or another start: whatever came of it, that is told.
+    fn fit(&mut self, report: &Report) {
+        let smaller = report.strain_causes.smaller.first();
+        let smaller = smaller.filter(|smaller| smaller.body - smaller.pattern > TOO_SMALL);
+        if let (Some(smaller), Some((problem, _))) = (smaller, self.0.last_mut()) {
+            problem.words += &format!("; the pattern is {smaller}");
+        }
     }
 
     fn placing(&mut self, report: &Report) {

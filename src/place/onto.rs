@@ -20,6 +20,8 @@ const EXACT: f64 = 0.01;
 /// One that is held by a ring round the trunk may stand so far from where that would rest: it slides, and may be meant to sit
 /// higher or lower, metres on a body 1.5 m large.
 const RING_NEAR: f64 = 0.15;
+/// What is cut in one with its sleeves is raised at most so far for its arms, metres on a body 1.5 m large.
+const RAISED: f64 = 0.1;
 /// Pieces of an arm that stand along it to this angle are left so, radians.
 const ALONG: f64 = 0.3;
 /// An arm whose direction points to the front or back by more than this (sine) is stretched there.
@@ -50,8 +52,9 @@ impl Moved {
 }
 
 /// Brings the placement of `pattern` to the body with these bones: all of it up or down and sideways to where what carries it
-/// belongs (shoulder seams on the shoulders, a waistband where it rests), and what is sewn round an arm on to that arm, along
-/// it (paper B, "initial positioning": the axis of a piece is turned on to its bone). What stands near enough stays.
+/// belongs (shoulder seams on the shoulders, those along the arms over them, a waistband where it rests), and what is sewn round
+/// an arm on to that arm, along it (paper B, "initial positioning": the axis of a piece is turned on to its bone). What stands
+/// near enough stays.
 /// `offset` is the height of the cloth above the skin, metres.
 pub fn onto(pattern: &Pattern, surface: &Surface, bones: &[Bone], offset: f64) -> Moved {
     let Some(trunk) = Trunk::new(surface) else { return Moved::default() };
@@ -120,7 +123,8 @@ fn towards(along: DVec3, arm: DVec3) -> DVec3 {
 
 /// How the whole garment goes; zero along axes along which it stands near enough. What hangs from the shoulders may do so
 /// `hung_near` metres from them on a body 1.5 m large.
-fn shift(Stand { placed, body, bounds, hangs }: Stand, waist: DVec3, scale: f64, hung_near: f64) -> DVec3 {
+fn shift(stand: Stand, waist: DVec3, scale: f64, hung_near: f64) -> DVec3 {
+    let Stand { placed, body, bounds, hangs, short_of_arms } = stand;
     let near = NEAR * scale;
     let far = |by: f64| if by.abs() > near { by } else { 0.0 };
     // What stands round the body stays where it is before, behind and beside it.
@@ -132,7 +136,10 @@ fn shift(Stand { placed, body, bounds, hangs }: Stand, waist: DVec3, scale: f64,
     };
     let up = body - placed;
     let stays = up.abs() <= scale * if hangs { hung_near } else { RING_NEAR };
-    DVec3::new(sideways(0), if stays { 0.0 } else { up }, sideways(2))
+    let up = if stays { 0.0 } else { up };
+    // Sewn with the arms below, it falls on to the shoulders.
+    let up = up.max(short_of_arms.min(up + RAISED * scale));
+    DVec3::new(sideways(0), up, sideways(2))
 }
 
 /// The middle of the trunk half way up.

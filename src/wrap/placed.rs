@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use glam::{DVec2, DVec3};
 
 use crate::geometry::ids::PieceId;
+use crate::geometry::polygon::contains;
 use crate::pattern::{CutPattern, EdgeRef, Piece, SpacePose};
 
 /// Pieces whose outer side looks this far (cosine) to the front or back are candidates for marks.
@@ -18,9 +19,12 @@ const ACROSS: f64 = 0.6;
 
 /// A point this near an edge lies on it, metres.
 const AT_AN_EDGE: f64 = 1e-3;
+/// So far under an upper edge is the piece, metres.
+const UNDER: f64 = 5e-3;
 /// Edges are looked at as so many straight pieces.
 const EDGE_SAMPLES: u32 = 16;
 
+#[derive(Clone)]
 pub(super) struct Panel<'a> {
     pub id: PieceId,
     pub piece: &'a Piece,
@@ -125,6 +129,20 @@ pub(super) fn ends_at(panel: &Panel, edges: &[EdgeRef], runs: &[(DVec2, DVec2)])
         || own.any(|e| runs.iter().any(|&(a, b)| panel.is_near(e.edge, a) || panel.is_near(e.edge, b)))
 }
 
+/// Of the runs of `panel`, from right to left, those between its sides: what lies beyond an edge among `sides` is a sleeve.
+pub(super) fn between_sides(
+    panel: &Panel,
+    sides: &[EdgeRef],
+    runs: Vec<(DVec2, DVec2)>,
+) -> Vec<(DVec2, DVec2)> {
+    let is_side = |p: DVec2| sides.iter().any(|e| e.piece == panel.id && panel.is_near(e.edge, p));
+    let x = |p: DVec2| panel.world(p).x;
+    let right = runs.iter().filter(|r| x(r.0) < 0.0 && is_side(r.0)).map(|r| x(r.0));
+    let left = runs.iter().filter(|r| x(r.1) > 0.0 && is_side(r.1)).map(|r| x(r.1));
+    let (right, left) = (right.fold(f64::NEG_INFINITY, f64::max), left.fold(f64::INFINITY, f64::min));
+    runs.into_iter().filter(|&(a, b)| x(b) > right && x(a) < left).collect()
+}
+
 fn distance_to(p: DVec2, a: DVec2, b: DVec2) -> f64 {
     let along = b - a;
     let t = ((p - a).dot(along) / along.length_squared().max(1e-12)).clamp(0.0, 1.0);
@@ -141,17 +159,50 @@ fn is_elsewhere(piece: &Piece) -> bool {
     ["sleeve", "hood", "cuff", "collar", "skirt", "pant", "leg"].iter().any(|w| name.contains(w))
 }
 
+/// Pieces that lead over the shoulders from front to back: sleeves that reach up to the neck, straps, yokes.
+fn leads_over(piece: &Piece) -> bool {
+    let name = piece.name.to_lowercase();
+    piece.label.as_deref() == Some("arm") || ["sleeve", "strap", "yoke"].iter().any(|w| name.contains(w))
+}
+
+/// Where a panel of the trunk comes to the top of a shoulder.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Crest {
+    /// The panel.
+    pub piece: PieceId,
+    at: CrestAt,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum CrestAt {
+    /// At this edge, the shoulder seam.
+    Edge(usize),
+    /// So far above the place where another piece leads on over the shoulder, metres.
+    Above(DVec3, f64),
+}
+
+impl Crest {
+    /// Where that is as `panel` was placed, flat on, no farther than `limit` metres from the plane between left and right.
+    pub fn within(&self, panel: &Panel, limit: f64) -> Option<DVec3> {
+        match self.at {
+            CrestAt::Edge(edge) => edge_within(panel, edge, limit),
+            CrestAt::Above(end, by) => Some((end + DVec3::Y * by).with_x(end.x.clamp(-limit, limit))),
+        }
+    }
+}
+
 /// What of a garment is best anchored, and how it hangs there.
 pub(super) enum Anchor<'a> {
-    /// Its trunk hangs from the shoulders, by the seams that run over them.
-    Shoulders(Vec<Panel<'a>>, Vec<[EdgeRef; 2]>),
+    /// Its trunk hangs from the shoulders, by the seams that run over them or by what leads over them.
+    Shoulders(Vec<Panel<'a>>, Vec<Crest>),
     /// Its topmost ring holds where it is too tight to slide farther down.
     Ring(Vec<Panel<'a>>),
 }
 
 /// The anchor of a placed garment.
 pub(super) fn anchor(pattern: &CutPattern) -> Anchor<'_> {
-    let panels: Vec<Panel> = placed_panels(pattern).into_iter().filter(Panel::facing).collect();
+    let placed = placed_panels(pattern);
+    let panels: Vec<Panel> = placed.iter().filter(|p| p.facing()).cloned().collect();
     let by_id: BTreeMap<PieceId, &Panel> = panels.iter().map(|p| (p.id, p)).collect();
     let shoulders: Vec<[EdgeRef; 2]> = front_to_back(pattern, &by_id)
         .filter(|sides| {
@@ -166,9 +217,14 @@ pub(super) fn anchor(pattern: &CutPattern) -> Anchor<'_> {
     let highest = shoulders.iter().map(height).fold(f64::NEG_INFINITY, f64::max);
     let shoulders: Vec<[EdgeRef; 2]> =
         shoulders.iter().filter(|s| height(s) > highest - AS_HIGH).copied().collect();
-    let shouldered = |p: &Panel| shoulders.iter().flatten().any(|s| s.piece == p.id);
-    if !shoulders.is_empty() {
-        return Anchor::Shoulders(panels.into_iter().filter(|p| shouldered(p)).collect(), shoulders);
+    let seams = shoulders.iter().flatten();
+    let mut crests: Vec<Crest> = seams.map(|s| Crest { piece: s.piece, at: CrestAt::Edge(s.edge) }).collect();
+    if crests.is_empty() {
+        crests = led_over(pattern, &placed);
+    }
+    let shouldered = |p: &Panel| crests.iter().any(|crest| crest.piece == p.id);
+    if !crests.is_empty() {
+        return Anchor::Shoulders(panels.into_iter().filter(|p| shouldered(p)).collect(), crests);
     }
     let bands = panels.iter().filter(|p| is_band(p.piece)).count();
     if bands > 0 {
@@ -177,6 +233,78 @@ pub(super) fn anchor(pattern: &CutPattern) -> Anchor<'_> {
     let middle: Vec<Panel> = panels.into_iter().filter(Panel::at_the_middle).collect();
     let top = middle.iter().map(Panel::top).fold(f64::NEG_INFINITY, f64::max);
     Anchor::Ring(middle.into_iter().filter(|p| p.top() > top - AS_HIGH).collect())
+}
+
+/// The upper end of what sews a panel of the trunk to a piece that leads over the shoulder.
+struct Lead<'a> {
+    trunk: &'a Panel<'a>,
+    over: PieceId,
+    /// In the world as the trunk's panel was placed.
+    end: DVec3,
+    /// In the plane of the piece that leads over.
+    flat: DVec2,
+}
+
+/// Where panels of the trunk that have no shoulder seam come to the shoulders: half way over the piece, or to the seam of the
+/// two, that leads on from one before the body to one behind it.
+fn led_over(pattern: &CutPattern, placed: &[Panel]) -> Vec<Crest> {
+    let by_id: BTreeMap<PieceId, &Panel> = placed.iter().map(|p| (p.id, p)).collect();
+    let mut leads: BTreeMap<(PieceId, PieceId), Lead> = BTreeMap::new();
+    for (ours, other, ends) in paired_ends(pattern) {
+        let (Some(trunk), Some(over)) = (by_id.get(&ours), by_id.get(&other)) else { continue };
+        let is_trunk = trunk.facing() && trunk.at_the_middle() && !leads_over(trunk.piece);
+        if !is_trunk || is_elsewhere(trunk.piece) || !leads_over(over.piece) {
+            continue;
+        }
+        for [own, flat] in ends {
+            let end = trunk.world(own);
+            let lead = Lead { trunk, over: over.id, end, flat };
+            match leads.get(&(ours, other)) {
+                Some(known) if known.end.y >= end.y => {}
+                _ => _ = leads.insert((ours, other), lead),
+            }
+        }
+    }
+    let leads: Vec<Lead> = leads.into_values().filter(|l| l.end.y > l.trunk.top() - AS_HIGH).collect();
+    let mut crests = Vec::new();
+    for front in leads.iter().filter(|lead| lead.trunk.is_front()) {
+        for back in leads.iter().filter(|lead| !lead.trunk.is_front()) {
+            let Some(ways) = ways_over(pattern, front, back) else { continue };
+            for (lead, by) in [front, back].into_iter().zip(ways) {
+                crests.push(Crest { piece: lead.trunk.id, at: CrestAt::Above(lead.end, by) });
+            }
+        }
+    }
+    crests
+}
+
+/// How far it is from the trunk in front and from that behind to the top of the shoulder, metres; None where nothing leads
+/// from the one to the other.
+fn ways_over(pattern: &CutPattern, front: &Lead, back: &Lead) -> Option<[f64; 2]> {
+    if front.over == back.over {
+        return Some([front.flat.distance(back.flat) / 2.0; 2]);
+    }
+    let seams = paired_ends(pattern).filter(|(one, other, _)| (*one, *other) == (front.over, back.over));
+    let ways = seams
+        .flat_map(|(_, _, ends)| ends)
+        .map(|[one, other]| [front.flat.distance(one), back.flat.distance(other)]);
+    ways.min_by(|a, b| (a[0] + a[1]).total_cmp(&(b[0] + b[1])))
+}
+
+/// Every seam of two outlines, each way: the one piece, the other, and the ends of the seam on both.
+fn paired_ends(pattern: &CutPattern) -> impl Iterator<Item = (PieceId, PieceId, [[DVec2; 2]; 2])> {
+    pattern.edge_seams().flat_map(|seam| {
+        let ends = seam.sides.map(|side| {
+            let piece = pattern.pieces.get(&side.piece)?;
+            (side.edge < piece.outline.len()).then(|| piece.edge_ends(side.edge))
+        });
+        let [Some((a, b)), Some((mut c, mut d))] = ends else { return Vec::new() };
+        if !seam.same_direction {
+            (c, d) = (d, c);
+        }
+        let [one, other] = seam.sides.map(|side| side.piece);
+        vec![(one, other, [[a, c], [b, d]]), (other, one, [[c, a], [d, b]])]
+    })
 }
 
 /// Seams from a piece before the body to one behind it.
@@ -197,6 +325,47 @@ pub(super) fn sides(pattern: &CutPattern, panels: &[Panel]) -> Vec<EdgeRef> {
     front_to_back(pattern, &by_id).flatten().filter(|s| climb(by_id[&s.piece], s.edge) > ACROSS).collect()
 }
 
+/// The upper edge of a panel on one side of the body, as far as it is sewn to a panel on the other side.
+pub(super) struct Over<'a> {
+    pub panel: &'a Panel<'a>,
+    /// From the middle of the body outward: in the panel's plane, and in the world.
+    pub points: Vec<(DVec2, DVec3)>,
+}
+
+impl Over<'_> {
+    /// How far from the plane between left and right it ends, metres.
+    pub fn reach(&self) -> f64 {
+        self.points.last().map_or(0.0, |(_, p)| p.x.abs())
+    }
+}
+
+/// What of `panels` lies over the shoulders, and over the arms where it is cut in one with its sleeves.
+pub(super) fn over<'a>(pattern: &CutPattern, panels: &'a [Panel<'a>]) -> Vec<Over<'a>> {
+    let by_id: BTreeMap<PieceId, &Panel> = panels.iter().map(|p| (p.id, p)).collect();
+    let edges: Vec<EdgeRef> = front_to_back(pattern, &by_id).flatten().collect();
+    let mut found = Vec::new();
+    for (panel, left) in panels.iter().flat_map(|panel| [(panel, true), (panel, false)]) {
+        let own = edges.iter().filter(|e| e.piece == panel.id && climb(panel, e.edge) < ACROSS);
+        let upper = own.filter(|e| is_upper(panel, e.edge));
+        let places = upper.flat_map(|e| edge_places(panel, e.edge));
+        let mut points: Vec<(DVec2, DVec3)> = places.filter(|(_, p)| (p.x > 0.0) == left).collect();
+        points.sort_by(|a, b| a.1.x.abs().total_cmp(&b.1.x.abs()));
+        if !points.is_empty() {
+            found.push(Over { panel, points });
+        }
+    }
+    found
+}
+
+/// Whether the panel lies under that edge, not over it.
+fn is_upper(panel: &Panel, edge: usize) -> bool {
+    let places = edge_places(panel, edge);
+    let (Some(up), Some((middle, _))) = (panel.flat(DVec3::Y), places.get(places.len() / 2)) else {
+        return false;
+    };
+    contains(&panel.outline, *middle - up * UNDER) && !contains(&panel.outline, *middle + up * UNDER)
+}
+
 /// All edges by which `panels` are sewn to one another.
 pub(super) fn seams_among(pattern: &CutPattern, panels: &[Panel]) -> Vec<EdgeRef> {
     let has = |s: &EdgeRef| panels.iter().any(|p| p.id == s.piece && s.edge < p.piece.outline.len());
@@ -215,13 +384,17 @@ fn edge_middle(panel: &Panel, edge: usize) -> DVec3 {
 
 /// The place on an edge nearest to its middle that is no farther than `limit` metres from the plane between left and right;
 /// else its innermost.
-pub(super) fn edge_within(panel: &Panel, edge: usize, limit: f64) -> Option<DVec3> {
-    let fractions: Vec<f64> = (0..=EDGE_SAMPLES).map(|k| f64::from(k) / f64::from(EDGE_SAMPLES)).collect();
-    let points: Vec<DVec3> =
-        panel.piece.edge_points(edge, &fractions).into_iter().map(|p| panel.world(p)).collect();
+fn edge_within(panel: &Panel, edge: usize, limit: f64) -> Option<DVec3> {
+    let points: Vec<DVec3> = edge_places(panel, edge).into_iter().map(|(_, p)| p).collect();
     let middle = points.get(points.len() / 2)?;
     let wanted = middle.x.abs().min(limit);
     points.iter().copied().min_by(|a, b| (a.x.abs() - wanted).abs().total_cmp(&(b.x.abs() - wanted).abs()))
+}
+
+/// Evenly along an edge, in the panel's plane and in the world.
+fn edge_places(panel: &Panel, edge: usize) -> Vec<(DVec2, DVec3)> {
+    let fractions: Vec<f64> = (0..=EDGE_SAMPLES).map(|k| f64::from(k) / f64::from(EDGE_SAMPLES)).collect();
+    panel.piece.edge_points(edge, &fractions).into_iter().map(|p| (p, panel.world(p))).collect()
 }
 
 /// How broad those pieces are `depth` metres under their tops that look sideways and reach as high as `panels`, metres.

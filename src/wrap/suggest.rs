@@ -4,14 +4,17 @@
 //! hangs from the shoulders is measured down from there over the skin; a waistband rests where it is too tight to slide
 //! farther. Only those pieces get marks: sleeves and legs follow their seams better than marks of their own. A ring of
 //! strokes goes round the trunk (under the arms, so that side seams close on the right side of them), stretched as one
-//! so that its ends meet; pieces of the trunk also get a stroke up and down through it, by their own arc length.
+//! so that its ends meet; pieces of the trunk also get a stroke up and down through it, by their own arc length, and those that
+//! are cut in one with their sleeves one along each arm.
 
 use glam::{DVec2, DVec3};
 
 use crate::body::{Surface, Trunk};
 use crate::geometry::ids::MarkId;
 use crate::pattern::{CutPattern, EdgeRef, Pattern};
-use crate::wrap::placed::{Anchor, Panel, anchor, besides, edge_within, ends_at, seams_among, sides};
+use crate::wrap::placed::{
+    Anchor, Crest, Over, Panel, anchor, besides, between_sides, ends_at, over, seams_among, sides,
+};
 use crate::wrap::{BodyMark, ClothMark, ClothSide, Marks};
 
 /// A stroke ends where the skin turns away from its piece by more than this cosine.
@@ -26,6 +29,10 @@ const UNDER_ARM: f64 = 0.02;
 const UNDER_TOP: f64 = 0.02;
 /// Ways down from the shoulders begin no farther out than this share of the trunk's breadth: farther they run round an arm.
 const INSIDE_ARMS: f64 = 0.75;
+/// What reaches so far out over the arms has sleeves, metres on a body 1.5 m large.
+const SLEEVE: f64 = 0.1;
+/// Seams along the arms stand so much above them before they are sewn, metres on a body 1.5 m large.
+const OVER_ARM: f64 = 0.02;
 /// It lies at most this much lower, metres on a body 1.5 m large.
 const LOWER: f64 = 0.2;
 /// The longest way down from a shoulder, metres on a body 1.5 m large.
@@ -38,27 +45,30 @@ pub fn suggested(pattern: &Pattern, surface: &Surface, offset: f64) -> Marks {
     let mut strokes: Vec<Stroke> = Vec::new();
     let (cut, _) = CutPattern::new(pattern);
     match anchor(&cut) {
-        Anchor::Shoulders(panels, seams) => {
-            let hung = trunk.as_ref().and_then(|t| hung(&cut, surface, t, &panels, &seams, offset));
+        Anchor::Shoulders(panels, crests) => {
+            let hung = trunk.as_ref().and_then(|t| hung(&cut, surface, t, &panels, &crests, offset));
             let at = |p: &Panel| hung.map(|h| if p.is_front() { h.front } else { h.back });
             for panel in &panels {
                 let height = at(panel).map(|cloth| (cloth, hung.map_or(cloth, |h| h.body)));
                 strokes.extend(upright(panel, surface, trunk.as_ref(), height, offset));
             }
             if let (Some(trunk), Some(hung)) = (&trunk, hung) {
-                let lines: Vec<Line> =
-                    panels.iter().map(|p| Line::level(p, at(p).unwrap_or(hung.body))).collect();
-                strokes.extend(ring(&lines, trunk, hung.body));
+                let sides = sides(&cut, &panels);
+                let level = |p| Line::level(p, at(p).unwrap_or(hung.body), &sides);
+                let lines: Vec<Line> = panels.iter().map(level).collect();
+                strokes.extend(ring(&lines, trunk, hung.body, 0.0));
+                strokes.extend(along_arms(&cut, surface, trunk, &panels, offset));
             }
         }
         Anchor::Ring(panels) => {
             let depth = UNDER_TOP * surface.scale();
-            let sewn = seams_among(&cut, &panels);
+            let beside: f64 = besides(&cut, &panels, depth).sum();
+            let sewn = if beside > 0.0 { all_sewn(&cut) } else { seams_among(&cut, &panels) };
             let lines: Vec<Line> = panels.iter().map(|p| Line::under_top(p, depth, &sewn)).collect();
             if let Some(trunk) = &trunk
-                && let Some(height) = rest_height(trunk, &lines, offset)
+                && let Some(height) = rest_height(trunk, &lines, beside, offset)
             {
-                strokes.extend(ring(&lines, trunk, height));
+                strokes.extend(ring(&lines, trunk, height, beside / 2.0));
             }
             if strokes.is_empty() {
                 strokes.extend(panels.iter().filter_map(|p| sideways(p, surface, offset)));
@@ -90,6 +100,9 @@ pub struct Stand {
     pub bounds: [DVec3; 2],
     /// It hangs from the shoulders.
     pub hangs: bool,
+    /// How much higher it must stand for the arms to lie under the seams that run along them, metres; negative where they do,
+    /// infinitely where there are no such seams.
+    pub short_of_arms: f64,
 }
 
 /// How high a placed garment stands and how high on `surface` it belongs; None where neither can be told: nothing is placed
@@ -101,24 +114,25 @@ pub fn stand(cut: &CutPattern, surface: &Surface, trunk: &Trunk, offset: f64) ->
         [all().fold(DVec3::MAX, DVec3::min), all().fold(DVec3::MIN, DVec3::max)]
     };
     match anchor(cut) {
-        Anchor::Shoulders(panels, seams) => {
+        Anchor::Shoulders(panels, crests) => {
             let limit = shoulder_breadth(trunk)?;
-            let edge = |edge: &EdgeRef| {
-                let panel = panels.iter().find(|p| p.id == edge.piece)?;
-                let at = edge_within(panel, edge.edge, limit)?;
+            let height = |crest: &Crest| {
+                let panel = panels.iter().find(|p| p.id == crest.piece)?;
+                let at = crest.within(panel, limit)?;
                 Some((at.y - panel.lifted, on_shoulder(surface, trunk, at.x)?.y))
             };
-            let heights: Vec<(f64, f64)> = seams.iter().flatten().filter_map(edge).collect();
+            let heights: Vec<(f64, f64)> = crests.iter().filter_map(height).collect();
             let sum = heights.iter().fold((0.0, 0.0), |sum, at| (sum.0 + at.0, sum.1 + at.1));
             let count = heights.len() as f64;
-            let stand =
-                Stand { placed: sum.0 / count, body: sum.1 / count, bounds: bounds(&panels), hangs: true };
+            let [placed, body] = [sum.0 / count, sum.1 / count];
+            let short_of_arms = short_of_arms(cut, surface, trunk, &panels);
+            let stand = Stand { placed, body, bounds: bounds(&panels), hangs: true, short_of_arms };
             (!heights.is_empty()).then_some(stand)
         }
         Anchor::Ring(panels) => {
             let depth = UNDER_TOP * surface.scale();
             // Panels at the sides are no part of the ring here, but their seams are sides of those that are.
-            let sewn: Vec<EdgeRef> = cut.edge_seams().flat_map(|seam| seam.sides).collect();
+            let sewn = all_sewn(cut);
             let lines: Vec<Line> = panels.iter().map(|p| Line::under_top(p, depth, &sewn)).collect();
             let beside: f64 = besides(cut, &panels, depth).sum();
             let along: f64 = lines.iter().map(Line::length).sum();
@@ -128,9 +142,81 @@ pub fn stand(cut: &CutPattern, surface: &Surface, trunk: &Trunk, offset: f64) ->
             let body = trunk.rest_of(girth).filter(|_| girth > 0.0).unwrap_or(waist);
             let top = panels.iter().map(Panel::top).max_by(f64::total_cmp)?;
             let placed = placed_height(&lines).unwrap_or(top) - lifted(&panels);
-            Some(Stand { placed, body, bounds: bounds(&panels), hangs: false })
+            Some(Stand {
+                placed,
+                body,
+                bounds: bounds(&panels),
+                hangs: false,
+                short_of_arms: f64::NEG_INFINITY,
+            })
         }
     }
+}
+
+/// Those of `panels` that reach over the arms, being cut in one with their sleeves, and where the arms begin, metres from the
+/// plane between left and right.
+fn over_arms<'a>(
+    cut: &CutPattern,
+    surface: &Surface,
+    trunk: &Trunk,
+    panels: &'a [Panel<'a>],
+) -> (Vec<Over<'a>>, f64) {
+    let Some(inside) = shoulder_breadth(trunk) else { return (Vec::new(), 0.0) };
+    let arms = inside / INSIDE_ARMS;
+    let sleeve = SLEEVE * surface.scale();
+    (over(cut, panels).into_iter().filter(|o| o.reach() > arms + sleeve).collect(), arms)
+}
+
+/// See [`Stand::short_of_arms`].
+fn short_of_arms(cut: &CutPattern, surface: &Surface, trunk: &Trunk, panels: &[Panel]) -> f64 {
+    let (over, arms) = over_arms(cut, surface, trunk, panels);
+    let room = OVER_ARM * surface.scale();
+    let places = over.iter().flat_map(|o| o.points.iter().map(|(_, p)| *p - DVec3::Y * o.panel.lifted));
+    let short = |p: DVec3| Some(on_shoulder(surface, trunk, p.x)?.y + room - p.y);
+    places.filter(|p| p.x.abs() > arms).filter_map(short).fold(f64::NEG_INFINITY, f64::max)
+}
+
+/// A stroke beside the seam over each arm of panels that are cut in one with their sleeves, along the top of the arm.
+fn along_arms(
+    cut: &CutPattern,
+    surface: &Surface,
+    trunk: &Trunk,
+    panels: &[Panel],
+    offset: f64,
+) -> Vec<Stroke> {
+    let (over, arms) = over_arms(cut, surface, trunk, panels);
+    let along = |over: &Over| {
+        let panel = over.panel;
+        let up = panel.flat(DVec3::Y)?;
+        let beside = DVec3::Z * if panel.is_front() { INSET } else { -INSET };
+        let outer: Vec<(DVec2, DVec3)> =
+            over.points.iter().copied().filter(|(_, p)| p.x.abs() > arms * INSIDE_ARMS).collect();
+        let first = outer.first()?.1;
+        let start = on_shoulder(surface, trunk, first.x)?;
+        let outward = |p: &DVec3| (p.x - trunk.middle) * first.x.signum();
+        let hand = surface.mesh.positions.iter().max_by(|a, b| outward(a).total_cmp(&outward(b)))?;
+        let way = (*hand - start).normalize_or_zero();
+        let mut cloth = vec![(outer[0].0 - up * INSET, 0.0)];
+        for pair in outer.windows(2) {
+            let so_far = cloth[cloth.len() - 1].1;
+            cloth.push((pair[1].0 - up * INSET, so_far + pair[0].0.distance(pair[1].0)));
+        }
+        let length = cloth[cloth.len() - 1].1 - INSET;
+        let at = |s: f64| {
+            let i = cloth.partition_point(|c| c.1 <= s).clamp(1, cloth.len() - 1);
+            let (a, b) = (cloth[i - 1], cloth[i]);
+            a.0.lerp(b.0, ((s - a.1) / (b.1 - a.1).max(1e-9)).clamp(0.0, 1.0))
+        };
+        let marched = march(surface, start + beside, way, DVec3::Y, length, offset, -2.0);
+        let (cloth, body): (Vec<DVec2>, Vec<DVec3>) = marched.into_iter().map(|(p, s)| (at(s), p)).unzip();
+        (cloth.len() > 3).then_some(Stroke { panel: panel.id, cloth, body })
+    };
+    over.iter().filter_map(along).collect()
+}
+
+/// Every edge that is sewn to another.
+fn all_sewn(cut: &CutPattern) -> Vec<EdgeRef> {
+    cut.edge_seams().flat_map(|seam| seam.sides).collect()
 }
 
 struct Stroke {
@@ -157,16 +243,15 @@ fn hung(
     surface: &Surface,
     trunk: &Trunk,
     panels: &[Panel],
-    seams: &[[EdgeRef; 2]],
+    crests: &[Crest],
     offset: f64,
 ) -> Option<Hung> {
     let limit = shoulder_breadth(trunk)?;
-    let ways: Vec<(bool, f64, Way)> = seams
+    let ways: Vec<(bool, f64, Way)> = crests
         .iter()
-        .flatten()
-        .filter_map(|edge| {
-            let panel = panels.iter().find(|p| p.id == edge.piece)?;
-            let at = edge_within(panel, edge.edge, limit)?;
+        .filter_map(|crest| {
+            let panel = panels.iter().find(|p| p.id == crest.piece)?;
+            let at = crest.within(panel, limit)?;
             let way = down_from_shoulder(surface, trunk, at.x, panel.is_front(), offset)?;
             Some((panel.is_front(), at.y, way))
         })
@@ -227,12 +312,14 @@ struct Line<'a> {
 }
 
 impl<'a> Line<'a> {
-    fn level(panel: &'a Panel<'a>, height: f64) -> Self {
+    /// Between the `sides`.
+    fn level(panel: &'a Panel<'a>, height: f64, sides: &[EdgeRef]) -> Self {
         let points = |(a, b): (DVec2, DVec2)| {
             let count = (a.distance(b) / STEP).ceil().max(2.0) as usize;
             (0..=count).map(|k| a.lerp(b, k as f64 / count as f64)).collect()
         };
-        Self { panel, runs: panel.level(height).into_iter().map(points).collect() }
+        let runs = between_sides(panel, sides, panel.level(height));
+        Self { panel, runs: runs.into_iter().map(points).collect() }
     }
 
     /// Under the upper border, however that is curved, between the `sewn` edges.
@@ -277,9 +364,10 @@ impl<'a> Line<'a> {
     }
 }
 
-/// At which height of the trunk a ring of pieces rests.
-fn rest_height(trunk: &Trunk, lines: &[Line], offset: f64) -> Option<f64> {
-    let girth: f64 = lines.iter().map(Line::length).sum::<f64>() - std::f64::consts::TAU * offset;
+/// At which height of the trunk a ring of pieces rests that has `beside` metres more of pieces at the sides.
+fn rest_height(trunk: &Trunk, lines: &[Line], beside: f64, offset: f64) -> Option<f64> {
+    let along: f64 = lines.iter().map(Line::length).sum();
+    let girth = along + beside - std::f64::consts::TAU * offset;
     if girth <= 0.0 {
         return None;
     }
@@ -294,8 +382,8 @@ fn placed_height(lines: &[Line]) -> Option<f64> {
 }
 
 /// A stroke for each side of each line along the trunk's section at `height`. All of a side, before and behind, are
-/// stretched alike, so that they meet.
-fn ring(lines: &[Line], trunk: &Trunk, height: f64) -> Vec<Stroke> {
+/// stretched alike, so that they meet, or leave room between them for `beside` metres of cloth that gets no stroke.
+fn ring(lines: &[Line], trunk: &Trunk, height: f64, beside: f64) -> Vec<Stroke> {
     let Some(level) = trunk.nearest(height) else { return Vec::new() };
     let mut strokes = Vec::new();
     for left in [false, true] {
@@ -306,7 +394,7 @@ fn ring(lines: &[Line], trunk: &Trunk, height: f64) -> Vec<Stroke> {
             let ends = runs.iter().filter(|r| r.0.is_front() == front).filter_map(|r| r.1.last());
             ends.map(|e| e.1).fold(0.0, f64::max)
         };
-        let stretch = way.length() / (reach(true) + reach(false));
+        let stretch = way.length() / (reach(true) + reach(false) + beside);
         for (panel, run) in runs {
             let along = |s: f64| if panel.is_front() { s * stretch } else { way.length() - s * stretch };
             strokes.push(Stroke {

@@ -176,3 +176,15 @@ fn pieces_stand_round_the_body_and_arms_decide_about_sleeves() {
         assert_eq!(twists(&read_back(&pattern)).seams, []);
     }
 }
+
+#[test]
+fn skirts_that_would_give_at_the_waist_have_a_waistband() {
+    for number in 0..60 {
+        for kind in [Kind::CircleSkirt, Kind::GatheredSkirt, Kind::LevelSkirt] {
+            let design = Design::drawn(1, number, &[kind]);
+            assert!(design.waist.band.is_some_and(|height| height >= 0.03), "{number} {}", kind.name());
+        }
+    }
+    let is_free = |number| Design::drawn(1, number, &[Kind::StraightSkirt]).waist.band.is_none();
+    assert!((0..60).any(is_free), "others may have none");
+}

@@ -17,4 +17,5 @@ mod placing;
 mod render;
 mod skips;
 mod splits;
+mod suggested;
 mod wrap;

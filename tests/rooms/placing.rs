@@ -4,11 +4,13 @@ use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
 use toile::body::pose::rig;
-use toile::body::{Measurements, NamedPose, Surface, mannequin};
+use toile::body::{Measurements, NamedPose, Surface, Trunk, mannequin};
 use toile::contact::Bone;
-use toile::pattern::{Pattern, Piece};
+use toile::draft::{Design, Form, Kind, SIZES};
+use toile::pattern::{CutPattern, Pattern, Piece};
 use toile::place::{Moved, Part, limbs, onto};
 use toile::session::samples::Sample;
+use toile::wrap::stand;
 
 const OFFSET: f64 = 0.005;
 
@@ -102,6 +104,27 @@ fn sleeves_turn_to_the_arms_of_another_pose() {
         let off = (middle - limb.bone[0] - limb.along() * along) * DVec3::new(1.0, 1.0, 0.0);
         assert!(off.length() < 0.08, "{} is {off} beside the arm", sleeve.name);
     }
+}
+
+#[test]
+fn what_is_cut_in_one_with_its_sleeves_is_raised_over_the_arms() {
+    let measurements = SIZES[3].measurements();
+    let figure = mannequin::mannequin(&measurements).expect("a body");
+    let posed = rig(&measurements).expect("a rig").posed(&NamedPose::T.pose(&figure.skeleton));
+    let posed = posed.expect("a pose");
+    let (surface, trunk) = (&posed.surface, Trunk::new(&posed.surface).expect("a trunk"));
+    let form = Form::new(&measurements, NamedPose::T).expect("a form");
+    let pattern = Design::drawn(1, 3, &[Kind::Dolman]).drafted(&form);
+    let short = |pattern: &Pattern| {
+        let stand = stand(&CutPattern::new(pattern).0, surface, &trunk, OFFSET).expect("a stand");
+        stand.short_of_arms
+    };
+    let lower = moved(&pattern, DQuat::IDENTITY, DVec3::Y * -0.03);
+    assert!(short(&lower) > 0.02, "{}", short(&lower));
+    let change = onto(&lower, surface, &posed.skeleton.six_segments(), OFFSET);
+    let after = placed(&lower, &change);
+    assert!(short(&after).abs() < 1e-9, "{} {:?}", short(&after), change.words);
+    assert_eq!(onto(&after, surface, &posed.skeleton.six_segments(), OFFSET).words, [""; 0]);
 }
 
 #[test]

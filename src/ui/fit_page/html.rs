@@ -139,6 +139,7 @@ fn girths(facts: &Facts) -> Markup {
                 (tables::girths(facts))
             }
             @if !facts.report.openings.is_empty() { (tables::openings(facts)) }
+            (tables::strain_causes(&facts.report.strain_causes))
         }
     }
 }

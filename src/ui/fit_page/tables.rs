@@ -4,8 +4,8 @@ use maud::{Markup, html};
 
 use crate::body::readings::Reading;
 use crate::cloth::Fabric;
-use crate::fit::SeamFit;
 use crate::fit::maps::MapStats;
+use crate::fit::{Causes, STRAINED, SeamFit};
 use crate::geometry::ids::PieceId;
 use crate::ui::fit_page::facts::Facts;
 use crate::ui::fit_page::legend::minus;
@@ -58,6 +58,25 @@ pub fn girths(facts: &Facts) -> Markup {
                 }
             } }
         }
+    }
+}
+
+/// What the strain of the cloth comes from.
+pub fn strain_causes(causes: &Causes) -> Markup {
+    let all = [
+        ("The pattern is small there", causes.fit),
+        ("The sides of a seam are unequal", causes.seam_ease),
+        ("It did not come to rest", causes.unconverged),
+    ];
+    let strained = format!("Strained by more than {:.0} %", STRAINED * 100.0);
+    html! {
+        table {
+            (head(1, &[&strained, "Edges", "At most, %"]))
+            tbody { @for (words, strained) in all {
+                tr { th.words { (words) } td { (strained.edges) } td { (percent(strained.max)) } }
+            } }
+        }
+        @for smaller in &causes.smaller { p { "The pattern is " (smaller) "." } }
     }
 }
 

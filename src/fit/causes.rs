@@ -1,0 +1,230 @@
+//! Why the cloth is strained: the pattern is smaller than the body there, a seam joins unequal sides, or it did not come to rest.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+use crate::body::readings::readings;
+use crate::cloth::{ClothState, Garment};
+use crate::fit::girth::girths;
+use crate::fit::laid::Laid;
+use crate::fit::on_body::BodyIndex;
+
+/// Edges strained by less have no cause told.
+pub const STRAINED: f64 = 0.02;
+/// Sides of a seam that differ by more are unequal.
+const UNEQUAL: f64 = 0.01;
+/// Cloth is stretched round the body where the edges about an edge are together strained by this share of what it is, or more:
+/// round a tube those that run round it are, those along it are not.
+const TOGETHER: f64 = 0.25;
+/// Cloth no farther from the skin, metres, is pressed on to it.
+const ON_SKIN: f64 = 0.015;
+/// A pattern that is smaller than the body by less is not told, metres.
+const LEAST_SMALLER: f64 = 1e-3;
+
+/// Edges strained for the same reason.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Strained {
+    /// How many.
+    pub edges: usize,
+    /// The largest strain of them, |l / l0 - 1|.
+    pub max: f64,
+}
+
+impl Strained {
+    fn add(&mut self, strain: f64) {
+        self.edges += 1;
+        self.max = self.max.max(strain.abs());
+    }
+}
+
+/// Where the pattern is smaller than the body.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Smaller {
+    /// The measure of the body: `waist`.
+    pub place: String,
+    /// Girth of the body, metres.
+    pub body: f64,
+    /// Round the pattern there, metres.
+    pub pattern: f64,
+}
+
+impl std::fmt::Display for Smaller {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let [body, pattern] = [self.body, self.pattern].map(|metres| metres * 100.0);
+        let (by, place) = (body - pattern, &self.place);
+        write!(f, "{by:.1} cm smaller than the body round the {place} ({pattern:.1} for {body:.1} cm)")
+    }
+}
+
+/// The edges that are strained by more than [`STRAINED`], by their cause.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Causes {
+    /// Stretched together with the cloth about them, on the skin: the piece is too small there.
+    pub fit: Strained,
+    /// On a seam, no longer or shorter than between its two unequal sides.
+    pub seam_ease: Strained,
+    /// All others: the cloth did not come to rest there.
+    pub unconverged: Strained,
+    /// Where the pattern is smaller than the body, the most first; told where more than a hundredth of the edges are strained so.
+    pub smaller: Vec<Smaller>,
+}
+
+/// Why the cloth that lies is strained on `body`.
+pub(super) fn causes(garment: &Garment, state: &ClothState, laid: &Laid, body: &BodyIndex<'_>) -> Causes {
+    let sides = unequal_sides(garment);
+    let edges = edges(garment, laid);
+    let mut about: BTreeMap<u32, [f64; 2]> = BTreeMap::new();
+    for edge in &edges {
+        for v in edge.ends {
+            let sum = about.entry(v).or_default();
+            *sum = [sum[0] + edge.worn - edge.flat, sum[1] + edge.flat];
+        }
+    }
+    let together = |v: u32| about.get(&v).map_or(0.0, |[longer, flat]| longer / flat);
+    let on_skin = |v: u32| {
+        let p = laid.mesh.positions[v as usize];
+        body.surface().nearest(p).point.distance(p) < ON_SKIN
+    };
+    let mut causes = Causes::default();
+    for edge in &edges {
+        let strain = edge.worn / edge.flat - 1.0;
+        if strain.abs() <= STRAINED {
+            continue;
+        }
+        let is_between =
+            |[low, high]: &[f64; 2]| (low * (1.0 - STRAINED)..=high * (1.0 + STRAINED)).contains(&edge.worn);
+        let is_tight = || strain > 0.0 && edge.ends.iter().all(|&v| together(v) > TOGETHER * strain);
+        let cause = if sides.get(&edge.ends).is_some_and(is_between) {
+            &mut causes.seam_ease
+        } else if is_tight() && edge.ends.iter().all(|&v| on_skin(v)) {
+            &mut causes.fit
+        } else {
+            &mut causes.unconverged
+        };
+        cause.add(strain);
+    }
+    if causes.fit.edges * 100 > edges.len() {
+        causes.smaller = smaller(garment, state, body);
+    }
+    causes
+}
+
+/// A side of a triangle that lies; one between two triangles of a piece is there once.
+struct Edge {
+    ends: [u32; 2],
+    flat: f64,
+    worn: f64,
+}
+
+fn edges(garment: &Garment, laid: &Laid) -> Vec<Edge> {
+    let mut sides: Vec<[u32; 2]> = laid
+        .corners
+        .iter()
+        .flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]])
+        .map(|[a, b]| [a.min(b), a.max(b)])
+        .collect();
+    sides.sort_unstable();
+    sides.dedup();
+    let edge = |corners: [u32; 2]| {
+        let [a, b] = corners.map(|c| garment.corners[c as usize]);
+        let [p, q] = [a, b].map(|corner| laid.mesh.positions[corner.vertex as usize]);
+        let ends = [a.vertex.min(b.vertex), a.vertex.max(b.vertex)];
+        Edge { ends, flat: a.uv.distance(b.uv), worn: p.distance(q) }
+    };
+    sides.into_iter().map(edge).filter(|edge| edge.flat > 0.0).collect()
+}
+
+/// The flat lengths, shorter first, of the edges on seams whose two sides differ.
+fn unequal_sides(garment: &Garment) -> BTreeMap<[u32; 2], [f64; 2]> {
+    let mut found = BTreeMap::new();
+    for (_, pairs) in &garment.seam_pairs {
+        for pair in pairs.windows(2) {
+            let flat = [0, 1].map(|side| {
+                let [a, b] = [0, 1].map(|k| garment.corners[pair[k][side] as usize]);
+                (a.piece == b.piece).then(|| a.uv.distance(b.uv))
+            });
+            let [Some(one), Some(other)] = flat else { continue };
+            let (low, high) = (one.min(other), one.max(other));
+            if high > low * (1.0 + UNEQUAL) {
+                let [a, b] = [0, 1].map(|k| garment.corners[pair[k][0] as usize].vertex);
+                found.insert([a.min(b), a.max(b)], [low, high]);
+            }
+        }
+    }
+    found
+}
+
+/// Where the pattern is smaller round the body than that is, the most first.
+fn smaller(garment: &Garment, state: &ClothState, body: &BodyIndex<'_>) -> Vec<Smaller> {
+    let Some(readings) = readings(&body.surface().mesh, None) else { return Vec::new() };
+    let mut found: Vec<Smaller> = girths(garment, state, &readings)
+        .into_iter()
+        .map(|(i, girth)| {
+            let place = readings[i].name.to_owned();
+            Smaller { place, body: readings[i].metres, pattern: girth.flat }
+        })
+        .filter(|smaller| smaller.body - smaller.pattern > LEAST_SMALLER)
+        .collect();
+    found.sort_by(|a, b| (b.body - b.pattern).total_cmp(&(a.body - a.pattern)));
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::{DVec2, DVec3};
+
+    use super::*;
+    use crate::cloth::build;
+    use crate::fit::maps::tests::{Sheets, sheets, tube};
+    use crate::pattern::{EdgeRef, Pattern, Piece, Seam};
+
+    fn of(laid: &Sheets) -> Causes {
+        let Sheets { garment, state, surface, .. } = laid;
+        causes(garment, state, &Laid::new(garment, state), &BodyIndex::new(surface))
+    }
+
+    #[test]
+    fn a_tube_that_is_too_narrow_does_not_fit() {
+        let found = of(&tube(24, 0.08, 1.05, 1.0));
+        assert!((found.fit.max - 0.05).abs() < 1e-9, "{found:?}");
+        assert_eq!((found.seam_ease.edges, found.unconverged.edges), (0, 0), "{found:?}");
+        assert_eq!(of(&tube(24, 0.08, 1.0, 1.0)), Causes::default());
+    }
+
+    #[test]
+    fn one_edge_alone_or_far_from_the_skin_did_not_come_to_rest() {
+        let far = of(&sheets(0.03, |p| DVec3::new(p.x * 1.04, p.y, 0.3)));
+        assert!(far.unconverged.edges > 0 && far.fit.edges == 0, "{far:?}");
+        let mut laid = tube(24, 0.08, 1.0, 1.0);
+        laid.state.positions[60].y += 0.002;
+        let found = of(&laid);
+        assert!(found.unconverged.edges > 0 && found.fit.edges < found.unconverged.edges, "{found:?}");
+    }
+
+    #[test]
+    fn what_lies_between_the_sides_of_a_gather_is_eased() {
+        let mut pattern = Pattern::default();
+        let short = pattern.add_piece(Piece::polygon("short", &square(0.30)));
+        let long = pattern.add_piece(Piece::polygon("long", &square(0.33)));
+        let sides = [EdgeRef { piece: short, edge: 1 }, EdgeRef { piece: long, edge: 3 }];
+        pattern.add_seam(Seam::of_edges(sides, false));
+        let (garment, _) = build(&pattern, 0.03);
+        let mut laid = sheets(0.03, |p| p.extend(0.0));
+        let place = |c: &crate::cloth::Corner| match c.piece == short {
+            true => c.uv.extend(0.3),
+            false => DVec3::new(0.3 + c.uv.x, c.uv.y * 0.3 / 0.33, 0.3),
+        };
+        laid.state.positions = vec![DVec3::ZERO; garment.vertex_count];
+        laid.state.mapped = vec![true; garment.vertex_count];
+        garment.corners.iter().for_each(|c| laid.state.positions[c.vertex as usize] = place(c));
+        laid.garment = garment;
+        let found = of(&laid);
+        assert!((found.seam_ease.max - 0.1 / 1.1).abs() < 1e-6, "{found:?}");
+        assert_eq!((found.seam_ease.edges, found.fit.edges), (11, 0), "{found:?}");
+    }
+
+    fn square(height: f64) -> [DVec2; 4] {
+        [(0.0, 0.0), (0.3, 0.0), (0.3, height), (0.0, height)].map(DVec2::from)
+    }
+}
