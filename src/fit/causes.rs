@@ -66,12 +66,20 @@ pub struct Causes {
     pub seam_ease: Strained,
     /// All others: the cloth did not come to rest there.
     pub unconverged: Strained,
-    /// Where the pattern is smaller than the body, the most first; told where more than a hundredth of the edges are strained so.
+    /// Where the pattern is smaller than the body, the most first; told of a garment that is not dressed and [is
+    /// tight](Self::is_tight).
     pub smaller: Vec<Smaller>,
 }
 
+impl Causes {
+    /// Whether more than a hundredth of its `edges` are strained because it is too small.
+    pub fn is_tight(&self, edges: usize) -> bool {
+        self.fit.edges * 100 > edges
+    }
+}
+
 /// Why the cloth that lies is strained on `body`.
-pub(super) fn causes(garment: &Garment, state: &ClothState, laid: &Laid, body: &BodyIndex<'_>) -> Causes {
+pub(super) fn causes(garment: &Garment, laid: &Laid, body: &BodyIndex<'_>) -> Causes {
     let sides = unequal_sides(garment);
     let edges = edges(garment, laid);
     let mut about: BTreeMap<u32, [f64; 2]> = BTreeMap::new();
@@ -103,9 +111,6 @@ pub(super) fn causes(garment: &Garment, state: &ClothState, laid: &Laid, body: &
             &mut causes.unconverged
         };
         cause.add(strain);
-    }
-    if causes.fit.edges * 100 > edges.len() {
-        causes.smaller = smaller(garment, state, body);
     }
     causes
 }
@@ -156,7 +161,7 @@ fn unequal_sides(garment: &Garment) -> BTreeMap<[u32; 2], [f64; 2]> {
 }
 
 /// Where the pattern is smaller round the body than that is, the most first.
-fn smaller(garment: &Garment, state: &ClothState, body: &BodyIndex<'_>) -> Vec<Smaller> {
+pub(super) fn smaller(garment: &Garment, state: &ClothState, body: &BodyIndex<'_>) -> Vec<Smaller> {
     let Some(readings) = readings(&body.surface().mesh, None) else { return Vec::new() };
     let mut found: Vec<Smaller> = girths(garment, state, &readings)
         .into_iter()
@@ -181,7 +186,7 @@ mod tests {
 
     fn of(laid: &Sheets) -> Causes {
         let Sheets { garment, state, surface, .. } = laid;
-        causes(garment, state, &Laid::new(garment, state), &BodyIndex::new(surface))
+        causes(garment, &Laid::new(garment, state), &BodyIndex::new(surface))
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Garments that did not stay where they were put on: a strap slipped off, nothing held a waistband.
 
 use crate::cloth::{ClothState, Garment};
-use crate::fit::report::groups;
+use crate::fit::measured::groups;
 use crate::pattern::Pattern;
 
 /// Cloth whose uppermost point lies so much lower than that of its pieces as they were placed has fallen down, metres.

@@ -2,11 +2,11 @@
 
 use glam::DVec3;
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 use crate::body::Surface;
 use crate::fit::laid::Laid;
 use crate::fit::openings::{Opening, openings};
-use crate::fit::report::{Clearance, Penetration};
 use crate::fit::shape::quantile;
 use crate::geometry::bvh::Bvh;
 use crate::geometry::crossings::meetings;
@@ -32,6 +32,26 @@ const SAMPLES: [[f64; 3]; 7] = [
     [0.0, 1.0, 1.0],
     [1.0, 0.0, 1.0],
 ];
+
+/// Cloth inside the body.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Penetration {
+    /// Vertices.
+    pub vertices: usize,
+    /// Triangles with one of seven samples inside.
+    pub faces: usize,
+    /// Of the deepest vertex or sample, metres.
+    pub max_depth: f64,
+}
+
+/// Signed distances of the vertices from the skin, metres.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Clearance {
+    /// The middle one.
+    pub median: f64,
+    /// 95 of 100 are smaller.
+    pub p95: f64,
+}
 
 /// A body ready to be measured against; build it once per body.
 #[derive(Debug)]

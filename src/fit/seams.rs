@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::cloth::{ClothState, Garment};
-use crate::fit::report::{CLOSED, widest_gap};
+use crate::fit::measured::{CLOSED, widest_gap};
 use crate::geometry::ids::SeamId;
 use crate::pattern::{Pattern, Seam};
 

@@ -1,0 +1,125 @@
+//! A garment measured on a body.
+
+use std::collections::BTreeMap;
+
+use crate::cloth::{ClothState, Garment};
+use crate::fit::causes::{causes, smaller};
+use crate::fit::laid::Laid;
+use crate::fit::on_body::{BodyIndex, on_body};
+use crate::fit::report::{Report, Seams};
+use crate::fit::shape;
+use crate::fit::verdict::verdict;
+use crate::geometry::crossings::self_crossings;
+use crate::geometry::ids::{PieceId, SeamId};
+use crate::pattern::Pattern;
+
+/// A seam whose two sides are nowhere further apart than this (metres) is closed.
+pub(super) const CLOSED: f64 = 1e-4;
+
+/// Measures a garment on a body. Same input, same figures, on any number of threads.
+pub fn measure(pattern: &Pattern, garment: &Garment, state: &ClothState, body: &BodyIndex<'_>) -> Report {
+    let laid = Laid::new(garment, state);
+    let tree = laid.mesh.tree();
+    let (strain, pieces) = shape::strain_and_pieces(garment, &laid);
+    let (interior_edges, folded_edges) = shape::interior_and_folded_edges(&laid);
+    let sits = on_body(&laid, &tree, body);
+    let unmapped = (0..garment.vertex_count).filter(|&v| state.mapped.get(v) != Some(&true)).count();
+    let mut report = Report {
+        triangles: laid.mesh.triangles.len(),
+        vertices: laid.used.len(),
+        unmapped_vertices: unmapped,
+        not_finite_vertices: not_finite(garment, state),
+        strain,
+        strain_causes: causes(garment, &laid, body),
+        pieces,
+        seams: seams(pattern, garment, state),
+        open_seams: open_seams(pattern, garment, state),
+        vertices_shared_by_pieces: shape::vertices_shared_by_pieces(&laid),
+        pieces_in_space: shape::pieces_in_space(&laid),
+        pieces_expected: pieces_expected(pattern),
+        degenerate_faces: shape::degenerate_faces(&laid),
+        interior_edges,
+        folded_edges,
+        self_crossings: self_crossings(&laid.mesh, &laid.edges, &tree).len(),
+        penetration: sits.penetration,
+        edges_through_body: sits.edges_through_body,
+        body_edges_through_garment: sits.body_edges_through_garment,
+        faces_near_body: sits.faces_near_body,
+        flipped_faces: sits.flipped_faces,
+        faces_in_folds: sits.faces_in_folds,
+        faces_between: sits.faces_between,
+        clearance: sits.clearance,
+        openings: sits.openings,
+    };
+    // The measures of the body take longer than all else, so only what does not come out well is held against them.
+    if report.strain_causes.is_tight(report.strain.edges) && !verdict(&report).is_empty() {
+        report.strain_causes.smaller = smaller(garment, state, body);
+    }
+    report
+}
+
+fn not_finite(garment: &Garment, state: &ClothState) -> usize {
+    (0..garment.vertex_count)
+        .filter(|&v| {
+            state.mapped.get(v) == Some(&true) && !state.positions.get(v).is_some_and(|p| p.is_finite())
+        })
+        .count()
+}
+
+fn seams(pattern: &Pattern, garment: &Garment, state: &ClothState) -> Seams {
+    let mut found = Seams::default();
+    for gap in garment.seam_pairs.iter().filter_map(|(_, pairs)| widest_gap(garment, state, pairs)) {
+        found.max_gap = found.max_gap.max(gap);
+        found.closed += usize::from(gap <= CLOSED);
+    }
+    found.open = pattern.seams.len().max(garment.seam_pairs.len()) - found.closed;
+    found
+}
+
+/// "seam 2 (front and back)" for each seam of the pattern that does not hold everywhere.
+fn open_seams(pattern: &Pattern, garment: &Garment, state: &ClothState) -> Vec<String> {
+    let holds = |pairs: &[[u32; 2]]| widest_gap(garment, state, pairs).is_some_and(|gap| gap <= CLOSED);
+    let is_closed = |id: &SeamId| {
+        let mut parts = garment.seam_pairs.iter().filter(|(of, _)| of == id).peekable();
+        parts.peek().is_some() && parts.all(|(_, pairs)| holds(pairs))
+    };
+    let name = |id: PieceId| pattern.pieces.get(&id).map_or_else(|| id.to_string(), |p| p.name.clone());
+    let open = pattern.seams.iter().filter(|(id, _)| !is_closed(id));
+    open.map(|(id, seam)| format!("{id} ({} and {})", name(seam.sides[0].piece), name(seam.sides[1].piece)))
+        .collect()
+}
+
+/// The widest gap of a seam, metres; none when one of its points lies nowhere.
+pub(super) fn widest_gap(garment: &Garment, state: &ClothState, pairs: &[[u32; 2]]) -> Option<f64> {
+    pairs.iter().try_fold(0.0, |widest: f64, pair| {
+        let [a, b] = pair.map(|c| garment.corners[c as usize].vertex as usize);
+        let lie = [a, b].iter().all(|&v| state.mapped.get(v) == Some(&true));
+        let gap = state.positions.get(a)?.distance(*state.positions.get(b)?);
+        (lie && gap.is_finite()).then_some(widest.max(gap))
+    })
+}
+
+/// Groups of pieces that the seams join.
+fn pieces_expected(pattern: &Pattern) -> usize {
+    groups(pattern).iter().filter(|(id, g)| id == g).count()
+}
+
+/// For each piece the lowest of those that the seams join it to; deactivated ones count for nothing.
+pub(super) fn groups(pattern: &Pattern) -> BTreeMap<PieceId, PieceId> {
+    let mut group: BTreeMap<PieceId, PieceId> = {
+        let pieces = pattern.pieces.iter().filter(|(_, piece)| !piece.activity.is_deactivated());
+        pieces.map(|(&id, _)| (id, id)).collect()
+    };
+    for seam in pattern.seams.values() {
+        let [Some(&a), Some(&b)] = seam.sides.map(|side| group.get(&side.piece)) else { continue };
+        let (low, high) = (a.min(b), a.max(b));
+        for g in group.values_mut().filter(|g| **g == high) {
+            *g = low;
+        }
+    }
+    group
+}
+
+#[cfg(test)]
+#[path = "tests.rs"]
+mod tests;
