@@ -107,10 +107,7 @@ impl Panel<'_> {
 
     /// Whether edge `edge` passes `p`.
     fn is_near(&self, edge: usize, p: DVec2) -> bool {
-        let fractions: Vec<f64> =
-            (0..=EDGE_SAMPLES).map(|k| f64::from(k) / f64::from(EDGE_SAMPLES)).collect();
-        let points = self.piece.edge_points(edge, &fractions);
-        points.windows(2).any(|w| distance_to(p, w[0], w[1]) < AT_AN_EDGE)
+        edge_places(self, edge).windows(2).any(|w| distance_to(p, w[0].0, w[1].0) < AT_AN_EDGE)
     }
 
     /// The horizontal runs at height `y` of the world, from right to left.

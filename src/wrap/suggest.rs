@@ -100,8 +100,8 @@ pub struct Stand {
     pub bounds: [DVec3; 2],
     /// It hangs from the shoulders.
     pub hangs: bool,
-    /// How much higher it must stand for the arms to lie under the seams that run along them, metres; negative where they do,
-    /// infinitely where there are no such seams.
+    /// How much higher it must stand for the arms to lie under the seams that run along them, metres; negative where they lie
+    /// there already, negative infinity where there are no such seams.
     pub short_of_arms: f64,
 }
 
@@ -191,23 +191,16 @@ fn along_arms(
         let beside = DVec3::Z * if panel.is_front() { INSET } else { -INSET };
         let outer: Vec<(DVec2, DVec3)> =
             over.points.iter().copied().filter(|(_, p)| p.x.abs() > arms * INSIDE_ARMS).collect();
-        let first = outer.first()?.1;
+        let [(_, first), _, ..] = outer[..] else { return None };
         let start = on_shoulder(surface, trunk, first.x)?;
         let outward = |p: &DVec3| (p.x - trunk.middle) * first.x.signum();
         let hand = surface.mesh.positions.iter().max_by(|a, b| outward(a).total_cmp(&outward(b)))?;
         let way = (*hand - start).normalize_or_zero();
-        let mut cloth = vec![(outer[0].0 - up * INSET, 0.0)];
-        for pair in outer.windows(2) {
-            let so_far = cloth[cloth.len() - 1].1;
-            cloth.push((pair[1].0 - up * INSET, so_far + pair[0].0.distance(pair[1].0)));
-        }
-        let length = cloth[cloth.len() - 1].1 - INSET;
-        let at = |s: f64| {
-            let i = cloth.partition_point(|c| c.1 <= s).clamp(1, cloth.len() - 1);
-            let (a, b) = (cloth[i - 1], cloth[i]);
-            a.0.lerp(b.0, ((s - a.1) / (b.1 - a.1).max(1e-9)).clamp(0.0, 1.0))
-        };
+        let under_seam =
+            Polyline::new(outer.iter().map(|(flat, _)| (*flat - up * INSET).extend(0.0)).collect());
+        let length = under_seam.length() - INSET;
         let marched = march(surface, start + beside, way, DVec3::Y, length, offset, -2.0);
+        let at = |s: f64| under_seam.at(s).truncate();
         let (cloth, body): (Vec<DVec2>, Vec<DVec3>) = marched.into_iter().map(|(p, s)| (at(s), p)).unzip();
         (cloth.len() > 3).then_some(Stroke { panel: panel.id, cloth, body })
     };
@@ -407,13 +400,22 @@ fn ring(lines: &[Line], trunk: &Trunk, height: f64, beside: f64) -> Vec<Stroke> 
     strokes
 }
 
-/// Half a section, from its front at the middle over one side to its back there.
-struct Half {
+/// Points and how far along each is, metres.
+struct Polyline {
     points: Vec<DVec3>,
     lengths: Vec<f64>,
 }
 
-impl Half {
+impl Polyline {
+    /// Through two points or more.
+    fn new(points: Vec<DVec3>) -> Self {
+        let mut lengths = vec![0.0];
+        for w in points.windows(2) {
+            lengths.push(lengths[lengths.len() - 1] + w[0].distance(w[1]));
+        }
+        Self { points, lengths }
+    }
+
     fn length(&self) -> f64 {
         *self.lengths.last().unwrap_or(&0.0)
     }
@@ -426,8 +428,8 @@ impl Half {
     }
 }
 
-/// None when the section does not cross the middle twice.
-fn half(section: &[DVec3], middle: f64, left: bool) -> Option<Half> {
+/// Half a section, from its front at the middle over one side to its back there. None when it does not cross the middle twice.
+fn half(section: &[DVec3], middle: f64, left: bool) -> Option<Polyline> {
     let side = |p: DVec3| if left { p.x - middle } else { middle - p.x };
     let n = section.len();
     let cut = |i: usize| {
@@ -453,11 +455,7 @@ fn half(section: &[DVec3], middle: f64, left: bool) -> Option<Half> {
         }
     }
     points.push(cut(last));
-    let mut lengths = vec![0.0];
-    for w in points.windows(2) {
-        lengths.push(lengths[lengths.len() - 1] + w[0].distance(w[1]));
-    }
-    (first != last).then_some(Half { points, lengths })
+    (first != last).then(|| Polyline::new(points))
 }
 
 /// A stroke up and down the piece near the body's middle. `height` says which height of the cloth comes to which of the
