@@ -19,12 +19,11 @@ const FEMALE: &str = "bodies/makehuman/mh_female_rest.obj";
 const MALE: &str = "bodies/makehuman/mh_male_rest.obj";
 
 fn dressed(pattern: &str, body: &str) -> Option<Report> {
-    let data = crate::data()?;
-    let bytes = std::fs::read(data.join(body)).expect("a body");
+    let bytes = crate::bytes(body)?;
     let body = import(obj::read(&bytes).expect("an OBJ").mesh, Unit::Metre);
     assert!(body.problems.is_empty(), "{:?}", body.problems);
     let surface = Arc::new(Surface::new(body.mesh).expect("triangles"));
-    let bytes = std::fs::read(data.join("patterns/garmentcode").join(pattern)).expect("a pattern");
+    let bytes = crate::bytes(&format!("patterns/garmentcode/{pattern}"))?;
     let pattern = garmentcode::read(&bytes).expect("GarmentCode");
     let settings = RelaxSettings::default();
     let marks = suggested(&pattern, &surface, settings.offset * surface.scale());

@@ -5,8 +5,7 @@ use toile::io::garmentcode;
 use toile::pattern::{Pattern, Piece};
 
 fn read(name: &str) -> Option<Pattern> {
-    let path = crate::data()?.join("patterns").join(name);
-    let bytes = std::fs::read(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+    let bytes = crate::bytes(&format!("patterns/{name}"))?;
     Some(garmentcode::read(&bytes).unwrap_or_else(|e| panic!("{name}: {e}")))
 }
 
@@ -131,9 +130,7 @@ fn garmentcode_goes_out_and_in_again_unchanged() {
 
 #[test]
 fn a_design_file_is_no_pattern() {
-    let Some(data) = crate::data() else { return };
-    let bytes =
-        std::fs::read(data.join("patterns/garmentcode/tee_mean_all_design.json")).expect("the design");
+    let Some(bytes) = crate::bytes("patterns/garmentcode/tee_mean_all_design.json") else { return };
     let error = garmentcode::read(&bytes).expect_err("no pattern").to_string();
     assert!(error.contains("is missing"), "{error}");
 }

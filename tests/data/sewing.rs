@@ -21,11 +21,9 @@ fn sewn(pattern: &str, edge_length: f64) -> Option<Report> {
 
 /// Of the pattern in this file, on the body in that one.
 fn sewn_on(body: &str, pattern: &str, edge_length: f64) -> Option<Report> {
-    let data = crate::data()?;
-    let bytes = std::fs::read(data.join("bodies").join(body)).expect("a body");
+    let bytes = crate::bytes(&format!("bodies/{body}"))?;
     let body = import(obj::read(&bytes).expect("an OBJ").mesh, Unit::Metre);
-    let path = data.join("patterns").join(pattern);
-    let pattern = garmentcode::read(&std::fs::read(path).expect("a pattern")).expect("GarmentCode");
+    let pattern = garmentcode::read(&crate::bytes(&format!("patterns/{pattern}"))?).expect("GarmentCode");
     let mut document = Document {
         pattern: Arc::new(pattern),
         body: BodyChoice::Imported { name: "mean".to_owned(), mesh: Arc::new(body.mesh) },

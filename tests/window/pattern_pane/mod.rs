@@ -1,20 +1,18 @@
 //! The pattern pane without a window: pieces are drawn, edited and sewn by pointer and by keys.
 
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, Vec2};
-use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use glam::DVec2;
 use toile::pattern::{Pattern, Piece, Seam, Stretch};
 use toile::session::{Document, Project};
-use toile::ui::App;
+
+use crate::{Window, app, key, move_to, wait};
 
 mod details;
 mod keyboard;
-
-type Window = Harness<'static, Option<App>>;
 
 /// The window on an empty table, 1 m seen from side to side.
 fn window() -> Window {
@@ -23,20 +21,7 @@ fn window() -> Window {
 
 fn window_on(pattern: Pattern) -> Window {
     let document = Document { pattern: Arc::new(pattern), ..Document::default() };
-    let mut project = Some(Project { document, dressed: None });
-    let builder = Harness::builder().with_size(Vec2::new(1280.0, 720.0)).with_step_dt(1.0 / 60.0);
-    let mut window = builder.build_ui_state(
-        move |ui, app: &mut Option<App>| {
-            let app = app.get_or_insert_with(|| {
-                let project = project.take().expect("only once");
-                App::new(ui.ctx(), project, None, None).expect("a thread for the simulation")
-            });
-            app.ui(ui);
-        },
-        None,
-    );
-    window.run_steps(4);
-    window
+    crate::window_on(Project { document, dressed: None }, None)
 }
 
 /// Two squares, 20 cm wide, 30 cm apart.
@@ -64,10 +49,6 @@ fn pattern(window: &Window) -> Pattern {
     Pattern::clone(&app(window).session().document().pattern)
 }
 
-fn app(window: &Window) -> &App {
-    window.state().as_ref().expect("the app")
-}
-
 fn steps(window: &Window) -> Vec<String> {
     app(window).session().step_labels().map(str::to_owned).collect()
 }
@@ -92,13 +73,7 @@ fn place(window: &Window, label: &str) -> Pos2 {
 }
 
 fn button(window: &mut Window, at: Pos2, pressed: bool, modifiers: Modifiers) {
-    window.event(Event::PointerButton { pos: at, button: PointerButton::Primary, pressed, modifiers });
-    window.run_steps(1);
-}
-
-fn move_to(window: &mut Window, at: Pos2) {
-    window.event(Event::PointerMoved(at));
-    window.run_steps(1);
+    crate::button(window, at, PointerButton::Primary, pressed, modifiers);
 }
 
 fn click_with(window: &mut Window, at: Pos2, modifiers: Modifiers) {
@@ -127,11 +102,6 @@ fn press_along(window: &mut Window, from: Pos2, to: Pos2) {
 fn drag(window: &mut Window, from: Pos2, to: Pos2) {
     press_along(window, from, to);
     button(window, to, false, Modifiers::NONE);
-    window.run_steps(3);
-}
-
-fn key(window: &mut Window, modifiers: Modifiers, key: Key) {
-    window.key_press_modifiers(modifiers, key);
     window.run_steps(3);
 }
 
@@ -415,16 +385,6 @@ fn every_tool_says_what_the_mouse_does() {
     hints.sort();
     hints.dedup();
     assert_eq!(hints.len(), tools.len(), "each its own");
-}
-
-/// Runs frames until `done`, for at most 20 seconds.
-fn wait(window: &mut Window, what: &str, done: impl Fn(&App) -> bool) {
-    let start = Instant::now();
-    while !done(app(window)) {
-        assert!(start.elapsed() < Duration::from_secs(20), "{what} took too long");
-        std::thread::sleep(Duration::from_millis(5));
-        window.run_steps(1);
-    }
 }
 
 /// Marks both pieces and the body, and wraps.
