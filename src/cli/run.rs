@@ -57,7 +57,8 @@ pub fn to_rest(session: &mut Session, max_ticks: u64, seconds: &mut Seconds) -> 
             let words = format!("the cloth still moves after {max_ticks} ticks (see --max-ticks)");
             return Err(Failure::Limit(words));
         }
-        let (phase, trying, start) = (simulation.phase(), simulation.trying(), Instant::now());
+        let (phase, trying, posing) = (simulation.phase(), simulation.trying(), simulation.is_posing());
+        let start = Instant::now();
         simulation.tick();
         let took = start.elapsed().as_secs_f64();
         if let Some((.., number)) = trying {
@@ -65,6 +66,7 @@ pub fn to_rest(session: &mut Session, max_ticks: u64, seconds: &mut Seconds) -> 
             seconds.starts[number] += took;
         }
         match phase {
+            _ if posing => *seconds.repose.get_or_insert_default() += took,
             Some(Phase::Growing) => seconds.grow += took,
             _ => seconds.settle += took,
         }
@@ -102,7 +104,11 @@ pub fn drape(
 }
 
 fn show_progress(simulation: &Simulation) {
-    let phase = if simulation.phase() == Some(Phase::Growing) { "growing" } else { "settling" };
+    let phase = match simulation.phase() {
+        _ if simulation.is_posing() => "re-posing",
+        Some(Phase::Growing) => "growing",
+        _ => "settling",
+    };
     if simulation.ticks().is_multiple_of(8) {
         let start = match simulation.trying() {
             Some((start, true, _)) => format!("{start}, draped: "),

@@ -15,29 +15,19 @@ const REACH: f64 = 4.0;
 /// Vertices are kept above the skin by this share of the offset.
 const CLEARANCE: f64 = 0.5;
 
-/// Brings the edges of `state` within `most` of their `lengths`, its vertices out of the body, looking for contacts anew
-/// `rounds` times at most. What is over then is left.
-pub(super) fn limited(
-    lengths: &Lengths,
-    relaxer: &mut Relaxer,
-    state: &mut ClothState,
-    most: f64,
-    rounds: usize,
-) {
-    for _ in 0..rounds {
-        relaxer.track(state, REACH * relaxer.offset());
-        for sweep in 0..SWEEPS {
-            // To and fro, so that neither end of the garment is favoured.
-            match sweep % 2 {
-                0 => lengths.edges().iter().for_each(|edge| limit(state, edge, most * AIM)),
-                _ => lengths.edges().iter().rev().for_each(|edge| limit(state, edge, most * AIM)),
-            }
-            raise(relaxer, state);
+/// Brings the edges of `state` nearer to within `most` of their `lengths`, its vertices out of the body, with contacts looked
+/// for anew. Whether nearly all are within.
+pub(super) fn limited(lengths: &Lengths, relaxer: &mut Relaxer, state: &mut ClothState, most: f64) -> bool {
+    relaxer.track(state, REACH * relaxer.offset());
+    for sweep in 0..SWEEPS {
+        // To and fro, so that neither end of the garment is favoured.
+        match sweep % 2 {
+            0 => lengths.edges().iter().for_each(|edge| limit(state, edge, most * AIM)),
+            _ => lengths.edges().iter().rev().for_each(|edge| limit(state, edge, most * AIM)),
         }
-        if lengths.p99(state) <= most * (1.0 + AIM) / 2.0 {
-            break;
-        }
+        raise(relaxer, state);
     }
+    lengths.p99(state) <= most * (1.0 + AIM) / 2.0
 }
 
 /// Brings vertices up to where faces round them keep clear of the body.

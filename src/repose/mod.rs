@@ -2,6 +2,7 @@
 //! another pose.
 
 mod between;
+mod change;
 mod conform;
 mod distance_map;
 mod excess;
@@ -16,6 +17,7 @@ mod turns;
 mod tests;
 
 pub use between::Way;
+pub use change::Change;
 pub use conform::conformed;
 pub use distance_map::{Binding, DistanceMap};
 pub use reposer::{Care, Outcome, Reposer};

@@ -12,16 +12,12 @@ use crate::contact::{Apart, Met};
 use crate::geometry::rebuild::Rebuild;
 use crate::relax::{GlobalStep, Pace, RelaxSettings, Relaxer, global};
 use crate::repose::between::between;
-use crate::repose::conform::{carried, conformed};
+use crate::repose::change::Change;
 use crate::repose::distance_map::DistanceMap;
 use crate::repose::excess::Lengths;
 use crate::repose::folds::Folds;
-use crate::repose::limit::{limited, raised};
-use crate::repose::looks::Looks;
 use crate::repose::transfer::Transfer;
 
-/// Conforming that strained no more than this, and left nothing inside, is left as it is.
-const EXACT: f64 = 1e-6;
 /// A vertex moves no farther in one global step, metres on a body 1.5 m large.
 const STEP_CAP: f64 = 0.02;
 /// Weight of contact in the global steps.
@@ -30,26 +26,6 @@ const CONTACT: f64 = 0.1;
 const PACES: [Pace; 3] = Pace::longer(1.7);
 /// For a picture the factor may lag behind the contacts by this share of the vertices.
 const LIVE_STALE_SHARE: f64 = 0.05;
-/// Global steps in each pose on the way at most.
-const STEPS_PER_SUBSTEP: usize = 12;
-/// Conforming that strained more than this is not tried to be mended at once, but through poses on the way.
-const AT_ONCE: f64 = 0.15;
-/// Global steps that spread the strain over so much cloth that edge by edge the rest is done.
-const FEW_STEPS: usize = 8;
-/// Global steps between two looks at the strain.
-const STEPS_PER_LOOK: usize = 4;
-/// Contacts are looked for anew so often while strain is spread: for cloth that stays,
-const ROUNDS: usize = 60;
-/// and for a picture.
-const LIVE_ROUNDS: usize = 6;
-/// A mend has so many steps to take effect.
-const STEPS_PER_MEND: usize = 8;
-/// Strain that 99 of 100 edges do not exceed is spread edge by edge.
-const SPREADABLE: f64 = 0.03;
-/// Where the excess that 99 of 100 edges do not exceed is larger than this, there is nowhere to spread it to.
-const TOO_TIGHT: f64 = 0.05;
-/// Strain is spread, and faces that cut the body are raised, so many times for each mend.
-const LIMITS_PER_MEND: usize = 2;
 /// Layers that run through each other are parted every so many steps.
 const STEPS_PER_PARTING: usize = 4;
 /// Edges and faces keep this share of the offset.
@@ -108,19 +84,19 @@ pub struct Outcome {
 #[derive(Clone, Debug)]
 pub struct Reposer {
     from: Arc<Surface>,
-    cloth: ClothState,
+    pub(super) cloth: ClothState,
     map: DistanceMap,
     transfer: Transfer,
-    lengths: Lengths,
+    pub(super) lengths: Lengths,
     /// Relaxes towards the shape that every triangle had when bound: what it was strained already, it may stay.
-    relaxer: Relaxer,
+    pub(super) relaxer: Relaxer,
     /// Makes the poses on the way.
     rebuild: Option<Arc<Rebuild>>,
-    folds: Folds,
+    pub(super) folds: Folds,
     /// In so many places layers ran through each other.
     crossings: usize,
     /// Parts of the body that cross each other in the pose.
-    apart: Option<Arc<Apart>>,
+    pub(super) apart: Option<Arc<Apart>>,
     /// Where the last picture left each vertex beside its conformed place, before the skin turned.
     beside: Option<Vec<DVec3>>,
 }
@@ -172,83 +148,28 @@ impl Reposer {
         &self.map
     }
 
-    /// Where the cloth is on `to`, the same body in another pose. None when `to` has another topology.
-    ///
-    /// It goes there at once, and with care through poses on the way where that does not come out well.
+    /// Where the cloth is on `to`, the same body in another pose, all at once. None when `to` has another topology.
     pub fn reposed(&mut self, to: &Arc<Surface>, care: Care) -> Option<(ClothState, Outcome)> {
-        if to.mesh.triangles != self.from.mesh.triangles {
-            return None;
+        let mut change = Change::new(self, Arc::clone(to), care)?;
+        while !change.is_done() {
+            change.step(self);
         }
+        Some(change.into_cloth())
+    }
+
+    /// Factors the matrix anew as often as `care` needs it.
+    pub(super) fn refactor(&mut self, care: Care) {
         self.relaxer.refactor_beyond(if care.mends == 0 { LIVE_STALE_SHARE } else { global::STALE_SHARE });
-        let mut outcome = Outcome::default();
-        let mut carried = carried(&self.map, &self.from, to, &self.cloth.positions);
-        let conformed: Vec<DVec3> = carried.iter().map(|(p, _)| *p).collect();
-        let mut state = ClothState { positions: conformed.clone(), mapped: self.cloth.mapped.clone() };
-        if state.positions == self.cloth.positions && to.mesh.positions == self.from.mesh.positions {
-            return Some((state, outcome));
-        }
-        outcome.conformed_p99 = self.lengths.p99(&state);
-        if outcome.conformed_p99 > EXACT {
-            let garment = &self.relaxer.garment;
-            self.transfer.join(garment, &self.cloth, &mut carried, &mut self.relaxer.counters);
-            carried.iter().zip(&mut state.positions).for_each(|((place, _), p)| *p = *place);
-            outcome.joined_p99 = self.lengths.p99(&state);
-        }
-        if care.mends == 0 {
-            self.go_on(&mut state, &carried, outcome.joined_p99);
-        }
-        let heights = self.map.heights.clone();
-        self.apart = None;
-        self.enter(to, &state);
-        outcome.conformed_inside = self.recover(&mut state, &heights);
-        if outcome.conformed_inside > 0 && care.mends > 0 {
-            self.apart = self.parts_of(to);
-            if self.apart.is_some() {
-                carried.iter().zip(&mut state.positions).for_each(|((place, _), p)| *p = *place);
-                self.enter(to, &state);
-                outcome.conformed_inside = self.recover(&mut state, &heights);
-            }
-        }
-        outcome.excess_p99 = self.lengths.p99(&state);
-        if outcome.conformed_inside == 0 && outcome.excess_p99 <= EXACT {
-            return Some((state, outcome));
-        }
-        let mut well = false;
-        let tried = outcome.joined_p99 <= AT_ONCE || care.most_substeps == 0;
-        if tried {
-            self.control(&mut state, care, FEW_STEPS.min(care.most_steps), &mut outcome);
-            // Folds do not go away by spreading.
-            if care.most_substeps == 0 || self.folds.count(&state) <= self.folds.bound {
-                self.spread(&mut state, care);
-                self.finish(&mut state, &mut outcome);
-                well = care.most_substeps == 0 || self.is_well(&state, care, outcome);
-            }
-        }
-        if !well {
-            let bodies = between(&self.from, to, care.most_substeps, &mut self.rebuild);
-            (outcome.substeps, outcome.mends) = (bodies.len(), 0);
-            if !bodies.is_empty() || !tried {
-                state = match bodies.is_empty() {
-                    true => ClothState { positions: conformed, ..state },
-                    false => self.through(bodies, to, care, &mut outcome),
-                };
-                self.enter(to, &state);
-                self.recover(&mut state, &heights);
-            }
-            self.control(&mut state, care, care.most_steps, &mut outcome);
-            self.spread(&mut state, care);
-            self.finish(&mut state, &mut outcome);
-        }
-        if care.mends == 0 {
-            let beside = |((p, (q, turn)), _): ((&DVec3, &(DVec3, DQuat)), &bool)| turn.inverse() * (*p - *q);
-            self.beside = Some(state.positions.iter().zip(&carried).zip(&state.mapped).map(beside).collect());
-        }
-        Some((state, outcome))
+    }
+
+    /// Joins the shapes of the triangles, carried each by its own skin.
+    pub(super) fn join(&mut self, carried: &mut [(DVec3, DQuat)]) {
+        self.transfer.join(&self.relaxer.garment, &self.cloth, carried, &mut self.relaxer.counters);
     }
 
     /// Where the last picture of a sequence left the cloth beside the places that carrying gives it, it starts in the next
     /// one, if that strains it less: from picture to picture little changes.
-    fn go_on(&self, state: &mut ClothState, carried: &[(DVec3, DQuat)], joined_p99: f64) {
+    pub(super) fn go_on(&self, state: &mut ClothState, carried: &[(DVec3, DQuat)], joined_p99: f64) {
         let Some(beside) = &self.beside else { return };
         let near = |((p, turn), beside): (&(DVec3, DQuat), &DVec3)| *p + *turn * *beside;
         let positions = carried.iter().zip(beside).map(near).collect();
@@ -258,64 +179,43 @@ impl Reposer {
         }
     }
 
-    fn finish(&self, state: &mut ClothState, outcome: &mut Outcome) {
-        outcome.inside = self.send_out(state);
-        outcome.excess_p99 = self.lengths.p99(state);
+    /// Remembers where a picture left the cloth, for the next one.
+    pub(super) fn remember(&mut self, state: &ClothState, carried: &[(DVec3, DQuat)]) {
+        let beside = |((p, (q, turn)), _): ((&DVec3, &(DVec3, DQuat)), &bool)| turn.inverse() * (*p - *q);
+        self.beside = Some(state.positions.iter().zip(carried).zip(&state.mapped).map(beside).collect());
+    }
+
+    /// Poses on the way to `to`, `most` of them.
+    pub(super) fn between(&mut self, to: &Surface, most: usize) -> Vec<Arc<Surface>> {
+        between(&self.from, to, most, &mut self.rebuild)
+    }
+
+    /// Looks for faces that are too near the body, and lifts them from now on. How many there are.
+    pub(super) fn lift_faces(&mut self, state: &ClothState) -> usize {
+        let clearance = self.relaxer.offset() * FACE_CLEARANCE;
+        self.relaxer.lift_faces(state, clearance)
     }
 
     /// Which skin of `body` cloth does not touch, by the skin it was bound to.
-    fn parts_of(&self, body: &Surface) -> Option<Arc<Apart>> {
+    pub(super) fn parts_of(&self, body: &Surface) -> Option<Arc<Apart>> {
         let bound: Vec<Option<u32>> =
             (0..self.map.len()).map(|v| self.map.of(v).first().map(|b| b.triangle)).collect();
         Apart::of(body, &bound).map(Arc::new)
     }
 
     /// Whether the strain is what it may be, and the cloth has no more faults than when it was bound.
-    fn is_well(&mut self, state: &ClothState, care: Care, outcome: Outcome) -> bool {
+    pub(super) fn is_well(&mut self, state: &ClothState, care: Care, outcome: Outcome) -> bool {
         if outcome.excess_p99 > care.excess || outcome.inside > 0 {
             return false;
         }
-        let clearance = self.relaxer.offset() * FACE_CLEARANCE;
         self.relaxer.track(state, 2.0 * self.relaxer.offset());
-        self.relaxer.lift_faces(state, clearance) == 0
+        self.lift_faces(state) == 0
             && self.folds.count(state) <= self.folds.bound
             && self.relaxer.part_layers(state) <= self.crossings
     }
 
-    /// Goes through `bodies`, the poses on the way, bound anew to each; then on to `to`.
-    fn through(
-        &mut self,
-        bodies: Vec<Arc<Surface>>,
-        to: &Arc<Surface>,
-        care: Care,
-        outcome: &mut Outcome,
-    ) -> ClothState {
-        let first = &bodies[0];
-        let positions = conformed(&self.map, &self.from, first, &self.cloth.positions);
-        let mut state = ClothState { positions, mapped: self.cloth.mapped.clone() };
-        let mut heights = self.map.heights.clone();
-        for (i, body) in bodies.iter().enumerate() {
-            self.enter(body, &state);
-            self.recover(&mut state, &heights);
-            self.relaxer.walk(true);
-            for done in 1..=STEPS_PER_SUBSTEP {
-                self.step(&mut state, care, done);
-                outcome.steps += 1;
-                if done.is_multiple_of(STEPS_PER_LOOK) && self.lengths.p99(&state) <= SPREADABLE {
-                    break;
-                }
-            }
-            self.relaxer.walk(false);
-            let next = bodies.get(i + 1).unwrap_or(to);
-            let map = DistanceMap::apart(body, &state, self.apart.as_deref());
-            state.positions = conformed(&map, body, next, &state.positions);
-            heights = map.heights;
-        }
-        state
-    }
-
     /// The cloth, as it lies in `state`, is on `body` now.
-    fn enter(&mut self, body: &Arc<Surface>, state: &ClothState) {
+    pub(super) fn enter(&mut self, body: &Arc<Surface>, state: &ClothState) {
         self.relaxer.change_body(Arc::clone(body));
         self.relaxer.keep_apart(self.apart.clone());
         self.relaxer.forget_motion(state);
@@ -323,7 +223,7 @@ impl Reposer {
 
     /// Penetration recovery: P = Q + max(|PQ|, o) n with the exact closest point and its pseudonormal; the length is the
     /// height at which the vertex was bound, so that layers keep their order. Returns how many were inside.
-    fn recover(&mut self, state: &mut ClothState, heights: &[f64]) -> usize {
+    pub(super) fn recover(&mut self, state: &mut ClothState, heights: &[f64]) -> usize {
         let offset = self.relaxer.offset();
         self.relaxer.track(state, 2.0 * offset);
         let mut inside = 0;
@@ -339,63 +239,8 @@ impl Reposer {
         inside
     }
 
-    /// Strain control: global steps in contact until the strain is what it may be, or so little that it can be spread; then
-    /// faces that cut the body are raised.
-    fn control(&mut self, state: &mut ClothState, care: Care, most: usize, outcome: &mut Outcome) {
-        let mut looks = Looks::new(self.folds.bound);
-        for done in 1..=most {
-            self.step(state, care, done);
-            outcome.steps += 1;
-            if !done.is_multiple_of(STEPS_PER_LOOK) {
-                continue;
-            }
-            let strain = self.lengths.p99(state);
-            looks.see(state, self.folds.count(state), strain);
-            // What is folded over does not come apart edge by edge; where cloth has to be folded it stays.
-            let spreads = done >= FEW_STEPS && looks.is_unfolded();
-            if strain <= if spreads { SPREADABLE } else { care.excess } {
-                break;
-            }
-        }
-        looks.give_back(state);
-        let clearance = self.relaxer.offset() * FACE_CLEARANCE;
-        while outcome.mends < care.mends && self.relaxer.lift_faces(state, clearance) > 0 {
-            for done in 1..=STEPS_PER_MEND {
-                self.step(state, care, done);
-                outcome.steps += 1;
-            }
-            outcome.mends += 1;
-        }
-    }
-
-    /// Spreads strain that is left in a few places, unless there is so much of it that the cloth is too tight; takes it back
-    /// where that did not help.
-    fn spread(&mut self, state: &mut ClothState, care: Care) {
-        let clearance = self.relaxer.offset() * FACE_CLEARANCE;
-        let (before, was) = (state.clone(), self.lengths.p99(state));
-        if was > TOO_TIGHT {
-            return;
-        }
-        if care.mends == 0 && was > care.excess {
-            limited(&self.lengths, &mut self.relaxer, state, care.excess, LIVE_ROUNDS);
-        }
-        for _ in 0..LIMITS_PER_MEND * care.mends {
-            if self.lengths.p99(state) <= care.excess {
-                break;
-            }
-            limited(&self.lengths, &mut self.relaxer, state, care.excess, ROUNDS);
-            if self.relaxer.lift_faces(state, clearance) == 0 {
-                break;
-            }
-            raised(&mut self.relaxer, state);
-        }
-        if self.lengths.p99(state) > was {
-            *state = before;
-        }
-    }
-
     /// The `done`-th global step in these contacts.
-    fn step(&mut self, state: &mut ClothState, care: Care, done: usize) {
+    pub(super) fn step(&mut self, state: &mut ClothState, care: Care, done: usize) {
         let step = GlobalStep {
             cap: STEP_CAP * self.relaxer.surface.scale(),
             contact: CONTACT,
@@ -412,7 +257,7 @@ impl Reposer {
 
     /// Vertices still in the body go to the nearest skin above them. Returns how many stay inside: between parts of a body
     /// that cross there is no way out.
-    fn send_out(&self, state: &mut ClothState) -> usize {
+    pub(super) fn send_out(&self, state: &mut ClothState) -> usize {
         let surface = &self.relaxer.surface;
         let least = VERTEX_CLEARANCE * self.relaxer.offset();
         let sent = |(v, (p, &mapped)): (usize, (&mut DVec3, &bool))| {

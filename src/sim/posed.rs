@@ -5,7 +5,8 @@ use std::sync::Arc;
 use crate::body::Surface;
 use crate::cloth::ClothState;
 use crate::contact::Splits;
-use crate::repose::{Care, Outcome, Reposer};
+use crate::repose::{Care, Change, Outcome, Reposer};
+use crate::sim::protocol::GarmentSource;
 use crate::sim::world::World;
 use crate::wrap::Marks;
 
@@ -18,9 +19,32 @@ pub struct Posed {
     outcome: Outcome,
 }
 
+/// In one tick of a change of pose about so many vertices are moved by a global step, but one piece of it is done at least.
+const VERTICES_A_TICK: usize = 40_000;
+
+/// A change of pose under way: the cloth stays as it was before until it has come there.
+#[derive(Clone, Debug)]
+pub struct Posing {
+    source: Arc<GarmentSource>,
+    /// In the new pose.
+    body: Arc<Surface>,
+    /// The same body in another size, where the cloth goes at the end.
+    size: Option<Arc<Surface>>,
+    settle: bool,
+    reposer: Reposer,
+    change: Change,
+}
+
+impl Posing {
+    /// 0..=1.
+    pub fn progress(&self) -> f64 {
+        self.change.progress()
+    }
+}
+
 impl World {
-    /// The dressed cloth on its body in the pose of `body`. None where nothing is dressed; cloth that still grows begins again
-    /// there. The error is in words.
+    /// On its way to lying on its body in the pose of `body`, which takes some ticks. None where nothing is dressed; cloth that
+    /// still grows begins again there. The error is in words.
     pub fn reposed(
         &mut self,
         body: Arc<Surface>,
@@ -53,27 +77,10 @@ impl World {
         let new = || Reposer::new(&garment, from, ClothState::clone(&self.cloth), source.relax);
         let mut reposer =
             known.or_else(new).ok_or("the garment is too large for this machine's memory".to_owned())?;
-        let (cloth, outcome) = reposer
-            .reposed(&body, care)
+        let change = Change::new(&mut reposer, Arc::clone(&body), care)
             .ok_or("the body in the new pose has other triangles than the dressed one".to_owned())?;
-        let cloth = Arc::new(cloth);
-        let splits = Splits::of_lying(&garment, &cloth, &body, source.relax.offset).map(Arc::new);
-        let posed = Some(Arc::new(Posed { reposer, cloth: Arc::clone(&cloth), outcome }));
-        let mut world = Self {
-            source: Some(source),
-            body: Some(body),
-            cloth,
-            dressing: None,
-            splits,
-            posed,
-            draping: None,
-            was_sewn: false,
-            ..self.clone()
-        };
-        if settle {
-            world.settle();
-        }
-        Ok(Some(world))
+        let posing = Posing { source, body, size: None, settle, reposer, change };
+        Ok(Some(Self { posing: Some(Arc::new(posing)), ..self.clone() }))
     }
 
     /// The dressed cloth on `body`, its own in another size, of which `through` is the same in the triangles of its own. None
@@ -88,17 +95,51 @@ impl World {
         if grows || self.sewing.is_some() || self.trials.is_some() {
             return self.reposed(body, marks, false, Care::THOROUGH);
         }
-        let Some(world) = self.reposed(through, marks, false, Care::THOROUGH)? else { return Ok(None) };
-        let (garment, source) = (world.garment.as_ref(), world.source.as_ref());
-        let splits = garment.zip(source).and_then(|(garment, source)| {
-            Splits::of_lying(garment, &world.cloth, &body, source.relax.offset).map(Arc::new)
-        });
-        // Another pose is not gone to from triangles that the body has no longer.
-        let mut world = Self { body: Some(body), splits, posed: None, ..world };
-        if !world.was_draped {
-            world.settle();
+        let mut world = self.reposed(through, marks, false, Care::THOROUGH)?;
+        if let Some(posing) = world.as_mut().and_then(|world| world.posing.as_mut()) {
+            Arc::make_mut(posing).size = Some(body);
         }
-        Ok(Some(world))
+        Ok(world)
+    }
+
+    /// A tick of the change of pose under way.
+    pub(super) fn pose(&mut self) {
+        let Some(posing) = &mut self.posing else { return };
+        let posing = Arc::make_mut(posing);
+        let most = (VERTICES_A_TICK / self.cloth.positions.len().max(1)).max(1);
+        let mut done = 0;
+        while done < most && !posing.change.is_done() {
+            done += posing.change.step(&mut posing.reposer);
+        }
+        if posing.change.is_done() {
+            self.finish_posing();
+        }
+    }
+
+    /// Ends the change of pose under way, if there is one, at once.
+    pub fn finish_posing(&mut self) {
+        let Some(posing) = self.posing.take() else { return };
+        let Posing { source, body, size, settle, mut reposer, mut change } = Arc::unwrap_or_clone(posing);
+        while !change.is_done() {
+            change.step(&mut reposer);
+        }
+        let (cloth, outcome) = change.into_cloth();
+        let cloth = Arc::new(cloth);
+        let to = size.as_ref().unwrap_or(&body);
+        self.splits = self
+            .garment
+            .as_ref()
+            .and_then(|garment| Splits::of_lying(garment, &cloth, to, source.relax.offset).map(Arc::new));
+        // Another pose is not gone to from triangles that the body has no longer.
+        let posed = Posed { reposer, cloth: Arc::clone(&cloth), outcome };
+        self.posed = size.is_none().then(|| Arc::new(posed));
+        let settles = if size.is_some() { !self.was_draped } else { settle };
+        (self.source, self.body, self.cloth) = (Some(source), Some(size.unwrap_or(body)), cloth);
+        (self.dressing, self.draping, self.was_sewn) = (None, None, false);
+        if settles {
+            self.settle();
+        }
+        self.part_active();
     }
 
     /// What came of the last change of pose, while the cloth lies as it left it.

@@ -139,6 +139,11 @@ impl Simulation {
         Some((start, draped, trials.count()))
     }
 
+    /// Whether the cloth is on its way to another pose of its body.
+    pub fn is_posing(&self) -> bool {
+        self.world.posing.is_some()
+    }
+
     /// 0..=1 over growing and settling.
     pub fn progress(&self) -> f64 {
         self.world.progress()
@@ -205,6 +210,13 @@ impl Simulation {
     }
 
     fn carry_out(&mut self, kind: RequestKind) -> Result<(), String> {
+        match kind {
+            // From where the cloth lies, wherever it was to go.
+            RequestKind::Repose { .. } | RequestKind::Resize { .. } => self.world.posing = None,
+            RequestKind::Restore { .. } | RequestKind::Clear | RequestKind::SetRelaxing(_) => {}
+            // Of the cloth as it lies there.
+            _ => self.world.finish_posing(),
+        }
         match self.with_skips(kind) {
             RequestKind::Wrap { source, body } => self.set_world(World::wrapped(source, body)),
             RequestKind::Rewrap { source, body, pairs } => {
@@ -223,6 +235,9 @@ impl Simulation {
                 let care = if draft { Care::LIVE } else { Care::THOROUGH };
                 if let Some(world) = self.world.reposed(body, marks, settle, care)? {
                     self.set_world(world);
+                }
+                if draft {
+                    self.world.finish_posing();
                 }
             }
             RequestKind::Resize { through, body, marks } => {

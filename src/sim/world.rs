@@ -16,7 +16,7 @@ use crate::relax::RelaxSettings;
 use crate::sim::activity::staying;
 use crate::sim::draped::Draping;
 use crate::sim::hash::cloth_hash;
-use crate::sim::posed::Posed;
+use crate::sim::posed::{Posed, Posing};
 use crate::sim::protocol::{ClothPlace, GarmentSource};
 use crate::sim::sewn::{Outfit, Placed};
 use crate::sim::starts::{Started, Trials};
@@ -53,6 +53,8 @@ pub struct World {
     pub meshes: Arc<Meshes>,
     /// The last change of pose.
     pub posed: Option<Arc<Posed>>,
+    /// The change of pose under way.
+    pub posing: Option<Arc<Posing>>,
     /// Physics: has the cloth, or waits for it to lie.
     pub draping: Option<Arc<Draping>>,
     /// Physics has moved the cloth since it was grown: it may lie in folds, wherever it has gone since.
@@ -90,6 +92,7 @@ impl Default for World {
             problems: Arc::default(),
             meshes: Arc::default(),
             posed: None,
+            posing: None,
             draping: None,
             was_draped: false,
             was_sewn: false,
@@ -386,9 +389,10 @@ impl World {
 
     /// One tick of work.
     pub fn step(&mut self) {
-        match self.trials {
-            Some(_) => self.try_on(),
-            None => self.advance(),
+        match (&self.posing, &self.trials) {
+            (Some(_), _) => self.pose(),
+            (None, Some(_)) => self.try_on(),
+            (None, None) => self.advance(),
         }
     }
 
@@ -412,7 +416,7 @@ impl World {
     /// How far the dressing has come; None without a garment.
     pub fn phase(&self) -> Option<Phase> {
         self.garment.as_ref()?;
-        if self.trials.is_some() && self.lies_still() {
+        if self.posing.is_some() || (self.trials.is_some() && self.lies_still()) {
             return Some(Phase::Settling);
         }
         if let Some(dragging) = &self.dragging {
@@ -429,6 +433,9 @@ impl World {
 
     /// 0..=1 over growing and settling.
     pub fn progress(&self) -> f64 {
+        if let Some(posing) = &self.posing {
+            return posing.progress();
+        }
         if let Some(progress) = self.sewing.as_ref().map(|placed| placed.progress()) {
             return progress;
         }
@@ -440,7 +447,7 @@ impl World {
 
     /// Whether a tick would change nothing.
     pub fn is_at_rest(&self) -> bool {
-        self.lies_still() && (self.trials.is_none() || !self.relaxing)
+        self.posing.is_none() && self.lies_still() && (self.trials.is_none() || !self.relaxing)
     }
 
     /// Whether the cloth as it lies has come to rest, or is held still.

@@ -50,6 +50,43 @@ fn a_pose_is_undone_done_again_and_replayed_with_body_cloth_and_marks() {
 }
 
 #[test]
+fn on_the_way_to_a_pose_it_can_be_undone_changed_and_worked_on() {
+    let mut s = dressed();
+    let before = cloth_hash(&mut s);
+    s.apply_alone(turned()).expect("posed");
+    run(&mut s, 200);
+    let there = cloth_hash(&mut s);
+    s.apply_alone(Command::Undo).expect("undone");
+
+    let posing = |s: &mut Session| s.runner().simulation().expect("inline").is_posing();
+    s.apply_alone(turned()).expect("posed");
+    assert!(posing(&mut s), "it is done in ticks");
+    s.apply_alone(Command::Undo).expect("undone");
+    run(&mut s, 1);
+    assert!(!posing(&mut s) && cloth_hash(&mut s) == before);
+
+    let Command::Repose { body, .. } = turned() else { panic!("a pose") };
+    let BodyChoice::Imported { name, mesh } = body else { panic!("a mesh") };
+    let mut farther = mesh.as_ref().clone();
+    farther.positions.iter_mut().for_each(|p| p.y += 0.3);
+    let farther = BodyChoice::Imported { name, mesh: Arc::new(farther) };
+    s.apply_alone(Command::Repose { body: farther, settle: false, draft: false }).expect("posed");
+    s.apply_alone(turned()).expect("elsewhere meanwhile");
+    run(&mut s, 200);
+    assert_eq!(cloth_hash(&mut s), there, "as if it had never been on its way to the other");
+
+    s.apply_alone(Command::Undo).expect("undone");
+    s.apply_alone(Command::Undo).expect("undone");
+    s.apply_alone(turned()).expect("posed");
+    s.apply_alone(Command::SetDraping { on: false }).expect("it is not");
+    assert!(!posing(&mut s), "what is asked meanwhile is asked of the cloth that has come there");
+    run(&mut s, 200);
+    assert_eq!(cloth_hash(&mut s), there);
+    let recording = Recording::parse(&s.recording()).expect("a recording");
+    Replay::new(recording).run().expect("the same hashes");
+}
+
+#[test]
 fn a_body_of_other_triangles_is_no_pose() {
     let mut s = dressed();
     let before = s.document().clone();
