@@ -539,9 +539,9 @@ pub struct Bench {
     /// How often each scene is run; the median counts
     #[arg(long, default_value_t = 5, value_parser = clap::value_parser!(u16).range(1..=1000))]
     pub runs: u16,
-    /// About so many triangles a garment has; the limits are for 10000
-    #[arg(long, default_value_t = 10_000, value_parser = clap::value_parser!(u32).range(200..=1_000_000))]
-    pub triangles: u32,
+    /// About so many triangles a garment has; the limits are for 10000, those of ticks for 20000, which are the defaults
+    #[arg(long, value_parser = clap::value_parser!(u32).range(200..=1_000_000))]
+    pub triangles: Option<u32>,
     /// Writes a picture of error against time, or of cost against size, to this file (SVG)
     #[arg(long, value_name = "SVG")]
     pub plot: Option<PathBuf>,
@@ -574,6 +574,8 @@ pub enum BenchKind {
     Drape,
     /// Share of garments of our own (see generate) that are dressed without a fault, by kind, with times and reasons
     Corpus,
+    /// The longest tick and the longest request of every stage: a cancel or another request waits for no more than that
+    Ticks,
 }
 
 fn frame_range(text: &str) -> Result<Range<usize>, String> {

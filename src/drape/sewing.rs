@@ -42,6 +42,8 @@ pub struct Sewing {
     surface: Arc<Surface>,
     closing: u32,
     ticks: u32,
+    /// A tick is under way.
+    is_begun: bool,
     /// Since nothing in it is fast.
     still: u32,
     widest: f64,
@@ -131,6 +133,7 @@ impl Sewing {
             surface,
             closing,
             ticks: 0,
+            is_begun: false,
             still: 0,
             widest,
         };
@@ -152,8 +155,24 @@ impl Sewing {
         (f64::from(self.ticks) / f64::from(self.closing + PATIENCE)).min(1.0)
     }
 
-    /// A tick. True when the seams are shut, or have had their time.
-    pub fn tick(&mut self, cloth: &mut ClothState) -> Result<bool, Undrapable> {
+    /// Some of the work of a tick. True when the seams are shut, or have had their time.
+    pub fn go_on(&mut self, cloth: &mut ClothState) -> Result<bool, Undrapable> {
+        if !self.is_begun {
+            self.tie(cloth);
+        }
+        self.is_begun = !self.worn.go_on(cloth)?;
+        if self.is_begun {
+            return Ok(false);
+        }
+        let gap = |[a, b]: [u32; 2]| cloth.positions[a as usize].distance(cloth.positions[b as usize]);
+        self.widest = self.threads.iter().map(|t| gap(t.ends)).fold(0.0, f64::max);
+        let is_slow = self.ticks >= self.closing && self.worn.progress().speed < SLOW;
+        self.still = if is_slow { self.still + 1 } else { 0 };
+        Ok(self.still >= STILL || self.ticks >= self.closing + PATIENCE)
+    }
+
+    /// Shortens the threads for another tick.
+    fn tie(&mut self, cloth: &ClothState) {
         self.ticks += 1;
         let left = 1.0 - (f64::from(self.ticks) / f64::from(self.closing)).min(1.0);
         let surface = &self.surface;
@@ -165,12 +184,6 @@ impl Sewing {
             |thread: &Thread| Tie { ends: thread.ends, length: thread.length * left, over: thread.over };
         let ties: Vec<Tie> = self.threads.iter().map(tie).collect();
         self.worn.tie(&ties);
-        self.worn.tick(cloth)?;
-        let gap = |[a, b]: [u32; 2]| cloth.positions[a as usize].distance(cloth.positions[b as usize]);
-        self.widest = self.threads.iter().map(|t| gap(t.ends)).fold(0.0, f64::max);
-        let is_slow = self.ticks >= self.closing && self.worn.progress().speed < SLOW;
-        self.still = if is_slow { self.still + 1 } else { 0 };
-        Ok(self.still >= STILL || self.ticks >= self.closing + PATIENCE)
     }
 
     /// Makes one of what is sewn, with the mass and momentum of its parts.

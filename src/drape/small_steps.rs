@@ -80,6 +80,32 @@ pub struct SmallSteps {
     pub skipped: u64,
 }
 
+/// Some time that the cloth goes on, in small steps.
+#[derive(Clone, Debug)]
+pub struct Advance {
+    /// Of a step, s.
+    small: f64,
+    /// Steps in all, and done.
+    count: usize,
+    done: usize,
+    /// What bending does to the velocity of each vertex, as long as it is held, m/s.
+    bent: Vec<DVec3>,
+    /// Where the vertices were before the step.
+    before: Vec<DVec3>,
+}
+
+impl Advance {
+    /// `h` seconds in `count` steps.
+    pub fn new(h: f64, count: usize) -> Self {
+        Self { small: h / count as f64, count, done: 0, bent: Vec::new(), before: Vec::new() }
+    }
+
+    /// Whether all of it is done.
+    pub fn is_done(&self) -> bool {
+        self.done == self.count
+    }
+}
+
 /// A thread between two vertices: it is no longer than so much.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tie {
@@ -274,83 +300,99 @@ impl SmallSteps {
 
     /// Goes `h` seconds on in `count` steps.
     pub fn advance(&mut self, around: &Surroundings<'_>, state: &mut State, h: f64, count: usize) {
-        let small = h / count as f64;
+        let mut advance = Advance::new(h, count);
+        while !advance.is_done() {
+            self.go_on(&mut advance, around, state);
+        }
+    }
+
+    /// A small step of `advance`.
+    pub fn go_on(&mut self, advance: &mut Advance, around: &Surroundings<'_>, state: &mut State) {
+        let Advance { small, count, done: s, .. } = *advance;
+        let part = 1.0 / count as f64;
         self.net.ready(small, &self.inverse_mass);
         let every = self.bending_every(small, around.bending_damping).min(count);
         let drag = (-around.damping * small).exp();
         // A blow now and then, which keeps energy, shakes cloth that should come to rest; a force that is held comes late by
         // half of the time it is held, for which it looks ahead.
         let holds = around.bending_damping > 0.0;
-        let mut bent = vec![DVec3::ZERO; state.positions.len()];
-        let mut before = state.positions.clone();
-        for s in 0..count {
-            self.look_ahead(around, state, (small, 1.0 / count as f64));
-            let x = &mut state.positions;
-            let kick = if s == 0 { self.lag + small / 2.0 } else { small };
-            if s % every == 0 && self.bending_rate > 0.0 {
-                let span = small * every.min(count - s) as f64;
-                if holds {
-                    // Quadratic: the force at x + τ v is that of the shape and of its change.
-                    let ahead = around.bending_damping + span / 2.0;
-                    for (place, (x, v)) in before.iter_mut().zip(x.iter().zip(&state.velocities)) {
-                        *place = *x + *v * ahead;
-                    }
-                    around.bending.write_forces(&before, &mut bent, |i| small * self.inverse_mass[i]);
-                } else {
-                    around.bending.write_forces(x, &mut bent, |i| span * self.inverse_mass[i]);
-                    state.velocities.iter_mut().zip(&bent).for_each(|(v, b)| *v -= *b);
-                    bent.fill(DVec3::ZERO);
+        let Advance { bent, before, .. } = advance;
+        bent.resize(state.positions.len(), DVec3::ZERO);
+        before.resize(state.positions.len(), DVec3::ZERO);
+        self.look_ahead(around, state, (small, part));
+        let x = &mut state.positions;
+        let kick = if s == 0 { self.lag + small / 2.0 } else { small };
+        if s % every == 0 && self.bending_rate > 0.0 {
+            let span = small * every.min(count - s) as f64;
+            if holds {
+                // Quadratic: the force at x + τ v is that of the shape and of its change.
+                let ahead = around.bending_damping + span / 2.0;
+                for (place, (x, v)) in before.iter_mut().zip(x.iter().zip(&state.velocities)) {
+                    *place = *x + *v * ahead;
+                }
+                around.bending.write_forces(before, bent, |i| small * self.inverse_mass[i]);
+            } else {
+                around.bending.write_forces(x, bent, |i| span * self.inverse_mass[i]);
+                state.velocities.iter_mut().zip(&*bent).for_each(|(v, b)| *v -= *b);
+                bent.fill(DVec3::ZERO);
+            }
+        }
+        let net = &self.net;
+        let of_body = (&mut self.planes[..], &mut self.creases[..]);
+        let mut work = shares(net, x, before, &mut state.velocities, of_body);
+        side_by_side(&mut work, |p, share| {
+            let Share { first, x, before, velocities, .. } = share;
+            before.copy_from_slice(x);
+            for (i, (x, v)) in x.iter_mut().zip(velocities.iter_mut()).enumerate() {
+                if self.inverse_mass[*first + i] > 0.0 {
+                    *v = *v * drag + around.gravity * kick - bent[*first + i];
+                    *x += *v * small;
                 }
             }
-            let net = &self.net;
+            net.project_part(p, x);
+        });
+        net.project_between(x);
+        if let Some(separation) = &mut self.separation {
+            let friction = if around.grip > 0.0 { around.friction } else { &[] };
+            let touch = Touch { inverse_mass: &self.inverse_mass, friction, ease: EASE * small };
+            separation.push_apart(x, before, touch);
+        }
+        self.pull(x, small);
+        self.draw(x, f64::INFINITY, small);
+        if let Some(collider) = around.collider {
+            let left = 1.0 - (s + 1) as f64 / count as f64;
+            let scene = Colliding { around, collider, left, part, small };
             let of_body = (&mut self.planes[..], &mut self.creases[..]);
-            let mut work = shares(net, x, &mut before, &mut state.velocities, of_body);
-            side_by_side(&mut work, |p, share| {
-                let Share { first, x, before, velocities, .. } = share;
-                before.copy_from_slice(x);
-                for (i, (x, v)) in x.iter_mut().zip(velocities.iter_mut()).enumerate() {
-                    if self.inverse_mass[*first + i] > 0.0 {
-                        *v = *v * drag + around.gravity * kick - bent[*first + i];
-                        *x += *v * small;
-                    }
-                }
-                net.project_part(p, x);
-            });
-            net.project_between(x);
-            if let Some(separation) = &mut self.separation {
-                let friction = if around.grip > 0.0 { around.friction } else { &[] };
-                let touch = Touch { inverse_mass: &self.inverse_mass, friction, ease: EASE * small };
-                separation.push_apart(x, &mut before, touch);
+            let mut work = shares(&self.net, x, before, &mut state.velocities, of_body);
+            let this = Knowing {
+                inverse_mass: &self.inverse_mass,
+                lift: &self.lift,
+                spread: &self.spread,
+                eases: self.eases,
+            };
+            let looked = side_by_side(&mut work, |_, share| this.collide(&scene, share));
+            for (queries, skipped) in looked {
+                self.queries += queries;
+                self.skipped += skipped;
             }
-            self.pull(x, small);
-            self.draw(x, f64::INFINITY, small);
-            if let Some(collider) = around.collider {
-                let left = 1.0 - (s + 1) as f64 / count as f64;
-                let scene = Colliding { around, collider, left, part: 1.0 / count as f64, small };
-                let of_body = (&mut self.planes[..], &mut self.creases[..]);
-                let mut work = shares(&self.net, x, &mut before, &mut state.velocities, of_body);
-                let this = Knowing {
-                    inverse_mass: &self.inverse_mass,
-                    lift: &self.lift,
-                    spread: &self.spread,
-                    eases: self.eases,
-                };
-                let looked = side_by_side(&mut work, |_, share| this.collide(&scene, share));
-                for (queries, skipped) in looked {
-                    self.queries += queries;
-                    self.skipped += skipped;
-                }
-                self.draw(x, NEARLY_SHUT, small);
-            }
-            self.truncate(around, &before, &mut state.positions, (small, 1.0 / count as f64));
-            for (v, (now, then)) in state.velocities.iter_mut().zip(state.positions.iter().zip(&before)) {
-                *v = (*now - *then) / small;
+            self.draw(x, NEARLY_SHUT, small);
+        }
+        self.truncate(around, before, &mut state.positions, (small, part));
+        for (v, (now, then)) in state.velocities.iter_mut().zip(state.positions.iter().zip(&*before)) {
+            *v = (*now - *then) / small;
+        }
+        advance.done += 1;
+        if advance.is_done() {
+            self.lag = small / 2.0;
+            if around.collider.is_some_and(|c| !c.motion.is_empty()) {
+                self.forget_planes();
             }
         }
-        self.lag = small / 2.0;
-        if around.collider.is_some_and(|c| !c.motion.is_empty()) {
-            self.forget_planes();
-        }
+    }
+
+    /// Work done so far: vertices moved in small steps are not counted, pairs of features looked at are.
+    pub fn looked_at(&self) -> u64 {
+        self.separation.as_ref().map_or(0, |separation| separation.counters.looked_at)
     }
 
     /// Looks for what is near where some vertex is about to leave what is known.

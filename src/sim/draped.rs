@@ -130,8 +130,10 @@ impl World {
         }
         let Some(draping) = self.draping.as_mut().map(Arc::make_mut) else { return };
         let Some(worn) = &mut draping.worn else { return };
-        if let Err(Undrapable(words)) = worn.tick(Arc::make_mut(&mut self.cloth)) {
-            return self.fail_draping(words);
+        match worn.go_on(Arc::make_mut(&mut self.cloth)) {
+            Ok(true) => {}
+            Ok(false) => return,
+            Err(Undrapable(words)) => return self.fail_draping(words),
         }
         draping.left = draping.left.map(|left| left.saturating_sub(1));
         let rests = worn.progress().at_rest;
@@ -238,6 +240,7 @@ impl World {
             runs: draping.runs(),
             residual: progress.map_or(1.0, |p| p.residual),
             speed: progress.map_or(0.0, |p| p.speed),
+            ticks: progress.map_or(0, |p| p.ticks),
             substeps: draping.worn.as_ref().map_or(0, Worn::substeps),
         })
     }

@@ -181,7 +181,9 @@ pub struct DrapeState {
     pub residual: f64,
     /// The fastest vertex, m/s.
     pub speed: f64,
-    /// Small steps in each tick.
+    /// Ticks of physics so far, each done in one tick of the simulation or, of large cloth, in several.
+    pub ticks: u64,
+    /// Small steps in each tick of physics.
     pub substeps: usize,
 }
 

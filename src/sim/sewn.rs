@@ -119,7 +119,7 @@ impl World {
     /// A tick of sewing.
     pub(super) fn sew(&mut self) {
         let Some(placed) = self.sewing.as_mut().map(Arc::make_mut) else { return };
-        match placed.sewing.tick(Arc::make_mut(&mut self.cloth)) {
+        match placed.sewing.go_on(Arc::make_mut(&mut self.cloth)) {
             Ok(false) => {}
             Ok(true) => self.finish_sewing(),
             Err(Undrapable(words)) => {

@@ -85,6 +85,22 @@ fn the_corpus_is_dressed_and_judged() {
 }
 
 #[test]
+fn ticks_has_a_row_for_every_garment_and_a_check_for_every_stage() {
+    let place = Place::new();
+    let rows = rows(&place.ends(0, "bench ticks --runs 1 --triangles 400 --json").out);
+    assert_eq!(rows.len(), 4, "{rows:#?}");
+    let stages: Vec<&str> = rows
+        .iter()
+        .flat_map(|row| row["checks"].as_array().expect("checks"))
+        .map(|check| check["what"].as_str().expect("a stage"))
+        .collect();
+    for stage in ["building it", "growing", "settling", "re-posing it", "dragging", "draping", "sewing"] {
+        assert!(stages.contains(&stage), "{stage}: {stages:?}");
+    }
+    place.ends_with_words(2, "bench ticks --plot a.svg", "--plot");
+}
+
+#[test]
 fn wrong_arguments_are_told() {
     let place = Place::new();
     place.ends_with_words(2, "bench length", "speed");

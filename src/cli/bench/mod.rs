@@ -9,6 +9,7 @@ mod row;
 mod scenes;
 mod sheets;
 mod speed;
+mod ticks;
 mod torso;
 mod tube;
 
@@ -22,7 +23,8 @@ use crate::cli::output;
 /// Runs every scene asked for and prints a row for each as it is done.
 pub fn bench(arguments: &Bench) -> Result<(), Failure> {
     let asked = |kind| arguments.what.is_none_or(|what| what == kind);
-    if arguments.plot.is_some() && matches!(arguments.what, Some(BenchKind::Speed | BenchKind::Corpus)) {
+    let has_plot = !matches!(arguments.what, Some(BenchKind::Speed | BenchKind::Corpus | BenchKind::Ticks));
+    if arguments.plot.is_some() && !has_plot {
         return Err(Failure::Usage("--plot draws what accuracy and drape measure".to_owned()));
     }
     if arguments.what == Some(BenchKind::Corpus) {
@@ -35,13 +37,16 @@ pub fn bench(arguments: &Bench) -> Result<(), Failure> {
         return Err(Failure::Usage(words.to_owned()));
     }
     let runs = usize::from(arguments.runs);
-    if arguments.what == Some(BenchKind::Drape) {
-        return drape_scenes(arguments, runs);
+    match arguments.what {
+        Some(BenchKind::Drape) => return drape_scenes(arguments, runs),
+        Some(BenchKind::Ticks) => {
+            let triangles = arguments.triangles.map_or(TICKS_TRIANGLES, |n| n as usize);
+            return ticks::ticks(triangles, runs, arguments.work.no_skip, |row| say(row, arguments.json));
+        }
+        _ => {}
     }
     if asked(BenchKind::Speed) {
-        speed::speed(arguments.triangles as usize, runs, arguments.work.no_skip, |row| {
-            say(row, arguments.json)
-        })?;
+        speed::speed(size_of(arguments), runs, arguments.work.no_skip, |row| say(row, arguments.json))?;
     }
     if asked(BenchKind::Accuracy) {
         let curves = accuracy::accuracy(runs, |row| say(row, arguments.json))?;
@@ -52,12 +57,19 @@ pub fn bench(arguments: &Bench) -> Result<(), Failure> {
     Ok(())
 }
 
+fn size_of(arguments: &Bench) -> usize {
+    arguments.triangles.map_or(TRIANGLES, |n| n as usize)
+}
+
+/// What a garment has when nothing is said, triangles; where ticks are measured.
+const TRIANGLES: usize = 10_000;
+const TICKS_TRIANGLES: usize = 20_000;
 /// The coarsest cloth, triangles.
 const COARSEST: usize = 200;
 
 /// Scenes of cloth under physics at three sizes: a tenth, once and four times as many triangles as asked for.
 fn drape_scenes(arguments: &Bench, runs: usize) -> Result<(), Failure> {
-    let size = arguments.triangles as usize;
+    let size = size_of(arguments);
     let sizes = [(size / 10).max(COARSEST), size, size * 4];
     let mut rows: Vec<Row> = Vec::new();
     let mut tell = |row: Row| {

@@ -57,7 +57,7 @@ fn internal(words: &str) -> Failure {
 }
 
 /// Of 25,856 triangles.
-fn body() -> TriMesh {
+pub fn body() -> TriMesh {
     let mut mesh = shapes::cylinder(1.0, HEIGHT, 128, 100);
     for x in &mut mesh.positions {
         let wide = 1.05 - 0.05 * (TAU * (x.y - 0.65) / 0.8).cos();
@@ -66,7 +66,8 @@ fn body() -> TriMesh {
     mesh
 }
 
-fn pattern() -> Pattern {
+/// Two panels, before the torso and behind it.
+pub fn pattern() -> Pattern {
     let corners = [DVec2::ZERO, PANEL.with_y(0.0), PANEL, PANEL.with_x(0.0)];
     let mut pattern = Pattern::default();
     let [front, back] = [("front", 0.0), ("back", TAU / 2.0)].map(|(name, turn)| {

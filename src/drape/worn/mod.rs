@@ -18,8 +18,9 @@ use crate::drape::bending::Bending;
 use crate::drape::contact::Collider;
 use crate::drape::laid::{ordered, shortest_sides, springs};
 use crate::drape::sheet::Sheet;
-use crate::drape::small_steps::{Hand, SmallSteps, Surroundings, Tie, substeps};
+use crate::drape::small_steps::{Advance, Hand, SmallSteps, Surroundings, Tie, substeps};
 use crate::drape::state::State;
+use crate::drape::worn::tangles::Pulling;
 use crate::geometry::crossings::meetings;
 use crate::geometry::ids::PieceId;
 use crate::geometry::mesh::TriMesh;
@@ -74,6 +75,8 @@ const SLOWING: f64 = 0.9;
 const SLOWEST: f64 = 0.25;
 /// Cloth is taken to rest after so many ticks in any case.
 const MOST_TICKS: u64 = 1200;
+/// Some of the work of a tick is so many vertices moved in a small step and pairs of features looked at: about 0.03 s.
+const MOST_WORK: u64 = 60_000;
 /// A hand pulls with so much, N/m, and at most with so many times the garment's weight.
 const HAND: (f64, f64) = (60.0, 1.0);
 
@@ -153,6 +156,10 @@ pub struct Worn {
     parting: (usize, u32),
     /// How often in a row what lay deep did not come out.
     in_vain: u32,
+    /// A tick under way.
+    begun: Option<Box<Begun>>,
+    /// What lies deep is being pulled out.
+    pulling: Option<Box<Pulling>>,
     /// Faces that came too near the body when last looked at.
     lacking: usize,
     /// Work done.
@@ -258,6 +265,8 @@ impl Worn {
             crossings: 0,
             parting: (usize::MAX, 0),
             in_vain: 0,
+            begun: None,
+            pulling: None,
             lacking: 0,
             counters: Counters::default(),
             fixed: Arc::new(Fixed {
@@ -399,19 +408,51 @@ impl Worn {
                 *velocity = velocities[self.fixed.vertices[v] as usize];
             }
         }
+        if let Some(pulling) = &mut self.pulling {
+            pulling.least.velocities.clone_from(&self.state.velocities);
+        }
     }
 
     /// What was at rest moves again, as far as it must.
     pub fn wake(&mut self) {
+        if let Some(pulling) = self.pulling.take() {
+            self.state = pulling.least;
+        }
         (self.quiet, self.pace, self.parting, self.in_vain) = (0, 1.0, (usize::MAX, 0), 0);
         self.progress = Progress { ticks: 0, at_rest: false, ..self.progress };
     }
 
-    /// A tick: [`TICK`] seconds, or fewer of cloth that is nearly still. `cloth` is the garment's, and gets where it is then.
+    /// A tick: [`TICK`] seconds, or fewer of cloth that is nearly still; then, while time stands still, what lies deep in itself is
+    /// pulled out. `cloth` is the garment's, and gets where it is then.
     pub fn tick(&mut self, cloth: &mut ClothState) -> Result<(), Undrapable> {
+        while !self.go_on(cloth)? {}
+        Ok(())
+    }
+
+    /// Some of the work of a tick. True when that ends it.
+    pub fn go_on(&mut self, cloth: &mut ClothState) -> Result<bool, Undrapable> {
+        if self.pulling.is_some() {
+            self.pull(cloth);
+        } else if self.move_on()? {
+            self.write(cloth);
+            self.look_at(cloth);
+        } else {
+            self.write(cloth);
+            return Ok(false);
+        }
+        if self.pulling.is_none() {
+            self.conclude();
+        }
+        Ok(self.pulling.is_none())
+    }
+
+    /// Some small steps. True when they are the last of a tick.
+    fn move_on(&mut self) -> Result<bool, Undrapable> {
         let fixed = Arc::clone(&self.fixed);
-        let before = self.state.clone();
-        let span = TICK * self.pace;
+        let mut begun = self.begun.take().unwrap_or_else(|| {
+            let span = TICK * self.pace;
+            Box::new(Begun { span, before: self.state.clone(), advance: Advance::new(span, self.substeps) })
+        });
         let seconds = self.progress.ticks as f64 * TICK;
         let around = Surroundings {
             bending: &fixed.bending,
@@ -424,15 +465,28 @@ impl Worn {
             grip: if self.floats && self.rubs.is_none() { 0.0 } else { GRIP },
         };
         let asked = self.small.queries;
-        self.small.advance(&around, &mut self.state, span, self.substeps);
+        let work = self.small.looked_at() + MOST_WORK;
+        let mut moved = 0;
+        while !begun.advance.is_done() && self.small.looked_at() + moved < work {
+            self.small.go_on(&mut begun.advance, &around, &mut self.state);
+            moved += self.state.positions.len() as u64;
+        }
         self.counters.contact_queries += self.small.queries - asked;
-        self.counters.contact_checks += (self.substeps * before.positions.len()) as u64;
+        self.counters.contact_checks += moved;
         if let Some(lost) = self.state.lost() {
-            self.state = before;
+            self.state = begun.before;
             return Err(Undrapable(format!("vertex {} of the cloth went nowhere", fixed.vertices[lost])));
         }
-        self.measure(&before, span);
-        self.write(cloth);
+        if begun.advance.is_done() {
+            self.measure(&begun.before, begun.span);
+            return Ok(true);
+        }
+        self.begun = Some(begun);
+        Ok(false)
+    }
+
+    /// At the end of a tick, now and then: is it clear of the body, and of itself?
+    fn look_at(&mut self, cloth: &mut ClothState) {
         let (ticks, quiet) = (self.progress.ticks, self.quiet >= QUIET_TICKS);
         if quiet || ticks.is_multiple_of(LIFT_TICKS) {
             self.lift(cloth, quiet);
@@ -441,6 +495,11 @@ impl Worn {
         if (quiet || ticks == 1 || ticks.is_multiple_of(every)) && !self.is_tangled() {
             self.part(cloth);
         }
+    }
+
+    /// Whether it rests, at the end of a tick.
+    fn conclude(&mut self) {
+        let (ticks, quiet) = (self.progress.ticks, self.quiet >= QUIET_TICKS);
         let sound = self.lacking == 0 && (self.crossings == 0 || self.is_tangled());
         if quiet && !sound {
             self.quiet = 0;
@@ -449,7 +508,6 @@ impl Worn {
             let slowed = self.slow_down();
             self.progress.at_rest = (quiet && sound && !slowed) || ticks >= MOST_TICKS;
         }
-        Ok(())
     }
 
     /// Makes time go slower where it should. False when it does not.
@@ -542,6 +600,16 @@ impl Worn {
             self.lacking += 1;
         }
     }
+}
+
+/// A tick under way.
+#[derive(Clone, Debug)]
+struct Begun {
+    /// Seconds.
+    span: f64,
+    /// As it was before.
+    before: State,
+    advance: Advance,
 }
 
 fn own_number(own: &[u32], v: u32) -> Option<usize> {

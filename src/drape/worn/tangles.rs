@@ -6,6 +6,7 @@ use glam::DVec3;
 
 use crate::cloth::ClothState;
 use crate::contact::Met;
+use crate::drape::state::State;
 use crate::drape::worn::{Worn, own_number};
 
 /// So often in a row without fewer of them: then they stay, and the report tells them.
@@ -16,6 +17,22 @@ const PARTING: f64 = 0.0005;
 const MOST_PULLS: usize = 80;
 /// And so often in a row in vain: then it is left where it is.
 const MOST_IN_VAIN: u32 = 3;
+/// In one tick what lies deep is sent out so often that so many triangles are looked at for crossings, but once at least.
+const TRIANGLES_A_TICK: usize = 60_000;
+
+/// What lies deep on the wrong side of other cloth, on its way out.
+#[derive(Clone, Debug)]
+pub(super) struct Pulling {
+    /// Where each vertex of the garment is sent.
+    ways: Vec<DVec3>,
+    /// Where vertices are sent where the cloth ran through itself in the fewest places so far, and how many these are.
+    best: (Vec<DVec3>, usize),
+    /// The cloth as it lay then.
+    pub(super) least: State,
+    /// So often it may still be sent.
+    left: usize,
+}
+
 impl Worn {
     /// Whether it is left as it is.
     pub(super) fn is_tangled(&self) -> bool {
@@ -27,9 +44,24 @@ impl Worn {
         if !self.settings.self_collision {
             return;
         }
-        let fixed = Arc::clone(&self.fixed);
         self.counters.self_tests += 1;
-        let (ways, places) = self.untangle(cloth);
+        let (met, garment) = (self.met(cloth), &*self.fixed.garment);
+        let best = (met.ways(garment, cloth), met.places.len());
+        if self.will_be.is_none() && self.in_vain < MOST_IN_VAIN {
+            let (ways, deep) = met.ways_out(garment, cloth);
+            if deep {
+                self.in_vain += 1;
+                let least = self.state.clone();
+                self.pulling = Some(Box::new(Pulling { ways, best, least, left: MOST_PULLS }));
+                return self.pull(cloth);
+            }
+        }
+        self.go_on_parting(best);
+    }
+
+    /// Sends vertices those ways, now that it is known in how many places the cloth runs through itself.
+    fn go_on_parting(&mut self, (ways, places): (Vec<DVec3>, usize)) {
+        let fixed = Arc::clone(&self.fixed);
         let was = self.crossings;
         self.crossings = places;
         self.parting = match (places, self.parting) {
@@ -65,46 +97,44 @@ impl Worn {
         met
     }
 
-    /// Takes what lies deep on the wrong side of other cloth out at once: let go half way it would go back. Where that leads
-    /// nowhere all stays as it is. For each vertex where to send it, and in how many places the cloth then still runs through
-    /// itself.
-    fn untangle(&mut self, cloth: &mut ClothState) -> (Vec<DVec3>, usize) {
+    /// Takes what lies deep on the wrong side of other cloth out in one go, which may be over several ticks, while time stands
+    /// still: let go half way it would go back. Where that leads nowhere all stays as it is.
+    pub(super) fn pull(&mut self, cloth: &mut ClothState) {
+        let Some(mut pulling) = self.pulling.take() else { return };
         let fixed = Arc::clone(&self.fixed);
         let garment = &*fixed.garment;
-        let met = self.met(cloth);
-        let mut best = (met.ways(garment, cloth), met.places.len());
-        if self.will_be.is_some() || self.in_vain >= MOST_IN_VAIN {
-            return best;
-        }
-        let (mut ways, deep) = met.ways_out(garment, cloth);
-        if !deep {
-            return best;
-        }
-        self.in_vain += 1;
-        let mut least = self.state.clone();
-        for _ in 0..MOST_PULLS {
-            let mut own = self.of_own(|v| ways[v] * PARTING);
-            for (v, way) in own.iter_mut().enumerate().filter(|(_, way)| **way != DVec3::ZERO) {
-                self.state.velocities[v] = DVec3::ZERO;
-                if let Some((normal, height)) = self.small.height(v, self.state.positions[v] + *way) {
-                    *way -= normal * height.min(0.0);
-                }
-            }
-            self.small.send(&mut self.state.positions, &fixed.collider, &own);
+        for _ in 0..(TRIANGLES_A_TICK / garment.triangles.len().max(1)).max(1) {
+            self.send_out(&pulling.ways);
             self.write(cloth);
+            pulling.left -= 1;
             let met = self.met(cloth);
-            if met.places.len() < best.1 {
-                best = (met.ways(garment, cloth), met.places.len());
-                least = self.state.clone();
+            if met.places.len() < pulling.best.1 {
+                pulling.best = (met.ways(garment, cloth), met.places.len());
+                pulling.least = self.state.clone();
             }
-            if best.1 == 0 {
-                self.in_vain = 0;
-                break;
+            if pulling.best.1 == 0 {
+                (self.in_vain, pulling.left) = (0, 0);
             }
-            ways = met.ways_out(garment, cloth).0;
+            if pulling.left == 0 {
+                self.state = pulling.least;
+                self.write(cloth);
+                return self.go_on_parting(pulling.best);
+            }
+            pulling.ways = met.ways_out(garment, cloth).0;
         }
-        self.state = least;
-        self.write(cloth);
-        best
+        self.pulling = Some(pulling);
+    }
+
+    /// Sends vertices those `ways`, but not into the body; they stand still there.
+    fn send_out(&mut self, ways: &[DVec3]) {
+        let mut own = self.of_own(|v| ways[v] * PARTING);
+        for (v, way) in own.iter_mut().enumerate().filter(|(_, way)| **way != DVec3::ZERO) {
+            self.state.velocities[v] = DVec3::ZERO;
+            if let Some((normal, height)) = self.small.height(v, self.state.positions[v] + *way) {
+                *way -= normal * height.min(0.0);
+            }
+        }
+        let fixed = Arc::clone(&self.fixed);
+        self.small.send(&mut self.state.positions, &fixed.collider, &own);
     }
 }
