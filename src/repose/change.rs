@@ -290,6 +290,8 @@ impl Change {
             self.stage = Stage::SetOut;
         } else if self.care.mends == 0 {
             reposer.remember(&self.state, &self.carried);
+        } else {
+            self.outcome.crossings = reposer.crossings_of(&self.state);
         }
         COST_OF_LIMITING
     }

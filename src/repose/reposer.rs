@@ -78,6 +78,8 @@ pub struct Outcome {
     pub steps: usize,
     /// Times it was mended.
     pub mends: usize,
+    /// In so many places the cloth runs through itself at the end; not looked for in what was only a picture.
+    pub crossings: usize,
 }
 
 /// A dressed garment bound to its body.
@@ -136,6 +138,16 @@ impl Reposer {
     /// The body the cloth was bound to.
     pub fn from(&self) -> &Arc<Surface> {
         &self.from
+    }
+
+    /// In so many places the cloth ran through itself when it was bound.
+    pub fn crossings(&self) -> usize {
+        self.crossings
+    }
+
+    /// In so many places cloth in `state` runs through itself.
+    pub(super) fn crossings_of(&self, state: &ClothState) -> usize {
+        Met::new(&self.relaxer.garment, state).places.len()
     }
 
     /// Work done so far.

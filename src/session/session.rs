@@ -350,12 +350,14 @@ impl Session {
             }
             ClothChange::Repose { settle, draft } => {
                 let body = self.bodies.surface(&edit.document.body)?;
-                Some(RequestKind::Repose { body, marks: Arc::clone(&edit.document.marks), settle, draft })
+                let (marks, fabrics) = (Arc::clone(&edit.document.marks), drape_source(&edit.document)?);
+                Some(RequestKind::Repose { body, marks, fabrics, settle, draft })
             }
             ClothChange::Resize => {
                 let through = self.bodies.in_triangles_of(&self.document.body, &edit.document.body)?;
                 let body = self.bodies.surface(&edit.document.body)?;
-                Some(RequestKind::Resize { through, body, marks: Arc::clone(&edit.document.marks) })
+                let (marks, fabrics) = (Arc::clone(&edit.document.marks), drape_source(&edit.document)?);
+                Some(RequestKind::Resize { through, body, marks, fabrics })
             }
             ClothChange::SetPins => Some(RequestKind::SetPins(edit.document.pinned_places())),
             ClothChange::Grab { at, mode } => Some(RequestKind::Grab { at, mode, bones: self.bones() }),

@@ -10,6 +10,7 @@ use crate::contact::Splits;
 use crate::drag::Ray;
 use crate::drape::{Undrapable, Worn, WornSettings};
 use crate::geometry::ids::PieceId;
+use crate::sim::posed::Posed;
 use crate::sim::protocol::{ClothPlace, DrapeState};
 use crate::sim::world::World;
 use crate::wrap::Phase;
@@ -35,9 +36,22 @@ pub struct Draping {
     left: Option<u32>,
     /// A hand pulls.
     held: bool,
+    /// It is the end of a change of pose.
+    ends: Option<EndOfPose>,
+}
+
+/// What is left of a change of pose once the cloth rests there.
+#[derive(Clone, Debug)]
+struct EndOfPose {
+    /// None where the body has got other triangles with it.
+    posed: Option<Arc<Posed>>,
 }
 
 impl Draping {
+    fn new(source: Arc<DrapeSource>) -> Self {
+        Self { source, worn: None, left: None, held: false, ends: None }
+    }
+
     fn runs(&self) -> bool {
         self.left != Some(0) && self.worn.as_ref().is_none_or(|worn| !worn.progress().at_rest)
     }
@@ -60,13 +74,18 @@ impl World {
             return; // Sewing ends with draping.
         }
         let known = self.draping.take().filter(|draping| draping.source == source);
-        let mut draping = known
-            .map_or_else(|| Draping { source, worn: None, left: ticks, held: false }, Arc::unwrap_or_clone);
-        draping.left = ticks;
+        let mut draping = known.map_or_else(|| Draping::new(source), Arc::unwrap_or_clone);
+        (draping.left, draping.ends) = (ticks, None);
         if let Some(worn) = draping.worn.as_mut().filter(|worn| worn.progress().at_rest) {
             worn.wake();
         }
         self.draping = Some(Arc::new(draping));
+    }
+
+    /// Drapes cloth that has just come to another pose until it rests; then it lies as that change of pose left it.
+    pub(super) fn drape_posed(&mut self, source: Arc<DrapeSource>) {
+        let ends = Some(EndOfPose { posed: self.posed.clone() });
+        self.draping = Some(Arc::new(Draping { ends, ..Draping::new(source) }));
     }
 
     /// Cloth that is draped stays as it is.
@@ -143,6 +162,15 @@ impl World {
         if rests {
             self.tell_short_seams();
             self.sew_next_layer();
+            self.finish_pose();
+        }
+    }
+
+    fn finish_pose(&mut self) {
+        let Some(end) = self.draping.as_ref().and_then(|draping| draping.ends.clone()) else { return };
+        self.draping = None;
+        if let Some(posed) = end.posed {
+            self.lies_as(posed);
         }
     }
 
@@ -187,10 +215,10 @@ impl World {
 
     /// Exactly these vertices of what is draped stay. False where nothing is draped.
     pub(super) fn hold_draped(&mut self, held: &[u32]) -> bool {
-        let Some(worn) = self.draping.as_mut().and_then(|d| Arc::make_mut(d).worn.as_mut()) else {
-            return false;
-        };
+        let Some(draping) = self.draping.as_mut().map(Arc::make_mut) else { return false };
+        let Some(worn) = &mut draping.worn else { return false };
         worn.pin(held);
+        draping.ends = None;
         true
     }
 
@@ -202,7 +230,7 @@ impl World {
         }
         if let (Some((vertex, _)), Some(draping)) = (self.under(at), &mut self.draping) {
             let draping = Arc::make_mut(draping);
-            draping.held = true;
+            (draping.held, draping.ends) = (true, None);
             draping.worn.iter_mut().for_each(|worn| worn.take(vertex));
             let mut dragged = vec![0.0; self.cloth.positions.len()];
             dragged[vertex as usize] = 1.0;

@@ -6,6 +6,7 @@ use crate::body::Surface;
 use crate::cloth::ClothState;
 use crate::contact::Splits;
 use crate::repose::{Care, Change, Outcome, Reposer};
+use crate::sim::draped::DrapeSource;
 use crate::sim::protocol::GarmentSource;
 use crate::sim::world::World;
 use crate::wrap::Marks;
@@ -30,9 +31,26 @@ pub struct Posing {
     body: Arc<Surface>,
     /// The same body in another size, where the cloth goes at the end.
     size: Option<Arc<Surface>>,
-    settle: bool,
+    then: Then,
     reposer: Reposer,
     change: Change,
+}
+
+/// What is done with cloth that has come to another pose.
+#[derive(Clone, Debug)]
+pub enum Then {
+    /// It is a picture of a pose on the way.
+    Nothing,
+    /// Where it runs through itself in more places than before, physics moves it till it rests, made of that.
+    Part(Arc<DrapeSource>),
+    /// The same, and otherwise it settles.
+    Settle(Arc<DrapeSource>),
+}
+
+impl Then {
+    fn care(&self) -> Care {
+        if matches!(self, Self::Nothing) { Care::LIVE } else { Care::THOROUGH }
+    }
 }
 
 impl Posing {
@@ -49,8 +67,7 @@ impl World {
         &mut self,
         body: Arc<Surface>,
         marks: Arc<Marks>,
-        settle: bool,
-        care: Care,
+        then: Then,
     ) -> Result<Option<Self>, String> {
         let (Some(garment), Some(from), Some(source)) = (&self.garment, &self.body, &self.source) else {
             return Ok(None);
@@ -77,9 +94,9 @@ impl World {
         let new = || Reposer::new(&garment, from, ClothState::clone(&self.cloth), source.relax);
         let mut reposer =
             known.or_else(new).ok_or("the garment is too large for this machine's memory".to_owned())?;
-        let change = Change::new(&mut reposer, Arc::clone(&body), care)
+        let change = Change::new(&mut reposer, Arc::clone(&body), then.care())
             .ok_or("the body in the new pose has other triangles than the dressed one".to_owned())?;
-        let posing = Posing { source, body, size: None, settle, reposer, change };
+        let posing = Posing { source, body, size: None, then, reposer, change };
         Ok(Some(Self { posing: Some(Arc::new(posing)), ..self.clone() }))
     }
 
@@ -90,12 +107,14 @@ impl World {
         through: Arc<Surface>,
         body: Arc<Surface>,
         marks: Arc<Marks>,
+        fabrics: Arc<DrapeSource>,
     ) -> Result<Option<Self>, String> {
+        let then = if self.was_draped { Then::Part(fabrics) } else { Then::Settle(fabrics) };
         let grows = self.dressing.as_ref().is_some_and(|dressing| dressing.relaxer().is_none());
         if grows || self.sewing.is_some() || self.trials.is_some() {
-            return self.reposed(body, marks, false, Care::THOROUGH);
+            return self.reposed(body, marks, then);
         }
-        let mut world = self.reposed(through, marks, false, Care::THOROUGH)?;
+        let mut world = self.reposed(through, marks, then)?;
         if let Some(posing) = world.as_mut().and_then(|world| world.posing.as_mut()) {
             Arc::make_mut(posing).size = Some(body);
         }
@@ -119,7 +138,7 @@ impl World {
     /// Ends the change of pose under way, if there is one, at once.
     pub fn finish_posing(&mut self) {
         let Some(posing) = self.posing.take() else { return };
-        let Posing { source, body, size, settle, mut reposer, mut change } = Arc::unwrap_or_clone(posing);
+        let Posing { source, body, size, then, mut reposer, mut change } = Arc::unwrap_or_clone(posing);
         while !change.is_done() {
             change.step(&mut reposer);
         }
@@ -130,14 +149,16 @@ impl World {
             .garment
             .as_ref()
             .and_then(|garment| Splits::of_lying(garment, &cloth, to, source.relax.offset).map(Arc::new));
+        let more_crossings = outcome.crossings > reposer.crossings();
         // Another pose is not gone to from triangles that the body has no longer.
         let posed = Posed { reposer, cloth: Arc::clone(&cloth), outcome };
         self.posed = size.is_none().then(|| Arc::new(posed));
-        let settles = if size.is_some() { !self.was_draped } else { settle };
         (self.source, self.body, self.cloth) = (Some(source), Some(size.unwrap_or(body)), cloth);
         (self.dressing, self.draping, self.was_sewn) = (None, None, false);
-        if settles {
-            self.settle();
+        match then {
+            Then::Part(fabrics) | Then::Settle(fabrics) if more_crossings => self.drape_posed(fabrics),
+            Then::Settle(_) => self.settle(),
+            Then::Part(_) | Then::Nothing => {}
         }
         self.part_active();
     }
@@ -145,6 +166,11 @@ impl World {
     /// What came of the last change of pose, while the cloth lies as it left it.
     pub fn outcome(&self) -> Option<Outcome> {
         self.lying_as_posed().map(|posed| posed.outcome)
+    }
+
+    /// Where it lies now, the last change of pose has left it.
+    pub(super) fn lies_as(&mut self, posed: Arc<Posed>) {
+        self.posed = Some(Arc::new(Posed { cloth: Arc::clone(&self.cloth), ..Arc::unwrap_or_clone(posed) }));
     }
 
     fn lying_as_posed(&self) -> Option<&Arc<Posed>> {

@@ -71,11 +71,12 @@ pub enum RequestKind {
     /// changes.
     Adopt { source: Arc<GarmentSource>, body: Arc<Surface>, cloth: Arc<ClothState>, was_draped: bool },
     /// The body takes another pose: `body` has the triangles of the one that is dressed. The cloth goes along and, with
-    /// `settle`, settles there; a `draft` is quick and not so exact. Nothing happens where nothing is dressed.
-    Repose { body: Arc<Surface>, marks: Arc<Marks>, settle: bool, draft: bool },
+    /// `settle`, settles there; cloth that comes to run through itself is draped there as what it is made of. A `draft` is quick and
+    /// not so exact. Nothing happens where nothing is dressed.
+    Repose { body: Arc<Surface>, marks: Arc<Marks>, fabrics: Arc<DrapeSource>, settle: bool, draft: bool },
     /// The body is built in another size: `through` is it in the triangles of the one that is dressed. The cloth goes along
-    /// and, unless it was draped, settles there. Nothing happens where nothing is dressed.
-    Resize { through: Arc<Surface>, body: Arc<Surface>, marks: Arc<Marks> },
+    /// and, unless it was draped, settles there; or it is draped as in another pose. Nothing happens where nothing is dressed.
+    Resize { through: Arc<Surface>, body: Arc<Surface>, marks: Arc<Marks>, fabrics: Arc<DrapeSource> },
     /// Relax differently from now on.
     SetRelax(RelaxSettings),
     /// Exactly these places of the cloth are pinned to where they are.

@@ -5,9 +5,9 @@ use std::sync::Arc;
 
 use crate::cloth::Skips;
 use crate::fit::TightPlace;
-use crate::repose::Care;
 use crate::sim::checkpoints::{Checkpoints, DEFAULT_CAPACITY};
 use crate::sim::fault::Fault;
+use crate::sim::posed::Then;
 use crate::sim::protocol::{Event, Request, RequestKind, Snapshot};
 use crate::sim::starts::{Judged, Start};
 use crate::sim::stats::Stats;
@@ -231,17 +231,21 @@ impl Simulation {
                     self.set_world(world);
                 }
             }
-            RequestKind::Repose { body, marks, settle, draft } => {
-                let care = if draft { Care::LIVE } else { Care::THOROUGH };
-                if let Some(world) = self.world.reposed(body, marks, settle, care)? {
+            RequestKind::Repose { body, marks, fabrics, settle, draft } => {
+                let then = match (draft, settle) {
+                    (true, _) => Then::Nothing,
+                    (false, true) => Then::Settle(fabrics),
+                    (false, false) => Then::Part(fabrics),
+                };
+                if let Some(world) = self.world.reposed(body, marks, then)? {
                     self.set_world(world);
                 }
                 if draft {
                     self.world.finish_posing();
                 }
             }
-            RequestKind::Resize { through, body, marks } => {
-                if let Some(world) = self.world.resized(through, body, marks)? {
+            RequestKind::Resize { through, body, marks, fabrics } => {
+                if let Some(world) = self.world.resized(through, body, marks, fabrics)? {
                     self.set_world(world);
                 }
             }

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
 use toile::body::{NamedPose, mannequin};
+use toile::contact::Met;
 use toile::session::project_file;
 use toile::session::recording::Recording;
 use toile::session::replay::Replay;
@@ -82,6 +83,31 @@ fn on_the_way_to_a_pose_it_can_be_undone_changed_and_worked_on() {
     assert!(!posing(&mut s), "what is asked meanwhile is asked of the cloth that has come there");
     run(&mut s, 200);
     assert_eq!(cloth_hash(&mut s), there);
+    let recording = Recording::parse(&s.recording()).expect("a recording");
+    Replay::new(recording).run().expect("the same hashes");
+}
+
+/// A skirt whose hem folds under the thighs.
+#[test]
+fn cloth_that_comes_to_run_through_itself_in_a_pose_is_draped_there() {
+    let mut project = Sample::Skirt.project(&mannequin::default());
+    project.document.settings.edge_length = 0.02;
+    let mut s = Session::new(project, Runner::inline(Simulation::default()));
+    s.apply_alone(Command::Wrap).expect("wrapped");
+    run(&mut s, 3000);
+    let (body, before) = (s.document().body.clone(), cloth_hash(&mut s));
+    let sitting = body.in_named_pose(NamedPose::Sitting).expect("the mannequin");
+    s.apply_alone(Command::Repose { body: sitting, settle: false, draft: false }).expect("posed");
+    run(&mut s, 20_000);
+    let snapshot = s.snapshot();
+    assert!(!snapshot.working && snapshot.drape.is_none() && snapshot.was_draped, "{:?}", snapshot.drape);
+    let outcome = snapshot.reposed.expect("a change of pose");
+    assert!(outcome.crossings > 0, "it would not have needed draping: {outcome:?}");
+    let garment = snapshot.garment.as_ref().expect("a skirt");
+    assert_eq!(Met::new(garment, &snapshot.cloth).places.len(), 0);
+    s.apply_alone(Command::Repose { body, settle: false, draft: false }).expect("posed");
+    run(&mut s, 20_000);
+    assert_eq!(cloth_hash(&mut s), before, "it comes back to where it lay");
     let recording = Recording::parse(&s.recording()).expect("a recording");
     Replay::new(recording).run().expect("the same hashes");
 }

@@ -168,7 +168,8 @@ fn reposed(scene: &Scene, watch: &mut Watch) -> Result<(), Failure> {
     for pose in [walking, Pose::default()] {
         let body = rig.posed(&pose).ok_or_else(words)?.surface;
         let marks = Arc::clone(&scene.marks);
-        watch.ask("re-posing it", RequestKind::Repose { body, marks, settle: true, draft: false })?;
+        let kind = RequestKind::Repose { body, marks, fabrics: fabrics()?, settle: true, draft: false };
+        watch.ask("re-posing it", kind)?;
         watch.rest(wrapping)?;
     }
     Ok(())
