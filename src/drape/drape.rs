@@ -178,7 +178,7 @@ impl Drape {
             Solver::Small(small, _) => Work {
                 queries: small.queries,
                 skipped_queries: small.skipped,
-                self_pairs: small.separation.as_ref().map_or(0, |separation| separation.counters.looked_at),
+                self_pairs: small.pairs(),
                 ..Work::default()
             },
         }

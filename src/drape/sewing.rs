@@ -12,6 +12,7 @@ use rayon::prelude::*;
 
 use crate::body::Surface;
 use crate::cloth::{ClothState, Fabric, Garment};
+use crate::contact::separation;
 use crate::drape::routes;
 use crate::drape::small_steps::Tie;
 use crate::drape::worn::{TICK, Undrapable, Worn, WornSettings};
@@ -153,6 +154,11 @@ impl Sewing {
     /// 0..=1.
     pub fn progress(&self) -> f64 {
         (f64::from(self.ticks) / f64::from(self.closing + PATIENCE)).min(1.0)
+    }
+
+    /// What contact took since it was last asked.
+    pub fn take_separation(&mut self) -> separation::Counters {
+        self.worn.take_separation()
     }
 
     /// Some of the work of a tick. True when the seams are shut, or have had their time.

@@ -390,9 +390,9 @@ impl SmallSteps {
         }
     }
 
-    /// Work done so far: vertices moved in small steps are not counted, pairs of features looked at are.
-    pub fn looked_at(&self) -> u64 {
-        self.separation.as_ref().map_or(0, |separation| separation.counters.looked_at)
+    /// Pairs of features that contact has looked at.
+    pub fn pairs(&self) -> u64 {
+        self.separation.as_ref().map_or(0, |separation| separation.counters.pairs)
     }
 
     /// Looks for what is near where some vertex is about to leave what is known.

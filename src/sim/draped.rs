@@ -149,7 +149,9 @@ impl World {
         }
         let Some(draping) = self.draping.as_mut().map(Arc::make_mut) else { return };
         let Some(worn) = &mut draping.worn else { return };
-        match worn.go_on(Arc::make_mut(&mut self.cloth)) {
+        let gone_on = worn.go_on(Arc::make_mut(&mut self.cloth));
+        self.separated = self.separated.and(worn.take_separation());
+        match gone_on {
             Ok(true) => {}
             Ok(false) => return,
             Err(Undrapable(words)) => return self.fail_draping(words),

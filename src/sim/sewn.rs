@@ -119,7 +119,9 @@ impl World {
     /// A tick of sewing.
     pub(super) fn sew(&mut self) {
         let Some(placed) = self.sewing.as_mut().map(Arc::make_mut) else { return };
-        match placed.sewing.go_on(Arc::make_mut(&mut self.cloth)) {
+        let ticked = placed.sewing.go_on(Arc::make_mut(&mut self.cloth));
+        self.separated = self.separated.and(placed.sewing.take_separation());
+        match ticked {
             Ok(false) => {}
             Ok(true) => self.finish_sewing(),
             Err(Undrapable(words)) => {

@@ -171,7 +171,7 @@ impl Simulation {
             dragged: world.dragged.clone(),
             relaxing: world.relaxing,
             working: !world.is_at_rest(),
-            stats: Stats { work: world.work(), ..self.stats },
+            stats: Stats { work: world.work(), contact: world.separated, ..self.stats },
             problems: Arc::clone(&world.problems),
             reposed: world.outcome(),
             verdict: self.looked.as_ref().map(|looked| Arc::clone(&looked.faults)),

@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use crate::cloth::Counters;
+use crate::contact::separation;
 
 /// Counts of work since the simulation began.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
@@ -27,4 +28,6 @@ pub struct Stats {
     pub failures: u64,
     /// Work of the wrap on the body, growing and settling.
     pub work: Counters,
+    /// Work of the contact that cannot cross, sewing and draping.
+    pub contact: separation::Counters,
 }

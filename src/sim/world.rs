@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use crate::body::Surface;
 use crate::cloth::{self, Carry, ClothState, Counters, FlatPiece, Garment, Skip};
-use crate::contact::{Bone, Bones, Splits};
+use crate::contact::{Bone, Bones, Splits, separation};
 use crate::drag::{DragMode, Dragging, Ray};
 use crate::geometry::ids::PieceId;
 use crate::pattern::edit::Carried;
@@ -73,6 +73,8 @@ pub struct World {
     pub trials: Option<Arc<Trials>>,
     /// What came of the starts that were tried; of cloth that was dressed otherwise nothing.
     pub started: Option<Arc<Started>>,
+    /// Work of the contact of cloth that was sewn or draped.
+    pub separated: separation::Counters,
 }
 
 impl Default for World {
@@ -102,6 +104,7 @@ impl Default for World {
             outer: None,
             trials: None,
             started: None,
+            separated: separation::Counters::default(),
         }
     }
 }

@@ -7,6 +7,7 @@ use toile::body::mannequin::{Measurements, mannequin};
 use toile::cloth::{Corner, Fabric};
 use toile::drag::{DragMode, Ray};
 use toile::fit::{BodyIndex, Report, measure};
+use toile::geometry::crossings::{meetings, self_crossings};
 use toile::geometry::ids::PieceId;
 use toile::geometry::mesh::TriMesh;
 use toile::geometry::shapes::cylinder;
@@ -163,6 +164,32 @@ fn pins_hold_and_a_hand_pulls() {
     s.apply_alone(Command::Release).expect("let go");
     run(&mut s, 1100);
     assert!(!drape(&s).runs && held(&s) == before);
+}
+
+/// From one side of the ball to the other within a tick, and back: what it holds stays on its side of everything.
+#[test]
+fn a_hand_that_jumps_takes_cloth_through_nothing() {
+    let mut s = on_top();
+    s.apply_alone(Command::SetDraping { on: true }).expect("draped");
+    run(&mut s, 10);
+    s.apply_alone(Command::Grab { piece: RIGHT, at: DVec2::new(0.2, 0.02), mode: DragMode::Surface })
+        .expect("taken");
+    for tick in 0..40 {
+        let side = if tick / 4 % 2 == 0 { 1.0 } else { -1.0 };
+        let ray = Ray { origin: DVec3::new(0.5 * side, 0.3 - 0.6 * side, 3.0), direction: DVec3::NEG_Z };
+        s.apply_alone(Command::DragTo { ray }).expect("pulled");
+        run(&mut s, 1);
+        let snapshot = s.snapshot();
+        let (garment, body) =
+            (snapshot.garment.as_ref().expect("a garment"), snapshot.body.as_ref().expect("a body"));
+        let mesh =
+            TriMesh { positions: snapshot.cloth.positions.clone(), triangles: garment.triangles.clone() };
+        let edges = &garment.adjacency.edges;
+        assert_eq!(self_crossings(&mesh, edges, &mesh.tree()).len(), 0, "tick {tick}: through itself");
+        let into = meetings(&mesh.positions, edges, &body.mesh, &body.mesh.tree());
+        let out = meetings(&body.mesh.positions, &body.adjacency.edges, &mesh, &mesh.tree());
+        assert_eq!(into.len() + out.len(), 0, "tick {tick}: through the body");
+    }
 }
 
 /// A knit that its own weight would stretch, held by three pins.

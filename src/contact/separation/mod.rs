@@ -19,6 +19,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 use rayon::prelude::*;
+use serde::Serialize;
 
 use crate::contact::separation::crossing::Crossings;
 use crate::contact::separation::features::Seen;
@@ -83,16 +84,31 @@ pub struct Separation {
 }
 
 /// Work done.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Counters {
-    /// Detections.
+    /// Detections of what is near.
     pub detections: u64,
     /// Pairs of features looked at.
-    pub looked_at: u64,
-    /// Planes made.
+    pub pairs: u64,
+    /// Planes between them.
     pub planes: u64,
-    /// Vertices truncated.
-    pub truncated: u64,
+    /// Times a vertex was truncated.
+    pub truncated_vertices: u64,
+    /// The smallest distance of two features of the cloth when last looked at, nanometres; None: none were near.
+    pub smallest_distance_nm: Option<u64>,
+}
+
+impl Counters {
+    /// With what `other` did after it.
+    pub fn and(self, other: Self) -> Self {
+        Self {
+            detections: self.detections + other.detections,
+            pairs: self.pairs + other.pairs,
+            planes: self.planes + other.planes,
+            truncated_vertices: self.truncated_vertices + other.truncated_vertices,
+            smallest_distance_nm: other.smallest_distance_nm.or(self.smallest_distance_nm),
+        }
+    }
 }
 
 /// What a search found: vertices with a plane each.
@@ -102,6 +118,8 @@ struct Found {
     pairs: Vec<Pair>,
     looked_at: u64,
     touching: u64,
+    /// Of two features of the cloth, metres.
+    nearest: Option<f64>,
 }
 
 impl Separation {
@@ -181,7 +199,9 @@ impl Separation {
         self.crossings = crossings.count();
         self.is_clean = crossings.is_none() && found.iter().all(|found| found.touching == 0);
         self.counters.detections += 1;
-        self.counters.looked_at += found.iter().map(|found| found.looked_at).sum::<u64>();
+        self.counters.pairs += found.iter().map(|found| found.looked_at).sum::<u64>();
+        let nearest = found.iter().filter_map(|found| found.nearest).reduce(f64::min);
+        self.counters.smallest_distance_nm = nearest.map(|metres| (metres * 1e9) as u64);
         self.pairs.clear();
         self.pairs.extend(found.iter().flat_map(|found| &found.pairs));
         self.sort(&found);
@@ -322,6 +342,7 @@ impl Separation {
             found.touching += 1;
             return;
         };
+        found.nearest = Some(found.nearest.map_or(seen.gap, |nearest| nearest.min(seen.gap)));
         let whole = reach[0] + reach[1];
         self.remember(&seen, vertices, whole, found);
         if seen.gap > whole {
@@ -417,7 +438,7 @@ impl Separation {
             (stopped, truncated)
         };
         let counts: Vec<(usize, u64)> = x.par_chunks_mut(LEAST_SHARE).enumerate().map(count).collect();
-        self.counters.truncated += counts.iter().map(|(_, truncated)| truncated).sum::<u64>();
+        self.counters.truncated_vertices += counts.iter().map(|(_, truncated)| truncated).sum::<u64>();
         counts.iter().map(|(stopped, _)| stopped).sum()
     }
 

@@ -330,6 +330,12 @@ impl Worn {
         self.small.separation.as_ref().map(|separation| separation.counters).unwrap_or_default()
     }
 
+    /// The same since it was last taken.
+    pub fn take_separation(&mut self) -> separation::Counters {
+        let taken = self.small.separation.as_mut().map(|separation| std::mem::take(&mut separation.counters));
+        taken.unwrap_or_default()
+    }
+
     /// From now on exactly these vertices stay; cloth at rest wakes.
     pub fn pin(&mut self, pins: &[u32]) {
         self.pinned.fill(false);
@@ -465,9 +471,9 @@ impl Worn {
             grip: if self.floats && self.rubs.is_none() { 0.0 } else { GRIP },
         };
         let asked = self.small.queries;
-        let work = self.small.looked_at() + MOST_WORK;
+        let work = self.small.pairs() + MOST_WORK;
         let mut moved = 0;
-        while !begun.advance.is_done() && self.small.looked_at() + moved < work {
+        while !begun.advance.is_done() && self.small.pairs() + moved < work {
             self.small.go_on(&mut begun.advance, &around, &mut self.state);
             moved += self.state.positions.len() as u64;
         }

@@ -265,3 +265,33 @@ fn a_ribbon_tied_in_a_knot_and_pulled_stays_tied() {
     let reach = end[0].distance(end[count as usize]);
     assert!(reach < 0.97 * length, "it came untied: {reach} of {length} m");
 }
+
+/// What moves at a plane loses energy, if anything: sheets that meet never have more than they came with.
+#[test]
+fn truncation_adds_no_energy() {
+    let cloth = joined(&[
+        flat(Kind::Jittered, DVec2::splat(0.15), [8, 8]),
+        flat(Kind::Alternating, DVec2::splat(0.15), [7, 9]),
+    ]);
+    let mut scene = scene(&cloth, &soft(), vec![false; cloth.points.len()]);
+    scene.gravity = DVec3::ZERO;
+    let positions: Vec<DVec3> = cloth
+        .points
+        .iter()
+        .enumerate()
+        .map(|(v, p)| DVec3::new(p.x + 0.2 * p.y, if v < 81 { 0.01 } else { -0.01 }, p.y))
+        .collect();
+    let velocities: Vec<DVec3> =
+        (0..positions.len()).map(|v| DVec3::Y * if v < 81 { -3.0 } else { 3.0 }).collect();
+    let mass = scene.mass.clone();
+    let energy = |velocities: &[DVec3]| -> f64 {
+        velocities.iter().zip(&mass).map(|(v, m)| m * v.length_squared() / 2.0).sum()
+    };
+    let first = energy(&velocities);
+    let mut drape = Drape::new(scene, State { positions, velocities }, settings(), FRAME).expect("room");
+    for frame in 0..30 {
+        drape.step(FRAME).expect("a step");
+        let now = energy(&drape.state().velocities);
+        assert!(now <= first * (1.0 + 1e-9), "frame {frame}: {now} J of {first} J");
+    }
+}
