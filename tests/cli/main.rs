@@ -14,6 +14,7 @@ mod gltf;
 mod limits;
 mod patterns;
 mod program;
+mod quiet;
 mod replay;
 mod repose;
 mod sequence;
