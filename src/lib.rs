@@ -26,8 +26,9 @@
 //! | `draft`    | garments of our own, drawn from a seed and drafted to the mannequin's measurements: parts, designs, the corpus | body, pattern, geometry |
 //! | `io`       | obj, gltf, bvh; patterns as garmentcode json, dxf, svg, pdf: bytes in, checked data out, and back | cloth, body, pattern, geometry |
 //! | `render`   | plain buffers in, pixels out: camera, passes, offscreen target | nothing of ours |
+//! | `trust`    | files damaged at random, and what reads them | session and below, draft |
 //! | `ui`       | egui: app, actions, panes, tools | session and below, place, render |
-//! | `cli`      | one file per subcommand: arguments, calls, printing | session and below, draft, place, render, ui |
+//! | `cli`      | one file per subcommand: arguments, calls, printing | session and below, draft, place, render, trust, ui |
 //!
 //! Invariants:
 //! - Metres, radians, seconds; right-handed, y up, bodies face +z. Pattern planes have y up and their front towards the reader.
@@ -57,5 +58,6 @@ pub mod render;
 pub mod repose;
 pub mod session;
 pub mod sim;
+pub mod trust;
 pub mod ui;
 pub mod wrap;

@@ -226,7 +226,9 @@ impl Surface {
                     self.adjacency.vertex_triangles.of(corner).iter().for_each(|&t| look(t));
                 }
             }
-            if least >= before {
+            // Also where `p` is no point: then nothing is nearer.
+            let is_nearer = least < before;
+            if !is_nearer {
                 return self.signed(p, at);
             }
         }

@@ -547,10 +547,13 @@ pub struct Bench {
     pub plot: Option<PathBuf>,
     #[command(flatten)]
     pub corpus: CorpusOptions,
+    #[command(flatten)]
+    pub trust: TrustOptions,
     /// Of the corpus, gives up on a garment after so many ticks; as dress does when left out
     #[arg(long)]
     pub max_ticks: Option<u64>,
-    /// Of the corpus, keeps what was not dressed well in this folder: pattern, report, picture and the command line
+    /// Keeps in this folder what was not dressed well of the corpus (pattern, report, picture and the command line), or the
+    /// files of trust that were too much for a reader
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     #[command(flatten)]
@@ -561,6 +564,20 @@ pub struct Bench {
     /// Number of threads; the result is the same
     #[arg(long)]
     pub threads: Option<usize>,
+}
+
+/// How much is tried of what files and commands can do.
+#[derive(Clone, Debug, Default, PartialEq, Args)]
+pub struct TrustOptions {
+    /// So many damaged files for each reader; 1000 when left out
+    #[arg(long, value_name = "FILES", value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
+    pub mutations: Option<u64>,
+    /// The first of them: the same number gives the same file
+    #[arg(long, value_name = "NUMBER")]
+    pub first: Option<u64>,
+    /// Only these readers, such as obj,svg
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    pub readers: Vec<String>,
 }
 
 /// What can be measured.
@@ -576,6 +593,8 @@ pub enum BenchKind {
     Corpus,
     /// The longest tick and the longest request of every stage: a cancel or another request waits for no more than that
     Ticks,
+    /// Files damaged at random: each is read or refused in words, in time
+    Trust,
 }
 
 fn frame_range(text: &str) -> Result<Range<usize>, String> {

@@ -2,6 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::io::words::readable;
+
 /// The exit code of a panic.
 pub const PANIC: u8 = 70;
 
@@ -15,7 +17,7 @@ pub enum Failure {
     #[error("{0}")]
     Usage(String),
     /// An input that cannot be used.
-    #[error("{}: {words}", path.display())]
+    #[error("{}: {words}", shown(path))]
     Input { path: PathBuf, words: String },
     /// More than the program will take on.
     #[error("{0}")]
@@ -24,7 +26,7 @@ pub enum Failure {
     #[error("{0}")]
     Graphics(String),
     /// The file system said no.
-    #[error("{}: {error}", path.display())]
+    #[error("{}: {error}", shown(path))]
     File { path: PathBuf, error: std::io::Error },
     /// The simulation failed inside.
     #[error("{0}")]
@@ -34,10 +36,14 @@ pub enum Failure {
     Signal(u8),
 }
 
+fn shown(path: &Path) -> String {
+    readable(&path.display().to_string())
+}
+
 impl Failure {
     /// An input at `path` that cannot be used.
     pub fn input(path: &Path, words: impl std::fmt::Display) -> Self {
-        Self::Input { path: path.to_owned(), words: words.to_string() }
+        Self::Input { path: path.to_owned(), words: readable(&words.to_string()) }
     }
 
     /// A file at `path` that could not be read or written.

@@ -1,6 +1,5 @@
 //! From what was named on the command line to a project.
 
-use std::fs;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -9,16 +8,17 @@ use crate::body::mannequin::{Measurements, mannequin};
 use crate::cli::arguments::{BodyFile, InputOptions, SizeOptions};
 use crate::cli::failure::Failure;
 use crate::cli::{formats, output};
+use crate::geometry::polygon::signed_area;
 use crate::io::scale::DrawingUnit;
 use crate::io::sizes::{self, SizesError};
 use crate::io::{gltf, pattern_file};
-use crate::pattern::Pattern;
+use crate::pattern::{Pattern, Piece};
 use crate::session::body::{Body, surface_of};
 use crate::session::carry::carried;
 use crate::session::placing::brought;
 use crate::session::project_file::ProjectFileError;
 use crate::session::samples::Sample;
-use crate::session::{BodyChoice, Document, Project, marks_file, project_file};
+use crate::session::{BodyChoice, Document, Project, marks_file, project_file, whole_file};
 use crate::wrap::suggest;
 
 /// Begins the name of a built-in sample.
@@ -27,6 +27,8 @@ const SAMPLE: &str = "sample:";
 const MANNEQUIN: &str = "mannequin";
 /// Bytes an input may have.
 const MOST_BYTES: u64 = 512 << 20;
+/// Triangles the cloth of a project may have: each takes about a kilobyte while it is draped.
+const MOST_TRIANGLES: f64 = 4e6;
 
 /// What a file turned out to be.
 pub enum Content {
@@ -66,11 +68,34 @@ pub fn load(path: &Path, options: &InputOptions) -> Result<Input, Failure> {
     if let Some(words) = project.problem() {
         return Err(Failure::input(path, words));
     }
+    few_enough_triangles(path, &project.document)?;
     let read = [&options.body, &options.sized.sizes, &options.marks];
     let named = std::iter::once(path).chain(read.into_iter().filter_map(Option::as_deref));
     let files = named.map(|p| p.display().to_string()).collect();
     let is_project_file = !is_file && !is_sample(path);
     Ok(Input { name: name_of(path), project, files, is_project_file })
+}
+
+/// Whether the cloth of `document`, read from `path`, is not too fine for its size: told before any of it is cut.
+fn few_enough_triangles(path: &Path, document: &Document) -> Result<(), Failure> {
+    let edge_length = document.settings.edge_length;
+    let area: f64 = document.pattern.pieces.values().map(|piece| piece_area(piece)).sum();
+    // Equilateral: √3/4 of the square of an edge.
+    let count = area / (edge_length * edge_length * 0.433);
+    match count <= MOST_TRIANGLES {
+        true => Ok(()),
+        false => Err(Failure::Limit(format!(
+            "{}: {area:.1} m² of cloth would be about {count:.0} triangles, at most {MOST_TRIANGLES} are cut: raise its edge length \
+             of {edge_length} m (--edge-length)",
+            path.display()
+        ))),
+    }
+}
+
+/// Square metres between its corners.
+fn piece_area(piece: &Piece) -> f64 {
+    let corners: Vec<_> = piece.outline.iter().map(|edge| edge.start).collect();
+    signed_area(&corners).abs()
 }
 
 /// The name without folder, ending and "sample:".
@@ -125,15 +150,10 @@ fn sample(path: &Path, name: &str) -> Result<Project, Failure> {
 
 /// All of the file at `path`.
 pub fn read(path: &Path) -> Result<Vec<u8>, Failure> {
-    let file_failure = |error| Failure::file(path, error);
-    let size = fs::metadata(path).map_err(file_failure)?.len();
-    if size > MOST_BYTES {
-        return Err(Failure::Limit(format!(
-            "{}: {size} bytes, at most {MOST_BYTES} are read",
-            path.display()
-        )));
-    }
-    fs::read(path).map_err(file_failure)
+    whole_file::read(path, MOST_BYTES).map_err(|error| match error.kind() {
+        std::io::ErrorKind::FileTooLarge => Failure::Limit(format!("{}: {error}", path.display())),
+        _ => Failure::file(path, error),
+    })
 }
 
 /// An error of a project file at `path` as the command line tells it.

@@ -19,6 +19,7 @@ mod measure;
 mod open;
 mod output;
 mod picture;
+mod quiet;
 mod render;
 mod replay;
 mod report;
@@ -64,6 +65,7 @@ fn run() -> u8 {
 }
 
 fn carry_out(arguments: Arguments) -> Result<(), Failure> {
+    quiet::begin_anew();
     interrupt::listen();
     match arguments.task {
         None => open::open(arguments.project.as_deref(), arguments.record.as_deref()),

@@ -1,6 +1,5 @@
 //! `toile replay`: run a recording, compare its hashes.
 
-use std::fs;
 use std::path::Path;
 use std::time::Instant;
 
@@ -78,8 +77,8 @@ pub fn replay(arguments: &arguments::Replay) -> Result<(), Failure> {
 /// The text of a file, or of a demo that comes with the program.
 fn text_of(path: &Path) -> Result<String, Failure> {
     let Some(name) = path.to_str().and_then(|path| path.strip_prefix(DEMO)) else {
-        let bytes = fs::read(path).map_err(|e| Failure::file(path, e))?;
-        return String::from_utf8(bytes).map_err(|_| Failure::input(path, "not a recording: not UTF-8 text"));
+        return String::from_utf8(input::read(path)?)
+            .map_err(|_| Failure::input(path, "not a recording: not UTF-8 text"));
     };
     let Some(demo) = Demo::ALL.into_iter().find(|demo| demo.file_stem() == name) else {
         let names = Demo::ALL.map(Demo::file_stem).join(", ");

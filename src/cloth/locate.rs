@@ -83,7 +83,7 @@ impl FlatPiece {
             {
                 return Some(FlatPlace { triangle: t, shares });
             }
-            if reach > 2.0 * whole {
+            if reach >= 2.0 * whole {
                 return None;
             }
             reach *= 8.0;

@@ -71,7 +71,7 @@ impl Corpus {
         let count = bodies.len();
         let case = |round: usize, number: u32| {
             // Each design begins elsewhere, whatever its number has in common with those of a shard.
-            let begins = Random::new(u64::from(number)).next() % count as u64;
+            let begins = Random::new(u64::from(number)).bits() % count as u64;
             let (size, pose) = bodies[(begins as usize + round) % count];
             Case { number, size, pose }
         };

@@ -26,4 +26,5 @@ mod trousers;
 pub use corpus::{Case, Corpus, Shard};
 pub use design::{Design, Kind};
 pub use form::Form;
+pub use random::Random;
 pub use sizes::{BodySize, SIZES, table};

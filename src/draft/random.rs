@@ -15,11 +15,11 @@ impl Random {
     /// Starts from `seed` and `stream`: other streams give other numbers.
     pub fn stream(seed: u64, stream: u64) -> Self {
         let mut mixed = Self::new(seed);
-        Self::new(mixed.next() ^ Self::new(stream).next())
+        Self::new(mixed.bits() ^ Self::new(stream).bits())
     }
 
     /// The next 64 bits.
-    pub fn next(&mut self) -> u64 {
+    pub fn bits(&mut self) -> u64 {
         self.state = self.state.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.state;
         z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -29,7 +29,12 @@ impl Random {
 
     /// Evenly from `low` up to `high`.
     pub fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * ((self.next() >> 11) as f64 / (1_u64 << 53) as f64)
+        low + (high - low) * ((self.bits() >> 11) as f64 / (1_u64 << 53) as f64)
+    }
+
+    /// 0..n; 0 where `n` is 0.
+    pub fn below(&mut self, n: usize) -> usize {
+        (self.bits() % n.max(1) as u64) as usize
     }
 
     /// True with probability `p`, 0..=1.
@@ -40,7 +45,7 @@ impl Random {
     /// One of `choices`, each as likely.
     pub fn one_of<T: Copy, const N: usize>(&mut self, choices: [T; N]) -> T {
         const { assert!(N > 0) };
-        choices[(self.next() % N as u64) as usize]
+        choices[(self.bits() % N as u64) as usize]
     }
 }
 
@@ -52,7 +57,7 @@ mod tests {
     fn it_is_splitmix64() {
         // From the reference implementation, seed 1234567.
         let mut random = Random::new(1_234_567);
-        let numbers = [random.next(), random.next(), random.next()];
+        let numbers = [random.bits(), random.bits(), random.bits()];
         assert_eq!(
             numbers,
             [6_457_827_717_110_365_317, 3_203_168_211_198_807_973, 9_817_491_932_198_370_423]
@@ -63,7 +68,7 @@ mod tests {
     fn ranges_are_kept_and_streams_differ() {
         let mut random = Random::stream(1, 2);
         assert!((0..1000).all(|_| (2.0..3.0).contains(&random.between(2.0, 3.0))));
-        assert!(Random::stream(1, 2).next() != Random::stream(1, 3).next());
-        assert!(Random::stream(1, 2).next() != Random::stream(2, 2).next());
+        assert!(Random::stream(1, 2).bits() != Random::stream(1, 3).bits());
+        assert!(Random::stream(1, 2).bits() != Random::stream(2, 2).bits());
     }
 }

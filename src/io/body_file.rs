@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use crate::geometry::mesh::TriMesh;
 use crate::io::gltf::{self, GltfError};
 use crate::io::obj::{self, ObjError};
+use crate::io::words::readable;
 
 /// Why a file is no body.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -79,7 +80,7 @@ fn beside(path: &Path, name: &str) -> Result<PathBuf, String> {
         !name.is_empty() && !name.contains([':', '\\']) && Path::new(&name).components().all(is_plain);
     match is_inside {
         true => Ok(path.parent().unwrap_or(Path::new("")).join(name)),
-        false => Err(format!("its buffer {name:?} is not a file in its folder")),
+        false => Err(readable(&format!("its buffer {name:?} is not a file in its folder"))),
     }
 }
 

@@ -7,6 +7,8 @@ use std::fmt;
 
 use serde::de::{self, Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
 
+use crate::io::words::readable;
+
 /// A JSON value.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Node {
@@ -76,7 +78,7 @@ fn in_words(error: &serde_json::Error) -> String {
         "trailing characters" => "there is text after the end of the JSON".to_owned(),
         "unexpected end of hex escape" => "half a surrogate pair in a text".to_owned(),
         "recursion limit exceeded" => "nested too deeply".to_owned(),
-        words => words.to_owned(),
+        words => readable(words),
     }
 }
 
@@ -211,7 +213,7 @@ impl<'a> At<'a> {
     /// An error at this place.
     pub fn error(&self, words: impl Into<String>) -> JsonError {
         let pointer = if self.pointer.is_empty() { "/".to_owned() } else { self.pointer.clone() };
-        JsonError::Content { pointer, words: words.into() }
+        JsonError::Content { pointer: readable(&pointer), words: readable(&words.into()) }
     }
 
     fn wrong(&self, expected: &str) -> JsonError {

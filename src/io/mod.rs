@@ -20,6 +20,7 @@ mod sheet;
 pub mod sizes;
 pub mod svg;
 mod trace;
+pub mod words;
 pub mod written;
 
 pub use limits::Limits;

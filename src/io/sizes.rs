@@ -2,6 +2,7 @@
 
 use crate::body::Unit;
 use crate::body::mannequin::Measurements;
+use crate::io::words::readable;
 
 /// Bytes a table may have.
 const MOST_BYTES: usize = 1 << 20;
@@ -128,7 +129,7 @@ pub fn read(bytes: &[u8]) -> Result<Vec<Size>, SizesError> {
 }
 
 fn cell(row: u64, column: impl Into<String>, words: impl Into<String>) -> SizesError {
-    SizesError::Cell { row, column: column.into(), words: words.into() }
+    SizesError::Cell { row, column: column.into(), words: readable(&words.into()) }
 }
 
 /// The line in which a row begins, from 1.

@@ -105,7 +105,7 @@ fn piece_mesh(
             "it would need more than two million triangles; raise the edge length",
         )
     };
-    if intervals.iter().sum::<usize>() > MOST_OUTLINE_POINTS {
+    if intervals.iter().fold(0, |sum: usize, n| sum.saturating_add(*n)) > MOST_OUTLINE_POINTS {
         return Err(too_fine());
     }
     let lines = sampled_lines(piece, intervals);

@@ -68,8 +68,15 @@ impl DocumentHasher {
     }
 
     fn body(&mut self, body: &BodyChoice) -> u64 {
+        // Not by what is equal: 0 and -0 are, and are written differently.
+        let is_same = |kept: &BodyChoice| match (kept, body) {
+            (BodyChoice::Imported { name, mesh }, BodyChoice::Imported { name: other, mesh: of_other }) => {
+                name == other && Arc::ptr_eq(mesh, of_other)
+            }
+            _ => false,
+        };
         match &self.body {
-            Some((kept, hash)) if kept == body => *hash,
+            Some((kept, hash)) if is_same(kept) => *hash,
             _ => {
                 let hash = json_hash(body);
                 self.body = Some((body.clone(), hash));

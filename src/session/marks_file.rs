@@ -11,6 +11,7 @@ use glam::{DVec2, DVec3};
 use serde::{Deserialize, Serialize};
 
 use crate::geometry::ids::MarkId;
+use crate::io::words::readable;
 use crate::pattern::Pattern;
 use crate::wrap::{BodyMark, ClothMark, ClothSide, Marks};
 
@@ -33,7 +34,8 @@ struct Pair {
 /// The marks in `bytes` on the pieces of `pattern`, with ids from 1. The error is in words.
 pub fn read(bytes: &[u8], pattern: &Pattern) -> Result<Marks, String> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    let file: File = serde_json::from_slice(bytes).map_err(|e| format!("not a file of marks: {e}"))?;
+    let file: File =
+        serde_json::from_slice(bytes).map_err(|e| readable(&format!("not a file of marks: {e}")))?;
     if file.pairs.is_empty() {
         return Err("the file has no pair of marks".to_owned());
     }
@@ -41,12 +43,11 @@ pub fn read(bytes: &[u8], pattern: &Pattern) -> Result<Marks, String> {
     for (i, pair) in file.pairs.into_iter().enumerate() {
         let Some(piece) = pattern.piece_named(&pair.piece) else {
             let names: Vec<&str> = pattern.pieces.values().map(|p| p.name.as_str()).collect();
-            return Err(format!(
-                "pair {}: there is no piece {:?}, only {}",
-                i + 1,
-                pair.piece,
-                names.join(", ")
-            ));
+            let (number, names) = (i + 1, names.join(", "));
+            return Err(readable(&format!(
+                "pair {number}: there is no piece {:?}, only {names}",
+                pair.piece
+            )));
         };
         if pair.cloth.is_empty() || pair.body.is_empty() {
             return Err(format!("pair {}: a stroke needs at least one point", i + 1));

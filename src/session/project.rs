@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::cloth::ClothState;
 use crate::pattern::Pattern;
 use crate::relax::RelaxSettings;
-use crate::session::document::{Document, is_false};
+use crate::session::document::{Document, Settings, is_false};
 use crate::sim::GarmentSource;
 use crate::wrap::Marks;
 
@@ -81,9 +81,12 @@ impl Dressed {
         if positions.len() != mapped.len() {
             return Some("the dressed cloth has places and flags of different number".to_owned());
         }
-        if positions.iter().any(|p| !p.is_finite()) {
-            return Some("a vertex of the dressed cloth is not a finite point".to_owned());
+        if !positions.iter().all(|&p| crate::session::edit::is_place(p)) {
+            return Some("a vertex of the dressed cloth is not a finite point near the origin".to_owned());
         }
-        crate::session::edit::pattern_problem(&self.source.pattern)
+        let GarmentSource { pattern, marks, edge_length, relax } = &*self.source;
+        let settings = Settings { edge_length: *edge_length, relax: *relax, ..Settings::default() };
+        let problem = crate::session::edit::source_problem(pattern, marks, &settings);
+        problem.map(|words| format!("what the dressed cloth was cut from: {words}"))
     }
 }

@@ -15,6 +15,7 @@ use zip::{CompressionMethod, ZipArchive, ZipWriter};
 
 use crate::cloth::ClothState;
 use crate::geometry::mesh::TriMesh;
+use crate::io::words::readable;
 use crate::session::document::BodyChoice;
 use crate::session::project::Project;
 use crate::session::whole_file;
@@ -49,7 +50,7 @@ pub enum ProjectFileError {
 }
 
 fn contents(words: impl std::fmt::Display) -> ProjectFileError {
-    ProjectFileError::Contents(words.to_string())
+    ProjectFileError::Contents(readable(&words.to_string()))
 }
 
 #[derive(Serialize, Deserialize)]
@@ -73,14 +74,11 @@ pub fn is_project(bytes: &[u8]) -> bool {
 
 /// Reads the file at `path`.
 pub fn open(path: &Path) -> Result<Project, ProjectFileError> {
-    let file_error = |source| ProjectFileError::File { path: path.to_owned(), source };
-    let size = fs::metadata(path).map_err(file_error)?.len();
-    if size > MOST_BYTES {
-        return Err(ProjectFileError::TooLarge(format!(
-            "the file has {size} bytes, at most {MOST_BYTES} are read"
-        )));
-    }
-    from_bytes(&fs::read(path).map_err(file_error)?)
+    let bytes = whole_file::read(path, MOST_BYTES).map_err(|source| match source.kind() {
+        std::io::ErrorKind::FileTooLarge => ProjectFileError::TooLarge(source.to_string()),
+        _ => ProjectFileError::File { path: path.to_owned(), source },
+    })?;
+    from_bytes(&bytes)
 }
 
 /// Writes `project` to `path`; what was there before stays as `PATH.bak`. A write-protected file is refused.

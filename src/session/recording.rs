@@ -9,6 +9,7 @@ use std::io::{BufWriter, Write};
 
 use serde::{Deserialize, Serialize};
 
+use crate::io::words::readable;
 use crate::session::command::Command;
 use crate::session::project::Project;
 use crate::session::recovery::Journal;
@@ -280,7 +281,7 @@ fn header(line: &str) -> Result<(Project, String), String> {
     let any: AnyHeader = serde_json::from_str(line)
         .map_err(|e| format!("this is not the header of a recording: {}", json_words(e)))?;
     if any.header.format != FORMAT {
-        return Err(format!("this is a {:?}, not a recording", any.header.format));
+        return Err(readable(&format!("this is a {:?}, not a recording", any.header.format)));
     }
     if any.header.version != VERSION {
         let version = any.header.version;
@@ -295,5 +296,5 @@ fn header(line: &str) -> Result<(Project, String), String> {
 /// Each line is JSON of its own: its number is told by the caller.
 #[expect(clippy::needless_pass_by_value, reason = "for map_err")]
 fn json_words(error: serde_json::Error) -> String {
-    error.to_string().replace(" at line 1 column ", " at column ")
+    readable(&error.to_string().replace(" at line 1 column ", " at column "))
 }

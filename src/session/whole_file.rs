@@ -1,7 +1,7 @@
-//! Files that are written whole or not at all, one or several.
+//! Files that are written whole or not at all, one or several, and read whole or, when they are too large, not at all.
 
 use std::fs;
-use std::io::{Error, ErrorKind, Result, Write};
+use std::io::{Error, ErrorKind, Read, Result, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError, TryLockError};
 
@@ -22,6 +22,25 @@ static MADE: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 struct Known {
     folder: PathBuf,
     numbers: Option<[u64; 2]>,
+}
+
+/// All of the file at `path`, which has at most `most` bytes; [`ErrorKind::FileTooLarge`] otherwise. What does not say how long it
+/// is, as a device, is read no further either.
+pub fn read(path: &Path, most: u64) -> Result<Vec<u8>> {
+    let too_large = |has: String| {
+        Error::new(ErrorKind::FileTooLarge, format!("it has {has} bytes, at most {most} are read"))
+    };
+    let file = fs::File::open(path)?;
+    let size = file.metadata()?.len();
+    if size > most {
+        return Err(too_large(size.to_string()));
+    }
+    let mut bytes = Vec::with_capacity(usize::try_from(size).unwrap_or_default());
+    file.take(most.saturating_add(1)).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > most {
+        return Err(too_large(format!("more than {most}")));
+    }
+    Ok(bytes)
 }
 
 /// As long as it lives no file is begun and none takes its place.
@@ -221,6 +240,20 @@ mod tests {
             assert!(fs::symlink_metadata(at(link)).expect("a link").is_symlink());
         }
         assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 3, "nothing else is left");
+    }
+
+    #[test]
+    fn what_has_no_end_is_not_read_to_it() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("file");
+        fs::write(&path, b"12345").expect("written");
+        assert_eq!(read(&path, 5).expect("read"), b"12345");
+        for (path, words) in [(&*path, "it has 5 bytes, at most 4"), (Path::new("/dev/zero"), "more than 4")]
+        {
+            let why = read(path, 4).expect_err("too large");
+            assert!(why.kind() == ErrorKind::FileTooLarge && why.to_string().contains(words), "{why}");
+        }
+        assert!(read(folder.path(), 4).is_err(), "a folder");
     }
 
     #[test]

@@ -1,11 +1,17 @@
+use std::collections::BTreeMap;
+
 use glam::DVec3;
 
 use super::*;
 use crate::body::Surface;
+use crate::cloth::Fabric;
+use crate::drag::{DragMode, Ray};
 use crate::geometry::mesh::TriMesh;
-use crate::pattern::{Pattern, Piece};
+use crate::pattern::{Pattern, Piece, SpacePose};
 use crate::relax::RelaxSettings;
-use crate::sim::protocol::GarmentSource;
+use crate::sim::draped::DrapeSource;
+use crate::sim::protocol::{ClothPlace, GarmentSource};
+use crate::sim::starts::StartChoice;
 use crate::wrap::{BodyMark, ClothMark, Marks};
 
 fn ball() -> Arc<Surface> {
@@ -180,4 +186,112 @@ fn cloth_that_lies_still_is_looked_at_once() {
     simulation.apply(request(9, RequestKind::SetRelaxing(false)));
     assert!(simulation.snapshot().verdict.is_none(), "an old verdict on what may have changed");
     assert!(simulation.snapshot().tight.is_empty());
+}
+
+fn cotton() -> Arc<DrapeSource> {
+    let fabric = Fabric::preset("cotton").cloned().expect("a preset");
+    Arc::new(DrapeSource { fabric, of_pieces: BTreeMap::new(), strain: 0.01 })
+}
+
+/// The patch, placed before the ball.
+fn placed() -> Arc<GarmentSource> {
+    let mut source = source();
+    let pattern = Arc::make_mut(&mut Arc::make_mut(&mut source).pattern);
+    for piece in pattern.pieces.values_mut() {
+        let turn = glam::DQuat::from_rotation_y(std::f64::consts::FRAC_PI_4);
+        Arc::make_mut(piece).placement = Some(SpacePose::flat(DVec3::new(0.2, 0.25, 0.5), turn));
+    }
+    source
+}
+
+/// Every kind of work that takes several ticks, by name, one tick into it.
+fn stages() -> Vec<(&'static str, Simulation)> {
+    let piece = *source().pattern.pieces.keys().next().expect("a piece");
+    let at = ClothPlace { piece, at: (0.1, 0.05).into() };
+    let moved = || {
+        let mut mesh = ball().mesh.clone();
+        mesh.positions.iter_mut().for_each(|p| p.x += 0.01);
+        Arc::new(Surface::new(mesh).expect("an octahedron"))
+    };
+    let lying: [(&str, Vec<RequestKind>); 5] = [
+        ("relaxing", vec![RequestKind::SetRelax(RelaxSettings { stretch: 0.3, ..RelaxSettings::default() })]),
+        (
+            "in the hand",
+            vec![
+                RequestKind::Grab { at, mode: DragMode::Surface, bones: Arc::default() },
+                RequestKind::DragTo(Ray {
+                    origin: DVec3::new(2.0, 0.3, 2.0),
+                    direction: DVec3::new(-1.0, 0.0, -1.1),
+                }),
+            ],
+        ),
+        ("draping", vec![RequestKind::SetDraping { on: true, source: cotton() }]),
+        ("draped for some ticks", vec![RequestKind::StepDraping { ticks: 5, source: cotton() }]),
+        (
+            "in another pose",
+            vec![RequestKind::Repose {
+                body: moved(),
+                marks: Arc::default(),
+                settle: true,
+                draft: false,
+                fabrics: cotton(),
+            }],
+        ),
+    ];
+    let mut stages = vec![("wrapping", wrapped())];
+    for (name, requests) in lying {
+        let mut simulation = wrapped();
+        while simulation.tick() {}
+        (2..).zip(requests).for_each(|(seq, kind)| simulation.apply(request(seq, kind)));
+        stages.push((name, simulation));
+    }
+    let (source, fabrics) = (placed(), cotton());
+    let all: [(&str, RequestKind); 2] = [
+        ("sewing", RequestKind::Sew { source: source.clone(), body: ball(), fabrics: fabrics.clone() }),
+        (
+            "trying starts",
+            RequestKind::Dress { source, body: ball(), fabrics, choice: StartChoice::default() },
+        ),
+    ];
+    for (name, kind) in all {
+        let mut simulation = Simulation::default();
+        simulation.apply(request(1, kind));
+        stages.push((name, simulation));
+    }
+    for (name, simulation) in &mut stages {
+        assert!(simulation.tick(), "{name} takes more than a tick");
+        assert_eq!(failures(simulation), [""; 0], "{name}");
+    }
+    stages
+}
+
+/// Whatever happens to the numbers of a stage: it ends or is taken back, the cloth is where finite points are, and other work
+/// can be begun.
+#[test]
+fn every_stage_survives_numbers_that_are_none_and_panics() {
+    for damage in ["not a number", "infinite", "too few"] {
+        for (name, mut simulation) in stages() {
+            let cloth = Arc::make_mut(&mut simulation.world.cloth);
+            match damage {
+                "not a number" => cloth.positions.iter_mut().for_each(|p| p.y = f64::NAN),
+                "infinite" => cloth.positions[0].x = f64::INFINITY,
+                _ => cloth.positions.truncate(1),
+            }
+            // Starts that break down make room for others.
+            let most = if name == "trying starts" { 20_000 } else { 3 };
+            (0..most).take_while(|_| simulation.tick()).for_each(drop);
+            let told = failures(&mut simulation);
+            assert!(told.len() <= 1, "{name}, {damage}: {told:?}");
+            let snapshot = simulation.snapshot();
+            let count = snapshot.garment.as_ref().map_or(0, |garment| garment.vertex_count);
+            assert_eq!(snapshot.cloth.positions.len(), count, "{name}, {damage}: {told:?}");
+            assert!(snapshot.cloth.positions.iter().all(|p| p.is_finite()), "{name}, {damage}: {told:?}");
+            simulation.apply(request(9, RequestKind::Wrap { source: source(), body: ball() }));
+            while simulation.tick() {}
+            assert!(
+                failures(&mut simulation).is_empty() && simulation.snapshot().is_dressed(),
+                "{name}, {damage}"
+            );
+        }
+    }
 }

@@ -19,6 +19,9 @@ use crate::session::samples::Sample;
 use crate::session::{AnimatedFile, Animations, BodyChoice, Command, Project, project_file, whole_file};
 use crate::sim::Snapshot;
 
+/// Bytes an input may have.
+const MOST_BYTES: u64 = 512 << 20;
+
 /// What a file dialog is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Purpose {
@@ -339,7 +342,7 @@ pub fn use_mannequin() -> Command {
 
 /// All of the file at `path`; the error is in words.
 pub fn read(path: &Path) -> Result<Vec<u8>, String> {
-    std::fs::read(path).map_err(|e| in_words(path, "read", e))
+    whole_file::read(path, MOST_BYTES).map_err(|e| in_words(path, "read", e))
 }
 
 /// "shirt-2.toile" for "shirt.toile", "shirt-8.toile" for "shirt-7.toile": the next one that is not there yet.

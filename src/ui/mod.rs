@@ -50,7 +50,7 @@ mod player;
 pub mod portrait;
 mod pose_panel;
 mod posed_motion;
-mod preferences;
+pub mod preferences;
 mod preferences_page;
 mod recent;
 mod reopening;

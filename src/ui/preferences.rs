@@ -188,17 +188,22 @@ where
 }
 
 impl Preferences {
-    fn understood(path: &Path) -> Option<Self> {
+    /// Those that `text` tells. None where it tells none.
+    pub fn understood(text: &str) -> Option<Self> {
+        serde_json::from_str(text).ok()
+    }
+
+    fn kept(path: &Path) -> Option<Self> {
         let is_small = std::fs::metadata(path).is_ok_and(|file| file.is_file() && file.len() <= MOST_BYTES);
         let text = if is_small { std::fs::read_to_string(path).ok() } else { None };
-        text.and_then(|text| serde_json::from_str(&text).ok())
+        text.and_then(|text| Self::understood(&text))
     }
 
     /// Those in `path`; the usual ones where there is no such file. One that is there and cannot be understood is set aside
     /// under another name, so that what is preferred from now on does not replace it; also that name, in words.
     pub fn read(path: &Path) -> (Self, Option<String>) {
-        if let Some(understood) = Self::understood(path) {
-            return (understood, None);
+        if let Some(kept) = Self::kept(path) {
+            return (kept, None);
         }
         let words = std::fs::symlink_metadata(path).is_ok().then(|| {
             let beside = |n: u32| path.with_extension(format!("unreadable-{n}.json"));

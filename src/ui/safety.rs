@@ -180,19 +180,23 @@ impl App {
         };
         self.replace(found.project, left.about.path.clone());
         self.session.mark_modified();
-        let (mut open, mut refused) = (None, 0);
+        let (mut open, mut left_over) = (None, found.commands.len());
         for (gesture, command) in found.commands {
             let own = match open {
                 Some((of, own)) if of == gesture => own,
                 _ => self.session.begin_gesture(),
             };
             open = Some((gesture, own));
-            refused += usize::from(self.session.apply(command, own).is_err());
+            // What was done after it was done to something else.
+            if self.session.apply(command, own).is_err() {
+                break;
+            }
+            left_over -= 1;
         }
         if let Some((_, own)) = open {
             self.session.end_gesture(own);
         }
-        match found.lost + refused {
+        match found.lost + left_over {
             0 => self.messages.tell("Your work is back. Save it when it is as you want it."),
             lost => self.messages.error(format!(
                 "Your work is back, but for the last {lost} of the things you did, which were not written down whole."

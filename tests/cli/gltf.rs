@@ -150,6 +150,10 @@ fn faulty_scenes_are_refused_in_words() {
         assert!(why.contains(words), "{to}: {why}");
     }
     let bytes = glb();
+    let mut short = bytes.clone();
+    short[8..12].copy_from_slice(&3_u32.to_le_bytes());
+    let why = alone(&short).expect_err("shorter than its header").to_string();
+    assert!(why.contains("its header says that it has 3 bytes"), "{why}");
     for at in (0..bytes.len()).step_by(7) {
         let _ = alone(&bytes[..at]);
     }

@@ -1,12 +1,13 @@
 //! Project files come back as they were, and bad ones are refused in words.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use proptest::prelude::*;
 use toile::geometry::ids::MarkId;
 use toile::session::project_file::{ProjectFileError, from_bytes, open, save, to_bytes};
 use toile::session::{BodyChoice, Command, Project, Session};
-use toile::sim::{Runner, Simulation};
+use toile::sim::{GarmentSource, Runner, Simulation};
 
 use crate::common::{project, run, session};
 
@@ -129,8 +130,45 @@ fn bad_files_are_refused_in_words() {
     refused(text.replace("toile-project", "toile-recording").as_bytes(), "toile-recording");
     refused(text.replace("0.06", "6.0").as_bytes(), "mesh size");
     refused(text.replace("\"last_mark\": 2", "\"last_mark\": 1").as_bytes(), "behind");
+    refused(text.replace("toile-project", "toile-\\u202e\\u0007").as_bytes(), "toile-\\u{202e}\\u{7}");
     let no_file = open(Path::new("/nowhere/at all.toile")).expect_err("no such file");
     assert!(matches!(no_file, ProjectFileError::File { .. }) && no_file.to_string().contains("nowhere"));
+}
+
+/// What no session would have let in, though every number in it is one.
+#[test]
+fn what_cannot_be_worked_with_is_refused_before_the_work() {
+    let refused = |change: &dyn Fn(&mut Project), words: &str| {
+        let mut damaged = dressed();
+        change(&mut damaged);
+        // Not by `to_bytes`, which holds for sound projects.
+        let why = damaged.problem().unwrap_or_else(|| panic!("taken, without {words}"));
+        assert!(why.contains(words), "{why}");
+    };
+    let source = |change: fn(&mut GarmentSource)| {
+        move |project: &mut Project| {
+            change(Arc::make_mut(&mut project.dressed.as_mut().expect("dressed").source));
+        }
+    };
+    refused(
+        &source(|source| source.edge_length = 1e-300),
+        "what the dressed cloth was cut from: the mesh size",
+    );
+    refused(&source(|source| source.relax.offset = f64::NAN), "the distance from the skin");
+    refused(
+        &|project| {
+            let cloth = &mut project.dressed.as_mut().expect("dressed").cloth;
+            Arc::make_mut(cloth).positions[0].x = 1e300;
+        },
+        "near the origin",
+    );
+    refused(
+        &|project| {
+            let BodyChoice::Imported { mesh, .. } = &mut project.document.body else { panic!("a mesh") };
+            Arc::make_mut(mesh).positions[0].y = 1e300;
+        },
+        "a vertex of ball is not within 1000000 m of the origin",
+    );
 }
 
 proptest! {

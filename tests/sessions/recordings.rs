@@ -39,6 +39,16 @@ fn strokes_through_front_and_back_are_two_steps_and_dress_the_ball() {
     assert!(replayed(&s.recording()).is_ok_and(|hashes| hashes >= 4));
 }
 
+/// The session's own marks, given back to it, are to a replay others that are equal.
+#[test]
+fn marks_that_are_set_again_replay_to_the_same_document() {
+    let mut s = session();
+    let marks = s.document().marks.clone();
+    s.apply_alone(Command::SetMarks { marks }).expect("set");
+    let mut replay = Replay::new(Recording::parse(&s.recording()).expect("a recording"));
+    replay.run().expect("the same document");
+}
+
 #[test]
 fn a_replay_of_a_dressed_start_meets_every_hash() {
     let mut s = session();

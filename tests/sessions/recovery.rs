@@ -1,6 +1,6 @@
 //! Work that outlives a crash: copies, journals, locks, and saves cut short.
 
-use std::fs;
+use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command as Process, Stdio};
 use std::time::Duration;
@@ -57,7 +57,7 @@ fn random(c: &mut Chance) -> Command {
     }
 }
 
-/// What the window makes of work found again.
+/// What the window makes of work found again: as much of it as can be done again.
 fn restored(found: Found) -> Session {
     let mut s = Session::new(found.project, Runner::inline(Simulation::default()));
     let mut open = None;
@@ -67,7 +67,9 @@ fn restored(found: Found) -> Session {
             _ => s.begin_gesture(),
         };
         open = Some((gesture, own));
-        s.apply(command, own).expect("what was done can be done again");
+        if s.apply(command, own).is_err() {
+            break;
+        }
     }
     s
 }
@@ -308,4 +310,120 @@ fn a_process_that_is_killed_loses_at_most_the_command_it_was_writing() {
         let name: usize = restored.document().pattern.pieces[&PieceId(1)].name.parse().expect("a number");
         assert!(name >= told, "{name} of {told}");
     }
+}
+
+/// Kills of one run, where `TOILE_KILLS` says no other number: each takes about a second.
+const USUAL_KILLS: u64 = 4;
+
+/// The same work for the same seed: what a person might do, wraps and pins among it.
+struct Work {
+    session: Session,
+    chance: Chance,
+}
+
+impl Work {
+    fn new(seed: u64) -> Self {
+        Self { session: session(), chance: Chance(seed) }
+    }
+
+    fn go_on(&mut self) {
+        let command = match self.chance.below(12) {
+            0 => Command::Wrap,
+            1 => Command::AddPin { piece: PieceId(1), at: DVec2::new(0.1, 0.1) },
+            2 => Command::ClearPins,
+            _ => random(&mut self.chance),
+        };
+        self.session.apply_alone(command).ok();
+        run(&mut self.session, 2);
+    }
+}
+
+/// Killed at any moment, what is found again is the work after some whole number of its commands: all that had been carried out
+/// when the last was told, and at most the one after them.
+#[test]
+fn what_is_found_after_a_kill_is_the_work_up_to_a_whole_command() {
+    let seed_of = |number: u64| 100 + number;
+    if let Some(folder) = std::env::var_os(VICTIM) {
+        let folder = Path::new(&folder);
+        let number: u64 = fs::read_to_string(folder.join("seed")).expect("read").parse().expect("a number");
+        let mut keeper = Keeper::begin(folder).expect("begun");
+        let mut work = Work::new(number);
+        copy(&mut keeper, &mut work.session);
+        for done in 1.. {
+            work.go_on();
+            if work.session.needs_copy() || done % 30 == 0 {
+                copy(&mut keeper, &mut work.session);
+            }
+            let told = folder.join("told.new");
+            fs::write(&told, done.to_string()).expect("told");
+            fs::rename(told, folder.join("told")).expect("told");
+        }
+    }
+    let kills =
+        std::env::var("TOILE_KILLS").map_or(USUAL_KILLS, |n| n.parse().expect("TOILE_KILLS is a number"));
+    let (mut chance, mut most) = (Chance(29), 0);
+    for number in 0..kills {
+        let root = tempdir().expect("a folder");
+        fs::write(root.path().join("seed"), seed_of(number).to_string()).expect("written");
+        let told = root.path().join("told");
+        let child =
+            victim("recovery::what_is_found_after_a_kill_is_the_work_up_to_a_whole_command", root.path());
+        kill(child, || told.exists(), Duration::from_micros(chance.below(400_000)));
+        let told: usize = fs::read_to_string(told).expect("read").parse().expect("a number");
+        let found = only(root.path()).read().expect("read");
+        assert!(found.lost <= 1, "kill {number}: {} lines", found.lost);
+        let found = restored(found);
+        let mut again = Work::new(seed_of(number));
+        (0..told).for_each(|_| again.go_on());
+        let is_all = same(found.document(), again.session.document());
+        again.go_on();
+        let is_one_more = same(found.document(), again.session.document());
+        assert!(is_all || is_one_more, "kill {number} after {told} commands: other work is found");
+        most = most.max(told);
+    }
+    println!("{kills} kills, the latest after {most} commands");
+}
+
+/// A clock that was set back makes the oldest copy look like the newest.
+#[test]
+fn which_copy_is_newest_is_told_by_its_number_whatever_the_clock_said() {
+    let root = tempdir().expect("a folder");
+    let mut s = session();
+    let mut keeper = Keeper::begin(root.path()).expect("begun");
+    for name in ["one", "two", "three"] {
+        s.apply_alone(Command::RenamePiece { piece: PieceId(1), name: name.to_owned() }).expect("renamed");
+        copy(&mut keeper, &mut s);
+    }
+    drop(keeper);
+    let folder = only(root.path()).written().parent().expect("a folder").to_owned();
+    let day = Duration::from_secs(24 * 60 * 60);
+    for (name, back) in
+        [("3.toile", 3), ("3.journal", 3), ("about.json", 3), ("2.toile", 1), ("2.journal", 1)]
+    {
+        let time = std::time::SystemTime::now() - day * back;
+        File::options().write(true).open(folder.join(name)).and_then(|f| f.set_modified(time)).expect("set");
+    }
+    let found = only(root.path()).read().expect("read");
+    assert!(found.commands.is_empty() && same(restored(found).document(), s.document()));
+}
+
+/// Reading takes nothing away: whoever crashes over it finds the same the next time.
+#[test]
+fn a_crash_while_work_is_restored_leaves_it_for_the_next_time() {
+    let root = tempdir().expect("a folder");
+    let mut s = session();
+    let mut keeper = Keeper::begin(root.path()).expect("begun");
+    copy(&mut keeper, &mut s);
+    s.apply_alone(Command::RenamePiece { piece: PieceId(1), name: "kept".to_owned() }).expect("renamed");
+    drop(keeper);
+    for _ in 0..3 {
+        let work = only(root.path());
+        let mut again = restored(work.read().expect("read"));
+        // The restoring window keeps its own folder, too, and dies before its first copy and after it.
+        let mut keeper = Keeper::begin(root.path()).expect("begun");
+        again.recorder().journal_to(None);
+        assert!(same(again.document(), s.document()));
+        drop((keeper.copy(&about()), work));
+    }
+    assert!(same(restored(only(root.path()).read().expect("read")).document(), s.document()));
 }

@@ -11,11 +11,12 @@ mod sheets;
 mod speed;
 mod ticks;
 mod torso;
+mod trust;
 mod tube;
 
 use serde::Serialize;
 
-use crate::cli::arguments::{Bench, BenchKind, CorpusOptions};
+use crate::cli::arguments::{Bench, BenchKind, CorpusOptions, TrustOptions};
 use crate::cli::bench::row::Row;
 use crate::cli::failure::Failure;
 use crate::cli::output;
@@ -23,18 +24,26 @@ use crate::cli::output;
 /// Runs every scene asked for and prints a row for each as it is done.
 pub fn bench(arguments: &Bench) -> Result<(), Failure> {
     let asked = |kind| arguments.what.is_none_or(|what| what == kind);
-    let has_plot = !matches!(arguments.what, Some(BenchKind::Speed | BenchKind::Corpus | BenchKind::Ticks));
+    let without_plot = [BenchKind::Speed, BenchKind::Corpus, BenchKind::Ticks, BenchKind::Trust];
+    let has_plot = arguments.what.is_none_or(|what| !without_plot.contains(&what));
     if arguments.plot.is_some() && !has_plot {
         return Err(Failure::Usage("--plot draws what accuracy and drape measure".to_owned()));
+    }
+    if arguments.what != Some(BenchKind::Trust) && arguments.trust != TrustOptions::default() {
+        return Err(Failure::Usage("--mutations, --first and --readers go with bench trust".to_owned()));
     }
     if arguments.what == Some(BenchKind::Corpus) {
         return corpus::corpus(arguments);
     }
-    let of_corpus = arguments.out.is_some() || arguments.max_ticks.is_some();
+    let keeps = arguments.what != Some(BenchKind::Trust) && arguments.out.is_some();
+    let of_corpus = keeps || arguments.max_ticks.is_some();
     if of_corpus || arguments.corpus != CorpusOptions::default() {
         let words = "--count, --seed, --shard, --body-sizes, --poses, --kinds, --max-ticks and --out go with bench \
-                     corpus";
+                     corpus, --out with bench trust, too";
         return Err(Failure::Usage(words.to_owned()));
+    }
+    if arguments.what == Some(BenchKind::Trust) {
+        return trust::trust(arguments);
     }
     let runs = usize::from(arguments.runs);
     match arguments.what {

@@ -1,6 +1,6 @@
 //! `toile simulate`: any cloth mesh under physics, for comparison with other programs.
 
-mod scene;
+pub mod scene;
 pub mod times;
 
 use std::time::Instant;
@@ -18,6 +18,8 @@ use crate::drape::{Collider, Drape, DrapeSettings, Integrator, Method, State};
 
 /// Beyond the fabric's own.
 const STRAIN: f64 = 0.01;
+/// Bytes that the places of all vertices in all frames may take: they are kept until the end.
+const MOST_BYTES: u64 = 4 << 30;
 /// Of an edge: what implicit steps may leave.
 const ACCURACY: f64 = 1e-4;
 
@@ -58,6 +60,13 @@ pub fn simulate(arguments: &Simulate) -> Result<(), Failure> {
     let path = &arguments.scene;
     let begun = Instant::now();
     let Loaded { file, mut scene, positions, fabric, thickness, bodies } = scene::load(path)?;
+    let size = 12 * positions.len() as u64 * (file.frames() as u64 + 1);
+    if size > MOST_BYTES {
+        let (path, frames, vertices) = (path.display(), file.frames(), positions.len());
+        return Err(Failure::Limit(format!(
+            "{path}: {frames} frames of {vertices} vertices are {size} bytes, at most {MOST_BYTES} are written"
+        )));
+    }
     if let Some(first) = bodies.first() {
         scene.collider = Some(Collider::still(scene::surface(path, first)?));
     }

@@ -13,6 +13,7 @@ use gltf::scene::Transform;
 
 use crate::geometry::mesh::TriMesh;
 use crate::io::Limits;
+use crate::io::words::readable;
 use animate::Clip;
 use numbers::Numbers;
 
@@ -114,7 +115,8 @@ pub fn read(bytes: &[u8], load: &dyn Fn(&str) -> Result<Vec<u8>, String>) -> Res
     if bytes.len() > most {
         return Err(GltfError::OverLimit(format!("the file has more than {most} bytes")));
     }
-    let unread = |error: gltf::Error| fault(format!("this is no glTF that can be read: {error}"));
+    let unread = |error: gltf::Error| fault(readable(&format!("this is no glTF that can be read: {error}")));
+    told_length(bytes)?;
     let file = gltf::Gltf::from_slice_without_validation(bytes).map_err(unread)?;
     names_what_is_there(file.document.as_json())?;
     let document = gltf::Document::from_json(file.document.into_json()).map_err(unread)?;
@@ -125,6 +127,18 @@ pub fn read(bytes: &[u8], load: &dyn Fn(&str) -> Result<Vec<u8>, String>) -> Res
     });
     let buffers: Vec<Vec<u8>> = buffers.collect::<Result<_, _>>()?;
     Model::new(&document, &Numbers { buffers: &buffers })
+}
+
+/// That a binary file does not say that it is shorter than its header, which the crate takes for granted.
+fn told_length(bytes: &[u8]) -> Result<(), GltfError> {
+    const HEADER: usize = 12;
+    let told = bytes.strip_prefix(b"glTF").and_then(|rest| rest.get(4..8));
+    match told.map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]]) as usize) {
+        Some(length) if length < HEADER => Err(fault(format!(
+            "its header says that it has {length} bytes, but the header alone has {HEADER}"
+        ))),
+        _ => Ok(()),
+    }
 }
 
 /// What the crate's own check of the file takes for granted: that the accessors of places and what animations move are

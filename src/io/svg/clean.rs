@@ -10,6 +10,7 @@ use usvg::roxmltree::{Document, Node, ParsingOptions};
 
 use crate::io::Limits;
 use crate::io::pattern_file::PatternFileError;
+use crate::io::words::readable;
 
 const KEPT: [&str; 14] = [
     "svg", "g", "a", "switch", "symbol", "defs", "use", "path", "rect", "circle", "ellipse", "line",
@@ -93,7 +94,7 @@ pub fn clean(bytes: &[u8]) -> Result<Clean, PatternFileError> {
         ..ParsingOptions::default()
     };
     let document = Document::parse_with_options(text, options)
-        .map_err(|e| PatternFileError::Whole(format!("no sound XML: {e}")))?;
+        .map_err(|e| PatternFileError::Whole(readable(&format!("no sound XML: {e}"))))?;
     let root = document.root_element();
     if root.tag_name().name() != "svg" {
         let words = format!("its root is <{}>, not <svg>", root.tag_name().name());

@@ -9,6 +9,7 @@ use crate::io::Limits;
 use crate::io::pattern_file::{PatternFileError, ReadPattern};
 use crate::io::scale::{DrawingUnit, ScaleQuestion};
 use crate::io::trace;
+use crate::io::words::readable;
 use crate::pattern::{Edge, EdgeShape};
 
 /// Ends nearer than this meet, metres.
@@ -38,7 +39,7 @@ pub struct Line {
 pub fn read(bytes: &[u8], unit: Option<DrawingUnit>) -> Result<ReadPattern, PatternFileError> {
     let Clean { text, shapes, mut notes, root } = clean::clean(bytes)?;
     let tree = usvg::Tree::from_str(&text, &usvg::Options::default())
-        .map_err(|e| PatternFileError::Whole(format!("no sound SVG: {e}")))?;
+        .map_err(|e| PatternFileError::Whole(readable(&format!("no sound SVG: {e}"))))?;
     let mut lines = Vec::new();
     let mut paths = 0;
     let mut groups = vec![tree.root().children().iter()];
@@ -65,7 +66,12 @@ pub fn read(bytes: &[u8], unit: Option<DrawingUnit>) -> Result<ReadPattern, Patt
     for line in &mut lines {
         line.put_in_metres(origin, metres);
         let beyond = |p: DVec2| !p.is_finite() || p.abs().max_element() > limit;
-        if line.edges.iter().any(|e| beyond(e.start)) || beyond(line.end) {
+        let strays = |edge: &Edge| match edge.shape {
+            EdgeShape::Quadratic { control } => beyond(control),
+            EdgeShape::Cubic { controls } => controls.into_iter().any(beyond),
+            EdgeShape::Line | EdgeShape::Arc { .. } => false,
+        };
+        if line.edges.iter().any(|e| beyond(e.start) || strays(e)) || beyond(line.end) {
             let name = line.shape.name.clone().unwrap_or_else(|| "a path".to_owned());
             return Err(PatternFileError::bad(name, format!("it reaches beyond {limit} m")));
         }

@@ -4,6 +4,7 @@ use glam::{DVec2, DVec3};
 
 use crate::contact::Bone;
 use crate::geometry::ids::{MarkId, PieceId};
+use crate::io::words::readable;
 use crate::pattern::edit::{WIDEST_ALLOWANCE, is_symmetric};
 use crate::pattern::{Edge, EdgeShape, InternalLine, Pattern, Piece, PlanePose, SpacePose};
 use crate::session::command::Rejection;
@@ -19,6 +20,8 @@ const MOST_EDGES: usize = 10_000;
 pub const MOST_PIECES: usize = 1_000;
 /// Metres: nothing lies further from the origin.
 const FARTHEST: f64 = 1e4;
+/// Metres: no body or cloth on it, in whatever unit it was read.
+const FARTHEST_BODY: f64 = 1e6;
 /// Characters of a name.
 const LONGEST_NAME: usize = 200;
 
@@ -41,6 +44,11 @@ fn stroke(count: usize, all_good: bool) -> Result<(), Rejection> {
         }
         _ => Ok(()),
     }
+}
+
+/// A point of a body or of cloth on it.
+pub fn point_3d(p: DVec3) -> bool {
+    p.is_finite() && p.abs().max_element() <= FARTHEST_BODY
 }
 
 fn point_2d(p: DVec2) -> bool {
@@ -176,7 +184,7 @@ pub fn pattern(pattern: &Pattern) -> Result<(), Rejection> {
         return Err(Rejection(format!("a pattern may have {MOST_PIECES} pieces")));
     }
     for p in pattern.pieces.values() {
-        piece(p).map_err(|why| Rejection(format!("piece {:?}: {why}", p.name)))?;
+        piece(p).map_err(|why| Rejection(readable(&format!("piece {:?}: {why}", p.name))))?;
     }
     let ids = pattern.pieces.keys().map(|p| p.0).chain(pattern.seams.keys().map(|s| s.0));
     if ids.max().is_some_and(|last| last > pattern.next_id) {
@@ -249,8 +257,9 @@ pub fn body(body: &BodyChoice) -> Result<(), Rejection> {
         }
         BodyChoice::Imported { name: body_name, mesh } => {
             name(body_name)?;
-            if mesh.positions.iter().any(|p| !p.is_finite()) {
-                return Err(Rejection(format!("a vertex of {body_name} is not a finite point")));
+            if !mesh.positions.iter().all(|&p| point_3d(p)) {
+                let words = format!("a vertex of {body_name} is not within {FARTHEST_BODY} m of the origin");
+                return Err(Rejection(words));
             }
             if mesh.triangles.iter().flatten().any(|&v| v as usize >= mesh.positions.len()) {
                 return Err(Rejection(format!("a triangle of {body_name} names a vertex that is not there")));
@@ -267,8 +276,8 @@ pub fn bones(bones: &[Bone]) -> Result<(), Rejection> {
     if bones.len() > MOST_BONES {
         return Err(Rejection(format!("a body may have {MOST_BONES} bones")));
     }
-    if bones.iter().flatten().any(|p| !p.is_finite()) {
-        return Err(Rejection::new("an end of a bone is not a finite point"));
+    if !bones.iter().flatten().all(|&p| point_3d(p)) {
+        return Err(Rejection(format!("an end of a bone is not within {FARTHEST_BODY} m of the origin")));
     }
     if bones.iter().any(|[a, b]| a == b) {
         return Err(Rejection::new("a bone has two ends"));

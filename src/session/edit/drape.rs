@@ -2,6 +2,7 @@
 
 use crate::cloth::Fabric;
 use crate::geometry::ids::PieceId;
+use crate::io::words::readable;
 use crate::session::command::Rejection;
 use crate::session::document::{Document, Fabrics};
 use crate::session::edit::{ClothChange, Edit, checks};
@@ -76,7 +77,8 @@ fn known(name: Option<&str>) -> Result<(), Rejection> {
         None => Ok(()),
         Some(name) => {
             let names: Vec<&str> = Fabric::presets().iter().map(|f| &*f.name).collect();
-            Err(Rejection(format!("there is no fabric {name:?}; there are {}", names.join(", "))))
+            let words = format!("there is no fabric {name:?}; there are {}", names.join(", "));
+            Err(Rejection(readable(&words)))
         }
     }
 }

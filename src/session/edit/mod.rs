@@ -11,6 +11,8 @@ mod wrap;
 
 use std::sync::Arc;
 
+use glam::DVec3;
+
 use crate::drag::{DragMode, Ray};
 use crate::pattern::edit::{Carried, PatternEdit};
 use crate::pattern::{Pattern, Problem};
@@ -18,9 +20,10 @@ use crate::relax::RelaxSettings;
 use crate::session::body::BodyCache;
 use crate::session::carry;
 use crate::session::command::{Command, Rejection};
-use crate::session::document::Document;
+use crate::session::document::{Document, Settings};
 use crate::session::history::StepKind;
 use crate::sim::{ClothPlace, StartChoice};
+use crate::wrap::Marks;
 
 /// What a command asks of the simulation.
 #[derive(Clone, Debug, PartialEq)]
@@ -126,7 +129,8 @@ impl Edit {
 pub fn edit(document: &Document, command: &Command, bodies: &mut BodyCache) -> Result<Edit, Rejection> {
     let mut edit = untied(document, command, bodies)?;
     let new = &mut edit.document;
-    if !Arc::ptr_eq(&new.marks, &document.marks)
+    // By what they are: a replay has others that are equal, where the session was given its own.
+    if new.marks != document.marks
         && let Ok(body) = bodies.body(&new.body)
     {
         carry::tie(&mut new.marks, &body);
@@ -246,6 +250,17 @@ pub fn document_problem(document: &Document) -> Option<String> {
 }
 
 /// What no command would have let into `pattern`; for patterns from files.
-pub fn pattern_problem(pattern: &Pattern) -> Option<String> {
+fn pattern_problem(pattern: &Pattern) -> Option<String> {
     checks::pattern(pattern).err().map(|why| why.0)
+}
+
+/// Whether cloth can lie there.
+pub fn is_place(p: DVec3) -> bool {
+    checks::point_3d(p)
+}
+
+/// What no command would have let into what cloth is cut from; for cloth from files.
+pub fn source_problem(pattern: &Pattern, marks: &Marks, settings: &Settings) -> Option<String> {
+    let checked = checks::pattern(pattern).and_then(|()| checks::marks(marks, pattern));
+    checked.and_then(|()| checks::settings(settings)).err().map(|why| why.0)
 }

@@ -1,0 +1,39 @@
+//! What a file or a library says, for people to read.
+
+/// Characters that are left of what is too long: as many from its beginning, where the place is told, and from its end.
+const KEPT: usize = 300;
+
+/// `words` in which what is seen is what is there: control characters, also those that turn the direction of writing, are
+/// written out, and the middle of what nobody would read to its end is left out.
+pub fn readable(words: &str) -> String {
+    let shown = |c: char| match c {
+        '\n' => c.to_string(),
+        _ if c.is_control() || is_turning(c) => c.escape_unicode().to_string(),
+        _ => c.to_string(),
+    };
+    let count = words.chars().count();
+    if count <= 2 * KEPT {
+        return words.chars().map(shown).collect();
+    }
+    let first: String = words.chars().take(KEPT).map(shown).collect();
+    let last: String = words.chars().skip(count - KEPT).map(shown).collect();
+    format!("{first} [and {} more characters] {last}", count - 2 * KEPT)
+}
+
+/// Unicode Standard Annex 9: embeddings, overrides and isolates.
+fn is_turning(c: char) -> bool {
+    matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_stay_as_they_are_unless_they_cannot_be_read() {
+        assert_eq!(readable("Ärmel \"\u{4e2d}\"\n2"), "Ärmel \"\u{4e2d}\"\n2");
+        assert_eq!(readable("a\u{202e}b\u{7}\r"), "a\\u{202e}b\\u{7}\\u{d}");
+        let long = readable(&format!("line 3: {}", "x".repeat(100_000)));
+        assert!(long.starts_with("line 3: xx") && long.chars().count() < 700, "{long}");
+    }
+}

@@ -1,0 +1,151 @@
+//! Commands of every kind, a few at a time: damaged, they are what a recording from elsewhere may ask for.
+
+use std::sync::Arc;
+
+use glam::{DVec2, DVec3};
+use serde_json::json;
+
+use crate::io::words::readable;
+use crate::pattern::edit::{PatternEdit, PointRef};
+use crate::pattern::{Edge, EdgeRef, EdgeShape, InternalLine, Pattern, Piece, PlanePose, Seam, SpacePose};
+use crate::session::{BodyChoice, Command, Session, Settings};
+use crate::sim::{Runner, Simulation};
+use crate::trust::good;
+use crate::trust::readers::go_on;
+
+/// Lists of commands for the session that [`done`] begins.
+pub fn good() -> Vec<Vec<u8>> {
+    let project = good::project();
+    let mut ids = project.document.pattern.pieces.keys().copied();
+    let [front, back] = [(); 2].map(|()| ids.next().unwrap_or_default());
+    let seam = project.document.pattern.seams.keys().next().copied().unwrap_or_default();
+    let [low, high] = [(0.05, 0.05), (0.2, 0.2)].map(DVec2::from);
+    let small = Arc::new(Piece::polygon("pocket", &[low, DVec2::new(0.1, 0.05), DVec2::new(0.1, 0.1)]));
+    let line = InternalLine {
+        name: "dart".to_owned(),
+        edges: vec![Edge { start: DVec2::new(0.0, 0.1), ..Edge::default() }],
+        end: DVec2::new(0.36, 0.12),
+    };
+    let edge = EdgeRef { piece: back, edge: 2 };
+    let edits = |edits: Vec<PatternEdit>| Command::EditPattern { edits, anew: false };
+    let moved = good::body().positions.iter().map(|p| *p + DVec3::X * 0.01).collect();
+    let mesh = crate::geometry::mesh::TriMesh { positions: moved, triangles: good::body().triangles };
+    let body = BodyChoice::Imported { name: "limb".to_owned(), mesh: Arc::new(mesh) };
+    let curve = EdgeShape::Quadratic { control: DVec2::new(0.18, 0.36) };
+    let seam_of_part =
+        Seam::of_edges([EdgeRef { piece: back, edge: 0 }, EdgeRef { piece: front, edge: 0 }], true);
+    let lists = [
+        json!([
+            Command::AddClothMark { piece: front, side: Default::default(), points: vec![low, high] },
+            Command::AddBodyMark { points: vec![DVec3::new(0.0, 0.4, 0.11), DVec3::new(0.05, 0.4, 0.1)] },
+            Command::MoveMark { mark: crate::geometry::ids::MarkId(4), to: 1 },
+            Command::DeletePair { number: 1 },
+        ]),
+        json!([
+            Command::SetMarks { marks: project.document.marks.clone() },
+            Command::Rewrap { pairs: vec![1] }
+        ]),
+        json!([
+            Command::AddPiece { piece: small.clone() },
+            Command::SetPiecePose { piece: back, pose: PlanePose { offset: high, ..PlanePose::default() } },
+            Command::SetOutline {
+                piece: back,
+                outline: project.document.pattern.pieces[&back].outline.clone()
+            },
+            Command::DeletePiece { piece: front },
+        ]),
+        json!([
+            Command::ReverseSeam { seam },
+            Command::DeleteSeam { seam },
+            Command::AddSeam { seam: seam_of_part }
+        ]),
+        json!([Command::AimPose { body: body.clone() }, Command::PoseTowards { share: 0.5, draft: true }]),
+        json!([Command::Repose { body: body.clone(), settle: true, draft: false }]),
+        json!([
+            Command::SetBody { body, animations: None },
+            Command::SetBones { bones: Some(vec![[DVec3::ZERO, DVec3::Y]]) }
+        ]),
+        json!([Command::SetSettings { settings: Settings::default() }, Command::StepDraping { ticks: 2 }]),
+        json!([
+            Command::AddPin { piece: front, at: low },
+            Command::MovePin { pin: crate::geometry::ids::PinId(1), piece: back, at: high },
+            Command::LockPins { pins: vec![crate::geometry::ids::PinId(1)], locked: true },
+        ]),
+        json!([Command::SetFabric { piece: Some(front), fabric: Some("wool".to_owned()) }, Command::Sew]),
+        json!([edits(vec![
+            PatternEdit::MovePoints {
+                points: vec![(PointRef { piece: front, point: 1 }, DVec2::new(0.35, 0.01))]
+            },
+            PatternEdit::SetEdge { edge, shape: curve },
+            PatternEdit::InsertPoint { edge, at: 0.4 },
+            PatternEdit::SetSmooth { point: PointRef { piece: back, point: 3 }, smooth: true },
+            PatternEdit::DeletePoint { point: PointRef { piece: back, point: 3 } },
+        ])]),
+        json!([edits(vec![
+            PatternEdit::Scale { pieces: vec![front, back], about: low, factor: DVec2::splat(1.1) },
+            PatternEdit::AddDart { edge, at: 0.5, width: 0.02, depth: 0.05 },
+            PatternEdit::AddNotch { edge, at: 0.5 },
+            PatternEdit::SetAllowance { pieces: vec![back], width: 0.01 },
+        ])]),
+        json!([edits(vec![PatternEdit::Cut { piece: back, line: line.clone(), sew: true }])]),
+        json!([edits(vec![
+            PatternEdit::AddLine { piece: front, line },
+            PatternEdit::AddHole { piece: back, edges: small.outline.clone() },
+            PatternEdit::PlaceInSpace {
+                placements: vec![(front, Some(SpacePose::flat(DVec3::Z, Default::default())))]
+            },
+            PatternEdit::SetRatio { seam, ratio: Some(1.2) },
+        ])]),
+        json!([edits(vec![
+            PatternEdit::AddTwin { piece: back, offset: high },
+            PatternEdit::Duplicate { pieces: vec![front, back], offset: high },
+            PatternEdit::MakeSymmetric { piece: back, axis: [DVec2::new(0.18, 0.0), DVec2::new(0.18, 0.3)] },
+            PatternEdit::SetLayer { pieces: vec![back], layer: 2 },
+        ])]),
+        json!([Command::ReplacePattern {
+            name: "another".to_owned(),
+            pattern: Arc::new(Pattern { next_id: 9, ..good::pattern() }),
+            marks: Arc::default(),
+        }]),
+    ];
+    lists.iter().map(|list| list.to_string().into_bytes()).collect()
+}
+
+/// Gives the commands to a session with cloth on its body. Each is carried out or refused without a trace, the work stays sound,
+/// and all of it can be taken back.
+pub fn done(bytes: &[u8]) -> Result<(), String> {
+    let commands: Vec<Command> = serde_json::from_slice(bytes).map_err(|e| readable(&e.to_string()))?;
+    let mut session = Session::new(good::project(), Runner::inline(Simulation::default()));
+    session.apply_alone(Command::Wrap).map_err(|why| why.to_string())?;
+    go_on(&mut session);
+    let start = session.document().clone();
+    let mut refused = Ok(());
+    for command in commands.into_iter().filter(|command| !is_costly(command)) {
+        let before = session.document().clone();
+        match session.apply_alone(command) {
+            Ok(()) => go_on(&mut session),
+            Err(why) => {
+                assert!(*session.document() == before, "it was refused, but not without a trace: {why}");
+                refused = Err(why.to_string());
+            }
+        }
+        let problem = session.project().problem();
+        assert!(problem.is_none(), "after it the work is not sound: {problem:?}");
+    }
+    while session.undo_label().is_some() && *session.document() != start {
+        session.apply_alone(Command::Undo).map_err(|why| why.to_string())?;
+    }
+    assert!(*session.document() == start, "what was done cannot be taken back");
+    refused
+}
+
+/// Builds a figure or forgets what was before.
+pub fn is_costly(command: &Command) -> bool {
+    match command {
+        Command::SetBody { body, .. } | Command::Repose { body, .. } | Command::AimPose { body } => {
+            !matches!(body, BodyChoice::Imported { .. })
+        }
+        Command::ForgetHistory { .. } | Command::Dress { .. } => true,
+        _ => false,
+    }
+}
