@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 use toile::geometry::ids::{MarkId, PieceId, SeamId};
+use toile::pattern::edit::{PatternEdit, PointRef};
 use toile::pattern::{EdgeRef, Piece, PlanePose, Seam};
 use toile::relax::RelaxSettings;
 use toile::session::{BodyChoice, Command, Session, Settings};
@@ -174,4 +175,26 @@ fn changed_settings_wake_cloth_at_rest() {
     let settings = Settings { relax, ..s.document().settings };
     s.apply_alone(Command::SetSettings { settings }).expect("set");
     assert_eq!(run(&mut s, 1), 1, "awake");
+}
+
+/// Numbers of edges, points, lines and holes from elsewhere may be the largest that there are.
+#[test]
+fn the_largest_numbers_are_refused_in_words() {
+    let mut s = session();
+    let (piece, last) = (PieceId(1), usize::MAX);
+    let edge = EdgeRef { piece, edge: last };
+    let edits = [
+        PatternEdit::MovePoints { points: vec![(PointRef { piece, point: last }, DVec2::ZERO)] },
+        PatternEdit::InsertPoint { edge, at: 0.5 },
+        PatternEdit::AddNotch { edge, at: 0.5 },
+        PatternEdit::DeleteNotch { piece, notch: last },
+        PatternEdit::DeleteLine { piece, line: last },
+        PatternEdit::DeleteHole { piece, hole: last },
+        PatternEdit::Sew { seam: Seam::of_edges([edge, edge], false) },
+    ];
+    for edit in edits {
+        let command = Command::EditPattern { edits: vec![edit], anew: false };
+        let why = s.apply_alone(command.clone()).expect_err("refused").to_string();
+        assert!(why.contains("left has no "), "{command:?}: {why}");
+    }
 }

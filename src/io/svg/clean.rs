@@ -77,6 +77,9 @@ pub struct Root {
     pub is_illustrator: bool,
 }
 
+/// No coordinate of a path is larger, user units.
+const FARTHEST: f64 = 1e15;
+
 /// Checks and reduces a file.
 pub fn clean(bytes: &[u8]) -> Result<Clean, PatternFileError> {
     let whole = |words: &str| PatternFileError::Whole(words.to_owned());
@@ -100,6 +103,7 @@ pub fn clean(bytes: &[u8]) -> Result<Clean, PatternFileError> {
         let words = format!("its root is <{}>, not <svg>", root.tag_name().name());
         return Err(PatternFileError::bad("line 1", words));
     }
+    check_paths(root)?;
     let names = numbers(root);
     check_uses(root, &names, &limits)?;
     let mut clean = Clean { root: root_of(root, text)?, ..Clean::default() };
@@ -234,6 +238,47 @@ fn check_uses<'a>(
         done.insert(id, (count, depth + 1));
     }
     Ok(())
+}
+
+/// Refuses paths with numbers that are no places: arcs over them are cut into more curves than can be read.
+fn check_paths(root: Node<'_, '_>) -> Result<(), PatternFileError> {
+    for node in root.descendants() {
+        let Some(data) = node.attribute("d") else { continue };
+        if let Some(number) = numbers_of(data).find(|number| number.abs() > FARTHEST) {
+            let name = own_name(node).or_else(|| node.attribute("id").map(short));
+            let words = format!("a coordinate of its path is out of range: {number:e}");
+            return Err(PatternFileError::bad(name.unwrap_or_else(|| "a path".to_owned()), words));
+        }
+    }
+    Ok(())
+}
+
+/// The numbers in the data of a path, however they are parted: "1-2.5.5e3" are three.
+fn numbers_of(data: &str) -> impl Iterator<Item = f64> {
+    let mut rest = data;
+    std::iter::from_fn(move || {
+        loop {
+            rest = &rest[rest.find(|c: char| c.is_ascii_digit() || c == '.')?..];
+            let bytes = rest.as_bytes();
+            let digits = |from: usize| from + bytes[from..].iter().take_while(|b| b.is_ascii_digit()).count();
+            let mut end = digits(0);
+            if bytes.get(end) == Some(&b'.') {
+                end = digits(end + 1);
+            }
+            if let Some(b'e' | b'E') = bytes.get(end) {
+                let sign = usize::from(matches!(bytes.get(end + 1), Some(b'+' | b'-')));
+                let exponent = digits(end + 1 + sign);
+                if exponent > end + 1 + sign {
+                    end = exponent;
+                }
+            }
+            let (number, after) = rest.split_at(end);
+            rest = after;
+            if let Ok(number) = number.parse() {
+                return Some(number);
+            }
+        }
+    })
 }
 
 fn place(node: Node<'_, '_>) -> String {
@@ -401,4 +446,15 @@ fn is_chosen(id: &str) -> bool {
     let rest = &id[letters.len()..];
     let numbered = rest.chars().all(|c| c.is_ascii_digit() || c == '-' || c == '_');
     !(numbered && (automatic.contains(&letters.to_lowercase().as_str()) || letters.is_empty()))
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn numbers_of_paths_are_found_however_they_are_parted() {
+        let found = |data: &str| super::numbers_of(data).collect::<Vec<f64>>();
+        assert_eq!(found("M1-2.5.5e3,4E-1 1e+2z"), [1.0, 2.5, 500.0, 0.4, 100.0]);
+        assert_eq!(found("M 20 1e30 . A 5e x"), [20.0, 1e30, 5.0]);
+        assert_eq!(found("Mäé"), [0.0; 0]);
+    }
 }

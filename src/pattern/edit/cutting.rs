@@ -322,7 +322,7 @@ pub(super) fn add_notch(pattern: &mut Pattern, edge: EdgeRef, at: f64) -> Result
 pub(super) fn delete_notch(pattern: &mut Pattern, id: PieceId, notch: usize) -> Result<Change, String> {
     let piece = find(pattern, id)?;
     if notch >= piece.notches.len() {
-        return Err(format!("{} has no notch {}", piece.name, notch + 1));
+        return Err(format!("{} has no notch {}", piece.name, notch.saturating_add(1)));
     }
     change(pattern, id, |p| {
         p.notches.remove(notch);
@@ -339,7 +339,7 @@ pub(super) fn add_line(pattern: &mut Pattern, id: PieceId, line: &InternalLine) 
 pub(super) fn delete_line(pattern: &mut Pattern, id: PieceId, line: usize) -> Result<Change, String> {
     let piece = find(pattern, id)?;
     if line >= piece.lines.len() {
-        return Err(format!("{} has no line {}", piece.name, line + 1));
+        return Err(format!("{} has no line {}", piece.name, line.saturating_add(1)));
     }
     change(pattern, id, |p| {
         p.lines.remove(line);
@@ -364,7 +364,7 @@ pub(super) fn add_hole(pattern: &mut Pattern, id: PieceId, edges: &[Edge]) -> Re
 pub(super) fn delete_hole(pattern: &mut Pattern, id: PieceId, hole: usize) -> Result<Change, String> {
     let piece = find(pattern, id)?;
     if hole >= piece.holes.len() {
-        return Err(format!("{} has no hole {}", piece.name, hole + 1));
+        return Err(format!("{} has no hole {}", piece.name, hole.saturating_add(1)));
     }
     drop_hole(pattern, id, hole);
     Ok(Change::new("close a hole"))

@@ -324,12 +324,12 @@ pub(super) fn edge_number(piece: &Piece, edge: usize) -> Result<(), String> {
     if edge < piece.edge_count() {
         return Ok(());
     }
-    Err(format!("{} has no edge {}", piece.name, edge + 1))
+    Err(format!("{} has no edge {}", piece.name, edge.saturating_add(1)))
 }
 
 fn point_number(piece: &Piece, point: usize) -> Result<(), String> {
     if point < piece.edge_count() {
         return Ok(());
     }
-    Err(format!("{} has no point {}", piece.name, point + 1))
+    Err(format!("{} has no point {}", piece.name, point.saturating_add(1)))
 }

@@ -88,7 +88,7 @@ pub fn sound(pattern: &Pattern, seam: &Seam) -> Result<(), String> {
     for side in &seam.sides {
         let piece = find(pattern, side.piece)?;
         if side.edge >= piece.edge_count() {
-            return Err(format!("{} has no edge {}", piece.name, side.edge + 1));
+            return Err(format!("{} has no edge {}", piece.name, side.edge.saturating_add(1)));
         }
         if side.parts(piece).is_none() {
             return Err(format!("there is no such stretch on {}", piece.name));

@@ -26,21 +26,21 @@ const FARTHEST_BODY: f64 = 1e6;
 const LONGEST_NAME: usize = 200;
 
 pub fn stroke_2d(points: &[DVec2]) -> Result<(), Rejection> {
-    stroke(points.len(), points.iter().all(|&p| point_2d(p)))
+    stroke(points.len(), points.iter().all(|&p| point_2d(p)), FARTHEST)
 }
 
 pub fn stroke_3d(points: &[DVec3]) -> Result<(), Rejection> {
-    stroke(points.len(), points.iter().all(|p| p.is_finite() && p.abs().max_element() <= FARTHEST))
+    stroke(points.len(), points.iter().all(|&p| point_3d(p)), FARTHEST_BODY)
 }
 
-fn stroke(count: usize, all_good: bool) -> Result<(), Rejection> {
+fn stroke(count: usize, all_good: bool, farthest: f64) -> Result<(), Rejection> {
     match count {
         0 => Err(Rejection::new("a stroke needs at least one point")),
         c if c > MOST_POINTS => {
             Err(Rejection(format!("a stroke may have {MOST_POINTS} points, this has {c}")))
         }
         _ if !all_good => {
-            Err(Rejection(format!("a point of the stroke is not within {FARTHEST} m of the origin")))
+            Err(Rejection(format!("a point of the stroke is not within {farthest} m of the origin")))
         }
         _ => Ok(()),
     }
@@ -166,7 +166,10 @@ fn inside(piece: &Piece) -> Result<(), Rejection> {
     }
     let edges = piece.edge_count();
     if let Some(notch) = piece.notches.iter().find(|n| n.edge >= edges || !(0.0..=1.0).contains(&n.at)) {
-        return Err(Rejection(format!("there is no place for a notch on edge {}", notch.edge + 1)));
+        return Err(Rejection(format!(
+            "there is no place for a notch on edge {}",
+            notch.edge.saturating_add(1)
+        )));
     }
     if piece.grainline.is_some_and(|[tail, head]| !point_2d(tail) || !point_2d(head) || tail == head) {
         return Err(Rejection::new("a grainline has two ends within the table"));

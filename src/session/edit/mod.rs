@@ -254,9 +254,9 @@ fn pattern_problem(pattern: &Pattern) -> Option<String> {
     checks::pattern(pattern).err().map(|why| why.0)
 }
 
-/// Whether cloth can lie there.
+/// Whether cloth can lie there: on a body, or beside it.
 pub fn is_place(p: DVec3) -> bool {
-    checks::point_3d(p)
+    checks::point_3d(p / 2.0)
 }
 
 /// What no command would have let into what cloth is cut from; for cloth from files.
