@@ -11,7 +11,7 @@ use crate::cli::{formats, output};
 use crate::geometry::polygon::signed_area;
 use crate::io::scale::DrawingUnit;
 use crate::io::sizes::{self, SizesError};
-use crate::io::{gltf, pattern_file};
+use crate::io::{FILE_BYTES, gltf, pattern_file};
 use crate::pattern::{Pattern, Piece};
 use crate::session::body::{Body, surface_of};
 use crate::session::carry::carried;
@@ -25,8 +25,6 @@ use crate::wrap::suggest;
 const SAMPLE: &str = "sample:";
 /// What `--body` calls the built-in figure.
 const MANNEQUIN: &str = "mannequin";
-/// Bytes an input may have.
-const MOST_BYTES: u64 = 512 << 20;
 /// Triangles the cloth of a project may have: each takes about a kilobyte while it is draped.
 const MOST_TRIANGLES: f64 = 4e6;
 
@@ -150,7 +148,7 @@ fn sample(path: &Path, name: &str) -> Result<Project, Failure> {
 
 /// All of the file at `path`.
 pub fn read(path: &Path) -> Result<Vec<u8>, Failure> {
-    whole_file::read(path, MOST_BYTES).map_err(|error| match error.kind() {
+    whole_file::read(path, FILE_BYTES).map_err(|error| match error.kind() {
         std::io::ErrorKind::FileTooLarge => Failure::Limit(format!("{}: {error}", path.display())),
         _ => Failure::file(path, error),
     })

@@ -1,5 +1,8 @@
 //! How much an input file may ask for.
 
+/// Bytes that a file from elsewhere may have.
+pub const FILE_BYTES: u64 = 512 << 20;
+
 /// Bounds on untrusted input. What exceeds one is refused before memory is spent on it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
@@ -42,7 +45,7 @@ pub struct Limits {
 impl Default for Limits {
     fn default() -> Self {
         Self {
-            file_bytes: 512 << 20,
+            file_bytes: FILE_BYTES as usize,
             line_bytes: 1 << 20,
             vertices: 5_000_000,
             faces: 10_000_000,

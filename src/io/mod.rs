@@ -23,5 +23,5 @@ mod trace;
 pub mod words;
 pub mod written;
 
-pub use limits::Limits;
+pub use limits::{FILE_BYTES, Limits};
 pub use written::Written;

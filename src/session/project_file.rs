@@ -15,6 +15,7 @@ use zip::{CompressionMethod, ZipArchive, ZipWriter};
 
 use crate::cloth::ClothState;
 use crate::geometry::mesh::TriMesh;
+use crate::io::FILE_BYTES;
 use crate::io::words::readable;
 use crate::session::document::BodyChoice;
 use crate::session::project::Project;
@@ -25,7 +26,7 @@ pub const FORMAT: &str = "toile-project";
 /// The newest version this program reads, and the one it writes.
 pub const VERSION: u32 = 1;
 /// Bytes a file, and all of its entries unpacked, may have.
-const MOST_BYTES: u64 = 512 << 20;
+const MOST_BYTES: u64 = FILE_BYTES;
 /// Entries a zip may have.
 const MOST_ENTRIES: usize = 64;
 

@@ -124,15 +124,7 @@ pub fn gltfs() -> (Vec<Vec<u8>>, Vec<Vec<u8>>) {
     let inline = base64::engine::general_purpose::STANDARD.encode(&numbers);
     let uri = format!(r#""uri": "data:application/octet-stream;base64,{inline}", "#);
     let as_text = text.replace("URI", &uri).into_bytes();
-    let mut json = text.replace("URI", "").into_bytes();
-    json.resize(json.len().next_multiple_of(4), b' ');
-    let mut binary = b"glTF\x02\0\0\0".to_vec();
-    binary.extend(((28 + json.len() + numbers.len()) as u32).to_le_bytes());
-    for (kind, chunk) in [(b"JSON", &json), (b"BIN\0", &numbers)] {
-        binary.extend((chunk.len() as u32).to_le_bytes());
-        binary.extend(kind);
-        binary.extend(chunk);
-    }
+    let binary = glb::container(text.replace("URI", "").into_bytes(), numbers).expect("a small scene");
     let mesh = body();
     let moved = |by: f64| mesh.positions.iter().map(|p| *p + DVec3::X * by).collect();
     let frames: Vec<Vec<DVec3>> = [0.0, 0.1, 0.3].map(moved).into();
@@ -140,33 +132,40 @@ pub fn gltfs() -> (Vec<Vec<u8>>, Vec<Vec<u8>>) {
     (vec![as_text], vec![binary, moving.expect("a small scene")])
 }
 
+/// Numbers as glTF holds them: in single precision.
+pub fn floats(values: impl IntoIterator<Item = f64>) -> Vec<u8> {
+    values.into_iter().flat_map(|x| (x as f32).to_le_bytes()).collect()
+}
+
+/// `parts` one after the other, each from a multiple of 4 bytes on, and the glTF `bufferViews` that name them.
+pub fn buffer(parts: Vec<Vec<u8>>) -> (Vec<u8>, String) {
+    let (mut data, mut views) = (Vec::new(), Vec::new());
+    for part in parts {
+        let (from, length) = (data.len(), part.len());
+        views.push(format!(r#"{{"buffer": 0, "byteOffset": {from}, "byteLength": {length}}}"#));
+        data.extend(part);
+        data.resize(data.len().next_multiple_of(4), 0);
+    }
+    (data, views.join(", "))
+}
+
 /// The limb with bones below and above its middle; `URI` stands where its buffer is named.
 fn skinned() -> (String, Vec<u8>) {
     let mesh = cylinder(0.11, 1.0, 6, 4);
-    let (mut data, mut views) = (Vec::new(), Vec::new());
-    let mut view = |bytes: Vec<u8>| {
-        views.push(format!(
-            r#"{{"buffer": 0, "byteOffset": {}, "byteLength": {}}}"#,
-            data.len(),
-            bytes.len()
-        ));
-        data.extend(bytes);
-        data.resize(data.len().next_multiple_of(4), 0);
-    };
-    let floats =
-        |values: Vec<f64>| values.into_iter().flat_map(|x| (x as f32).to_le_bytes()).collect::<Vec<u8>>();
     let upper = |p: &DVec3| f64::from(u8::from(p.y > 0.5));
-    view(floats(mesh.positions.iter().flat_map(|p| p.to_array()).collect()));
-    view(mesh.triangles.iter().flatten().flat_map(|v| (*v as u16).to_le_bytes()).collect());
-    view(mesh.positions.iter().flat_map(|_| [0, 1, 0, 0]).collect());
-    view(floats(mesh.positions.iter().flat_map(|p| [1.0 - upper(p), upper(p), 0.0, 0.0]).collect()));
     let bind =
         |height: f64| [1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, -height, 0.0, 1.0];
-    view(floats([bind(0.0), bind(0.5)].concat()));
-    view(floats(vec![0.0, 1.0]));
     let turn = DQuat::from_rotation_z(1.0).to_array();
-    view(floats([[0.0, 0.0, 0.0, 1.0], turn].concat()));
-    view(floats([[0.0; 3], [0.0, 0.5, 0.0], [0.0; 3], [0.0; 3], [0.1, 0.5, 0.0], [0.0; 3]].concat()));
+    let (data, views) = buffer(vec![
+        floats(mesh.positions.iter().flat_map(|p| p.to_array())),
+        mesh.triangles.iter().flatten().flat_map(|v| (*v as u16).to_le_bytes()).collect(),
+        mesh.positions.iter().flat_map(|_| [0, 1, 0, 0]).collect(),
+        floats(mesh.positions.iter().flat_map(|p| [1.0 - upper(p), upper(p), 0.0, 0.0])),
+        floats([bind(0.0), bind(0.5)].concat()),
+        floats([0.0, 1.0]),
+        floats([[0.0, 0.0, 0.0, 1.0], turn].concat()),
+        floats([[0.0; 3], [0.0, 0.5, 0.0], [0.0; 3], [0.0; 3], [0.1, 0.5, 0.0], [0.0; 3]].concat()),
+    ]);
     let (vertices, corners) = (mesh.positions.len(), mesh.triangles.len() * 3);
     let text = format!(
         r#"{{"asset": {{"version": "2.0"}}, "scene": 0, "scenes": [{{"nodes": [0, 1]}}],
@@ -187,8 +186,7 @@ fn skinned() -> (String, Vec<u8>) {
             {{"bufferView": 5, "componentType": 5126, "count": 2, "type": "SCALAR", "min": [0], "max": [1]}},
             {{"bufferView": 6, "componentType": 5126, "count": 2, "type": "VEC4"}},
             {{"bufferView": 7, "componentType": 5126, "count": 6, "type": "VEC3"}}],
-        "bufferViews": [{}], "buffers": [{{URI"byteLength": {}}}]}}"#,
-        views.join(", "),
+        "bufferViews": [{views}], "buffers": [{{URI"byteLength": {}}}]}}"#,
         data.len()
     );
     (text, data)

@@ -2,8 +2,7 @@
 //! read. Whatever comes in, each is taken or refused in words, soon, and nothing panics.
 //!
 //! `damage` changes bytes and words, `structure` what the formats are made of, `good` holds what is damaged, `readers` what
-//! reads it, `campaign` counts; `commands` are
-//! such files, too.
+//! reads it, `campaign` counts; `commands` are such files, too.
 
 mod campaign;
 pub mod commands;

@@ -9,6 +9,7 @@ use zip::{CompressionMethod, ZipArchive, ZipWriter};
 
 use super::damage::{self, MOST_BYTES};
 use crate::draft::Random;
+use crate::io::glb::container;
 
 /// What a file is made of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -256,16 +257,7 @@ fn glb(bytes: Vec<u8>, random: &mut Random) -> Vec<u8> {
         true => text = json(text, random),
         false => damage::binary(&mut numbers, random),
     }
-    text.resize(text.len().next_multiple_of(4), b' ');
-    numbers.resize(numbers.len().next_multiple_of(4), 0);
-    let mut written = b"glTF\x02\0\0\0".to_vec();
-    written.extend(((28 + text.len() + numbers.len()) as u32).to_le_bytes());
-    for (kind, chunk) in [(b"JSON", &text), (b"BIN\0", &numbers)] {
-        written.extend((chunk.len() as u32).to_le_bytes());
-        written.extend(kind);
-        written.extend(chunk);
-    }
-    written
+    container(text, numbers).unwrap_or(bytes)
 }
 
 /// One entry changed, taken away or put there, and all packed again.

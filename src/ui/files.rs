@@ -12,15 +12,12 @@ use crate::io::body_file;
 use crate::io::pattern_file::{self, PatternFileError};
 use crate::io::pdf::{self, Paper};
 use crate::io::scale::{DrawingUnit, ScaleQuestion};
-use crate::io::{bvh, dxf, garmentcode, glb, gltf, obj, svg};
+use crate::io::{FILE_BYTES, bvh, dxf, garmentcode, glb, gltf, obj, svg};
 use crate::pattern::Pattern;
 use crate::session::project_file::ProjectFileError;
 use crate::session::samples::Sample;
 use crate::session::{AnimatedFile, Animations, BodyChoice, Command, Project, project_file, whole_file};
 use crate::sim::Snapshot;
-
-/// Bytes an input may have.
-const MOST_BYTES: u64 = 512 << 20;
 
 /// What a file dialog is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -342,7 +339,7 @@ pub fn use_mannequin() -> Command {
 
 /// All of the file at `path`; the error is in words.
 pub fn read(path: &Path) -> Result<Vec<u8>, String> {
-    whole_file::read(path, MOST_BYTES).map_err(|e| in_words(path, "read", e))
+    whole_file::read(path, FILE_BYTES).map_err(|e| in_words(path, "read", e))
 }
 
 /// "shirt-2.toile" for "shirt.toile", "shirt-8.toile" for "shirt-7.toile": the next one that is not there yet.

@@ -6,9 +6,10 @@ use glam::{DQuat, DVec2, DVec3};
 use toile::geometry::ids::MarkId;
 use toile::geometry::mesh::TriMesh;
 use toile::geometry::shapes::cylinder;
-use toile::io::gltf;
+use toile::io::{glb, gltf};
 use toile::pattern::{Pattern, Piece};
 use toile::session::{BodyChoice, Document, Project, Settings};
+use toile::trust::good::{buffer, floats};
 use toile::wrap::{BodyMark, ClothMark, ClothSide, Marks};
 
 /// Metres: where it bends.
@@ -35,31 +36,19 @@ pub fn bent(p: DVec3, angle: f64) -> DVec3 {
 /// The JSON text and the binary part.
 pub fn skinned(uri: Option<&str>) -> (String, Vec<u8>) {
     let mesh = limb();
-    let mut data: Vec<u8> = Vec::new();
-    let mut views = Vec::new();
-    let mut view = |bytes: Vec<u8>| {
-        views.push(format!(
-            r#"{{"buffer": 0, "byteOffset": {}, "byteLength": {}}}"#,
-            data.len(),
-            bytes.len()
-        ));
-        data.extend(bytes);
-        data.resize(data.len().next_multiple_of(4), 0);
-    };
-    let floats = |values: &[f64]| values.iter().flat_map(|&x| (x as f32).to_le_bytes()).collect::<Vec<u8>>();
-    view(floats(&mesh.positions.iter().flat_map(|p| p.to_array()).collect::<Vec<_>>()));
-    view(mesh.triangles.iter().flatten().flat_map(|v| v.to_le_bytes()).collect());
-    view(mesh.positions.iter().flat_map(|_| [0, 1, 0, 0]).collect());
-    view(floats(
-        &mesh.positions.iter().flat_map(|&p| [1.0 - share(p), share(p), 0.0, 0.0]).collect::<Vec<_>>(),
-    ));
     // What takes the scene into the frame of each bone: columns of matrices.
     let bind =
         |height: f64| [1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, -height, 0.0, 1.0];
-    view(floats(&[bind(0.0), bind(MIDDLE)].concat()));
-    view(floats(&[0.0, 1.0]));
-    let turn = DQuat::from_rotation_z(FRAC_PI_2);
-    view(floats(&[[0.0, 0.0, 0.0, 1.0], turn.to_array()].concat()));
+    let turn = DQuat::from_rotation_z(FRAC_PI_2).to_array();
+    let (data, views) = buffer(vec![
+        floats(mesh.positions.iter().flat_map(|p| p.to_array())),
+        mesh.triangles.iter().flatten().flat_map(|v| v.to_le_bytes()).collect(),
+        mesh.positions.iter().flat_map(|_| [0, 1, 0, 0]).collect(),
+        floats(mesh.positions.iter().flat_map(|&p| [1.0 - share(p), share(p), 0.0, 0.0])),
+        floats([bind(0.0), bind(MIDDLE)].concat()),
+        floats([0.0, 1.0]),
+        floats([[0.0, 0.0, 0.0, 1.0], turn].concat()),
+    ]);
     let (vertices, corners) = (mesh.positions.len(), mesh.triangles.len() * 3);
     let uri = uri.map(|uri| format!(r#""uri": "{uri}", "#)).unwrap_or_default();
     let json = format!(
@@ -81,25 +70,15 @@ pub fn skinned(uri: Option<&str>) -> (String, Vec<u8>) {
             {{"bufferView": 4, "componentType": 5126, "count": 2, "type": "MAT4"}},
             {{"bufferView": 5, "componentType": 5126, "count": 2, "type": "SCALAR", "min": [0], "max": [1]}},
             {{"bufferView": 6, "componentType": 5126, "count": 2, "type": "VEC4"}}],
-        "bufferViews": [{}], "buffers": [{{{uri}"byteLength": {}}}]}}"#,
-        views.join(", "),
+        "bufferViews": [{views}], "buffers": [{{{uri}"byteLength": {}}}]}}"#,
         data.len()
     );
     (json, data)
 }
 
 pub fn glb() -> Vec<u8> {
-    let (mut json, data) = skinned(None);
-    json += &" ".repeat(json.len().next_multiple_of(4) - json.len());
-    let length = (28 + json.len() + data.len()) as u32;
-    let mut bytes = b"glTF\x02\0\0\0".to_vec();
-    bytes.extend(length.to_le_bytes());
-    for (kind, chunk) in [(b"JSON", json.as_bytes()), (b"BIN\0", &data)] {
-        bytes.extend((chunk.len() as u32).to_le_bytes());
-        bytes.extend(kind);
-        bytes.extend(chunk);
-    }
-    bytes
+    let (json, data) = skinned(None);
+    glb::container(json.into_bytes(), data).expect("a small scene")
 }
 
 /// The limb as it is read, and a patch of cloth marked to lie on its upper bone.

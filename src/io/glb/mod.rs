@@ -294,11 +294,10 @@ fn primitive(
     }
 }
 
-/// Header, JSON chunk, binary chunk; lengths are multiples of 4.
-fn container(mut json: Vec<u8>, data: Vec<u8>) -> Result<Vec<u8>, GlbError> {
-    while !json.len().is_multiple_of(4) {
-        json.push(b' ');
-    }
+/// Header, JSON chunk, binary chunk, whose lengths become multiples of 4. The error is that it is too large.
+pub fn container(mut json: Vec<u8>, mut data: Vec<u8>) -> Result<Vec<u8>, GlbError> {
+    json.resize(json.len().next_multiple_of(4), b' ');
+    data.resize(data.len().next_multiple_of(4), 0);
     let length = u32::try_from(28 + json.len() + data.len()).map_err(|_| GlbError::TooLarge)?;
     let mut bytes = Vec::with_capacity(length as usize);
     bytes.extend_from_slice(b"glTF");
