@@ -127,16 +127,23 @@ impl Change {
         matches!(self.stage, Stage::Done)
     }
 
-    /// 0..=1: of the poses on the way how many are behind it, where there are any.
+    /// 0..=1: of the poses on the way and the last one how many are behind it.
     pub fn progress(&self) -> f64 {
-        match &self.stage {
-            Stage::Carry | Stage::SetOut => 0.0,
-            Stage::Pass(passing) => passing.at as f64 / (passing.bodies.len() + 1) as f64,
-            _ if self.at_once => 0.0,
-            Stage::Arrive | Stage::Control { .. } => 0.9,
-            Stage::Mend | Stage::Spread(_) | Stage::Finish => 0.95,
-            Stage::Done => 1.0,
-        }
+        let on_the_way = self.outcome.substeps;
+        let behind = match &self.stage {
+            Stage::Carry | Stage::SetOut => 0,
+            Stage::Pass(passing) => passing.at,
+            Stage::Control { .. } | Stage::Mend | Stage::Spread(_) | Stage::Finish | Stage::Arrive => {
+                on_the_way
+            }
+            Stage::Done => on_the_way + 1,
+        };
+        behind as f64 / (on_the_way + 1) as f64
+    }
+
+    /// The cloth as it comes along: after the first piece carried to the new pose.
+    pub fn cloth(&self) -> &ClothState {
+        &self.state
     }
 
     /// The cloth, once it is there, and what came of it.

@@ -11,6 +11,9 @@ use crate::sim::protocol::GarmentSource;
 use crate::sim::world::World;
 use crate::wrap::Marks;
 
+/// In one tick of a change of pose about so many vertices are moved by a global step, but one piece of it is done at least.
+const VERTICES_A_TICK: usize = 40_000;
+
 /// A change of pose. While the cloth lies as it left it, the next one starts from the pose that the cloth was dressed in:
 /// through however many poses it goes, it comes back to where it lay.
 #[derive(Clone, Debug)]
@@ -20,10 +23,7 @@ pub struct Posed {
     outcome: Outcome,
 }
 
-/// In one tick of a change of pose about so many vertices are moved by a global step, but one piece of it is done at least.
-const VERTICES_A_TICK: usize = 40_000;
-
-/// A change of pose under way: the cloth stays as it was before until it has come there.
+/// A change of pose under way: the cloth stays as it was before until it has come there. Meanwhile it is shown as carried there.
 #[derive(Clone, Debug)]
 pub struct Posing {
     source: Arc<GarmentSource>,
@@ -34,6 +34,7 @@ pub struct Posing {
     then: Then,
     reposer: Reposer,
     change: Change,
+    shown: Arc<ClothState>,
 }
 
 /// What is done with cloth that has come to another pose.
@@ -94,9 +95,11 @@ impl World {
         let new = || Reposer::new(&garment, from, ClothState::clone(&self.cloth), source.relax);
         let mut reposer =
             known.or_else(new).ok_or("the garment is too large for this machine's memory".to_owned())?;
-        let change = Change::new(&mut reposer, Arc::clone(&body), then.care())
+        let mut change = Change::new(&mut reposer, Arc::clone(&body), then.care())
             .ok_or("the body in the new pose has other triangles than the dressed one".to_owned())?;
-        let posing = Posing { source, body, size: None, then, reposer, change };
+        change.step(&mut reposer);
+        let shown = Arc::new(change.cloth().clone());
+        let posing = Posing { source, body, size: None, then, reposer, change, shown };
         Ok(Some(Self { posing: Some(Arc::new(posing)), ..self.clone() }))
     }
 
@@ -121,6 +124,17 @@ impl World {
         Ok(world)
     }
 
+    /// What is shown and saved: the cloth, what it was cut from, and the body it is on.
+    pub fn shown(&self) -> (&Arc<ClothState>, Option<&Arc<GarmentSource>>, Option<&Arc<Surface>>) {
+        match &self.posing {
+            Some(posing) => {
+                let body = posing.size.as_ref().unwrap_or(&posing.body);
+                (&posing.shown, Some(&posing.source), Some(body))
+            }
+            None => (&self.cloth, self.source.as_ref(), self.body.as_ref()),
+        }
+    }
+
     /// A tick of the change of pose under way.
     pub(super) fn pose(&mut self) {
         let Some(posing) = &mut self.posing else { return };
@@ -138,7 +152,7 @@ impl World {
     /// Ends the change of pose under way, if there is one, at once.
     pub fn finish_posing(&mut self) {
         let Some(posing) = self.posing.take() else { return };
-        let Posing { source, body, size, then, mut reposer, mut change } = Arc::unwrap_or_clone(posing);
+        let Posing { source, body, size, then, mut reposer, mut change, .. } = Arc::unwrap_or_clone(posing);
         while !change.is_done() {
             change.step(&mut reposer);
         }

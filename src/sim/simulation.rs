@@ -157,13 +157,14 @@ impl Simulation {
     /// The state, for reading.
     pub fn snapshot(&self) -> Snapshot {
         let world = &self.world;
+        let (cloth, source, body) = world.shown();
         Snapshot {
             tick: self.tick,
             seq: self.seq,
             garment: world.garment.clone(),
-            source: world.source.clone(),
-            body: world.body.clone(),
-            cloth: Arc::clone(&world.cloth),
+            source: source.cloned(),
+            body: body.cloned(),
+            cloth: Arc::clone(cloth),
             split: world.drawn(),
             phase: world.phase(),
             progress: world.progress(),
@@ -213,7 +214,14 @@ impl Simulation {
         match kind {
             // From where the cloth lies, wherever it was to go.
             RequestKind::Repose { .. } | RequestKind::Resize { .. } => self.world.posing = None,
-            RequestKind::Restore { .. } | RequestKind::Clear | RequestKind::SetRelaxing(_) => {}
+            RequestKind::SetRelaxing(_) => {}
+            // Nothing of it is kept.
+            RequestKind::Restore { .. }
+            | RequestKind::Clear
+            | RequestKind::Wrap { .. }
+            | RequestKind::Adopt { .. }
+            | RequestKind::Sew { .. }
+            | RequestKind::Dress { .. } => {}
             // Of the cloth as it lies there.
             _ => self.world.finish_posing(),
         }

@@ -380,7 +380,10 @@ impl World {
     /// none is.
     pub fn drawn(&self) -> Option<(Arc<Garment>, Arc<ClothState>)> {
         if let Some(active) = self.active.as_ref().filter(|_| self.sewing.is_none()) {
-            return Some((Arc::clone(active), Arc::clone(&self.cloth)));
+            return Some((Arc::clone(active), Arc::clone(self.shown().0)));
+        }
+        if self.posing.is_some() {
+            return None;
         }
         let drawn = match (&self.dragging, &self.dressing) {
             (Some(dragging), _) => dragging.drawn(&self.cloth),

@@ -57,11 +57,22 @@ fn on_the_way_to_a_pose_it_can_be_undone_changed_and_worked_on() {
     s.apply_alone(turned()).expect("posed");
     run(&mut s, 200);
     let there = cloth_hash(&mut s);
+    s.update();
+    let lying = Arc::clone(&s.snapshot().cloth);
     s.apply_alone(Command::Undo).expect("undone");
 
     let posing = |s: &mut Session| s.runner().simulation().expect("inline").is_posing();
     s.apply_alone(turned()).expect("posed");
     assert!(posing(&mut s), "it is done in ticks");
+    s.update();
+    let snapshot = s.snapshot().clone();
+    let (shown, body) = (snapshot.body.as_ref().expect("a body"), s.surface().expect("a body"));
+    assert!(shown.mesh == body.mesh, "what is shown and saved belongs together");
+    let apart = snapshot.cloth.positions.iter().zip(&lying.positions).map(|(p, q)| p.distance(*q));
+    let apart = apart.fold(0.0, f64::max);
+    assert!(apart < 1e-6, "a body that turns as a whole takes the cloth along: {apart} m");
+    let kept = project_file::to_bytes(&s.project()).expect("bytes");
+    assert!(project_file::from_bytes(&kept).expect("read back").dressed.is_some());
     s.apply_alone(Command::Undo).expect("undone");
     run(&mut s, 1);
     assert!(!posing(&mut s) && cloth_hash(&mut s) == before);
