@@ -15,9 +15,57 @@ const SIDES: u32 = 16;
 const STEP: f64 = 0.01;
 /// and so many at most: what lies deeper in the body is no matter of how it was placed.
 const MOST_STEPS: u32 = 20;
+/// Skin bulges no more than this into a thread, as a share of what of the thread is in it: round a circle, 0.55 of its diameter. What
+/// lies deeper is a limb.
+const BULGE: f64 = 0.15;
 
-/// For each of a seam's threads (ends in metres) the place over which it runs; None: straight, as it is free or nothing leads
-/// round.
+/// How a thread runs between its ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Route {
+    /// The place that it runs over while the body is between its ends, metres.
+    pub over: Option<DVec3>,
+    /// Where its middle was when the body was last not between them, metres.
+    free: Option<DVec3>,
+    /// The way back to the side it was on: its place goes along with its ends.
+    back: Option<DVec3>,
+}
+
+impl Route {
+    /// Over this place, or straight.
+    pub fn new(over: Option<DVec3>) -> Self {
+        Self { over, free: None, back: None }
+    }
+
+    /// The ends have come to these places, metres. The thread is drawn straight where it may be; where the body has come between
+    /// its ends, as they slid along a limb, it stays on the side of the body on which it was.
+    pub fn go_on(&mut self, surface: &Surface, ends: [DVec3; 2]) {
+        let middle = (ends[0] + ends[1]) / 2.0;
+        if self.over.is_some_and(|over| may_be_drawn(surface, ends, over)) {
+            (self.over, self.back) = (None, None);
+        } else if self.over.is_some() && self.back.is_none() {
+            return;
+        }
+        if self.over.is_none() {
+            self.back = self
+                .free
+                .filter(|&free| has_passed(surface, ends, free))
+                .and_then(|free| (free - middle).try_normalize());
+        }
+        if let Some(back) = self.back {
+            let before = self.over.or(self.free);
+            let there =
+                steps_round(surface, ends, back).map(|steps| middle + back * (STEP * f64::from(steps)));
+            let is_that_side =
+                |there: &DVec3| !before.is_some_and(|before| surface.meets_segment([before, *there]));
+            self.over = there.filter(is_that_side).or(before);
+        } else if !surface.meets_segment(ends) {
+            self.free = Some(middle);
+        }
+    }
+}
+
+/// For each of a seam's threads (ends in metres) the place over which it runs; None: straight, as it is free on the side on which
+/// the others of its seam go round the body, or nothing leads round.
 pub fn over(surface: &Surface, threads: &[[DVec3; 2]]) -> Vec<Option<DVec3>> {
     let caught: Vec<bool> = threads.par_iter().map(|&ends| surface.meets_segment(ends)).collect();
     let of_caught: Vec<[DVec3; 2]> =
@@ -30,31 +78,67 @@ pub fn over(surface: &Surface, threads: &[[DVec3; 2]]) -> Vec<Option<DVec3>> {
         u * cos + v * sin
     };
     let steps = |way: DVec3| -> u32 {
-        let of_thread = |&ends: &[DVec3; 2]| steps_round(surface, ends, way).unwrap_or(2 * MOST_STEPS);
-        of_caught.par_iter().map(of_thread).sum()
+        let of_thread = |(&ends, &caught)| steps_to(surface, ends, caught, way).unwrap_or(2 * MOST_STEPS);
+        threads.par_iter().zip(&caught).map(of_thread).sum()
     };
     let Some(way) = (0..SIDES).map(side).min_by_key(|&way| steps(way)) else {
         return vec![None; threads.len()];
     };
     let place = |(&[a, b], &caught): (&[DVec3; 2], &bool)| {
-        let steps = caught.then(|| steps_round(surface, [a, b], way))??;
+        let steps = steps_to(surface, [a, b], caught, way).filter(|&steps| steps > 0)?;
         Some((a + b) / 2.0 + way * (STEP * f64::from(steps)))
     };
     threads.par_iter().zip(&caught).map(place).collect()
 }
 
+/// Whether a thread between `ends`, the middle of which was at `free`, is on the other side of a limb since, or runs through one.
+fn has_passed(surface: &Surface, ends: [DVec3; 2], free: DVec3) -> bool {
+    let middle = (ends[0] + ends[1]) / 2.0;
+    match surface.meets_segment(ends) {
+        true => runs_through_a_limb(surface, ends),
+        false => runs_through_a_limb(surface, [free, middle]) && !may_be_drawn(surface, ends, free),
+    }
+}
+
+/// Whether what of the line from `a` to `b` is in the body lies deep there. A trunk only bulges into it, and gives way as its ends
+/// come together.
+fn runs_through_a_limb(surface: &Surface, [a, b]: [DVec3; 2]) -> bool {
+    let way = (b - a).normalize_or_zero();
+    let hits = [surface.ray(a, way), surface.ray(b, -way)];
+    let [Some(first), Some(last)] = hits else { return false };
+    let inside = a.distance(b) - first.distance - last.distance;
+    let middle = a + way * (first.distance + inside / 2.0);
+    inside > 0.0 && -surface.nearest(middle).distance > BULGE * inside
+}
+
+/// How many steps towards `way` the middle of a thread has to go to be on that side of the body: none where it is there already.
+fn steps_to(surface: &Surface, ends: [DVec3; 2], caught: bool, way: DVec3) -> Option<u32> {
+    if caught {
+        return steps_round(surface, ends, way);
+    }
+    let middle = (ends[0] + ends[1]) / 2.0;
+    let is_free = |steps: u32| is_free_over(surface, ends, middle + way * (STEP * f64::from(steps)));
+    let far = middle + way * (STEP * f64::from(MOST_STEPS));
+    let beyond =
+        surface.meets_segment([middle, far]).then(|| (1..=MOST_STEPS).find(|&steps| !is_free(steps)));
+    let Some(Some(meets)) = beyond else { return Some(0) };
+    (meets..=MOST_STEPS).find(|&steps| is_free(steps)).map(|steps| steps + 1)
+}
+
 /// How many steps towards `way` the middle of a thread has to go until the body is free of it; then one more.
-fn steps_round(surface: &Surface, [a, b]: [DVec3; 2], way: DVec3) -> Option<u32> {
-    let is_free = |steps: u32| {
-        let over = (a + b) / 2.0 + way * (STEP * f64::from(steps));
-        !surface.meets_segment([a, over]) && !surface.meets_segment([over, b])
-    };
-    (1..=MOST_STEPS).find(|&steps| is_free(steps)).map(|steps| steps + 1)
+fn steps_round(surface: &Surface, ends: [DVec3; 2], way: DVec3) -> Option<u32> {
+    let middle = (ends[0] + ends[1]) / 2.0;
+    let is_free = |&steps: &u32| is_free_over(surface, ends, middle + way * (STEP * f64::from(steps)));
+    (1..=MOST_STEPS).find(is_free).map(|steps| steps + 1)
+}
+
+fn is_free_over(surface: &Surface, [a, b]: [DVec3; 2], over: DVec3) -> bool {
+    !surface.meets_segment([a, over]) && !surface.meets_segment([over, b])
 }
 
 /// Whether a thread between `ends` that runs over `place` may be drawn straight without coming through the body. That the straight
 /// way is free is not enough: pieces that slid along an arm, to where both lie below it, would leave it for good.
-pub fn may_be_drawn(surface: &Surface, ends: [DVec3; 2], place: DVec3) -> bool {
+fn may_be_drawn(surface: &Surface, ends: [DVec3; 2], place: DVec3) -> bool {
     let middle = (ends[0] + ends[1]) / 2.0;
     let ways = (place.distance(middle) / STEP).ceil().max(1.0) as u32;
     (0..ways).all(|k| {
@@ -116,6 +200,37 @@ mod tests {
         let [above, in_the_way, below] = [0.06, 0.02, -0.06].map(|y| across(&[y])[0]);
         assert!(may_be_drawn(&bar, above, over) && !may_be_drawn(&bar, in_the_way, over));
         assert!(!bar.meets_segment(below) && !may_be_drawn(&bar, below, over));
+    }
+
+    /// Of a seam that begins below an arm and ends above it, as at the side of a wide bodice.
+    #[test]
+    fn threads_of_a_seam_that_are_free_on_the_other_side_go_round_too() {
+        let bar = bar();
+        let threads = across(&[-0.12, -0.1, -0.08, -0.06, -0.04, -0.01, 0.03, 0.06]);
+        let places = over(&bar, &threads);
+        assert!(places[..4].iter().all(Option::is_none), "free where they should be: {places:?}");
+        assert!(places[4..].iter().all(|place| place.is_some_and(|p| p.y < -0.05)), "{places:?}");
+    }
+
+    /// Pulled up along both sides of an arm, the seam under it is not sewn together above it.
+    #[test]
+    fn a_thread_whose_ends_slide_past_the_body_stays_on_its_side() {
+        let bar = bar();
+        let mut route = Route::new(None);
+        for height in [-0.08, -0.06, -0.045] {
+            route.go_on(&bar, across(&[height])[0]);
+            assert_eq!(route.over, None, "the skin may bulge a little into it");
+        }
+        let mut leaping = route;
+        for height in [-0.02, 0.02, 0.06, 0.08] {
+            route.go_on(&bar, across(&[height])[0]);
+        }
+        leaping.go_on(&bar, across(&[0.08])[0]);
+        for mut route in [route, leaping] {
+            assert!(route.over.is_some_and(|over| over.y < -0.05), "{route:?}");
+            route.go_on(&bar, across(&[-0.07])[0]);
+            assert_eq!(route.over, None, "free below, where it was");
+        }
     }
 
     #[test]

@@ -13,7 +13,7 @@ use rayon::prelude::*;
 use crate::body::Surface;
 use crate::cloth::{ClothState, Fabric, Garment};
 use crate::contact::separation;
-use crate::drape::routes;
+use crate::drape::routes::{self, Route};
 use crate::drape::small_steps::Tie;
 use crate::drape::worn::{TICK, Undrapable, Worn, WornSettings};
 use crate::geometry::adjacency::Adjacency;
@@ -56,8 +56,7 @@ struct Thread {
     ends: [u32; 2],
     /// How long it was, metres.
     length: f64,
-    /// The place that it runs over while the body is between its ends, metres.
-    over: Option<DVec3>,
+    route: Route,
 }
 
 /// What came of it.
@@ -184,10 +183,13 @@ impl Sewing {
         let surface = &self.surface;
         self.threads.par_iter_mut().for_each(|thread| {
             let ends = thread.ends.map(|v| cloth.positions[v as usize]);
-            thread.over = thread.over.filter(|&over| !routes::may_be_drawn(surface, ends, over));
+            thread.route.go_on(surface, ends);
         });
-        let tie =
-            |thread: &Thread| Tie { ends: thread.ends, length: thread.length * left, over: thread.over };
+        let tie = |thread: &Thread| Tie {
+            ends: thread.ends,
+            length: thread.length * left,
+            over: thread.route.over,
+        };
         let ties: Vec<Tie> = self.threads.iter().map(tie).collect();
         self.worn.tie(&ties);
     }
@@ -244,7 +246,7 @@ fn threads(garment: &Garment, cloth: &ClothState, pairs: &[[u32; 2]], surface: &
     let over = routes::over(surface, &places);
     let thread = |((&ends, [a, b]), over): ((&[u32; 2], [DVec3; 2]), Option<DVec3>)| {
         let length = over.map_or(a.distance(b), |over| a.distance(over) + over.distance(b));
-        Thread { ends, length, over }
+        Thread { ends, length, route: Route::new(over) }
     };
     ends.iter().zip(places).zip(over).map(thread).collect()
 }
