@@ -4,7 +4,7 @@
 //!
 //! ```text
 //! cli, ui → session → sim → {wrap, drag, drape, repose} → relax → contact → {cloth, body} → pattern → geometry
-//!             └ place → wrap
+//!             └───────┴ place → wrap
 //! ```
 //!
 //! | folder | holds | may use |
@@ -19,7 +19,7 @@
 //! | `drag`     | paper A: dependency graph, motion in local frames, pushpins | relax, contact, cloth, body, pattern, geometry |
 //! | `drape`    | physics: membrane, bending, contact in implicit and in small steps, straight to rest; a garment on its body; sewing | contact, cloth, body, geometry |
 //! | `repose`   | paper C: distance map, conforming to another pose of the body, recovery, strain control | relax, contact, cloth, body, pattern, geometry |
-//! | `place`    | where pieces stand in space before they are sewn: points round the body, tubes round limbs, a file's placement brought to another body | wrap, contact, body, pattern, geometry |
+//! | `place`    | where pieces stand in space before they are sewn: points round the body, tubes round limbs, a file's placement brought to another body, sleeves led to their arms | wrap, contact, cloth, body, pattern, geometry |
 //! | `fit`      | what is read off a garment: strain, crossings, openings, the report, maps | cloth, body, pattern, geometry |
 //! | `sim`      | owner of the moving state: stages, protocol, checkpoints, thread, state hash | the above |
 //! | `session`  | what the user has done: document, command, history, recording, replay, project file, recovery | sim and below, place, io |

@@ -1,10 +1,12 @@
 //! Where pieces stand in space before they are sewn: points round the body to stand them at, tubes round its limbs, and what a
 //! file says for one body brought to another.
 
+pub mod led;
 pub mod limbs;
 pub mod onto;
 pub mod points;
 
+pub use led::led;
 pub use limbs::{Limb, Part, limbs};
 pub use onto::{Moved, onto};
 pub use points::{Point, points, rolled_up, stood_at};

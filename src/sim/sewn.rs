@@ -14,6 +14,7 @@ use crate::geometry::ids::PieceId;
 use crate::pattern::sampling;
 use crate::pattern::triangulate::Meshes;
 use crate::pattern::{Problem, ProblemKind};
+use crate::place::led;
 use crate::sim::draped::DrapeSource;
 use crate::sim::protocol::GarmentSource;
 use crate::sim::world::{World, unlaid};
@@ -81,6 +82,7 @@ impl World {
             Some(source.pattern.pieces.get(&corner.piece)?.placement?.at(corner.uv))
         };
         let places: Vec<Option<DVec3>> = garment.corners.iter().map(place).collect();
+        let places = led(&garment, &body, &places);
         for (id, name) in &garment.pieces {
             if source.pattern.pieces.get(id).is_some_and(|piece| piece.placement.is_none()) {
                 let words = "it is not placed in space; it stays in the pattern".to_owned();

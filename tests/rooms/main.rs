@@ -11,6 +11,7 @@ mod drag;
 mod drape;
 mod editing;
 mod layers;
+mod led;
 mod memory;
 mod pattern;
 mod placing;

@@ -1,0 +1,163 @@
+//! Sleeves led to their arms before they are sewn: pieces that stand before and behind an arm, but too high, too low or aslant
+//! for it, would be sewn together beside it.
+//!
+//! What stands there need not keep its shape: it is bent in its plane towards the arm, from its cuff on up, and relaxes as it is
+//! sewn.
+
+use glam::{DQuat, DVec3};
+
+use crate::body::{Surface, bones, landmarks};
+use crate::cloth::{EdgeMetric, Garment};
+use crate::geometry::borders::border_loops;
+use crate::geometry::mesh::TriMesh;
+use crate::place::limbs::{Limb, Part, limbs};
+
+/// The cuff's middle is farther from the shoulder than this, metres on a body 1.5 m large: otherwise there is no sleeve,
+const LONG: f64 = 0.04;
+/// and no farther than this: then it is no sleeve.
+const REACH: f64 = 0.75;
+/// A sleeve that stands at a larger angle (cosine) to its arm is none of it.
+const ASIDE: f64 = 0.4;
+/// Between skin and the edge of a sleeve that needs no leading, metres on a body 1.5 m large.
+const CLEAR: f64 = 0.015;
+/// What lies nearer to the cuff than this share of its distance from the shoulder is led wholly. From there on ever less, over at
+/// least the second share,
+const BENT: [f64; 2] = [0.5, 0.6];
+/// and over so many times the way the cuff goes: over less, the cloth would be turned over there.
+const GENTLE: f64 = 2.0;
+
+/// `places` (metres, one for each flat corner of `garment`) with sleeves led to the arms of the body; as they are where it does not
+/// look human, or where the arms run between the edges of the sleeves already.
+pub fn led(garment: &Garment, surface: &Surface, places: &[Option<DVec3>]) -> Vec<Option<DVec3>> {
+    let mut places = places.to_vec();
+    let Some(marks) = landmarks::found(&surface.mesh) else { return places };
+    let (lower, upper) = surface.bounds();
+    let arms = limbs(&bones::extracted(surface, &marks), upper.y - lower.y);
+    let cloth =
+        TriMesh { positions: vec![DVec3::ZERO; garment.vertex_count], triangles: garment.triangles.clone() };
+    let borders = border_loops(&cloth);
+    let metric = EdgeMetric::new(garment);
+    for limb in &arms {
+        let Part::Arm { left } = limb.part else { continue };
+        let side = if left { "left" } else { "right" };
+        let Some(arm) =
+            marks.get(&format!("shoulder_{side}")).and_then(|shoulder| Arm::new(limb, shoulder, surface))
+        else {
+            continue;
+        };
+        let mut seen = vec![false; garment.vertex_count];
+        for cuff in arm.cuffs(garment, &borders, &places) {
+            if seen[cuff.border[0] as usize] {
+                continue;
+            }
+            let sources: Vec<(u32, f64)> = cuff.border.iter().map(|&v| (v, 0.0)).collect();
+            let away = metric.from(&sources, |_| true);
+            away.order.iter().for_each(|&v| seen[v as usize] = true);
+            if !arm.runs_through(&cuff) {
+                arm.turn(&cuff, garment, &away.distance, &mut places);
+            }
+        }
+    }
+    places
+}
+
+/// The edge of a sleeve.
+struct Cuff<'a> {
+    border: &'a [u32],
+    /// Where it stands, metres.
+    points: Vec<DVec3>,
+    /// From the shoulder to its middle, upright, metres.
+    from: DVec3,
+}
+
+/// An arm, seen from the front.
+struct Arm<'a> {
+    surface: &'a Surface,
+    /// Where its line comes by the shoulder, metres.
+    root: DVec3,
+    /// Unit, upright.
+    along: DVec3,
+}
+
+impl<'a> Arm<'a> {
+    /// None where it points straight to the front or back.
+    fn new(limb: &Limb, shoulder: DVec3, surface: &'a Surface) -> Option<Self> {
+        let (from, way) = (limb.bone[0], limb.along());
+        let root = from + way * (shoulder - from).dot(way);
+        Some(Self { surface, root, along: upright(way).try_normalize()? })
+    }
+
+    /// The openings that stand at its side as a cuff may, the outermost first.
+    fn cuffs<'b>(
+        &self,
+        garment: &Garment,
+        borders: &'b [Vec<u32>],
+        places: &[Option<DVec3>],
+    ) -> Vec<Cuff<'b>> {
+        let mut of_vertex = vec![usize::MAX; garment.vertex_count];
+        for (k, border) in borders.iter().enumerate() {
+            border.iter().for_each(|&v| of_vertex[v as usize] = k);
+        }
+        let mut points = vec![Vec::new(); borders.len()];
+        for (corner, place) in garment.corners.iter().zip(places) {
+            if let (Some(points), Some(p)) = (points.get_mut(of_vertex[corner.vertex as usize]), place) {
+                points.push(*p);
+            }
+        }
+        let scale = self.surface.scale();
+        let outward = |from: DVec3| from.x * self.along.x.signum();
+        let cuff = |(border, points): (&'b Vec<u32>, Vec<DVec3>)| {
+            let middle = points.iter().sum::<DVec3>() / points.len() as f64;
+            Cuff { border, from: upright(middle - self.root), points }
+        };
+        let stands = |cuff: &Cuff<'_>| {
+            let length = cuff.from.length();
+            let is_aside = cuff.from.dot(self.along) > ASIDE * length;
+            outward(cuff.from) > LONG * scale && length < REACH * scale && is_aside
+        };
+        let placed = borders.iter().zip(points).filter(|(_, points)| !points.is_empty());
+        let mut cuffs: Vec<Cuff<'b>> = placed.map(cuff).filter(stands).collect();
+        cuffs.sort_by(|a, b| outward(b.from).total_cmp(&outward(a.from)));
+        cuffs
+    }
+
+    /// Whether it has room between the edges of `cuff`, those before it and those behind.
+    fn runs_through(&self, cuff: &Cuff<'_>) -> bool {
+        let Some(across) = upright(DVec3::Y - self.along * self.along.y).try_normalize() else { return true };
+        let at = self.root + self.along * cuff.from.dot(self.along);
+        let span = |is_behind: bool| {
+            let part =
+                cuff.points.iter().filter(|p| (p.z < at.z) == is_behind).map(|p| (*p - at).dot(across));
+            part.fold([f64::MAX, f64::MIN], |[low, high], v| [low.min(v), high.max(v)])
+        };
+        let (before, behind) = (span(false), span(true));
+        if before[0] > before[1] || behind[0] > behind[1] {
+            return true;
+        }
+        let clear = CLEAR * self.surface.scale();
+        let skin = |way: DVec3| self.surface.ray(at, way).map_or(0.0, |hit| hit.distance) + clear;
+        before[0].max(behind[0]) <= -skin(-across) && skin(across) <= before[1].min(behind[1])
+    }
+
+    /// Turns what is sewn to `cuff` about the shoulder till the cuff stands round the arm, each place less the farther it is
+    /// `away` from it (metres, for each vertex); none goes farther than the cuff.
+    fn turn(&self, cuff: &Cuff<'_>, garment: &Garment, away: &[f64], places: &mut [Option<DVec3>]) {
+        let length = cuff.from.length();
+        let angle = cuff.from.cross(self.along).z.atan2(cuff.from.dot(self.along));
+        let turn = DQuat::from_rotation_z(angle);
+        let near = BENT[0] * length;
+        let over = length * BENT[1].max(GENTLE * angle.abs());
+        for (place, corner) in places.iter_mut().zip(&garment.corners) {
+            let t = (1.0 - (away[corner.vertex as usize] - near) / over).clamp(0.0, 1.0);
+            let share = t * t * (3.0 - 2.0 * t);
+            *place = place.map(|p| {
+                let from = upright(p - self.root).clamp_length_max(length);
+                p + (turn * from - from) * share
+            });
+        }
+    }
+}
+
+fn upright(v: DVec3) -> DVec3 {
+    v * DVec3::new(1.0, 1.0, 0.0)
+}
