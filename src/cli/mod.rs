@@ -56,9 +56,7 @@ fn run() -> u8 {
         Ok(()) => 0,
         Err(failure) => {
             interrupt::tell(&failure);
-            if let Failure::Signal(_) = failure {
-                whole_file::remove_empty_folders();
-            }
+            whole_file::remove_empty_folders();
             failure.exit_code()
         }
     }

@@ -84,37 +84,33 @@ pub fn open(path: &Path) -> Result<Project, ProjectFileError> {
 
 /// Writes `project` to `path`; what was there before stays as `PATH.bak`. A write-protected file is refused.
 pub fn save(path: &Path, project: &Project) -> Result<(), ProjectFileError> {
-    save_by(path, project, whole_file::write)
+    if whole_file::is_protected(path) {
+        let source = std::io::Error::new(std::io::ErrorKind::PermissionDenied, "it is write-protected");
+        return Err(ProjectFileError::File { path: path.to_owned(), source });
+    }
+    save_over(path, project)
 }
 
 /// The same over a file that may be write-protected.
 pub fn save_over(path: &Path, project: &Project) -> Result<(), ProjectFileError> {
-    save_by(path, project, whole_file::replace)
-}
-
-fn save_by(
-    path: &Path,
-    project: &Project,
-    write: impl Fn(&Path, &[u8]) -> std::io::Result<()>,
-) -> Result<(), ProjectFileError> {
-    let file_error = |source| ProjectFileError::File { path: path.to_owned(), source };
     let bytes = to_bytes(project)?;
     if from_bytes(&bytes)? != *project {
         return Err(contents("the project did not survive being written: nothing was saved"));
     }
-    keep_backup(path).map_err(file_error)?;
-    write(path, &bytes).map_err(file_error)
+    with_backup(path, &bytes).map_err(|source| ProjectFileError::File { path: path.to_owned(), source })
 }
 
-fn keep_backup(path: &Path) -> std::io::Result<()> {
+fn with_backup(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
     let old = match fs::read(path) {
         Ok(old) => old,
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(()),
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
+            return whole_file::replace(path, bytes);
+        }
         Err(error) => return Err(error),
     };
-    let mut name = path.as_os_str().to_owned();
-    name.push(".bak");
-    whole_file::replace(&PathBuf::from(name), &old)
+    let mut backup = path.as_os_str().to_owned();
+    backup.push(".bak");
+    whole_file::replace_in_turn(&[(Path::new(&backup), &old), (path, bytes)])
 }
 
 /// The project in `bytes`.

@@ -174,9 +174,15 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<()> {
 
 /// The same for a file that may be write-protected, and stays so.
 pub fn replace(path: &Path, bytes: &[u8]) -> Result<()> {
-    let file = Unplaced::new(path, bytes)?;
+    replace_in_turn(&[(path, bytes)])
+}
+
+/// The same for several, which take their places in this order once all of them are written.
+pub fn replace_in_turn(files: &[(&Path, &[u8])]) -> Result<()> {
+    let written: Vec<Unplaced> =
+        files.iter().map(|(path, bytes)| Unplaced::new(path, bytes)).collect::<Result<_>>()?;
     let _placing = held(&PLACING);
-    file.place()
+    written.into_iter().try_for_each(Unplaced::place)
 }
 
 /// Writes all of `files`, paths with what they hold, and then puts them in their places one right after the other, in this

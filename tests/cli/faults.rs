@@ -74,3 +74,49 @@ fn writes_that_are_short_or_interrupted_are_gone_on_with() {
     whole.run("dress ball.toile --save ball-dressed.toile --out out");
     assert_eq!(broken, std::fs::read(whole.path("ball-dressed.toile")).expect("saved"), "the same bytes");
 }
+
+/// A small file system of its own; None where that may not be had.
+struct SmallDisk(std::path::PathBuf);
+
+impl SmallDisk {
+    fn at(folder: std::path::PathBuf) -> Option<Self> {
+        std::fs::create_dir(&folder).expect("made");
+        let mut mount = Command::new("mount");
+        mount.args(["-t", "tmpfs", "-o", "size=16k", "tmpfs"]).arg(&folder);
+        let is_mounted = mount.output().is_ok_and(|done| done.status.success());
+        is_mounted.then_some(Self(folder))
+    }
+}
+
+impl Drop for SmallDisk {
+    fn drop(&mut self) {
+        Command::new("umount").arg(&self.0).status().expect("started");
+    }
+}
+
+#[test]
+fn a_disk_that_is_really_full_keeps_what_was_on_it() {
+    let place = Place::with_ball();
+    let Some(disk) = SmallDisk::at(place.path("small")) else {
+        println!("skipped: nothing may be mounted here");
+        return;
+    };
+    place.write("small/dressed.toile", "the old one");
+    for task in [
+        "dress ball.toile --edge-length 0.01 --save small/dressed.toile --out out",
+        "dress ball.toile --edge-length 0.01 --out small/out",
+        "render ball.toile -o small/ball.png --size 1000x1000",
+    ] {
+        let ended = place.run(task);
+        if ended.code == 5 {
+            assert!(!crate::program::adapter_required(), "{task}: {ended:#?}");
+            continue;
+        }
+        assert_eq!(ended.code, 6, "{task}: {ended:#?}");
+        assert!(ended.err.contains("small"), "{task} names the file: {ended:#?}");
+        assert_eq!(place.read("small/dressed.toile"), "the old one", "{task}");
+        let left = place.names("small");
+        assert_eq!(left, ["dressed.toile"], "{task} leaves nothing half written");
+    }
+    drop(disk);
+}
