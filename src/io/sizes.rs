@@ -189,8 +189,10 @@ fn known() -> String {
 }
 
 fn size(cells: &csv::StringRecord, line: u64, columns: &[Column], comma: bool) -> Result<Size, SizesError> {
-    let name = cells.get(0).filter(|name| !name.is_empty());
-    let name = name.ok_or_else(|| cell(line, "1", "a size without a name"))?.to_owned();
+    let name: String = cells.get(0).into_iter().flat_map(str::chars).filter(|c| !c.is_control()).collect();
+    if name.is_empty() {
+        return Err(cell(line, "1", "a size without a name"));
+    }
     if cells.len() > columns.len() + 1 {
         let words = format!(
             "there is no measurement at the head of this cell, {:?}",

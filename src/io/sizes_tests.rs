@@ -44,6 +44,7 @@ fn every_fault_names_its_row_and_column() {
             "row 1, column 3: there is no measurement \"inseam\"; there are height, bust",
         ),
         ("size,bust (furlong)\n36,84\n", "row 1, column 2: \"furlong\" is no unit"),
+        ("size,bust\n3\u{7}6,84\n36,85\n", "row 3, column 1: the size 36 is there twice"),
         ("size,bust,BUST mm\n36,84,70\n", "row 1, column 3: the measurement bust is there twice"),
         ("size,bust\n36,84\n\n38,wide\n", "row 4, column 2 (bust): \"wide\" is no length in cm"),
         ("size,bust mm\n36,-840\n", "row 2, column 2 (bust mm): \"-840\" is no length in mm"),
