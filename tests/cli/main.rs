@@ -8,6 +8,7 @@ mod bodies;
 mod common;
 mod compare;
 mod dress;
+mod environment;
 mod faults;
 mod fit_page;
 mod gltf;

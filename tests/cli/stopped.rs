@@ -24,6 +24,39 @@ const MOST: f64 = 3.0;
 /// So long a program may take to start, seconds: a signal before ends it as the system does.
 const STARTING: f64 = 0.3;
 
+/// What is stopped, as it is typed, "IN" for the folder of inputs, and whether its files take their places one by one, not a
+/// folder at a time.
+const DRESSING: &[(&str, bool)] = &[
+    ("dress sample:skirt --edge-length 0.02 --drape --out out", false),
+    ("dress sample:tshirt --edge-length 0.012 --suggest-marks --out new/out --save shirt.toile", true),
+    ("dress --list IN/list.txt --out out --edge-length 0.015", false),
+    ("replay IN/dress.jsonl --out out", false),
+];
+
+const REPOSING: &[(&str, bool)] = &[
+    ("repose IN/dressed.toile --pose walking --pose sitting --out out", false),
+    ("repose IN/dressed.toile --sequence --body IN/frames --unit m --out out", true),
+    ("simulate IN/scene.json --out out", false),
+];
+
+const READING: &[(&str, bool)] = &[
+    ("fit IN/dressed.toile --map all --out out", false),
+    ("fit IN/dressed.toile --page fit.html", false),
+    ("compare IN/dressed.toile IN/dressed.toile --map all --out out", false),
+    ("render IN/dressed.toile -o picture.png --size 1600x1600", false),
+    ("render IN/dressed.toile -o turn.png --turntable 4", true),
+];
+
+const FILES: &[(&str, bool)] = &[
+    ("check sample:tshirt --edge-length 0.004", false),
+    ("measure IN/o/body.obj", false),
+    ("import IN/o/body.obj IN/shirt.json -o project.toile", false),
+    ("export IN/dressed.toile -o cloth.glb", false),
+    ("generate --count 40 --seed 3 --out out", true),
+    ("bench accuracy --runs 1", false),
+    ("bench drape --runs 1 --triangles 300", false),
+];
+
 /// Inputs of the runs: a skirt that lies on its body and one that is not dressed, a body, a motion, a falling cloth.
 fn inputs() -> &'static Place {
     static INPUTS: OnceLock<Place> = OnceLock::new();
@@ -179,42 +212,33 @@ fn stop(cases: &[(&'static str, bool)]) {
 
 #[test]
 fn dressing_stops_at_any_moment_and_leaves_nothing_half_done() {
-    stop(&[
-        ("dress sample:skirt --edge-length 0.02 --drape --out out", false),
-        ("dress sample:tshirt --edge-length 0.012 --suggest-marks --out new/out --save shirt.toile", true),
-        ("dress --list IN/list.txt --out out --edge-length 0.015", false),
-        ("replay IN/dress.jsonl --out out", false),
-    ]);
+    stop(DRESSING);
 }
 
 #[test]
 fn reposing_stops_at_any_moment_and_leaves_nothing_half_done() {
-    stop(&[
-        ("repose IN/dressed.toile --pose walking --pose sitting --out out", false),
-        ("repose IN/dressed.toile --sequence --body IN/frames --unit m --out out", true),
-        ("simulate IN/scene.json --out out", false),
-    ]);
+    stop(REPOSING);
 }
 
 #[test]
 fn reading_and_drawing_stop_at_any_moment_and_leave_nothing_half_done() {
-    stop(&[
-        ("fit IN/dressed.toile --map all --out out", false),
-        ("fit IN/dressed.toile --page fit.html", false),
-        ("compare IN/dressed.toile IN/dressed.toile --map all --out out", false),
-        ("render IN/dressed.toile -o picture.png --size 1600x1600", false),
-        ("render IN/dressed.toile -o turn.png --turntable 4", true),
-    ]);
+    stop(READING);
 }
 
 #[test]
 fn files_and_benches_stop_at_any_moment_and_leave_nothing_half_done() {
-    stop(&[
-        ("check sample:tshirt --edge-length 0.004", false),
-        ("measure IN/o/body.obj", false),
-        ("import IN/o/body.obj IN/shirt.json -o project.toile", false),
-        ("export IN/dressed.toile -o cloth.glb", false),
-        ("bench accuracy --runs 1", false),
-        ("bench drape --runs 1 --triangles 300", false),
-    ]);
+    stop(FILES);
+}
+
+/// One that is new is not forgotten here.
+#[test]
+fn every_subcommand_is_stopped() {
+    let help = Place::new().ends(0, "--help").out;
+    let commands = help.lines().skip_while(|line| *line != "Commands:").skip(1);
+    let names =
+        commands.take_while(|line| !line.is_empty()).filter_map(|line| line.split_whitespace().next());
+    let cases = [DRESSING, REPOSING, READING, FILES].concat();
+    let is_stopped = |name: &&str| cases.iter().any(|(words, _)| words.split(' ').next() == Some(name));
+    let missing: Vec<&str> = names.filter(|name| *name != "help" && !is_stopped(name)).collect();
+    assert!(missing.is_empty(), "{missing:?}");
 }
