@@ -318,3 +318,31 @@ fn the_code_is_formatted() {
         Err(error) => println!("cargo fmt cannot run ({error}): formatting not checked"),
     }
 }
+
+/// A table of promises is worth what its tests are.
+#[test]
+fn every_test_that_a_promise_names_is_there() {
+    let table = fs::read_to_string(root().join("src/trust/promises.rs")).expect("the table");
+    let rows = table.lines().filter(|line| line.starts_with("//! | "));
+    let named: BTreeSet<&str> = rows.flat_map(|row| row.split('`').skip(1).step_by(2)).collect();
+    assert!(named.len() > 50, "{} tests are named", named.len());
+    let paths = ["src", "tests"].map(|folder| files_below(&root().join(folder), "rs"));
+    let code: Vec<String> =
+        paths.concat().iter().map(|path| fs::read_to_string(path).expect("source")).collect();
+    let is_there = |name: &&str| code.iter().any(|text| text.contains(&format!("fn {name}(")));
+    let missing: Vec<&str> = named.into_iter().filter(|name| !is_there(name)).collect();
+    assert!(missing.is_empty(), "{missing:#?}");
+}
+
+/// A thread that panicked leaves its locks poisoned: what waits for them must not panic, too.
+#[test]
+fn no_lock_is_expected_to_be_whole() {
+    let is_wrong = |code: &str| {
+        let flat: String = code.split_whitespace().collect();
+        ["lock().unwrap()", "lock().expect(", "read().unwrap()", "write().unwrap()", "into_inner().unwrap()"]
+            .iter()
+            .any(|call| flat.contains(call))
+    };
+    let wrong: Vec<String> = sources().into_iter().filter(|s| is_wrong(&s.code)).map(|s| s.path).collect();
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}

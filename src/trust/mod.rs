@@ -2,12 +2,13 @@
 //! read. Whatever comes in, each is taken or refused in words, soon, and nothing panics.
 //!
 //! `damage` changes bytes and words, `structure` what the formats are made of, `good` holds what is damaged, `readers` what
-//! reads it, `campaign` counts; `commands` are such files, too.
+//! reads it, `campaign` counts; `commands` are such files, too. `promises` is the table of all that is promised and how it is tested.
 
 mod campaign;
 pub mod commands;
 mod damage;
 pub mod good;
+pub mod promises;
 mod readers;
 mod structure;
 
