@@ -6,6 +6,7 @@ use std::sync::Arc;
 use glam::DVec2;
 use spade::{AngleLimit, ConstrainedDelaunayTriangulation, Point2, RefinementParameters, Triangulation};
 
+use crate::geometry::bvh::{Aabb, Bvh};
 use crate::geometry::ids::PieceId;
 use crate::geometry::polygon::{contains, signed_area};
 use crate::pattern::sampling::Sampling;
@@ -212,25 +213,26 @@ impl Lines {
 
     /// The first two segments that meet without being neighbours.
     fn crossing(&self) -> Option<(usize, usize)> {
-        // Sorted along x, so that only segments that overlap there are tried.
-        let span = |i: usize| {
+        let around = |i: usize| {
             let (a, b) = self.segment(i);
-            (a.x.min(b.x), a.x.max(b.x))
+            Aabb::around(&[a.extend(0.0), b.extend(0.0)])
         };
-        let mut order: Vec<usize> = (0..self.points.len()).collect();
-        order.sort_by(|&i, &j| span(i).0.total_cmp(&span(j).0).then(i.cmp(&j)));
-        let mut found: Option<(usize, usize)> = None;
-        for (k, &i) in order.iter().enumerate() {
-            for &j in order[k + 1..].iter().take_while(|&&j| span(j).0 <= span(i).1) {
-                let pair = (i.min(j), i.max(j));
-                let neighbours = self.next[i] as usize == j || self.next[j] as usize == i;
-                let ((a, b), (c, d)) = (self.segment(pair.0), self.segment(pair.1));
-                if !neighbours && segments_meet(a, b, c, d) && found.is_none_or(|f| pair < f) {
-                    found = Some(pair);
+        let boxes: Vec<Aabb> = (0..self.points.len()).map(around).collect();
+        let tree = Bvh::new(&boxes);
+        (0..boxes.len()).find_map(|i| {
+            let (a, b) = self.segment(i);
+            let mut first: Option<usize> = None;
+            tree.near(&boxes[i], |j| {
+                let j = j as usize;
+                let is_neighbour = self.next[i] as usize == j || self.next[j] as usize == i;
+                let (c, d) = self.segment(j);
+                if j > i && first.is_none_or(|first| j < first) && !is_neighbour && segments_meet(a, b, c, d)
+                {
+                    first = Some(j);
                 }
-            }
-        }
-        found
+            });
+            first.map(|j| (i, j))
+        })
     }
 
     /// What is wrong with a hole that lies outside the outline or inside another; the lines do not cross.
@@ -376,4 +378,47 @@ fn distance_to_segment(p: DVec2, a: DVec2, b: DVec2) -> f64 {
     let ab = b - a;
     let t = ((p - a).dot(ab) / ab.length_squared().max(1e-300)).clamp(0.0, 1.0);
     (p - a - ab * t).length()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A closed loop through these points.
+    fn loop_of(points: Vec<DVec2>) -> Lines {
+        let count = points.len();
+        let next = (0..count).map(|i| ((i + 1) % count) as u32).collect();
+        Lines { points, next, starts: vec![0, count], edge_points: Vec::new() }
+    }
+
+    #[test]
+    fn the_first_crossing_is_that_of_all_pairs() {
+        let mut state = 7u64;
+        let mut chance = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            (state >> 33) as f64 / f64::from(1u32 << 31)
+        };
+        let mut clean = 0;
+        for round in 0..300 {
+            let count = 4 + round % 30;
+            let points = (0..count).map(|k| {
+                let angle = std::f64::consts::TAU * k as f64 / count as f64;
+                // Rough ones cross, fine ones do not.
+                DVec2::from_angle(angle) + DVec2::new(chance(), chance()) * (0.006 * f64::from(round as u32))
+            });
+            let lines = loop_of(points.collect());
+            let meet = |i: usize, j: usize| {
+                let ((a, b), (c, d)) = (lines.segment(i), lines.segment(j));
+                j > i && (i + 1) % count != j && (j + 1) % count != i && segments_meet(a, b, c, d)
+            };
+            let pairs = (0..count).flat_map(|i| (0..count).map(move |j| (i, j)));
+            let first = pairs.into_iter().find(|&(i, j)| meet(i, j));
+            assert_eq!(lines.crossing(), first, "round {round}");
+            clean += usize::from(first.is_none());
+        }
+        assert!((50..250).contains(&clean), "{clean} of 300 do not cross");
+        // What runs to and fro over itself meets at once.
+        let to_and_fro: Vec<DVec2> = (0..50_000).map(|k| DVec2::new(f64::from(k % 2), 0.0)).collect();
+        assert_eq!(loop_of(to_and_fro).crossing(), Some((0, 2)));
+    }
 }
