@@ -1,6 +1,6 @@
 //! `toile compare` from outside.
 
-use crate::program::{Place, adapter_required, ended};
+use crate::program::{Place, adapter_required};
 
 /// The ball dressed at two edge lengths, in "coarse.toile" and "fine.toile".
 fn two() -> Place {
@@ -91,8 +91,7 @@ fn other_pieces_are_refused_by_name() {
 fn three_pictures_stand_side_by_side() {
     let place = two();
     let arguments = "compare coarse.toile fine.toile --map ease --out out --size 200x160";
-    let run =
-        ended(place.command(arguments).env_remove("WGPU_BACKEND").output().expect("the program starts"));
+    let run = place.draws(arguments);
     assert_eq!(run.code, 0, "{run:?}");
     if place.json("out/compare.json")["pictures_left_out"].is_string() && !adapter_required() {
         println!("no graphics adapter: pictures not tested");

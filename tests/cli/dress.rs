@@ -1,6 +1,6 @@
 //! dress, render and export.
 
-use crate::program::{Place, adapter_required, ended};
+use crate::program::{Place, adapter_required};
 
 #[test]
 fn a_project_is_dressed_without_an_adapter() {
@@ -83,10 +83,7 @@ fn marks_come_from_a_file() {
 #[test]
 fn pictures_are_drawn_where_there_is_an_adapter() {
     let place = Place::with_ball();
-    let with_adapter = |arguments: &str| {
-        ended(place.command(arguments).env_remove("WGPU_BACKEND").output().expect("the program starts"))
-    };
-    let first = with_adapter("render ball.toile -o view.png --size 200x100");
+    let first = place.draws("render ball.toile -o view.png --size 200x100");
     if first.code == 5 && !adapter_required() {
         println!("no graphics adapter: pictures not tested");
         return;
@@ -98,10 +95,10 @@ fn pictures_are_drawn_where_there_is_an_adapter() {
         (picture.width(), picture.height())
     };
     assert_eq!(size("view.png"), (200, 100));
-    let done = with_adapter("render ball.toile -o turn.png --size 64x64 --turntable 3 --view -20,10");
+    let done = place.draws("render ball.toile -o turn.png --size 64x64 --turntable 3 --view -20,10");
     assert_eq!(done.code, 0, "{done:#?}");
     assert_eq!(place.names(""), ["ball.toile", "turn-00.png", "turn-01.png", "turn-02.png", "view.png"]);
-    let done = with_adapter("dress ball.toile --out out --size 64x64");
+    let done = place.draws("dress ball.toile --out out --size 64x64");
     assert_eq!((done.code, size("out/view.png")), (0, (64, 64)), "{done:#?}");
     assert!(place.json("out/report.json").get("pictures_left_out").is_none());
 }

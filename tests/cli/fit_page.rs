@@ -6,7 +6,7 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use toile::session::project_file;
 
-use crate::program::{Place, adapter_required, ended};
+use crate::program::{Place, adapter_required};
 
 /// Elements of HTML that are never closed.
 const VOID: [&str; 3] = ["meta", "img", "br"];
@@ -68,8 +68,7 @@ fn without_an_adapter_the_page_says_so_and_is_sound() {
 fn every_picture_of_the_page_can_be_seen() {
     let place = dressed();
     let arguments = "fit a<b>&c.toile --page fit.html";
-    let mut command = place.command(arguments);
-    let with_adapter = ended(command.env_remove("WGPU_BACKEND").output().expect("the program starts"));
+    let with_adapter = place.draws(arguments);
     assert_eq!(with_adapter.code, 0, "{with_adapter:?}");
     let page = place.read("fit.html");
     if page.contains("pictures are left out") && !adapter_required() {

@@ -79,6 +79,11 @@ impl Place {
         ended(self.command(arguments).output().expect("the program starts"))
     }
 
+    /// Runs it with the adapters that there are.
+    pub fn draws(&self, arguments: &str) -> Ended {
+        ended(self.command(arguments).env_remove("WGPU_BACKEND").output().expect("the program starts"))
+    }
+
     /// Runs and expects this exit code, and never a panic.
     pub fn ends(&self, code: i32, arguments: &str) -> Ended {
         let ended = self.run(arguments);
