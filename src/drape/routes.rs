@@ -2,7 +2,8 @@
 //!
 //! Pieces are placed a few centimetres off: a strap that lies lower than the shoulder would be pulled to the chest, never over
 //! the shoulder, and the garment would be sewn together under the arms. A thread whose ends the body parts runs over a place
-//! beside it instead, all those of a seam on the same side, until the straight way is free.
+//! beside it instead, all those of a seam on the same side, until the straight way is free. One that was free remembers on which
+//! side of a limb it was, and stays there when its ends slide past it.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -39,7 +40,7 @@ impl Route {
     /// The ends have come to these places, metres. The thread is drawn straight where it may be; where the body has come between
     /// its ends, as they slid along a limb, it stays on the side of the body on which it was.
     pub fn go_on(&mut self, surface: &Surface, ends: [DVec3; 2]) {
-        let middle = (ends[0] + ends[1]) / 2.0;
+        let middle = middle(ends);
         if self.over.is_some_and(|over| may_be_drawn(surface, ends, over)) {
             (self.over, self.back) = (None, None);
         } else if self.over.is_some() && self.back.is_none() {
@@ -53,8 +54,7 @@ impl Route {
         }
         if let Some(back) = self.back {
             let before = self.over.or(self.free);
-            let there =
-                steps_round(surface, ends, back).map(|steps| middle + back * (STEP * f64::from(steps)));
+            let there = steps_round(surface, ends, back).map(|steps| aside(ends, back, steps));
             let is_that_side =
                 |there: &DVec3| !before.is_some_and(|before| surface.meets_segment([before, *there]));
             self.over = there.filter(is_that_side).or(before);
@@ -84,16 +84,16 @@ pub fn over(surface: &Surface, threads: &[[DVec3; 2]]) -> Vec<Option<DVec3>> {
     let Some(way) = (0..SIDES).map(side).min_by_key(|&way| steps(way)) else {
         return vec![None; threads.len()];
     };
-    let place = |(&[a, b], &caught): (&[DVec3; 2], &bool)| {
-        let steps = steps_to(surface, [a, b], caught, way).filter(|&steps| steps > 0)?;
-        Some((a + b) / 2.0 + way * (STEP * f64::from(steps)))
+    let place = |(&ends, &caught): (&[DVec3; 2], &bool)| {
+        let steps = steps_to(surface, ends, caught, way).filter(|&steps| steps > 0)?;
+        Some(aside(ends, way, steps))
     };
     threads.par_iter().zip(&caught).map(place).collect()
 }
 
 /// Whether a thread between `ends`, the middle of which was at `free`, is on the other side of a limb since, or runs through one.
 fn has_passed(surface: &Surface, ends: [DVec3; 2], free: DVec3) -> bool {
-    let middle = (ends[0] + ends[1]) / 2.0;
+    let middle = middle(ends);
     match surface.meets_segment(ends) {
         true => runs_through_a_limb(surface, ends),
         false => runs_through_a_limb(surface, [free, middle]) && !may_be_drawn(surface, ends, free),
@@ -116,20 +116,27 @@ fn steps_to(surface: &Surface, ends: [DVec3; 2], caught: bool, way: DVec3) -> Op
     if caught {
         return steps_round(surface, ends, way);
     }
-    let middle = (ends[0] + ends[1]) / 2.0;
-    let is_free = |steps: u32| is_free_over(surface, ends, middle + way * (STEP * f64::from(steps)));
-    let far = middle + way * (STEP * f64::from(MOST_STEPS));
-    let beyond =
-        surface.meets_segment([middle, far]).then(|| (1..=MOST_STEPS).find(|&steps| !is_free(steps)));
+    let is_free = |steps: u32| is_free_over(surface, ends, aside(ends, way, steps));
+    let beyond = surface
+        .meets_segment([middle(ends), aside(ends, way, MOST_STEPS)])
+        .then(|| (1..=MOST_STEPS).find(|&steps| !is_free(steps)));
     let Some(Some(meets)) = beyond else { return Some(0) };
     (meets..=MOST_STEPS).find(|&steps| is_free(steps)).map(|steps| steps + 1)
 }
 
 /// How many steps towards `way` the middle of a thread has to go until the body is free of it; then one more.
 fn steps_round(surface: &Surface, ends: [DVec3; 2], way: DVec3) -> Option<u32> {
-    let middle = (ends[0] + ends[1]) / 2.0;
-    let is_free = |&steps: &u32| is_free_over(surface, ends, middle + way * (STEP * f64::from(steps)));
+    let is_free = |&steps: &u32| is_free_over(surface, ends, aside(ends, way, steps));
     (1..=MOST_STEPS).find(is_free).map(|steps| steps + 1)
+}
+
+fn middle([a, b]: [DVec3; 2]) -> DVec3 {
+    (a + b) / 2.0
+}
+
+/// Where the middle of a thread is after so many steps towards `way`.
+fn aside(ends: [DVec3; 2], way: DVec3, steps: u32) -> DVec3 {
+    middle(ends) + way * (STEP * f64::from(steps))
 }
 
 fn is_free_over(surface: &Surface, [a, b]: [DVec3; 2], over: DVec3) -> bool {
@@ -139,7 +146,7 @@ fn is_free_over(surface: &Surface, [a, b]: [DVec3; 2], over: DVec3) -> bool {
 /// Whether a thread between `ends` that runs over `place` may be drawn straight without coming through the body. That the straight
 /// way is free is not enough: pieces that slid along an arm, to where both lie below it, would leave it for good.
 fn may_be_drawn(surface: &Surface, ends: [DVec3; 2], place: DVec3) -> bool {
-    let middle = (ends[0] + ends[1]) / 2.0;
+    let middle = middle(ends);
     let ways = (place.distance(middle) / STEP).ceil().max(1.0) as u32;
     (0..ways).all(|k| {
         let place = middle.lerp(place, f64::from(k) / f64::from(ways));

@@ -77,17 +77,14 @@ pub fn is_project(bytes: &[u8]) -> bool {
 pub fn open(path: &Path) -> Result<Project, ProjectFileError> {
     let bytes = whole_file::read(path, MOST_BYTES).map_err(|source| match source.kind() {
         std::io::ErrorKind::FileTooLarge => ProjectFileError::TooLarge(source.to_string()),
-        _ => ProjectFileError::File { path: path.to_owned(), source },
+        _ => file_error(path, source),
     })?;
     from_bytes(&bytes)
 }
 
 /// Writes `project` to `path`; what was there before stays as `PATH.bak`. A write-protected file is refused.
 pub fn save(path: &Path, project: &Project) -> Result<(), ProjectFileError> {
-    if whole_file::is_protected(path) {
-        let source = std::io::Error::new(std::io::ErrorKind::PermissionDenied, "it is write-protected");
-        return Err(ProjectFileError::File { path: path.to_owned(), source });
-    }
+    whole_file::refuse_protected(path).map_err(|source| file_error(path, source))?;
     save_over(path, project)
 }
 
@@ -97,7 +94,11 @@ pub fn save_over(path: &Path, project: &Project) -> Result<(), ProjectFileError>
     if from_bytes(&bytes)? != *project {
         return Err(contents("the project did not survive being written: nothing was saved"));
     }
-    with_backup(path, &bytes).map_err(|source| ProjectFileError::File { path: path.to_owned(), source })
+    with_backup(path, &bytes).map_err(|source| file_error(path, source))
+}
+
+fn file_error(path: &Path, source: std::io::Error) -> ProjectFileError {
+    ProjectFileError::File { path: path.to_owned(), source }
 }
 
 fn with_backup(path: &Path, bytes: &[u8]) -> std::io::Result<()> {

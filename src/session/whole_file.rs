@@ -166,9 +166,7 @@ fn remove_empty(made: &mut Vec<PathBuf>) {
 /// Writes the whole of `bytes` to `path`, or leaves what was there. Where `path` is a link it stays one, and what it leads to is
 /// written. A file that is write-protected is refused.
 pub fn write(path: &Path, bytes: &[u8]) -> Result<()> {
-    if is_protected(path) {
-        return Err(Error::new(ErrorKind::PermissionDenied, "it is write-protected"));
-    }
+    refuse_protected(path)?;
     replace(path, bytes)
 }
 
@@ -187,16 +185,13 @@ pub fn replace_in_turn(files: &[(&Path, &[u8])]) -> Result<()> {
 
 /// Writes all of `files`, paths with what they hold, and then puts them in their places one right after the other, in this
 /// order: a program that is ended by a signal has written all of them or none. Should the machine fail meanwhile, the last is
-/// not there: where it is, the others are those written with it. Write-protected ones are refused before any is written. The
+/// not there: where it is, the others are those written with it. Write-protected ones are refused before any is in its place. The
 /// error is of the path beside it.
 pub fn write_together(files: &[(PathBuf, Vec<u8>)]) -> std::result::Result<(), (PathBuf, Error)> {
     let mut written = Vec::new();
     for (path, bytes) in files {
-        if is_protected(path) {
-            let error = Error::new(ErrorKind::PermissionDenied, "it is write-protected");
-            return Err((path.clone(), error));
-        }
-        written.push((path, Unplaced::new(path, bytes).map_err(|error| (path.clone(), error))?));
+        let file = refuse_protected(path).and_then(|()| Unplaced::new(path, bytes));
+        written.push((path, file.map_err(|error| (path.clone(), error))?));
     }
     let _placing = held(&PLACING);
     if let [.., (last, _)] = files {
@@ -211,6 +206,14 @@ pub fn write_together(files: &[(PathBuf, Vec<u8>)]) -> std::result::Result<(), (
 /// Whether there is a file that nobody is meant to change: a folder's permission to replace it does not count.
 pub fn is_protected(path: &Path) -> bool {
     fs::metadata(path).is_ok_and(|file| file.is_file() && file.permissions().readonly())
+}
+
+/// The error of a file that is write-protected.
+pub fn refuse_protected(path: &Path) -> Result<()> {
+    match is_protected(path) {
+        true => Err(Error::new(ErrorKind::PermissionDenied, "it is write-protected")),
+        false => Ok(()),
+    }
 }
 
 /// Where links lead to, there or not.

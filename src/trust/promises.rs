@@ -35,6 +35,7 @@
 //! | F33, F34 graphics that are lost | `a_lost_graphics_device_takes_nothing_with_it` |
 //! | F35, F36 windows and pictures of any size | `a_window_of_any_size_and_shape_is_drawn`, `a_picture_that_is_too_large_is_refused_in_words` |
 //! | F38 signals at any moment of every subcommand | `dressing_stops_at_any_moment_and_leaves_nothing_half_done`, `every_subcommand_is_stopped`, `a_signal_stops_it_with_its_code_and_no_files` |
+//! | no frame of the window keeps anybody waiting, whatever is chosen | `every_command_answers_on_an_empty_table`, `every_command_answers_on_a_pattern_with_marks`, `every_command_answers_on_a_dressed_body` |
 //! | F39 a reader that goes away | `a_reader_that_goes_away_is_no_failure` |
 //! | F40 threads, stacks, languages, folders, ten at once | `whatever_is_round_it_the_same_comes_of_it`, `ten_at_once_in_one_folder_do_not_disturb_one_another`, `a_folder_that_cannot_be_written_to_is_no_hindrance_to_work_elsewhere` |
 //! | bad OBJ (1 to 20) | `faults_are_named_with_their_line`, `every_truncation_ends_without_panic` |

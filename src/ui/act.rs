@@ -18,7 +18,7 @@ use crate::wrap::{BodyMark, ClothMark};
 
 impl App {
     /// Carries out `action`; one that would lose unsaved changes asks first.
-    pub(super) fn act(&mut self, ctx: &egui::Context, action: Action) {
+    pub fn act(&mut self, ctx: &egui::Context, action: Action) {
         if let Action::OpenRecent(i) = action {
             // Which one that is may have changed when the present work has been saved.
             let file = self.shell.recent.files().get(usize::from(i));

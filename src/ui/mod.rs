@@ -7,7 +7,7 @@ pub mod actions;
 mod animation_panel;
 pub mod app;
 mod asks;
-mod catalogue;
+pub mod catalogue;
 mod clicks;
 mod command_palette;
 mod covered;

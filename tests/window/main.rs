@@ -32,6 +32,7 @@ mod safety;
 mod shell;
 mod standing;
 mod tight;
+mod watched;
 
 type Window = Harness<'static, Option<App>>;
 
