@@ -12,7 +12,7 @@ use crate::sim::protocol::GarmentSource;
 use crate::sim::world::World;
 use crate::wrap::suggested;
 
-/// A start whose cloth still moves after so many ticks is judged as it lies.
+/// A start whose cloth still moves after so many ticks is judged as it lies, unless there is no other.
 const MOST_TICKS: u32 = 2000;
 
 /// How cloth without marks of its own comes on to the body.
@@ -141,6 +141,12 @@ impl Trials {
         (self.now, self.draping || self.now == Start::Placement)
     }
 
+    /// Whether the start under way has had its time. It has all it needs where there is no other, as where several layers are sewn
+    /// over each other.
+    fn is_out_of_time(&self) -> bool {
+        self.ticks >= MOST_TICKS && (self.best.is_some() || !self.left.is_empty())
+    }
+
     /// How many starts have been judged.
     pub fn count(&self) -> usize {
         self.tried.len()
@@ -224,7 +230,7 @@ impl World {
         let Some(mut trials) = self.trials.take() else { return };
         let now = Arc::make_mut(&mut trials);
         let broken = now.broken.take();
-        let is_over = broken.is_some() || self.lies_still() || now.ticks >= MOST_TICKS;
+        let is_over = broken.is_some() || self.lies_still() || now.is_out_of_time();
         if !is_over {
             now.ticks += 1;
             // Kept where this tick breaks down.
@@ -279,7 +285,7 @@ impl World {
                 faults.extend(judged.faults.into_iter().map(words));
                 (places, is_astray) = (judged.places, judged.is_astray);
             }
-            if trials.ticks >= MOST_TICKS {
+            if trials.is_out_of_time() && !self.lies_still() {
                 faults.push("it still moves".to_owned());
             }
             if trials.draping && !self.was_draped {

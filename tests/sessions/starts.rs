@@ -80,6 +80,25 @@ fn of_faulty_starts_the_one_with_the_fewest_faults_is_taken() {
     assert_eq!(started.taken().faults, faults(&mut s));
 }
 
+/// They cannot be put on by suggested marks, so there is nothing to hurry for: three lie after more ticks than one start has among
+/// others.
+#[test]
+fn layers_are_sewn_until_all_of_them_lie() {
+    let mut project = placed_project(0.39, 0.33);
+    for k in 1..3 {
+        let wider = placed_project(0.39 + 0.02 * f64::from(k), 0.33 + 0.02 * f64::from(k));
+        Arc::make_mut(&mut project.document.pattern)
+            .wear_over(&wider.document.pattern, &format!("layer {k}"))
+            .expect("layers");
+    }
+    let mut s = session(project);
+    let started = dressed(&mut s, ANY);
+    let taken = started.taken();
+    assert_eq!((taken.start, &taken.faults), (Start::Placement, &Vec::new()));
+    assert!(taken.ticks > 2000, "{} ticks", taken.ticks);
+    assert!(faults(&mut s).is_empty());
+}
+
 #[test]
 fn a_run_can_be_cancelled_and_changed_while_it_lasts() {
     let mut s = session(placed_project(0.39, 0.33));

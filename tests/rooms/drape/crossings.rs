@@ -1,11 +1,12 @@
 //! Cloth that cannot cross: after every step brute force finds no edge through a triangle, of the cloth or of the body.
 
+use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 use toile::body::Surface;
 use toile::cloth::Fabric;
-use toile::drape::{Collider, Drape, DrapeSettings, Method, Scene, State};
+use toile::drape::{Collider, Drape, DrapeSettings, Elastic, Method, Scene, Sheet, State};
 use toile::geometry::crossings::segment_meets_triangle;
 use toile::geometry::mesh::TriMesh;
 use toile::geometry::shapes::icosphere;
@@ -294,4 +295,54 @@ fn truncation_adds_no_energy() {
         let now = energy(&drape.state().velocities);
         assert!(now <= first * (1.0 + 1e-9), "frame {frame}: {now} J of {first} J");
     }
+}
+
+/// A tube of so many columns round and rows high, and its size round and high, metres: rows of columns, its outer side its front.
+fn tube([round, high]: [u32; 2], size: DVec2) -> Sheet {
+    let cells = flat(Kind::Alternating, size, [round, high]);
+    let rest = cells.triangles.iter().map(|vs| vs.map(|v| cells.points[v as usize])).collect();
+    let closed = |v: u32| v / (round + 1) * round + v % (round + 1) % round;
+    let triangles = cells.triangles.iter().map(|vs| vs.map(closed)).collect();
+    Sheet::new((round * (high + 1)) as usize, triangles, rest).expect("a tube")
+}
+
+/// Its lower rim is held; its upper one is turned inwards and heavy, and falls through it: it is pulled inside out, whole.
+#[test]
+fn a_tube_pulled_inside_out_does_not_run_through_itself() {
+    let ([round, high], radius, length) = ([20_u32, 16_u32], 0.06, 0.2);
+    let sheet = tube([round, high], DVec2::new(TAU * radius, length));
+    let fabric = soft();
+    // Up as far as it is turned in, over a small bend, and down again.
+    let (straight, bend) = (0.13, 0.006);
+    let place = |s: f64| match s - straight {
+        past if past < 0.0 => [radius, s],
+        past if past < PI * bend => {
+            let (sin, cos) = (past / bend).sin_cos();
+            [radius - bend * (1.0 - cos), straight + bend * sin]
+        }
+        past => [radius - 2.0 * bend, straight + PI * bend - past],
+    };
+    let at = |v: u32| {
+        let (column, row) = (v % round, v / round);
+        let [r, y] = place(length * f64::from(row) / f64::from(high));
+        let (sin, cos) = (TAU * f64::from(column) / f64::from(round)).sin_cos();
+        DVec3::new(r * sin, y, r * cos)
+    };
+    let (count, rim) = (round * (high + 1), round * high);
+    let mut mass: Vec<f64> = sheet.vertex_area.iter().map(|a| a * fabric.density_kg_per_m2).collect();
+    mass[rim as usize..].iter_mut().for_each(|m| *m *= 400.0);
+    let scene = Scene {
+        elastic: Elastic::new(&sheet, &fabric, 1.0),
+        sheet,
+        mass,
+        pinned: (0..count).map(|v| v < round).collect(),
+        gravity: DVec3::NEG_Y * 10.0,
+        damping: fabric.damping_per_s,
+        collider: None,
+    };
+    let start = State::at_rest((0..count).map(at).collect());
+    let thin = DrapeSettings { thickness: 1e-3, ..settings() };
+    let end = never_crosses("tube", scene, start, thin, 90);
+    let highest = end[rim as usize..].iter().map(|p| p.y).fold(f64::MIN, f64::max);
+    assert!(highest < -0.8 * length, "its rim hangs at {highest} m: it is not all inside out");
 }
