@@ -44,7 +44,7 @@ fn edges_of(triangles: &[[u32; 3]]) -> Vec<[u32; 2]> {
 }
 
 /// Edges of `x` through triangles of `y` that share no vertex with them when both are one mesh: every pair is tried.
-fn through(
+pub fn through(
     (x, edges): (&[DVec3], &[[u32; 2]]),
     (y, triangles): (&[DVec3], &[[u32; 3]]),
     is_one: bool,

@@ -10,6 +10,7 @@ mod moves;
 mod orders;
 mod panels;
 mod patches;
+mod reference;
 mod rests;
 mod slips;
 mod springs;
