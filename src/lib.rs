@@ -39,7 +39,7 @@
 //! - No clock, no unseeded randomness, no hash-map iteration in `session`, `sim` or below.
 //! - Same input, same bits, on any number of threads.
 //!
-//! `tests/tidy.rs` holds these rules.
+//! `tests/tidy` holds these rules.
 
 pub mod body;
 pub mod cli;

@@ -7,10 +7,10 @@ use std::time::Instant;
 use serde::Serialize;
 
 use crate::cli::arguments::Dress;
-use crate::cli::dress::{Done, dress_one};
+use crate::cli::dress_one::{Done, dress_one};
 use crate::cli::failure::Failure;
 use crate::cli::verdict::Verdict;
-use crate::cli::{input, interrupt, output};
+use crate::cli::{files, interrupt, output};
 
 /// One of them.
 struct Job {
@@ -51,7 +51,7 @@ pub fn batch(arguments: &Dress) -> Result<(), Failure> {
     let (start, mut worst) = (Instant::now(), None::<Failure>);
     for (i, job) in jobs.iter().enumerate() {
         if arguments.progress || output::is_watched() {
-            let (name, so_far) = (input::name_of(&job.project), start.elapsed().as_secs_f64());
+            let (name, so_far) = (files::name_of(&job.project), start.elapsed().as_secs_f64());
             output::complain(&format!("{} of {}: {name}, after {so_far:.1} s", i + 1, jobs.len()));
         }
         let done = interrupt::check().and_then(|()| dressed(job, arguments));
@@ -122,7 +122,7 @@ fn jobs(arguments: &Dress) -> Result<Vec<Job>, Failure> {
     }
     let mut names: Vec<String> = Vec::new();
     for project in &projects {
-        let stem = input::name_of(project);
+        let stem = files::name_of(project);
         let taken = |name: &String| names.contains(name);
         let numbered = (2..).map(|i| format!("{stem}-{i}"));
         let name = std::iter::once(stem.clone()).chain(numbered).find(|n| !taken(n)).unwrap_or(stem);
@@ -134,13 +134,13 @@ fn jobs(arguments: &Dress) -> Result<Vec<Job>, Failure> {
 
 /// The projects that the file at `path` names.
 fn listed(path: &Path) -> Result<Vec<PathBuf>, Failure> {
-    let text = String::from_utf8(input::read(path)?).map_err(|e| {
+    let text = String::from_utf8(files::read(path)?).map_err(|e| {
         Failure::input(path, format!("not a list: no UTF-8 at byte {}", e.utf8_error().valid_up_to()))
     })?;
     let folder = path.parent().unwrap_or(Path::new(""));
     let lines = text.trim_start_matches('\u{feff}').lines().map(str::trim);
     let named = lines.filter(|line| !line.is_empty() && !line.starts_with('#'));
-    let place = |line: &str| match input::is_sample(Path::new(line)) {
+    let place = |line: &str| match files::is_sample(Path::new(line)) {
         true => PathBuf::from(line),
         false => folder.join(line),
     };

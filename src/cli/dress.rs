@@ -1,17 +1,9 @@
-//! `toile dress`: wrap by the marks, relax to rest, drape, write what came out.
-
-use std::fs::File;
-use std::path::Path;
-use std::time::Instant;
+//! `toile dress`: one project, or several.
 
 use crate::cli::arguments::Dress;
+use crate::cli::dress_one::{Done, dress_one};
 use crate::cli::failure::Failure;
-use crate::cli::made_from::made_from;
-use crate::cli::report::Seconds;
-use crate::cli::verdict::Verdict;
-use crate::cli::{batch, input, output, report, run};
-use crate::session::{Command, Session, project_file};
-use crate::sim::{Start, StartChoice, Started, Tried};
+use crate::cli::{batch, output};
 
 /// Dresses the project named, or each of several.
 pub fn dress(arguments: &Dress) -> Result<(), Failure> {
@@ -25,117 +17,4 @@ pub fn dress(arguments: &Dress) -> Result<(), Failure> {
         (false, true) => format!("{verdict} (done before)"),
     });
     verdict.failed_check().map_or(Ok(()), |words| Err(Failure::Check(words)))
-}
-
-/// A project with its files written.
-pub struct Done {
-    pub verdict: Verdict,
-    /// The text of report.json, without its last line's end.
-    pub report: String,
-    /// It was there, made from the same.
-    pub resumed: bool,
-}
-
-/// Dresses `project` into `folder`, unless it is there and `arguments` leave it then.
-pub fn dress_one(project: &Path, folder: &Path, arguments: &Dress) -> Result<Done, Failure> {
-    let start = Instant::now();
-    let made_from = made_from(project, arguments)?;
-    if arguments.resume
-        && let Some((verdict, report)) = Verdict::stored(folder, &made_from)
-    {
-        return Ok(Done { verdict, report, resumed: true });
-    }
-    let mut seconds = Seconds::default();
-    let input = input::load(project, &arguments.input)?;
-    output::make_folder(&arguments.out)?;
-    let mut session = run::opened(input.project, project)?;
-    seconds.load = start.elapsed().as_secs_f64();
-    if let Some(path) = &arguments.record {
-        let file = File::create(path).map_err(|e| Failure::file(path, e))?;
-        session.recorder().also_to(file).map_err(|e| Failure::file(path, e))?;
-    }
-    run::simulation(&mut session)?.set_skips(arguments.work.no_skip);
-    if let Some(fabric) = &arguments.fabric {
-        let command = Command::SetFabric { piece: None, fabric: Some(fabric.clone()) };
-        session.apply_alone(command).map_err(|why| Failure::Usage(why.0))?;
-    }
-    dress_by(&mut session, project, arguments, &mut seconds)?;
-    run::to_rest(&mut session, arguments.max_ticks, &mut seconds)?;
-    let started = session.snapshot().started.clone();
-    if let Some(words) = started.as_deref().and_then(doubt) {
-        output::complain(&format!("{}: note: {words}", project.display()));
-    }
-    if arguments.drape && !started.is_some_and(|started| started.taken().draped) {
-        run::drape(&mut session, project, arguments.max_ticks, &mut seconds)?;
-    }
-    if let Some(error) = session.recorder().take_file_error() {
-        return Err(Failure::file(arguments.record.as_deref().unwrap_or(Path::new("recording")), error));
-    }
-    if let Some(path) = &arguments.save {
-        project_file::save(path, &session.project()).map_err(|e| input::project_failure(path, e))?;
-    }
-    let mut report = report::report(&mut session, &input.name, &arguments.picture, seconds)?;
-    (report.inputs, report.made_from) = (input.files, Some(made_from));
-    report.finish(folder, start)?;
-    Ok(Done { verdict: report.verdict()?, report: report.json()?, resumed: false })
-}
-
-/// By its marks; without any, by the best start.
-fn dress_by(
-    session: &mut Session,
-    project: &Path,
-    arguments: &Dress,
-    seconds: &mut Seconds,
-) -> Result<(), Failure> {
-    let document = session.document();
-    let is_placed = document.pattern.pieces.values().any(|piece| piece.placement.is_some());
-    let has_marks = document.marks.pairs().next().is_some() && arguments.start != Some(Start::Placement);
-    if has_marks || !(is_placed || arguments.start.is_some()) {
-        return wrap(session, project, seconds);
-    }
-    let choice = StartChoice { only: arguments.start, draped: arguments.drape };
-    begin(session, project, seconds, Command::Dress { choice })
-}
-
-/// What is to be said where no start was without a fault.
-fn doubt(started: &Started) -> Option<String> {
-    let faults = |tried: &Tried| match tried.faults.len() {
-        1 => format!("{tried} has 1 fault"),
-        n => format!("{tried} has {n} faults"),
-    };
-    let all: Vec<String> = started.tried.iter().map(faults).collect();
-    let taken = started.taken();
-    (!taken.faults.is_empty())
-        .then(|| format!("no start is without a fault: {}; {taken} is taken", all.join(", ")))
-}
-
-/// Begins the wrap; says what stands in its way.
-pub fn wrap(session: &mut Session, project: &Path, seconds: &mut Seconds) -> Result<(), Failure> {
-    begin(session, project, seconds, Command::Wrap)
-}
-
-fn begin(
-    session: &mut Session,
-    project: &Path,
-    seconds: &mut Seconds,
-    command: Command,
-) -> Result<(), Failure> {
-    let start = Instant::now();
-    session.apply_alone(command).map_err(|why| Failure::input(project, why))?;
-    session.update();
-    seconds.build = start.elapsed().as_secs_f64();
-    let problems: Vec<String> = session
-        .snapshot()
-        .problems
-        .iter()
-        .filter(|p| !p.kind.is_note())
-        .map(|p| format!("{}: {}", p.place, p.words))
-        .collect();
-    let snapshot = session.snapshot();
-    if snapshot.is_dressed() || snapshot.working {
-        problems.iter().for_each(|words| output::complain(&format!("{}: {words}", project.display())));
-        return Ok(());
-    }
-    let words = format!("no cloth could be put on the body: {}", problems.join("; "));
-    Err(Failure::input(project, words))
 }

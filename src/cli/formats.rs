@@ -8,7 +8,7 @@ use crate::body::import::{Imported, import};
 use crate::body::unit::guess_unit;
 use crate::cli::arguments::BodyFile;
 use crate::cli::failure::Failure;
-use crate::cli::{input, output};
+use crate::cli::{files, output};
 use crate::cloth::{ClothState, Garment};
 use crate::geometry::mesh::TriMesh;
 use crate::io::body_file::{self, BodyFileError};
@@ -78,7 +78,7 @@ pub fn animations(path: &Path, bytes: &[u8], how: BodyFile) -> Result<Option<Arc
     let (mut mesh, up) = (model.mesh(), how.up.unwrap_or_default());
     up.set_upright(&mut mesh);
     let unit = known_unit(path, bytes, &mesh, how)?;
-    let file = AnimatedFile { name: input::name_of(path), bytes: bytes.to_vec(), buffers, up, unit };
+    let file = AnimatedFile { name: files::name_of(path), bytes: bytes.to_vec(), buffers, up, unit };
     let (animations, _) = Animations::new(file).map_err(|words| Failure::input(path, words))?;
     Ok(Some(Arc::new(animations)))
 }
@@ -118,7 +118,7 @@ pub fn same_triangles(path: &Path, body: &TriMesh, dressed: &TriMesh) -> Result<
 }
 
 fn neighbour(path: &Path) -> Result<Vec<u8>, String> {
-    input::read(path).map_err(|failure| failure.to_string())
+    files::read(path).map_err(|failure| failure.to_string())
 }
 
 fn body_failure(path: &Path, error: BodyFileError) -> Failure {

@@ -7,24 +7,21 @@ use crate::body::Imported;
 use crate::body::mannequin::{Measurements, mannequin};
 use crate::cli::arguments::{BodyFile, InputOptions, SizeOptions};
 use crate::cli::failure::Failure;
+use crate::cli::files::{MANNEQUIN, is_sample, name_of, read, sample_name};
 use crate::cli::{formats, output};
 use crate::geometry::polygon::signed_area;
 use crate::io::scale::DrawingUnit;
 use crate::io::sizes::{self, SizesError};
-use crate::io::{FILE_BYTES, gltf, pattern_file};
+use crate::io::{gltf, pattern_file};
 use crate::pattern::{Pattern, Piece};
 use crate::session::body::{Body, surface_of};
 use crate::session::carry::carried;
 use crate::session::placing::brought;
 use crate::session::project_file::ProjectFileError;
 use crate::session::samples::Sample;
-use crate::session::{BodyChoice, Document, Project, marks_file, project_file, whole_file};
+use crate::session::{BodyChoice, Document, Project, marks_file, project_file};
 use crate::wrap::suggest;
 
-/// Begins the name of a built-in sample.
-const SAMPLE: &str = "sample:";
-/// What `--body` calls the built-in figure.
-const MANNEQUIN: &str = "mannequin";
 /// Triangles the cloth of a project may have: each takes about a kilobyte while it is draped.
 const MOST_TRIANGLES: f64 = 4e6;
 
@@ -96,14 +93,6 @@ fn piece_area(piece: &Piece) -> f64 {
     signed_area(&corners).abs()
 }
 
-/// The name without folder, ending and "sample:".
-pub fn name_of(path: &Path) -> String {
-    match sample_name(path) {
-        Some(name) => name.to_owned(),
-        None => path.file_stem().unwrap_or_default().to_string_lossy().into_owned(),
-    }
-}
-
 /// Reads `path` and finds out what it is by its contents.
 pub fn content(path: &Path, how: BodyFile, scale: Option<DrawingUnit>) -> Result<Content, Failure> {
     if let Some(name) = sample_name(path) {
@@ -120,23 +109,6 @@ pub fn content(path: &Path, how: BodyFile, scale: Option<DrawingUnit>) -> Result
     formats::body(path, &bytes, how).map(Content::Body)
 }
 
-/// Whether `path` names a built-in sample.
-pub fn is_sample(path: &Path) -> bool {
-    sample_name(path).is_some()
-}
-
-/// The bytes that `path` stands for: those of the file, or the name of what is built in.
-pub fn bytes_of(path: &Path) -> Result<Vec<u8>, Failure> {
-    match path.to_str() {
-        Some(name) if is_sample(path) || name == MANNEQUIN => Ok(name.as_bytes().to_vec()),
-        _ => read(path),
-    }
-}
-
-fn sample_name(path: &Path) -> Option<&str> {
-    path.to_str()?.strip_prefix(SAMPLE)
-}
-
 fn sample(path: &Path, name: &str) -> Result<Project, Failure> {
     let Some(sample) = Sample::ALL.into_iter().find(|sample| sample.file_stem() == name) else {
         let names = Sample::ALL.map(Sample::file_stem).join(", ");
@@ -144,14 +116,6 @@ fn sample(path: &Path, name: &str) -> Result<Project, Failure> {
     };
     let figure = mannequin(&Measurements::default()).map_err(|e| Failure::input(path, e))?;
     Ok(sample.project(&figure))
-}
-
-/// All of the file at `path`.
-pub fn read(path: &Path) -> Result<Vec<u8>, Failure> {
-    whole_file::read(path, FILE_BYTES).map_err(|error| match error.kind() {
-        std::io::ErrorKind::FileTooLarge => Failure::Limit(format!("{}: {error}", path.display())),
-        _ => Failure::file(path, error),
-    })
 }
 
 /// An error of a project file at `path` as the command line tells it.

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use crate::cli::arguments::{Dress, InputOptions};
 use crate::cli::failure::Failure;
-use crate::cli::input;
+use crate::cli::files;
 use crate::session::recording::Hex;
 use crate::sim::hash::Fnv;
 
@@ -52,11 +52,11 @@ pub fn made_from(project: &Path, arguments: &Dress) -> Result<String, Failure> {
     };
     take(env!("CARGO_PKG_VERSION").as_bytes());
     take(format!("{options:?}").as_bytes());
-    take(&input::bytes_of(project)?);
+    take(&files::bytes_of(project)?);
     for file in [body.as_ref(), sized.sizes.as_ref(), marks.as_ref()].into_iter().chain(over.iter().map(Some))
     {
         match file {
-            Some(path) => take(&input::bytes_of(path)?),
+            Some(path) => take(&files::bytes_of(path)?),
             None => take(&[]),
         }
     }

@@ -9,7 +9,7 @@ use crate::body::readings::{Reading, readings};
 use crate::cli::arguments::Measure;
 use crate::cli::failure::Failure;
 use crate::cli::input::{self, Content};
-use crate::cli::output;
+use crate::cli::{files, output};
 use crate::session::body::{readings_of, surface_of};
 
 #[derive(Serialize)]
@@ -35,7 +35,7 @@ pub fn measure(arguments: &Measure) -> Result<(), Failure> {
     let no_human = "it does not look like a standing human: nothing can be measured on it";
     let readings = found.ok_or_else(|| Failure::input(path, no_human))?;
     if arguments.json {
-        let name = arguments.sized.body_size.clone().unwrap_or_else(|| input::name_of(path));
+        let name = arguments.sized.body_size.clone().unwrap_or_else(|| files::name_of(path));
         let told = Told { body: name, readings };
         let text = serde_json::to_string_pretty(&told).map_err(|e| Failure::Internal(e.to_string()))?;
         output::say(&text);

@@ -11,8 +11,8 @@ use crate::cli::interrupt;
 use crate::render::{Legend, Look, RenderError, Rgb, Studio, View, png, straightened};
 use crate::session::{Outfit, Session};
 use crate::ui::fit_page::FitPage;
-use crate::ui::portrait::{Extras, portrait, worn_scene};
-use crate::ui::scene::Scenery;
+use crate::ui::scenery::portrait::{Extras, portrait, worn_scene};
+use crate::ui::scenery::scene::Scenery;
 
 /// Draws sessions; opens the graphics adapter once.
 pub struct Artist {

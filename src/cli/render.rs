@@ -7,7 +7,7 @@ use crate::cli::failure::Failure;
 use crate::cli::picture::Artist;
 use crate::cli::{input, interrupt, output, run};
 use crate::render::View;
-use crate::ui::portrait::{numbered, turned};
+use crate::ui::scenery::portrait::{numbered, turned};
 
 /// One picture, or a full turn of them.
 pub fn render(arguments: &Render) -> Result<(), Failure> {

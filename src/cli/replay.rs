@@ -7,8 +7,9 @@ use serde::Serialize;
 
 use crate::cli::arguments;
 use crate::cli::failure::Failure;
-use crate::cli::report::{self, Seconds};
-use crate::cli::{input, interrupt, output, run};
+use crate::cli::report;
+use crate::cli::seconds::Seconds;
+use crate::cli::{files, interrupt, output, run};
 use crate::session::demos::Demo;
 use crate::session::recording::{Hex, Recording};
 use crate::session::replay::{Divergence, Replay};
@@ -66,7 +67,7 @@ pub fn replay(arguments: &arguments::Replay) -> Result<(), Failure> {
     }
     if let Some(folder) = &arguments.out {
         let seconds = Seconds { replay: Some(start.elapsed().as_secs_f64()), ..Seconds::default() };
-        let name = input::name_of(path);
+        let name = files::name_of(path);
         let mut report = report::report(replay.session(), &name, &arguments.picture, seconds)?;
         report.inputs = vec![path.display().to_string()];
         report.finish(folder, start)?;
@@ -77,7 +78,7 @@ pub fn replay(arguments: &arguments::Replay) -> Result<(), Failure> {
 /// The text of a file, or of a demo that comes with the program.
 fn text_of(path: &Path) -> Result<String, Failure> {
     let Some(name) = path.to_str().and_then(|path| path.strip_prefix(DEMO)) else {
-        return String::from_utf8(input::read(path)?)
+        return String::from_utf8(files::read(path)?)
             .map_err(|_| Failure::input(path, "not a recording: not UTF-8 text"));
     };
     let Some(demo) = Demo::ALL.into_iter().find(|demo| demo.file_stem() == name) else {

@@ -9,7 +9,8 @@ use crate::body::{Surface, landmarks};
 use crate::cli::arguments::PictureOptions;
 use crate::cli::failure::Failure;
 use crate::cli::picture::Artist;
-use crate::cli::verdict::Verdict;
+use crate::cli::seconds::Seconds;
+use crate::cli::verdict::{FILE_NAME, Verdict};
 use crate::cli::{formats, interrupt, output, run};
 use crate::fit;
 use crate::pattern::{Problem, ProblemKind};
@@ -18,9 +19,6 @@ use crate::session::recording::Hex;
 use crate::session::{Document, Session};
 use crate::sim::{self, DrapeState, Fault, Snapshot, Start, Started, Stats, Tried};
 use crate::wrap::{MarkError, PairStretch, Phase, mark_error, stretches};
-
-/// The report's own.
-pub const FILE_NAME: &str = "report.json";
 
 /// `report.json`.
 #[derive(Debug, Serialize)]
@@ -141,39 +139,6 @@ impl std::fmt::Display for PairLengths {
         let [cloth, body, percent] = [cloth, body, stretch].map(|x| x * 100.0);
         write!(f, "mark {number}: {cloth:.1} cm on the cloth, {body:.1} cm on the body, {percent:+.1} %")
     }
-}
-
-/// Wall-clock seconds by phase.
-#[derive(Clone, Debug, Default, Serialize)]
-pub struct Seconds {
-    /// Reading the input and making the body ready.
-    pub load: f64,
-    /// Triangulating, sewing and laying the root edges.
-    pub build: f64,
-    /// Ticks that grew cloth.
-    pub grow: f64,
-    /// Ticks that settled it.
-    pub settle: f64,
-    /// The longest of all ticks: so long a signal may have to wait.
-    pub longest_tick: f64,
-    /// Draping it.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub drape: Option<f64>,
-    /// Carrying the cloth to another pose, with binding it to the body for the first one.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub repose: Option<f64>,
-    /// The whole of a replay, instead of those above.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub replay: Option<f64>,
-    /// Reading the figures off.
-    pub measure: f64,
-    /// Drawing.
-    pub picture: f64,
-    /// From the first byte read to the last written, this file left out.
-    pub total: f64,
-    /// Ticks of each start that was tried.
-    #[serde(skip)]
-    pub starts: Vec<f64>,
 }
 
 /// What there is to tell of `session`, with garment.obj, body.obj and view.png. [`Report::finish`] writes them.

@@ -7,8 +7,9 @@ use std::time::Instant;
 use crate::body::pose::anatomy::JointAngle;
 use crate::cli::arguments::{InputOptions, Repose};
 use crate::cli::failure::Failure;
-use crate::cli::report::{Report, Seconds};
-use crate::cli::{dress, formats, input, interrupt, output, report, run};
+use crate::cli::report::Report;
+use crate::cli::seconds::Seconds;
+use crate::cli::{dress_one, files, formats, input, interrupt, output, report, run};
 use crate::io::joints;
 use crate::session::{BodyChoice, Command, Notice, Session, project_file};
 
@@ -29,7 +30,7 @@ pub fn repose(arguments: &Repose) -> Result<(), Failure> {
         let path = Path::new(&from);
         interrupt::check()?;
         let folder = if several { numbered(&arguments.out, i, path) } else { arguments.out.clone() };
-        let name = format!("{} on {}", input.name, input::name_of(path));
+        let name = format!("{} on {}", input.name, files::name_of(path));
         let carried = one(&mut session, pose, path, arguments, seconds.clone());
         let mut report = report::report(&mut session, &name, &arguments.picture, carried?)?;
         report.inputs = input.files.iter().cloned().chain([from.clone()]).collect();
@@ -74,7 +75,7 @@ fn poses(arguments: &Repose, dressed: &BodyChoice) -> Result<Vec<(BodyChoice, St
         }
     }
     for path in &arguments.joint_files {
-        let angles = joints::read(&input::read(path)?).map_err(|e| Failure::input(path, e))?;
+        let angles = joints::read(&files::read(path)?).map_err(|e| Failure::input(path, e))?;
         poses.push((turned(&base, &angles, path)?, path.display().to_string()));
     }
     if !arguments.joints.is_empty() {
@@ -99,16 +100,16 @@ fn printed(report: &Report, several: bool) -> Result<String, Failure> {
 
 /// "out/03-walk4" for the fourth pose, of the file "walk4.obj".
 fn numbered(out: &Path, i: usize, path: &Path) -> PathBuf {
-    out.join(format!("{i:02}-{}", input::name_of(path)))
+    out.join(format!("{i:02}-{}", files::name_of(path)))
 }
 
 fn posed(path: &Path, arguments: &Repose) -> Result<BodyChoice, Failure> {
-    let body = formats::body(path, &input::read(path)?, arguments.body_file)?;
+    let body = formats::body(path, &files::read(path)?, arguments.body_file)?;
     if !body.is_usable() {
         let faults: Vec<&str> = body.problems.iter().map(|p| p.words.as_str()).collect();
         return Err(Failure::input(path, faults.join("; ")));
     }
-    Ok(BodyChoice::Imported { name: input::name_of(path), mesh: Arc::new(body.mesh) })
+    Ok(BodyChoice::Imported { name: files::name_of(path), mesh: Arc::new(body.mesh) })
 }
 
 /// A project that holds no dressed cloth is dressed as `toile dress` would.
@@ -117,7 +118,7 @@ pub fn dress_first(session: &mut Session, arguments: &Repose, seconds: &mut Seco
         return Ok(());
     }
     output::complain(&format!("{}: not dressed yet: dressing it first", arguments.project.display()));
-    dress::wrap(session, &arguments.project, seconds)?;
+    dress_one::wrap(session, &arguments.project, seconds)?;
     run::to_rest(session, arguments.max_ticks, seconds)
 }
 

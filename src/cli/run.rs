@@ -4,7 +4,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use crate::cli::failure::Failure;
-use crate::cli::report::Seconds;
+use crate::cli::seconds::Seconds;
 use crate::cli::{interrupt, output};
 use crate::session::{Command, Notice, Project, Session};
 use crate::sim::{Runner, Simulation};

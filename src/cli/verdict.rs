@@ -5,11 +5,13 @@ use std::path::Path;
 
 use serde::{Deserialize, Deserializer, Serialize};
 
-use crate::cli::report::FILE_NAME;
 use crate::fit::{Penetration, Seams, Strain, Tight};
 use crate::pattern::Problem;
 use crate::sim::Start;
 use crate::wrap::MarkError;
+
+/// The report's own.
+pub const FILE_NAME: &str = "report.json";
 
 /// What is read off a report.
 #[derive(Debug, Serialize, Deserialize)]

@@ -147,7 +147,7 @@ fn report_twisted(pattern: &Pattern, garment: &Garment, problems: &mut Vec<Probl
         if twisted {
             problems.push(Problem {
                 kind: ProblemKind::TwistedSeam,
-                place: crate::pattern::sampling::seam_place(pattern, *id),
+                place: crate::pattern::naming::seam_place(pattern, *id),
                 words: "it joins the front of one piece to the back of the other; reverse the seam"
                     .to_owned(),
             });

@@ -74,7 +74,7 @@ mod tests {
 
     use super::*;
     use crate::cloth::build;
-    use crate::pattern::piece::EdgeShape;
+    use crate::pattern::EdgeShape;
     use crate::pattern::{Pattern, Piece};
 
     /// A square with sides of 0.4 m and one rounded edge.

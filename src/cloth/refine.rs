@@ -14,7 +14,7 @@ use crate::geometry::adjacency::Adjacency;
 
 /// A vertex put in: where it lies follows from others.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Slave {
+pub struct DependentVertex {
     /// The vertices it lies between, and their shares.
     pub shares: [(u32, f64); 3],
     /// A triangle of the plain garment that it lies on.
@@ -24,16 +24,16 @@ pub struct Slave {
 /// A garment with some edges split.
 #[derive(Clone, Debug)]
 pub struct Refined {
-    /// Its vertices are those of the plain garment, then the slaves.
+    /// Its vertices are those of the plain garment, then the dependents.
     pub garment: Arc<Garment>,
     /// The vertices put in.
-    pub slaves: Vec<Slave>,
+    pub dependents: Vec<DependentVertex>,
     /// Triangles of the plain garment that were cut up, ascending.
     pub opened: Vec<u32>,
-    /// The first triangle of `garment` that has a slave; those before it are whole ones of the plain garment.
+    /// The first triangle of `garment` that has a dependent; those before it are whole ones of the plain garment.
     pub first_cut: usize,
     /// From there on the triangle of the plain garment that each is cut from. It has all its masters' corners but those of
-    /// slaves, who have their own.
+    /// dependents, who have their own.
     pub cut_from: Vec<u32>,
 }
 
@@ -49,7 +49,7 @@ enum Split {
 /// Corners to be, with those of the plain garment first: what `Builder` numbers anew at the end.
 struct Builder<'a> {
     plain: &'a Garment,
-    slaves: Vec<Slave>,
+    dependents: Vec<DependentVertex>,
     corners: Vec<Corner>,
     /// The centroid's corner in each opened triangle.
     centroids: BTreeMap<u32, u32>,
@@ -62,7 +62,7 @@ struct Builder<'a> {
 pub fn refine(plain: &Garment, edges: &[u32]) -> Refined {
     let mut builder = Builder {
         plain,
-        slaves: Vec::new(),
+        dependents: Vec::new(),
         corners: plain.corners.clone(),
         centroids: BTreeMap::new(),
         middles: BTreeMap::new(),
@@ -78,9 +78,9 @@ pub fn refine(plain: &Garment, edges: &[u32]) -> Refined {
 }
 
 impl Builder<'_> {
-    fn put(&mut self, slave: Slave, corners: &[u32]) -> u32 {
-        let vertex = (self.plain.vertex_count + self.slaves.len()) as u32;
-        self.slaves.push(slave);
+    fn put(&mut self, dependent: DependentVertex, corners: &[u32]) -> u32 {
+        let vertex = (self.plain.vertex_count + self.dependents.len()) as u32;
+        self.dependents.push(dependent);
         self.put_corner(vertex, corners)
     }
 
@@ -95,7 +95,8 @@ impl Builder<'_> {
 
     fn put_centroid(&mut self, t: u32) {
         let shares = self.plain.triangles[t as usize].map(|v| (v, 1.0 / 3.0));
-        let corner = self.put(Slave { shares, triangle: t }, &self.plain.triangle_corners[t as usize]);
+        let corner =
+            self.put(DependentVertex { shares, triangle: t }, &self.plain.triangle_corners[t as usize]);
         self.centroids.insert(t, corner);
     }
 
@@ -120,12 +121,12 @@ impl Builder<'_> {
         }
         let [a, b] = self.plain.adjacency.edges[e as usize];
         let triangle = beside.first().copied().unwrap_or_default();
-        let slave = Slave { shares: [(a, 0.5), (b, 0.5), (a, 0.0)], triangle };
+        let dependent = DependentVertex { shares: [(a, 0.5), (b, 0.5), (a, 0.0)], triangle };
         let mut vertex = None;
         for &t in beside {
             let ends = self.side(t, self.side_of(t, e));
             let corner = match vertex {
-                None => self.put(slave, &ends),
+                None => self.put(dependent, &ends),
                 Some(v) => self.put_corner(v, &ends),
             };
             vertex = Some(self.corners[corner as usize].vertex);
@@ -157,14 +158,14 @@ impl Builder<'_> {
     }
 
     fn finish(self, opened: Vec<u32>) -> Refined {
-        let Self { plain, slaves, corners, triangles, .. } = self;
+        let Self { plain, dependents, corners, triangles, .. } = self;
         // Each piece's corners lie together: number them anew.
         let mut order: Vec<u32> = (0..corners.len() as u32).collect();
         order.sort_by_key(|&c| (corners[c as usize].piece, c));
         let mut place = vec![0u32; corners.len()];
         order.iter().enumerate().for_each(|(i, &c)| place[c as usize] = i as u32);
         let mut garment = Garment {
-            vertex_count: plain.vertex_count + slaves.len(),
+            vertex_count: plain.vertex_count + dependents.len(),
             corners: order.iter().map(|&c| corners[c as usize]).collect(),
             pieces: plain.pieces.clone(),
             layers: plain.layers.clone(),
@@ -191,7 +192,7 @@ impl Builder<'_> {
             garment.rest.push(uv.map(|p| p - centre));
         }
         garment.adjacency = Adjacency::new(garment.vertex_count, &garment.triangles);
-        Refined { garment: Arc::new(garment), slaves, opened, first_cut, cut_from }
+        Refined { garment: Arc::new(garment), dependents, opened, first_cut, cut_from }
     }
 }
 
@@ -203,12 +204,12 @@ fn front(plain: &Garment, t: u32, uv: [DVec2; 3]) -> [DVec2; 3] {
 }
 
 impl Refined {
-    /// `state` of the plain garment with the slaves where they lie between their masters, and `beside` that.
+    /// `state` of the plain garment with the dependents where they lie between their masters, and `beside` that.
     pub fn state(&self, state: &ClothState, beside: impl Fn(usize) -> DVec3) -> ClothState {
         let mut state = state.clone();
-        for (i, slave) in self.slaves.iter().enumerate() {
-            let between = slave.between(&state);
-            state.mapped.push(slave.shares.iter().all(|&(v, _)| state.mapped[v as usize]));
+        for (i, dependent) in self.dependents.iter().enumerate() {
+            let between = dependent.between(&state);
+            state.mapped.push(dependent.shares.iter().all(|&(v, _)| state.mapped[v as usize]));
             state.positions.push(between + beside(i));
         }
         state
@@ -217,12 +218,12 @@ impl Refined {
     /// Bytes it takes.
     pub fn bytes(&self) -> usize {
         self.garment.bytes()
-            + self.slaves.capacity() * size_of::<Slave>()
+            + self.dependents.capacity() * size_of::<DependentVertex>()
             + (self.opened.capacity() + self.cut_from.capacity()) * 4
     }
 }
 
-impl Slave {
+impl DependentVertex {
     /// The mean of its masters.
     pub fn between(&self, state: &ClothState) -> DVec3 {
         self.shares.iter().map(|&(v, share)| state.positions[v as usize] * share).sum()
@@ -293,6 +294,6 @@ mod tests {
         let refined = refine(&plain, &[]);
         assert_eq!(refined.garment.triangles, plain.triangles);
         assert_eq!(refined.garment.corners, plain.corners);
-        assert!(refined.slaves.is_empty() && refined.opened.is_empty());
+        assert!(refined.dependents.is_empty() && refined.opened.is_empty());
     }
 }

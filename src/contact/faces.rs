@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use crate::body::Surface;
 use crate::cloth::refine::Refined;
 use crate::cloth::{ClothState, Counters, Garment, Skip, Skips};
-use crate::contact::Apart;
+use crate::contact::BodyOverlaps;
 
 /// How many clearances deep a face may lie in the body and still be found: its corners are above the skin.
 const LOOK_INTO: f64 = 5.0;
@@ -64,7 +64,7 @@ pub struct Lying<'a> {
     /// The garment with its split edges, and where that is.
     pub split: Option<(&'a Refined, &'a ClothState)>,
     /// Skin that some vertices do not touch.
-    pub apart: Option<&'a Apart>,
+    pub apart: Option<&'a BodyOverlaps>,
 }
 
 impl Lying<'_> {

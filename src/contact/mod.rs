@@ -1,18 +1,18 @@
 //! Cloth against body, and against itself.
 
-pub mod apart;
+pub mod body_overlaps;
 pub mod bones;
 pub mod faces;
-pub mod layers;
+pub mod intersections;
 mod pockets;
 pub mod separation;
 pub mod splits;
 pub mod tracker;
 
-pub use apart::Apart;
+pub use body_overlaps::BodyOverlaps;
 pub use bones::{Bone, Bones};
 pub use faces::Faces;
-pub use layers::Met;
+pub use intersections::Intersections;
 pub use separation::{Obstacle, Separation};
 pub use splits::Splits;
 pub use tracker::{Plane, Tracker};

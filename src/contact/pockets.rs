@@ -4,7 +4,7 @@
 //! With its openings closed, cloth winds once round what it encloses; counted at its own points, more than never and less than
 //! once, as sharply as it may be folded there. Where a part of it lies within another part it winds once more, and where it has
 //! come out through another, once less. So it is known which way is out, however deep it lies: pairs of what is near and lines
-//! that shrink (see [`layers`](crate::contact::layers)) do not know it.
+//! that shrink (see [`layers`](crate::contact::intersections)) do not know it.
 
 use std::collections::VecDeque;
 

@@ -12,7 +12,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::body::Surface;
-use crate::cloth::refine::{Refined, Slave, refine};
+use crate::cloth::refine::{DependentVertex, Refined, refine};
 use crate::cloth::{ClothState, Counters, Garment, Skip, Skips};
 use crate::contact::Tracker;
 
@@ -96,7 +96,7 @@ impl Splits {
 
     /// `state` with the vertices put in.
     pub fn state(&self, refined: &Refined, state: &ClothState) -> ClothState {
-        refined.state(state, |slave| self.beside.get(slave).copied().unwrap_or_default())
+        refined.state(state, |dependent| self.beside.get(dependent).copied().unwrap_or_default())
     }
 
     /// Splits those of `suspects` that cut the body, or of all edges those where the paper's test does not say that the body
@@ -169,11 +169,12 @@ impl Splits {
         self.beside.clear();
     }
 
-    /// Puts the slaves where they belong: between their masters, and out of the body as far as cloth lies above it.
+    /// Puts the dependents where they belong: between their masters, and out of the body as far as cloth lies above it.
     pub fn place(&mut self, state: &ClothState, tracker: &Tracker, ground: Ground<'_>) {
         self.beside.clear();
         if let Some(refined) = &self.refined {
-            let beside = refined.slaves.par_iter().map(|slave| out(slave, state, tracker, ground));
+            let beside =
+                refined.dependents.par_iter().map(|dependent| out(dependent, state, tracker, ground));
             beside.collect_into_vec(&mut self.beside);
         }
     }
@@ -242,10 +243,10 @@ impl Edge {
     }
 }
 
-/// From the mean of a slave's masters to where it lies: up along their normals until it is as high as cloth is.
-fn out(slave: &Slave, state: &ClothState, tracker: &Tracker, ground: Ground<'_>) -> DVec3 {
-    let between = slave.between(state);
-    let sum: DVec3 = slave
+/// From the mean of a dependent's masters to where it lies: up along their normals until it is as high as cloth is.
+fn out(dependent: &DependentVertex, state: &ClothState, tracker: &Tracker, ground: Ground<'_>) -> DVec3 {
+    let between = dependent.between(state);
+    let sum: DVec3 = dependent
         .shares
         .iter()
         .filter_map(|&(v, share)| tracker.plane(v as usize).map(|plane| plane.normal * share))

@@ -12,7 +12,7 @@ use rayon::prelude::*;
 
 use crate::body::{Nearest, Surface};
 use crate::cloth::{ClothState, Counters, Skip, Skips};
-use crate::contact::Apart;
+use crate::contact::BodyOverlaps;
 use crate::geometry::adjacency::NONE;
 
 /// A track plane is kept while its vertex has moved less than this, metres on a body 1.5 m large.
@@ -77,7 +77,7 @@ pub struct Tracker {
     /// Cloth that lay near the skin walks there from where it was, until this is false again: then it asks anew.
     pub walks: bool,
     /// Skin that some vertices do not touch.
-    pub apart: Option<Arc<Apart>>,
+    pub apart: Option<Arc<BodyOverlaps>>,
 }
 
 impl Tracker {
@@ -194,11 +194,17 @@ struct Ask<'a> {
     scale: f64,
     skips: Skips,
     walks: bool,
-    apart: Option<&'a Apart>,
+    apart: Option<&'a BodyOverlaps>,
 }
 
 impl<'a> Ask<'a> {
-    fn new(surface: &'a Surface, reach: f64, skips: Skips, walks: bool, apart: Option<&'a Apart>) -> Self {
+    fn new(
+        surface: &'a Surface,
+        reach: f64,
+        skips: Skips,
+        walks: bool,
+        apart: Option<&'a BodyOverlaps>,
+    ) -> Self {
         Self { surface, reach, scale: surface.scale(), skips, walks, apart }
     }
 

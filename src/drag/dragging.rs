@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::cloth::{ClothState, Counters, EdgeMetric, Garment};
 use crate::drag::Graph;
 use crate::drag::transport::motions;
-use crate::relax::{GlobalStep, Pace, RelaxSettings, Relaxer, global};
+use crate::relax::{Acceleration, GlobalStep, RelaxSettings, Relaxer, global};
 
 /// No vertex moves farther in a substep, in edge lengths (ALGORITHMS.md 1.A5).
 const SUBSTEP: f64 = 0.25;
@@ -30,7 +30,7 @@ const CONTACT: f64 = 0.01;
 /// The factor may lag behind the contacts by this share of the vertices: they come and go all the time while cloth slides.
 const STALE_SHARE: f64 = 0.05;
 /// How far the global steps of a relaxation go: what a plain one takes away less than a fifth of is too slow to be seen going.
-const PACES: [Pace; 3] = Pace::chebyshev(0.2);
+const PACES: [Acceleration; 3] = Acceleration::chebyshev(0.2);
 /// No vertex moves farther in one relaxation, metres on a body 1.5 m large.
 const RELAX_CAP: f64 = 0.02;
 /// The hand has arrived this near to the pointer, in edge lengths.
@@ -318,7 +318,7 @@ impl Dragging {
         // The other modes leave it to relaxation how far the rest of the cloth follows: one plain step, as in the paper.
         let paces = match self.mode {
             DragMode::Surface => &PACES[..],
-            _ => &[Pace::PLAIN],
+            _ => &[Acceleration::PLAIN],
         };
         let moved = self.relaxer.global_steps(state, step, paces);
         // On coarse cloth steps are long: the planes it slid along are not the skin where it came to.

@@ -3,12 +3,12 @@
 use serde::Serialize;
 
 use crate::contact::Separation;
-use crate::drape::contact::Contacts;
-use crate::drape::newton::{NewtonSettings, Work, largest};
-use crate::drape::self_contact::SelfContact;
-use crate::drape::small_steps::{SmallSteps, substeps};
+use crate::drape::contact::body::Contacts;
+use crate::drape::contact::itself::SelfContact;
+use crate::drape::solver::newton::{NewtonSettings, Work, largest};
+use crate::drape::solver::small_steps::{SmallSteps, substeps};
+use crate::drape::solver::steps::{CONTACT_OVER_INERTIA, Integrator, Scene, Steps};
 use crate::drape::state::State;
-use crate::drape::steps::{CONTACT_OVER_INERTIA, Integrator, Scene, Steps};
 
 /// Work of one small step per edge, vertex and entry of bending against that of an implicit step per number in its factor: what
 /// both took on one machine. The choice needs no more than their ratio.

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::fit::causes::Causes;
 use crate::fit::on_body::{Clearance, Penetration};
 use crate::fit::openings::Opening;
+use crate::fit::shape::{PieceChange, Strain};
 
 /// Everything measured on a garment, over the triangles that lie in space.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -63,45 +64,6 @@ pub struct Report {
     pub clearance: Clearance,
     /// Hems, neck, cuffs; longest first.
     pub openings: Vec<Opening>,
-}
-
-/// |l / l0 - 1| over the edges of the flat cloth; an edge in a seam counts once for each piece.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Strain {
-    /// How many edges.
-    pub edges: usize,
-    /// The largest.
-    pub max: f64,
-    /// 99 of 100 are smaller.
-    pub p99: f64,
-    /// 95 of 100 are smaller.
-    pub p95: f64,
-    /// Root of the mean square.
-    pub rms: f64,
-    /// The middle one.
-    pub median: f64,
-    /// Of the stretched edges only, the others counting 0.
-    pub stretch_p99: f64,
-    /// Of the compressed edges only, the others counting 0.
-    pub compress_p99: f64,
-    /// Edges stretched to more than twice their length.
-    #[serde(default)]
-    pub doubled: usize,
-}
-
-/// What became of a piece.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct PieceChange {
-    /// Its name.
-    pub name: String,
-    /// Triangles that lie in space.
-    pub triangles: usize,
-    /// Triangles that do not.
-    pub missing_triangles: usize,
-    /// Area over flat area, less one.
-    pub area_change: f64,
-    /// Length of the border over its flat length, less one.
-    pub perimeter_change: f64,
 }
 
 /// The seams.

@@ -1,8 +1,9 @@
 //! How well the cloth keeps its flat shape: strain, area, border, folds.
 
+use serde::{Deserialize, Serialize};
+
 use crate::cloth::Garment;
 use crate::fit::laid::Laid;
-use crate::fit::report::{PieceChange, Strain};
 use crate::geometry::ids::PieceId;
 
 /// Flat edges shorter than this (metres) have no strain.
@@ -11,6 +12,45 @@ const SHORTEST: f64 = 1e-9;
 const SMALLEST_AREA: f64 = 1e-12;
 /// Neighbours whose normals have a smaller cosine than this are folded onto each other.
 const FOLDED: f64 = -0.5;
+
+/// |l / l0 - 1| over the edges of the flat cloth; an edge in a seam counts once for each piece.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Strain {
+    /// How many edges.
+    pub edges: usize,
+    /// The largest.
+    pub max: f64,
+    /// 99 of 100 are smaller.
+    pub p99: f64,
+    /// 95 of 100 are smaller.
+    pub p95: f64,
+    /// Root of the mean square.
+    pub rms: f64,
+    /// The middle one.
+    pub median: f64,
+    /// Of the stretched edges only, the others counting 0.
+    pub stretch_p99: f64,
+    /// Of the compressed edges only, the others counting 0.
+    pub compress_p99: f64,
+    /// Edges stretched to more than twice their length.
+    #[serde(default)]
+    pub doubled: usize,
+}
+
+/// What became of a piece.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct PieceChange {
+    /// Its name.
+    pub name: String,
+    /// Triangles that lie in space.
+    pub triangles: usize,
+    /// Triangles that do not.
+    pub missing_triangles: usize,
+    /// Area over flat area, less one.
+    pub area_change: f64,
+    /// Length of the border over its flat length, less one.
+    pub perimeter_change: f64,
+}
 
 /// An edge of the flat cloth: each side of a seam has its own.
 struct FlatEdge {

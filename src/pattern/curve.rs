@@ -3,7 +3,7 @@
 use glam::DVec2;
 use kurbo::{CubicBez, Line, ParamCurve, ParamCurveArclen, PathSeg, Point, QuadBez};
 
-use crate::pattern::piece::{ARC_LENGTH_ACCURACY, Edge, EdgeShape};
+use crate::pattern::edge::{ARC_LENGTH_ACCURACY, Edge, EdgeShape};
 
 /// To this accuracy lengths are held equal, metres.
 const FINEST_LENGTH: f64 = 1e-12;

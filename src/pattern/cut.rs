@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use crate::geometry::ids::{PieceId, SeamId};
 use crate::pattern::{
-    Edge, EdgeRef, EdgeSeam, Pattern, Piece, Problem, ProblemKind, Seam, Stretch, curve, sampling,
+    Edge, EdgeRef, EdgeSeam, Pattern, Piece, Problem, ProblemKind, Seam, Stretch, curve, naming,
 };
 
 /// Places on an edge nearer than this are one, metres.
@@ -63,7 +63,7 @@ impl CutPattern {
                     place: id.to_string(),
                     words: format!(
                         "it sews a stretch of {}, which is not there; delete or redraw the seam",
-                        sampling::place(pattern, side.first_edge())
+                        naming::place(pattern, side.first_edge())
                     ),
                 }),
             }
@@ -161,7 +161,7 @@ impl CutPattern {
                 place: id.to_string(),
                 words: format!(
                     "part of {} is sewn a second time; the seam was left out",
-                    sampling::place(pattern, seam.sides[0].first_edge())
+                    naming::place(pattern, seam.sides[0].first_edge())
                 ),
             });
             return;

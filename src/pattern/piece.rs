@@ -7,40 +7,8 @@ use serde::{Deserialize, Serialize};
 use crate::geometry::ids::PieceId;
 use crate::geometry::polygon::signed_area;
 use crate::pattern::activity::Activity;
+use crate::pattern::edge::{ARC_LENGTH_ACCURACY, Edge};
 use crate::pattern::{SpacePose, curve};
-
-/// Arc lengths are computed to this accuracy (metres).
-pub const ARC_LENGTH_ACCURACY: f64 = 1e-7;
-
-/// The shape of one outline edge between its end points. Control points are absolute, in the piece's own plane, metres.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum EdgeShape {
-    /// Straight.
-    #[default]
-    Line,
-    /// Circular arc: `radius` > 0 metres, SVG flags in y-up coordinates (`sweep` true travels counter-clockwise).
-    Arc { radius: f64, large: bool, sweep: bool },
-    /// Quadratic Bézier.
-    Quadratic { control: DVec2 },
-    /// Cubic Bézier.
-    Cubic { controls: [DVec2; 2] },
-}
-
-/// One edge of a closed line: from its own start point to the start point of the next edge.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Edge {
-    /// Where the edge starts, metres in the piece's own plane.
-    pub start: DVec2,
-    /// What lies between start and end.
-    pub shape: EdgeShape,
-    /// The line runs on smoothly at the start point: when an editor turns one of its tangents, the other follows.
-    #[serde(default, skip_serializing_if = "is_false")]
-    pub smooth: bool,
-    /// A name from the source file ("left_collar"), if any.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub label: Option<String>,
-}
 
 /// Position, rotation and flip of a piece in the pattern plane. Where it lies on the table; it means nothing to the cloth.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -118,16 +86,16 @@ pub struct Piece {
     pub cut_line: Vec<Edge>,
     /// The outline is its own mirror image in the line x = 0 and stays so: it has an even number n of edges, edge i is
     /// the image of edge n-1-i, and points 0 and n/2 lie on the line.
-    #[serde(default, skip_serializing_if = "is_false")]
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub symmetric: bool,
     /// The piece that is and stays the mirror image of this one: its edge i of n is the image of edge n-1-i, hole by hole.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub twin: Option<PieceId>,
     /// Not to be moved or changed by the pointer.
-    #[serde(default, skip_serializing_if = "is_false")]
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub locked: bool,
     /// Not drawn in the pattern pane. It is sewn all the same.
-    #[serde(default, skip_serializing_if = "is_false")]
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub hidden: bool,
     /// Worn over all pieces of a lower layer, 0..=[`MOST_LAYER`](crate::pattern::layers::MOST_LAYER); layer 0 lies next to the skin.
     #[serde(default, skip_serializing_if = "is_skin")]
@@ -263,10 +231,6 @@ impl InternalLine {
     }
 }
 
-fn is_false(flag: &bool) -> bool {
-    !flag
-}
-
 fn is_skin(layer: &u8) -> bool {
     *layer == 0
 }
@@ -278,6 +242,7 @@ fn is_zero(x: &f64) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::pattern::EdgeShape;
 
     #[test]
     fn a_half_circle_is_pi_r_long() {

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::geometry::ids::{PieceId, SeamId};
-use crate::pattern::{CutPattern, EdgeRef, EdgeSeam, Pattern, Problem, ProblemKind};
+use crate::pattern::{CutPattern, EdgeRef, EdgeSeam, Problem, ProblemKind};
 
 /// Seams whose sides differ by more than this fraction are mentioned.
 const UNEQUAL: f64 = 0.02;
@@ -121,24 +121,5 @@ fn report_unsewn(pattern: &CutPattern, seams: &[(SeamId, EdgeSeam)], problems: &
                 words: "no seam holds this piece".to_owned(),
             });
         }
-    }
-}
-
-/// A seam with the edges it joins, in words.
-pub fn seam_place(pattern: &Pattern, id: SeamId) -> String {
-    pattern.seams.get(&id).map_or_else(
-        || id.to_string(),
-        |seam| {
-            let [a, b] = seam.sides.map(|side| place(pattern, side.first_edge()));
-            format!("{id}: {a} and {b}")
-        },
-    )
-}
-
-/// "front (piece 1), edge 3".
-pub fn place(pattern: &Pattern, edge: EdgeRef) -> String {
-    match pattern.pieces.get(&edge.piece) {
-        Some(piece) => format!("{} ({}), edge {}", piece.name, edge.piece, edge.edge),
-        None => format!("{}, edge {}", edge.piece, edge.edge),
     }
 }

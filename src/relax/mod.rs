@@ -1,17 +1,19 @@
 //! Paper A's relaxation: shape match, flatten, gravity, friction.
 
+mod acceleration;
 pub mod flatten;
 pub mod global;
 pub mod goals;
 mod matching;
 pub mod memory;
 mod normals;
-mod pacing;
 pub mod relaxer;
 pub mod settings;
-mod wants;
+pub mod step;
+mod targets;
 
+pub use acceleration::Acceleration;
 pub use memory::Memory;
-pub use pacing::Pace;
-pub use relaxer::{GlobalStep, Relaxer};
+pub use relaxer::Relaxer;
 pub use settings::{RelaxSettings, Rotation};
+pub use step::GlobalStep;

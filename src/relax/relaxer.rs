@@ -9,15 +9,16 @@ use crate::body::Surface;
 use crate::cloth::{Carry, ClothState, Counters, Garment, Skip};
 use crate::contact::faces::Lying;
 use crate::contact::splits::{Ground, Suspects};
-use crate::contact::{Apart, Bones, Faces, Met, Plane, Splits, Tracker};
+use crate::contact::{BodyOverlaps, Bones, Faces, Intersections, Plane, Splits, Tracker};
 use crate::geometry::crossings::meetings;
+use crate::relax::acceleration::Acceleration;
 use crate::relax::flatten::{Hinges, Lies, NOT_LAID};
 use crate::relax::global::{GlobalSolver, STALE_SHARE};
 use crate::relax::goals::turned_rest;
 use crate::relax::matching::{Matching, body_normal};
 use crate::relax::normals::{normal_round, vertex_normals};
-use crate::relax::pacing::Pace;
-use crate::relax::wants::Wants;
+use crate::relax::step::GlobalStep;
+use crate::relax::targets::Targets;
 use crate::relax::{Memory, RelaxSettings};
 
 /// Of a vertex that does not move, on the matrix diagonal: so heavy that its neighbours find it where it is.
@@ -43,26 +44,6 @@ const CROSSINGS_WEIGH: usize = 20;
 const STILL_PARTING: f64 = 0.9;
 /// Layers sent apart by less than this are left alone.
 const LEAST_PARTING: f64 = 0.02;
-
-/// What one global step does.
-#[derive(Clone, Copy, Debug)]
-pub struct GlobalStep {
-    /// No vertex moves farther, metres.
-    pub cap: f64,
-    /// Weight of contact on the matrix diagonal, against 2/3 for each triangle round a vertex. It also holds the vertex where
-    /// it is along the skin: a heavy weight keeps cloth out of the body while much moves, a light one lets it slide, and what
-    /// that lets through the multiplier makes good.
-    pub contact: f64,
-    /// How strongly marked vertices are held where their marks are, as a weight on the diagonal.
-    pub hold: f64,
-    /// So far from there they are free, metres.
-    pub slack: f64,
-    /// Turn triangles that face against the cloth round them, and send cloth that faces the skin next to it (it belongs to
-    /// another limb, or to the other side of a fold) away from there.
-    pub unfold: bool,
-    /// Apply gravity and friction.
-    pub weight: bool,
-}
 
 /// Everything one garment on one body needs to relax. Scratch but for contact memory.
 #[derive(Clone)]
@@ -262,7 +243,7 @@ impl Relaxer {
     }
 
     /// From now on some vertices do not touch some skin.
-    pub fn keep_apart(&mut self, apart: Option<Arc<Apart>>) {
+    pub fn keep_apart(&mut self, apart: Option<Arc<BodyOverlaps>>) {
         self.tracker.apart = apart;
         self.tracker.forget();
         self.faces = Faces::default();
@@ -297,12 +278,12 @@ impl Relaxer {
 
     /// One global step. Returns the longest move, metres.
     pub fn global_step(&mut self, state: &mut ClothState, step: GlobalStep) -> f64 {
-        self.global_steps(state, step, &[Pace::PLAIN])
+        self.global_steps(state, step, &[Acceleration::PLAIN])
     }
 
     /// One global step after the other in the same contacts, one for each of `paces`. Cloth that is pulled into the body takes one plain step: there the planes of the skin
     /// say little about where it comes to. Returns the longest move over all, metres.
-    pub fn global_steps(&mut self, state: &mut ClothState, step: GlobalStep, paces: &[Pace]) -> f64 {
+    pub fn global_steps(&mut self, state: &mut ClothState, step: GlobalStep, paces: &[Acceleration]) -> f64 {
         let offset = self.offset();
         let mut reach = offset * 2.0 + step.cap.min(offset);
         if step.unfold {
@@ -314,7 +295,7 @@ impl Relaxer {
         self.find_cling(state);
         let weighs = step.weight && self.touches_anything(state);
         let before = state.positions.clone();
-        let paces = if self.is_inside(state) { &[Pace::PLAIN] } else { paces };
+        let paces = if self.is_inside(state) { &[Acceleration::PLAIN] } else { paces };
         for &pace in paces {
             let normals = step.unfold.then_some(&*self.normals);
             self.matching.turn(&self.garment, state, &self.tracker, normals, self.settings.rotation);
@@ -379,7 +360,7 @@ impl Relaxer {
     /// which those pull.
     fn weigh(&mut self, state: &ClothState, step: GlobalStep, weighs: bool, pace: f64) -> Vec<DVec3> {
         let scale = self.surface.scale();
-        let wants = Wants {
+        let targets = Targets {
             tracker: &self.tracker,
             normals: &self.normals,
             sent: &self.sent,
@@ -408,7 +389,7 @@ impl Relaxer {
                 *force = matching.force(v as u32) * stretch + DVec3::NEG_Y * (gravity * areas[v]);
                 let pull;
                 (*weight, pull) = match (mapped[v], fixed[v]) {
-                    (true, false) => wants.of(v, state.positions[v], push, force),
+                    (true, false) => targets.of(v, state.positions[v], push, force),
                     (true, true) => (FIXED_WEIGHT, DVec3::ZERO),
                     (false, _) => (UNMAPPED_WEIGHT, DVec3::ZERO),
                 };
@@ -446,7 +427,7 @@ impl Relaxer {
     }
 
     /// Makes what was solved for as long as `pace` says.
-    fn go_on(&mut self, state: &ClothState, pace: Pace) {
+    fn go_on(&mut self, state: &ClothState, pace: Acceleration) {
         let before = state.positions.iter().zip(&self.previous);
         for (way, (x, previous)) in self.forces.iter_mut().zip(before) {
             *way = *way * pace.along + (*x - *previous) * pace.on;
@@ -578,13 +559,13 @@ impl Relaxer {
         let body = &self.surface.mesh;
         meetings(&drawn.positions, &edges, body, &body.tree()).len()
             + self.wrong_faces(state).iter().flatten().count()
-            + Met::new(&self.garment, state).places.len() * CROSSINGS_WEIGH
+            + Intersections::new(&self.garment, state).places.len() * CROSSINGS_WEIGH
     }
 
     /// Sends layers that run into each other apart. Returns in how many places they do.
     pub fn part_layers(&mut self, state: &ClothState) -> usize {
         self.counters.self_tests += 1;
-        let met = Met::new(&self.garment, state);
+        let met = Intersections::new(&self.garment, state);
         for (parted, way) in self.parted.iter_mut().zip(met.ways(&self.garment, state)) {
             *parted = *parted * STILL_PARTING + way;
         }

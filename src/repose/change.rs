@@ -9,8 +9,9 @@ use crate::cloth::ClothState;
 use crate::repose::conform::{carried, conformed};
 use crate::repose::distance_map::DistanceMap;
 use crate::repose::limit::{limited, raised};
-use crate::repose::looks::Looks;
-use crate::repose::reposer::{Care, Outcome, Reposer};
+use crate::repose::normal_check::Looks;
+use crate::repose::reposer::Reposer;
+use crate::repose::settings::{Outcome, ReposeSettings};
 
 /// Conforming that strained no more than this, and left nothing inside, is left as it is.
 const EXACT: f64 = 1e-6;
@@ -45,7 +46,7 @@ const COST_OF_LIMITING: usize = 2;
 #[derive(Clone, Debug)]
 pub struct Change {
     to: Arc<Surface>,
-    care: Care,
+    care: ReposeSettings,
     outcome: Outcome,
     /// The cloth as it comes along.
     state: ClothState,
@@ -102,9 +103,20 @@ struct Passing {
     done: usize,
 }
 
+impl Reposer {
+    /// Where the cloth is on `to`, the same body in another pose, all at once. None when `to` has another topology.
+    pub fn reposed(&mut self, to: &Arc<Surface>, care: ReposeSettings) -> Option<(ClothState, Outcome)> {
+        let mut change = Change::new(self, Arc::clone(to), care)?;
+        while !change.is_done() {
+            change.step(self);
+        }
+        Some(change.into_cloth())
+    }
+}
+
 impl Change {
     /// To `to` from where `reposer` was bound. None when `to` has another topology.
-    pub fn new(reposer: &mut Reposer, to: Arc<Surface>, care: Care) -> Option<Self> {
+    pub fn new(reposer: &mut Reposer, to: Arc<Surface>, care: ReposeSettings) -> Option<Self> {
         if to.mesh.triangles != reposer.from().mesh.triangles {
             return None;
         }

@@ -9,7 +9,7 @@ use rayon::prelude::*;
 
 use crate::body::Surface;
 use crate::cloth::ClothState;
-use crate::contact::Apart;
+use crate::contact::BodyOverlaps;
 use crate::geometry::barycentric;
 
 /// A vertex is bound to so many points at most,
@@ -50,7 +50,7 @@ impl DistanceMap {
     }
 
     /// The same to none of the skin that `apart` leaves out.
-    pub fn apart(surface: &Surface, cloth: &ClothState, apart: Option<&Apart>) -> Self {
+    pub fn apart(surface: &Surface, cloth: &ClothState, apart: Option<&BodyOverlaps>) -> Self {
         let bound: Vec<(Vec<Binding>, f64)> = cloth
             .positions
             .par_iter()

@@ -4,18 +4,17 @@ use std::sync::Arc;
 
 use glam::{DQuat, DVec2, DVec3};
 use rayon::prelude::*;
-use serde::{Deserialize, Serialize};
 
 use crate::body::Surface;
 use crate::cloth::{ClothState, Counters, Garment};
-use crate::contact::{Apart, Met};
+use crate::contact::{BodyOverlaps, Intersections};
 use crate::geometry::rebuild::Rebuild;
-use crate::relax::{GlobalStep, Pace, RelaxSettings, Relaxer, global};
-use crate::repose::between::between;
-use crate::repose::change::Change;
+use crate::relax::{Acceleration, GlobalStep, RelaxSettings, Relaxer, global};
 use crate::repose::distance_map::DistanceMap;
 use crate::repose::excess::Lengths;
 use crate::repose::folds::Folds;
+use crate::repose::pose_path::between;
+use crate::repose::settings::{Outcome, ReposeSettings};
 use crate::repose::transfer::Transfer;
 
 /// A vertex moves no farther in one global step, metres on a body 1.5 m large.
@@ -23,7 +22,7 @@ const STEP_CAP: f64 = 0.02;
 /// Weight of contact in the global steps.
 const CONTACT: f64 = 0.1;
 /// Global steps in the same contacts. (By Chebyshev's semi-iteration cloth that crosses itself would swing itself up.)
-const PACES: [Pace; 3] = Pace::longer(1.7);
+const PACES: [Acceleration; 3] = Acceleration::longer(1.7);
 /// For a picture the factor may lag behind the contacts by this share of the vertices.
 const LIVE_STALE_SHARE: f64 = 0.05;
 /// Layers that run through each other are parted every so many steps.
@@ -36,51 +35,6 @@ const VERTEX_CLEARANCE: f64 = 0.25;
 const SENDS: usize = 4;
 /// Vertices one thread takes at a time.
 const LEAST_SHARE: usize = 128;
-
-/// How much is done to carry cloth over.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Care {
-    /// Strain beyond what it had before that 99 of 100 edges shall not exceed, 0..=0.1.
-    pub excess: f64,
-    /// Global steps at most, 0..=1000.
-    pub most_steps: usize,
-    /// Poses on the way at most, 0..=50: where conforming alone would strain it too much, it goes there by turns of a few
-    /// degrees.
-    pub most_substeps: usize,
-    /// So often at most, 0..=20, faces that cut the body are raised at the end, followed by some steps. With any, cloth that
-    /// faces the skin of another limb is sent off it all along, and layers that run through each other are parted.
-    pub mends: usize,
-}
-
-impl Care {
-    /// For a picture every frame.
-    pub const LIVE: Self = Self { excess: 0.01, most_steps: 4, most_substeps: 0, mends: 0 };
-    /// For cloth that stays as it comes out.
-    pub const THOROUGH: Self = Self { excess: 0.01, most_steps: 120, most_substeps: 12, mends: 3 };
-}
-
-/// What came of it.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Outcome {
-    /// |l / l_before - 1| that 99 of 100 edges do not exceed, after conforming,
-    pub conformed_p99: f64,
-    /// after the shapes of the triangles were joined,
-    pub joined_p99: f64,
-    /// and at the end.
-    pub excess_p99: f64,
-    /// Vertices that conforming put into the body,
-    pub conformed_inside: usize,
-    /// and that are there at the end, by the nearest skin.
-    pub inside: usize,
-    /// Poses on the way.
-    pub substeps: usize,
-    /// Global steps done.
-    pub steps: usize,
-    /// Times it was mended.
-    pub mends: usize,
-    /// In so many places the cloth runs through itself at the end; not looked for in what was only a picture.
-    pub crossings: usize,
-}
 
 /// A dressed garment bound to its body.
 #[derive(Clone, Debug)]
@@ -98,7 +52,7 @@ pub struct Reposer {
     /// In so many places layers ran through each other.
     crossings: usize,
     /// Parts of the body that cross each other in the pose.
-    pub(super) apart: Option<Arc<Apart>>,
+    pub(super) apart: Option<Arc<BodyOverlaps>>,
     /// Where the last picture left each vertex beside its conformed place, before the skin turned.
     beside: Option<Vec<DVec3>>,
 }
@@ -118,7 +72,7 @@ impl Reposer {
         let mut relaxer = Relaxer::new(as_it_lies, Arc::clone(&surface), settings)?;
         relaxer.set_mapped(&cloth.mapped);
         let folds = Folds::of(garment, &cloth);
-        let crossings = Met::new(garment, &cloth).places.len();
+        let crossings = Intersections::new(garment, &cloth).places.len();
         let (rebuild, apart, beside) = (None, None, None);
         Some(Self {
             from: surface,
@@ -147,7 +101,7 @@ impl Reposer {
 
     /// In so many places cloth in `state` runs through itself.
     pub(super) fn crossings_of(&self, state: &ClothState) -> usize {
-        Met::new(&self.relaxer.garment, state).places.len()
+        Intersections::new(&self.relaxer.garment, state).places.len()
     }
 
     /// Work done so far.
@@ -160,17 +114,8 @@ impl Reposer {
         &self.map
     }
 
-    /// Where the cloth is on `to`, the same body in another pose, all at once. None when `to` has another topology.
-    pub fn reposed(&mut self, to: &Arc<Surface>, care: Care) -> Option<(ClothState, Outcome)> {
-        let mut change = Change::new(self, Arc::clone(to), care)?;
-        while !change.is_done() {
-            change.step(self);
-        }
-        Some(change.into_cloth())
-    }
-
     /// Factors the matrix anew as often as `care` needs it.
-    pub(super) fn refactor(&mut self, care: Care) {
+    pub(super) fn refactor(&mut self, care: ReposeSettings) {
         self.relaxer.refactor_beyond(if care.mends == 0 { LIVE_STALE_SHARE } else { global::STALE_SHARE });
     }
 
@@ -209,14 +154,14 @@ impl Reposer {
     }
 
     /// Which skin of `body` cloth does not touch, by the skin it was bound to.
-    pub(super) fn parts_of(&self, body: &Surface) -> Option<Arc<Apart>> {
+    pub(super) fn parts_of(&self, body: &Surface) -> Option<Arc<BodyOverlaps>> {
         let bound: Vec<Option<u32>> =
             (0..self.map.len()).map(|v| self.map.of(v).first().map(|b| b.triangle)).collect();
-        Apart::of(body, &bound).map(Arc::new)
+        BodyOverlaps::of(body, &bound).map(Arc::new)
     }
 
     /// Whether the strain is what it may be, and the cloth has no more faults than when it was bound.
-    pub(super) fn is_well(&mut self, state: &ClothState, care: Care, outcome: Outcome) -> bool {
+    pub(super) fn is_well(&mut self, state: &ClothState, care: ReposeSettings, outcome: Outcome) -> bool {
         if outcome.excess_p99 > care.excess || outcome.inside > 0 {
             return false;
         }
@@ -252,7 +197,7 @@ impl Reposer {
     }
 
     /// The `done`-th global step in these contacts.
-    pub(super) fn step(&mut self, state: &mut ClothState, care: Care, done: usize) {
+    pub(super) fn step(&mut self, state: &mut ClothState, care: ReposeSettings, done: usize) {
         let step = GlobalStep {
             cap: STEP_CAP * self.relaxer.surface.scale(),
             contact: CONTACT,

@@ -101,7 +101,7 @@ fn inside(surface: &Surface, state: &ClothState) -> usize {
 fn the_pose_it_was_dressed_in_leaves_every_bit() {
     let (_, state, mut reposer, surface) = reposer();
     let same = moved(&surface, |p| p);
-    let (reposed, outcome) = reposer.reposed(&same, Care::THOROUGH).expect("the same body");
+    let (reposed, outcome) = reposer.reposed(&same, ReposeSettings::THOROUGH).expect("the same body");
     assert_eq!(reposed, state);
     assert_eq!(outcome.steps, 0);
 }
@@ -112,7 +112,7 @@ fn a_rigid_motion_carries_the_cloth_rigidly() {
     let turn = DQuat::from_axis_angle(DVec3::new(0.3, -1.0, 0.6).normalize(), 2.2);
     let rigid = |p: DVec3| turn * p + DVec3::new(0.3, 1.0, -2.0);
     let to = moved(&surface, rigid);
-    let (reposed, outcome) = reposer.reposed(&to, Care::THOROUGH).expect("the same body");
+    let (reposed, outcome) = reposer.reposed(&to, ReposeSettings::THOROUGH).expect("the same body");
     for (p, before) in reposed.positions.iter().zip(&state.positions) {
         assert!(p.distance(rigid(*before)) < 1e-6);
     }
@@ -147,23 +147,24 @@ fn cloth_round_a_bent_arm_is_strained_by_the_arc_ratio() {
 fn a_bent_arm_stays_outside_of_its_sleeve_which_keeps_its_lengths() {
     let (_, _, mut reposer, surface) = reposer();
     let to = moved(&surface, |p| bent(p, 0.5));
-    let (state, outcome) = reposer.reposed(&to, Care::THOROUGH).expect("the same body");
+    let (state, outcome) = reposer.reposed(&to, ReposeSettings::THOROUGH).expect("the same body");
     assert_eq!(inside(&to, &state), 0);
     assert!(outcome.excess_p99 < outcome.conformed_p99, "{outcome:?}");
-    let (live, fewer) = reposer.reposed(&to, Care::LIVE).expect("the same body");
-    assert_eq!((inside(&to, &live), fewer.steps <= Care::LIVE.most_steps), (0, true));
+    let (live, fewer) = reposer.reposed(&to, ReposeSettings::LIVE).expect("the same body");
+    assert_eq!((inside(&to, &live), fewer.steps <= ReposeSettings::LIVE.most_steps), (0, true));
 }
 
 #[test]
 fn from_picture_to_picture_the_strain_gets_no_more() {
     let (_, state, mut reposer, surface) = reposer();
     let to = moved(&surface, |p| bent(p, 0.4));
-    let strained =
-        |reposer: &mut Reposer| reposer.reposed(&to, Care::LIVE).expect("the same body").1.excess_p99;
+    let strained = |reposer: &mut Reposer| {
+        reposer.reposed(&to, ReposeSettings::LIVE).expect("the same body").1.excess_p99
+    };
     let first = strained(&mut reposer);
     let later = (0..6).map(|_| strained(&mut reposer)).last().expect("six");
-    assert!(later <= first.max(Care::LIVE.excess), "{first}, {later}");
-    let (back, _) = reposer.reposed(&moved(&surface, |p| p), Care::LIVE).expect("the same body");
+    assert!(later <= first.max(ReposeSettings::LIVE.excess), "{first}, {later}");
+    let (back, _) = reposer.reposed(&moved(&surface, |p| p), ReposeSettings::LIVE).expect("the same body");
     assert_eq!(back, state, "the pose it was dressed in still leaves every bit");
 }
 
@@ -187,7 +188,7 @@ fn an_arm_that_runs_through_the_trunk_leaves_the_cloth_of_the_trunk() {
         skin.is_some_and(|skin| skin.distance < 0.0)
     };
     assert!(state.positions.iter().filter(within).count() > 10, "the arm runs through the cloth");
-    let (reposed, outcome) = reposer.reposed(&to, Care::THOROUGH).expect("the same body");
+    let (reposed, outcome) = reposer.reposed(&to, ReposeSettings::THOROUGH).expect("the same body");
     assert_eq!((reposed, outcome.inside), (state, 0));
 }
 
@@ -198,7 +199,7 @@ fn threads_do_not_change_a_bit() {
         pool.install(|| {
             let (_, _, mut reposer, surface) = reposer();
             let to = moved(&surface, |p| bent(p, 0.7));
-            reposer.reposed(&to, Care::THOROUGH).expect("the same body").0
+            reposer.reposed(&to, ReposeSettings::THOROUGH).expect("the same body").0
         })
     };
     assert_eq!(run(1), run(3));
@@ -244,7 +245,7 @@ fn a_body_with_other_triangles_is_refused() {
     let mut other = surface.mesh.clone();
     other.triangles.swap(0, 1);
     let other = Arc::new(Surface::new(other).expect("a body"));
-    assert!(reposer.reposed(&other, Care::LIVE).is_none());
+    assert!(reposer.reposed(&other, ReposeSettings::LIVE).is_none());
 }
 
 #[test]

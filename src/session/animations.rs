@@ -12,7 +12,7 @@ use crate::body::{Imported, Unit, UpAxis};
 use crate::geometry::mesh::TriMesh;
 use crate::io::gltf;
 use crate::io::moving_body::MovingBody;
-use crate::session::document::BodyChoice;
+use crate::session::body_choice::BodyChoice;
 
 /// A moment of an animation.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

@@ -8,9 +8,10 @@ use crate::body::readings::{Reading, readings};
 use crate::body::{Landmarks, Surface, bones, landmarks};
 use crate::contact::Bone;
 use crate::geometry::mesh::TriMesh;
-use crate::repose::Way;
+use crate::repose::PosePath;
+use crate::session::body_choice::BodyChoice;
 use crate::session::command::Rejection;
-use crate::session::document::{Aim, BodyChoice};
+use crate::session::document::Aim;
 
 /// Bodies kept, so that undo of a change of body is quick.
 const MOST_KEPT: usize = 4;
@@ -83,7 +84,7 @@ impl Body {
 pub struct BodyCache {
     kept: Vec<(BodyChoice, Arc<Body>)>,
     /// The last way that was gone.
-    way: Option<(Arc<Aim>, Way)>,
+    way: Option<(Arc<Aim>, PosePath)>,
 }
 
 impl BodyCache {
@@ -111,7 +112,7 @@ impl BodyCache {
         if self.way.as_ref().is_none_or(|(of, _)| !Arc::ptr_eq(of, aim)) {
             let (from, to) = (self.surface(&aim.from)?, self.surface(&aim.to)?);
             let words = format!("there is no way from {} to {}", aim.from.name(), aim.to.name());
-            let way = Way::new(&from, &to).ok_or(Rejection(words))?;
+            let way = PosePath::new(&from, &to).ok_or(Rejection(words))?;
             self.way = Some((Arc::clone(aim), way));
         }
         let way = self.way.as_ref().map(|(_, way)| way);

@@ -11,7 +11,8 @@ use crate::geometry::ids::{MarkId, PieceId, PinId, SeamId};
 use crate::pattern::edit::PatternEdit;
 use crate::pattern::{Edge, Pattern, Piece, PlanePose, Seam};
 use crate::session::animations::{Animations, Moment};
-use crate::session::document::{BodyChoice, Settings};
+use crate::session::body_choice::BodyChoice;
+use crate::session::document::Settings;
 use crate::sim::StartChoice;
 use crate::wrap::{ClothSide, Marks};
 

@@ -5,16 +5,13 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use crate::body::mannequin::{Measurements, mannequin};
-use crate::body::pose::anatomy::Anatomy;
-use crate::body::{NamedPose, Pose};
 use crate::cloth::Fabric;
 use crate::contact::Bone;
 use crate::geometry::ids::{MarkId, PieceId, PinId};
-use crate::geometry::mesh::TriMesh;
 use crate::pattern::Pattern;
 use crate::relax::RelaxSettings;
 use crate::session::animations::{Animations, Moment};
+use crate::session::body_choice::BodyChoice;
 use crate::sim::ClothPlace;
 use crate::wrap::Marks;
 
@@ -162,91 +159,6 @@ impl Document {
     }
 }
 
-/// What the cloth is put on.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum BodyChoice {
-    /// The built-in dressmaker's figure, made to measurements.
-    Mannequin(Measurements),
-    /// The same with its joints turned.
-    Posed { measurements: Measurements, pose: Pose },
-    /// A mesh from a file. It may have faults: `session::body` tells.
-    Imported {
-        name: String,
-        #[serde(with = "mesh_as_arrays")]
-        mesh: Arc<TriMesh>,
-    },
-}
-
-impl BodyChoice {
-    /// The mannequin of this body in `pose`; without any turn it is the built one. None for a body from a file.
-    pub fn posed(&self, pose: Pose) -> Option<Self> {
-        let measurements = self.measurements()?;
-        Some(match pose.turns.is_empty() {
-            true => Self::Mannequin(measurements),
-            false => Self::Posed { measurements, pose },
-        })
-    }
-
-    /// The mannequin of this body in a pose with a name. None for a body from a file, and for measurements that make none.
-    pub fn in_named_pose(&self, pose: NamedPose) -> Option<Self> {
-        let figure = mannequin(&self.measurements()?).ok()?;
-        self.posed(pose.pose(&figure.skeleton))
-    }
-
-    /// The axes of the mannequin's joints. None for a body from a file, and for measurements that make none.
-    pub fn anatomy(&self) -> Option<Anatomy> {
-        let figure = mannequin(&self.measurements()?).ok()?;
-        Some(Anatomy::new(&figure.skeleton))
-    }
-
-    /// What the mannequin is built to. None for a body from a file.
-    pub fn measurements(&self) -> Option<Measurements> {
-        match self {
-            Self::Mannequin(measurements) | Self::Posed { measurements, .. } => Some(*measurements),
-            Self::Imported { .. } => None,
-        }
-    }
-
-    /// How its joints are turned; not at all as it was built. None for a body from a file.
-    pub fn pose(&self) -> Option<Pose> {
-        match self {
-            Self::Mannequin(_) => Some(Pose::default()),
-            Self::Posed { pose, .. } => Some(pose.clone()),
-            Self::Imported { .. } => None,
-        }
-    }
-
-    /// For people.
-    pub fn name(&self) -> &str {
-        match self {
-            Self::Mannequin(_) | Self::Posed { .. } => "mannequin",
-            Self::Imported { name, .. } => name,
-        }
-    }
-}
-
-impl PartialEq for BodyChoice {
-    fn eq(&self, other: &Self) -> bool {
-        match (self, other) {
-            (Self::Mannequin(one), Self::Mannequin(other)) => one == other,
-            (Self::Posed { measurements, pose }, Self::Posed { measurements: other, pose: other_pose }) => {
-                measurements == other && pose == other_pose
-            }
-            (Self::Imported { name, mesh }, Self::Imported { name: other_name, mesh: other_mesh }) => {
-                name == other_name && (Arc::ptr_eq(mesh, other_mesh) || mesh == other_mesh)
-            }
-            _ => false,
-        }
-    }
-}
-
-impl Default for BodyChoice {
-    fn default() -> Self {
-        Self::Mannequin(Measurements::default())
-    }
-}
-
 /// Mesh size and relaxation.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
@@ -270,38 +182,5 @@ fn is_usual_strain(strain: &f64) -> bool {
 impl Default for Settings {
     fn default() -> Self {
         Self { edge_length: 0.02, relax: RelaxSettings::default(), strain: USUAL_STRAIN }
-    }
-}
-
-mod mesh_as_arrays {
-    use std::sync::Arc;
-
-    use glam::DVec3;
-    use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
-
-    use crate::geometry::mesh::TriMesh;
-
-    #[derive(Serialize)]
-    struct Borrowed<'a> {
-        positions: &'a [DVec3],
-        triangles: &'a [[u32; 3]],
-    }
-
-    #[derive(Deserialize)]
-    struct Owned {
-        positions: Vec<DVec3>,
-        triangles: Vec<[u32; 3]>,
-    }
-
-    pub fn serialize<S: Serializer>(mesh: &Arc<TriMesh>, to: S) -> Result<S::Ok, S::Error> {
-        Borrowed { positions: &mesh.positions, triangles: &mesh.triangles }.serialize(to)
-    }
-
-    pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Arc<TriMesh>, D::Error> {
-        let Owned { positions, triangles } = Owned::deserialize(from)?;
-        if triangles.iter().flatten().any(|&v| v as usize >= positions.len()) {
-            return Err(de::Error::custom("a triangle of the body names a vertex that is not there"));
-        }
-        Ok(Arc::new(TriMesh { positions, triangles }))
     }
 }

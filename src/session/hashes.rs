@@ -6,7 +6,8 @@ use serde::Serialize;
 
 use crate::pattern::Pattern;
 use crate::session::animations::Animations;
-use crate::session::document::{Aim, BodyChoice, Document};
+use crate::session::body_choice::BodyChoice;
+use crate::session::document::{Aim, Document};
 use crate::sim::hash::{Fnv, hash_of};
 use crate::wrap::Marks;
 

@@ -2,6 +2,7 @@
 
 pub mod animations;
 pub mod body;
+pub mod body_choice;
 pub mod carry;
 pub mod command;
 pub mod demos;
@@ -23,8 +24,9 @@ pub mod session;
 pub mod whole_file;
 
 pub use animations::{AnimatedFile, Animations, Moment};
+pub use body_choice::BodyChoice;
 pub use command::{Command, Rejection};
-pub use document::{Aim, BodyChoice, Document, Fabrics, Pin, Settings};
+pub use document::{Aim, Document, Fabrics, Pin, Settings};
 pub use outfit::Outfit;
 pub use project::{Dressed, Project};
 pub use session::{GestureId, Notice, Session};

@@ -17,7 +17,7 @@ use crate::cloth::ClothState;
 use crate::geometry::mesh::TriMesh;
 use crate::io::FILE_BYTES;
 use crate::io::words::readable;
-use crate::session::document::BodyChoice;
+use crate::session::body_choice::BodyChoice;
 use crate::session::project::Project;
 use crate::session::whole_file;
 

@@ -215,12 +215,12 @@ pub struct Recording {
     /// Commands in order: number, gesture, command.
     pub commands: Vec<(u64, u64, Command)>,
     /// What the simulation told, in order.
-    pub told: Vec<Told>,
+    pub told: Vec<RecordedEvent>,
 }
 
 /// What the simulation told.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Told {
+pub enum RecordedEvent {
     /// It took command `seq` up after `tick` ticks.
     Applied { seq: u64, tick: u64 },
     /// Hashes.
@@ -256,9 +256,14 @@ impl Recording {
         match serde_json::from_str(line).map_err(json_words)? {
             Line::Header { .. } => return Err("a second header".to_owned()),
             Line::Command { seq, gesture, command } => self.commands.push((seq, gesture, command)),
-            Line::Applied { seq, tick } => self.told.push(Told::Applied { seq, tick }),
+            Line::Applied { seq, tick } => self.told.push(RecordedEvent::Applied { seq, tick }),
             Line::Hash { tick, seq, cloth, document } => {
-                self.told.push(Told::Hash { tick, seq, cloth: cloth.0, document: document.map(|h| h.0) });
+                self.told.push(RecordedEvent::Hash {
+                    tick,
+                    seq,
+                    cloth: cloth.0,
+                    document: document.map(|h| h.0),
+                });
             }
         }
         Ok(())

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, VecDeque};
 
 use crate::session::command::Command;
-use crate::session::recording::{Hex, Recording, Told, machine};
+use crate::session::recording::{Hex, RecordedEvent, Recording, machine};
 use crate::session::session::{GestureId, Session};
 use crate::sim::{Runner, Simulation};
 
@@ -24,7 +24,7 @@ pub struct Divergence {
 pub struct Replay {
     session: Session,
     commands: VecDeque<(u64, u64, Command)>,
-    told: VecDeque<Told>,
+    told: VecDeque<RecordedEvent>,
     last_gesture: u64,
     hashes_compared: u64,
     /// The kind of machine it was made on, when this is another.
@@ -61,13 +61,13 @@ impl Replay {
             return Ok(true);
         }
         match self.told.front().copied() {
-            Some(Told::Applied { seq, tick }) => {
+            Some(RecordedEvent::Applied { seq, tick }) => {
                 if self.is_at(tick)? {
                     self.expect_taken_up(seq)?;
                     self.told.pop_front();
                 }
             }
-            Some(Told::Hash { tick, seq, cloth, document }) => {
+            Some(RecordedEvent::Hash { tick, seq, cloth, document }) => {
                 if self.is_at(tick)? {
                     self.compare(seq, cloth, document)?;
                     self.told.pop_front();
@@ -81,10 +81,11 @@ impl Replay {
     /// The command that the next step will carry out, if that is what it will do.
     pub fn due_command(&mut self) -> Option<&Command> {
         let last = match self.told.front().copied() {
-            Some(Told::Applied { seq, tick } | Told::Hash { seq, tick, document: Some(_), .. }) => {
-                self.has_come(tick).then_some(seq)?
-            }
-            Some(Told::Hash { document: None, .. }) => return None,
+            Some(
+                RecordedEvent::Applied { seq, tick }
+                | RecordedEvent::Hash { seq, tick, document: Some(_), .. },
+            ) => self.has_come(tick).then_some(seq)?,
+            Some(RecordedEvent::Hash { document: None, .. }) => return None,
             None => u64::MAX,
         };
         self.commands.front().filter(|(seq, ..)| *seq <= last).map(|(.., command)| command)
@@ -93,7 +94,9 @@ impl Replay {
     /// Whether the next step will be a tick.
     pub fn is_tick_due(&mut self) -> bool {
         match self.told.front().copied() {
-            Some(Told::Applied { tick, .. } | Told::Hash { tick, .. }) => !self.has_come(tick),
+            Some(RecordedEvent::Applied { tick, .. } | RecordedEvent::Hash { tick, .. }) => {
+                !self.has_come(tick)
+            }
             None => false,
         }
     }
@@ -241,7 +244,9 @@ pub fn recorded_again(recording: Recording) -> Result<String, String> {
     let ticks: BTreeMap<u64, u64> = recording
         .told
         .iter()
-        .filter_map(|told| if let Told::Applied { seq, tick } = *told { Some((seq, tick)) } else { None })
+        .filter_map(
+            |told| if let RecordedEvent::Applied { seq, tick } = *told { Some((seq, tick)) } else { None },
+        )
         .collect();
     let mut last = GestureId(0);
     for (seq, gesture, command) in recording.commands {

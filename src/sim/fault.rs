@@ -5,7 +5,7 @@ use serde::Serialize;
 use crate::cloth::{ClothState, EdgeMetric, FlatPiece, Garment};
 use crate::fit::{self, BodyIndex, Fallen, Report};
 use crate::pattern::{Problem, ProblemKind};
-use crate::sim::protocol::GarmentSource;
+use crate::sim::source::GarmentSource;
 use crate::wrap::{Marks, PairStretch, stretches};
 
 /// Pairs named for one fault.

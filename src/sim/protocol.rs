@@ -3,8 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use glam::DVec2;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use crate::body::Surface;
 use crate::cloth::{ClothState, Garment};
@@ -17,33 +16,11 @@ use crate::pattern::edit::Carried;
 use crate::pattern::{Pattern, Problem};
 use crate::relax::RelaxSettings;
 use crate::repose::Outcome;
-use crate::sim::draped::DrapeSource;
 use crate::sim::fault::{Fault, Lies};
-use crate::sim::starts::{Start, StartChoice, Started};
+use crate::sim::source::{ClothPlace, DrapeSource, GarmentSource};
+use crate::sim::start::{Start, StartChoice, Started};
 use crate::sim::stats::Stats;
 use crate::wrap::{Marks, Phase};
-
-/// What a garment is built from.
-#[derive(Clone, Debug, PartialEq)]
-pub struct GarmentSource {
-    /// The flat pieces and their seams.
-    pub pattern: Arc<Pattern>,
-    /// Where they go.
-    pub marks: Arc<Marks>,
-    /// Target edge length of the triangles, metres.
-    pub edge_length: f64,
-    /// How the cloth relaxes.
-    pub relax: RelaxSettings,
-}
-
-/// A point of the flat cloth.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct ClothPlace {
-    /// The piece.
-    pub piece: PieceId,
-    /// In the piece's own plane, metres.
-    pub at: DVec2,
-}
 
 /// Something asked of the simulation. Taken up between two ticks, in order of `seq`.
 #[derive(Clone, Debug)]

@@ -7,11 +7,12 @@ use crate::cloth::Skips;
 use crate::fit::TightPlace;
 use crate::sim::checkpoints::{Checkpoints, DEFAULT_CAPACITY};
 use crate::sim::fault::Fault;
-use crate::sim::posed::Then;
 use crate::sim::protocol::{Event, Request, RequestKind, Snapshot};
-use crate::sim::starts::{Judged, Start};
+use crate::sim::start::Start;
 use crate::sim::stats::Stats;
 use crate::sim::world::World;
+use crate::sim::world::posed::Then;
+use crate::sim::world::trials::Judged;
 use crate::wrap::Phase;
 
 /// What was seen of cloth that lies still.

@@ -9,9 +9,9 @@ use crate::drag::{DragMode, Ray};
 use crate::geometry::mesh::TriMesh;
 use crate::pattern::{Pattern, Piece, SpacePose};
 use crate::relax::RelaxSettings;
-use crate::sim::draped::DrapeSource;
-use crate::sim::protocol::{ClothPlace, GarmentSource};
-use crate::sim::starts::StartChoice;
+use crate::sim::source::DrapeSource;
+use crate::sim::source::{ClothPlace, GarmentSource};
+use crate::sim::start::StartChoice;
 use crate::wrap::{BodyMark, ClothMark, Marks};
 
 fn ball() -> Arc<Surface> {

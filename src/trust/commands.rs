@@ -11,7 +11,7 @@ use crate::pattern::{Edge, EdgeRef, EdgeShape, InternalLine, Pattern, Piece, Pla
 use crate::session::{BodyChoice, Command, Session, Settings};
 use crate::sim::{Runner, Simulation};
 use crate::trust::good;
-use crate::trust::readers::go_on;
+use crate::trust::ticks::go_on;
 
 /// Commands of one list that are carried out.
 const MOST_COMMANDS: usize = 12;

@@ -11,10 +11,12 @@ pub mod good;
 pub mod promises;
 mod readers;
 mod structure;
+mod ticks;
 
 pub use campaign::{SLOW, Tally, damaged, run};
-pub use readers::{Reader, go_on, readers};
+pub use readers::{Reader, readers};
 pub use structure::Form;
+pub use ticks::go_on;
 
 #[cfg(test)]
 mod tests {

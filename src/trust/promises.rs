@@ -47,4 +47,4 @@
 //! | scales, places, counts | `dolls_and_statues_are_dressed`, `the_finest_and_the_coarsest_triangles_are_wrapped`, `a_kilometre_away_cloth_lies_as_it_does_here`, `cloth_of_one_two_and_three_triangles_is_dressed`, `a_body_of_half_a_million_triangles_is_dressed` |
 //! | quiet | `without_a_display_or_a_folder_for_one_nothing_is_complained_of`, `what_is_asked_for_is_all_that_is_on_standard_output` |
 //!
-//! `tests/tidy.rs` looks that each of these tests is there.
+//! `tests/tidy` looks that each of these tests is there.

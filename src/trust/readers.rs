@@ -16,6 +16,7 @@ use crate::session::replay::Replay;
 use crate::session::{BodyChoice, Command, Document, Project, Session, marks_file, project_file};
 use crate::sim::{Runner, Simulation};
 use crate::trust::structure::Form;
+use crate::trust::ticks::go_on;
 use crate::trust::{commands, good};
 
 /// Metres: fine enough to show a fault, coarse enough to be quick.
@@ -24,8 +25,6 @@ const EDGE_LENGTH: f64 = 0.05;
 const WIDEST: f64 = 20.0;
 /// Steps of a recording that are played.
 const MOST_STEPS: usize = 60;
-/// Ticks after something was taken.
-const MOST_TICKS: usize = 3;
 
 /// Takes a file, or says in words why not.
 pub type Read = Box<dyn Fn(&[u8]) -> Result<(), String>>;
@@ -184,17 +183,6 @@ fn project(bytes: &[u8]) -> Result<(), String> {
         project_file::to_bytes(&session.project()).map_err(|e| e.to_string())?;
     }
     Ok(())
-}
-
-/// A few ticks, after which the cloth must lie where finite points are.
-pub fn go_on(session: &mut Session) {
-    if let Some(simulation) = session.runner().simulation() {
-        (0..MOST_TICKS).take_while(|_| simulation.tick()).for_each(drop);
-    }
-    session.update();
-    let cloth = &session.snapshot().cloth;
-    let mut laid = cloth.positions.iter().zip(&cloth.mapped).filter(|(_, mapped)| **mapped);
-    assert!(laid.all(|(p, _)| p.is_finite()), "cloth lies where no finite point is");
 }
 
 fn recording(bytes: &[u8]) -> Result<(), String> {

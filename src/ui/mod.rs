@@ -1,84 +1,34 @@
 //! The window: a pattern pane, a body pane, and everything around them. egui lives here and nowhere else.
 //!
-//! Panes and panels read the document and push [`asks::Ask`]s; [`App`] alone turns them into commands of the session.
+//! Panes and panels read the document and push [`actions::asks::Ask`]s; [`App`] alone turns them into commands of the session.
+//!
+//! | folder | holds |
+//! | --- | --- |
+//! | `app` | the window's state, one frame of it, and what every action does |
+//! | `actions` | everything that can be chosen: its words, its keys, when it can be chosen; what panes and panels ask for |
+//! | `shell` | menu, toolbar, status bar, command palette, dialogs, messages |
+//! | `panels` | the side panel |
+//! | `pattern_pane`, `body_pane` | the two panes with their tools |
+//! | `maps`, `fit_page` | maps over the cloth; the fit report as a page |
+//! | `scenery` | document and cloth as the buffers that are drawn |
+//! | `files` | files, recent files, small pictures of them |
+//! | `preferences` | what the person prefers, and its page; units |
+//! | `pointer`, `look` | mouse and strokes; colours and signs |
 
-mod act;
 pub mod actions;
-mod animation_panel;
 pub mod app;
-mod asks;
-pub mod catalogue;
-mod clicks;
-mod command_palette;
-mod covered;
-mod demo;
-mod dialogs;
-mod drawer;
-mod dressing;
-mod drop_overlay;
-mod edits;
-mod entries;
-mod exchange;
-mod fabric_panel;
-mod fields;
+mod body_pane;
 mod files;
 pub mod fit_page;
-mod ghosts;
-mod joint_panel;
-mod keyboard;
-mod keymap;
-pub mod mapped;
+mod look;
 mod maps;
-mod marks_panel;
-mod menu;
-mod messages;
-mod mouse;
-mod obj_sequence;
-mod pace;
-mod pair_lines;
 mod panels;
-mod panes;
-mod parted;
 mod pattern_pane;
-mod pattern_panel;
-mod pick;
-mod picking;
-mod picture_page;
-mod pins_panel;
-mod placing;
-mod player;
-pub mod portrait;
-mod pose_panel;
-mod posed_motion;
+mod pointer;
 pub mod preferences;
-mod preferences_page;
-mod recent;
-mod reopening;
-mod reporting;
-mod run;
-mod safety;
-pub mod scene;
-mod scene_pane;
+pub mod scenery;
 mod selection;
 mod shell;
-mod side_panel;
-mod signs;
-mod situation;
-mod size_panel;
-mod standing;
-mod start_page;
-mod starts;
-mod status;
-mod stitches;
-mod stroke;
-mod tape_panel;
-mod theme;
-mod thumbnails;
-mod tight;
-mod toolbar;
-mod tour;
-mod turn;
-mod units;
 
 pub use app::App;
-pub use run::run;
+pub use app::run::run;

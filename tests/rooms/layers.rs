@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::{DQuat, DVec2, DVec3};
 use toile::body::{Surface, mannequin};
 use toile::cloth::{ClothState, build};
-use toile::contact::Met;
+use toile::contact::Intersections;
 use toile::fit::{BodyIndex, measure, verdict};
 use toile::geometry::ids::PieceId;
 use toile::pattern::{Edge, EdgeRef, EdgeShape, Pattern, Piece, Seam, SpacePose};
@@ -33,7 +33,7 @@ fn check(apart: f64) {
             DVec3::new(0.2 - corner.uv.x, corner.uv.y, -height)
         };
     }
-    let met = Met::new(&garment, &state);
+    let met = Intersections::new(&garment, &state);
     assert!(!met.places.is_empty());
     let ways = met.ways(&garment, &state);
     let sent: Vec<f64> = garment
@@ -76,7 +76,7 @@ fn what_is_deep_on_the_wrong_side_knows_its_way_out() {
             let at = DVec3::new(radius * turn.sin(), corner.uv.y, radius * turn.cos() - dent);
             state.positions[corner.vertex as usize] = DVec3::new(at.x * inside_out, at.y, at.z);
         }
-        let met = Met::new(&garment, &state);
+        let met = Intersections::new(&garment, &state);
         assert!(!met.places.is_empty());
         let (ways, any) = met.ways_out(&garment, &state);
         assert!(any);
@@ -119,7 +119,7 @@ fn what_is_worn_over_comes_out_of_what_lies_under() {
         state.positions[v] = DVec3::new(radius * turn.sin(), corner.uv.y, radius * turn.cos());
         over[v] = is_over;
     }
-    let met = Met::new(&garment, &state);
+    let met = Intersections::new(&garment, &state);
     assert!(!met.places.is_empty());
     let (ways, any) = met.ways_out(&garment, &state);
     assert!(any);

@@ -134,7 +134,7 @@ fn split_cloth_fits_a_thin_limb() {
     let (off, strain, counters) = relaxed(true);
     assert_eq!((none.split_edges, none.edge_checks), (0, 0));
     assert!(counters.split_edges > 0 && counters.joined_edges == 0, "{counters:?}");
-    assert!(counters.factorisations <= none.factorisations, "slaves are in no matrix");
+    assert!(counters.factorisations <= none.factorisations, "dependents are in no matrix");
     assert!(off < 0.7 && off < lifted / 2.0 && strain < 0.1, "off by {off}, strained by {strain}");
 }
 

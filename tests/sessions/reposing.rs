@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
 use toile::body::{NamedPose, mannequin};
-use toile::contact::Met;
+use toile::contact::Intersections;
 use toile::session::project_file;
 use toile::session::recording::Recording;
 use toile::session::replay::Replay;
@@ -115,7 +115,7 @@ fn cloth_that_comes_to_run_through_itself_in_a_pose_is_draped_there() {
     let outcome = snapshot.reposed.expect("a change of pose");
     assert!(outcome.crossings > 0, "it would not have needed draping: {outcome:?}");
     let garment = snapshot.garment.as_ref().expect("a skirt");
-    assert_eq!(Met::new(garment, &snapshot.cloth).places.len(), 0);
+    assert_eq!(Intersections::new(garment, &snapshot.cloth).places.len(), 0);
     s.apply_alone(Command::Repose { body, settle: false, draft: false }).expect("posed");
     run(&mut s, 20_000);
     assert_eq!(cloth_hash(&mut s), before, "it comes back to where it lay");

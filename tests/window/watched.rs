@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::process::abort;
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 
+use toile::ui::actions::catalogue::ALL;
 use toile::ui::actions::{Action, Tool};
-use toile::ui::catalogue::ALL;
 
 use super::hand::dressed_window;
 use super::*;

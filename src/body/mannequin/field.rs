@@ -6,6 +6,7 @@ use super::figure::Figure;
 use super::hand::Hand;
 use super::loft::{Loft, Section};
 use super::proportions::{self as nominal, Swelling, level};
+use super::smooth::{blended, cut};
 
 /// Rounding of the crease where the two halves meet, metres.
 const CLEFT: f64 = 0.011;
@@ -153,17 +154,6 @@ impl Field {
         // The sole is cut flat a little above the lowest point of the sections.
         cut(self.foot.distance(s, u, q.y), -q.y, 0.008) * self.small
     }
-}
-
-/// Union of two distances with a fillet about `k` metres wide; twice differentiable.
-pub fn blended(a: f64, b: f64, k: f64) -> f64 {
-    let h = (k - (a - b).abs()).max(0.0) / k;
-    a.min(b) - h * h * h * k / 6.0
-}
-
-/// Intersection of two distances with a rounding about `k` metres wide.
-fn cut(a: f64, b: f64, k: f64) -> f64 {
-    -blended(-a, -b, k)
 }
 
 /// First-order distance to an ellipsoid about the origin.

@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 
-use super::field::blended;
 use super::figure::Figure;
 use super::proportions as nominal;
+use super::smooth::blended;
 use super::spline::Spline;
 
 /// Fillet between fingers and palm, metres.

@@ -17,6 +17,7 @@ mod partial;
 mod polygonise;
 mod proportions;
 mod remesh;
+mod smooth;
 mod spline;
 
 use std::sync::{Arc, Mutex, OnceLock};

@@ -11,7 +11,7 @@ use serde::Serialize;
 use crate::body::NamedPose;
 use crate::cli::arguments::{Bench, Dress};
 use crate::cli::bench::{median, say};
-use crate::cli::dress::dress_one;
+use crate::cli::dress_one::dress_one;
 use crate::cli::failure::Failure;
 use crate::cli::generate::{Forms, SIZES_FILE, write_sizes};
 use crate::cli::{interrupt, output};

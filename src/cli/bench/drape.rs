@@ -10,7 +10,7 @@ use crate::cli::bench::{median, one_hash};
 use crate::cli::failure::Failure;
 use crate::cli::interrupt;
 use crate::cloth::Fabric;
-use crate::drape::{Worn, WornSettings};
+use crate::drape::{DrapedGarment, DrapedSettings};
 use crate::fit::{self, BodyIndex};
 use crate::sim::hash::cloth_hash;
 use crate::wrap::Phase;
@@ -21,7 +21,7 @@ pub fn drape(scene: &Scene, runs: usize) -> Result<Row, Failure> {
     let wrapped = scene.wrap()?;
     let words = || Failure::Internal("a sample cannot be draped".to_owned());
     let cotton = Fabric::preset(Fabric::USUAL).ok_or_else(words)?;
-    let settings = WornSettings { strain: 0.01, self_collision: true, skips: scene.relax.skips };
+    let settings = DrapedSettings { strain: 0.01, self_collision: true, skips: scene.relax.skips };
     let (mut all, mut each, mut hashes, mut ticks) = (Vec::new(), Vec::new(), Vec::new(), 0);
     let mut cloth = wrapped.state.clone();
     let mut last = None;
@@ -29,8 +29,9 @@ pub fn drape(scene: &Scene, runs: usize) -> Result<Row, Failure> {
         cloth = wrapped.state.clone();
         let start = Instant::now();
         let (garment, surface) = (Arc::clone(&wrapped.garment), Arc::clone(&scene.surface));
-        let mut worn = Worn::new(garment, &cloth, surface, (&BTreeMap::new(), cotton), &[], settings)
-            .map_err(|why| Failure::Internal(why.0))?;
+        let mut worn =
+            DrapedGarment::new(garment, &cloth, surface, (&BTreeMap::new(), cotton), &[], settings)
+                .map_err(|why| Failure::Internal(why.0))?;
         while !worn.progress().at_rest {
             interrupt::check()?;
             let start = Instant::now();

@@ -12,7 +12,7 @@ use crate::cli::failure::Failure;
 use crate::cli::interrupt;
 use crate::cloth::ClothState;
 use crate::fit::{MapKind, MapReader, Worn};
-use crate::repose::{Care, Outcome, Reposer};
+use crate::repose::{Outcome, ReposeSettings, Reposer};
 use crate::session::Fabrics;
 use crate::sim::hash::{Fnv, cloth_hash};
 use crate::wrap::Phase;
@@ -44,11 +44,11 @@ pub fn poses(scene: &Scene, worn: &Wrapped, runs: usize) -> Result<[Row; 3], Fai
     let start = Instant::now();
     reposer()?;
     let bind_seconds = start.elapsed().as_secs_f64();
-    let mut one = carry(scene, worn, &reposer, &[body(&walking)?], Care::THOROUGH, runs)?;
+    let mut one = carry(scene, worn, &reposer, &[body(&walking)?], ReposeSettings::THOROUGH, runs)?;
     one.scene = "re-pose of the T-shirt, to walking";
     one.figures.push(Figure { what: "to bind it, once", value: bind_seconds, unit: Unit::Seconds });
     one.figures.push(Figure { what: "to pose the mannequin", value: pose_seconds, unit: Unit::Seconds });
-    let mut walk = carry(scene, worn, &reposer, &frames, Care::LIVE, runs)?;
+    let mut walk = carry(scene, worn, &reposer, &frames, ReposeSettings::LIVE, runs)?;
     walk.scene = "walk of the T-shirt, a frame";
     Ok([one, walk, maps(scene, worn, runs)?])
 }
@@ -59,7 +59,7 @@ fn carry(
     worn: &Wrapped,
     reposer: &dyn Fn() -> Result<Reposer, Failure>,
     bodies: &[Arc<Surface>],
-    care: Care,
+    care: ReposeSettings,
     runs: usize,
 ) -> Result<Row, Failure> {
     let (mut each, mut all, mut hashes) = (Vec::new(), Vec::new(), Vec::new());

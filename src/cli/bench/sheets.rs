@@ -37,7 +37,7 @@ const ABOVE: f64 = 0.05;
 
 /// What happens to a sheet of 1 m².
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Happening {
+pub enum Scenario {
     /// Released flat, two corners pinned.
     Swings,
     /// Dropped 5 cm on a ball; it meets itself.
@@ -46,9 +46,9 @@ pub enum Happening {
 
 /// What a happening takes in seconds of processor for each of the sheet's at a thousand, ten thousand and forty thousand
 /// triangles: that of the best other program that is faithful, and ours to reach. No other one got to forty thousand.
-const LIMITS: [(Happening, [(f64, f64); 3]); 2] = [
-    (Happening::Swings, [(0.21, 0.04), (7.7, 0.8), (5.0, 5.0)]),
-    (Happening::Falls, [(0.136, 0.06), (12.8, 1.2), (8.0, 8.0)]),
+const LIMITS: [(Scenario, [(f64, f64); 3]); 2] = [
+    (Scenario::Swings, [(0.21, 0.04), (7.7, 0.8), (5.0, 5.0)]),
+    (Scenario::Falls, [(0.136, 0.06), (12.8, 1.2), (8.0, 8.0)]),
 ];
 
 /// The names of both at the three sizes.
@@ -65,10 +65,10 @@ pub fn sheets(
 ) -> Result<(), Failure> {
     for ((happening, limits), names) in LIMITS.into_iter().zip(NAMES) {
         let reference = match happening {
-            Happening::Swings => {
+            Scenario::Swings => {
                 Some(fall_after(&mut Run::new(happening, sizes[0], Some(Method::Implicit))?, SWUNG)?)
             }
-            Happening::Falls => None,
+            Scenario::Falls => None,
         };
         for ((size, limits), name) in sizes.into_iter().zip(limits).zip(names) {
             tell(row(name, happening, (size, runs), limits, reference)?)?;
@@ -86,18 +86,18 @@ struct Run {
 }
 
 impl Run {
-    fn new(happening: Happening, triangles: usize, method: Option<Method>) -> Result<Self, Failure> {
+    fn new(happening: Scenario, triangles: usize, method: Option<Method>) -> Result<Self, Failure> {
         let (sheet, start) = flat(triangles)?;
         let (stretch, poisson, bending) = STIFFNESS;
         let mut fabric = Fabric::isotropic(stretch, poisson, bending, DENSITY);
         fabric.thickness_m = THICKNESS;
         let last = start.len() - 1;
         let side = (start.len() as f64).sqrt().round() as usize;
-        let swings = happening == Happening::Swings;
+        let swings = happening == Scenario::Swings;
         let pinned = (0..=last).map(|v| swings && (v == 0 || v == side - 1)).collect();
         let collider = match happening {
-            Happening::Swings => None,
-            Happening::Falls => Some(Collider::still(Arc::new(ball()?))),
+            Scenario::Swings => None,
+            Scenario::Falls => Some(Collider::still(Arc::new(ball()?))),
         };
         let scene = Scene {
             elastic: Elastic::new(&sheet, &fabric, 0.1),
@@ -175,14 +175,14 @@ fn fall_after(run: &mut Run, frames: usize) -> Result<f64, Failure> {
 
 fn row(
     scene: &'static str,
-    happening: Happening,
+    happening: Scenario,
     (size, runs): (usize, usize),
     (solid, goal): (f64, f64),
     reference: Option<f64>,
 ) -> Result<Row, Failure> {
     let (mut wall, mut processor, mut hashes) = (Vec::new(), Vec::new(), Vec::new());
     let (mut last, mut early) = (None, 0.0);
-    let when = if happening == Happening::Swings { SWUNG } else { FALLEN };
+    let when = if happening == Scenario::Swings { SWUNG } else { FALLEN };
     for _ in 0..runs.max(1) {
         let mut run = Run::new(happening, size, None)?;
         let mut watch = Stopwatch::default();
@@ -203,8 +203,8 @@ fn row(
     // Free fall is known exactly.
     let exact = reference.unwrap_or(GRAVITY * (FALLEN as f64 / FPS).powi(2) / 2.0);
     let what = match happening {
-        Happening::Swings => "fall in half a second against implicit steps",
-        Happening::Falls => "free fall against the exact one",
+        Scenario::Swings => "fall in half a second against implicit steps",
+        Scenario::Falls => "free fall against the exact one",
     };
     let off = Check::new(what, (early / exact - 1.0).abs(), Unit::Share, 0.03, 0.01);
     let mut checks = vec![
@@ -212,7 +212,7 @@ fn row(
         Check::new("p99 strain", p99, Unit::Share, 0.01, 0.01),
         off,
     ];
-    if happening == Happening::Falls {
+    if happening == Scenario::Falls {
         let crossings = run.crossings() as f64;
         checks.push(Check::new("deepest in the ball in any frame", run.deepest, Unit::Metres, 5e-4, 5e-4));
         checks.push(Check::new("self crossings at the end", crossings, Unit::Count, 0.0, 0.0));

@@ -1,8 +1,8 @@
 //! `toile repose --sequence` and `--motion`: the dressed garment through the frames of a motion, each carried on from the frame before.
 
 mod animated;
+mod body_files;
 mod captured;
-mod files;
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -13,12 +13,12 @@ use serde::Serialize;
 use crate::body::Surface;
 use crate::cli::arguments::{InputOptions, Repose};
 use crate::cli::failure::Failure;
-use crate::cli::report::Seconds;
-use crate::cli::{formats, input, interrupt, output, repose, run};
+use crate::cli::seconds::Seconds;
+use crate::cli::{files, formats, input, interrupt, output, repose, run};
 use crate::fit;
 use crate::io::glb::animated::{Frame, bytes_per_frame};
 use crate::io::gltf;
-use crate::repose::{Care, Reposer};
+use crate::repose::{ReposeSettings, Reposer};
 use crate::session::recording::Hex;
 use crate::session::{BodyChoice, Session};
 use crate::sim::Snapshot;
@@ -26,8 +26,8 @@ use crate::sim::hash::{Fnv, cloth_hash};
 use crate::wrap::Phase;
 
 use animated::Animated;
+use body_files::Files;
 use captured::Captured;
-use files::Files;
 
 /// Frames one sequence may have.
 const MOST_FRAMES: usize = 10_000;
@@ -50,7 +50,7 @@ impl Source {
         arguments: &Repose,
         body: &BodyChoice,
     ) -> Result<(Self, usize, f64, Vec<String>), Failure> {
-        let bytes = input::read(path)?;
+        let bytes = files::read(path)?;
         if gltf::is_gltf(&bytes) {
             let fps = arguments.fps.map_or(USUAL_FPS, |fps| fps * arguments.every as f64);
             let asked = arguments.animation.as_deref();
@@ -311,7 +311,7 @@ impl<'a> Carrier<'a> {
             return Err(Failure::Internal("the garment is gone".to_owned()));
         };
         let start = Instant::now();
-        let done = self.reposer.reposed(surface, Care::LIVE);
+        let done = self.reposer.reposed(surface, ReposeSettings::LIVE);
         let (state, outcome) =
             done.ok_or_else(|| Failure::Internal("a frame of another body was let through".to_owned()))?;
         let seconds = start.elapsed().as_secs_f64();

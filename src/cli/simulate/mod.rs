@@ -13,7 +13,7 @@ use crate::cli::failure::Failure;
 use crate::cli::simulate::scene::{Loaded, MembraneChoice};
 use crate::cli::simulate::times::cpu_seconds;
 use crate::cli::{interrupt, output};
-use crate::drape::newton::Work;
+use crate::drape::solver::newton::Work;
 use crate::drape::{Collider, Drape, DrapeSettings, Integrator, Method, State};
 
 /// Beyond the fabric's own.

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::body::Surface;
 use crate::cli::failure::Failure;
-use crate::cli::input;
+use crate::cli::files;
 use crate::cloth::Fabric;
 use crate::drape::{Elastic, Integrator, Method, Scene, Sheet};
 use crate::geometry::mesh::TriMesh;
@@ -171,14 +171,14 @@ impl SceneFile {
 
 /// Reads the scene at `path` and all it names, relative to its folder.
 pub fn load(path: &Path) -> Result<Loaded, Failure> {
-    let file: SceneFile = serde_json::from_slice(&input::read(path)?).map_err(|e| Failure::input(path, e))?;
+    let file: SceneFile = serde_json::from_slice(&files::read(path)?).map_err(|e| Failure::input(path, e))?;
     if let Some(words) = file.problem() {
         return Err(Failure::input(path, words));
     }
     let folder = path.parent().unwrap_or(Path::new(""));
     let fabric = fabric_of(&file).map_err(|words| Failure::input(path, words))?;
     let place = folder.join(&file.cloth);
-    let cloth = cloth_obj::read(&input::read(&place)?).map_err(|e| obj_failure(&place, e))?;
+    let cloth = cloth_obj::read(&files::read(&place)?).map_err(|e| obj_failure(&place, e))?;
     let positions = cloth.mesh.positions.clone();
     let flat = || (0..cloth.mesh.triangles.len()).map(|t| laid_flat(cloth.mesh.corners(t))).collect();
     let rest = cloth.rest.clone().unwrap_or_else(flat);
@@ -243,7 +243,7 @@ fn bodies_of(file: &SceneFile, folder: &Path) -> Result<Vec<TriMesh>, Failure> {
     let mut bodies: Vec<TriMesh> = Vec::new();
     for path in paths {
         let place = folder.join(path);
-        let body = obj::read(&input::read(&place)?).map_err(|e| obj_failure(&place, e))?.mesh;
+        let body = obj::read(&files::read(&place)?).map_err(|e| obj_failure(&place, e))?.mesh;
         if bodies.first().is_some_and(|first| first.triangles != body.triangles) {
             return Err(Failure::input(&place, "its triangles are not those of the first collider"));
         }

@@ -15,6 +15,7 @@
 //! The files hold neither seams nor places round the body.
 
 mod clean;
+mod drawn;
 mod pieces;
 mod read;
 mod units;

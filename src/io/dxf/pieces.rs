@@ -4,8 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use glam::DVec2;
 
+use super::drawn::{Drawn, DrawnLine, LineShape};
 use super::layer;
-use super::read::{Drawn, DrawnLine, LineShape};
 use crate::io::Limits;
 use crate::io::pattern_file::PatternFileError;
 use crate::io::trace::Traced;

@@ -6,6 +6,7 @@
 //! The files hold neither seams nor places round the body.
 
 mod clean;
+mod line;
 mod pieces;
 mod read;
 mod write;

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use glam::DVec2;
 
-use super::read::Line;
+use super::line::Line;
 use super::{EDGES, KIND, NAME, PIECE, SMOOTH};
 use crate::io::Limits;
 use crate::io::pattern_file::PatternFileError;

@@ -4,6 +4,7 @@ use glam::DVec2;
 use usvg::tiny_skia_path::{PathSegment, Point, Transform};
 
 use super::clean::{self, Clean, Root, Shape};
+use super::line::Line;
 use super::pieces;
 use crate::io::Limits;
 use crate::io::pattern_file::{PatternFileError, ReadPattern};
@@ -12,25 +13,10 @@ use crate::io::trace;
 use crate::io::words::readable;
 use crate::pattern::{Edge, EdgeShape};
 
-/// Ends nearer than this meet, metres.
-const MEETING: f64 = 1e-4;
-/// Edges shorter than this are left out, metres.
-const SHORTEST: f64 = 1e-6;
 /// Sides of the largest piece of a garment, metres.
 const LIKELY: std::ops::RangeInclusive<f64> = 0.12..=2.6;
 /// Width and height may say scales that differ by this share.
 const SAME_SCALE: f64 = 0.01;
-
-/// One line of a path.
-#[derive(Clone, Debug)]
-pub struct Line {
-    /// In the order of the file: lines of one path have one number.
-    pub path: usize,
-    pub shape: Shape,
-    pub edges: Vec<Edge>,
-    pub end: DVec2,
-    pub is_closed: bool,
-}
 
 /// Reads a pattern. `unit` is what a user unit of the drawing is and goes before what the file says.
 ///
@@ -153,40 +139,6 @@ fn placed(t: Transform, p: Point) -> DVec2 {
     let [sx, ky, kx, sy, tx, ty] = [t.sx, t.ky, t.kx, t.sy, t.tx, t.ty].map(f64::from);
     let (x, y) = (f64::from(p.x), f64::from(p.y));
     DVec2::new(sx * x + kx * y + tx, ky * x + sy * y + ty)
-}
-
-impl Line {
-    /// From user units with y down, the box's corner at zero, to metres with y up.
-    fn put_in_metres(&mut self, origin: DVec2, metres: f64) {
-        let map = |p: DVec2| DVec2::new(p.x + origin.x, -(p.y + origin.y)) * metres;
-        for edge in &mut self.edges {
-            edge.start = map(edge.start);
-            edge.shape = edge.shape.mapped(true, map);
-        }
-        self.end = map(self.end);
-    }
-
-    /// Takes away edges of no length; closes lines whose ends meet.
-    fn tidy(&mut self) {
-        let ends: Vec<DVec2> = self.edges.iter().skip(1).map(|e| e.start).chain([self.end]).collect();
-        let mut ends = ends.into_iter();
-        self.edges.retain(|e| {
-            let long = |c: DVec2| c.distance(e.start) > SHORTEST;
-            ends.next().is_some_and(long)
-                || match e.shape {
-                    EdgeShape::Quadratic { control } => long(control),
-                    EdgeShape::Cubic { controls } => controls.into_iter().any(long),
-                    EdgeShape::Line | EdgeShape::Arc { .. } => false,
-                }
-        });
-        if let Some(first) = self.edges.first()
-            && self.edges.len() > 1
-            && first.start.distance(self.end) < MEETING
-        {
-            self.end = first.start;
-            self.is_closed = true;
-        }
-    }
 }
 
 /// Width and height of the largest closed line, or of everything where none is closed, in user units.

@@ -1,6 +1,7 @@
 //! What an editor does to a pattern. Pure: a new pattern comes back, or words why not.
 
 mod cutting;
+mod holes;
 mod lengths;
 mod lines;
 mod mirror;
@@ -284,8 +285,8 @@ fn carry_out(pattern: &mut Pattern, edit: &PatternEdit) -> Result<Change, String
         PatternEdit::DeleteNotch { piece, notch } => cutting::delete_notch(pattern, *piece, *notch),
         PatternEdit::AddLine { piece, line } => cutting::add_line(pattern, *piece, line),
         PatternEdit::DeleteLine { piece, line } => cutting::delete_line(pattern, *piece, *line),
-        PatternEdit::AddHole { piece, edges } => cutting::add_hole(pattern, *piece, edges),
-        PatternEdit::DeleteHole { piece, hole } => cutting::delete_hole(pattern, *piece, *hole),
+        PatternEdit::AddHole { piece, edges } => holes::add_hole(pattern, *piece, edges),
+        PatternEdit::DeleteHole { piece, hole } => holes::delete_hole(pattern, *piece, *hole),
         PatternEdit::SetGrainline { piece, grainline } => cutting::set_grainline(pattern, *piece, *grainline),
         PatternEdit::SetAllowance { pieces, width } => pieces::set_allowance(pattern, pieces, *width),
         PatternEdit::Sew { seam } => sewing::sew(pattern, *seam),

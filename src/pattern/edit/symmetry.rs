@@ -178,7 +178,7 @@ pub(super) fn fold(pattern: &mut Pattern, id: PieceId) -> Result<Change, String>
     // Holes beyond the fold go, with their seams; the last first, so that numbers hold.
     for hole in (0..piece.holes.len()).rev() {
         if !piece.holes[hole].iter().all(|e| kept(e.start)) {
-            super::cutting::drop_hole(pattern, id, hole);
+            super::holes::drop_hole(pattern, id, hole);
         }
     }
     change(pattern, id, |p| {

@@ -8,9 +8,10 @@ use crate::geometry::mesh::TriMesh;
 use crate::pattern::Problem;
 use crate::session::animations::{Animations, Moment};
 use crate::session::body::{Body, BodyCache};
+use crate::session::body_choice::BodyChoice;
 use crate::session::carry::carried;
 use crate::session::command::Rejection;
-use crate::session::document::{Aim, BodyChoice, Document};
+use crate::session::document::{Aim, Document};
 use crate::session::edit::{ClothChange, Edit, checks};
 
 /// Strokes on the old body are carried to the new one.

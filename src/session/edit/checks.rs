@@ -7,8 +7,9 @@ use crate::geometry::ids::{MarkId, PieceId};
 use crate::io::words::readable;
 use crate::pattern::edit::{WIDEST_ALLOWANCE, is_symmetric};
 use crate::pattern::{Edge, EdgeShape, InternalLine, Pattern, Piece, PlanePose, SpacePose};
+use crate::session::body_choice::BodyChoice;
 use crate::session::command::Rejection;
-use crate::session::document::{BodyChoice, Settings};
+use crate::session::document::Settings;
 use crate::sim::ClothPlace;
 use crate::wrap::Marks;
 

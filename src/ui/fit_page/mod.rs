@@ -11,7 +11,7 @@ use crate::render::{Camera, Look, RenderError, Scene};
 use crate::session::Session;
 use crate::ui::fit_page::facts::Facts;
 use crate::ui::fit_page::pictures::{Picture, Shot};
-use crate::ui::scene::Scenery;
+use crate::ui::scenery::scene::Scenery;
 use glam::UVec2;
 
 /// A page in the making: its figures are read off at once, its pictures drawn one by one.

@@ -10,8 +10,8 @@ use crate::fit::MapKind;
 use crate::render::{Camera, Look, Palette, Projection, RenderError, Rgb, Scene, View, png};
 use crate::session::Outfit;
 use crate::ui::fit_page::facts::{Facts, MapFacts};
-use crate::ui::portrait::worn_scene;
-use crate::ui::scene::Scenery;
+use crate::ui::scenery::portrait::worn_scene;
+use crate::ui::scenery::scene::Scenery;
 
 /// Sides of the garment, as a person goes round it, and how wide their pictures are, pixels: arms are spread sideways. The page's
 /// columns stand in the same ratio.

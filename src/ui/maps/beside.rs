@@ -5,8 +5,8 @@ use egui::{Button, Frame, Margin, Rect, RichText, Spinner, Stroke, WidgetInfo, v
 
 use super::{Comparison, Opening};
 use crate::ui::actions::Action;
-use crate::ui::asks::{Ask, Asks};
-use crate::ui::theme::Palette;
+use crate::ui::actions::asks::{Ask, Asks};
+use crate::ui::look::theme::Palette;
 
 /// Its size, points.
 const SIZE: egui::Vec2 = vec2(390.0, 34.0);

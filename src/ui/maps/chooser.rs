@@ -4,8 +4,8 @@ use egui::ComboBox;
 
 use crate::fit::MapKind;
 use crate::ui::actions::Action;
-use crate::ui::asks::{Ask, Asks};
-use crate::ui::situation::Situation;
+use crate::ui::actions::asks::{Ask, Asks};
+use crate::ui::actions::context::FrameContext;
 
 /// Every map, and none.
 pub fn choices() -> impl Iterator<Item = Option<MapKind>> {
@@ -13,7 +13,7 @@ pub fn choices() -> impl Iterator<Item = Option<MapKind>> {
 }
 
 /// Draws the button.
-pub fn chooser_ui(ui: &mut egui::Ui, now: &Situation, asks: &mut Asks) {
+pub fn chooser_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) {
     let text = now.map.map_or("No map", MapKind::short);
     let why_not = now.why_not(Action::Map(Some(MapKind::Ease)));
     ui.add_enabled_ui(why_not.is_none() || now.map.is_some(), |ui| {

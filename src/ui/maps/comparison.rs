@@ -11,8 +11,8 @@ use crate::render::{Mesh, Palette};
 use crate::session::{Outfit, Session};
 use crate::sim::{Runner, Simulation};
 use crate::ui::files;
-use crate::ui::mapped::in_colours;
-use crate::ui::scene::{body_mesh, cloth_mesh};
+use crate::ui::scenery::mapped::in_colours;
+use crate::ui::scenery::scene::{body_mesh, cloth_mesh};
 
 /// Between the two, as a share of the scale of a body.
 const GAP: f64 = 0.12;

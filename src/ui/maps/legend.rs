@@ -5,8 +5,8 @@ use egui::{Align2, Color32, DragValue, FontId, Frame, Margin, Rect, Sense, Strok
 
 use super::ShownMap;
 use crate::ui::actions::Action;
-use crate::ui::asks::{Ask, Asks};
-use crate::ui::theme::{Palette, colour};
+use crate::ui::actions::asks::{Ask, Asks};
+use crate::ui::look::theme::{Palette, colour};
 
 /// Width of the whole, points.
 const WIDTH: f32 = 222.0;

@@ -3,7 +3,7 @@
 use egui::{FontId, Pos2, Rect, Stroke, Vec2};
 
 use super::ShownMap;
-use crate::ui::theme::Palette;
+use crate::ui::look::theme::Palette;
 
 /// Writes what `map` shows at `at` on the screen, inside `pane`. Returns what is written: "12.3 mm, Front".
 pub fn probe_ui(

@@ -4,7 +4,7 @@ use egui::RichText;
 
 use super::ShownMap;
 use crate::fit::maps::{MapStats, PieceStats};
-use crate::ui::theme::Palette;
+use crate::ui::look::theme::Palette;
 
 const HEADINGS: [&str; 8] = ["Piece", "Vertices", "Least", "1 %", "Median", "Mean", "99 %", "Most"];
 

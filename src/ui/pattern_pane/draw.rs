@@ -9,8 +9,8 @@ use super::view::TableView;
 use crate::geometry::ids::MarkId;
 use crate::pattern::Pattern;
 use crate::render::mark_colour;
-use crate::ui::theme::{Palette, colour};
-use crate::ui::units::LengthUnit;
+use crate::ui::look::theme::{Palette, colour};
+use crate::ui::preferences::units::LengthUnit;
 use crate::wrap::Marks;
 
 /// What is drawn on, and how.

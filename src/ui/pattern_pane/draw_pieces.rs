@@ -11,11 +11,11 @@ use crate::geometry::ids::{PieceId, SeamId};
 use crate::pattern::activity::Activity;
 use crate::pattern::{Piece, Stretch};
 use crate::ui::actions::Tool;
+use crate::ui::look::signs::{self, Sign};
+use crate::ui::look::theme::colour;
 use crate::ui::maps::ShownMap;
+use crate::ui::scenery::ring::ring;
 use crate::ui::selection::{Item, LineRef};
-use crate::ui::signs::{self, Sign};
-use crate::ui::theme::colour;
-use crate::ui::tight::ring;
 
 /// Whether the front of `piece` is seen.
 pub fn front_is_seen(piece: &Piece, shape: &PieceShape) -> bool {

@@ -3,7 +3,7 @@
 use egui::{Area, Event, Frame, Key, Pos2, RichText, TextEdit, Vec2};
 
 use super::{Laid, begins_number};
-use crate::ui::units::{Typed, typed};
+use crate::ui::preferences::units::{Typed, typed};
 
 /// What is being typed.
 #[derive(Debug)]

@@ -3,8 +3,8 @@
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, Response};
 use glam::DVec2;
 
-use crate::ui::clicks::clicks;
-use crate::ui::mouse::{Deed, Mouse};
+use crate::ui::pointer::clicks::clicks;
+use crate::ui::pointer::mouse::{Mouse, PointerAction};
 
 /// For the tool in hand; what moves the view is left out.
 #[derive(Clone, Debug, Default)]
@@ -42,7 +42,7 @@ impl Input {
     /// Reads what the pointer did. `dragging`: the tool is at work on a drag.
     pub fn of_pointer(ui: &egui::Ui, response: &Response, mouse: Mouse, dragging: bool) -> Self {
         let (held, space) = ui.input(|i| (i.modifiers, i.key_down(Key::Space)));
-        let of_tool = !space && mouse.deed(PointerButton::Primary, held) == Some(Deed::Tool);
+        let of_tool = !space && mouse.deed(PointerButton::Primary, held) == Some(PointerAction::Tool);
         let by_pointer = ui.input(|i| i.events.iter().any(|e| matches!(e, Event::PointerButton { .. })));
         let clicks =
             if of_tool && by_pointer { clicks(ui, response, PointerButton::Primary) } else { Vec::new() };

@@ -2,9 +2,11 @@
 
 mod draw;
 mod draw_pieces;
+pub(in crate::ui) mod edits;
 mod entry;
 mod guides;
 mod input;
+pub(in crate::ui) mod kept;
 mod names;
 mod options;
 mod rulers;
@@ -24,20 +26,20 @@ use crate::geometry::ids::MarkId;
 use crate::session::Document;
 use crate::session::samples::Sample;
 use crate::sim::ClothPlace;
+use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::actions::{Action, Tool};
-use crate::ui::asks::{Ask, Asks};
+use crate::ui::look::theme::Palette;
 use crate::ui::maps::{ShownMap, probe_ui};
-use crate::ui::mouse::{Deed, Mouse};
+use crate::ui::pointer::mouse::{Mouse, PointerAction};
+use crate::ui::preferences::units::LengthUnit;
 use crate::ui::selection::{Item, Selection};
-use crate::ui::theme::Palette;
-use crate::ui::units::LengthUnit;
 use crate::wrap::Marks;
 use draw::Drawing;
 use entry::Entry;
 use guides::Guides;
 use input::Input;
+pub use kept::Options;
 pub use names::seam_words;
-pub use options::Options;
 use rulers::Rulers;
 use shapes::Shapes;
 use table::{Guide, Table};
@@ -292,8 +294,12 @@ impl PatternPane {
         let moved = response.drag_delta();
         match pressed.and_then(|button| mouse.deed(button, held)) {
             _ if space && pressed == Some(PointerButton::Primary) => self.view.pan(moved),
-            Some(Deed::Pan | Deed::Turn | Deed::HandOrTurn) if !busy => self.view.pan(moved),
-            Some(Deed::Zoom) => self.view.zoom(pane, pane.center(), (f64::from(-moved.y) * ZOOM).exp()),
+            Some(PointerAction::Pan | PointerAction::Turn | PointerAction::HandOrTurn) if !busy => {
+                self.view.pan(moved)
+            }
+            Some(PointerAction::Zoom) => {
+                self.view.zoom(pane, pane.center(), (f64::from(-moved.y) * ZOOM).exp())
+            }
             _ => {}
         }
         if let Some(at) = response.hover_pos() {

@@ -1,30 +1,12 @@
 //! How tools work: a small bar over the table with what the chosen tool can be told.
 
+use super::kept::Options;
 use egui::{Frame, Rect, RichText, UiBuilder, vec2};
 
 use super::table::Table;
+use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::actions::{Action, Tool};
-use crate::ui::asks::{Ask, Asks};
-use crate::ui::fields::length_field;
-
-/// Kept while the program runs.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Options {
-    /// The two sides of a cut are sewn together again.
-    pub sew_cut: bool,
-    /// Of the next dart, metres.
-    pub dart_width: f64,
-    /// Of the next dart, metres.
-    pub dart_depth: f64,
-    /// Editing keeps the lengths of sewn edges as they are to each other.
-    pub keep_equal: bool,
-}
-
-impl Default for Options {
-    fn default() -> Self {
-        Self { sew_cut: true, dart_width: 0.025, dart_depth: 0.1, keep_equal: true }
-    }
-}
+use crate::ui::panels::fields::length_field;
 
 /// The bar; nothing for tools that need none.
 pub fn options_ui(ui: &mut egui::Ui, table: &Table<'_>, options: &mut Options, asks: &mut Asks) {

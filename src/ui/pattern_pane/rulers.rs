@@ -8,8 +8,8 @@ use glam::DVec2;
 
 use super::table::Guide;
 use super::view::TableView;
-use crate::ui::theme::Palette;
-use crate::ui::units::LengthUnit;
+use crate::ui::look::theme::Palette;
+use crate::ui::preferences::units::LengthUnit;
 
 /// Breadth of a ruler, points.
 pub const BREADTH: f32 = 18.0;

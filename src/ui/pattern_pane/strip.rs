@@ -3,8 +3,8 @@
 use egui::{Painter, Pos2, Rect, Sense, Shape, Stroke, UiBuilder, Vec2, WidgetInfo, pos2, vec2};
 
 use super::Laid;
+use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::actions::{Action, Tool};
-use crate::ui::asks::{Ask, Asks};
 
 /// Breadth of the strip, points.
 const BREADTH: f32 = 36.0;

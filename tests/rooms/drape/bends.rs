@@ -2,8 +2,8 @@
 
 use glam::{DVec2, DVec3};
 use toile::cloth::Fabric;
-use toile::drape::newton::{Loads, Newton, Task};
-use toile::drape::settle::SettleSettings;
+use toile::drape::solver::newton::{Loads, Newton, Task};
+use toile::drape::solver::settle::SettleSettings;
 use toile::drape::{Elastic, Scene};
 
 use super::meshes::{Flat, KINDS, Kind, flat, near, scene, settled};

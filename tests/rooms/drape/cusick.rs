@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 
 use glam::{DVec2, DVec3};
 use toile::cloth::Fabric;
-use toile::drape::settle::SettleSettings;
+use toile::drape::solver::settle::SettleSettings;
 
 use super::meshes::{Flat, scene, settled};
 

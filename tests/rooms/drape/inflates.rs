@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 
 use glam::{DVec2, DVec3};
 use toile::cloth::Fabric;
-use toile::drape::settle::SettleSettings;
+use toile::drape::solver::settle::SettleSettings;
 use toile::drape::{Elastic, Scene, Sheet};
 use toile::geometry::mesh::TriMesh;
 

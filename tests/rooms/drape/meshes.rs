@@ -2,8 +2,8 @@
 
 use glam::{DVec2, DVec3};
 use toile::cloth::Fabric;
-use toile::drape::newton::Newton;
-use toile::drape::settle::{SettleSettings, settle};
+use toile::drape::solver::newton::Newton;
+use toile::drape::solver::settle::{SettleSettings, settle};
 use toile::drape::{Contacts, Elastic, Scene, Sheet};
 
 /// How a rectangle is cut.

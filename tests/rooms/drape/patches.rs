@@ -2,8 +2,8 @@
 
 use glam::{DMat3, DVec2, DVec3};
 use toile::cloth::Fabric;
-use toile::drape::bending::Bending;
-use toile::drape::membrane::Membrane;
+use toile::drape::forces::bending::Bending;
+use toile::drape::forces::membrane::Membrane;
 
 use super::meshes::{KINDS, flat, near};
 

@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 use toile::cloth::Fabric;
-use toile::drape::settle::SettleSettings;
+use toile::drape::solver::settle::SettleSettings;
 
 use super::meshes::{Kind, flat, near, scene, settled};
 

@@ -9,7 +9,7 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 use toile::body::Surface;
 use toile::cloth::Fabric;
-use toile::drape::settle::SettleSettings;
+use toile::drape::solver::settle::SettleSettings;
 use toile::drape::{Collider, Drape, Method, Scene, State};
 use toile::geometry::mesh::TriMesh;
 

@@ -6,11 +6,11 @@ use glam::DVec2;
 use super::{PatternTool, done};
 use crate::geometry::ids::PieceId;
 use crate::pattern::edit::PatternEdit;
-use crate::ui::asks::{Ask, Asks};
+use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::pattern_pane::draw::Drawing;
 use crate::ui::pattern_pane::input::Input;
 use crate::ui::pattern_pane::table::Table;
-use crate::ui::units::degrees;
+use crate::ui::preferences::units::degrees;
 
 /// The tool Grainline.
 #[derive(Debug, Default)]

@@ -6,13 +6,13 @@ use glam::DVec2;
 use super::PatternTool;
 use crate::geometry::ids::PieceId;
 use crate::session::Command;
-use crate::ui::asks::{Ask, Asks, in_one_step};
+use crate::ui::actions::asks::{Ask, Asks, in_one_step};
 use crate::ui::pattern_pane::draw::{Drawing, MarkLook};
 use crate::ui::pattern_pane::draw_pieces::front_is_seen;
 use crate::ui::pattern_pane::input::Input;
 use crate::ui::pattern_pane::table::Table;
-use crate::ui::stroke;
-use crate::ui::units::Typed;
+use crate::ui::pointer::stroke;
+use crate::ui::preferences::units::Typed;
 use crate::wrap::ClothSide;
 
 /// One stroke on one piece, in the piece's own plane.

@@ -20,9 +20,9 @@ use crate::pattern::edit::PatternEdit;
 use crate::pattern::{Edge, Pattern, Piece, PlanePose};
 use crate::session::Command;
 use crate::ui::actions::Tool;
-use crate::ui::asks::{Ask, Asks};
+use crate::ui::actions::asks::{Ask, Asks};
+use crate::ui::preferences::units::Typed;
 use crate::ui::selection::Item;
-use crate::ui::units::Typed;
 
 /// A tool. It reads the table and asks; what it remembers is only what is under way.
 pub trait PatternTool: std::fmt::Debug {

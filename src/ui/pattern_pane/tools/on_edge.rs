@@ -5,13 +5,13 @@ use glam::DVec2;
 
 use super::{PatternTool, done};
 use crate::pattern::edit::PatternEdit;
-use crate::ui::asks::{Ask, Asks};
+use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::pattern_pane::draw::Drawing;
 use crate::ui::pattern_pane::input::Input;
 use crate::ui::pattern_pane::shapes::cloth_is_left;
 use crate::ui::pattern_pane::table::{OnEdge, REACH, Table};
+use crate::ui::preferences::units::Typed;
 use crate::ui::selection::Item;
-use crate::ui::units::Typed;
 
 /// The tools Dart and Notch.
 #[derive(Debug)]

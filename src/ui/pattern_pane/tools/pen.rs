@@ -7,13 +7,13 @@ use super::{PatternTool, done, in_piece, new_piece, turned_round};
 use crate::geometry::ids::PieceId;
 use crate::pattern::edit::PatternEdit;
 use crate::pattern::{Edge, EdgeShape, InternalLine, Piece, curve};
-use crate::ui::asks::{Ask, Asks};
+use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::pattern_pane::draw::Drawing;
 use crate::ui::pattern_pane::input::Input;
 use crate::ui::pattern_pane::snap::{Snap, Snapped};
 use crate::ui::pattern_pane::table::Table;
+use crate::ui::preferences::units::{Typed, degrees};
 use crate::ui::selection::Item;
-use crate::ui::units::{Typed, degrees};
 
 /// What a finished line becomes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

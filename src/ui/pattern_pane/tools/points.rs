@@ -10,13 +10,13 @@ use super::{PatternTool, done, dragged};
 use crate::geometry::ids::PieceId;
 use crate::pattern::edit::{PatternEdit, PointRef};
 use crate::pattern::{EdgeRef, EdgeShape, curve};
-use crate::ui::asks::{Ask, Asks};
+use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::pattern_pane::draw::Drawing;
 use crate::ui::pattern_pane::input::Input;
 use crate::ui::pattern_pane::snap::Snapped;
 use crate::ui::pattern_pane::table::{OnEdge, REACH, Table};
+use crate::ui::preferences::units::{Typed, degrees};
 use crate::ui::selection::{Item, Selection};
-use crate::ui::units::{Typed, degrees};
 
 /// The tool Edit points.
 #[derive(Debug, Default)]

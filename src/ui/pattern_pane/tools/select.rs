@@ -9,13 +9,13 @@ use super::{PatternTool, done, dragged};
 use crate::geometry::ids::PieceId;
 use crate::pattern::PlanePose;
 use crate::pattern::edit::{PatternEdit, PointRef};
-use crate::ui::asks::{Ask, Asks};
+use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::pattern_pane::draw::Drawing;
 use crate::ui::pattern_pane::input::Input;
 use crate::ui::pattern_pane::snap::{Snap, Snapped, on_eighth};
 use crate::ui::pattern_pane::table::Table;
+use crate::ui::preferences::units::{Typed, degrees};
 use crate::ui::selection::{Item, Selection};
-use crate::ui::units::{Typed, degrees};
 
 /// From the box round what is selected to the knob that turns it, points.
 const STALK: f32 = 24.0;

@@ -6,13 +6,13 @@ use glam::DVec2;
 use super::{PatternTool, done, new_piece};
 use crate::pattern::edit::PatternEdit;
 use crate::pattern::{Edge, EdgeShape};
-use crate::ui::asks::Asks;
+use crate::ui::actions::asks::Asks;
 use crate::ui::pattern_pane::draw::Drawing;
 use crate::ui::pattern_pane::input::Input;
 use crate::ui::pattern_pane::snap::Snapped;
 use crate::ui::pattern_pane::table::Table;
+use crate::ui::preferences::units::Typed;
 use crate::ui::selection::Item;
-use crate::ui::units::Typed;
 
 /// Smaller ones are a slip of the hand, metres.
 const LEAST: f64 = 0.002;

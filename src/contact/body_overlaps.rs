@@ -1,0 +1,180 @@
+//! Parts of a body that cross each other, as posed bodies do: a forearm that runs through the trunk. Cloth of one of them is
+//! not pushed by the other's skin there: it lies on its own, and the other comes through it.
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+use crate::body::Surface;
+use crate::geometry::crossings::self_crossings;
+
+/// How far along the skin from where parts cross they are left out for each other, metres on a body 1.5 m large.
+const REACH: f64 = 0.15;
+/// Crossings nearer to each other along the skin than this are one part's, metres on a body 1.5 m large. A fold whose two
+/// sides are so near crosses only itself.
+const ONE_PART: f64 = 0.06;
+/// Belongs to no part that crosses another.
+const NO_PART: u32 = u32::MAX;
+
+/// Which skin each cloth vertex does not touch.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct BodyOverlaps {
+    of_vertex: Vec<u32>,
+    of_triangle: Vec<u32>,
+    /// For two parts whether they cross, row by row.
+    cross: Vec<bool>,
+    parts: usize,
+}
+
+impl BodyOverlaps {
+    /// Of a body in which parts cross each other; None where none do. `bound` tells of each cloth vertex which triangle it
+    /// belongs to.
+    pub fn of(surface: &Surface, bound: &[Option<u32>]) -> Option<Self> {
+        let (mesh, edges) = (&surface.mesh, &surface.adjacency.edges);
+        let crossings = self_crossings(mesh, edges, &mesh.tree());
+        let mut sets = Sets::new(mesh.positions.len());
+        let mut seeds = Vec::new();
+        for &[e, t] in &crossings {
+            for &at in surface.adjacency.edge_triangles.of(e).iter().chain([&t]) {
+                let [a, b, c] = mesh.triangles[at as usize];
+                sets.join(a, b);
+                sets.join(a, c);
+                seeds.extend([a, b, c]);
+            }
+        }
+        seeds.sort_unstable();
+        seeds.dedup();
+        let (nearest, far) = grown(surface, &seeds);
+        for &[a, b] in edges {
+            let [p, q] = [a, b].map(|v| nearest[v as usize]);
+            let length = mesh.positions[a as usize].distance(mesh.positions[b as usize]);
+            let between = far[a as usize] + length + far[b as usize];
+            if p != NO_PART && q != NO_PART && between < ONE_PART * surface.scale() {
+                sets.join(p, q);
+            }
+        }
+        let mut roots: Vec<u32> = seeds.iter().map(|&v| sets.root(v)).collect();
+        roots.sort_unstable();
+        roots.dedup();
+        let mut part = |v: u32| match nearest[v as usize] {
+            NO_PART => NO_PART,
+            seed => roots.binary_search(&sets.root(seed)).map_or(NO_PART, |at| at as u32),
+        };
+        let parts = roots.len();
+        let mut cross = vec![false; parts * parts];
+        for &[e, t] in &crossings {
+            let [p, q] = [edges[e as usize][0], mesh.triangles[t as usize][0]].map(|v| part(v) as usize);
+            if p != q {
+                (cross[p * parts + q], cross[q * parts + p]) = (true, true);
+            }
+        }
+        if !cross.contains(&true) {
+            return None;
+        }
+        let of_triangle: Vec<u32> = mesh.triangles.iter().map(|corners| part(corners[0])).collect();
+        let of_vertex =
+            bound.iter().map(|bound| bound.map_or(NO_PART, |t| of_triangle[t as usize])).collect();
+        Some(Self { of_vertex, of_triangle, cross, parts })
+    }
+
+    /// Whether cloth vertex `vertex` does not touch `triangle` of the body.
+    pub fn leaves_out(&self, vertex: usize, triangle: u32) -> bool {
+        let [p, q] = [self.of_vertex[vertex], self.of_triangle[triangle as usize]];
+        p != NO_PART && q != NO_PART && self.cross[p as usize * self.parts + q as usize]
+    }
+}
+
+/// For each vertex the nearest of `seeds` along the edges, as far as [`REACH`], and how far that is, metres.
+fn grown(surface: &Surface, seeds: &[u32]) -> (Vec<u32>, Vec<f64>) {
+    let positions = &surface.mesh.positions;
+    let reach = REACH * surface.scale();
+    let (mut nearest, mut far) = (vec![NO_PART; positions.len()], vec![f64::INFINITY; positions.len()]);
+    // Distances are not negative: their bits are ordered as they are.
+    let mut open: BinaryHeap<Reverse<(u64, u32)>> = BinaryHeap::new();
+    for &v in seeds {
+        (nearest[v as usize], far[v as usize]) = (v, 0.0);
+        open.push(Reverse((0, v)));
+    }
+    while let Some(Reverse((bits, v))) = open.pop() {
+        let so_far = f64::from_bits(bits);
+        if so_far > far[v as usize] {
+            continue;
+        }
+        for &w in surface.adjacency.vertex_neighbours.of(v) {
+            let next = so_far + positions[v as usize].distance(positions[w as usize]);
+            if next < far[w as usize] && next <= reach {
+                (nearest[w as usize], far[w as usize]) = (nearest[v as usize], next);
+                open.push(Reverse((next.to_bits(), w)));
+            }
+        }
+    }
+    (nearest, far)
+}
+
+/// Disjoint sets; each is known by its lowest member.
+struct Sets(Vec<u32>);
+
+impl Sets {
+    fn new(count: usize) -> Self {
+        Self((0..count as u32).collect())
+    }
+
+    fn root(&mut self, mut v: u32) -> u32 {
+        while self.0[v as usize] != v {
+            let up = self.0[self.0[v as usize] as usize];
+            self.0[v as usize] = up;
+            v = up;
+        }
+        v
+    }
+
+    fn join(&mut self, a: u32, b: u32) {
+        let [a, b] = [self.root(a), self.root(b)];
+        self.0[a.max(b) as usize] = a.min(b);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::mesh::TriMesh;
+    use crate::geometry::shapes::cylinder;
+    use glam::DVec3;
+
+    fn trunk() -> TriMesh {
+        cylinder(0.15, 1.5, 48, 60)
+    }
+
+    /// A trunk 0.3 m thick along y, and an arm 0.1 m thick beside it, `apart` metres from axis to axis.
+    fn trunk_and_arm(apart: f64) -> Surface {
+        let mut mesh = trunk();
+        let (arm, first) = (cylinder(0.05, 1.5, 24, 60), mesh.positions.len() as u32);
+        // Laid over, so that it passes the trunk in one place.
+        mesh.positions.extend(arm.positions.iter().map(|p| DVec3::new(p.z + apart, p.x + 0.7, p.y - 0.75)));
+        mesh.triangles.extend(arm.triangles.iter().map(|t| t.map(|v| v + first)));
+        Surface::new(mesh).expect("a body")
+    }
+
+    #[test]
+    fn parts_that_do_not_meet_are_all_touched() {
+        assert_eq!(BodyOverlaps::of(&trunk_and_arm(0.25), &[Some(0)]), None);
+    }
+
+    #[test]
+    fn cloth_of_a_trunk_is_not_pushed_by_an_arm_that_runs_through_it() {
+        let surface = trunk_and_arm(0.17);
+        let trunk = trunk().triangles.len() as u32;
+        let at = |p: DVec3, own: &dyn Fn(u32) -> bool| {
+            let all = surface.nearest_round_about(p, 0.2);
+            all.iter().map(|&(_, t)| t).find(|&t| own(t)).expect("skin")
+        };
+        let of_trunk = at(DVec3::new(0.15, 0.7, 0.0), &|t| t < trunk);
+        let of_arm = at(DVec3::new(0.12, 0.7, 0.0), &|t| t >= trunk);
+        let elsewhere = surface.nearest(DVec3::new(-0.15, 0.1, 0.0)).triangle;
+        let bound = [Some(of_trunk), Some(of_arm), Some(elsewhere), None];
+        let apart = BodyOverlaps::of(&surface, &bound).expect("they cross");
+        assert!(apart.leaves_out(0, of_arm) && !apart.leaves_out(0, of_trunk), "cloth of the trunk");
+        assert!(apart.leaves_out(1, of_trunk) && !apart.leaves_out(1, of_arm), "cloth of the arm");
+        assert!(!apart.leaves_out(0, elsewhere), "skin far from where they cross");
+        assert!([2, 3].iter().all(|&v| !apart.leaves_out(v, of_arm)), "cloth that is bound elsewhere");
+    }
+}

@@ -1,0 +1,115 @@
+//! Cloth against itself, where two layers have run a little way into one another: between the legs, in armpits, in folds.
+
+use glam::DVec3;
+
+use crate::cloth::{ClothState, Garment};
+use crate::contact::pockets::pockets;
+use crate::geometry::crossings::self_crossings;
+use crate::geometry::mesh::TriMesh;
+
+/// An edge that lies nearly in a triangle it crosses counts as this steep (a sine).
+const LEAST_SLOPE: f64 = 0.1;
+/// Shares in which the rings round what lies deep go the way of the ring before.
+const ALONG: [f64; 3] = [0.9, 0.7, 0.4];
+
+/// Where cloth runs through itself.
+#[derive(Clone, Debug)]
+pub struct Intersections {
+    /// Of the laid triangles.
+    pub mesh: TriMesh,
+    /// The edge of the garment and the triangle of `mesh` it passes through.
+    pub places: Vec<[u32; 2]>,
+}
+
+impl Intersections {
+    /// Of `garment` where it lies.
+    pub fn new(garment: &Garment, state: &ClothState) -> Self {
+        let laid = |vs: &[u32]| vs.iter().all(|&v| state.mapped[v as usize]);
+        let triangles = garment.triangles.iter().copied().filter(|vs| laid(vs)).collect();
+        let mesh = TriMesh { positions: state.positions.clone(), triangles };
+        let numbers: Vec<u32> =
+            (0u32..).zip(&garment.adjacency.edges).filter(|(_, e)| laid(*e)).map(|(e, _)| e).collect();
+        let edges: Vec<[u32; 2]> = numbers.iter().map(|&e| garment.adjacency.edges[e as usize]).collect();
+        let mut places = self_crossings(&mesh, &edges, &mesh.tree());
+        places.iter_mut().for_each(|place| place[0] = numbers[place[0] as usize]);
+        Self { mesh, places }
+    }
+
+    /// For each vertex where to send it so that layers part, in units; zero: nowhere.
+    ///
+    /// It is the way that shortens the lines in which they meet (Volino and Magnenat-Thalmann, Resolving surface collisions
+    /// through intersection contour minimization, 2006). That needs no memory of which layer came from where: lines end at
+    /// borders or close in themselves, and shrink from there.
+    pub fn ways(&self, garment: &Garment, state: &ClothState) -> Vec<DVec3> {
+        let mut ways = vec![DVec3::ZERO; state.positions.len()];
+        let at = |v: u32| state.positions[v as usize];
+        for &[e, t] in &self.places {
+            let [a, b] = garment.adjacency.edges[e as usize];
+            let along = (at(b) - at(a)).normalize_or_zero();
+            let normal = {
+                let [p, q, r] = self.mesh.corners(t as usize);
+                (q - p).cross(r - p).normalize_or_zero()
+            };
+            let mut way = DVec3::ZERO;
+            for &beside in garment.adjacency.edge_triangles.of(e) {
+                let vs = garment.triangles[beside as usize];
+                if !vs.iter().all(|&v| state.mapped[v as usize]) {
+                    continue;
+                }
+                let third = vs.iter().copied().find(|v| *v != a && *v != b).unwrap_or(a);
+                let inward = at(third) - at(a);
+                let inward = inward - along * inward.dot(along);
+                // Along the line in which the two triangles meet, into the one beside the edge.
+                let line = normal.cross(along.cross(inward)).normalize_or_zero();
+                let line = if line.dot(inward) < 0.0 { -line } else { line };
+                let slope = along.dot(normal);
+                let slope = if slope.abs() < LEAST_SLOPE { LEAST_SLOPE.copysign(slope) } else { slope };
+                way += line - normal * (2.0 * line.dot(along) / slope);
+            }
+            let way = way.clamp_length_max(1.0);
+            [a, b].iter().for_each(|&v| ways[v as usize] += way);
+            self.mesh.triangles[t as usize].iter().for_each(|&v| ways[v as usize] -= way);
+        }
+        ways.iter_mut().for_each(|way| *way = way.clamp_length_max(1.0));
+        ways
+    }
+
+    /// The same, where whole parts of the cloth that lie on the wrong side of other cloth come out again, and draw along what is
+    /// round them. And whether there are such parts.
+    pub fn ways_out(&self, garment: &Garment, state: &ClothState) -> (Vec<DVec3>, bool) {
+        let mut ways = self.ways(garment, state);
+        if self.places.is_empty() {
+            return (ways, false);
+        }
+        let mut crossed = vec![false; garment.adjacency.edges.len()];
+        self.places.iter().for_each(|place| crossed[place[0] as usize] = true);
+        let deep = pockets(garment, &self.mesh, &crossed);
+        for (way, (&more, normal)) in ways.iter_mut().zip(deep.iter().zip(self.mesh.vertex_normals())) {
+            if more != 0 {
+                *way = normal * -f64::from(more);
+            }
+        }
+        let mut drawn: Vec<bool> = deep.iter().map(|&more| more != 0).collect();
+        let any = drawn.contains(&true);
+        for share in ALONG {
+            draw_along(garment, &mut ways, &mut drawn, share);
+        }
+        (ways, any)
+    }
+}
+
+/// What is beside those who are `drawn` goes along by this share.
+fn draw_along(garment: &Garment, ways: &mut [DVec3], drawn: &mut [bool], share: f64) {
+    let mut more = Vec::new();
+    for v in (0..ways.len()).filter(|&v| !drawn[v]) {
+        let beside = garment.adjacency.vertex_neighbours.of(v as u32).iter().map(|&w| w as usize);
+        let (sum, count) =
+            beside.filter(|&w| drawn[w]).fold((DVec3::ZERO, 0), |(sum, count), w| (sum + ways[w], count + 1));
+        if count > 0 {
+            more.push((v, sum * (share / f64::from(count))));
+        }
+    }
+    for (v, way) in more {
+        (ways[v], drawn[v]) = (way, true);
+    }
+}

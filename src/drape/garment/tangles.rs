@@ -1,0 +1,140 @@
+//! Where draped cloth runs through itself: it is parted and pulled out.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use crate::cloth::ClothState;
+use crate::contact::Intersections;
+use crate::drape::garment::{DrapedGarment, own_number};
+use crate::drape::state::State;
+
+/// So often in a row without fewer of them: then they stay, and the report tells them.
+const MOST_PARTINGS: u32 = 40;
+/// And parted by so much each time, metres.
+const PARTING: f64 = 0.0005;
+/// So often what lies deep is sent out by as much in one go.
+const MOST_PULLS: usize = 80;
+/// And so often in a row in vain: then it is left where it is.
+const MOST_IN_VAIN: u32 = 3;
+/// In one tick what lies deep is sent out so often that so many triangles are looked at for crossings, but once at least.
+const TRIANGLES_A_TICK: usize = 60_000;
+
+/// What lies deep on the wrong side of other cloth, on its way out.
+#[derive(Clone, Debug)]
+pub(in crate::drape) struct Pulling {
+    /// Where each vertex of the garment is sent.
+    ways: Vec<DVec3>,
+    /// Where vertices are sent where the cloth ran through itself in the fewest places so far, and how many these are.
+    best: (Vec<DVec3>, usize),
+    /// The cloth as it lay then.
+    pub(in crate::drape) least: State,
+    /// So often it may still be sent.
+    left: usize,
+}
+
+impl DrapedGarment {
+    /// Whether it is left as it is.
+    pub(in crate::drape) fn is_tangled(&self) -> bool {
+        self.parting.1 >= MOST_PARTINGS
+    }
+
+    /// Sends layers that run through each other apart.
+    pub(in crate::drape) fn part(&mut self, cloth: &mut ClothState) {
+        if !self.settings.self_collision {
+            return;
+        }
+        self.counters.self_tests += 1;
+        let (met, garment) = (self.met(cloth), &*self.fixed.garment);
+        let best = (met.ways(garment, cloth), met.places.len());
+        if self.will_be.is_none() && self.in_vain < MOST_IN_VAIN {
+            let (ways, deep) = met.ways_out(garment, cloth);
+            if deep {
+                self.in_vain += 1;
+                let least = self.state.clone();
+                self.pulling = Some(Box::new(Pulling { ways, best, least, left: MOST_PULLS }));
+                return self.pull(cloth);
+            }
+        }
+        self.go_on_parting(best);
+    }
+
+    /// Sends vertices those ways, now that it is known in how many places the cloth runs through itself.
+    fn go_on_parting(&mut self, (ways, places): (Vec<DVec3>, usize)) {
+        let fixed = Arc::clone(&self.fixed);
+        let was = self.crossings;
+        self.crossings = places;
+        self.parting = match (places, self.parting) {
+            (0, _) => (usize::MAX, 0),
+            (places, (fewest, _)) if places < fewest => (places, 0),
+            (_, (fewest, times)) => (fewest, times + 1),
+        };
+        if places == 0 && was == 0 {
+            return;
+        }
+        let ways = self.of_own(|v| ways[v] * PARTING);
+        self.small.send(&mut self.state.positions, &fixed.collider, &ways);
+    }
+
+    /// Of its own vertices what `of` gives of the garment's; nothing of those that stay.
+    fn of_own(&self, of: impl Fn(usize) -> DVec3) -> Vec<DVec3> {
+        let places = self.fixed.vertices.iter().zip(&self.pinned);
+        places.map(|(&v, pinned)| if *pinned { DVec3::ZERO } else { of(v as usize) }).collect()
+    }
+
+    /// Where the cloth runs through itself. The sides of an open seam may: they are to be one.
+    fn met(&self, cloth: &ClothState) -> Intersections {
+        let garment = &*self.fixed.garment;
+        let mut met = Intersections::new(garment, cloth);
+        if let Some(will_be) = &self.will_be {
+            let becomes = |v: u32| own_number(&self.fixed.own, v).map_or(u32::MAX, |v| will_be[v]);
+            let (edges, triangles) = (&garment.adjacency.edges, &met.mesh.triangles);
+            met.places.retain(|&[e, t]| {
+                let ends = edges[e as usize].map(becomes);
+                !triangles[t as usize].iter().any(|&v| ends.contains(&becomes(v)))
+            });
+        }
+        met
+    }
+
+    /// Takes what lies deep on the wrong side of other cloth out in one go, which may be over several ticks, while time stands
+    /// still: let go half way it would go back. Where that leads nowhere all stays as it is.
+    pub(in crate::drape) fn pull(&mut self, cloth: &mut ClothState) {
+        let Some(mut pulling) = self.pulling.take() else { return };
+        let fixed = Arc::clone(&self.fixed);
+        let garment = &*fixed.garment;
+        for _ in 0..(TRIANGLES_A_TICK / garment.triangles.len().max(1)).max(1) {
+            self.send_out(&pulling.ways);
+            self.write(cloth);
+            pulling.left -= 1;
+            let met = self.met(cloth);
+            if met.places.len() < pulling.best.1 {
+                pulling.best = (met.ways(garment, cloth), met.places.len());
+                pulling.least = self.state.clone();
+            }
+            if pulling.best.1 == 0 {
+                (self.in_vain, pulling.left) = (0, 0);
+            }
+            if pulling.left == 0 {
+                self.state = pulling.least;
+                self.write(cloth);
+                return self.go_on_parting(pulling.best);
+            }
+            pulling.ways = met.ways_out(garment, cloth).0;
+        }
+        self.pulling = Some(pulling);
+    }
+
+    /// Sends vertices those `ways`, but not into the body; they stand still there.
+    fn send_out(&mut self, ways: &[DVec3]) {
+        let mut own = self.of_own(|v| ways[v] * PARTING);
+        for (v, way) in own.iter_mut().enumerate().filter(|(_, way)| **way != DVec3::ZERO) {
+            self.state.velocities[v] = DVec3::ZERO;
+            if let Some((normal, height)) = self.small.height(v, self.state.positions[v] + *way) {
+                *way -= normal * height.min(0.0);
+            }
+        }
+        let fixed = Arc::clone(&self.fixed);
+        self.small.send(&mut self.state.positions, &fixed.collider, &own);
+    }
+}

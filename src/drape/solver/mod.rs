@@ -1,0 +1,11 @@
+//! From one state to the next: implicit steps, many small explicit ones, straight to rest; sparse matrices of 3 × 3 blocks.
+
+mod blocks;
+pub mod net;
+pub mod newton;
+mod ordering;
+pub mod settle;
+pub mod small_steps;
+pub mod steps;
+
+pub use steps::{Integrator, Scene, Steps};

@@ -1,0 +1,642 @@
+//! Many small steps of extended position-based dynamics (Macklin et al. 2016, 2019), one pass each.
+//!
+//! A pass lets cloth that hangs L metres stretch by 2 g L h² / l² beyond what its stiffness allows, l being an edge's length: that
+//! law says how small the steps must be. Edges stand for the membrane as springs (Van Gelder 1998), so that shear and Poisson's
+//! ratio are those of a net; bending is an explicit force, in as few of the steps as is stable.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use crate::body::Surface;
+use crate::contact::separation::Touch;
+use crate::contact::{Obstacle, Separation};
+use crate::drape::contact::body::Collider;
+use crate::drape::forces::bending::Bending;
+use crate::drape::forces::limits::StrainLimits;
+use crate::drape::sheet::Sheet;
+use crate::drape::solver::net::{Net, Spring};
+use crate::drape::solver::steps::Scene;
+use crate::drape::state::State;
+
+/// A body's nearest point is looked up again after a way of so many offsets: over a round of radius R what is taken for its plane
+/// then is off by twice the offset squared over R.
+const STALE: f64 = 2.0;
+/// Of the limit of stability that bending's steps take.
+const SAFE: f64 = 0.9;
+/// Threads pull no faster than so, m/s: what cloth and body hold against that stays open.
+pub const THREAD_SPEED: f64 = 2.0;
+/// Ends so near, metres, stay together though the body pushes them apart.
+const NEARLY_SHUT: f64 = 0.002;
+/// Cloth that is deeper in a body than its own motion brought it comes out so fast, m/s, and without momentum.
+const EASE: f64 = 0.3;
+/// Skin seen next to skin whose normal has a smaller cosine with its own makes a crease: cloth is kept off both,
+const CREASE: f64 = 0.5;
+/// as long as it is no farther from where the first was seen than so many offsets.
+const CREASE_REACH: f64 = 4.0;
+/// It comes off the one it does not see no faster than so, m/s.
+const CREASE_SPEED: f64 = 1.5;
+
+/// What is near is looked for as far as a vertex comes in so many small steps: farther, and planes between parts of the cloth that fall
+/// side by side hold it up,
+const AHEAD: f64 = 12.0;
+/// which is between these, metres.
+const REACH: (f64, f64) = (0.001, 0.05);
+/// What comes farther within a small step, as cloth that is struck does, goes on from where it is looked for anew, so often; then it
+/// stays there.
+const MOST_LOOKS: usize = 3;
+
+/// The solver with its memory.
+#[derive(Clone, Debug)]
+pub struct SmallSteps {
+    net: Net,
+    inverse_mass: Vec<f64>,
+    /// Area per mass of each vertex, m²/kg.
+    spread: Vec<f64>,
+    /// Bending's greatest angular frequency, 1/s.
+    bending_rate: f64,
+    planes: Vec<Plane>,
+    /// Of each part of the net, vertices in creases, and the skin beside that in `planes`.
+    creases: Vec<Creases>,
+    /// Per vertex more than the offset, metres.
+    lift: Vec<f64>,
+    /// Whether depth that motion did not bring leaves without momentum: for a body that does not push.
+    eases: bool,
+    /// A vertex that is pulled.
+    pub hand: Option<GrabConstraint>,
+    /// Threads.
+    pub ties: Vec<SewingSpring>,
+    /// What keeps the cloth from crossing itself and the body.
+    pub separation: Option<Separation>,
+    /// The body it knows of a scene.
+    body: Option<Arc<Surface>>,
+    /// Velocities are those of half a step ago, s.
+    lag: f64,
+    /// Nearest points looked up.
+    pub queries: u64,
+    /// Vertices known to be far without one.
+    pub skipped: u64,
+}
+
+/// Some time that the cloth goes on, in small steps.
+#[derive(Clone, Debug)]
+pub struct Advance {
+    /// Of a step, s.
+    small: f64,
+    /// Steps in all, and done.
+    count: usize,
+    done: usize,
+    /// What bending does to the velocity of each vertex, as long as it is held, m/s.
+    bent: Vec<DVec3>,
+    /// Where the vertices were before the step.
+    before: Vec<DVec3>,
+}
+
+impl Advance {
+    /// `h` seconds in `count` steps.
+    pub fn new(h: f64, count: usize) -> Self {
+        Self { small: h / count as f64, count, done: 0, bent: Vec::new(), before: Vec::new() }
+    }
+
+    /// Whether all of it is done.
+    pub fn is_done(&self) -> bool {
+        self.done == self.count
+    }
+}
+
+/// A thread between two vertices: it is no longer than so much.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SewingSpring {
+    /// The vertices.
+    pub ends: [u32; 2],
+    /// Metres.
+    pub length: f64,
+    /// A place that it runs over, metres; None: straight.
+    pub over: Option<DVec3>,
+}
+
+/// What pulls one vertex towards a place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GrabConstraint {
+    /// Which.
+    pub vertex: u32,
+    /// Where to, metres.
+    pub target: DVec3,
+    /// N/m.
+    pub stiffness: f64,
+    /// The most it pulls with, N.
+    pub most: f64,
+}
+
+/// What acts on cloth besides its edges.
+#[derive(Clone, Copy, Debug)]
+pub struct Surroundings<'a> {
+    /// Of the cloth.
+    pub bending: &'a Bending,
+    /// So many seconds of velocity resist bending as if they were shape: damping in proportion to stiffness.
+    pub bending_damping: f64,
+    /// m/s².
+    pub gravity: DVec3,
+    /// Rate at which motion dies away, 1/s.
+    pub damping: f64,
+    /// A body.
+    pub collider: Option<&'a Collider>,
+    /// Distance kept from it, metres.
+    pub offset: f64,
+    /// Coulomb's coefficient per vertex.
+    pub friction: &'a [f64],
+    /// The greatest pressure that friction knows, Pa: what strain control moves it should not hold.
+    pub grip: f64,
+}
+
+/// Vertices in creases of a body, and what they know of the skin they do not see.
+type Creases = Vec<(usize, Plane)>;
+
+/// What a vertex knows of a body: beyond the plane n·x = height it is free.
+#[derive(Clone, Copy, Debug, Default)]
+struct Plane {
+    normal: DVec3,
+    height: f64,
+    /// Where that was found, and how far one may go before it is looked up again.
+    place: DVec3,
+    good_for: f64,
+}
+
+/// Substeps that keep `strain` in a step of `h` seconds: cloth of `extent` metres and edges of `edge` metres.
+pub fn substeps(h: f64, strain: f64, gravity: f64, extent: f64, edge: f64) -> usize {
+    if gravity == 0.0 {
+        return 1;
+    }
+    let longest = edge * (strain / (2.0 * gravity * extent)).sqrt();
+    (h / longest).ceil().max(1.0) as usize
+}
+
+impl SmallSteps {
+    /// `stiffness` of the membrane, N/m.
+    pub fn new(scene: &Scene, stiffness: f64) -> Self {
+        let limits = StrainLimits::new(&scene.sheet, 0.0, stiffness);
+        let springs = limits.springs().map(|(ends, length, stiffness)| Spring { ends, length, stiffness });
+        Self::of(springs, f64::MAX, &scene.sheet, &scene.elastic.bending, &scene.mass, &scene.pinned)
+    }
+
+    /// Of any springs, rigid beyond a strain of `limit`. `mass` in kg per vertex; `pinned` vertices stay.
+    pub fn of(
+        springs: impl Iterator<Item = Spring>,
+        limit: f64,
+        sheet: &Sheet,
+        bending: &Bending,
+        mass: &[f64],
+        pinned: &[bool],
+    ) -> Self {
+        // Gershgorin's bound.
+        let most = |i: usize| bending.row(i).map(|(_, q)| q.abs()).sum::<f64>() / mass[i];
+        let bending_rate = (0..mass.len()).map(most).fold(0.0, f64::max).sqrt();
+        let inverse = |(m, pinned): (&f64, &bool)| if *pinned { 0.0 } else { 1.0 / m };
+        let net = Net::new(mass.len(), &springs.collect::<Vec<_>>(), limit);
+        let parts = net.parts().len();
+        Self {
+            creases: vec![Vec::new(); parts],
+            net,
+            inverse_mass: mass.iter().zip(pinned).map(inverse).collect(),
+            spread: sheet.vertex_area.iter().zip(mass).map(|(area, m)| area / m).collect(),
+            bending_rate,
+            planes: vec![Plane::default(); mass.len()],
+            lift: vec![0.0; mass.len()],
+            eases: false,
+            hand: None,
+            ties: Vec::new(),
+            separation: None,
+            body: None,
+            lag: 0.0,
+            queries: 0,
+            skipped: 0,
+        }
+    }
+
+    /// For a body at rest: see [`EASE`].
+    pub fn easing(self) -> Self {
+        Self { eases: true, ..self }
+    }
+
+    /// From now on exactly these vertices stay.
+    pub fn pin(&mut self, mass: &[f64], pinned: &[bool]) {
+        let inverse = |(m, pinned): (&f64, &bool)| if *pinned { 0.0 } else { 1.0 / m };
+        self.inverse_mass = mass.iter().zip(pinned).map(inverse).collect();
+        self.net.forget();
+    }
+
+    /// 1/kg per vertex; zero where it is pinned.
+    pub fn inverse_mass(&self) -> &[f64] {
+        &self.inverse_mass
+    }
+
+    /// Per vertex more than the offset from the body, metres.
+    pub fn lift(&self) -> &[f64] {
+        &self.lift
+    }
+
+    /// Changes it. Known planes go along.
+    pub fn set_lift(&mut self, lift: &[f64]) {
+        for ((plane, old), new) in self.planes.iter_mut().zip(&mut self.lift).zip(lift) {
+            plane.height += new - *old;
+            *old = *new;
+        }
+    }
+
+    /// The skin near a vertex as it was last looked up: its unit normal, and the height of `x` above the offset and the lift.
+    /// None where it is far.
+    pub fn height(&self, v: usize, x: DVec3) -> Option<(DVec3, f64)> {
+        let plane = &self.planes[v];
+        (plane.normal != DVec3::ZERO).then(|| (plane.normal, plane.normal.dot(x) - plane.height))
+    }
+
+    /// What is known of the body counts no more.
+    pub fn forget_planes(&mut self) {
+        self.planes.fill(Plane::default());
+        self.creases.iter_mut().for_each(Vec::clear);
+    }
+
+    /// Goes `h` seconds on in `count` steps. `offset` and `friction` as in [`Contacts`](crate::drape::contact::body::Contacts).
+    pub fn step(
+        &mut self,
+        scene: &Scene,
+        state: &mut State,
+        (offset, friction): (f64, f64),
+        h: f64,
+        count: usize,
+    ) {
+        self.see_body(scene);
+        let friction = vec![friction; state.positions.len()];
+        let around = Surroundings {
+            bending: &scene.elastic.bending,
+            bending_damping: 0.0,
+            gravity: scene.gravity,
+            damping: scene.damping,
+            collider: scene.collider.as_ref(),
+            offset,
+            friction: &friction,
+            grip: f64::INFINITY,
+        };
+        self.advance(&around, state, h, count);
+    }
+
+    /// What the scene's body is now is not crossed from now on, unless it moves.
+    fn see_body(&mut self, scene: &Scene) {
+        let Some(separation) = &mut self.separation else { return };
+        let still = scene.collider.as_ref().filter(|collider| collider.motion.is_empty());
+        let surface = still.map(|collider| &collider.surface);
+        let is_known = match (surface, &self.body) {
+            (Some(surface), Some(known)) => Arc::ptr_eq(surface, known),
+            (None, None) => true,
+            _ => false,
+        };
+        if !is_known {
+            separation.set_obstacle(surface.map(|surface| Arc::new(Obstacle::of(surface))));
+            self.body = surface.cloned();
+        }
+    }
+
+    /// Goes `h` seconds on in `count` steps.
+    pub fn advance(&mut self, around: &Surroundings<'_>, state: &mut State, h: f64, count: usize) {
+        let mut advance = Advance::new(h, count);
+        while !advance.is_done() {
+            self.go_on(&mut advance, around, state);
+        }
+    }
+
+    /// A small step of `advance`.
+    pub fn go_on(&mut self, advance: &mut Advance, around: &Surroundings<'_>, state: &mut State) {
+        let Advance { small, count, done: s, .. } = *advance;
+        let part = 1.0 / count as f64;
+        self.net.ready(small, &self.inverse_mass);
+        let every = self.bending_every(small, around.bending_damping).min(count);
+        let drag = (-around.damping * small).exp();
+        // A blow now and then, which keeps energy, shakes cloth that should come to rest; a force that is held comes late by
+        // half of the time it is held, for which it looks ahead.
+        let holds = around.bending_damping > 0.0;
+        let Advance { bent, before, .. } = advance;
+        bent.resize(state.positions.len(), DVec3::ZERO);
+        before.resize(state.positions.len(), DVec3::ZERO);
+        self.look_ahead(around, state, (small, part));
+        let x = &mut state.positions;
+        let kick = if s == 0 { self.lag + small / 2.0 } else { small };
+        if s % every == 0 && self.bending_rate > 0.0 {
+            let span = small * every.min(count - s) as f64;
+            if holds {
+                // Quadratic: the force at x + τ v is that of the shape and of its change.
+                let ahead = around.bending_damping + span / 2.0;
+                for (place, (x, v)) in before.iter_mut().zip(x.iter().zip(&state.velocities)) {
+                    *place = *x + *v * ahead;
+                }
+                around.bending.write_forces(before, bent, |i| small * self.inverse_mass[i]);
+            } else {
+                around.bending.write_forces(x, bent, |i| span * self.inverse_mass[i]);
+                state.velocities.iter_mut().zip(&*bent).for_each(|(v, b)| *v -= *b);
+                bent.fill(DVec3::ZERO);
+            }
+        }
+        let net = &self.net;
+        let of_body = (&mut self.planes[..], &mut self.creases[..]);
+        let mut work = shares(net, x, before, &mut state.velocities, of_body);
+        side_by_side(&mut work, |p, share| {
+            let Share { first, x, before, velocities, .. } = share;
+            before.copy_from_slice(x);
+            for (i, (x, v)) in x.iter_mut().zip(velocities.iter_mut()).enumerate() {
+                if self.inverse_mass[*first + i] > 0.0 {
+                    *v = *v * drag + around.gravity * kick - bent[*first + i];
+                    *x += *v * small;
+                }
+            }
+            net.project_part(p, x);
+        });
+        net.project_between(x);
+        if let Some(separation) = &mut self.separation {
+            let friction = if around.grip > 0.0 { around.friction } else { &[] };
+            let touch = Touch { inverse_mass: &self.inverse_mass, friction, ease: EASE * small };
+            separation.push_apart(x, before, touch);
+        }
+        self.pull(x, small);
+        self.draw(x, f64::INFINITY, small);
+        if let Some(collider) = around.collider {
+            let left = 1.0 - (s + 1) as f64 / count as f64;
+            let scene = Colliding { around, collider, left, part, small };
+            let of_body = (&mut self.planes[..], &mut self.creases[..]);
+            let mut work = shares(&self.net, x, before, &mut state.velocities, of_body);
+            let this = Knowing {
+                inverse_mass: &self.inverse_mass,
+                lift: &self.lift,
+                spread: &self.spread,
+                eases: self.eases,
+            };
+            let looked = side_by_side(&mut work, |_, share| this.collide(&scene, share));
+            for (queries, skipped) in looked {
+                self.queries += queries;
+                self.skipped += skipped;
+            }
+            self.draw(x, NEARLY_SHUT, small);
+        }
+        self.truncate(around, before, &mut state.positions, (small, part));
+        for (v, (now, then)) in state.velocities.iter_mut().zip(state.positions.iter().zip(&*before)) {
+            *v = (*now - *then) / small;
+        }
+        advance.done += 1;
+        if advance.is_done() {
+            self.lag = small / 2.0;
+            if around.collider.is_some_and(|c| !c.motion.is_empty()) {
+                self.forget_planes();
+            }
+        }
+    }
+
+    /// Pairs of features that contact has looked at.
+    pub fn pairs(&self) -> u64 {
+        self.separation.as_ref().map_or(0, |separation| separation.counters.pairs)
+    }
+
+    /// Looks for what is near where some vertex is about to leave what is known.
+    fn look_ahead(&mut self, around: &Surroundings<'_>, state: &State, (small, part): (f64, f64)) {
+        let Some(separation) = &mut self.separation else { return };
+        if !separation.holds(|v| state.positions[v] + state.velocities[v] * small) {
+            let speed = |v: usize| state.velocities[v].length();
+            detect(separation, around, &state.positions, speed, (small, part));
+        }
+    }
+
+    /// Lets what came from `before` to `x` in a small step, `part` of the body's motion, come only as far as nothing crosses.
+    fn truncate(
+        &mut self,
+        around: &Surroundings<'_>,
+        before: &[DVec3],
+        x: &mut [DVec3],
+        (small, part): (f64, f64),
+    ) {
+        let Some(separation) = &mut self.separation else { return };
+        let whole = x.to_vec();
+        for _ in 0..MOST_LOOKS {
+            if separation.truncate(x) == 0 {
+                return;
+            }
+            detect(separation, around, x, |v| whole[v].distance(before[v]) / small, (small, part));
+            x.copy_from_slice(&whole);
+        }
+        separation.truncate(x);
+    }
+
+    /// Sends the vertices at `x` their `ways`, metres, as far as nothing comes to cross that does not.
+    pub fn send(&mut self, x: &mut [DVec3], collider: &Collider, ways: &[DVec3]) {
+        if let Some(separation) = &mut self.separation {
+            let reach = |v: usize| ways[v].length().max(REACH.0);
+            separation.detect(x, reach, |v| collider.surface.contains(x[v]));
+        }
+        x.iter_mut().zip(ways).for_each(|(x, way)| *x += *way);
+        if let Some(separation) = &mut self.separation {
+            separation.truncate(x);
+        }
+    }
+
+    /// Shortens threads of ends no farther apart than `within` metres.
+    fn draw(&self, x: &mut [DVec3], within: f64, small: f64) {
+        for tie in &self.ties {
+            let [a, b] = tie.ends.map(|v| v as usize);
+            let (from_a, from_b, distance) = match tie.over {
+                Some(place) => (place - x[a], place - x[b], place.distance(x[a]) + place.distance(x[b])),
+                None => (x[b] - x[a], x[a] - x[b], x[a].distance(x[b])),
+            };
+            let (long, [wa, wb]) = (distance - tie.length, [a, b].map(|v| self.inverse_mass[v]));
+            if long > 0.0 && distance <= within && wa + wb > 0.0 {
+                let pull = long.min(THREAD_SPEED * small) / (wa + wb);
+                x[a] += from_a.normalize_or_zero() * (pull * wa);
+                x[b] += from_b.normalize_or_zero() * (pull * wb);
+            }
+        }
+    }
+
+    /// The hand's pull in one small step.
+    fn pull(&self, x: &mut [DVec3], small: f64) {
+        let Some(hand) = self.hand else { return };
+        let v = hand.vertex as usize;
+        let softness = 1.0 / (hand.stiffness * small * small);
+        let share = self.inverse_mass[v] / (self.inverse_mass[v] + softness);
+        let most = hand.most * self.inverse_mass[v] * small * small;
+        x[v] += ((hand.target - x[v]) * share).clamp_length_max(most);
+    }
+
+    /// Velocities at the end of the step, m/s: what they are behind, gravity makes up for.
+    pub fn velocity_now(&self, scene: &Scene, v: DVec3) -> DVec3 {
+        v + scene.gravity * self.lag
+    }
+
+    /// Bending acts once in so many small steps.
+    fn bending_every(&self, small: f64, damping: f64) -> usize {
+        if self.bending_rate == 0.0 {
+            return usize::MAX;
+        }
+        // The explicit step is stable while it is shorter than 2/ω, and than 2/(ω² τ) with damping.
+        let rate = self.bending_rate * (1.0 + self.bending_rate * damping);
+        ((SAFE * 2.0 / (rate * small)) as usize).max(1)
+    }
+}
+
+/// Looks for what is near vertices at `x` that go as fast as `speed` tells, m/s.
+fn detect(
+    separation: &mut Separation,
+    around: &Surroundings<'_>,
+    x: &[DVec3],
+    speed: impl Fn(usize) -> f64,
+    (small, part): (f64, f64),
+) {
+    let span = AHEAD * small;
+    let of_body = around.collider.map_or(0.0, |collider| collider.farthest() * part * AHEAD);
+    let more = of_body + around.gravity.length() * span * span / 2.0;
+    let reach = |v: usize| (speed(v) * span + more).clamp(REACH.0, REACH.1);
+    separation.detect(x, reach, |v| around.collider.is_some_and(|c| c.surface.contains(x[v])));
+}
+
+/// What one part of the cloth is worked on with.
+struct Share<'a> {
+    /// Its first vertex.
+    first: usize,
+    x: &'a mut [DVec3],
+    before: &'a mut [DVec3],
+    velocities: &'a mut [DVec3],
+    planes: &'a mut [Plane],
+    creases: &'a mut Creases,
+}
+
+/// Everything cut into the parts of `net`.
+fn shares<'a>(
+    net: &Net,
+    mut x: &'a mut [DVec3],
+    mut before: &'a mut [DVec3],
+    mut velocities: &'a mut [DVec3],
+    (mut planes, creases): (&'a mut [Plane], &'a mut [Creases]),
+) -> Vec<Share<'a>> {
+    fn taken<'a, T>(from: &mut &'a mut [T], count: usize) -> &'a mut [T] {
+        let (head, tail) = std::mem::take(from).split_at_mut(count);
+        *from = tail;
+        head
+    }
+    let share = |(part, creases): (Range<usize>, &'a mut Creases)| Share {
+        first: part.start,
+        x: taken(&mut x, part.len()),
+        before: taken(&mut before, part.len()),
+        velocities: taken(&mut velocities, part.len()),
+        planes: taken(&mut planes, part.len()),
+        creases,
+    };
+    net.parts().zip(creases).map(share).collect()
+}
+
+/// Does `work` on each share, on several threads where there are several.
+fn side_by_side<T: Send>(
+    shares: &mut [Share<'_>],
+    work: impl Fn(usize, &mut Share<'_>) -> T + Sync,
+) -> Vec<T> {
+    match shares {
+        [one] => vec![work(0, one)],
+        many => many.par_iter_mut().enumerate().map(|(p, share)| work(p, share)).collect(),
+    }
+}
+
+/// A small step against a body.
+struct Colliding<'a> {
+    around: &'a Surroundings<'a>,
+    collider: &'a Collider,
+    /// Of the body's motion is still to come,
+    left: f64,
+    /// and comes in this step.
+    part: f64,
+    small: f64,
+}
+
+/// What is known of each vertex.
+struct Knowing<'a> {
+    inverse_mass: &'a [f64],
+    lift: &'a [f64],
+    spread: &'a [f64],
+    eases: bool,
+}
+
+impl Knowing<'_> {
+    /// Keeps the vertices of `share` off the body, and rubs them on it. How many nearest points were looked up, and how many
+    /// vertices were known to be far.
+    fn collide(&self, scene: &Colliding<'_>, share: &mut Share<'_>) -> (u64, u64) {
+        let Colliding { around, collider, left, part, small } = *scene;
+        let (mut queries, mut skipped) = (0, 0);
+        for (k, x) in share.x.iter_mut().enumerate() {
+            let i = share.first + k;
+            if self.inverse_mass[i] == 0.0 {
+                continue;
+            }
+            let (plane, before) = (&mut share.planes[k], &mut share.before[k]);
+            if x.distance_squared(plane.place) > plane.good_for * plane.good_for {
+                queries += 1;
+                let seen = *plane;
+                *plane = look(collider, *x, *before, around.offset + self.lift[i], left);
+                let both = seen.normal != DVec3::ZERO && plane.normal != DVec3::ZERO;
+                if both && seen.normal.dot(plane.normal) < CREASE {
+                    share.creases.retain(|(known, _)| *known != i);
+                    share.creases.push((i, seen));
+                }
+            } else if plane.normal == DVec3::ZERO {
+                skipped += 1;
+                continue;
+            }
+            let mut depth = plane.height - plane.normal.dot(*x);
+            if self.eases {
+                let old = plane.height - plane.normal.dot(*before);
+                if old > 0.0 {
+                    let eased = old.min(EASE * small);
+                    depth -= old - eased;
+                    *before += plane.normal * eased;
+                }
+            }
+            if depth > 0.0 {
+                *x += plane.normal * depth;
+                let carried = collider.carried_near(*before) * part;
+                let slip = *x - *before - carried;
+                let slip = slip - plane.normal * slip.dot(plane.normal);
+                let length = slip.length();
+                let hold = around.friction[i] * depth.min(around.grip * self.spread[i] * small * small);
+                *x -= if length <= hold { slip } else { slip * (hold / length) };
+            }
+        }
+        let reach = CREASE_REACH * around.offset;
+        share
+            .creases
+            .retain(|(i, plane)| share.x[i - share.first].distance_squared(plane.place) < reach * reach);
+        for (i, plane) in share.creases.iter() {
+            let k = i - share.first;
+            let depth = plane.height - plane.normal.dot(share.x[k]);
+            // It gains no speed by that: between two sides it would tremble.
+            let way = plane.normal * depth.clamp(0.0, CREASE_SPEED * small);
+            share.x[k] += way;
+            share.before[k] += way;
+        }
+        (queries, skipped)
+    }
+}
+
+/// The body's plane at `x`; `left` of the body's motion is still to come.
+fn look(collider: &Collider, x: DVec3, before: DVec3, offset: f64, left: f64) -> Plane {
+    let back = collider.carried_near(x) * left;
+    let near = collider.surface.nearest(x + back);
+    let clear = near.distance - offset - collider.farthest() * left;
+    if clear > offset {
+        return Plane { normal: DVec3::ZERO, height: 0.0, place: x, good_for: clear };
+    }
+    let mut normal = near.normal;
+    let mut point = near.point - back;
+    let way = x - before;
+    if way.length() > near.distance.abs()
+        && let Some(hit) = collider.surface.ray(before + back, way)
+        && hit.distance < way.length()
+        && hit.normal.dot(way) < 0.0
+    {
+        (normal, point) = (hit.normal, hit.point - back);
+    }
+    let good_for = if collider.farthest() > 0.0 { 0.0 } else { STALE * offset.max(1e-4) };
+    Plane { normal, height: normal.dot(point) + offset, place: x, good_for }
+}

@@ -1,0 +1,95 @@
+//! What is drawn in one block of a drawing: lines, points and texts.
+
+use glam::{DMat2, DVec2};
+
+use crate::io::pattern_file::PatternFileError;
+use crate::pattern::{Edge, EdgeShape};
+
+/// A map of the plane that keeps shapes.
+#[derive(Clone, Copy, Debug)]
+pub struct Placing {
+    pub matrix: DMat2,
+    pub offset: DVec2,
+}
+
+impl Placing {
+    fn apply(&self, p: DVec2) -> DVec2 {
+        self.matrix * p + self.offset
+    }
+}
+
+/// A line as drawn.
+#[derive(Clone, Debug)]
+pub struct DrawnLine {
+    /// None where the name of the layer has no number.
+    pub layer: Option<u32>,
+    pub shape: LineShape,
+    pub is_closed: bool,
+}
+
+/// Its points, or, where arcs are among them, its edges and end.
+#[derive(Clone, Debug)]
+pub enum LineShape {
+    Points(Vec<DVec2>),
+    Edges(Vec<Edge>, DVec2),
+}
+
+impl LineShape {
+    /// Its corners.
+    pub fn points(&self) -> Vec<DVec2> {
+        match self {
+            Self::Points(points) => points.clone(),
+            Self::Edges(edges, _) => edges.iter().map(|e| e.start).collect(),
+        }
+    }
+}
+
+/// What belongs together: the contents of a block.
+#[derive(Clone, Debug, Default)]
+pub struct Drawn {
+    pub name: String,
+    pub texts: Vec<(Option<u32>, String, DVec2)>,
+    pub lines: Vec<DrawnLine>,
+    pub points: Vec<(Option<u32>, DVec2)>,
+}
+
+impl Drawn {
+    pub fn transform(&mut self, placing: &Placing) {
+        let turns = placing.matrix.determinant() < 0.0;
+        let scale = placing.matrix.determinant().abs().sqrt();
+        let shape = |shape: EdgeShape| match shape.mapped(turns, |p| placing.apply(p)) {
+            EdgeShape::Arc { radius, large, sweep } => {
+                EdgeShape::Arc { radius: radius * scale, large, sweep }
+            }
+            other => other,
+        };
+        for line in &mut self.lines {
+            match &mut line.shape {
+                LineShape::Points(points) => points.iter_mut().for_each(|p| *p = placing.apply(*p)),
+                LineShape::Edges(edges, end) => {
+                    for edge in edges {
+                        edge.start = placing.apply(edge.start);
+                        edge.shape = shape(edge.shape);
+                    }
+                    *end = placing.apply(*end);
+                }
+            }
+        }
+        self.points.iter_mut().for_each(|(_, p)| *p = placing.apply(*p));
+        self.texts.iter_mut().for_each(|(_, _, p)| *p = placing.apply(*p));
+    }
+
+    pub fn check(&self, largest: f64) -> Result<(), PatternFileError> {
+        let points = self.lines.iter().flat_map(|l| l.shape.points());
+        match points
+            .chain(self.points.iter().map(|(_, p)| *p))
+            .find(|p| !p.is_finite() || p.abs().max_element() > largest)
+        {
+            None => Ok(()),
+            Some(p) => {
+                let words = format!("a point at {:.3} m, {:.3} m is beyond {largest} m", p.x, p.y);
+                Err(PatternFileError::bad(format!("block {}", self.name), words))
+            }
+        }
+    }
+}

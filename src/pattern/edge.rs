@@ -1,0 +1,37 @@
+//! One edge of a closed line: a straight line, an arc or a Bézier curve.
+
+use glam::DVec2;
+use serde::{Deserialize, Serialize};
+
+/// Arc lengths are computed to this accuracy (metres).
+pub const ARC_LENGTH_ACCURACY: f64 = 1e-7;
+
+/// The shape of one outline edge between its end points. Control points are absolute, in the piece's own plane, metres.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum EdgeShape {
+    /// Straight.
+    #[default]
+    Line,
+    /// Circular arc: `radius` > 0 metres, SVG flags in y-up coordinates (`sweep` true travels counter-clockwise).
+    Arc { radius: f64, large: bool, sweep: bool },
+    /// Quadratic Bézier.
+    Quadratic { control: DVec2 },
+    /// Cubic Bézier.
+    Cubic { controls: [DVec2; 2] },
+}
+
+/// One edge of a closed line: from its own start point to the start point of the next edge.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Edge {
+    /// Where the edge starts, metres in the piece's own plane.
+    pub start: DVec2,
+    /// What lies between start and end.
+    pub shape: EdgeShape,
+    /// The line runs on smoothly at the start point: when an editor turns one of its tangents, the other follows.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub smooth: bool,
+    /// A name from the source file ("left_collar"), if any.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub label: Option<String>,
+}

@@ -1,0 +1,23 @@
+//! Seams and edges by the names people gave their pieces.
+
+use crate::geometry::ids::SeamId;
+use crate::pattern::{EdgeRef, Pattern};
+
+/// A seam with the edges it joins, in words.
+pub fn seam_place(pattern: &Pattern, id: SeamId) -> String {
+    pattern.seams.get(&id).map_or_else(
+        || id.to_string(),
+        |seam| {
+            let [a, b] = seam.sides.map(|side| place(pattern, side.first_edge()));
+            format!("{id}: {a} and {b}")
+        },
+    )
+}
+
+/// "front (piece 1), edge 3".
+pub fn place(pattern: &Pattern, edge: EdgeRef) -> String {
+    match pattern.pieces.get(&edge.piece) {
+        Some(piece) => format!("{} ({}), edge {}", piece.name, edge.piece, edge.edge),
+        None => format!("{}, edge {}", edge.piece, edge.edge),
+    }
+}

@@ -1,0 +1,94 @@
+//! What stays where it is: pinned vertices, frozen and deactivated pieces.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+use crate::cloth::{ClothState, Garment};
+use crate::geometry::ids::PieceId;
+use crate::pattern::Pattern;
+use crate::pattern::activity::Activity;
+use crate::sim::source::GarmentSource;
+use crate::sim::world::World;
+
+impl World {
+    /// From now on these pieces are what they are named with, all others active.
+    pub fn set_activities(&mut self, activities: &BTreeMap<PieceId, Activity>) {
+        let before = self.held();
+        let Some(source) = &mut self.source else { return };
+        let set = |source: &mut GarmentSource| {
+            for (id, piece) in &mut Arc::make_mut(&mut source.pattern).pieces {
+                let activity = activities.get(id).copied().unwrap_or_default();
+                if piece.activity != activity {
+                    Arc::make_mut(piece).activity = activity;
+                }
+            }
+        };
+        set(Arc::make_mut(source));
+        self.change_trials(set);
+        let asleep = self.active.is_some();
+        self.part_active();
+        if asleep || self.active.is_some() {
+            self.drape_anew();
+        }
+        self.hold(&before);
+    }
+
+    /// Sets aside what is deactivated.
+    pub(in crate::sim) fn part_active(&mut self) {
+        let activities = self.source.as_ref().map(|source| source.pattern.activities()).unwrap_or_default();
+        let asleep: BTreeSet<PieceId> = activities
+            .into_iter()
+            .filter(|(_, activity)| activity.is_deactivated())
+            .map(|(id, _)| id)
+            .collect();
+        let garment = self.garment.as_ref().filter(|_| !asleep.is_empty());
+        self.active = garment.map(|garment| Arc::new(garment.without(&asleep)));
+    }
+
+    /// The vertices that stay: those under pins, then, unless a wrap lays them just now, those that [`staying`] names.
+    pub(in crate::sim) fn held(&self) -> Vec<u32> {
+        let pins = self.pinned.iter().flatten().copied();
+        let grows = self.dressing.as_ref().is_some_and(|dressing| dressing.relaxer().is_none());
+        let staying = match (&self.source, &self.garment) {
+            (Some(source), Some(garment)) if !grows => staying(&source.pattern, garment, &self.cloth),
+            _ => BTreeSet::new(),
+        };
+        pins.chain(staying).collect()
+    }
+
+    /// Holds what stays now; where something that stayed `before` no longer does, the cloth settles.
+    pub(in crate::sim) fn hold(&mut self, before: &[u32]) {
+        if self.dragging.is_some() || self.sewing.is_some() {
+            return; // What is in the hand settles later, and what is being sewn is held when it lies.
+        }
+        let held = self.held();
+        if self.hold_draped(&held) {
+            return;
+        }
+        let stays: BTreeSet<u32> = held.iter().copied().collect();
+        if before.iter().any(|v| !stays.contains(v)) {
+            self.settle();
+        } else if let Some(dressing) = &mut self.dressing {
+            Arc::make_mut(dressing).fix(&held);
+        }
+    }
+}
+
+/// The laid vertices of frozen pieces, seams with others among them, and those of deactivated pieces alone.
+pub(in crate::sim) fn staying(pattern: &Pattern, garment: &Garment, cloth: &ClothState) -> BTreeSet<u32> {
+    let activities = pattern.activities();
+    if activities.is_empty() {
+        return BTreeSet::new();
+    }
+    let of = |wanted: Activity| -> BTreeSet<u32> {
+        let activity = |piece: &PieceId| activities.get(piece).copied().unwrap_or_default();
+        let pieces = garment.triangles.iter().zip(&garment.triangle_pieces);
+        let vertices = pieces.filter(|(_, piece)| activity(piece) == wanted).flat_map(|(vs, _)| *vs);
+        vertices.filter(|&v| cloth.mapped[v as usize]).collect()
+    };
+    let (active, frozen, mut asleep) =
+        (of(Activity::Active), of(Activity::Frozen), of(Activity::Deactivated));
+    asleep.retain(|v| !active.contains(v));
+    asleep.extend(frozen);
+    asleep
+}

@@ -1,0 +1,264 @@
+//! Draping: physics moves the garment that lies on the body, until it rests.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use crate::contact::Splits;
+use crate::drag::Ray;
+use crate::drape::{DrapedGarment, DrapedSettings, Undrapable};
+use crate::sim::protocol::DrapeState;
+use crate::sim::source::{ClothPlace, DrapeSource};
+use crate::sim::world::World;
+use crate::sim::world::posed::Posed;
+use crate::wrap::Phase;
+
+/// Draping under way, paused, or at rest.
+#[derive(Clone, Debug)]
+pub struct Draping {
+    source: Arc<DrapeSource>,
+    /// None while it waits for the cloth to lie.
+    worn: Option<DrapedGarment>,
+    /// Ticks left; None: until it rests.
+    left: Option<u32>,
+    /// A hand pulls.
+    held: bool,
+    /// It is the end of a change of pose.
+    ends: Option<EndOfPose>,
+}
+
+/// What is left of a change of pose once the cloth rests there.
+#[derive(Clone, Debug)]
+struct EndOfPose {
+    /// None where the body has got other triangles with it.
+    posed: Option<Arc<Posed>>,
+}
+
+impl Draping {
+    fn new(source: Arc<DrapeSource>) -> Self {
+        Self { source, worn: None, left: None, held: false, ends: None }
+    }
+
+    fn runs(&self) -> bool {
+        self.left != Some(0) && self.worn.as_ref().is_none_or(|worn| !worn.progress().at_rest)
+    }
+}
+
+impl World {
+    /// Drapes from now on, as soon as all cloth lies, or (false) stops. Nothing happens where nothing is dressed.
+    pub fn set_draping(&mut self, on: bool, source: Arc<DrapeSource>) {
+        self.trials = None;
+        self.release();
+        match on {
+            true => self.drape_for(None, source),
+            false => self.stop_draping(),
+        }
+    }
+
+    /// Drapes for so many ticks.
+    pub fn drape_for(&mut self, ticks: Option<u32>, source: Arc<DrapeSource>) {
+        if self.sewing.is_some() || (!self.cloth.mapped.contains(&true) && self.dressing.is_none()) {
+            return; // Sewing ends with draping.
+        }
+        let known = self.draping.take().filter(|draping| draping.source == source);
+        let mut draping = known.map_or_else(|| Draping::new(source), Arc::unwrap_or_clone);
+        (draping.left, draping.ends) = (ticks, None);
+        if let Some(worn) = draping.worn.as_mut().filter(|worn| worn.progress().at_rest) {
+            worn.wake();
+        }
+        self.draping = Some(Arc::new(draping));
+    }
+
+    /// Drapes cloth that has just come to another pose until it rests; then it lies as that change of pose left it.
+    pub(in crate::sim) fn drape_posed(&mut self, source: Arc<DrapeSource>) {
+        let ends = Some(EndOfPose { posed: self.posed.clone() });
+        self.draping = Some(Arc::new(Draping { ends, ..Draping::new(source) }));
+    }
+
+    /// Cloth that is draped stays as it is.
+    pub fn stop_draping(&mut self) {
+        let Some(draping) = &mut self.draping else { return };
+        if draping.worn.is_none() {
+            self.draping = None;
+            return;
+        }
+        Arc::make_mut(draping).left = Some(0);
+        self.split_draped();
+    }
+
+    /// What is draped is made of something else from now on.
+    pub fn set_fabrics(&mut self, source: Arc<DrapeSource>) {
+        self.change_trial_fabrics(&source);
+        if let Some(draping) = &mut self.draping {
+            let draping = Arc::make_mut(draping);
+            (draping.source, draping.worn, draping.held) = (source, None, false);
+            self.dragged = None;
+        }
+    }
+
+    /// What is draped is other pieces from now on.
+    pub(in crate::sim) fn drape_anew(&mut self) {
+        if let Some(source) = self.draping.as_ref().map(|draping| Arc::clone(&draping.source)) {
+            self.set_fabrics(source);
+        }
+    }
+
+    /// What is about to be draped moves already, m/s.
+    pub(in crate::sim) fn begin_moving(&mut self, velocities: &[DVec3]) {
+        if let Err(Undrapable(words)) = self.begin_draping() {
+            return self.fail_draping(words);
+        }
+        if let Some(worn) = self.draping.as_mut().and_then(|d| Arc::make_mut(d).worn.as_mut()) {
+            worn.set_velocities(velocities);
+        }
+    }
+
+    /// Whether the next tick drapes.
+    pub(in crate::sim) fn drapes_now(&self) -> bool {
+        let lies = self.dragging.is_none()
+            && self.dressing.as_ref().is_none_or(|dressing| {
+                dressing.phase() == Phase::AtRest || (!self.relaxing && dressing.relaxer().is_some())
+            });
+        self.draping.as_ref().is_some_and(|draping| draping.runs() && (draping.worn.is_some() || lies))
+    }
+
+    /// Whether physics has the cloth, moving or not.
+    pub(in crate::sim) fn is_draped(&self) -> bool {
+        self.draping.as_ref().is_some_and(|draping| draping.worn.is_some())
+    }
+
+    /// A tick of it.
+    pub(in crate::sim) fn drape(&mut self) {
+        if !self.is_draped()
+            && let Err(Undrapable(words)) = self.begin_draping()
+        {
+            return self.fail_draping(words);
+        }
+        let Some(draping) = self.draping.as_mut().map(Arc::make_mut) else { return };
+        let Some(worn) = &mut draping.worn else { return };
+        let gone_on = worn.go_on(Arc::make_mut(&mut self.cloth));
+        self.separated = self.separated.and(worn.take_separation());
+        match gone_on {
+            Ok(true) => {}
+            Ok(false) => return,
+            Err(Undrapable(words)) => return self.fail_draping(words),
+        }
+        draping.left = draping.left.map(|left| left.saturating_sub(1));
+        let rests = worn.progress().at_rest;
+        if !draping.runs() {
+            self.split_draped();
+        }
+        if rests {
+            self.tell_short_seams();
+            self.sew_next_layer();
+            self.finish_pose();
+        }
+    }
+
+    fn finish_pose(&mut self) {
+        let Some(end) = self.draping.as_ref().and_then(|draping| draping.ends.clone()) else { return };
+        self.draping = None;
+        if let Some(posed) = end.posed {
+            self.lies_as(posed);
+        }
+    }
+
+    fn begin_draping(&mut self) -> Result<(), Undrapable> {
+        let held = self.held();
+        let (Some(garment), Some(body), Some(source), Some(draping)) =
+            (&self.garment, &self.body, &self.source, &mut self.draping)
+        else {
+            return Err(Undrapable("there is no cloth on the body".to_owned()));
+        };
+        let settings =
+            DrapedSettings { strain: draping.source.strain, self_collision: true, skips: source.relax.skips };
+        let fabrics = Arc::clone(&draping.source);
+        let worn = DrapedGarment::new(
+            Arc::clone(self.active.as_ref().unwrap_or(garment)),
+            &self.cloth,
+            Arc::clone(body),
+            (&fabrics.of_pieces, &fabrics.fabric),
+            &held,
+            settings,
+        )?;
+        Arc::make_mut(draping).worn = Some(worn);
+        (self.dressing, self.splits, self.posed) = (None, None, None);
+        self.was_draped = true;
+        Ok(())
+    }
+
+    fn fail_draping(&mut self, words: String) {
+        self.draping = None;
+        self.tell("garment".to_owned(), words);
+    }
+
+    /// Where it rests, edges that would cut the body are split.
+    fn split_draped(&mut self) {
+        if let (Some(garment), Some(body), Some(worn)) =
+            (&self.garment, &self.body, self.draping.as_ref().and_then(|d| d.worn.as_ref()))
+        {
+            let offset = worn.offset() / body.scale();
+            self.splits = Splits::of_lying(garment, &self.cloth, body, offset).map(Arc::new);
+        }
+    }
+
+    /// Exactly these vertices of what is draped stay. False where nothing is draped.
+    pub(in crate::sim) fn hold_draped(&mut self, held: &[u32]) -> bool {
+        let Some(draping) = self.draping.as_mut().map(Arc::make_mut) else { return false };
+        let Some(worn) = &mut draping.worn else { return false };
+        worn.pin(held);
+        draping.ends = None;
+        true
+    }
+
+    /// Takes cloth in the hand while it drapes. False where it does not: other hands take it then.
+    pub(in crate::sim) fn grab_draped(&mut self, at: ClothPlace) -> bool {
+        if !self.draping.as_ref().is_some_and(|d| d.left.is_none() && d.worn.is_some()) {
+            self.draping = None;
+            return false;
+        }
+        if let (Some((vertex, _)), Some(draping)) = (self.under(at), &mut self.draping) {
+            let draping = Arc::make_mut(draping);
+            (draping.held, draping.ends) = (true, None);
+            draping.worn.iter_mut().for_each(|worn| worn.take(vertex));
+            let mut dragged = vec![0.0; self.cloth.positions.len()];
+            dragged[vertex as usize] = 1.0;
+            self.dragged = Some(Arc::new(dragged));
+        }
+        true
+    }
+
+    /// The hand goes to where `pointer` passes nearest to what is in it.
+    pub(in crate::sim) fn drag_draped(&mut self, pointer: Ray) {
+        let Some(draping) = self.draping.as_mut().filter(|d| d.held) else { return };
+        let Some(worn) = &mut Arc::make_mut(draping).worn else { return };
+        if let (Some(at), Some(way)) = (worn.in_hand(), pointer.direction.try_normalize()) {
+            worn.pull_to(pointer.origin + way * (at - pointer.origin).dot(way));
+        }
+    }
+
+    /// Lets go of it.
+    pub(in crate::sim) fn release_draped(&mut self) {
+        if let Some(draping) = self.draping.as_mut().filter(|d| d.held) {
+            let draping = Arc::make_mut(draping);
+            draping.held = false;
+            draping.worn.iter_mut().for_each(DrapedGarment::let_go);
+            self.dragged = None;
+        }
+    }
+
+    /// How draping stands; None where there is none.
+    pub fn drape_state(&self) -> Option<DrapeState> {
+        let draping = self.draping.as_ref()?;
+        let progress = draping.worn.as_ref().map(DrapedGarment::progress);
+        Some(DrapeState {
+            on: draping.left.is_none(),
+            waits: progress.is_none(),
+            runs: draping.runs(),
+            residual: progress.map_or(1.0, |p| p.residual),
+            speed: progress.map_or(0.0, |p| p.speed),
+            ticks: progress.map_or(0, |p| p.ticks),
+            substeps: draping.worn.as_ref().map_or(0, DrapedGarment::substeps),
+        })
+    }
+}

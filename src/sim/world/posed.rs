@@ -1,0 +1,193 @@
+//! Cloth that went along when its body took another pose.
+
+use std::sync::Arc;
+
+use crate::body::Surface;
+use crate::cloth::ClothState;
+use crate::contact::Splits;
+use crate::repose::{Change, Outcome, ReposeSettings, Reposer};
+use crate::sim::source::DrapeSource;
+use crate::sim::source::GarmentSource;
+use crate::sim::world::World;
+use crate::wrap::Marks;
+
+/// In one tick of a change of pose about so many vertices are moved by a global step, but one piece of it is done at least.
+const VERTICES_A_TICK: usize = 40_000;
+
+/// A change of pose. While the cloth lies as it left it, the next one starts from the pose that the cloth was dressed in:
+/// through however many poses it goes, it comes back to where it lay.
+#[derive(Clone, Debug)]
+pub struct Posed {
+    reposer: Reposer,
+    cloth: Arc<ClothState>,
+    outcome: Outcome,
+}
+
+/// A change of pose under way: the cloth stays as it was before until it has come there. Meanwhile it is shown as carried there.
+#[derive(Clone, Debug)]
+pub struct Posing {
+    source: Arc<GarmentSource>,
+    /// In the new pose.
+    body: Arc<Surface>,
+    /// The same body in another size, where the cloth goes at the end.
+    size: Option<Arc<Surface>>,
+    then: Then,
+    reposer: Reposer,
+    change: Change,
+    shown: Arc<ClothState>,
+}
+
+/// What is done with cloth that has come to another pose.
+#[derive(Clone, Debug)]
+pub enum Then {
+    /// It is a picture of a pose on the way.
+    Nothing,
+    /// Where it runs through itself in more places than before, physics moves it till it rests, made of that.
+    Part(Arc<DrapeSource>),
+    /// The same, and otherwise it settles.
+    Settle(Arc<DrapeSource>),
+}
+
+impl Then {
+    fn care(&self) -> ReposeSettings {
+        if matches!(self, Self::Nothing) { ReposeSettings::LIVE } else { ReposeSettings::THOROUGH }
+    }
+}
+
+impl Posing {
+    /// 0..=1.
+    pub fn progress(&self) -> f64 {
+        self.change.progress()
+    }
+}
+
+impl World {
+    /// On its way to lying on its body in the pose of `body`, which takes some ticks. None where nothing is dressed; cloth that
+    /// still grows begins again there. The error is in words.
+    pub fn reposed(
+        &mut self,
+        body: Arc<Surface>,
+        marks: Arc<Marks>,
+        then: Then,
+    ) -> Result<Option<Self>, String> {
+        let (Some(garment), Some(from), Some(source)) = (&self.garment, &self.body, &self.source) else {
+            return Ok(None);
+        };
+        let mut source = Arc::clone(source);
+        if let Some(trials) = &self.trials {
+            source = Arc::clone(trials.source());
+        }
+        Arc::make_mut(&mut source).marks = marks;
+        if let Some(world) = self.tried_again(Arc::clone(&source), Arc::clone(&body)) {
+            let places = Arc::clone(&self.places);
+            return world.map(|world| Some(Self { places, ..world }));
+        }
+        if self.dressing.as_ref().is_some_and(|dressing| dressing.relaxer().is_none()) {
+            let places = Arc::clone(&self.places);
+            return Ok(Some(Self { relaxing: self.relaxing, places, ..Self::wrapped(source, body) }));
+        }
+        if let Some(world) = self.placed_again(Arc::clone(&source), Arc::clone(&body)) {
+            return world.map(Some);
+        }
+        let (garment, from) = (Arc::clone(garment), Arc::clone(from));
+        let known = self.lying_as_posed().map(|posed| posed.reposer.clone());
+        self.release();
+        let new = || Reposer::new(&garment, from, ClothState::clone(&self.cloth), source.relax);
+        let mut reposer =
+            known.or_else(new).ok_or("the garment is too large for this machine's memory".to_owned())?;
+        let mut change = Change::new(&mut reposer, Arc::clone(&body), then.care())
+            .ok_or("the body in the new pose has other triangles than the dressed one".to_owned())?;
+        change.step(&mut reposer);
+        let shown = Arc::new(change.cloth().clone());
+        let posing = Posing { source, body, size: None, then, reposer, change, shown };
+        Ok(Some(Self { posing: Some(Arc::new(posing)), ..self.clone() }))
+    }
+
+    /// The dressed cloth on `body`, its own in another size, of which `through` is the same in the triangles of its own. None
+    /// where nothing is dressed; cloth that still grows or is sewn begins again there. The error is in words.
+    pub fn resized(
+        &mut self,
+        through: Arc<Surface>,
+        body: Arc<Surface>,
+        marks: Arc<Marks>,
+        fabrics: Arc<DrapeSource>,
+    ) -> Result<Option<Self>, String> {
+        let then = if self.was_draped { Then::Part(fabrics) } else { Then::Settle(fabrics) };
+        let grows = self.dressing.as_ref().is_some_and(|dressing| dressing.relaxer().is_none());
+        if grows || self.sewing.is_some() || self.trials.is_some() {
+            return self.reposed(body, marks, then);
+        }
+        let mut world = self.reposed(through, marks, then)?;
+        if let Some(posing) = world.as_mut().and_then(|world| world.posing.as_mut()) {
+            Arc::make_mut(posing).size = Some(body);
+        }
+        Ok(world)
+    }
+
+    /// What is shown and saved: the cloth, what it was cut from, and the body it is on.
+    pub fn shown(&self) -> (&Arc<ClothState>, Option<&Arc<GarmentSource>>, Option<&Arc<Surface>>) {
+        match &self.posing {
+            Some(posing) => {
+                let body = posing.size.as_ref().unwrap_or(&posing.body);
+                (&posing.shown, Some(&posing.source), Some(body))
+            }
+            None => (&self.cloth, self.source.as_ref(), self.body.as_ref()),
+        }
+    }
+
+    /// A tick of the change of pose under way.
+    pub(in crate::sim) fn pose(&mut self) {
+        let Some(posing) = &mut self.posing else { return };
+        let posing = Arc::make_mut(posing);
+        let most = (VERTICES_A_TICK / self.cloth.positions.len().max(1)).max(1);
+        let mut done = 0;
+        while done < most && !posing.change.is_done() {
+            done += posing.change.step(&mut posing.reposer);
+        }
+        if posing.change.is_done() {
+            self.finish_posing();
+        }
+    }
+
+    /// Ends the change of pose under way, if there is one, at once.
+    pub fn finish_posing(&mut self) {
+        let Some(posing) = self.posing.take() else { return };
+        let Posing { source, body, size, then, mut reposer, mut change, .. } = Arc::unwrap_or_clone(posing);
+        while !change.is_done() {
+            change.step(&mut reposer);
+        }
+        let (cloth, outcome) = change.into_cloth();
+        let cloth = Arc::new(cloth);
+        let to = size.as_ref().unwrap_or(&body);
+        self.splits = self
+            .garment
+            .as_ref()
+            .and_then(|garment| Splits::of_lying(garment, &cloth, to, source.relax.offset).map(Arc::new));
+        let more_crossings = outcome.crossings > reposer.crossings();
+        // Another pose is not gone to from triangles that the body has no longer.
+        let posed = Posed { reposer, cloth: Arc::clone(&cloth), outcome };
+        self.posed = size.is_none().then(|| Arc::new(posed));
+        (self.source, self.body, self.cloth) = (Some(source), Some(size.unwrap_or(body)), cloth);
+        (self.dressing, self.draping, self.was_sewn) = (None, None, false);
+        match then {
+            Then::Part(fabrics) | Then::Settle(fabrics) if more_crossings => self.drape_posed(fabrics),
+            Then::Settle(_) => self.settle(),
+            Then::Part(_) | Then::Nothing => {}
+        }
+        self.part_active();
+    }
+
+    /// What came of the last change of pose, while the cloth lies as it left it.
+    pub fn outcome(&self) -> Option<Outcome> {
+        self.lying_as_posed().map(|posed| posed.outcome)
+    }
+
+    /// Where it lies now, the last change of pose has left it.
+    pub(in crate::sim) fn lies_as(&mut self, posed: Arc<Posed>) {
+        self.posed = Some(Arc::new(Posed { cloth: Arc::clone(&self.cloth), ..Arc::unwrap_or_clone(posed) }));
+    }
+
+    fn lying_as_posed(&self) -> Option<&Arc<Posed>> {
+        self.posed.as_ref().filter(|posed| Arc::ptr_eq(&posed.cloth, &self.cloth))
+    }
+}

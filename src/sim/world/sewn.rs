@@ -1,0 +1,187 @@
+//! Sewing a garment together from where its pieces were placed.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use crate::body::Surface;
+use crate::cloth::{self, ClothState, Garment, Skips};
+use crate::drape::garment::clear::cleared;
+use crate::drape::garment::sewing::{Sewing, Stage};
+use crate::drape::{DrapedSettings, Undrapable};
+use crate::fit::{ShortSeam, short_seams};
+use crate::geometry::ids::PieceId;
+use crate::pattern::naming;
+use crate::pattern::triangulate::Meshes;
+use crate::pattern::{Problem, ProblemKind};
+use crate::place::led;
+use crate::sim::source::DrapeSource;
+use crate::sim::source::GarmentSource;
+use crate::sim::world::{World, unlaid};
+
+/// A garment that is sewn layer by layer, the innermost first: each over those that lie already (paper B, "multi-layer").
+#[derive(Debug)]
+pub struct Outfit {
+    garment: Arc<Garment>,
+    /// Where its flat corners were placed, metres.
+    places: Vec<Option<DVec3>>,
+    fabrics: Arc<DrapeSource>,
+}
+
+impl Outfit {
+    /// The first layer above `inner`, or of all, that has a placed piece.
+    fn next(&self, inner: Option<u8>) -> Option<u8> {
+        let placed = self.garment.corners.iter().zip(&self.places).filter(|(_, place)| place.is_some());
+        let layers = placed.map(|(corner, _)| self.garment.layer(corner.piece));
+        layers.filter(|&layer| inner.is_none_or(|inner| layer > inner)).min()
+    }
+
+    /// Begins to sew `layer` over what is laid of `worn`.
+    fn begun(
+        &self,
+        layer: u8,
+        worn: &ClothState,
+        body: &Arc<Surface>,
+        skips: Skips,
+    ) -> Result<(Sewing, ClothState), Undrapable> {
+        let settings = DrapedSettings { strain: self.fabrics.strain, self_collision: true, skips };
+        let of = (&self.fabrics.of_pieces, &self.fabrics.fabric);
+        let now = |piece: PieceId| self.garment.layer(piece) == layer;
+        let places = cleared(&self.garment, worn, &self.places, &now);
+        let stage = Stage { places: &places, now: &now, worn };
+        Sewing::new(Arc::clone(&self.garment), stage, Arc::clone(body), of, settings)
+    }
+}
+
+/// Pieces on their way to one another.
+#[derive(Clone, Debug)]
+pub struct Placed {
+    sewing: Sewing,
+    outfit: Arc<Outfit>,
+    layer: u8,
+}
+
+impl Placed {
+    /// 0..=1.
+    pub fn progress(&self) -> f64 {
+        self.sewing.progress()
+    }
+}
+
+impl World {
+    /// A garment just built, its pieces where they were placed. Draping follows the sewing.
+    pub fn placed(
+        source: Arc<GarmentSource>,
+        body: Arc<Surface>,
+        fabrics: Arc<DrapeSource>,
+    ) -> Result<Self, String> {
+        let mut meshes = Meshes::default();
+        let (garment, mut problems) = cloth::build_again(&source.pattern, source.edge_length, &mut meshes);
+        let garment = Arc::new(garment);
+        let place = |corner: &cloth::Corner| -> Option<DVec3> {
+            Some(source.pattern.pieces.get(&corner.piece)?.placement?.at(corner.uv))
+        };
+        let places: Vec<Option<DVec3>> = garment.corners.iter().map(place).collect();
+        let places = led(&garment, &body, &places);
+        for (id, name) in &garment.pieces {
+            if source.pattern.pieces.get(id).is_some_and(|piece| piece.placement.is_none()) {
+                let words = "it is not placed in space; it stays in the pattern".to_owned();
+                let place = format!("{name} ({id})");
+                problems.push(Problem { kind: ProblemKind::Dressing, place, words });
+            }
+        }
+        let outfit = Outfit { garment: Arc::clone(&garment), places, fabrics };
+        let layer = outfit.next(None).ok_or("none of its pieces is placed in space")?;
+        let (sewing, cloth) = outfit
+            .begun(layer, &unlaid(&garment), &body, source.relax.skips)
+            .map_err(|Undrapable(words)| words)?;
+        Ok(Self {
+            source: Some(source),
+            body: Some(body),
+            garment: Some(Arc::clone(sewing.garment())),
+            cloth: Arc::new(cloth),
+            sewing: Some(Arc::new(Placed { sewing, outfit: Arc::new(outfit), layer })),
+            problems: Arc::new(problems),
+            meshes: Arc::new(meshes),
+            ..Self::default()
+        })
+    }
+
+    /// The same again, of what has changed meanwhile.
+    pub(in crate::sim) fn placed_again(
+        &self,
+        source: Arc<GarmentSource>,
+        body: Arc<Surface>,
+    ) -> Option<Result<Self, String>> {
+        let fabrics = Arc::clone(&self.sewing.as_ref()?.outfit.fabrics);
+        let places = Arc::clone(&self.places);
+        Some(Self::placed(source, body, fabrics).map(|world| Self { places, ..world }))
+    }
+
+    /// A tick of sewing.
+    pub(in crate::sim) fn sew(&mut self) {
+        let Some(placed) = self.sewing.as_mut().map(Arc::make_mut) else { return };
+        let ticked = placed.sewing.go_on(Arc::make_mut(&mut self.cloth));
+        self.separated = self.separated.and(placed.sewing.take_separation());
+        match ticked {
+            Ok(false) => {}
+            Ok(true) => self.finish_sewing(),
+            Err(Undrapable(words)) => {
+                self.sewing = None;
+                self.tell("garment".to_owned(), words);
+            }
+        }
+    }
+
+    fn finish_sewing(&mut self) {
+        let Some(placed) = self.sewing.take() else { return };
+        let sewn = placed.sewing.merged(&self.cloth);
+        let outfit = &placed.outfit;
+        self.garment = Some(Arc::clone(&outfit.garment));
+        self.cloth = Arc::new(ClothState::clone(&sewn.cloth));
+        (self.was_sewn, self.seams_unseen) = (true, true);
+        self.part_active();
+        self.drape_for(None, Arc::clone(&outfit.fabrics));
+        self.begin_moving(&sewn.velocities);
+        self.set_pins(&Arc::clone(&self.places));
+        self.outer = outfit.next(Some(placed.layer)).map(|layer| (Arc::clone(outfit), layer));
+    }
+
+    /// Once sewn cloth lies still: which seams are too short for this body. Before that the skin or folds may hold them open.
+    pub(in crate::sim) fn tell_short_seams(&mut self) {
+        let Some(garment) = self.garment.clone().filter(|_| std::mem::take(&mut self.seams_unseen)) else {
+            return;
+        };
+        for ShortSeam { seam, stretch, missing } in short_seams(&garment, &self.cloth) {
+            let words = format!(
+                "it does not come together round this body: {:.1} mm are missing; the cloth beside it is stretched by up \
+                 to {:.1} %",
+                missing * 1e3,
+                stretch * 100.0
+            );
+            let pattern = self.source.as_ref().map(|source| &source.pattern);
+            let place = pattern.map_or_else(|| seam.to_string(), |pattern| naming::seam_place(pattern, seam));
+            self.tell(place, words);
+        }
+    }
+
+    /// What has come to rest is dressed over, where there is more to wear.
+    pub(in crate::sim) fn sew_next_layer(&mut self) {
+        let Some((outfit, layer)) = self.outer.take() else { return };
+        let (Some(body), Some(source)) = (&self.body, &self.source) else { return };
+        match outfit.begun(layer, &self.cloth, body, source.relax.skips) {
+            Ok((sewing, cloth)) => {
+                (self.draping, self.splits) = (None, None);
+                self.garment = Some(Arc::clone(sewing.garment()));
+                self.cloth = Arc::new(cloth);
+                self.sewing = Some(Arc::new(Placed { sewing, outfit, layer }));
+            }
+            Err(Undrapable(words)) => self.tell("garment".to_owned(), words),
+        }
+    }
+
+    pub(in crate::sim) fn tell(&mut self, place: String, words: String) {
+        let problem = Problem { kind: ProblemKind::Dressing, place, words };
+        Arc::make_mut(&mut self.problems).push(problem);
+    }
+}

@@ -1,0 +1,270 @@
+//! What each action does.
+
+use std::sync::Arc;
+
+use egui::ViewportCommand;
+use glam::DVec3;
+
+use crate::render::Projection;
+use crate::session::{Command, Project};
+use crate::ui::actions::layout::Panes;
+use crate::ui::actions::{Action, Tool};
+use crate::ui::app::App;
+use crate::ui::body_pane::ghosts::Ghosts;
+use crate::ui::files::{self, Purpose};
+use crate::ui::pattern_pane::Fit;
+use crate::ui::shell::dialogs::Dialog;
+use crate::wrap::{BodyMark, ClothMark};
+
+impl App {
+    /// Carries out `action`; one that would lose unsaved changes asks first.
+    pub fn act(&mut self, ctx: &egui::Context, action: Action) {
+        if let Action::OpenRecent(i) = action {
+            // Which one that is may have changed when the present work has been saved.
+            let file = self.shell.recent.files().get(usize::from(i));
+            self.shell.opening = file.map(|file| file.path.clone());
+        }
+        let leaves = matches!(
+            action,
+            Action::New
+                | Action::Open
+                | Action::OpenRecent(_)
+                | Action::Quit
+                | Action::Sample(_)
+                | Action::Tour
+        );
+        if leaves && self.session.is_modified() {
+            self.dialog = Some(Dialog::Unsaved { then: action });
+        } else {
+            self.act_unguarded(ctx, action);
+        }
+    }
+
+    /// Carries out `action`.
+    pub(in crate::ui) fn act_unguarded(&mut self, ctx: &egui::Context, action: Action) {
+        if self.shell.start.is_some() && !action.stays_on_start_page() {
+            self.leave_start_page();
+        }
+        match action {
+            Action::New => self.replace(Project::default(), None),
+            Action::Sample(sample) => self.replace(files::sample(sample), None),
+            Action::Open => self.ask_file(Purpose::Open),
+            Action::Save => self.save(ctx),
+            Action::SaveAs => self.ask_file(Purpose::Save),
+            Action::SaveCopy => self.ask_file(Purpose::Copy),
+            Action::SaveNext => self.save_next(ctx),
+            Action::Revert => {
+                if let Some(path) = self.path.clone() {
+                    self.dialog = Some(Dialog::Revert { path });
+                }
+            }
+            Action::ImportPattern => self.ask_file(Purpose::ImportPattern),
+            Action::ImportBody => self.ask_file(Purpose::ImportBody),
+            Action::PoseFromFile => self.ask_file(Purpose::Pose),
+            Action::Sequence => self.ask_file(Purpose::Sequence),
+            Action::Sizes => self.ask_file(Purpose::Sizes),
+            Action::UseMannequin => self.apply(files::use_mannequin()),
+            Action::ExportPattern => self.ask_file(Purpose::ExportPattern),
+            Action::Export => self.ask_file(Purpose::Export),
+            Action::Compare => self.ask_file(Purpose::Compare),
+            Action::FitPage => self.ask_file(Purpose::FitPage),
+            Action::SaveRecording => self.ask_file(Purpose::Recording),
+            Action::Quit => {
+                self.may_close = true;
+                ctx.send_viewport_cmd(ViewportCommand::Close);
+            }
+            Action::Undo => self.apply(Command::Undo),
+            Action::Redo => self.apply(Command::Redo),
+            Action::SuggestMarks => self.suggest_marks(),
+            Action::AcceptMarks => self.accept_marks(),
+            Action::DismissMarks => self.ghosts = None,
+            Action::Delete if self.selected.is_some() => self.change_selected(Action::DeleteMark),
+            Action::DeleteMark | Action::RaiseMark | Action::LowerMark => self.change_selected(action),
+            Action::Delete
+            | Action::SelectAll
+            | Action::Duplicate
+            | Action::Twin
+            | Action::MakeSymmetric
+            | Action::Unfold
+            | Action::Fold
+            | Action::Unlink
+            | Action::TurnOver
+            | Action::ToggleLock
+            | Action::ToggleFrozen
+            | Action::ToggleDeactivated
+            | Action::Hide
+            | Action::ShowPieces
+            | Action::InsertPoint
+            | Action::ToggleSmooth
+            | Action::Straighten
+            | Action::Curve
+            | Action::Arc
+            | Action::TurnSeam
+            | Action::MakeEqual
+            | Action::FreeLengths
+            | Action::Untwist
+            | Action::ToggleRolled
+            | Action::Unplace => self.change_pattern(action),
+            Action::ClearMarks => self.apply(Command::ClearMarks),
+            Action::ClearPins => self.apply(Command::ClearPins),
+            Action::OwnBones => self.apply(Command::SetBones { bones: None }),
+            Action::NoBones => self.apply(Command::SetBones { bones: Some(Vec::new()) }),
+            Action::ToggleLaser => self.laser = !self.laser,
+            Action::Choose(tool) => self.tool = tool,
+            Action::Dress => self.dress(),
+            Action::Wrap => {
+                self.show_cloth = true;
+                self.apply(Command::Wrap);
+            }
+            Action::Rewrap => self.rewrap(),
+            Action::CancelWrap => self.apply(Command::CancelWrap),
+            Action::Unwrap => self.apply(Command::Unwrap),
+            Action::ToggleRelaxing => {
+                let on = !self.session.snapshot().relaxing;
+                self.apply(Command::SetRelaxing { on });
+            }
+            Action::BringPieces => self.bring_pieces(),
+            Action::Sew => {
+                if self.tool == Tool::Place {
+                    // What is sewn is looked at, not what stood before.
+                    self.tool = Tool::Move;
+                }
+                self.show_cloth = true;
+                self.apply(Command::Sew);
+            }
+            Action::ToggleDrape => {
+                let on = self.session.snapshot().drape.is_none_or(|drape| !drape.on || !drape.runs);
+                self.apply(Command::SetDraping { on });
+            }
+            Action::StepDrape => self.apply(Command::StepDraping { ticks: 1 }),
+            Action::Look(_)
+            | Action::FrameAll
+            | Action::FrameSelection
+            | Action::TrueSize
+            | Action::ClearGuides
+            | Action::ToggleParallel
+            | Action::ToggleFreeTurning => self.change_view(ctx, action),
+            Action::NextPane => self.next_pane(ctx, false),
+            Action::PreviousPane => self.next_pane(ctx, true),
+            Action::ToggleSnapping => self.snapping = !self.snapping,
+            Action::Unit(unit) => self.prefer(ctx, |p| p.unit = unit),
+            Action::ToggleCloth => self.show_cloth = !self.show_cloth,
+            Action::Show(panes) => self.prefer(ctx, |p| {
+                // Chosen again, both come back.
+                p.layout.panes = if p.layout.panes == panes { Panes::Both } else { panes };
+            }),
+            Action::SwapPanes => self.prefer(ctx, |p| p.layout.swapped = !p.layout.swapped),
+            Action::TogglePanel => self.show_panel = !self.show_panel,
+            Action::Theme(theme) => self.prefer(ctx, |p| p.theme = theme.into()),
+            Action::Mouse(mouse) => self.prefer(ctx, |p| p.mouse = mouse),
+            Action::Paper(paper) => self.prefer(ctx, |p| p.paper = paper),
+            Action::Demo(demo) => self.begin_demo(demo),
+            Action::StopDemo => self.stop_demo(),
+            Action::Shortcuts => {
+                let keymap = Arc::clone(&self.preferences.keymap);
+                self.dialog = Some(Dialog::Shortcuts { mouse: self.preferences.mouse, keymap });
+            }
+            Action::OpenRecent(_)
+            | Action::ClearRecent
+            | Action::StartPage
+            | Action::Picture
+            | Action::Preferences
+            | Action::ToggleWire
+            | Action::ToggleSheer
+            | Action::ToggleXray
+            | Action::TogglePairs
+            | Action::ToggleHistory
+            | Action::ToggleLog
+            | Action::Map(_)
+            | Action::ToggleMapTable
+            | Action::ToggleDifference
+            | Action::ChangeSides
+            | Action::CloseComparison
+            | Action::CommandPalette
+            | Action::Tour => self.act_on_shell(ctx, action),
+        }
+    }
+
+    /// Selects the first of these pairs and turns the view to all of them.
+    pub(in crate::ui) fn show_marks(&mut self, numbers: &[usize]) {
+        let marks = Arc::clone(&self.shown().document().marks);
+        let shown: Vec<&BodyMark> =
+            numbers.iter().filter_map(|&n| marks.body.get(n.checked_sub(1)?)).collect();
+        self.selected = shown.first().map(|mark| mark.id);
+        let points: Vec<DVec3> = shown.iter().flat_map(|mark| mark.points.iter().copied()).collect();
+        if let Some(surface) = self.shown().surface().cloned() {
+            self.scene_pane.show(&points, &surface);
+        }
+    }
+
+    fn change_selected(&mut self, action: Action) {
+        let Some(mark) = self.selected else { return };
+        let Some(place) = self.session.document().marks.place(mark) else { return };
+        self.apply(match action {
+            Action::RaiseMark => Command::MoveMark { mark, to: place.number - 1 },
+            Action::LowerMark => Command::MoveMark { mark, to: place.number + 1 },
+            _ => Command::DeleteMark { mark },
+        });
+    }
+
+    /// By the pairs painted since the last wrap; by all when there is none.
+    fn rewrap(&mut self) {
+        let used =
+            self.session.snapshot().source.as_ref().map(|source| source.marks.clone()).unwrap_or_default();
+        let known = |(cloth, body): (&ClothMark, &BodyMark)| {
+            used.pairs().any(|(c, b)| (c.id, b.id) == (cloth.id, body.id))
+        };
+        let marks = &self.session.document().marks;
+        let pairs = marks.pairs().enumerate().filter(|(_, pair)| !known(*pair)).map(|(i, _)| i + 1).collect();
+        self.show_cloth = true;
+        self.apply(Command::Rewrap { pairs });
+    }
+
+    fn suggest_marks(&mut self) {
+        self.ghosts = Ghosts::proposed(&self.session);
+        if self.ghosts.is_none() {
+            let words =
+                "No marks can be proposed: the pattern does not say where its pieces go round the body.";
+            return self.messages.error(words);
+        }
+        // There they are accepted.
+        self.show_panel = true;
+    }
+
+    fn accept_marks(&mut self) {
+        if let Some(ghosts) = self.ghosts.take() {
+            self.apply(Command::SetMarks { marks: ghosts.marks });
+        }
+    }
+
+    fn change_view(&mut self, ctx: &egui::Context, action: Action) {
+        let at_body = self.is_at_body(ctx);
+        let scene = &mut self.scene_pane;
+        match action {
+            Action::Look(view) => scene.camera.look(view),
+            Action::FrameAll if self.pattern_pane.hovered || self.pattern_pane.has_focus(ctx) => {
+                self.pattern_pane.fit = true
+            }
+            Action::FrameAll => scene.frame = Some(None),
+            Action::FrameSelection if at_body => self.frame_selected_on_body(),
+            Action::FrameSelection => self.pattern_pane.show = Some(Fit::Selection),
+            Action::TrueSize => self.pattern_pane.show = Some(Fit::TrueSize),
+            Action::ClearGuides => self.pattern_pane.clear_guides(),
+            Action::ToggleParallel => {
+                scene.camera.projection = match scene.camera.projection {
+                    Projection::Perspective => Projection::Orthographic,
+                    Projection::Orthographic => Projection::Perspective,
+                }
+            }
+            Action::ToggleFreeTurning => scene.free_turning = !scene.free_turning,
+            _ => {}
+        }
+    }
+
+    fn save(&mut self, ctx: &egui::Context) {
+        match self.path.clone() {
+            Some(path) => self.save_or_ask(ctx, &path),
+            None => self.ask_file(Purpose::Save),
+        }
+    }
+}

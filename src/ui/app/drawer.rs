@@ -1,0 +1,95 @@
+//! The drawer below the panes: the history, or what was told so far.
+
+use egui::{Frame, Margin, Panel, RichText, ScrollArea};
+
+use crate::ui::actions::Action;
+use crate::ui::actions::asks::{Ask, Asks};
+use crate::ui::actions::context::FrameContext;
+use crate::ui::actions::drawer::Drawer;
+use crate::ui::app::App;
+use crate::ui::look::theme::Palette;
+use crate::ui::maps;
+
+impl App {
+    /// Shows what is open, if anything is.
+    pub(in crate::ui) fn drawer_panel(
+        &mut self,
+        ui: &mut egui::Ui,
+        now: &FrameContext,
+        palette: &Palette,
+        asks: &mut Asks,
+    ) {
+        let Some(drawer) = self.shell.drawer else { return };
+        let frame = Frame::new().fill(ui.visuals().panel_fill).inner_margin(Margin::symmetric(10, 6));
+        Panel::bottom("drawer")
+            .frame(frame)
+            .resizable(true)
+            .default_size(150.0)
+            .size_range(90.0..=360.0)
+            .show(ui, |ui| {
+                ui.horizontal(|ui| {
+                    for action in [Action::ToggleHistory, Action::ToggleLog, Action::ToggleMapTable] {
+                        let tab = egui::Button::selectable(now.is_on(action), action.entry().text);
+                        if ui.add(tab).clicked() && !now.is_on(action) {
+                            asks.push(Ask::Act(action));
+                        }
+                    }
+                    ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                        if ui.small_button("×").on_hover_text("Close").clicked() {
+                            asks.push(Ask::Act(match drawer {
+                                Drawer::History => Action::ToggleHistory,
+                                Drawer::Log => Action::ToggleLog,
+                                Drawer::Map => Action::ToggleMapTable,
+                            }));
+                        }
+                        let text = match drawer {
+                            Drawer::History => None,
+                            Drawer::Log => Some(self.messages.text()),
+                            Drawer::Map => self.shell.maps.shown().map(maps::table_text),
+                        };
+                        if let Some(text) = text
+                            && ui.button("Copy all").clicked()
+                        {
+                            ui.ctx().copy_text(text);
+                        }
+                    });
+                });
+                ScrollArea::both().auto_shrink([false, false]).stick_to_bottom(drawer != Drawer::Map).show(
+                    ui,
+                    |ui| match drawer {
+                        Drawer::History => self.history_ui(ui, palette, asks),
+                        Drawer::Log => self.messages.log_ui(ui, palette),
+                        Drawer::Map => maps::table_ui(ui, self.shell.maps.shown(), palette),
+                    },
+                );
+            });
+    }
+
+    /// The steps, oldest first; those undone fainter below them. A click goes there.
+    fn history_ui(&self, ui: &mut egui::Ui, palette: &Palette, asks: &mut Asks) {
+        let session = self.shown();
+        let labels = std::iter::once("As it was opened").chain(session.step_labels());
+        let labels: Vec<&str> = labels.chain(session.undone_labels()).collect();
+        let done = session.step_labels().count();
+        ui.spacing_mut().item_spacing.y = 1.0;
+        for (i, label) in labels.iter().enumerate() {
+            let words = if i == 0 { (*label).to_owned() } else { format!("{i}  {label}") };
+            let text =
+                if i > done { RichText::new(&words).color(palette.weak) } else { RichText::new(&words) };
+            let row =
+                egui::Button::selectable(i == done, text).min_size(egui::vec2(ui.available_width(), 0.0));
+            let row = ui.add(row);
+            row.widget_info(|| {
+                egui::WidgetInfo::selected(
+                    egui::accesskit::Role::ListBoxOption,
+                    true,
+                    i == done,
+                    format!("Step {words}"),
+                )
+            });
+            if row.clicked() && i != done {
+                asks.push(Ask::Jump(i as i32 - done as i32));
+            }
+        }
+    }
+}

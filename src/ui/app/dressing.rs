@@ -1,0 +1,61 @@
+//! Dressing by the best start: what came of it is told, and marks that were suggested for it are shown, to be kept.
+
+use std::sync::Arc;
+
+use crate::session::{Command, Document};
+use crate::sim::{Snapshot, Start, StartChoice, Started};
+use crate::ui::actions::Tool;
+use crate::ui::app::App;
+use crate::ui::body_pane::ghosts::Ghosts;
+
+impl App {
+    /// Puts the garment on by the best start.
+    pub(in crate::ui) fn dress(&mut self) {
+        if self.tool == Tool::Place {
+            // What is dressed is looked at, not what stood before.
+            self.tool = Tool::Move;
+        }
+        self.show_cloth = true;
+        self.ghosts = None;
+        self.apply(Command::Dress { choice: StartChoice::default() });
+    }
+
+    /// Tells what came of the starts once they have been tried, and shows the marks that were suggested. Those go with the
+    /// cloth.
+    pub(in crate::ui) fn take_start(&mut self, document: &Document, snapshot: &Snapshot) {
+        let is_same = match (&self.started, &snapshot.started) {
+            (Some(known), Some(new)) => Arc::ptr_eq(known, new),
+            (None, None) => true,
+            _ => false,
+        };
+        if is_same || self.demo.is_some() {
+            return;
+        }
+        self.started.clone_from(&snapshot.started);
+        let Some(started) = &snapshot.started else {
+            self.ghosts = None;
+            return;
+        };
+        let has_marks = document.marks.pairs().next().is_some();
+        self.messages.tell(words(started, has_marks));
+        if let (Start::Marks, false, Some(source)) = (started.taken().start, has_marks, &snapshot.source) {
+            self.ghosts = Ghosts::of(Arc::clone(&source.marks), &self.session);
+        }
+    }
+}
+
+/// How the garment came on to the body, and whether it is as it should be.
+fn words(started: &Started, has_marks: bool) -> String {
+    let taken = started.taken();
+    let how = match (taken.start, taken.draped) {
+        (Start::Placement, _) => "sewn from placement",
+        (Start::Marks, true) if has_marks => "by its marks, draped",
+        (Start::Marks, true) => "by suggested marks, draped",
+        (Start::Marks, false) if has_marks => "by its marks, not draped",
+        (Start::Marks, false) => "by suggested marks, not draped",
+    };
+    match taken.faults.len() {
+        0 => format!("Dressed {how}."),
+        _ => format!("Dressed {how}: the best of the starts, and not without faults (see Problems)."),
+    }
+}

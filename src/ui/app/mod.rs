@@ -1,0 +1,483 @@
+//! The window's state and one frame of it.
+
+pub(in crate::ui) mod act;
+pub(in crate::ui) mod arrange;
+pub(in crate::ui) mod demo;
+pub(in crate::ui) mod drawer;
+pub(in crate::ui) mod dressing;
+pub(in crate::ui) mod exchange;
+pub(in crate::ui) mod keyboard;
+pub(in crate::ui) mod panes;
+pub(in crate::ui) mod picking;
+pub(in crate::ui) mod picture_page;
+pub(in crate::ui) mod player;
+pub(in crate::ui) mod reopening;
+pub(in crate::ui) mod reporting;
+pub(in crate::ui) mod run;
+pub(in crate::ui) mod safety;
+pub(in crate::ui) mod shell;
+pub(in crate::ui) mod start_page;
+pub(in crate::ui) mod tight;
+pub(in crate::ui) mod tour;
+pub(in crate::ui) mod tries;
+pub(in crate::ui) mod turn;
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use egui::ViewportCommand;
+
+use crate::geometry::ids::MarkId;
+use crate::render::Camera;
+use crate::session::{Command, GestureId, Notice, Project, Session};
+use crate::sim::{Runner, Simulation, Started, thread::DEFAULT_RATE_HZ};
+use crate::ui::actions::asks::{Ask, Asks};
+use crate::ui::actions::{Action, Tool};
+use crate::ui::app::picking::Picks;
+use crate::ui::app::picture_page::PictureOptions;
+use crate::ui::app::player::Player;
+use crate::ui::app::reopening::Wakeup;
+use crate::ui::app::safety::Safety;
+use crate::ui::app::shell::Shell;
+use crate::ui::body_pane::ScenePane;
+use crate::ui::body_pane::ghosts::Ghosts;
+use crate::ui::files::recent::Recent;
+use crate::ui::files::{self, Purpose};
+use crate::ui::look::theme::{self, Palette};
+use crate::ui::panels::marks::MarksPanel;
+use crate::ui::panels::pattern::PatternPanel;
+use crate::ui::pattern_pane::PatternPane;
+use crate::ui::pattern_pane::view::TableView;
+use crate::ui::preferences::Preferences;
+use crate::ui::scenery::scene::Scenery;
+use crate::ui::selection::Selection;
+use crate::ui::shell::dialogs::{Answer, Dialog, NativeDialog};
+use crate::ui::shell::messages::Messages;
+use crate::ui::shell::pace::Pacer;
+use crate::ui::shell::status;
+
+/// The window's state. What the user has done is the session's; the rest is how it is looked at.
+#[derive(Debug)]
+pub struct App {
+    pub(in crate::ui) session: Session,
+    pub(in crate::ui) path: Option<PathBuf>,
+    pub(in crate::ui) tool: Tool,
+    pub(in crate::ui) laser: bool,
+    /// The mark chosen in a pane or in the list.
+    pub(in crate::ui) selected: Option<MarkId>,
+    /// What is selected of the pattern.
+    pub(in crate::ui) picks: Picks,
+    /// What lies near draws the pointer on.
+    pub(in crate::ui) snapping: bool,
+    pub(in crate::ui) marks_panel: MarksPanel,
+    pub(in crate::ui) pattern_panel: PatternPanel,
+    /// Marks proposed and not accepted yet.
+    pub(in crate::ui) ghosts: Option<Ghosts>,
+    /// What came of the starts that were tried last, once it was told.
+    pub(in crate::ui) started: Option<Arc<Started>>,
+    pub(in crate::ui) pattern_pane: PatternPane,
+    pub(in crate::ui) scene_pane: ScenePane,
+    pub(in crate::ui) show_cloth: bool,
+    pub(in crate::ui) show_panel: bool,
+    pub(in crate::ui) dialog: Option<Dialog>,
+    pub(in crate::ui) native: Option<NativeDialog>,
+    pub(in crate::ui) messages: Messages,
+    pub(in crate::ui) may_close: bool,
+    /// A demo that is shown instead of the document, and how both panes were seen before.
+    pub(in crate::ui) demo: Option<(Player, Camera, TableView)>,
+    pub(in crate::ui) preferences: Preferences,
+    /// Where they are kept.
+    pub(in crate::ui) preferences_path: Option<PathBuf>,
+    /// To be done once the project is saved.
+    pub(in crate::ui) after_save: Option<Action>,
+    pub(in crate::ui) safety: Safety,
+    /// What the project's file was when it was opened or saved here.
+    pub(in crate::ui) on_disk: Option<files::OnDisk>,
+    pub(in crate::ui) drag: Option<GestureId>,
+    /// The last wrap asked for, and what was then the tick of the simulation.
+    pub(in crate::ui) wrap_seq: Option<u64>,
+    /// What stands round the panes.
+    pub(in crate::ui) shell: Shell,
+    /// How the last picture was wanted.
+    pub(in crate::ui) picture_options: PictureOptions,
+    /// For pictures that are written.
+    pub(in crate::ui) scenery: Scenery,
+    /// Wakes the window when the simulation has something new.
+    pub(in crate::ui) wakeup: Wakeup,
+    /// The window closes only to be opened again.
+    pub(in crate::ui) moving: bool,
+    /// Light on dark, in the last frame.
+    pub(in crate::ui) dark: bool,
+    /// Measures how fast everything goes.
+    pub(in crate::ui) pacer: Pacer,
+    title: String,
+    pub(in crate::ui) frames: u64,
+}
+
+impl App {
+    /// The window on `project`. Without `graphics` the body pane stays empty.
+    pub fn new(
+        ctx: &egui::Context,
+        project: Project,
+        path: Option<PathBuf>,
+        graphics: Option<egui_wgpu::RenderState>,
+    ) -> std::io::Result<Self> {
+        Self::set_up(ctx);
+        let on_disk = path.as_deref().and_then(files::OnDisk::of);
+        let wakeup = Wakeup::new(ctx);
+        Ok(Self {
+            session: Session::new(project, runner(&wakeup)?),
+            wakeup,
+            moving: false,
+            path,
+            tool: Tool::Mark,
+            laser: false,
+            selected: None,
+            picks: Picks::default(),
+            snapping: true,
+            marks_panel: MarksPanel::default(),
+            pattern_panel: PatternPanel::default(),
+            ghosts: None,
+            started: None,
+            pattern_pane: PatternPane::fitted(),
+            scene_pane: ScenePane::new(graphics),
+            show_cloth: true,
+            show_panel: true,
+            dialog: None,
+            native: None,
+            messages: Messages::default(),
+            may_close: false,
+            demo: None,
+            preferences: Preferences::default(),
+            preferences_path: None,
+            after_save: None,
+            safety: Safety::default(),
+            on_disk,
+            drag: None,
+            wrap_seq: None,
+            shell: Shell::default(),
+            picture_options: PictureOptions::default(),
+            scenery: Scenery::default(),
+            dark: false,
+            pacer: Pacer::default(),
+            title: String::new(),
+            frames: 0,
+        })
+    }
+
+    /// What every window needs.
+    pub(in crate::ui) fn set_up(ctx: &egui::Context) {
+        theme::install(ctx);
+        ctx.options_mut(|options| {
+            // Closing goes by our own question; plus, minus and zero belong to the panes.
+            options.quit_shortcuts.clear();
+            options.zoom_with_keyboard = false;
+        });
+    }
+
+    /// Prefers what `path` says, and keeps there what is preferred from now on.
+    pub fn keep_preferences(&mut self, ctx: &egui::Context, path: PathBuf) {
+        let (preferences, words) = Preferences::read(&path);
+        self.preferences = preferences;
+        if let Some(words) = words {
+            self.messages.error(words);
+        }
+        self.shell.recent = Recent::read(path.with_file_name("recent.json"));
+        self.preferences_path = Some(path);
+        self.live_by_preferences(ctx);
+    }
+
+    /// Tells the person something that is to be read.
+    pub fn warn(&mut self, words: &str) {
+        self.messages.error(words);
+    }
+
+    /// Writes everything done, from the beginning, to `file` as well.
+    pub fn record_to(&mut self, file: std::fs::File) -> std::io::Result<()> {
+        self.session.recorder().also_to(file)
+    }
+
+    /// Frames drawn so far.
+    pub fn frames(&self) -> u64 {
+        self.frames
+    }
+
+    /// The session, for reading.
+    pub fn session(&self) -> &Session {
+        &self.session
+    }
+
+    /// The session, to be given commands as by a person.
+    pub fn session_mut(&mut self) -> &mut Session {
+        &mut self.session
+    }
+
+    /// Saves the project to `path`; asks first where somebody else has changed it.
+    pub fn save_as(&mut self, ctx: &egui::Context, path: &Path) -> Result<(), String> {
+        self.save_to(ctx, path)
+    }
+
+    /// From where the body is seen.
+    pub fn camera(&self) -> Camera {
+        self.scene_pane.camera
+    }
+
+    /// Where a point of the table is on the screen; none before the first frame.
+    pub fn on_screen(&self, p: glam::DVec2) -> Option<egui::Pos2> {
+        Some(self.pattern_pane.view.screen_from_table(self.pattern_pane.area?, p))
+    }
+
+    /// While the pointer is over cloth that pins hold back: how much of a drag would reach each vertex, 0..=1.
+    pub fn reach(&self) -> Option<&[f32]> {
+        self.scene_pane.reached()
+    }
+
+    /// Everything done so far, as a recording.
+    pub fn recording(&mut self) -> String {
+        self.session.recording()
+    }
+
+    /// Pictures of the body drawn so far.
+    pub fn pictures(&self) -> u64 {
+        self.scene_pane.graphics.as_ref().map_or(0, |g| g.pictures)
+    }
+
+    /// Maps over the cloth worked out so far.
+    pub fn maps(&self) -> u64 {
+        self.shell.maps.computed()
+    }
+
+    /// Starts over with `project`.
+    pub(in crate::ui) fn replace(&mut self, project: Project, path: Option<PathBuf>) {
+        match runner(&self.wakeup) {
+            Ok(runner) => self.session = Session::new(project, runner),
+            Err(e) => return self.messages.error(format!("The simulation could not be started: {e}")),
+        }
+        self.on_disk = path.as_deref().and_then(files::OnDisk::of);
+        self.path = path;
+        self.safety.work_is_saved();
+        self.drag = None;
+        self.wrap_seq = None;
+        self.selected = None;
+        self.picks = Picks::default();
+        (self.ghosts, self.started) = (None, None);
+        self.leave_start_page();
+        self.shell.maps.compare(None);
+        self.pattern_pane = PatternPane::fitted();
+        self.scene_pane.frame = Some(Some(crate::render::View::Front));
+    }
+
+    /// One frame.
+    pub fn ui(&mut self, ui: &mut egui::Ui) {
+        self.frames += 1;
+        let ctx = ui.ctx().clone();
+        self.take_notices();
+        self.play_demo(&ctx);
+        let document = self.shown().document().clone();
+        let snapshot = Arc::clone(self.shown().snapshot());
+        self.take_start(&document, &snapshot);
+        self.ghosts = self.ghosts.take().filter(|g| g.fit(&document, self.shown().surface()));
+        self.carry_selection(&document);
+        self.take_comparison();
+        self.shell.maps.look(&snapshot, &document.fabrics);
+        let now = self.situation(&ctx, &document, &snapshot);
+        let palette = Palette::of(ctx.theme());
+        self.dark = ctx.theme() == egui::Theme::Dark;
+        let mut asks = Asks::new();
+        self.keys(&ctx, &now, &mut asks);
+        if self.shell.start.is_some() {
+            self.start_page(ui, &now, &palette, &mut asks);
+        } else {
+            self.panels(ui, &document, &snapshot, &now, &palette, &mut asks);
+        }
+        self.over_panes(&ctx, &now, &palette, &mut asks);
+        self.messages.ui(&ctx, &palette, status::HEIGHT);
+        if let (Some((player, ..)), Some(table)) = (&self.demo, self.pattern_pane.area) {
+            player.ui(&ctx, &palette, table, &mut asks);
+            asks.retain(|ask| matches!(ask, Ask::Act(action) if action.is_for_demos()));
+        }
+        if !asks.is_empty() {
+            // This frame showed how things stood before.
+            ctx.request_repaint();
+        }
+        for ask in asks {
+            self.carry_out(&ctx, ask);
+        }
+        self.dialogs(&ctx);
+        self.dropped_files(&ctx);
+        self.guard_closing(&ctx);
+        self.set_title(&ctx);
+        self.tend_safety(&ctx);
+        self.tend_graphics(&ctx);
+    }
+
+    /// The next frame sets the title.
+    pub(in crate::ui) fn forget_title(&mut self) {
+        self.title.clear();
+    }
+
+    /// What is on the screen: the document, or a demo.
+    pub fn shown(&self) -> &Session {
+        self.demo.as_ref().map_or(&self.session, |(player, ..)| player.session())
+    }
+
+    fn take_notices(&mut self) {
+        if let Some(why) = self.session.recorder().take_file_error() {
+            self.messages.error(format!("The recording is no longer written to its file: {why}"));
+        }
+        for notice in self.session.update() {
+            match notice {
+                Notice::AtRest { .. } => {}
+                Notice::Failed { words, .. } => self.messages.error(words),
+                Notice::HistoryShortened => {
+                    self.messages.tell("Older steps can no longer be undone, to save memory.");
+                }
+            }
+        }
+    }
+
+    fn carry_out(&mut self, ctx: &egui::Context, ask: Ask) {
+        match ask {
+            Ask::Act(action) => self.act(ctx, action),
+            Ask::Do(command) => self.apply_and_select(command),
+            Ask::Drag(command) => self.drag(command),
+            Ask::EndDrag => self.end_drag(),
+            Ask::CancelDrag => self.cancel_drag(),
+            Ask::Select(mark) => {
+                self.selected = mark;
+                if mark.is_some() {
+                    self.pick(Selection::default());
+                }
+            }
+            Ask::Pick(selection) => self.pick(selection),
+            Ask::ShowMarks(numbers) => self.show_marks(&numbers),
+            Ask::ShowPlace(place) => self.show_place(place),
+            Ask::MapRange(kind, range) => self.shell.maps.set_range(kind, range),
+            Ask::Say(words) => self.messages.tell(words),
+            Ask::Jump(steps) => self.jump(steps),
+        }
+    }
+
+    /// Carries out `command` as a step of its own; a refusal is told.
+    pub(in crate::ui) fn apply(&mut self, command: Command) {
+        self.end_drag();
+        let is_wrap =
+            matches!(command, Command::Wrap | Command::Rewrap { .. } | Command::Sew | Command::Dress { .. });
+        let is_body = matches!(command, Command::SetBody { .. } | Command::ChangeSize { .. });
+        match self.session.apply_alone(command) {
+            Ok(()) if is_wrap => self.wrap_seq = Some(self.session.last_seq()),
+            Ok(()) if is_body => self.tell_lost_marks(),
+            Ok(()) => {}
+            Err(why) => self.messages.error(sentence(&why.0)),
+        }
+    }
+
+    fn tell_lost_marks(&mut self) {
+        let lost = self.session.problems();
+        if !lost.is_empty() {
+            let places: Vec<&str> = lost.iter().map(|p| p.place.as_str()).collect();
+            self.messages.error(format!("Not carried to the new body: {}.", places.join(", ")));
+        }
+    }
+
+    fn drag(&mut self, command: Command) {
+        let gesture = *self.drag.get_or_insert_with(|| self.session.begin_gesture());
+        // The hand may go on to where it can be done: no error that stays.
+        if let Err(why) = self.session.apply(command, gesture) {
+            self.messages.tell(sentence(&why.0));
+        }
+    }
+
+    pub(in crate::ui) fn end_drag(&mut self) {
+        if let Some(gesture) = self.drag.take() {
+            self.session.end_gesture(gesture);
+        }
+    }
+
+    fn cancel_drag(&mut self) {
+        if let Some(gesture) = self.drag.take() {
+            // Refused only when the drag has changed nothing yet.
+            self.session.apply(Command::CancelGesture, gesture).ok();
+            self.session.end_gesture(gesture);
+        }
+    }
+
+    fn dialogs(&mut self, ctx: &egui::Context) {
+        if let Some(native) = &mut self.native
+            && let Some(answer) = native.poll(ctx)
+        {
+            let purpose = native.purpose();
+            self.native = None;
+            match answer {
+                Ok(path) => self.file(ctx, purpose, &path),
+                Err(Some(own)) => self.dialog = Some(own),
+                Err(None) => self.after_save = None,
+            }
+        }
+        let Some(dialog) = &mut self.dialog else { return };
+        let answer = dialog.ui(ctx, &mut self.shell.thumbnails);
+        if matches!(answer, Answer::None) {
+            return;
+        }
+        self.dialog = None;
+        ctx.request_repaint();
+        match answer {
+            Answer::None => {}
+            Answer::Cancel => self.after_save = None,
+            Answer::SaveThen(action) => {
+                self.after_save = Some(action);
+                self.act(ctx, Action::Save);
+            }
+            Answer::Discard(action) => self.act_unguarded(ctx, action),
+            Answer::File(purpose, path) => self.file(ctx, purpose, &path),
+            Answer::Restore(left) => self.restore(ctx, *left),
+            Answer::SaveAs => self.ask_file(Purpose::Save),
+            Answer::Replace(path) => self.save_over(ctx, &path),
+            Answer::Overwrite(path) => {
+                self.on_disk = None;
+                self.file(ctx, Purpose::Save, &path);
+            }
+            Answer::Pattern(path, unit) => {
+                self.prefer(ctx, |p| p.answers.keep_drawing(&path, unit));
+                if let Err(words) = self.import_pattern(&path, Some(unit)) {
+                    self.messages.error(words);
+                }
+            }
+            Answer::Body(raw) => {
+                self.prefer(ctx, |p| p.answers.body = Some((raw.unit, raw.up)));
+                if let Err(words) = self.take_body(*raw) {
+                    self.messages.error(words);
+                }
+            }
+        }
+    }
+
+    fn guard_closing(&mut self, ctx: &egui::Context) {
+        if ctx.input(|i| i.viewport().close_requested()) && !self.may_close && self.session.is_modified() {
+            ctx.send_viewport_cmd(ViewportCommand::CancelClose);
+            self.dialog = Some(Dialog::Unsaved { then: Action::Quit });
+        }
+    }
+
+    fn set_title(&mut self, ctx: &egui::Context) {
+        let name = self.path.as_deref().and_then(Path::file_stem).map(|n| n.to_string_lossy());
+        let mark = if self.session.is_modified() { " •" } else { "" };
+        let title = format!("{}{mark} – Toile", name.as_deref().unwrap_or("Untitled"));
+        if title != self.title {
+            ctx.send_viewport_cmd(ViewportCommand::Title(title.clone()));
+            self.title = title;
+        }
+    }
+}
+
+/// A simulation on its own thread that wakes the window when there is something new.
+fn runner(wakeup: &Wakeup) -> std::io::Result<Runner> {
+    let wakeup = wakeup.clone();
+    Runner::threaded(Simulation::default(), DEFAULT_RATE_HZ, Box::new(move || wakeup.wake()))
+}
+
+pub(in crate::ui) fn sentence(words: &str) -> String {
+    let mut letters = words.chars();
+    let first = letters.next().map(|c| c.to_uppercase().to_string()).unwrap_or_default();
+    format!("{first}{}.", letters.as_str())
+}

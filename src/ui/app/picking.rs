@@ -1,0 +1,115 @@
+//! The selection of the pattern: what picks it, what it goes through, and what is done to it.
+
+use std::sync::Arc;
+
+use crate::geometry::ids::PinId;
+use crate::pattern::Pattern;
+use crate::session::{Command, Document};
+use crate::sim::ClothPlace;
+use crate::ui::actions::Action;
+use crate::ui::app::App;
+use crate::ui::app::shell::Shell;
+use crate::ui::pattern_pane::edits;
+use crate::ui::selection::{Item, Selection};
+
+/// What is selected, and of which pattern.
+#[derive(Debug, Default)]
+pub struct Picks {
+    /// What is selected.
+    pub selection: Selection,
+    /// The place of the selected piece that is ringed.
+    pub spot: Option<ClothPlace>,
+    of: Arc<Pattern>,
+}
+
+impl Picks {
+    /// Edges and seams that are selected, and the one the pointer is over.
+    pub fn standing_out(&self, highlight: Option<Item>) -> Vec<Item> {
+        let Selection { edges, seams, .. } = &self.selection;
+        let chosen = edges.iter().map(|&edge| Item::Edge(edge)).chain(seams.iter().map(|&id| Item::Seam(id)));
+        let near = highlight.filter(|item| matches!(item, Item::Edge(_) | Item::Seam(_)));
+        chosen.chain(near).collect()
+    }
+}
+
+impl App {
+    /// Forgets what is selected that is there no longer.
+    pub(in crate::ui) fn carry_selection(&mut self, document: &Document) {
+        let old = std::mem::replace(&mut self.picks.of, Arc::clone(&document.pattern));
+        self.picks.selection.carried(&old, &document.pattern);
+        self.picks.selection.pins.retain(|&id| document.pins.iter().any(|pin| pin.id == id));
+    }
+
+    /// What the pointer is over, in either pane.
+    pub fn highlight(&self) -> Option<Item> {
+        let pattern = &self.picks.of;
+        self.pattern_pane.under.or(self.scene_pane.under).filter(|item| item.is_in(pattern))
+    }
+
+    /// Selects this, and no mark.
+    pub(in crate::ui) fn pick(&mut self, selection: Selection) {
+        if !selection.is_empty() {
+            self.selected = None;
+        }
+        self.picks.selection = selection;
+        self.picks.spot = None;
+    }
+
+    /// Carries out `command`; pieces and seams that are new are selected.
+    pub(in crate::ui) fn apply_and_select(&mut self, command: Command) {
+        let is_edit = matches!(command, Command::EditPattern { .. });
+        let before = Arc::clone(&self.session.document().pattern);
+        self.apply(command);
+        let after = &self.session.document().pattern;
+        if !is_edit || Arc::ptr_eq(&before, after) {
+            return;
+        }
+        let pieces = after.pieces.keys().filter(|id| !before.pieces.contains_key(id)).copied();
+        let mut new = Selection::of_pieces(pieces);
+        if new.is_empty() {
+            new.seams.extend(after.seams.keys().filter(|id| !before.seams.contains_key(id)));
+        }
+        if !new.is_empty() {
+            self.picks = Picks { selection: new, spot: None, of: Arc::clone(after) };
+            self.selected = None;
+        }
+    }
+
+    /// Does something to what is selected.
+    pub(in crate::ui) fn change_pattern(&mut self, action: Action) {
+        let pattern = Arc::clone(&self.session.document().pattern);
+        if action == Action::SelectAll {
+            return self.pick(Selection::all(&pattern));
+        }
+        let pins: Vec<PinId> = self.picks.selection.pins.iter().copied().collect();
+        if !pins.is_empty() {
+            let all = &self.session.document().pins;
+            let locked = !all.iter().all(|pin| pin.locked || !pins.contains(&pin.id));
+            return match action {
+                Action::Delete => self.apply(Command::DeletePins { pins }),
+                Action::ToggleLock => self.apply(Command::LockPins { pins, locked }),
+                _ => {}
+            };
+        }
+        let edits = edits::edits(action, &pattern, &self.picks.selection);
+        if !edits.is_empty() {
+            self.apply_and_select(Command::EditPattern { edits, anew: false });
+        }
+    }
+
+    /// The keyboard goes from pattern to body, side panel and toolbar, and round, or `back`; from anywhere else to the first.
+    pub(in crate::ui) fn next_pane(&mut self, ctx: &egui::Context, back: bool) {
+        let Shell { first_of_panel, first_tool, .. } = self.shell;
+        let mut panes = [self.pattern_pane.id, self.scene_pane.id, first_of_panel, first_tool];
+        if back {
+            panes.reverse();
+        }
+        let focused = ctx.memory(|m| m.focused());
+        let at = focused.and_then(|id| panes.iter().position(|&pane| pane == Some(id)));
+        let from = at.map_or(0, |at| at + 1);
+        let next = (0..panes.len()).find_map(|i| panes[(from + i) % panes.len()]);
+        if let Some(id) = next {
+            ctx.memory_mut(|m| m.request_focus(id));
+        }
+    }
+}

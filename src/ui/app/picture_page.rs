@@ -1,0 +1,246 @@
+//! The question what picture of the body to write, and the picture.
+
+use std::path::Path;
+
+use egui::{ComboBox, DragValue, Id, Modal};
+use glam::UVec2;
+
+use crate::render::{Camera, Look, Projection, View, png};
+use crate::ui::actions::{Action, VIEWS};
+use crate::ui::app::App;
+use crate::ui::files::{self, Purpose};
+use crate::ui::look::theme::{self, Palette};
+use crate::ui::scenery::portrait::{Extras, portrait};
+
+/// Pixels a side.
+const SIDES: std::ops::RangeInclusive<u32> = 16..=16384;
+
+/// What picture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PictureOptions {
+    /// Pixels.
+    pub size: UVec2,
+    /// From there, all of it; None: as it is seen now.
+    pub view: Option<View>,
+    /// Nothing behind it.
+    pub cut_out: bool,
+    /// With marks.
+    pub marks: bool,
+    /// So many in a full turn; 1: a single one.
+    pub count: u32,
+}
+
+impl Default for PictureOptions {
+    fn default() -> Self {
+        Self { size: UVec2::new(1920, 1200), view: None, cut_out: false, marks: false, count: 1 }
+    }
+}
+
+/// The question, open.
+#[derive(Debug)]
+pub struct PicturePage {
+    options: PictureOptions,
+}
+
+/// What is answered.
+enum Answer {
+    None,
+    Cancel,
+    Write,
+}
+
+impl PicturePage {
+    /// For a pane of so many pixels.
+    pub fn new(pane: egui::Vec2) -> Self {
+        let size = UVec2::new(pane.x.round().max(16.0) as u32, pane.y.round().max(16.0) as u32);
+        Self { options: PictureOptions { size, ..PictureOptions::default() } }
+    }
+
+    fn ui(&mut self, ctx: &egui::Context, palette: &Palette) -> Answer {
+        let options = &mut self.options;
+        let shown = Modal::new(Id::unique("picture")).show(ctx, |ui| {
+            ui.set_width(360.0);
+            ui.heading("Save a picture");
+            ui.add_space(6.0);
+            egui::Grid::new("picture").num_columns(2).spacing([18.0, 8.0]).show(ui, |ui| {
+                let label = ui.label("Size");
+                ui.horizontal(|ui| {
+                    for (side, name) in [(&mut options.size.x, "Width"), (&mut options.size.y, "Height")] {
+                        let value = DragValue::new(side).range(SIDES).suffix(" px");
+                        let field = ui.add(value).labelled_by(label.id);
+                        field.widget_info(|| {
+                            egui::WidgetInfo::labeled(egui::accesskit::Role::SpinButton, true, name)
+                        });
+                    }
+                    sizes_ui(ui, &mut options.size);
+                });
+                ui.end_row();
+                let label = ui.label("Seen");
+                let words = |view: Option<View>| match view {
+                    None => "as now",
+                    Some(view) => Action::Look(view).entry().text,
+                };
+                let combo = ComboBox::from_id_salt("side").selected_text(words(options.view));
+                let shown = combo.show_ui(ui, |ui| {
+                    for view in std::iter::once(None).chain(VIEWS.into_iter().map(Some)) {
+                        ui.selectable_value(&mut options.view, view, words(view));
+                    }
+                });
+                shown.response.labelled_by(label.id);
+                ui.end_row();
+                ui.label("Background");
+                ui.checkbox(&mut options.cut_out, "none: transparent, without floor");
+                ui.end_row();
+                ui.label("Marks");
+                ui.checkbox(&mut options.marks, "with marks and pins");
+                ui.end_row();
+                let label = ui.label("A full turn");
+                ui.horizontal(|ui| {
+                    let value = DragValue::new(&mut options.count).range(1..=360);
+                    ui.add(value).labelled_by(label.id);
+                    ui.label(if options.count == 1 { "picture" } else { "pictures, numbered" });
+                });
+                ui.end_row();
+            });
+            ui.add_space(10.0);
+            ui.horizontal(|ui| {
+                let text = egui::RichText::new("Choose a file…").color(palette.on_accent);
+                if ui.add(egui::Button::new(text).fill(palette.accent)).clicked() {
+                    Answer::Write
+                } else if ui.button("Cancel").clicked() {
+                    Answer::Cancel
+                } else {
+                    Answer::None
+                }
+            })
+            .inner
+        });
+        if shown.should_close() { Answer::Cancel } else { shown.inner }
+    }
+}
+
+/// Sizes that are often wanted.
+fn sizes_ui(ui: &mut egui::Ui, size: &mut UVec2) {
+    ui.menu_button("…", |ui| {
+        for (width, height) in
+            [(1280, 720), (1920, 1080), (3840, 2160), (2048, 2048), (1080, 1350), (2480, 3508)]
+        {
+            if ui.button(format!("{width} × {height}")).clicked() {
+                *size = UVec2::new(width, height);
+                ui.close();
+            }
+        }
+    })
+    .response
+    .on_hover_text("Sizes that are often wanted");
+}
+
+impl App {
+    pub(in crate::ui) fn picture_ui(&mut self, ctx: &egui::Context, palette: &Palette) {
+        let Some(mut page) = self.shell.picture.take() else { return };
+        match page.ui(ctx, palette) {
+            Answer::None => self.shell.picture = Some(page),
+            Answer::Cancel => {}
+            Answer::Write => {
+                self.picture_options = page.options;
+                self.ask_file(if page.options.count > 1 { Purpose::Turn } else { Purpose::Picture });
+            }
+        }
+    }
+
+    /// Writes one picture by the options chosen last. The error is in words.
+    pub(in crate::ui) fn write_picture(&mut self, path: &Path) -> Result<(), String> {
+        let options = self.picture_options;
+        let camera = self.camera_of_picture(&options);
+        let bytes = self.photograph(&options, &camera)?;
+        files::write(path, &bytes)?;
+        self.wrote(path);
+        Ok(())
+    }
+
+    /// From where a picture by `options` is taken.
+    pub(in crate::ui) fn camera_of_picture(&mut self, options: &PictureOptions) -> Camera {
+        let mut camera = self.scene_pane.camera;
+        if let Some(view) = options.view {
+            let session = self.demo.as_ref().map_or(&self.session, |(player, ..)| player.session());
+            let extras = Extras { marks: options.marks, pins: options.marks, map: None };
+            let scene = portrait(&mut self.scenery, session, extras);
+            camera = Camera { projection: camera.projection, ..Camera::default() };
+            camera.look(view);
+            camera.frame_points(&scene.points(), options.size.x as f32 / options.size.y as f32);
+        } else if let Some(pane) = self.scene_pane.area {
+            camera = widened(camera, pane.width() / pane.height().max(1.0), options.size);
+        }
+        camera
+    }
+
+    /// The picture as PNG. The error is in words.
+    pub(in crate::ui) fn photograph(
+        &mut self,
+        options: &PictureOptions,
+        camera: &Camera,
+    ) -> Result<Vec<u8>, String> {
+        let session = self.demo.as_ref().map_or(&self.session, |(player, ..)| player.session());
+        let map = self.shell.maps.shown();
+        let colours = map.map(|map| &map.colours);
+        let extras = Extras { marks: options.marks, pins: options.marks, map: colours };
+        let scene = portrait(&mut self.scenery, session, extras);
+        let Some(graphics) = &mut self.scene_pane.graphics else {
+            return Err("There is no graphics adapter to draw with".to_owned());
+        };
+        let theme = if self.dark { egui::Theme::Dark } else { egui::Theme::Light };
+        // Lines as thick as in the pane, whatever the size.
+        let points = self.scene_pane.area.map_or(options.size.y as f32, |pane| pane.height());
+        let look = Look {
+            pixels_per_point: options.size.y as f32 / points.max(1.0),
+            cut_out: options.cut_out,
+            ..self.shell.sight.on(theme::look(theme))
+        };
+        let picture = graphics.photograph(&scene, camera, &look, options.size);
+        let with_legend = |mut picture| {
+            if let Some(map) = map {
+                map.legend().burn(&mut picture);
+            }
+            picture
+        };
+        picture
+            .map(with_legend)
+            .and_then(|picture| png(&picture))
+            .map_err(|e| format!("There is no picture: {e}"))
+    }
+}
+
+/// All that `camera` shows in a picture so much wider than high, in one of another shape.
+fn widened(camera: Camera, aspect: f32, size: UVec2) -> Camera {
+    let other = size.x as f32 / size.y.max(1) as f32;
+    let factor = (aspect / other).max(1.0);
+    match camera.projection {
+        // A wider view from the same eye: what is behind what stays.
+        Projection::Perspective => {
+            Camera { fov_y: 2.0 * ((camera.fov_y / 2.0).tan() * factor).atan(), ..camera }
+        }
+        Projection::Orthographic => Camera { distance: camera.distance * factor, ..camera },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::{Vec2, Vec3};
+
+    #[test]
+    fn what_is_seen_in_the_pane_is_in_the_picture() {
+        let pane = Vec2::new(800.0, 400.0);
+        for projection in [Projection::Perspective, Projection::Orthographic] {
+            let camera = Camera { projection, ..Camera::default() };
+            for size in [UVec2::new(400, 900), UVec2::new(1600, 200), UVec2::new(500, 500)] {
+                let wide = widened(camera, 2.0, size);
+                for pixel in [Vec2::ZERO, pane, Vec2::new(pane.x, 0.0), pane / 3.0] {
+                    let place: Vec3 = camera.point_on_pivot_plane(pixel, pane);
+                    let p = wide.project(place, size.as_vec2()).expect("in front").pixel;
+                    assert!(p.cmpge(Vec2::splat(-0.1)).all() && p.cmple(size.as_vec2() + 0.1).all(), "{p}");
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,356 @@
+//! A demo played in the window: its commands carried out by a hand that can be watched.
+
+use std::time::{Duration, Instant};
+
+use egui::{Align2, Area, Color32, FontId, Frame, Id, Order, Painter, Pos2, Rect, RichText, Stroke, Vec2};
+use glam::{DVec2, DVec3};
+
+use crate::cloth::FlatPiece;
+use crate::drag::DragMode;
+use crate::render::{Camera, mark_colour};
+use crate::session::demos::Demo;
+use crate::session::recording::Recording;
+use crate::session::replay::Replay;
+use crate::session::{Command, Session};
+use crate::sim::ClothPlace;
+use crate::sim::thread::DEFAULT_RATE_HZ;
+use crate::ui::actions::Action;
+use crate::ui::actions::asks::{Ask, Asks};
+use crate::ui::look::theme::Palette;
+use crate::ui::pattern_pane::view::TableView;
+
+/// Cloth that only settles is watched so many times as fast.
+const SETTLING_SPEED: f64 = 2.5;
+/// Ticks of one frame take no longer than this.
+const BUDGET: Duration = Duration::from_millis(45);
+/// A frame counts for no more seconds than this: after a pause the demo goes on where it was.
+const LONGEST_FRAME: f64 = 0.2;
+/// The hand takes so long to where it is needed next, seconds.
+const TRAVEL: f64 = 0.45;
+/// The view turns by at most so many radians a second.
+const TURN_RATE: f32 = 2.2;
+/// It turns when what is shown faces away by more than this cosine.
+const SEEN_FROM: f32 = 0.35;
+/// Radius of the hand's ring, points.
+const RING: f32 = 9.0;
+
+/// The panes the hand moves over.
+pub struct Stage<'a> {
+    /// Where the table is on the screen, and how it is seen.
+    pub table: (Rect, TableView),
+    /// Where the body is on the screen.
+    pub scene: Rect,
+    /// From where the body is seen; turned when the hand needs it.
+    pub camera: &'a mut Camera,
+}
+
+/// A demo under way.
+#[derive(Debug)]
+pub struct Player {
+    /// Which one.
+    pub demo: Demo,
+    replay: Box<Replay>,
+    /// Seconds since the hand began what the next command does.
+    acted: f64,
+    ticks_due: f64,
+    /// Where the hand is on the screen, and where it set out from.
+    hand: Option<Pos2>,
+    from: Option<Pos2>,
+    /// What it does, in words.
+    deed: String,
+    /// Cloth in the hand, where it was taken.
+    held: Option<DVec3>,
+    /// The part of a stroke painted so far, on the screen, and its number.
+    painted: (Vec<Pos2>, usize),
+    ended: bool,
+}
+
+impl Player {
+    /// Ready to begin. The error is in words.
+    pub fn new(demo: Demo) -> Result<Self, String> {
+        let recording = Recording::parse(demo.recording())
+            .map_err(|e| format!("The demo {:?} cannot be read: {e}", demo.name()))?;
+        Ok(Self {
+            demo,
+            replay: Box::new(Replay::to_watch(recording)),
+            acted: 0.0,
+            ticks_due: 0.0,
+            hand: None,
+            from: None,
+            deed: String::new(),
+            held: None,
+            painted: (Vec::new(), 0),
+            ended: false,
+        })
+    }
+
+    /// What is shown.
+    pub fn session(&self) -> &Session {
+        self.replay.shown()
+    }
+
+    /// Whether all of it was shown.
+    pub fn has_ended(&self) -> bool {
+        self.ended
+    }
+
+    /// Goes on by `seconds`. The error is in words.
+    pub fn advance(&mut self, seconds: f64, stage: &mut Stage<'_>) -> Result<(), String> {
+        let mut left = seconds.min(LONGEST_FRAME);
+        let begun = Instant::now();
+        while left > 0.0 && !self.ended && begun.elapsed() < BUDGET {
+            if let Some(command) = self.replay.due_command().cloned() {
+                if !self.act(&command, &mut left, stage) {
+                    break;
+                }
+                self.finish_act(&command);
+                self.step()?;
+            } else if self.replay.is_tick_due() {
+                if self.ticks_due < 1.0 {
+                    self.ticks_due += left * self.rate();
+                    left = 0.0;
+                }
+                if self.ticks_due >= 1.0 {
+                    self.ticks_due -= 1.0;
+                    // What could not be done in time is not made up for.
+                    left = left.max(f64::MIN_POSITIVE);
+                    self.step()?;
+                }
+            } else {
+                self.step()?;
+            }
+        }
+        self.ticks_due = self.ticks_due.min(1.0);
+        self.replay.session().update();
+        Ok(())
+    }
+
+    fn step(&mut self) -> Result<(), String> {
+        match self.replay.step() {
+            Ok(goes_on) => self.ended = !goes_on,
+            Err(why) => return Err(format!("The demo {:?} stopped: {why}", self.demo.name())),
+        }
+        Ok(())
+    }
+
+    /// Ticks a second.
+    fn rate(&self) -> f64 {
+        DEFAULT_RATE_HZ * if self.held.is_some() { 1.0 } else { SETTLING_SPEED }
+    }
+
+    /// The hand does what `command` does, for as much of `left` as it takes. True when it is done.
+    fn act(&mut self, command: &Command, left: &mut f64, stage: &mut Stage<'_>) -> bool {
+        if !self.turn_to(command, *left as f32, stage) {
+            return false;
+        }
+        let whole = TRAVEL + length(command);
+        if let Command::DragTo { .. } = command {
+            self.hand = self.target(command, 1.0, stage).or(self.hand);
+            return true;
+        }
+        let step = left.min(whole - self.acted);
+        self.acted += step;
+        *left -= step;
+        self.deed = words(command, self.session());
+        let share = ((self.acted - TRAVEL) / length(command).max(1e-9)).clamp(0.0, 1.0);
+        if let Some(target) = self.target(command, share, stage) {
+            let from = *self.from.get_or_insert(self.hand.unwrap_or(target));
+            let way = (self.acted / TRAVEL).min(1.0) as f32;
+            self.hand = Some(from.lerp(target, way * way * (3.0 - 2.0 * way)));
+        }
+        self.paint(command, share, stage);
+        self.acted >= whole - 1e-9
+    }
+
+    fn finish_act(&mut self, command: &Command) {
+        self.acted = 0.0;
+        self.from = None;
+        self.painted.0.clear();
+        match command {
+            Command::Grab { piece, at, .. } => self.held = self.place(ClothPlace { piece: *piece, at: *at }),
+            Command::Release => self.held = None,
+            _ => {}
+        }
+    }
+
+    /// Turns the view until what `command` shows is seen; true when it is.
+    fn turn_to(&self, command: &Command, seconds: f32, stage: &mut Stage<'_>) -> bool {
+        let Some(out) = self.faces(command) else { return true };
+        let eye = stage.camera.towards_eye();
+        let (flat, eye) = (DVec2::new(out.x, out.z).as_vec2(), glam::Vec2::new(eye.x, eye.z));
+        let (Some(flat), Some(eye)) = (flat.try_normalize(), eye.try_normalize()) else { return true };
+        if flat.dot(eye) > SEEN_FROM && self.acted == 0.0 || flat.dot(eye) > 0.98 || self.acted > 0.0 {
+            return true;
+        }
+        let angle = eye.perp_dot(flat).atan2(eye.dot(flat));
+        let step = angle.clamp(-TURN_RATE * seconds, TURN_RATE * seconds);
+        stage.camera.orbit(glam::Vec2::new(step, 0.0));
+        (angle - step).abs() < 0.35 && flat.dot(eye) > SEEN_FROM
+    }
+
+    /// Which way the place that `command` is about looks.
+    fn faces(&self, command: &Command) -> Option<DVec3> {
+        let surface = self.session().surface()?;
+        match command {
+            Command::AddBodyMark { points } => {
+                let normals: DVec3 = points.iter().map(|&p| surface.nearest(p).normal).sum();
+                Some(normals)
+            }
+            Command::AddPin { piece, at } | Command::Grab { piece, at, .. } => {
+                Some(surface.nearest(self.place(ClothPlace { piece: *piece, at: *at })?).normal)
+            }
+            Command::Wrap => Some(DVec3::Z),
+            _ => None,
+        }
+    }
+
+    fn place(&self, place: ClothPlace) -> Option<DVec3> {
+        let snapshot = self.session().snapshot();
+        let garment = snapshot.garment.as_ref()?;
+        let found = FlatPiece::new(garment, place.piece).nearest(garment, place.at)?;
+        found.point(garment, &snapshot.cloth)
+    }
+
+    /// Where on the screen the hand is after `share` of what `command` does.
+    fn target(&self, command: &Command, share: f64, stage: &Stage<'_>) -> Option<Pos2> {
+        match command {
+            Command::AddClothMark { .. } | Command::AddBodyMark { .. } => {
+                stroke(self.session(), command, share, stage).last().copied()
+            }
+            Command::SetPiecePose { piece, .. } => {
+                let piece = self.session().document().pattern.pieces.get(piece)?;
+                let middle = piece.flattened(0.01).iter().sum::<DVec2>() / piece.flattened(0.01).len() as f64;
+                Some(on_table(stage, piece.pose.plane_from_piece(middle)))
+            }
+            Command::AddPin { piece, at } | Command::Grab { piece, at, .. } => {
+                on_body(stage, self.place(ClothPlace { piece: *piece, at: *at })?)
+            }
+            Command::DragTo { ray } => {
+                let way = ray.direction.try_normalize()?;
+                let depth = (self.held? - ray.origin).dot(way);
+                on_body(stage, ray.origin + way * depth)
+            }
+            _ => None,
+        }
+    }
+
+    fn paint(&mut self, command: &Command, share: f64, stage: &Stage<'_>) {
+        let marks = &self.session().document().marks;
+        let number = match command {
+            Command::AddClothMark { .. } => marks.cloth.len() + 1,
+            Command::AddBodyMark { .. } => marks.body.len() + 1,
+            _ => return,
+        };
+        let begun = self.acted > TRAVEL;
+        let line = if begun { stroke(self.session(), command, share, stage) } else { Vec::new() };
+        self.painted = (line, number);
+    }
+
+    /// Draws the hand over the panes, and over the table what is shown.
+    pub fn ui(&self, ctx: &egui::Context, palette: &Palette, table: Rect, asks: &mut Asks) {
+        let painter = ctx.layer_painter(egui::LayerId::new(Order::Middle, Id::unique("hand of the demo")));
+        if self.painted.0.len() > 1 {
+            let [r, g, b] = mark_colour(self.painted.1);
+            painter.line(self.painted.0.clone(), Stroke::new(6.5, palette.halo));
+            painter.line(self.painted.0.clone(), Stroke::new(3.2, Color32::from_rgb(r, g, b)));
+        }
+        if let Some(at) = self.hand.filter(|_| !self.ended) {
+            hand_ui(&painter, at, self.held.is_some() || !self.painted.0.is_empty(), &self.deed, palette);
+        }
+        self.banner_ui(ctx, palette, table, asks);
+    }
+
+    /// Over the table, where it hides no body.
+    fn banner_ui(&self, ctx: &egui::Context, palette: &Palette, table: Rect, asks: &mut Asks) {
+        let area = Area::new(Id::unique("demo")).order(Order::Foreground).pivot(Align2::CENTER_TOP);
+        area.fixed_pos(table.center_top() + Vec2::new(0.0, 10.0)).show(ctx, |ui| {
+            Frame::popup(ui.style()).stroke(Stroke::new(1.0, palette.accent)).show(ui, |ui| {
+                ui.set_max_width((table.width() - 40.0).clamp(120.0, 560.0));
+                ui.horizontal(|ui| {
+                    let title = format!("{} · Figure {}", self.demo.name(), self.demo.figure());
+                    ui.label(RichText::new(title).strong().size(14.5));
+                    if ui.button(if self.ended { "Back to your work" } else { "Stop" }).clicked() {
+                        asks.push(Ask::Act(Action::StopDemo));
+                    }
+                    if self.ended && ui.button("Again").clicked() {
+                        asks.push(Ask::Act(Action::Demo(self.demo)));
+                    }
+                    ui.label(RichText::new("Esc").color(palette.weak).size(12.0));
+                });
+                ui.label(RichText::new(self.demo.tells()).color(palette.weak));
+            });
+        });
+    }
+}
+
+/// Seconds the hand takes for `command` where it is done.
+fn length(command: &Command) -> f64 {
+    match command {
+        Command::AddClothMark { .. } | Command::AddBodyMark { .. } => 0.9,
+        Command::SetPiecePose { .. } => 0.3,
+        Command::Wrap | Command::Rewrap { .. } | Command::Undo => 0.9,
+        Command::AddPin { .. } | Command::Grab { .. } => 0.25,
+        _ => 0.05,
+    }
+}
+
+/// What the hand does, beside it.
+fn words(command: &Command, session: &Session) -> String {
+    let marks = &session.document().marks;
+    match command {
+        Command::AddClothMark { .. } => format!("Mark {} on the cloth", marks.cloth.len() + 1),
+        Command::AddBodyMark { .. } => format!("Mark {} on the body", marks.body.len() + 1),
+        Command::SetPiecePose { .. } => "Turn the piece over".to_owned(),
+        Command::Wrap => "Wrap".to_owned(),
+        Command::Rewrap { .. } => "Rewrap".to_owned(),
+        Command::Undo => "Undo".to_owned(),
+        Command::AddPin { .. } => "Pin".to_owned(),
+        Command::Grab { mode: DragMode::Surface, .. } => "Drag along the skin".to_owned(),
+        Command::Grab { mode: DragMode::Vertex, .. } => "Drag one point".to_owned(),
+        Command::Grab { mode: DragMode::Rigid, .. } => "Drag rigidly".to_owned(),
+        _ => String::new(),
+    }
+}
+
+/// The first `share` of a stroke, on the screen; at least its first point.
+fn stroke(session: &Session, command: &Command, share: f64, stage: &Stage<'_>) -> Vec<Pos2> {
+    let upto = |count: usize| 1 + (share * count.saturating_sub(1) as f64).round() as usize;
+    match command {
+        Command::AddClothMark { piece, points, .. } => {
+            let Some(piece) = session.document().pattern.pieces.get(piece) else { return Vec::new() };
+            let points = points.iter().take(upto(points.len()));
+            points.map(|&p| on_table(stage, piece.pose.plane_from_piece(p))).collect()
+        }
+        Command::AddBodyMark { points } => {
+            points.iter().take(upto(points.len())).filter_map(|&p| on_body(stage, p)).collect()
+        }
+        _ => Vec::new(),
+    }
+}
+
+fn on_table(stage: &Stage<'_>, p: DVec2) -> Pos2 {
+    stage.table.1.screen_from_table(stage.table.0, p)
+}
+
+fn on_body(stage: &Stage<'_>, p: DVec3) -> Option<Pos2> {
+    let size = glam::Vec2::new(stage.scene.width().max(1.0), stage.scene.height().max(1.0));
+    let seen = stage.camera.project(p.as_vec3(), size)?;
+    Some(stage.scene.min + Vec2::new(seen.pixel.x, seen.pixel.y))
+}
+
+/// A ring, filled while the button is down, and what is done beside it.
+fn hand_ui(painter: &Painter, at: Pos2, is_down: bool, deed: &str, palette: &Palette) {
+    painter.circle_stroke(at, RING, Stroke::new(4.5, palette.halo));
+    painter.circle_stroke(at, RING, Stroke::new(2.2, palette.accent));
+    if is_down {
+        painter.circle_filled(at, RING - 4.0, palette.accent);
+    }
+    if deed.is_empty() {
+        return;
+    }
+    let font = FontId::proportional(13.5);
+    let text = painter.layout_no_wrap(deed.to_owned(), font, palette.on_accent);
+    let room = Rect::from_min_size(at + Vec2::new(RING + 8.0, -text.size().y / 2.0), text.size());
+    painter.rect_filled(room.expand2(Vec2::new(7.0, 4.0)), 5.0, palette.accent);
+    painter.galley(room.min, text, palette.on_accent);
+}

@@ -1,0 +1,55 @@
+//! The fit report in the making: a picture a frame, that can be stopped.
+
+use std::path::{Path, PathBuf};
+
+use crate::ui::app::App;
+use crate::ui::app::turn::progress_ui;
+use crate::ui::files;
+use crate::ui::fit_page::FitPage;
+use crate::ui::look::theme::Palette;
+
+/// Under way.
+#[derive(Debug)]
+pub struct Reporting {
+    path: PathBuf,
+    page: FitPage,
+}
+
+impl App {
+    /// Begins the fit report of what is dressed, into the file at `path`.
+    pub(in crate::ui) fn begin_fit_page(&mut self, path: &Path) {
+        let name = self.path.as_deref().map_or_else(|| "untitled".to_owned(), files::stem);
+        match FitPage::of(&self.session, &name) {
+            Some(page) => self.shell.reporting = Some(Reporting { path: path.to_owned(), page }),
+            None => self.messages.error("There is no cloth on the body"),
+        }
+    }
+
+    /// The next picture of the report under way, and how far it has come; after the last the page is written.
+    pub(in crate::ui) fn go_on_reporting(&mut self, ctx: &egui::Context, palette: &Palette, above: f32) {
+        let Some(mut report) = self.shell.reporting.take() else { return };
+        match &mut self.scene_pane.graphics {
+            Some(graphics) => {
+                let drawn = report
+                    .page
+                    .draw_next(|scene, camera, look, size| graphics.photograph(scene, camera, look, size));
+                if let Err(why) = drawn {
+                    return self.messages.error(format!("There is no picture: {why}"));
+                }
+            }
+            None => report.page.leave_pictures_out("there is no graphics adapter to draw with".to_owned()),
+        }
+        let (done, count) = report.page.progress();
+        if done == count || self.scene_pane.graphics.is_none() {
+            return match files::write(&report.path, report.page.html().as_bytes()) {
+                Ok(()) => self.wrote(&report.path),
+                Err(words) => self.messages.error(words),
+            };
+        }
+        if progress_ui(ctx, palette, above, done, count) {
+            return self.messages.tell("The fit report was stopped: nothing is written");
+        }
+        self.shell.reporting = Some(report);
+        ctx.request_repaint();
+    }
+}

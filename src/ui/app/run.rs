@@ -1,0 +1,168 @@
+//! Opens the window.
+
+use std::cell::RefCell;
+use std::fs::File;
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+use std::path::{Path, PathBuf};
+use std::rc::Rc;
+use std::time::Instant;
+
+use anyhow::{Context, anyhow};
+
+use crate::session::Project;
+use crate::ui::app::App;
+use crate::ui::app::safety;
+use crate::ui::app::tries::{PLAIN, STARTED, Starts, prefer_processor};
+use crate::ui::files::thumbnails;
+use crate::ui::preferences;
+
+/// A device that is lost more often than this will not stay.
+const MOST_LOSSES: usize = 5;
+
+/// Opens the window on `project`, which came from the file `path`, or on the start page, and returns when it is closed.
+/// Everything done is also written to `record`. A window whose graphics device is lost is opened anew.
+pub fn run(project: Option<Project>, path: Option<PathBuf>, record: Option<File>) -> anyhow::Result<()> {
+    let kept: Kept = Rc::default();
+    let mut first = Some((project, path, record));
+    let root = safety::usual_root();
+    let starts = root.as_deref().and_then(Path::parent).map(Starts::begin);
+    let is_plain = starts.as_ref().is_some_and(Starts::is_plain);
+    let starting: Starting = Rc::new(RefCell::new(starts.map(|starts| (starts, Instant::now()))));
+    for _ in 0..=MOST_LOSSES {
+        let mut options = eframe::NativeOptions {
+            viewport: egui::ViewportBuilder::default()
+                .with_title("Toile")
+                .with_app_id("toile")
+                .with_inner_size([1400.0, 880.0])
+                .with_min_inner_size([880.0, 540.0]),
+            ..Default::default()
+        };
+        if is_plain {
+            prefer_processor(&mut options);
+        }
+        let starting = Rc::clone(&starting);
+        let (shared, first) = (Rc::clone(&kept), first.take());
+        let create: eframe::AppCreator<'_> = Box::new(move |cc| {
+            let mut app = shared.borrow_mut();
+            match (first, app.as_mut()) {
+                (Some((project, path, record)), _) => {
+                    *app = Some(opened(cc, project, path, record, is_plain)?)
+                }
+                (None, Some(app)) => app.move_into(&cc.egui_ctx, cc.wgpu_render_state.clone()),
+                (None, None) => {}
+            }
+            drop(app);
+            Ok(Box::new(Window { app: shared, starting }))
+        });
+        // egui itself may panic when it draws with a device that is gone.
+        let ended = catch_unwind(AssertUnwindSafe(|| eframe::run_native("Toile", options, create)));
+        match ended {
+            Ok(ended) => {
+                ended.map_err(|e| anyhow!(words(&e))).context("the window could not be opened")?;
+            }
+            Err(_) if kept.try_borrow().is_ok_and(|app| app.as_ref().is_some_and(App::is_moving)) => {}
+            Err(panic) => resume_unwind(panic),
+        }
+        if !kept.borrow().as_ref().is_some_and(App::is_moving) {
+            return Ok(());
+        }
+    }
+    Err(anyhow!(
+        "the graphics device was lost again and again; the work is offered when Toile is started next"
+    ))
+}
+
+fn opened(
+    cc: &eframe::CreationContext<'_>,
+    project: Option<Project>,
+    path: Option<PathBuf>,
+    record: Option<File>,
+    is_plain: bool,
+) -> std::io::Result<App> {
+    let is_start = project.is_none();
+    let project = project.unwrap_or_default();
+    let mut app = App::new(&cc.egui_ctx, project, path.clone(), cc.wgpu_render_state.clone())?;
+    if is_plain {
+        app.warn(PLAIN);
+    } else {
+        if let Some(path) = preferences::usual_path() {
+            app.keep_preferences(&cc.egui_ctx, path);
+        }
+        if let Some(folder) = thumbnails::usual_folder() {
+            app.keep_thumbnails(folder);
+        }
+    }
+    if let Some(path) = &path {
+        app.remember(path);
+    }
+    if is_start {
+        app.begin_at_start_page();
+    }
+    if let Some(root) = safety::usual_root() {
+        app.keep_safe(&root);
+    }
+    if let Some(file) = record {
+        app.record_to(file)?;
+    }
+    Ok(app)
+}
+
+/// The app, which outlives its windows.
+type Kept = Rc<RefCell<Option<App>>>;
+
+/// This start, until it is known to have succeeded, and when it began.
+type Starting = Rc<RefCell<Option<(Starts, Instant)>>>;
+
+struct Window {
+    app: Kept,
+    starting: Starting,
+}
+
+impl Window {
+    /// The window is open; `closes`: and is closed as it should be.
+    fn tell_start(&self, ctx: &egui::Context, closes: bool) {
+        let mut starting = self.starting.borrow_mut();
+        let Some(waits) = starting.as_ref().map(|(_, begun)| STARTED.saturating_sub(begun.elapsed())) else {
+            return;
+        };
+        if waits.is_zero() || closes {
+            if let Some((starts, _)) = starting.take() {
+                starts.well();
+            }
+        } else {
+            ctx.request_repaint_after(waits);
+        }
+    }
+}
+
+impl eframe::App for Window {
+    fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
+        self.tell_start(ui.ctx(), false);
+        if let Some(app) = self.app.borrow_mut().as_mut() {
+            app.ui(ui);
+        }
+    }
+
+    fn on_exit(&mut self) {
+        self.tell_start(&egui::Context::default(), true);
+        if let Some(app) = self.app.borrow_mut().as_mut()
+            && !app.is_moving()
+        {
+            app.finish();
+        }
+    }
+}
+
+/// What went wrong, and what to do about it where that is known.
+fn words(error: &eframe::Error) -> String {
+    use winit::error::EventLoopError;
+    match error {
+        eframe::Error::WinitEventLoop(EventLoopError::NotSupported(_)) => {
+            "this system has no windows; see toile --help for what works without".to_owned()
+        }
+        eframe::Error::WinitEventLoop(EventLoopError::ExitFailure(code)) => {
+            format!("the connection to the display broke (code {code})")
+        }
+        other => other.to_string(),
+    }
+}

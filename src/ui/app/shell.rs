@@ -1,0 +1,227 @@
+//! What stands round the panes: start page, tour, palette, preferences, pictures; and what their actions do.
+
+use std::sync::Arc;
+
+use crate::session::Command;
+use crate::ui::actions::Action;
+use crate::ui::actions::asks::Asks;
+use crate::ui::actions::context::FrameContext;
+use crate::ui::actions::drawer::Drawer;
+use crate::ui::actions::sight::Sight;
+use crate::ui::app::App;
+use crate::ui::app::picture_page::PicturePage;
+use crate::ui::app::reporting::Reporting;
+use crate::ui::app::start_page::StartPage;
+use crate::ui::app::tour::Tour;
+use crate::ui::app::turn::Turn;
+use crate::ui::body_pane::placing::Placing;
+use crate::ui::files::Purpose;
+use crate::ui::files::recent::Recent;
+use crate::ui::files::thumbnails::Thumbnails;
+use crate::ui::look::theme::Palette;
+use crate::ui::maps::MapView;
+use crate::ui::panels::pose::PosePanel;
+use crate::ui::panels::tape::TapePanel;
+use crate::ui::preferences::Preferences;
+use crate::ui::preferences::page::PreferencesPage;
+use crate::ui::shell::command_palette::CommandPalette;
+use crate::ui::shell::drop_overlay;
+use crate::ui::shell::status;
+
+/// What stands round the panes.
+#[derive(Debug, Default)]
+pub struct Shell {
+    /// Instead of the panes.
+    pub start: Option<StartPage>,
+    /// Over the panes.
+    pub tour: Option<Tour>,
+    /// Commands by their letters.
+    pub palette: Option<CommandPalette>,
+    /// The page of preferences.
+    pub preferences: Option<PreferencesPage>,
+    /// The question what picture to write.
+    pub picture: Option<PicturePage>,
+    /// A turn of pictures being written.
+    pub turn: Option<Turn>,
+    /// A fit report under way.
+    pub reporting: Option<Reporting>,
+    /// What is open below the panes.
+    pub drawer: Option<Drawer>,
+    /// Files that were open before.
+    pub recent: Recent,
+    /// The file that is opened next.
+    pub opening: Option<std::path::PathBuf>,
+    /// What pieces are stood round the body by.
+    pub placing: Placing,
+    /// How body and cloth are drawn.
+    pub sight: Sight,
+    /// What gets the keyboard with the toolbar and with the side panel.
+    pub first_tool: Option<egui::Id>,
+    pub first_of_panel: Option<egui::Id>,
+    /// Poses of the mannequin.
+    pub pose: PosePanel,
+    /// Measures of the body.
+    pub tape: TapePanel,
+    /// What cloth is coloured by.
+    pub maps: MapView,
+    /// Small pictures of samples and projects.
+    pub thumbnails: Thumbnails,
+}
+
+impl Shell {
+    /// Whether keys belong to something over the panes.
+    pub fn is_asking(&self) -> bool {
+        self.palette.is_some() || self.preferences.is_some() || self.picture.is_some()
+    }
+}
+
+impl App {
+    /// Shows the start page over an empty table.
+    pub fn begin_at_start_page(&mut self) {
+        self.shell.recent.look();
+        self.shell.start = Some(StartPage::default());
+    }
+
+    /// Makes small pictures of samples and projects in the background, and keeps those of samples in `folder`.
+    pub fn keep_thumbnails(&mut self, folder: std::path::PathBuf) {
+        self.shell.thumbnails = Thumbnails::kept_in(folder);
+    }
+
+    pub(in crate::ui) fn act_on_shell(&mut self, ctx: &egui::Context, action: Action) {
+        let toggled = |drawer| if self.shell.drawer == Some(drawer) { None } else { Some(drawer) };
+        match action {
+            Action::OpenRecent(_) => self.open_recent(ctx),
+            Action::ClearRecent => {
+                if let Err(words) = self.shell.recent.clear() {
+                    self.messages.error(words);
+                }
+            }
+            Action::StartPage => self.begin_at_start_page(),
+            Action::Picture => {
+                let pane = self.scene_pane.area.map_or(egui::Vec2::new(1280.0, 800.0), |area| area.size());
+                self.shell.picture = Some(PicturePage::new(pane * ctx.pixels_per_point()));
+            }
+            Action::Preferences => self.shell.preferences = Some(PreferencesPage::default()),
+            Action::ToggleWire => self.shell.sight.wire = !self.shell.sight.wire,
+            Action::ToggleSheer => self.shell.sight.sheer = !self.shell.sight.sheer,
+            Action::ToggleXray => self.shell.sight.xray = !self.shell.sight.xray,
+            Action::TogglePairs => self.shell.sight.pairs = !self.shell.sight.pairs,
+            Action::ToggleHistory => self.shell.drawer = toggled(Drawer::History),
+            Action::ToggleLog => self.shell.drawer = toggled(Drawer::Log),
+            Action::Map(kind) => self.shell.maps.choose(kind),
+            Action::ToggleDifference => self.shell.maps.toggle_difference(),
+            Action::ChangeSides => {
+                self.shell.maps.change_sides();
+                self.scene_pane.frame = Some(None);
+            }
+            Action::CloseComparison => {
+                self.shell.maps.compare(None);
+                self.scene_pane.frame = Some(None);
+            }
+            Action::ToggleMapTable => self.shell.drawer = toggled(Drawer::Map),
+            Action::CommandPalette => self.shell.palette = Some(CommandPalette::default()),
+            Action::Tour => self.begin_tour(),
+            _ => {}
+        }
+    }
+
+    /// What lies over the panes in this frame.
+    pub(in crate::ui) fn over_panes(
+        &mut self,
+        ctx: &egui::Context,
+        now: &FrameContext,
+        palette: &Palette,
+        asks: &mut Asks,
+    ) {
+        self.shell.thumbnails.take(ctx);
+        if self.shell.start.is_none() {
+            self.tour_ui(ctx, now, palette, asks);
+        }
+        if let Some(mut open) = self.shell.palette.take()
+            && open.ui(ctx, now, palette, asks)
+        {
+            self.shell.palette = Some(open);
+        }
+        self.preferences_ui(ctx, palette);
+        self.picture_ui(ctx, palette);
+        self.go_on_turning(ctx, palette, status::HEIGHT);
+        self.go_on_reporting(ctx, palette, status::HEIGHT);
+        drop_overlay::ui(ctx, palette, [self.pattern_pane.area, self.scene_pane.area]);
+    }
+
+    fn preferences_ui(&mut self, ctx: &egui::Context, palette: &Palette) {
+        let Some(mut page) = self.shell.preferences.take() else { return };
+        let mut new = self.preferences.clone();
+        if page.ui(ctx, &mut new, palette) {
+            self.shell.preferences = Some(page);
+        }
+        if new != self.preferences {
+            self.prefer(ctx, |preferences| *preferences = new);
+        }
+    }
+
+    /// From now on, and the next time.
+    pub(in crate::ui) fn prefer(&mut self, ctx: &egui::Context, change: impl FnOnce(&mut Preferences)) {
+        change(&mut self.preferences);
+        self.live_by_preferences(ctx);
+        if let Some(path) = &self.preferences_path
+            && let Err(words) = self.preferences.write(path)
+        {
+            self.messages.error(format!("Your preferences could not be kept: {words}"));
+        }
+    }
+
+    pub(in crate::ui) fn live_by_preferences(&self, ctx: &egui::Context) {
+        ctx.set_theme(egui::ThemePreference::from(self.preferences.theme));
+        ctx.set_zoom_factor(self.preferences.scale.factor());
+    }
+
+    fn open_recent(&mut self, ctx: &egui::Context) {
+        if let Some(path) = self.shell.opening.take() {
+            self.file(ctx, Purpose::Open, &path);
+        }
+        self.shell.recent.look();
+    }
+
+    /// `path` goes to the top of the list of files that were open.
+    pub(in crate::ui) fn remember(&mut self, path: &std::path::Path) {
+        if let Err(words) = self.shell.recent.add(path) {
+            self.messages.error(format!("The list of files could not be kept: {words}"));
+        }
+    }
+
+    /// Undoes or does again so many steps.
+    pub(in crate::ui) fn jump(&mut self, steps: i32) {
+        for _ in 0..steps.unsigned_abs() {
+            self.apply(if steps < 0 { Command::Undo } else { Command::Redo });
+        }
+    }
+
+    pub(in crate::ui) fn is_at_body(&self, ctx: &egui::Context) -> bool {
+        let focused = self.scene_pane.id.is_some_and(|id| ctx.memory(|m| m.has_focus(id)));
+        self.scene_pane.hovered || (focused && !self.pattern_pane.hovered)
+    }
+
+    /// Shows the selected mark or the cloth of the selected pieces where they lie on the body; everything where nothing is
+    /// selected or lies there.
+    pub(in crate::ui) fn frame_selected_on_body(&mut self) {
+        let session = self.shown();
+        let Some(surface) = session.surface().cloned() else { return };
+        let marks = Arc::clone(&session.document().marks);
+        let (pieces, snapshot) = (self.picks.selection.pieces_touched(), Arc::clone(session.snapshot()));
+        let mut points: Vec<glam::DVec3> = match self.selected.and_then(|mark| marks.place(mark)) {
+            Some(place) => marks.body.get(place.number - 1).map(|m| m.points.clone()).unwrap_or_default(),
+            None => Vec::new(),
+        };
+        if let Some((garment, cloth)) = snapshot.drawn().filter(|_| points.is_empty()) {
+            let corners = garment.corners.iter().filter(|c| pieces.contains(&c.piece));
+            let on_body = corners.map(|c| c.vertex as usize).filter(|&v| cloth.mapped[v]);
+            points = on_body.map(|v| cloth.positions[v]).collect();
+        }
+        if points.is_empty() {
+            self.scene_pane.frame = Some(None);
+        } else {
+            self.scene_pane.come_near(&points, &surface);
+        }
+    }
+}

@@ -1,0 +1,173 @@
+//! The tour: from an empty table to a dressed body in five steps, each done by the person's own hand.
+
+use std::sync::Arc;
+
+use egui::{Align2, Area, Frame, Id, Order, RichText, Stroke};
+
+use crate::body::mannequin;
+use crate::session::samples::Sample;
+use crate::session::{Command, Project};
+use crate::ui::actions::asks::{Ask, Asks};
+use crate::ui::actions::context::FrameContext;
+use crate::ui::actions::{Action, Tool};
+use crate::ui::app::App;
+use crate::ui::look::theme::Palette;
+use crate::wrap::{Marks, Phase};
+
+/// Steps there are.
+const STEPS: usize = 5;
+
+/// Where the person stands.
+#[derive(Debug, Default)]
+pub struct Tour {
+    /// From 0.
+    step: usize,
+    /// The garment lay at rest before the last step.
+    steps_before: usize,
+}
+
+/// What one step says.
+struct Step {
+    title: &'static str,
+    words: &'static str,
+    /// What is done for a person who asks.
+    help: Option<&'static str>,
+}
+
+fn step(i: usize) -> Step {
+    match i {
+        0 => Step {
+            title: "Flat pieces",
+            words: "On the left is the table for flat pieces. Take those of a T-shirt, or draw your own with Pattern › Tools.",
+            help: Some("Take the T-shirt's pieces"),
+        },
+        1 => Step {
+            title: "A mark on the cloth",
+            words: "Drag with the left button over the middle of the front piece, from the neck down: that paints mark 1.",
+            help: None,
+        },
+        2 => Step {
+            title: "Its partner on the body",
+            words: "Drag over the body where the mark is to lie: down the middle of the chest. Marks with the same number will meet.",
+            help: None,
+        },
+        3 => Step {
+            title: "Wrap",
+            words: "A T-shirt wants a mark on each shoulder and sleeve, too: have them painted for you. Then press Wrap, or Enter.",
+            help: Some("Paint all the marks"),
+        },
+        _ => Step {
+            title: "Put it right",
+            words: "Drag the cloth over the skin with the right button. A click with the tool Pin (P) holds it fast where it is.",
+            help: None,
+        },
+    }
+}
+
+impl Tour {
+    /// Whether what the step asks for is done.
+    fn is_done(&self, now: &FrameContext, steps: usize) -> bool {
+        match self.step {
+            0 => now.pieces > 0,
+            1 => now.marks[0] > 0,
+            2 => now.marks[0].min(now.marks[1]) > 0,
+            3 => now.dressed && now.phase.is_some_and(|phase| phase != Phase::Growing),
+            _ => steps > self.steps_before && now.dressed && !now.dragging,
+        }
+    }
+}
+
+impl App {
+    /// Begins it on an empty table; the caller has asked about unsaved changes.
+    pub(in crate::ui) fn begin_tour(&mut self) {
+        self.replace(Project::default(), None);
+        self.leave_start_page();
+        self.tool = Tool::Mark;
+        self.shell.tour = Some(Tour::default());
+    }
+
+    /// The card of the step, over the body pane.
+    pub(in crate::ui) fn tour_ui(
+        &mut self,
+        ctx: &egui::Context,
+        now: &FrameContext,
+        palette: &Palette,
+        asks: &mut Asks,
+    ) {
+        let Some(mut tour) = self.shell.tour.take() else { return };
+        let Some(pane) = self.scene_pane.area.filter(|_| !now.demo) else {
+            self.shell.tour = Some(tour);
+            return;
+        };
+        let steps = self.session.step_labels().count();
+        let done = tour.is_done(now, steps);
+        let mut stays = true;
+        let area = Area::new(Id::unique("tour")).order(Order::Middle).pivot(Align2::LEFT_BOTTOM);
+        area.fixed_pos(pane.left_bottom() + egui::vec2(12.0, -12.0)).show(ctx, |ui| {
+            Frame::popup(ui.style()).stroke(Stroke::new(1.5, palette.accent)).inner_margin(12).show(
+                ui,
+                |ui| {
+                    ui.set_width((pane.width() * 0.5).clamp(180.0, 300.0));
+                    let Step { title, words, help } = step(tour.step);
+                    ui.horizontal(|ui| {
+                        ui.label(RichText::new(format!("{}  {title}", tour.step + 1)).strong().size(15.0));
+                        ui.label(RichText::new(format!("of {STEPS}")).color(palette.weak));
+                    });
+                    ui.label(words);
+                    if let Some(help) = help.filter(|_| tour.step != 0 || now.pieces == 0)
+                        && ui.button(help).clicked()
+                    {
+                        asks.extend(self.help_in_tour(tour.step));
+                    }
+                    if done {
+                        ui.label(RichText::new("This step is done").color(palette.accent).strong());
+                    }
+                    ui.add_space(4.0);
+                    ui.horizontal(|ui| {
+                        let last = tour.step + 1 == STEPS;
+                        let text = if last {
+                            "Finish"
+                        } else if done {
+                            "Next"
+                        } else {
+                            "Skip this step"
+                        };
+                        let mut label = RichText::new(text);
+                        let mut fill = ui.visuals().widgets.inactive.weak_bg_fill;
+                        if done {
+                            (label, fill) = (label.color(palette.on_accent), palette.accent);
+                        }
+                        if ui.add(egui::Button::new(label).fill(fill)).clicked() {
+                            stays = !last;
+                            (tour.step, tour.steps_before) = (tour.step + 1, steps);
+                        }
+                        if tour.step > 0 && tour.step < STEPS && ui.button("Back").clicked() {
+                            tour.step -= 1;
+                        }
+                        let leave = ui.button("Leave the tour").on_hover_text("Help › Tour begins it again");
+                        stays &= !leave.clicked();
+                    });
+                },
+            );
+        });
+        if stays {
+            self.shell.tour = Some(tour);
+        }
+    }
+
+    /// What is done for a person who asks in this step.
+    fn help_in_tour(&self, step: usize) -> Vec<Ask> {
+        let sample = Sample::Tshirt.project(&mannequin::default()).document;
+        match step {
+            0 => vec![Ask::Do(Command::ReplacePattern {
+                name: Sample::Tshirt.name().to_owned(),
+                pattern: sample.pattern,
+                marks: Arc::new(Marks::default()),
+            })],
+            _ if self.session.document().pattern == sample.pattern => {
+                vec![Ask::Do(Command::SetMarks { marks: sample.marks })]
+            }
+            _ => vec![Ask::Act(Action::SuggestMarks)],
+        }
+    }
+}

@@ -1,0 +1,110 @@
+//! The picture of the scene in its pane.
+
+use std::sync::Arc;
+
+use egui::{Align2, Color32, FontId, Pos2, Rect};
+use glam::UVec2;
+
+use super::outlines::outlines;
+use super::{Key, ScenePane, Seen};
+use crate::geometry::ids::MarkId;
+use crate::pattern::activity::Activity;
+use crate::render::{Look, Quality};
+use crate::session::Pin;
+use crate::ui::scenery::ring::ring;
+use crate::ui::scenery::scene::{PinLook, Shown};
+
+/// How each pin is drawn.
+fn pin_looks(seen: &Seen<'_>) -> Vec<PinLook> {
+    let look = |pin: &Pin| PinLook { locked: pin.locked, selected: seen.selected_pins.contains(&pin.id) };
+    seen.document.pins.iter().map(look).collect()
+}
+
+/// Pictures drawn by a processor shrink by this much while things move.
+const DRAFT: f32 = 0.8;
+
+impl ScenePane {
+    pub(super) fn draw(&mut self, ui: &egui::Ui, seen: &Seen<'_>, near: Option<MarkId>, pane: Rect) {
+        let painter = ui.painter_at(pane);
+        let [stroke, far_stroke] = self.strokes().cloned().unwrap_or_default();
+        let bones = self.shown_bones(seen);
+        let Some(graphics) = &mut self.graphics else {
+            let words = "No graphics adapter: the body cannot be shown.";
+            painter.text(
+                pane.center(),
+                Align2::CENTER_CENTER,
+                words,
+                FontId::proportional(14.0),
+                seen.palette.weak,
+            );
+            return;
+        };
+        let draft = graphics.is_slow() && (self.moving || seen.working || !stroke.is_empty());
+        let scale = ui.ctx().pixels_per_point() * if draft { DRAFT } else { 1.0 };
+        let pixels = (pane.size() * scale).round();
+        let key = Key {
+            camera: self.camera,
+            look: Look { pixels_per_point: scale, ..seen.look },
+            quality: if draft { Quality::Draft } else { Quality::Finished },
+            size: UVec2::new(pixels.x.max(1.0) as u32, pixels.y.max(1.0) as u32),
+            body: seen.body.cloned(),
+            cloth: seen.cloth.map(|(_, state)| Arc::clone(state)),
+            marks: Some(Arc::clone(&seen.document.marks)),
+            stroke: stroke.len() + far_stroke.len(),
+            near,
+            pinned: Some(Arc::clone(seen.pinned)),
+            pins: pin_looks(seen),
+            bones,
+            activities: seen.document.pattern.activities(),
+            dragged: seen.dragged.cloned(),
+            map: seen.map.map(|map| Arc::clone(&map.colours)),
+            beside: seen.beside.cloned(),
+            selected: seen.selected,
+            ghosts: seen.ghosts.cloned(),
+            spot: seen.spot,
+            stand_out: if seen.cloth.is_some() { seen.stand_out.to_vec() } else { Vec::new() },
+        };
+        let (pins, bones, activities) = (key.pins.clone(), key.bones.clone(), key.activities.clone());
+        let mut outlines = outlines(&seen.document.pattern, &key.stand_out);
+        outlines.extend(seen.spot.map(ring));
+        let shown = Shown {
+            body: seen.body,
+            cloth: seen.cloth,
+            marks: Some(&seen.document.marks),
+            stroke: &stroke,
+            far_stroke: &far_stroke,
+            near,
+            pinned: seen.pinned,
+            pins: &pins,
+            bones: &bones,
+            activities: Some(&activities),
+            whole: seen.whole.filter(|_| activities.values().any(Activity::is_deactivated)),
+            dragged: seen.dragged,
+            map: seen.map.map(|map| &map.colours),
+            beside: seen.beside.map_or(&[], |meshes| meshes),
+            selected: seen.selected,
+            ghosts: seen.ghosts.map(|g| &**g),
+            outlines: &outlines,
+        };
+        match graphics.picture(key, || self.scenery.scene(&shown)) {
+            Ok(texture) => {
+                let whole = Rect::from_min_max(Pos2::ZERO, Pos2::new(1.0, 1.0));
+                painter.image(texture, pane, whole, Color32::WHITE);
+            }
+            Err(error) => {
+                let font = FontId::proportional(14.0);
+                painter.text(
+                    pane.center(),
+                    Align2::CENTER_CENTER,
+                    error.to_string(),
+                    font,
+                    seen.palette.error,
+                );
+            }
+        }
+        if draft {
+            // The finished picture follows as soon as nothing moves.
+            ui.ctx().request_repaint_after(std::time::Duration::from_millis(120));
+        }
+    }
+}

@@ -1,0 +1,424 @@
+//! The body pane: the body and the cloth on it, turned and painted with the pointer.
+
+mod bones;
+mod cube;
+mod drawing;
+mod facing;
+pub(in crate::ui) mod ghosts;
+mod graphics;
+mod hand;
+mod handles;
+mod hint;
+mod keys;
+mod outlines;
+mod overlay;
+pub(in crate::ui) mod pair_lines;
+pub(in crate::ui) mod pick;
+mod place;
+pub(in crate::ui) mod placing;
+mod probe;
+mod sight;
+pub(in crate::ui) mod standing;
+mod view;
+
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+use egui::accesskit::Role;
+use egui::{CursorIcon, Event, Key as Button, PointerButton, Pos2, Rect, Response, Sense, WidgetInfo};
+use glam::{DVec3, Vec2};
+
+use crate::body::Surface;
+use crate::cloth::{ClothState, Garment};
+use crate::contact::Bone;
+use crate::geometry::ids::{MarkId, PinId};
+use crate::render::{Camera, Look, Mesh, View};
+use crate::session::{Command, Document};
+use crate::sim::ClothPlace;
+use crate::ui::actions::Tool;
+use crate::ui::actions::asks::{Ask, Asks, in_one_step};
+use crate::ui::look::theme::Palette;
+use crate::ui::maps::ShownMap;
+use crate::ui::pointer::clicks::clicks;
+use crate::ui::pointer::mouse::{Mouse, PointerAction};
+use crate::ui::pointer::stroke;
+use crate::ui::scenery::scene::Scenery;
+use crate::ui::selection::Item;
+use crate::wrap::Marks;
+use cube::view_cube;
+pub use graphics::{Graphics, Key};
+use hand::{Reach, cloth_at};
+pub use hint::hint;
+use keys::ByKeys;
+use outlines::edge_under;
+use overlay::{publish_marks, view_buttons};
+pub use place::Places;
+use place::Stood;
+
+/// What the pane shows.
+#[derive(Clone, Copy)]
+pub struct Seen<'a> {
+    /// The document.
+    pub document: &'a Document,
+    /// Its body.
+    pub body: Option<&'a Arc<Surface>>,
+    /// The garment on it.
+    pub cloth: Option<(&'a Arc<Garment>, &'a Arc<ClothState>)>,
+    /// The same with its deactivated pieces.
+    pub whole: Option<(&'a Arc<Garment>, &'a Arc<ClothState>)>,
+    /// The vertex of the garment under each pin of the document.
+    pub pinned: &'a Arc<Vec<Option<u32>>>,
+    /// How much of the drag under way reaches each vertex.
+    pub dragged: Option<&'a Arc<Vec<f32>>>,
+    /// What the cloth is coloured by, instead of its own colours.
+    pub map: Option<&'a ShownMap>,
+    /// Another garment on its body, beside this one.
+    pub beside: Option<&'a Arc<Vec<Arc<Mesh>>>>,
+    /// Whether cloth is still being laid.
+    pub growing: bool,
+    /// Whether the cloth is moving.
+    pub working: bool,
+    /// What the left button does.
+    pub tool: Tool,
+    /// What all buttons do.
+    pub mouse: Mouse,
+    /// Strokes go through to the far side of the body.
+    pub laser: bool,
+    /// The mark that stands out.
+    pub selected: Option<MarkId>,
+    /// Bones of the body, while they are worked on.
+    pub bones: &'a [Bone],
+    /// What pieces are stood by, while that is done: they are seen instead of the cloth.
+    pub places: Option<Places<'a>>,
+    /// Pins that are selected.
+    pub selected_pins: &'a BTreeSet<PinId>,
+    /// What of the pattern stands out: what is selected, and what the pointer is over in either pane.
+    pub stand_out: &'a [Item],
+    /// The place that is ringed.
+    pub spot: Option<ClothPlace>,
+    /// Marks proposed and not accepted yet.
+    pub ghosts: Option<&'a Arc<Marks>>,
+    /// Colours and light.
+    pub look: Look,
+    /// Colours of the interface.
+    pub palette: &'a Palette,
+}
+
+/// The camera, the drag under way and the last picture.
+#[derive(Debug, Default)]
+pub struct ScenePane {
+    /// From where the body is seen.
+    pub camera: Camera,
+    /// Show everything from here in the next frame.
+    pub frame: Option<Option<View>>,
+    /// Turn like a ball, not upright.
+    pub free_turning: bool,
+    /// Whether the pointer was over the pane in the last frame.
+    pub hovered: bool,
+    /// Where it was on the screen in the last frame.
+    pub area: Option<Rect>,
+    /// Where its small buttons were.
+    pub buttons: Option<Rect>,
+    /// The widget, for the keyboard.
+    pub id: Option<egui::Id>,
+    /// What of the pattern was under the pointer in the last frame.
+    pub under: Option<Item>,
+    /// The value of the map under the pointer in the last frame.
+    pub value: Option<f64>,
+    /// The renderer; none without a graphics adapter.
+    pub graphics: Option<Graphics>,
+    scenery: Scenery,
+    drag: Option<Drag>,
+    by_keys: ByKeys,
+    reach: Reach,
+    /// Where the pointer of the drag was last followed to.
+    followed: Option<Pos2>,
+    framed_body: Option<Arc<Surface>>,
+    moving: bool,
+}
+
+/// Between two places of the pointer the skin is looked for at this distance, logical pixels.
+const FOLLOW_STEP: f32 = 4.0;
+/// A leap of the pointer is followed in no more steps than these.
+const MOST_FOLLOW_STEPS: f32 = 500.0;
+
+#[derive(Debug)]
+enum Drag {
+    /// A stroke on the body, and with the laser the one on its far side.
+    Paint([Vec<DVec3>; 2]),
+    /// The view is moved, with this button.
+    View(PointerAction, PointerButton),
+    /// Cloth is in the hand, held with this button.
+    Cloth(PointerButton),
+    /// A row of pins, the last of which is here.
+    Row(DVec3),
+    /// A pin is stuck in elsewhere.
+    Pin(PinId),
+    /// A bone, from end to end.
+    Bone([DVec3; 2]),
+    /// Pieces that stand before they are sewn.
+    Stand(Stood),
+    /// Given up; the button is still down.
+    Over,
+}
+
+impl ScenePane {
+    /// A pane that draws with egui's device; without one it stays empty.
+    pub fn new(device: Option<egui_wgpu::RenderState>) -> Self {
+        Self { graphics: device.map(Graphics::new), ..Self::default() }
+    }
+
+    /// The same pane, seen as before, drawn by another device.
+    pub fn drawn_by(self, device: Option<egui_wgpu::RenderState>) -> Self {
+        Self { graphics: device.map(Graphics::new), drag: None, ..self }
+    }
+
+    /// Draws the pane and listens to the pointer.
+    pub fn ui(&mut self, ui: &mut egui::Ui, seen: &Seen<'_>, asks: &mut Asks) {
+        let pane = ui.available_rect_before_wrap();
+        let response = ui.allocate_rect(pane, Sense::click_and_drag());
+        response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, "Body pane"));
+        self.hovered = response.contains_pointer();
+        (self.area, self.id) = (Some(pane), Some(response.id));
+        self.frame_if_asked(seen, pane);
+        self.move_view(ui, seen, pane, &response);
+        let near = self.mark_under(seen, pane, &response);
+        self.listen(ui, seen, pane, &response, asks);
+        self.listen_to_keys(ui, seen, pane, &response, asks);
+        self.set_cursor(ui, seen, near, pane, &response);
+        let reach = self.reach_under(seen, pane, &response);
+        let hovered = response.hover_pos().filter(|_| self.drag.is_none());
+        self.under = hovered.and_then(|at| edge_under(seen, self.ray(pane, at)));
+        self.draw(ui, &Seen { dragged: seen.dragged.or(reach.as_ref()), ..*seen }, near, pane);
+        self.probe(ui, seen, pane, hovered);
+        self.places_ui(ui, seen, pane, asks);
+        self.by_keys.draw(&ui.painter_at(pane), pane, response.has_focus(), seen.palette);
+        publish_marks(ui, &seen.document.marks, "Mark", pane, &self.camera);
+        if let Some(ghosts) = seen.ghosts {
+            publish_marks(ui, ghosts, "Proposed mark", pane, &self.camera);
+        }
+        self.publish_pins(ui, seen, pane);
+        view_cube(ui, pane, &self.camera, seen.palette, asks);
+        self.buttons = Some(view_buttons(ui, pane, seen, asks));
+    }
+
+    /// The stroke under way on the near side.
+    pub fn stroke(&self) -> &[DVec3] {
+        self.strokes().map_or(&[], |[near, _]| near)
+    }
+
+    /// The strokes under way on the near and the far side.
+    fn strokes(&self) -> Option<&[Vec<DVec3>; 2]> {
+        match &self.drag {
+            Some(Drag::Paint(strokes)) => Some(strokes),
+            _ => self.by_keys.strokes(),
+        }
+    }
+
+    fn listen(&mut self, ui: &egui::Ui, seen: &Seen<'_>, pane: Rect, response: &Response, asks: &mut Asks) {
+        let erasing = seen.tool == Tool::Erase || ui.input(|i| i.modifiers.command);
+        let held = ui.input(|i| i.modifiers);
+        let of_tool = seen.mouse.deed(PointerButton::Primary, held) == Some(PointerAction::Tool);
+        for at in clicks(ui, response, PointerButton::Primary).into_iter().filter(|_| of_tool) {
+            self.click(seen, pane, at, [erasing, held.shift], asks);
+        }
+        for button in [PointerButton::Primary, PointerButton::Secondary, PointerButton::Middle] {
+            if response.drag_started_by(button) {
+                self.begin(ui, seen, pane, (button, seen.mouse.deed(button, held)), erasing, asks);
+            }
+        }
+        if matches!(self.drag, Some(Drag::Cloth(_) | Drag::Row(_) | Drag::Pin(_) | Drag::Stand(_))) {
+            self.go_on_by_hand(ui, seen, pane, asks);
+        } else if let Some(Drag::View(_, button)) = self.drag {
+            if ui.input(|i| !i.pointer.button_down(button) || is_lost(i)) {
+                self.drag = None;
+            }
+        } else if self.drag.is_some() {
+            self.go_on(ui, seen, pane);
+            let lost = ui.input(is_lost);
+            if ui.input(|i| i.key_pressed(Button::Escape)) {
+                self.drag = Some(Drag::Over);
+            } else if !ui.input(|i| i.pointer.primary_down()) || lost {
+                match self.drag {
+                    Some(Drag::Bone(bone)) => {
+                        self.drag = None;
+                        self.end_bone(seen, bone, asks);
+                    }
+                    _ => in_one_step(self.finish(seen), asks),
+                }
+            }
+        }
+    }
+
+    fn begin(
+        &mut self,
+        ui: &egui::Ui,
+        seen: &Seen<'_>,
+        pane: Rect,
+        (button, deed): (PointerButton, Option<PointerAction>),
+        erasing: bool,
+        asks: &mut Asks,
+    ) {
+        let by_hand = match deed {
+            Some(PointerAction::Tool) => return self.start_drag(ui, seen, pane, erasing, asks),
+            Some(PointerAction::HandOrTurn) => true,
+            Some(PointerAction::Hand) => matches!(seen.tool, Tool::Drag(_) | Tool::Pin),
+            _ => false,
+        };
+        if by_hand && self.take_cloth(ui, seen, pane, button, asks) {
+            return;
+        }
+        self.drag = match deed {
+            Some(PointerAction::Hand) | None => None,
+            Some(PointerAction::HandOrTurn) => Some(Drag::View(PointerAction::Turn, button)),
+            Some(deed) => Some(Drag::View(deed, button)),
+        };
+    }
+
+    fn click(&self, seen: &Seen<'_>, pane: Rect, at: Pos2, [erasing, add]: [bool; 2], asks: &mut Asks) {
+        if seen.tool == Tool::Place {
+            return self.click_standing(seen, pane, at, add || erasing, asks);
+        }
+        let near = self.mark_at(seen, pane, at);
+        if let Some(pin) = self.picked_pin(seen, pane, at, add) {
+            return asks.push(pin);
+        }
+        match (near, seen.tool) {
+            (Some(mark), _) if erasing => asks.push(Ask::Do(Command::DeleteMark { mark })),
+            (Some(_), Tool::Mark | Tool::Move) => asks.push(Ask::Select(near)),
+            (None, Tool::Move) => asks.push(Ask::Select(None)),
+            (None, Tool::Mark) if !erasing => {
+                // Paper A: the left button paints on the body and pins cloth.
+                let pin = self.pin_or_pull(seen, pane, at).filter(|_| seen.mouse == Mouse::Paper);
+                if let Some(pin) = pin {
+                    return asks.push(pin);
+                }
+                let dots = self.hits(seen, pane, at).map(|hit| hit.into_iter().collect());
+                in_one_step(painted(seen, dots), asks);
+            }
+            (_, Tool::Bone) if erasing => asks.extend(self.delete_bone(seen, pane, at)),
+            (_, Tool::Pin) => asks.extend(self.pin_or_pull(seen, pane, at)),
+            _ => {}
+        }
+    }
+
+    fn start_drag(&mut self, ui: &egui::Ui, seen: &Seen<'_>, pane: Rect, erasing: bool, asks: &mut Asks) {
+        if matches!(seen.tool, Tool::Drag(_) | Tool::Pin)
+            && self.take_cloth(ui, seen, pane, PointerButton::Primary, asks)
+        {
+            return;
+        }
+        let origin = ui.input(|i| i.pointer.press_origin());
+        if seen.tool == Tool::Place && origin.is_some_and(|at| self.take_standing(seen, pane, at, asks)) {
+            return;
+        }
+        let bone = origin.filter(|_| seen.tool == Tool::Bone && !erasing);
+        if let Some(end) = bone.and_then(|at| self.within_body(seen, pane, at)) {
+            self.drag = Some(Drag::Bone([end; 2]));
+            return;
+        }
+        let [near, far] = origin.map_or([None; 2], |at| self.hits(seen, pane, at));
+        self.followed = origin;
+        self.drag = Some(match near {
+            Some(point) if seen.tool == Tool::Mark && !erasing => {
+                Drag::Paint([vec![point], far.into_iter().collect()])
+            }
+            _ => Drag::View(PointerAction::Turn, PointerButton::Primary),
+        });
+    }
+
+    /// Follows the pointer through every place it was in since the last frame, and between them: a fast hand leaves few.
+    fn go_on(&mut self, ui: &egui::Ui, seen: &Seen<'_>, pane: Rect) {
+        if matches!(self.drag, Some(Drag::Bone(_))) {
+            return self.draw_bone(seen, pane, ui.input(|i| i.pointer.latest_pos()));
+        }
+        if !matches!(self.drag, Some(Drag::Paint(_))) {
+            return;
+        }
+        let trail: Vec<Pos2> = ui.input(|i| {
+            let moved = i.events.iter().filter_map(|e| match e {
+                Event::PointerMoved(p) => Some(*p),
+                _ => None,
+            });
+            moved.collect()
+        });
+        // A jump from one limb to another is no stroke along the body.
+        let leap = 0.12 * seen.body.map_or(1.0, |b| b.scale());
+        let mut hits: Vec<[Option<DVec3>; 2]> = Vec::new();
+        for at in trail {
+            let from = self.followed.replace(at).unwrap_or(at);
+            let steps = (from.distance(at) / FOLLOW_STEP).ceil().clamp(1.0, MOST_FOLLOW_STEPS);
+            let places = (1..=steps as u32).map(|i| from.lerp(at, i as f32 / steps));
+            hits.extend(places.map(|place| self.hits(seen, pane, place)));
+        }
+        if let Some(Drag::Paint(strokes)) = &mut self.drag {
+            for hit in hits {
+                for (points, hit) in strokes.iter_mut().zip(hit) {
+                    let step = |hit: &DVec3| points.last().map_or(0.0, |l| l.distance(*hit));
+                    points.extend(hit.filter(|hit| step(hit) > 5e-4 && step(hit) < leap));
+                }
+            }
+        }
+    }
+
+    fn finish(&mut self, seen: &Seen<'_>) -> Vec<Command> {
+        match self.drag.take() {
+            Some(Drag::Paint(strokes)) => painted(seen, strokes.map(|points| stroke::finished(&points))),
+            _ => Vec::new(),
+        }
+    }
+
+    fn set_cursor(
+        &self,
+        ui: &egui::Ui,
+        seen: &Seen<'_>,
+        near: Option<MarkId>,
+        pane: Rect,
+        response: &Response,
+    ) {
+        let Some(at) = response.hover_pos() else { return };
+        let erasing = seen.tool == Tool::Erase || ui.input(|i| i.modifiers.command);
+        ui.ctx().set_cursor_icon(match &self.drag {
+            Some(Drag::View(..) | Drag::Cloth(_) | Drag::Pin(_) | Drag::Stand(_)) => CursorIcon::Grabbing,
+            Some(Drag::Paint(_) | Drag::Bone(_)) => CursorIcon::Crosshair,
+            _ if response.dragged() => CursorIcon::Grabbing,
+            _ if erasing && near.is_some() => CursorIcon::PointingHand,
+            _ if matches!(seen.tool, Tool::Drag(_) | Tool::Pin)
+                && cloth_at(seen, self.ray(pane, at)).is_some() =>
+            {
+                if seen.tool == Tool::Pin {
+                    CursorIcon::PointingHand
+                } else {
+                    CursorIcon::Grab
+                }
+            }
+            _ if matches!(seen.tool, Tool::Mark | Tool::Bone)
+                && !erasing
+                && self.pick(seen, pane, at).is_some() =>
+            {
+                CursorIcon::Crosshair
+            }
+            _ => CursorIcon::Default,
+        });
+    }
+}
+
+/// Whether the release of a button would not be seen.
+fn is_lost(input: &egui::InputState) -> bool {
+    input.events.contains(&Event::WindowFocused(false)) || input.events.contains(&Event::PointerGone)
+}
+
+/// The commands that paint `strokes`, laid back on the skin after smoothing. Empty ones are left out.
+fn painted(seen: &Seen<'_>, strokes: [Vec<DVec3>; 2]) -> Vec<Command> {
+    let on_skin = |p: DVec3| seen.body.map_or(p, |b| b.nearest(p).point);
+    let strokes = strokes.into_iter().filter(|points| !points.is_empty());
+    strokes.map(|points| Command::AddBodyMark { points: points.into_iter().map(on_skin).collect() }).collect()
+}
+
+fn size_of(pane: Rect) -> Vec2 {
+    Vec2::new(pane.width().max(1.0), pane.height().max(1.0))
+}
+
+fn within(pane: Rect, at: Pos2) -> Vec2 {
+    Vec2::new(at.x - pane.left(), at.y - pane.top())
+}

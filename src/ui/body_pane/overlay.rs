@@ -1,0 +1,57 @@
+//! What lies over the picture: small buttons, and what screen readers are told.
+
+use egui::accesskit::Role;
+use egui::{Pos2, Rect, Sense, WidgetInfo};
+
+use super::{Seen, size_of};
+use crate::render::{Camera, Look};
+use crate::ui::actions::Action;
+use crate::ui::actions::asks::{Ask, Asks};
+use crate::wrap::Marks;
+
+/// Small buttons over the lower right corner, where they hide only floor: how body and cloth are drawn, and all of them.
+/// Returns where they are.
+pub(super) fn view_buttons(ui: &mut egui::Ui, pane: Rect, seen: &Seen<'_>, asks: &mut Asks) -> Rect {
+    let area = Rect::from_min_max(
+        Pos2::new(pane.left() + 8.0, pane.bottom() - 34.0),
+        Pos2::new(pane.right() - 8.0, pane.bottom() - 8.0),
+    );
+    let layout = egui::Layout::right_to_left(egui::Align::Center);
+    let mut taken = Rect::NOTHING;
+    ui.scope_builder(egui::UiBuilder::new().max_rect(area).layout(layout), |ui| {
+        ui.spacing_mut().item_spacing.x = 4.0;
+        let Look { wire, sheer, xray, .. } = seen.look;
+        for (action, on) in [
+            (Action::FrameAll, false),
+            (Action::ToggleXray, xray),
+            (Action::ToggleSheer, sheer),
+            (Action::ToggleWire, wire),
+        ] {
+            let entry = action.entry();
+            let text = egui::RichText::new(entry.text).size(12.5);
+            let button = egui::Button::new(text).selected(on).small();
+            let button = if on { button } else { button.fill(seen.palette.overlay) };
+            let button = ui.add(button).on_hover_text(entry.tip);
+            taken |= button.rect;
+            if button.clicked() {
+                asks.push(Ask::Act(action));
+            }
+        }
+    });
+    taken
+}
+
+/// Tells screen readers and tests where each mark is.
+pub(super) fn publish_marks(ui: &egui::Ui, marks: &Marks, what: &str, pane: Rect, camera: &Camera) {
+    for (i, mark) in marks.body.iter().enumerate() {
+        let place = mark.points.first().and_then(|p| camera.project(p.as_vec3(), size_of(pane)));
+        if let Some(place) = place {
+            let at = pane.min + egui::vec2(place.pixel.x, place.pixel.y);
+            let rect = Rect::from_center_size(at, egui::vec2(12.0, 12.0));
+            let node = ui.interact(rect, ui.scope_id().with((what, "on the body", i)), Sense::hover());
+            node.widget_info(|| {
+                WidgetInfo::labeled(Role::Label, true, format!("{what} {} on the body", i + 1))
+            });
+        }
+    }
+}

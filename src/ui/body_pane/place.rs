@@ -1,0 +1,228 @@
+//! Standing pieces round the body: dots to stand them at, and handles to move and turn them.
+
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+use egui::accesskit::Role;
+use egui::{Color32, Pos2, Rect, Sense, Shape, Stroke, WidgetInfo};
+use glam::{DVec2, DVec3};
+
+use super::handles::{Handle, Handles, Held, done, hold};
+use super::{Drag, ScenePane, Seen, size_of};
+use crate::drag::Ray;
+use crate::geometry::ids::PieceId;
+use crate::pattern::edit::PatternEdit;
+use crate::pattern::{Pattern, Piece, SpacePose};
+use crate::place::{Point, stood_at};
+use crate::session::Command;
+use crate::ui::actions::asks::{Ask, Asks};
+use crate::ui::body_pane::standing::Standing;
+use crate::ui::selection::{Item, Selection};
+
+/// Radius of a dot, points.
+const DOT: f32 = 4.5;
+/// Dots are shown where the skin looks towards the eye by more than this cosine: those at the outline of a limb, too.
+const FACES: f64 = -0.1;
+
+/// What is there to stand pieces by.
+#[derive(Clone, Copy, Debug)]
+pub struct Places<'a> {
+    /// Arrangement points of the body.
+    pub points: &'a [Point],
+    /// The pieces as they stand.
+    pub standing: &'a Standing,
+    /// Those that are selected.
+    pub selected: &'a BTreeSet<PieceId>,
+}
+
+/// A drag of standing pieces.
+#[derive(Clone, Debug)]
+pub(super) struct Stood {
+    handle: Handle,
+    centre: DVec3,
+    held: Held,
+    /// Of those in the hand, as the drag began.
+    poses: Vec<(PieceId, SpacePose)>,
+}
+
+impl ScenePane {
+    /// Dots, handles and outlines over the picture; a click on a dot stands the selected pieces there.
+    pub(super) fn places_ui(&mut self, ui: &mut egui::Ui, seen: &Seen<'_>, pane: Rect, asks: &mut Asks) {
+        let (Some(places), Some(body)) = (seen.places, seen.body) else { return };
+        let painter = ui.painter_at(pane);
+        let pattern = &seen.document.pattern;
+        for id in places.selected {
+            if let Some((piece, pose)) = standing(pattern, *id) {
+                let outline = piece.flattened(2e-3);
+                let line: Option<Vec<Pos2>> =
+                    outline.iter().map(|&p| self.place_of(pose.at(p), pane)).collect();
+                let stroke = Stroke::new(2.0, seen.palette.accent);
+                painter.extend(line.map(|line| Shape::closed_line(line, stroke)));
+            }
+        }
+        let hovered = ui.input(|i| i.pointer.hover_pos());
+        if let Some(handles) = self.handles(seen, pane) {
+            let hot = match &self.drag {
+                Some(Drag::Stand(stood)) => Some(stood.handle),
+                _ => hovered.and_then(|at| handles.under(at)),
+            };
+            handles.draw(&painter, hot, seen.palette.halo);
+        }
+        if matches!(self.drag, Some(Drag::Stand(_) | Drag::View(..))) {
+            return;
+        }
+        let eye = self.camera.eye().as_dvec3();
+        for (k, point) in places.points.iter().enumerate() {
+            let faces = (eye - point.at).normalize_or_zero().dot(point.out) > FACES;
+            let Some(at) = self.place_of(point.at, pane).filter(|at| faces && pane.contains(*at)) else {
+                continue;
+            };
+            if !self.is_in_sight(seen, point.at + point.out * (0.02 * body.scale())) {
+                continue;
+            }
+            let rect = Rect::from_center_size(at, egui::Vec2::splat(DOT * 3.0));
+            let dot = ui.interact(rect, ui.scope_id().with(("arrangement point", k)), Sense::click());
+            let words = format!("Arrangement point: {}", point.name);
+            dot.widget_info(|| WidgetInfo::labeled(Role::Button, true, &words));
+            let hot = dot.hovered() || dot.has_focus();
+            let fill = if hot { seen.palette.accent } else { Color32::from_rgb(0x3d, 0x7d, 0xd8) };
+            painter.circle(at, DOT + if hot { 1.5 } else { 0.0 }, fill, Stroke::new(1.5, seen.palette.halo));
+            if dot.clicked() {
+                asks.push(stand_at(seen, &places, point));
+            }
+            dot.on_hover_text(&point.name).on_hover_cursor(egui::CursorIcon::PointingHand);
+        }
+    }
+
+    /// The handles about the selected pieces that stand.
+    fn handles(&self, seen: &Seen<'_>, pane: Rect) -> Option<Handles> {
+        let centre = centre(&seen.document.pattern, seen.places?.selected)?;
+        let size = size_of(pane);
+        let depth = self.camera.project(centre.as_vec3(), size)?;
+        // How large a point on the screen is there.
+        let right = self.camera.rotation * glam::Vec3::X;
+        let beside = self.camera.project(centre.as_vec3() + right * 0.1, size)?;
+        let metres = 0.1 / f64::from((beside.pixel - depth.pixel).length().max(1e-3));
+        Some(Handles::new(centre, metres, |p| self.place_of(p, pane)))
+    }
+
+    /// A click that met no dot: selects the piece there, with `add` beside what is selected.
+    pub(super) fn click_standing(&self, seen: &Seen<'_>, pane: Rect, at: Pos2, add: bool, asks: &mut Asks) {
+        let Some(places) = seen.places else { return };
+        if self.handles(seen, pane).is_some_and(|handles| handles.under(at).is_some()) {
+            return;
+        }
+        let under = standing_under(seen, &places, self.ray(pane, at)).map(|hit| hit.0);
+        asks.push(Ask::Pick(match under {
+            Some(piece) if add => {
+                let mut chosen = Selection::of_pieces(places.selected.iter().copied());
+                chosen.toggle(Item::Piece(piece));
+                chosen
+            }
+            Some(piece) => Selection::of(Item::Piece(piece)),
+            None if add => return,
+            None => Selection::default(),
+        }));
+    }
+
+    /// Takes a handle or a piece in the hand; false where there is none.
+    pub(super) fn take_standing(&mut self, seen: &Seen<'_>, pane: Rect, at: Pos2, asks: &mut Asks) -> bool {
+        let Some(places) = seen.places else { return false };
+        let (pattern, ray) = (&seen.document.pattern, self.ray(pane, at));
+        let eye = self.camera.towards_eye().as_dvec3();
+        let handle = self.handles(seen, pane).and_then(|handles| handles.under(at));
+        let (handle, centre, chosen) = match (handle, standing_under(seen, &places, ray)) {
+            (Some(handle), _) => {
+                (handle, centre(pattern, places.selected), places.selected.iter().copied().collect())
+            }
+            (None, Some((piece, point))) => {
+                let chosen: BTreeSet<PieceId> = if places.selected.contains(&piece) {
+                    places.selected.clone()
+                } else {
+                    asks.push(Ask::Pick(Selection::of(Item::Piece(piece))));
+                    BTreeSet::from([piece])
+                };
+                (Handle::Piece, Some(point), chosen)
+            }
+            (None, None) => return false,
+        };
+        let Some(centre) = centre else { return false };
+        let Some(held) = hold(handle, centre, eye, ray) else { return false };
+        let poses = chosen.into_iter().filter_map(|id| Some((id, standing(pattern, id)?.1))).collect();
+        self.drag = Some(Drag::Stand(Stood { handle, centre, held, poses }));
+        true
+    }
+
+    /// What is in the hand follows the pointer.
+    pub(super) fn stand_on(&self, pane: Rect, at: Pos2, steps: bool) -> Option<Ask> {
+        let Some(Drag::Stand(stood)) = &self.drag else { return None };
+        let eye = self.camera.towards_eye().as_dvec3();
+        let held = hold(stood.handle, stood.centre, eye, self.ray(pane, at))?;
+        let (turn, by) = done(stood.handle, stood.held, held, steps);
+        let placements = stood.poses.iter().map(|(id, pose)| (*id, Some(pose.moved(turn, stood.centre, by))));
+        let edits = vec![PatternEdit::PlaceInSpace { placements: placements.collect() }];
+        Some(Ask::Drag(Command::EditPattern { edits, anew: true }))
+    }
+}
+
+fn standing(pattern: &Pattern, id: PieceId) -> Option<(&Arc<Piece>, SpacePose)> {
+    let piece = pattern.pieces.get(&id)?;
+    Some((piece, piece.placement?))
+}
+
+/// The standing piece that a ray meets before the body, and where.
+fn standing_under(seen: &Seen<'_>, places: &Places<'_>, ray: Ray) -> Option<(PieceId, DVec3)> {
+    let (piece, at, far) = places.standing.under(ray)?;
+    let skin = seen.body.and_then(|body| body.ray(ray.origin, ray.direction));
+    let is_hidden = skin.is_some_and(|hit| hit.point.distance(ray.origin) < far);
+    (!is_hidden || seen.look.xray).then_some((piece, at))
+}
+
+/// The middle of the pieces among `selected` that stand.
+fn centre(pattern: &Pattern, selected: &BTreeSet<PieceId>) -> Option<DVec3> {
+    let middle = |id: &PieceId| {
+        let (piece, pose) = standing(pattern, *id)?;
+        let outline = piece.flattened(2e-3);
+        let (low, high) =
+            outline.iter().fold((DVec2::MAX, DVec2::MIN), |(low, high), p| (low.min(*p), high.max(*p)));
+        Some(pose.at((low + high) / 2.0))
+    };
+    let all: Vec<DVec3> = selected.iter().filter_map(middle).collect();
+    (!all.is_empty()).then(|| all.iter().sum::<DVec3>() / all.len() as f64)
+}
+
+/// Stands what is selected at a point, and twins that are not selected at the one on the other side of the body.
+fn stand_at(seen: &Seen<'_>, places: &Places<'_>, point: &Point) -> Ask {
+    let (pattern, Some(body)) = (&seen.document.pattern, seen.body) else {
+        return Ask::Say("There is no body to stand pieces at".to_owned());
+    };
+    if places.selected.is_empty() {
+        return Ask::Say(
+            "Select a piece first, on the table or where it stands; then click a dot".to_owned(),
+        );
+    }
+    let opposite = other_side(&point.name);
+    let opposite = places.points.iter().find(|other| Some(&other.name) == opposite.as_ref());
+    let mut placements: Vec<(PieceId, Option<SpacePose>)> = Vec::new();
+    for &id in places.selected {
+        let Some(piece) = pattern.pieces.get(&id) else { continue };
+        placements.push((id, Some(stood_at(piece, point, body))));
+        let twin = piece.twin.filter(|twin| !places.selected.contains(twin));
+        if let (Some(twin), Some(opposite)) = (twin, opposite)
+            && let Some(piece) = pattern.pieces.get(&twin)
+        {
+            placements.push((twin, Some(stood_at(piece, opposite, body))));
+        }
+    }
+    Ask::Do(Command::EditPattern { edits: vec![PatternEdit::PlaceInSpace { placements }], anew: false })
+}
+
+/// The name of the point on the other side of the body; None for those in the middle.
+fn other_side(name: &str) -> Option<String> {
+    let (left, right) = (name.contains("left"), name.contains("right"));
+    match (left, right) {
+        (true, false) => Some(name.replace("left", "right")),
+        (false, true) => Some(name.replace("right", "left")),
+        _ => None,
+    }
+}

@@ -1,0 +1,385 @@
+//! Files as the window sees them: bytes in and out, errors in words.
+
+pub(in crate::ui) mod obj_sequence;
+pub(in crate::ui) mod posed_motion;
+pub(in crate::ui) mod recent;
+pub(in crate::ui) mod thumbnails;
+
+use std::path::Path;
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use crate::body::pose::motion::Clip;
+use crate::body::{Unit, UpAxis, guess_unit, import, mannequin};
+use crate::geometry::mesh::TriMesh;
+use crate::io::body_file;
+use crate::io::pattern_file::{self, PatternFileError};
+use crate::io::pdf::{self, Paper};
+use crate::io::scale::{DrawingUnit, ScaleQuestion};
+use crate::io::{FILE_BYTES, bvh, dxf, garmentcode, glb, gltf, obj, svg};
+use crate::pattern::Pattern;
+use crate::session::project_file::ProjectFileError;
+use crate::session::samples::Sample;
+use crate::session::{AnimatedFile, Animations, BodyChoice, Command, Project, project_file, whole_file};
+use crate::sim::Snapshot;
+
+/// What a file dialog is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Purpose {
+    /// Open a project.
+    Open,
+    /// Save the project.
+    Save,
+    /// Save a copy of the project.
+    Copy,
+    /// Read a pattern.
+    ImportPattern,
+    /// Read a body.
+    ImportBody,
+    /// Read another pose of the body, or a motion.
+    Pose,
+    /// Read poses of the body in numbered files.
+    Sequence,
+    /// Read a table of sizes.
+    Sizes,
+    /// Write the dressed garment.
+    Export,
+    /// Write the pattern.
+    ExportPattern,
+    /// Write the recording.
+    Recording,
+    /// Write a picture of the body pane.
+    Picture,
+    /// Write a turn of pictures.
+    Turn,
+    /// Write the fit report.
+    FitPage,
+    /// Read another project, to compare with.
+    Compare,
+}
+
+impl Purpose {
+    /// Title of the dialog.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Open => "Open a project",
+            Self::Save => "Save the project",
+            Self::Copy => "Save a copy of the project",
+            Self::ImportPattern => "Import a pattern",
+            Self::ImportBody => "Import a body",
+            Self::Pose => "Take a pose from a file",
+            Self::Sequence => "Take a sequence of OBJ files: choose any one of them",
+            Self::Sizes => "Read a table of sizes",
+            Self::Export => "Export the dressed garment",
+            Self::ExportPattern => "Export the pattern",
+            Self::Recording => "Save the recording",
+            Self::Picture => "Save a picture",
+            Self::Turn => "Save a turn of pictures",
+            Self::FitPage => "Write the fit report",
+            Self::Compare => "Compare with another project",
+        }
+    }
+
+    /// Kind of file in words, and its extensions.
+    pub fn filter(self) -> (&'static str, &'static [&'static str]) {
+        match self {
+            Self::Open | Self::Save | Self::Copy | Self::Compare => ("Toile project", &["toile"]),
+            Self::ImportPattern => ("Pattern", &["dxf", "svg", "json"]),
+            Self::ExportPattern => ("Pattern", &["pdf", "svg", "dxf", "json"]),
+            Self::ImportBody => ("Body", &["obj", "glb", "gltf"]),
+            Self::Pose => ("Body or motion", &["obj", "glb", "gltf", "bvh"]),
+            Self::Sequence => ("Body", &["obj"]),
+            Self::Sizes => ("Table of sizes", &["csv", "tsv", "txt"]),
+            Self::Export => ("Garment", &["obj", "glb"]),
+            Self::Recording => ("Recording", &["jsonl"]),
+            Self::Picture | Self::Turn => ("Picture", &["png"]),
+            Self::FitPage => ("Page", &["html"]),
+        }
+    }
+
+    /// Whether a file is written.
+    pub fn writes(self) -> bool {
+        matches!(
+            self,
+            Self::Save
+                | Self::Copy
+                | Self::Export
+                | Self::ExportPattern
+                | Self::Recording
+                | Self::Picture
+                | Self::Turn
+                | Self::FitPage
+        )
+    }
+
+    /// The name a new file gets.
+    pub fn default_name(self) -> String {
+        let stem = match self {
+            Self::Recording => "recording",
+            Self::Export => "garment",
+            Self::ExportPattern => "pattern",
+            Self::Picture => "picture",
+            Self::Turn => "turn",
+            Self::FitPage => "fit",
+            _ => "untitled",
+        };
+        format!("{stem}.{}", self.filter().1[0])
+    }
+}
+
+/// What tells that a file is still as it was written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct OnDisk {
+    bytes: u64,
+    modified: Option<std::time::SystemTime>,
+}
+
+impl OnDisk {
+    /// Of the file at `path`; none when there is none.
+    pub fn of(path: &Path) -> Option<Self> {
+        let file = std::fs::metadata(path).ok()?;
+        Some(Self { bytes: file.len(), modified: file.modified().ok() })
+    }
+}
+
+/// Reads a project.
+pub fn open(path: &Path) -> Result<Project, String> {
+    project_file::open(path).map_err(|e| in_words(path, "opened", reason(e)))
+}
+
+/// Writes a project.
+pub fn save(path: &Path, project: &Project) -> Result<(), String> {
+    project_file::save(path, project).map_err(|e| in_words(path, "saved", reason(e)))
+}
+
+/// The same over a file that is write-protected.
+pub fn save_over(path: &Path, project: &Project) -> Result<(), String> {
+    project_file::save_over(path, project).map_err(|e| in_words(path, "saved", reason(e)))
+}
+
+/// Writes a file, whole or not at all.
+pub fn write(path: &Path, bytes: &[u8]) -> Result<(), String> {
+    whole_file::write(path, bytes).map_err(|e| in_words(path, "written", e))
+}
+
+/// What a file of a pattern gives.
+#[derive(Debug)]
+pub enum PatternImport {
+    /// The command that replaces what is on the table, and what a person should know about it.
+    Pattern(Command, Vec<String>),
+    /// It does not say how large it is.
+    Question(ScaleQuestion),
+}
+
+/// Reads a pattern. `unit` is the answer to the question how large it is.
+pub fn import_pattern(path: &Path, unit: Option<DrawingUnit>) -> Result<PatternImport, String> {
+    match pattern_file::read(&read(path)?, unit) {
+        Ok(read) => {
+            let pattern = Arc::new(read.pattern);
+            let command = Command::ReplacePattern { name: stem(path), pattern, marks: Arc::default() };
+            Ok(PatternImport::Pattern(command, read.notes))
+        }
+        Err(PatternFileError::Scale(question)) => Ok(PatternImport::Question(question)),
+        Err(error) => Err(in_words(path, "imported", error)),
+    }
+}
+
+/// Writes `pattern` as the name of the file says; a PDF on `paper`. Returns what the format does not hold.
+pub fn export_pattern(path: &Path, pattern: &Pattern, paper: Paper) -> Result<Vec<String>, String> {
+    let written = match path.extension().map(|e| e.to_string_lossy().to_lowercase()).as_deref() {
+        Some("json") => garmentcode::write(pattern),
+        Some("dxf") => dxf::write(pattern),
+        Some("svg") => svg::write(pattern),
+        Some("pdf") => pdf::write(pattern, &stem(path), paper).map_err(|e| in_words(path, "written", e))?,
+        _ => return Err(in_words(path, "written", "the name must end in .pdf, .svg, .dxf or .json")),
+    };
+    write(path, &written.bytes)?;
+    Ok(written.left_out)
+}
+
+/// A body as its file has it.
+#[derive(Clone, Debug)]
+pub struct RawBody {
+    /// Shown to people.
+    pub name: String,
+    /// In the file's unit.
+    pub mesh: TriMesh,
+    /// Sides of its bounding box, in the file's unit.
+    pub size: DVec3,
+    /// What points up in the file.
+    pub up: UpAxis,
+    /// What the unit probably is.
+    pub unit: Unit,
+    /// The guess is only one of several, or there is none.
+    pub is_doubtful: bool,
+    /// The file, if there are animations in it.
+    animated: Option<Box<AnimatedFile>>,
+}
+
+/// Reads a body; its unit may still have to be asked for.
+pub fn read_body(path: &Path) -> Result<RawBody, String> {
+    let (bytes, name) = (read(path)?, stem(path));
+    let mut animated = None;
+    let mesh = if gltf::is_gltf(&bytes) {
+        let read = body_file::model_with_buffers(path, &bytes, &read);
+        let (model, buffers) = read.map_err(|e| in_words(path, "imported", e))?;
+        if model.animations().next().is_some() {
+            let (up, unit, name) = (UpAxis::default(), Unit::default(), name.clone());
+            animated = Some(Box::new(AnimatedFile { name, bytes, buffers, up, unit }));
+        }
+        model.mesh()
+    } else {
+        body_file::read(path, &bytes, &read).map_err(|e| in_words(path, "imported", e))?
+    };
+    let (lower, upper) = mesh.bounds();
+    let size = upper - lower;
+    let up = UpAxis::guess(size);
+    let guess = guess_unit(up.height(size));
+    let is_doubtful = guess != Some(Unit::Metre) || up != UpAxis::Y;
+    Ok(RawBody { name, mesh, size, up, unit: guess.unwrap_or_default(), is_doubtful, animated })
+}
+
+impl RawBody {
+    /// How tall it stands, metres.
+    pub fn height(&self, unit: Unit) -> f64 {
+        self.up.height(self.size) * unit.metres()
+    }
+
+    /// Takes what was answered for files of this kind before, where a body would be as tall as bodies are.
+    pub fn answered_before(&mut self, before: Option<(Unit, UpAxis)>) {
+        if let Some((unit, up)) = before
+            && guess_unit(up.height(self.size) * unit.metres() / Unit::Metre.metres()) == Some(Unit::Metre)
+        {
+            (self.unit, self.up) = (unit, up);
+        }
+    }
+}
+
+/// A pose in a file.
+pub enum PoseFile {
+    /// Of the body, or animations of it.
+    Body(Command),
+    /// Captured.
+    Motion(Clip),
+}
+
+/// Reads a pose of a body that looks like `dressed`: its own triangles elsewhere, in the unit that makes their sides as long
+/// as there; or a motion.
+pub fn read_pose(path: &Path, dressed: &TriMesh) -> Result<PoseFile, String> {
+    let bytes = read(path)?;
+    if bvh::is_bvh(&bytes) {
+        return bvh::read(&bytes).map(PoseFile::Motion).map_err(|e| in_words(path, "read", e));
+    }
+    let raw = RawBody { up: UpAxis::Y, ..read_body(path)? };
+    let raw = RawBody { unit: unit_like(dressed, &raw.mesh), ..raw };
+    Ok(PoseFile::Body(match animations(&raw)? {
+        Some(animations) => Command::TakeAnimations { animations },
+        None => Command::AimPose { body: imported(raw)?.0 },
+    }))
+}
+
+/// The unit in which the triangles of `raw` have sides as long as those of `dressed`.
+pub(in crate::ui) fn unit_like(dressed: &TriMesh, raw: &TriMesh) -> Unit {
+    let sides = |mesh: &TriMesh| {
+        let sides = (0..mesh.triangles.len()).map(|t| mesh.corners(t)).map(|[a, b, _]| a.distance(b));
+        sides.sum::<f64>() / mesh.triangles.len().max(1) as f64
+    };
+    let metres = sides(dressed) / sides(raw);
+    let far = |unit: &Unit| (unit.metres() / metres).ln().abs();
+    Unit::ALL.into_iter().min_by(|a, b| far(a).total_cmp(&far(b))).unwrap_or_default()
+}
+
+/// The command that takes `raw` as the body, and what was put right on the way.
+pub fn take_body(raw: RawBody) -> Result<(Command, Vec<String>), String> {
+    let animations = animations(&raw)?;
+    let (body, notes) = imported(raw)?;
+    Ok((Command::SetBody { body, animations }, notes))
+}
+
+/// Those of `raw`, if it has any.
+fn animations(raw: &RawBody) -> Result<Option<Arc<Animations>>, String> {
+    let Some(file) = raw.animated.as_deref() else { return Ok(None) };
+    let (animations, _) = Animations::new(AnimatedFile { up: raw.up, unit: raw.unit, ..file.clone() })?;
+    Ok(Some(Arc::new(animations)))
+}
+
+fn imported(mut raw: RawBody) -> Result<(BodyChoice, Vec<String>), String> {
+    raw.up.set_upright(&mut raw.mesh);
+    let imported = import(raw.mesh, raw.unit);
+    if !imported.is_usable() {
+        let faults: Vec<String> = imported.problems.into_iter().map(|p| p.words).collect();
+        return Err(format!("{} cannot be used as a body: {}", raw.name, faults.join("; ")));
+    }
+    let body = BodyChoice::Imported { name: raw.name, mesh: Arc::new(imported.mesh) };
+    Ok((body, imported.notes))
+}
+
+/// Writes the dressed garment of `snapshot`, as .glb with its body; `pattern` gives the places on the table.
+pub fn export(path: &Path, snapshot: &Snapshot, pattern: &Pattern) -> Result<(), String> {
+    let Some((garment, cloth)) = snapshot.drawn().filter(|_| snapshot.is_dressed()) else {
+        return Err("There is no cloth on the body to be written".to_owned());
+    };
+    match path.extension().map(|e| e.to_string_lossy().to_lowercase()).as_deref() {
+        Some("obj") => write(path, obj::garment(garment, cloth, pattern).as_bytes()),
+        Some("glb") => {
+            let dressed = glb::Dressed { garment, state: cloth, pattern };
+            let body = snapshot.body.as_ref().map(|b| &b.mesh);
+            let bytes = glb::write(Some(dressed), body, &glb::Colours::default());
+            write(path, &bytes.map_err(|e| in_words(path, "written", e))?)
+        }
+        _ => Err(in_words(path, "written", "the name must end in .obj or .glb")),
+    }
+}
+
+/// A sample with its marks, on the built-in figure.
+pub fn sample(sample: Sample) -> Project {
+    sample.project(&mannequin::default())
+}
+
+/// The command that brings the built-in figure back.
+pub fn use_mannequin() -> Command {
+    Command::SetBody { body: BodyChoice::default(), animations: None }
+}
+
+/// All of the file at `path`; the error is in words.
+pub fn read(path: &Path) -> Result<Vec<u8>, String> {
+    whole_file::read(path, FILE_BYTES).map_err(|e| in_words(path, "read", e))
+}
+
+/// "shirt-2.toile" for "shirt.toile", "shirt-8.toile" for "shirt-7.toile": the next one that is not there yet.
+pub fn next_version(path: &Path) -> std::path::PathBuf {
+    let name = stem(path);
+    let (base, number) = match name.rsplit_once('-') {
+        Some((base, digits)) if !base.is_empty() && digits.len() < 9 => match digits.parse::<u32>() {
+            Ok(number) => (base.to_owned(), number),
+            Err(_) => (name.clone(), 1),
+        },
+        _ => (name.clone(), 1),
+    };
+    let named = |number: u32| path.with_file_name(format!("{base}-{number}.toile"));
+    let mut next = number + 1;
+    while named(next).exists() {
+        next += 1;
+    }
+    named(next)
+}
+
+/// The name of a file without its extension.
+pub fn stem(path: &Path) -> String {
+    path.file_stem().map_or_else(|| "file".to_owned(), |n| n.to_string_lossy().into_owned())
+}
+
+/// Without the name of the file, which is told before.
+fn reason(error: ProjectFileError) -> String {
+    match error {
+        ProjectFileError::File { source, .. } => source.to_string(),
+        other => other.to_string(),
+    }
+}
+
+fn in_words(path: &Path, done: &str, why: impl std::fmt::Display) -> String {
+    let name =
+        path.file_name().map_or_else(|| path.display().to_string(), |n| n.to_string_lossy().into_owned());
+    format!("{name} could not be {done}: {why}")
+}

@@ -1,0 +1,131 @@
+//! The animations of a body from a file: a list of them, a slider through the chosen one, and its play.
+
+use egui::{Button, ComboBox, RichText, Slider};
+
+use crate::session::{Animations, Command, Document, Moment};
+use crate::ui::actions::asks::Asks;
+use crate::ui::actions::context::FrameContext;
+use crate::ui::panels::context::PanelContext;
+use crate::ui::panels::pose_slider::{follow, let_go};
+
+/// Width of the list, points.
+const WIDTH: f32 = 150.0;
+
+/// Where the body is wanted.
+#[derive(Debug, Default)]
+pub struct AnimationPanel {
+    animation: usize,
+    seconds: f64,
+    playing: Option<Play>,
+}
+
+/// An animation under way.
+#[derive(Debug)]
+struct Play {
+    /// When the clock of the window was looked at last, seconds.
+    looked: f64,
+    /// Where the body was when it began, then what was asked for last.
+    expected: Option<Moment>,
+}
+
+impl AnimationPanel {
+    /// Draws list, slider and buttons; nothing for a body without animations.
+    pub fn ui(&mut self, ui: &mut egui::Ui, told: &PanelContext<'_>, asks: &mut Asks) {
+        let Some(animations) = &told.document.animations else { return };
+        ui.add_space(4.0);
+        ui.label(RichText::new(animations.name()).color(told.palette.weak).size(12.5));
+        self.list_ui(ui, animations, asks);
+        let length = animations.seconds(self.animation).unwrap_or(0.0);
+        // Rounded by the slider itself, it would seem to be moved while it plays.
+        let slider = Slider::new(&mut self.seconds, 0.0..=length).suffix(" s");
+        let slider = slider.custom_formatter(|seconds, _| format!("{seconds:.2}"));
+        let response =
+            ui.add(slider).on_hover_text("Leads the body through its animation, the cloth follows");
+        let seconds = self.seconds;
+        response.widget_info(|| egui::WidgetInfo::slider(true, seconds, "Time of the animation"));
+        if let Some(done) = let_go(&response, told) {
+            self.playing = None;
+            self.go(!done, asks);
+        }
+        if ui.ctx().dragged_id().is_none() && self.playing.is_none() {
+            self.as_document(told);
+        }
+        ui.horizontal(|ui| self.buttons_ui(ui, told, asks));
+    }
+
+    /// As undo left it, too.
+    fn as_document(&mut self, told: &PanelContext<'_>) {
+        match told.document.moment {
+            Some(Moment { animation, seconds }) => (self.animation, self.seconds) = (animation, seconds),
+            None => self.seconds = 0.0,
+        }
+    }
+
+    fn list_ui(&mut self, ui: &mut egui::Ui, animations: &Animations, asks: &mut Asks) {
+        let names: Vec<String> = animations.names().collect();
+        self.animation = self.animation.min(names.len().saturating_sub(1));
+        let chosen = names.get(self.animation).cloned().unwrap_or_default();
+        let combo = ComboBox::from_label("Animation").selected_text(chosen).width(WIDTH);
+        combo.show_ui(ui, |ui| {
+            for (i, name) in names.iter().enumerate() {
+                if ui.selectable_label(i == self.animation, name).clicked() {
+                    (self.animation, self.seconds, self.playing) = (i, 0.0, None);
+                    self.go(false, asks);
+                }
+            }
+        });
+    }
+
+    fn buttons_ui(&mut self, ui: &mut egui::Ui, told: &PanelContext<'_>, asks: &mut Asks) {
+        let plays = self.playing.is_some();
+        let words = if plays { "Stop" } else { "Play" };
+        let tip = "Plays the animation over and over; the cloth follows as quickly as it can";
+        if ui.button(words).on_hover_text(tip).clicked() {
+            match plays {
+                true => {
+                    self.playing = None;
+                    self.go(false, asks);
+                }
+                false => {
+                    let (looked, expected) = (ui.input(|i| i.time), told.document.moment);
+                    self.playing = Some(Play { looked, expected });
+                }
+            }
+        }
+        let is_off = told.document.moment.is_some() || plays;
+        let rest = ui.add_enabled(is_off, Button::new("Rest pose"));
+        if rest.on_hover_text("As the body stands in the file without animation").clicked() {
+            self.playing = None;
+            follow(Command::Animate { at: None, draft: false }, true, asks);
+        }
+    }
+
+    /// Goes on with what is played, once a frame whether or not it is drawn. It ends where something else moves the body.
+    pub fn play(&mut self, ctx: &egui::Context, document: &Document, now: &FrameContext, asks: &mut Asks) {
+        let Some(play) = &mut self.playing else { return };
+        let length = document.animations.as_ref().and_then(|all| all.seconds(self.animation));
+        let is_moved = play.expected != document.moment;
+        let Some(length) = length.filter(|_| !now.wrapping && !now.demo && !is_moved) else {
+            self.playing = None;
+            return;
+        };
+        ctx.request_repaint();
+        // What a person asks for comes first: it may end the play.
+        if !now.caught_up || !asks.is_empty() {
+            return;
+        }
+        let time = ctx.input(|i| i.time);
+        self.seconds += time - play.looked;
+        if self.seconds > length {
+            self.seconds = 0.0;
+        }
+        play.looked = time;
+        play.expected = Some(Moment { animation: self.animation, seconds: self.seconds });
+        self.go(true, asks);
+    }
+
+    fn go(&self, draft: bool, asks: &mut Asks) {
+        let at = Some(Moment { animation: self.animation, seconds: self.seconds });
+        follow(Command::Animate { at, draft }, !draft, asks);
+    }
+}

@@ -1,0 +1,263 @@
+//! Marks in the side panel: the pairs with their stretch; name and number of the selected mark.
+
+use std::sync::Arc;
+
+use egui::accesskit::Role;
+use egui::{Align, Button, DragValue, Layout, RichText, TextEdit, WidgetInfo};
+
+use crate::body::Surface;
+use crate::geometry::ids::MarkId;
+use crate::render::mark_colour;
+use crate::session::Command;
+use crate::ui::actions::Action;
+use crate::ui::actions::asks::{Ask, Asks};
+use crate::ui::look::theme::colour;
+use crate::ui::panels::context::PanelContext;
+use crate::ui::preferences::units::signed;
+use crate::wrap::{MarkPlace, Marks, PairStretch, stretches};
+
+/// What the list remembers from frame to frame.
+#[derive(Debug, Default)]
+pub struct MarksPanel {
+    lengths: Option<Lengths>,
+    /// The name being typed, and whose it is.
+    typed: Option<(MarkId, String)>,
+}
+
+/// Lengths of the pairs, and what they were measured on.
+#[derive(Debug)]
+struct Lengths {
+    marks: Arc<Marks>,
+    surface: Arc<Surface>,
+    offset: f64,
+    pairs: Vec<PairStretch>,
+}
+
+impl MarksPanel {
+    /// Draws the list.
+    pub fn ui(&mut self, ui: &mut egui::Ui, told: &PanelContext<'_>, asks: &mut Asks) {
+        if told.now.proposed > 0 {
+            proposal_ui(ui, told, asks);
+        }
+        let [cloth, body] = told.now.marks;
+        if cloth + body == 0 {
+            let words = "Paint a mark on a piece, then one on the body where it should lie. Marks with the same number meet.";
+            ui.add(egui::Label::new(RichText::new(words).color(told.palette.weak)).wrap());
+            return;
+        }
+        self.measure(told);
+        for number in 1..=cloth.max(body) {
+            let pairs = self.lengths.iter().flat_map(|l| &l.pairs);
+            let pair = pairs.copied().find(|pair| pair.number == number);
+            pair_row(ui, told, number, pair, asks);
+        }
+        match told.now.selected {
+            Some((mark, place)) => self.selected_ui(ui, told, mark, place, asks),
+            None => self.typed = None,
+        }
+        ui.add_space(2.0);
+        if ui.small_button(Action::ClearMarks.entry().text).clicked() {
+            asks.push(Ask::Act(Action::ClearMarks));
+        }
+    }
+
+    /// Only what has changed is measured again.
+    fn measure(&mut self, told: &PanelContext<'_>) {
+        let Some(surface) = told.surface else {
+            self.lengths = None;
+            return;
+        };
+        let marks = &told.document.marks;
+        let offset = told.document.settings.relax.offset * surface.scale();
+        let known = self.lengths.as_ref().is_some_and(|l| {
+            Arc::ptr_eq(&l.marks, marks) && Arc::ptr_eq(&l.surface, surface) && l.offset == offset
+        });
+        if !known {
+            let pairs = stretches(marks, surface, offset);
+            self.lengths =
+                Some(Lengths { marks: Arc::clone(marks), surface: Arc::clone(surface), offset, pairs });
+        }
+    }
+
+    fn selected_ui(
+        &mut self,
+        ui: &mut egui::Ui,
+        told: &PanelContext<'_>,
+        mark: MarkId,
+        place: MarkPlace,
+        asks: &mut Asks,
+    ) {
+        ui.separator();
+        ui.horizontal(|ui| {
+            ui.label(RichText::new(format!("Selected: {place}")).strong());
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                action_ui(ui, told, Action::DeleteMark, "Delete", asks);
+            });
+        });
+        if let Some(landmark) = told.document.marks.landmark(mark) {
+            let words = format!("near {}", landmark.replace('_', " "));
+            ui.label(RichText::new(words).color(told.palette.weak).size(12.5));
+        }
+        ui.horizontal(|ui| {
+            let label = ui.label(RichText::new("Name").color(told.palette.weak));
+            self.name_ui(ui, told, mark, asks, label.id);
+        });
+        ui.horizontal(|ui| {
+            let label = ui.label(RichText::new("Number").color(told.palette.weak));
+            let mut to = place.number;
+            let value = ui.add(DragValue::new(&mut to).range(1..=place.count).speed(0.05));
+            let value = value.labelled_by(label.id);
+            if to != place.number {
+                asks.push(Ask::Drag(Command::MoveMark { mark, to }));
+            }
+            if value.drag_stopped() || (value.changed() && !value.dragged()) {
+                asks.push(Ask::EndDrag);
+            }
+            for (action, text) in [(Action::RaiseMark, "Up"), (Action::LowerMark, "Down")] {
+                action_ui(ui, told, action, text, asks);
+            }
+        });
+    }
+
+    fn name_ui(
+        &mut self,
+        ui: &mut egui::Ui,
+        told: &PanelContext<'_>,
+        mark: MarkId,
+        asks: &mut Asks,
+        label: egui::Id,
+    ) {
+        let known = told.document.marks.name(mark);
+        let (whose, text) = self.typed.get_or_insert_with(|| (mark, known.to_owned()));
+        if *whose != mark {
+            (*whose, *text) = (mark, known.to_owned());
+        }
+        let field = TextEdit::singleline(text).hint_text("none").desired_width(f32::INFINITY);
+        let field = ui.add(field).labelled_by(label);
+        if field.lost_focus() && text.trim() != known && !ui.input(|i| i.key_pressed(egui::Key::Escape)) {
+            asks.push(Ask::Do(Command::RenameMark { mark, name: text.trim().to_owned() }));
+        } else if !field.has_focus() && text != known {
+            known.clone_into(text);
+        }
+    }
+}
+
+/// A small button with a word of its own for `action`.
+fn action_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, action: Action, text: &str, asks: &mut Asks) {
+    let why_not = told.now.why_not(action);
+    let button = ui.add_enabled(why_not.is_none(), Button::new(text).small());
+    name(&button, action.entry().text);
+    let button = button.on_disabled_hover_text(why_not.unwrap_or_default());
+    if button.on_hover_text(action.entry().tip).clicked() {
+        asks.push(Ask::Act(action));
+    }
+}
+
+/// What to do with proposed marks.
+fn proposal_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, asks: &mut Asks) {
+    let count = told.now.proposed;
+    let pairs = if count == 1 { "pair of marks is" } else { "pairs of marks are" };
+    let instead = if told.now.marks == [0, 0] { "" } else { " They would take the place of those below." };
+    ui.add(egui::Label::new(format!("{count} {pairs} proposed.{instead}")).wrap());
+    ui.horizontal(|ui| {
+        for (action, fill) in [(Action::AcceptMarks, Some(told.palette.accent)), (Action::DismissMarks, None)]
+        {
+            let entry = action.entry();
+            let button = match fill {
+                Some(fill) => Button::new(RichText::new(entry.text).color(told.palette.on_accent)).fill(fill),
+                None => Button::new(entry.text),
+            };
+            let keys = entry.keys.first().map(|k| ui.ctx().format_shortcut(k)).unwrap_or_default();
+            if ui.add(button).on_hover_text(format!("{}  ({keys})", entry.tip)).clicked() {
+                asks.push(Ask::Act(action));
+            }
+        }
+    });
+    ui.separator();
+}
+
+/// Number, both strokes, stretch.
+fn pair_row(
+    ui: &mut egui::Ui,
+    told: &PanelContext<'_>,
+    number: usize,
+    pair: Option<PairStretch>,
+    asks: &mut Asks,
+) {
+    ui.horizontal(|ui| {
+        let (dot, _) = ui.allocate_exact_size(egui::vec2(18.0, 18.0), egui::Sense::hover());
+        ui.painter().circle_filled(dot.center(), 8.0, colour(mark_colour(number)));
+        let font = egui::FontId::proportional(11.5);
+        ui.painter().text(dot.center(), egui::Align2::CENTER_CENTER, number, font, egui::Color32::WHITE);
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            let close = ui.small_button("×").on_hover_text(format!("Take the marks {number} away"));
+            name(&close, &format!("Delete marks {number}"));
+            if close.clicked() {
+                asks.push(Ask::Do(Command::DeletePair { number }));
+            }
+            if let Some(pair) = pair {
+                stretch_ui(ui, told, &pair);
+            }
+            ui.with_layout(Layout::left_to_right(Align::Center), |ui| strokes_ui(ui, told, number, asks));
+        });
+    });
+}
+
+fn stretch_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, pair: &PairStretch) {
+    let PairStretch { number, cloth, body } = *pair;
+    if cloth == 0.0 {
+        ui.label(RichText::new("point").color(told.palette.weak).size(12.5));
+        return;
+    }
+    let percent = format!("{} %", signed(pair.stretch() * 100.0, 1));
+    let text = RichText::new(&percent).size(12.5);
+    let ink = if pair.is_large() { told.palette.error } else { told.palette.weak };
+    let text = if pair.is_large() { text.strong().color(ink) } else { text.color(ink) };
+    let shown = ui.label(text).on_hover_text(format!(
+        "{:.1} cm on the cloth, {:.1} cm on the body: the cloth has to stretch by so much there",
+        cloth * 100.0,
+        body * 100.0
+    ));
+    let words = format!("Stretch of pair {number}: {percent}");
+    shown.widget_info(|| WidgetInfo::labeled(Role::Label, true, &words));
+}
+
+/// The strokes of one number, each to be selected by a click.
+fn strokes_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, number: usize, asks: &mut Asks) {
+    let marks = &told.document.marks;
+    ui.spacing_mut().item_spacing.x = 2.0;
+    ui.spacing_mut().button_padding.x = 4.0;
+    let mut stroke = |ui: &mut egui::Ui, mark: MarkId, otherwise: &str, side: &str| {
+        let given = marks.name(mark);
+        let is_selected = told.now.selected.is_some_and(|(selected, _)| selected == mark);
+        let text = if given.is_empty() { otherwise } else { given };
+        let button = ui.add(Button::selectable(is_selected, text).truncate());
+        let words = format!("{text}: select mark {number} on the {side}");
+        button.widget_info(|| WidgetInfo::selected(Role::Button, true, is_selected, &words));
+        if button.clicked() {
+            asks.push(Ask::Select((!is_selected).then_some(mark)));
+        }
+    };
+    let lacks = |ui: &mut egui::Ui, words: &str| {
+        ui.add(egui::Label::new(RichText::new(words).color(told.palette.warning)).truncate());
+    };
+    let cloth = marks.cloth.get(number - 1);
+    let body = marks.body.get(number - 1);
+    if let Some(mark) = cloth {
+        let piece = told.document.pattern.pieces.get(&mark.piece).map_or("a piece", |p| &p.name);
+        stroke(ui, mark.id, piece, "cloth");
+    }
+    match (cloth, body) {
+        (Some(_), Some(mark)) => stroke(ui, mark.id, "body", "body"),
+        (None, Some(mark)) => {
+            stroke(ui, mark.id, "body", "body");
+            lacks(ui, "not on the cloth yet");
+        }
+        _ => lacks(ui, "not on the body yet"),
+    }
+}
+
+/// Gives a widget a name of its own for screen readers and tests.
+fn name(response: &egui::Response, name: &str) {
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, name));
+}

@@ -1,0 +1,387 @@
+//! The pattern in the side panel: numbers of what is selected, and lists of pieces and seams.
+
+use egui::accesskit::Role;
+use egui::{Button, Grid, Key, RichText, TextEdit, WidgetInfo};
+use glam::DVec2;
+
+use crate::geometry::ids::{PieceId, SeamId};
+use crate::pattern::activity::Activity;
+use crate::pattern::edit::{PatternEdit, PointRef, WIDEST_ALLOWANCE};
+use crate::pattern::layers::MOST_LAYER;
+use crate::pattern::{EdgeRef, EdgeShape, Piece, PlanePose, Seam};
+use crate::session::Command;
+use crate::ui::actions::Action;
+use crate::ui::actions::asks::{Ask, Asks};
+use crate::ui::look::signs::{Sign, sign_button};
+use crate::ui::panels::context::PanelContext;
+use crate::ui::panels::fields::{angle_field, length_field, number_field};
+use crate::ui::pattern_pane::seam_words;
+use crate::ui::preferences::units::signed;
+use crate::ui::selection::{Item, Selection};
+
+/// What the lists remember from frame to frame.
+#[derive(Debug, Default)]
+pub struct PatternPanel {
+    /// The name being typed, and whose it is.
+    typed: Option<(PieceId, String)>,
+}
+
+fn ask(edits: Vec<PatternEdit>) -> Ask {
+    Ask::Do(Command::EditPattern { edits, anew: false })
+}
+
+impl PatternPanel {
+    /// Numbers of what is selected.
+    pub fn inspector_ui(&mut self, ui: &mut egui::Ui, told: &PanelContext<'_>, asks: &mut Asks) {
+        let selection = told.selection;
+        ui.label(RichText::new(selection.words()).color(told.palette.weak).size(12.5));
+        if let Some(&id) = selection.seams.first().filter(|_| selection.seams.len() == 1) {
+            seam_ui(ui, told, id, asks);
+        }
+        if let Some(&edge) = selection.edges.first().filter(|_| selection.edges.len() == 1) {
+            edge_ui(ui, told, edge, asks);
+        }
+        if let Some(&point) = selection.points.first().filter(|_| selection.points.len() == 1) {
+            point_ui(ui, told, point, asks);
+        }
+        if !selection.pieces.is_empty() {
+            self.pieces_ui(ui, told, asks);
+        }
+    }
+
+    fn pieces_ui(&mut self, ui: &mut egui::Ui, told: &PanelContext<'_>, asks: &mut Asks) {
+        let pattern = &*told.document.pattern;
+        let pieces = told.selection.pieces.iter().filter_map(|id| Some((*id, &**pattern.pieces.get(id)?)));
+        let pieces: Vec<(PieceId, &Piece)> = pieces.collect();
+        let Some([lower, upper]) = box_of(&pieces) else { return };
+        let unit = told.now.unit;
+        if let [(id, piece)] = pieces[..] {
+            ui.horizontal(|ui| {
+                let label = weak(ui, told, "Name");
+                self.name_ui(ui, id, piece, &label, asks);
+            });
+        }
+        let ids: Vec<PieceId> = pieces.iter().map(|(id, _)| *id).collect();
+        let place = |pose: &dyn Fn(&PlanePose) -> PlanePose| {
+            let poses = pieces.iter().map(|(id, piece)| (*id, pose(&piece.pose)));
+            ask(vec![PatternEdit::Place { poses: poses.collect() }])
+        };
+        let size = upper - lower;
+        Grid::new("piece numbers").num_columns(4).spacing([6.0, 4.0]).show(ui, |ui| {
+            for (name, old, way) in [("x", lower.x, DVec2::X), ("y", lower.y, DVec2::Y)] {
+                let label = weak(ui, told, name);
+                if let Some(new) = length_field(ui, ("at", name), &label, old, unit) {
+                    let by = way * (new - old);
+                    asks.push(place(&|pose| PlanePose { offset: pose.offset + by, ..*pose }));
+                }
+            }
+            ui.end_row();
+            for (name, old, way) in [("Width", size.x, DVec2::X), ("Height", size.y, DVec2::Y)] {
+                let label = weak(ui, told, name);
+                if let Some(new) =
+                    length_field(ui, ("size", name), &label, old, unit).filter(|new| *new > 1e-4)
+                {
+                    let factor = DVec2::ONE + way * (new / old.max(1e-9) - 1.0);
+                    asks.push(ask(vec![PatternEdit::Scale { pieces: ids.clone(), about: lower, factor }]));
+                }
+            }
+            ui.end_row();
+            if let [(_, piece)] = pieces[..] {
+                let label = weak(ui, told, "Angle");
+                if let Some(new) = angle_field(ui, "angle", &label, piece.pose.rotation) {
+                    let (by, about) = (new - piece.pose.rotation, (lower + upper) / 2.0);
+                    let turn = DVec2::from_angle(by);
+                    asks.push(place(&|pose| PlanePose {
+                        offset: about + turn.rotate(pose.offset - about),
+                        rotation: new,
+                        ..*pose
+                    }));
+                }
+            }
+        });
+        ui.horizontal(|ui| {
+            let label = weak(ui, told, "Seam allowance");
+            let old = pieces[0].1.allowance;
+            if let Some(width) = length_field(ui, "allowance", &label, old, unit) {
+                let width = width.clamp(0.0, WIDEST_ALLOWANCE);
+                asks.push(ask(vec![PatternEdit::SetAllowance { pieces: ids.clone(), width }]));
+            }
+        });
+        ui.horizontal(|ui| {
+            let label = weak(ui, told, "Layer");
+            let old = pieces[0].1.layer;
+            if let Some(new) = number_field(ui, "layer", &label, f64::from(old)) {
+                let layer = new.round().clamp(0.0, f64::from(MOST_LAYER)) as u8;
+                asks.push(ask(vec![PatternEdit::SetLayer { pieces: ids.clone(), layer }]));
+            }
+            weak(ui, told, "0 next to the skin");
+        });
+        activity_ui(ui, told, &ids, asks);
+        let seen = [Action::Twin, Action::MakeSymmetric, Action::Unlink, Action::Fold];
+        action_row(ui, told, &seen, asks);
+    }
+
+    fn name_ui(
+        &mut self,
+        ui: &mut egui::Ui,
+        id: PieceId,
+        piece: &Piece,
+        label: &egui::Response,
+        asks: &mut Asks,
+    ) {
+        let (whose, text) = self.typed.get_or_insert_with(|| (id, piece.name.clone()));
+        if *whose != id {
+            (*whose, *text) = (id, piece.name.clone());
+        }
+        let field = ui.add(TextEdit::singleline(text).desired_width(f32::INFINITY)).labelled_by(label.id);
+        let given_up = ui.input(|i| i.key_pressed(Key::Escape));
+        if field.lost_focus() && !given_up && !text.trim().is_empty() && text.trim() != piece.name {
+            asks.push(ask(vec![PatternEdit::Rename { piece: id, name: text.trim().to_owned() }]));
+        } else if !field.has_focus() && *text != piece.name {
+            piece.name.clone_into(text);
+        }
+    }
+
+    /// The list of pieces: select, rename, lock, hide.
+    pub fn outliner_ui(&mut self, ui: &mut egui::Ui, told: &PanelContext<'_>, asks: &mut Asks) {
+        let pattern = &*told.document.pattern;
+        if pattern.pieces.is_empty() {
+            ui.label(RichText::new("None").color(told.palette.weak));
+        }
+        for (&id, piece) in &pattern.pieces {
+            // Signs come first: on the right the scroll bar would lie over them.
+            ui.horizontal(|ui| {
+                ui.spacing_mut().item_spacing.x = 3.0;
+                let words = |what: &str| format!("{what} {}", piece.name);
+                let tip = "Hidden pieces are not shown here; they are sewn all the same";
+                if sign_button(ui, Sign::Eye, !piece.hidden, &words("Show"), tip) {
+                    let hidden = !piece.hidden;
+                    asks.push(ask(vec![PatternEdit::SetHidden { pieces: vec![id], hidden }]));
+                }
+                let tip = "Locked pieces are not changed by the pointer";
+                if sign_button(ui, Sign::Lock, piece.locked, &words("Lock"), tip) {
+                    let locked = !piece.locked;
+                    asks.push(ask(vec![PatternEdit::SetLocked { pieces: vec![id], locked }]));
+                }
+                let signs = [
+                    (piece.symmetric, " · symmetric"),
+                    (piece.twin.is_some(), " · twin"),
+                    (piece.activity == Activity::Frozen, " · frozen"),
+                    (piece.activity.is_deactivated(), " · deactivated"),
+                ];
+                let signs: String = signs.iter().filter(|s| s.0).map(|s| s.1).collect();
+                let text = RichText::new(format!("{}{signs}", piece.name));
+                let text = if piece.hidden { text.color(told.palette.weak) } else { text };
+                row(ui, told, Item::Piece(id), text, &format!("Select {}", piece.name), asks);
+            });
+        }
+    }
+}
+
+/// The list of seams: select, turn round, undo.
+pub fn seams_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, asks: &mut Asks) {
+    let pattern = &*told.document.pattern;
+    if pattern.seams.is_empty() {
+        let words = "None yet: choose Sew and click two edges.";
+        ui.add(egui::Label::new(RichText::new(words).color(told.palette.weak)).wrap());
+    }
+    for (&id, seam) in &pattern.seams {
+        ui.horizontal(|ui| {
+            ui.spacing_mut().item_spacing.x = 3.0;
+            let (dot, _) = ui.allocate_exact_size(egui::vec2(14.0, 16.0), egui::Sense::hover());
+            ui.painter().circle_filled(dot.center(), 4.5, told.palette.seam(id.0));
+            let words = |what: &str| format!("{what}: {}", seam_words(pattern, seam));
+            if sign_button(ui, Sign::Turn, true, &words("Turn round"), "Sew it the other way round") {
+                asks.push(ask(vec![PatternEdit::TurnSeam { seam: id }]));
+            }
+            if sign_button(ui, Sign::Cross, true, &words("Unpick"), "Undo this seam") {
+                asks.push(ask(vec![PatternEdit::Unpick { seams: vec![id] }]));
+            }
+            let words = seam_words(pattern, seam);
+            let text = RichText::new(&words).size(12.5);
+            row(ui, told, Item::Seam(id), text, &format!("Select {words}"), asks);
+        });
+    }
+}
+
+fn row(ui: &mut egui::Ui, told: &PanelContext<'_>, item: Item, text: RichText, words: &str, asks: &mut Asks) {
+    let is_selected = told.selection.has(item);
+    let button = ui.add(Button::selectable(is_selected, text).truncate());
+    button.widget_info(|| WidgetInfo::selected(Role::Button, true, is_selected, words));
+    if button.clicked() {
+        let more = ui.input(|i| i.modifiers.shift || i.modifiers.command);
+        asks.push(Ask::Pick(
+            match is_selected && told.selection.pieces.len() + told.selection.seams.len() == 1 {
+                true => Selection::default(),
+                false => told.selection.clicked(Some(item), more),
+            },
+        ));
+    }
+}
+
+fn action_row(ui: &mut egui::Ui, told: &PanelContext<'_>, actions: &[Action], asks: &mut Asks) {
+    ui.horizontal_wrapped(|ui| {
+        for &action in actions.iter().filter(|&&action| told.now.why_not(action).is_none()) {
+            let entry = action.entry();
+            if ui.small_button(entry.text).on_hover_text(entry.tip).clicked() {
+                asks.push(Ask::Act(action));
+            }
+        }
+    });
+}
+
+fn weak(ui: &mut egui::Ui, told: &PanelContext<'_>, text: &str) -> egui::Response {
+    ui.label(RichText::new(text).color(told.palette.weak).size(12.5))
+}
+
+/// What draping does with `pieces`.
+fn activity_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, pieces: &[PieceId], asks: &mut Asks) {
+    weak(ui, told, "Draping");
+    // Side by side with their label they would widen the panel, and move the body aside.
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing.x = 2.0;
+        for (activity, text, tip) in [
+            (Activity::Active, "Active", "Draping and relaxing move it"),
+            (Activity::Frozen, "Frozen", Action::ToggleFrozen.entry().tip),
+            (Activity::Deactivated, "Deactivated", Action::ToggleDeactivated.entry().tip),
+        ] {
+            let is_so = told.now.picked.activity == Some(activity);
+            if ui.selectable_label(is_so, text).on_hover_text(tip).clicked() && !is_so {
+                asks.push(ask(vec![PatternEdit::SetActivity { pieces: pieces.to_vec(), activity }]));
+            }
+        }
+    });
+}
+
+fn edge_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, edge: EdgeRef, asks: &mut Asks) {
+    let Some(piece) = told.document.pattern.pieces.get(&edge.piece) else { return };
+    let (a, b) = piece.edge_ends(edge.edge);
+    let length = piece.edge_length(edge.edge);
+    ui.label(format!("{}, edge {}", piece.name, edge.edge + 1));
+    Grid::new("edge numbers").num_columns(4).spacing([6.0, 4.0]).show(ui, |ui| {
+        let label = weak(ui, told, "Length");
+        let end = PointRef { piece: edge.piece, point: piece.next_edge(edge.edge) };
+        if let Some(new) =
+            length_field(ui, "edge length", &label, length, told.now.unit).filter(|l| *l > 1e-4)
+        {
+            // The curve grows with its chord.
+            let to = a + (b - a) * (new / length);
+            asks.push(ask(vec![PatternEdit::MovePoints { points: vec![(end, to)] }]));
+        }
+        let label = weak(ui, told, "Angle");
+        let placed = [a, b].map(|p| piece.pose.plane_from_piece(p));
+        let way = placed[1] - placed[0];
+        if let Some(new) = angle_field(ui, "edge angle", &label, way.to_angle()) {
+            let to = piece.pose.piece_from_plane(placed[0] + DVec2::from_angle(new) * way.length());
+            asks.push(ask(vec![PatternEdit::MovePoints { points: vec![(end, to)] }]));
+        }
+        ui.end_row();
+        if let EdgeShape::Arc { radius, large, sweep } = piece.edge(edge.edge).shape {
+            let label = weak(ui, told, "Radius");
+            if let Some(new) = length_field(ui, "radius", &label, radius, told.now.unit) {
+                let radius = new.max(a.distance(b) / 2.0);
+                let shape = EdgeShape::Arc { radius, large, sweep };
+                asks.push(ask(vec![PatternEdit::SetEdge { edge, shape }]));
+            }
+            ui.end_row();
+        }
+    });
+    action_row(
+        ui,
+        told,
+        &[Action::InsertPoint, Action::Straighten, Action::Curve, Action::Arc, Action::Unfold],
+        asks,
+    );
+}
+
+fn point_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, point: PointRef, asks: &mut Asks) {
+    let Some(piece) = told.document.pattern.pieces.get(&point.piece) else { return };
+    let edge = piece.edge(point.point);
+    let p = piece.pose.plane_from_piece(edge.start);
+    ui.label(format!("{}, point {}", piece.name, point.point + 1));
+    Grid::new("point numbers").num_columns(4).spacing([6.0, 4.0]).show(ui, |ui| {
+        for (name, old, way) in [("x", p.x, DVec2::X), ("y", p.y, DVec2::Y)] {
+            let label = weak(ui, told, name);
+            if let Some(new) = length_field(ui, ("point", name), &label, old, told.now.unit) {
+                let to = piece.pose.piece_from_plane(p + way * (new - old));
+                asks.push(ask(vec![PatternEdit::MovePoints { points: vec![(point, to)] }]));
+            }
+        }
+    });
+    let mut smooth = edge.smooth;
+    if ui.checkbox(&mut smooth, "Smooth").on_hover_text(Action::ToggleSmooth.entry().tip).changed() {
+        asks.push(ask(vec![PatternEdit::SetSmooth { point, smooth }]));
+    }
+}
+
+fn seam_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, id: SeamId, asks: &mut Asks) {
+    let pattern = &*told.document.pattern;
+    let Some(seam) = pattern.seams.get(&id) else { return };
+    let length = |k: usize| seam.sides[k].length(pattern.pieces.get(&seam.sides[k].piece)?);
+    let (Some(a), Some(b)) = (length(0), length(1)) else { return };
+    let unit = told.now.unit;
+    ui.add(egui::Label::new(seam_words(pattern, seam)).wrap());
+    let percent = (a / b.max(1e-9) - 1.0) * 100.0;
+    let more = (a - b) * 1000.0;
+    let words = format!("{} on {}", unit.text(a), unit.text(b));
+    ui.label(words);
+    let ink = if percent.abs() > 1.0 { told.palette.warning } else { told.palette.weak };
+    ui.label(
+        RichText::new(format!("Difference {} mm ({} %)", signed(more, 1), signed(percent, 2)))
+            .color(ink)
+            .size(12.5),
+    );
+    ratio_ui(ui, told, id, seam, a / b.max(1e-9), asks);
+    ui.horizontal(|ui| {
+        action_row(ui, told, &[Action::TurnSeam, Action::Delete], asks);
+    });
+}
+
+/// No gather anybody would see: patterns from files seldom have lengths that are equal to the last digit.
+fn is_equal(ratio: f64) -> bool {
+    (ratio - 1.0).abs() < 5e-4
+}
+
+/// How the lengths of both sides are held to each other.
+fn ratio_ui(
+    ui: &mut egui::Ui,
+    told: &PanelContext<'_>,
+    seam: SeamId,
+    old: &Seam,
+    present: f64,
+    asks: &mut Asks,
+) {
+    let set = |ratio: Option<f64>| ask(vec![PatternEdit::SetRatio { seam, ratio }]);
+    ui.horizontal_wrapped(|ui| {
+        let equal = old.ratio.is_some_and(is_equal);
+        let text = if equal { "Equal" } else { "Make equal" };
+        if ui.selectable_label(equal, text).on_hover_text("Both sides have one length, and keep it").clicked()
+        {
+            asks.push(set(Some(1.0)));
+        }
+        let gathered = old.ratio.is_some() && !equal;
+        let tip = "The first side stays so many times as long as the second";
+        if ui.selectable_label(gathered, "Gather").on_hover_text(tip).clicked() {
+            asks.push(set(Some(present)));
+        }
+        let tip = "Each side may change alone";
+        if ui.selectable_label(old.ratio.is_none(), "Free").on_hover_text(tip).clicked() {
+            asks.push(set(None));
+        }
+    });
+    if let Some(ratio) = old.ratio.filter(|ratio| !is_equal(*ratio)) {
+        ui.horizontal(|ui| {
+            let label = weak(ui, told, "Ratio");
+            if let Some(new) = number_field(ui, "ratio", &label, ratio).filter(|r| (0.1..=10.0).contains(r)) {
+                asks.push(set(Some(new)));
+            }
+        });
+    }
+}
+
+fn box_of(pieces: &[(PieceId, &Piece)]) -> Option<[DVec2; 2]> {
+    let points = pieces
+        .iter()
+        .flat_map(|(_, piece)| piece.flattened(5e-4).into_iter().map(|p| piece.pose.plane_from_piece(p)));
+    points.map(|p| [p, p]).reduce(|[a, b], [c, d]| [a.min(c), b.max(d)])
+}

@@ -1,0 +1,184 @@
+//! The section of the side panel that poses the mannequin.
+
+use std::sync::Arc;
+
+use egui::{Button, RichText, Slider};
+
+use crate::body::NamedPose;
+use crate::session::{Aim, BodyChoice, Command};
+use crate::ui::actions::Action;
+use crate::ui::actions::asks::{Ask, Asks};
+use crate::ui::files::posed_motion::PosedMotion;
+use crate::ui::panels::animation::AnimationPanel;
+use crate::ui::panels::context::PanelContext;
+use crate::ui::panels::joint::JointPanel;
+use crate::ui::panels::pose_slider::{follow, let_go, posed};
+
+/// Which pose was chosen last, and how far the mannequin has gone to it.
+#[derive(Debug)]
+pub struct PosePanel {
+    to: NamedPose,
+    share: f64,
+    joints: JointPanel,
+    /// Of a body from a file.
+    pub animation: AnimationPanel,
+    /// The pose from a file that the body is led to, and how far it is.
+    aim: Option<(Arc<Aim>, f64)>,
+    /// A motion, and the frame it is at, from 1.
+    motion: Option<(PosedMotion, usize)>,
+}
+
+impl Default for PosePanel {
+    fn default() -> Self {
+        Self {
+            to: NamedPose::Standing,
+            share: 0.0,
+            joints: JointPanel::default(),
+            animation: AnimationPanel::default(),
+            aim: None,
+            motion: None,
+        }
+    }
+}
+
+impl PosePanel {
+    /// Draws the section.
+    pub fn ui(&mut self, ui: &mut egui::Ui, told: &PanelContext<'_>, asks: &mut Asks) {
+        let body = &told.document.body;
+        let has_joints = body.measurements().is_some();
+        let enabled = !told.now.wrapping && !told.now.demo;
+        ui.add_enabled_ui(enabled, |ui| {
+            // First: in an animation the mannequin is a body like others, and what it has below goes away under the mouse.
+            self.animation.ui(ui, told, asks);
+            if has_joints {
+                self.names_ui(ui, body, asks);
+                self.way_ui(ui, told, asks);
+                self.joints.ui(ui, told, asks);
+            } else if told.document.animations.is_none() {
+                let words =
+                    "The body is from a file: it takes the poses that other files of the same mesh have.";
+                ui.add(egui::Label::new(RichText::new(words).color(told.palette.weak)).wrap());
+            }
+            self.files_ui(ui, told, asks);
+        });
+    }
+
+    fn names_ui(&mut self, ui: &mut egui::Ui, body: &BodyChoice, asks: &mut Asks) {
+        egui::Grid::new("poses").num_columns(2).spacing([6.0, 4.0]).show(ui, |ui| {
+            for (i, pose) in NamedPose::ALL.into_iter().enumerate() {
+                let is_taken = if pose == NamedPose::A {
+                    matches!(body, BodyChoice::Mannequin(_))
+                } else {
+                    self.to == pose && self.share == 1.0 && matches!(body, BodyChoice::Posed { .. })
+                };
+                let size = egui::vec2(ui.available_width().min(112.0), 0.0);
+                let button = ui.add(Button::selectable(is_taken, pose.title()).min_size(size));
+                let words = format!("Pose {}", pose.title());
+                button.widget_info(|| {
+                    egui::WidgetInfo::selected(egui::accesskit::Role::Button, true, is_taken, words.clone())
+                });
+                if button.clicked() {
+                    (self.to, self.share) = (pose, 1.0);
+                    asks.extend(whole(body, pose).map(|body| Ask::Do(posed(body, false))));
+                }
+                if i % 2 == 1 {
+                    ui.end_row();
+                }
+            }
+        });
+    }
+
+    /// A slider from the built pose to the chosen one.
+    fn way_ui(&mut self, ui: &mut egui::Ui, told: &PanelContext<'_>, asks: &mut Asks) {
+        if self.to == NamedPose::A {
+            return;
+        }
+        let text = format!("On the way to {}", self.to.title());
+        let done = percent_ui(ui, told, &text, "On the way to the pose", &mut self.share);
+        let body = &told.document.body;
+        if let (Some(done), Some(new)) = (done, part(body, self.to, self.share))
+            && (done || new != *body)
+        {
+            follow(posed(new, !done), done, asks);
+        }
+    }
+
+    /// The way to a pose from a file, or through a motion.
+    fn files_ui(&mut self, ui: &mut egui::Ui, told: &PanelContext<'_>, asks: &mut Asks) {
+        ui.add_space(4.0);
+        if ui.button("From a file…").on_hover_text(Action::PoseFromFile.entry().tip).clicked() {
+            asks.push(Ask::Act(Action::PoseFromFile));
+        }
+        if let Some(aim) = &told.document.aim {
+            if self.aim.as_ref().is_none_or(|(of, _)| !Arc::ptr_eq(of, aim)) {
+                self.aim = Some((Arc::clone(aim), 0.0));
+            }
+            if let Some((_, share)) = &mut self.aim {
+                if ui.ctx().dragged_id().is_none() {
+                    // As undo left it, too.
+                    let at = |end: &BodyChoice| told.document.body == *end;
+                    *share = if at(&aim.from) {
+                        0.0
+                    } else if at(&aim.to) {
+                        1.0
+                    } else {
+                        *share
+                    };
+                }
+                let text = format!("On the way to {}", aim.to.name());
+                if let Some(done) = percent_ui(ui, told, &text, "On the way to the pose of the file", share) {
+                    follow(Command::PoseTowards { share: *share, draft: !done }, done, asks);
+                }
+            }
+        }
+        if let Some((motion, frame)) = &mut self.motion
+            && told.document.body.measurements().is_some()
+        {
+            ui.label(RichText::new(&motion.name).color(told.palette.weak).size(12.5));
+            let slider = Slider::new(frame, 1..=motion.frames()).prefix("frame ");
+            let response = ui.add(slider);
+            response.widget_info(|| egui::WidgetInfo::slider(true, *frame as f64, "Frame of the motion"));
+            let body = &told.document.body;
+            if let (Some(done), Some(new)) = (let_go(&response, told), motion.body(body, *frame - 1))
+                && (done || new != *body)
+            {
+                follow(posed(new, !done), done, asks);
+            }
+        }
+    }
+
+    /// A motion was read.
+    pub fn take_motion(&mut self, motion: PosedMotion) {
+        self.motion = Some((motion, 1));
+    }
+}
+
+/// A slider of a share of the way. Some when it was moved: whether it was let go, too.
+fn percent_ui(
+    ui: &mut egui::Ui,
+    told: &PanelContext<'_>,
+    text: &str,
+    name: &str,
+    share: &mut f64,
+) -> Option<bool> {
+    ui.label(RichText::new(text).color(told.palette.weak).size(12.5));
+    let mut percent = (*share * 100.0).round();
+    let response = ui.add(Slider::new(&mut percent, 0.0..=100.0).suffix(" %").step_by(1.0));
+    response.widget_info(|| egui::WidgetInfo::slider(true, percent, name));
+    if response.changed() {
+        *share = percent / 100.0;
+    }
+    let_go(&response, told)
+}
+
+/// The body in a pose with a name, unless it is in it.
+fn whole(body: &BodyChoice, pose: NamedPose) -> Option<BodyChoice> {
+    body.in_named_pose(pose).filter(|posed| posed != body)
+}
+
+/// The body between the built pose and another.
+fn part(body: &BodyChoice, to: NamedPose, share: f64) -> Option<BodyChoice> {
+    let built = body.posed(crate::body::Pose::default())?;
+    let whole = built.in_named_pose(to)?.pose()?;
+    body.posed(built.pose()?.towards(&whole, share))
+}

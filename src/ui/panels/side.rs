@@ -1,0 +1,206 @@
+//! The side panel: marks, problems, cloth settings.
+
+use egui::{CollapsingHeader, Id, RichText, ScrollArea, Slider};
+
+use crate::session::{Command, Document, Settings};
+use crate::sim::Fault;
+use crate::ui::actions::Tool;
+use crate::ui::actions::asks::{Ask, Asks};
+use crate::ui::look::theme::Palette;
+use crate::ui::panels::context::{PanelContext, problem_row};
+use crate::ui::panels::fabric;
+use crate::ui::panels::marks::MarksPanel;
+use crate::ui::panels::pattern::{PatternPanel, seams_ui};
+use crate::ui::panels::pins::pins_ui;
+use crate::ui::panels::pose::PosePanel;
+use crate::ui::panels::tape::TapePanel;
+use crate::ui::panels::tight::tight_ui;
+
+/// Draws the panel. Returns its first widget, for the keyboard.
+pub fn side_panel_ui(
+    ui: &mut egui::Ui,
+    told: &PanelContext<'_>,
+    marks: &mut MarksPanel,
+    pattern: &mut PatternPanel,
+    (pose, tape): (&mut PosePanel, &mut TapePanel),
+    asks: &mut Asks,
+) -> Option<Id> {
+    let PanelContext { document, palette, .. } = *told;
+    let mut first = None;
+    ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
+        // What the tool in hand is about comes first.
+        let on_pattern =
+            !matches!(told.now.tool, Tool::Mark | Tool::Erase | Tool::Drag(_) | Tool::Pin | Tool::Bone);
+        if on_pattern {
+            first = Some(pattern_ui(ui, told, pattern, asks));
+        }
+        let marks = section(ui, "Marks", true, |ui| marks.ui(ui, told, asks));
+        first = first.or(Some(marks));
+        if !document.pins.is_empty() {
+            let title = format!("Pins ({})", document.pins.len());
+            section(ui, &title, true, |ui| pins_ui(ui, told, asks));
+        }
+        section(ui, "Problems", true, |ui| problems_ui(ui, told, asks));
+        section(ui, "Fabric", true, |ui| fabric::fabric_ui(ui, told, asks));
+        section(ui, "Pose", false, |ui| pose.ui(ui, told, asks));
+        section(ui, "Measures of the body", false, |ui| tape.ui(ui, told, asks));
+        section(ui, "Cloth", true, |ui| settings_ui(ui, &document.settings, palette, asks));
+        if !on_pattern {
+            pattern_ui(ui, told, pattern, asks);
+        }
+    });
+    first
+}
+
+fn pattern_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, pattern: &mut PatternPanel, asks: &mut Asks) -> Id {
+    let of_pattern = !told.selection.is_empty() && told.selection.pins.is_empty();
+    let selected =
+        of_pattern.then(|| section(ui, "Selected", true, |ui| pattern.inspector_ui(ui, told, asks)));
+    let pieces = section(ui, "Pieces", true, |ui| pattern.outliner_ui(ui, told, asks));
+    let seams = format!("Seams ({})", told.document.pattern.seams.len());
+    section(ui, &seams, false, |ui| seams_ui(ui, told, asks));
+    selected.unwrap_or(pieces)
+}
+
+fn section(ui: &mut egui::Ui, title: &str, open: bool, contents: impl FnOnce(&mut egui::Ui)) -> Id {
+    ui.add_space(4.0);
+    // "Seams (12)" is the same section as "Seams (13)".
+    let id = title.split(' ').next();
+    let header = CollapsingHeader::new(RichText::new(title).strong().size(14.0));
+    let shown = header.id_salt(id).default_open(open).show_unindented(ui, |ui| {
+        ui.add_space(2.0);
+        contents(ui);
+        ui.add_space(6.0);
+    });
+    shown.header_response.id
+}
+
+fn settings_ui(ui: &mut egui::Ui, settings: &Settings, palette: &Palette, asks: &mut Asks) {
+    let mut new = *settings;
+    let mut ended = false;
+    let mut slider =
+        |ui: &mut egui::Ui, text: &str, tip: &str, value: &mut f64, range, unit: f64, suffix: &str| {
+            let mut shown = *value * unit;
+            let digits = if unit > 500.0 { 1 } else { 3 };
+            ui.label(RichText::new(text).color(palette.weak).size(12.5));
+            let slider = Slider::new(&mut shown, range).suffix(suffix).max_decimals(digits);
+            let response = ui.add(slider).on_hover_text(tip);
+            response.widget_info(|| egui::WidgetInfo::slider(true, shown, text));
+            if response.changed() {
+                *value = shown / unit;
+            }
+            ended |= response.drag_stopped() || (response.changed() && !response.dragged());
+        };
+    slider(
+        ui,
+        "Triangle size",
+        "Length of the edges of the cloth's triangles; takes effect with the next wrap",
+        &mut new.edge_length,
+        5.0..=60.0,
+        1000.0,
+        " mm",
+    );
+    slider(
+        ui,
+        "Distance from the skin",
+        "How far above the skin the cloth lies",
+        &mut new.relax.offset,
+        0.5..=20.0,
+        1000.0,
+        " mm",
+    );
+    slider(
+        ui,
+        "Keeps its shape",
+        "How strongly the flat shape is kept",
+        &mut new.relax.stretch,
+        0.0..=1.0,
+        1.0,
+        "",
+    );
+    slider(
+        ui,
+        "Flattens folds",
+        "How strongly folds are smoothed away",
+        &mut new.relax.flatten,
+        0.0..=1.0,
+        1.0,
+        "",
+    );
+    slider(ui, "Weight", "How strongly the cloth is drawn down", &mut new.relax.gravity, 0.0..=0.05, 1.0, "");
+    slider(
+        ui,
+        "Friction",
+        "How strongly the cloth sticks to the skin",
+        &mut new.relax.friction,
+        0.0..=1.5,
+        1.0,
+        "",
+    );
+    slider(
+        ui,
+        "Stretches at most",
+        "Strain beyond which draped cloth is rigid",
+        &mut new.strain,
+        0.1..=20.0,
+        100.0,
+        " %",
+    );
+    ui.add_space(2.0);
+    if ui.add_enabled(*settings != Settings::default(), egui::Button::new("As at first").small()).clicked() {
+        asks.push(Ask::Do(Command::SetSettings { settings: Settings::default() }));
+        return;
+    }
+    if new != *settings {
+        asks.push(Ask::Drag(Command::SetSettings { settings: new }));
+    }
+    if ended {
+        asks.push(Ask::EndDrag);
+    }
+}
+
+fn problems_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, asks: &mut Asks) {
+    let palette = told.palette;
+    let lonely: Vec<String> = unpaired(told.document).into_iter().collect();
+    let nothing = told.lost.is_empty() && told.problems.is_empty() && told.verdict.is_empty();
+    if lonely.is_empty() && nothing && told.snapshot.tight.is_empty() {
+        ui.label(RichText::new("None").color(palette.weak));
+        return;
+    }
+    for words in lonely {
+        problem_row(ui, palette.warning, &words, None, asks);
+    }
+    for problem in told.lost.iter().chain(told.problems) {
+        let ink = if problem.kind.is_note() { palette.warning } else { palette.error };
+        problem_row(ui, ink, &format!("{}: {}", problem.place, problem.words), None, asks);
+    }
+    for Fault { problem, marks } in told.verdict {
+        let numbers: Vec<usize> = marks.iter().map(|m| m.number).collect();
+        let words = format!("{}: {}", problem.place, problem.words);
+        let shows = (Ask::ShowMarks(numbers), "Show the marks concerned");
+        let shows = Some(shows).filter(|_| !marks.is_empty());
+        problem_row(ui, palette.error, &words, shows, asks);
+    }
+    tight_ui(ui, told, asks);
+    if !told.verdict.is_empty() && told.now.wrapped {
+        ui.add_space(4.0);
+        let tip = "What was on the body before this wrap comes back; then paint the marks anew";
+        if ui.button("Take this wrap back").on_hover_text(tip).clicked() {
+            asks.push(Ask::Do(Command::CancelWrap));
+        }
+    }
+}
+
+/// Marks that no wrap can use.
+fn unpaired(document: &Document) -> Option<String> {
+    let (cloth, body) = (document.marks.cloth.len(), document.marks.body.len());
+    let (where_to, numbers) = match cloth.cmp(&body) {
+        std::cmp::Ordering::Equal => return None,
+        std::cmp::Ordering::Less => ("cloth", cloth + 1..=body),
+        std::cmp::Ordering::Greater => ("body", body + 1..=cloth),
+    };
+    let (first, last) = (*numbers.start(), *numbers.end());
+    let which =
+        if first == last { format!("Mark {first} has") } else { format!("Marks {first} to {last} have") };
+    Some(format!("{which} no partner on the {where_to} yet"))
+}

@@ -1,0 +1,69 @@
+//! The choice of sizes, once a table of them was opened.
+
+use std::path::Path;
+
+use egui::{Button, ComboBox, RichText};
+
+use crate::io::sizes::{self, Size};
+use crate::session::{BodyChoice, Command};
+use crate::ui::actions::Action;
+use crate::ui::actions::asks::{Ask, Asks};
+use crate::ui::panels::context::PanelContext;
+
+/// Width of the list.
+const WIDTH: f32 = 140.0;
+
+/// A table of sizes.
+#[derive(Debug, Default)]
+pub struct SizePanel {
+    /// Of its file, and what is in it.
+    table: Option<(String, Vec<Size>)>,
+}
+
+impl SizePanel {
+    /// The sizes in `bytes`, read from `path`, can be chosen from now on; the error is in words.
+    pub fn take(&mut self, path: &Path, bytes: &[u8]) -> Result<(), String> {
+        let sizes = sizes::read(bytes).map_err(|why| format!("{}: {why}", path.display()))?;
+        let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        self.table = Some((name, sizes));
+        Ok(())
+    }
+
+    /// Draws what opens a table, and the list of its sizes: those that no mannequin has cannot be chosen.
+    pub fn ui(&self, ui: &mut egui::Ui, told: &PanelContext<'_>, asks: &mut Asks) {
+        let enabled = !told.now.wrapping && !told.now.demo;
+        ui.add_enabled_ui(enabled, |ui| {
+            if ui.button("From a table of sizes…").on_hover_text(Action::Sizes.entry().tip).clicked() {
+                asks.push(Ask::Act(Action::Sizes));
+            }
+            let Some((name, sizes)) = &self.table else { return };
+            ui.label(RichText::new(name).color(told.palette.weak).size(12.5));
+            let body = &told.document.body;
+            let is_taken = |size: &Size| body.measurements() == Some(size.measurements);
+            let taken = sizes.iter().find(|size| is_taken(size)).map_or("none of these", |size| &size.name);
+            ComboBox::from_label("Size").selected_text(taken).width(WIDTH).show_ui(ui, |ui| {
+                for size in sizes {
+                    size_ui(ui, size, is_taken(size), body, asks);
+                }
+            });
+        });
+        ui.add_space(4.0);
+    }
+}
+
+fn size_ui(ui: &mut egui::Ui, size: &Size, is_taken: bool, body: &BodyChoice, asks: &mut Asks) {
+    let checked = size.checked();
+    let button = ui.add_enabled(checked.is_ok(), Button::selectable(is_taken, &size.name));
+    match checked {
+        Ok(measurements) => {
+            let words = "The mannequin is built to this size; marks and garment go along";
+            if button.on_hover_text(words).clicked() && !is_taken {
+                asks.push(Ask::Do(match body.measurements() {
+                    Some(_) => Command::ChangeSize { measurements },
+                    None => Command::SetBody { body: BodyChoice::Mannequin(measurements), animations: None },
+                }));
+            }
+        }
+        Err(why) => _ = button.on_disabled_hover_text(why.to_string()),
+    }
+}

@@ -1,0 +1,314 @@
+//! What each action does to the pattern, given what is selected.
+
+use std::collections::BTreeSet;
+
+use glam::DVec2;
+
+use crate::geometry::ids::PieceId;
+use crate::pattern::activity::Activity;
+use crate::pattern::edit::{PatternEdit, PointRef};
+use crate::pattern::{EdgeRef, EdgeShape, Pattern, Piece, PlanePose, SpacePose, curve};
+use crate::place::rolled_up;
+use crate::ui::actions::Action;
+use crate::ui::pattern_pane::shapes::cloth_is_left;
+use crate::ui::selection::{LineRef, Selection};
+
+/// Between a piece and the twin laid beside it, metres.
+const BESIDE: f64 = 0.03;
+/// From a piece to its copy, metres.
+const COPY: DVec2 = DVec2::new(0.02, -0.02);
+
+/// The changes `action` makes; none when it is about nothing that is selected.
+pub fn edits(action: Action, pattern: &Pattern, selection: &Selection) -> Vec<PatternEdit> {
+    let touched = selection.pieces_touched();
+    let pieces: Vec<PieceId> = touched.iter().copied().collect();
+    match action {
+        Action::Delete => deletions(pattern, selection),
+        Action::Duplicate if !pieces.is_empty() => vec![PatternEdit::Duplicate { pieces, offset: COPY }],
+        Action::Twin => {
+            let alone = pieces.into_iter().filter(|id| pattern.pieces[id].twin.is_none());
+            let twin = |piece: PieceId| {
+                let width =
+                    pattern.pieces.get(&piece).map_or(0.0, |p| box_of(p).map_or(0.0, |[a, b]| b.x - a.x));
+                PatternEdit::AddTwin { piece, offset: DVec2::new(width + BESIDE, 0.0) }
+            };
+            alone.map(twin).collect()
+        }
+        Action::MakeSymmetric => {
+            let axis = |id: &PieceId| Some((*id, axis_of(pattern, selection, *id)?));
+            let all = pieces.iter().filter_map(axis);
+            all.map(|(piece, axis)| PatternEdit::MakeSymmetric { piece, axis }).collect()
+        }
+        Action::Unfold => selection
+            .edges
+            .iter()
+            .filter(|edge| is_straight(pattern, **edge))
+            .map(|&edge| PatternEdit::Unfold { edge })
+            .collect(),
+        Action::Fold => {
+            of_each(&pieces, |id| pattern.pieces[&id].symmetric.then_some(PatternEdit::Fold { piece: id }))
+        }
+        Action::Unlink => of_each(&pieces, |id| {
+            let piece = &pattern.pieces[&id];
+            (piece.symmetric || piece.twin.is_some()).then_some(PatternEdit::Unlink { piece: id })
+        }),
+        Action::TurnOver => {
+            let poses = pieces.iter().filter_map(|id| Some((*id, turned_over(pattern.pieces.get(id)?)?)));
+            let poses: Vec<_> = poses.collect();
+            if poses.is_empty() { Vec::new() } else { vec![PatternEdit::Place { poses }] }
+        }
+        Action::ToggleLock if !pieces.is_empty() => {
+            let locked = !pieces.iter().all(|id| pattern.pieces[id].locked);
+            vec![PatternEdit::SetLocked { pieces, locked }]
+        }
+        Action::ToggleFrozen => toggled(pattern, pieces, Activity::Frozen),
+        Action::ToggleDeactivated => toggled(pattern, pieces, Activity::Deactivated),
+        Action::Hide if !pieces.is_empty() => vec![PatternEdit::SetHidden { pieces, hidden: true }],
+        Action::ShowPieces => {
+            let hidden = pattern.pieces.iter().filter(|(_, piece)| piece.hidden);
+            let pieces: Vec<PieceId> = hidden.map(|(&id, _)| id).collect();
+            if pieces.is_empty() {
+                Vec::new()
+            } else {
+                vec![PatternEdit::SetHidden { pieces, hidden: false }]
+            }
+        }
+        // From the last on: the numbers of those before stay.
+        Action::InsertPoint => {
+            let edges = selection.edges.iter().rev();
+            edges.map(|&edge| PatternEdit::InsertPoint { edge, at: 0.5 }).collect()
+        }
+        Action::ToggleSmooth => {
+            let is_smooth = |point: &PointRef| {
+                pattern.pieces.get(&point.piece).is_some_and(|piece| piece.edge(point.point).smooth)
+            };
+            let smooth = !selection.points.iter().all(is_smooth);
+            selection.points.iter().map(|&point| PatternEdit::SetSmooth { point, smooth }).collect()
+        }
+        Action::Straighten => {
+            let straight = |&edge: &EdgeRef| PatternEdit::SetEdge { edge, shape: EdgeShape::Line };
+            selection.edges.iter().map(straight).collect()
+        }
+        Action::Curve => selection.edges.iter().filter_map(|edge| curved(pattern, *edge)).collect(),
+        Action::Arc => selection.edges.iter().filter_map(|edge| rounded(pattern, *edge)).collect(),
+        Action::TurnSeam => selection.seams.iter().map(|&seam| PatternEdit::TurnSeam { seam }).collect(),
+        Action::MakeEqual => {
+            selection.seams.iter().map(|&seam| PatternEdit::SetRatio { seam, ratio: Some(1.0) }).collect()
+        }
+        Action::FreeLengths => {
+            selection.seams.iter().map(|&seam| PatternEdit::SetRatio { seam, ratio: None }).collect()
+        }
+        Action::ToggleRolled => rolled(pattern, &touched),
+        Action::Unplace => {
+            let standing = touched.iter().filter(|id| pattern.pieces[id].placement.is_some());
+            let placements: Vec<_> = standing.map(|id| (*id, None)).collect();
+            if placements.is_empty() { Vec::new() } else { vec![PatternEdit::PlaceInSpace { placements }] }
+        }
+        Action::Untwist => vec![PatternEdit::UntwistSeams],
+        _ => Vec::new(),
+    }
+}
+
+/// Rolls those of `pieces` that stand somewhere, or makes them flat where all of them are rolled.
+fn rolled(pattern: &Pattern, pieces: &BTreeSet<PieceId>) -> Vec<PatternEdit> {
+    let flat = is_rolled(pattern, pieces);
+    let turned = |id: &PieceId| {
+        let piece = pattern.pieces.get(id)?;
+        let pose = piece.placement?;
+        let pose = if flat { SpacePose { roll: None, ..pose } } else { rolled_up(piece, pose) };
+        Some((*id, Some(pose)))
+    };
+    let placements: Vec<_> = pieces.iter().filter_map(turned).collect();
+    if placements.is_empty() { Vec::new() } else { vec![PatternEdit::PlaceInSpace { placements }] }
+}
+
+/// Whether some of `pieces` stand round the body, and all that do are rolled.
+pub fn is_rolled(pattern: &Pattern, pieces: &BTreeSet<PieceId>) -> bool {
+    let mut standing = pieces.iter().filter_map(|id| pattern.pieces.get(id)?.placement).peekable();
+    standing.peek().is_some() && standing.all(|pose| pose.roll.is_some())
+}
+
+/// Makes `pieces` what `activity` says, or active again where all are that.
+fn toggled(pattern: &Pattern, pieces: Vec<PieceId>, activity: Activity) -> Vec<PatternEdit> {
+    let all = pieces.iter().all(|id| pattern.pieces[id].activity == activity);
+    let activity = if all { Activity::Active } else { activity };
+    if pieces.is_empty() { Vec::new() } else { vec![PatternEdit::SetActivity { pieces, activity }] }
+}
+
+fn of_each(pieces: &[PieceId], edit: impl Fn(PieceId) -> Option<PatternEdit>) -> Vec<PatternEdit> {
+    pieces.iter().filter_map(|&id| edit(id)).collect()
+}
+
+/// Selected pieces, points, lines and seams; of a hole whose edge is selected the whole.
+pub fn deletions(pattern: &Pattern, selection: &Selection) -> Vec<PatternEdit> {
+    let Selection { pieces, points, edges, lines, seams, .. } = selection;
+    let mut all = Vec::new();
+    if !seams.is_empty() {
+        all.push(PatternEdit::Unpick { seams: seams.iter().copied().collect() });
+    }
+    // From the last on: the numbers of those before stay.
+    let is_left = |piece: &PieceId| !pieces.contains(piece) && pattern.pieces.contains_key(piece);
+    let lines = lines.iter().rev().filter(|line| is_left(&line.piece));
+    all.extend(lines.map(|&LineRef { piece, line }| PatternEdit::DeleteLine { piece, line }));
+    let edges = edges.iter().filter(|edge| is_left(&edge.piece));
+    let loops: BTreeSet<(PieceId, usize)> =
+        edges.map(|edge| (edge.piece, pattern.pieces[&edge.piece].loop_of(edge.edge).0)).collect();
+    let holes = || loops.iter().rev().filter_map(|&(piece, i)| Some((piece, i.checked_sub(1)?)));
+    let goes = |point: &PointRef| {
+        holes().any(|(piece, hole)| {
+            piece == point.piece && pattern.pieces[&piece].loop_of(point.point).0 == hole + 1
+        })
+    };
+    let points = points.iter().rev().filter(|point| is_left(&point.piece) && !goes(point));
+    all.extend(points.map(|&point| PatternEdit::DeletePoint { point }));
+    all.extend(holes().map(|(piece, hole)| PatternEdit::DeleteHole { piece, hole }));
+    if !pieces.is_empty() {
+        all.push(PatternEdit::DeletePieces { pieces: pieces.iter().copied().collect() });
+    }
+    all
+}
+
+/// Whether an edge can become the middle of a piece.
+pub fn is_straight(pattern: &Pattern, EdgeRef { piece, edge }: EdgeRef) -> bool {
+    let found = pattern.pieces.get(&piece);
+    found.is_some_and(|piece| edge < piece.outline.len() && piece.edge(edge).shape == EdgeShape::Line)
+}
+
+fn curved(pattern: &Pattern, edge: EdgeRef) -> Option<PatternEdit> {
+    let piece = pattern.pieces.get(&edge.piece)?;
+    let (a, b) = piece.edge_ends(edge.edge);
+    let controls = match piece.edge(edge.edge).shape {
+        EdgeShape::Cubic { .. } => return None,
+        EdgeShape::Quadratic { control } => [a.lerp(control, 2.0 / 3.0), b.lerp(control, 2.0 / 3.0)],
+        EdgeShape::Line => [a.lerp(b, 1.0 / 3.0), a.lerp(b, 2.0 / 3.0)],
+        EdgeShape::Arc { .. } => {
+            // The cubic through the arc's thirds.
+            let p = piece.edge_points(edge.edge, &[1.0 / 3.0, 2.0 / 3.0]);
+            let control =
+                |p: DVec2, q: DVec2, a: DVec2, b: DVec2| (18.0 * p - 9.0 * q - 5.0 * a + 2.0 * b) / 6.0;
+            [control(p[0], p[1], a, b), control(p[1], p[0], b, a)]
+        }
+    };
+    Some(PatternEdit::SetEdge { edge, shape: EdgeShape::Cubic { controls } })
+}
+
+/// An arc through the middle of a curve; of a straight edge one that bulges out of the cloth by a tenth of its length.
+fn rounded(pattern: &Pattern, edge: EdgeRef) -> Option<PatternEdit> {
+    let piece = pattern.pieces.get(&edge.piece)?;
+    let (a, b) = piece.edge_ends(edge.edge);
+    let middle = match piece.edge(edge.edge).shape {
+        EdgeShape::Arc { .. } => return None,
+        EdgeShape::Line => {
+            let out = if cloth_is_left(piece, edge.edge) { -0.1 } else { 0.1 };
+            a.midpoint(b) + (b - a).perp() * out
+        }
+        _ => piece.edge_points(edge.edge, &[0.5])[0],
+    };
+    let shape = curve::arc_through(a, middle, b);
+    (shape != EdgeShape::Line).then_some(PatternEdit::SetEdge { edge, shape })
+}
+
+/// The line a piece is mirrored in, in its own plane: through two of its selected points, along its selected edge, or
+/// upright through its middle as it lies. What lies on the left on the table stays.
+fn axis_of(pattern: &Pattern, selection: &Selection, id: PieceId) -> Option<[DVec2; 2]> {
+    let piece = pattern.pieces.get(&id)?;
+    let points: Vec<DVec2> =
+        selection.points.iter().filter(|p| p.piece == id).map(|p| piece.edge(p.point).start).collect();
+    let edges: Vec<&EdgeRef> = selection.edges.iter().filter(|e| e.piece == id).collect();
+    let ends = match (&points[..], &edges[..]) {
+        (&[a, b], _) => [a, b],
+        (_, [edge]) => {
+            let (a, b) = piece.edge_ends(edge.edge);
+            [a, b]
+        }
+        _ => {
+            let [lower, upper] = box_of(piece)?;
+            let x = (lower.x + upper.x) / 2.0;
+            [DVec2::new(x, lower.y), DVec2::new(x, upper.y)].map(|p| piece.pose.piece_from_plane(p))
+        }
+    };
+    // Upwards on the table its left is the table's left; turned over, its own left lies on the right.
+    let placed = ends.map(|p| piece.pose.plane_from_piece(p));
+    let up = (placed[1] - placed[0]).y > 0.0;
+    Some(if up != piece.pose.flipped { ends } else { [ends[1], ends[0]] })
+}
+
+/// The box round a piece on the table.
+fn box_of(piece: &Piece) -> Option<[DVec2; 2]> {
+    let points = piece.flattened(1e-3).into_iter().map(|p| piece.pose.plane_from_piece(p));
+    points.map(|p| [p, p]).reduce(|[a, b], [c, d]| [a.min(c), b.max(d)])
+}
+
+/// The pose of a piece mirrored in the upright line through its middle.
+fn turned_over(piece: &Piece) -> Option<PlanePose> {
+    let [lower, upper] = box_of(piece)?;
+    let middle = (lower + upper) / 2.0;
+    let own = piece.pose.piece_from_plane(middle);
+    let turned =
+        PlanePose { offset: DVec2::ZERO, rotation: -piece.pose.rotation, flipped: !piece.pose.flipped };
+    Some(PlanePose { offset: middle - turned.plane_from_piece(own), ..turned })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::Arc;
+
+    fn square() -> (Pattern, PieceId) {
+        let mut pattern = Pattern::default();
+        let points = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(DVec2::from);
+        let id = pattern.add_piece(Piece::polygon("p", &points));
+        (pattern, id)
+    }
+
+    #[test]
+    fn what_lies_left_on_the_table_stays() {
+        let (mut pattern, id) = square();
+        let selection = Selection::of_pieces([id]);
+        for (rotation, flipped) in [(0.0, false), (0.0, true), (2.0, false), (2.5, true)] {
+            let piece = Arc::make_mut(pattern.pieces.get_mut(&id).expect("the piece"));
+            piece.pose = PlanePose { offset: DVec2::new(3.0, 4.0), rotation, flipped };
+            let piece = piece.clone();
+            let [a, b] = axis_of(&pattern, &selection, id).expect("an axis");
+            let [lower, upper] = box_of(&piece).expect("a box");
+            let west = piece.pose.piece_from_plane(DVec2::new(lower.x, (lower.y + upper.y) / 2.0));
+            assert!((b - a).perp_dot(west - a) > 0.0, "{rotation} {flipped}");
+        }
+    }
+
+    #[test]
+    fn points_go_from_the_last_on() {
+        let (pattern, piece) = square();
+        let mut selection = Selection::default();
+        selection.points.extend([0, 2].map(|point| PointRef { piece, point }));
+        let found = edits(Action::Delete, &pattern, &selection);
+        let point = |point| PatternEdit::DeletePoint { point: PointRef { piece, point } };
+        assert_eq!(found, [point(2), point(0)]);
+    }
+
+    #[test]
+    fn an_arc_as_a_curve_stays_where_it_is() {
+        let (mut pattern, piece) = square();
+        let arc = EdgeShape::Arc { radius: 0.7, large: false, sweep: true };
+        Arc::make_mut(pattern.pieces.get_mut(&piece).expect("the piece")).outline[0].shape = arc;
+        let edge = EdgeRef { piece, edge: 0 };
+        let Some(PatternEdit::SetEdge { shape, .. }) = curved(&pattern, edge) else { panic!("a curve") };
+        let (a, b) = pattern.pieces[&piece].edge_ends(0);
+        for f in [0.2, 0.5, 0.9] {
+            let [p, q] = [arc, shape].map(|shape| curve::points(a, shape, b, &[f])[0]);
+            assert!(p.distance(q) < 2e-3, "{p} {q}");
+        }
+    }
+
+    #[test]
+    fn a_piece_turned_over_keeps_its_place() {
+        let (mut pattern, id) = square();
+        let piece = Arc::make_mut(pattern.pieces.get_mut(&id).expect("the piece"));
+        piece.pose.rotation = 0.4;
+        let before = box_of(piece).expect("a box");
+        piece.pose = turned_over(piece).expect("a pose");
+        assert!(piece.pose.flipped);
+        let after = box_of(piece).expect("a box");
+        assert!(before[0].distance(after[0]) < 1e-9 && before[1].distance(after[1]) < 1e-9);
+    }
+}

@@ -1,0 +1,242 @@
+//! What the mouse buttons do: one table for each habit, read by the panes, the status bar and the help.
+
+use egui::{Modifiers, PointerButton};
+use serde::{Deserialize, Serialize};
+
+/// Whose habits the mouse follows.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Mouse {
+    /// Paper A: left paints and pins, right drags cloth or turns the body.
+    #[default]
+    Paper,
+    /// CLO, Marvelous Designer: right turns, whatever lies there.
+    Clo,
+    /// Blender: the middle button turns.
+    Blender,
+    /// Maya: Alt and any button moves the view.
+    Maya,
+}
+
+/// What a button does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PointerAction {
+    /// What the chosen tool does.
+    Tool,
+    /// Drags cloth that lies there; turns the view elsewhere.
+    HandOrTurn,
+    /// Drags cloth that lies there, with a tool of the hand.
+    Hand,
+    /// Turns the view.
+    Turn,
+    /// Moves the view.
+    Pan,
+    /// Comes nearer and goes away.
+    Zoom,
+}
+
+/// A row of the table: with these keys held this button does that.
+pub type Row = (Modifiers, PointerButton, PointerAction);
+
+const NONE: Modifiers = Modifiers::NONE;
+const SHIFT: Modifiers = Modifiers::SHIFT;
+const CTRL: Modifiers = Modifiers::CTRL;
+const ALT: Modifiers = Modifiers::ALT;
+
+impl Mouse {
+    /// All of them, in the order of the menu.
+    pub const ALL: [Self; 4] = [Self::Paper, Self::Clo, Self::Blender, Self::Maya];
+
+    /// Rows with keys come before those without.
+    pub fn table(self) -> &'static [Row] {
+        use PointerButton::{Middle, Primary, Secondary};
+        match self {
+            Self::Paper => &[
+                (SHIFT, Secondary, PointerAction::Pan),
+                (NONE, Secondary, PointerAction::HandOrTurn),
+                (NONE, Middle, PointerAction::Pan),
+                (NONE, Primary, PointerAction::Tool),
+            ],
+            Self::Clo => &[
+                (SHIFT, Secondary, PointerAction::Pan),
+                (NONE, Secondary, PointerAction::Turn),
+                (NONE, Middle, PointerAction::Pan),
+                (NONE, Primary, PointerAction::Tool),
+            ],
+            Self::Blender => &[
+                (SHIFT, Middle, PointerAction::Pan),
+                (CTRL, Middle, PointerAction::Zoom),
+                (NONE, Middle, PointerAction::Turn),
+                (NONE, Secondary, PointerAction::Hand),
+                (NONE, Primary, PointerAction::Tool),
+            ],
+            Self::Maya => &[
+                (ALT, Primary, PointerAction::Turn),
+                (ALT, Middle, PointerAction::Pan),
+                (ALT, Secondary, PointerAction::Zoom),
+                (NONE, Secondary, PointerAction::Hand),
+                (NONE, Middle, PointerAction::Pan),
+                (NONE, Primary, PointerAction::Tool),
+            ],
+        }
+    }
+
+    /// What `button` does with `held` keys: the first row whose keys are among them.
+    pub fn deed(self, button: PointerButton, held: Modifiers) -> Option<PointerAction> {
+        let among = |keys: Modifiers| {
+            (!keys.shift || held.shift)
+                && (!keys.ctrl || held.ctrl || held.command)
+                && (!keys.alt || held.alt)
+        };
+        let row = self.table().iter().find(|(keys, of, _)| *of == button && among(*keys));
+        row.map(|(.., deed)| *deed)
+    }
+
+    /// Shown to people.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Paper => "Left paints and pins, right drags and turns",
+            Self::Clo => "Like CLO: right turns",
+            Self::Blender => "Like Blender: middle turns",
+            Self::Maya => "Like Maya: Alt moves the view",
+        }
+    }
+
+    /// Where it comes from.
+    pub fn tip(self) -> &'static str {
+        match self {
+            Self::Paper => {
+                "The right button drags the cloth under it, with any tool, and turns the view elsewhere"
+            }
+            Self::Clo => "The right button turns the view, the middle one moves it",
+            Self::Blender => "The middle button turns the view, with Shift it moves it, with Ctrl it zooms",
+            Self::Maya => "Alt and the left, middle or right button turns, moves or zooms the view",
+        }
+    }
+
+    /// How the view of the body is moved, for the status bar.
+    pub fn view_hint(self) -> String {
+        self.hint(|deed| match deed {
+            PointerAction::Turn => Some("turn"),
+            PointerAction::HandOrTurn => Some("drag cloth, or turn"),
+            PointerAction::Pan => Some("move the view"),
+            PointerAction::Zoom => Some("zoom"),
+            PointerAction::Tool | PointerAction::Hand => None,
+        })
+    }
+
+    /// How the view of the table is moved, for the status bar.
+    pub fn table_hint(self) -> String {
+        self.hint(|deed| match deed {
+            PointerAction::Pan | PointerAction::Turn | PointerAction::HandOrTurn => Some("move the view"),
+            PointerAction::Zoom => Some("zoom"),
+            PointerAction::Tool | PointerAction::Hand => None,
+        })
+    }
+
+    fn hint(self, words: impl Fn(PointerAction) -> Option<&'static str>) -> String {
+        let mut parts: Vec<(String, &str)> = Vec::new();
+        for &(keys, button, deed) in self.table() {
+            let Some(does) = words(deed) else { continue };
+            let named = named(keys, button);
+            match parts.iter_mut().find(|(_, known)| *known == does) {
+                // Two ways to the same: the one without keys is told.
+                Some((known, _)) if keys.is_none() => *known = named,
+                Some(_) => {}
+                None => parts.push((named, does)),
+            }
+        }
+        let told: Vec<String> = parts.iter().map(|(named, does)| format!("{named} drag: {does}")).collect();
+        format!("{} · Wheel: zoom", told.join(" · "))
+    }
+
+    /// Every row in words, for the help.
+    pub fn help(self) -> Vec<(String, &'static str)> {
+        let words = |deed| match deed {
+            PointerAction::Tool => "What the chosen tool does",
+            PointerAction::HandOrTurn => "Drag the cloth that lies there; elsewhere turn the view",
+            PointerAction::Hand => "Drag the cloth that lies there (tools Drag and Pin)",
+            PointerAction::Turn => "Turn the view; on the table move it",
+            PointerAction::Pan => "Move the view",
+            PointerAction::Zoom => "Zoom",
+        };
+        self.table()
+            .iter()
+            .map(|&(keys, button, deed)| (format!("{} drag", named(keys, button)), words(deed)))
+            .collect()
+    }
+}
+
+fn named(keys: Modifiers, button: PointerButton) -> String {
+    let keys = match (keys.shift, keys.ctrl, keys.alt) {
+        (true, ..) => "Shift+",
+        (_, true, _) => "Ctrl+",
+        (_, _, true) => "Alt+",
+        _ => "",
+    };
+    let button = match button {
+        PointerButton::Primary => "left",
+        PointerButton::Secondary => "right",
+        PointerButton::Middle => "middle",
+        _ => "extra",
+    };
+    let mut words = format!("{keys}{button}");
+    if keys.is_empty() {
+        words[..1].make_ascii_uppercase();
+    }
+    words
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use PointerButton::{Middle, Primary, Secondary};
+
+    #[test]
+    fn each_habit_finds_its_rows() {
+        let cases = [
+            (Mouse::Paper, Secondary, NONE, PointerAction::HandOrTurn),
+            (Mouse::Paper, Secondary, SHIFT, PointerAction::Pan),
+            (Mouse::Paper, Primary, Modifiers::COMMAND, PointerAction::Tool),
+            (Mouse::Clo, Secondary, NONE, PointerAction::Turn),
+            (Mouse::Blender, Middle, NONE, PointerAction::Turn),
+            (Mouse::Blender, Middle, Modifiers::COMMAND, PointerAction::Zoom),
+            (Mouse::Blender, Middle, SHIFT, PointerAction::Pan),
+            (Mouse::Maya, Primary, ALT, PointerAction::Turn),
+            (Mouse::Maya, Primary, NONE, PointerAction::Tool),
+            (Mouse::Maya, Secondary, ALT, PointerAction::Zoom),
+        ];
+        for (mouse, button, held, deed) in cases {
+            assert_eq!(mouse.deed(button, held), Some(deed), "{mouse:?} {button:?} {held:?}");
+        }
+    }
+
+    #[test]
+    fn every_habit_paints_turns_and_moves_the_view() {
+        for mouse in Mouse::ALL {
+            let does = |deed| mouse.table().iter().any(|(.., d)| *d == deed);
+            assert!(does(PointerAction::Tool) && does(PointerAction::Pan), "{mouse:?}");
+            assert!(does(PointerAction::Turn) || does(PointerAction::HandOrTurn), "{mouse:?}");
+            assert!(
+                does(PointerAction::Hand) || does(PointerAction::HandOrTurn) || mouse == Mouse::Clo,
+                "{mouse:?}"
+            );
+            // A row can be reached: none before it has the same button and fewer keys.
+            for (i, (keys, button, _)) in mouse.table().iter().enumerate() {
+                assert!(
+                    mouse.table()[..i].iter().all(|(k, b, _)| b != button || (k != keys && !k.is_none()))
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn hints_come_from_the_table() {
+        assert_eq!(
+            Mouse::Paper.view_hint(),
+            "Middle drag: move the view · Right drag: drag cloth, or turn · Wheel: zoom"
+        );
+        assert!(Mouse::Maya.view_hint().contains("Alt+left drag: turn"));
+        assert!(Mouse::Blender.view_hint().contains("Ctrl+middle drag: zoom"));
+    }
+}

@@ -1,0 +1,169 @@
+//! Every command by a few of its letters.
+
+use egui::{Align2, Area, Frame, Id, Key, Modifiers, Order, ScrollArea, TextEdit};
+use nucleo_matcher::pattern::{CaseMatching, Normalization, Pattern};
+use nucleo_matcher::{Config, Matcher, Utf32Str};
+
+use crate::ui::actions::Action;
+use crate::ui::actions::asks::{Ask, Asks};
+use crate::ui::actions::catalogue::ALL;
+use crate::ui::actions::context::FrameContext;
+use crate::ui::look::theme::Palette;
+
+/// Width of the list, points.
+const WIDTH: f32 = 520.0;
+
+/// What was typed, and which of the commands found is chosen.
+#[derive(Debug, Default)]
+pub struct CommandPalette {
+    text: String,
+    chosen: usize,
+    /// The chosen row is to be brought into sight.
+    moved: bool,
+}
+
+impl CommandPalette {
+    /// Shows it; false when it is to be closed.
+    pub fn ui(
+        &mut self,
+        ctx: &egui::Context,
+        now: &FrameContext,
+        palette: &Palette,
+        asks: &mut Asks,
+    ) -> bool {
+        let found = found(&self.text, now);
+        let mut open = self.keys(ctx, now, &found, asks);
+        let room = ctx.content_rect();
+        let area = Area::new(Id::unique("command palette"))
+            .order(Order::Foreground)
+            .pivot(Align2::CENTER_TOP)
+            .fixed_pos(room.center_top() + egui::vec2(0.0, 70.0));
+        let shown = area.show(ctx, |ui| {
+            Frame::popup(ui.style()).inner_margin(10).show(ui, |ui| {
+                ui.set_width(WIDTH.min(room.width() - 60.0));
+                self.field_ui(ui);
+                ui.add_space(4.0);
+                if found.is_empty() {
+                    ui.label(egui::RichText::new("No command is called so").color(palette.weak));
+                }
+                ScrollArea::vertical().max_height(room.height() * 0.55).show(ui, |ui| {
+                    for (i, &action) in found.iter().enumerate() {
+                        let row = row_ui(ui, action, now, i == self.chosen, palette);
+                        if i == self.chosen && self.moved {
+                            row.scroll_to_me(None);
+                        }
+                        if row.clicked() {
+                            choose(action, now, asks);
+                            open = false;
+                        }
+                    }
+                });
+            });
+        });
+        self.moved = false;
+        let beside = ctx.input(|i| i.pointer.any_pressed() && i.pointer.interact_pos().is_some())
+            && !shown.response.contains_pointer();
+        open && !beside
+    }
+
+    fn field_ui(&mut self, ui: &mut egui::Ui) {
+        let field = TextEdit::singleline(&mut self.text)
+            .desired_width(f32::INFINITY)
+            .hint_text("What do you want to do?")
+            .font(egui::FontId::proportional(16.0));
+        let response = ui.add(field);
+        response.widget_info(|| {
+            egui::WidgetInfo::labeled(egui::accesskit::Role::SearchInput, true, "Find a command")
+        });
+        if !response.has_focus() {
+            response.request_focus();
+        }
+        if response.changed() {
+            (self.chosen, self.moved) = (0, true);
+        }
+    }
+
+    fn keys(&mut self, ctx: &egui::Context, now: &FrameContext, found: &[Action], asks: &mut Asks) -> bool {
+        let pressed = |key| ctx.input_mut(|i| i.consume_key(Modifiers::NONE, key));
+        let last = found.len().saturating_sub(1);
+        let step = i64::from(pressed(Key::ArrowDown)) - i64::from(pressed(Key::ArrowUp))
+            + 10 * (i64::from(pressed(Key::PageDown)) - i64::from(pressed(Key::PageUp)));
+        if step != 0 {
+            self.chosen = (self.chosen as i64 + step).clamp(0, last as i64) as usize;
+            self.moved = true;
+        }
+        self.chosen = self.chosen.min(last);
+        if pressed(Key::Enter)
+            && let Some(&action) = found.get(self.chosen)
+        {
+            choose(action, now, asks);
+            return false;
+        }
+        !pressed(Key::Escape)
+    }
+}
+
+/// Carries it out, or says why not.
+fn choose(action: Action, now: &FrameContext, asks: &mut Asks) {
+    asks.push(match now.why_not(action) {
+        None => Ask::Act(action),
+        Some(why) => Ask::Say(format!("{}: {why}.", action.entry().text)),
+    });
+}
+
+fn row_ui(
+    ui: &mut egui::Ui,
+    action: Action,
+    now: &FrameContext,
+    chosen: bool,
+    palette: &Palette,
+) -> egui::Response {
+    let why_not = now.why_not(action);
+    let keys: Vec<String> = now.keymap.keys(action).iter().map(|k| ui.ctx().format_shortcut(k)).collect();
+    let right = why_not.map_or_else(|| keys.join("   "), str::to_owned);
+    let ink = if why_not.is_some() { palette.weak } else { ui.visuals().text_color() };
+    let mut text = egui::text::LayoutJob::default();
+    let font = egui::TextStyle::Button.resolve(ui.style());
+    let format = |color| egui::TextFormat { font_id: font.clone(), color, ..Default::default() };
+    text.append(&format!("{} › ", action.menu()), 0.0, format(palette.weak));
+    text.append(&now.text(action), 0.0, format(ink));
+    let button = egui::Button::selectable(chosen, text)
+        .shortcut_text(egui::RichText::new(right).color(palette.weak))
+        .truncate()
+        .min_size(egui::vec2(ui.available_width(), 0.0));
+    let response = ui.add(button);
+    let name = match why_not {
+        Some(why) => format!("{}: {why}", now.text(action)),
+        None => format!("Command {}", now.text(action)),
+    };
+    response.widget_info(|| {
+        egui::WidgetInfo::selected(egui::accesskit::Role::ListBoxOption, why_not.is_none(), chosen, &name)
+    });
+    response.on_hover_text(action.entry().tip)
+}
+
+/// The commands that `text` may mean, the likeliest first; all of them for an empty one.
+pub fn found(text: &str, now: &FrameContext) -> Vec<Action> {
+    let pattern = Pattern::parse(text, CaseMatching::Ignore, Normalization::Smart);
+    let mut matcher = Matcher::new(Config::DEFAULT);
+    let mut buffer = Vec::new();
+    let recent = (0..now.recent.len() as u8).map(Action::OpenRecent);
+    let mut all: Vec<(u32, Action)> = ALL
+        .iter()
+        .copied()
+        .chain(recent)
+        .filter(|action| *action != Action::CommandPalette)
+        .filter_map(|action| {
+            // What it is called counts more than where it is found and what its tip says.
+            let mut score = |words: &str| {
+                buffer.clear();
+                pattern.score(Utf32Str::new(words, &mut buffer), &mut matcher)
+            };
+            let name = score(&now.text(action)).map(|s| s * 4);
+            let place = score(&format!("{} {}", action.menu(), now.text(action))).map(|s| s * 2);
+            name.max(place).map(|score| (score, action))
+        })
+        .collect();
+    all.sort_by_key(|(score, _)| std::cmp::Reverse(*score));
+    all.into_iter().map(|(_, action)| action).collect()
+}

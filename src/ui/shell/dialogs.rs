@@ -1,0 +1,494 @@
+//! Questions over the window: unsaved changes, a path, keys and mouse.
+
+use std::future::Future;
+use std::path::{Path, PathBuf};
+use std::pin::Pin;
+use std::sync::Arc;
+use std::task::{Context, Poll, Wake, Waker};
+use std::time::{Duration, Instant};
+
+use egui::{Id, Modal, ScrollArea, TextEdit};
+
+use crate::body::{Unit, UpAxis};
+use crate::io::scale::{DrawingUnit, ScaleQuestion};
+use crate::session::recovery::Left;
+use crate::session::whole_file;
+use crate::ui::actions::Action;
+use crate::ui::actions::keymap::Keymap;
+use crate::ui::files::thumbnails::{Subject, Thumbnails};
+use crate::ui::files::{Purpose, RawBody};
+use crate::ui::pointer::mouse::Mouse;
+
+/// A dialog that says "cancelled" sooner than a hand can click has not been shown at all.
+const TOO_QUICK: Duration = Duration::from_millis(400);
+
+/// What is asked.
+#[derive(Debug)]
+pub enum Dialog {
+    /// What to do with unsaved changes before `then`.
+    Unsaved { then: Action },
+    /// A path typed by hand, where the desktop offers no dialog.
+    Path { purpose: Purpose, text: String },
+    /// Whether to go back to what is in this file.
+    Revert { path: PathBuf },
+    /// The unit of a body.
+    Unit { raw: Box<RawBody> },
+    /// How large the drawing in a file is.
+    Scale { path: PathBuf, question: ScaleQuestion, unit: DrawingUnit },
+    /// Keys, and what this mouse does.
+    Shortcuts { mouse: Mouse, keymap: Arc<Keymap> },
+    /// Work that sessions left behind which did not end well, and what it is called.
+    Recover { found: Vec<(Left, String)> },
+    /// The project's file was changed by somebody else since it was opened or saved.
+    ChangedOnDisk { path: PathBuf },
+    /// The project could not be saved there, and why.
+    NotSaved { path: PathBuf, words: String },
+}
+
+/// What was answered.
+#[derive(Debug)]
+pub enum Answer {
+    /// Nothing yet.
+    None,
+    /// Leave everything as it is.
+    Cancel,
+    /// Save, then go on.
+    SaveThen(Action),
+    /// Go on without saving.
+    Discard(Action),
+    /// This file.
+    File(Purpose, PathBuf),
+    /// This body, in the unit it says.
+    Body(Box<RawBody>),
+    /// Take this work up again; the rest is offered the next time.
+    Restore(Box<Left>),
+    /// Save over what somebody else wrote.
+    Overwrite(PathBuf),
+    /// Save over a file that is write-protected.
+    Replace(PathBuf),
+    /// Save under another name.
+    SaveAs,
+    /// The pattern in this file, whose unit is this.
+    Pattern(PathBuf, DrawingUnit),
+}
+
+impl Answer {
+    /// Esc and a click beside the dialog cancel it.
+    fn or_cancel(self, closed: bool) -> Self {
+        if matches!(self, Self::None) && closed { Self::Cancel } else { self }
+    }
+}
+
+impl Dialog {
+    /// Shows the dialog.
+    pub fn ui(&mut self, ctx: &egui::Context, thumbnails: &mut Thumbnails) -> Answer {
+        match self {
+            Self::Unsaved { then } => unsaved_ui(ctx, *then),
+            Self::Path { purpose, text } => path_ui(ctx, *purpose, text),
+            Self::Revert { path } => revert_ui(ctx, path),
+            Self::Unit { raw } => unit_ui(ctx, raw),
+            Self::Scale { path, question, unit } => scale_ui(ctx, path, question, unit),
+            Self::Shortcuts { mouse, keymap } => shortcuts_ui(ctx, *mouse, keymap),
+            Self::Recover { found } => recover_ui(ctx, found, thumbnails),
+            Self::ChangedOnDisk { path } => changed_ui(ctx, path),
+            Self::NotSaved { path, words } => not_saved_ui(ctx, path, words),
+        }
+    }
+}
+
+/// A question with a row of buttons: what each says, a tip, and the answer it gives. The last one leaves things as they are.
+fn question_ui(
+    ctx: &egui::Context,
+    id: &str,
+    heading: &str,
+    words: &str,
+    buttons: Vec<(&str, &str, Answer)>,
+) -> Answer {
+    let shown = Modal::new(Id::unique(id)).show(ctx, |ui| {
+        ui.set_width(400.0);
+        ui.heading(heading);
+        ui.add_space(4.0);
+        ui.label(words);
+        ui.add_space(10.0);
+        ui.horizontal(|ui| {
+            let mut given = Answer::None;
+            for (text, tip, answer) in buttons {
+                let button = ui.button(text);
+                let button = if tip.is_empty() { button } else { button.on_hover_text(tip) };
+                if button.clicked() {
+                    given = answer;
+                }
+            }
+            given
+        })
+        .inner
+    });
+    let closed = shown.should_close();
+    shown.inner.or_cancel(closed)
+}
+
+fn unsaved_ui(ctx: &egui::Context, then: Action) -> Answer {
+    let words = "This project has changes that are not saved.";
+    let buttons = vec![
+        ("Save", "", Answer::SaveThen(then)),
+        ("Don't save", "", Answer::Discard(then)),
+        ("Cancel", "", Answer::Cancel),
+    ];
+    question_ui(ctx, "unsaved", "Save the changes?", words, buttons)
+}
+
+fn recover_ui(ctx: &egui::Context, found: &mut Vec<(Left, String)>, thumbnails: &mut Thumbnails) -> Answer {
+    let shown = Modal::new(Id::unique("recover")).show(ctx, |ui| {
+        ui.set_width(460.0);
+        ui.heading("Go on with unsaved work?");
+        ui.add_space(4.0);
+        ui.label("Toile did not end as it should. This was not saved:");
+        ui.add_space(6.0);
+        let (mut restored, mut forgotten) = (None, None);
+        ScrollArea::vertical().max_height(300.0).show(ui, |ui| {
+            for (i, (left, words)) in found.iter().enumerate() {
+                ui.horizontal(|ui| {
+                    picture_ui(ui, left, thumbnails);
+                    if ui.button("Restore").clicked() {
+                        restored = Some(i);
+                    }
+                    if ui.button("Delete").on_hover_text("This work is gone then").clicked() {
+                        forgotten = Some(i);
+                    }
+                    let label = ui.label(words);
+                    if let Some(path) = &left.about.path {
+                        label.on_hover_text(path.display().to_string());
+                    }
+                });
+            }
+        });
+        ui.add_space(10.0);
+        let later = ui.button("Later").on_hover_text("It is offered again the next time").clicked();
+        if let Some(i) = forgotten {
+            found.remove(i).0.forget().ok();
+        }
+        match restored {
+            Some(i) => Answer::Restore(Box::new(found.remove(i).0)),
+            None if later || found.is_empty() => Answer::Cancel,
+            None => Answer::None,
+        }
+    });
+    let closed = shown.should_close();
+    shown.inner.or_cancel(closed)
+}
+
+/// What the work looked like when it was copied last, as soon as it is drawn.
+fn picture_ui(ui: &mut egui::Ui, left: &Left, thumbnails: &mut Thumbnails) {
+    let (rect, _) = ui.allocate_exact_size(egui::vec2(56.0, 70.0), egui::Sense::hover());
+    ui.painter().rect_filled(rect, 4.0, ui.visuals().faint_bg_color);
+    let Some(copy) = left.copy() else { return };
+    if let Some(texture) = thumbnails.get(ui.ctx(), &Subject::Project(copy)) {
+        let whole = egui::Rect::from_min_max(egui::Pos2::ZERO, egui::Pos2::new(1.0, 1.0));
+        ui.painter().image(texture.id(), rect, whole, egui::Color32::WHITE);
+    }
+}
+
+fn changed_ui(ctx: &egui::Context, path: &Path) -> Answer {
+    let words = format!("{} was changed by another program since you opened or saved it.", path.display());
+    let buttons = vec![
+        ("Save as…", "", Answer::SaveAs),
+        ("Save over it", "The other version stays as .bak", Answer::Overwrite(path.to_owned())),
+        ("Cancel", "", Answer::Cancel),
+    ];
+    question_ui(ctx, "changed", "The file has changed", &words, buttons)
+}
+
+fn not_saved_ui(ctx: &egui::Context, path: &Path, words: &str) -> Answer {
+    let mut buttons = vec![("Save as…", "", Answer::SaveAs)];
+    if whole_file::is_protected(path) {
+        let tip = "It stays write-protected; the version before stays as .bak";
+        buttons.push(("Replace it anyway", tip, Answer::Replace(path.to_owned())));
+    }
+    buttons.push(("Cancel", "", Answer::Cancel));
+    let words = format!("{words}.\n{} is as it was; your work is kept here.", path.display());
+    question_ui(ctx, "not saved", "Not saved", &words, buttons)
+}
+
+fn revert_ui(ctx: &egui::Context, path: &Path) -> Answer {
+    let words = format!("What has changed since {} was saved will be gone.", path.display());
+    let back = Answer::File(Purpose::Open, path.to_owned());
+    let buttons = vec![("Go back", "", back), ("Cancel", "", Answer::Cancel)];
+    question_ui(ctx, "revert", "Go back to the saved version?", &words, buttons)
+}
+
+fn path_ui(ctx: &egui::Context, purpose: Purpose, text: &mut String) -> Answer {
+    let shown = Modal::new(Id::unique("path")).show(ctx, |ui| {
+        ui.set_width(460.0);
+        ui.heading(purpose.title());
+        ui.add_space(4.0);
+        let label =
+            ui.label(format!("Path of the {} (.{})", purpose.filter().0, purpose.filter().1.join(", .")));
+        let field = ui
+            .add(TextEdit::singleline(text).desired_width(f32::INFINITY).hint_text("/home/me/shirt.toile"))
+            .labelled_by(label.id);
+        if !ui.memory(|m| m.focused().is_some()) {
+            field.request_focus();
+        }
+        let entered = field.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Enter));
+        let picked = if purpose.writes() { None } else { files_ui(ui, purpose, text) };
+        ui.add_space(8.0);
+        ui.horizontal(|ui| {
+            let path = PathBuf::from(text.trim());
+            let good = !text.trim().is_empty() && (purpose.writes() || path.is_file());
+            let go = ui.add_enabled(good, egui::Button::new(if purpose.writes() { "Write" } else { "Read" }));
+            if go.clicked() || (entered && good) {
+                return Answer::File(purpose, with_extension(path, purpose));
+            }
+            if ui.button("Cancel").clicked() {
+                return Answer::Cancel;
+            }
+            picked.map_or(Answer::None, |path| Answer::File(purpose, path))
+        })
+        .inner
+    });
+    let closed = shown.should_close();
+    shown.inner.or_cancel(closed)
+}
+
+fn unit_ui(ctx: &egui::Context, raw: &mut RawBody) -> Answer {
+    let shown = Modal::new(Id::unique("unit")).show(ctx, |ui| {
+        ui.set_width(360.0);
+        ui.heading(format!("In which unit is {}?", raw.name));
+        ui.add_space(4.0);
+        for unit in Unit::ALL {
+            let words = format!("{unit}: the body is {:.2} m tall", raw.height(unit));
+            ui.radio_value(&mut raw.unit, unit, words);
+        }
+        ui.add_space(6.0);
+        ui.label("Which axis points up?");
+        ui.horizontal(|ui| {
+            ui.radio_value(&mut raw.up, UpAxis::Y, "y up");
+            ui.radio_value(&mut raw.up, UpAxis::Z, "z up");
+        });
+        ui.add_space(8.0);
+        ui.horizontal(|ui| {
+            if ui.button("Take it").clicked() {
+                Answer::Body(Box::new(raw.clone()))
+            } else if ui.button("Cancel").clicked() {
+                Answer::Cancel
+            } else {
+                Answer::None
+            }
+        })
+        .inner
+    });
+    let closed = shown.should_close();
+    shown.inner.or_cancel(closed)
+}
+
+fn scale_ui(ctx: &egui::Context, path: &Path, question: &ScaleQuestion, unit: &mut DrawingUnit) -> Answer {
+    let shown = Modal::new(Id::unique("scale")).show(ctx, |ui| {
+        ui.set_width(420.0);
+        ui.heading("How large is the pattern?");
+        ui.add_space(4.0);
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        ui.label(format!("{name}: {}.", question.why));
+        ui.add_space(4.0);
+        for &candidate in &question.candidates {
+            let size = question.size(candidate) * 100.0;
+            let words =
+                format!("{}: the largest piece is {:.1} × {:.1} cm", candidate.long(), size.x, size.y);
+            ui.radio_value(unit, candidate, words);
+        }
+        ui.add_space(8.0);
+        ui.horizontal(|ui| {
+            if ui.button("Take it").clicked() {
+                Answer::Pattern(path.to_owned(), *unit)
+            } else if ui.button("Cancel").clicked() {
+                Answer::Cancel
+            } else {
+                Answer::None
+            }
+        })
+        .inner
+    });
+    let closed = shown.should_close();
+    shown.inner.or_cancel(closed)
+}
+
+/// Folders and fitting files where the text points to. A double-click takes a file.
+fn files_ui(ui: &mut egui::Ui, purpose: Purpose, text: &mut String) -> Option<PathBuf> {
+    let path = PathBuf::from(text.trim());
+    let folder = if path.is_dir() { path } else { path.parent().map(Path::to_owned).unwrap_or_default() };
+    let folder = if folder.as_os_str().is_empty() { PathBuf::from(".") } else { folder };
+    let mut picked = None;
+    ScrollArea::vertical().max_height(180.0).auto_shrink([false, true]).show(ui, |ui| {
+        if let Some(up) = folder.canonicalize().ok().and_then(|f| f.parent().map(Path::to_owned))
+            && ui.selectable_label(false, "../").clicked()
+        {
+            *text = format!("{}/", up.display());
+        }
+        for (name, is_folder) in listing(&folder, purpose) {
+            let response =
+                ui.selectable_label(false, if is_folder { format!("{name}/") } else { name.clone() });
+            if response.clicked() {
+                let slash = if is_folder { "/" } else { "" };
+                *text = format!("{}{slash}", folder.join(&name).display());
+            }
+            if response.double_clicked() && !is_folder {
+                picked = Some(folder.join(&name));
+            }
+        }
+    });
+    picked
+}
+
+fn listing(folder: &Path, purpose: Purpose) -> Vec<(String, bool)> {
+    let fits =
+        |name: &str| purpose.filter().1.iter().any(|e| name.to_lowercase().ends_with(&format!(".{e}")));
+    let mut all: Vec<(String, bool)> = std::fs::read_dir(folder)
+        .into_iter()
+        .flatten()
+        .flatten()
+        .map(|f| (f.file_name().to_string_lossy().into_owned(), f.path().is_dir()))
+        .filter(|(name, is_folder)| !name.starts_with('.') && (*is_folder || fits(name)))
+        .collect();
+    all.sort_by(|a, b| (!a.1, &a.0).cmp(&(!b.1, &b.0)));
+    all
+}
+
+/// `path` with the extension that belongs to `purpose`, unless it has one of those.
+pub fn with_extension(path: PathBuf, purpose: Purpose) -> PathBuf {
+    let fits = path.extension().is_some_and(|e| purpose.filter().1.iter().any(|f| e.eq_ignore_ascii_case(f)));
+    if fits || !purpose.writes() {
+        return path;
+    }
+    let mut name = path.into_os_string();
+    name.push(".");
+    name.push(purpose.filter().1[0]);
+    name.into()
+}
+
+fn shortcuts_ui(ctx: &egui::Context, mouse: Mouse, keymap: &Keymap) -> Answer {
+    let shown = Modal::new(Id::unique("shortcuts")).show(ctx, |ui| {
+        ui.set_width(560.0);
+        ui.heading("Keys and mouse");
+        ui.add_space(6.0);
+        ScrollArea::vertical().max_height(ctx.content_rect().height() * 0.7).show(ui, |ui| {
+            ui.strong("Mouse");
+            egui::Grid::new("mouse").num_columns(2).spacing([24.0, 5.0]).striped(true).show(ui, |ui| {
+                let of_view = mouse.help();
+                let of_view = of_view.iter().map(|(what, does)| (what.as_str(), *does));
+                for (what, does) in of_view.chain(MOUSE.iter().copied()) {
+                    ui.label(what);
+                    ui.label(does);
+                    ui.end_row();
+                }
+            });
+            ui.add_space(8.0);
+            ui.strong("Keys");
+            egui::Grid::new("keys").num_columns(3).spacing([24.0, 5.0]).striped(true).show(ui, |ui| {
+                let mut all = keymap.bound();
+                all.sort_by_key(|(action, _)| action.entry().text);
+                for (action, keys) in all {
+                    ui.label(ctx.format_shortcut(&keys));
+                    ui.label(action.entry().text);
+                    ui.label(action.entry().tip);
+                    ui.end_row();
+                }
+            });
+        });
+        ui.add_space(8.0);
+        ui.button("Close").clicked()
+    });
+    let closed = shown.should_close();
+    if shown.inner { Answer::Cancel } else { Answer::None.or_cancel(closed) }
+}
+
+const MOUSE: &[(&str, &str)] = &[
+    ("Left drag on a piece or the body", "Paint a mark (tool Mark); a click makes a dot"),
+    ("Left click on a mark", "Select it; its name and number are in the side panel"),
+    ("Ctrl + left click on a mark", "Take it away"),
+    ("Left drag on a piece", "Move it (tool Move); a double-click turns it over"),
+    ("Space + left drag on the table", "Move the view"),
+    ("Wheel", "Zoom to the pointer"),
+    ("Esc while drawing", "Give the stroke up"),
+];
+
+/// A dialog of the desktop, open beside the window.
+pub struct NativeDialog {
+    purpose: Purpose,
+    opened: Instant,
+    answer: Pin<Box<dyn Future<Output = Option<PathBuf>>>>,
+}
+
+impl std::fmt::Debug for NativeDialog {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "NativeDialog({:?})", self.purpose)
+    }
+}
+
+/// Wakes the window when the desktop's dialog has an answer.
+struct Repaint(egui::Context);
+
+impl Wake for Repaint {
+    fn wake(self: Arc<Self>) {
+        self.0.request_repaint();
+    }
+}
+
+impl NativeDialog {
+    /// Opens the desktop's dialog. None where there is no desktop to ask.
+    pub fn open(purpose: Purpose, current: Option<&Path>) -> Option<Self> {
+        if cfg!(target_os = "linux") && std::env::var_os("DBUS_SESSION_BUS_ADDRESS").is_none() {
+            return None;
+        }
+        let (kind, extensions) = purpose.filter();
+        let mut dialog = rfd::AsyncFileDialog::new().set_title(purpose.title()).add_filter(kind, extensions);
+        if let Some(folder) = current.and_then(Path::parent) {
+            dialog = dialog.set_directory(folder);
+        }
+        let answer: Pin<Box<dyn Future<Output = Option<PathBuf>>>> = if purpose.writes() {
+            let name = current.and_then(Path::file_name).map(|n| n.to_string_lossy().into_owned());
+            let name = name.filter(|_| purpose == Purpose::Save).unwrap_or_else(|| purpose.default_name());
+            let shown = dialog.set_file_name(name).save_file();
+            Box::pin(async move { shown.await.map(|f| f.path().to_owned()) })
+        } else {
+            let shown = dialog.pick_file();
+            Box::pin(async move { shown.await.map(|f| f.path().to_owned()) })
+        };
+        Some(Self { purpose, opened: Instant::now(), answer })
+    }
+
+    /// Asks whether there is an answer. A dialog that could not be shown is followed by one of our own.
+    pub fn poll(&mut self, ctx: &egui::Context) -> Option<Result<PathBuf, Option<Dialog>>> {
+        let waker = Waker::from(Arc::new(Repaint(ctx.clone())));
+        match self.answer.as_mut().poll(&mut Context::from_waker(&waker)) {
+            Poll::Pending => None,
+            Poll::Ready(Some(path)) => Some(Ok(with_extension(path, self.purpose))),
+            Poll::Ready(None) if self.opened.elapsed() < TOO_QUICK => {
+                Some(Err(Some(Dialog::Path { purpose: self.purpose, text: String::new() })))
+            }
+            Poll::Ready(None) => Some(Err(None)),
+        }
+    }
+
+    /// What it is for.
+    pub fn purpose(&self) -> Purpose {
+        self.purpose
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn written_files_get_their_extension_once() {
+        let cases = [
+            (Purpose::Save, "a/b", "a/b.toile"),
+            (Purpose::Save, "a/b.toile", "a/b.toile"),
+            (Purpose::Export, "x.GLB", "x.GLB"),
+            (Purpose::Export, "x.y", "x.y.obj"),
+            (Purpose::Open, "whatever", "whatever"),
+        ];
+        for (purpose, given, wanted) in cases {
+            assert_eq!(with_extension(given.into(), purpose), PathBuf::from(wanted));
+        }
+    }
+}

@@ -1,0 +1,107 @@
+//! While files are held over the window: what each pane will do with them.
+
+use std::path::Path;
+
+use egui::{Align2, Color32, FontId, Id, LayerId, Order, Rect, Stroke, StrokeKind};
+
+use crate::ui::look::theme::Palette;
+
+/// What a dropped file becomes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Dropped {
+    /// The project is opened.
+    Project,
+    /// Its pieces go on the table.
+    Pattern,
+    /// The body is changed.
+    Body,
+    /// It cannot be read.
+    Nothing,
+}
+
+impl Dropped {
+    /// By the name of the file.
+    pub fn of(path: &Path) -> Self {
+        let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
+        match extension.as_deref() {
+            Some("toile") => Self::Project,
+            Some("json" | "dxf" | "svg") => Self::Pattern,
+            Some("obj" | "glb" | "gltf") => Self::Body,
+            _ => Self::Nothing,
+        }
+    }
+
+    /// What the pattern pane and the body pane will do, in words; None: nothing.
+    fn words(self, name: &str) -> [Option<String>; 2] {
+        match self {
+            Self::Project => {
+                [Some(format!("Open the project {name}")), Some("with its body and cloth".to_owned())]
+            }
+            Self::Pattern => [Some(format!("Lay the pieces of {name} on the table")), None],
+            Self::Body => [None, Some(format!("{name} becomes the body"))],
+            Self::Nothing => [
+                Some(format!("{name}: not a project (.toile) or pattern (.dxf, .svg, .json)")),
+                Some("nor a body (.obj, .glb, .gltf)".to_owned()),
+            ],
+        }
+    }
+}
+
+/// Tells what would happen, over both `panes`.
+pub fn ui(ctx: &egui::Context, palette: &Palette, panes: [Option<Rect>; 2]) {
+    let held = ctx.input(|i| i.raw.hovered_files.clone());
+    let Some(first) = held.first() else { return };
+    let path = first.path.clone().unwrap_or_default();
+    let name = match path.file_name() {
+        Some(name) => name.to_string_lossy().into_owned(),
+        None => "the file".to_owned(),
+    };
+    let dropped = Dropped::of(&path);
+    let painter = ctx.layer_painter(LayerId::new(Order::Foreground, Id::unique("dropped files")));
+    for ((pane, words), what) in
+        panes.into_iter().zip(dropped.words(&name)).zip(["pattern pane", "body pane"])
+    {
+        let Some(pane) = pane else { continue };
+        let (ink, line) = match (&words, dropped) {
+            (_, Dropped::Nothing) => (palette.error, palette.error),
+            (Some(_), _) => (ctx.style_of(ctx.theme()).visuals.text_color(), palette.accent),
+            (None, _) => (palette.weak, Color32::TRANSPARENT),
+        };
+        painter.rect_filled(pane, 0.0, palette.overlay.gamma_multiply(0.92));
+        painter.rect_stroke(pane.shrink(10.0), 8.0, Stroke::new(2.5, line), StrokeKind::Inside);
+        let words = words.unwrap_or_else(|| "Nothing changes here".to_owned());
+        let text = painter.layout(words.clone(), FontId::proportional(17.0), ink, pane.width() - 60.0);
+        let at = Align2::CENTER_CENTER.align_size_within_rect(text.size(), pane).min;
+        painter.galley(at, text, ink);
+        egui::Area::new(Id::unique("dropped").with(what)).fixed_pos(pane.min).interactable(false).show(
+            ctx,
+            |ui| {
+                let node = ui.interact(pane, ui.scope_id().with(what), egui::Sense::hover());
+                node.widget_info(|| {
+                    egui::WidgetInfo::labeled(egui::accesskit::Role::Status, true, format!("{what}: {words}"))
+                });
+            },
+        );
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_go_where_their_name_says() {
+        for (name, goes) in [
+            ("a/Shirt.TOILE", Dropped::Project),
+            ("b.dxf", Dropped::Pattern),
+            ("b.Svg", Dropped::Pattern),
+            ("c.json", Dropped::Pattern),
+            ("d.obj", Dropped::Body),
+            ("d.GLB", Dropped::Body),
+            ("e.png", Dropped::Nothing),
+            ("toile", Dropped::Nothing),
+        ] {
+            assert_eq!(Dropped::of(Path::new(name)), goes, "{name}");
+        }
+    }
+}

@@ -1,0 +1,261 @@
+//! The menu bar. Every entry comes from the table of actions.
+
+use egui::{Button, ThemePreference};
+
+use crate::drag::DragMode;
+use crate::io::pdf::Paper;
+use crate::session::demos::Demo;
+use crate::session::samples::Sample;
+use crate::ui::actions::asks::{Ask, Asks};
+use crate::ui::actions::context::FrameContext;
+use crate::ui::actions::layout::Panes;
+use crate::ui::actions::{Action, Tool, VIEWS};
+use crate::ui::maps;
+use crate::ui::pointer::mouse::Mouse;
+use crate::ui::preferences::units::LengthUnit;
+
+/// Draws the menu bar.
+pub fn menu_bar_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) {
+    egui::MenuBar::new().ui(ui, |ui| {
+        ui.menu_button("File", |ui| file_ui(ui, now, asks));
+        ui.menu_button("Edit", |ui| {
+            items(ui, now, asks, &[Action::Undo, Action::Redo]);
+            ui.separator();
+            items(ui, now, asks, &[Action::SelectAll, Action::Duplicate, Action::Delete]);
+            ui.separator();
+            items(ui, now, asks, &[Action::RaiseMark, Action::LowerMark, Action::DeleteMark]);
+            ui.separator();
+            items(ui, now, asks, &[Action::ToggleLaser, Action::SuggestMarks, Action::ClearMarks]);
+            ui.separator();
+            items(ui, now, asks, &[Action::Preferences]);
+        });
+        ui.menu_button("Pattern", |ui| pattern_ui(ui, now, asks));
+        ui.menu_button("Garment", |ui| {
+            items(ui, now, asks, &[Action::Dress, Action::Wrap, Action::Rewrap, Action::CancelWrap]);
+            items(ui, now, asks, &[Action::Unwrap]);
+            ui.separator();
+            items(ui, now, asks, &[Action::Choose(Tool::Place), Action::BringPieces]);
+            items(ui, now, asks, &[Action::ToggleRolled, Action::Unplace, Action::Sew]);
+            ui.separator();
+            items(ui, now, asks, &[Action::ToggleRelaxing, Action::ToggleDrape, Action::StepDrape]);
+            ui.separator();
+            let drags = [DragMode::Surface, DragMode::Vertex, DragMode::Rigid];
+            items(ui, now, asks, &drags.map(|mode| Action::Choose(Tool::Drag(mode))));
+            items(ui, now, asks, &[Action::Choose(Tool::Pin), Action::ClearPins]);
+            ui.separator();
+            items(ui, now, asks, &[Action::Choose(Tool::Bone), Action::OwnBones, Action::NoBones]);
+        });
+        ui.menu_button("View", |ui| view_ui(ui, now, asks));
+        ui.menu_button("Help", |ui| help_ui(ui, now, asks));
+    });
+}
+
+fn file_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) {
+    items(ui, now, asks, &[Action::New]);
+    ui.menu_button("Samples", |ui| {
+        for sample in Sample::ALL {
+            item(ui, now, asks, Action::Sample(sample));
+        }
+    });
+    items(ui, now, asks, &[Action::Open]);
+    ui.menu_button("Open recent", |ui| recent_ui(ui, now, asks));
+    items(ui, now, asks, &[Action::StartPage]);
+    ui.separator();
+    items(ui, now, asks, &[Action::Save, Action::SaveAs, Action::SaveCopy, Action::SaveNext, Action::Revert]);
+    ui.separator();
+    items(
+        ui,
+        now,
+        asks,
+        &[
+            Action::ImportPattern,
+            Action::ImportBody,
+            Action::UseMannequin,
+            Action::Sizes,
+            Action::PoseFromFile,
+            Action::Sequence,
+        ],
+    );
+    ui.separator();
+    items(ui, now, asks, &[Action::ExportPattern]);
+    ui.menu_button("Paper", |ui| items(ui, now, asks, &Paper::ALL.map(Action::Paper)));
+    items(ui, now, asks, &[Action::Export, Action::FitPage, Action::Picture, Action::SaveRecording]);
+    ui.separator();
+    items(ui, now, asks, &[Action::Quit]);
+}
+
+fn recent_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) {
+    if now.recent.is_empty() {
+        ui.weak("No file was open before");
+    }
+    for (i, file) in now.recent.iter().enumerate() {
+        let (name, folder) = file.name();
+        let why_not = now.why_not(Action::OpenRecent(i as u8));
+        let button = Button::new(name).shortcut_text(folder).min_size(egui::vec2(260.0, 0.0));
+        let response = ui.add_enabled(why_not.is_none(), button);
+        let words = format!("Open again: {}", file.name().0);
+        response.widget_info(|| {
+            egui::WidgetInfo::labeled(egui::accesskit::Role::Button, why_not.is_none(), words.clone())
+        });
+        let response = response.on_hover_text(file.path.display().to_string());
+        if response.on_disabled_hover_text(why_not.unwrap_or_default()).clicked() {
+            asks.push(Ask::Act(Action::OpenRecent(i as u8)));
+            ui.close();
+        }
+    }
+    ui.separator();
+    item(ui, now, asks, Action::ClearRecent);
+}
+
+fn pattern_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) {
+    ui.menu_button("Tools", |ui| {
+        let groups: [&[Tool]; 3] = [
+            &[Tool::Move, Tool::Points, Tool::Sew],
+            &[Tool::Pen, Tool::Rectangle, Tool::Ellipse],
+            &[Tool::Line, Tool::Hole, Tool::Cut, Tool::Dart, Tool::Notch, Tool::Grain],
+        ];
+        for (i, tools) in groups.into_iter().enumerate() {
+            if i > 0 {
+                ui.separator();
+            }
+            tools.iter().for_each(|&tool| item(ui, now, asks, Action::Choose(tool)));
+        }
+    });
+    ui.separator();
+    selection_ui(ui, now, asks);
+    ui.separator();
+    items(ui, now, asks, &[Action::Untwist, Action::ShowPieces]);
+}
+
+/// What can be done with what is selected on the table.
+pub fn selection_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) {
+    items(
+        ui,
+        now,
+        asks,
+        &[Action::Twin, Action::MakeSymmetric, Action::Unfold, Action::Fold, Action::Unlink],
+    );
+    ui.separator();
+    items(
+        ui,
+        now,
+        asks,
+        &[
+            Action::TurnOver,
+            Action::ToggleLock,
+            Action::ToggleFrozen,
+            Action::ToggleDeactivated,
+            Action::Hide,
+        ],
+    );
+    ui.separator();
+    items(
+        ui,
+        now,
+        asks,
+        &[Action::InsertPoint, Action::ToggleSmooth, Action::Straighten, Action::Curve, Action::Arc],
+    );
+    ui.separator();
+    items(ui, now, asks, &[Action::TurnSeam, Action::MakeEqual, Action::FreeLengths]);
+}
+
+/// What a right click on the table offers.
+pub fn context_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) {
+    let picked = &now.picked;
+    let mut groups: Vec<&[Action]> = Vec::new();
+    if picked.points + picked.edges > 0 {
+        groups.push(&[
+            Action::InsertPoint,
+            Action::ToggleSmooth,
+            Action::Straighten,
+            Action::Curve,
+            Action::Arc,
+            Action::Unfold,
+        ]);
+    }
+    if picked.seams > 0 {
+        groups.push(&[Action::TurnSeam, Action::MakeEqual, Action::FreeLengths]);
+    }
+    if picked.pieces > 0 {
+        groups.push(&[Action::Duplicate, Action::Twin, Action::MakeSymmetric, Action::Fold, Action::Unlink]);
+        groups.push(&[
+            Action::TurnOver,
+            Action::ToggleLock,
+            Action::ToggleFrozen,
+            Action::ToggleDeactivated,
+            Action::Hide,
+        ]);
+    }
+    groups.push(&[Action::Delete, Action::SelectAll, Action::ShowPieces]);
+    groups.push(&[Action::FrameAll, Action::FrameSelection]);
+    for (i, group) in groups.into_iter().enumerate() {
+        if i > 0 {
+            ui.separator();
+        }
+        items(ui, now, asks, group);
+    }
+}
+
+fn view_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) {
+    ui.menu_button("Look from", |ui| items(ui, now, asks, &VIEWS.map(Action::Look)));
+    items(ui, now, asks, &[Action::FrameAll, Action::FrameSelection, Action::TrueSize]);
+    items(ui, now, asks, &[Action::ToggleParallel, Action::ToggleFreeTurning]);
+    ui.separator();
+    items(ui, now, asks, &[Action::ToggleWire, Action::ToggleSheer, Action::ToggleXray, Action::TogglePairs]);
+    ui.menu_button("Map", |ui| {
+        maps::choices().for_each(|kind| item(ui, now, asks, Action::Map(kind)));
+        ui.separator();
+        item(ui, now, asks, Action::ToggleMapTable);
+    });
+    items(ui, now, asks, &[Action::Compare]);
+    if now.difference.is_some() {
+        items(ui, now, asks, &[Action::ToggleDifference, Action::ChangeSides, Action::CloseComparison]);
+    }
+    ui.separator();
+    items(ui, now, asks, &[Action::ToggleSnapping, Action::ClearGuides]);
+    ui.menu_button("Unit", |ui| items(ui, now, asks, &LengthUnit::ALL.map(Action::Unit)));
+    ui.separator();
+    ui.menu_button("Panes", |ui| {
+        items(ui, now, asks, &Panes::ALL.map(Action::Show));
+        items(ui, now, asks, &[Action::SwapPanes]);
+    });
+    items(ui, now, asks, &[Action::ToggleCloth, Action::TogglePanel]);
+    items(ui, now, asks, &[Action::ToggleHistory, Action::ToggleLog]);
+    ui.separator();
+    ui.menu_button("Theme", |ui| {
+        let themes = [ThemePreference::Dark, ThemePreference::Light, ThemePreference::System];
+        items(ui, now, asks, &themes.map(Action::Theme));
+    });
+    ui.menu_button("Mouse", |ui| items(ui, now, asks, &Mouse::ALL.map(Action::Mouse)));
+}
+
+fn help_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) {
+    items(ui, now, asks, &[Action::CommandPalette, Action::Shortcuts]);
+    ui.separator();
+    items(ui, now, asks, &[Action::Tour]);
+    ui.menu_button("Demos", |ui| {
+        items(ui, now, asks, &Demo::ALL.map(Action::Demo));
+    });
+    items(ui, now, asks, &[Action::StopDemo]);
+}
+
+fn items(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks, actions: &[Action]) {
+    for &action in actions {
+        item(ui, now, asks, action);
+    }
+}
+
+fn item(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks, action: Action) {
+    let why_not = now.why_not(action);
+    let mut button = Button::selectable(now.is_on(action), now.text(action));
+    if let Some(keys) = now.keymap.keys(action).first() {
+        button = button.shortcut_text(ui.ctx().format_shortcut(keys));
+    }
+    let response = ui.add_enabled(why_not.is_none(), button.min_size(egui::vec2(190.0, 0.0)));
+    // A tip over an entry that can be chosen would only hide the next one.
+    let response = response.on_disabled_hover_text(why_not.unwrap_or_default());
+    if response.clicked() {
+        asks.push(Ask::Act(action));
+        ui.close();
+    }
+}

@@ -1,0 +1,124 @@
+//! The status bar: what the mouse does here, and what the simulation does now.
+
+use egui::{Align, Layout, ProgressBar, RichText};
+
+use crate::sim::DrapeState;
+use crate::sim::Start;
+use crate::ui::actions::context::FrameContext;
+use crate::ui::look::theme::Palette;
+use crate::ui::shell::pace::{Pace, left_words};
+use crate::wrap::Phase;
+
+/// Height of the bar, points.
+pub const HEIGHT: f32 = 28.0;
+
+/// Draws the bar.
+pub fn status_ui(ui: &mut egui::Ui, now: &FrameContext, hint: &str, palette: &Palette) {
+    ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+        let weak = |text: String| RichText::new(text).color(palette.weak).size(12.0);
+        if let Some(adapter) = &now.adapter {
+            ui.label(weak(short(adapter))).on_hover_text(format!("Drawn by {adapter}"));
+            ui.separator();
+        }
+        ui.label(weak(now.unit.sign().trim().to_owned())).on_hover_text("Lengths are shown in this unit");
+        ui.separator();
+        if now.triangles > 0 {
+            ui.label(weak(format!("tick {}", now.tick)));
+            ui.separator();
+            ui.label(weak(format!("{} triangles", grouped(now.triangles))));
+            ui.separator();
+        }
+        if let Some(words) = pace_words(&now.pace) {
+            let tip = "Pictures of the window a second, and how long a tick of the simulation takes";
+            ui.label(weak(words)).on_hover_text(tip);
+            ui.separator();
+        }
+        if let Some(seconds) = now.pace.left {
+            ui.label(RichText::new(left_words(seconds)).size(12.0));
+        }
+        if now.working && now.phase.is_some() && !now.dragging {
+            let bar = ProgressBar::new(now.progress as f32).desired_width(96.0).desired_height(8.0);
+            ui.add(bar.fill(palette.accent));
+        }
+        ui.label(RichText::new(phase_words(now)).size(12.0));
+        ui.separator();
+        ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+            ui.add(egui::Label::new(weak(hint.to_owned())).truncate());
+        });
+    });
+}
+
+fn pace_words(pace: &Pace) -> Option<String> {
+    let frames = format!("{:.0} fps", pace.frames?);
+    Some(match pace.tick_ms {
+        Some(ms) if ms < 10.0 => format!("{frames}, {ms:.1} ms a tick"),
+        Some(ms) => format!("{frames}, {ms:.0} ms a tick"),
+        None => frames,
+    })
+}
+
+fn phase_words(now: &FrameContext) -> String {
+    let percent = (now.progress * 100.0).floor() as u32;
+    match now.phase {
+        Some(_) if now.trying.is_some() => {
+            now.trying.map(|now| trying_words(now, percent)).unwrap_or_default()
+        }
+        _ if now.wrapping && now.phase != Some(Phase::Growing) => "Cutting the cloth".to_owned(),
+        None => "No cloth on the body".to_owned(),
+        Some(_) if now.dragging => "In your hand".to_owned(),
+        Some(_) if now.drape.is_some_and(|drape| !drape.waits) => drape_words(now.drape),
+        Some(_) if !now.relaxing => "Held still".to_owned(),
+        Some(Phase::Growing) => format!("Growing {percent} %"),
+        Some(Phase::Settling) => format!("Settling {percent} %"),
+        Some(Phase::AtRest) => "At rest".to_owned(),
+    }
+}
+
+/// What moves the cloth still, as a share of its weight.
+fn drape_words(drape: Option<DrapeState>) -> String {
+    match drape {
+        Some(drape) if drape.runs => format!("Draping: {:.1} % out of balance", drape.residual * 100.0),
+        Some(drape) if !drape.on => "Draping paused".to_owned(),
+        _ => "Draped, at rest".to_owned(),
+    }
+}
+
+/// The name of an adapter without what stands in brackets, and not too long.
+fn short(adapter: &str) -> String {
+    let name = adapter.split(" (").next().unwrap_or_default();
+    if name.chars().count() <= 22 { name.to_owned() } else { name.chars().take(21).chain(['…']).collect() }
+}
+
+/// 12345 as "12 345".
+fn grouped(n: usize) -> String {
+    let digits = n.to_string();
+    let mut out = String::new();
+    for (i, c) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
+            out.push('\u{2009}');
+        }
+        out.push(c);
+    }
+    out
+}
+
+/// What the bar below says while starts are tried: `start` is the one under way.
+pub fn trying_words((start, draped): (Start, bool), percent: u32) -> String {
+    match (start, draped) {
+        (Start::Marks, false) => format!("By marks: growing {percent} %"),
+        (Start::Marks, true) => format!("By marks: draping {percent} %"),
+        (Start::Placement, _) => format!("From placement: sewing {percent} %"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_and_names_are_short() {
+        assert_eq!(grouped(1_234_567), "1\u{2009}234\u{2009}567");
+        assert_eq!(short("llvmpipe (LLVM 19.1, 256 bits) (Vulkan)"), "llvmpipe");
+        assert_eq!(short("An adapter of a very long name indeed").chars().count(), 22);
+    }
+}
