@@ -206,7 +206,7 @@ fn chosen(scene: &Scene, settings: &DrapeSettings, h: f64) -> Result<Solver, Dra
     let hanging = extent * concentration(scene, extent / edge);
     let count = substeps(h, settings.strain, scene.gravity.length(), hanging, edge);
     let small = || {
-        let mut small = SmallSteps::new(scene, settings.stiffness);
+        let mut small = SmallSteps::new(scene, settings.stiffness, h / count as f64);
         if settings.self_collision {
             small.separation = Some(separation(scene, settings.thickness));
         }

@@ -21,6 +21,9 @@ const MOST_GAIN: f64 = 20.0;
 /// Pivots of a fit below this share of the largest: the points do not tell a quadratic.
 const LEAST_PIVOT: f64 = 1e-6;
 
+/// So often, at most, is what is too stiff softened.
+const MOST_SOFTENINGS: usize = 4;
+
 /// Rows one thread takes at a time.
 const LEAST_SHARE: usize = 1024;
 
@@ -50,20 +53,57 @@ impl Bending {
 
     /// The same with a stiffness for each vertex.
     pub fn of<'a>(sheet: &Sheet, stiffness: impl Fn(u32) -> &'a Stiffness) -> Self {
-        let mut entries: Vec<(u32, u32, f64)> = Vec::new();
-        for (v, area) in nearest_areas(sheet).into_iter().enumerate() {
-            let v = v as u32;
-            let own = stiffness(v);
-            if (own.warp > 0.0 || own.weft > 0.0 || own.bias > 0.0)
-                && let Some(stencil) = stencil(sheet, v)
-            {
-                add_energy(&stencil, own, area, &mut entries);
-            }
-        }
-        Self::summed(sheet.len(), entries)
+        Self::summed(sheet.len(), &energies(sheet, stiffness), &[])
     }
 
-    fn summed(rows: usize, mut entries: Vec<(u32, u32, f64)>) -> Self {
+    /// The same, softer round vertices whose `mass` (kg) would swing faster than `rate` (1/s, by Gershgorin's bound): the corners of
+    /// slivers. Explicit steps are stable up to a rate; where no vertex is faster it is [`Self::of`], bit for bit.
+    pub fn slower_than<'a>(
+        rate: f64,
+        mass: &[f64],
+        sheet: &Sheet,
+        stiffness: impl Fn(u32) -> &'a Stiffness,
+    ) -> Self {
+        let energies = energies(sheet, stiffness);
+        let mut bending = Self::summed(sheet.len(), &energies, &[]);
+        let mut is_fast = vec![false; sheet.len()];
+        // Each turn softens more energies. What is softened alike keeps its signs: more than a few turns are not needed.
+        for _ in 0..MOST_SOFTENINGS {
+            let limit = |i: usize| rate * rate * mass[i];
+            let faster: Vec<usize> = (0..sheet.len()).filter(|&i| bending.stiffest(i) > limit(i)).collect();
+            if faster.is_empty() {
+                break;
+            }
+            faster.into_iter().for_each(|i| is_fast[i] = true);
+            let mut whole = vec![0.0; sheet.len()];
+            for energy in &energies {
+                energy.entries.iter().for_each(|&(i, _, q)| whole[i as usize] += q.abs());
+            }
+            let share = |energy: &Energy| {
+                let fast = energy.stencil.iter().map(|&v| v as usize).filter(|&v| is_fast[v]);
+                fast.map(|v| (limit(v) / whole[v]).min(1.0)).fold(1.0, f64::min)
+            };
+            let shares: Vec<f64> = energies.iter().map(share).collect();
+            bending = Self::summed(sheet.len(), &energies, &shares);
+        }
+        bending
+    }
+
+    /// Gershgorin's bound of how stiff vertex `i` is, N/m.
+    pub fn stiffest(&self, i: usize) -> f64 {
+        self.row(i).map(|(_, q)| q.abs()).sum()
+    }
+
+    /// The sum of `energies`, each times its share; without shares all of them whole.
+    fn summed(rows: usize, energies: &[Energy], shares: &[f64]) -> Self {
+        let mut entries: Vec<(u32, u32, f64)> = match shares {
+            [] => energies.iter().flat_map(|energy| energy.entries.iter().copied()).collect(),
+            _ => energies
+                .iter()
+                .zip(shares)
+                .flat_map(|(energy, share)| energy.entries.iter().map(move |&(i, j, q)| (i, j, q * share)))
+                .collect(),
+        };
         entries.sort_by_key(|&(i, j, _)| (i, j));
         let (mut columns, mut values) = (Vec::new(), Vec::<f64>::new());
         let mut starts = vec![0u32; rows + 1];
@@ -147,8 +187,30 @@ fn nearest_areas(sheet: &Sheet) -> Vec<f64> {
     areas
 }
 
-fn add_energy(stencil: &Stencil, b: &Stiffness, area: f64, entries: &mut Vec<(u32, u32, f64)>) {
+/// The energy of the cloth nearest to one vertex.
+struct Energy {
+    /// The vertices it hangs on.
+    stencil: Vec<u32>,
+    /// Row, column and value, N/m.
+    entries: Vec<(u32, u32, f64)>,
+}
+
+fn energies<'a>(sheet: &Sheet, stiffness: impl Fn(u32) -> &'a Stiffness) -> Vec<Energy> {
+    let of = |(v, area): (usize, f64)| {
+        let own = stiffness(v as u32);
+        if own.warp <= 0.0 && own.weft <= 0.0 && own.bias <= 0.0 {
+            return None;
+        }
+        let stencil = stencil(sheet, v as u32)?;
+        let entries = entries(&stencil, own, area);
+        Some(Energy { stencil: stencil.vertices, entries })
+    };
+    nearest_areas(sheet).into_iter().enumerate().filter_map(of).collect()
+}
+
+fn entries(stencil: &Stencil, b: &Stiffness, area: f64) -> Vec<(u32, u32, f64)> {
     let (cross, twist) = (b.cross(), b.twist());
+    let mut entries = Vec::with_capacity(stencil.vertices.len().pow(2));
     for (&i, a) in stencil.vertices.iter().zip(&stencil.weights) {
         for (&j, c) in stencil.vertices.iter().zip(&stencil.weights) {
             let along = b.warp * a[0] * c[0] + b.weft * a[1] * c[1];
@@ -156,6 +218,7 @@ fn add_energy(stencil: &Stencil, b: &Stiffness, area: f64, entries: &mut Vec<(u3
             entries.push((i, j, area * (along + across + 4.0 * twist * a[2] * c[2])));
         }
     }
+    entries
 }
 
 /// How vertex `v` of `sheet` reads second derivatives: off its neighbours; on the border, and where these are too few, off
@@ -259,4 +322,50 @@ fn inverse(mut a: [[f64; 6]; 6]) -> Option<[[f64; 6]; 6]> {
         }
     }
     Some(b)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const PLATE: Stiffness = Stiffness { warp: 1e-5, weft: 1e-5, bias: 1e-5, poisson: 0.3 };
+
+    /// A sheet of squares of 1 cm; the vertex in the middle lies `near` metres beside the one to its left.
+    fn sheet(near: f64) -> Sheet {
+        let at = |i: u32, j: u32| if (i, j) == (3, 3) { 0.02 + near } else { 0.01 * f64::from(i) };
+        let point = |v: u32| DVec2::new(at(v % 7, v / 7), 0.01 * f64::from(v / 7));
+        let cells = (0..36u32).map(|k| k / 6 * 7 + k % 6);
+        let triangles: Vec<[u32; 3]> = cells.flat_map(|a| [[a, a + 1, a + 8], [a, a + 8, a + 7]]).collect();
+        let rest = triangles.iter().map(|vs| vs.map(point)).collect();
+        Sheet::new(49, triangles, rest).expect("a sheet")
+    }
+
+    fn fastest(bending: &Bending, mass: &[f64]) -> f64 {
+        (0..mass.len()).map(|i| bending.stiffest(i) / mass[i]).fold(0.0, f64::max).sqrt()
+    }
+
+    #[test]
+    fn only_what_is_too_stiff_for_its_steps_is_softened() {
+        let mass = |sheet: &Sheet| -> Vec<f64> { sheet.vertex_area.iter().map(|a| a * 0.15).collect() };
+        let even = sheet(0.01);
+        let (plain, rate) =
+            (Bending::new(&even, &PLATE), fastest(&Bending::new(&even, &PLATE), &mass(&even)));
+        let same = Bending::slower_than(rate * 1.001, &mass(&even), &even, |_| &PLATE);
+        assert_eq!((&plain.columns, &plain.values), (&same.columns, &same.values));
+        let sliver = sheet(2e-4);
+        let mass = mass(&sliver);
+        let (plain, soft) =
+            (Bending::new(&sliver, &PLATE), Bending::slower_than(rate, &mass, &sliver, |_| &PLATE));
+        assert!(fastest(&plain, &mass) > 10.0 * rate, "{} of {rate}", fastest(&plain, &mass));
+        assert!(fastest(&soft, &mass) <= rate * 1.001, "{} of {rate}", fastest(&soft, &mass));
+        let corner = |v: usize| soft.row(v).zip(plain.row(v)).all(|(soft, plain)| soft == plain);
+        assert!([0, 6, 42, 48].map(corner) == [true; 4], "far from the sliver it is as stiff as it was");
+        let turned = |v: usize| DVec3::new(0.3, 0.01 * (v % 7) as f64, 0.01 * (v / 7) as f64);
+        let bowl = |v: usize| turned(v) + DVec3::X * ((v * v) as f64 * 1e-5).sin() * 0.01;
+        let energy = |bending: &Bending, of: &dyn Fn(usize) -> DVec3| {
+            bending.energy(&(0..49).map(of).collect::<Vec<_>>())
+        };
+        let (least, whole) = (energy(&soft, &bowl), energy(&plain, &bowl));
+        assert!(least > 0.0 && least <= whole, "{least} of {whole}");
+    }
 }

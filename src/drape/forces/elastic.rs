@@ -3,6 +3,7 @@
 use glam::{DMat3, DVec3};
 
 use crate::cloth::Fabric;
+use crate::cloth::fabric::Bending as Plate;
 use crate::drape::forces::bending::Bending;
 use crate::drape::forces::limits::StrainLimits;
 use crate::drape::forces::membrane::Membrane;
@@ -15,6 +16,8 @@ pub struct Elastic {
     pub membrane: Membrane,
     /// Bending.
     pub bending: Bending,
+    /// Of the cloth: what that was made from.
+    pub plate: Plate,
     /// Springs along edges, for strain control or in place of the membrane.
     pub limits: Option<StrainLimits>,
     /// Over-pressure behind the cloth (against its front normal's back), Pa. Zero for none.
@@ -28,6 +31,7 @@ impl Elastic {
         Self {
             membrane: Membrane::new(sheet, fabric.stretch.tangent(), compression),
             bending: Bending::new(sheet, &fabric.bending),
+            plate: fabric.bending,
             limits: None,
             pressure: 0.0,
             triangles: sheet.triangles.clone(),

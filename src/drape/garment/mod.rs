@@ -24,7 +24,7 @@ use crate::drape::garment::laid::{ordered, shortest_sides, springs};
 use crate::drape::garment::tangles::Pulling;
 use crate::drape::sheet::Sheet;
 use crate::drape::solver::small_steps::{
-    Advance, GrabConstraint, SewingSpring, SmallSteps, Surroundings, substeps,
+    Advance, GrabConstraint, SewingSpring, SmallSteps, Surroundings, stable_rate, substeps,
 };
 use crate::drape::state::State;
 use crate::geometry::crossings::meetings;
@@ -230,13 +230,14 @@ impl DrapedGarment {
         }
         let most = |of: fn(&Fabric) -> f64| of_triangle.iter().map(|f| of(f)).fold(0.0, f64::max);
         let (thickness, damping) = (most(|f| f.thickness_m), most(|f| f.damping_per_s));
-        let bending = Bending::of(&sheet, |v| &first(v).bending);
         let friction = (0..sheet.len() as u32).map(|v| first(v).friction).collect();
         let positions: Vec<DVec3> = vertices.iter().map(|&v| cloth.positions[v as usize]).collect();
         let (low, high) =
             positions.iter().fold((f64::MAX, f64::MIN), |(low, high), p| (p.y.min(low), p.y.max(high)));
         let edge = sheet.mean_edge();
         let count = substeps(TICK, settings.strain, GRAVITY.length(), (high - low).max(edge), edge);
+        let slow = stable_rate(TICK / count as f64, BENDING_DAMPING);
+        let bending = Bending::slower_than(slow, &mass, &sheet, |v| &first(v).bending);
         let mut pinned = vec![false; sheet.len()];
         pins.iter().filter_map(|&v| own_number(&own, v)).for_each(|v| pinned[v] = true);
         let sides = shortest_sides(sewn.map_or(&*garment, |(sewn, _)| sewn));

@@ -57,6 +57,8 @@ pub struct SmallSteps {
     spread: Vec<f64>,
     /// Bending's greatest angular frequency, 1/s.
     bending_rate: f64,
+    /// Bending of a scene that is not stable in such steps, softened.
+    softened: Option<Arc<Bending>>,
     planes: Vec<Plane>,
     /// Of each part of the net, vertices in creases, and the skin beside that in `planes`.
     creases: Vec<Creases>,
@@ -173,12 +175,30 @@ pub fn substeps(h: f64, strain: f64, gravity: f64, extent: f64, edge: f64) -> us
     (h / longest).ceil().max(1.0) as usize
 }
 
+/// The greatest angular frequency of bending, 1/s, by Gershgorin's bound. `mass` in kg per vertex.
+fn fastest(bending: &Bending, mass: &[f64]) -> f64 {
+    (0..mass.len()).map(|i| bending.stiffest(i) / mass[i]).fold(0.0, f64::max).sqrt()
+}
+
+/// The greatest angular frequency of bending, 1/s, that steps of `small` seconds stand with so much damping in seconds: they are
+/// stable while they are shorter than 2/ω, and than 2/(ω² τ).
+pub fn stable_rate(small: f64, damping: f64) -> f64 {
+    let most = SAFE * 2.0 / small;
+    // ω (1 + ω τ) = most.
+    2.0 * most / (1.0 + (1.0 + 4.0 * most * damping).sqrt())
+}
+
 impl SmallSteps {
-    /// `stiffness` of the membrane, N/m.
-    pub fn new(scene: &Scene, stiffness: f64) -> Self {
-        let limits = StrainLimits::new(&scene.sheet, 0.0, stiffness);
+    /// `stiffness` of the membrane, N/m; for steps of `small` seconds.
+    pub fn new(scene: &Scene, stiffness: f64, small: f64) -> Self {
+        let Scene { sheet, elastic, mass, pinned, .. } = scene;
+        let limits = StrainLimits::new(sheet, 0.0, stiffness);
         let springs = limits.springs().map(|(ends, length, stiffness)| Spring { ends, length, stiffness });
-        Self::of(springs, f64::MAX, &scene.sheet, &scene.elastic.bending, &scene.mass, &scene.pinned)
+        let most = stable_rate(small, 0.0);
+        let softened = (fastest(&elastic.bending, mass) > most)
+            .then(|| Arc::new(Bending::slower_than(most, mass, sheet, |_| &elastic.plate)));
+        let bending = softened.as_deref().unwrap_or(&elastic.bending);
+        Self { softened: softened.clone(), ..Self::of(springs, f64::MAX, sheet, bending, mass, pinned) }
     }
 
     /// Of any springs, rigid beyond a strain of `limit`. `mass` in kg per vertex; `pinned` vertices stay.
@@ -190,9 +210,7 @@ impl SmallSteps {
         mass: &[f64],
         pinned: &[bool],
     ) -> Self {
-        // Gershgorin's bound.
-        let most = |i: usize| bending.row(i).map(|(_, q)| q.abs()).sum::<f64>() / mass[i];
-        let bending_rate = (0..mass.len()).map(most).fold(0.0, f64::max).sqrt();
+        let bending_rate = fastest(bending, mass);
         let inverse = |(m, pinned): (&f64, &bool)| if *pinned { 0.0 } else { 1.0 / m };
         let net = Net::new(mass.len(), &springs.collect::<Vec<_>>(), limit);
         let parts = net.parts().len();
@@ -202,6 +220,7 @@ impl SmallSteps {
             inverse_mass: mass.iter().zip(pinned).map(inverse).collect(),
             spread: sheet.vertex_area.iter().zip(mass).map(|(area, m)| area / m).collect(),
             bending_rate,
+            softened: None,
             planes: vec![Plane::default(); mass.len()],
             lift: vec![0.0; mass.len()],
             eases: false,
@@ -269,8 +288,9 @@ impl SmallSteps {
     ) {
         self.see_body(scene);
         let friction = vec![friction; state.positions.len()];
+        let softened = self.softened.clone();
         let around = Surroundings {
-            bending: &scene.elastic.bending,
+            bending: softened.as_deref().unwrap_or(&scene.elastic.bending),
             bending_damping: 0.0,
             gravity: scene.gravity,
             damping: scene.damping,
