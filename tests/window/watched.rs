@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::process::abort;
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 
-use toile::ui::actions::catalogue::ALL;
+use toile::ui::actions::rows::all;
 use toile::ui::actions::{Action, Tool};
 
 use super::hand::dressed_window;
@@ -86,7 +86,7 @@ impl Watchdog {
 fn choose_all(stands: &str, mut window: Window) {
     let project = window.state_mut().as_mut().expect("the app").session_mut().project();
     let (watchdog, mut chosen) = (Watchdog::new(), BTreeMap::new());
-    for &action in ALL {
+    for action in all() {
         let what = format!("{stands}: {action:?}");
         let mut window = window_on(project.clone(), None);
         for action in [Action::SelectAll, action] {
@@ -101,7 +101,7 @@ fn choose_all(stands: &str, mut window: Window) {
         watchdog.frames(&mut window, &what);
         chosen.insert(what, app(&window).frames());
     }
-    assert_eq!(chosen.len(), ALL.len());
+    assert_eq!(chosen.len(), all().count());
     assert!(chosen.values().all(|&frames| frames > FRAMES as u64), "{chosen:?}");
 }
 

@@ -14,6 +14,7 @@ use crate::ui::actions::drawer::Drawer;
 use crate::ui::actions::keymap::Keymap;
 use crate::ui::actions::layout::Layout;
 use crate::ui::actions::picked::Picked;
+use crate::ui::actions::row::Need;
 use crate::ui::actions::sight::Sight;
 use crate::ui::actions::{Action, Tool};
 use crate::ui::files::recent::RecentFile;
@@ -129,115 +130,81 @@ pub struct FrameContext {
 impl FrameContext {
     /// Why `action` cannot be chosen now; None when it can.
     pub fn why_not(&self, action: Action) -> Option<&'static str> {
-        let unless = |can: bool, why: &'static str| (!can).then_some(why);
-        match action {
-            Action::StopDemo => unless(self.demo, "No demo is shown"),
-            _ if self.demo && !action.is_for_demos() => Some("A demo is shown: stop it first"),
-            Action::OpenRecent(i) => match self.recent.get(usize::from(i)) {
-                None => Some("No such file was open"),
-                Some(file) => unless(file.is_there, "The file is no longer there"),
-            },
-            Action::ClearRecent => unless(!self.recent.is_empty(), "No file was open before"),
-            Action::Picture | Action::FitPage if self.picturing => Some("Pictures are being made"),
-            Action::Picture => unless(self.adapter.is_some(), "There is no graphics adapter to draw with"),
-            Action::Undo => unless(self.undo.is_some(), "There is nothing to undo"),
-            Action::Redo => unless(self.redo.is_some(), "There is nothing to redo"),
-            Action::Revert | Action::SaveNext => unless(self.has_file, "The project was not saved yet"),
-            Action::ExportPattern => unless(self.pieces > 0, "There is no piece on the table"),
-            Action::Dress | Action::Wrap if self.pieces == 0 => Some("There is no piece on the table"),
-            Action::Dress if !self.has_body => Some("There is no body"),
-            Action::Dress if self.wrapping => Some("The cloth is growing"),
-            Action::Dress => unless(
-                self.placed || self.has_pairs(),
-                "No piece stands round the body, and there are no marks",
-            ),
-            Action::ToggleDrape | Action::StepDrape | Action::ToggleRelaxing if self.trying.is_some() => {
-                Some("The garment is being put on: cancel that first")
+        let row = action.row();
+        if self.demo && !row.in_demos {
+            return Some("A demo is shown: stop it first");
+        }
+        row.needs.iter().find_map(|&need| self.lacks(need, action))
+    }
+
+    /// What is to be told where there is not what `action` needs.
+    fn lacks(&self, need: Need, action: Action) -> Option<&'static str> {
+        let picked = &self.picked;
+        let (is_there, words) = match need {
+            Need::Demo => (self.demo, "No demo is shown"),
+            Need::RecentFile => return self.lacks_file(action),
+            Need::Recent => (!self.recent.is_empty(), "No file was open before"),
+            Need::NotPicturing => (!self.picturing, "Pictures are being made"),
+            Need::Adapter => (self.adapter.is_some(), "There is no graphics adapter to draw with"),
+            Need::Undo => (self.undo.is_some(), "There is nothing to undo"),
+            Need::Redo => (self.redo.is_some(), "There is nothing to redo"),
+            Need::File => (self.has_file, "The project was not saved yet"),
+            Need::Pieces => (self.pieces > 0, "There is no piece on the table"),
+            Need::Body => (self.has_body, "There is no body"),
+            Need::Dressed => (self.dressed, "There is no cloth on the body"),
+            Need::Growing => (self.wrapping, "Nothing is growing"),
+            Need::NotGrowing => (!self.wrapping, "The cloth is growing"),
+            Need::NotTrying => (self.trying.is_none(), "The garment is being put on: cancel that first"),
+            Need::NotDraping => (!self.drapes(), "It drapes: pause it first"),
+            Need::Placed => (self.placed, "No piece stands round the body"),
+            Need::PlacedFirst => {
+                (self.placed, "No piece stands round the body: place some first (Garment › Place pieces)")
             }
-            Action::Wrap if !self.has_body => Some("There is no body"),
-            Action::Wrap if self.wrapping => Some("The cloth is growing"),
-            Action::Wrap => {
-                unless(self.has_pairs(), "Paint at least one mark on a piece and one on the body first")
+            Need::PlacedOrPairs => {
+                (self.placed || self.has_pairs(), "No piece stands round the body, and there are no marks")
             }
-            Action::Rewrap if !self.dressed => Some("There is no cloth on the body"),
-            Action::Rewrap if self.wrapping => Some("The cloth is growing"),
-            Action::Rewrap => unless(
+            Need::Pairs => (self.has_pairs(), "Paint at least one mark on a piece and one on the body first"),
+            Need::NewPairs => (
                 self.has_pairs(),
                 "Paint the new marks first: on a piece, and on the body where it should lie",
             ),
-            Action::CancelWrap => unless(self.wrapping, "Nothing is growing"),
-            Action::Choose(Tool::Drag(_) | Tool::Pin) => {
-                unless(self.dressed, "There is no cloth on the body")
+            Need::Marks => (self.marks[0] + self.marks[1] > 0, "There are no marks"),
+            Need::Mark => (self.selected.is_some(), "No mark is selected: click one"),
+            Need::NotFirstMark => {
+                (self.selected.is_none_or(|(_, place)| place.number > 1), "It is the first")
             }
-            Action::Choose(Tool::Bone) | Action::OwnBones | Action::NoBones => {
-                unless(self.has_body, "There is no body")
+            Need::NotLastMark => {
+                (self.selected.is_none_or(|(_, place)| place.number < place.count), "It is the last")
             }
-            Action::Choose(Tool::Place) if self.pieces == 0 => Some("There is no piece on the table"),
-            Action::Choose(Tool::Place) => unless(self.has_body, "There is no body"),
-            Action::BringPieces if !self.has_body => Some("There is no body"),
-            Action::BringPieces => unless(self.placed, "No piece stands round the body"),
-            Action::ToggleRolled | Action::Unplace => {
-                unless(self.picked.standing, "No piece that stands round the body is selected")
-            }
-            Action::ClearPins => unless(self.pins > 0, "There are no pins"),
-            Action::Sew if self.wrapping => Some("The cloth is growing"),
-            Action::Sew if !self.has_body => Some("There is no body"),
-            Action::Sew => unless(
-                self.placed,
-                "No piece stands round the body: place some first (Garment › Place pieces)",
-            ),
-            Action::StepDrape if self.drape.is_some_and(|drape| drape.on && drape.runs) => {
-                Some("It drapes: pause it first")
-            }
-            Action::Unwrap
-            | Action::ToggleCloth
-            | Action::Export
-            | Action::FitPage
-            | Action::Compare
-            | Action::ToggleRelaxing
-            | Action::ToggleDrape
-            | Action::StepDrape
-            | Action::Map(Some(_)) => unless(self.dressed, "There is no cloth on the body"),
-            Action::ToggleDifference | Action::ChangeSides | Action::CloseComparison => {
-                unless(self.difference.is_some(), "Nothing is shown beside: compare first")
-            }
-            Action::DeleteMark | Action::RaiseMark | Action::LowerMark => match &self.selected {
-                None => Some("No mark is selected: click one"),
-                Some((_, place)) if action == Action::RaiseMark => {
-                    unless(place.number > 1, "It is the first")
-                }
-                Some((_, place)) if action == Action::LowerMark => {
-                    unless(place.number < place.count, "It is the last")
-                }
-                Some(_) => None,
-            },
-            Action::Delete => unless(self.selected.is_some() || self.picked.deletable, "Nothing is selected"),
-            Action::SelectAll => unless(self.pieces > 0, "There is no piece on the table"),
-            Action::Duplicate
-            | Action::Twin
-            | Action::MakeSymmetric
-            | Action::TurnOver
-            | Action::ToggleFrozen
-            | Action::ToggleDeactivated
-            | Action::Hide => unless(self.picked.pieces > 0, "No piece is selected"),
-            Action::ToggleLock => {
-                unless(self.picked.pieces + self.picked.pins > 0, "No piece or pin is selected")
-            }
-            Action::Unfold => unless(self.picked.straight, "Select a straight edge of an outline first"),
-            Action::Fold => unless(self.picked.symmetric, "Select a symmetric piece first"),
-            Action::Unlink => unless(self.picked.linked, "Select a twin or a symmetric piece first"),
-            Action::ShowPieces => unless(self.picked.hidden, "No piece is hidden"),
-            Action::InsertPoint | Action::Straighten | Action::Curve | Action::Arc => {
-                unless(self.picked.edges > 0, "No edge is selected")
-            }
-            Action::ToggleSmooth => unless(self.picked.points > 0, "No point is selected"),
-            Action::TurnSeam | Action::MakeEqual | Action::FreeLengths => {
-                unless(self.picked.seams > 0, "No seam is selected")
-            }
-            Action::Untwist => unless(self.twisted, "No seam is twisted"),
-            Action::ClearMarks => unless(self.marks[0] + self.marks[1] > 0, "There are no marks"),
-            _ => None,
+            Need::Pins => (self.pins > 0, "There are no pins"),
+            Need::Comparison => (self.difference.is_some(), "Nothing is shown beside: compare first"),
+            Need::Selection => (self.selected.is_some() || picked.deletable, "Nothing is selected"),
+            Need::PickedPiece => (picked.pieces > 0, "No piece is selected"),
+            Need::PickedPieceOrPin => (picked.pieces + picked.pins > 0, "No piece or pin is selected"),
+            Need::PickedStraight => (picked.straight, "Select a straight edge of an outline first"),
+            Need::PickedSymmetric => (picked.symmetric, "Select a symmetric piece first"),
+            Need::PickedLinked => (picked.linked, "Select a twin or a symmetric piece first"),
+            Need::Standing => (picked.standing, "No piece that stands round the body is selected"),
+            Need::PickedEdge => (picked.edges > 0, "No edge is selected"),
+            Need::PickedPoint => (picked.points > 0, "No point is selected"),
+            Need::PickedSeam => (picked.seams > 0, "No seam is selected"),
+            Need::Hidden => (picked.hidden, "No piece is hidden"),
+            Need::Twisted => (self.twisted, "No seam is twisted"),
+        };
+        (!is_there).then_some(words)
+    }
+
+    fn lacks_file(&self, action: Action) -> Option<&'static str> {
+        let Action::OpenRecent(i) = action else { return None };
+        match self.recent.get(usize::from(i)) {
+            None => Some("No such file was open"),
+            Some(file) => (!file.is_there).then_some("The file is no longer there"),
         }
+    }
+
+    /// Whether physics moves the cloth.
+    fn drapes(&self) -> bool {
+        self.drape.is_some_and(|drape| drape.on && drape.runs)
     }
 
     /// Whether there is a pair of marks.
@@ -265,7 +232,7 @@ impl FrameContext {
             Action::ToggleSnapping => self.snapping,
             Action::Unit(unit) => self.unit == unit,
             Action::ToggleRelaxing => self.relaxing,
-            Action::ToggleDrape => self.drape.is_some_and(|drape| drape.on && drape.runs),
+            Action::ToggleDrape => self.drapes(),
             Action::ToggleCloth => self.show_cloth,
             Action::TogglePanel => self.show_panel,
             Action::Show(panes) => self.layout.panes == panes,
@@ -289,7 +256,7 @@ impl FrameContext {
 
     /// The text of `action`, with what undo and redo are about.
     pub fn text(&self, action: Action) -> String {
-        let plain = action.entry().text;
+        let plain = action.row().text;
         if let Action::OpenRecent(i) = action
             && let Some(file) = self.recent.get(usize::from(i))
         {

@@ -6,7 +6,7 @@ use egui::{Key, KeyboardShortcut, Modifiers};
 use serde::{Deserialize, Serialize};
 
 use crate::ui::actions::Action;
-use crate::ui::actions::catalogue::ALL;
+use crate::ui::actions::rows::all;
 
 /// Keys of the person's own; every other action has those of the table.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -21,14 +21,14 @@ impl Keymap {
     pub fn keys(&self, action: Action) -> Vec<KeyboardShortcut> {
         match self.own.get(&action.id()) {
             Some(own) => own.iter().filter_map(|text| read(text)).collect(),
-            None => action.entry().keys,
+            None => action.row().keys.to_vec(),
         }
     }
 
     /// Everything with keys, longest combinations first so that Ctrl+Shift+Z is not taken for Ctrl+Z.
     pub fn bound(&self) -> Vec<(Action, KeyboardShortcut)> {
         let mut all: Vec<(Action, KeyboardShortcut)> =
-            ALL.iter().flat_map(|&action| self.keys(action).into_iter().map(move |k| (action, k))).collect();
+            all().flat_map(|action| self.keys(action).into_iter().map(move |k| (action, k))).collect();
         all.sort_by_key(|(_, k)| {
             3 - [k.modifiers.shift, k.modifiers.command, k.modifiers.alt].iter().filter(|m| **m).count()
         });
@@ -72,7 +72,7 @@ impl Keymap {
     }
 
     fn set(&mut self, action: Action, keys: Vec<String>) {
-        let usual: Vec<String> = action.entry().keys.into_iter().map(written).collect();
+        let usual: Vec<String> = action.row().keys.iter().copied().map(written).collect();
         if keys == usual {
             self.own.remove(&action.id());
         } else {
@@ -122,7 +122,7 @@ pub fn pressed(key: Key, held: Modifiers) -> KeyboardShortcut {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ui::actions::{ctrl, ctrl_shift};
+    use crate::ui::actions::row::{ctrl, ctrl_shift};
 
     #[test]
     fn no_key_does_two_things() {

@@ -42,7 +42,7 @@ impl App {
 
     /// Carries out `action`.
     pub(in crate::ui) fn act_unguarded(&mut self, ctx: &egui::Context, action: Action) {
-        if self.shell.start.is_some() && !action.stays_on_start_page() {
+        if self.shell.start.is_some() && !action.row().on_start_page {
             self.leave_start_page();
         }
         match action {

@@ -29,7 +29,7 @@ impl App {
             .show(ui, |ui| {
                 ui.horizontal(|ui| {
                     for action in [Action::ToggleHistory, Action::ToggleLog, Action::ToggleMapTable] {
-                        let tab = egui::Button::selectable(now.is_on(action), action.entry().text);
+                        let tab = egui::Button::selectable(now.is_on(action), action.row().text);
                         if ui.add(tab).clicked() && !now.is_on(action) {
                             asks.push(Ask::Act(action));
                         }

@@ -2,9 +2,9 @@
 
 use egui::{Key, KeyboardShortcut, Modifiers};
 
-use crate::ui::actions::Action;
 use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::actions::context::FrameContext;
+use crate::ui::actions::{Action, is_plain};
 use crate::ui::app::App;
 
 impl App {
@@ -23,7 +23,7 @@ impl App {
         let at_table = table.hovered || table.has_focus(ctx);
         if now.proposed > 0 && !menu && !drawing {
             for action in [Action::AcceptMarks, Action::DismissMarks] {
-                let keys = action.entry().keys;
+                let keys = action.row().keys;
                 let wanted = |k: &KeyboardShortcut| !(focused && k.logical_key == Key::Enter);
                 if keys.iter().filter(|k| wanted(k)).any(|k| ctx.input_mut(|i| i.consume_shortcut(k))) {
                     asks.push(Ask::Act(action));
@@ -39,10 +39,10 @@ impl App {
             // stroke.
             let of_table = [Key::Enter, Key::Backspace, Key::Delete].contains(&keys.logical_key);
             let is_figure = keys.logical_key.symbol_or_name().parse::<u8>().is_ok();
-            if self.shell.start.is_some() && !(action.stays_on_start_page() || action == Action::New) {
+            if self.shell.start.is_some() && !(action.row().on_start_page || action == Action::New) {
                 continue;
             }
-            let taken = Action::is_plain(keys)
+            let taken = is_plain(keys)
                 && (menu
                     || (focused && [Key::Enter, Key::Space].contains(&keys.logical_key))
                     || (table.is_busy() && of_table)

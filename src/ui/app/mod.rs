@@ -294,7 +294,7 @@ impl App {
         self.messages.ui(&ctx, &palette, status::HEIGHT);
         if let (Some((player, ..)), Some(table)) = (&self.demo, self.pattern_pane.area) {
             player.ui(&ctx, &palette, table, &mut asks);
-            asks.retain(|ask| matches!(ask, Ask::Act(action) if action.is_for_demos()));
+            asks.retain(|ask| matches!(ask, Ask::Act(action) if action.row().in_demos));
         }
         if !asks.is_empty() {
             // This frame showed how things stood before.

@@ -78,7 +78,7 @@ impl PicturePage {
                 let label = ui.label("Seen");
                 let words = |view: Option<View>| match view {
                     None => "as now",
-                    Some(view) => Action::Look(view).entry().text,
+                    Some(view) => Action::Look(view).row().text,
                 };
                 let combo = ComboBox::from_id_salt("side").selected_text(words(options.view));
                 let shown = combo.show_ui(ui, |ui| {

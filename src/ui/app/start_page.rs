@@ -76,7 +76,7 @@ impl App {
             let keys = now.keymap.keys(action);
             let keys = keys.first().map(|k| ui.ctx().format_shortcut(k)).unwrap_or_default();
             let button = egui::Button::new(label).fill(fill).shortcut_text(keys).min_size(wide);
-            let response = ui.add(button).on_hover_text(action.entry().tip);
+            let response = ui.add(button).on_hover_text(action.row().tip);
             response.widget_info(|| WidgetInfo::labeled(egui::accesskit::Role::Button, true, text));
             if response.clicked() {
                 asks.push(Ask::Act(action));
@@ -87,7 +87,7 @@ impl App {
             ui.label(RichText::new("Open before").strong().size(15.0));
             if !now.recent.is_empty() {
                 ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-                    let clear = ui.small_button("Clear").on_hover_text(Action::ClearRecent.entry().tip);
+                    let clear = ui.small_button("Clear").on_hover_text(Action::ClearRecent.row().tip);
                     if clear.clicked() {
                         asks.push(Ask::Act(Action::ClearRecent));
                     }
@@ -181,7 +181,7 @@ impl App {
                 let at = Pos2::new(rect.center().x, rect.bottom() - 16.0);
                 let ink = ui.visuals().text_color();
                 ui.painter().text(at, Align2::CENTER_CENTER, name, FontId::proportional(14.0), ink);
-                if response.on_hover_text(Action::Sample(sample).entry().tip).clicked() {
+                if response.on_hover_text(Action::Sample(sample).row().tip).clicked() {
                     asks.push(Ask::Act(Action::Sample(sample)));
                 }
             }

@@ -48,7 +48,7 @@ pub(super) fn view_cube(ui: &mut egui::Ui, pane: Rect, camera: &Camera, palette:
         // For the keyboard and screen readers each side is a button, whichever way it looks.
         let spot = Rect::from_center_size(centre, egui::Vec2::splat(if facing > 0.3 { 12.0 } else { 1.0 }));
         let button = ui.interact(spot, ui.scope_id().with(("side of the view cube", i)), Sense::click());
-        let entry = Action::Look(side.view).entry();
+        let entry = Action::Look(side.view).row();
         button.widget_info(|| {
             WidgetInfo::labeled(
                 Role::Button,
@@ -82,7 +82,7 @@ pub(super) fn view_cube(ui: &mut egui::Ui, pane: Rect, camera: &Camera, palette:
 
 impl Side {
     fn view_tip(&self) -> &'static str {
-        Action::Look(self.view).entry().tip
+        Action::Look(self.view).row().tip
     }
 }
 

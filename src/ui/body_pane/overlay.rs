@@ -27,7 +27,7 @@ pub(super) fn view_buttons(ui: &mut egui::Ui, pane: Rect, seen: &Seen<'_>, asks:
             (Action::ToggleSheer, sheer),
             (Action::ToggleWire, wire),
         ] {
-            let entry = action.entry();
+            let entry = action.row();
             let text = egui::RichText::new(entry.text).size(12.5);
             let button = egui::Button::new(text).selected(on).small();
             let button = if on { button } else { button.fill(seen.palette.overlay) };

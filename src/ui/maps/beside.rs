@@ -60,7 +60,7 @@ fn bar_ui(ui: &mut egui::Ui, beside: &Comparison, on_the_left: bool, asks: &mut 
     ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
         close_ui(ui, asks);
         let side = if on_the_left { "To the right" } else { "To the left" };
-        let change = ui.button(side).on_hover_text(Action::ChangeSides.entry().tip);
+        let change = ui.button(side).on_hover_text(Action::ChangeSides.row().tip);
         if change.clicked() {
             asks.push(Ask::Act(Action::ChangeSides));
         }

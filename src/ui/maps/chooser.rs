@@ -21,7 +21,7 @@ pub fn chooser_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) {
         let shown = combo.show_ui(ui, |ui| {
             for kind in choices() {
                 let action = Action::Map(kind);
-                if ui.selectable_label(now.map == kind, action.entry().text).clicked() {
+                if ui.selectable_label(now.map == kind, action.row().text).clicked() {
                     asks.push(Ask::Act(action));
                 }
             }

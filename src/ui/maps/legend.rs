@@ -160,7 +160,7 @@ fn range_ui(ui: &mut egui::Ui, map: &ShownMap, palette: &Palette, asks: &mut Ask
             asks.push(Ask::MapRange(map.kind(), (!automatic).then_some([from, to])));
         }
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            let entry = Action::ToggleMapTable.entry();
+            let entry = Action::ToggleMapTable.row();
             if ui.small_button("Table").on_hover_text(entry.tip).clicked() {
                 asks.push(Ask::Act(Action::ToggleMapTable));
             }

@@ -21,8 +21,8 @@ pub fn fabric_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, asks: &mut Asks) {
     ui.add_space(2.0);
     let step = Action::StepDrape;
     let why_not = told.now.why_not(step);
-    let button = egui::Button::new(step.entry().text).small();
-    let response = ui.add_enabled(why_not.is_none(), button).on_hover_text(step.entry().tip);
+    let button = egui::Button::new(step.row().text).small();
+    let response = ui.add_enabled(why_not.is_none(), button).on_hover_text(step.row().tip);
     if response.on_disabled_hover_text(why_not.unwrap_or_default()).clicked() {
         asks.push(Ask::Act(step));
     }

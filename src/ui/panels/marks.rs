@@ -56,7 +56,7 @@ impl MarksPanel {
             None => self.typed = None,
         }
         ui.add_space(2.0);
-        if ui.small_button(Action::ClearMarks.entry().text).clicked() {
+        if ui.small_button(Action::ClearMarks.row().text).clicked() {
             asks.push(Ask::Act(Action::ClearMarks));
         }
     }
@@ -146,9 +146,9 @@ impl MarksPanel {
 fn action_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, action: Action, text: &str, asks: &mut Asks) {
     let why_not = told.now.why_not(action);
     let button = ui.add_enabled(why_not.is_none(), Button::new(text).small());
-    name(&button, action.entry().text);
+    name(&button, action.row().text);
     let button = button.on_disabled_hover_text(why_not.unwrap_or_default());
-    if button.on_hover_text(action.entry().tip).clicked() {
+    if button.on_hover_text(action.row().tip).clicked() {
         asks.push(Ask::Act(action));
     }
 }
@@ -162,7 +162,7 @@ fn proposal_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, asks: &mut Asks) {
     ui.horizontal(|ui| {
         for (action, fill) in [(Action::AcceptMarks, Some(told.palette.accent)), (Action::DismissMarks, None)]
         {
-            let entry = action.entry();
+            let entry = action.row();
             let button = match fill {
                 Some(fill) => Button::new(RichText::new(entry.text).color(told.palette.on_accent)).fill(fill),
                 None => Button::new(entry.text),

@@ -222,7 +222,7 @@ fn row(ui: &mut egui::Ui, told: &PanelContext<'_>, item: Item, text: RichText, w
 fn action_row(ui: &mut egui::Ui, told: &PanelContext<'_>, actions: &[Action], asks: &mut Asks) {
     ui.horizontal_wrapped(|ui| {
         for &action in actions.iter().filter(|&&action| told.now.why_not(action).is_none()) {
-            let entry = action.entry();
+            let entry = action.row();
             if ui.small_button(entry.text).on_hover_text(entry.tip).clicked() {
                 asks.push(Ask::Act(action));
             }
@@ -242,8 +242,8 @@ fn activity_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, pieces: &[PieceId], a
         ui.spacing_mut().item_spacing.x = 2.0;
         for (activity, text, tip) in [
             (Activity::Active, "Active", "Draping and relaxing move it"),
-            (Activity::Frozen, "Frozen", Action::ToggleFrozen.entry().tip),
-            (Activity::Deactivated, "Deactivated", Action::ToggleDeactivated.entry().tip),
+            (Activity::Frozen, "Frozen", Action::ToggleFrozen.row().tip),
+            (Activity::Deactivated, "Deactivated", Action::ToggleDeactivated.row().tip),
         ] {
             let is_so = told.now.picked.activity == Some(activity);
             if ui.selectable_label(is_so, text).on_hover_text(tip).clicked() && !is_so {
@@ -309,7 +309,7 @@ fn point_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, point: PointRef, asks: &
         }
     });
     let mut smooth = edge.smooth;
-    if ui.checkbox(&mut smooth, "Smooth").on_hover_text(Action::ToggleSmooth.entry().tip).changed() {
+    if ui.checkbox(&mut smooth, "Smooth").on_hover_text(Action::ToggleSmooth.row().tip).changed() {
         asks.push(ask(vec![PatternEdit::SetSmooth { point, smooth }]));
     }
 }

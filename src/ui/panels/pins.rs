@@ -26,10 +26,9 @@ pub fn pins_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, asks: &mut Asks) {
                 let none = action == Action::ToggleLock && told.selection.pins.is_empty();
                 none.then_some("No pin is selected")
             });
-            let text = action.entry().text;
+            let text = action.row().text;
             let button = ui.add_enabled(why_not.is_none(), Button::new(text).small());
-            let button =
-                button.on_hover_text(action.entry().tip).on_disabled_hover_text(why_not.unwrap_or(""));
+            let button = button.on_hover_text(action.row().tip).on_disabled_hover_text(why_not.unwrap_or(""));
             if button.clicked() {
                 asks.push(Ask::Act(action));
             }

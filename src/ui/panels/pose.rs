@@ -106,7 +106,7 @@ impl PosePanel {
     /// The way to a pose from a file, or through a motion.
     fn files_ui(&mut self, ui: &mut egui::Ui, told: &PanelContext<'_>, asks: &mut Asks) {
         ui.add_space(4.0);
-        if ui.button("From a file…").on_hover_text(Action::PoseFromFile.entry().tip).clicked() {
+        if ui.button("From a file…").on_hover_text(Action::PoseFromFile.row().tip).clicked() {
             asks.push(Ask::Act(Action::PoseFromFile));
         }
         if let Some(aim) = &told.document.aim {

@@ -33,7 +33,7 @@ impl SizePanel {
     pub fn ui(&self, ui: &mut egui::Ui, told: &PanelContext<'_>, asks: &mut Asks) {
         let enabled = !told.now.wrapping && !told.now.demo;
         ui.add_enabled_ui(enabled, |ui| {
-            if ui.button("From a table of sizes…").on_hover_text(Action::Sizes.entry().tip).clicked() {
+            if ui.button("From a table of sizes…").on_hover_text(Action::Sizes.row().tip).clicked() {
                 asks.push(Ask::Act(Action::Sizes));
             }
             let Some((name, sizes)) = &self.table else { return };

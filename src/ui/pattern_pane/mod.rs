@@ -481,7 +481,7 @@ pub fn empty_ui(ui: &mut egui::Ui, asks: &mut Asks) {
         if ui.button("Open the T-shirt").clicked() {
             asks.push(Ask::Act(Action::Sample(Sample::Tshirt)));
         }
-        if ui.button(Action::ImportPattern.entry().text).clicked() {
+        if ui.button(Action::ImportPattern.row().text).clicked() {
             asks.push(Ask::Act(Action::ImportPattern));
         }
     });

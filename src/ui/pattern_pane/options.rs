@@ -55,7 +55,7 @@ pub fn options_ui(ui: &mut egui::Ui, table: &Table<'_>, options: &mut Options, a
                         let words =
                             if twisted == 1 { "1 twisted seam" } else { &format!("{twisted} twisted seams") };
                         ui.label(RichText::new(words).color(palette.error).size(12.5));
-                        let entry = Action::Untwist.entry();
+                        let entry = Action::Untwist.row();
                         let keys =
                             entry.keys.first().map(|k| ui.ctx().format_shortcut(k)).unwrap_or_default();
                         if ui

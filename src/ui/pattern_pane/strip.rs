@@ -49,7 +49,7 @@ pub fn strip_ui(ui: &mut egui::Ui, strip: Rect, laid: &Laid<'_>, asks: &mut Asks
 
 fn button(ui: &mut egui::Ui, laid: &Laid<'_>, tool: Tool, asks: &mut Asks) {
     let action = Action::Choose(tool);
-    let entry = action.entry();
+    let entry = action.row();
     let (rect, response) = ui.allocate_exact_size(Vec2::splat(SIZE), Sense::click());
     let chosen = laid.tool == tool;
     response.widget_info(|| WidgetInfo::selected(egui::accesskit::Role::Button, true, chosen, entry.text));

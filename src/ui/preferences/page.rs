@@ -5,8 +5,8 @@ use std::sync::Arc;
 use egui::{ComboBox, DragValue, Event, Id, Key, KeyboardShortcut, Modal, RichText, ScrollArea, TextEdit};
 
 use crate::ui::actions::Action;
-use crate::ui::actions::catalogue::ALL;
 use crate::ui::actions::keymap::{Keymap, pressed};
+use crate::ui::actions::rows::all;
 use crate::ui::look::signs::{Sign, sign_button};
 use crate::ui::look::theme::Palette;
 use crate::ui::pointer::mouse::Mouse;
@@ -98,12 +98,12 @@ impl PreferencesPage {
         self.conflict_ui(ui, preferences, palette);
         let filter = self.filter.to_lowercase();
         let wanted = |action: &Action| {
-            let entry = action.entry();
-            format!("{} {}", action.menu(), entry.text).to_lowercase().contains(&filter)
+            let entry = action.row();
+            format!("{} {}", action.row().menu, entry.text).to_lowercase().contains(&filter)
         };
         ScrollArea::vertical().max_height(height - 40.0).auto_shrink([false, false]).show(ui, |ui| {
             egui::Grid::new("own keys").num_columns(3).striped(true).spacing([16.0, 4.0]).show(ui, |ui| {
-                for &action in ALL.iter().filter(|a| wanted(a)) {
+                for action in all().filter(wanted) {
                     self.key_row(ui, action, &mut preferences.keymap, palette);
                     ui.end_row();
                 }
@@ -112,10 +112,10 @@ impl PreferencesPage {
     }
 
     fn key_row(&mut self, ui: &mut egui::Ui, action: Action, keymap: &mut Arc<Keymap>, palette: &Palette) {
-        let entry = action.entry();
+        let entry = action.row();
         ui.horizontal(|ui| {
             ui.spacing_mut().item_spacing.x = 0.0;
-            ui.label(RichText::new(format!("{} › ", action.menu())).color(palette.weak));
+            ui.label(RichText::new(format!("{} › ", action.row().menu)).color(palette.weak));
             ui.label(entry.text).on_hover_text(entry.tip);
         });
         let keys: Vec<String> = keymap.keys(action).iter().map(|k| ui.ctx().format_shortcut(k)).collect();
@@ -152,14 +152,14 @@ impl PreferencesPage {
     /// A key that is wanted for two things.
     fn conflict_ui(&mut self, ui: &mut egui::Ui, preferences: &mut Preferences, palette: &Palette) {
         let Some((action, keys, others)) = &self.taken else { return };
-        let names: Vec<&str> = others.iter().map(|other| other.entry().text).collect();
+        let names: Vec<&str> = others.iter().map(|other| other.row().text).collect();
         let (key, action, keys) = (ui.ctx().format_shortcut(keys), *action, *keys);
         ui.horizontal_wrapped(|ui| {
             ui.label(
                 RichText::new(format!("{key} is the key of {} already.", names.join(", ")))
                     .color(palette.warning),
             );
-            let give = ui.button(format!("Use it for {}", action.entry().text)).clicked();
+            let give = ui.button(format!("Use it for {}", action.row().text)).clicked();
             if give {
                 Arc::make_mut(&mut preferences.keymap).bind(action, keys);
             }

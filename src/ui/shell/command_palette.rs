@@ -6,8 +6,8 @@ use nucleo_matcher::{Config, Matcher, Utf32Str};
 
 use crate::ui::actions::Action;
 use crate::ui::actions::asks::{Ask, Asks};
-use crate::ui::actions::catalogue::ALL;
 use crate::ui::actions::context::FrameContext;
+use crate::ui::actions::rows::all;
 use crate::ui::look::theme::Palette;
 
 /// Width of the list, points.
@@ -107,7 +107,7 @@ impl CommandPalette {
 fn choose(action: Action, now: &FrameContext, asks: &mut Asks) {
     asks.push(match now.why_not(action) {
         None => Ask::Act(action),
-        Some(why) => Ask::Say(format!("{}: {why}.", action.entry().text)),
+        Some(why) => Ask::Say(format!("{}: {why}.", action.row().text)),
     });
 }
 
@@ -125,7 +125,7 @@ fn row_ui(
     let mut text = egui::text::LayoutJob::default();
     let font = egui::TextStyle::Button.resolve(ui.style());
     let format = |color| egui::TextFormat { font_id: font.clone(), color, ..Default::default() };
-    text.append(&format!("{} › ", action.menu()), 0.0, format(palette.weak));
+    text.append(&format!("{} › ", action.row().menu), 0.0, format(palette.weak));
     text.append(&now.text(action), 0.0, format(ink));
     let button = egui::Button::selectable(chosen, text)
         .shortcut_text(egui::RichText::new(right).color(palette.weak))
@@ -139,7 +139,7 @@ fn row_ui(
     response.widget_info(|| {
         egui::WidgetInfo::selected(egui::accesskit::Role::ListBoxOption, why_not.is_none(), chosen, &name)
     });
-    response.on_hover_text(action.entry().tip)
+    response.on_hover_text(action.row().tip)
 }
 
 /// The commands that `text` may mean, the likeliest first; all of them for an empty one.
@@ -148,9 +148,7 @@ pub fn found(text: &str, now: &FrameContext) -> Vec<Action> {
     let mut matcher = Matcher::new(Config::DEFAULT);
     let mut buffer = Vec::new();
     let recent = (0..now.recent.len() as u8).map(Action::OpenRecent);
-    let mut all: Vec<(u32, Action)> = ALL
-        .iter()
-        .copied()
+    let mut all: Vec<(u32, Action)> = all()
         .chain(recent)
         .filter(|action| *action != Action::CommandPalette)
         .filter_map(|action| {
@@ -160,7 +158,7 @@ pub fn found(text: &str, now: &FrameContext) -> Vec<Action> {
                 pattern.score(Utf32Str::new(words, &mut buffer), &mut matcher)
             };
             let name = score(&now.text(action)).map(|s| s * 4);
-            let place = score(&format!("{} {}", action.menu(), now.text(action))).map(|s| s * 2);
+            let place = score(&format!("{} {}", action.row().menu, now.text(action))).map(|s| s * 2);
             name.max(place).map(|score| (score, action))
         })
         .collect();

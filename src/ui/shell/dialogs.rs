@@ -384,11 +384,11 @@ fn shortcuts_ui(ctx: &egui::Context, mouse: Mouse, keymap: &Keymap) -> Answer {
             ui.strong("Keys");
             egui::Grid::new("keys").num_columns(3).spacing([24.0, 5.0]).striped(true).show(ui, |ui| {
                 let mut all = keymap.bound();
-                all.sort_by_key(|(action, _)| action.entry().text);
+                all.sort_by_key(|(action, _)| action.row().text);
                 for (action, keys) in all {
                     ui.label(ctx.format_shortcut(&keys));
-                    ui.label(action.entry().text);
-                    ui.label(action.entry().tip);
+                    ui.label(action.row().text);
+                    ui.label(action.row().tip);
                     ui.end_row();
                 }
             });

@@ -53,7 +53,7 @@ fn gap(ui: &mut egui::Ui) {
 }
 
 fn plain(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks, action: Action, text: Option<&str>) -> Id {
-    let entry = action.entry();
+    let entry = action.row();
     let button =
         Button::new(text.unwrap_or(entry.text)).selected(now.is_on(action)).min_size(egui::vec2(0.0, HEIGHT));
     press(ui, now, asks, action, button)
@@ -67,7 +67,7 @@ fn primary(
     fill: egui::Color32,
     palette: &Palette,
 ) {
-    let mut text = RichText::new(action.entry().text).size(15.5).strong();
+    let mut text = RichText::new(action.row().text).size(15.5).strong();
     let mut button_fill = ui.visuals().widgets.inactive.weak_bg_fill;
     if now.why_not(action).is_none() {
         text = text.color(palette.on_accent);
@@ -81,7 +81,7 @@ fn primary(
 }
 
 fn press(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks, action: Action, button: Button<'_>) -> Id {
-    let entry = action.entry();
+    let entry = action.row();
     let why_not = now.why_not(action);
     let keys = now.keymap.keys(action).first().map(|k| format!("  ({})", ui.ctx().format_shortcut(k)));
     let tip = match action {

@@ -1,0 +1,97 @@
+//! The table of everything that can be chosen: menus, buttons, tooltips, keys and the command palette all read it.
+
+mod edit;
+mod file;
+mod garment;
+mod help;
+mod pattern;
+mod view;
+
+use std::sync::LazyLock;
+
+use crate::fit::MapKind;
+use crate::render::View;
+use crate::session::demos::Demo;
+use crate::session::samples::Sample;
+use crate::ui::actions::Action;
+use crate::ui::actions::row::{Need, Row, row};
+use crate::ui::pointer::mouse::Mouse;
+use crate::ui::preferences::units::LengthUnit;
+
+static ROWS: LazyLock<Vec<Row>> = LazyLock::new(|| {
+    let mut rows = [file::ROWS, edit::ROWS, pattern::ROWS, garment::ROWS, view::ROWS, help::ROWS].concat();
+    rows.extend(Sample::ALL.map(|sample| {
+        row("File › Samples", Action::Sample(sample), sample.name(), "Open this sample with its marks")
+    }));
+    rows.extend(MapKind::ALL.map(|kind| {
+        let map = row("View › Map", Action::Map(Some(kind)), kind.title(), kind.tip());
+        map.needs(&[Need::Dressed]).in_demos()
+    }));
+    rows.extend(LengthUnit::ALL.map(|unit| {
+        let row = row("View › Unit", Action::Unit(unit), unit.name(), "Show lengths in this unit");
+        row.in_demos().on_start_page()
+    }));
+    rows.extend(Mouse::ALL.map(|mouse| {
+        row("View › Mouse", Action::Mouse(mouse), mouse.name(), mouse.tip()).in_demos().on_start_page()
+    }));
+    rows.extend(
+        Demo::ALL.map(|demo| row("Help › Demos", Action::Demo(demo), demo.name(), demo.tells()).in_demos()),
+    );
+    rows
+});
+
+/// A view without a name of its own.
+static OTHER_VIEW: Row =
+    row("View", Action::Look(View::ThreeQuarter), "View", "Look from there").in_demos().aside();
+
+/// Everything that can be chosen at any time. Not proposed marks, whose keys come before all others while there are any,
+/// and not files opened before.
+pub fn all() -> impl Iterator<Item = Action> {
+    ROWS.iter().filter(|row| !row.aside).map(|row| row.action)
+}
+
+impl Action {
+    /// What is known of it.
+    pub fn row(self) -> &'static Row {
+        let known = match self {
+            Self::OpenRecent(_) => Self::OpenRecent(0),
+            action => action,
+        };
+        ROWS.iter().find(|row| row.action == known).unwrap_or(&OTHER_VIEW)
+    }
+
+    /// Its name in files: stays the same whatever language people speak.
+    pub fn id(self) -> String {
+        format!("{self:?}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_action_is_there_once_and_says_what_it_does() {
+        for (i, row) in ROWS.iter().enumerate() {
+            assert!(
+                ROWS[i + 1..].iter().all(|other| other.action != row.action),
+                "{:?} is there twice",
+                row.action
+            );
+            assert!(!row.menu.is_empty() && !row.text.is_empty() && !row.tip.is_empty(), "{:?}", row.action);
+            assert!(row.tip.ends_with(|c: char| c != '.'), "{:?}: tips have no full stop", row.action);
+        }
+        let count = |is: fn(&Action) -> bool| all().filter(is).count();
+        assert_eq!(count(|action| matches!(action, Action::Sample(_))), Sample::ALL.len());
+        assert_eq!(count(|action| matches!(action, Action::Map(Some(_)))), MapKind::ALL.len());
+        assert_eq!(count(|action| matches!(action, Action::Demo(_))), Demo::ALL.len());
+    }
+
+    #[test]
+    fn no_keys_do_two_things() {
+        let keys: Vec<_> = ROWS.iter().filter(|row| !row.aside).flat_map(|row| row.keys).collect();
+        for (i, one) in keys.iter().enumerate() {
+            assert!(!keys[i + 1..].contains(one), "{one:?}");
+        }
+    }
+}

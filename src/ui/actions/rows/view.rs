@@ -1,0 +1,158 @@
+//! How everything is looked at.
+
+use egui::{Key, ThemePreference};
+
+use crate::render::View;
+use crate::ui::actions::Action;
+use crate::ui::actions::layout::Panes;
+use crate::ui::actions::row::{Need, Row, ctrl, key, row, shift};
+
+/// Each of them, in the order of the menus.
+pub const ROWS: &[Row] = &[
+    row("View", Action::Look(View::Front), "Front", "Look from the front").keys(&[key(Key::Num1)]).in_demos(),
+    row("View", Action::Look(View::Back), "Back", "Look from behind").keys(&[ctrl(Key::Num1)]).in_demos(),
+    row("View", Action::Look(View::Left), "Left", "Look from the body's left")
+        .keys(&[ctrl(Key::Num3)])
+        .in_demos(),
+    row("View", Action::Look(View::Right), "Right", "Look from the body's right")
+        .keys(&[key(Key::Num3)])
+        .in_demos(),
+    row("View", Action::Look(View::Top), "Top", "Look from above").keys(&[key(Key::Num7)]).in_demos(),
+    row("View", Action::Look(View::Below), "Below", "Look from below").keys(&[ctrl(Key::Num7)]).in_demos(),
+    row(
+        "View",
+        Action::Look(View::ThreeQuarter),
+        "Three-quarter",
+        "Look from the front and left, a little above",
+    )
+    .keys(&[key(Key::Num2)])
+    .in_demos(),
+    row("View", Action::FrameAll, "Show all", "Fit everything in the pane under the pointer")
+        .keys(&[key(Key::Home)])
+        .in_demos(),
+    row(
+        "View",
+        Action::FrameSelection,
+        "Show the selection",
+        "Fit what is selected in the pane under the pointer, or everything where nothing is",
+    )
+    .keys(&[key(Key::F), key(Key::Period), shift(Key::F)])
+    .in_demos(),
+    row(
+        "View",
+        Action::TrueSize,
+        "True size",
+        "Show the pattern as large as it is, on a screen that tells its size",
+    )
+    .keys(&[ctrl(Key::Num0)])
+    .in_demos(),
+    row("View", Action::ToggleParallel, "Parallel projection", "Near and far look the same size")
+        .keys(&[key(Key::Num5)])
+        .in_demos(),
+    row(
+        "View",
+        Action::ToggleFreeTurning,
+        "Free turning",
+        "Turn the body like a ball instead of keeping it upright",
+    )
+    .in_demos(),
+    row("View", Action::ToggleCloth, "Show the cloth", "Hide the cloth to paint beneath it")
+        .keys(&[key(Key::H)])
+        .needs(&[Need::Dressed]),
+    row("View", Action::ToggleWire, "Wireframe", "Show the triangles of the cloth")
+        .keys(&[key(Key::W)])
+        .in_demos(),
+    row("View", Action::ToggleSheer, "See through the body", "The body is half transparent")
+        .keys(&[key(Key::Q)])
+        .in_demos(),
+    row(
+        "View",
+        Action::ToggleXray,
+        "X-ray",
+        "Marks, pins and seams show through; hidden ones can be clicked",
+    )
+    .keys(&[key(Key::Y)])
+    .in_demos(),
+    row(
+        "View",
+        Action::TogglePairs,
+        "Pair lines",
+        "Join each mark on the table to its partner on the body until the cloth is dressed",
+    )
+    .in_demos(),
+    row(
+        "View",
+        Action::ToggleSnapping,
+        "Snap",
+        "Points, edges, guides and the grid draw the pointer on; Alt keeps it free",
+    )
+    .keys(&[shift(Key::G)]),
+    row("View", Action::ClearGuides, "Clear guides", "Guides are dragged out of the rulers"),
+    row("View", Action::TogglePanel, "Side panel", "Marks, cloth settings and problems")
+        .keys(&[key(Key::N)])
+        .in_demos(),
+    row("View", Action::Show(Panes::Both), "Pattern and body", "Show both panes side by side")
+        .keys(&[ctrl(Key::F9)]),
+    row("View", Action::Show(Panes::Pattern), "Only the pattern", "The pattern takes the whole window")
+        .keys(&[key(Key::F9)]),
+    row("View", Action::Show(Panes::Body), "Only the body", "The body takes the whole window")
+        .keys(&[key(Key::F10)]),
+    row("View", Action::SwapPanes, "Body on the left", "The panes change places"),
+    row("View", Action::ToggleHistory, "History", "Every step; a click goes back to it"),
+    row("View", Action::ToggleLog, "Messages", "What was told so far, to be read again and copied")
+        .in_demos(),
+    row("View › Map", Action::Map(None), "No map", "Show the cloth in its own colours").in_demos(),
+    row(
+        "View › Map",
+        Action::ToggleMapTable,
+        "Table of the map",
+        "What the map shows, in figures, piece by piece",
+    )
+    .in_demos(),
+    row(
+        "View",
+        Action::Compare,
+        "Compare with…",
+        "Show the dressed garment of another project of this pattern beside, and how the maps differ",
+    )
+    .needs(&[Need::Dressed]),
+    row(
+        "View",
+        Action::ToggleDifference,
+        "Difference",
+        "Colour the cloth by what it has more than the one beside",
+    )
+    .needs(&[Need::Comparison])
+    .in_demos(),
+    row(
+        "View",
+        Action::ChangeSides,
+        "Change sides",
+        "The other garment stands on the other side of this one",
+    )
+    .needs(&[Need::Comparison])
+    .in_demos(),
+    row("View", Action::CloseComparison, "End the comparison", "Show only this garment again")
+        .needs(&[Need::Comparison])
+        .in_demos(),
+    row(
+        "View",
+        Action::NextPane,
+        "Next pane",
+        "Give the keyboard to the pattern, the body, the side panel or the tools",
+    )
+    .keys(&[key(Key::F6)])
+    .in_demos(),
+    row("View", Action::PreviousPane, "Previous pane", "The same, the other way round")
+        .keys(&[shift(Key::F6)])
+        .in_demos(),
+    row("View › Theme", Action::Theme(ThemePreference::Dark), "Dark", "Light text on dark")
+        .in_demos()
+        .on_start_page(),
+    row("View › Theme", Action::Theme(ThemePreference::Light), "Light", "Dark text on light")
+        .in_demos()
+        .on_start_page(),
+    row("View › Theme", Action::Theme(ThemePreference::System), "As the system", "Follow the desktop")
+        .in_demos()
+        .on_start_page(),
+];
