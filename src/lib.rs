@@ -27,8 +27,9 @@
 //! | `io`       | obj, gltf, bvh; patterns as garmentcode json, dxf, svg, pdf: bytes in, checked data out, and back | cloth, body, pattern, geometry |
 //! | `render`   | plain buffers in, pixels out: camera, passes, offscreen target | nothing of ours |
 //! | `trust`    | files damaged at random, and what reads them | session and below, draft |
-//! | `ui`       | egui: app, actions, panes, tools | session and below, place, render |
-//! | `cli`      | one file per subcommand: arguments, calls, printing | session and below, draft, place, render, trust, ui |
+//! | `manual`   | what the program does, topic by topic, for the window and the command line | nothing of ours |
+//! | `ui`       | egui: app, actions, panes, tools | session and below, place, render, manual |
+//! | `cli`      | one file per subcommand: arguments, calls, printing | session and below, draft, place, render, trust, manual, ui |
 //!
 //! Invariants:
 //! - Metres, radians, seconds; right-handed, y up, bodies face +z. Pattern planes have y up and their front towards the reader.
@@ -51,6 +52,7 @@ pub mod drape;
 pub mod fit;
 pub mod geometry;
 pub mod io;
+pub mod manual;
 pub mod pattern;
 pub mod place;
 pub mod relax;

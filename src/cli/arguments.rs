@@ -20,7 +20,7 @@ use crate::sim::Start;
 /// Exit codes: 0 done, 1 a check failed, 2 usage, 3 bad input, 4 over a limit, 5 no graphics, 6 file error, 70 internal
 /// error, 130/143 stopped by a signal.
 #[derive(Debug, Parser)]
-#[command(name = "toile", version, args_conflicts_with_subcommands = true)]
+#[command(name = "toile", version, args_conflicts_with_subcommands = true, disable_help_subcommand = true)]
 pub struct Arguments {
     /// Opens the editor on this project, pattern or sample (sample:NAME); without one, on the start page
     pub project: Option<PathBuf>,
@@ -47,6 +47,14 @@ pub enum Task {
     Compare(Compare),
     Generate(Generate),
     Bench(Bench),
+    Help(Help),
+}
+
+/// The manual: what the program does, topic by topic
+#[derive(Debug, Args)]
+pub struct Help {
+    /// A topic or a command; without one, the topics are listed
+    pub topic: Option<String>,
 }
 
 /// A wrap that is not at rest by then trembles.

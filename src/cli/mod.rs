@@ -13,6 +13,7 @@ mod files;
 mod fit;
 mod formats;
 mod generate;
+mod help;
 mod import;
 mod input;
 mod interrupt;
@@ -88,6 +89,7 @@ fn carry_out(arguments: Arguments) -> Result<(), Failure> {
         Some(Task::Measure(measure)) => measure::measure(&measure),
         Some(Task::Generate(generate)) => generate::generate(&generate),
         Some(Task::Simulate(simulate)) => run::on_threads(simulate.threads, || simulate::simulate(&simulate)),
+        Some(Task::Help(topic)) => help::help(&topic),
         Some(Task::Bench(bench)) => run::on_threads(bench.threads, || bench::bench(&bench)),
     }
 }

@@ -178,6 +178,7 @@ pub enum Action {
     Paper(Paper),
     CommandPalette,
     Shortcuts,
+    Manual,
     Tour,
     Demo(Demo),
     StopDemo,

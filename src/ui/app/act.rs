@@ -181,6 +181,7 @@ impl App {
             | Action::ChangeSides
             | Action::CloseComparison
             | Action::CommandPalette
+            | Action::Manual
             | Action::Tour => self.act_on_shell(ctx, action),
         }
     }

@@ -26,6 +26,7 @@ use crate::ui::preferences::Preferences;
 use crate::ui::preferences::page::PreferencesPage;
 use crate::ui::shell::command_palette::CommandPalette;
 use crate::ui::shell::drop_overlay;
+use crate::ui::shell::manual::ManualPage;
 use crate::ui::shell::status;
 
 /// What stands round the panes.
@@ -37,6 +38,8 @@ pub struct Shell {
     pub tour: Option<Tour>,
     /// Commands by their letters.
     pub palette: Option<CommandPalette>,
+    /// What the program does.
+    pub manual: Option<ManualPage>,
     /// The page of preferences.
     pub preferences: Option<PreferencesPage>,
     /// The question what picture to write.
@@ -71,7 +74,10 @@ pub struct Shell {
 impl Shell {
     /// Whether keys belong to something over the panes.
     pub fn is_asking(&self) -> bool {
-        self.palette.is_some() || self.preferences.is_some() || self.picture.is_some()
+        self.palette.is_some()
+            || self.manual.is_some()
+            || self.preferences.is_some()
+            || self.picture.is_some()
     }
 }
 
@@ -120,6 +126,7 @@ impl App {
             }
             Action::ToggleMapTable => self.shell.drawer = toggled(Drawer::Map),
             Action::CommandPalette => self.shell.palette = Some(CommandPalette::default()),
+            Action::Manual => self.shell.manual = Some(ManualPage::default()),
             Action::Tour => self.begin_tour(),
             _ => {}
         }
@@ -141,6 +148,11 @@ impl App {
             && open.ui(ctx, now, palette, asks)
         {
             self.shell.palette = Some(open);
+        }
+        if let Some(mut open) = self.shell.manual.take()
+            && open.ui(ctx, palette)
+        {
+            self.shell.manual = Some(open);
         }
         self.preferences_ui(ctx, palette);
         self.picture_ui(ctx, palette);

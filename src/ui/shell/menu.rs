@@ -230,7 +230,7 @@ fn view_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) {
 }
 
 fn help_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) {
-    items(ui, now, asks, &[Action::CommandPalette, Action::Shortcuts]);
+    items(ui, now, asks, &[Action::CommandPalette, Action::Manual, Action::Shortcuts]);
     ui.separator();
     items(ui, now, asks, &[Action::Tour]);
     ui.menu_button("Demos", |ui| {

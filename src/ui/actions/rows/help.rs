@@ -3,7 +3,7 @@
 use egui::Key;
 
 use crate::ui::actions::Action;
-use crate::ui::actions::row::{Need, Row, ctrl, key, row};
+use crate::ui::actions::row::{Need, Row, ctrl, key, row, shift};
 
 /// Each of them, in the order of the menus.
 pub const ROWS: &[Row] = &[
@@ -13,6 +13,10 @@ pub const ROWS: &[Row] = &[
         .on_start_page(),
     row("Help", Action::Shortcuts, "Keys and mouse", "What each key and button does")
         .keys(&[key(Key::F1)])
+        .in_demos()
+        .on_start_page(),
+    row("Help", Action::Manual, "Manual", "What the program does, topic by topic")
+        .keys(&[shift(Key::F1)])
         .in_demos()
         .on_start_page(),
     row("Help", Action::Tour, "Tour", "From an empty table to a dressed body in five steps"),

@@ -88,10 +88,35 @@ mod tests {
     }
 
     #[test]
-    fn no_keys_do_two_things() {
-        let keys: Vec<_> = ROWS.iter().filter(|row| !row.aside).flat_map(|row| row.keys).collect();
-        for (i, one) in keys.iter().enumerate() {
-            assert!(!keys[i + 1..].contains(one), "{one:?}");
+    fn what_the_manual_names_can_be_chosen_by_the_keys_it_gives() {
+        use crate::manual::{TOPICS, parts};
+        use crate::ui::actions::keymap::written;
+        for topic in TOPICS {
+            let words = topic.text.replace('`', "'");
+            let all: Vec<(bool, &str)> = parts(&words).collect();
+            for (at, (_, name)) in all.iter().enumerate().filter(|(_, (is_name, _))| *is_name) {
+                let (menu, text) = name.rsplit_once(" ▸ ").unwrap_or(("", name));
+                let found = ROWS.iter().find(|row| row.text == text && row.menu.starts_with(menu));
+                let keys = all.get(at + 1).and_then(|(_, after)| after.strip_prefix(" (")?.split_once(')'));
+                let is_elsewhere = menu.is_empty() && keys.is_none();
+                assert!(
+                    found.is_some() || is_elsewhere || is_submenu(menu, text),
+                    "{}: *{name}*",
+                    topic.name
+                );
+                if let (Some(row), Some((keys, _))) = (found, keys) {
+                    assert!(
+                        row.keys.iter().any(|k| written(*k) == keys),
+                        "{}: *{name}* ({keys})",
+                        topic.name
+                    );
+                }
+            }
         }
+    }
+
+    /// Whether some menu holds a menu called `text`.
+    fn is_submenu(menu: &str, text: &str) -> bool {
+        ROWS.iter().any(|row| row.menu == format!("{menu} › {text}"))
     }
 }

@@ -1,0 +1,162 @@
+//! `toile help`: the manual on standard output.
+
+use clap::CommandFactory;
+
+use crate::cli::arguments::{Arguments, Help};
+use crate::cli::failure::Failure;
+use crate::cli::output;
+use crate::manual::{Block, TOPICS, Topic, plain};
+
+/// Columns of words.
+const WIDTH: usize = 100;
+
+/// Prints the topic that is asked for, or the options of a command; without a name, what there is.
+pub fn help(arguments: &Help) -> Result<(), Failure> {
+    let Some(name) = &arguments.topic else {
+        output::say(&list());
+        return Ok(());
+    };
+    if let Some(topic) = Topic::named(name) {
+        output::say(&text(topic));
+        return Ok(());
+    }
+    let mut command = Arguments::command();
+    let Some(command) = command.find_subcommand_mut(name) else {
+        let names: Vec<&str> = TOPICS.iter().map(|topic| topic.name).collect();
+        return Err(Failure::Usage(format!(
+            "there is no topic {name:?}; there are {}, and the commands that --help lists",
+            names.join(", ")
+        )));
+    };
+    output::say(command.render_long_help().to_string().trim_end());
+    Ok(())
+}
+
+fn list() -> String {
+    let rows = TOPICS.iter().map(|topic| format!("  {:<10} {}\n", topic.name, topic.title()));
+    format!(
+        "Topics:\n{}\ntoile help TOPIC tells about one, toile help COMMAND or toile COMMAND --help about the options of a command.",
+        rows.collect::<String>()
+    )
+}
+
+fn text(topic: &Topic) -> String {
+    let (mut text, mut was_command) = (String::new(), false);
+    for block in topic.blocks() {
+        let is_command = matches!(block, Block::Command(_));
+        if !(text.is_empty() || (is_command && was_command)) {
+            text.push('\n');
+        }
+        was_command = is_command;
+        match block {
+            Block::Heading(depth, words) => {
+                let line = if depth == 1 { "=" } else { "-" };
+                text += &format!("{words}\n{}\n", line.repeat(words.chars().count()));
+            }
+            Block::Words(words) => text += &wrapped(&plain(&words), 0),
+            Block::Item(sign, words) => {
+                text += &wrapped(&format!("{sign} {}", plain(&words)), sign.chars().count() + 1)
+            }
+            Block::Command(words) => text += &format!("    {words}\n"),
+            Block::Table(rows) => text += &table(&rows),
+        }
+    }
+    text.trim_end().to_owned()
+}
+
+/// `words` in lines, all but the first of them set in by so many columns.
+fn wrapped(words: &str, inset: usize) -> String {
+    let (mut lines, mut column) = (String::new(), 0);
+    for word in words.split(' ') {
+        let length = word.chars().count();
+        if column > 0 && column + 1 + length > WIDTH {
+            lines += &format!("\n{}", " ".repeat(inset));
+            column = inset;
+        } else if column > 0 {
+            lines.push(' ');
+            column += 1;
+        }
+        lines += word;
+        column += length;
+    }
+    lines + "\n"
+}
+
+/// Each row's first cell in a column of its own, the rest behind it.
+fn table(rows: &[Vec<String>]) -> String {
+    let first = rows.iter().map(|row| row[0].chars().count()).max().unwrap_or(0);
+    let mut text = String::new();
+    for (i, row) in rows.iter().enumerate() {
+        let rest = row[1..].iter().enumerate().filter(|(_, cell)| !cell.is_empty());
+        let rest: Vec<String> = match (i, row.len()) {
+            (0, _) | (_, 2) => rest.map(|(_, cell)| plain(cell)).collect(),
+            _ => rest.map(|(k, cell)| format!("{}: {}", rows[0][k + 1], plain(cell))).collect(),
+        };
+        if i > 0 {
+            text += &wrapped(&format!("{:<first$}  {}", plain(&row[0]), rest.join("; ")), first + 2);
+        }
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::Parser;
+
+    use super::*;
+
+    /// Command lines of the manual and of the README.
+    fn command_lines() -> Vec<String> {
+        let in_manual = TOPICS.iter().flat_map(|topic| topic.blocks());
+        let in_manual = in_manual.filter_map(|block| match block {
+            Block::Command(line) => Some(line),
+            _ => None,
+        });
+        let in_readme = include_str!("../../README.md")
+            .lines()
+            .filter(|line| line.starts_with("toile "))
+            .map(str::to_owned);
+        in_manual.chain(in_readme).collect()
+    }
+
+    #[test]
+    fn every_command_line_of_the_manual_can_be_typed() {
+        let lines = command_lines();
+        assert!(lines.len() > 30, "{} lines", lines.len());
+        for line in lines {
+            let words = line.split(" #").next().unwrap_or_default().split_whitespace();
+            if let Err(error) = Arguments::try_parse_from(words) {
+                panic!("{line}: {error}");
+            }
+        }
+    }
+
+    #[test]
+    fn options_in_the_words_of_the_manual_are_there() {
+        let known = |option: &str| {
+            let mut command = Arguments::command();
+            command.build();
+            let all = command.get_subcommands().flat_map(|task| task.get_arguments());
+            all.filter_map(clap::Arg::get_long).any(|long| long == option)
+        };
+        for topic in TOPICS {
+            for (at, _) in topic.text.match_indices("`--") {
+                let option: String =
+                    topic.text[at + 3..].chars().take_while(|c| c.is_alphanumeric() || *c == '-').collect();
+                assert!(known(&option), "{}: --{option}", topic.name);
+            }
+        }
+    }
+
+    #[test]
+    fn each_topic_is_a_page_of_short_lines() {
+        for topic in TOPICS {
+            let page = text(topic);
+            assert!(
+                page.lines().all(|line| line.starts_with("    ") || line.chars().count() <= WIDTH),
+                "{page}"
+            );
+            assert!(!page.contains(['*', '`', '|']), "{page}");
+        }
+    }
+}
