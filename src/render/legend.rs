@@ -2,7 +2,7 @@
 
 use image::{Rgba, RgbaImage};
 
-use super::letters::{fill, height, width, write};
+use super::letters::{fill, width, write};
 use super::palette::Palette;
 
 const INK: Rgba<u8> = Rgba([40, 44, 52, 255]);
@@ -40,20 +40,20 @@ impl Legend {
 
     /// Draws it in the lower left corner, as large as the picture allows.
     pub fn burn(&self, picture: &mut RgbaImage) {
-        let dot = (picture.height() / 300).max(1);
-        let letters = height(dot);
+        let letters = (picture.height() / 34).max(12);
+        let line = (letters / 8).max(1);
         let title = format!("{} ({})", self.title, self.unit);
-        let bar = [3 * letters, (picture.height() * 2 / 5).max(letters * 2 * TICKS)];
+        let bar = [2 * letters, (picture.height() * 2 / 5).max(letters * 3 / 2 * TICKS)];
         let ticks = self.ticks();
-        let widest = ticks.iter().map(|t| width(t, dot)).max().unwrap_or(0);
-        let margin = letters;
+        let widest = ticks.iter().map(|t| width(t, letters)).max().unwrap_or(0);
+        let margin = letters * 3 / 4;
         let size = [
-            width(&title, dot).max(bar[0] + margin + widest) + 2 * margin,
+            width(&title, letters).max(bar[0] + margin + widest) + 2 * margin,
             bar[1] + 2 * letters + 3 * margin,
         ];
         let corner = [margin, picture.height().saturating_sub(size[1] + margin)];
         fill(picture, corner, size, PAPER);
-        write(picture, &title, [corner[0] + margin, corner[1] + margin], dot, INK);
+        write(picture, &title, [corner[0] + margin, corner[1] + margin], letters, INK);
         let top = [corner[0] + margin, corner[1] + 2 * margin + 2 * letters];
         for row in 0..bar[1] {
             let share = f64::from(bar[1] - 1 - row) / f64::from(bar[1] - 1);
@@ -63,9 +63,9 @@ impl Legend {
         }
         for (i, words) in (0u32..).zip(&ticks) {
             let y = top[1] + (bar[1] - 1) * (TICKS - 1 - i) / (TICKS - 1);
-            fill(picture, [top[0] + bar[0], y], [margin / 2, dot], INK);
+            fill(picture, [top[0] + bar[0], y], [margin / 2, line], INK);
             let at = [top[0] + bar[0] + margin, y.saturating_sub(letters / 2)];
-            write(picture, words, at, dot, INK);
+            write(picture, words, at, letters, INK);
         }
     }
 }
@@ -93,7 +93,7 @@ mod tests {
             let [r, g, b] = Palette::Diverging.colour(value, [-1.0, 1.0]);
             assert!(picture.pixels().any(|p| *p == Rgba([r, g, b, 255])), "{value}");
         }
-        assert!(picture.pixels().filter(|p| **p == INK).count() > 500);
+        assert!(picture.pixels().filter(|p| p[0] < 128 && p[2] < 128).count() > 400);
         // The right of the picture is left alone; a tiny one ends nothing.
         assert_eq!(picture.get_pixel(600, 200), &Rgba([1, 2, 3, 255]));
         legend([0.0, 0.0]).burn(&mut RgbaImage::new(3, 2));

@@ -1,82 +1,52 @@
-//! Letters of five by seven dots, drawn for this program: words in pictures without a window.
+//! Words in pictures without a window, in the window's own letters.
 
+use std::sync::LazyLock;
+
+use ab_glyph::{Font, FontRef, Glyph, PxScale, ScaleFont, point};
 use image::{Rgba, RgbaImage};
 
-/// Dots a letter is wide and high, and from one to the next.
-const SIZE: [u32; 3] = [5, 7, 6];
+static FONT: LazyLock<FontRef<'static>> = LazyLock::new(|| {
+    FontRef::try_from_slice(epaint_default_fonts::UBUNTU_LIGHT)
+        .expect("the letters that come with the program")
+});
 
-/// Each row of a letter from the top, five dots, the leftmost worth 16. Small letters are drawn as capitals.
-const LETTERS: [(char, [u8; 7]); 45] = [
-    ('0', [14, 17, 19, 21, 25, 17, 14]),
-    ('1', [4, 12, 4, 4, 4, 4, 14]),
-    ('2', [14, 17, 1, 2, 4, 8, 31]),
-    ('3', [31, 2, 4, 2, 1, 17, 14]),
-    ('4', [2, 6, 10, 18, 31, 2, 2]),
-    ('5', [31, 16, 30, 1, 1, 17, 14]),
-    ('6', [6, 8, 16, 30, 17, 17, 14]),
-    ('7', [31, 1, 2, 4, 8, 8, 8]),
-    ('8', [14, 17, 17, 14, 17, 17, 14]),
-    ('9', [14, 17, 17, 15, 1, 2, 12]),
-    ('A', [14, 17, 17, 31, 17, 17, 17]),
-    ('B', [30, 17, 17, 30, 17, 17, 30]),
-    ('C', [14, 17, 16, 16, 16, 17, 14]),
-    ('D', [28, 18, 17, 17, 17, 18, 28]),
-    ('E', [31, 16, 16, 30, 16, 16, 31]),
-    ('F', [31, 16, 16, 30, 16, 16, 16]),
-    ('G', [14, 17, 16, 23, 17, 17, 15]),
-    ('H', [17, 17, 17, 31, 17, 17, 17]),
-    ('I', [14, 4, 4, 4, 4, 4, 14]),
-    ('J', [7, 2, 2, 2, 2, 18, 12]),
-    ('K', [17, 18, 20, 24, 20, 18, 17]),
-    ('L', [16, 16, 16, 16, 16, 16, 31]),
-    ('M', [17, 27, 21, 21, 17, 17, 17]),
-    ('N', [17, 17, 25, 21, 19, 17, 17]),
-    ('O', [14, 17, 17, 17, 17, 17, 14]),
-    ('P', [30, 17, 17, 30, 16, 16, 16]),
-    ('Q', [14, 17, 17, 17, 21, 18, 13]),
-    ('R', [30, 17, 17, 30, 20, 18, 17]),
-    ('S', [15, 16, 16, 14, 1, 1, 30]),
-    ('T', [31, 4, 4, 4, 4, 4, 4]),
-    ('U', [17, 17, 17, 17, 17, 17, 14]),
-    ('V', [17, 17, 17, 17, 17, 10, 4]),
-    ('W', [17, 17, 17, 21, 21, 21, 10]),
-    ('X', [17, 17, 10, 4, 10, 17, 17]),
-    ('Y', [17, 17, 17, 10, 4, 4, 4]),
-    ('Z', [31, 1, 2, 4, 8, 16, 31]),
-    ('.', [0, 0, 0, 0, 0, 12, 12]),
-    (',', [0, 0, 0, 0, 12, 4, 8]),
-    (':', [0, 12, 12, 0, 12, 12, 0]),
-    ('-', [0, 0, 0, 31, 0, 0, 0]),
-    ('+', [0, 4, 4, 31, 4, 4, 0]),
-    ('%', [24, 25, 2, 4, 8, 19, 3]),
-    ('/', [0, 1, 2, 4, 8, 16, 0]),
-    ('(', [2, 4, 8, 8, 8, 4, 2]),
-    (')', [8, 4, 2, 2, 2, 4, 8]),
-];
-
-/// How wide `words` are when a dot is `dot` pixels, pixels.
-pub fn width(words: &str, dot: u32) -> u32 {
-    words.chars().count() as u32 * SIZE[2] * dot
+/// The letters of `words`, `size` pixels from the top of the highest to the bottom of the lowest, from the left end of their line
+/// on; and how long that is, pixels.
+fn laid(words: &str, size: u32) -> (Vec<Glyph>, f32) {
+    let font = FONT.as_scaled(PxScale::from(size as f32));
+    let (mut glyphs, mut x, mut before) = (Vec::new(), 0.0, None);
+    for letter in words.chars() {
+        let id = font.glyph_id(letter);
+        x += before.map_or(0.0, |before| font.kern(before, id));
+        glyphs.push(id.with_scale_and_position(font.scale(), point(x, font.ascent())));
+        x += font.h_advance(id);
+        before = Some(id);
+    }
+    (glyphs, x)
 }
 
-/// How high letters are when a dot is `dot` pixels, pixels.
-pub fn height(dot: u32) -> u32 {
-    SIZE[1] * dot
+/// How wide `words` are in letters of `size` pixels, pixels.
+pub fn width(words: &str, size: u32) -> u32 {
+    laid(words, size).1.ceil() as u32
 }
 
-/// Writes `words` with the upper left corner at `at`, a dot `dot` pixels large. What lies beyond the picture is left out;
-/// letters that are not known leave a gap.
-pub fn write(picture: &mut RgbaImage, words: &str, at: [u32; 2], dot: u32, colour: Rgba<u8>) {
-    for (i, letter) in words.chars().enumerate() {
-        let Some((_, rows)) = LETTERS.iter().find(|(c, _)| *c == letter.to_ascii_uppercase()) else {
-            continue;
-        };
-        let left = at[0] + i as u32 * SIZE[2] * dot;
-        for (row, dots) in (0u32..).zip(rows) {
-            for column in (0..SIZE[0]).filter(|column| dots >> (SIZE[0] - 1 - column) & 1 == 1) {
-                fill(picture, [left + column * dot, at[1] + row * dot], [dot, dot], colour);
+/// Writes `words` in letters of `size` pixels, the upper left corner at `at`. What lies beyond the picture is left out; letters that
+/// the font does not have are boxes.
+pub fn write(picture: &mut RgbaImage, words: &str, at: [u32; 2], size: u32, colour: Rgba<u8>) {
+    for glyph in laid(words, size).0 {
+        let Some(outline) = FONT.outline_glyph(glyph) else { continue };
+        let corner = outline.px_bounds().min;
+        outline.draw(|x, y, covered| {
+            let place = [(x, corner.x, at[0]), (y, corner.y, at[1])];
+            let [x, y] = place.map(|(i, corner, at)| i64::from(i) + corner as i64 + i64::from(at));
+            let inside = u32::try_from(x).ok().zip(u32::try_from(y).ok());
+            if let Some(pixel) = inside.and_then(|(x, y)| picture.get_pixel_mut_checked(x, y)) {
+                for (below, ink) in pixel.0.iter_mut().zip(colour.0) {
+                    let mixed = f32::from(*below) + (f32::from(ink) - f32::from(*below)) * covered.min(1.0);
+                    *below = mixed.round() as u8;
+                }
             }
-        }
+        });
     }
 }
 
@@ -86,5 +56,29 @@ pub fn fill(picture: &mut RgbaImage, at: [u32; 2], size: [u32; 2], colour: Rgba<
         for x in at[0]..(at[0].saturating_add(size[0])).min(picture.width()) {
             picture.put_pixel(x, y, colour);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_are_as_wide_as_they_are_drawn() {
+        let (white, black) = (Rgba([255; 4]), Rgba([0, 0, 0, 255]));
+        for words in ["Ease (cm)", "größer: 12,5 %"] {
+            let wide = width(words, 40);
+            let mut picture = RgbaImage::from_pixel(wide + 60, 40, white);
+            write(&mut picture, words, [20, 0], 40, black);
+            let inked = |x: u32| (0..40).any(|y| picture.get_pixel(x, y)[0] < 128);
+            let ends = [(0..wide + 60).find(|&x| inked(x)), (0..wide + 60).rev().find(|&x| inked(x))];
+            let [first, last] = ends.map(|x| x.expect("something is drawn"));
+            assert!(
+                (20..28).contains(&first) && (wide + 9..wide + 20).contains(&last),
+                "{words}: {first} to {last} of {wide}"
+            );
+        }
+        // Beyond the picture nothing is drawn and nothing breaks.
+        write(&mut RgbaImage::new(3, 2), "words", [u32::MAX - 1, 0], 20, black);
     }
 }

@@ -110,9 +110,10 @@ const DIGIT_WIDTH: f32 = 0.55;
 
 type Path = &'static [(f32, f32)];
 
-/// Strokes of a digit in a box 0.55 wide and 1 high; nothing for other characters.
-fn digit(c: char) -> &'static [Path] {
-    const ZERO: &[Path] = &[&[
+/// Strokes of each digit in a box 0.55 wide and 1 high.
+const DIGITS: [&[Path]; 10] = [
+    // 0
+    &[&[
         (0.27, 1.0),
         (0.08, 0.88),
         (0.0, 0.62),
@@ -124,9 +125,11 @@ fn digit(c: char) -> &'static [Path] {
         (0.55, 0.62),
         (0.47, 0.88),
         (0.27, 1.0),
-    ]];
-    const ONE: &[Path] = &[&[(0.1, 0.8), (0.32, 1.0), (0.32, 0.0)]];
-    const TWO: &[Path] = &[&[
+    ]],
+    // 1
+    &[&[(0.1, 0.8), (0.32, 1.0), (0.32, 0.0)]],
+    // 2
+    &[&[
         (0.02, 0.78),
         (0.1, 0.94),
         (0.28, 1.0),
@@ -135,8 +138,9 @@ fn digit(c: char) -> &'static [Path] {
         (0.47, 0.57),
         (0.0, 0.0),
         (0.55, 0.0),
-    ]];
-    const THREE: &[Path] = &[&[
+    ]],
+    // 3
+    &[&[
         (0.03, 0.88),
         (0.26, 1.0),
         (0.47, 0.92),
@@ -148,9 +152,11 @@ fn digit(c: char) -> &'static [Path] {
         (0.47, 0.08),
         (0.25, 0.0),
         (0.0, 0.1),
-    ]];
-    const FOUR: &[Path] = &[&[(0.42, 0.0), (0.42, 1.0), (0.0, 0.3), (0.56, 0.3)]];
-    const FIVE: &[Path] = &[&[
+    ]],
+    // 4
+    &[&[(0.42, 0.0), (0.42, 1.0), (0.0, 0.3), (0.56, 0.3)]],
+    // 5
+    &[&[
         (0.5, 1.0),
         (0.08, 1.0),
         (0.04, 0.56),
@@ -160,8 +166,9 @@ fn digit(c: char) -> &'static [Path] {
         (0.46, 0.09),
         (0.24, 0.0),
         (0.0, 0.09),
-    ]];
-    const SIX: &[Path] = &[&[
+    ]],
+    // 6
+    &[&[
         (0.46, 1.0),
         (0.2, 0.84),
         (0.04, 0.55),
@@ -174,9 +181,11 @@ fn digit(c: char) -> &'static [Path] {
         (0.28, 0.6),
         (0.09, 0.5),
         (0.01, 0.28),
-    ]];
-    const SEVEN: &[Path] = &[&[(0.0, 1.0), (0.55, 1.0), (0.2, 0.0)]];
-    const EIGHT: &[Path] = &[&[
+    ]],
+    // 7
+    &[&[(0.0, 1.0), (0.55, 1.0), (0.2, 0.0)]],
+    // 8
+    &[&[
         (0.28, 0.55),
         (0.09, 0.65),
         (0.05, 0.82),
@@ -194,8 +203,9 @@ fn digit(c: char) -> &'static [Path] {
         (0.55, 0.26),
         (0.47, 0.44),
         (0.28, 0.55),
-    ]];
-    const NINE: &[Path] = &[&[
+    ]],
+    // 9
+    &[&[
         (0.09, 0.0),
         (0.35, 0.16),
         (0.51, 0.45),
@@ -208,20 +218,12 @@ fn digit(c: char) -> &'static [Path] {
         (0.27, 0.4),
         (0.46, 0.5),
         (0.54, 0.72),
-    ]];
-    match c {
-        '0' => ZERO,
-        '1' => ONE,
-        '2' => TWO,
-        '3' => THREE,
-        '4' => FOUR,
-        '5' => FIVE,
-        '6' => SIX,
-        '7' => SEVEN,
-        '8' => EIGHT,
-        '9' => NINE,
-        _ => &[],
-    }
+    ]],
+];
+
+/// Strokes of a digit; nothing for other characters.
+fn digit(c: char) -> &'static [Path] {
+    c.to_digit(10).map_or(&[], |digit| DIGITS[digit as usize])
 }
 
 #[cfg(test)]
