@@ -12,12 +12,12 @@
 //! | `geometry` | ids, curves, meshes and adjacency, sparse factors, no cloth words | nothing of ours |
 //! | `pattern`  | the flat garment: piece, seam, edges cut for sewing, editing that keeps seam lengths and symmetry, triangulation, problems a person can fix | geometry |
 //! | `body`     | surface (nearest point, ray, walk), import checks, mannequin, skeleton, poses, bones, landmarks, measurements | geometry |
-//! | `cloth`    | the sewn garment as solvers see it: topology and rest shape, moving state | pattern, geometry |
+//! | `cloth`    | the sewn garment as solvers see it: topology and rest shape, moving state; fabrics | pattern, geometry |
 //! | `contact`  | cloth against body, its bones, and itself; where edges are split | cloth, body, geometry |
-//! | `relax`    | paper A's relaxation: shape match, flatten, gravity, friction | contact, cloth, body, geometry |
+//! | `relax`    | paper A's relaxation: shape match, flatten, gravity, friction; no physics, for that see `drape` | contact, cloth, body, geometry |
 //! | `wrap`     | paper A: marks, root edges, growth | relax, contact, cloth, body, pattern, geometry |
 //! | `drag`     | paper A: dependency graph, motion in local frames, pushpins | relax, contact, cloth, body, pattern, geometry |
-//! | `drape`    | physics: membrane, bending, contact in implicit and in small steps, straight to rest; a garment on its body; sewing | contact, cloth, body, geometry |
+//! | `drape`    | physics: forces (membrane, bending), contact, solvers in implicit and in small steps and straight to rest; a garment on its body; sewing | contact, cloth, body, geometry |
 //! | `repose`   | paper C: distance map, conforming to another pose of the body, recovery, strain control | relax, contact, cloth, body, pattern, geometry |
 //! | `place`    | where pieces stand in space before they are sewn: points round the body, tubes round limbs, a file's placement brought to another body, sleeves led to their arms | wrap, contact, cloth, body, pattern, geometry |
 //! | `fit`      | what is read off a garment: strain, crossings, openings, the report, maps | cloth, body, pattern, geometry |

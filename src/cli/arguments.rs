@@ -333,6 +333,12 @@ pub struct Repose {
     pub threads: Option<usize>,
 }
 
+/// What can be said after `--map`.
+fn map_names() -> String {
+    let names = MapKind::ALL.map(MapKind::name).join(", ");
+    format!("{names}; strain for the first four, or all; several times for several maps")
+}
+
 /// Reads maps off the dressed garment of a project: figures as JSON and CSV, pictures with their legend
 ///
 /// Writes fit.json (range, statistics for the garment and each piece, histogram), and of each map NAME.csv (a row for each
@@ -342,9 +348,7 @@ pub struct Repose {
 pub struct Fit {
     /// Dressed project, as saved by dress --save or repose --save
     pub project: PathBuf,
-    /// warp, weft, shear, area, ease, curvature, mean-curvature, seams, pressure; strain for the first four, or
-    /// all; several times for several maps
-    #[arg(long = "map", value_name = "NAME", required_unless_present = "page", requires = "out", value_parser = maps)]
+    #[arg(long = "map", value_name = "NAME", help = map_names(), required_unless_present = "page", requires = "out", value_parser = maps)]
     pub maps: Vec<Maps>,
     /// The folder to write maps to
     #[arg(long, value_name = "DIR", requires = "maps")]
@@ -385,9 +389,7 @@ pub struct Compare {
     pub first: PathBuf,
     /// Another one with the same pieces
     pub second: PathBuf,
-    /// warp, weft, shear, area, ease, curvature, mean-curvature, seams, pressure; strain for the first four, or
-    /// all; several times for several maps
-    #[arg(long = "map", value_name = "NAME", required = true, value_parser = maps)]
+    #[arg(long = "map", value_name = "NAME", help = map_names(), required = true, value_parser = maps)]
     pub maps: Vec<Maps>,
     /// The folder to write to
     #[arg(long, value_name = "DIR")]

@@ -3,26 +3,29 @@
 use crate::cli::arguments::{Export, InputOptions};
 use crate::cli::failure::Failure;
 use crate::cli::{formats, input, output, run};
+use crate::io::pattern_formats::{self, PatternFormat, endings};
 
-/// Endings of patterns, and of dressed cloth.
-const ENDINGS: [&str; 6] = ["json", "dxf", "svg", "pdf", "obj", "glb"];
+/// Endings of dressed cloth.
+const OF_CLOTH: [&str; 2] = ["obj", "glb"];
 
 /// Writes the pattern or the cloth as the file's ending says.
 pub fn export(arguments: &Export) -> Result<(), Failure> {
     let ending =
         arguments.output.extension().and_then(|e| e.to_str()).unwrap_or_default().to_ascii_lowercase();
-    if !ENDINGS.contains(&ending.as_str()) {
+    let of_pattern = PatternFormat::of_ending(&ending);
+    if of_pattern.is_none() && !OF_CLOTH.contains(&ending.as_str()) {
         let words = format!(
-            "{}: the ending must be .json, .dxf, .svg or .pdf for the pattern, .obj or .glb for the dressed cloth",
-            arguments.output.display()
+            "{}: the ending must be {} for the pattern, .obj or .glb for the dressed cloth",
+            arguments.output.display(),
+            endings(PatternFormat::ALL)
         );
         return Err(Failure::Usage(words));
     }
     let options = InputOptions { scale: arguments.scale, as_placed: true, ..InputOptions::default() };
     let input = input::load(&arguments.project, &options)?;
-    if !["obj", "glb"].contains(&ending.as_str()) {
+    if let Some(format) = of_pattern {
         let pattern = &input.project.document.pattern;
-        let written = formats::pattern_bytes(&ending, pattern, &input.name, arguments.paper)
+        let written = pattern_formats::write(format, pattern, &input.name, arguments.paper)
             .map_err(|why| Failure::input(&arguments.project, why))?;
         for line in &written.left_out {
             output::complain(&format!("{}: {line}", arguments.output.display()));

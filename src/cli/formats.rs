@@ -13,16 +13,16 @@ use crate::cloth::{ClothState, Garment};
 use crate::geometry::mesh::TriMesh;
 use crate::io::body_file::{self, BodyFileError};
 use crate::io::glb::animated::{Frame, write_animated};
-use crate::io::pattern_file::{self, PatternFileError};
-use crate::io::pdf::{self, Paper, PdfError};
+use crate::io::pattern_file::PatternFileError;
+use crate::io::pattern_formats;
 use crate::io::scale::DrawingUnit;
-use crate::io::{Written, dxf, garmentcode, glb, gltf, obj, svg};
+use crate::io::{glb, gltf, obj};
 use crate::pattern::Pattern;
 use crate::session::{AnimatedFile, Animations};
 
 /// A pattern in a file of one of the known formats. Doubts about it are told.
 pub fn pattern(path: &Path, bytes: &[u8], scale: Option<DrawingUnit>) -> Result<Pattern, Failure> {
-    let read = pattern_file::read(bytes, scale).map_err(|error| match error {
+    let read = pattern_formats::read(bytes, scale).map_err(|error| match error {
         PatternFileError::OverLimit(words) => Failure::Limit(format!("{}: {words}", path.display())),
         PatternFileError::Scale(question) => {
             Failure::input(path, format!("{question}: say which with --scale"))
@@ -33,16 +33,6 @@ pub fn pattern(path: &Path, bytes: &[u8], scale: Option<DrawingUnit>) -> Result<
         output::complain(&format!("{}: note: {note}", path.display()));
     }
     Ok(read.pattern)
-}
-
-/// A pattern as a file with this ending: json, dxf, svg or pdf.
-pub fn pattern_bytes(ending: &str, pattern: &Pattern, name: &str, paper: Paper) -> Result<Written, PdfError> {
-    match ending {
-        "json" => Ok(garmentcode::write(pattern)),
-        "dxf" => Ok(dxf::write(pattern)),
-        "svg" => Ok(svg::write(pattern)),
-        _ => pdf::write(pattern, name, paper),
-    }
 }
 
 /// The body in a file (OBJ, glTF), upright and checked. Without a unit the one that gives a person's height is taken, and

@@ -6,9 +6,14 @@ use crate::cli::arguments::{Arguments, Help};
 use crate::cli::failure::Failure;
 use crate::cli::output;
 use crate::manual::{Block, TOPICS, Topic, plain};
+use crate::ui::actions::Action;
+use crate::ui::actions::keymap::written;
+use crate::ui::actions::rows::all;
 
 /// Columns of words.
 const WIDTH: usize = 100;
+/// The topic that is made of the window's own table.
+const KEYS: &str = "keys";
 
 /// Prints the topic that is asked for, or the options of a command; without a name, what there is.
 pub fn help(arguments: &Help) -> Result<(), Failure> {
@@ -20,11 +25,15 @@ pub fn help(arguments: &Help) -> Result<(), Failure> {
         output::say(&text(topic));
         return Ok(());
     }
+    if name == KEYS {
+        output::say(&keys());
+        return Ok(());
+    }
     let mut command = Arguments::command();
     let Some(command) = command.find_subcommand_mut(name) else {
         let names: Vec<&str> = TOPICS.iter().map(|topic| topic.name).collect();
         return Err(Failure::Usage(format!(
-            "there is no topic {name:?}; there are {}, and the commands that --help lists",
+            "there is no topic {name:?}; there are {}, {KEYS}, and the commands that --help lists",
             names.join(", ")
         )));
     };
@@ -33,11 +42,29 @@ pub fn help(arguments: &Help) -> Result<(), Failure> {
 }
 
 fn list() -> String {
-    let rows = TOPICS.iter().map(|topic| format!("  {:<10} {}\n", topic.name, topic.title()));
+    let topics = TOPICS.iter().map(|topic| (topic.name, topic.title()));
+    let topics = topics.chain([(KEYS, "Everything that can be chosen in the window, with its keys")]);
+    let rows: String = topics.map(|(name, title)| format!("  {name:<10} {title}\n")).collect();
     format!(
-        "Topics:\n{}\ntoile help TOPIC tells about one, toile help COMMAND or toile COMMAND --help about the options of a command.",
-        rows.collect::<String>()
+        "Topics:\n{rows}\ntoile help TOPIC tells about one, toile help COMMAND or toile COMMAND --help about the options of a command."
     )
+}
+
+/// Everything that can be chosen in the window, menu by menu.
+fn keys() -> String {
+    let mut rows: Vec<_> = all().map(Action::row).collect();
+    rows.sort_by_key(|row| row.menu);
+    let mut text = String::new();
+    for (i, row) in rows.iter().enumerate() {
+        if i == 0 || rows[i - 1].menu != row.menu {
+            text += &format!("{}{}\n", if i == 0 { "" } else { "\n" }, row.menu);
+        }
+        let keys: Vec<String> = row.keys.iter().map(|keys| written(*keys)).collect();
+        let name =
+            if keys.is_empty() { row.text.to_owned() } else { format!("{} ({})", row.text, keys.join(", ")) };
+        text += &format!("  {}", wrapped(&format!("{name}: {}", row.tip), 6));
+    }
+    text.trim_end().to_owned()
 }
 
 fn text(topic: &Topic) -> String {
@@ -64,7 +91,7 @@ fn text(topic: &Topic) -> String {
     text.trim_end().to_owned()
 }
 
-/// `words` in lines, all but the first of them set in by so many columns.
+/// `words` in lines, all but the first of them set in by `inset` columns.
 fn wrapped(words: &str, inset: usize) -> String {
     let (mut lines, mut column) = (String::new(), 0);
     for word in words.split(' ') {

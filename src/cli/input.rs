@@ -12,7 +12,7 @@ use crate::cli::{formats, output};
 use crate::geometry::polygon::signed_area;
 use crate::io::scale::DrawingUnit;
 use crate::io::sizes::{self, SizesError};
-use crate::io::{gltf, pattern_file};
+use crate::io::{gltf, pattern_formats};
 use crate::pattern::{Pattern, Piece};
 use crate::session::body::{Body, surface_of};
 use crate::session::carry::carried;
@@ -102,7 +102,7 @@ pub fn content(path: &Path, how: BodyFile, scale: Option<DrawingUnit>) -> Result
     if project_file::is_project(&bytes) {
         return project_file::from_bytes(&bytes).map(Content::Project).map_err(|e| project_failure(path, e));
     }
-    let is_pattern = !gltf::is_gltf(&bytes) && pattern_file::format(&bytes).is_some();
+    let is_pattern = !gltf::is_gltf(&bytes) && pattern_formats::format(&bytes).is_some();
     if bytes.trim_ascii().is_empty() || is_pattern {
         return formats::pattern(path, &bytes, scale).map(Content::Pattern);
     }

@@ -1,4 +1,4 @@
-//! The sewn garment as solvers see it.
+//! The sewn garment as solvers see it, and the fabrics it is made of.
 
 pub mod build;
 pub mod carry;

@@ -1,7 +1,7 @@
 //! The manual: what the program does, topic by topic, in the window and on the command line.
 //!
 //! The texts are in `assets/manual`, in a few signs of Markdown: `#` and `##` begin headings, `-` and numbers rows of a list,
-//! `|` rows of a table, four spaces command lines; `*Menu ▸ Entry* (Keys)` names what can be chosen.
+//! `|` rows of a table, four spaces command lines; `*Menu › Entry* (Keys)` names what can be chosen.
 
 /// A topic.
 #[derive(Clone, Copy, Debug)]
@@ -100,6 +100,12 @@ mod tests {
             assert!(!topic.title().is_empty() && topic.text.starts_with("# "), "{}", topic.name);
             for line in topic.text.lines() {
                 assert_eq!(line.matches(['*', '`']).count() % 2, 0, "{}: {line}", topic.name);
+                let is_drawn = |c: char| c.is_ascii() || "…›é°".contains(c);
+                assert!(
+                    line.chars().all(is_drawn),
+                    "{}: the window's letters lack a sign: {line}",
+                    topic.name
+                );
             }
         }
         assert_eq!(Topic::named("marks").map(|topic| topic.name), Some("marks"));

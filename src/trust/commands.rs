@@ -5,6 +5,7 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 use serde_json::json;
 
+use crate::geometry::ids::{PieceId, SeamId};
 use crate::io::words::readable;
 use crate::pattern::edit::{PatternEdit, PointRef};
 use crate::pattern::{Edge, EdgeRef, EdgeShape, InternalLine, Pattern, Piece, PlanePose, Seam, SpacePose};
@@ -24,17 +25,9 @@ pub fn good() -> Vec<Vec<u8>> {
     let seam = project.document.pattern.seams.keys().next().copied().unwrap_or_default();
     let [low, high] = [(0.05, 0.05), (0.2, 0.2)].map(DVec2::from);
     let small = Arc::new(Piece::polygon("pocket", &[low, DVec2::new(0.1, 0.05), DVec2::new(0.1, 0.1)]));
-    let line = InternalLine {
-        name: "dart".to_owned(),
-        edges: vec![Edge { start: DVec2::new(0.0, 0.1), ..Edge::default() }],
-        end: DVec2::new(0.36, 0.12),
-    };
-    let edge = EdgeRef { piece: back, edge: 2 };
-    let edits = |edits: Vec<PatternEdit>| Command::EditPattern { edits, anew: false };
     let moved = good::body().positions.iter().map(|p| *p + DVec3::X * 0.01).collect();
     let mesh = crate::geometry::mesh::TriMesh { positions: moved, triangles: good::body().triangles };
     let body = BodyChoice::Imported { name: "limb".to_owned(), mesh: Arc::new(mesh) };
-    let curve = EdgeShape::Quadratic { control: DVec2::new(0.18, 0.36) };
     let seam_of_part =
         Seam::of_edges([EdgeRef { piece: back, edge: 0 }, EdgeRef { piece: front, edge: 0 }], true);
     let lists = [
@@ -75,43 +68,59 @@ pub fn good() -> Vec<Vec<u8>> {
             Command::LockPins { pins: vec![crate::geometry::ids::PinId(1)], locked: true },
         ]),
         json!([Command::SetFabric { piece: Some(front), fabric: Some("wool".to_owned()) }, Command::Sew]),
-        json!([edits(vec![
-            PatternEdit::MovePoints {
-                points: vec![(PointRef { piece: front, point: 1 }, DVec2::new(0.35, 0.01))]
-            },
-            PatternEdit::SetEdge { edge, shape: curve },
-            PatternEdit::InsertPoint { edge, at: 0.4 },
-            PatternEdit::SetSmooth { point: PointRef { piece: back, point: 3 }, smooth: true },
-            PatternEdit::DeletePoint { point: PointRef { piece: back, point: 3 } },
-        ])]),
-        json!([edits(vec![
-            PatternEdit::Scale { pieces: vec![front, back], about: low, factor: DVec2::splat(1.1) },
-            PatternEdit::AddDart { edge, at: 0.5, width: 0.02, depth: 0.05 },
-            PatternEdit::AddNotch { edge, at: 0.5 },
-            PatternEdit::SetAllowance { pieces: vec![back], width: 0.01 },
-        ])]),
-        json!([edits(vec![PatternEdit::Cut { piece: back, line: line.clone(), sew: true }])]),
-        json!([edits(vec![
-            PatternEdit::AddLine { piece: front, line },
-            PatternEdit::AddHole { piece: back, edges: small.outline.clone() },
-            PatternEdit::PlaceInSpace {
-                placements: vec![(front, Some(SpacePose::flat(DVec3::Z, Default::default())))]
-            },
-            PatternEdit::SetRatio { seam, ratio: Some(1.2) },
-        ])]),
-        json!([edits(vec![
-            PatternEdit::AddTwin { piece: back, offset: high },
-            PatternEdit::Duplicate { pieces: vec![front, back], offset: high },
-            PatternEdit::MakeSymmetric { piece: back, axis: [DVec2::new(0.18, 0.0), DVec2::new(0.18, 0.3)] },
-            PatternEdit::SetLayer { pieces: vec![back], layer: 2 },
-        ])]),
         json!([Command::ReplacePattern {
             name: "another".to_owned(),
             pattern: Arc::new(Pattern { next_id: 9, ..good::pattern() }),
             marks: Arc::default(),
         }]),
     ];
-    lists.iter().map(|list| list.to_string().into_bytes()).collect()
+    let edits = edits([front, back], seam).map(|edits| json!([Command::EditPattern { edits, anew: false }]));
+    lists.iter().chain(&edits).map(|list| list.to_string().into_bytes()).collect()
+}
+
+/// Edits of two pieces and the seam between them.
+fn edits([front, back]: [PieceId; 2], seam: SeamId) -> [Vec<PatternEdit>; 5] {
+    let [low, high] = [(0.05, 0.05), (0.2, 0.2)].map(DVec2::from);
+    let pocket = Piece::polygon("pocket", &[low, DVec2::new(0.1, 0.05), DVec2::new(0.1, 0.1)]);
+    let line = InternalLine {
+        name: "dart".to_owned(),
+        edges: vec![Edge { start: DVec2::new(0.0, 0.1), ..Edge::default() }],
+        end: DVec2::new(0.36, 0.12),
+    };
+    let edge = EdgeRef { piece: back, edge: 2 };
+    let curve = EdgeShape::Quadratic { control: DVec2::new(0.18, 0.36) };
+    [
+        vec![
+            PatternEdit::MovePoints {
+                points: vec![(PointRef { piece: front, point: 1 }, DVec2::new(0.35, 0.01))],
+            },
+            PatternEdit::SetEdge { edge, shape: curve },
+            PatternEdit::InsertPoint { edge, at: 0.4 },
+            PatternEdit::SetSmooth { point: PointRef { piece: back, point: 3 }, smooth: true },
+            PatternEdit::DeletePoint { point: PointRef { piece: back, point: 3 } },
+        ],
+        vec![
+            PatternEdit::Scale { pieces: vec![front, back], about: low, factor: DVec2::splat(1.1) },
+            PatternEdit::AddDart { edge, at: 0.5, width: 0.02, depth: 0.05 },
+            PatternEdit::AddNotch { edge, at: 0.5 },
+            PatternEdit::SetAllowance { pieces: vec![back], width: 0.01 },
+        ],
+        vec![PatternEdit::Cut { piece: back, line: line.clone(), sew: true }],
+        vec![
+            PatternEdit::AddLine { piece: front, line },
+            PatternEdit::AddHole { piece: back, edges: pocket.outline },
+            PatternEdit::PlaceInSpace {
+                placements: vec![(front, Some(SpacePose::flat(DVec3::Z, Default::default())))],
+            },
+            PatternEdit::SetRatio { seam, ratio: Some(1.2) },
+        ],
+        vec![
+            PatternEdit::AddTwin { piece: back, offset: high },
+            PatternEdit::Duplicate { pieces: vec![front, back], offset: high },
+            PatternEdit::MakeSymmetric { piece: back, axis: [DVec2::new(0.18, 0.0), DVec2::new(0.18, 0.3)] },
+            PatternEdit::SetLayer { pieces: vec![back], layer: 2 },
+        ],
+    ]
 }
 
 /// Gives the commands to a session with cloth on its body. Each is carried out or refused without a trace, the work stays sound,

@@ -8,7 +8,7 @@ use crate::body::pose::motion::Retarget;
 use crate::body::{Unit, UpAxis, import};
 use crate::geometry::mesh::TriMesh;
 use crate::io::moving_body::MovingBody;
-use crate::io::{body_file, bvh, cloth_obj, dxf, garmentcode, joints, pattern_file, sizes, svg};
+use crate::io::{body_file, bvh, cloth_obj, dxf, garmentcode, joints, pattern_formats, sizes, svg};
 use crate::pattern::Pattern;
 use crate::session::body::Body;
 use crate::session::recording::Recording;
@@ -144,7 +144,7 @@ fn moving_body(bytes: &[u8]) -> Result<(), String> {
 }
 
 fn flat(bytes: &[u8]) -> Result<(), String> {
-    let read = pattern_file::read(bytes, None).map_err(|e| e.to_string())?;
+    let read = pattern_formats::read(bytes, None).map_err(|e| e.to_string())?;
     checked(&Project {
         document: Document { pattern: read.pattern.into(), ..Document::default() },
         dressed: None,

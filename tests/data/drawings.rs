@@ -1,7 +1,8 @@
 //! Drawings made by other programs.
 
 use glam::DVec2;
-use toile::io::pattern_file::{self, ReadPattern};
+use toile::io::pattern_file::ReadPattern;
+use toile::io::pattern_formats;
 use toile::io::{Written, dxf, svg};
 use toile::pattern::piece::flattened_loop;
 use toile::pattern::{Edge, Pattern, Piece};
@@ -12,7 +13,7 @@ fn bytes(name: &str) -> Option<Vec<u8>> {
 
 fn read(name: &str) -> Option<ReadPattern> {
     let bytes = bytes(name)?;
-    Some(pattern_file::read(&bytes, None).unwrap_or_else(|e| panic!("{name}: {e}")))
+    Some(pattern_formats::read(&bytes, None).unwrap_or_else(|e| panic!("{name}: {e}")))
 }
 
 /// Width and height of a closed line as it lies on the table, millimetres.
@@ -50,7 +51,7 @@ fn check_again(name: &str, write: fn(&Pattern) -> Written) {
     let Some(once) = read(name) else { return };
     let written = write(&once.pattern);
     assert!(written.left_out.is_empty(), "{name}: {:?}", written.left_out);
-    let again = pattern_file::read(&written.bytes, None).unwrap_or_else(|e| panic!("{name} again: {e}"));
+    let again = pattern_formats::read(&written.bytes, None).unwrap_or_else(|e| panic!("{name} again: {e}"));
     assert_eq!(once.pattern.pieces.len(), again.pattern.pieces.len(), "{name}");
     for (a, b) in once.pattern.pieces.values().zip(again.pattern.pieces.values()) {
         let place = format!("{name}, {}", a.name);

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use toile::body::{Unit, import};
-use toile::io::{garmentcode, obj, pattern_file};
+use toile::io::{garmentcode, obj, pattern_formats};
 
 fn folder(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/bad").join(name)
@@ -36,7 +36,7 @@ fn patterns() {
 
 /// Errors as they are; of files that can be read the notes, and what keeps their pieces from being sewn.
 fn drawing(bytes: &[u8]) -> Option<String> {
-    match pattern_file::read(bytes, None) {
+    match pattern_formats::read(bytes, None) {
         Err(error) => Some(error.to_string()),
         Ok(read) => {
             let (_, problems) = toile::cloth::build(&read.pattern, 0.05);
@@ -66,7 +66,7 @@ fn dxf_drawings() {
 fn the_deepest_drawing_is_refused_at_once() {
     let deep = format!("<svg xmlns=\"http://www.w3.org/2000/svg\">{}", "<g>".repeat(100_000));
     let start = Instant::now();
-    let error = pattern_file::read(deep.as_bytes(), None).expect_err("too deep").to_string();
+    let error = pattern_formats::read(deep.as_bytes(), None).expect_err("too deep").to_string();
     assert!(
         error.contains("nested more than 200 deep") && start.elapsed() < Duration::from_secs(1),
         "{error}"
@@ -87,7 +87,7 @@ fn a_polyline_without_sense_takes_no_time() {
         <polygon points="{points}"/></svg>"#
     );
     let start = Instant::now();
-    let read = pattern_file::read(svg.as_bytes(), None).expect("a piece, if a bad one");
+    let read = pattern_formats::read(svg.as_bytes(), None).expect("a piece, if a bad one");
     assert!(start.elapsed() < Duration::from_secs(2), "{:?}", start.elapsed());
     assert_eq!(read.pattern.pieces.len(), 1);
 }
@@ -148,7 +148,7 @@ fn mangled_files_never_panic() {
                 let _ = import(read.mesh, Unit::Metre);
             }
             let _ = garmentcode::read(&bytes);
-            let _ = pattern_file::read(&bytes, None);
+            let _ = pattern_formats::read(&bytes, None);
         }
     }
 }

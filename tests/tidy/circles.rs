@@ -127,7 +127,10 @@ impl House {
         let of = |module: &Module, code: &str| {
             let used = paths_from(code, &["crate", "super", "self"]);
             let files = used.iter().filter_map(|path| self.written_in(module, path, 0));
-            files.filter(|file| !module.starts_with(file)).collect()
+            // What a folder hands on it uses, too.
+            let handed_on =
+                self.handed_on[module].values().filter_map(|path| self.written_in(module, path, 0));
+            files.chain(handed_on).filter(|file| !module.starts_with(file)).collect()
         };
         self.files.iter().map(|(module, code)| (module, of(module, code))).collect()
     }

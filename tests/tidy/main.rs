@@ -7,6 +7,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+/// Lines a function may have, outside tests.
+const LONGEST_FUNCTION: usize = 80;
 /// Lines a file may have.
 const MOST_LINES: usize = 700;
 /// Folders with neither clock nor chance nor hash maps: the same input gives the same bits.
@@ -274,6 +276,52 @@ fn files_are_short_and_say_what_they_hold() {
         }
     }
     assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+/// The functions of `code` that are longer than [`LONGEST_FUNCTION`], with their lines.
+fn long_functions(code: &str) -> Vec<(String, usize)> {
+    let lines: Vec<&str> = code.lines().collect();
+    let name = |line: &str| {
+        let (before, after) = line.split_once("fn ")?;
+        let is_head = before.split_whitespace().all(|word| {
+            word.starts_with("pub")
+                || word.ends_with("crate::ui)")
+                || ["const", "async", "in"].contains(&word)
+        });
+        is_head.then(|| identifier(after)).flatten()
+    };
+    let mut long = Vec::new();
+    for (first, line) in lines.iter().enumerate() {
+        let Some(name) = name(line) else { continue };
+        let inset = &line[..line.len() - line.trim_start().len()];
+        let end = format!("{inset}}}");
+        let length = lines[first..].iter().position(|line| *line == end).map_or(1, |last| last + 1);
+        if length > LONGEST_FUNCTION {
+            long.push((name, length));
+        }
+    }
+    long
+}
+
+#[test]
+fn functions_are_cut_by_meaning_before_they_are_long() {
+    let body = "    x;\n".repeat(LONGEST_FUNCTION);
+    assert_eq!(
+        long_functions(&format!("pub(super) fn f() {{\n{body}}}\n")),
+        [("f".to_owned(), LONGEST_FUNCTION + 2)]
+    );
+    assert_eq!(long_functions("fn f() {}\nfn g() {\n}\n"), []);
+    let wrong: Vec<String> = sources()
+        .iter()
+        .filter(|s| !s.path.ends_with("tests.rs"))
+        .flat_map(|s| {
+            let code = s.code.split("#[cfg(test)]\nmod tests {").next().unwrap_or_default();
+            long_functions(code)
+                .into_iter()
+                .map(|(name, lines)| format!("{}: {name} has {lines} lines", s.path))
+        })
+        .collect();
+    assert!(wrong.is_empty(), "at most {LONGEST_FUNCTION}: {wrong:#?}");
 }
 
 /// Names under the headings of `Cargo.toml` that end in "dependencies]".

@@ -24,7 +24,7 @@ fn the_button_drapes_and_space_pauses() {
     assert!(window.query_by_label("Draping paused").is_some());
     assert!(positions(&window) != before, "the cloth did not move");
     assert_eq!(app(&window).session().step_labels().count(), steps + 1);
-    window.get_by_label("Drape a step").click();
+    window.get_by_label("Drape one step").click();
     window.run_steps(2);
     assert_eq!(app(&window).session().undo_label(), Some("drape a step"));
     for _ in 0..2 {

@@ -159,7 +159,7 @@ fn every_menu_opens() {
     for (menu, entry) in [
         ("File", "Import pattern…"),
         ("Edit", "Clear all marks"),
-        ("Garment", "Take the cloth off"),
+        ("Garment", "Undress"),
         ("View", "Parallel projection"),
         ("Help", "Keys and mouse"),
     ] {

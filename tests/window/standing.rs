@@ -55,7 +55,7 @@ fn a_piece_is_stood_at_a_dot_rolled_and_taken_away() {
     assert_eq!(app(&window).session().undo_label(), Some("place Panel"));
     choose(&mut window, "Roll");
     assert!(placement(&window, 1).expect("it stands").roll.is_some());
-    choose(&mut window, "Take pieces from the body");
+    choose(&mut window, "Remove placement");
     assert_eq!(placement(&window, 1), None);
     key(&mut window, Modifiers::COMMAND, Key::Z);
     key(&mut window, Modifiers::COMMAND, Key::Z);
@@ -105,9 +105,9 @@ fn pieces_for_another_body_are_brought_to_this_one() {
         tops.fold(f64::MIN, f64::max)
     };
     let before = tops(&window);
-    choose(&mut window, "Bring pieces to the body");
+    choose(&mut window, "Arrange pieces on the body");
     assert!(tops(&window) > before + 0.8);
     assert!(window.query_by_label_contains("Raised by").is_some(), "it is told");
-    choose(&mut window, "Bring pieces to the body");
+    choose(&mut window, "Arrange pieces on the body");
     assert!(window.query_by_label_contains("stand where they belong").is_some());
 }

@@ -10,7 +10,7 @@ use serde::Serialize;
 
 use crate::cli::arguments::Simulate;
 use crate::cli::failure::Failure;
-use crate::cli::simulate::scene::{Loaded, MembraneChoice};
+use crate::cli::simulate::scene::{Loaded, MembraneChoice, SceneFile};
 use crate::cli::simulate::times::cpu_seconds;
 use crate::cli::{interrupt, output};
 use crate::drape::solver::newton::Work;
@@ -107,28 +107,7 @@ pub fn simulate(arguments: &Simulate) -> Result<(), Failure> {
         write_positions(&mut bytes, &drape.state().positions);
     }
     output::progress("");
-    let residual_n = (drape.method() == Method::Implicit).then(|| drape.residual());
-    let report = Report {
-        frames: frames + 1,
-        vertices: drape.scene.sheet.len(),
-        triangles: drape.scene.sheet.triangles.len(),
-        fps: file.fps,
-        fabric: fabric.name,
-        solver: drape.chosen(),
-        membrane: match drape.method() {
-            Method::Implicit => file.membrane,
-            Method::SmallSteps => MembraneChoice::Springs,
-        },
-        build_s,
-        cpu_s_in_all: cpu_s.iter().copied().sum(),
-        wall_s_in_all: wall_s.iter().sum(),
-        cpu_s,
-        wall_s,
-        residual_n,
-        steps_not_converged: drape.unconverged(),
-        edge_strain: strain(&drape),
-        counters: drape.work(),
-    };
+    let report = report(&file, fabric.name, &drape, build_s, (cpu_s, wall_s));
     let text = serde_json::to_string_pretty(&report).map_err(|e| Failure::Internal(e.to_string()))?;
     output::make_folder(&arguments.out)?;
     let into = |name: &str, bytes: Vec<u8>| (arguments.out.join(name), bytes);
@@ -142,6 +121,38 @@ pub fn simulate(arguments: &Simulate) -> Result<(), Failure> {
         report.edge_strain.p99 * 100.0
     ));
     Ok(())
+}
+
+/// What is told of a simulation that took these seconds of processor and clock for each frame.
+fn report(
+    file: &SceneFile,
+    fabric: String,
+    drape: &Drape,
+    build_s: f64,
+    (cpu_s, wall_s): (Vec<Option<f64>>, Vec<f64>),
+) -> Report {
+    let residual_n = (drape.method() == Method::Implicit).then(|| drape.residual());
+    Report {
+        frames: file.frames() + 1,
+        vertices: drape.scene.sheet.len(),
+        triangles: drape.scene.sheet.triangles.len(),
+        fps: file.fps,
+        fabric,
+        solver: drape.chosen(),
+        membrane: match drape.method() {
+            Method::Implicit => file.membrane,
+            Method::SmallSteps => MembraneChoice::Springs,
+        },
+        build_s,
+        cpu_s_in_all: cpu_s.iter().copied().sum(),
+        wall_s_in_all: wall_s.iter().sum(),
+        cpu_s,
+        wall_s,
+        residual_n,
+        steps_not_converged: drape.unconverged(),
+        edge_strain: strain(drape),
+        counters: drape.work(),
+    }
 }
 
 /// Puts the body where it is after `done` frames; beyond its last it stays.

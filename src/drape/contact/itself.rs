@@ -43,6 +43,62 @@ struct Push {
     stiffness: f64,
 }
 
+/// Which features of a sheet at `x` that goes its `ways` come near each other.
+struct Near<'a> {
+    sheet: &'a Sheet,
+    x: &'a [DVec3],
+    ways: &'a [DVec3],
+    /// Metres, besides what they go.
+    reach: f64,
+}
+
+impl Near<'_> {
+    /// What is joined bends like a hinge and cannot meet. What is beside one another is left alone, too: bent sharply it would
+    /// fly apart.
+    fn hinged(&self, a: &[u32], b: &[u32]) -> bool {
+        let neighbours = &self.sheet.adjacency.vertex_neighbours;
+        let beside = |a: u32, b: u32| a == b || neighbours.of(a).binary_search(&b).is_ok();
+        a.iter().any(|&a| b.iter().any(|&b| beside(a, b)))
+    }
+
+    /// So near they count. Neighbours in the cloth move alike: what counts is how much farther the one goes than the other.
+    fn apart(&self, a: &[u32], b: &[u32]) -> f64 {
+        let way = |v: u32| self.ways[v as usize];
+        let ways = a.iter().flat_map(|&a| b.iter().map(move |&b| way(a) - way(b)));
+        self.reach + LOOK_AHEAD * ways.map(|w| w.length_squared()).fold(0.0, f64::max).sqrt()
+    }
+
+    /// Vertex `v` at triangle `t`.
+    fn corner(&self, v: u32, t: u32) -> Option<Pair> {
+        let vs @ [a, b, c] = self.sheet.triangles[t as usize];
+        if self.hinged(&[v], &vs) {
+            return None;
+        }
+        let (p, [pa, pb, pc]) = (self.x[v as usize], vs.map(|i| self.x[i as usize]));
+        let reach = self.apart(&[v], &vs);
+        let side = (pb - pa).cross(pc - pa).dot(p - pa).signum();
+        (closest_on_triangle(p, pa, pb, pc).0.distance(p) <= reach).then_some(Pair {
+            vertices: [v, a, b, c],
+            edges: false,
+            side,
+            reach,
+        })
+    }
+
+    /// Edges `e` and `f` at each other.
+    fn edges(&self, e: u32, f: u32) -> Option<Pair> {
+        let [[a, b], [c, d]] = [e.min(f), e.max(f)].map(|e| self.sheet.adjacency.edges[e as usize]);
+        if self.hinged(&[a, b], &[c, d]) {
+            return None;
+        }
+        let ends = [a, b, c, d].map(|i| self.x[i as usize]);
+        let reach = self.apart(&[a, b], &[c, d]);
+        let [pa, pb, pc, pd] = ends;
+        let side = (pb - pa).cross(pd - pc).dot(pc - pa).signum();
+        (segments_apart(ends) <= reach).then_some(Pair { vertices: [a, b, c, d], edges: true, side, reach })
+    }
+}
+
 impl SelfContact {
     /// Cloth that keeps `thickness` metres from itself; contact stiffness per vertex, N/m. Thickness zero: it passes through.
     pub fn new(sheet: &Sheet, thickness: f64, stiffness: Vec<f64>) -> Self {
@@ -65,16 +121,7 @@ impl SelfContact {
             let points = Aabb::around(&now.chain(then).collect::<Vec<_>>());
             Aabb { lower: points.lower - near / 2.0, upper: points.upper + near / 2.0 }
         };
-        // What is joined bends like a hinge and cannot meet. What is beside one another is left alone, too: bent sharply it would
-        // fly apart.
-        let adjacency = &sheet.adjacency;
-        let beside = |a: u32, b: u32| a == b || adjacency.vertex_neighbours.of(a).binary_search(&b).is_ok();
-        let hinged = |a: &[u32], b: &[u32]| a.iter().any(|&a| b.iter().any(|&b| beside(a, b)));
-        // Neighbours in the cloth move alike: what counts is how much farther the one goes than the other.
-        let apart = |a: &[u32], b: &[u32]| {
-            let ways = a.iter().flat_map(|&a| b.iter().map(move |&b| ways[a as usize] - ways[b as usize]));
-            near + LOOK_AHEAD * ways.map(|w| w.length_squared()).fold(0.0, f64::max).sqrt()
-        };
+        let near = Near { sheet, x, ways, reach: near };
         let of_triangles: Vec<Aabb> = sheet.triangles.par_iter().map(|vs| grown(vs)).collect();
         refit(&mut self.trees[0], &of_triangles);
         let of_vertices: Vec<Aabb> = (0..x.len() as u32).into_par_iter().map(|v| grown(&[v])).collect();
@@ -87,18 +134,8 @@ impl SelfContact {
         let at_corners = leaves.par_iter().with_min_len(LEAST_SHARE).map(|&leaf| {
             let (mut pairs, mut looked_at) = (Vec::new(), 0u64);
             let mut see = |v: u32, t: u32| {
-                let vs @ [a, b, c] = sheet.triangles[t as usize];
                 looked_at += 1;
-                if hinged(&[v], &vs) {
-                    return;
-                }
-                let (p, [pa, pb, pc]) = (x[v as usize], vs.map(|i| x[i as usize]));
-                let reach = apart(&[v], &vs);
-                let distance = closest_on_triangle(p, pa, pb, pc).0.distance(p);
-                if distance <= reach {
-                    let side = (pb - pa).cross(pc - pa).dot(p - pa).signum();
-                    pairs.push(Pair { vertices: [v, a, b, c], edges: false, side, reach });
-                }
+                pairs.extend(near.corner(v, t));
             };
             triangles.leaves_near(&vertices.nodes[leaf as usize].bounds, |other| {
                 each_that_meets(
@@ -115,21 +152,8 @@ impl SelfContact {
         let at_edges = nodes.map(|node| {
             let (mut pairs, mut looked_at) = (Vec::new(), 0u64);
             let mut see = |e: u32, f: u32| {
-                let [e, f] = [e.min(f), e.max(f)];
-                let [[a, b], [c, d]] = [e, f].map(|e| edges[e as usize]);
                 looked_at += 1;
-                if hinged(&[a, b], &[c, d]) {
-                    return;
-                }
-                let ends = [a, b, c, d].map(|i| x[i as usize]);
-                let reach = apart(&[a, b], &[c, d]);
-                let distance = segments_apart(ends);
-                if distance <= reach {
-                    let [pa, pb, pc, pd] = ends;
-                    let across = (pb - pa).cross(pd - pc);
-                    let side = across.dot(pc - pa).signum();
-                    pairs.push(Pair { vertices: [a, b, c, d], edges: true, side, reach });
-                }
+                pairs.extend(near.edges(e, f));
             };
             tree.leaves_between(node, |one, other| {
                 each_that_meets([tree; 2], [&boxes; 2], [one, other], &mut see);

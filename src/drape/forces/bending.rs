@@ -332,12 +332,13 @@ mod tests {
 
     /// A sheet of squares of 1 cm; the vertex in the middle lies `near` metres beside the one to its left.
     fn sheet(near: f64) -> Sheet {
-        let at = |i: u32, j: u32| if (i, j) == (3, 3) { 0.02 + near } else { 0.01 * f64::from(i) };
-        let point = |v: u32| DVec2::new(at(v % 7, v / 7), 0.01 * f64::from(v / 7));
-        let cells = (0..36u32).map(|k| k / 6 * 7 + k % 6);
-        let triangles: Vec<[u32; 3]> = cells.flat_map(|a| [[a, a + 1, a + 8], [a, a + 8, a + 7]]).collect();
+        let at = |i: u32, j: u32| if (i, j) == (6, 6) { 0.05 + near } else { 0.01 * f64::from(i) };
+        let point = |v: u32| DVec2::new(at(v % 13, v / 13), 0.01 * f64::from(v / 13));
+        let cells = (0..144u32).map(|k| k / 12 * 13 + k % 12);
+        let triangles: Vec<[u32; 3]> =
+            cells.flat_map(|a| [[a, a + 1, a + 14], [a, a + 14, a + 13]]).collect();
         let rest = triangles.iter().map(|vs| vs.map(point)).collect();
-        Sheet::new(49, triangles, rest).expect("a sheet")
+        Sheet::new(169, triangles, rest).expect("a sheet")
     }
 
     fn fastest(bending: &Bending, mass: &[f64]) -> f64 {
@@ -355,15 +356,15 @@ mod tests {
         let sliver = sheet(2e-4);
         let mass = mass(&sliver);
         let (plain, soft) =
-            (Bending::new(&sliver, &PLATE), Bending::slower_than(rate, &mass, &sliver, |_| &PLATE));
-        assert!(fastest(&plain, &mass) > 10.0 * rate, "{} of {rate}", fastest(&plain, &mass));
-        assert!(fastest(&soft, &mass) <= rate * 1.001, "{} of {rate}", fastest(&soft, &mass));
+            (Bending::new(&sliver, &PLATE), Bending::slower_than(rate * 1.001, &mass, &sliver, |_| &PLATE));
+        assert!(fastest(&plain, &mass) > 3.0 * rate, "{} of {rate}", fastest(&plain, &mass));
+        assert!(fastest(&soft, &mass) <= rate * 1.002, "{} of {rate}", fastest(&soft, &mass));
         let corner = |v: usize| soft.row(v).zip(plain.row(v)).all(|(soft, plain)| soft == plain);
-        assert!([0, 6, 42, 48].map(corner) == [true; 4], "far from the sliver it is as stiff as it was");
-        let turned = |v: usize| DVec3::new(0.3, 0.01 * (v % 7) as f64, 0.01 * (v / 7) as f64);
-        let bowl = |v: usize| turned(v) + DVec3::X * ((v * v) as f64 * 1e-5).sin() * 0.01;
+        assert!([0, 12, 156, 168].map(corner) == [true; 4], "far from the sliver it is as stiff as it was");
+        let turned = |v: usize| DVec3::new(0.3, 0.01 * (v % 13) as f64, 0.01 * (v / 13) as f64);
+        let bowl = |v: usize| turned(v) + DVec3::X * ((v * v) as f64 * 1e-4).sin() * 0.01;
         let energy = |bending: &Bending, of: &dyn Fn(usize) -> DVec3| {
-            bending.energy(&(0..49).map(of).collect::<Vec<_>>())
+            bending.energy(&(0..169).map(of).collect::<Vec<_>>())
         };
         let (least, whole) = (energy(&soft, &bowl), energy(&plain, &bowl));
         assert!(least > 0.0 && least <= whole, "{least} of {whole}");

@@ -224,18 +224,12 @@ impl DrapedGarment {
             .map_err(|why| Undrapable(format!("the cloth cannot be draped: {why}")))?;
         let of_triangle: Vec<&Fabric> = laid.iter().map(|&t| fabric(t)).collect();
         let first = |v: u32| of_triangle[sheet.adjacency.vertex_triangles.of(v)[0] as usize];
-        let mut mass = vec![0.0; sheet.len()];
-        for ((vs, area), fabric) in sheet.triangles.iter().zip(&sheet.areas).zip(&of_triangle) {
-            vs.iter().for_each(|&v| mass[v as usize] += fabric.density_kg_per_m2 * area / 3.0);
-        }
+        let mass = masses(&sheet, &of_triangle);
         let most = |of: fn(&Fabric) -> f64| of_triangle.iter().map(|f| of(f)).fold(0.0, f64::max);
         let (thickness, damping) = (most(|f| f.thickness_m), most(|f| f.damping_per_s));
         let friction = (0..sheet.len() as u32).map(|v| first(v).friction).collect();
         let positions: Vec<DVec3> = vertices.iter().map(|&v| cloth.positions[v as usize]).collect();
-        let (low, high) =
-            positions.iter().fold((f64::MAX, f64::MIN), |(low, high), p| (p.y.min(low), p.y.max(high)));
-        let edge = sheet.mean_edge();
-        let count = substeps(TICK, settings.strain, GRAVITY.length(), (high - low).max(edge), edge);
+        let count = steps_a_tick(&positions, sheet.mean_edge(), settings.strain);
         let slow = stable_rate(TICK / count as f64, BENDING_DAMPING);
         let bending = Bending::slower_than(slow, &mass, &sheet, |v| &first(v).bending);
         let mut pinned = vec![false; sheet.len()];
@@ -251,11 +245,9 @@ impl DrapedGarment {
         };
         let springs = springs(&sheet, &of_triangle, length);
         let small = SmallSteps::of(springs, settings.strain, &sheet, &bending, &mass, &pinned);
-        let offset = thickness + SKIN;
         let obstacle = Arc::new(Obstacle::of(&surface));
         let collider = Collider::still(surface);
-        let damping = damping + AIR;
-        let worn = Self {
+        Ok(Self {
             settings,
             small: small.easing(),
             will_be: None,
@@ -286,12 +278,11 @@ impl DrapedGarment {
                 friction,
                 collider,
                 obstacle,
-                offset,
+                offset: thickness + SKIN,
                 thickness,
-                damping,
+                damping: damping + AIR,
             }),
-        };
-        Ok(worn)
+        })
     }
 
     /// From now on nothing crosses that does not yet; what does begins to come apart.
@@ -623,6 +614,22 @@ struct Begun {
     /// As it was before.
     before: State,
     advance: Advance,
+}
+
+/// Small steps in a tick that keep the cloth at `positions`, with edges of `edge` metres, within `strain`.
+fn steps_a_tick(positions: &[DVec3], edge: f64, strain: f64) -> usize {
+    let (low, high) =
+        positions.iter().fold((f64::MAX, f64::MIN), |(low, high), p| (p.y.min(low), p.y.max(high)));
+    substeps(TICK, strain, GRAVITY.length(), (high - low).max(edge), edge)
+}
+
+/// Of each vertex a third of its triangles, kg.
+fn masses(sheet: &Sheet, fabrics: &[&Fabric]) -> Vec<f64> {
+    let mut mass = vec![0.0; sheet.len()];
+    for ((vs, area), fabric) in sheet.triangles.iter().zip(&sheet.areas).zip(fabrics) {
+        vs.iter().for_each(|&v| mass[v as usize] += fabric.density_kg_per_m2 * area / 3.0);
+    }
+    mass
 }
 
 fn own_number(own: &[u32], v: u32) -> Option<usize> {

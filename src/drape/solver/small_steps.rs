@@ -333,9 +333,6 @@ impl SmallSteps {
         self.net.ready(small, &self.inverse_mass);
         let every = self.bending_every(small, around.bending_damping).min(count);
         let drag = (-around.damping * small).exp();
-        // A blow now and then, which keeps energy, shakes cloth that should come to rest; a force that is held comes late by
-        // half of the time it is held, for which it looks ahead.
-        let holds = around.bending_damping > 0.0;
         let Advance { bent, before, .. } = advance;
         bent.resize(state.positions.len(), DVec3::ZERO);
         before.resize(state.positions.len(), DVec3::ZERO);
@@ -343,19 +340,7 @@ impl SmallSteps {
         let x = &mut state.positions;
         let kick = if s == 0 { self.lag + small / 2.0 } else { small };
         if s % every == 0 && self.bending_rate > 0.0 {
-            let span = small * every.min(count - s) as f64;
-            if holds {
-                // Quadratic: the force at x + τ v is that of the shape and of its change.
-                let ahead = around.bending_damping + span / 2.0;
-                for (place, (x, v)) in before.iter_mut().zip(x.iter().zip(&state.velocities)) {
-                    *place = *x + *v * ahead;
-                }
-                around.bending.write_forces(before, bent, |i| small * self.inverse_mass[i]);
-            } else {
-                around.bending.write_forces(x, bent, |i| span * self.inverse_mass[i]);
-                state.velocities.iter_mut().zip(&*bent).for_each(|(v, b)| *v -= *b);
-                bent.fill(DVec3::ZERO);
-            }
+            self.bend(around, (x, &mut state.velocities), (before, bent), (small, every.min(count - s)));
         }
         let net = &self.net;
         let of_body = (&mut self.planes[..], &mut self.creases[..]);
@@ -413,6 +398,32 @@ impl SmallSteps {
     /// Pairs of features that contact has looked at.
     pub fn pairs(&self) -> u64 {
         self.separation.as_ref().map_or(0, |separation| separation.counters.pairs)
+    }
+
+    /// What bending does to the velocities in the next `steps` steps of `small` seconds: a blow now, or, where it is damped, `bent` (m/s)
+    /// in each of them. `scratch` has room for every vertex.
+    fn bend(
+        &self,
+        around: &Surroundings<'_>,
+        (x, velocities): (&[DVec3], &mut [DVec3]),
+        (scratch, bent): (&mut [DVec3], &mut [DVec3]),
+        (small, steps): (f64, usize),
+    ) {
+        let span = small * steps as f64;
+        // A blow now and then, which keeps energy, shakes cloth that should come to rest; a force that is held comes late by
+        // half of the time it is held, for which it looks ahead.
+        if around.bending_damping > 0.0 {
+            // Quadratic: the force at x + τ v is that of the shape and of its change.
+            let ahead = around.bending_damping + span / 2.0;
+            for (place, (x, v)) in scratch.iter_mut().zip(x.iter().zip(velocities.iter())) {
+                *place = *x + *v * ahead;
+            }
+            around.bending.write_forces(scratch, bent, |i| small * self.inverse_mass[i]);
+        } else {
+            around.bending.write_forces(x, bent, |i| span * self.inverse_mass[i]);
+            velocities.iter_mut().zip(&*bent).for_each(|(v, b)| *v -= *b);
+            bent.fill(DVec3::ZERO);
+        }
     }
 
     /// Looks for what is near where some vertex is about to leave what is known.

@@ -99,30 +99,8 @@ impl Steps {
         if self.before.is_empty() || self.step_before != h {
             self.begin(scene, state, h);
         }
-        let (x, v) = (&state.positions, &state.velocities);
-        let mut rate = vec![DVec3::ZERO; count];
-        let mut span = vec![h; count];
-        let loads = &mut self.loads;
-        loads.inertia.resize(count, 0.0);
-        loads.target.resize(count, DVec3::ZERO);
-        loads.force.clear();
-        loads.force.resize(count, DVec3::ZERO);
-        for i in 0..count {
-            let (x0, v0) = self.before[i];
-            // The velocity after the step is (x' - rate) / span.
-            let (from, speed) = match self.euler[i] {
-                true => (x[i], v[i]),
-                false => {
-                    span[i] = 2.0 / 3.0 * h;
-                    ((x[i] * 4.0 - x0) / 3.0, (v[i] * 4.0 - v0) / 3.0)
-                }
-            };
-            rate[i] = from;
-            let s = span[i];
-            let drag = 1.0 + scene.damping * s;
-            loads.inertia[i] = scene.mass[i] * drag / (s * s);
-            loads.target[i] = from + (speed * s + scene.gravity * (s * s)) / drag;
-        }
+        let (rate, span) = self.load(scene, state, h);
+        let (x, v, loads) = (&state.positions, &state.velocities, &self.loads);
         let stiffness: Vec<f64> = (0..count)
             .map(|i| match scene.pinned[i] {
                 true => 0.0,
@@ -170,6 +148,35 @@ impl Steps {
         state.positions = after;
         self.step_before = h;
         solved
+    }
+
+    /// Lays inertia, gravity and drag of a step of `h` seconds on every vertex. The velocity after it is (x' - rate) / span.
+    fn load(&mut self, scene: &Scene, state: &State, h: f64) -> (Vec<DVec3>, Vec<f64>) {
+        let count = scene.sheet.len();
+        let (x, v) = (&state.positions, &state.velocities);
+        let mut rate = vec![DVec3::ZERO; count];
+        let mut span = vec![h; count];
+        let loads = &mut self.loads;
+        loads.inertia.resize(count, 0.0);
+        loads.target.resize(count, DVec3::ZERO);
+        loads.force.clear();
+        loads.force.resize(count, DVec3::ZERO);
+        for i in 0..count {
+            let (x0, v0) = self.before[i];
+            let (from, speed) = match self.euler[i] {
+                true => (x[i], v[i]),
+                false => {
+                    span[i] = 2.0 / 3.0 * h;
+                    ((x[i] * 4.0 - x0) / 3.0, (v[i] * 4.0 - v0) / 3.0)
+                }
+            };
+            rate[i] = from;
+            let s = span[i];
+            let drag = 1.0 + scene.damping * s;
+            loads.inertia[i] = scene.mass[i] * drag / (s * s);
+            loads.target[i] = from + (speed * s + scene.gravity * (s * s)) / drag;
+        }
+        (rate, span)
     }
 
     /// Makes up a history: what starts at rest or falls free goes on as if it always had.

@@ -1,4 +1,4 @@
-//! What can be mapped.
+//! The list of maps: add one here first. Menus, legend and command line follow from [`MapKind::ALL`].
 
 use serde::{Deserialize, Serialize};
 
@@ -111,9 +111,12 @@ impl MapKind {
         }
     }
 
-    /// Whether values of both signs mean opposite things: a palette with zero in its middle is meet.
+    /// Whether values of both signs mean opposite things: their palette has zero in its middle.
     pub fn is_signed(self) -> bool {
-        !matches!(self, Self::Ease | Self::Curvature | Self::Pressure)
+        match self {
+            Self::Warp | Self::Weft | Self::Shear | Self::Area | Self::MeanCurvature | Self::Seams => true,
+            Self::Ease | Self::Curvature | Self::Pressure => false,
+        }
     }
 
     /// Digits that a value in its unit is told with.

@@ -56,9 +56,8 @@ pub(super) fn cut(
         (0..count).map(|k| (from + k) % n).collect()
     };
     let forward: Vec<Edge> = path.edges.clone();
-    let back = backwards(&path);
     let m = forward.len();
-    let halves = [(run(a, b), back), (run(b, a), forward)];
+    let halves = [(run(a, b), backwards(&path)), (run(b, a), forward)];
     let outlines: Vec<Vec<Edge>> = halves
         .iter()
         .map(|(own, closing)| own.iter().map(|&i| piece.outline[i].clone()).chain(closing.clone()).collect())
@@ -75,31 +74,7 @@ pub(super) fn cut(
             ..Piece::clone(&piece)
         })
         .collect();
-    let which = |p: DVec2| usize::from(!contains(&polygons[0], p));
-    // The new number of each edge: which part, and where in it.
-    let mut numbers: Vec<(usize, usize)> = vec![(0, 0); piece.edge_count()];
-    for (part, (own, _)) in halves.iter().enumerate() {
-        for (k, &i) in own.iter().enumerate() {
-            numbers[i] = (part, k);
-        }
-    }
-    let mut old_first = n;
-    for hole in &piece.holes {
-        let part = which(hole[0].start);
-        let first = parts[part].edge_count();
-        for k in 0..hole.len() {
-            numbers[old_first + k] = (part, first + k);
-        }
-        old_first += hole.len();
-        parts[part].holes.push(hole.clone());
-    }
-    for line in &piece.lines {
-        parts[which(line.edges[0].start)].lines.push(line.clone());
-    }
-    for notch in &piece.notches {
-        let (part, edge) = numbers[notch.edge];
-        parts[part].notches.push(Notch { edge, ..*notch });
-    }
+    let numbers = share_out(&piece, &halves, &polygons[0], &mut parts);
     let other_name = fresh_name(pattern, &name);
     let mut second = parts.pop().unwrap_or_default();
     second.name = other_name;
@@ -126,6 +101,41 @@ pub(super) fn cut(
         })
         .to_vec();
     Ok(Change { carried, ..Change::new(format!("cut {name}")) })
+}
+
+/// Gives each part its edges' new numbers (by the old ones: which part, and where in it), its holes, lines and notches. `halves`
+/// hold the old edges of each, `first` is the outline of the first.
+fn share_out(
+    piece: &Piece,
+    halves: &[(Vec<usize>, Vec<Edge>); 2],
+    first: &[DVec2],
+    parts: &mut [Piece],
+) -> Vec<(usize, usize)> {
+    let which = |p: DVec2| usize::from(!contains(first, p));
+    let mut numbers: Vec<(usize, usize)> = vec![(0, 0); piece.edge_count()];
+    for (part, (own, _)) in halves.iter().enumerate() {
+        for (k, &i) in own.iter().enumerate() {
+            numbers[i] = (part, k);
+        }
+    }
+    let mut old_first = piece.outline.len();
+    for hole in &piece.holes {
+        let part = which(hole[0].start);
+        let before = parts[part].edge_count();
+        for k in 0..hole.len() {
+            numbers[old_first + k] = (part, before + k);
+        }
+        old_first += hole.len();
+        parts[part].holes.push(hole.clone());
+    }
+    for line in &piece.lines {
+        parts[which(line.edges[0].start)].lines.push(line.clone());
+    }
+    for notch in &piece.notches {
+        let (part, edge) = numbers[notch.edge];
+        parts[part].notches.push(Notch { edge, ..*notch });
+    }
+    numbers
 }
 
 fn is_straight(piece: &Piece, a: usize, b: usize) -> bool {

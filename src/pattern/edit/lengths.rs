@@ -100,32 +100,7 @@ fn solve(pattern: &mut Pattern, held: &BTreeSet<EdgeRef>) -> Result<(), SeamId> 
     let weights = dofs.weights(|point| weight(held, &followers, point));
     for _ in 0..MOST_STEPS {
         let rows: Vec<BTreeMap<usize, DVec2>> = constraints.iter().map(|c| gradient(c, &dofs, &x)).collect();
-        let n = rows.len();
-        let mut matrix = faer::Mat::<f64>::zeros(n, n);
-        for i in 0..n {
-            for j in 0..=i {
-                let (few, many) =
-                    if rows[i].len() < rows[j].len() { (&rows[i], &rows[j]) } else { (&rows[j], &rows[i]) };
-                let dot =
-                    |(dof, g): (&usize, &DVec2)| many.get(dof).map_or(0.0, |h| weights[*dof] * g.dot(*h));
-                let sum: f64 = few.iter().map(dot).sum();
-                (matrix[(i, j)], matrix[(j, i)]) = (sum, sum);
-            }
-        }
-        // Seams that say the same twice leave the matrix singular.
-        let top = (0..n).map(|i| matrix[(i, i)]).fold(0.0, f64::max);
-        for i in 0..n {
-            matrix[(i, i)] += matrix[(i, i)] * 1e-13 + top * 1e-15 + f64::MIN_POSITIVE;
-        }
-        let Ok(factor) = matrix.llt(Side::Lower) else { break };
-        let right = faer::Mat::<f64>::from_fn(n, 1, |i, _| -now[i]);
-        let forces = factor.solve(&right);
-        let mut step = vec![DVec2::ZERO; x.len()];
-        for (i, row) in rows.iter().enumerate() {
-            for (&dof, &g) in row {
-                step[dof] += g * (weights[dof] * forces[(i, 0)]);
-            }
-        }
+        let Some(step) = step(&rows, &weights, &now) else { break };
         let shortest = constraints
             .iter()
             .flat_map(|c| &c.terms)
@@ -168,6 +143,37 @@ fn solve(pattern: &mut Pattern, held: &BTreeSet<EdgeRef>) -> Result<(), SeamId> 
             Err(constraints.iter().find(of_piece).unwrap_or(&constraints[0]).seam)
         }
     }
+}
+
+/// How far each degree of freedom goes for the errors `now` to vanish to first order, by the least motion: Newton's step under equality
+/// constraints with these gradients. None where the constraints are singular.
+fn step(rows: &[BTreeMap<usize, DVec2>], weights: &[f64], now: &[f64]) -> Option<Vec<DVec2>> {
+    let n = rows.len();
+    let mut matrix = faer::Mat::<f64>::zeros(n, n);
+    for i in 0..n {
+        for j in 0..=i {
+            let (few, many) =
+                if rows[i].len() < rows[j].len() { (&rows[i], &rows[j]) } else { (&rows[j], &rows[i]) };
+            let dot = |(dof, g): (&usize, &DVec2)| many.get(dof).map_or(0.0, |h| weights[*dof] * g.dot(*h));
+            let sum: f64 = few.iter().map(dot).sum();
+            (matrix[(i, j)], matrix[(j, i)]) = (sum, sum);
+        }
+    }
+    // Seams that say the same twice leave the matrix singular.
+    let top = (0..n).map(|i| matrix[(i, i)]).fold(0.0, f64::max);
+    for i in 0..n {
+        matrix[(i, i)] += matrix[(i, i)] * 1e-13 + top * 1e-15 + f64::MIN_POSITIVE;
+    }
+    let factor = matrix.llt(Side::Lower).ok()?;
+    let right = faer::Mat::<f64>::from_fn(n, 1, |i, _| -now[i]);
+    let forces = factor.solve(&right);
+    let mut step = vec![DVec2::ZERO; weights.len()];
+    for (i, row) in rows.iter().enumerate() {
+        for (&dof, &g) in row {
+            step[dof] += g * (weights[dof] * forces[(i, 0)]);
+        }
+    }
+    Some(step)
 }
 
 /// Points that are sewn to those in `held`, at the ends of seams, over any number of seams.

@@ -3,7 +3,7 @@
 pub(in crate::ui) mod asks;
 pub(in crate::ui) mod context;
 pub(in crate::ui) mod drawer;
-pub(in crate::ui) mod keymap;
+pub mod keymap;
 pub(in crate::ui) mod layout;
 pub(in crate::ui) mod picked;
 pub(in crate::ui) mod row;
@@ -183,6 +183,14 @@ pub enum Action {
     Demo(Demo),
     StopDemo,
 }
+
+/// The tools of the pattern in the order of their strip and menu, group by group.
+pub const PATTERN_TOOLS: [&[Tool]; 4] = [
+    &[Tool::Move, Tool::Points],
+    &[Tool::Pen, Tool::Rectangle, Tool::Ellipse],
+    &[Tool::Sew],
+    &[Tool::Line, Tool::Hole, Tool::Cut, Tool::Dart, Tool::Notch, Tool::Grain],
+];
 
 /// Whether a plain key belongs to `shortcut`, which a focused widget may want for itself.
 pub fn is_plain(shortcut: egui::KeyboardShortcut) -> bool {

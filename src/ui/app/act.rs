@@ -45,6 +45,21 @@ impl App {
         if self.shell.start.is_some() && !action.row().on_start_page {
             self.leave_start_page();
         }
+        if let Action::Choose(tool) = action {
+            self.tool = tool;
+            return;
+        }
+        match action.row().menu.split(" › ").next().unwrap_or_default() {
+            "File" => self.act_on_file(ctx, action),
+            "Edit" => self.act_on_edit(ctx, action),
+            "Pattern" => self.change_pattern(action),
+            "Garment" => self.act_on_garment(action),
+            _ => self.act_on_view(ctx, action),
+        }
+    }
+
+    /// What the File menu holds.
+    fn act_on_file(&mut self, ctx: &egui::Context, action: Action) {
         match action {
             Action::New => self.replace(Project::default(), None),
             Action::Sample(sample) => self.replace(files::sample(sample), None),
@@ -66,13 +81,20 @@ impl App {
             Action::UseMannequin => self.apply(files::use_mannequin()),
             Action::ExportPattern => self.ask_file(Purpose::ExportPattern),
             Action::Export => self.ask_file(Purpose::Export),
-            Action::Compare => self.ask_file(Purpose::Compare),
             Action::FitPage => self.ask_file(Purpose::FitPage),
             Action::SaveRecording => self.ask_file(Purpose::Recording),
+            Action::Paper(paper) => self.prefer(ctx, |p| p.paper = paper),
             Action::Quit => {
                 self.may_close = true;
                 ctx.send_viewport_cmd(ViewportCommand::Close);
             }
+            _ => self.act_on_shell(ctx, action),
+        }
+    }
+
+    /// What the Edit menu holds.
+    fn act_on_edit(&mut self, ctx: &egui::Context, action: Action) {
+        match action {
             Action::Undo => self.apply(Command::Undo),
             Action::Redo => self.apply(Command::Redo),
             Action::SuggestMarks => self.suggest_marks(),
@@ -80,37 +102,16 @@ impl App {
             Action::DismissMarks => self.ghosts = None,
             Action::Delete if self.selected.is_some() => self.change_selected(Action::DeleteMark),
             Action::DeleteMark | Action::RaiseMark | Action::LowerMark => self.change_selected(action),
-            Action::Delete
-            | Action::SelectAll
-            | Action::Duplicate
-            | Action::Twin
-            | Action::MakeSymmetric
-            | Action::Unfold
-            | Action::Fold
-            | Action::Unlink
-            | Action::TurnOver
-            | Action::ToggleLock
-            | Action::ToggleFrozen
-            | Action::ToggleDeactivated
-            | Action::Hide
-            | Action::ShowPieces
-            | Action::InsertPoint
-            | Action::ToggleSmooth
-            | Action::Straighten
-            | Action::Curve
-            | Action::Arc
-            | Action::TurnSeam
-            | Action::MakeEqual
-            | Action::FreeLengths
-            | Action::Untwist
-            | Action::ToggleRolled
-            | Action::Unplace => self.change_pattern(action),
+            Action::Delete | Action::SelectAll | Action::Duplicate => self.change_pattern(action),
             Action::ClearMarks => self.apply(Command::ClearMarks),
-            Action::ClearPins => self.apply(Command::ClearPins),
-            Action::OwnBones => self.apply(Command::SetBones { bones: None }),
-            Action::NoBones => self.apply(Command::SetBones { bones: Some(Vec::new()) }),
             Action::ToggleLaser => self.laser = !self.laser,
-            Action::Choose(tool) => self.tool = tool,
+            _ => self.act_on_shell(ctx, action),
+        }
+    }
+
+    /// What the Garment menu holds.
+    fn act_on_garment(&mut self, action: Action) {
+        match action {
             Action::Dress => self.dress(),
             Action::Wrap => {
                 self.show_cloth = true;
@@ -137,6 +138,16 @@ impl App {
                 self.apply(Command::SetDraping { on });
             }
             Action::StepDrape => self.apply(Command::StepDraping { ticks: 1 }),
+            Action::ClearPins => self.apply(Command::ClearPins),
+            Action::OwnBones => self.apply(Command::SetBones { bones: None }),
+            Action::NoBones => self.apply(Command::SetBones { bones: Some(Vec::new()) }),
+            _ => self.change_pattern(action),
+        }
+    }
+
+    /// What the View and Help menus hold.
+    fn act_on_view(&mut self, ctx: &egui::Context, action: Action) {
+        match action {
             Action::Look(_)
             | Action::FrameAll
             | Action::FrameSelection
@@ -144,6 +155,7 @@ impl App {
             | Action::ClearGuides
             | Action::ToggleParallel
             | Action::ToggleFreeTurning => self.change_view(ctx, action),
+            Action::Compare => self.ask_file(Purpose::Compare),
             Action::NextPane => self.next_pane(ctx, false),
             Action::PreviousPane => self.next_pane(ctx, true),
             Action::ToggleSnapping => self.snapping = !self.snapping,
@@ -157,32 +169,13 @@ impl App {
             Action::TogglePanel => self.show_panel = !self.show_panel,
             Action::Theme(theme) => self.prefer(ctx, |p| p.theme = theme.into()),
             Action::Mouse(mouse) => self.prefer(ctx, |p| p.mouse = mouse),
-            Action::Paper(paper) => self.prefer(ctx, |p| p.paper = paper),
             Action::Demo(demo) => self.begin_demo(demo),
             Action::StopDemo => self.stop_demo(),
             Action::Shortcuts => {
                 let keymap = Arc::clone(&self.preferences.keymap);
                 self.dialog = Some(Dialog::Shortcuts { mouse: self.preferences.mouse, keymap });
             }
-            Action::OpenRecent(_)
-            | Action::ClearRecent
-            | Action::StartPage
-            | Action::Picture
-            | Action::Preferences
-            | Action::ToggleWire
-            | Action::ToggleSheer
-            | Action::ToggleXray
-            | Action::TogglePairs
-            | Action::ToggleHistory
-            | Action::ToggleLog
-            | Action::Map(_)
-            | Action::ToggleMapTable
-            | Action::ToggleDifference
-            | Action::ChangeSides
-            | Action::CloseComparison
-            | Action::CommandPalette
-            | Action::Manual
-            | Action::Tour => self.act_on_shell(ctx, action),
+            _ => self.act_on_shell(ctx, action),
         }
     }
 

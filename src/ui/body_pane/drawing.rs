@@ -23,21 +23,19 @@ fn pin_looks(seen: &Seen<'_>) -> Vec<PinLook> {
 /// Pictures drawn by a processor shrink by this much while things move.
 const DRAFT: f32 = 0.8;
 
+/// Words in the middle of the pane that `painter` paints.
+fn tell(painter: &egui::Painter, words: &str, ink: Color32) {
+    let font = FontId::proportional(14.0);
+    painter.text(painter.clip_rect().center(), Align2::CENTER_CENTER, words, font, ink);
+}
+
 impl ScenePane {
     pub(super) fn draw(&mut self, ui: &egui::Ui, seen: &Seen<'_>, near: Option<MarkId>, pane: Rect) {
         let painter = ui.painter_at(pane);
         let [stroke, far_stroke] = self.strokes().cloned().unwrap_or_default();
         let bones = self.shown_bones(seen);
         let Some(graphics) = &mut self.graphics else {
-            let words = "No graphics adapter: the body cannot be shown.";
-            painter.text(
-                pane.center(),
-                Align2::CENTER_CENTER,
-                words,
-                FontId::proportional(14.0),
-                seen.palette.weak,
-            );
-            return;
+            return tell(&painter, "No graphics adapter: the body cannot be shown.", seen.palette.weak);
         };
         let draft = graphics.is_slow() && (self.moving || seen.working || !stroke.is_empty());
         let scale = ui.ctx().pixels_per_point() * if draft { DRAFT } else { 1.0 };
@@ -91,16 +89,7 @@ impl ScenePane {
                 let whole = Rect::from_min_max(Pos2::ZERO, Pos2::new(1.0, 1.0));
                 painter.image(texture, pane, whole, Color32::WHITE);
             }
-            Err(error) => {
-                let font = FontId::proportional(14.0);
-                painter.text(
-                    pane.center(),
-                    Align2::CENTER_CENTER,
-                    error.to_string(),
-                    font,
-                    seen.palette.error,
-                );
-            }
+            Err(error) => tell(&painter, &error.to_string(), seen.palette.error),
         }
         if draft {
             // The finished picture follows as soon as nothing moves.

@@ -14,15 +14,28 @@ use crate::body::pose::motion::Clip;
 use crate::body::{Unit, UpAxis, guess_unit, import, mannequin};
 use crate::geometry::mesh::TriMesh;
 use crate::io::body_file;
-use crate::io::pattern_file::{self, PatternFileError};
-use crate::io::pdf::{self, Paper};
+use crate::io::pattern_file::PatternFileError;
+use crate::io::pattern_formats::{self, PatternFormat, endings};
+use crate::io::pdf::Paper;
 use crate::io::scale::{DrawingUnit, ScaleQuestion};
-use crate::io::{FILE_BYTES, bvh, dxf, garmentcode, glb, gltf, obj, svg};
+use crate::io::{FILE_BYTES, bvh, glb, gltf, obj};
 use crate::pattern::Pattern;
 use crate::session::project_file::ProjectFileError;
 use crate::session::samples::Sample;
 use crate::session::{AnimatedFile, Animations, BodyChoice, Command, Project, project_file, whole_file};
 use crate::sim::Snapshot;
+
+/// Endings of patterns that are written,
+const WRITTEN_ENDINGS: [&str; 4] = {
+    let [a, b, c, d] = PatternFormat::ALL;
+    [a.ending(), b.ending(), c.ending(), d.ending()]
+};
+/// and of those that are read.
+const READ_ENDINGS: [&str; 3] = {
+    let [_, b, c, d] = PatternFormat::ALL;
+    assert!(b.is_read() && c.is_read() && d.is_read());
+    [b.ending(), c.ending(), d.ending()]
+};
 
 /// What a file dialog is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -85,8 +98,8 @@ impl Purpose {
     pub fn filter(self) -> (&'static str, &'static [&'static str]) {
         match self {
             Self::Open | Self::Save | Self::Copy | Self::Compare => ("Toile project", &["toile"]),
-            Self::ImportPattern => ("Pattern", &["dxf", "svg", "json"]),
-            Self::ExportPattern => ("Pattern", &["pdf", "svg", "dxf", "json"]),
+            Self::ImportPattern => ("Pattern", &READ_ENDINGS),
+            Self::ExportPattern => ("Pattern", &WRITTEN_ENDINGS),
             Self::ImportBody => ("Body", &["obj", "glb", "gltf"]),
             Self::Pose => ("Body or motion", &["obj", "glb", "gltf", "bvh"]),
             Self::Sequence => ("Body", &["obj"]),
@@ -174,7 +187,7 @@ pub enum PatternImport {
 
 /// Reads a pattern. `unit` is the answer to the question how large it is.
 pub fn import_pattern(path: &Path, unit: Option<DrawingUnit>) -> Result<PatternImport, String> {
-    match pattern_file::read(&read(path)?, unit) {
+    match pattern_formats::read(&read(path)?, unit) {
         Ok(read) => {
             let pattern = Arc::new(read.pattern);
             let command = Command::ReplacePattern { name: stem(path), pattern, marks: Arc::default() };
@@ -187,13 +200,13 @@ pub fn import_pattern(path: &Path, unit: Option<DrawingUnit>) -> Result<PatternI
 
 /// Writes `pattern` as the name of the file says; a PDF on `paper`. Returns what the format does not hold.
 pub fn export_pattern(path: &Path, pattern: &Pattern, paper: Paper) -> Result<Vec<String>, String> {
-    let written = match path.extension().map(|e| e.to_string_lossy().to_lowercase()).as_deref() {
-        Some("json") => garmentcode::write(pattern),
-        Some("dxf") => dxf::write(pattern),
-        Some("svg") => svg::write(pattern),
-        Some("pdf") => pdf::write(pattern, &stem(path), paper).map_err(|e| in_words(path, "written", e))?,
-        _ => return Err(in_words(path, "written", "the name must end in .pdf, .svg, .dxf or .json")),
+    let ending = path.extension().unwrap_or_default().to_string_lossy();
+    let Some(format) = PatternFormat::of_ending(&ending) else {
+        let words = format!("the name must end in {}", endings(PatternFormat::ALL));
+        return Err(in_words(path, "written", words));
     };
+    let written = pattern_formats::write(format, pattern, &stem(path), paper);
+    let written = written.map_err(|e| in_words(path, "written", e))?;
     write(path, &written.bytes)?;
     Ok(written.left_out)
 }

@@ -1,4 +1,5 @@
-//! Maps over the dressed cloth, in both panes: worked out while one is shown and the cloth has changed, never else.
+//! Shows and keeps the maps of [`crate::fit::maps`] in both panes: they are worked out while one is shown and the cloth has
+//! changed, never else.
 
 mod beside;
 mod chooser;

@@ -75,79 +75,87 @@ fn section(ui: &mut egui::Ui, title: &str, open: bool, contents: impl FnOnce(&mu
     shown.header_response.id
 }
 
+/// A setting of how cloth relaxes and drapes.
+struct Setting {
+    text: &'static str,
+    tip: &'static str,
+    value: fn(&mut Settings) -> &mut f64,
+    /// In what is shown.
+    range: std::ops::RangeInclusive<f64>,
+    /// How many of what is shown one of it is, and its sign.
+    unit: (f64, &'static str),
+}
+
+const SETTINGS: [Setting; 7] = [
+    Setting {
+        text: "Triangle size",
+        tip: "Length of the edges of the cloth's triangles; takes effect with the next wrap",
+        value: |settings| &mut settings.edge_length,
+        range: 5.0..=60.0,
+        unit: (1000.0, " mm"),
+    },
+    Setting {
+        text: "Skin offset",
+        tip: "Distance between skin and cloth",
+        value: |settings| &mut settings.relax.offset,
+        range: 0.5..=20.0,
+        unit: (1000.0, " mm"),
+    },
+    Setting {
+        text: "Shape stiffness",
+        tip: "How strongly triangles keep their flat shape while the cloth relaxes",
+        value: |settings| &mut settings.relax.stretch,
+        range: 0.0..=1.0,
+        unit: (1.0, ""),
+    },
+    Setting {
+        text: "Fold smoothing",
+        tip: "How strongly folds are smoothed away",
+        value: |settings| &mut settings.relax.flatten,
+        range: 0.0..=1.0,
+        unit: (1.0, ""),
+    },
+    Setting {
+        text: "Gravity",
+        tip: "How strongly gravity pulls while the cloth relaxes",
+        value: |settings| &mut settings.relax.gravity,
+        range: 0.0..=0.05,
+        unit: (1.0, ""),
+    },
+    Setting {
+        text: "Friction",
+        tip: "Friction between cloth and skin while the cloth relaxes",
+        value: |settings| &mut settings.relax.friction,
+        range: 0.0..=1.5,
+        unit: (1.0, ""),
+    },
+    Setting {
+        text: "Strain limit",
+        tip: "Strain beyond which draped cloth does not stretch further",
+        value: |settings| &mut settings.strain,
+        range: 0.1..=20.0,
+        unit: (100.0, " %"),
+    },
+];
+
 fn settings_ui(ui: &mut egui::Ui, settings: &Settings, palette: &Palette, asks: &mut Asks) {
     let mut new = *settings;
     let mut ended = false;
-    let mut slider =
-        |ui: &mut egui::Ui, text: &str, tip: &str, value: &mut f64, range, unit: f64, suffix: &str| {
-            let mut shown = *value * unit;
-            let digits = if unit > 500.0 { 1 } else { 3 };
-            ui.label(RichText::new(text).color(palette.weak).size(12.5));
-            let slider = Slider::new(&mut shown, range).suffix(suffix).max_decimals(digits);
-            let response = ui.add(slider).on_hover_text(tip);
-            response.widget_info(|| egui::WidgetInfo::slider(true, shown, text));
-            if response.changed() {
-                *value = shown / unit;
-            }
-            ended |= response.drag_stopped() || (response.changed() && !response.dragged());
-        };
-    slider(
-        ui,
-        "Triangle size",
-        "Length of the edges of the cloth's triangles; takes effect with the next wrap",
-        &mut new.edge_length,
-        5.0..=60.0,
-        1000.0,
-        " mm",
-    );
-    slider(
-        ui,
-        "Distance from the skin",
-        "How far above the skin the cloth lies",
-        &mut new.relax.offset,
-        0.5..=20.0,
-        1000.0,
-        " mm",
-    );
-    slider(
-        ui,
-        "Keeps its shape",
-        "How strongly the flat shape is kept",
-        &mut new.relax.stretch,
-        0.0..=1.0,
-        1.0,
-        "",
-    );
-    slider(
-        ui,
-        "Flattens folds",
-        "How strongly folds are smoothed away",
-        &mut new.relax.flatten,
-        0.0..=1.0,
-        1.0,
-        "",
-    );
-    slider(ui, "Weight", "How strongly the cloth is drawn down", &mut new.relax.gravity, 0.0..=0.05, 1.0, "");
-    slider(
-        ui,
-        "Friction",
-        "How strongly the cloth sticks to the skin",
-        &mut new.relax.friction,
-        0.0..=1.5,
-        1.0,
-        "",
-    );
-    slider(
-        ui,
-        "Stretches at most",
-        "Strain beyond which draped cloth is rigid",
-        &mut new.strain,
-        0.1..=20.0,
-        100.0,
-        " %",
-    );
+    for Setting { text, tip, value, range, unit: (unit, sign) } in SETTINGS {
+        let value = value(&mut new);
+        let mut shown = *value * unit;
+        let digits = if unit > 500.0 { 1 } else { 3 };
+        ui.label(RichText::new(text).color(palette.weak).size(12.5));
+        let slider = Slider::new(&mut shown, range).suffix(sign).max_decimals(digits);
+        let response = ui.add(slider).on_hover_text(tip);
+        response.widget_info(|| egui::WidgetInfo::slider(true, shown, text));
+        if response.changed() {
+            *value = shown / unit;
+        }
+        ended |= response.drag_stopped() || (response.changed() && !response.dragged());
+    }
     ui.add_space(2.0);
-    if ui.add_enabled(*settings != Settings::default(), egui::Button::new("As at first").small()).clicked() {
+    if ui.add_enabled(*settings != Settings::default(), egui::Button::new("Reset").small()).clicked() {
         asks.push(Ask::Do(Command::SetSettings { settings: Settings::default() }));
         return;
     }

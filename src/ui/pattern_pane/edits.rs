@@ -73,6 +73,20 @@ pub fn edits(action: Action, pattern: &Pattern, selection: &Selection) -> Vec<Pa
                 vec![PatternEdit::SetHidden { pieces, hidden: false }]
             }
         }
+        Action::ToggleRolled => rolled(pattern, &touched),
+        Action::Unplace => {
+            let standing = touched.iter().filter(|id| pattern.pieces[id].placement.is_some());
+            let placements: Vec<_> = standing.map(|id| (*id, None)).collect();
+            if placements.is_empty() { Vec::new() } else { vec![PatternEdit::PlaceInSpace { placements }] }
+        }
+        Action::Untwist => vec![PatternEdit::UntwistSeams],
+        _ => edits_of_edges(action, pattern, selection),
+    }
+}
+
+/// Those to the selected points, edges and seams.
+fn edits_of_edges(action: Action, pattern: &Pattern, selection: &Selection) -> Vec<PatternEdit> {
+    match action {
         // From the last on: the numbers of those before stay.
         Action::InsertPoint => {
             let edges = selection.edges.iter().rev();
@@ -98,13 +112,6 @@ pub fn edits(action: Action, pattern: &Pattern, selection: &Selection) -> Vec<Pa
         Action::FreeLengths => {
             selection.seams.iter().map(|&seam| PatternEdit::SetRatio { seam, ratio: None }).collect()
         }
-        Action::ToggleRolled => rolled(pattern, &touched),
-        Action::Unplace => {
-            let standing = touched.iter().filter(|id| pattern.pieces[id].placement.is_some());
-            let placements: Vec<_> = standing.map(|id| (*id, None)).collect();
-            if placements.is_empty() { Vec::new() } else { vec![PatternEdit::PlaceInSpace { placements }] }
-        }
-        Action::Untwist => vec![PatternEdit::UntwistSeams],
         _ => Vec::new(),
     }
 }

@@ -44,7 +44,7 @@ use rulers::Rulers;
 use shapes::Shapes;
 use table::{Guide, Table};
 use threads::Threads;
-use tools::{PatternTool, machine};
+use tools::{PatternTool, handler};
 use view::TableView;
 
 /// Logarithm of the zoom for each point the pointer moves.
@@ -263,7 +263,7 @@ impl PatternPane {
                     tool.give_up(asks);
                 }
                 (self.entry, self.cursor) = (None, None);
-                machine(chosen)
+                handler(chosen)
             }
         }
     }

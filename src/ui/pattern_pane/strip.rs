@@ -4,20 +4,12 @@ use egui::{Painter, Pos2, Rect, Sense, Shape, Stroke, UiBuilder, Vec2, WidgetInf
 
 use super::Laid;
 use crate::ui::actions::asks::{Ask, Asks};
-use crate::ui::actions::{Action, Tool};
+use crate::ui::actions::{Action, PATTERN_TOOLS, Tool};
 
 /// Breadth of the strip, points.
 const BREADTH: f32 = 36.0;
 /// Of a button.
 const SIZE: f32 = 28.0;
-
-/// The tools in order; a gap between groups.
-const TOOLS: [&[Tool]; 4] = [
-    &[Tool::Move, Tool::Points],
-    &[Tool::Pen, Tool::Rectangle, Tool::Ellipse],
-    &[Tool::Sew],
-    &[Tool::Line, Tool::Hole, Tool::Cut, Tool::Dart, Tool::Notch, Tool::Grain],
-];
 
 /// Takes the strip's room from `whole`.
 pub fn beside(whole: Rect) -> (Rect, Rect) {
@@ -32,7 +24,7 @@ pub fn strip_ui(ui: &mut egui::Ui, strip: Rect, laid: &Laid<'_>, asks: &mut Asks
         UiBuilder::new().max_rect(room).layout(egui::Layout::top_down(egui::Align::Center)),
         |ui| {
             ui.spacing_mut().item_spacing.y = 2.0;
-            for (i, group) in TOOLS.iter().enumerate() {
+            for (i, group) in PATTERN_TOOLS.iter().enumerate() {
                 if i > 0 {
                     ui.add_space(3.0);
                     let line = ui.allocate_space(vec2(SIZE - 8.0, 1.0)).1;

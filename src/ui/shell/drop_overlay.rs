@@ -4,6 +4,7 @@ use std::path::Path;
 
 use egui::{Align2, Color32, FontId, Id, LayerId, Order, Rect, Stroke, StrokeKind};
 
+use crate::io::pattern_formats::PatternFormat;
 use crate::ui::look::theme::Palette;
 
 /// What a dropped file becomes.
@@ -23,9 +24,10 @@ impl Dropped {
     /// By the name of the file.
     pub fn of(path: &Path) -> Self {
         let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
+        let is_pattern = |ending: &str| PatternFormat::of_ending(ending).is_some_and(PatternFormat::is_read);
         match extension.as_deref() {
             Some("toile") => Self::Project,
-            Some("json" | "dxf" | "svg") => Self::Pattern,
+            Some(ending) if is_pattern(ending) => Self::Pattern,
             Some("obj" | "glb" | "gltf") => Self::Body,
             _ => Self::Nothing,
         }

@@ -1,4 +1,4 @@
-//! *Help ▸ Manual*: topics on the left, one of them on the right.
+//! *Help › Manual*: topics on the left, one of them on the right.
 
 use egui::{Grid, Id, Label, Modal, RichText, ScrollArea, text::LayoutJob};
 
@@ -20,15 +20,15 @@ impl ManualPage {
     /// Shows it. False when it is to be closed.
     pub fn ui(&mut self, ctx: &egui::Context, palette: &Palette) -> bool {
         let room = ctx.content_rect().size();
-        let height = (room.y - 160.0).max(160.0);
+        let height = (room.y - 200.0).max(160.0);
         let shown = Modal::new(Id::unique("manual")).show(ctx, |ui| {
             ui.set_width((room.x - 80.0).min(WIDTH));
             ui.heading("Manual");
             ui.separator();
             ui.horizontal_top(|ui| {
+                ui.set_height(height);
                 ui.vertical(|ui| {
                     ui.set_width(LIST);
-                    ui.set_min_height(height);
                     for (i, topic) in TOPICS.iter().enumerate() {
                         if ui.selectable_label(self.topic == i, topic.title()).clicked() {
                             self.topic = i;

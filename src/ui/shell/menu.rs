@@ -9,7 +9,7 @@ use crate::session::samples::Sample;
 use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::actions::context::FrameContext;
 use crate::ui::actions::layout::Panes;
-use crate::ui::actions::{Action, Tool, VIEWS};
+use crate::ui::actions::{Action, PATTERN_TOOLS, Tool, VIEWS};
 use crate::ui::maps;
 use crate::ui::pointer::mouse::Mouse;
 use crate::ui::preferences::units::LengthUnit;
@@ -109,12 +109,7 @@ fn recent_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) {
 
 fn pattern_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) {
     ui.menu_button("Tools", |ui| {
-        let groups: [&[Tool]; 3] = [
-            &[Tool::Move, Tool::Points, Tool::Sew],
-            &[Tool::Pen, Tool::Rectangle, Tool::Ellipse],
-            &[Tool::Line, Tool::Hole, Tool::Cut, Tool::Dart, Tool::Notch, Tool::Grain],
-        ];
-        for (i, tools) in groups.into_iter().enumerate() {
+        for (i, tools) in PATTERN_TOOLS.into_iter().enumerate() {
             if i > 0 {
                 ui.separator();
             }

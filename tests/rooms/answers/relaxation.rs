@@ -92,7 +92,8 @@ proptest! {
         for pass in 0..20 {
             relaxer.local_pass(&mut state, &vertices, &triangles, factor);
             let after = energy(&garment, &state);
-            prop_assert!(after <= before * (1.0 + 1e-9) + 1e-18, "pass {pass}: {before} to {after}");
+            // It is a small difference of sums of about 0.1 m², which are known to 1e-17.
+            prop_assert!(after <= before * (1.0 + 1e-9) + 1e-16, "pass {pass}: {before} to {after}");
             before = after;
         }
     }

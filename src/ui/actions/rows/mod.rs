@@ -79,7 +79,6 @@ mod tests {
                 row.action
             );
             assert!(!row.menu.is_empty() && !row.text.is_empty() && !row.tip.is_empty(), "{:?}", row.action);
-            assert!(row.tip.ends_with(|c: char| c != '.'), "{:?}: tips have no full stop", row.action);
         }
         let count = |is: fn(&Action) -> bool| all().filter(is).count();
         assert_eq!(count(|action| matches!(action, Action::Sample(_))), Sample::ALL.len());
@@ -95,7 +94,7 @@ mod tests {
             let words = topic.text.replace('`', "'");
             let all: Vec<(bool, &str)> = parts(&words).collect();
             for (at, (_, name)) in all.iter().enumerate().filter(|(_, (is_name, _))| *is_name) {
-                let (menu, text) = name.rsplit_once(" ▸ ").unwrap_or(("", name));
+                let (menu, text) = name.rsplit_once(" › ").unwrap_or(("", name));
                 let found = ROWS.iter().find(|row| row.text == text && row.menu.starts_with(menu));
                 let keys = all.get(at + 1).and_then(|(_, after)| after.strip_prefix(" (")?.split_once(')'));
                 let is_elsewhere = menu.is_empty() && keys.is_none();

@@ -24,7 +24,7 @@ pub const ROWS: &[Row] = &[
     row("Pattern", Action::Unfold, "Unfold", "Open half a piece out along the selected straight edge").keys(&[ctrl(Key::U)]).needs(&[Need::PickedStraight]),
     row("Pattern", Action::Fold, "Fold", "Keep the left half of a symmetric piece only").needs(&[Need::PickedSymmetric]),
     row("Pattern", Action::Unlink, "Unlink", "The selected pieces no longer follow their twins or their other half").needs(&[Need::PickedLinked]),
-    row("Pattern", Action::TurnOver, "Turn over", "See the other side of the selected pieces").keys(&[key(Key::M)]).needs(&[Need::PickedPiece]),
+    row("Pattern", Action::TurnOver, "Flip", "Turn the selected pieces over: see their other side").keys(&[key(Key::M)]).needs(&[Need::PickedPiece]),
     row("Pattern", Action::ToggleLock, "Lock", "Keep the selected pieces from being changed by the pointer, or the selected pins where they are").keys(&[ctrl(Key::L)]).needs(&[Need::PickedPieceOrPin]),
     row("Pattern", Action::ToggleFrozen, "Freeze", "Draping and relaxing leave the selected pieces where they lie on the body; others collide with them and hang from them").keys(&[ctrl(Key::K)]).needs(&[Need::PickedPiece]),
     row("Pattern", Action::ToggleDeactivated, "Deactivate", "The selected pieces stay where they lie and count for nothing: nothing touches them, and their seams to others do not hold").keys(&[ctrl(Key::J)]).needs(&[Need::PickedPiece]),

@@ -124,15 +124,10 @@ pub const ROWS: &[Row] = &[
     )
     .needs(&[Need::Comparison])
     .in_demos(),
-    row(
-        "View",
-        Action::ChangeSides,
-        "Change sides",
-        "The other garment stands on the other side of this one",
-    )
-    .needs(&[Need::Comparison])
-    .in_demos(),
-    row("View", Action::CloseComparison, "End the comparison", "Show only this garment again")
+    row("View", Action::ChangeSides, "Swap sides", "The other garment stands on the other side of this one")
+        .needs(&[Need::Comparison])
+        .in_demos(),
+    row("View", Action::CloseComparison, "Close comparison", "Show only this garment again")
         .needs(&[Need::Comparison])
         .in_demos(),
     row(

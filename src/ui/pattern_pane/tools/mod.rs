@@ -79,8 +79,8 @@ pub trait PatternTool: std::fmt::Debug {
     fn hint(&self, table: &Table<'_>) -> String;
 }
 
-/// The machine of a tool.
-pub fn machine(tool: Tool) -> Box<dyn PatternTool> {
+/// What handles the pointer and keys of a tool over the table.
+pub fn handler(tool: Tool) -> Box<dyn PatternTool> {
     match tool {
         Tool::Mark => Box::new(marks::Marks::painting()),
         Tool::Erase => Box::new(marks::Marks::erasing()),

@@ -1,0 +1,150 @@
+//! The formats of patterns: add one here. Menus, command line and file dialogs list them from [`PatternFormat::ALL`].
+
+use crate::io::pattern_file::{PatternFileError, ReadPattern};
+use crate::io::pdf::{Paper, PdfError};
+use crate::io::scale::DrawingUnit;
+use crate::io::{Limits, Written, dxf, garmentcode, pdf, svg};
+use crate::pattern::Pattern;
+
+/// A format patterns are in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PatternFormat {
+    /// For printing in true size; not read.
+    Pdf,
+    /// Scalable Vector Graphics.
+    Svg,
+    /// DXF-AAMA and ASTM D6673.
+    Dxf,
+    /// GarmentCode and Garment Pattern Generator.
+    GarmentCode,
+}
+
+impl PatternFormat {
+    /// All of them, in the order of file dialogs.
+    pub const ALL: [Self; 4] = [Self::Pdf, Self::Svg, Self::Dxf, Self::GarmentCode];
+
+    /// What names of its files end in, without the dot.
+    pub const fn ending(self) -> &'static str {
+        match self {
+            Self::Pdf => "pdf",
+            Self::Svg => "svg",
+            Self::Dxf => "dxf",
+            Self::GarmentCode => "json",
+        }
+    }
+
+    /// Whether it is read, too.
+    pub const fn is_read(self) -> bool {
+        match self {
+            Self::Pdf => false,
+            Self::Svg | Self::Dxf | Self::GarmentCode => true,
+        }
+    }
+
+    /// The one whose files end in `ending`, in small letters or capitals.
+    pub fn of_ending(ending: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|format| format.ending().eq_ignore_ascii_case(ending))
+    }
+}
+
+/// The endings of `formats` in words: ".svg, .dxf or .json".
+pub fn endings(formats: impl IntoIterator<Item = PatternFormat>) -> String {
+    let mut all: Vec<String> = formats.into_iter().map(|format| format!(".{}", format.ending())).collect();
+    let last = all.pop().unwrap_or_default();
+    if all.is_empty() { last } else { format!("{} or {last}", all.join(", ")) }
+}
+
+/// Which format `bytes` seem to be in. None for anything else, such as a mesh.
+pub fn format(bytes: &[u8]) -> Option<PatternFormat> {
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    let text = bytes.trim_ascii_start();
+    if text.starts_with(b"%PDF-") {
+        return Some(PatternFormat::Pdf);
+    }
+    if dxf::looks_like(bytes) {
+        return Some(PatternFormat::Dxf);
+    }
+    match text.first()? {
+        b'<' => Some(PatternFormat::Svg),
+        b'{' | b'[' | b'"' => Some(PatternFormat::GarmentCode),
+        // The oldest dialect of GarmentCode's JSON has comments.
+        b'/' if text.starts_with(b"//") || text.starts_with(b"/*") => Some(PatternFormat::GarmentCode),
+        // Zipped text: SVGZ.
+        0x1f if text.starts_with(b"\x1f\x8b") => Some(PatternFormat::Svg),
+        _ => None,
+    }
+}
+
+/// Reads a pattern of any format. `unit` is what a unit of the drawing is, where it does not say so or says it wrongly.
+///
+/// # Errors
+/// What is wrong with the file and where, or the question how large it is.
+pub fn read(bytes: &[u8], unit: Option<DrawingUnit>) -> Result<ReadPattern, PatternFileError> {
+    let limits = Limits::default();
+    if bytes.len() > limits.file_bytes {
+        let words = format!("the file has {} bytes; {} are allowed", bytes.len(), limits.file_bytes);
+        return Err(PatternFileError::OverLimit(words));
+    }
+    let mut read = match format(bytes) {
+        Some(PatternFormat::Dxf) => dxf::read(bytes, unit)?,
+        Some(PatternFormat::Svg) => svg::read(bytes, unit)?,
+        Some(PatternFormat::Pdf) => {
+            let formats = PatternFormat::ALL.into_iter().filter(|format| format.is_read());
+            let words = format!("a PDF is for printing and is not read: {} are", endings(formats));
+            return Err(PatternFileError::Whole(words));
+        }
+        Some(PatternFormat::GarmentCode) | None => {
+            ReadPattern { pattern: garmentcode::read(bytes)?, notes: Vec::new() }
+        }
+    };
+    // No format tells which seams are gathers: editing keeps what is there.
+    read.pattern.keep_ratios();
+    Ok(read)
+}
+
+/// `pattern`, called `name`, as a file of `format`; a PDF on `paper`.
+///
+/// # Errors
+/// Why there can be no PDF of it.
+pub fn write(
+    format: PatternFormat,
+    pattern: &Pattern,
+    name: &str,
+    paper: Paper,
+) -> Result<Written, PdfError> {
+    match format {
+        PatternFormat::Pdf => pdf::write(pattern, name, paper),
+        PatternFormat::Svg => Ok(svg::write(pattern)),
+        PatternFormat::Dxf => Ok(dxf::write(pattern)),
+        PatternFormat::GarmentCode => Ok(garmentcode::write(pattern)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_format_that_is_read_knows_what_it_wrote() {
+        let mut pattern = Pattern::default();
+        let corners = [(0.0, 0.0), (0.3, 0.0), (0.3, 0.2), (0.0, 0.2)].map(glam::DVec2::from);
+        pattern.add_piece(crate::pattern::Piece::polygon("front", &corners));
+        for one in PatternFormat::ALL {
+            let written = write(one, &pattern, "front", Paper::A4).expect("a small pattern");
+            assert_eq!(PatternFormat::of_ending(&one.ending().to_uppercase()), Some(one));
+            assert_eq!(format(&written.bytes), Some(one));
+            if !one.is_read() {
+                let why = read(&written.bytes, None).expect_err("not read").to_string();
+                assert!(why.contains(".svg, .dxf or .json"), "{why}");
+            } else {
+                assert_eq!(
+                    read(&written.bytes, None).map(|read| read.pattern.pieces.len()),
+                    Ok(1),
+                    "{one:?}"
+                );
+            }
+        }
+        let read: Vec<_> = PatternFormat::ALL.into_iter().filter(|format| format.is_read()).collect();
+        assert_eq!(endings(read), ".svg, .dxf or .json");
+    }
+}
