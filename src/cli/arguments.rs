@@ -157,7 +157,7 @@ pub struct Dress {
     /// Also writes a recording to this file
     #[arg(long, value_name = "FILE")]
     pub record: Option<PathBuf>,
-    /// Gives up after so many ticks (exit code 4)
+    /// Most ticks; more are given up (exit code 4)
     #[arg(long, default_value_t = MAX_TICKS)]
     pub max_ticks: u64,
     #[command(flatten)]
@@ -305,7 +305,7 @@ pub struct Repose {
     /// Only these frames of it, counted from 0, the last left out
     #[arg(long, value_name = "FROM..TO", value_parser = frame_range)]
     pub frames: Option<Range<usize>>,
-    /// Only every so many of them
+    /// Only each Nth of them
     #[arg(long, value_name = "COUNT", default_value_t = 1, value_parser = step)]
     pub every: usize,
     /// Frames a second of sequence.glb; without it those of the motion, or 30
@@ -320,7 +320,7 @@ pub struct Repose {
     /// Also writes the project in the pose to this file
     #[arg(long, value_name = "PROJECT")]
     pub save: Option<PathBuf>,
-    /// Gives up after so many ticks (exit code 4)
+    /// Most ticks; more are given up (exit code 4)
     #[arg(long, default_value_t = MAX_TICKS)]
     pub max_ticks: u64,
     #[command(flatten)]
@@ -420,7 +420,7 @@ pub struct Render {
     /// The picture (PNG)
     #[arg(short, long, value_name = "PNG")]
     pub output: PathBuf,
-    /// So many pictures in a full turn, numbered NAME-00.png and up
+    /// Pictures in a full turn, numbered NAME-00.png and up
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u32).range(1..=3600))]
     pub turntable: Option<u32>,
 }
@@ -502,7 +502,7 @@ pub struct Generate {
 /// Which garments of our own.
 #[derive(Clone, Debug, Default, PartialEq, Args)]
 pub struct CorpusOptions {
-    /// So many designs, each for every body in every pose; 500 when left out
+    /// Number of designs, each for every body in every pose; 500 when left out
     #[arg(long, value_name = "DESIGNS", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub count: Option<u32>,
     /// Designs are drawn from this number; 1 when left out
@@ -549,7 +549,7 @@ pub struct Bench {
     /// How often each scene is run; the median counts
     #[arg(long, default_value_t = 5, value_parser = clap::value_parser!(u16).range(1..=1000))]
     pub runs: u16,
-    /// About so many triangles a garment has; the limits are for 10000, those of ticks for 20000, which are the defaults
+    /// Triangles of each garment, about; the limits are for 10000, those of ticks for 20000, which are the defaults
     #[arg(long, value_parser = clap::value_parser!(u32).range(200..=1_000_000))]
     pub triangles: Option<u32>,
     /// Writes a picture of error against time, or of cost against size, to this file (SVG)
@@ -559,7 +559,7 @@ pub struct Bench {
     pub corpus: CorpusOptions,
     #[command(flatten)]
     pub trust: TrustOptions,
-    /// Of the corpus, gives up on a garment after so many ticks; as dress does when left out
+    /// Of the corpus: most ticks for a garment; as dress does when left out
     #[arg(long)]
     pub max_ticks: Option<u64>,
     /// Keeps in this folder what was not dressed well of the corpus (pattern, report, picture and the command line), or the
@@ -579,7 +579,7 @@ pub struct Bench {
 /// How much is tried of what files and commands can do.
 #[derive(Clone, Debug, Default, PartialEq, Args)]
 pub struct TrustOptions {
-    /// So many damaged files for each reader; 1000 when left out
+    /// Damaged files for each reader; 1000 when left out
     #[arg(long, value_name = "FILES", value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
     pub mutations: Option<u64>,
     /// The first of them: the same number gives the same file

@@ -15,7 +15,7 @@ const LOOK_INTO: f64 = 5.0;
 const WRONG_REACH: f64 = 0.02;
 /// A face is on the wrong side when its normal and the skin's have a smaller cosine.
 const WRONG: f64 = -0.15;
-/// Faces are looked at so much farther than needed, so that the answer holds for a while; metres on a body 1.5 m large.
+/// How much farther than needed faces are looked at, so that the answer holds for a while; metres on a body 1.5 m large.
 const AHEAD: f64 = 0.002;
 /// Where a face is looked at, in shares of its corners.
 const SAMPLES: [[f64; 3]; 7] = [

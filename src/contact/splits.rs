@@ -16,11 +16,11 @@ use crate::cloth::refine::{DependentVertex, Refined, refine};
 use crate::cloth::{ClothState, Counters, Garment, Skip, Skips};
 use crate::contact::Tracker;
 
-/// A split edge is joined again when it would have been clear of the body in so many looks in a row,
+/// Looks in a row in which a split edge would have been clear of the body before it is joined again,
 const CLEAR_LOOKS: u8 = 10;
-/// were it so many times as long.
+/// had it been this many times as long.
 const LONGER: f64 = 1.2;
-/// Clear of the body is so much of the offset above it.
+/// Height above the skin that counts as clear, as a share of the offset.
 const CLEAR: f64 = 0.25;
 /// Points of an edge at which that is looked at.
 const POINTS: u32 = 8;

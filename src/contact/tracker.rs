@@ -24,7 +24,7 @@ const SIGHT: f64 = 0.03;
 const SLOW: f64 = 0.0005;
 /// Far beyond rounding errors, metres on a body 1.5 m large.
 const CERTAIN: f64 = 1e-6;
-/// Parts so much farther than the nearest are not looked for then, metres on a body 1.5 m large.
+/// Parts farther than the nearest by this are not looked for then, metres on a body 1.5 m large.
 const MOST_GAP: f64 = 0.004;
 
 /// The body near a vertex, as a plane.

@@ -37,7 +37,7 @@ pub struct Bodice {
     pub bust_ease: f64,
     /// Added to the girth at the hem (where that is the waist: of the waist, darts taken in).
     pub hem_ease: f64,
-    /// Waist darts of each quarter take in so much; only where the hem is the waist.
+    /// What the waist darts of each quarter take in, metres; only where the hem is the waist.
     pub waist_dart: f64,
     /// A dart in the front's side seam takes the length that the bust needs.
     pub bust_dart: bool,

@@ -17,7 +17,7 @@ const BESIDE: f64 = 0.12;
 const OUT: f64 = 0.02;
 /// Between a sleeve and its cuff as placed, metres.
 const CUFF_GAP: f64 = 0.03;
-/// A sleeve is at least so much longer than its cap, metres.
+/// Least length of a sleeve below its cap, metres.
 const SHORTEST: f64 = 0.04;
 /// The bend of a raglan sleeve's upper seam at the shoulder, radians.
 const SHOULDER_BEND: f64 = 0.30;

@@ -19,7 +19,7 @@ const FOLLOWS: f64 = 0.036;
 /// The paper halves its distance to the skin in every step; so large a share of that is done here in a whole substep, and less
 /// the higher cloth lies above [`PULLED`]: loose cloth that is sucked in has nowhere to go and folds.
 const PULL: f64 = 0.02;
-/// Cloth up to so many offsets above the one it lies at comes nearer.
+/// Height, in offsets, up to which cloth is brought nearer to the skin.
 const PULLED: f64 = 2.0;
 /// A pointer that looks along the skin (cosine to the normal) says little about where on it the cloth should go.
 const GRAZING: f64 = 0.1;

@@ -10,7 +10,7 @@ const MOST_STRAIN: f64 = 0.25;
 /// A pattern that is smaller than the body by more is told so where it is not dressed, metres.
 const TOO_SMALL: f64 = 0.01;
 
-/// Cloth or a seam has torn where more than one edge in so many is stretched to twice its length: fewer are slivers.
+/// Cloth or a seam has torn where more than one in this many edges is stretched to twice its length; fewer are slivers.
 const EDGES_PER_TEAR: usize = 1000;
 
 /// Seams named in one fault.

@@ -32,7 +32,7 @@ pub fn cylinder(radius: f64, height: f64, round: u32, rows: u32) -> TriMesh {
     mesh
 }
 
-/// A ball of `radius` metres about the origin: an icosahedron whose triangles are cut in four so many times.
+/// A ball of `radius` metres about the origin: an icosahedron whose triangles are cut in four `cuts` times.
 pub fn icosphere(radius: f64, cuts: u32) -> TriMesh {
     let golden = (1.0 + 5f64.sqrt()) / 2.0;
     let mut positions: Vec<DVec3> = Vec::new();

@@ -5,7 +5,7 @@ use glam::DVec3;
 use crate::geometry::adjacency::{Adjacency, NONE};
 use crate::geometry::mesh::TriMesh;
 
-/// A walk is given up after so many triangles.
+/// Triangles after which a walk is given up.
 const MOST_TRIANGLES: usize = 10_000;
 
 /// Where a walk ended.

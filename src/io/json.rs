@@ -1,7 +1,8 @@
 //! JSON read strictly, with the place of every value as a JSON pointer (RFC 6901).
 //!
 //! Stricter than `serde_json::Value`: a key that occurs twice is an error, objects keep the order of the file.
-//! Kinder in two points: a byte-order mark and `//` and `/* */` comments are skipped.
+//! Kinder in two points: a byte-order mark and `//` and `/* */` comments are skipped. It is a `Deserialize` of serde_json's own reader,
+//! not a parser: no library keeps order, refuses doubled keys and tells places at once.
 
 use std::fmt;
 

@@ -34,7 +34,7 @@ impl MovingBody {
         self.model.seconds(animation)
     }
 
-    /// Where the vertices of the imported body are, metres, at rest or in an animation after so many seconds.
+    /// Where the vertices of the imported body are, metres, at rest or in an animation at a time in seconds.
     pub fn positions(&self, at: Option<(usize, f64)>) -> Vec<DVec3> {
         let positions = self.model.positions(at);
         let place = |v: &u32| self.up.upright(positions[*v as usize]) * self.metres;

@@ -1,4 +1,4 @@
-//! Cuts polygons in space into triangles.
+//! Cuts polygons in space into triangles. Our own, as it must take any: not flat, crossing themselves, and within a budget of work.
 
 use glam::{DVec2, DVec3};
 

@@ -3,7 +3,7 @@
 /// How far one of them goes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Acceleration {
-    /// So many times as far as solved, above 0,
+    /// Over-relaxation: how many times as far as solved, above 0,
     pub along: f64,
     /// and this share, 0..1, of the way of the step before once more.
     pub on: f64,

@@ -30,7 +30,7 @@ const UNMAPPED_WEIGHT: f64 = 1.0;
 const HOLDS: f64 = 4.0;
 /// See [`HOLDS`].
 const USUAL_FRICTION: f64 = 0.3;
-/// Cloth that touches with less than one part in so many falls.
+/// Most area that cloth which touches the skin holds, in its own: where less of a garment touches, it falls.
 const MOST_HELD: f64 = 50.0;
 /// Vertices one thread takes at a time.
 const LEAST_SHARE: usize = 512;
@@ -38,7 +38,7 @@ const LEAST_SHARE: usize = 512;
 const LEAST_HEIGHT: f64 = 0.5;
 /// How far from skin that is looked after, metres on a body 1.5 m large.
 const WRONG_SIDE_REACH: f64 = 0.015;
-/// A place where cloth passes through itself counts for so many faults: finer meshes seldom mend it.
+/// Faults that a place where cloth passes through itself counts for: finer meshes seldom mend it.
 const CROSSINGS_WEIGH: usize = 20;
 /// What is left of the way layers were sent before when they are parted again: it keeps them apart for a while.
 const STILL_PARTING: f64 = 0.9;

@@ -23,17 +23,17 @@ const AT_ONCE: f64 = 0.15;
 const FEW_STEPS: usize = 8;
 /// Global steps between two looks at the strain.
 const STEPS_PER_LOOK: usize = 4;
-/// Contacts are looked for anew so often while strain is spread: for cloth that stays,
+/// Most rounds in which strain is spread, each in contacts looked for anew: for cloth that stays,
 const ROUNDS: usize = 60;
 /// and for a picture.
 const LIVE_ROUNDS: usize = 6;
-/// A mend has so many steps to take effect.
+/// Steps in which a mend must take effect.
 const STEPS_PER_MEND: usize = 8;
 /// Strain that 99 of 100 edges do not exceed is spread edge by edge.
 const SPREADABLE: f64 = 0.03;
 /// Where the excess that 99 of 100 edges do not exceed is larger than this, there is nowhere to spread it to.
 const TOO_TIGHT: f64 = 0.05;
-/// Strain is spread, and faces that cut the body are raised, so many times for each mend.
+/// Times for each mend that strain is spread and faces that cut the body are raised.
 const LIMITS_PER_MEND: usize = 2;
 /// Global steps that carrying takes as long as, about,
 const COST_OF_CARRYING: usize = 8;
@@ -98,7 +98,7 @@ struct Passing {
     bodies: Vec<Arc<Surface>>,
     /// At which each vertex was bound to the pose before.
     heights: Vec<f64>,
-    /// The one it is in, with so many global steps done.
+    /// The one it is in, and the global steps done there.
     at: usize,
     done: usize,
 }

@@ -12,9 +12,9 @@ use crate::cloth::ClothState;
 use crate::contact::BodyOverlaps;
 use crate::geometry::barycentric;
 
-/// A vertex is bound to so many points at most,
+/// Most points that a vertex is bound to,
 const MOST: usize = 4;
-/// which are no farther than so many times the nearest,
+/// none farther than this many times the nearest,
 const FARTHEST: f64 = 1.3;
 /// and apart from each other by this share of that distance: nearer ones belong to one hollow.
 const APART: f64 = 0.5;

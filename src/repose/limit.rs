@@ -10,7 +10,7 @@ use crate::repose::excess::Lengths;
 const AIM: f64 = 0.8;
 /// Times that all edges are looked at with the same contacts.
 const SWEEPS: usize = 12;
-/// Skin is looked for within so many offsets.
+/// Distance within which skin is looked for, offsets.
 const REACH: f64 = 4.0;
 /// Vertices are kept above the skin by this share of the offset.
 const CLEARANCE: f64 = 0.5;

@@ -2,7 +2,7 @@
 
 use crate::cloth::ClothState;
 
-/// Cloth that shows no fewer folds in so many looks will not unfold.
+/// Looks without fewer folds after which cloth will not unfold.
 const AT_FOLDS: usize = 2;
 /// Cloth without folds is worth this share more strain.
 const WORTH: f64 = 0.1;
@@ -21,12 +21,12 @@ pub(super) struct Looks {
 }
 
 impl Looks {
-    /// Of cloth that was bound with so many edges folded over.
+    /// Of cloth that was bound with `folds` edges folded over.
     pub fn new(bound: usize) -> Self {
         Self { bound, folds: 0, fewest: usize::MAX, since_fewer: 0, strain: 0.0, unfolded: None }
     }
 
-    /// The cloth has so many `folds` now, and so much `strain`.
+    /// The cloth has `folds` folded edges now, and this `strain`.
     pub fn see(&mut self, state: &ClothState, folds: usize, strain: f64) {
         (self.folds, self.strain) = (folds, strain);
         self.since_fewer = if folds < self.fewest { 0 } else { self.since_fewer + 1 };

@@ -31,7 +31,7 @@ const STEPS_PER_PARTING: usize = 4;
 const FACE_CLEARANCE: f64 = 0.25;
 /// Vertices keep this share of the offset in any case.
 const VERTEX_CLEARANCE: f64 = 0.25;
-/// So often is a vertex sent out of the body at the end: the nearest skin may be another one then.
+/// Times a vertex is sent out of the body at the end: the nearest skin may be another one then.
 const SENDS: usize = 4;
 /// Vertices one thread takes at a time.
 const LEAST_SHARE: usize = 128;
@@ -49,7 +49,7 @@ pub struct Reposer {
     /// Makes the poses on the way.
     rebuild: Option<Arc<Rebuild>>,
     pub(super) folds: Folds,
-    /// In so many places layers ran through each other.
+    /// Places where layers ran through each other.
     crossings: usize,
     /// Parts of the body that cross each other in the pose.
     pub(super) apart: Option<Arc<BodyOverlaps>>,
@@ -94,12 +94,12 @@ impl Reposer {
         &self.from
     }
 
-    /// In so many places the cloth ran through itself when it was bound.
+    /// Places where the cloth ran through itself when it was bound.
     pub fn crossings(&self) -> usize {
         self.crossings
     }
 
-    /// In so many places cloth in `state` runs through itself.
+    /// Places where cloth in `state` runs through itself.
     pub(super) fn crossings_of(&self, state: &ClothState) -> usize {
         Intersections::new(&self.relaxer.garment, state).places.len()
     }

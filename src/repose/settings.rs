@@ -43,6 +43,6 @@ pub struct Outcome {
     pub steps: usize,
     /// Times it was mended.
     pub mends: usize,
-    /// In so many places the cloth runs through itself at the end; not looked for in what was only a picture.
+    /// Places where the cloth runs through itself at the end; not looked for in what was only a picture.
     pub crossings: usize,
 }

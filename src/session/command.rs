@@ -141,7 +141,7 @@ pub enum Command {
     },
     /// Let physics move the dressed cloth until it rests (all of it one undo step), or stop that (no step).
     SetDraping { on: bool },
-    /// The same for so many ticks, 1..=600.
+    /// The same for `ticks` ticks, 1..=600.
     StepDraping { ticks: u32 },
     /// What a piece is made of, or (no piece) all that have no fabric of their own. No fabric: that of all the others, or the
     /// usual one.

@@ -68,7 +68,7 @@ pub enum RequestKind {
     SetRelaxing(bool),
     /// Let physics move the cloth, once all of it lies, until it rests; or stop that. Nothing happens where there is none.
     SetDraping { on: bool, source: Arc<DrapeSource> },
-    /// The same for so many ticks.
+    /// The same for `ticks` ticks.
     StepDraping { ticks: u32, source: Arc<DrapeSource> },
     /// Build the garment, sew it together from where its pieces were placed, and drape it.
     Sew { source: Arc<GarmentSource>, body: Arc<Surface>, fabrics: Arc<DrapeSource> },

@@ -40,20 +40,20 @@ const KEEP: f64 = 0.001;
 const LEASH: f64 = 0.03;
 /// See [`KEEP`]; metres on a body 1.5 m large.
 const KEEP_EDGE: f64 = 0.0175;
-/// Flipped and wrong-sided cloth is turned only after so many settling steps, when it roughly lies.
+/// Settling steps before flipped and wrong-sided cloth is turned: by then it roughly lies.
 const UNFOLD_AFTER: usize = 10;
 /// It fades in few steps while the cloth settles, so that the matrix changes seldom.
 const HOLD_FADE: [f64; 3] = [1.0, 0.3, 0.1];
 /// Settling steps per step of [`HOLD_FADE`].
 const HOLD_FADE_STEPS: usize = 4;
-/// Layers of cloth that run through each other are parted every so many steps.
+/// Steps between two partings of layers that run through each other.
 const STEPS_PER_PARTING: usize = 10;
 /// Share of the progress that coarser meshes have.
 const COARSE_PROGRESS: f64 = 0.8;
 /// Edges and faces keep this share of the offset.
 const FACE_CLEARANCE: f64 = 0.25;
 
-/// A wrap has failed when it has more than one fault for so many triangles; fewer are mended on finer meshes.
+/// A wrap has failed with more than one fault in this many triangles; fewer faults are mended on finer meshes.
 const TRIANGLES_PER_FAULT: usize = 150;
 
 /// The best of the plans tried so far.

@@ -21,7 +21,7 @@ const ACROSS: f64 = 0.6;
 const AT_AN_EDGE: f64 = 1e-3;
 /// So far under an upper edge is the piece, metres.
 const UNDER: f64 = 5e-3;
-/// Edges are looked at as so many straight pieces.
+/// Straight pieces that an edge is looked at as.
 const EDGE_SAMPLES: u32 = 16;
 
 #[derive(Clone)]

@@ -10,17 +10,17 @@ const QUIET_STEPS: usize = 5;
 const REST_FALL: f64 = 0.03;
 /// Or is no larger than this: a strain of 0.01 %.
 const REST_ENERGY: f64 = 1e-8;
-/// Cloth that was quiet while its energy still changed is asked again after so many quiet steps.
+/// Quiet steps after which cloth whose energy still changed is asked again.
 const CREEP_STEPS: usize = 15;
-/// Cloth is taken to lie still after so many settling steps in any case: what still moves then trembles in a fold.
+/// Most settling steps: what still moves then trembles in a fold.
 const MOST_SETTLE_STEPS: usize = 400;
 /// The same for a coarse mesh, which only has to lie roughly right.
 const DRAFT_SETTLE_STEPS: usize = 160;
-/// So often at most is lying cloth mended: raised off the body it cuts, sent to its own side.
+/// Most times that lying cloth is mended: raised off the body it cuts, sent to its own side.
 const MOST_MENDS: usize = 12;
 /// The same for a coarse mesh.
 const DRAFT_MENDS: usize = 2;
-/// A mend has so many steps to take effect.
+/// Steps in which a mend must take effect.
 const STEPS_PER_MEND: usize = 25;
 
 /// How far settling has come.
@@ -32,7 +32,7 @@ pub(super) struct Settling {
     pub crossed: bool,
     /// A finer mesh goes on from here.
     draft: bool,
-    /// The last so many steps moved nothing to speak of.
+    /// Quiet steps in a row up to now.
     quiet: usize,
     /// How often lying cloth was mended.
     mends: usize,

@@ -176,6 +176,31 @@ fn folders_use_only_what_the_map_allows() {
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
+/// The chains of the drawing at the top of `src/lib.rs`: what stands left of an arrow uses what stands right of it.
+#[test]
+fn the_arrows_of_the_map_say_what_its_table_says() {
+    let map = map();
+    let text = fs::read_to_string(root().join("src/lib.rs")).expect("src/lib.rs");
+    let drawing = text.split("```text").nth(1).and_then(|rest| rest.split("```").next()).expect("a drawing");
+    let names = |part: &str| -> Vec<String> {
+        let words = part.split(|c: char| !c.is_ascii_lowercase());
+        words.filter(|word| map.contains_key(*word)).map(str::to_owned).collect()
+    };
+    let mut arrows = 0;
+    for line in drawing.lines() {
+        let parts: Vec<Vec<String>> = line.split('→').map(names).collect();
+        for pair in parts.windows(2).filter(|pair| !pair[0].is_empty()) {
+            for used in &pair[1] {
+                arrows += 1;
+                let is_used = pair[0].iter().any(|user| map[user].contains(used));
+                let goes_back = pair[0].iter().any(|user| map[used].contains(user));
+                assert!(is_used && !goes_back, "{} → {used}", pair[0].join(", "));
+            }
+        }
+    }
+    assert!(arrows > 10, "{arrows} arrows");
+}
+
 /// Every place of one of `words` in a file that `may` have it not.
 fn found_outside(words: &[&str], may: impl Fn(&Source) -> bool) -> Vec<String> {
     let sources = sources();

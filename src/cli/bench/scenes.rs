@@ -171,7 +171,7 @@ impl Wrapped {
     }
 }
 
-/// The edge length at which `pattern` has about so many triangles, metres.
+/// The edge length at which `pattern` has about `triangles` triangles, metres.
 pub fn edge_length(pattern: &Pattern, triangles: usize) -> f64 {
     (0..EDGE_STEPS).fold(FIRST_EDGE, |edge, _| {
         let got = build(pattern, edge).0.triangles.len();

@@ -21,7 +21,7 @@ use crate::sim::hash::Fnv;
 const FPS: f64 = 60.0;
 /// and in all.
 const FRAMES: usize = 120;
-/// After so many the sheet on pins is held against implicit steps, and that over the ball still falls free.
+/// Frames after which the sheet on pins is held against implicit steps; the one over the ball still falls free then.
 const SWUNG: usize = 30;
 const FALLEN: usize = 5;
 /// kg/m², and m/s² down.
@@ -57,7 +57,7 @@ const NAMES: [[&str; 3]; 2] = [
     ["sheet on a ball, a tenth", "sheet on a ball", "sheet on a ball, four times"],
 ];
 
-/// The rows of both with about so many triangles each.
+/// The rows of both, of about `triangles` triangles each.
 pub fn sheets(
     sizes: [usize; 3],
     runs: usize,
@@ -239,7 +239,7 @@ fn row(
     })
 }
 
-/// A square of 1 m² of about so many triangles, its diagonals turning like a chessboard, lying above the ball.
+/// A square of 1 m² of about `triangles` triangles, its diagonals turning like a chessboard, lying above the ball.
 fn flat(triangles: usize) -> Result<(Sheet, Vec<DVec3>), Failure> {
     let cells = ((triangles as f64 / 2.0).sqrt().round() as u32).max(2);
     let at = |k: u32| f64::from(k) / f64::from(cells);

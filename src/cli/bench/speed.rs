@@ -40,7 +40,7 @@ const WORN: [f64; 2] = [0.004, 0.009];
 /// Ten seconds.
 const IDLE_TICKS: u32 = 600;
 
-/// Calls `tell` with the row of each scene; garments have about so many `triangles`.
+/// Calls `tell` with the row of each scene; garments have about `triangles` triangles.
 pub fn speed(
     triangles: usize,
     runs: usize,

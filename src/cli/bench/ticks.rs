@@ -24,14 +24,14 @@ use crate::wrap::{Marks, Phase};
 
 /// Seconds that a tick may take: sound, and good.
 const LIMITS: [f64; 2] = [0.2, 0.1];
-/// Cloth that still moves after so many ticks trembles.
+/// Ticks after which cloth that still moves trembles.
 const MOST_TICKS: usize = 20_000;
 /// Ticks in which the hand goes
 const DRAG_TICKS: usize = 30;
 /// so far along the body, metres.
 const DRAG_LENGTH: f64 = 0.3;
 
-/// Calls `tell` with a row for each garment of about so many `triangles`; the longest of `runs` counts.
+/// Calls `tell` with a row for each garment of about `triangles` triangles; the longest of `runs` counts.
 pub fn ticks(
     triangles: usize,
     runs: usize,

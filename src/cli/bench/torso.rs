@@ -39,7 +39,7 @@ const LIMITS: [[f64; 2]; 3] = [[0.5, 0.12], [0.5, 0.37], [5.0, 0.5]];
 const NAMES: [&str; 3] =
     ["dress round a torso, a tenth", "dress round a torso", "dress round a torso, four times"];
 
-/// The rows with about so many triangles each.
+/// The rows, of about `triangles` triangles each.
 pub fn torso(
     sizes: [usize; 3],
     runs: usize,

@@ -3,7 +3,7 @@
 use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
-/// A time of the processor counts when it is so many steps of its clock long; a shorter one is mostly rounding.
+/// Shortest processor time that counts, in steps of its clock: a shorter one is mostly rounding.
 const STEPS: f64 = 20.0;
 /// A clock that stands still for longer than this while the processor is busy is of no use.
 const STANDS: Duration = Duration::from_millis(200);

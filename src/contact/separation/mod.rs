@@ -66,7 +66,7 @@ pub struct Separation {
     reach: Vec<f64>,
     /// Its triangles there.
     placed: Vec<PlacedTriangle>,
-    /// Within so many metres squared, no plane and no reach is met.
+    /// Squared distance (m²) from its anchor within which a vertex meets no plane and keeps its reach.
     free: Vec<f64>,
     /// The planes of all vertices,
     planes: Vec<Plane>,

@@ -36,7 +36,7 @@ pub struct Touch<'a> {
     pub inverse_mass: &'a [f64],
     /// Coulomb's coefficient per vertex; empty for none.
     pub friction: &'a [f64],
-    /// Depth that motion did not bring leaves by no more than so many metres, and without momentum.
+    /// Most of the depth that motion did not bring which leaves in a step, metres; without momentum.
     pub ease: f64,
 }
 

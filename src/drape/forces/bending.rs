@@ -21,7 +21,7 @@ const MOST_GAIN: f64 = 20.0;
 /// Pivots of a fit below this share of the largest: the points do not tell a quadratic.
 const LEAST_PIVOT: f64 = 1e-6;
 
-/// So often, at most, is what is too stiff softened.
+/// Most turns in which what is too stiff is softened.
 const MOST_SOFTENINGS: usize = 4;
 
 /// Rows one thread takes at a time.

@@ -10,9 +10,9 @@ use crate::geometry::crossings::meetings;
 use crate::geometry::ids::PieceId;
 use crate::geometry::mesh::TriMesh;
 
-/// A piece is moved out by so much at a time, metres,
+/// How far a piece is moved out at a time, metres,
 const STEP: f64 = 0.01;
-/// and no farther than so many times: then it is left where it was placed.
+/// and how many times at most: then it is left where it was placed.
 const MOST_STEPS: usize = 40;
 /// Cloth no farther in front of a piece than this, metres, is what it should lie over.
 const SIGHT: f64 = 0.15;

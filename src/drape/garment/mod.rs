@@ -41,17 +41,17 @@ const SKIN: f64 = 0.001;
 const FACE_CLEARANCE: f64 = 0.5;
 /// Those that lack no more than this share of that are left as they are.
 const NEARLY_CLEAR: f64 = 0.02;
-/// Vertices are raised at most by so many distances to keep faces between them off the body.
+/// Most that vertices are raised to keep faces between them off the body, in distances kept.
 const MOST_LIFT: f64 = 8.0;
-/// Faces are looked after once in so many ticks.
+/// Ticks between two looks at faces.
 const LIFT_TICKS: u64 = 6;
-/// Layers that run through each other are looked for after the first tick, which is the roughest, and once in so many,
+/// Ticks between two looks for layers that run through each other; the first is after the first tick, the roughest,
 const LOOK_TICKS: u64 = 12;
-/// and looked after once in so many.
+/// and between two partings of them.
 const PART_TICKS: u64 = 4;
 /// Air takes this share of motion, 1/s.
 const AIR: f64 = 1.5;
-/// So many seconds of velocity resist bending as if they were shape.
+/// Damping of bending in proportion to its stiffness, seconds.
 const BENDING_DAMPING: f64 = 0.001;
 /// The greatest pressure that friction knows, Pa: some times what cloth weighs. What presses more is strain control, of which one
 /// pass in each small step feels far softer than the cloth is; held by friction of the full pressure, tight cloth would keep
@@ -61,7 +61,7 @@ const GRIP: f64 = 10.0;
 const REST_WAY: f64 = 5e-5;
 /// and the forces that move the cloth are no larger a share of its weight,
 const REST_RESIDUAL: f64 = 0.01;
-/// for so many ticks.
+/// for this many ticks.
 const QUIET_TICKS: u32 = 12;
 /// Cloth that is as good as still is calmed: what little moves then creeps or trembles. Seconds until that begins,
 const CALM_AFTER: f64 = 0.5;
@@ -73,17 +73,17 @@ const CALMEST: f64 = 8.0;
 /// a tight place stretches that. So once the cloth has come down, which is when the forces that move it are no larger a share
 /// of its weight than this,
 const DOWN: f64 = 0.1;
-/// or after so many ticks, what is caught somewhere may tremble for ever,
+/// or after this many ticks, as what is caught somewhere may tremble for ever,
 const DOWN_BY: u64 = 300;
 /// time goes slower by this factor with every tick,
 const SLOWING: f64 = 0.9;
 /// down to this: strain that is left then is its square of what it was.
 const SLOWEST: f64 = 0.25;
-/// Cloth is taken to rest after so many ticks in any case.
+/// Ticks after which cloth is taken to rest in any case.
 const MOST_TICKS: u64 = 1200;
-/// Some of the work of a tick is so many vertices moved in a small step and pairs of features looked at: about 0.03 s.
+/// Vertices moved in small steps and pairs of features looked at in one part of a tick: about 0.03 s.
 const MOST_WORK: u64 = 60_000;
-/// A hand pulls with so much, N/m, and at most with so many times the garment's weight.
+/// Stiffness of a hand's pull, N/m, and the most it pulls with, in weights of the garment.
 const HAND: (f64, f64) = (60.0, 1.0);
 
 /// What one is asked for.

@@ -12,9 +12,9 @@ use crate::body::Surface;
 
 /// Sides that are tried for a seam.
 const SIDES: u32 = 16;
-/// A place is sought in steps of so much aside, metres,
+/// A step aside in the search for a place, metres,
 const STEP: f64 = 0.01;
-/// and so many at most: what lies deeper in the body is no matter of how it was placed.
+/// and how many there are at most: what lies deeper in the body is no matter of how it was placed.
 const MOST_STEPS: u32 = 20;
 /// Skin bulges no more than this into a thread, as a share of what of the thread is in it: round a circle, 0.55 of its diameter. What
 /// lies deeper is a limb.
@@ -134,7 +134,7 @@ fn middle([a, b]: [DVec3; 2]) -> DVec3 {
     (a + b) / 2.0
 }
 
-/// Where the middle of a thread is after so many steps towards `way`.
+/// Where the middle of a thread is after `steps` steps towards `way`.
 fn aside(ends: [DVec3; 2], way: DVec3, steps: u32) -> DVec3 {
     middle(ends) + way * (STEP * f64::from(steps))
 }

@@ -19,13 +19,13 @@ use crate::drape::solver::small_steps::SewingSpring;
 use crate::geometry::adjacency::Adjacency;
 use crate::geometry::ids::PieceId;
 
-/// How fast a seam shrinks, m/s; it takes between so many ticks.
+/// How fast a seam shrinks, m/s, and the fewest and the most ticks that takes.
 const SHRINK: (f64, [u32; 2]) = (0.4, [45, 120]);
 /// What is sewn then slides free of weight and friction to where it is least tight: until no vertex is faster, m/s,
 const SLOW: f64 = 0.02;
-/// for so many ticks,
+/// for this many ticks,
 const STILL: u32 = 20;
-/// and for so many at most.
+/// and for this many at most.
 const PATIENCE: u32 = 240;
 /// Small steps in each tick: nothing hangs yet.
 const SUBSTEPS: usize = 24;

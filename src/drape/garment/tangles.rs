@@ -9,15 +9,15 @@ use crate::contact::Intersections;
 use crate::drape::garment::{DrapedGarment, own_number};
 use crate::drape::state::State;
 
-/// So often in a row without fewer of them: then they stay, and the report tells them.
+/// Partings in a row without fewer crossings after which these stay, and the report tells them.
 const MOST_PARTINGS: u32 = 40;
-/// And parted by so much each time, metres.
+/// How far crossing cloth is sent apart each time, metres.
 const PARTING: f64 = 0.0005;
-/// So often what lies deep is sent out by as much in one go.
+/// Times in one go that what lies deep is sent out by as much.
 const MOST_PULLS: usize = 80;
-/// And so often in a row in vain: then it is left where it is.
+/// Goes in vain, in a row, after which it is left where it is.
 const MOST_IN_VAIN: u32 = 3;
-/// In one tick what lies deep is sent out so often that so many triangles are looked at for crossings, but once at least.
+/// Triangles looked at for crossings in one tick while what lies deep is sent out; it is sent once at least.
 const TRIANGLES_A_TICK: usize = 60_000;
 
 /// What lies deep on the wrong side of other cloth, on its way out.
@@ -29,7 +29,7 @@ pub(in crate::drape) struct Pulling {
     best: (Vec<DVec3>, usize),
     /// The cloth as it lay then.
     pub(in crate::drape) least: State,
-    /// So often it may still be sent.
+    /// Times it may still be sent.
     left: usize,
 }
 

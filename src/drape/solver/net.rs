@@ -59,7 +59,7 @@ struct Edge {
 }
 
 impl Net {
-    /// Of `springs` between so many vertices, rigid beyond a strain of `limit`.
+    /// Of `springs` between `vertices` vertices, rigid beyond a strain of `limit`.
     pub fn new(vertices: usize, springs: &[Spring], limit: f64) -> Self {
         let wanted = (vertices / PART).clamp(1, MOST_PARTS);
         let (parts, springs) = [wanted, 1]

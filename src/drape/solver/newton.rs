@@ -35,7 +35,7 @@ pub struct NewtonSettings {
     pub residual: f64,
     /// Largest move that may still be wanted, metres.
     pub motion: f64,
-    /// Give up after so many iterations.
+    /// Most iterations.
     pub most_iterations: usize,
     /// Use the whole Hessian where it is positive definite: faster near a rest, and only then a proof of stability.
     pub exact: bool,

@@ -34,7 +34,7 @@ const NEARLY_SHUT: f64 = 0.002;
 const EASE: f64 = 0.3;
 /// Skin seen next to skin whose normal has a smaller cosine with its own makes a crease: cloth is kept off both,
 const CREASE: f64 = 0.5;
-/// as long as it is no farther from where the first was seen than so many offsets.
+/// as long as it is no farther than this from where the first was seen, offsets.
 const CREASE_REACH: f64 = 4.0;
 /// It comes off the one it does not see no faster than so, m/s.
 const CREASE_SPEED: f64 = 1.5;
@@ -108,7 +108,7 @@ impl Advance {
     }
 }
 
-/// A thread between two vertices: it is no longer than so much.
+/// A thread between two vertices: a spring that only pulls.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SewingSpring {
     /// The vertices.
@@ -137,7 +137,7 @@ pub struct GrabConstraint {
 pub struct Surroundings<'a> {
     /// Of the cloth.
     pub bending: &'a Bending,
-    /// So many seconds of velocity resist bending as if they were shape: damping in proportion to stiffness.
+    /// Damping of bending in proportion to its stiffness, seconds.
     pub bending_damping: f64,
     /// m/s².
     pub gravity: DVec3,
@@ -180,7 +180,7 @@ fn fastest(bending: &Bending, mass: &[f64]) -> f64 {
     (0..mass.len()).map(|i| bending.stiffest(i) / mass[i]).fold(0.0, f64::max).sqrt()
 }
 
-/// The greatest angular frequency of bending, 1/s, that steps of `small` seconds stand with so much damping in seconds: they are
+/// The greatest angular frequency of bending, 1/s, that steps of `small` seconds stand with `damping` τ in seconds: they are
 /// stable while they are shorter than 2/ω, and than 2/(ω² τ).
 pub fn stable_rate(small: f64, damping: f64) -> f64 {
     let most = SAFE * 2.0 / small;
@@ -499,7 +499,7 @@ impl SmallSteps {
         v + scene.gravity * self.lag
     }
 
-    /// Bending acts once in so many small steps.
+    /// Small steps between two that bending acts in.
     fn bending_every(&self, small: f64, damping: f64) -> usize {
         if self.bending_rate == 0.0 {
             return usize::MAX;

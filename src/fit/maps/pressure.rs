@@ -9,7 +9,7 @@ use crate::fit::maps::curvature::corner;
 use crate::fit::maps::strain::{flat, grain};
 use crate::fit::maps::{LEAST_SHARE, Worn, laid_corners, per_vertex};
 
-/// Cloth no farther from the skin than so many times what a wrap keeps it off lies on it.
+/// Distance from the skin, in offsets of a wrap, up to which cloth lies on it.
 const LIES: f64 = 1.25;
 /// m/s².
 const GRAVITY: DVec3 = DVec3::new(0.0, -9.81, 0.0);

@@ -18,7 +18,7 @@ use crate::pattern::{
 const UNITS_IN_METRE: f64 = 100.0;
 /// What a specification says of a pattern.
 const HOLDS: [Part; 5] = [Part::Curves, Part::EdgeNames, Part::Placement, Part::PlaceOnBody, Part::Seams];
-/// A panel has at least so many edges.
+/// Fewest edges of a panel.
 const FEWEST_EDGES: usize = 3;
 
 /// Writes `pattern`: panels in the order of the pieces, outlines in their own direction. Edges are cut where seams along

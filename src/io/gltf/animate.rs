@@ -44,7 +44,7 @@ impl Clip {
         Ok(Self { name: animation.name().unwrap_or_default().to_owned(), seconds, tracks })
     }
 
-    /// What it moves goes to where it is after so many seconds.
+    /// Puts what it moves to where it is at a time in seconds.
     pub fn apply(&self, seconds: f64, poses: &mut [Pose], weights: &mut [Vec<f64>]) {
         for track in &self.tracks {
             let value = track.value(seconds);

@@ -226,7 +226,7 @@ impl Model {
         self.clips.get(clip).map(|clip| clip.seconds)
     }
 
-    /// Where the vertices of [`Model::mesh`] are, at rest or in animation `clip` after so many seconds.
+    /// Where the vertices of [`Model::mesh`] are, at rest or in animation `clip` at a time in seconds.
     pub fn positions(&self, at: Option<(usize, f64)>) -> Vec<DVec3> {
         let mut poses: Vec<Pose> = self.nodes.iter().map(|node| node.at_rest).collect();
         let mut weights: Vec<Vec<f64>> = self.nodes.iter().map(|node| node.weights.clone()).collect();

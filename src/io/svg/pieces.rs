@@ -18,7 +18,7 @@ use crate::pattern::{Edge, EdgeShape, InternalLine, curve};
 const CHORDS: f64 = 5e-4;
 /// A closed line smaller than this (metres) outside of all others is a sign, not a piece.
 const SMALLEST_PIECE: f64 = 0.01;
-/// So many straight lines in a row may be a curve.
+/// Straight lines in a row that may be a curve.
 const FEWEST_CHORDS: usize = 5;
 /// Tangents that differ by less than this (radians) run on smoothly.
 const SMOOTH_ANGLE: f64 = 2e-3;

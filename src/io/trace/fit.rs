@@ -25,7 +25,7 @@ const SHARPEST_TURN: f64 = 1.0;
 const SLACK_TURN: f64 = 0.2;
 /// Places where a fitted curve is looked at.
 const SAMPLES: usize = 64;
-/// After so many steps points on the whole further off than this (metres) will not be met.
+/// Steps after which points further off than this (metres) on the whole will not be met.
 const HOPELESS_STEPS: usize = 6;
 const HOPELESS: f64 = 5e-3;
 /// Gauss-Newton steps.

@@ -21,7 +21,7 @@ const CHORDS: f64 = 2e-4;
 const NOTCH_REACH: f64 = 0.06;
 /// Places on curves are found to this accuracy, metres.
 const FINE: f64 = 1e-10;
-/// So many pairs of pieces with overlapping boxes are no layout.
+/// Pairs of pieces with overlapping boxes from which a drawing is no layout.
 const MOST_CLOSE: usize = 300;
 /// Notches of one piece.
 const MOST_NOTCHES: usize = 1000;

@@ -60,7 +60,7 @@ pub enum ClothChange {
     Dress(StartChoice),
     /// Drape it, or stop that.
     SetDraping(bool),
-    /// Drape it for so many ticks.
+    /// Drape it for `ticks` ticks.
     StepDraping(u32),
     /// It is made of what the document says now.
     SetFabrics,

@@ -55,7 +55,7 @@ impl World {
         }
     }
 
-    /// Drapes for so many ticks.
+    /// Drapes for `ticks` ticks; None: until it rests.
     pub fn drape_for(&mut self, ticks: Option<u32>, source: Arc<DrapeSource>) {
         if self.sewing.is_some() || (!self.cloth.mapped.contains(&true) && self.dressing.is_none()) {
             return; // Sewing ends with draping.

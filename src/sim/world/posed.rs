@@ -11,7 +11,7 @@ use crate::sim::source::GarmentSource;
 use crate::sim::world::World;
 use crate::wrap::Marks;
 
-/// In one tick of a change of pose about so many vertices are moved by a global step, but one piece of it is done at least.
+/// Vertices moved by global steps in one tick of a change of pose, about; one piece of work is done at least.
 const VERTICES_A_TICK: usize = 40_000;
 
 /// A change of pose. While the cloth lies as it left it, the next one starts from the pose that the cloth was dressed in:

@@ -11,7 +11,7 @@ use crate::sim::start::{Start, StartChoice, Started, Tried};
 use crate::sim::world::World;
 use crate::wrap::suggested;
 
-/// A start whose cloth still moves after so many ticks is judged as it lies, unless there is no other.
+/// Ticks after which a start is judged as its cloth lies, unless there is no other start.
 const MOST_TICKS: u32 = 2000;
 
 /// What cloth is judged by.

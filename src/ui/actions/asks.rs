@@ -28,7 +28,7 @@ pub enum Ask {
     ShowMarks(Vec<usize>),
     /// Select the piece of this tight place, ring the place and turn the view to it.
     ShowPlace(ClothPlace),
-    /// Go so many steps back (less than 0) or forth in the history.
+    /// Go this many steps back (less than 0) or forth in the history.
     Jump(i32),
     /// Let the colours of a map span this, in the unit that is shown; None: as far as its values do.
     MapRange(MapKind, Option<[f64; 2]>),

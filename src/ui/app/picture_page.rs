@@ -26,7 +26,7 @@ pub struct PictureOptions {
     pub cut_out: bool,
     /// With marks.
     pub marks: bool,
-    /// So many in a full turn; 1: a single one.
+    /// Pictures in a full turn; 1: a single one.
     pub count: u32,
 }
 
@@ -50,7 +50,7 @@ enum Answer {
 }
 
 impl PicturePage {
-    /// For a pane of so many pixels.
+    /// For a pane of this size, pixels.
     pub fn new(pane: egui::Vec2) -> Self {
         let size = UVec2::new(pane.x.round().max(16.0) as u32, pane.y.round().max(16.0) as u32);
         Self { options: PictureOptions { size, ..PictureOptions::default() } }

@@ -19,7 +19,7 @@ use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::look::theme::Palette;
 use crate::ui::pattern_pane::view::TableView;
 
-/// Cloth that only settles is watched so many times as fast.
+/// How many times as fast settling cloth is watched.
 const SETTLING_SPEED: f64 = 2.5;
 /// Ticks of one frame take no longer than this.
 const BUDGET: Duration = Duration::from_millis(45);
@@ -27,7 +27,7 @@ const BUDGET: Duration = Duration::from_millis(45);
 const LONGEST_FRAME: f64 = 0.2;
 /// The hand takes so long to where it is needed next, seconds.
 const TRAVEL: f64 = 0.45;
-/// The view turns by at most so many radians a second.
+/// The fastest turn of the view, rad/s.
 const TURN_RATE: f32 = 2.2;
 /// It turns when what is shown faces away by more than this cosine.
 const SEEN_FROM: f32 = 0.35;

@@ -202,7 +202,7 @@ impl App {
         }
     }
 
-    /// Undoes or does again so many steps.
+    /// Undoes (less than 0) or does again `steps` steps.
     pub(in crate::ui) fn jump(&mut self, steps: i32) {
         for _ in 0..steps.unsigned_abs() {
             self.apply(if steps < 0 { Command::Undo } else { Command::Redo });

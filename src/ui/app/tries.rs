@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use crate::ui::files;
 
-/// So many starts may fail before the next is a plain one.
+/// Failed starts in a row after which the next is a plain one.
 const MOST_FAILED: u32 = 3;
 /// A window that was open so long has started.
 pub const STARTED: Duration = Duration::from_secs(3);

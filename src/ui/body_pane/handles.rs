@@ -11,7 +11,7 @@ const ARROW: f32 = 78.0;
 const RING: f32 = 56.0;
 /// Half the size of an arrow's head, points.
 const HEAD: f32 = 6.0;
-/// A ring is drawn as so many straight pieces.
+/// Straight pieces that a ring is drawn as.
 const SIDES: usize = 48;
 /// How near the pointer must come, points.
 const NEAR: f32 = 7.0;

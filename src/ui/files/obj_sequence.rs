@@ -16,7 +16,7 @@ use crate::ui::files::{read, unit_like};
 
 /// Pictures a second.
 const RATE: f64 = 30.0;
-/// A project keeps all pictures; so many bytes of them at most.
+/// Most bytes of pictures that a project keeps.
 const MOST_BYTES: usize = 256 << 20;
 
 /// The command that takes the files numbered like the one at `path` as an animation of a body that looks like `dressed`: its own

@@ -49,7 +49,7 @@ use view::TableView;
 
 /// Logarithm of the zoom for each point the pointer moves.
 const ZOOM: f64 = 0.008;
-/// The keyboard's cursor goes so many times as far as what arrow keys nudge.
+/// A step of the keyboard's cursor, in nudges by an arrow key.
 const CURSOR_STEPS: f64 = 10.0;
 
 /// What is to be shown in the next frame.

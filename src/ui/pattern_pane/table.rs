@@ -74,7 +74,7 @@ impl<'a> Table<'a> {
         self.view.table_from_screen(self.pane, p)
     }
 
-    /// Metres that so many points on the screen are.
+    /// Points on the screen as metres of the pattern.
     pub fn reach(&self, points: f64) -> f64 {
         points / self.view.scale
     }

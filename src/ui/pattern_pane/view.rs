@@ -63,7 +63,7 @@ impl TableView {
         self.centre = (lower + upper) / 2.0;
     }
 
-    /// As large as cloth on the table, on a screen with so many points in a metre.
+    /// As large as the cloth is, on a screen with this many points a metre.
     pub fn true_size(&mut self, points_per_metre: f64) {
         self.scale = points_per_metre.clamp(FARTHEST, CLOSEST);
     }

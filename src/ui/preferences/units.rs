@@ -70,7 +70,7 @@ impl LengthUnit {
     }
 }
 
-/// `x` with its sign, to so many digits; what rounds to nothing has no sign.
+/// `x` with its sign, to `digits` digits; what rounds to nothing has no sign.
 pub fn signed(x: f64, digits: usize) -> String {
     let text = format!("{x:+.digits$}");
     let is_nothing = text[1..].chars().all(|c| c == '0' || c == '.');
