@@ -45,7 +45,7 @@ fn the_scale_of_a_drawing_is_asked_for_and_taken() {
 #[test]
 fn other_endings_and_papers_are_usage() {
     let place = Place::new();
-    place.ends_with_words(2, "export sample:skirt -o skirt.png", ".json, .dxf, .svg or .pdf");
+    place.ends_with_words(2, "export sample:skirt -o skirt.png", ".pdf, .svg, .dxf or .json");
     place.ends_with_words(2, "export sample:skirt -o skirt.pdf --paper a5", "none of a4, letter, one");
 }
 

@@ -56,7 +56,8 @@ pub const ROWS: &[Row] = &[
         "Tools",
         Action::Choose(Tool::Mark),
         "Mark",
-        "Paint a mark with the left button, on a piece and then on the body where it should lie",
+        "Paint a mark with the left button, on a piece and then on the body where it \
+         should lie",
     )
     .keys(&[key(Key::K)]),
     row("Tools", Action::Choose(Tool::Erase), "Erase", "Click a mark to take it away").keys(&[key(Key::X)]),

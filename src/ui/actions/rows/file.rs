@@ -42,7 +42,8 @@ pub const ROWS: &[Row] = &[
         "File",
         Action::PoseFromFile,
         "Pose from a file…",
-        "Lead the body to its pose in an OBJ or glTF file or through the animations there, or the mannequin through a BVH motion",
+        "Lead the body to its pose in an OBJ or glTF file or through the animations \
+         there, or the mannequin through a BVH motion",
     ),
     row(
         "File",
@@ -79,7 +80,8 @@ pub const ROWS: &[Row] = &[
         "File",
         Action::Picture,
         "Save a picture…",
-        "Write the body pane as PNG: any size, any side, on nothing at all, or a full turn",
+        "Write the body pane as PNG: any size, any side, with a transparent background, \
+         or a full turn",
     )
     .keys(&[ctrl_shift(Key::P)])
     .needs(&[Need::NotPicturing, Need::Adapter])
@@ -98,14 +100,19 @@ pub const ROWS: &[Row] = &[
         .on_start_page()
         .aside(),
     row("File", Action::Quit, "Quit", "Leave Toile").keys(&[ctrl(Key::Q)]).in_demos().on_start_page(),
-    row("File › Paper", Action::Paper(Paper::A4), "A4", "Patterns as PDF are A4 pages to be glued together")
-        .in_demos()
-        .on_start_page(),
+    row(
+        "File › Paper",
+        Action::Paper(Paper::A4),
+        "A4",
+        "Print patterns (PDF) on A4 pages, to be glued together",
+    )
+    .in_demos()
+    .on_start_page(),
     row(
         "File › Paper",
         Action::Paper(Paper::Letter),
         "Letter",
-        "Patterns as PDF are Letter pages to be glued together",
+        "Print patterns (PDF) on Letter pages, to be glued together",
     )
     .in_demos()
     .on_start_page(),
@@ -113,7 +120,7 @@ pub const ROWS: &[Row] = &[
         "File › Paper",
         Action::Paper(Paper::One),
         "One page",
-        "Patterns as PDF are one page as large as it must be, for a plotter",
+        "Print patterns (PDF) on one page as large as needed, for a plotter",
     )
     .in_demos()
     .on_start_page(),

@@ -46,9 +46,14 @@ pub const ROWS: &[Row] = &[
     )
     .keys(&[ctrl(Key::Num0)])
     .in_demos(),
-    row("View", Action::ToggleParallel, "Parallel projection", "Near and far look the same size")
-        .keys(&[key(Key::Num5)])
-        .in_demos(),
+    row(
+        "View",
+        Action::ToggleParallel,
+        "Parallel projection",
+        "Show near and far at the same size (orthographic)",
+    )
+    .keys(&[key(Key::Num5)])
+    .in_demos(),
     row(
         "View",
         Action::ToggleFreeTurning,
@@ -56,13 +61,13 @@ pub const ROWS: &[Row] = &[
         "Turn the body like a ball instead of keeping it upright",
     )
     .in_demos(),
-    row("View", Action::ToggleCloth, "Show the cloth", "Hide the cloth to paint beneath it")
+    row("View", Action::ToggleCloth, "Show the cloth", "Show or hide the cloth, to paint beneath it")
         .keys(&[key(Key::H)])
         .needs(&[Need::Dressed]),
     row("View", Action::ToggleWire, "Wireframe", "Show the triangles of the cloth")
         .keys(&[key(Key::W)])
         .in_demos(),
-    row("View", Action::ToggleSheer, "See through the body", "The body is half transparent")
+    row("View", Action::ToggleSheer, "See through the body", "Make the body half transparent")
         .keys(&[key(Key::Q)])
         .in_demos(),
     row(
@@ -84,10 +89,15 @@ pub const ROWS: &[Row] = &[
         "View",
         Action::ToggleSnapping,
         "Snap",
-        "Points, edges, guides and the grid draw the pointer on; Alt keeps it free",
+        "Snap the pointer to points, edges, guides and the grid; hold Alt to move freely",
     )
     .keys(&[shift(Key::G)]),
-    row("View", Action::ClearGuides, "Clear guides", "Guides are dragged out of the rulers"),
+    row(
+        "View",
+        Action::ClearGuides,
+        "Clear guides",
+        "Remove all guides; new ones are dragged out of the rulers",
+    ),
     row("View", Action::TogglePanel, "Side panel", "Marks, cloth settings and problems")
         .keys(&[key(Key::N)])
         .in_demos(),
@@ -97,7 +107,7 @@ pub const ROWS: &[Row] = &[
         .keys(&[key(Key::F9)]),
     row("View", Action::Show(Panes::Body), "Only the body", "The body takes the whole window")
         .keys(&[key(Key::F10)]),
-    row("View", Action::SwapPanes, "Body on the left", "The panes change places"),
+    row("View", Action::SwapPanes, "Body on the left", "Swap the two panes"),
     row("View", Action::ToggleHistory, "History", "Every step; a click goes back to it"),
     row("View", Action::ToggleLog, "Messages", "What was told so far, to be read again and copied")
         .in_demos(),
@@ -113,18 +123,19 @@ pub const ROWS: &[Row] = &[
         "View",
         Action::Compare,
         "Compare with…",
-        "Show the dressed garment of another project of this pattern beside, and how the maps differ",
+        "Show the dressed garment of another project of this pattern beside, and how the \
+         maps differ",
     )
     .needs(&[Need::Dressed]),
     row(
         "View",
         Action::ToggleDifference,
         "Difference",
-        "Colour the cloth by what it has more than the one beside",
+        "Colour the cloth by its difference to the garment beside",
     )
     .needs(&[Need::Comparison])
     .in_demos(),
-    row("View", Action::ChangeSides, "Swap sides", "The other garment stands on the other side of this one")
+    row("View", Action::ChangeSides, "Swap sides", "Put the other garment on the other side of this one")
         .needs(&[Need::Comparison])
         .in_demos(),
     row("View", Action::CloseComparison, "Close comparison", "Show only this garment again")
