@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::cloth::{ClothState, Garment};
-use crate::fit::causes::{causes, smaller};
+use crate::fit::causes::{causes, smaller, uneased_p99};
 use crate::fit::laid::Laid;
 use crate::fit::on_body::{BodyIndex, on_body};
 use crate::fit::report::{Report, Seams};
@@ -30,6 +30,7 @@ pub fn measure(pattern: &Pattern, garment: &Garment, state: &ClothState, body: &
         unmapped_vertices: unmapped,
         not_finite_vertices: not_finite(garment, state),
         strain,
+        uneased_p99: uneased_p99(garment, &laid),
         strain_causes: causes(garment, &laid, body),
         pieces,
         seams: seams(pattern, garment, state),

@@ -20,6 +20,9 @@ pub struct Report {
     pub not_finite_vertices: usize,
     /// Strain of the edges.
     pub strain: Strain,
+    /// |l / l0 - 1| that 99 of 100 edges do not exceed, without those that a seam of unequal sides eases.
+    #[serde(default)]
+    pub uneased_p99: f64,
     /// Why they are strained.
     #[serde(default)]
     pub strain_causes: Causes,

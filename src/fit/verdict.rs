@@ -4,7 +4,7 @@ use crate::fit::report::Report;
 use crate::fit::spots::Spot;
 use crate::geometry::problem::{Problem, ProblemKind};
 
-/// Cloth stretched or pressed beyond this at its worst hundredth does not fit.
+/// Cloth stretched or pressed beyond this at its worst hundredth, gathers left out, does not fit.
 const MOST_STRAIN: f64 = 0.25;
 
 /// A pattern that is smaller than the body by more is told so where it is not dressed, metres.
@@ -164,8 +164,8 @@ impl Faults {
             );
             self.tell(Spot::Strained, "garment", words);
         }
-        if report.strain.p99 > MOST_STRAIN {
-            let percent = report.strain.p99 * 100.0;
+        if report.uneased_p99 > MOST_STRAIN {
+            let percent = report.uneased_p99 * 100.0;
             self.tell(
                 Spot::Strained,
                 "garment",
