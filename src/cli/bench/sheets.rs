@@ -44,7 +44,7 @@ pub enum Scenario {
     Falls,
 }
 
-/// What a happening takes in seconds of processor for each of the sheet's at a thousand, ten thousand and forty thousand
+/// What a scenario takes in seconds of processor for each of the sheet's at a thousand, ten thousand and forty thousand
 /// triangles: that of the best other program that is faithful, and ours to reach. No other one got to forty thousand.
 const LIMITS: [(Scenario, [(f64, f64); 3]); 2] = [
     (Scenario::Swings, [(0.21, 0.04), (7.7, 0.8), (5.0, 5.0)]),
@@ -63,15 +63,15 @@ pub fn sheets(
     runs: usize,
     mut tell: impl FnMut(Row) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
-    for ((happening, limits), names) in LIMITS.into_iter().zip(NAMES) {
-        let reference = match happening {
+    for ((scenario, limits), names) in LIMITS.into_iter().zip(NAMES) {
+        let reference = match scenario {
             Scenario::Swings => {
-                Some(fall_after(&mut Run::new(happening, sizes[0], Some(Method::Implicit))?, SWUNG)?)
+                Some(fall_after(&mut Run::new(scenario, sizes[0], Some(Method::Implicit))?, SWUNG)?)
             }
             Scenario::Falls => None,
         };
         for ((size, limits), name) in sizes.into_iter().zip(limits).zip(names) {
-            tell(row(name, happening, (size, runs), limits, reference)?)?;
+            tell(row(name, scenario, (size, runs), limits, reference)?)?;
         }
     }
     Ok(())
@@ -86,16 +86,16 @@ struct Run {
 }
 
 impl Run {
-    fn new(happening: Scenario, triangles: usize, method: Option<Method>) -> Result<Self, Failure> {
+    fn new(scenario: Scenario, triangles: usize, method: Option<Method>) -> Result<Self, Failure> {
         let (sheet, start) = flat(triangles)?;
         let (stretch, poisson, bending) = STIFFNESS;
         let mut fabric = Fabric::isotropic(stretch, poisson, bending, DENSITY);
         fabric.thickness_m = THICKNESS;
         let last = start.len() - 1;
         let side = (start.len() as f64).sqrt().round() as usize;
-        let swings = happening == Scenario::Swings;
+        let swings = scenario == Scenario::Swings;
         let pinned = (0..=last).map(|v| swings && (v == 0 || v == side - 1)).collect();
-        let collider = match happening {
+        let collider = match scenario {
             Scenario::Swings => None,
             Scenario::Falls => Some(Collider::still(Arc::new(ball()?))),
         };
@@ -175,16 +175,16 @@ fn fall_after(run: &mut Run, frames: usize) -> Result<f64, Failure> {
 
 fn row(
     scene: &'static str,
-    happening: Scenario,
+    scenario: Scenario,
     (size, runs): (usize, usize),
     (solid, goal): (f64, f64),
     reference: Option<f64>,
 ) -> Result<Row, Failure> {
     let (mut wall, mut processor, mut hashes) = (Vec::new(), Vec::new(), Vec::new());
     let (mut last, mut early) = (None, 0.0);
-    let when = if happening == Scenario::Swings { SWUNG } else { FALLEN };
+    let when = if scenario == Scenario::Swings { SWUNG } else { FALLEN };
     for _ in 0..runs.max(1) {
-        let mut run = Run::new(happening, size, None)?;
+        let mut run = Run::new(scenario, size, None)?;
         let mut watch = Stopwatch::default();
         for frame in 1..=FRAMES {
             watch.time(|| run.frame())?;
@@ -202,7 +202,7 @@ fn row(
     let (p99, largest) = run.strain();
     // Free fall is known exactly.
     let exact = reference.unwrap_or(GRAVITY * (FALLEN as f64 / FPS).powi(2) / 2.0);
-    let what = match happening {
+    let what = match scenario {
         Scenario::Swings => "fall in half a second against implicit steps",
         Scenario::Falls => "free fall against the exact one",
     };
@@ -212,7 +212,7 @@ fn row(
         Check::new("p99 strain", p99, Unit::Share, 0.01, 0.01),
         off,
     ];
-    if happening == Scenario::Falls {
+    if scenario == Scenario::Falls {
         let crossings = run.crossings() as f64;
         checks.push(Check::new("deepest in the ball in any frame", run.deepest, Unit::Metres, 5e-4, 5e-4));
         checks.push(Check::new("self crossings at the end", crossings, Unit::Count, 0.0, 0.0));

@@ -21,9 +21,6 @@ const MOST_GAIN: f64 = 20.0;
 /// Pivots of a fit below this share of the largest: the points do not tell a quadratic.
 const LEAST_PIVOT: f64 = 1e-6;
 
-/// Most turns in which what is too stiff is softened.
-const MOST_SOFTENINGS: usize = 4;
-
 /// Rows one thread takes at a time.
 const LEAST_SHARE: usize = 1024;
 
@@ -65,19 +62,22 @@ impl Bending {
         stiffness: impl Fn(u32) -> &'a Stiffness,
     ) -> Self {
         let energies = energies(sheet, stiffness);
+        let limit = |i: usize| rate * rate * mass[i];
         let mut bending = Self::summed(sheet.len(), &energies, &[]);
-        let mut is_fast = vec![false; sheet.len()];
-        // Each turn softens more energies. What is softened alike keeps its signs: more than a few turns are not needed.
-        for _ in 0..MOST_SOFTENINGS {
-            let limit = |i: usize| rate * rate * mass[i];
-            let faster: Vec<usize> = (0..sheet.len()).filter(|&i| bending.stiffest(i) > limit(i)).collect();
+        let (mut is_fast, mut whole) = (vec![false; sheet.len()], Vec::new());
+        loop {
+            // Those that were too stiff keep to their limit whatever becomes of others; by what cancels, others may come to exceed theirs.
+            let faster = (0..sheet.len()).filter(|&i| !is_fast[i] && bending.stiffest(i) > limit(i));
+            let faster: Vec<usize> = faster.collect();
             if faster.is_empty() {
-                break;
+                return bending;
             }
             faster.into_iter().for_each(|i| is_fast[i] = true);
-            let mut whole = vec![0.0; sheet.len()];
-            for energy in &energies {
-                energy.entries.iter().for_each(|&(i, _, q)| whole[i as usize] += q.abs());
+            if whole.is_empty() {
+                whole.resize(sheet.len(), 0.0);
+                for energy in &energies {
+                    energy.entries.iter().for_each(|&(i, _, q)| whole[i as usize] += q.abs());
+                }
             }
             let share = |energy: &Energy| {
                 let fast = energy.stencil.iter().map(|&v| v as usize).filter(|&v| is_fast[v]);
@@ -86,7 +86,6 @@ impl Bending {
             let shares: Vec<f64> = energies.iter().map(share).collect();
             bending = Self::summed(sheet.len(), &energies, &shares);
         }
-        bending
     }
 
     /// Gershgorin's bound of how stiff vertex `i` is, N/m.

@@ -187,7 +187,8 @@ impl DrapedGarment {
         Ok(worn)
     }
 
-    /// The same of a garment that is to become another, with the vertex of that for each of its own.
+    /// The same of a garment that is to become another, with the vertex of that for each of its own. Nothing has weight, and nothing
+    /// rubs; it goes on in `substeps` small steps a tick.
     pub fn unsewn(
         garment: Arc<Garment>,
         cloth: &ClothState,
@@ -195,8 +196,9 @@ impl DrapedGarment {
         fabrics: (&BTreeMap<PieceId, Fabric>, &Fabric),
         settings: DrapedSettings,
         (sewn, becomes): (Arc<Garment>, Arc<Vec<u32>>),
+        substeps: usize,
     ) -> Result<Self, Undrapable> {
-        let will_be = Some((&*sewn, &becomes[..]));
+        let will_be = Some((&*sewn, &becomes[..], substeps));
         let mut worn = Self::made(garment, cloth, surface, fabrics, &[], settings, will_be)?;
         let will_be = worn.fixed.vertices.iter().map(|&v| becomes[v as usize]).collect();
         worn.will_be = Some(will_be);
@@ -211,7 +213,7 @@ impl DrapedGarment {
         (fabrics, default): (&BTreeMap<PieceId, Fabric>, &Fabric),
         pins: &[u32],
         settings: DrapedSettings,
-        sewn: Option<(&Garment, &[u32])>,
+        sewn: Option<(&Garment, &[u32], usize)>,
     ) -> Result<Self, Undrapable> {
         let laid: Vec<usize> = (0..garment.triangles.len())
             .filter(|&t| garment.triangles[t].iter().all(|&v| cloth.mapped[v as usize]))
@@ -229,20 +231,13 @@ impl DrapedGarment {
         let (thickness, damping) = (most(|f| f.thickness_m), most(|f| f.damping_per_s));
         let friction = (0..sheet.len() as u32).map(|v| first(v).friction).collect();
         let positions: Vec<DVec3> = vertices.iter().map(|&v| cloth.positions[v as usize]).collect();
-        let count = steps_a_tick(&positions, sheet.mean_edge(), settings.strain);
+        let hanging = || steps_a_tick(&positions, sheet.mean_edge(), settings.strain);
+        let count = sewn.map_or_else(hanging, |(.., substeps)| substeps);
         let slow = stable_rate(TICK / count as f64, BENDING_DAMPING);
         let bending = Bending::slower_than(slow, &mass, &sheet, |v| &first(v).bending);
         let mut pinned = vec![false; sheet.len()];
         pins.iter().filter_map(|&v| own_number(&own, v)).for_each(|v| pinned[v] = true);
-        let sides = shortest_sides(sewn.map_or(&*garment, |(sewn, _)| sewn));
-        let name = |v: u32| match (sewn, vertices[v as usize]) {
-            (Some((_, becomes)), v) => becomes[v as usize],
-            (None, v) => v,
-        };
-        let length = |[a, b]: [u32; 2]| {
-            let (a, b) = (name(a), name(b));
-            sides.get(&[a.min(b), a.max(b)]).copied()
-        };
+        let length = shortest_lengths(&garment, sewn, &vertices);
         let springs = springs(&sheet, &of_triangle, length);
         let small = SmallSteps::of(springs, settings.strain, &sheet, &bending, &mass, &pinned);
         let obstacle = Arc::new(Obstacle::of(&surface));
@@ -256,7 +251,7 @@ impl DrapedGarment {
             faces: Faces::default(),
             pinned,
             substeps: count,
-            floats: false,
+            floats: sewn.is_some(),
             rubs: None,
             progress: Progress { ticks: 0, residual: 1.0, speed: 0.0, at_rest: false },
             pace: 1.0,
@@ -375,11 +370,6 @@ impl DrapedGarment {
     pub fn let_go(&mut self) {
         self.small.hand = None;
         self.wake();
-    }
-
-    /// From now on nothing has weight, and nothing rubs; `substeps` in each tick.
-    pub fn float(&mut self, substeps: usize) {
-        (self.floats, self.substeps) = (true, substeps);
     }
 
     /// From now on threads pull the rest of it over what lies at the garment's vertices `inner`.
@@ -614,6 +604,22 @@ struct Begun {
     /// As it was before.
     before: State,
     advance: Advance,
+}
+
+/// The rest length, metres, of an edge between own vertices, which are these of `garment`: where a seam is, or will be as in `sewn`, that
+/// of its shorter side.
+fn shortest_lengths(
+    garment: &Garment,
+    sewn: Option<(&Garment, &[u32], usize)>,
+    vertices: &[u32],
+) -> impl Fn([u32; 2]) -> Option<f64> {
+    let sides = shortest_sides(sewn.map_or(garment, |(sewn, ..)| sewn));
+    let name = |v: &u32| sewn.map_or(*v, |(_, becomes, _)| becomes[*v as usize]);
+    let names: Vec<u32> = vertices.iter().map(name).collect();
+    move |ends| {
+        let [a, b] = ends.map(|v| names[v as usize]);
+        sides.get(&[a.min(b), a.max(b)]).copied()
+    }
 }
 
 /// Small steps in a tick that keep the cloth at `positions`, with edges of `edge` metres, within `strain`.

@@ -118,8 +118,8 @@ impl Sewing {
             fabrics,
             settings,
             will_be,
+            SUBSTEPS,
         )?;
-        worn.float(SUBSTEPS);
         if !inner.is_empty() {
             worn.pull_over(&inner);
         }

@@ -506,7 +506,9 @@ impl SmallSteps {
         }
         // The explicit step is stable while it is shorter than 2/ω, and than 2/(ω² τ) with damping.
         let rate = self.bending_rate * (1.0 + self.bending_rate * damping);
-        ((SAFE * 2.0 / (rate * small)) as usize).max(1)
+        let every = SAFE * 2.0 / (rate * small);
+        debug_assert!(every > 1.0 - 1e-6, "bending was made for shorter steps than {small} s: {every}");
+        (every as usize).max(1)
     }
 }
 

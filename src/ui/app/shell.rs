@@ -128,7 +128,7 @@ impl App {
             Action::CommandPalette => self.shell.palette = Some(CommandPalette::default()),
             Action::Manual => self.shell.manual = Some(ManualPage::default()),
             Action::Tour => self.begin_tour(),
-            _ => {}
+            _ => debug_assert!(false, "{action:?} is in the table and does nothing"),
         }
     }
 
