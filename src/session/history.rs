@@ -16,6 +16,15 @@ pub enum StepKind {
     Edit,
 }
 
+/// Which document and which cloth there are: the commands that made them so.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Version {
+    /// The newest that changed the document.
+    pub document: u64,
+    /// The newest that moved the cloth.
+    pub cloth: u64,
+}
+
 /// One step on the undo or the redo side.
 #[derive(Clone, Debug)]
 pub struct Step {
@@ -27,6 +36,16 @@ pub struct Step {
     pub document: Document,
     /// The request before which the cloth was as it should be again; None when the step left the cloth alone.
     pub restore: Option<u64>,
+    /// What it returns to; its cloth only where that is restored.
+    pub version: Version,
+}
+
+impl Step {
+    /// What there is once one has returned from `now`.
+    pub fn returned(&self, now: Version) -> Version {
+        let cloth = if self.restore.is_some() { self.version.cloth } else { now.cloth };
+        Version { cloth, ..self.version }
+    }
 }
 
 /// Done and undone steps.
@@ -45,7 +64,9 @@ impl History {
             && let Some(last) = self.done.last_mut()
         {
             last.label = step.label;
-            last.restore = last.restore.or(step.restore);
+            if last.restore.is_none() {
+                (last.restore, last.version.cloth) = (step.restore, step.version.cloth);
+            }
             if last.kind == StepKind::Edit {
                 last.kind = step.kind;
             }
@@ -111,13 +132,13 @@ impl History {
 
     /// Moves the last done step to the redo side. `now` is what redo returns to; so does the cloth, to before request
     /// `seq` (the undo itself), if the step touched it.
-    pub fn undo(&mut self, now: Document, seq: u64) {
+    pub fn undo(&mut self, now: (Document, Version), seq: u64) {
         self.close();
         self.undone.extend(self.done.pop().map(|step| turned(step, now, seq)));
     }
 
     /// The reverse of [`History::undo`].
-    pub fn redo(&mut self, now: Document, seq: u64) {
+    pub fn redo(&mut self, now: (Document, Version), seq: u64) {
         self.close();
         self.done.extend(self.undone.pop().map(|step| turned(step, now, seq)));
     }
@@ -139,6 +160,6 @@ impl History {
     }
 }
 
-fn turned(step: Step, now: Document, seq: u64) -> Step {
-    Step { document: now, restore: step.restore.map(|_| seq), ..step }
+fn turned(step: Step, (document, version): (Document, Version), seq: u64) -> Step {
+    Step { document, version, restore: step.restore.map(|_| seq), ..step }
 }

@@ -13,7 +13,7 @@ use crate::session::command::{Command, Rejection};
 use crate::session::document::Document;
 use crate::session::edit::{self, ClothChange};
 use crate::session::hashes::DocumentHasher;
-use crate::session::history::{History, Step, StepKind};
+use crate::session::history::{History, Step, StepKind, Version};
 use crate::session::placing;
 use crate::session::project::{Dressed, Project};
 use crate::session::recording::Recorder;
@@ -53,8 +53,9 @@ pub struct Session {
     open_gesture: Option<GestureId>,
     /// Where the last edit of the pattern in this gesture has moved places to, from where they were before the gesture.
     moved: Option<(GestureId, Vec<Carried>)>,
-    /// The command after which the document was last saved.
-    saved_seq: Option<u64>,
+    /// What there is now, and what was last saved.
+    version: Version,
+    saved: Option<Version>,
     /// Marks that found no place on the body, and the strokes there were after that.
     lost_marks: Option<(Arc<Marks>, Vec<Problem>)>,
     /// Steps that could be undone and redone when the work was last copied, as far as they still can.
@@ -112,7 +113,8 @@ impl Session {
             last_gesture: 0,
             open_gesture: None,
             moved: None,
-            saved_seq: Some(0),
+            version: Version::default(),
+            saved: Some(Version::default()),
             lost_marks: None,
             copied_steps: (0, 0),
             needs_copy: false,
@@ -241,17 +243,17 @@ impl Session {
 
     /// The project was saved as it is now.
     pub fn mark_saved(&mut self) {
-        self.saved_seq = Some(self.last_seq);
+        self.saved = Some(self.version);
     }
 
-    /// Whether a command was given since the project was opened or saved.
+    /// Whether the project is another than when it was opened or saved: what was undone since does not count.
     pub fn is_modified(&self) -> bool {
-        self.saved_seq != Some(self.last_seq)
+        self.saved != Some(self.version)
     }
 
     /// What the project holds is in no file of the person's: it was recovered.
     pub fn mark_modified(&mut self) {
-        self.saved_seq = None;
+        self.saved = None;
     }
 
     /// The work was copied as it is now, for recovery: `journal` takes the commands from here on.
@@ -466,14 +468,16 @@ impl Session {
             HistoryChange::Undo | HistoryChange::Redo => true,
             _ => false,
         };
+        let version = self.version;
+        self.version = self.version_after(&plan.history, plan.request.is_some());
         match plan.history {
             HistoryChange::None => {}
             HistoryChange::Push { label, kind } => {
                 let restore = plan.request.as_ref().map(|_| seq);
-                self.history.push(gesture.0, Step { label, kind, document: before, restore });
+                self.history.push(gesture.0, Step { label, kind, document: before, restore, version });
             }
-            HistoryChange::Undo => self.history.undo(before, seq),
-            HistoryChange::Redo => self.history.redo(before, seq),
+            HistoryChange::Undo => self.history.undo((before, version), seq),
+            HistoryChange::Redo => self.history.redo((before, version), seq),
             HistoryChange::DropOpen => self.history.drop_open(gesture.0),
             HistoryChange::DropLast => self.history.drop_last(),
             HistoryChange::Forget { before_seq } => self.history.forget(before_seq),
@@ -484,6 +488,22 @@ impl Session {
         if let Some(kind) = plan.request {
             self.last_request = seq;
             self.runner.send(Request { seq, checkpoint: keeps, kind });
+        }
+    }
+
+    /// What there is once the last command, which moves the cloth if so, has changed the history like that.
+    fn version_after(&self, change: &HistoryChange, moves_cloth: bool) -> Version {
+        let returned = |step: Option<&Step>| step.map_or(self.version, |step| step.returned(self.version));
+        match change {
+            HistoryChange::None | HistoryChange::Push { .. } => Version {
+                document: self.last_seq,
+                cloth: if moves_cloth { self.last_seq } else { self.version.cloth },
+            },
+            HistoryChange::Undo | HistoryChange::DropOpen | HistoryChange::DropLast => {
+                returned(self.history.last_done())
+            }
+            HistoryChange::Redo => returned(self.history.last_undone()),
+            HistoryChange::Forget { .. } => self.version,
         }
     }
 

@@ -129,6 +129,7 @@ proptest! {
         for act in acts {
             perform(&mut session, act);
             prop_assert_eq!(session.project().problem(), None);
+            prop_assert!(session.is_modified() || *session.document() == start.0, "what is not modified is as it was");
         }
         until_refused(&mut session, &Command::Redo);
         let end = state(&mut session);
@@ -155,6 +156,35 @@ fn a_drag_is_one_step() {
     assert_eq!((s.undo_label(), s.redo_label()), (None, Some("move left")));
     s.apply_alone(Command::Redo).expect("redone");
     assert_eq!(s.document().pattern.pieces[&PieceId(1)].pose, pose(10.0));
+}
+
+#[test]
+fn what_was_undone_to_where_it_was_saved_is_not_modified() {
+    let mut s = session();
+    let rename = |name: &str| Command::RenamePiece { piece: PieceId(1), name: name.to_owned() };
+    let is_modified_after = |s: &mut Session, command: Command| {
+        s.apply_alone(command).expect("done");
+        s.is_modified()
+    };
+    assert!(is_modified_after(&mut s, rename("one")));
+    s.mark_saved();
+    assert!(is_modified_after(&mut s, rename("two")));
+    assert!(!is_modified_after(&mut s, Command::Undo));
+    assert!(is_modified_after(&mut s, Command::Undo));
+    assert!(!is_modified_after(&mut s, Command::Redo));
+    // Another step of the same name is another state.
+    s.apply_alone(Command::Undo).expect("undone");
+    assert!(is_modified_after(&mut s, rename("one")));
+    s.mark_saved();
+    assert!(is_modified_after(&mut s, Command::Wrap));
+    assert!(!is_modified_after(&mut s, Command::CancelWrap));
+    // Pausing is no step; the cloth that moved meanwhile does not come back with a name.
+    s.apply_alone(Command::Wrap).expect("wrapped");
+    run(&mut s, 3);
+    s.mark_saved();
+    s.apply_alone(rename("three")).expect("renamed");
+    s.apply_alone(Command::SetRelaxing { on: false }).expect("paused");
+    assert!(is_modified_after(&mut s, Command::Undo));
 }
 
 #[test]
