@@ -555,6 +555,10 @@ pub struct Bench {
     /// Writes a picture of error against time, or of cost against size, to this file (SVG)
     #[arg(long, value_name = "SVG")]
     pub plot: Option<PathBuf>,
+    /// Holds every figure against what the same bench printed with --json into this file; more than a tenth worse is a loss (exit
+    /// code 1)
+    #[arg(long, value_name = "JSON")]
+    pub against: Option<PathBuf>,
     #[command(flatten)]
     pub corpus: CorpusOptions,
     #[command(flatten)]

@@ -48,6 +48,31 @@ fn accuracy_is_printed_and_drawn() {
 }
 
 #[test]
+fn a_run_is_held_against_an_earlier_one() {
+    let place = Place::new();
+    let first = rows(&place.ends(0, "bench accuracy --runs 1 --json").out);
+    let edited = |change: &dyn Fn(&mut Value)| -> String {
+        let mut rows = first.clone();
+        rows.iter_mut().for_each(change);
+        rows.iter().map(|row| format!("{row}\n")).collect()
+    };
+    let slower = |row: &mut Value| row["seconds"] = 1e3.into();
+    place.write("slower.json", edited(&slower).as_bytes());
+    let done = place.ends(0, "bench accuracy --runs 1 --against slower.json");
+    assert!(done.err.contains("25 figures held against slower.json"), "{}", done.err);
+    let better = |row: &mut Value| {
+        slower(row);
+        row["excess_p99"] = (row["excess_p99"].as_f64().expect("a number") / 2.0).into();
+    };
+    place.write("better.json", edited(&better).as_bytes());
+    place.ends_with_words(1, "bench accuracy --runs 1 --against better.json", "excess_p99");
+    place.write("torn.json", b"{\"scene\":\"a\"}\nnothing\n");
+    place.ends_with_words(3, "bench accuracy --against torn.json", "line 2");
+    place.ends_with_words(6, "bench accuracy --against none.json", "none.json");
+    place.ends_with_words(2, "bench corpus --against torn.json", "--against");
+}
+
+#[test]
 fn physics_has_a_row_for_every_scene_and_size() {
     let place = Place::new();
     let done = place.ends(0, "bench drape --runs 1 --triangles 400 --plot cost.svg --json");

@@ -63,7 +63,10 @@ pub fn plotted(curves: &[Curve]) -> String {
 }
 
 /// Calls `tell` with every point as it is done.
-pub fn accuracy(runs: usize, tell: impl Fn(&Point) -> Result<(), Failure>) -> Result<Vec<Curve>, Failure> {
+pub fn accuracy(
+    runs: usize,
+    mut tell: impl FnMut(&Point) -> Result<(), Failure>,
+) -> Result<Vec<Curve>, Failure> {
     let mut curves = Vec::new();
     for (scene, loose) in TUBES {
         let tube = Tube::new(loose);

@@ -1,6 +1,7 @@
 //! `toile bench`: how fast and how accurate the program is on this machine.
 
 mod accuracy;
+mod against;
 mod corpus;
 mod drape;
 mod plot;
@@ -17,17 +18,23 @@ mod tube;
 use serde::Serialize;
 
 use crate::cli::arguments::{Bench, BenchKind, CorpusOptions, TrustOptions};
+use crate::cli::bench::against::Against;
 use crate::cli::bench::row::Row;
 use crate::cli::failure::Failure;
 use crate::cli::output;
 
 /// Runs every scene asked for and prints a row for each as it is done.
 pub fn bench(arguments: &Bench) -> Result<(), Failure> {
-    let asked = |kind| arguments.what.is_none_or(|what| what == kind);
     let without_plot = [BenchKind::Speed, BenchKind::Corpus, BenchKind::Ticks, BenchKind::Trust];
     let has_plot = arguments.what.is_none_or(|what| !without_plot.contains(&what));
     if arguments.plot.is_some() && !has_plot {
         return Err(Failure::Usage("--plot draws what accuracy and drape measure".to_owned()));
+    }
+    let without_rows = [BenchKind::Corpus, BenchKind::Trust];
+    if arguments.against.is_some() && arguments.what.is_some_and(|what| without_rows.contains(&what)) {
+        return Err(Failure::Usage(
+            "--against compares what speed, accuracy, drape and ticks measure".to_owned(),
+        ));
     }
     if arguments.what != Some(BenchKind::Trust) && arguments.trust != TrustOptions::default() {
         return Err(Failure::Usage("--mutations, --first and --readers go with bench trust".to_owned()));
@@ -45,25 +52,57 @@ pub fn bench(arguments: &Bench) -> Result<(), Failure> {
     if arguments.what == Some(BenchKind::Trust) {
         return trust::trust(arguments);
     }
+    let mut teller = Teller::new(arguments)?;
+    measure(arguments, &mut teller)?;
+    teller.finish()
+}
+
+/// Runs the scenes asked for, of garments.
+fn measure(arguments: &Bench, teller: &mut Teller) -> Result<(), Failure> {
+    let asked = |kind| arguments.what.is_none_or(|what| what == kind);
     let runs = usize::from(arguments.runs);
     match arguments.what {
-        Some(BenchKind::Drape) => return drape_scenes(arguments, runs),
+        Some(BenchKind::Drape) => return drape_scenes(arguments, runs, teller),
         Some(BenchKind::Ticks) => {
             let triangles = arguments.triangles.map_or(TICKS_TRIANGLES, |n| n as usize);
-            return ticks::ticks(triangles, runs, arguments.work.no_skip, |row| say(row, arguments.json));
+            return ticks::ticks(triangles, runs, arguments.work.no_skip, |row| teller.say(row));
         }
         _ => {}
     }
     if asked(BenchKind::Speed) {
-        speed::speed(size_of(arguments), runs, arguments.work.no_skip, |row| say(row, arguments.json))?;
+        speed::speed(size_of(arguments), runs, arguments.work.no_skip, |row| teller.say(row))?;
     }
     if asked(BenchKind::Accuracy) {
-        let curves = accuracy::accuracy(runs, |row| say(row, arguments.json))?;
+        let curves = accuracy::accuracy(runs, |row| teller.say(row))?;
         if let Some(path) = &arguments.plot {
             output::write(path, accuracy::plotted(&curves).as_bytes())?;
         }
     }
     Ok(())
+}
+
+/// Prints rows, and holds them against an earlier run.
+struct Teller {
+    json: bool,
+    against: Option<Against>,
+}
+
+impl Teller {
+    fn new(arguments: &Bench) -> Result<Self, Failure> {
+        let against = arguments.against.as_deref().map(Against::read).transpose()?;
+        Ok(Self { json: arguments.json, against })
+    }
+
+    fn say<R: Serialize + std::fmt::Display>(&mut self, row: &R) -> Result<(), Failure> {
+        say(row, self.json)?;
+        let Some(against) = &mut self.against else { return Ok(()) };
+        against.hold(row)?.iter().for_each(|line| output::complain(&format!("      {line}")));
+        Ok(())
+    }
+
+    fn finish(self) -> Result<(), Failure> {
+        self.against.map_or(Ok(()), Against::finish)
+    }
 }
 
 fn size_of(arguments: &Bench) -> usize {
@@ -77,12 +116,12 @@ const TICKS_TRIANGLES: usize = 20_000;
 const COARSEST: usize = 200;
 
 /// Scenes of cloth under physics at three sizes: a tenth, once and four times as many triangles as asked for.
-fn drape_scenes(arguments: &Bench, runs: usize) -> Result<(), Failure> {
+fn drape_scenes(arguments: &Bench, runs: usize, teller: &mut Teller) -> Result<(), Failure> {
     let size = size_of(arguments);
     let sizes = [(size / 10).max(COARSEST), size, size * 4];
     let mut rows: Vec<Row> = Vec::new();
     let mut tell = |row: Row| {
-        say(&row, arguments.json)?;
+        teller.say(&row)?;
         rows.push(row);
         Ok(())
     };

@@ -45,7 +45,7 @@ pub fn speed(
     triangles: usize,
     runs: usize,
     skips: Skips,
-    tell: impl Fn(&Row) -> Result<(), Failure>,
+    mut tell: impl FnMut(&Row) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
     tell(&cylinder(triangles, runs, skips)?)?;
     let body = mannequin::default();

@@ -36,7 +36,7 @@ pub fn ticks(
     triangles: usize,
     runs: usize,
     skips: Skips,
-    tell: impl Fn(&Row) -> Result<(), Failure>,
+    mut tell: impl FnMut(&Row) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
     let body = mannequin::default();
     let sample = |sample| Ok::<_, Failure>(Scene::sample(sample, &body, triangles)?.skipping(skips));

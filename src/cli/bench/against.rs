@@ -1,0 +1,153 @@
+//! What was measured held against an earlier run, row by row: what has become worse by more than a tenth is a loss.
+
+use std::path::{Path, PathBuf};
+
+use serde::Serialize;
+use serde_json::Value;
+
+use crate::cli::failure::Failure;
+use crate::cli::output;
+
+/// A figure may be worse by this share of the old one: medians of a shared machine differ by a few hundredths.
+const BEARABLE: f64 = 0.1;
+/// The name of a row's own time.
+const SECONDS: &str = "seconds";
+
+/// An earlier run, and what has become of its figures.
+pub struct Against {
+    path: PathBuf,
+    old: Vec<Value>,
+    held: usize,
+    losses: Vec<String>,
+}
+
+/// A figure of a row: what it is, how large, and whether more of it is better.
+struct Measure<'a> {
+    what: &'a str,
+    value: f64,
+    is_rate: bool,
+}
+
+impl Against {
+    /// What `toile bench --json` printed into the file at `path`.
+    pub fn read(path: &Path) -> Result<Self, Failure> {
+        let text = std::fs::read_to_string(path).map_err(|e| Failure::file(path, e))?;
+        let row = |(i, line): (usize, &str)| {
+            let row = serde_json::from_str(line).ok().filter(|row| scene(row).is_some());
+            row.ok_or_else(|| {
+                let words = format!("line {}: no row of toile bench --json", i + 1);
+                Failure::input(path, words)
+            })
+        };
+        let lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
+        let old = lines.map(row).collect::<Result<Vec<_>, _>>()?;
+        Ok(Self { path: path.to_owned(), old, held: 0, losses: Vec::new() })
+    }
+
+    /// Compares `row` with the same scene of as many triangles; the lines tell the figures that both have.
+    pub fn hold(&mut self, row: &impl Serialize) -> Result<Vec<String>, Failure> {
+        let new = serde_json::to_value(row).map_err(|e| Failure::Internal(e.to_string()))?;
+        let same = |old: &&Value| scene(old) == scene(&new) && old["triangles"] == new["triangles"];
+        let Some(old) = self.old.iter().find(same) else { return Ok(Vec::new()) };
+        let mut lines = Vec::new();
+        for before in measures(old) {
+            let Some(now) = measures(&new).find(|now| now.what == before.what) else { continue };
+            let is_loss = now.is_loss_from(before.value);
+            let change = (now.value / before.value - 1.0) * 100.0;
+            let change = if change.is_finite() { format!("{change:+.1} %") } else { "-".to_owned() };
+            let loss = if is_loss { "   LOSS" } else { "" };
+            let words =
+                format!("{:<44} {:>12.6} -> {:>12.6}  {change:>9}{loss}", now.what, before.value, now.value);
+            if is_loss {
+                let scene = scene(&new).unwrap_or_default();
+                self.losses.push(format!("{scene}, {}: {:.6} -> {:.6}", now.what, before.value, now.value));
+            }
+            lines.push(words);
+            self.held += 1;
+        }
+        Ok(lines)
+    }
+
+    /// Whether nothing was lost; a comparison of nothing is refused.
+    pub fn finish(self) -> Result<(), Failure> {
+        if self.held == 0 {
+            return Err(Failure::input(
+                &self.path,
+                "none of its rows was measured again: another bench, or other sizes",
+            ));
+        }
+        output::complain(&format!("{} figures held against {}", self.held, self.path.display()));
+        if self.losses.is_empty() {
+            return Ok(());
+        }
+        let words = format!("worse by more than {:.0} %: {}", BEARABLE * 100.0, self.losses.join("; "));
+        Err(Failure::Check(words))
+    }
+}
+
+impl Measure<'_> {
+    /// Whether it was better when it was `before`.
+    fn is_loss_from(&self, before: f64) -> bool {
+        let bearable = before.abs() * BEARABLE;
+        if self.is_rate { self.value < before - bearable } else { !(self.value <= before + bearable) }
+    }
+}
+
+fn scene(row: &Value) -> Option<&str> {
+    row["scene"].as_str()
+}
+
+/// Its checks, then its own numbers that are better when smaller.
+fn measures(row: &Value) -> impl Iterator<Item = Measure<'_>> {
+    let checks = row["checks"].as_array().map(Vec::as_slice).unwrap_or_default();
+    let checks = checks.iter().filter_map(|check| {
+        let (what, value) = (check["what"].as_str()?, check["value"].as_f64()?);
+        Some(Measure { what, value, is_rate: check["unit"] == "per_second" })
+    });
+    let own = [SECONDS, "excess_p99", "position"].into_iter();
+    checks.chain(own.filter_map(|what| Some(Measure { what, value: row[what].as_f64()?, is_rate: false })))
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::*;
+
+    fn row(seconds: f64, rate: f64, inside: f64) -> Value {
+        json!({"scene": "a", "triangles": 9, "seconds": seconds, "checks": [
+            {"what": "rate", "value": rate, "unit": "per_second"},
+            {"what": "inside", "value": inside, "unit": "count"},
+        ]})
+    }
+
+    fn against(old: Value) -> Against {
+        Against { path: PathBuf::from("old.json"), old: vec![old], held: 0, losses: Vec::new() }
+    }
+
+    #[test]
+    fn more_than_a_tenth_is_a_loss_in_the_direction_that_counts() {
+        let lost = |new: Value| {
+            let mut against = against(row(1.0, 10.0, 0.0));
+            assert_eq!(against.hold(&new).expect("compared").len(), 3);
+            against.losses.len()
+        };
+        assert_eq!(lost(row(1.09, 9.1, 0.0)), 0);
+        assert_eq!(lost(row(0.5, 20.0, 0.0)), 0);
+        assert_eq!(lost(row(1.11, 10.0, 0.0)), 1);
+        assert_eq!(lost(row(1.0, 8.9, 0.0)), 1);
+        assert_eq!(lost(row(1.0, 10.0, 1.0)), 1, "nothing has become something");
+    }
+
+    #[test]
+    fn what_is_not_the_same_scene_is_not_compared() {
+        let mut against = against(row(1.0, 10.0, 0.0));
+        assert!(
+            against.hold(&json!({"scene": "b", "triangles": 9, "seconds": 5.0})).expect("read").is_empty()
+        );
+        assert!(
+            against.hold(&json!({"scene": "a", "triangles": 8, "seconds": 5.0})).expect("read").is_empty()
+        );
+        assert!(matches!(against.finish(), Err(Failure::Input { .. })));
+    }
+}
