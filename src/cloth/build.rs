@@ -10,7 +10,7 @@ use crate::geometry::adjacency::Adjacency;
 use crate::geometry::ids::{PieceId, SeamId};
 use crate::pattern::sampling::sampling;
 use crate::pattern::triangulate::Meshes;
-use crate::pattern::{CutPattern, EdgeRef, EdgeSeam, Pattern, PieceMesh, Problem, ProblemKind};
+use crate::pattern::{CutPattern, EdgeRef, EdgeSeam, Pattern, Piece, PieceMesh, Problem, ProblemKind};
 
 /// The sewn garment of a pattern at about `edge_length` metres, and what a person should know or mend.
 /// One bad piece does not stop the others.
@@ -57,6 +57,9 @@ fn sewn(
         if flat.layer > 0 {
             garment.layers.insert(piece, flat.layer);
         }
+        if let Some(warp) = warp(flat, mesh) {
+            garment.grains.insert(piece, warp);
+        }
         let first = first_corner[&piece];
         for t in &mesh.triangles {
             let cs = t.map(|v| v + first);
@@ -67,12 +70,20 @@ fn sewn(
             garment.triangles.push(vs);
             garment.triangle_corners.push(cs);
             garment.triangle_pieces.push(piece);
-            garment.rest.push(front_rest(mesh, t));
+            garment.rest.push(garment.along_grain(piece, front_rest(mesh, t)));
         }
     }
     garment.corners = corners;
     garment.adjacency = Adjacency::new(vertex_count, &garment.triangles);
     garment
+}
+
+/// Unit, along the grainline of `piece` seen from the front; None where it runs along y, or there is none.
+fn warp(piece: &Piece, mesh: &PieceMesh) -> Option<DVec2> {
+    let [tail, head] = piece.grainline?;
+    let along = (head - tail).try_normalize()?;
+    let along = if mesh.front_is_far { DVec2::new(-along.x, along.y) } else { along };
+    (along != DVec2::Y).then_some(along)
 }
 
 /// Flat shape about the centroid, seen from the front.

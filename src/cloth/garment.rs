@@ -31,7 +31,7 @@ pub struct Garment {
     pub triangle_corners: Vec<[u32; 3]>,
     /// The piece of each triangle.
     pub triangle_pieces: Vec<PieceId>,
-    /// Flat shape of each triangle, counter-clockwise seen from the front, metres, about its centroid.
+    /// Flat shape of each triangle, counter-clockwise seen from the front, metres, about its centroid; the warp runs along y.
     pub rest: Vec<[DVec2; 3]>,
     /// Neighbours over sewn vertices.
     pub adjacency: Adjacency,
@@ -41,6 +41,8 @@ pub struct Garment {
     pub pieces: Vec<(PieceId, String)>,
     /// The layers of those that are not worn next to the skin.
     pub layers: BTreeMap<PieceId, u8>,
+    /// Unit vectors along the warp, in the plane of `rest` before it is turned, of those in which it does not run along y.
+    pub grains: BTreeMap<PieceId, DVec2>,
 }
 
 impl Garment {
@@ -48,6 +50,14 @@ impl Garment {
     pub fn mean_edge(&self) -> f64 {
         let sides = |rest: &[DVec2; 3]| (0..3).map(|k| (rest[(k + 1) % 3] - rest[k]).length()).sum::<f64>();
         self.rest.iter().map(sides).sum::<f64>() / (3 * self.rest.len()).max(1) as f64
+    }
+
+    /// `corners`, places in the plane of `piece` seen from the front, metres, turned so that its warp runs along y.
+    pub fn along_grain(&self, piece: PieceId, corners: [DVec2; 3]) -> [DVec2; 3] {
+        match self.grains.get(&piece) {
+            None => corners,
+            Some(&warp) => corners.map(|p| DVec2::new(p.perp_dot(warp), p.dot(warp))),
+        }
     }
 
     /// The layer that a piece is worn on; 0 lies next to the skin.
@@ -71,6 +81,7 @@ impl Garment {
             seam_pairs: self.seam_pairs.clone(),
             pieces: self.pieces.iter().filter(|(id, _)| !pieces.contains(id)).cloned().collect(),
             layers: self.layers.clone(),
+            grains: self.grains.clone(),
         }
     }
 

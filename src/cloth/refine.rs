@@ -169,6 +169,7 @@ impl Builder<'_> {
             corners: order.iter().map(|&c| corners[c as usize]).collect(),
             pieces: plain.pieces.clone(),
             layers: plain.layers.clone(),
+            grains: plain.grains.clone(),
             seam_pairs: plain.seam_pairs.clone(),
             ..Garment::default()
         };
@@ -188,8 +189,9 @@ impl Builder<'_> {
             let centre = (uv[0] + uv[1] + uv[2]) / 3.0;
             garment.triangles.push(cs.map(|c| corners[c as usize].vertex));
             garment.triangle_corners.push(cs.map(|c| place[c as usize]));
-            garment.triangle_pieces.push(plain.triangle_pieces[t as usize]);
-            garment.rest.push(uv.map(|p| p - centre));
+            let piece = plain.triangle_pieces[t as usize];
+            garment.triangle_pieces.push(piece);
+            garment.rest.push(plain.along_grain(piece, uv.map(|p| p - centre)));
         }
         garment.adjacency = Adjacency::new(garment.vertex_count, &garment.triangles);
         Refined { garment: Arc::new(garment), dependents, opened, first_cut, cut_from }
@@ -236,11 +238,15 @@ mod tests {
     use crate::cloth::build;
     use crate::pattern::{EdgeRef, Pattern, Piece, Seam};
 
-    /// Two squares sewn along one side.
+    /// Two squares sewn along one side; the warp of the second runs aslant.
     fn sewn() -> Garment {
         let corners = [(0.0, 0.0), (0.2, 0.0), (0.2, 0.2), (0.0, 0.2)].map(|(x, y)| DVec2::new(x, y));
         let mut pattern = Pattern::default();
-        let [a, b] = ["a", "b"].map(|name| pattern.add_piece(Piece::polygon(name, &corners)));
+        let grainlines = [None, Some([DVec2::ZERO, DVec2::new(0.03, 0.04)])];
+        let [a, b] = ["a", "b"].map(|name| Piece::polygon(name, &corners)).map(|piece| {
+            let grainline = grainlines[usize::from(piece.name == "b")];
+            pattern.add_piece(Piece { grainline, ..piece })
+        });
         let sides = [EdgeRef { piece: a, edge: 1 }, EdgeRef { piece: b, edge: 3 }];
         pattern.add_seam(Seam::of_edges(sides, false));
         build(&pattern, 0.05).0
@@ -283,6 +289,15 @@ mod tests {
                 for k in 0..3 {
                     let flat = (corners[k].uv - corners[(k + 1) % 3].uv).length();
                     assert!((flat - fine.rest[t][k].distance(fine.rest[t][(k + 1) % 3])).abs() < 1e-12);
+                    let [warp, weft] = match fine.triangle_pieces[t] == plain.pieces[1].0 {
+                        true => [DVec2::new(0.6, 0.8), DVec2::new(0.8, -0.6)],
+                        false => [DVec2::Y, DVec2::X],
+                    };
+                    let (way, rest) = (corners[k].uv - corners[0].uv, fine.rest[t][k] - fine.rest[t][0]);
+                    assert!(
+                        rest.abs_diff_eq(DVec2::new(way.dot(weft), way.dot(warp)), 1e-12),
+                        "along the grain"
+                    );
                 }
             }
         }
