@@ -232,7 +232,8 @@ impl Session {
         self.runner.refresh();
         let snapshot = self.runner.snapshot();
         let dressed = match &snapshot.source {
-            Some(source) if snapshot.is_dressed() => {
+            // What is being sewn cannot be gone on with: only its pattern is kept.
+            Some(source) if snapshot.is_dressed() && !snapshot.is_sewing => {
                 let (source, cloth) = (Arc::clone(source), Arc::clone(&snapshot.cloth));
                 Some(Dressed { source, cloth, was_draped: snapshot.was_draped })
             }

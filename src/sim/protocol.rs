@@ -133,6 +133,8 @@ pub struct Snapshot {
     pub was_draped: bool,
     /// It was sewn from where its pieces were placed, round the body as it is: it should lie about there.
     pub was_sewn: bool,
+    /// Pieces are being sewn: `garment` is not the one that `source` gives, but one with open seams, or coarser.
+    pub is_sewing: bool,
     /// While starts are tried: the one under way, and whether it is draped already.
     pub trying: Option<(Start, bool)>,
     /// What came of the starts that were tried, until the cloth is dressed otherwise.

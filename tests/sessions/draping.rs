@@ -15,7 +15,7 @@ use toile::pattern::{EdgeRef, Seam, SpacePose};
 use toile::session::recording::Recording;
 use toile::session::replay::Replay;
 use toile::session::samples::Sample;
-use toile::session::{BodyChoice, Command, Session, Settings};
+use toile::session::{BodyChoice, Command, Notice, Session, Settings};
 use toile::sim::{DrapeState, Runner, Simulation, faults};
 use toile::wrap::Phase;
 
@@ -278,6 +278,39 @@ fn placed_pieces_are_sewn_and_draped() {
     s.apply_alone(Command::Undo).expect("undone");
     s.update();
     assert!(!s.snapshot().is_dressed());
+}
+
+#[test]
+fn a_garment_of_many_triangles_is_sewn_in_a_coarser_mesh_first() {
+    let mut s = placed([0.39, 0.2], -0.09, 0.2, 0.006);
+    s.apply_alone(Command::Sew).expect("sewn");
+    let triangles = |s: &mut Session| {
+        s.update();
+        s.snapshot().garment.as_ref().map_or(0, |garment| garment.triangles.len())
+    };
+    assert!((2000..6000).contains(&triangles(&mut s)), "{}", triangles(&mut s));
+    run(&mut s, 3000);
+    assert!(triangles(&mut s) > 6000, "{}", triangles(&mut s));
+    assert_eq!(s.snapshot().phase, Some(Phase::AtRest));
+    assert!(s.snapshot().problems.is_empty(), "{:?}", s.snapshot().problems);
+    let report = measured(&s);
+    assert_eq!((report.seams.open, report.unmapped_vertices, report.self_crossings), (0, 0, 0));
+    assert_eq!(report.penetration.vertices + report.penetration.faces + report.edges_through_body, 0);
+}
+
+/// What is being sewn has more vertices than the garment, or others: only the pattern is kept then.
+#[test]
+fn what_is_saved_while_pieces_are_sewn_can_be_opened() {
+    for edge_length in [0.015, 0.006] {
+        let mut s = placed([0.39, 0.2], -0.09, 0.2, edge_length);
+        s.apply_alone(Command::Sew).expect("sewn");
+        run(&mut s, 3);
+        let project = s.project();
+        let mut opened = Session::new(project, Runner::inline(Simulation::default()));
+        let notices = opened.update();
+        assert!(!notices.iter().any(|n| matches!(n, Notice::Failed { .. })), "{notices:?}");
+        assert!(opened.snapshot().problems.is_empty(), "{:?}", opened.snapshot().problems);
+    }
 }
 
 /// Two panels that hang from one seam, placed so that it lies below the widest part of what they should hang on: pulled

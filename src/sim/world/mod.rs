@@ -1,6 +1,7 @@
 //! All that moves or decides how things move: what a checkpoint keeps. Copying it copies pointers.
 
 mod activity;
+mod coarse;
 mod draped;
 pub(in crate::sim) mod posed;
 mod sewn;

@@ -9,6 +9,7 @@ use crate::sim::source::DrapeSource;
 use crate::sim::source::GarmentSource;
 use crate::sim::start::{Start, StartChoice, Started, Tried};
 use crate::sim::world::World;
+use crate::sim::world::coarse::coarse_edge;
 use crate::wrap::suggested;
 
 /// Ticks after which a start is judged as its cloth lies, unless there is no other start.
@@ -42,6 +43,10 @@ pub struct Trials {
     best: Option<(Arc<World>, usize)>,
     /// The last tick broke down.
     broken: Option<String>,
+    /// The garment's own edge length, metres, where `source` has a coarser one.
+    fine: Option<f64>,
+    /// What was taken, once its cloth goes on in the garment's own mesh.
+    refining: Option<Started>,
 }
 
 impl Trials {
@@ -58,7 +63,8 @@ impl Trials {
     /// Whether the start under way has had its time. It has all it needs where there is no other, as where several layers are sewn
     /// over each other.
     fn is_out_of_time(&self) -> bool {
-        self.ticks >= MOST_TICKS && (self.best.is_some() || !self.left.is_empty())
+        let is_last = self.best.is_none() && self.left.is_empty();
+        self.ticks >= MOST_TICKS && !is_last && self.refining.is_none()
     }
 
     /// How many starts have been judged.
@@ -103,7 +109,14 @@ impl World {
         let mut left: Vec<Start> =
             Start::ALL.into_iter().filter(|s| choice.only.is_none_or(|o| o == *s)).collect();
         left.reverse();
+        let (coarse, own) = (coarse_edge(&source), source.edge_length);
+        let source = match coarse {
+            Some(edge_length) => Arc::new(GarmentSource { edge_length, ..GarmentSource::clone(&source) }),
+            None => source,
+        };
         let mut trials = Trials {
+            fine: coarse.map(|_| own),
+            refining: None,
             source,
             body,
             fabrics,
@@ -171,6 +184,10 @@ impl World {
         body: Arc<Surface>,
     ) -> Option<Result<Self, String>> {
         let trials = self.trials.as_ref()?;
+        let source = match trials.fine {
+            Some(edge_length) => Arc::new(GarmentSource { edge_length, ..GarmentSource::clone(&source) }),
+            None => source,
+        };
         let again = Self::dressed(source, body, Arc::clone(&trials.fabrics), trials.choice);
         Some(again.map(|world| Self { relaxing: self.relaxing, ..world }))
     }
@@ -207,6 +224,11 @@ impl World {
                 faults.push(format!("it was not draped: {why}"));
             }
         }
+        if let Some(mut started) = trials.refining.take() {
+            let taken = &mut started.tried[started.taken];
+            (taken.faults, taken.places, taken.ticks) = (faults, places, taken.ticks + trials.ticks);
+            return Some(Self { started: Some(Arc::new(started)), ..self.clone() });
+        }
         let lies = self.cloth.mapped.contains(&true) && self.not_finite().is_none();
         let drapes_next = trials.now == Start::Marks && !trials.draping && lies && !is_astray;
         trials.note(self.clone(), faults, places);
@@ -225,7 +247,14 @@ impl World {
         }
         let (world, taken) = trials.best.take()?;
         let started = Started { tried: std::mem::take(&mut trials.tried), taken };
-        Some(Self { started: Some(Arc::new(started)), ..Arc::unwrap_or_clone(world) })
+        let world = Arc::unwrap_or_clone(world);
+        if let Some(edge_length) = trials.fine {
+            (trials.now, trials.draping) = (started.taken().start, started.taken().draped);
+            (trials.refining, trials.ticks) = (Some(started), 0);
+            *self = world.refined(edge_length, Arc::clone(&trials.fabrics));
+            return None;
+        }
+        Some(Self { started: Some(Arc::new(started)), ..world })
     }
 
     /// What is wrong with the cloth as it lies and where it is tight; None where there is no garment.
