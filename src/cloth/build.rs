@@ -100,7 +100,7 @@ fn paired_corners(
     a.into_iter().zip(b).map(|(a, b)| [a, b]).collect()
 }
 
-/// Gives every corner the number of its sewn vertex, in the order of each vertex' lowest corner. Returns the number
+/// Gives every corner the number of its sewn vertex, in the order of each vertex's lowest corner. Returns the number
 /// of vertices.
 fn name_vertices(corners: &mut [Corner], seam_pairs: &[(SeamId, Vec<[u32; 2]>)]) -> usize {
     let mut parent: Vec<u32> = (0..corners.len() as u32).collect();

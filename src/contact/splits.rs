@@ -137,7 +137,7 @@ impl Splits {
         found
     }
 
-    /// Joins edges that have been clear of the body for [`CLEAR_LOOKS`] checks.
+    /// Joins edges that have been clear of the body for `CLEAR_LOOKS` checks.
     pub fn join(
         &mut self,
         garment: &Garment,

@@ -180,7 +180,7 @@ impl Tracker {
     }
 }
 
-/// Counts an effort as [queries, gaps, walks].
+/// Counts an effort as queries, gaps and walks, in this order.
 fn work(effort: Effort) -> [u64; 3] {
     match effort {
         Effort::Nothing => [0, 0, 0],

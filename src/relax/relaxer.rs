@@ -89,9 +89,9 @@ pub struct Relaxer {
     cling: Vec<f64>,
     /// For each vertex the normal of the cloth on its front side.
     normals: Vec<DVec3>,
-    /// For each vertex the direction away from skin on whose wrong side it was, in steps of [`SEND_AWAY`].
+    /// For each vertex the direction away from skin on whose wrong side it was, in steps of `targets::SEND_AWAY`.
     sent: Vec<DVec3>,
-    /// For each vertex the direction that separates intersecting layers, in steps of [`SEND_AWAY`].
+    /// For each vertex the direction that separates intersecting layers, in steps of `targets::SEND_AWAY`.
     parted: Vec<DVec3>,
 }
 

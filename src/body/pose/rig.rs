@@ -142,7 +142,7 @@ impl Rig {
         positions.iter_mut().for_each(|p| *p += shift);
     }
 
-    /// Mean position of the pelvis' vertices.
+    /// Mean position of the vertices of the pelvis.
     fn middle(&self, positions: &[DVec3]) -> DVec3 {
         self.still.iter().map(|&v| positions[v as usize]).sum::<DVec3>() / self.still.len().max(1) as f64
     }

@@ -84,7 +84,7 @@ pub(super) struct PlacedTriangle {
 }
 
 impl PlacedTriangle {
-    /// Triangle `t` of a mesh with vertices at `x` and these `reach`es, metres; an empty `reach` means 0.
+    /// Triangle `t` of a mesh with vertices at `x` that have this `reach`, metres; an empty `reach` means 0.
     pub fn new(topology: &Topology, x: &[DVec3], reach: &[f64], t: u32) -> Self {
         let vertices = topology.triangles[t as usize];
         let corners = topology.corners(x, t);
