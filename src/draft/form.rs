@@ -117,7 +117,7 @@ impl Form {
     }
 
     /// Distance from the middle to the neck end of a shoulder seam, metres: `width` on the default figure, scaled by the
-    /// shoulders or the neck of this one, whichever ratio is larger, up to [`MOST_NECK`].
+    /// shoulders or the neck of this one, whichever ratio is larger; some of the shoulder is left.
     pub fn neck_width(&self, width: f64) -> f64 {
         let (own, usual) = (&self.measurements, Measurements::default());
         let shoulders = own.half_across_shoulder / usual.half_across_shoulder;

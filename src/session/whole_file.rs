@@ -170,7 +170,7 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<()> {
     replace(path, bytes)
 }
 
-/// Writes like [`write`], but also over a write-protected file, which stays protected.
+/// Writes like [`write()`], but also over a write-protected file, which stays protected.
 pub fn replace(path: &Path, bytes: &[u8]) -> Result<()> {
     replace_in_turn(&[(path, bytes)])
 }

@@ -261,7 +261,7 @@ impl SmallSteps {
         &self.lift
     }
 
-    /// Replaces [`Self::lift`], and moves the known planes accordingly.
+    /// Replaces [`Self::lift()`], and moves the known planes accordingly.
     pub fn set_lift(&mut self, lift: &[f64]) {
         for ((plane, old), new) in self.planes.iter_mut().zip(&mut self.lift).zip(lift) {
             plane.height += new - *old;
