@@ -5,9 +5,9 @@ use glam::DVec3;
 /// Position and velocity of each vertex.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct State {
-    /// Metres.
+    /// Position of each vertex, metres.
     pub positions: Vec<DVec3>,
-    /// m/s.
+    /// Velocity of each vertex, m/s.
     pub velocities: Vec<DVec3>,
 }
 

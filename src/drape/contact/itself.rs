@@ -15,7 +15,7 @@ use crate::geometry::bvh::{Aabb, Bvh};
 /// Largest collision thickness as a share of the mean edge length: thicker, and neighbours in flat cloth would be in contact.
 const MOST_THICKNESS: f64 = 0.7;
 
-/// Share of a vertex's expected displacement in a step within which the broad phase looks for pairs.
+/// Factor on the expected displacements in a step, which widens the distance within which pairs are collected.
 const LOOK_AHEAD: f64 = 1.5;
 
 /// Vertices or edges that one thread takes at a time.
