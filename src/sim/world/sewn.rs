@@ -1,4 +1,4 @@
-//! Sewing a garment together from where its pieces were placed.
+//! Sewing a garment together from the placement of its pieces.
 
 use std::sync::Arc;
 
@@ -19,24 +19,24 @@ use crate::sim::source::DrapeSource;
 use crate::sim::source::GarmentSource;
 use crate::sim::world::{World, unlaid};
 
-/// A garment that is sewn layer by layer, the innermost first: each over those that lie already (paper B, "multi-layer").
+/// A garment sewn in layers, the innermost first, each over those already worn (paper B, "multi-layer").
 #[derive(Debug)]
 pub struct Outfit {
     garment: Arc<Garment>,
-    /// Where its flat corners were placed, metres.
+    /// Placement of each flat corner, metres; None: not placed.
     places: Vec<Option<DVec3>>,
     fabrics: Arc<DrapeSource>,
 }
 
 impl Outfit {
-    /// The first layer above `inner`, or of all, that has a placed piece.
+    /// The lowest layer above `inner`, or of all, that has a placed piece.
     fn next(&self, inner: Option<u8>) -> Option<u8> {
         let placed = self.garment.corners.iter().zip(&self.places).filter(|(_, place)| place.is_some());
         let layers = placed.map(|(corner, _)| self.garment.layer(corner.piece));
         layers.filter(|&layer| inner.is_none_or(|inner| layer > inner)).min()
     }
 
-    /// Begins to sew `layer` over what is laid of `worn`.
+    /// Begins to sew `layer` over the laid part of `worn`.
     fn begun(
         &self,
         layer: u8,
@@ -53,7 +53,7 @@ impl Outfit {
     }
 }
 
-/// Pieces on their way to one another.
+/// The sewing of a layer in progress.
 #[derive(Clone, Debug)]
 pub struct Placed {
     sewing: Sewing,
@@ -62,14 +62,14 @@ pub struct Placed {
 }
 
 impl Placed {
-    /// 0..=1.
+    /// Progress, 0..=1.
     pub fn progress(&self) -> f64 {
         self.sewing.progress()
     }
 }
 
 impl World {
-    /// A garment just built, its pieces where they were placed. Draping follows the sewing.
+    /// A garment just built, with sewing from the placement of its pieces begun. Draping follows.
     pub fn placed(
         source: Arc<GarmentSource>,
         body: Arc<Surface>,
@@ -107,7 +107,7 @@ impl World {
         })
     }
 
-    /// The same again, of what has changed meanwhile.
+    /// Starts the sewing again with changed `source` and `body`; None while nothing is being sewn.
     pub(in crate::sim) fn placed_again(
         &self,
         source: Arc<GarmentSource>,
@@ -118,7 +118,7 @@ impl World {
         Some(Self::placed(source, body, fabrics).map(|world| Self { places, ..world }))
     }
 
-    /// A tick of sewing.
+    /// Does a tick of sewing, or a part of one.
     pub(in crate::sim) fn sew(&mut self) {
         let Some(placed) = self.sewing.as_mut().map(Arc::make_mut) else { return };
         let ticked = placed.sewing.go_on(Arc::make_mut(&mut self.cloth));
@@ -147,7 +147,7 @@ impl World {
         self.outer = outfit.next(Some(placed.layer)).map(|layer| (Arc::clone(outfit), layer));
     }
 
-    /// Once sewn cloth lies still: which seams are too short for this body. Before that the skin or folds may hold them open.
+    /// Once sewn cloth rests, reports seams that are too short for this body. Earlier, skin or folds may hold them open.
     pub(in crate::sim) fn tell_short_seams(&mut self) {
         let Some(garment) = self.garment.clone().filter(|_| std::mem::take(&mut self.seams_unseen)) else {
             return;
@@ -165,7 +165,7 @@ impl World {
         }
     }
 
-    /// What has come to rest is dressed over, where there is more to wear.
+    /// Once the cloth rests, begins to sew the next layer, if there is one.
     pub(in crate::sim) fn sew_next_layer(&mut self) {
         let Some((outfit, layer)) = self.outer.take() else { return };
         let (Some(body), Some(source)) = (&self.body, &self.source) else { return };
