@@ -107,6 +107,7 @@ fn push_digits(all: &mut Vec<Stroke>, label: &Label, scale: f32) {
 
 /// Distance from one digit to the next, relative to the height of a digit.
 const ADVANCE: f32 = 0.78;
+/// Width of a digit, relative to its height.
 const DIGIT_WIDTH: f32 = 0.55;
 
 type Path = &'static [(f32, f32)];

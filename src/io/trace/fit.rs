@@ -28,6 +28,7 @@ const SLACK_TURN: f64 = 0.2;
 const SAMPLES: usize = 64;
 /// Number of Gauss-Newton steps after which the fit is given up if points are still further off than [`HOPELESS`].
 const HOPELESS_STEPS: usize = 6;
+/// Root mean square distance (metres) above which a fit is given up after [`HOPELESS_STEPS`] steps.
 const HOPELESS: f64 = 5e-3;
 /// Largest number of Gauss-Newton steps.
 const STEPS: usize = 60;

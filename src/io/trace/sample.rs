@@ -10,6 +10,7 @@ use crate::pattern::{Edge, EdgeShape, curve};
 const SAGITTA: f64 = 5e-5;
 /// Smallest number of chords of one curve.
 const FEWEST: usize = 8;
+/// Largest number of chords of one curve.
 const MOST: usize = 400;
 
 /// Points on a closed line, the first not repeated, and the kind of each.
