@@ -36,7 +36,7 @@ pub struct Limits {
     pub groups: usize,
     /// Length of one name, bytes.
     pub name_bytes: usize,
-    /// Largest absolute coordinate of a body.
+    /// Largest absolute coordinate of a body, in the file's unit.
     pub coordinate: f64,
     /// Largest absolute coordinate of a pattern, metres.
     pub pattern_coordinate: f64,

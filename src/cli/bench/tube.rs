@@ -22,7 +22,7 @@ const BODY_HEIGHT: f64 = 1.0;
 const HEIGHT: f64 = 0.5;
 /// Height of the tube's lower edge on the cylinder, metres.
 const LOW: f64 = 0.25;
-/// Number of flat sides of the cylinder; their chords are shorter than their arcs by a fraction of 2e-5.
+/// Number of flat sides of the cylinder; their middles are nearer to its axis than the radius by a fraction of 2e-5.
 const SIDES: u32 = 512;
 /// Number of rows of sides along the cylinder's height.
 const ROWS: u32 = 20;
