@@ -1,5 +1,5 @@
-//! Reads joint angles of the mannequin from JSON, in degrees: `{"left_elbow": 60, "right_hip": {"flexion": 30, "abduction":
-//! 20}}`.
+//! Reads joint angles of the mannequin from JSON, in degrees:
+//! `{"left_elbow": 60, "right_hip": {"flexion": 30, "abduction": 20}}`.
 
 use crate::body::pose::anatomy::JointAngle;
 use crate::io::json::{At, JsonError, Node, parse};
