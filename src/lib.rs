@@ -1,4 +1,4 @@
-//! # Toile: the map of the house
+//! # Toile: map of the code
 //!
 //! A flat pattern and a body go in; numbered marks say where the cloth goes; a dressed garment comes out.
 //!
@@ -9,38 +9,39 @@
 //!
 //! | folder | holds | may use |
 //! | --- | --- | --- |
-//! | `geometry` | ids, curves, meshes and adjacency, sparse factors, no cloth words | nothing of ours |
+//! | `geometry` | ids, curves, meshes and adjacency, sparse factorisation; nothing about cloth | nothing of ours |
 //! | `pattern`  | the flat garment: piece, seam, edges cut for sewing, editing that keeps seam lengths and symmetry, triangulation, problems a person can fix | geometry |
 //! | `body`     | surface (nearest point, ray, walk), import checks, mannequin, skeleton, poses, bones, landmarks, measurements | geometry |
 //! | `cloth`    | the sewn garment as solvers see it: topology and rest shape, moving state; fabrics | pattern, geometry |
-//! | `contact`  | cloth against body, its bones, and itself; where edges are split | cloth, body, geometry |
-//! | `relax`    | paper A's relaxation: shape match, flatten, gravity, friction; no physics, for that see `drape` | contact, cloth, body, geometry |
+//! | `contact`  | collision of cloth with the body, its bones and itself; edges split where they would cut the body | cloth, body, geometry |
+//! | `relax`    | paper A's relaxation: shape matching, flattening, gravity, friction; no physics (see `drape`) | contact, cloth, body, geometry |
 //! | `wrap`     | paper A: marks, root edges, growth | relax, contact, cloth, body, pattern, geometry |
 //! | `drag`     | paper A: dependency graph, motion in local frames, pushpins | relax, contact, cloth, body, pattern, geometry |
-//! | `drape`    | physics: forces (membrane, bending), contact, solvers in implicit and in small steps and straight to rest; a garment on its body; sewing | contact, cloth, body, geometry |
+//! | `drape`    | physics: forces (membrane, bending), contact, solvers (implicit steps, small steps, direct equilibrium); a garment on its body; sewing | contact, cloth, body, geometry |
 //! | `repose`   | paper C: distance map, conforming to another pose of the body, recovery, strain control | relax, contact, cloth, body, pattern, geometry |
-//! | `place`    | where pieces stand in space before they are sewn: points round the body, tubes round limbs, a file's placement brought to another body, sleeves led to their arms | wrap, contact, cloth, body, pattern, geometry |
-//! | `fit`      | what is read off a garment: strain, crossings, openings, the report, maps | cloth, body, pattern, geometry |
+//! | `place`    | placement of pieces in space before they are sewn: points round the body, tubes round limbs, a file's placement adapted to another body, sleeves moved to their arms | wrap, contact, cloth, body, pattern, geometry |
+//! | `fit`      | measurements of a garment: strain, self-intersections, openings, the report, maps | cloth, body, pattern, geometry |
 //! | `sim`      | owner of the moving state: stages, protocol, checkpoints, thread, state hash | the above |
-//! | `session`  | what the user has done: document, command, history, recording, replay, project file, recovery | sim and below, place, io |
+//! | `session`  | the user's work: document, commands, history, recording, replay, project file, recovery | sim and below, place, io |
 //! | `draft`    | garments of our own, drawn from a seed and drafted to the mannequin's measurements: parts, designs, the corpus | body, pattern, geometry |
 //! | `io`       | obj, gltf, bvh; patterns as garmentcode json, dxf, svg, pdf: bytes in, checked data out, and back | cloth, body, pattern, geometry |
 //! | `render`   | plain buffers in, pixels out: camera, passes, offscreen target | nothing of ours |
-//! | `trust`    | files damaged at random, and what reads them | session and below, draft |
+//! | `trust`    | fuzz tests: files damaged at random, and the readers that must withstand them | session and below, draft |
 //! | `manual`   | what the program does, topic by topic, for the window and the command line | nothing of ours |
 //! | `ui`       | egui: app, actions, panes, tools | session and below, place, render, manual |
 //! | `cli`      | one file per subcommand: arguments, calls, printing | session and below, draft, place, render, trust, manual, ui |
 //!
 //! Invariants:
-//! - Metres, radians, seconds; right-handed, y up, bodies face +z. Pattern planes have y up and their front towards the reader.
-//! - `geometry` and `render` use nothing of ours. `pattern` and `body` do not know each other.
+//! - Metres, radians, seconds; right-handed, y up, bodies face +z. Pattern planes have y up, with the front of the cloth towards
+//!   the viewer.
+//! - `geometry` and `render` use nothing of ours. `pattern` and `body` do not use each other.
 //! - `sim` never uses `session`: a request carries a garment source, never the document.
 //! - egui only in `ui`; wgpu only in `render` and `ui`; threads only in `sim::thread` (and rayon inside steps), and the one
 //!   that waits for signals in `cli::interrupt`.
 //! - No clock, no unseeded randomness, no hash-map iteration in `session`, `sim` or below.
 //! - Same input, same bits, on any number of threads.
 //!
-//! `tests/tidy` holds these rules.
+//! `tests/tidy` checks these rules.
 
 pub mod body;
 pub mod cli;

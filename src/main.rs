@@ -1,6 +1,7 @@
-//! The program: arguments in, exit code out.
+//! The program: command-line arguments in, exit code out.
 
-/// Threads take memory and give it back all the time a window is open: see `Cargo.toml`.
+/// Memory allocator. glibc's fragments memory where many threads allocate and free all the time, as while a window is open: see
+/// `Cargo.toml`.
 #[global_allocator]
 static MEMORY: mimalloc::MiMalloc = mimalloc::MiMalloc;
 

@@ -1,14 +1,14 @@
-//! Bones of a human mesh that comes without: straight lines inside trunk, head and limbs, between its landmarks.
+//! Bones of a human mesh that comes without a skeleton: straight segments inside trunk, head and limbs, between landmarks.
 
 use glam::DVec3;
 
 use crate::body::{Landmarks, Surface};
 
-/// Points of a bone that must lie inside the body.
+/// Number of intervals on a bone at whose ends it is tested to be inside the body.
 const LOOKED_AT: u32 = 24;
 
-/// Trunk, head, thighs, shins and arms of the body with these landmarks, each from end to end, metres; those that would not
-/// lie wholly inside it are left out. A body that does not look human has none.
+/// Bones of trunk, head, thighs, shins and arms of the body with these landmarks, as segments between two ends,
+/// metres. Those not wholly inside the body are left out. Empty for a body that does not look human.
 pub fn extracted(surface: &Surface, marks: &Landmarks) -> Vec<[DVec3; 2]> {
     let mut bones = Vec::new();
     let mut add = |a: Option<DVec3>, b: Option<DVec3>| bones.extend(a.zip(b).map(|(a, b)| [a, b]));
@@ -28,8 +28,8 @@ pub fn extracted(surface: &Surface, marks: &Landmarks) -> Vec<[DVec3; 2]> {
     bones
 }
 
-/// The middle of what lies round the body before, behind and beside: "knee_left" with its own sides, or "arm_upper" with
-/// those that end in `side`.
+/// The mean of the four landmarks round a part of the body: of "waist" or "knee_left" when `side` is empty, else of
+/// an arm ring such as "arm_upper" on `side`. None when one of them is missing.
 fn centre(marks: &Landmarks, name: &str, side: &str) -> Option<DVec3> {
     let four = if side.is_empty() {
         let trunk = ["front", "back", "side_left", "side_right"].map(|end| format!("{name}_{end}"));

@@ -1,4 +1,4 @@
-//! The point of a triangle mesh nearest to a point, exact in f64, with its sign.
+//! Closest point queries on a triangle mesh, exact in f64, and pseudonormals that give the sign of the distance.
 
 use glam::DVec3;
 
@@ -8,29 +8,29 @@ use crate::geometry::bvh4::Bvh4;
 use crate::geometry::crossings::segment_meets_triangle;
 use crate::geometry::mesh::TriMesh;
 
-/// Which part of a triangle a point lies on.
+/// The feature of a triangle that a closest point is on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
     /// Corner 0, 1 or 2.
     Corner(usize),
-    /// The side from corner 0, 1 or 2 to the next.
+    /// The edge from corner 0, 1 or 2 to the next.
     Side(usize),
-    /// Inside.
+    /// The interior.
     Face,
 }
 
-/// Triangles of a mesh in a tree.
+/// A bounding volume hierarchy over triangles for closest point queries.
 #[derive(Clone, Debug)]
 pub struct ClosestTree {
     tree: Bvh4,
-    /// In the order of the tree's leaves: what a query reads lies together.
+    /// Corners of the triangles, metres, in the order of the tree's leaves, so that a query reads adjacent memory.
     corners: Vec<[DVec3; 3]>,
-    /// Where each triangle stands in that order.
+    /// For each triangle its index in `corners`.
     slots: Vec<u32>,
 }
 
 impl ClosestTree {
-    /// Over all triangles of `mesh`.
+    /// Builds the tree over all triangles of `mesh`.
     pub fn new(mesh: &TriMesh) -> Self {
         let tree = Bvh4::new(mesh.tree());
         let corners = tree.items.iter().map(|&t| mesh.corners(t as usize)).collect();
@@ -39,7 +39,7 @@ impl ClosestTree {
         Self { tree, corners, slots }
     }
 
-    /// The same triangles where `mesh` has them now: cheaper than a new tree, as boxes are fitted, not sorted.
+    /// The same tree for new positions of the vertices in `mesh`: cheaper than a new tree, as boxes are only refitted.
     pub fn moved(&self, mesh: &TriMesh) -> Self {
         let mut moved = self.clone();
         moved.corners = self.tree.items.iter().map(|&t| mesh.corners(t as usize)).collect();
@@ -47,13 +47,13 @@ impl ClosestTree {
         moved
     }
 
-    /// The nearest point within `limit` metres, its triangle, and where on that it lies. Of triangles that share the point
-    /// the lowest.
+    /// The closest point within `limit` metres, its triangle, and the triangle's feature it is on. Of triangles that
+    /// share the point the lowest is given.
     pub fn nearest(&self, p: DVec3, limit: f64) -> Option<(DVec3, u32, Part)> {
         self.nearest_but(p, limit, |_| false)
     }
 
-    /// The same without the triangles that are `left_out`.
+    /// The closest point within `limit` metres on triangles that are not `left_out`; see [`ClosestTree::nearest`].
     pub fn nearest_but(
         &self,
         p: DVec3,
@@ -73,7 +73,7 @@ impl ClosestTree {
         Some((point, self.tree.items[slot], part))
     }
 
-    /// The nearest point on `triangles`. Of those that share the point the lowest.
+    /// The closest point on the given triangles. Of those that share the point the lowest is given.
     pub fn nearest_of(&self, p: DVec3, triangles: impl Iterator<Item = u32>) -> Option<(DVec3, u32, Part)> {
         let far = |t: u32| {
             let found = self.on_triangle(p, t);
@@ -82,13 +82,13 @@ impl ClosestTree {
         triangles.map(far).min_by(|(a, x), (b, y)| a.total_cmp(b).then(x.1.cmp(&y.1))).map(|(_, found)| found)
     }
 
-    /// The nearest point on `triangle`.
+    /// The closest point on one triangle.
     pub fn on_triangle(&self, p: DVec3, triangle: u32) -> (DVec3, u32, Part) {
         let (point, part) = self.on(self.slots[triangle as usize] as usize, p);
         (point, triangle, part)
     }
 
-    /// Calls `found` for every triangle within `reach` metres of `p`, in no order of meaning.
+    /// Calls `found` for every triangle within `reach` metres of `p`, in no particular order.
     pub fn within(&self, p: DVec3, reach: f64, mut found: impl FnMut(u32)) {
         let limit = reach * reach;
         self.tree.visit(p, limit, |slot| {
@@ -99,8 +99,8 @@ impl ClosestTree {
         });
     }
 
-    /// Whether the segment between `ends` meets a triangle, as `segment_meets_triangle` says. What it costs grows with the
-    /// triangles along the segment, not with its length.
+    /// Whether the segment between `ends` intersects a triangle, see [`segment_meets_triangle`]. The cost grows with
+    /// the number of triangles near the segment.
     pub fn meets_segment(&self, ends: [DVec3; 2]) -> bool {
         self.tree.any_along(
             ends,
@@ -116,8 +116,8 @@ impl ClosestTree {
     }
 }
 
-/// The outward direction that tells on which side of the mesh a point is whose nearest point is on `part` of triangle `t`:
-/// the angle-weighted pseudonormal (Baerentzen and Aanaes 2005). Not of unit length on a side.
+/// The angle-weighted pseudonormal (Baerentzen and Aanaes 2005) of `part` of triangle `t`: a point whose closest point is
+/// there is outside when its offset from it has a positive dot product with this direction. Not normalised on an edge.
 pub fn pseudonormal(
     mesh: &TriMesh,
     adjacency: &Adjacency,
@@ -137,7 +137,7 @@ pub fn pseudonormal(
     }
 }
 
-/// The point of triangle `abc` nearest to `p` (Ericson, Real-Time Collision Detection, 5.1.5).
+/// The point of triangle `abc` closest to `p` (Ericson, Real-Time Collision Detection, 5.1.5).
 #[inline(always)]
 pub fn closest_on_triangle(p: DVec3, a: DVec3, b: DVec3, c: DVec3) -> (DVec3, Part) {
     let (ab, ac, ap) = (b - a, c - a, p - a);

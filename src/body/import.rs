@@ -1,7 +1,7 @@
-//! A mesh from elsewhere becomes a body: brought to metres, checked, and what was found is said.
+//! Import of a body: scales a mesh to metres, repairs and checks it, and reports what was found.
 //!
-//! What can be put right without changing the shape is put right and told: split vertices are joined, triangles are
-//! turned outward. An open or non-manifold mesh is not repaired; its problems say why cloth cannot be put on it.
+//! Repairs that keep the shape are made and reported: split vertices are joined, triangles are turned outward. An
+//! open or non-manifold mesh is not repaired; its problems say why cloth cannot be put on it.
 
 use std::collections::BTreeMap;
 
@@ -12,58 +12,58 @@ use crate::geometry::mesh::TriMesh;
 use crate::geometry::orient;
 use crate::geometry::problem::{Problem, ProblemKind};
 
-/// No coordinate may be further from the origin, metres.
+/// Largest absolute value of a coordinate, metres.
 const FARTHEST: f64 = 1e6;
-/// Outside of this span of heights (metres) a unit is doubted.
+/// Heights (metres) outside of which the unit of the file is questioned.
 const USUAL_HEIGHT: std::ops::RangeInclusive<f64> = 0.5..=2.5;
 
-/// What was found in a mesh, after the repairs it names.
+/// Counts and sizes of a mesh after the repairs.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
 pub struct BodyReport {
-    /// Vertices.
+    /// Number of vertices.
     pub vertices: usize,
-    /// Triangles.
+    /// Number of triangles.
     pub triangles: usize,
-    /// Edges with one triangle.
+    /// Number of border edges (used by one triangle).
     pub open_edges: usize,
-    /// Edges with three or more triangles.
+    /// Number of edges used by three or more triangles.
     pub non_manifold_edges: usize,
-    /// Edges whose two triangles still look to different sides: the surface has no outside.
+    /// Number of edges whose two triangles are still oriented differently: the surface cannot be oriented.
     pub misoriented_edges: usize,
-    /// Triangles that looked the other way than their neighbours, turned.
+    /// Number of triangles turned because they were oriented differently from their neighbours.
     pub turned_triangles: usize,
-    /// The whole mesh was inside out (its volume was negative) and was turned.
+    /// Whether the whole mesh was inside out (negative volume) and was turned.
     pub inverted: bool,
-    /// Connected parts.
+    /// Number of connected components.
     pub components: usize,
-    /// Vertices of no triangle, dropped.
+    /// Number of vertices removed because no triangle uses them.
     pub isolated_vertices: usize,
-    /// Vertices in the place of another, joined to it to close the mesh.
+    /// Number of vertices joined to another at the same position to close the mesh.
     pub welded_vertices: usize,
-    /// Triangles of two or fewer different vertices after that, dropped.
+    /// Number of triangles removed because joining left them fewer than three different vertices.
     pub collapsed_triangles: usize,
-    /// Triangles without area; kept.
+    /// Number of triangles without area; they are kept.
     pub thin_triangles: usize,
-    /// Enclosed, cubic metres; means nothing for an open mesh.
+    /// Enclosed volume, cubic metres; meaningless for an open mesh.
     pub volume: f64,
     /// Sides of the bounding box, metres; the second is the height.
     pub size: DVec3,
-    /// Lowest y, metres.
+    /// Lowest y coordinate, metres.
     pub lowest: f64,
 }
 
-/// A checked body.
+/// An imported and checked body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Imported {
-    /// Metres, triangles outward.
+    /// The mesh, metres, triangles facing outward.
     pub mesh: TriMesh,
-    /// Of each of its vertices which of the file's it is.
+    /// For each vertex of `mesh` its index in the file.
     pub kept: Vec<u32>,
-    /// What was found.
+    /// Counts and sizes of the mesh.
     pub report: BodyReport,
     /// Why cloth cannot be put on it; empty for a usable body.
     pub problems: Vec<Problem>,
-    /// What was put right and what deserves a look, in words.
+    /// What was repaired and what deserves a look, as messages.
     pub notes: Vec<String>,
 }
 
@@ -74,7 +74,7 @@ impl Imported {
     }
 }
 
-/// Brings `mesh`, in `unit`, to metres and checks it.
+/// Scales `mesh` from `unit` to metres, repairs and checks it.
 pub fn import(mut mesh: TriMesh, unit: Unit) -> Imported {
     for p in &mut mesh.positions {
         *p *= unit.metres();
@@ -94,7 +94,7 @@ pub fn import(mut mesh: TriMesh, unit: Unit) -> Imported {
     Imported { mesh, kept, report, problems, notes }
 }
 
-/// Joins vertices of the same place, if that leaves fewer open edges: meshes come split along the seams of their texture.
+/// Joins vertices at the same position if that leaves fewer border edges: files often split vertices along texture seams.
 fn join(mesh: &mut TriMesh, report: &mut BodyReport) {
     let open = orient::edge_uses(&mesh.triangles).open;
     if open == 0 {
@@ -118,7 +118,7 @@ fn join(mesh: &mut TriMesh, report: &mut BodyReport) {
     }
 }
 
-/// Returns which vertices stay.
+/// Removes vertices without triangles. Returns the old indices of those that stay.
 fn drop_isolated(mesh: &mut TriMesh, report: &mut BodyReport) -> Vec<u32> {
     let mut used = vec![false; mesh.positions.len()];
     for &v in mesh.triangles.iter().flatten() {
@@ -202,7 +202,7 @@ fn problems(mesh: &TriMesh, report: &BodyReport) -> Vec<Problem> {
     words.into_iter().map(problem).collect()
 }
 
-/// Where the open edges lie, as a span of heights.
+/// The range of heights in which border edges are, as text.
 fn where_open(mesh: &TriMesh) -> String {
     let heights =
         orient::open_edges(&mesh.triangles).into_iter().flatten().map(|v| mesh.positions[v as usize].y);

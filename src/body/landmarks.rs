@@ -1,8 +1,8 @@
-//! Named points of a body, and how to find them on one that comes without.
+//! Landmarks: named points of a body, and how to find them on a mesh that comes without.
 //!
-//! They are read off level sections of a standing human with y up and the face to +z, arms down, half up or sideways: the
-//! crotch is where the legs meet, the hip the fullest level above it, the waist the thinnest above that, the armpits where
-//! the arms join, the throat the thinnest level between shoulders and head.
+//! They are read off horizontal sections of a standing human with y up, facing +z, arms down, half up or sideways: the
+//! crotch is where the legs meet, the hip the level of largest girth above it, the waist the level of smallest girth
+//! above that, the armpits where the arms join, the throat the level of smallest girth between shoulders and head.
 
 use std::collections::BTreeMap;
 
@@ -12,40 +12,40 @@ use crate::body::measure::{hull_perimeter, section};
 use crate::geometry::mesh::TriMesh;
 use crate::geometry::polygon::signed_area;
 
-/// Levels are tried in steps of this share of the height.
+/// Step between levels, as a fraction of the height.
 const STEP: f64 = 0.005;
-/// The arms have joined when the trunk grows by this factor in width within two steps.
+/// Growth of the trunk's width within two steps that shows that the arms have joined.
 const ARMS_JOIN: f64 = 1.25;
 
-/// An arm is spread when the hand is this share of the height from the middle.
+/// Distance of the hand from the middle plane beyond which an arm counts as spread, as a fraction of the height.
 const SPREAD: f64 = 0.22;
 
-/// The middle of an arm is no further from the line between shoulder and hand than this share of its length.
+/// Largest distance of an arm's middle from the line between shoulder and hand, as a fraction of that line's length.
 const ARM_OFF_LINE: f64 = 0.2;
 
-/// Named points on the skin, metres. Names end in `_left` (x > 0) or `_right` where there are two.
+/// Landmarks: named points on the skin, metres. Names end in `_left` (x > 0) or `_right` where there are two.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Landmarks {
     points: BTreeMap<String, DVec3>,
 }
 
 impl Landmarks {
-    /// The point called `name`.
+    /// The landmark called `name`.
     pub fn get(&self, name: &str) -> Option<DVec3> {
         self.points.get(name).copied()
     }
 
-    /// All points, by name.
+    /// All landmarks in the order of their names.
     pub fn iter(&self) -> impl Iterator<Item = (&str, DVec3)> {
         self.points.iter().map(|(name, &p)| (name.as_str(), p))
     }
 
-    /// Every point carried by `f`.
+    /// These landmarks with every point mapped by `f`.
     pub fn map(self, f: impl Fn(DVec3) -> DVec3) -> Self {
         Self { points: self.points.into_iter().map(|(name, p)| (name, f(p))).collect() }
     }
 
-    /// The landmark nearest to `p`, if there is one within `reach` metres.
+    /// The name of the landmark nearest to `p`, if there is one within `reach` metres.
     pub fn near(&self, p: DVec3, reach: f64) -> Option<&str> {
         let distances = self.iter().map(|(name, q)| (name, q.distance(p)));
         let nearest = distances.min_by(|a, b| a.1.total_cmp(&b.1));
@@ -57,21 +57,21 @@ impl Landmarks {
     }
 }
 
-/// The landmarks of a human mesh; None where it does not look like one. Crown, crotch, waist and hip are
-/// found again on the mannequin to within 3 cm of where it was built with them; its shoulders to within 8 cm, being read on
-/// their top and not at their tip.
+/// Finds the landmarks of a human mesh; None where it does not look like one. On the mannequin crown, crotch, waist
+/// and hip are within 3 cm of where it was built with them, and shoulders within 8 cm, because the top of the
+/// shoulder is found and not its tip.
 pub fn found(mesh: &TriMesh) -> Option<Landmarks> {
     Levels { mesh, middle: 0.0, floor: mesh.bounds().0.y, height: mesh.bounds().1.y - mesh.bounds().0.y }
         .landmarks()
 }
 
-/// A level section's outline in the xz plane.
+/// Outline of a horizontal section, in the xz plane, metres.
 type Outline = Vec<DVec2>;
 
-/// Level sections of a mesh.
+/// Horizontal sections of a mesh. A level is a fraction of its height.
 struct Levels<'a> {
     mesh: &'a TriMesh,
-    /// The plane between left and right.
+    /// x of the plane between left and right, metres.
     middle: f64,
     floor: f64,
     height: f64,
@@ -115,15 +115,15 @@ impl Levels<'_> {
         loops.into_iter().map(|points| points.into_iter().map(|p| DVec2::new(p.x, p.z)).collect()).collect()
     }
 
-    /// The largest outline that lies on both sides of the middle.
+    /// The largest outline at `level` that crosses the middle plane.
     fn trunk(&self, level: f64) -> Option<Outline> {
         let outlines = self.outlines(level).into_iter().filter(|o| across(o, 0, self.middle).is_some());
         outlines.max_by(|a, b| area(a).total_cmp(&area(b)))
     }
 
-    /// The lowest level at which the legs are one, from above.
+    /// The lowest level at which one outline crosses the middle plane, going down from the trunk.
     fn crotch(&self) -> Option<f64> {
-        // What joins the legs below (skirt, plinth, animal) is no crotch.
+        // Something that joins the legs further down (skirt, plinth, animal) makes no crotch.
         let (mut one, mut two) = (0.62, 0.30);
         self.trunk(one)?;
         let mut level = one;
@@ -145,7 +145,7 @@ impl Levels<'_> {
         (0.38..0.56).contains(&one).then_some(one)
     }
 
-    /// The level between two at which the tape round the trunk is `best`.
+    /// The level in a range whose girth of the trunk is `best` against the best before.
     fn extreme(&self, from: f64, to: f64, best: impl Fn(f64, f64) -> bool) -> Option<f64> {
         let mut found: Option<(f64, f64)> = None;
         for i in 0..=((to - from) / STEP).round() as usize {
@@ -158,7 +158,7 @@ impl Levels<'_> {
         found.map(|(_, level)| level)
     }
 
-    /// The highest level below which the arms are still apart from the trunk.
+    /// The highest level below which the arms are still separate from the trunk.
     fn armpit(&self, waist: f64) -> Option<f64> {
         let width = |level: f64| self.trunk(level).map(|o| span(&o, 0)).map(|(low, high)| high - low);
         let levels = (0..).map(|i| waist + f64::from(i) * STEP).take_while(|level| *level < 0.88);
@@ -167,7 +167,7 @@ impl Levels<'_> {
         Some(joined[0].0)
     }
 
-    /// Front, back and both sides of an outline, straight out from its middle.
+    /// Adds four landmarks of an outline: front, back and both sides, straight out from its middle.
     fn four(
         &self,
         marks: &mut Landmarks,
@@ -199,7 +199,7 @@ impl Levels<'_> {
         Some(())
     }
 
-    /// The top of the trunk above the chest's side, a little inward.
+    /// Adds the shoulder: the top of the trunk above a point a little inward of the chest's side.
     fn shoulder(&self, marks: &mut Landmarks, side: &str, chest: f64) -> Option<()> {
         let chest_side = marks.get(&format!("chest_side_{side}"))?;
         let x = self.middle + 0.9 * (chest_side.x - self.middle);
@@ -210,7 +210,8 @@ impl Levels<'_> {
         Some(())
     }
 
-    /// What there is of an arm: round it beside chest and waist where it hangs there, and the hand where it is spread.
+    /// Adds landmarks of one arm where they are found: round it at chest and waist where it hangs there, and at the
+    /// hand where it is spread.
     fn arm(&self, marks: &mut Landmarks, side: &str, sign: f64, levels: [f64; 2]) {
         for (name, level) in ["upper_arm", "forearm"].into_iter().zip(levels) {
             let Some(trunk) = self.trunk(level) else { continue };
@@ -233,8 +234,8 @@ impl Levels<'_> {
     }
 }
 
-/// Four points round the arm at three places between shoulder and hand: above and below it, as it is spread, and before
-/// and behind. They turn with the arm, which level sections do not. None where one of them meets no arm.
+/// Four landmarks round the arm (above, below, front, back) at each of three places between shoulder and hand, in
+/// sections across the arm. None where a section is not near the line from shoulder to hand.
 fn arm_rings(mesh: &TriMesh, shoulder: DVec3, hand: DVec3) -> Option<Vec<(String, DVec3)>> {
     let along = (hand - shoulder).try_normalize()?;
     let front = (DVec3::Z - along * along.z).try_normalize()?;
@@ -266,13 +267,14 @@ fn centre(outline: &[DVec2]) -> DVec2 {
     DVec2::new(x.0 + x.1, z.0 + z.1) / 2.0
 }
 
-/// Lowest and highest coordinate along `axis`.
+/// Smallest and largest coordinate along `axis`.
 fn span(outline: &[DVec2], axis: usize) -> (f64, f64) {
     let all = outline.iter().map(|p| p[axis]);
     all.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), c| (low.min(c), high.max(c)))
 }
 
-/// Where the line on which `axis` is `at` first enters and last leaves the outline: the other coordinate.
+/// Smallest and largest other coordinate where the outline crosses the line on which the coordinate `axis` is `at`.
+/// None where it does not cross.
 fn across(outline: &[DVec2], axis: usize, at: f64) -> Option<(f64, f64)> {
     let n = outline.len();
     let crossings = (0..n).filter_map(|i| {

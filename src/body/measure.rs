@@ -1,4 +1,4 @@
-//! The tape: sections of a mesh, girths that bridge hollows, lengths of a string pulled taut.
+//! Tape measurements: sections of a mesh, girths that bridge hollows, lengths of a taut string.
 
 use std::collections::BTreeMap;
 
@@ -6,20 +6,19 @@ use glam::{DVec2, DVec3};
 
 use crate::geometry::mesh::TriMesh;
 
-/// Where a tape is laid round a body: in the plane through `origin` with normal `normal`, round the part that holds
-/// `origin`.
+/// A tape round a body: in the plane through `origin` with normal `normal`, round the part of the section that
+/// encloses `origin`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tape {
-    /// What it measures.
+    /// Name of the measurement.
     pub name: &'static str,
     /// A point inside the body, metres.
     pub origin: DVec3,
-    /// Unit.
+    /// Normal of the plane, a unit vector.
     pub normal: DVec3,
 }
 
-/// Closed polylines in which the plane through `origin` cuts a closed, oriented, manifold mesh; the last point of each
-/// is not the first.
+/// Section of a closed, oriented, manifold mesh by the plane through `origin`: closed polylines, the first point not repeated.
 pub fn section(mesh: &TriMesh, origin: DVec3, normal: DVec3) -> Vec<Vec<DVec3>> {
     let above: Vec<f64> = mesh.positions.iter().map(|&p| (p - origin).dot(normal)).collect();
     let is_above = |v: u32| above[v as usize] >= 0.0;
@@ -48,7 +47,7 @@ pub fn section(mesh: &TriMesh, origin: DVec3, normal: DVec3) -> Vec<Vec<DVec3>> 
     loops
 }
 
-/// Length of a tape round the part of the mesh that holds `tape.origin`, metres. None when nothing encloses it.
+/// Girth: the length of a tape round the part of the mesh that encloses `tape.origin`, metres. None when nothing encloses it.
 pub fn girth(mesh: &TriMesh, tape: &Tape) -> Option<f64> {
     let (x, y) = tape.normal.any_orthonormal_pair();
     section(mesh, tape.origin, tape.normal)
@@ -64,7 +63,7 @@ pub fn girth(mesh: &TriMesh, tape: &Tape) -> Option<f64> {
         .min_by(f64::total_cmp)
 }
 
-/// Whether a closed line in a plane goes round the origin.
+/// Whether a closed polygon in a plane winds round the origin.
 pub fn encloses_origin(polygon: &[DVec2]) -> bool {
     let turned: f64 = (0..polygon.len())
         .map(|i| {
@@ -84,7 +83,8 @@ pub fn hull_perimeter(mut points: Vec<DVec2>) -> f64 {
     length(&lower) + length(&upper)
 }
 
-/// The string pulled taut from the first to the last of `points`, kept to their right; they run along the string.
+/// A taut string from the first to the last of `points` that keeps them to its right: a half of their convex hull.
+/// `points` are sorted along the string.
 pub fn taut(points: impl Iterator<Item = DVec2>) -> Vec<DVec2> {
     let mut chain: Vec<DVec2> = Vec::new();
     for p in points {

@@ -1,4 +1,4 @@
-//! The body the cloth is put on.
+//! The body that the cloth is put on.
 
 pub mod bones;
 pub mod closest;

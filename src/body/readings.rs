@@ -1,8 +1,8 @@
-//! What the tape reads on a standing human body, whoever made it: girths, heights, lengths, widths and depths.
+//! Tape measurements of a standing human body of any origin: girths, heights, lengths, widths and depths.
 //!
-//! The places are those of dressmaking: waist where the trunk is thinnest, hip where it is fullest below, bust through the
-//! foremost point of the chest, neck where it is thinnest, nape where the neck runs into the back, thigh just below the crotch,
-//! calf where the lower leg is fullest, ankle and wrist where they are thinnest.
+//! The places are those of dressmaking: waist where the trunk is thinnest, hip where it is fullest below, bust
+//! through the foremost point of the chest, neck where it is thinnest, nape where the neck runs into the back, thigh
+//! just below the crotch, calf where the lower leg is fullest, ankle and wrist where they are thinnest.
 
 use glam::{DVec2, DVec3};
 
@@ -12,43 +12,44 @@ use crate::body::sections::{Level, trunk_at};
 use crate::body::shoulders::{Shoulders, outermost, ring};
 use crate::geometry::mesh::TriMesh;
 
-/// Levels are tried in steps of this share of the height.
+/// Step between levels, as a fraction of the height.
 const STEP: f64 = 0.004;
-/// The thigh is measured this share of the height below the crotch.
+/// Distance of the thigh measurement below the crotch, as a fraction of the height.
 const BELOW_CROTCH: f64 = 0.008;
 
-/// The middle of the back is followed in steps of this share of the height,
+/// Step along the middle of the back, as a fraction of the height.
 const BACK_STEP: f64 = 0.002;
-/// to so far above the throat.
+/// Height above the throat up to which the back is followed, as a fraction of the height.
 const ABOVE_THROAT: f64 = 0.015;
-/// The nape is where it runs forward most over so many steps to either side: over 3 % of the height, the length of a vertebra or
-/// two, which neither a crease of the neck nor the bend of the whole back moves.
+/// Steps to either side of a place over which the forward lean of the back is taken; the nape is where it is largest.
+/// They span 3 % of the height, the length of a vertebra or two, so that neither a crease of the neck nor the bend of
+/// the whole back moves the nape.
 const NAPE: usize = 7;
 
-/// The knee, as a share of the inside of the leg.
+/// Height of the knee, as a fraction of the inside leg length.
 const KNEE: f64 = 0.595;
 
-/// One measure of a body.
+/// One measurement of a body.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
 pub struct Reading {
-    /// In words: `bust`, `inside leg`.
+    /// Name, such as `bust` or `inside leg`.
     pub name: &'static str,
-    /// Metres.
+    /// The value, metres.
     pub metres: f64,
-    /// How high it was taken above the floor, metres; None where that says nothing.
+    /// Height above the floor at which it was taken, metres; None where that says nothing.
     pub height: Option<f64>,
-    /// Where a girth was taken, with its origin inside; None of what is no girth.
+    /// The tape of a girth, with its origin inside the body; None for other measurements.
     #[serde(skip)]
     pub tape: Option<Tape>,
 }
 
 impl Reading {
-    /// What has no height of its own.
+    /// A measurement without a height and a tape.
     fn plain(name: &'static str, metres: f64) -> Self {
         Self { name, metres, ..Self::default() }
     }
 
-    /// A level girth round `points`, which lie at `y`.
+    /// A horizontal girth round `points`, a section of the body; the floor is at y = `floor`.
     fn round(name: &'static str, points: &[DVec3], floor: f64) -> Self {
         let origin = points.iter().sum::<DVec3>() / points.len().max(1) as f64;
         let tape = Some(Tape { name, origin, normal: DVec3::Y });
@@ -56,8 +57,8 @@ impl Reading {
     }
 }
 
-/// All measures that can be read on `mesh`: closed, y up, facing +z, arms down or spread. None when it does not look like a
-/// human. A figure that was made with landmarks of its `own` is measured from its own shoulders, elbow and wrist.
+/// All measurements that can be read on `mesh`: closed, y up, facing +z, arms down or spread. None when it does not
+/// look human. Where a figure's `own` landmarks are given, its shoulders, elbow and wrist are used for lengths.
 pub fn readings(mesh: &TriMesh, own: Option<&Landmarks>) -> Option<Vec<Reading>> {
     let marks = landmarks::found(mesh)?;
     let (low, high) = mesh.bounds();
@@ -79,7 +80,8 @@ pub fn readings(mesh: &TriMesh, own: Option<&Landmarks>) -> Option<Vec<Reading>>
     Some(all)
 }
 
-/// Round the trunk `height` metres above the floor; `middle` lies between left and right. None where nothing crosses it.
+/// Girth of the trunk `height` metres above the floor; `middle` is x of the plane between left and right. None where
+/// nothing crosses that plane.
 pub fn round_at(mesh: &TriMesh, height: f64, middle: f64) -> Option<Reading> {
     let floor = mesh.bounds().0.y;
     let level = trunk_at(mesh, floor + height, middle)?;
@@ -98,7 +100,7 @@ impl Reader<'_> {
         trunk_at(self.mesh, y, self.middle)
     }
 
-    /// The level between two at which `worth` is most, with that.
+    /// The level in a range at which `worth` is largest, and that value.
     fn best(&self, from: f64, to: f64, worth: impl Fn(f64) -> Option<f64>) -> Option<(f64, f64)> {
         let count = ((to - from) / (STEP * self.tall)).ceil().max(1.0) as usize;
         let levels = (0..=count).map(|k| from + (to - from) * k as f64 / count as f64);
@@ -117,7 +119,7 @@ impl Reader<'_> {
         let (bust, _) = self.best((waist + chest) / 2.0, chest + 2.0 * near, front)?;
         let neck = y("throat_front")?;
         let (neck, _) = self.best(neck - near, neck + near, |y| tape(y).map(|l| -l))?;
-        // Where the chest begins to come forward: the tape is at its sharpest turn from level to level.
+        // Underbust: where the chest begins to come forward, the girth bends most from level to level.
         let d = 2.0 * STEP * self.tall;
         let hollow = |y: f64| Some(tape(y + d)? + tape(y - d)? - 2.0 * tape(y)?);
         let (under, _) = self.best(waist + near, bust - near, hollow)?;
@@ -145,7 +147,8 @@ impl Reader<'_> {
         Some(())
     }
 
-    /// Along the middle of the back from the waist; the nape lies above the bust.
+    /// Reads the nape height and the back length from nape to waist, along the middle of the back. The nape is sought
+    /// above the bust.
     fn back(&self, [waist, bust, throat]: [f64; 3], all: &mut Vec<Reading>) -> Option<()> {
         let step = BACK_STEP * self.tall;
         let top = throat + ABOVE_THROAT * self.tall;
@@ -159,7 +162,7 @@ impl Reader<'_> {
         Some(())
     }
 
-    /// How far back the trunk goes in its middle.
+    /// z of the trunk's back in the middle plane at height `y`, metres.
     fn back_at(&self, y: f64) -> Option<f64> {
         let points = self.trunk_at(y)?.points;
         let sides = points.iter().zip(points.iter().cycle().skip(1));
@@ -167,13 +170,13 @@ impl Reader<'_> {
         across.map(|(p, q)| p.lerp(*q, (self.middle - p.x) / (q.x - p.x)).z).min_by(f64::total_cmp)
     }
 
-    /// The left one.
+    /// Reads the girths of the left leg.
     fn leg(&self, marks: &Landmarks, all: &mut Vec<Reading>) -> Option<()> {
         let crotch = marks.get("crotch")?.y;
         let line = |y: f64| {
             let beside = |points: &Vec<DVec3>| points.iter().all(|p| p.x > self.middle);
             let loops = section(self.mesh, DVec3::Y * y, DVec3::Y).into_iter().filter(beside);
-            // The hand hangs farther out.
+            // The leg is the innermost outline; a hand hangs farther out.
             loops.min_by(|a, b| out(a, self.middle).total_cmp(&out(b, self.middle)))
         };
         let tape = |y: f64| line(y).map(|points| round(&points));
@@ -203,7 +206,8 @@ impl Reader<'_> {
         }
     }
 
-    /// The left one, where it is spread; nothing where it is not. Returns the outside of its wrist, and the way out.
+    /// Reads the girths of the left arm where it is spread. Returns a point on the outside of its wrist and the
+    /// direction outward there; None where the arm is not spread.
     fn arm(&self, marks: &Landmarks, all: &mut Vec<Reading>) -> Option<(DVec3, DVec3)> {
         let (below, lower) = (marks.get("arm_upper_below_left")?, marks.get("arm_lower_below_left")?);
         let (above, lower_above) = (marks.get("arm_upper_above_left")?, marks.get("arm_lower_above_left")?);
@@ -223,7 +227,7 @@ impl Reader<'_> {
     }
 }
 
-/// A level tape round `points`, metres.
+/// Girth of `points` in a horizontal plane, metres.
 fn round(points: &[DVec3]) -> f64 {
     hull_perimeter(points.iter().map(|p| DVec2::new(p.x, p.z)).collect())
 }

@@ -1,4 +1,4 @@
-//! Where an upright body's trunk begins and ends, read off its horizontal sections.
+//! The trunk of an upright body, read off its horizontal sections.
 
 use glam::{DVec2, DVec3};
 
@@ -6,45 +6,45 @@ use crate::body::Surface;
 use crate::body::measure::{hull_perimeter, section};
 use crate::geometry::mesh::TriMesh;
 
-/// How many sections are made of a body's height.
+/// Number of sections over the body's height.
 const LEVELS: usize = 160;
-/// At this share of the height a standing body is surely cut through its trunk.
+/// A height at which a standing body is surely cut through its trunk, as a fraction of its height.
 const BELLY: f64 = 0.6;
-/// Where the trunk's section grows by this factor from one level to the next, arms have joined it.
+/// Growth of the trunk's girth from one section to the next that shows that the arms have joined.
 const ARMS_JOIN: f64 = 1.12;
-/// Arms join no lower than this share of the height.
+/// Lowest height at which arms may join, as a fraction of the body's height.
 const LOWEST_ARMPIT: f64 = 0.65;
-/// The head's crown, as a share of the height: no neck is looked for there.
+/// Highest height at which the neck is sought, as a fraction of the body's height: above is the crown of the head.
 const CROWN: f64 = 0.95;
 
 /// A horizontal section of the trunk.
 #[derive(Clone, Debug)]
 pub struct Level {
-    /// Metres.
+    /// Height (y) of the section, metres.
     pub height: f64,
-    /// Round the section, pulled taut, metres.
+    /// Girth: length of a tape round the section, metres.
     pub girth: f64,
-    /// The closed polyline, its last point not its first.
+    /// The section as a closed polyline; the first point is not repeated.
     pub points: Vec<DVec3>,
 }
 
 /// The trunk of an upright body that faces +z.
 #[derive(Clone, Debug)]
 pub struct Trunk {
-    /// The plane between left and right, metres.
+    /// x of the plane between left and right, metres.
     pub middle: f64,
-    /// Where the legs part: the lowest section that crosses the middle, metres.
+    /// Height (y) of the crotch: the lowest section that crosses the middle plane, metres.
     pub crotch: f64,
-    /// Where the arms join, metres; none for a body without arms.
+    /// Height (y) at which the arms join, metres; None for a body without arms.
     pub armpit: Option<f64>,
-    /// Where the body is thinnest above the arms, metres.
+    /// Height (y) of the neck: where the body is thinnest above the arms, metres.
     pub neck: f64,
-    /// From the crotch up to the armpit, or to the neck.
+    /// Sections from the crotch up to the armpit, or to the neck where there are no arms.
     pub levels: Vec<Level>,
 }
 
 impl Trunk {
-    /// None when the body has no trunk to speak of: nothing crosses the middle at its belly.
+    /// Reads the trunk of a body. None when no section crosses the middle plane at the belly.
     pub fn new(surface: &Surface) -> Option<Self> {
         let (lower, upper) = surface.bounds();
         let tall = upper.y - lower.y;
@@ -77,19 +77,20 @@ impl Trunk {
         self.levels.iter().min_by(|a, b| (a.height - height).abs().total_cmp(&(b.height - height).abs()))
     }
 
-    /// Where something `girth` metres round comes to lie when it slides down from the waist.
+    /// Height (y) at which a loop of `girth` metres comes to rest when it slides down from the waist. None where it fits
+    /// over the hips and falls.
     pub fn rest_of(&self, girth: f64) -> Option<f64> {
         self.levels[..=self.waist()?].iter().rev().find(|l| l.girth >= girth).map(|l| l.height)
     }
 
-    /// The thinnest level above the hips, by its number.
+    /// The index in `levels` of the waist: the thinnest section above the hips.
     pub fn waist(&self) -> Option<usize> {
         (0..self.levels.len())
             .filter(|&k| self.levels[k].height > self.hips())
             .min_by(|&a, &b| self.levels[a].girth.total_cmp(&self.levels[b].girth))
     }
 
-    /// Where the trunk is widest in its lower half.
+    /// Height (y) of the hips: where the lower half of the trunk is widest, metres.
     fn hips(&self) -> f64 {
         let half = self.levels.len() / 2;
         self.levels[..half]
@@ -99,7 +100,7 @@ impl Trunk {
     }
 }
 
-/// The area's mean place between left and right.
+/// Mean x of the surface, weighted by area, metres.
 fn middle(surface: &Surface) -> f64 {
     let (mut sum, mut area) = (0.0, 0.0);
     for t in 0..surface.mesh.triangles.len() {
@@ -111,7 +112,7 @@ fn middle(surface: &Surface) -> f64 {
     if area > 0.0 { sum / area } else { 0.0 }
 }
 
-/// The largest section at `height` that crosses the middle.
+/// The section of largest girth at `height` that crosses the middle plane.
 pub(super) fn trunk_at(mesh: &TriMesh, height: f64, middle: f64) -> Option<Level> {
     section(mesh, DVec3::Y * height, DVec3::Y)
         .into_iter()

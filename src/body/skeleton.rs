@@ -9,11 +9,11 @@ pub struct Joint {
     pub name: String,
     /// Index of the parent; lower than the joint's own. None for the root.
     pub parent: Option<usize>,
-    /// In the pose the body was built in, metres.
+    /// Position in the pose the body was built in, metres.
     pub position: DVec3,
 }
 
-/// A tree of joints, parents first.
+/// A skeleton: a tree of joints, parents first.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Skeleton {
     /// The joints.
@@ -32,7 +32,7 @@ impl Skeleton {
         self.joints.iter().position(|j| j.name == name)
     }
 
-    /// Where the joint called `name` is.
+    /// Position of the joint called `name`, metres.
     pub fn position(&self, name: &str) -> Option<DVec3> {
         self.index(name).map(|i| self.joints[i].position)
     }
@@ -42,8 +42,8 @@ impl Skeleton {
         self.joints.iter().enumerate().filter_map(|(i, j)| j.parent.map(|p| (p, i)))
     }
 
-    /// The six segments paper A keeps cloth from slipping past on a human: trunk, head, both arms, both legs, each from
-    /// its first to its last joint. Empty when a joint is missing.
+    /// The six segments past which paper A keeps cloth from slipping on a human: trunk, head, both arms, both legs,
+    /// each from its first to its last joint. Empty when a joint is missing.
     pub fn six_segments(&self) -> Vec<[DVec3; 2]> {
         const ENDS: [[&str; 2]; 6] = [
             ["pelvis", "neck"],

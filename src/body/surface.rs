@@ -1,4 +1,4 @@
-//! A body as contact sees it: nearest point with sign, rays, bounds.
+//! The surface of a body for contact queries: signed distance, rays, bounds.
 
 use std::sync::{Arc, OnceLock};
 
@@ -12,52 +12,52 @@ use crate::body::closest::{ClosestTree, Part, pseudonormal};
 use crate::geometry::adjacency::{Adjacency, NONE};
 use crate::geometry::mesh::TriMesh;
 
-/// A ray that slipped between triangles is cast again so far beside itself, metres on a body 1.5 m large.
+/// Distance by which a ray that slipped between triangles is shifted and cast again, metres on a body 1.5 m large.
 const RAY_ASIDE: f64 = 1e-5;
 
-/// Normals one thread takes at a time.
+/// Least number of vertices for a parallel task that computes normals.
 const LEAST_SHARE: usize = 1024;
 
-/// The nearest point of a surface.
+/// The point of a surface nearest to a query point, with the signed distance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Nearest {
-    /// On the surface, metres.
+    /// The nearest point, metres.
     pub point: DVec3,
-    /// Unit, outward: the gradient of the signed distance; the pseudonormal where the point lies on the surface.
+    /// Outward unit normal: the gradient of the signed distance, or the pseudonormal where the query point is on the surface.
     pub normal: DVec3,
-    /// Metres, negative inside. Sign from angle-weighted pseudonormals (Baerentzen and Aanaes 2005).
+    /// Signed distance, metres, negative inside. The sign comes from angle-weighted pseudonormals (Baerentzen and Aanaes 2005).
     pub distance: f64,
-    /// The triangle that `point` lies on.
+    /// The triangle that `point` is on.
     pub triangle: u32,
 }
 
-/// Where a ray meets a surface.
+/// The hit of a ray on a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
-    /// On the surface, metres.
+    /// The point hit, metres.
     pub point: DVec3,
     /// Unit outward normal of the triangle.
     pub normal: DVec3,
-    /// The triangle.
+    /// The triangle hit.
     pub triangle: u32,
-    /// Distance from the origin along the ray, metres.
+    /// Distance from the ray's origin, metres.
     pub distance: f64,
 }
 
-/// A body ready for queries. Built once, shared.
+/// The surface of a body, prepared for queries. Built once and shared.
 pub struct Surface {
-    /// Closed, manifold, outward; metres. `body::import` reports what is not.
+    /// The mesh: closed, manifold, facing outward; metres. `body::import` reports meshes that are not.
     pub mesh: TriMesh,
-    /// Neighbours.
+    /// Adjacency of the mesh.
     pub adjacency: Arc<Adjacency>,
-    /// Unit normal per triangle.
+    /// Unit normal of each triangle.
     pub face_normals: Vec<DVec3>,
-    /// Angle-weighted unit normal per vertex.
+    /// Angle-weighted unit normal of each vertex.
     pub vertex_normals: Vec<DVec3>,
     closest: ClosestTree,
-    // Rays are cast at few bodies; the tree they need is made for the first.
+    // Few bodies have rays cast at them: the tree for that is built for the first ray.
     parry: OnceLock<Option<ParryMesh>>,
-    // Rays run in f32 about this point, so that bodies far from the origin keep their accuracy.
+    // Rays run in f32 relative to this point, so that bodies far from the origin keep their accuracy.
     origin: DVec3,
     lower: DVec3,
     upper: DVec3,
@@ -78,8 +78,8 @@ impl Surface {
         surface.parry().is_some().then_some(surface)
     }
 
-    /// The same body with its vertices elsewhere, vertex for vertex: what depends on the topology is shared, the tree is
-    /// fitted. None when there are more or fewer `positions` than vertices, or one is not finite.
+    /// The same body with its vertices at new `positions`, in the same order: the topology is shared and the tree
+    /// refitted. None when the number of positions differs, or one is not finite.
     pub fn reposed(&self, positions: Vec<DVec3>) -> Option<Self> {
         if positions.len() != self.mesh.positions.len() || positions.iter().any(|p| !p.is_finite()) {
             return None;
@@ -105,7 +105,7 @@ impl Surface {
         Self { mesh, adjacency, face_normals, vertex_normals, closest, parry, origin, lower, upper }
     }
 
-    /// What rays are cast at; None when parry3d refuses the mesh.
+    /// The mesh at which rays are cast, built on first use; None when parry3d refuses it.
     fn parry(&self) -> Option<&ParryMesh> {
         let build = || {
             let vertices: Vec<Vec3> =
@@ -115,12 +115,12 @@ impl Surface {
         self.parry.get_or_init(build).as_ref()
     }
 
-    /// Lower and upper corner of the bounding box.
+    /// Lower and upper corner of the bounding box, metres.
     pub fn bounds(&self) -> (DVec3, DVec3) {
         (self.lower, self.upper)
     }
 
-    /// The largest side of the bounding box over 1.5 m: what paper A's lengths are multiplied by.
+    /// Scale of the body, by which paper A's lengths are multiplied: the longest side of its bounding box over 1.5 m.
     pub fn scale(&self) -> f64 {
         (self.upper - self.lower).max_element() / 1.5
     }
@@ -135,12 +135,12 @@ impl Surface {
         })
     }
 
-    /// The point of the surface nearest to `p`, if it is within `limit` metres.
+    /// The point of the surface nearest to `p`, if one is within `limit` metres.
     pub fn nearest_within(&self, p: DVec3, limit: f64) -> Option<Nearest> {
         self.closest.nearest(p, limit).map(|found| self.signed(p, found))
     }
 
-    /// The same without the triangles that are `left_out`.
+    /// The point nearest to `p` within `limit` metres on triangles that are not `left_out`.
     pub fn nearest_within_but(
         &self,
         p: DVec3,
@@ -150,8 +150,8 @@ impl Surface {
         self.closest.nearest_but(p, limit, left_out).map(|found| self.signed(p, found))
     }
 
-    /// The points of the surface within `reach` metres of `p` than which none round about is nearer, with their triangles:
-    /// nearest first, equally near ones by triangle. Of triangles that share such a point the lowest has it.
+    /// The points within `reach` metres of `p` at which the distance to `p` has a local minimum over the surface, with
+    /// their triangles: sorted by distance, then by triangle. Of triangles that share such a point the lowest is given.
     pub fn nearest_round_about(&self, p: DVec3, reach: f64) -> Vec<(DVec3, u32)> {
         let mut found: Vec<(f64, u32, DVec3)> = Vec::new();
         self.closest.within(p, reach, |t| {
@@ -180,19 +180,19 @@ impl Surface {
         found.into_iter().map(|(_, t, point)| (point, t)).collect()
     }
 
-    /// The point nearest to `p` on `triangle` and the triangles that touch it.
+    /// The point nearest to `p` on `triangle` and the triangles that share a vertex with it.
     pub fn nearest_round(&self, p: DVec3, triangle: u32) -> Nearest {
         let found = self.closest.nearest_of(p, self.round(triangle)).unwrap_or((p, triangle, Part::Face));
         self.signed(p, found)
     }
 
-    /// How far `p` is from `triangle`, metres.
+    /// Distance from `p` to `triangle`, metres.
     pub fn distance_to(&self, p: DVec3, triangle: u32) -> f64 {
         self.closest.on_triangle(p, triangle).0.distance(p)
     }
 
-    /// How much farther from `p` than `distance` all triangles are that do not touch `triangle`, metres: at least this, and
-    /// `most` where there are none so near.
+    /// Lower bound of how much farther than `distance` all triangles are from `p` that share no vertex with
+    /// `triangle`, metres; at most `most`.
     pub fn gap_round(&self, p: DVec3, triangle: u32, distance: f64, most: f64) -> f64 {
         let own = self.mesh.triangles[triangle as usize];
         let touches = |t: u32| self.mesh.triangles[t as usize].iter().any(|v| own.contains(v));
@@ -200,8 +200,8 @@ impl Surface {
         next.map_or(most, |(point, ..)| (point - p).length() - distance)
     }
 
-    /// Where a walk from `triangle` ends that goes on to the triangle next to it while that is nearer to `p`: the nearest point
-    /// of the surface round about, but not of parts that are nearer elsewhere.
+    /// A local nearest point to `p`: walks from `triangle` to neighbouring triangles while they are nearer. Parts of
+    /// the surface that are nearer elsewhere are not found.
     pub fn nearest_by_walk(&self, p: DVec3, triangle: u32) -> Nearest {
         let mut at = self.closest.on_triangle(p, triangle);
         let mut least = at.0.distance_squared(p);
@@ -226,7 +226,7 @@ impl Surface {
                     self.adjacency.vertex_triangles.of(corner).iter().for_each(|&t| look(t));
                 }
             }
-            // Also where `p` is no point: then nothing is nearer.
+            // This also ends the walk where `p` is not finite: then nothing is nearer.
             let is_nearer = least < before;
             if !is_nearer {
                 return self.signed(p, at);
@@ -234,7 +234,7 @@ impl Surface {
         }
     }
 
-    /// `triangle` and those that touch it, each once.
+    /// `triangle` and the triangles that share a vertex with it, each once.
     fn round(&self, triangle: u32) -> impl Iterator<Item = u32> {
         let own = self.mesh.triangles[triangle as usize];
         (0..3).flat_map(move |k| {
@@ -268,8 +268,8 @@ impl Surface {
         Nearest { point, normal, distance: if inside { -length } else { length }, triangle }
     }
 
-    /// The smallest cosine between `direction` (unit) and the facets nearest to `p`, if they are within `limit` metres:
-    /// over an edge two are equally near, over a corner all round it. With it the nearest point.
+    /// The smallest cosine between `direction` (unit) and the normals of the facets nearest to `p`, with the nearest point;
+    /// None when they are farther than `limit` metres. At an edge two facets are equally near, at a corner all those round it.
     pub fn least_facing(&self, p: DVec3, limit: f64, direction: DVec3) -> Option<(f64, Nearest)> {
         let found = self.closest.nearest(p, limit)?;
         let (_, triangle, part) = found;
@@ -290,7 +290,8 @@ impl Surface {
         Some((least, self.signed(p, found)))
     }
 
-    /// The smallest cosine between `direction` (unit) and the facets within `reach` metres of `p`; none are: None.
+    /// The smallest cosine between `direction` (unit) and the normals of all facets within `reach` metres of `p`;
+    /// None when there are none.
     pub fn least_facing_within(&self, p: DVec3, reach: f64, direction: DVec3) -> Option<f64> {
         let mut least: Option<f64> = None;
         self.closest.within(p, reach, |t| {
@@ -300,19 +301,19 @@ impl Surface {
         least
     }
 
-    /// Whether the segment between two points passes through the surface.
+    /// Whether the segment between two points intersects the surface.
     pub fn meets_segment(&self, ends: [DVec3; 2]) -> bool {
         self.closest.meets_segment(ends)
     }
 
-    /// The first hit of a ray from `origin` along `direction` (any length) from either side.
+    /// The first hit of a ray from `origin` along `direction` (any length), from either side of the surface.
     pub fn ray(&self, origin: DVec3, direction: DVec3) -> Option<Hit> {
         let direction = direction.normalize_or_zero();
         if direction == DVec3::ZERO {
             return None;
         }
         let hit = self.cast(origin, direction);
-        // Along an edge a ray can slip between two triangles; then it seems to come from within. Beside it, it does not.
+        // Along an edge a ray can slip between two triangles, and then seems to come from within: cast it again beside itself.
         let slipped = hit.is_none_or(|h| h.normal.dot(direction) > 0.0) && !self.contains(origin);
         if slipped {
             let aside = direction.any_orthonormal_vector() * (RAY_ASIDE * self.scale());
@@ -334,13 +335,14 @@ impl Surface {
         })
     }
 
-    /// Whether `p` lies inside.
+    /// Whether `p` is inside the body.
     pub fn contains(&self, p: DVec3) -> bool {
         self.nearest(p).distance < 0.0
     }
 }
 
-/// Gathered vertex by vertex in the order of the triangles: the same bits on any number of threads.
+/// Angle-weighted unit normal of each vertex. Summed per vertex in the order of its triangles: the same bits on any
+/// number of threads.
 fn angle_weighted_normals(mesh: &TriMesh, adjacency: &Adjacency, face_normals: &[DVec3]) -> Vec<DVec3> {
     let weighted = |v: u32, t: u32| {
         let p = mesh.corners(t as usize);

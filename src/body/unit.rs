@@ -7,21 +7,21 @@ use std::str::FromStr;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Unit {
-    /// 1 m
+    /// Metre, 1 m.
     #[default]
     Metre,
-    /// 0.1 m
+    /// Decimetre, 0.1 m.
     Decimetre,
-    /// 0.01 m
+    /// Centimetre, 0.01 m.
     Centimetre,
-    /// 0.001 m
+    /// Millimetre, 0.001 m.
     Millimetre,
-    /// 0.0254 m
+    /// Inch, 0.0254 m.
     Inch,
 }
 
 impl Unit {
-    /// All of them, from the likeliest.
+    /// All units, the likeliest first.
     pub const ALL: [Self; 5] = [Self::Metre, Self::Centimetre, Self::Millimetre, Self::Inch, Self::Decimetre];
 
     /// Length of the unit, metres.
@@ -35,7 +35,7 @@ impl Unit {
         }
     }
 
-    /// "cm"
+    /// The symbol, such as "cm".
     pub fn symbol(self) -> &'static str {
         match self {
             Self::Metre => "m",
@@ -53,7 +53,7 @@ impl fmt::Display for Unit {
     }
 }
 
-/// A text that names no unit.
+/// Error: a text that names no unit.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{0:?} is no unit of length; m, dm, cm, mm and in are known")]
 pub struct UnknownUnit(pub String);
@@ -73,8 +73,8 @@ impl FromStr for Unit {
     }
 }
 
-/// The unit in which a body `height` units high would stand 0.5 to 2.5 m, and of several the one that brings it nearest
-/// to 1.7 m; none when no unit does.
+/// The unit in which a body `height` units high is 0.5 to 2.5 m tall; of several the one that brings it nearest to
+/// 1.7 m. None when no unit does.
 pub fn guess_unit(height: f64) -> Option<Unit> {
     let off = |unit: Unit| (height * unit.metres() / 1.7).ln().abs();
     Unit::ALL

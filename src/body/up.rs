@@ -1,4 +1,4 @@
-//! Which way up a mesh from elsewhere is.
+//! The up axis of meshes and motions from files.
 
 use std::fmt;
 use std::str::FromStr;
@@ -11,27 +11,27 @@ use crate::geometry::mesh::TriMesh;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum UpAxis {
-    /// As here.
+    /// y is up, as in this program.
     #[default]
     Y,
-    /// As in programs for solids and games; the body faces -y there.
+    /// z is up, as in CAD and game programs; the body faces -y there.
     Z,
 }
 
-/// How much longer than high a body lies when it was meant to stand.
+/// Ratio of z extent to y extent above which z is taken for the up axis.
 const LYING: f64 = 2.0;
 
 impl UpAxis {
-    /// Both.
+    /// Both axes.
     pub const ALL: [Self; 2] = [Self::Y, Self::Z];
 
-    /// What a body or a skeleton with these sides of its bounding box (x, y, z) probably means: one that is much longer in z than in y
-    /// would lie.
+    /// The likely up axis of a body or a skeleton, by the sides of its bounding box (x, y, z): z where it is much
+    /// longer in z than in y, because it would be lying otherwise.
     pub fn guess(size: DVec3) -> Self {
         if size.z > LYING * size.y { Self::Z } else { Self::Y }
     }
 
-    /// The height of a body with these sides of its bounding box.
+    /// Height of a body with these sides of its bounding box.
     pub fn height(self, size: DVec3) -> f64 {
         match self {
             Self::Y => size.y,
@@ -39,12 +39,12 @@ impl UpAxis {
         }
     }
 
-    /// Turns `mesh` so that this axis becomes y.
+    /// Rotates `mesh` so that this axis becomes y.
     pub fn set_upright(self, mesh: &mut TriMesh) {
         mesh.positions.iter_mut().for_each(|p| *p = self.upright(*p));
     }
 
-    /// Where `p` is after this axis has become y.
+    /// The point `p` after the rotation that turns this axis to y.
     pub fn upright(self, p: DVec3) -> DVec3 {
         match self {
             Self::Y => p,
@@ -62,7 +62,7 @@ impl fmt::Display for UpAxis {
     }
 }
 
-/// A text that names no axis.
+/// Error: a text that names no axis.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{0:?} is no axis that points up; y and z are known")]
 pub struct UnknownAxis(pub String);

@@ -1,9 +1,9 @@
-//! A smooth map of space that carries given points to given points.
+//! A smooth map of space that carries given points to given points (biharmonic spline).
 
 use glam::{DMat3, DVec3};
 
-/// Sum of |x - p| weights over the points p, and an affine map: the smoothest map of its kind in space (biharmonic spline).
-/// Where the points differ by an affine map, it is that map everywhere.
+/// A biharmonic spline: a weighted sum of the distances |x - p| to the given points p, plus an affine map; the
+/// smoothest such map in space. Where the given points differ by an affine map, it is that map everywhere.
 #[derive(Clone, Debug)]
 pub struct Warp {
     points: Vec<DVec3>,
@@ -13,7 +13,8 @@ pub struct Warp {
 }
 
 impl Warp {
-    /// The map that takes each `from` to its `to`. None with fewer than four points, points in one plane, or two in one place.
+    /// The spline that takes the first point of each pair to the second. None with fewer than four pairs, with first
+    /// points in one plane, or two at one position.
     pub fn new(pairs: &[(DVec3, DVec3)]) -> Option<Self> {
         let n = pairs.len();
         let size = n + 4;
@@ -35,14 +36,15 @@ impl Warp {
         Some(Self { points, weights: solved[..n].to_vec(), linear, shift })
     }
 
-    /// Where `p` goes.
+    /// The image of `p`.
     pub fn image(&self, p: DVec3) -> DVec3 {
         let bend: DVec3 = self.points.iter().zip(&self.weights).map(|(q, w)| *w * p.distance(*q)).sum();
         bend + self.linear * p + self.shift
     }
 }
 
-/// Solves for the last three columns by elimination with the largest pivot. None when there is no single solution.
+/// Solves the linear system whose last three columns are right-hand sides, by Gaussian elimination with partial
+/// pivoting. None when it is singular.
 fn solved(mut rows: Vec<Vec<f64>>) -> Option<Vec<DVec3>> {
     let n = rows.len();
     for k in 0..n {

@@ -1,4 +1,4 @@
-//! What can be typed.
+//! The command line arguments. Doc comments of options and commands are their help texts.
 
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -57,33 +57,33 @@ pub struct Help {
     pub topic: Option<String>,
 }
 
-/// A wrap that is not at rest by then trembles.
+/// Default limit of ticks: a simulation that is not at rest by then oscillates and will not get there.
 const MAX_TICKS: u64 = 20_000;
 
-/// How a file of a body is to be read.
+/// Options for reading a body file.
 #[derive(Clone, Copy, Debug, Default, Args)]
 pub struct BodyFile {
-    /// The unit of body files: m, dm, cm, mm or in; without it the body's height tells
+    /// The unit of body files: m, dm, cm, mm or in; if left out, it is guessed from the body's height
     #[arg(long)]
     pub unit: Option<Unit>,
-    /// The axis of body files and motions that points up: y or z; without it y, or what a motion's skeleton tells
+    /// The axis of body files and motions that points up: y or z; if left out, y, or for a motion the one its skeleton suggests
     #[arg(long, value_name = "AXIS")]
     pub up: Option<UpAxis>,
 }
 
-/// A size out of a table.
+/// Options that choose a size from a size table.
 #[derive(Clone, Debug, Default, Args)]
 pub struct SizeOptions {
-    /// A table of sizes (CSV): the mannequin's measurements at the heads of its columns, in cm or the unit named there, and a
-    /// row for each size, its name first; what it leaves out is in proportion
+    /// A table of sizes (CSV): a row for each size, its name in the first column, and a measurement of the mannequin in each
+    /// other column, in cm or the unit that the column's title names; measurements that it leaves out are in proportion
     #[arg(long, value_name = "CSV", requires = "body_size")]
     pub sizes: Option<PathBuf>,
-    /// The mannequin in the size that has this name in the table
+    /// Takes the mannequin in the size of this name in the table
     #[arg(long, value_name = "NAME", requires = "sizes")]
     pub body_size: Option<String>,
 }
 
-/// What an input needs besides its file.
+/// Options that add to or change the project that is read.
 #[derive(Clone, Debug, Default, Args)]
 pub struct InputOptions {
     /// Puts the cloth on this body (OBJ, glTF); "mannequin" is the built-in figure
@@ -93,22 +93,22 @@ pub struct InputOptions {
     pub body_file: BodyFile,
     #[command(flatten)]
     pub sized: SizeOptions,
-    /// The mannequin in this pose, bare: a, t, standing, walking, running, sitting, arms-up or kung-fu; the marks go along,
+    /// Puts the mannequin in this pose, bare: a, t, standing, walking, running, sitting, arms-up or kung-fu; marks move with it,
     /// cloth comes off
     #[arg(long, value_name = "NAME")]
     pub pose: Option<NamedPose>,
     /// Wears the pattern of this file over it, and over those named before, each on a layer of its own
     #[arg(long, value_name = "PROJECT")]
     pub over: Vec<PathBuf>,
-    /// Places its pieces so much higher round the body, metres: for files that count from another place than the floor
+    /// Moves its placed pieces up by this height, metres: for files whose heights do not count from the floor
     #[arg(long, value_name = "METRES", allow_negative_numbers = true)]
     pub raise: Option<f64>,
-    /// Leaves pieces where the pattern file places them. Otherwise pieces that are sewn without marks are brought to the
-    /// body where they stand too high or low for it, or sleeves stand beside its arms
+    /// Leaves pieces where the pattern file places them. Otherwise pieces that are sewn without marks are moved to the body where
+    /// they are too high or low for it, or where sleeves are beside its arms
     #[arg(long)]
     pub as_placed: bool,
-    /// What a unit of a DXF or SVG pattern is: mm, cm, m, in, px, px90 or pt; without it the file tells, or the question
-    /// is asked by an error
+    /// The unit of a DXF or SVG pattern: mm, cm, m, in, px, px90 or pt; if left out, the one that the file states; if it states
+    /// none, an error asks for it
     #[arg(long, value_name = "UNIT")]
     pub scale: Option<DrawingUnit>,
     /// Takes the marks from this JSON file
@@ -125,15 +125,16 @@ pub struct InputOptions {
 /// Wraps by the marks or, without any, by the best start (suggested marks, or sewn from where the pieces are placed; see
 /// --start); relaxes to rest, and writes garment.obj, body.obj, report.json and view.png
 ///
-/// Several projects are dressed one after the other: each gets a folder and, on standard output, a line with what came of it
-/// (with --json an object). The exit code is the greatest that any of them would have had alone. An interrupted run leaves
-/// the folders of those it had done, whole.
+/// Several projects are dressed one after the other: each gets a folder and, on standard output, a line with its result (with
+/// --json an object). The exit code is the greatest that any of them would have had alone. After an interruption the folders of
+/// those that were done are complete.
 #[derive(Debug, Args)]
 pub struct Dress {
     /// Projects, patterns or samples (sample:NAME); several get a folder each
     #[arg(required_unless_present = "list", value_name = "PROJECT")]
     pub projects: Vec<PathBuf>,
-    /// Also those that this file names, one a line, relative to its own folder; lines that begin with # are skipped
+    /// Also dresses the projects that this file names, one a line, relative to its own folder; lines that begin with # are
+    /// skipped
     #[arg(long, value_name = "FILE")]
     pub list: Option<PathBuf>,
     /// The folder to write to
@@ -141,14 +142,14 @@ pub struct Dress {
     pub out: PathBuf,
     #[command(flatten)]
     pub input: InputOptions,
-    /// How a pattern without marks is put on: marks (suggested ones, then draped) or placement (sewn from there); without it
-    /// the first of these that ends without a fault. placement also leaves the marks of a project aside
+    /// How a pattern without marks is put on: marks (by suggested marks, then draped) or placement (sewn from where its pieces
+    /// are placed); if left out, the first of these that ends without a fault. placement also ignores the marks of a project
     #[arg(long, value_name = "marks|placement", conflicts_with_all = ["marks", "suggest_marks"])]
     pub start: Option<Start>,
-    /// Then lets weight and fabric drape it until it rests
+    /// Then drapes it by weight and fabric until it rests
     #[arg(long)]
     pub drape: bool,
-    /// What all pieces are made of that have no fabric of their own: a preset
+    /// The fabric (a preset) of all pieces that have none of their own
     #[arg(long, value_name = "NAME")]
     pub fabric: Option<String>,
     /// Also writes the dressed project to this file
@@ -157,20 +158,21 @@ pub struct Dress {
     /// Also writes a recording to this file
     #[arg(long, value_name = "FILE")]
     pub record: Option<PathBuf>,
-    /// Most ticks; more are given up (exit code 4)
+    /// Limit of ticks; a simulation that needs more is given up (exit code 4)
     #[arg(long, default_value_t = MAX_TICKS)]
     pub max_ticks: u64,
     #[command(flatten)]
     pub picture: PictureOptions,
     #[command(flatten)]
     pub work: WorkOptions,
-    /// Leaves what was already made from the same bytes with the same options and the same version of the program
+    /// Skips projects whose result is already there, made from the same bytes with the same options and the same version of the
+    /// program
     #[arg(long, conflicts_with_all = ["save", "record"])]
     pub resume: bool,
-    /// Tells which of several projects is begun also where standard error is no terminal
+    /// Reports which of several projects has begun, even when standard error is no terminal
     #[arg(long)]
     pub progress: bool,
-    /// Prints the report; of several projects a line each
+    /// Prints the report; for several projects, one line each
     #[arg(long)]
     pub json: bool,
     /// Number of threads; the result is the same
@@ -179,7 +181,7 @@ pub struct Dress {
 }
 
 impl Dress {
-    /// `project` dressed into `out` with every option as it is when not given.
+    /// The arguments that dress `project` into `out`, with the default of every other option.
     pub fn sample(project: &Path, out: &Path) -> Self {
         Self {
             projects: vec![project.to_owned()],
@@ -202,11 +204,11 @@ impl Dress {
     }
 }
 
-/// Which work is left out.
+/// Options that switch off optimisations.
 #[derive(Clone, Copy, Debug, Default, Args)]
 pub struct WorkOptions {
-    /// Does all the work that is usually skipped, to compare: certificates, planes, triangles, faces, crossings, refactor,
-    /// fine, edges, bones, walks, or all; several with commas
+    /// Does all the work that is usually skipped as unnecessary, for comparison: certificates, planes, triangles, faces,
+    /// crossings, refactor, fine, edges, bones, walks, or all; several with commas
     #[arg(long, value_name = "NAME", default_value = "", hide_default_value = true, value_parser = skips)]
     pub no_skip: Skips,
 }
@@ -215,10 +217,10 @@ fn skips(text: &str) -> Result<Skips, String> {
     if text.is_empty() { Ok(Skips::default()) } else { text.parse() }
 }
 
-/// How a picture is taken.
+/// Options of a picture.
 #[derive(Clone, Copy, Debug, Args)]
 pub struct PictureOptions {
-    /// front, back, left, right, top, below, three-quarter, or YAW,PITCH in degrees
+    /// The view: front, back, left, right, top, below, three-quarter, or YAW,PITCH in degrees
     #[arg(long, default_value = "front", value_parser = view, allow_hyphen_values = true)]
     pub view: View,
     /// Width and height in pixels
@@ -269,7 +271,7 @@ pub struct Simulate {
 /// Carries the dressed garment of a project to its body in other poses, and writes the same files as dress
 ///
 /// A project without dressed cloth is dressed first. The body of each pose has the triangles of the dressed one, vertex for
-/// vertex; several poses, always from the one that was dressed, get a folder each.
+/// vertex. With several poses, each starts from the dressed one and gets its own folder.
 #[derive(Debug, Args)]
 pub struct Repose {
     /// Dressed project, as saved by dress --save; or a sample (sample:NAME)
@@ -285,8 +287,8 @@ pub struct Repose {
     /// pose that --pose names, or of the one it is in
     #[arg(long = "joint", value_name = "JOINT=DEGREES", allow_hyphen_values = true)]
     pub joints: Vec<JointAngle>,
-    /// The same in a JSON file: {"left_elbow": 60, "right_hip": {"flexion": 30, "abduction": 20}}; several times for
-    /// several poses
+    /// Joint angles in a JSON file: {"left_elbow": 60, "right_hip": {"flexion": 30, "abduction": 20}}; several times for several
+    /// poses
     #[arg(long = "joints", value_name = "JSON")]
     pub joint_files: Vec<PathBuf>,
     #[command(flatten)]
@@ -295,20 +297,20 @@ pub struct Repose {
     /// sequence.glb (body and garment, animated) and report.json; a body may be a folder of OBJ files, or "walk*.obj"
     #[arg(long, conflicts_with_all = ["poses", "joints", "joint_files", "settle", "save"])]
     pub sequence: bool,
-    /// Takes the frames of a motion, and writes the same: captured (BVH), which the mannequin makes, its joints found by
-    /// name; or an animation of a body in glTF
+    /// Takes the frames of a motion, and writes the same files as --sequence: motion capture (BVH) moves the mannequin, its
+    /// joints found by name; glTF holds an animated body
     #[arg(long, value_name = "FILE", conflicts_with_all = ["bodies", "poses", "joints", "joint_files", "settle", "save"])]
     pub motion: Option<PathBuf>,
-    /// Which of the animations in the glTF file: by its name, or by its number from 1; without it the first
+    /// The animation in the glTF file, by its name or by its number from 1; if left out, the first
     #[arg(long, value_name = "NAME_OR_NUMBER", requires = "motion")]
     pub animation: Option<String>,
-    /// Only these frames of it, counted from 0, the last left out
+    /// Only these frames of the motion, counted from 0; the last one is not included
     #[arg(long, value_name = "FROM..TO", value_parser = frame_range)]
     pub frames: Option<Range<usize>>,
-    /// Only each Nth of them
+    /// Only every Nth of these frames
     #[arg(long, value_name = "COUNT", default_value_t = 1, value_parser = step)]
     pub every: usize,
-    /// Frames a second of sequence.glb; without it those of the motion, or 30
+    /// Frames a second of sequence.glb; if left out, those of the motion, or 30
     #[arg(long, value_parser = frame_rate)]
     pub fps: Option<f64>,
     /// The folder to write to
@@ -320,7 +322,7 @@ pub struct Repose {
     /// Also writes the project in the pose to this file
     #[arg(long, value_name = "PROJECT")]
     pub save: Option<PathBuf>,
-    /// Most ticks; more are given up (exit code 4)
+    /// Limit of ticks; a simulation that needs more is given up (exit code 4)
     #[arg(long, default_value_t = MAX_TICKS)]
     pub max_ticks: u64,
     #[command(flatten)]
@@ -333,7 +335,7 @@ pub struct Repose {
     pub threads: Option<usize>,
 }
 
-/// What can be said after `--map`.
+/// The help text of `--map`: the names of all maps.
 fn map_names() -> String {
     let names = MapKind::ALL.map(MapKind::name).join(", ");
     format!("{names}; strain for the first four, or all; several times for several maps")
@@ -341,9 +343,9 @@ fn map_names() -> String {
 
 /// Reads maps off the dressed garment of a project: figures as JSON and CSV, pictures with their legend
 ///
-/// Writes fit.json (range, statistics for the garment and each piece, histogram), and of each map NAME.csv (a row for each
-/// vertex of each piece), NAME-triangles.csv and NAME.png. With --page the fit report: views, girths with their ease, seams,
-/// strain and maps on one page that needs nothing else.
+/// Writes fit.json (range, statistics for the garment and each piece, histogram), and of each map NAME.csv (a row for each vertex
+/// of each piece), NAME-triangles.csv and NAME.png. With --page it writes the fit report: views, girths with their ease, seams,
+/// strain and maps on one self-contained page.
 #[derive(Debug, Args)]
 pub struct Fit {
     /// Dressed project, as saved by dress --save or repose --save
@@ -366,7 +368,7 @@ pub struct Fit {
     pub threads: Option<usize>,
 }
 
-/// One map or several.
+/// A value of `--map`: one map, the four strain maps (`strain`), or all of them (`all`).
 #[derive(Clone, Debug)]
 pub struct Maps(pub Vec<MapKind>);
 
@@ -378,11 +380,11 @@ fn maps(text: &str) -> Result<Maps, String> {
     }
 }
 
-/// Holds two dressed projects of the same pieces against each other: other poses, sizes, fabrics or bodies
+/// Compares two dressed projects of the same pieces: other poses, sizes, fabrics or bodies
 ///
-/// Writes compare.json (of each map the mean, the 99th hundredth and the most of the difference for the garment and each piece;
-/// areas, girths), pieces.csv, girths.csv, and of each map NAME.csv (a row for each vertex of each piece of the second) and
-/// NAME.png: the first, the second, and the second less the first. Values are matched by their place in the pattern.
+/// Writes compare.json (of each map the mean, the 99th percentile and the maximum of the difference for the garment and each
+/// piece; areas, girths), pieces.csv, girths.csv, and of each map NAME.csv (a row for each vertex of each piece of the second)
+/// and NAME.png: the first, the second, and the second less the first. Values are matched by their place in the pattern.
 #[derive(Debug, Args)]
 pub struct Compare {
     /// Dressed project, as saved by dress --save or repose --save
@@ -394,10 +396,10 @@ pub struct Compare {
     /// The folder to write to
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
-    /// front, back, left, right, top, below, three-quarter, or YAW,PITCH in degrees
+    /// The view: front, back, left, right, top, below, three-quarter, or YAW,PITCH in degrees
     #[arg(long, default_value = "front", value_parser = view, allow_hyphen_values = true)]
     pub view: View,
-    /// Width and height of each of the three, in pixels
+    /// Width and height of each of the three pictures, in pixels
     #[arg(long, default_value = "800x800", value_parser = size)]
     pub size: [u32; 2],
     /// Prints compare.json
@@ -420,7 +422,7 @@ pub struct Render {
     /// The picture (PNG)
     #[arg(short, long, value_name = "PNG")]
     pub output: PathBuf,
-    /// Pictures in a full turn, numbered NAME-00.png and up
+    /// Number of pictures in a full turn; they are numbered NAME-00.png and up
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u32).range(1..=3600))]
     pub turntable: Option<u32>,
 }
@@ -444,13 +446,13 @@ pub struct Import {
 pub struct Export {
     /// A project, a pattern or a sample (sample:NAME); for .obj and .glb a dressed project
     pub project: PathBuf,
-    /// The file to write; its ending says in which format
+    /// The file to write; its ending gives the format
     #[arg(short, long, visible_alias = "out", value_name = "FILE")]
     pub output: PathBuf,
-    /// What a PDF is printed on: a4 or letter, to be glued together, or one large page
+    /// The paper of a PDF: a4 or letter, to be glued together, or one large page
     #[arg(long, default_value_t, value_name = "a4|letter|one")]
     pub paper: Paper,
-    /// What a unit of a DXF or SVG pattern that is read is: mm, cm, m, in, px, px90 or pt
+    /// The unit of a DXF or SVG pattern that is read: mm, cm, m, in, px, px90 or pt
     #[arg(long, value_name = "UNIT")]
     pub scale: Option<DrawingUnit>,
 }
@@ -494,21 +496,21 @@ pub struct Generate {
     /// The folder to write to
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
-    /// Leaves out where the pieces stand round the body
+    /// Leaves out the placement of the pieces round the body
     #[arg(long)]
     pub without_placement: bool,
 }
 
-/// Which garments of our own.
+/// Options that choose generated garments.
 #[derive(Clone, Debug, Default, PartialEq, Args)]
 pub struct CorpusOptions {
     /// Number of designs, each for every body in every pose; 500 when left out
     #[arg(long, value_name = "DESIGNS", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub count: Option<u32>,
-    /// Designs are drawn from this number; 1 when left out
+    /// Seed of the random designs; 1 when left out
     #[arg(long)]
     pub seed: Option<u64>,
-    /// Only one part of them, such as 2/8; the eight make up the whole
+    /// Only one part of the garments, such as 2/8 for the second of eight
     #[arg(long, value_name = "PART/OF")]
     pub shard: Option<Shard>,
     /// Only for these bodies: xs, s, m, l, xl, xxl; several with commas
@@ -528,7 +530,7 @@ fn corpus_pose(text: &str) -> Result<NamedPose, String> {
 }
 
 impl CorpusOptions {
-    /// The corpus asked for.
+    /// The corpus of garments that the options choose.
     pub fn corpus(&self) -> Corpus {
         let or_all = |own: &[BodySize]| if own.is_empty() { SIZES.to_vec() } else { own.to_vec() };
         Corpus {
@@ -541,15 +543,16 @@ impl CorpusOptions {
     }
 }
 
-/// Measures how fast and how accurate the program is on this machine, against what it should be
+/// Measures how fast and how accurate the program is on this machine, against its limits
 #[derive(Debug, Args)]
 pub struct Bench {
-    /// Speed and accuracy when left out
+    /// What to measure; speed and accuracy when left out
     pub what: Option<BenchKind>,
-    /// How often each scene is run; the median counts
+    /// Number of runs of each scene; the median counts
     #[arg(long, default_value_t = 5, value_parser = clap::value_parser!(u16).range(1..=1000))]
     pub runs: u16,
-    /// Triangles of each garment, about; the limits are for 10000, those of ticks for 20000, which are the defaults
+    /// Approximate number of triangles of each garment; the limits are for 10000, those of ticks for 20000, which are the
+    /// defaults
     #[arg(long, value_parser = clap::value_parser!(u32).range(200..=1_000_000))]
     pub triangles: Option<u32>,
     /// Writes a picture of error against time, or of cost against size, to this file (SVG)
@@ -563,11 +566,11 @@ pub struct Bench {
     pub corpus: CorpusOptions,
     #[command(flatten)]
     pub trust: TrustOptions,
-    /// Of the corpus: most ticks for a garment; as dress does when left out
+    /// For corpus: limit of ticks for a garment; as for dress when left out
     #[arg(long)]
     pub max_ticks: Option<u64>,
-    /// Keeps in this folder what was not dressed well of the corpus (pattern, report, picture and the command line), or the
-    /// files of trust that were too much for a reader
+    /// Keeps in this folder, for corpus, what was not dressed well (pattern, report, picture and the command line), and for
+    /// trust, the files that a reader could not handle
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     #[command(flatten)]
@@ -580,13 +583,13 @@ pub struct Bench {
     pub threads: Option<usize>,
 }
 
-/// How much is tried of what files and commands can do.
+/// Options of the benchmark `trust`.
 #[derive(Clone, Debug, Default, PartialEq, Args)]
 pub struct TrustOptions {
-    /// Damaged files for each reader; 1000 when left out
+    /// Number of damaged files for each reader; 1000 when left out
     #[arg(long, value_name = "FILES", value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
     pub mutations: Option<u64>,
-    /// The first of them: the same number gives the same file
+    /// Number of the first damaged file: the same number gives the same file
     #[arg(long, value_name = "NUMBER")]
     pub first: Option<u64>,
     /// Only these readers, such as obj,svg
@@ -594,7 +597,7 @@ pub struct TrustOptions {
     pub readers: Vec<String>,
 }
 
-/// What can be measured.
+/// A benchmark.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum BenchKind {
     /// Time of what a user waits for

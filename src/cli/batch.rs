@@ -1,4 +1,4 @@
-//! Several projects, dressed one after the other: a folder and a line each.
+//! `toile dress` for several projects, one after the other: each gets a folder and a line of output.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
@@ -12,21 +12,21 @@ use crate::cli::failure::Failure;
 use crate::cli::verdict::Verdict;
 use crate::cli::{files, interrupt, output};
 
-/// One of them.
+/// A project to dress and the folder for its results.
 struct Job {
     project: PathBuf,
     folder: PathBuf,
 }
 
-/// What is printed of one with --json.
+/// The line printed with --json for a project.
 #[derive(Debug, Serialize)]
 struct Line<'a> {
     project: &'a Path,
     folder: &'a Path,
     outcome: Outcome,
-    /// That it would have had alone.
+    /// The exit code of dressing this project alone.
     exit_code: u8,
-    /// It was there, and --resume left it.
+    /// Whether the result was already there and --resume skipped the project.
     resumed: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
     error: Option<String>,
@@ -42,7 +42,7 @@ enum Outcome {
     Failed,
 }
 
-/// Dresses them all. The failure with the greatest exit code is that of the batch, of several the first.
+/// Dresses all projects. Its failure is that of the project with the greatest exit code, of several the first.
 pub fn batch(arguments: &Dress) -> Result<(), Failure> {
     if arguments.save.is_some() || arguments.record.is_some() {
         return Err(Failure::Usage("--save and --record take one project, not several".to_owned()));
@@ -68,14 +68,14 @@ pub fn batch(arguments: &Dress) -> Result<(), Failure> {
     worst.map_or(Ok(()), Err)
 }
 
-/// A panic is this project's failure, not that of those after it.
+/// Dresses one project. A panic counts as its failure, so that the projects after it are still dressed.
 fn dressed(job: &Job, arguments: &Dress) -> Result<Done, Failure> {
     let words = || Failure::Internal("internal error, see above".to_owned());
     let done = catch_unwind(AssertUnwindSafe(|| dress_one(&job.project, &job.folder, arguments)));
     done.unwrap_or_else(|_| Err(words()))
 }
 
-/// Prints the line of one, and gives what failed in it.
+/// Prints the line of one project and returns its failure, if it failed.
 fn tell(job: &Job, done: Result<Done, Failure>, json: bool) -> Result<Option<Failure>, Failure> {
     let Job { project, folder } = job;
     let (verdict, resumed, failure) = match done {
@@ -114,7 +114,7 @@ fn tell(job: &Job, done: Result<Done, Failure>, json: bool) -> Result<Option<Fai
     Ok(failure)
 }
 
-/// Those named, then those of the list. A folder for each, named like it; equal names get a number.
+/// The projects named on the command line, then those of the list, each with a folder of its name; equal names get a number.
 fn jobs(arguments: &Dress) -> Result<Vec<Job>, Failure> {
     let mut projects = arguments.projects.clone();
     if let Some(path) = &arguments.list {
@@ -132,7 +132,7 @@ fn jobs(arguments: &Dress) -> Result<Vec<Job>, Failure> {
     Ok(projects.into_iter().zip(folders).map(|(project, folder)| Job { project, folder }).collect())
 }
 
-/// The projects that the file at `path` names.
+/// The projects that the list file at `path` names.
 fn listed(path: &Path) -> Result<Vec<PathBuf>, Failure> {
     let text = String::from_utf8(files::read(path)?).map_err(|e| {
         Failure::input(path, format!("not a list: no UTF-8 at byte {}", e.utf8_error().valid_up_to()))

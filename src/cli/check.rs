@@ -1,4 +1,4 @@
-//! `toile check`: what is wrong with a file, in words.
+//! `toile check`: lists what is wrong with a project, pattern or body file.
 
 use std::path::Path;
 
@@ -18,14 +18,14 @@ struct Findings {
     pieces: usize,
     seams: usize,
     triangles: usize,
-    /// How long each pair of marks is, where there is a body.
+    /// Lengths of each pair of marks, where there is a body.
     marks: Vec<PairLengths>,
     problems: Vec<Problem>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     notes: Vec<String>,
 }
 
-/// Prints what was found. Problems that are more than notes make the check fail.
+/// Prints what was found. The check fails if there are problems other than notes.
 pub fn check(arguments: &Check) -> Result<(), Failure> {
     let findings = match input::content(&arguments.file, arguments.input.body_file, arguments.input.scale)? {
         Content::Body(body) => {

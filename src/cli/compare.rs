@@ -1,4 +1,4 @@
-//! `toile compare`: two dressed projects held against each other, as figures and pictures.
+//! `toile compare`: compares two dressed projects, as figures and pictures.
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -17,30 +17,30 @@ use crate::render::{Legend, Palette, png};
 use crate::session::Outfit;
 use crate::session::body::readings_of;
 
-/// `compare.json`. The first of two values is always that of the first project.
+/// The contents of `compare.json`. Of two values the first is that of the first project.
 #[derive(Debug, Serialize)]
 struct Figures {
     version: &'static str,
     names: [String; 2],
     triangles: [usize; 2],
-    /// Of all cloth as it lies, m².
+    /// Area of all draped cloth, m².
     area: [f64; 2],
     pieces: Vec<PieceFigures>,
     girths: Vec<GirthFigures>,
     maps: Vec<MapFigures>,
-    /// Why there are no pictures, if there are none.
+    /// Why pictures were left out; None when they were drawn.
     #[serde(skip_serializing_if = "Option::is_none")]
     pictures_left_out: Option<String>,
 }
 
-/// Of one piece as it lies, m².
+/// Area of one draped piece, m².
 #[derive(Debug, Serialize)]
 struct PieceFigures {
     piece: String,
     area: [f64; 2],
 }
 
-/// Metres; None where cloth does not go all the way round.
+/// A girth, metres; None where the cloth does not go all the way round.
 #[derive(Debug, Serialize)]
 struct GirthFigures {
     name: &'static str,
@@ -49,15 +49,15 @@ struct GirthFigures {
     worn: [Option<f64>; 2],
 }
 
-/// A map. All values are in its unit.
+/// A map; all values are in its unit.
 #[derive(Debug, Serialize)]
 struct MapFigures {
     map: MapKind,
     title: &'static str,
     unit: &'static str,
-    /// What the colours of both span.
+    /// Values at the ends of the colour bar of both garments.
     range: [f64; 2],
-    /// What those of the difference do.
+    /// Values at the ends of the colour bar of the difference.
     difference_range: [f64; 2],
     all: Change,
     pieces: Vec<PieceChange>,
@@ -70,14 +70,14 @@ struct PieceChange {
     change: Change,
 }
 
-/// A garment and what is read off it.
+/// One of the two garments, with the body measurements.
 struct Side {
     name: String,
     outfit: Outfit,
     readings: Vec<Reading>,
 }
 
-/// Every map asked for, once.
+/// Compares the two projects by every chosen map, each once.
 pub fn compare(arguments: &Compare) -> Result<(), Failure> {
     let sides = [side(&arguments.first)?, side(&arguments.second)?];
     let [first, second] = &sides;
@@ -133,7 +133,7 @@ fn side(path: &Path) -> Result<Side, Failure> {
     Ok(Side { name: input.name, outfit, readings })
 }
 
-/// Of the cloth as it lies, or of one piece of it, m².
+/// Area of the draped cloth, or of one piece of it, m².
 fn area(outfit: &Outfit, piece: Option<PieceId>) -> f64 {
     let (garment, state) = (&outfit.garment, &outfit.state);
     let own = garment.triangles.iter().zip(&garment.triangle_pieces);
@@ -161,7 +161,7 @@ fn pieces(sides: &[Side; 2]) -> Vec<PieceFigures> {
     second.outfit.garment.pieces.iter().map(piece).collect()
 }
 
-/// Where either garment goes all the way round.
+/// The girths at which at least one of the garments goes all the way round.
 fn girth_figures(sides: &[Side; 2]) -> Vec<GirthFigures> {
     let all = sides.each_ref().map(|side| girths(&side.outfit.garment, &side.outfit.state, &side.readings));
     let [first, second] = sides.each_ref().map(|side| &side.readings);
@@ -180,7 +180,7 @@ fn girth_figures(sides: &[Side; 2]) -> Vec<GirthFigures> {
     (0..first.len()).filter_map(found).collect()
 }
 
-/// A map over both, and the first at the vertices of the second. In the unit that people see.
+/// A map of both garments, in the unit that people see; `first_there` is the first map at the vertices of the second garment.
 struct Compared {
     kind: MapKind,
     values: [Vec<f64>; 2],
@@ -231,7 +231,7 @@ impl Compared {
         }
     }
 
-    /// A row for each flat corner of the second that has a value in both.
+    /// CSV with a row for each flat corner of the second garment that has a value in both.
     fn csv(&self, second: &Side) -> String {
         let garment = &second.outfit.garment;
         let column = column(self.kind, self.kind.unit().0);
@@ -250,7 +250,7 @@ impl Compared {
         csv
     }
 
-    /// The first, the second, and on the second what it has more; side by side.
+    /// A picture with the first map, the second map, and the second less the first on the second garment, side by side.
     fn picture(
         &self,
         pictures: &mut Pictures,
@@ -278,7 +278,7 @@ impl Compared {
     }
 }
 
-/// Pictures of one size from left to right.
+/// Joins pictures of one size from left to right.
 fn joined(panels: &[RgbaImage]) -> RgbaImage {
     let [width, height] = panels.first().map_or([0, 0], |panel| [panel.width(), panel.height()]);
     let mut whole = RgbaImage::new(width * panels.len() as u32, height);
@@ -289,7 +289,7 @@ fn joined(panels: &[RgbaImage]) -> RgbaImage {
 }
 
 impl MapFigures {
-    /// One line for people.
+    /// A summary of the map in one line, for people.
     fn words(&self) -> String {
         let Self { title, unit, all: Change { count, first, second, mean, p99, max }, .. } = self;
         if *count == 0 {

@@ -5,7 +5,7 @@ use crate::cli::dress_one::{Done, dress_one};
 use crate::cli::failure::Failure;
 use crate::cli::{batch, output};
 
-/// Dresses the project named, or each of several.
+/// Dresses one project, or several as a batch.
 pub fn dress(arguments: &Dress) -> Result<(), Failure> {
     let ([project], None) = (&arguments.projects[..], &arguments.list) else {
         return batch::batch(arguments);

@@ -1,4 +1,4 @@
-//! One project dressed: wrap by the marks, relax to rest, drape, write what came out.
+//! Dresses one project: wraps it by its marks, relaxes to rest, drapes, and writes the results.
 
 use std::fs::File;
 use std::path::Path;
@@ -13,16 +13,16 @@ use crate::cli::{input, output, report, run};
 use crate::session::{Command, Session, project_file};
 use crate::sim::{Start, StartChoice, Started, Tried};
 
-/// A project with its files written.
+/// A dressed project whose files are written.
 pub struct Done {
     pub verdict: Verdict,
-    /// The text of report.json, without its last line's end.
+    /// The text of report.json without its final line end.
     pub report: String,
-    /// It was there, made from the same.
+    /// Whether the result was already there, made from the same inputs.
     pub resumed: bool,
 }
 
-/// Dresses `project` into `folder`, unless it is there and `arguments` leave it then.
+/// Dresses `project` into `folder`. With --resume a result that is already there is left.
 pub fn dress_one(project: &Path, folder: &Path, arguments: &Dress) -> Result<Done, Failure> {
     let start = Instant::now();
     let made_from = made_from(project, arguments)?;
@@ -66,7 +66,7 @@ pub fn dress_one(project: &Path, folder: &Path, arguments: &Dress) -> Result<Don
     Ok(Done { verdict: report.verdict()?, report: report.json()?, resumed: false })
 }
 
-/// By its marks; without any, by the best start.
+/// Wraps by the marks; without any, dresses by the best start.
 fn dress_by(
     session: &mut Session,
     project: &Path,
@@ -83,7 +83,7 @@ fn dress_by(
     begin(session, project, seconds, Command::Dress { choice })
 }
 
-/// What is to be said where no start was without a fault.
+/// A warning where no start ended without a fault.
 fn doubt(started: &Started) -> Option<String> {
     let faults = |tried: &Tried| match tried.faults.len() {
         1 => format!("{tried} has 1 fault"),
@@ -95,7 +95,7 @@ fn doubt(started: &Started) -> Option<String> {
         .then(|| format!("no start is without a fault: {}; {taken} is taken", all.join(", ")))
 }
 
-/// Begins the wrap; says what stands in its way.
+/// Begins the wrap; the error says why it cannot begin.
 pub fn wrap(session: &mut Session, project: &Path, seconds: &mut Seconds) -> Result<(), Failure> {
     begin(session, project, seconds, Command::Wrap)
 }

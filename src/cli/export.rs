@@ -5,10 +5,10 @@ use crate::cli::failure::Failure;
 use crate::cli::{formats, input, output, run};
 use crate::io::pattern_formats::{self, PatternFormat, endings};
 
-/// Endings of dressed cloth.
+/// Extensions of formats for dressed cloth.
 const OF_CLOTH: [&str; 2] = ["obj", "glb"];
 
-/// Writes the pattern or the cloth as the file's ending says.
+/// Writes the pattern or the cloth in the format of the file's extension.
 pub fn export(arguments: &Export) -> Result<(), Failure> {
     let ending =
         arguments.output.extension().and_then(|e| e.to_str()).unwrap_or_default().to_ascii_lowercase();

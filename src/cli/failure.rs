@@ -1,37 +1,37 @@
-//! What can go wrong, and the exit code of each kind.
+//! The kinds of failures of the program, and the exit code of each.
 
 use std::path::{Path, PathBuf};
 
 use crate::io::words::readable;
 
-/// The exit code of a panic.
+/// Exit code after a panic.
 pub const PANIC: u8 = 70;
 
 /// Why the program did not do what was asked.
 #[derive(Debug, thiserror::Error)]
 pub enum Failure {
-    /// It was done, and a check failed.
+    /// The work was done, and a check of its result failed.
     #[error("{0}")]
     Check(String),
-    /// Arguments that do not go together.
+    /// The arguments contradict each other.
     #[error("{0}")]
     Usage(String),
-    /// An input that cannot be used.
+    /// An input cannot be used.
     #[error("{}: {words}", shown(path))]
     Input { path: PathBuf, words: String },
-    /// More than the program will take on.
+    /// The work exceeds a limit of the program.
     #[error("{0}")]
     Limit(String),
-    /// No graphics adapter, or no display.
+    /// There is no graphics adapter, or no display.
     #[error("{0}")]
     Graphics(String),
-    /// The file system said no.
+    /// A file could not be read or written.
     #[error("{}: {error}", shown(path))]
     File { path: PathBuf, error: std::io::Error },
-    /// The simulation failed inside.
+    /// Internal error of the simulation.
     #[error("{0}")]
     Internal(String),
-    /// A signal came.
+    /// A signal stopped the program.
     #[error("stopped by signal {0}; no file is half written")]
     Signal(u8),
 }
@@ -41,17 +41,17 @@ fn shown(path: &Path) -> String {
 }
 
 impl Failure {
-    /// An input at `path` that cannot be used.
+    /// The failure of an input at `path` that cannot be used.
     pub fn input(path: &Path, words: impl std::fmt::Display) -> Self {
         Self::Input { path: path.to_owned(), words: readable(&words.to_string()) }
     }
 
-    /// A file at `path` that could not be read or written.
+    /// The failure of a file at `path` that could not be read or written.
     pub fn file(path: &Path, error: std::io::Error) -> Self {
         Self::File { path: path.to_owned(), error }
     }
 
-    /// As in the README's table.
+    /// The exit code, as in the README's table.
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::Check(_) => 1,

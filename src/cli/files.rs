@@ -1,4 +1,4 @@
-//! What the command line names: files, and what is built in.
+//! Files and built-in samples named on the command line.
 
 use std::path::Path;
 
@@ -6,9 +6,9 @@ use crate::cli::failure::Failure;
 use crate::io::FILE_BYTES;
 use crate::session::whole_file;
 
-/// Begins the name of a built-in sample.
+/// Prefix of the names of built-in samples.
 const SAMPLE: &str = "sample:";
-/// What `--body` calls the built-in figure.
+/// The name of the built-in figure for `--body`.
 pub const MANNEQUIN: &str = "mannequin";
 
 /// Whether `path` names a built-in sample.
@@ -16,12 +16,12 @@ pub fn is_sample(path: &Path) -> bool {
     sample_name(path).is_some()
 }
 
-/// The name of a built-in sample.
+/// The name of the built-in sample that `path` names, without the prefix; None for a file.
 pub fn sample_name(path: &Path) -> Option<&str> {
     path.to_str()?.strip_prefix(SAMPLE)
 }
 
-/// The name without folder, ending and "sample:".
+/// The name without folder, extension and "sample:".
 pub fn name_of(path: &Path) -> String {
     match sample_name(path) {
         Some(name) => name.to_owned(),
@@ -29,7 +29,7 @@ pub fn name_of(path: &Path) -> String {
     }
 }
 
-/// The bytes that `path` stands for: those of the file, or the name of what is built in.
+/// The bytes that identify what `path` names: the contents of a file, or the name of a sample or the mannequin.
 pub fn bytes_of(path: &Path) -> Result<Vec<u8>, Failure> {
     match path.to_str() {
         Some(name) if is_sample(path) || name == MANNEQUIN => Ok(name.as_bytes().to_vec()),
@@ -37,7 +37,7 @@ pub fn bytes_of(path: &Path) -> Result<Vec<u8>, Failure> {
     }
 }
 
-/// All of the file at `path`.
+/// Reads the whole file at `path`.
 pub fn read(path: &Path) -> Result<Vec<u8>, Failure> {
     whole_file::read(path, FILE_BYTES).map_err(|error| match error.kind() {
         std::io::ErrorKind::FileTooLarge => Failure::Limit(format!("{}: {error}", path.display())),

@@ -1,4 +1,4 @@
-//! `toile fit`: maps over the dressed garment, as figures and pictures, and the fit report.
+//! `toile fit`: maps of the dressed garment as figures and pictures, and the fit report.
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -17,7 +17,7 @@ use crate::render::{Legend, Palette, Rgb, png};
 use crate::session::{Outfit, Session};
 use crate::ui::fit_page::FitPage;
 
-/// `fit.json`.
+/// The contents of `fit.json`.
 #[derive(Debug, Serialize)]
 struct Figures {
     version: &'static str,
@@ -25,18 +25,18 @@ struct Figures {
     triangles: usize,
     vertices: usize,
     maps: Vec<MapFigures>,
-    /// Why there are no pictures, if there are none.
+    /// Why pictures were left out; None when they were drawn.
     #[serde(skip_serializing_if = "Option::is_none")]
     pictures_left_out: Option<String>,
 }
 
-/// One map. All values are in its unit.
+/// A map; all values are in its unit.
 #[derive(Debug, Serialize)]
 struct MapFigures {
     map: MapKind,
     title: &'static str,
     unit: &'static str,
-    /// What the legend spans.
+    /// Values at the ends of the legend's colour bar.
     range: [f64; 2],
     #[serde(flatten)]
     stats: MapStats,
@@ -44,7 +44,7 @@ struct MapFigures {
     histogram: Histogram,
 }
 
-/// Every map asked for, once, and the page.
+/// Writes every chosen map, each once, and the fit report.
 pub fn fit(arguments: &Fit) -> Result<(), Failure> {
     let input = input::load(&arguments.project, &InputOptions::default())?;
     let session = run::opened(input.project, &arguments.project)?;
@@ -59,14 +59,14 @@ pub fn fit(arguments: &Fit) -> Result<(), Failure> {
     Ok(())
 }
 
-/// What `session`, read from `path`, has on its body.
+/// The draped garment of `session`, which was read from `path`.
 pub fn dressed(session: &Session, path: &Path) -> Result<Outfit, Failure> {
     let words = "there is no cloth on its body: dress it first (toile dress PROJECT --save DRESSED)";
     let outfit = Outfit::of(session.snapshot(), &session.document().fabrics);
     outfit.ok_or_else(|| Failure::input(path, words))
 }
 
-/// The fit report, without pictures where there is no graphics adapter.
+/// Writes the fit report, without pictures where there is no graphics adapter.
 fn page(path: &Path, session: &Session, name: &str, pictures: &mut Pictures) -> Result<(), Failure> {
     let no_cloth = || Failure::Internal("the cloth has gone".to_owned());
     let mut page = FitPage::of(session, name).ok_or_else(no_cloth)?;
@@ -120,7 +120,7 @@ fn maps(
     output::write_together(&files)
 }
 
-/// Each map that is asked for, once, in the order of menus.
+/// The chosen maps, each once, in the order of menus.
 pub fn kinds(asked: &[Maps]) -> Vec<MapKind> {
     let mut kinds: Vec<MapKind> = asked.iter().flat_map(|maps| maps.0.iter().copied()).collect();
     kinds.sort_unstable();
@@ -148,7 +148,7 @@ fn times_all(values: &[f64], times: f64) -> Vec<f64> {
 }
 
 impl MapFigures {
-    /// One line for people.
+    /// A summary of the map in one line, for people.
     fn words(&self) -> String {
         let Self { title, unit, stats, .. } = self;
         if stats.count == 0 {
@@ -161,7 +161,7 @@ impl MapFigures {
     }
 }
 
-/// A row for each flat corner that has a value: vertices on seams stand in it once for each piece.
+/// CSV with a row for each flat corner that has a value; a seam vertex has a row for each of its pieces.
 fn vertices_csv(map: &Map, garment: &Garment, state: &ClothState) -> String {
     let (unit, times) = map.kind.unit();
     let mut csv = format!("piece,u_m,v_m,vertex,x_m,y_m,z_m,{}\n", column(map.kind, unit));
@@ -190,7 +190,7 @@ fn triangles_csv(map: &Map, garment: &Garment) -> String {
     csv
 }
 
-/// "ease_mm".
+/// The name of a map's column with its unit, such as "ease_mm".
 pub fn column(kind: MapKind, unit: &str) -> String {
     let unit = match unit {
         "%" => "percent",
@@ -204,21 +204,21 @@ fn piece_name(garment: &Garment, piece: PieceId) -> String {
     quoted(garment.pieces.iter().find(|(id, _)| *id == piece).map_or("", |(_, name)| name))
 }
 
-/// As CSV wants it (RFC 4180): in quotes, those in it doubled.
+/// A CSV field in quotes (RFC 4180); quotes in it are doubled.
 pub fn quoted(words: &str) -> String {
     format!("\"{}\"", words.replace('"', "\"\""))
 }
 
-/// Draws maps, if there is a graphics adapter.
+/// Draws pictures of maps, if there is a graphics adapter.
 pub struct Pictures {
-    /// None where there is none.
+    /// None where there is no graphics adapter.
     pub artist: Option<Artist>,
-    /// Why not.
+    /// Why there is no graphics adapter.
     pub left_out: Option<String>,
 }
 
 impl Pictures {
-    /// Without an adapter that is told, and is no failure.
+    /// Opens the graphics adapter. If there is none this is noted and is no failure.
     pub fn new() -> Result<Self, Failure> {
         match Artist::new() {
             Ok(artist) => Ok(Self { artist: Some(artist), left_out: None }),

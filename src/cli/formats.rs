@@ -1,4 +1,4 @@
-//! The formats of `io` as the command line names them.
+//! Reads and writes the formats of `io` for the command line, with its failures and messages.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -20,7 +20,7 @@ use crate::io::{glb, gltf, obj};
 use crate::pattern::Pattern;
 use crate::session::{AnimatedFile, Animations};
 
-/// A pattern in a file of one of the known formats. Doubts about it are told.
+/// Reads a pattern file of one of the known formats. Notes about it are printed.
 pub fn pattern(path: &Path, bytes: &[u8], scale: Option<DrawingUnit>) -> Result<Pattern, Failure> {
     let read = pattern_formats::read(bytes, scale).map_err(|error| match error {
         PatternFileError::OverLimit(words) => Failure::Limit(format!("{}: {words}", path.display())),
@@ -35,27 +35,27 @@ pub fn pattern(path: &Path, bytes: &[u8], scale: Option<DrawingUnit>) -> Result<
     Ok(read.pattern)
 }
 
-/// The body in a file (OBJ, glTF), upright and checked. Without a unit the one that gives a person's height is taken, and
-/// said.
+/// Reads a body file (OBJ, glTF), makes it upright and checks it. Without a given unit the one that gives a person's height is
+/// taken, and printed.
 pub fn body(path: &Path, bytes: &[u8], how: BodyFile) -> Result<Imported, Failure> {
     let mesh = body_mesh(path, bytes, how)?;
     let unit = body_unit(path, bytes, &mesh, how)?;
     Ok(import(mesh, unit))
 }
 
-/// The same in the file's own unit, as it stands there but upright.
+/// Reads the mesh of a body file, upright but in the file's own unit.
 pub fn body_mesh(path: &Path, bytes: &[u8], how: BodyFile) -> Result<TriMesh, Failure> {
     let mut mesh = body_file::read(path, bytes, &neighbour).map_err(|error| body_failure(path, error))?;
     how.up.unwrap_or_default().set_upright(&mut mesh);
     Ok(mesh)
 }
 
-/// The glTF scene in a file.
+/// Reads a glTF scene.
 pub fn model(path: &Path, bytes: &[u8]) -> Result<gltf::Model, Failure> {
     body_file::model(path, bytes, &neighbour).map_err(|error| body_failure(path, error))
 }
 
-/// The animations of the body in a file, taken as [`body`] takes it; None where there are none.
+/// Reads the animations of a body file, with the same unit and axis as [`body`]; None where there are none.
 pub fn animations(path: &Path, bytes: &[u8], how: BodyFile) -> Result<Option<Arc<Animations>>, Failure> {
     if !gltf::is_gltf(bytes) {
         return Ok(None);
@@ -73,7 +73,7 @@ pub fn animations(path: &Path, bytes: &[u8], how: BodyFile) -> Result<Option<Arc
     Ok(Some(Arc::new(animations)))
 }
 
-/// The unit of a body as [`body_mesh`] gives it; said where its height alone tells that it is not the metre.
+/// The unit of a body that [`body_mesh`] read. It is printed if it is guessed from the height and is not the metre.
 pub fn body_unit(path: &Path, bytes: &[u8], mesh: &TriMesh, how: BodyFile) -> Result<Unit, Failure> {
     let unit = known_unit(path, bytes, mesh, how)?;
     if how.unit.is_none() && unit != Unit::Metre {
@@ -86,13 +86,13 @@ fn known_unit(path: &Path, bytes: &[u8], mesh: &TriMesh, how: BodyFile) -> Resul
     let (lower, upper) = mesh.bounds();
     match how.unit {
         Some(unit) => Ok(unit),
-        // Metres, by the format, unless that makes no sense and another unit does.
+        // glTF is in metres by the format, unless the height then is not a person's and another unit makes it so.
         None if gltf::is_gltf(bytes) && guess_unit(upper.y - lower.y).is_none() => Ok(Unit::Metre),
         None => unit_by_height(path, mesh),
     }
 }
 
-/// A body has the triangles of the dressed one, or an error names `path` and tells the difference.
+/// Checks that `body` has the triangles of the dressed one; the error names `path` and the difference.
 pub fn same_triangles(path: &Path, body: &TriMesh, dressed: &TriMesh) -> Result<(), Failure> {
     let counts = |mesh: &TriMesh| [mesh.positions.len(), mesh.triangles.len()];
     let words = match (counts(body), counts(dressed)) {
@@ -118,7 +118,7 @@ fn body_failure(path: &Path, error: BodyFileError) -> Failure {
     }
 }
 
-/// The unit that makes `mesh` as high as a person.
+/// The unit that gives `mesh` the height of a person.
 fn unit_by_height(path: &Path, mesh: &TriMesh) -> Result<Unit, Failure> {
     let (lower, upper) = mesh.bounds();
     let height = upper.y - lower.y;
@@ -130,7 +130,7 @@ fn unit_by_height(path: &Path, mesh: &TriMesh) -> Result<Unit, Failure> {
     })
 }
 
-/// A body as OBJ text.
+/// A body mesh as OBJ text.
 pub fn body_obj(mesh: &TriMesh) -> Vec<u8> {
     obj::mesh("body", mesh).into_bytes()
 }
@@ -151,7 +151,7 @@ pub fn scene_glb(
     glb::write(Some(dressed), body, &glb::Colours::default()).map_err(|e| Failure::Limit(e.to_string()))
 }
 
-/// Dressed cloth and its body through frames as binary glTF.
+/// Dressed cloth and its body as animated binary glTF.
 pub fn sequence_glb(
     garment: &Garment,
     cloth: &ClothState,

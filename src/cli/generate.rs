@@ -1,4 +1,4 @@
-//! `toile generate`: patterns of our own, drawn at random and drafted to the mannequin in six sizes.
+//! `toile generate`: drafts random garments as patterns for the mannequin in six sizes.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -13,10 +13,10 @@ use crate::draft::{self, BodySize, Case, Corpus, Design, Form};
 use crate::io::garmentcode;
 use crate::pattern::Pattern;
 
-/// The table of sizes beside the patterns.
+/// File name of the table of sizes, written beside the patterns.
 pub const SIZES_FILE: &str = "sizes.csv";
 
-/// A line of corpus.jsonl.
+/// A line of corpus.jsonl, which describes one pattern.
 #[derive(Serialize)]
 struct Line<'a> {
     file: String,
@@ -26,7 +26,7 @@ struct Line<'a> {
     design: &'a Design,
 }
 
-/// Writes every pattern asked for.
+/// Writes the patterns of all chosen garments.
 pub fn generate(arguments: &Generate) -> Result<(), Failure> {
     let corpus = arguments.corpus.corpus();
     let cases = corpus.cases(arguments.corpus.shard.unwrap_or_default());
@@ -68,12 +68,12 @@ pub fn write_sizes(folder: &Path) -> Result<(), Failure> {
     output::write(&folder.join(SIZES_FILE), draft::table().as_bytes())
 }
 
-/// Bodies measured before: each is made once.
+/// Cache of measured bodies, by size and pose.
 #[derive(Default)]
 pub struct Forms(Vec<(BodySize, NamedPose, Form)>);
 
 impl Forms {
-    /// The pattern of a case.
+    /// Drafts the pattern of a case.
     pub fn pattern(&mut self, case: &Case, design: &Design) -> Result<Pattern, Failure> {
         let known = self.0.iter().position(|(size, pose, _)| *size == case.size && *pose == case.pose);
         let number = match known {

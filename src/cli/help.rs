@@ -1,4 +1,4 @@
-//! `toile help`: the manual on standard output.
+//! `toile help`: prints the manual.
 
 use clap::CommandFactory;
 
@@ -10,12 +10,12 @@ use crate::ui::actions::Action;
 use crate::ui::actions::keymap::written;
 use crate::ui::actions::rows::all;
 
-/// Columns of words.
+/// Width of lines, characters.
 const WIDTH: usize = 100;
-/// The topic that is made of the window's own table.
+/// The topic that lists the menu entries and keys of the window.
 const KEYS: &str = "keys";
 
-/// Prints the topic that is asked for, or the options of a command; without a name, what there is.
+/// Prints a topic or the options of a command; without a name, the list of topics.
 pub fn help(arguments: &Help) -> Result<(), Failure> {
     let Some(name) = &arguments.topic else {
         output::say(&list());
@@ -50,7 +50,7 @@ fn list() -> String {
     )
 }
 
-/// Everything that can be chosen in the window, menu by menu.
+/// All menu entries of the window with their keys, menu by menu.
 fn keys() -> String {
     let mut rows: Vec<_> = all().map(Action::row).collect();
     rows.sort_by_key(|row| row.menu);
@@ -91,7 +91,7 @@ fn text(topic: &Topic) -> String {
     text.trim_end().to_owned()
 }
 
-/// `words` in lines, all but the first of them set in by `inset` columns.
+/// `words` broken into lines; all but the first are indented by `inset` columns.
 fn wrapped(words: &str, inset: usize) -> String {
     let (mut lines, mut column) = (String::new(), 0);
     for word in words.split(' ') {
@@ -109,7 +109,7 @@ fn wrapped(words: &str, inset: usize) -> String {
     lines + "\n"
 }
 
-/// Each row's first cell in a column of its own, the rest behind it.
+/// A table with aligned first column; the other cells follow it.
 fn table(rows: &[Vec<String>]) -> String {
     let first = rows.iter().map(|row| row[0].chars().count()).max().unwrap_or(0);
     let mut text = String::new();

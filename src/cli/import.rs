@@ -1,4 +1,4 @@
-//! `toile import`: pattern and body files become a project.
+//! `toile import`: makes a project of pattern and body files.
 
 use crate::cli::arguments::Import;
 use crate::cli::failure::Failure;
@@ -6,7 +6,7 @@ use crate::cli::input::{self, Content};
 use crate::cli::output;
 use crate::session::{Project, project_file};
 
-/// Reads the files, tells what was found, writes the project.
+/// Reads the files, prints what was found and writes the project.
 pub fn import(arguments: &Import) -> Result<(), Failure> {
     let mut project = Project::default();
     let (mut patterns, mut bodies) = (0, 0);

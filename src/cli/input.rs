@@ -1,4 +1,4 @@
-//! From what was named on the command line to a project.
+//! Loads a project from what is named on the command line.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -22,28 +22,28 @@ use crate::session::samples::Sample;
 use crate::session::{BodyChoice, Document, Project, marks_file, project_file};
 use crate::wrap::suggest;
 
-/// Triangles the cloth of a project may have: each takes about a kilobyte while it is draped.
+/// Largest number of triangles of the cloth of a project: each takes about a kilobyte while it is draped.
 const MOST_TRIANGLES: f64 = 4e6;
 
-/// What a file turned out to be.
+/// The contents of a file, by its type.
 pub enum Content {
     Project(Project),
     Pattern(Pattern),
     Body(Imported),
 }
 
-/// A project ready for work.
+/// A loaded project, with the options applied.
 pub struct Input {
-    /// For people and for folders.
+    /// Name of the project, for messages and folders.
     pub name: String,
     pub project: Project,
-    /// Files and samples it was made of.
+    /// Files and samples that it was made from.
     pub files: Vec<String>,
-    /// It came from a project file, which can be saved to.
+    /// Whether it came from a project file, to which it can be saved.
     pub is_project_file: bool,
 }
 
-/// Reads the project, pattern or sample called `path` and does with it what `options` say.
+/// Loads the project, pattern or sample called `path` and applies `options`.
 pub fn load(path: &Path, options: &InputOptions) -> Result<Input, Failure> {
     let (mut project, is_file) = match content(path, options.body_file, options.scale)? {
         Content::Project(project) => (project, false),
@@ -71,11 +71,12 @@ pub fn load(path: &Path, options: &InputOptions) -> Result<Input, Failure> {
     Ok(Input { name: name_of(path), project, files, is_project_file })
 }
 
-/// Whether the cloth of `document`, read from `path`, is not too fine for its size: told before any of it is cut.
+/// Refuses an edge length that would give `document`, read from `path`, too many triangles. This is checked before any cloth is
+/// triangulated.
 fn few_enough_triangles(path: &Path, document: &Document) -> Result<(), Failure> {
     let edge_length = document.settings.edge_length;
     let area: f64 = document.pattern.pieces.values().map(|piece| piece_area(piece)).sum();
-    // Equilateral: √3/4 of the square of an edge.
+    // The area of an equilateral triangle is √3/4 times the square of its edge.
     let count = area / (edge_length * edge_length * 0.433);
     match count <= MOST_TRIANGLES {
         true => Ok(()),
@@ -87,13 +88,13 @@ fn few_enough_triangles(path: &Path, document: &Document) -> Result<(), Failure>
     }
 }
 
-/// Square metres between its corners.
+/// Area of the polygon through a piece's corners, m².
 fn piece_area(piece: &Piece) -> f64 {
     let corners: Vec<_> = piece.outline.iter().map(|edge| edge.start).collect();
     signed_area(&corners).abs()
 }
 
-/// Reads `path` and finds out what it is by its contents.
+/// Reads `path` and determines its type by its contents.
 pub fn content(path: &Path, how: BodyFile, scale: Option<DrawingUnit>) -> Result<Content, Failure> {
     if let Some(name) = sample_name(path) {
         return sample(path, name).map(Content::Project);
@@ -118,7 +119,7 @@ fn sample(path: &Path, name: &str) -> Result<Project, Failure> {
     Ok(sample.project(&figure))
 }
 
-/// An error of a project file at `path` as the command line tells it.
+/// The failure for an error of a project file at `path`.
 pub fn project_failure(path: &Path, error: ProjectFileError) -> Failure {
     match error {
         ProjectFileError::File { path, source } => Failure::File { path, error: source },
@@ -127,15 +128,14 @@ pub fn project_failure(path: &Path, error: ProjectFileError) -> Failure {
     }
 }
 
-/// Starts from another pattern: the old marks and cloth go.
+/// Replaces the pattern; marks and cloth of the old one are removed.
 pub fn take_pattern(project: &mut Project, pattern: Pattern) {
     project.document.pattern = Arc::new(pattern);
     project.document.marks = Arc::default();
     project.dressed = None;
 }
 
-/// Puts another body there: marks on the old one are carried to it, the cloth goes. A body that cloth cannot lie on is
-/// refused.
+/// Replaces the body. Marks are carried over to it, cloth is removed. A body that cannot carry cloth is refused.
 pub fn take_body(project: &mut Project, path: &Path, body: Imported) -> Result<(), Failure> {
     if !body.is_usable() {
         let faults: Vec<&str> = body.problems.iter().map(|p| p.words.as_str()).collect();
@@ -167,8 +167,8 @@ fn set_body(project: &mut Project, path: &Path, body: BodyChoice) -> Result<(), 
     Ok(())
 }
 
-/// Does with `project`, read from `path`, what `options` say. `is_file`: its pattern stands as a file that knows no body
-/// says.
+/// Applies `options` to `project`, read from `path`. `is_file`: the pattern is from a pattern file, whose placement was made for
+/// another body.
 pub fn take_options(
     project: &mut Project,
     path: &Path,
@@ -177,7 +177,7 @@ pub fn take_options(
 ) -> Result<(), Failure> {
     let body_before = project.document.body.clone();
     if options.marks.is_some() || options.suggest_marks {
-        // Others take their place.
+        // The marks of the option replace those of the project.
         project.document.marks = Arc::default();
     }
     match &options.body {
@@ -203,7 +203,7 @@ pub fn take_options(
         let words = "its body is from a file: only the mannequin takes a pose by name";
         set_body(project, path, posed.ok_or_else(|| Failure::input(path, words))?)?;
     }
-    // Marks say themselves where cloth goes.
+    // Marks determine the place of the cloth, so placements need not be adapted.
     let is_sewn =
         options.marks.is_none() && !options.suggest_marks && project.document.marks.cloth.is_empty();
     let is_brought = is_sewn && !options.as_placed;
@@ -241,7 +241,7 @@ pub fn take_options(
     Ok(())
 }
 
-/// The size that is asked for, and the table it is in.
+/// The chosen size, with the path of the table it is in.
 pub fn sized(options: &SizeOptions) -> Result<Option<(&Path, Measurements)>, Failure> {
     let (Some(path), Some(name)) = (&options.sizes, &options.body_size) else { return Ok(None) };
     let size = sizes::read(&read(path)?).and_then(|sizes| sizes::chosen(&sizes, name)?.checked());
@@ -252,7 +252,7 @@ pub fn sized(options: &SizeOptions) -> Result<Option<(&Path, Measurements)>, Fai
     Ok(Some((path, size?)))
 }
 
-/// Places all placed pieces `by` metres higher.
+/// Moves all placed pieces up by `by` metres.
 fn raise(pattern: &mut Pattern, by: f64) -> Result<(), String> {
     if !by.is_finite() {
         return Err("--raise takes a number of metres".to_owned());
@@ -270,7 +270,7 @@ fn raise(pattern: &mut Pattern, by: f64) -> Result<(), String> {
     }
 }
 
-/// Brings the placement of the document's pattern, or of `other`, to the document's body; says what it did.
+/// Adapts the placement of the document's pattern, or of `other`, to the document's body, and prints what was moved.
 fn bring(document: &mut Document, other: Option<&mut Pattern>, path: &Path) -> Result<(), Failure> {
     let body = Body::new(&document.body).map_err(|why| Failure::input(path, why))?;
     let moved = brought(other.as_deref().unwrap_or(&document.pattern), document, &body);

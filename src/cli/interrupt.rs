@@ -1,21 +1,21 @@
-//! Signals: the first asks the work to stop at the next safe point. Work that does not come to one soon is ended where it is, and
-//! so is all of it by a second signal.
+//! Signals. The first signal asks the work to stop at the next safe point. If the work reaches none soon, or a second signal
+//! comes, the program is ended at once.
 //!
-//! Most work looks for a signal between its ticks. What is one long call (triangles of a piece, a large file, a driver that
-//! compiles its shaders) cannot look; a thread of its own, which does nothing but wait, ends the program then. Files are none
-//! the worse for it: they take their places whole, and none does while the program is being ended.
+//! Most work checks for a signal between ticks. A single long call (triangulating a piece, reading a large file, compiling
+//! shaders in a driver) cannot check; then a separate thread, which only waits for signals, ends the program. Files are not
+//! damaged by that: they are put in place whole, and none is while the program is being ended.
 
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use crate::cli::failure::Failure;
 use crate::cli::output;
 
-/// The signal that came; 0: none.
+/// Number of the signal that came; 0 if none did.
 static NUMBER: AtomicUsize = AtomicUsize::new(0);
-/// Whether it has been told on standard error.
+/// Whether the signal has been reported on standard error.
 static TOLD: AtomicBool = AtomicBool::new(false);
 
-/// An error once a signal has come.
+/// An error if a signal has come.
 pub fn check() -> Result<(), Failure> {
     match u8::try_from(NUMBER.load(Ordering::Relaxed)) {
         Ok(0) => Ok(()),
@@ -24,7 +24,7 @@ pub fn check() -> Result<(), Failure> {
     }
 }
 
-/// Says why the program ends; that a signal came is said once, whichever thread comes to it first.
+/// Reports why the program ends. A signal is reported once, by whichever thread is first.
 pub fn tell(failure: &Failure) {
     if !matches!(failure, Failure::Signal(_)) || !TOLD.swap(true, Ordering::Relaxed) {
         output::complain(&format!("toile: {failure}"));
@@ -34,7 +34,7 @@ pub fn tell(failure: &Failure) {
 #[cfg(unix)]
 pub use unix::listen;
 
-/// This system has no such signals.
+/// On this system no signals are handled.
 #[cfg(not(unix))]
 pub fn listen() {}
 
@@ -50,15 +50,15 @@ mod unix {
     use super::{Failure, NUMBER, Ordering, tell};
     use crate::session::whole_file::HeldBack;
 
-    /// So long the work has to come to a safe point,
+    /// Time that the work has to reach a safe point after a signal.
     const GRACE: Duration = Duration::from_millis(300);
-    /// and files that are just taking their places to get there: that is quick unless the disk is far away, and some of them
-    /// without the others would be worse than to wait.
+    /// Longest wait for files that are just being put in place. That is quick unless the disk is a slow remote one, and some of
+    /// the files without the others would be worse than the wait.
     const PLACING: Duration = Duration::from_secs(2);
-    /// Between two looks at what has happened meanwhile.
+    /// Time between two checks while waiting.
     const NAP: Duration = Duration::from_millis(5);
 
-    /// Listens from now on. Where the system has no thread to spare, signals do what they do by themselves.
+    /// Begins to handle signals. Where no thread can be started, signals end the program as they do by default.
     pub fn listen() {
         let Ok(signals) = Signals::new([SIGHUP, SIGINT, SIGTERM]) else { return };
         let handle = signals.handle();
@@ -73,7 +73,7 @@ mod unix {
         signal_hook::flag::register_conditional_shutdown(signal, 128 + signal, always).ok();
     }
 
-    /// For the first signal, and then for the work to end; a second signal, or too long a time, ends the program.
+    /// Waits for the first signal, then for the work to end. After a second signal or too long a wait it ends the program.
     fn wait(mut signals: Signals) {
         let Some(number) = signals.forever().next() else { return };
         NUMBER.store(number as usize, Ordering::Relaxed);

@@ -1,5 +1,5 @@
-//! What a result was made from, as one number: the bytes of its inputs, the options that can change it, and the version of
-//! the program. Names and times of files play no part.
+//! A hash of everything that a result depends on: the bytes of its inputs, the options that can change it, and the version of the
+//! program. Names and times of files are not included.
 
 use std::path::Path;
 
@@ -9,7 +9,7 @@ use crate::cli::files;
 use crate::session::recording::Hex;
 use crate::sim::hash::Fnv;
 
-/// Of `project` dressed as `arguments` say.
+/// The hash of dressing `project` with `arguments`.
 pub fn made_from(project: &Path, arguments: &Dress) -> Result<String, Failure> {
     let Dress {
         projects: _,

@@ -1,4 +1,4 @@
-//! `toile measure`: what the tape reads on a body.
+//! `toile measure`: body measurements.
 
 use std::path::Path;
 
@@ -18,7 +18,7 @@ struct Told {
     readings: Vec<Reading>,
 }
 
-/// Prints the measures of a body, in centimetres, or as JSON in metres.
+/// Prints the measurements of a body, in centimetres, or as JSON in metres.
 pub fn measure(arguments: &Measure) -> Result<(), Failure> {
     let (path, found) = match (&arguments.file, input::sized(&arguments.sized)?) {
         (Some(path), None) => (&**path, of_file(path, arguments)?),
@@ -48,7 +48,7 @@ pub fn measure(arguments: &Measure) -> Result<(), Failure> {
     Ok(())
 }
 
-/// What the tape reads on the body in the file at `path`; None: it is no standing human.
+/// The measurements of the body in the file at `path`; None if it is not a standing human.
 fn of_file(path: &Path, arguments: &Measure) -> Result<Option<Vec<Reading>>, Failure> {
     Ok(match input::content(path, arguments.body_file, None)? {
         Content::Body(body) if body.is_usable() => readings(&body.mesh, None),

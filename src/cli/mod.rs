@@ -1,4 +1,4 @@
-//! The command line: one file per subcommand, nothing but arguments, calls and printing.
+//! The command line: one file per subcommand, with nothing but arguments, calls and printing.
 
 mod arguments;
 mod batch;
@@ -43,7 +43,7 @@ use crate::cli::arguments::{Arguments, Task};
 use crate::cli::failure::{Failure, PANIC};
 use crate::session::whole_file;
 
-/// The whole program. Never panics; what went wrong is on standard error, and the exit code says which kind.
+/// Runs the program. It never panics; failures are printed on standard error, and the exit code gives their kind.
 pub fn main() -> ExitCode {
     listen_to_traces();
     std::panic::set_hook(Box::new(|panic| output::complain(&panic_words(panic))));
@@ -94,7 +94,7 @@ fn carry_out(arguments: Arguments) -> Result<(), Failure> {
     }
 }
 
-/// Errors of libraries (but not of every graphics driver tried in vain) go to standard error; more with RUST_LOG.
+/// Sends errors of libraries to standard error (but not those of graphics drivers that are tried in vain); RUST_LOG shows more.
 fn listen_to_traces() {
     let quiet = EnvFilter::new("error,wgpu_hal=off");
     let filter = EnvFilter::try_from_default_env().unwrap_or(quiet);
@@ -106,9 +106,9 @@ fn listen_to_traces() {
     debug_assert!(begun.is_ok(), "nothing else listens");
 }
 
-/// Help and version go to standard output and are no failure.
+/// Prints help, version or usage errors. Help and version go to standard output and are no failure.
 fn show_usage(error: &clap::Error) -> u8 {
-    // Nothing can be done about an output that is closed.
+    // If the output is closed there is nothing left to do.
     error.print().ok();
     u8::try_from(error.exit_code()).unwrap_or(2)
 }

@@ -1,4 +1,4 @@
-//! `toile [PROJECT]`: the editor.
+//! `toile [PROJECT]`: opens the editor.
 
 use std::fs::File;
 use std::path::Path;
@@ -7,9 +7,9 @@ use crate::cli::arguments::{Dress, InputOptions};
 use crate::cli::failure::Failure;
 use crate::cli::{dress, input, output};
 
-/// Where it is dressed to when there is no display.
+/// The folder that the first sample is dressed into when there is no display.
 const SAMPLE_OUT: &str = "toile-out";
-/// What is dressed when nothing is named.
+/// The sample that is dressed when nothing is named.
 const FIRST_SAMPLE: &str = "sample:tshirt";
 
 /// Opens the editor and returns when it is closed.
@@ -30,7 +30,7 @@ pub fn open(project: Option<&Path>, record: Option<&Path>) -> Result<(), Failure
         .map_err(|e| Failure::Graphics(e.to_string()))
 }
 
-/// What a first look gets where no window can open.
+/// Dresses a sample in place of the editor when no window can be opened.
 fn dress_the_sample() -> Result<(), Failure> {
     output::complain(&format!(
         "There is no display to open a window on: dressing {FIRST_SAMPLE} into {SAMPLE_OUT} instead (see toile --help)."
@@ -38,7 +38,7 @@ fn dress_the_sample() -> Result<(), Failure> {
     dress::dress(&Dress::sample(Path::new(FIRST_SAMPLE), Path::new(SAMPLE_OUT)))
 }
 
-/// Other systems always have one.
+/// On other systems there always is a display.
 fn has_display() -> bool {
     let set = |name| std::env::var_os(name).is_some_and(|value| !value.is_empty());
     !cfg!(all(unix, not(target_os = "macos")))

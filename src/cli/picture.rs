@@ -14,19 +14,19 @@ use crate::ui::fit_page::FitPage;
 use crate::ui::scenery::portrait::{Extras, portrait, worn_scene};
 use crate::ui::scenery::scene::Scenery;
 
-/// Draws sessions; opens the graphics adapter once.
+/// Draws sessions and maps; opens the graphics adapter once.
 pub struct Artist {
     studio: Studio,
     scenery: Scenery,
 }
 
 impl Artist {
-    /// Opens the best graphics adapter there is.
+    /// Opens the best graphics adapter available.
     pub fn new() -> Result<Self, Failure> {
         Ok(Self { studio: Studio::new().map_err(failure)?, scenery: Scenery::default() })
     }
 
-    /// The cloth of `outfit` on its body in `colours`, one for each vertex, with `legend`.
+    /// Draws the cloth of `outfit` on its body, with a colour for each vertex and `legend`.
     pub fn coloured(
         &mut self,
         outfit: &Outfit,
@@ -42,7 +42,7 @@ impl Artist {
         Ok(picture)
     }
 
-    /// All pictures of `page`.
+    /// Draws all pictures of `page`.
     pub fn page(&mut self, page: &mut FitPage) -> Result<(), Failure> {
         while page.progress().0 < page.progress().1 {
             interrupt::check()?;
@@ -54,7 +54,7 @@ impl Artist {
         Ok(())
     }
 
-    /// The body, the cloth and, where there is no cloth yet, the marks of `session` as a PNG.
+    /// Draws the body, the cloth and, where there is no cloth yet, the marks of `session`, as PNG.
     pub fn png(&mut self, session: &Session, options: &PictureOptions) -> Result<Vec<u8>, Failure> {
         let scene = portrait(&mut self.scenery, session, Extras { pins: true, ..Extras::default() });
         let size = UVec2::from_array(options.size);

@@ -1,15 +1,15 @@
-//! Libraries of graphics drivers look for a display in the folder that XDG_RUNTIME_DIR names, and complain on standard error where
-//! it names none (libwayland: "XDG_RUNTIME_DIR is invalid or not set in the environment").
+//! Keeps libraries of graphics drivers quiet. They look for a display in the folder that XDG_RUNTIME_DIR names, and complain on
+//! standard error where it names none (libwayland: "XDG_RUNTIME_DIR is invalid or not set in the environment").
 
-/// Begins the program anew in its own process, with a folder named in which there is nothing. It goes on as it is where a folder is
-/// named, and where the system does not let it.
+/// Restarts the program in its own process with XDG_RUNTIME_DIR set to a path where nothing is found. If the variable names a
+/// folder already, or the system does not allow the restart, the program goes on as it is.
 #[cfg(all(unix, not(target_os = "macos")))]
 pub fn begin_anew() {
     use std::os::unix::process::CommandExt;
     use std::process::Command;
 
     const NAME: &str = "XDG_RUNTIME_DIR";
-    /// A path that is one, and can hold no folder.
+    /// A valid path that cannot be a folder.
     const NOWHERE: &str = "/dev/null";
     if std::env::var_os(NAME).is_some_and(|folder| std::path::Path::new(&folder).is_absolute()) {
         return;
@@ -24,6 +24,6 @@ pub fn begin_anew() {
     tracing::debug!("the program cannot be begun anew: {why}");
 }
 
-/// Nothing is looked for there.
+/// Elsewhere drivers do not look there.
 #[cfg(not(all(unix, not(target_os = "macos"))))]
 pub fn begin_anew() {}

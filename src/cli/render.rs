@@ -1,4 +1,4 @@
-//! `toile render`: a picture of a project as it is.
+//! `toile render`: draws a project as it is.
 
 use std::path::PathBuf;
 
@@ -9,7 +9,7 @@ use crate::cli::{input, interrupt, output, run};
 use crate::render::View;
 use crate::ui::scenery::portrait::{numbered, turned};
 
-/// One picture, or a full turn of them.
+/// Draws one picture, or those of a full turn.
 pub fn render(arguments: &Render) -> Result<(), Failure> {
     let input = input::load(&arguments.project, &arguments.input)?;
     let session = run::opened(input.project, &arguments.project)?;

@@ -1,4 +1,4 @@
-//! `toile replay`: run a recording, compare its hashes.
+//! `toile replay`: runs a recording and compares its hashes.
 
 use std::path::Path;
 use std::time::Instant;
@@ -14,7 +14,7 @@ use crate::session::demos::Demo;
 use crate::session::recording::{Hex, Recording};
 use crate::session::replay::{Divergence, Replay};
 
-/// Begins the name of a demo that comes with the program.
+/// Prefix of the names of built-in demos.
 const DEMO: &str = "demo:";
 
 #[derive(Serialize)]
@@ -34,7 +34,7 @@ struct Diverged {
     words: String,
 }
 
-/// Runs the recording to its end or its first difference.
+/// Runs the recording to its end or to the first difference.
 pub fn replay(arguments: &arguments::Replay) -> Result<(), Failure> {
     let start = Instant::now();
     let path = &arguments.recording;
@@ -75,7 +75,7 @@ pub fn replay(arguments: &arguments::Replay) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The text of a file, or of a demo that comes with the program.
+/// The text of a recording file, or of a built-in demo.
 fn text_of(path: &Path) -> Result<String, Failure> {
     let Some(name) = path.to_str().and_then(|path| path.strip_prefix(DEMO)) else {
         return String::from_utf8(files::read(path)?)

@@ -1,4 +1,4 @@
-//! What came out, in figures, and the files of it.
+//! The report of a dressed garment, and the files beside it.
 
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -20,45 +20,45 @@ use crate::session::{Document, Session};
 use crate::sim::{self, DrapeState, Fault, Snapshot, Start, Started, Stats, Tried};
 use crate::wrap::{MarkError, PairStretch, Phase, mark_error, stretches};
 
-/// `report.json`.
+/// The contents of `report.json`.
 #[derive(Debug, Serialize)]
 pub struct Report {
     version: &'static str,
     name: String,
-    /// Files and samples read.
+    /// Files and samples that were read.
     pub inputs: Vec<String>,
-    /// See [`crate::cli::made_from`].
+    /// Hash of the inputs; see [`crate::cli::made_from`].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub made_from: Option<String>,
     ticks: u64,
     at_rest: bool,
     #[serde(flatten)]
     fit: fit::Report,
-    /// Where it is tightest, when it does not fit everywhere.
+    /// The tightest place of the garment; None when it fits everywhere.
     #[serde(skip_serializing_if = "Option::is_none")]
     tight: Option<fit::Tight>,
     /// Why this is not a dressed garment; empty when it is.
     faults: Vec<Fault>,
-    /// How it came on to the body, where it had no marks.
+    /// How a garment without marks was put on the body.
     #[serde(skip_serializing_if = "Option::is_none")]
     start: Option<StartReport>,
-    /// How long each pair of marks was before the wrap.
+    /// Lengths of each pair of marks, before the wrap.
     marks: Vec<PairLengths>,
     mark_error: MarkError,
-    /// What came of carrying it to another pose.
+    /// The outcome of carrying the garment to another pose.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reposed: Option<Outcome>,
-    /// How draping ended.
+    /// The final state of draping.
     #[serde(skip_serializing_if = "Option::is_none")]
     drape: Option<DrapeState>,
     problems: Vec<Problem>,
     seconds: Seconds,
     counters: Stats,
     state_hash: String,
-    /// Why there is no view.png, if there is none.
+    /// Why view.png was left out; None when it was drawn.
     #[serde(skip_serializing_if = "Option::is_none")]
     pictures_left_out: Option<String>,
-    /// What lies beside it: names and contents.
+    /// Names and contents of the files beside the report.
     #[serde(skip)]
     files: Vec<(&'static str, Vec<u8>)>,
 }
@@ -75,12 +75,12 @@ struct StartReport {
 struct TriedReport {
     #[serde(flatten)]
     tried: Tried,
-    /// Wall-clock seconds of its ticks, with judging it.
+    /// Wall-clock seconds of its ticks and of judging the result.
     seconds: f64,
 }
 
 impl StartReport {
-    /// `seconds` are those of `started.tried`.
+    /// The report on `started`; `seconds` are the times of `started.tried`, in the same order.
     fn new(started: &Started, seconds: &[f64]) -> Self {
         let seconds = seconds.iter().copied().chain(std::iter::repeat(0.0));
         let tried = started.tried.iter().cloned().zip(seconds);
@@ -92,28 +92,28 @@ impl StartReport {
     }
 }
 
-/// How long a pair of marks is on cloth and body.
+/// The lengths of a pair of marks on cloth and body.
 #[derive(Clone, Debug, Serialize)]
 pub struct PairLengths {
     number: usize,
-    /// Metres.
+    /// Length on the cloth, metres.
     cloth: f64,
-    /// Metres, at the cloth's height above the skin.
+    /// Length on the body, at the cloth's offset from the skin, metres.
     body: f64,
-    /// Body over cloth less one.
+    /// Relative difference: body / cloth - 1.
     stretch: f64,
     #[serde(skip)]
     is_large: bool,
 }
 
 impl PairLengths {
-    /// Those of all pairs of `document` on its body.
+    /// The lengths of all pairs of marks of `document` on its body.
     pub fn all(document: &Document, surface: &Surface) -> Vec<Self> {
         let offset = document.settings.relax.offset * surface.scale();
         stretches(&document.marks, surface, offset).into_iter().map(Self::from).collect()
     }
 
-    /// What is to be thought of a pair of very different lengths.
+    /// A warning if the two lengths are very different.
     pub fn doubt(&self) -> Option<String> {
         let more = if self.stretch > 0.0 { "longer" } else { "shorter" };
         let percent = self.stretch.abs() * 100.0;
@@ -141,7 +141,7 @@ impl std::fmt::Display for PairLengths {
     }
 }
 
-/// What there is to tell of `session`, with garment.obj, body.obj and view.png. [`Report::finish`] writes them.
+/// The report on `session`, with garment.obj, body.obj and view.png. [`Report::finish`] writes them.
 pub fn report(
     session: &mut Session,
     name: &str,
@@ -196,12 +196,12 @@ pub fn report(
     })
 }
 
-/// Hash of what moves in a session that runs inline.
+/// Hash of the state of a simulation that runs inline.
 pub fn state_hash(session: &mut Session) -> Result<u64, Failure> {
     Ok(run::simulation(session)?.hash())
 }
 
-/// What is read off a garment.
+/// Measurements of a garment on its body.
 struct Measured {
     fit: fit::Report,
     tight: Option<fit::Tight>,
@@ -232,7 +232,7 @@ fn still_moving() -> Fault {
     Fault { problem, marks: Vec::new() }
 }
 
-/// A PNG; without a graphics adapter: why not.
+/// Draws view.png; the inner error says why there is no picture when there is no graphics adapter.
 fn draw(session: &Session, options: &PictureOptions) -> Result<Result<Vec<u8>, String>, Failure> {
     match Artist::new().and_then(|mut artist| artist.png(session, options)) {
         Ok(png) => Ok(Ok(png)),
@@ -245,9 +245,9 @@ fn draw(session: &Session, options: &PictureOptions) -> Result<Result<Vec<u8>, S
 }
 
 impl Report {
-    /// Writes the files and report.json to `folder`, which is made; `start` is when the work began. All take their places
-    /// together. Should the machine fail meanwhile, there is no report.json: where there is one, the other files are whole and
-    /// of the same garment.
+    /// Writes the files and report.json to `folder`, which is made if needed. `start` is when the work began. All files are put
+    /// in place together, report.json last: if the machine fails meanwhile, there is no report.json, and where there is one, the
+    /// other files are whole and of the same garment.
     pub fn finish(&mut self, folder: &Path, start: Instant) -> Result<(), Failure> {
         self.seconds.total = start.elapsed().as_secs_f64();
         let mut text = self.json()?;
@@ -270,7 +270,7 @@ impl Report {
         serde_json::to_string(self).map_err(|e| Failure::Internal(e.to_string()))
     }
 
-    /// What of it says whether this is a dressed garment.
+    /// The verdict: the part of the report that tells whether this is a dressed garment.
     pub fn verdict(&self) -> Result<Verdict, Failure> {
         let read = serde_json::to_value(self).and_then(serde_json::from_value);
         read.map_err(|e| Failure::Internal(e.to_string()))

@@ -1,4 +1,4 @@
-//! `toile repose`: the dressed garment goes along to other poses of its body.
+//! `toile repose`: carries the dressed garment to other poses of its body.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -13,7 +13,7 @@ use crate::cli::{dress_one, files, formats, input, interrupt, output, report, ru
 use crate::io::joints;
 use crate::session::{BodyChoice, Command, Notice, Session, project_file};
 
-/// Each pose in turn, from the one that was dressed; the first that fails a check gives the exit code.
+/// Carries the garment to each pose in turn, always from the dressed one. The first pose that fails a check gives the exit code.
 pub fn repose(arguments: &Repose) -> Result<(), Failure> {
     let several = count(arguments) > 1;
     if several && arguments.save.is_some() {
@@ -45,15 +45,15 @@ pub fn repose(arguments: &Repose) -> Result<(), Failure> {
     first_failure.map_or(Ok(()), |words| Err(Failure::Check(words)))
 }
 
-/// How many poses are asked for.
+/// The number of poses that are given.
 fn count(arguments: &Repose) -> usize {
     let Repose { bodies, poses, joints, joint_files, .. } = arguments;
-    // Joints are turned in the pose that is named.
+    // `--joint` turns joints of the pose that `--pose` names, so both together count as one.
     let by_hand = joint_files.len() + usize::from(!joints.is_empty());
     bodies.len() + if by_hand > 0 { by_hand } else { poses.len() }
 }
 
-/// What is asked for, and what each is called: files, names, joints.
+/// The poses that are given, each with its name: body files, named poses, joint files and joints.
 fn poses(arguments: &Repose, dressed: &BodyChoice) -> Result<Vec<(BodyChoice, String)>, Failure> {
     let mut poses: Vec<(BodyChoice, String)> = Vec::new();
     for path in &arguments.bodies {
@@ -84,7 +84,7 @@ fn poses(arguments: &Repose, dressed: &BodyChoice) -> Result<Vec<(BodyChoice, St
     Ok(poses)
 }
 
-/// The mannequin of `base` with joints turned; `path` tells where that was asked for.
+/// The mannequin of `base` with joints turned; `path` is for errors.
 fn turned(base: &BodyChoice, angles: &[JointAngle], path: &Path) -> Result<BodyChoice, Failure> {
     let words = "its body is from a file: only the mannequin has joints to turn (--joint)";
     let (Some(anatomy), Some(pose)) = (base.anatomy(), base.pose()) else {
@@ -98,7 +98,7 @@ fn printed(report: &Report, several: bool) -> Result<String, Failure> {
     if several { report.json_line() } else { report.json() }
 }
 
-/// "out/03-walk4" for the fourth pose, of the file "walk4.obj".
+/// The folder of the pose number `i`, such as "out/03-walk4" for the fourth pose, of the file "walk4.obj".
 fn numbered(out: &Path, i: usize, path: &Path) -> PathBuf {
     out.join(format!("{i:02}-{}", files::name_of(path)))
 }
@@ -112,7 +112,7 @@ fn posed(path: &Path, arguments: &Repose) -> Result<BodyChoice, Failure> {
     Ok(BodyChoice::Imported { name: files::name_of(path), mesh: Arc::new(body.mesh) })
 }
 
-/// A project that holds no dressed cloth is dressed as `toile dress` would.
+/// Dresses a project without dressed cloth as `toile dress` would.
 pub fn dress_first(session: &mut Session, arguments: &Repose, seconds: &mut Seconds) -> Result<(), Failure> {
     if session.snapshot().is_dressed() {
         return Ok(());
@@ -122,7 +122,7 @@ pub fn dress_first(session: &mut Session, arguments: &Repose, seconds: &mut Seco
     run::to_rest(session, arguments.max_ticks, seconds)
 }
 
-/// Carries the cloth to `pose`, read from `path`.
+/// Carries the cloth to `pose` and writes the results; `path` is for errors.
 fn one(
     session: &mut Session,
     pose: BodyChoice,

@@ -1,4 +1,4 @@
-//! Running a session inline until its cloth is at rest.
+//! Runs a session inline until its cloth is at rest.
 
 use std::path::Path;
 use std::time::Instant;
@@ -10,8 +10,8 @@ use crate::session::{Command, Notice, Project, Session};
 use crate::sim::{Runner, Simulation};
 use crate::wrap::Phase;
 
-/// Calls `work` with `threads` workers for parallel steps; without a number, one for each processor. It runs on one of them: from
-/// another thread every parallel loop would be handed over and waited for.
+/// Calls `work` with `threads` worker threads for parallel steps; without a number, one per processor. `work` runs on a worker
+/// thread itself: from another thread every parallel loop would be handed over and waited for.
 pub fn on_threads(
     threads: Option<usize>,
     work: impl FnOnce() -> Result<(), Failure> + Send,
@@ -27,7 +27,8 @@ pub fn on_threads(
     pool.install(work)
 }
 
-/// A session on `project`, read from `path`, its simulation inline. Cloth that came with the project must be there.
+/// A session on `project`, read from `path`, whose simulation runs inline. Fails if the project's cloth cannot be put on its
+/// body.
 pub fn opened(project: Project, path: &Path) -> Result<Session, Failure> {
     let was_dressed = project.dressed.is_some();
     let mut session = Session::new(project, Runner::inline(Simulation::default()));
@@ -48,7 +49,10 @@ pub fn simulation(session: &mut Session) -> Result<&mut Simulation, Failure> {
     session.runner().simulation().ok_or(Failure::Internal(words))
 }
 
-/// Ticks until nothing moves. A signal, a failure inside or more than `max_ticks` end it early, with an error.
+/// Runs ticks until nothing moves.
+///
+/// # Errors
+/// A signal, an internal failure, or more than `max_ticks` ticks.
 pub fn to_rest(session: &mut Session, max_ticks: u64, seconds: &mut Seconds) -> Result<(), Failure> {
     let simulation = simulation(session)?;
     while !simulation.is_at_rest() {
@@ -82,7 +86,7 @@ pub fn to_rest(session: &mut Session, max_ticks: u64, seconds: &mut Seconds) -> 
     Ok(())
 }
 
-/// Drapes what lies until it rests.
+/// Drapes the cloth that is on the body until it is at rest.
 pub fn drape(
     session: &mut Session,
     project: &Path,

@@ -1,4 +1,4 @@
-//! What came of dressing a project, as its report.json tells it.
+//! The verdict on a dressed project, read from its report.json.
 
 use std::fs;
 use std::path::Path;
@@ -10,14 +10,14 @@ use crate::pattern::Problem;
 use crate::sim::Start;
 use crate::wrap::MarkError;
 
-/// The report's own.
+/// File name of the report.
 pub const FILE_NAME: &str = "report.json";
 
-/// What is read off a report.
+/// The part of a report that tells whether the project is dressed.
 #[derive(Debug, Serialize, Deserialize)]
 pub struct Verdict {
     name: String,
-    /// Nothing moves any more.
+    /// Whether nothing moves any more.
     #[serde(rename(deserialize = "at_rest"))]
     settled: bool,
     triangles: usize,
@@ -27,18 +27,18 @@ pub struct Verdict {
     edges_through_body: usize,
     self_crossings: usize,
     strain: Strain,
-    /// Where it is tightest, when it does not fit everywhere.
+    /// The tightest place of the garment; None when it fits everywhere.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     tight: Option<Tight>,
     mark_error: MarkError,
-    /// How it came on to the body, where it had no marks.
+    /// How a garment without marks was put on the body.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     start: Option<TakenStart>,
-    /// Why this is not a dressed garment: piece, seam or place, and words.
+    /// Why this is not a dressed garment: piece, seam or place, and a message.
     faults: Vec<Fault>,
     /// What is wrong with the pattern, its seams and marks.
     problems: Vec<Problem>,
-    /// Wall-clock seconds in all.
+    /// Total wall-clock time, seconds.
     #[serde(deserialize_with = "total")]
     seconds: f64,
 }
@@ -50,7 +50,7 @@ struct TakenStart {
     draped: bool,
 }
 
-/// A fault without the marks near it: its words name them.
+/// A fault without its list of marks, which its message names.
 #[derive(Debug, Serialize, Deserialize)]
 struct Fault {
     #[serde(flatten)]
@@ -66,7 +66,7 @@ fn total<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
 }
 
 impl Verdict {
-    /// Of the report in `folder`, with its text, if there is one that was made from the same.
+    /// The verdict and text of the report in `folder`, if there is one whose inputs have the hash `made_from`.
     pub fn stored(folder: &Path, made_from: &str) -> Option<(Self, String)> {
         let text = fs::read_to_string(folder.join(FILE_NAME)).ok()?;
         let report: serde_json::Value = serde_json::from_str(&text).ok()?;
@@ -76,17 +76,17 @@ impl Verdict {
             .map(|verdict| (verdict, text.trim_end().to_owned()))
     }
 
-    /// Why this is not a dressed garment: each fault's words, without its place.
+    /// The message of each fault, without its place.
     pub fn reasons(&self) -> impl Iterator<Item = &str> {
         self.faults.iter().map(|fault| fault.problem.words.as_str())
     }
 
-    /// Wall-clock seconds in all.
+    /// Total wall-clock time, seconds.
     pub fn seconds(&self) -> f64 {
         self.seconds
     }
 
-    /// Why this is not a dressed garment.
+    /// All faults with their places in one message; None when the project is dressed.
     pub fn failed_check(&self) -> Option<String> {
         let words = |f: &Fault| format!("{}: {}", f.problem.place, f.problem.words);
         let all: Vec<String> = self.faults.iter().map(words).collect();
@@ -94,7 +94,7 @@ impl Verdict {
     }
 }
 
-/// One line for people.
+/// A summary in one line, for people.
 impl std::fmt::Display for Verdict {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self.failed_check() {

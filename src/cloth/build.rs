@@ -1,4 +1,4 @@
-//! Sewing: triangulated pieces merged along their seams into one mesh.
+//! Builds the sewn garment: triangulates pieces and merges their vertices along seams into one mesh.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -12,13 +12,13 @@ use crate::pattern::sampling::sampling;
 use crate::pattern::triangulate::Meshes;
 use crate::pattern::{CutPattern, EdgeRef, EdgeSeam, Pattern, Piece, PieceMesh, Problem, ProblemKind};
 
-/// The sewn garment of a pattern at about `edge_length` metres, and what a person should know or mend.
-/// One bad piece does not stop the others.
+/// Builds the sewn garment of a pattern with edges about `edge_length` metres long. Also returns the problems that a
+/// person should know or repair; a bad piece is left out and does not stop the others.
 pub fn build(pattern: &Pattern, edge_length: f64) -> (Garment, Vec<Problem>) {
     build_again(pattern, edge_length, &mut Meshes::default())
 }
 
-/// The same; pieces that have not changed since `meshes` was last used are not triangulated again.
+/// Builds the garment as [`build`] does, without triangulating pieces again that have not changed since `meshes` was last used.
 pub fn build_again(pattern: &Pattern, edge_length: f64, meshes: &mut Meshes) -> (Garment, Vec<Problem>) {
     let (cut, mut problems) = CutPattern::new(pattern);
     let sampling = sampling(&cut, edge_length, &mut problems);
@@ -78,7 +78,7 @@ fn sewn(
     garment
 }
 
-/// Unit, along the grainline of `piece` seen from the front; None where it runs along y, or there is none.
+/// Unit vector along the grainline of `piece` seen from the front. None if the piece has no grainline or it runs along y.
 fn warp(piece: &Piece, mesh: &PieceMesh) -> Option<DVec2> {
     let [tail, head] = piece.grainline?;
     let along = (head - tail).try_normalize()?;
@@ -86,7 +86,7 @@ fn warp(piece: &Piece, mesh: &PieceMesh) -> Option<DVec2> {
     (along != DVec2::Y).then_some(along)
 }
 
-/// Flat shape about the centroid, seen from the front.
+/// Rest shape of a triangle about its centroid, seen from the front of the cloth.
 fn front_rest(mesh: &PieceMesh, t: &[u32; 3]) -> [DVec2; 3] {
     let p = t.map(|v| {
         let p = mesh.points[v as usize];
@@ -111,7 +111,8 @@ fn paired_corners(
     a.into_iter().zip(b).map(|(a, b)| [a, b]).collect()
 }
 
-/// Gives every corner its sewn vertex; returns how many there are. Numbered by the lowest corner.
+/// Gives every corner the number of its sewn vertex, in the order of each vertex's lowest corner. Returns the number
+/// of vertices.
 fn name_vertices(corners: &mut [Corner], seam_pairs: &[(SeamId, Vec<[u32; 2]>)]) -> usize {
     let mut parent: Vec<u32> = (0..corners.len() as u32).collect();
     fn root(parent: &mut [u32], mut i: u32) -> u32 {
@@ -138,7 +139,7 @@ fn name_vertices(corners: &mut [Corner], seam_pairs: &[(SeamId, Vec<[u32; 2]>)])
     count as usize
 }
 
-/// Across a seam both triangles must run along it in opposite directions, or one piece shows its wrong side.
+/// Reports seams that join front to back: both triangles at a seam must run along it in opposite directions.
 fn report_twisted(pattern: &Pattern, garment: &Garment, problems: &mut Vec<Problem>) {
     for (id, pairs) in &garment.seam_pairs {
         let twisted = pairs.windows(2).any(|w| {

@@ -1,10 +1,10 @@
-//! Cloth carried from one mesh of a garment to another: the same flat point, the same place in space.
+//! Transfer of cloth positions and vertex values from one mesh of a garment to another, by flat points of the pattern.
 
 use crate::cloth::locate::FlatPiece;
 use crate::cloth::{ClothState, Garment};
 use crate::pattern::edit::Carried;
 
-/// For each vertex of the mesh carried to: vertices of the mesh carried from, and their shares (their sum is one).
+/// For each vertex of the target mesh: vertices of the source mesh and their weights, which sum to one.
 #[derive(Clone, Debug, Default)]
 pub struct Carry {
     starts: Vec<usize>,
@@ -12,14 +12,14 @@ pub struct Carry {
 }
 
 impl Carry {
-    /// From `from` to `to`, two meshes of one pattern. A point of a curved edge may lie outside the other mesh's chords:
-    /// the nearest triangle is extended there. A vertex on a seam is the mean of what its pieces say.
-    /// Vertices of pieces that `from` lacks get no share.
+    /// Transfer between two meshes of one pattern. A point of a curved edge may be outside the other mesh's chords:
+    /// the nearest triangle is then extrapolated. A vertex on a seam is the mean over its pieces. Vertices of pieces
+    /// that `from` lacks get no weights.
     pub fn new(from: &Garment, to: &Garment) -> Self {
         Self::moved(from, to, &[])
     }
 
-    /// The same between meshes of two patterns, where places of pieces have moved as `carried` tells.
+    /// Transfer between meshes of two patterns, where `carried` tells how points of pieces moved from the first to the second.
     pub fn moved(from: &Garment, to: &Garment, carried: &[Carried]) -> Self {
         let mut said: Vec<Vec<(u32, f64)>> = vec![Vec::new(); to.vertex_count];
         let mut corners = to.corners.as_slice();
@@ -45,7 +45,7 @@ impl Carry {
         carry
     }
 
-    /// Writes the places of `from` into `to`. A vertex is laid when all it depends on is.
+    /// Writes positions interpolated from `from` into `to`. A vertex counts as mapped when all vertices it depends on are.
     pub fn places(&self, from: &ClothState, to: &mut ClothState) {
         for v in 0..to.positions.len() {
             let shares = self.of(v);
@@ -56,7 +56,7 @@ impl Carry {
         }
     }
 
-    /// Per-vertex values of the one mesh on the other.
+    /// Interpolates values per vertex of the source mesh to the target mesh; 0 for vertices without weights.
     pub fn values(&self, from: &[f64]) -> Vec<f64> {
         (0..self.starts.len() - 1)
             .map(|v| self.of(v).iter().map(|&(w, s)| from[w as usize] * s).sum())

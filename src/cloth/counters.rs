@@ -1,44 +1,44 @@
-//! Work done and work skipped.
+//! Counters of work done and work skipped.
 
 use serde::Serialize;
 
-/// Counts since the simulation began. They prove what a scene did not need.
+/// Counters since the simulation began, which show what work a scene did not need.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Counters {
-    /// Vertices whose contact was looked at.
+    /// Vertices whose contact with the body was checked.
     pub contact_checks: u64,
-    /// Of these, how many asked the body.
+    /// Contact checks that needed a closest point query on the body.
     pub contact_queries: u64,
-    /// Answers got by looking only at the triangles round the last nearest one, which a certificate allowed.
+    /// Contact checks answered from the triangles round the last nearest one, as a gap certificate allowed.
     pub contact_walks: u64,
-    /// Such certificates sought, each at about the cost of another query.
+    /// Gap certificates computed, each at about the cost of a closest point query.
     pub contact_gaps: u64,
-    /// Faces looked at where cloth seemed to lie still: whether they cut the body, or face it.
+    /// Faces of resting cloth that were checked: whether they cut the body, or face away from it.
     pub face_checks: u64,
-    /// Points of faces for which the body was asked then.
+    /// Points of faces for which the body was queried in face checks.
     pub face_queries: u64,
-    /// Searches for places where the cloth passes through itself.
+    /// Searches for self-intersections of the cloth.
     pub self_tests: u64,
-    /// Edges looked at: whether the body may cut them.
+    /// Edges checked for whether the body may cut them.
     pub edge_checks: u64,
-    /// Of these, how many were tested exactly.
+    /// Edges whose intersection with the body was tested exactly.
     pub edge_tests: u64,
     /// Edges split because the body cut them.
     pub split_edges: u64,
-    /// Split edges joined again.
+    /// Split edges that were joined again.
     pub joined_edges: u64,
     /// Edges tested against bones.
     pub bone_tests: u64,
-    /// Edges kept from crossing a bone.
+    /// Edges stopped from crossing a bone.
     pub bone_stops: u64,
-    /// Global solves.
+    /// Solves of the global step.
     pub solves: u64,
-    /// Numeric factorisations.
+    /// Numeric factorisations of the global step's matrix.
     pub factorisations: u64,
-    /// Jacobi passes over triangles, in triangles.
+    /// Triangles processed in local steps, summed over passes.
     pub local_triangles: u64,
-    /// Vertices that drags reach, summed over drags.
+    /// Vertices moved by drags, summed over drags.
     pub drag_vertices: u64,
-    /// Vertices laid by growing.
+    /// Vertices placed by growth.
     pub grown_vertices: u64,
 }

@@ -1,4 +1,4 @@
-//! Distances over the cloth along its edges, as long as they are in the pattern.
+//! Distances over the cloth along its edges, by rest length.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -15,7 +15,7 @@ pub struct EdgeMetric {
 }
 
 impl EdgeMetric {
-    /// Of `garment`. An edge that is longer on one side of a seam than on the other counts with the mean.
+    /// Rest lengths of `garment`. An edge on a seam whose two sides differ in length gets their mean.
     pub fn new(garment: &Garment) -> Self {
         let edges = garment.adjacency.edges.clone();
         let mut lengths = vec![0.0; edges.len()];
@@ -32,7 +32,7 @@ impl EdgeMetric {
         Self { lengths, edges, vertex_edges }
     }
 
-    /// Neighbours of `vertex` with the lengths of the edges to them, metres.
+    /// Neighbours of `vertex`, each with the rest length of the edge to it, metres.
     pub fn neighbours(&self, vertex: u32) -> impl Iterator<Item = (u32, f64)> + '_ {
         self.vertex_edges.of(vertex).iter().map(move |&e| {
             let [a, b] = self.edges[e as usize];
@@ -40,12 +40,13 @@ impl EdgeMetric {
         })
     }
 
-    /// Distance of every vertex to the nearest of `sources` (each with a distance of its own), metres; infinite where no
-    /// edge leads. At most 2/sqrt(3) times what it is in the plane. Equal input, equal order of [`Reached::order`].
+    /// Shortest edge distance (Dijkstra) of every vertex from the nearest of `sources` (vertex, initial distance),
+    /// metres. Only vertices for which `enters` is true are entered; others are infinite. At most 2/sqrt(3) times the
+    /// distance in the plane. Equal input gives equal order in [`Reached::order`].
     pub fn from(&self, sources: &[(u32, f64)], enters: impl Fn(u32) -> bool) -> Reached {
         let count = self.vertex_edges.len();
         let mut reached = Reached { distance: vec![f64::INFINITY; count], order: Vec::new() };
-        // Distances are not negative: their bits sort as they do.
+        // Distances are not negative, so that their bits sort as they do.
         let mut queue = BinaryHeap::new();
         for &(v, d) in sources {
             if d < reached.distance[v as usize] {
@@ -71,10 +72,10 @@ impl EdgeMetric {
     }
 }
 
-/// What [`EdgeMetric::from`] found.
+/// Result of [`EdgeMetric::from`].
 #[derive(Clone, Debug, Default)]
 pub struct Reached {
-    /// Per vertex, metres.
+    /// For each vertex its distance, metres; infinite where not reached.
     pub distance: Vec<f64>,
     /// Vertices reached, nearest first; equally near ones by number.
     pub order: Vec<u32>,

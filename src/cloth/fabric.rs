@@ -1,35 +1,35 @@
-//! What cloth is made of, as the physics sees it.
+//! Fabrics: material parameters of cloth for the simulation.
 
 use std::sync::LazyLock;
 
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-/// The presets, with the source of each figure.
+/// The presets as JSON, each with the source of its figures.
 const PRESETS: &str = include_str!("../../assets/fabrics/presets.json");
 
-/// A fabric: an orthotropic plate, thin beside its extent. Forces are per metre of width, so that thickness plays no part in
-/// them.
+/// A fabric: a thin orthotropic plate. Stiffnesses are forces per metre of width, so that thickness is not part of them.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Fabric {
-    /// For people.
+    /// Name for people.
     #[serde(default)]
     pub name: String,
-    /// Resistance to stretching, N/m.
+    /// Membrane stiffness, N/m.
     pub stretch: Stretch,
-    /// Resistance to bending, N·m.
+    /// Bending stiffness, N·m.
     pub bending: Bending,
-    /// Mass per area, kg/m².
+    /// Mass per area (grammage), kg/m².
     pub density_kg_per_m2: f64,
-    /// How far from its middle to whatever it touches, metres: it is kept so far from a body, and from itself.
+    /// Distance from the middle of the cloth to anything that it touches, metres: contact with the body and with
+    /// itself keeps it.
     pub thickness_m: f64,
-    /// Coulomb's coefficient against bodies and cloth.
+    /// Coefficient of Coulomb friction against bodies and cloth.
     pub friction: f64,
-    /// Rate at which free motion through the air dies away, 1/s.
+    /// Rate of air damping: decay of free motion, 1/s.
     #[serde(default)]
     pub damping_per_s: f64,
-    /// Where the figures are from.
+    /// Source of the figures.
     #[serde(default)]
     pub source: String,
 }
@@ -38,36 +38,37 @@ pub struct Fabric {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Stretch {
-    /// Pulled along the warp with free sides, N/m.
+    /// Stiffness along the warp with free sides, N/m.
     pub warp: f64,
-    /// Pulled along the weft with free sides, N/m.
+    /// Stiffness along the weft with free sides, N/m.
     pub weft: f64,
-    /// Sheared, N/m.
+    /// Shear stiffness, N/m.
     pub shear: f64,
-    /// How much narrower it becomes than longer, -1..1; for unlike directions the geometric mean of the two.
+    /// Poisson's ratio, -1..1; where warp and weft differ, the geometric mean of their two ratios.
     pub poisson: f64,
 }
 
-/// Plate stiffness: moment per metre of width and unit of curvature, other curvatures held at zero.
+/// Plate (bending) stiffness: moment per metre of width and unit of curvature, with the other curvatures held at zero.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Bending {
-    /// Curved along the warp, N·m.
+    /// Stiffness for curvature along the warp, N·m.
     pub warp: f64,
-    /// Curved along the bias at 45°, N·m.
+    /// Stiffness for curvature along the bias at 45°, N·m.
     pub bias: f64,
-    /// Curved along the weft, N·m.
+    /// Stiffness for curvature along the weft, N·m.
     pub weft: f64,
-    /// The ratio of moments across and along a cylinder, -1..1.
+    /// Poisson's ratio of bending, -1..1: the moment along a cylinder divided by that across it.
     #[serde(default)]
     pub poisson: f64,
 }
 
 impl Fabric {
-    /// The preset that cloth is made of when nothing else was chosen.
+    /// Name of the default preset.
     pub const USUAL: &str = "cotton";
 
-    /// Alike in all directions: Young's modulus times thickness in N/m, Poisson's ratio, plate stiffness in N·m, kg/m².
+    /// An isotropic fabric, from Young's modulus times thickness (N/m), Poisson's ratio, plate stiffness (N·m), and
+    /// mass per area (kg/m²).
     pub fn isotropic(stiffness: f64, poisson: f64, bending: f64, density_kg_per_m2: f64) -> Self {
         Self {
             name: String::new(),
@@ -93,12 +94,12 @@ impl Fabric {
         &ALL
     }
 
-    /// The preset called `name`.
+    /// The preset called `name`, if there is one.
     pub fn preset(name: &str) -> Option<&'static Self> {
         Self::presets().iter().find(|f| f.name == name)
     }
 
-    /// What no cloth can be, in words.
+    /// Describes the first parameter that is outside its valid range, if any.
     pub fn problem(&self) -> Option<String> {
         let Self {
             name: _,
@@ -134,7 +135,8 @@ impl Fabric {
 }
 
 impl Stretch {
-    /// C11, C22, C12 and shear stiffness in N/m: stress (s11, s22, s12) of Green strain (e11, e22, 2 e12).
+    /// Membrane stiffness matrix C11, C22, C12 and shear, N/m: it gives the stress (s11, s22, s12) for a Green strain
+    /// (e11, e22, 2 e12).
     pub fn tangent(&self) -> [f64; 4] {
         let side = 1.0 - self.poisson * self.poisson;
         let (c11, c22) = (self.warp / side, self.weft / side);
@@ -142,9 +144,10 @@ impl Stretch {
     }
 }
 
-/// The tangent (as [`Stretch::tangent`] gives it) of cloth that wrinkles along its threads where they would be pressed, at the
-/// strain (e11, e22, 2 e12): of the relaxed energy min over a, b ≥ 0 of W(e11 + a, e22 + b), which is convex and once
-/// differentiable (after Pipkin 1986, with wrinkles across warp and weft only, so that the minimum has a closed form).
+/// Stiffness (as [`Stretch::tangent`] gives it) of cloth that wrinkles instead of being compressed along warp or
+/// weft, at the strain (e11, e22, 2 e12). It belongs to the relaxed energy min over a, b ≥ 0 of W(e11 + a, e22 + b),
+/// which is convex and once differentiable (tension field after Pipkin 1986; wrinkles across warp and weft only, so
+/// that the minimum has a closed form).
 pub fn wrinkled(tangent: [f64; 4], e: [f64; 3]) -> [f64; 4] {
     let [c11, c22, c12, shear] = tangent;
     let (warp, weft) = (c11 * e[0] + c12 * e[1], c12 * e[0] + c22 * e[1]);
@@ -160,23 +163,23 @@ pub fn wrinkled(tangent: [f64; 4], e: [f64; 3]) -> [f64; 4] {
     }
 }
 
-/// Stress (s11, s22, s12), N/m, of Green strain (e11, e22, 2 e12) under a tangent C11, C22, C12 and shear.
+/// Stress (s11, s22, s12), N/m, for a Green strain (e11, e22, 2 e12) and a stiffness matrix C11, C22, C12, shear.
 pub fn stress([c11, c22, c12, shear]: [f64; 4], e: [f64; 3]) -> [f64; 3] {
     [c11 * e[0] + c12 * e[1], c12 * e[0] + c22 * e[1], shear * e[2]]
 }
 
-/// Green strain (e11, e22, 2 e12) where the unit vectors along warp and weft have become `f0` and `f1`.
+/// Green strain (e11, e22, 2 e12), where `f0` and `f1` are the deformed unit vectors along warp and weft.
 pub fn green([f0, f1]: [DVec3; 2]) -> [f64; 3] {
     [(f0.length_squared() - 1.0) / 2.0, (f1.length_squared() - 1.0) / 2.0, f0.dot(f1)]
 }
 
 impl Bending {
-    /// The moment that goes with 2 k12, N·m: from curvature along the bias, which is k11 = k22 = k12.
+    /// Twisting stiffness, N·m: the moment for 2 k12. It follows from curvature along the bias, where k11 = k22 = k12.
     pub fn twist(&self) -> f64 {
         self.bias - (self.warp + self.weft + 2.0 * self.cross()) / 4.0
     }
 
-    /// The moment along one direction that curvature along the other gives, N·m.
+    /// Coupling stiffness, N·m: the moment along one direction for curvature along the other.
     pub fn cross(&self) -> f64 {
         self.poisson * (self.warp * self.weft).sqrt()
     }

@@ -1,4 +1,4 @@
-//! Fixed topology and rest shape of the sewn garment, and its moving state.
+//! The sewn garment: its fixed topology and rest shape, and its moving state.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -7,41 +7,42 @@ use glam::{DVec2, DVec3};
 use crate::geometry::adjacency::Adjacency;
 use crate::geometry::ids::{PieceId, SeamId};
 
-/// A corner of the flat cloth: a point of a piece in that piece's own plane. Both sides of a seam have their own.
+/// A flat corner: a point of a piece in that piece's own plane. On a seam each side has corners of its own.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Corner {
     /// The piece.
     pub piece: PieceId,
-    /// Metres, in the piece's own plane (its `outline` coordinates).
+    /// Position, metres, in the piece's own plane (the coordinates of its `outline`).
     pub uv: DVec2,
-    /// The sewn vertex it is part of.
+    /// The sewn vertex that the corner belongs to.
     pub vertex: u32,
 }
 
-/// The merged mesh: sewn vertices are shared, every triangle keeps its flat shape.
+/// The sewn mesh: vertices are shared across seams, and every triangle keeps its flat rest shape.
 #[derive(Clone, Debug, Default)]
 pub struct Garment {
     /// Number of sewn vertices.
     pub vertex_count: usize,
     /// Sewn vertices of each triangle, counter-clockwise seen from the front (outer) side of the cloth.
     pub triangles: Vec<[u32; 3]>,
-    /// Flat corners; pieces in id order, each piece's corners together.
+    /// Flat corners, grouped by piece in the order of piece ids.
     pub corners: Vec<Corner>,
-    /// For each triangle its three flat corners, in the order of `triangles`.
+    /// For each triangle its three flat corners, in the same order as its vertices in `triangles`.
     pub triangle_corners: Vec<[u32; 3]>,
-    /// The piece of each triangle.
+    /// For each triangle its piece.
     pub triangle_pieces: Vec<PieceId>,
-    /// Flat shape of each triangle, counter-clockwise seen from the front, metres, about its centroid; the warp runs along y.
+    /// For each triangle its flat rest shape about its centroid, metres, counter-clockwise seen from the front, turned so that
+    /// the warp runs along y.
     pub rest: Vec<[DVec2; 3]>,
-    /// Neighbours over sewn vertices.
+    /// Adjacency of the sewn mesh.
     pub adjacency: Adjacency,
-    /// Pairs of corners sewn together, per seam.
+    /// For each seam the pairs of corners that it joins.
     pub seam_pairs: Vec<(SeamId, Vec<[u32; 2]>)>,
-    /// Names of the pieces that are in it, in id order.
+    /// Ids and names of the pieces in the garment, in the order of their ids.
     pub pieces: Vec<(PieceId, String)>,
-    /// The layers of those that are not worn next to the skin.
+    /// Layers of the pieces that are not on layer 0.
     pub layers: BTreeMap<PieceId, u8>,
-    /// Unit vectors along the warp, in the plane of `rest` before it is turned, of those in which it does not run along y.
+    /// Unit vector along the warp, in the piece's plane seen from the front, of each piece whose warp does not run along y.
     pub grains: BTreeMap<PieceId, DVec2>,
 }
 
@@ -52,7 +53,7 @@ impl Garment {
         self.rest.iter().map(sides).sum::<f64>() / (3 * self.rest.len()).max(1) as f64
     }
 
-    /// `corners`, places in the plane of `piece` seen from the front, metres, turned so that its warp runs along y.
+    /// Turns `corners` (metres, in the plane of `piece` seen from the front) so that the warp of the piece runs along y.
     pub fn along_grain(&self, piece: PieceId, corners: [DVec2; 3]) -> [DVec2; 3] {
         match self.grains.get(&piece) {
             None => corners,
@@ -60,12 +61,12 @@ impl Garment {
         }
     }
 
-    /// The layer that a piece is worn on; 0 lies next to the skin.
+    /// The layer of a piece; layer 0 is next to the skin.
     pub fn layer(&self, piece: PieceId) -> u8 {
         self.layers.get(&piece).copied().unwrap_or(0)
     }
 
-    /// The same vertices and corners, without the triangles of these pieces.
+    /// The garment without the triangles of these pieces; vertices and corners keep their numbers.
     pub fn without(&self, pieces: &BTreeSet<PieceId>) -> Self {
         let kept: Vec<usize> =
             (0..self.triangles.len()).filter(|&t| !pieces.contains(&self.triangle_pieces[t])).collect();
@@ -85,7 +86,7 @@ impl Garment {
         }
     }
 
-    /// Bytes it takes.
+    /// Memory used, bytes.
     pub fn bytes(&self) -> usize {
         let pairs: usize = self.seam_pairs.iter().map(|(_, pairs)| pairs.len() * size_of::<[u32; 2]>()).sum();
         self.triangles.len() * (2 * size_of::<[u32; 3]>() + size_of::<PieceId>() + size_of::<[DVec2; 3]>())
@@ -95,11 +96,11 @@ impl Garment {
     }
 }
 
-/// What moves.
+/// The moving state of the cloth.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ClothState {
     /// Position of each sewn vertex, metres. Meaningless where `mapped` is false.
     pub positions: Vec<DVec3>,
-    /// Whether the vertex has been put on the body yet.
+    /// Whether each vertex has been placed on the body yet.
     pub mapped: Vec<bool>,
 }

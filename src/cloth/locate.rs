@@ -1,4 +1,4 @@
-//! Which triangle lies under a flat point of the pattern.
+//! Point location: the triangle at a flat point of the pattern.
 
 use glam::{DVec2, DVec3};
 
@@ -7,29 +7,30 @@ use crate::geometry::barycentric;
 use crate::geometry::bvh::{Aabb, Bvh};
 use crate::geometry::ids::PieceId;
 
-/// How near a flat point counts as inside a triangle, in barycentric coordinates.
+/// Smallest barycentric coordinate at which a flat point counts as inside a triangle.
 const INSIDE: f64 = -1e-9;
 
-/// The same for a point that is asked whether it lies on the piece at all: strokes end on the outline.
+/// Smallest barycentric coordinate at which a flat point counts as on its piece; wider than [`INSIDE`], because
+/// strokes end on the outline.
 const ON_PIECE: f64 = -1e-6;
 
-/// A point of the flat cloth.
+/// A point of the flat cloth, by triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FlatPlace {
-    /// The triangle under it.
+    /// The triangle at the point.
     pub triangle: u32,
-    /// Barycentric: their sum is one.
+    /// Barycentric coordinates; their sum is one.
     pub shares: [f64; 3],
 }
 
 impl FlatPlace {
-    /// The triangle's vertices with their shares.
+    /// The triangle's vertices with the barycentric coordinates as weights.
     pub fn vertices(&self, garment: &Garment) -> [(u32, f64); 3] {
         let vs = garment.triangles[self.triangle as usize];
         [0, 1, 2].map(|k| (vs[k], self.shares[k]))
     }
 
-    /// Where it lies in space; None while its triangle is not on the body.
+    /// Position in space, metres; None while the triangle is not on the body.
     pub fn point(&self, garment: &Garment, state: &ClothState) -> Option<DVec3> {
         let vertices = self.vertices(garment);
         let laid = vertices.iter().all(|&(v, _)| state.mapped[v as usize]);
@@ -37,14 +38,14 @@ impl FlatPlace {
     }
 }
 
-/// The triangles of one piece, flat.
+/// The flat triangles of one piece, prepared for point location.
 pub struct FlatPiece {
     triangles: Vec<u32>,
     tree: Bvh,
 }
 
 impl FlatPiece {
-    /// The triangles of `piece`; none when the garment lacks it.
+    /// Prepares the triangles of `piece`; there are none when the garment lacks it.
     pub fn new(garment: &Garment, piece: PieceId) -> Self {
         let triangles: Vec<u32> = (0..garment.triangles.len() as u32)
             .filter(|&t| garment.triangle_pieces[t as usize] == piece)
@@ -54,12 +55,13 @@ impl FlatPiece {
         Self { tree: Bvh::new(&boxes), triangles }
     }
 
-    /// Where `p` lies; None off the piece.
+    /// The place of the flat point `p`; None when it is not on the piece.
     pub fn inside(&self, garment: &Garment, p: DVec2) -> Option<FlatPlace> {
         self.nearest(garment, p).filter(|place| place.shares.iter().all(|&share| share >= ON_PIECE))
     }
 
-    /// The triangle under `p`, or the one that needs least extending.
+    /// The place of the flat point `p`: in the triangle that contains it, or outside all triangles in the one with
+    /// the least extrapolation. None without triangles, or far off the piece.
     pub fn nearest(&self, garment: &Garment, p: DVec2) -> Option<FlatPlace> {
         let bounds = self.tree.nodes.first()?.bounds;
         let whole = (bounds.upper - bounds.lower).length();
@@ -77,7 +79,7 @@ impl FlatPiece {
                     best = Some((least, t, shares));
                 }
             });
-            // A leaf's box holds triangles that are not near: look a little farther before one is extended.
+            // A leaf's box also holds triangles that are not near: search a little farther before one is extrapolated.
             if let Some((least, t, shares)) = best
                 && (least >= INSIDE || reach > whole * 0.01)
             {

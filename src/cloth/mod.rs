@@ -1,4 +1,4 @@
-//! The sewn garment as solvers see it, and the fabrics it is made of.
+//! The sewn garment as solvers see it, and fabrics.
 
 pub mod build;
 pub mod carry;

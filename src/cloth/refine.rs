@@ -1,8 +1,8 @@
-//! Adaptive √3 subdivision (paper A): some edges of a garment split, one level deep.
+//! Adaptive √3 subdivision (paper A): some edges of a garment are split, one level deep.
 //!
-//! The centroids of the two triangles at an edge are put in, and the edge is turned to join them. At a border, and along a
-//! seam, where the two sides lie in different planes of the pattern, its middle is put in instead: both sides then keep
-//! their own plane, and flat lengths are those of the pattern on either.
+//! The centroids of the two triangles at an edge are inserted, and the edge is flipped to join them. At a border, and
+//! along a seam, where the two sides are in different planes of the pattern, the midpoint of the edge is inserted
+//! instead: both sides then keep their own plane and the pattern's flat lengths.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -12,53 +12,53 @@ use glam::{DVec2, DVec3};
 use crate::cloth::{ClothState, Corner, Garment};
 use crate::geometry::adjacency::Adjacency;
 
-/// A vertex put in: where it lies follows from others.
+/// A dependent vertex: inserted by subdivision, with its position interpolated from other vertices (its masters).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DependentVertex {
-    /// The vertices it lies between, and their shares.
+    /// The masters and their weights, which sum to one.
     pub shares: [(u32, f64); 3],
-    /// A triangle of the plain garment that it lies on.
+    /// A triangle of the unrefined garment that the vertex is on.
     pub triangle: u32,
 }
 
-/// A garment with some edges split.
+/// A garment with some edges split. *Plain* means the garment before.
 #[derive(Clone, Debug)]
 pub struct Refined {
-    /// Its vertices are those of the plain garment, then the dependents.
+    /// The refined garment. Its vertices are those of the plain garment, followed by the dependent ones.
     pub garment: Arc<Garment>,
-    /// The vertices put in.
+    /// The dependent vertices.
     pub dependents: Vec<DependentVertex>,
-    /// Triangles of the plain garment that were cut up, ascending.
+    /// Triangles of the plain garment that were subdivided, ascending.
     pub opened: Vec<u32>,
-    /// The first triangle of `garment` that has a dependent; those before it are whole ones of the plain garment.
+    /// Index of the first triangle of `garment` that was subdivided; those before it are whole triangles of the plain garment.
     pub first_cut: usize,
-    /// From there on the triangle of the plain garment that each is cut from. It has all its masters' corners but those of
-    /// dependents, who have their own.
+    /// For each triangle of `garment` from `first_cut` on, the plain triangle that it is a part of. Its flat corners
+    /// are corners of that triangle, except those of dependent vertices, which have corners of their own.
     pub cut_from: Vec<u32>,
 }
 
-/// What is put in for one edge.
+/// How an edge is split.
 #[derive(Clone, Copy, Debug)]
 enum Split {
-    /// The edge joins the centroids of these two.
+    /// The edge is flipped to join the centroids of these two triangles.
     Turned([u32; 2]),
-    /// A vertex in its middle.
+    /// A vertex is inserted at its midpoint.
     Halved,
 }
 
-/// Corners to be, with those of the plain garment first: what `Builder` numbers anew at the end.
+/// A refined garment under construction. Corners of the plain garment come first; they are renumbered at the end.
 struct Builder<'a> {
     plain: &'a Garment,
     dependents: Vec<DependentVertex>,
     corners: Vec<Corner>,
-    /// The centroid's corner in each opened triangle.
+    /// For each subdivided triangle the corner at its centroid.
     centroids: BTreeMap<u32, u32>,
-    /// The middle's corner on each side of a halved edge.
+    /// For each edge split at its midpoint and each triangle beside it, the corner at the midpoint.
     middles: BTreeMap<(u32, u32), u32>,
     triangles: Vec<([u32; 3], u32)>,
 }
 
-/// `plain` with `edges` (ascending) split.
+/// Splits `edges` (ascending) of the garment `plain`.
 pub fn refine(plain: &Garment, edges: &[u32]) -> Refined {
     let mut builder = Builder {
         plain,
@@ -84,7 +84,7 @@ impl Builder<'_> {
         self.put_corner(vertex, corners)
     }
 
-    /// A corner of `vertex` in the middle of others.
+    /// Adds a corner of `vertex` at the mean of the corners `others`.
     fn put_corner(&mut self, vertex: u32, others: &[u32]) -> u32 {
         let at = |c: &u32| self.corners[*c as usize];
         let uv = others.iter().map(|c| at(c).uv).sum::<DVec2>() / others.len() as f64;
@@ -100,7 +100,7 @@ impl Builder<'_> {
         self.centroids.insert(t, corner);
     }
 
-    /// The corners of triangle `t` at the ends of its side `k`.
+    /// The corners at the ends of side `k` of triangle `t`.
     fn side(&self, t: u32, k: usize) -> [u32; 2] {
         let corners = self.plain.triangle_corners[t as usize];
         [corners[k], corners[(k + 1) % 3]]
@@ -135,7 +135,7 @@ impl Builder<'_> {
         Split::Halved
     }
 
-    /// What becomes of an opened triangle.
+    /// Adds the triangles into which triangle `t` is subdivided.
     fn cut(&mut self, t: u32, splits: &BTreeMap<u32, Split>) {
         let centre = self.centroids[&t];
         for k in 0..3 {
@@ -147,7 +147,7 @@ impl Builder<'_> {
                     let middle = self.middles[&(e, t)];
                     self.triangles.extend([([a, middle, centre], t), ([middle, b, centre], t)]);
                 }
-                // Told of once, by the first of the two.
+                // A flipped edge is handled once, by the first of its two triangles.
                 Some(Split::Turned([first, other])) if *first == t => {
                     let across = self.centroids[other];
                     self.triangles.extend([([a, across, centre], t), ([across, b, centre], t)]);
@@ -159,7 +159,7 @@ impl Builder<'_> {
 
     fn finish(self, opened: Vec<u32>) -> Refined {
         let Self { plain, dependents, corners, triangles, .. } = self;
-        // Each piece's corners lie together: number them anew.
+        // Renumber the corners, so that those of each piece are together.
         let mut order: Vec<u32> = (0..corners.len() as u32).collect();
         order.sort_by_key(|&c| (corners[c as usize].piece, c));
         let mut place = vec![0u32; corners.len()];
@@ -198,7 +198,7 @@ impl Builder<'_> {
     }
 }
 
-/// Points of the plane of triangle `t` as they are seen from the front of the cloth, which in some pieces is the far side.
+/// Flat points of the piece of triangle `t` as seen from the front of the cloth: mirrored where the front is the far side.
 fn front(plain: &Garment, t: u32, uv: [DVec2; 3]) -> [DVec2; 3] {
     let [a, b, c] = plain.triangle_corners[t as usize].map(|c| plain.corners[c as usize].uv);
     let far = (b - a).perp_dot(c - a) < 0.0;
@@ -206,7 +206,8 @@ fn front(plain: &Garment, t: u32, uv: [DVec2; 3]) -> [DVec2; 3] {
 }
 
 impl Refined {
-    /// `state` of the plain garment with the dependents where they lie between their masters, and `beside` that.
+    /// The state of the refined garment from that of the plain one: dependent vertices are interpolated from their
+    /// masters and displaced by `beside` (metres).
     pub fn state(&self, state: &ClothState, beside: impl Fn(usize) -> DVec3) -> ClothState {
         let mut state = state.clone();
         for (i, dependent) in self.dependents.iter().enumerate() {
@@ -217,7 +218,7 @@ impl Refined {
         state
     }
 
-    /// Bytes it takes.
+    /// Memory used, bytes.
     pub fn bytes(&self) -> usize {
         self.garment.bytes()
             + self.dependents.capacity() * size_of::<DependentVertex>()
@@ -226,7 +227,7 @@ impl Refined {
 }
 
 impl DependentVertex {
-    /// The mean of its masters.
+    /// Position interpolated from the masters, metres.
     pub fn between(&self, state: &ClothState) -> DVec3 {
         self.shares.iter().map(|&(v, share)| state.positions[v as usize] * share).sum()
     }

@@ -1,34 +1,35 @@
-//! What may be skipped, and what must not be for once: to see what a skip saves, and that it changes nothing.
+//! Switches for shortcuts that skip work, so that one can measure what each saves and check that it changes nothing.
 
 use std::str::FromStr;
 
-/// Work that is left out where it would change nothing, or nothing to speak of.
+/// A shortcut: work that is skipped where it would change nothing, or almost nothing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Skip {
-    /// Cloth known to be outside and far enough from the skin does not ask for it until it has moved that far.
+    /// A vertex known to be outside and far enough from the skin is not checked again until it has moved by that distance.
     Certificates,
-    /// Cloth that moved less than a fifth of a millimetre keeps its plane of the skin.
+    /// A vertex that moved less than a fifth of a millimetre keeps its contact plane.
     Planes,
-    /// Where the nearest triangle of the body cannot be another than those round the last one, only they are looked at.
+    /// Where the nearest triangle of the body must be one of those round the last nearest, only these are tested.
     Triangles,
-    /// Faces that cannot have come near the skin, or turned from it, since they were looked at last are not looked at again.
+    /// Faces that cannot have come near the skin, or turned away from it, since their last check are not checked again.
     Faces,
-    /// Where no layers ran through each other, nobody looks again until the cloth lies still.
+    /// Where no layers intersected, intersections are not sought again until the cloth is at rest.
     Crossings,
-    /// The matrix is factored anew only when more than a share of the contacts has changed.
+    /// The matrix is factored again only when more than a certain fraction of the contacts has changed.
     Refactor,
-    /// The long slow swings of a fine mesh are left to coarser ones, dressed first.
+    /// The slow large motions of a fine mesh are left to coarser meshes, which are dressed first.
     Fine,
-    /// Edges that the body is too far from or too flat to be cut by are not tested exactly.
+    /// Edges that cannot be cut by the body, because it is too far or too flat, are not tested exactly.
     Edges,
-    /// Edges that cannot come as deep into the body as its bones lie are not tested against them.
+    /// Edges that cannot be as deep in the body as its bones are not tested against them.
     Bones,
-    /// While cloth is dragged on within a tick the skin next to it is walked to, and searched for at the end of it.
+    /// During the substeps of a drag the nearest point of the skin is found by a walk, and by a full query only at
+    /// the end of the tick.
     Walks,
 }
 
 impl Skip {
-    /// All of them, in the order of [`Skip::name`].
+    /// All shortcuts, in the order of [`Skip::name`].
     pub const ALL: [Self; 10] = [
         Self::Certificates,
         Self::Planes,
@@ -42,7 +43,7 @@ impl Skip {
         Self::Walks,
     ];
 
-    /// As it is typed.
+    /// Name on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Self::Certificates => "certificates",
@@ -58,7 +59,8 @@ impl Skip {
         }
     }
 
-    /// Whether the cloth lies the same, bit for bit, without it. The others take another way to where it rests.
+    /// Whether the cloth's positions are the same, bit for bit, without the shortcut. With the others it takes
+    /// another path to its rest state.
     pub fn is_exact(self) -> bool {
         matches!(self, Self::Certificates | Self::Triangles | Self::Faces | Self::Bones)
     }
@@ -74,26 +76,26 @@ impl FromStr for Skip {
     }
 }
 
-/// Which skips are made: all, unless told otherwise.
+/// The set of allowed shortcuts: all, unless told otherwise.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Skips {
-    /// A bit for each of [`Skip::ALL`].
+    /// One bit for each of [`Skip::ALL`]; set when the shortcut is forbidden.
     forbidden: u32,
 }
 
 impl Skips {
-    /// All but these.
+    /// All shortcuts except these.
     pub fn without(skips: &[Skip]) -> Self {
         Self { forbidden: skips.iter().fold(0, |bits, &skip| bits | 1 << skip as u32) }
     }
 
-    /// Whether `skip` is made.
+    /// Whether `skip` is allowed.
     pub fn allow(self, skip: Skip) -> bool {
         self.forbidden & (1 << skip as u32) == 0
     }
 }
 
-/// Names with commas between them, or "all".
+/// Parses names separated by commas, or "all".
 impl FromStr for Skips {
     type Err = String;
 

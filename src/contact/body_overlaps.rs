@@ -1,5 +1,5 @@
-//! Parts of a body that cross each other, as posed bodies do: a forearm that runs through the trunk. Cloth of one of them is
-//! not pushed by the other's skin there: it lies on its own, and the other comes through it.
+//! Body self-intersection exclusion. Parts of a posed body may intersect, such as a forearm and the trunk: cloth that
+//! belongs to one part then ignores the skin of the other there, and the other part may come through it.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -7,27 +7,28 @@ use std::collections::BinaryHeap;
 use crate::body::Surface;
 use crate::geometry::crossings::self_crossings;
 
-/// How far along the skin from where parts cross they are left out for each other, metres on a body 1.5 m large.
+/// Distance along the skin from a self-intersection within which the intersecting parts exclude each other, metres on
+/// a body 1.5 m large.
 const REACH: f64 = 0.15;
-/// Crossings nearer to each other along the skin than this are one part's, metres on a body 1.5 m large. A fold whose two
-/// sides are so near crosses only itself.
+/// Distance along the skin within which intersections belong to one part, metres on a body 1.5 m large. A fold whose
+/// two sides are so near intersects only itself, and excludes nothing.
 const ONE_PART: f64 = 0.06;
-/// Belongs to no part that crosses another.
+/// Marks vertices and triangles that are not near a self-intersection.
 const NO_PART: u32 = u32::MAX;
 
-/// Which skin each cloth vertex does not touch.
+/// Which skin each cloth vertex ignores in contact.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct BodyOverlaps {
     of_vertex: Vec<u32>,
     of_triangle: Vec<u32>,
-    /// For two parts whether they cross, row by row.
+    /// For each two parts whether they intersect; a square matrix, row by row.
     cross: Vec<bool>,
     parts: usize,
 }
 
 impl BodyOverlaps {
-    /// Of a body in which parts cross each other; None where none do. `bound` tells of each cloth vertex which triangle it
-    /// belongs to.
+    /// Finds the intersecting parts of a body; None where there are none. `bound` gives for each cloth vertex the
+    /// triangle of the body to which it belongs.
     pub fn of(surface: &Surface, bound: &[Option<u32>]) -> Option<Self> {
         let (mesh, edges) = (&surface.mesh, &surface.adjacency.edges);
         let crossings = self_crossings(mesh, edges, &mesh.tree());
@@ -76,19 +77,19 @@ impl BodyOverlaps {
         Some(Self { of_vertex, of_triangle, cross, parts })
     }
 
-    /// Whether cloth vertex `vertex` does not touch `triangle` of the body.
+    /// Whether cloth vertex `vertex` ignores `triangle` of the body.
     pub fn leaves_out(&self, vertex: usize, triangle: u32) -> bool {
         let [p, q] = [self.of_vertex[vertex], self.of_triangle[triangle as usize]];
         p != NO_PART && q != NO_PART && self.cross[p as usize * self.parts + q as usize]
     }
 }
 
-/// For each vertex the nearest of `seeds` along the edges, as far as [`REACH`], and how far that is, metres.
+/// For each vertex of the body the nearest of `seeds` along the edges, up to [`REACH`], and the distance to it, metres.
 fn grown(surface: &Surface, seeds: &[u32]) -> (Vec<u32>, Vec<f64>) {
     let positions = &surface.mesh.positions;
     let reach = REACH * surface.scale();
     let (mut nearest, mut far) = (vec![NO_PART; positions.len()], vec![f64::INFINITY; positions.len()]);
-    // Distances are not negative: their bits are ordered as they are.
+    // Distances are not negative, so that their bits sort as they do.
     let mut open: BinaryHeap<Reverse<(u64, u32)>> = BinaryHeap::new();
     for &v in seeds {
         (nearest[v as usize], far[v as usize]) = (v, 0.0);
@@ -110,7 +111,7 @@ fn grown(surface: &Surface, seeds: &[u32]) -> (Vec<u32>, Vec<f64>) {
     (nearest, far)
 }
 
-/// Disjoint sets; each is known by its lowest member.
+/// Disjoint sets (union-find); each is represented by its lowest member.
 struct Sets(Vec<u32>);
 
 impl Sets {

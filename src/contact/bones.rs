@@ -1,4 +1,4 @@
-//! Bones: segments inside a body that no edge of the cloth may cross, however hard it is pulled (paper A).
+//! Bones: segments inside a body that no cloth edge may cross, however hard it is pulled (paper A).
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -7,26 +7,26 @@ use crate::body::Surface;
 use crate::cloth::{Counters, Garment, Skip, Skips};
 use crate::contact::Tracker;
 
-/// A bone, from end to end, metres.
+/// A bone as a segment between two ends, metres.
 pub type Bone = [DVec3; 2];
 
-/// Points of a bone at which its depth in the body is taken.
+/// Number of intervals of a bone at whose ends its depth in the body is measured.
 const DEPTHS: u32 = 32;
-/// Moments of a step between which an edge passes a bone at most once.
+/// Number of intervals of a step in each of which an edge is taken to pass a bone at most once.
 const MOMENTS: u32 = 4;
-/// Halvings of the time in which the moment is found.
+/// Number of bisections that find the time of a crossing.
 const HALVINGS: u32 = 30;
 
 /// The bones of a body.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Bones {
     bones: Vec<Bone>,
-    /// Everywhere on them the skin is farther than this, metres.
+    /// Lower bound of the distance from any point of the bones to the skin, metres.
     depth: f64,
 }
 
 impl Bones {
-    /// In a body. Without bones nothing is ever looked at.
+    /// Prepares the bones of a body. Without bones nothing is tested.
     pub fn new(bones: &[Bone], surface: &Surface) -> Self {
         let depth = bones
             .iter()
@@ -39,13 +39,13 @@ impl Bones {
         Self { bones: bones.to_vec(), depth }
     }
 
-    /// True when there are none.
+    /// Whether there are no bones.
     pub fn is_empty(&self) -> bool {
         self.bones.is_empty()
     }
 
-    /// Cloth moved from `before` to `after`: where an edge would cross a bone its ends are held back, by as much as they went
-    /// across both, or wholly. Afterwards none has crossed.
+    /// Stops edges of cloth that moved from `before` to `after` from crossing bones. The ends of a crossing edge lose their
+    /// motion across edge and bone; if edges still cross in the next round, all their motion. Afterwards none has crossed.
     pub fn hold_back(
         &self,
         garment: &Garment,
@@ -76,7 +76,7 @@ impl Bones {
             counters.bone_stops += crossing.len() as u64;
             for (e, across) in crossing {
                 for v in edges[e as usize].map(|v| v as usize) {
-                    // What moves no more cannot cross: this ends.
+                    // A vertex that does not move cannot cross: this ends.
                     let along = |d: DVec3| if round == 0 { d - across * d.dot(across) } else { DVec3::ZERO };
                     after[v] = before[v] + along(after[v] - before[v]);
                 }
@@ -84,7 +84,7 @@ impl Bones {
         }
     }
 
-    /// Whether it moves at all, and may come as deep as the bones lie: the signed distance is 1-Lipschitz.
+    /// Whether an edge moves at all, and may be as deep as the bones: the signed distance is 1-Lipschitz.
     fn may_cross(
         &self,
         vertices: [u32; 2],
@@ -103,14 +103,14 @@ impl Bones {
         low(0).min(low(1)) - half < -self.depth
     }
 
-    /// The unit direction across edge and bone where the edge passes a bone; zero where it passes none.
+    /// The unit direction across edge and bone where the edge crosses a bone; zero where it crosses none.
     fn crossed(&self, motion: [[DVec3; 2]; 2]) -> DVec3 {
         self.bones.iter().find_map(|&bone| crossing(motion, bone)).unwrap_or_default()
     }
 }
 
-/// Where an edge moving straight passes a bone: the signed volume of the two changes sign while their nearest points lie
-/// between their ends. The unit direction across both then.
+/// The unit direction across edge and bone at the moment when an edge in linear motion crosses a bone: the signed
+/// volume of the two changes sign while their nearest points are within both segments. None where it does not cross.
 fn crossing([before, after]: [[DVec3; 2]; 2], bone: Bone) -> Option<DVec3> {
     let edge = |t: f64| [before[0].lerp(after[0], t), before[1].lerp(after[1], t)];
     let volume = |t: f64| {
@@ -119,7 +119,7 @@ fn crossing([before, after]: [[DVec3; 2]; 2], bone: Bone) -> Option<DVec3> {
     };
     (0..MOMENTS).find_map(|k| {
         let [mut early, mut late] = [k, k + 1].map(|k| f64::from(k) / f64::from(MOMENTS));
-        // Nothing counts as negative: a step that ends just on the bone is seen in this moment or in the next.
+        // A volume of zero counts as negative: a step that ends just on the bone is seen in this interval or in the next.
         let first = volume(early) > 0.0;
         if first == (volume(late) > 0.0) {
             return None;
@@ -133,7 +133,7 @@ fn crossing([before, after]: [[DVec3; 2]; 2], bone: Bone) -> Option<DVec3> {
     })
 }
 
-/// Whether the nearest points of two lines in one plane lie between the ends of both segments.
+/// Whether the nearest points of two coplanar lines are within both segments.
 fn meet([a, b]: [DVec3; 2], [c, d]: Bone) -> bool {
     let (u, v, w) = (b - a, d - c, c - a);
     let n = u.cross(v);

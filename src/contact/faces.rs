@@ -1,5 +1,5 @@
-//! Whole faces against the body: those that come too near it between their corners, and those that face it. What was found
-//! about a face holds until its corners have moved too far, so that of cloth that lies nearly still few are looked at again.
+//! Contact of whole faces with the body: faces too near to it between their corners, and faces on the wrong side of the skin.
+//! Results for a face stay valid until its corners have moved too far, so that few faces of resting cloth are tested again.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -9,15 +9,15 @@ use crate::cloth::refine::Refined;
 use crate::cloth::{ClothState, Counters, Garment, Skip, Skips};
 use crate::contact::BodyOverlaps;
 
-/// How many clearances deep a face may lie in the body and still be found: its corners are above the skin.
+/// Depth, in clearances, down to which a face is found in the body; its corners are above the skin.
 const LOOK_INTO: f64 = 5.0;
-/// How far from skin that a face faces is looked after, metres on a body 1.5 m large.
+/// Distance from the skin within which faces are tested for being on the wrong side, metres on a body 1.5 m large.
 const WRONG_REACH: f64 = 0.02;
-/// A face is on the wrong side when its normal and the skin's have a smaller cosine.
+/// Cosine between the normals of face and skin below which the face is on the wrong side.
 const WRONG: f64 = -0.15;
-/// How much farther than needed faces are looked at, so that the answer holds for a while; metres on a body 1.5 m large.
+/// Extra distance over which faces are tested, so that results stay valid for a while; metres on a body 1.5 m large.
 const AHEAD: f64 = 0.002;
-/// Where a face is looked at, in shares of its corners.
+/// Sample points of a face, in barycentric coordinates.
 const SAMPLES: [[f64; 3]; 7] = [
     [0.5, 0.5, 0.0],
     [0.0, 0.5, 0.5],
@@ -28,42 +28,42 @@ const SAMPLES: [[f64; 3]; 7] = [
     [1.0 / 6.0, 1.0 / 6.0, 2.0 / 3.0],
 ];
 
-/// What is known of a face from when it was looked at. Negative: nothing.
+/// Results of the last tests of a face. Negative values: to be tested again.
 #[derive(Clone, Copy, Debug)]
 struct Known {
-    /// It keeps its clearance while no corner has moved farther, metres.
+    /// The face keeps its clearance while no corner moves farther than this, metres.
     clear: f32,
-    /// It shows the skin its right side, or is far from it, while no corner has moved farther, metres,
+    /// The face is not on the wrong side while no corner moves farther than this, metres, and `turn` is kept as well.
     right: f32,
-    /// and its unit normal has changed by less.
+    /// Change of the unit normal below which the face is not on the wrong side, see `right`.
     turn: f32,
 }
 
 const NOTHING: Known = Known { clear: -1.0, right: -1.0, turn: -1.0 };
 
-/// What is known about all faces of a garment.
+/// Results for all faces of a garment.
 #[derive(Clone, Debug, Default)]
 pub struct Faces {
     known: Vec<Known>,
-    /// Where the corners were when that was brought up to date.
+    /// Positions of the vertices when the results were last updated, metres.
     seen: Vec<DVec3>,
     clearance: f64,
 }
 
-/// A garment where it lies, on its body.
+/// A garment on its body, as face tests need it.
 #[derive(Clone, Copy, Debug)]
 pub struct Lying<'a> {
     /// The cloth.
     pub garment: &'a Garment,
     /// The body.
     pub surface: &'a Surface,
-    /// Where the cloth is.
+    /// State of the cloth.
     pub state: &'a ClothState,
-    /// What may be left out.
+    /// Allowed shortcuts.
     pub skips: Skips,
-    /// The garment with its split edges, and where that is.
+    /// The garment with split edges, and its state, where edges are split.
     pub split: Option<(&'a Refined, &'a ClothState)>,
-    /// Skin that some vertices do not touch.
+    /// Which skin each vertex ignores; None: no skin.
     pub apart: Option<&'a BodyOverlaps>,
 }
 
@@ -74,7 +74,7 @@ impl Lying<'_> {
         laid.then(|| vs.map(|v| self.state.positions[v as usize]))
     }
 
-    /// Whether face `t` does not touch `triangle` of the body.
+    /// Whether face `t` ignores `triangle` of the body.
     fn leaves_out(&self, t: usize, triangle: u32) -> bool {
         let vs = &self.garment.triangles[t];
         self.apart.is_some_and(|apart| vs.iter().any(|&v| apart.leaves_out(v as usize, triangle)))
@@ -82,8 +82,8 @@ impl Lying<'_> {
 }
 
 impl Faces {
-    /// For each face how much it lacks to `clearance` metres above the skin at its worst point; 0: nothing. `near` tells of
-    /// each vertex whether the skin is near.
+    /// For each face how much its worst sample point lacks to `clearance` metres above the skin, metres; 0 for none.
+    /// `near` tells for each vertex whether the skin is near.
     pub fn lacking(
         &mut self,
         lying: Lying<'_>,
@@ -131,7 +131,7 @@ impl Faces {
         lacking
     }
 
-    /// For each face that faces the skin next to it the way off that skin.
+    /// For each face that is on the wrong side of the skin next to it, the direction off that skin; None for the others.
     pub fn wrong(&mut self, lying: Lying<'_>, counters: &mut Counters) -> Vec<Option<DVec3>> {
         self.age(lying);
         let scale = lying.surface.scale();
@@ -165,7 +165,7 @@ impl Faces {
                 if facing < WRONG {
                     return Some(near.normal);
                 }
-                // While the centre moves by less than half of `ahead`, what is nearest is among these.
+                // While the centre moves by less than half of `ahead`, its nearest facet is one of these.
                 *asked = 2;
                 let least = lying.surface.least_facing_within(centre, distance + ahead, normal);
                 known.right = ((ahead / 2.0) as f32).next_down();
@@ -178,12 +178,12 @@ impl Faces {
         wrong
     }
 
-    /// Bytes it keeps.
+    /// Memory used, bytes.
     pub fn bytes(&self) -> usize {
         self.known.len() * size_of::<Known>() + self.seen.len() * size_of::<DVec3>()
     }
 
-    /// Takes off what is known as much as the cloth has moved since.
+    /// Shortens the validity of all results by the motion of the cloth since the last update.
     fn age(&mut self, lying: Lying<'_>) {
         let (garment, positions) = (lying.garment, &lying.state.positions);
         if self.seen.len() != positions.len() || !lying.skips.allow(Skip::Faces) {
@@ -210,8 +210,8 @@ impl Faces {
     }
 }
 
-/// What a face, or a cut of face `t`, lacks to the clearance, and how far it may move before it lacks anything (not more than `ahead`). Points
-/// deeper in the body than `limit` are not found.
+/// How much the worst sample point of face `t`, or of a part of it with these `corners`, lacks to the clearance; and how far
+/// it may move before it lacks anything (at most `ahead`). Metres. Points deeper in the body than `limit` are not found.
 fn look(corners: [DVec3; 3], lying: Lying<'_>, t: usize, [clearance, limit, ahead]: [f64; 3]) -> (f64, f64) {
     let (mut lack, mut clear) = (0.0f64, f64::INFINITY);
     for share in &SAMPLES {

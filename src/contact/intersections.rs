@@ -1,4 +1,5 @@
-//! Cloth against itself, where two layers have run a little way into one another: between the legs, in armpits, in folds.
+//! Self-intersections of cloth, where two layers have run a little way into one another: between the legs, in
+//! armpits, in folds; and directions that resolve them.
 
 use glam::DVec3;
 
@@ -7,22 +8,22 @@ use crate::contact::pockets::pockets;
 use crate::geometry::crossings::self_crossings;
 use crate::geometry::mesh::TriMesh;
 
-/// An edge that lies nearly in a triangle it crosses counts as this steep (a sine).
+/// Smallest sine of the angle between an edge and the triangle that it intersects; smaller ones are raised to it.
 const LEAST_SLOPE: f64 = 0.1;
-/// Shares in which the rings round what lies deep go the way of the ring before.
+/// Factors by which the rings of vertices round deep ones take over the direction of the ring before.
 const ALONG: [f64; 3] = [0.9, 0.7, 0.4];
 
-/// Where cloth runs through itself.
+/// The self-intersections of a garment.
 #[derive(Clone, Debug)]
 pub struct Intersections {
-    /// Of the laid triangles.
+    /// Mesh of the triangles that are placed.
     pub mesh: TriMesh,
-    /// The edge of the garment and the triangle of `mesh` it passes through.
+    /// Pairs of an edge of the garment and the triangle of `mesh` that it intersects.
     pub places: Vec<[u32; 2]>,
 }
 
 impl Intersections {
-    /// Of `garment` where it lies.
+    /// Finds the self-intersections of `garment`.
     pub fn new(garment: &Garment, state: &ClothState) -> Self {
         let laid = |vs: &[u32]| vs.iter().all(|&v| state.mapped[v as usize]);
         let triangles = garment.triangles.iter().copied().filter(|vs| laid(vs)).collect();
@@ -35,11 +36,12 @@ impl Intersections {
         Self { mesh, places }
     }
 
-    /// For each vertex where to send it so that layers part, in units; zero: nowhere.
+    /// For each vertex the direction in which to move it so that layers separate: at most of length 1, zero where
+    /// there is nothing to do.
     ///
-    /// It is the way that shortens the lines in which they meet (Volino and Magnenat-Thalmann, Resolving surface collisions
-    /// through intersection contour minimization, 2006). That needs no memory of which layer came from where: lines end at
-    /// borders or close in themselves, and shrink from there.
+    /// It shortens the intersection contours (Volino and Magnenat-Thalmann, Resolving surface collisions through
+    /// intersection contour minimization, 2006). That needs no memory of which layer came from where: contours end at
+    /// borders or are closed, and shrink from there.
     pub fn ways(&self, garment: &Garment, state: &ClothState) -> Vec<DVec3> {
         let mut ways = vec![DVec3::ZERO; state.positions.len()];
         let at = |v: u32| state.positions[v as usize];
@@ -59,7 +61,7 @@ impl Intersections {
                 let third = vs.iter().copied().find(|v| *v != a && *v != b).unwrap_or(a);
                 let inward = at(third) - at(a);
                 let inward = inward - along * inward.dot(along);
-                // Along the line in which the two triangles meet, into the one beside the edge.
+                // Along the intersection of the two triangles, into the triangle beside the edge.
                 let line = normal.cross(along.cross(inward)).normalize_or_zero();
                 let line = if line.dot(inward) < 0.0 { -line } else { line };
                 let slope = along.dot(normal);
@@ -74,8 +76,8 @@ impl Intersections {
         ways
     }
 
-    /// The same, where whole parts of the cloth that lie on the wrong side of other cloth come out again, and draw along what is
-    /// round them. And whether there are such parts.
+    /// Directions as from [`Intersections::ways`], but whole parts of the cloth on the wrong side of other cloth move
+    /// out along their normals and take the vertices round them along. Also returns whether there are such parts.
     pub fn ways_out(&self, garment: &Garment, state: &ClothState) -> (Vec<DVec3>, bool) {
         let mut ways = self.ways(garment, state);
         if self.places.is_empty() {
@@ -98,7 +100,7 @@ impl Intersections {
     }
 }
 
-/// What is beside those who are `drawn` goes along by this share.
+/// Vertices beside those that are `drawn` take over the mean of their directions times `share`, and are `drawn` then.
 fn draw_along(garment: &Garment, ways: &mut [DVec3], drawn: &mut [bool], share: f64) {
     let mut more = Vec::new();
     for v in (0..ways.len()).filter(|&v| !drawn[v]) {

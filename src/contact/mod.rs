@@ -1,4 +1,4 @@
-//! Cloth against body, and against itself.
+//! Contact of cloth with the body and with itself.
 
 pub mod body_overlaps;
 pub mod bones;

@@ -1,10 +1,10 @@
-//! Parts of the cloth that have run into other parts of it: one trouser leg into the other, a sleeve into the side, a fold
-//! through the layer behind.
+//! Winding number test for parts of the cloth that have run into other parts: one trouser leg into the other, a
+//! sleeve into the side, a fold through the layer behind.
 //!
-//! With its openings closed, cloth winds once round what it encloses; counted at its own points, more than never and less than
-//! once, as sharply as it may be folded there. Where a part of it lies within another part it winds once more, and where it has
-//! come out through another, once less. So it is known which way is out, however deep it lies: pairs of what is near and lines
-//! that shrink (see [`layers`](crate::contact::intersections)) do not know it.
+//! With its openings closed, cloth has winding number 1 about what it encloses. At a point of the cloth itself it is
+//! between 0 and 1, depending on how sharply it is folded there. Where a part is inside another part it is larger by
+//! 1, and where it has come out through another, smaller by 1. So the way out is known at any depth, which neither
+//! nearby pairs nor contours that shrink (see [`intersections`](crate::contact::intersections)) can tell.
 
 use std::collections::VecDeque;
 
@@ -15,16 +15,17 @@ use crate::geometry::borders::border_loops;
 use crate::geometry::mesh::TriMesh;
 use crate::geometry::winding::Winding;
 
-/// Points that are asked how often cloth winds round what it encloses.
+/// Number of sample points for the usual winding number of a part.
 const ASKED: usize = 15;
-/// Of the winding number: what is taken for certain is so far beyond what there can be.
+/// Tolerance of the winding number beyond its possible range.
 const CERTAIN: f64 = 0.03;
 
-/// What is wound round more often than so lies within.
+/// Winding number above which a point is inside.
 const WITHIN: f64 = 0.5;
 
-/// For each vertex how much more often than it should the cloth winds round it: 0 where all is well, or nothing is known.
-/// `mesh` are the laid triangles of `garment`; `crossed` tells of each of its edges whether other cloth of it passes it.
+/// For each vertex 1 where its part of the cloth is inside other cloth, -1 where it has come out through other cloth,
+/// 0 where all is well, or nothing is known. `mesh` holds the placed triangles of `garment`; `crossed` tells for each
+/// edge of the garment whether it intersects other cloth of it.
 pub fn pockets(garment: &Garment, mesh: &TriMesh, crossed: &[bool]) -> Vec<i8> {
     let part = parts(garment, mesh);
     let mut deep = vec![0; garment.vertex_count];
@@ -59,8 +60,7 @@ pub fn pockets(garment: &Garment, mesh: &TriMesh, crossed: &[bool]) -> Vec<i8> {
     deep
 }
 
-/// Cloth of a higher layer that has come into what a lower one encloses, openings and all, is `deep` as if it had come out of other
-/// cloth: out is where it belongs.
+/// Marks as -1 (to move outward) vertices of a higher layer that are inside what a lower layer encloses, openings included.
 fn under(garment: &Garment, mesh: &TriMesh, crossed: &[bool], part: &[u32], deep: &mut [i8]) {
     if garment.layers.is_empty() {
         return;
@@ -103,7 +103,7 @@ fn layers(garment: &Garment) -> Vec<u8> {
     layers
 }
 
-/// How often cloth winds round the one side of itself at most of its points, the whole number below.
+/// The usual winding number just on one side of the cloth: the median over sample points, rounded down.
 fn usual(winding: &Winding<'_>, mesh: &TriMesh, chosen: impl Fn(u32) -> bool) -> f64 {
     let own: Vec<u32> = (0..mesh.positions.len() as u32).filter(|&v| chosen(v)).collect();
     let count = own.len().min(ASKED);
@@ -113,7 +113,7 @@ fn usual(winding: &Winding<'_>, mesh: &TriMesh, chosen: impl Fn(u32) -> bool) ->
     found.get(count / 2).copied().unwrap_or_default()
 }
 
-/// The triangles whose vertices are `chosen`, with a fan over each border.
+/// The triangles whose vertices are `chosen`, with a fan that closes each border.
 fn closed(mesh: &TriMesh, chosen: impl Fn(u32) -> bool) -> TriMesh {
     let triangles = mesh.triangles.iter().copied().filter(|vs| chosen(vs[0])).collect();
     let mut closed = TriMesh { positions: mesh.positions.clone(), triangles };
@@ -127,7 +127,7 @@ fn closed(mesh: &TriMesh, chosen: impl Fn(u32) -> bool) -> TriMesh {
     closed
 }
 
-/// For each vertex the first of those it hangs together with; `u32::MAX` where nothing is laid.
+/// For each vertex the first vertex of its connected component; `u32::MAX` for vertices that are not placed.
 fn parts(garment: &Garment, mesh: &TriMesh) -> Vec<u32> {
     let mut laid = vec![false; garment.vertex_count];
     mesh.triangles.iter().flatten().for_each(|&v| laid[v as usize] = true);

@@ -1,9 +1,9 @@
-//! Which edges are split because they would cut the body, and where the vertices put in lie (paper A, adaptive √3).
+//! Adaptive splitting of edges that would cut the body, and positions of the inserted vertices (paper A, adaptive √3).
 //!
-//! A split edge goes over the body in three or four parts, each with its own height, where the plain one would have to be
-//! lifted off by its chord. The vertices put in follow from the plain ones: they are in no matrix, and nothing pulls at them.
-//! (Handing the pull of the small triangles on to the plain vertices was tried: with their height given by the body the
-//! steps did not come to rest.)
+//! A split edge passes over the body in three or four parts, each with its own height; the plain edge would have to
+//! be lifted off by the height of its chord. The inserted vertices depend on the plain ones: they are in no matrix,
+//! and nothing pulls at them. (Passing the forces of the small triangles on to the plain vertices was tried: with
+//! their height given by the body the steps did not come to rest.)
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -16,53 +16,53 @@ use crate::cloth::refine::{DependentVertex, Refined, refine};
 use crate::cloth::{ClothState, Counters, Garment, Skip, Skips};
 use crate::contact::Tracker;
 
-/// Looks in a row in which a split edge would have been clear of the body before it is joined again,
+/// Number of consecutive checks in which a split edge must be clear of the body before it is joined again.
 const CLEAR_LOOKS: u8 = 10;
-/// had it been this many times as long.
+/// Factor on the length of a split edge in the check whether it is clear of the body.
 const LONGER: f64 = 1.2;
-/// Height above the skin that counts as clear, as a share of the offset.
+/// Height above the skin below which an edge counts as near, as a fraction of the offset.
 const CLEAR: f64 = 0.25;
-/// Points of an edge at which that is looked at.
+/// Number of intervals of an edge between whose ends its height is checked.
 const POINTS: u32 = 8;
-/// Steps in which a vertex put in is brought out of the body.
+/// Most steps in which an inserted vertex is moved out of the body.
 const STEPS_OUT: usize = 16;
 
-/// Of cloth that is taken over as it lies, vertices so near the skin may have edges that cut it; metres on a body 1.5 m large.
+/// Distance of vertices from the skin within which resting cloth's edges may cut it, metres on a body 1.5 m large.
 const REACH: f64 = 0.03;
 
-/// A body that cloth may cut, and how high above it cloth lies.
+/// A body that cloth may cut, and the offset of the cloth.
 #[derive(Clone, Copy, Debug)]
 pub struct Ground<'a> {
     /// The body.
     pub surface: &'a Surface,
-    /// Metres.
+    /// Distance that cloth keeps from the skin, metres.
     pub offset: f64,
-    /// What may be left out.
+    /// Allowed shortcuts.
     pub skips: Skips,
 }
 
 /// Edges that may have to be split.
 #[derive(Clone, Copy, Debug)]
 pub struct Suspects<'a> {
-    /// Their numbers.
+    /// Edges of the garment, by number.
     pub edges: &'a [u32],
-    /// Also those that only come nearer to the body than cloth may.
+    /// Whether to split also edges that only come nearer to the body than cloth may.
     pub near: bool,
 }
 
 /// The split edges of a garment.
 #[derive(Clone, Debug, Default)]
 pub struct Splits {
-    /// Each split edge, and in how many looks in a row it was clear.
+    /// Each split edge, and the number of consecutive checks in which it was clear.
     edges: BTreeMap<u32, u8>,
     refined: Option<Arc<Refined>>,
-    /// For each vertex put in where it lies beside the mean of its masters, metres.
+    /// For each inserted vertex its displacement from the mean of its masters, metres.
     beside: Vec<DVec3>,
 }
 
 impl Splits {
-    /// Of cloth that lies still and of which nothing else is known. None when no edge is split. `offset` in metres on a body
-    /// 1.5 m large.
+    /// Splits the edges of resting cloth that cut the body, without anything known of it before. None when no edge is
+    /// split. `offset` is in metres on a body 1.5 m large.
     pub fn of_lying(garment: &Garment, state: &ClothState, surface: &Surface, offset: f64) -> Option<Self> {
         let mut splits = Self::default();
         let mut counters = Counters::default();
@@ -83,24 +83,24 @@ impl Splits {
         (found > 0).then_some(splits)
     }
 
-    /// The garment with its edges split; None when none is.
+    /// The garment with split edges; None when none is split.
     pub fn refined(&self) -> Option<&Arc<Refined>> {
         self.refined.as_ref()
     }
 
-    /// The garment and where it lies, as it is drawn and measured; None when no edge is split.
+    /// The garment with split edges and its state, for drawing and measuring; None when no edge is split.
     pub fn drawn(&self, state: &ClothState) -> Option<(Arc<Garment>, ClothState)> {
         let refined = self.refined.as_ref()?;
         Some((Arc::clone(&refined.garment), self.state(refined, state)))
     }
 
-    /// `state` with the vertices put in.
+    /// `state` with the inserted vertices added.
     pub fn state(&self, refined: &Refined, state: &ClothState) -> ClothState {
         refined.state(state, |dependent| self.beside.get(dependent).copied().unwrap_or_default())
     }
 
-    /// Splits those of `suspects` that cut the body, or of all edges those where the paper's test does not say that the body
-    /// is too flat to. Returns how many.
+    /// Splits edges that cut the body: of `suspects`, or of all edges those that pass the paper's test. Returns the
+    /// number of new splits.
     pub fn split(
         &mut self,
         garment: &Garment,
@@ -137,7 +137,7 @@ impl Splits {
         found
     }
 
-    /// Joins edges that have been clear of the body for long.
+    /// Joins edges that have been clear of the body for `CLEAR_LOOKS` checks.
     pub fn join(
         &mut self,
         garment: &Garment,
@@ -169,7 +169,7 @@ impl Splits {
         self.beside.clear();
     }
 
-    /// Puts the dependents where they belong: between their masters, and out of the body as far as cloth lies above it.
+    /// Updates the inserted vertices: at the mean of their masters, and raised to the offset above the body.
     pub fn place(&mut self, state: &ClothState, tracker: &Tracker, ground: Ground<'_>) {
         self.beside.clear();
         if let Some(refined) = &self.refined {
@@ -179,7 +179,7 @@ impl Splits {
         }
     }
 
-    /// Bytes kept beside the garment.
+    /// Memory used, bytes.
     pub fn bytes(&self) -> usize {
         let refined = self.refined.as_ref().map_or(0, |r| r.bytes());
         self.edges.len() * 16 + self.beside.capacity() * size_of::<DVec3>() + refined
@@ -189,7 +189,7 @@ impl Splits {
 /// An edge with both ends outside of the body and near it.
 struct Edge {
     ends: [DVec3; 2],
-    /// The nearest points of the skin.
+    /// For each end the nearest point of the skin.
     skin: [DVec3; 2],
 }
 
@@ -198,7 +198,7 @@ impl Edge {
         let end = |v: u32| {
             let p = state.positions[v as usize];
             let plane = tracker.plane(v as usize).filter(|plane| plane.height(p) > 0.0)?;
-            // The nearest point moves along with a vertex that moved since it was asked for.
+            // For a vertex that moved since its plane was found, the nearest point is taken in that plane.
             state.mapped[v as usize].then(|| (p, p - plane.normal * plane.height(p)))
         };
         let ([a, p], [b, q]) =
@@ -206,8 +206,8 @@ impl Edge {
         Some(Self { ends: [a, b], skin: [p, q] })
     }
 
-    /// Whether the body may lie in the way: the signed distance is 1-Lipschitz; and unless `all`, a ball as large as the
-    /// edge is long under one of its ends must reach it between its ends (paper A).
+    /// Whether the body may be in the way of the edge: the sum of its ends' heights is at most its length, as the
+    /// signed distance is 1-Lipschitz. Unless `all`, the paper's ball test must hold as well (paper A).
     fn may_cut(&self, all: bool) -> bool {
         let [a, b] = self.ends;
         let length = a.distance(b);
@@ -215,7 +215,8 @@ impl Edge {
         heights <= length && (all || self.meets_ball(length))
     }
 
-    /// The paper's test with an edge so long.
+    /// The paper's ball test for an edge of this length: a ball as large as the edge is long, under one of its ends,
+    /// must reach it between its ends.
     fn meets_ball(&self, length: f64) -> bool {
         let [a, b] = self.ends;
         let along = (b - a).normalize_or_zero();
@@ -228,7 +229,7 @@ impl Edge {
         })
     }
 
-    /// Whether it comes nearer to the body than cloth may, were it `longer` times as long.
+    /// Whether the edge comes nearer to the body than cloth may; it counts as `longer` times as long.
     fn is_near(&self, ground: Ground<'_>, longer: f64) -> bool {
         let [a, b] = self.ends;
         let heights = a.distance(self.skin[0]) + b.distance(self.skin[1]);
@@ -243,7 +244,7 @@ impl Edge {
     }
 }
 
-/// From the mean of a dependent's masters to where it lies: up along their normals until it is as high as cloth is.
+/// Displacement of a dependent vertex from the mean of its masters: along their mean normal until it is at the offset, metres.
 fn out(dependent: &DependentVertex, state: &ClothState, tracker: &Tracker, ground: Ground<'_>) -> DVec3 {
     let between = dependent.between(state);
     let sum: DVec3 = dependent
@@ -258,7 +259,7 @@ fn out(dependent: &DependentVertex, state: &ClothState, tracker: &Tracker, groun
         if lacking <= 1e-3 * ground.offset {
             return p - between;
         }
-        // The signed distance grows by no more than the way: this goes not too far.
+        // The signed distance grows by at most the length of the step: this does not overshoot.
         p += up * lacking;
     }
     let n = ground.surface.nearest(between);

@@ -1,9 +1,9 @@
-//! For each cloth vertex the part of the body near it (paper A's track point), asked for only when it may have changed.
+//! For each cloth vertex the nearest part of the body (paper A's track point), updated only when it may have changed.
 //!
-//! The paper walks from the last triangle to nearer neighbours, which misses parts that were never covered and parts that
-//! come from elsewhere. Here every answer is that of the exact tree; a look round the last triangle replaces it only where
-//! a certificate says that nothing else can be nearer (ALGORITHMS.md 1.A7), and the paper's walk only on the way to where the
-//! next exact one is asked for.
+//! The paper walks from the last triangle to nearer neighbours, which misses parts that were never covered and parts
+//! that come from elsewhere. Here every result is that of an exact query. A search round the last triangle replaces
+//! it only where a certificate proves that nothing else can be nearer (ALGORITHMS.md 1.A7), and the paper's walk only
+//! between two exact queries.
 
 use std::sync::Arc;
 
@@ -15,29 +15,30 @@ use crate::cloth::{ClothState, Counters, Skip, Skips};
 use crate::contact::BodyOverlaps;
 use crate::geometry::adjacency::NONE;
 
-/// A track plane is kept while its vertex has moved less than this, metres on a body 1.5 m large.
+/// Distance that a vertex may move with its track plane kept, metres on a body 1.5 m large.
 const PLANE_REUSE: f64 = 0.0002;
-/// Bodies farther than this are not looked for exactly, metres on a body 1.5 m large.
+/// Distance beyond which the body is not searched for exactly, metres on a body 1.5 m large.
 const SIGHT: f64 = 0.03;
-/// Cloth that moved less than this since it asked is taken to move slowly on: it is worth finding out how far it may go
-/// before another part of the body can be nearest. Metres on a body 1.5 m large.
+/// Motion since the last query below which a vertex counts as slow, metres on a body 1.5 m large. For slow vertices
+/// it is worth computing how far they may move before another part of the body can be nearest.
 const SLOW: f64 = 0.0005;
-/// Far beyond rounding errors, metres on a body 1.5 m large.
+/// Margin well above rounding errors, metres on a body 1.5 m large.
 const CERTAIN: f64 = 1e-6;
-/// Parts farther than the nearest by this are not looked for then, metres on a body 1.5 m large.
+/// Extra distance beyond the nearest point within which the next nearest part is searched for, for the gap of a slow
+/// vertex; metres on a body 1.5 m large.
 const MOST_GAP: f64 = 0.004;
 
-/// The body near a vertex, as a plane.
+/// The tangent plane of the body near a vertex.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plane {
-    /// Nearest point of the skin.
+    /// Nearest point of the skin, metres.
     pub point: DVec3,
-    /// Unit, outward.
+    /// Outward unit normal.
     pub normal: DVec3,
 }
 
 impl Plane {
-    /// Height of `p` above the plane.
+    /// Signed height of `p` above the plane, metres.
     pub fn height(&self, p: DVec3) -> f64 {
         (p - self.point).dot(self.normal)
     }
@@ -45,21 +46,21 @@ impl Plane {
 
 #[derive(Clone, Copy, Debug)]
 enum Track {
-    /// Not asked yet on this body; on the last one `triangle` was near, or none.
+    /// Not queried yet on this body. `triangle` is what was near on the body before, or `NONE`.
     Unknown { triangle: u32 },
-    /// Outside, and at least `distance` from the skin when it was at `at`: the signed distance is 1-Lipschitz, so it
-    /// stays outside until it has moved that far.
+    /// Outside of the body, and at least `distance` from the skin when at `at`. The signed distance is 1-Lipschitz,
+    /// so that the vertex stays outside until it has moved that far.
     Clear { at: DVec3, distance: f64 },
-    /// Found: near, inside, or outside as far as the plane was from `at`. While it moves less than `slack` metres its
-    /// nearest point is on `triangle` or those that touch it. [`WALKED`]: found by walking, for the time being;
-    /// all of the body is then at least `least` metres away.
+    /// The nearest point is known: inside, near, or outside at the height of `at` above the plane. While the vertex
+    /// moves less than `slack` metres its nearest point is on `triangle` or triangles that touch it; [`WALKED`]:
+    /// found by a walk, for the time being. The signed distance to the body is at least `least` metres at `at`.
     Found { at: DVec3, plane: Plane, triangle: u32, slack: f32, least: f32 },
 }
 
-/// The slack of what was found by walking: no part of the body far from the last one was looked at.
+/// The slack of a track found by a walk, which did not look at parts of the body far from the last one.
 const WALKED: f32 = f32::NEG_INFINITY;
 
-/// What bringing a track up to date took.
+/// The work done to update a track.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Effort {
     Nothing,
@@ -72,21 +73,22 @@ enum Effort {
 #[derive(Clone, Debug)]
 pub struct Tracker {
     tracks: Vec<Track>,
-    /// Of the last update: planes of what is farther are not given out.
+    /// Reach of the last update, metres: vertices higher above the skin have no plane.
     pub reach: f64,
-    /// Cloth that lay near the skin walks there from where it was, until this is false again: then it asks anew.
+    /// While true, tracks of vertices near the skin are updated by a walk from their last triangle; the first update
+    /// after that queries them exactly.
     pub walks: bool,
-    /// Skin that some vertices do not touch.
+    /// Which skin each vertex ignores; None: no skin.
     pub apart: Option<Arc<BodyOverlaps>>,
 }
 
 impl Tracker {
-    /// Nothing known yet about `count` vertices.
+    /// A tracker of `count` vertices, with nothing known yet.
     pub fn new(count: usize) -> Self {
         Self { tracks: vec![Track::Unknown { triangle: NONE }; count], reach: 0.0, walks: false, apart: None }
     }
 
-    /// Brings the tracks of all mapped vertices up to date. Those within `reach` metres of the skin have a plane afterwards.
+    /// Updates the tracks of all mapped vertices. Those within `reach` metres of the skin have a plane afterwards.
     pub fn update(
         &mut self,
         surface: &Surface,
@@ -112,7 +114,7 @@ impl Tracker {
         counters.contact_checks += state.positions.len() as u64;
     }
 
-    /// The same for one vertex; its plane if it is within `reach` of the skin.
+    /// Updates the track of one vertex. Returns its plane if it is within `reach` metres of the skin.
     pub fn update_one(
         &mut self,
         vertex: u32,
@@ -133,7 +135,7 @@ impl Tracker {
         self.plane(vertex as usize)
     }
 
-    /// The track plane of a vertex, when the body is near.
+    /// The track plane of a vertex, if it is within the reach of the last update.
     pub fn plane(&self, vertex: usize) -> Option<Plane> {
         match self.tracks[vertex] {
             Track::Found { at, plane, .. } if plane.height(at) <= self.reach => Some(plane),
@@ -141,7 +143,8 @@ impl Tracker {
         }
     }
 
-    /// At least so far outside of the body (negative: perhaps inside) a vertex at `p` is by what is known of it.
+    /// Lower bound of the signed distance to the body for a vertex at `p`, metres, by what is known of it; negative:
+    /// perhaps inside.
     pub fn at_least(&self, vertex: usize, p: DVec3) -> f64 {
         match self.tracks[vertex] {
             Track::Unknown { .. } => f64::NEG_INFINITY,
@@ -150,7 +153,7 @@ impl Tracker {
         }
     }
 
-    /// A vertex was carried to `position` along its plane's normal: its nearest point of the skin is the same.
+    /// Tells that a vertex was moved to `position` along its plane's normal, so that its nearest point of the skin is the same.
     pub fn moved_along_normal(&mut self, vertex: usize, position: DVec3) {
         if let Track::Found { at, slack, least, .. } = &mut self.tracks[vertex] {
             let moved = ((position - *at).length() as f32).next_up();
@@ -160,12 +163,12 @@ impl Tracker {
         }
     }
 
-    /// Bytes it keeps.
+    /// Memory used, bytes.
     pub fn bytes(&self) -> usize {
         self.tracks.len() * size_of::<Track>()
     }
 
-    /// Forgets everything, as the body has changed, but where on it to begin to look.
+    /// Forgets all tracks because the body has changed, except the triangles from which the next search starts.
     pub fn forget(&mut self) {
         for track in &mut self.tracks {
             let triangle = match *track {
@@ -177,7 +180,7 @@ impl Tracker {
     }
 }
 
-/// Queries, gaps looked for, walks.
+/// Counts an effort as queries, gaps and walks, in this order.
 fn work(effort: Effort) -> [u64; 3] {
     match effort {
         Effort::Nothing => [0, 0, 0],
@@ -187,7 +190,7 @@ fn work(effort: Effort) -> [u64; 3] {
     }
 }
 
-/// How a track is brought up to date.
+/// What an update of a track needs to know.
 struct Ask<'a> {
     surface: &'a Surface,
     reach: f64,
@@ -208,7 +211,7 @@ impl<'a> Ask<'a> {
         Self { surface, reach, scale: surface.scale(), skips, walks, apart }
     }
 
-    /// Whether `triangle` is one of this body, and `v` may touch it.
+    /// Whether `triangle` exists on this body and vertex `v` does not ignore it.
     fn is_known(&self, v: usize, triangle: u32) -> bool {
         (triangle as usize) < self.surface.mesh.triangles.len()
             && !self.apart.is_some_and(|apart| apart.leaves_out(v, triangle))
@@ -222,7 +225,7 @@ impl<'a> Ask<'a> {
                 if allow(Skip::Certificates) && distance - (p - at).length() > self.reach {
                     return Effort::Nothing;
                 }
-                // It was outside and cannot have come through the whole body: no need to look farther than this.
+                // The vertex was outside and cannot have passed through the whole body: it need not search farther than this.
                 SIGHT * self.scale
             }
             Track::Found { slack: WALKED, plane, .. } if !self.walks => {
@@ -252,13 +255,13 @@ impl<'a> Ask<'a> {
                     return Effort::Walk;
                 }
                 slow = moved < SLOW * self.scale;
-                // No farther than it can have come, and no farther than a Clear one is looked for.
+                // Not farther than it can have moved, and no farther than for a Clear track.
                 let height = plane.height(at);
                 let most = height.abs() + moved + CERTAIN * self.scale;
                 let most = if height > 0.0 { most.min(SIGHT * self.scale) } else { most };
                 most.min(self.surface.distance_to(p, triangle) + CERTAIN * self.scale)
             }
-            // In another pose of the same body what was near still is.
+            // In another pose of the same body the part that was near still is.
             Track::Unknown { triangle } if self.is_known(v, triangle) => {
                 self.surface.distance_to(p, triangle) + CERTAIN * self.scale
             }
@@ -279,7 +282,7 @@ impl<'a> Ask<'a> {
     }
 }
 
-/// The plane of `n`, found from `p`. The `slack` is that of `triangle`.
+/// A track with the plane of `n`, found from `p`. `slack` belongs to `triangle`.
 fn found(p: DVec3, n: Nearest, slack: f32, triangle: u32) -> Track {
     let plane = Plane { point: n.point, normal: n.normal };
     Track::Found { at: p, plane, triangle, slack, least: (n.distance as f32).next_down() }

@@ -1,4 +1,4 @@
-//! Waistbands: a strip before and one behind.
+//! Waistbands of two strips, one in front and one at the back.
 
 use glam::{DVec2, DVec3};
 
@@ -6,13 +6,13 @@ use crate::draft::form::Form;
 use crate::draft::garment::{Facing, Garment, Part, Run, UPWARDS};
 use crate::draft::path::Path;
 
-/// How far before and behind the skin of the hip the strips stand, metres.
+/// Distance at which the strips are placed in front of and behind the skin of the hip, metres.
 const CLEARANCE: f64 = 0.10;
-/// Between a band and what it is sewn to, as placed, metres.
+/// Gap between a band and the edge it is sewn to, as placed, metres.
 const GAP: f64 = 0.005;
 
-/// Drafts a band `height` metres high and `girth` round, stands it at `level` metres above the ground and sews it to the upper
-/// edges of front and back, which run from the right of the body to the left; what is longer is gathered.
+/// Drafts a band `height` metres high and `girth` metres round, places it at `level` metres above the ground and sews it to the
+/// upper edges of front and back, which run from the right of the body to the left. The longer edge is gathered.
 pub fn waistband(garment: &mut Garment, form: &Form, height: f64, girth: f64, level: f64, tops: [Run; 2]) {
     let lengths = tops.each_ref().map(|run| garment.length(run));
     let share = girth / (lengths[0] + lengths[1]);

@@ -10,18 +10,18 @@ use crate::draft::path::{Dart, Path, cubic_length, to_the_right};
 use crate::draft::random::Random;
 use crate::geometry::ids::PieceId;
 
-/// Moved from each quarter of the back to the front, metres: the bust takes more of the width.
+/// Width moved from each quarter of the back to the front, metres: the bust takes more of the girth in front.
 const FRONT_SHARE: f64 = 0.008;
-/// How far before and behind the skin pieces stand, metres.
+/// Distance at which pieces are placed in front of and behind the skin, metres.
 pub const CLEARANCE: f64 = 0.12;
-/// From the armpit down to the underarm point where the bodice has sleeves or none, metres.
+/// Distance from the armpit down to the underarm point of a bodice with set-in sleeves or none, metres.
 const UNDERARM_DROP: f64 = 0.030;
 
-/// Where a bodice ends.
+/// Length of a bodice: where its hem is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Hem {
-    /// At the waist, to be sewn to a skirt or trousers, or free.
+    /// At the waist, to be sewn to a skirt or trousers, or left free.
     Waist,
     /// At the hip.
     Hip,
@@ -29,28 +29,28 @@ pub enum Hem {
     Tunic,
 }
 
-/// How a bodice is cut; metres.
+/// Measures of a bodice, metres.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Bodice {
     pub hem: Hem,
-    /// Added to the bust girth.
+    /// Ease added to the bust girth.
     pub bust_ease: f64,
-    /// Added to the girth at the hem (where that is the waist: of the waist, darts taken in).
+    /// Ease added to the girth at the hem (at the waist: of the waist after darts).
     pub hem_ease: f64,
-    /// What the waist darts of each quarter take in, metres; only where the hem is the waist.
+    /// Width of the waist dart of each quarter; only where the hem is at the waist.
     pub waist_dart: f64,
-    /// A dart in the front's side seam takes the length that the bust needs.
+    /// Whether a dart in the front's side seam takes the extra length over the bust.
     pub bust_dart: bool,
-    /// Front and back are seamed down the middle.
+    /// Whether the front and the back have a centre seam.
     pub centre_seams: [bool; 2],
-    /// How much longer it is than from bust to waist, where it ends there.
+    /// Extra length below the waist line, for a hem at the waist.
     pub blouse: f64,
-    /// How much shorter its shoulder seam is than the shoulder: armholes without sleeves lie further in.
+    /// Difference between the length of the shoulder and that of its seam: armholes without sleeves are further in.
     pub short_shoulder: f64,
 }
 
 impl Bodice {
-    /// Straight or widening, without darts.
+    /// A straight or widening bodice without darts, drawn at random.
     pub fn boxy(random: &mut Random, hem: Hem) -> Self {
         let bust_ease = random.between(0.08, 0.20);
         Self {
@@ -65,7 +65,7 @@ impl Bodice {
         }
     }
 
-    /// Taken in by darts, to the waist.
+    /// A bodice down to the waist with darts, drawn at random.
     pub fn fitted(random: &mut Random) -> Self {
         Self {
             hem: Hem::Waist,
@@ -79,7 +79,7 @@ impl Bodice {
         }
     }
 
-    /// Height of the hem below the bust line.
+    /// Distance of the hem below the bust line, metres.
     fn length(&self, form: &Form) -> f64 {
         match self.hem {
             Hem::Waist => form.bust - form.waist + self.blouse,
@@ -88,7 +88,7 @@ impl Bodice {
         }
     }
 
-    /// Half the width of front or back at the hem, darts taken in.
+    /// Half the width of the front or back at the hem after darts, metres.
     fn hem_quarter(&self, form: &Form) -> f64 {
         let m = &form.measurements;
         let girth = match self.hem {
@@ -100,50 +100,50 @@ impl Bodice {
     }
 }
 
-/// What a bodice's side goes up to.
+/// Kind of armhole.
 #[derive(Clone, Copy, Debug)]
 pub enum Armhole {
-    /// For a sleeve that is set in, or for none.
+    /// An armhole for a set-in sleeve, or for none.
     SetIn,
     /// A raglan line up to the neckline.
     Raglan,
 }
 
-/// Front and back with the places where more is sewn on.
+/// Front and back of a bodice, with the edges to which more is sewn.
 pub struct Trunk {
-    /// Front and back: one piece each, or a left and a right one.
+    /// Pieces of the front and of the back: one each, or a left and a right one.
     pub sides: [Vec<PieceId>; 2],
-    /// Length of one armhole's line in front and behind, metres.
+    /// Lengths of one armhole in the front and in the back, metres.
     pub armhole_lengths: [f64; 2],
-    /// The shoulder seam that it was drafted with.
+    /// The yoke it was drafted with.
     pub yoke: Yoke,
-    /// Height of the hem as placed, of front and back.
+    /// Height of the hem of front and back as placed, metres.
     pub hem_height: [f64; 2],
-    /// Raglan sleeves reach to here on front and back, from the neck end of the shoulder seam.
+    /// End points of the raglan line on front and back, in the plane of the piece, metres.
     pub raglan: [DVec2; 2],
 }
 
 impl Trunk {
-    /// The waist or hem, from the right of the body to the left.
+    /// The waist or hem edges, from the right of the body to the left.
     pub fn hem(&self, garment: &Garment, side: usize) -> Run {
         garment.run(&self.sides[side], "hem", DVec3::X)
     }
 
-    /// The neckline, from the right of the body to the left.
+    /// The neckline edges, from the right of the body to the left.
     pub fn neckline(&self, garment: &Garment, side: usize) -> Run {
         garment.run(&self.sides[side], "neck", DVec3::X)
     }
 
-    /// An armhole from below upwards.
+    /// The armhole edges of the `hand` ("left" or "right"), from below upwards.
     pub fn armhole(&self, garment: &Garment, side: usize, hand: &str) -> Run {
         garment.run(&self.sides[side], &format!("armhole {hand}"), DVec3::Y)
     }
 }
 
-/// From the neck end of the shoulder seam to where a raglan line meets the neckline, in front and behind, metres.
+/// End of the raglan line on the neckline, relative to the neck end of the shoulder seam, in front and at the back, metres.
 const RAGLAN_NECK: [DVec2; 2] = [DVec2::new(-0.010, -0.038), DVec2::new(-0.026, -0.010)];
 
-/// Drafts front and back, stands them round the body and sews shoulders, sides, middles and darts.
+/// Drafts front and back, places them round the body and sews shoulders, sides, centre seams and darts.
 pub fn bodice(garment: &mut Garment, form: &Form, cut: &Bodice, neck: &Neckline, armhole: Armhole) -> Trunk {
     let yoke = form.yoke(form.neck_width(neck.width), cut.short_shoulder);
     let hem = -cut.length(form);
@@ -158,7 +158,7 @@ pub fn bodice(garment: &mut Garment, form: &Form, cut: &Bodice, neck: &Neckline,
         let quarter = (form.measurements.bust + cut.bust_ease) / 4.0 + wider;
         let raised = if side == 0 { bust_dart } else { 0.0 };
         let hem_end = DVec2::new(cut.hem_quarter(form) + cut.waist_dart, hem);
-        // Both sides of the side seam are as long as the front's without its dart.
+        // Both edges of the side seam have the length of the front's without its dart.
         let rise = match side_length {
             None => under + raised - hem,
             Some(length) => (length * length - (quarter - hem_end.x).powi(2)).sqrt(),
@@ -216,7 +216,7 @@ pub fn bodice(garment: &mut Garment, form: &Form, cut: &Bodice, neck: &Neckline,
     Trunk { sides, armhole_lengths: lengths, yoke, hem_height, raglan }
 }
 
-/// Sews shoulders, sides, middle seams and darts of a trunk.
+/// Sews shoulders, sides, centre seams and darts of a trunk.
 pub fn sew_trunk(garment: &mut Garment, front: &[PieceId], back: &[PieceId]) {
     garment.sew_darts(front);
     garment.sew_darts(back);
@@ -229,7 +229,7 @@ pub fn sew_trunk(garment: &mut Garment, front: &[PieceId], back: &[PieceId]) {
     }
 }
 
-/// Stands front (0) or back (1), drawn with the bust line at y = 0, whole or in two halves.
+/// Places the front (0) or back (1), drawn with the bust line at y = 0, whole or in two halves.
 pub fn stand_side(
     garment: &mut Garment,
     form: &Form,
@@ -249,13 +249,13 @@ pub fn stand_side(
     [left, right].map(|piece| garment.stand(piece, Part::Body, facing, at)).into()
 }
 
-/// How high the bust line of front or back stands, so that its shoulder seam lies on the shoulder.
+/// Height at which the bust line of front or back is placed so that the shoulder seam is on the shoulder, metres.
 pub fn placed_height(form: &Form, yoke: &Yoke, side: usize) -> f64 {
     let middle = (yoke.neck[side] + yoke.tip[side]) / 2.0;
     form.shoulder_at(middle.x).y + 0.01 - middle.y
 }
 
-/// What a bust dart takes in: how much longer the front is than the back, within what can be sewn flat.
+/// Width of a bust dart, metres: how much longer the front is than the back, within what can be sewn flat.
 fn dart_intake(yoke: &Yoke) -> f64 {
     (yoke.neck[0].y - yoke.neck[1].y).clamp(0.012, 0.035)
 }

@@ -1,4 +1,4 @@
-//! Collars: a strip before and one behind, sewn to the neckline.
+//! Collars of two strips, one in front and one at the back, sewn to the neckline.
 
 use glam::{DVec2, DVec3};
 use serde::Serialize;
@@ -9,31 +9,31 @@ use crate::draft::garment::{Facing, Garment, Part};
 use crate::draft::path::Path;
 use crate::draft::random::Random;
 
-/// How far before and behind the neck the strips stand, metres.
+/// Distance at which the strips are placed in front of and behind the neck, metres.
 const BESIDE: f64 = 0.10;
 
-/// How a collar is cut; metres.
+/// Measures of a collar, metres.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Collar {
     /// Height.
     pub height: f64,
-    /// Length of its upper edge over that of the neckline: below 1 it leans to the neck, above it opens like a funnel.
+    /// Length of its upper edge over that of the neckline: below 1 it leans to the neck, above 1 it opens like a funnel.
     pub flare: f64,
 }
 
 impl Collar {
-    /// A stand collar, a funnel or a turtleneck.
+    /// A stand collar, a funnel or a turtleneck, drawn at random.
     pub fn drawn(random: &mut Random) -> Self {
         let (height, flare) = random.one_of([(0.035, 0.96), (0.045, 1.08), (0.08, 1.0), (0.065, 1.15)]);
         Self { height: height * random.between(0.85, 1.15), flare }
     }
 }
 
-/// Drafts both strips, stands them round the neck and sews them to the neckline of `trunk`.
+/// Drafts both strips, places them round the neck and sews them to the neckline of `trunk`.
 pub fn collar(garment: &mut Garment, form: &Form, cut: &Collar, trunk: &Trunk) {
     let neck = form.shoulder_at(trunk.yoke.neck[0].x);
     let halves = [0, 1].map(|side| garment.length(&trunk.neckline(garment, side)) / 2.0);
-    // Alike in front and behind, so that the sides are as long as each other.
+    // The same lean in front and at the back, so that the side edges have the same length.
     let lean = (cut.flare - 1.0) * (halves[0] + halves[1]) / 2.0;
     let strips = [0, 1].map(|side| {
         let half = halves[side];

@@ -1,44 +1,44 @@
-//! Which garments there are: designs, each for every body in every pose.
+//! The corpus: all designs, each for every body size in every pose.
 
 use crate::body::NamedPose;
 use crate::draft::design::{Design, Kind};
 use crate::draft::random::Random;
 use crate::draft::sizes::BodySize;
 
-/// What a corpus is made of.
+/// Definition of a corpus.
 #[derive(Clone, Debug)]
 pub struct Corpus {
-    /// Designs are drawn from it.
+    /// Seed from which the designs are drawn.
     pub seed: u64,
     /// Number of designs.
     pub designs: u32,
-    /// Bodies that each is drafted for.
+    /// Body sizes that each design is drafted for.
     pub sizes: Vec<BodySize>,
-    /// Poses of these.
+    /// Poses of each body.
     pub poses: Vec<NamedPose>,
-    /// Only these kinds take turns; all where there are none.
+    /// Kinds of garments, which take turns; empty: all kinds.
     pub kinds: Vec<Kind>,
 }
 
-/// A design for a body in a pose.
+/// A design for a body size in a pose.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Case {
     /// Number of the design, from 0.
     pub number: u32,
-    /// The body.
+    /// Body size.
     pub size: BodySize,
-    /// How it stands.
+    /// Pose of the body.
     pub pose: NamedPose,
 }
 
 impl Case {
-    /// "0012-raglan-m-a": also the stem of its files.
+    /// Name such as "0012-raglan-m-a": also the stem of its files.
     pub fn name(&self, design: &Design) -> String {
         format!("{:04}-{}-{}-{}", self.number, design.kind.name(), self.size.name, self.pose.name())
     }
 }
 
-/// The `part`th of `of` parts of a corpus, from 1.
+/// Part number `part` (from 1) of `of` parts of a corpus.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shard {
     part: usize,
@@ -63,14 +63,14 @@ impl std::str::FromStr for Shard {
 }
 
 impl Corpus {
-    /// The cases of a shard. In the whole corpus every design comes once, on any of the bodies, before one comes again on the
-    /// next; a shard takes every so manieth.
+    /// The cases of a shard. In the whole corpus every design comes once, on one of the bodies, before any comes again on the
+    /// next body; of `of` shards, each takes every `of`-th case.
     pub fn cases(&self, shard: Shard) -> Vec<Case> {
         let bodies: Vec<(BodySize, NamedPose)> =
             self.sizes.iter().flat_map(|&size| self.poses.iter().map(move |&pose| (size, pose))).collect();
         let count = bodies.len();
         let case = |round: usize, number: u32| {
-            // Each design begins elsewhere, whatever its number has in common with those of a shard.
+            // Each design begins with a body that does not depend on how its number and the number of shards relate.
             let begins = Random::new(u64::from(number)).bits() % count as u64;
             let (size, pose) = bodies[(begins as usize + round) % count];
             Case { number, size, pose }

@@ -1,4 +1,4 @@
-//! Designs: a kind of garment and everything that is chosen about its cut, drawn at random.
+//! Designs: a kind of garment and all choices about its cut, drawn at random.
 
 use serde::Serialize;
 
@@ -17,10 +17,11 @@ use crate::draft::sleeve::{self, Sleeve};
 use crate::draft::trousers::{Trousers, trousers};
 use crate::pattern::Pattern;
 
-/// Height of the waistband of a skirt whose own upper edge would give under its weight, being cut on the bias or gathered, metres.
+/// Height of the waistband of a skirt that was drawn without one, but whose own upper edge would stretch under its weight, being
+/// cut on the bias or gathered, metres.
 const LEAST_BAND: f64 = 0.03;
 
-/// What sort of garment.
+/// Kind of garment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Kind {
@@ -28,11 +29,11 @@ pub enum Kind {
     Shirt,
     /// A top without sleeves.
     Vest,
-    /// A bodice with darts, to the waist, with or without sleeves.
+    /// A bodice with darts down to the waist, with or without sleeves.
     Bodice,
     /// A top with raglan sleeves.
     Raglan,
-    /// A top with its sleeves cut in one with it.
+    /// A top whose sleeves are cut in one with it.
     Dolman,
     /// A top with a collar.
     Collared,
@@ -55,7 +56,7 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// All of them.
+    /// All kinds.
     pub const ALL: [Self; 18] = [
         Self::Shirt,
         Self::Vest,
@@ -77,7 +78,7 @@ impl Kind {
         Self::Jumpsuit,
     ];
 
-    /// As on the command line and in names of files.
+    /// Name on the command line and in file names.
     pub fn name(self) -> &'static str {
         match self {
             Self::Shirt => "shirt",
@@ -112,14 +113,14 @@ impl std::str::FromStr for Kind {
     }
 }
 
-/// A bodice with what is sewn to it above the waist.
+/// A bodice with everything sewn to it above the waist.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Upper {
     pub bodice: Bodice,
     pub neckline: Neckline,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sleeve: Option<Sleeve>,
-    /// The sleeves reach up to the neckline.
+    /// Whether the sleeves are raglan sleeves, which reach up to the neckline.
     pub raglan: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub collar: Option<Collar>,
@@ -127,7 +128,7 @@ pub struct Upper {
     pub hood: Option<Hood>,
 }
 
-/// What is worn above the waist.
+/// The part above the waist.
 #[derive(Clone, Copy, Debug, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Top {
@@ -136,7 +137,7 @@ pub enum Top {
     OneShoulder(OneShoulder),
 }
 
-/// What is worn below the waist.
+/// The part below the waist.
 #[derive(Clone, Copy, Debug, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Bottom {
@@ -144,17 +145,17 @@ pub enum Bottom {
     Trousers(Trousers),
 }
 
-/// The waist of what has no bodice; metres.
+/// The waist of a garment without a bodice; metres.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Waist {
-    /// Added to the body's waist.
+    /// Ease added to the body's waist girth.
     pub ease: f64,
-    /// Height of a waistband; without it the upper edge is free.
+    /// Height of a waistband; None: the upper edge is free.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub band: Option<f64>,
 }
 
-/// Everything chosen about a garment, but for the body that it is drafted to.
+/// All choices about a garment, independent of the body that it is drafted for.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Design {
     pub kind: Kind,
@@ -169,12 +170,12 @@ impl Design {
     /// Design number `number` of the corpus with this `seed`; `kinds`, at least one, take turns.
     pub fn drawn(seed: u64, number: u32, kinds: &[Kind]) -> Self {
         let count = kinds.len() as u32;
-        // Shifted from round to round, so that every so manieth design is not always of the same kinds.
+        // Shifted from round to round, so that every n-th design is not always of the same kinds.
         let kind = kinds[((number + number / count) % count) as usize];
         Self::of_kind(kind, &mut Random::stream(seed, u64::from(number)))
     }
 
-    /// A garment of this kind, drawn within human ranges.
+    /// A garment of this kind, with measures drawn within human ranges.
     pub fn of_kind(kind: Kind, random: &mut Random) -> Self {
         let band = if random.chance(0.85) { Some(random.between(0.03, 0.05)) } else { None };
         let waist = Waist { ease: random.between(0.028, 0.045), band };
@@ -198,7 +199,7 @@ impl Design {
             Kind::Jumpsuit => {
                 let legs = if random.chance(0.3) { Trousers::shorts } else { Trousers::long };
                 let mut upper = Upper::fitted(random);
-                // It hangs from the shoulders and must not cut in between the legs.
+                // It hangs from the shoulders and must not cut into the crotch.
                 upper.bodice.blouse = random.between(0.010, 0.025);
                 (Some(Top::Cut(upper)), Some(Bottom::Trousers(legs(random))))
             }
@@ -211,7 +212,7 @@ impl Design {
         Self { kind, top, bottom, waist: Waist { band, ..waist } }
     }
 
-    /// The pattern for the body of `form`, placed round it.
+    /// The pattern for the body of `form`, with pieces placed round it.
     pub fn drafted(&self, form: &Form) -> Pattern {
         let mut garment = Garment::default();
         let girth = form.measurements.waist + self.waist.ease;
@@ -240,10 +241,11 @@ impl Design {
     }
 }
 
+/// Girth of a hem (metres), its height as placed (metres), and its edges in front and at the back.
 type WaistLine = (f64, f64, Option<[crate::draft::garment::Run; 2]>);
 
 impl Upper {
-    /// A boxy top of one of the kinds that have a bodice.
+    /// A boxy top of one of the kinds that have a bodice, drawn at random.
     fn loose(kind: Kind, random: &mut Random) -> Self {
         let hem = random.one_of([Hem::Hip, Hem::Hip, Hem::Tunic]);
         let mut bodice = Bodice::boxy(random, hem);
@@ -263,7 +265,7 @@ impl Upper {
         }
     }
 
-    /// A bodice to the waist, sleeves and collar as it comes.
+    /// A bodice down to the waist, with or without sleeves and collar, drawn at random.
     fn fitted(random: &mut Random) -> Self {
         let mut bodice = Bodice::fitted(random);
         let collar = random.chance(0.2).then(|| Collar::drawn(random));
@@ -275,7 +277,7 @@ impl Upper {
         Self { bodice, neckline, sleeve, raglan: false, collar, hood: None }
     }
 
-    /// Drafts it; gives the girth of its hem, its height as placed, and the hem in front and behind.
+    /// Drafts it; returns its [`WaistLine`].
     fn drafted(&self, garment: &mut Garment, form: &Form) -> WaistLine {
         let armhole = if self.raglan { Armhole::Raglan } else { Armhole::SetIn };
         let trunk = bodice(garment, form, &self.bodice, &self.neckline, armhole);

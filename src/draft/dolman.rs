@@ -10,28 +10,28 @@ use crate::draft::neckline::Neckline;
 use crate::draft::path::Path;
 use crate::draft::random::Random;
 
-/// The sleeve is cut to fall by so much at most below the level, radians: where the arm hangs lower, cloth folds under it.
+/// Largest slope of the sleeve below the horizontal, radians: where the arm hangs lower, cloth folds under it.
 const STEEPEST: f64 = 0.42;
 
-/// How a dolman top is cut; metres.
+/// Measures of a dolman top, metres.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Dolman {
-    /// Where it ends: at the waist or the hip.
+    /// Length: down to the waist or the hip.
     pub hem: Hem,
-    /// Added to the bust girth.
+    /// Ease added to the bust girth.
     pub ease: f64,
-    /// Added to the girth at the hem.
+    /// Ease added to the girth at the hem.
     pub hem_ease: f64,
     /// Length of the sleeve from the shoulder tip, as a share of the arm's.
     pub length: f64,
-    /// Girth of the sleeve's hem over that of the upper arm.
+    /// Girth of the sleeve's hem minus that of the upper arm.
     pub sleeve_ease: f64,
-    /// From the armpit down to where the sleeve leaves the side.
+    /// Distance from the armpit down to where the sleeve leaves the side.
     pub depth: f64,
 }
 
 impl Dolman {
-    /// Loose, with sleeves of any length.
+    /// A loose top with sleeves of any length, drawn at random.
     pub fn drawn(random: &mut Random) -> Self {
         let length = random.one_of([0.30, 0.42, 0.65, 0.85]) + random.between(-0.03, 0.03);
         Self {
@@ -45,11 +45,11 @@ impl Dolman {
     }
 }
 
-/// Drafts front and back, stands and sews them.
+/// Drafts front and back, places and sews them.
 pub fn dolman(garment: &mut Garment, form: &Form, cut: &Dolman, neck: &Neckline) {
     let m = &form.measurements;
     let yoke = form.yoke(form.neck_width(neck.width), 0.0);
-    // Front and back alike but for the neckline: loose cloth makes up the rest.
+    // Front and back are equal but for the neckline: loose cloth makes up for the difference.
     let level = |ends: [DVec2; 2]| [(ends[0] + ends[1]) / 2.0; 2];
     let yoke = Yoke { neck: level(yoke.neck), tip: level(yoke.tip) };
     let (hem, hip) = match cut.hem {

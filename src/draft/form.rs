@@ -1,4 +1,4 @@
-//! What a garment is drafted to: measurements and heights read off the mannequin, and how its arms are held.
+//! The dress form that a garment is drafted for: measurements and heights of the mannequin, and the position of its arms.
 
 use glam::{DVec2, DVec3};
 
@@ -6,19 +6,19 @@ use crate::body::measure::{length, taut};
 use crate::body::pose::rig;
 use crate::body::{Landmarks, Mannequin, MannequinError, Measurements, NamedPose, Surface, mannequin};
 
-/// Spacing of points on tapes, metres.
+/// Spacing of points on measuring tapes, metres.
 const STEP: f64 = 0.01;
-/// Cloth keeps this far from the skin, metres.
+/// Distance of measuring tapes from the skin, metres.
 const OFF_SKIN: f64 = 0.004;
-/// Shoulder seams fall by this share of how steeply the shoulder does: room for its roundness.
+/// Slope of a shoulder seam as a share of the shoulder's slope: less steep, to leave room for its roundness.
 const SLOPE_EASE: f64 = 0.85;
-/// Necklines are no wider than this share of the shoulders.
+/// Largest distance of the neck end of a shoulder seam from the middle, as a share of half the shoulder width.
 const MOST_NECK: f64 = 0.64;
 
-/// The mannequin in a size and pose, as a pattern cutter sees it. Metres; heights above the ground.
+/// The mannequin in a size and pose, as a pattern cutter sees it. In metres; heights are above the ground.
 #[derive(Debug)]
 pub struct Form {
-    /// What it is built to.
+    /// Measurements of the mannequin.
     pub measurements: Measurements,
     /// Height of the bust line.
     pub bust: f64,
@@ -32,19 +32,19 @@ pub struct Form {
     pub knee: f64,
     /// Height of the ankle bone.
     pub ankle: f64,
-    /// Left armpit, arms half up.
+    /// Left armpit, with the arms in the A pose.
     pub armpit: DVec3,
-    /// Left shoulder tip, arms half up.
+    /// Left shoulder tip, with the arms in the A pose.
     pub shoulder: DVec3,
-    /// From the middle of the front of the trunk out to the fullest part of the left breast.
+    /// The fullest point of the left breast.
     pub bust_point: DVec3,
-    /// Skin of the front and back at the bust line.
+    /// z of the skin in front and at the back at the bust line.
     pub depth: [f64; 2],
-    /// Skin of the front and back at the hip.
+    /// z of the skin in front and at the back at the hip.
     pub hip_depth: [f64; 2],
     /// Height of the crown.
     pub crown: f64,
-    /// How the left arm is held.
+    /// The left arm in the pose.
     pub arm: Arm,
     surface: Surface,
 }
@@ -52,9 +52,9 @@ pub struct Form {
 /// The left arm in the pose that the garment is placed for.
 #[derive(Clone, Copy, Debug)]
 pub struct Arm {
-    /// Middle of the upper arm at the shoulder, metres.
+    /// Centre of the upper arm at the shoulder, metres.
     pub joint: DVec3,
-    /// Middle of the wrist, metres.
+    /// Centre of the wrist, metres.
     pub wrist: DVec3,
     /// Shoulder tip on the skin, metres.
     pub tip: DVec3,
@@ -63,7 +63,7 @@ pub struct Arm {
 }
 
 impl Arm {
-    /// How far it falls below the level, radians, as seen from the front.
+    /// Angle of the arm below the horizontal as seen from the front, radians.
     pub fn fall(&self) -> f64 {
         let along = self.wrist - self.joint;
         (-along.y).atan2(along.x)
@@ -73,14 +73,14 @@ impl Arm {
 /// Shoulder seam of a bodice, drawn at the left of the body with the bust line at y = 0, metres.
 #[derive(Clone, Copy, Debug)]
 pub struct Yoke {
-    /// Where it meets the neckline, in front and behind.
+    /// Neck end of the seam, in front and at the back.
     pub neck: [DVec2; 2],
-    /// Its other end.
+    /// Shoulder end of the seam, in front and at the back.
     pub tip: [DVec2; 2],
 }
 
 impl Form {
-    /// The mannequin with `measurements`, its arms as in `pose`. The error says which of them no mannequin has.
+    /// The mannequin with `measurements`, its arms as in `pose`. The error tells which measurement no mannequin has.
     pub fn new(measurements: &Measurements, pose: NamedPose) -> Result<Self, MannequinError> {
         let figure = mannequin::mannequin(measurements)?;
         let Some(mut form) = Self::of(&figure) else { return Err(MannequinError::Unreachable) };
@@ -93,7 +93,7 @@ impl Form {
         Ok(form)
     }
 
-    /// None where the mannequin lacks a point, which it does not.
+    /// The form of `figure` in the pose it is built in. None where the mannequin lacks a landmark, which does not happen.
     fn of(figure: &Mannequin) -> Option<Self> {
         let mark = |name: &str| figure.landmarks.get(name);
         let z = |name: &str| mark(name).map(|p| p.z);
@@ -116,8 +116,8 @@ impl Form {
         })
     }
 
-    /// From the middle to the neck end of a shoulder seam: `width` metres of the default figure, in proportion to the shoulders
-    /// or the neck of this one, whichever is larger; some of the shoulder is left.
+    /// Distance from the middle to the neck end of a shoulder seam, metres: `width` on the default figure, scaled by the
+    /// shoulders or the neck of this one, whichever ratio is larger; some of the shoulder is left.
     pub fn neck_width(&self, width: f64) -> f64 {
         let (own, usual) = (&self.measurements, Measurements::default());
         let shoulders = own.half_across_shoulder / usual.half_across_shoulder;
@@ -130,24 +130,25 @@ impl Form {
         self.surface.ray(above, DVec3::NEG_Y).map_or(self.shoulder, |hit| hit.point)
     }
 
-    /// The skin at `x`, `y`: in front (`side` 1) or behind (-1).
+    /// The point of the skin at `x`, `y`, in front (`side` 1) or behind (-1).
     fn skin(&self, x: f64, y: f64, side: f64) -> Option<DVec3> {
         // A ray just along an edge of the plane of symmetry may slip through.
         let hit = self.surface.ray(DVec3::new(x + 3e-4, y, side), DVec3::new(0.0, 0.0, -side))?;
         Some(hit.point.with_x(x))
     }
 
-    /// Length of a tape from the top of the shoulder at `x` down to the bust line, in front (`side` 1) or behind (-1).
+    /// Length of a tape from the top of the shoulder at `x` down to the bust line, in front (`side` 1) or behind (-1), metres.
     fn drop(&self, x: f64, side: f64) -> f64 {
         let (top, low) = (self.shoulder_at(x), self.bust);
         let lifted = |p: DVec3| DVec2::new(side * p.z, p.y) + DVec2::new(OFF_SKIN, OFF_SKIN / 2.0);
         let steps = ((top.y - low) / STEP).ceil().max(1.0);
         let at = |i: usize| self.skin(x, low + (top.y - low) * i as f64 / steps, side).map(lifted);
-        // The body lies to the left of a tape that runs up its front seen with the front to the right.
+        // Seen with the front to the right, the body is to the left of a tape that runs up its front.
         length(&taut((0..steps as usize).filter_map(at).chain([lifted(top)])))
     }
 
-    /// A shoulder seam whose neck end lies `neck_width` metres from the middle, `short` metres shorter than the shoulder.
+    /// A shoulder seam whose neck end is `neck_width` metres from the middle, and which is `short` metres shorter than the
+    /// shoulder.
     pub fn yoke(&self, neck_width: f64, short: f64) -> Yoke {
         let neck = self.shoulder_at(neck_width);
         let tip = self.shoulder;

@@ -1,4 +1,4 @@
-//! A garment being put together: pieces stand round the body, and runs of their edges are sewn.
+//! A garment under construction: pieces are placed round the body, and runs of their edges are sewn.
 
 use std::sync::Arc;
 
@@ -8,22 +8,22 @@ use crate::draft::path::to_the_right;
 use crate::geometry::ids::PieceId;
 use crate::pattern::{Edge, EdgeRef, Pattern, Piece, Seam, SpacePose, Stretch, curve};
 
-/// Cuts of a seam nearer to each other than this share of its length are one.
+/// Ends of edges along a seam that are closer than this share of its length count as one.
 const ONE_CUT: f64 = 1e-7;
 
-/// Seams that run up and down are followed along this axis.
+/// Axis along which seams that run up and down are ordered.
 pub const UPWARDS: DVec3 = DVec3::Y;
 
-/// Which way the outer side of a piece looks.
+/// Direction of the outer side of a piece, before it is rotated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Facing {
-    /// It stands before the body.
+    /// To the front: the piece is placed in front of the body.
     Front,
-    /// It stands behind the body, drawn as seen from the front, through the body.
+    /// To the back: the piece is placed behind the body, and drawn as seen from the front, through the body.
     Back,
 }
 
-/// Part of the body that a piece is for, as a GarmentCode file names it.
+/// Part of the body that a piece is for, as named in GarmentCode files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
     Body,
@@ -41,11 +41,11 @@ impl Part {
     }
 }
 
-/// Edges head to tail along a seam, each with whether the outline runs the same way.
+/// Run: consecutive edges along a seam, each with whether the outline has the direction of the run.
 #[derive(Clone, Debug, Default)]
 pub struct Run(Vec<(EdgeRef, bool)>);
 
-/// Pieces and seams so far.
+/// Pieces and seams added so far.
 #[derive(Clone, Debug, Default)]
 pub struct Garment {
     /// The pattern.
@@ -53,12 +53,12 @@ pub struct Garment {
 }
 
 impl Garment {
-    /// Adds `piece`, drawn as seen from the front with its own plane upright; its origin stands at `at`, metres.
+    /// Adds `piece`, drawn as seen from the front in an upright plane, with its origin placed at `at`, metres.
     pub fn stand(&mut self, piece: Piece, part: Part, facing: Facing, at: DVec3) -> PieceId {
         self.stand_turned(piece, part, facing, at, DQuat::IDENTITY)
     }
 
-    /// The same, turned about its origin by `turn`.
+    /// Adds a piece like [`Self::stand`], rotated about its origin by `turn`.
     pub fn stand_turned(
         &mut self,
         mut piece: Piece,
@@ -75,8 +75,8 @@ impl Garment {
         self.pattern.add_piece(piece)
     }
 
-    /// Adds a piece of the left side, turned by `angle` radians counter-clockwise as seen from the front, and its mirror
-    /// image on the right.
+    /// Adds a piece of the left side, rotated by `angle` radians counter-clockwise as seen from the front, and its mirror image
+    /// on the right.
     pub fn stand_pair(
         &mut self,
         left: Piece,
@@ -92,8 +92,7 @@ impl Garment {
         })
     }
 
-    /// The edges of `pieces` called `label` (alone or before further words), in the order in which they lie along `axis` in
-    /// space, each to be gone along that way.
+    /// The edges of `pieces` called `label` (alone or followed by further words), ordered and directed along `axis` in space.
     pub fn run(&self, pieces: &[PieceId], label: &str, axis: DVec3) -> Run {
         let is_called = |edge: &Edge| {
             let rest = edge.label.as_deref().and_then(|own| own.strip_prefix(label));
@@ -122,7 +121,7 @@ impl Garment {
         self.pattern.pieces.get(&edge.piece).map_or(0.0, |piece| piece.exact_edge_length(edge.edge))
     }
 
-    /// Sews two runs, start to start and end to end. Where one is longer it is gathered evenly.
+    /// Sews two runs, start to start and end to end. The longer one is gathered evenly.
     pub fn sew(&mut self, one: &Run, other: &Run) {
         let runs = [one, other].map(|run| self.ends(run));
         let mut cuts: Vec<f64> = runs.iter().flatten().copied().collect();
@@ -138,7 +137,7 @@ impl Garment {
         }
     }
 
-    /// Sews each of `labels` of `front` to the same of `back`, from below upwards.
+    /// Sews the edges of `front` with each of `labels` to those of `back`, as runs along `axis`.
     pub fn sew_alike(&mut self, front: &[PieceId], back: &[PieceId], labels: &[&str], axis: DVec3) {
         for label in labels {
             let runs = [front, back].map(|pieces| self.run(pieces, label, axis));
@@ -164,7 +163,7 @@ impl Garment {
         }
     }
 
-    /// Where the edges of a run end, as shares of its length; the last is 1.
+    /// Ends of the edges of a run as shares of its length; the last is 1.
     fn ends(&self, run: &Run) -> Vec<f64> {
         let total = self.length(run);
         let mut so_far = 0.0;
@@ -183,7 +182,7 @@ impl Garment {
     }
 }
 
-/// What lies between two shares of a run's length: a stretch of one edge, and whether the outline runs the same way.
+/// The part of a run between two shares of its length, which must be on one edge, and whether the outline has its direction.
 fn part(run: &Run, ends: &[f64], from: f64, to: f64) -> Option<(Stretch, bool)> {
     let middle = (from + to) / 2.0;
     let k = ends.iter().position(|&end| middle < end)?;

@@ -1,4 +1,4 @@
-//! Hoods: a left and a right half, sewn to each other over the crown and to the neckline.
+//! Hoods of a left and a right half, sewn to each other over the crown and to the neckline.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -11,33 +11,33 @@ use crate::draft::garment::{Facing, Garment, Part};
 use crate::draft::path::{Path, to_the_right};
 use crate::draft::random::Random;
 
-/// How far beside the neck's middle the halves stand, metres.
+/// Distance at which the halves are placed beside the middle of the neck, metres.
 const BESIDE: f64 = 0.13;
-/// How steeply the neckline falls to the front and rises to the back on the hood, radians.
+/// Slopes of the hood's neckline: its fall to the front and its rise to the back, radians.
 const SLOPES: [f64; 2] = [0.62, 0.14];
 
-/// How a hood is cut; metres.
+/// Measures of a hood, metres.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Hood {
-    /// Above the crown of the head.
+    /// Room above the crown of the head.
     pub above: f64,
-    /// From the back of the neckline out to the back of the head.
+    /// Distance from the back of the neckline out to the back of the head.
     pub fullness: f64,
 }
 
 impl Hood {
-    /// Roomy.
+    /// A roomy hood, drawn at random.
     pub fn drawn(random: &mut Random) -> Self {
         Self { above: random.between(0.03, 0.07), fullness: random.between(0.02, 0.05) }
     }
 }
 
-/// Drafts both halves, stands them beside the head and sews them to the neckline of `trunk`.
+/// Drafts both halves, places them beside the head and sews them to the neckline of `trunk`.
 pub fn hood(garment: &mut Garment, form: &Form, cut: &Hood, trunk: &Trunk) {
     let half = |side: usize| garment.length(&trunk.neckline(garment, side)) / 2.0;
     let (front, back) = (half(0), half(1));
     let neck = form.shoulder_at(trunk.yoke.neck[0].x);
-    // Seen from the left of the body: the face looks to -x.
+    // Seen from the left of the body: the face points to -x.
     let face = DVec2::new(-SLOPES[0].cos(), -SLOPES[0].sin()) * front;
     let nape = DVec2::from_angle(SLOPES[1]) * back;
     let top = form.crown - neck.y + cut.above;
@@ -63,7 +63,7 @@ pub fn hood(garment: &mut Garment, form: &Form, cut: &Hood, trunk: &Trunk) {
     });
     let runs = pieces.map(|piece| garment.run(&[piece], "crown", DVec3::new(0.0, 1.0, 0.6)));
     garment.sew(&runs[0], &runs[1]);
-    // From the middle of front and back to the shoulder seams.
+    // Runs from the middle of front and back to the shoulder seams.
     let hands = [("left", DVec3::X), ("right", DVec3::NEG_X)];
     let labels = [("hood front", DVec3::NEG_Z), ("hood back", DVec3::Z)];
     for (piece, (hand, outwards)) in pieces.into_iter().zip(hands) {

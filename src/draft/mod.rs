@@ -1,9 +1,9 @@
-//! A corpus of garments of our own: designs drawn at random from a seed, drafted to the mannequin's measurements, every
-//! piece standing round the body in its pose.
+//! A corpus of our own garments: designs drawn at random from a seed and drafted to the mannequin's measurements, with every
+//! piece placed round the body in its pose.
 //!
-//! `design` says what is chosen, `form` what is measured; there is a file for each part of a garment, and `corpus` counts
-//! the garments. Pieces are drawn as seen from the front, the wearer's left at +x; those that stand behind the body are
-//! turned round when they are placed. The same seed gives the same bits.
+//! `design` holds the choices, `form` the measurements; there is a file for each part of a garment, and `corpus` lists the
+//! garments. Pieces are drawn as seen from the front, with the wearer's left at +x; those behind the body are reversed when they
+//! are placed. The same seed gives the same bits.
 
 mod band;
 mod bodice;

@@ -1,4 +1,4 @@
-//! Necklines: how wide and deep a bodice is cut at the neck.
+//! Necklines: width and depth of a bodice's opening at the neck.
 
 use glam::DVec2;
 use serde::Serialize;
@@ -6,7 +6,7 @@ use serde::Serialize;
 use crate::draft::path::Path;
 use crate::draft::random::Random;
 
-/// The line between shoulder seam and middle.
+/// Shape of the line between shoulder seam and middle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Shape {
@@ -19,16 +19,16 @@ pub enum Shape {
 /// A neckline on the default figure, metres.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Neckline {
-    /// In front.
+    /// Shape in front; the back is round.
     pub shape: Shape,
-    /// From the middle to the shoulder seam.
+    /// Distance from the middle to the shoulder seam.
     pub width: f64,
-    /// How far it drops below the shoulder seam's end, in front and behind.
+    /// Drop below the neck end of the shoulder seam, in front and at the back.
     pub drops: [f64; 2],
 }
 
 impl Neckline {
-    /// An open one, well off the neck.
+    /// An open neckline, well off the neck, drawn at random.
     pub fn open(random: &mut Random) -> Self {
         let shape = random.one_of([Shape::Round, Shape::Round, Shape::V, Shape::Square, Shape::Boat]);
         let (width, front) = match shape {
@@ -40,20 +40,20 @@ impl Neckline {
         Self { shape, width, drops: [front, random.between(0.022, 0.045)] }
     }
 
-    /// A round one near the neck, for a collar or a hood.
+    /// A round neckline near the neck, for a collar or a hood, drawn at random.
     pub fn close(random: &mut Random) -> Self {
         let (width, front) = (random.between(0.078, 0.088), random.between(0.075, 0.095));
         Self { shape: Shape::Round, width, drops: [front, random.between(0.020, 0.028)] }
     }
 
-    /// Draws the front's (0) or back's (1) line, called "neck", on from the shoulder seam to the middle, on x = 0.
+    /// Appends the front's (0) or back's (1) neckline, labelled "neck", from the shoulder seam to the middle at x = 0.
     pub fn drawn(&self, path: Path, side: usize) -> Path {
         let neck = path.end();
         let drop = self.drops[side];
         self.drawn_down_to(path, side, DVec2::new(0.0, neck.y - drop))
     }
 
-    /// The same down to `low`, from wherever the path has come to.
+    /// Appends the neckline from the end of the path down to `low`.
     pub fn drawn_down_to(&self, path: Path, side: usize, low: DVec2) -> Path {
         let neck = path.end();
         let drop = neck.y - low.y;

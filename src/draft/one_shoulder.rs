@@ -9,26 +9,26 @@ use crate::draft::garment::{Facing, Garment, Part};
 use crate::draft::path::Path;
 use crate::draft::random::Random;
 
-/// From the armpit down to the underarm points, metres.
+/// Distance from the armpit down to the underarm points, metres.
 const UNDERARM_DROP: f64 = 0.025;
 
-/// How a one-shoulder top is cut; metres.
+/// Measures of a one-shoulder top, metres.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct OneShoulder {
-    /// Added to the bust girth: little, the left side is held by it.
+    /// Ease added to the bust girth: little, as it holds the left side up.
     pub ease: f64,
-    /// Added to the hip girth at the hem.
+    /// Ease added to the hip girth at the hem.
     pub hem_ease: f64,
-    /// From the hip up to the hem.
+    /// Height of the hem above the hip.
     pub hem_above_hip: f64,
-    /// From the middle to the neck end of the shoulder seam.
+    /// Distance from the middle to the neck end of the shoulder seam.
     pub neck_width: f64,
-    /// How far the slanting edge hangs below the straight line.
+    /// Largest distance of the slanting edge below the straight line.
     pub sag: f64,
 }
 
 impl OneShoulder {
-    /// Close round the bust.
+    /// A top close round the bust, drawn at random.
     pub fn drawn(random: &mut Random) -> Self {
         Self {
             ease: random.between(0.03, 0.06),
@@ -40,11 +40,11 @@ impl OneShoulder {
     }
 }
 
-/// Drafts front and back, stands and sews them.
+/// Drafts front and back, places and sews them.
 pub fn one_shoulder(garment: &mut Garment, form: &Form, cut: &OneShoulder) {
     let m = &form.measurements;
     let yoke = form.yoke(form.neck_width(cut.neck_width), 0.02);
-    // Mirrored: the seam is drawn at the left.
+    // Mirrored to the right shoulder: the yoke is drawn at the left.
     let level = |ends: [DVec2; 2]| [(ends[0] + ends[1]) / 2.0; 2];
     let yoke = Yoke { neck: level(yoke.neck), tip: level(yoke.tip) };
     let flip = |p: DVec2| DVec2::new(-p.x, p.y);
@@ -58,7 +58,7 @@ pub fn one_shoulder(garment: &mut Garment, form: &Form, cut: &OneShoulder) {
     let controls = [DVec2::new(chest, tip.y - 0.45 * depth), DVec2::new(chest + 0.006, under)];
     let sides = [0, 1].map(|half| {
         let (name, facing) = [("front", Facing::Front), ("back", Facing::Back)][half];
-        // The slanting edge sags in its middle, more in front.
+        // The slanting edge sags in its middle, more so in front.
         let slant = flip(corner) - side;
         let sag = -DVec2::Y * (cut.sag * if half == 0 { 1.0 } else { 0.6 });
         let path = Path::from(flip(hem))

@@ -1,4 +1,4 @@
-//! Drawing outlines: open paths that are closed, or mirrored in the middle line of the body.
+//! Drawing outlines: open paths that are closed, or mirrored at the middle line of the body.
 
 use glam::DVec2;
 use kurbo::ParamCurveArclen;
@@ -6,7 +6,7 @@ use kurbo::common::solve_itp;
 
 use crate::pattern::{Edge, EdgeShape, Piece, curve};
 
-/// An open line being drawn, with the cloth on its left.
+/// An open path, with the cloth on its left.
 #[derive(Clone, Debug)]
 pub struct Path {
     edges: Vec<Edge>,
@@ -34,8 +34,8 @@ impl Path {
         self.edge(label, EdgeShape::Arc { radius, large: false, sweep }, to)
     }
 
-    /// A straight line called `label` with a dart: its middle `at` metres along the line, `width` wide, `depth` deep into
-    /// the cloth. The line without the dart is `width` shorter than the distance to `to`.
+    /// A straight line called `label` with a dart: centred `at` metres along the line, `width` wide, `depth` deep into the cloth.
+    /// After the dart is sewn the line is shorter than the distance to `to` by `width`.
     pub fn darted(self, label: &str, to: DVec2, dart: Dart) -> Self {
         let Dart { at, width, depth } = dart;
         let along = (to - self.at).normalize_or_zero();
@@ -46,7 +46,7 @@ impl Path {
         self.line(label, first).line(&leg, tip).line(&leg, second).line(label, to)
     }
 
-    /// Where it has come to, metres.
+    /// End point, metres.
     pub fn end(&self) -> DVec2 {
         self.at
     }
@@ -57,7 +57,7 @@ impl Path {
         self
     }
 
-    /// The piece that it goes round; a straight edge called `last` leads back to the start where it has not come there.
+    /// Closes the path into a piece, if needed by a straight edge called `last` back to the start.
     pub fn closed(mut self, name: &str, last: &str) -> Piece {
         let start = self.edges.first().map_or(self.at, |edge| edge.start);
         if self.at.distance(start) > 1e-9 {
@@ -66,24 +66,24 @@ impl Path {
         Piece { name: name.to_owned(), outline: self.edges, ..Piece::default() }
     }
 
-    /// Both halves in one: this one, whose ends lie on x = 0, at the left of the body, and its mirror image. "left" or
-    /// "right" is added to labels.
+    /// A piece of this half, which is at the left of the body and has its ends on x = 0, and its mirror image. "left" or "right"
+    /// is appended to labels.
     pub fn whole(self, name: &str) -> Piece {
         let (left, end) = (self.edges, self.at);
         let mut both = left.clone();
-        // Closed over the middle, mirrored, and that middle left out again.
+        // Close the half along the middle, mirror it, and remove the middle edge again.
         let mut closed = left;
         closed.push(Edge { start: end, ..Edge::default() });
         let mut right = curve::mirrored(&closed);
         right.remove(0);
-        // The mirror image starts where this ends: at the upper end of the middle.
+        // The mirror image starts where the left half ends: at the upper end of the middle.
         both.iter_mut().for_each(|edge| edge.label = suffixed(edge, "left"));
         right.iter_mut().for_each(|edge| edge.label = suffixed(edge, "right"));
         both.extend(right);
         Piece { name: name.to_owned(), outline: both, ..Piece::default() }
     }
 
-    /// This left half alone, closed by an edge called "centre"; "left" is added to labels.
+    /// A piece of this left half alone, closed by an edge called "centre"; "left" is appended to labels.
     pub fn half(self, name: &str) -> Piece {
         let mut piece = self.closed(name, "centre");
         piece.outline.iter_mut().for_each(|edge| edge.label = suffixed(edge, "left"));
@@ -94,11 +94,11 @@ impl Path {
 /// A dart on a straight line; metres.
 #[derive(Clone, Copy, Debug)]
 pub struct Dart {
-    /// From the start of the line to the dart's middle.
+    /// Distance from the start of the line to the dart's centre.
     pub at: f64,
-    /// Between its legs on the line.
+    /// Distance between its legs on the line.
     pub width: f64,
-    /// From the line to its tip.
+    /// Distance from the line to its tip.
     pub depth: f64,
 }
 
@@ -106,7 +106,7 @@ fn suffixed(edge: &Edge, side: &str) -> Option<String> {
     edge.label.as_ref().map(|label| format!("{label} {side}"))
 }
 
-/// `piece` of the left side mirrored to the right: "left" becomes "right" in its name and labels.
+/// A piece of the left side mirrored to the right: "left" becomes "right" in its name and labels.
 pub fn to_the_right(piece: &Piece) -> Piece {
     let mut outline = curve::mirrored(&piece.outline);
     for edge in &mut outline {
@@ -115,7 +115,7 @@ pub fn to_the_right(piece: &Piece) -> Piece {
     Piece { name: piece.name.replace("left", "right"), outline, ..piece.clone() }
 }
 
-/// Lengths are computed to this accuracy, and equations solved to it, metres.
+/// Accuracy of lengths and of solved equations, metres.
 const ACCURACY: f64 = 1e-9;
 
 /// Length of the cubic from `a` to `b`, metres, to 1e-9.
@@ -124,14 +124,15 @@ pub fn cubic_length(a: DVec2, controls: [DVec2; 2], b: DVec2) -> f64 {
     segments.iter().map(|segment| segment.arclen(ACCURACY)).sum()
 }
 
-/// Where `f`, which rises or falls all the way, is zero between `low` and `high`, to 1e-9; the nearer end where it is not.
+/// Zero of the monotonic function `f` between `low` and `high`, to 1e-9; where there is none, the end at which `f` is nearer to
+/// it.
 pub fn solved(low: f64, high: f64, f: impl Fn(f64) -> f64) -> f64 {
     let (at_low, at_high) = (f(low), f(high));
     if at_low * at_high >= 0.0 {
         return if at_low.abs() < at_high.abs() { low } else { high };
     }
     let sign = at_high.signum();
-    // Kurbo's ITP method: at most two steps more than halving takes, usually far fewer.
+    // Kurbo's ITP method: at most two steps more than bisection, usually far fewer.
     let slope = 0.2 / (high - low);
     solve_itp(|x| sign * f(x), low, high, ACCURACY, 1, slope, sign * at_low, sign * at_high)
 }

@@ -7,12 +7,12 @@ pub struct Random {
 }
 
 impl Random {
-    /// Starts from `seed`, any number.
+    /// A generator started from `seed`, any number.
     pub fn new(seed: u64) -> Self {
         Self { state: seed }
     }
 
-    /// Starts from `seed` and `stream`: other streams give other numbers.
+    /// A generator started from `seed` and `stream`; different streams give different numbers.
     pub fn stream(seed: u64, stream: u64) -> Self {
         let mut mixed = Self::new(seed);
         Self::new(mixed.bits() ^ Self::new(stream).bits())
@@ -27,12 +27,12 @@ impl Random {
         z ^ (z >> 31)
     }
 
-    /// Evenly from `low` up to `high`.
+    /// A number distributed evenly in low..high.
     pub fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * ((self.bits() >> 11) as f64 / (1_u64 << 53) as f64)
     }
 
-    /// 0..n; 0 where `n` is 0.
+    /// An integer distributed evenly in 0..n; 0 where `n` is 0.
     pub fn below(&mut self, n: usize) -> usize {
         (self.bits() % n.max(1) as u64) as usize
     }
@@ -42,7 +42,7 @@ impl Random {
         self.between(0.0, 1.0) < p
     }
 
-    /// One of `choices`, each as likely.
+    /// One of `choices`, each with the same probability.
     pub fn one_of<T: Copy, const N: usize>(&mut self, choices: [T; N]) -> T {
         const { assert!(N > 0) };
         choices[(self.bits() % N as u64) as usize]

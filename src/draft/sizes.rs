@@ -1,20 +1,20 @@
-//! The six bodies that the corpus is drafted for.
+//! The six body sizes that the corpus is drafted for.
 
 use crate::body::Measurements;
 
-/// A size of the mannequin.
+/// A body size of the mannequin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BodySize {
-    /// As on the command line: "xs" to "xxl".
+    /// Name on the command line: "xs" to "xxl".
     pub name: &'static str,
-    /// Height, bust, waist and hip, metres; the rest is in proportion.
+    /// Height, bust, waist and hip, metres; all other measurements are in proportion.
     given: [f64; 4],
 }
 
 /// Names of the measurements that a size gives, in the order of [`BodySize::given`].
 const GIVEN: [&str; 4] = ["height", "bust", "waist", "hip"];
 
-/// From the smallest to the largest.
+/// All sizes, from the smallest to the largest.
 pub const SIZES: [BodySize; 6] = [
     BodySize { name: "xs", given: [1.58, 0.80, 0.62, 0.87] },
     BodySize { name: "s", given: [1.64, 0.86, 0.67, 0.92] },
@@ -25,13 +25,13 @@ pub const SIZES: [BodySize; 6] = [
 ];
 
 impl BodySize {
-    /// All measurements.
+    /// All measurements of the size.
     pub fn measurements(&self) -> Measurements {
         let given = GIVEN.iter().zip(self.given);
         Measurements::completed(|name| given.clone().find(|(known, _)| **known == name).map(|(_, x)| x))
     }
 
-    /// Its number among [`SIZES`].
+    /// Index in [`SIZES`].
     pub fn number(&self) -> usize {
         SIZES.iter().position(|size| size.name == self.name).unwrap_or(0)
     }
@@ -47,7 +47,7 @@ impl std::str::FromStr for BodySize {
     }
 }
 
-/// The sizes as a table that `--sizes` reads: CSV, centimetres.
+/// The sizes as a table that `--sizes` can read: CSV, centimetres.
 pub fn table() -> String {
     let mut text = format!("size,{}\n", GIVEN.join(","));
     for BodySize { name, given } in SIZES {

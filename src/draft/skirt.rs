@@ -1,4 +1,4 @@
-//! Skirts: straight with darts, flared, circular, gathered, with godets, in levels.
+//! Skirts: straight with darts, flared, circular, gathered, with godets, in tiers.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -12,41 +12,41 @@ use crate::draft::random::Random;
 use crate::geometry::ids::PieceId;
 use crate::pattern::Piece;
 
-/// How far before and behind the skin of the hip panels stand, metres.
+/// Distance at which panels are placed in front of and behind the skin of the hip, metres.
 pub const CLEARANCE: f64 = 0.12;
-/// Between levels as placed, metres.
+/// Gap between tiers as placed, metres.
 const LEVEL_GAP: f64 = 0.01;
-/// How far beside the hip godets stand, metres.
+/// Distance at which godets are placed beside the lower side seams, metres.
 const GODET_OUT: f64 = 0.08;
 
-/// How a skirt is shaped; metres.
+/// Shape of a skirt; metres.
 #[derive(Clone, Copy, Debug, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Shape {
-    /// Fitted by a dart in each quarter; the side seams may end in slits of this length.
+    /// Fitted by a dart in each quarter; the side seams may end in slits of length `slit`.
     Straight { ease: f64, dart: f64, slit: f64 },
-    /// Straight sides that clear the hip by `ease`; the hem falls by `slant` from left to right.
+    /// Straight sides that clear the hip by `ease`; the hem slants by `slant` from left to right.
     Flared { ease: f64, slant: f64 },
-    /// This share of a full circle.
+    /// A ring sector of this share of a full circle.
     Circle { share: f64 },
-    /// Rectangles gathered into the waist in this ratio.
+    /// Rectangles gathered into the waist by this ratio.
     Gathered { ratio: f64 },
-    /// Flared, with wedges let into the lower side seams, and into the middles where `middles`.
+    /// Flared, with godets (wedges) in the lower side seams, and in the middle of front and back where `middles`.
     Godets { ease: f64, depth: f64, angle: f64, middles: bool },
-    /// Strips, each longer than the one above in this ratio and gathered to it.
+    /// Tiers: strips, each longer than the one above by this ratio and gathered to it.
     Levels { ratio: f64, count: u32 },
 }
 
-/// How a skirt is cut.
+/// Measures of a skirt.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Skirt {
     pub shape: Shape,
-    /// From the waist down, as a share of the waist's height above the ground.
+    /// Length from the waist down, as a share of the waist's height above the ground.
     pub length: f64,
 }
 
 impl Skirt {
-    /// Straight with darts.
+    /// A straight skirt with darts, drawn at random.
     pub fn straight(random: &mut Random) -> Self {
         let length = random.between(0.45, 0.66);
         let slit = if random.chance(0.4) { random.between(0.10, 0.22) } else { 0.0 };
@@ -55,26 +55,26 @@ impl Skirt {
         Self { shape, length }
     }
 
-    /// Flared, its hem level or slanting.
+    /// A flared skirt with a level or slanting hem, drawn at random.
     pub fn flared(random: &mut Random) -> Self {
         let slant = if random.chance(0.3) { random.between(0.08, 0.20) } else { 0.0 };
         let shape = Shape::Flared { ease: random.between(0.05, 0.16), slant };
         Self { shape, length: random.between(0.40, 0.72) }
     }
 
-    /// A third of a circle to a whole one.
+    /// A circle skirt from 0.4 of a circle to a whole one, drawn at random.
     pub fn circle(random: &mut Random) -> Self {
         let share = random.one_of([0.4, 0.5, 0.5, 0.75, 1.0]);
         Self { shape: Shape::Circle { share }, length: random.between(0.38, 0.60) }
     }
 
-    /// Gathered at the waist.
+    /// A skirt gathered at the waist, drawn at random.
     pub fn gathered(random: &mut Random) -> Self {
         let shape = Shape::Gathered { ratio: random.between(1.45, 1.9) };
         Self { shape, length: random.between(0.40, 0.70) }
     }
 
-    /// With two or four godets.
+    /// A skirt with two or four godets, drawn at random.
     pub fn godets(random: &mut Random) -> Self {
         let shape = Shape::Godets {
             ease: random.between(0.05, 0.10),
@@ -85,13 +85,13 @@ impl Skirt {
         Self { shape, length: random.between(0.50, 0.70) }
     }
 
-    /// Two or three levels.
+    /// A skirt of two or three tiers, drawn at random.
     pub fn levels(random: &mut Random) -> Self {
         let shape = Shape::Levels { ratio: random.between(1.25, 1.5), count: random.one_of([2, 3]) };
         Self { shape, length: random.between(0.45, 0.72) }
     }
 
-    /// Any of them.
+    /// A skirt of any shape, drawn at random.
     pub fn any(random: &mut Random) -> Self {
         let make = random.one_of([
             Self::straight,
@@ -106,22 +106,22 @@ impl Skirt {
     }
 }
 
-/// What a skirt is drafted to; metres.
+/// Measures that a skirt is drafted to, metres.
 #[derive(Clone, Copy, Debug)]
 struct Frame {
-    /// Quarter of the finished waist.
+    /// Quarter of the finished waist girth.
     waist: f64,
-    /// From the waist down to the hip.
+    /// Distance from the waist down to the hip.
     hip_depth: f64,
-    /// Quarter of the body's hip.
+    /// Quarter of the body's hip girth.
     hip: f64,
     length: f64,
     /// Height of the waist as placed.
     level: f64,
 }
 
-/// Drafts front and back for a finished waist `girth` metres round, stands them with their waist `level` metres above the
-/// ground and sews sides and darts. Gives their upper edges from the right of the body to the left.
+/// Drafts front and back for a finished waist `girth` metres round, places them with their waist `level` metres above the ground
+/// and sews sides and darts. Returns their upper edges, from the right of the body to the left.
 pub fn skirt(garment: &mut Garment, form: &Form, cut: &Skirt, girth: f64, level: f64) -> [Run; 2] {
     let frame = Frame {
         waist: girth / 4.0,
@@ -157,7 +157,7 @@ pub fn skirt(garment: &mut Garment, form: &Form, cut: &Skirt, girth: f64, level:
     sides.map(|pieces| garment.run(&pieces, "waist", DVec3::X))
 }
 
-/// Stands front and back, each drawn by `panel` with the waist at y = 0, at `level`.
+/// Places front and back, each drawn by `panel` with the waist at y = 0, with the waist at height `level`.
 fn stand(garment: &mut Garment, form: &Form, level: f64, panel: &dyn Fn(&str) -> Piece) -> [Vec<PieceId>; 2] {
     [0, 1].map(|side| {
         let (name, facing) = [("skirt front", Facing::Front), ("skirt back", Facing::Back)][side];
@@ -165,14 +165,14 @@ fn stand(garment: &mut Garment, form: &Form, level: f64, panel: &dyn Fn(&str) ->
     })
 }
 
-/// Where front (0) or back (1) stands along z, metres.
+/// z at which the front (0) or back (1) is placed, metres.
 fn depth(form: &Form, side: usize) -> f64 {
     form.hip_depth[side] + [CLEARANCE, -CLEARANCE][side]
 }
 
 fn sew_sides(garment: &mut Garment, [front, back]: &[Vec<PieceId>; 2], labels: &[&str]) {
     for label in labels {
-        // Sides of full circles lie level: they are followed inwards.
+        // The sides of a full circle are level: their runs are ordered inwards.
         let inwards = if label.ends_with("left") { -0.3 } else { 0.3 };
         garment.sew_alike(front, back, &[label], UPWARDS + DVec3::X * inwards);
     }
@@ -195,7 +195,7 @@ fn straight(frame: &Frame, ease: f64, dart: f64, slit: f64) -> Path {
     path.line("side", hip).curve("side", first, second, side).darted("waist", DVec2::ZERO, dart)
 }
 
-/// The outline of a flared panel from the right of its hem round to the right of its waist.
+/// The outline of a flared panel, from the right end of its hem round to the right end of its waist and back.
 fn flared(frame: &Frame, ease: f64, slant: f64) -> Path {
     let at_hip = frame.hip.max(frame.waist) + ease / 4.0;
     let slope = (at_hip - frame.waist) / frame.hip_depth;
@@ -214,13 +214,13 @@ fn flared(frame: &Frame, ease: f64, slant: f64) -> Path {
         .line("side right", right)
 }
 
-/// The outline of a sector of a ring.
+/// The outline of a ring sector.
 fn circle(frame: &Frame, share: f64) -> Path {
     let inner = 4.0 * frame.waist / (TAU * share);
     let outer = inner + frame.length;
     let half = PI * share / 2.0;
     let at = |radius: f64, sign: f64| {
-        // The middle of the waist's ends lies at y = 0.
+        // The ends of the waist are at y = 0.
         let centre = inner * half.cos();
         DVec2::new(sign * radius * half.sin(), centre - radius * half.cos())
     };
@@ -231,7 +231,7 @@ fn circle(frame: &Frame, share: f64) -> Path {
         .line("side right", at(outer, -1.0))
 }
 
-/// The left half of a strip with these half widths at its top and bottom, `height` high below y = 0.
+/// The left half of a strip with half widths `top` and `bottom`, from y = 0 down by `height`.
 fn strip(top: f64, bottom: f64, height: f64, below: &str) -> Path {
     Path::from(DVec2::new(0.0, -height))
         .line(below, DVec2::new(bottom, -height))
@@ -239,14 +239,14 @@ fn strip(top: f64, bottom: f64, height: f64, below: &str) -> Path {
         .line("waist", DVec2::ZERO)
 }
 
-/// Strips one below the other; the uppermost is what has the waist.
+/// Tiers one below the other; returns the uppermost, which has the waist.
 fn levels(garment: &mut Garment, form: &Form, frame: &Frame, ratio: f64, count: u32) -> [Vec<PieceId>; 2] {
     let height = frame.length / f64::from(count);
     let mut width = frame.waist;
     let mut all: Vec<[Vec<PieceId>; 2]> = Vec::new();
     for k in 0..count {
         width *= ratio;
-        // Where it is near the hip it clears it.
+        // Every tier is wide enough to clear the hip.
         width = width.max(frame.hip + 0.02);
         let below = f64::from(k) * (height + LEVEL_GAP);
         let panel = |name: &str| strip(width, width, height, "hem").whole(&format!("{name} level {}", k + 1));
@@ -266,13 +266,13 @@ fn levels(garment: &mut Garment, form: &Form, frame: &Frame, ratio: f64, count: 
     all.swap_remove(0)
 }
 
-/// A wedge let into a seam; metres and radians.
+/// A godet: a wedge let into a seam; metres and radians.
 #[derive(Clone, Copy)]
 struct Godet {
     ease: f64,
-    /// From its tip to its hem.
+    /// Length from its tip to its hem.
     length: f64,
-    /// Between its sides.
+    /// Angle between its sides.
     angle: f64,
 }
 
@@ -287,7 +287,7 @@ impl Godet {
     }
 }
 
-/// A flared skirt with godets at the sides, and at both middles where `middles`.
+/// A flared skirt with godets at the sides, and in the middle of front and back where `middles`.
 fn godets(
     garment: &mut Garment,
     form: &Form,
@@ -327,7 +327,7 @@ fn godets(
         let turn = DQuat::from_rotation_y(sign * FRAC_PI_2);
         let piece = godet.piece(&format!("godet {hand}"));
         let wedge = garment.stand_turned(piece, Part::Leg, Facing::Front, at, turn);
-        // Turned to the left, its own right looks to the front.
+        // The left godet, rotated to the left, has its own right side to the front.
         for (side, own) in [(0, ["right", "left"]), (1, ["left", "right"])] {
             let own = own[usize::from(hand == "right")];
             let runs = [

@@ -1,4 +1,4 @@
-//! Sleeves of a front and a back half: set in to an armhole, or raglan; with cuffs or without.
+//! Sleeves of a front and a back half: set-in or raglan, with or without cuffs.
 
 use glam::{DVec2, DVec3};
 use serde::Serialize;
@@ -11,36 +11,36 @@ use crate::draft::random::Random;
 use crate::geometry::ids::PieceId;
 use crate::pattern::Piece;
 
-/// How far before and behind the arm's middle its two halves stand, metres.
+/// Distance at which the two halves are placed in front of and behind the middle of the arm, metres.
 const BESIDE: f64 = 0.12;
-/// From the armpit out to the underarm point as placed, and from the shoulder tip to the top of the cap, metres.
+/// Distance along x at which the sleeve is placed outside of the armpit and of the shoulder tip, metres.
 const OUT: f64 = 0.02;
-/// Between a sleeve and its cuff as placed, metres.
+/// Gap between a sleeve and its cuff as placed, metres.
 const CUFF_GAP: f64 = 0.03;
-/// Least length of a sleeve below its cap, metres.
+/// Smallest length of a sleeve below its cap, metres.
 const SHORTEST: f64 = 0.04;
-/// The bend of a raglan sleeve's upper seam at the shoulder, radians.
+/// Bend of a raglan sleeve's upper seam at the shoulder, radians.
 const SHOULDER_BEND: f64 = 0.30;
 
-/// How a sleeve is cut; metres.
+/// Measures of a sleeve, metres.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Sleeve {
-    /// Length of its upper seam from the shoulder tip, as a share of the arm's.
+    /// Length of its upper seam from the shoulder tip, as a share of the arm's length.
     pub length: f64,
-    /// Added to the girth of the upper arm.
+    /// Ease added to the girth of the upper arm.
     pub ease: f64,
-    /// Added to the girth of the arm at the hem; more than `ease` is a bell.
+    /// Ease added to the girth of the arm at the hem; more than `ease` makes a bell.
     pub hem_ease: f64,
-    /// Cap over armhole: more than 1 is gathered.
+    /// Length of the cap over that of the armhole: above 1 it is gathered.
     pub puff: f64,
-    /// A cuff of this height; the hem is gathered into it by `gather`.
+    /// Height of a cuff, into which the hem is gathered by `gather`; None: no cuff.
     pub cuff: Option<f64>,
-    /// Hem over cuff.
+    /// Length of the hem over that of the cuff.
     pub gather: f64,
 }
 
 impl Sleeve {
-    /// Any length, plain or with cuffs; the cap gathered where it `may_puff`.
+    /// A sleeve of any length, plain or with cuffs, drawn at random; the cap may be gathered where `may_puff`.
     pub fn drawn(random: &mut Random, may_puff: bool) -> Self {
         let length = random.one_of([0.32, 0.40, 0.52, 0.72, 0.90]) + random.between(-0.03, 0.03);
         let ease = random.between(0.075, 0.13);
@@ -51,36 +51,36 @@ impl Sleeve {
         Self { length, ease, hem_ease, puff, cuff, gather: random.between(1.1, 1.4) }
     }
 
-    /// Girth of the arm at a share of its length, metres.
+    /// Girth of the arm at a share of its length from the shoulder, metres.
     fn arm_girth(form: &Form, share: f64) -> f64 {
         let m = &form.measurements;
         let t = ((share - 0.25) / 0.75).clamp(0.0, 1.0);
         m.upper_arm + (m.wrist - m.upper_arm) * t
     }
 
-    /// Girth of the hem, metres: of a cuff less than of the sleeve that is gathered into it.
+    /// Girth of the sleeve's hem, metres: at least 24 cm where it is gathered into a cuff.
     fn hem_girth(&self, form: &Form) -> f64 {
         let plain = Self::arm_girth(form, self.length) + self.hem_ease;
         if self.cuff.is_some() { plain.max(0.24) } else { plain }
     }
 }
 
-/// Lengths of the two halves of a sleeve, in the frame of the arm: u along it from the shoulder tip, v up.
+/// Measures of the two halves of a sleeve, metres, in the frame of the arm: u along it from the shoulder tip, v up.
 struct Halves {
-    /// How far along the arm the underarm point lies.
+    /// u of the underarm point.
     cap: f64,
-    /// Width of the front and the back half there.
+    /// Widths of the front and the back half at the underarm point.
     widths: [f64; 2],
-    /// Width of the front and the back half at the hem.
+    /// Widths of the front and the back half at the hem.
     hems: [f64; 2],
-    /// Length along the upper seam.
+    /// Length of the upper seam.
     length: f64,
 }
 
 impl Halves {
-    /// Those whose caps are as long as `caps` metres, where `length_of(half, cap, width)` is the length of a half's cap.
+    /// Halves whose caps have the lengths `caps`, metres; `length_of(half, cap, width)` is the length of the cap of a half.
     fn new(cut: &Sleeve, form: &Form, caps: [f64; 2], length_of: impl Fn(usize, f64, f64) -> f64) -> Self {
-        // A gathered cap is wider and higher alike.
+        // A gathered cap is both wider and higher.
         let girth = (form.measurements.upper_arm + cut.ease) * cut.puff;
         let width =
             |half: usize, cap: f64| solved(0.01, 0.6, |width| length_of(half, cap, width) - caps[half]);
@@ -96,19 +96,19 @@ impl Halves {
         DVec2::new(self.cap, -self.widths[half])
     }
 
-    /// From the underarm point round the lower end to `(along, 0)` on the upper seam.
+    /// Appends the edges from the underarm point round the lower end to `(length, 0)` on the upper seam.
     fn lower(&self, path: Path, half: usize) -> Path {
         path.line("underarm", DVec2::new(self.length, -self.hems[half]))
             .line("sleeve hem", DVec2::new(self.length, 0.0))
     }
 
-    /// Where the shoulder tip of the left sleeve stands, so that the sleeve lies round the arm and clear of the armpit.
+    /// Position (x, y) of the left sleeve's shoulder tip, metres, such that the sleeve is round the arm and clear of the armpit.
     fn stands(&self, form: &Form) -> DVec2 {
         let arm = &form.arm;
         let fall = arm.fall();
         let (along, up) = (DVec2::new(fall.cos(), -fall.sin()), DVec2::new(fall.sin(), fall.cos()));
         let half = (self.widths[0] + self.widths[1]) / 4.0;
-        // Wider than the arm, it hangs on it: more of it lies below.
+        // A sleeve wider than the arm hangs on it: more of it is below the arm.
         let on_arm = arm.joint.truncate() + up * (half - 0.01);
         let underarm = on_arm + along * self.cap - up * (2.0 * half);
         let short = (arm.armpit.x - underarm.x).max(arm.tip.x - on_arm.x);
@@ -116,12 +116,12 @@ impl Halves {
     }
 }
 
-/// Controls of a cap from the shoulder tip at the origin down to the underarm point.
+/// Control points of a cap from the shoulder tip at the origin down to the underarm point.
 fn cap_controls(underarm: DVec2) -> [DVec2; 2] {
     [DVec2::new(0.0, 0.45 * underarm.y), DVec2::new(underarm.x, 0.55 * underarm.y)]
 }
 
-/// Drafts both sleeves and sets them in to the armholes of `trunk`.
+/// Drafts both sleeves and sews them into the armholes of `trunk`.
 pub fn set_in(garment: &mut Garment, form: &Form, cut: &Sleeve, trunk: &Trunk) {
     let caps = trunk.armhole_lengths.map(|length| length * cut.puff);
     let halves = Halves::new(cut, form, caps, |_, cap, width| {
@@ -142,7 +142,7 @@ const NAMES: [&str; 2] = ["sleeve front left", "sleeve back left"];
 
 /// Drafts both raglan sleeves, which reach up to the neckline, and sews them to `trunk`.
 pub fn raglan(garment: &mut Garment, form: &Form, cut: &Sleeve, trunk: &Trunk) {
-    // The part of the yoke that belongs to the sleeve, turned so that the shoulder seam runs on into the upper seam.
+    // The part of the yoke that belongs to the sleeve, rotated so that the shoulder seam continues into the upper seam.
     let yokes = [0, 1].map(|half| {
         let (neck, tip) = (trunk.yoke.neck[half], trunk.yoke.tip[half]);
         let shoulder = DVec2::from_angle(SHOULDER_BEND) * neck.distance(tip);
@@ -172,7 +172,7 @@ pub fn raglan(garment: &mut Garment, form: &Form, cut: &Sleeve, trunk: &Trunk) {
     finish(garment, form, cut, trunk, &halves, pieces);
 }
 
-/// Stands the halves of the left sleeve and their mirror images beside the arms, and sews them.
+/// Places the halves of the left sleeve and their mirror images beside the arms, and sews them.
 fn finish(
     garment: &mut Garment,
     form: &Form,
@@ -192,7 +192,7 @@ fn finish(
     }
     let cuffs = cut.cuff.map(|height| {
         let lengths = halves.hems.map(|hem| hem / cut.gather);
-        // Neither half is so small that it folds.
+        // In proportion to the halves of the hem, so that neither is small enough to fold.
         let along = DVec2::from_angle(angle);
         [0, 1].map(|half| {
             let (facing, z) = places[half];
@@ -223,7 +223,7 @@ fn finish(
     }
 }
 
-/// Half a cuff `height` metres wide along the arm and `length` round it.
+/// Half a cuff: `height` metres wide along the arm and `length` metres round it.
 fn cuff(name: &str, height: f64, length: f64) -> Piece {
     Path::from(DVec2::ZERO)
         .line("cuff top", DVec2::new(0.0, -length))

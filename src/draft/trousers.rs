@@ -1,4 +1,4 @@
-//! Trousers and shorts: two fronts, two backs, with a dart in each.
+//! Trousers and shorts: two fronts and two backs, with a dart in each.
 
 use glam::{DVec2, DVec3};
 use serde::Serialize;
@@ -11,28 +11,28 @@ use crate::draft::skirt::CLEARANCE;
 use crate::geometry::ids::PieceId;
 use crate::pattern::Piece;
 
-/// Left and right half stand so far apart at the fork, metres.
+/// Gap between left and right half at the fork as placed, metres.
 const APART: f64 = 0.01;
-/// Moved from each front's width to each back's, metres.
+/// Width moved from each front to each back, metres.
 const BACK_SHARE: f64 = 0.016;
 
-/// How trousers are cut; metres.
+/// Measures of trousers, metres.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Trousers {
-    /// Height of the hem: 0 at the crotch, 1 at the knee, 2 at the ankle bone.
+    /// Level of the hem: 0 at the crotch, 1 at the knee, 2 at the ankle bone.
     pub length: f64,
-    /// Added to the hip girth.
+    /// Ease added to the hip girth.
     pub hip_ease: f64,
-    /// Added to the depth of the crotch below the waist.
+    /// Ease added to the depth of the crotch below the waist.
     pub crotch_ease: f64,
-    /// Added to the girth of the knee, where the legs reach there.
+    /// Ease added to the girth of the knee, where the legs reach it.
     pub knee_ease: f64,
-    /// Added to the girth of the leg at the hem.
+    /// Ease added to the girth of the leg at the hem.
     pub hem_ease: f64,
 }
 
 impl Trousers {
-    /// Down to the calf or ankle: narrow, straight, wide or flared.
+    /// Trousers down to the calf or ankle: narrow, straight, wide or flared, drawn at random.
     pub fn long(random: &mut Random) -> Self {
         let [knee_ease, hem_ease] = random.one_of([[0.07, 0.09], [0.09, 0.16], [0.18, 0.30], [0.09, 0.28]]);
         Self {
@@ -44,7 +44,7 @@ impl Trousers {
         }
     }
 
-    /// Above the knee.
+    /// Shorts that end above the knee, drawn at random.
     pub fn shorts(random: &mut Random) -> Self {
         Self {
             length: random.between(0.35, 0.85),
@@ -56,7 +56,7 @@ impl Trousers {
     }
 }
 
-/// Levels below the waist and half girths that front and back share; metres.
+/// Depths below the waist, and shares of girths, that front and back have in common; metres.
 struct Block {
     hip: f64,
     crotch: f64,
@@ -66,25 +66,25 @@ struct Block {
     hip_quarter: f64,
 }
 
-/// What differs between front and back; metres.
+/// Measures in which front and back differ, metres.
 struct Cut {
-    /// From the middle line out to the point between the legs.
+    /// Distance from the middle line out to the point between the legs.
     fork: f64,
-    /// How far the middle seam leans in at the waist.
+    /// Distance by which the middle seam leans in at the waist.
     lean: f64,
-    /// How much higher the waist is at the middle.
+    /// Extra height of the waist at the middle.
     rise: f64,
     /// Width and length of the dart.
     dart: [f64; 2],
-    /// Added to half widths of the leg and the hip.
+    /// Width added to half widths of the leg and the hip.
     wider: f64,
-    /// How much lower the fork lies.
+    /// Extra depth of the fork.
     drop: f64,
-    /// Height of the side above the waist.
+    /// Height of the side's upper end above the waist.
     side: f64,
 }
 
-/// A half girth at a place of the leg, by level: 0 crotch, 1 knee, 2 ankle; metres.
+/// Girth of the leg at a level (0 crotch, 1 knee, 2 ankle), metres, interpolated between the body's measurements.
 fn leg_girth(form: &Form, level: f64) -> f64 {
     let m = &form.measurements;
     let knots = [(0.0, m.upper_thigh), (0.5, m.mid_thigh), (1.0, m.knee), (1.4, m.calf), (2.0, m.ankle)];
@@ -112,7 +112,7 @@ impl Block {
         }
     }
 
-    /// The left front or back, the body's middle at x = 0, the side at +x, the waist at y = 0.
+    /// The left front or back, with the body's middle at x = 0, the side at +x and the waist at y = 0.
     fn leg(&self, name: &str, cut: &Cut) -> Piece {
         let at = |x: f64, below: f64| DVec2::new(x, -below);
         let hip_width = self.hip_quarter + cut.wider;
@@ -171,14 +171,14 @@ impl Block {
     }
 }
 
-/// Length of all edges of `piece` called `label`, metres.
+/// Total length of all edges of `piece` called `label`, metres.
 fn length(piece: &Piece, label: &str) -> f64 {
     let own = (0..piece.outline.len()).filter(|&i| piece.outline[i].label.as_deref() == Some(label));
     own.map(|i| piece.exact_edge_length(i)).sum()
 }
 
-/// Drafts trousers for a finished waist `girth` metres round, stands them with their waist `level` metres above the ground
-/// and sews them. Gives their upper edges in front and behind, from the right of the body to the left.
+/// Drafts trousers for a finished waist `girth` metres round, places them with their waist `level` metres above the ground and
+/// sews them. Returns their upper edges in front and at the back, from the right of the body to the left.
 pub fn trousers(garment: &mut Garment, form: &Form, cut: &Trousers, girth: f64, level: f64) -> [Run; 2] {
     let block = Block::new(form, cut, girth);
     let larger = form.measurements.hip / 0.98;
@@ -203,7 +203,7 @@ pub fn trousers(garment: &mut Garment, form: &Form, cut: &Trousers, girth: f64, 
     let front_left = block.leg("trousers front left", &front);
     let [inner, outer] = ["in", "out"].map(|label| length(&front_left, label));
     let name = "trousers back left";
-    // The back's fork and side are moved until both its seams are as long as the front's.
+    // The back's fork and side are moved until both its seams have the lengths of the front's.
     let drop = solved(-0.03, 0.08, |drop| length(&block.leg(name, &back(drop, 0.0)), "in") - inner);
     let side = solved(-0.03, 0.03, |side| length(&block.leg(name, &back(drop, side)), "out") - outer);
     let back_left = block.leg(name, &back(drop, side));

@@ -1,4 +1,6 @@
-//! A drag in steps: the cloth chases the pointer in substeps short enough to stay stable, and relaxes after each.
+//! A drag in steps: the cloth follows the pointer in substeps short enough to be stable, and relaxes after each.
+//!
+//! The *hand* is the dragged vertex.
 
 use std::sync::Arc;
 
@@ -10,60 +12,63 @@ use crate::drag::Graph;
 use crate::drag::transport::motions;
 use crate::relax::{Acceleration, GlobalStep, RelaxSettings, Relaxer, global};
 
-/// No vertex moves farther in a substep, in edge lengths (ALGORITHMS.md 1.A5).
+/// Largest move of a vertex in a substep, in edge lengths (ALGORITHMS.md 1.A5).
 const SUBSTEP: f64 = 0.25;
-/// The rest of a fast drag waits for later ticks.
+/// Most substeps in a tick; the rest of a fast drag waits for later ticks.
 const MOST_SUBSTEPS: usize = 4;
-/// Cloth nearer to the skin than this follows it, metres on a body 1.5 m large (paper A).
+/// Height above the skin up to which cloth follows it, metres on a body 1.5 m large (paper A).
 const FOLLOWS: f64 = 0.036;
-/// The paper halves its distance to the skin in every step; so large a share of that is done here in a whole substep, and less
-/// the higher cloth lies above [`PULLED`]: loose cloth that is sucked in has nowhere to go and folds.
+/// Pull towards the skin: the fraction, in a whole substep, of the move by which the paper halves the distance to the
+/// skin in every step. It fades with height, see [`PULLED`]: loose cloth that is sucked in has nowhere to go and folds.
 const PULL: f64 = 0.02;
-/// Height, in offsets, up to which cloth is brought nearer to the skin.
+/// Height above the offset, in offsets, at which the pull towards the skin has faded to zero.
 const PULLED: f64 = 2.0;
-/// A pointer that looks along the skin (cosine to the normal) says little about where on it the cloth should go.
+/// Cosine between pointer ray and normal below which the ray is too oblique to tell where on the skin the cloth should go.
 const GRAZING: f64 = 0.1;
-/// The hand's vertex in relaxation, on the matrix diagonal: soft, so that a pull that cannot be followed does not tear.
+/// Weight of the hand in relaxation, on the matrix diagonal: soft, so that a pull that the cloth cannot follow does
+/// not tear it.
 const HAND_WEIGHT: f64 = 1.0;
-/// Of contact while dragging: light, so that what strains slides.
+/// Weight of contact while dragging: light, so that strained cloth slides.
 const CONTACT: f64 = 0.01;
-/// The factor may lag behind the contacts by this share of the vertices: they come and go all the time while cloth slides.
+/// Fraction of vertices whose contact may change before the matrix is factored again: while cloth slides, contacts
+/// come and go all the time.
 const STALE_SHARE: f64 = 0.05;
-/// How far the global steps of a relaxation go: what a plain one takes away less than a fifth of is too slow to be seen going.
+/// Acceleration of the global steps of a relaxation: error components that a plain step reduces by less than a fifth
+/// are too slow to be seen.
 const PACES: [Acceleration; 3] = Acceleration::chebyshev(0.2);
-/// No vertex moves farther in one relaxation, metres on a body 1.5 m large.
+/// Largest move of a vertex in one relaxation, metres on a body 1.5 m large.
 const RELAX_CAP: f64 = 0.02;
-/// The hand has arrived this near to the pointer, in edge lengths.
+/// Distance from the pointer at which the hand has arrived, in edge lengths.
 const ARRIVED: f64 = 1e-3;
-/// Lies still when nothing moved farther than this many edge lengths for [`QUIET_TICKS`].
+/// Largest move in a tick, in edge lengths, below which the tick counts as quiet; see [`QUIET_TICKS`].
 const STILL: f64 = 0.01;
-/// See [`STILL`].
+/// Number of quiet ticks in a row after which the cloth is still.
 const QUIET_TICKS: usize = 5;
 
-/// How cloth follows the hand (paper A, Figure 7).
+/// How the cloth follows the hand (paper A, Figure 7).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum DragMode {
-    /// All cloth slides along the skin, round it, as one.
+    /// All cloth slides along the skin as one.
     #[default]
     Surface,
-    /// Only the vertex in the hand is moved; relaxation brings the rest along.
+    /// Only the hand is moved; relaxation brings the rest along.
     Vertex,
-    /// All cloth is moved the same way through space.
+    /// All cloth is translated in space.
     Rigid,
 }
 
-/// Where the pointer is: a ray into the scene, metres.
+/// Pointer ray into the scene, metres.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Ray {
-    /// Where it starts.
+    /// Origin of the ray, metres.
     pub origin: DVec3,
-    /// Where it goes; any length but zero.
+    /// Direction of the ray; any length but zero.
     pub direction: DVec3,
 }
 
 impl Ray {
-    /// Finite, and going somewhere.
+    /// Whether the ray is finite and its direction not zero.
     pub fn is_valid(&self) -> bool {
         self.origin.is_finite() && self.direction.is_finite() && self.direction.length() > 1e-12
     }
@@ -73,7 +78,8 @@ impl Ray {
         self.origin + d * (p - self.origin).dot(d).max(0.0)
     }
 
-    /// Where it meets the plane through `p` across `normal`; for a ray along the plane, what is nearest to `p`.
+    /// Intersection of the ray with the plane through `p` perpendicular to `normal`; for an oblique ray the point of
+    /// the plane nearest to the ray's nearest point to `p`.
     fn on_plane(&self, p: DVec3, normal: DVec3) -> DVec3 {
         let d = self.direction.normalize();
         let cos = d.dot(normal);
@@ -86,14 +92,14 @@ impl Ray {
     }
 }
 
-/// Cloth in the hand.
+/// A drag in progress.
 #[derive(Clone, Debug)]
 pub struct Dragging {
     relaxer: Relaxer,
     graph: Arc<Graph>,
     mode: DragMode,
     hand: u32,
-    /// From the hand's vertex to where the cloth was taken, metres.
+    /// From the hand to the point where the cloth was grabbed, metres.
     beside: DVec3,
     pins: Vec<u32>,
     pointer: Option<Ray>,
@@ -103,7 +109,7 @@ pub struct Dragging {
 }
 
 impl Dragging {
-    /// Takes cloth at the vertex `hand`, beside which (by `beside`, metres) the pointer is. `pins` hold.
+    /// Grabs the cloth at the vertex `hand`; the pointer is at `beside` (m) from it. `pins` stay in place.
     pub fn new(
         mut relaxer: Relaxer,
         state: &ClothState,
@@ -137,7 +143,7 @@ impl Dragging {
         }
     }
 
-    /// The pointer is there now. An impossible ray changes nothing.
+    /// Sets the target of the drag to a pointer ray. An invalid ray is ignored.
     pub fn drag_to(&mut self, pointer: Ray) {
         if pointer.is_valid() {
             self.pointer = Some(pointer);
@@ -145,13 +151,13 @@ impl Dragging {
         }
     }
 
-    /// Relaxes differently from now on.
+    /// Changes the settings of relaxation.
     pub fn set_settings(&mut self, settings: RelaxSettings) {
         self.relaxer.settings = settings;
         self.quiet = 0;
     }
 
-    /// Lets go. What is left is for settling; pins still hold.
+    /// Ends the drag. The relaxer is returned for settling; pins are still fixed.
     pub fn into_relaxer(mut self) -> Relaxer {
         self.relaxer.release();
         self.relaxer.refactor_beyond(global::STALE_SHARE);
@@ -159,32 +165,32 @@ impl Dragging {
         self.relaxer
     }
 
-    /// Whether another step would change nothing to speak of.
+    /// Whether the cloth is still, so that another step would change almost nothing.
     pub fn is_still(&self) -> bool {
         self.quiet >= QUIET_TICKS
     }
 
-    /// The garment with its split edges, and where that is; None where none is split.
+    /// The garment with its split edges and its state; None where no edge is split.
     pub fn drawn(&self, state: &ClothState) -> Option<(Arc<Garment>, ClothState)> {
         self.relaxer.drawn(state)
     }
 
-    /// Substeps done so far.
+    /// Number of substeps done.
     pub fn substeps(&self) -> u64 {
         self.substeps
     }
 
-    /// Work done so far.
+    /// Counters of the work done.
     pub fn counters(&self) -> Counters {
         self.relaxer.counters
     }
 
-    /// For each vertex how much of the drag reaches it, 0..=1.
+    /// For each vertex the fraction of the drag that reaches it, 0..=1.
     pub fn shares(&self) -> Vec<f32> {
         self.graph.shares(self.relaxer.garment.vertex_count)
     }
 
-    /// One tick: substeps towards the pointer, each with a relaxation when `relaxing`. Same input, same bits.
+    /// One tick: substeps towards the pointer, each followed by a relaxation when `relaxing`. Same input, same bits.
     pub fn step(&mut self, state: &mut ClothState, relaxing: bool) {
         let mut moved = 0.0f64;
         for substep in 0..MOST_SUBSTEPS {
@@ -192,7 +198,7 @@ impl Dragging {
             let longest = SUBSTEP * self.edge_length;
             let motion = wanted.clamp_length_max(longest);
             let on = substep + 1 < MOST_SUBSTEPS && wanted.length() > longest + ARRIVED * self.edge_length;
-            // The last relaxation asks where the skin is exactly; on the way there a walk is enough.
+            // The last relaxation queries the skin exactly; before it a walk is enough.
             self.relaxer.walk(on || (substep > 0 && relaxing));
             let arrived = motion.length() < ARRIVED * self.edge_length;
             if arrived && substep > 0 {
@@ -213,7 +219,7 @@ impl Dragging {
         self.quiet = if moved < STILL * self.edge_length { self.quiet + 1 } else { 0 };
     }
 
-    /// From the hand's vertex to where the pointer wants it.
+    /// The move of the hand that the pointer asks for, metres.
     fn motion(&self, state: &ClothState) -> DVec3 {
         let (Some(pointer), false) = (self.pointer, self.graph.is_empty()) else { return DVec3::ZERO };
         let x = state.positions[self.hand as usize];
@@ -228,7 +234,7 @@ impl Dragging {
         pointer.on_plane(taken, normal) - taken
     }
 
-    /// Moves the hand and what follows it. Returns how far the hand came, metres.
+    /// Moves the hand and the cloth that follows it. Returns how far the hand moved, metres.
     fn move_along(&mut self, state: &mut ClothState, motion: DVec3) -> f64 {
         if self.relaxer.bones.is_empty() {
             self.carry(state, motion);
@@ -251,7 +257,7 @@ impl Dragging {
                 self.graph.steps().for_each(|(v, share, _)| state.positions[v as usize] += motion * share);
             }
             DragMode::Surface => {
-                // Where the skin was tracked before the last relaxation is near enough for directions.
+                // The track planes from before the last relaxation are accurate enough for directions.
                 let cloth = self.relaxer.cloth_normals(state);
                 let normals = self.frame_normals(state, &cloth, reach);
                 let motions = motions(&self.graph, &state.positions, &normals, motion);
@@ -268,7 +274,7 @@ impl Dragging {
         self.relaxer.forget_motion(state);
     }
 
-    /// Paper A's temporary normals: the skin's near it, the cloth's far from it, blended between.
+    /// Paper A's temporary normals: those of the skin near it, those of the cloth far from it, blended between.
     fn frame_normals(&self, state: &ClothState, cloth: &[DVec3], reach: f64) -> Vec<DVec3> {
         let offset = self.relaxer.offset();
         (0..cloth.len())
@@ -288,7 +294,7 @@ impl Dragging {
         state.positions.iter().enumerate().map(height).collect()
     }
 
-    /// Cloth keeps its height above the skin it slides along, and comes a little nearer.
+    /// Keeps the height of cloth above the skin along which it slides, and pulls it a little nearer.
     fn follow_skin(&mut self, state: &mut ClothState, cloth: &[DVec3], before: &[f64], pull: f64) {
         let (offset, follows) = (self.relaxer.offset(), FOLLOWS * self.relaxer.surface.scale());
         for (v, share, _) in self.graph.steps() {
@@ -299,12 +305,12 @@ impl Dragging {
             if height > follows || plane.normal.dot(cloth[i]) <= 0.0 {
                 continue;
             }
-            // Pressed cloth lies a little deeper than the offset: relaxation knows how deep.
+            // Pressed cloth is a little deeper than the offset; relaxation determines how deep.
             let floor = before[i].clamp(offset * 0.5, offset);
             let kept = height.min(before[i]).max(floor);
             let near = (1.0 - (kept - offset) / (PULLED * offset)).clamp(0.0, 1.0);
             let pulled = kept + ((kept / 2.0).max(floor) - kept) * pull * near;
-            // Out of the skin wholly, towards it by as much as it was moved.
+            // Move it wholly out of the skin, but towards the skin only by its share of the drag.
             let wanted = if height < floor { floor } else { height + (pulled - height) * share };
             state.positions[i] = x + plane.normal * (wanted - height);
             self.relaxer.carried_along_normal(v, state.positions[i]);
@@ -315,13 +321,13 @@ impl Dragging {
         let cap = RELAX_CAP * self.relaxer.surface.scale();
         let step =
             GlobalStep { cap, contact: CONTACT, hold: HAND_WEIGHT, slack: 0.0, unfold: true, weight: true };
-        // The other modes leave it to relaxation how far the rest of the cloth follows: one plain step, as in the paper.
+        // In the other modes relaxation determines how far the rest of the cloth follows: one plain step, as in the paper.
         let paces = match self.mode {
             DragMode::Surface => &PACES[..],
             _ => &[Acceleration::PLAIN],
         };
         let moved = self.relaxer.global_steps(state, step, paces);
-        // On coarse cloth steps are long: the planes it slid along are not the skin where it came to.
+        // On coarse cloth moves are long: the track planes may not be the skin at the new position.
         if moved > self.relaxer.offset() {
             self.relaxer.raise_out(state);
         }

@@ -5,19 +5,19 @@ use rayon::prelude::*;
 use crate::cloth::EdgeMetric;
 use crate::drag::pins::share;
 
-/// Vertices in the order in which motion reaches them, each with its parents.
+/// The dependency graph: vertices in the order in which motion reaches them, each with its parents.
 #[derive(Clone, Debug, Default)]
 pub struct Graph {
     order: Vec<u32>,
     starts: Vec<u32>,
     parents: Vec<u32>,
-    /// Whose parent each of `parents` is.
+    /// For each entry of `parents` the vertex whose parent it is.
     children: Vec<u32>,
     shares: Vec<f64>,
 }
 
 impl Graph {
-    /// From `hand` outward over vertices that take part (`laid`). Vertices of which pins leave nothing are not in it.
+    /// The graph from `hand` outward over vertices that are `laid`. Vertices to which pins leave no motion are not in it.
     pub fn new(metric: &EdgeMetric, hand: u32, pins: &[u32], laid: &[bool]) -> Self {
         let from_hand = metric.from(&[(hand, 0.0)], |v| laid[v as usize]);
         let mut shares = vec![1.0f64; laid.len()];
@@ -49,23 +49,23 @@ impl Graph {
         graph
     }
 
-    /// How many vertices it reaches, the hand's among them.
+    /// Number of vertices in the graph, the hand included.
     pub fn len(&self) -> usize {
         self.order.len()
     }
 
-    /// True when even the hand is pinned.
+    /// Whether the graph is empty, because the hand itself is pinned.
     pub fn is_empty(&self) -> bool {
         self.order.is_empty()
     }
 
-    /// Every parent with its child, in the order of [`Graph::steps`].
+    /// All pairs of parent and child, in the order of [`Graph::steps`].
     pub fn links(&self) -> impl IndexedParallelIterator<Item = (u32, u32)> {
         self.parents.par_iter().copied().zip(self.children.par_iter().copied())
     }
 
-    /// Vertices with the share of the motion that pins leave them (0..=1), parents before children, and their parents. The
-    /// first is the hand's and has none.
+    /// Each vertex with the fraction of the motion that pins leave it (0..=1) and its parents; parents come before
+    /// children. The first vertex is the hand, without parents.
     pub fn steps(&self) -> impl Iterator<Item = (u32, f64, &[u32])> {
         self.order.iter().enumerate().map(|(i, &v)| {
             let parents = &self.parents[self.starts[i] as usize..self.starts[i + 1] as usize];
@@ -73,7 +73,7 @@ impl Graph {
         })
     }
 
-    /// The share of each of `count` vertices: 0 where the drag does not reach.
+    /// For each of `count` vertices the fraction of the motion that pins leave it; 0 where the drag does not reach.
     pub fn shares(&self, count: usize) -> Vec<f32> {
         let mut shares = vec![0.0; count];
         self.steps().for_each(|(v, share, _)| shares[v as usize] = share as f32);

@@ -1,5 +1,5 @@
-//! Paper A: dragging cloth along the surface. A dependency graph from the hand outward, motion carried along it in local
-//! frames, weakened towards pushpins.
+//! Paper A: dragging cloth along the surface. A dependency graph from the hand (the dragged vertex) outward; motion
+//! carried along it in local frames, weakened towards pushpins.
 
 pub mod dragging;
 pub mod graph;

@@ -1,8 +1,8 @@
-//! Pushpins: how much of a drag reaches a vertex (paper A, Figure 9).
+//! Pushpins: the fraction of a drag that reaches a vertex (paper A, Figure 9).
 
-/// What share of the motion at distance zero is left at a vertex `to_hand` metres from the hand and `to_pin` from a pin
-/// that is `apart` metres from the hand, all along the cloth: 1 as far on the other side of the hand as can be, 0 at the
-/// pin and behind it; its level lines are hyperbolas with hand and pin as foci. A pinned hand moves nothing.
+/// Fraction (0..=1) of the hand's motion left at a vertex `to_hand` metres from the hand and `to_pin` from a pin, where hand
+/// and pin are `apart` metres from each other, all along the cloth. It is 1 straight behind the hand, seen from the pin, and
+/// 0 at the pin and behind it; its level lines are hyperbolas with hand and pin as foci. A pinned hand moves nothing.
 pub fn share(to_hand: f64, to_pin: f64, apart: f64) -> f64 {
     if apart <= 0.0 {
         return 0.0;

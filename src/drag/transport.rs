@@ -1,20 +1,20 @@
-//! Motion carried from vertex to vertex in local frames (paper A, "Surface dragging").
+//! Transport of motion from vertex to vertex in local frames (paper A, "Surface dragging").
 
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 
 use crate::drag::Graph;
 
-/// An edge nearer to the normal than this (its tangential share) gives no frame.
+/// Smallest tangential fraction of an edge's length; an edge nearer to the normal gives no frame.
 const UPRIGHT: f64 = 1e-4;
-/// When the mean of the carried motions is shorter than this share of their length, they really cancel.
+/// Ratio of the mean of transported motions to their mean length below which they cancel each other.
 const CANCELLED: f64 = 0.2;
 
-/// Links one thread takes at a time.
+/// Least number of links for a parallel task.
 const LEAST_SHARE: usize = 512;
 
-/// The motion of every vertex of `graph` when the first moves by `hand`; zero elsewhere. Not weakened by pins: shares
-/// would multiply on the way. `normals` are unit, one per vertex.
+/// The motion of every vertex of `graph` when the hand moves by `hand`; zero elsewhere. Pins do not weaken it here,
+/// because their fractions would multiply along the graph. `normals` are unit, one per vertex.
 pub fn motions(graph: &Graph, positions: &[DVec3], normals: &[DVec3], hand: DVec3) -> Vec<DVec3> {
     let turn_of = |(parent, child): (u32, u32)| {
         let (p, c) = (parent as usize, child as usize);
@@ -37,7 +37,7 @@ pub fn motions(graph: &Graph, positions: &[DVec3], normals: &[DVec3], hand: DVec
         }
         let count = parents.len() as f64;
         let (mean, length) = (sum / count, all / count);
-        // Averaging directions shortens; a drag keeps its length.
+        // Averaging directions shortens a motion: restore its length.
         let short = mean.length();
         (motions[c], lengths[c]) = match short > CANCELLED * length && short > 0.0 {
             true => (mean * (length / short), length),
@@ -47,7 +47,8 @@ pub fn motions(graph: &Graph, positions: &[DVec3], normals: &[DVec3], hand: DVec
     motions
 }
 
-/// Takes a motion at a parent with normal `from` to a child `along` away with normal `to`.
+/// The rotation that takes a motion at a parent with normal `from` to a child with normal `to`; `along` is the vector
+/// between them.
 fn turn(along: DVec3, from: DVec3, to: DVec3) -> DMat3 {
     match (frame(along, from), frame(along, to)) {
         (Some(parent), Some(child)) => child * parent.transpose(),

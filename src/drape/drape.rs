@@ -1,4 +1,4 @@
-//! Cloth under physics, with the solver that suits it.
+//! Simulation of any cloth mesh: picks the cheaper of the two time steppers, implicit or small steps.
 
 use serde::Serialize;
 
@@ -10,61 +10,63 @@ use crate::drape::solver::small_steps::{SmallSteps, substeps};
 use crate::drape::solver::steps::{CONTACT_OVER_INERTIA, Integrator, Scene, Steps};
 use crate::drape::state::State;
 
-/// Work of one small step per edge, vertex and entry of bending against that of an implicit step per number in its factor: what
-/// both took on one machine. The choice needs no more than their ratio.
+/// Cost of one small step per mesh edge. Unit: an arbitrary one in which [`IMPLICIT_PER_NUMBER`] is the cost of an implicit step.
+/// Both were measured on one machine; only their ratio matters.
 const SMALL_PER_EDGE: f64 = 1.0;
+/// Cost of one implicit step per number in its Cholesky factor, in the unit of [`SMALL_PER_EDGE`].
 const IMPLICIT_PER_NUMBER: f64 = 2.5;
 
-/// A sheet held by two corners strains so many times as much, at its worst hundredth of edges, as the law for a held row says:
-/// measured 3.3, 3.0, 2.1 and 1.8 at 0.5, 1, 10 and 40 thousand triangles, and 1.9 to 2.0 where it lies on a ball.
+/// Upper bound of [`concentration`], a ratio. Of a sheet held at two corners the 99th percentile of edge strain was measured as
+/// 3.3, 3.0, 2.1 and 1.8 times what the law for a held row predicts, at 0.5, 1, 10 and 40 thousand triangles; 1.9 to 2.0 times
+/// where the sheet lies on a ball.
 const MOST_CONCENTRATION: f64 = 4.0;
 
-/// How cloth is moved.
+/// Time stepper.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Method {
-    /// Newton's method on whole steps.
+    /// Newton's method on whole steps ([`crate::drape::solver::steps`]).
     Implicit,
-    /// Position-based dynamics in many small ones.
+    /// Position-based dynamics in many small steps ([`crate::drape::solver::small_steps`]).
     SmallSteps,
 }
 
-/// What one is asked for.
+/// Settings of a [`Drape`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DrapeSettings {
-    /// One method; without, the cheaper.
+    /// The stepper to use; None picks the cheaper one.
     pub method: Option<Method>,
-    /// Strain that the solver may leave beyond the cloth's own, 1e-4..0.2.
+    /// Strain that small steps may add through unconverged constraints, beyond what the cloth's stiffness allows, 1e-4..0.2.
     pub strain: f64,
-    /// Distance kept from bodies and from itself, metres.
+    /// Distance that cloth keeps from bodies and from itself, metres.
     pub thickness: f64,
-    /// Coulomb's coefficient.
+    /// Coulomb friction coefficient.
     pub friction: f64,
-    /// Whether cloth meets itself.
+    /// Whether cloth collides with itself.
     pub self_collision: bool,
-    /// Of implicit steps.
+    /// Time integrator of implicit steps.
     pub integrator: Integrator,
-    /// Membrane stiffness that springs stand for, N/m.
+    /// Membrane stiffness that the springs of small steps stand for, N/m.
     pub stiffness: f64,
-    /// Largest move that an implicit step may leave undone, as a share of the mean edge.
+    /// Convergence tolerance of an implicit step: the largest Newton update still allowed, as a share of the mean edge length.
     pub accuracy: f64,
 }
 
-/// A step could not be made.
+/// Why a step could not be made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum DrapeError {
-    /// The matrix needs more memory than there is.
+    /// The solver's matrix does not fit in memory.
     #[error("the solver's matrix does not fit in memory")]
     Memory,
-    /// Something became infinite; the state is that before the step.
+    /// This vertex became infinite or not a number; the state is the one before the step.
     #[error("vertex {0} (from 0) went nowhere; the step was taken back")]
     Lost(usize),
 }
 
-/// Moving cloth.
+/// A cloth simulation: scene, moving state and the chosen solver.
 #[derive(Debug)]
 pub struct Drape {
-    /// What stays the same. The collider may be replaced between steps.
+    /// The cloth, its elasticity and its loads, which do not change between steps; the collider may be replaced.
     pub scene: Scene,
     state: State,
     settings: DrapeSettings,
@@ -82,7 +84,7 @@ enum Solver {
 }
 
 impl Drape {
-    /// Ready for steps of `h` seconds.
+    /// A simulation prepared for steps of `h` seconds.
     pub fn new(scene: Scene, state: State, settings: DrapeSettings, h: f64) -> Result<Self, DrapeError> {
         let count = scene.sheet.len();
         let solver = chosen(&scene, &settings, h)?;
@@ -93,12 +95,12 @@ impl Drape {
         Ok(Self { scene, state, settings, contacts, itself, solver, residual: 0.0, unconverged: 0 })
     }
 
-    /// Where the cloth is.
+    /// Positions and velocities.
     pub fn state(&self) -> &State {
         &self.state
     }
 
-    /// Goes `h` seconds on, or stays where it is.
+    /// Advances by `h` seconds. On an error the state stays as it was.
     pub fn step(&mut self, h: f64) -> Result<(), DrapeError> {
         let before = self.state.clone();
         let lost = match &mut self.solver {
@@ -135,7 +137,7 @@ impl Drape {
         }
     }
 
-    /// What was chosen, in words.
+    /// The chosen solver, in words for the user.
     pub fn chosen(&self) -> String {
         match &self.solver {
             Solver::Implicit(steps) => {
@@ -145,7 +147,7 @@ impl Drape {
         }
     }
 
-    /// The method chosen.
+    /// The chosen time stepper.
     pub fn method(&self) -> Method {
         match self.solver {
             Solver::Implicit(_) => Method::Implicit,
@@ -153,7 +155,7 @@ impl Drape {
         }
     }
 
-    /// Small steps in each step; none of an implicit one.
+    /// Small steps in each step; 0 for an implicit stepper.
     pub fn substeps(&self) -> usize {
         match self.solver {
             Solver::Implicit(_) => 0,
@@ -161,17 +163,17 @@ impl Drape {
         }
     }
 
-    /// The largest force that no vertex's motion accounts for after the last step, N; small steps do not know theirs.
+    /// Largest unbalanced force on a vertex after the last implicit step, N; 0 for small steps, which do not compute it.
     pub fn residual(&self) -> f64 {
         self.residual
     }
 
-    /// Implicit steps that ended before they were as accurate as asked.
+    /// Number of implicit steps that ended before they converged.
     pub fn unconverged(&self) -> u64 {
         self.unconverged
     }
 
-    /// Work done.
+    /// Work done since the start.
     pub fn work(&self) -> Work {
         match &self.solver {
             Solver::Implicit(steps) => steps.newton().work,
@@ -184,14 +186,15 @@ impl Drape {
         }
     }
 
-    /// The fastest vertex, m/s.
+    /// Speed of the fastest vertex, m/s.
     pub fn speed(&self) -> f64 {
         largest(&self.state.velocities)
     }
 }
 
-/// How many times as much hangs from a vertex that is held as from one of a row of `row` that is held as a whole, as far as the
-/// strain of all but the edges next to it feels it. What a body will hold nobody knows before.
+/// Load concentration, 1..=[`MOST_CONCENTRATION`]: how many times the weight that hangs from a pinned vertex exceeds what would
+/// hang from each vertex of a pinned row of `row` vertices. Edges next to the pins are not counted. How much a body will support
+/// is not known before, so cloth on one gets the upper bound.
 fn concentration(scene: &Scene, row: f64) -> f64 {
     match (scene.pinned.iter().filter(|held| **held).count(), &scene.collider) {
         (0, None) => 1.0,
@@ -225,7 +228,7 @@ fn chosen(scene: &Scene, settings: &DrapeSettings, h: f64) -> Result<Solver, Dra
     }
 }
 
-/// What keeps the cloth from crossing itself.
+/// Self-collision constraints for small steps.
 fn separation(scene: &Scene, thickness: f64) -> Separation {
     let sheet = &scene.sheet;
     let rest: Vec<f64> = (0..sheet.adjacency.edges.len()).map(|e| sheet.rest_length(e)).collect();

@@ -1,14 +1,15 @@
-//! Physics: cloth that falls, hangs and lies.
+//! Physics: cloth that falls, hangs and comes to rest.
 //!
 //! A [`Sheet`] of constant-strain triangles with quadratic bending, moved by implicit steps or by many small ones; [`Drape`]
-//! chooses. [`solver::settle`] finds the rest directly. Positions are f64: in f32 the fall of a small step is lost below rounding.
+//! chooses. [`solver::settle`] finds the equilibrium directly. Positions are f64: in f32 the displacement of one small step would
+//! be lost to rounding.
 //!
 //! | what moves | by | forces on it |
 //! | --- | --- | --- |
 //! | a garment on its body: the window's *Drape*, `toile dress` | [`DrapedGarment`], always in [`solver::small_steps`] | `Surroundings`: bending, gravity, drag, contact; stretching as the springs of `solver::net` |
 //! | any cloth mesh: `toile simulate`, the bench | [`Drape`], in implicit ([`solver::steps`]) or small steps | [`Elastic`] in implicit ones: `forces` |
 //!
-//! A new force goes to both.
+//! A new force must be added to both.
 
 pub mod contact;
 #[allow(clippy::module_inception, reason = "the room is named after what it makes")]

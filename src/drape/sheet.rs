@@ -1,46 +1,48 @@
-//! A sheet of cloth as a triangle mesh with a flat rest shape: what does not change while it moves.
+//! A sheet of cloth: triangle mesh with a flat rest shape, the part of the cloth that does not change while it moves.
 
 use glam::{DMat2, DVec2};
 
 use crate::geometry::adjacency::{Adjacency, NONE};
 
-/// Rest triangles smaller than this share of the mean are no cloth.
+/// Rest triangles with less than this share of the mean area are rejected as degenerate.
 const LEAST_AREA: f64 = 1e-8;
 
-/// Connectivity, rest shape and masses. Rest coordinates stand at the corners of each triangle, so that pieces may be sewn.
+/// Connectivity and rest shape. Rest coordinates are stored per triangle corner, so that several pattern pieces can share sewn
+/// vertices.
 #[derive(Clone, Debug)]
 pub struct Sheet {
     /// Corner vertices, counter-clockwise on the cloth's front.
     pub triangles: Vec<[u32; 3]>,
-    /// The same corners in the pattern plane (x along the weft, y along the warp), metres; counter-clockwise.
+    /// Rest position of each triangle's corners in the pattern plane (x along the weft, y along the warp), metres;
+    /// counter-clockwise.
     pub rest: Vec<[DVec2; 3]>,
     /// Area of each rest triangle, m².
     pub areas: Vec<f64>,
-    /// A third of the area round each vertex, m².
+    /// A third of the area of the triangles round each vertex, m².
     pub vertex_area: Vec<f64>,
-    /// Neighbours.
+    /// Adjacency of vertices, edges and triangles.
     pub adjacency: Adjacency,
 }
 
-/// Why triangles are no sheet.
+/// Why triangles do not form a sheet.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum SheetError {
-    /// Nothing to simulate.
+    /// There is no triangle, or the number of rest triangles differs.
     #[error("there is no triangle")]
     Empty,
-    /// A corner that is no vertex, or not finite.
+    /// A corner refers to a vertex that does not exist, or its rest position is not finite.
     #[error("triangle {0} (from 0) has a corner that is missing or not finite")]
     Corner(usize),
-    /// No area, or mirrored.
+    /// The rest triangle has no area.
     #[error("triangle {0} (from 0) has no area in its rest shape")]
     Area(usize),
-    /// A vertex without cloth.
+    /// A vertex belongs to no triangle.
     #[error("vertex {0} (from 0) belongs to no triangle")]
     Lonely(usize),
 }
 
 impl Sheet {
-    /// Over vertices `0..vertices`. Triangles that lie mirrored in the pattern plane are taken as seen from behind.
+    /// A sheet over vertices `0..vertices`. Rest triangles given clockwise are mirrored in x.
     pub fn new(
         vertices: usize,
         triangles: Vec<[u32; 3]>,
@@ -79,12 +81,12 @@ impl Sheet {
         self.vertex_area.len()
     }
 
-    /// Never: a sheet has triangles.
+    /// Always false: a sheet has triangles.
     pub fn is_empty(&self) -> bool {
         self.vertex_area.is_empty()
     }
 
-    /// Rest length of edge `e` (of the adjacency), metres: over the triangles beside it the mean.
+    /// Rest length of edge `e` of the adjacency, metres: the mean over the triangles beside it.
     pub fn rest_length(&self, e: usize) -> f64 {
         let beside = self.adjacency.edge_triangles.of(e as u32);
         let length = |&t: &u32| {
@@ -101,13 +103,13 @@ impl Sheet {
         (0..count).map(|e| self.rest_length(e)).sum::<f64>() / count as f64
     }
 
-    /// Which side of triangle `t` edge `e` is.
+    /// Index 0..3 of edge `e` among the sides of triangle `t`.
     fn side_of(&self, t: u32, e: u32) -> usize {
         self.adjacency.triangle_edges[t as usize].iter().position(|&x| x == e).unwrap_or(0)
     }
 
-    /// The triangle across side `k` of `t`, and where its corners lie when it is laid flat beside `t`, whose own corners lie
-    /// at `own`.
+    /// The triangle across side `k` of `t` and the positions of its corners when it is unfolded into the plane of `t`, whose
+    /// corners are at `own`. None on the border.
     pub fn unfolded(&self, t: u32, own: &[DVec2; 3], k: usize) -> Option<(u32, [DVec2; 3])> {
         let other = self.adjacency.across[t as usize][k];
         if other == NONE {
@@ -115,7 +117,7 @@ impl Sheet {
         }
         let j = self.side_of(other, self.adjacency.triangle_edges[t as usize][k]);
         let corners = &self.rest[other as usize];
-        // Where cloth turns its back the neighbour runs the shared side in the same direction.
+        // The neighbour traverses the shared side in the same direction where the two triangles are oriented differently.
         let same_way = self.triangles[other as usize][j] == self.triangles[t as usize][k];
         let (a, b) = (own[k], own[(k + 1) % 3]);
         let (mut p, mut q) = (corners[j], corners[(j + 1) % 3]);

@@ -1,4 +1,4 @@
-//! Why the cloth is strained: the pattern is smaller than the body there, a seam joins unequal sides, or it did not come to rest.
+//! Causes of strain: the pattern is smaller than the body, a seam joins unequal sides, or the simulation did not converge.
 
 use std::collections::BTreeMap;
 
@@ -11,24 +11,24 @@ use crate::fit::laid::Laid;
 use crate::fit::on_body::BodyIndex;
 use crate::fit::shape::quantile;
 
-/// Edges strained by less have no cause told.
+/// Strain above which the cause of an edge is determined.
 pub const STRAINED: f64 = 0.02;
-/// Sides of a seam that differ by more are unequal.
+/// Relative difference in length above which the sides of a seam count as unequal.
 const UNEQUAL: f64 = 0.01;
-/// Cloth is stretched round the body where the edges about an edge are together strained by this share of what it is, or more:
-/// round a tube those that run round it are, those along it are not.
+/// An edge counts as stretched round the body when the edges about it together are strained by at least this share of its own
+/// strain. Round a tube only edges in the circumferential direction are stretched, those along the tube are not.
 const TOGETHER: f64 = 0.25;
-/// Cloth no farther from the skin, metres, is pressed on to it.
+/// Distance from the skin below which cloth counts as pressed on to it, metres.
 const ON_SKIN: f64 = 0.015;
-/// A pattern that is smaller than the body by less is not told, metres.
+/// Differences in girth between pattern and body up to this are not reported, metres.
 const LEAST_SMALLER: f64 = 1e-3;
 
-/// Edges strained for the same reason.
+/// Edges strained for one cause.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Strained {
-    /// How many.
+    /// Number of edges.
     pub edges: usize,
-    /// The largest strain of them, |l / l0 - 1|.
+    /// Largest |l / l0 - 1| among them.
     pub max: f64,
 }
 
@@ -39,14 +39,14 @@ impl Strained {
     }
 }
 
-/// Where the pattern is smaller than the body.
+/// A place where the pattern is smaller than the body.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Smaller {
-    /// The measure of the body: `waist`.
+    /// Name of the body measure: `waist`.
     pub place: String,
     /// Girth of the body, metres.
     pub body: f64,
-    /// Round the pattern there, metres.
+    /// Girth of the pattern there, metres.
     pub pattern: f64,
 }
 
@@ -58,28 +58,28 @@ impl std::fmt::Display for Smaller {
     }
 }
 
-/// The edges that are strained by more than [`STRAINED`], by their cause.
+/// Edges strained by more than [`STRAINED`], by cause.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Causes {
-    /// Stretched together with the cloth about them, on the skin: the piece is too small there.
+    /// On the skin and stretched together with the cloth about them: the piece is too small.
     pub fit: Strained,
-    /// On a seam, no longer or shorter than between its two unequal sides.
+    /// On a seam of two unequal sides, with a length between theirs.
     pub seam_ease: Strained,
-    /// All others: the cloth did not come to rest there.
+    /// All others: the simulation did not come to rest there.
     pub unconverged: Strained,
-    /// Where the pattern is smaller than the body, the most first; told of a garment that is not dressed and [is
-    /// tight](Self::is_tight).
+    /// Places where the pattern is smaller than the body, the largest difference first. Filled only for a garment that has faults
+    /// and [is tight](Self::is_tight).
     pub smaller: Vec<Smaller>,
 }
 
 impl Causes {
-    /// Whether more than a hundredth of its `edges` are strained because it is too small.
+    /// Whether more than a hundredth of the garment's `edges` are strained because the piece is too small.
     pub fn is_tight(&self, edges: usize) -> bool {
         self.fit.edges * 100 > edges
     }
 }
 
-/// Why the cloth that lies is strained on `body`.
+/// Determines the cause of each strained edge.
 pub(super) fn causes(garment: &Garment, laid: &Laid, body: &BodyIndex<'_>) -> Causes {
     let sides = unequal_sides(garment);
     let edges = edges(garment, laid);
@@ -114,7 +114,7 @@ pub(super) fn causes(garment: &Garment, laid: &Laid, body: &BodyIndex<'_>) -> Ca
     causes
 }
 
-/// |l / l0 - 1| that 99 of 100 edges do not exceed, without those that a seam of unequal sides eases: a gather is meant.
+/// 99th percentile of |l / l0 - 1|, without edges eased on a seam of unequal sides: there a gather is intended.
 pub(super) fn uneased_p99(garment: &Garment, laid: &Laid) -> f64 {
     let sides = unequal_sides(garment);
     let edges = edges(garment, laid);
@@ -124,14 +124,14 @@ pub(super) fn uneased_p99(garment: &Garment, laid: &Laid) -> f64 {
     quantile(&strains, 0.99)
 }
 
-/// Whether `edge` lies on a seam of unequal sides, no longer or shorter than between them. `sides` as [`unequal_sides`] gives.
+/// Whether `edge` is on a seam of unequal sides and its length is between theirs. `sides` as [`unequal_sides`] returns them.
 fn is_eased(edge: &Edge, sides: &BTreeMap<[u32; 2], [f64; 2]>) -> bool {
     let is_between =
         |[low, high]: &[f64; 2]| (low * (1.0 - STRAINED)..=high * (1.0 + STRAINED)).contains(&edge.worn);
     sides.get(&edge.ends).is_some_and(is_between)
 }
 
-/// A side of a triangle that lies; one between two triangles of a piece is there once.
+/// An edge of the laid cloth: one between two triangles of a piece is listed once, one on a seam once for each side.
 struct Edge {
     ends: [u32; 2],
     flat: f64,
@@ -156,7 +156,7 @@ fn edges(garment: &Garment, laid: &Laid) -> Vec<Edge> {
     sides.into_iter().map(edge).filter(|edge| edge.flat > 0.0).collect()
 }
 
-/// The flat lengths, shorter first, of the edges on seams whose two sides differ.
+/// Flat lengths (metres, shorter first) of the edges on seams with two unequal sides, by their sorted vertices.
 fn unequal_sides(garment: &Garment) -> BTreeMap<[u32; 2], [f64; 2]> {
     let mut found = BTreeMap::new();
     for (_, pairs) in &garment.seam_pairs {
@@ -176,7 +176,7 @@ fn unequal_sides(garment: &Garment) -> BTreeMap<[u32; 2], [f64; 2]> {
     found
 }
 
-/// Where the pattern is smaller round the body than that is, the most first.
+/// Places where the girth of the pattern is smaller than that of the body, the largest difference first.
 pub(super) fn smaller(garment: &Garment, state: &ClothState, body: &BodyIndex<'_>) -> Vec<Smaller> {
     let Some(readings) = readings(&body.surface().mesh, None) else { return Vec::new() };
     let mut found: Vec<Smaller> = girths(garment, state, &readings)

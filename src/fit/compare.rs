@@ -1,4 +1,4 @@
-//! Two garments of the same pieces held against each other: what is read off one, at the places of the other.
+//! Comparison of two garments with the same pieces: transfers a map from one to the other.
 
 use glam::DVec2;
 use rayon::prelude::*;
@@ -10,9 +10,9 @@ use crate::fit::shape::quantile;
 use crate::geometry::ids::PieceId;
 use crate::pattern::Pattern;
 
-/// What has a smaller share in a place has none.
+/// Barycentric weights below this count as zero.
 const LEAST_SHARE: f64 = 1e-9;
-/// Outlines are as exact as that, metres, where the box round a piece is measured.
+/// Flattening tolerance of outlines for bounding boxes, metres.
 const TOLERANCE: f64 = 1e-4;
 
 /// Why two garments cannot be compared, in words.
@@ -20,32 +20,32 @@ const TOLERANCE: f64 = 1e-4;
 #[error("{0}")]
 pub struct Unlike(pub String);
 
-/// Where each flat corner of the second garment lies on the first: at the same place of the box round its piece, so that meshes may
-/// differ, and sizes too.
+/// For each flat corner of the second garment the corresponding place on the first: at the same relative position in the bounding
+/// box of its piece, so meshes and sizes may differ.
 #[derive(Debug)]
 pub struct Matching {
     places: Vec<Option<FlatPlace>>,
 }
 
-/// How far the values of a map over the second garment are from those over the first, at the vertices of the second.
+/// Statistics of the difference between two maps, over the vertices of the second garment.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Change {
-    /// How many vertices have a value in both.
+    /// Number of vertices with a value in both maps.
     pub count: usize,
-    /// The mean there of the first,
+    /// Mean of the first map there.
     pub first: f64,
-    /// and of the second.
+    /// Mean of the second map there.
     pub second: f64,
-    /// Of second less first the mean,
+    /// Mean of second minus first.
     pub mean: f64,
-    /// what 99 of 100 are nearer to zero than,
+    /// 99th percentile of |second - first|.
     pub p99: f64,
-    /// and the largest size.
+    /// Largest |second - first|.
     pub max: f64,
 }
 
 impl Matching {
-    /// The error says which pieces one has and the other lacks.
+    /// Matches the pieces of two garments. The error names the pieces that one has and the other lacks.
     pub fn new(first: Worn<'_>, second: Worn<'_>) -> Result<Self, Unlike> {
         let pairs = pairs(first.garment, second.garment)?;
         let mut places = vec![None; second.garment.corners.len()];
@@ -61,7 +61,8 @@ impl Matching {
         Ok(Self { places })
     }
 
-    /// The map over the first garment at the vertices of the second; on seams the mean of both sides. NaN where it has no value.
+    /// The map over the first garment, transferred to the vertices of the second; on seams the mean of both sides. NaN where
+    /// there is no value.
     pub fn carried(&self, first: &Garment, second: &Garment, map: &Map) -> Vec<f64> {
         let mut sums = vec![(0.0, 0usize); second.vertex_count];
         for (corner, place) in second.corners.iter().zip(&self.places) {
@@ -76,7 +77,8 @@ impl Matching {
         sums.into_iter().map(|(sum, n)| if n > 0 { sum / n as f64 } else { f64::NAN }).collect()
     }
 
-    /// What a map over the second garment has more than the same over the first, at the second; NaN where either has no value.
+    /// The map over the second garment minus the one over the first, at the vertices of the second; NaN where either has no
+    /// value.
     pub fn difference(&self, first: (&Garment, &Map), second: (&Garment, &Map)) -> Map {
         let before = self.carried(first.0, second.0, first.1);
         let vertices: Vec<f64> = second.1.vertices.iter().zip(&before).map(|(b, a)| b - a).collect();
@@ -85,7 +87,7 @@ impl Matching {
 }
 
 impl Change {
-    /// Over the vertices of `garment`, or of one of its pieces. Both lists have a value, or NaN, for each of its vertices.
+    /// Statistics over the vertices of `garment`, or of one of its pieces. Both lists have a value, or NaN, per vertex.
     pub fn of(garment: &Garment, piece: Option<PieceId>, first: &[f64], second: &[f64]) -> Self {
         let mut vertices: Vec<usize> = match piece {
             None => (0..garment.vertex_count).collect(),
@@ -113,7 +115,7 @@ impl Change {
     }
 }
 
-/// Which piece of the first is which of the second: by id where ids and names agree, else by name.
+/// Pairs of corresponding pieces: by id where ids and names agree, else by name.
 fn pairs(first: &Garment, second: &Garment) -> Result<Vec<(PieceId, PieceId)>, Unlike> {
     if first.pieces == second.pieces {
         return Ok(first.pieces.iter().map(|(id, _)| (*id, *id)).collect());
@@ -148,7 +150,7 @@ fn pairs(first: &Garment, second: &Garment) -> Result<Vec<(PieceId, PieceId)>, U
     }
 }
 
-/// The box round a piece in its own plane, metres.
+/// Bounding box of a piece in its own plane, metres.
 fn bounds(pattern: &Pattern, id: PieceId) -> [DVec2; 2] {
     let points = pattern.pieces.get(&id).map(|piece| piece.flattened(TOLERANCE)).unwrap_or_default();
     let first = points.first().copied().unwrap_or_default();
@@ -164,7 +166,7 @@ fn carried(p: DVec2, from: [DVec2; 2], to: [DVec2; 2]) -> DVec2 {
     to[0] + share * (to[1] - to[0])
 }
 
-/// The nearest place on the triangle itself: between the chords of two meshes a point can lie off one of them.
+/// The nearest place on the triangle itself: where two meshes approximate a curve by different chords, a point can be outside.
 fn onto(place: FlatPlace) -> FlatPlace {
     let shares = place.shares.map(|share| share.max(0.0));
     let sum: f64 = shares.iter().sum();

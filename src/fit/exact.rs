@@ -1,4 +1,4 @@
-//! How far cloth is from where it is known to belong: for benches and tests.
+//! Deviation of cloth from a known exact solution, for benches and tests.
 
 use glam::{DQuat, DVec3};
 
@@ -16,13 +16,14 @@ pub fn strains(garment: &Garment, state: &ClothState) -> Vec<f64> {
     strains
 }
 
-/// What edges are strained beyond the chords of the exact map: one between its chord's strain and none is slack, not wrong.
+/// Strain beyond that of the exact solution, whose edges are chords: an edge between the chord's strain and zero is slack, not
+/// wrong.
 pub fn excess(garment: &Garment, state: &ClothState, exact: &ClothState) -> Vec<f64> {
     let pairs = strains(garment, state).into_iter().zip(strains(garment, exact));
     pairs.map(|(s, c)| s - s.clamp(c.min(0.0), c.max(0.0))).collect()
 }
 
-/// The `q`-quantile of absolute values; 0 of none.
+/// The `q`-quantile of absolute values; 0 without values.
 pub fn quantile(values: &[f64], q: f64) -> f64 {
     let mut sorted: Vec<f64> = values.iter().map(|v| v.abs()).collect();
     sorted.sort_unstable_by(f64::total_cmp);
@@ -30,7 +31,7 @@ pub fn quantile(values: &[f64], q: f64) -> f64 {
     sorted.get(at).copied().unwrap_or_default()
 }
 
-/// The farthest vertex from where it should lie, but for a turn about y and a shift along it; metres.
+/// Largest distance of a vertex from its exact position, after the best rotation about y and shift along y; metres.
 pub fn residual(exact: &ClothState, state: &ClothState) -> f64 {
     let pairs = || exact.positions.iter().zip(&state.positions);
     let (mut sin, mut cos, mut up) = (0.0, 0.0, 0.0);

@@ -1,22 +1,22 @@
-//! Garments that did not stay where they were put on: a strap slipped off, nothing held a waistband.
+//! Detection of garments that slid off: a strap slipped, nothing held a waistband.
 
 use crate::cloth::{ClothState, Garment};
 use crate::fit::measured::groups;
 use crate::pattern::Pattern;
 
-/// Cloth whose uppermost point lies so much lower than that of its pieces as they were placed has fallen down, metres.
+/// Drop of the highest point of sewn pieces, compared with their placement, above which they count as fallen, metres.
 const FALLEN: f64 = 0.2;
 
-/// Pieces that are sewn together and lie lower than they were placed.
+/// A group of sewn pieces that has slid down.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fallen {
-    /// The uppermost of them as placed, by its number in the garment's list.
+    /// Index, in the garment's list, of the piece that was placed highest.
     pub piece: usize,
-    /// By how much, metres.
+    /// How far its highest point has dropped, metres.
     pub by: f64,
 }
 
-/// What has fallen down of a garment that was sewn from where `pattern` places its pieces.
+/// The groups of pieces that have fallen, for a garment sewn from the placement in `pattern`.
 pub fn fallen(pattern: &Pattern, garment: &Garment, state: &ClothState) -> Vec<Fallen> {
     let groups = groups(pattern);
     let mut roots: Vec<_> = groups.values().copied().collect();

@@ -1,4 +1,4 @@
-//! The tape on the garment: how long the cloth is round the body.
+//! Girths of a garment: the length of the cloth round the body.
 
 use std::collections::BTreeMap;
 
@@ -9,19 +9,19 @@ use crate::body::readings::Reading;
 use crate::cloth::{ClothState, Garment};
 use crate::fit::laid::Laid;
 
-/// Parts of a body whose middles are farther from each other, metres, are two.
+/// Distance between the centres of two cross-sections above which they are of two legs, metres.
 const APART: f64 = 0.04;
 
-/// Round a garment where a plane cuts it.
+/// Girth of a garment in a cutting plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Girth {
-    /// Along the cloth as it lies, every fold with it, metres.
+    /// Length along the draped cloth, folds included, metres.
     pub worn: f64,
-    /// Of the same threads in the flat pattern, metres.
+    /// Length of the same line in the flat pattern, metres.
     pub flat: f64,
 }
 
-/// From one edge of the cloth over a triangle to the next.
+/// Segment of the cutting line across a triangle, from one edge to the next.
 struct Step {
     to: [u32; 2],
     from: DVec3,
@@ -29,8 +29,8 @@ struct Step {
     flat: f64,
 }
 
-/// Round the cloth in the plane of `tape`: of the closed lines round its origin, and not round the point `but`, the shortest, which
-/// is the innermost layer. None where no cloth goes all the way round.
+/// Girth in the plane of `tape`: the shortest closed line of cloth round the tape's origin, which is the innermost layer, that
+/// does not also enclose the point `but`. None where no cloth goes all the way round.
 pub fn girth(garment: &Garment, state: &ClothState, tape: &Tape, but: Option<DVec3>) -> Option<Girth> {
     let mut steps = steps(garment, &Laid::new(garment, state), tape);
     let (x, y) = tape.normal.any_orthonormal_pair();
@@ -55,8 +55,8 @@ pub fn girth(garment: &Garment, state: &ClothState, tape: &Tape, but: Option<DVe
     least
 }
 
-/// Where each girth in `readings` was taken on the body, by its place there; those where cloth goes all the way round. What goes
-/// round both legs is not round the one that was measured.
+/// Girths at the tapes of `readings`, each with its index there, for those where cloth goes all the way round. For a leg, cloth
+/// round both legs does not count.
 pub fn girths(garment: &Garment, state: &ClothState, readings: &[Reading]) -> Vec<(usize, Girth)> {
     let tapes = readings.iter().enumerate().filter_map(|(i, reading)| Some((i, reading.tape.as_ref()?)));
     let hip = readings.iter().find(|reading| reading.name == "hip").and_then(|hip| hip.tape.as_ref());
@@ -67,7 +67,7 @@ pub fn girths(garment: &Garment, state: &ClothState, readings: &[Reading]) -> Ve
     tapes.filter_map(|(i, tape)| Some((i, girth(garment, state, tape, other(tape))?))).collect()
 }
 
-/// By the edge each begins at. Cloth turns its front outward, so that each edge begins one at most.
+/// Segments by the edge at which each begins. The front of cloth is outside, so at most one begins at an edge.
 fn steps(garment: &Garment, laid: &Laid, tape: &Tape) -> BTreeMap<[u32; 2], Step> {
     let above = |v: u32| (laid.mesh.positions[v as usize] - tape.origin).dot(tape.normal);
     let mut steps = BTreeMap::new();

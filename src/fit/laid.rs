@@ -1,4 +1,4 @@
-//! The part of a garment that lies in space.
+//! The part of a garment that has positions in space.
 
 use glam::DVec3;
 
@@ -6,9 +6,9 @@ use crate::cloth::{ClothState, Garment};
 use crate::geometry::ids::PieceId;
 use crate::geometry::mesh::TriMesh;
 
-/// Triangles all of whose vertices have a finite place.
+/// The triangles whose vertices all have a finite position.
 pub(super) struct Laid {
-    /// Sewn vertices; those of no triangle here mean nothing.
+    /// Sewn vertices and triangles; vertices of no triangle here have no meaning.
     pub mesh: TriMesh,
     /// Flat corners of each triangle.
     pub corners: Vec<[u32; 3]>,
@@ -16,7 +16,7 @@ pub(super) struct Laid {
     pub pieces: Vec<PieceId>,
     /// Vertices of at least one triangle, ascending.
     pub used: Vec<u32>,
-    /// Edges in space, lower vertex first, ascending, each once.
+    /// Edges, lower vertex first, ascending, each once.
     pub edges: Vec<[u32; 2]>,
 }
 

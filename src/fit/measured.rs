@@ -1,4 +1,4 @@
-//! A garment measured on a body.
+//! Measures a garment on a body.
 
 use std::collections::BTreeMap;
 
@@ -13,10 +13,10 @@ use crate::geometry::crossings::self_crossings;
 use crate::geometry::ids::{PieceId, SeamId};
 use crate::pattern::Pattern;
 
-/// A seam whose two sides are nowhere further apart than this (metres) is closed.
+/// Largest gap of a closed seam, metres.
 pub(super) const CLOSED: f64 = 1e-4;
 
-/// Measures a garment on a body. Same input, same figures, on any number of threads.
+/// The report of a garment on a body. Same input, same figures, on any number of threads.
 pub fn measure(pattern: &Pattern, garment: &Garment, state: &ClothState, body: &BodyIndex<'_>) -> Report {
     let laid = Laid::new(garment, state);
     let tree = laid.mesh.tree();
@@ -52,7 +52,7 @@ pub fn measure(pattern: &Pattern, garment: &Garment, state: &ClothState, body: &
         clearance: sits.clearance,
         openings: sits.openings,
     };
-    // The measures of the body take longer than all else, so only what does not come out well is held against them.
+    // Measuring the body takes longer than all else, so it is done only for garments with faults.
     if report.strain_causes.is_tight(report.strain.edges) && !verdict(&report).is_empty() {
         report.strain_causes.smaller = smaller(garment, state, body);
     }
@@ -77,7 +77,7 @@ fn seams(pattern: &Pattern, garment: &Garment, state: &ClothState) -> Seams {
     found
 }
 
-/// "seam 2 (front and back)" for each seam of the pattern that does not hold everywhere.
+/// Names such as "seam 2 (front and back)" of the pattern's seams that are open anywhere.
 fn open_seams(pattern: &Pattern, garment: &Garment, state: &ClothState) -> Vec<String> {
     let holds = |pairs: &[[u32; 2]]| widest_gap(garment, state, pairs).is_some_and(|gap| gap <= CLOSED);
     let is_closed = |id: &SeamId| {
@@ -90,7 +90,7 @@ fn open_seams(pattern: &Pattern, garment: &Garment, state: &ClothState) -> Vec<S
         .collect()
 }
 
-/// The widest gap of a seam, metres; none when one of its points lies nowhere.
+/// Largest gap of a seam, metres; None when one of its points has no position.
 pub(super) fn widest_gap(garment: &Garment, state: &ClothState, pairs: &[[u32; 2]]) -> Option<f64> {
     pairs.iter().try_fold(0.0, |widest: f64, pair| {
         let [a, b] = pair.map(|c| garment.corners[c as usize].vertex as usize);
@@ -100,12 +100,12 @@ pub(super) fn widest_gap(garment: &Garment, state: &ClothState, pairs: &[[u32; 2
     })
 }
 
-/// Groups of pieces that the seams join.
+/// Number of groups of pieces that the seams join.
 fn pieces_expected(pattern: &Pattern) -> usize {
     groups(pattern).iter().filter(|(id, g)| id == g).count()
 }
 
-/// For each piece the lowest of those that the seams join it to; deactivated ones count for nothing.
+/// For each piece the lowest id of the pieces that the seams join it to; without deactivated pieces.
 pub(super) fn groups(pattern: &Pattern) -> BTreeMap<PieceId, PieceId> {
     let mut group: BTreeMap<PieceId, PieceId> = {
         let pieces = pattern.pieces.iter().filter(|(_, piece)| !piece.activity.is_deactivated());

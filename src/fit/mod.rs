@@ -1,4 +1,4 @@
-//! What is read off a garment: strain, crossings, openings, the report, maps.
+//! Measurements of a garment: strain, intersections, openings, the report, maps.
 
 mod causes;
 mod compare;

@@ -1,4 +1,4 @@
-//! How the cloth sits on the body: inside or outside, through it, inside out.
+//! Position of the cloth relative to the body: inside, intersecting, or wrong side out.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -12,17 +12,18 @@ use crate::geometry::bvh::Bvh;
 use crate::geometry::crossings::meetings;
 use crate::geometry::winding::Winding;
 
-/// Cloth nearer to the skin than this (metres) must show it its inner side.
+/// Distance from the skin within which cloth must have its inner side towards it, metres.
 pub(super) const NEAR: f64 = 0.02;
-/// Cloth so near, metres, is the other layer of a fold.
+/// Distance within which another layer makes a triangle part of a fold, metres.
 const FOLD: f64 = 0.03;
-/// Cloth that shows its inner side to skin no farther than this, metres, belongs to that skin, whatever it comes near to outside.
+/// Distance of skin from the inner side of a triangle within which the triangle belongs to that skin, even if its outer side is
+/// near other skin, metres.
 const BETWEEN: f64 = 0.10;
-/// A triangle whose normal has a smaller cosine with the skin's than this lies wrong side out.
+/// Cosine of the angle between the normals of cloth and skin below which a triangle is wrong side out.
 pub(super) const WRONG_SIDE: f64 = -0.2;
-/// A triangle of the body is hidden when a point this far (metres) before it lies inside the body.
+/// Distance in front of a body triangle, metres, at which a point is tested: where it is inside the body the triangle is hidden.
 const BEFORE_SKIN: f64 = 1e-4;
-/// Where a triangle is sampled, in barycentric coordinates times their sum.
+/// Sample points of a triangle, in unnormalised barycentric coordinates.
 const SAMPLES: [[f64; 3]; 7] = [
     [1.0, 1.0, 1.0],
     [4.0, 1.0, 1.0],
@@ -33,27 +34,27 @@ const SAMPLES: [[f64; 3]; 7] = [
     [1.0, 0.0, 1.0],
 ];
 
-/// Cloth inside the body.
+/// Penetration of the body by cloth.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Penetration {
-    /// Vertices.
+    /// Vertices inside.
     pub vertices: usize,
     /// Triangles with one of seven samples inside.
     pub faces: usize,
-    /// Of the deepest vertex or sample, metres.
+    /// Depth of the deepest vertex or sample, metres.
     pub max_depth: f64,
 }
 
-/// Signed distances of the vertices from the skin, metres.
+/// Distribution of the signed distances of vertices from the skin, metres.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Clearance {
-    /// The middle one.
+    /// The median.
     pub median: f64,
-    /// 95 of 100 are smaller.
+    /// The 95th percentile.
     pub p95: f64,
 }
 
-/// A body ready to be measured against; build it once per body.
+/// A body prepared for measurements; build it once per body.
 #[derive(Debug)]
 pub struct BodyIndex<'a> {
     surface: &'a Surface,
@@ -71,12 +72,12 @@ impl<'a> BodyIndex<'a> {
         self.surface
     }
 
-    /// Whether `p` is inside, where the body may cross itself too.
+    /// Whether `p` is inside the body, by winding number; the body may intersect itself.
     pub fn contains(&self, p: DVec3) -> bool {
         self.winding.contains(p)
     }
 
-    /// Over the body's triangles.
+    /// Bounding volume hierarchy of the body's triangles.
     pub(super) fn tree(&self) -> &Bvh {
         self.winding.tree()
     }
@@ -86,7 +87,7 @@ impl<'a> BodyIndex<'a> {
         self.surface.nearest(p).point.distance(p)
     }
 
-    /// Whether triangle `t` lies on the outside: where a body crosses itself, in the armpits say, some do not.
+    /// Whether triangle `t` is on the outside: where a body intersects itself, such as in the armpits, some are not.
     fn is_skin(&self, t: u32) -> bool {
         let [a, b, c] = self.surface.mesh.corners(t as usize);
         let before = (a + b + c) / 3.0 + self.surface.face_normals[t as usize] * BEFORE_SKIN;
@@ -98,7 +99,7 @@ impl<'a> BodyIndex<'a> {
     }
 }
 
-/// What cloth and body do to each other.
+/// Measurements of cloth against a body; fields as in [`Report`](crate::fit::Report).
 pub(super) struct OnBody {
     pub penetration: Penetration,
     pub edges_through_body: usize,
@@ -133,7 +134,7 @@ pub(super) fn on_body(laid: &Laid, cloth_tree: &Bvh, body: &BodyIndex<'_>) -> On
     }
 }
 
-/// Signed distances of the vertices, ascending, and which vertices (by number) are inside.
+/// Signed distances of the vertices, ascending, and for each vertex whether it is inside.
 fn distances(laid: &Laid, body: &BodyIndex<'_>) -> (Vec<f64>, Vec<bool>) {
     let signed: Vec<f64> = laid
         .used
@@ -154,8 +155,8 @@ fn distances(laid: &Laid, body: &BodyIndex<'_>) -> (Vec<f64>, Vec<bool>) {
     (sorted, inside)
 }
 
-/// Triangles of which some point may be inside: a vertex is, or the body's surface cuts them. All others lie wholly on
-/// the side of their vertices.
+/// Triangles that may have a point inside: a vertex is inside, or the body's surface cuts them. All others are wholly on the side
+/// of their vertices.
 fn cut_faces(
     laid: &Laid,
     through_body: &[[u32; 2]],
@@ -197,7 +198,7 @@ fn penetration(laid: &Laid, body: &BodyIndex<'_>, distances: &[f64], cut: &[u32]
     }
 }
 
-/// How deep the deepest sample of a triangle lies inside, if any does.
+/// Depth of the deepest sample of a triangle inside the body, metres; None when no sample is inside.
 fn face_depth(corners: [DVec3; 3], body: &BodyIndex<'_>) -> Option<f64> {
     SAMPLES
         .iter()
@@ -210,8 +211,8 @@ fn face_depth(corners: [DVec3; 3], body: &BodyIndex<'_>) -> Option<f64> {
         .reduce(f64::max)
 }
 
-/// Triangles that show the body their outer side, and whether they lie in a fold: on them or under them, no farther than
-/// [`FOLD`], lies cloth the right way round.
+/// Triangles with their outer side to the body, each with whether it is in a fold: within [`FOLD`] above or below it there is
+/// cloth the right way round.
 fn in_folds(
     laid: &Laid,
     cloth_tree: &Bvh,
@@ -235,8 +236,8 @@ fn in_folds(
     shown.into_iter().zip(folded).collect()
 }
 
-/// Whether triangle `t` hangs between two parts of the body, the side of a loose bodice beside an arm: skin is before its inner
-/// side too, no farther than [`BETWEEN`].
+/// Whether triangle `t` hangs between two parts of the body, such as the side of a loose bodice beside an arm: its inner side has
+/// skin in front of it too, within [`BETWEEN`].
 fn is_between(laid: &Laid, body: &BodyIndex<'_>, t: usize) -> bool {
     let [a, b, c] = laid.mesh.corners(t);
     let inward = -(b - a).cross(c - a).normalize_or_zero();
@@ -244,7 +245,7 @@ fn is_between(laid: &Laid, body: &BodyIndex<'_>, t: usize) -> bool {
     hit.is_some_and(|hit| hit.distance <= BETWEEN && hit.normal.dot(inward) < 0.0)
 }
 
-/// Of each triangle near the body: whether it shows any of the facets it is nearest to its outer side.
+/// For each triangle whether its outer side faces any of the nearest facets of the body; None where it is not near the body.
 pub(super) fn wrong_side_out(laid: &Laid, body: &BodyIndex<'_>) -> Vec<Option<bool>> {
     (0..laid.mesh.triangles.len())
         .into_par_iter()

@@ -7,18 +7,18 @@ use crate::geometry::bvh::{Aabb, Bvh};
 use crate::geometry::crossings::segment_meets_triangle;
 use crate::geometry::mesh::TriMesh;
 
-/// A closed border of the cloth.
+/// A closed border loop of the cloth.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Opening {
-    /// Metres.
+    /// Length, metres.
     pub length: f64,
     /// Mean height of its vertices, metres.
     pub height: f64,
-    /// Whether the body passes through the fan spanned over it from its middle.
+    /// Whether the body passes through the opening, which is closed by a fan of triangles from its centroid.
     pub body_through: bool,
 }
 
-/// The openings, longest first. `skin(t)` says whether triangle `t` of `body` lies on its outside; `tree` is over them.
+/// The openings, longest first. `skin(t)` tells whether triangle `t` of `body` is on its outside; `tree` is over these triangles.
 pub(super) fn openings(
     cloth: &TriMesh,
     body: &TriMesh,
@@ -41,7 +41,7 @@ pub(super) fn openings(
     found
 }
 
-/// Whether an edge of the body's skin meets the fan over `points` from their mean.
+/// Whether an edge of the body's skin meets the fan of triangles over `points` from their mean.
 fn passes(points: &[DVec3], body: &TriMesh, tree: &Bvh, skin: &impl Fn(u32) -> bool) -> bool {
     let n = points.len();
     let middle = points.iter().sum::<DVec3>() / n as f64;

@@ -1,4 +1,4 @@
-//! The figures of a dressed garment.
+//! The report: measurements of a dressed garment.
 
 use serde::{Deserialize, Serialize};
 
@@ -7,43 +7,43 @@ use crate::fit::on_body::{Clearance, Penetration};
 use crate::fit::openings::Opening;
 use crate::fit::shape::{PieceChange, Strain};
 
-/// Everything measured on a garment, over the triangles that lie in space.
+/// All measurements of a garment, over the triangles that have positions in space.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Report {
-    /// Triangles that lie in space.
+    /// Triangles with positions in space.
     pub triangles: usize,
-    /// Their sewn vertices.
+    /// Sewn vertices of those triangles.
     pub vertices: usize,
-    /// Vertices of the garment that have no place on the body yet.
+    /// Vertices of the garment without a position on the body.
     pub unmapped_vertices: usize,
-    /// Vertices that have one, but not a finite one.
+    /// Vertices with a position that is not finite.
     pub not_finite_vertices: usize,
     /// Strain of the edges.
     pub strain: Strain,
-    /// |l / l0 - 1| that 99 of 100 edges do not exceed, without those that a seam of unequal sides eases.
+    /// 99th percentile of |l / l0 - 1|, without edges eased on a seam of unequal sides.
     #[serde(default)]
     pub uneased_p99: f64,
-    /// Why they are strained.
+    /// Strained edges by cause.
     #[serde(default)]
     pub strain_causes: Causes,
-    /// What became of each piece, in id order.
+    /// Each piece compared with its flat shape, in id order.
     pub pieces: Vec<PieceChange>,
     /// The seams.
     pub seams: Seams,
-    /// Those that are open, by number and pieces.
+    /// Open seams, by number and pieces.
     #[serde(default)]
     pub open_seams: Vec<String>,
     /// Sewn vertices that belong to more than one piece.
     pub vertices_shared_by_pieces: usize,
-    /// Parts connected in space.
+    /// Connected components in space.
     pub pieces_in_space: usize,
-    /// Parts that the pattern's seams would make.
+    /// Connected components that the pattern's seams should make.
     pub pieces_expected: usize,
     /// Triangles without area.
     pub degenerate_faces: usize,
     /// Edges between two triangles.
     pub interior_edges: usize,
-    /// Those of them whose triangles lie folded onto each other.
+    /// Interior edges whose triangles are folded onto each other.
     pub folded_edges: usize,
     /// Pairs of an edge and a triangle of the cloth that cross without sharing a vertex.
     pub self_crossings: usize,
@@ -53,28 +53,28 @@ pub struct Report {
     pub edges_through_body: usize,
     /// Pairs of an edge of the skin and a cloth triangle that cross.
     pub body_edges_through_garment: usize,
-    /// Triangles with their middle within 2 cm of the body.
+    /// Triangles whose centroid is within 2 cm of the body.
     pub faces_near_body: usize,
-    /// Those of them that show the body their outer side.
+    /// Triangles near the body with their outer side towards it.
     pub flipped_faces: usize,
-    /// Those of these that lie in folds: on them or under them is cloth the right way round.
+    /// Flipped triangles that are in folds: above or below them is cloth the right way round.
     #[serde(default)]
     pub faces_in_folds: usize,
-    /// Those of the rest that hang between two parts of the body: they show their inner side to skin too.
+    /// Flipped triangles outside of folds that hang between two parts of the body: skin faces their inner side too.
     #[serde(default)]
     pub faces_between: usize,
-    /// How far above the skin the vertices lie.
+    /// Distances of the vertices from the skin.
     pub clearance: Clearance,
-    /// Hems, neck, cuffs; longest first.
+    /// Openings (hems, neck, cuffs), longest first.
     pub openings: Vec<Opening>,
 }
 
-/// The seams.
+/// Summary of the seams.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Seams {
-    /// Sides nowhere more than 0.1 mm apart.
+    /// Seams whose sides are nowhere more than 0.1 mm apart.
     pub closed: usize,
-    /// All others, also those that could not be sewn at all.
+    /// All other seams, including those that could not be sewn.
     pub open: usize,
     /// Largest distance between two points sewn together, metres.
     pub max_gap: f64,

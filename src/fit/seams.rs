@@ -1,4 +1,4 @@
-//! The seams one by one: what is sewn to what, whether it can be, and how it sits.
+//! Measurements of each seam: its sides, gather, stretch and gap.
 
 use serde::Serialize;
 
@@ -10,15 +10,15 @@ use crate::pattern::{Pattern, Seam};
 /// A seam of a dressed garment. Lengths in metres.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SeamFit {
-    /// Which.
+    /// Id of the seam.
     pub seam: SeamId,
     /// Piece and first edge (from 1) of each side.
     pub sides: [(String, usize); 2],
-    /// How long its sides are in the pattern; None of a side that is not there.
+    /// Length of each side in the pattern; None for a side that does not exist.
     pub flat: [Option<f64>; 2],
-    /// How long it is as it lies; None where it does not.
+    /// Length on the body; None where the seam is not laid.
     pub worn: Option<f64>,
-    /// The largest distance between two points sewn together; None where it could not be sewn.
+    /// Largest distance between two points sewn together; None where the seam could not be sewn.
     pub gap: Option<f64>,
 }
 
@@ -30,7 +30,7 @@ impl SeamFit {
 
     fn of(id: SeamId, seam: &Seam, pattern: &Pattern, garment: &Garment, state: &ClothState) -> Self {
         let piece = |k: usize| pattern.pieces.get(&seam.sides[k].piece);
-        // A seam along stretches of several edges is sewn in parts.
+        // A seam along runs of several edges is sewn in parts.
         let parts = || garment.seam_pairs.iter().filter(|(of, _)| *of == id).map(|(_, pairs)| pairs);
         let sum = |total: f64, part: Option<f64>| Some(total + part?);
         let widest = |most: f64, gap: Option<f64>| Some(most.max(gap?));
@@ -47,25 +47,25 @@ impl SeamFit {
         }
     }
 
-    /// The longer side over the shorter.
+    /// Gather ratio: flat length of the longer side over that of the shorter.
     pub fn gather(&self) -> Option<f64> {
         let [a, b] = self.flat;
         Some(a?.max(b?) / a?.min(b?)).filter(|ratio| ratio.is_finite())
     }
 
-    /// How long it is as it lies over its shorter side, which is what the longer is gathered to, less one.
+    /// Strain along the seam: its length on the body over the shorter flat side, to which the longer is gathered, minus one.
     pub fn stretch(&self) -> Option<f64> {
         let [a, b] = self.flat;
         Some(self.worn? / a?.min(b?) - 1.0).filter(|stretch| stretch.is_finite())
     }
 
-    /// Whether its sides are nowhere more than 0.1 mm apart.
+    /// Whether the sides are nowhere more than 0.1 mm apart.
     pub fn is_closed(&self) -> bool {
         self.gap.is_some_and(|gap| gap <= CLOSED)
     }
 }
 
-/// Along the first of both sides.
+/// Length of the seam in space along the first of its sides, metres; None where a point has no position.
 fn length(garment: &Garment, state: &ClothState, pairs: &[[u32; 2]]) -> Option<f64> {
     pairs.windows(2).try_fold(0.0, |length, pair| {
         let [a, b] = [pair[0][0], pair[1][0]].map(|c| garment.corners[c as usize].vertex as usize);

@@ -1,4 +1,4 @@
-//! How well the cloth keeps its flat shape: strain, area, border, folds.
+//! Distortion of the cloth compared with its flat shape: strain, area, perimeter, folds.
 
 use serde::{Deserialize, Serialize};
 
@@ -10,45 +10,45 @@ use crate::geometry::ids::PieceId;
 const SHORTEST: f64 = 1e-9;
 /// Triangles smaller than this (square metres) are degenerate.
 const SMALLEST_AREA: f64 = 1e-12;
-/// Neighbours whose normals have a smaller cosine than this are folded onto each other.
+/// Two faces are folded onto each other when the cosine of the angle between their normals is below this.
 const FOLDED: f64 = -0.5;
 
-/// |l / l0 - 1| over the edges of the flat cloth; an edge in a seam counts once for each piece.
+/// Statistics of |l / l0 - 1| over the edges of the flat cloth; an edge in a seam counts once for each piece.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Strain {
-    /// How many edges.
+    /// Number of edges.
     pub edges: usize,
-    /// The largest.
+    /// Maximum.
     pub max: f64,
-    /// 99 of 100 are smaller.
+    /// 99th percentile.
     pub p99: f64,
-    /// 95 of 100 are smaller.
+    /// 95th percentile.
     pub p95: f64,
-    /// Root of the mean square.
+    /// Root mean square.
     pub rms: f64,
-    /// The middle one.
+    /// Median.
     pub median: f64,
-    /// Of the stretched edges only, the others counting 0.
+    /// 99th percentile of stretch, compressed edges counting as 0.
     pub stretch_p99: f64,
-    /// Of the compressed edges only, the others counting 0.
+    /// 99th percentile of compression, stretched edges counting as 0.
     pub compress_p99: f64,
     /// Edges stretched to more than twice their length.
     #[serde(default)]
     pub doubled: usize,
 }
 
-/// What became of a piece.
+/// A piece compared with its flat shape.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PieceChange {
-    /// Its name.
+    /// Name of the piece.
     pub name: String,
-    /// Triangles that lie in space.
+    /// Triangles with positions in space.
     pub triangles: usize,
-    /// Triangles that do not.
+    /// Triangles without positions in space.
     pub missing_triangles: usize,
-    /// Area over flat area, less one.
+    /// Area over flat area, minus one.
     pub area_change: f64,
-    /// Length of the border over its flat length, less one.
+    /// Length of the border over its flat length, minus one.
     pub perimeter_change: f64,
 }
 
@@ -79,7 +79,7 @@ fn flat_edges(garment: &Garment, laid: &Laid) -> Vec<FlatEdge> {
         .collect()
 }
 
-/// Strain |l / l0 - 1| over all flat edges, and what became of each piece.
+/// Strain |l / l0 - 1| over all flat edges, and the change of each piece.
 pub(super) fn strain_and_pieces(garment: &Garment, laid: &Laid) -> (Strain, Vec<PieceChange>) {
     let edges = flat_edges(garment, laid);
     let strains = edges.iter().filter(|e| e.flat > SHORTEST).map(|e| e.length / e.flat - 1.0).collect();
@@ -112,7 +112,7 @@ fn strain(signed: Vec<f64>) -> Strain {
     }
 }
 
-/// The quantile of sorted values, linear between neighbours.
+/// Quantile of sorted values, linearly interpolated; 0 without values.
 pub(super) fn quantile(sorted: &[f64], fraction: f64) -> f64 {
     let Some(last) = sorted.len().checked_sub(1) else {
         return 0.0;
@@ -160,7 +160,7 @@ pub(super) fn degenerate_faces(laid: &Laid) -> usize {
     (0..laid.mesh.triangles.len()).filter(|&t| area_in_space(laid, t) < SMALLEST_AREA).count()
 }
 
-/// Pairs of neighbouring triangles, and those of them that lie folded onto each other.
+/// Number of interior edges, and of those whose triangles are folded onto each other.
 pub(super) fn interior_and_folded_edges(laid: &Laid) -> (usize, usize) {
     let mut sides: Vec<([u32; 2], usize)> = laid
         .mesh
@@ -180,7 +180,7 @@ pub(super) fn interior_and_folded_edges(laid: &Laid) -> (usize, usize) {
     })
 }
 
-/// Parts connected in space.
+/// Number of connected components in space.
 pub(super) fn pieces_in_space(laid: &Laid) -> usize {
     let mut parent: Vec<u32> = (0..laid.mesh.positions.len() as u32).collect();
     for &[a, b, c] in &laid.mesh.triangles {

@@ -1,4 +1,4 @@
-//! Seams that are shut only because the cloth beside them is stretched (paper B, "sewability").
+//! Seams that are closed only because the cloth beside them is stretched (paper B, "sewability").
 
 use std::collections::BTreeMap;
 
@@ -7,34 +7,35 @@ use glam::{DMat2, DVec2};
 use crate::cloth::{ClothState, FlatPiece, Garment};
 use crate::geometry::ids::{PieceId, SeamId};
 
-/// Cloth beside a seam that comes together is stretched by less.
+/// Stretch beside a seam below which the seam counts as fitting.
 const FITS: f64 = 0.05;
-/// No tailor lets a seam out by less, metres.
+/// Smallest missing length that is reported, metres: no tailor lets a seam out by less.
 const LEAST: f64 = 5e-3;
-/// Cloth stretched by less is where what is missing ends: nothing pulls there.
+/// Stretch below which the search for the missing length ends: nothing pulls there.
 const SLACK: f64 = 0.01;
-/// Between two places at which the stretch is read, and how far from the seam they go, metres.
+/// Distance between two samples of the stretch, metres.
 const STEP: f64 = 0.005;
+/// Largest distance from the seam at which the stretch is sampled, metres.
 const FAR: f64 = 1.5;
 
-/// A seam that does not come together by itself.
+/// A seam that is closed only under tension.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ShortSeam {
-    /// Which.
+    /// Id of the seam.
     pub seam: SeamId,
-    /// How far the cloth beside it is stretched where it is most: of the edges round that vertex which are longer than flat.
+    /// Largest stretch beside the seam: for each vertex, that of the edges round it which are longer than flat.
     pub stretch: f64,
-    /// By how much the cloth across it is longer than flat, straight away from the seam on both sides until it is slack, where
-    /// that is most, metres: so far it would open.
+    /// Missing length, metres: the elongation of the cloth perpendicular to the seam on both sides, up to where the cloth is
+    /// slack, at the vertex where that is largest. It estimates how far the seam would open.
     pub missing: f64,
 }
 
-/// The seams of cloth that lies which do not come together by themselves, in the garment's order.
+/// The seams that are closed only under tension, in the garment's order.
 pub fn short_seams(garment: &Garment, state: &ClothState) -> Vec<ShortSeam> {
     let beside = stretch_round(garment, state);
     let mut pieces = BTreeMap::new();
     let mut found: Vec<ShortSeam> = Vec::new();
-    // A seam along stretches of several edges is sewn in parts, which follow each other.
+    // A seam along runs of several edges is sewn in parts, which follow each other.
     for (seam, pairs) in &garment.seam_pairs {
         for (i, pair) in pairs.iter().enumerate() {
             let stretch = beside.get(&garment.corners[pair[0] as usize].vertex).copied().unwrap_or(0.0);
@@ -56,10 +57,10 @@ pub fn short_seams(garment: &Garment, state: &ClothState) -> Vec<ShortSeam> {
     found
 }
 
-/// Of the edges of the triangles round each vertex on a seam those that are longer than flat, all together.
+/// Stretch at each vertex on a seam: of the edges of the triangles round it that are longer than flat, together.
 fn stretch_round(garment: &Garment, state: &ClothState) -> BTreeMap<u32, f64> {
     let on_seams = garment.seam_pairs.iter().flat_map(|(_, pairs)| pairs);
-    // Flat lengths and what the edges are longer than that, metres.
+    // Sums of flat lengths and of elongations of those edges, metres.
     let mut sums: BTreeMap<u32, [f64; 2]> =
         on_seams.map(|pair| (garment.corners[pair[0] as usize].vertex, [0.0; 2])).collect();
     for (vs, corners) in garment.triangles.iter().zip(&garment.triangle_corners) {
@@ -89,7 +90,7 @@ fn lies(state: &ClothState, vs: &[u32; 3]) -> bool {
     vs.iter().all(|&v| state.mapped.get(v as usize) == Some(&true))
 }
 
-/// What the cloth is longer than flat straight across from corner `i` of that side of a seam, metres.
+/// Elongation of the cloth perpendicular to the seam, from corner `i` of its side `side` to where the cloth is slack, metres.
 fn longer_across(
     garment: &Garment,
     state: &ClothState,
@@ -117,7 +118,7 @@ fn longer_across(
         let stretches = places.map_while(|at| stretch(at, way));
         stretches.take_while(|stretch| *stretch > SLACK).map(|stretch| stretch * STEP).sum()
     };
-    // One of both leads off the piece at once.
+    // One of the two directions leaves the piece at once.
     across(along.perp()).max(across(-along.perp()))
 }
 

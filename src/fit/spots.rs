@@ -1,4 +1,4 @@
-//! Where on a garment a fault is: looked for only when there is one.
+//! Locates the faults of a garment; computed only when there is a fault.
 
 use std::collections::BTreeSet;
 
@@ -10,34 +10,34 @@ use crate::fit::on_body::{BodyIndex, wrong_side_out};
 use crate::geometry::borders::border_loops;
 use crate::geometry::crossings::{meetings, self_crossings};
 
-/// The edges strained most count as the place of strain: so large a share of them.
+/// Share of the edges, those with the largest strain, that count as the place of strain.
 const WORST: f64 = 0.01;
 
-/// A place on a garment.
+/// The place of a fault on a garment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Spot {
-    /// All of it, or none.
+    /// No particular place.
     Nowhere,
-    /// The piece of this number in the garment's list.
+    /// The piece with this index in the garment's list.
     Piece(usize),
     /// Seams with a gap.
     Seams,
     /// Cloth inside the body.
     Inside,
-    /// Where cloth and skin cut through each other.
+    /// Intersections of cloth and skin.
     Through,
     /// Triangles wrong side out.
     WrongSide,
-    /// Where cloth passes through itself.
+    /// Self-intersections of the cloth.
     Crossing,
-    /// The edges strained most.
+    /// Edges with the largest strain.
     Strained,
-    /// The opening of this number in the report.
+    /// The opening with this index in the report.
     Opening(usize),
 }
 
 impl Spot {
-    /// Its vertices, ascending.
+    /// Vertices at the place, ascending.
     pub fn vertices(self, garment: &Garment, state: &ClothState, body: &BodyIndex<'_>) -> Vec<u32> {
         let laid = Laid::new(garment, state);
         let found: BTreeSet<u32> = match self {
@@ -99,7 +99,7 @@ fn strained(garment: &Garment, laid: &Laid) -> BTreeSet<u32> {
     edges.into_iter().take(worst).flat_map(|(_, ends)| ends).collect()
 }
 
-/// The longest first, as the report has them.
+/// Vertices of opening `i`, in the order of the report: longest first.
 fn opening(laid: &Laid, i: usize) -> Vec<u32> {
     let length = |chain: &Vec<u32>| {
         let at = |k: usize| laid.mesh.positions[chain[k % chain.len()] as usize];

@@ -1,4 +1,4 @@
-//! Where a garment is tight: the places to look at, or to cut wider.
+//! Tight places of a garment: where to look, or to cut the pattern wider.
 
 use std::collections::BTreeMap;
 
@@ -11,49 +11,50 @@ use crate::fit::laid::Laid;
 use crate::fit::report::Report;
 use crate::geometry::ids::PieceId;
 
-/// A garment fits when its worst hundredth is strained by less.
+/// A garment fits when the 99th percentile of its strain is at most this.
 const FITS: f64 = 0.02;
-/// A piece is tight that has so large a share of what the tightest one has of the strain beyond that, or more.
+/// A piece is reported as tight when its strain beyond [`FITS`], summed over edges, is at least this share of the tightest
+/// piece's.
 const SHARE: f64 = 0.1;
-/// The edges about a place, metres: how strained it is they tell together, for one sliver tells nothing.
+/// Radius within which edges are averaged for the strain of a place, metres: a single sliver says nothing.
 const ABOUT: f64 = 0.03;
-/// Pieces told at most.
+/// Most pieces reported.
 const MOST_PLACES: usize = 5;
 
 /// The tightest place of a garment.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Tight {
-    /// The piece that has most of the strain beyond what fits.
+    /// The piece with the largest sum of strain beyond the limit.
     pub piece: String,
-    /// The middle of that, on the cloth, metres.
+    /// Centre of that strain on the cloth, metres.
     pub at: [f64; 3],
-    /// The landmark of the body nearest to it; None of a body without.
+    /// The body's landmark nearest to it; None for a body without landmarks.
     pub landmark: Option<String>,
-    /// Of the strained edges about it, by their length: positive is stretched, negative pressed.
+    /// Length-weighted mean strain of the strained edges near it: positive is stretched, negative compressed.
     pub strain: f64,
 }
 
-/// A tight place, and where that is on the flat cloth.
+/// A tight place, with its position on the flat cloth.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TightPlace {
     /// The piece.
     pub piece: PieceId,
-    /// In the piece's own plane, metres.
+    /// Position in the piece's own plane, metres.
     pub flat: DVec2,
-    /// In words.
+    /// Description for the user.
     pub tight: Tight,
 }
 
-/// An edge strained beyond what fits.
+/// One of the most strained edges.
 struct Edge {
     middle: DVec3,
     flat: DVec2,
-    /// Flat, metres.
+    /// Flat length, metres.
     length: f64,
     strain: f64,
 }
 
-/// Where the garment of `report` is tightest; None where it fits. `landmarks` are those of its body.
+/// The tightest place of the garment of `report`; None where the garment fits. `landmarks` are those of its body.
 pub fn tightest(
     report: &Report,
     garment: &Garment,
@@ -63,7 +64,7 @@ pub fn tightest(
     tight_places(report, garment, state, landmarks).into_iter().next().map(|place| place.tight)
 }
 
-/// Where the pieces that are tight are tightest, the tightest piece first; none where the garment fits.
+/// The tightest place of each tight piece, the tightest piece first; empty where the garment fits.
 pub fn tight_places(
     report: &Report,
     garment: &Garment,
@@ -96,7 +97,7 @@ pub fn tight_places(
     tight.filter_map(place).collect()
 }
 
-/// The edges strained as much as the worst hundredth, piece by piece.
+/// The hundredth of edges with the largest strain, by piece.
 fn strained(garment: &Garment, laid: &Laid) -> BTreeMap<PieceId, Vec<Edge>> {
     let mut all: Vec<(PieceId, Edge)> = Vec::new();
     for ((vs, corners), &piece) in laid.mesh.triangles.iter().zip(&laid.corners).zip(&laid.pieces) {
@@ -115,7 +116,7 @@ fn strained(garment: &Garment, laid: &Laid) -> BTreeMap<PieceId, Vec<Edge>> {
     pieces
 }
 
-/// The edge from which the others are nearest, by their strain: between two tight places it is at one, not halfway.
+/// The edge with the least strain-weighted distance to the others: between two tight places it is at one of them, not halfway.
 fn middle(edges: &[Edge]) -> Option<&Edge> {
     let far = |edge: &Edge| -> f64 {
         edges.iter().map(|o| o.middle.distance(edge.middle) * o.strain.abs() * o.length).sum()
@@ -123,7 +124,7 @@ fn middle(edges: &[Edge]) -> Option<&Edge> {
     edges.iter().min_by(|a, b| far(a).total_cmp(&far(b)))
 }
 
-/// Of those of `edges` about `middle` that are strained the way they are together, by their length.
+/// Length-weighted mean strain of the `edges` near `middle`, counting only those with the sign of the total.
 fn strain_about(middle: &Edge, edges: &[Edge]) -> f64 {
     let about: Vec<&Edge> =
         edges.iter().filter(|edge| edge.middle.distance(middle.middle) <= ABOUT).collect();
@@ -134,7 +135,7 @@ fn strain_about(middle: &Edge, edges: &[Edge]) -> f64 {
     strain / length
 }
 
-/// A landmark's name for people. Of a limb's sides the one towards the body is its inside; x grows to the body's left.
+/// A landmark's name in plain words. Of a limb's sides the one towards the body is its inside; x grows to the body's left.
 fn plain(landmark: &str) -> String {
     let sides = [("left_high_x", "left, outside"), ("left_low_x", "left, inside")];
     let others = [("right_high_x", "right, inside"), ("right_low_x", "right, outside")];

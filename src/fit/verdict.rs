@@ -1,19 +1,19 @@
-//! What is wrong with a dressed garment, in words.
+//! Faults of a dressed garment, in words.
 
 use crate::fit::report::Report;
 use crate::fit::spots::Spot;
 use crate::geometry::problem::{Problem, ProblemKind};
 
-/// Cloth stretched or pressed beyond this at its worst hundredth, gathers left out, does not fit.
+/// Strain (99th percentile, gathers left out) above which the garment does not fit.
 const MOST_STRAIN: f64 = 0.25;
 
-/// A pattern that is smaller than the body by more is told so where it is not dressed, metres.
+/// Difference in girth above which a fault adds that the pattern is smaller than the body, metres.
 const TOO_SMALL: f64 = 0.01;
 
-/// Cloth or a seam has torn where more than one in this many edges is stretched to twice its length; fewer are slivers.
+/// Cloth or a seam counts as torn when more than one in this many edges is stretched to twice its length; fewer are slivers.
 const EDGES_PER_TEAR: usize = 1000;
 
-/// Seams named in one fault.
+/// Most seams named in one fault.
 const MOST_NAMED: usize = 3;
 
 /// Every fault of a dressed garment; empty when it is sewn, on the body, outside of it and the right way round.
@@ -21,7 +21,7 @@ pub fn verdict(report: &Report) -> Vec<Problem> {
     faults(report, false).into_iter().map(|(problem, _)| problem).collect()
 }
 
-/// The same, and where on the garment each is. Cloth that was `draped` may fold.
+/// Every fault with its place on the garment. Cloth that was `draped` may have folds.
 pub fn faults(report: &Report, draped: bool) -> Vec<(Problem, Spot)> {
     let mut faults = Faults::default();
     faults.placing(report);
@@ -42,7 +42,7 @@ impl Faults {
         self.0.push((problem, spot));
     }
 
-    /// What is too small cannot be mended by other marks or another start: whatever came of it, that is told.
+    /// Adds to the last fault that the pattern is too small: other marks or another start cannot mend that.
     fn fit(&mut self, report: &Report) {
         let smaller = report.strain_causes.smaller.first();
         let smaller = smaller.filter(|smaller| smaller.body - smaller.pattern > TOO_SMALL);
@@ -131,8 +131,8 @@ impl Faults {
         }
     }
 
-    /// One border alone is a cloth or a cape, which the body need not pass through. A garment has several, and the body
-    /// passes through each: where it does not, a sleeve lies on one side of its arm, or a seam has a hole.
+    /// A single border is that of a cloth or a cape, through which the body need not pass. A garment has several, and the body
+    /// passes through each: where it does not, a sleeve is on one side of its arm, or a seam has a hole.
     fn openings(&mut self, report: &Report) {
         if report.openings.len() < 2 {
             return;

@@ -1,11 +1,11 @@
-//! Who touches whom in a triangle mesh.
+//! Adjacency of a triangle mesh: edges, and the neighbours of triangles and vertices.
 
 use std::collections::BTreeMap;
 
-/// No neighbour.
+/// Marks a missing neighbour in [`Adjacency::across`].
 pub const NONE: u32 = u32::MAX;
 
-/// Lists of varying length, one per element, in one array.
+/// Lists of varying length, one per owner (an index), stored in one array (compressed sparse rows).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Lists {
     starts: Vec<u32>,
@@ -36,17 +36,17 @@ impl Lists {
         &self.items[self.places(owner)]
     }
 
-    /// Where those stand among the items of all owners.
+    /// The range of `owner`'s items within [`Lists::items`].
     pub fn places(&self, owner: u32) -> std::ops::Range<usize> {
         self.starts[owner as usize] as usize..self.starts[owner as usize + 1] as usize
     }
 
-    /// The items of all owners.
+    /// The items of all owners, one owner after the other.
     pub fn items(&self) -> &[u32] {
         &self.items
     }
 
-    /// Bytes they take.
+    /// Memory used by both arrays, bytes.
     pub fn bytes(&self) -> usize {
         (self.starts.len() + self.items.len()) * size_of::<u32>()
     }
@@ -65,7 +65,7 @@ impl Lists {
 /// Edges and neighbours of a triangle mesh; any number of triangles may share an edge.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Adjacency {
-    /// Every edge once, lower vertex first, sorted.
+    /// Every edge once as its two vertices, the lower first; sorted.
     pub edges: Vec<[u32; 2]>,
     /// For triangle `t` and corner `k`: the edge from corner `k` to corner `k + 1`.
     pub triangle_edges: Vec<[u32; 3]>,
@@ -119,7 +119,7 @@ impl Adjacency {
         Self { edges, triangle_edges, across, edge_triangles, vertex_triangles, vertex_neighbours }
     }
 
-    /// Bytes it takes.
+    /// Memory used by all lists, bytes.
     pub fn bytes(&self) -> usize {
         let Self { edges, triangle_edges, across, edge_triangles, vertex_triangles, vertex_neighbours } =
             self;

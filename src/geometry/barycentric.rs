@@ -1,14 +1,14 @@
-//! Places of triangles as shares of their corners, which sum to 1.
+//! Barycentric coordinates: a point of a triangle as weights of its corners, called shares, which sum to 1.
 
 use glam::{DVec2, DVec3};
 
-/// The point with these `shares` of the corners.
+/// The point with these barycentric coordinates (`shares`) in the triangle with these corners.
 pub fn place(shares: [f64; 3], [a, b, c]: [DVec3; 3]) -> DVec3 {
     a * shares[0] + b * shares[1] + c * shares[2]
 }
 
-/// The shares, none negative, of a point on a triangle (Ericson, Real-Time Collision Detection, 3.4); on one without area
-/// those of the nearest corner.
+/// Barycentric coordinates, none negative, of the point of a triangle that is nearest to `p` (Ericson, Real-Time
+/// Collision Detection, 3.4). For a triangle without area they are those of its nearest corner.
 pub fn on_triangle(p: DVec3, [a, b, c]: [DVec3; 3]) -> [f64; 3] {
     let (u, v, w) = (b - a, c - a, p - a);
     let (uu, uv, vv, wu, wv) = (u.dot(u), u.dot(v), v.dot(v), w.dot(u), w.dot(v));
@@ -24,7 +24,8 @@ pub fn on_triangle(p: DVec3, [a, b, c]: [DVec3; 3]) -> [f64; 3] {
     shares.map(|x| x / sum)
 }
 
-/// The shares of any point of a triangle's plane, negative beyond a side; None where the triangle has no area.
+/// Barycentric coordinates of a point of the triangle's plane; outside the triangle some are negative. None where the
+/// triangle has no area.
 pub fn in_plane([a, b, c]: [DVec2; 3], p: DVec2) -> Option<[f64; 3]> {
     let area = (b - a).perp_dot(c - a);
     let shares = [(c - b).perp_dot(p - b) / area, (a - c).perp_dot(p - c) / area];

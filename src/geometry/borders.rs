@@ -2,7 +2,8 @@
 
 use crate::geometry::mesh::TriMesh;
 
-/// Chains of edges of one triangle each, as vertices in order. Where borders touch in a vertex they may be joined to one.
+/// The border loops of a mesh (chains of edges that only one triangle uses), each as its vertices in order. Borders
+/// that touch in a vertex may come out as one loop.
 pub fn border_loops(mesh: &TriMesh) -> Vec<Vec<u32>> {
     let directed = || (0..3).flat_map(|k| mesh.triangles.iter().map(move |t| [t[k], t[(k + 1) % 3]]));
     let mut keys: Vec<[u32; 2]> = directed().map(|[a, b]| [a.min(b), a.max(b)]).collect();

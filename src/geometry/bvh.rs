@@ -1,12 +1,12 @@
-//! A tree of boxes over boxes, in f64.
+//! A bounding volume hierarchy: a binary tree of axis-aligned boxes, in f64.
 
 use glam::DVec3;
 
-/// Items in one leaf.
+/// Most items in a leaf.
 const LEAF: usize = 4;
-/// Trees over more items grow on two threads.
+/// Number of items above which the two halves of a tree are built in parallel.
 const MANY: usize = 1024;
-/// What rounding may cost a segment's test against a box, as a share of the largest coordinate.
+/// Rounding error allowed for in the test of a segment against a box, as a fraction of the largest coordinate.
 const SLACK: f64 = 1e-12;
 
 /// An axis-aligned box.
@@ -19,7 +19,7 @@ pub struct Aabb {
 }
 
 impl Aabb {
-    /// Holds nothing.
+    /// The empty box: it contains no point.
     pub const EMPTY: Self = Self { lower: DVec3::INFINITY, upper: DVec3::NEG_INFINITY };
 
     /// The smallest box around `points`.
@@ -27,18 +27,18 @@ impl Aabb {
         points.iter().fold(Self::EMPTY, |b, &p| b.joined(&Self { lower: p, upper: p }))
     }
 
-    /// The smallest box around both.
+    /// The smallest box around this one and `other`.
     pub fn joined(&self, other: &Self) -> Self {
         Self { lower: self.lower.min(other.lower), upper: self.upper.max(other.upper) }
     }
 
-    /// Whether they share a point.
+    /// Whether this box and `other` share a point.
     pub fn meets(&self, other: &Self) -> bool {
         self.lower.cmple(other.upper).all() && self.upper.cmpge(other.lower).all()
     }
 
-    /// Whether the segment between `ends` may meet it: never false where it does; true also where they are apart by less than
-    /// rounding may cost.
+    /// Whether the segment between `ends` may meet this box. Conservative: never false where they meet; also true
+    /// where the gap between them is smaller than rounding errors can be.
     pub fn meets_segment(&self, ends: [DVec3; 2]) -> bool {
         let [p, q] = ends;
         let (reach, half) = ((p - q).abs() / 2.0, (q - p) / 2.0);
@@ -48,7 +48,7 @@ impl Aabb {
         if away.abs().cmpgt(extent + reach).any() {
             return false;
         }
-        // No axis parts them that is neither one of the box's nor at right angles to one of these and to the segment.
+        // Separating axis test: the box's axes are done; what remains are their cross products with the segment.
         let apart = away.cross(half).abs();
         let limit = DVec3::new(
             extent.y * reach.z + extent.z * reach.y,
@@ -58,43 +58,43 @@ impl Aabb {
         !apart.cmpgt(limit).any()
     }
 
-    /// Its middle.
+    /// The centre of the box.
     pub fn centre(&self) -> DVec3 {
         (self.lower + self.upper) / 2.0
     }
 }
 
-/// A node: two children, or a few items.
+/// A node of a [`Bvh`]: either two children or, in a leaf, a few items.
 #[derive(Clone, Debug)]
 pub struct BvhNode {
-    /// Around everything below.
+    /// Box around all items below the node.
     pub bounds: Aabb,
-    /// Where the right child is; 0 for a leaf. The left child is the next node.
+    /// Index of the right child; 0 for a leaf. The left child is the next node.
     pub right: u32,
-    /// The first item below it in [`Bvh::items`].
+    /// Index in [`Bvh::items`] of the first item below the node.
     pub first: u32,
-    /// How many items are below it.
+    /// Number of items below the node.
     pub count: u32,
 }
 
 impl BvhNode {
-    /// Whether it has items of its own.
+    /// Whether the node is a leaf.
     pub fn is_leaf(&self) -> bool {
         self.right == 0
     }
 }
 
-/// The tree: nodes in depth-first order, the root first. Equal input, equal tree.
+/// A bounding volume hierarchy: nodes in depth-first order, the root first. Equal input gives an equal tree.
 #[derive(Clone, Debug, Default)]
 pub struct Bvh {
-    /// Empty when there are no items.
+    /// The nodes; empty when there are no items.
     pub nodes: Vec<BvhNode>,
     /// Items (indices into the input) in the order of the leaves.
     pub items: Vec<u32>,
 }
 
 impl Bvh {
-    /// Splits at the median of the longest side, down to leaves of a few boxes.
+    /// Builds the tree over `boxes`: splits at the median along the longest side, down to leaves of a few items.
     pub fn new(boxes: &[Aabb]) -> Self {
         let mut items: Vec<u32> = (0..boxes.len() as u32).collect();
         let mut nodes = Vec::new();
@@ -104,7 +104,8 @@ impl Bvh {
         Self { nodes, items }
     }
 
-    /// The same tree round boxes that have moved: as many as it was made of.
+    /// Updates the boxes of the nodes after items have moved, keeping the shape of the tree. `boxes` holds as many
+    /// boxes, in the same order, as the tree was built over.
     pub fn refit(&mut self, boxes: &[Aabb]) {
         // Children come after their parents.
         for at in (0..self.nodes.len()).rev() {
@@ -125,19 +126,19 @@ impl Bvh {
         self.leaves_near(query, |leaf| self.items_of(leaf).iter().copied().for_each(&mut found));
     }
 
-    /// The items of a leaf.
+    /// The items of a leaf, as indices into the input.
     pub fn items_of(&self, leaf: u32) -> &[u32] {
         let node = &self.nodes[leaf as usize];
         &self.items[node.first as usize..(node.first + node.count) as usize]
     }
 
-    /// The leaves.
+    /// The leaves, as indices of nodes.
     pub fn leaves(&self) -> impl Iterator<Item = u32> {
         (0u32..).zip(&self.nodes).filter(|(_, node)| node.is_leaf()).map(|(at, _)| at)
     }
 
-    /// Calls `found` for every item whose leaf's box the segment between `ends` meets; the caller tests the item itself. What
-    /// that costs grows with the items along the segment, where the box around it would hold all those beside it too.
+    /// Calls `found` for every item whose leaf's box the segment between `ends` meets; the caller tests the item
+    /// itself. Cheaper than [`Bvh::near`] with the segment's box, which also holds items beside a slanted segment.
     pub fn along(&self, ends: [DVec3; 2], mut found: impl FnMut(u32)) {
         self.leaves_where(
             |bounds| bounds.meets_segment(ends),
@@ -145,17 +146,17 @@ impl Bvh {
         );
     }
 
-    /// Calls `found` for every leaf whose box meets `query`.
+    /// Calls `found` for every leaf (index of its node) whose box meets `query`.
     pub fn leaves_near(&self, query: &Aabb, found: impl FnMut(u32)) {
         self.leaves_where(|bounds| bounds.meets(query), found);
     }
 
-    /// Calls `found` for every leaf whose box, and those around it, are `met`.
+    /// Calls `found` for every leaf whose box and whose ancestors' boxes all fulfil `met`.
     fn leaves_where(&self, met: impl Fn(&Aabb) -> bool, mut found: impl FnMut(u32)) {
         if self.nodes.is_empty() {
             return;
         }
-        // Halving: no tree of 2³² items is deeper than this.
+        // The tree is halved at every level, so that no tree of 2³² items is deeper than this.
         let mut open = [0u32; 40];
         let mut count = 1;
         while count > 0 {
@@ -174,8 +175,8 @@ impl Bvh {
         }
     }
 
-    /// Calls `found` for every two leaves whose boxes meet, one below each child of `node`; for a leaf with itself. So all nodes
-    /// together find every two leaves of the tree once.
+    /// Calls `found` for every two leaves whose boxes meet, one below each child of `node`; for a leaf it is called
+    /// once with the leaf twice. Called for every node, it finds every pair of leaves of the tree once.
     pub fn leaves_between(&self, node: u32, mut found: impl FnMut(u32, u32)) {
         if self.nodes[node as usize].is_leaf() {
             found(node, node);
@@ -198,13 +199,14 @@ impl Bvh {
     }
 }
 
-/// Adds the tree over `items`, which are all items from the `first` on, to `nodes`.
+/// Appends to `nodes` the subtree over `items`, a slice of all items that starts at index `first`.
 fn grow(boxes: &[Aabb], items: &mut [u32], first: usize, nodes: &mut Vec<BvhNode>) {
     let bounds = items.iter().fold(Aabb::EMPTY, |b, &i| b.joined(&boxes[i as usize]));
     let node = nodes.len();
     nodes.push(BvhNode { bounds, right: 0, first: first as u32, count: items.len() as u32 });
     if items.len() <= LEAF {
-        // Which items are in a leaf is certain; their order must not depend on how medians were found.
+        // The median search decides which items a leaf holds, but not their order: sort, so that equal input gives an
+        // equal tree.
         items.sort_unstable();
         return;
     }

@@ -1,21 +1,23 @@
-//! A box tree with four children a node, for nearest-item queries: half the levels of [`Bvh`], and the four boxes of a node
-//! are looked at together.
+//! A bounding volume hierarchy with four children per node, for nearest-item queries: it has half the levels of
+//! [`Bvh`], and the four boxes of a node are tested together (SIMD).
 
 use glam::DVec3;
 
 use crate::geometry::bvh::{Aabb, Bvh};
 use crate::geometry::wide::wide;
 
-/// Marks a child that is a leaf; the rest is its first place times eight, plus how many items it has.
+/// Flag of a child that is a leaf. Its other bits hold the index of the leaf's first item times eight plus the number
+/// of its items.
 const LEAF: u32 = 1 << 31;
-/// No child.
+/// Marks a missing child.
 const NONE: u32 = u32::MAX;
-/// Deep enough for a tree split at medians over all items there can be: three wait on each level.
+/// Capacity of the stack of open nodes: enough for a tree over 2³² items split at medians, where each level leaves at
+/// most three nodes waiting.
 const DEPTH: usize = 64;
-/// What rounding may cost a test against a box, as a share of the largest coordinate.
+/// Rounding error allowed for in the test of a segment against a box, as a fraction of the largest coordinate.
 const SLACK: f64 = 1e-12;
 
-/// The boxes of four children, coordinate by coordinate.
+/// The boxes of a node's four children, stored axis by axis, and the children themselves.
 #[derive(Clone, Debug)]
 struct Node {
     lower: [[f64; 4]; 3],
@@ -24,7 +26,7 @@ struct Node {
 }
 
 impl Node {
-    /// Around all four; boxes that are not there are empty.
+    /// The box around all four children; missing children have empty boxes.
     fn bounds(&self) -> Aabb {
         let least =
             |of: &[[f64; 4]; 3]| DVec3::from_array(of.map(|c| c.into_iter().fold(f64::INFINITY, f64::min)));
@@ -34,7 +36,7 @@ impl Node {
         Aabb { lower: least(&self.lower), upper: most(&self.upper) }
     }
 
-    /// Squares of the distances from `p` to the four boxes.
+    /// Squared distances from `p` to the four boxes, square metres.
     #[inline(always)]
     fn distances_squared(&self, p: DVec3) -> [f64; 4] {
         let mut sum = [0.0; 4];
@@ -52,13 +54,13 @@ impl Node {
     }
 }
 
-/// A segment between two points, as boxes are tested against it.
+/// A segment prepared for tests against boxes: its midpoint and half its direction.
 struct Slab {
     middle: [f64; 3],
     half: [f64; 3],
     /// The absolute values of `half`.
     reach: [f64; 3],
-    /// Boxes count as larger by so much on every side, metres: more than what is lost by rounding.
+    /// Margin by which boxes are enlarged on every side, metres; it covers rounding errors.
     slack: f64,
 }
 
@@ -70,9 +72,9 @@ impl Slab {
         Self { middle: middle.to_array(), half: half.to_array(), reach: half.abs().to_array(), slack }
     }
 
-    /// Which of the four boxes it may meet: none is missed; boxes that it passes within the slack of may be among them. No
-    /// axis parts a segment from a box that is neither one of the box's nor at right angles to one of these and to the
-    /// segment (Ericson, Real-Time Collision Detection, 5.3.3).
+    /// For each of the four boxes whether the segment may meet it. Conservative: no box that is met is missed; boxes
+    /// within `slack` of the segment may be reported too. Separating axis test (Ericson, Real-Time Collision
+    /// Detection, 5.3.3).
     #[inline(always)]
     fn meets(&self, node: &Node) -> [bool; 4] {
         let mut is_clear = [false; 4];
@@ -95,16 +97,17 @@ impl Slab {
     }
 }
 
-/// The tree. Equal input, equal tree.
+/// A bounding volume hierarchy with four children per node. Equal input gives an equal tree.
 #[derive(Clone, Debug, Default)]
 pub struct Bvh4 {
     nodes: Vec<Node>,
-    /// Items (indices into what the binary tree was built over) in the order of the leaves.
+    /// Items (indices into the input of the binary tree) in the order of the leaves; a *slot* is an index into this
+    /// list.
     pub items: Vec<u32>,
 }
 
 impl Bvh4 {
-    /// The same leaves as `tree`.
+    /// Collapses every two levels of `tree` into one; the leaves stay as they are.
     pub fn new(tree: Bvh) -> Self {
         let mut wide = Self { nodes: Vec::new(), items: Vec::new() };
         if !tree.nodes.is_empty() {
@@ -140,8 +143,8 @@ impl Bvh4 {
         place as u32
     }
 
-    /// Fits the boxes to items that have moved: `bounds` tells where each place's item is now. The tree keeps its shape, so
-    /// that queries stay exact, though slower where what was near has gone apart.
+    /// Updates the boxes after items have moved; `bounds` gives the new box of the item in each slot. The shape of
+    /// the tree is kept: queries stay exact, but become slower where items that were close have moved apart.
     pub fn refit(&mut self, bounds: impl Fn(usize) -> Aabb) {
         // Children come after their parents.
         for at in (0..self.nodes.len()).rev() {
@@ -163,8 +166,9 @@ impl Bvh4 {
         }
     }
 
-    /// The place in [`Bvh4::items`] of the item nearest to `p` within the square root of `limit`, and the square of its
-    /// distance, which `distance_squared` tells of each place. Of equally near ones the lowest item.
+    /// The slot (index in [`Bvh4::items`]) of the item nearest to `p`, and its squared distance; None when no item is
+    /// within the square root of `limit`. `distance_squared` gives the squared distance of the item in a slot. Among
+    /// equally near items the lowest is taken.
     pub fn nearest(
         &self,
         p: DVec3,
@@ -195,8 +199,8 @@ impl Bvh4 {
         best
     }
 
-    /// Calls `look` with every place whose leaf's box is within the square root of a limit of `p`, nearer boxes first. The
-    /// limit is `limit` at first, then what `look` said last.
+    /// Calls `look` with every slot whose leaf's box is within the square root of the limit of `p`, nearer boxes
+    /// first. The limit starts as `limit` and is replaced by each value that `look` returns.
     pub fn visit(&self, p: DVec3, limit: f64, look: impl FnMut(usize) -> f64) {
         wide(
             #[inline(always)]
@@ -204,8 +208,8 @@ impl Bvh4 {
         );
     }
 
-    /// Whether `meets` says so of a place whose leaf's box the segment between `ends` meets. They are asked in a fixed order,
-    /// no more once one does.
+    /// Whether `meets` is true for any slot whose leaf's box the segment between `ends` meets. Slots are tried in a
+    /// fixed order, until the first for which it is.
     pub fn any_along(&self, ends: [DVec3; 2], meets: impl FnMut(usize) -> bool) -> bool {
         wide(
             #[inline(always)]
@@ -265,7 +269,7 @@ impl Bvh4 {
                 if child == NONE || d > least {
                     continue;
                 }
-                // Farthest first: the nearest is taken up next.
+                // Keep the stack sorted with the farthest child first, so that the nearest is taken next.
                 let mut k = waiting;
                 while k > start && open[k - 1].0 < d {
                     open[k] = open[k - 1];

@@ -1,4 +1,4 @@
-//! Edges that pass through triangles, tested exactly on what a box tree proposes.
+//! Intersections of edges with triangles: exact tests on candidates from a bounding volume hierarchy.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use crate::geometry::bvh::{Aabb, Bvh};
 use crate::geometry::mesh::TriMesh;
 
-/// Triples of length (cubic metres) below which a segment counts as parallel to a triangle.
+/// Determinant (cubic metres) up to which a segment counts as parallel to a triangle and does not meet it.
 const PARALLEL: f64 = 1e-18;
 
 /// Whether the segment from `p` to `q` meets triangle `abc`, borders included (Möller and Trumbore 1997).
@@ -25,7 +25,7 @@ pub fn segment_meets_triangle([p, q]: [DVec3; 2], [a, b, c]: [DVec3; 3]) -> bool
     u >= 0.0 && v >= 0.0 && u + v <= 1.0 && (0.0..=1.0).contains(&t)
 }
 
-/// Pairs (place in `edges`, triangle of `mesh`) that meet, ascending. `tree` is over the triangles of `mesh`.
+/// Pairs (index in `edges`, triangle of `mesh`) that intersect, ascending. `tree` is over the triangles of `mesh`.
 pub fn meetings(edge_positions: &[DVec3], edges: &[[u32; 2]], mesh: &TriMesh, tree: &Bvh) -> Vec<[u32; 2]> {
     let Some(all) = tree.nodes.first().map(|root| root.bounds) else {
         return Vec::new();
@@ -50,8 +50,9 @@ pub fn meetings(edge_positions: &[DVec3], edges: &[[u32; 2]], mesh: &TriMesh, tr
         .collect()
 }
 
-/// Pairs (place in `edges`, triangle) of one mesh that meet without sharing a vertex, ascending. `edges` are those of the
-/// triangles of `mesh`, each with its smaller end first, ascending; `tree` is over the triangles.
+/// Self-intersections of a mesh: pairs (index in `edges`, triangle) that intersect without sharing a vertex,
+/// ascending. `edges` are all edges of `mesh`, each with its lower vertex first, ascending; `tree` is over the
+/// triangles.
 pub fn self_crossings(mesh: &TriMesh, edges: &[[u32; 2]], tree: &Bvh) -> Vec<[u32; 2]> {
     let boxes: Vec<Aabb> = (0..mesh.triangles.len()).map(|t| Aabb::around(&mesh.corners(t))).collect();
     let nodes = (0..tree.nodes.len() as u32).into_par_iter().with_min_len(256);
@@ -72,12 +73,12 @@ pub fn self_crossings(mesh: &TriMesh, edges: &[[u32; 2]], tree: &Bvh) -> Vec<[u3
         })
         .collect();
     found.sort_unstable();
-    // An edge between two triangles was seen from both.
+    // An edge between two triangles was found from both.
     found.dedup();
     found
 }
 
-/// Adds to `found` which of the edges of triangle `s` that have no vertex in common with triangle `t` pass through that.
+/// Adds to `found` the edges of triangle `s` that pass through triangle `t` and share no vertex with it.
 fn find_through(
     mesh: &TriMesh,
     edges: &[[u32; 2]],

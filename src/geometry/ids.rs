@@ -1,4 +1,4 @@
-//! Typed ids. They come from the counter of the document that owns them and are never used twice.
+//! Typed ids. The document that owns them counts them up, and none is used twice.
 
 macro_rules! typed_id {
     ($(#[$doc:meta])* $name:ident, $word:literal) => {

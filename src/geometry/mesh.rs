@@ -4,10 +4,10 @@ use glam::DVec3;
 
 use crate::geometry::bvh::{Aabb, Bvh};
 
-/// Triangles over shared positions. Counter-clockwise seen from outside.
+/// A triangle mesh over shared vertices. Triangles are counter-clockwise seen from outside.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TriMesh {
-    /// Metres.
+    /// Positions of the vertices, metres.
     pub positions: Vec<DVec3>,
     /// Indices into `positions`.
     pub triangles: Vec<[u32; 3]>,
@@ -19,12 +19,12 @@ impl TriMesh {
         self.triangles[t].map(|v| self.positions[v as usize])
     }
 
-    /// Lower and upper corner of the bounding box; zeros for an empty mesh.
+    /// Lower and upper corner of the bounding box, metres; zeros for an empty mesh.
     pub fn bounds(&self) -> (DVec3, DVec3) {
         bounds(&self.positions)
     }
 
-    /// Signed volume enclosed; positive when the triangles face outward.
+    /// Signed enclosed volume, cubic metres; positive when the triangles face outward.
     pub fn volume(&self) -> f64 {
         let about = self.positions.first().copied().unwrap_or_default();
         (0..self.triangles.len())
@@ -35,7 +35,7 @@ impl TriMesh {
             .sum()
     }
 
-    /// A box tree over the triangles.
+    /// Builds a bounding volume hierarchy over the triangles.
     pub fn tree(&self) -> Bvh {
         let boxes: Vec<Aabb> = (0..self.triangles.len()).map(|t| Aabb::around(&self.corners(t))).collect();
         Bvh::new(&boxes)
@@ -47,7 +47,7 @@ impl TriMesh {
     }
 }
 
-/// Lower and upper corner of the box around `points`; zeros when there are none.
+/// Lower and upper corner of the bounding box of `points`; zeros when there are none.
 pub fn bounds(points: &[DVec3]) -> (DVec3, DVec3) {
     let Some(&first) = points.first() else {
         return (DVec3::ZERO, DVec3::ZERO);

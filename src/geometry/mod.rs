@@ -1,4 +1,4 @@
-//! Plain maths, no cloth words.
+//! Geometry that knows nothing of cloth: meshes, adjacency, spatial trees, sparse factors, walks, winding numbers.
 
 pub mod adjacency;
 pub mod barycentric;

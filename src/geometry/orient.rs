@@ -1,24 +1,24 @@
-//! Which way triangles look: edge counts, and turning neighbours to agree.
+//! Orientation of triangle meshes: counting how edges are used, and flipping triangles until neighbours agree.
 
 use std::collections::VecDeque;
 
-/// How the edges of a mesh are used.
+/// Numbers of irregular edges in a mesh.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct EdgeUses {
-    /// Edges of one triangle.
+    /// Border edges: used by one triangle.
     pub open: usize,
-    /// Edges of three or more triangles.
+    /// Non-manifold edges: used by three or more triangles.
     pub non_manifold: usize,
-    /// Edges of two triangles that run along it in the same direction.
+    /// Edges that two triangles run along in the same direction, so that one of them faces the wrong way.
     pub misoriented: usize,
 }
 
-/// One side of a triangle, sorted by edge.
+/// One side of a triangle. Sides sort by edge, so that those of one edge come together.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Side {
     edge: [u32; 2],
     triangle: u32,
-    /// Whether the triangle runs from the lower to the higher vertex.
+    /// Whether the triangle runs along the edge from the lower to the higher vertex.
     up: bool,
 }
 
@@ -36,7 +36,7 @@ fn sides(triangles: &[[u32; 3]]) -> Vec<Side> {
     sides
 }
 
-/// Counts edges.
+/// Counts the border, non-manifold and misoriented edges of a mesh.
 pub fn edge_uses(triangles: &[[u32; 3]]) -> EdgeUses {
     let mut uses = EdgeUses::default();
     for group in sides(triangles).chunk_by(|a, b| a.edge == b.edge) {
@@ -49,7 +49,7 @@ pub fn edge_uses(triangles: &[[u32; 3]]) -> EdgeUses {
     uses
 }
 
-/// Edges of one triangle, ascending.
+/// Border edges (used by one triangle), ascending.
 pub fn open_edges(triangles: &[[u32; 3]]) -> Vec<[u32; 2]> {
     sides(triangles)
         .chunk_by(|a, b| a.edge == b.edge)
@@ -58,17 +58,17 @@ pub fn open_edges(triangles: &[[u32; 3]]) -> Vec<[u32; 2]> {
         .collect()
 }
 
-/// What [`make_consistent`] did.
+/// Result of [`make_consistent`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Oriented {
-    /// Triangles turned.
+    /// Number of triangles flipped.
     pub turned: usize,
-    /// Parts connected over edges.
+    /// Number of components connected over edges.
     pub components: usize,
 }
 
-/// Turns triangles until neighbours over edges of two triangles agree; in each part the fewer are turned. A part that
-/// cannot agree, such as a Möbius strip, keeps some disagreement.
+/// Flips triangles until neighbours across edges of two triangles are oriented alike; of each component the smaller
+/// group is flipped. A component that cannot be oriented, such as a Möbius strip, keeps some disagreement.
 pub fn make_consistent(triangles: &mut [[u32; 3]]) -> Oriented {
     let neighbours = neighbours(triangles);
     let mut turn: Vec<Option<bool>> = vec![None; triangles.len()];
@@ -91,8 +91,8 @@ pub fn make_consistent(triangles: &mut [[u32; 3]]) -> Oriented {
     done
 }
 
-/// For each triangle its neighbours over any edge, and whether they look the other way; over edges of more than two
-/// triangles nothing is said of the way.
+/// For each triangle its neighbours across edges, each with whether it is oriented the other way; false across edges
+/// of more than two triangles.
 fn neighbours(triangles: &[[u32; 3]]) -> Vec<Vec<(usize, bool)>> {
     let mut neighbours = vec![Vec::new(); triangles.len()];
     for group in sides(triangles).chunk_by(|a, b| a.edge == b.edge) {

@@ -1,4 +1,4 @@
-//! Closed polylines in a plane; the last point is not the first.
+//! Closed polygons in a plane; the last point is joined to the first and does not repeat it.
 
 use glam::DVec2;
 
@@ -7,17 +7,17 @@ pub fn sides(polygon: &[DVec2]) -> impl Iterator<Item = [DVec2; 2]> {
     (0..polygon.len()).map(|i| [polygon[i], polygon[(i + 1) % polygon.len()]])
 }
 
-/// Positive when it runs counter-clockwise.
+/// Signed area; positive when the polygon runs counter-clockwise.
 pub fn signed_area(polygon: &[DVec2]) -> f64 {
     sides(polygon).map(|[a, b]| a.perp_dot(b) / 2.0).sum()
 }
 
-/// Whether `p` lies inside, by the even-odd rule.
+/// Whether `p` lies inside the polygon, by the even-odd rule.
 pub fn contains(polygon: &[DVec2], p: DVec2) -> bool {
     is_inside(sides(polygon), p)
 }
 
-/// Whether `p` lies inside all these sides together, by the even-odd rule: in a hole it does not.
+/// Whether `p` lies inside the region bounded by all of `sides` together, by the even-odd rule: not inside its holes.
 pub fn is_inside(sides: impl Iterator<Item = [DVec2; 2]>, p: DVec2) -> bool {
     let passed = |&[a, b]: &[DVec2; 2]| {
         (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)

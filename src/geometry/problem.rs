@@ -1,4 +1,4 @@
-//! Problems a person can fix.
+//! Problems of patterns and bodies that a person can fix.
 
 use serde::{Deserialize, Serialize};
 
@@ -31,16 +31,16 @@ pub enum ProblemKind {
 }
 
 impl ProblemKind {
-    /// True for what only deserves mention and does not make `check` fail.
+    /// Whether this kind is only a note, which does not make `check` fail.
     pub fn is_note(self) -> bool {
         matches!(self, Self::UnequalSeam | Self::PieceUnsewn)
     }
 }
 
-/// One problem: what, where, in words.
+/// One problem: its kind, its place, and a description.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Problem {
-    /// What kind.
+    /// The kind of problem.
     pub kind: ProblemKind,
     /// Piece, edge, seam or mark, by name and number.
     #[serde(rename = "where")]

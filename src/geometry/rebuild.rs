@@ -1,7 +1,7 @@
-//! A mesh from what each of its triangles shall look like (Sumner and Popović 2004, "Deformation Transfer for Triangle
-//! Meshes", 3; Yu et al. 2004, "Mesh Editing with Poisson-Based Gradient Field Manipulation", 3): of all places of the
-//! vertices those whose triangles come nearest, by least squares with cotangent weights, to being turned and stretched as
-//! asked. One sparse factor serves every shape that the mesh takes.
+//! Deformation transfer: rebuilds a mesh from a deformation gradient for each triangle (Sumner and Popović 2004,
+//! "Deformation Transfer for Triangle Meshes", 3; Yu et al. 2004, "Mesh Editing with Poisson-Based Gradient Field
+//! Manipulation", 3). Vertex positions are a least squares fit to the gradients with cotangent weights: a Poisson
+//! equation, whose sparse factor serves every deformation of the mesh.
 
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
 use glam::{DMat3, DVec3};
@@ -11,31 +11,32 @@ use crate::geometry::adjacency::Adjacency;
 use crate::geometry::factor::{Factor, Symbolic};
 use crate::geometry::mesh::TriMesh;
 
-/// Half the cotangent of a corner is kept within these: slivers neither fall out nor rule.
+/// Bounds of half the cotangent of a corner: sliver triangles keep some weight, but do not dominate.
 const WEIGHTS: [f64; 2] = [0.02, 20.0];
-/// Triangles one thread takes at a time.
+/// Least number of vertices for a parallel task.
 const LEAST_SHARE: usize = 512;
 
-/// The sum over triangles of the weighted graph Laplacian of their sides, with something added to the diagonal, factored.
+/// Factor of the cotangent Laplacian of a mesh, scaled, plus a diagonal matrix.
 #[derive(Clone, Debug)]
 struct Laplacian {
     factor: Factor,
 }
 
-/// A mesh whose triangles can be asked to turn.
+/// A mesh ready to be rebuilt from deformation gradients.
 #[derive(Clone, Debug)]
 pub struct Rebuild {
     mesh: TriMesh,
     adjacency: Adjacency,
-    /// Of the side that lies across from each corner.
+    /// Half the cotangent at each corner of each triangle, which weights the side opposite the corner.
     weights: Vec<[f64; 3]>,
     laplacian: Laplacian,
-    /// A vertex of each part that hangs together: the sum tells where it is only up to a shift.
+    /// One vertex of each connected component, which is held: gradients determine a component only up to a
+    /// translation.
     anchors: Vec<u32>,
 }
 
 impl Rebuild {
-    /// Over `mesh`. None when it has no triangle, or its factor does not fit in memory.
+    /// Factors the Laplacian of `mesh`. None when it has no triangle, or when the factor does not fit in memory.
     pub fn new(mesh: &TriMesh) -> Option<Self> {
         let adjacency = Adjacency::new(mesh.positions.len(), &mesh.triangles);
         let weights: Vec<[f64; 3]> =
@@ -47,18 +48,19 @@ impl Rebuild {
         Some(Self { mesh: mesh.clone(), adjacency, weights, laplacian, anchors })
     }
 
-    /// The mesh as it was given.
+    /// The mesh at rest.
     pub fn mesh(&self) -> &TriMesh {
         &self.mesh
     }
 
-    /// Its neighbours.
+    /// The adjacency of the mesh.
     pub fn adjacency(&self) -> &Adjacency {
         &self.adjacency
     }
 
-    /// Where the vertices are when each triangle is turned and stretched by its own of `gradients`; each part that hangs
-    /// together has its first vertex where `anchored` says. None when there are not as many gradients as triangles.
+    /// Vertex positions (metres) whose triangles are as near as possible to being deformed by `gradients`, one for
+    /// each triangle; the first vertex of each connected component goes to the position given by `anchored`. None
+    /// when there are not as many gradients as triangles.
     pub fn positions(&self, gradients: &[DMat3], anchored: impl Fn(usize) -> DVec3) -> Option<Vec<DVec3>> {
         if gradients.len() != self.mesh.triangles.len() {
             return None;
@@ -72,7 +74,7 @@ impl Rebuild {
         self.laplacian.factor.solve(&mut sides).then_some(sides)
     }
 
-    /// The right-hand side at `v`: its sides as its triangles want them.
+    /// The right-hand side at vertex `v`: the weighted sum of its edge vectors as deformed by the gradients.
     fn pulls(&self, v: u32, gradients: &[DMat3]) -> DVec3 {
         let around = self.adjacency.vertex_triangles.of(v).iter().map(|&t| t as usize);
         around
@@ -86,9 +88,9 @@ impl Rebuild {
             .sum()
     }
 
-    /// Vertex values smoothed over the skin: (M + r² L) x = M y with lumped masses M, `times` times, which spreads a step
-    /// over about r √times on both sides, `reach` being r in metres. Three fields at once. None when the factor does not
-    /// fit in memory.
+    /// Prepares smoothing of vertex values by implicit diffusion: (M + r² L) x = M y with lumped masses M and `reach`
+    /// = r in metres. Applied n times it spreads a step over about r √n on both sides. Three fields are smoothed at
+    /// once. None when the factor does not fit in memory.
     pub fn smoother(&self, reach: f64) -> Option<Smoother> {
         let mut masses = vec![0.0; self.mesh.positions.len()];
         for (t, corners) in self.mesh.triangles.iter().enumerate() {
@@ -101,7 +103,7 @@ impl Rebuild {
     }
 }
 
-/// Smooths values over a mesh.
+/// Implicit diffusion of vertex values over a mesh, made by [`Rebuild::smoother`].
 #[derive(Clone, Debug)]
 pub struct Smoother {
     laplacian: Laplacian,
@@ -109,7 +111,7 @@ pub struct Smoother {
 }
 
 impl Smoother {
-    /// `values` smoothed once. False when there is nothing to solve with.
+    /// Smooths `values` (three fields) once, in place. False when the factor cannot be used.
     pub fn smooth(&self, values: &mut [DVec3]) -> bool {
         values.iter_mut().zip(&self.masses).for_each(|(value, &mass)| *value *= mass);
         self.laplacian.factor.solve(values)
@@ -124,13 +126,13 @@ impl Laplacian {
         times: f64,
         diagonal: &[f64],
     ) -> Option<Self> {
-        // One thread: the order of sums must not depend on how many there are.
+        // On one thread: the order of sums must not depend on the number of threads.
         faer::set_global_parallelism(faer::Par::Seq);
         let n = mesh.positions.len();
         let mut of_edge = vec![0.0; adjacency.edges.len()];
         for (edges, weights) in adjacency.triangle_edges.iter().zip(weights) {
             for k in 0..3 {
-                // The edge from corner k to k + 1 lies across from corner k + 2.
+                // The edge from corner k to k + 1 is opposite corner k + 2.
                 of_edge[edges[k] as usize] += times * weights[(k + 2) % 3];
             }
         }
@@ -152,7 +154,7 @@ impl Laplacian {
             values[starts[a]] += weight;
             values[starts[b]] += weight;
         }
-        // A vertex of no triangle stays where it is.
+        // A vertex without triangles is fixed.
         for v in 0..n {
             if values[starts[v]] == 0.0 {
                 values[starts[v]] = 1.0;
@@ -164,7 +166,7 @@ impl Laplacian {
     }
 }
 
-/// Half the cotangent of the angle at each corner.
+/// Half the cotangent of the angle at each corner, clamped to [`WEIGHTS`].
 fn half_cotangents(corners: [DVec3; 3]) -> [f64; 3] {
     [0, 1, 2].map(|k| {
         let (u, v) = (corners[(k + 1) % 3] - corners[k], corners[(k + 2) % 3] - corners[k]);
@@ -173,7 +175,7 @@ fn half_cotangents(corners: [DVec3; 3]) -> [f64; 3] {
     })
 }
 
-/// The first vertex of each part of the mesh that hangs together.
+/// The first vertex of each connected component of the mesh.
 fn anchors(adjacency: &Adjacency) -> Vec<u32> {
     let count = adjacency.vertex_neighbours.len();
     let mut seen = vec![false; count];

@@ -1,4 +1,4 @@
-//! Plain bodies whose answers are known exactly, for benches and tests.
+//! Simple bodies with known exact answers, for benches and tests.
 
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
@@ -32,14 +32,14 @@ pub fn cylinder(radius: f64, height: f64, round: u32, rows: u32) -> TriMesh {
     mesh
 }
 
-/// A ball of `radius` metres about the origin: an icosahedron whose triangles are cut in four `cuts` times.
+/// A sphere of `radius` metres about the origin: an icosahedron whose triangles are split in four `cuts` times.
 pub fn icosphere(radius: f64, cuts: u32) -> TriMesh {
     let golden = (1.0 + 5f64.sqrt()) / 2.0;
     let mut positions: Vec<DVec3> = Vec::new();
     for (a, b) in [(1.0, golden), (-1.0, golden), (1.0, -golden), (-1.0, -golden)] {
         positions.extend([DVec3::new(a, b, 0.0), DVec3::new(0.0, a, b), DVec3::new(b, 0.0, a)]);
     }
-    // Three corners at the least distance from each other are a triangle; its front is outside.
+    // Three corners at the least distance from each other form a triangle; its front is outside.
     let near = |a: usize, b: usize| positions[a].distance_squared(positions[b]) < 4.1;
     let mut triangles: Vec<[u32; 3]> = Vec::new();
     for (a, b, c) in (0..12).flat_map(|a| (a + 1..12).flat_map(move |b| (b + 1..12).map(move |c| (a, b, c))))

@@ -1,26 +1,28 @@
-//! Straightest paths over a triangle mesh: triangles are unfolded one after the other (Polthier and Schmies 1998).
+//! Straightest geodesics over a triangle mesh: triangles are unfolded one after the other (Polthier and Schmies
+//! 1998).
 
 use glam::DVec3;
 
 use crate::geometry::adjacency::{Adjacency, NONE};
 use crate::geometry::mesh::TriMesh;
 
-/// Triangles after which a walk is given up.
+/// Number of triangles after which a walk ends early.
 const MOST_TRIANGLES: usize = 10_000;
 
-/// Where a walk ended.
+/// The end of a walk.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WalkEnd {
-    /// On the mesh; beyond a border, straight on in space.
+    /// The end point, metres: on the mesh, or, if the walk left it at a border, straight ahead of the border.
     pub point: DVec3,
-    /// The last triangle.
+    /// The last triangle of the walk.
     pub triangle: u32,
-    /// Unit, the way it was going.
+    /// Direction of the walk at its end, a unit vector; zero where the walk had no direction along the surface.
     pub direction: DVec3,
 }
 
-/// Walks `distance` metres from `start` on `triangle` towards `direction` (projected to the triangle's plane).
-/// At a border it goes straight on in space. A direction without tangential part stays where it is.
+/// Walks `distance` metres along the surface from `start` on `triangle` towards `direction` (projected to the
+/// triangle's plane). At a border the walk goes straight on in space. Where `direction` has no tangential part, it
+/// ends at `start`.
 pub fn straightest(
     mesh: &TriMesh,
     adjacency: &Adjacency,
@@ -67,7 +69,8 @@ fn in_plane(mesh: &TriMesh, triangle: u32, direction: DVec3) -> DVec3 {
     (direction - n * n.dot(direction)).normalize_or_zero()
 }
 
-/// The edge through which a ray leaves, and how far away it is.
+/// The edge (index of its first corner) through which a ray in the plane of the triangle leaves it, and the distance
+/// to it.
 fn exit(
     mesh: &TriMesh,
     triangle: u32,

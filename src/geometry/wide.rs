@@ -1,7 +1,8 @@
-//! Loops in the widest registers that the machine has.
+//! Runs loops with the widest vector instructions (SIMD) of the machine.
 
-/// Does `work` with what is inlined in it compiled for the machine at hand, as far as the compiler knows of it (AVX2), and
-/// otherwise for any. Sums keep their order and products are not fused with them: the same bits either way.
+/// Runs `work`, and the code inlined into it, compiled for the vector instructions of this machine where the compiler
+/// knows them (AVX2), else for any machine. The order of sums is kept and multiplications are not fused with
+/// additions, so that the result has the same bits either way.
 #[inline(always)]
 pub fn wide<R>(work: impl FnOnce() -> R) -> R {
     pulp::Arch::new().dispatch(work)

@@ -1,28 +1,28 @@
-//! How often a mesh winds round a point: 1 inside, 0 outside, 2 where two parts overlap.
+//! Generalised winding number of a mesh about a point: 1 inside, 0 outside, 2 where two parts overlap.
 //!
-//! The generalised winding number of Jacobson, Kavan and Sorkine-Hornung (2013), far parts of the mesh taken as one
-//! dipole each after Barill, Dickson, Schmidt, Levin and Jacobson (2018).
+//! After Jacobson, Kavan and Sorkine-Hornung (2013); distant parts of the mesh are approximated by one dipole each
+//! after Barill, Dickson, Schmidt, Levin and Jacobson (2018).
 
 use glam::DVec3;
 
 use crate::geometry::bvh::{Aabb, Bvh};
 use crate::geometry::mesh::TriMesh;
 
-/// A part is far when its distance is more than this many of its radii. The error then stays below a twentieth.
+/// A part counts as distant beyond this many of its radii. The error of the winding number then stays below 0.05.
 const FAR: f64 = 2.0;
 
-/// The triangles below a node, seen from afar.
+/// Dipole approximation of the triangles below a node of the tree.
 #[derive(Clone, Copy, Debug)]
 struct Dipole {
     /// Area-weighted centre, metres.
     centre: DVec3,
     /// Sum of area times normal, square metres.
     moment: DVec3,
-    /// Square of the distance beyond which it stands for its triangles, square metres.
+    /// Square of the distance beyond which the dipole replaces its triangles, square metres.
     far_squared: f64,
 }
 
-/// A mesh ready for questions.
+/// A mesh prepared for winding number queries.
 #[derive(Clone, Debug)]
 pub struct Winding<'a> {
     mesh: &'a TriMesh,
@@ -31,7 +31,7 @@ pub struct Winding<'a> {
 }
 
 impl<'a> Winding<'a> {
-    /// Builds the tree and its dipoles.
+    /// Builds the tree over `mesh` and the dipoles of its nodes.
     pub fn new(mesh: &'a TriMesh) -> Self {
         let tree = mesh.tree();
         let dipoles = tree
@@ -45,7 +45,7 @@ impl<'a> Winding<'a> {
         Self { mesh, tree, dipoles }
     }
 
-    /// The box tree over the triangles.
+    /// The bounding volume hierarchy over the triangles.
     pub fn tree(&self) -> &Bvh {
         &self.tree
     }
@@ -76,7 +76,7 @@ impl<'a> Winding<'a> {
         solid_angle / (4.0 * std::f64::consts::PI)
     }
 
-    /// Whether `p` lies inside.
+    /// Whether `p` lies inside: its winding number is more than 0.5.
     pub fn contains(&self, p: DVec3) -> bool {
         self.at(p) > 0.5
     }
@@ -96,7 +96,8 @@ fn dipole(mesh: &TriMesh, triangles: &[u32], bounds: &Aabb) -> Dipole {
     Dipole { centre, moment, far_squared: (FAR * radius).powi(2) }
 }
 
-/// Seen from the origin; positive when the triangle shows its back (van Oosterom and Strackee 1983).
+/// Signed solid angle of a triangle seen from the origin; positive when the origin sees its back (van Oosterom and
+/// Strackee 1983).
 fn triangle_solid_angle([a, b, c]: [DVec3; 3]) -> f64 {
     let (la, lb, lc) = (a.length(), b.length(), c.length());
     let below = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;

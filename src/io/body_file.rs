@@ -9,13 +9,13 @@ use crate::io::gltf::{self, GltfError};
 use crate::io::obj::{self, ObjError};
 use crate::io::words::readable;
 
-/// Why a file is no body.
+/// Why a file cannot be read as a body.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum BodyFileError {
     /// What is wrong, and where.
     #[error("{0}")]
     File(String),
-    /// More than is read.
+    /// The file exceeds a limit; the text names it.
     #[error("{0}")]
     OverLimit(String),
 }
@@ -34,8 +34,8 @@ impl From<GltfError> for BodyFileError {
     }
 }
 
-/// The body in `bytes`, read from `path`, in the file's unit and as it stands there. `load` reads a file that this one names,
-/// in its folder; the error is in words.
+/// Reads the mesh of a body from `bytes` (glTF or OBJ, told by the bytes), in the file's unit and axes. `path` is the file's own
+/// path; `load` reads a buffer file that a glTF file names, from the same folder, or gives the error in words.
 pub fn read(
     path: &Path,
     bytes: &[u8],
@@ -47,7 +47,7 @@ pub fn read(
     }
 }
 
-/// The glTF scene in `bytes`, read from `path`.
+/// Reads the glTF scene in `bytes`. `path` and `load` are as in [`read`].
 pub fn model(
     path: &Path,
     bytes: &[u8],
@@ -56,7 +56,7 @@ pub fn model(
     Ok(gltf::read(bytes, &|name| load(&beside(path, name)?))?)
 }
 
-/// The same with the files that it names, which are in its folder.
+/// Reads the glTF scene in `bytes` as [`model`] does, and returns with it the contents of the buffer files it names, by name.
 pub fn model_with_buffers(
     path: &Path,
     bytes: &[u8],
@@ -72,7 +72,8 @@ pub fn model_with_buffers(
     Ok((model, buffers.into_inner()))
 }
 
-/// The file called `name` in the folder of `path`: nothing outside of it is opened for a file from elsewhere.
+/// The path of the file called `name` in the folder of `path`. Names that lead out of that folder are refused, since the file
+/// that names them is not trusted.
 fn beside(path: &Path, name: &str) -> Result<PathBuf, String> {
     let name = name.replace("%20", " ");
     let is_plain = |part: std::path::Component<'_>| matches!(part, std::path::Component::Normal(_));

@@ -1,56 +1,56 @@
-//! Motions from Biovision hierarchy files (BVH): a skeleton, then rows of numbers, one for each frame.
+//! Reads motion capture from Biovision hierarchy files (BVH): a skeleton, then one row of channel values per frame.
 //!
 //! The format is described in Meredith and Maddock 2001, "Motion Capture File Formats Explained" (University of Sheffield,
-//! CS-01-11). A reader of our own: the format is a page, and what there is for it (`bvh_anim`) has had no release since 2020
-//! and does not tell the line of every fault.
+//! CS-01-11). The reader is our own: the format is a page long, and the existing crate (`bvh_anim`) has had no release since 2020
+//! and does not name the line of every fault.
 
 use glam::DVec3;
 
 use crate::body::pose::motion::{Channel, Clip, ClipJoint};
 use crate::io::Limits;
 
-/// Joints a skeleton may have.
+/// Largest number of joints of a skeleton.
 const MOST_JOINTS: usize = 2000;
-/// Joints inside each other.
+/// Largest nesting depth of joints.
 const DEEPEST: usize = 200;
-/// Channels of a joint.
+/// Largest number of channels of a joint.
 const MOST_CHANNELS: usize = 6;
-/// Numbers of all frames together.
+/// Largest number of channel values in all frames together.
 const MOST_VALUES: usize = 50_000_000;
-/// Absolute value of any number.
+/// Largest absolute value of a number in the file.
 const LARGEST: f64 = 1e7;
-/// From frame to frame, seconds.
+/// Accepted time from frame to frame, seconds.
 const FRAME_TIME: std::ops::RangeInclusive<f64> = 1e-4..=100.0;
 
-/// Why a file is no motion.
+/// Why a file cannot be read as a motion.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum BvhError {
     /// A fault in one line.
     #[error("line {line}: {words}")]
     Line {
-        /// From 1.
+        /// Line number, from 1.
         line: usize,
         /// What is wrong.
         words: String,
     },
-    /// More than is read.
+    /// The file exceeds a limit of this reader; the text names the limit.
     #[error("over the limit: {0}")]
     OverLimit(String),
 }
 
-/// Whether `bytes` begin like a motion.
+/// Whether `bytes` begin like a BVH file.
 pub fn is_bvh(bytes: &[u8]) -> bool {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes).trim_ascii_start();
     bytes.get(..9).is_some_and(|head| head.eq_ignore_ascii_case(b"HIERARCHY"))
 }
 
-/// Reads a motion, in the unit of the file, as it stands there.
+/// Reads a motion, in the unit and axes of the file.
 pub fn read(bytes: &[u8]) -> Result<Clip, BvhError> {
     let most = Limits::default().file_bytes;
     if bytes.len() > most {
         return Err(BvhError::OverLimit(format!("the file has more than {most} bytes")));
     }
-    // Only names may be in another encoding.
+    // Only names may be in another encoding than UTF-8.
     let text = String::from_utf8_lossy(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes));
     let mut lines = Lines::new(&text);
     let joints = hierarchy(&mut lines)?;
@@ -60,7 +60,7 @@ pub fn read(bytes: &[u8]) -> Result<Clip, BvhError> {
     Ok(clip)
 }
 
-/// The lines with something in them.
+/// The non-empty lines of the file, with their line numbers from 1.
 struct Lines<'a> {
     rest: Vec<(usize, &'a str)>,
     next: usize,
@@ -68,7 +68,7 @@ struct Lines<'a> {
 
 impl<'a> Lines<'a> {
     fn new(text: &'a str) -> Self {
-        // Old Macintosh ends of lines too.
+        // Line ends of old Macintosh files (CR alone) are accepted too.
         let numbered = text.split('\n').enumerate().map(|(i, line)| (i + 1, line.trim()));
         let ends = !text.contains('\n') && text.contains('\r');
         let rest = match ends {
@@ -78,7 +78,7 @@ impl<'a> Lines<'a> {
         Self { rest: rest.into_iter().filter(|(_, line)| !line.is_empty()).collect(), next: 0 }
     }
 
-    /// The number of the line read last, or of the first.
+    /// The number of the line read last, from 1; before any line is read, that of the first.
     fn number(&self) -> usize {
         let last = self.next.saturating_sub(1).min(self.rest.len().saturating_sub(1));
         self.rest.get(last).map_or(1, |(number, _)| *number)
@@ -101,7 +101,7 @@ impl<'a> Lines<'a> {
     }
 }
 
-/// A word at the head of `line`, in any case, and what follows it.
+/// The rest of `line` after `keyword`, which may be in capital or small letters; None if the line begins with another word.
 fn after<'a>(line: &'a str, keyword: &str) -> Option<&'a str> {
     let head = line.get(..keyword.len()).filter(|head| head.eq_ignore_ascii_case(keyword))?;
     let rest = &line[head.len()..];
@@ -130,7 +130,7 @@ fn hierarchy(lines: &mut Lines<'_>) -> Result<Vec<ClipJoint>, BvhError> {
     let name =
         after(line, "ROOT").ok_or_else(|| lines.fault(format!("expected ROOT, found {:?}", short(line))))?;
     let mut joints = Vec::new();
-    // The joints being read, outermost first.
+    // Indices of the joints whose braces are still open, outermost first.
     let mut open = vec![begin(lines, &mut joints, name, None)?];
     while let Some(&joint) = open.last() {
         let line = lines.line("a joint, its offset, its channels or }")?;
@@ -156,7 +156,7 @@ fn hierarchy(lines: &mut Lines<'_>) -> Result<Vec<ClipJoint>, BvhError> {
     Ok(joints)
 }
 
-/// A joint up to its brace.
+/// Reads the name and the opening brace of a joint, adds the joint to `joints` and returns its index.
 fn begin(
     lines: &mut Lines<'_>,
     joints: &mut Vec<ClipJoint>,
@@ -188,7 +188,7 @@ fn brace(lines: &mut Lines<'_>) -> Result<(), BvhError> {
     }
 }
 
-/// "End Site { OFFSET x y z }".
+/// Reads an end site, "End Site { OFFSET x y z }", and returns its offset from the joint.
 fn end(lines: &mut Lines<'_>, line: &str) -> Result<DVec3, BvhError> {
     if !line.ends_with('{') {
         brace(lines)?;
@@ -240,7 +240,7 @@ fn channels(lines: &Lines<'_>, words: &str) -> Result<Vec<Channel>, BvhError> {
     }
 }
 
-/// "MOTION", "Frames: 60", "Frame Time: 0.0333".
+/// Reads the lines "MOTION", "Frames: 60" and "Frame Time: 0.0333"; returns the number of frames and the seconds between them.
 fn header(lines: &mut Lines<'_>) -> Result<(usize, f64), BvhError> {
     let line = lines.line("MOTION")?;
     if after(line, "MOTION").is_none() {
@@ -261,7 +261,7 @@ fn header(lines: &mut Lines<'_>) -> Result<(usize, f64), BvhError> {
     }
 }
 
-/// The number in a line "NAME: number".
+/// Reads a line "NAME: number" and returns the number.
 fn told(lines: &mut Lines<'_>, name: &str) -> Result<f64, BvhError> {
     let line = lines.line(name)?;
     let value = after(line, name).and_then(|rest| rest.strip_prefix(':'));

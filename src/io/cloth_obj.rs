@@ -1,20 +1,20 @@
-//! A cloth mesh with its flat shape: the triangles of an OBJ file with a texture coordinate in metres at each corner.
+//! Reads a cloth mesh with its rest shape: an OBJ file whose texture coordinates are the flat pattern, in metres.
 
 use glam::DVec2;
 
 use crate::geometry::mesh::TriMesh;
 use crate::io::obj::{self, ObjError};
 
-/// A mesh and, where the file has them, the corners of its triangles in the pattern plane.
+/// A cloth mesh and, where the file has texture coordinates, its rest shape in the pattern plane.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ClothMesh {
-    /// Metres.
+    /// The mesh in space, metres.
     pub mesh: TriMesh,
-    /// For each triangle its corners, metres; none when no corner of the file has a `vt`.
+    /// For each triangle its three corners in the pattern plane, metres; None when no corner of the file has a `vt`.
     pub rest: Option<Vec<[DVec2; 3]>>,
 }
 
-/// Reads cloth. Its faces are triangles; all have texture coordinates or none has.
+/// Reads a cloth mesh. All faces must be triangles, and either all corners or none must have texture coordinates.
 pub fn read(bytes: &[u8]) -> Result<ClothMesh, ObjError> {
     let mesh = obj::read(bytes)?.mesh;
     let text = String::from_utf8_lossy(bytes);
@@ -57,7 +57,7 @@ pub fn read(bytes: &[u8]) -> Result<ClothMesh, ObjError> {
             rest.len()
         )));
     }
-    // Degenerate faces are dropped by the reader; then corners no longer match.
+    // The OBJ reader drops degenerate faces; then `rest` no longer matches the triangles.
     if !rest.is_empty() && rest.len() != mesh.triangles.len() {
         return Err(ObjError::File("a face of cloth is degenerate".to_owned()));
     }

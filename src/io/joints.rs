@@ -1,10 +1,13 @@
-//! Joints of the mannequin turned, from JSON: `{"left_elbow": 60, "right_hip": {"flexion": 30, "abduction": 20}}`, degrees.
+//! Reads joint angles of the mannequin from JSON, in degrees:
+//! `{"left_elbow": 60, "right_hip": {"flexion": 30, "abduction": 20}}`.
 
 use crate::body::pose::anatomy::JointAngle;
 use crate::io::json::{At, JsonError, Node, parse};
 
-/// The joints in the order of the file. An unknown joint, an axis that it has not, and an angle out of its range are errors
-/// at their place.
+/// Reads the joint angles in the order of the file.
+///
+/// # Errors
+/// An unknown joint, an axis that the joint does not have, or an angle out of its range, each with its JSON pointer.
 pub fn read(bytes: &[u8]) -> Result<Vec<JointAngle>, JsonError> {
     let root = parse(bytes)?;
     let mut angles = Vec::new();

@@ -1,8 +1,8 @@
-//! JSON read strictly, with the place of every value as a JSON pointer (RFC 6901).
+//! JSON read strictly, with the position of every value as a JSON pointer (RFC 6901).
 //!
-//! Stricter than `serde_json::Value`: a key that occurs twice is an error, objects keep the order of the file.
-//! Kinder in two points: a byte-order mark and `//` and `/* */` comments are skipped. It is a `Deserialize` of serde_json's own reader,
-//! not a parser: no library keeps order, refuses doubled keys and tells places at once.
+//! Stricter than `serde_json::Value`: a key that occurs twice is an error, and objects keep the order of the file. More lenient
+//! in two points: a byte-order mark and `//` and `/* */` comments are skipped. It is a `Deserialize` for serde_json's parser, not
+//! a parser of its own: no library keeps the order, refuses doubled keys and gives pointers at once.
 
 use std::fmt;
 
@@ -17,7 +17,7 @@ pub enum Node {
     Null,
     /// `true`, `false`
     Bool(bool),
-    /// Finite.
+    /// A finite number.
     Number(f64),
     /// A string.
     Text(String),
@@ -33,9 +33,9 @@ pub enum JsonError {
     /// The text is no JSON.
     #[error("line {line}, column {column}: {words}")]
     Syntax {
-        /// From 1.
+        /// Line number, from 1.
         line: usize,
-        /// From 1.
+        /// Column in bytes, from 1.
         column: usize,
         /// The reason.
         words: String,
@@ -43,14 +43,14 @@ pub enum JsonError {
     /// The text is JSON, but not of the expected shape.
     #[error("{pointer}: {words}")]
     Content {
-        /// JSON pointer; `/` for the whole text.
+        /// JSON pointer of the value; `/` for the whole text.
         pointer: String,
         /// The reason.
         words: String,
     },
 }
 
-/// Parses a whole text.
+/// Parses a whole JSON text in UTF-8.
 pub fn parse(bytes: &[u8]) -> Result<Node, JsonError> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let text = std::str::from_utf8(bytes).map_err(|e| {
@@ -89,7 +89,7 @@ fn line_and_column(bytes: &[u8], at: usize) -> (usize, usize) {
     (before.iter().filter(|&&b| b == b'\n').count() + 1, at - line_start + 1)
 }
 
-/// Comments become spaces, so that lines and columns stay.
+/// `text` with its comments replaced by spaces, so that line and column numbers stay.
 fn without_comments(text: &str) -> String {
     #[derive(PartialEq)]
     enum In {
@@ -196,12 +196,12 @@ impl<'de> Visitor<'de> for NodeVisitor {
     }
 }
 
-/// A value and its place.
+/// A JSON value and its JSON pointer, for readers that report errors with their position.
 #[derive(Clone, Debug)]
 pub struct At<'a> {
     /// The value.
     pub node: &'a Node,
-    /// Its JSON pointer; empty for the whole text.
+    /// JSON pointer of the value; empty for the whole text.
     pub pointer: String,
 }
 
@@ -211,7 +211,7 @@ impl<'a> At<'a> {
         Self { node, pointer: String::new() }
     }
 
-    /// An error at this place.
+    /// An error at this value.
     pub fn error(&self, words: impl Into<String>) -> JsonError {
         let pointer = if self.pointer.is_empty() { "/".to_owned() } else { self.pointer.clone() };
         JsonError::Content { pointer: readable(&pointer), words: readable(&words.into()) }
@@ -242,7 +242,7 @@ impl<'a> At<'a> {
         Ok(entries.iter().map(|(k, n)| (k.as_str(), self.below(k, n))).collect())
     }
 
-    /// A field of an object, if it is there and not null.
+    /// The field `key` of an object; None if it is missing or null.
     pub fn optional(&self, key: &str) -> Result<Option<At<'a>>, JsonError> {
         let Node::Map(entries) = self.node else {
             return Err(self.wrong("an object"));
@@ -251,7 +251,7 @@ impl<'a> At<'a> {
         Ok(found.map(|(k, n)| self.below(k, n)))
     }
 
-    /// A field of an object.
+    /// The field `key` of an object; an error if it is missing or null.
     pub fn field(&self, key: &str) -> Result<At<'a>, JsonError> {
         self.optional(key)?.ok_or_else(|| self.error(format!("{key:?} is missing")))
     }
@@ -264,14 +264,14 @@ impl<'a> At<'a> {
         Ok(items.iter().enumerate().map(|(i, n)| self.below(&i.to_string(), n)).collect())
     }
 
-    /// The items of a list of `N`.
+    /// The items of a list of exactly `N` items.
     pub fn array<const N: usize>(&self) -> Result<[At<'a>; N], JsonError> {
         let items = self.items()?;
         let count = items.len();
         items.try_into().map_err(|_| self.error(format!("expected a list of {N}, found {count}")))
     }
 
-    /// A list of `N` numbers.
+    /// A list of exactly `N` numbers.
     pub fn numbers<const N: usize>(&self) -> Result<[f64; N], JsonError> {
         let items = self.array::<N>()?;
         let mut numbers = [0.0; N];
@@ -301,7 +301,7 @@ impl<'a> At<'a> {
         Ok(x as usize)
     }
 
-    /// 0, 1, false or true.
+    /// A truth value, written as 0, 1, false or true.
     pub fn flag(&self) -> Result<bool, JsonError> {
         match self.node {
             Node::Bool(b) => Ok(*b),

@@ -1,44 +1,44 @@
-//! How much an input file may ask for.
+//! Upper bounds on the size of input files and their contents.
 
-/// Bytes that a file from elsewhere may have.
+/// Largest size of an input file, bytes.
 pub const FILE_BYTES: u64 = 512 << 20;
 
-/// Bounds on untrusted input. What exceeds one is refused before memory is spent on it.
+/// Upper bounds on the contents of untrusted input. What exceeds one is refused before memory is spent on it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
-    /// Bytes of one file.
+    /// Size of one file, bytes.
     pub file_bytes: usize,
-    /// Bytes of one line of text.
+    /// Length of one line of text, bytes.
     pub line_bytes: usize,
-    /// Vertices of one mesh.
+    /// Number of vertices of one mesh.
     pub vertices: usize,
-    /// Triangles of one mesh.
+    /// Number of triangles of one mesh.
     pub faces: usize,
-    /// Pieces of one pattern.
+    /// Number of pieces of one pattern.
     pub pieces: usize,
-    /// Shapes and texts of one DXF drawing.
+    /// Number of shapes and texts of one DXF drawing.
     pub dxf_entities: usize,
-    /// Numbers and texts of one shape of a DXF drawing.
+    /// Number of group codes (numbers and texts) of one shape of a DXF drawing.
     pub dxf_tags: usize,
-    /// Blocks inside blocks.
+    /// Nesting depth of DXF blocks.
     pub block_depth: usize,
-    /// Elements of one SVG drawing.
+    /// Number of elements of one SVG drawing, with `<use>` references expanded.
     pub svg_nodes: usize,
-    /// Elements of an SVG drawing inside each other.
+    /// Nesting depth of the elements of an SVG drawing.
     pub svg_depth: usize,
-    /// Lines and curves of one drawing.
+    /// Number of lines and curves of one drawing.
     pub path_segments: usize,
-    /// Closed lines of one drawing.
+    /// Number of closed lines of one drawing.
     pub contours: usize,
-    /// Corners of one face.
+    /// Number of corners of one face.
     pub face_corners: usize,
-    /// Groups, objects and materials together.
+    /// Number of objects and groups of one OBJ file.
     pub groups: usize,
-    /// Bytes of one name.
+    /// Length of one name, bytes.
     pub name_bytes: usize,
-    /// Absolute value of a body's coordinate, metres.
+    /// Largest absolute coordinate of a body, in the file's unit.
     pub coordinate: f64,
-    /// Absolute value of a pattern's coordinate, metres.
+    /// Largest absolute coordinate of a pattern, metres.
     pub pattern_coordinate: f64,
 }
 

@@ -1,13 +1,14 @@
-//! Bytes in, checked data out, and back. Nothing here opens a file: callers hand over bytes and name the place.
+//! Reading and writing of files: bytes in, checked data out, and back. Nothing here opens a file; callers pass its bytes and its
+//! name.
 //!
 //! | files | hold |
 //! | --- | --- |
-//! | `pattern_formats` | the list of formats of patterns: begin there to add one; `garmentcode`, `dxf`, `svg`, `pdf` are theirs |
-//! | `pattern_file` | what reading a pattern gives, and its errors |
-//! | `body_file` | the formats of bodies: `obj`, `gltf`; `moving_body`, `bvh`, `joints` are how they move, `sizes` how large they are |
+//! | `pattern_formats` | the list of pattern formats: begin there to add one; `garmentcode`, `dxf`, `svg`, `pdf` implement them |
+//! | `pattern_file` | the result of reading a pattern, and its errors |
+//! | `body_file` | the body formats: `obj`, `gltf`; `moving_body`, `bvh`, `joints` are their motion, `sizes` their measurements |
 //! | `obj`, `glb` | dressed cloth written; `cloth_obj` cloth read |
-//! | `trace`, `polygon`, `sheet`, `scale` | what drawings share: lines to pieces, how large a drawing is |
-//! | `json`, `limits`, `words`, `written` | what all share |
+//! | `trace`, `polygon`, `sheet`, `scale` | shared by drawings: making pieces of lines, finding the unit of length |
+//! | `json`, `limits`, `words`, `written` | shared by all |
 
 pub mod body_file;
 pub mod bvh;

@@ -1,8 +1,8 @@
-//! Meshes from and to Wavefront OBJ text.
+//! Reads and writes meshes as Wavefront OBJ text.
 //!
-//! Reading has two layers. Ours goes over the text once: it checks every number and index, names the line of a fault,
-//! and writes `v` and `f` statements in their plainest form. tobj reads those. Groups, texture coordinates, normals and
-//! materials are not read; files that the text names are never opened.
+//! Reading has two layers. The first is our own: it goes over the text once, checks every number and index, names the line of a
+//! fault, and rewrites `v` and `f` statements in their plainest form, which the crate tobj then reads. Groups, texture
+//! coordinates, normals and materials are not read; files that the text names are never opened.
 
 use std::fmt::Write as _;
 
@@ -14,7 +14,7 @@ use crate::io::Limits;
 use crate::io::polygon;
 use crate::pattern::Pattern;
 
-/// Corners tested while concave faces are cut, in all; about half a second.
+/// Budget of corner tests for ear clipping, for all concave faces of a file together; about half a second.
 const EAR_TESTS: usize = 100_000_000;
 
 /// Why a file is not a usable mesh.
@@ -23,7 +23,7 @@ pub enum ObjError {
     /// A fault in one line.
     #[error("line {line}: {words}")]
     Line {
-        /// From 1.
+        /// Line number, from 1.
         line: usize,
         /// What is wrong.
         words: String,
@@ -31,38 +31,38 @@ pub enum ObjError {
     /// A fault of the whole file.
     #[error("{0}")]
     File(String),
-    /// More than [`Limits`] allows.
+    /// The file exceeds one of the [`Limits`]; the text names it.
     #[error("over the limit: {0}")]
     OverLimit(String),
 }
 
-/// What was left out or put right while reading.
+/// Counts of what was left out or corrected while reading.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct ObjNotes {
     /// Faces with fewer than three different corners; dropped.
     pub degenerate_faces: usize,
-    /// Faces with more than three corners; cut into triangles.
+    /// Faces with more than three corners; they are triangulated.
     pub polygons: usize,
-    /// Those of them that are not convex; cut by ears.
+    /// Polygons (of those counted in `polygons`) that are not convex; they are triangulated by ear clipping.
     pub concave_polygons: usize,
     /// Objects and groups; all are read as one mesh.
     pub groups: usize,
-    /// Lines that are no OBJ statement; skipped.
+    /// Lines that are no OBJ statement; they are skipped.
     pub unknown_lines: usize,
-    /// The first of them: line from 1, and its first word.
+    /// The first line that is no OBJ statement: its number, from 1, and its first word.
     pub first_unknown: Option<(usize, String)>,
 }
 
-/// A mesh as the file has it: vertices in the order and unit of the file.
+/// A mesh read from an OBJ file: vertices in the order and unit of the file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ObjMesh {
-    /// Vertices in the file's unit; all of them, used or not.
+    /// Vertices in the file's unit, including those that no face uses.
     pub mesh: TriMesh,
-    /// What was left out or put right.
+    /// What was left out or corrected while reading.
     pub notes: ObjNotes,
 }
 
-/// Reads a mesh.
+/// Reads a mesh and triangulates its faces.
 pub fn read(bytes: &[u8]) -> Result<ObjMesh, ObjError> {
     let limits = Limits::default();
     if bytes.len() > limits.file_bytes {
@@ -76,12 +76,12 @@ pub fn read(bytes: &[u8]) -> Result<ObjMesh, ObjError> {
     scan.finish()
 }
 
-/// The checking layer.
+/// The first layer of reading: checks each statement and rewrites it for tobj.
 struct Scan<'a> {
     limits: &'a Limits,
     vertices: usize,
     faces: usize,
-    /// Largest index used so far and its line.
+    /// Largest vertex index used by a face, from 1, and its line.
     largest: (usize, usize),
     vertex_text: String,
     face_text: String,
@@ -133,7 +133,7 @@ impl<'a> Scan<'a> {
     }
 
     fn statement(&mut self, line: usize, text: &[u8]) -> Result<(), ObjError> {
-        // Only names and comments may be in another encoding, and they are not read.
+        // Only names and comments may be in another encoding than UTF-8, and they are not read.
         let text = String::from_utf8_lossy(text);
         let text = text.split('#').next().unwrap_or_default();
         let mut words = text.split_whitespace();
@@ -169,7 +169,8 @@ impl<'a> Scan<'a> {
         }
         self.vertices += 1;
         let [x, y, z] = numbers;
-        // A face of one corner keeps every vertex, and in the order of the file, when tobj collects what is used.
+        // tobj collects only vertices that a face uses, in the order of use. A face of one corner per vertex keeps all of them,
+        // in the order of the file.
         let _ = writeln!(self.vertex_text, "v {x} {y} {z}\nf {}", self.vertices);
         Ok(())
     }
@@ -211,7 +212,7 @@ impl<'a> Scan<'a> {
         Ok(())
     }
 
-    /// The vertex of a corner, from 1. Negative indices count back from the last vertex read.
+    /// The vertex index of a face corner, from 1. Negative indices count back from the last vertex read.
     fn corner(&self, word: &str) -> Result<usize, String> {
         let index = word.split('/').next().unwrap_or_default();
         let number: i64 = index.parse().map_err(|_| format!("{:?} is no vertex index", short(word)))?;
@@ -272,7 +273,7 @@ impl<'a> Scan<'a> {
     }
 }
 
-/// A line without its end, and what follows. Ends are LF, CR LF and CR.
+/// Splits off the first line, without its line end, from the rest. Line ends are LF, CR LF and CR.
 fn split_line(bytes: &[u8]) -> (&[u8], &[u8]) {
     let Some(end) = bytes.iter().position(|&b| b == b'\n' || b == b'\r') else {
         return (bytes, &[]);
@@ -282,7 +283,7 @@ fn split_line(bytes: &[u8]) -> (&[u8], &[u8]) {
     (&bytes[..end], after)
 }
 
-/// All statements of the format but `v`, `f`, `o` and `g`.
+/// Whether `keyword` begins an OBJ statement other than `v`, `f`, `o` and `g`.
 fn is_statement(keyword: &str) -> bool {
     const KNOWN: [&str; 39] = [
         "vt",
@@ -329,7 +330,7 @@ fn is_statement(keyword: &str) -> bool {
 }
 
 fn coordinate(word: &str) -> Result<f64, String> {
-    /// In the file's unit; more in the largest unit there is would not be a body.
+    /// Largest absolute coordinate, in the file's unit; a larger body is not one in any unit.
     const LARGEST: f64 = 1e9;
     match word.parse::<f64>() {
         Ok(x) if x.is_nan() => Err("a coordinate is not a number (NaN)".to_owned()),
@@ -347,7 +348,7 @@ fn short(word: &str) -> String {
     word.chars().take(40).collect()
 }
 
-/// Positions and faces of checked text, faces with their numbers of corners.
+/// Lets tobj read the checked text; returns the mesh and the number of corners of each face.
 fn load(text: &str) -> Result<(tobj::Mesh, Vec<u32>), ObjError> {
     let options = tobj::LoadOptions { ignore_lines: true, ..tobj::LoadOptions::default() };
     let mut reader = std::io::BufReader::new(text.as_bytes());
@@ -388,8 +389,8 @@ fn triangulated(mesh: tobj::Mesh, arities: &[u32], notes: &mut ObjNotes) -> Resu
     Ok(TriMesh { positions, triangles })
 }
 
-/// The dressed garment: one object per piece, sewn vertices shared, `v` in metres, `vt` the pattern plane in metres, each
-/// piece with its own. Triangles with a vertex that has not been put on the body yet are left out.
+/// Writes the draped garment: one object per piece, sewn vertices shared, `v` in metres, `vt` the pattern plane in metres,
+/// separate for each piece. Triangles with a vertex that is not yet placed on the body are left out.
 pub fn garment(garment: &Garment, state: &ClothState, pattern: &Pattern) -> String {
     let mut text = String::from("# garment; v in metres, vt in metres of the pattern plane\n");
     for p in &state.positions {
@@ -417,7 +418,7 @@ pub fn garment(garment: &Garment, state: &ClothState, pattern: &Pattern) -> Stri
     text
 }
 
-/// A plain mesh as one object, metres.
+/// Writes a plain mesh in metres as one object.
 pub fn mesh(name: &str, mesh: &TriMesh) -> String {
     let mut text = format!("# metres\no {}\n", object_name(name));
     for p in &mesh.positions {

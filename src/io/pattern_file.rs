@@ -1,36 +1,36 @@
-//! What a file of a pattern gives: the pattern, or why there is none.
+//! The result of reading a pattern file: the pattern, or an error.
 
 use crate::io::garmentcode::GarmentCodeError;
 use crate::io::scale::ScaleQuestion;
 use crate::pattern::Pattern;
 
-/// A pattern, and what a person should know about how it was read.
+/// A pattern read from a file, and notes for the user about how it was read.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ReadPattern {
-    /// Pieces and seams, laid out.
+    /// Pieces and seams, arranged in the pattern plane.
     pub pattern: Pattern,
-    /// A line each.
+    /// Notes for the user, one line each.
     pub notes: Vec<String>,
 }
 
-/// Why a file gives no pattern.
+/// Why a file cannot be read as a pattern.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum PatternFileError {
-    /// Something in it is wrong.
+    /// A part of the file is faulty.
     #[error("{place}: {words}")]
     Bad {
-        /// "line 12", "/pattern/panels", the id of an element.
+        /// The position in the file: "line 12", "/pattern/panels", or the id of an element.
         place: String,
         /// The reason.
         words: String,
     },
-    /// The whole of it is wrong.
+    /// The file as a whole is faulty.
     #[error("{0}")]
     Whole(String),
-    /// More than [`Limits`](crate::io::Limits) allows.
+    /// The file exceeds one of the [`Limits`](crate::io::Limits); the text names it.
     #[error("{0}")]
     OverLimit(String),
-    /// It does not say how large it is.
+    /// The file does not state its unit of length, or states an unlikely one; the user has to choose.
     #[error("{0}")]
     Scale(ScaleQuestion),
 }

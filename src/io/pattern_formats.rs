@@ -1,4 +1,4 @@
-//! The formats of patterns: add one here. Menus, command line and file dialogs list them from [`PatternFormat::ALL`].
+//! The formats of pattern files: add one here. Menus, command line and file dialogs list them from [`PatternFormat::ALL`].
 
 use crate::io::pattern_file::{PatternFileError, ReadPattern};
 use crate::io::pdf::{Paper, PdfError};
@@ -6,24 +6,24 @@ use crate::io::scale::DrawingUnit;
 use crate::io::{Limits, Written, dxf, garmentcode, pdf, svg};
 use crate::pattern::Pattern;
 
-/// A format patterns are in.
+/// A file format of patterns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PatternFormat {
-    /// For printing in true size; not read.
+    /// PDF for printing at true size; it is written only.
     Pdf,
     /// Scalable Vector Graphics.
     Svg,
-    /// DXF-AAMA and ASTM D6673.
+    /// DXF in the layers of AAMA-292 and ASTM D6673.
     Dxf,
-    /// GarmentCode and Garment Pattern Generator.
+    /// JSON of GarmentCode and of the Garment Pattern Generator.
     GarmentCode,
 }
 
 impl PatternFormat {
-    /// All of them, in the order of file dialogs.
+    /// All formats, in the order of file dialogs.
     pub const ALL: [Self; 4] = [Self::Pdf, Self::Svg, Self::Dxf, Self::GarmentCode];
 
-    /// What names of its files end in, without the dot.
+    /// The extension of the format's file names, without the dot.
     pub const fn ending(self) -> &'static str {
         match self {
             Self::Pdf => "pdf",
@@ -33,7 +33,7 @@ impl PatternFormat {
         }
     }
 
-    /// Whether it is read, too.
+    /// Whether files of this format can be read; all can be written.
     pub const fn is_read(self) -> bool {
         match self {
             Self::Pdf => false,
@@ -41,20 +41,20 @@ impl PatternFormat {
         }
     }
 
-    /// The one whose files end in `ending`, in small letters or capitals.
+    /// The format whose extension is `ending`, in small or capital letters.
     pub fn of_ending(ending: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|format| format.ending().eq_ignore_ascii_case(ending))
     }
 }
 
-/// The endings of `formats` in words: ".svg, .dxf or .json".
+/// The extensions of `formats` in words: ".svg, .dxf or .json".
 pub fn endings(formats: impl IntoIterator<Item = PatternFormat>) -> String {
     let mut all: Vec<String> = formats.into_iter().map(|format| format!(".{}", format.ending())).collect();
     let last = all.pop().unwrap_or_default();
     if all.is_empty() { last } else { format!("{} or {last}", all.join(", ")) }
 }
 
-/// Which format `bytes` seem to be in. None for anything else, such as a mesh.
+/// The format that `bytes` seem to be in, by their beginning; None for anything else, such as a mesh.
 pub fn format(bytes: &[u8]) -> Option<PatternFormat> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let text = bytes.trim_ascii_start();
@@ -67,18 +67,18 @@ pub fn format(bytes: &[u8]) -> Option<PatternFormat> {
     match text.first()? {
         b'<' => Some(PatternFormat::Svg),
         b'{' | b'[' | b'"' => Some(PatternFormat::GarmentCode),
-        // The oldest dialect of GarmentCode's JSON has comments.
+        // GarmentCode's JSON may begin with a comment in its oldest dialect.
         b'/' if text.starts_with(b"//") || text.starts_with(b"/*") => Some(PatternFormat::GarmentCode),
-        // Zipped text: SVGZ.
+        // Compressed SVG (SVGZ).
         0x1f if text.starts_with(b"\x1f\x8b") => Some(PatternFormat::Svg),
         _ => None,
     }
 }
 
-/// Reads a pattern of any format. `unit` is what a unit of the drawing is, where it does not say so or says it wrongly.
+/// Reads a pattern of any format. `unit`, if given, is the length of a drawing unit and overrides what the file states.
 ///
 /// # Errors
-/// What is wrong with the file and where, or the question how large it is.
+/// What is wrong with the file and where, or a question when the unit of length is not known.
 pub fn read(bytes: &[u8], unit: Option<DrawingUnit>) -> Result<ReadPattern, PatternFileError> {
     let limits = Limits::default();
     if bytes.len() > limits.file_bytes {
@@ -97,15 +97,15 @@ pub fn read(bytes: &[u8], unit: Option<DrawingUnit>) -> Result<ReadPattern, Patt
             ReadPattern { pattern: garmentcode::read(bytes)?, notes: Vec::new() }
         }
     };
-    // No format tells which seams are gathers: editing keeps what is there.
+    // No format tells which seams are gathers, so each seam keeps the ratio of its lengths when edited.
     read.pattern.keep_ratios();
     Ok(read)
 }
 
-/// `pattern`, called `name`, as a file of `format`; a PDF on `paper`.
+/// Writes `pattern`, titled `name`, in `format`. `paper` is for PDF only.
 ///
 /// # Errors
-/// Why there can be no PDF of it.
+/// Why no PDF can be made of the pattern.
 pub fn write(
     format: PatternFormat,
     pattern: &Pattern,

@@ -1,17 +1,18 @@
-//! Cuts polygons in space into triangles. Our own, as it must take any: not flat, crossing themselves, and within a budget of work.
+//! Triangulates polygons in space. It is our own, as it must accept any polygon, also one that is not flat or crosses itself,
+//! within a budget of work.
 
 use glam::{DVec2, DVec3};
 
-/// A polygon cut up.
+/// The triangulation of a polygon.
 pub(super) struct Cut {
-    /// Places in the polygon's list of corners, turning as it turns.
+    /// Triangles as indices into the polygon's list of corners, with its orientation.
     pub triangles: Vec<[usize; 3]>,
-    /// Whether a fan from the first corner would not have done.
+    /// Whether the polygon is not convex, so that a fan from its first corner would not do.
     pub concave: bool,
 }
 
-/// Cuts a polygon of three or more corners: a fan when it is convex, else ears, in the plane of its mean (Newell) normal.
-/// `budget` is how many corners may still be tested; None when it runs out.
+/// Triangulates a polygon of three or more corners: as a fan when it is convex, else by ear clipping in the plane of its mean
+/// (Newell) normal. `budget` is the number of corner tests that are left; None when it runs out.
 pub(super) fn triangles(points: &[DVec3], budget: &mut usize) -> Option<Cut> {
     let flat = in_own_plane(points);
     let n = flat.len();
@@ -23,7 +24,7 @@ pub(super) fn triangles(points: &[DVec3], budget: &mut usize) -> Option<Cut> {
     Some(Cut { triangles: ears(&flat, budget)?, concave: true })
 }
 
-/// Corners seen along the mean normal, so that the polygon runs counter-clockwise; about its centre.
+/// Corners projected along the mean normal, about their centre; the polygon then runs counter-clockwise.
 fn in_own_plane(points: &[DVec3]) -> Vec<DVec2> {
     let n = points.len();
     let centre = points.iter().sum::<DVec3>() / n as f64;
@@ -39,8 +40,8 @@ fn turn(a: DVec2, b: DVec2, c: DVec2) -> f64 {
     (b - a).perp_dot(c - a)
 }
 
-/// Ear clipping (Meisters 1975), at most n² tests of n corners. Where no ear is left, as in a polygon that crosses
-/// itself, the sharpest convex corner goes.
+/// Ear clipping (Meisters 1975), with at most n² tests of n corners. Where no ear is left, as in a polygon that crosses itself,
+/// the sharpest convex corner is cut off.
 fn ears(points: &[DVec2], budget: &mut usize) -> Option<Vec<[usize; 3]>> {
     let mut left: Vec<usize> = (0..points.len()).collect();
     let mut triangles = Vec::with_capacity(points.len() - 2);

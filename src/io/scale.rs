@@ -1,11 +1,11 @@
-//! How long a unit of a drawing is.
+//! The unit of length of a drawing.
 
 use std::fmt;
 use std::str::FromStr;
 
 use glam::DVec2;
 
-/// What a number in a drawing may count.
+/// A unit of length that the numbers of a drawing may be in.
 #[derive(
     Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize,
 )]
@@ -20,16 +20,16 @@ pub enum DrawingUnit {
     Metre,
     /// 25.4 mm.
     Inch,
-    /// A pixel of the web, 96 to an inch.
+    /// A CSS pixel, 1/96 inch.
     Pixel,
-    /// A pixel of Inkscape before 0.92, 90 to an inch.
+    /// A pixel of Inkscape before version 0.92, 1/90 inch.
     OldPixel,
-    /// A point of print, and a pixel of Illustrator: 72 to an inch.
+    /// A typographic point, which is also the pixel of Illustrator: 1/72 inch.
     Point,
 }
 
 impl DrawingUnit {
-    /// All of them.
+    /// All units.
     pub const ALL: [Self; 7] = [
         Self::Millimetre,
         Self::Centimetre,
@@ -40,7 +40,7 @@ impl DrawingUnit {
         Self::Point,
     ];
 
-    /// Metres in one.
+    /// Length of one unit, metres.
     pub fn metres(self) -> f64 {
         match self {
             Self::Millimetre => 1e-3,
@@ -53,7 +53,7 @@ impl DrawingUnit {
         }
     }
 
-    /// As it is typed: "mm", "cm", "m", "in", "px", "px90", "pt".
+    /// The abbreviation to type: "mm", "cm", "m", "in", "px", "px90", "pt".
     pub fn short(self) -> &'static str {
         match self {
             Self::Millimetre => "mm",
@@ -66,7 +66,7 @@ impl DrawingUnit {
         }
     }
 
-    /// As it is read: "millimetres".
+    /// The name for messages, in the plural: "millimetres".
     pub fn long(self) -> &'static str {
         match self {
             Self::Millimetre => "millimetres",
@@ -97,24 +97,24 @@ impl FromStr for DrawingUnit {
     }
 }
 
-/// A drawing does not say how large it is. Read it again with one of the candidates.
+/// The question which unit a drawing is in, for the user. The drawing must be read again with one of the candidates.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ScaleQuestion {
-    /// Why it is not known, one sentence without its full stop.
+    /// Why the unit is not known: one sentence without its full stop.
     pub why: String,
     /// Width and height of the largest piece, in units of the drawing.
     pub largest: DVec2,
-    /// Likely ones first.
+    /// Units to choose from, likely ones first.
     pub candidates: Vec<DrawingUnit>,
 }
 
 impl ScaleQuestion {
-    /// Width and height of the largest piece if a unit is `unit`, metres.
+    /// Width and height of the largest piece (metres) if the drawing is in `unit`.
     pub fn size(&self, unit: DrawingUnit) -> DVec2 {
         self.largest * unit.metres()
     }
 
-    /// "mm (the largest piece is 30.0 × 62.0 cm)".
+    /// A choice in words: "mm (the largest piece is 30.0 × 62.0 cm)".
     pub fn words(&self, unit: DrawingUnit) -> String {
         let size = self.size(unit) * 100.0;
         format!("{unit} (the largest piece is {:.1} × {:.1} cm)", size.x, size.y)

@@ -1,7 +1,7 @@
-//! Lays imported pieces out in the pattern plane: a sheet that can be read.
+//! Lays imported pieces out in the pattern plane so that they can be read like a pattern sheet.
 //!
-//! Each piece shows its front. Pieces placed before the body lie on the left as seen from before it, pieces placed
-//! behind it on the right as seen from behind. Where two would overlap, the smaller one is pushed aside.
+//! Each piece shows its front. Pieces placed in front of the body are on the left, as seen from the front; pieces placed behind
+//! it are on the right, as seen from behind. Where two would overlap, the smaller one is pushed aside.
 
 use std::sync::Arc;
 
@@ -10,11 +10,11 @@ use glam::{DVec2, DVec3};
 use crate::geometry::ids::PieceId;
 use crate::pattern::{Pattern, Piece, PlanePose};
 
-/// Between the boxes of two pieces, metres.
+/// Distance between the bounding boxes of two pieces, metres.
 const GAP: f64 = 0.03;
-/// Between the front half and the back half of the sheet, metres.
+/// Distance between the front half and the back half of the sheet, metres.
 const HALVES_GAP: f64 = 0.12;
-/// Chords of curved outlines, metres.
+/// Flattening tolerance of curved outlines, metres.
 const TOLERANCE: f64 = 1e-3;
 
 /// Sets `pose` of every piece so that no two boxes overlap; the sheet is centred on the origin.
@@ -42,7 +42,7 @@ pub(super) fn lay_out(pattern: &mut Pattern) {
     }
 }
 
-/// A piece on the sheet and the box around it.
+/// A piece with its pose on the sheet and its bounding box there.
 struct Placed {
     id: PieceId,
     behind: bool,
@@ -83,18 +83,20 @@ impl Placed {
     }
 }
 
-/// The quarter turn that comes nearest to how the piece's own y axis is seen; none when it points at the reader.
+/// The multiple of a quarter turn (radians) nearest to the direction in which the piece's y axis is seen; 0 when that axis points
+/// at the viewer.
 fn upright(y_seen: DVec2) -> f64 {
     use std::f64::consts::FRAC_PI_2;
     if y_seen.length() < 0.5 {
         return 0.0;
     }
-    // Sleeves are often placed at exactly half a quarter turn: both stay as they are.
+    // Sleeves are often placed at exactly half a quarter turn; the factor rounds both of them to no turn.
     let quarters = (DVec2::Y.angle_to(y_seen) / FRAC_PI_2 * 0.9).round();
     quarters * FRAC_PI_2
 }
 
-/// The largest piece stays where it is; each next one moves the shortest way out of those before it.
+/// Moves pieces apart, in order of decreasing size: the largest stays, and each next one moves the shortest way out of those
+/// before it.
 fn spread(mut pieces: Vec<Placed>) -> Vec<Placed> {
     pieces.sort_by(|a, b| b.area().total_cmp(&a.area()).then(a.id.cmp(&b.id)));
     let mut done: Vec<Placed> = Vec::with_capacity(pieces.len());
@@ -107,7 +109,7 @@ fn spread(mut pieces: Vec<Placed>) -> Vec<Placed> {
     done
 }
 
-/// How far `piece` must go along the axis `way` to clear all of `others`.
+/// The shift of `piece` along the axis direction `way` that clears all of `others`.
 fn way_out(piece: &Placed, others: &[Placed], way: DVec2) -> DVec2 {
     let mut shift = DVec2::ZERO;
     loop {

@@ -1,60 +1,63 @@
-//! Tables of sizes (CSV): a header with the measurements of the mannequin, then a row for each size, its name first.
+//! Reads size tables (CSV): a header that names measurements of the mannequin, then a row for each size, its name first.
 
 use crate::body::Unit;
 use crate::body::mannequin::Measurements;
 use crate::io::words::readable;
 
-/// Bytes a table may have.
+/// Largest size of a table, bytes.
 const MOST_BYTES: usize = 1 << 20;
-/// Sizes a table may have.
+/// Largest number of sizes in a table.
 const MOST_SIZES: usize = 1000;
-/// A measurement that is more than this was given in another unit, metres.
+/// Largest measurement that is accepted, metres; a larger one was given in another unit.
 const LONGEST: f64 = 10.0;
 
-/// Why a file is no table of sizes.
+/// Why a file cannot be read as a size table.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum SizesError {
-    /// What is wrong with all of it.
+    /// The file as a whole is faulty.
     #[error("{0}")]
     File(String),
-    /// What is wrong in one place.
+    /// A cell is faulty.
     #[error("row {row}, column {column}: {words}")]
     Cell {
-        /// The line of the file, from 1.
+        /// Line number in the file, from 1.
         row: u64,
-        /// Its number from 1 and, below the header, what stands at its head.
+        /// Column number, from 1, and, below the header, the column's title.
         column: String,
         /// What is wrong.
         words: String,
     },
-    /// What is wrong with a size that follows from several of its cells.
+    /// A size is faulty in a way that follows from several of its cells.
     #[error("row {row}: {words}")]
     Row {
-        /// The line of the file, from 1.
+        /// Line number in the file, from 1.
         row: u64,
         /// What is wrong.
         words: String,
     },
-    /// More than is read.
+    /// The table exceeds a limit; the text names it.
     #[error("over the limit: {0}")]
     OverLimit(String),
 }
 
-/// A size: measurements that go by a name.
+/// A size of the table: a name and its body measurements.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Size {
-    /// As in the table, without spaces round it; not empty.
+    /// Name as in the table, without surrounding spaces; not empty.
     pub name: String,
-    /// The figure; what the table leaves out is in proportion. It may be out of the mannequin's range.
+    /// Body measurements; those that the table leaves out are in proportion. They may be out of the mannequin's range.
     pub measurements: Measurements,
-    /// The line it stands in, from 1.
+    /// Line number in the file, from 1.
     row: u64,
-    /// Measurements that the table gives, and where.
+    /// Names of the measurements that the table gives, each with its column for error messages.
     given: Vec<(&'static str, String)>,
 }
 
 impl Size {
-    /// Its measurements, if a mannequin can be built to them; else an error that names the row, the column and the range.
+    /// The measurements, if a mannequin can be built to them.
+    ///
+    /// # Errors
+    /// The row, the column and the range of a measurement that is out of range.
     pub fn checked(&self) -> Result<Measurements, SizesError> {
         self.measurements.check().map(|()| self.measurements).map_err(|error| {
             let column = self.given.iter().find(|(name, _)| *name == error.name);
@@ -71,23 +74,23 @@ impl Size {
     }
 }
 
-/// The size called `name`, of those in a table; the error tells which there are.
+/// The size called `name` in a table; the error lists the names that there are.
 pub fn chosen<'a>(sizes: &'a [Size], name: &str) -> Result<&'a Size, SizesError> {
     let found = sizes.iter().find(|size| size.name == name.trim());
     let names = || sizes.iter().map(|size| size.name.as_str()).collect::<Vec<_>>().join(", ");
     found.ok_or_else(|| SizesError::File(format!("there is no size {name:?} in it; there are {}", names())))
 }
 
-/// A measurement that a column holds.
+/// A column of the table: its measurement and unit.
 struct Column {
     name: &'static str,
     unit: Unit,
-    /// For errors.
+    /// Column number and title, for error messages.
     place: String,
 }
 
-/// Reads a table: cells parted by commas, semicolons or tabs, whichever stands in its header; numbers in centimetres where the
-/// header names no unit, with a decimal point or, unless commas part the cells, a comma. An empty cell leaves that
+/// Reads a table. Cells are separated by commas, semicolons or tabs, whichever is in the header. Numbers are in centimetres where
+/// the header names no unit, with a decimal point or, unless commas separate the cells, a decimal comma. An empty cell leaves its
 /// measurement out.
 pub fn read(bytes: &[u8]) -> Result<Vec<Size>, SizesError> {
     if bytes.len() > MOST_BYTES {
@@ -134,19 +137,19 @@ fn cell(row: u64, column: impl Into<String>, words: impl Into<String>) -> SizesE
 
 /// The line in which a row begins, from 1.
 fn line(text: &str, position: &csv::Position) -> u64 {
-    // The crate gives the place before the empty lines that it skips.
+    // The crate's position is before the empty lines that it skips.
     let rest = &text.as_bytes()[(position.byte() as usize).min(text.len())..];
     let skipped = rest.iter().take_while(|byte| matches!(byte, b'\r' | b'\n'));
     position.line() + skipped.filter(|byte| **byte == b'\n').count() as u64
 }
 
-/// What parts the cells: spreadsheets of countries with a decimal comma write semicolons.
+/// The cell separator. Spreadsheets of countries with a decimal comma write semicolons.
 fn delimiter(text: &str) -> u8 {
     let header = text.lines().find(|line| !line.trim().is_empty()).unwrap_or_default();
     *[b';', b'\t'].iter().find(|&&c| header.as_bytes().contains(&c)).unwrap_or(&b',')
 }
 
-/// The measurements behind the first column, which holds names.
+/// Reads the header: a measurement for each column but the first, which holds the names of sizes.
 fn header(cells: &csv::StringRecord, line: u64) -> Result<Vec<Column>, SizesError> {
     let mut columns: Vec<Column> = Vec::new();
     for (i, head) in cells.iter().enumerate().skip(1) {
@@ -163,7 +166,7 @@ fn header(cells: &csv::StringRecord, line: u64) -> Result<Vec<Column>, SizesErro
     }
 }
 
-/// "bust", "Upper_arm (mm)", "hip [in]" or "waist cm" as a measurement and its unit; the error is in words.
+/// Reads a column title, such as "bust", "Upper_arm (mm)", "hip [in]" or "waist cm", as a measurement and its unit.
 fn named(head: &str) -> Result<(&'static str, Unit), String> {
     let letters = |text: &str| -> String {
         text.chars().filter(|c| c.is_alphanumeric()).collect::<String>().to_lowercase()

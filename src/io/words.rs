@@ -1,10 +1,10 @@
-//! What a file or a library says, for people to read.
+//! Texts from files and libraries, made fit for people to read.
 
-/// Characters that are left of what is too long: as many from its beginning, where the place is told, and from its end.
+/// Number of characters kept at the beginning (where the position usually is) and at the end of a text that is too long.
 const KEPT: usize = 300;
 
-/// `words` in which what is seen is what is there: control characters, also those that turn the direction of writing, are
-/// written out, and the middle of what nobody would read to its end is left out.
+/// `words` without characters that could mislead a reader: control characters and those that change the writing direction are
+/// escaped, and the middle of a long text is left out.
 pub fn readable(words: &str) -> String {
     let shown = |c: char| match c {
         '\n' => c.to_string(),
@@ -20,7 +20,7 @@ pub fn readable(words: &str) -> String {
     format!("{first} [and {} more characters] {last}", count - 2 * KEPT)
 }
 
-/// Unicode Standard Annex 9: embeddings, overrides and isolates.
+/// Whether `c` changes the writing direction: embeddings, overrides and isolates of Unicode Standard Annex 9.
 fn is_turning(c: char) -> bool {
     matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }

@@ -1,23 +1,23 @@
-//! A pattern as a file, and what of it the file does not hold, in words.
+//! A written pattern file, and notes on what the format could not hold.
 
 use std::collections::BTreeMap;
 
 use crate::geometry::ids::SeamId;
 use crate::pattern::{Edge, EdgeShape, InternalLine, Pattern, Piece, Seam};
 
-/// Names listed before the rest are only counted.
+/// Largest number of names listed; further ones are only counted.
 const NAMED: usize = 3;
 
-/// A file ready to be written.
+/// The contents of a file to be saved.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Written {
-    /// Its contents.
+    /// The bytes of the file.
     pub bytes: Vec<u8>,
-    /// What the format cannot hold, a line each; nothing when all of the pattern is there.
+    /// Parts of the pattern that the format cannot hold, a line each; empty when all of it is there.
     pub left_out: Vec<String>,
 }
 
-/// What a pattern may have and a format may lack.
+/// Parts of a pattern that not every format can hold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Part {
     Curves,
@@ -65,7 +65,7 @@ impl Part {
     }
 }
 
-/// A line for each part of `pattern` that is none of those the format `holds`.
+/// A line for each part that `pattern` has and that is not in `holds`.
 pub(super) fn left_out(pattern: &Pattern, holds: &[Part]) -> Vec<String> {
     let mut missing: BTreeMap<Part, Vec<&str>> = BTreeMap::new();
     for piece in pattern.pieces.values() {
@@ -90,7 +90,7 @@ pub(super) fn left_out(pattern: &Pattern, holds: &[Part]) -> Vec<String> {
     lines
 }
 
-/// A line about seams that could not be written.
+/// A line about seams that could not be written for the reason `why`.
 pub(super) fn seams_left_out(seams: &[SeamId], why: &str) -> Option<String> {
     let names: Vec<String> = seams.iter().map(ToString::to_string).collect();
     let names: Vec<&str> = names.iter().map(String::as_str).collect();
@@ -98,8 +98,8 @@ pub(super) fn seams_left_out(seams: &[SeamId], why: &str) -> Option<String> {
 }
 
 fn parts_of_piece(piece: &Piece) -> Vec<Part> {
-    // Named one by one, so that a new field is not forgotten. What belongs to the editor and not to the garment, such as
-    // where a piece lies on the table, is no loss.
+    // All fields are named, so that a new one is not forgotten. What belongs to the editor and not to the garment, such as the
+    // position of a piece in the pattern plane, is no loss.
     let Piece {
         name: _,
         outline,
@@ -145,7 +145,7 @@ fn line_edges(line: &InternalLine) -> &[Edge] {
     &line.edges
 }
 
-/// "front, back, sleeve and 2 more".
+/// A list of names, such as "front, back, sleeve and 2 more".
 fn listed(names: &[&str]) -> String {
     let first = names[..names.len().min(NAMED)].join(", ");
     match names.len().saturating_sub(NAMED) {

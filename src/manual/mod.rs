@@ -1,20 +1,20 @@
-//! The manual: what the program does, topic by topic, in the window and on the command line.
+//! The manual: what the program does, topic by topic, for the window and the command line.
 //!
-//! The texts are in `assets/manual`, in a few signs of Markdown: `#` and `##` begin headings, `-` and numbers rows of a list,
-//! `|` rows of a table, four spaces command lines; `*Menu › Entry* (Keys)` names what can be chosen.
+//! The texts in `assets/manual` use a small part of Markdown: `#` and `##` begin headings, `-` and numbers list items, `|` table
+//! rows, four spaces a command line; `*Menu › Entry* (Keys)` names menu entries.
 
-/// A topic.
+/// A topic of the manual.
 #[derive(Clone, Copy, Debug)]
 pub struct Topic {
-    /// What it is asked for by: `toile help NAME`.
+    /// Name on the command line: `toile help NAME`.
     pub name: &'static str,
-    /// All of it, the title first.
+    /// The whole text; its first line is the title.
     pub text: &'static str,
 }
 
 macro_rules! topics {
     ($($name:literal),*) => {
-        /// In the order in which they are read.
+        /// All topics, in the order in which they are read.
         pub const TOPICS: &[Topic] =
             &[$(Topic { name: $name, text: include_str!(concat!("../../assets/manual/", $name, ".md")) }),*];
     };
@@ -22,18 +22,18 @@ macro_rules! topics {
 
 topics!("start", "pattern", "marks", "dressing", "draping", "bodies", "fitting", "looking", "files", "batch");
 
-/// What a line of a topic is.
+/// A block of a topic's text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Block {
-    /// How deep it is, from 1, and its words.
+    /// Heading: its level, from 1, and its text.
     Heading(usize, String),
-    /// Words that run on.
+    /// Paragraph.
     Words(String),
-    /// The sign before a row of a list, and its words.
+    /// List item: its bullet or number, and its text.
     Item(String, String),
-    /// The rows of a table, the heads first.
+    /// Table rows, the header first.
     Table(Vec<Vec<String>>),
-    /// A command line.
+    /// Command line.
     Command(String),
 }
 
@@ -43,12 +43,12 @@ impl Topic {
         TOPICS.iter().find(|topic| topic.name == name)
     }
 
-    /// Its first heading.
+    /// The title: the text of the first heading.
     pub fn title(&self) -> &'static str {
         self.text.lines().next().unwrap_or_default().trim_start_matches("# ")
     }
 
-    /// Its lines, each as what it is.
+    /// The text parsed into blocks.
     pub fn blocks(&self) -> Vec<Block> {
         let mut blocks = Vec::new();
         for line in self.text.lines() {
@@ -80,12 +80,12 @@ impl Topic {
     }
 }
 
-/// `words` without the signs round what can be chosen and what is typed.
+/// `words` without the markup of menu entries and command lines.
 pub fn plain(words: &str) -> String {
     words.replace(['*', '`'], "")
 }
 
-/// Words and whether they name something that can be chosen or typed.
+/// Splits text into parts; the flag tells whether a part is marked up as a menu entry or as something to type.
 pub fn parts(words: &str) -> impl Iterator<Item = (bool, &str)> {
     words.split(['*', '`']).enumerate().map(|(i, part)| (i % 2 == 1, part))
 }

@@ -1,11 +1,11 @@
-//! Curves between two points of a plane: lengths, points by arc length, splitting, turning round, mirroring.
+//! Curves between two points of a plane: lengths, points by arc length, splitting, reversing, mirroring.
 
 use glam::DVec2;
 use kurbo::{CubicBez, Line, ParamCurve, ParamCurveArclen, PathSeg, Point, QuadBez};
 
 use crate::pattern::edge::{ARC_LENGTH_ACCURACY, Edge, EdgeShape};
 
-/// To this accuracy lengths are held equal, metres.
+/// Accuracy of [`exact_length`], metres.
 const FINEST_LENGTH: f64 = 1e-12;
 
 /// The curve from `a` to `b` as segments, head to tail: one, or for an arc a few cubics.
@@ -20,7 +20,7 @@ pub fn segments(a: DVec2, shape: EdgeShape, b: DVec2) -> Vec<PathSeg> {
     }
 }
 
-/// The length of the curve in metres, to 1e-12.
+/// Arc length of the curve in metres, to 1e-12.
 pub fn exact_length(a: DVec2, shape: EdgeShape, b: DVec2) -> f64 {
     match shape {
         EdgeShape::Line => a.distance(b),
@@ -29,7 +29,7 @@ pub fn exact_length(a: DVec2, shape: EdgeShape, b: DVec2) -> f64 {
     }
 }
 
-/// Points at `fractions` (0..=1, ascending) of the curve's arc length. Ends are met exactly.
+/// Points at `fractions` (0..=1, ascending) of the curve's arc length. Fractions 0 and 1 give exactly `a` and `b`.
 pub fn points(a: DVec2, shape: EdgeShape, b: DVec2, fractions: &[f64]) -> Vec<DVec2> {
     let segments = segments(a, shape, b);
     let lengths: Vec<f64> = segments.iter().map(|s| s.arclen(ARC_LENGTH_ACCURACY)).collect();
@@ -54,7 +54,8 @@ pub fn points(a: DVec2, shape: EdgeShape, b: DVec2, fractions: &[f64]) -> Vec<DV
     fractions.iter().map(|&f| at(f)).collect()
 }
 
-/// Points from `a` on, without `b`, whose chords stay within `tolerance` metres of the curve.
+/// Appends to `points` a polyline along the curve, from `a` on and without `b`, whose chords stay within `tolerance`
+/// metres of the curve.
 pub fn flatten(a: DVec2, shape: EdgeShape, b: DVec2, tolerance: f64, points: &mut Vec<DVec2>) {
     points.push(a);
     for segment in segments(a, shape, b) {
@@ -71,8 +72,8 @@ pub fn flatten(a: DVec2, shape: EdgeShape, b: DVec2, tolerance: f64, points: &mu
     points.pop();
 }
 
-/// The curve cut at `fractions` (inside 0..1, ascending) of its arc length: where each part starts, and its shape. The
-/// first starts at `a`, the last ends at `b`.
+/// Splits the curve at `fractions` (inside 0..1, ascending) of its arc length. Returns the start and the shape of
+/// each part; the first starts at `a`, the last ends at `b`.
 pub fn split(a: DVec2, shape: EdgeShape, b: DVec2, fractions: &[f64]) -> Vec<(DVec2, EdgeShape)> {
     match shape {
         EdgeShape::Line => {
@@ -127,8 +128,8 @@ impl EdgeShape {
         }
     }
 
-    /// The curve with every control point taken to its image; `turns` when the map turns left to right.
-    /// Arcs are right only where the map keeps lengths; see [`EdgeShape::carried`] for others.
+    /// The curve with every control point moved by `map`; `turns` says that the map is a reflection. Arcs come out
+    /// right only where the map keeps lengths; see [`EdgeShape::carried`] for other maps.
     pub fn mapped(self, turns: bool, map: impl Fn(DVec2) -> DVec2) -> Self {
         match self {
             Self::Line => self,
@@ -138,13 +139,13 @@ impl EdgeShape {
         }
     }
 
-    /// The curve when its ends go from `a`, `b` to `c`, `d`: turned and scaled with its chord.
+    /// The curve when its ends move from `a`, `b` to `c`, `d`: rotated and scaled with its chord.
     pub fn carried(self, [a, b]: [DVec2; 2], [c, d]: [DVec2; 2]) -> Self {
         let (old, new) = (b - a, d - c);
         if old.length_squared() == 0.0 || (a == c && b == d) {
             return self;
         }
-        // The complex number new / old turns and scales.
+        // The complex number new / old rotates and scales.
         let factor = DVec2::new(new.dot(old), old.perp_dot(new)) / old.length_squared();
         match self {
             Self::Arc { radius, large, sweep } => {
@@ -155,22 +156,22 @@ impl EdgeShape {
     }
 }
 
-/// The arc from `a` to `b` through `p`; straight when they lie on a line.
+/// The arc from `a` to `b` through `p`; a straight line when the three are collinear.
 pub fn arc_through(a: DVec2, p: DVec2, b: DVec2) -> EdgeShape {
     let (u, v) = (p - a, b - a);
     let turn = u.perp_dot(v);
     if turn.abs() < 1e-6 * v.length_squared() {
         return EdgeShape::Line;
     }
-    // The centre, from `a`: as far from all three.
+    // The centre relative to `a`: at the same distance from all three points.
     let (uu, vv) = (u.length_squared(), v.length_squared());
     let centre = DVec2::new(v.y * uu - u.y * vv, u.x * vv - v.x * uu) / (2.0 * turn);
-    // On the same side of the chord as `p`: more than half a circle.
+    // The centre is on the same side of the chord as `p`: more than half a circle.
     let large = v.perp_dot(centre) * v.perp_dot(u) > 0.0;
     EdgeShape::Arc { radius: centre.length(), large, sweep: turn > 0.0 }
 }
 
-/// A closed line run the other way; edge i of n becomes edge n-1-i.
+/// A closed line in the opposite direction; edge i of n becomes edge n-1-i.
 pub fn reversed(edges: &[Edge]) -> Vec<Edge> {
     let n = edges.len();
     (0..n)
@@ -187,7 +188,7 @@ pub fn reversed(edges: &[Edge]) -> Vec<Edge> {
         .collect()
 }
 
-/// The mirror image of a closed line in the line x = 0, run the other way, so that its front stays the near side.
+/// The mirror image of a closed line in the line x = 0, in the opposite direction, so that its front stays the near side.
 pub fn mirrored(edges: &[Edge]) -> Vec<Edge> {
     let mut new = reversed(edges);
     for edge in &mut new {
@@ -203,27 +204,27 @@ pub fn mirror(p: DVec2) -> DVec2 {
     DVec2::new(0.0 - p.x, p.y)
 }
 
-/// A circular arc by its centre.
+/// A circular arc given by its centre.
 #[derive(Clone, Copy, Debug)]
 pub struct ArcByCentre {
-    /// Metres.
+    /// The centre, metres.
     pub centre: DVec2,
-    /// Metres. Half the chord where the file's radius was less.
+    /// The radius, metres. Half the chord where the radius in the file was less.
     pub radius: f64,
     /// Angle of the start as seen from the centre, radians.
     pub start: f64,
-    /// Radians, positive counter-clockwise.
+    /// Angle from start to end, radians, positive counter-clockwise.
     pub turn: f64,
 }
 
 impl ArcByCentre {
-    /// The point at a fraction of the arc.
+    /// The point at a fraction (0..=1) of the arc.
     pub fn at(&self, fraction: f64) -> DVec2 {
         self.centre + DVec2::from_angle(self.start + fraction * self.turn) * self.radius
     }
 }
 
-/// The arc between `a` and `b`. None where `shape` is no arc or its ends are one point.
+/// The arc between `a` and `b` by its centre. None where `shape` is no arc or `a` and `b` are equal.
 pub fn arc(a: DVec2, shape: EdgeShape, b: DVec2) -> Option<ArcByCentre> {
     let EdgeShape::Arc { radius, large, sweep } = shape else { return None };
     let chord = b - a;

@@ -1,4 +1,4 @@
-//! A pattern whose edges are cut so that every seam joins one whole edge to one whole edge.
+//! A pattern cut for sewing: edges are split so that every seam joins one whole edge to one whole edge.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -8,21 +8,23 @@ use crate::pattern::{
     Edge, EdgeRef, EdgeSeam, Pattern, Piece, Problem, ProblemKind, Seam, Stretch, curve, naming,
 };
 
-/// Places on an edge nearer than this are one, metres.
+/// Distance along an edge within which two places count as one, metres.
 const SAME_PLACE: f64 = 1e-4;
 
-/// Pieces and seams as the cloth is made of. Where all seams join whole edges, the pieces are the pattern's own.
+/// A pattern with split edges, as the cloth is made from. Where all seams join whole edges already, the pieces are
+/// those of the pattern.
 #[derive(Clone, Debug, Default)]
 pub struct CutPattern {
-    /// As in the pattern, edges cut where stretches end.
+    /// The pieces of the pattern, their edges split where stretches of seams end.
     pub pieces: BTreeMap<PieceId, Arc<Piece>>,
-    /// Parts of one seam have its id; in id order, then along the first side.
+    /// The seams between whole edges, in the order of their ids and then along the first side. A seam of the pattern
+    /// that was split gives several with its id.
     pub seams: Vec<(SeamId, EdgeSeam)>,
-    /// For pieces with cut edges: which edge of the pattern each edge is a part of.
+    /// For each piece with split edges: for each of its edges the edge of the pattern that it is a part of.
     origins: BTreeMap<PieceId, Vec<usize>>,
 }
 
-/// A part of an edge.
+/// A part of an edge: from and to are fractions of the edge's arc length, `length` is in metres.
 #[derive(Clone, Copy, Debug)]
 struct Portion {
     edge: usize,
@@ -31,7 +33,7 @@ struct Portion {
     length: f64,
 }
 
-/// A place on an edge, a fraction of its length, less than one.
+/// A place on an edge: `at` is a fraction of its arc length, 0..1.
 #[derive(Clone, Copy, Debug)]
 struct Place {
     edge: usize,
@@ -39,7 +41,7 @@ struct Place {
 }
 
 impl CutPattern {
-    /// Cuts `pattern`. A seam that names what is not there is among the problems and left out.
+    /// Splits the edges of `pattern`. A seam on a stretch that does not exist is reported as a problem and left out.
     pub fn new(pattern: &Pattern) -> (Self, Vec<Problem>) {
         let mut problems = Vec::new();
         let mut cut = Self { pieces: pattern.pieces.clone(), ..Self::default() };
@@ -83,18 +85,18 @@ impl CutPattern {
         (cut, problems)
     }
 
-    /// All seams, edge to edge.
+    /// All seams between whole edges.
     pub fn edge_seams(&self) -> impl Iterator<Item = &EdgeSeam> {
         self.seams.iter().map(|(_, seam)| seam)
     }
 
-    /// The pattern's own number of an edge.
+    /// The edge of the pattern that a split edge is a part of.
     pub fn origin(&self, edge: EdgeRef) -> EdgeRef {
         let origin = self.origins.get(&edge.piece).and_then(|of_piece| of_piece.get(edge.edge));
         EdgeRef { edge: origin.copied().unwrap_or(edge.edge), ..edge }
     }
 
-    /// "front (piece 1), edge 3", the edge as the pattern numbers it.
+    /// Describes an edge by its number in the pattern: "front (piece 1), edge 3".
     pub fn place(&self, edge: EdgeRef) -> String {
         let edge = self.origin(edge);
         match self.pieces.get(&edge.piece) {
@@ -103,8 +105,8 @@ impl CutPattern {
         }
     }
 
-    /// Cuts edges at fractions of their length. Returns for each cut edge what its parts are: their first number and
-    /// where they start.
+    /// Splits edges at fractions of their length. Returns for each edge of the changed pieces its first part and
+    /// where its parts start.
     fn split(&mut self, splits: BTreeMap<(PieceId, usize), Vec<f64>>) -> Firsts {
         let mut of_piece: BTreeMap<PieceId, BTreeMap<usize, Vec<f64>>> = BTreeMap::new();
         for ((piece, edge), mut fractions) in splits {
@@ -174,7 +176,7 @@ impl CutPattern {
         self.seams.extend(pairs.map(|pair| (id, pair)));
     }
 
-    /// The cut edges between places one after the other; none where another seam's end lies between two.
+    /// The split edges that lead through `places` in order. None where the end of another seam lies between two of them.
     fn parts(&self, piece: PieceId, places: &[Place], firsts: &Firsts) -> Option<Vec<EdgeRef>> {
         let of_piece = &self.pieces[&piece];
         let number = |place: &Place| match firsts.get(&piece) {
@@ -194,7 +196,8 @@ impl CutPattern {
     }
 }
 
-/// For each edge of a cut piece the number of its first part, and where on it its parts start.
+/// For each edge of a piece with split edges: the number of its first part, and the fractions of its arc length at
+/// which its parts start.
 type Firsts = BTreeMap<PieceId, Vec<(usize, Vec<f64>)>>;
 
 fn first(firsts: &Firsts, edge: EdgeRef) -> usize {
@@ -202,8 +205,8 @@ fn first(firsts: &Firsts, edge: EdgeRef) -> usize {
     found.map_or(edge.edge, |(first, _)| *first)
 }
 
-/// The ends of the parts that both sides of a seam are cut into, each side in its own direction, both ends included.
-/// Err: the side that names what is not there.
+/// The places at which both sides of a seam are split, each side in its own direction, its ends included. Err: the
+/// side that does not exist.
 fn breaks(pattern: &Pattern, seam: &Seam) -> Result<[Vec<Place>; 2], Stretch> {
     let mut sides = Vec::new();
     for side in seam.sides {
@@ -245,7 +248,7 @@ fn breaks(pattern: &Pattern, seam: &Seam) -> Result<[Vec<Place>; 2], Stretch> {
     Ok([side(0), side(1)])
 }
 
-/// The place `along` metres from the start of `portions`.
+/// The place at `along` metres from the start of `portions`.
 fn at(piece: &Piece, portions: &[Portion], along: f64) -> Place {
     let mut left = along;
     for portion in portions {
@@ -259,7 +262,7 @@ fn at(piece: &Piece, portions: &[Portion], along: f64) -> Place {
     place(piece, last.edge, last.to)
 }
 
-/// Near an end of the edge that end itself; the end of an edge is the start of the next.
+/// A place on an edge, snapped to an end of the edge within [`SAME_PLACE`]; the end of an edge is the start of the next.
 fn place(piece: &Piece, edge: usize, at: f64) -> Place {
     let length = piece.edge_length(edge);
     match at {
@@ -269,7 +272,7 @@ fn place(piece: &Piece, edge: usize, at: f64) -> Place {
     }
 }
 
-/// The parts of edges a stretch runs over. None when it is not on the piece, or has no length.
+/// The parts of edges that a stretch covers. None when the stretch is not on the piece, or has no length.
 fn portions(pattern: &Pattern, stretch: &Stretch) -> Option<Vec<Portion>> {
     let piece = pattern.pieces.get(&stretch.piece)?;
     let parts: Vec<Portion> = stretch

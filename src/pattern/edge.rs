@@ -3,17 +3,17 @@
 use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
-/// Arc lengths are computed to this accuracy (metres).
+/// Accuracy to which arc lengths are computed, metres.
 pub const ARC_LENGTH_ACCURACY: f64 = 1e-7;
 
 /// The shape of one outline edge between its end points. Control points are absolute, in the piece's own plane, metres.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum EdgeShape {
-    /// Straight.
+    /// Straight line.
     #[default]
     Line,
-    /// Circular arc: `radius` > 0 metres, SVG flags in y-up coordinates (`sweep` true travels counter-clockwise).
+    /// Circular arc: `radius` > 0 metres, flags as in SVG but with y up (`sweep` true runs counter-clockwise).
     Arc { radius: f64, large: bool, sweep: bool },
     /// Quadratic Bézier.
     Quadratic { control: DVec2 },
@@ -26,9 +26,9 @@ pub enum EdgeShape {
 pub struct Edge {
     /// Where the edge starts, metres in the piece's own plane.
     pub start: DVec2,
-    /// What lies between start and end.
+    /// The curve between the edge's start and end.
     pub shape: EdgeShape,
-    /// The line runs on smoothly at the start point: when an editor turns one of its tangents, the other follows.
+    /// Whether the line is smooth at the start point: when an editor turns one of its two tangents, the other follows.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub smooth: bool,
     /// A name from the source file ("left_collar"), if any.

@@ -1,4 +1,4 @@
-//! Garments that are worn over each other, as one pattern.
+//! Combining garments that are worn over each other into one pattern.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -10,17 +10,17 @@ use crate::pattern::{Pattern, Piece};
 
 /// The highest layer.
 pub const MOST_LAYER: u8 = 15;
-/// Garments lie so far beside each other on the table, metres.
+/// Gap between garments side by side on the table (the pattern plane), metres.
 const BESIDE: f64 = 0.1;
 
 impl Pattern {
-    /// The highest layer of its pieces; 0 without any.
+    /// The highest layer of the pattern's pieces; 0 when it has none.
     pub fn outermost(&self) -> u8 {
         self.pieces.values().map(|piece| piece.layer).max().unwrap_or(0)
     }
 
-    /// Adds the pieces and seams of `garment`, worn over what there is and laid beside it on the table. A piece whose name is
-    /// taken gets `name` before it. An error, in words, where there would be more than [`MOST_LAYER`] layers over the first.
+    /// Adds the pieces and seams of `garment`, on layers over those of this pattern and beside it on the table. A piece
+    /// whose name is taken gets `name` as a prefix. Err: a message, where the layers would exceed [`MOST_LAYER`].
     pub fn wear_over(&mut self, garment: &Pattern, name: &str) -> Result<(), String> {
         let first = if self.pieces.is_empty() { 0 } else { self.outermost() + 1 };
         if first.saturating_add(garment.outermost()) > MOST_LAYER {
@@ -57,7 +57,7 @@ impl Pattern {
         Ok(())
     }
 
-    /// Lower left and upper right of what lies on the table, metres.
+    /// Lower left and upper right corner of all pieces on the table, metres. None without pieces.
     fn bounds(&self) -> Option<(DVec2, DVec2)> {
         let on_table = |piece: &Arc<Piece>| {
             let pose = piece.pose;

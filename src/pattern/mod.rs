@@ -1,4 +1,4 @@
-//! The flat garment.
+//! The flat pattern of a garment: pieces and seams.
 
 pub mod activity;
 pub mod curve;
@@ -27,12 +27,12 @@ pub use seam::{EdgeRef, EdgeSeam, Seam, Stretch};
 pub use space::{Roll, SpacePose};
 pub use triangulate::PieceMesh;
 
-/// Pieces and the seams between them. Ids come from `next_id` and are never used twice.
+/// A pattern: pieces and the seams between them. Ids come from `next_id` and are never used twice.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Pattern {
-    /// In id order, which is also the order they were made in.
+    /// The pieces, in the order of their ids, which is also the order in which they were made.
     pub pieces: BTreeMap<PieceId, Arc<Piece>>,
-    /// In id order.
+    /// The seams, in the order of their ids.
     pub seams: BTreeMap<SeamId, Seam>,
     /// The next free number for any id.
     pub next_id: u32,
@@ -53,12 +53,13 @@ impl Pattern {
         id
     }
 
-    /// The piece called `name`, if there is just one such name or more (the first).
+    /// The piece called `name`; the first, when several have that name.
     pub fn piece_named(&self, name: &str) -> Option<PieceId> {
         self.pieces.iter().find(|(_, p)| p.name == name).map(|(&id, _)| id)
     }
 
-    /// From now on editing keeps the lengths of all seams as they are to each other: those that differ are gathers.
+    /// Stores the present length ratio of every seam whose ratio is within [`edit::RATIOS`]; editing keeps it from
+    /// now on. Sides of different length become gathers.
     pub fn keep_ratios(&mut self) {
         let Self { pieces, seams, .. } = self;
         for seam in seams.values_mut() {

@@ -1,9 +1,9 @@
-//! Seams and edges by the names people gave their pieces.
+//! Descriptions of seams and edges, by the names that people gave their pieces.
 
 use crate::geometry::ids::SeamId;
 use crate::pattern::{EdgeRef, Pattern};
 
-/// A seam with the edges it joins, in words.
+/// Describes a seam and the edges it joins.
 pub fn seam_place(pattern: &Pattern, id: SeamId) -> String {
     pattern.seams.get(&id).map_or_else(
         || id.to_string(),
@@ -14,7 +14,7 @@ pub fn seam_place(pattern: &Pattern, id: SeamId) -> String {
     )
 }
 
-/// "front (piece 1), edge 3".
+/// Describes an edge: "front (piece 1), edge 3".
 pub fn place(pattern: &Pattern, edge: EdgeRef) -> String {
     match pattern.pieces.get(&edge.piece) {
         Some(piece) => format!("{} ({}), edge {}", piece.name, edge.piece, edge.edge),

@@ -1,4 +1,4 @@
-//! A flat piece of cloth: a closed outline, where it lies in the pattern plane, and where it was placed in space.
+//! A flat piece of cloth: its closed outline, its position on the table, and its placement in space.
 
 use glam::DVec2;
 use kurbo::{ParamCurveArclen, PathSeg};
@@ -10,49 +10,49 @@ use crate::pattern::activity::Activity;
 use crate::pattern::edge::{ARC_LENGTH_ACCURACY, Edge};
 use crate::pattern::{SpacePose, curve};
 
-/// Position, rotation and flip of a piece in the pattern plane. Where it lies on the table; it means nothing to the cloth.
+/// Position, rotation and flip of a piece on the table (the pattern plane). It has no effect on the cloth.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PlanePose {
-    /// Metres.
+    /// Translation, metres.
     pub offset: DVec2,
-    /// Counter-clockwise, radians.
+    /// Rotation, counter-clockwise, radians.
     pub rotation: f64,
-    /// Mirrored in x before rotating: its back is seen.
+    /// Whether the piece is mirrored in x before it is rotated, so that its back is seen.
     pub flipped: bool,
 }
 
 impl PlanePose {
-    /// From the piece's own plane to the pattern plane.
+    /// Maps a point from the piece's own plane to the pattern plane.
     pub fn plane_from_piece(&self, p: DVec2) -> DVec2 {
         let p = if self.flipped { DVec2::new(-p.x, p.y) } else { p };
         DVec2::from_angle(self.rotation).rotate(p) + self.offset
     }
 
-    /// From the pattern plane to the piece's own plane.
+    /// Maps a point from the pattern plane to the piece's own plane.
     pub fn piece_from_plane(&self, p: DVec2) -> DVec2 {
         let p = DVec2::from_angle(-self.rotation).rotate(p - self.offset);
         if self.flipped { DVec2::new(-p.x, p.y) } else { p }
     }
 }
 
-/// A line drawn on a piece that is not cut: to sew along, to fold, to place a pocket.
+/// An internal line: drawn on a piece, but not cut; for sewing along, folding, or placing a pocket.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct InternalLine {
-    /// Head to tail; the last edge ends at `end`. At least one.
+    /// The edges in order, each starting where the one before ends; the last ends at `end`. At least one.
     pub edges: Vec<Edge>,
     /// Where the last edge ends, metres in the piece's own plane.
     pub end: DVec2,
-    /// Shown to people; may be empty.
+    /// Name shown to people; may be empty.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub name: String,
 }
 
-/// A small mark on an edge that tells the sewer what meets there.
+/// A notch: a small mark on an edge that shows the sewer what to align there.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Notch {
     /// The edge, as [`Piece::edge`] counts.
     pub edge: usize,
-    /// Where on it, a fraction of its arc length, 0..=1.
+    /// Where on the edge, a fraction of its arc length, 0..=1.
     pub at: f64,
 }
 
@@ -62,50 +62,52 @@ pub struct Notch {
 /// from its back, as mirrored panels of GarmentCode are.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Piece {
-    /// Shown to people; need not be unique.
+    /// Name shown to people; need not be unique.
     pub name: String,
-    /// The line it is sewn on, without allowance. Closed: the last edge ends where the first starts.
+    /// The seam line, without allowance. Closed: the last edge ends where the first starts.
     pub outline: Vec<Edge>,
-    /// Closed lines whose inside is cut out. Their edges count on behind those of the outline and can be sewn.
+    /// Closed lines whose inside is cut out. Their edges are numbered after those of the outline and can be sewn.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub holes: Vec<Vec<Edge>>,
-    /// Lines drawn inside.
+    /// Internal lines.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub lines: Vec<InternalLine>,
-    /// Marks on the edges.
+    /// Notches on the edges.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub notches: Vec<Notch>,
-    /// From tail to head of the arrow along the warp, metres in the piece's own plane.
+    /// The grainline: tail and head of the arrow along the warp, metres in the piece's own plane.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub grainline: Option<[DVec2; 2]>,
-    /// Cloth left outside the outline when it is cut out, metres, 0..=0.2.
+    /// Seam allowance: width of the cloth outside the outline, metres, 0..=0.2.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub allowance: f64,
-    /// The line it is cut on where a file gave one, instead of `allowance` all round; gone when the outline changes.
+    /// The cutting line, where a file gave one instead of an even `allowance`; removed when the outline changes.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub cut_line: Vec<Edge>,
-    /// The outline is its own mirror image in the line x = 0 and stays so: it has an even number n of edges, edge i is
-    /// the image of edge n-1-i, and points 0 and n/2 lie on the line.
+    /// Whether the outline is kept its own mirror image in the line x = 0. It then has an even number n of edges,
+    /// edge i is the image of edge n-1-i, and points 0 and n/2 are on the line.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub symmetric: bool,
-    /// The piece that is and stays the mirror image of this one: its edge i of n is the image of edge n-1-i, hole by hole.
+    /// The twin: a piece that is kept the mirror image of this one. Its edge i of n is the image of edge n-1-i, for
+    /// the outline and for each hole.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub twin: Option<PieceId>,
-    /// Not to be moved or changed by the pointer.
+    /// Whether the pointer can neither move nor change the piece.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub locked: bool,
-    /// Not drawn in the pattern pane. It is sewn all the same.
+    /// Whether the piece is not drawn in the pattern pane. It is sewn all the same.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub hidden: bool,
-    /// Worn over all pieces of a lower layer, 0..=[`MOST_LAYER`](crate::pattern::layers::MOST_LAYER); layer 0 lies next to the skin.
+    /// The layer, 0..=[`MOST_LAYER`](crate::pattern::layers::MOST_LAYER): the piece is worn over all pieces of lower
+    /// layers; layer 0 is next to the skin.
     #[serde(default, skip_serializing_if = "is_skin")]
     pub layer: u8,
-    /// Whether draping and relaxing move it.
+    /// Whether draping and relaxing move the piece.
     #[serde(default, skip_serializing_if = "Activity::is_active")]
     pub activity: Activity,
-    /// Where it lies in the pattern pane.
+    /// Position on the table, as the pattern pane shows it.
     pub pose: PlanePose,
-    /// Where it stands round the body before it is sewn, if it was placed by a file or by hand.
+    /// Placement in space before sewing, if a file or a person gave one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub placement: Option<SpacePose>,
     /// A part of the body named by the source file ("arm", "leg", "body"), if any.
@@ -114,7 +116,7 @@ pub struct Piece {
 }
 
 impl Piece {
-    /// A piece of straight edges through `points`.
+    /// A piece with straight edges through `points`.
     pub fn polygon(name: &str, points: &[DVec2]) -> Self {
         Self {
             name: name.to_owned(),
@@ -123,18 +125,18 @@ impl Piece {
         }
     }
 
-    /// The closed lines it is cut along: the outline, then the holes.
+    /// The closed lines along which the piece is cut: the outline, then the holes.
     pub fn loops(&self) -> impl Iterator<Item = &Vec<Edge>> {
         std::iter::once(&self.outline).chain(&self.holes)
     }
 
-    /// Edges of all closed lines.
+    /// Number of edges of all closed lines.
     pub fn edge_count(&self) -> usize {
         self.loops().map(Vec::len).sum()
     }
 
-    /// Which closed line edge `i` is of (0: the outline), and the number of that line's first edge. Panics when there is
-    /// no such edge.
+    /// The closed line that edge `i` belongs to (0: the outline), and the number of that line's first edge. Panics
+    /// when there is no such edge.
     pub fn loop_of(&self, i: usize) -> (usize, usize) {
         let mut first = 0;
         for (k, edges) in self.loops().enumerate() {
@@ -151,7 +153,7 @@ impl Piece {
         if k == 0 { &self.outline } else { &self.holes[k - 1] }
     }
 
-    /// The edges of closed line `k`, to change them. Panics when there is no such line.
+    /// The edges of closed line `k` (0: the outline), mutable. Panics when there is no such line.
     pub fn loop_edges_mut(&mut self, k: usize) -> &mut Vec<Edge> {
         if k == 0 { &mut self.outline } else { &mut self.holes[k - 1] }
     }
@@ -173,7 +175,8 @@ impl Piece {
         (self.edge(i).start, self.edge(self.next_edge(i)).start)
     }
 
-    /// Edge `i` as curve segments, head to tail: one, or for an arc a few cubics. Panics when there is no such edge.
+    /// Edge `i` as curve segments, each starting where the one before ends: one, or for an arc a few cubics. Panics
+    /// when there is no such edge.
     pub fn edge_segments(&self, i: usize) -> Vec<PathSeg> {
         let (a, b) = self.edge_ends(i);
         curve::segments(a, self.edge(i).shape, b)
@@ -190,25 +193,25 @@ impl Piece {
         curve::exact_length(a, self.edge(i).shape, b)
     }
 
-    /// Points on edge `i` at `fractions` (0..=1, ascending) of its arc length. Ends are met exactly.
+    /// Points on edge `i` at `fractions` (0..=1, ascending) of its arc length. Fractions 0 and 1 give exactly its ends.
     pub fn edge_points(&self, i: usize, fractions: &[f64]) -> Vec<DVec2> {
         let (a, b) = self.edge_ends(i);
         curve::points(a, self.edge(i).shape, b, fractions)
     }
 
-    /// The outline as a closed polyline whose chords stay within `tolerance` metres of it; the last point is not the first.
+    /// The outline as a closed polyline whose chords stay within `tolerance` metres of it; the first point is not repeated.
     pub fn flattened(&self, tolerance: f64) -> Vec<DVec2> {
         flattened_loop(&self.outline, tolerance)
     }
 
-    /// Signed area of the outline flattened to 0.1 mm, square metres; positive when it runs counter-clockwise. Holes
-    /// count as cloth.
+    /// Signed area inside the outline flattened to 0.1 mm, square metres; positive when it runs counter-clockwise.
+    /// Holes are not subtracted.
     pub fn signed_area(&self) -> f64 {
         signed_area(&self.flattened(1e-4))
     }
 }
 
-/// A closed line as a closed polyline whose chords stay within `tolerance` metres of it; the last point is not the first.
+/// A closed line as a closed polyline whose chords stay within `tolerance` metres of it; the first point is not repeated.
 pub fn flattened_loop(edges: &[Edge], tolerance: f64) -> Vec<DVec2> {
     let mut points = Vec::new();
     for (i, edge) in edges.iter().enumerate() {
@@ -219,7 +222,7 @@ pub fn flattened_loop(edges: &[Edge], tolerance: f64) -> Vec<DVec2> {
 }
 
 impl InternalLine {
-    /// As a polyline whose chords stay within `tolerance` metres of it.
+    /// The line as a polyline whose chords stay within `tolerance` metres of it.
     pub fn flattened(&self, tolerance: f64) -> Vec<DVec2> {
         let mut points = Vec::new();
         for (i, edge) in self.edges.iter().enumerate() {

@@ -1,24 +1,24 @@
-//! How many points each edge gets, so that both sides of a seam have the same number.
+//! Sampling of edges: how many points each gets, so that both sides of a seam have the same number.
 
 use std::collections::BTreeMap;
 
 use crate::geometry::ids::{PieceId, SeamId};
 use crate::pattern::{CutPattern, EdgeRef, EdgeSeam, Problem, ProblemKind};
 
-/// Seams whose sides differ by more than this fraction are mentioned.
+/// Fraction by which the lengths of a seam's sides may differ before the seam is reported.
 const UNEQUAL: f64 = 0.02;
-/// An edge shorter than this has no length, metres.
+/// Length below which an edge is reported to have none, metres.
 const SHORTEST_EDGE: f64 = 1e-5;
 
-/// Intervals per edge for each piece, and the seams that can be sewn.
+/// The number of intervals of each edge, and the seams that can be sewn.
 pub struct Sampling {
     /// For each piece and edge the number of intervals, at least 1.
     pub intervals: BTreeMap<PieceId, Vec<usize>>,
-    /// Seams whose two edges exist and are free, in id order.
+    /// Seams whose two edges exist and are in no other seam, in the order of their ids.
     pub seams: Vec<(SeamId, EdgeSeam)>,
 }
 
-/// Chooses intervals of about `edge_length` metres. A seam's sides take the count of the longer side.
+/// Chooses intervals of about `edge_length` metres. Both sides of a seam get the number of the longer one.
 pub fn sampling(pattern: &CutPattern, edge_length: f64, problems: &mut Vec<Problem>) -> Sampling {
     let lengths: BTreeMap<PieceId, Vec<f64>> = pattern
         .pieces

@@ -1,4 +1,4 @@
-//! A seam joins two stretches of outline.
+//! Seams: each joins two stretches of outlines.
 
 use glam::DVec2;
 use serde::{Deserialize, Serialize};
@@ -11,25 +11,25 @@ use crate::pattern::Piece;
 pub struct EdgeRef {
     /// The piece.
     pub piece: PieceId,
-    /// Number of the edge as [`Piece::edge`](crate::pattern::Piece::edge) counts, from 0.
+    /// Number of the edge from 0, as [`Piece::edge`](crate::pattern::Piece::edge) counts.
     pub edge: usize,
 }
 
-/// A run along one closed line of a piece, the way it is drawn: from a place on one edge to a place on the same or a later
-/// one. A stretch may run over the place where the line starts.
+/// A stretch: a run along one closed line of a piece, in the direction of the line, from a place on one edge to a
+/// place on the same or a later edge. It may run past the point where the line starts.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Stretch {
     /// The piece.
     pub piece: PieceId,
-    /// The edge it starts on.
+    /// The edge on which the stretch starts.
     pub edge: usize,
-    /// Where on that edge it starts, a fraction of its arc length, 0..1.
+    /// Where on the first edge the stretch starts, a fraction of that edge's arc length, 0..1.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub from: f64,
-    /// How many edges further it ends; it runs at most once round.
+    /// Number of edges from the first to the last; the stretch runs at most once round the line.
     #[serde(default, skip_serializing_if = "is_none")]
     pub further: usize,
-    /// Where on its last edge it ends, a fraction of that edge's arc length, 0..=1.
+    /// Where on the last edge the stretch ends, a fraction of that edge's arc length, 0..=1.
     #[serde(default = "one", skip_serializing_if = "is_one")]
     pub to: f64,
 }
@@ -56,13 +56,13 @@ impl Stretch {
         Self { piece, edge, from: 0.0, further: 0, to: 1.0 }
     }
 
-    /// The edge it starts on.
+    /// The edge on which the stretch starts.
     pub fn first_edge(&self) -> EdgeRef {
         EdgeRef { piece: self.piece, edge: self.edge }
     }
 
-    /// Each edge it runs over, and from and to which fraction of that edge's length. None when it is not on `piece` or
-    /// has no length.
+    /// The edges that the stretch covers, each with the fractions of its length at which the covered part starts and
+    /// ends. None when the stretch is not on `piece` or has no length.
     pub fn parts(&self, piece: &Piece) -> Option<Vec<(usize, f64, f64)>> {
         let Self { edge, from, further, to, .. } = *self;
         let sound = (0.0..1.0).contains(&from) && (0.0..=1.0).contains(&to) && edge < piece.edge_count();
@@ -85,13 +85,13 @@ impl Stretch {
         Some(parts)
     }
 
-    /// Its arc length in metres, to 1e-12. None when it is not on `piece`.
+    /// Arc length of the stretch in metres, to 1e-12. None when it is not on `piece`.
     pub fn length(&self, piece: &Piece) -> Option<f64> {
         let parts = self.parts(piece)?;
         Some(parts.into_iter().map(|(edge, from, to)| (to - from) * piece.exact_edge_length(edge)).sum())
     }
 
-    /// Points at `fractions` (0..=1, ascending) of its arc length. None when it is not on `piece`.
+    /// Points at `fractions` (0..=1, ascending) of the stretch's arc length. None when it is not on `piece`.
     pub fn points(&self, piece: &Piece, fractions: &[f64]) -> Option<Vec<DVec2>> {
         let parts = self.parts(piece)?;
         let length = |&(edge, from, to): &(usize, f64, f64)| (to - from) * piece.edge_length(edge);
@@ -109,7 +109,7 @@ impl Stretch {
         Some(points)
     }
 
-    /// The edge it is the whole of, if it is.
+    /// The edge, where the stretch is the whole of one edge.
     pub fn whole_edge(&self) -> Option<EdgeRef> {
         let whole = self.from == 0.0 && self.further == 0 && self.to == 1.0;
         whole.then_some(EdgeRef { piece: self.piece, edge: self.edge })
@@ -122,31 +122,32 @@ impl From<EdgeRef> for Stretch {
     }
 }
 
-/// Two stretches sewn together along their whole length, points paired by arc-length fraction.
+/// A seam: two stretches sewn together along their whole length, points paired by fraction of arc length.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Seam {
     /// The two sides.
     pub sides: [Stretch; 2],
-    /// False: the start of one meets the end of the other (fronts on one side). True: start meets start.
+    /// Direction of pairing. False: the start of one side meets the end of the other (front joins front). True: start
+    /// meets start.
     pub same_direction: bool,
-    /// The length of the first side over that of the second, which editing keeps; more or less than one is a gather.
-    /// None: either may change alone.
+    /// Length of the first side divided by that of the second, which editing keeps; other than 1 it is a gather.
+    /// None: either side may change its length alone.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ratio: Option<f64>,
 }
 
 impl Seam {
-    /// Whole edges, neither length kept.
+    /// A seam between two whole edges, without a ratio.
     pub fn of_edges(sides: [EdgeRef; 2], same_direction: bool) -> Self {
         Self { sides: sides.map(Stretch::from), same_direction, ratio: None }
     }
 }
 
-/// One edge sewn to one edge: what a [`Seam`] becomes where the edges of its stretches are cut.
+/// One whole edge sewn to one whole edge: what a [`Seam`] becomes when edges are cut for sewing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct EdgeSeam {
     /// The two sides.
     pub sides: [EdgeRef; 2],
-    /// As in [`Seam`].
+    /// Direction of pairing, as in [`Seam::same_direction`].
     pub same_direction: bool,
 }

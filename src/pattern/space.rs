@@ -1,33 +1,34 @@
-//! Where a piece stands in space before it is sewn: flat, or rolled into a tube.
+//! Placement of a piece in space before it is sewn: flat, or rolled into a tube.
 
 use glam::{DQuat, DVec2, DVec3};
 use serde::{Deserialize, Serialize};
 
-/// A placement in space: `world = rotation * (x, y, 0) + translation`, the plane bent first where it is rolled.
+/// A placement in space: `world = rotation * (x, y, 0) + translation`; a rolled piece is bent before that.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SpacePose {
-    /// Metres.
+    /// Translation, metres.
     pub translation: DVec3,
-    /// Unit quaternion.
+    /// Rotation, a unit quaternion.
     pub rotation: DQuat,
-    /// Flat where there is none.
+    /// How the piece is rolled; None: flat.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub roll: Option<Roll>,
 }
 
-/// How a piece is rolled round a straight line behind it: an isometry, nothing is stretched (paper B, "self-rolling").
+/// A piece rolled round a straight axis behind it: an isometry, nothing is stretched (paper B, "self-rolling").
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Roll {
-    /// A point of the line of the piece that stays where the flat piece has it, metres in the piece's own plane.
+    /// A point of the line along which the rolled piece touches its flat plane, metres in the piece's own plane.
     pub centre: DVec2,
-    /// The direction of that line and of the axis, unit, in the piece's own plane.
+    /// Direction of that line and of the axis, a unit vector in the piece's own plane.
     pub along: DVec2,
-    /// Metres from the axis to the cloth, not 0. Positive: the axis lies on the side of -z of the piece's own plane.
+    /// Radius: distance from the axis to the cloth, metres, not 0. Positive: the axis is on the -z side of the
+    /// piece's own plane.
     pub radius: f64,
 }
 
 impl Roll {
-    /// The place of `p` of the piece's own plane, bent.
+    /// The point `p` of the piece's own plane after rolling, before it is placed, metres.
     fn bent(&self, p: DVec2) -> DVec3 {
         let (d, across) = (p - self.centre, -self.along.perp());
         let (sin, cos) = (d.dot(across) / self.radius).sin_cos();
@@ -37,24 +38,24 @@ impl Roll {
 }
 
 impl SpacePose {
-    /// A flat one.
+    /// A flat placement.
     pub fn flat(translation: DVec3, rotation: DQuat) -> Self {
         Self { translation, rotation, roll: None }
     }
 
-    /// Where it puts `p` of the piece's own plane, metres.
+    /// The position in space of the point `p` of the piece's own plane, metres.
     pub fn at(&self, p: DVec2) -> DVec3 {
         let local = self.roll.map_or(p.extend(0.0), |roll| roll.bent(p));
         self.rotation * local + self.translation
     }
 
-    /// The same, turned by `turn` about `about` and then moved by `by` metres.
+    /// This placement rotated by `turn` about the point `about` and then moved by `by` metres.
     pub fn moved(self, turn: DQuat, about: DVec3, by: DVec3) -> Self {
         let translation = turn * (self.translation - about) + about + by;
         Self { translation, rotation: (turn * self.rotation).normalize(), ..self }
     }
 
-    /// Whether all its numbers mean something.
+    /// Whether the placement is valid: all numbers finite, rotation and direction of unit length, radius not 0.
     pub fn is_sound(&self) -> bool {
         let roll = self.roll.is_none_or(|roll| {
             let lengths = roll.centre.is_finite() && roll.radius.is_finite() && roll.radius != 0.0;

@@ -1,4 +1,4 @@
-//! Flat pieces to triangles: constrained Delaunay with refinement (spade), seeded by a triangular lattice.
+//! Triangulation of flat pieces: constrained Delaunay with refinement (spade), seeded by a triangular lattice.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -12,43 +12,43 @@ use crate::geometry::polygon::{contains, signed_area};
 use crate::pattern::sampling::Sampling;
 use crate::pattern::{CutPattern, EdgeRef, EdgeShape, Piece, Problem, ProblemKind};
 
-/// Refinement aims at this smallest angle, degrees; sharp corners of the outline keep theirs.
+/// Smallest angle that refinement aims at, degrees; sharp corners of the outline keep theirs.
 const SMALLEST_ANGLE_DEG: f64 = 27.0;
-/// Lattice points nearer than this many edge lengths to the outline are left out.
+/// Clearance between lattice points and the outline, in edge lengths; nearer lattice points are left out.
 const LATTICE_CLEARANCE: f64 = 0.62;
-/// Points the outline of one piece may have.
+/// Most points that the outline of one piece may have.
 const MOST_OUTLINE_POINTS: usize = 100_000;
-/// Triangles one piece may have.
+/// Most triangles that one piece may have.
 const MOST_TRIANGLES: f64 = 2e6;
 
 /// A triangulated piece in its own plane.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PieceMesh {
-    /// Metres. The points of the outline come first, in its order.
+    /// Points, metres. Those of the outline come first, in its order.
     pub points: Vec<DVec2>,
     /// For each edge its points from start to end, both included.
     pub edge_points: Vec<Vec<u32>>,
     /// Counter-clockwise seen from the front of the piece.
     pub triangles: Vec<[u32; 3]>,
-    /// The outline runs clockwise: the front is the far side of the drawing.
+    /// Whether the outline runs clockwise, so that the front is the far side of the drawing.
     pub front_is_far: bool,
 }
 
-/// Triangulated pieces, kept for the next time.
+/// Triangulated pieces, kept so that unchanged ones are not triangulated again.
 #[derive(Clone, Debug, Default)]
 pub struct Meshes {
     made: BTreeMap<PieceId, (Key, Arc<PieceMesh>)>,
     edge_length: f64,
-    /// Pieces triangulated the last time, not taken as they were.
+    /// Number of pieces that the last update triangulated rather than reused.
     pub fresh: usize,
 }
 
-/// What a mesh is made from: the piece and the intervals of its edges.
+/// Key of a kept mesh: the piece and the number of intervals of each edge.
 type Key = (Arc<Piece>, Vec<usize>);
 
 impl Meshes {
-    /// Triangulates every piece it can; what it cannot is among `problems`, by name. Pieces that are as they were, with as
-    /// many points on their edges, are not triangulated again.
+    /// Triangulates every piece that it can; the others are reported in `problems` by name. A piece that has not
+    /// changed, with the same intervals, is reused.
     pub fn update(
         &mut self,
         pattern: &CutPattern,
@@ -148,7 +148,7 @@ fn piece_mesh(
     Ok(PieceMesh { points, edge_points: lines.edge_points, triangles, front_is_far })
 }
 
-/// Whether all points lie on one line, to a millionth of their extent.
+/// Whether all points are on one line, to within a millionth of their extent.
 fn is_straight(outline: &[DVec2], extent: f64) -> bool {
     let far = outline.iter().copied().find(|p| (*p - outline[0]).length() >= extent);
     let along = far.map_or(DVec2::ZERO, |p| (p - outline[0]).normalize_or_zero());
@@ -167,12 +167,12 @@ fn is_finite(piece: &Piece) -> bool {
     })
 }
 
-/// The closed lines of a piece as polylines, one behind the other.
+/// The closed lines of a piece as polylines, one after the other.
 struct Lines {
     points: Vec<DVec2>,
-    /// The point that follows each.
+    /// For each point the one that follows it on its line.
     next: Vec<u32>,
-    /// The first point of each line, and the number of points.
+    /// For each line the index of its first point; then the number of points.
     starts: Vec<usize>,
     /// For each edge its points from start to end, both included.
     edge_points: Vec<Vec<u32>>,
@@ -211,7 +211,7 @@ impl Lines {
         (self.points[i], self.points[self.next[i] as usize])
     }
 
-    /// The first two segments that meet without being neighbours.
+    /// The first two segments that intersect without being neighbours.
     fn crossing(&self) -> Option<(usize, usize)> {
         let around = |i: usize| {
             let (a, b) = self.segment(i);
@@ -235,7 +235,7 @@ impl Lines {
         })
     }
 
-    /// What is wrong with a hole that lies outside the outline or inside another; the lines do not cross.
+    /// Describes a hole that lies outside the outline or inside another hole; assumes that the lines do not cross.
     fn misplaced_hole(&self) -> Option<String> {
         let inside = |k: usize, p: DVec2| contains(self.of_loop(k), p);
         let holes = 1..self.starts.len() - 1;
@@ -268,12 +268,12 @@ fn segments_meet(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> bool {
 }
 
 fn robust_orientation(a: DVec2, b: DVec2, c: DVec2) -> f64 {
-    // Rounded away below the accuracy of curve sampling.
+    // Values below the accuracy of curve sampling are rounded to zero.
     let o = (b - a).perp_dot(c - a);
     if o.abs() < 1e-16 { 0.0 } else { o }
 }
 
-/// Points (outline first) and triangles counter-clockwise in the drawing.
+/// Refined triangulation: its points, those of the outline first, and its triangles, counter-clockwise in the drawing.
 fn refined(lines: &Lines, edge_length: f64) -> Option<(Vec<DVec2>, Vec<[u32; 3]>)> {
     let outline = &lines.points;
     let mut cdt = ConstrainedDelaunayTriangulation::<Point2<f64>>::new();
@@ -314,7 +314,7 @@ fn refined(lines: &Lines, edge_length: f64) -> Option<(Vec<DVec2>, Vec<[u32; 3]>
     Some(only_used(points, triangles, outline.len()))
 }
 
-/// Drops points that no triangle uses (refinement may leave some outside), keeping the first `keep`.
+/// Removes points that no triangle uses (refinement may leave some outside), keeping the first `keep`.
 fn only_used(points: Vec<DVec2>, mut triangles: Vec<[u32; 3]>, keep: usize) -> (Vec<DVec2>, Vec<[u32; 3]>) {
     let mut used = vec![false; points.len()];
     used[..keep].fill(true);
@@ -335,7 +335,7 @@ fn only_used(points: Vec<DVec2>, mut triangles: Vec<[u32; 3]>, keep: usize) -> (
     (kept, triangles)
 }
 
-/// Points of an equilateral lattice inside the outline, clear of it.
+/// Points of an equilateral lattice inside the outline, with clearance from it.
 fn lattice(lines: &Lines, spacing: f64) -> Vec<DVec2> {
     let outline = &lines.points;
     let lower = outline.iter().fold(DVec2::INFINITY, |m, &p| m.min(p));

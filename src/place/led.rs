@@ -1,8 +1,8 @@
-//! Sleeves led to their arms before they are sewn: pieces that stand before and behind an arm, but too high, too low or aslant
-//! for it, would be sewn together beside it.
+//! Leads sleeves to their arms before they are sewn. Pieces placed before and behind an arm, but too high, too low or
+//! at an angle to it, would be sewn together beside the arm.
 //!
-//! What stands there need not keep its shape: it is bent in its plane towards the arm, from its cuff on up, and relaxes as it is
-//! sewn.
+//! Such a sleeve need not keep its shape: it is bent in its plane towards the arm, from its cuff on up, and relaxes
+//! when it is sewn.
 
 use glam::{DQuat, DVec3};
 
@@ -12,22 +12,22 @@ use crate::geometry::borders::border_loops;
 use crate::geometry::mesh::TriMesh;
 use crate::place::limbs::{Limb, Part, limbs};
 
-/// The cuff's middle is farther from the shoulder than this, metres on a body 1.5 m large: otherwise there is no sleeve,
+/// Distance of the cuff's middle from the shoulder below which there is no sleeve, metres on a body 1.5 m large.
 const LONG: f64 = 0.04;
-/// and no farther than this: then it is no sleeve.
+/// Distance of the cuff's middle from the shoulder above which the opening is not a sleeve's, metres on a body 1.5 m large.
 const REACH: f64 = 0.75;
-/// A sleeve that stands at a larger angle (cosine) to its arm is none of it.
+/// Smallest cosine between a sleeve and its arm.
 const ASIDE: f64 = 0.4;
-/// Between skin and the edge of a sleeve that needs no leading, metres on a body 1.5 m large.
+/// Distance between skin and the edges of a sleeve that is enough to leave it, metres on a body 1.5 m large.
 const CLEAR: f64 = 0.015;
-/// What lies nearer to the cuff than this share of its distance from the shoulder is led wholly. From there on ever less, over at
-/// least the second share,
+/// Fractions of the cuff's distance from the shoulder: cloth nearer to the cuff than the first is turned wholly;
+/// beyond it the turn fades out over at least the second. See [`GENTLE`].
 const BENT: [f64; 2] = [0.5, 0.6];
-/// and over so many times the way the cuff goes: over less, the cloth would be turned over there.
+/// Smallest length over which the turn fades out, as a multiple of the cuff's path: over less, the cloth would be turned over.
 const GENTLE: f64 = 2.0;
 
-/// `places` (metres, one for each flat corner of `garment`) with sleeves led to the arms of the body; as they are where it does not
-/// look human, or where the arms run between the edges of the sleeves already.
+/// `places` (metres, one for each flat corner of `garment`) with sleeves led to the arms of the body. They are
+/// unchanged where the body does not look human, or where the arms run between the edges of the sleeves already.
 pub fn led(garment: &Garment, surface: &Surface, places: &[Option<DVec3>]) -> Vec<Option<DVec3>> {
     let mut places = places.to_vec();
     let Some(marks) = landmarks::found(&surface.mesh) else { return places };
@@ -61,33 +61,33 @@ pub fn led(garment: &Garment, surface: &Surface, places: &[Option<DVec3>]) -> Ve
     places
 }
 
-/// The edge of a sleeve.
+/// The cuff: the opening at the end of a sleeve.
 struct Cuff<'a> {
     border: &'a [u32],
-    /// Where it stands, metres.
+    /// Positions of the corners at the opening, metres.
     points: Vec<DVec3>,
-    /// From the shoulder to its middle, upright, metres.
+    /// From the shoulder to the middle of the opening, in the frontal plane, metres.
     from: DVec3,
 }
 
 /// An arm, seen from the front.
 struct Arm<'a> {
     surface: &'a Surface,
-    /// Where its line comes by the shoulder, metres.
+    /// Point of the arm's line nearest to the shoulder, metres.
     root: DVec3,
-    /// Unit, upright.
+    /// Direction of the arm in the frontal plane, a unit vector.
     along: DVec3,
 }
 
 impl<'a> Arm<'a> {
-    /// None where it points straight to the front or back.
+    /// The arm of `limb`. None where it points straight to the front or back.
     fn new(limb: &Limb, shoulder: DVec3, surface: &'a Surface) -> Option<Self> {
         let (from, way) = (limb.bone[0], limb.along());
         let root = from + way * (shoulder - from).dot(way);
         Some(Self { surface, root, along: upright(way).try_normalize()? })
     }
 
-    /// The openings that stand at its side as a cuff may, the outermost first.
+    /// The openings that may be a cuff of this arm, the outermost first.
     fn cuffs<'b>(
         &self,
         garment: &Garment,
@@ -121,7 +121,7 @@ impl<'a> Arm<'a> {
         cuffs
     }
 
-    /// Whether it has room between the edges of `cuff`, those before it and those behind.
+    /// Whether the arm has room between the edges of `cuff` before it and those behind it.
     fn runs_through(&self, cuff: &Cuff<'_>) -> bool {
         let Some(across) = upright(DVec3::Y - self.along * self.along.y).try_normalize() else { return true };
         let at = self.root + self.along * cuff.from.dot(self.along);
@@ -139,8 +139,8 @@ impl<'a> Arm<'a> {
         before[0].max(behind[0]) <= -skin(-across) && skin(across) <= before[1].min(behind[1])
     }
 
-    /// Turns what is sewn to `cuff` about the shoulder till the cuff stands round the arm, each place less the farther it is
-    /// `away` from it (metres, for each vertex); none goes farther than the cuff.
+    /// Turns the cloth sewn to `cuff` about the shoulder until the cuff is round the arm. The turn fades with the
+    /// distance `away` from the cuff (metres, for each vertex); no point moves farther than the cuff.
     fn turn(&self, cuff: &Cuff<'_>, garment: &Garment, away: &[f64], places: &mut [Option<DVec3>]) {
         let length = cuff.from.length();
         let angle = cuff.from.cross(self.along).z.atan2(cuff.from.dot(self.along));

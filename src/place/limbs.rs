@@ -1,4 +1,4 @@
-//! Which bone of a body is what.
+//! Names the bones of a body: trunk, head, arms, legs.
 
 use std::fmt;
 
@@ -6,13 +6,14 @@ use glam::DVec3;
 
 use crate::contact::Bone;
 
-/// A bone whose ends come this near to the plane between left and right belongs to the middle: share of the body's height.
+/// Distance from the plane between left and right within which a bone's ends must be for it to belong to the middle,
+/// as a fraction of the body's height.
 const MIDDLE: f64 = 0.05;
 
-/// Arms begin higher on the trunk than this share of it, legs lower.
+/// Height on the trunk, as a fraction of its length, above which arms begin and below which legs do.
 const ARMS: f64 = 0.3;
 
-/// What of the body a bone carries.
+/// The part of the body that a bone carries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
     Trunk,
@@ -23,7 +24,7 @@ pub enum Part {
     Leg {
         left: bool,
     },
-    /// Something else, by its number from 1.
+    /// Another part, by the number of its bone, from 1.
     Other(usize),
 }
 
@@ -40,23 +41,23 @@ impl fmt::Display for Part {
     }
 }
 
-/// A bone and what it is.
+/// A bone and the part of the body that it carries.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limb {
     pub part: Part,
-    /// From the end nearer to the trunk's middle to the other, metres; that of the trunk from below.
+    /// The bone from the end nearer to the trunk to the other, metres; the trunk's own from its lower end.
     pub bone: Bone,
 }
 
 impl Limb {
-    /// Unit, from the first end to the second.
+    /// Direction of the bone from its first end to its second, a unit vector.
     pub fn along(&self) -> DVec3 {
         (self.bone[1] - self.bone[0]).normalize_or_zero()
     }
 }
 
-/// What the bones of a body are, that is `tall` metres high. Two that run up the middle are trunk and head; the others hang
-/// from the upper or lower part of the trunk. Without a trunk nothing has a name.
+/// Names the bones of a body that is `tall` metres high. Two that run up the middle are trunk and head; the others
+/// begin on the upper (arms) or lower part (legs) of the trunk. Without a trunk all parts are [`Part::Other`].
 pub fn limbs(bones: &[Bone], tall: f64) -> Vec<Limb> {
     let centre = |[a, b]: &Bone| (*a + *b) / 2.0;
     let middle = bones.iter().map(|bone| centre(bone).x).sum::<f64>() / bones.len().max(1) as f64;

@@ -1,5 +1,5 @@
-//! Where pieces stand in space before they are sewn: points round the body to stand them at, tubes round its limbs, what a file
-//! says for one body brought to another, and sleeves led to their arms.
+//! Placement of pieces in space before they are sewn: arrangement points round the body, tubes round its limbs, a
+//! file's placement moved to another body, and sleeves led to their arms.
 
 pub mod led;
 pub mod limbs;

@@ -1,5 +1,4 @@
-//! A file's placement brought to another body: pieces that stand round a body of another height, another origin or with its
-//! arms elsewhere are moved to where they stand round this one.
+//! Moves a file's placement to another body: one of another height, with another origin, or with its arms elsewhere.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -13,35 +12,36 @@ use crate::pattern::{CutPattern, EdgeRef, Pattern, SpacePose};
 use crate::place::limbs::{Part, limbs};
 use crate::wrap::{Stand, stand};
 
-/// A garment that stands no farther from where it belongs than this is left there, metres on a body 1.5 m large.
+/// Distance from where it belongs within which a garment is left, metres on a body 1.5 m large.
 const NEAR: f64 = 0.06;
-/// The same where its sleeves have to be turned.
+/// Distance from where it belongs within which a garment is left, if its sleeves have to be turned; metres on a body
+/// 1.5 m large.
 const EXACT: f64 = 0.01;
-/// One that is held by a ring round the trunk may stand so far from where that would rest: it slides, and may be meant to sit
-/// higher or lower, metres on a body 1.5 m large.
+/// Distance from where it would rest within which a garment held by a ring round the trunk is left, metres on a body
+/// 1.5 m large: it slides, and may be meant to sit higher or lower.
 const RING_NEAR: f64 = 0.15;
-/// What is cut in one with its sleeves is raised at most so far for its arms, metres on a body 1.5 m large.
+/// Largest distance by which a garment cut in one with its sleeves is raised for its arms, metres on a body 1.5 m large.
 const RAISED: f64 = 0.1;
-/// Pieces of an arm that stand along it to this angle are left so, radians.
+/// Angle between a sleeve and its arm within which the sleeve is left, radians.
 const ALONG: f64 = 0.3;
-/// An arm whose direction points to the front or back by more than this (sine) is stretched there.
+/// Sine of the angle of an arm to the frontal plane above which it counts as stretched to the front or back.
 const FORWARD: f64 = 0.45;
-/// Pieces of an arm stand wholly this far from the middle, as a share of the trunk's half breadth.
+/// Distance from the middle beyond which pieces of an arm must be wholly, as a fraction of the trunk's half breadth.
 const BESIDE: f64 = 0.7;
-/// Seams of a sleeve run along it when the cosine is larger.
+/// Cosine between a seam and its sleeve above which the seam runs along the sleeve.
 const RUNS_ALONG: f64 = 0.6;
 
-/// Where pieces go, and what was done to them in words.
+/// New placements of pieces, and messages about what was done.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Moved {
-    /// Of the pieces that move.
+    /// Placements of the pieces that move.
     pub placements: Vec<(PieceId, Option<SpacePose>)>,
-    /// "raised by 1.10 m", "left sleeve turned by 47°".
+    /// Messages such as "raised by 1.10 m" or "left sleeve turned by 47°".
     pub words: Vec<String>,
 }
 
 impl Moved {
-    /// Moves the pieces of `pattern`.
+    /// Applies the placements to the pieces of `pattern`.
     pub fn carry_out(&self, pattern: &mut Pattern) {
         for (id, placement) in &self.placements {
             if let Some(piece) = pattern.pieces.get_mut(id) {
@@ -51,10 +51,10 @@ impl Moved {
     }
 }
 
-/// Brings the placement of `pattern` to the body with these bones: all of it up or down and sideways to where what carries it
-/// belongs (shoulder seams on the shoulders, those along the arms over them, a waistband where it rests), and what is sewn round
-/// an arm on to that arm, along it (paper B, "initial positioning": the axis of a piece is turned on to its bone). What stands
-/// near enough stays.
+/// Moves the placement of `pattern` to the body with these bones. The whole garment is moved up or down and sideways
+/// to where its support belongs (shoulder seams on the shoulders, those along the arms over them, a waistband where
+/// it rests). Pieces sewn round an arm are turned and moved on to that arm (paper B, "initial positioning": the axis
+/// of a piece is turned on to its bone). What is near enough is left.
 /// `offset` is the height of the cloth above the skin, metres.
 pub fn onto(pattern: &Pattern, surface: &Surface, bones: &[Bone], offset: f64) -> Moved {
     let Some(trunk) = Trunk::new(surface) else { return Moved::default() };
@@ -71,7 +71,7 @@ pub fn onto(pattern: &Pattern, surface: &Surface, bones: &[Bone], offset: f64) -
         let goes = towards(group.along, arm.along());
         (group.along.angle_between(goes) > ALONG).then_some((arm, group, goes))
     };
-    // Sleeves that are turned leave less room for what stands too low.
+    // If sleeves are turned, there is less room for a garment that is too low.
     let is_other_pose = [true, false].into_iter().any(|left| turned(&poses, left).is_some());
     let near = if is_other_pose { EXACT } else { NEAR };
     let by = stand(&cut, surface, &trunk, offset)
@@ -87,7 +87,7 @@ pub fn onto(pattern: &Pattern, surface: &Surface, bones: &[Bone], offset: f64) -
         let turn = DQuat::from_rotation_arc(was, goes);
         let turned: Vec<DVec3> =
             group.outline(&cut, &poses).map(|p| turn * (p - group.armhole) + group.armhole).collect();
-        // Round the arm: the middle of what they span across it comes to its bone.
+        // Round the arm: move the middle of the sleeve's extent across the arm to its bone.
         let across =
             [DVec3::Z, goes.cross(DVec3::Z)].map(|way| (way - goes * goes.dot(way)).normalize_or_zero());
         let by: DVec3 = across
@@ -97,7 +97,7 @@ pub fn onto(pattern: &Pattern, surface: &Surface, bones: &[Bone], offset: f64) -
                 let (low, high) =
                     spans.fold((f64::MAX, f64::MIN), |(low, high), s| (low.min(s), high.max(s)));
                 let up = *way * way.y.signum();
-                // What is wider than the arm hangs on it: more of it stands above.
+                // A sleeve wider than the arm hangs on it: more of it is above.
                 let arm_is = surface.ray(arm.bone[0], up).map_or(0.0, |hit| hit.distance);
                 let slack = ((high - low) / 2.0 - arm_is).max(0.0);
                 *way * (arm.bone[0].dot(*way) - (low + high) / 2.0) + up * (slack / 2.0 * way.y.abs())
@@ -113,21 +113,21 @@ pub fn onto(pattern: &Pattern, surface: &Surface, bones: &[Bone], offset: f64) -
     Moved { placements: changed.map(|(id, pose)| (id, Some(pose))).collect(), words }
 }
 
-/// Where a sleeve that runs `along` goes for an arm that runs `arm`: two halves before and behind stay so, upright, where the
-/// arm is not stretched far to the front or back.
+/// Direction for a sleeve that runs `along` on an arm that runs `arm`: in the frontal plane, so that its halves
+/// before and behind stay upright, where the arm is not stretched far to the front or back.
 fn towards(along: DVec3, arm: DVec3) -> DVec3 {
     let upright = (arm * DVec3::new(1.0, 1.0, 0.0)).normalize_or_zero();
     let is_upright = along.z.abs() < FORWARD && arm.z.abs() < FORWARD && upright != DVec3::ZERO;
     if is_upright { upright } else { arm }
 }
 
-/// How the whole garment goes; zero along axes along which it stands near enough. What hangs from the shoulders may do so
-/// `hung_near` metres from them on a body 1.5 m large.
+/// Translation of the whole garment, metres; zero along axes along which it is near enough. One that hangs from the
+/// shoulders may be `hung_near` from them, metres on a body 1.5 m large.
 fn shift(stand: Stand, waist: DVec3, scale: f64, hung_near: f64) -> DVec3 {
     let Stand { placed, body, bounds, hangs, short_of_arms } = stand;
     let near = NEAR * scale;
     let far = |by: f64| if by.abs() > near { by } else { 0.0 };
-    // What stands round the body stays where it is before, behind and beside it.
+    // Sideways the garment stays where the waist is within the middle half of its extent, or where it has no extent.
     let sideways = |axis: usize| {
         let (low, high) = (bounds[0][axis], bounds[1][axis]);
         let (middle, breadth) = ((low + high) / 2.0, high - low);
@@ -137,12 +137,12 @@ fn shift(stand: Stand, waist: DVec3, scale: f64, hung_near: f64) -> DVec3 {
     let up = body - placed;
     let stays = up.abs() <= scale * if hangs { hung_near } else { RING_NEAR };
     let up = if stays { 0.0 } else { up };
-    // Sewn with the arms below, it falls on to the shoulders.
+    // Sewn with the arms underneath, the garment falls on to the shoulders.
     let up = up.max(short_of_arms.min(up + RAISED * scale));
     DVec3::new(sideways(0), up, sideways(2))
 }
 
-/// The middle of the trunk half way up.
+/// Centre of the trunk half way up, metres.
 fn waist(trunk: &Trunk) -> DVec3 {
     let Some(level) = trunk.levels.get(trunk.levels.len() / 2) else { return DVec3::X * trunk.middle };
     let spans =
@@ -162,12 +162,12 @@ fn told(by: DVec3) -> Vec<String> {
     ways.into_iter().enumerate().filter_map(words).collect()
 }
 
-/// Pieces that go round one arm.
+/// The pieces round one arm.
 struct Sleeve {
     pieces: BTreeSet<PieceId>,
-    /// Where they are sewn to the rest, metres.
+    /// Mean position of the seams by which they are sewn to the rest, metres.
     armhole: DVec3,
-    /// Unit, from there to their other end.
+    /// Direction from the armhole to the other end, a unit vector.
     along: DVec3,
 }
 
@@ -184,8 +184,8 @@ impl Sleeve {
     }
 }
 
-/// The pieces of the left or right arm: those that a file or their name says are, or that stand wholly beside the trunk above
-/// the waist, with what else is sewn only to them. None where there are none, or nothing they are sewn to.
+/// The pieces of the left or right arm: those that are so by label or name, or that are wholly beside the trunk above
+/// the waist. None where there are none, or where they are sewn to nothing else.
 fn sleeve(
     cut: &CutPattern,
     trunk: &Trunk,
@@ -231,7 +231,7 @@ fn sleeve(
     let mut sleeve = Sleeve { pieces, armhole, along: DVec3::ZERO };
     let (sum, count) = sleeve.outline(cut, poses).fold((DVec3::ZERO, 0), |(sum, n), p| (sum + p, n + 1));
     let outward = sum / f64::from(count) - armhole;
-    // Seams that run along it say more than the middle of what may be slanted.
+    // Seams along the sleeve tell its direction better than its middle, which may be off where it is slanted.
     let outward_unit = outward.normalize_or_zero();
     let along: DVec3 = lengths
         .iter()

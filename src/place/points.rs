@@ -1,4 +1,4 @@
-//! Arrangement points: places round the body at which a piece can be stood, and how it stands there.
+//! Arrangement points: places round the body at which a piece can be put, and its placement there.
 
 use glam::{DMat3, DQuat, DVec2, DVec3};
 
@@ -7,36 +7,37 @@ use crate::contact::Bone;
 use crate::pattern::{Piece, Roll, SpacePose};
 use crate::place::limbs::{Limb, Part, limbs};
 
-/// How far from the skin flat pieces stand before and behind the body, metres on a body 1.5 m large.
+/// Distance between skin and flat pieces before and behind the body, metres on a body 1.5 m large.
 const BEFORE: f64 = 0.05;
-/// How far from the skin cloth stands round a limb, metres on a body 1.5 m large.
+/// Distance between skin and cloth round a limb, metres on a body 1.5 m large.
 const ROUND: f64 = 0.02;
-/// Pieces before and behind the body make way for what of it stands out by so much at most, metres on a body 1.5 m large.
+/// Largest protrusion of the body that flat pieces before and behind it are moved out for, metres on a body 1.5 m large.
 const STANDS_OUT: f64 = 0.25;
-/// Between the two sides of a piece that is rolled up, metres.
+/// Gap between the two sides of a piece that is rolled up, metres.
 const GAP: f64 = 0.01;
-/// A piece at a limb that would go round more than this share of it is rolled.
+/// Fraction of a limb's circumference above which a piece at the limb is rolled.
 const ROLLED: f64 = 0.55;
 
-/// A place on the skin of a body, with the way cloth stands there.
+/// An arrangement point: a place on the skin, with the directions in which cloth is placed there.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Point {
-    /// "left upper arm, front".
+    /// Name, such as "left upper arm, front".
     pub name: String,
     pub part: Part,
-    /// On the skin, metres.
+    /// Position on the skin, metres.
     pub at: DVec3,
-    /// Unit, away from the bone.
+    /// Direction away from the bone, a unit vector.
     pub out: DVec3,
-    /// Unit, along the bone: where the upper end of a piece points, towards the trunk; up at the trunk and at the head.
+    /// Direction along the bone in which the upper end of a piece points: towards the trunk, at trunk and head
+    /// upward; a unit vector.
     pub up: DVec3,
-    /// From the bone to the skin there, metres.
+    /// Distance from the bone to the skin at the point, metres.
     pub reach: f64,
-    /// From the bone to the farthest of the points round it at this height, metres.
+    /// Distance from the bone to the farthest of the points round it at this height, metres.
     pub girth_radius: f64,
 }
 
-/// The places along a bone at which there are points: their names and shares of its length.
+/// The places along a bone that have points: their names, and their positions as fractions of the bone's length.
 fn heights(part: Part, halves: bool) -> &'static [(&'static str, f64)] {
     match part {
         Part::Trunk => &[("hips", 0.1), ("waist", 0.4), ("chest", 0.62)],
@@ -48,8 +49,8 @@ fn heights(part: Part, halves: bool) -> &'static [(&'static str, f64)] {
     }
 }
 
-/// The arrangement points of a body with these bones: four round each of some places along each bone. Where the skin has none
-/// (a bone that leaves the body), they are left out.
+/// The arrangement points of a body with these bones: four round each of some places along each bone. Points without
+/// skin (where a bone leaves the body) are left out.
 pub fn points(surface: &Surface, bones: &[Bone]) -> Vec<Point> {
     let (lower, upper) = surface.bounds();
     let limbs = limbs(bones, upper.y - lower.y);
@@ -71,7 +72,7 @@ fn ring(surface: &Surface, limb: &Limb, height: &str, share: f64) -> Vec<Point> 
     let along = limb.along();
     let up = if matches!(limb.part, Part::Trunk | Part::Head) { along } else { -along };
     let Some(front) = (DVec3::Z - along * along.z).try_normalize() else { return Vec::new() };
-    // Right-handed, seen with the face towards the reader: the body's left is at +x.
+    // Right-handed, seen with the body facing the reader: the body's left is at +x.
     let left = up.cross(front);
     let sides = match limb.part {
         Part::Arm { left: true } | Part::Leg { left: true } => ["outside", "inside"],
@@ -103,15 +104,15 @@ fn ring(surface: &Surface, limb: &Limb, height: &str, share: f64) -> Vec<Point> 
     hits.into_iter().map(point).collect()
 }
 
-/// Where `piece` stands when it is put at `point`: its middle there, its outer side looking away from the body and what is
-/// up on the table pointing along the bone. Before, behind and beside the trunk it is flat, clear of what of the body stands
-/// out behind it; at a limb it is rolled where it goes round most of it (the radius of paper B's self-rolling, or that of
-/// the limb where that is larger).
+/// Placement of `piece` at `point`: its middle there, its outer side facing away from the body, its upper end on the
+/// table along the bone's `up`. Before, behind and beside the trunk it is flat, clear of whatever protrudes from the
+/// body behind it. At a limb it is rolled where it goes round most of it, with the radius of paper B's self-rolling,
+/// or that of the limb where that is larger.
 pub fn stood_at(piece: &Piece, point: &Point, surface: &Surface) -> SpacePose {
     let scale = surface.scale();
     let Frame { up, across, left, right, bottom, top, centre, outer } = Frame::new(piece);
     let width = right - left;
-    // Columns: where `across`, `up` and the plane's +z go.
+    // Columns: the images of `across`, `up` and the plane's +z.
     let z = point.out * outer;
     let to_world = DMat3::from_cols(point.up.cross(z), point.up, z);
     let to_frame = DQuat::from_rotation_z(-across.to_angle());
@@ -142,7 +143,7 @@ pub fn stood_at(piece: &Piece, point: &Point, surface: &Surface) -> SpacePose {
     standing(stands_out.fold(0.0, f64::max) + BEFORE * scale, None)
 }
 
-/// A piece as it lies on the table: what is up there, and how far it reaches, metres in its own plane.
+/// A piece as it lies on the table: its directions and extent, metres in its own plane.
 struct Frame {
     up: DVec2,
     across: DVec2,
@@ -150,9 +151,9 @@ struct Frame {
     right: f64,
     bottom: f64,
     top: f64,
-    /// The middle of its box.
+    /// Centre of its extent.
     centre: DVec2,
-    /// 1 when its outer side looks along +z of its own plane, else -1.
+    /// 1 when its outer side faces +z of its own plane, else -1.
     outer: f64,
 }
 
@@ -172,7 +173,7 @@ impl Frame {
     }
 }
 
-/// The same placement rolled about its middle into a tube that just closes, its outer side out (paper B, "self-rolling").
+/// The placement `pose` rolled about its middle into a tube that just closes, its outer side out (paper B, "self-rolling").
 pub fn rolled_up(piece: &Piece, pose: SpacePose) -> SpacePose {
     let Frame { up, left, right, centre, outer, .. } = Frame::new(piece);
     let radius = ((right - left) + GAP) / std::f64::consts::TAU;

@@ -1,31 +1,31 @@
-//! How far global steps in the same contacts go, one after the other.
+//! Acceleration of consecutive global steps in the same contacts: over-relaxation and Chebyshev weights.
 
-/// How far one of them goes.
+/// Acceleration of one global step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Acceleration {
-    /// Over-relaxation: how many times as far as solved, above 0,
+    /// Over-relaxation: factor on the solved move, above 0.
     pub along: f64,
-    /// and this share, 0..1, of the way of the step before once more.
+    /// Momentum: fraction (0..1) of the previous step's move that is added.
     pub on: f64,
-    /// Whether it flattens folds.
+    /// Whether the step flattens folds.
     pub flattens: bool,
 }
 
 impl Acceleration {
-    /// As far as solved, and flattening.
+    /// The solved move, without acceleration; it flattens folds.
     pub const PLAIN: Self = Self { along: 1.0, on: 0.0, flattens: true };
 
-    /// `N` steps that go `along` times as far as solved; the last one flattens.
+    /// `N` steps that are over-relaxed by `along`; the last one flattens folds.
     pub const fn longer<const N: usize>(along: f64) -> [Self; N] {
         let mut paces = [Self { along, on: 0.0, flattens: false }; N];
         paces[N - 1].flattens = true;
         paces
     }
 
-    /// `N` steps by Chebyshev's semi-iteration (Golub and Varga 1961; Wang 2015, "A Chebyshev Semi-Iterative Approach for
-    /// Accelerating Projective and Position-Based Dynamics"): of what one plain step takes away between `slowest` (0..1) and
-    /// all, together they leave as little as `N` steps can, and they let nothing grow of which a plain step takes away up to
-    /// 1 + `slowest` times all. The last but one flattens: the last takes away again what that strained.
+    /// `N` steps with the weights of Chebyshev's semi-iteration (Golub and Varga 1961; Wang 2015, "A Chebyshev Semi-Iterative
+    /// Approach for Accelerating Projective and Position-Based Dynamics"). Of error components that one plain step reduces by
+    /// a fraction between `slowest` (0..1) and 1, together they leave the least that `N` steps can; components reduced by up
+    /// to 1 + `slowest` do not grow. The last but one step flattens folds: the last one removes the strain of that.
     pub const fn chebyshev<const N: usize>(slowest: f64) -> [Self; N] {
         let along = 2.0 / (1.0 + slowest);
         let left = (1.0 - slowest) / (1.0 + slowest);

@@ -1,7 +1,7 @@
-//! Flattening of folds across inner edges (paper A, Figure 22).
+//! Flattening of folds at inner edges (paper A, Figure 22).
 //!
-//! For edge (0, 1) with opposite vertices 2 and 3 the vector K holds the cotangents of isometric bending; its entries sum to
-//! zero, so that dx = -alpha K (sum K X) / (sum K^2) keeps momentum and, at alpha 1, flattens that hinge exactly.
+//! For edge (0, 1) with opposite vertices 2 and 3 the vector K holds the cotangents of isometric bending. Its entries
+//! sum to zero, so that dx = -alpha K (sum K X) / (sum K^2) keeps momentum and, at alpha 1, flattens that hinge exactly.
 
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -9,26 +9,26 @@ use rayon::prelude::*;
 use crate::cloth::Garment;
 use crate::geometry::adjacency::Lists;
 
-/// Skin belongs to one surface when the cosines of its normals to their mean are above the second, to two limbs or the two
-/// sides of a fold when below the first.
+/// Cosines between the skin normals at a hinge and their mean. All above the second value: one surface; any below the
+/// first: two limbs, or the two sides of a fold; between them it is blended.
 const AGREE: [f64; 2] = [0.7, 0.9];
-/// Hinges one thread takes at a time.
+/// Least number of hinges for a parallel task.
 const LEAST_SHARE: usize = 512;
 
-/// One inner edge and its two opposite vertices.
+/// A hinge: an inner edge and its two opposite vertices, with the weights K.
 #[derive(Clone, Copy, Debug)]
 struct Hinge {
     vertices: [u32; 4],
     k: [f64; 4],
 }
 
-/// All hinges of a garment, with their vertices' lists.
+/// All hinges of a garment, and for each vertex its hinges.
 #[derive(Clone, Debug, Default)]
 pub struct Hinges {
     hinges: Vec<Hinge>,
-    /// For each vertex four times the hinge and the vertex's place in it,
+    /// For each vertex its places in hinges: four times the hinge, plus the index of the vertex in it.
     per_vertex: Lists,
-    /// and for each of these what it has of K.
+    /// For each item of `per_vertex` the weight K of the vertex in that hinge.
     shares: Vec<f64>,
 }
 
@@ -55,15 +55,15 @@ impl Hinges {
         Self { hinges, per_vertex, shares }
     }
 
-    /// Bytes they take.
+    /// Memory used, bytes.
     pub fn bytes(&self) -> usize {
         self.hinges.len() * size_of::<Hinge>()
             + self.per_vertex.bytes()
             + self.shares.len() * size_of::<f64>()
     }
 
-    /// For each hinge what has to go of it, by its size. `lies` tells of every vertex how it lies.
-    /// A hinge that lies on the body is bent as the body is: of it only what stands out from the skin is flattened, for to
+    /// For each hinge the bend to be removed, as (sum K X) / (sum K^2). `lies` tells how vertices are in contact with
+    /// the body. A hinge in contact is bent as the body is: only its deviation from the skin is flattened, because to
     /// flatten all of it would strain the cloth.
     pub fn bends(&self, positions: &[DVec3], lies: &Lies) -> Vec<DVec3> {
         let bend = |hinge: &Hinge| {
@@ -73,7 +73,7 @@ impl Hinges {
         self.hinges.par_iter().with_min_len(LEAST_SHARE).map(bend).collect()
     }
 
-    /// The flattening move of `vertex`: the mean over its hinges, `alpha` in 0..=1, when they are bent by `bends`.
+    /// The flattening move of `vertex`, metres: the mean over its hinges with these `bends`; `alpha` in 0..=1.
     pub fn displacement(&self, vertex: u32, bends: &[DVec3], alpha: f64) -> DVec3 {
         let mine = self.per_vertex.of(vertex);
         let shares = &self.shares[self.per_vertex.places(vertex)];
@@ -82,20 +82,21 @@ impl Hinges {
     }
 }
 
-/// How vertices lie on the body.
+/// Contact of vertices with the body, as flattening needs it.
 #[derive(Clone, Debug, Default)]
 pub struct Lies {
-    /// Of the skin next to each, outward; zero where there is none. With it, metres above the height that is kept.
+    /// For each vertex the outward normal of the skin next to it (zero where there is none), and its height above the
+    /// kept offset, metres.
     pub skin: Vec<(DVec3, f64)>,
-    /// Of each: 1 on the skin, 0 where it is free of it, and between; [`NOT_LAID`].
+    /// For each vertex its degree of contact: 1 on the skin, 0 away from it, and between; [`NOT_LAID`].
     pub touch: Vec<f64>,
 }
 
-/// Stands for how a vertex touches that is not laid.
+/// Value of [`Lies::touch`] for a vertex that is not placed.
 pub const NOT_LAID: f64 = -1.0;
 
 impl Hinge {
-    /// What has to go, as sum of K X. None when not all of it is laid.
+    /// The bend to be removed, as sum of K X. None when not all vertices are placed.
     fn bend(&self, positions: &[DVec3], lies: &Lies) -> Option<DVec3> {
         let touch = self.vertices.iter().map(|&v| lies.touch[v as usize]).fold(1.0, f64::min);
         if touch < 0.0 {
@@ -127,7 +128,7 @@ fn hinge(garment: &Garment, a: u32, b: u32, s: u32, t: u32) -> Option<Hinge> {
     k.iter().all(|k| k.is_finite()).then_some(Hinge { vertices: [a, b, c, d], k })
 }
 
-/// The vertex of triangle `t` opposite edge `ab`, and the cotangents of its flat angles at `a` and `b`.
+/// The vertex of triangle `t` opposite edge `ab`, and the cotangents of its rest angles at `a` and `b`.
 fn cotangents(garment: &Garment, t: u32, a: u32, b: u32) -> Option<(u32, f64, f64)> {
     let vs = garment.triangles[t as usize];
     let corner = |v: u32| vs.iter().position(|&w| w == v);

@@ -1,8 +1,8 @@
-//! The global step: with every triangle's turn held, all vertices at once.
+//! The global step: solves for all vertices at once, with the rotation of every triangle held.
 //!
-//! The energy sum over triangles of sum over corners |x - c - R w|^2 has, with c eliminated, the constant matrix
-//! sum of (I - 1 1^T / 3): a graph Laplacian, factored by sparse Cholesky. Contact sits on its diagonal, with the same
-//! active set on the right-hand side; the factor is renewed when that set has changed by more than a fiftieth.
+//! The energy, the sum over triangles of sum over corners |x - c - R w|^2, has, with c eliminated, the constant matrix
+//! sum of (I - 1 1^T / 3): a graph Laplacian, factored by sparse Cholesky. Contact is on its diagonal, with the same
+//! active set on the right-hand side; the factor is renewed when more than a fiftieth of that set has changed.
 
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
 use glam::DVec3;
@@ -10,28 +10,28 @@ use glam::DVec3;
 use crate::cloth::{Counters, Garment};
 use crate::geometry::factor::{Factor, Symbolic};
 
-/// Refactor when more than this share of the weights on the diagonal changed, unless told otherwise.
+/// Default fraction of changed diagonal weights above which the matrix is factored again.
 pub const STALE_SHARE: f64 = 0.02;
 
-/// The factored matrix of a garment, over the triangles mapped so far.
+/// The factored matrix of a garment, over the triangles that are mapped.
 #[derive(Clone, Debug)]
 pub struct GlobalSolver {
     pattern: SymbolicSparseColMat<usize>,
     symbolic: Symbolic,
-    /// Where each vertex's diagonal value stands.
+    /// For each vertex the index of its diagonal value in the matrix.
     diagonal: Vec<usize>,
-    /// Where each edge's value stands.
+    /// For each edge the index of its value in the matrix.
     off_diagonal: Vec<usize>,
-    /// Values of the triangles alone.
+    /// Values of the matrix from the triangles alone.
     base: Vec<f64>,
-    /// Diagonal weights that are in the factor.
+    /// For each vertex the weight that the factor has on the diagonal.
     weights: Vec<f64>,
     factor: Option<Factor>,
     stale_share: f64,
 }
 
 impl GlobalSolver {
-    /// The matrix over all of `garment`, with no triangle in it yet. None when the factor would not fit in memory.
+    /// The matrix over all of `garment`, without triangles yet. None when the factor would not fit in memory.
     pub fn new(garment: &Garment) -> Option<Self> {
         // One thread: the order of sums must not depend on how many there are.
         faer::set_global_parallelism(faer::Par::Seq);
@@ -74,14 +74,14 @@ impl GlobalSolver {
         })
     }
 
-    /// Bytes it takes without the factor, which is made from the rest.
+    /// Memory used, bytes, without the factor, which is computed from the rest.
     pub fn bytes(&self) -> usize {
         let index =
             self.diagonal.len() + self.off_diagonal.len() + self.pattern.compute_nnz() + self.weights.len();
         (index + self.base.len() + self.weights.len()) * size_of::<f64>()
     }
 
-    /// Sets which triangles take part. The next solve factors anew.
+    /// Sets which triangles take part, those with all vertices `mapped`. The next solve factors again.
     pub fn set_triangles(&mut self, garment: &Garment, mapped: &[bool]) {
         self.base.fill(0.0);
         for (t, vs) in garment.triangles.iter().enumerate() {
@@ -98,19 +98,19 @@ impl GlobalSolver {
         self.factor = None;
     }
 
-    /// From now on the factor is renewed when more than this share (0..=1) of the weights has changed.
+    /// Sets the fraction (0..=1) of changed weights above which the matrix is factored again.
     pub fn refactor_beyond(&mut self, share: f64) {
         self.stale_share = share;
     }
 
-    /// The next solve factors anew, however few weights have changed.
+    /// Makes the next solve factor again.
     pub fn forget_factor(&mut self) {
         self.factor = None;
     }
 
-    /// Solves for how far each vertex goes, in place of the `forces` on them (of turned corners, and others). `weights`
-    /// stands on the diagonal and pulls each vertex by the way to its target in `pulls`; where the factor holds older
-    /// weights, those pull, so that matrix and right-hand side always agree.
+    /// Solves for the moves of all vertices, metres, in place of the `forces` on them. `weights` are on the diagonal;
+    /// each pulls its vertex along `pulls` to its target. Where the factor has older weights these are used for both,
+    /// so that matrix and right-hand side always agree. False when the factorisation fails.
     pub fn solve(
         &mut self,
         weights: &[f64],

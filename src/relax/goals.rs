@@ -1,19 +1,19 @@
-//! Triangle matching: where each triangle would like its corners, with its flat shape laid over where they are.
+//! Shape matching of triangles: the rest shape rotated on to the present corners gives their goals.
 //!
-//! Paper A, "Relaxation"; the rotation is the least-squares one unless the paper's own is asked for: with it, pulling every
-//! vertex to the mean of its goals never raises the energy sum |x - c - R w|^2.
+//! Paper A, "Relaxation". The rotation is that of least squares unless the paper's own is asked for: with it, moving
+//! every vertex to the mean of its goals never raises the energy, the sum of |x - c - R w|^2.
 
 use glam::{DVec2, DVec3};
 
 use crate::relax::Rotation;
 
-/// No turn is better than another when the best one matches by less than this share of what it could.
+/// Match of the best rotation, as a fraction of the possible, below which the rotation is undefined.
 const UNTURNED: f64 = 1e-3;
-/// A triangle is collapsed when its height is less than this share of its first side.
+/// Ratio of height to first side below which a triangle counts as collapsed.
 const COLLAPSED: f64 = 1e-6;
 
-/// Corners of the flat shape `rest` (about its centroid, front up), turned in the plane of `corners` to lie closest to
-/// them, relative to their centroid. Where they are collapsed, `keep` tells the normal of the plane.
+/// Goals of a triangle's corners relative to their centroid: the rest shape `rest` (about its centroid, front up)
+/// rotated in the plane of `corners` to match them best. For collapsed corners `keep` gives the normal of the plane.
 #[inline]
 pub fn turned_rest(
     corners: [DVec3; 3],
@@ -40,13 +40,13 @@ pub fn turned_rest(
     turned_rest_facing(corners, rest, area.try_normalize().unwrap_or_else(keep), by)
 }
 
-/// `rest` turned about `n` to lie closest, in the sense of least squares, to a triangle with `sides` from its first corner, that
-/// `n` is the unit normal of. With a0 and a1 the sums over corners of place times rest.x and rest.y, the turned x axis goes
+/// `rest` rotated about the unit normal `n` of a triangle, whose `sides` start at its first corner, to match it best
+/// by least squares. With a0 and a1 the sums over corners of position times rest.x and rest.y, the rotated x axis is
 /// along a0 + a1 x n: A plus its cofactors, whose length is the sum of the singular values of A and so never 0.
 #[inline(always)]
 fn turned_about(n: DVec3, [u, v]: [DVec3; 2], rest: &[DVec2; 3]) -> [DVec3; 3] {
     let [a, b, c] = *rest;
-    // About the centroid the rest places sum to 0: from where the others are counted does not matter.
+    // The rest shape sums to 0 about its centroid: positions may be relative to any point.
     let (along_x, along_y) = (u * b.x + v * c.x, u * b.y + v * c.y);
     let x = along_x + along_y.cross(n);
     let x = x * x.length().recip();
@@ -54,7 +54,8 @@ fn turned_about(n: DVec3, [u, v]: [DVec3; 2], rest: &[DVec2; 3]) -> [DVec3; 3] {
     [x * a.x + y * a.y, x * b.x + y * b.y, x * c.x + y * c.y]
 }
 
-/// The same in the plane across `normal` (paper A's temporary normal): a triangle that faces away from it is turned over.
+/// Goals as from [`turned_rest`], but in the plane perpendicular to `normal` (paper A's temporary normal): a triangle
+/// that faces away from it is turned over.
 pub fn turned_rest_facing(corners: [DVec3; 3], rest: &[DVec2; 3], normal: DVec3, by: Rotation) -> [DVec3; 3] {
     let n = normal.try_normalize().unwrap_or(DVec3::Z);
     let centre = (corners[0] + corners[1] + corners[2]) / 3.0;
@@ -65,7 +66,7 @@ pub fn turned_rest_facing(corners: [DVec3; 3], rest: &[DVec2; 3], normal: DVec3,
     turned([x, y], flat, rest, by)
 }
 
-/// `rest` turned to lie closest to `flat`, both about their centroids, in the plane of the axes `x` and `y`.
+/// `rest` rotated to match `flat` best, both about their centroids, in the plane of the axes `x` and `y`.
 #[inline(always)]
 fn turned([x, y]: [DVec3; 2], flat: [DVec2; 3], rest: &[DVec2; 3], by: Rotation) -> [DVec3; 3] {
     let wanted = match by {
@@ -77,7 +78,7 @@ fn turned([x, y]: [DVec3; 2], flat: [DVec2; 3], rest: &[DVec2; 3], by: Rotation)
     let size = |of: &[DVec2; 3]| of[0].length_squared() + of[1].length_squared() + of[2].length_squared();
     let (present, wanted) = (size(&flat), size(&wanted));
     let length = turn.length_squared();
-    // Undefined for a mirrored triangle: its longest edge (here the first) keeps its direction.
+    // The rotation is undefined for a mirrored triangle: its first edge then keeps its direction.
     let turn = if length > UNTURNED * UNTURNED * present * wanted && length > 0.0 {
         turn / length.sqrt()
     } else {

@@ -1,4 +1,4 @@
-//! What every triangle pulls its corners with: towards its flat shape, laid over where it is.
+//! Pulls of triangles on their corners: towards the rest shape, rotated on to the present one.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -9,19 +9,19 @@ use crate::geometry::adjacency::Lists;
 use crate::relax::Rotation;
 use crate::relax::goals::{turned_rest, turned_rest_facing};
 
-/// A triangle is turned over when its normal and that of the cloth round it have a smaller cosine.
+/// Cosine between the normals of a triangle and of the cloth round it below which the triangle is turned over.
 const FLIPPED: f64 = -0.2;
-/// Triangles one thread takes at a time.
+/// Least number of triangles for a parallel task.
 const LEAST_SHARE: usize = 256;
 
-/// The pulls of all triangles of a garment. Scratch but for the lists.
+/// Pulls of all triangles of a garment. Recomputed in every step, except `corners`.
 #[derive(Clone, Debug)]
 pub(super) struct Matching {
-    /// For each vertex where its corners stand: three times the triangle and the corner's place in it.
+    /// For each vertex its places in triangles: three times the triangle, plus the index of the vertex in it.
     corners: Lists,
-    /// For each corner of each triangle the way from where it is to where that wants it.
+    /// For each corner of each triangle the vector from its position to its goal, metres.
     pub pulls: Vec<[DVec3; 3]>,
-    /// Of each triangle: sum over corners |x - c - R w|^2.
+    /// For each triangle its energy: the sum over corners of |x - c - R w|^2.
     energies: Vec<f64>,
 }
 
@@ -42,8 +42,8 @@ impl Matching {
         }
     }
 
-    /// Turns every laid triangle's flat shape to where the triangle is. With the `normals` of the cloth at its vertices, one
-    /// that faces against them is turned over.
+    /// Matches the rest shape of every placed triangle to its present one. With the `normals` of the cloth at its
+    /// vertices, a triangle that faces against them is turned over.
     pub fn turn(
         &mut self,
         garment: &Garment,
@@ -80,19 +80,19 @@ impl Matching {
         self.corners.of(vertex).iter().map(|&slot| pulls[slot as usize]).sum()
     }
 
-    /// Of all triangles as they were last turned.
+    /// Energy of all triangles at the last [`Matching::turn`].
     pub fn energy(&self) -> f64 {
         self.energies.iter().sum()
     }
 
-    /// Bytes of the lists, and of what is filled anew in every step.
+    /// Memory used, bytes: by the lists, and by values that every step recomputes.
     pub fn bytes(&self) -> [usize; 2] {
         let scratch = self.pulls.len() * (size_of::<[DVec3; 3]>() + size_of::<f64>());
         [self.corners.bytes(), scratch]
     }
 }
 
-/// The mean normal of the skin near three vertices.
+/// The mean normal of the skin near three vertices; None where there is none.
 pub(super) fn body_normal(tracker: &Tracker, vs: &[u32; 3]) -> Option<DVec3> {
     let sum: DVec3 = vs.iter().filter_map(|&v| tracker.plane(v as usize)).map(|p| p.normal).sum();
     sum.try_normalize()

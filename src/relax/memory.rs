@@ -1,17 +1,17 @@
-//! How much memory a garment on a body takes.
+//! Memory used by a garment on a body.
 
 use serde::Serialize;
 
-/// Bytes, by what becomes of them.
+/// Memory used, bytes, by kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Memory {
-    /// Topology and flat shape of the garment: made once, shared by all who use it.
+    /// Topology and rest shape of the garment: made once, shared by all users.
     pub garment: usize,
-    /// Where the cloth is and all it remembers from step to step: contacts, their pressure, what sends it away. The rest
-    /// can be made anew from this and the garment.
+    /// Positions of the cloth and everything kept from step to step: contacts, their pressure, directions away from
+    /// faults. The rest can be computed from this and the garment.
     pub state: usize,
-    /// Made from the garment once: folds, and the pattern of the matrix without its factor.
+    /// Computed once from the garment: hinges, and the pattern of the matrix without its factor.
     pub tables: usize,
-    /// Filled anew in every step.
+    /// Values that every step recomputes.
     pub scratch: usize,
 }

@@ -1,4 +1,4 @@
-//! Paper A's relaxation: shape match, flatten, gravity, friction.
+//! Paper A's relaxation: shape matching, flattening, gravity, friction, contact.
 
 mod acceleration;
 pub mod flatten;

@@ -1,4 +1,4 @@
-//! Relaxation of a garment on a body: global steps with contact in the matrix, and local passes for cloth just laid.
+//! Relaxation of a garment on a body: global steps with contact in the matrix, and local passes for newly placed cloth.
 
 use std::sync::Arc;
 
@@ -21,75 +21,77 @@ use crate::relax::step::GlobalStep;
 use crate::relax::targets::Targets;
 use crate::relax::{Memory, RelaxSettings};
 
-/// Of a vertex that does not move, on the matrix diagonal: so heavy that its neighbours find it where it is.
+/// Weight on the matrix diagonal of a vertex that must not move: so heavy that its neighbours see it as fixed.
 const FIXED_WEIGHT: f64 = 1e4;
-/// Stands for cloth that is not laid yet.
+/// Weight on the matrix diagonal of a vertex that is not placed, to keep the matrix regular.
 const UNMAPPED_WEIGHT: f64 = 1.0;
-/// How much more than its own weight cloth holds by clinging, with [`USUAL_FRICTION`] (ALGORITHMS.md 1: the friction step is
-/// twice the gravity step; what touches does not touch evenly).
+/// Force by which touching cloth clings to the skin, in weights of the whole cloth, at [`USUAL_FRICTION`]
+/// (ALGORITHMS.md 1: the friction step is twice the gravity step; contact is uneven).
 const HOLDS: f64 = 4.0;
-/// See [`HOLDS`].
+/// Friction coefficient at which cloth clings with [`HOLDS`] times its weight.
 const USUAL_FRICTION: f64 = 0.3;
-/// Most area that cloth which touches the skin holds, in its own: where less of a garment touches, it falls.
+/// Largest ratio of the area of all cloth to that of touching cloth that the cling can hold: where less touches, the
+/// garment falls.
 const MOST_HELD: f64 = 50.0;
-/// Vertices one thread takes at a time.
+/// Least number of vertices for a parallel task.
 const LEAST_SHARE: usize = 512;
-/// Cloth on the skin keeps this share of the offset in any case.
+/// Fraction of the offset that a vertex keeps above its track plane in every step.
 const LEAST_HEIGHT: f64 = 0.5;
-/// How far from skin that is looked after, metres on a body 1.5 m large.
+/// Distance from the skin within which cloth is tested for being on the wrong side, metres on a body 1.5 m large.
 const WRONG_SIDE_REACH: f64 = 0.015;
-/// Faults that a place where cloth passes through itself counts for: finer meshes seldom mend it.
+/// Number of faults for which one self-intersection of the cloth counts: finer meshes seldom repair it.
 const CROSSINGS_WEIGH: usize = 20;
-/// What is left of the way layers were sent before when they are parted again: it keeps them apart for a while.
+/// Factor on the directions that separate layers, per parting: they fade out, which keeps layers apart for a while.
 const STILL_PARTING: f64 = 0.9;
-/// Layers sent apart by less than this are left alone.
+/// Length of a separating direction, in units, below which it is dropped.
 const LEAST_PARTING: f64 = 0.02;
 
-/// Everything one garment on one body needs to relax. Scratch but for contact memory.
+/// Everything that relaxation of one garment on one body needs.
 #[derive(Clone)]
 pub struct Relaxer {
     /// The cloth.
     pub garment: Arc<Garment>,
     /// The body.
     pub surface: Arc<Surface>,
-    /// What the user turned.
+    /// Settings of the user.
     pub settings: RelaxSettings,
-    /// Work done.
+    /// Counters of the work done.
     pub counters: Counters,
     /// Whether edges that cut the body are split.
     pub splitting: bool,
     splits: Splits,
-    /// What no edge may cross.
+    /// Bones that no edge may cross.
     pub bones: Arc<Bones>,
     tracker: Tracker,
     faces: Faces,
     solver: GlobalSolver,
     hinges: Arc<Hinges>,
-    /// Height beyond the offset that each contact is pressed to (the scaled multiplier of the contact constraint).
+    /// For each vertex the height beyond the offset to which its contact is pressed, metres: the scaled multiplier of
+    /// the contact constraint.
     push: Vec<f64>,
-    /// The weight of contact that `push` belongs to.
+    /// The weight of contact for which `push` holds.
     contact: f64,
-    /// Extra offset where a face would cut the body.
+    /// For each vertex the extra offset where a face would cut the body, metres.
     lift: Vec<f64>,
-    /// Where the marks want their vertices.
+    /// For each vertex the position to which a mark holds it, if any.
     held: Vec<Option<DVec3>>,
-    /// Vertices that do not move: under a pushpin, in the hand, or not to be rewrapped.
+    /// For each vertex whether it must not move: pinned, dragged, or not to be rewrapped.
     fixed: Vec<bool>,
     previous: Vec<DVec3>,
     matching: Matching,
-    /// Sum over the laid triangles of sum over corners |w|^2: what energies are compared with.
+    /// Sum over placed triangles and their corners of |w|^2, by which energies are divided, m².
     size: f64,
     weights: Vec<f64>,
-    /// On each vertex; then how far it goes.
+    /// For each vertex the force on it, then, after the solve, its move.
     forces: Vec<DVec3>,
     areas: Vec<f64>,
-    /// With how much force each vertex clings to skin it touches, per unit of friction.
+    /// For each vertex the force by which it clings to skin that it touches, per unit of friction.
     cling: Vec<f64>,
-    /// Of the cloth, front up.
+    /// For each vertex the normal of the cloth on its front side.
     normals: Vec<DVec3>,
-    /// Where cloth that lay on the wrong side is sent, in steps of [`SEND_AWAY`].
+    /// For each vertex the direction away from skin on whose wrong side it was, in steps of `targets::SEND_AWAY`.
     sent: Vec<DVec3>,
-    /// The same for layers that ran into each other.
+    /// For each vertex the direction that separates intersecting layers, in steps of `targets::SEND_AWAY`.
     parted: Vec<DVec3>,
 }
 
@@ -100,7 +102,7 @@ impl std::fmt::Debug for Relaxer {
 }
 
 impl Relaxer {
-    /// A relaxer with no triangle mapped. None when the matrix cannot be factored (out of memory).
+    /// A relaxer with no triangle mapped. None when the matrix cannot be analysed (out of memory).
     pub fn new(garment: Arc<Garment>, surface: Arc<Surface>, settings: RelaxSettings) -> Option<Self> {
         let n = garment.vertex_count;
         let mut relaxer = Self {
@@ -135,7 +137,7 @@ impl Relaxer {
         Some(relaxer)
     }
 
-    /// Memory it takes, with the cloth it relaxes.
+    /// Memory used, including the cloth that is relaxed.
     pub fn memory(&self) -> Memory {
         let (n, vector) = (self.garment.vertex_count, size_of::<DVec3>());
         let cloth = n * (vector + size_of::<bool>());
@@ -150,22 +152,22 @@ impl Relaxer {
         }
     }
 
-    /// Height above the skin that is kept, metres.
+    /// Offset: height above the skin that the cloth keeps, metres.
     pub fn offset(&self) -> f64 {
         self.settings.offset * self.surface.scale()
     }
 
-    /// Holds `vertex` at `target` in global steps that ask for it.
+    /// Holds `vertex` at `target` in global steps with a weight of hold.
     pub fn hold(&mut self, vertex: u32, target: DVec3) {
         self.held[vertex as usize] = Some(target);
     }
 
-    /// No vertex is held any more.
+    /// Releases all held vertices.
     pub fn release(&mut self) {
         self.held.fill(None);
     }
 
-    /// From now on exactly these vertices stay where they are.
+    /// Fixes exactly these vertices, so that they do not move.
     pub fn fix(&mut self, vertices: impl IntoIterator<Item = u32>) {
         let before = std::mem::replace(&mut self.fixed, vec![false; self.garment.vertex_count]);
         vertices.into_iter().for_each(|v| self.fixed[v as usize] = true);
@@ -174,48 +176,48 @@ impl Relaxer {
         }
     }
 
-    /// From now on the matrix is factored anew when more than this share (0..=1) of the vertices touches or lets go.
+    /// Sets the fraction (0..=1) of vertices that must gain or lose contact before the matrix is factored again.
     pub fn refactor_beyond(&mut self, share: f64) {
         let skips = self.settings.skips.allow(Skip::Refactor);
         self.solver.refactor_beyond(if skips { share } else { 0.0 });
     }
 
-    /// Brings the track planes of all vertices within `reach` metres of the skin up to date.
+    /// Updates the track planes of all vertices within `reach` metres of the skin.
     pub fn track(&mut self, state: &ClothState, reach: f64) {
         self.tracker.update(&self.surface, state, reach, self.settings.skips, &mut self.counters);
     }
 
-    /// From now on cloth near the skin walks along it from where it was, or (false) asks for it exactly.
+    /// Sets whether vertices near the skin are tracked by a walk along it, or (false) by exact queries.
     pub fn walk(&mut self, walks: bool) {
         self.tracker.walks = walks;
     }
 
-    /// The skin near `vertex` as it was last tracked.
+    /// The track plane of `vertex`, if the skin was near at the last update.
     pub fn plane(&self, vertex: u32) -> Option<Plane> {
         self.tracker.plane(vertex as usize)
     }
 
-    /// Whether `vertex` at `p` is outside of the body by what is known of it. When not, it may still be.
+    /// Whether `vertex` at `p` is known to be outside of the body. False where it is not known.
     pub fn is_clear(&self, vertex: u32, p: DVec3) -> bool {
         self.tracker.at_least(vertex as usize, p) > 0.0
     }
 
-    /// Normals of the cloth, front up, one per vertex.
+    /// Normals of the cloth on its front side, one per vertex.
     pub fn cloth_normals(&self, state: &ClothState) -> Vec<DVec3> {
         vertex_normals(&self.garment, state)
     }
 
-    /// The same for one vertex.
+    /// Normal of the cloth at one vertex, on its front side.
     pub fn cloth_normal(&self, vertex: u32, state: &ClothState) -> DVec3 {
         normal_round(&self.garment, state, vertex)
     }
 
-    /// Takes note that `vertex` was carried to `position` along the normal of its track plane: the plane stays its own.
+    /// Tells that `vertex` was moved to `position` along the normal of its track plane, which stays valid.
     pub fn carried_along_normal(&mut self, vertex: u32, position: DVec3) {
         self.tracker.moved_along_normal(vertex as usize, position);
     }
 
-    /// Cloth that slid so far that it left the planes it slid along goes out of the skin it is next to now.
+    /// Raises cloth out of the skin next to it, after it slid so far that its former track planes do not hold.
     pub fn raise_out(&mut self, state: &mut ClothState) {
         let least = self.offset() * LEAST_HEIGHT;
         self.walk(true);
@@ -230,7 +232,7 @@ impl Relaxer {
         }
     }
 
-    /// From now on the cloth lies on `surface`: nothing known of contact with the old one holds.
+    /// Replaces the body by `surface` and forgets all contact with the old one.
     pub fn change_body(&mut self, surface: Arc<Surface>) {
         self.surface = surface;
         self.tracker.forget();
@@ -242,25 +244,25 @@ impl Relaxer {
         self.parted.fill(DVec3::ZERO);
     }
 
-    /// From now on some vertices do not touch some skin.
+    /// Sets which skin each vertex ignores.
     pub fn keep_apart(&mut self, apart: Option<Arc<BodyOverlaps>>) {
         self.tracker.apart = apart;
         self.tracker.forget();
         self.faces = Faces::default();
     }
 
-    /// Cloth that was carried elsewhere is not sliding.
+    /// Tells that the cloth was moved by something else, so that the move is not taken for sliding.
     pub fn forget_motion(&mut self, state: &ClothState) {
         self.previous.copy_from_slice(&state.positions);
     }
 
-    /// What matching costs: the sum over triangles of sum over corners |x - c - R w|^2 before the last global step, against
-    /// that of |w|^2. About the mean square strain.
+    /// Relative energy of shape matching before the last global step: the sum over triangles and corners of |x - c -
+    /// R w|^2, divided by that of |w|^2. About the mean square strain.
     pub fn energy(&self) -> f64 {
         self.matching.energy() / self.size.max(f64::MIN_POSITIVE)
     }
 
-    /// Tells the matrix which triangles take part.
+    /// Sets which vertices are placed, and so which triangles take part.
     pub fn set_mapped(&mut self, mapped: &[bool]) {
         let laid = self.garment.triangles.iter().zip(&self.garment.rest);
         let laid = laid.filter(|(vs, _)| vs.iter().all(|&v| mapped[v as usize]));
@@ -268,21 +270,22 @@ impl Relaxer {
         self.solver.set_triangles(&self.garment, mapped);
     }
 
-    /// Takes over the pressure of the contacts of a `coarser` relaxer, whose edges are `1 / ratio` times as long: the same
-    /// pressure pushes a vertex by the area round it.
+    /// Takes over the contact pressure of a `coarser` relaxer, whose edges are `1 / ratio` times as long: at equal
+    /// pressure the push on a vertex is proportional to the area round it.
     pub fn take_over(&mut self, coarser: &Self, carry: &Carry, ratio: f64) {
         self.push = carry.values(&coarser.push);
         self.push.iter_mut().for_each(|push| *push *= ratio * ratio);
         self.contact = coarser.contact;
     }
 
-    /// One global step. Returns the longest move, metres.
+    /// One global step. Returns the largest move of a vertex, metres.
     pub fn global_step(&mut self, state: &mut ClothState, step: GlobalStep) -> f64 {
         self.global_steps(state, step, &[Acceleration::PLAIN])
     }
 
-    /// One global step after the other in the same contacts, one for each of `paces`. Cloth that is pulled into the body takes one plain step: there the planes of the skin
-    /// say little about where it comes to. Returns the longest move over all, metres.
+    /// Global steps in the same contacts, one for each of `paces`. When cloth is inside the body there is one plain
+    /// step instead, as the track planes say little about where it will get to. Returns the largest move of a vertex
+    /// over all steps, metres.
     pub fn global_steps(&mut self, state: &mut ClothState, step: GlobalStep, paces: &[Acceleration]) -> f64 {
         let offset = self.offset();
         let mut reach = offset * 2.0 + step.cap.min(offset);
@@ -311,13 +314,13 @@ impl Relaxer {
         before.iter().zip(&state.positions).map(|(a, b)| (*a - *b).length()).fold(0.0, f64::max)
     }
 
-    /// Joins split edges that have been clear of the body in many looks.
+    /// Joins split edges that have been clear of the body in many checks.
     pub fn join_edges(&mut self, state: &ClothState) {
         let (tracker, ground) = (&self.tracker, ground(&self.surface, &self.settings));
         self.splits.join(&self.garment, state, tracker, ground, &mut self.counters);
     }
 
-    /// Splits edges that cut the body, of all or of `suspects`. Returns how many.
+    /// Splits edges that cut the body, of all edges or of `suspects`. Returns the number of new splits.
     pub fn split_edges(&mut self, state: &ClothState, suspects: Option<Suspects<'_>>) -> usize {
         if !self.splitting {
             return 0;
@@ -330,24 +333,24 @@ impl Relaxer {
         found
     }
 
-    /// Holds cloth back that would cross a bone on its way from where it is to `after`.
+    /// Stops cloth from crossing a bone on its way from `state` to `after`.
     pub fn keep_off_bones(&mut self, state: &ClothState, after: &mut [DVec3]) {
         let known = Some((&self.tracker, self.settings.skips));
         let (garment, before) = (&self.garment, &state.positions);
         self.bones.hold_back(garment, &state.mapped, known, before, after, &mut self.counters);
     }
 
-    /// Brings the vertices put in on split edges where they belong.
+    /// Updates the positions of the vertices inserted on split edges.
     pub fn place_split(&mut self, state: &ClothState) {
         self.splits.place(state, &self.tracker, ground(&self.surface, &self.settings));
     }
 
-    /// The garment with its split edges, and where that is; None where none is split.
+    /// The garment with its split edges and its state; None where no edge is split.
     pub fn drawn(&self, state: &ClothState) -> Option<(Arc<Garment>, ClothState)> {
         self.splits.drawn(state)
     }
 
-    /// Under another contact weight the multipliers stand for the same force.
+    /// Rescales the multipliers to a new contact weight, so that they stand for the same force.
     fn keep_pressure(&mut self, contact: f64) {
         if self.contact > 0.0 && self.contact != contact {
             let factor = self.contact / contact;
@@ -356,8 +359,8 @@ impl Relaxer {
         self.contact = contact;
     }
 
-    /// Fills in the force on each vertex (of its triangles, gravity and friction) and the weights, and returns the ways on
-    /// which those pull.
+    /// Computes for each vertex the force (of its triangles, gravity and friction) and its weight. Returns the moves
+    /// to the targets of the weights, metres.
     fn weigh(&mut self, state: &ClothState, step: GlobalStep, weighs: bool, pace: f64) -> Vec<DVec3> {
         let scale = self.surface.scale();
         let targets = Targets {
@@ -403,7 +406,8 @@ impl Relaxer {
         (0..state.positions.len()).any(|v| state.mapped[v] && height(v).is_some_and(|h| h < 0.0))
     }
 
-    /// Cloth that has lost all touch would fall for ever: it floats.
+    /// Whether any cloth touches the body. Where none does, gravity is left out, so that the cloth floats and does
+    /// not fall for ever.
     fn touches_anything(&self, state: &ClothState) -> bool {
         (0..state.positions.len()).any(|v| self.touches(state, v))
     }
@@ -413,8 +417,8 @@ impl Relaxer {
         state.mapped[v] && self.tracker.plane(v).is_some_and(|p| p.height(state.positions[v]) < near)
     }
 
-    /// Cloth clings to the skin it touches so that its weight alone does not make it creep down (paper A's threshold): what
-    /// touches holds [`HOLDS`] times what all of it weighs.
+    /// Computes the cling of each vertex: cloth clings to skin that it touches, so that its weight alone does not make
+    /// it creep down (paper A's threshold). All touching cloth together holds [`HOLDS`] times the weight of all cloth.
     fn find_cling(&mut self, state: &ClothState) {
         let (mut all, mut touching) = (0.0, 0.0);
         for v in (0..state.positions.len()).filter(|&v| state.mapped[v]) {
@@ -426,7 +430,7 @@ impl Relaxer {
         self.cling.iter_mut().zip(&self.areas).for_each(|(cling, area)| *cling = area * each);
     }
 
-    /// Makes what was solved for as long as `pace` says.
+    /// Applies the acceleration `pace` to the solved moves.
     fn go_on(&mut self, state: &ClothState, pace: Acceleration) {
         let before = state.positions.iter().zip(&self.previous);
         for (way, (x, previous)) in self.forces.iter_mut().zip(before) {
@@ -434,7 +438,7 @@ impl Relaxer {
         }
     }
 
-    /// Goes as far as was solved for and made of it.
+    /// Moves the cloth by the solved moves, at most `cap` metres, then flattens, keeps it off the skin and off bones.
     fn advance(&mut self, state: &mut ClothState, cap: f64, flattens: bool) {
         let offset = self.offset();
         let (mapped, fixed) = (&state.mapped, &self.fixed);
@@ -467,7 +471,7 @@ impl Relaxer {
         state.positions = new;
     }
 
-    /// How each vertex lay before this step.
+    /// Contact of each vertex with the body before this step.
     fn lies(&self, state: &ClothState) -> Lies {
         let offset = self.offset();
         let lie = |v: usize| {
@@ -483,8 +487,8 @@ impl Relaxer {
         Lies { skin, touch }
     }
 
-    /// A local pass over `vertices`: each goes the way of the mean of its triangles' goals, over-relaxed by `factor` in
-    /// 0..=2, then out of the body.
+    /// A local pass over `vertices`: each moves to the mean of its goals in the placed triangles, over-relaxed by
+    /// `factor` in 0..=2, and then out of the body.
     pub fn local_pass(&mut self, state: &mut ClothState, vertices: &[u32], triangles: &[u32], factor: f64) {
         let garment = self.garment.clone();
         for &t in triangles {
@@ -532,7 +536,8 @@ impl Relaxer {
         }
     }
 
-    /// Sends faces that face the skin next to them away from it: they belong to another limb. Returns how many.
+    /// Adds directions away from the skin to vertices of faces on the wrong side of the skin next to them, which
+    /// belong to another limb. Returns the number of such faces.
     pub fn send_wrong_faces(&mut self, state: &ClothState) -> usize {
         let wrong = self.wrong_faces(state);
         for (vs, away) in self.garment.triangles.iter().zip(&wrong) {
@@ -543,14 +548,15 @@ impl Relaxer {
         wrong.iter().flatten().count()
     }
 
-    /// For each face that faces the skin next to it the way off that skin.
+    /// For each face on the wrong side of the skin next to it the direction off that skin; None for the others.
     fn wrong_faces(&mut self, state: &ClothState) -> Vec<Option<DVec3>> {
         let (garment, surface, skips) = (&*self.garment, &*self.surface, self.settings.skips);
         let apart = self.tracker.apart.as_deref();
         self.faces.wrong(Lying { garment, surface, state, skips, split: None, apart }, &mut self.counters)
     }
 
-    /// In how many places the cloth passes through the body or itself, or shows the body its outer side, by weight.
+    /// Number of faults, weighted: intersections of cloth with the body, faces on the wrong side of the skin, and
+    /// self-intersections.
     pub fn faults(&mut self, state: &ClothState) -> usize {
         let drawn = self.drawn(state);
         let (garment, drawn) = drawn.as_ref().map_or((&self.garment, state), |(g, s)| (g, s));
@@ -562,7 +568,7 @@ impl Relaxer {
             + Intersections::new(&self.garment, state).places.len() * CROSSINGS_WEIGH
     }
 
-    /// Sends layers that run into each other apart. Returns in how many places they do.
+    /// Adds directions that separate intersecting layers. Returns the number of self-intersections.
     pub fn part_layers(&mut self, state: &ClothState) -> usize {
         self.counters.self_tests += 1;
         let met = Intersections::new(&self.garment, state);
@@ -572,7 +578,7 @@ impl Relaxer {
         met.places.len()
     }
 
-    /// Layers that lie apart are sent apart less and less: held there for ever, they would be strained.
+    /// Fades the directions that separate layers once these are apart: held for ever, they would stay strained.
     pub fn ease_parting(&mut self) {
         for parted in &mut self.parted {
             let eased = *parted * STILL_PARTING;
@@ -581,13 +587,13 @@ impl Relaxer {
         }
     }
 
-    /// By how much the offset of a vertex is raised, metres, so that the faces round it keep clear of the body.
+    /// Extra offset of a vertex, metres, so that the faces round it keep clear of the body.
     pub fn lift(&self, vertex: u32) -> f64 {
         self.lift.get(vertex as usize).copied().unwrap_or_default()
     }
 
-    /// Where faces or edges come too near the body between their vertices: splits edges that cut it, and raises the offset of
-    /// the others' vertices. Returns at how many faces.
+    /// Repairs faces that are too near the body between their vertices: splits edges that cut it, and raises the
+    /// offset of the other faces' vertices. Returns the number of such faces.
     pub fn lift_faces(&mut self, state: &ClothState, clearance: f64) -> usize {
         self.join_edges(state);
         let near: Vec<bool> = (0..state.positions.len()).map(|v| self.tracker.plane(v).is_some()).collect();
@@ -615,8 +621,8 @@ impl Relaxer {
         lack
     }
 
-    /// Splits edges of `lacking` faces that cut the body, and beside split ones those that come too near it. The other faces
-    /// then wait: they may lie well soon, or the split ones spread to them.
+    /// Splits edges of `lacking` faces that cut the body and, next to subdivided faces, edges that are too near it.
+    /// If any was split, the other faces wait: they may be clear soon, or the splits may spread to them.
     fn split_lacking(&mut self, state: &ClothState, lacking: &mut [f64]) {
         let garment = self.garment.clone();
         let edges_of = |faces: &mut dyn Iterator<Item = usize>| {
@@ -640,12 +646,12 @@ impl Relaxer {
     }
 }
 
-/// What splits are made on.
+/// The body and offset for splitting edges.
 fn ground<'a>(surface: &'a Surface, settings: &RelaxSettings) -> Ground<'a> {
     Ground { surface, offset: settings.offset * surface.scale(), skips: settings.skips }
 }
 
-/// Flat area round each vertex, square metres.
+/// Rest area round each vertex, square metres.
 fn vertex_areas(garment: &Garment) -> Vec<f64> {
     let mut areas = vec![0.0; garment.vertex_count];
     for (vs, rest) in garment.triangles.iter().zip(&garment.rest) {

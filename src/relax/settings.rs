@@ -1,40 +1,41 @@
-//! What the user can turn.
+//! Settings of relaxation that the user can change.
 
 use serde::{Deserialize, Serialize};
 
 use crate::cloth::Skips;
 
-/// How the cloth relaxes. Lengths in metres on a body 1.5 m large; `Surface::scale` multiplies them.
+/// Settings of relaxation. Lengths are in metres on a body 1.5 m large; `Surface::scale` multiplies them.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct RelaxSettings {
-    /// How strongly the flat shape is kept, 0..=1.
+    /// Stiffness of shape matching, 0..=1.
     pub stretch: f64,
-    /// How strongly folds are flattened, 0..=1 (paper A's alpha).
+    /// Strength of flattening, 0..=1 (paper A's alpha).
     pub flatten: f64,
-    /// Strain that a metre of cloth hanging by its edge has at the top, 0..=0.1. Small: it lays cloth, it does not weigh it.
+    /// Gravity, as the strain at the top of a metre of hanging cloth, 0..=0.1. It is small: it serves to drape the
+    /// cloth, and does not simulate its weight.
     pub gravity: f64,
-    /// Coulomb's coefficient between cloth and skin, 0..=2.
+    /// Coefficient of Coulomb friction between cloth and skin, 0..=2.
     pub friction: f64,
-    /// How far above the skin the cloth lies, metres, 0.0005..=0.05.
+    /// Height of the cloth above the skin, metres, 0.0005..=0.05.
     pub offset: f64,
-    /// Which turn each triangle is matched by.
+    /// Rotation used in shape matching.
     #[serde(skip_serializing_if = "is_default")]
     pub rotation: Rotation,
-    /// What may be left out. Not the user's, and not kept with the document.
+    /// Allowed shortcuts. Not a setting of the user, and not saved with the document.
     #[serde(skip)]
     pub skips: Skips,
 }
 
-/// The turn that lays a triangle's flat shape over its present one. With z the present and w the flat corners about their
-/// centroids, as complex numbers:
+/// The rotation that matches a triangle's rest shape to its present one. Below, z are the present and w the rest
+/// corners about their centroids, as complex numbers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Rotation {
-    /// The angle of sum z conj(w): of all turns the one with the least sum of squares, so that no step raises the energy.
+    /// Angle of sum z conj(w): the rotation with the least sum of squares, so that no step raises the energy.
     #[default]
     LeastSquares,
-    /// Paper A's, the angle of sum z conj(w) / |w|: every corner counts alike, however far out it is.
+    /// Paper A's: angle of sum z conj(w) / |w|, which weights all corners alike, whatever their distance from the centroid.
     Paper,
 }
 

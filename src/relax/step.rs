@@ -1,21 +1,21 @@
-//! What one global step is told to do.
+//! Parameters of a global step.
 
-/// What one global step does.
+/// Parameters of one global step.
 #[derive(Clone, Copy, Debug)]
 pub struct GlobalStep {
-    /// No vertex moves farther, metres.
+    /// Largest move of a vertex, metres.
     pub cap: f64,
-    /// Weight of contact on the matrix diagonal, against 2/3 for each triangle round a vertex. It also holds the vertex where
-    /// it is along the skin: a heavy weight keeps cloth out of the body while much moves, a light one lets it slide, and what
-    /// that lets through the multiplier makes good.
+    /// Weight of contact on the matrix diagonal; each triangle round a vertex adds 2/3 there. It also resists sliding
+    /// along the skin: a heavy weight keeps cloth out of the body while it moves much, a light one lets it slide, and
+    /// the multiplier makes up for what that lets through.
     pub contact: f64,
-    /// How strongly marked vertices are held where their marks are, as a weight on the diagonal.
+    /// Weight on the diagonal by which vertices are held at their marks.
     pub hold: f64,
-    /// So far from there they are free, metres.
+    /// Distance from the mark's position within which a held vertex is free, metres.
     pub slack: f64,
-    /// Turn triangles that face against the cloth round them, and send cloth that faces the skin next to it (it belongs to
-    /// another limb, or to the other side of a fold) away from there.
+    /// Whether to turn over triangles that face against the cloth round them, and to move cloth away from skin on
+    /// whose wrong side it is (it belongs to another limb, or to the other side of a fold).
     pub unfold: bool,
-    /// Apply gravity and friction.
+    /// Whether to apply gravity and friction.
     pub weight: bool,
 }

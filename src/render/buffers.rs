@@ -1,4 +1,4 @@
-//! Meshes and strokes on the device. A mesh stays there as long as it is drawn in every picture.
+//! Meshes on the device. A mesh is kept from one picture to the next while each of them draws it.
 
 use std::sync::Arc;
 
@@ -10,14 +10,14 @@ use super::pipelines::{MESH_STRIDE, Pipelines};
 use super::scene::Mesh;
 use super::{Gpu, RenderError};
 
-/// A mesh on the device.
+/// The GPU buffers of a mesh.
 #[derive(Debug)]
 pub(super) struct DeviceMesh {
     mesh: Arc<Mesh>,
     pub(super) vertices: wgpu::Buffer,
     pub(super) indices: wgpu::Buffer,
     pub(super) index_count: u32,
-    /// Ends of every edge, for the wireframe; made when they are first drawn.
+    /// Index buffer of all edges, for the wireframe, and the number of its indices; made when the edges are first drawn.
     pub(super) edges: Option<(wgpu::Buffer, u32)>,
     pub(super) material: wgpu::BindGroup,
 }
@@ -37,7 +37,7 @@ struct Material {
     back: Vec4,
 }
 
-/// The meshes of one picture, those of the last one reused. `wire`: with the edges of cloth.
+/// Uploads the meshes of one picture, reusing those of the last one. `wire` also makes the edge buffers of cloth.
 pub(super) fn upload(
     gpu: &Gpu,
     pipelines: &Pipelines,
@@ -88,7 +88,7 @@ impl DeviceMesh {
         })
     }
 
-    /// Woven cloth, not skin.
+    /// Whether the mesh is woven cloth, not skin.
     pub(super) fn is_cloth(&self) -> bool {
         self.mesh.cloth > 0.5
     }
@@ -100,7 +100,7 @@ impl DeviceMesh {
     }
 }
 
-/// Both ends of every edge, each once.
+/// Both ends of every edge, each edge once. Triangles with an index of `count` or more are left out.
 fn edges(triangles: &[[u32; 3]], count: u32) -> Vec<[u32; 2]> {
     let inside = triangles.iter().filter(|t| t.iter().all(|&v| v < count));
     let ends = inside.flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
@@ -141,7 +141,7 @@ fn area_weighted_normals(mesh: &Mesh) -> Vec<Vec3> {
     normals.into_iter().map(Vec3::normalize_or_zero).collect()
 }
 
-/// A bind group of `resources` in order.
+/// A bind group whose bindings 0, 1, ... are `resources`.
 pub(super) fn bind(
     gpu: &Gpu,
     layout: &wgpu::BindGroupLayout,

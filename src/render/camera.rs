@@ -1,52 +1,53 @@
-//! A camera that circles a pivot.
+//! An orbit camera.
 
 use glam::camera::rh::proj::directx;
 use glam::{Mat4, Quat, Vec2, Vec3, Vec4};
 
 use super::View;
 
-/// How depth becomes size.
+/// The projection of a camera.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Projection {
-    /// Far things are smaller.
+    /// Perspective: far things are smaller.
     #[default]
     Perspective,
-    /// Parallel: sizes can be compared.
+    /// Parallel (orthographic): sizes can be compared at any depth.
     Orthographic,
 }
 
 /// A ray into the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PixelRay {
-    /// Where it starts: the eye, or in front of everything for parallel projection.
+    /// Origin, metres: the eye, or for a parallel projection a point in front of everything.
     pub origin: Vec3,
-    /// Unit.
+    /// Direction, unit length.
     pub direction: Vec3,
 }
 
-/// Where a world point falls in a picture.
+/// A world point projected to a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Projected {
-    /// Pixels from the upper left corner.
+    /// Position in pixels from the upper left corner.
     pub pixel: Vec2,
-    /// Metres in front of the eye plane.
+    /// Depth in metres in front of the plane through the eye.
     pub depth: f32,
 }
 
-/// Looks at `pivot` from `distance`. Metres, radians; pixels run right and down from the upper left corner.
+/// A camera at `distance` from `pivot`, which it looks at. Metres and radians; pixels count right and down from the upper left
+/// corner.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
-    /// What the view turns about.
+    /// Centre of rotation, metres.
     pub pivot: Vec3,
-    /// World from view: x right, y up, z towards the eye.
+    /// Rotation from view to world; in view space x is right, y is up and z points towards the eye.
     pub rotation: Quat,
-    /// From the pivot to the eye.
+    /// Distance from the pivot to the eye, metres.
     pub distance: f32,
-    /// Vertical field of view.
+    /// Vertical field of view, radians.
     pub fov_y: f32,
-    /// How depth becomes size.
+    /// Perspective or parallel projection.
     pub projection: Projection,
-    /// Centre and radius of what must never be cut off by the near or far plane.
+    /// Centre and radius (metres) of a sphere that the near and far planes never cut.
     pub bounds: (Vec3, f32),
 }
 
@@ -63,7 +64,7 @@ impl Default for Camera {
     }
 }
 
-/// Free space round a framed box, as a factor.
+/// Size of the picture relative to that of a framed box; the excess is free space around it.
 const MARGIN: f32 = 1.07;
 
 impl Camera {
@@ -75,13 +76,13 @@ impl Camera {
         camera
     }
 
-    /// Turns to `view`; pivot and distance stay.
+    /// Turns to a named view; pivot and distance stay.
     pub fn look(&mut self, view: View) {
         let (yaw, pitch) = view.angles();
         self.rotation = Quat::from_rotation_y(yaw) * Quat::from_rotation_x(-pitch);
     }
 
-    /// Moves so that the whole box is seen, without turning.
+    /// Moves the pivot and the eye so that the whole box is visible, without turning. `aspect` is width over height.
     pub fn frame(&mut self, lower: Vec3, upper: Vec3, aspect: f32) {
         let corner = |i: i32| {
             let pick = |bit: i32, lo: f32, hi: f32| if i & bit == 0 { lo } else { hi };
@@ -90,13 +91,14 @@ impl Camera {
         self.frame_points(&(0..8).map(corner).collect::<Vec<_>>(), aspect);
     }
 
-    /// Moves so that all of `points` are seen and fill the picture, without turning. None: stays.
+    /// Moves the pivot and the eye so that all of `points` are visible and fill the picture, without turning. Without points
+    /// nothing moves.
     pub fn frame_points(&mut self, points: &[Vec3], aspect: f32) {
         let Some(&first) = points.first() else { return };
         let (lower, upper) = points.iter().fold((first, first), |(lo, hi), &p| (lo.min(p), hi.max(p)));
         self.set_bounds(lower, upper);
         self.pivot = (lower + upper) / 2.0;
-        // With perspective the middle of the picture is not the middle of the points: a few steps find it.
+        // In perspective the centre of the picture is not the centre of the points; a few iterations find it.
         for _ in 0..4 {
             self.distance = self.fitting_distance(points, aspect);
             self.pivot += self.rotation * self.off_centre(points).extend(0.0);
@@ -104,7 +106,7 @@ impl Camera {
         self.distance = self.fitting_distance(points, aspect);
     }
 
-    /// How far away the eye must be to see all of `points` about the pivot.
+    /// The distance (metres) from which all of `points` are visible with the present pivot.
     fn fitting_distance(&self, points: &[Vec3], aspect: f32) -> f32 {
         let tan_y = (self.fov_y / 2.0).tan();
         let tan_x = tan_y * aspect.max(1e-3);
@@ -117,7 +119,8 @@ impl Camera {
         distance.max(1e-3)
     }
 
-    /// Where the middle of the picture of `points` lies from the pivot, metres in the pivot's plane, right and up.
+    /// Centre of the points' bounding box in the picture, as an offset from the pivot in the plane through it, metres right and
+    /// up.
     fn off_centre(&self, points: &[Vec3]) -> Vec2 {
         let turn = self.rotation.inverse();
         let seen = points.iter().map(|&p| {
@@ -132,7 +135,7 @@ impl Camera {
         range.map_or(Vec2::ZERO, |(lower, upper)| (lower + upper) / 2.0)
     }
 
-    /// Tells what must never be cut off, without moving.
+    /// Sets `bounds` to the sphere around a box, without moving.
     pub fn set_bounds(&mut self, lower: Vec3, upper: Vec3) {
         self.bounds = ((lower + upper) / 2.0, ((upper - lower) / 2.0).length().max(1e-3));
     }
@@ -142,7 +145,7 @@ impl Camera {
         self.rotation * Vec3::Z
     }
 
-    /// Where the eye is. With parallel projection the picture does not depend on its distance.
+    /// Position of the eye, metres. With a parallel projection the picture does not depend on its distance.
     pub fn eye(&self) -> Vec3 {
         self.pivot + self.towards_eye() * self.eye_distance()
     }
@@ -154,16 +157,16 @@ impl Camera {
         }
     }
 
-    /// View from world.
+    /// The view matrix: view space from world space.
     pub fn view(&self) -> Mat4 {
         let turn = self.rotation.inverse();
         Mat4::from_rotation_translation(turn, turn * -self.eye())
     }
 
-    /// Clip space from view, depth reversed (1 near, 0 far).
+    /// The projection matrix: clip space from view space, with reversed depth (1 near, 0 far).
     pub fn projection(&self, aspect: f32) -> Mat4 {
         match self.projection {
-            // No far plane, and a near plane close enough to pass between an eye and anything it can look at.
+            // An infinite far plane, and a near plane close enough to pass between the eye and anything it can look at.
             Projection::Perspective => {
                 directx::perspective_infinite_reverse(self.fov_y, aspect, self.distance * 2e-3)
             }
@@ -175,12 +178,12 @@ impl Camera {
         }
     }
 
-    /// Half the height of the picture at the pivot, metres.
+    /// Half the height of the picture in the plane through the pivot, metres.
     pub fn half_height(&self) -> f32 {
         self.distance * (self.fov_y / 2.0).tan()
     }
 
-    /// Metres a pixel covers at the pivot.
+    /// Size of a pixel in the plane through the pivot, metres.
     pub fn metres_per_pixel(&self, size: Vec2) -> f32 {
         2.0 * self.half_height() / size.y.max(1.0)
     }
@@ -205,7 +208,7 @@ impl Camera {
         }
     }
 
-    /// Where `point` falls in a picture of `size` pixels; None behind the eye.
+    /// Projects `point` to a picture of `size` pixels; None if it is behind the eye.
     pub fn project(&self, point: Vec3, size: Vec2) -> Option<Projected> {
         let in_view = self.view().transform_point3(point);
         let clip: Vec4 = self.projection(size.x / size.y) * in_view.extend(1.0);
@@ -219,8 +222,8 @@ impl Camera {
         })
     }
 
-    /// Turns with up kept up: sideways about the world's y, up and down about the view's x, stopping at the poles.
-    /// `turn` is how far the scene follows the pointer, radians, right and down.
+    /// Turntable rotation: right and left about the world's y axis, up and down about the view's x axis, which stops at the
+    /// poles. `turn` is the rotation of the scene with the pointer, radians, right and down.
     pub fn orbit(&mut self, turn: Vec2) {
         let upright = (self.rotation * Vec3::Y).y >= -1e-4;
         let pitch = self.towards_eye().y.clamp(-1.0, 1.0).asin();
@@ -230,8 +233,8 @@ impl Camera {
             (Quat::from_rotation_y(-turn.x) * self.rotation * Quat::from_rotation_x(-tilt)).normalize();
     }
 
-    /// Turns as a ball under the pointer would, dragged from one pixel to another (virtual trackball: a sphere that runs
-    /// out into a hyperbolic sheet, after Bell as told by Henriksen, Sporring and Hornbaek 2004).
+    /// Virtual trackball rotation for a drag from one pixel to another: a sphere that continues as a hyperbolic sheet (Bell's,
+    /// described in Henriksen, Sporring and Hornbaek 2004).
     pub fn trackball(&mut self, from: Vec2, to: Vec2, size: Vec2) {
         let on_ball = |p: Vec2| {
             let q = (p - size / 2.0) * Vec2::new(1.0, -1.0) / (0.5 * size.min_element().max(1.0));
@@ -243,13 +246,14 @@ impl Camera {
         self.rotation = (self.rotation * turn.inverse()).normalize();
     }
 
-    /// Moves the pivot with the pointer, by `pixels` right and down.
+    /// Moves the pivot so that the scene follows the pointer, by `pixels` right and down.
     pub fn pan(&mut self, pixels: Vec2, size: Vec2) {
         let scale = self.metres_per_pixel(size);
         self.pivot += self.rotation * Vec3::new(-pixels.x * scale, pixels.y * scale, 0.0);
     }
 
-    /// Scales the distance by `factor` (< 1 comes closer), so that `target` stays under the same pixel.
+    /// Scales the distance by `factor` (below 1 moves closer) while `target` stays under the same pixel. The distance is limited
+    /// by the size of `bounds`.
     pub fn zoom(&mut self, factor: f32, target: Vec3) {
         let reach = self.bounds.1;
         let wanted = (self.distance * factor).clamp(reach * 0.01, reach * 40.0);
@@ -258,7 +262,7 @@ impl Camera {
         self.distance = wanted;
     }
 
-    /// The point under `pixel` in the plane through the pivot that faces the eye.
+    /// The point under `pixel` in the plane through the pivot that is perpendicular to the view.
     pub fn point_on_pivot_plane(&self, pixel: Vec2, size: Vec2) -> Vec3 {
         let ray = self.ray(pixel, size);
         let normal = self.towards_eye();

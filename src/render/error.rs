@@ -1,4 +1,4 @@
-//! What can go wrong between buffers and pixels, in words for people.
+//! Errors of rendering, in words for people.
 
 /// Why there is no picture.
 #[derive(Debug, thiserror::Error)]
@@ -9,12 +9,12 @@ pub enum RenderError {
          mesa-vulkan-drivers brings a software one"
     )]
     NoAdapter(String),
-    /// The adapter would not open.
+    /// The adapter could not be opened.
     #[error("the graphics adapter {adapter} could not be opened: {reason}")]
     NoDevice {
-        /// Its name.
+        /// Name of the adapter.
         adapter: String,
-        /// What it said.
+        /// Message of the adapter.
         reason: String,
     },
     /// The picture or a mesh is larger than the adapter can hold.
@@ -25,7 +25,7 @@ pub enum RenderError {
         /// The limit, with its unit.
         limit: String,
     },
-    /// The adapter did not answer.
+    /// The adapter did not answer within this time.
     #[error("the graphics adapter did not finish the picture within {} seconds", .0.as_secs())]
     Timeout(std::time::Duration),
     /// The adapter reported an error.
@@ -34,7 +34,7 @@ pub enum RenderError {
     /// The picture could not be encoded.
     #[error("the picture could not be encoded: {0}")]
     Encode(#[from] image::ImageError),
-    /// Not the name of a view.
+    /// The text is not the name of a view.
     #[error(
         "unknown view {0:?}: use front, back, left, right, top, below, three-quarter or YAW,PITCH in degrees"
     )]

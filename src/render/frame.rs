@@ -1,4 +1,4 @@
-//! What every pass of one picture knows: camera, lamp, colours. Matches `Frame` in shaders/frame.wgsl.
+//! The uniform buffer that all passes of a picture share: camera, lamp, colours. It matches `Frame` in shaders/frame.wgsl.
 
 use bytemuck::{Pod, Zeroable};
 use glam::camera::rh::{proj::directx, view::look_at_mat4};
@@ -7,7 +7,7 @@ use glam::{Mat4, Quat, UVec2, Vec3, Vec4};
 use super::scene::Rgb;
 use super::{Camera, Look, Projection, Scene};
 
-/// The uniform of a picture.
+/// The uniform buffer of a picture.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub(super) struct Frame {
@@ -26,11 +26,11 @@ pub(super) struct Frame {
     hollows: Vec4,
 }
 
-/// Reach of the hollows as a share of the radius of what is seen: 7 cm on a person.
+/// Radius of ambient occlusion relative to the radius of the sphere around all meshes: 7 cm on a person.
 const HOLLOW_REACH: f32 = 0.07;
 
 impl Frame {
-    /// For one picture of `size` pixels.
+    /// The uniform buffer of a picture of `size` pixels.
     pub(super) fn new(camera: &Camera, scene: &Scene, look: &Look, size: UVec2) -> Self {
         let viewport = size.max(UVec2::ONE).as_vec2();
         let (view, projection) = (camera.view(), camera.projection(viewport.x / viewport.y));
@@ -62,7 +62,7 @@ impl Frame {
     }
 }
 
-/// Above and left of the eye, wherever it is: folds are read from every side.
+/// Unit vector towards the lamp: above and left of the eye, so that folds show from every side.
 fn lamp_direction(camera: &Camera) -> Vec3 {
     let back = camera.towards_eye();
     let yaw = back.x.atan2(back.z);
@@ -82,12 +82,12 @@ fn lamp_matrix(lamp: Vec3, centre: Vec3, radius: f32) -> Mat4 {
     directx::orthographic(-r, r, -r, r, r * 0.9, r * 4.5) * view
 }
 
-/// Gamma-encoded, 0..=1.
+/// Gamma-encoded sRGB, 0..=1.
 pub(super) fn gamma(c: Rgb) -> Vec3 {
     Vec3::from(c.map(|v| f32::from(v) / 255.0))
 }
 
-/// Linear light, 0..=1 (IEC 61966-2-1).
+/// Linear RGB, 0..=1 (sRGB transfer function, IEC 61966-2-1).
 pub(super) fn linear(c: Rgb) -> Vec3 {
     let one = |v: f32| if v <= 0.040_45 { v / 12.92 } else { ((v + 0.055) / 1.055).powf(2.4) };
     Vec3::from(gamma(c).to_array().map(one))

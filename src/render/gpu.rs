@@ -1,4 +1,4 @@
-//! A graphics device: made without a window, or borrowed from one.
+//! A graphics device: opened without a window, or shared with one.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -7,10 +7,10 @@ use super::RenderError;
 
 /// Colour format of every target. Shaders write gamma-encoded values, as egui expects of its textures.
 pub const COLOUR: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
-/// Depth format. Reversed: 1 at the near plane, 0 far away, so that floats keep their relative accuracy.
+/// Depth format. Depth is reversed, 1 at the near plane and 0 far away, which keeps the relative accuracy of floats.
 pub const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 
-/// How long pictures are waited for: a processor takes seconds for the largest.
+/// Default time after which a picture counts as failed; software rendering takes seconds for the largest pictures.
 const PATIENCE: Duration = Duration::from_secs(30);
 
 /// A device and its queue.
@@ -22,16 +22,16 @@ pub struct Gpu {
     pub queue: wgpu::Queue,
     /// Name and backend of the adapter, for people.
     pub adapter_name: String,
-    /// True when a processor does the work: passes that only please may then be smaller.
+    /// Whether the adapter renders in software; optional passes may then be smaller.
     pub software: bool,
-    /// Samples a pixel: 4, or 1 where the adapter cannot.
+    /// Samples per pixel: 4, or 1 where the adapter does not support that.
     pub samples: u32,
-    /// How long a picture is waited for.
+    /// Time after which a picture counts as failed.
     pub patience: Duration,
 }
 
 impl Gpu {
-    /// Opens the best adapter there is, without a window.
+    /// Opens the best adapter available, without a window.
     pub fn headless() -> Result<Self, RenderError> {
         let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env());
         let options = wgpu::RequestAdapterOptions {
@@ -65,7 +65,7 @@ impl Gpu {
         }
     }
 
-    /// A buffer that holds `contents`. On a device that is lost it holds nothing, and nothing panics.
+    /// Makes a buffer with `contents`, padded to a multiple of 4 bytes. On a lost device it is empty, and nothing panics.
     pub(super) fn buffer(&self, label: &str, contents: &[u8], usage: wgpu::BufferUsages) -> wgpu::Buffer {
         let unpadded = contents.len() as u64;
         let size = unpadded.next_multiple_of(wgpu::COPY_BUFFER_ALIGNMENT).max(wgpu::COPY_BUFFER_ALIGNMENT);
@@ -85,13 +85,13 @@ impl Gpu {
         buffer
     }
 
-    /// The longest side of a texture, pixels.
+    /// Longest side of a texture, pixels.
     pub fn max_side(&self) -> u32 {
         self.device.limits().max_texture_dimension_2d
     }
 }
 
-/// What is asked of an adapter: no optional features, and room for large meshes where the adapter has it.
+/// The limits requested of an adapter: no optional features, and the largest textures and buffers it offers.
 pub fn device_descriptor(adapter: &wgpu::Adapter) -> wgpu::DeviceDescriptor<'static> {
     let offered = adapter.limits();
     let base = if adapter.get_info().backend == wgpu::Backend::Gl {

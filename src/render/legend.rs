@@ -1,4 +1,4 @@
-//! A legend burnt into a picture: what is shown, its unit, and which colour stands for which value.
+//! A legend drawn into a picture: the title, the unit, and a colour bar with values.
 
 use image::{Rgba, RgbaImage};
 
@@ -7,24 +7,24 @@ use super::palette::Palette;
 
 const INK: Rgba<u8> = Rgba([40, 44, 52, 255]);
 const PAPER: Rgba<u8> = Rgba([250, 250, 250, 255]);
-/// Values that are written beside the bar.
+/// Number of values written beside the bar.
 const TICKS: u32 = 5;
 
-/// What a legend says.
+/// The contents of a legend.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Legend {
-    /// What is shown.
+    /// What the colours show.
     pub title: String,
-    /// Of the values.
+    /// Unit of the values.
     pub unit: String,
-    /// From the lower to the upper end of the bar, in that unit.
+    /// Values at the lower and the upper end of the bar, in that unit.
     pub range: [f64; 2],
-    /// Its colours.
+    /// Colours of the bar.
     pub palette: Palette,
 }
 
 impl Legend {
-    /// What is written beside the bar, from its lower end up.
+    /// The values beside the bar, from its lower end up.
     pub fn ticks(&self) -> Vec<String> {
         let span = self.range[1] - self.range[0];
         let digits = if span >= 20.0 {
@@ -38,7 +38,7 @@ impl Legend {
         (0..TICKS).map(|i| format!("{:.digits$}", value(i) + 0.0)).collect()
     }
 
-    /// Draws it in the lower left corner, as large as the picture allows.
+    /// Draws the legend in the lower left corner, scaled to the picture.
     pub fn burn(&self, picture: &mut RgbaImage) {
         let letters = (picture.height() / 34).max(12);
         let line = (letters / 8).max(1);

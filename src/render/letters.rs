@@ -1,4 +1,4 @@
-//! Words in pictures without a window, in the window's own letters.
+//! Text in pictures without a window, in the font of the window.
 
 use std::sync::LazyLock;
 
@@ -10,8 +10,7 @@ static FONT: LazyLock<FontRef<'static>> = LazyLock::new(|| {
         .expect("the letters that come with the program")
 });
 
-/// The letters of `words`, `size` pixels from the top of the highest to the bottom of the lowest, from the left end of their line
-/// on; and how long that is, pixels.
+/// The glyphs of `words` in a row that begins at x = 0, with a line height of `size` pixels, and the length of the row, pixels.
 fn laid(words: &str, size: u32) -> (Vec<Glyph>, f32) {
     let font = FONT.as_scaled(PxScale::from(size as f32));
     let (mut glyphs, mut x, mut before) = (Vec::new(), 0.0, None);
@@ -25,13 +24,13 @@ fn laid(words: &str, size: u32) -> (Vec<Glyph>, f32) {
     (glyphs, x)
 }
 
-/// How wide `words` are in letters of `size` pixels, pixels.
+/// Length of a line of text with a line height of `size` pixels, pixels.
 pub fn width(words: &str, size: u32) -> u32 {
     laid(words, size).1.ceil() as u32
 }
 
-/// Writes `words` in letters of `size` pixels, the upper left corner at `at`. What lies beyond the picture is left out; letters that
-/// the font does not have are boxes.
+/// Draws text with a line height of `size` pixels, its upper left corner at `at`. Parts outside of the picture are left out;
+/// characters missing from the font are drawn as boxes.
 pub fn write(picture: &mut RgbaImage, words: &str, at: [u32; 2], size: u32, colour: Rgba<u8>) {
     for glyph in laid(words, size).0 {
         let Some(outline) = FONT.outline_glyph(glyph) else { continue };
@@ -50,7 +49,7 @@ pub fn write(picture: &mut RgbaImage, words: &str, at: [u32; 2], size: u32, colo
     }
 }
 
-/// Fills a rectangle as far as it lies in the picture.
+/// Fills the part of a rectangle that is inside the picture.
 pub fn fill(picture: &mut RgbaImage, at: [u32; 2], size: [u32; 2], colour: Rgba<u8>) {
     for y in at[1]..(at[1].saturating_add(size[1])).min(picture.height()) {
         for x in at[0]..(at[0].saturating_add(size[0])).min(picture.width()) {

@@ -2,48 +2,48 @@
 
 use super::scene::Rgb;
 
-/// How a picture looks. Colours are sRGB.
+/// Colours, light and display options of a picture. Colours are sRGB.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Look {
     /// Background at the top.
     pub sky: Rgb,
     /// Background at the bottom.
     pub horizon: Rgb,
-    /// Floor.
+    /// Colour of the floor.
     pub ground: Rgb,
-    /// Lines on the floor, 0..=1.
+    /// Strength of the grid lines on the floor, 0..=1.
     pub grid: f32,
-    /// Light from everywhere, 0..=1.
+    /// Ambient light, 0..=1.
     pub ambient: f32,
-    /// Light from the lamp above the eye's left shoulder, 0..=1.
+    /// Light of the lamp, which is above and left of the eye, 0..=1.
     pub key: f32,
-    /// How dark the lamp's shadows are, 0..=1.
+    /// Darkness of the lamp's shadows, 0..=1.
     pub shadow: f32,
-    /// How dark hollows are, 0..=1; 0 skips the passes.
+    /// Strength of ambient occlusion, 0..=1; 0 skips its passes.
     pub occlusion: f32,
-    /// Logical pixels to pixels.
+    /// Physical pixels per logical pixel (egui point).
     pub pixels_per_point: f32,
-    /// The edges of the triangles of cloth are drawn over it.
+    /// Whether the edges of the cloth's triangles are drawn over it (wireframe).
     pub wire: bool,
-    /// What is no cloth is half transparent.
+    /// Whether everything but cloth is half transparent.
     pub sheer: bool,
-    /// Lines and labels show faintly through what hides them.
+    /// Whether lines and labels show faintly through what hides them.
     pub xray: bool,
-    /// Neither background nor floor: the picture is transparent where nothing is.
+    /// Whether background and floor are left out, so that the picture is transparent there.
     pub cut_out: bool,
 }
 
-/// Outside of the cloth: the soft green of paper A's figures.
+/// Front of the cloth: the soft green of paper A's figures.
 pub const CLOTH_FRONT: Rgb = [138, 186, 134];
-/// Inside of the cloth: pink.
+/// Back of the cloth: pink.
 pub const CLOTH_BACK: Rgb = [231, 163, 176];
-/// Outsides of what is worn over that, layer by layer; from there on again: lake, straw, heather, slate.
+/// Fronts of cloth on layers 1, 2, 3 and 4: lake, straw, heather, slate. Further layers repeat them.
 const OVER: [Rgb; 4] = [[128, 166, 200], [218, 190, 128], [182, 152, 192], [150, 158, 166]];
 /// The body: warm plaster.
 pub const BODY: Rgb = [222, 201, 184];
 
 impl Look {
-    /// On a light background.
+    /// Colours for a light background.
     pub fn light() -> Self {
         Self {
             sky: [226, 231, 237],
@@ -62,7 +62,7 @@ impl Look {
         }
     }
 
-    /// On a dark background.
+    /// Colours for a dark background.
     pub fn dark() -> Self {
         Self { sky: [31, 34, 39], horizon: [52, 56, 62], ground: [62, 66, 72], grid: 0.45, ..Self::light() }
     }
@@ -74,7 +74,7 @@ impl Default for Look {
     }
 }
 
-/// The outside of cloth that is worn on `layer`; 0 lies next to the skin.
+/// Front colour of cloth on `layer`; layer 0 is next to the skin.
 pub fn cloth_front(layer: u8) -> Rgb {
     match usize::from(layer) {
         0 => CLOTH_FRONT,
@@ -82,7 +82,8 @@ pub fn cloth_front(layer: u8) -> Rgb {
     }
 }
 
-/// Colours of numbered marks, told apart in dark and light and by most colour-blind eyes; the numbers tell the rest.
+/// Colours of numbered marks, different in dark and light mode and for most colour-blind people; beyond ten they repeat and only
+/// the numbers differ.
 const MARKS: [Rgb; 10] = [
     [200, 50, 52],
     [31, 98, 190],
@@ -96,7 +97,7 @@ const MARKS: [Rgb; 10] = [
     [60, 70, 200],
 ];
 
-/// The colour of mark `number` (from 1), on the cloth and on the body.
+/// Colour of the mark `number` (from 1), on the cloth and on the body.
 pub fn mark_colour(number: usize) -> Rgb {
     MARKS[number.saturating_sub(1) % MARKS.len()]
 }

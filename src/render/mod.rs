@@ -1,7 +1,7 @@
-//! Plain buffers in, pixels out. Knows cameras, meshes and lines, and nothing of cloth or bodies.
+//! Rendering: plain buffers in, pixels out. It has cameras, meshes and lines, and no notion of cloth or bodies.
 //!
-//! A picture takes up to six passes: shadow map; depth and normals at half size; hollows (ambient occlusion) and their blur;
-//! then background, floor, meshes, wires and lines with light, at four samples a pixel.
+//! A picture takes up to six passes: shadow map; depth and normals at half size; ambient occlusion ("hollows") and its blur; then
+//! background, floor, meshes, wires and lines with light, at four samples per pixel.
 
 mod buffers;
 pub mod camera;

@@ -1,8 +1,8 @@
-//! Colours for values.
+//! Colour maps for values.
 
 use super::scene::Rgb;
 
-/// Viridis (Smith and van der Walt, 2015) at nine places, sRGB: even in lightness, told apart by colour-blind eyes.
+/// Viridis (Smith and van der Walt, 2015) at nine places, sRGB: its lightness rises evenly, and colour-blind people can read it.
 const VIRIDIS: [Rgb; 9] = [
     [68, 1, 84],
     [71, 44, 122],
@@ -14,7 +14,7 @@ const VIRIDIS: [Rgb; 9] = [
     [170, 220, 50],
     [253, 231, 37],
 ];
-/// Blue through white to orange: less than nothing, nothing, more. Red and green do not meet in it.
+/// A diverging colour map in sRGB: blue for negative, white for zero, orange for positive. It avoids red against green.
 const DIVERGING: [Rgb; 9] = [
     [8, 64, 129],
     [33, 113, 181],
@@ -26,20 +26,20 @@ const DIVERGING: [Rgb; 9] = [
     [230, 97, 13],
     [147, 52, 4],
 ];
-/// Where there is no value.
+/// Colour where there is no value.
 pub const NO_VALUE: Rgb = [150, 150, 150];
 
-/// How values become colours.
+/// A colour map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Palette {
-    /// From little to much.
+    /// From small to large values.
     Sequential,
-    /// From one side of the middle to the other.
+    /// From one side of a middle value to the other.
     Diverging,
 }
 
 impl Palette {
-    /// The colour of `value` in `range`; beyond its ends theirs, and grey for what is no number.
+    /// The colour of `value` in `range`. Values outside take the colour of the nearer end; NaN is grey.
     pub fn colour(self, value: f64, range: [f64; 2]) -> Rgb {
         if !value.is_finite() {
             return NO_VALUE;

@@ -1,4 +1,4 @@
-//! A picture without a window.
+//! Pictures without a window.
 
 use std::path::Path;
 
@@ -8,7 +8,7 @@ use glam::UVec2;
 
 use super::{Camera, Gpu, Look, OffscreenTarget, Quality, RenderError, Renderer, Scene, View};
 
-/// A device and renderer for pictures without a window; made once for many pictures.
+/// A device and renderer for pictures without a window; make one and use it for many pictures.
 #[derive(Debug)]
 pub struct Studio {
     gpu: Gpu,
@@ -17,19 +17,19 @@ pub struct Studio {
 }
 
 impl Studio {
-    /// Opens the best graphics adapter there is.
+    /// Opens the best graphics adapter available.
     pub fn new() -> Result<Self, RenderError> {
         let gpu = Gpu::headless()?;
         let renderer = Renderer::new(&gpu);
         Ok(Self { gpu, renderer, target: None })
     }
 
-    /// Pictures are waited for so long.
+    /// Sets the time after which a picture counts as failed.
     pub fn set_patience(&mut self, patience: Duration) {
         self.gpu.patience = patience;
     }
 
-    /// The adapter that draws, for people.
+    /// Name and backend of the adapter, for people.
     pub fn adapter_name(&self) -> &str {
         &self.gpu.adapter_name
     }
@@ -67,12 +67,12 @@ impl Studio {
     }
 }
 
-/// The whole of `scene` from `view` as an image, on a device opened for it. Several pictures: [`Studio`].
+/// Draws the whole of `scene` from `view`, on a device opened for this one picture. For several pictures use [`Studio`].
 pub fn picture(scene: &Scene, view: View, look: &Look, size: UVec2) -> Result<image::RgbaImage, RenderError> {
     Studio::new()?.picture(scene, view, look, size)
 }
 
-/// A picture drawn with [`Look::cut_out`] as image files have it: colours not multiplied with opacity.
+/// A picture drawn with [`Look::cut_out`], converted from premultiplied to straight alpha as image files have it.
 pub fn straightened(mut picture: image::RgbaImage) -> image::RgbaImage {
     for pixel in picture.pixels_mut() {
         let [r, g, b, a] = pixel.0;

@@ -1,11 +1,11 @@
-//! How each pass is set up on the device.
+//! The render pipelines of all passes.
 
 use super::gpu::{COLOUR, DEPTH};
 use super::shaders::{self, Shader};
 use super::target::{HOLLOWS, NORMALS, Quality};
 use super::{Gpu, strokes::Stroke};
 
-/// Everything that lives as long as the device.
+/// Bind group layouts and pipelines, which last as long as the device.
 #[derive(Debug)]
 pub(super) struct Pipelines {
     pub(super) frame_layout: wgpu::BindGroupLayout,
@@ -19,28 +19,28 @@ pub(super) struct Pipelines {
     pub(super) hollows: wgpu::RenderPipeline,
     pub(super) blur: wgpu::RenderPipeline,
     finished: Pictured,
-    /// Made when the first draft is drawn.
+    /// Pipelines for drafts; made when the first draft is drawn.
     draft: Option<Pictured>,
 }
 
-/// What the picture itself is drawn with.
+/// The pipelines that draw the picture itself, after the passes that prepare its light.
 #[derive(Debug)]
 pub(super) struct Pictured {
     pub(super) background: wgpu::RenderPipeline,
     pub(super) ground: wgpu::RenderPipeline,
     pub(super) cloth: wgpu::RenderPipeline,
-    /// Meshes that are no cloth: in a draft without their far side.
+    /// Meshes that are not cloth; in a draft with back faces culled.
     pub(super) skin: wgpu::RenderPipeline,
     pub(super) line: wgpu::RenderPipeline,
-    /// Meshes that can be seen through.
+    /// Transparent meshes.
     pub(super) sheer: wgpu::RenderPipeline,
-    /// Edges of triangles.
+    /// Edges of triangles (wireframe).
     pub(super) wire: wgpu::RenderPipeline,
-    /// Lines, whatever hides them.
+    /// Lines and labels without depth test, drawn faintly where something hides them.
     pub(super) faint: wgpu::RenderPipeline,
 }
 
-/// A mesh vertex: position, normal, colour.
+/// Size of a mesh vertex (position, normal, colour), bytes.
 pub(super) const MESH_STRIDE: u64 = 28;
 
 impl Pipelines {
@@ -95,7 +95,7 @@ impl Pipelines {
         }
     }
 
-    /// Makes what drafts are drawn with, unless it is there.
+    /// Makes the pipelines for drafts, unless they are there.
     pub(super) fn prepare_drafts(&mut self, gpu: &Gpu) {
         if self.draft.is_none() {
             let make = Maker { gpu, frame: &self.frame_layout };
@@ -103,7 +103,7 @@ impl Pipelines {
         }
     }
 
-    /// What a picture is drawn with. Drafts must have been prepared.
+    /// The pipelines for a quality. For drafts [`Pipelines::prepare_drafts`] must have been called.
     pub(super) fn pictured(&self, quality: Quality) -> &Pictured {
         match quality {
             Quality::Finished => &self.finished,
@@ -112,11 +112,11 @@ impl Pipelines {
     }
 }
 
-/// Nearer things hide what is behind them.
+/// Depth compare function and whether depth is written: tested and written, for opaque things.
 const NEARER: (wgpu::CompareFunction, bool) = (wgpu::CompareFunction::GreaterEqual, true);
-/// Hidden by what is nearer, hides nothing.
+/// Depth compare function and whether depth is written: tested but not written, for what is blended over opaque things.
 const TESTED: (wgpu::CompareFunction, bool) = (wgpu::CompareFunction::GreaterEqual, false);
-/// Neither.
+/// Depth compare function and whether depth is written: neither tested nor written.
 const UNTESTED: (wgpu::CompareFunction, bool) = (wgpu::CompareFunction::Always, false);
 
 impl Pictured {
@@ -146,7 +146,7 @@ impl Pictured {
         Self::of(make, samples, ground, opaque.clone(), opaque, sheer)
     }
 
-    /// Lit at the vertices, without textures.
+    /// Pipelines for drafts: lit per vertex, without textures.
     fn draft(make: &Maker<'_>, material: &wgpu::BindGroupLayout) -> Self {
         let (mesh, ground) = (make.module(&shaders::draft()), make.module(&shaders::draft_ground()));
         let cloth = Pass {
@@ -213,13 +213,13 @@ impl Pictured {
     }
 }
 
-/// What distinguishes one pass from another.
+/// The settings in which passes differ.
 #[derive(Clone)]
 struct Pass<'a> {
     module: &'a wgpu::ShaderModule,
     vertex: &'a str,
     fragment: Option<(&'a str, Option<wgpu::ColorTargetState>)>,
-    /// Groups after the frame's.
+    /// Bind groups after group 0, which is the frame's.
     extra: &'a [Option<&'a wgpu::BindGroupLayout>],
     vertices: Option<wgpu::VertexBufferLayout<'a>>,
     depth: Option<(wgpu::CompareFunction, bool)>,
@@ -317,12 +317,13 @@ fn blended() -> wgpu::ColorTargetState {
     }
 }
 
-/// With several samples a pixel alpha takes some of them, in whatever order things are drawn; else it blends.
+/// Colour target of transparent meshes. With multisampling alpha selects samples (alpha to coverage), which needs no order of
+/// drawing; else it blends.
 fn sheer_target(samples: u32) -> wgpu::ColorTargetState {
     let blend = (samples == 1).then_some(wgpu::BlendState::ALPHA_BLENDING);
     wgpu::ColorTargetState {
         blend,
-        // What is seen through it is opaque already.
+        // Alpha is not written: behind transparent meshes the picture is opaque already.
         write_mask: wgpu::ColorWrites::COLOR,
         ..wgpu::ColorTargetState::from(COLOUR)
     }

@@ -1,4 +1,4 @@
-//! Draws a scene: shadow map, depth and normals, hollows, then everything with light.
+//! Draws a scene: shadow map, depth and normals, ambient occlusion, then everything with light.
 
 use glam::UVec2;
 
@@ -10,7 +10,7 @@ use super::strokes::strokes;
 use super::target::{HalfSize, texture};
 use super::{Camera, Gpu, Look, OffscreenTarget, Quality, RenderError, Scene};
 
-/// Pipelines, shadow map and the meshes of the last picture. One per device.
+/// Pipelines, shadow map and the meshes of the last picture; one per device.
 #[derive(Debug)]
 pub struct Renderer {
     pipelines: Pipelines,
@@ -19,17 +19,17 @@ pub struct Renderer {
     meshes: Vec<DeviceMesh>,
 }
 
-/// What one picture binds.
+/// The bind groups and buffers of one picture.
 struct Bound {
     frame: wgpu::BindGroup,
-    /// None in a draft.
+    /// Shadow map and ambient occlusion; None in a draft.
     light: Option<wgpu::BindGroup>,
     strokes: Option<(wgpu::Buffer, u32)>,
     ground: bool,
 }
 
 impl Renderer {
-    /// Compiles the shaders and makes the shadow map.
+    /// Creates the pipelines and the shadow map.
     pub fn new(gpu: &Gpu) -> Self {
         let side = if gpu.software { 1024 } else { 2048 };
         let usage = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING;
@@ -48,7 +48,7 @@ impl Renderer {
         }
     }
 
-    /// Draws `scene` on `target`. The work is handed to the device; reading the target waits for it.
+    /// Draws `scene` on `target`. The work is submitted to the device; reading the target waits for it.
     pub fn draw(
         &mut self,
         gpu: &Gpu,
@@ -102,7 +102,7 @@ impl Renderer {
                 let bytes = bytemuck::cast_slice(&strokes);
                 (gpu.buffer("strokes", bytes, wgpu::BufferUsages::VERTEX), strokes.len() as u32)
             }),
-            // Seen from below, the floor would only be in the way.
+            // Seen from below, the floor would only hide the scene.
             ground: scene.ground.is_some_and(|g| camera.eye().y > g.height) && !look.cut_out,
         }
     }
@@ -192,7 +192,7 @@ impl Renderer {
             pass.set_pipeline(&with.ground);
             pass.draw(0..6, 0..1);
         }
-        // Without a background there is nothing to be seen through it.
+        // A cut-out picture has no background that could show through.
         let sheer = look.sheer && !look.cut_out;
         pass.set_pipeline(&with.cloth);
         self.draw_meshes(&mut pass, true, DeviceMesh::is_cloth);
@@ -213,7 +213,7 @@ impl Renderer {
     }
 }
 
-/// Starts a pass that clears what it draws on. With a resolve target the samples themselves are not kept.
+/// Begins a pass that clears its attachments. With a resolve target the multisampled texture is discarded after the pass.
 fn begin<'e>(
     encoder: &'e mut wgpu::CommandEncoder,
     label: &str,

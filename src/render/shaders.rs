@@ -1,11 +1,11 @@
-//! The shader files, each with the headers it needs.
+//! The shaders, each assembled from its own file and the headers it needs.
 
-/// A shader: the file of its own part, and its whole text.
+/// A shader and its name.
 #[derive(Clone, Debug)]
 pub(super) struct Shader {
     /// Name of the file in shaders/.
     pub(super) name: &'static str,
-    /// Headers and own part.
+    /// The WGSL text: headers, then the shader's own file.
     pub(super) text: String,
 }
 

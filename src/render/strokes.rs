@@ -1,11 +1,11 @@
-//! Lines, dots and digits as capsules.
+//! Lines, dots and digits as instances of one primitive, the capsule.
 
 use bytemuck::{Pod, Zeroable};
 use glam::{Vec2, Vec3};
 
 use super::scene::{Label, Polyline};
 
-/// One capsule. Matches `Stroke` in shaders/line.wgsl.
+/// Instance data of one capsule. It matches `Stroke` in shaders/line.wgsl.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub(super) struct Stroke {
@@ -19,7 +19,8 @@ pub(super) struct Stroke {
     lift_widths: f32,
 }
 
-/// All capsules in drawing order: borders of lines, lines, borders of labels, labels. `scale`: logical pixels to pixels.
+/// All capsules in drawing order: borders of lines, lines, then each label with its badge and digits. `scale` is the number of
+/// physical pixels per logical pixel.
 pub(super) fn strokes(lines: &[Polyline], labels: &[Label], scale: f32) -> Vec<Stroke> {
     let mut all = Vec::new();
     for line in lines.iter().filter(|l| l.halo[3] > 0 && l.halo_width > 0.0) {
@@ -60,7 +61,7 @@ fn push_line(all: &mut Vec<Stroke>, line: &Polyline, colour: [u8; 4], half_width
     }
 }
 
-/// A pill in the label's colour with a border, big enough for its digits.
+/// Adds a badge: a pill in the label's colour with a border, wide enough for its digits.
 fn push_badge(all: &mut Vec<Stroke>, label: &Label, scale: f32) {
     let height = label.height * scale;
     let reach = (label.text.chars().count().max(1) - 1) as f32 * ADVANCE / 2.0 * height;
@@ -79,7 +80,7 @@ fn push_badge(all: &mut Vec<Stroke>, label: &Label, scale: f32) {
     }
 }
 
-/// Digits as a plotter would draw them.
+/// Adds the digits as strokes of constant width.
 fn push_digits(all: &mut Vec<Stroke>, label: &Label, scale: f32) {
     let height = label.height * scale;
     let count = label.text.chars().count() as f32;
@@ -104,13 +105,14 @@ fn push_digits(all: &mut Vec<Stroke>, label: &Label, scale: f32) {
     }
 }
 
-/// From one digit to the next, and the width of one, over its height.
+/// Distance from one digit to the next, relative to the height of a digit.
 const ADVANCE: f32 = 0.78;
+/// Width of a digit, relative to its height.
 const DIGIT_WIDTH: f32 = 0.55;
 
 type Path = &'static [(f32, f32)];
 
-/// Strokes of each digit in a box 0.55 wide and 1 high.
+/// Strokes of each digit in a box 0.55 wide and 1 high, y up.
 const DIGITS: [&[Path]; 10] = [
     // 0
     &[&[
@@ -221,7 +223,7 @@ const DIGITS: [&[Path]; 10] = [
     ]],
 ];
 
-/// Strokes of a digit; nothing for other characters.
+/// The strokes of a digit; empty for other characters.
 fn digit(c: char) -> &'static [Path] {
     c.to_digit(10).map_or(&[], |digit| DIGITS[digit as usize])
 }

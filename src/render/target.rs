@@ -1,38 +1,38 @@
-//! What is drawn on, and how its pixels come back.
+//! The textures that a picture is drawn on, and how its pixels are read back.
 
 use glam::UVec2;
 
 use super::gpu::{COLOUR, DEPTH};
 use super::{Gpu, RenderError};
 
-/// How much work a picture is.
+/// Rendering quality.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Quality {
-    /// Shadows, hollows, smooth edges.
+    /// With shadows, ambient occlusion and antialiasing.
     #[default]
     Finished,
-    /// For a processor while things move: light alone, one sample a pixel, the far side of the body left out.
+    /// For software rendering while things move: direct light only, one sample per pixel, back faces of the body culled.
     Draft,
 }
 
-/// Textures of one picture size.
+/// The textures of pictures of one size.
 #[derive(Debug)]
 pub struct OffscreenTarget {
-    /// Pixels.
+    /// Size, pixels.
     pub size: UVec2,
-    /// How it is drawn on.
+    /// Quality that the textures were made for.
     pub quality: Quality,
-    /// The finished picture, gamma-encoded, opaque.
+    /// The finished picture, gamma-encoded.
     pub picture: wgpu::Texture,
     /// A view of `picture`.
     pub picture_view: wgpu::TextureView,
     pub(super) samples: Option<wgpu::TextureView>,
     pub(super) depth: wgpu::TextureView,
-    /// None in a draft.
+    /// Textures for ambient occlusion; None in a draft.
     pub(super) half: Option<HalfSize>,
 }
 
-/// What hollows are found from, at half the size.
+/// Textures at half the size from which ambient occlusion is computed.
 #[derive(Debug)]
 pub(super) struct HalfSize {
     pub(super) depth: wgpu::TextureView,
@@ -41,13 +41,13 @@ pub(super) struct HalfSize {
     pub(super) hollows: wgpu::TextureView,
 }
 
-/// Format of the hollows: openness and depth.
+/// Format of ambient occlusion: openness and depth.
 pub(super) const HOLLOWS: wgpu::TextureFormat = wgpu::TextureFormat::Rg16Float;
 /// Format of the view-space normals.
 pub(super) const NORMALS: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
 impl Quality {
-    /// Samples a pixel.
+    /// Samples per pixel.
     pub(super) fn samples(self, gpu: &Gpu) -> u32 {
         match self {
             Self::Finished => gpu.samples,
@@ -57,7 +57,7 @@ impl Quality {
 }
 
 impl OffscreenTarget {
-    /// Makes the textures. `size` in pixels, at least 1 x 1.
+    /// Makes the textures. `size` is in pixels, at least 1 x 1.
     pub fn new(gpu: &Gpu, size: UVec2, quality: Quality) -> Result<Self, RenderError> {
         let size = size.max(UVec2::ONE);
         if size.max_element() > gpu.max_side() {
@@ -93,7 +93,7 @@ impl OffscreenTarget {
         })
     }
 
-    /// Copies the picture back: RGBA, rows from the top.
+    /// Reads the picture back from the device: RGBA, rows from the top.
     pub fn read(&self, gpu: &Gpu) -> Result<image::RgbaImage, RenderError> {
         let row = self.size.x * 4;
         let padded = row.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
@@ -128,7 +128,7 @@ fn extent(size: UVec2) -> wgpu::Extent3d {
     wgpu::Extent3d { width: size.x, height: size.y, depth_or_array_layers: 1 }
 }
 
-/// A plain 2D texture.
+/// Makes a 2D texture with one mip level.
 pub(super) fn texture(
     gpu: &Gpu,
     label: &str,
@@ -149,11 +149,11 @@ pub(super) fn texture(
     })
 }
 
-/// The bytes of `buffer`, once the device is done.
+/// The bytes of `buffer`, once the device has finished its work.
 fn mapped(gpu: &Gpu, buffer: &wgpu::Buffer) -> Result<Vec<u8>, RenderError> {
     let (send, receive) = std::sync::mpsc::channel();
     buffer.map_async(wgpu::MapMode::Read, .., move |r| {
-        // The receiver is gone only after a timeout, when nobody waits for the answer.
+        // Sending fails only after a timeout, when nobody waits for the answer.
         let _ = send.send(r);
     });
     let wait = wgpu::PollType::Wait { submission_index: None, timeout: Some(gpu.patience) };

@@ -1,10 +1,10 @@
-//! Views with names.
+//! Named views of a body.
 
 use std::str::FromStr;
 
 use super::RenderError;
 
-/// Where a body that faces +z is looked at from.
+/// The direction from which a body that faces +z is seen.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum View {
     /// From +z.
@@ -22,17 +22,17 @@ pub enum View {
     Below,
     /// From the front, a little to the body's left and from above.
     ThreeQuarter,
-    /// Degrees: yaw from the front towards the body's left, pitch upwards (-90..=90).
+    /// Any direction, degrees: yaw from the front towards the body's left, pitch upwards (-90..=90).
     Angles {
-        /// Degrees from the front towards the body's left.
+        /// Yaw: degrees from the front towards the body's left.
         yaw: f32,
-        /// Degrees above the horizon.
+        /// Pitch: degrees above the horizon, -90..=90.
         pitch: f32,
     },
 }
 
 impl View {
-    /// Yaw and pitch, radians.
+    /// Yaw and pitch of the view, radians.
     pub fn angles(self) -> (f32, f32) {
         let (yaw, pitch): (f32, f32) = match self {
             Self::Front => (0.0, 0.0),

@@ -1,4 +1,4 @@
-//! A change of pose under way, in pieces that are each soon done.
+//! A change of pose, done in short steps.
 
 use std::sync::Arc;
 
@@ -13,53 +13,53 @@ use crate::repose::normal_check::Looks;
 use crate::repose::reposer::Reposer;
 use crate::repose::settings::{Outcome, ReposeSettings};
 
-/// Conforming that strained no more than this, and left nothing inside, is left as it is.
+/// Strain (99th percentile) up to which conforming alone counts as exact, provided that it left no vertex inside the body.
 const EXACT: f64 = 1e-6;
-/// Global steps in each pose on the way at most.
+/// Most global steps in each intermediate pose.
 const STEPS_PER_SUBSTEP: usize = 12;
-/// Conforming that strained more than this is not tried to be mended at once, but through poses on the way.
+/// Strain (99th percentile) up to which the cloth goes to the new pose directly. More is resolved through intermediate poses.
 const AT_ONCE: f64 = 0.15;
-/// Global steps that spread the strain over so much cloth that edge by edge the rest is done.
+/// Global steps that spread the strain over enough cloth for strain limiting to do the rest.
 const FEW_STEPS: usize = 8;
-/// Global steps between two looks at the strain.
+/// Global steps between two checks of the strain.
 const STEPS_PER_LOOK: usize = 4;
-/// Most rounds in which strain is spread, each in contacts looked for anew: for cloth that stays,
+/// Most rounds of strain limiting, each with contacts found anew, for the final result.
 const ROUNDS: usize = 60;
-/// and for a picture.
+/// Most rounds of strain limiting for a preview.
 const LIVE_ROUNDS: usize = 6;
-/// Steps in which a mend must take effect.
+/// Global steps after each repair, in which it must take effect.
 const STEPS_PER_MEND: usize = 8;
-/// Strain that 99 of 100 edges do not exceed is spread edge by edge.
+/// Strain (99th percentile) up to which strain limiting, edge by edge, can do the rest.
 const SPREADABLE: f64 = 0.03;
-/// Where the excess that 99 of 100 edges do not exceed is larger than this, there is nowhere to spread it to.
+/// Strain (99th percentile) above which the cloth is too tight for strain limiting: no other edges can take it up.
 const TOO_TIGHT: f64 = 0.05;
-/// Times for each mend that strain is spread and faces that cut the body are raised.
+/// Passes of strain limiting and raising faces that cut the body, for each repair allowed.
 const LIMITS_PER_MEND: usize = 2;
-/// Global steps that carrying takes as long as, about,
+/// Cost of conforming, in global steps.
 const COST_OF_CARRYING: usize = 8;
-/// and one look for contacts with the sweeps after it.
+/// Cost of one round of strain limiting, in global steps.
 const COST_OF_LIMITING: usize = 2;
 
-/// A change of pose under way.
+/// A change of pose in progress.
 ///
-/// The cloth goes there at once, and with care through poses on the way where that does not come out well.
+/// The cloth goes directly to the new pose. Where that does not turn out well it goes again, through intermediate poses.
 #[derive(Clone, Debug)]
 pub struct Change {
     to: Arc<Surface>,
     care: ReposeSettings,
     outcome: Outcome,
-    /// The cloth as it comes along.
+    /// The cloth in its present state.
     state: ClothState,
-    /// Where carrying alone puts each vertex, and how its skin turned.
+    /// Position of each vertex after conforming and joining, and the rotation of its skin.
     carried: Vec<(DVec3, DQuat)>,
-    /// Where conforming alone puts each vertex.
+    /// Position of each vertex after conforming alone.
     conformed: Vec<DVec3>,
-    /// It goes there at once, not through poses on the way.
+    /// Whether the cloth goes directly, not through intermediate poses.
     at_once: bool,
     stage: Stage,
 }
 
-/// What is done next.
+/// What the next call of [`Change::step`] does.
 #[derive(Clone, Debug)]
 enum Stage {
     Carry,
@@ -69,10 +69,10 @@ enum Stage {
         most: usize,
         looks: Box<Looks>,
     },
-    /// Faces that cut the body are raised, followed by some steps.
+    /// Raises faces that cut the body, followed by some global steps.
     Mend,
     Spread(Option<Box<Spreading>>),
-    /// Out of the body with what is left inside.
+    /// Moves vertices that are still inside out of the body.
     Finish,
     SetOut,
     Pass(Box<Passing>),
@@ -80,31 +80,33 @@ enum Stage {
     Done,
 }
 
-/// Strain that is being spread.
+/// Strain limiting in progress.
 #[derive(Clone, Debug)]
 struct Spreading {
-    /// As it was, and how much strained.
+    /// The cloth before.
     before: ClothState,
+    /// Its strain (99th percentile).
     was: f64,
-    /// Times left that it is spread and its faces raised.
+    /// Passes left of strain limiting and raising faces.
     left: usize,
-    /// Times left that contacts are looked for anew while it is spread.
+    /// Rounds left in this pass, each with contacts found anew.
     rounds: usize,
 }
 
-/// Poses on the way.
+/// The way through intermediate poses.
 #[derive(Clone, Debug)]
 struct Passing {
     bodies: Vec<Arc<Surface>>,
-    /// At which each vertex was bound to the pose before.
+    /// Height of each vertex above the skin in the pose before, metres.
     heights: Vec<f64>,
-    /// The one it is in, and the global steps done there.
+    /// Index of the present intermediate pose.
     at: usize,
+    /// Global steps done in it.
     done: usize,
 }
 
 impl Reposer {
-    /// Where the cloth is on `to`, the same body in another pose, all at once. None when `to` has another topology.
+    /// The cloth on `to`, the same body in another pose, computed in one call. None when `to` has another topology.
     pub fn reposed(&mut self, to: &Arc<Surface>, care: ReposeSettings) -> Option<(ClothState, Outcome)> {
         let mut change = Change::new(self, Arc::clone(to), care)?;
         while !change.is_done() {
@@ -115,7 +117,7 @@ impl Reposer {
 }
 
 impl Change {
-    /// To `to` from where `reposer` was bound. None when `to` has another topology.
+    /// A change to `to` from the pose that `reposer` was bound in. None when `to` has another topology.
     pub fn new(reposer: &mut Reposer, to: Arc<Surface>, care: ReposeSettings) -> Option<Self> {
         if to.mesh.triangles != reposer.from().mesh.triangles {
             return None;
@@ -134,12 +136,12 @@ impl Change {
         })
     }
 
-    /// Whether the cloth has come there.
+    /// Whether the cloth has arrived in the new pose.
     pub fn is_done(&self) -> bool {
         matches!(self.stage, Stage::Done)
     }
 
-    /// 0..=1: of the poses on the way and the last one how many are behind it.
+    /// Progress, 0..=1: the share of the poses, intermediate ones and the last, that are done.
     pub fn progress(&self) -> f64 {
         let on_the_way = self.outcome.substeps;
         let behind = match &self.stage {
@@ -153,17 +155,17 @@ impl Change {
         behind as f64 / (on_the_way + 1) as f64
     }
 
-    /// The cloth as it comes along: after the first piece carried to the new pose.
+    /// The cloth in its present state: from the first step on, in or on the way to the new pose.
     pub fn cloth(&self) -> &ClothState {
         &self.state
     }
 
-    /// The cloth, once it is there, and what came of it.
+    /// The final cloth, and statistics.
     pub fn into_cloth(self) -> (ClothState, Outcome) {
         (self.state, self.outcome)
     }
 
-    /// A piece of it, with the same `reposer` each time. So many times was about every vertex moved in it.
+    /// Does one step; pass the same `reposer` each time. Returns its cost, in global steps.
     pub fn step(&mut self, reposer: &mut Reposer) -> usize {
         match std::mem::replace(&mut self.stage, Stage::Done) {
             Stage::Carry => self.carry(reposer),
@@ -217,14 +219,14 @@ impl Change {
         COST_OF_CARRYING
     }
 
-    /// On the body in its new pose, out of it. How many vertices were inside.
+    /// Moves `reposer` to the new pose and the cloth out of the body. Returns how many vertices were inside.
     fn enter(&mut self, reposer: &mut Reposer) -> usize {
         reposer.enter(&self.to, &self.state);
         let heights = reposer.map().heights.clone();
         reposer.recover(&mut self.state, &heights)
     }
 
-    /// Global steps in contact until the strain is what it may be, or so little that it can be spread.
+    /// Global steps with contact, until the strain is within the settings or small enough for strain limiting.
     fn control(&mut self, reposer: &mut Reposer, done: usize, most: usize, mut looks: Box<Looks>) -> usize {
         let until = (done + STEPS_PER_LOOK).min(most);
         for done in done + 1..=until {
@@ -235,7 +237,7 @@ impl Change {
         if until > done && until.is_multiple_of(STEPS_PER_LOOK) {
             let strain = reposer.lengths.p99(&self.state);
             looks.see(&self.state, reposer.folds.count(&self.state), strain);
-            // What is folded over does not come apart edge by edge; where cloth has to be folded it stays.
+            // Folds do not come apart by strain limiting; where cloth has to fold they stay.
             let spreads = until >= FEW_STEPS && looks.is_unfolded();
             well |= strain <= if spreads { SPREADABLE } else { self.care.excess };
         }
@@ -259,15 +261,15 @@ impl Change {
             self.stage = Stage::Mend;
             return STEPS_PER_MEND;
         }
-        // Folds do not go away by spreading.
+        // Folds do not go away by strain limiting.
         let by_steps = self.at_once && self.care.most_substeps > 0;
         let folded = by_steps && reposer.folds.count(&self.state) > reposer.folds.bound;
         self.stage = if folded { Stage::SetOut } else { Stage::Spread(None) };
         1
     }
 
-    /// Spreads strain that is left in a few places, unless there is so much of it that the cloth is too tight; takes it back
-    /// where that did not help.
+    /// Strain limiting for strain that remains in a few places. Skipped where the cloth is too tight; undone where it did not
+    /// help.
     fn spread(&mut self, reposer: &mut Reposer, spreading: Option<Box<Spreading>>) -> usize {
         self.stage = Stage::Finish;
         let Some(mut spreading) = spreading else {
@@ -315,7 +317,7 @@ impl Change {
         COST_OF_LIMITING
     }
 
-    /// The poses on the way.
+    /// Computes the intermediate poses.
     fn set_out(&mut self, reposer: &mut Reposer) -> usize {
         let bodies = reposer.between(&self.to, self.care.most_substeps);
         (self.outcome.substeps, self.outcome.mends) = (bodies.len(), 0);
@@ -334,7 +336,8 @@ impl Change {
         COST_OF_CARRYING
     }
 
-    /// Some steps in one of the poses on the way; bound anew to it, then, on to the next.
+    /// Makes some global steps in an intermediate pose; when they are done, binds the cloth to it and carries it to the next
+    /// pose.
     fn pass(&mut self, reposer: &mut Reposer, mut passing: Box<Passing>) -> usize {
         let Passing { bodies, heights, at, done } = &mut *passing;
         let body = &bodies[*at];

@@ -1,7 +1,7 @@
-//! Mesh conforming: each vertex goes along with the skin it is bound to (paper C).
+//! Mesh conforming: each vertex follows the skin that it is bound to (paper C).
 //!
-//! The paper's P' = Q' + R |PQ| is a matrix times a number; meant is P' = Q' + R (P - Q) (ALGORITHMS.md 1.C), over all
-//! bindings of a vertex the weighted mean.
+//! The paper's P' = Q' + R |PQ| multiplies a matrix by a number. It must mean P' = Q' + R (P - Q) (ALGORITHMS.md 1.C), here as
+//! the weighted mean over all bindings of a vertex.
 
 use glam::{DQuat, DVec3};
 use rayon::prelude::*;
@@ -11,16 +11,16 @@ use crate::geometry::barycentric;
 use crate::repose::distance_map::{Binding, DistanceMap};
 use crate::repose::turns::{mean, turns};
 
-/// Vertices one thread takes at a time.
+/// Vertices that one thread takes at a time.
 const LEAST_SHARE: usize = 256;
 
-/// Where `positions`, bound by `map` to `from`, are on `to`, a body of the same topology. Vertices bound to skin that has
-/// not moved keep their bits, and those bound to nothing stay.
+/// Positions of the vertices on `to`, a body of the same topology, given their `positions` on `from`, to which `map` binds them.
+/// Vertices bound to skin that has not moved, or to nothing, keep their positions bit for bit.
 pub fn conformed(map: &DistanceMap, from: &Surface, to: &Surface, positions: &[DVec3]) -> Vec<DVec3> {
     carried(map, from, to, positions).into_iter().map(|(p, _)| p).collect()
 }
 
-/// The same, each with how its skin has turned.
+/// The positions that [`conformed`] returns, each with the rotation of its skin.
 pub(super) fn carried(
     map: &DistanceMap,
     from: &Surface,

@@ -1,8 +1,8 @@
-//! The distance map: to which points of the skin each cloth vertex is bound (paper C, "distance map").
+//! The distance map: the points of the skin that each cloth vertex is bound to (paper C, "distance map").
 //!
-//! The paper binds to the nearest body *vertex* of overlapping boxes; here it is the nearest *point*, found exactly. Between
-//! two limbs (armpit, crotch) several points are about equally near: up to [`MOST`] are blended, so that neighbours bound to
-//! different limbs do not part (ALGORITHMS.md 1.C).
+//! The paper binds to the nearest body *vertex* of overlapping boxes; here it is the nearest *point*, found exactly. Between two
+//! limbs (armpit, crotch) several points are about equally near: up to [`MOST`] are blended, so that neighbours bound to
+//! different limbs do not move apart (ALGORITHMS.md 1.C).
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -12,25 +12,25 @@ use crate::cloth::ClothState;
 use crate::contact::BodyOverlaps;
 use crate::geometry::barycentric;
 
-/// Most points that a vertex is bound to,
+/// Most points that a vertex is bound to.
 const MOST: usize = 4;
-/// none farther than this many times the nearest,
+/// Largest distance of a bound point, as a multiple of the distance to the nearest.
 const FARTHEST: f64 = 1.3;
-/// and apart from each other by this share of that distance: nearer ones belong to one hollow.
+/// Smallest distance between two bound points, as a multiple of the distance to the nearest: closer ones belong to one hollow.
 const APART: f64 = 0.5;
-/// Vertices one thread takes at a time.
+/// Vertices that one thread takes at a time.
 const LEAST_SHARE: usize = 32;
 
 /// A vertex bound to a point of the skin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Binding {
-    /// The triangle that the point lies on.
+    /// Triangle of the skin that the point is on.
     pub triangle: u32,
-    /// Where on it, in barycentric coordinates.
+    /// Barycentric coordinates of the point.
     pub shares: [f64; 3],
-    /// From the point to the vertex, metres, while the body stood as it was bound to.
+    /// Vector from the point to the vertex in the pose of binding, metres.
     pub beside: DVec3,
-    /// How much of the vertex goes along with it, 0..=1; over all of a vertex the sum is one.
+    /// Weight of this binding, 0..=1; the weights of a vertex sum to one.
     pub weight: f64,
 }
 
@@ -39,17 +39,17 @@ pub struct Binding {
 pub struct DistanceMap {
     starts: Vec<u32>,
     bindings: Vec<Binding>,
-    /// How high each vertex lay above its nearest skin, metres, negative inside; infinite where no cloth was laid.
+    /// Signed distance of each vertex above the nearest skin, metres, negative inside; infinite where no cloth is laid.
     pub heights: Vec<f64>,
 }
 
 impl DistanceMap {
-    /// Binds the laid vertices of `cloth` to `surface`; the others to nothing.
+    /// Binds the laid vertices of `cloth` to `surface`, the others to nothing.
     pub fn new(surface: &Surface, cloth: &ClothState) -> Self {
         Self::apart(surface, cloth, None)
     }
 
-    /// The same to none of the skin that `apart` leaves out.
+    /// Binds like [`Self::new`], but to no triangle that `apart` leaves out for a vertex.
     pub fn apart(surface: &Surface, cloth: &ClothState, apart: Option<&BodyOverlaps>) -> Self {
         let bound: Vec<(Vec<Binding>, f64)> = cloth
             .positions
@@ -71,7 +71,7 @@ impl DistanceMap {
         map
     }
 
-    /// What `vertex` is bound to, the nearest first.
+    /// Bindings of `vertex`, the nearest first.
     pub fn of(&self, vertex: usize) -> &[Binding] {
         &self.bindings[self.starts[vertex] as usize..self.starts[vertex + 1] as usize]
     }
@@ -92,7 +92,7 @@ impl DistanceMap {
     }
 }
 
-/// The bindings of a vertex at `p`, and its height.
+/// The bindings of a vertex at `p`, and its signed distance from the skin, metres.
 fn bound(surface: &Surface, p: DVec3, left_out: impl Fn(u32) -> bool) -> (Vec<Binding>, f64) {
     let nearest = surface.nearest_within_but(p, f64::INFINITY, &left_out);
     let nearest = nearest.unwrap_or_else(|| surface.nearest(p));
@@ -106,7 +106,7 @@ fn bound(surface: &Surface, p: DVec3, left_out: impl Fn(u32) -> bool) -> (Vec<Bi
             chosen.push((point, triangle));
         }
     }
-    // Fading out towards the farthest, so that what is bound to more or fewer points lies side by side.
+    // The weight falls to zero at the farthest distance, so that it is continuous where the number of bound points changes.
     let weight = |point: DVec3| {
         let t = (FARTHEST - p.distance(point) / least.max(f64::MIN_POSITIVE)) / (FARTHEST - 1.0);
         let t = t.clamp(0.0, 1.0);
@@ -119,7 +119,7 @@ fn bound(surface: &Surface, p: DVec3, left_out: impl Fn(u32) -> bool) -> (Vec<Bi
     let sum: f64 = weights.iter().sum();
     let binding = |((point, triangle), weight): ((DVec3, u32), f64)| {
         let shares = barycentric::on_triangle(point, surface.mesh.corners(triangle as usize));
-        // From the point that the shares give: then a body that has not moved leaves the vertex where it is.
+        // Measured from the point that the shares give: then a body that has not moved leaves the vertex where it is.
         let point = barycentric::place(shares, surface.mesh.corners(triangle as usize));
         Binding { triangle, shares, beside: p - point, weight: weight / sum }
     };

@@ -1,18 +1,18 @@
-//! How much more edges are strained than they were.
+//! Strain relative to the lengths that edges had when the cloth was bound.
 
 use crate::cloth::{ClothState, Garment};
 
-/// Edges shorter than this (metres) have no strain.
+/// Edges that were shorter than this, metres, are left out.
 const SHORTEST: f64 = 1e-9;
 
-/// Lengths that edges had.
+/// Edge lengths at binding.
 #[derive(Clone, Debug)]
 pub(super) struct Lengths {
     edges: Vec<([u32; 2], f64)>,
 }
 
 impl Lengths {
-    /// Of the laid edges of `garment`.
+    /// Lengths of the laid edges of `garment`.
     pub fn of(garment: &Garment, cloth: &ClothState) -> Self {
         let laid = |e: &&[u32; 2]| e.iter().all(|&v| cloth.mapped[v as usize]);
         let length = |[a, b]: [u32; 2]| cloth.positions[a as usize].distance(cloth.positions[b as usize]);
@@ -20,12 +20,12 @@ impl Lengths {
         Self { edges: edges.filter(|(_, l)| *l > SHORTEST).collect() }
     }
 
-    /// Each edge with the length it had.
+    /// Each edge with its length at binding, metres.
     pub fn edges(&self) -> &[([u32; 2], f64)] {
         &self.edges
     }
 
-    /// |l / l_before - 1| that 99 of 100 edges do not exceed; zero without edges.
+    /// 99th percentile of |l / l_before - 1|; zero without edges.
     pub fn p99(&self, cloth: &ClothState) -> f64 {
         let change = |&([a, b], before): &([u32; 2], f64)| {
             let now = cloth.positions[a as usize].distance(cloth.positions[b as usize]);

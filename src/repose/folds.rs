@@ -1,22 +1,22 @@
-//! Where cloth is folded over: neighbouring faces that look against each other.
+//! Folds of cloth: neighbouring faces whose normals point against each other.
 
 use glam::DVec3;
 
 use crate::cloth::{ClothState, Garment};
 
-/// Faces are folded over when their normals have a smaller cosine.
+/// Two faces form a fold when the cosine of the angle between their normals is below this.
 const FOLDED: f64 = -0.2;
 
-/// The inner edges of a garment.
+/// Inner edges of a garment, where folds are counted.
 #[derive(Clone, Debug)]
 pub(super) struct Folds {
     faces: Vec<[[u32; 3]; 2]>,
-    /// Edges that were folded over when the cloth was bound.
+    /// Folded edges when the cloth was bound.
     pub bound: usize,
 }
 
 impl Folds {
-    /// Of the laid part of `garment`.
+    /// The inner edges of the laid part of `garment`.
     pub fn of(garment: &Garment, cloth: &ClothState) -> Self {
         let laid = |t: u32| garment.triangles[t as usize].iter().all(|&v| cloth.mapped[v as usize]);
         let sides = |e: usize| match garment.adjacency.edge_triangles.of(e as u32) {
@@ -29,7 +29,7 @@ impl Folds {
         folds
     }
 
-    /// Edges that are folded over.
+    /// Number of folded edges.
     pub fn count(&self, cloth: &ClothState) -> usize {
         let normal = |vs: [u32; 3]| {
             let [a, b, c] = vs.map(|v| cloth.positions[v as usize]);

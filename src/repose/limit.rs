@@ -1,26 +1,26 @@
-//! Strain limiting (Provot 1995, "Deformation Constraints in a Mass-Spring Model to Describe Rigid Cloth Behavior"): what
-//! the global steps leave is little strain nearly everywhere and much of it in a few places. Here every edge beyond its limit
-//! is brought back to it, one after the other, until its neighbours have taken up the rest.
+//! Strain limiting (Provot 1995, "Deformation Constraints in a Mass-Spring Model to Describe Rigid Cloth Behavior"). The global
+//! steps leave little strain nearly everywhere and much of it in a few places. Here every edge beyond its limit is projected back
+//! to it, one after the other, until its neighbours have taken up the rest.
 
 use crate::cloth::ClothState;
 use crate::relax::Relaxer;
 use crate::repose::excess::Lengths;
 
-/// Edges are brought to this share of what they may be strained, so that what is mended afterwards has some left.
+/// Edges are projected to this share of the allowed strain, which leaves a margin for later repairs.
 const AIM: f64 = 0.8;
-/// Times that all edges are looked at with the same contacts.
+/// Passes over all edges with the same contacts.
 const SWEEPS: usize = 12;
-/// Distance within which skin is looked for, offsets.
+/// Distance within which skin is searched for, in offsets.
 const REACH: f64 = 4.0;
-/// Vertices are kept above the skin by this share of the offset.
+/// Height above the skin that vertices keep, as a share of the offset.
 const CLEARANCE: f64 = 0.5;
 
-/// Brings the edges of `state` nearer to within `most` of their `lengths`, its vertices out of the body, with contacts looked
-/// for anew. Whether nearly all are within.
+/// One round of strain limiting with contacts found anew: moves the edges of `state` towards strains of at most `most` relative
+/// to `lengths`, and its vertices out of the body. Returns whether nearly all edges are within.
 pub(super) fn limited(lengths: &Lengths, relaxer: &mut Relaxer, state: &mut ClothState, most: f64) -> bool {
     relaxer.track(state, REACH * relaxer.offset());
     for sweep in 0..SWEEPS {
-        // To and fro, so that neither end of the garment is favoured.
+        // In alternating order, so that neither end of the garment is favoured.
         match sweep % 2 {
             0 => lengths.edges().iter().for_each(|edge| limit(state, edge, most * AIM)),
             _ => lengths.edges().iter().rev().for_each(|edge| limit(state, edge, most * AIM)),
@@ -30,7 +30,7 @@ pub(super) fn limited(lengths: &Lengths, relaxer: &mut Relaxer, state: &mut Clot
     lengths.p99(state) <= most * (1.0 + AIM) / 2.0
 }
 
-/// Brings vertices up to where faces round them keep clear of the body.
+/// Raises vertices to where the faces round them keep clear of the body.
 pub(super) fn raised(relaxer: &mut Relaxer, state: &mut ClothState) {
     relaxer.track(state, REACH * relaxer.offset());
     raise(relaxer, state);
@@ -41,7 +41,7 @@ fn limit(state: &mut ClothState, &([a, b], before): &([u32; 2], f64), most: f64)
     let side = state.positions[b] - state.positions[a];
     let [least, most] = [before * (1.0 - most), before * (1.0 + most)];
     let square = side.length_squared();
-    // Most edges are well within.
+    // Fast path: most edges are well within.
     if (least * least..=most * most).contains(&square) || square == 0.0 {
         return;
     }

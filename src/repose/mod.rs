@@ -1,5 +1,4 @@
-//! Paper C (Zhong, "Fast Virtual Garment Dressing on Posed Human Model"): dressed cloth goes along when its body takes
-//! another pose.
+//! Paper C (Zhong, "Fast Virtual Garment Dressing on Posed Human Model"): dressed cloth follows its body into another pose.
 
 mod change;
 mod conform;

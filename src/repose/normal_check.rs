@@ -1,32 +1,32 @@
-//! Looks at the folds of cloth that relaxes in another pose: whether they go away.
+//! Check, while cloth relaxes in another pose, whether its folds go away.
 
 use crate::cloth::ClothState;
 
-/// Looks without fewer folds after which cloth will not unfold.
+/// Checks in a row without fewer folds after which the folds are taken to stay.
 const AT_FOLDS: usize = 2;
-/// Cloth without folds is worth this share more strain.
+/// An unfolded state is preferred even if its strain is larger by this share.
 const WORTH: f64 = 0.1;
 
-/// What was seen so far.
+/// What the checks found.
 #[derive(Clone, Debug)]
 pub(super) struct Looks {
-    /// Edges that were folded over when the cloth was bound.
+    /// Folded edges when the cloth was bound.
     bound: usize,
     folds: usize,
     fewest: usize,
     since_fewer: usize,
     strain: f64,
-    /// The least strained cloth seen that had no more folds than when it was bound.
+    /// The state with the least strain, and that strain, among those with no more folds than when the cloth was bound.
     unfolded: Option<(ClothState, f64)>,
 }
 
 impl Looks {
-    /// Of cloth that was bound with `folds` edges folded over.
+    /// No checks yet, for cloth that was bound with `bound` folded edges.
     pub fn new(bound: usize) -> Self {
         Self { bound, folds: 0, fewest: usize::MAX, since_fewer: 0, strain: 0.0, unfolded: None }
     }
 
-    /// The cloth has `folds` folded edges now, and this `strain`.
+    /// Records a check: the cloth in `state` has `folds` folded edges and this `strain`.
     pub fn see(&mut self, state: &ClothState, folds: usize, strain: f64) {
         (self.folds, self.strain) = (folds, strain);
         self.since_fewer = if folds < self.fewest { 0 } else { self.since_fewer + 1 };
@@ -36,12 +36,12 @@ impl Looks {
         }
     }
 
-    /// Whether there are no folds, or they stay.
+    /// Whether there are no folds, or they are taken to stay.
     pub fn is_unfolded(&self) -> bool {
         self.fewest == 0 || self.since_fewer >= AT_FOLDS
     }
 
-    /// Gives cloth that has got folds back as it was without them, unless it was much more strained then.
+    /// If the cloth has gained folds, restores the best state without them, unless that was strained much more.
     pub fn give_back(self, state: &mut ClothState) {
         if let Some((unfolded, strain)) = self.unfolded
             && self.folds > self.bound

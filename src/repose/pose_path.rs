@@ -1,8 +1,8 @@
-//! Poses on the way from one to another.
+//! Pose interpolation path: intermediate poses between two poses of a body.
 //!
-//! Each triangle's deformation gradient F = R S goes from rest as exp(t log R) ((1 - t) I + t S), and the vertices go where
-//! the triangles come nearest to that (Xu, Zhang, Wang and Bao 2005, "Poisson Shape Interpolation"): limbs turn, where
-//! vertices that go straight would make them thin.
+//! Each triangle's deformation gradient F = R S is interpolated as exp(t log R) ((1 - t) I + t S), and the vertices are placed
+//! where the triangles fit that best (Xu, Zhang, Wang and Bao 2005, "Poisson Shape Interpolation"). So limbs rotate; linear
+//! interpolation of the vertices would make them thin.
 
 use std::collections::VecDeque;
 use std::f64::consts::TAU;
@@ -16,18 +16,18 @@ use crate::geometry::adjacency::NONE;
 use crate::geometry::rebuild::Rebuild;
 use crate::repose::turns::{gradient, mean, triangle_turn, turns};
 
-/// No part of the body turns further between two poses, radians.
+/// Largest rotation of a part of the body between two poses, radians.
 const LARGEST_TURN: f64 = 0.2;
-/// Of all vertices this share may turn further: fingers and toes are not covered by cloth.
+/// Share of all vertices that may rotate further: fingers and toes are not covered by cloth.
 const LEFT_OUT: f64 = 0.05;
-/// A triangle that turns less has no axis to speak of.
+/// Rotation angle (radians) below which a triangle's axis is undefined.
 const LEAST_TURN: f64 = 1e-6;
-/// Triangles one thread takes at a time.
+/// Triangles that one thread takes at a time.
 const LEAST_SHARE: usize = 256;
 
-/// Bodies between `from` and `to`, so many that its parts turn by a few degrees from one to the next, but `most`. They
-/// stand as `from` does: the turn and shift of the whole body is left for the last step, which conforming takes exactly.
-/// `rebuild`: made from `from` when first needed.
+/// Intermediate bodies between `from` and `to`: enough for a few degrees of rotation from one to the next, but at most `most`.
+/// They keep the position and orientation of `from`; the rigid motion of the whole body is left for the last step, where
+/// conforming is exact. `rebuild` is made from `from` when first needed.
 pub(super) fn between(
     from: &Surface,
     to: &Surface,
@@ -60,7 +60,7 @@ pub(super) fn between(
     bodies
 }
 
-/// From one pose of a body to another, the whole of it too.
+/// Interpolation between two poses of a body, including its rigid motion.
 #[derive(Debug)]
 pub struct PosePath {
     from: Arc<Surface>,
@@ -70,7 +70,7 @@ pub struct PosePath {
 }
 
 impl PosePath {
-    /// None when `to` has other triangles than `from`, or where memory runs out.
+    /// The path between two poses. None when `to` has other triangles than `from`, or memory runs out.
     pub fn new(from: &Arc<Surface>, to: &Arc<Surface>) -> Option<Self> {
         let count = from.mesh.positions.len();
         if from.mesh.triangles != to.mesh.triangles || to.mesh.positions.len() != count {
@@ -88,7 +88,7 @@ impl PosePath {
         })
     }
 
-    /// Where the vertices are at `share` of the way: at 0 and 1, bit for bit, as in the two poses.
+    /// Vertex positions at `share` 0..=1 of the path; at 0 and 1 they equal the two poses bit for bit. None when the solve fails.
     pub fn positions(&self, share: f64) -> Option<Vec<DVec3>> {
         if share <= 0.0 || share >= 1.0 {
             let end = if share <= 0.0 { &self.from } else { &self.to };
@@ -103,11 +103,11 @@ impl PosePath {
     }
 }
 
-/// The way to a pose without the turn and shift of the whole body.
+/// Interpolation between two poses without the rigid motion of the whole body.
 #[derive(Debug)]
 struct Standing {
     ways: Ways,
-    /// The other pose, as it would stand like the first.
+    /// The second pose, moved to the position and orientation of the first.
     back: Vec<DVec3>,
     whole: DQuat,
     here: DVec3,
@@ -122,7 +122,7 @@ impl Standing {
         Self { ways: Ways::new(from, &back), back, whole, here, there }
     }
 
-    /// The vertices at `share` of the way.
+    /// Vertex positions at `share` of the path.
     fn at(&self, from: &Surface, rebuild: &Rebuild, share: f64) -> Option<Vec<DVec3>> {
         let straight = |v: usize| from.mesh.positions[v].lerp(self.back[v], share);
         let mut positions = rebuild.positions(&self.ways.at(share), straight)?;
@@ -136,12 +136,12 @@ fn centre(positions: &[DVec3]) -> DVec3 {
     positions.iter().sum::<DVec3>() / positions.len().max(1) as f64
 }
 
-/// How each triangle goes from one pose to another.
+/// Rotation and stretch of each triangle from one pose to the other.
 #[derive(Debug)]
 struct Ways {
     /// Rotation vectors, radians.
     turns: Vec<DVec3>,
-    /// What is left of the gradient without the rotation.
+    /// The deformation gradient without its rotation.
     stretches: Vec<DMat3>,
 }
 
@@ -163,8 +163,8 @@ impl Ways {
         ways
     }
 
-    /// A rotation is the same after a full turn more: each triangle takes the one nearest to its neighbour's, beginning
-    /// where least is turned.
+    /// Makes neighbouring rotation vectors agree. Full turns more or less give the same rotation, so each triangle takes the
+    /// vector nearest to its neighbour's, beginning with the smallest rotation.
     fn agree(&mut self, surface: &Surface) {
         let count = self.turns.len();
         let mut seen = vec![false; count];
@@ -190,7 +190,7 @@ impl Ways {
         }
     }
 
-    /// The gradients at `share` of the way.
+    /// Deformation gradients at `share` of the path.
     fn at(&self, share: f64) -> Vec<DMat3> {
         let stretches = self.stretches.par_iter().with_min_len(LEAST_SHARE);
         let gradient = |(&turn, &stretch): (&DVec3, &DMat3)| {
@@ -201,7 +201,7 @@ impl Ways {
     }
 }
 
-/// Of the rotation vectors that mean the same as `turn` the nearest to `other`.
+/// Of the rotation vectors equivalent to `turn` the one nearest to `other`.
 fn nearest(turn: DVec3, other: DVec3) -> DVec3 {
     let angle = turn.length();
     if angle < LEAST_TURN {

@@ -1,4 +1,4 @@
-//! Dressed cloth carried to other poses of its body, always from the pose it was dressed in: poses do not wear it out.
+//! Carries dressed cloth to other poses of its body, always from the pose in which it was dressed, so that errors do not add up.
 
 use std::sync::Arc;
 
@@ -17,23 +17,23 @@ use crate::repose::pose_path::between;
 use crate::repose::settings::{Outcome, ReposeSettings};
 use crate::repose::transfer::Transfer;
 
-/// A vertex moves no farther in one global step, metres on a body 1.5 m large.
+/// Largest displacement of a vertex in one global step, metres, on a body whose largest side is 1.5 m.
 const STEP_CAP: f64 = 0.02;
-/// Weight of contact in the global steps.
+/// Weight of the contact constraints in the global steps.
 const CONTACT: f64 = 0.1;
-/// Global steps in the same contacts. (By Chebyshev's semi-iteration cloth that crosses itself would swing itself up.)
+/// Acceleration of global steps in the same contacts. (Chebyshev's semi-iteration would amplify cloth that intersects itself.)
 const PACES: [Acceleration; 3] = Acceleration::longer(1.7);
-/// For a picture the factor may lag behind the contacts by this share of the vertices.
+/// For a preview the matrix factor may be out of date for this share of the vertices.
 const LIVE_STALE_SHARE: f64 = 0.05;
-/// Layers that run through each other are parted every so many steps.
+/// Global steps between two separations of intersecting layers.
 const STEPS_PER_PARTING: usize = 4;
-/// Edges and faces keep this share of the offset.
+/// Clearance of edges and faces from the body, as a share of the offset.
 const FACE_CLEARANCE: f64 = 0.25;
-/// Vertices keep this share of the offset in any case.
+/// Smallest clearance of vertices from the body, as a share of the offset.
 const VERTEX_CLEARANCE: f64 = 0.25;
-/// Times a vertex is sent out of the body at the end: the nearest skin may be another one then.
+/// Most attempts to move a vertex out of the body at the end: after a move, other skin may be the nearest.
 const SENDS: usize = 4;
-/// Vertices one thread takes at a time.
+/// Vertices that one thread takes at a time.
 const LEAST_SHARE: usize = 128;
 
 /// A dressed garment bound to its body.
@@ -44,21 +44,22 @@ pub struct Reposer {
     map: DistanceMap,
     transfer: Transfer,
     pub(super) lengths: Lengths,
-    /// Relaxes towards the shape that every triangle had when bound: what it was strained already, it may stay.
+    /// Relaxes towards the shape that every triangle had when bound: strain present then remains.
     pub(super) relaxer: Relaxer,
-    /// Makes the poses on the way.
+    /// Solver for intermediate poses, made when first needed.
     rebuild: Option<Arc<Rebuild>>,
     pub(super) folds: Folds,
-    /// Places where layers ran through each other.
+    /// Self-intersections when the cloth was bound.
     crossings: usize,
-    /// Parts of the body that cross each other in the pose.
+    /// Parts of the body that overlap each other in the pose.
     pub(super) apart: Option<Arc<BodyOverlaps>>,
-    /// Where the last picture left each vertex beside its conformed place, before the skin turned.
+    /// Displacement of each vertex from its conformed place in the last preview, in the frame of the skin before it rotated,
+    /// metres.
     beside: Option<Vec<DVec3>>,
 }
 
 impl Reposer {
-    /// Binds `cloth` as it lies on `surface`. None when its matrix cannot be factored (out of memory).
+    /// Binds `cloth` to `surface`. None when the matrix cannot be factored (out of memory).
     pub fn new(
         garment: &Garment,
         surface: Arc<Surface>,
@@ -89,22 +90,22 @@ impl Reposer {
         })
     }
 
-    /// The body the cloth was bound to.
+    /// The body that the cloth is bound to.
     pub fn from(&self) -> &Arc<Surface> {
         &self.from
     }
 
-    /// Places where the cloth ran through itself when it was bound.
+    /// Self-intersections of the cloth when it was bound.
     pub fn crossings(&self) -> usize {
         self.crossings
     }
 
-    /// Places where cloth in `state` runs through itself.
+    /// Self-intersections of the cloth in `state`.
     pub(super) fn crossings_of(&self, state: &ClothState) -> usize {
         Intersections::new(&self.relaxer.garment, state).places.len()
     }
 
-    /// Work done so far.
+    /// Work counters.
     pub fn counters(&self) -> Counters {
         self.relaxer.counters
     }
@@ -114,18 +115,18 @@ impl Reposer {
         &self.map
     }
 
-    /// Factors the matrix anew as often as `care` needs it.
+    /// Sets how often the matrix is factored again, as `care` requires.
     pub(super) fn refactor(&mut self, care: ReposeSettings) {
         self.relaxer.refactor_beyond(if care.mends == 0 { LIVE_STALE_SHARE } else { global::STALE_SHARE });
     }
 
-    /// Joins the shapes of the triangles, carried each by its own skin.
+    /// Joins the triangles that followed their own skin, see [`Transfer::join`].
     pub(super) fn join(&mut self, carried: &mut [(DVec3, DQuat)]) {
         self.transfer.join(&self.relaxer.garment, &self.cloth, carried, &mut self.relaxer.counters);
     }
 
-    /// Where the last picture of a sequence left the cloth beside the places that carrying gives it, it starts in the next
-    /// one, if that strains it less: from picture to picture little changes.
+    /// Starts a preview from the displacements of the last one, where that strains the cloth less than `joined_p99`: little
+    /// changes from one preview to the next.
     pub(super) fn go_on(&self, state: &mut ClothState, carried: &[(DVec3, DQuat)], joined_p99: f64) {
         let Some(beside) = &self.beside else { return };
         let near = |((p, turn), beside): (&(DVec3, DQuat), &DVec3)| *p + *turn * *beside;
@@ -136,31 +137,31 @@ impl Reposer {
         }
     }
 
-    /// Remembers where a picture left the cloth, for the next one.
+    /// Stores the displacements of a preview for the next one.
     pub(super) fn remember(&mut self, state: &ClothState, carried: &[(DVec3, DQuat)]) {
         let beside = |((p, (q, turn)), _): ((&DVec3, &(DVec3, DQuat)), &bool)| turn.inverse() * (*p - *q);
         self.beside = Some(state.positions.iter().zip(carried).zip(&state.mapped).map(beside).collect());
     }
 
-    /// Poses on the way to `to`, `most` of them.
+    /// At most `most` intermediate poses on the way to `to`.
     pub(super) fn between(&mut self, to: &Surface, most: usize) -> Vec<Arc<Surface>> {
         between(&self.from, to, most, &mut self.rebuild)
     }
 
-    /// Looks for faces that are too near the body, and lifts them from now on. How many there are.
+    /// Finds faces that are too near the body, and raises them from now on. Returns how many there are.
     pub(super) fn lift_faces(&mut self, state: &ClothState) -> usize {
         let clearance = self.relaxer.offset() * FACE_CLEARANCE;
         self.relaxer.lift_faces(state, clearance)
     }
 
-    /// Which skin of `body` cloth does not touch, by the skin it was bound to.
+    /// The skin of `body` that each vertex must ignore, given the skin it is bound to: overlapping parts of the body.
     pub(super) fn parts_of(&self, body: &Surface) -> Option<Arc<BodyOverlaps>> {
         let bound: Vec<Option<u32>> =
             (0..self.map.len()).map(|v| self.map.of(v).first().map(|b| b.triangle)).collect();
         BodyOverlaps::of(body, &bound).map(Arc::new)
     }
 
-    /// Whether the strain is what it may be, and the cloth has no more faults than when it was bound.
+    /// Whether the strain is within `care`, and the cloth has no more faults than when it was bound.
     pub(super) fn is_well(&mut self, state: &ClothState, care: ReposeSettings, outcome: Outcome) -> bool {
         if outcome.excess_p99 > care.excess || outcome.inside > 0 {
             return false;
@@ -171,15 +172,15 @@ impl Reposer {
             && self.relaxer.part_layers(state) <= self.crossings
     }
 
-    /// The cloth, as it lies in `state`, is on `body` now.
+    /// Replaces the body by `body`, with the cloth in `state`.
     pub(super) fn enter(&mut self, body: &Arc<Surface>, state: &ClothState) {
         self.relaxer.change_body(Arc::clone(body));
         self.relaxer.keep_apart(self.apart.clone());
         self.relaxer.forget_motion(state);
     }
 
-    /// Penetration recovery: P = Q + max(|PQ|, o) n with the exact closest point and its pseudonormal; the length is the
-    /// height at which the vertex was bound, so that layers keep their order. Returns how many were inside.
+    /// Penetration recovery (paper C): P = Q + max(|PQ|, o) n with the exact closest point Q and its pseudonormal n. The length
+    /// is the height at which the vertex was bound, so that layers keep their order. Returns how many vertices were inside.
     pub(super) fn recover(&mut self, state: &mut ClothState, heights: &[f64]) -> usize {
         let offset = self.relaxer.offset();
         self.relaxer.track(state, 2.0 * offset);
@@ -196,7 +197,7 @@ impl Reposer {
         inside
     }
 
-    /// The `done`-th global step in these contacts.
+    /// Makes the `done`-th global step in these contacts.
     pub(super) fn step(&mut self, state: &mut ClothState, care: ReposeSettings, done: usize) {
         let step = GlobalStep {
             cap: STEP_CAP * self.relaxer.surface.scale(),
@@ -212,8 +213,8 @@ impl Reposer {
         }
     }
 
-    /// Vertices still in the body go to the nearest skin above them. Returns how many stay inside: between parts of a body
-    /// that cross there is no way out.
+    /// Moves vertices that are still in the body to just above the nearest skin. Returns how many stay inside: between
+    /// overlapping parts of a body there is no way out.
     pub(super) fn send_out(&self, state: &mut ClothState) -> usize {
         let surface = &self.relaxer.surface;
         let least = VERTEX_CLEARANCE * self.relaxer.offset();
@@ -242,7 +243,7 @@ impl Reposer {
     }
 }
 
-/// `garment` with the flat shape that each laid triangle has where it lies.
+/// `garment` with the present shape of each laid triangle as its rest shape.
 fn with_shape_of(garment: &Garment, cloth: &ClothState) -> Garment {
     let mut shaped = garment.clone();
     for (vs, rest) in garment.triangles.iter().zip(&mut shaped.rest) {
@@ -255,7 +256,7 @@ fn with_shape_of(garment: &Garment, cloth: &ClothState) -> Garment {
     shaped
 }
 
-/// A triangle laid flat about its centroid, counter-clockwise. None where it has no area.
+/// A triangle in the plane with its centroid at the origin, counter-clockwise. None where it has no area.
 fn flat_shape([a, b, c]: [DVec3; 3]) -> Option<[DVec2; 3]> {
     let (u, v) = (b - a, c - a);
     let (length, size) = (u.length(), u.cross(v).length());

@@ -1,48 +1,48 @@
-//! How thoroughly cloth is carried to another pose, and what came of it.
+//! Settings (quality) and statistics of carrying cloth to another pose.
 
 use serde::{Deserialize, Serialize};
 
-/// How much is done to carry cloth over.
+/// Re-pose settings.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ReposeSettings {
-    /// Strain beyond what it had before that 99 of 100 edges shall not exceed, 0..=0.1.
+    /// Target for the 99th percentile of additional strain, 0..=0.1.
     pub excess: f64,
-    /// Global steps at most, 0..=1000.
+    /// Most global steps, 0..=1000.
     pub most_steps: usize,
-    /// Poses on the way at most, 0..=50: where conforming alone would strain it too much, it goes there by turns of a few
-    /// degrees.
+    /// Most intermediate poses, 0..=50, each a few degrees from the next. They are used where going directly would strain the
+    /// cloth too much.
     pub most_substeps: usize,
-    /// So often at most, 0..=20, faces that cut the body are raised at the end, followed by some steps. With any, cloth that
-    /// faces the skin of another limb is sent off it all along, and layers that run through each other are parted.
+    /// Most repairs at the end, 0..=20: raising faces that cut the body, followed by some steps. Above 0, cloth that is near the
+    /// skin of another limb is also moved off it, and intersecting layers are separated.
     pub mends: usize,
 }
 
 impl ReposeSettings {
-    /// For a picture every frame.
+    /// Preview, computed every frame.
     pub const LIVE: Self = Self { excess: 0.01, most_steps: 4, most_substeps: 0, mends: 0 };
-    /// For cloth that stays as it comes out.
+    /// Final result.
     pub const THOROUGH: Self = Self { excess: 0.01, most_steps: 120, most_substeps: 12, mends: 3 };
 }
 
-/// What came of it.
+/// Statistics of a re-pose.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Outcome {
-    /// |l / l_before - 1| that 99 of 100 edges do not exceed, after conforming,
+    /// 99th percentile of |l / l_before - 1| after conforming.
     pub conformed_p99: f64,
-    /// after the shapes of the triangles were joined,
+    /// 99th percentile of |l / l_before - 1| after the triangles were joined.
     pub joined_p99: f64,
-    /// and at the end.
+    /// 99th percentile of |l / l_before - 1| at the end.
     pub excess_p99: f64,
-    /// Vertices that conforming put into the body,
+    /// Vertices inside the body after conforming.
     pub conformed_inside: usize,
-    /// and that are there at the end, by the nearest skin.
+    /// Vertices inside the body at the end, by the nearest skin.
     pub inside: usize,
-    /// Poses on the way.
+    /// Intermediate poses.
     pub substeps: usize,
     /// Global steps done.
     pub steps: usize,
-    /// Times it was mended.
+    /// Repairs done.
     pub mends: usize,
-    /// Places where the cloth runs through itself at the end; not looked for in what was only a picture.
+    /// Self-intersections at the end; not counted in a preview.
     pub crossings: usize,
 }

@@ -1,25 +1,27 @@
-//! Where conforming parts neighbours that are bound to different limbs: the turns of the skin, evened out over the cloth, and
-//! the shapes of all triangles so turned, joined again (Yu et al. 2004, "Mesh Editing with Poisson-Based Gradient Field
-//! Manipulation"; the turns as in Sumner and Popovic 2004, "Deformation Transfer for Triangle Meshes").
+//! Joins neighbours that conforming moves apart because they are bound to different limbs. The rotations of the skin are smoothed
+//! over the cloth; then the triangles, so rotated, are joined again (Yu et al. 2004, "Mesh Editing with Poisson-Based Gradient
+//! Field Manipulation"; rotations as in Sumner and Popovic 2004, "Deformation Transfer for Triangle Meshes").
 
 use glam::{DQuat, DVec3};
 
 use crate::cloth::{ClothState, Counters, Garment};
 use crate::relax::global::GlobalSolver;
 
-/// Turns and places are the skin's over lengths above this and the cloth's own below, metres on a body 1.5 m large.
+/// Length scale, metres on a body whose largest side is 1.5 m: above it rotations and positions follow the skin, below it the
+/// cloth itself.
 const REACH: f64 = 0.06;
 
-/// The matrix of a garment, factored once for all poses.
+/// Poisson solver of a garment, factored once for all poses.
 #[derive(Clone, Debug)]
 pub(super) struct Transfer {
     solver: GlobalSolver,
-    /// Ties each vertex to what it is given, on the matrix diagonal.
+    /// Weight that ties each vertex to its given value, on the matrix diagonal.
     ties: Vec<f64>,
 }
 
 impl Transfer {
-    /// For the laid triangles of `garment` on a body of `scale`. None when its matrix cannot be factored (out of memory).
+    /// A solver for the laid triangles of `garment` on a body of `scale`. None when the matrix cannot be factored (out of
+    /// memory).
     pub fn new(garment: &Garment, cloth: &ClothState, scale: f64) -> Option<Self> {
         let mut solver = GlobalSolver::new(garment)?;
         solver.set_triangles(garment, &cloth.mapped);
@@ -27,8 +29,8 @@ impl Transfer {
         Some(Self { solver, ties: vec![tie; garment.vertex_count] })
     }
 
-    /// Moves each place in `carried`, where a vertex of `cloth` went with the turn beside it, so that the triangles have as
-    /// nearly as can be their shapes in `cloth`, so turned. Where there is nothing to solve with, they stay.
+    /// Moves each position in `carried`, given with the rotation of its skin, so that the triangles keep their shapes in `cloth`,
+    /// rotated, as well as they can (least squares). Leaves the positions unchanged where the solve fails.
     pub fn join(
         &mut self,
         garment: &Garment,
@@ -53,7 +55,7 @@ impl Transfer {
         }
     }
 
-    /// The turns in `carried`, like those of the cloth round each vertex.
+    /// The rotations in `carried`, smoothed over the cloth.
     fn evened(&mut self, carried: &[(DVec3, DQuat)], counters: &mut Counters) -> Option<Vec<DQuat>> {
         let one_half = |q: DQuat| if q.w < 0.0 { -q } else { q };
         let tied = |(&(_, turn), tie): (&(DVec3, DQuat), &f64)| one_half(turn) * *tie;

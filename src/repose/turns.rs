@@ -1,21 +1,21 @@
-//! How the skin round each vertex of a body turns from one pose to another.
+//! Rotation of the skin round each vertex of a body from one pose to another.
 //!
-//! A triangle's turn is the rotation of the polar decomposition of its deformation gradient, the normal going to the normal:
-//! the full frame, not the smallest rotation between the normals, which would lose the turn about them and has none for
-//! opposite ones (ALGORITHMS.md 1.C). A vertex has the mean of its triangles', so that neighbouring points of the skin turn
-//! alike.
+//! The rotation of a triangle comes from the polar decomposition of its deformation gradient, with normal mapped to normal. It is
+//! the full frame, not the smallest rotation between the normals, which would lose the rotation about them and is undefined for
+//! opposite ones (ALGORITHMS.md 1.C). A vertex has the area-weighted mean of its triangles, so that neighbouring points of the
+//! skin rotate alike.
 
 use glam::{DMat3, DQuat, DVec2, DVec3};
 use rayon::prelude::*;
 
 use crate::body::Surface;
 
-/// Vertices one thread takes at a time.
+/// Vertices that one thread takes at a time.
 const LEAST_SHARE: usize = 256;
-/// A triangle turns nothing when its height is less than this share of its first side.
+/// A triangle whose height is less than this share of its first side counts as degenerate and has no rotation.
 const COLLAPSED: f64 = 1e-9;
 
-/// The turn of each vertex that is asked for; None where neither it nor its triangles have moved.
+/// Rotation at each of `vertices`; None where neither the vertex nor its triangles have moved.
 pub(super) fn turns(from: &Surface, to: &Surface, vertices: &[u32]) -> Vec<Option<DQuat>> {
     let (before, after) = (&from.mesh.positions, &to.mesh.positions);
     let moved = |v: u32| before[v as usize] != after[v as usize];
@@ -33,7 +33,7 @@ pub(super) fn turns(from: &Surface, to: &Surface, vertices: &[u32]) -> Vec<Optio
     vertices.par_iter().with_min_len(LEAST_SHARE).map(turn).collect()
 }
 
-/// The weighted mean of rotations that are not far apart; unturned where there is none.
+/// Weighted mean of rotations that are close to each other; the identity where there are none.
 pub(super) fn mean(turns: impl Iterator<Item = (DQuat, f64)>) -> DQuat {
     let mut sum = DQuat::from_xyzw(0.0, 0.0, 0.0, 0.0);
     for (turn, weight) in turns {
@@ -47,12 +47,12 @@ fn area([a, b, c]: [DVec3; 3]) -> f64 {
     (b - a).cross(c - a).length() / 2.0
 }
 
-/// The rotation in the polar decomposition of the map that takes a triangle and its normal to another.
+/// Rotation in the polar decomposition of the map that takes one triangle and its normal to the other.
 pub(super) fn triangle_turn(from: [DVec3; 3], to: [DVec3; 3]) -> DQuat {
     let (Some((frame_from, flat_from)), Some((frame_to, flat_to))) = (framed(from), framed(to)) else {
         return DQuat::IDENTITY;
     };
-    // In the plane, first sides lie along x: the gradient is [[s, k], [0, t]], and its turn is known in closed form.
+    // In each plane the first side lies along x: the gradient is [[s, k], [0, t]], whose rotation has a closed form.
     let s = flat_to[0].x / flat_from[0].x;
     let k = (flat_to[1].x - s * flat_from[1].x) / flat_from[1].y;
     let t = flat_to[1].y / flat_from[1].y;
@@ -60,7 +60,7 @@ pub(super) fn triangle_turn(from: [DVec3; 3], to: [DVec3; 3]) -> DQuat {
     DQuat::from_mat3(&(frame_to * in_plane * frame_from.transpose()))
 }
 
-/// The map that takes a triangle and its unit normal to another. None where one of them has no area.
+/// Deformation gradient: the map that takes one triangle and its unit normal to the other. None where one of them has no area.
 pub(super) fn gradient(from: [DVec3; 3], to: [DVec3; 3]) -> Option<DMat3> {
     framed(from)?;
     let columns = |[a, b, c]: [DVec3; 3]| {
@@ -70,7 +70,8 @@ pub(super) fn gradient(from: [DVec3; 3], to: [DVec3; 3]) -> Option<DMat3> {
     framed(to).map(|_| columns(to) * columns(from).inverse())
 }
 
-/// A frame of a triangle (first side, in the plane across it, normal) and its sides from the first corner in it.
+/// Frame of a triangle (first side, perpendicular to it in the plane, normal), and the two sides from the first corner in that
+/// frame.
 fn framed([a, b, c]: [DVec3; 3]) -> Option<(DMat3, [DVec2; 2])> {
     let (u, v) = (b - a, c - a);
     let (length, normal) = (u.length(), u.cross(v));

@@ -1,4 +1,4 @@
-//! The animations that came with a body from a file, and which moment of them it is in.
+//! Animations of a body from a glTF file, and the moment of them that the body is in.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -14,43 +14,43 @@ use crate::io::gltf;
 use crate::io::moving_body::MovingBody;
 use crate::session::body_choice::BodyChoice;
 
-/// A moment of an animation.
+/// A point in time of an animation.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Moment {
-    /// Its place among those of its file, from 0.
+    /// Index of the animation in its file, from 0.
     pub animation: usize,
-    /// Since its beginning, 0 to its length.
+    /// Time since its beginning, 0 to its length.
     pub seconds: f64,
 }
 
-/// A glTF file with what it names, as it was read.
+/// The bytes of a glTF file and of the buffer files it refers to, as read.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "StoredFile", into = "StoredFile")]
 pub struct AnimatedFile {
-    /// For people.
+    /// File name, for the user.
     pub name: String,
-    /// All of it.
+    /// Content of the file.
     pub bytes: Vec<u8>,
-    /// Files that it names.
+    /// Buffer files it refers to, by name.
     pub buffers: BTreeMap<String, Vec<u8>>,
-    /// What points up in it.
+    /// Axis that points up in the file.
     pub up: UpAxis,
-    /// What its lengths are in.
+    /// Unit of length in the file.
     pub unit: Unit,
 }
 
-/// The animations of a body. Kept with their file: it says the least there is to say, and reading it again checks it.
+/// Animations of a body. Serialised as their file: it is the smallest complete form, and reading it again checks it.
 #[derive(Deserialize)]
 #[serde(try_from = "AnimatedFile")]
 pub struct Animations {
     file: AnimatedFile,
     body: MovingBody,
-    /// At rest.
+    /// The body at rest.
     mesh: TriMesh,
 }
 
 impl Animations {
-    /// Those in `file`, and the body that it is at rest. The error says in words why there are none.
+    /// Reads the animations in `file`, and the body at rest. The error says in words why there are none.
     pub fn new(file: AnimatedFile) -> Result<(Self, Imported), String> {
         let load = |name: &str| {
             let buffer = file.buffers.get(name).cloned();
@@ -64,17 +64,17 @@ impl Animations {
         Ok((Self { body, mesh: imported.mesh.clone(), file }, imported))
     }
 
-    /// Of their file, for people.
+    /// Name of the file, for the user.
     pub fn name(&self) -> &str {
         &self.file.name
     }
 
-    /// The body that they move, at rest.
+    /// The body at rest.
     pub fn mesh(&self) -> &TriMesh {
         &self.mesh
     }
 
-    /// What they are called, in their order: by their number from 1 where one has no name.
+    /// Names of the animations in their order; one without a name is called by its number from 1.
     pub fn names(&self) -> impl Iterator<Item = String> {
         self.body.animations().enumerate().map(|(i, name)| match name.trim() {
             "" => format!("Animation {}", i + 1),
@@ -82,12 +82,12 @@ impl Animations {
         })
     }
 
-    /// How long an animation lasts, seconds. None: there is no such animation.
+    /// Length of an animation, seconds. None: there is no such animation.
     pub fn seconds(&self, animation: usize) -> Option<f64> {
         self.body.seconds(animation)
     }
 
-    /// The body of this name at a moment; at rest without one. The error says in words that there is no such moment.
+    /// The body under the name `name` at a moment; at rest without one. The error says in words that there is no such moment.
     pub fn body(&self, name: &str, at: Option<Moment>) -> Result<BodyChoice, String> {
         if let Some(Moment { animation, seconds }) = at {
             let length = self.seconds(animation);
@@ -129,7 +129,7 @@ impl TryFrom<AnimatedFile> for Animations {
     }
 }
 
-/// The same as text.
+/// An [`AnimatedFile`] with its bytes in base64.
 #[derive(Serialize, Deserialize)]
 struct StoredFile {
     name: String,

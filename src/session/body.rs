@@ -1,4 +1,4 @@
-//! The body a document chooses, made ready for queries.
+//! The body chosen in a document, prepared for queries.
 
 use std::sync::{Arc, OnceLock};
 
@@ -13,7 +13,7 @@ use crate::session::body_choice::BodyChoice;
 use crate::session::command::Rejection;
 use crate::session::document::Aim;
 
-/// Bodies kept, so that undo of a change of body is quick.
+/// Most bodies cached, so that undo of a change of body is fast.
 const MOST_KEPT: usize = 4;
 
 /// A body's surface and its named points.
@@ -21,16 +21,16 @@ const MOST_KEPT: usize = 4;
 pub struct Body {
     /// Its skin.
     pub surface: Arc<Surface>,
-    /// Bones it was made with, or those found in it; looked for once.
+    /// Bones it was made with, or else those found in it; computed once.
     bones: OnceLock<Arc<Vec<Bone>>>,
-    /// Landmarks it was made with.
+    /// Landmarks it was made with; None for a body from a file.
     own: Option<Landmarks>,
-    /// Those found on its skin; looked for once.
+    /// Landmarks found on its skin; computed once.
     found: OnceLock<Option<Landmarks>>,
 }
 
 impl Body {
-    /// Makes the body of `choice`. The error says why cloth cannot be put on it.
+    /// Builds the body of `choice`. The error says why cloth cannot be put on it.
     pub fn new(choice: &BodyChoice) -> Result<Self, Rejection> {
         let (surface, bones, own) = match choice {
             BodyChoice::Mannequin(measurements) => {
@@ -53,7 +53,7 @@ impl Body {
         Ok(Self { surface, bones, own, found: OnceLock::new() })
     }
 
-    /// What cloth cannot be pulled across: its skeleton, or bones between the landmarks of a body that looks human.
+    /// Bones that cloth cannot be pulled across: of its skeleton, or found between the landmarks of a body that looks human.
     pub fn bones(&self) -> &Arc<Vec<Bone>> {
         self.bones.get_or_init(|| {
             let marks = self.landmarks();
@@ -61,12 +61,12 @@ impl Body {
         })
     }
 
-    /// Its named points, if it has any.
+    /// Landmarks of the body, if it has any.
     pub fn landmarks(&self) -> Option<&Landmarks> {
         self.own.as_ref().or_else(|| self.found())
     }
 
-    /// Named points of this body and of `other` that mean the same on both: their own, or else those found on both alike.
+    /// Landmarks of this body and of `other` with the same meaning: those both were made with, or else those found on both.
     pub fn common_landmarks<'a>(&'a self, other: &'a Self) -> Option<(&'a Landmarks, &'a Landmarks)> {
         match (&self.own, &other.own) {
             (Some(own), Some(others)) => Some((own, others)),
@@ -79,16 +79,16 @@ impl Body {
     }
 }
 
-/// Bodies made before, the newest last.
+/// Cache of bodies, the newest last.
 #[derive(Debug, Default)]
 pub struct BodyCache {
     kept: Vec<(BodyChoice, Arc<Body>)>,
-    /// The last way that was gone.
+    /// The last pose interpolation path.
     way: Option<(Arc<Aim>, PosePath)>,
 }
 
 impl BodyCache {
-    /// The body of `choice`. The error says why cloth cannot be put on it.
+    /// The body of `choice`, from the cache or built. The error says why cloth cannot be put on it.
     pub fn body(&mut self, choice: &BodyChoice) -> Result<Arc<Body>, Rejection> {
         if let Some(i) = self.kept.iter().position(|(kept, _)| kept == choice) {
             let found = self.kept.remove(i);
@@ -104,7 +104,7 @@ impl BodyCache {
         Ok(body)
     }
 
-    /// The body at `share` of the way that `aim` tells. The error says why there is none.
+    /// The body at `share` 0..=1 of the way from `aim.from` to `aim.to`. The error says why there is none.
     pub fn between(&mut self, aim: &Arc<Aim>, share: f64) -> Result<BodyChoice, Rejection> {
         if share == 0.0 || share == 1.0 {
             return Ok(if share == 0.0 { aim.from.clone() } else { aim.to.clone() });
@@ -123,7 +123,7 @@ impl BodyCache {
         Ok(BodyChoice::Imported { name: aim.to.name().to_owned(), mesh })
     }
 
-    /// The mannequin `to` in the triangles of the mannequin `from`. The error says why there is none.
+    /// Positions of the mannequin `to` in the triangles of the mannequin `from`, as a surface. The error says why there is none.
     pub fn in_triangles_of(&mut self, from: &BodyChoice, to: &BodyChoice) -> Result<Arc<Surface>, Rejection> {
         let words = || Rejection(format!("{} is not {} in another size", to.name(), from.name()));
         let figure = |choice: &BodyChoice| mannequin(&choice.measurements()?).ok();
@@ -137,18 +137,18 @@ impl BodyCache {
         self.body(choice).map(|body| Arc::clone(&body.surface))
     }
 
-    /// The surface of `choice`, if it was made before.
+    /// The surface of `choice`, if it is in the cache.
     pub fn kept(&self, choice: &BodyChoice) -> Option<&Arc<Surface>> {
         self.kept.iter().find(|(kept, _)| kept == choice).map(|(_, body)| &body.surface)
     }
 }
 
-/// Makes the surface of `choice`.
+/// Builds the surface of `choice`, without a cache.
 pub fn surface_of(choice: &BodyChoice) -> Result<Arc<Surface>, Rejection> {
     Body::new(choice).map(|body| body.surface)
 }
 
-/// What the tape reads on the body of `choice`, whose skin is `mesh`. None of what is no standing human.
+/// Body measurements of `choice`, whose skin is `mesh`. None for a body that is not a standing human.
 pub fn readings_of(choice: &BodyChoice, mesh: &TriMesh) -> Option<Vec<Reading>> {
     let own = match choice {
         BodyChoice::Mannequin(measurements) => {

@@ -1,4 +1,4 @@
-//! What the cloth is put on: the mannequin, posed or not, or a body from a file.
+//! The choice of a body: the mannequin, posed or not, or a body from a file.
 
 use std::sync::Arc;
 
@@ -9,15 +9,15 @@ use crate::body::pose::anatomy::Anatomy;
 use crate::body::{NamedPose, Pose};
 use crate::geometry::mesh::TriMesh;
 
-/// What the cloth is put on.
+/// The body that the cloth is put on.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum BodyChoice {
-    /// The built-in dressmaker's figure, made to measurements.
+    /// The built-in mannequin, made to measurements.
     Mannequin(Measurements),
-    /// The same with its joints turned.
+    /// The mannequin with its joints rotated.
     Posed { measurements: Measurements, pose: Pose },
-    /// A mesh from a file. It may have faults: `session::body` tells.
+    /// A mesh from a file. It may have faults, which [`crate::session::body`] reports.
     Imported {
         name: String,
         #[serde(with = "mesh_as_arrays")]
@@ -26,7 +26,7 @@ pub enum BodyChoice {
 }
 
 impl BodyChoice {
-    /// The mannequin of this body in `pose`; without any turn it is the built one. None for a body from a file.
+    /// The mannequin of this body in `pose`; [`Self::Mannequin`] where no joint is rotated. None for a body from a file.
     pub fn posed(&self, pose: Pose) -> Option<Self> {
         let measurements = self.measurements()?;
         Some(match pose.turns.is_empty() {
@@ -35,19 +35,19 @@ impl BodyChoice {
         })
     }
 
-    /// The mannequin of this body in a pose with a name. None for a body from a file, and for measurements that make none.
+    /// The mannequin of this body in a named pose. None for a body from a file, and for invalid measurements.
     pub fn in_named_pose(&self, pose: NamedPose) -> Option<Self> {
         let figure = mannequin(&self.measurements()?).ok()?;
         self.posed(pose.pose(&figure.skeleton))
     }
 
-    /// The axes of the mannequin's joints. None for a body from a file, and for measurements that make none.
+    /// Rotation axes of the mannequin's joints. None for a body from a file, and for invalid measurements.
     pub fn anatomy(&self) -> Option<Anatomy> {
         let figure = mannequin(&self.measurements()?).ok()?;
         Some(Anatomy::new(&figure.skeleton))
     }
 
-    /// What the mannequin is built to. None for a body from a file.
+    /// Measurements of the mannequin. None for a body from a file.
     pub fn measurements(&self) -> Option<Measurements> {
         match self {
             Self::Mannequin(measurements) | Self::Posed { measurements, .. } => Some(*measurements),
@@ -55,7 +55,7 @@ impl BodyChoice {
         }
     }
 
-    /// How its joints are turned; not at all as it was built. None for a body from a file.
+    /// Joint rotations of the mannequin; empty in the pose it is built in. None for a body from a file.
     pub fn pose(&self) -> Option<Pose> {
         match self {
             Self::Mannequin(_) => Some(Pose::default()),
@@ -64,7 +64,7 @@ impl BodyChoice {
         }
     }
 
-    /// For people.
+    /// Name for the user.
     pub fn name(&self) -> &str {
         match self {
             Self::Mannequin(_) | Self::Posed { .. } => "mannequin",

@@ -1,7 +1,8 @@
-//! Marks on a body are tied to its skin, and carried to the body that takes its place.
+//! Transfer of marks on a body to another body.
 //!
-//! A body with the same triangles is the same body moved: marks follow their triangles. To any other they are carried by the
-//! landmarks both have: a smooth map takes these to those, and a mark's points from there to the nearest skin.
+//! Marks are tied to the skin. On a body with the same triangles, which is the same body moved, they follow their triangles. To
+//! any other body they are transferred by landmarks that both bodies have: a smooth map takes landmarks to landmarks, and the
+//! points of a mark to near the new skin, where the nearest points are taken.
 
 use std::sync::Arc;
 
@@ -13,18 +14,18 @@ use crate::pattern::{Problem, ProblemKind};
 use crate::session::body::Body;
 use crate::wrap::{Marks, Tie};
 
-/// A point this near to a landmark stands for it, metres on a body 1.5 m large.
+/// Distance within which a point stands for a landmark, metres on a body whose largest side is 1.5 m.
 const NEAR: f64 = 0.02;
-/// A carried point further than this from the new skin has no place there, metres on a body 1.5 m large.
+/// Distance from the new skin beyond which a transferred point is lost, metres on a body whose largest side is 1.5 m.
 const OFF_SKIN: f64 = 0.06;
-/// Nor has one whose skin looks another way than before: cosine.
+/// Cosine of the angle between old and new skin normal below which a transferred point is lost.
 const SAME_WAY: f64 = 0.2;
-/// A tied point has not left its triangle: metres on a body 1.5 m large.
+/// Distance within which a point still agrees with its tie, metres on a body whose largest side is 1.5 m.
 const MOVED: f64 = 1e-3;
-/// A stroke is carried as long as this share of its points found a place.
+/// Share of its points that must find a place for a stroke to be transferred.
 const ENOUGH: f64 = 0.75;
 
-/// Ties the body's strokes that are not tied yet.
+/// Ties those strokes on the body that are not tied yet.
 pub fn tie(marks: &mut Arc<Marks>, body: &Body) {
     let untied = |marks: &Marks, id: MarkId, points: usize| {
         marks.ties.get(&id).is_none_or(|ties| ties.len() != points)
@@ -58,8 +59,8 @@ fn tied(p: DVec3, body: &Body) -> Tie {
     }
 }
 
-/// `marks` of the body `from` on the body `to`, called `name`, tied to it; and which found no place there. The cloth's
-/// partners of those come behind all others, so that the other pairs stay pairs.
+/// `marks` transferred from the body `from` to the body `to`, called `name`, and tied to it, with a problem for each stroke that
+/// was lost. Their partners on the cloth are moved behind all others, so that the other pairs stay pairs.
 pub fn carried(marks: &Marks, from: Option<&Body>, to: &Body, name: &str) -> (Marks, Vec<Problem>) {
     let mut new = Marks { body: Vec::new(), ..marks.clone() };
     let mut lost = Vec::new();
@@ -78,7 +79,7 @@ pub fn carried(marks: &Marks, from: Option<&Body>, to: &Body, name: &str) -> (Ma
     let is_lost = |i: usize| lost.iter().any(|(k, _)| *k == i);
     let cloth = marks.cloth.iter().enumerate();
     new.cloth = cloth.clone().filter(|(i, _)| !is_lost(*i)).map(|(_, m)| m.clone()).collect();
-    // Behind strokes of the body that have no partner yet they would make new pairs.
+    // In front of unpaired strokes on the body they would form new pairs.
     if marks.body.len() <= marks.cloth.len() {
         new.cloth.extend(cloth.filter(|(i, _)| is_lost(*i)).map(|(_, m)| m.clone()));
     }
@@ -99,11 +100,11 @@ fn problem(marks: &Marks, i: usize, body: &str, why: &str) -> Problem {
     }
 }
 
-/// From one body to another.
+/// How points are transferred from one body to another.
 enum Way<'a> {
-    /// The same triangles.
+    /// The two bodies have the same triangles.
     Triangles { from: &'a Body, to: &'a Body },
-    /// By landmarks.
+    /// The two bodies have landmarks in common.
     Landmarks { from: &'a Body, to: &'a Body, warp: Warp },
 }
 
@@ -118,7 +119,7 @@ impl<'a> Way<'a> {
         Ok(Self::Landmarks { from, to, warp: Warp::new(&pairs).ok_or(none)? })
     }
 
-    /// None when too few points found a place.
+    /// Transfers a stroke. None when too few points find a place.
     fn stroke<'t>(
         &self,
         points: &[DVec3],
@@ -141,7 +142,7 @@ impl<'a> Way<'a> {
     }
 }
 
-/// Where a tie holds. None when it is of another body.
+/// The point that a tie stands for. None when it is of another body.
 fn at(body: &Body, tie: &Tie) -> Option<DVec3> {
     let corners = body.surface.mesh.triangles.get(tie.triangle as usize)?;
     Some((0..3).map(|k| body.surface.mesh.positions[corners[k] as usize] * tie.weights[k]).sum())

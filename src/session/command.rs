@@ -1,4 +1,4 @@
-//! Everything a person can do. Each command is complete in itself: ids and absolute values, in metres and radians.
+//! Commands: everything a person can do. Each is complete in itself: ids and absolute values, in metres and radians.
 
 use std::sync::Arc;
 
@@ -16,154 +16,154 @@ use crate::session::document::Settings;
 use crate::sim::StartChoice;
 use crate::wrap::{ClothSide, Marks};
 
-/// One thing done. New things get their ids from the document's counters, so that a replay gives them the same.
+/// A command. New items get their ids from the document's counters, so that a replay gives them the same ids.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Command {
-    /// Paint a stroke on a piece, in that piece's own plane. Its number is one more than the last on the cloth.
+    /// Paint a stroke on a piece, in that piece's own plane. Its number is that of the last stroke on the cloth plus one.
     AddClothMark { piece: PieceId, side: ClothSide, points: Vec<DVec2> },
-    /// Paint a stroke on the body's surface. Its number is one more than the last on the body.
+    /// Paint a stroke on the body's surface. Its number is that of the last stroke on the body plus one.
     AddBodyMark { points: Vec<DVec3> },
-    /// Take one stroke away, on cloth or body; later ones move up a number.
+    /// Delete one stroke, on cloth or body; later ones move up a number.
     DeleteMark { mark: MarkId },
-    /// Take the strokes numbered `number` (from 1) away on both sides.
+    /// Delete the strokes numbered `number` (from 1) on both sides.
     DeletePair { number: usize },
-    /// Give a stroke the number `to` (from 1) among those of its side.
+    /// Give a stroke the number `to` (from 1) on its side.
     MoveMark { mark: MarkId, to: usize },
-    /// Give a stroke a name; an empty one takes its name away.
+    /// Name a stroke; an empty name removes it.
     RenameMark { mark: MarkId, name: String },
-    /// Take all strokes away.
+    /// Delete all strokes.
     ClearMarks,
-    /// Replace all strokes. Ids in it are kept.
+    /// Replace all strokes, keeping the ids in `marks`.
     SetMarks { marks: Arc<Marks> },
 
     /// Put a new piece on the table.
     AddPiece { piece: Arc<Piece> },
-    /// Take a piece away with its seams and its strokes (and their partners, so that other pairs stay pairs).
+    /// Delete a piece with its seams and its strokes (and their partners, so that other pairs stay pairs).
     DeletePiece { piece: PieceId },
     /// Rename a piece.
     RenamePiece { piece: PieceId, name: String },
-    /// Move, turn or flip a piece on the table.
+    /// Move, rotate or flip a piece on the table.
     SetPiecePose { piece: PieceId, pose: PlanePose },
-    /// Edit the pattern: all of it or nothing. `anew` within a gesture: in place of what the gesture did before.
+    /// Edit the pattern: all of the edits or none. `anew` within a gesture: in place of what the gesture did before.
     EditPattern { edits: Vec<PatternEdit>, anew: bool },
-    /// Redraw a piece. A sewn piece keeps its number of edges.
+    /// Replace the outline of a piece. A sewn piece keeps its number of edges.
     SetOutline { piece: PieceId, outline: Vec<Edge> },
     /// Sew two edges together.
     AddSeam { seam: Seam },
-    /// Undo a seam.
+    /// Remove a seam.
     DeleteSeam { seam: SeamId },
-    /// Sew the edges the other way round.
+    /// Reverse the direction of a seam.
     ReverseSeam { seam: SeamId },
-    /// Start from another pattern with its strokes: a sample, an import. The cloth comes off.
+    /// Replace the pattern and its strokes, by a sample or an import. The cloth comes off.
     ReplacePattern { name: String, pattern: Arc<Pattern>, marks: Arc<Marks> },
 
-    /// Take another body, perhaps with animations that move it. The cloth comes off; the strokes on the old body are carried to
+    /// Change the body, perhaps with animations that move it. The cloth comes off; the strokes on the old body are transferred to
     /// the new one where they find a place.
     SetBody {
         body: BodyChoice,
         #[serde(default, skip_serializing_if = "Option::is_none")]
         animations: Option<Arc<Animations>>,
     },
-    /// The body takes another pose: `body` has its triangles, vertex for vertex. The dressed cloth goes along, and with
-    /// `settle` it settles there. Strokes on the body follow their triangles. A `draft` is for a pose that is still being
-    /// chosen: quick, and not so exact.
+    /// Change the pose of the body: `body` has its triangles, vertex for vertex. The dressed cloth follows, and with `settle` it
+    /// settles there. Strokes on the body follow their triangles. A `draft` is a quick preview of lower quality, for a pose still
+    /// being chosen.
     Repose {
         body: BodyChoice,
         settle: bool,
         #[serde(default, skip_serializing_if = "std::ops::Not::not")]
         draft: bool,
     },
-    /// The mannequin is built to other measurements, in the pose it stands in. The dressed cloth goes along and, unless it was
-    /// draped, settles there; strokes on the body are carried where they find a place.
+    /// Change the measurements of the mannequin, in its present pose. The dressed cloth follows and, unless it was draped,
+    /// settles there; strokes on the body are transferred where they find a place.
     ChangeSize { measurements: Measurements },
-    /// Choose another pose of the body, from a file: `body` has its triangles, vertex for vertex. It stays where it is.
+    /// Choose a target pose of the body, from a file: `body` has its triangles, vertex for vertex. The body does not move yet.
     AimPose { body: BodyChoice },
-    /// The body goes from the pose in which the other was chosen to that one, so far (0..=1) that its limbs keep their size
-    /// on the way; cloth, strokes and `draft` as with `Repose`.
+    /// Move the body to the share 0..=1 of the way from the pose in which the target pose was chosen to that target. Limbs keep
+    /// their size on the way; cloth, strokes and `draft` as with `Repose`.
     PoseTowards {
         share: f64,
         #[serde(default, skip_serializing_if = "std::ops::Not::not")]
         draft: bool,
     },
-    /// Take the animations of a file whose body has the triangles of the dressed one, vertex for vertex. It stays where it is.
+    /// Take the animations of a file whose body has the triangles of the present one, vertex for vertex. The body does not move
+    /// yet.
     TakeAnimations { animations: Arc<Animations> },
-    /// The body goes to this moment of its animations, or (none) to where it is at rest; cloth, strokes and `draft` as with
+    /// Move the body to this moment of its animations, or (none) to where it is at rest; cloth, strokes and `draft` as with
     /// `Repose`.
     Animate {
         at: Option<Moment>,
         #[serde(default, skip_serializing_if = "std::ops::Not::not")]
         draft: bool,
     },
-    /// Draw bones in the body, from end to end, which cloth in the hand cannot be pulled across; none: the body's own again.
+    /// Set bones, each by its two ends, that dragged cloth cannot be pulled across; none: the body's own again.
     SetBones { bones: Option<Vec<[DVec3; 2]>> },
-    /// Change mesh size and how the cloth relaxes.
+    /// Change the mesh size and the settings of relaxation and draping.
     SetSettings { settings: Settings },
 
     /// Grow the cloth round the body from the marks.
     Wrap,
-    /// Grow the dressed cloth anew from the pairs of marks with these numbers (from 1; none: all). Cloth as far from them
-    /// as the nearest pin, or farther, stays.
+    /// Grow the dressed cloth anew from the pairs of marks with these numbers (from 1; none: all). Cloth that is at least as far
+    /// from them as the nearest pin stays.
     Rewrap { pairs: Vec<usize> },
-    /// Take the last wrap back: what was on the body before it returns.
+    /// Undo the last wrap: what was on the body before it returns.
     CancelWrap,
     /// Take the cloth off.
     Unwrap,
     /// Pin the cloth at a place of a piece, to where it is on the body.
     AddPin { piece: PieceId, at: DVec2 },
-    /// Pull a pin out.
+    /// Remove a pin.
     DeletePin { pin: PinId },
-    /// Pull all pins out that are not locked.
+    /// Remove all pins that are not locked.
     ClearPins,
-    /// Pull these pins out.
+    /// Remove these pins.
     DeletePins { pins: Vec<PinId> },
-    /// Stick a pin in elsewhere.
+    /// Move a pin to another place of the cloth.
     MovePin { pin: PinId, piece: PieceId, at: DVec2 },
-    /// Lock pins, so that they can be neither moved nor pulled out, or unlock them.
+    /// Lock pins, so that they can be neither moved nor removed, or unlock them.
     LockPins { pins: Vec<PinId>, locked: bool },
-    /// Take the dressed cloth in the hand at a place of a piece. The drag lasts until `Release`; `CancelGesture` takes all
-    /// of it back.
+    /// Begin to drag the dressed cloth at a place of a piece. The drag lasts until `Release`; `CancelGesture` undoes all of it.
     Grab { piece: PieceId, at: DVec2, mode: DragMode },
-    /// The pointer is there now: a ray into the scene.
+    /// Move the dragged point to this ray of the pointer into the scene.
     DragTo { ray: Ray },
-    /// Let go; the cloth settles.
+    /// End the drag; the cloth settles.
     Release,
-    /// Pause or go on relaxing. Not an undo step.
+    /// Pause relaxing or go on. Not an undo step.
     SetRelaxing { on: bool },
 
-    /// Sew the garment together from where its pieces are placed in space, and drape it.
+    /// Sew the garment together from the placement of its pieces, and drape it.
     Sew,
-    /// Put the garment on by the best start: by marks, its own or suggested ones, and draped; else sewn from where its pieces are
-    /// placed. The first without a fault is taken.
+    /// Put the garment on by the best start: by marks, its own or suggested ones, and draping; else sewn from the placement of
+    /// its pieces. The first without a fault is taken.
     Dress {
         #[serde(default)]
         choice: StartChoice,
     },
-    /// Let physics move the dressed cloth until it rests (all of it one undo step), or stop that (no step).
+    /// Drape the dressed cloth until it rests (all of it one undo step), or stop draping (no step).
     SetDraping { on: bool },
-    /// The same for `ticks` ticks, 1..=600.
+    /// Drape the dressed cloth for `ticks` ticks, 1..=600.
     StepDraping { ticks: u32 },
-    /// What a piece is made of, or (no piece) all that have no fabric of their own. No fabric: that of all the others, or the
-    /// usual one.
+    /// Set the fabric of a piece, or (no piece) of all that have no fabric of their own. No fabric: that of all the others, or
+    /// the usual one.
     SetFabric { piece: Option<PieceId>, fabric: Option<String> },
 
-    /// Take the last step back, document and cloth.
+    /// Undo the last step, document and cloth.
     Undo,
-    /// Do it again.
+    /// Redo the last undone step.
     Redo,
-    /// Esc during a gesture: everything it did is taken back and cannot be redone.
+    /// Esc during a gesture: everything it did is undone and cannot be redone.
     CancelGesture,
     /// The simulation has dropped states before this request: steps that need them can no longer be undone.
     ForgetHistory { before_seq: u64 },
 }
 
-/// Why a command was not carried out, in words for a person. The session is as if it had never been given.
+/// Why a command was not carried out, in words for a person. The session is unchanged.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
 pub struct Rejection(pub String);
 
 impl Rejection {
-    /// A rejection in these words.
+    /// A rejection with these words.
     pub fn new(words: impl Into<String>) -> Self {
         Self(words.into())
     }

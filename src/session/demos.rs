@@ -1,6 +1,6 @@
-//! Recordings that come with the program: the figures of paper A, made with our own samples.
+//! Recordings that come with the program: the figures of paper A, made with the program's own samples.
 
-/// The demos there are.
+/// A demo: a recording that comes with the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Demo {
     /// Figure 1: marks on cloth and body, and the wrap.
@@ -34,7 +34,7 @@ impl Demo {
         Self::Pins,
     ];
 
-    /// Shown to people.
+    /// Name for the user.
     pub fn name(self) -> &'static str {
         match self {
             Self::Wrapping => "Wrapping by marks",
@@ -48,7 +48,7 @@ impl Demo {
         }
     }
 
-    /// The figure of the paper that shows the same.
+    /// Number of the paper's figure that shows the same.
     pub fn figure(self) -> &'static str {
         match self {
             Self::Wrapping => "1",
@@ -60,7 +60,7 @@ impl Demo {
         }
     }
 
-    /// What there is to see, in a sentence or two.
+    /// Caption, a sentence or two.
     pub fn tells(self) -> &'static str {
         match self {
             Self::Wrapping => {
@@ -102,7 +102,7 @@ impl Demo {
         }
     }
 
-    /// Its recording.
+    /// The recording, as JSON lines.
     pub fn recording(self) -> &'static str {
         match self {
             Self::Wrapping => include_str!("../../assets/demos/wrapping.jsonl"),

@@ -1,4 +1,4 @@
-//! The document: all that is the user's own. Cheap to copy.
+//! The document: all of the user's own data. Cheap to clone.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -20,86 +20,86 @@ use crate::wrap::Marks;
 pub struct Document {
     /// The flat pieces and their seams.
     pub pattern: Arc<Pattern>,
-    /// What the cloth is put on.
+    /// The body that the cloth is put on.
     pub body: BodyChoice,
     /// Strokes on cloth and body.
     pub marks: Arc<Marks>,
-    /// The last number given to a mark.
+    /// Counter of mark ids: the last one given.
     pub last_mark: u32,
     /// Pushpins in the dressed cloth, in the order they were set.
     #[serde(default, skip_serializing_if = "is_empty")]
     pub pins: Arc<Vec<Pin>>,
-    /// The last number given to a pin.
+    /// Counter of pin ids: the last one given.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub last_pin: u32,
-    /// The pose from a file that the body is led to.
+    /// The pose from a file that the body can be moved towards.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub aim: Option<Arc<Aim>>,
-    /// The animations of a file that the body can go through.
+    /// Animations from a file that the body can go through.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub animations: Option<Arc<Animations>>,
-    /// Where in them the body is. None: elsewhere, or at rest.
+    /// The moment of the animations that the body is in. None: another pose, or at rest.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub moment: Option<Moment>,
     /// Bones drawn in the body, which cloth cannot be pulled across. None: the body's own.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bones: Option<Arc<Vec<Bone>>>,
-    /// What the cloth is made of.
+    /// Fabrics of the pieces.
     #[serde(default, skip_serializing_if = "Fabrics::is_usual")]
     pub fabrics: Fabrics,
-    /// Mesh size and relaxation.
+    /// Mesh size, relaxation and draping.
     pub settings: Settings,
 }
 
-/// From one pose of a body to another.
+/// A target pose of the body, and the pose it starts from.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Aim {
-    /// As it was when the other was chosen.
+    /// The body when the target was chosen.
     pub from: BodyChoice,
-    /// The same triangles in the other pose.
+    /// The body in the target pose, with the same triangles.
     pub to: BodyChoice,
 }
 
-/// Names of fabrics.
+/// Names of the fabrics of a garment.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Fabrics {
-    /// Of every piece that has none of its own; None: [`Fabric::USUAL`].
+    /// Fabric of every piece without its own; None: [`Fabric::USUAL`].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub all: Option<String>,
-    /// Of single pieces.
+    /// Fabrics of single pieces.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub pieces: BTreeMap<PieceId, String>,
 }
 
 impl Fabrics {
-    /// Nothing was chosen.
+    /// Whether no fabric was chosen.
     pub fn is_usual(&self) -> bool {
         *self == Self::default()
     }
 
-    /// The name of what `piece` (None: all others) is made of.
+    /// Name of the fabric of `piece`; None: of pieces without their own.
     pub fn name(&self, piece: Option<PieceId>) -> &str {
         let own = piece.and_then(|piece| self.pieces.get(&piece));
         own.or(self.all.as_ref()).map_or(Fabric::USUAL, |name| name)
     }
 
-    /// What each piece of `pattern` is made of.
+    /// Fabric of each piece of `pattern`.
     pub fn of(&self, pattern: &Pattern) -> BTreeMap<PieceId, Fabric> {
         let fabric = |&id: &PieceId| Some((id, Fabric::preset(self.name(Some(id)))?.clone()));
         pattern.pieces.keys().filter_map(fabric).collect()
     }
 }
 
-/// A pushpin: the cloth under it stays where it is on the body.
+/// A pushpin: the cloth under it keeps its position on the body.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Pin {
     /// Its id.
     pub id: PinId,
-    /// Where it is stuck in.
+    /// The point of the flat cloth that it holds.
     #[serde(flatten)]
     pub place: ClothPlace,
-    /// Stays until it is unlocked.
+    /// Whether it is locked: it can be neither moved nor removed.
     #[serde(default, skip_serializing_if = "is_false")]
     pub locked: bool,
 }
@@ -136,43 +136,43 @@ impl Default for Document {
 }
 
 impl Document {
-    /// An id no stroke has had.
+    /// A new mark id.
     pub fn fresh_mark(&mut self) -> MarkId {
         self.last_mark += 1;
         MarkId(self.last_mark)
     }
 
-    /// Where the pins are stuck in, for the simulation.
+    /// The points of the cloth that pins hold, for the simulation.
     pub fn pinned_places(&self) -> Arc<Vec<ClothPlace>> {
         Arc::new(self.pins.iter().map(|pin| pin.place).collect())
     }
 
-    /// The cloth comes off: nothing is left to pin.
+    /// Removes all pins, when the cloth comes off.
     pub fn drop_pins(&mut self) {
         self.pins = Arc::default();
     }
 
-    /// Replaces all strokes; the counter stays ahead of their ids.
+    /// Replaces all strokes; the counter stays at or above their ids.
     pub fn take_marks(&mut self, marks: Arc<Marks>) {
         self.last_mark = self.last_mark.max(marks.ids().max().unwrap_or_default().0);
         self.marks = marks;
     }
 }
 
-/// Mesh size and relaxation.
+/// Settings of mesh size, relaxation and draping.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Settings {
     /// Target edge length of the cloth's triangles, metres, 0.002..=0.2.
     pub edge_length: f64,
-    /// How the cloth relaxes.
+    /// Settings of relaxation.
     pub relax: RelaxSettings,
     /// Strain beyond which draped cloth is rigid, 0.001..=0.2.
     #[serde(skip_serializing_if = "is_usual_strain")]
     pub strain: f64,
 }
 
-/// One percent, as in paper B.
+/// Default strain of draped cloth: one percent, as in paper B.
 const USUAL_STRAIN: f64 = 0.01;
 
 fn is_usual_strain(strain: &f64) -> bool {

@@ -1,4 +1,4 @@
-//! Document hashes. Parts that have not changed are not read again.
+//! Document hashes. Parts that have not changed are not hashed again.
 
 use std::sync::Arc;
 
@@ -11,7 +11,7 @@ use crate::session::document::{Aim, Document};
 use crate::sim::hash::{Fnv, hash_of};
 use crate::wrap::Marks;
 
-/// Remembers the hashes of the last parts. Holding the parts keeps their addresses from being used again.
+/// Computes document hashes, with a cache for the last parts. Holding the parts keeps their addresses from being reused.
 #[derive(Debug, Default)]
 pub struct DocumentHasher {
     pattern: Option<(Arc<Pattern>, u64)>,
@@ -22,7 +22,7 @@ pub struct DocumentHasher {
 }
 
 impl DocumentHasher {
-    /// Hash of `document` and of the numbers of steps that can be undone and redone.
+    /// Hash of `document` and of the numbers of steps that can be undone (`done`) and redone (`undone`).
     pub fn hash(&mut self, document: &Document, done: usize, undone: usize) -> u64 {
         let Document {
             pattern,
@@ -69,7 +69,7 @@ impl DocumentHasher {
     }
 
     fn body(&mut self, body: &BodyChoice) -> u64 {
-        // Not by what is equal: 0 and -0 are, and are written differently.
+        // Compared by identity, not by equality: 0 and -0 are equal but are written differently.
         let is_same = |kept: &BodyChoice| match (kept, body) {
             (BodyChoice::Imported { name, mesh }, BodyChoice::Imported { name: other, mesh: of_other }) => {
                 name == other && Arc::ptr_eq(mesh, of_other)
@@ -98,8 +98,8 @@ fn shared<T: Serialize>(kept: &mut Option<(Arc<T>, u64)>, part: &Arc<T>) -> u64 
     }
 }
 
-/// Ordered maps and shortest floats make the JSON of a value canonical. A value that is not JSON (a NaN cannot get in:
-/// commands are checked) hashes as nothing.
+/// Hash of the JSON of a value, which is canonical thanks to ordered maps and shortest floats. A value that cannot be written as
+/// JSON hashes as nothing; a NaN cannot occur, since commands are checked.
 fn json_hash<T: Serialize + ?Sized>(value: &T) -> u64 {
     hash_of(&serde_json::to_vec(value).unwrap_or_default())
 }

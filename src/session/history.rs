@@ -1,11 +1,11 @@
-//! Undo and redo: states to return to. Copying a document copies pointers.
+//! Undo and redo history. Cloning a document clones pointers.
 
 use crate::session::document::Document;
 
-/// Steps that can be undone.
+/// Most steps that can be undone.
 const MOST_STEPS: usize = 1000;
 
-/// What a step did, as far as later commands need to know.
+/// Kind of a step, where later commands depend on it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StepKind {
     /// Began a wrap.
@@ -16,49 +16,49 @@ pub enum StepKind {
     Edit,
 }
 
-/// Which document and which cloth there are: the commands that made them so.
+/// Identifies a state of the document and of the cloth by the commands that led to it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Version {
-    /// The newest that changed the document.
+    /// Number of the last command that changed the document.
     pub document: u64,
-    /// The newest that moved the cloth.
+    /// Number of the last command that moved the cloth.
     pub cloth: u64,
 }
 
-/// One step on the undo or the redo side.
+/// A step on the undo or the redo side.
 #[derive(Clone, Debug)]
 pub struct Step {
-    /// What it did, for menus: "Undo LABEL".
+    /// Label for menus: "Undo LABEL".
     pub label: String,
-    /// What it did, for later commands.
+    /// Kind of the step.
     pub kind: StepKind,
     /// The document to return to.
     pub document: Document,
-    /// The request before which the cloth was as it should be again; None when the step left the cloth alone.
+    /// The request whose checkpoint holds the cloth to return to; None when the step did not change the cloth.
     pub restore: Option<u64>,
-    /// What it returns to; its cloth only where that is restored.
+    /// The version that undoing returns to; its cloth counts only if the cloth is restored.
     pub version: Version,
 }
 
 impl Step {
-    /// What there is once one has returned from `now`.
+    /// The version after this step is undone (or redone) at version `now`.
     pub fn returned(&self, now: Version) -> Version {
         let cloth = if self.restore.is_some() { self.version.cloth } else { now.cloth };
         Version { cloth, ..self.version }
     }
 }
 
-/// Done and undone steps.
+/// Undo and redo steps.
 #[derive(Clone, Debug, Default)]
 pub struct History {
     done: Vec<Step>,
     undone: Vec<Step>,
-    /// The gesture that the last done step still belongs to, and what it took from the redo side.
+    /// The gesture that may still extend the last done step, and the redo steps that it cleared.
     open: Option<(u64, Vec<Step>)>,
 }
 
 impl History {
-    /// Adds what a command of `gesture` did: a step of its own, or part of the gesture's step.
+    /// Adds the step of a command in `gesture`: a new step, or an extension of the gesture's step.
     pub fn push(&mut self, gesture: u64, step: Step) {
         if self.is_open(gesture)
             && let Some(last) = self.done.last_mut()
@@ -79,17 +79,17 @@ impl History {
         }
     }
 
-    /// Whether the next request of `gesture` must keep the cloth as it is for undo.
+    /// Whether the next request of `gesture` needs a checkpoint for undo.
     pub fn needs_checkpoint(&self, gesture: u64) -> bool {
         !self.is_open(gesture) || self.done.last().is_none_or(|last| last.restore.is_none())
     }
 
-    /// Later commands make steps of their own.
+    /// Ends the gesture: later commands make steps of their own.
     pub fn close(&mut self) {
         self.open = None;
     }
 
-    /// Drops the step of `gesture`, if it has made one. Steps it cleared from redo return.
+    /// Drops the step of `gesture`, if it has made one, and brings the redo steps that it cleared back.
     pub fn drop_open(&mut self, gesture: u64) {
         if let Some((open, undone)) = self.open.take()
             && open == gesture
@@ -110,7 +110,7 @@ impl History {
         self.done.last()
     }
 
-    /// The step that would be redone.
+    /// The step that would be redone next.
     pub fn last_undone(&self) -> Option<&Step> {
         self.undone.last()
     }
@@ -130,20 +130,20 @@ impl History {
         self.undone.len()
     }
 
-    /// Moves the last done step to the redo side. `now` is what redo returns to; so does the cloth, to before request
-    /// `seq` (the undo itself), if the step touched it.
+    /// Moves the last done step to the redo side. Redo returns to the document `now` and, if the step changed the cloth, to the
+    /// cloth before request `seq` (the undo itself).
     pub fn undo(&mut self, now: (Document, Version), seq: u64) {
         self.close();
         self.undone.extend(self.done.pop().map(|step| turned(step, now, seq)));
     }
 
-    /// The reverse of [`History::undo`].
+    /// Moves the last undone step to the undo side; the reverse of [`History::undo`].
     pub fn redo(&mut self, now: (Document, Version), seq: u64) {
         self.close();
         self.done.extend(self.undone.pop().map(|step| turned(step, now, seq)));
     }
 
-    /// States before requests below `before_seq` are gone: drops the steps that need them, and those behind them.
+    /// Drops the steps that need checkpoints of requests below `before_seq`, which are gone, and all steps behind those.
     pub fn forget(&mut self, before_seq: u64) {
         for steps in [&mut self.done, &mut self.undone] {
             let gone = steps.iter().rposition(|s| s.restore.is_some_and(|seq| seq < before_seq));
@@ -154,7 +154,7 @@ impl History {
         }
     }
 
-    /// Whether the last done step is that of `gesture`, and may grow.
+    /// Whether the last done step is that of `gesture` and may be extended.
     pub fn is_open(&self, gesture: u64) -> bool {
         self.open.as_ref().is_some_and(|(open, _)| *open == gesture)
     }

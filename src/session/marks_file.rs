@@ -1,11 +1,11 @@
-//! Marks in a JSON file of their own, by the names of pieces:
+//! Reads and writes marks as a JSON file of their own, which refers to pieces by name:
 //!
 //! ```json
 //! {"pairs": [{"piece": "front", "cloth": [[x, y], …], "side": "front", "body": [[x, y, z], …]}, …]}
 //! ```
 //!
-//! Metres; the cloth's points in the piece's own plane; `side` is "front" (the outer side) unless told. Pair by pair,
-//! strokes get the numbers 1, 2, ….
+//! Lengths are in metres; points on the cloth are in the piece's own plane; `side` is "front" (the outer side) by default. Pair
+//! by pair, strokes get the numbers 1, 2, ….
 
 use glam::{DVec2, DVec3};
 use serde::{Deserialize, Serialize};
@@ -59,7 +59,7 @@ pub fn read(bytes: &[u8], pattern: &Pattern) -> Result<Marks, String> {
     Ok(marks)
 }
 
-/// The pairs of `marks` as such a file. Strokes without a partner are left out.
+/// The pairs of `marks` as the text of such a file. Strokes without a partner are left out.
 pub fn write(marks: &Marks, pattern: &Pattern) -> Result<String, serde_json::Error> {
     let pair = |(cloth, body): (&ClothMark, &BodyMark)| {
         let piece = pattern.pieces.get(&cloth.piece)?.name.clone();

@@ -1,4 +1,4 @@
-//! What the user has done: one stream of commands makes the document, its undo and its recordings.
+//! The user's session: one stream of commands builds the document, its undo history and its recording.
 
 pub mod animations;
 pub mod body;

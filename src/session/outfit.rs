@@ -1,4 +1,4 @@
-//! Dressed cloth with all that is needed to read anything off it.
+//! Dressed cloth with everything needed for measurements and maps.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -13,22 +13,22 @@ use crate::sim::{GarmentSource, Snapshot};
 /// A dressed garment as it is drawn and measured.
 #[derive(Clone, Debug)]
 pub struct Outfit {
-    /// What it was built from.
+    /// What the garment was built from.
     pub source: Arc<GarmentSource>,
     /// The cloth.
     pub garment: Arc<Garment>,
-    /// Where it lies.
+    /// Positions of the cloth.
     pub state: Arc<ClothState>,
-    /// The same with its deactivated pieces, where it has some: they are seen, and count for nothing.
+    /// Garment and cloth including deactivated pieces, where there are some: they are shown, but not measured.
     pub whole: Option<(Arc<Garment>, Arc<ClothState>)>,
-    /// The body it lies on.
+    /// The body.
     pub body: Arc<Surface>,
-    /// What each of its pieces is made of.
+    /// Fabric of each piece.
     pub fabrics: BTreeMap<PieceId, Fabric>,
 }
 
 impl Outfit {
-    /// That of `snapshot`, made of `fabrics`. None while there is no cloth on the body.
+    /// The outfit of `snapshot` with these `fabrics`. None while there is no cloth on the body.
     pub fn of(snapshot: &Snapshot, fabrics: &Fabrics) -> Option<Self> {
         let (garment, state) = snapshot.drawn().filter(|_| snapshot.is_dressed())?;
         let (source, body) = (snapshot.source.as_ref()?, snapshot.body.as_ref()?);
@@ -44,7 +44,7 @@ impl Outfit {
         })
     }
 
-    /// As maps are read off it.
+    /// The input of maps.
     pub fn worn(&self) -> Worn<'_> {
         Worn {
             pattern: &self.source.pattern,
@@ -56,7 +56,7 @@ impl Outfit {
         }
     }
 
-    /// Whether nothing that can be read off it differs: it is the same cloth on the same body, not merely alike.
+    /// Whether this is the very same cloth on the same body, by identity: then all that can be read off it is equal.
     pub fn is(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.source, &other.source)
             && Arc::ptr_eq(&self.garment, &other.garment)

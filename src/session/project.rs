@@ -1,4 +1,4 @@
-//! What a project file holds, as values. `project_file` reads and writes the file.
+//! Content of a project file; `project_file` reads and writes the file.
 
 use std::sync::Arc;
 
@@ -27,11 +27,11 @@ pub struct Project {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(from = "DressedData", into = "DressedData")]
 pub struct Dressed {
-    /// What it was built from: the pattern may have been edited since.
+    /// What the garment was built from; the pattern may have been edited since.
     pub source: Arc<GarmentSource>,
-    /// Where it is.
+    /// Positions of the cloth.
     pub cloth: Arc<ClothState>,
-    /// Physics has moved it since it was grown: folds are no fault. False for files from before this was told.
+    /// Whether physics has moved it since it was grown: folds are then no fault. False in files that do not have this field.
     pub was_draped: bool,
 }
 
@@ -69,7 +69,7 @@ impl From<DressedData> for Dressed {
 }
 
 impl Project {
-    /// What no editor would let through: said of a file from outside.
+    /// The first thing in it that no command would accept, in words; for files from outside.
     pub fn problem(&self) -> Option<String> {
         crate::session::edit::document_problem(&self.document).or_else(|| self.dressed.as_ref()?.problem())
     }

@@ -1,7 +1,7 @@
 //! Project files (`.toile`): plain JSON when small, else a zip of the same JSON with its long arrays as binary entries.
 //!
-//! A file on disk is always the whole old or the whole new version: the new one is written beside it, read back, and
-//! renamed over it. The version before stays as `NAME.toile.bak`.
+//! A file on disk is always the whole old or the whole new version: the new bytes are parsed once as a check, written next to the
+//! old file, then renamed over it. The previous version stays as `NAME.toile.bak`.
 
 use std::fs;
 use std::io::{Cursor, Read, Write};
@@ -21,13 +21,13 @@ use crate::session::body_choice::BodyChoice;
 use crate::session::project::Project;
 use crate::session::whole_file;
 
-/// What the file says it is.
+/// Value of the `format` field of project files.
 pub const FORMAT: &str = "toile-project";
-/// The newest version this program reads, and the one it writes.
+/// Newest format version that this program reads, and the one it writes.
 pub const VERSION: u32 = 1;
-/// Bytes a file, and all of its entries unpacked, may have.
+/// Most bytes of a file, and of all its entries unpacked.
 const MOST_BYTES: u64 = FILE_BYTES;
-/// Entries a zip may have.
+/// Most entries of a zip.
 const MOST_ENTRIES: usize = 64;
 
 const JSON_ENTRY: &str = "project.json";
@@ -39,13 +39,13 @@ const CLOTH_MAPPED: &str = "cloth-mapped.u8";
 /// Why a project file could not be read or written.
 #[derive(Debug, thiserror::Error)]
 pub enum ProjectFileError {
-    /// The file system said no.
+    /// Error of the file system.
     #[error("{path}: {source}", path = path.display())]
     File { path: PathBuf, source: std::io::Error },
-    /// The contents are not a project.
+    /// The contents are not a valid project.
     #[error("{0}")]
     Contents(String),
-    /// Larger than this program will read.
+    /// The file is larger than this program reads.
     #[error("{0}")]
     TooLarge(String),
 }
@@ -67,7 +67,7 @@ struct AnyFile {
     version: u32,
 }
 
-/// Whether `bytes` look like a project rather than some other kind of file.
+/// Whether `bytes` look like a file of this program rather than some other kind of file.
 pub fn is_project(bytes: &[u8]) -> bool {
     bytes.starts_with(b"PK")
         || serde_json::from_slice::<AnyFile>(bytes).is_ok_and(|any| any.format.starts_with("toile-"))
@@ -82,13 +82,13 @@ pub fn open(path: &Path) -> Result<Project, ProjectFileError> {
     from_bytes(&bytes)
 }
 
-/// Writes `project` to `path`; what was there before stays as `PATH.bak`. A write-protected file is refused.
+/// Writes `project` to `path`; the previous version stays as `PATH.bak`. A write-protected file is refused.
 pub fn save(path: &Path, project: &Project) -> Result<(), ProjectFileError> {
     whole_file::refuse_protected(path).map_err(|source| file_error(path, source))?;
     save_over(path, project)
 }
 
-/// The same over a file that may be write-protected.
+/// Writes `project` like [`save`], but also over a write-protected file.
 pub fn save_over(path: &Path, project: &Project) -> Result<(), ProjectFileError> {
     let bytes = to_bytes(project)?;
     if from_bytes(&bytes)? != *project {
@@ -123,7 +123,7 @@ pub fn from_bytes(bytes: &[u8]) -> Result<Project, ProjectFileError> {
     }
 }
 
-/// The bytes of a file with `project` in it.
+/// The content of a project file with `project`.
 pub fn to_bytes(project: &Project) -> Result<Vec<u8>, ProjectFileError> {
     let small = project.dressed.is_none() && project.document.body == BodyChoice::default();
     if small { to_json(project) } else { to_zip(project) }
@@ -158,7 +158,7 @@ fn to_json(project: &Project) -> Result<Vec<u8>, ProjectFileError> {
     Ok(bytes)
 }
 
-/// The JSON holds the arrays empty; the binary entries hold them, little-endian.
+/// Writes the arrays as little-endian binary entries, and empty in the JSON.
 fn to_zip(project: &Project) -> Result<Vec<u8>, ProjectFileError> {
     let mut bare = project.clone();
     let mut entries: Vec<(&str, Vec<u8>)> = Vec::new();
@@ -207,7 +207,7 @@ fn from_zip(bytes: &[u8]) -> Result<Project, ProjectFileError> {
     Ok(project)
 }
 
-/// Never more than `left` bytes, whatever the entry says of its size.
+/// Content of an entry; never more than `left` bytes, whatever size the entry claims.
 fn entry(
     zip: &mut ZipArchive<Cursor<&[u8]>>,
     name: &str,

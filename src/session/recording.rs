@@ -1,6 +1,6 @@
-//! Recordings: JSON lines, always kept in memory, and in a file when one is asked for.
+//! Recordings: JSON lines, always kept in memory, and written to a file on request.
 //!
-//! A header, then in order of happening: each command, the tick in which each took effect, and hashes at the end of every
+//! A header, then in order of time: each command, the tick in which the simulation applied it, and hashes at the end of every
 //! gesture and whenever the cloth comes to rest.
 
 use std::collections::VecDeque;
@@ -15,23 +15,23 @@ use crate::session::project::Project;
 use crate::session::recovery::Journal;
 use crate::sim::Event;
 
-/// What the header says it is.
+/// Value of the `format` field of the header.
 pub const FORMAT: &str = "toile-recording";
-/// The newest version this program reads, and the one it writes.
+/// Format version that this program reads and writes.
 pub const VERSION: u32 = 1;
 
-/// One line.
+/// One line of a recording.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Line {
-    /// The first line: where everything starts from.
+    /// First line: the project that everything starts from.
     Header { format: String, version: u32, program: String, machine: String, project: Box<Project> },
-    /// A command was given. `seq` counts from 1, `gesture` counts the gestures that hold a command from 1.
+    /// A command was given. `seq` counts commands from 1, `gesture` counts gestures with at least one command from 1.
     Command { seq: u64, gesture: u64, command: Command },
-    /// The simulation took command `seq` up after `tick` ticks.
+    /// The simulation applied command `seq` after `tick` ticks.
     Applied { seq: u64, tick: u64 },
-    /// After `tick` ticks. With `document`: after all commands up to `seq`; without: at rest, `seq` being the last command the
-    /// simulation took up.
+    /// Hashes after `tick` ticks. With `document`: after all commands up to `seq`. Without: at rest, with `seq` the last command
+    /// that the simulation applied.
     Hash {
         tick: u64,
         seq: u64,
@@ -68,8 +68,8 @@ impl<'de> Deserialize<'de> for Hex {
     }
 }
 
-/// The kind of machine: within one, the same recording gives the same bits. Between kinds they may differ in the last
-/// place, because matrices are factored with the widest instructions there are.
+/// Identifier of the kind of machine. On one kind, a recording always gives the same bits; between kinds they may differ in the
+/// last place, because matrices are factored with the widest instructions available.
 pub fn machine() -> String {
     let mut words = vec![std::env::consts::ARCH, std::env::consts::OS];
     #[cfg(target_arch = "x86_64")]
@@ -88,9 +88,9 @@ pub fn machine() -> String {
 #[derive(Debug)]
 pub struct Recorder {
     lines: String,
-    /// Document hashes whose cloth hash is still to come, by the number of the request that asked for it.
+    /// Document hashes that wait for their cloth hash, each by the number of the request that asked for it.
     awaited: VecDeque<(u64, u64)>,
-    /// Raw number of the last gesture seen, and its number in the recording.
+    /// Id of the last gesture in the session, and its number in the recording.
     gesture: (u64, u64),
     file: Option<BufWriter<File>>,
     file_error: Option<std::io::Error>,
@@ -99,7 +99,7 @@ pub struct Recorder {
 }
 
 impl Recorder {
-    /// Begins with the header.
+    /// A recorder that has written the header.
     pub fn new(project: &Project) -> Self {
         let mut recorder = Self {
             lines: String::new(),
@@ -120,12 +120,12 @@ impl Recorder {
         recorder
     }
 
-    /// Everything so far.
+    /// All lines so far.
     pub fn text(&self) -> String {
         self.lines.clone()
     }
 
-    /// Writes everything so far, and each line from now on, to `file`.
+    /// Writes all lines so far, and each line from now on, to `file`.
     pub fn also_to(&mut self, file: File) -> std::io::Result<()> {
         let mut file = BufWriter::new(file);
         file.write_all(self.lines.as_bytes())?;
@@ -134,22 +134,22 @@ impl Recorder {
         Ok(())
     }
 
-    /// Writes commands from now on to `journal`, and no longer to the one before.
+    /// Also writes commands from now on to `journal`, which replaces the previous one.
     pub fn journal_to(&mut self, journal: Option<Journal>) {
         self.journal = journal;
     }
 
-    /// Why the journal was given up, told once.
+    /// The error that ended the journal, returned once.
     pub fn take_journal_error(&mut self) -> Option<std::io::Error> {
         self.journal_error.take()
     }
 
-    /// Why the file was given up, told once.
+    /// The error that ended the file, returned once.
     pub fn take_file_error(&mut self) -> Option<std::io::Error> {
         self.file_error.take()
     }
 
-    /// A command was carried out.
+    /// Records a command that was carried out.
     pub fn command(&mut self, seq: u64, gesture: u64, command: Command) {
         if let Some(journal) = &mut self.journal
             && let Err(error) = journal.append(gesture, &command)
@@ -163,12 +163,12 @@ impl Recorder {
         self.write(&Line::Command { seq, gesture: self.gesture.1, command });
     }
 
-    /// A hash was asked for by request `seq`; the document's is this.
+    /// Stores the `document` hash until the cloth hash that request `seq` asked for arrives.
     pub fn expect_hash(&mut self, seq: u64, document: u64) {
         self.awaited.push_back((seq, document));
     }
 
-    /// The simulation has told something.
+    /// Records an event of the simulation.
     pub fn event(&mut self, event: &Event) {
         match *event {
             Event::Applied { seq, tick } if seq > 0 => self.write(&Line::Applied { seq, tick }),
@@ -189,7 +189,7 @@ impl Recorder {
     }
 
     fn write(&mut self, line: &Line) {
-        // Lines hold no map with keys that are not strings and no number that is not finite: they are always JSON.
+        // Lines have no map with keys that are not strings and no number that is not finite: they can always be written as JSON.
         let Ok(json) = serde_json::to_string(line) else { return };
         self.lines.push_str(&json);
         self.lines.push('\n');
@@ -205,25 +205,25 @@ impl Recorder {
     }
 }
 
-/// A recording read back.
+/// A recording that was read.
 #[derive(Clone, Debug)]
 pub struct Recording {
-    /// Where everything starts from.
+    /// The project that everything starts from.
     pub project: Project,
-    /// The kind of machine it was made on.
+    /// The kind of machine it was made on, see [`machine`].
     pub machine: String,
-    /// Commands in order: number, gesture, command.
+    /// Commands in order: number, gesture number, command.
     pub commands: Vec<(u64, u64, Command)>,
-    /// What the simulation told, in order.
+    /// Events of the simulation, in order.
     pub told: Vec<RecordedEvent>,
 }
 
-/// What the simulation told.
+/// A recorded event of the simulation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RecordedEvent {
-    /// It took command `seq` up after `tick` ticks.
+    /// The simulation applied command `seq` after `tick` ticks.
     Applied { seq: u64, tick: u64 },
-    /// Hashes.
+    /// Hashes, as in [`Line::Hash`].
     Hash { tick: u64, seq: u64, cloth: u64, document: Option<u64> },
 }
 
@@ -231,7 +231,7 @@ pub enum RecordedEvent {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("line {line}: {words}")]
 pub struct RecordingError {
-    /// From 1.
+    /// Line number, from 1.
     pub line: usize,
     /// What is wrong.
     pub words: String,
@@ -270,7 +270,7 @@ impl Recording {
     }
 }
 
-/// Only as much of a header as tells whether the rest can be read.
+/// The part of a header that tells whether the rest can be read.
 #[derive(Deserialize)]
 struct AnyHeader {
     header: AnyVersion,
@@ -298,7 +298,7 @@ fn header(line: &str) -> Result<(Project, String), String> {
     }
 }
 
-/// Each line is JSON of its own: its number is told by the caller.
+/// Words for a JSON error. Each line is JSON of its own, so the caller adds the line number.
 #[expect(clippy::needless_pass_by_value, reason = "for map_err")]
 fn json_words(error: serde_json::Error) -> String {
     readable(&error.to_string().replace(" at line 1 column ", " at column "))

@@ -1,4 +1,4 @@
-//! Runs a recording on the caller's thread, as fast as it can, and compares hashes. It stops at the first difference.
+//! Replays a recording on the caller's thread, as fast as it can, and compares hashes. Stops at the first difference.
 
 use std::collections::{BTreeMap, VecDeque};
 
@@ -7,19 +7,19 @@ use crate::session::recording::{Hex, RecordedEvent, Recording, machine};
 use crate::session::session::{GestureId, Session};
 use crate::sim::{Runner, Simulation};
 
-/// Where a replay and its recording part ways.
+/// The first difference between a replay and its recording.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("diverged at tick {tick}, after command {seq}: {words}")]
 pub struct Divergence {
-    /// Ticks executed.
+    /// Ticks executed before.
     pub tick: u64,
-    /// The last command carried out; 0: none.
+    /// Number of the last command carried out; 0: none.
     pub seq: u64,
     /// What differs.
     pub words: String,
 }
 
-/// A replay under way.
+/// A replay in progress.
 #[derive(Debug)]
 pub struct Replay {
     session: Session,
@@ -27,14 +27,14 @@ pub struct Replay {
     told: VecDeque<RecordedEvent>,
     last_gesture: u64,
     hashes_compared: u64,
-    /// The kind of machine it was made on, when this is another.
+    /// The kind of machine it was made on, if different from this one.
     other_machine: Option<String>,
-    /// Differences do not stop it.
+    /// Whether it goes on after differences.
     watched: bool,
 }
 
 impl Replay {
-    /// Ready to begin.
+    /// A replay that has not begun.
     pub fn new(recording: Recording) -> Self {
         let runner = Runner::inline(Simulation::default());
         let other_machine = Some(recording.machine).filter(|kind| *kind != machine());
@@ -49,12 +49,12 @@ impl Replay {
         }
     }
 
-    /// The same for watching: what differs from the recording does not stop it.
+    /// A replay for watching: differences do not stop it.
     pub fn to_watch(recording: Recording) -> Self {
         Self { watched: true, ..Self::new(recording) }
     }
 
-    /// One tick, one command or one comparison. False when the recording is at its end.
+    /// Does one tick, one command or one comparison. False at the end of the recording.
     pub fn step(&mut self) -> Result<bool, Divergence> {
         if self.due_command().is_some() {
             self.apply_next()?;
@@ -78,7 +78,7 @@ impl Replay {
         Ok(true)
     }
 
-    /// The command that the next step will carry out, if that is what it will do.
+    /// The command that the next step will carry out; None if it does something else.
     pub fn due_command(&mut self) -> Option<&Command> {
         let last = match self.told.front().copied() {
             Some(
@@ -91,7 +91,7 @@ impl Replay {
         self.commands.front().filter(|(seq, ..)| *seq <= last).map(|(.., command)| command)
     }
 
-    /// Whether the next step will be a tick.
+    /// Whether the next step is a tick.
     pub fn is_tick_due(&mut self) -> bool {
         match self.told.front().copied() {
             Some(RecordedEvent::Applied { tick, .. } | RecordedEvent::Hash { tick, .. }) => {
@@ -101,7 +101,7 @@ impl Replay {
         }
     }
 
-    /// All of it.
+    /// Replays all of the recording.
     pub fn run(&mut self) -> Result<(), Divergence> {
         while self.step()? {}
         Ok(())
@@ -112,12 +112,12 @@ impl Replay {
         &mut self.session
     }
 
-    /// The session being replayed, for reading.
+    /// The session being replayed, read-only.
     pub fn shown(&self) -> &Session {
         &self.session
     }
 
-    /// How many cloth hashes were compared so far.
+    /// Cloth hashes compared so far.
     pub fn hashes_compared(&self) -> u64 {
         self.hashes_compared
     }
@@ -131,14 +131,14 @@ impl Replay {
         self.session.runner().simulation().expect("a replay runs inline")
     }
 
-    /// Whether it is time for what the recording tells after `tick` ticks.
+    /// Whether the event that the recording has after `tick` ticks is due.
     fn has_come(&mut self, tick: u64) -> bool {
         let watched = self.watched;
         let simulation = self.simulation();
         simulation.ticks() == tick || (watched && (simulation.ticks() > tick || simulation.is_at_rest()))
     }
 
-    /// Whether it is time for what the recording tells after `tick` ticks; executes one if not.
+    /// Whether the event that the recording has after `tick` ticks is due; does a tick if not.
     fn is_at(&mut self, tick: u64) -> Result<bool, Divergence> {
         if self.has_come(tick) {
             return Ok(true);
@@ -153,7 +153,7 @@ impl Replay {
             );
         }
         self.simulation().tick();
-        // Hashes and refusals are compared with the recording's lines, not kept.
+        // Hashes and rejections are compared with the recording's lines, not kept.
         self.simulation().take_events();
         Ok(false)
     }
@@ -237,8 +237,9 @@ impl Replay {
     }
 }
 
-/// The commands of `recording` given again, at the same ticks or at rest if that comes first, with this program's hashes.
-/// For recordings that a change of the program has made old. A refused command is an error, in words.
+/// Carries out the commands of `recording` again, at the same ticks or at rest if that comes first, and returns a recording with
+/// this program's hashes. For recordings that a change of the program has made outdated. A rejected command is an error, in
+/// words.
 pub fn recorded_again(recording: Recording) -> Result<String, String> {
     let mut session = Session::new(recording.project, Runner::inline(Simulation::default()));
     let ticks: BTreeMap<u64, u64> = recording

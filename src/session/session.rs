@@ -1,4 +1,4 @@
-//! The only way in: commands change the document, ask things of the simulation, and are recorded.
+//! The session: carries out commands, which change the document, send requests to the simulation, and are recorded.
 
 use std::sync::Arc;
 
@@ -21,18 +21,18 @@ use crate::session::recovery::Journal;
 use crate::sim::{DrapeSource, Event, GarmentSource, Request, RequestKind, Runner, Snapshot};
 use crate::wrap::Marks;
 
-/// One pointer drag, one press of a button: one undo step.
+/// Id of a gesture, such as a pointer drag or a press of a button. A gesture is one undo step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct GestureId(pub u64);
 
-/// What the person should be told; the session has dealt with the rest.
+/// A notice for the user; the session has already handled it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Notice {
     /// The cloth has come to rest.
     AtRest { tick: u64 },
-    /// Something the simulation was asked for failed; the cloth is as it was before, and paused.
+    /// A request to the simulation failed; the cloth is as before, and paused.
     Failed { tick: u64, words: String },
-    /// Old steps can no longer be undone, to save memory.
+    /// Old steps were dropped to save memory and can no longer be undone.
     HistoryShortened,
 }
 
@@ -46,34 +46,35 @@ pub struct Session {
     bodies: BodyCache,
     hasher: DocumentHasher,
     last_seq: u64,
-    /// The last command that asked something of the simulation.
+    /// Number of the last command that sent a request to the simulation.
     last_request: u64,
     last_gesture: u64,
     /// The gesture whose end has not been recorded yet.
     open_gesture: Option<GestureId>,
-    /// Where the last edit of the pattern in this gesture has moved places to, from where they were before the gesture.
+    /// Pieces that the last pattern edit in this gesture moved, relative to before the gesture.
     moved: Option<(GestureId, Vec<Carried>)>,
-    /// What there is now, and what was last saved.
+    /// The present version.
     version: Version,
+    /// The version that was last opened or saved; None: the project is in no file.
     saved: Option<Version>,
-    /// Marks that found no place on the body, and the strokes there were after that.
+    /// Problems of marks lost in a change of body, and the marks right after it.
     lost_marks: Option<(Arc<Marks>, Vec<Problem>)>,
-    /// Steps that could be undone and redone when the work was last copied, as far as they still can.
+    /// Numbers of undo and redo steps when the last recovery copy was made, lowered to the fewest since.
     copied_steps: (usize, usize),
-    /// A step from before the last copy was undone or redone: the commands since do not tell how things stand.
+    /// Whether a step older than the last recovery copy was undone or redone, which the commands since do not show.
     needs_copy: bool,
-    /// The command after which the work was last copied.
+    /// Number of the last command when the last recovery copy was made.
     copied_seq: u64,
-    /// In a replay the recording says when history is forgotten.
+    /// Whether this is a replay, in which the recording tells when history is forgotten.
     replaying: bool,
 }
 
-/// What a command will do, worked out in full before anything changes.
+/// Everything a command will do, computed before anything changes.
 struct Plan {
     document: Document,
     history: HistoryChange,
     request: Option<RequestKind>,
-    /// Marks that found no place on a new body.
+    /// Marks lost in a change of body.
     problems: Vec<Problem>,
 }
 
@@ -88,7 +89,7 @@ enum HistoryChange {
 }
 
 impl Session {
-    /// Work on `project`, with the simulation in `runner` (which must be new).
+    /// A session on `project`, with the simulation in `runner` (which must be new).
     pub fn new(project: Project, mut runner: Runner) -> Self {
         let mut bodies = BodyCache::default();
         let body = bodies.surface(&project.document.body);
@@ -125,7 +126,7 @@ impl Session {
         session
     }
 
-    /// The same, in a replay: the recording says when history is forgotten.
+    /// A session for a replay, in which the recording tells when history is forgotten.
     pub fn replaying(project: Project, runner: Runner) -> Self {
         Self { replaying: true, ..Self::new(project, runner) }
     }
@@ -135,12 +136,12 @@ impl Session {
         &self.document
     }
 
-    /// The body of the document. None when cloth cannot be put on it: `Wrap` is then refused with the reason.
+    /// The body of the document. None when cloth cannot be put on it: `Wrap` is then rejected with the reason.
     pub fn surface(&self) -> Option<&Arc<Surface>> {
         self.bodies.kept(&self.document.body)
     }
 
-    /// Marks that found no place when the body was changed; until strokes are painted or taken away.
+    /// Marks lost in the last change of body, until strokes are changed.
     pub fn problems(&self) -> &[Problem] {
         match &self.lost_marks {
             Some((after, problems)) if Arc::ptr_eq(after, &self.document.marks) => problems,
@@ -148,23 +149,23 @@ impl Session {
         }
     }
 
-    /// The newest snapshot as of the last [`Session::update`].
+    /// The newest snapshot at the last [`Session::update`].
     pub fn snapshot(&self) -> &Arc<Snapshot> {
         self.runner.snapshot()
     }
 
-    /// Where the simulation runs.
+    /// The runner of the simulation.
     pub fn runner(&mut self) -> &mut Runner {
         &mut self.runner
     }
 
-    /// A gesture of its own for what follows.
+    /// Begins a gesture.
     pub fn begin_gesture(&mut self) -> GestureId {
         self.last_gesture += 1;
         GestureId(self.last_gesture)
     }
 
-    /// Carries out `command` as part of `gesture`, or says why not and changes nothing.
+    /// Carries out `command` as part of `gesture`, or rejects it with the reason and changes nothing.
     pub fn apply(&mut self, command: Command, gesture: GestureId) -> Result<(), Rejection> {
         let plan = self.plan(&command, gesture)?;
         if self.open_gesture.is_some_and(|open| open != gesture) {
@@ -178,7 +179,7 @@ impl Session {
         Ok(())
     }
 
-    /// The gesture is over: later commands make steps of their own, and the recording gets its hashes.
+    /// Ends the gesture: later commands make steps of their own, and the recording gets its hashes.
     pub fn end_gesture(&mut self, gesture: GestureId) {
         if self.open_gesture == Some(gesture) {
             self.close_gesture();
@@ -193,7 +194,7 @@ impl Session {
         Ok(())
     }
 
-    /// Takes in what the simulation has told since the last call. Call it once a frame.
+    /// Takes the simulation's events since the last call. Call it once a frame.
     pub fn update(&mut self) -> Vec<Notice> {
         // Events first: the snapshot taken after them is at least as new.
         let events = self.runner.take_events();
@@ -201,38 +202,38 @@ impl Session {
         events.into_iter().filter_map(|event| self.take_event(event)).collect()
     }
 
-    /// What the next undo would take back.
+    /// Label of the step that undo would undo.
     pub fn undo_label(&self) -> Option<&str> {
         self.history.last_done().map(|step| step.label.as_str())
     }
 
-    /// What the next redo would do again.
+    /// Label of the step that redo would redo.
     pub fn redo_label(&self) -> Option<&str> {
         self.history.last_undone().map(|step| step.label.as_str())
     }
 
-    /// Labels of the steps done, oldest first.
+    /// Labels of the done steps, oldest first.
     pub fn step_labels(&self) -> impl Iterator<Item = &str> {
         self.history.done().iter().map(|step| step.label.as_str())
     }
 
-    /// Labels of the steps that can be done again, the next one first.
+    /// Labels of the undone steps, the next one to be redone first.
     pub fn undone_labels(&self) -> impl Iterator<Item = &str> {
         self.history.undone().iter().rev().map(|step| step.label.as_str())
     }
 
-    /// Whether the newest step that touched the cloth is a wrap: `CancelWrap` takes it back.
+    /// Whether the newest step that changed the cloth is a wrap, which `CancelWrap` can undo.
     pub fn can_cancel_wrap(&self) -> bool {
         let newest = self.history.done().iter().rev().find(|step| step.kind != StepKind::Edit);
         newest.is_some_and(|step| step.kind == StepKind::Wrap)
     }
 
-    /// What a project file would hold now.
+    /// The content of a project file now.
     pub fn project(&mut self) -> Project {
         self.runner.refresh();
         let snapshot = self.runner.snapshot();
         let dressed = match &snapshot.source {
-            // What is being sewn cannot be gone on with: only its pattern is kept.
+            // Cloth that is being sewn has another mesh than the pattern gives: only the pattern is saved.
             Some(source) if snapshot.is_dressed() && !snapshot.is_sewing => {
                 let (source, cloth) = (Arc::clone(source), Arc::clone(&snapshot.cloth));
                 Some(Dressed { source, cloth, was_draped: snapshot.was_draped })
@@ -242,7 +243,7 @@ impl Session {
         Project { document: self.document.clone(), dressed }
     }
 
-    /// The project was saved as it is now.
+    /// Records that the project was saved in its present state.
     pub fn mark_saved(&mut self) {
         self.saved = Some(self.version);
     }
@@ -252,12 +253,12 @@ impl Session {
         self.saved != Some(self.version)
     }
 
-    /// What the project holds is in no file of the person's: it was recovered.
+    /// Records that the project is in no file of the user's: it was recovered.
     pub fn mark_modified(&mut self) {
         self.saved = None;
     }
 
-    /// The work was copied as it is now, for recovery: `journal` takes the commands from here on.
+    /// Records that a recovery copy was made in the present state: `journal` takes the commands from here on.
     pub fn mark_copied(&mut self, journal: Option<Journal>) {
         self.recorder.journal_to(journal);
         self.copied_seq = self.last_seq;
@@ -265,13 +266,13 @@ impl Session {
         self.needs_copy = false;
     }
 
-    /// Whether a command was given since the work was last copied.
+    /// Whether no command was given since the last recovery copy.
     pub fn is_copied(&self) -> bool {
         self.copied_seq == self.last_seq
     }
 
-    /// Whether the last copy and the commands since it do not tell how things stand: a step from before it was undone or
-    /// redone.
+    /// Whether a new recovery copy is needed: a step older than the last copy was undone or redone, which the copy and the
+    /// commands since do not show.
     pub fn needs_copy(&self) -> bool {
         self.needs_copy
     }
@@ -287,17 +288,17 @@ impl Session {
         &mut self.recorder
     }
 
-    /// Whether the simulation, as it was seen last, has taken up all that was asked of it.
+    /// Whether the simulation has applied all requests, as of the last snapshot.
     pub fn is_caught_up(&self) -> bool {
         self.runner.snapshot().seq >= self.last_request
     }
 
-    /// The number of the last command.
+    /// Number of the last command.
     pub fn last_seq(&self) -> u64 {
         self.last_seq
     }
 
-    /// Hash of the document and of how many steps can be undone and redone.
+    /// Hash of the document and of the numbers of steps that can be undone and redone.
     pub fn document_hash(&mut self) -> u64 {
         self.hasher.hash(&self.document, self.history.done().len(), self.history.undone_count())
     }
@@ -319,7 +320,7 @@ impl Session {
     }
 
     fn plan_edit(&mut self, command: &Command, gesture: GestureId) -> Result<Plan, Rejection> {
-        // A drag of the pattern: in place of what the gesture did so far.
+        // An edit during a drag replaces what the gesture did so far.
         let anew = matches!(command, Command::EditPattern { anew: true, .. });
         let begun = anew && self.history.is_open(gesture.0);
         let start = self.history.last_done().filter(|_| begun).map(|step| step.document.clone());
@@ -408,14 +409,14 @@ impl Session {
         Ok((Arc::new(source), body))
     }
 
-    /// What cloth cannot be pulled across: the bones drawn, or else the body's own.
+    /// Bones that cloth cannot be pulled across: those drawn, or else the body's own.
     pub fn bones(&mut self) -> Arc<Vec<Bone>> {
         let own = |body: Arc<Body>| Arc::clone(body.bones());
         let drawn = self.document.bones.clone();
         drawn.or_else(|| self.bodies.body(&self.document.body).ok().map(own)).unwrap_or_default()
     }
 
-    /// How the placement of `pattern`, as a file has it, is brought to the body of the document; nothing without a body.
+    /// The placement of `pattern`, as a file has it, adapted to the body of the document; empty without a body.
     pub fn brought(&mut self, pattern: &Pattern) -> Moved {
         let body = self.bodies.body(&self.document.body);
         body.map(|body| placing::brought(pattern, &self.document, &body)).unwrap_or_default()
@@ -438,7 +439,7 @@ impl Session {
         }
     }
 
-    /// The newest wrap goes, leaving no step when nothing was done since.
+    /// Undoes the newest wrap, and leaves no step when nothing was done since.
     fn plan_cancel_wrap(&self) -> Result<Plan, Rejection> {
         let newest = self.history.done().iter().rev().find(|step| step.kind != StepKind::Edit);
         let Some(step) = newest.filter(|step| step.kind == StepKind::Wrap) else {
@@ -492,7 +493,7 @@ impl Session {
         }
     }
 
-    /// What there is once the last command, which moves the cloth if so, has changed the history like that.
+    /// The version after the last command, which changes the history by `change` and, if `moves_cloth`, the cloth.
     fn version_after(&self, change: &HistoryChange, moves_cloth: bool) -> Version {
         let returned = |step: Option<&Step>| step.map_or(self.version, |step| step.returned(self.version));
         match change {
@@ -535,7 +536,7 @@ impl Session {
         }
     }
 
-    /// As a command, so that a replay forgets at the same place. A drag under way goes on.
+    /// Forgets history by a command, so that a replay forgets at the same point. A drag in progress goes on.
     fn forget_history(&mut self, before_seq: u64) {
         let command = Command::ForgetHistory { before_seq };
         let forgotten = match self.open_gesture {
@@ -546,7 +547,7 @@ impl Session {
     }
 }
 
-/// What the document's cloth is made of.
+/// Fabrics of the document, for draping.
 fn drape_source(document: &Document) -> Result<Arc<DrapeSource>, Rejection> {
     let fabric = |name: &str| {
         Fabric::preset(name).cloned().ok_or_else(|| Rejection(format!("there is no fabric {name:?}")))

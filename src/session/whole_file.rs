@@ -1,4 +1,4 @@
-//! Files that are written whole or not at all, one or several, and read whole or, when they are too large, not at all.
+//! Atomic file access: files are written whole or not at all, one or several; too large ones are not read.
 
 use std::fs;
 use std::io::{Error, ErrorKind, Read, Result, Write};
@@ -7,25 +7,25 @@ use std::sync::{Mutex, MutexGuard, PoisonError, TryLockError};
 
 use atomic_write_file::AtomicWriteFile;
 
-/// A chain of links that is longer goes round in a circle.
+/// Most symbolic links in a chain; a longer chain is taken to be a cycle.
 const MOST_LINKS: usize = 40;
 
-/// Held while files take their places.
+/// Lock held while temporary files are renamed to their final paths.
 static PLACING: Mutex<()> = Mutex::new(());
-/// Files that are being written beside their places.
+/// Temporary files being written.
 static BESIDE: Mutex<Vec<Known>> = Mutex::new(Vec::new());
-/// Folders that were made, each after the one it is in.
+/// Folders that were created, each after its parent.
 static MADE: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
-/// What a file is found again by: the folder it is in, and the system's numbers of it.
+/// Identity of a file: its folder, and the system's numbers (device and inode on Unix).
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Known {
     folder: PathBuf,
     numbers: Option<[u64; 2]>,
 }
 
-/// All of the file at `path`, which has at most `most` bytes; [`ErrorKind::FileTooLarge`] otherwise. What does not say how long it
-/// is, as a device, is read no further either.
+/// Content of the file at `path`, of at most `most` bytes; [`ErrorKind::FileTooLarge`] otherwise. Files without a known length,
+/// such as devices, are read no further either.
 pub fn read(path: &Path, most: u64) -> Result<Vec<u8>> {
     let too_large = |has: String| {
         Error::new(ErrorKind::FileTooLarge, format!("it has {has} bytes, at most {most} are read"))
@@ -43,7 +43,7 @@ pub fn read(path: &Path, most: u64) -> Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// As long as it lives no file is begun and none takes its place.
+/// Guard: while it lives no file is begun and none is renamed to its final path.
 #[derive(Debug)]
 pub struct HeldBack {
     _placing: MutexGuard<'static, ()>,
@@ -52,12 +52,12 @@ pub struct HeldBack {
 }
 
 impl HeldBack {
-    /// None while files take their places. Who ends the program holds it.
+    /// The guard, for whoever ends the program. None while files are being renamed.
     pub fn new() -> Option<Self> {
         Some(Self { _placing: tried(&PLACING)?, beside: tried(&BESIDE)?, made: tried(&MADE)? })
     }
 
-    /// Removes what is not in its place, and folders made for it that are empty.
+    /// Removes temporary files, and folders created for them that are empty.
     pub fn remove_unplaced(&mut self) {
         self.beside.drain(..).for_each(|known| known.remove());
         remove_empty(&mut self.made);
@@ -65,7 +65,7 @@ impl HeldBack {
 }
 
 impl Known {
-    /// Where it is no longer there nothing happens.
+    /// Removes the file; does nothing where it no longer exists.
     fn remove(self) {
         let entries = fs::read_dir(&self.folder).into_iter().flatten().flatten();
         let same = |entry: &fs::DirEntry| entry.metadata().is_ok_and(|data| numbers(&data) == self.numbers);
@@ -98,14 +98,14 @@ fn numbers(_: &fs::Metadata) -> Option<[u64; 2]> {
     None
 }
 
-/// A file on the disk of its place, not there yet; gone when it is dropped.
+/// A temporary file, on the disk of its final path; removed when dropped.
 struct Unplaced {
     file: Option<AtomicWriteFile>,
     known: Known,
 }
 
 impl Unplaced {
-    /// Holds the whole of `bytes`.
+    /// Writes `bytes` to a temporary file for `path`.
     fn new(path: &Path, bytes: &[u8]) -> Result<Self> {
         let path = followed(path)?;
         let mut unplaced = Self::begun(&path)?;
@@ -142,7 +142,7 @@ impl Drop for Unplaced {
     }
 }
 
-/// Makes `folder` and those above it, and remembers which were not there.
+/// Creates `folder` and its parents, and remembers which did not exist.
 pub fn make_folder(folder: &Path) -> Result<()> {
     let mut made = held(&MADE);
     let above: Vec<&Path> = folder.ancestors().take_while(|path| !path.exists()).collect();
@@ -151,31 +151,31 @@ pub fn make_folder(folder: &Path) -> Result<()> {
     Ok(())
 }
 
-/// Removes folders that were made for files that never came.
+/// Removes created folders in which no file was written.
 pub fn remove_empty_folders() {
     remove_empty(&mut held(&MADE));
 }
 
-/// One that holds something stays.
+/// Removes those of the folders that are empty.
 fn remove_empty(made: &mut Vec<PathBuf>) {
     while let Some(folder) = made.pop() {
         fs::remove_dir(folder).ok();
     }
 }
 
-/// Writes the whole of `bytes` to `path`, or leaves what was there. Where `path` is a link it stays one, and what it leads to is
-/// written. A file that is write-protected is refused.
+/// Writes `bytes` to `path` atomically: all of them, or what was there stays. Where `path` is a symbolic link, its target is
+/// written. A write-protected file is refused.
 pub fn write(path: &Path, bytes: &[u8]) -> Result<()> {
     refuse_protected(path)?;
     replace(path, bytes)
 }
 
-/// The same for a file that may be write-protected, and stays so.
+/// Writes like [`write()`], but also over a write-protected file, which stays protected.
 pub fn replace(path: &Path, bytes: &[u8]) -> Result<()> {
     replace_in_turn(&[(path, bytes)])
 }
 
-/// The same for several, which take their places in this order once all of them are written.
+/// Writes several files like [`replace`]: all are written first, then renamed in this order.
 pub fn replace_in_turn(files: &[(&Path, &[u8])]) -> Result<()> {
     let written: Vec<Unplaced> =
         files.iter().map(|(path, bytes)| Unplaced::new(path, bytes)).collect::<Result<_>>()?;
@@ -183,10 +183,10 @@ pub fn replace_in_turn(files: &[(&Path, &[u8])]) -> Result<()> {
     written.into_iter().try_for_each(Unplaced::place)
 }
 
-/// Writes all of `files`, paths with what they hold, and then puts them in their places one right after the other, in this
-/// order: a program that is ended by a signal has written all of them or none. Should the machine fail meanwhile, the last is
-/// not there: where it is, the others are those written with it. Write-protected ones are refused before any is in its place. The
-/// error is of the path beside it.
+/// Writes all of `files`, paths with their contents, then renames them right after each other in this order: a program that is
+/// ended by a signal has written all of them or none. Should the machine fail meanwhile, the last one is missing; where it
+/// exists, the others are those written with it. Write-protected files are refused before any is renamed. The error comes with
+/// its path.
 pub fn write_together(files: &[(PathBuf, Vec<u8>)]) -> std::result::Result<(), (PathBuf, Error)> {
     let mut written = Vec::new();
     for (path, bytes) in files {
@@ -203,12 +203,12 @@ pub fn write_together(files: &[(PathBuf, Vec<u8>)]) -> std::result::Result<(), (
     written.into_iter().try_for_each(|(path, file)| file.place().map_err(|error| (path.clone(), error)))
 }
 
-/// Whether there is a file that nobody is meant to change: a folder's permission to replace it does not count.
+/// Whether `path` is a write-protected file; permission of the folder to replace it does not count.
 pub fn is_protected(path: &Path) -> bool {
     fs::metadata(path).is_ok_and(|file| file.is_file() && file.permissions().readonly())
 }
 
-/// The error of a file that is write-protected.
+/// An error if `path` is a write-protected file.
 pub fn refuse_protected(path: &Path) -> Result<()> {
     match is_protected(path) {
         true => Err(Error::new(ErrorKind::PermissionDenied, "it is write-protected")),
@@ -216,7 +216,7 @@ pub fn refuse_protected(path: &Path) -> Result<()> {
     }
 }
 
-/// Where links lead to, there or not.
+/// The final target of symbolic links, whether it exists or not.
 fn followed(path: &Path) -> Result<PathBuf> {
     let mut at = path.to_owned();
     for _ in 0..MOST_LINKS {

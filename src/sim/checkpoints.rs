@@ -1,13 +1,13 @@
-//! States to return to, by the number of the request that followed them.
+//! Checkpoints: states to return to, by the number of the request that followed each.
 
 use std::collections::BTreeMap;
 
 use crate::sim::world::World;
 
-/// Memory for checkpoints, bytes, unless told otherwise.
+/// Default memory for checkpoints, bytes.
 pub const DEFAULT_CAPACITY: usize = 512 << 20;
 
-/// Kept states, the oldest dropped first when they take too much memory. The newest always stays.
+/// Stored states. When they take too much memory the oldest are dropped first; the newest always stays.
 #[derive(Debug)]
 pub struct Checkpoints {
     worlds: BTreeMap<u64, (World, usize)>,
@@ -16,12 +16,13 @@ pub struct Checkpoints {
 }
 
 impl Checkpoints {
-    /// Keeps about `capacity` bytes of them.
+    /// An empty store of about `capacity` bytes.
     pub fn new(capacity: usize) -> Self {
         Self { worlds: BTreeMap::new(), bytes: 0, capacity }
     }
 
-    /// Keeps `world` as the state before request `seq`. When that drops others: the oldest request still kept.
+    /// Stores `world` as the state before request `seq`. Returns the oldest request whose state is still stored, if others were
+    /// dropped.
     pub fn store(&mut self, seq: u64, world: World) -> Option<u64> {
         let bytes = world.bytes_beside(self.newest());
         self.bytes += bytes;
@@ -36,12 +37,12 @@ impl Checkpoints {
         if dropped { self.worlds.keys().next().copied() } else { None }
     }
 
-    /// The state before request `seq`, if it is kept.
+    /// The state before request `seq`, if it is stored.
     pub fn before(&self, seq: u64) -> Option<&World> {
         self.worlds.get(&seq).map(|(world, _)| world)
     }
 
-    /// The newest state kept.
+    /// The newest state.
     pub fn newest(&self) -> Option<&World> {
         self.worlds.last_key_value().map(|(_, (world, _))| world)
     }

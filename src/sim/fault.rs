@@ -1,4 +1,4 @@
-//! Faults of a dressed garment with the marks concerned: what a person can paint differently.
+//! Faults of a dressed garment, each with the pairs of marks near it, which a person can paint differently.
 
 use serde::Serialize;
 
@@ -8,40 +8,40 @@ use crate::pattern::{Problem, ProblemKind};
 use crate::sim::source::GarmentSource;
 use crate::wrap::{Marks, PairStretch, stretches};
 
-/// Pairs named for one fault.
+/// Most pairs of marks named for one fault.
 const MOST_PAIRS: usize = 3;
-/// A pair is concerned when it is the nearest to this share of the place, or more.
+/// A pair is named when it is the nearest pair for at least this share of the fault's vertices.
 const SHARE: f64 = 0.1;
 
-/// What is wrong, and the pairs of marks concerned, the one concerned most first.
+/// A fault, and the pairs of marks near it, the one nearest to most of its vertices first.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Fault {
-    /// In words, the marks among them.
+    /// Description, which names the marks.
     #[serde(flatten)]
     pub problem: Problem,
-    /// The pairs nearest to it on the cloth.
+    /// Pairs of marks nearest to the fault along the cloth.
     pub marks: Vec<Concerned>,
 }
 
-/// How the cloth came to lie.
+/// How the cloth came to its present position.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Lies {
-    /// Physics moved it: it may fold.
+    /// Whether physics has moved it: it may have folds.
     pub draped: bool,
-    /// It was sewn from where its pieces were placed, and the body has not moved since.
+    /// Whether it was sewn from the placement of its pieces, and the body has not moved since.
     pub sewn: bool,
 }
 
-/// A pair of marks.
+/// A pair of marks near a fault.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Concerned {
-    /// From 1.
+    /// Number of the pair, from 1.
     pub number: usize,
-    /// Its length on the body over that on the cloth, less one.
+    /// Length of the pair on the body over its length on the cloth, minus one.
     pub stretch: f64,
 }
 
-/// The faults of a garment that was measured; see [`fit::faults`].
+/// The faults of the garment that `report` measures; see [`fit::faults`].
 pub fn faults(
     report: &Report,
     source: &GarmentSource,
@@ -51,7 +51,7 @@ pub fn faults(
     lies: Lies,
 ) -> Vec<Fault> {
     let mut found = fit::faults(report, lies.draped);
-    // What could not be sewn to its neighbours falls off: that is told already.
+    // Cloth that could not be sewn to its neighbours falls off: that is reported already.
     if lies.sewn && report.seams.open == 0 {
         found.extend(
             fit::fallen(&source.pattern, garment, cloth)
@@ -90,7 +90,7 @@ fn told(problem: Problem, marks: &[Concerned]) -> Problem {
     Problem { words: format!("{}; nearest {which}: {}", problem.words, each.join(", ")), ..problem }
 }
 
-/// The number of the pair nearest to each vertex along the flat cloth and over its seams; None where none leads.
+/// Number of the pair nearest to each vertex, by distance along the cloth and across seams; None where no path leads to a pair.
 fn nearest_pairs(garment: &Garment, marks: &Marks) -> Vec<Option<usize>> {
     let metric = EdgeMetric::new(garment);
     let mut nearest = vec![(f64::INFINITY, None); garment.vertex_count];

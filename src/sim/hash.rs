@@ -1,4 +1,4 @@
-//! State hashes: 64-bit FNV-1a (Fowler, Noll, Vo; offset basis and prime as published) over the bits of what is compared.
+//! State hashes: 64-bit FNV-1a (Fowler, Noll, Vo; offset basis and prime as published) over the bits of the state.
 
 use glam::DVec3;
 
@@ -8,7 +8,7 @@ use crate::wrap::Phase;
 const OFFSET_BASIS: u64 = 0xcbf2_9ce4_8422_2325;
 const PRIME: u64 = 0x0000_0100_0000_01b3;
 
-/// A hash under way.
+/// Hash in progress.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Fnv(u64);
 
@@ -19,19 +19,19 @@ impl Default for Fnv {
 }
 
 impl Fnv {
-    /// Takes in `bytes`.
+    /// Adds `bytes`.
     pub fn bytes(&mut self, bytes: &[u8]) {
         for &byte in bytes {
             self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(PRIME);
         }
     }
 
-    /// Takes in a whole number, least significant byte first.
+    /// Adds an integer, least significant byte first.
     pub fn number(&mut self, number: u64) {
         self.bytes(&number.to_le_bytes());
     }
 
-    /// Takes in the bits of a point: -0 and 0 differ.
+    /// Adds the bits of a point: -0 and 0 differ.
     pub fn point(&mut self, p: DVec3) {
         for x in p.to_array() {
             self.number(x.to_bits());
@@ -44,7 +44,7 @@ impl Fnv {
     }
 }
 
-/// Hash of what moves: which vertices are mapped, where those are, the phase and whether it is paused.
+/// Hash of the moving state: which vertices are mapped, their positions, the phase, and whether the simulation is running.
 pub fn cloth_hash(cloth: &ClothState, phase: Option<Phase>, relaxing: bool) -> u64 {
     let mut hash = Fnv::default();
     hash.number(cloth.positions.len() as u64);

@@ -1,4 +1,4 @@
-//! Where the simulation runs: on its own thread (the window) or inline, as fast as it can (headless, tests).
+//! Runs the simulation on its own thread (for the window) or inline, as fast as it can (headless, tests).
 
 use std::sync::Arc;
 
@@ -6,7 +6,7 @@ use crate::sim::protocol::{Event, Request, Snapshot};
 use crate::sim::simulation::Simulation;
 use crate::sim::thread::{OnNews, SimThread};
 
-/// A simulation and the newest snapshot of it.
+/// A simulation, inline or on its thread, and its newest snapshot.
 #[derive(Debug)]
 pub struct Runner {
     place: Place,
@@ -20,7 +20,7 @@ enum Place {
 }
 
 impl Runner {
-    /// Runs when told to, on the caller's thread.
+    /// Runs on the caller's thread, when told to.
     pub fn inline(simulation: Simulation) -> Self {
         let snapshot = Arc::new(simulation.snapshot());
         Self { place: Place::Inline(Box::new(simulation)), snapshot }
@@ -33,7 +33,7 @@ impl Runner {
         Ok(Self { place: Place::Thread(thread), snapshot })
     }
 
-    /// Hands `request` over; inline it takes effect at once.
+    /// Sends `request`; inline it takes effect at once.
     pub fn send(&mut self, request: Request) {
         match &mut self.place {
             Place::Inline(simulation) => simulation.apply(request),
@@ -41,7 +41,7 @@ impl Runner {
         }
     }
 
-    /// What happened since the last call, in order.
+    /// Events since the last call, in order.
     pub fn take_events(&mut self) -> Vec<Event> {
         match &mut self.place {
             Place::Inline(simulation) => simulation.take_events(),
@@ -49,7 +49,7 @@ impl Runner {
         }
     }
 
-    /// Looks for a newer snapshot. True when there was one. (Inline it is made here.)
+    /// Takes the newest snapshot. True when it is a new one; inline a snapshot is made here.
     pub fn refresh(&mut self) -> bool {
         let newer = match &self.place {
             Place::Inline(simulation) => Some(Arc::new(simulation.snapshot())),
@@ -64,12 +64,12 @@ impl Runner {
         }
     }
 
-    /// The newest snapshot as of the last [`Runner::refresh`].
+    /// The newest snapshot at the last [`Runner::refresh`].
     pub fn snapshot(&self) -> &Arc<Snapshot> {
         &self.snapshot
     }
 
-    /// The simulation itself, when it runs inline.
+    /// The simulation itself; None when it runs on its own thread.
     pub fn simulation(&mut self) -> Option<&mut Simulation> {
         match &mut self.place {
             Place::Inline(simulation) => Some(simulation),

@@ -1,4 +1,4 @@
-//! The owner of the moving state. Requests between ticks; a tick does one bounded piece of work; asleep when at rest.
+//! The owner of the moving state: takes requests between ticks, does one bounded piece of work in a tick, sleeps at rest.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
@@ -15,14 +15,14 @@ use crate::sim::world::posed::Then;
 use crate::sim::world::trials::Judged;
 use crate::wrap::Phase;
 
-/// What was seen of cloth that lies still.
+/// Faults and tight places found on cloth at rest.
 #[derive(Debug, Default)]
 struct Looked {
     faults: Arc<Vec<Fault>>,
     tight: Arc<Vec<TightPlace>>,
 }
 
-/// Runs the stages. Same requests in the same ticks give the same bits, on any thread.
+/// Runs the stages. The same requests in the same ticks give the same bits, on any thread.
 #[derive(Debug)]
 pub struct Simulation {
     world: World,
@@ -42,7 +42,7 @@ impl Default for Simulation {
 }
 
 impl Simulation {
-    /// Nothing on the body; about `capacity` bytes for checkpoints.
+    /// A simulation with nothing on the body, and about `capacity` bytes for checkpoints.
     pub fn with_memory(capacity: usize) -> Self {
         Self {
             world: World::default(),
@@ -56,7 +56,7 @@ impl Simulation {
         }
     }
 
-    /// From now on only these skips are made.
+    /// Allows exactly these savings of work.
     pub fn set_skips(&mut self, skips: Skips) {
         self.skips = skips;
         if let Some(source) = &mut self.world.source {
@@ -64,7 +64,7 @@ impl Simulation {
         }
     }
 
-    /// Carries out `request`. Building a garment happens here. What cannot be done is told by [`Event::Failed`].
+    /// Carries out `request`; building a garment happens here. A failure is reported by [`Event::Failed`].
     pub fn apply(&mut self, request: Request) {
         if matches!(request.kind, RequestKind::Hash) {
             self.report_hash(Some(request.seq));
@@ -89,7 +89,7 @@ impl Simulation {
         }
     }
 
-    /// One tick of work. True when there is more to do; at rest nothing happens and no tick is counted.
+    /// Does a tick of work. True when there is more to do; at rest it does nothing and counts no tick.
     pub fn tick(&mut self) -> bool {
         if self.is_at_rest() {
             return false;
@@ -123,39 +123,39 @@ impl Simulation {
         self.tick
     }
 
-    /// The last request that took effect; 0: none.
+    /// Number of the last request that took effect; 0: none.
     pub fn seq(&self) -> u64 {
         self.seq
     }
 
-    /// How far the dressing has come; None without a garment.
+    /// Phase of dressing; None without a garment.
     pub fn phase(&self) -> Option<Phase> {
         self.world.phase()
     }
 
-    /// While starts are tried: the one under way, whether it is draped already, and how many were judged before it.
+    /// While starts are tried: the present one, whether it is being draped, and how many were judged before it.
     pub fn trying(&self) -> Option<(Start, bool, usize)> {
         let trials = self.world.trials.as_ref()?;
         let (start, draped) = trials.now();
         Some((start, draped, trials.count()))
     }
 
-    /// Whether the cloth is on its way to another pose of its body.
+    /// Whether the cloth is following its body to another pose.
     pub fn is_posing(&self) -> bool {
         self.world.posing.is_some()
     }
 
-    /// 0..=1 over growing and settling.
+    /// Progress of growing and settling, 0..=1.
     pub fn progress(&self) -> f64 {
         self.world.progress()
     }
 
-    /// Hash of what moves.
+    /// Hash of the moving state.
     pub fn hash(&self) -> u64 {
         self.world.hash()
     }
 
-    /// The state, for reading.
+    /// A snapshot of the state.
     pub fn snapshot(&self) -> Snapshot {
         let world = &self.world;
         let (cloth, source, body) = world.shown();
@@ -187,8 +187,8 @@ impl Simulation {
         }
     }
 
-    /// Looks at cloth that lies still: snapshots tell from now on what is wrong with it. True when there was something to
-    /// look at that had not been looked at before. Moves nothing.
+    /// Looks for faults and tight places of cloth at rest; snapshots contain them from then on. True when there was cloth that
+    /// had not been looked at. Moves nothing.
     pub fn judge(&mut self) -> bool {
         let world = &self.world;
         if self.looked.is_some() || !self.is_at_rest() || !world.cloth.mapped.contains(&true) {
@@ -207,24 +207,24 @@ impl Simulation {
         true
     }
 
-    /// What happened since the last call, in order.
+    /// Events since the last call, in order.
     pub fn take_events(&mut self) -> Vec<Event> {
         std::mem::take(&mut self.events)
     }
 
     fn carry_out(&mut self, kind: RequestKind) -> Result<(), String> {
         match kind {
-            // From where the cloth lies, wherever it was to go.
+            // A new change of pose starts from the cloth as it was before the one in progress.
             RequestKind::Repose { .. } | RequestKind::Resize { .. } => self.world.posing = None,
             RequestKind::SetRelaxing(_) => {}
-            // Nothing of it is kept.
+            // These replace the cloth: no need to finish the change of pose.
             RequestKind::Restore { .. }
             | RequestKind::Clear
             | RequestKind::Wrap { .. }
             | RequestKind::Adopt { .. }
             | RequestKind::Sew { .. }
             | RequestKind::Dress { .. } => {}
-            // Of the cloth as it lies there.
+            // All others act on the cloth in the new pose.
             _ => self.world.finish_posing(),
         }
         match self.with_skips(kind) {

@@ -1,4 +1,4 @@
-//! What the session hands over: a garment to build, what it is made of, places on it.
+//! Input from the session: the garment to build, its fabrics, and points on it.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -17,20 +17,20 @@ use crate::wrap::Marks;
 pub struct GarmentSource {
     /// The flat pieces and their seams.
     pub pattern: Arc<Pattern>,
-    /// Where they go.
+    /// The marks that say where it goes on the body.
     pub marks: Arc<Marks>,
     /// Target edge length of the triangles, metres.
     pub edge_length: f64,
-    /// How the cloth relaxes.
+    /// Settings of relaxation.
     pub relax: RelaxSettings,
 }
 
-/// What the cloth is made of, and how much it may stretch.
+/// Fabrics and strain limit of draping.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DrapeSource {
-    /// Of every piece that has none of its own.
+    /// Fabric of every piece without its own.
     pub fabric: Fabric,
-    /// Of single pieces.
+    /// Fabrics of single pieces.
     pub of_pieces: BTreeMap<PieceId, Fabric>,
     /// Strain beyond which cloth is rigid, 1e-3..=0.2.
     pub strain: f64,

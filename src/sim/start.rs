@@ -1,19 +1,19 @@
-//! Ways to put a garment on its body, and what came of those that were tried.
+//! Starts: ways to put a garment on its body, and the results of those that were tried.
 
 use serde::{Deserialize, Serialize};
 
-/// How cloth without marks of its own comes on to the body.
+/// How a garment is put on the body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Start {
     /// Wrapped by the garment's own marks or, without any, by those suggested from the placement of its pieces; then draped.
     Marks,
-    /// Sewn from where its pieces are placed, which drapes it.
+    /// Sewn from the placement of its pieces, then draped.
     Placement,
 }
 
 impl Start {
-    /// In the order in which they are tried.
+    /// All starts, in the order in which they are tried.
     pub const ALL: [Self; 2] = [Self::Marks, Self::Placement];
 }
 
@@ -38,29 +38,29 @@ impl std::str::FromStr for Start {
     }
 }
 
-/// Which starts may be taken.
+/// Which starts are allowed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct StartChoice {
-    /// Only this one; none: any.
+    /// Only this start; None: any.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub only: Option<Start>,
-    /// Only cloth that was draped will do.
+    /// Whether only draped cloth is accepted.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub draped: bool,
 }
 
-/// What came of a start.
+/// Result of a start.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Tried {
-    /// Which.
+    /// The start.
     pub start: Start,
-    /// Judged after draping.
+    /// Whether it was judged after draping.
     pub draped: bool,
-    /// What was wrong with it, in words.
+    /// Faults, in words.
     pub faults: Vec<String>,
-    /// In how many places.
+    /// Number of places with faults.
     pub places: usize,
-    /// Ticks it took; those of the same marks before they were draped count there only.
+    /// Ticks it took. The ticks of a wrap are not counted again in the result after draping.
     pub ticks: u32,
 }
 
@@ -71,17 +71,17 @@ impl std::fmt::Display for Tried {
     }
 }
 
-/// What came of all starts that were tried.
+/// Results of all starts that were tried.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Started {
-    /// In the order they were tried.
+    /// Results in the order in which they were tried.
     pub tried: Vec<Tried>,
-    /// The index of the one whose cloth lies on the body: the first without a fault, else the one with the fewest.
+    /// Index in `tried` of the result that was taken: the first without a fault, else the one with the fewest faults.
     pub taken: usize,
 }
 
 impl Started {
-    /// The one whose cloth lies on the body.
+    /// The result that was taken.
     pub fn taken(&self) -> &Tried {
         &self.tried[self.taken]
     }

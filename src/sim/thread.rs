@@ -1,6 +1,6 @@
-//! The simulation on its own thread, at a fixed rate, never tied to frames.
+//! Runs the simulation on its own thread, at a fixed rate that does not depend on frames.
 //!
-//! Requests come by an inbox that is emptied between ticks; snapshots leave by a mailbox that keeps only the newest. With
+//! Requests arrive in an inbox that is emptied between ticks; snapshots leave by a mailbox that keeps only the newest. With
 //! nothing to do the thread sleeps on the inbox. The clock decides only *when* a tick runs, never what it computes.
 
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, TryRecvError, channel};
@@ -11,13 +11,13 @@ use std::time::{Duration, Instant};
 use crate::sim::protocol::{Event, Request, Snapshot};
 use crate::sim::simulation::Simulation;
 
-/// Ticks a second unless told otherwise.
+/// Default tick rate, 1/s.
 pub const DEFAULT_RATE_HZ: f64 = 60.0;
 
-/// A person who goes on working does not wait for the verdict on cloth that has come to rest.
+/// Idle time before cloth at rest is checked for faults, so that a person who goes on working does not wait for that.
 const BEFORE_JUDGING: Duration = Duration::from_millis(150);
 
-/// Called on the simulation's thread whenever there is something new to look at.
+/// Callback on the simulation's thread whenever there is a new snapshot or event.
 pub type OnNews = Box<dyn Fn() + Send>;
 
 /// Handle to a simulation running on its own thread. Dropping it ends the thread.
@@ -30,7 +30,7 @@ pub struct SimThread {
 }
 
 impl SimThread {
-    /// Starts `simulation` at `rate_hz` ticks a second (more than 0). The error is the system's, for want of a thread.
+    /// Starts `simulation` at `rate_hz` ticks a second (more than 0). The error is the system's: no thread could be created.
     pub fn start(simulation: Simulation, rate_hz: f64, on_news: OnNews) -> std::io::Result<Self> {
         let (inbox, requests) = channel();
         let (event_sender, events) = channel();
@@ -47,20 +47,20 @@ impl SimThread {
         Ok(Self { inbox: Some(inbox), mailbox, events, thread: Some(thread) })
     }
 
-    /// Hands `request` over. It takes effect between two ticks.
+    /// Sends `request`, which takes effect between two ticks.
     pub fn send(&self, request: Request) {
         if let Some(inbox) = &self.inbox {
-            // The thread lives as long as this handle.
+            // The receiver lives as long as this handle.
             inbox.send(request).ok();
         }
     }
 
-    /// The newest snapshot, if there is one that was not taken yet.
+    /// The newest snapshot that was not taken yet.
     pub fn take_snapshot(&self) -> Option<Arc<Snapshot>> {
         self.mailbox.lock().unwrap_or_else(PoisonError::into_inner).take()
     }
 
-    /// What happened since the last call, in order.
+    /// Events since the last call, in order.
     pub fn take_events(&self) -> Vec<Event> {
         self.events.try_iter().collect()
     }
@@ -85,12 +85,12 @@ struct Worker {
 }
 
 impl Worker {
-    /// Ends when the handle is dropped.
+    /// The thread's main loop; it ends when the handle is dropped.
     fn run(mut self) {
         while self.sleep_until_work() && self.tick_until_rest() {}
     }
 
-    /// Waits for a request without a time limit while there is nothing to do. False: the handle is gone.
+    /// Blocks until there is work. False when the handle is gone.
     fn sleep_until_work(&mut self) -> bool {
         while self.simulation.is_at_rest() {
             match self.next_request() {
@@ -101,7 +101,7 @@ impl Worker {
         true
     }
 
-    /// Waits for it without a time limit; cloth that lies still is looked at meanwhile. None: the handle is gone.
+    /// Blocks until the next request; cloth at rest is checked for faults meanwhile. None when the handle is gone.
     fn next_request(&mut self) -> Option<Request> {
         match self.requests.recv_timeout(BEFORE_JUDGING) {
             Ok(request) => return Some(request),
@@ -114,7 +114,7 @@ impl Worker {
         self.requests.recv().ok()
     }
 
-    /// Ticks at the fixed rate; late ticks are not made up for. False: the handle is gone.
+    /// Ticks at the fixed rate until at rest; late ticks are not made up for. False when the handle is gone.
     fn tick_until_rest(&mut self) -> bool {
         let mut due = Instant::now();
         while !self.simulation.is_at_rest() {
@@ -122,7 +122,7 @@ impl Worker {
                 return false;
             }
             let simulation = &mut self.simulation;
-            // On a worker: from another thread every parallel loop in it would be handed over and waited for.
+            // On a rayon worker: from another thread every parallel loop in it would be handed over and waited for.
             rayon::scope(|_| simulation.tick());
             self.publish();
             due = (due + self.period).max(Instant::now());
@@ -143,7 +143,7 @@ impl Worker {
         }
     }
 
-    /// Requests that come meanwhile take effect at once.
+    /// Waits until `due`; requests that arrive meanwhile take effect at once. False when the handle is gone.
     fn wait_until(&mut self, due: Instant) -> bool {
         loop {
             let left = due.saturating_duration_since(Instant::now());
@@ -164,7 +164,7 @@ impl Worker {
     }
 
     fn publish(&mut self) {
-        // The snapshot first: who has read an event finds a snapshot at least as new.
+        // The snapshot first: who has read an event then finds a snapshot at least as new.
         let snapshot = Arc::new(self.simulation.snapshot());
         *self.mailbox.lock().unwrap_or_else(PoisonError::into_inner) = Some(snapshot);
         for event in self.simulation.take_events() {

@@ -1,4 +1,4 @@
-//! Counting: how many damaged files were taken, refused, or too much for a reader.
+//! Fuzzing campaign: counts how many damaged files a reader accepts, refuses, or fails on.
 
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -8,41 +8,41 @@ use crate::draft::Random;
 use crate::trust::readers::Reader;
 use crate::trust::structure::{self, Form};
 
-/// No file may take longer, seconds of the processor.
+/// Longest CPU time for one file, seconds.
 pub const SLOW: f64 = 1.0;
-/// Changes to one file.
+/// Most changes to one file.
 const MOST_CHANGES: usize = 3;
-/// Characters that an answer may have: more cannot be read in a line.
+/// Most characters of an error message.
 const LONGEST_ANSWER: usize = 2000;
 
-/// What became of the damaged files of one reader.
+/// Results of the damaged files of one reader.
 #[derive(Clone, Debug, Default)]
 pub struct Tally {
-    /// How many there were.
+    /// Number of files.
     pub files: u64,
-    /// Those that were taken: damaged where it does not matter.
+    /// Files accepted: the damage does not matter.
     pub taken: u64,
-    /// Those that were refused in words.
+    /// Files refused with an error message.
     pub refused: u64,
-    /// Numbers of those that made the reader panic, and why.
+    /// Numbers of the files that made the reader panic, and the panic messages.
     pub panics: Vec<(u64, String)>,
-    /// Numbers of those that took longer than [`SLOW`], and how long.
+    /// Numbers of the files that took longer than [`SLOW`], and their times, seconds.
     pub slow: Vec<(u64, f64)>,
-    /// Numbers of those that were refused without words or with more than can be read.
+    /// Numbers of the files refused with an empty, too long or unprintable message, and those messages.
     pub unclear: Vec<(u64, String)>,
-    /// The longest time of one, seconds.
+    /// Longest time of a file, seconds.
     pub slowest: f64,
-    /// How often each refusal came, without its figures.
+    /// Number of refusals by message, with its figures and quoted parts removed.
     pub words: BTreeMap<String, u64>,
 }
 
 impl Tally {
-    /// Whether every file was taken or refused in words, in time.
+    /// Whether every file was accepted, or refused with a clear message, in time.
     pub fn is_good(&self) -> bool {
         self.panics.is_empty() && self.slow.is_empty() && self.unclear.is_empty()
     }
 
-    /// Counts those of `more`, too.
+    /// Adds the results of `more`.
     pub fn add(&mut self, more: Self) {
         let Self { files, taken, refused, panics, slow, unclear, slowest, words } = more;
         self.files += files;
@@ -55,7 +55,7 @@ impl Tally {
         words.into_iter().for_each(|(words, count)| *self.words.entry(words).or_default() += count);
     }
 
-    /// Numbers of the files that were too much.
+    /// Numbers of the files on which the reader failed.
     pub fn bad(&self) -> impl Iterator<Item = u64> {
         let panics = self.panics.iter().map(|(number, _)| *number);
         panics
@@ -64,7 +64,7 @@ impl Tally {
     }
 }
 
-/// The damaged file `number` of a reader: the same number gives the same bytes.
+/// Damaged file number `number` of a reader: the same number gives the same bytes.
 pub fn damaged(reader: &Reader, number: u64) -> Vec<u8> {
     let mut random = Random::stream(number, 29);
     let [file, other] = [(); 2].map(|()| &reader.good[random.below(reader.good.len())]);
@@ -76,14 +76,14 @@ pub fn damaged(reader: &Reader, number: u64) -> Vec<u8> {
     bytes
 }
 
-/// Gives `reader` the damaged files of these numbers. `seconds` tells the time that the processor has worked.
+/// Gives `reader` the damaged files of these numbers. `seconds` returns the CPU time of the process so far.
 pub fn run(reader: &Reader, numbers: std::ops::Range<u64>, seconds: &dyn Fn() -> f64) -> Tally {
     let mut tally = Tally::default();
     for number in numbers {
         let bytes = damaged(reader, number);
         let (before, start) = (seconds(), Instant::now());
         let answer = catch_unwind(AssertUnwindSafe(|| (reader.read)(&bytes)));
-        // A loaded machine makes the clock on the wall run on, several threads that of the processor.
+        // Wall-clock time grows on a loaded machine, CPU time with the number of threads: the smaller one counts.
         let took = (seconds() - before).min(start.elapsed().as_secs_f64());
         tally.files += 1;
         tally.slowest = tally.slowest.max(took);
@@ -115,7 +115,7 @@ fn is_unclear(words: &str) -> bool {
         || words.chars().any(|c| c.is_control() && c != '\n')
 }
 
-/// Digits become one, what is quoted goes.
+/// A message in which digits are replaced by a single 0 and quoted parts are removed.
 fn without_figures(words: &str) -> String {
     let mut plain = String::new();
     let mut is_quoted = false;

@@ -1,4 +1,4 @@
-//! Commands of every kind, a few at a time: damaged, they are what a recording from elsewhere may ask for.
+//! Short lists of commands of every kind, as files to damage: a recording from elsewhere may contain the like.
 
 use std::sync::Arc;
 
@@ -14,10 +14,10 @@ use crate::sim::{Runner, Simulation};
 use crate::trust::good;
 use crate::trust::ticks::go_on;
 
-/// Commands of one list that are carried out.
+/// Most commands of a list that are carried out.
 const MOST_COMMANDS: usize = 12;
 
-/// Lists of commands for the session that [`done`] begins.
+/// Lists of valid commands for the session that [`done`] begins.
 pub fn good() -> Vec<Vec<u8>> {
     let project = good::project();
     let mut ids = project.document.pattern.pieces.keys().copied();
@@ -123,8 +123,8 @@ fn edits([front, back]: [PieceId; 2], seam: SeamId) -> [Vec<PatternEdit>; 5] {
     ]
 }
 
-/// Gives the commands to a session with cloth on its body. Each is carried out or refused without a trace, the work stays sound,
-/// and all of it can be taken back.
+/// Gives the commands in `bytes` to a session with cloth on its body. Asserts that each is carried out or rejected without any
+/// change, that the project stays valid, and that everything can be undone.
 pub fn done(bytes: &[u8]) -> Result<(), String> {
     let commands: Vec<Command> = serde_json::from_slice(bytes).map_err(|e| readable(&e.to_string()))?;
     let mut session = Session::new(good::project(), Runner::inline(Simulation::default()));
@@ -151,7 +151,7 @@ pub fn done(bytes: &[u8]) -> Result<(), String> {
     refused
 }
 
-/// Builds a figure or forgets what was before.
+/// Whether a command builds a mannequin, tries starts, or drops the history.
 pub fn is_costly(command: &Command) -> bool {
     match command {
         Command::SetBody { body, .. } | Command::Repose { body, .. } | Command::AimPose { body } => {

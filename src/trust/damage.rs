@@ -1,13 +1,13 @@
-//! Damage to bytes and to words, whatever they mean.
+//! Random damage to bytes and text, whatever the format.
 
 use std::ops::Range;
 
 use crate::draft::Random;
 
-/// A damaged file has no more bytes than this: what takes long only because it is long tells nothing.
+/// Most bytes of a damaged file: a file that is slow only because it is long shows nothing.
 pub const MOST_BYTES: usize = 256 << 10;
 
-/// What stands in place of a number.
+/// Odd numbers that replace numbers in a text.
 const NUMBERS: [&str; 32] = [
     "nan",
     "NaN",
@@ -43,7 +43,7 @@ const NUMBERS: [&str; 32] = [
     "0x10",
 ];
 
-/// What stands in place of a word or between two.
+/// Odd byte sequences that are inserted into a text.
 const WORDS: [&[u8]; 16] = [
     b"\0",
     b"\xef\xbb\xbf",
@@ -63,12 +63,13 @@ const WORDS: [&[u8]; 16] = [
     b"file:///etc/passwd",
 ];
 
-/// What stands in place of two, four or eight bytes of a number, the lowest first.
+/// Odd integers that overwrite one, two, four or eight bytes, little-endian.
 const WHOLE: [u64; 10] = [0, 1, 2, 0x7f, 0xff, 0xffff, 0x7fff_ffff, 0xffff_ffff, 0x8000_0000, u64::MAX];
+/// Odd numbers that overwrite four bytes, in single precision.
 const FLOATS: [f32; 10] =
     [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, f32::MAX, -1e30, 1e9, 1e-40, -0.0, 0.0, 0.5];
 
-/// Words of letters, digits and what numbers are written with.
+/// Ranges of words: letters, digits and the other characters of numbers.
 fn words(bytes: &[u8]) -> Vec<Range<usize>> {
     let is_part = |b: &u8| b.is_ascii_alphanumeric() || b"_.+-#".contains(b) || *b >= 0x80;
     let mut words = Vec::new();
@@ -91,7 +92,7 @@ fn is_number(word: &[u8]) -> bool {
     std::str::from_utf8(word).is_ok_and(|word| word.parse::<f64>().is_ok())
 }
 
-/// A stretch of whole lines, or of bytes where there are few lines.
+/// A random range of whole lines, or of bytes where there are few lines.
 fn stretch(bytes: &[u8], random: &mut Random) -> Range<usize> {
     let starts: Vec<usize> = std::iter::once(0)
         .chain(bytes.iter().enumerate().filter(|(_, b)| **b == b'\n').map(|(i, _)| i + 1))
@@ -105,12 +106,12 @@ fn stretch(bytes: &[u8], random: &mut Random) -> Range<usize> {
     starts[first]..starts.get(last).copied().unwrap_or(bytes.len())
 }
 
-/// Another number, by words or bytes.
+/// A random number that is odd for a reader, as text.
 pub fn odd_number(random: &mut Random) -> &'static str {
     NUMBERS[random.below(NUMBERS.len())]
 }
 
-/// One change to a text; `other` is another good file of its format.
+/// Makes one random change to a text; `other` is another valid file of its format.
 pub fn text(bytes: &mut Vec<u8>, other: &[u8], random: &mut Random) {
     if bytes.is_empty() {
         return;
@@ -148,7 +149,7 @@ pub fn text(bytes: &mut Vec<u8>, other: &[u8], random: &mut Random) {
     bytes.truncate(MOST_BYTES);
 }
 
-/// Another number in place of one.
+/// Replaces a random number in a text by an odd one.
 pub fn number(bytes: &mut Vec<u8>, random: &mut Random) {
     let numbers: Vec<Range<usize>> =
         words(bytes).into_iter().filter(|w| is_number(&bytes[w.clone()])).collect();
@@ -157,8 +158,8 @@ pub fn number(bytes: &mut Vec<u8>, random: &mut Random) {
     }
 }
 
-/// Another word of the same file in place of one, or both change places: what is named by names or numbers may then name
-/// itself.
+/// Replaces a random word by another one of the file, or exchanges the two. Where the format refers by names or numbers,
+/// something may then refer to itself.
 fn word(bytes: &mut Vec<u8>, random: &mut Random) {
     let words = words(bytes);
     if words.is_empty() {
@@ -175,7 +176,7 @@ fn word(bytes: &mut Vec<u8>, random: &mut Random) {
     }
 }
 
-/// A stretch many times.
+/// Repeats a random range many times.
 fn repeated(bytes: &mut Vec<u8>, random: &mut Random) {
     let taken = stretch(bytes, random);
     let chunk = bytes[taken.clone()].to_vec();
@@ -184,7 +185,7 @@ fn repeated(bytes: &mut Vec<u8>, random: &mut Random) {
     bytes.splice(taken.end..taken.end, chunk.repeat(times));
 }
 
-/// From something that opens on, a little is repeated: it opens again and again in itself.
+/// Repeats a short range that begins with an opening bracket, which nests it in itself.
 fn nested(bytes: &mut Vec<u8>, random: &mut Random) {
     let openers: Vec<usize> =
         bytes.iter().enumerate().filter(|(_, b)| b"{[<(".contains(b)).map(|(i, _)| i).collect();
@@ -199,7 +200,7 @@ fn nested(bytes: &mut Vec<u8>, random: &mut Random) {
     bytes.splice(from..from, chunk.repeat(times));
 }
 
-/// A few bits the other way round.
+/// Flips a few bits.
 fn bits(bytes: &mut [u8], random: &mut Random) {
     for _ in 0..=random.below(4) {
         let at = random.below(bytes.len().max(1));
@@ -209,7 +210,7 @@ fn bits(bytes: &mut [u8], random: &mut Random) {
     }
 }
 
-/// One change to bytes that are numbers.
+/// Makes one random change to bytes that hold numbers.
 pub fn binary(bytes: &mut Vec<u8>, random: &mut Random) {
     if bytes.is_empty() {
         return;

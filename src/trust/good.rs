@@ -1,4 +1,4 @@
-//! Small good files of every format, with as much in them as the format can hold.
+//! Small valid files of every format, with as many features as the format has.
 
 use std::sync::Arc;
 
@@ -16,8 +16,8 @@ use crate::session::{BodyChoice, Command, Document, Project, Session, Settings};
 use crate::sim::{Runner, Simulation};
 use crate::wrap::{BodyMark, ClothMark, ClothSide, Marks};
 
-/// A front with curves, a hole, a line, a notch and a grainline, and a plain back, sewn at both sides and standing before
-/// and behind a limb.
+/// A pattern: a front with curves, a hole, a line, a notch and a grainline, and a plain back, sewn at both sides and placed in
+/// front of and behind a limb.
 pub fn pattern() -> Pattern {
     let corners = [(0.0, 0.0), (0.36, 0.0), (0.36, 0.3), (0.18, 0.33), (0.0, 0.3)].map(DVec2::from);
     let mut front = Piece::polygon("front", &corners);
@@ -47,12 +47,12 @@ pub fn pattern() -> Pattern {
     pattern
 }
 
-/// A limb, metres.
+/// A limb as a body: a cylinder, metres.
 pub fn body() -> TriMesh {
     cylinder(0.11, 1.0, 12, 8)
 }
 
-/// The pattern before the limb, with a pair of marks.
+/// A project: the pattern in front of the limb, with a pair of marks.
 pub fn project() -> Project {
     let pattern = pattern();
     let piece = *pattern.pieces.keys().next().expect("a front");
@@ -79,7 +79,7 @@ pub fn project() -> Project {
     Project { document, dressed: None }
 }
 
-/// A session in which a little was done, its cloth on the limb.
+/// A session in which a little was done, with cloth on the limb.
 pub fn session() -> Session {
     let mut session = Session::new(project(), Runner::inline(Simulation::default()));
     let piece = *session.document().pattern.pieces.keys().next().expect("a front");
@@ -100,7 +100,7 @@ pub fn session() -> Session {
     session
 }
 
-/// The limb as OBJ, with polygons, texture, groups and backward indices.
+/// OBJ files: the limb, and a pyramid with polygons, texture, groups and negative indices.
 pub fn objs() -> Vec<Vec<u8>> {
     let square = "# a pyramid\r\nmtllib a.mtl\no pyramid\nv 0 0 0\nv 1 0 0 1\nv 1 0 1\nv 0 0 1\nv 0.5 1e0 .5\nvt 0 0\nvt 1 1\n\
                   vn 0 1 0\ng side\nusemtl cloth\ns 1\nf 4/1/1 3/2/1 2/1/1 1/2/1\nf 1//1 2//1 5//1\nf -4 -3 -1\nf 3 4 \\\n5\n\
@@ -108,7 +108,7 @@ pub fn objs() -> Vec<Vec<u8>> {
     vec![obj::mesh("limb", &body()).into_bytes(), square.as_bytes().to_vec()]
 }
 
-/// A cloth with its place in the pattern.
+/// OBJ files of cloth, with and without its place in the pattern.
 pub fn cloths() -> Vec<Vec<u8>> {
     let text = "v 0 1 0\nv 0.1 1 0\nv 0.1 1 0.1\nv 0 1 0.1\nvt 0 0\nvt 0.1 0\nvt 0.1 0.1\nvt 0 0.1\nf 1/1 3/3 2/2\nf 1/1 4/4 3/3\n";
     vec![
@@ -117,7 +117,7 @@ pub fn cloths() -> Vec<Vec<u8>> {
     ]
 }
 
-/// The limb on two bones, bending; as text with everything in it and as binary.
+/// glTF files of the limb: one as text with two bones and inline data, and binary ones.
 pub fn gltfs() -> (Vec<Vec<u8>>, Vec<Vec<u8>>) {
     use base64::Engine as _;
     let (text, numbers) = skinned();
@@ -132,12 +132,12 @@ pub fn gltfs() -> (Vec<Vec<u8>>, Vec<Vec<u8>>) {
     (vec![as_text], vec![binary, moving.expect("a small scene")])
 }
 
-/// Numbers as glTF holds them: in single precision.
+/// Numbers in single precision, little-endian, as in glTF.
 pub fn floats(values: impl IntoIterator<Item = f64>) -> Vec<u8> {
     values.into_iter().flat_map(|x| (x as f32).to_le_bytes()).collect()
 }
 
-/// `parts` one after the other, each from a multiple of 4 bytes on, and the glTF `bufferViews` that name them.
+/// Concatenates `parts`, each aligned to 4 bytes, and returns them with their glTF `bufferViews`.
 pub fn buffer(parts: Vec<Vec<u8>>) -> (Vec<u8>, String) {
     let (mut data, mut views) = (Vec::new(), Vec::new());
     for part in parts {
@@ -149,7 +149,7 @@ pub fn buffer(parts: Vec<Vec<u8>>) -> (Vec<u8>, String) {
     (data, views.join(", "))
 }
 
-/// The limb with bones below and above its middle; `URI` stands where its buffer is named.
+/// glTF text and buffer of the limb with a bone below and one above its middle; `URI` stands for the reference to the buffer.
 fn skinned() -> (String, Vec<u8>) {
     let mesh = cylinder(0.11, 1.0, 6, 4);
     let upper = |p: &DVec3| f64::from(u8::from(p.y > 0.5));
@@ -192,19 +192,19 @@ fn skinned() -> (String, Vec<u8>) {
     (text, data)
 }
 
-/// A walk of two frames.
+/// BVH file: a walk of two frames.
 pub const MOTION: &str = "HIERARCHY\nROOT Hips\n{\n OFFSET 0 90 0\n CHANNELS 6 Xposition Yposition Zposition Zrotation \
     Xrotation Yrotation\n JOINT LeftUpLeg\n {\n  OFFSET 10 0 0\n  CHANNELS 3 Zrotation Xrotation Yrotation\n  JOINT LeftLeg\n  \
     {\n   OFFSET 0 -40 0\n   CHANNELS 3 Zrotation Xrotation Yrotation\n   End Site\n   {\n    OFFSET 0 -40 0\n   }\n  }\n }\n}\n\
     MOTION\nFrames: 2\nFrame Time: 0.0333\n0 90 0 0 0 0 0 30 0 0 10 0\n0 91 4 0 5 0 0 -30 0 0 45 0\n";
 
-/// A table of sizes.
+/// CSV table of sizes.
 pub const SIZES: &str =
     "size;bust;waist;hip (mm);height\n36;84;68;930;166\n38;88,5;72;;168\n40;92;76;1010;168\n";
 
-/// Joints turned by hand.
+/// JSON file of joint angles.
 pub const JOINTS: &str = r#"{"left_elbow": 60, "right_hip": {"flexion": 30, "abduction": 20}}"#;
 
-/// A scene of cloth that falls.
+/// JSON file of a scene with falling cloth.
 pub const SCENE: &str = r#"{"cloth": "cloth.obj", "seconds": 0.1, "fps": 30, "gravity": [0, -9.81, 0], "pins": [0, 1],
     "fabric": "wool", "self_collision": true, "collider": "body.obj", "thickness_m": 0.002, "steps_per_frame": 1}"#;

@@ -1,8 +1,9 @@
-//! Whether the program can be trusted with any file: good files are damaged at random, in ways that know their format, and
-//! read. Whatever comes in, each is taken or refused in words, soon, and nothing panics.
+//! Fuzz tests of file readers: valid files are damaged at random, in ways that know their format, and read. Each must be
+//! accepted, or refused with a message, in time, and without a panic.
 //!
-//! `damage` changes bytes and words, `structure` what the formats are made of, `good` holds what is damaged, `readers` what
-//! reads it, `campaign` counts; `commands` are such files, too. `promises` is the table of all that is promised and how it is tested.
+//! `damage` changes bytes and text, `structure` the parts of each format, `good` holds the valid files, `readers` what reads
+//! them, and `campaign` counts the results; `commands` are such files, too. `promises` is the table of all that the program
+//! promises and of the tests for it.
 
 mod campaign;
 pub mod commands;

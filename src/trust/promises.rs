@@ -1,5 +1,5 @@
-//! What is promised, and which faults and files are met: each with the tests that hold it. Numbers are those of the catalogue that the
-//! tests were written from: P promises, F faults, the rest bad files.
+//! What the program promises, and which faults and bad files it handles, each with the tests that hold it. Numbers are those of
+//! the catalogue that the tests were written from: P promises, F faults, the rest bad files.
 //!
 //! | promise, fault or file | tests |
 //! | --- | --- |
@@ -47,4 +47,4 @@
 //! | scales, places, counts | `dolls_and_statues_are_dressed`, `the_finest_and_the_coarsest_triangles_are_wrapped`, `a_kilometre_away_cloth_lies_as_it_does_here`, `cloth_of_one_two_and_three_triangles_is_dressed`, `a_body_of_half_a_million_triangles_is_dressed` |
 //! | quiet | `without_a_display_or_a_folder_for_one_nothing_is_complained_of`, `what_is_asked_for_is_all_that_is_on_standard_output` |
 //!
-//! `tests/tidy` looks that each of these tests is there.
+//! `tests/tidy` checks that each of these tests exists.

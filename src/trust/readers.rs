@@ -1,5 +1,5 @@
-//! What reads files from elsewhere, as far as a file alone can take it: what is taken is built, opened or played a little,
-//! and must be finite.
+//! Readers of files from elsewhere, followed by a little use: what is accepted is built, opened or replayed for a while, and must
+//! be finite.
 
 use std::path::Path;
 
@@ -19,30 +19,30 @@ use crate::trust::structure::Form;
 use crate::trust::ticks::go_on;
 use crate::trust::{commands, good};
 
-/// Metres: fine enough to show a fault, coarse enough to be quick.
+/// Edge length at which patterns are triangulated, metres: fine enough to show a fault, coarse enough to be fast.
 const EDGE_LENGTH: f64 = 0.05;
-/// Larger patterns are only read, metres: their triangles take as long as they are many.
+/// Largest coordinate of patterns that are triangulated, metres: larger ones would take too long.
 const WIDEST: f64 = 20.0;
-/// Steps of a recording that are played.
+/// Most steps of a recording that are replayed.
 const MOST_STEPS: usize = 60;
 
-/// Takes a file, or says in words why not.
+/// Reads a file: Ok, or a message why it is refused.
 pub type Read = Box<dyn Fn(&[u8]) -> Result<(), String>>;
 
-/// Something that reads files, and good ones for it.
+/// A reader of files, with valid files for it.
 pub struct Reader {
-    /// Of the format.
+    /// Name of the format.
     pub name: &'static str,
-    /// What its files are made of.
+    /// Structure of the format.
     pub form: Form,
-    /// At least one.
+    /// Valid files, at least one.
     pub good: Vec<Vec<u8>>,
-    /// What takes them.
+    /// The function that reads a file.
     pub read: Read,
 }
 
 impl Reader {
-    /// A reader of `good` files and of damaged ones.
+    /// A reader with its valid files.
     pub fn new(
         name: &'static str,
         form: Form,
@@ -53,7 +53,7 @@ impl Reader {
     }
 }
 
-/// All that take bytes.
+/// All readers.
 pub fn readers() -> Vec<Reader> {
     let pattern = good::pattern();
     let (texts, binaries) = good::gltfs();
@@ -62,7 +62,7 @@ pub fn readers() -> Vec<Reader> {
     let plain = Document { pattern: pattern.clone().into(), ..Document::default() };
     let plain = project_file::to_bytes(&Project { document: plain, dressed: None }).expect("a project");
     let marks = marks_file::write(&good::project().document.marks, &pattern).expect("marks");
-    // The first time it takes as long as a thousand motions.
+    // Warm-up: building the first mannequin takes as long as reading a thousand motions.
     mannequin(&Measurements::default()).expect("the usual one");
     let motions = good::MOTION.as_bytes().to_vec();
     vec![
@@ -157,7 +157,7 @@ fn checked(project: &Project) -> Result<(), String> {
     Ok(())
 }
 
-/// Cuts and sews it, unless it is too large to try.
+/// Triangulates and sews a pattern, unless it is too large.
 fn built(pattern: &Pattern) {
     let points = pattern.pieces.values().flat_map(|piece| piece.outline.iter().map(|edge| edge.start));
     if points.into_iter().all(|p| p.abs().max_element() < WIDEST) {
@@ -166,7 +166,7 @@ fn built(pattern: &Pattern) {
     }
 }
 
-/// Whether building its body takes no longer than reading it.
+/// Whether building the body is fast.
 fn is_quick(document: &Document) -> bool {
     matches!(document.body, BodyChoice::Imported { .. })
 }

@@ -1,5 +1,5 @@
-//! Damage to what formats are made of: values of JSON, lines, chunks of GLB, entries of zips. What holds them together, such
-//! as lengths and sums, is right afterwards, so that the damage gets past the outermost check.
+//! Damage to the structure of formats: values of JSON, lines, chunks of GLB, entries of zips. Lengths and checksums are correct
+//! afterwards, so that the damage gets past the outermost check.
 
 use std::io::{Cursor, Read, Write};
 
@@ -11,30 +11,30 @@ use super::damage::{self, MOST_BYTES};
 use crate::draft::Random;
 use crate::io::glb::container;
 
-/// What a file is made of.
+/// Structure of a format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
     /// Lines, words and numbers.
     Text,
     /// Pairs of lines, a code and a value: DXF.
     Tags,
-    /// One JSON value.
+    /// A single JSON value.
     Json,
-    /// A JSON value a line.
+    /// A JSON value on each line.
     Lines,
-    /// The same, each behind its checksum.
+    /// A JSON value on each line, preceded by its checksum.
     Journal,
-    /// Binary glTF: JSON, then numbers.
+    /// Binary glTF: a JSON chunk, then a chunk of numbers.
     Glb,
-    /// Entries, JSON or numbers.
+    /// Zip with entries of JSON or numbers.
     Zip,
-    /// Nothing that is known.
+    /// Unknown structure.
     Bytes,
 }
 
-/// One change to a file of this form; `other` is another good one.
+/// Makes one random change to a file of structure `form`; `other` is another valid file.
 pub fn change(form: Form, bytes: Vec<u8>, other: &[u8], random: &mut Random) -> Vec<u8> {
-    // The outermost check, too, is tried.
+    // The outermost check is also tested.
     let is_outer = random.chance(0.25);
     match form {
         Form::Tags if !is_outer => tags(bytes, random),
@@ -57,7 +57,7 @@ fn binary(mut bytes: Vec<u8>, random: &mut Random) -> Vec<u8> {
     bytes
 }
 
-/// A value changed, or pairs left out, repeated or in another order; every value stays behind a code.
+/// Changes a code or value of a DXF file, or removes, repeats or reorders pairs; every value stays behind a code.
 fn tags(bytes: Vec<u8>, random: &mut Random) -> Vec<u8> {
     let lines: Vec<&[u8]> = bytes.split(|b| *b == b'\n').collect();
     let mut tags: Vec<[Vec<u8>; 2]> =
@@ -86,7 +86,7 @@ fn tags(bytes: Vec<u8>, random: &mut Random) -> Vec<u8> {
     written
 }
 
-/// One line changed, or lines left out, repeated or in another order.
+/// Changes a line by `change`, or removes, repeats or reorders lines.
 fn line(bytes: Vec<u8>, random: &mut Random, change: fn(Vec<u8>, &mut Random) -> Vec<u8>) -> Vec<u8> {
     let mut lines: Vec<Vec<u8>> = bytes.split(|b| *b == b'\n').map(<[u8]>::to_vec).collect();
     let at = random.below(lines.len());
@@ -102,7 +102,7 @@ fn line(bytes: Vec<u8>, random: &mut Random, change: fn(Vec<u8>, &mut Random) ->
     lines.join(&b'\n')
 }
 
-/// "1234abcd {...}": the sum is that of what it says then.
+/// Changes the JSON of a journal line "1234abcd {...}", and writes the checksum of the result.
 fn summed(bytes: Vec<u8>, random: &mut Random) -> Vec<u8> {
     let json = json(bytes.get(9..).unwrap_or_default().to_vec(), random);
     let mut summed = format!("{:08x} ", crc32fast::hash(&json)).into_bytes();
@@ -110,7 +110,7 @@ fn summed(bytes: Vec<u8>, random: &mut Random) -> Vec<u8> {
     summed
 }
 
-/// One value changed. What is no JSON is changed as a text.
+/// Changes one random value. Bytes that are not JSON are changed as text.
 pub fn json(mut bytes: Vec<u8>, random: &mut Random) -> Vec<u8> {
     let Ok(mut root) = serde_json::from_slice::<Value>(&bytes) else {
         damage::text(&mut bytes, &[], random);
@@ -127,7 +127,7 @@ pub fn json(mut bytes: Vec<u8>, random: &mut Random) -> Vec<u8> {
     }
     let mut written = serde_json::to_vec(&root).unwrap_or_default();
     if random.chance(0.2) {
-        // What a value cannot hold: 1e999, NaN.
+        // Numbers that a JSON value cannot hold, such as 1e999 and NaN.
         damage::number(&mut written, random);
     }
     if written.len() > MOST_BYTES.max(4 * bytes.len()) { bytes } else { written }
@@ -141,7 +141,7 @@ fn size(value: &Value) -> usize {
     }
 }
 
-/// The value that is `nth` when all are counted from the outermost on.
+/// The `nth` value, counted depth first from the outermost.
 fn picked<'a>(value: &'a mut Value, nth: &mut usize) -> Option<&'a mut Value> {
     if *nth == 0 {
         return Some(value);
@@ -244,7 +244,7 @@ fn odd_text(text: &str, random: &mut Random) -> String {
     }
 }
 
-/// JSON or numbers changed, both with the lengths that they have then.
+/// Changes the JSON or the numbers of a GLB file, and corrects the lengths of the chunks.
 fn glb(bytes: Vec<u8>, random: &mut Random) -> Vec<u8> {
     let whole =
         |at: usize| bytes.get(at..at + 4).map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]]) as usize);
@@ -260,7 +260,7 @@ fn glb(bytes: Vec<u8>, random: &mut Random) -> Vec<u8> {
     container(text, numbers).unwrap_or(bytes)
 }
 
-/// One entry changed, taken away or put there, and all packed again.
+/// Changes, removes or adds an entry of a zip, and packs all of them again.
 fn zip(bytes: Vec<u8>, random: &mut Random) -> Vec<u8> {
     let Some(mut entries) = entries(&bytes) else { return binary(bytes, random) };
     let at = random.below(entries.len());
@@ -304,7 +304,7 @@ fn entries(bytes: &[u8]) -> Option<Vec<(String, Vec<u8>)>> {
 fn packed(entries: &[(String, Vec<u8>)]) -> Option<Vec<u8>> {
     let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
     for (name, held) in entries {
-        // Deflate costs more than all that is tried.
+        // Deflating takes longer than all else.
         let method =
             if held.len() > MOST_BYTES { CompressionMethod::Deflated } else { CompressionMethod::Stored };
         zip.start_file(name.as_str(), SimpleFileOptions::default().compression_method(method)).ok()?;

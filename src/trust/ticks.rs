@@ -1,11 +1,11 @@
-//! Sessions on damaged files go on for a while.
+//! Lets sessions run for a few ticks.
 
 use crate::session::Session;
 
-/// Ticks after something was taken.
+/// Most ticks after a file or a command was accepted.
 const MOST_TICKS: usize = 3;
 
-/// A few ticks, after which the cloth must lie where finite points are.
+/// Runs a few ticks, and asserts that all cloth then has finite positions.
 pub fn go_on(session: &mut Session) {
     if let Some(simulation) = session.runner().simulation() {
         (0..MOST_TICKS).take_while(|_| simulation.tick()).for_each(drop);

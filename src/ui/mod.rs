@@ -1,19 +1,19 @@
-//! The window: a pattern pane, a body pane, and everything around them. egui lives here and nowhere else.
+//! The window: a pattern pane, a body pane, and everything around them. egui is used here and nowhere else.
 //!
 //! Panes and panels read the document and push [`actions::asks::Ask`]s; [`App`] alone turns them into commands of the session.
 //!
 //! | folder | holds |
 //! | --- | --- |
 //! | `app` | the window's state, one frame of it, and what every action does |
-//! | `actions` | everything that can be chosen: its words, its keys, when it can be chosen; what panes and panels ask for |
+//! | `actions` | everything that can be chosen: its texts, its keys, when it is enabled; the requests of panes and panels |
 //! | `shell` | menu, toolbar, status bar, command palette, dialogs, messages |
 //! | `panels` | the side panel |
 //! | `pattern_pane`, `body_pane` | the two panes with their tools |
-//! | `maps`, `fit_page` | maps over the cloth; the fit report as a page |
+//! | `maps`, `fit_page` | maps of the cloth; the fit report as a page |
 //! | `scenery` | document and cloth as the buffers that are drawn |
-//! | `files` | files, recent files, small pictures of them |
-//! | `preferences` | what the person prefers, and its page; units |
-//! | `pointer`, `look` | mouse and strokes; colours and signs |
+//! | `files` | files, recent files, thumbnails |
+//! | `preferences` | the user's preferences, and their page; units |
+//! | `pointer`, `look` | mouse and strokes; colours and icons |
 
 pub mod actions;
 pub mod app;

@@ -1,4 +1,4 @@
-//! What is selected of the pattern, and what the pointer is over: seen in both panes, never in the document.
+//! The selection and the hovered item of the pattern. Both panes show them; they are not part of the document.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -7,16 +7,16 @@ use crate::geometry::ids::{PieceId, PinId, SeamId};
 use crate::pattern::edit::PointRef;
 use crate::pattern::{EdgeRef, Pattern};
 
-/// A line drawn inside a piece, by its number from 0.
+/// A reference to an internal line of a piece, by its index from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct LineRef {
     /// The piece.
     pub piece: PieceId,
-    /// Which of its lines.
+    /// Index of the line.
     pub line: usize,
 }
 
-/// What is selected. Kinds may be mixed; tools select of the kind they work on.
+/// The selection. Kinds of items may be mixed; each tool uses those of its kind.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Selection {
     /// Whole pieces.
@@ -29,11 +29,11 @@ pub struct Selection {
     pub lines: BTreeSet<LineRef>,
     /// Seams.
     pub seams: BTreeSet<SeamId>,
-    /// Pins in the dressed cloth: these, or something of the pattern.
+    /// Pins in the dressed cloth. Pins and items of the pattern are never selected together.
     pub pins: BTreeSet<PinId>,
 }
 
-/// One thing of the pattern.
+/// An item of the pattern.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Item {
     Piece(PieceId),
@@ -44,7 +44,7 @@ pub enum Item {
 }
 
 impl Item {
-    /// Whether `pattern` has it.
+    /// Whether `pattern` contains the item.
     pub fn is_in(self, pattern: &Pattern) -> bool {
         let edge = |piece: PieceId, i: usize| pattern.pieces.get(&piece).is_some_and(|p| i < p.edge_count());
         match self {
@@ -60,19 +60,19 @@ impl Item {
 }
 
 impl Selection {
-    /// Just one thing.
+    /// A selection of a single item.
     pub fn of(item: Item) -> Self {
         let mut selection = Self::default();
         selection.toggle(item);
         selection
     }
 
-    /// These pieces.
+    /// A selection of these pieces.
     pub fn of_pieces(pieces: impl IntoIterator<Item = PieceId>) -> Self {
         Self { pieces: pieces.into_iter().collect(), ..Self::default() }
     }
 
-    /// Nothing is selected.
+    /// Whether nothing is selected.
     pub fn is_empty(&self) -> bool {
         let Self { pieces, points, edges, lines, seams, pins } = self;
         let outlines = pieces.is_empty() && points.is_empty() && edges.is_empty();
@@ -90,7 +90,7 @@ impl Selection {
         }
     }
 
-    /// Selects `item`, or no longer.
+    /// Adds `item` to the selection, or removes it.
     pub fn toggle(&mut self, item: Item) {
         fn flip<T: Ord>(set: &mut BTreeSet<T>, x: T) {
             if !set.remove(&x) {
@@ -106,7 +106,7 @@ impl Selection {
         }
     }
 
-    /// After a click on `item`: that alone, or with Shift one more or one less.
+    /// The selection after a click on `item`: the item alone, or with `add` (Shift) the item added or removed.
     pub fn clicked(&self, item: Option<Item>, add: bool) -> Self {
         match item {
             None if add => self.clone(),
@@ -120,7 +120,7 @@ impl Selection {
         }
     }
 
-    /// After a click on a pin: that alone, or with Shift one pin more or one less.
+    /// The selection after a click on a pin: the pin alone, or with `add` (Shift) the pin added or removed.
     pub fn clicked_pin(&self, pin: PinId, add: bool) -> Self {
         let mut pins = if add { self.pins.clone() } else { BTreeSet::new() };
         if !pins.remove(&pin) {
@@ -129,7 +129,7 @@ impl Selection {
         Self { pins, ..Self::default() }
     }
 
-    /// Selected pieces, and those that selected points, edges and lines are of.
+    /// Selected pieces, and the pieces of selected points, edges and lines.
     pub fn pieces_touched(&self) -> BTreeSet<PieceId> {
         let points = self.points.iter().map(|p| p.piece);
         let edges = self.edges.iter().map(|e| e.piece);
@@ -137,12 +137,13 @@ impl Selection {
         self.pieces.iter().copied().chain(points).chain(edges).chain(lines).collect()
     }
 
-    /// Everything that can be seen.
+    /// A selection of everything visible.
     pub fn all(pattern: &Pattern) -> Self {
         Self::of_pieces(pattern.pieces.iter().filter(|(_, p)| !p.hidden).map(|(&id, _)| id))
     }
 
-    /// What is left of it when `old` becomes `new`. Points and edges of a piece whose edges are numbered anew are not.
+    /// Updates the selection when `old` becomes `new`: items that no longer exist are removed, also points and edges of pieces
+    /// whose edges were renumbered.
     pub fn carried(&mut self, old: &Arc<Pattern>, new: &Arc<Pattern>) {
         if Arc::ptr_eq(old, new) {
             return;
@@ -157,7 +158,7 @@ impl Selection {
         self.seams.retain(|id| Item::Seam(*id).is_in(new));
     }
 
-    /// In words, for the status bar and screen readers.
+    /// The selection in words, for the status bar and screen readers.
     pub fn words(&self) -> String {
         let count = |n: usize, one: &str| match n {
             0 => None,

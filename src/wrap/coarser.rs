@@ -1,19 +1,19 @@
-//! Which coarser meshes of a pattern are dressed before the one that is asked for.
+//! Coarser meshes of a pattern, which are dressed before the mesh that is asked for.
 
 use std::sync::Arc;
 
 use crate::cloth::{self, Garment};
 use crate::pattern::Pattern;
 
-/// Edges of the coarsest mesh, metres on a body 1.5 m large: as large as an arm and its hole bear.
+/// Edge length of the coarsest mesh, metres on a body 1.5 m large: the longest that still fits an arm and its armhole.
 const COARSEST: f64 = 0.028;
-/// A mesh is at most this much coarser than the next.
+/// Largest ratio of edge lengths between a mesh and the next finer one.
 const MOST_RATIO: f64 = 2.6;
-/// With fewer edges than this between it and the coarsest a mesh is dressed at once.
+/// Ratio of the coarsest edge length to the wanted one below which a mesh is dressed without coarser ones.
 const LEAST_RATIO: f64 = 1.4;
 
-/// Coarser meshes of `pattern` than `garment` (built at `edge_length` metres), the coarsest last; none when it is coarse
-/// itself. `scale` is the body's.
+/// Coarser meshes of `pattern` than `garment` (built at `edge_length` metres), the coarsest last; none when `garment`
+/// is coarse itself. `scale` is that of the body.
 pub fn coarser(pattern: &Pattern, garment: &Garment, edge_length: f64, scale: f64) -> Vec<Arc<Garment>> {
     let whole = COARSEST * scale / edge_length;
     if whole < LEAST_RATIO {
@@ -28,7 +28,7 @@ pub fn coarser(pattern: &Pattern, garment: &Garment, edge_length: f64, scale: f6
         .collect()
 }
 
-/// Whether nothing was lost by triangulating with longer edges.
+/// Whether two meshes have the same pieces and number of seams, so that coarser triangulation lost nothing.
 fn is_the_same(a: &Garment, b: &Garment) -> bool {
     a.pieces == b.pieces && a.seam_pairs.len() == b.seam_pairs.len()
 }

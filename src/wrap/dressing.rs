@@ -18,45 +18,45 @@ use crate::wrap::plan::{LIGHT_CONTACT, PLANS, Plan};
 use crate::wrap::roots::{PairStretch, Root, roots};
 use crate::wrap::settling::{SETTLE_STEPS, Settling};
 
-/// Over-relaxation of the local passes.
+/// Over-relaxation factor of the local passes.
 const LOCAL_FACTOR: f64 = 1.6;
-/// Rings of vertices round new ones that the local passes move.
+/// Number of rings of vertices round new ones that the local passes move.
 const RINGS: usize = 2;
-/// Global steps after those bands.
+/// Number of global steps after each group of bands, see [`Plan::bands_per_global`].
 const GLOBALS_PER_GROUP: usize = 3;
-/// Global steps between tiers.
+/// Number of global steps between two tiers of growth.
 const TIER_STEPS: usize = 15;
-/// A vertex moves no farther in one global step, metres on a body 1.5 m large.
+/// Largest move of a vertex in one global step, metres on a body 1.5 m large.
 const STEP_CAP: f64 = 0.02;
 /// Weight of contact while the cloth grows and closes: heavy, so that closing seams do not pull it through a limb.
 const GROW_CONTACT: f64 = 0.3;
-/// Marks hold their vertices with this weight while the cloth grows.
+/// Weight by which marks hold their vertices while the cloth grows.
 const HOLD: f64 = 0.3;
-/// And with this one ever after, on edges of [`KEEP_EDGE`], beyond [`LEASH`]: it stops a garment that is too tight where it
-/// lies from creeping off along the body, as friction would if it could wait. Fewer vertices lie along a mark of longer
-/// edges, and the forces of strain grow with them: so it goes by their square.
+/// Weight by which marks hold their vertices after that, beyond [`LEASH`], on a mesh with edges of [`KEEP_EDGE`]. It
+/// stops a garment that is too tight from creeping off along the body, as static friction would. It grows with the
+/// square of the edge length: with longer edges fewer vertices are along a mark, and the forces of strain are larger.
 const KEEP: f64 = 0.001;
-/// So far from where its mark is a vertex may lie freely, metres on a body 1.5 m large.
+/// Distance from its mark's position within which a vertex is free after growth, metres on a body 1.5 m large.
 const LEASH: f64 = 0.03;
-/// See [`KEEP`]; metres on a body 1.5 m large.
+/// Edge length at which the weight is [`KEEP`], metres on a body 1.5 m large.
 const KEEP_EDGE: f64 = 0.0175;
-/// Settling steps before flipped and wrong-sided cloth is turned: by then it roughly lies.
+/// Number of settling steps before flipped cloth and cloth on the wrong side is turned: by then it is roughly in place.
 const UNFOLD_AFTER: usize = 10;
-/// It fades in few steps while the cloth settles, so that the matrix changes seldom.
+/// Factors on [`HOLD`] in the first settling steps. They are few, so that the matrix changes seldom.
 const HOLD_FADE: [f64; 3] = [1.0, 0.3, 0.1];
-/// Settling steps per step of [`HOLD_FADE`].
+/// Number of settling steps for each factor of [`HOLD_FADE`].
 const HOLD_FADE_STEPS: usize = 4;
-/// Steps between two partings of layers that run through each other.
+/// Number of settling steps between two separations of intersecting layers.
 const STEPS_PER_PARTING: usize = 10;
-/// Share of the progress that coarser meshes have.
+/// Fraction of the progress that counts for the coarser meshes.
 const COARSE_PROGRESS: f64 = 0.8;
-/// Edges and faces keep this share of the offset.
+/// Fraction of the offset that edges and faces must keep from the skin.
 const FACE_CLEARANCE: f64 = 0.25;
 
-/// A wrap has failed with more than one fault in this many triangles; fewer faults are mended on finer meshes.
+/// Number of triangles per fault below which a wrap has failed; fewer faults are repaired on finer meshes.
 const TRIANGLES_PER_FAULT: usize = 150;
 
-/// The best of the plans tried so far.
+/// The best result of the plans tried before.
 #[derive(Clone, Debug)]
 struct Attempt {
     faults: usize,
@@ -65,15 +65,15 @@ struct Attempt {
     cloth: ClothState,
 }
 
-/// How far a dressing has come.
+/// Phase of a dressing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Phase {
-    /// Cloth is being laid from the marks outward.
+    /// Cloth is being placed from the marks outward.
     Growing,
-    /// All cloth lies; it is being evened out.
+    /// All cloth is placed and is being relaxed.
     Settling,
-    /// Nothing moves any more.
+    /// The cloth is at rest.
     AtRest,
 }
 
@@ -85,15 +85,15 @@ enum Stage {
     Rest,
 }
 
-/// How marks hold their vertices.
+/// How marks hold their vertices: the weight, and the distance within which they are free.
 #[derive(Clone, Copy, Debug)]
 struct Hold {
     weight: f64,
-    /// Metres.
+    /// Distance from the mark's position within which a vertex is free, metres.
     slack: f64,
 }
 
-/// A wrap under way.
+/// A wrap in progress.
 #[derive(Clone, Debug)]
 pub struct Dressing {
     relaxer: Relaxer,
@@ -105,35 +105,35 @@ pub struct Dressing {
     edge_length: f64,
     to_map: usize,
     mapped: usize,
-    /// Stay where they are once all cloth lies.
+    /// Vertices to be fixed once all cloth is placed.
     pins: Vec<u32>,
-    /// A finer mesh goes on from here: it need not lie quite still.
+    /// Whether a finer mesh continues from the result, so that this one need not come quite to rest.
     draft: bool,
-    /// While this is there, it moves and the cloth follows it.
+    /// The coarser mesh that is dressed first; while it is there, it moves and this cloth follows it.
     coarse: Option<Box<Coarse>>,
-    /// What growth begins with.
+    /// The roots with which growth begins.
     roots: Vec<Root>,
-    /// Which of [`PLANS`] it grows by; none once it came to rest and was found good, or the best of all.
+    /// Index in [`PLANS`] of the plan by which it grows; None once the result was accepted.
     plan: Option<usize>,
-    /// Weight of contact once it roughly lies.
+    /// Weight of contact once the cloth is roughly in place.
     contact: f64,
-    /// The best of the plans before.
+    /// The best result of the plans before.
     best: Option<Box<Attempt>>,
-    /// How long each pair of marks is on both sides.
+    /// Lengths of each pair of marks on cloth and body.
     pub stretches: Vec<PairStretch>,
 }
 
-/// Cloth that is on the body already.
+/// Cloth that is dressed already.
 #[derive(Clone, Copy, Debug)]
 pub struct Dressed<'a> {
-    /// Where it is.
+    /// State of the cloth.
     pub cloth: &'a ClothState,
     /// Pinned vertices.
     pub pins: &'a [u32],
 }
 
 impl Dressed<'_> {
-    /// Vertices that a rewrap from `roots` leaves alone: as far from the marks as the nearest pin, or farther.
+    /// Vertices that a rewrap from `roots` keeps: those at least as far from the marks as the nearest pin.
     fn kept(&self, garment: &Garment, roots: &[Root]) -> Vec<u32> {
         let sources: Vec<(u32, f64)> = roots.iter().map(|root| (root.vertex, root.distance)).collect();
         let far = EdgeMetric::new(garment).from(&sources, |v| self.cloth.mapped[v as usize]).distance;
@@ -143,7 +143,7 @@ impl Dressed<'_> {
     }
 }
 
-/// The same garment in larger triangles, dressed first.
+/// A coarser mesh of the same garment that is dressed first.
 #[derive(Clone, Debug)]
 struct Coarse {
     dressing: Dressing,
@@ -152,9 +152,9 @@ struct Coarse {
 }
 
 impl Dressing {
-    /// Dresses the `coarser` meshes of the same pattern first, the coarsest at the end of the list, and each finer one
-    /// from where the one before lies: what takes a fine mesh hundreds of steps, its long slow swings, a coarse one does in
-    /// a tenth of the time.
+    /// Dresses the `coarser` meshes of the same pattern first, the coarsest being last in the list, and each finer
+    /// mesh from the result of the one before: the slow large motions that take a fine mesh hundreds of steps take a
+    /// coarse one a tenth of the time.
     pub fn coarse_to_fine(
         coarser: &[Arc<Garment>],
         garment: Arc<Garment>,
@@ -179,7 +179,7 @@ impl Dressing {
             problems.push(too_large());
             return (None, state, problems);
         };
-        // What is wrong with a mark was said of the coarsest mesh.
+        // Problems of marks were reported for the coarsest mesh.
         let (held, ..) = roots(&fine.relaxer.garment, &surface, marks, fine.relaxer.offset());
         held.iter().for_each(|root| fine.relaxer.hold(root.vertex, root.position));
         fine.stretches = dressing.stretches.clone();
@@ -187,8 +187,8 @@ impl Dressing {
         (Some(fine), state, problems)
     }
 
-    /// Pastes the cloth round its marks. Problems tell what was left out; with no usable pair of marks nothing is mapped
-    /// and the phase is `AtRest`.
+    /// Starts wrapping the cloth round its marks. Problems tell what was left out; without a usable pair of marks no
+    /// vertex is mapped and the phase is `AtRest`.
     pub fn new(
         garment: Arc<Garment>,
         surface: Arc<Surface>,
@@ -198,8 +198,8 @@ impl Dressing {
         Self::begun(garment, surface, marks, settings, None)
     }
 
-    /// Takes dressed cloth off again and pastes it round `marks` (paper A, "Rewrapping"): all of it that is nearer to them
-    /// than the nearest pin. What lies beyond, and what no edge joins to them, stays where it is.
+    /// Takes dressed cloth off and wraps it again round `marks` (paper A, "Rewrapping"): all cloth nearer to them
+    /// than the nearest pin. Cloth beyond, and cloth that no edge connects with them, stays in place.
     pub fn rewrapped(
         garment: Arc<Garment>,
         surface: Arc<Surface>,
@@ -273,7 +273,7 @@ impl Dressing {
         (Some(dressing), state, problems)
     }
 
-    /// One tick of work on `state`: a band of growth, or an iteration of settling. Same input, same bits.
+    /// One tick of work on `state`: a band of growth, or a settling step. Same input, same bits.
     pub fn step(&mut self, state: &mut ClothState) -> Phase {
         if let Some(coarse) = self.coarse.take() {
             self.follow(state, coarse);
@@ -291,7 +291,7 @@ impl Dressing {
         self.phase()
     }
 
-    /// How far it has come.
+    /// The phase of the dressing.
     pub fn phase(&self) -> Phase {
         if let Some(coarse) = &self.coarse {
             return coarse.dressing.phase();
@@ -303,7 +303,7 @@ impl Dressing {
         }
     }
 
-    /// 0..=1 over growing and settling.
+    /// Progress over growing and settling, 0..=1.
     pub fn progress(&self) -> f64 {
         if let Some(coarse) = &self.coarse {
             return COARSE_PROGRESS * coarse.dressing.progress();
@@ -318,7 +318,7 @@ impl Dressing {
         }
     }
 
-    /// Work done so far.
+    /// Counters of the work done.
     pub fn counters(&self) -> Counters {
         match &self.coarse {
             Some(coarse) => coarse.dressing.counters(),
@@ -326,7 +326,7 @@ impl Dressing {
         }
     }
 
-    /// Cloth that was dressed before, at rest. None when the matrix cannot be factored (out of memory).
+    /// Resumes cloth that was dressed before, at rest. None when the matrix cannot be analysed (out of memory).
     pub fn resumed(
         garment: Arc<Garment>,
         surface: Arc<Surface>,
@@ -338,7 +338,7 @@ impl Dressing {
         Some(Self::lying(relaxer, state))
     }
 
-    /// Cloth at rest that was relaxed by `relaxer`.
+    /// Cloth at rest with its `relaxer`.
     pub fn lying(relaxer: Relaxer, state: &ClothState) -> Self {
         let garment = relaxer.garment.clone();
         let order = Order::new(&garment, &[], &[]);
@@ -364,13 +364,13 @@ impl Dressing {
         }
     }
 
-    /// What relaxes it, once all cloth lies; None while it grows.
+    /// The relaxer, once all cloth is placed; None while it grows.
     pub fn relaxer(&self) -> Option<&Relaxer> {
         let lies = self.coarse.is_none() && matches!(self.stage, Stage::Settle(_) | Stage::Rest);
         lies.then_some(&self.relaxer)
     }
 
-    /// From now on exactly these vertices stay where they are, once all cloth lies.
+    /// Fixes exactly these vertices, once all cloth is placed.
     pub fn fix(&mut self, vertices: &[u32]) {
         self.pins = vertices.to_vec();
         if self.relaxer().is_some() {
@@ -378,14 +378,14 @@ impl Dressing {
         }
     }
 
-    /// What lies settles again.
+    /// Lets placed cloth settle again.
     pub fn settle_again(&mut self) {
         if self.relaxer().is_some() && self.mapped > 0 {
             self.stage = Stage::Settle(Settling::from(SETTLE_STEPS, self.draft));
         }
     }
 
-    /// Relaxes differently from now on; what is at rest settles again.
+    /// Changes the settings of relaxation; cloth at rest settles again.
     pub fn set_settings(&mut self, settings: RelaxSettings) {
         self.relaxer.settings = settings;
         if let Some(coarse) = &mut self.coarse {
@@ -397,7 +397,7 @@ impl Dressing {
         }
     }
 
-    /// A step of the coarser mesh. When it lies, the finer one goes on from there.
+    /// A step of the coarser mesh. When that is at rest, the finer one settles from its result.
     fn follow(&mut self, state: &mut ClothState, mut coarse: Box<Coarse>) {
         let phase = coarse.dressing.step(&mut coarse.cloth);
         coarse.carry.places(&coarse.cloth, state);
@@ -499,7 +499,7 @@ impl Dressing {
             self.relaxer.ease_parting();
         }
         let still = settling.is_still(moved / self.edge_length, || self.relaxer.energy());
-        // Cloth that lies still may cut the body between its vertices, or lie on the wrong side: mend it there and go on.
+        // Resting cloth may cut the body between its vertices, or be on the wrong side: repair it there and go on.
         let mended = still && settling.may_mend() && {
             let clearance = self.relaxer.offset() * FACE_CLEARANCE;
             let wrong = self.relaxer.lift_faces(state, clearance) + self.relaxer.send_wrong_faces(state);
@@ -524,7 +524,8 @@ impl Dressing {
         self.relaxer.global_step(state, step)
     }
 
-    /// Cloth grown by a plan lies still: when it failed, the next plan is tried, and after the last the best of them stays.
+    /// Judges cloth at rest that grew by a plan: if it has too many faults, the next plan is tried, and after the
+    /// last the best result is taken.
     fn judge(&mut self, state: &mut ClothState) {
         let Some(plan) = self.plan.take() else { return };
         let faults = self.relaxer.faults(state);
@@ -548,13 +549,13 @@ impl Dressing {
         }
     }
 
-    /// Back to the roots. None when there is no memory for it.
+    /// Starts again from the roots. None when there is not enough memory.
     fn begin_again(&mut self, state: &mut ClothState) -> Option<()> {
         let (garment, surface) = (self.relaxer.garment.clone(), self.relaxer.surface.clone());
         let mut relaxer = Relaxer::new(garment, surface, self.relaxer.settings)?;
         relaxer.counters = self.relaxer.counters;
         state.mapped.fill(false);
-        // Friction and momentum take a vertex that was at the origin for one just laid.
+        // Friction and momentum take a vertex whose last position is the origin for a new one.
         state.positions.fill(DVec3::ZERO);
         for root in &self.roots {
             state.positions[root.vertex as usize] = root.position;
@@ -574,7 +575,7 @@ impl Dressing {
         PLANS[self.plan.unwrap_or(0)]
     }
 
-    /// Local passes over the cloth round `fresh` vertices.
+    /// Local passes over the placed cloth round the `fresh` vertices.
     fn relax_new(&mut self, state: &mut ClothState, fresh: &[u32]) {
         let garment = self.relaxer.garment.clone();
         let mut near: BTreeSet<u32> = fresh.iter().copied().collect();

@@ -1,4 +1,4 @@
-//! Growth: each unmapped vertex is laid in the planes of the mapped triangles beside it (paper A, Figure 13).
+//! Growth: each unmapped vertex is placed in the planes of the mapped triangles beside it (paper A, Figure 13).
 
 use std::collections::BTreeSet;
 
@@ -9,17 +9,17 @@ use crate::cloth::{ClothState, Garment};
 use crate::geometry::adjacency::NONE;
 use crate::wrap::order::Order;
 
-/// A new vertex is pushed out of the body in steps of this, metres on a body 1.5 m large.
+/// Step by which a new vertex is pushed out of the body, metres on a body 1.5 m large.
 const PUSH_STEP: f64 = 0.003;
 
-/// Vertices ready to be laid, by tier, distance and id.
+/// The front of growth: vertices that can be placed next, sorted by tier, distance and number.
 #[derive(Clone, Debug, Default)]
 pub struct Growth {
     ready: BTreeSet<(u32, u64, u32)>,
 }
 
 impl Growth {
-    /// The ready vertices round what is mapped.
+    /// The front round all mapped vertices.
     pub fn new(garment: &Garment, order: &Order, mapped: &[bool]) -> Self {
         let mut growth = Self::default();
         for v in 0..garment.vertex_count as u32 {
@@ -30,7 +30,7 @@ impl Growth {
         growth
     }
 
-    /// Takes the next ready vertex of `tier` no farther than `limit` metres.
+    /// Takes the next vertex of the front if it is of `tier` and at most `limit` metres away from the start of the tier.
     pub fn pop(&mut self, tier: u32, limit: f64) -> Option<u32> {
         let &next = self.ready.iter().next()?;
         if next.0 != tier || f64::from_bits(next.1) > limit {
@@ -40,12 +40,12 @@ impl Growth {
         Some(next.2)
     }
 
-    /// Tier and distance of the next ready vertex.
+    /// Tier and distance (m) of the next vertex of the front.
     pub fn next(&self) -> Option<(u32, f64)> {
         self.ready.iter().next().map(|&(t, d, _)| (t, f64::from_bits(d)))
     }
 
-    /// Vertex `v` has been mapped: what lies across from it may be ready now.
+    /// Adds to the front what can be placed after vertex `v` was mapped: vertices opposite the edges of its mapped triangles.
     pub fn wake_round(&mut self, garment: &Garment, order: &Order, mapped: &[bool], v: u32) {
         for &t in garment.adjacency.vertex_triangles.of(v) {
             let vs = garment.triangles[t as usize];
@@ -67,11 +67,11 @@ impl Growth {
     }
 }
 
-/// A limb this nearly along an edge (cosine) does not say which way the cloth goes on across it.
+/// Cosine between a limb's axis and an edge above which the axis gives no direction of growth across that edge.
 const ALONG_EDGE: f64 = 0.8;
 
-/// Where `v` goes, as its mapped parent triangles say, out of the body by `offset` metres; the way of its `limb` if it has one.
-/// After `pushes` steps out of the body in vain it goes to the nearest skin.
+/// Position of a new vertex `v` from its mapped parent triangles, at least `offset` metres out of the body. With a
+/// `limb` it grows in that direction. It is pushed out in up to `pushes` steps, and then goes to the nearest skin.
 pub fn placed(
     garment: &Garment,
     surface: &Surface,
@@ -87,7 +87,7 @@ pub fn placed(
     for &t in garment.adjacency.vertex_triangles.of(v) {
         let vs = garment.triangles[t as usize];
         let Some(k) = vs.iter().position(|&w| w == v) else { continue };
-        // The edge across from `v` is the one that starts at the next corner.
+        // The edge opposite `v` is the one that starts at the next corner.
         let parent = garment.adjacency.across[t as usize][(k + 1) % 3];
         if parent == NONE || !garment.triangles[parent as usize].iter().all(|&w| state.mapped[w as usize]) {
             continue;
@@ -113,7 +113,7 @@ pub fn placed(
     (count > 0.0).then(|| pushed_out(surface, sum / count, normals.normalize_or_zero(), offset, pushes))
 }
 
-/// Along the parents' normal, not to the nearest skin: beside an arm that is often the wrong side.
+/// Pushes `p` out of the body along the parents' normal: beside an arm the nearest skin is often the wrong side.
 fn pushed_out(surface: &Surface, p: DVec3, normal: DVec3, offset: f64, pushes: usize) -> DVec3 {
     let step = PUSH_STEP * surface.scale();
     let mut q = p;

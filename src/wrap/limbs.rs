@@ -1,7 +1,7 @@
-//! Sleeves that grow along their limbs.
+//! Growth of sleeves and legs along their limbs.
 //!
-//! Laid in the planes of the cloth before it, what is sewn into an armhole goes on as the trunk's cloth lies there: upward
-//! under the arm, outward on top. Led along the limb that the seam goes round, it becomes a tube about it.
+//! Cloth that continues the planes of the cloth before it leaves an armhole in the direction of the trunk's cloth there:
+//! upward under the arm, outward on top. Guided along the limb inside the seam, it becomes a tube round the limb.
 
 use std::collections::BTreeMap;
 
@@ -14,24 +14,24 @@ use crate::geometry::adjacency::NONE;
 use crate::geometry::ids::PieceId;
 use crate::wrap::order::Order;
 
-/// Which way each part of a tier grows; a part hangs together within its tier: a sleeve, or both legs of trousers.
+/// Directions of growth for each part. A part is connected within its tier: a sleeve, or both legs of trousers.
 #[derive(Clone, Debug, Default)]
 pub struct Limbs {
-    /// The part each vertex belongs to.
+    /// For each vertex the part it belongs to.
     part: Vec<u32>,
     axes: BTreeMap<u32, Axis>,
 }
 
-/// Where on its limb a part has come to.
+/// Where on its limb a part has grown to: a point on the axis of the limb and the direction of growth.
 #[derive(Clone, Copy, Debug)]
 struct Axis {
     at: DVec3,
-    /// Unit, away from the trunk.
+    /// Direction of growth, a unit vector away from the trunk.
     along: DVec3,
 }
 
 impl Limbs {
-    /// The parts of `garment`, grown in `order`.
+    /// The parts of `garment`, which grows in `order`.
     pub fn new(garment: &Garment, order: &Order) -> Self {
         let mut part_of: BTreeMap<PieceId, u32> =
             garment.pieces.iter().zip(0..).map(|(&(id, _), part)| (id, part)).collect();
@@ -52,7 +52,7 @@ impl Limbs {
         Self { part, axes: BTreeMap::new() }
     }
 
-    /// Before a tier is grown: finds the limbs that the seams it grows from go round.
+    /// Finds, before a tier grows, the limbs that the seams from which it grows go round.
     pub fn begin(&mut self, garment: &Garment, surface: &Surface, state: &ClothState) {
         let laid = |t: usize| garment.triangles[t].iter().all(|&v| state.mapped[v as usize]);
         let mut rings: BTreeMap<u32, (DVec3, DVec3, f64)> = BTreeMap::new();
@@ -69,7 +69,7 @@ impl Limbs {
                 };
                 let (a, b) = (state.positions[vs[k] as usize], state.positions[vs[(k + 1) % 3] as usize]);
                 let ring = rings.entry(self.part[new as usize]).or_default();
-                // Seen from outside the hole's border runs the other way round than that of the cloth.
+                // Seen from outside, the border of the hole runs the opposite way to that of the cloth.
                 ring.0 += b.cross(a);
                 ring.1 += (a + b) * 0.5;
                 ring.2 += 1.0;
@@ -84,7 +84,7 @@ impl Limbs {
             .collect();
     }
 
-    /// Every part grows on by `step` metres.
+    /// Moves the axes of all parts on by `step` metres along their limbs.
     pub fn advance(&mut self, surface: &Surface, step: f64) {
         for axis in self.axes.values_mut() {
             let ahead = axis.at + axis.along * step;
@@ -94,13 +94,13 @@ impl Limbs {
         }
     }
 
-    /// Which way the cloth round `vertex` grows; none when it goes round no limb.
+    /// Direction of growth at `vertex`, a unit vector; None when its part goes round no limb.
     pub fn along(&self, vertex: u32) -> Option<DVec3> {
         self.axes.get(self.part.get(vertex as usize)?).map(|axis| axis.along)
     }
 }
 
-/// The middle of the body's section through `at` across `along` that holds `at`; none when `at` is in no section.
+/// Centre of the part of the body's section through `at`, perpendicular to `along`, that encloses `at`; None when no part does.
 fn limb_centre(surface: &Surface, at: DVec3, along: DVec3) -> Option<DVec3> {
     let (x, y) = along.any_orthonormal_pair();
     let flat = |p: &DVec3| DVec2::new((*p - at).dot(x), (*p - at).dot(y));
@@ -123,7 +123,7 @@ fn holds_origin(points: &[DVec2]) -> bool {
     sides(points).filter(|&side| crosses(side)).count() % 2 == 1
 }
 
-/// Of the area inside.
+/// Centroid of the area inside a polygon.
 fn centroid(points: &[DVec2]) -> Option<DVec2> {
     let (sum, area) = sides(points).fold((DVec2::ZERO, 0.0), |(sum, area), (a, b)| {
         let twice = a.perp_dot(b);

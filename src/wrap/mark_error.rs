@@ -1,4 +1,4 @@
-//! How far cloth marks have come to lie from their partners.
+//! Errors of marks: distances between cloth marks and their partners on the body.
 
 use glam::{DVec2, DVec3};
 
@@ -7,22 +7,22 @@ use crate::cloth::{ClothState, FlatPiece, Garment};
 use crate::wrap::Marks;
 use crate::wrap::roots::{Stroke, lifted};
 
-/// Points compared on each pair, ends included.
+/// Number of points compared on each pair of marks, ends included.
 const SAMPLES: usize = 51;
 
-/// Distances between points of cloth marks and the points of their partners at the same fraction of their length, at the
-/// offset above the skin; metres.
+/// Distances, metres, between points of cloth marks and points of their partners (raised to the offset above the
+/// skin) at the same fraction of their length.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct MarkError {
-    /// How many points were compared: points of marks that lie on cloth that lies on the body.
+    /// Number of points compared: those of marks on cloth that is placed.
     pub points: usize,
-    /// Their mean distance.
+    /// Mean distance, metres.
     pub mean: f64,
-    /// The largest.
+    /// Largest distance, metres.
     pub max: f64,
 }
 
-/// The error of all pairs of `marks` on a garment that lies `offset` metres above the skin.
+/// The error of all pairs of `marks` on a garment `offset` metres above the skin.
 pub fn mark_error(
     garment: &Garment,
     state: &ClothState,

@@ -1,4 +1,4 @@
-//! Numbered strokes on cloth and body. The n-th on the cloth meets the n-th on the body.
+//! Marks: numbered strokes on cloth and body. The n-th on the cloth is laid on the n-th on the body.
 
 use std::collections::BTreeMap;
 
@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::geometry::ids::{MarkId, PieceId};
 
-/// Which side of the cloth a stroke was painted on.
+/// Side of the cloth on which a stroke was painted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ClothSide {
@@ -21,11 +21,11 @@ pub enum ClothSide {
 /// A stroke on a piece.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ClothMark {
-    /// Its id; its number is its place in the list, from 1.
+    /// Id. The number of the stroke is its position in the list, from 1.
     pub id: MarkId,
-    /// The piece it lies on.
+    /// The piece that the stroke is on.
     pub piece: PieceId,
-    /// The side it was painted on.
+    /// The side on which the stroke was painted.
     #[serde(default)]
     pub side: ClothSide,
     /// Polyline in the piece's own plane, metres; at least one point.
@@ -35,7 +35,7 @@ pub struct ClothMark {
 /// A stroke on the body.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BodyMark {
-    /// Its id; its number is its place in the list, from 1.
+    /// Id. The number of the stroke is its position in the list, from 1.
     pub id: MarkId,
     /// Polyline on the body's surface, metres; at least one point.
     pub points: Vec<DVec3>,
@@ -44,33 +44,33 @@ pub struct BodyMark {
 /// All strokes, in painting order.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Marks {
-    /// On the cloth.
+    /// Strokes on the cloth.
     pub cloth: Vec<ClothMark>,
-    /// On the body.
+    /// Strokes on the body.
     pub body: Vec<BodyMark>,
-    /// Names people gave to strokes; one without a name is not in it.
+    /// Names that people gave to strokes; strokes without a name are not listed.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub names: BTreeMap<MarkId, String>,
-    /// How each point of a stroke on the body is tied to the body's skin. Told by the session; a stroke that came from
+    /// For strokes on the body how each of their points is bound to the skin. Set by the session; a stroke from
     /// elsewhere has none until it is needed.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub ties: BTreeMap<MarkId, Vec<Tie>>,
 }
 
-/// Where a point lies on a body, so that it can be found again when the body moves or another takes its place.
+/// Binding of a point to the skin of a body, by which it is found again when the body moves or is replaced.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Tie {
-    /// The body's triangle.
+    /// Triangle of the body's mesh.
     pub triangle: u32,
-    /// Barycentric weights of its corners.
+    /// Barycentric coordinates in that triangle.
     pub weights: DVec3,
-    /// The named point it stands for, if it is near one.
+    /// The landmark that the point stands for, if it is near one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub landmark: Option<String>,
 }
 
 impl Marks {
-    /// Only the pairs with these numbers (from 1), in their order; all of them when there is none.
+    /// Only the pairs with these numbers (from 1), in their order; all strokes when `numbers` is empty.
     pub fn only(&self, numbers: &[usize]) -> Self {
         if numbers.is_empty() {
             return self.clone();
@@ -100,12 +100,12 @@ impl Marks {
         self.names.get(&mark).map_or("", String::as_str)
     }
 
-    /// The first landmark a stroke on the body passes.
+    /// The first landmark that a stroke on the body passes, if any.
     pub fn landmark(&self, mark: MarkId) -> Option<&str> {
         self.ties.get(&mark)?.iter().find_map(|tie| tie.landmark.as_deref())
     }
 
-    /// Where a stroke stands: whether on the cloth, its number from 1, and how many strokes that side has.
+    /// Position of a stroke in its list: its side, its number from 1, and the number of strokes on that side.
     pub fn place(&self, mark: MarkId) -> Option<MarkPlace> {
         let [cloth, body] =
             [self.cloth.iter().position(|m| m.id == mark), self.body.iter().position(|m| m.id == mark)];
@@ -114,7 +114,7 @@ impl Marks {
         Some(MarkPlace { on_cloth, number: cloth.or(body)? + 1, count })
     }
 
-    /// Forgets what is told of strokes that are gone.
+    /// Drops names and bindings of strokes that no longer exist.
     pub fn prune(&mut self) {
         let ids: Vec<MarkId> = self.ids().collect();
         self.names.retain(|id, _| ids.contains(id));
@@ -122,14 +122,14 @@ impl Marks {
     }
 }
 
-/// Where a stroke stands among the others.
+/// Position of a stroke in its list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MarkPlace {
-    /// On the cloth, not on the body.
+    /// Whether the stroke is on the cloth, not on the body.
     pub on_cloth: bool,
-    /// From 1.
+    /// Number of the stroke, from 1.
     pub number: usize,
-    /// How many strokes its side has.
+    /// Number of strokes on the same side.
     pub count: usize,
 }
 

@@ -1,4 +1,4 @@
-//! Paper A: marks, root edges, growth.
+//! Paper A's wrap: marks, root edges, growth, settling.
 
 pub mod coarser;
 pub mod dressing;

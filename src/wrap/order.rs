@@ -1,4 +1,4 @@
-//! In which order cloth is laid: pieces with marks first, then those sewn to them, and so on; within a tier by distance.
+//! Order of growth: pieces with marks first, then those sewn to them, and so on (tiers); within a tier by distance.
 
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap, VecDeque};
@@ -7,24 +7,24 @@ use crate::cloth::Garment;
 use crate::geometry::ids::PieceId;
 use crate::wrap::roots::Root;
 
-/// When each vertex's turn comes.
+/// Order in which vertices are placed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Order {
-    /// The tier of each vertex: the lowest of its pieces'. [`UNREACHED`] where no seam leads to a mark.
+    /// For each vertex its tier, the lowest of its pieces; [`UNREACHED`] where no seam leads to a mark.
     pub tier: Vec<u32>,
-    /// Within its tier: for tier 0 the mesh distance to the nearest mark, else to the seams with earlier tiers; metres.
+    /// For each vertex its distance over the mesh, metres: in tier 0 to the nearest mark, else to the seams with earlier tiers.
     pub distance: Vec<f64>,
-    /// How many tiers there are.
+    /// Number of tiers.
     pub tiers: u32,
-    /// The tier of each piece.
+    /// For each piece its tier.
     pub piece_tier: BTreeMap<PieceId, u32>,
 }
 
-/// No seam leads from a mark to it.
+/// Tier of pieces and vertices to which no seam leads from a mark.
 pub const UNREACHED: u32 = u32::MAX;
 
 impl Order {
-    /// The order of growth from `roots`.
+    /// The order of growth from `roots`; `marked` are the pieces with marks.
     pub fn new(garment: &Garment, roots: &[Root], marked: &[PieceId]) -> Self {
         let piece_tier = piece_tiers(garment, marked);
         let mut tier = vec![UNREACHED; garment.vertex_count];
@@ -90,7 +90,7 @@ fn piece_tiers(garment: &Garment, marked: &[PieceId]) -> BTreeMap<PieceId, u32> 
     tiers
 }
 
-/// Dijkstra over the flat edges of the pieces of one tier.
+/// Distances within one tier: Dijkstra over the rest lengths of edges in its pieces.
 fn spread(
     garment: &Garment,
     piece_tier: &BTreeMap<PieceId, u32>,
@@ -100,7 +100,7 @@ fn spread(
     distance: &mut [f64],
 ) {
     let mut best: BTreeMap<u32, f64> = BTreeMap::new();
-    // Distances are positive: their bits sort as they do.
+    // Distances are not negative, so that their bits sort as they do.
     let mut queue = BinaryHeap::new();
     for &(v, d) in sources {
         if best.get(&v).is_none_or(|&b| d < b) {

@@ -1,4 +1,4 @@
-//! The pieces of a pattern where its file placed them round a body.
+//! Pieces of a pattern at the placements that its file gives them round a body, and how the garment is anchored.
 
 use std::collections::BTreeMap;
 
@@ -8,20 +8,20 @@ use crate::geometry::ids::PieceId;
 use crate::geometry::polygon::contains;
 use crate::pattern::{CutPattern, EdgeRef, Piece, SpacePose};
 
-/// Pieces whose outer side looks this far (cosine) to the front or back are candidates for marks.
+/// Cosine between a piece's outward normal and the front or back direction above which the piece may get marks.
 const FRONT_OR_BACK: f64 = 0.7;
-/// A piece that comes this near to the plane between left and right belongs to the trunk, metres.
+/// Distance from the plane between left and right within which a piece belongs to the trunk, metres.
 const AT_THE_MIDDLE: f64 = 0.08;
-/// What reaches as high as the highest, but for so much, is uppermost with it, metres.
+/// Height below the highest within which something counts as uppermost too, metres.
 const AS_HIGH: f64 = 0.1;
-/// Seams that climb less than this cosine lie across, those that climb more than its complement run up and down.
+/// Cosine between a seam and the vertical: smaller ones run across, larger ones up and down.
 const ACROSS: f64 = 0.6;
 
-/// A point this near an edge lies on it, metres.
+/// Distance within which a point is on an edge, metres.
 const AT_AN_EDGE: f64 = 1e-3;
-/// So far under an upper edge is the piece, metres.
+/// Distance below an upper edge at which a point is tested to be on the piece, metres.
 const UNDER: f64 = 5e-3;
-/// Straight pieces that an edge is looked at as.
+/// Number of straight segments by which an edge is approximated.
 const EDGE_SAMPLES: u32 = 16;
 
 #[derive(Clone)]
@@ -29,9 +29,9 @@ pub(super) struct Panel<'a> {
     pub id: PieceId,
     pub piece: &'a Piece,
     pub pose: SpacePose,
-    /// How far above where the file placed it that is, metres.
+    /// Height by which `pose` is above the placement in the file, metres.
     pub lifted: f64,
-    /// Unit, the way its outer side looks.
+    /// Normal of the piece's outer side, a unit vector.
     pub normal: DVec3,
     pub outline: Vec<DVec2>,
 }
@@ -49,7 +49,7 @@ impl Panel<'_> {
         self.pose.rotation * p.extend(0.0) + self.pose.translation
     }
 
-    /// The direction `d` in the piece's own plane, unit; none when it stands across it.
+    /// The direction `d` projected to the piece's own plane, a unit vector; None when it is perpendicular to that.
     pub fn flat(&self, d: DVec3) -> Option<DVec2> {
         let d = self.pose.rotation.inverse() * d;
         DVec2::new(d.x, d.y).try_normalize()
@@ -59,7 +59,7 @@ impl Panel<'_> {
         self.outline.iter().map(|&p| self.world(p).y).fold(f64::NEG_INFINITY, f64::max)
     }
 
-    /// From where to where it reaches between right and left in the world, metres.
+    /// Smallest and largest x of the piece in the world, metres.
     pub fn reach(&self) -> (f64, f64) {
         let xs = self.outline.iter().map(|&p| self.world(p).x);
         (xs.clone().fold(f64::INFINITY, f64::min), xs.fold(f64::NEG_INFINITY, f64::max))
@@ -70,15 +70,16 @@ impl Panel<'_> {
         sides().any(|x| x < AT_THE_MIDDLE) && sides().any(|x| x > -AT_THE_MIDDLE)
     }
 
-    /// The longest run of the piece along `along` (unit, in its plane) at `at` metres across it.
+    /// The longest segment of the line in direction `along` (unit, in the piece's plane), `at` metres across it, that
+    /// is on the piece.
     pub fn run(&self, along: DVec2, at: f64) -> Option<(DVec2, DVec2)> {
         self.runs(along, at).into_iter().max_by(|a, b| a.0.distance(a.1).total_cmp(&b.0.distance(b.1)))
     }
 
-    /// Every run of the piece along `along` at `at` metres across it, in order.
+    /// All segments on the piece of the line in direction `along`, `at` metres across it, in order.
     fn runs(&self, along: DVec2, at: f64) -> Vec<(DVec2, DVec2)> {
         let across = along.perp();
-        // Aside of the outline's own corners.
+        // Avoid passing exactly through corners of the outline.
         let at = at + 1e-5;
         let mut cuts: Vec<f64> = (0..self.outline.len())
             .filter_map(|i| {
@@ -92,8 +93,8 @@ impl Panel<'_> {
         cuts.chunks_exact(2).map(|c| (point(c[0]), point(c[1]))).collect()
     }
 
-    /// The place `depth` under the upper border at `x` metres of the world, or half way down where that is nearer; none
-    /// where one of the `sewn` edges is uppermost.
+    /// The point `depth` metres under the upper border at the given `x` (m) of the world, or half way down where the
+    /// piece is shorter. None where one of the `sewn` edges is uppermost.
     pub fn under_top(&self, x: f64, depth: f64, sewn: &[EdgeRef]) -> Option<DVec2> {
         let up = self.flat(DVec3::Y)?;
         let right = self.flat(DVec3::X)?;
@@ -105,12 +106,12 @@ impl Panel<'_> {
         Some(high - up * depth.min((high - low).length() / 2.0))
     }
 
-    /// Whether edge `edge` passes `p`.
+    /// Whether edge `edge` passes within [`AT_AN_EDGE`] of `p`.
     fn is_near(&self, edge: usize, p: DVec2) -> bool {
         edge_places(self, edge).windows(2).any(|w| distance_to(p, w[0].0, w[1].0) < AT_AN_EDGE)
     }
 
-    /// The horizontal runs at height `y` of the world, from right to left.
+    /// Horizontal segments on the piece at height `y` of the world, from right to left.
     pub fn level(&self, y: f64) -> Vec<(DVec2, DVec2)> {
         let (Some(along), Some(up)) = (self.flat(DVec3::X), self.flat(DVec3::Y)) else { return Vec::new() };
         let rise = (self.pose.rotation * up.extend(0.0)).y;
@@ -119,14 +120,14 @@ impl Panel<'_> {
     }
 }
 
-/// Whether a run of `panel` ends at one of its edges among `edges`, or it has none among them.
+/// Whether one of `runs` ends at an edge of `panel` among `edges`; also true when it has none among them.
 pub(super) fn ends_at(panel: &Panel, edges: &[EdgeRef], runs: &[(DVec2, DVec2)]) -> bool {
     let mut own = edges.iter().filter(|e| e.piece == panel.id).peekable();
     own.peek().is_none()
         || own.any(|e| runs.iter().any(|&(a, b)| panel.is_near(e.edge, a) || panel.is_near(e.edge, b)))
 }
 
-/// Of the runs of `panel`, from right to left, those between its sides: what lies beyond an edge among `sides` is a sleeve.
+/// The `runs` of `panel` (from right to left) between its side seams: what is beyond an edge among `sides` is a sleeve.
 pub(super) fn between_sides(
     panel: &Panel,
     sides: &[EdgeRef],
@@ -156,13 +157,13 @@ fn is_elsewhere(piece: &Piece) -> bool {
     ["sleeve", "hood", "cuff", "collar", "skirt", "pant", "leg"].iter().any(|w| name.contains(w))
 }
 
-/// Pieces that lead over the shoulders from front to back: sleeves that reach up to the neck, straps, yokes.
+/// Whether a piece leads over the shoulder from front to back, by its label or name: raglan sleeve, strap, yoke.
 fn leads_over(piece: &Piece) -> bool {
     let name = piece.name.to_lowercase();
     piece.label.as_deref() == Some("arm") || ["sleeve", "strap", "yoke"].iter().any(|w| name.contains(w))
 }
 
-/// Where a panel of the trunk comes to the top of a shoulder.
+/// Where a panel of the trunk reaches the top of a shoulder.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Crest {
     /// The panel.
@@ -172,14 +173,15 @@ pub(super) struct Crest {
 
 #[derive(Clone, Copy, Debug)]
 enum CrestAt {
-    /// At this edge, the shoulder seam.
+    /// At an edge, the shoulder seam.
     Edge(usize),
-    /// So far above the place where another piece leads on over the shoulder, metres.
+    /// Above a point at which another piece continues over the shoulder, by a height in metres.
     Above(DVec3, f64),
 }
 
 impl Crest {
-    /// Where that is as `panel` was placed, flat on, no farther than `limit` metres from the plane between left and right.
+    /// Position of the crest on `panel` as placed flat, metres, no farther than `limit` metres from the plane between
+    /// left and right.
     pub fn within(&self, panel: &Panel, limit: f64) -> Option<DVec3> {
         match self.at {
             CrestAt::Edge(edge) => edge_within(panel, edge, limit),
@@ -188,15 +190,15 @@ impl Crest {
     }
 }
 
-/// What of a garment is best anchored, and how it hangs there.
+/// The panels by which a garment is anchored to the body, and how.
 pub(super) enum Anchor<'a> {
-    /// Its trunk hangs from the shoulders, by the seams that run over them or by what leads over them.
+    /// Panels of the trunk that hang from the shoulders, by shoulder seams or by pieces that lead over the shoulders.
     Shoulders(Vec<Panel<'a>>, Vec<Crest>),
-    /// Its topmost ring holds where it is too tight to slide farther down.
+    /// Panels of the topmost ring, which holds where it is too tight to slide farther down.
     Ring(Vec<Panel<'a>>),
 }
 
-/// The anchor of a placed garment.
+/// The anchor of a garment with placed pieces.
 pub(super) fn anchor(pattern: &CutPattern) -> Anchor<'_> {
     let placed = placed_panels(pattern);
     let panels: Vec<Panel> = placed.iter().filter(|p| p.facing()).cloned().collect();
@@ -209,7 +211,7 @@ pub(super) fn anchor(pattern: &CutPattern) -> Anchor<'_> {
             })
         })
         .collect();
-    // Only what lies at the top is a shoulder; a seam between the legs also runs across.
+    // Only seams at the top are shoulder seams; a seam between the legs also runs across.
     let height = |sides: &[EdgeRef; 2]| edge_middle(by_id[&sides[0].piece], sides[0].edge).y;
     let highest = shoulders.iter().map(height).fold(f64::NEG_INFINITY, f64::max);
     let shoulders: Vec<[EdgeRef; 2]> =
@@ -232,18 +234,18 @@ pub(super) fn anchor(pattern: &CutPattern) -> Anchor<'_> {
     Anchor::Ring(middle.into_iter().filter(|p| p.top() > top - AS_HIGH).collect())
 }
 
-/// The upper end of what sews a panel of the trunk to a piece that leads over the shoulder.
+/// Upper end of the seam between a panel of the trunk and a piece that leads over the shoulder.
 struct Lead<'a> {
     trunk: &'a Panel<'a>,
     over: PieceId,
-    /// In the world as the trunk's panel was placed.
+    /// Position in the world with the trunk's panel as placed, metres.
     end: DVec3,
-    /// In the plane of the piece that leads over.
+    /// The same point in the plane of the piece that leads over.
     flat: DVec2,
 }
 
-/// Where panels of the trunk that have no shoulder seam come to the shoulders: half way over the piece, or to the seam of the
-/// two, that leads on from one before the body to one behind it.
+/// Crests of panels of the trunk that have no shoulder seam: half way over the piece that leads from the front panel
+/// to the back one, or at the seam of the two pieces that do.
 fn led_over(pattern: &CutPattern, placed: &[Panel]) -> Vec<Crest> {
     let by_id: BTreeMap<PieceId, &Panel> = placed.iter().map(|p| (p.id, p)).collect();
     let mut leads: BTreeMap<(PieceId, PieceId), Lead> = BTreeMap::new();
@@ -275,8 +277,8 @@ fn led_over(pattern: &CutPattern, placed: &[Panel]) -> Vec<Crest> {
     crests
 }
 
-/// How far it is from the trunk in front and from that behind to the top of the shoulder, metres; None where nothing leads
-/// from the one to the other.
+/// Distances from the front and the back panel to the top of the shoulder over the pieces that lead over it, metres.
+/// None where nothing connects the two.
 fn ways_over(pattern: &CutPattern, front: &Lead, back: &Lead) -> Option<[f64; 2]> {
     if front.over == back.over {
         return Some([front.flat.distance(back.flat) / 2.0; 2]);
@@ -288,7 +290,7 @@ fn ways_over(pattern: &CutPattern, front: &Lead, back: &Lead) -> Option<[f64; 2]
     ways.min_by(|a, b| (a[0] + a[1]).total_cmp(&(b[0] + b[1])))
 }
 
-/// Every seam of two outlines, each way: the one piece, the other, and the ends of the seam on both.
+/// Every seam between two outlines, in both directions: the one piece, the other, and the ends of the seam on both.
 fn paired_ends(pattern: &CutPattern) -> impl Iterator<Item = (PieceId, PieceId, [[DVec2; 2]; 2])> {
     pattern.edge_seams().flat_map(|seam| {
         let ends = seam.sides.map(|side| {
@@ -304,7 +306,7 @@ fn paired_ends(pattern: &CutPattern) -> impl Iterator<Item = (PieceId, PieceId, 
     })
 }
 
-/// Seams from a piece before the body to one behind it.
+/// Seams between a piece in front of the body and one behind it.
 fn front_to_back<'a>(
     pattern: &'a CutPattern,
     by_id: &'a BTreeMap<PieceId, &Panel>,
@@ -316,27 +318,27 @@ fn front_to_back<'a>(
     })
 }
 
-/// The edges by which `panels` are sewn together at the sides, front to back, with their pieces.
+/// The edges of side seams: by which `panels` in front and behind are sewn together, running up and down.
 pub(super) fn sides(pattern: &CutPattern, panels: &[Panel]) -> Vec<EdgeRef> {
     let by_id: BTreeMap<PieceId, &Panel> = panels.iter().map(|p| (p.id, p)).collect();
     front_to_back(pattern, &by_id).flatten().filter(|s| climb(by_id[&s.piece], s.edge) > ACROSS).collect()
 }
 
-/// The upper edge of a panel on one side of the body, as far as it is sewn to a panel on the other side.
+/// The part of a panel's upper edge on one side of the body that is sewn to a panel on the other side (front or back).
 pub(super) struct Over<'a> {
     pub panel: &'a Panel<'a>,
-    /// From the middle of the body outward: in the panel's plane, and in the world.
+    /// Points from the middle of the body outward: in the panel's plane, and in the world.
     pub points: Vec<(DVec2, DVec3)>,
 }
 
 impl Over<'_> {
-    /// How far from the plane between left and right it ends, metres.
+    /// Distance of its outer end from the plane between left and right, metres.
     pub fn reach(&self) -> f64 {
         self.points.last().map_or(0.0, |(_, p)| p.x.abs())
     }
 }
 
-/// What of `panels` lies over the shoulders, and over the arms where it is cut in one with its sleeves.
+/// The upper edges of `panels` over the shoulders, and over the arms where sleeves are cut in one with them.
 pub(super) fn over<'a>(pattern: &CutPattern, panels: &'a [Panel<'a>]) -> Vec<Over<'a>> {
     let by_id: BTreeMap<PieceId, &Panel> = panels.iter().map(|p| (p.id, p)).collect();
     let edges: Vec<EdgeRef> = front_to_back(pattern, &by_id).flatten().collect();
@@ -354,7 +356,7 @@ pub(super) fn over<'a>(pattern: &CutPattern, panels: &'a [Panel<'a>]) -> Vec<Ove
     found
 }
 
-/// Whether the panel lies under that edge, not over it.
+/// Whether the panel is below the edge and not above it.
 fn is_upper(panel: &Panel, edge: usize) -> bool {
     let places = edge_places(panel, edge);
     let (Some(up), Some((middle, _))) = (panel.flat(DVec3::Y), places.get(places.len() / 2)) else {
@@ -363,13 +365,13 @@ fn is_upper(panel: &Panel, edge: usize) -> bool {
     contains(&panel.outline, *middle - up * UNDER) && !contains(&panel.outline, *middle + up * UNDER)
 }
 
-/// All edges by which `panels` are sewn to one another.
+/// The edges of all seams among `panels`.
 pub(super) fn seams_among(pattern: &CutPattern, panels: &[Panel]) -> Vec<EdgeRef> {
     let has = |s: &EdgeRef| panels.iter().any(|p| p.id == s.piece && s.edge < p.piece.outline.len());
     pattern.edge_seams().map(|s| s.sides).filter(|sides| sides.iter().all(has)).flatten().collect()
 }
 
-/// Cosine between an edge and the vertical.
+/// Cosine of the angle between an edge and the vertical.
 fn climb(panel: &Panel, edge: usize) -> f64 {
     let (a, b) = panel.piece.edge_ends(edge);
     (panel.world(b) - panel.world(a)).normalize_or_zero().y.abs()
@@ -379,8 +381,8 @@ fn edge_middle(panel: &Panel, edge: usize) -> DVec3 {
     panel.piece.edge_points(edge, &[0.5]).first().map_or(DVec3::ZERO, |&p| panel.world(p))
 }
 
-/// The place on an edge nearest to its middle that is no farther than `limit` metres from the plane between left and right;
-/// else its innermost.
+/// The point of an edge nearest to its middle that is no farther than `limit` metres from the plane between left and
+/// right; else its innermost point.
 fn edge_within(panel: &Panel, edge: usize, limit: f64) -> Option<DVec3> {
     let points: Vec<DVec3> = edge_places(panel, edge).into_iter().map(|(_, p)| p).collect();
     let middle = points.get(points.len() / 2)?;
@@ -388,13 +390,13 @@ fn edge_within(panel: &Panel, edge: usize, limit: f64) -> Option<DVec3> {
     points.iter().copied().min_by(|a, b| (a.x.abs() - wanted).abs().total_cmp(&(b.x.abs() - wanted).abs()))
 }
 
-/// Evenly along an edge, in the panel's plane and in the world.
+/// Points at even fractions of an edge: in the panel's plane, and in the world.
 fn edge_places(panel: &Panel, edge: usize) -> Vec<(DVec2, DVec3)> {
     let fractions: Vec<f64> = (0..=EDGE_SAMPLES).map(|k| f64::from(k) / f64::from(EDGE_SAMPLES)).collect();
     panel.piece.edge_points(edge, &fractions).into_iter().map(|p| (p, panel.world(p))).collect()
 }
 
-/// How broad those pieces are `depth` metres under their tops that look sideways and reach as high as `panels`, metres.
+/// Widths, `depth` metres under their tops, of pieces that face sideways and reach as high as `panels`, metres.
 pub(super) fn besides(pattern: &CutPattern, panels: &[Panel], depth: f64) -> impl Iterator<Item = f64> {
     let top = panels.iter().map(Panel::top).fold(f64::NEG_INFINITY, f64::max);
     let broad = move |panel: Panel| -> Option<f64> {
@@ -431,7 +433,8 @@ fn placed_panels(pattern: &CutPattern) -> Vec<Panel<'_>> {
         .collect()
 }
 
-/// How far up each piece goes so that seams lie at one height: least squares, held lightly to the file's placement.
+/// For each piece how far it is raised so that its seams are at one height, metres: a least squares fit, weakly held
+/// to the placement in the file.
 fn seam_shifts(pattern: &CutPattern) -> BTreeMap<PieceId, f64> {
     let mut equations: Vec<(PieceId, PieceId, f64, f64)> = Vec::new();
     let fractions: Vec<f64> = (0..=8).map(|k| f64::from(k) / 8.0).collect();

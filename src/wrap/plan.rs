@@ -1,29 +1,30 @@
-//! Ways to grow the same marks.
+//! Plans: alternative parameters for growing from the same marks.
 
-/// See [`Plan::contact`].
+/// Light weight of contact, see [`Plan::contact`].
 pub(super) const LIGHT_CONTACT: f64 = 0.03;
-/// See [`Plan::contact`].
+/// Heavy weight of contact, see [`Plan::contact`].
 const HEAVY_CONTACT: f64 = 0.1;
 
-/// A way to grow. How cloth falls round a limb depends on small things: what fails one way goes well another.
+/// Parameters of growth. How cloth falls round a limb depends on small things: where one plan fails another succeeds.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Plan {
-    /// Local passes after each band of growth (ALGORITHMS.md 8.1).
+    /// Number of local passes after each band of growth (ALGORITHMS.md 8.1).
     pub local_passes: usize,
-    /// Bands between global steps.
+    /// Number of bands between groups of global steps.
     pub bands_per_global: usize,
-    /// Steps by which a new vertex is pushed out of the body before it goes to the nearest skin.
+    /// Number of steps by which a new vertex is pushed out of the body before it goes to the nearest skin.
     pub pushes: usize,
-    /// Layers that grow into each other are parted at once, not only when all cloth lies: deep folds need it.
+    /// Whether layers that intersect while growing are separated at once, and not only when all cloth is placed: deep
+    /// folds need it.
     pub part: bool,
-    /// Later tiers grow along the limbs that their seams go round.
+    /// Whether later tiers grow along the limbs that their seams go round.
     pub along_limbs: bool,
-    /// Weight of contact once the cloth roughly lies, on this mesh and the finer ones. Light, it slides to where it is least
-    /// strained; heavy, what is too tight does not slip through a limb.
+    /// Weight of contact once the cloth is roughly in place, on this mesh and finer ones. A light one lets cloth
+    /// slide to where it is least strained; a heavy one keeps tight cloth from slipping through a limb.
     pub contact: f64,
 }
 
-/// The quickest first; what needs the next is found out on the coarsest mesh.
+/// The plans in the order in which they are tried, the quickest first; they are tried on the coarsest mesh.
 pub(super) const PLANS: [Plan; 8] = [
     PLAIN,
     Plan { part: true, ..PLAIN },

@@ -11,41 +11,41 @@ use crate::geometry::walk::straightest;
 use crate::pattern::{Problem, ProblemKind};
 use crate::wrap::{BodyMark, ClothMark, ClothSide, Marks};
 
-/// A stroke shorter than this is a point, metres on a body 1.5 m large.
+/// Length below which a stroke counts as a point, metres on a body 1.5 m large.
 const POINT_MARK: f64 = 1e-4;
 
-/// Marks that differ more than this in length show in the garment.
+/// Relative difference in length of a pair of marks above which it shows in the garment.
 const LARGE_STRETCH: f64 = 0.05;
 
-/// A vertex laid by a mark.
+/// A root: a vertex placed by a mark.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Root {
     /// The vertex.
     pub vertex: u32,
-    /// Where it goes, metres, at the offset above the skin.
+    /// Position of the vertex, metres, at the offset above the skin.
     pub position: DVec3,
-    /// How far it is from its mark in the pattern, metres.
+    /// Distance of the vertex from its mark in the pattern, metres.
     pub distance: f64,
 }
 
-/// How long a pair of marks is on both sides; a point mark has no length on either.
+/// Lengths of a pair of marks on cloth and body; zero for point marks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PairStretch {
-    /// The pair's number, from 1.
+    /// Number of the pair, from 1.
     pub number: usize,
-    /// On the cloth, metres.
+    /// Length on the cloth, metres.
     pub cloth: f64,
-    /// On the offset surface, metres.
+    /// Length on the offset surface of the body, metres.
     pub body: f64,
 }
 
 impl PairStretch {
-    /// Body over cloth less one: strain no solver can remove. Zero for point marks.
+    /// Relative stretch, body / cloth - 1: strain that no solver can remove. Zero for point marks.
     pub fn stretch(&self) -> f64 {
         if self.cloth > 0.0 { self.body / self.cloth - 1.0 } else { 0.0 }
     }
 
-    /// Whether the two strokes differ so much that one of them should be painted anew.
+    /// Whether the two strokes differ so much in length that one of them should be painted again.
     pub fn is_large(&self) -> bool {
         self.stretch().abs() > LARGE_STRETCH
     }
@@ -89,7 +89,7 @@ impl<P: Copy + std::ops::Sub<Output = P> + std::ops::Add<Output = P> + std::ops:
     }
 }
 
-/// Both strokes of a pair, the body's at the offset above the skin: the cloth lives there, and there its length counts.
+/// Both strokes of a pair; the body's is raised to the offset above the skin, where the cloth will be and its length counts.
 struct Strokes {
     cloth: Stroke<DVec2>,
     body: Stroke<DVec3>,
@@ -97,7 +97,7 @@ struct Strokes {
 }
 
 impl Strokes {
-    /// The error says in words why there are none.
+    /// Err: a message that says why a stroke cannot be used.
     fn new(cloth: &ClothMark, body: &BodyMark, surface: &Surface, offset: f64) -> Result<Self, String> {
         if cloth.points.is_empty() || body.points.is_empty() {
             return Err("it has no points".to_owned());
@@ -119,8 +119,8 @@ impl Strokes {
     }
 }
 
-/// How long each pair of `marks` is on both sides, before any cloth is cut; `offset` is the height of the cloth above the
-/// skin, metres. Pairs without points are left out.
+/// Lengths of each pair of `marks`, without a mesh; `offset` is the height of the cloth above the skin, metres. Pairs
+/// without points are left out.
 pub fn stretches(marks: &Marks, surface: &Surface, offset: f64) -> Vec<PairStretch> {
     let pairs = marks.pairs().zip(1..);
     pairs
@@ -130,7 +130,7 @@ pub fn stretches(marks: &Marks, surface: &Surface, offset: f64) -> Vec<PairStret
         .collect()
 }
 
-/// Lays the cloth round its marks. Roots are in vertex order, one per vertex.
+/// Computes the roots of all marks, sorted by vertex, one per vertex; also the lengths of the pairs, and problems of marks.
 pub fn roots(
     garment: &Garment,
     surface: &Surface,
@@ -179,13 +179,13 @@ pub fn roots(
     (roots, stretches, problems)
 }
 
-/// The point at `offset` above the skin next to `p`.
+/// The point at `offset` metres above the skin point nearest to `p`.
 pub(super) fn lifted(surface: &Surface, p: DVec3, offset: f64) -> DVec3 {
     let n = surface.nearest(p);
     n.point + n.normal * offset
 }
 
-/// A pair of marks, and what one is laid along the other with.
+/// A pair of marks, with what is needed to compute its roots.
 struct Pair<'a> {
     garment: &'a Garment,
     surface: &'a Surface,
@@ -218,12 +218,12 @@ impl<'a> Pair<'a> {
         self.point_roots().ok_or_else(|| "it lies off its piece; paint it on the cloth".to_owned())
     }
 
-    /// The image of arc-length fraction `t`.
+    /// The frame at fraction `t` of the arc length of both strokes.
     fn frame(&self, t: f64) -> Frame {
         let Strokes { cloth, body, .. } = &self.strokes;
         let at = body.at(t * body.length());
         let near = self.surface.nearest(at);
-        // The tangent over a short stretch of the body's stroke: single segments of a painted stroke are noise.
+        // Take the tangent over a short stretch of the stroke on the body: single segments of a painted stroke are noisy.
         let (length, window) = (body.length(), 0.01 * self.surface.scale());
         let s = t * length;
         let ahead = body.at((s + window).min(length)) - body.at((s - window).max(0.0));
@@ -281,7 +281,7 @@ impl<'a> Pair<'a> {
         roots
     }
 
-    /// A point, or a stroke inside one triangle: that triangle is laid.
+    /// Roots of a point mark, or of a stroke inside one triangle: the corners of that triangle.
     fn point_roots(&self) -> Option<Vec<Root>> {
         let Self { garment, surface, cloth, offset, .. } = *self;
         let stroke = &self.strokes.cloth;
@@ -289,7 +289,7 @@ impl<'a> Pair<'a> {
         let holding = FlatPiece::new(garment, cloth.piece).inside(garment, middle)?.triangle as usize;
         let mut frame = self.frame(0.5);
         if stroke.length() < POINT_MARK * surface.scale() {
-            // No direction of its own: the pattern's up is the body's up.
+            // A point has no direction: the pattern's up becomes the body's up.
             frame.flat_tangent = DVec2::Y;
             frame.tangent = (DVec3::Y - frame.normal * frame.normal.y)
                 .try_normalize()
@@ -312,22 +312,23 @@ fn front_is_far(garment: &Garment, piece: PieceId) -> bool {
     })
 }
 
-/// A frame that carries directions of the pattern plane to the tangent plane at a point of the body.
+/// A frame that maps directions of the pattern plane to the tangent plane at a point of the body.
 struct Frame {
     point: DVec3,
     triangle: u32,
-    /// Image of the cloth mark's tangent.
+    /// Image of the cloth mark's tangent, a unit vector.
     tangent: DVec3,
-    /// Outward.
+    /// Outward normal of the skin, a unit vector.
     normal: DVec3,
-    /// Unit, in the pattern plane.
+    /// Tangent of the cloth mark in the pattern plane, a unit vector.
     flat_tangent: DVec2,
-    /// +1 when a counter-clockwise turn in the drawing is one seen from the side that looks outward.
+    /// +1 when a counter-clockwise turn in the drawing is counter-clockwise on the side of the cloth that faces
+    /// outward; else -1.
     handed: f64,
 }
 
 impl Frame {
-    /// Where a corner at `step` from the mark's point in the pattern goes, at `offset` above the skin.
+    /// Position at `offset` metres above the skin of a corner that is at `step` (m) from the mark's point in the pattern.
     fn carried(&self, surface: &Surface, step: DVec2, offset: f64) -> DVec3 {
         let along = self.flat_tangent.dot(step);
         let across = self.flat_tangent.perp_dot(step) * self.handed;
@@ -344,7 +345,7 @@ impl Frame {
     }
 }
 
-/// Arc lengths and points where a stroke crosses segment `ab`.
+/// Crossings of a stroke with segment `ab`: arc length on the stroke, and the point.
 fn crossings(stroke: &Stroke<DVec2>, a: DVec2, b: DVec2) -> Vec<(f64, DVec2)> {
     let (lower, upper) = (a.min(b), a.max(b));
     let mut found = Vec::new();

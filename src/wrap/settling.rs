@@ -1,62 +1,63 @@
-//! When settling cloth lies still, and how often it is mended then.
+//! Settling: when the cloth counts as at rest, and how often it is repaired then.
 
-/// Global steps of the first, ungraviated settling.
+/// Number of global steps in the first part of settling, without gravity.
 pub(super) const SETTLE_STEPS: usize = 80;
-/// At rest when nothing moved farther than this many edge lengths for [`QUIET_STEPS`] steps.
+/// Largest move in a step, in edge lengths, below which the step counts as quiet; see [`QUIET_STEPS`].
 const REST_MOTION: f64 = 0.01;
-/// See [`REST_MOTION`].
+/// Number of quiet steps in a row after which the cloth may be at rest.
 const QUIET_STEPS: usize = 5;
-/// And when the energy of matching changed by no larger share meanwhile: what creeps on then costs no strain.
+/// Relative change of the shape matching energy over the quiet steps up to which the cloth is at rest: slow creep at
+/// constant energy is ignored.
 const REST_FALL: f64 = 0.03;
-/// Or is no larger than this: a strain of 0.01 %.
+/// Energy up to which the cloth is at rest in any case: a strain of 0.01 %.
 const REST_ENERGY: f64 = 1e-8;
-/// Quiet steps after which cloth whose energy still changed is asked again.
+/// Number of quiet steps after which the energy is compared again, when it still changed the first time.
 const CREEP_STEPS: usize = 15;
-/// Most settling steps: what still moves then trembles in a fold.
+/// Most settling steps: cloth that still moves then jitters in a fold.
 const MOST_SETTLE_STEPS: usize = 400;
-/// The same for a coarse mesh, which only has to lie roughly right.
+/// Most settling steps of a coarse mesh, which only has to be roughly in place.
 const DRAFT_SETTLE_STEPS: usize = 160;
-/// Most times that lying cloth is mended: raised off the body it cuts, sent to its own side.
+/// Most repairs of resting cloth: raising it off the body that it cuts, moving it to its own side.
 const MOST_MENDS: usize = 12;
-/// The same for a coarse mesh.
+/// Most repairs of a coarse mesh.
 const DRAFT_MENDS: usize = 2;
-/// Steps in which a mend must take effect.
+/// Number of steps in which a repair must take effect.
 const STEPS_PER_MEND: usize = 25;
 
-/// How far settling has come.
+/// State of settling.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Settling {
-    /// Steps done.
+    /// Number of steps done.
     pub done: usize,
-    /// Layers ran through each other when last looked at, or nobody looked.
+    /// Whether layers intersected at the last search, or none was made yet.
     pub crossed: bool,
-    /// A finer mesh goes on from here.
+    /// Whether a finer mesh continues from the result.
     draft: bool,
-    /// Quiet steps in a row up to now.
+    /// Number of quiet steps in a row.
     quiet: usize,
-    /// How often lying cloth was mended.
+    /// Number of repairs made.
     mends: usize,
-    /// At this step it is taken to lie still in any case.
+    /// Step at which the cloth is taken to be at rest in any case.
     until: usize,
-    /// Of matching when it last became quiet.
+    /// Shape matching energy at the first of the quiet steps.
     energy: f64,
-    /// It was quiet once, but its energy still changed.
+    /// Whether the energy still changed after the first quiet steps.
     creeps: bool,
 }
 
 impl Settling {
-    /// From step `done` on.
+    /// Settling from step `done` on. `draft`: a finer mesh continues from the result.
     pub fn from(done: usize, draft: bool) -> Self {
         let until = if draft { DRAFT_SETTLE_STEPS } else { MOST_SETTLE_STEPS };
         Self { done, crossed: true, draft, quiet: 0, mends: 0, until, energy: 0.0, creeps: false }
     }
 
-    /// Without gravity yet.
+    /// Whether settling is in its first part, without gravity.
     pub fn is_first(&self) -> bool {
         self.done < SETTLE_STEPS
     }
 
-    /// Takes note of a step in which nothing moved farther than `moved` edge lengths; whether the cloth lies still now.
+    /// Records a step in which the largest move was `moved` edge lengths. Returns whether the cloth is at rest now.
     /// `energy` is [`Relaxer::energy`](crate::relax::Relaxer::energy).
     pub fn is_still(&mut self, moved: f64, energy: impl Fn() -> f64) -> bool {
         self.quiet = if moved < REST_MOTION { self.quiet + 1 } else { 0 };
@@ -75,17 +76,17 @@ impl Settling {
         self.done >= self.until
     }
 
-    /// Lying cloth may be mended once more.
+    /// Whether resting cloth may be repaired once more.
     pub fn may_mend(&self) -> bool {
         self.mends < if self.draft { DRAFT_MENDS } else { MOST_MENDS }
     }
 
-    /// After a step.
+    /// The state after a step.
     pub fn stepped(self) -> Self {
         Self { done: self.done + 1, ..self }
     }
 
-    /// After a step that ended with a mend: it has its time to take effect.
+    /// The state after a step that ended with a repair, which gets time to take effect.
     pub fn mended(self) -> Self {
         let (mends, until) = (self.mends + 1, self.done + STEPS_PER_MEND);
         Self { mends, until, quiet: 0, crossed: true, creeps: false, ..self.stepped() }

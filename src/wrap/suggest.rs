@@ -1,11 +1,11 @@
-//! Marks proposed from where the pattern's file placed its pieces round the body.
+//! Suggested marks, from the placements that the pattern's file gives its pieces round the body.
 //!
-//! The file says what is front, back, left and right, and which way is up; at what height a piece goes the body says. What
-//! hangs from the shoulders is measured down from there over the skin; a waistband rests where it is too tight to slide
-//! farther. Only those pieces get marks: sleeves and legs follow their seams better than marks of their own. A ring of
-//! strokes goes round the trunk (under the arms, so that side seams close on the right side of them), stretched as one
-//! so that its ends meet; pieces of the trunk also get a stroke up and down through it, by their own arc length, and those that
-//! are cut in one with their sleeves one along each arm.
+//! The file tells what is front, back, left and right, and which way is up; the body tells at what height a piece
+//! goes. A garment that hangs from the shoulders is measured down from there over the skin; a waistband rests where
+//! it is too tight to slide farther. Only those pieces get marks: sleeves and legs follow their seams better than
+//! marks of their own. A ring of strokes goes round the trunk (under the arms, so that side seams close on the right
+//! side of them), stretched as one so that its ends meet. Pieces of the trunk also get a stroke up and down through
+//! them, by their own arc length, and those that are cut in one with their sleeves one along each arm.
 
 use glam::{DVec2, DVec3};
 
@@ -17,25 +17,26 @@ use crate::wrap::placed::{
 };
 use crate::wrap::{BodyMark, ClothMark, ClothSide, Marks};
 
-/// A stroke ends where the skin turns away from its piece by more than this cosine.
+/// Cosine between the skin's normal and the piece's below which a stroke ends.
 const TURNED_AWAY: f64 = 0.3;
-/// Marching step, metres.
+/// Step of the march over the skin, metres.
 const STEP: f64 = 0.005;
-/// Strokes keep this far from the sides of their piece, metres.
+/// Distance of strokes from the sides of their piece, metres.
 const INSET: f64 = 0.015;
-/// The ring lies this far under the arms, and under the top of the side seams, metres on a body 1.5 m large.
+/// Distance of the ring under the arms, and under the top of the side seams, metres on a body 1.5 m large.
 const UNDER_ARM: f64 = 0.02;
-/// A ring that carries a garment lies this far under its upper border, metres on a body 1.5 m large.
+/// Distance of a ring that carries a garment under its upper border, metres on a body 1.5 m large.
 const UNDER_TOP: f64 = 0.02;
-/// Ways down from the shoulders begin no farther out than this share of the trunk's breadth: farther they run round an arm.
+/// Largest distance from the middle at which paths down from the shoulders begin, as a fraction of the trunk's half
+/// breadth: farther out they would run round an arm.
 const INSIDE_ARMS: f64 = 0.75;
-/// What reaches so far out over the arms has sleeves, metres on a body 1.5 m large.
+/// Distance beyond the start of the arm that a panel must reach to count as having sleeves, metres on a body 1.5 m large.
 const SLEEVE: f64 = 0.1;
-/// Seams along the arms stand so much above them before they are sewn, metres on a body 1.5 m large.
+/// Height of seams along the arms above them before they are sewn, metres on a body 1.5 m large.
 const OVER_ARM: f64 = 0.02;
-/// It lies at most this much lower, metres on a body 1.5 m large.
+/// Largest distance by which the ring is lowered below its first height under the arms, metres on a body 1.5 m large.
 const LOWER: f64 = 0.2;
-/// The longest way down from a shoulder, metres on a body 1.5 m large.
+/// Length of the longest path down from a shoulder, metres on a body 1.5 m large.
 const LONGEST_DROP: f64 = 0.6;
 
 /// Marks for the pieces of `pattern` that have a placement; empty when none of them can anchor the garment.
@@ -89,24 +90,25 @@ pub fn suggested(pattern: &Pattern, surface: &Surface, offset: f64) -> Marks {
     marks
 }
 
-/// Where what carries a placed garment stands, and where it belongs on a body.
+/// Height of a placed garment, and where it belongs on a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stand {
-    /// The shoulder seams, or a ring that is to rest where it is too tight to slide farther, metres.
+    /// Height of the shoulder seams, or of a ring that is to rest where it is too tight to slide farther, as placed
+    /// in the file, metres.
     pub placed: f64,
-    /// The height of the skin there, metres.
+    /// Height of the skin where that belongs, metres.
     pub body: f64,
-    /// What carries it stands between these corners, metres.
+    /// Bounding box of the panels that carry the garment: lower and upper corner, metres.
     pub bounds: [DVec3; 2],
-    /// It hangs from the shoulders.
+    /// Whether the garment hangs from the shoulders.
     pub hangs: bool,
-    /// How much higher it must stand for the arms to lie under the seams that run along them, metres; negative where they lie
-    /// there already, negative infinity where there are no such seams.
+    /// How far the garment must be raised for the arms to be under the seams that run along them, metres; negative
+    /// where they are already, negative infinity where there are no such seams.
     pub short_of_arms: f64,
 }
 
-/// How high a placed garment stands and how high on `surface` it belongs; None where neither can be told: nothing is placed
-/// before or behind the body. `trunk` is that of `surface`, `offset` as for [`suggested`].
+/// The height of a placed garment, and the height on `surface` where it belongs. None where neither can be found:
+/// nothing is placed before or behind the body. `trunk` is that of `surface`, `offset` as for [`suggested`].
 pub fn stand(cut: &CutPattern, surface: &Surface, trunk: &Trunk, offset: f64) -> Option<Stand> {
     let lifted = |panels: &[Panel]| panels.iter().map(|p| p.lifted).sum::<f64>() / panels.len() as f64;
     let bounds = |panels: &[Panel]| {
@@ -131,13 +133,13 @@ pub fn stand(cut: &CutPattern, surface: &Surface, trunk: &Trunk, offset: f64) ->
         }
         Anchor::Ring(panels) => {
             let depth = UNDER_TOP * surface.scale();
-            // Panels at the sides are no part of the ring here, but their seams are sides of those that are.
+            // Panels at the sides are not part of the ring here, but their seams are side seams of those that are.
             let sewn = all_sewn(cut);
             let lines: Vec<Line> = panels.iter().map(|p| Line::under_top(p, depth, &sewn)).collect();
             let beside: f64 = besides(cut, &panels, depth).sum();
             let along: f64 = lines.iter().map(Line::length).sum();
             let girth = along + beside - std::f64::consts::TAU * offset;
-            // What is too wide to rest anywhere is put on at the waist.
+            // A ring too wide to rest anywhere is put on at the waist.
             let waist = trunk.levels.get(trunk.waist()?)?.height;
             let body = trunk.rest_of(girth).filter(|_| girth > 0.0).unwrap_or(waist);
             let top = panels.iter().map(Panel::top).max_by(f64::total_cmp)?;
@@ -153,8 +155,8 @@ pub fn stand(cut: &CutPattern, surface: &Surface, trunk: &Trunk, offset: f64) ->
     }
 }
 
-/// Those of `panels` that reach over the arms, being cut in one with their sleeves, and where the arms begin, metres from the
-/// plane between left and right.
+/// Upper edges of those `panels` that reach over the arms, being cut in one with their sleeves; and the distance from
+/// the plane between left and right at which the arms begin, metres.
 fn over_arms<'a>(
     cut: &CutPattern,
     surface: &Surface,
@@ -176,7 +178,7 @@ fn short_of_arms(cut: &CutPattern, surface: &Surface, trunk: &Trunk, panels: &[P
     places.filter(|p| p.x.abs() > arms).filter_map(short).fold(f64::NEG_INFINITY, f64::max)
 }
 
-/// A stroke beside the seam over each arm of panels that are cut in one with their sleeves, along the top of the arm.
+/// Strokes beside the seam over each arm, along the top of the arm, for panels that are cut in one with their sleeves.
 fn along_arms(
     cut: &CutPattern,
     surface: &Surface,
@@ -207,7 +209,7 @@ fn along_arms(
     over.iter().filter_map(along).collect()
 }
 
-/// Every edge that is sewn to another.
+/// The edges of all seams.
 fn all_sewn(cut: &CutPattern) -> Vec<EdgeRef> {
     cut.edge_seams().flat_map(|seam| seam.sides).collect()
 }
@@ -218,10 +220,10 @@ struct Stroke {
     body: Vec<DVec3>,
 }
 
-/// Points of the skin, each with how far the way to it is at the cloth's offset, metres.
+/// A path over the skin: points, each with the arc length up to it at the cloth's offset, metres.
 type Way = Vec<(DVec3, f64)>;
 
-/// Which height of the placed cloth, before and behind, comes to which height of the body.
+/// Heights of the placed cloth, in front and behind, and the height of the body where they belong, metres.
 #[derive(Clone, Copy, Debug)]
 struct Hung {
     front: f64,
@@ -229,8 +231,8 @@ struct Hung {
     body: f64,
 }
 
-/// Hangs the garment from the shoulders: what comes to lie under the arms is found by following the skin down from where
-/// the shoulder seams meet it. Under deep armholes and beside darts it is taken lower, where the pieces reach their sides.
+/// Hangs the garment from the shoulders: finds what comes to be under the arms by following the skin down from where the
+/// shoulder seams are. Under deep armholes and beside darts a lower level is taken, where the pieces reach their sides.
 fn hung(
     pattern: &CutPattern,
     surface: &Surface,
@@ -270,7 +272,7 @@ fn hung(
     })
 }
 
-/// How far from the middle ways down from the shoulders may begin, metres; None for a body without arms.
+/// Largest distance from the middle at which paths down from the shoulders begin, metres; None for a body without arms.
 fn shoulder_breadth(trunk: &Trunk) -> Option<f64> {
     let under_arm = trunk.nearest(trunk.armpit?)?;
     Some(under_arm.points.iter().map(|p| (p.x - trunk.middle).abs()).fold(0.0, f64::max) * INSIDE_ARMS)
@@ -290,7 +292,7 @@ fn on_shoulder(surface: &Surface, trunk: &Trunk, x: f64) -> Option<DVec3> {
         .max_by(|a, b| a.y.total_cmp(&b.y))
 }
 
-/// The way over the skin from the top of the shoulder at `x` down before or behind the body, with its length, metres.
+/// The path over the skin from the top of the shoulder at `x` down the front or back of the body.
 fn down_from_shoulder(surface: &Surface, trunk: &Trunk, x: f64, front: bool, offset: f64) -> Option<Way> {
     let ridge = on_shoulder(surface, trunk, x)?;
     let way = if front { DVec3::Z } else { DVec3::NEG_Z };
@@ -298,14 +300,14 @@ fn down_from_shoulder(surface: &Surface, trunk: &Trunk, x: f64, front: bool, off
     Some(march(surface, ridge, way, DVec3::Y, longest, offset, -2.0))
 }
 
-/// A line over a piece from right to left, that comes to a ring round the trunk. Between its runs are darts, sewn shut.
+/// A line over a piece from right to left that becomes a part of a ring round the trunk. Between its runs are darts, sewn shut.
 struct Line<'a> {
     panel: &'a Panel<'a>,
     runs: Vec<Vec<DVec2>>,
 }
 
 impl<'a> Line<'a> {
-    /// Between the `sides`.
+    /// The horizontal line at `height` between the edges `sides`.
     fn level(panel: &'a Panel<'a>, height: f64, sides: &[EdgeRef]) -> Self {
         let points = |(a, b): (DVec2, DVec2)| {
             let count = (a.distance(b) / STEP).ceil().max(2.0) as usize;
@@ -315,7 +317,7 @@ impl<'a> Line<'a> {
         Self { panel, runs: runs.into_iter().map(points).collect() }
     }
 
-    /// Under the upper border, however that is curved, between the `sewn` edges.
+    /// The line `depth` metres under the upper border, whatever its curve, between the `sewn` edges.
     fn under_top(panel: &'a Panel<'a>, depth: f64, sewn: &[EdgeRef]) -> Self {
         let (right, left) = panel.reach();
         let count = ((left - right) / STEP).ceil().max(2.0) as usize;
@@ -327,7 +329,8 @@ impl<'a> Line<'a> {
         self.runs.iter().flat_map(|run| run.windows(2)).map(|w| w[0].distance(w[1])).sum()
     }
 
-    /// What lies on one side of the body, run by run from the middle outward, each point with how far along the cloth it is.
+    /// The part of the line on one side of the body: runs from the middle outward, each point with its arc length on
+    /// the cloth, metres.
     fn half(&self, left: bool) -> Vec<Vec<(DVec2, f64)>> {
         let side = |q: &DVec2| self.panel.world(*q).x * if left { 1.0 } else { -1.0 };
         let mut runs: Vec<Vec<DVec2>> = Vec::new();
@@ -357,7 +360,7 @@ impl<'a> Line<'a> {
     }
 }
 
-/// At which height of the trunk a ring of pieces rests that has `beside` metres more of pieces at the sides.
+/// Height of the trunk at which a ring of pieces rests; `beside` metres of its girth are pieces at the sides.
 fn rest_height(trunk: &Trunk, lines: &[Line], beside: f64, offset: f64) -> Option<f64> {
     let along: f64 = lines.iter().map(Line::length).sum();
     let girth = along + beside - std::f64::consts::TAU * offset;
@@ -367,14 +370,14 @@ fn rest_height(trunk: &Trunk, lines: &[Line], beside: f64, offset: f64) -> Optio
     trunk.rest_of(girth).or_else(|| placed_height(lines))
 }
 
-/// The mean height at which the lines stand.
+/// Mean height of the lines as placed, metres.
 fn placed_height(lines: &[Line]) -> Option<f64> {
     let heights = lines.iter().flat_map(|l| l.runs.iter().flatten().map(|&p| l.panel.world(p).y));
     let (sum, count) = heights.fold((0.0, 0.0), |(sum, count), y| (sum + y, count + 1.0));
     (count > 0.0).then(|| sum / count)
 }
 
-/// A stroke for each side of each line along the trunk's section at `height`. All of a side, before and behind, are
+/// A stroke for each side of each line along the trunk's section at `height`. All lines of a side, front and back, are
 /// stretched alike, so that they meet, or leave room between them for `beside` metres of cloth that gets no stroke.
 fn ring(lines: &[Line], trunk: &Trunk, height: f64, beside: f64) -> Vec<Stroke> {
     let Some(level) = trunk.nearest(height) else { return Vec::new() };
@@ -400,14 +403,14 @@ fn ring(lines: &[Line], trunk: &Trunk, height: f64, beside: f64) -> Vec<Stroke> 
     strokes
 }
 
-/// Points and how far along each is, metres.
+/// A polyline with the arc length at each point, metres.
 struct Polyline {
     points: Vec<DVec3>,
     lengths: Vec<f64>,
 }
 
 impl Polyline {
-    /// Through two points or more.
+    /// The polyline through two or more points.
     fn new(points: Vec<DVec3>) -> Self {
         let mut lengths = vec![0.0];
         for w in points.windows(2) {
@@ -428,7 +431,8 @@ impl Polyline {
     }
 }
 
-/// Half a section, from its front at the middle over one side to its back there. None when it does not cross the middle twice.
+/// Half a section, from its front in the middle over one side to its back in the middle. None when it does not cross
+/// the middle twice.
 fn half(section: &[DVec3], middle: f64, left: bool) -> Option<Polyline> {
     let side = |p: DVec3| if left { p.x - middle } else { middle - p.x };
     let n = section.len();
@@ -441,7 +445,7 @@ fn half(section: &[DVec3], middle: f64, left: bool) -> Option<Polyline> {
     let z = |i: usize| cut(i).z;
     let first = crossings.iter().copied().max_by(|&a, &b| z(a).total_cmp(&z(b)))?;
     let last = crossings.iter().copied().min_by(|&a, &b| z(a).total_cmp(&z(b)))?;
-    // Round by whichever way lies on the wanted side.
+    // Go round in the direction that is on the wanted side.
     let onward = side(section[(first + 1) % n]) >= 0.0;
     let mut points = vec![cut(first)];
     let mut i = first;
@@ -458,8 +462,8 @@ fn half(section: &[DVec3], middle: f64, left: bool) -> Option<Polyline> {
     (first != last).then(|| Polyline::new(points))
 }
 
-/// A stroke up and down the piece near the body's middle. `height` says which height of the cloth comes to which of the
-/// body; without it the middle of the stroke stays where the file placed it.
+/// A stroke up and down the piece near the body's middle. `height` pairs a height of the cloth with one of the body;
+/// without it the middle of the stroke stays where the file placed it.
 fn upright(
     panel: &Panel,
     surface: &Surface,
@@ -495,11 +499,12 @@ fn sideways(panel: &Panel, surface: &Surface, offset: f64) -> Option<Stroke> {
     let (low, high) = (sides.clone().fold(f64::INFINITY, f64::min), sides.fold(f64::NEG_INFINITY, f64::max));
     let run = panel.run(along, (low + high) / 2.0)?;
     let middle = run.0.midpoint(run.1);
-    // The skin turns away on purpose: the stroke goes round.
+    // Allow the skin to turn away: the stroke goes round the body.
     stroke(panel, surface, run, middle, panel.world(middle), -0.5, offset)
 }
 
-/// A stroke over the run `from`..`to` of a piece, whose point `anchor` comes to the skin before `on_body`.
+/// A stroke over the run `from`..`to` of a piece. Its point `anchor` goes to the skin in front of `on_body`; the rest
+/// follows the skin from there.
 fn stroke(
     panel: &Panel,
     surface: &Surface,
@@ -536,8 +541,8 @@ fn stroke(
     (cloth.len() > 3).then_some(Stroke { panel: panel.id, cloth, body })
 }
 
-/// Points of the skin from `start` the way of `way`, inside the plane of `way` and `normal`, each with its arc length at
-/// the offset, up to `length`; shorter where the skin turns away.
+/// A path over the skin from `start` in direction `way`, in the plane of `way` and `normal`, up to `length` metres at
+/// the offset; shorter where the skin turns away.
 fn march(
     surface: &Surface,
     start: DVec3,

@@ -1,4 +1,4 @@
-//! The same places on mannequins of two sizes, whose triangles are not the same: each is meshed by itself.
+//! Correspondence between mannequins of two sizes, which are meshed separately and have different triangles.
 
 use glam::DVec3;
 
@@ -8,16 +8,16 @@ use crate::body::warp::Warp;
 use crate::geometry::barycentric;
 use crate::geometry::mesh::TriMesh;
 
-/// For each vertex of one mannequin its place on another.
+/// For each vertex of one mannequin the corresponding point on the skin of another.
 #[derive(Clone, Debug)]
 pub struct Counterpart {
-    /// A triangle of the other, and how much of each of its corners.
+    /// For each vertex a triangle of the other mannequin and barycentric coordinates in it.
     places: Vec<(u32, [f64; 3])>,
 }
 
 impl Counterpart {
-    /// Of `one` on `other`. A smooth map takes landmarks and joints of the one to those of the other, as both were built; from
-    /// there it is the nearest skin. None when the other has no skin or they have too little in common.
+    /// Maps the vertices of `one` to `other`: a smooth map takes the landmarks and joints of `one` to those of `other`, both
+    /// as built; then the nearest point of the skin is taken. None when `other` has no skin or they share too few points.
     pub fn new(one: &Mannequin, other: &Mannequin) -> Option<Self> {
         let skin = Surface::new(other.mesh.clone())?;
         let marks = one.landmarks.iter().filter_map(|(name, p)| Some((p, other.landmarks.get(name)?)));
@@ -31,7 +31,7 @@ impl Counterpart {
         Some(Self { places: one.mesh.positions.iter().map(place).collect() })
     }
 
-    /// Where the vertices of the one are on the skin of the other, which is `mesh` now: in any pose.
+    /// Positions of the mapped vertices, where `mesh` is the other mannequin's mesh in any pose.
     pub fn positions(&self, mesh: &TriMesh) -> Vec<DVec3> {
         let place = |&(t, shares): &(u32, [f64; 3])| barycentric::place(shares, mesh.corners(t as usize));
         self.places.iter().map(place).collect()

@@ -1,24 +1,24 @@
-//! Splitting, collapsing and turning edges of a triangle mesh that may be open along the plane x = 0.
+//! Edge splits, collapses and flips on a triangle mesh that may be open along the plane x = 0.
 //!
-//! Invariants: the mesh stays a manifold; vertices on the open edge (`rim`) stay on it; two rim vertices are joined by
-//! an edge only along the rim, so that mirroring closes the mesh without doubled triangles.
+//! Invariants: the mesh stays a manifold; vertices on the open edge (`rim`) stay on it; two rim vertices are joined
+//! by an edge only along the rim, so that mirroring closes the mesh without doubled triangles.
 
 use glam::DVec3;
 
-/// A triangle mesh under change. Dead triangles and vertices stay in the lists until `compacted`.
+/// A triangle mesh being edited. Removed triangles and vertices stay in the lists until `compacted`.
 pub struct Editing {
-    /// Metres.
+    /// Positions of the vertices, metres.
     pub positions: Vec<DVec3>,
-    /// Dead triangles have all corners equal.
+    /// The triangles; a removed triangle has all corners equal.
     pub triangles: Vec<[u32; 3]>,
-    /// Triangles round each vertex, in no particular order; empty for dead vertices.
+    /// Triangles round each vertex, in no particular order; empty for removed vertices.
     pub around: Vec<Vec<u32>>,
-    /// Whether a vertex lies on the open edge.
+    /// For each vertex whether it is on the open edge.
     pub rim: Vec<bool>,
 }
 
 impl Editing {
-    /// Over a mesh whose open edges all lie at x = 0.
+    /// Starts editing a mesh whose open edges are all at x = 0.
     pub fn new(positions: Vec<DVec3>, triangles: Vec<[u32; 3]>) -> Self {
         let mut around = vec![Vec::new(); positions.len()];
         for (t, corners) in triangles.iter().enumerate() {
@@ -30,7 +30,7 @@ impl Editing {
         Self { positions, triangles, around, rim }
     }
 
-    /// Live edges, lower vertex first, in order of their triangles.
+    /// Edges, lower vertex first, in the order of their triangles.
     pub fn edges(&self) -> Vec<[u32; 2]> {
         let mut edges: Vec<[u32; 2]> = Vec::with_capacity(self.triangles.len() * 3);
         for t in self.triangles.iter().filter(|t| t[0] != t[1]) {
@@ -49,7 +49,7 @@ impl Editing {
         self.positions[a as usize].distance(self.positions[b as usize])
     }
 
-    /// The triangles on edge `ab`: one on the rim, else two.
+    /// The triangles of an edge: one on the rim, else two.
     pub fn across(&self, [a, b]: [u32; 2]) -> Vec<u32> {
         self.around[a as usize].iter().copied().filter(|&t| self.triangles[t as usize].contains(&b)).collect()
     }
@@ -94,7 +94,7 @@ impl Editing {
         self.around[v as usize].retain(|&x| x != t);
     }
 
-    /// Splits an edge at its middle.
+    /// Splits an edge at its midpoint.
     pub fn split(&mut self, edge: [u32; 2]) {
         let [a, b] = edge;
         let sides = self.across(edge);
@@ -115,12 +115,12 @@ impl Editing {
         }
     }
 
-    /// Collapses an edge if the mesh stays a well-shaped manifold with no edge longer than `longest`; tells whether.
+    /// Collapses an edge if the mesh stays a well-shaped manifold with no edge longer than `longest`; returns whether it did.
     pub fn collapse(&mut self, edge: [u32; 2], longest: f64) -> bool {
         let sides = self.across(edge);
         let [a, b] = edge;
         let both_rim = self.rim[a as usize] && self.rim[b as usize];
-        // Keep the rim vertex; a chord between two rim vertices must not go.
+        // Keep the rim vertex; an edge across between two rim vertices must not be collapsed.
         let (keep, drop) = if self.rim[b as usize] { (b, a) } else { (a, b) };
         if both_rim != (sides.len() == 1) || !self.link_allows(keep, drop, &sides) {
             return false;
@@ -156,7 +156,7 @@ impl Editing {
         if common != sides.len() {
             return false;
         }
-        // No new chord between two rim vertices.
+        // No new edge across between two rim vertices.
         let chord = |v: &&u32| **v != keep && self.rim[**v as usize] && near_keep.binary_search(v).is_err();
         let drop_on_rim = self.rim[drop as usize];
         let chords = near_drop.iter().filter(chord).count();
@@ -176,8 +176,8 @@ impl Editing {
         })
     }
 
-    /// Turns an edge to join the other two corners of its triangles, if that brings valences nearer to six (four on the
-    /// rim) and no triangle turns over.
+    /// Flips an edge, so that it joins the other two corners of its triangles, if that brings valences nearer to six
+    /// (four on the rim) and inverts no triangle.
     pub fn turn_for_valence(&mut self, edge: [u32; 2]) {
         let sides = self.across(edge);
         let [t, u] = sides[..] else { return };
@@ -230,7 +230,7 @@ impl Editing {
             .fold(1.0, f64::min)
     }
 
-    /// Live vertices and triangles only, in their order.
+    /// The mesh without removed vertices and triangles, in the same order.
     pub fn compacted(self) -> Self {
         let lives: Vec<bool> = self.around.iter().map(|triangles| !triangles.is_empty()).collect();
         let mut count = 0;

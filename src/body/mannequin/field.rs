@@ -1,4 +1,5 @@
-//! The figure as one smooth function of space: negative inside, zero on the skin, about the distance near it.
+//! The mannequin as one smooth implicit function of space: negative inside, zero on the skin, near it about the
+//! signed distance.
 
 use glam::DVec3;
 
@@ -11,7 +12,7 @@ use super::smooth::{blended, cut};
 /// Rounding of the crease where the two halves meet, metres.
 const CLEFT: f64 = 0.011;
 
-/// The skin of a figure. Symmetric in x.
+/// The implicit function of a figure's skin. Symmetric in x.
 #[derive(Clone, Debug)]
 pub struct Field {
     trunk: Loft,
@@ -32,7 +33,7 @@ pub struct Field {
 }
 
 impl Field {
-    /// The skin of `figure`.
+    /// Builds the function for `figure`.
     pub fn new(figure: &Figure) -> Self {
         let (wide, deep) = (figure.width(level::BUST), figure.depth(level::BUST));
         let [x, up, down, z] = nominal::BREAST_AXES;
@@ -59,7 +60,7 @@ impl Field {
         }
     }
 
-    /// About the signed distance to the skin, metres.
+    /// Approximate signed distance to the skin, metres.
     pub fn value(&self, p: DVec3) -> f64 {
         let p = DVec3::new(p.x.abs(), p.y, p.z);
         let mut d = self.trunk.distance(p.y, p.x.hypot(CLEFT), p.z);
@@ -80,7 +81,7 @@ impl Field {
         d - swellings(&self.modelling, p)
     }
 
-    /// Value and gradient at `p`, both from four samples round it.
+    /// Value and gradient at `p`, both from the same four samples round it.
     fn value_and_gradient(&self, p: DVec3) -> (f64, DVec3) {
         const H: f64 = 2e-4;
         const CORNERS: [DVec3; 4] = [
@@ -94,7 +95,7 @@ impl Field {
         (samples.iter().sum::<f64>() / 4.0, gradient)
     }
 
-    /// `p`, which must be near the skin, brought onto it along the gradient in `steps` Newton steps.
+    /// Projects `p`, which must be near the skin, on to it in `steps` Newton steps along the gradient.
     pub fn onto_skin(&self, p: DVec3, steps: usize) -> DVec3 {
         (0..steps).fold(p, |p, _| {
             let (value, gradient) = self.value_and_gradient(p);
@@ -103,7 +104,7 @@ impl Field {
         })
     }
 
-    /// Where the ray from `origin` (inside) along the unit `direction` first leaves the skin, metres from the origin.
+    /// Distance, metres, at which the ray from `origin` (inside) along the unit `direction` first leaves the skin.
     pub fn exit(&self, origin: DVec3, direction: DVec3) -> f64 {
         let at = |t: f64| self.value(origin + direction * t);
         let mut t = 0.0;
@@ -113,7 +114,7 @@ impl Field {
             d = at(t);
         }
         let (mut low, mut high) = ((t - 0.2).max(0.0), t);
-        // The last step was at most 0.7 of a distance or 2 mm: find its start again by halving.
+        // The last step was at most 0.7 of a distance or 2 mm: bisect over it.
         for _ in 0..24 {
             let middle = (low + high) / 2.0;
             if at(middle) < 0.0 { low = middle } else { high = middle }
@@ -121,13 +122,13 @@ impl Field {
         (low + high) / 2.0
     }
 
-    /// Middle of the leg (of the trunk above the crotch: of its left half) at height `y`.
+    /// Centre of the left leg at height `y`, or above the crotch of the left half of the trunk.
     pub fn leg_centre(&self, y: f64) -> DVec3 {
         let [x, z] = self.trunk.centre(y);
         DVec3::new(x, y, z)
     }
 
-    /// Middle of the left arm `s` metres from the shoulder joint.
+    /// Centre of the left arm `s` metres from the shoulder joint.
     pub fn arm_centre(&self, s: f64) -> DVec3 {
         let [outward, forward] = self.arm.centre(s);
         self.joint + self.along * s + self.outward * outward + DVec3::Z * forward
@@ -156,7 +157,7 @@ impl Field {
     }
 }
 
-/// First-order distance to an ellipsoid about the origin.
+/// First-order approximation of the signed distance to an ellipsoid about the origin.
 fn ellipsoid(p: DVec3, axes: DVec3) -> f64 {
     let k0 = (p / axes).length();
     let k1 = (p / (axes * axes)).length();
@@ -181,7 +182,7 @@ fn trunk(figure: &Figure) -> Loft {
         .iter()
         .map(|&[y, inner, outer, centre, z, front, back, exponent]| {
             let (width, depth) = (figure.width(y), figure.depth(y));
-            // The gap between the legs stays: thicker legs stand further out.
+            // The gap between the legs stays: thicker legs are further out.
             let new_inner = if inner > 0.0 { inner } else { inner * width };
             let new_centre = new_inner + (centre - inner) * width;
             Section {

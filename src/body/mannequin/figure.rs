@@ -1,4 +1,4 @@
-//! The default proportions stretched to one set of measurements.
+//! The default proportions, stretched to one set of measurements.
 
 use glam::DVec3;
 
@@ -6,24 +6,24 @@ use super::measurements::Measurements;
 use super::proportions::{self as nominal, level};
 use super::spline::Spline;
 
-/// Factors on the default proportions, one per place that is measured. `fit` finds them.
+/// Scale factors on the default proportions, one for each measured place. `fit` finds them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Factors {
-    /// On the thickness at ankle, calf, knee, mid-thigh, upper thigh, hip, abdomen, waist, bust, neck.
+    /// Factors on the thickness at ankle, calf, knee, mid-thigh, upper thigh, hip, abdomen, waist, bust, neck.
     pub girth: [f64; 10],
-    /// On the half-distance of the shoulder joints.
+    /// Factor on half the distance between the shoulder joints.
     pub shoulder: f64,
-    /// On the thickness of upper arm and wrist.
+    /// Factors on the thickness of upper arm and wrist.
     pub arm: [f64; 2],
-    /// On the length of the arm.
+    /// Factor on the length of the arm.
     pub arm_length: f64,
-    /// On heights up to the waist.
+    /// Factor on heights up to the waist.
     pub lower: f64,
-    /// On the height of the whole.
+    /// Factor on the total height.
     pub height: f64,
 }
 
-/// Heights at which `Factors::girth` holds, on the default figure.
+/// Heights on the default figure at which the entries of `Factors::girth` apply, metres.
 pub const GIRTH_LEVELS: [f64; 10] = [
     level::ANKLE,
     level::CALF,
@@ -38,7 +38,7 @@ pub const GIRTH_LEVELS: [f64; 10] = [
 ];
 
 impl Factors {
-    /// A first guess: measurements in proportion to the default ones.
+    /// First guess of the factors: measurements divided by the default ones.
     pub fn guess(m: &Measurements) -> Self {
         let u = Measurements::default();
         Self {
@@ -63,10 +63,10 @@ impl Factors {
     }
 }
 
-/// A figure: how every point of the default proportions is carried to the asked-for body.
+/// A figure: maps points of the default proportions to the body with the wanted measurements.
 #[derive(Clone, Debug)]
 pub struct Figure {
-    /// The factors it was made with.
+    /// The factors it was built from.
     pub factors: Factors,
     width: Spline,
     depth: Spline,
@@ -74,7 +74,7 @@ pub struct Figure {
 }
 
 impl Figure {
-    /// From factors.
+    /// The figure with these factors.
     pub fn new(factors: Factors) -> Self {
         let g = factors.girth;
         // A fuller bust grows forward more than sideways, where the arms are.
@@ -89,7 +89,7 @@ impl Figure {
         let total = factors.height;
         let crown = level::CROWN * total;
         let waist = level::WAIST * factors.lower;
-        // Above the waist heights stretch evenly; the head keeps the scale of the whole.
+        // Above the waist heights stretch evenly; the head keeps the scale of the whole body.
         let chin = crown - (level::CROWN - level::CHIN) * total;
         let shoulder =
             waist + (chin - waist) * (level::SHOULDER - level::WAIST) / (level::CHIN - level::WAIST);
@@ -109,56 +109,56 @@ impl Figure {
         }
     }
 
-    /// Height above the floor of a place `y` high on the default figure.
+    /// Height above the floor, metres, of what is at height `y` on the default figure.
     pub fn y(&self, y: f64) -> f64 {
         self.height.value(y)
     }
 
-    /// Factor on widths at default height `y`.
+    /// Factor on widths (x) at height `y` of the default figure.
     pub fn width(&self, y: f64) -> f64 {
         self.width.value(y)
     }
 
-    /// Factor on depths at default height `y`.
+    /// Factor on depths (z) at height `y` of the default figure.
     pub fn depth(&self, y: f64) -> f64 {
         self.depth.value(y)
     }
 
-    /// A point on or near the trunk or a leg.
+    /// The image of a point on or near the trunk or a leg of the default figure.
     pub fn point(&self, p: [f64; 3]) -> DVec3 {
         DVec3::new(p[0] * self.width(p[1]), self.y(p[1]), p[2] * self.depth(p[1]))
     }
 
-    /// Middle of the left shoulder joint.
+    /// Centre of the left shoulder joint.
     pub fn shoulder_joint(&self) -> DVec3 {
         let [x, y, z] = nominal::SHOULDER_JOINT;
         DVec3::new(x * self.factors.shoulder, self.y(y), z * self.depth(y))
     }
 
-    /// Scale of head, hands and feet.
+    /// Scale factor of head, hands and feet.
     pub fn small(&self) -> f64 {
         self.factors.height
     }
 
-    /// Angle between arm and straight down, radians: wider where arms and bust are fuller, so that they stay apart.
+    /// Angle between the arms and straight down, radians: wider where arms and bust are fuller, so that they stay apart.
     fn arm_angle(&self) -> f64 {
         let fuller = |factor: f64| (factor - 1.1).clamp(0.0, 0.5);
         nominal::ARM_ANGLE + 0.4 * fuller(self.factors.girth[8]) + 0.4 * fuller(self.factors.arm[0])
     }
 
-    /// Along the left arm, unit.
+    /// Direction along the left arm, a unit vector.
     pub fn arm_direction(&self) -> DVec3 {
         DVec3::new(self.arm_angle().sin(), -self.arm_angle().cos(), 0.0)
     }
 
-    /// Across the left arm, outward and up, unit.
+    /// Direction across the left arm, outward and up, a unit vector.
     pub fn arm_outward(&self) -> DVec3 {
         DVec3::new(self.arm_angle().cos(), self.arm_angle().sin(), 0.0)
     }
 
-    /// Metres from the shoulder joint along the arm, for `s` on the default figure.
+    /// Distance from the shoulder joint along the arm, metres, of what is at `s` on the default figure.
     pub fn along_arm(&self, s: f64) -> f64 {
-        // The hand beyond the wrist keeps the scale of the whole.
+        // Beyond the wrist the hand keeps the scale of the whole body.
         let wrist = nominal::WRIST_AT;
         if s <= wrist {
             s * self.factors.arm_length
@@ -167,7 +167,7 @@ impl Figure {
         }
     }
 
-    /// Factor on the arm's thickness at `s` on the default figure.
+    /// Factor on the arm's thickness at `s` metres along the arm of the default figure.
     pub fn arm_thickness(&self, s: f64) -> f64 {
         let [upper, wrist] = self.factors.arm;
         let top = upper.sqrt();

@@ -1,4 +1,4 @@
-//! Finds the factors that make a figure measure what was asked for.
+//! Finds the factors for which a figure has the wanted measurements.
 
 use glam::{DVec2, DVec3};
 
@@ -8,17 +8,17 @@ use super::landmarks;
 use super::measurements::Measurements;
 use crate::body::measure::{Tape, hull_perimeter, length, taut};
 
-/// Directions in which a girth is sampled.
+/// Number of directions in which a girth is sampled.
 const RAYS: usize = 96;
-/// Rounds of measuring and correcting.
+/// Most rounds of measuring and correcting.
 const ROUNDS: usize = 14;
-/// A measurement this near (relative) needs no more correcting.
+/// Relative error at which a measurement needs no more correcting.
 const CLOSE: f64 = 5e-4;
 
-/// Share by which a girth shrinks on triangles, per squared angle that an edge spans: found on finished meshes.
+/// Relative loss of girth by triangulation, per squared angle (radians) that an edge spans; measured on finished meshes.
 const CHORD_LOSS: f64 = 0.035;
 
-/// Girth of the part of `field` that holds the tape's origin, which must see its whole section.
+/// Girth, metres, of the part of `field` that encloses the tape's origin; all of its section must be visible from there.
 fn girth(field: &Field, tape: &Tape) -> f64 {
     let (x, y) = tape.normal.any_orthonormal_pair();
     let points = (0..RAYS)
@@ -30,14 +30,14 @@ fn girth(field: &Field, tape: &Tape) -> f64 {
     hull_perimeter(points)
 }
 
-/// Length of a tape laid over the outside of the points of `side`, each `exit` metres off the skin along x.
+/// Length of a tape over the outside of the points of `side`, each moved out by `exit` metres along x.
 pub(super) fn side_tape(side: &[DVec3], exit: impl Fn(DVec3) -> f64) -> f64 {
-    // Seen with the tape running down: outward lies to its left.
+    // Seen with the tape running down, outward is to its left.
     length(&taut(side.iter().map(|&p| DVec2::new(p.y, -(p.x + exit(p))))))
 }
 
-/// What the tapes will read on the finished mesh, in the order of `Measurements::named`. Triangles with edges of
-/// `edge(place)` metres cut across the skin's curves and so shorten girths a little.
+/// The measurements that the finished mesh will have, in the order of `Measurements::named`. Triangles with edges of
+/// `edge(place)` metres cut across the skin's curves, which shortens girths a little.
 fn readings(figure: &Figure, field: &Field, edge: impl Fn(&Figure, DVec3) -> f64) -> [f64; 16] {
     let tapes = landmarks::tapes(figure, field);
     let on_mesh = |tape: &Tape| {
@@ -55,7 +55,7 @@ fn readings(figure: &Figure, field: &Field, edge: impl Fn(&Figure, DVec3) -> f64
     })
 }
 
-/// Factors for `m`, found by measuring and correcting. None when they do not settle.
+/// Finds the factors for `m` by measuring and correcting. None when they do not converge.
 pub fn factors(m: &Measurements, edge: impl Fn(&Figure, DVec3) -> f64) -> Option<Factors> {
     let targets = m.named().map(|(_, value)| value);
     let mut factors = Factors::guess(m);
@@ -71,9 +71,9 @@ pub fn factors(m: &Measurements, edge: impl Fn(&Figure, DVec3) -> f64) -> Option
     None
 }
 
-/// Multiplies each factor by the ratio of the measurement it governs.
+/// Multiplies each factor by the ratio of wanted to actual value of its measurement.
 fn corrected(factors: &mut Factors, ratio: impl Fn(usize) -> f64) {
-    // Places in `Measurements::named` of ankle, calf, knee, mid-thigh, upper thigh, hip, abdomen, waist, bust, neck.
+    // Indices in `Measurements::named` of ankle, calf, knee, mid-thigh, upper thigh, hip, abdomen, waist, bust, neck.
     const GOVERNS: [usize; 10] = [14, 13, 12, 11, 10, 4, 3, 2, 1, 6];
     for (factor, i) in factors.girth.iter_mut().zip(GOVERNS) {
         *factor *= ratio(i);

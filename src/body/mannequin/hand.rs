@@ -1,4 +1,4 @@
-//! Fingers and thumb, grown out of the palm that ends the arm.
+//! Fingers and thumb, joined to the palm at the end of the arm.
 
 use glam::DVec3;
 
@@ -7,11 +7,11 @@ use super::proportions as nominal;
 use super::smooth::blended;
 use super::spline::Spline;
 
-/// Fillet between fingers and palm, metres.
+/// Fillet width between fingers and palm, metres.
 const PALM: f64 = 0.011;
-/// Fillet between the bones of a finger.
+/// Fillet width between the bones of a finger, metres.
 const KNUCKLE: f64 = 0.005;
-/// Fillet between two fingers: small, so that they stay apart.
+/// Fillet width between two fingers, metres: small, so that they stay apart.
 const WEB: f64 = 0.003;
 
 /// The fingers of the left hand, in the arm's frame: length along the arm, outward, forward.
@@ -22,7 +22,7 @@ pub struct Hand {
 }
 
 impl Hand {
-    /// For `figure`.
+    /// The fingers of `figure`.
     pub fn new(figure: &Figure) -> Self {
         let bend = |column: usize| Spline::new(nominal::ARM.iter().map(|row| (row[0], row[column])));
         let (outward, forward) = (bend(1), bend(2));
@@ -47,7 +47,7 @@ impl Hand {
         Self { joints, starts_at: figure.along_arm(0.54) }
     }
 
-    /// The arm's distance `arm` at `p` (arm's frame), with the fingers joined to it.
+    /// Signed distance at `p` (in the arm's frame) to the arm with its fingers; `arm` is the distance to the arm alone.
     pub fn with(&self, arm: f64, p: DVec3) -> f64 {
         if p.x < self.starts_at {
             return arm;
@@ -60,7 +60,7 @@ impl Hand {
     }
 }
 
-/// `blended` that takes infinity for nothing.
+/// `blended`, where an infinite `a` stands for an empty shape.
 fn joined(a: f64, b: f64, k: f64) -> f64 {
     if a.is_finite() { blended(a, b, k) } else { b }
 }

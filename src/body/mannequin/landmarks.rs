@@ -1,4 +1,4 @@
-//! Skeleton, named points and tapes of a figure.
+//! Skeleton, landmarks and tapes of a figure.
 
 use glam::DVec3;
 
@@ -18,13 +18,13 @@ fn pair(marks: &mut Landmarks, name: &str, p: DVec3) {
     marks.add(format!("{name}_right"), DVec3::new(-p.x, p.y, p.z));
 }
 
-/// A point in the middle of the trunk at default height `y`.
+/// A point in the middle of the trunk at height `y` of the default figure.
 fn trunk_middle(figure: &Figure, field: &Field, y: f64) -> DVec3 {
     let centre = field.leg_centre(figure.y(y));
     DVec3::new(0.0, centre.y, centre.z)
 }
 
-/// The tape measurements that go round something.
+/// Tapes of all girths.
 pub fn tapes(figure: &Figure, field: &Field) -> Vec<Tape> {
     let level_tape = |name, origin| Tape { name, origin, normal: DVec3::Y };
     let leg = |y: f64| field.leg_centre(figure.y(y));
@@ -50,29 +50,29 @@ pub fn tapes(figure: &Figure, field: &Field) -> Vec<Tape> {
     ]
 }
 
-/// Where the skin is met from `origin` along `direction` (unit).
+/// The point where the ray from `origin` along `direction` (unit) leaves the skin.
 fn skin(field: &Field, origin: DVec3, direction: DVec3) -> DVec3 {
     origin + direction * field.exit(origin, direction)
 }
 
-/// The left shoulder tip: on the skin outward of the joint, across the arm.
+/// The left shoulder tip: the point of the skin outward of the joint, across the arm.
 pub fn shoulder_tip(figure: &Figure, field: &Field) -> DVec3 {
     skin(field, figure.shoulder_joint(), figure.arm_outward())
 }
 
-/// Points a tape from shoulder tip over the elbow to the wrist passes.
+/// The points of the arm length tape: shoulder tip, outside of the elbow, outside of the wrist.
 pub fn arm_line(figure: &Figure, field: &Field) -> [DVec3; 3] {
     let outside = |s| skin(field, field.arm_centre(figure.along_arm(s)), figure.arm_outward());
     [shoulder_tip(figure, field), outside(nominal::ELBOW_AT), outside(nominal::WRIST_AT)]
 }
 
-/// Points inside the left leg and hip from waist down to the ankle bone; a tape down the side is kept off them along x.
+/// Centre points of the left hip and leg from the waist down to the ankle bone; a tape down the side runs outside of them in x.
 pub fn side_line(figure: &Figure, field: &Field) -> Vec<DVec3> {
     let (top, bottom) = (figure.y(level::WAIST), figure.y(level::ANKLE_BONE));
     (0..=100).map(|i| field.leg_centre(top + (bottom - top) * f64::from(i) / 100.0)).collect()
 }
 
-/// Named points of the figure.
+/// The landmarks of the figure.
 pub fn landmarks(figure: &Figure, field: &Field) -> Landmarks {
     let mut marks = Landmarks::default();
     let levels = [
@@ -85,7 +85,7 @@ pub fn landmarks(figure: &Figure, field: &Field) -> Landmarks {
     ];
     for (name, y) in levels {
         let centre = trunk_middle(figure, field, y);
-        // The pit of the neck lies lower than its nape.
+        // The pit of the neck is lower than the nape.
         let drop = if name == "neck" { 0.022 * figure.small() } else { 0.0 };
         middle(&mut marks, &format!("{name}_front"), skin(field, centre - DVec3::Y * drop, DVec3::Z));
         middle(&mut marks, &format!("{name}_back"), skin(field, centre + DVec3::Y * drop, -DVec3::Z));
@@ -108,7 +108,7 @@ pub fn landmarks(figure: &Figure, field: &Field) -> Landmarks {
     marks
 }
 
-/// The highest point between trunk and left arm, in the frontal plane of the shoulder joint.
+/// The left armpit: the highest point between trunk and arm, in the frontal plane of the shoulder joint.
 fn armpit(figure: &Figure, field: &Field) -> DVec3 {
     let joint = figure.shoulder_joint();
     for down in 0..150 {
@@ -116,7 +116,7 @@ fn armpit(figure: &Figure, field: &Field) -> DVec3 {
         for across in 0..80 {
             let p = DVec3::new(joint.x - 0.06 + 0.002 * f64::from(across), y, joint.z);
             if field.value(p) > 0.0 {
-                // Above the arm is not below it.
+                // Points above the arm are not below it.
                 if (p - joint).dot(figure.arm_outward()) < 0.0 {
                     return field.onto_skin(p, 4);
                 }
@@ -127,7 +127,7 @@ fn armpit(figure: &Figure, field: &Field) -> DVec3 {
     joint
 }
 
-/// Joints in the built pose.
+/// The skeleton in the built pose.
 pub fn skeleton(figure: &Figure, field: &Field) -> Skeleton {
     let mut s = Skeleton::default();
     let middle = |y: f64| trunk_middle(figure, field, y);

@@ -1,28 +1,28 @@
-//! A smooth tube given by sections along a straight axis: the trunk with its legs, an arm, a foot, a head.
+//! A loft: a smooth tube through sections along a straight axis; used for trunk with leg, arm, foot and head.
 //!
-//! A section is a superellipse with its own half-width to each side, so that front and back, inside and outside may
-//! differ. Values between the given sections come from natural cubic splines: curvature is continuous.
+//! A section is a superellipse with a separate half-width on each side, so that front and back, inside and outside
+//! may differ. Values between the given sections come from natural cubic splines: curvature is continuous.
 
 use super::spline::Spline;
 
-/// Spacing of the dense table, metres.
+/// Spacing of the table of interpolated sections, metres.
 const STEP: f64 = 0.002;
 
-/// Slopes of the tube's side beyond this are taken as this.
+/// Largest slope of the tube's side; steeper ones are clamped to it.
 const STEEPEST: f64 = 6.0;
 
-/// One section of a loft. Lengths in metres in the loft's own frame.
+/// One section of a loft. Lengths are in metres in the loft's own frame.
 #[derive(Clone, Copy, Debug)]
 pub struct Section {
-    /// Place along the axis.
+    /// Position along the axis.
     pub at: f64,
-    /// Where the section's centre lies across the axis.
+    /// Position of the section's centre across the axis (u, v).
     pub centre: [f64; 2],
     /// Half-widths towards -u and +u.
     pub u: [f64; 2],
     /// Half-widths towards -v and +v.
     pub v: [f64; 2],
-    /// Exponent: 2 an ellipse, more a rounded box.
+    /// Exponent of the superellipse: 2 an ellipse, more a rounded box.
     pub exponent: f64,
 }
 
@@ -34,7 +34,7 @@ struct Row {
     exponent: f64,
 }
 
-/// A tube through sections, closed by half an ellipsoid at either end.
+/// A tube through sections, closed by half an ellipsoid at each end.
 #[derive(Clone, Debug)]
 pub struct Loft {
     rows: Vec<Row>,
@@ -44,8 +44,8 @@ pub struct Loft {
 }
 
 impl Loft {
-    /// Through `sections` (ascending `at`, at least two), with caps that reach `caps` metres beyond the first and the
-    /// last.
+    /// The tube through `sections` (ascending `at`, at least two), with caps that extend `caps` metres beyond the
+    /// first and the last.
     pub fn new(sections: &[Section], caps: [f64; 2]) -> Self {
         let spline = |pick: &dyn Fn(&Section) -> f64| Spline::new(sections.iter().map(|s| (s.at, pick(s))));
         let pair = |pick: &dyn Fn(&Section) -> [f64; 2]| [spline(&|s| pick(s)[0]), spline(&|s| pick(s)[1])];
@@ -63,7 +63,8 @@ impl Loft {
         Self { rows, from, to, caps }
     }
 
-    /// The row at `at`, its change per metre, and how far `at` lies beyond the tube's end, in lengths of the cap there.
+    /// The interpolated section at `at`, its derivative along the axis, and how far `at` is beyond the tube's end as
+    /// a fraction of the cap's length there.
     fn row(&self, at: f64) -> (Row, Row, f64) {
         let clamped = at.clamp(self.from, self.to);
         let x = (clamped - self.from) / STEP;
@@ -74,13 +75,13 @@ impl Loft {
         (a.mixed(b, 1.0 - t, t), a.mixed(b, -1.0 / STEP, 1.0 / STEP), (at - clamped).abs() / cap)
     }
 
-    /// Where the section at `at` has its centre, across the axis.
+    /// Centre (u, v) of the section at `at`.
     pub fn centre(&self, at: f64) -> [f64; 2] {
         self.row(at).0.centre
     }
 
-    /// First-order distance from `(at, u, v)` to the tube, metres, negative inside: exact on the surface, with unit
-    /// slope there.
+    /// First-order approximation of the signed distance from `(at, u, v)` to the tube, metres, negative inside: exact
+    /// on the surface, with unit slope there.
     pub fn distance(&self, at: f64, u: f64, v: f64) -> f64 {
         let (row, slope, beyond) = self.row(at);
         let cap = self.caps[usize::from(at > self.to)];
@@ -118,7 +119,7 @@ impl Row {
     }
 }
 
-/// One direction across a section: offset over half-width, and how that changes across and along the tube.
+/// One direction across a section: offset divided by half-width, and its derivatives across and along the tube.
 struct Term {
     ratio: f64,
     across: f64,
@@ -131,7 +132,7 @@ impl Term {
         let sign = if side == 1 { 1.0 } else { -1.0 };
         let half_width = half_widths[side];
         let ratio = offset.abs() / half_width;
-        // Far outside, a steep side would make the first-order distance collapse.
+        // Far outside, a steep side would make the first-order distance collapse: limit the ratio.
         let along = -(sign * centre_slope + ratio.min(1.25) * slopes[side]) / half_width;
         Self { ratio, across: 1.0 / half_width, along }
     }

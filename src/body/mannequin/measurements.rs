@@ -1,43 +1,43 @@
-//! The measurements a mannequin is built to.
+//! The body measurements from which a mannequin is built.
 
 use serde::{Deserialize, Serialize};
 
-/// Lengths in metres. Girths are taken with a tape, which bridges hollows. The default is the measured figure of Zhong
-/// and Xu 2009, Figure 12, with the values it leaves out filled in for a figure of those proportions.
+/// Body measurements, metres. Girths are taken with a tape, which bridges hollows. The default is the measured figure
+/// of Zhong and Xu 2009, Figure 12; values that it leaves out are filled in for a figure of those proportions.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Measurements {
-    /// Floor to crown.
+    /// Height from floor to crown.
     pub height: f64,
-    /// Round the fullest part of the bust.
+    /// Girth round the fullest part of the bust.
     pub bust: f64,
-    /// Round the natural waist.
+    /// Girth at the natural waist.
     pub waist: f64,
-    /// Round the abdomen, half-way between waist and hip.
+    /// Girth at the abdomen, half-way between waist and hip.
     pub abdomen: f64,
-    /// Round the fullest part of the hip.
+    /// Girth round the fullest part of the hip.
     pub hip: f64,
     /// Half the distance between the two shoulder tips.
     pub half_across_shoulder: f64,
-    /// Round the middle of the neck.
+    /// Girth at the middle of the neck.
     pub neck: f64,
-    /// Shoulder tip to wrist, over the elbow.
+    /// Length from shoulder tip to wrist, over the elbow.
     pub arm_length: f64,
-    /// Round the fullest part of the upper arm.
+    /// Girth round the fullest part of the upper arm.
     pub upper_arm: f64,
-    /// Round the wrist.
+    /// Girth at the wrist.
     pub wrist: f64,
-    /// Round the thigh just below the crotch.
+    /// Girth of the thigh just below the crotch.
     pub upper_thigh: f64,
-    /// Round the thigh half-way between crotch and knee.
+    /// Girth of the thigh half-way between crotch and knee.
     pub mid_thigh: f64,
-    /// Round the knee.
+    /// Girth at the knee.
     pub knee: f64,
-    /// Round the fullest part of the calf.
+    /// Girth round the fullest part of the calf.
     pub calf: f64,
-    /// Round the narrowest part above the ankle bones.
+    /// Girth at the narrowest part above the ankle bones.
     pub ankle: f64,
-    /// From the waist down the side to the ankle bone.
+    /// Length from the waist down the side to the ankle bone.
     pub waist_to_ankle: f64,
 }
 
@@ -64,19 +64,19 @@ impl Default for Measurements {
     }
 }
 
-/// Measurements that no body has.
+/// Error: a measurement that no body has.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{name} is {centimetres:.1} cm; a mannequin can be built with {lowest:.1} to {highest:.1} cm{given}")]
 pub struct OutOfRange {
-    /// Which measurement.
+    /// Name of the measurement.
     pub name: &'static str,
-    /// What was asked for.
+    /// The value asked for, centimetres.
     pub centimetres: f64,
-    /// Smallest value that works, given the other measurements.
+    /// Smallest valid value given the other measurements, centimetres.
     pub lowest: f64,
-    /// Largest value that works, given the other measurements.
+    /// Largest valid value given the other measurements, centimetres.
     pub highest: f64,
-    /// What the limits follow from: empty, or " at this hip" and the like.
+    /// Where the limits come from: empty, or text such as " at this hip".
     pub given: &'static str,
 }
 
@@ -87,7 +87,7 @@ impl Measurements {
         own.named_mut().map(|(name, value)| (name, *value))
     }
 
-    /// The same, to be changed.
+    /// Every measurement with its name, mutable, in the order of the fields.
     pub fn named_mut(&mut self) -> [(&'static str, &mut f64); 16] {
         let Self {
             height,
@@ -127,8 +127,8 @@ impl Measurements {
         ]
     }
 
-    /// Refuses what no figure can have: each measurement against the default, scaled to the height, and a few against
-    /// each other.
+    /// Checks that a figure can have these measurements: each against the default scaled to the height, and some
+    /// against each other.
     pub fn check(&self) -> Result<(), OutOfRange> {
         let usual = Self::default();
         within("height", self.height, 1.40, 2.05, "")?;

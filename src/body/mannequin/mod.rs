@@ -38,36 +38,36 @@ use polygonise::Grid;
 
 /// Edge length on trunk and limbs, metres on a figure of default height.
 const EDGE: f64 = 0.0150;
-/// Edge length on fingers.
+/// Edge length on fingers, metres on a figure of default height.
 const FINGER_EDGE: f64 = 0.0050;
 
 /// A body built to measurements.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mannequin {
-    /// Closed, manifold, outward, symmetric in x; feet on y = 0, facing +z, metres.
+    /// The skin: closed, manifold, facing outward, symmetric in x; feet on y = 0, facing +z, metres.
     pub mesh: TriMesh,
-    /// Joints in the pose it was built in.
+    /// The skeleton in the pose it was built in.
     pub skeleton: Skeleton,
-    /// Named points on the skin.
+    /// Landmarks on the skin.
     pub landmarks: Landmarks,
-    /// Where its girths are measured.
+    /// Tapes of its girths.
     pub tapes: Vec<Tape>,
-    /// What it was built to.
+    /// The measurements it was built from.
     pub measurements: Measurements,
 }
 
-/// Why there is no such mannequin.
+/// Error: there is no such mannequin.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum MannequinError {
-    /// A measurement no body has.
+    /// A measurement that no body has.
     #[error(transparent)]
     OutOfRange(#[from] OutOfRange),
-    /// The figure could not be brought to all of them at once.
+    /// The figure could not reach all measurements at once.
     #[error("no figure has these measurements together: change the girths towards each other")]
     Unreachable,
 }
 
-/// The mannequin with measurements `m`; built once in a process for each set of measurements (the last eight are kept).
+/// The mannequin with measurements `m`. Cached: built once in a process for each set of measurements (the last eight are kept).
 pub fn mannequin(m: &Measurements) -> Result<Arc<Mannequin>, MannequinError> {
     static KEPT: Mutex<Vec<Arc<Mannequin>>> = Mutex::new(Vec::new());
     if *m == Measurements::default() {
@@ -95,7 +95,7 @@ pub fn default() -> Arc<Mannequin> {
         .clone()
 }
 
-/// Builds without looking for one that is there.
+/// Builds the mannequin with measurements `m`, without the cache.
 pub fn built(m: &Measurements) -> Result<Mannequin, MannequinError> {
     m.check()?;
     let factors = fit::factors(m, wanted_edge).ok_or(MannequinError::Unreachable)?;
@@ -113,7 +113,7 @@ pub fn built(m: &Measurements) -> Result<Mannequin, MannequinError> {
     Ok(Mannequin { mesh, skeleton, landmarks, tapes, measurements: *m })
 }
 
-/// Length that edges should have near `p`, metres: short on fingers, toes and face.
+/// Wanted edge length near `p`, metres: short on fingers, toes and face.
 fn wanted_edge(figure: &Figure, p: DVec3) -> f64 {
     let k = figure.small();
     let [hip, bust] = [5, 8].map(|i| figure.factors.girth[i]);
@@ -127,7 +127,7 @@ fn wanted_edge(figure: &Figure, p: DVec3) -> f64 {
     k * arm.min(foot).min(head).clamp(FINGER_EDGE, plain)
 }
 
-/// Cells of 12 mm, 3.6 mm where the hands are, so that fingers stay apart.
+/// The grid for polygonising: cells of 12 mm, 3.6 mm at the hands, so that fingers stay apart.
 fn grid(figure: &Figure) -> Grid {
     let k = figure.small();
     let (coarse, fine) = (0.012 * k, 0.0036 * k);
@@ -143,7 +143,7 @@ fn grid(figure: &Figure) -> Grid {
     Grid { planes: [across, up, deep] }
 }
 
-/// The point of `mesh` nearest to `p`, by looking at every triangle.
+/// The point of `mesh` nearest to `p`, by testing every triangle.
 fn on_mesh(mesh: &TriMesh, p: DVec3) -> DVec3 {
     (0..mesh.triangles.len())
         .map(|t| {

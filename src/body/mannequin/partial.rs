@@ -1,17 +1,16 @@
-//! A figure of which only some measurements are known: the others follow from these.
+//! Completes a partial set of measurements: those not given follow from the others.
 
 use super::Measurements;
 
-/// Those on the upper body, which follow the bust.
+/// Measurements of the upper body that follow the bust.
 const OF_BUST: [&str; 3] = ["neck", "upper arm", "wrist"];
-/// Those on the legs, which follow the hip.
+/// Measurements of the legs that follow the hip.
 const OF_HIP: [&str; 5] = ["upper thigh", "mid-thigh", "knee", "calf", "ankle"];
 
 impl Measurements {
-    /// The figure that has the measurements which `given` knows by the names of [`Measurements::named`], in metres. Those left
-    /// out are in proportion, as on the default figure: lengths and the great girths to the height, girths of neck and arms to
-    /// the bust, of legs to the hip; the abdomen lies between waist and hip. It may be out of range: see
-    /// [`Measurements::check`].
+    /// The measurements completed from those that `given` knows, by the names of [`Measurements::named`], in metres. The others
+    /// are in proportion as on the default figure: lengths and trunk girths to the height, girths of neck and arms to the bust,
+    /// of legs to the hip; the abdomen is between waist and hip. The result may be out of range: see [`Measurements::check`].
     pub fn completed(given: impl Fn(&str) -> Option<f64>) -> Self {
         let usual = Self::default();
         let tall = given("height").map_or(1.0, |height| height / usual.height);

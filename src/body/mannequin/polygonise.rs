@@ -1,7 +1,7 @@
-//! A first triangle mesh of the left half of a field's zero set: marching tetrahedra over an uneven grid.
+//! Polygonisation of the left half of an implicit function: marching tetrahedra over an uneven grid.
 //!
-//! Every cell is cut into the six tetrahedra round its main diagonal, so neighbouring cells agree on their common face
-//! and the result is a manifold whatever the field does. The first grid plane is x = 0, where the half is open.
+//! Every cell is cut into the six tetrahedra round its main diagonal, so that neighbouring cells agree on their
+//! common face and the result is a manifold for any function. The first grid plane is x = 0, where the half is open.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -9,18 +9,18 @@ use rayon::prelude::*;
 use super::field::Field;
 use crate::geometry::mesh::TriMesh;
 
-/// Cells per side of the blocks that are tested for emptiness.
+/// Number of cells along each side of the blocks that are tested for emptiness.
 const BLOCK: usize = 4;
 
-/// Ascending coordinates of the grid planes along each axis.
+/// A grid: ascending coordinates of its planes along each axis.
 #[derive(Clone, Debug)]
 pub struct Grid {
-    /// Planes across x, y, z. The first across x is 0.
+    /// Coordinates of the planes across x, y and z, metres. The first across x is 0.
     pub planes: [Vec<f64>; 3],
 }
 
 impl Grid {
-    /// Planes from `from` to `to`, about `spacing(x)` apart, in whole blocks.
+    /// Coordinates of planes from `from` to `to`, about `spacing(x)` apart; their number makes whole blocks.
     pub fn planes(from: f64, to: f64, spacing: impl Fn(f64) -> f64) -> Vec<f64> {
         let mut planes = vec![from];
         let mut at = from;
@@ -40,7 +40,7 @@ impl Grid {
     }
 }
 
-/// The zero set of `field` over `grid`, open at x = 0, outward.
+/// The surface where `field` is zero, over `grid`: open at x = 0, facing outward.
 pub fn polygonised(field: &Field, grid: &Grid) -> TriMesh {
     let blocks = near_blocks(field, grid);
     let nodes = Nodes::evaluate(field, grid, &blocks);
@@ -66,7 +66,7 @@ fn for_each_in(block: [usize; 3], mut f: impl FnMut([usize; 3])) {
     }
 }
 
-/// First cells of the blocks that the surface may pass through.
+/// The first cells of all blocks through which the surface may pass.
 fn near_blocks(field: &Field, grid: &Grid) -> Vec<[usize; 3]> {
     let [nx, ny, nz] = [0, 1, 2].map(|a| grid.cells(a) / BLOCK);
     (0..nx)
@@ -78,7 +78,7 @@ fn near_blocks(field: &Field, grid: &Grid) -> Vec<[usize; 3]> {
                     let first = [i * BLOCK, j * BLOCK, k * BLOCK];
                     let lower = grid.point(first);
                     let upper = grid.point(first.map(|c| c + BLOCK));
-                    // The field is only nearly a distance: leave room.
+                    // The field is only approximately a distance: leave a margin.
                     let reach = 1.3 * (upper - lower).length() + 0.006;
                     if field.value((lower + upper) / 2.0).abs() < reach {
                         near.push(first);
@@ -91,7 +91,7 @@ fn near_blocks(field: &Field, grid: &Grid) -> Vec<[usize; 3]> {
 }
 
 struct Nodes {
-    /// Index of a grid node among the evaluated ones; `u32::MAX` for the others.
+    /// For each grid node its index among the evaluated ones; `u32::MAX` for the others.
     index: Vec<u32>,
     stride: [usize; 2],
     values: Vec<f64>,
@@ -129,12 +129,13 @@ impl Nodes {
 struct Builder<'a> {
     grid: &'a Grid,
     nodes: &'a Nodes,
-    /// The mesh vertex on each of the seven edges that leave a node in ascending direction.
+    /// For each node the mesh vertices on the seven edges that leave it in ascending direction.
     slots: Vec<[u32; 7]>,
     mesh: TriMesh,
 }
 
-/// Corners of a cell as steps along the axes (bit 0: x, 1: y, 2: z), four per tetrahedron; all wind the same way.
+/// The six tetrahedra of a cell, four corners each, as bits of steps along the axes (bit 0: x, 1: y, 2: z); all have
+/// the same orientation.
 const TETRAHEDRA: [[u8; 4]; 6] =
     [[0, 1, 3, 7], [0, 3, 2, 7], [0, 2, 6, 7], [0, 6, 4, 7], [0, 4, 5, 7], [0, 5, 1, 7]];
 
@@ -153,7 +154,7 @@ impl Builder<'_> {
 
     fn tetrahedron(&mut self, cell: [usize; 3], [a, b, c, d]: [u8; 4], inside: u8) {
         let is = |corner: u8| inside >> corner & 1 == 1;
-        // Even permutations of the corners that bring the odd one out, or the inner pair, to the front.
+        // Even permutations of the corners that bring the odd one, or the inner pair, to the front.
         let count = [a, b, c, d].into_iter().filter(|&x| is(x)).count();
         let orders = [
             [a, b, c, d],
@@ -182,9 +183,9 @@ impl Builder<'_> {
         }
     }
 
-    /// The vertex on the edge between two corners of a cell.
+    /// The mesh vertex on the edge between two corners of a cell, created on first use.
     fn vertex(&mut self, cell: [usize; 3], a: u8, b: u8) -> u32 {
-        // All edges run along ascending axes: one end's steps contain the other's.
+        // All edges run along ascending axes: the steps of one end contain those of the other.
         let (low, high) = if a & b == a { (a, b) } else { (b, a) };
         let corner = |bits: u8| [0, 1, 2].map(|axis| cell[axis] + usize::from(bits >> axis & 1));
         let (from, to) = (corner(low), corner(high));

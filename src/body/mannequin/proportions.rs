@@ -3,7 +3,7 @@
 //! Everything is in metres on a figure 1.78 m tall; `figure` stretches it to other measurements. The left half is given
 //! (x > 0); the figure stands with its feet on y = 0 and faces +z.
 
-/// Heights of the places the tables were drawn for.
+/// Heights of the places for which the tables were drawn, metres.
 pub mod level {
     /// Narrowest place above the ankle bones.
     pub const ANKLE: f64 = 0.140;
@@ -35,9 +35,8 @@ pub mod level {
     pub const CROWN: f64 = 1.78;
 }
 
-/// Trunk with one leg, ankle to neck, by height:
-/// `[y, inner edge x, outer edge x, centre x, centre z, front half-depth, back half-depth, exponent]`.
-/// Where the inner edge is negative the two halves run into each other and make one trunk.
+/// Trunk with one leg, from ankle to neck, by height: `[y, inner edge x, outer edge x, centre x, centre z, front
+/// half-depth, back half-depth, exponent]`. Where the inner edge is negative the two halves overlap and make one trunk.
 #[rustfmt::skip]
 pub const TRUNK: [[f64; 8]; 34] = [
     [0.045,  0.081, 0.141, 0.111, -0.034, 0.033, 0.034, 2.0],
@@ -76,7 +75,7 @@ pub const TRUNK: [[f64; 8]; 34] = [
     [1.660, -0.0440, 0.0440, 0.0,  0.006, 0.044, 0.046, 2.0],
 ];
 
-/// Where the arm starts: the middle of the shoulder joint.
+/// Centre of the left shoulder joint, where the arm starts.
 pub const SHOULDER_JOINT: [f64; 3] = [0.161, 1.406, -0.018];
 /// Angle between the arm and straight down, radians.
 pub const ARM_ANGLE: f64 = 0.765;
@@ -104,15 +103,15 @@ pub const ARM: [[f64; 8]; 18] = [
     [ 0.655, -0.014, 0.069, 0.012, 0.012, 0.0395, 0.0405, 2.6],
     [ 0.666, -0.015, 0.071, 0.0105, 0.0105, 0.039, 0.040, 2.6],
 ];
-/// Where upper arm, elbow and wrist are measured, metres along the arm.
+/// Distance along the arm at which the upper arm is measured, metres.
 pub const UPPER_ARM_AT: f64 = 0.145;
-/// The elbow.
+/// Distance along the arm of the elbow, metres.
 pub const ELBOW_AT: f64 = 0.300;
-/// The wrist.
+/// Distance along the arm of the wrist, metres.
 pub const WRIST_AT: f64 = 0.548;
 
-/// Fingers and thumb as chains of joints in the arm's frame (length along the arm, outward, forward, radius), after the
-/// arm's own bend has been taken out.
+/// Fingers and thumb as chains of joints in the arm's frame (length along the arm, outward, forward, radius), without
+/// the arm's own bend.
 #[rustfmt::skip]
 pub const FINGERS: [[[f64; 4]; 4]; 5] = [
     [[0.650,  0.000,  0.0335, 0.0084], [0.697, -0.003,  0.0360, 0.0080], [0.722, -0.009,  0.0375, 0.0073], [0.741, -0.017,  0.0385, 0.0062]],
@@ -135,9 +134,9 @@ pub const FOOT: [[f64; 7]; 8] = [
     [ 0.150, -0.0045, 0.0400, 0.0405, 0.0135, 0.0335, 2.3],
     [ 0.163, -0.0055, 0.0395, 0.0390, 0.0130, 0.0315, 2.3],
 ];
-/// Below the ankle joint, on the floor.
+/// Origin of the foot on the floor below the ankle joint (x, z), metres.
 pub const FOOT_ORIGIN: [f64; 2] = [0.110, -0.037];
-/// How far the feet turn outward, radians.
+/// Angle by which the feet turn outward, radians.
 pub const FOOT_TURN: f64 = 0.16;
 
 /// Head by height: `[y, half-width, centre z, front half-depth, back half-depth, exponent]`.
@@ -154,14 +153,14 @@ pub const HEAD: [[f64; 6]; 9] = [
     [1.700, 0.0740, 0.004, 0.095, 0.103, 2.0],
 ];
 
-/// A soft swelling (or, negative, a hollow): centre, reach along x, y, z, height above the plain surface, metres.
+/// A soft bump or hollow on the skin, metres.
 #[derive(Clone, Copy, Debug)]
 pub struct Swelling {
-    /// Middle.
+    /// Position of its centre.
     pub centre: [f64; 3],
-    /// Distance along each axis at which it has sunk to 1/e.
+    /// Distance along each axis at which it has fallen to 1/e.
     pub reach: [f64; 3],
-    /// Height; negative for a hollow.
+    /// Height above the plain surface; negative for a hollow.
     pub height: f64,
 }
 
@@ -169,7 +168,7 @@ const fn swelling(centre: [f64; 3], reach: [f64; 3], height: f64) -> Swelling {
     Swelling { centre, reach, height }
 }
 
-/// A calm face: nose and its bridge, hollows of the eyes, lips, chin, cheekbones, brows.
+/// Face: nose and its bridge, hollows of the eyes, lips, chin, cheekbones, brows.
 #[rustfmt::skip]
 pub const FACE: [Swelling; 7] = [
     swelling([0.0, 1.642, 0.108], [0.013, 0.015, 0.030], 0.014),
@@ -181,7 +180,7 @@ pub const FACE: [Swelling; 7] = [
     swelling([0.030, 1.693, 0.090], [0.024, 0.009, 0.030], 0.0020),
 ];
 
-/// Modelling of trunk and limbs: collar bones, hollow of the throat, shoulder blades, furrow of the spine, navel,
+/// Details of trunk and limbs: collar bones, hollow of the throat, shoulder blades, furrow of the spine, navel,
 /// kneecaps, hollows of the knees, ankle bones.
 #[rustfmt::skip]
 pub const MODELLING: [Swelling; 10] = [
@@ -197,7 +196,7 @@ pub const MODELLING: [Swelling; 10] = [
     swelling([0.076, 0.082, -0.030], [0.020, 0.017, 0.017], 0.0035),
 ];
 
-/// One breast: centre, then half-axes sideways, up, down, forward.
+/// Centre of the left breast, metres.
 pub const BREAST_CENTRE: [f64; 3] = [0.080, 1.284, 0.050];
-/// Half-axes.
+/// Half-axes of a breast sideways, up, down and forward, metres.
 pub const BREAST_AXES: [f64; 4] = [0.065, 0.120, 0.058, 0.081];

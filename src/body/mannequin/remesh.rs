@@ -1,7 +1,6 @@
-//! Even triangles on the skin: isotropic remeshing after Botsch and Kobbelt 2004 ("A Remeshing Approach to
-//! Multiresolution Modeling", section 4): split long edges, collapse short ones, even out valences, relax along the
-//! surface. Departures: the wanted length varies over the figure, and vertices are brought back onto the implicit skin
-//! rather than onto an older mesh.
+//! Isotropic remeshing of the skin after Botsch and Kobbelt 2004 ("A Remeshing Approach to Multiresolution Modeling",
+//! section 4): split long edges, collapse short ones, even out valences by flips, relax along the surface. Departures: the
+//! wanted length varies over the figure, and vertices are projected on to the implicit skin rather than on to an older mesh.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -10,10 +9,10 @@ use super::editing::Editing;
 use super::field::Field;
 use crate::geometry::mesh::TriMesh;
 
-/// Rounds of split, collapse, turn, relax.
+/// Number of rounds of split, collapse, flip, relax.
 const ROUNDS: usize = 8;
 
-/// `half` (open at x = 0) with edges about `wanted(point)` metres long, its vertices on the skin of `field`.
+/// Remeshes `half` (open at x = 0) to edges about `wanted(point)` metres long, its vertices on the skin of `field`.
 pub fn remeshed(half: TriMesh, field: &Field, wanted: impl Fn(DVec3) -> f64 + Sync) -> TriMesh {
     let mut mesh = Editing::new(half.positions, half.triangles);
     for round in 0..ROUNDS {
@@ -21,7 +20,7 @@ pub fn remeshed(half: TriMesh, field: &Field, wanted: impl Fn(DVec3) -> f64 + Sy
             wanted((m.positions[e[0] as usize] + m.positions[e[1] as usize]) / 2.0)
         };
         if round == 0 {
-            // The first mesh is far too fine: thin it out before smoothing it.
+            // The first mesh is far too fine: coarsen it before smoothing it.
             collapse_short(&mut mesh, &target);
             mesh = mesh.compacted();
         } else {
@@ -61,7 +60,7 @@ fn collapse_short(mesh: &mut Editing, target: &impl Fn(&Editing, [u32; 2]) -> f6
     }
 }
 
-/// Moves every vertex towards the middle of its neighbours, along the surface, and back onto the skin.
+/// Tangential relaxation: moves every vertex towards the mean of its neighbours along the surface, and back on to the skin.
 fn relax(mesh: &mut Editing, field: &Field, steps: usize) {
     let normals = crate::geometry::mesh::vertex_normals(&mesh.positions, &mesh.triangles);
     let moved: Vec<DVec3> = (0..mesh.positions.len())
@@ -84,7 +83,7 @@ fn relax(mesh: &mut Editing, field: &Field, steps: usize) {
     mesh.positions = moved;
 }
 
-/// `half` together with its mirror image in x = 0.
+/// Joins `half` and its mirror image in x = 0.
 pub fn mirrored(half: &TriMesh) -> TriMesh {
     let mut positions = half.positions.clone();
     let twin: Vec<u32> = half
@@ -104,8 +103,8 @@ pub fn mirrored(half: &TriMesh) -> TriMesh {
     TriMesh { positions, triangles }
 }
 
-/// Whether the mesh is closed (every edge joins just two triangles, which run along it in opposite directions) and has
-/// no handle (its Euler characteristic is two).
+/// Whether the mesh is a topological sphere: closed (every edge joins just two triangles, which run along it in
+/// opposite directions) and without handles (its Euler characteristic is two).
 pub fn is_ball(mesh: &TriMesh) -> bool {
     let directed = |flip: bool| {
         let mut edges: Vec<[u32; 2]> = mesh

@@ -1,4 +1,4 @@
-//! Natural cubic splines through a few knots, and the dense tables read from them.
+//! Natural cubic splines through knots.
 
 /// Natural cubic spline (second derivative zero at both ends) through `(x, y)` knots with ascending `x`.
 #[derive(Clone, Debug)]
@@ -9,7 +9,7 @@ pub struct Spline {
 }
 
 impl Spline {
-    /// Through at least two knots. Panics on fewer: tables are written in code.
+    /// The spline through at least two knots. Panics on fewer: tables are written in code.
     pub fn new(knots: impl Iterator<Item = (f64, f64)>) -> Self {
         let (x, y): (Vec<f64>, Vec<f64>) = knots.unzip();
         let n = x.len();

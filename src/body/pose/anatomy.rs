@@ -1,9 +1,9 @@
-//! The joints of the mannequin about their own axes, and how far people turn them.
+//! Anatomical angles of the mannequin's joints, and their ranges.
 //!
-//! Angles count from the neutral zero position: upright, arms hanging, palms inward, feet forward. Ranges are those of the
-//! American Academy of Orthopaedic Surgeons (1965, "Joint Motion: Method of Measuring and Recording"); neck and back have two
-//! joints here, each with half of theirs. Of the 180° that an arm is raised the shoulder has 150° and the collar the rest: its
-//! ranges are those of the sternoclavicular joint (Magee 2014, "Orthopedic Physical Assessment").
+//! Angles count from the neutral zero position: upright, arms hanging, palms inward, feet forward. Ranges are those of
+//! the American Academy of Orthopaedic Surgeons (1965, "Joint Motion: Method of Measuring and Recording"); neck and back
+//! have two joints here, each with half of the range. Of the 180° that an arm can be raised the shoulder has 150° and the
+//! collar the rest: its ranges are those of the sternoclavicular joint (Magee 2014, "Orthopedic Physical Assessment").
 
 use glam::{DMat3, DQuat, DVec3};
 
@@ -11,27 +11,27 @@ use crate::body::pose::regions::JOINTS;
 use crate::body::pose::{Pose, hanging, shortest};
 use crate::body::skeleton::Skeleton;
 
-/// A cosine less than this is none: two of the axes lie along each other.
+/// Cosine of the abduction below which two axes count as parallel (gimbal lock).
 const LOCKED: f64 = 1e-9;
-/// An angle read off a turn has so much of an error, degrees.
+/// Rounding error of an angle read off a rotation, degrees, allowed beyond a joint's range.
 const READ_ERROR: f64 = 1e-6;
 
-/// About what a joint turns. On both sides of the body the same angle is the mirrored turn.
+/// An anatomical axis of a joint. The same angle on the other side of the body is the mirrored rotation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Axis {
-    /// From side to side: bends forth.
+    /// The axis from side to side: bends forward.
     Flexion,
-    /// From front to back: leads away from the middle.
+    /// The axis from front to back: moves away from the middle.
     Abduction,
-    /// Along the limb.
+    /// The axis along the limb: rotates it.
     Twist,
 }
 
 impl Axis {
-    /// All, in the order in which a joint's angles stand.
+    /// All axes, in the order of a joint's angles.
     pub const ALL: [Self; 3] = [Self::Flexion, Self::Abduction, Self::Twist];
 
-    /// As on the command line.
+    /// Name on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Self::Flexion => "flexion",
@@ -41,18 +41,18 @@ impl Axis {
     }
 }
 
-/// One way in which a joint turns.
+/// A movement of a joint about one axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Movement {
-    /// About what.
+    /// The axis.
     pub axis: Axis,
-    /// What it is called at this joint, above and below zero.
+    /// Name of the movement at this joint, in positive and in negative direction.
     pub title: &'static str,
-    /// The least and the largest angle, degrees.
+    /// Smallest and largest angle, degrees.
     pub range: [f64; 2],
 }
 
-/// Of a joint, without its side, its movements.
+/// Name of a joint without its side, and its movements.
 type Part = (&'static str, &'static [Movement]);
 
 const fn movement(axis: Axis, title: &'static str, least: f64, largest: f64) -> Movement {
@@ -122,17 +122,17 @@ const NECK: [Movement; 3] = [
     movement(Twist, "Turned to the left / right", -30.0, 30.0),
 ];
 
-/// A joint that turns, on one side of the body.
+/// A joint that can be turned, on one side of the body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limb {
-    /// As in the skeleton and in a [`Pose`].
+    /// Name of the joint in the skeleton and in a [`Pose`].
     pub joint: &'static str,
-    /// In what ways it turns, those that it has, in the order of [`Axis::ALL`].
+    /// The movements that the joint has, in the order of [`Axis::ALL`].
     pub movements: &'static [Movement],
 }
 
 impl Limb {
-    /// All joints that turn, parents first.
+    /// All joints that can be turned, parents first.
     pub fn all() -> impl Iterator<Item = Self> {
         JOINTS.iter().filter_map(|(joint, _)| {
             let (_, movements) = PARTS.iter().find(|(part, _)| *part == split(joint).0)?;
@@ -140,13 +140,13 @@ impl Limb {
         })
     }
 
-    /// The joint that `name` means: "left_elbow", "elbow_left" or "left-elbow"; "spine".
+    /// The joint with this name: "left_elbow", "elbow_left", "left-elbow", or "spine".
     pub fn named(name: &str) -> Option<Self> {
         let name = name.trim().to_lowercase().replace(['-', ' '], "_");
         Self::all().find(|limb| limb.joint == name || limb.name() == name)
     }
 
-    /// As on the command line: the side first.
+    /// Name on the command line: the side first.
     pub fn name(self) -> String {
         match split(self.joint) {
             (part, Some(side)) => format!("{side}_{part}"),
@@ -154,25 +154,25 @@ impl Limb {
         }
     }
 
-    /// For people.
+    /// Name for people.
     pub fn title(self) -> String {
         let words = self.name().replace('_', " ");
         words[..1].to_uppercase() + &words[1..]
     }
 
-    /// The same joint of the other side.
+    /// The same joint on the other side; None for joints in the middle.
     pub fn other_side(self) -> Option<Self> {
         let (part, side) = split(self.joint);
         let other = if side? == "left" { "right" } else { "left" };
         Self::all().find(|limb| split(limb.joint) == (part, Some(other)))
     }
 
-    /// The movement about `axis`.
+    /// The movement about `axis`, if the joint has it.
     pub fn movement(self, axis: Axis) -> Option<Movement> {
         self.movements.iter().copied().find(|movement| movement.axis == axis)
     }
 
-    /// What is wrong with an angle, in words.
+    /// Describes what is wrong with an angle, if anything.
     fn problem(self, axis: Axis, degrees: f64) -> Option<String> {
         let (title, axis_name) = (self.name(), axis.name());
         let Some(Movement { range: [least, largest], .. }) = self.movement(axis) else {
@@ -185,7 +185,7 @@ impl Limb {
     }
 }
 
-/// "elbow", "left" of "elbow_left".
+/// Splits the name of a joint into part and side: "elbow" and "left" for "elbow_left".
 fn split(joint: &str) -> (&str, Option<&str>) {
     match joint.rsplit_once('_') {
         Some((part, side)) => (part, Some(side)),
@@ -193,20 +193,20 @@ fn split(joint: &str) -> (&str, Option<&str>) {
     }
 }
 
-/// One joint turned about one axis.
+/// An angle of one joint about one axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JointAngle {
-    /// Which joint.
+    /// The joint.
     pub limb: Limb,
-    /// About what.
+    /// The axis.
     pub axis: Axis,
-    /// By how much from the neutral zero position, within the joint's range.
+    /// Angle from the neutral zero position, degrees, within the joint's range.
     pub degrees: f64,
 }
 
 impl JointAngle {
-    /// The joint called `name`, perhaps with an axis behind a point ("right_hip.abduction"); without one, that in which it
-    /// turns first. The error says what is wrong, in words.
+    /// An angle of the joint called `name`, which may end in an axis ("right_hip.abduction"); without it the joint's
+    /// first movement is meant. Err: a message that says what is wrong.
     pub fn new(name: &str, degrees: f64) -> Result<Self, String> {
         let (joint, axis) = name.split_once('.').map_or((name, None), |(joint, axis)| (joint, Some(axis)));
         let limb = Limb::named(joint).ok_or_else(|| {
@@ -227,7 +227,7 @@ impl JointAngle {
 impl std::str::FromStr for JointAngle {
     type Err = String;
 
-    /// "left_elbow=60", "right_hip.abduction=20".
+    /// Parses "left_elbow=60" or "right_hip.abduction=20".
     fn from_str(text: &str) -> Result<Self, String> {
         let (name, degrees) = text
             .split_once('=')
@@ -237,21 +237,21 @@ impl std::str::FromStr for JointAngle {
     }
 }
 
-/// Turns the joints of one skeleton about their own axes.
+/// Converts between anatomical angles and the rotations of a pose, for one skeleton.
 #[derive(Clone, Copy, Debug)]
 pub struct Anatomy {
-    /// Of the left arm as it was built, from straight down, radians.
+    /// Angle between the left arm as built and straight down, radians.
     hanging: f64,
 }
 
-/// A joint's axes, unit and across each other, of its left side, and how far it is abducted as built, radians.
+/// Orthogonal unit axes of a joint on the left side, and its abduction as built, radians.
 struct Axes {
     axes: [DVec3; 3],
     built: f64,
 }
 
 impl Anatomy {
-    /// For the mannequin of `skeleton`.
+    /// For the mannequin with this `skeleton`.
     pub fn new(skeleton: &Skeleton) -> Self {
         Self { hanging: hanging(skeleton) }
     }
@@ -271,8 +271,8 @@ impl Anatomy {
         Axes { axes, built: if part == "shoulder" { self.hanging } else { 0.0 } }
     }
 
-    /// The turn, a rotation vector as in a [`Pose`], that gives `limb` these angles (degrees, in the order of
-    /// [`Axis::ALL`]): twisted, then abducted, then flexed.
+    /// The rotation vector, as in a [`Pose`], that gives `limb` these angles (degrees, in the order of
+    /// [`Axis::ALL`]): first twist, then abduction, then flexion.
     pub fn turn(&self, limb: Limb, degrees: [f64; 3]) -> DVec3 {
         let (part, side) = split(limb.joint);
         let Axes { axes, built } = self.axes(part);
@@ -282,21 +282,21 @@ impl Anatomy {
         on_side(shortest(turn).to_scaled_axis(), side)
     }
 
-    /// The angles of `limb` in `pose`, degrees, in the order of [`Axis::ALL`]; the twist within -90..=90. Where flexion and
-    /// twist are about the same axis, all of it is flexion.
+    /// The angles of `limb` in `pose`, degrees, in the order of [`Axis::ALL`]; the twist is within -90..=90. In
+    /// gimbal lock, where flexion and twist have the same axis, all of it is given as flexion.
     pub fn angles(&self, pose: &Pose, limb: Limb) -> [f64; 3] {
         let (part, side) = split(limb.joint);
         let Axes { axes, built } = self.axes(part);
         let turn = pose.turns.get(limb.joint).copied().unwrap_or_default();
         let turn = DQuat::from_scaled_axis(on_side(turn, side)) * DQuat::from_axis_angle(axes[1], built);
         let frame = DMat3::from_cols(axes[0], axes[1], axes[2]);
-        // In its own frame: R = Rx(flexion) Ry(abduction) Rz(twist). A left-handed frame turns the other way.
+        // In the joint's frame R = Rx(flexion) Ry(abduction) Rz(twist). In a left-handed frame angles change sign.
         let r = frame.transpose() * DMat3::from_quat(turn) * frame;
         let cos = r.col(0).x.hypot(r.col(1).x);
         let own = match cos < LOCKED {
             true => [r.col(1).z.atan2(r.col(1).y), r.col(2).x.atan2(cos), 0.0],
             false => {
-                // Of both solutions the one that is twisted less.
+                // Of the two solutions take the one with less twist.
                 let sign = if r.col(0).x < 0.0 { -1.0 } else { 1.0 };
                 [
                     (-r.col(2).y * sign).atan2(r.col(2).z * sign),
@@ -305,17 +305,18 @@ impl Anatomy {
                 ]
             }
         };
-        // Less what rounding adds: a joint that is not turned reads 0°, and not -0°.
+        // Round, so that a joint that is not turned reads 0°, and not -0°.
         own.map(|angle| (angle * frame.determinant()).to_degrees())
             .map(|degrees| (degrees * 1e9).round() / 1e9 + 0.0)
     }
 
-    /// Gives `limb` these angles in `pose`.
+    /// Sets the angles of `limb` in `pose`, degrees, in the order of [`Axis::ALL`].
     pub fn set(&self, pose: &mut Pose, limb: Limb, degrees: [f64; 3]) {
         pose.set(limb.joint, self.turn(limb, degrees));
     }
 
-    /// `pose` with these joints turned, and all others as they are. The error says which cannot be.
+    /// `pose` with these angles set and all others unchanged. Err: a message that names the joint that cannot be
+    /// turned like that.
     pub fn with(&self, pose: &Pose, angles: &[JointAngle]) -> Result<Pose, String> {
         let mut pose = pose.clone();
         for &JointAngle { limb, axis, degrees } in angles {
@@ -327,12 +328,12 @@ impl Anatomy {
     }
 }
 
-/// A turn of the left side on `side`, or back: the mirror image.
+/// Mirrors a rotation vector between left and right, if `side` is right.
 fn on_side(turn: DVec3, side: Option<&str>) -> DVec3 {
     if side == Some("right") { DVec3::new(turn.x, -turn.y, -turn.z) } else { turn }
 }
 
-/// `pose` with the right side as the left, mirrored; what is in the middle stays.
+/// `pose` with the right side set to the mirror image of the left; joints in the middle stay.
 pub fn mirrored_to_the_right(pose: &Pose) -> Pose {
     let mut mirrored = pose.clone();
     for limb in Limb::all().filter(|limb| split(limb.joint).1 == Some("left")) {

@@ -1,13 +1,12 @@
-//! Which joint of another skeleton is which of the mannequin's, by name.
+//! Matching the joints of another skeleton to the mannequin's, by name.
 //!
-//! Known are the names of the CMU motion library and of Mixamo (both after MotionBuilder), of Poser and Daz, of 3ds Max
-//! bipeds, of Unreal and MakeHuman, and plain words. Case, separators and what stands before a colon do not count.
+//! Known are the names of the CMU motion library and of Mixamo (both after MotionBuilder), of Poser and Daz, of 3ds
+//! Max bipeds, of Unreal and MakeHuman, and plain words. Case, separators and everything before a colon are ignored.
 
 use std::collections::BTreeMap;
 
-/// What the joints of one side are called without the side, the surest name first. Where a name means one joint in one
-/// skeleton and another in the next ("LeftShoulder" is Mixamo's collar, and elsewhere the shoulder), the joint named further
-/// up takes it last.
+/// Names for joints of the two sides, without the side, the surest first. Some names mean different joints in different
+/// skeletons ("LeftShoulder" is Mixamo's collar, and elsewhere the shoulder): joints higher in this list choose first.
 const LIMBS: [(&str, &[&str]); 7] = [
     ("shoulder", &["arm", "upperarm", "upperarm01", "uparm", "shldr", "shldrbend", "shoulder"]),
     ("collar", &["collar", "clavicle", "shoulder"]),
@@ -17,7 +16,7 @@ const LIMBS: [(&str, &[&str]); 7] = [
     ("knee", &["leg", "lowerleg", "lowerleg01", "lowleg", "shin", "calf", "knee"]),
     ("ankle", &["foot", "ankle"]),
 ];
-/// And those in the middle.
+/// Names for joints in the middle, the surest first; joints higher in this list choose first.
 const MIDDLE: [(&str, &[&str]); 5] = [
     ("pelvis", &["hips", "pelvis", "hip", "root"]),
     ("chest", &["upperchest", "chest", "spine3", "spine03", "spine2", "spine02", "spine1", "thorax"]),
@@ -25,10 +24,10 @@ const MIDDLE: [(&str, &[&str]); 5] = [
     ("neck", &["neck", "neck1", "neck01", "lowerneck", "necklower"]),
     ("head", &["head"]),
 ];
-/// What stands before all names of some skeletons.
+/// Prefixes of all names in some skeletons.
 const PREFIXES: [&str; 4] = ["mixamorig", "bip001", "bip01", "def"];
 
-/// For joints of the mannequin ("pelvis" too) the place in `names` of the one that means the same.
+/// For joints of the mannequin (and "pelvis") the index in `names` of the matching joint.
 pub fn matched(names: &[&str]) -> BTreeMap<String, usize> {
     let plain: Vec<String> = names.iter().map(|name| plain(name)).collect();
     let mut found: BTreeMap<String, usize> = BTreeMap::new();
@@ -60,7 +59,7 @@ pub fn matched(names: &[&str]) -> BTreeMap<String, usize> {
     found
 }
 
-/// Small letters and digits only, without what all names of a skeleton begin with.
+/// A name reduced to lower case letters and digits, without prefix.
 fn plain(name: &str) -> String {
     let own = name.rsplit(':').next().unwrap_or(name);
     let plain: String = own.chars().filter(|c| c.is_alphanumeric()).collect::<String>().to_lowercase();

@@ -1,4 +1,4 @@
-//! Poses of the mannequin: how its joints are turned, and its skin with them.
+//! Poses of the mannequin: rotations of its joints, and the skin deformed by them.
 
 pub mod anatomy;
 mod matching;

@@ -1,9 +1,8 @@
-//! Motions of other skeletons put on the mannequin.
+//! Retargeting: motions of other skeletons applied to the mannequin.
 //!
-//! Each joint of the mannequin takes the whole rotation, from the rest pose on, of the joint that means the same, so that it
-//! does not matter how many joints the other skeleton has in between. Limbs that rest in other directions (arms level in one,
-//! half up in the other) are first laid along each other by the shortest turn. The pelvis keeps its path, scaled by the length
-//! of the legs.
+//! Each joint of the mannequin takes the global rotation, from the rest pose on, of the matching joint, so that it does not
+//! matter how many joints the other skeleton has in between. Limbs with different rest directions (arms level in one, half
+//! up in the other) are first aligned by the shortest rotation. The pelvis keeps its path, scaled by the length of the legs.
 
 use std::collections::BTreeMap;
 
@@ -15,53 +14,54 @@ use crate::body::pose::regions::JOINTS;
 use crate::body::pose::{FURTHEST, Pose, shortest};
 use crate::body::skeleton::Skeleton;
 
-/// What a number of a frame does to its joint.
+/// What one value of a frame does to its joint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Channel {
-    /// Moves it along x, y or z (0..=2) of its parent, in the clip's unit, in place of its offset.
+    /// Moves the joint along x, y or z (0..=2) of its parent, in the clip's unit, replacing that coordinate of its offset.
     Position(usize),
-    /// Turns it about x, y or z (0..=2), degrees, after the channels before it.
+    /// Rotates the joint about x, y or z (0..=2), degrees, after the channels before it.
     Rotation(usize),
 }
 
 /// A joint of a clip.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ClipJoint {
-    /// As in the file.
+    /// Name in the file.
     pub name: String,
-    /// Lower than its own index; None for the root.
+    /// Index of the parent; lower than the joint's own. None for the root.
     pub parent: Option<usize>,
-    /// From its parent in the rest pose, in the clip's unit.
+    /// Offset from the parent in the rest pose, in the clip's unit.
     pub offset: DVec3,
-    /// In the order of the numbers of a frame.
+    /// Channels, in the order of the values of a frame.
     pub channels: Vec<Channel>,
-    /// Ends of bones that begin at it and have no joint there.
+    /// End points of bones that begin at the joint and have no joint at their end, in the joint's frame.
     pub ends: Vec<DVec3>,
 }
 
-/// A skeleton in motion, in a file with any axis up; y up for the mannequin. In the rest pose nothing is turned.
+/// A motion clip: a skeleton with values for each frame. In a file any axis may be up; the mannequin needs y up. In
+/// the rest pose all rotations are zero.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Clip {
-    /// Parents first, the root at the head.
+    /// The joints, parents first; the root is the first.
     pub joints: Vec<ClipJoint>,
-    /// From frame to frame, above zero.
+    /// Time between frames, seconds, above zero.
     pub seconds_per_frame: f64,
-    /// Of all frames, one after the other; in each the channels of all joints.
+    /// Values of all frames, one frame after the other; in each the channels of all joints.
     pub values: Vec<f64>,
 }
 
 impl Clip {
-    /// Numbers in a frame.
+    /// Number of values in a frame.
     pub fn channels(&self) -> usize {
         self.joints.iter().map(|joint| joint.channels.len()).sum()
     }
 
-    /// Frames.
+    /// Number of frames.
     pub fn frames(&self) -> usize {
         self.values.len().checked_div(self.channels()).unwrap_or(0)
     }
 
-    /// Where each joint is in a frame and how it is turned, against the rest pose.
+    /// Global rotation (against the rest pose) and position of each joint in a frame.
     fn places(&self, frame: usize) -> Vec<(DQuat, DVec3)> {
         let channels = self.channels();
         let mut values = self.values[frame * channels..(frame + 1) * channels].iter();
@@ -82,7 +82,7 @@ impl Clip {
         places
     }
 
-    /// The axis that its rest pose probably stands along.
+    /// The likely up axis, judged by the rest pose.
     pub fn likely_up(&self) -> UpAxis {
         let (mut lower, mut upper) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         for (at, joint) in self.resting().into_iter().zip(&self.joints) {
@@ -93,9 +93,9 @@ impl Clip {
         UpAxis::guess(upper - lower)
     }
 
-    /// Turns all of it so that `up` becomes y.
+    /// Rotates the whole clip so that `up` becomes y.
     pub fn set_upright(&mut self, up: UpAxis) {
-        // Which way each number points afterwards: a turn about -y is one by the negative angle.
+        // Sign of each value afterwards: a rotation about -y is one by the negative angle.
         let signs: Vec<f64> = self
             .joints
             .iter_mut()
@@ -113,7 +113,7 @@ impl Clip {
         self.values.iter_mut().zip(signs.iter().cycle()).for_each(|(value, sign)| *value *= sign);
     }
 
-    /// Where the joints are in the rest pose, the root at its offset.
+    /// Positions of the joints in the rest pose; the root is at its offset.
     fn resting(&self) -> Vec<DVec3> {
         let mut places: Vec<DVec3> = Vec::with_capacity(self.joints.len());
         for joint in &self.joints {
@@ -123,16 +123,16 @@ impl Clip {
     }
 }
 
-/// Where the mannequin's pelvis is, against the built pose.
+/// Position and rotation of the mannequin's pelvis, relative to the built pose.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Placement {
-    /// How it is turned, about itself.
+    /// Rotation about the pelvis.
     pub turn: DQuat,
-    /// Where it has moved to, metres.
+    /// Translation, metres.
     pub shift: DVec3,
 }
 
-/// Numbers count up the spine in some skeletons and down in others: the chest is the joint above.
+/// Swaps spine and chest where the clip numbers its spine downwards: the chest must be above.
 fn upright(found: &mut BTreeMap<String, usize>, clip: &Clip) {
     let Some((spine, chest)) = found.get("spine").copied().zip(found.get("chest").copied()) else { return };
     let mut above = clip.joints[spine].parent;
@@ -146,32 +146,32 @@ fn upright(found: &mut BTreeMap<String, usize>, clip: &Clip) {
     }
 }
 
-/// Bones whose directions are laid along each other.
+/// Bones whose rest directions are aligned, from joint to joint.
 const LIMBS: [(&str, &str); 4] =
     [("shoulder", "elbow"), ("elbow", "wrist"), ("hip", "knee"), ("knee", "ankle")];
 
-/// Which joints of a clip move which of the mannequin's.
+/// Which joints of a clip drive which of the mannequin's, and how.
 #[derive(Clone, Debug)]
 pub struct Retarget {
-    /// For each of `JOINTS` the joint of the clip.
+    /// For each of `JOINTS` the joint of the clip that drives it.
     sources: Vec<Option<usize>>,
-    /// For each of `JOINTS` how its limb is laid along the clip's.
+    /// For each of `JOINTS` the rotation that aligns its limb with the clip's in the rest pose.
     along: Vec<DQuat>,
-    /// For each of `JOINTS` the one before it; None: the pelvis.
+    /// For each of `JOINTS` its parent among them; None: the pelvis.
     parents: Vec<Option<usize>>,
     pelvis: usize,
-    /// Metres in the clip's unit, after which the legs are as long as the mannequin's.
+    /// Metres per unit of the clip, chosen so that the legs get the length of the mannequin's.
     scale: f64,
-    /// The pelvis stands so high in the rest pose, in the clip's unit.
+    /// Height of the pelvis above the lowest point in the rest pose, in the clip's unit.
     standing: f64,
-    /// Joints of the clip that move nothing, in its order.
+    /// Joints of the clip that drive nothing, in its order.
     pub unused: Vec<String>,
-    /// Joints of the mannequin that nothing moves.
+    /// Joints of the mannequin that nothing drives.
     pub unmoved: Vec<&'static str>,
 }
 
 impl Retarget {
-    /// From `clip` to the mannequin of `skeleton`. The error, in words: no limb was found.
+    /// Matches `clip` to the mannequin with this `skeleton`. Err: a message, when no joint is known by name.
     pub fn new(clip: &Clip, skeleton: &Skeleton) -> Result<Self, String> {
         let names: Vec<&str> = clip.joints.iter().map(|joint| joint.name.as_str()).collect();
         let mut found = matched(&names);
@@ -208,7 +208,7 @@ impl Retarget {
                     clip_legs += theirs.length();
                 }
             }
-            // The hand is in line with the forearm.
+            // The hand is aligned like the forearm.
             if let (Some(elbow), Some(wrist)) =
                 (index(&format!("elbow_{side}")), index(&format!("wrist_{side}")))
             {
@@ -233,7 +233,7 @@ impl Retarget {
         Ok(Self { parents: parents.collect(), along, pelvis, scale, standing, unused, unmoved, sources })
     }
 
-    /// The mannequin in a frame of `clip`, and where it is: sideways from where it is in frame `first`.
+    /// Pose and placement of the mannequin in a frame of `clip`; horizontally the placement is relative to frame `first`.
     pub fn frame(&self, clip: &Clip, first: usize, frame: usize) -> (Pose, Placement) {
         let places = clip.places(frame);
         let pelvis = places[self.pelvis];
@@ -245,7 +245,7 @@ impl Retarget {
             whole.push(own);
             let turn = shortest((before.inverse() * own).normalize()).to_scaled_axis();
             if self.sources[k].is_some() {
-                // Short of the limit, whatever rounding does.
+                // Stay below the limit in spite of rounding.
                 pose.set(name, turn.clamp_length_max(FURTHEST * (1.0 - 1e-12)));
             }
         }

@@ -1,16 +1,16 @@
-//! Poses with a name.
+//! Named poses of the mannequin.
 
 use glam::DVec3;
 
 use crate::body::pose::{Pose, hanging};
 use crate::body::skeleton::Skeleton;
 
-/// A pose with a name.
+/// A named pose.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NamedPose {
-    /// As it was built: arms half up.
+    /// The pose it was built in: arms half up.
     A,
-    /// Arms level.
+    /// T pose: arms level.
     T,
     /// Arms down.
     Standing,
@@ -18,21 +18,21 @@ pub enum NamedPose {
     Walking,
     /// In the middle of a leap.
     Running,
-    /// On a chair.
+    /// Sitting on a chair.
     Sitting,
     /// Both arms up.
     ArmsUp,
-    /// A deep stance, one fist forward.
+    /// Kung fu: a deep stance, one fist forward.
     KungFu,
 }
 
-/// One joint on both sides is named by what comes before this.
+/// The two sides: the suffix of joint names, and the sign of x.
 const SIDES: [(&str, f64); 2] = [("left", 1.0), ("right", -1.0)];
-/// Of the way that an arm is raised this share is the collar's.
+/// Fraction of an arm's raising that the collar takes; the shoulder takes the rest.
 const COLLAR: f64 = 0.25;
 
 impl NamedPose {
-    /// All, in the order of menus.
+    /// All poses, in the order of menus.
     pub const ALL: [Self; 8] = [
         Self::A,
         Self::T,
@@ -44,7 +44,7 @@ impl NamedPose {
         Self::KungFu,
     ];
 
-    /// As on the command line.
+    /// Name on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Self::A => "a",
@@ -58,7 +58,7 @@ impl NamedPose {
         }
     }
 
-    /// For people.
+    /// Name for people.
     pub fn title(self) -> &'static str {
         match self {
             Self::A => "A: arms half up",
@@ -72,7 +72,7 @@ impl NamedPose {
         }
     }
 
-    /// The turns of the joints of `skeleton` that take it into this pose.
+    /// The pose for the joints of `skeleton`.
     pub fn pose(self, skeleton: &Skeleton) -> Pose {
         let mut figure = Posing { pose: Pose::default(), hanging: hanging(skeleton) };
         match self {
@@ -104,7 +104,7 @@ impl std::str::FromStr for NamedPose {
     }
 }
 
-/// A pose being made. Angles in degrees.
+/// A pose under construction. Angles are in degrees.
 struct Posing {
     pose: Pose,
     hanging: f64,
@@ -117,26 +117,26 @@ impl Posing {
         self.pose.add(joint, DVec3::from_array(turn.map(f64::to_radians)));
     }
 
-    /// Turns a joint of one side; x forth (below zero) and back, y and z as on the left.
+    /// Adds a rotation to a joint of one side: x negative bends forward; y and z are given for the left side.
     fn on(&mut self, (name, sign): &Side, joint: &str, [x, y, z]: [f64; 3]) {
         self.add(&format!("{joint}_{name}"), [x, y * sign, z * sign]);
     }
 
-    /// The arm stands off by so much from straight down, sideways.
+    /// Raises the arm sideways to `angle` degrees from straight down.
     fn raise(&mut self, side: &Side, angle: f64) {
         let turn = angle - self.hanging.to_degrees();
         self.on(side, "collar", [0.0, 0.0, COLLAR * turn.max(0.0)]);
         self.on(side, "shoulder", [0.0, 0.0, turn - COLLAR * turn.max(0.0)]);
     }
 
-    /// The forearm is bent forward, whichever way the arm is held.
+    /// Bends the forearm forward by `angle` degrees, whichever way the arm is held.
     fn elbow(&mut self, side: &Side, angle: f64) {
         // Across the built arm, in the plane of both arms.
         let (sin, cos) = self.hanging.sin_cos();
         self.on(side, "elbow", [-angle * cos, -angle * sin, 0.0]);
     }
 
-    /// Forth by so much, and to the side.
+    /// Bends a leg: hip `forth` degrees forward and `aside` degrees sideways, then knee and ankle.
     fn leg(&mut self, side: &Side, [forth, aside]: [f64; 2], knee: f64, ankle: f64) {
         self.on(side, "hip", [0.0, 0.0, aside]);
         self.on(side, "hip", [-forth, 0.0, 0.0]);
@@ -144,7 +144,7 @@ impl Posing {
         self.on(side, "ankle", [ankle, 0.0, 0.0]);
     }
 
-    /// Hangs at its side, swung forth by so much, bent.
+    /// Sets an arm that hangs at the side: `aside` degrees from straight down, swung `forth` degrees forward, elbow bent.
     fn arm(&mut self, side: &Side, aside: f64, forth: f64, elbow: f64) {
         self.raise(side, aside);
         self.on(side, "shoulder", [-forth, 0.0, 0.0]);

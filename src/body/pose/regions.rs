@@ -1,11 +1,11 @@
-//! Which part of the skin hangs below each joint.
+//! Regions of the skin: which part of it is below each joint in the skeleton.
 
 use glam::DVec3;
 
 use crate::body::skeleton::Skeleton;
 
-/// Joints that turn, parents first, and over which length a turn is spread to both sides of the joint, metres on a figure
-/// of default height.
+/// Joints that can be turned, parents first, each with the distance over which its rotation is blended on both sides
+/// of it, metres on a figure of default height.
 pub const JOINTS: [(&str, f64); 18] = [
     ("spine", 0.060),
     ("chest", 0.060),
@@ -27,18 +27,19 @@ pub const JOINTS: [(&str, f64); 18] = [
     ("ankle_right", 0.020),
 ];
 
-/// How thick arms and trunk are about their bones, metres on a figure of default height: what is nearer to one of them in
-/// these measures belongs to it.
+/// Radius of an arm or a thigh about its bone, metres on a figure of default height. Points belong to the bone to
+/// which their distance, divided by the radius, is smallest.
 const ARM: f64 = 0.045;
 const TRUNK: f64 = 0.135;
+/// Radius of the trunk about its bones, metres on a figure of default height; see [`ARM`].
 
-/// The skeleton as regions of space.
+/// The skeleton's division of space into regions.
 pub struct Regions<'a> {
     skeleton: &'a Skeleton,
 }
 
 impl<'a> Regions<'a> {
-    /// None when a joint is missing.
+    /// Regions of `skeleton`. None when a joint is missing.
     pub fn new(skeleton: &'a Skeleton) -> Option<Self> {
         let whole = JOINTS.iter().all(|(name, _)| skeleton.index(name).is_some());
         whole.then_some(Self { skeleton })
@@ -48,14 +49,14 @@ impl<'a> Regions<'a> {
         self.skeleton.position(name).unwrap_or_default()
     }
 
-    /// Whether a point of the skin hangs below the joint called `name`.
+    /// Whether a point of the skin is below the joint called `name`, so that it moves with it.
     pub fn is_below(&self, name: &str, p: DVec3) -> bool {
         let (part, sign) = match name.rsplit_once('_') {
             Some((part, "left")) => (part, 1.0),
             Some((part, "right")) => (part, -1.0),
             _ => (name, 1.0),
         };
-        // Both sides are mirror images: the left one tells.
+        // The sides are mirror images: decide for the left one.
         let p = DVec3::new(p.x * sign, p.y, p.z);
         match part {
             "spine" | "chest" => self.is_arm(p) || self.is_arm(mirrored(p)) || p.y > self.joint(part).y,
@@ -68,14 +69,14 @@ impl<'a> Regions<'a> {
         }
     }
 
-    /// Above a joint of the neck and not on an arm.
+    /// Whether a point is above a joint of the neck and not on an arm.
     fn is_above(&self, part: &str, p: DVec3) -> bool {
-        // The throat is lower than the nape.
+        // The throat is lower than the nape: slope the plane.
         let (joint, slope) = (self.joint(part), if part == "neck" { 0.45 } else { 0.2 });
         !self.is_arm(p) && p.x.abs() < 0.16 && (p - joint).dot(DVec3::new(0.0, 1.0, slope)) > 0.0
     }
 
-    /// On the far side of a plane through a joint of the left side.
+    /// Whether a point is on the far side of a plane through a joint of the left side.
     fn is_beyond(&self, part: &str, p: DVec3) -> bool {
         let at = |name: &str| self.joint(&format!("{name}_left"));
         let along = |from: &str, to: &str| (at(to) - at(from)).normalize_or_zero();
@@ -84,7 +85,7 @@ impl<'a> Regions<'a> {
             "shoulder" => along("shoulder", "elbow") + DVec3::X * 0.5,
             "elbow" => along("shoulder", "elbow") + along("elbow", "wrist"),
             "wrist" => along("elbow", "wrist"),
-            // From the crotch up to the side, from the fold below the seat up to the groin.
+            // The plane rises from the crotch to the side, and from the fold below the seat to the groin.
             "hip" => DVec3::new(0.55, -0.75, 0.35),
             "knee" => along("hip", "knee") + along("knee", "ankle"),
             _ => DVec3::NEG_Y,
@@ -92,7 +93,7 @@ impl<'a> Regions<'a> {
         (p - at(part)).dot(normal) > 0.0
     }
 
-    /// Nearer to the left arm than to the trunk.
+    /// Whether a point is nearer to the left arm than to trunk and thigh, measured in radii of each.
     fn is_arm(&self, p: DVec3) -> bool {
         let at = |name: &str| self.joint(name);
         let bones =
@@ -110,7 +111,7 @@ fn mirrored(p: DVec3) -> DVec3 {
     DVec3::new(-p.x, p.y, p.z)
 }
 
-/// The distance of `p` from a segment, which goes on for ever beyond `b` when it `is_last`.
+/// Distance of `p` from a segment, which extends to infinity beyond `b` when `is_last`.
 fn to_segment(p: DVec3, a: DVec3, b: DVec3, is_last: bool) -> f64 {
     let side = b - a;
     let t = (p - a).dot(side) / side.length_squared().max(1e-18);

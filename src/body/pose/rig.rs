@@ -1,10 +1,10 @@
-//! The mannequin's skin over its skeleton.
+//! Skinning: the mannequin's skin deformed by its skeleton.
 //!
-//! A share tells how much of a joint's turn each point of the skin takes: none above the joint, all below, smoothly in
-//! between. The turns of the joints above a triangle, each by its share, make the triangle's turn, and of all places of the
-//! vertices those are taken whose triangles come nearest to their turns ([`Rebuild`]). Blending places, as linear and
-//! dual-quaternion skinning do, thins or swells limbs at joints; here nothing asks a triangle to change its size, so that
-//! elbows, knees, hips and shoulders keep theirs.
+//! A weight tells how much of a joint's rotation each point of the skin takes: none above the joint, all below,
+//! smoothly in between. The rotations of the joints above a triangle, each scaled by its weight, make the triangle's
+//! rotation, and the vertices are placed so that triangles come as near as possible to their rotations ([`Rebuild`]).
+//! Blending positions, as linear and dual-quaternion skinning do, thins or swells limbs at joints; here no triangle
+//! is asked to change its size, so that elbows, knees, hips and shoulders keep theirs.
 
 use std::sync::{Arc, Mutex};
 
@@ -20,39 +20,40 @@ use crate::body::skeleton::{Joint, Skeleton};
 use crate::body::surface::Surface;
 use crate::geometry::rebuild::Rebuild;
 
-/// Of a joint's turn less than this is none.
+/// Weight up to which a joint does not move a triangle.
 const LEAST: f64 = 1e-4;
-/// A joint goes along with the skin about so far round it, metres on a figure of default height.
+/// Radius of the skin round a joint that the joint follows (standard deviation of a Gaussian), metres on a figure of
+/// default height.
 const ROUND: f64 = 0.05;
-/// Rigs kept, so that a change of measurements and back is quick.
+/// Number of rigs in the cache, so that a change of measurements and back is quick.
 const MOST_KEPT: usize = 4;
-/// Triangles one thread takes at a time.
+/// Least number of triangles for a parallel task.
 const LEAST_SHARE: usize = 512;
 
-/// A mannequin that can be posed.
+/// A mannequin prepared for posing.
 #[derive(Debug)]
 pub struct Rig {
     figure: Arc<Mannequin>,
     surface: Arc<Surface>,
     rebuild: Rebuild,
-    /// For each of `JOINTS` its share at each vertex, 0..=1.
+    /// For each of `JOINTS` its skinning weight at each vertex, 0..=1.
     shares: Vec<Vec<f64>>,
-    /// Vertices of the pelvis: those that every joint turns by less than half.
+    /// Vertices of the pelvis: those where every joint has a weight below one half.
     still: Vec<u32>,
 }
 
 /// The mannequin in a pose.
 #[derive(Clone, Debug)]
 pub struct Posed {
-    /// Its skin: the vertices of the built one, in their order. The feet, or what is lowest, on y = 0.
+    /// The skin, with the vertices of the built one in their order. Its lowest point is at y = 0.
     pub surface: Arc<Surface>,
-    /// Its joints.
+    /// The joints in the pose.
     pub skeleton: Skeleton,
-    /// Named points on its skin.
+    /// The landmarks on the posed skin.
     pub landmarks: Landmarks,
 }
 
-/// The rig of the mannequin with measurements `m`; made once in a process for each (the last four are kept).
+/// The rig of the mannequin with measurements `m`. Cached: made once in a process for each (the last four are kept).
 pub fn rig(m: &Measurements) -> Result<Arc<Rig>, MannequinError> {
     static KEPT: Mutex<Vec<Arc<Rig>>> = Mutex::new(Vec::new());
     let mut kept = KEPT.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
@@ -68,7 +69,7 @@ pub fn rig(m: &Measurements) -> Result<Arc<Rig>, MannequinError> {
 }
 
 impl Rig {
-    /// None when the figure has no skin or lacks a joint, or does not fit in memory.
+    /// Computes the rig of a figure. None when the figure has no skin, lacks a joint, or does not fit in memory.
     pub fn new(figure: Arc<Mannequin>) -> Option<Self> {
         let surface = Arc::new(Surface::new(figure.mesh.clone())?);
         let rebuild = Rebuild::new(&figure.mesh)?;
@@ -78,12 +79,12 @@ impl Rig {
         Some(Self { figure, surface, rebuild, shares, still })
     }
 
-    /// The figure as it was built.
+    /// The figure in the built pose.
     pub fn figure(&self) -> &Arc<Mannequin> {
         &self.figure
     }
 
-    /// The figure in `pose`. None when a turn in it is no number.
+    /// The figure in `pose`, standing on the floor. None when a rotation is not finite.
     pub fn posed(&self, pose: &Pose) -> Option<Posed> {
         let mut positions = self.positions(pose)?;
         self.put_down(&mut positions);
@@ -93,8 +94,7 @@ impl Rig {
         Some(Posed { surface, skeleton, landmarks })
     }
 
-    /// Its skin in `pose`, its pelvis turned about itself and moved from where it was built: on no floor. None when a turn
-    /// or the place is no number.
+    /// The skin in `pose` with its pelvis at `place`, not put on a floor. None when a rotation or the place is not finite.
     pub fn placed(&self, pose: &Pose, place: &Placement) -> Option<Arc<Surface>> {
         let mut positions = self.positions(pose)?;
         let pelvis = self.figure.skeleton.position("pelvis")?;
@@ -103,7 +103,7 @@ impl Rig {
         self.surface.reposed(positions).map(Arc::new)
     }
 
-    /// Vertices in `pose`, somewhere.
+    /// Positions of the vertices in `pose`, up to a translation.
     fn positions(&self, pose: &Pose) -> Option<Vec<DVec3>> {
         let turns: Vec<DVec3> =
             JOINTS.iter().map(|(name, _)| pose.turns.get(*name).copied().unwrap_or_default()).collect();
@@ -111,7 +111,7 @@ impl Rig {
         self.rebuild.positions(&self.gradients(&turns), |v| built[v])
     }
 
-    /// The turn of each triangle.
+    /// The rotation of each triangle, from the rotation vectors of `JOINTS`.
     fn gradients(&self, turns: &[DVec3]) -> Vec<DMat3> {
         let part = |j: usize| JOINTS[j].0.split('_').next();
         let turned: Vec<usize> = (0..turns.len()).filter(|&j| turns[j] != DVec3::ZERO).collect();
@@ -119,7 +119,7 @@ impl Rig {
         let gradient = |corners: &[u32; 3]| {
             let mut whole = DQuat::IDENTITY;
             for joints in &turned {
-                // Both sides at once: where both have a share, neither comes first.
+                // Add the rotations of both sides: where both have a weight, neither comes first.
                 let turn = |&j: &usize| {
                     let share = corners.iter().map(|&v| self.shares[j][v as usize]).sum::<f64>() / 3.0;
                     if share > LEAST { turns[j] * share } else { DVec3::ZERO }
@@ -134,7 +134,7 @@ impl Rig {
         self.figure.mesh.triangles.par_iter().with_min_len(LEAST_SHARE).map(gradient).collect()
     }
 
-    /// The pelvis stays over its place, and the lowest point on the floor.
+    /// Moves the body so that its pelvis is horizontally where it was built and its lowest point is on the floor.
     fn put_down(&self, positions: &mut [DVec3]) {
         let aside = self.middle(&self.figure.mesh.positions) - self.middle(positions);
         let lowest = positions.iter().map(|p| p.y).fold(f64::INFINITY, f64::min);
@@ -142,12 +142,12 @@ impl Rig {
         positions.iter_mut().for_each(|p| *p += shift);
     }
 
-    /// Of the pelvis.
+    /// Mean position of the vertices of the pelvis.
     fn middle(&self, positions: &[DVec3]) -> DVec3 {
         self.still.iter().map(|&v| positions[v as usize]).sum::<DVec3>() / self.still.len().max(1) as f64
     }
 
-    /// Each joint as it lies in the skin round it.
+    /// The posed skeleton: each joint follows the skin round it.
     fn skeleton(&self, positions: &[DVec3], pose: &Pose) -> Skeleton {
         let built = &self.figure.mesh.positions;
         let joints = &self.figure.skeleton.joints;
@@ -169,7 +169,7 @@ impl Rig {
         Skeleton { joints: posed.collect() }
     }
 
-    /// Where a point of the built skin is.
+    /// The posed position of a point on the built skin.
     fn carried(&self, p: DVec3, positions: &[DVec3]) -> DVec3 {
         let near = self.surface.nearest(p);
         let [a, b, c] = self.surface.mesh.corners(near.triangle as usize);
@@ -181,7 +181,7 @@ impl Rig {
     }
 }
 
-/// The share of each joint at each vertex: all or nothing by regions, then smoothed over the skin.
+/// The weight of each joint at each vertex: 0 or 1 by regions, then smoothed over the skin.
 fn shares(figure: &Mannequin, rebuild: &Rebuild) -> Option<Vec<Vec<f64>>> {
     let regions = Regions::new(&figure.skeleton)?;
     let size = figure.measurements.height / Measurements::default().height;
@@ -190,7 +190,7 @@ fn shares(figure: &Mannequin, rebuild: &Rebuild) -> Option<Vec<Vec<f64>>> {
     let mut order: Vec<usize> = (0..JOINTS.len()).collect();
     order.sort_by(|&i, &j| JOINTS[j].1.total_cmp(&JOINTS[i].1).then(i.cmp(&j)));
     let mut shares = vec![Vec::new(); JOINTS.len()];
-    // Three fields are smoothed at once, those that take as many rounds together.
+    // Three fields are smoothed at a time; those that take a similar number of rounds go together.
     for three in order.chunks(3) {
         let is_below = |p: &DVec3| {
             let share = |k: usize| match three.get(k) {

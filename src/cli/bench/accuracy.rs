@@ -1,4 +1,4 @@
-//! Error against time: weightless cloth with exact answers at finer and finer edges.
+//! Error against time: weightless cloth with a known exact solution, at decreasing edge lengths.
 
 use serde::Serialize;
 
@@ -7,32 +7,32 @@ use crate::cli::bench::scenes::Scene;
 use crate::cli::bench::tube::{Errors, Tube};
 use crate::cli::failure::Failure;
 
-/// Lengths of the triangles' edges, metres.
+/// Edge lengths of the triangles, metres.
 const EDGES: [f64; 5] = [0.040, 0.028, 0.020, 0.014, 0.010];
-/// The tubes: name, and how many times as long round as what they lie on.
+/// The scenes: name, and circumference of the tube relative to that of the cylinder at the cloth's offset.
 const TUBES: [(&str, f64); 2] = [("tube that fits a cylinder", 1.0), ("loose tube on a cylinder", 1.2)];
 
-/// One scene at one edge length.
+/// The result of one scene at one edge length.
 #[derive(Clone, Debug, Serialize)]
 pub struct Point {
     pub scene: &'static str,
-    /// Metres.
+    /// Edge length of the triangles, metres.
     pub edge_length: f64,
     pub triangles: usize,
-    /// How often it was run.
+    /// Number of runs.
     pub runs: usize,
     /// Median wall-clock seconds to rest, from pattern and marks.
     pub seconds: f64,
-    /// p99 of what edges are strained beyond the exact map's chords.
+    /// 99th percentile of the edges' strain in excess of that of the exact solution's chords.
     pub excess_p99: f64,
-    /// p99 of the edges' strain.
+    /// 99th percentile of the edges' strain.
     pub strain_p99: f64,
-    /// p99 of the strain of the exact map's chords.
+    /// 99th percentile of the strain of the exact solution's chords.
     pub chord_p99: f64,
-    /// The farthest vertex from the exact map, edge lengths; only where that is the only one.
+    /// Largest distance of a vertex from the exact solution, edge lengths; only where the exact solution is unique.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub position: Option<f64>,
-    /// Power of the edge length with which the excess fell since the edges before.
+    /// Order of convergence of the excess, from the edge length before.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub order: Option<f64>,
     pub ticks: u64,
@@ -40,14 +40,14 @@ pub struct Point {
     pub hash: String,
 }
 
-/// A scene at all edge lengths.
+/// The results of a scene at all edge lengths.
 #[derive(Debug)]
 pub struct Curve {
     pub scene: &'static str,
     pub points: Vec<Point>,
 }
 
-/// Error against time as a picture.
+/// Plots error against time as SVG.
 pub fn plotted(curves: &[Curve]) -> String {
     let point = |p: &Point| plot::Point {
         across: p.seconds,
@@ -62,7 +62,7 @@ pub fn plotted(curves: &[Curve]) -> String {
     })
 }
 
-/// Calls `tell` with every point as it is done.
+/// Measures all scenes; `tell` is called with each result as it comes.
 pub fn accuracy(
     runs: usize,
     mut tell: impl FnMut(&Point) -> Result<(), Failure>,

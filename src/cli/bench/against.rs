@@ -1,4 +1,4 @@
-//! What was measured held against an earlier run, row by row: what has become worse by more than a tenth is a loss.
+//! Comparison of a benchmark with an earlier run of it, row by row.
 
 use std::path::{Path, PathBuf};
 
@@ -8,12 +8,12 @@ use serde_json::Value;
 use crate::cli::failure::Failure;
 use crate::cli::output;
 
-/// A figure may be worse by this share of the old one: medians of a shared machine differ by a few hundredths.
+/// Share of the old figure by which the new one may be worse; medians on a shared machine vary by a few hundredths.
 const BEARABLE: f64 = 0.1;
-/// The name of a row's own time.
+/// Name of the wall-clock time of a row.
 const SECONDS: &str = "seconds";
 
-/// An earlier run, and what has become of its figures.
+/// An earlier run, and the figures that are worse now.
 pub struct Against {
     path: PathBuf,
     old: Vec<Value>,
@@ -21,15 +21,17 @@ pub struct Against {
     losses: Vec<String>,
 }
 
-/// A figure of a row: what it is, how large, and whether more of it is better.
+/// A figure of a row.
 struct Measure<'a> {
+    /// Its name.
     what: &'a str,
     value: f64,
+    /// Whether more is better.
     is_rate: bool,
 }
 
 impl Against {
-    /// What `toile bench --json` printed into the file at `path`.
+    /// Reads the file at `path`, which holds the output of `toile bench --json`. Fails at the first line that is no row.
     pub fn read(path: &Path) -> Result<Self, Failure> {
         let text = std::fs::read_to_string(path).map_err(|e| Failure::file(path, e))?;
         let row = |(i, line): (usize, &str)| {
@@ -44,7 +46,7 @@ impl Against {
         Ok(Self { path: path.to_owned(), old, held: 0, losses: Vec::new() })
     }
 
-    /// Compares `row` with the same scene of as many triangles; the lines tell the figures that both have.
+    /// Compares `row` with the row of the same scene and number of triangles. Returns a line for each figure that both have.
     pub fn hold(&mut self, row: &impl Serialize) -> Result<Vec<String>, Failure> {
         let new = serde_json::to_value(row).map_err(|e| Failure::Internal(e.to_string()))?;
         let same = |old: &&Value| scene(old) == scene(&new) && old["triangles"] == new["triangles"];
@@ -68,7 +70,7 @@ impl Against {
         Ok(lines)
     }
 
-    /// Whether nothing was lost; a comparison of nothing is refused.
+    /// Fails if a figure was worse by more than [`BEARABLE`], or if nothing could be compared.
     pub fn finish(self) -> Result<(), Failure> {
         if self.held == 0 {
             return Err(Failure::input(
@@ -86,7 +88,7 @@ impl Against {
 }
 
 impl Measure<'_> {
-    /// Whether it was better when it was `before`.
+    /// Whether the figure is worse than `before` by more than [`BEARABLE`].
     fn is_loss_from(&self, before: f64) -> bool {
         let bearable = before.abs() * BEARABLE;
         if self.is_rate { self.value < before - bearable } else { !(self.value <= before + bearable) }
@@ -97,7 +99,7 @@ fn scene(row: &Value) -> Option<&str> {
     row["scene"].as_str()
 }
 
-/// Its checks, then its own numbers that are better when smaller.
+/// The figures of a row: its checks, and its time and errors.
 fn measures(row: &Value) -> impl Iterator<Item = Measure<'_>> {
     let checks = row["checks"].as_array().map(Vec::as_slice).unwrap_or_default();
     let checks = checks.iter().filter_map(|check| {

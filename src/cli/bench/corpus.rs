@@ -1,4 +1,5 @@
-//! Garments of our own, dressed as `toile dress` does and judged by its report: what share has no fault, and why not.
+//! Dresses generated garments as `toile dress` does and counts, by its report, those without a fault; for the others it lists the
+//! reasons.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -18,14 +19,14 @@ use crate::cli::{interrupt, output};
 use crate::draft::{Case, Kind};
 use crate::io::garmentcode;
 
-/// Pictures of failures, pixels.
+/// Size of the pictures of failures, pixels.
 const PICTURE: [u32; 2] = [640, 800];
-/// Reasons that are printed.
+/// Largest number of reasons that are printed.
 const MOST_REASONS: usize = 12;
-/// Failures that are named beside a reason.
+/// Largest number of failures named with a reason.
 const MOST_EXAMPLES: usize = 3;
 
-/// What came of one garment.
+/// The result of one garment.
 #[derive(Debug, Serialize)]
 struct Outcome {
     name: String,
@@ -34,9 +35,9 @@ struct Outcome {
     pose: &'static str,
     exit_code: u8,
     seconds: f64,
-    /// Why it is not dressed; empty when it is.
+    /// Why the garment is not dressed; empty when it is.
     reasons: Vec<String>,
-    /// Does the same again, in the folder that failures are kept in.
+    /// The command line that dresses the garment again, in the folder that failures are kept in.
     command: String,
 }
 
@@ -46,20 +47,20 @@ impl Outcome {
     }
 }
 
-/// Garments of one sort.
+/// The results of garments that have something in common.
 #[derive(Debug, Serialize)]
 struct Group {
     name: &'static str,
     garments: usize,
     clean: usize,
-    /// Clean over all.
+    /// Fraction of clean garments.
     share: f64,
-    /// Wall-clock seconds.
+    /// Median wall-clock time of a garment, seconds.
     median_seconds: f64,
     worst_seconds: f64,
 }
 
-/// A reason with its figures left out.
+/// A reason for failures, with its numbers left out, and how many garments it applies to.
 #[derive(Debug, Serialize)]
 struct Reason {
     words: String,
@@ -67,7 +68,7 @@ struct Reason {
     examples: Vec<String>,
 }
 
-/// What came of all.
+/// The results of all garments.
 #[derive(Debug, Serialize)]
 struct Summary {
     seed: u64,
@@ -75,13 +76,13 @@ struct Summary {
     kinds: Vec<Group>,
     sizes: Vec<Group>,
     poses: Vec<Group>,
-    /// The slowest garment.
+    /// Name of the garment that took longest.
     slowest: String,
     reasons: Vec<Reason>,
     failures: Vec<Outcome>,
 }
 
-/// Dresses every garment asked for and prints what share is clean.
+/// Dresses all chosen garments and prints the fraction without a fault.
 pub fn corpus(arguments: &Bench) -> Result<(), Failure> {
     let corpus = arguments.corpus.corpus();
     let cases = corpus.cases(arguments.corpus.shard.unwrap_or_default());
@@ -109,7 +110,7 @@ pub fn corpus(arguments: &Bench) -> Result<(), Failure> {
     say(&Summary::new(corpus.seed, outcomes), arguments.json)
 }
 
-/// Where garments are dressed.
+/// The folder in which garments are dressed.
 struct Work<'a> {
     arguments: &'a Bench,
     folder: PathBuf,
@@ -124,15 +125,15 @@ impl<'a> Work<'a> {
         Ok(Self { arguments, folder })
     }
 
-    /// Removes what was only for the time being.
+    /// Removes the folder if it is a temporary one.
     fn leave(&self) {
         if self.arguments.out.is_none() {
-            // A folder in the system's place for such; nothing is lost where it stays.
+            // It is in the system's folder for temporary files; nothing is lost if it stays.
             std::fs::remove_dir_all(&self.folder).ok();
         }
     }
 
-    /// Dresses one; keeps its files only where it fails.
+    /// Dresses one garment; its files are kept only if it fails.
     fn outcome(&self, case: &Case, kind: Kind, name: &str, bytes: &[u8]) -> Result<Outcome, Failure> {
         let folder = self.folder.join(name);
         output::make_folder(&folder)?;
@@ -216,7 +217,7 @@ impl Group {
     }
 }
 
-/// A group for each of `names` that occurs.
+/// The results grouped by `names`, without empty groups.
 fn groups<const N: usize>(
     names: [&'static str; N],
     outcomes: &[Outcome],
@@ -226,7 +227,7 @@ fn groups<const N: usize>(
     all.filter(|group| group.garments > 0).collect()
 }
 
-/// Reasons without their figures, the most frequent first.
+/// The reasons without their numbers, the most frequent first.
 fn reasons(outcomes: &[Outcome]) -> Vec<Reason> {
     let mut found: BTreeMap<String, Vec<&str>> = BTreeMap::new();
     for outcome in outcomes {
@@ -247,7 +248,7 @@ fn reasons(outcomes: &[Outcome]) -> Vec<Reason> {
     all
 }
 
-/// `words` up to the first name of a piece or edge, numbers replaced by "N".
+/// `words` up to its list of names, with numbers replaced by "N".
 fn without_figures(words: &str) -> String {
     let mut plain = String::new();
     let mut in_number = false;

@@ -1,4 +1,4 @@
-//! Draping: a dress to rest, and a step of it.
+//! Benchmark of draping: a dress until it is at rest, and a single step.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -15,7 +15,7 @@ use crate::fit::{self, BodyIndex};
 use crate::sim::hash::cloth_hash;
 use crate::wrap::Phase;
 
-/// Drapes the garment of `scene`, once wrapped, `runs` times.
+/// Wraps the garment of `scene` once and drapes it `runs` times.
 pub fn drape(scene: &Scene, runs: usize) -> Result<Row, Failure> {
     let scene_name = "drape of the dress, to rest";
     let wrapped = scene.wrap()?;

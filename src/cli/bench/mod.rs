@@ -23,7 +23,7 @@ use crate::cli::bench::row::Row;
 use crate::cli::failure::Failure;
 use crate::cli::output;
 
-/// Runs every scene asked for and prints a row for each as it is done.
+/// Runs the chosen benchmarks and prints a row for each scene as it is done.
 pub fn bench(arguments: &Bench) -> Result<(), Failure> {
     let without_plot = [BenchKind::Speed, BenchKind::Corpus, BenchKind::Ticks, BenchKind::Trust];
     let has_plot = arguments.what.is_none_or(|what| !without_plot.contains(&what));
@@ -109,13 +109,14 @@ fn size_of(arguments: &Bench) -> usize {
     arguments.triangles.map_or(TRIANGLES, |n| n as usize)
 }
 
-/// What a garment has when nothing is said, triangles; where ticks are measured.
+/// Default number of triangles of a garment.
 const TRIANGLES: usize = 10_000;
+/// Default number of triangles of a garment for the benchmark of ticks.
 const TICKS_TRIANGLES: usize = 20_000;
-/// The coarsest cloth, triangles.
+/// Smallest number of triangles of cloth.
 const COARSEST: usize = 200;
 
-/// Scenes of cloth under physics at three sizes: a tenth, once and four times as many triangles as asked for.
+/// Physics scenes at three sizes: a tenth, once and four times as many triangles as chosen.
 fn drape_scenes(arguments: &Bench, runs: usize, teller: &mut Teller) -> Result<(), Failure> {
     let size = size_of(arguments);
     let sizes = [(size / 10).max(COARSEST), size, size * 4];
@@ -133,7 +134,7 @@ fn drape_scenes(arguments: &Bench, runs: usize, teller: &mut Teller) -> Result<(
     }
 }
 
-/// What each scene costs, first check of its rows, against its size.
+/// Plots the cost of each scene (the first check of its rows) against its number of triangles.
 fn costs(rows: &[Row]) -> String {
     let point = |row: &Row| plot::Point {
         across: row.triangles as f64,
@@ -158,13 +159,13 @@ fn say<R: Serialize + std::fmt::Display>(row: &R, json: bool) -> Result<(), Fail
     Ok(())
 }
 
-/// The middle one; the upper of two.
+/// The median; of an even number of values the upper of the middle two.
 fn median(mut values: Vec<f64>) -> f64 {
     values.sort_unstable_by(f64::total_cmp);
     values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
 }
 
-/// The same for every run, or the program is not deterministic.
+/// The hash that all runs share; an error if they differ, since the program must be deterministic.
 fn one_hash(scene: &str, hashes: &[u64]) -> Result<String, Failure> {
     match hashes {
         [first, rest @ ..] if rest.iter().all(|h| h == first) => Ok(format!("{first:016x}")),

@@ -1,35 +1,35 @@
-//! Curves as a picture: SVG, both axes by powers of ten.
+//! Curves as an SVG plot with logarithmic axes.
 
 use std::fmt::Write;
 
 const SIZE: [f64; 2] = [720.0, 460.0];
-/// Left, top, right, bottom.
+/// Margins left, top, right and bottom, pixels.
 const MARGIN: [f64; 4] = [70.0, 40.0, 30.0, 60.0];
 const COLOURS: [&str; 4] = ["#0b6aa2", "#b5541c", "#3c7d3c", "#77488f"];
 
-/// What is drawn.
+/// A plot of several curves.
 pub struct Plot<'a> {
-    /// What goes to the right, and what a power of ten of it is called.
+    /// Title of the horizontal axis, and the label of a power of ten on it.
     pub across: (&'a str, fn(i32) -> String),
-    /// What goes up.
+    /// Title of the vertical axis, and the label of a power of ten on it.
     pub up: (&'a str, fn(i32) -> String),
     pub curves: Vec<Curve<'a>>,
 }
 
-/// Points joined in order.
+/// A named curve: points joined in order.
 pub struct Curve<'a> {
     pub name: &'a str,
     pub points: Vec<Point>,
 }
 
-/// Drawn where both values are above zero.
+/// A point of a curve; drawn only if both values are positive.
 pub struct Point {
     pub across: f64,
     pub up: f64,
     pub label: String,
 }
 
-/// Powers of ten that hold all values, at least one apart.
+/// The powers of ten that enclose all values, at least one apart.
 fn decades(values: impl Iterator<Item = f64>) -> [i32; 2] {
     let logs = values.filter(|v| *v > 0.0 && v.is_finite()).map(f64::log10);
     let (low, high) = logs.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (v.min(a), v.max(b)));
@@ -40,12 +40,12 @@ fn decades(values: impl Iterator<Item = f64>) -> [i32; 2] {
     [low, (high.ceil() as i32).max(low + 1)]
 }
 
-/// `value` from 0 to 1 between two powers of ten.
+/// Position of `value` on a logarithmic axis between two powers of ten, 0 to 1.
 fn share(value: f64, [low, high]: [i32; 2]) -> f64 {
     (value.log10() - f64::from(low)) / f64::from(high - low)
 }
 
-/// The picture.
+/// The plot as SVG.
 pub fn svg(plot: &Plot<'_>) -> String {
     let points = || plot.curves.iter().flat_map(|c| &c.points);
     let (columns, rows) = (decades(points().map(|p| p.across)), decades(points().map(|p| p.up)));
@@ -101,12 +101,12 @@ pub fn svg(plot: &Plot<'_>) -> String {
     svg
 }
 
-/// So many seconds.
+/// A label of a time axis: 10 to this power, in seconds.
 pub fn seconds(power: i32) -> String {
     if power < 0 { format!("{} ms", 10f64.powi(power + 3)) } else { format!("{} s", 10f64.powi(power)) }
 }
 
-/// So many hundredths.
+/// A label of a percentage axis: 10 to this power, as a percentage.
 pub fn percent(power: i32) -> String {
     format!("{} %", 10f64.powi(power + 2))
 }

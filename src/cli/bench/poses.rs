@@ -1,4 +1,4 @@
-//! Times of carrying dressed cloth to other poses of the mannequin, and of reading maps off it.
+//! Benchmarks of carrying dressed cloth to other poses of the mannequin, and of computing maps of it.
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -17,10 +17,10 @@ use crate::session::Fabrics;
 use crate::sim::hash::{Fnv, cloth_hash};
 use crate::wrap::Phase;
 
-/// Poses of a walk, from one step to the next.
+/// Number of poses of the walk.
 const FRAMES: usize = 12;
 
-/// The rows of one garment.
+/// Measures one garment: a single pose, a walk, and maps.
 pub fn poses(scene: &Scene, worn: &Wrapped, runs: usize) -> Result<[Row; 3], Failure> {
     let words = || Failure::Internal("the mannequin takes no pose".to_owned());
     let rig = rig(&Measurements::default()).map_err(|_| words())?;
@@ -53,7 +53,7 @@ pub fn poses(scene: &Scene, worn: &Wrapped, runs: usize) -> Result<[Row; 3], Fai
     Ok([one, walk, maps(scene, worn, runs)?])
 }
 
-/// The garment on each of `bodies`, one after the other.
+/// Carries the garment to `bodies`, one after the other, and measures each.
 fn carry(
     scene: &Scene,
     worn: &Wrapped,
@@ -85,7 +85,7 @@ fn carry(
         all.push(sum);
         hashes.push(hash.finish());
     }
-    // Asked for at 3,000 and at 10,000 triangles; a frame of a sequence has 33 ms at 30 a second.
+    // The limits of one pose are set for 3,000 and for 10,000 triangles; a frame of a sequence has 33 ms at 30 a second.
     let small = worn.garment.triangles.len() <= 5_000;
     let limits = match (bodies.len(), small) {
         (1, true) => [0.015, 0.004],
@@ -114,7 +114,7 @@ fn carry(
     })
 }
 
-/// Every map there is.
+/// Computes all maps.
 fn maps(scene: &Scene, worn: &Wrapped, runs: usize) -> Result<Row, Failure> {
     let fabrics = Fabrics::default().of(&scene.pattern);
     let shown = Worn {

@@ -1,31 +1,31 @@
-//! What a scene took and how good it came out, for people and as JSON.
+//! The measured result of a scene, for people and as JSON.
 
 use serde::Serialize;
 
 use crate::cloth::Counters;
 
-/// One scene, measured.
+/// The result of one scene.
 #[derive(Debug, Serialize)]
 pub struct Row {
     pub scene: &'static str,
     pub triangles: usize,
-    /// How often it was run.
+    /// Number of runs.
     pub runs: usize,
     /// Median wall-clock seconds of a run.
     pub seconds: f64,
-    /// Threads that parallel steps ran on.
+    /// Number of threads for parallel steps.
     pub threads: usize,
     pub checks: Vec<Check>,
-    /// What else was read off.
+    /// Further figures, without limits.
     pub figures: Vec<Figure>,
-    /// Work done in a run, where the simulation counts it.
+    /// Counters of the work done in a run, where the simulation counts it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub counters: Option<Counters>,
-    /// Of the state that each run ended in.
+    /// Hash of the final state, the same for every run.
     pub hash: String,
 }
 
-/// One figure with its limits.
+/// A figure with its limits.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Check {
     pub what: &'static str,
@@ -44,16 +44,16 @@ pub struct Figure {
     pub unit: Unit,
 }
 
-/// What a figure should be. Lower is better, but for rates.
+/// Limits of a figure. Lower values are better, but for rates higher ones.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Limits {
-    /// It is sound from here on.
+    /// The figure is acceptable from this value on.
     pub solid: f64,
-    /// It is good from here on.
+    /// The figure is good from this value on.
     pub goal: f64,
 }
 
-/// Which limit was met.
+/// The stricter limit that was met.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Met {
@@ -62,22 +62,22 @@ pub enum Met {
     Neither,
 }
 
-/// Of a figure.
+/// Unit of a figure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Unit {
     Seconds,
-    /// 0.01 is one percent.
+    /// A fraction; 0.01 is one percent.
     Share,
     Count,
-    /// More is better.
+    /// A rate; higher values are better.
     PerSecond,
     EdgeLengths,
     Metres,
 }
 
 impl Check {
-    /// `value` held against its limits.
+    /// A figure compared with its limits.
     pub fn new(what: &'static str, value: f64, unit: Unit, solid: f64, goal: f64) -> Self {
         let meets = |limit: f64| if unit == Unit::PerSecond { value >= limit } else { value <= limit };
         let met = match (meets(goal), meets(solid)) {
@@ -90,7 +90,7 @@ impl Check {
 }
 
 impl Unit {
-    /// `value` for people.
+    /// `value` with its unit, for people.
     pub fn words(self, value: f64) -> String {
         match self {
             Self::Seconds if value < 0.1 => format!("{:.2} ms", value * 1e3),

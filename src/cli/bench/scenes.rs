@@ -1,4 +1,4 @@
-//! Garments on bodies to measure with, and how one is wrapped.
+//! The garments on bodies that benchmarks use, and how one is wrapped.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -16,40 +16,40 @@ use crate::sim::GarmentSource;
 use crate::sim::hash::cloth_hash;
 use crate::wrap::{Dressing, Marks, Phase, coarser};
 
-/// Edge length that a search for a number of triangles starts from, metres.
+/// Edge length with which the search for a number of triangles starts, metres.
 const FIRST_EDGE: f64 = 0.0125;
-/// Steps of that search.
+/// Number of iterations of that search.
 const EDGE_STEPS: usize = 3;
-/// A wrap that is not at rest by then trembles.
+/// Limit of ticks: a wrap that is not at rest by then oscillates.
 const MOST_TICKS: u64 = 20_000;
 
-/// A garment, where its marks are, and a body.
+/// A garment with its marks, and a body.
 #[derive(Clone)]
 pub struct Scene {
     pub pattern: Arc<Pattern>,
     pub marks: Arc<Marks>,
     pub surface: Arc<Surface>,
     pub relax: RelaxSettings,
-    /// Metres.
+    /// Edge length of the triangles, metres.
     pub edge_length: f64,
 }
 
-/// A wrap that has come to rest.
+/// The result of a wrap that has come to rest.
 pub struct Wrapped {
     pub garment: Arc<Garment>,
     pub state: ClothState,
     pub dressing: Dressing,
     pub ticks: u64,
-    /// Wall-clock seconds, from pattern and marks on.
+    /// Wall-clock seconds from pattern and marks to rest.
     pub seconds: f64,
-    /// Those of them that went by before the first tick.
+    /// Wall-clock seconds before the first tick, part of `seconds`.
     pub build_seconds: f64,
-    /// Work done before all cloth lay.
+    /// Counters of the work done until all cloth was on the body.
     pub grown: Counters,
 }
 
 impl Scene {
-    /// A sample on the mannequin it was drafted for.
+    /// A sample on the mannequin it was drafted for, with about `triangles` triangles.
     pub fn sample(sample: Sample, body: &Mannequin, triangles: usize) -> Result<Self, Failure> {
         let surface = Surface::new(body.mesh.clone()).ok_or_else(no_body)?;
         let document = sample.project(body).document;
@@ -62,12 +62,12 @@ impl Scene {
         })
     }
 
-    /// The same cloth without weight: what is known exactly of a tube holds for that.
+    /// The same scene without gravity, for which the exact solution of a tube holds.
     pub fn weightless(self) -> Self {
         Self { relax: RelaxSettings { gravity: 0.0, ..self.relax }, ..self }
     }
 
-    /// The same cloth with less or more work.
+    /// The same scene with other optimisations switched off.
     pub fn skipping(self, skips: Skips) -> Self {
         Self { relax: RelaxSettings { skips, ..self.relax }, ..self }
     }
@@ -85,7 +85,7 @@ impl Scene {
         })
     }
 
-    /// What the simulation builds it from.
+    /// The source that the simulation builds the garment from.
     pub fn source(&self) -> GarmentSource {
         GarmentSource {
             pattern: Arc::clone(&self.pattern),
@@ -95,8 +95,9 @@ impl Scene {
         }
     }
 
-    /// Wraps `runs` times, at least once; `watch` sees the cloth of each run after every tick, as [`Self::wrap_watched`] says.
-    /// Returns the median seconds, the hash they all have, and the last one. `name` is said when the hashes differ.
+    /// Wraps `runs` times, at least once. `watch` is called with the index of the run as in [`Self::wrap_watched`]. Returns the
+    /// median time in seconds, the hash of all runs, and the result of the last one. `name` is for the error when the hashes
+    /// differ.
     pub fn wraps(
         &self,
         name: &str,
@@ -114,12 +115,13 @@ impl Scene {
         Ok((median(seconds), one_hash(name, &hashes)?, last))
     }
 
-    /// Wraps from pattern and marks until nothing moves.
+    /// Builds the garment from pattern and marks and wraps it until nothing moves.
     pub fn wrap(&self) -> Result<Wrapped, Failure> {
         self.wrap_watched(|_, _, _| ())
     }
 
-    /// The same; `watch` sees the cloth after every tick, with the seconds taken so far. Its own time does not count.
+    /// Wraps as [`Self::wrap`] does; `watch` is called after every tick with the cloth and the seconds taken so far, which do not
+    /// include its own time.
     pub fn wrap_watched(
         &self,
         mut watch: impl FnMut(&Garment, &ClothState, f64),
@@ -165,13 +167,13 @@ impl Scene {
 }
 
 impl Wrapped {
-    /// Of what moves.
+    /// Hash of the cloth's state.
     pub fn hash(&self) -> u64 {
         cloth_hash(&self.state, Some(Phase::AtRest), true)
     }
 }
 
-/// The edge length at which `pattern` has about `triangles` triangles, metres.
+/// The edge length (metres) at which `pattern` has about `triangles` triangles.
 pub fn edge_length(pattern: &Pattern, triangles: usize) -> f64 {
     (0..EDGE_STEPS).fold(FIRST_EDGE, |edge, _| {
         let got = build(pattern, edge).0.triangles.len();

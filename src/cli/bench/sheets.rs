@@ -1,4 +1,4 @@
-//! A sheet of cloth that swings on two pins, and one that falls on a ball: the scenes other programs were measured in.
+//! A sheet of cloth that swings on two pins, and one that falls on a ball. Other programs were measured with the same scenes.
 
 use std::sync::Arc;
 
@@ -17,47 +17,50 @@ use crate::geometry::mesh::TriMesh;
 use crate::geometry::shapes;
 use crate::sim::hash::Fnv;
 
-/// Frames of a second,
+/// Frames per second.
 const FPS: f64 = 60.0;
-/// and in all.
+/// Number of frames of a run.
 const FRAMES: usize = 120;
-/// Frames after which the sheet on pins is held against implicit steps; the one over the ball still falls free then.
+/// Number of frames after which the sheet on pins is compared with implicit steps.
 const SWUNG: usize = 30;
+/// Number of frames after which the sheet over the ball is compared with free fall; it does not touch the ball yet.
 const FALLEN: usize = 5;
-/// kg/m², and m/s² down.
+/// Density of the cloth, kg/m².
 const DENSITY: f64 = 0.2;
+/// Gravity, downward, m/s².
 const GRAVITY: f64 = 9.81;
-/// Nearly inextensible: N/m, Poisson's ratio, N·m.
+/// Nearly inextensible cloth: stretch stiffness (N/m), Poisson's ratio, bending stiffness (N·m).
 const STIFFNESS: (f64, f64, f64) = (5000.0, 0.3, 4e-5);
-/// Distance kept from the ball and from itself, metres.
+/// Distance that the cloth keeps from the ball and from itself, metres.
 const THICKNESS: f64 = 3e-3;
-/// Of the ball, and how far the sheet begins above it, metres.
+/// Radius of the ball, metres.
 const RADIUS: f64 = 0.3;
+/// Height of the sheet above the ball at the start, metres.
 const ABOVE: f64 = 0.05;
 
-/// What happens to a sheet of 1 m².
+/// A scene with a sheet of 1 m².
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scenario {
-    /// Released flat, two corners pinned.
+    /// The sheet is released flat, with two corners pinned.
     Swings,
-    /// Dropped 5 cm on a ball; it meets itself.
+    /// The sheet is dropped 5 cm on a ball, where it touches itself.
     Falls,
 }
 
-/// What a scenario takes in seconds of processor for each of the sheet's at a thousand, ten thousand and forty thousand
-/// triangles: that of the best other program that is faithful, and ours to reach. No other one got to forty thousand.
+/// Limits of the processor time for each second of the sheet's motion, seconds, at 1,000, 10,000 and 40,000 triangles: the time
+/// of the best other accurate program, and our goal. No other program finished with 40,000.
 const LIMITS: [(Scenario, [(f64, f64); 3]); 2] = [
     (Scenario::Swings, [(0.21, 0.04), (7.7, 0.8), (5.0, 5.0)]),
     (Scenario::Falls, [(0.136, 0.06), (12.8, 1.2), (8.0, 8.0)]),
 ];
 
-/// The names of both at the three sizes.
+/// Names of both scenarios at the three sizes.
 const NAMES: [[&str; 3]; 2] = [
     ["sheet on two pins, a tenth", "sheet on two pins", "sheet on two pins, four times"],
     ["sheet on a ball, a tenth", "sheet on a ball", "sheet on a ball, four times"],
 ];
 
-/// The rows of both, of about `triangles` triangles each.
+/// Measures both scenarios at `sizes`, which are approximate numbers of triangles.
 pub fn sheets(
     sizes: [usize; 3],
     runs: usize,
@@ -77,11 +80,11 @@ pub fn sheets(
     Ok(())
 }
 
-/// A sheet on its way.
+/// A running simulation of a sheet.
 struct Run {
     drape: Drape,
     start: Vec<DVec3>,
-    /// The deepest that a vertex was in the ball after any frame, metres.
+    /// Largest depth of a vertex in the ball after any frame, metres; negative outside.
     deepest: f64,
 }
 
@@ -128,7 +131,7 @@ impl Run {
         self.drape.step(1.0 / FPS).map_err(|e| Failure::Internal(e.to_string()))
     }
 
-    /// Looks how deep the cloth is.
+    /// Updates `deepest` with the current positions.
     fn look(&mut self) {
         if self.drape.scene.collider.is_some() {
             let depth = |x: &DVec3| RADIUS - x.length();
@@ -137,13 +140,13 @@ impl Run {
         }
     }
 
-    /// Mean height lost, metres.
+    /// Mean height lost since the start, metres.
     fn fall(&self) -> f64 {
         let lost = self.start.iter().zip(&self.drape.state().positions).map(|(from, to)| from.y - to.y);
         lost.sum::<f64>() / self.start.len() as f64
     }
 
-    /// p99 and the largest of |l / l0 - 1|.
+    /// 99th percentile and maximum of the edges' strain |l / l0 - 1|.
     fn strain(&self) -> (f64, f64) {
         let (sheet, x) = (&self.drape.scene.sheet, &self.drape.state().positions);
         let of = |(e, &[a, b]): (usize, &[u32; 2])| {
@@ -200,7 +203,7 @@ fn row(
     }
     let run = last.ok_or_else(|| Failure::Internal("no run was made".to_owned()))?;
     let (p99, largest) = run.strain();
-    // Free fall is known exactly.
+    // For free fall the exact distance is known: g t² / 2.
     let exact = reference.unwrap_or(GRAVITY * (FALLEN as f64 / FPS).powi(2) / 2.0);
     let what = match scenario {
         Scenario::Swings => "fall in half a second against implicit steps",
@@ -239,7 +242,7 @@ fn row(
     })
 }
 
-/// A square of 1 m² of about `triangles` triangles, its diagonals turning like a chessboard, lying above the ball.
+/// A square of 1 m² of about `triangles` triangles, above the ball; the diagonals of its cells alternate.
 fn flat(triangles: usize) -> Result<(Sheet, Vec<DVec3>), Failure> {
     let cells = ((triangles as f64 / 2.0).sqrt().round() as u32).max(2);
     let at = |k: u32| f64::from(k) / f64::from(cells);
@@ -258,7 +261,7 @@ fn flat(triangles: usize) -> Result<(Sheet, Vec<DVec3>), Failure> {
     Ok((sheet, start))
 }
 
-/// Of 20,480 triangles.
+/// The ball, with 20,480 triangles.
 fn ball() -> Result<Surface, Failure> {
     Surface::new(shapes::icosphere(RADIUS, 5))
         .ok_or_else(|| Failure::Internal("a ball without a surface".to_owned()))

@@ -1,4 +1,4 @@
-//! Times of what a user waits for, against what they should be.
+//! Benchmarks of what a user waits for, against limits.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -23,24 +23,24 @@ use crate::sim::hash::{Fnv, cloth_hash};
 use crate::sim::{Request, RequestKind, Simulation};
 use crate::wrap::Phase;
 
-/// A fast drag: so far round the body, metres,
+/// Length of the fast drag round the body, metres.
 const DRAG_LENGTH: f64 = 0.3;
-/// within 0.2 s of ticks;
+/// Number of ticks of the fast drag (0.2 s).
 const DRAG_TICKS: u32 = 12;
-/// the hand then waits for half a second.
+/// Number of ticks for which the pointer then stays in place (0.5 s).
 const WAIT_TICKS: u32 = 30;
-/// The skirt is taken so far below its top, metres.
+/// Height of the dragged point below the top of the skirt, metres.
 const DRAG_BELOW: f64 = 0.2;
-/// A tube is as good as its users need when p99 of its strain is so little above the exact map's.
+/// Largest excess of the 99th percentile of strain over the exact solution's at which a tube is good enough for its user.
 const GOOD: f64 = 0.01;
-/// Closest points asked for in a run.
+/// Number of closest-point queries in a run.
 const QUERIES: usize = 100_000;
-/// Worn cloth lies this high above the skin, metres.
+/// Range of offsets above the skin at which closest points are queried, metres.
 const WORN: [f64; 2] = [0.004, 0.009];
-/// Ten seconds.
+/// Number of ticks at rest (10 s).
 const IDLE_TICKS: u32 = 600;
 
-/// Calls `tell` with the row of each scene; garments have about `triangles` triangles.
+/// Runs all scenes; `tell` is called with the row of each. Garments have about `triangles` triangles.
 pub fn speed(
     triangles: usize,
     runs: usize,
@@ -68,7 +68,7 @@ fn cylinder(triangles: usize, runs: usize, skips: Skips) -> Result<Row, Failure>
     let tube = Tube::new(1.0);
     let scene = Scene::tube(&tube, edge_length(&tube.pattern, triangles))?.skipping(skips);
     let mut exact = None;
-    // Since when each run has been good, and has stayed so.
+    // Seconds since which each run has continuously been good; infinite while it is not.
     let mut good = vec![f64::INFINITY; runs.max(1)];
     let (seconds, hash, wrapped) = scene.wraps(scene_name, runs, |run, garment, state, seconds| {
         let exact = exact.get_or_insert_with(|| tube.exact(garment));
@@ -152,7 +152,7 @@ fn tshirt(scene: &Scene, runs: usize) -> Result<(Row, Wrapped), Failure> {
     Ok((row, wrapped))
 }
 
-/// Where the hand takes a skirt, and how it goes round the body.
+/// The dragged vertex of a skirt, and the pointer's path round the body.
 struct Hand {
     vertex: u32,
     axis: DVec3,
@@ -161,7 +161,7 @@ struct Hand {
 }
 
 impl Hand {
-    /// In front, [`DRAG_BELOW`] under the top.
+    /// The vertex at the front of the skirt, [`DRAG_BELOW`] under its top.
     fn new(cloth: &ClothState) -> Self {
         let top = cloth.positions.iter().map(|p| p.y).fold(f64::NEG_INFINITY, f64::max);
         let y = top - DRAG_BELOW;
@@ -177,7 +177,7 @@ impl Hand {
         Self { vertex, axis, start: out.x.atan2(out.z), radius: out.x.hypot(out.z) }
     }
 
-    /// The pointer after `tick` of [`DRAG_TICKS`]: from outside towards the body's axis.
+    /// The ray of the pointer after `tick` of [`DRAG_TICKS`] ticks, from outside towards the body's axis.
     fn pointer(&self, tick: u32) -> Ray {
         let share = f64::from(tick.min(DRAG_TICKS)) / f64::from(DRAG_TICKS);
         let angle = self.start + (DRAG_LENGTH / self.radius * share).min(TAU);
@@ -198,7 +198,7 @@ fn drag(scene: &Scene, runs: usize) -> Result<[Row; 2], Failure> {
     Ok([substeps(&skirt, &hand, runs)?, fast_drag(scene, &skirt, &hand)?])
 }
 
-/// Time of a substep with its relaxation and contact while the hand moves.
+/// Measures the time of a substep, with relaxation and contact, while the pointer moves.
 fn substeps(skirt: &Wrapped, hand: &Hand, runs: usize) -> Result<Row, Failure> {
     let scene_name = "substep of dragging the skirt along the body";
     let (mut all, mut each, mut hashes, mut worst_tick) = (Vec::new(), Vec::new(), Vec::new(), 0.0f64);
@@ -254,7 +254,7 @@ fn substeps(skirt: &Wrapped, hand: &Hand, runs: usize) -> Result<Row, Failure> {
     })
 }
 
-/// How the skirt looks at every tick of a fast drag, and when the hand has waited.
+/// Checks the skirt at every tick of a fast drag, and after the pointer has stayed in place.
 fn fast_drag(scene: &Scene, skirt: &Wrapped, hand: &Hand) -> Result<Row, Failure> {
     let index = BodyIndex::new(&scene.surface);
     let measured = |state: &ClothState| fit::measure(&scene.pattern, &skirt.garment, state, &index);
@@ -318,7 +318,7 @@ fn fast_drag(scene: &Scene, skirt: &Wrapped, hand: &Hand) -> Result<Row, Failure
     })
 }
 
-/// Closest points with sign from worn cloth, on one core.
+/// Measures closest-point queries with sign, from points over the skin where worn cloth is, on one core.
 fn closest(surface: &Arc<Surface>, worn: &ClothState, runs: usize) -> Result<Row, Failure> {
     let scene_name = "closest point and sign, from worn cloth";
     let [low, high] = WORN;
@@ -354,7 +354,7 @@ fn closest(surface: &Arc<Surface>, worn: &ClothState, runs: usize) -> Result<Row
     })
 }
 
-/// What the simulation does when nothing moves.
+/// Checks that the simulation does no work when nothing moves.
 fn idle(scene: &Scene) -> Result<Row, Failure> {
     let mut simulation = Simulation::default();
     simulation.set_skips(scene.relax.skips);

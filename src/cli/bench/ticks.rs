@@ -1,4 +1,4 @@
-//! The longest tick of every stage: so long a cancel, or whatever else is asked, may have to wait.
+//! The longest tick of every stage. A cancel or another request may have to wait for one tick.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -22,16 +22,17 @@ use crate::session::samples::Sample;
 use crate::sim::{ClothPlace, DrapeSource, GarmentSource, Request, RequestKind, Simulation};
 use crate::wrap::{Marks, Phase};
 
-/// Seconds that a tick may take: sound, and good.
+/// Limits of a tick, seconds: acceptable, and good.
 const LIMITS: [f64; 2] = [0.2, 0.1];
-/// Ticks after which cloth that still moves trembles.
+/// Limit of ticks: cloth that still moves then oscillates.
 const MOST_TICKS: usize = 20_000;
-/// Ticks in which the hand goes
+/// Number of ticks of the drag.
 const DRAG_TICKS: usize = 30;
-/// so far along the body, metres.
+/// Length of the drag along the body, metres.
 const DRAG_LENGTH: f64 = 0.3;
 
-/// Calls `tell` with a row for each garment of about `triangles` triangles; the longest of `runs` counts.
+/// Runs each garment with about `triangles` triangles `runs` times and calls `tell` with its row; the longest tick of all runs
+/// counts.
 pub fn ticks(
     triangles: usize,
     runs: usize,
@@ -51,12 +52,12 @@ pub fn ticks(
     tell(&row("ticks of a dress sewn round a torso", runs, |watch| sewn(triangles, watch))?)
 }
 
-/// The longest tick or request of each stage.
+/// Runs a simulation and keeps the longest tick or request of each stage.
 #[derive(Default)]
 struct Watch {
     simulation: Simulation,
     seq: u64,
-    /// Wall-clock and processor seconds, each of the longest.
+    /// For each stage the largest wall-clock time and the largest processor time of a tick or request, seconds.
     longest: BTreeMap<&'static str, [f64; 2]>,
     seconds: f64,
     triangles: usize,
@@ -70,7 +71,7 @@ impl Watch {
         self.seconds += watch.wall();
     }
 
-    /// Carries out a request, which counts for `stage`.
+    /// Applies a request and counts its time for `stage`.
     fn ask(&mut self, stage: &'static str, kind: RequestKind) -> Result<(), Failure> {
         interrupt::check()?;
         self.seq += 1;
@@ -81,7 +82,7 @@ impl Watch {
         Ok(())
     }
 
-    /// One tick.
+    /// Runs a tick and counts its time for the stage that `stage` gives for the phase.
     fn tick(&mut self, stage: impl Fn(Option<Phase>) -> &'static str) -> Result<(), Failure> {
         interrupt::check()?;
         let stage = stage(self.simulation.phase());
@@ -91,7 +92,7 @@ impl Watch {
         Ok(())
     }
 
-    /// Ticks until nothing moves, then looks at it as the window does.
+    /// Runs ticks until nothing moves, then judges the cloth as the window does.
     fn rest(&mut self, stage: impl Fn(Option<Phase>) -> &'static str) -> Result<(), Failure> {
         for _ in 0..MOST_TICKS {
             if self.simulation.is_at_rest() {
@@ -108,7 +109,7 @@ impl Watch {
     }
 }
 
-/// Of the stages of a wrap.
+/// The stage of a wrap, by its phase.
 fn wrapping(phase: Option<Phase>) -> &'static str {
     if phase == Some(Phase::Growing) { "growing" } else { "settling" }
 }
@@ -131,7 +132,7 @@ fn row(
     };
     let [solid, goal] = LIMITS;
     let check = |&stage: &&'static str| Check::new(stage, longest(stage, 0), Unit::Seconds, solid, goal);
-    // Where others use the machine too, this tells what is its own; of all processors together.
+    // Processor time of all cores, which other programs on the machine do not lengthen as they do wall-clock time.
     let processor =
         |&stage: &&'static str| Figure { what: stage, value: longest(stage, 1), unit: Unit::Seconds };
     let ticks = Figure {

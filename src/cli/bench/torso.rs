@@ -1,4 +1,4 @@
-//! A tube dress sewn round a torso from two panels before and behind it.
+//! A tube dress sewn round a torso from two panels, one in front of it and one behind.
 
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
@@ -22,24 +22,24 @@ use crate::relax::RelaxSettings;
 use crate::sim::{DrapeSource, GarmentSource, Request, RequestKind, Simulation};
 use crate::wrap::Phase;
 
-/// Of each panel, metres.
+/// Width and height of each panel, metres.
 const PANEL: DVec2 = DVec2::new(0.49, 0.6);
-/// Between them, metres.
+/// Distance between the panels, metres.
 const APART: f64 = 0.3;
-/// Their lower edge is so high, metres.
+/// Height of the panels' lower edge, metres.
 const LOW: f64 = 0.3;
-/// Of the torso, metres.
+/// Height of the torso, metres.
 const HEIGHT: f64 = 1.2;
-/// Half its width and half its depth at the waist; it is wider above and below.
+/// Half the width and half the depth of the torso at the waist, metres; it is wider above and below.
 const WAIST: [f64; 2] = [0.165, 0.115];
-/// Dressing that takes longer has failed.
+/// Limit of ticks; dressing that takes longer has failed.
 const MOST_TICKS: u64 = 3000;
-/// Seconds of processor until it is dressed: solid and good, by size.
+/// Limits of the processor time until the dress is on, seconds, by size: acceptable and good.
 const LIMITS: [[f64; 2]; 3] = [[0.5, 0.12], [0.5, 0.37], [5.0, 0.5]];
 const NAMES: [&str; 3] =
     ["dress round a torso, a tenth", "dress round a torso", "dress round a torso, four times"];
 
-/// The rows, of about `triangles` triangles each.
+/// Measures the dress at `sizes`, which are approximate numbers of triangles.
 pub fn torso(
     sizes: [usize; 3],
     runs: usize,
@@ -56,7 +56,7 @@ fn internal(words: &str) -> Failure {
     Failure::Internal(words.to_owned())
 }
 
-/// Of 25,856 triangles.
+/// The torso, with 25,856 triangles.
 pub fn body() -> TriMesh {
     let mut mesh = shapes::cylinder(1.0, HEIGHT, 128, 100);
     for x in &mut mesh.positions {
@@ -66,7 +66,7 @@ pub fn body() -> TriMesh {
     mesh
 }
 
-/// Two panels, before the torso and behind it.
+/// Two panels, placed in front of the torso and behind it.
 pub fn pattern() -> Pattern {
     let corners = [DVec2::ZERO, PANEL.with_y(0.0), PANEL, PANEL.with_x(0.0)];
     let mut pattern = Pattern::default();

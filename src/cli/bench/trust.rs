@@ -1,4 +1,4 @@
-//! `toile bench trust`: damaged files, and what became of them.
+//! `toile bench trust`: gives damaged files to every reader and counts the results.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -19,30 +19,30 @@ use crate::trust::commands::is_costly;
 use crate::trust::{self, Form, Reader, SLOW, Tally, damaged, good};
 use crate::ui::preferences::Preferences;
 
-/// For each reader when nothing is said.
+/// Default number of files for each reader.
 const USUAL: u64 = 1000;
-/// Files between two looks for a signal.
+/// Number of files between two checks for a signal.
 const AT_ONCE: u64 = 50;
 
-/// What became of the files of a reader.
+/// The results of one reader.
 #[derive(Serialize)]
 struct Row {
     reader: &'static str,
     files: u64,
     taken: u64,
     refused: u64,
-    /// Numbers of the files, and what the panic said.
+    /// Numbers of the files that made the reader panic, with the panic messages.
     panics: Vec<(u64, String)>,
-    /// Numbers of those that took longer than a second of the processor, and how long.
+    /// Numbers of the files that took longer than a second of processor time, with the seconds.
     slow: Vec<(u64, f64)>,
-    /// Numbers of those that were refused without words that can be read, and these.
+    /// Numbers of the files that were refused without a readable message, with the messages.
     unclear: Vec<(u64, String)>,
-    /// The longest time of one, seconds.
+    /// The longest processor time of a file, seconds.
     slowest: f64,
-    /// The most memory of the program meanwhile, MiB; none where the system does not tell.
+    /// Peak memory of the program during this reader, MiB; None where the system does not tell.
     #[serde(skip_serializing_if = "Option::is_none")]
     memory: Option<u64>,
-    /// How often each refusal came, without its figures.
+    /// How often each refusal came; numbers in the messages are left out.
     words: BTreeMap<String, u64>,
 }
 
@@ -61,7 +61,7 @@ impl std::fmt::Display for Row {
     }
 }
 
-/// Gives every reader its damaged files and says what became of them. A file that was too much for one is an error.
+/// Gives every reader its damaged files and prints the results. It is an error if a reader could not handle a file.
 pub fn trust(arguments: &Bench) -> Result<(), Failure> {
     let folder = std::env::temp_dir().join(format!("toile-trust-{}", std::process::id()));
     output::make_folder(&folder)?;
@@ -125,7 +125,7 @@ fn tried(reader: &Reader, numbers: std::ops::Range<u64>) -> Result<Tally, Failur
     Ok(all)
 }
 
-/// Writes what was too much for `reader` into `folder`.
+/// Writes the files that `reader` could not handle into `folder`.
 fn keep(reader: &Reader, tally: &Tally, folder: &Path) -> Result<(), Failure> {
     for number in tally.bad() {
         output::make_folder(folder)?;
@@ -135,13 +135,13 @@ fn keep(reader: &Reader, tally: &Tally, folder: &Path) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Journals behind a copy, as a window that crashed leaves them in `folder`.
+/// A reader of recovery journals, as a window that crashed leaves them in `folder`.
 fn journal(folder: &Path) -> Reader {
     let root = folder.to_owned();
     Reader::new("journal", Form::Journal, vec![cut_off()], move |bytes| recovered(&root, bytes))
 }
 
-/// Of a session that did a little before it was cut off.
+/// The journal of a short session that was cut off.
 fn cut_off() -> Vec<u8> {
     let recording = Recording::parse(&good::session().recording()).expect("a recording");
     let line = |(_, gesture, command): &(u64, u64, Command)| {
@@ -152,7 +152,7 @@ fn cut_off() -> Vec<u8> {
     recording.commands.iter().map(line).collect::<String>().into_bytes()
 }
 
-/// What a window makes of the journal that it finds behind a copy in `root`.
+/// Recovers the journal found behind a copy in `root`, as a window does.
 fn recovered(root: &Path, journal: &[u8]) -> Result<(), String> {
     let told = |e: std::io::Error| e.to_string();
     if left(root).is_empty() {
@@ -181,7 +181,7 @@ fn recovered(root: &Path, journal: &[u8]) -> Result<(), String> {
     }
 }
 
-/// Scenes for `toile simulate`, with what they name beside them.
+/// A reader of scenes for `toile simulate`; the files that the scenes name are written to `folder`.
 fn falling(folder: &Path) -> Result<Reader, Failure> {
     let place = folder.join("scene.json");
     output::write(&folder.join("cloth.obj"), &good::cloths()[0])?;
@@ -193,7 +193,7 @@ fn falling(folder: &Path) -> Result<Reader, Failure> {
     }))
 }
 
-/// What a person prefers. What cannot be understood is set aside by who reads it.
+/// A reader of the user's preferences. Preferences that are not understood are ignored when the program reads them.
 fn preferences() -> Reader {
     let good = serde_json::to_vec(&Preferences::default()).unwrap_or_default();
     Reader::new("preferences", Form::Json, vec![good], |bytes| {
@@ -205,15 +205,15 @@ fn preferences() -> Reader {
     })
 }
 
-/// The most memory that the program has had at once, as Linux counts it.
+/// Peak memory of the program, as Linux counts it.
 mod memory {
-    /// Counts from now on.
+    /// Resets the peak.
     pub fn begin() {
-        // Where it is not allowed, the count goes on from before.
+        // Where the system does not allow the reset, the peak counts from the start of the program.
         std::fs::write("/proc/self/clear_refs", "5").ok();
     }
 
-    /// MiB since then. None on other systems.
+    /// Peak memory since [`begin`], MiB; None on other systems.
     pub fn most() -> Option<u64> {
         let status = std::fs::read_to_string("/proc/self/status").ok()?;
         let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;

@@ -1,4 +1,4 @@
-//! A tube on a cylinder: what it should be is known exactly.
+//! A tube on a cylinder, for which the exact solution is known.
 
 use std::f64::consts::PI;
 
@@ -12,33 +12,33 @@ use crate::geometry::shapes;
 use crate::pattern::{EdgeRef, Pattern, Piece, Seam};
 use crate::wrap::{BodyMark, ClothMark, ClothSide, Marks};
 
-/// Of the cylinder, metres.
+/// Radius of the cylinder, metres.
 pub const RADIUS: f64 = 0.15;
-/// The tube lies so far above it, metres.
+/// Offset of the tube from the cylinder, metres.
 pub const OFFSET: f64 = 0.004;
-/// Of the cylinder; it stands on y = 0.
+/// Height of the cylinder, metres; its base is at y = 0.
 const BODY_HEIGHT: f64 = 1.0;
-/// Of the tube.
+/// Height of the tube, metres.
 const HEIGHT: f64 = 0.5;
-/// Its lower edge on the cylinder.
+/// Height of the tube's lower edge on the cylinder, metres.
 const LOW: f64 = 0.25;
-/// Flat sides of the cylinder: their chords are 2e-5 shorter than their arcs.
+/// Number of flat sides of the cylinder; their middles are nearer to its axis than the radius by a fraction of 2e-5.
 const SIDES: u32 = 512;
-/// Rows of them.
+/// Number of rows of sides along the cylinder's height.
 const ROWS: u32 = 20;
-/// Points of a stroke less one.
+/// Number of segments of a mark's stroke.
 const STROKE: u32 = 20;
 
-/// A front and a back sewn into a tube.
+/// A front and a back piece sewn into a tube, with marks.
 pub struct Tube {
     pub pattern: Pattern,
     pub marks: Marks,
-    /// Of each of its two pieces, metres.
+    /// Width of each of the two pieces, metres.
     width: f64,
 }
 
 impl Tube {
-    /// `loose` times as long round as the cylinder it lies on.
+    /// A tube whose circumference is `loose` times that of the cylinder at the offset.
     pub fn new(loose: f64) -> Self {
         let width = loose * PI * (RADIUS + OFFSET);
         let corners = [(0.0, 0.0), (width, 0.0), (width, HEIGHT), (0.0, HEIGHT)].map(DVec2::from);
@@ -60,7 +60,7 @@ impl Tube {
         Self { pattern, marks, width }
     }
 
-    /// The tube laid round the cylinder that it fits without strain.
+    /// The exact solution: the tube as a round cylinder without strain, with its radius given by the width of its pieces.
     pub fn exact(&self, garment: &Garment) -> ClothState {
         let radius = self.width / PI;
         let mut state = ClothState {
@@ -78,26 +78,27 @@ impl Tube {
     }
 }
 
-/// What the tubes are put on.
+/// The cylinder that the tubes are put on.
 pub fn cylinder() -> TriMesh {
     shapes::cylinder(RADIUS, BODY_HEIGHT, SIDES, ROWS)
 }
 
-/// How far `state` is from the exact one.
+/// Errors of a state of the tube compared with the exact solution.
 #[derive(Clone, Copy, Debug)]
 pub struct Errors {
-    /// p99 of |l / l0 - 1| over the edges.
+    /// 99th percentile of the edges' strain |l / l0 - 1|.
     pub strain: f64,
-    /// The same of the exact state: its edges are chords.
+    /// 99th percentile of the same strain in the exact solution, where edges are chords of the cylinder.
     pub chords: f64,
-    /// p99 of what edges are strained beyond that: one between its chord's strain and none is slack, not wrong.
+    /// 99th percentile of the strain in excess of the exact solution's. An edge whose strain is between that of its chord and
+    /// zero is slack and has no excess.
     pub excess: f64,
-    /// The farthest vertex from where it should be, but for a turn about the axis and a shift along it; metres.
+    /// Largest distance of a vertex from the exact solution, up to a rotation about the axis and a shift along it, metres.
     pub position: f64,
 }
 
 impl Errors {
-    /// Of `state` against `exact`.
+    /// The errors of `state` compared with `exact`.
     pub fn new(garment: &Garment, state: &ClothState, exact: &ClothState) -> Self {
         let p99 = |strains: &[f64]| quantile(strains, 0.99);
         Self {

@@ -1,4 +1,4 @@
-//! Frames of a sequence as the animation of a body in glTF.
+//! Frames of a sequence from an animation of a body in glTF.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -13,15 +13,15 @@ use crate::io::moving_body::MovingBody;
 /// An animated body.
 pub struct Animated {
     body: MovingBody,
-    /// Which of its animations it goes through.
+    /// Index of the animation that is used.
     clip: usize,
     at_rest: TriMesh,
     fps: f64,
 }
 
 impl Animated {
-    /// The body in `bytes`, read from `path`, through the animation `asked` for or its first, so many frames a second. It
-    /// is brought to metres as it is at rest.
+    /// Reads the body in `bytes` (from `path`) and chooses the animation `asked` for, or the first. `fps` is frames per second.
+    /// The unit is the one that the body at rest has.
     pub fn new(
         path: &Path,
         bytes: &[u8],
@@ -40,19 +40,19 @@ impl Animated {
         Ok(Self { body, clip, at_rest: imported.mesh, fps })
     }
 
-    /// Frames of the animation, the last one included.
+    /// Number of frames of the animation, the last one included.
     pub fn frames(&self) -> usize {
         ((self.body.seconds(self.clip).unwrap_or(0.0) * self.fps + 1e-6).floor() as usize).saturating_add(1)
     }
 
-    /// Which animations are left out though none was `asked` for, in words.
+    /// A note on the other animations if none was `asked` for.
     pub fn notes(&self, asked: Option<&str>) -> Vec<String> {
         let names: Vec<&str> = self.body.animations().collect();
         let words = || format!("it has {}: the first is taken (see --animation)", listed(&names));
         if names.len() > 1 && asked.is_none() { vec![words()] } else { Vec::new() }
     }
 
-    /// The body in frame `i`. At rest it must have the triangles of `dressed`.
+    /// The body in frame `i`. The body at rest must have the triangles of `dressed`.
     pub fn body(&self, i: usize, dressed: &Surface, path: &Path) -> Result<Arc<Surface>, Failure> {
         formats::same_triangles(path, &self.at_rest, &dressed.mesh)?;
         let positions = self.body.positions(Some((self.clip, i as f64 / self.fps)));
@@ -61,8 +61,8 @@ impl Animated {
     }
 }
 
-/// Which of the animations of these names is `asked` for: by its name, or by its number from 1; the first if none is. The
-/// error, in words: there is none, or more than one.
+/// The index of the animation `asked` for, by its name or by its number from 1; the first if none is. The error says that there
+/// is none, or more than one of that name.
 fn clip(names: &[&str], asked: Option<&str>) -> Result<usize, String> {
     if names.is_empty() {
         return Err("there is no animation in it".to_owned());
@@ -84,7 +84,7 @@ fn clip(names: &[&str], asked: Option<&str>) -> Result<usize, String> {
     }
 }
 
-/// "2 animations: 1 walk, 2 run".
+/// A list of animations in words, such as "2 animations: 1 walk, 2 run".
 fn listed(names: &[&str]) -> String {
     let each = names.iter().enumerate().map(|(i, name)| format!("{} {name}", i + 1).trim_end().to_owned());
     let plural = if names.len() == 1 { "" } else { "s" };

@@ -1,4 +1,4 @@
-//! Frames of a sequence as files of bodies: named one by one, by a folder, or by a pattern with a star.
+//! Frames of a sequence from body files, given one by one, as a folder, or as a pattern with a star.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -9,17 +9,17 @@ use crate::cli::arguments::BodyFile;
 use crate::cli::failure::Failure;
 use crate::cli::{files, formats};
 
-/// Bodies in files, one for each frame.
+/// The body files, one for each frame.
 pub struct Files {
-    /// In the order of the frames.
+    /// Paths in the order of the frames.
     pub paths: Vec<PathBuf>,
-    /// How they are read; the unit is that of the first.
+    /// How they are read; the unit is that of the first file.
     how: BodyFile,
 }
 
 impl Files {
-    /// The files that `named` means. A folder stands for all OBJ files in it, and "walk*.obj" for those of that name; both in
-    /// the order of the numbers in their names.
+    /// Collects the files that `named` means. A folder stands for all OBJ files in it, and "walk*.obj" for those with such a
+    /// name, both ordered by the numbers in their names.
     pub fn new(named: &[PathBuf], how: BodyFile) -> Result<Self, Failure> {
         let mut paths = Vec::new();
         for path in named {
@@ -37,13 +37,13 @@ impl Files {
         Ok(Self { paths, how })
     }
 
-    /// The body in frame `i`. It must have the triangles of `dressed`.
+    /// Reads the body of frame `i`. It must have the triangles of `dressed`.
     pub fn body(&mut self, i: usize, dressed: &Surface) -> Result<Arc<Surface>, Failure> {
         let path = &self.paths[i];
         let bytes = files::read(path)?;
         let mut mesh = formats::body_mesh(path, &bytes, self.how)?;
         let unit = formats::body_unit(path, &bytes, &mesh, self.how)?;
-        // A person who sits down is not smaller.
+        // The unit of the first file holds for all: guessed from each height, it would change when the person sits down.
         self.how.unit = Some(unit);
         if mesh.triangles == dressed.mesh.triangles {
             mesh.positions.iter_mut().for_each(|p| *p *= unit.metres());
@@ -56,7 +56,7 @@ impl Files {
     }
 }
 
-/// Files in `folder` whose names begin and end like this.
+/// Files in `folder` whose names begin with `begins` and end with `ends`.
 fn inside(folder: &Path, (begins, ends): (&str, &str)) -> Result<Vec<PathBuf>, Failure> {
     let entries = fs::read_dir(folder).map_err(|error| Failure::file(folder, error))?;
     let fits = |path: &PathBuf| {
@@ -73,7 +73,7 @@ fn inside(folder: &Path, (begins, ends): (&str, &str)) -> Result<Vec<PathBuf>, F
     }
 }
 
-/// A key that puts "walk2" before "walk10".
+/// A sort key that compares numbers in names by value: "walk2" comes before "walk10".
 fn in_order(name: &str) -> Vec<(u128, String)> {
     let mut parts = vec![(0_u128, String::new())];
     for c in name.chars() {

@@ -1,4 +1,4 @@
-//! Frames of a sequence as a captured motion (BVH) that the mannequin makes.
+//! Frames of a sequence from motion capture (BVH), applied to the mannequin.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -10,20 +10,20 @@ use crate::cli::failure::Failure;
 use crate::io::bvh::{self, BvhError};
 use crate::session::BodyChoice;
 
-/// A motion put on the mannequin.
+/// A motion retargeted to the mannequin.
 pub struct Captured {
     clip: Clip,
     retarget: Retarget,
     rig: Arc<Rig>,
-    /// Sideways it is where it was built in this one.
+    /// Index of the reference frame, in which the mannequin is at its own horizontal position.
     first: usize,
-    /// Whether its rest pose alone told that z points up.
+    /// Whether z was taken to point up because of the rest pose.
     is_turned: bool,
 }
 
 impl Captured {
-    /// The motion in `bytes`, read from `path`, for the mannequin of `body`, where it was built in frame `first`. Without
-    /// an axis that points `up` its rest pose tells.
+    /// Reads the motion in `bytes` (from `path`) and retargets it to the mannequin of `body`. `first` is the reference frame.
+    /// Without `up` the axis is guessed from the motion's rest pose.
     pub fn new(
         path: &Path,
         bytes: &[u8],
@@ -50,17 +50,17 @@ impl Captured {
         })
     }
 
-    /// Frames of the file.
+    /// Number of frames of the file.
     pub fn frames(&self) -> usize {
         self.clip.frames()
     }
 
-    /// Frames a second of the file.
+    /// Frames per second of the file.
     pub fn fps(&self) -> f64 {
         1.0 / self.clip.seconds_per_frame
     }
 
-    /// How it was taken, and which joints found no partner, in words.
+    /// Notes on the up axis, and on joints without a counterpart.
     pub fn notes(&self) -> Vec<String> {
         let Retarget { unused, unmoved, .. } = &self.retarget;
         let mut notes = Vec::new();
@@ -76,7 +76,7 @@ impl Captured {
         notes
     }
 
-    /// The mannequin in frame `i` of the file.
+    /// The mannequin in frame `i` of the file, from 0.
     pub fn body(&self, i: usize) -> Result<Arc<Surface>, Failure> {
         let (pose, place) = self.retarget.frame(&self.clip, self.first, i);
         let body = self.rig.placed(&pose, &place);

@@ -1,4 +1,5 @@
-//! `toile repose --sequence` and `--motion`: the dressed garment through the frames of a motion, each carried on from the frame before.
+//! `toile repose --sequence` and `--motion`: carries the dressed garment through the frames of a motion, each from the frame
+//! before.
 
 mod animated;
 mod body_files;
@@ -29,14 +30,14 @@ use animated::Animated;
 use body_files::Files;
 use captured::Captured;
 
-/// Frames one sequence may have.
+/// Largest number of frames of a sequence.
 const MOST_FRAMES: usize = 10_000;
-/// Frames a second of bodies in files.
+/// Frames per second of body files and of animated bodies when --fps is not given.
 const USUAL_FPS: f64 = 30.0;
-/// Bytes that an animated file may take: its lengths are 32-bit.
+/// Largest size of an animated file, bytes: lengths in GLB are 32-bit.
 const MOST_BYTES: usize = u32::MAX as usize;
 
-/// Where the bodies of the frames come from.
+/// The source of the bodies of the frames.
 enum Source {
     Files(Files),
     Captured(Captured),
@@ -44,7 +45,8 @@ enum Source {
 }
 
 impl Source {
-    /// What moves in the file at `path`: its frames, how many there are in a second, and what was not understood.
+    /// Reads the motion in the file at `path`. Returns it with its number of frames, its frames per second, and notes on what was
+    /// not understood.
     fn moving(
         path: &Path,
         arguments: &Repose,
@@ -69,16 +71,16 @@ impl Source {
     }
 }
 
-/// The frames to make.
+/// The motion and its frames that are made.
 struct Motion {
     source: Source,
-    /// Of those that there are, from 0.
+    /// Indices of the chosen frames in the source, from 0.
     frames: Vec<usize>,
-    /// Frames a second.
+    /// Frames per second of the result.
     fps: f64,
-    /// What was not understood of it.
+    /// Notes on what was not understood.
     notes: Vec<String>,
-    /// What was read.
+    /// Files that were read.
     inputs: Vec<PathBuf>,
 }
 
@@ -101,7 +103,7 @@ impl Motion {
         Ok(Self { source, frames, fps, notes, inputs })
     }
 
-    /// What frame `i` is called, for people.
+    /// The name of frame `i` for messages.
     fn name(&self, i: usize) -> String {
         match &self.source {
             Source::Files(files) => files.paths[self.frames[i]].display().to_string(),
@@ -111,7 +113,7 @@ impl Motion {
         }
     }
 
-    /// The body in frame `i`, with the triangles of `dressed`.
+    /// The body in frame `i`, which has the triangles of `dressed`.
     fn body(&mut self, i: usize, dressed: &Surface) -> Result<Arc<Surface>, Failure> {
         match &mut self.source {
             Source::Files(files) => files.body(self.frames[i], dressed),
@@ -121,7 +123,7 @@ impl Motion {
     }
 }
 
-/// Which of `count` frames are asked for.
+/// Indices of the chosen frames, of `count`.
 fn chosen(arguments: &Repose, count: usize) -> Result<Vec<usize>, Failure> {
     if count == 0 {
         let words = "--sequence takes bodies: --body FILE, several times, or a folder";
@@ -138,31 +140,31 @@ fn chosen(arguments: &Repose, count: usize) -> Result<Vec<usize>, Failure> {
     }
 }
 
-/// What was found in one frame.
+/// The result of one frame.
 #[derive(Debug, Serialize)]
 struct Line {
     frame: usize,
     name: String,
     file: String,
-    /// Vertices inside the body.
+    /// Number of vertices inside the body.
     inside: usize,
-    /// Edges of the cloth that cross the skin.
+    /// Number of cloth edges that cross the skin.
     through: usize,
-    /// Strain beyond what the dressed cloth had, which 99 of 100 edges do not exceed.
+    /// 99th percentile of the edges' strain in excess of that of the dressed cloth.
     excess_p99: f64,
-    /// Strain from the flat pattern.
+    /// 99th percentile of the edges' strain relative to the flat pattern.
     strain_p99: f64,
     seconds: f64,
 }
 
-/// `report.json`.
+/// The contents of `report.json`.
 #[derive(Debug, Serialize)]
 struct Summary {
     version: &'static str,
     name: String,
     inputs: Vec<String>,
     frames_per_second: f64,
-    /// Of the animated file.
+    /// Size of the animated file.
     bytes: usize,
     frames: Vec<Line>,
     notes: Vec<String>,
@@ -170,7 +172,7 @@ struct Summary {
     seconds: Seconds,
 }
 
-/// All frames, from the pose that was dressed; one with cloth inside the body gives the exit code.
+/// Carries the garment through all frames. If a frame has cloth inside the body the check fails.
 pub fn sequence(arguments: &Repose) -> Result<(), Failure> {
     let start = Instant::now();
     let input = input::load(&arguments.project, &InputOptions::default())?;
@@ -185,7 +187,7 @@ pub fn sequence(arguments: &Repose) -> Result<(), Failure> {
     let body = body_of(&session, &snapshot, &arguments.project)?;
     check_size(&snapshot, &body, motion.frames.len())?;
     output::make_folder(&arguments.out)?;
-    // Of another motion: where there is one all frames are of the same.
+    // The old report is of another motion and must not stay beside new frames.
     output::take_away(&arguments.out.join("report.json"))?;
     let mut carrier = Carrier::new(&snapshot, Arc::clone(&body), &arguments.project)?;
     let (mut frames, mut lines, mut hash) = (Vec::new(), Vec::new(), Fnv::default());
@@ -235,7 +237,7 @@ fn body_of(session: &Session, snapshot: &Snapshot, project: &Path) -> Result<Arc
     body.ok_or_else(|| Failure::input(project, "there is no cloth on the body"))
 }
 
-/// Refused before the work is done: what would not fit in the file.
+/// Refuses, before the work is done, a sequence that would not fit in the file.
 fn check_size(snapshot: &Snapshot, body: &Surface, frames: usize) -> Result<(), Failure> {
     let cloth = snapshot.garment.as_ref().map_or(0, |garment| garment.corners.len());
     let each = bytes_per_frame(cloth, body.mesh.positions.len());
@@ -265,7 +267,7 @@ fn tell(line: &Line, count: usize, json: bool) -> Result<(), Failure> {
     Ok(())
 }
 
-/// What is wrong with the frames.
+/// A message if frames have cloth inside the body.
 fn fault(lines: &[Line]) -> Option<String> {
     let worst = lines.iter().max_by_key(|line| (line.inside, std::cmp::Reverse(line.frame)))?;
     let bad = lines.iter().filter(|line| line.inside > 0).count();
@@ -281,7 +283,7 @@ fn fault(lines: &[Line]) -> Option<String> {
     (bad > 0).then(words)
 }
 
-/// The garment, going along.
+/// The garment bound to its body, carried from frame to frame.
 struct Carrier<'a> {
     snapshot: &'a Snapshot,
     reposer: Reposer,
@@ -298,7 +300,7 @@ impl<'a> Carrier<'a> {
         Ok(Self { snapshot, reposer: reposer.ok_or_else(|| Failure::Limit(words.to_owned()))? })
     }
 
-    /// Carries the cloth to `surface`, measures it and writes it to "garment_0000.obj".
+    /// Carries the cloth to `surface`, measures it and writes it to a file such as "garment_0000.obj".
     fn frame(
         &mut self,
         i: usize,

@@ -1,4 +1,4 @@
-//! `toile simulate`: any cloth mesh under physics, for comparison with other programs.
+//! `toile simulate`: simulates any cloth mesh, for comparison with other programs.
 
 pub mod scene;
 pub mod times;
@@ -16,14 +16,14 @@ use crate::cli::{interrupt, output};
 use crate::drape::solver::newton::Work;
 use crate::drape::{Collider, Drape, DrapeSettings, Integrator, Method, State};
 
-/// Beyond the fabric's own.
+/// Default strain limit, in addition to the fabric's own strain.
 const STRAIN: f64 = 0.01;
-/// Bytes that the places of all vertices in all frames may take: they are kept until the end.
+/// Largest size of all frames' positions, bytes; they are kept in memory until the end.
 const MOST_BYTES: u64 = 4 << 30;
-/// Of an edge: what implicit steps may leave.
+/// Tolerance of implicit steps, relative to an edge length.
 const ACCURACY: f64 = 1e-4;
 
-/// simulate.json.
+/// The contents of simulate.json.
 #[derive(Debug, Serialize)]
 struct Report {
     frames: usize,
@@ -32,22 +32,23 @@ struct Report {
     fps: f64,
     fabric: String,
     solver: String,
-    /// What resisted stretching.
+    /// The membrane model that was used.
     membrane: MembraneChoice,
     build_s: f64,
-    /// Of each frame, and their sums. Null where the system does not tell.
+    /// Processor seconds of each frame; null where the system does not tell. Fields that end in `_in_all` are the sums of all
+    /// frames.
     cpu_s: Vec<Option<f64>>,
     wall_s: Vec<f64>,
     cpu_s_in_all: Option<f64>,
     wall_s_in_all: f64,
-    /// Largest force on a vertex that its motion does not account for, N, after the last frame; null for small steps.
+    /// Largest force (N) on a vertex after the last frame that is not balanced by its acceleration; null for small steps.
     residual_n: Option<f64>,
     steps_not_converged: u64,
     edge_strain: Strain,
     counters: Work,
 }
 
-/// Of edges, at the end.
+/// Strain of the edges at the end.
 #[derive(Debug, Default, Serialize)]
 struct Strain {
     p99: f64,
@@ -55,7 +56,7 @@ struct Strain {
     rms: f64,
 }
 
-/// Moves the cloth and writes positions.f32 and simulate.json.
+/// Runs the simulation and writes positions.f32 and simulate.json.
 pub fn simulate(arguments: &Simulate) -> Result<(), Failure> {
     let path = &arguments.scene;
     let begun = Instant::now();
@@ -123,7 +124,7 @@ pub fn simulate(arguments: &Simulate) -> Result<(), Failure> {
     Ok(())
 }
 
-/// What is told of a simulation that took these seconds of processor and clock for each frame.
+/// The report on a simulation; `cpu_s` and `wall_s` are the processor and wall-clock seconds of each frame.
 fn report(
     file: &SceneFile,
     fabric: String,
@@ -155,7 +156,8 @@ fn report(
     }
 }
 
-/// Puts the body where it is after `done` frames; beyond its last it stays.
+/// Moves the body to its interpolated position after `done` frames, with the motion of the last 1/`parts` frame; after its last
+/// frame it stays.
 fn move_body(
     arguments: &Simulate,
     bodies: &[crate::geometry::mesh::TriMesh],

@@ -1,4 +1,4 @@
-//! A scene as its file tells it, checked.
+//! The scene file of `toile simulate`, read and checked.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -15,12 +15,12 @@ use crate::geometry::mesh::TriMesh;
 use crate::io::obj::ObjError;
 use crate::io::{cloth_obj, obj};
 
-/// Share of the membrane's stiffness that is left where it is pressed.
+/// Stiffness of the membrane under compression relative to its stiffness under tension.
 const COMPRESSION: f64 = 0.1;
-/// Frames that a scene may have.
+/// Largest number of frames of a scene.
 const MOST_FRAMES: f64 = 100_000.0;
 
-/// The file.
+/// The contents of a scene file.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SceneFile {
@@ -44,18 +44,18 @@ pub struct SceneFile {
     pub self_collision: bool,
     #[serde(default)]
     thickness_m: Option<f64>,
-    /// Beyond the fabric's own, 0.01 without.
+    /// Strain limit, in addition to the fabric's own strain; 0.01 when left out.
     #[serde(default)]
     pub strain: Option<f64>,
-    /// Without, the program chooses.
+    /// The solver; chosen by the program when left out.
     #[serde(default)]
     pub solver: Option<SolverChoice>,
-    /// Implicit steps in each frame.
+    /// Number of implicit steps per frame.
     #[serde(default = "one")]
     pub steps_per_frame: u32,
     #[serde(default)]
     pub integrator: Option<IntegratorChoice>,
-    /// What resists stretching in implicit steps; small steps have springs.
+    /// The membrane model of implicit steps; small steps always have springs.
     #[serde(default)]
     pub membrane: MembraneChoice,
 }
@@ -74,7 +74,7 @@ enum FabricChoice {
     Own(Fabric),
 }
 
-/// Who moves the cloth.
+/// The solver.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum SolverChoice {
@@ -82,18 +82,18 @@ pub enum SolverChoice {
     SmallSteps,
 }
 
-/// What resists stretching.
+/// The membrane model, which resists stretching.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum MembraneChoice {
-    /// Triangles of constant strain.
+    /// Constant-strain triangles.
     #[default]
     Triangles,
-    /// A net of springs along their sides (paper B).
+    /// A spring along every edge (paper B).
     Springs,
 }
 
-/// How implicit steps cut time.
+/// The time integrator of implicit steps.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum IntegratorChoice {
@@ -131,20 +131,20 @@ fn one() -> u32 {
     1
 }
 
-/// A scene ready to run.
+/// A loaded scene.
 pub struct Loaded {
     pub file: SceneFile,
     pub scene: Scene,
     pub positions: Vec<DVec3>,
     pub fabric: Fabric,
-    /// Distance kept from bodies and from itself, metres.
+    /// Distance that the cloth keeps from bodies and from itself, metres.
     pub thickness: f64,
-    /// Bodies frame by frame; one that stays, or none.
+    /// The body in each frame; a single one stays in place, and the list may be empty.
     pub bodies: Vec<TriMesh>,
 }
 
 impl SceneFile {
-    /// Frames after the start.
+    /// Number of frames after the start.
     pub fn frames(&self) -> usize {
         (self.seconds * self.fps).round() as usize
     }
@@ -169,7 +169,7 @@ impl SceneFile {
     }
 }
 
-/// Reads the scene at `path` and all it names, relative to its folder.
+/// Reads the scene at `path` and the files it names, relative to its folder.
 pub fn load(path: &Path) -> Result<Loaded, Failure> {
     let file: SceneFile = serde_json::from_slice(&files::read(path)?).map_err(|e| Failure::input(path, e))?;
     if let Some(words) = file.problem() {
@@ -205,7 +205,7 @@ pub fn load(path: &Path) -> Result<Loaded, Failure> {
     Ok(Loaded { file, scene, positions, fabric, thickness, bodies })
 }
 
-/// A triangle in its own plane, its first side along x.
+/// The corners of a triangle in its own plane, with its first side along x.
 fn laid_flat([a, b, c]: [DVec3; 3]) -> [DVec2; 3] {
     let (u, w) = (b - a, c - a);
     let along = u.normalize_or_zero();
@@ -252,7 +252,7 @@ fn bodies_of(file: &SceneFile, folder: &Path) -> Result<Vec<TriMesh>, Failure> {
     Ok(bodies)
 }
 
-/// A body ready for contact.
+/// The surface of a body, with what contact needs.
 pub fn surface(path: &Path, body: &TriMesh) -> Result<Arc<Surface>, Failure> {
     let surface = Surface::new(body.clone());
     surface.map(Arc::new).ok_or_else(|| Failure::input(path, "a collider has no surface"))

@@ -1,27 +1,27 @@
-//! Seconds of work by the wall's clock and by the processor's.
+//! Wall-clock and processor time of work.
 
 use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
-/// Shortest processor time that counts, in steps of its clock: a shorter one is mostly rounding.
+/// Smallest processor time that is trusted, in steps of the clock; a shorter one is mostly rounding.
 const STEPS: f64 = 20.0;
-/// A clock that stands still for longer than this while the processor is busy is of no use.
+/// Longest wait for the processor clock to advance while the processor is busy; a clock that takes longer is not used.
 const STANDS: Duration = Duration::from_millis(200);
 
-/// Seconds that all threads of the program have run so far; None where the system does not tell.
+/// Processor time of all threads of the program so far, seconds; None where the system does not tell.
 #[cfg(unix)]
 pub fn cpu_seconds() -> Option<f64> {
     let time = rustix::time::clock_gettime(rustix::time::ClockId::ProcessCPUTime);
     Some(time.tv_sec as f64 + time.tv_nsec as f64 * 1e-9)
 }
 
-/// Seconds that all threads of the program have run so far; None where the system does not tell.
+/// Processor time of all threads of the program so far, seconds; None where the system does not tell.
 #[cfg(not(unix))]
 pub fn cpu_seconds() -> Option<f64> {
     None
 }
 
-/// Adds up how long pieces of work take.
+/// Sums the wall-clock and processor time of pieces of work.
 #[derive(Default)]
 pub struct Stopwatch {
     wall: f64,
@@ -43,8 +43,8 @@ impl Stopwatch {
         self.wall
     }
 
-    /// Seconds of processor, of all threads; those by the wall's clock where the processor's is missing or too coarse for what
-    /// was timed. Some systems count in hundredths of a second, by which short work takes none at all.
+    /// Processor time of all threads, seconds; the wall-clock time where the processor clock is missing or too coarse for what
+    /// was timed. Some systems count in hundredths of a second, so that short work takes no time at all.
     pub fn processor(&self) -> f64 {
         known(self.cpu, clock_step()).unwrap_or(self.wall)
     }
@@ -54,7 +54,7 @@ fn known(cpu: Option<f64>, step: Option<f64>) -> Option<f64> {
     cpu.zip(step).and_then(|(cpu, step)| (cpu > STEPS * step).then_some(cpu))
 }
 
-/// What the processor's clock counts in, in seconds, found by watching it: what systems say of it is not always so.
+/// Step of the processor clock in seconds, found by watching it: what systems state is not always true.
 fn clock_step() -> Option<f64> {
     static STEP: OnceLock<Option<f64>> = OnceLock::new();
     *STEP.get_or_init(|| {

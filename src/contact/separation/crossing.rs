@@ -1,28 +1,31 @@
-//! What crosses at a detection, and so has no plane to keep it apart.
+//! Features that intersect at a detection, and so get no plane to separate them.
 
 use crate::contact::separation::Separation;
 use crate::geometry::bvh::Aabb;
 use crate::geometry::crossings::segment_meets_triangle;
 
-/// Pairs of features that are free, sorted.
+/// Pairs of features that may pass through each other, because they intersect; sorted.
 #[derive(Debug, Default)]
 pub(super) struct Crossings {
-    /// Edges through triangles.
+    /// Number of edges that pass through triangles.
     places: usize,
-    /// Vertices and triangles of the cloth; edges of it, the smaller first.
+    /// Pairs of a vertex and a triangle of the cloth.
     vertices: Vec<[u32; 2]>,
+    /// Pairs of edges of the cloth, the smaller first.
     edges: Vec<[u32; 2]>,
-    /// The cloth's vertices and the obstacle's triangles; edges of both; the cloth's triangles and the obstacle's vertices.
+    /// Pairs of a vertex of the cloth and a triangle of the obstacle, of an edge of each, and of a triangle of the
+    /// cloth and a vertex of the obstacle.
     of_obstacle: [Vec<[u32; 2]>; 3],
-    /// Vertices inside the obstacle; empty where none is,
+    /// For each vertex whether it is inside the obstacle; empty where none is.
     inside: Vec<bool>,
-    /// and triangles and edges with one.
+    /// For each triangle whether a vertex of it is inside the obstacle.
     triangles_inside: Vec<bool>,
+    /// For each edge whether a vertex of it is inside the obstacle.
     edges_inside: Vec<bool>,
 }
 
 impl Crossings {
-    /// Of the cloth where it is.
+    /// Finds the intersections of the cloth at its anchors.
     pub fn found(this: &Separation, boxes: &[Aabb], is_inside: impl Fn(usize) -> bool + Sync) -> Self {
         let x = &this.anchors;
         let all = this.search(
@@ -94,12 +97,12 @@ impl Crossings {
         }
     }
 
-    /// Edges through triangles.
+    /// Number of edges that pass through triangles.
     pub fn count(&self) -> usize {
         self.places
     }
 
-    /// Nothing crosses, and nothing is inside.
+    /// Whether nothing intersects, and nothing is inside the obstacle.
     pub fn is_none(&self) -> bool {
         self.places == 0 && self.inside.is_empty()
     }
@@ -109,22 +112,22 @@ impl Crossings {
         has(&self.vertices, [v, t])
     }
 
-    /// Whether edges of the cloth may pass through each other.
+    /// Whether edges `e` and `f` of the cloth may pass through each other.
     pub fn edges_are_free(&self, e: u32, f: u32) -> bool {
         has(&self.edges, [e.min(f), e.max(f)])
     }
 
-    /// The same of the cloth's vertex and the obstacle's triangle,
+    /// Whether vertex `v` of the cloth may pass through triangle `t` of the obstacle.
     pub fn vertex_is_free_of_obstacle(&self, v: u32, t: u32) -> bool {
         is(&self.inside, v) || has(&self.of_obstacle[0], [v, t])
     }
 
-    /// of an edge of either,
+    /// Whether edge `e` of the cloth may pass through edge `f` of the obstacle.
     pub fn edge_is_free_of_obstacle(&self, e: u32, f: u32) -> bool {
         is(&self.edges_inside, e) || has(&self.of_obstacle[1], [e, f])
     }
 
-    /// and of the cloth's triangle and the obstacle's vertex.
+    /// Whether triangle `s` of the cloth may pass through vertex `v` of the obstacle.
     pub fn triangle_is_free_of_obstacle(&self, s: u32, v: u32) -> bool {
         is(&self.triangles_inside, s) || has(&self.of_obstacle[2], [s, v])
     }

@@ -1,37 +1,37 @@
-//! Closest points of mesh features, and the plane that separates two of them.
+//! Closest points of mesh features (vertex, edge, triangle), and planes that separate two features.
 
 use glam::DVec3;
 
 use crate::body::closest::closest_on_triangle;
 
-/// Features nearer than this, metres, have no direction from the one to the other.
+/// Distance below which two features count as touching, without a direction between them, metres.
 const TOUCHING: f64 = 1e-12;
 
-/// Two features seen from each other.
+/// Separation of two features along the direction between their closest points.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Seen {
-    /// Unit vector from the second to the first.
+    /// Unit vector from the second feature to the first.
     pub normal: DVec3,
-    /// The second lies at or below this height along the normal, metres;
+    /// Largest height of the second feature along the normal, metres.
     pub below: f64,
-    /// the first at or above that plus this, which is positive.
+    /// Smallest height of the first feature along the normal, minus `below`: the width of the gap, metres, positive.
     pub gap: f64,
 }
 
-/// A vertex and a triangle.
+/// Separation of a vertex (first) and a triangle (second); None where they touch.
 pub(super) fn vertex_and_triangle(p: DVec3, corners: [DVec3; 3]) -> Option<Seen> {
     let [a, b, c] = corners;
     between(p - closest_on_triangle(p, a, b, c).0, &[p], &corners)
 }
 
-/// Two edges.
+/// Separation of two edges; None where they touch.
 pub(super) fn edges(one: [DVec3; 2], other: [DVec3; 2]) -> Option<Seen> {
     let [p, q] = closest_on_segments(one, other);
     between(p - q, &one, &other)
 }
 
-/// Where two features are nearest: the share of each of their four vertices in the vector from the second to the first, and that,
-/// metres.
+/// The vector (m) between the closest points of two features, from the second to the first, and the weight of each of
+/// the four vertices in it.
 pub(super) fn contact(is_edges: bool, [a, b, c, d]: [DVec3; 4]) -> ([f64; 4], DVec3) {
     if is_edges {
         let [p, q] = closest_on_segments([a, b], [c, d]);
@@ -43,13 +43,13 @@ pub(super) fn contact(is_edges: bool, [a, b, c, d]: [DVec3; 4]) -> ([f64; 4], DV
     ([1.0, u + v - 1.0, -u, -v], a - q)
 }
 
-/// The share of b at `p` on the segment from a to b.
+/// The weight of b at the point `p` of the segment from a to b.
 fn along(p: DVec3, a: DVec3, b: DVec3) -> f64 {
     let (way, squared) = (b - a, (b - a).length_squared());
     if squared > 0.0 { ((p - a).dot(way) / squared).clamp(0.0, 1.0) } else { 0.0 }
 }
 
-/// The shares of b and c at `p` in triangle abc.
+/// The weights of b and c at the point `p` of triangle abc.
 fn barycentric(p: DVec3, a: DVec3, b: DVec3, c: DVec3) -> [f64; 2] {
     let (u, v, w) = (b - a, c - a, p - a);
     let (uu, uv, vv, wu, wv) = (u.dot(u), u.dot(v), v.dot(v), w.dot(u), w.dot(v));
@@ -57,7 +57,7 @@ fn barycentric(p: DVec3, a: DVec3, b: DVec3, c: DVec3) -> [f64; 2] {
     if whole > 0.0 { [(vv * wu - uv * wv) / whole, (uu * wv - uv * wu) / whole] } else { [0.0; 2] }
 }
 
-/// Along `way` from the one to the other; None where it does not part them.
+/// Separation of two features along `way`, which leads from `other` to `one`; None where `way` does not separate them.
 fn between(way: DVec3, one: &[DVec3], other: &[DVec3]) -> Option<Seen> {
     let distance = way.length();
     if distance < TOUCHING {
@@ -70,7 +70,7 @@ fn between(way: DVec3, one: &[DVec3], other: &[DVec3]) -> Option<Seen> {
     (gap > 0.0).then_some(Seen { normal, below, gap })
 }
 
-/// The points of segments ab and cd that are nearest to each other (Ericson, Real-Time Collision Detection, 5.1.9).
+/// The closest points of segments ab and cd (Ericson, Real-Time Collision Detection, 5.1.9).
 pub(super) fn closest_on_segments([a, b]: [DVec3; 2], [c, d]: [DVec3; 2]) -> [DVec3; 2] {
     let (u, v, w) = (b - a, d - c, a - c);
     let (uu, uv, vv, uw, vw) = (u.dot(u), u.dot(v), v.dot(v), u.dot(w), v.dot(w));

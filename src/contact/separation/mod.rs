@@ -1,14 +1,14 @@
-//! Contact that cannot cross: between two detections every vertex stays on its side of planes that separate what is near, and
-//! within a distance that what is not near cannot bridge.
+//! Contact without penetration: between two detections every vertex stays on its side of planes that separate nearby
+//! features, and within a distance (its reach) over which other features cannot be met.
 //!
-//! At a detection each vertex gets a reach, metres. Two features (a vertex and a triangle, or two edges) that are nearer than the sum
-//! of their reaches get a plane between them, across the line of their closest points; two that are farther apart cannot meet.
-//! Features are convex hulls of their vertices: while these keep to their sides of the plane, the features do not meet. What moved
-//! is truncated to the intersection of its half-spaces and its ball. Both contain the place of the detection, so that there is
-//! always a way, and tangential motion stays free. After Offset Geometric Contact (Chen et al., SIGGRAPH 2025), whose isotropic
-//! bound becomes planes here.
+//! At a detection each vertex gets a reach, metres. Two features (a vertex and a triangle, or two edges) nearer than the
+//! sum of their reaches get a plane between them, perpendicular to the line of their closest points; features farther
+//! apart cannot meet. Features are convex hulls of their vertices: while these keep to their sides of the plane, the
+//! features do not meet. Moved vertices are truncated to the intersection of their half-spaces and their ball. Both
+//! contain the position at the detection, so that the intersection is never empty, and tangential motion stays free.
+//! After Offset Geometric Contact (Chen et al., SIGGRAPH 2025), whose isotropic bound is replaced by planes here.
 //!
-//! What crosses at a detection has no plane: it may come apart.
+//! Features that intersect at a detection get no plane: they may separate.
 
 mod crossing;
 mod features;
@@ -30,15 +30,16 @@ use crate::contact::separation::topology::{PlacedTriangle, Topology};
 use crate::geometry::adjacency::Adjacency;
 use crate::geometry::bvh::{Aabb, Bvh};
 
-/// Until the next detection two features come no nearer than this share of their distance,
+/// Fraction of the distance between two features that remains at least until the next detection; see [`kept`].
 const KEPT: f64 = 0.1;
-/// and never nearer than this, metres: what is written with six digits behind the point, or in single precision, stays apart.
+/// Smallest remaining distance of two features, metres, if they were not nearer: they stay apart when written with
+/// six decimals or in single precision.
 const FLOOR: f64 = 1e-5;
-/// Between two cloths each gets at least this share of the distance, however little it is to move.
+/// Smallest fraction of the room between two features of cloth that each of them gets, however small its reach is.
 const LEAST_ROOM: f64 = 0.2;
-/// Sweeps of projections onto half-spaces before a vertex goes straight back.
+/// Most sweeps of projections on to half-spaces, before a vertex is pulled straight back towards its anchor.
 const SWEEPS: usize = 3;
-/// Vertices or nodes of a tree one thread takes at a time.
+/// Least number of vertices, or nodes of a tree, for a parallel task.
 const LEAST_SHARE: usize = 256;
 
 /// A half-space: normal · x ≥ height.
@@ -48,58 +49,61 @@ struct Plane {
     height: f64,
 }
 
-/// What keeps cloth apart from itself and from an obstacle.
+/// Keeps cloth from intersecting itself and an obstacle.
 #[derive(Clone, Debug)]
 pub struct Separation {
     cloth: Topology,
     obstacle: Option<Arc<Obstacle>>,
-    /// For each vertex the one it is, or will be, sewn to; None: itself.
+    /// For each vertex the one to which it is, or will be, sewn; None: each is separate.
     names: Option<Vec<u32>>,
-    /// The distance it keeps from itself, metres,
+    /// Distance that the cloth keeps from itself, metres.
     thickness: f64,
-    /// and the rest length of each edge between two such vertices, the smaller first, sorted: beside each other it keeps less.
+    /// Rest length (m) of each edge between sewn vertices, the smaller vertex first, sorted. Features that are joined
+    /// by an edge keep less than the thickness.
     rest: Vec<([u32; 2], f64)>,
     tree: Bvh,
-    /// Where the vertices were at the last detection; empty before the first,
+    /// Positions of the vertices at the last detection (anchors), metres; empty before the first.
     anchors: Vec<DVec3>,
-    /// and how far each may go from there, metres.
+    /// Reach: for each vertex how far it may move from its anchor, metres.
     reach: Vec<f64>,
-    /// Its triangles there.
+    /// The triangles at their anchors.
     placed: Vec<PlacedTriangle>,
-    /// Squared distance (m²) from its anchor within which a vertex meets no plane and keeps its reach.
+    /// Squared distance (m²) from its anchor within which a vertex is not truncated by a plane or its reach.
     free: Vec<f64>,
-    /// The planes of all vertices,
+    /// Planes of all vertices, in the order of the vertices.
     planes: Vec<Plane>,
-    /// and where those of each begin; one more than vertices.
+    /// For each vertex the index of its first plane; then the number of planes.
     starts: Vec<u32>,
-    /// Features of the cloth that may come nearer than the thickness,
+    /// Pairs of features of the cloth that may come nearer than the thickness.
     pairs: Vec<Pair>,
-    /// and how far each vertex has come from its anchor, metres.
+    /// Distance of each vertex from its anchor, metres.
     come: Vec<f64>,
-    /// What crossed when it was looked for, and whether it must be looked for again.
+    /// Number of intersections when they were last searched for.
     crossings: usize,
     is_clean: bool,
-    /// Work done.
+    /// Whether the last detection found nothing that intersects, is inside the obstacle, or touches: then
+    /// intersections are not searched for again.
+    /// Counters of the work done.
     pub counters: Counters,
 }
 
-/// Work done.
+/// Counters of the work done.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Counters {
-    /// Detections of what is near.
+    /// Number of detections.
     pub detections: u64,
-    /// Pairs of features looked at.
+    /// Pairs of features tested.
     pub pairs: u64,
-    /// Planes between them.
+    /// Separating planes made, counted for each vertex.
     pub planes: u64,
-    /// Times a vertex was truncated.
+    /// Vertices truncated, summed over steps.
     pub truncated_vertices: u64,
-    /// The smallest distance of two features of the cloth when last looked at, nanometres; None: none were near.
+    /// Smallest distance between two features of the cloth at the last detection, nanometres; None: none were near.
     pub smallest_distance_nm: Option<u64>,
 }
 
 impl Counters {
-    /// With what `other` did after it.
+    /// These counters plus those of `other`, which came after.
     pub fn and(self, other: Self) -> Self {
         Self {
             detections: self.detections + other.detections,
@@ -111,20 +115,21 @@ impl Counters {
     }
 }
 
-/// What a search found: vertices with a plane each.
+/// Result of a search: planes with their vertices, and pairs within the thickness.
 #[derive(Default)]
 struct Found {
     planes: Vec<(u32, Plane)>,
     pairs: Vec<Pair>,
     looked_at: u64,
     touching: u64,
-    /// Of two features of the cloth, metres.
+    /// Smallest distance of two features of the cloth, metres.
     nearest: Option<f64>,
 }
 
 impl Separation {
-    /// Of cloth with these triangles, rest lengths of its edges (metres) and, for each vertex, the one it is or will be sewn to (None:
-    /// itself). It keeps `thickness` metres from itself, and what it is beside, `obstacle`, is not crossed.
+    /// Separation for cloth with these triangles. `rest` are the rest lengths of its edges and `thickness` the
+    /// distance it keeps from itself, metres. `names` gives for each vertex the one to which it is or will be sewn
+    /// (None: itself). The cloth does not cross `obstacle`.
     pub fn new(
         vertices: usize,
         triangles: &[[u32; 3]],
@@ -154,25 +159,25 @@ impl Separation {
         }
     }
 
-    /// From now on this is what it is beside; what crosses is looked for again.
+    /// Replaces the obstacle; intersections are searched for again at the next detection.
     pub fn set_obstacle(&mut self, obstacle: Option<Arc<Obstacle>>) {
         self.obstacle = obstacle;
         self.anchors.clear();
         self.is_clean = false;
     }
 
-    /// Whether nothing was known at the last detection that crosses, is inside or touches.
+    /// Whether the last detection found nothing that intersects, is inside the obstacle, or touches.
     pub fn is_clean(&self) -> bool {
         self.is_clean
     }
 
-    /// Edges that passed through triangles when that was last looked for.
+    /// Number of edges that passed through triangles when that was last searched for.
     pub fn crossings(&self) -> usize {
         self.crossings
     }
 
-    /// Finds what is near of vertices at `x`, each of which may then go `reach` metres; `is_inside` tells which are inside of the
-    /// obstacle (asked only while it is not known that none is): they may come out.
+    /// Detects nearby features with the vertices at `x`, each of which may then move by `reach` metres. `is_inside` tells
+    /// which vertices are inside the obstacle; these may come out. It is called only while the state is not known to be clean.
     pub fn detect(
         &mut self,
         x: &[DVec3],
@@ -207,8 +212,8 @@ impl Separation {
         self.sort(&found);
     }
 
-    /// Calls `look` for every two triangles of the cloth whose `boxes` meet, and `look_at_obstacle` for every one of the cloth and one of
-    /// the obstacle. What they add to is given in an order that does not depend on threads.
+    /// Calls `look` for every two triangles of the cloth whose `boxes` meet, and `look_at_obstacle` for every triangle
+    /// of the cloth and triangle of the obstacle. The results come in an order that does not depend on threads.
     fn search<T: Default + Send>(
         &self,
         boxes: &[Aabb],
@@ -257,7 +262,7 @@ impl Separation {
         )
     }
 
-    /// Vertices that `s` owns, at `t`.
+    /// Vertices that `s` owns, against triangle `t`.
     fn vertices_at(&self, s: u32, t: u32, crossings: &Crossings, found: &mut Found) {
         let (own, other) = (&self.placed[s as usize], &self.placed[t as usize]);
         for k in self.cloth.corners_of(s) {
@@ -274,7 +279,7 @@ impl Separation {
         }
     }
 
-    /// Edges that the triangles own, at each other.
+    /// Edges that `s` owns, against edges that `t` owns.
     fn edges_at(&self, s: u32, t: u32, crossings: &Crossings, found: &mut Found) {
         let (own, other) = (&self.placed[s as usize], &self.placed[t as usize]);
         for k in self.cloth.sides_of(s) {
@@ -300,7 +305,7 @@ impl Separation {
         }
     }
 
-    /// Features of the cloth's triangle `s` and the obstacle's `t`.
+    /// Features of the cloth's triangle `s` against those of the obstacle's triangle `t`.
     fn at_obstacle(&self, s: u32, t: u32, crossings: &Crossings, found: &mut Found) {
         let Some(obstacle) = self.obstacle.as_deref() else { return };
         let (own, other, topology) =
@@ -336,7 +341,7 @@ impl Separation {
         }
     }
 
-    /// A plane between two features of the cloth that may reach each other.
+    /// Makes a plane between two features of the cloth that may reach each other.
     fn part(&self, seen: Option<Seen>, vertices: [&[u32]; 2], reach: [f64; 2], found: &mut Found) {
         let Some(seen) = seen else {
             found.touching += 1;
@@ -356,7 +361,7 @@ impl Separation {
         self.keep(vertices[1], Plane { normal: -seen.normal, height: -second }, found);
     }
 
-    /// A plane between a feature of the cloth and one that does not move.
+    /// Makes a plane between a feature of the cloth and one of the obstacle, which does not move.
     fn hold(&self, seen: Option<Seen>, vertices: &[u32], reach: f64, found: &mut Found) {
         match seen {
             None => found.touching += 1,
@@ -371,7 +376,7 @@ impl Separation {
         }
     }
 
-    /// Keeps `plane` for those that may reach it.
+    /// Stores `plane` for those of the vertices that may reach it.
     fn keep(&self, vertices: &[u32], plane: Plane, found: &mut Found) {
         for &v in vertices {
             if plane.normal.dot(self.anchors[v as usize]) - plane.height < self.reach[v as usize] {
@@ -380,7 +385,7 @@ impl Separation {
         }
     }
 
-    /// Whether two features share a vertex, or will.
+    /// Whether two features share a vertex, or will when they are sewn.
     fn joined(&self, one: &[u32], other: &[u32]) -> bool {
         match &self.names {
             None => one.iter().any(|v| other.contains(v)),
@@ -388,7 +393,7 @@ impl Separation {
         }
     }
 
-    /// Puts planes in the order of their vertices.
+    /// Sorts planes by their vertices.
     fn sort(&mut self, found: &[Found]) {
         let count = self.anchors.len();
         let all = || found.iter().flat_map(|found| &found.planes);
@@ -411,14 +416,14 @@ impl Separation {
         self.counters.planes += self.planes.len() as u64;
     }
 
-    /// Whether all vertices that go where `then` tells stay within their reach.
+    /// Whether all vertices stay within their reach when they move to `then`.
     pub fn holds(&self, then: impl Fn(usize) -> DVec3 + Sync) -> bool {
         let stays = |v: usize| then(v).distance_squared(self.anchors[v]) <= self.reach[v] * self.reach[v];
         !self.anchors.is_empty()
             && (0..self.anchors.len()).into_par_iter().with_min_len(LEAST_SHARE).all(stays)
     }
 
-    /// Brings `x` back to where nothing can meet. How many vertices would have gone farther than their reach.
+    /// Truncates positions `x`, so that features cannot meet. Returns how many vertices wanted to move beyond their reach.
     pub fn truncate(&mut self, x: &mut [DVec3]) -> usize {
         if self.anchors.len() != x.len() {
             return 0;
@@ -442,7 +447,7 @@ impl Separation {
         counts.iter().map(|(stopped, _)| stopped).sum()
     }
 
-    /// Where vertex `v` goes that was to go to `x`, and whether its reach stopped it.
+    /// Truncated position of vertex `v`, which was to move to `x`; and whether its reach stopped it.
     fn truncated(&self, v: usize, mut x: DVec3) -> (DVec3, bool) {
         let anchor = self.anchors[v];
         let way = x.distance(anchor);
@@ -481,12 +486,12 @@ impl Separation {
     }
 }
 
-/// How much of a distance is left at least, metres.
+/// The distance that two features `gap` metres apart keep at least until the next detection, metres.
 fn kept(gap: f64) -> f64 {
     (KEPT * gap).max(gap.min(FLOOR))
 }
 
-/// Seen from the other side.
+/// The same two features in the other order.
 fn turned(seen: Seen) -> Seen {
     let Seen { normal, below, gap } = seen;
     Seen { normal: -normal, below: -(below + gap), gap }

@@ -1,46 +1,47 @@
-//! The thickness of cloth: what is nearer than it is pushed apart, and rubs.
+//! Thickness of cloth: pairs of features nearer than it are pushed apart, with friction.
 
 use glam::DVec3;
 
 use crate::contact::separation::features::{self, Seen};
 use crate::contact::separation::{Found, Separation};
 
-/// Features beside each other keep no more than this share of the rest length of the edge between them: a triangle of 30° has
-/// half of its side as its height, and half of that keeps them from being held apart by their own cut.
+/// Thickness of features joined by an edge, as a fraction of that edge's rest length. A triangle with an angle of 30°
+/// has half of a side as its height, and half of that avoids that the triangulation itself holds features apart.
 const BESIDE: f64 = 0.25;
 
-/// Two features of the cloth that may come nearer than they should.
+/// Two features of the cloth that may come nearer than their thickness.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pair {
-    /// A vertex and a triangle's corners, or the ends of two edges.
+    /// A vertex and the corners of a triangle, or the ends of two edges.
     vertices: [u32; 4],
     is_edges: bool,
-    /// Their distance at the detection,
+    /// Distance of the two features at the detection, metres.
     gap: f64,
-    /// and what they keep, metres.
+    /// Distance that the two features keep, metres.
     thickness: f64,
 }
 
 impl Pair {
-    /// The vertices of the first and of the second.
+    /// The vertices of the first and of the second feature.
     fn features(&self) -> [&[u32]; 2] {
         let (first, second) = self.vertices.split_at(if self.is_edges { 2 } else { 1 });
         [first, second]
     }
 }
 
-/// How what touches is pushed apart in a small step.
+/// Parameters of contact within a substep.
 #[derive(Clone, Copy, Debug)]
 pub struct Touch<'a> {
-    /// 1/kg per vertex; zero where it is held.
+    /// Inverse mass of each vertex, 1/kg; zero where it is held.
     pub inverse_mass: &'a [f64],
-    /// Coulomb's coefficient per vertex; empty for none.
+    /// Coefficient of Coulomb friction of each vertex; empty for none.
     pub friction: &'a [f64],
-    /// Most of the depth that motion did not bring which leaves in a step, metres; without momentum.
+    /// Largest distance, metres, by which penetration older than this step is reduced in a step, without momentum.
     pub ease: f64,
 }
 
-/// The rest length of each edge between named vertices (None: their own names), the smaller first, sorted; the shortest of several.
+/// Rest length (m) of each edge between sewn vertices, the smaller first, sorted; of several edges the shortest
+/// counts. `names` gives for each vertex the one it is sewn to (None: itself).
 pub(super) fn rest_lengths(edges: &[[u32; 2]], rest: &[f64], names: Option<&[u32]>) -> Vec<([u32; 2], f64)> {
     let name = |v: u32| names.map_or(v, |names| names[v as usize]);
     let named = |[a, b]: [u32; 2]| [name(a).min(name(b)), name(a).max(name(b))];
@@ -51,7 +52,7 @@ pub(super) fn rest_lengths(edges: &[[u32; 2]], rest: &[f64], names: Option<&[u32
 }
 
 impl Separation {
-    /// Keeps two features that may come nearer than the thickness while their vertices go `whole` metres between them.
+    /// Stores two features that may come nearer than the thickness while their vertices move up to `whole` metres together.
     pub(super) fn remember(&self, seen: &Seen, features: [&[u32]; 2], whole: f64, found: &mut Found) {
         let [one, other] = features;
         if seen.gap >= self.thickness + whole {
@@ -65,7 +66,7 @@ impl Separation {
         }
     }
 
-    /// What two features keep, metres.
+    /// The distance that two features keep, metres.
     fn kept(&self, one: &[u32], other: &[u32]) -> f64 {
         let name = |v: u32| self.names.as_ref().map_or(v, |names| names[v as usize]);
         let length = |a: u32, b: u32| {
@@ -78,8 +79,8 @@ impl Separation {
         self.thickness.min(BESIDE * between.fold(f64::INFINITY, f64::min))
     }
 
-    /// Pushes apart at `x` what is nearer than its thickness, and lets it rub along the way from `before`. To be called before
-    /// [`truncate`](Self::truncate), from a detection on.
+    /// Pushes features at `x` apart that are nearer than their thickness, with friction against their motion from
+    /// `before`. To be called after a detection and before [`truncate`](Self::truncate).
     pub fn push_apart(&mut self, x: &mut [DVec3], before: &mut [DVec3], touch: Touch<'_>) {
         if self.anchors.len() != x.len() || self.pairs.is_empty() {
             return;

@@ -1,5 +1,5 @@
-//! The vertices, edges and triangles of a mesh, each owned by one triangle, so that a search over triangles finds every pair of
-//! features once.
+//! Vertices, edges and triangles of a mesh, each vertex and edge owned by one triangle, so that a search over
+//! triangles finds every pair of features once.
 
 use glam::DVec3;
 
@@ -7,15 +7,15 @@ use crate::body::Surface;
 use crate::geometry::adjacency::Adjacency;
 use crate::geometry::bvh::{Aabb, Bvh};
 
-/// A mesh whose features are looked for.
+/// The features of a mesh.
 #[derive(Clone, Debug)]
 pub(super) struct Topology {
     pub triangles: Vec<[u32; 3]>,
-    /// The edges of each triangle: from corner k to the next.
+    /// For each triangle its edges, from corner k to the next.
     pub triangle_edges: Vec<[u32; 3]>,
-    /// The ends of each edge.
+    /// For each edge its end vertices.
     pub edges: Vec<[u32; 2]>,
-    /// Of each triangle which corners (bits 0..3) and edges (bits 3..6) it owns.
+    /// For each triangle which corners (bits 0..3) and edges (bits 3..6) it owns.
     owned: Vec<u8>,
 }
 
@@ -42,13 +42,13 @@ impl Topology {
         }
     }
 
-    /// The corners of triangle `t` that it owns, 0..3.
+    /// The corners (0..3) that triangle `t` owns.
     pub fn corners_of(&self, t: u32) -> impl Iterator<Item = usize> {
         let owned = self.owned[t as usize];
         (0..3).filter(move |k| owned & (1 << k) != 0)
     }
 
-    /// The sides of triangle `t` that it owns: 0..3, from that corner to the next.
+    /// The sides (0..3, from that corner to the next) whose edges triangle `t` owns.
     pub fn sides_of(&self, t: u32) -> impl Iterator<Item = usize> {
         let owned = self.owned[t as usize];
         (0..3).filter(move |k| owned & (8 << k) != 0)
@@ -59,31 +59,32 @@ impl Topology {
         self.sides_of(t).map(move |k| self.triangle_edges[t as usize][k])
     }
 
-    /// The corners of triangle `t`.
+    /// Positions of the corners of triangle `t`.
     pub fn corners(&self, x: &[DVec3], t: u32) -> [DVec3; 3] {
         self.triangles[t as usize].map(|v| x[v as usize])
     }
 
-    /// The ends of edge `e`.
+    /// Positions of the ends of edge `e`.
     pub fn ends(&self, x: &[DVec3], e: u32) -> [DVec3; 2] {
         self.edges[e as usize].map(|v| x[v as usize])
     }
 }
 
-/// A triangle where it is at a detection.
+/// A triangle at the time of a detection.
 #[derive(Clone, Debug)]
 pub(super) struct PlacedTriangle {
     pub vertices: [u32; 3],
     pub corners: [DVec3; 3],
-    /// How far each corner may go, metres, and the farthest.
+    /// Reach of each corner, metres.
     pub reach: [f64; 3],
+    /// Largest reach of the corners, metres.
     pub farthest: f64,
-    /// Around the corners.
+    /// Bounding box of the corners.
     pub around: Aabb,
 }
 
 impl PlacedTriangle {
-    /// Triangle `t` of a mesh at `x`, whose vertices may go as far as `reach`, metres; empty: nowhere.
+    /// Triangle `t` of a mesh with vertices at `x` that have this `reach`, metres; an empty `reach` means 0.
     pub fn new(topology: &Topology, x: &[DVec3], reach: &[f64], t: u32) -> Self {
         let vertices = topology.triangles[t as usize];
         let corners = topology.corners(x, t);
@@ -92,23 +93,23 @@ impl PlacedTriangle {
         Self { vertices, corners, reach, farthest, around: Aabb::around(&corners) }
     }
 
-    /// The vertices of side `k`,
+    /// The vertices of side `k`.
     pub fn ends(&self, k: usize) -> [u32; 2] {
         [self.vertices[k], self.vertices[(k + 1) % 3]]
     }
 
-    /// where they are,
+    /// Positions of the ends of side `k`, metres.
     pub fn side(&self, k: usize) -> [DVec3; 2] {
         [self.corners[k], self.corners[(k + 1) % 3]]
     }
 
-    /// and the farther of how far they may go, metres.
+    /// The larger reach of the ends of side `k`, metres.
     pub fn side_reach(&self, k: usize) -> f64 {
         self.reach[k].max(self.reach[(k + 1) % 3])
     }
 }
 
-/// A mesh that does not move, in a tree.
+/// A mesh that does not move, with a bounding volume hierarchy.
 #[derive(Debug)]
 pub struct Obstacle {
     pub(super) topology: Topology,
@@ -118,12 +119,12 @@ pub struct Obstacle {
 }
 
 impl Obstacle {
-    /// Of a body.
+    /// The obstacle of a body's mesh.
     pub fn of(body: &Surface) -> Self {
         Self::new(&body.mesh.positions, &body.mesh.triangles, &body.adjacency)
     }
 
-    /// Of a mesh at these `positions`, metres.
+    /// The obstacle of a mesh at these `positions`, metres.
     pub fn new(positions: &[DVec3], triangles: &[[u32; 3]], adjacency: &Adjacency) -> Self {
         let topology = Topology::new(positions.len(), triangles, adjacency);
         let placed: Vec<PlacedTriangle> =

@@ -1,8 +1,9 @@
-//! Cloth against a body: how deep each vertex is, and what pushes and holds it.
+//! Contact of cloth with a body: penetration depth, normal force and Coulomb friction of each vertex, by penalty springs.
 //!
-//! A vertex nearer than `offset` to the surface is pushed out by a spring of stiffness k; N = k × depth. Friction holds it at an
-//! anchor by the same spring until that pulls with µN; then the anchor slides after. So the limit always belongs to the normal
-//! force of the very positions that are solved for, never to that of an earlier iterate.
+//! A vertex nearer than `offset` to the surface is pushed out by a spring of stiffness k; the normal force is N = k × depth.
+//! Friction holds the vertex at an anchor by a spring of the same stiffness until that pulls with µN; from there the anchor
+//! slides along. The friction limit therefore always belongs to the normal force at the positions being solved for, never to that
+//! of an earlier iterate.
 
 use std::sync::Arc;
 
@@ -10,27 +11,27 @@ use glam::{DMat3, DVec3};
 
 use crate::body::Surface;
 
-/// A body at rest or on its way through one step.
+/// A collision body, at rest or moving along straight lines during one step.
 #[derive(Clone, Debug)]
 pub struct Collider {
-    /// Where it is when the step ends.
+    /// Surface at the end of the step.
     pub surface: Arc<Surface>,
-    /// How far each of its vertices comes in the step, metres; empty for a body at rest.
+    /// Displacement of each of its vertices over the step, metres; empty for a body at rest.
     pub motion: Vec<DVec3>,
 }
 
 impl Collider {
-    /// At rest.
+    /// A body at rest.
     pub fn still(surface: Arc<Surface>) -> Self {
         Self { surface, motion: Vec::new() }
     }
 
-    /// How far any of its vertices comes in the step, metres.
+    /// Largest displacement of any of its vertices over the step, metres.
     pub fn farthest(&self) -> f64 {
         self.motion.iter().map(|m| m.length_squared()).fold(0.0, f64::max).sqrt()
     }
 
-    /// How far the body moves in the step where it is nearest to `x`.
+    /// Displacement of the body over the step, metres, at the surface point nearest to `x`.
     pub fn carried_near(&self, x: DVec3) -> DVec3 {
         if self.motion.is_empty() {
             return DVec3::ZERO;
@@ -40,54 +41,54 @@ impl Collider {
     }
 }
 
-/// What touches, and what is known of what does not.
+/// Contacts of cloth with a body, and cached distances of vertices that do not touch it.
 #[derive(Clone, Debug, Default)]
 pub struct Contacts {
-    /// Distance kept, metres.
+    /// Distance that cloth keeps from the body, metres.
     pub offset: f64,
-    /// Coulomb's coefficient.
+    /// Coulomb friction coefficient.
     pub friction: f64,
     touches: Vec<Touch>,
-    /// Per vertex a place and its distance to the surface there, metres.
+    /// Per vertex the position of its last nearest-point query and the distance to the surface there, metres.
     known: Vec<(DVec3, f64)>,
-    /// Per vertex where friction holds it; NaN where it touched nothing.
+    /// Per vertex its friction anchor, metres; NaN where it was not in contact.
     anchors: Vec<DVec3>,
-    /// Nearest points looked up since the start.
+    /// Nearest-point queries since the start.
     pub queries: u64,
-    /// Vertices passed over because they were known to be far.
+    /// Queries saved because the cached distance showed that the vertex is far from the body.
     pub skipped: u64,
 }
 
-/// A vertex that is pushed.
+/// A vertex in contact with the body.
 #[derive(Clone, Copy, Debug)]
 pub struct Touch {
-    /// Which.
+    /// Its index.
     pub vertex: u32,
     /// Outward unit normal of the surface.
     pub normal: DVec3,
-    /// How much nearer than the offset, metres.
+    /// Penetration into the offset, metres: offset minus distance.
     pub depth: f64,
-    /// How far from its anchor along the surface, metres.
+    /// Displacement from its friction anchor along the surface, metres.
     pub slip: DVec3,
-    /// Of the spring, N/m.
+    /// Stiffness of the contact spring, N/m.
     pub stiffness: f64,
-    /// Most that friction can pull, N.
+    /// Largest friction force, N.
     limit: f64,
 }
 
 impl Touch {
-    /// The share of the spring that friction can pull with, 0..=1.
+    /// Share of the anchor spring's force that friction can transmit, 0..=1.
     fn grip(&self, limit: f64) -> f64 {
         let pull = self.stiffness * self.slip.length();
         if pull > limit { limit / pull } else { 1.0 }
     }
 
-    /// N.
+    /// Gradient of the contact energy, N.
     pub fn gradient(&self) -> DVec3 {
         self.slip * (self.stiffness * self.grip(self.limit)) - self.normal * (self.stiffness * self.depth)
     }
 
-    /// N/m, positive semidefinite.
+    /// Hessian of the contact energy, N/m; made positive semidefinite.
     pub fn hessian(&self) -> DMat3 {
         let across = DMat3::from_cols(
             self.normal * self.normal.x,
@@ -99,7 +100,7 @@ impl Touch {
             let grip = self.grip(self.limit);
             along = (DMat3::IDENTITY - across) * (self.stiffness * grip);
             if grip < 1.0 {
-                // Along its way what slides meets the same force wherever it is.
+                // A sliding vertex meets a constant force along its direction of sliding: no stiffness there.
                 let u = self.slip.normalize_or_zero();
                 along -= DMat3::from_cols(u * u.x, u * u.y, u * u.z) * (self.stiffness * grip);
             }
@@ -117,7 +118,7 @@ impl Touch {
 }
 
 impl Contacts {
-    /// Nothing touches yet.
+    /// No contacts yet.
     pub fn new(vertices: usize, offset: f64, friction: f64) -> Self {
         Self {
             offset,
@@ -128,12 +129,13 @@ impl Contacts {
         }
     }
 
-    /// What touches now.
+    /// Contacts found by the last [`Self::find`].
     pub fn touches(&self) -> &[Touch] {
         &self.touches
     }
 
-    /// Finds what touches with the cloth at `x`, which was at `start` when the step began. `stiffness` per vertex, N/m.
+    /// Finds the contacts of the cloth at `x`, which was at `start` when the step began. `stiffness` of the contact springs per
+    /// vertex, N/m; vertices with 0 are left out.
     pub fn find(&mut self, collider: &Collider, start: &[DVec3], x: &[DVec3], stiffness: &[f64]) {
         self.touches.clear();
         for v in 0..x.len() {
@@ -157,7 +159,7 @@ impl Contacts {
         let (mut normal, mut depth) = (near.normal, self.offset - near.distance);
         self.known[v] = (x, near.distance.max(0.0));
         let carried = carried(collider, near.triangle, near.point);
-        // Who was outside and has come far may have passed right through: what it met first counts.
+        // A vertex that was outside and moved far may have tunnelled through the body: the first surface on its path counts.
         let from = start + carried;
         let way = x - from;
         if way.length() > near.distance.abs()
@@ -184,23 +186,24 @@ impl Contacts {
         self.touches.push(Touch { vertex: v as u32, normal, depth, slip, stiffness, limit });
     }
 
-    /// J, with friction at most what it was at `limits`.
+    /// Contact energy, J, with the friction force of each vertex limited by `limits`, N.
     pub fn energy(&self, limits: &[f64]) -> f64 {
         self.touches.iter().map(|t| t.energy(limits[t.vertex as usize])).sum()
     }
 
-    /// The most that friction can pull each vertex now, N.
+    /// Writes the largest friction force of each vertex at the present contacts, N; 0 where there is none.
     pub fn write_limits(&self, limits: &mut [f64]) {
         limits.fill(0.0);
         self.touches.iter().for_each(|t| limits[t.vertex as usize] = t.limit);
     }
 
-    /// Adds the gradient, N.
+    /// Adds the gradient of the contact energy, N.
     pub fn add_gradient(&self, gradient: &mut [DVec3]) {
         self.touches.iter().for_each(|t| gradient[t.vertex as usize] += t.gradient());
     }
 
-    /// The step is over with the cloth at `x`: anchors that could not hold slide after.
+    /// Ends a step with the cloth at `x`: moves the anchors of sliding vertices along, and drops those of vertices without
+    /// contact.
     pub fn settle_anchors(&mut self, collider: &Collider, x: &[DVec3]) {
         for anchor in &mut self.anchors {
             *anchor = DVec3::NAN;
@@ -215,7 +218,7 @@ impl Contacts {
     }
 }
 
-/// How far the body moves at `point` of `triangle`.
+/// Displacement of the body over the step at `point` of `triangle`, metres.
 fn carried(collider: &Collider, triangle: u32, point: DVec3) -> DVec3 {
     if collider.motion.is_empty() {
         return DVec3::ZERO;

@@ -1,6 +1,7 @@
-//! Cloth against itself in implicit steps: vertices against triangles and edges against edges, pushed apart by springs.
+//! Self-collision of cloth in implicit steps: vertex-triangle and edge-edge pairs, pushed apart by penalty springs.
 //!
-//! Pairs that could meet in a step are gathered when it begins, with the side they are on; the springs push to that side.
+//! Pairs that could come into contact during a step are collected when it begins, with the side they are on; springs push towards
+//! that side.
 
 use glam::DMat3;
 use glam::DVec3;
@@ -11,29 +12,29 @@ use crate::drape::contact::pair::{Pair, segments_apart};
 use crate::drape::sheet::Sheet;
 use crate::geometry::bvh::{Aabb, Bvh};
 
-/// Of the mean edge: nearer than this in the flat cloth is no contact.
+/// Largest collision thickness as a share of the mean edge length: thicker, and neighbours in flat cloth would be in contact.
 const MOST_THICKNESS: f64 = 0.7;
 
-/// Of a vertex's expected way that is looked over.
+/// Factor on the expected displacements in a step, which widens the distance within which pairs are collected.
 const LOOK_AHEAD: f64 = 1.5;
 
-/// Vertices or edges one thread takes at a time.
+/// Vertices or edges that one thread takes at a time.
 const LEAST_SHARE: usize = 256;
 
-/// What may meet in one step, and what does.
+/// Candidate pairs of one step, and those in contact.
 #[derive(Clone, Debug, Default)]
 pub struct SelfContact {
     thickness: f64,
     pairs: Vec<Pair>,
     active: Vec<Push>,
     stiffness: Vec<f64>,
-    /// Of triangles, of edges and of vertices.
+    /// Bounding volume hierarchies of triangles, edges and vertices.
     trees: [Bvh; 3],
-    /// Pairs looked at since the start.
+    /// Candidate pairs tested since the start.
     pub looked_at: u64,
 }
 
-/// Distance as a sum over four vertices: n·Σ w x.
+/// A pair in contact. Its distance is linear in its four vertices: n·Σ wᵢxᵢ.
 #[derive(Clone, Copy, Debug)]
 struct Push {
     vertices: [u32; 4],
@@ -43,32 +44,34 @@ struct Push {
     stiffness: f64,
 }
 
-/// Which features of a sheet at `x` that goes its `ways` come near each other.
+/// Test of candidate pairs: which features of a sheet at `x`, with expected displacements `ways`, come near each other in the
+/// step.
 struct Near<'a> {
     sheet: &'a Sheet,
     x: &'a [DVec3],
     ways: &'a [DVec3],
-    /// Metres, besides what they go.
+    /// Distance, in metres, from which two features count as near, before their displacements are added.
     reach: f64,
 }
 
 impl Near<'_> {
-    /// What is joined bends like a hinge and cannot meet. What is beside one another is left alone, too: bent sharply it would
-    /// fly apart.
+    /// Whether features `a` and `b` share a vertex or are joined by an edge. Such pairs are left out: features that share a
+    /// vertex cannot collide, and neighbours pushed apart at a sharp fold would fly off.
     fn hinged(&self, a: &[u32], b: &[u32]) -> bool {
         let neighbours = &self.sheet.adjacency.vertex_neighbours;
         let beside = |a: u32, b: u32| a == b || neighbours.of(a).binary_search(&b).is_ok();
         a.iter().any(|&a| b.iter().any(|&b| beside(a, b)))
     }
 
-    /// So near they count. Neighbours in the cloth move alike: what counts is how much farther the one goes than the other.
+    /// Distance, in metres, up to which features `a` and `b` are a pair. Neighbouring cloth moves alike, so the largest
+    /// difference of their displacements counts.
     fn apart(&self, a: &[u32], b: &[u32]) -> f64 {
         let way = |v: u32| self.ways[v as usize];
         let ways = a.iter().flat_map(|&a| b.iter().map(move |&b| way(a) - way(b)));
         self.reach + LOOK_AHEAD * ways.map(|w| w.length_squared()).fold(0.0, f64::max).sqrt()
     }
 
-    /// Vertex `v` at triangle `t`.
+    /// The pair of vertex `v` and triangle `t`; None where it is too far apart or joined.
     fn corner(&self, v: u32, t: u32) -> Option<Pair> {
         let vs @ [a, b, c] = self.sheet.triangles[t as usize];
         if self.hinged(&[v], &vs) {
@@ -85,7 +88,7 @@ impl Near<'_> {
         })
     }
 
-    /// Edges `e` and `f` at each other.
+    /// The pair of edges `e` and `f`; None where it is too far apart or joined.
     fn edges(&self, e: u32, f: u32) -> Option<Pair> {
         let [[a, b], [c, d]] = [e.min(f), e.max(f)].map(|e| self.sheet.adjacency.edges[e as usize]);
         if self.hinged(&[a, b], &[c, d]) {
@@ -100,13 +103,14 @@ impl Near<'_> {
 }
 
 impl SelfContact {
-    /// Cloth that keeps `thickness` metres from itself; contact stiffness per vertex, N/m. Thickness zero: it passes through.
+    /// Self-collision with a collision thickness in metres and contact stiffness per vertex, N/m. A thickness of zero turns it
+    /// off.
     pub fn new(sheet: &Sheet, thickness: f64, stiffness: Vec<f64>) -> Self {
         let thickness = thickness.min(MOST_THICKNESS * sheet.mean_edge());
         Self { thickness, stiffness, ..Self::default() }
     }
 
-    /// Gathers what could meet while the vertices at `x` move about as far as `ways` and `slack` metres more.
+    /// Collects the pairs that could collide while the vertices at `x` move by about `ways`, and `slack` metres more.
     pub fn gather(&mut self, sheet: &Sheet, x: &[DVec3], ways: &[DVec3], slack: f64) {
         self.pairs.clear();
         self.active.clear();
@@ -163,11 +167,11 @@ impl SelfContact {
         found.par_extend(at_edges);
         self.looked_at += found.iter().map(|(_, looked_at)| looked_at).sum::<u64>();
         self.pairs = found.into_iter().flat_map(|(pairs, _)| pairs).collect();
-        // The order of a tree is no order of meaning.
+        // Sorted, because the traversal order of a tree means nothing.
         self.pairs.sort_by_key(Pair::key);
     }
 
-    /// Adds the gradient at `x`, N, and gives the energy, J.
+    /// Adds the gradient of the contact energy at `x`, N, and returns the energy, J.
     pub fn add_gradient(&mut self, x: &[DVec3], gradient: &mut [DVec3]) -> f64 {
         self.active.clear();
         let mut energy = 0.0;
@@ -188,8 +192,8 @@ impl SelfContact {
         energy
     }
 
-    /// Blocks on the diagonal that bound the Hessian from above, N/m: those between vertices are left to them, so that the
-    /// matrix keeps its pattern.
+    /// Diagonal blocks that bound the Hessian from above, N/m. They stand in for the blocks between vertices, so that the
+    /// sparsity pattern of the matrix does not change.
     pub fn hessian(&self, mut block: impl FnMut(u32, DMat3)) {
         for push in &self.active {
             let n = push.normal;
@@ -201,21 +205,21 @@ impl SelfContact {
         }
     }
 
-    /// Whether anything of the cloth pushes vertex by vertex.
+    /// Sets `touching` for the vertices of all pairs in contact.
     pub fn mark_touching(&self, touching: &mut [bool]) {
         for push in &self.active {
             push.vertices.iter().for_each(|&v| touching[v as usize] = true);
         }
     }
 
-    /// Largest depth into the thickness, metres.
+    /// Largest penetration into the thickness, metres.
     pub fn deepest(&self) -> f64 {
         self.active.iter().map(|p| p.depth).fold(0.0, f64::max)
     }
 }
 
-/// Calls `found` for every two items whose `boxes` meet, one of a leaf of the one tree and one of the other's; of one leaf alone
-/// for every two of it once.
+/// Calls `found` for every two items whose `boxes` overlap, one from each of two leaves. Within a single leaf every pair is
+/// visited once.
 fn each_that_meets(trees: [&Bvh; 2], boxes: [&[Aabb]; 2], leaves: [u32; 2], mut found: impl FnMut(u32, u32)) {
     let [ones, others] = [0, 1].map(|k| trees[k].items_of(leaves[k]));
     let bounds = &trees[1].nodes[leaves[1] as usize].bounds;
@@ -229,7 +233,7 @@ fn each_that_meets(trees: [&Bvh; 2], boxes: [&[Aabb]; 2], leaves: [u32; 2], mut 
     }
 }
 
-/// Cloth keeps its neighbours: a tree made once stays a good one.
+/// Updates a tree for moved boxes. Cloth keeps its neighbours, so the tree's structure stays good.
 fn refit(tree: &mut Bvh, boxes: &[Aabb]) {
     match tree.items.len() == boxes.len() {
         true => tree.refit(boxes),

@@ -1,4 +1,4 @@
-//! What cloth does against a body and, in implicit steps, against itself. What keeps it from crossing in small steps is
+//! Penalty contact of cloth with a body and, in implicit steps, with itself. Small steps keep cloth from crossing itself by
 //! `contact::separation`.
 
 pub mod body;

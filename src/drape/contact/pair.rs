@@ -1,10 +1,11 @@
-//! Two places of cloth that may meet: a vertex and a triangle, or two edges.
+//! Contact pairs of cloth with itself: a vertex and a triangle, or two edges.
 
 use glam::DVec3;
 
 use crate::body::closest::{Part, closest_on_triangle};
 
-/// The share of each vertex in their distance, its direction, and how large it is, metres: below zero on the other side.
+/// Weights of the four vertices in the distance vector, contact normal, and signed distance in metres: negative after a
+/// penetration.
 pub(super) type Found = ([f64; 4], DVec3, f64);
 
 #[derive(Clone, Copy, Debug)]
@@ -12,25 +13,27 @@ pub(super) struct Pair {
     /// A vertex and a triangle's corners, or the ends of two edges.
     pub vertices: [u32; 4],
     pub edges: bool,
-    /// On which side the first is of the second, ±1; 0 while they are not before one another.
+    /// The side of the second feature on which the first one is, ±1.
     pub side: f64,
-    /// How far one can come towards the other, metres: who seems farther behind has come round, not through.
+    /// Largest possible approach in the step, metres. A pair that seems farther behind has moved round the other feature, not
+    /// through it.
     pub reach: f64,
 }
 
 impl Pair {
-    /// What pairs are put in order by.
+    /// Sort key.
     pub fn key(&self) -> (bool, [u32; 4]) {
         (self.edges, self.vertices)
     }
 
-    /// Weights, direction and distance of the two before one another, as it is known on which side.
+    /// Weights, normal and signed distance of the pair at `x`; None where the two do not face each other.
     pub fn found(&self, x: &[DVec3]) -> Option<Found> {
         if self.edges { crossing(self, x) } else { corner(self, x) }
     }
 }
 
-/// Weights, direction and distance of a vertex before a triangle. None beyond its border on the other side.
+/// Weights, normal and signed distance of a vertex and a triangle. None where the vertex is behind the triangle and outside its
+/// border.
 fn corner(pair: &Pair, x: &[DVec3]) -> Option<Found> {
     let [p, a, b, c] = pair.vertices.map(|v| x[v as usize]);
     let normal = (b - a).cross(c - a).normalize_or_zero() * pair.side;
@@ -56,13 +59,13 @@ fn barycentric(p: DVec3, a: DVec3, b: DVec3, c: DVec3) -> Option<(f64, f64)> {
     (whole > 0.0).then(|| ((vv * wu - uv * wv) / whole, (uu * wv - uv * wu) / whole))
 }
 
-/// Weights, direction and distance of two edges that cross within their lengths.
+/// Weights, normal and signed distance of two edges whose common perpendicular meets both within their lengths; None otherwise.
 fn crossing(pair: &Pair, x: &[DVec3]) -> Option<Found> {
     let [a, b, c, d] = pair.vertices.map(|v| x[v as usize]);
     let (u, v, w) = (b - a, d - c, c - a);
     let (uu, uv, vv, uw, vw) = (u.dot(u), u.dot(v), v.dot(v), u.dot(w), v.dot(w));
     let whole = uu * vv - uv * uv;
-    // Nearly parallel edges meet at their ends, which the vertices see.
+    // Nearly parallel edges touch at their ends, which the vertex-triangle pairs cover.
     if whole <= 1e-6 * uu * vv {
         return None;
     }
@@ -74,7 +77,7 @@ fn crossing(pair: &Pair, x: &[DVec3]) -> Option<Found> {
     Some(([s - 1.0, -s, 1.0 - t, t], normal, normal.dot(w)))
 }
 
-/// The distance of the segments ab and cd (Ericson, Real-Time Collision Detection, 5.1.9).
+/// Distance of the segments ab and cd (Ericson, Real-Time Collision Detection, 5.1.9).
 pub(super) fn segments_apart([a, b, c, d]: [DVec3; 4]) -> f64 {
     let (u, v, w) = (b - a, d - c, a - c);
     let (uu, uv, vv, uw, vw) = (u.dot(u), u.dot(v), v.dot(v), u.dot(w), v.dot(w));

@@ -1,14 +1,14 @@
-//! Bending: a quadratic energy in the positions, exact for cylinders on any mesh.
+//! Bending: an energy that is quadratic in the positions and exact for cylinders on any mesh.
 //!
-//! Each vertex reads the second derivatives x,11 x,12 x,22 off the quadratic of weighted least squares through it and its
-//! neighbours, laid flat in the pattern plane. For a surface that keeps its lengths these vectors are normal to it, so that their
-//! dot products are the curvatures' products: the energy A/2 (B1 |x,11|² + B2 |x,22|² + 2 B12 x,11·x,22 + 4 B33 |x,12|²) needs no
-//! normal, is quadratic and does not change when the cloth turns.
+//! Each vertex gets the second derivatives x,11 x,12 x,22 from a quadratic fitted by weighted least squares to it and its
+//! neighbours, unfolded into the pattern plane. On an isometrically bent surface these vectors are normal to the surface, so
+//! their dot products are the products of the curvatures: the energy A/2 (B1 |x,11|² + B2 |x,22|² + 2 B12 x,11·x,22 + 4 B33
+//! |x,12|²) needs no normal, is quadratic and invariant under rotation.
 //!
-//! This is the smoothed hinge of Liang (arXiv 2502.10872) but for two things. Its normal is not lagged, for there is none. And its
-//! quadratics through the six corners of a triangle and its neighbours measure a cylinder's energy as exactly, but the cloth finds
-//! shapes that they do not see: where diagonals turn all of them are centred on every other vertex, and a cantilever of
-//! such triangles hangs down more than twice as far as it should.
+//! This differs from the smoothed hinge of Liang (arXiv 2502.10872) in two ways. It needs no lagged normal. And it fits more than
+//! the six corners of a triangle and its neighbours: such a fit measures the energy of a cylinder as exactly, but leaves
+//! deformations without energy. Where the diagonals of a mesh alternate, all those stencils are centred on every other vertex,
+//! and a cantilever hangs down more than twice as far as it should.
 
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -16,15 +16,15 @@ use rayon::prelude::*;
 use crate::cloth::fabric::Bending as Stiffness;
 use crate::drape::sheet::Sheet;
 
-/// Beyond this a fit amplifies noise: the greatest coefficient of a second derivative times the squared size of the triangle.
+/// Largest coefficient of a second derivative, times the squared size of the triangle: a fit beyond this amplifies noise.
 const MOST_GAIN: f64 = 20.0;
-/// Pivots of a fit below this share of the largest: the points do not tell a quadratic.
+/// Smallest pivot of a fit as a share of the largest entry: below it the points do not determine a quadratic.
 const LEAST_PIVOT: f64 = 1e-6;
 
-/// Rows one thread takes at a time.
+/// Matrix rows that one thread takes at a time.
 const LEAST_SHARE: usize = 1024;
 
-/// A sparse symmetric matrix Q, N/m: the energy is xᵀQx/2 in each axis.
+/// Bending energy as a sparse symmetric matrix Q, N/m: xᵀQx/2 in each axis.
 #[derive(Clone, Debug)]
 pub struct Bending {
     /// Row starts in `columns` and `values`.
@@ -33,28 +33,29 @@ pub struct Bending {
     values: Vec<f64>,
 }
 
-/// Second derivatives as sums over vertices, 1/m².
+/// Second derivatives at a vertex as weighted sums over nearby vertices, 1/m².
 #[derive(Clone, Debug)]
 pub struct Stencil {
-    /// The vertices.
+    /// Vertices of the sums.
     pub vertices: Vec<u32>,
-    /// For each vertex its weight in x,11 (warp), x,22 (weft) and x,12.
+    /// Weight of each vertex in x,11 (warp), x,22 (weft) and x,12.
     pub weights: Vec<[f64; 3]>,
 }
 
 impl Bending {
-    /// Of all triangles of `sheet`; without stiffness empty.
+    /// Bending of all of `sheet`; an empty matrix where the stiffness is zero.
     pub fn new(sheet: &Sheet, stiffness: &Stiffness) -> Self {
         Self::of(sheet, |_| stiffness)
     }
 
-    /// The same with a stiffness for each vertex.
+    /// Bending of `sheet` with a stiffness for each vertex.
     pub fn of<'a>(sheet: &Sheet, stiffness: impl Fn(u32) -> &'a Stiffness) -> Self {
         Self::summed(sheet.len(), &energies(sheet, stiffness), &[])
     }
 
-    /// The same, softer round vertices whose `mass` (kg) would swing faster than `rate` (1/s, by Gershgorin's bound): the corners of
-    /// slivers. Explicit steps are stable up to a rate; where no vertex is faster it is [`Self::of`], bit for bit.
+    /// Bending like [`Self::of`], but softened round vertices that with their `mass` (kg) would oscillate at an angular frequency
+    /// above `rate` (1/s, by Gershgorin's bound); these are corners of slivers. Explicit steps are stable up to a certain
+    /// frequency. Where no vertex exceeds it the result equals [`Self::of`] bit for bit.
     pub fn slower_than<'a>(
         rate: f64,
         mass: &[f64],
@@ -66,7 +67,8 @@ impl Bending {
         let mut bending = Self::summed(sheet.len(), &energies, &[]);
         let (mut is_fast, mut whole) = (vec![false; sheet.len()], Vec::new());
         loop {
-            // Those that were too stiff keep to their limit whatever becomes of others; by what cancels, others may come to exceed theirs.
+            // Vertices softened once keep to their limit in later rounds. Entries cancel less after softening, so others may
+            // exceed theirs.
             let faster = (0..sheet.len()).filter(|&i| !is_fast[i] && bending.stiffest(i) > limit(i));
             let faster: Vec<usize> = faster.collect();
             if faster.is_empty() {
@@ -88,12 +90,12 @@ impl Bending {
         }
     }
 
-    /// Gershgorin's bound of how stiff vertex `i` is, N/m.
+    /// Gershgorin's bound of the stiffness at vertex `i`, N/m.
     pub fn stiffest(&self, i: usize) -> f64 {
         self.row(i).map(|(_, q)| q.abs()).sum()
     }
 
-    /// The sum of `energies`, each times its share; without shares all of them whole.
+    /// The sum of `energies`, each times its entry in `shares`; empty `shares` leave all of them whole.
     fn summed(rows: usize, energies: &[Energy], shares: &[f64]) -> Self {
         let mut entries: Vec<(u32, u32, f64)> = match shares {
             [] => energies.iter().flat_map(|energy| energy.entries.iter().copied()).collect(),
@@ -124,12 +126,12 @@ impl Bending {
         Self { starts, columns, values }
     }
 
-    /// J.
+    /// Bending energy, J.
     pub fn energy(&self, x: &[DVec3]) -> f64 {
         (0..x.len()).map(|i| (x[i] - x[0]).dot(self.row_times(i, x))).sum::<f64>() / 2.0
     }
 
-    /// Adds the gradient, N, and gives the energy.
+    /// Adds the gradient, N, and returns the energy, J.
     pub fn add_gradient(&self, x: &[DVec3], gradient: &mut [DVec3]) -> f64 {
         if self.values.is_empty() {
             return 0.0;
@@ -143,20 +145,20 @@ impl Bending {
         energy
     }
 
-    /// Writes the gradient, N, times a factor for each vertex.
+    /// Writes the gradient, N, of each vertex times its `factor`.
     pub fn write_forces(&self, x: &[DVec3], forces: &mut [DVec3], factor: impl Fn(usize) -> f64 + Sync) {
         let rows = forces.par_iter_mut().enumerate().with_min_len(LEAST_SHARE);
         rows.for_each(|(i, force)| *force = self.row_times(i, x) * factor(i));
     }
 
-    /// The entries of row `i`: column and value.
+    /// Entries of row `i`: column and value (N/m).
     pub fn row(&self, i: usize) -> impl Iterator<Item = (u32, f64)> {
         let range = self.starts[i] as usize..self.starts[i + 1] as usize;
         self.columns[range.clone()].iter().copied().zip(self.values[range].iter().copied())
     }
 
     fn row_times(&self, i: usize, x: &[DVec3]) -> DVec3 {
-        // Rows sum to zero: differences keep their digits far from the origin.
+        // Rows sum to zero: summing differences to x_i keeps precision far from the origin.
         let range = self.starts[i] as usize..self.starts[i + 1] as usize;
         let (at, mut sum) = (x[i], DVec3::ZERO);
         for (&j, &q) in self.columns[range.clone()].iter().zip(&self.values[range]) {
@@ -166,8 +168,8 @@ impl Bending {
     }
 }
 
-/// The area that lies nearest to each vertex, m²; of obtuse triangles half goes to the obtuse corner (Meyer et al. 2003, 3.3).
-/// Where valences differ, thirds of triangles would make every other vertex bend more easily, and all cloth with it.
+/// Mixed Voronoi area of each vertex, m² (Meyer et al. 2003, 3.3): of an obtuse triangle half goes to the obtuse corner. Where
+/// vertex valences differ, a third of each triangle would make every other vertex, and so all the cloth, bend more easily.
 fn nearest_areas(sheet: &Sheet) -> Vec<f64> {
     let mut areas = vec![0.0; sheet.len()];
     for ((vs, p), area) in sheet.triangles.iter().zip(&sheet.rest).zip(&sheet.areas) {
@@ -186,11 +188,11 @@ fn nearest_areas(sheet: &Sheet) -> Vec<f64> {
     areas
 }
 
-/// The energy of the cloth nearest to one vertex.
+/// Bending energy of the cloth nearest to one vertex.
 struct Energy {
-    /// The vertices it hangs on.
+    /// Vertices that it depends on.
     stencil: Vec<u32>,
-    /// Row, column and value, N/m.
+    /// Matrix entries: row, column and value, N/m.
     entries: Vec<(u32, u32, f64)>,
 }
 
@@ -220,8 +222,8 @@ fn entries(stencil: &Stencil, b: &Stiffness, area: f64) -> Vec<(u32, u32, f64)> 
     entries
 }
 
-/// How vertex `v` of `sheet` reads second derivatives: off its neighbours; on the border, and where these are too few, off
-/// theirs too. None where that is too few.
+/// Finite-difference stencil of the second derivatives at vertex `v` of `sheet`: over its neighbours or, on the border and where
+/// these are too few, also over their neighbours. None where even those do not determine a quadratic.
 pub fn stencil(sheet: &Sheet, v: u32) -> Option<Stencil> {
     let t = *sheet.adjacency.vertex_triangles.of(v).first()?;
     let own = sheet.rest[t as usize];
@@ -240,8 +242,8 @@ pub fn stencil(sheet: &Sheet, v: u32) -> Option<Stencil> {
     fitted(&patch(sheet, t, &own, beside), own[k], size)
 }
 
-/// The vertices of `t` and of triangles reached from it, laid flat step by step. `goes` says which triangle after how many
-/// steps.
+/// Vertices of `t` and of the triangles reached from it, unfolded into the plane of `t`. `goes` tells whether to step into a
+/// triangle after that many steps.
 fn patch(sheet: &Sheet, t: u32, own: &[DVec2; 3], goes: impl Fn(u32, usize) -> bool) -> Vec<(u32, DVec2)> {
     let mut points: Vec<(u32, DVec2)> = sheet.triangles[t as usize].into_iter().zip(*own).collect();
     let mut laid = vec![(t, *own, 0)];
@@ -264,7 +266,8 @@ fn patch(sheet: &Sheet, t: u32, own: &[DVec2; 3], goes: impl Fn(u32, usize) -> b
     points
 }
 
-/// The quadratic of least squares through `points`, weighted by nearness to `centre`; for six points the one through them.
+/// Least-squares quadratic through `points`, weighted by nearness to `centre`; for six points it interpolates them. None where it
+/// is ill-conditioned.
 fn fitted(points: &[(u32, DVec2)], centre: DVec2, size: f64) -> Option<Stencil> {
     if points.len() < 6 {
         return None;
@@ -290,12 +293,12 @@ fn fitted(points: &[(u32, DVec2)], centre: DVec2, size: f64) -> Option<Stencil> 
     (gain <= MOST_GAIN).then(|| Stencil { vertices: points.iter().map(|&(v, _)| v).collect(), weights })
 }
 
-/// 1, u, v, u²/2, v²/2, uv.
+/// Monomials of a quadratic: 1, u, v, u²/2, v²/2, uv.
 fn monomials(p: DVec2) -> [f64; 6] {
     [1.0, p.x, p.y, p.x * p.x / 2.0, p.y * p.y / 2.0, p.x * p.y]
 }
 
-/// By Gauss–Jordan with the largest pivot of each column.
+/// Inverse matrix by Gauss–Jordan elimination with partial pivoting; None where it is singular.
 fn inverse(mut a: [[f64; 6]; 6]) -> Option<[[f64; 6]; 6]> {
     let mut b = [[0.0; 6]; 6];
     (0..6).for_each(|i| b[i][i] = 1.0);

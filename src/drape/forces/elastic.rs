@@ -1,4 +1,4 @@
-//! All that cloth does to itself: stretching, bending, the pressure of what it holds, and limits of strain.
+//! Internal forces of cloth: stretching, bending, strain limits, and the pressure of an enclosed volume.
 
 use glam::{DMat3, DVec3};
 
@@ -9,24 +9,24 @@ use crate::drape::forces::limits::StrainLimits;
 use crate::drape::forces::membrane::Membrane;
 use crate::drape::sheet::Sheet;
 
-/// The energy of a sheet's shape.
+/// Elastic energy of a sheet.
 #[derive(Clone, Debug)]
 pub struct Elastic {
     /// Stretching and shearing.
     pub membrane: Membrane,
     /// Bending.
     pub bending: Bending,
-    /// Of the cloth: what that was made from.
+    /// Bending stiffness of the fabric, from which `bending` was built.
     pub plate: Plate,
     /// Springs along edges, for strain control or in place of the membrane.
     pub limits: Option<StrainLimits>,
-    /// Over-pressure behind the cloth (against its front normal's back), Pa. Zero for none.
+    /// Excess pressure on the back of the cloth, which pushes it towards its front normal, Pa. 0 for none.
     pub pressure: f64,
     triangles: Vec<[u32; 3]>,
 }
 
 impl Elastic {
-    /// Of `fabric`; `compression` as in [`Membrane::new`].
+    /// Elasticity of `fabric`; `compression` as in [`Membrane::new`].
     pub fn new(sheet: &Sheet, fabric: &Fabric, compression: f64) -> Self {
         Self {
             membrane: Membrane::new(sheet, fabric.stretch.tangent(), compression),
@@ -38,7 +38,8 @@ impl Elastic {
         }
     }
 
-    /// The same with a net of springs in place of the membrane, alike in warp and weft; compression as stiff as tension.
+    /// Elasticity with a net of springs in place of the membrane: equal in warp and weft, and as stiff in compression as in
+    /// tension.
     pub fn of_springs(sheet: &Sheet, fabric: &Fabric) -> Self {
         let stiffness = (fabric.stretch.warp * fabric.stretch.weft).sqrt();
         Self {
@@ -74,7 +75,7 @@ impl Elastic {
         -self.pressure * volume
     }
 
-    /// The blocks of pressure, N/m: corners k > l of triangle t.
+    /// Hessian blocks of the pressure, N/m, for corners k > l of triangle t.
     pub fn pressure_hessian(&self, x: &[DVec3], mut block: impl FnMut(usize, usize, usize, DMat3)) {
         if self.pressure == 0.0 {
             return;

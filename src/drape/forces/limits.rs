@@ -1,25 +1,25 @@
-//! Springs along edges: a net of them in place of a membrane, or strain control, by which edges resist with a multiple of the
-//! cloth's stiffness beyond a strain they should not pass.
+//! Springs along edges, used in two ways: as a mass-spring net in place of a membrane, or for strain control, where edges beyond
+//! a strain limit resist with a multiple of the cloth's stiffness.
 
 use glam::{DMat3, DVec3};
 
 use crate::drape::sheet::Sheet;
 
-/// Springs that pull beyond a length; those of a net also push below it.
+/// Springs along edges that pull when too long; those of a net also push when too short.
 #[derive(Clone, Debug)]
 pub struct StrainLimits {
     edges: Vec<[u32; 2]>,
-    /// Metres.
+    /// Length of each edge beyond which it pulls, metres.
     longest: Vec<f64>,
-    /// N/m.
+    /// Spring stiffness of each edge, N/m.
     stiffness: Vec<f64>,
-    /// Below their length they push.
+    /// Whether springs push below that length.
     pushes: bool,
 }
 
 impl StrainLimits {
-    /// Beyond a strain of `limit` with a membrane stiffness of `stiffness`, N/m: an edge stands for its share of area, as
-    /// springs of an isotropic net do (Van Gelder 1998).
+    /// Strain control beyond a strain of `limit`, with a membrane stiffness of `stiffness`, N/m. Each edge gets its share of the
+    /// area, as in a spring net for an isotropic membrane (Van Gelder 1998).
     pub fn new(sheet: &Sheet, limit: f64, stiffness: f64) -> Self {
         let edges = sheet.adjacency.edges.clone();
         let lengths: Vec<f64> = (0..edges.len()).map(|e| sheet.rest_length(e)).collect();
@@ -32,20 +32,20 @@ impl StrainLimits {
         Self { edges, longest, stiffness, pushes: false }
     }
 
-    /// The mass-spring model (paper B) of a membrane of `stiffness`, N/m. It pulls as triangles of constant strain and a Poisson's
-    /// ratio of 1/3 do where all of them are equilateral; elsewhere both figures hang on how the cloth is cut.
+    /// Mass-spring model (paper B) of a membrane of `stiffness`, N/m. Where all triangles are equilateral it behaves like
+    /// constant-strain triangles with a Poisson's ratio of 1/3; elsewhere stiffness and Poisson's ratio depend on the mesh.
     pub fn net(sheet: &Sheet, stiffness: f64) -> Self {
         Self { pushes: true, ..Self::new(sheet, 0.0, stiffness) }
     }
 
-    /// Of edge `e` with the cloth at `x`: its vector, its length and by how much that is too long, metres; None where it does
-    /// not act.
+    /// Vector, length (m) and elongation beyond the limit (m) of edge `e` with the cloth at `x`; None where the spring does not
+    /// act.
     fn acting(&self, e: usize, x: &[DVec3]) -> Option<(DVec3, f64, f64)> {
         let [a, b] = self.edges[e].map(|v| x[v as usize]);
         let along = b - a;
         let length = along.length();
         let over = length - self.longest[e];
-        // What has no length has no direction to push in.
+        // An edge of length zero has no direction to push in.
         (over > 0.0 || (self.pushes && length > 0.0)).then_some((along, length, over))
     }
 
@@ -69,8 +69,8 @@ impl StrainLimits {
         energy
     }
 
-    /// The block (b, b) of each edge [a, b] that acts, N/m: (a, a) is the same, (a, b) its negative. Without `exact` they are made
-    /// positive semidefinite: what pushes does not give way sideways.
+    /// Hessian block (b, b) of each acting edge [a, b], N/m: block (a, a) equals it, (a, b) is its negative. Without `exact` it
+    /// is made positive semidefinite by leaving out the geometric stiffness of compressed springs.
     pub fn hessian(&self, x: &[DVec3], exact: bool, mut block: impl FnMut([u32; 2], DMat3)) {
         for (e, &ends) in self.edges.iter().enumerate() {
             if let Some((along, length, over)) = self.acting(e, x) {

@@ -1,16 +1,16 @@
 //! Stretching and shearing: constant-strain triangles of an orthotropic Saint-Venant–Kirchhoff membrane.
 //!
 //! With F the deformation gradient from the pattern plane to space, E = (FᵀF - I)/2 and the tangent C of
-//! [`Stretch::tangent`](crate::cloth::fabric::Stretch::tangent) the energy per area is W(E) = E:C:E/2. Cloth wrinkles where it is
-//! pressed: of the energy only the share `compression` stays there. The rest is the membrane relaxed over wrinkles along the
-//! threads, see [`wrinkled`].
+//! [`Stretch::tangent`](crate::cloth::fabric::Stretch::tangent) the energy per area is W(E) = E:C:E/2. Cloth wrinkles under
+//! compression: only the share `compression` of the plain energy remains there. The rest is the energy relaxed over wrinkles
+//! along the yarns, see [`wrinkled`].
 
 use glam::{DMat3, DVec2, DVec3};
 
 use crate::cloth::fabric::{green, stress, wrinkled};
 use crate::drape::sheet::Sheet;
 
-/// All triangles of a sheet.
+/// Membrane elements of a sheet.
 #[derive(Clone, Debug)]
 pub struct Membrane {
     elements: Vec<Element>,
@@ -22,21 +22,21 @@ pub struct Membrane {
 struct Element {
     vertices: [u32; 3],
     area: f64,
-    /// Of the corners' hat functions in the pattern plane, 1/m.
+    /// Gradients of the corners' linear shape functions in the pattern plane, 1/m.
     gradients: [DVec2; 3],
 }
 
-/// Stress of one triangle, N/m, and how it changes with strain.
+/// Energy density and stress of one triangle, N/m, and the tangent stiffness.
 struct Response {
     energy: f64,
     stress: [f64; 3],
-    /// C11, C22, C12, shear.
+    /// Tangent stiffness: C11, C22, C12, shear.
     tangent: [f64; 4],
 }
 
 impl Membrane {
-    /// `tangent` as [`Stretch::tangent`](crate::cloth::fabric::Stretch::tangent) gives it (first direction: y of the pattern
-    /// plane, the warp); `compression` 0..=1, 1 for a plain membrane.
+    /// A membrane with `tangent` from [`Stretch::tangent`](crate::cloth::fabric::Stretch::tangent) (first direction: y of the
+    /// pattern plane, the warp). `compression` 0..=1 is the share of stiffness kept under compression; 1 for a plain membrane.
     pub fn new(sheet: &Sheet, tangent: [f64; 4], compression: f64) -> Self {
         let elements = sheet.triangles.iter().zip(&sheet.rest).zip(&sheet.areas);
         let elements = elements
@@ -49,12 +49,12 @@ impl Membrane {
         Self { elements, tangent, compression }
     }
 
-    /// J.
+    /// Membrane energy, J.
     pub fn energy(&self, x: &[DVec3]) -> f64 {
         self.elements.iter().map(|e| e.area * self.response(e.frame(x)).energy).sum()
     }
 
-    /// Adds the gradient of the energy, N, and gives the energy.
+    /// Adds the gradient of the energy, N, and returns the energy, J.
     pub fn add_gradient(&self, x: &[DVec3], gradient: &mut [DVec3]) -> f64 {
         let mut energy = 0.0;
         for e in &self.elements {
@@ -71,8 +71,8 @@ impl Membrane {
         energy
     }
 
-    /// Hands over the 3 × 3 blocks of each triangle's Hessian, N/m, for corners k ≥ l. Without `exact` they are made positive
-    /// semidefinite by leaving out pressure's share of the geometric stiffness.
+    /// The 3 × 3 Hessian blocks of each triangle, N/m, for corners k ≥ l. Without `exact` they are made positive semidefinite by
+    /// leaving out the compressive part of the geometric stiffness.
     pub fn hessian(&self, x: &[DVec3], exact: bool, mut block: impl FnMut(usize, usize, usize, DMat3)) {
         for (t, e) in self.elements.iter().enumerate() {
             let frame = e.frame(x);
@@ -101,7 +101,7 @@ impl Membrane {
         }
     }
 
-    /// Green strain along warp, weft and twice the shear of triangle `t`.
+    /// Green strain of triangle `t` along warp and weft, and twice its shear component.
     pub fn strain(&self, t: usize, x: &[DVec3]) -> [f64; 3] {
         green(self.elements[t].frame(x))
     }
@@ -122,7 +122,7 @@ impl Membrane {
 }
 
 impl Element {
-    /// The deformation gradient's columns: where the warp and the weft point.
+    /// Columns of the deformation gradient: images of the warp and weft directions.
     fn frame(&self, x: &[DVec3]) -> [DVec3; 2] {
         let [a, b, c] = self.vertices.map(|v| x[v as usize]);
         let (u, v) = (b - a, c - a);
@@ -136,7 +136,7 @@ fn plain(tangent: [f64; 4], e: [f64; 3]) -> Response {
     Response { energy: (stress[0] * e[0] + stress[1] * e[1] + stress[2] * e[2]) / 2.0, stress, tangent }
 }
 
-/// The positive part of a stress.
+/// Positive semidefinite part of a stress.
 fn tension([s0, s1, s01]: [f64; 3]) -> [f64; 3] {
     let (mean, half) = ((s0 + s1) / 2.0, (s0 - s1) / 2.0);
     let radius = half.hypot(s01);
@@ -147,7 +147,7 @@ fn tension([s0, s1, s01]: [f64; 3]) -> [f64; 3] {
     if high <= 0.0 || radius == 0.0 {
         return [0.0; 3];
     }
-    // high times the projector on its direction.
+    // High principal stress times the projector on its direction.
     let (c, s) = (half / radius, s01 / radius);
     [high * (1.0 + c) / 2.0, high * (1.0 - c) / 2.0, high * s / 2.0]
 }

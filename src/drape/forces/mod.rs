@@ -1,4 +1,4 @@
-//! What cloth does to itself: stretching, bending, limits of strain, the pressure of what it holds.
+//! Internal forces of cloth: stretching, bending, strain limits, and the pressure of an enclosed volume.
 
 pub mod bending;
 pub mod elastic;

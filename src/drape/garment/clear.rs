@@ -1,7 +1,7 @@
-//! Room for what is worn over: pieces that were placed into cloth that lies already, or behind it, are moved out before it.
+//! Moves newly placed pieces outwards, until they are outside of the cloth that is draped already.
 //!
-//! Files place the pieces of each garment about the bare body. Sewn from within an inner layer they would end up under it, or
-//! run through it for good.
+//! Files place the pieces of each garment about the bare body. Pieces sewn from within an inner layer would end up under it, or
+//! intersect it for good.
 
 use glam::DVec3;
 
@@ -10,15 +10,15 @@ use crate::geometry::crossings::meetings;
 use crate::geometry::ids::PieceId;
 use crate::geometry::mesh::TriMesh;
 
-/// How far a piece is moved out at a time, metres,
+/// Distance by which a piece is moved in one step, metres.
 const STEP: f64 = 0.01;
-/// and how many times at most: then it is left where it was placed.
+/// Most steps of [`STEP`]: a piece that still intersects then is left where it was placed.
 const MOST_STEPS: usize = 40;
-/// Cloth no farther in front of a piece than this, metres, is what it should lie over.
+/// Distance (m) in front of a piece within which draped cloth counts as an inner layer that the piece must be outside of.
 const SIGHT: f64 = 0.15;
 
-/// `places` (metres, one for each flat corner of `garment`) with the pieces that are sewn `now` moved, each as a whole and the
-/// way its outer side looks, until neither they nor the laid part of `worn` are in each other's way.
+/// Returns `places` (metres, one per flat corner of `garment`) with the pieces that are sewn `now` translated along their outer
+/// normal, each as a rigid whole, until they neither intersect the draped part of `worn` nor are behind it.
 pub fn cleared(
     garment: &Garment,
     worn: &ClothState,
@@ -59,16 +59,16 @@ pub fn cleared(
     places
 }
 
-/// A flat piece in space.
+/// A flat piece placed in space.
 struct Panel {
     mesh: TriMesh,
     edges: Vec<[u32; 2]>,
-    /// Unit, the way its outer side looks.
+    /// Unit outer normal.
     out: DVec3,
 }
 
 impl Panel {
-    /// None where the piece is not placed.
+    /// The panel of `piece`; None where the piece is not placed.
     fn of(garment: &Garment, places: &[Option<DVec3>], piece: PieceId) -> Option<Self> {
         let first = garment.corners.iter().position(|corner| corner.piece == piece)?;
         let count = garment.corners[first..].iter().take_while(|corner| corner.piece == piece).count();
@@ -97,7 +97,7 @@ impl Panel {
         TriMesh { positions, triangles: self.mesh.triangles.clone() }
     }
 
-    /// A line of sight from each vertex: ends, and which two belong together.
+    /// A line of sight along the outer normal from each vertex: end points, and the two points of each line.
     fn sights(&self, mesh: &TriMesh) -> (Vec<DVec3>, Vec<[u32; 2]>) {
         let count = mesh.positions.len() as u32;
         let tips = mesh.positions.iter().map(|&p| p + self.out * SIGHT);

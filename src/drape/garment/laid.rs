@@ -1,4 +1,4 @@
-//! The laid part of a garment as a net of springs.
+//! The draped part of a garment as a net of springs.
 
 use std::collections::BTreeMap;
 
@@ -8,7 +8,8 @@ use crate::cloth::{Fabric, Garment};
 use crate::drape::sheet::Sheet;
 use crate::drape::solver::net::Spring;
 
-/// The vertices of the triangles `laid` in an order in which neighbours are near, and the other way round.
+/// The vertices of the triangles `laid` in breadth-first order, so that neighbours are near in memory, and the inverse map: index
+/// in that order by garment vertex, `u32::MAX` for the others.
 pub(in crate::drape) fn ordered(garment: &Garment, laid: &[usize]) -> (Vec<u32>, Vec<u32>) {
     let mut is_laid = vec![false; garment.vertex_count];
     laid.iter().flat_map(|&t| garment.triangles[t]).for_each(|v| is_laid[v as usize] = true);
@@ -34,8 +35,8 @@ pub(in crate::drape) fn ordered(garment: &Garment, laid: &[usize]) -> (Vec<u32>,
     (vertices, own)
 }
 
-/// Rest length of each edge, by its vertices in order, metres. Where a seam gathers cloth that of the shorter side: the longer one
-/// has no vertex more there, so that it cannot fold between two.
+/// Rest length of each edge by its sorted vertices, metres. Along a gathered seam it is the length of the shorter side: the
+/// longer side has no extra vertices there, so it cannot fold between two of them.
 pub(in crate::drape) fn shortest_sides(garment: &Garment) -> BTreeMap<[u32; 2], f64> {
     let mut sides = BTreeMap::new();
     for (vs, rest) in garment.triangles.iter().zip(&garment.rest) {
@@ -49,7 +50,7 @@ pub(in crate::drape) fn shortest_sides(garment: &Garment) -> BTreeMap<[u32; 2], 
     sides
 }
 
-/// A spring along each edge: Young's modulus in its direction times its share of area (Van Gelder 1998).
+/// A spring along each edge: Young's modulus in its direction times its share of the area (Van Gelder 1998).
 pub(in crate::drape) fn springs<'a>(
     sheet: &'a Sheet,
     fabrics: &'a [&Fabric],

@@ -1,7 +1,7 @@
-//! A garment on a body at rest: draped by small steps until it rests too.
+//! Simulation of a garment on a body at rest: draped by small steps until the garment rests too.
 //!
-//! Chosen over implicit steps by measurement (`toile bench speed`): on a body most of a garment is held by contact, what hangs is
-//! short, and the law of small steps then asks for few of them.
+//! Small steps are used, not implicit ones, by measurement (`toile bench speed`): on a body most of a garment is held by contact,
+//! the parts that hang free are short, and then few small steps suffice.
 
 pub mod clear;
 mod laid;
@@ -31,69 +31,69 @@ use crate::geometry::crossings::meetings;
 use crate::geometry::ids::PieceId;
 use crate::geometry::mesh::TriMesh;
 
-/// Seconds a tick goes on.
+/// Simulated time of a tick, seconds.
 pub const TICK: f64 = 1.0 / 60.0;
-/// m/s².
+/// Gravity, m/s².
 const GRAVITY: DVec3 = DVec3::new(0.0, -9.81, 0.0);
-/// Nearest that cloth comes to skin, metres: its thickness, and what skin gives way.
+/// Clearance that cloth keeps from the skin besides its own thickness, metres: skin yields by about as much.
 const SKIN: f64 = 0.001;
-/// Faces and edges keep this share of the distance.
+/// Share of the offset from the body that interiors of faces and edges must keep; vertices keep all of it.
 const FACE_CLEARANCE: f64 = 0.5;
-/// Those that lack no more than this share of that are left as they are.
+/// Faces whose clearance is short by no more than this share of the required clearance are left as they are.
 const NEARLY_CLEAR: f64 = 0.02;
-/// Most that vertices are raised to keep faces between them off the body, in distances kept.
+/// Most that vertices are raised to keep the faces between them off the body, in offsets.
 const MOST_LIFT: f64 = 8.0;
-/// Ticks between two looks at faces.
+/// Ticks between two checks of faces against the body.
 const LIFT_TICKS: u64 = 6;
-/// Ticks between two looks for layers that run through each other; the first is after the first tick, the roughest,
+/// Ticks between two checks for self-intersections while there are none. The first check is after the first tick, the roughest.
 const LOOK_TICKS: u64 = 12;
-/// and between two partings of them.
+/// Ticks between two separation steps while the cloth intersects itself.
 const PART_TICKS: u64 = 4;
-/// Air takes this share of motion, 1/s.
+/// Rate at which air damps motion, 1/s.
 const AIR: f64 = 1.5;
-/// Damping of bending in proportion to its stiffness, seconds.
+/// Stiffness-proportional damping of bending, seconds.
 const BENDING_DAMPING: f64 = 0.001;
-/// The greatest pressure that friction knows, Pa: some times what cloth weighs. What presses more is strain control, of which one
-/// pass in each small step feels far softer than the cloth is; held by friction of the full pressure, tight cloth would keep
-/// whatever strain it came with (ALGORITHMS.md 0.5).
+/// Largest contact pressure that friction sees, Pa: a few times the weight of cloth per area. More pressure than that comes from
+/// strain control, whose single pass per small step acts far softer than the cloth is; under friction of the full pressure, tight
+/// cloth would keep whatever strain it came with (ALGORITHMS.md 0.5).
 const GRIP: f64 = 10.0;
-/// At rest when no vertex goes farther in a tick, metres,
+/// Cloth is at rest only if no vertex moves farther than this in a tick, metres.
 const REST_WAY: f64 = 5e-5;
-/// and the forces that move the cloth are no larger a share of its weight,
+/// Cloth is at rest only if the unbalanced force is at most this share of its weight.
 const REST_RESIDUAL: f64 = 0.01;
-/// for this many ticks.
+/// Consecutive ticks that must meet [`REST_WAY`] and [`REST_RESIDUAL`] before the cloth counts as resting.
 const QUIET_TICKS: u32 = 12;
-/// Cloth that is as good as still is calmed: what little moves then creeps or trembles. Seconds until that begins,
+/// Seconds after which damping starts to grow, to stop what still creeps or trembles.
 const CALM_AFTER: f64 = 0.5;
-/// by how much air thickens in each second from then on, 1/s²,
+/// Growth of damping from [`CALM_AFTER`] on, 1/s².
 const CALMING: f64 = 10.0;
-/// and how far, 1/s: slow swings are then about critically damped.
+/// Largest damping added by [`CALMING`], 1/s; slow swings are then about critically damped.
 const CALMEST: f64 = 8.0;
-/// One pass in a small step leaves edges as soft as mass over its square, which is far softer than woven cloth: what hangs from
-/// a tight place stretches that. So once the cloth has come down, which is when the forces that move it are no larger a share
-/// of its weight than this,
+/// Time is slowed down once the unbalanced force is below this share of the weight: the cloth has come down. One pass in a small
+/// step leaves edges only as stiff as mass over the step squared, far softer than woven cloth, so cloth that hangs from a tight
+/// place is overstretched; shorter steps take that strain away.
 const DOWN: f64 = 0.1;
-/// or after this many ticks, as what is caught somewhere may tremble for ever,
+/// Ticks after which time is slowed down in any case, since cloth caught somewhere may tremble for ever.
 const DOWN_BY: u64 = 300;
-/// time goes slower by this factor with every tick,
+/// Factor by which time slows down in each tick.
 const SLOWING: f64 = 0.9;
-/// down to this: strain that is left then is its square of what it was.
+/// Slowest time scale. The extra strain left by the solver shrinks with its square, here to a sixteenth.
 const SLOWEST: f64 = 0.25;
-/// Ticks after which cloth is taken to rest in any case.
+/// Ticks after which cloth counts as resting in any case.
 const MOST_TICKS: u64 = 1200;
-/// Vertices moved in small steps and pairs of features looked at in one part of a tick: about 0.03 s.
+/// Work in one call of [`DrapedGarment::go_on`]: vertices moved in small steps plus pairs of features tested; about 0.03 s.
 const MOST_WORK: u64 = 60_000;
-/// Stiffness of a hand's pull, N/m, and the most it pulls with, in weights of the garment.
+/// Stiffness of the drag constraint, N/m, and its largest force in weights of the garment.
 const HAND: (f64, f64) = (60.0, 1.0);
 
-/// What one is asked for.
+/// Settings of a [`DrapedGarment`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DrapedSettings {
     /// Strain beyond which cloth is rigid, 1e-3..=0.2.
     pub strain: f64,
-    /// Whether it meets itself.
+    /// Whether the cloth collides with itself.
     pub self_collision: bool,
-    /// What may be left out.
+    /// Which savings of work are allowed.
     pub skips: Skips,
 }
 
@@ -102,27 +102,27 @@ pub struct DrapedSettings {
 #[error("{0}")]
 pub struct Undrapable(pub String);
 
-/// How far it is.
+/// State of convergence.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {
-    /// Ticks since it began or was disturbed.
+    /// Ticks since the simulation began or was disturbed.
     pub ticks: u64,
-    /// What moves it: Σ m |Δv| / Δt over its weight.
+    /// Unbalanced force as a share of the weight: Σ m |Δv| / Δt over the weight.
     pub residual: f64,
-    /// The fastest vertex, m/s.
+    /// Speed of the fastest vertex, m/s.
     pub speed: f64,
-    /// Whether it lies still.
+    /// Whether the cloth rests.
     pub at_rest: bool,
 }
 
-/// What does not change while it is draped.
+/// Parts that do not change during a simulation.
 #[derive(Debug)]
 struct Fixed {
     garment: Arc<Garment>,
     sheet: Sheet,
-    /// The garment's number of each vertex here: those that are laid, in an order in which neighbours are near.
+    /// Garment vertex of each simulated vertex: the draped ones, in an order in which neighbours are near in memory.
     vertices: Vec<u32>,
-    /// The other way round; `u32::MAX` where nothing is laid.
+    /// Simulated vertex of each garment vertex; `u32::MAX` where it is not draped.
     own: Vec<u32>,
     bending: Bending,
     mass: Vec<f64>,
@@ -134,46 +134,47 @@ struct Fixed {
     damping: f64,
 }
 
-/// A garment that is being draped.
+/// A garment simulated on a body.
 #[derive(Clone, Debug)]
 pub struct DrapedGarment {
     fixed: Arc<Fixed>,
     settings: DrapedSettings,
     small: SmallSteps,
-    /// For each vertex the garment's that it will be sewn to become; None: nothing is to be sewn.
+    /// While pieces are being sewn: for each simulated vertex the vertex of the sewn garment that it will become. None otherwise.
     will_be: Option<Vec<u32>>,
     state: State,
     faces: Faces,
-    /// How far each vertex came in the last tick, metres.
+    /// Displacement of each vertex in the last tick, metres.
     ways: Vec<DVec3>,
     pinned: Vec<bool>,
     substeps: usize,
-    /// Without weight and friction.
+    /// Whether gravity is off; friction is then off too, except as `rubs` says.
     floats: bool,
-    /// While it floats, what there is of friction all the same: of what lies below.
+    /// Friction coefficient per vertex while `floats`, above zero only for cloth of inner layers; None: no friction.
     rubs: Option<Vec<f64>>,
     progress: Progress,
-    /// How fast time goes, [`SLOWEST`]..=1.
+    /// Time scale of a tick, [`SLOWEST`]..=1.
     pace: f64,
     quiet: u32,
-    /// Places where layers ran through each other when last looked at.
+    /// Self-intersections at the last check.
     crossings: usize,
-    /// The fewest of them since there were none, and how often in a row there were no fewer.
+    /// Fewest self-intersections since there were none, and how many separation steps in a row did not lower that.
     parting: (usize, u32),
-    /// How often in a row what lay deep did not come out.
+    /// How many attempts in a row to pull out deep intersections failed.
     in_vain: u32,
-    /// A tick under way.
+    /// The tick that is partly done.
     begun: Option<Box<Begun>>,
-    /// What lies deep is being pulled out.
+    /// The attempt under way to pull out deep intersections.
     pulling: Option<Box<Pulling>>,
-    /// Faces that came too near the body when last looked at.
+    /// Faces too near the body at the last check.
     lacking: usize,
     /// Work done.
     pub counters: Counters,
 }
 
 impl DrapedGarment {
-    /// The laid part of `garment` where it lies, of `fabrics` by piece (else `default`). Vertices `pins` stay.
+    /// Simulates the draped part of `garment` from its position in `cloth`. Fabrics are `fabrics` by piece, else `default`.
+    /// Vertices `pins` are held.
     pub fn new(
         garment: Arc<Garment>,
         cloth: &ClothState,
@@ -187,8 +188,8 @@ impl DrapedGarment {
         Ok(worn)
     }
 
-    /// The same of a garment that is to become another, with the vertex of that for each of its own. Nothing has weight, and nothing
-    /// rubs; it goes on in `substeps` small steps a tick.
+    /// Simulates open pieces that are to be sewn: `garment` is the open one, and the last pair holds the sewn garment and the
+    /// vertex of it that each open vertex becomes. There is neither gravity nor friction; a tick has `substeps` small steps.
     pub fn unsewn(
         garment: Arc<Garment>,
         cloth: &ClothState,
@@ -280,7 +281,8 @@ impl DrapedGarment {
         })
     }
 
-    /// From now on nothing crosses that does not yet; what does begins to come apart.
+    /// Turns on self-collision: nothing that does not intersect yet can from now on. Existing intersections begin to be
+    /// separated.
     fn separate(&mut self, cloth: &ClothState) {
         if !self.settings.self_collision {
             return;
@@ -298,38 +300,38 @@ impl DrapedGarment {
         self.part(&mut cloth.clone());
     }
 
-    /// How far it is.
+    /// The state of convergence.
     pub fn progress(&self) -> Progress {
         self.progress
     }
 
-    /// Distance kept from the skin, metres.
+    /// Offset from the skin, metres.
     pub fn offset(&self) -> f64 {
         self.fixed.offset
     }
 
-    /// Small steps in each tick.
+    /// Number of small steps in a tick.
     pub fn substeps(&self) -> usize {
         self.substeps
     }
 
-    /// Places where the cloth passes through itself, and faces that come too near the body, when last looked at.
+    /// Self-intersections, and faces too near the body, at the last checks.
     pub fn faults(&self) -> (usize, usize) {
         (self.crossings, self.lacking)
     }
 
-    /// What the contact of the cloth with itself and the body took.
+    /// Work counters of collision of the cloth with itself and the body.
     pub fn separation(&self) -> separation::Counters {
         self.small.separation.as_ref().map(|separation| separation.counters).unwrap_or_default()
     }
 
-    /// The same since it was last taken.
+    /// Work counters of collision since they were last taken; resets them.
     pub fn take_separation(&mut self) -> separation::Counters {
         let taken = self.small.separation.as_mut().map(|separation| std::mem::take(&mut separation.counters));
         taken.unwrap_or_default()
     }
 
-    /// From now on exactly these vertices stay; cloth at rest wakes.
+    /// Replaces the set of pinned vertices; cloth at rest wakes.
     pub fn pin(&mut self, pins: &[u32]) {
         self.pinned.fill(false);
         let fixed = Arc::clone(&self.fixed);
@@ -343,7 +345,7 @@ impl DrapedGarment {
         self.wake();
     }
 
-    /// Takes `vertex` in the hand, where it is. Nothing happens where no cloth is laid.
+    /// Begins to drag `vertex`, with its present position as the target. Does nothing where no cloth is draped.
     pub fn take(&mut self, vertex: u32) {
         let Some(v) = own_number(&self.fixed.own, vertex) else { return };
         let weight: f64 = self.fixed.mass.iter().sum::<f64>() * GRAVITY.length();
@@ -353,12 +355,12 @@ impl DrapedGarment {
         self.wake();
     }
 
-    /// Where what is in the hand is, metres.
+    /// Position of the dragged vertex, metres; None while nothing is dragged.
     pub fn in_hand(&self) -> Option<DVec3> {
         self.small.hand.map(|hand| self.state.positions[hand.vertex as usize])
     }
 
-    /// The hand goes there.
+    /// Moves the target of the drag, metres.
     pub fn pull_to(&mut self, target: DVec3) {
         if let Some(hand) = &mut self.small.hand {
             hand.target = target;
@@ -366,13 +368,13 @@ impl DrapedGarment {
         }
     }
 
-    /// Lets go.
+    /// Ends the drag.
     pub fn let_go(&mut self) {
         self.small.hand = None;
         self.wake();
     }
 
-    /// From now on threads pull the rest of it over what lies at the garment's vertices `inner`.
+    /// Turns on friction for the garment's vertices `inner`: an inner layer, over which sewing springs pull the rest.
     pub fn pull_over(&mut self, inner: &[u32]) {
         let mut rubs = vec![0.0; self.fixed.vertices.len()];
         let own = inner.iter().filter_map(|&v| own_number(&self.fixed.own, v));
@@ -380,7 +382,7 @@ impl DrapedGarment {
         self.rubs = Some(rubs);
     }
 
-    /// From now on exactly these threads hold; their ends are vertices of the garment.
+    /// Replaces all sewing springs; their ends are vertices of the garment. Springs at vertices that are not draped are left out.
     pub fn tie(&mut self, ties: &[SewingSpring]) {
         let own = |tie: &SewingSpring| {
             let [a, b] = tie.ends.map(|v| own_number(&self.fixed.own, v));
@@ -389,13 +391,13 @@ impl DrapedGarment {
         self.small.ties = ties.iter().filter_map(own).collect();
     }
 
-    /// Mass, kg, and velocity, m/s, of the garment's vertex `v`; None where it is not laid.
+    /// Mass (kg) and velocity (m/s) of the garment's vertex `v`; None where it is not draped.
     pub fn motion(&self, v: u32) -> Option<(f64, DVec3)> {
         let v = own_number(&self.fixed.own, v)?;
         Some((self.fixed.mass[v], self.state.velocities[v]))
     }
 
-    /// The garment's vertices move so, m/s.
+    /// Sets the velocity of each vertex of the garment, m/s; pinned vertices keep theirs.
     pub fn set_velocities(&mut self, velocities: &[DVec3]) {
         for (v, velocity) in self.state.velocities.iter_mut().enumerate() {
             if !self.pinned[v] {
@@ -407,7 +409,7 @@ impl DrapedGarment {
         }
     }
 
-    /// What was at rest moves again, as far as it must.
+    /// Makes cloth at rest move again, and restarts the tick count.
     pub fn wake(&mut self) {
         if let Some(pulling) = self.pulling.take() {
             self.state = pulling.least;
@@ -416,14 +418,14 @@ impl DrapedGarment {
         self.progress = Progress { ticks: 0, at_rest: false, ..self.progress };
     }
 
-    /// A tick: [`TICK`] seconds, or fewer of cloth that is nearly still; then, while time stands still, what lies deep in itself is
-    /// pulled out. `cloth` is the garment's, and gets where it is then.
+    /// Runs a tick: [`TICK`] seconds, or less while time is slowed down. Deep self-intersections are then pulled out, while time
+    /// stands still. Writes the new positions into `cloth`, the cloth of the garment.
     pub fn tick(&mut self, cloth: &mut ClothState) -> Result<(), Undrapable> {
         while !self.go_on(cloth)? {}
         Ok(())
     }
 
-    /// Some of the work of a tick. True when that ends it.
+    /// Does part of the work of a tick. True when the tick is complete.
     pub fn go_on(&mut self, cloth: &mut ClothState) -> Result<bool, Undrapable> {
         if self.pulling.is_some() {
             self.pull(cloth);
@@ -440,7 +442,7 @@ impl DrapedGarment {
         Ok(self.pulling.is_none())
     }
 
-    /// Some small steps. True when they are the last of a tick.
+    /// Makes some small steps. True when they are the last of a tick.
     fn move_on(&mut self) -> Result<bool, Undrapable> {
         let fixed = Arc::clone(&self.fixed);
         let mut begun = self.begun.take().unwrap_or_else(|| {
@@ -479,7 +481,7 @@ impl DrapedGarment {
         Ok(false)
     }
 
-    /// At the end of a tick, now and then: is it clear of the body, and of itself?
+    /// Checks, after some ticks, for faces too near the body and for self-intersections.
     fn look_at(&mut self, cloth: &mut ClothState) {
         let (ticks, quiet) = (self.progress.ticks, self.quiet >= QUIET_TICKS);
         if quiet || ticks.is_multiple_of(LIFT_TICKS) {
@@ -491,7 +493,7 @@ impl DrapedGarment {
         }
     }
 
-    /// Whether it rests, at the end of a tick.
+    /// Decides at the end of a tick whether the cloth rests.
     fn conclude(&mut self) {
         let (ticks, quiet) = (self.progress.ticks, self.quiet >= QUIET_TICKS);
         let sound = self.lacking == 0 && (self.crossings == 0 || self.is_tangled());
@@ -504,7 +506,7 @@ impl DrapedGarment {
         }
     }
 
-    /// Makes time go slower where it should. False when it does not.
+    /// Lowers the time scale if it is time to. False where it did not change.
     fn slow_down(&mut self) -> bool {
         let begins = self.pace < 1.0 || self.progress.residual < DOWN || self.progress.ticks > DOWN_BY;
         if self.floats || self.pace == SLOWEST || !begins {
@@ -517,7 +519,7 @@ impl DrapedGarment {
         true
     }
 
-    /// What moved in the last `span` seconds.
+    /// Updates residual and speed from the last `span` seconds.
     fn measure(&mut self, before: &State, span: f64) {
         let mass = &self.fixed.mass;
         let (mut unbalanced, mut fastest) = (0.0, 0.0f64);
@@ -540,7 +542,7 @@ impl DrapedGarment {
         }
     }
 
-    /// Raises vertices of faces that come too near the body between them; `precise`: also where only an edge does.
+    /// Raises vertices of faces that come too near the body. `precise` also checks edges, once no face is too near.
     fn lift(&mut self, cloth: &ClothState, precise: bool) {
         let fixed = Arc::clone(&self.fixed);
         let (garment, surface) = (&*fixed.garment, &*fixed.collider.surface);
@@ -570,7 +572,7 @@ impl DrapedGarment {
         self.small.set_lift(&raised);
     }
 
-    /// Raises what an edge of the body passes through, or passes through it: samples of a face miss the sharpest edges.
+    /// Raises vertices of edges and faces that intersect the body: samples of a face miss the sharpest edges.
     fn lift_cuts(&mut self, cloth: &ClothState, raised: &mut [f64]) {
         let fixed = Arc::clone(&self.fixed);
         let (garment, surface) = (&*fixed.garment, &*fixed.collider.surface);
@@ -596,18 +598,18 @@ impl DrapedGarment {
     }
 }
 
-/// A tick under way.
+/// A tick that is partly done.
 #[derive(Clone, Debug)]
 struct Begun {
-    /// Seconds.
+    /// Simulated time of the tick, seconds.
     span: f64,
-    /// As it was before.
+    /// State before the tick.
     before: State,
     advance: Advance,
 }
 
-/// The rest length, metres, of an edge between own vertices, which are these of `garment`: where a seam is, or will be as in `sewn`, that
-/// of its shorter side.
+/// Rest length (metres) of an edge between simulated vertices, whose garment vertices are `vertices`. Along a seam, or a future
+/// seam of `sewn`, it is the length of the shorter side. None where the edge is not one of the garment.
 fn shortest_lengths(
     garment: &Garment,
     sewn: Option<(&Garment, &[u32], usize)>,
@@ -622,14 +624,14 @@ fn shortest_lengths(
     }
 }
 
-/// Small steps in a tick that keep the cloth at `positions`, with edges of `edge` metres, within `strain`.
+/// Small steps in a tick that keep cloth at `positions`, with edges of `edge` metres, within `strain`.
 fn steps_a_tick(positions: &[DVec3], edge: f64, strain: f64) -> usize {
     let (low, high) =
         positions.iter().fold((f64::MAX, f64::MIN), |(low, high), p| (p.y.min(low), p.y.max(high)));
     substeps(TICK, strain, GRAVITY.length(), (high - low).max(edge), edge)
 }
 
-/// Of each vertex a third of its triangles, kg.
+/// Mass of each vertex, kg: a third of that of its triangles.
 fn masses(sheet: &Sheet, fabrics: &[&Fabric]) -> Vec<f64> {
     let mut mass = vec![0.0; sheet.len()];
     for ((vs, area), fabric) in sheet.triangles.iter().zip(&sheet.areas).zip(fabrics) {
@@ -638,6 +640,7 @@ fn masses(sheet: &Sheet, fabrics: &[&Fabric]) -> Vec<f64> {
     mass
 }
 
+/// The simulated vertex of garment vertex `v`; None where it is not draped.
 fn own_number(own: &[u32], v: u32) -> Option<usize> {
     own.get(v as usize).filter(|&&o| o != u32::MAX).map(|&o| o as usize)
 }

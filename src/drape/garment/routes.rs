@@ -1,44 +1,45 @@
-//! Ways round the body for threads that would run through it.
+//! Routes of sewing springs round the body.
 //!
-//! Pieces are placed a few centimetres off: a strap that lies lower than the shoulder would be pulled to the chest, never over
-//! the shoulder, and the garment would be sewn together under the arms. A thread whose ends the body parts runs over a place
-//! beside it instead, all those of a seam on the same side, until the straight way is free. One that was free remembers on which
-//! side of a limb it was, and stays there when its ends slide past it.
+//! Pieces are placed a few centimetres off the body: a strap placed lower than the shoulder would be pulled to the chest, never
+//! over the shoulder, and the garment would be sewn together under the arms. So a spring whose straight line meets the body is
+//! led over a waypoint beside it, all springs of a seam on the same side, until the straight line is free. A spring that was free
+//! remembers on which side of a limb it was, and stays there when its ends slide past the limb.
 
 use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::body::Surface;
 
-/// Sides that are tried for a seam.
+/// Directions round the seam that are tried for the waypoints.
 const SIDES: u32 = 16;
-/// A step aside in the search for a place, metres,
+/// Step of the search for a waypoint, metres.
 const STEP: f64 = 0.01;
-/// and how many there are at most: what lies deeper in the body is no matter of how it was placed.
+/// Most steps of [`STEP`]: a line that is deeper in the body than this was not caught by the placement.
 const MOST_STEPS: u32 = 20;
-/// Skin bulges no more than this into a thread, as a share of what of the thread is in it: round a circle, 0.55 of its diameter. What
-/// lies deeper is a limb.
+/// Deepest point of a line inside the body, as a share of the length inside, up to which the body only bulges into it. Through
+/// the middle of a circle it is half the diameter. A deeper line runs through a limb.
 const BULGE: f64 = 0.15;
 
-/// How a thread runs between its ends.
+/// Route of a sewing spring between its ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Route {
-    /// The place that it runs over while the body is between its ends, metres.
+    /// Waypoint while the body is between the ends, metres; None: straight.
     pub over: Option<DVec3>,
-    /// Where its middle was when the body was last not between them, metres.
+    /// Midpoint of the ends when the body was last not between them, metres.
     free: Option<DVec3>,
-    /// The way back to the side it was on: its place goes along with its ends.
+    /// Unit direction towards the side on which the spring was; the waypoint then moves along with the ends.
     back: Option<DVec3>,
 }
 
 impl Route {
-    /// Over this place, or straight.
+    /// A route over the waypoint `over`, or straight.
     pub fn new(over: Option<DVec3>) -> Self {
         Self { over, free: None, back: None }
     }
 
-    /// The ends have come to these places, metres. The thread is drawn straight where it may be; where the body has come between
-    /// its ends, as they slid along a limb, it stays on the side of the body on which it was.
+    /// Updates the route for new positions of its ends, metres. It becomes straight where it can be tightened without passing
+    /// through the body. Where the body has come between the ends, as they slid along a limb, the spring stays on the side on
+    /// which it was.
     pub fn go_on(&mut self, surface: &Surface, ends: [DVec3; 2]) {
         let middle = middle(ends);
         if self.over.is_some_and(|over| may_be_drawn(surface, ends, over)) {
@@ -64,8 +65,8 @@ impl Route {
     }
 }
 
-/// For each of a seam's threads (ends in metres) the place over which it runs; None: straight, as it is free on the side on which
-/// the others of its seam go round the body, or nothing leads round.
+/// Waypoint for each spring of a seam (ends in metres). None: straight, because the line is free on the side on which the others
+/// of the seam go round the body, or because no route was found.
 pub fn over(surface: &Surface, threads: &[[DVec3; 2]]) -> Vec<Option<DVec3>> {
     let caught: Vec<bool> = threads.par_iter().map(|&ends| surface.meets_segment(ends)).collect();
     let of_caught: Vec<[DVec3; 2]> =
@@ -91,7 +92,8 @@ pub fn over(surface: &Surface, threads: &[[DVec3; 2]]) -> Vec<Option<DVec3>> {
     threads.par_iter().zip(&caught).map(place).collect()
 }
 
-/// Whether a thread between `ends`, the middle of which was at `free`, is on the other side of a limb since, or runs through one.
+/// Whether a spring between `ends`, whose midpoint was at `free`, has since moved to the other side of a limb or runs through
+/// one.
 fn has_passed(surface: &Surface, ends: [DVec3; 2], free: DVec3) -> bool {
     let middle = middle(ends);
     match surface.meets_segment(ends) {
@@ -100,8 +102,8 @@ fn has_passed(surface: &Surface, ends: [DVec3; 2], free: DVec3) -> bool {
     }
 }
 
-/// Whether what of the line from `a` to `b` is in the body lies deep there. A trunk only bulges into it, and gives way as its ends
-/// come together.
+/// Whether the part of the line from `a` to `b` inside the body is deep. A trunk only bulges into the line, which comes free as
+/// its ends approach.
 fn runs_through_a_limb(surface: &Surface, [a, b]: [DVec3; 2]) -> bool {
     let way = (b - a).normalize_or_zero();
     let hits = [surface.ray(a, way), surface.ray(b, -way)];
@@ -111,7 +113,8 @@ fn runs_through_a_limb(surface: &Surface, [a, b]: [DVec3; 2]) -> bool {
     inside > 0.0 && -surface.nearest(middle).distance > BULGE * inside
 }
 
-/// How many steps towards `way` the middle of a thread has to go to be on that side of the body: none where it is there already.
+/// Steps towards `way` by which the midpoint of a spring must move to be on that side of the body; 0 where it is there already,
+/// None where [`MOST_STEPS`] are not enough.
 fn steps_to(surface: &Surface, ends: [DVec3; 2], caught: bool, way: DVec3) -> Option<u32> {
     if caught {
         return steps_round(surface, ends, way);
@@ -124,7 +127,8 @@ fn steps_to(surface: &Surface, ends: [DVec3; 2], caught: bool, way: DVec3) -> Op
     (meets..=MOST_STEPS).find(|&steps| is_free(steps)).map(|steps| steps + 1)
 }
 
-/// How many steps towards `way` the middle of a thread has to go until the body is free of it; then one more.
+/// Steps towards `way` by which the midpoint of a spring must move until the line over it is free of the body, plus one; None
+/// where [`MOST_STEPS`] are not enough.
 fn steps_round(surface: &Surface, ends: [DVec3; 2], way: DVec3) -> Option<u32> {
     let is_free = |&steps: &u32| is_free_over(surface, ends, aside(ends, way, steps));
     (1..=MOST_STEPS).find(is_free).map(|steps| steps + 1)
@@ -134,7 +138,7 @@ fn middle([a, b]: [DVec3; 2]) -> DVec3 {
     (a + b) / 2.0
 }
 
-/// Where the middle of a thread is after `steps` steps towards `way`.
+/// The midpoint of a spring, moved `steps` steps towards `way`.
 fn aside(ends: [DVec3; 2], way: DVec3, steps: u32) -> DVec3 {
     middle(ends) + way * (STEP * f64::from(steps))
 }
@@ -143,8 +147,8 @@ fn is_free_over(surface: &Surface, [a, b]: [DVec3; 2], over: DVec3) -> bool {
     !surface.meets_segment([a, over]) && !surface.meets_segment([over, b])
 }
 
-/// Whether a thread between `ends` that runs over `place` may be drawn straight without coming through the body. That the straight
-/// way is free is not enough: pieces that slid along an arm, to where both lie below it, would leave it for good.
+/// Whether a spring between `ends` that runs over `place` can be tightened to a straight line without passing through the body. A
+/// free straight line is not enough: pieces that slid along an arm until both are below it would leave it for good.
 fn may_be_drawn(surface: &Surface, ends: [DVec3; 2], place: DVec3) -> bool {
     let middle = middle(ends);
     let ways = (place.distance(middle) / STEP).ceil().max(1.0) as u32;

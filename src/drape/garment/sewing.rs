@@ -1,8 +1,8 @@
-//! Sewing placed pieces together: seams shrink until they are shut, then what they join becomes one.
+//! Sewing placed pieces together: sewing springs shrink until the seams are shut, then the joined vertices are merged.
 //!
-//! A seam is a thread of shrinking length between the two sides (zero-length constraints in the end), not a force: paper B's
-//! adaptive force is constant near the end and chatters there, and its printed signs and units do not agree (ALGORITHMS.md 1.B).
-//! What is kept of the paper: gravity and friction act only once all is sewn, sides are merged with mass and momentum kept.
+//! A seam is a set of distance constraints of shrinking length (zero in the end), not a force: paper B's adaptive force is
+//! constant near the end and chatters there, and its printed signs and units do not agree (ALGORITHMS.md 1.B). Kept from the
+//! paper: gravity and friction act only once all is sewn, and vertices are merged with mass and momentum conserved.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -19,68 +19,70 @@ use crate::drape::solver::small_steps::SewingSpring;
 use crate::geometry::adjacency::Adjacency;
 use crate::geometry::ids::PieceId;
 
-/// How fast a seam shrinks, m/s, and the fewest and the most ticks that takes.
+/// Speed at which a seam shrinks, m/s, and the fewest and most ticks that takes.
 const SHRINK: (f64, [u32; 2]) = (0.4, [45, 120]);
-/// What is sewn then slides free of weight and friction to where it is least tight: until no vertex is faster, m/s,
+/// Speed (m/s) below which sewn cloth counts as slow. After the seams are shut it slides without weight and friction until it is
+/// under the least tension.
 const SLOW: f64 = 0.02;
-/// for this many ticks,
+/// Consecutive slow ticks, see [`SLOW`], after which sewing is done.
 const STILL: u32 = 20;
-/// and for this many at most.
+/// Most ticks that cloth may slide after the seams are shut.
 const PATIENCE: u32 = 240;
-/// Small steps in each tick: nothing hangs yet.
+/// Small steps in a tick of sewing; few suffice, since nothing hangs yet.
 const SUBSTEPS: usize = 24;
 
-/// A garment that is being sewn.
+/// A garment being sewn.
 #[derive(Clone, Debug)]
 pub struct Sewing {
     worn: DrapedGarment,
     sewn: Arc<Garment>,
     open: Arc<Garment>,
-    /// For each vertex of `open` that of `sewn`.
+    /// For each vertex of `open` the vertex of `sewn` that it becomes.
     becomes: Arc<Vec<u32>>,
     threads: Vec<Thread>,
-    /// The body, with what is worn on it already.
+    /// The body, and the cloth worn on it already, as a surface.
     surface: Arc<Surface>,
     closing: u32,
     ticks: u32,
-    /// A tick is under way.
+    /// Whether a tick is partly done.
     is_begun: bool,
-    /// Since nothing in it is fast.
+    /// Ticks since no vertex is fast.
     still: u32,
     widest: f64,
 }
 
-/// What pulls two vertices of the open garment together.
+/// A sewing spring between two vertices of the open garment.
 #[derive(Clone, Copy, Debug)]
 struct Thread {
     ends: [u32; 2],
-    /// How long it was, metres.
+    /// Length at the start, metres.
     length: f64,
     route: Route,
 }
 
-/// What came of it.
+/// Result of sewing.
 #[derive(Clone, Debug)]
 pub struct Sewn {
-    /// The sewn garment's.
+    /// Cloth of the sewn garment.
     pub cloth: ClothState,
-    /// Of its vertices, m/s.
+    /// Velocity of each vertex of the sewn garment, m/s.
     pub velocities: Vec<DVec3>,
 }
 
-/// What is sewn in one go.
+/// What is sewn in one stage.
 #[derive(Clone, Copy)]
 pub struct Stage<'a> {
-    /// The flat corners of the garment lie there, metres; None: not placed.
+    /// Position of each flat corner of the garment, metres; None: not placed.
     pub places: &'a [Option<DVec3>],
     /// Pieces that are sewn now.
     pub now: &'a dyn Fn(PieceId) -> bool,
-    /// The garment's cloth: what of it is laid already was sewn before; it gives way to what is sewn over it.
+    /// Cloth of the garment. Its draped part was sewn before, and yields to the pieces sewn over it.
     pub worn: &'a ClothState,
 }
 
 impl Sewing {
-    /// Of `garment`, as `stage` says. The rest as for [`DrapedGarment::new`].
+    /// Prepares the sewing of `garment` as `stage` says; the other arguments are those of [`DrapedGarment::new`]. Also returns
+    /// the cloth of the open garment.
     pub fn new(
         garment: Arc<Garment>,
         stage: Stage<'_>,
@@ -146,27 +148,27 @@ impl Sewing {
         Ok((sewing, cloth))
     }
 
-    /// The garment with the seams of what is sewn now open: a vertex for each flat corner there.
+    /// The open garment: in the pieces sewn now it has a vertex for each flat corner.
     pub fn garment(&self) -> &Arc<Garment> {
         &self.open
     }
 
-    /// The widest gap of all seams, metres.
+    /// Largest gap of all seams, metres.
     pub fn widest(&self) -> f64 {
         self.widest
     }
 
-    /// 0..=1.
+    /// Progress, 0..=1.
     pub fn progress(&self) -> f64 {
         (f64::from(self.ticks) / f64::from(self.closing + PATIENCE)).min(1.0)
     }
 
-    /// What contact took since it was last asked.
+    /// Work counters of collision since they were last taken; resets them.
     pub fn take_separation(&mut self) -> separation::Counters {
         self.worn.take_separation()
     }
 
-    /// Some of the work of a tick. True when the seams are shut, or have had their time.
+    /// Does part of the work of a tick. True when the cloth is slow, or the time is up.
     pub fn go_on(&mut self, cloth: &mut ClothState) -> Result<bool, Undrapable> {
         if !self.is_begun {
             self.tie(cloth);
@@ -182,7 +184,7 @@ impl Sewing {
         Ok(self.still >= STILL || self.ticks >= self.closing + PATIENCE)
     }
 
-    /// Shortens the threads for another tick.
+    /// Shortens the sewing springs for the next tick.
     fn tie(&mut self, cloth: &ClothState) {
         self.ticks += 1;
         let left = 1.0 - (f64::from(self.ticks) / f64::from(self.closing)).min(1.0);
@@ -200,7 +202,7 @@ impl Sewing {
         self.worn.tie(&ties);
     }
 
-    /// Makes one of what is sewn, with the mass and momentum of its parts.
+    /// Cloth and velocities of the sewn garment: merged vertices conserve mass and momentum.
     pub fn merged(&self, cloth: &ClothState) -> Sewn {
         let count = self.sewn.vertex_count;
         let mut sums = vec![(0.0, DVec3::ZERO, DVec3::ZERO); count];
@@ -223,7 +225,7 @@ impl Sewing {
     }
 }
 
-/// The body with those triangles of `cloth` all of whose vertices are among `inner`, as it lies.
+/// The surface of the body together with the triangles of `cloth` whose vertices are all among `inner`.
 fn with_cloth(body: Arc<Surface>, garment: &Garment, cloth: &ClothState, inner: &[u32]) -> Arc<Surface> {
     let mut is_inner = vec![false; garment.vertex_count];
     inner.iter().for_each(|&v| is_inner[v as usize] = true);
@@ -241,7 +243,7 @@ fn with_cloth(body: Arc<Surface>, garment: &Garment, cloth: &ClothState, inner: 
     Surface::new(mesh).map_or(body, Arc::new)
 }
 
-/// The threads of a seam that has these `pairs` of flat corners.
+/// Sewing springs of a seam with these `pairs` of flat corners.
 fn threads(garment: &Garment, cloth: &ClothState, pairs: &[[u32; 2]], surface: &Surface) -> Vec<Thread> {
     let ends: Vec<[u32; 2]> = pairs
         .iter()
@@ -257,8 +259,8 @@ fn threads(garment: &Garment, cloth: &ClothState, pairs: &[[u32; 2]], surface: &
     ends.iter().zip(places).zip(over).map(thread).collect()
 }
 
-/// The same pieces, those that are sewn `now` not yet: they have a vertex for each flat corner. For each vertex that of
-/// `garment` which it becomes.
+/// The garment with the pieces that are sewn `now` open: a vertex for each of their flat corners. Also, for each of its vertices,
+/// the vertex of `garment` that it becomes.
 fn unsewn(garment: &Garment, now: &dyn Fn(PieceId) -> bool) -> (Garment, Vec<u32>) {
     let mut corners = garment.corners.clone();
     let mut shared: Vec<Option<u32>> = vec![None; garment.vertex_count];

@@ -1,4 +1,4 @@
-//! Where draped cloth runs through itself: it is parted and pulled out.
+//! Self-intersections of draped cloth: small ones are separated, deep ones pulled out.
 
 use std::sync::Arc;
 
@@ -9,37 +9,37 @@ use crate::contact::Intersections;
 use crate::drape::garment::{DrapedGarment, own_number};
 use crate::drape::state::State;
 
-/// Partings in a row without fewer crossings after which these stay, and the report tells them.
+/// Separation steps in a row without fewer intersections, after which the intersections stay and the report tells them.
 const MOST_PARTINGS: u32 = 40;
-/// How far crossing cloth is sent apart each time, metres.
+/// Displacement of intersecting cloth in each separation step, metres.
 const PARTING: f64 = 0.0005;
-/// Times in one go that what lies deep is sent out by as much.
+/// Steps of one attempt to pull out deep intersections.
 const MOST_PULLS: usize = 80;
-/// Goes in vain, in a row, after which it is left where it is.
+/// Failed attempts in a row after which deep intersections are left.
 const MOST_IN_VAIN: u32 = 3;
-/// Triangles looked at for crossings in one tick while what lies deep is sent out; it is sent once at least.
+/// Triangles tested for intersections in one part of the work while deep ones are pulled out; at least one step is made.
 const TRIANGLES_A_TICK: usize = 60_000;
 
-/// What lies deep on the wrong side of other cloth, on its way out.
+/// An attempt to pull out cloth that is deep on the wrong side of other cloth.
 #[derive(Clone, Debug)]
 pub(in crate::drape) struct Pulling {
-    /// Where each vertex of the garment is sent.
+    /// Displacement direction of each vertex of the garment, at most a unit long.
     ways: Vec<DVec3>,
-    /// Where vertices are sent where the cloth ran through itself in the fewest places so far, and how many these are.
+    /// Separating displacements at the state with the fewest intersections so far, and that number.
     best: (Vec<DVec3>, usize),
-    /// The cloth as it lay then.
+    /// The state with the fewest intersections so far.
     pub(in crate::drape) least: State,
-    /// Times it may still be sent.
+    /// Steps left.
     left: usize,
 }
 
 impl DrapedGarment {
-    /// Whether it is left as it is.
+    /// Whether separation has been given up.
     pub(in crate::drape) fn is_tangled(&self) -> bool {
         self.parting.1 >= MOST_PARTINGS
     }
 
-    /// Sends layers that run through each other apart.
+    /// Separates layers that intersect each other, or begins to pull out deep intersections.
     pub(in crate::drape) fn part(&mut self, cloth: &mut ClothState) {
         if !self.settings.self_collision {
             return;
@@ -59,7 +59,7 @@ impl DrapedGarment {
         self.go_on_parting(best);
     }
 
-    /// Sends vertices those ways, now that it is known in how many places the cloth runs through itself.
+    /// Makes a separation step with the displacements `ways`, and counts the `places` of self-intersection.
     fn go_on_parting(&mut self, (ways, places): (Vec<DVec3>, usize)) {
         let fixed = Arc::clone(&self.fixed);
         let was = self.crossings;
@@ -76,13 +76,13 @@ impl DrapedGarment {
         self.small.send(&mut self.state.positions, &fixed.collider, &ways);
     }
 
-    /// Of its own vertices what `of` gives of the garment's; nothing of those that stay.
+    /// Maps `of` from garment vertices to simulated vertices; zero for pinned ones.
     fn of_own(&self, of: impl Fn(usize) -> DVec3) -> Vec<DVec3> {
         let places = self.fixed.vertices.iter().zip(&self.pinned);
         places.map(|(&v, pinned)| if *pinned { DVec3::ZERO } else { of(v as usize) }).collect()
     }
 
-    /// Where the cloth runs through itself. The sides of an open seam may: they are to be one.
+    /// Self-intersections. Those between the sides of an open seam are left out: the sides will be merged.
     fn met(&self, cloth: &ClothState) -> Intersections {
         let garment = &*self.fixed.garment;
         let mut met = Intersections::new(garment, cloth);
@@ -97,8 +97,8 @@ impl DrapedGarment {
         met
     }
 
-    /// Takes what lies deep on the wrong side of other cloth out in one go, which may be over several ticks, while time stands
-    /// still: let go half way it would go back. Where that leads nowhere all stays as it is.
+    /// Pulls cloth that is deep on the wrong side of other cloth out without letting time pass, if need be in several calls:
+    /// released half way it would slide back. If that fails, the state with the fewest intersections is kept.
     pub(in crate::drape) fn pull(&mut self, cloth: &mut ClothState) {
         let Some(mut pulling) = self.pulling.take() else { return };
         let fixed = Arc::clone(&self.fixed);
@@ -125,7 +125,7 @@ impl DrapedGarment {
         self.pulling = Some(pulling);
     }
 
-    /// Sends vertices those `ways`, but not into the body; they stand still there.
+    /// Moves vertices along `ways`, but not into the body, and stops them.
     fn send_out(&mut self, ways: &[DVec3]) {
         let mut own = self.of_own(|v| ways[v] * PARTING);
         for (v, way) in own.iter_mut().enumerate().filter(|(_, way)| **way != DVec3::ZERO) {

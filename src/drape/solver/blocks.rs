@@ -1,4 +1,4 @@
-//! A symmetric matrix of 3 × 3 blocks, one row of them per vertex, and its Cholesky factor.
+//! Sparse symmetric matrix of 3 × 3 blocks, one block row per vertex, and its Cholesky factor.
 
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
 use glam::{DMat3, DVec3};
@@ -7,23 +7,23 @@ use crate::drape::solver::ordering::nested_dissection;
 use crate::geometry::adjacency::Lists;
 use crate::geometry::factor::{Factor, Symbolic};
 
-/// The lower triangle, column by column.
+/// The lower triangle of the matrix, stored by columns.
 #[derive(Debug)]
 pub struct BlockMatrix {
-    /// For each vertex the later vertices it has a block with, ascending.
+    /// For each vertex the later vertices with which it shares a block, ascending.
     below: Lists,
-    /// Where the values of each block column begin.
+    /// Index in `values` at which each block column begins.
     starts: Vec<usize>,
     pattern: SymbolicSparseColMat<usize>,
     symbolic: Symbolic,
     values: Vec<f64>,
 }
 
-/// Where a block stands; `flipped` when it is stored transposed.
+/// Storage position of a block; a flipped one is stored transposed.
 #[derive(Clone, Copy, Debug)]
 pub struct Slot {
     at: usize,
-    /// Blocks below the diagonal in its column.
+    /// Number of blocks below the diagonal in its column.
     below: usize,
     kind: Kind,
 }
@@ -36,7 +36,8 @@ enum Kind {
 }
 
 impl BlockMatrix {
-    /// With a block for each vertex and for each of `pairs` (any order, repeats allowed). None when it does not fit in memory.
+    /// A matrix with a block for each vertex and for each of `pairs` (any order, repeats allowed). None when it does not fit in
+    /// memory.
     pub fn new(vertices: usize, pairs: impl Iterator<Item = [u32; 2]>) -> Option<Self> {
         let mut both: Vec<(u32, u32)> =
             pairs.filter(|[a, b]| a != b).flat_map(|[a, b]| [(a, b), (b, a)]).collect();
@@ -63,12 +64,12 @@ impl BlockMatrix {
         Some(Self { below, starts, pattern, symbolic, values })
     }
 
-    /// Numbers in its factor.
+    /// Number of nonzeros in the Cholesky factor.
     pub fn fill(&self) -> usize {
         self.symbolic.fill()
     }
 
-    /// Where the block of rows of `i` and columns of `j` stands. None where there is none.
+    /// Position of the block in the rows of `i` and the columns of `j`; None where the matrix has none.
     pub fn slot(&self, i: u32, j: u32) -> Option<Slot> {
         let (low, high) = (i.min(j), i.max(j));
         let below = self.below.of(low);
@@ -81,17 +82,17 @@ impl BlockMatrix {
         Some(Slot { at: start + 3 + 3 * at, below: below.len(), kind })
     }
 
-    /// The largest value.
+    /// Largest absolute value.
     pub fn largest(&self) -> f64 {
         self.values.iter().fold(0.0, |most: f64, v| most.max(v.abs()))
     }
 
-    /// All values zero.
+    /// Sets all values to zero.
     pub fn clear(&mut self) {
         self.values.fill(0.0);
     }
 
-    /// Adds a block.
+    /// Adds `block` at `slot`.
     pub fn add(&mut self, slot: Slot, block: &DMat3) {
         let step = 3 * slot.below;
         match slot.kind {
@@ -119,7 +120,7 @@ impl BlockMatrix {
         }
     }
 
-    /// Makes the rows and columns of the vertices `held` those of the unit matrix.
+    /// Replaces the rows and columns of the vertices `held` by those of the identity.
     pub fn hold(&mut self, held: &[bool]) {
         for j in 0..held.len() {
             let below = self.below.of(j as u32);
@@ -140,13 +141,13 @@ impl BlockMatrix {
         }
     }
 
-    /// Factors it; `memory` is written over. None when it is not positive definite.
+    /// Computes the Cholesky factor, reusing `memory`. None when the matrix is not positive definite.
     pub(in crate::drape) fn factor(&self, memory: Option<Factor>) -> Option<Factor> {
         self.symbolic.factor(SparseColMatRef::new(self.pattern.as_ref(), &self.values), memory)
     }
 }
 
-/// Solves for one vector per vertex.
+/// Solves for one vector per vertex, in place. False when the result is not finite.
 pub(in crate::drape) fn solve(factor: &Factor, side: &mut [DVec3], scratch: &mut Vec<f64>) -> bool {
     scratch.clear();
     scratch.extend(side.iter().flat_map(|s| s.to_array()));

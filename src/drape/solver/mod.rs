@@ -1,4 +1,4 @@
-//! From one state to the next: implicit steps, many small explicit ones, straight to rest; sparse matrices of 3 × 3 blocks.
+//! Time steppers: implicit steps, many small explicit ones, and a direct solve for equilibrium; sparse matrices of 3 × 3 blocks.
 
 mod blocks;
 pub mod net;

@@ -1,16 +1,15 @@
-//! The springs of small steps, cut into parts that are worked on side by side: stretches of neighbouring vertices with the
-//! edges within each, and then the edges between them. How it is cut depends on the cloth alone, so that the result has the same
-//! bits on any number of threads.
+//! The springs of small steps, partitioned for parallel work: ranges of neighbouring vertices with the edges inside each, then
+//! the edges between ranges. The partition depends on the cloth alone, so results have the same bits on any number of threads.
 
 use std::ops::Range;
 
 use glam::DVec3;
 
-/// Vertices that are worth a part of their own,
+/// Vertices per part at least, as a smaller part is not worth it.
 const PART: usize = 1250;
-/// and parts at most.
+/// Most parts.
 const MOST_PARTS: usize = 8;
-/// With a larger share of the edges between parts than this, they are not worth it.
+/// Largest share of edges between parts with which a partition is used; otherwise the net stays in one part.
 const MOST_BETWEEN: f64 = 0.35;
 
 /// A spring between two vertices.
@@ -18,25 +17,25 @@ const MOST_BETWEEN: f64 = 0.35;
 pub struct Spring {
     /// The vertices.
     pub ends: [u32; 2],
-    /// At rest, metres.
+    /// Rest length, metres.
     pub length: f64,
-    /// N/m.
+    /// Stiffness, N/m.
     pub stiffness: f64,
 }
 
-/// Springs, rigid beyond a strain.
+/// Net of springs that become rigid beyond a strain.
 #[derive(Clone, Debug)]
 pub struct Net {
-    /// Part after part, then those between; each in groups without common vertices, so that the work on one edge does not wait
-    /// for that on the one before.
+    /// Edges of each part, then those between parts; each ordered in groups without common vertices, so that work on an edge need
+    /// not wait for the one before it.
     edges: Vec<Edge>,
-    /// Of the edges, N/m.
+    /// Stiffness of each edge, N/m.
     stiffness: Vec<f64>,
-    /// Strain beyond which edges are rigid.
+    /// Strain, either way, beyond which edges are rigid.
     limit: f64,
-    /// Of each part.
+    /// The parts, in order.
     parts: Vec<Part>,
-    /// For which step the edges are made ready, s.
+    /// Step size that the edges' `shares` and `stiffen` were computed for, s; 0 for none.
     ready_for: f64,
 }
 
@@ -46,20 +45,20 @@ struct Part {
     edges: Range<usize>,
 }
 
-/// As little as a pass needs: it is bound by how fast edges come from memory.
+/// Only what a pass needs: its speed is bound by reading edges from memory.
 #[derive(Clone, Copy, Debug)]
 struct Edge {
     ends: [u32; 2],
-    /// Rest length squared, m².
+    /// Square of the rest length, m².
     squared: f64,
-    /// Shares of the correction that each end takes.
+    /// Share of the length correction that each end takes (compliant, as in XPBD).
     shares: [f64; 2],
-    /// How many times as much they take beyond the limit.
+    /// Factor on the correction beyond the strain limit, which makes it rigid.
     stiffen: f64,
 }
 
 impl Net {
-    /// Of `springs` between `vertices` vertices, rigid beyond a strain of `limit`.
+    /// A net of `springs` over `vertices` vertices, rigid beyond a strain of `limit`.
     pub fn new(vertices: usize, springs: &[Spring], limit: f64) -> Self {
         let wanted = (vertices / PART).clamp(1, MOST_PARTS);
         let (parts, springs) = [wanted, 1]
@@ -81,17 +80,17 @@ impl Net {
         }
     }
 
-    /// The vertices of each part, in order.
+    /// Vertex range of each part, in order.
     pub fn parts(&self) -> impl ExactSizeIterator<Item = Range<usize>> {
         self.parts.iter().map(|part| part.vertices.clone())
     }
 
-    /// The masses have changed.
+    /// Discards what was computed from the masses, which have changed.
     pub fn forget(&mut self) {
         self.ready_for = 0.0;
     }
 
-    /// Makes ready for steps of `h` seconds; `inverse_mass` per vertex, 1/kg.
+    /// Prepares the edges for steps of `h` seconds; `inverse_mass` per vertex, 1/kg.
     pub fn ready(&mut self, h: f64, inverse_mass: &[f64]) {
         if self.ready_for == h {
             return;
@@ -105,21 +104,21 @@ impl Net {
         }
     }
 
-    /// Pulls every edge within part `p` towards its length; `x` are that part's vertices, metres.
+    /// Projects every edge within part `p` towards its rest length; `x` are the positions of that part's vertices, metres.
     pub fn project_part(&self, p: usize, x: &mut [DVec3]) {
         let part = &self.parts[p];
         project(&self.edges[part.edges.clone()], self.limit, x, part.vertices.start);
     }
 
-    /// Pulls every edge between parts; `x` are all vertices.
+    /// Projects every edge between parts; `x` are the positions of all vertices, metres.
     pub fn project_between(&self, x: &mut [DVec3]) {
         let within = self.parts.last().map_or(0, |part| part.edges.end);
         project(&self.edges[within..], self.limit, x, 0);
     }
 }
 
-/// Pulls every edge towards its length; `x` begins with vertex `first`. With d² for l² the correction (d² - l²)/(d² + l²) is that
-/// of length to second order in the strain, without a root.
+/// Projects every edge towards its rest length; `x` begins with vertex `first`. With squared lengths d² and l² the strain (d² -
+/// l²)/(d² + l²) agrees with (d - l)/l to first order, and takes no square root.
 fn project(edges: &[Edge], limit: f64, x: &mut [DVec3], first: usize) {
     for edge in edges {
         let [a, b] = edge.ends.map(|v| v as usize - first);
@@ -133,7 +132,7 @@ fn project(edges: &[Edge], limit: f64, x: &mut [DVec3], first: usize) {
     }
 }
 
-/// `count` stretches of about as many vertices, and the springs in the order of [`Net::edges`].
+/// Partition into `count` ranges of about equally many vertices, and the springs in the order of [`Net::edges`].
 fn cut(vertices: usize, springs: &[Spring], count: usize) -> (Vec<Part>, Vec<Spring>) {
     let bound = |p: usize| vertices * p / count;
     let part_of = |v: u32| (0..count).find(|&p| (v as usize) < bound(p + 1)).unwrap_or(count);
@@ -154,7 +153,7 @@ fn cut(vertices: usize, springs: &[Spring], count: usize) -> (Vec<Part>, Vec<Spr
     (parts, ordered)
 }
 
-/// The edges group by group, no vertex twice in a group; within one as they were.
+/// The edges sorted into groups in which no vertex occurs twice; stable within a group.
 fn in_groups(vertices: usize, edges: &[Spring]) -> Vec<Spring> {
     let mut taken = vec![0u64; vertices];
     let mut groups: Vec<(u32, usize)> = Vec::with_capacity(edges.len());

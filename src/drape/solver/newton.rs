@@ -1,7 +1,7 @@
-//! The least energy of cloth under loads, by Newton's method with a sparse Cholesky factor.
+//! Minimisation of the energy of cloth under loads, by Newton's method with a sparse Cholesky factor.
 //!
-//! One struct owns the matrix, its factor and the right-hand side, and makes all of them anew from the same positions and the same
-//! contacts, so that none can be older than the others.
+//! One struct owns the matrix, its factor and the right-hand side, and rebuilds them together from the same positions and
+//! contacts, so that none can be out of date.
 
 use glam::{DMat3, DVec3};
 
@@ -12,81 +12,82 @@ use crate::drape::sheet::Sheet;
 use crate::drape::solver::blocks::{BlockMatrix, Slot, solve};
 use crate::geometry::factor::Factor;
 
-/// Halvings before a direction is given up.
+/// Halvings of the step in a line search before the direction is given up.
 const MOST_HALVINGS: usize = 12;
-/// An energy difference below this share is rounding.
+/// Relative energy difference that counts as rounding error.
 const ROUNDING: f64 = 1e-13;
 
-/// What acts on the cloth besides its own shape, as quadratic energies: w/2 |x - y|² - f·x at each vertex.
+/// Inertia and external loads as a quadratic energy of each vertex: w/2 |x - y|² - f·x.
 #[derive(Clone, Debug, Default)]
 pub struct Loads {
-    /// w, N/m.
+    /// Inertial stiffness w of each vertex, N/m.
     pub inertia: Vec<f64>,
-    /// y, metres.
+    /// Inertial target y of each vertex, metres.
     pub target: Vec<DVec3>,
-    /// f, N.
+    /// External force f on each vertex, N.
     pub force: Vec<DVec3>,
 }
 
-/// When to stop, and how.
+/// Stopping criteria, and the kind of Hessian.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NewtonSettings {
-    /// Largest force that may be left on a vertex, N.
+    /// Converged when no vertex has a larger residual force, N.
     pub residual: f64,
-    /// Largest move that may still be wanted, metres.
+    /// Converged when the largest Newton update is at most this, metres.
     pub motion: f64,
     /// Most iterations.
     pub most_iterations: usize,
-    /// Use the whole Hessian where it is positive definite: faster near a rest, and only then a proof of stability.
+    /// Whether to use the exact Hessian where it is positive definite. It converges faster near an equilibrium, and only it
+    /// proves that the equilibrium is stable.
     pub exact: bool,
 }
 
-/// What came of it.
+/// Result of a minimisation.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Solved {
-    /// Newton's iterations.
+    /// Newton iterations.
     pub iterations: usize,
-    /// Largest force left, N.
+    /// Largest residual force, N.
     pub residual: f64,
-    /// Within the settings.
+    /// Whether a stopping criterion was met.
     pub converged: bool,
-    /// The last factor was of the whole Hessian, which was positive definite.
+    /// Whether the last factor was of the exact Hessian, which therefore was positive definite.
     pub stable: bool,
-    /// The first vertex on which the force is no number.
+    /// The first vertex whose force is not finite.
     pub lost: Option<usize>,
 }
 
-/// Work done since the start.
+/// Work counters since the start.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
 pub struct Work {
-    /// Steps of time.
+    /// Time steps.
     pub steps: u64,
-    /// Newton's iterations.
+    /// Newton iterations.
     pub iterations: u64,
-    /// Factorisations.
+    /// Matrix factorisations.
     pub factors: u64,
-    /// Energies and gradients evaluated.
+    /// Evaluations of energy and gradient.
     pub evaluations: u64,
-    /// Nearest points of the body looked up.
+    /// Nearest-point queries of the body.
     pub queries: u64,
-    /// Vertices known to be far without one.
+    /// Queries saved because the vertex was known to be far from the body.
     pub skipped_queries: u64,
-    /// Pairs of cloth and cloth looked at.
+    /// Self-collision pairs tested.
     pub self_pairs: u64,
-    /// Pairs known not to touch in a small step.
+    /// Self-collision pairs whose test was saved in small steps.
     pub skipped_self_pairs: u64,
 }
 
-/// The solver with all its memory.
+/// Newton solver with its memory.
 #[derive(Debug)]
 pub struct Newton {
     matrix: BlockMatrix,
     diagonal: Vec<Slot>,
-    /// Blocks of each triangle: corners (0,0) (1,0) (1,1) (2,0) (2,1) (2,2).
+    /// Matrix blocks of each triangle: corners (0,0) (1,0) (1,1) (2,0) (2,1) (2,2).
     corners: Vec<[Slot; 6]>,
     bends: Vec<(Slot, f64)>,
     factor: Option<Factor>,
-    /// The factor is of the whole Hessian.
+    /// Whether `factor` is of the exact Hessian.
     whole: bool,
     limits: Vec<f64>,
     scratch: Vec<f64>,
@@ -94,26 +95,26 @@ pub struct Newton {
     pub work: Work,
 }
 
-/// What to minimise: everything that is fixed while it is done.
+/// Minimisation problem: everything that stays fixed meanwhile.
 pub struct Task<'a> {
     /// The cloth.
     pub sheet: &'a Sheet,
     /// Its elasticity.
     pub elastic: &'a Elastic,
-    /// Vertices that stay.
+    /// Vertices that are held.
     pub pinned: &'a [bool],
-    /// What acts.
+    /// Inertia and external loads.
     pub loads: &'a Loads,
-    /// Where the cloth was when the step began.
+    /// Positions at the start of the step, metres.
     pub start: &'a [DVec3],
-    /// A body.
+    /// The body, if any.
     pub collider: Option<&'a Collider>,
-    /// Stiffness of contact at each vertex, N/m.
+    /// Contact stiffness of each vertex, N/m.
     pub stiffness: &'a [f64],
 }
 
 impl Newton {
-    /// For sheets of this shape. None when the matrix does not fit in memory.
+    /// A solver for `sheet` with this elasticity. None when the matrix does not fit in memory.
     pub fn new(sheet: &Sheet, elastic: &Elastic) -> Option<Self> {
         let edges = sheet.adjacency.edges.iter().copied();
         let bent = (0..sheet.len()).flat_map(|i| elastic.bending.row(i).map(move |(j, _)| [i as u32, j]));
@@ -143,12 +144,12 @@ impl Newton {
         })
     }
 
-    /// Numbers in the factor.
+    /// Number of nonzeros in the Cholesky factor.
     pub fn fill(&self) -> usize {
         self.matrix.fill()
     }
 
-    /// Moves `x` to where the energy is least.
+    /// Moves `x` to a minimum of the energy.
     pub fn minimise(
         &mut self,
         task: &Task,
@@ -181,7 +182,7 @@ impl Newton {
             let last = wanted <= settings.motion;
             let moved = (slope < 0.0)
                 && self.search(task, contacts, itself, x, &direction, &mut gradient, &mut energy, slope);
-            // What sticks and what slides can change by a small step: where things touch it takes two to tell.
+            // Whether a vertex sticks or slides can change by a small step: with contacts two small updates in a row are needed.
             if moved && last && (small_before || contacts.touches().is_empty()) {
                 solved.residual = largest(&gradient);
                 solved.converged = true;
@@ -189,7 +190,7 @@ impl Newton {
             }
             small_before = last;
             if !moved {
-                // The whole Hessian may have led astray; what is left of it after projection cannot.
+                // The exact Hessian may have led astray; its positive semidefinite part cannot.
                 if refused || !settings.exact {
                     solved.converged = last;
                     break;
@@ -204,7 +205,7 @@ impl Newton {
         solved
     }
 
-    /// The energy at `x` and its gradient, zero at what is pinned.
+    /// Energy (J) at `x` and its gradient (N), zero at pinned vertices.
     fn evaluate(
         &mut self,
         task: &Task,
@@ -235,7 +236,7 @@ impl Newton {
         energy
     }
 
-    /// Goes along `direction` until the energy has fallen enough. False when it does not fall.
+    /// Line search along `direction`. False when the energy does not fall enough.
     #[allow(clippy::too_many_arguments, reason = "the state of one search, used once")]
     fn search(
         &mut self,
@@ -257,8 +258,8 @@ impl Newton {
             let rounding = ROUNDING * (energy.abs() + reached.abs());
             let falls = reached <= *energy + 1e-4 * step * slope;
             let flat = reached <= *energy + rounding && slope_after.abs() <= 0.9 * slope.abs();
-            // Friction's share of the energy belongs to the normal forces of before; with contact a slope that lessens is as
-            // good a sign.
+            // The energy of friction belongs to the earlier normal forces; with contacts a slope that lessens is as good a sign
+            // of progress.
             let lessens = !contacts.touches().is_empty() && slope_after.abs() <= 0.9 * slope.abs();
             if reached.is_finite() && (falls || flat || lessens) {
                 let old = self.limits.clone();
@@ -296,7 +297,7 @@ impl Newton {
             self.work.factors += 1;
         }
         if self.factor.is_none() {
-            // Only rounding, or a part that nothing holds, makes this one singular.
+            // Only rounding, or a part that nothing holds, makes this matrix singular.
             let shift = 1e-8 * self.matrix.largest();
             self.assemble(task, contacts, itself, false, x, shift);
             self.factor = self.matrix.factor(None);
@@ -346,7 +347,7 @@ impl Newton {
         matrix.hold(task.pinned);
     }
 
-    /// Newton's.
+    /// Newton direction; None when the matrix cannot be factored.
     fn direction(
         &mut self,
         task: &Task,
@@ -364,14 +365,14 @@ impl Newton {
         direction.iter().all(|d| d.is_finite()).then_some(direction)
     }
 
-    /// Whether the whole Hessian at `x` is positive definite: the shape is stable.
+    /// Whether the exact Hessian at `x`, without contacts, is positive definite: the equilibrium is stable.
     pub fn is_stable(&mut self, task: &Task, x: &[DVec3]) -> bool {
         self.assemble(task, &Contacts::default(), &SelfContact::default(), true, x, 0.0);
         self.matrix.factor(None).is_some()
     }
 }
 
-/// The length of the longest; NaN where one is.
+/// Length of the longest vector; NaN where one is.
 pub fn largest(vectors: &[DVec3]) -> f64 {
     let longer = |most: f64, next: f64| if next > most || next.is_nan() { next } else { most };
     vectors.iter().map(|v| v.length_squared()).fold(0.0, longer).sqrt()

@@ -1,11 +1,11 @@
-//! In which order vertices are eliminated: nested dissection along breadth-first levels (George 1973; George and Liu 1978).
+//! Elimination order of a sparse factor: nested dissection along breadth-first levels (George 1973; George and Liu 1978).
 
 use crate::geometry::adjacency::Lists;
 
-/// Parts of so few vertices are not cut further.
+/// Parts of at most this many vertices are not divided further.
 const LEAST_PART: usize = 24;
 
-/// An order of all vertices of a graph with little fill for meshes.
+/// Elimination order of all vertices of a graph, with little fill-in for meshes.
 pub fn nested_dissection(neighbours: &Lists) -> Vec<u32> {
     let count = neighbours.len();
     let mut cut =
@@ -24,11 +24,11 @@ const NOT_YET: u32 = u32::MAX;
 
 struct Cut<'a> {
     neighbours: &'a Lists,
-    /// The part each vertex is in.
+    /// Number of the part that each vertex is in.
     part: Vec<u32>,
     parts: u32,
     level: Vec<u32>,
-    /// Backwards.
+    /// Elimination order, last vertex first.
     order: Vec<u32>,
 }
 
@@ -53,7 +53,7 @@ impl Cut<'_> {
         let (mut low, mut high, mut between) = (Vec::new(), Vec::new(), Vec::new());
         for &v in &reached {
             let level = self.level[v as usize];
-            // Of the middle level only what touches the upper half keeps them apart.
+            // Only vertices of the middle level that touch the upper half are needed in the separator.
             let touches =
                 |w: &&u32| self.part[**w as usize] == self.parts && self.level[**w as usize] == middle + 1;
             match level.cmp(&middle) {
@@ -74,7 +74,7 @@ impl Cut<'_> {
         stack.push(high);
     }
 
-    /// The vertices of `part` that `from` reaches inside it, nearest first; their levels are noted.
+    /// Breadth-first search from `from` within `part`: the vertices reached, nearest first. Stores their levels.
     fn levels(&mut self, part: &[u32], from: u32) -> Vec<u32> {
         part.iter().for_each(|&v| self.level[v as usize] = NOT_YET);
         self.level[from as usize] = 0;
@@ -93,7 +93,7 @@ impl Cut<'_> {
         reached
     }
 
-    /// Among the levels that leave a good third on either side the one with the fewest vertices.
+    /// The smallest of the levels that leave at least a third of the other vertices on either side.
     fn middle_level(&self, reached: &[u32]) -> u32 {
         let last = self.level[reached[reached.len() - 1] as usize];
         let mut sizes = vec![0usize; last as usize + 1];

@@ -1,4 +1,4 @@
-//! Straight to rest: the least energy under gravity, without time.
+//! Equilibrium of cloth under gravity, found directly by minimising the energy, without time steps.
 
 use glam::DVec3;
 
@@ -7,16 +7,16 @@ use crate::drape::contact::itself::SelfContact;
 use crate::drape::solver::newton::{Loads, Newton, NewtonSettings, Solved, Task};
 use crate::drape::solver::steps::Scene;
 
-/// Settings of a settling.
+/// Settings of [`settle`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SettleSettings {
-    /// The largest force left on a vertex, as a share of the whole weight (or of `scale`).
+    /// Largest residual force on a vertex, as a share of the total weight (or of `scale`).
     pub residual: f64,
     /// Newton iterations in all.
     pub most_iterations: usize,
-    /// What the residual is a share of, N; zero for the weight.
+    /// Force that `residual` is a share of, N; zero for the total weight.
     pub scale: f64,
-    /// Stiffness of contact per area, N/m³.
+    /// Contact stiffness per area, N/m³.
     pub contact_stiffness: f64,
 }
 
@@ -26,8 +26,9 @@ impl Default for SettleSettings {
     }
 }
 
-/// Moves `x` to where the forces `extra` (N per vertex; empty for none), gravity and the cloth balance. Springs that hold each
-/// vertex where it was weaken tenfold from stage to stage, so that a far start does not run away.
+/// Moves `x` to where elastic forces, gravity, contact and the forces `extra` (N per vertex; empty for none) balance. Springs
+/// that hold each vertex at its position weaken from stage to stage, five- or a hundredfold, so that a distant start does not
+/// diverge.
 pub fn settle(
     scene: &Scene,
     newton: &mut Newton,
@@ -45,7 +46,7 @@ pub fn settle(
         .collect();
     let mut left = settings.most_iterations;
     let mut solved = Solved::default();
-    // 0.1 s, 1 s, … : as if each stage were one step of implicit Euler from rest.
+    // Each stage is like one step of implicit Euler from rest, of 0.1 s at first and longer from stage to stage.
     let mut hold = 100.0;
     while left > 0 {
         let start = x.clone();
@@ -68,7 +69,7 @@ pub fn settle(
         let rough = hold > 0.0;
         let newton_settings = NewtonSettings {
             residual: scale * if rough { settings.residual.max(1e-4) } else { settings.residual },
-            // In a stiff cloth rounding alone leaves more force than in a soft one.
+            // Rounding alone leaves larger forces in stiff cloth than in soft cloth.
             motion: if rough { 1e-6 } else { 1e-9 * scene.sheet.mean_edge() },
             most_iterations: left.min(if rough { 60 } else { left }),
             exact: true,

@@ -1,8 +1,8 @@
-//! Many small steps of extended position-based dynamics (Macklin et al. 2016, 2019), one pass each.
+//! Many small steps of extended position-based dynamics (Macklin et al. 2016, 2019), with one pass over the constraints each.
 //!
-//! A pass lets cloth that hangs L metres stretch by 2 g L h² / l² beyond what its stiffness allows, l being an edge's length: that
-//! law says how small the steps must be. Edges stand for the membrane as springs (Van Gelder 1998), so that shear and Poisson's
-//! ratio are those of a net; bending is an explicit force, in as few of the steps as is stable.
+//! With one pass, cloth that hangs L metres stretches by a strain of 2 g L h² / l² beyond what its stiffness allows, l being the
+//! edge length: this law sets the step size h. Springs along edges stand for the membrane (Van Gelder 1998), so shear stiffness
+//! and Poisson's ratio are those of a spring net. Bending is an explicit force, evaluated as rarely as is stable.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -21,152 +21,157 @@ use crate::drape::solver::net::{Net, Spring};
 use crate::drape::solver::steps::Scene;
 use crate::drape::state::State;
 
-/// A body's nearest point is looked up again after a way of so many offsets: over a round of radius R what is taken for its plane
-/// then is off by twice the offset squared over R.
+/// Distance, in offsets, that a vertex may move before its nearest point of the body is looked up again. Over a sphere of radius
+/// R the tangent plane is then off by (STALE × offset)²/2R: twice the offset squared over R.
 const STALE: f64 = 2.0;
-/// Of the limit of stability that bending's steps take.
+/// Safety factor on the stability limit of explicit bending.
 const SAFE: f64 = 0.9;
-/// Threads pull no faster than so, m/s: what cloth and body hold against that stays open.
+/// Largest speed at which sewing springs close, m/s: a gap that cloth and body hold open against that stays open.
 pub const THREAD_SPEED: f64 = 2.0;
-/// Ends so near, metres, stay together though the body pushes them apart.
+/// Gap (m) below which sewn ends are kept together even though the body pushes them apart.
 const NEARLY_SHUT: f64 = 0.002;
-/// Cloth that is deeper in a body than its own motion brought it comes out so fast, m/s, and without momentum.
+/// Speed at which cloth leaves a body when it is deeper than its own motion brought it, m/s; it gains no momentum by that.
 const EASE: f64 = 0.3;
-/// Skin seen next to skin whose normal has a smaller cosine with its own makes a crease: cloth is kept off both,
+/// Cosine of the angle between the normals of two successive nearest points below which they form a crease: cloth is then kept
+/// off both sides.
 const CREASE: f64 = 0.5;
-/// as long as it is no farther than this from where the first was seen, offsets.
+/// Distance from where the first side of a crease was seen within which cloth is still kept off it, in offsets.
 const CREASE_REACH: f64 = 4.0;
-/// It comes off the one it does not see no faster than so, m/s.
+/// Largest speed at which cloth is pushed off the side of a crease that is not nearest, m/s.
 const CREASE_SPEED: f64 = 1.5;
 
-/// What is near is looked for as far as a vertex comes in so many small steps: farther, and planes between parts of the cloth that fall
-/// side by side hold it up,
+/// Small steps ahead for which the broad phase looks, at the present speed. With more, separating planes between neighbouring
+/// parts of the cloth that fall side by side would hold them up.
 const AHEAD: f64 = 12.0;
-/// which is between these, metres.
+/// Smallest and largest search distance of the broad phase, metres.
 const REACH: (f64, f64) = (0.001, 0.05);
-/// What comes farther within a small step, as cloth that is struck does, goes on from where it is looked for anew, so often; then it
-/// stays there.
+/// Broad-phase searches in one small step. A vertex that leaves its search distance, as cloth that is struck does, continues
+/// after another search; after the last it stays where it is.
 const MOST_LOOKS: usize = 3;
 
-/// The solver with its memory.
+/// Solver of small steps with its memory.
 #[derive(Clone, Debug)]
 pub struct SmallSteps {
     net: Net,
     inverse_mass: Vec<f64>,
     /// Area per mass of each vertex, m²/kg.
     spread: Vec<f64>,
-    /// Bending's greatest angular frequency, 1/s.
+    /// Largest angular frequency of bending, 1/s.
     bending_rate: f64,
-    /// Bending of a scene that is not stable in such steps, softened.
+    /// Softened bending, where that of the scene is not stable in steps of this size.
     softened: Option<Arc<Bending>>,
     planes: Vec<Plane>,
-    /// Of each part of the net, vertices in creases, and the skin beside that in `planes`.
+    /// For each part of the net its vertices in creases, with the side of the crease that is not in `planes`.
     creases: Vec<Creases>,
-    /// Per vertex more than the offset, metres.
+    /// Distance that each vertex keeps from the body besides the offset, metres.
     lift: Vec<f64>,
-    /// Whether depth that motion did not bring leaves without momentum: for a body that does not push.
+    /// Whether cloth leaves the body without momentum where it is deeper than its motion brought it, see [`EASE`]; for a body at
+    /// rest.
     eases: bool,
-    /// A vertex that is pulled.
+    /// Drag constraint, if any.
     pub hand: Option<GrabConstraint>,
-    /// Threads.
+    /// Sewing springs.
     pub ties: Vec<SewingSpring>,
-    /// What keeps the cloth from crossing itself and the body.
+    /// Constraints that keep the cloth from crossing itself and the body.
     pub separation: Option<Separation>,
-    /// The body it knows of a scene.
+    /// Surface that `separation` was given as its obstacle.
     body: Option<Arc<Surface>>,
-    /// Velocities are those of half a step ago, s.
+    /// Time by which velocities lag behind positions, s: half a small step.
     lag: f64,
-    /// Nearest points looked up.
+    /// Nearest-point queries of the body.
     pub queries: u64,
-    /// Vertices known to be far without one.
+    /// Queries saved because the vertex was known to be far from the body.
     pub skipped: u64,
 }
 
-/// Some time that the cloth goes on, in small steps.
+/// A time span divided into small steps, and how many of them are done.
 #[derive(Clone, Debug)]
 pub struct Advance {
-    /// Of a step, s.
+    /// Size of a small step, s.
     small: f64,
-    /// Steps in all, and done.
+    /// Number of small steps.
     count: usize,
+    /// Small steps done.
     done: usize,
-    /// What bending does to the velocity of each vertex, as long as it is held, m/s.
+    /// Velocity change by bending in each small step, m/s, for every vertex, while the bending force is held constant.
     bent: Vec<DVec3>,
-    /// Where the vertices were before the step.
+    /// Positions before the current small step.
     before: Vec<DVec3>,
 }
 
 impl Advance {
-    /// `h` seconds in `count` steps.
+    /// A span of `h` seconds in `count` small steps.
     pub fn new(h: f64, count: usize) -> Self {
         Self { small: h / count as f64, count, done: 0, bent: Vec::new(), before: Vec::new() }
     }
 
-    /// Whether all of it is done.
+    /// Whether all small steps are done.
     pub fn is_done(&self) -> bool {
         self.done == self.count
     }
 }
 
-/// A thread between two vertices: a spring that only pulls.
+/// Sewing spring: a distance constraint between two vertices that only pulls.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SewingSpring {
     /// The vertices.
     pub ends: [u32; 2],
-    /// Metres.
+    /// Length beyond which it pulls, metres.
     pub length: f64,
-    /// A place that it runs over, metres; None: straight.
+    /// Waypoint over which it runs, metres; None: straight.
     pub over: Option<DVec3>,
 }
 
-/// What pulls one vertex towards a place.
+/// Drag constraint: a spring that pulls one vertex towards a target.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GrabConstraint {
-    /// Which.
+    /// Index of the vertex.
     pub vertex: u32,
-    /// Where to, metres.
+    /// Target position, metres.
     pub target: DVec3,
-    /// N/m.
+    /// Stiffness, N/m.
     pub stiffness: f64,
-    /// The most it pulls with, N.
+    /// Largest force, N.
     pub most: f64,
 }
 
-/// What acts on cloth besides its edges.
+/// Forces on cloth besides those of its springs.
 #[derive(Clone, Copy, Debug)]
 pub struct Surroundings<'a> {
-    /// Of the cloth.
+    /// Bending energy of the cloth.
     pub bending: &'a Bending,
-    /// Damping of bending in proportion to its stiffness, seconds.
+    /// Stiffness-proportional damping of bending, seconds.
     pub bending_damping: f64,
-    /// m/s².
+    /// Gravity, m/s².
     pub gravity: DVec3,
     /// Rate at which motion dies away, 1/s.
     pub damping: f64,
-    /// A body.
+    /// The body, if any.
     pub collider: Option<&'a Collider>,
-    /// Distance kept from it, metres.
+    /// Distance kept from the body, metres.
     pub offset: f64,
-    /// Coulomb's coefficient per vertex.
+    /// Coulomb friction coefficient per vertex.
     pub friction: &'a [f64],
-    /// The greatest pressure that friction knows, Pa: what strain control moves it should not hold.
+    /// Largest pressure that friction sees, Pa: friction should not hold cloth against strain control.
     pub grip: f64,
 }
 
-/// Vertices in creases of a body, and what they know of the skin they do not see.
+/// Vertices in creases of a body, each with the half-space of the side that is not nearest.
 type Creases = Vec<(usize, Plane)>;
 
-/// What a vertex knows of a body: beyond the plane n·x = height it is free.
+/// Half-space that approximates the body near a vertex: the vertex is free where n·x ≥ height.
 #[derive(Clone, Copy, Debug, Default)]
 struct Plane {
     normal: DVec3,
     height: f64,
-    /// Where that was found, and how far one may go before it is looked up again.
+    /// Position of the vertex at its last nearest-point query, metres.
     place: DVec3,
+    /// Distance from `place` within which that query stays valid, metres.
     good_for: f64,
 }
 
-/// Substeps that keep `strain` in a step of `h` seconds: cloth of `extent` metres and edges of `edge` metres.
+/// Number of small steps that keep the extra strain below `strain` in a step of `h` seconds, for cloth that hangs `extent` metres
+/// with edges of `edge` metres. See the law at the top of this file.
 pub fn substeps(h: f64, strain: f64, gravity: f64, extent: f64, edge: f64) -> usize {
     if gravity == 0.0 {
         return 1;
@@ -175,13 +180,13 @@ pub fn substeps(h: f64, strain: f64, gravity: f64, extent: f64, edge: f64) -> us
     (h / longest).ceil().max(1.0) as usize
 }
 
-/// The greatest angular frequency of bending, 1/s, by Gershgorin's bound. `mass` in kg per vertex.
+/// Largest angular frequency of bending, 1/s, by Gershgorin's bound. `mass` in kg per vertex.
 fn fastest(bending: &Bending, mass: &[f64]) -> f64 {
     (0..mass.len()).map(|i| bending.stiffest(i) / mass[i]).fold(0.0, f64::max).sqrt()
 }
 
-/// The greatest angular frequency of bending, 1/s, that steps of `small` seconds stand with `damping` τ in seconds: they are
-/// stable while they are shorter than 2/ω, and than 2/(ω² τ).
+/// Largest angular frequency ω of bending, 1/s, that is stable in explicit steps of `small` seconds with stiffness-proportional
+/// `damping` τ in seconds: steps must be shorter than 2/(ω + ω² τ).
 pub fn stable_rate(small: f64, damping: f64) -> f64 {
     let most = SAFE * 2.0 / small;
     // ω (1 + ω τ) = most.
@@ -189,7 +194,7 @@ pub fn stable_rate(small: f64, damping: f64) -> f64 {
 }
 
 impl SmallSteps {
-    /// `stiffness` of the membrane, N/m; for steps of `small` seconds.
+    /// A solver for `scene` with membrane `stiffness`, N/m, and steps of `small` seconds.
     pub fn new(scene: &Scene, stiffness: f64, small: f64) -> Self {
         let Scene { sheet, elastic, mass, pinned, .. } = scene;
         let limits = StrainLimits::new(sheet, 0.0, stiffness);
@@ -201,7 +206,7 @@ impl SmallSteps {
         Self { softened: softened.clone(), ..Self::of(springs, f64::MAX, sheet, bending, mass, pinned) }
     }
 
-    /// Of any springs, rigid beyond a strain of `limit`. `mass` in kg per vertex; `pinned` vertices stay.
+    /// A solver for any springs, rigid beyond a strain of `limit`. `mass` in kg per vertex; `pinned` vertices are held.
     pub fn of(
         springs: impl Iterator<Item = Spring>,
         limit: f64,
@@ -234,29 +239,29 @@ impl SmallSteps {
         }
     }
 
-    /// For a body at rest: see [`EASE`].
+    /// Turns on easing, for a body at rest: see [`EASE`].
     pub fn easing(self) -> Self {
         Self { eases: true, ..self }
     }
 
-    /// From now on exactly these vertices stay.
+    /// Replaces the set of pinned vertices; `mass` in kg per vertex.
     pub fn pin(&mut self, mass: &[f64], pinned: &[bool]) {
         let inverse = |(m, pinned): (&f64, &bool)| if *pinned { 0.0 } else { 1.0 / m };
         self.inverse_mass = mass.iter().zip(pinned).map(inverse).collect();
         self.net.forget();
     }
 
-    /// 1/kg per vertex; zero where it is pinned.
+    /// Inverse mass of each vertex, 1/kg; zero where it is pinned.
     pub fn inverse_mass(&self) -> &[f64] {
         &self.inverse_mass
     }
 
-    /// Per vertex more than the offset from the body, metres.
+    /// Distance that each vertex keeps from the body besides the offset, metres.
     pub fn lift(&self) -> &[f64] {
         &self.lift
     }
 
-    /// Changes it. Known planes go along.
+    /// Replaces [`Self::lift()`], and moves the known planes accordingly.
     pub fn set_lift(&mut self, lift: &[f64]) {
         for ((plane, old), new) in self.planes.iter_mut().zip(&mut self.lift).zip(lift) {
             plane.height += new - *old;
@@ -264,20 +269,21 @@ impl SmallSteps {
         }
     }
 
-    /// The skin near a vertex as it was last looked up: its unit normal, and the height of `x` above the offset and the lift.
-    /// None where it is far.
+    /// Unit normal of the skin near vertex `v` at its last nearest-point query, and the height of `x` above the offset and the
+    /// lift, metres. None where the body is far.
     pub fn height(&self, v: usize, x: DVec3) -> Option<(DVec3, f64)> {
         let plane = &self.planes[v];
         (plane.normal != DVec3::ZERO).then(|| (plane.normal, plane.normal.dot(x) - plane.height))
     }
 
-    /// What is known of the body counts no more.
+    /// Discards what is known of the body near each vertex.
     pub fn forget_planes(&mut self) {
         self.planes.fill(Plane::default());
         self.creases.iter_mut().for_each(Vec::clear);
     }
 
-    /// Goes `h` seconds on in `count` steps. `offset` and `friction` as in [`Contacts`](crate::drape::contact::body::Contacts).
+    /// Advances by `h` seconds in `count` small steps. `offset` and `friction` as in
+    /// [`Contacts`](crate::drape::contact::body::Contacts).
     pub fn step(
         &mut self,
         scene: &Scene,
@@ -302,7 +308,7 @@ impl SmallSteps {
         self.advance(&around, state, h, count);
     }
 
-    /// What the scene's body is now is not crossed from now on, unless it moves.
+    /// Gives `separation` the body of the scene as an obstacle, unless the body moves.
     fn see_body(&mut self, scene: &Scene) {
         let Some(separation) = &mut self.separation else { return };
         let still = scene.collider.as_ref().filter(|collider| collider.motion.is_empty());
@@ -318,7 +324,7 @@ impl SmallSteps {
         }
     }
 
-    /// Goes `h` seconds on in `count` steps.
+    /// Advances by `h` seconds in `count` small steps.
     pub fn advance(&mut self, around: &Surroundings<'_>, state: &mut State, h: f64, count: usize) {
         let mut advance = Advance::new(h, count);
         while !advance.is_done() {
@@ -326,7 +332,7 @@ impl SmallSteps {
         }
     }
 
-    /// A small step of `advance`.
+    /// Makes one small step of `advance`.
     pub fn go_on(&mut self, advance: &mut Advance, around: &Surroundings<'_>, state: &mut State) {
         let Advance { small, count, done: s, .. } = *advance;
         let part = 1.0 / count as f64;
@@ -395,13 +401,13 @@ impl SmallSteps {
         }
     }
 
-    /// Pairs of features that contact has looked at.
+    /// Pairs of features that self-collision has tested.
     pub fn pairs(&self) -> u64 {
         self.separation.as_ref().map_or(0, |separation| separation.counters.pairs)
     }
 
-    /// What bending does to the velocities in the next `steps` steps of `small` seconds: a blow now, or, where it is damped, `bent` (m/s)
-    /// in each of them. `scratch` has room for every vertex.
+    /// Applies bending for the next `steps` steps of `small` seconds. Without damping, as one impulse on the velocities now; with
+    /// damping, as `bent`, a velocity change (m/s) in each of them. `scratch` has room for every vertex.
     fn bend(
         &self,
         around: &Surroundings<'_>,
@@ -410,10 +416,10 @@ impl SmallSteps {
         (small, steps): (f64, usize),
     ) {
         let span = small * steps as f64;
-        // A blow now and then, which keeps energy, shakes cloth that should come to rest; a force that is held comes late by
-        // half of the time it is held, for which it looks ahead.
+        // An occasional impulse conserves energy but shakes cloth that should come to rest. A force held constant lags by half of
+        // the time that it is held, so it is evaluated that much ahead.
         if around.bending_damping > 0.0 {
-            // Quadratic: the force at x + τ v is that of the shape and of its change.
+            // The energy is quadratic: the force at x + τ v is the elastic force plus the damping force.
             let ahead = around.bending_damping + span / 2.0;
             for (place, (x, v)) in scratch.iter_mut().zip(x.iter().zip(velocities.iter())) {
                 *place = *x + *v * ahead;
@@ -426,7 +432,7 @@ impl SmallSteps {
         }
     }
 
-    /// Looks for what is near where some vertex is about to leave what is known.
+    /// Runs the broad phase again where some vertex is about to leave its search distance.
     fn look_ahead(&mut self, around: &Surroundings<'_>, state: &State, (small, part): (f64, f64)) {
         let Some(separation) = &mut self.separation else { return };
         if !separation.holds(|v| state.positions[v] + state.velocities[v] * small) {
@@ -435,7 +441,8 @@ impl SmallSteps {
         }
     }
 
-    /// Lets what came from `before` to `x` in a small step, `part` of the body's motion, come only as far as nothing crosses.
+    /// Truncates the motion from `before` to `x` in a small step so that no new intersection arises; `part` is the share of the
+    /// body's motion in this step.
     fn truncate(
         &mut self,
         around: &Surroundings<'_>,
@@ -455,7 +462,7 @@ impl SmallSteps {
         separation.truncate(x);
     }
 
-    /// Sends the vertices at `x` their `ways`, metres, as far as nothing comes to cross that does not.
+    /// Moves the vertices at `x` by `ways`, metres, truncated so that no new intersection arises.
     pub fn send(&mut self, x: &mut [DVec3], collider: &Collider, ways: &[DVec3]) {
         if let Some(separation) = &mut self.separation {
             let reach = |v: usize| ways[v].length().max(REACH.0);
@@ -467,7 +474,7 @@ impl SmallSteps {
         }
     }
 
-    /// Shortens threads of ends no farther apart than `within` metres.
+    /// Projects sewing springs whose ends are at most `within` metres apart.
     fn draw(&self, x: &mut [DVec3], within: f64, small: f64) {
         for tie in &self.ties {
             let [a, b] = tie.ends.map(|v| v as usize);
@@ -484,7 +491,7 @@ impl SmallSteps {
         }
     }
 
-    /// The hand's pull in one small step.
+    /// Projects the drag constraint in one small step.
     fn pull(&self, x: &mut [DVec3], small: f64) {
         let Some(hand) = self.hand else { return };
         let v = hand.vertex as usize;
@@ -494,17 +501,17 @@ impl SmallSteps {
         x[v] += ((hand.target - x[v]) * share).clamp_length_max(most);
     }
 
-    /// Velocities at the end of the step, m/s: what they are behind, gravity makes up for.
+    /// Velocity at the end of the step, m/s: `v` of the state lags by half a small step, which gravity makes up for.
     pub fn velocity_now(&self, scene: &Scene, v: DVec3) -> DVec3 {
         v + scene.gravity * self.lag
     }
 
-    /// Small steps between two that bending acts in.
+    /// Number of small steps between two evaluations of bending.
     fn bending_every(&self, small: f64, damping: f64) -> usize {
         if self.bending_rate == 0.0 {
             return usize::MAX;
         }
-        // The explicit step is stable while it is shorter than 2/ω, and than 2/(ω² τ) with damping.
+        // Explicit steps of bending are stable while they are shorter than 2/(ω + ω² τ), τ being the damping.
         let rate = self.bending_rate * (1.0 + self.bending_rate * damping);
         let every = SAFE * 2.0 / (rate * small);
         debug_assert!(every > 1.0 - 1e-6, "bending was made for shorter steps than {small} s: {every}");
@@ -512,7 +519,7 @@ impl SmallSteps {
     }
 }
 
-/// Looks for what is near vertices at `x` that go as fast as `speed` tells, m/s.
+/// Broad phase for vertices at `x` whose speeds are `speed`, m/s.
 fn detect(
     separation: &mut Separation,
     around: &Surroundings<'_>,
@@ -527,9 +534,9 @@ fn detect(
     separation.detect(x, reach, |v| around.collider.is_some_and(|c| c.surface.contains(x[v])));
 }
 
-/// What one part of the cloth is worked on with.
+/// One part of the cloth for parallel work.
 struct Share<'a> {
-    /// Its first vertex.
+    /// Index of the part's first vertex.
     first: usize,
     x: &'a mut [DVec3],
     before: &'a mut [DVec3],
@@ -538,7 +545,7 @@ struct Share<'a> {
     creases: &'a mut Creases,
 }
 
-/// Everything cut into the parts of `net`.
+/// The arrays divided into the parts of `net`.
 fn shares<'a>(
     net: &Net,
     mut x: &'a mut [DVec3],
@@ -562,7 +569,7 @@ fn shares<'a>(
     net.parts().zip(creases).map(share).collect()
 }
 
-/// Does `work` on each share, on several threads where there are several.
+/// Runs `work` on each share, in parallel where there is more than one.
 fn side_by_side<T: Send>(
     shares: &mut [Share<'_>],
     work: impl Fn(usize, &mut Share<'_>) -> T + Sync,
@@ -577,14 +584,14 @@ fn side_by_side<T: Send>(
 struct Colliding<'a> {
     around: &'a Surroundings<'a>,
     collider: &'a Collider,
-    /// Of the body's motion is still to come,
+    /// Share of the body's motion that is still to come after this small step.
     left: f64,
-    /// and comes in this step.
+    /// Share of the body's motion in this small step.
     part: f64,
     small: f64,
 }
 
-/// What is known of each vertex.
+/// Read-only data of the vertices that collisions with the body need.
 struct Knowing<'a> {
     inverse_mass: &'a [f64],
     lift: &'a [f64],
@@ -593,8 +600,7 @@ struct Knowing<'a> {
 }
 
 impl Knowing<'_> {
-    /// Keeps the vertices of `share` off the body, and rubs them on it. How many nearest points were looked up, and how many
-    /// vertices were known to be far.
+    /// Projects the vertices of `share` off the body, with friction. Returns the numbers of nearest-point queries made and saved.
     fn collide(&self, scene: &Colliding<'_>, share: &mut Share<'_>) -> (u64, u64) {
         let Colliding { around, collider, left, part, small } = *scene;
         let (mut queries, mut skipped) = (0, 0);
@@ -643,7 +649,7 @@ impl Knowing<'_> {
         for (i, plane) in share.creases.iter() {
             let k = i - share.first;
             let depth = plane.height - plane.normal.dot(share.x[k]);
-            // It gains no speed by that: between two sides it would tremble.
+            // The projection adds no velocity: between the two sides of a crease the cloth would tremble.
             let way = plane.normal * depth.clamp(0.0, CREASE_SPEED * small);
             share.x[k] += way;
             share.before[k] += way;
@@ -652,7 +658,7 @@ impl Knowing<'_> {
     }
 }
 
-/// The body's plane at `x`; `left` of the body's motion is still to come.
+/// Half-space of the body near `x`; `left` is the share of the body's motion that is still to come.
 fn look(collider: &Collider, x: DVec3, before: DVec3, offset: f64, left: f64) -> Plane {
     let back = collider.carried_near(x) * left;
     let near = collider.surface.nearest(x + back);

@@ -1,8 +1,8 @@
-//! Implicit steps of time.
+//! Implicit time integration.
 //!
-//! The second-order backward differences (BDF2: Curtiss and Hirschfelder 1952) lose far less of a swing than implicit Euler does
-//! and are exact in free fall; where a vertex touches or has touched something the history before the impact does not count and
-//! implicit Euler takes its place.
+//! Second-order backward differences (BDF2: Curtiss and Hirschfelder 1952) damp oscillations far less than implicit Euler and are
+//! exact in free fall. At a vertex in contact, or that was in the last step, the history before the impact is not valid, and
+//! implicit Euler is used.
 
 use glam::DVec3;
 
@@ -13,56 +13,56 @@ use crate::drape::sheet::Sheet;
 use crate::drape::solver::newton::{Loads, Newton, NewtonSettings, Solved, Task};
 use crate::drape::state::State;
 
-/// How time is cut.
+/// Time integrator.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Integrator {
-    /// First order; energy never rises.
+    /// Implicit Euler: first order; energy never rises.
     Euler,
-    /// Second order where nothing touches.
+    /// BDF2: second order, at vertices without contact.
     Bdf2,
 }
 
-/// Contact is stiffer than inertia by this factor: a vertex that comes at v stops v h / (1 + this) deep.
+/// Ratio of contact stiffness to inertial stiffness m/h²: a vertex that arrives at speed v stops at a depth of v h / (1 + this).
 pub(in crate::drape) const CONTACT_OVER_INERTIA: f64 = 400.0;
-/// And at least so stiff per area, N/m³, as cloth of 0.2 kg/m² is at 60 steps a second: light cloth under tension presses with
-/// far more than its weight.
+/// Smallest contact stiffness per area, N/m³: that of cloth of 0.2 kg/m² at 60 steps a second. Light cloth under tension presses
+/// with far more than its weight.
 const CONTACT_PER_AREA: f64 = 3e5;
-/// A start that pulls a vertex more than this many times its weight is no rest.
+/// Largest initial acceleration, in units of gravity, at which a vertex counts as starting from rest or free fall.
 const CALM: f64 = 3.0;
 
-/// What stays the same over steps.
+/// Everything that stays the same over steps.
 #[derive(Clone, Debug)]
 pub struct Scene {
     /// The cloth.
     pub sheet: Sheet,
     /// Its elasticity.
     pub elastic: Elastic,
-    /// kg per vertex.
+    /// Mass of each vertex, kg.
     pub mass: Vec<f64>,
-    /// Vertices that stay.
+    /// Vertices that are held.
     pub pinned: Vec<bool>,
-    /// m/s².
+    /// Gravity, m/s².
     pub gravity: DVec3,
     /// Rate at which motion dies away, 1/s.
     pub damping: f64,
-    /// A body.
+    /// The body, if any.
     pub collider: Option<Collider>,
 }
 
-/// The stepper with its memory.
+/// Implicit time stepper with its memory.
 #[derive(Debug)]
 pub struct Steps {
     newton: Newton,
     integrator: Integrator,
     before: Vec<(DVec3, DVec3)>,
-    /// Implicit Euler for this vertex in the next step.
+    /// Whether each vertex uses implicit Euler in the next step.
     euler: Vec<bool>,
     step_before: f64,
     loads: Loads,
 }
 
 impl Steps {
-    /// None when the matrix does not fit in memory.
+    /// A stepper for `scene`. None when the matrix does not fit in memory.
     pub fn new(scene: &Scene, integrator: Integrator) -> Option<Self> {
         let count = scene.sheet.len();
         Some(Self {
@@ -75,17 +75,17 @@ impl Steps {
         })
     }
 
-    /// The solver, for its figures.
+    /// The Newton solver, for its work counters.
     pub fn newton(&self) -> &Newton {
         &self.newton
     }
 
-    /// What happened before the next step no longer counts.
+    /// Discards the history, so that the next step starts anew.
     pub fn forget(&mut self) {
         self.before.clear();
     }
 
-    /// Goes `h` seconds on.
+    /// Advances by `h` seconds.
     pub fn step(
         &mut self,
         scene: &Scene,
@@ -150,7 +150,8 @@ impl Steps {
         solved
     }
 
-    /// Lays inertia, gravity and drag of a step of `h` seconds on every vertex. The velocity after it is (x' - rate) / span.
+    /// Writes the loads of a step of `h` seconds: inertia, gravity and drag. Returns per vertex `rate` and `span`: the velocity
+    /// after the step is (x' - rate) / span.
     fn load(&mut self, scene: &Scene, state: &State, h: f64) -> (Vec<DVec3>, Vec<f64>) {
         let count = scene.sheet.len();
         let (x, v) = (&state.positions, &state.velocities);
@@ -179,7 +180,7 @@ impl Steps {
         (rate, span)
     }
 
-    /// Makes up a history: what starts at rest or falls free goes on as if it always had.
+    /// Makes up a history for BDF2: a vertex that starts at rest or in free fall is taken to have moved so before.
     fn begin(&mut self, scene: &Scene, state: &State, h: f64) {
         let mut force = vec![DVec3::ZERO; scene.sheet.len()];
         scene.elastic.add_gradient(&state.positions, &mut force);

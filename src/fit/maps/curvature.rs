@@ -1,4 +1,4 @@
-//! How the cloth is curved at its vertices.
+//! Curvature of the cloth at its vertices.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -18,7 +18,7 @@ pub(super) fn largest_angle(worn: Worn<'_>) -> Vec<f64> {
     per_vertex(worn, |v| {
         let around = worn.garment.adjacency.vertex_triangles.of(v);
         let normal = |t: &u32| Some(normals[*t as usize]).filter(|n| *n != DVec3::ZERO);
-        // The chord between two unit normals grows with the angle, and tells small ones, as the cosine does not.
+        // The chord between two unit normals grows with the angle, and resolves small angles, which the cosine does not.
         let mut widest = f64::NAN;
         for (i, n) in around.iter().enumerate().filter_map(|(i, t)| Some((i, normal(t)?))) {
             let chords = around[..i].iter().filter_map(normal).map(|m| m.distance_squared(n));
@@ -57,11 +57,11 @@ fn mean_at(worn: Worn<'_>, v: u32) -> f64 {
     if area > 0.0 { laplacian.length().copysign(laplacian.dot(normal)) / (4.0 * area) } else { f64::NAN }
 }
 
-/// A laid triangle as one of its corners sees it.
+/// A laid triangle seen from one of its corners.
 pub(super) struct Corner {
-    /// To the two others, metres.
+    /// Vectors to the two other corners, metres.
     sides: [DVec3; 2],
-    /// Of the angles, its own first.
+    /// Cotangents of the three angles, its own first.
     cotangents: [f64; 3],
     /// Its share of the triangle's area, m²: the mixed Voronoi area of Meyer et al.
     pub share: f64,
@@ -69,7 +69,7 @@ pub(super) struct Corner {
     pub area: f64,
 }
 
-/// Triangle `t` as its vertex `v` sees it. None where it is not laid or has no area.
+/// Triangle `t` seen from its vertex `v`. None where it is not laid or has no area.
 pub(super) fn corner(worn: Worn<'_>, t: u32, v: u32) -> Option<Corner> {
     let corners = laid_corners(worn, t as usize)?;
     let k = worn.garment.triangles[t as usize].iter().position(|&w| w == v)?;

@@ -1,28 +1,28 @@
-//! The list of maps: add one here first. Menus, legend and command line follow from [`MapKind::ALL`].
+//! The list of maps: add a map here first. Menus, legend and command line follow from [`MapKind::ALL`].
 
 use serde::{Deserialize, Serialize};
 
-/// What a map shows.
+/// Quantity shown by a map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum MapKind {
-    /// Stretch along the grain: length over flat length, less one.
+    /// Strain along the grain: length over flat length, minus one.
     Warp,
-    /// The same across the grain.
+    /// Strain across the grain: length over flat length, minus one.
     Weft,
-    /// By how much the angle between grain and weft is no longer a right one, radians; positive: narrower.
+    /// Shear: how much smaller than a right angle the angle between grain and weft is, radians.
     Shear,
-    /// Area over flat area, less one.
+    /// Change of area: area over flat area, minus one.
     Area,
-    /// The gap to the body, metres; negative inside.
+    /// Ease: distance from the body, metres; negative inside.
     Ease,
-    /// Paper C's: the largest angle between the normals of triangles that share the vertex, radians.
+    /// Paper C's curvature: the largest angle between the normals of two triangles that share the vertex, radians.
     Curvature,
-    /// Mean curvature (half the sum of the principal ones), 1/m; positive where the front side bulges out.
+    /// Mean curvature (half the sum of the principal curvatures), 1/m; positive where the front side bulges out.
     MeanCurvature,
-    /// Stretch along seams: length over the flat length of both sides' mean, less one. Only on seams.
+    /// Strain along seams: length over the mean flat length of both sides, minus one. Only on seams.
     Seams,
-    /// How hard the cloth presses on the skin, Pa. Only where it lies on it.
+    /// Pressure of the cloth on the skin, Pa. Only where it touches the skin.
     Pressure,
 }
 
@@ -40,7 +40,7 @@ impl MapKind {
         Self::Pressure,
     ];
 
-    /// As on the command line and in file names.
+    /// Name on the command line and in file names.
     pub fn name(self) -> &'static str {
         match self {
             Self::Warp => "warp",
@@ -55,7 +55,7 @@ impl MapKind {
         }
     }
 
-    /// For people.
+    /// Title for the user.
     pub fn title(self) -> &'static str {
         match self {
             Self::Warp => "Strain along the grain",
@@ -70,7 +70,7 @@ impl MapKind {
         }
     }
 
-    /// On a button.
+    /// Short title for a button.
     pub fn short(self) -> &'static str {
         match self {
             Self::Warp => "Warp strain",
@@ -85,7 +85,7 @@ impl MapKind {
         }
     }
 
-    /// In tooltips.
+    /// Tooltip.
     pub fn tip(self) -> &'static str {
         match self {
             Self::Warp => "How much the cloth is stretched along its grainline",
@@ -100,7 +100,7 @@ impl MapKind {
         }
     }
 
-    /// The unit it is shown in, and what a value is multiplied by for that.
+    /// Display unit, and the factor from the value to that unit.
     pub fn unit(self) -> (&'static str, f64) {
         match self {
             Self::Warp | Self::Weft | Self::Area | Self::Seams => ("%", 100.0),
@@ -111,7 +111,7 @@ impl MapKind {
         }
     }
 
-    /// Whether values of both signs mean opposite things: their palette has zero in its middle.
+    /// Whether positive and negative values have opposite meanings: the palette is then centred on zero.
     pub fn is_signed(self) -> bool {
         match self {
             Self::Warp | Self::Weft | Self::Shear | Self::Area | Self::MeanCurvature | Self::Seams => true,
@@ -119,7 +119,7 @@ impl MapKind {
         }
     }
 
-    /// Digits that a value in its unit is told with.
+    /// Digits after the decimal point of a value in its display unit.
     pub fn digits(self) -> usize {
         if self == Self::Pressure { 2 } else { 1 }
     }

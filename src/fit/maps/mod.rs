@@ -1,4 +1,4 @@
-//! Maps over dressed cloth: one value for each triangle and each vertex, computed when asked for.
+//! Maps over dressed cloth: a scalar for each triangle and each vertex, computed on demand.
 
 mod curvature;
 mod kind;
@@ -23,38 +23,38 @@ use crate::cloth::{ClothState, Fabric, Garment};
 use crate::geometry::ids::PieceId;
 use crate::pattern::Pattern;
 
-/// Vertices or triangles one thread takes at a time.
+/// Vertices or triangles that one thread takes at a time.
 const LEAST_SHARE: usize = 256;
 
-/// The values of a map; NaN where there is none: cloth that is not laid, borders where a curvature has no meaning.
+/// Values of a map; NaN where there is none: cloth that is not laid, borders where a curvature is undefined.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Map {
-    /// What is mapped.
+    /// Quantity shown.
     pub kind: MapKind,
-    /// One per sewn vertex, in the unit of the kind.
+    /// A value per sewn vertex, in the unit of the kind.
     pub vertices: Vec<f64>,
-    /// One per triangle: its own where the kind has one, else the mean over its corners.
+    /// A value per triangle: its own where the kind has one, else the mean over its corners.
     pub triangles: Vec<f64>,
 }
 
-/// Dressed cloth that maps are read off.
+/// Dressed cloth with all that maps are computed from.
 #[derive(Clone, Copy, Debug)]
 pub struct Worn<'a> {
-    /// What the garment was built from: its pieces tell the grain.
+    /// Pattern of the garment; its pieces define the grain.
     pub pattern: &'a Pattern,
     /// The cloth.
     pub garment: &'a Garment,
-    /// Where it is.
+    /// Positions of the cloth.
     pub state: &'a ClothState,
     /// The body.
     pub surface: &'a Surface,
-    /// What each piece is made of; those that are not in it press on nothing.
+    /// Fabric of each piece; pieces without one get no pressure.
     pub fabrics: &'a BTreeMap<PieceId, Fabric>,
-    /// How far off the skin a wrap keeps cloth, metres.
+    /// Offset from the skin that a wrap keeps, metres.
     pub offset: f64,
 }
 
-/// Reads several maps off the same cloth: the nearest points of the skin, which more than one kind needs, are found once.
+/// Computes several maps of the same cloth. The nearest points of the skin, which several kinds need, are found once.
 #[derive(Debug)]
 pub struct MapReader<'a> {
     worn: Worn<'a>,
@@ -62,7 +62,7 @@ pub struct MapReader<'a> {
 }
 
 impl<'a> MapReader<'a> {
-    /// Nothing is read yet.
+    /// A reader that has computed nothing yet.
     pub fn new(worn: Worn<'a>) -> Self {
         Self { worn, skin: OnceCell::new() }
     }
@@ -82,7 +82,7 @@ impl<'a> MapReader<'a> {
         }
     }
 
-    /// The point of the skin nearest to each laid vertex.
+    /// Nearest point of the skin to each laid vertex.
     fn skin(&self) -> &[Option<Nearest>] {
         self.skin.get_or_init(|| {
             let places = &self.worn.state.positions;
@@ -92,12 +92,12 @@ impl<'a> MapReader<'a> {
 }
 
 impl Map {
-    /// The map of `kind` over `worn` alone.
+    /// The map of `kind` over `worn`, without sharing work with other maps.
     pub fn new(kind: MapKind, worn: Worn<'_>) -> Self {
         MapReader::new(worn).map(kind)
     }
 
-    /// Vertices have the mean of their triangles, by flat area.
+    /// A map with values per triangle; vertices get the mean of their triangles, weighted by flat area.
     fn of_triangles(kind: MapKind, worn: Worn<'_>, triangles: Vec<f64>) -> Self {
         let garment = worn.garment;
         let mean = |v: u32| {
@@ -118,7 +118,7 @@ impl Map {
         Self::between(kind, worn.garment, vertices)
     }
 
-    /// Triangles have the mean of their vertices.
+    /// A map with values per vertex; triangles get the mean of their vertices.
     pub(super) fn between(kind: MapKind, garment: &Garment, vertices: Vec<f64>) -> Self {
         let mean = |vs: &[u32; 3]| vs.iter().map(|&v| vertices[v as usize]).sum::<f64>() / 3.0;
         Self { kind, triangles: garment.triangles.iter().map(mean).collect(), vertices }
@@ -130,7 +130,7 @@ fn per_vertex(worn: Worn<'_>, value: impl Fn(u32) -> f64 + Sync) -> Vec<f64> {
     of_laid(worn, value).into_iter().map(|value| value.unwrap_or(f64::NAN)).collect()
 }
 
-/// What is told of each laid vertex.
+/// The result of `tell` for each laid vertex, None for the others.
 fn of_laid<T: Send>(worn: Worn<'_>, tell: impl Fn(u32) -> T + Sync) -> Vec<Option<T>> {
     let laid = |v: u32| worn.state.mapped.get(v as usize) == Some(&true);
     (0..worn.garment.vertex_count as u32)
@@ -140,14 +140,14 @@ fn of_laid<T: Send>(worn: Worn<'_>, tell: impl Fn(u32) -> T + Sync) -> Vec<Optio
         .collect()
 }
 
-/// Whether all corners of a triangle are laid, and where they are.
+/// Positions of the corners of triangle `t`; None where one of them is not laid.
 fn laid_corners(worn: Worn<'_>, t: usize) -> Option<[DVec3; 3]> {
     let vs = worn.garment.triangles[t];
     let laid = vs.iter().all(|&v| worn.state.mapped.get(v as usize) == Some(&true));
     laid.then(|| vs.map(|v| worn.state.positions[v as usize]))
 }
 
-/// The gap to the body, metres; negative inside.
+/// Ease: distance from the body, metres; negative inside.
 fn ease(skin: &[Option<Nearest>]) -> Vec<f64> {
     skin.iter().map(|skin| skin.map_or(f64::NAN, |skin| skin.distance)).collect()
 }

@@ -1,4 +1,4 @@
-//! How hard the cloth presses on the skin.
+//! Pressure of the cloth on the skin.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -9,18 +9,18 @@ use crate::fit::maps::curvature::corner;
 use crate::fit::maps::strain::{flat, grain};
 use crate::fit::maps::{LEAST_SHARE, Worn, laid_corners, per_vertex};
 
-/// Distance from the skin, in offsets of a wrap, up to which cloth lies on it.
+/// Distance from the skin, in offsets of a wrap, up to which cloth counts as touching it.
 const LIES: f64 = 1.25;
-/// m/s².
+/// Gravity, m/s².
 const GRAVITY: DVec3 = DVec3::new(0.0, -9.81, 0.0);
 
-/// The pressure on the skin at each vertex that lies on it, Pa: what of the forces there goes into the body, over the mixed Voronoi
-/// area. The forces are those of the membrane, stretched as it lies and wrinkled where it is pressed, and the weight; so it is
-/// Laplace's law p = T1 k1 + T2 k2 (for cloth: Kirk and Ibrahim, Fundamental relationship of fabric extensibility to anthropometric
-/// requirements and garment performance, 1966) in its weak form, which needs no curvatures. 0 where the forces would lift the cloth
-/// off; NaN where it does not lie on the skin, and without a fabric.
+/// Pressure on the skin at each vertex that touches it, Pa: the normal component of the forces at the vertex over its mixed
+/// Voronoi area. The forces are those of the membrane in its present strain, wrinkled where compressed, and the weight. This is
+/// Laplace's law p = T1 k1 + T2 k2 (for cloth: Kirk and Ibrahim, Fundamental relationship of fabric extensibility to
+/// anthropometric requirements and garment performance, 1966) in its weak form, which needs no curvatures. 0 where the forces
+/// would lift the cloth off; NaN where it does not touch the skin or has no fabric.
 ///
-/// What bending adds is left out: B/r³, 0.3 Pa for 4e-5 N·m and r = 5 cm. So is what layers above press.
+/// Left out are bending (B/r³, 0.3 Pa for 4e-5 N·m and r = 5 cm) and the pressure of outer layers.
 ///
 /// `skin` is the nearest point of the body to each vertex.
 pub(super) fn pressure(worn: Worn<'_>, skin: &[Option<Nearest>]) -> Vec<f64> {
@@ -44,13 +44,13 @@ pub(super) fn pressure(worn: Worn<'_>, skin: &[Option<Nearest>]) -> Vec<f64> {
 }
 
 struct Forces {
-    /// Of the membrane on each corner, N.
+    /// Membrane force on each corner, N.
     corners: [DVec3; 3],
-    /// kg.
+    /// Mass of the triangle, kg.
     mass: f64,
 }
 
-/// None where a triangle is not laid, has no flat area, or is made of nothing that is known.
+/// Membrane forces of each triangle. None where it is not laid, has no flat area, or has no fabric.
 fn corner_forces(worn: Worn<'_>) -> Vec<Option<Forces>> {
     let grain = grain(worn);
     let of_triangle = |t: usize| {

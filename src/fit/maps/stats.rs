@@ -1,4 +1,4 @@
-//! A map in figures: over the garment and piece by piece, with a histogram.
+//! Statistics of a map: over the garment and piece by piece, with a histogram.
 
 use serde::Serialize;
 
@@ -6,54 +6,54 @@ use crate::cloth::Garment;
 use crate::fit::maps::Map;
 use crate::fit::shape::quantile;
 
-/// Bars of a histogram.
+/// Bins of a histogram.
 const BARS: usize = 32;
 
-/// Of the values at some vertices, in the unit of the map's kind (metres, radians, shares).
+/// Statistics of the values at some vertices, in the unit of the map's kind (metres, radians, ratios).
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct MapStats {
-    /// How many vertices have a value.
+    /// Number of vertices with a value.
     pub count: usize,
-    /// The smallest.
+    /// Minimum.
     pub min: f64,
-    /// One of 100 is smaller.
+    /// 1st percentile.
     pub p01: f64,
-    /// The middle one.
+    /// Median.
     pub median: f64,
-    /// The mean.
+    /// Mean.
     pub mean: f64,
-    /// 99 of 100 are smaller.
+    /// 99th percentile.
     pub p99: f64,
-    /// The largest.
+    /// Maximum.
     pub max: f64,
 }
 
-/// Of one piece.
+/// Statistics of one piece.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PieceStats {
-    /// Its name.
+    /// Name of the piece.
     pub piece: String,
-    /// Over its vertices, those on its seams with it.
+    /// Over the vertices of the piece, including those on its seams.
     #[serde(flatten)]
     pub stats: MapStats,
 }
 
-/// How many values fall where.
+/// Histogram of the values at vertices.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Histogram {
-    /// Borders of the bars, ascending, one more than bars.
+    /// Bin edges, ascending, one more than bins.
     pub borders: Vec<f64>,
-    /// Values in each bar; a value on a border belongs to the upper one, those beyond the ends to the last bar there.
+    /// Values in each bin; a value on an edge belongs to the upper bin, values beyond the ends to the first or last bin.
     pub counts: Vec<usize>,
 }
 
 impl Map {
-    /// Over the whole garment.
+    /// Statistics over the whole garment.
     pub fn stats(&self) -> MapStats {
         stats(self.vertices.iter().copied())
     }
 
-    /// Piece by piece, in id order.
+    /// Statistics piece by piece, in id order.
     pub fn pieces(&self, garment: &Garment) -> Vec<PieceStats> {
         let of_piece = |id| {
             let mut vertices: Vec<u32> =
@@ -69,12 +69,12 @@ impl Map {
             .collect()
     }
 
-    /// What its legend spans: from the first to the last hundredth, about zero where the signs matter.
+    /// Range of the legend: 1st to 99th percentile, symmetric about zero where signs matter, else including zero.
     pub fn range(&self) -> [f64; 2] {
         self.range_of(&self.stats())
     }
 
-    /// The same, where [`Map::stats`] are known.
+    /// The result of [`Map::range`], given the result of [`Map::stats`].
     pub fn range_of(&self, stats: &MapStats) -> [f64; 2] {
         if self.kind.is_signed() {
             return self.range_about_zero(stats);
@@ -82,7 +82,7 @@ impl Map {
         [stats.p01.min(0.0), stats.p99]
     }
 
-    /// As far to both sides of zero as the hundredths of the values reach: for values that are a difference, whatever the kind.
+    /// Range symmetric about zero that covers the 1st and 99th percentiles: for differences of values, whatever the kind.
     pub fn range_about_zero(&self, stats: &MapStats) -> [f64; 2] {
         let most = stats.p01.abs().max(stats.p99.abs());
         [-most, most]

@@ -1,4 +1,4 @@
-//! How triangles and seams are strained.
+//! Strain of triangles and seams.
 
 use std::collections::BTreeMap;
 
@@ -9,14 +9,14 @@ use crate::fit::maps::{LEAST_SHARE, MapKind, Worn, laid_corners};
 use crate::geometry::ids::PieceId;
 use crate::pattern::Piece;
 
-/// A triangle flatter than this share of its longest side squared has no strain.
+/// A triangle whose area is less than this share of its longest side squared has no strain.
 const FLAT: f64 = 1e-9;
 /// Edges shorter than this (metres) have no strain.
 const SHORTEST: f64 = 1e-9;
 
-/// The strain of each triangle: warp, weft, shear or area. With F the deformation gradient from the flat plane to space and
-/// w and f unit vectors along and across the grain there: |F w| - 1, |F f| - 1, the angle by which F w and F f are nearer to each
-/// other than a right angle, |F w x F f| - 1.
+/// Strain of each triangle: warp, weft, shear or area. With F the deformation gradient from the flat plane to space, and w and f
+/// unit vectors along and across the grain, these are |F w| - 1, |F f| - 1, a right angle minus the angle between F w and F f,
+/// and |F w x F f| - 1.
 pub(super) fn strain(kind: MapKind, worn: Worn<'_>) -> Vec<f64> {
     let grain = grain(worn);
     (0..worn.garment.triangles.len())
@@ -35,21 +35,21 @@ pub(super) fn strain(kind: MapKind, worn: Worn<'_>) -> Vec<f64> {
         .collect()
 }
 
-/// Which way the warp of each piece runs in its plane.
+/// Warp direction of each piece in its plane, unit vector.
 pub(super) fn grain(worn: Worn<'_>) -> BTreeMap<PieceId, DVec2> {
     let along =
         |piece: &Piece| piece.grainline.and_then(|[a, b]| (b - a).try_normalize()).unwrap_or(DVec2::Y);
     worn.pattern.pieces.iter().map(|(&id, piece)| (id, along(piece))).collect()
 }
 
-/// Where the unit vectors along and across the grain go.
+/// Images of the unit vectors along and across the grain under the deformation gradient.
 fn images(worn: Worn<'_>, t: usize, [a, b, c]: [DVec3; 3], along: DVec2) -> Option<[DVec3; 2]> {
     let (_, slopes) = flat(worn, t, along)?;
     Some(slopes.map(|slope| (b - a) * slope.y + (c - a) * slope.z))
 }
 
-/// The flat area of a triangle, m², and how the hat functions of its corners rise along and across the grain, 1/m. None where
-/// it has none.
+/// Flat area of a triangle, m², and the gradients of its corners' linear shape functions along and across the grain, 1/m. None
+/// where it has no area.
 pub(super) fn flat(worn: Worn<'_>, t: usize, along: DVec2) -> Option<(f64, [DVec3; 2])> {
     let [p, q, r] = worn.garment.triangle_corners[t].map(|corner| worn.garment.corners[corner as usize].uv);
     let flat = DMat2::from_cols(q - p, r - p);
@@ -65,14 +65,14 @@ pub(super) fn flat(worn: Worn<'_>, t: usize, along: DVec2) -> Option<(f64, [DVec
     Some((flat.determinant().abs() / 2.0, [slopes(along), slopes(along.perp())]))
 }
 
-/// Stretch along seams, at their vertices: of the edges on both sides together. NaN off seams.
+/// Strain along seams, at their vertices: of the edges on both sides together. NaN off seams.
 pub(super) fn seams(worn: Worn<'_>) -> Vec<f64> {
     let garment = worn.garment;
     let mut lengths = vec![[0.0; 2]; garment.vertex_count];
     let laid = |v: u32| worn.state.mapped.get(v as usize) == Some(&true);
     for pairs in garment.seam_pairs.iter().flat_map(|(_, pairs)| pairs.windows(2)) {
         let sides = [0, 1].map(|side| [pairs[0][side], pairs[1][side]].map(|c| garment.corners[c as usize]));
-        // Two seams of one name can follow each other in the list without touching.
+        // Two parts of one seam can follow each other in the list without touching.
         if sides.iter().any(|[a, b]| a.piece != b.piece || !laid(a.vertex) || !laid(b.vertex)) {
             continue;
         }

@@ -1,4 +1,4 @@
-//! A factor solved for all three axes at once.
+//! Triangular solves with a factor for three right-hand sides (x, y and z) at once.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -7,18 +7,19 @@ use crate::geometry::factor::Group;
 use crate::geometry::factor::trees::{Part, Trees};
 use crate::geometry::wide::wide;
 
-/// Rows that are summed at once: the order of sums is fixed, whatever the machine has.
+/// Number of partial sums of a dot product: fixed, so that the order of sums is the same on every machine.
 const LANES: usize = 4;
 
-/// The three axes and a fourth that stays 0: as wide as registers are.
+/// A row of the right-hand sides: x, y, z and a fourth value that stays 0, to fill a vector register.
 pub(super) type Axes = [f64; 4];
 
 pub(super) fn axes(v: DVec3) -> Axes {
     [v.x, v.y, v.z, 0.0]
 }
 
-/// Solves in place of `x`, which stands in the order of the factor's columns, `group` by group: the trees at once, then what they
-/// hang on, and back. Same input, same bits, on any number of threads.
+/// Solves for `x` in place; its rows are in the factor's column order, and `group` gives a supernode by its number.
+/// Forward substitution goes through the subtrees in parallel, then through the supernodes above them; back
+/// substitution goes the other way. Same input, same bits, on any number of threads.
 pub(super) fn solve_axes<'a>(group: impl Fn(usize) -> Group<'a> + Sync, trees: &Trees, x: &mut [Axes]) {
     let group = &group;
     let sum_above = |(own, part): (&mut [Axes], &Part)| {
@@ -53,7 +54,7 @@ pub(super) fn solve_axes<'a>(group: impl Fn(usize) -> Group<'a> + Sync, trees: &
     });
 }
 
-/// The columns of each part.
+/// Splits `x` into the rows of each subtree.
 fn pieces<'a>(mut x: &'a mut [Axes], parts: &[Part]) -> Vec<&'a mut [Axes]> {
     let mut taken = 0;
     let mut take = |part: &Part| {
@@ -65,14 +66,16 @@ fn pieces<'a>(mut x: &'a mut [Axes], parts: &[Part]) -> Vec<&'a mut [Axes]> {
     parts.iter().map(&mut take).collect()
 }
 
-/// Where rows below a group are kept: from `first` on in the piece at hand, those after it at their `place` above it.
+/// How row numbers of the factor map to slices: rows of the subtree at hand start at `first` of its slice, those
+/// after it are at `place` among the rows above.
 #[derive(Clone, Copy)]
 struct Rows<'a> {
     first: usize,
     place: &'a [u32],
 }
 
-/// Goes up through `groups`, which are `own` columns; what they take from rows above goes into `above`.
+/// Forward substitution through `groups`, whose rows are `own`; what they contribute to rows above them is added to
+/// `above`.
 #[inline(always)]
 fn forward<'a>(
     groups: impl Iterator<Item = Group<'a>>,
@@ -103,7 +106,8 @@ fn forward<'a>(
     }
 }
 
-/// Goes down through `groups`, which are `own` columns; the rows above are done and stand in `above`.
+/// Back substitution through `groups`, whose rows are `own`; the rows above them are solved already and given in
+/// `above`.
 #[inline(always)]
 fn backward<'a>(groups: impl Iterator<Item = Group<'a>>, rows: Rows<'_>, own: &mut [Axes], above: &[Axes]) {
     let end = rows.first + own.len();
@@ -124,7 +128,7 @@ fn backward<'a>(groups: impl Iterator<Item = Group<'a>>, rows: Rows<'_>, own: &m
     }
 }
 
-/// How many of `rows` come before `end`. They are in order.
+/// The number of `rows`, ascending, that come before `end`.
 #[inline(always)]
 fn rows_before(rows: &[usize], end: usize) -> usize {
     match rows.last() {
@@ -133,7 +137,7 @@ fn rows_before(rows: &[usize], end: usize) -> usize {
     }
 }
 
-/// Adds `x` `times` so many.
+/// Adds `x` times `times` to `sum`.
 #[inline(always)]
 fn add(sum: &mut Axes, x: &Axes, times: f64) {
     for k in 0..4 {
@@ -141,7 +145,7 @@ fn add(sum: &mut Axes, x: &Axes, times: f64) {
     }
 }
 
-/// The sum of `rows` times `column`.
+/// The dot product of `column` with each of the axes of `rows`.
 #[inline(always)]
 fn dot(rows: &[Axes], column: &[f64]) -> Axes {
     let mut sums = [[0.0; 4]; LANES];

@@ -1,5 +1,5 @@
-//! A sparse Cholesky factor (faer), solved for one right-hand side or for all three axes at once: with so few of them the calls
-//! of a general solver cost more than the numbers.
+//! Sparse Cholesky factorisation (faer), solved for one right-hand side or for three (x, y and z) at once. For so
+//! few, the calls of a general solver take longer than the arithmetic.
 
 mod axes;
 mod trees;
@@ -23,20 +23,20 @@ use crate::geometry::factor::axes::{Axes, axes, solve_axes};
 use crate::geometry::factor::trees::Trees;
 use crate::geometry::wide::wide;
 
-/// What sums run in at once for one axis: their order is fixed, whatever the machine has.
+/// Number of partial sums for one right-hand side: fixed, so that the order of sums is the same on every machine.
 const LANES: usize = 8;
-/// In a matrix with an order of its own, groups of up to so many columns may be joined when they then hold at most this share
-/// of zeros.
+/// Limits for merging supernodes where the caller gives the elimination order: (number of columns, fraction of
+/// zeros). A merged supernode with up to this many columns may hold at most this fraction of zeros.
 const RELAX: [(usize, f64); 3] = [(4, 1.0), (16, 0.8), (48, 0.1)];
 
-/// Where the numbers of a factor stand.
+/// The symbolic part of a factor: elimination order and sparsity, shared by all matrices with the same pattern.
 #[derive(Clone, Debug)]
 pub struct Symbolic {
     matrix: Arc<SymbolicCholesky<usize>>,
     trees: Arc<Trees>,
 }
 
-/// The numbers.
+/// A numeric Cholesky factor.
 #[derive(Clone, Debug)]
 pub struct Factor {
     symbolic: Symbolic,
@@ -44,12 +44,14 @@ pub struct Factor {
 }
 
 impl Symbolic {
-    /// For a matrix of which the lower triangle is given. None when it does not fit in memory.
+    /// Analyses a symmetric matrix, of which `pattern` is the lower triangle; the order is approximate minimum
+    /// degree. None when it does not fit in memory.
     pub fn new(pattern: SymbolicSparseColMatRef<'_, usize>) -> Option<Self> {
         Self::by(pattern, SymmetricOrdering::Amd, Default::default())
     }
 
-    /// The same with rows eliminated in `order`.
+    /// Analyses a symmetric matrix, of which `pattern` is the lower triangle, with rows eliminated in `order`. None
+    /// when it does not fit in memory.
     pub fn ordered(pattern: SymbolicSparseColMatRef<'_, usize>, order: &[usize]) -> Option<Self> {
         let mut back = vec![0; order.len()];
         order.iter().enumerate().for_each(|(at, &row)| back[row] = at);
@@ -74,12 +76,12 @@ impl Symbolic {
         Some(symbolic)
     }
 
-    /// Numbers a factor has.
+    /// Number of values stored in a factor.
     pub fn fill(&self) -> usize {
         self.matrix.len_val()
     }
 
-    /// Columns whose rows below them are the same stand together.
+    /// The supernodes: adjacent columns with the same rows below them.
     fn groups(&self) -> Option<&SymbolicSupernodalCholesky<usize>> {
         match self.matrix.raw() {
             SymbolicCholeskyRaw::Supernodal(groups) => Some(groups),
@@ -87,8 +89,8 @@ impl Symbolic {
         }
     }
 
-    /// Factors `matrix`, in the memory of a factor that is no longer needed. None when it is not positive definite, or does not
-    /// fit in memory.
+    /// Factors `matrix`, reusing the memory of a factor that is no longer needed. None when it is not positive
+    /// definite, or does not fit in memory.
     pub fn factor(&self, matrix: SparseColMatRef<'_, usize, f64>, memory: Option<Factor>) -> Option<Factor> {
         let mut values = memory.map(|f| f.values).unwrap_or_default();
         values.clear();
@@ -130,8 +132,8 @@ fn add_times(sum: &mut [f64], column: &[f64], times: f64) {
 }
 
 impl Factor {
-    /// Solves in place of the right-hand sides, one an axis. False when there is nothing to solve with. Same input, same bits, on
-    /// any number of threads.
+    /// Solves in place for three right-hand sides, the axes of `sides`. False when the factor has no supernodes. Same
+    /// input, same bits, on any number of threads.
     pub fn solve(&self, sides: &mut [DVec3]) -> bool {
         let (Some(groups), Some(order)) = (self.symbolic.groups(), self.symbolic.matrix.perm()) else {
             return false;
@@ -143,7 +145,7 @@ impl Factor {
         true
     }
 
-    /// Solves in place of the right-hand side. False when there is nothing to solve with.
+    /// Solves in place for one right-hand side. False when the factor has no supernodes.
     pub fn solve_one(&self, side: &mut [f64]) -> bool {
         wide(
             #[inline(always)]
@@ -197,12 +199,12 @@ impl Factor {
     }
 }
 
-/// What can be gone through at once.
+/// Subtrees of the elimination tree that can be solved in parallel.
 fn trees(groups: &SymbolicSupernodalCholesky<usize>) -> Trees {
     let count = groups.n_supernodes();
     let columns: Vec<_> =
         (0..count).map(|s| groups.supernode_begin()[s]..groups.supernode_end()[s]).collect();
-    // A group hangs on the one that holds the first row below it.
+    // The parent of a supernode is the one that holds the first row below it.
     let parent = |s: usize| match groups.nnz_per_super()[s] {
         0 => count,
         _ => {
@@ -216,7 +218,7 @@ fn trees(groups: &SymbolicSupernodalCholesky<usize>) -> Trees {
     Trees::new(&columns, &parents, &work)
 }
 
-/// Columns that stand together: a triangle on the diagonal, and the rows below it.
+/// A supernode: `size` adjacent columns from `start` on, a triangle on the diagonal and the `rows` below it.
 struct Group<'a> {
     start: usize,
     size: usize,

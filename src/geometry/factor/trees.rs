@@ -1,39 +1,41 @@
-//! Parts of an elimination that do not touch each other and can be gone through at once.
+//! Independent subtrees of the elimination tree, which can be solved in parallel.
 
 use std::ops::Range;
 
-/// An elimination of fewer columns is gone through by one thread.
+/// Number of columns below which a factor is solved on one thread.
 const WORTH_IT: usize = 1500;
-/// A part is cut up while it has more than this share of all the work.
+/// A subtree with more than this fraction of all work is split into those of its children.
 const LARGE: f64 = 0.2;
-/// What is above all parts, and so done by one thread, has at most this share of the work.
+/// Limit of the work above all subtrees, which one thread does, as a fraction of all work; beyond it no further
+/// subtree is split.
 const MOST_ABOVE: f64 = 0.5;
 
-/// Groups of columns as they hang on each other: below some on top, trees that share no row but with those.
+/// The elimination tree of supernodes (groups of columns), split into independent subtrees and the supernodes above
+/// them.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Trees {
-    /// The groups of each, and their columns. In order.
+    /// The subtrees, in order.
     pub parts: Vec<Part>,
-    /// The other groups, in order.
+    /// The supernodes above all subtrees, in order.
     pub top: Vec<usize>,
-    /// The columns of those, in order.
+    /// The columns of the supernodes in `top`, in order.
     pub columns: Vec<usize>,
-    /// Where each column stands among them.
+    /// Index of each column in `columns`; `u32::MAX` for columns of subtrees.
     pub place: Vec<u32>,
 }
 
-/// One tree.
+/// One subtree.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Part {
-    /// Of groups.
+    /// Its supernodes.
     pub groups: Range<usize>,
-    /// Of columns.
+    /// Its columns.
     pub columns: Range<usize>,
 }
 
 impl Trees {
-    /// Of groups with these `columns`, each hanging on a later one (or on none: `parent` is then the number of groups), with so
-    /// much `work` in each. The same on any machine.
+    /// Splits the elimination tree of supernodes that own `columns`. `parent` is a later supernode, or the number of
+    /// supernodes for a root; `work` is a count of operations for each. The result is the same on any machine.
     pub fn new(columns: &[Range<usize>], parent: &[usize], work: &[usize]) -> Self {
         let groups = columns.len();
         let count = columns.last().map_or(0, |last| last.end);
@@ -45,7 +47,7 @@ impl Trees {
             sizes[on] += sizes[group];
             first[on] = first[on].min(first[group]);
         }
-        // What hangs on a group stands right before it: else nothing is known of it here.
+        // The descendants of each supernode must come right before it; otherwise the tree is not split.
         let is_in_order = (0..groups).all(|g| g + 1 - first[g] == sizes[g]);
         let all: usize = work.iter().sum();
         let mut roots: Vec<usize> = Vec::new();

@@ -1,5 +1,5 @@
-//! DXF text made safe: what the `dxf` crate would silently drop or stumble over is told with its line, and what no pattern
-//! needs is left out.
+//! Checks and reduces DXF text before the `dxf` crate reads it: what that crate would silently drop or fail on is reported with
+//! its line, and what no pattern needs is left out.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -9,9 +9,9 @@ use encoding_rs::Encoding;
 use crate::io::Limits;
 use crate::io::pattern_file::PatternFileError;
 
-/// Begins a binary DXF.
+/// The first bytes of a binary DXF file.
 const BINARY: &[u8] = b"AutoCAD Binary DXF";
-/// Lines told one by one before the rest are only counted.
+/// Faults reported one by one; further ones are only counted.
 const MOST_NOTES: usize = 8;
 /// Group codes that shapes and texts of a pattern use. Handles, references and markers are not among them.
 const CODES: [i32; 26] =
@@ -22,19 +22,19 @@ const ENTITIES: [&str; 10] =
 /// A DXF file reduced to what is needed.
 #[derive(Debug, Default)]
 pub struct Clean {
-    /// Sound ASCII DXF in UTF-8: the sections BLOCKS and ENTITIES.
+    /// The sections BLOCKS and ENTITIES as valid ASCII DXF, encoded in UTF-8.
     pub text: String,
-    /// What was wrong and could be passed over, with lines.
+    /// Faults that the reader could skip, with their lines.
     pub notes: Vec<String>,
     /// `$INSUNITS`, if it is there.
     pub units: Option<i64>,
-    /// `$MEASUREMENT`, if it is there: 0 inches, 1 metric.
+    /// `$MEASUREMENT`, if it is there: 0 inches, 1 metric. It is not used: metric alone does not tell which unit.
     pub measurement: Option<i64>,
-    /// Kept shapes and texts.
+    /// Number of entities (shapes and texts) kept.
     pub entities: usize,
 }
 
-/// Whether a file begins as DXF, text or binary, or as DWG does.
+/// Whether a file begins as DXF (text or binary) or as DWG does.
 pub fn looks_like(bytes: &[u8]) -> bool {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     if bytes.starts_with(BINARY) || is_dwg(bytes) {
@@ -43,7 +43,7 @@ pub fn looks_like(bytes: &[u8]) -> bool {
     let start = &bytes[..bytes.len().min(4096)];
     let mut lines =
         start.split(|b| *b == b'\n' || *b == b'\r').map(<[u8]>::trim_ascii).filter(|l| !l.is_empty());
-    // "0 SECTION" or a comment, "999 …".
+    // A DXF text begins with "0 SECTION" or with a comment, "999 …".
     match lines.next() {
         Some(b"0") => lines.next().is_some_and(|l| l == b"SECTION" || l == b"EOF"),
         Some(b"999") => true,
@@ -80,7 +80,7 @@ pub fn clean(bytes: &[u8]) -> Result<Clean, PatternFileError> {
     cleaner.finish()
 }
 
-/// The text in Unicode: UTF-8 where it is that, else by the code page the header names.
+/// The text as Unicode: UTF-8 if it is valid, else decoded by the code page that the header names.
 fn decoded(bytes: &[u8]) -> std::borrow::Cow<'_, str> {
     if let Ok(text) = std::str::from_utf8(bytes) {
         return text.into();
@@ -112,11 +112,11 @@ fn code_page(bytes: &[u8]) -> &'static Encoding {
 struct Tag<'a> {
     code: i32,
     value: &'a str,
-    /// Of the value, from 1.
+    /// Line of the value, from 1.
     line: usize,
 }
 
-/// A tag with code 0 and those up to the next.
+/// A tag with group code 0, which begins a record, and the tags up to the next such tag.
 #[derive(Debug)]
 struct Record<'a> {
     kind: &'a str,
@@ -130,7 +130,7 @@ struct Records<'a> {
     next: Option<Tag<'a>>,
     line_bytes: usize,
     tag_limit: usize,
-    /// A comment or a value before the first record is passed over.
+    /// Whether the first record has begun; comments and values before it are skipped.
     begun: bool,
 }
 
@@ -140,7 +140,7 @@ impl<'a> Records<'a> {
         Self { lines, next: None, line_bytes: limits.line_bytes, tag_limit: limits.dxf_tags, begun: false }
     }
 
-    /// None at the end of the file, and where it ends between a code and its value.
+    /// The next tag; None at the end of the file, also where the file ends between a code and its value.
     fn tag(&mut self) -> Option<Result<Tag<'a>, PatternFileError>> {
         let (number, code) = self.lines.find(|(_, line)| self.begun || !line.trim().is_empty())?;
         if code.len() > self.line_bytes {
@@ -297,7 +297,7 @@ impl<'l> Cleaner<'l> {
         }
     }
 
-    /// All of the header is in the tags of its SECTION record.
+    /// Takes the two unit variables out of the header, all of whose variables are tags of its SECTION record.
     fn read_header(&mut self, record: &Record<'_>) {
         let value = |name: &str| {
             let at = record.tags.iter().position(|t| t.code == 9 && t.value == name)?;
@@ -354,7 +354,7 @@ impl<'l> Cleaner<'l> {
         Ok(())
     }
 
-    /// Writes a record unless a number of it is none; false then.
+    /// Writes a record. If one of its numbers is not valid the record is left out with a note, and the result is false.
     fn write(&mut self, record: &Record<'_>) -> Result<bool, PatternFileError> {
         for tag in record.tags.iter().filter(|t| CODES.contains(&t.code)) {
             if let Some(words) = fault(*tag)? {
@@ -370,7 +370,7 @@ impl<'l> Cleaner<'l> {
         for tag in
             record.tags.iter().filter(|t| CODES.contains(&t.code) && !matches!(fault(**t), Ok(Some(_))))
         {
-            // Attributes of inserts are left out, and then nothing follows them.
+            // Code 66 announces attributes of an INSERT. They are left out, so the code must go too.
             if tag.code == 66 && record.kind == "INSERT" {
                 continue;
             }
@@ -408,13 +408,14 @@ impl<'l> Cleaner<'l> {
     }
 }
 
-/// A small whole number; some programs write 1.0 for 1.
+/// A whole number that fits 16 bits; some programs write 1.0 for 1.
 fn whole(text: &str) -> Option<i16> {
     let number = text.parse::<f64>().ok()?;
     (number.fract() == 0.0 && number.abs() <= f64::from(i16::MAX)).then_some(number as i16)
 }
 
-/// What is wrong with the number of a tag. A number that is none at all ends the reading.
+/// The fault of a tag's number that can be skipped with a note, or None if the number is valid. A number that is infinite or NaN
+/// is an error and ends the reading.
 fn fault(tag: Tag<'_>) -> Result<Option<String>, PatternFileError> {
     let shown = || tag.value.chars().take(30).collect::<String>();
     match tag.code {

@@ -1,11 +1,11 @@
-//! What is drawn in one block of a drawing: lines, points and texts.
+//! The contents of one block of a DXF drawing: lines, points and texts.
 
 use glam::{DMat2, DVec2};
 
 use crate::io::pattern_file::PatternFileError;
 use crate::pattern::{Edge, EdgeShape};
 
-/// A map of the plane that keeps shapes.
+/// A similarity transform of the plane: rotation, reflection, uniform scale and translation.
 #[derive(Clone, Copy, Debug)]
 pub struct Placing {
     pub matrix: DMat2,
@@ -18,16 +18,16 @@ impl Placing {
     }
 }
 
-/// A line as drawn.
+/// A line of the drawing, open or closed.
 #[derive(Clone, Debug)]
 pub struct DrawnLine {
-    /// None where the name of the layer has no number.
+    /// Layer number; None where the name of the layer holds no number.
     pub layer: Option<u32>,
     pub shape: LineShape,
     pub is_closed: bool,
 }
 
-/// Its points, or, where arcs are among them, its edges and end.
+/// The geometry of a line: a polyline, or, where it has arcs, its edges and the end of the last one.
 #[derive(Clone, Debug)]
 pub enum LineShape {
     Points(Vec<DVec2>),
@@ -35,7 +35,7 @@ pub enum LineShape {
 }
 
 impl LineShape {
-    /// Its corners.
+    /// The points of the polyline, or the start of each edge.
     pub fn points(&self) -> Vec<DVec2> {
         match self {
             Self::Points(points) => points.clone(),
@@ -44,7 +44,7 @@ impl LineShape {
     }
 }
 
-/// What belongs together: the contents of a block.
+/// The contents of one block, which become one piece. Texts and points are given with their layer and position.
 #[derive(Clone, Debug, Default)]
 pub struct Drawn {
     pub name: String,

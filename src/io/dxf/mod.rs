@@ -1,9 +1,9 @@
-//! Patterns as DXF in the layers of AAMA-292 and ASTM D6673: one block a piece.
+//! Patterns as DXF in the layers of AAMA-292 and ASTM D6673: one block for each piece.
 //!
 //! | layer | holds |
 //! | --- | --- |
-//! | 1 | the line it is cut on; where there is no layer 14, the only line there is |
-//! | 14 | the line it is sewn on (in Valentina's AAMA files on layer 8) |
+//! | 1 | the cut line; where there is no layer 14, the only outline there is |
+//! | 14 | the seam line (in Valentina's AAMA files on layer 8) |
 //! | 2, 3 | corners, points of curves; a point on both is an end of an edge where the line runs on smoothly |
 //! | 4, 80–83 | notches |
 //! | 7 | grainline |
@@ -11,8 +11,8 @@
 //! | 11 | cut-outs |
 //! | 84–87 | copies for checking; not read |
 //!
-//! Curves are polylines there. They come in as curves fitted between corners (see `io::trace::fit`).
-//! The files hold neither seams nor places round the body.
+//! DXF files of patterns hold curves as polylines. Reading fits curves between the corners (see `io::trace::fit`). The files hold
+//! neither seams nor placements on the body.
 
 mod clean;
 mod drawn;
@@ -25,7 +25,7 @@ pub use clean::looks_like;
 pub use read::read;
 pub use write::write;
 
-/// Layers by number.
+/// Layer numbers of AAMA-292 and ASTM D6673.
 mod layer {
     pub const BOUNDARY: u32 = 1;
     pub const CORNER: u32 = 2;
@@ -37,10 +37,10 @@ mod layer {
     pub const CUT_OUT: u32 = 11;
     pub const SEAM: u32 = 14;
     pub const ANNOTATION: u32 = 15;
-    /// Lines that people draw and machines do not use.
+    /// Further layers of internal lines: a line read from one is named after its layer and is written to it again.
     pub const OTHERS: [u32; 3] = [5, 9, 10];
-    /// Other shapes of notches.
+    /// Layers of notches of other shapes than the plain one on layer 4.
     pub const NOTCHES: std::ops::RangeInclusive<u32> = 80..=83;
-    /// Copies for checking.
+    /// Layers of copies of curves for checking; they are not read.
     pub const COPIES: std::ops::RangeInclusive<u32> = 84..=87;
 }

@@ -1,4 +1,4 @@
-//! What each line of a block means for its piece.
+//! Makes pieces of blocks: decides by its layer what each line of a block means.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -14,20 +14,21 @@ use crate::io::trace::fit::{self, Knot};
 use crate::pattern::piece::flattened_loop;
 use crate::pattern::{Edge, InternalLine};
 
-/// Ends nearer than this meet, metres.
+/// Largest distance between two line ends that are joined, metres.
 const MEETING: f64 = 1e-4;
-/// A corner or curve point this near a point of a line is one of it, metres.
+/// Largest distance (in x and in y, metres) between a corner or curve mark and the point of a line that it marks.
 const SAME_POINT: f64 = 2e-5;
-/// Parts that a line to cut or sew along is put together of.
+/// Largest number of open parts from which outlines are joined; a block with more keeps them open, as joining takes quadratic
+/// time.
 const MOST_PARTS: usize = 2000;
-/// Chords where shapes are compared, metres.
+/// Flattening tolerance of curves where shapes are compared, metres.
 const CHORDS: f64 = 5e-4;
-/// The name of lines on the layer of mirror lines.
+/// The name given to internal lines on the layer of mirror lines.
 const FOLD: &str = "fold";
-/// Begins the names of lines on layers without a meaning here.
+/// Prefix of the names given to internal lines on other layers; the layer number follows.
 const OTHER: &str = "layer ";
 
-/// Width and height of the largest thing drawn, in the drawing's units.
+/// Width and height of the largest piece of the drawing, in the drawing's units.
 pub fn largest(all: &[Drawn]) -> DVec2 {
     let sizes = all.iter().filter_map(|drawn| {
         let closed =
@@ -43,7 +44,8 @@ pub fn largest(all: &[Drawn]) -> DVec2 {
     sizes.fold(DVec2::ZERO, |a, b| if b.max_element() > a.max_element() { b } else { a })
 }
 
-/// A drawing without blocks: every closed line that is inside no other, with what lies in it.
+/// Splits a drawing without blocks into pieces: each closed line that is inside no other becomes one, with everything inside it.
+/// Where closed lines are on the boundary layer, only those are taken for outlines.
 pub fn told_apart(loose: Drawn) -> Result<Vec<Drawn>, PatternFileError> {
     let closed = |l: &DrawnLine| l.is_closed && l.shape.points().len() > 1;
     let on_boundary = |l: &DrawnLine| closed(l) && l.layer == Some(layer::BOUNDARY);
@@ -95,7 +97,7 @@ pub fn told_apart(loose: Drawn) -> Result<Vec<Drawn>, PatternFileError> {
     Ok(pieces.into_iter().map(|(_, drawn)| drawn).collect())
 }
 
-/// The piece of each block, in metres. Blocks without a closed line are told.
+/// The piece of each block, in metres. A block without a closed line gives a note instead.
 pub fn traced(all: Vec<Drawn>, notes: &mut Vec<String>) -> Vec<Traced> {
     let mut names: BTreeMap<String, usize> = BTreeMap::new();
     let mut traced = Vec::new();
@@ -118,7 +120,8 @@ pub fn traced(all: Vec<Drawn>, notes: &mut Vec<String>) -> Vec<Traced> {
 }
 
 impl Drawn {
-    /// What the text "PIECE NAME:" says, else a text on the layer of annotations, else the name of the block.
+    /// The name of the piece: that of the text "PIECE NAME:", else a text on the layer of annotations, else the name of the
+    /// block.
     fn piece_name(&self) -> String {
         let keyed = self.texts.iter().find_map(|(_, text, _)| {
             let (key, value) = text.split_once(':')?;
@@ -198,7 +201,7 @@ fn first_of(loops: &mut BTreeMap<Option<u32>, Vec<Loop>>, layers: &[u32]) -> Opt
         .find_map(|l| loops.get_mut(&Some(*l)).filter(|all| !all.is_empty()).map(|all| all.remove(0)))
 }
 
-/// What lines on other layers than that of internal lines are called.
+/// The name of an internal line read from layer `of`: empty for the layer of internal lines or an unknown layer.
 fn line_name(of: Option<u32>) -> String {
     match of {
         Some(layer::MIRROR) => FOLD.to_owned(),
@@ -207,7 +210,7 @@ fn line_name(of: Option<u32>) -> String {
     }
 }
 
-/// The layer of an internal line called `name`; None where the name would be lost.
+/// The layer to write an internal line called `name` on; None where DXF cannot keep the name.
 pub fn line_layer(name: &str) -> Option<u32> {
     match name {
         "" => Some(layer::INTERNAL),
@@ -227,7 +230,7 @@ impl Traced {
                     self.grainline = Some([edges[0].start, end])
                 }
                 Some(layer::GRAIN) => {}
-                // A slit: it begins or ends at the edge.
+                // A slit notch is a line with one end on the outline; that end is the notch.
                 Some(l) if l == layer::NOTCH || layer::NOTCHES.contains(&l) => {
                     let outline = Contour::coarse(flattened_loop(&self.outline, CHORDS));
                     let start = edges[0].start;
@@ -248,14 +251,14 @@ impl Traced {
     }
 }
 
-/// Open lines to cut or sew along, joined where their ends meet; lines whose ends meet closed.
+/// Joins open outline and cut-out lines of one layer whose ends meet, and closes lines whose two ends meet.
 fn chained(lines: &[DrawnLine]) -> Vec<DrawnLine> {
     let joins = |l: &DrawnLine| {
         !l.is_closed && matches!(l.layer, Some(layer::BOUNDARY | layer::SEAM | layer::CUT_OUT))
     };
     let mut done: Vec<DrawnLine> = lines.iter().filter(|l| !joins(l)).cloned().collect();
     let mut open: Vec<DrawnLine> = lines.iter().filter(|l| joins(l)).cloned().collect();
-    // More parts than this are no outline; joining them would only take long.
+    // An outline has no more parts than this; joining more would only take long.
     let mut tries = if open.len() > MOST_PARTS { 0 } else { 2 * open.len() };
     while let Some(mut line) = open.pop() {
         loop {
@@ -307,7 +310,7 @@ impl LineShape {
         }
     }
 
-    /// Takes away the repetition of the first point at the end.
+    /// Removes the end point (or last edge) that repeats the first point of a closed line.
     fn close(&mut self) {
         match self {
             Self::Points(points) => {
@@ -319,7 +322,7 @@ impl LineShape {
                 if let Some(first) = edges.first() {
                     *end = first.start;
                 }
-                // An edge back to where it starts is the one that closed the line already.
+                // A last edge that starts at the first point only closes the line, which is closed already.
                 if edges.len() > 1 && edges[edges.len() - 1].start.distance(*end) < MEETING {
                     edges.pop();
                 }
@@ -371,7 +374,7 @@ impl LineShape {
     }
 }
 
-/// Corners and curve points of a block, by squares of the plane.
+/// Marked corners and curve points of a block, hashed to grid cells of side [`SAME_POINT`].
 struct Knots {
     corners: BTreeSet<[i64; 2]>,
     curves: BTreeSet<[i64; 2]>,
@@ -425,7 +428,7 @@ impl Knots {
     }
 }
 
-/// Edges of no length are left out.
+/// `edges` without those of no length. `end` is where the last one ends.
 fn without_short(mut edges: Vec<Edge>, end: Option<DVec2>) -> Vec<Edge> {
     let ends: Vec<Option<DVec2>> = edges.iter().skip(1).map(|e| Some(e.start)).chain([end]).collect();
     let mut ends = ends.into_iter();
@@ -434,7 +437,7 @@ fn without_short(mut edges: Vec<Edge>, end: Option<DVec2>) -> Vec<Edge> {
 }
 
 fn square(p: DVec2) -> [i64; 2] {
-    // Coordinates are within 100 m.
+    // Fits 64 bits: coordinates are within 100 m.
     [(p.x / SAME_POINT).floor() as i64, (p.y / SAME_POINT).floor() as i64]
 }
 

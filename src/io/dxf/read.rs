@@ -15,10 +15,10 @@ use crate::io::scale::DrawingUnit;
 use crate::io::trace;
 use crate::pattern::{Edge, EdgeShape};
 
-/// Reads a pattern. `unit` goes before what the file says.
+/// Reads a pattern. `unit`, if given, overrides the unit that the file states.
 ///
 /// # Errors
-/// What cannot be read, with its line; more than [`Limits`] allows; or which unit it is in.
+/// What cannot be read, with its line; a value over one of the [`Limits`]; or a question when the unit is not known.
 pub fn read(bytes: &[u8], unit: Option<DrawingUnit>) -> Result<ReadPattern, PatternFileError> {
     let mut clean = clean::clean(bytes)?;
     let drawing = Drawing::load_with_encoding(&mut clean.text.as_bytes(), encoding_rs::UTF_8)
@@ -79,7 +79,7 @@ fn nothing(clean: &Clean, notes: &[String]) -> PatternFileError {
     PatternFileError::Whole(std::iter::once(&words).chain(notes).cloned().collect::<Vec<_>>().join("; "))
 }
 
-/// Blocks that contain each other would be without end.
+/// Refuses blocks nested too deep, which includes blocks that contain each other.
 fn check_nesting(blocks: &[&Block]) -> Result<(), PatternFileError> {
     let limits = Limits::default();
     let children: BTreeMap<&str, BTreeSet<&str>> = blocks
@@ -92,7 +92,7 @@ fn check_nesting(blocks: &[&Block]) -> Result<(), PatternFileError> {
             (block.name.as_str(), inside.collect())
         })
         .collect();
-    // The longest way down from each block, found level by level.
+    // Blocks at the current depth that insert others; the depth grows by one each round.
     let mut level: BTreeSet<&str> =
         children.iter().filter(|(_, c)| !c.is_empty()).map(|(&name, _)| name).collect();
     for _ in 0..limits.block_depth {
@@ -110,7 +110,8 @@ fn check_nesting(blocks: &[&Block]) -> Result<(), PatternFileError> {
     )))
 }
 
-/// For each block where it is inserted. Blocks of one name are told apart by their order, if there are as many inserts.
+/// The insert that places each block, if there is one. Where several blocks share a name, the n-th block takes the n-th insert,
+/// provided that there are as many inserts as blocks.
 fn inserts<'a>(
     blocks: &[&Block],
     drawing: &'a Drawing,
@@ -236,7 +237,8 @@ fn at(p: &Point) -> DVec2 {
     DVec2::new(p.x, p.y)
 }
 
-/// Points, or where a bulge says so, arcs between them. A bulge is the tangent of a quarter of the arc's angle.
+/// The geometry of vertices given as point and bulge: a polyline when all bulges are 0, else lines and arcs. The bulge is the
+/// tangent of a quarter of the arc's angle, positive when counter-clockwise.
 fn shape(vertices: Vec<(DVec2, f64)>, is_closed: bool) -> LineShape {
     if vertices.iter().all(|(_, bulge)| *bulge == 0.0) {
         return LineShape::Points(vertices.into_iter().map(|(p, _)| p).collect());
@@ -256,13 +258,13 @@ fn shape(vertices: Vec<(DVec2, f64)>, is_closed: bool) -> LineShape {
     LineShape::Edges(edges.collect(), end)
 }
 
-/// "1", "01", "L1" and "LAYER_1" are layer 1.
+/// The first number in a layer's name: "1", "01", "L1" and "LAYER_1" are layer 1.
 fn layer_number(name: &str) -> Option<u32> {
     let digits = name.trim_start_matches(|c: char| !c.is_ascii_digit());
     digits.parse().ok()
 }
 
-/// A text without control characters, no longer than names may be.
+/// `text` without control characters, cut to the longest name that [`Limits`] allows.
 fn readable(text: &str) -> String {
     let limit = Limits::default().name_bytes;
     let mut short = String::new();
@@ -275,7 +277,7 @@ fn readable(text: &str) -> String {
     short
 }
 
-/// With the letters that R12 writes as `\U+00E9`.
+/// `text` with the letters decoded that R12 writes as `\U+00E9`.
 fn unescaped(text: &str) -> String {
     let mut parts = text.split("\\U+");
     let mut out = parts.next().unwrap_or_default().to_owned();

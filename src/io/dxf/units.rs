@@ -1,4 +1,4 @@
-//! How long a unit of a DXF drawing is.
+//! Finds the unit of length of a DXF drawing.
 
 use glam::DVec2;
 
@@ -6,12 +6,13 @@ use super::clean::Clean;
 use crate::io::pattern_file::PatternFileError;
 use crate::io::scale::{DrawingUnit, ScaleQuestion};
 
-/// The larger side of the largest piece of a garment, metres: from a child's collar to a circle skirt.
+/// Usual size of the larger side of a garment's largest piece, metres, from a child's collar to a circle skirt. It is used to
+/// guess the unit.
 const LIKELY: std::ops::RangeInclusive<f64> = 0.12..=2.6;
-/// What is believed when it is said.
+/// Size of the larger side of the largest piece (metres) for which a unit stated in the file is believed.
 const POSSIBLE: std::ops::RangeInclusive<f64> = 0.1..=5.0;
 
-/// The unit of a drawing whose largest piece is `largest` units in size, and a note where it was not simply said.
+/// The unit of a drawing, and a note when it was guessed. `largest` is the size of the largest piece in drawing units.
 pub fn unit(
     clean: &Clean,
     texts: &[String],
@@ -44,7 +45,7 @@ fn question(why: String, largest: DVec2, candidates: Vec<DrawingUnit>) -> Patter
     PatternFileError::Scale(ScaleQuestion { why, largest, candidates })
 }
 
-/// `UNITS: METRIC` are millimetres.
+/// The unit in a text "UNITS: …"; METRIC stands for millimetres.
 fn said_in_text(texts: &[String]) -> Option<DrawingUnit> {
     let value = texts.iter().find_map(|text| {
         let (key, value) = text.split_once(':')?;
@@ -58,7 +59,7 @@ fn said_in_text(texts: &[String]) -> Option<DrawingUnit> {
     }
 }
 
-/// `$INSUNITS`, or that measures are in inches. That measures are metric does not tell which.
+/// The unit that `$INSUNITS` in the header states, if it is one of inch, millimetre, centimetre and metre.
 fn said_in_header(clean: &Clean) -> Option<DrawingUnit> {
     match clean.units {
         Some(1) => Some(DrawingUnit::Inch),
@@ -69,7 +70,8 @@ fn said_in_header(clean: &Clean) -> Option<DrawingUnit> {
     }
 }
 
-/// Where nothing is said: the unit that makes the largest piece one of a garment, if only one does.
+/// The unit when the file states none: the only one that gives the largest piece a usual size; a question if there are several or
+/// none.
 fn guessed(largest: DVec2) -> Result<(DrawingUnit, Option<String>), PatternFileError> {
     let fitting: Vec<DrawingUnit> =
         candidates().filter(|unit| LIKELY.contains(&(largest.max_element() * unit.metres()))).collect();

@@ -1,4 +1,5 @@
-//! A pattern as DXF R12 in millimetres: a block a piece, in the layers of ASTM D6673, which are those of AAMA-292 and more.
+//! Writes a pattern as DXF R12 in millimetres: one block for each piece, in the layers of ASTM D6673, a superset of those of
+//! AAMA-292.
 
 use std::collections::BTreeSet;
 
@@ -17,7 +18,7 @@ use crate::io::trace::{self, Traced, allowance, sample};
 use crate::io::written::{self, Part};
 use crate::pattern::{Pattern, Piece};
 
-/// What the layers hold.
+/// Parts of a pattern that this format can hold.
 const HOLDS: [Part; 8] = [
     Part::Curves,
     Part::SmoothPoints,
@@ -30,13 +31,13 @@ const HOLDS: [Part; 8] = [
 ];
 /// Millimetres in a metre.
 const SCALE: f64 = 1000.0;
-/// Letters of texts are this high, millimetres.
+/// Height of the letters of texts, millimetres.
 const LETTERS: f64 = 6.0;
-/// Characters of a block's name in R12.
+/// Largest number of characters of a block's name in R12.
 const LONGEST_NAME: usize = 31;
 
-/// Writes `pattern` as it lies on the table. Curves become polylines whose points stay within 0.05 mm of them; read by
-/// this program they are the same curves again.
+/// Writes the pieces at their positions in the pattern plane. Curves become polylines within 0.05 mm; this program's reader fits
+/// the original curves to them again.
 pub fn write(pattern: &Pattern) -> Written {
     let mut drawing = Drawing::new();
     drawing.header.version = AcadVersion::R12;
@@ -70,14 +71,14 @@ pub fn write(pattern: &Pattern) -> Written {
         holds.push(Part::LineNames);
     }
     let mut left_out = written::left_out(pattern, &holds);
-    // Writing to memory fails only for a drawing that R12 cannot hold, and all of this it can.
+    // Saving to memory fails only for what R12 cannot hold, and this drawing has nothing of that kind.
     if let Err(error) = drawing.save(&mut bytes) {
         left_out.push(format!("the drawing could not be written: {error}"));
     }
     Written { bytes: without_times(&bytes), left_out }
 }
 
-/// Without the header's times of day, so that the same pattern gives the same bytes.
+/// Removes the header's timestamps (`$TD…`), so that equal patterns give equal bytes.
 fn without_times(bytes: &[u8]) -> Vec<u8> {
     let lines: Vec<&[u8]> = bytes.split_inclusive(|b| *b == b'\n').collect();
     let mut out = Vec::with_capacity(bytes.len());
@@ -86,7 +87,7 @@ fn without_times(bytes: &[u8]) -> Vec<u8> {
         let is_time =
             lines[i].trim_ascii() == b"9" && lines.get(i + 1).is_some_and(|l| l.starts_with(b"$TD"));
         if is_time {
-            // 9, the name, 40, the value.
+            // A variable is four lines: 9, its name, 40, its value.
             i += 4;
         } else {
             out.extend_from_slice(lines[i]);
@@ -96,7 +97,7 @@ fn without_times(bytes: &[u8]) -> Vec<u8> {
     out
 }
 
-/// Capital letters, digits, "_" and "-", and no name twice.
+/// A block name for R12: capital letters, digits, "_" and "-", different from all in `taken`.
 fn block_name(name: &str, taken: &mut BTreeSet<String>) -> String {
     let plain: String = name
         .chars()
@@ -192,7 +193,7 @@ fn point(p: DVec2) -> Point {
     Point::new(p.x * SCALE, p.y * SCALE, 0.0)
 }
 
-/// `at` in millimetres.
+/// A text entity on layer `number`; `at` is in millimetres.
 fn text(number: u32, at: DVec2, words: &str) -> Entity {
     let text = Text {
         location: Point::new(at.x, at.y, 0.0),

@@ -1,4 +1,4 @@
-//! Bytes of a specification to a pattern.
+//! Reads a pattern from the bytes of a GarmentCode specification.
 //!
 //! The two dialects differ in `curvature`: the older one has only quadratic Béziers, written as a plain pair.
 
@@ -12,14 +12,14 @@ use crate::io::json::{self, At, JsonError};
 use crate::io::sheet;
 use crate::pattern::{Edge, EdgeRef, EdgeShape, Pattern, Piece, Seam, SpacePose};
 
-/// Edges shorter than this (metres) have no length.
+/// Shortest edge that is accepted, metres.
 pub(super) const SHORTEST_EDGE: f64 = 1e-6;
-/// Relative control points further from their edge than this many edge lengths are a fault of the file.
+/// Largest coordinate of a relative control point, in edge lengths; a larger one is a fault of the file.
 pub(super) const LARGEST_CURVATURE: f64 = 100.0;
-/// Rotations beyond two turns (degrees) are not degrees.
+/// Largest absolute rotation angle, degrees (two turns). Larger values are not degrees and are refused.
 const LARGEST_ANGLE: f64 = 720.0;
 
-/// Why a file is not a usable pattern.
+/// Why a file cannot be read as a pattern.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum GarmentCodeError {
     /// Not JSON, or not the JSON of a pattern.
@@ -28,7 +28,7 @@ pub enum GarmentCodeError {
     /// More than [`Limits`] allows.
     #[error("{place}: {words}")]
     OverLimit {
-        /// JSON pointer.
+        /// JSON pointer of the value that exceeds the limit.
         place: String,
         /// Which limit.
         words: String,
@@ -37,7 +37,7 @@ pub enum GarmentCodeError {
 
 /// Reads a pattern: pieces in the order of the file, outlines in the direction of the file.
 ///
-/// A fault that a person can fix in one piece, such as an outline that crosses itself, is no error here.
+/// Faults that a person can fix within one piece, such as an outline that crosses itself, are no error here.
 pub fn read(bytes: &[u8]) -> Result<Pattern, GarmentCodeError> {
     let limits = Limits::default();
     if bytes.len() > limits.file_bytes {
@@ -76,7 +76,7 @@ fn over(at: &At<'_>, words: String) -> GarmentCodeError {
     GarmentCodeError::OverLimit { place: at.pointer.clone(), words }
 }
 
-/// How this file writes lengths and curves.
+/// How a file writes lengths and control points.
 struct Convention {
     metres_per_unit: f64,
     absolute_controls: bool,
@@ -181,7 +181,8 @@ impl Convention {
         }
     }
 
-    /// Relative control points are in the frame of the edge: along it, and to the left of it, in edge lengths.
+    /// The absolute position of a control point. A relative one is given in the edge's frame: x along the edge, y to its left,
+    /// both in edge lengths.
     fn control(&self, at: &At<'_>, start: DVec2, end: DVec2) -> Result<DVec2, JsonError> {
         if self.absolute_controls {
             return self.point(at);
@@ -206,7 +207,7 @@ impl Convention {
                 "an arc of radius {metres:.6} m cannot span its ends, which are {chord:.6} m apart"
             )));
         }
-        // A half circle written with rounded numbers may miss its chord by a hair.
+        // The radius of a half circle may be rounded to slightly less than half the chord.
         Ok(EdgeShape::Arc { radius: metres.max(chord / 2.0), large: large.flag()?, sweep: right.flag()? })
     }
 
@@ -224,7 +225,7 @@ impl Convention {
                     return Err(at.error("rotations are in degrees, no more than two turns"));
                 }
                 let [a, b, c] = angles.map(f64::to_radians);
-                // Rz * Ry * Rx: about x first.
+                // R = Rz · Ry · Rx: the rotation about x is applied first.
                 DQuat::from_euler(EulerRot::ZYX, c, b, a)
             }
         };
@@ -271,7 +272,8 @@ fn read_stitches(
     Ok(())
 }
 
-/// The right side of one edge on the wrong side of the other, as a lapel is sewn: start meets start.
+/// Whether a stitch sews the right side of one edge to the wrong side of the other, as for a lapel; the edges then run the same
+/// way, start to start.
 fn right_wrong(how: &At<'_>) -> Result<bool, JsonError> {
     match how.text()? {
         "right_wrong" => Ok(true),

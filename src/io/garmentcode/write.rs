@@ -1,4 +1,4 @@
-//! A pattern as the bytes of a specification, in centimetres.
+//! Writes a pattern as the bytes of a GarmentCode specification, in centimetres.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -16,13 +16,13 @@ use crate::pattern::{
 };
 
 const UNITS_IN_METRE: f64 = 100.0;
-/// What a specification says of a pattern.
+/// Parts of a pattern that this format can hold.
 const HOLDS: [Part; 5] = [Part::Curves, Part::EdgeNames, Part::Placement, Part::PlaceOnBody, Part::Seams];
-/// Fewest edges of a panel.
+/// Smallest number of edges of a panel in the format.
 const FEWEST_EDGES: usize = 3;
 
-/// Writes `pattern`: panels in the order of the pieces, outlines in their own direction. Edges are cut where seams along
-/// stretches of them end, since a stitch joins one whole edge to one whole edge.
+/// Writes panels in the order of the pieces, with outlines in their own direction. A stitch joins two whole edges, so edges are
+/// split where a seam along part of them ends.
 pub fn write(pattern: &Pattern) -> Written {
     let mut left_out = written::left_out(pattern, &HOLDS);
     let (cut, problems) = CutPattern::new(&with_enough_edges(pattern));
@@ -48,7 +48,7 @@ pub fn write(pattern: &Pattern) -> Written {
     Written { bytes, left_out }
 }
 
-/// The file with panels in their order, which `serde_json::Value` would not keep.
+/// The JSON of the file, which keeps the order of panels; `serde_json::Value` would not.
 struct File<'a> {
     panels: &'a [(&'a str, Value)],
     stitches: Vec<Value>,
@@ -101,7 +101,7 @@ fn is_on_outline(cut: &CutPattern, piece: PieceId, edge: usize) -> bool {
     edge < cut.pieces[&piece].outline.len()
 }
 
-/// Panels are told apart by their names.
+/// A different name for each panel, since stitches refer to panels by name. Changed names are noted in `left_out`.
 fn unique_names(pattern: &Pattern, left_out: &mut Vec<String>) -> BTreeMap<PieceId, String> {
     let mut names = BTreeMap::new();
     let mut taken = BTreeSet::new();
@@ -121,7 +121,7 @@ fn unique_names(pattern: &Pattern, left_out: &mut Vec<String>) -> BTreeMap<Piece
     names
 }
 
-/// Cuts the edges of panels that have too few of them, and the seams along these.
+/// Splits the edges of panels with fewer than [`FEWEST_EDGES`] edges into thirds, and the seams along them too.
 fn with_enough_edges(pattern: &Pattern) -> Pattern {
     let mut pattern = pattern.clone();
     let few: BTreeSet<PieceId> = pattern
@@ -179,7 +179,7 @@ fn piece_in_thirds(piece: &Piece) -> Vec<Edge> {
         .collect()
 }
 
-/// Start and end of each edge of a closed line.
+/// The edges of a closed line, each with its end point.
 fn ends(edges: &[Edge]) -> impl Iterator<Item = (&Edge, DVec2)> {
     edges.iter().enumerate().map(|(i, edge)| (edge, edges[(i + 1) % edges.len()].start))
 }
@@ -195,7 +195,7 @@ fn has_near_controls(edges: &[Edge]) -> bool {
     })
 }
 
-/// A control point in the frame of its edge: along it, and to the left of it, in edge lengths.
+/// A control point in its edge's frame: x along the edge, y to its left, both in edge lengths.
 fn relative(start: DVec2, end: DVec2, control: DVec2) -> DVec2 {
     let along = end - start;
     let from_start = control - start;

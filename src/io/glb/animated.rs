@@ -1,8 +1,8 @@
-//! Scenes that move: every frame after the first is a morph target of each mesh, and an animation leads their weights from
-//! one to the next, straight in between.
+//! Animated glTF scenes: each frame after the first is a morph target of every mesh, and one animation interpolates linearly
+//! between the frames' weights.
 //!
-//! Morph targets are the one way of glTF 2.0 to move single vertices (section 3.7.2.2). They hold places and normals as
-//! 32-bit floats: a vertex of the body costs 24 bytes a frame, one of the cloth, whose two sides have normals of their own, 36.
+//! Morph targets are the only way of glTF 2.0 to move single vertices (section 3.7.2.2). They hold positions and normals as
+//! 32-bit floats, so a body vertex takes 24 bytes per frame, and a cloth vertex 36, as its two sides have their own normals.
 
 use glam::DVec3;
 use gltf_json::accessor::{ComponentType, Type};
@@ -15,22 +15,22 @@ use super::{Builder, Colours, Dressed, GlbError, PieceArrays, accessor};
 use crate::cloth::ClothState;
 use crate::geometry::mesh::{TriMesh, vertex_normals};
 
-/// Where everything is in one frame.
+/// Vertex positions of the garment and the body in one frame.
 #[derive(Clone, Debug)]
 pub struct Frame {
-    /// Vertices of the garment, metres.
+    /// Positions of the garment's vertices, metres.
     pub cloth: Vec<DVec3>,
-    /// Vertices of the body, metres.
+    /// Positions of the body's vertices, metres.
     pub body: Vec<DVec3>,
 }
 
-/// Bytes that a frame takes in the file, about.
+/// Approximate number of bytes that one frame adds to the file.
 pub fn bytes_per_frame(cloth_vertices: usize, body_vertices: usize) -> usize {
     36 * cloth_vertices + 24 * body_vertices
 }
 
-/// Writes the garment and the body through `frames`, so many a second. The frames have the vertices of `dressed` and of
-/// `body`, which is only taken for its triangles. Triangles not yet on the body are left out.
+/// Writes the garment and the body animated through `frames`. The vertices of each frame are those of `dressed.garment` and of
+/// `body`, of which only the triangles are used. Triangles that are not yet placed on the body are left out.
 pub fn write_animated(
     dressed: Dressed<'_>,
     body: &TriMesh,
@@ -71,7 +71,7 @@ pub fn write_animated(
     builder.finish()
 }
 
-/// Writes a body of `triangles` through `frames`, the places of its vertices in metres, so many a second.
+/// Writes a body of `triangles` animated through `frames`, each the vertex positions in metres.
 pub fn write_moving_body(
     triangles: &[[u32; 3]],
     frames: &[Vec<DVec3>],
@@ -95,7 +95,7 @@ fn less(of: &[DVec3], by: &[DVec3]) -> Vec<DVec3> {
 }
 
 impl Builder {
-    /// A body through `frames`, of which there is one at least.
+    /// Adds the body with a morph target for each frame after the first. Without frames nothing is added.
     fn moving_body(&mut self, triangles: &[[u32; 3]], frames: &[&[DVec3]], colours: &Colours) {
         let [first, others @ ..] = frames else { return };
         self.body(&TriMesh { positions: first.to_vec(), triangles: triangles.to_vec() }, colours);
@@ -104,8 +104,8 @@ impl Builder {
         self.moving((first, &normals), moves, 1);
     }
 
-    /// Gives the last mesh, whose vertices and normals are `first`, a morph target for each of `moves`. Of its primitives,
-    /// one or two, the second has the normals the other way round.
+    /// Adds a morph target for each of `moves` (positions and normals) to the last mesh, whose positions and normals are `first`.
+    /// `primitives` is 1 or 2; the second primitive is the reverse side and has the normals negated.
     fn moving(
         &mut self,
         first: (&[DVec3], &[DVec3]),
@@ -133,7 +133,7 @@ impl Builder {
         }
     }
 
-    /// Leads the weights of all meshes through `frames` frames: in the first all are none, in every other one its own is one.
+    /// Adds the animation of all meshes' weights: all 0 in the first frame, and in frame i the i-th weight 1 and the others 0.
     fn animation(&mut self, frames: usize, frames_per_second: f64) {
         let times: Vec<f32> = (0..frames).map(|i| (i as f64 / frames_per_second) as f32).collect();
         let targets = frames - 1;
@@ -173,7 +173,7 @@ impl Builder {
         });
     }
 
-    /// Numbers that no vertex has.
+    /// Adds an accessor of numbers that belong to no vertex, such as key times.
     fn scalars(&mut self, numbers: &[f32]) -> Index<Accessor> {
         let view = self.view(bytemuck::cast_slice(numbers), None);
         self.root.push(accessor(view, numbers.len(), ComponentType::F32, Type::Scalar))

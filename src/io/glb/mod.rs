@@ -1,4 +1,4 @@
-//! Scenes to binary glTF 2.0: the garment piece by piece with a material for each side, and the body.
+//! Writes scenes as binary glTF 2.0 (GLB): the garment as one mesh per piece with a material for each side, and the body.
 //!
 //! Texture coordinates are the pattern plane in metres, u = x and v = 1 - y, since glTF counts v downward.
 
@@ -17,19 +17,19 @@ use crate::geometry::ids::PieceId;
 use crate::geometry::mesh::{TriMesh, vertex_normals};
 use crate::pattern::Pattern;
 
-/// A garment as it lies.
+/// A garment with its current vertex positions.
 #[derive(Clone, Copy, Debug)]
 pub struct Dressed<'a> {
-    /// Topology and flat shape.
+    /// Topology and rest shape of the cloth.
     pub garment: &'a Garment,
-    /// Positions.
+    /// Current positions.
     pub state: &'a ClothState,
-    /// For the poses of the pieces in the pattern plane.
+    /// The pattern, for the poses of its pieces in the pattern plane.
     pub pattern: &'a Pattern,
 }
 
 impl Dressed<'_> {
-    /// Triangles that lie on the body.
+    /// Indices of the triangles all of whose vertices are placed on the body.
     fn laid(&self) -> Vec<usize> {
         let is_laid = |t: &usize| {
             self.garment.triangles[*t].iter().all(|&v| self.state.mapped.get(v as usize) == Some(&true))
@@ -45,7 +45,7 @@ pub struct Colours {
     pub front: [f32; 3],
     /// Inner side of the cloth.
     pub back: [f32; 3],
-    /// The body.
+    /// Skin of the body.
     pub body: [f32; 3],
 }
 
@@ -55,13 +55,13 @@ impl Default for Colours {
     }
 }
 
-/// Why there is no file.
+/// Why no file was written.
 #[derive(Debug, thiserror::Error)]
 pub enum GlbError {
-    /// Neither cloth nor body.
+    /// There is neither cloth nor body to write.
     #[error("there is nothing to write: no cloth is on the body yet")]
     Empty,
-    /// GLB lengths are 32-bit.
+    /// The scene exceeds 4 GiB; lengths in GLB are 32-bit.
     #[error("the scene is larger than 4 GiB, which is all a GLB file can hold")]
     TooLarge,
     /// The JSON part could not be written.
@@ -69,7 +69,7 @@ pub enum GlbError {
     Json(#[from] gltf_json::Error),
 }
 
-/// Writes a scene; either part may be missing. Triangles not yet on the body are left out.
+/// Writes a scene; either part may be missing. Triangles that are not yet placed on the body are left out.
 pub fn write(
     dressed: Option<Dressed<'_>>,
     body: Option<&TriMesh>,
@@ -113,7 +113,7 @@ impl Builder {
         }
     }
 
-    /// Both sides as primitives of one mesh, each drawn from its own side only.
+    /// Adds a piece as one mesh with two single-sided primitives, for the front and the back of the cloth.
     fn piece(&mut self, name: &str, piece: &PieceArrays, [front, back]: [Index<Material>; 2]) {
         let positions = self.vectors(&piece.positions, true);
         let uv = self.texture_coordinates(&piece.uv);
@@ -164,7 +164,7 @@ impl Builder {
     }
 
     fn vectors(&mut self, vectors: &[DVec3], with_bounds: bool) -> Index<Accessor> {
-        // What could not be written as a number would spoil the whole file.
+        // A value that is not finite would make the whole file invalid; it is written as 0.
         let vectors: Vec<[f32; 3]> =
             vectors.iter().map(|v| if v.is_finite() { v.as_vec3().to_array() } else { [0.0; 3] }).collect();
         let (mut low, mut high) = ([f32::MAX; 3], [f32::MIN; 3]);
@@ -194,7 +194,7 @@ impl Builder {
         self.root.push(accessor(view, triangles.len() * 3, ComponentType::U32, Type::Scalar))
     }
 
-    /// Every element is 4-byte numbers, so that every view begins at a multiple of 4, as the format asks.
+    /// Adds a buffer view of `bytes`. All elements are 4-byte numbers, so every view begins at a multiple of 4 as glTF requires.
     fn view(&mut self, bytes: &[u8], target: Option<Target>) -> Index<View> {
         let byte_offset = self.data.len();
         self.data.extend_from_slice(bytes);
@@ -227,7 +227,7 @@ impl Builder {
     }
 }
 
-/// What glTF wants of a piece: one entry per flat corner.
+/// Vertex arrays of a piece: one entry per flat corner (a vertex of one piece in the pattern plane).
 struct PieceArrays {
     positions: Vec<DVec3>,
     normals: Vec<DVec3>,
@@ -294,7 +294,10 @@ fn primitive(
     }
 }
 
-/// Header, JSON chunk, binary chunk, whose lengths become multiples of 4. The error is that it is too large.
+/// Puts the GLB container together: header, JSON chunk and binary chunk, both padded to a multiple of 4 bytes.
+///
+/// # Errors
+/// The file would be too large.
 pub fn container(mut json: Vec<u8>, mut data: Vec<u8>) -> Result<Vec<u8>, GlbError> {
     json.resize(json.len().next_multiple_of(4), b' ');
     data.resize(data.len().next_multiple_of(4), 0);

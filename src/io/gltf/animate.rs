@@ -1,4 +1,4 @@
-//! Animations of glTF: what moves, and where it is at a time (glTF 2.0, section 3.11 and appendix C).
+//! Evaluates glTF animations at a given time (glTF 2.0, section 3.11 and appendix C).
 
 use glam::{DQuat, DVec3, DVec4};
 use gltf::animation::{Interpolation, Property};
@@ -6,7 +6,7 @@ use gltf::animation::{Interpolation, Property};
 use super::numbers::Numbers;
 use super::{GltfError, Pose, fault, turn};
 
-/// Keys of one channel.
+/// Largest number of keyframes of one channel.
 const MOST_KEYS: usize = 1_000_000;
 
 /// One animation.
@@ -17,15 +17,15 @@ pub struct Clip {
     tracks: Vec<Track>,
 }
 
-/// One property of one node.
+/// One animation channel: the keyframes of one property of one node.
 #[derive(Debug)]
 struct Track {
     node: usize,
     property: Property,
     interpolation: Interpolation,
-    /// Seconds, rising.
+    /// Times of the keyframes, seconds, ascending.
     times: Vec<f64>,
-    /// For each key so many numbers; for cubic splines three times as many: slope in, value, slope out.
+    /// `width` values for each keyframe; for cubic splines 3 × `width`: in-tangent, value, out-tangent.
     values: Vec<f64>,
     width: usize,
 }
@@ -44,7 +44,7 @@ impl Clip {
         Ok(Self { name: animation.name().unwrap_or_default().to_owned(), seconds, tracks })
     }
 
-    /// Puts what it moves to where it is at a time in seconds.
+    /// Sets the node poses and morph weights that this animation moves to their values at a time in seconds.
     pub fn apply(&self, seconds: f64, poses: &mut [Pose], weights: &mut [Vec<f64>]) {
         for track in &self.tracks {
             let value = track.value(seconds);
@@ -90,7 +90,8 @@ impl Track {
         Ok(Self { node: channel.target().node().index(), property, interpolation, times, values, width })
     }
 
-    /// The value of key `i`; with a cubic spline its slope in (0), itself (1) or its slope out (2).
+    /// The value of keyframe `i`. With cubic splines `which` selects the in-tangent (0), the value (1) or the out-tangent (2);
+    /// else it is ignored.
     fn key(&self, i: usize, which: usize) -> &[f64] {
         let at = match self.interpolation {
             Interpolation::CubicSpline => 3 * i + which,
@@ -131,7 +132,7 @@ impl Track {
     }
 }
 
-/// Of both quaternions of a rotation the nearer to `other`.
+/// `turn` or `-turn`, which stand for the same rotation: whichever is nearer to `other`, so that slerp takes the shorter way.
 fn shorter(turn: DQuat, other: DQuat) -> DQuat {
     if turn.dot(other) < 0.0 { -turn } else { turn }
 }

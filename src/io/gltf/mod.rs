@@ -1,7 +1,7 @@
 //! Bodies from glTF 2.0, text (.gltf) or binary (.glb): meshes with their nodes, skins, morph targets and animations.
 //!
-//! The `gltf` crate reads the structure and checks its references; numbers are taken from the buffers here, each within its
-//! bounds. All meshes of the scene become one; materials and pictures are not read.
+//! The `gltf` crate reads the structure and checks its references. The numbers are read from the buffers here, each within its
+//! bounds. All meshes of the scene become one; materials and images are not read.
 
 mod animate;
 mod numbers;
@@ -17,18 +17,18 @@ use crate::io::words::readable;
 use animate::Clip;
 use numbers::Numbers;
 
-/// Joints of one vertex.
+/// Number of attribute sets `JOINTS_n` and `WEIGHTS_n` that are read; each gives a vertex up to 4 joints.
 const MOST_JOINT_SETS: u32 = 4;
-/// Begins a buffer that stands in the text itself.
+/// Prefix of a data URI, which holds a buffer in the text itself.
 const INLINE: &str = "data:";
 
-/// Why a file is no body.
+/// Why a file cannot be read as a body.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum GltfError {
     /// What is wrong, and where: "mesh 2, primitive 0: ...".
     #[error("{0}")]
     File(String),
-    /// More than is read.
+    /// The file exceeds a limit; the text names it.
     #[error("over the limit: {0}")]
     OverLimit(String),
 }
@@ -37,11 +37,11 @@ fn fault(words: impl Into<String>) -> GltfError {
     GltfError::File(words.into())
 }
 
-/// A scene of meshes that may move.
+/// A scene of meshes with its nodes, skins and animations, evaluated by [`Model::positions`].
 #[derive(Debug)]
 pub struct Model {
     nodes: Vec<Node>,
-    /// Parents first.
+    /// Indices of `nodes` with each parent before its children.
     order: Vec<usize>,
     parts: Vec<Part>,
     skins: Vec<Skin>,
@@ -49,16 +49,16 @@ pub struct Model {
     triangles: Vec<[u32; 3]>,
 }
 
-/// A node at rest.
+/// A node of the scene in its rest state.
 #[derive(Clone, Debug)]
 struct Node {
     parent: Option<usize>,
     at_rest: Pose,
-    /// Of the morph targets of its mesh.
+    /// Weights of its mesh's morph targets.
     weights: Vec<f64>,
 }
 
-/// Where a node is, against its parent.
+/// Local transform of a node, relative to its parent.
 #[derive(Clone, Copy, Debug)]
 struct Pose {
     translation: DVec3,
@@ -72,34 +72,34 @@ impl Pose {
     }
 }
 
-/// The vertices of one primitive.
+/// The vertices and triangles of one primitive.
 #[derive(Debug)]
 struct Part {
     node: usize,
     positions: Vec<DVec3>,
-    /// For each morph target the way of each vertex.
+    /// For each morph target the displacement of each vertex.
     targets: Vec<Vec<DVec3>>,
-    /// Of its own vertices.
+    /// Triangles as indices into `positions`.
     triangles: Vec<[u32; 3]>,
-    /// Its skin, and what hangs on that.
+    /// Index of the skin, and the skin weights of the vertices.
     skin: Option<(usize, Hanging)>,
 }
 
-/// For each vertex joints and how much each has of it, in all 1.
+/// Skin weights: for each vertex its joints (indices into the skin's joints) and their weights, whose sum is 1.
 type Hanging = Vec<Vec<(usize, f64)>>;
 
 #[derive(Debug)]
 struct Skin {
-    /// Nodes, and what takes a vertex into the frame of each.
+    /// For each joint the index of its node and the inverse bind matrix.
     joints: Vec<(usize, DMat4)>,
 }
 
-/// Whether `bytes` are glTF: binary, or text that says so.
+/// Whether `bytes` are glTF: binary by its magic number, text by a JSON object with an "asset".
 pub fn is_gltf(bytes: &[u8]) -> bool {
     let head = &bytes[..bytes.len().min(1 << 16)];
     let has = |word: &[u8]| head.windows(word.len()).any(|at| at == word);
     let is_object = || head.trim_ascii_start().first() == Some(&b'{');
-    // What comes first in the text is for the writer to choose.
+    // JSON keys may come in any order, so "asset" may be at the end of the file. "panels" is the key of a GarmentCode pattern.
     bytes.starts_with(b"glTF")
         || (is_object() && (has(b"\"asset\"") || tail_has(bytes, b"\"asset\"")) && !has(b"\"panels\""))
 }
@@ -109,7 +109,7 @@ fn tail_has(bytes: &[u8], word: &[u8]) -> bool {
     tail.windows(word.len()).any(|at| at == word)
 }
 
-/// Reads a scene. `load` gives the file that the text names as a buffer, or says in words why there is none.
+/// Reads a scene. `load` gives the buffer file that the text names, or the error in words.
 pub fn read(bytes: &[u8], load: &dyn Fn(&str) -> Result<Vec<u8>, String>) -> Result<Model, GltfError> {
     let most = Limits::default().file_bytes;
     if bytes.len() > most {
@@ -129,7 +129,7 @@ pub fn read(bytes: &[u8], load: &dyn Fn(&str) -> Result<Vec<u8>, String>) -> Res
     Model::new(&document, &Numbers { buffers: &buffers })
 }
 
-/// That a binary file does not say that it is shorter than its header, which the crate takes for granted.
+/// Refuses a binary file whose header states a length shorter than the header itself, which the crate does not check.
 fn told_length(bytes: &[u8]) -> Result<(), GltfError> {
     const HEADER: usize = 12;
     let told = bytes.strip_prefix(b"glTF").and_then(|rest| rest.get(4..8));
@@ -141,8 +141,7 @@ fn told_length(bytes: &[u8]) -> Result<(), GltfError> {
     }
 }
 
-/// What the crate's own check of the file takes for granted: that the accessors of places and what animations move are
-/// there.
+/// Checks references that the crate takes for granted: the accessors of positions, and what animations move.
 fn names_what_is_there(root: &gltf::json::Root) -> Result<(), GltfError> {
     let missing = |words: String| Err(fault(format!("this is no glTF that can be read: {words}")));
     let positions = gltf::json::validation::Checked::Valid(Semantic::Positions);
@@ -169,7 +168,7 @@ fn names_what_is_there(root: &gltf::json::Root) -> Result<(), GltfError> {
     Ok(())
 }
 
-/// "data:application/octet-stream;base64,AAAA".
+/// Decodes a data URI, such as "data:application/octet-stream;base64,AAAA".
 fn inline(uri: &str) -> Result<Vec<u8>, GltfError> {
     let text = uri.split_once(";base64,").map(|(_, text)| text);
     let text = text.ok_or_else(|| fault("a buffer in the text is not written as base64"))?;
@@ -211,22 +210,22 @@ impl Model {
         Ok(Self { nodes, order, parts, skins, clips, triangles })
     }
 
-    /// As it stands in the file: metres if it keeps to the format. Vertices are split where pieces of texture meet.
+    /// The mesh of the whole scene at rest, in the file's unit (metres by the format). Vertices are split along texture seams.
     pub fn mesh(&self) -> TriMesh {
         TriMesh { positions: self.positions(None), triangles: self.triangles.clone() }
     }
 
-    /// Names of its animations, in their order; the empty name where one has none.
+    /// Names of the animations, in the order of the file; empty for an animation without a name.
     pub fn animations(&self) -> impl Iterator<Item = &str> {
         self.clips.iter().map(|clip| clip.name.as_str())
     }
 
-    /// How long animation `clip` lasts, seconds. None: there is no such animation.
+    /// Duration of animation `clip`, seconds; None if there is no such animation.
     pub fn seconds(&self, clip: usize) -> Option<f64> {
         self.clips.get(clip).map(|clip| clip.seconds)
     }
 
-    /// Where the vertices of [`Model::mesh`] are, at rest or in animation `clip` at a time in seconds.
+    /// Positions of the vertices of [`Model::mesh`], at rest (None) or in animation `clip` at a time in seconds.
     pub fn positions(&self, at: Option<(usize, f64)>) -> Vec<DVec3> {
         let mut poses: Vec<Pose> = self.nodes.iter().map(|node| node.at_rest).collect();
         let mut weights: Vec<Vec<f64>> = self.nodes.iter().map(|node| node.weights.clone()).collect();
@@ -249,7 +248,7 @@ fn over(place: &str) -> GltfError {
     GltfError::OverLimit(format!("{place}: more than {vertices} vertices or {faces} triangles"))
 }
 
-/// All nodes, and an order in which parents come first.
+/// All nodes, and their indices ordered with each parent before its children.
 fn nodes(document: &gltf::Document) -> Result<(Vec<Node>, Vec<usize>), GltfError> {
     let mut nodes: Vec<Node> = document.nodes().map(|node| Node::new(&node)).collect();
     for node in document.nodes() {
@@ -273,7 +272,7 @@ fn nodes(document: &gltf::Document) -> Result<(Vec<Node>, Vec<usize>), GltfError
     }
 }
 
-/// Which nodes are in the scene that is to be shown; without scenes all.
+/// For each node whether it is part of the default scene, else of the first; all are shown when the file has no scene.
 fn shown(document: &gltf::Document, nodes: &[Node], order: &[usize]) -> Vec<bool> {
     let Some(scene) = document.default_scene().or_else(|| document.scenes().next()) else {
         return vec![true; nodes.len()];
@@ -307,13 +306,13 @@ impl Node {
     }
 }
 
-/// A unit quaternion of four numbers x, y, z, w; no turn where they make none.
+/// A unit quaternion from x, y, z, w; the identity if they cannot be normalised.
 fn turn(numbers: [f64; 4]) -> DQuat {
     let turn = DQuat::from_array(numbers);
     if turn.length() > 1e-9 && turn.is_finite() { turn.normalize() } else { DQuat::IDENTITY }
 }
 
-/// Vertices and triangles of a primitive; None for points and lines.
+/// Reads the vertices and triangles of a primitive; None for points and lines.
 fn part(
     node: &gltf::Node<'_>,
     primitive: &gltf::Primitive<'_>,
@@ -354,7 +353,7 @@ fn part(
     Ok(Some(Part { node: node.index(), positions, targets, triangles, skin }))
 }
 
-/// What each vertex hangs on.
+/// Reads the skin weights of `count` vertices and normalises their sums to 1.
 fn hanging(
     primitive: &gltf::Primitive<'_>,
     numbers: &Numbers<'_>,
@@ -408,7 +407,7 @@ impl Skin {
 }
 
 impl Part {
-    /// Its vertices in the scene. By the format what hangs on a skin does not follow its own node.
+    /// Positions of the vertices in the scene. Skinned vertices follow their joints only, not their own node (glTF 2.0).
     fn placed(&self, whole: &[DMat4], weights: &[f64], skins: &[Skin]) -> Vec<DVec3> {
         let mut positions = self.positions.clone();
         for (target, &weight) in self.targets.iter().zip(weights).filter(|(_, weight)| **weight != 0.0) {

@@ -1,4 +1,4 @@
-//! Numbers out of the buffers of a glTF file, each within its bounds.
+//! Reads the numbers of glTF accessors from the buffers, each within its bounds.
 
 use glam::DVec3;
 use gltf::Accessor;
@@ -8,7 +8,7 @@ use gltf::buffer::View;
 use super::{GltfError, fault};
 use crate::io::Limits;
 
-/// Numbers of one accessor.
+/// Largest number of values of one accessor.
 const MOST: usize = 100_000_000;
 
 /// The buffers of a file.
@@ -17,7 +17,7 @@ pub struct Numbers<'a> {
 }
 
 impl Numbers<'_> {
-    /// Finite vectors, within the span of a body.
+    /// Vectors of finite numbers, with coordinates within [`Limits`].
     pub fn vectors(&self, accessor: &Accessor<'_>) -> Result<Vec<DVec3>, GltfError> {
         let most = Limits::default().vertices;
         if accessor.count() > most {
@@ -31,7 +31,7 @@ impl Numbers<'_> {
         }
     }
 
-    /// Finite numbers, `N` at a time. Whole numbers that stand for parts of one become these.
+    /// Finite numbers in groups of `N`. Normalised integers become fractions in -1..=1 or 0..=1.
     pub fn floats<const N: usize>(&self, accessor: &Accessor<'_>) -> Result<Vec<[f64; N]>, GltfError> {
         let normalised = accessor.normalized();
         let whole = |value: f64, largest: f64| if normalised { (value / largest).max(-1.0) } else { value };
@@ -49,7 +49,7 @@ impl Numbers<'_> {
         }
     }
 
-    /// Whole numbers from 0, `N` at a time.
+    /// Unsigned integers in groups of `N`.
     pub fn integers<const N: usize>(&self, accessor: &Accessor<'_>) -> Result<Vec<[u32; N]>, GltfError> {
         if !matches!(accessor.data_type(), DataType::U8 | DataType::U16 | DataType::U32) {
             return Err(fault(format!("accessor {} does not hold whole numbers", accessor.index())));
@@ -105,7 +105,7 @@ impl Numbers<'_> {
         Ok(elements)
     }
 
-    /// Which elements a sparse accessor replaces, and by what, `size` bytes each.
+    /// Indices of the elements that a sparse accessor replaces, and their new values of `size` bytes each.
     fn replaced(
         &self,
         sparse: &Sparse<'_>,
@@ -117,7 +117,7 @@ impl Numbers<'_> {
         Some((bytes.map(whole), self.rows(values.view(), values.offset(), size, sparse.count())?))
     }
 
-    /// `count` rows of `size` bytes in `view`, from `offset` on; None where they reach beyond it or beyond its buffer.
+    /// `count` rows of `size` bytes in `view`, starting at `offset`; None where they reach beyond the view or its buffer.
     fn rows(
         &self,
         view: View<'_>,

@@ -1,4 +1,4 @@
-//! Lines and words on a page. Millimetres, y down from its upper left corner.
+//! Drawing on a PDF page: lines and texts, in millimetres with y down from the page's upper left corner.
 
 use glam::DVec2;
 use krilla::color::rgb;
@@ -16,16 +16,16 @@ use crate::pattern::{Edge, curve};
 
 /// Millimetres in a metre.
 const SCALE: f64 = 1000.0;
-/// A notch is drawn this long into the piece.
+/// Length of a notch drawn into the piece, millimetres.
 const NOTCH: f64 = 5.0;
-/// Sides of a grainline's arrow heads.
+/// Length of the sides of a grainline's arrow heads, millimetres.
 const ARROW: f64 = 6.0;
-/// How wide the letters are for their size, on the whole.
+/// Average width of a letter, as a fraction of the font size.
 const LETTER_WIDTH: f64 = 0.5;
-/// Half the width of a diamond where pages meet.
+/// Half the width of the diamonds that mark where pages meet, millimetres.
 const DIAMOND: f64 = 4.0;
 
-/// What is drawn with.
+/// Colours that are drawn with.
 #[derive(Clone, Copy)]
 enum Ink {
     Black,
@@ -43,33 +43,33 @@ impl Ink {
     }
 }
 
-/// Letters and lines.
+/// The font for all texts.
 pub struct Pens {
     font: Font,
 }
 
 impl Pens {
-    /// None if the built-in letters cannot be read.
+    /// Loads the built-in font; None if it cannot be read.
     pub fn new() -> Option<Self> {
         Some(Self { font: Font::new(epaint_default_fonts::UBUNTU_LIGHT.to_vec().into(), 0)? })
     }
 }
 
-/// A page that is drawn on.
+/// A page to draw on.
 pub struct Canvas<'a, 's> {
     surface: &'a mut Surface<'s>,
     pens: &'a Pens,
-    /// The point of the table, millimetres with y up, that lies on the page's upper left corner.
+    /// The point of the pattern plane, in millimetres with y up, at the page's upper left corner.
     pub shift: DVec2,
 }
 
 impl<'a, 's> Canvas<'a, 's> {
-    /// On this surface.
+    /// A canvas on `surface` with no shift.
     pub fn new(surface: &'a mut Surface<'s>, pens: &'a Pens) -> Self {
         Self { surface, pens, shift: DVec2::ZERO }
     }
 
-    /// All of a piece.
+    /// Draws all lines of a piece and its name.
     pub fn piece(&mut self, piece: &Traced) {
         let shift = self.shift;
         let place = move |p: DVec2| DVec2::new(p.x * SCALE - shift.x, shift.y - p.y * SCALE);
@@ -96,7 +96,7 @@ impl<'a, 's> Canvas<'a, 's> {
         let mut middle = place((lower + upper) / 2.0 / SCALE);
         let letters = ((upper - lower).min_element() / 8.0).clamp(2.5, 9.0);
         if let Some(grain) = piece.grainline.map(|ends| ends.map(place)) {
-            // Not on the arrow.
+            // Keeps the name off the grainline's arrow.
             let width = piece.name.chars().count() as f64 * letters * LETTER_WIDTH;
             let along = (grain[1] - grain[0]).normalize_or_zero();
             if along.perp_dot(middle - grain[0]).abs() < width / 2.0 && along.y.abs() > 0.5 {
@@ -120,14 +120,14 @@ impl<'a, 's> Canvas<'a, 's> {
         }
     }
 
-    /// A piece made small: its line to cut on.
+    /// Draws the cut line of a piece at a reduced scale, for the overview.
     pub fn miniature(&mut self, piece: &Traced, corner: DVec2, at: DVec2, scale: f64) {
         let cut = if piece.cut_line.is_empty() { &piece.outline } else { &piece.cut_line };
         let place = move |p: DVec2| at + DVec2::new(p.x * SCALE - corner.x, corner.y - p.y * SCALE) * scale;
         self.stroke(path(cut, cut[0].start, true, place), Ink::Black, 0.2, &[]);
     }
 
-    /// A square to measure, its upper left corner at `at`.
+    /// Draws a square with sides of `side` mm for checking the printed scale; its upper left corner is `at`.
     pub fn test_square(&mut self, at: DVec2, side: f64) {
         let corners = [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y].map(|p| at + p * side);
         self.stroke(polygon(&corners, true), Ink::Black, 0.2, &[]);
@@ -135,14 +135,14 @@ impl<'a, 's> Canvas<'a, 's> {
         self.centred(at + DVec2::new(side / 2.0, side / 2.0 + 6.0), 3.0, "measure before you cut");
     }
 
-    /// The frame of a page, where its neighbours overlap, where they meet, and its name.
+    /// Draws the marks of a page: its frame, the strips that neighbours share, diamonds to align them, and its name.
     pub fn page_marks(&mut self, tile: &Tile, tiling: &Tiling, words: &str) {
         let [lower, upper] = [DVec2::splat(MARGIN), DVec2::splat(MARGIN) + tiling.frame];
         self.frame([lower, upper]);
         let middle = (lower + upper) / 2.0;
         let half = OVERLAP / 2.0;
         let (right, below) = (tile.column + 1 < tiling.columns, tile.row + 1 < tiling.rows);
-        // In the middle of each strip that two pages share; half a diamond's width lies on either side of it.
+        // Diamonds lie in the middle of the strip that two pages share, so that each page shows all of them.
         let mut meet = |at: DVec2, between: String, dx: f64, dy: f64| {
             let corners = [DVec2::X, DVec2::Y, DVec2::NEG_X, DVec2::NEG_Y].map(|way| at + way * DIAMOND);
             self.stroke(polygon(&corners, true), Ink::Black, 0.2, &[]);
@@ -191,13 +191,13 @@ impl<'a, 's> Canvas<'a, 's> {
         self.grey_text(DVec2::new(lower.x, upper.y + 4.0), 3.0, words);
     }
 
-    /// A thin box.
+    /// Draws a thin rectangle.
     pub fn frame(&mut self, [lower, upper]: [DVec2; 2]) {
         let corners = [lower, DVec2::new(upper.x, lower.y), upper, DVec2::new(lower.x, upper.y)];
         self.stroke(polygon(&corners, true), Ink::Grey, 0.15, &[]);
     }
 
-    /// Nothing is drawn outside of the box until [`Canvas::unclip`].
+    /// Clips all drawing to a rectangle until [`Canvas::unclip`].
     pub fn clip(&mut self, [lower, upper]: [DVec2; 2]) {
         let corners = [lower, DVec2::new(upper.x, lower.y), upper, DVec2::new(lower.x, upper.y)];
         if let Some(path) = polygon(&corners, true) {
@@ -205,22 +205,22 @@ impl<'a, 's> Canvas<'a, 's> {
         }
     }
 
-    /// Ends [`Canvas::clip`].
+    /// Ends the clipping that [`Canvas::clip`] began.
     pub fn unclip(&mut self) {
         self.surface.pop();
     }
 
-    /// Black words that begin at `at`, letters `size` high.
+    /// Draws black text that begins at `at`; `size` is the font size, millimetres.
     pub fn text(&mut self, at: DVec2, size: f64, words: &str) {
         self.words(at, size, words, Ink::Black);
     }
 
-    /// Grey words.
+    /// Draws grey text that begins at `at`; `size` is the font size, millimetres.
     pub fn grey_text(&mut self, at: DVec2, size: f64, words: &str) {
         self.words(at, size, words, Ink::Grey);
     }
 
-    /// Words about `at`.
+    /// Draws text centred on `at`; `size` is the font size, millimetres.
     fn centred(&mut self, at: DVec2, size: f64, words: &str) {
         let width = words.chars().count() as f64 * size * LETTER_WIDTH;
         self.words(at - DVec2::X * width / 2.0, size, words, Ink::Black);

@@ -1,4 +1,4 @@
-//! Patterns as PDF at their true size: on one page, or on pages of a printer's paper to be glued together.
+//! Patterns as PDF at true size: on one page, or on pages of a printer's paper to be glued together.
 //!
 //! The first page of several is an overview: how the pages lie, and a square of 50 mm to measure before cutting.
 
@@ -18,7 +18,7 @@ use draw::{Canvas, Pens};
 pub use paper::Paper;
 use paper::{MARGIN, Tiling};
 
-/// Everything that a person with scissors needs; what only machines need is no loss on paper.
+/// Parts of a pattern that paper can show or that a person who cuts it does not need; the others are reported as left out.
 const HOLDS: [Part; 14] = [
     Part::Curves,
     Part::SmoothPoints,
@@ -35,11 +35,11 @@ const HOLDS: [Part; 14] = [
     Part::Placement,
     Part::PlaceOnBody,
 ];
-/// A side of the square to measure, millimetres.
+/// Side of the test square for checking the printed scale, millimetres.
 const SQUARE: f64 = 50.0;
-/// Room for the square and its words under the pieces of one page, millimetres.
+/// Height of the strip under the pieces of a single page, for the test square and its text, millimetres.
 const FOOT: f64 = 75.0;
-/// Sides of a page of PDF, millimetres: 14400 points.
+/// Longest side of a PDF page, millimetres: 14400 points.
 const LARGEST_PAGE: f64 = 14_400.0 / POINTS;
 /// Points in a millimetre.
 const POINTS: f64 = 72.0 / 25.4;
@@ -47,32 +47,32 @@ const POINTS: f64 = 72.0 / 25.4;
 /// Why there is no PDF.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum PdfError {
-    /// Nothing to print.
+    /// The pattern has no pieces.
     #[error("the pattern has no pieces")]
     Empty,
-    /// One page cannot be this large.
+    /// The pattern does not fit a single PDF page.
     #[error(
         "one page would be {width} × {height} mm, and a PDF page is at most {most} mm long; print on A4 or Letter"
     )]
     TooLarge {
-        /// Millimetres.
+        /// Width of the page that would be needed, millimetres.
         width: u64,
-        /// Millimetres.
+        /// Height of the page that would be needed, millimetres.
         height: u64,
-        /// Millimetres.
+        /// Longest side of a PDF page, millimetres.
         most: u64,
     },
-    /// More pages than anyone glues together.
+    /// The pattern would take more than `MOST_PAGES` pages; their number.
     #[error("it would take {0} pages; {MOST_PAGES} are allowed: check the size of the pattern")]
     TooManyPages(usize),
-    /// The PDF library said no.
+    /// The PDF library failed.
     #[error("the PDF could not be made: {0}")]
     Library(String),
 }
 
 const MOST_PAGES: usize = 2000;
 
-/// Writes `pattern` as it lies on the table, named `name`.
+/// Writes the pieces at their positions in the pattern plane, titled `name`.
 ///
 /// # Errors
 /// See [`PdfError`].
@@ -93,10 +93,10 @@ pub fn write(pattern: &Pattern, name: &str, paper: Paper) -> Result<Written, Pdf
     Ok(Written { bytes, left_out: written::left_out(pattern, &HOLDS) })
 }
 
-/// All pieces with the box around them, millimetres, y down from the upper left corner.
+/// All pieces with their bounding boxes, in millimetres with y down from the upper left corner of all.
 struct Sheet<'a> {
     pieces: Vec<(&'a Traced, [DVec2; 2])>,
-    /// Of the table: what becomes the origin, millimetres with y up.
+    /// The upper left corner in the pattern plane, millimetres with y up; it becomes the origin.
     corner: DVec2,
     size: DVec2,
 }
@@ -119,7 +119,7 @@ impl<'a> Sheet<'a> {
         Self { pieces: pieces.iter().zip(on_sheet).collect(), corner, size: upper - lower }
     }
 
-    /// Draws the pieces that reach into the box from `from` to `to` of the sheet, its corner at `at` of the page.
+    /// Draws the pieces that reach into the rectangle from `from` to `to` of the sheet, whose corner comes to `at` on the page.
     fn draw(&self, canvas: &mut Canvas<'_, '_>, [from, to]: [DVec2; 2], at: DVec2) {
         canvas.shift = DVec2::new(self.corner.x, self.corner.y) + DVec2::new(from.x - at.x, at.y - from.y);
         for (piece, [lower, upper]) in &self.pieces {
@@ -171,7 +171,7 @@ impl<'a> Sheet<'a> {
         Ok(())
     }
 
-    /// How the pages lie, small, and the square to measure.
+    /// Draws the overview page: how the pages lie, at a reduced scale, and the test square.
     fn overview(&self, canvas: &mut Canvas<'_, '_>, name: &str, paper: DVec2, tiling: &Tiling) {
         let left = MARGIN + 5.0;
         canvas.text(DVec2::new(left, MARGIN + 10.0), 7.0, name);

@@ -1,4 +1,4 @@
-//! Paper, and how a sheet is cut into pages.
+//! Paper sizes, and how a sheet is divided into pages.
 
 use std::fmt;
 use std::str::FromStr;
@@ -6,29 +6,29 @@ use std::str::FromStr;
 use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
-/// Around what is printed, millimetres: printers do not reach the edge.
+/// Blank margin of a page, millimetres: printers do not reach the edge.
 pub const MARGIN: f64 = 10.0;
-/// Neighbouring pages show the same strip this wide, millimetres.
+/// Width of the strip that neighbouring pages both show, millimetres.
 pub const OVERLAP: f64 = 10.0;
 
-/// What a pattern is printed on.
+/// The paper that a pattern is printed on.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Paper {
-    /// 210 × 297 mm, glued together.
+    /// Pages of 210 × 297 mm, to be glued together.
     #[default]
     A4,
-    /// 8.5 × 11 inches, glued together.
+    /// Pages of 8.5 × 11 inches, to be glued together.
     Letter,
-    /// One page as large as it must be, for a plotter or a copy shop.
+    /// One page as large as the pattern, for a plotter or a copy shop.
     One,
 }
 
 impl Paper {
-    /// All of them.
+    /// All choices of paper.
     pub const ALL: [Self; 3] = [Self::A4, Self::Letter, Self::One];
 
-    /// Width and height, millimetres. None where the pattern decides.
+    /// Width and height of a page, millimetres; None where the pattern decides.
     pub fn size(self) -> Option<DVec2> {
         match self {
             Self::A4 => Some(DVec2::new(210.0, 297.0)),
@@ -57,19 +57,19 @@ impl FromStr for Paper {
     }
 }
 
-/// One page of several.
+/// One page of a tiled sheet.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tile {
-    /// From the top, from 0.
+    /// Row from the top, from 0.
     pub row: usize,
-    /// From the left, from 0.
+    /// Column from the left, from 0.
     pub column: usize,
     /// Its upper left corner on the sheet, millimetres.
     pub from: DVec2,
 }
 
 impl Tile {
-    /// "B3": the second row, the third column.
+    /// The page's name: a letter for the row and a number for the column, such as "B3" for the second row and third column.
     pub fn name(&self) -> String {
         let mut letters = String::new();
         let mut row = self.row + 1;
@@ -81,20 +81,20 @@ impl Tile {
     }
 }
 
-/// A sheet cut into pages.
+/// The division of a sheet into pages that overlap.
 #[derive(Clone, Debug)]
 pub struct Tiling {
-    /// Width and height of what one page shows, millimetres.
+    /// Width and height of the part of the sheet that one page shows, millimetres.
     pub frame: DVec2,
-    /// Rows and columns.
+    /// Number of rows of pages.
     pub rows: usize,
     pub columns: usize,
-    /// Row by row; pages without a piece are left out.
+    /// The pages, row by row; pages that no piece reaches are left out.
     pub tiles: Vec<Tile>,
 }
 
 impl Tiling {
-    /// Cuts a sheet of `size` millimetres with pieces in `boxes`.
+    /// Divides a sheet of `size` into pages of `paper`, both in millimetres. `boxes` are the bounding boxes of the pieces.
     pub fn new(size: DVec2, paper: DVec2, boxes: &[[DVec2; 2]]) -> Self {
         let frame = paper - DVec2::splat(2.0 * MARGIN);
         let step = frame - DVec2::splat(OVERLAP);

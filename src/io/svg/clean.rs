@@ -1,7 +1,7 @@
-//! SVG text made safe: shapes with their transforms and references, and nothing else, for `usvg` to resolve.
+//! Reduces SVG text to shapes with their transforms and references before `usvg` resolves it.
 //!
-//! Depth, number of elements and what `<use>` makes of them are bounded before anything recursive reads the text. Styles,
-//! scripts, images, clips, filters, markers and texts are left out: a pattern is what its paths are.
+//! Nesting depth, number of elements and the expansion of `<use>` are bounded before anything recursive reads the text. Styles,
+//! scripts, images, clips, filters, markers and texts are left out: only the paths make a pattern.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
@@ -37,47 +37,47 @@ const ATTRIBUTES: [&str; 18] = [
     "viewBox",
     "preserveAspectRatio",
 ];
-/// Notes about single shapes.
+/// Largest number of notes about single shapes.
 const MOST_NOTES: usize = 8;
 
-/// What a shape is called and said to be.
+/// The name and the `data-` attributes of a shape.
 #[derive(Clone, Debug, Default)]
 pub struct Shape {
-    /// Its own name, else that of the nearest group that has one.
+    /// The shape's own name, else that of the nearest named group around it.
     pub name: Option<String>,
-    /// `data-` attributes of this program's files.
+    /// The `data-` attributes, which only this program's files have.
     pub data: BTreeMap<String, String>,
 }
 
 /// A drawing reduced to shapes.
 #[derive(Debug, Default)]
 pub struct Clean {
-    /// An SVG whose user unit is a pixel.
+    /// The reduced SVG, whose user unit is a pixel.
     pub text: String,
-    /// By the ids that shapes have in `text`.
+    /// Names and attributes of the shapes, by their ids in `text`.
     pub shapes: BTreeMap<String, Shape>,
-    /// What could be passed over.
+    /// Faults that the reader could skip.
     pub notes: Vec<String>,
-    /// The root's size and box as they are written.
+    /// Size and view box of the root element as they are written.
     pub root: Root,
 }
 
-/// What the root says about sizes.
+/// What the root element states about the drawing's size and origin.
 #[derive(Clone, Debug, Default)]
 pub struct Root {
     pub width: Option<String>,
     pub height: Option<String>,
-    /// x, y, width, height.
+    /// The view box: x, y, width, height, in user units.
     pub view_box: Option<[f64; 4]>,
-    /// Written by this program.
+    /// Whether this program wrote the file.
     pub is_ours: bool,
-    /// By Inkscape before 0.92, whose pixels were 90 to an inch.
+    /// Whether Inkscape before version 0.92 wrote the file; its pixels were 1/90 inch.
     pub is_old_inkscape: bool,
-    /// By Illustrator, whose pixels are points.
+    /// Whether Illustrator wrote the file; its pixels are points.
     pub is_illustrator: bool,
 }
 
-/// No coordinate of a path is larger, user units.
+/// Largest absolute number in the data of a path, user units.
 const FARTHEST: f64 = 1e15;
 
 /// Checks and reduces a file.
@@ -111,7 +111,7 @@ pub fn clean(bytes: &[u8]) -> Result<Clean, PatternFileError> {
     Ok(clean)
 }
 
-/// Refuses elements too deep inside each other, and too many, without recursion.
+/// Refuses too many elements and too deep nesting, without recursion.
 fn check_depth(text: &str, limits: &Limits) -> Result<(), PatternFileError> {
     let (mut depth, mut count, mut rest) = (0_usize, 0_usize, text);
     while let Some(at) = rest.find('<') {
@@ -130,7 +130,7 @@ fn check_depth(text: &str, limits: &Limits) -> Result<(), PatternFileError> {
             }
             length
         } else if tag.starts_with("<!") {
-            // A DOCTYPE: what is inside its brackets is looked at one by one.
+            // A DOCTYPE: the declarations inside its brackets are read one by one, like elements.
             tag.find(['[', '>']).map_or(tag.len(), |i| i + 1)
         } else if tag.starts_with("</") {
             depth = depth.saturating_sub(1);
@@ -156,7 +156,7 @@ fn check_depth(text: &str, limits: &Limits) -> Result<(), PatternFileError> {
     Ok(())
 }
 
-/// Bytes of a tag up to its ">", which may also stand in the text of an attribute.
+/// Length of a tag up to its ">" in bytes; a ">" within a quoted attribute does not end it.
 fn tag_length(tag: &str) -> usize {
     let mut quote = None;
     for (i, c) in tag.bytes().enumerate() {
@@ -174,7 +174,7 @@ fn elements<'a>(node: Node<'a, 'a>) -> impl Iterator<Item = Node<'a, 'a>> {
     node.children().filter(|n| n.is_element() && KEPT.contains(&n.tag_name().name()))
 }
 
-/// Which element each id of the file stands for: the first of that id.
+/// The first element with each id.
 fn numbers<'a>(root: Node<'a, 'a>) -> BTreeMap<&'a str, Node<'a, 'a>> {
     let mut found = BTreeMap::new();
     for node in root.descendants().filter(Node::is_element) {
@@ -193,7 +193,7 @@ fn target<'a>(node: Node<'a, 'a>, names: &BTreeMap<&str, Node<'a, 'a>>) -> Optio
     names.get(href.strip_prefix('#')?).copied()
 }
 
-/// Refuses references that make too many elements, or go round.
+/// Refuses `<use>` references that expand to too many elements, nest too deep or form a cycle.
 fn check_uses<'a>(
     root: Node<'a, 'a>,
     names: &BTreeMap<&str, Node<'a, 'a>>,
@@ -240,7 +240,7 @@ fn check_uses<'a>(
     Ok(())
 }
 
-/// Refuses paths with numbers that are no places: arcs over them are cut into more curves than can be read.
+/// Refuses paths with numbers far beyond any coordinate: an arc over such a distance would be split into too many curves.
 fn check_paths(root: Node<'_, '_>) -> Result<(), PatternFileError> {
     for node in root.descendants() {
         let Some(data) = node.attribute("d") else { continue };
@@ -253,7 +253,7 @@ fn check_paths(root: Node<'_, '_>) -> Result<(), PatternFileError> {
     Ok(())
 }
 
-/// The numbers in the data of a path, however they are parted: "1-2.5.5e3" are three.
+/// The numbers in the data of a path, also where no separator stands between them: "1-2.5.5e3" are three.
 fn numbers_of(data: &str) -> impl Iterator<Item = f64> {
     let mut rest = data;
     std::iter::from_fn(move || {
@@ -327,7 +327,7 @@ fn root_of(root: Node<'_, '_>, text: &str) -> Result<Root, PatternFileError> {
 }
 
 impl Clean {
-    /// Writes all kept elements, without recursion.
+    /// Writes all elements that are kept, without recursion.
     fn write(&mut self, root: Node<'_, '_>, names: &BTreeMap<&str, Node<'_, '_>>) {
         self.text
             .push_str("<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:x=\"http://www.w3.org/1999/xlink\" ");
@@ -425,19 +425,19 @@ fn shape(node: Node<'_, '_>) -> Shape {
     Shape { name, data }
 }
 
-/// A label, a title or an id that a person has chosen.
+/// The name that a person gave an element: its label, its title, or its id unless a program made it.
 fn own_name(node: Node<'_, '_>) -> Option<String> {
     let label = node.attributes().find(|a| a.name() == "label" && a.namespace().is_some()).map(|a| a.value());
     let title = || node.children().find(|n| n.tag_name().name() == "title").and_then(|n| n.text());
     let name = label.or_else(title).or_else(|| node.attribute("id").filter(|id| is_chosen(id)))?;
-    // FreeSewing: fs-stack-brian.back-part-brian.back
+    // FreeSewing's ids, such as "fs-stack-brian.back-part-brian.back".
     let name = name.rsplit_once("-part-").map_or(name, |(_, part)| part);
     let limit = Limits::default().name_bytes;
     let name: String = name.trim().chars().filter(|c| !c.is_control()).take(limit / 4).collect();
     (!name.is_empty() && !name.starts_with("fs-")).then_some(name)
 }
 
-/// Not one that programs give by themselves, such as "path12-3" or "fs-1".
+/// Whether an id was chosen by a person, unlike those that programs make, such as "path12-3" or "fs-1".
 fn is_chosen(id: &str) -> bool {
     let letters: String = id.chars().take_while(|c| c.is_alphabetic()).collect();
     let automatic = [

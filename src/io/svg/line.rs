@@ -1,19 +1,19 @@
-//! A line of a drawing, from its own units to tidy metres.
+//! A subpath of an SVG drawing, and its conversion from user units to metres.
 
 use glam::DVec2;
 
 use super::clean::Shape;
 use crate::pattern::{Edge, EdgeShape};
 
-/// Ends nearer than this meet, metres.
+/// Largest distance between the two ends of a line that counts as closed, metres.
 const MEETING: f64 = 1e-4;
-/// Edges shorter than this are left out, metres.
+/// Shortest edge that is kept, metres.
 const SHORTEST: f64 = 1e-6;
 
-/// One line of a path.
+/// One subpath of an SVG path.
 #[derive(Clone, Debug)]
 pub struct Line {
-    /// In the order of the file: lines of one path have one number.
+    /// Index of the path in the order of the file; subpaths of one path share it.
     pub path: usize,
     pub shape: Shape,
     pub edges: Vec<Edge>,
@@ -22,7 +22,8 @@ pub struct Line {
 }
 
 impl Line {
-    /// From user units with y down, the box's corner at zero, to metres with y up.
+    /// Converts coordinates from user units with y down to metres with y up. `origin` is added first: it is the corner of the
+    /// view box, which usvg moves to zero.
     pub fn put_in_metres(&mut self, origin: DVec2, metres: f64) {
         let map = |p: DVec2| DVec2::new(p.x + origin.x, -(p.y + origin.y)) * metres;
         for edge in &mut self.edges {
@@ -32,7 +33,7 @@ impl Line {
         self.end = map(self.end);
     }
 
-    /// Takes away edges of no length; closes lines whose ends meet.
+    /// Removes edges of no length, and closes the line if its two ends meet.
     pub fn tidy(&mut self) {
         let ends: Vec<DVec2> = self.edges.iter().skip(1).map(|e| e.start).chain([self.end]).collect();
         let mut ends = ends.into_iter();

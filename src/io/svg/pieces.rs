@@ -1,4 +1,4 @@
-//! What each line of a drawing means for its piece.
+//! Makes pieces of the lines of an SVG drawing.
 
 use std::collections::BTreeMap;
 
@@ -14,22 +14,22 @@ use crate::io::trace::fit::{self, Knot};
 use crate::pattern::piece::flattened_loop;
 use crate::pattern::{Edge, EdgeShape, InternalLine, curve};
 
-/// Chords where shapes are compared, metres.
+/// Flattening tolerance of curves where shapes are compared, metres.
 const CHORDS: f64 = 5e-4;
-/// A closed line smaller than this (metres) outside of all others is a sign, not a piece.
+/// Smallest bounding box (longer side, metres) of a piece; a smaller closed line outside of all others is a mark and is left out.
 const SMALLEST_PIECE: f64 = 0.01;
-/// Straight lines in a row that may be a curve.
+/// Smallest number of consecutive straight edges to which a curve is fitted.
 const FEWEST_CHORDS: usize = 5;
-/// Tangents that differ by less than this (radians) run on smoothly.
+/// Largest angle between the tangents of two edges that join smoothly, radians.
 const SMOOTH_ANGLE: f64 = 2e-3;
-/// Arms of a cubic that stands for an arc are right to this share.
+/// Tolerance for reading a cubic as an arc: relative for the length of its arms, and in radians for their direction.
 const SAME_ARM: f64 = 2e-4;
-/// Arcs of less (radians) are not told from other curves.
+/// Smallest angle of an arc (radians) that is recognised in a cubic; flatter arcs look like other curves.
 const LEAST_TURN: f64 = 0.03;
-/// How near a line may lie to its piece's edge to be on it, metres.
+/// Largest distance (metres) outside of a piece at which an open line still belongs to it.
 const ON_EDGE: f64 = 1e-3;
 
-/// The pieces drawn with `lines`. `frame` is the size of the drawing, metres.
+/// The pieces drawn with `lines`. `frame` is the size of the drawing in metres: a rectangle of that size is the page's frame.
 pub fn traced(
     lines: Vec<Line>,
     is_ours: bool,
@@ -43,7 +43,7 @@ pub fn traced(
     Ok(all)
 }
 
-/// Lines that say which piece they belong to.
+/// The pieces of lines that state their piece and kind (files of this program).
 fn told(lines: Vec<Line>) -> Vec<Traced> {
     let mut pieces: BTreeMap<(u32, String), Traced> = BTreeMap::new();
     for line in lines {
@@ -66,7 +66,7 @@ fn told(lines: Vec<Line>) -> Vec<Traced> {
     pieces.into_values().filter(|piece| piece.outline.len() > 1).collect()
 }
 
-/// The edges of a line of this program: each a command of the path, arcs put together again.
+/// The edges of a line that this program wrote: one for each command of the path, with split arcs joined again.
 fn as_written(line: &Line) -> Vec<Edge> {
     let mut edges = with_arcs(&line.edges, line.end);
     let number = |key: &str| line.shape.data.get(key);
@@ -91,7 +91,7 @@ struct Outer {
     open: Vec<Line>,
 }
 
-/// Pieces by what lies inside what.
+/// The pieces of other files' lines, told by which line is inside which.
 fn guessed(
     lines: Vec<Line>,
     frame: Option<DVec2>,
@@ -149,7 +149,7 @@ fn guessed(
     if signs > 0 {
         notes.push(format!("{signs} small or open lines outside of all pieces were left out"));
     }
-    // In the order of the file.
+    // Pieces in the order of the file.
     outer.sort_by_key(|o| o.line.path);
     let mut names: BTreeMap<String, usize> = BTreeMap::new();
     Ok(outer
@@ -192,7 +192,7 @@ impl Outer {
     }
 }
 
-/// The edges of a line, with curves for rows of short chords and arcs for curves that are circular.
+/// The edges of a line, with curves fitted to runs of short chords and arcs in place of circular curves.
 fn fitted(line: &Line) -> Vec<Edge> {
     let edges = with_arcs(&line.edges, line.end);
     let is_line = |e: &Edge| e.shape == EdgeShape::Line;
@@ -219,7 +219,7 @@ fn fitted(line: &Line) -> Vec<Edge> {
     out
 }
 
-/// Curves that are arcs become arcs, and parts of one arc one arc of at most half a circle.
+/// Replaces circular cubics by arcs, and joins consecutive parts of one arc to an arc of at most half a circle.
 fn with_arcs(edges: &[Edge], end: DVec2) -> Vec<Edge> {
     let mut out: Vec<(Edge, DVec2)> = Vec::new();
     for (i, edge) in edges.iter().enumerate() {
@@ -240,8 +240,8 @@ fn with_arcs(edges: &[Edge], end: DVec2) -> Vec<Edge> {
     out.into_iter().map(|(edge, _)| edge).collect()
 }
 
-/// The arc that a cubic stands for, if it is drawn as arcs are where there are only cubics: it leaves both ends along the
-/// circle, for 4/3 tan(angle/4) of its radius. Such a cubic strays from its arc, so the arc is the better reading.
+/// The arc that a cubic approximates, if it has the standard form of such a cubic: arms along the circle's tangents with the
+/// length 4/3 · tan(angle/4) · radius. Such a cubic deviates from the arc, so the arc is taken as what was meant.
 fn as_arc(from: DVec2, [c, d]: [DVec2; 2], to: DVec2) -> Option<EdgeShape> {
     let (leaves, arrives) = (c - from, to - d);
     let turn = leaves.angle_to(arrives);
@@ -253,13 +253,13 @@ fn as_arc(from: DVec2, [c, d]: [DVec2; 2], to: DVec2) -> Option<EdgeShape> {
     (sound && halves).then_some(EdgeShape::Arc { radius, large: false, sweep: turn > 0.0 })
 }
 
-/// The arc that two arcs make together.
+/// The arc that two consecutive arcs of one circle form together, if it is at most half a circle.
 fn one_arc((from, a, via): (DVec2, EdgeShape, DVec2), (b, to): (EdgeShape, DVec2)) -> Option<EdgeShape> {
     let (one, other) = (curve::arc(from, a, via)?, curve::arc(via, b, to)?);
     let turn = one.turn + other.turn;
     let radius = (one.radius + other.radius) / 2.0;
     let same = one.centre.distance(other.centre) < 1e-3 * radius && one.turn * other.turn > 0.0;
-    // The three points lie on the circle more exactly than the parts tell its radius.
+    // The circle through the three points is more accurate than the radii of the parts.
     let (u, v, w) = (via - from, to - via, to - from);
     let through = u.length() * v.length() * w.length() / (2.0 * u.perp_dot(v)).abs();
     let radius = if (through / radius - 1.0).abs() < 1e-3 { through } else { radius };
@@ -270,7 +270,7 @@ fn one_arc((from, a, via): (DVec2, EdgeShape, DVec2), (b, to): (EdgeShape, DVec2
     })
 }
 
-/// Marks the places where a curve runs on in the direction it came.
+/// Marks the edges at whose start the line runs on smoothly. Joints of two straight edges are not marked.
 fn mark_smooth(edges: &mut [Edge], end: DVec2, is_closed: bool) {
     let n = edges.len();
     let ends: Vec<DVec2> = edges.iter().skip(1).map(|e| e.start).chain([end]).collect();

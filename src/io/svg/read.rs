@@ -1,4 +1,4 @@
-//! SVG bytes to a pattern.
+//! Reads a pattern from the bytes of an SVG file.
 
 use glam::DVec2;
 use usvg::tiny_skia_path::{PathSegment, Point, Transform};
@@ -13,15 +13,15 @@ use crate::io::trace;
 use crate::io::words::readable;
 use crate::pattern::{Edge, EdgeShape};
 
-/// Sides of the largest piece of a garment, metres.
+/// Usual size of the larger side of a garment's largest piece, metres. Units that give such a size are offered as candidates.
 const LIKELY: std::ops::RangeInclusive<f64> = 0.12..=2.6;
-/// Width and height may say scales that differ by this share.
+/// Largest relative difference between the scales by width and by height.
 const SAME_SCALE: f64 = 0.01;
 
-/// Reads a pattern. `unit` is what a user unit of the drawing is and goes before what the file says.
+/// Reads a pattern. `unit`, if given, is the length of a user unit and overrides what the file states.
 ///
 /// # Errors
-/// What cannot be read and why; more than [`Limits`] allows; or how long a unit is.
+/// What cannot be read and why; a value over one of the [`Limits`]; or a question when the unit is not known.
 pub fn read(bytes: &[u8], unit: Option<DrawingUnit>) -> Result<ReadPattern, PatternFileError> {
     let Clean { text, shapes, mut notes, root } = clean::clean(bytes)?;
     let tree = usvg::Tree::from_str(&text, &usvg::Options::default())
@@ -157,7 +157,7 @@ fn largest(lines: &[Line]) -> DVec2 {
     closed.reduce(larger).or_else(|| all.reduce(larger)).unwrap_or_default()
 }
 
-/// What the root's width, height and box make of a user unit; a question where they do not say it.
+/// Metres per user unit by the root element's width, height and view box; a question where these do not tell it.
 fn metres_per_unit(root: &Root, largest: DVec2) -> Result<f64, PatternFileError> {
     let ask = |why: &str| {
         let mut candidates = vec![DrawingUnit::Millimetre, DrawingUnit::Pixel];
@@ -209,7 +209,7 @@ fn metres_per_unit(root: &Root, largest: DVec2) -> Result<f64, PatternFileError>
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Length {
     Metres(f64),
-    /// Pixels, no unit or percent.
+    /// A size in pixels, in percent or without unit, which does not tell the scale.
     Relative,
     Bad,
 }

@@ -1,4 +1,4 @@
-//! A pattern as SVG in millimetres.
+//! Writes a pattern as SVG in millimetres.
 
 use std::fmt::Write;
 
@@ -11,7 +11,7 @@ use crate::io::trace::{self, Traced, allowance};
 use crate::io::written::{self, Part};
 use crate::pattern::{Edge, EdgeShape, Pattern};
 
-/// What the lines and their attributes hold.
+/// Parts of a pattern that this format can hold.
 const HOLDS: [Part; 9] = [
     Part::Curves,
     Part::SmoothPoints,
@@ -25,16 +25,16 @@ const HOLDS: [Part; 9] = [
 ];
 /// Millimetres in a metre.
 const SCALE: f64 = 1000.0;
-/// Around the pieces, millimetres.
+/// Blank margin around the pieces, millimetres.
 const MARGIN: f64 = 10.0;
-/// Letters of names are this high, millimetres.
+/// Height of the letters of names, millimetres.
 const LETTERS: f64 = 8.0;
-/// A notch is drawn this long into the piece, millimetres.
+/// Length of a notch drawn into the piece, millimetres.
 const NOTCH: f64 = 4.0;
-/// Sides of a grainline's arrow head, millimetres.
+/// Length of the sides of a grainline's arrow head, millimetres.
 const ARROW: f64 = 5.0;
 
-/// A kind of line: its name in attributes, that of its layer, how it is drawn.
+/// Kinds of lines: name in the attributes, name of the layer, and style.
 const LAYERS: [(&str, &str, &str); 6] = [
     ("cut", "Cut lines", "stroke=\"#000000\" stroke-width=\"0.6\""),
     ("seam", "Seam lines", "stroke=\"#1f5fbf\" stroke-width=\"0.4\""),
@@ -44,7 +44,7 @@ const LAYERS: [(&str, &str, &str); 6] = [
     ("grain", "Grainlines", "stroke=\"#777777\" stroke-width=\"0.4\""),
 ];
 
-/// Writes `pattern` as it lies on the table.
+/// Writes the pieces at their positions in the pattern plane.
 pub fn write(pattern: &Pattern) -> Written {
     let pieces: Vec<Traced> = pattern.pieces.values().map(|piece| trace::on_table(piece)).collect();
     let corners = pieces.iter().flat_map(Traced::bounds);
@@ -81,7 +81,7 @@ fn layer(text: &mut String, label: &str, style: &str, contents: &str) {
         write!(text, "<g inkscape:groupmode=\"layer\" inkscape:label=\"{label}\" {style}>\n{contents}</g>\n");
 }
 
-/// Where millimetres of the table lie on the page.
+/// The mapping from the pattern plane to the page: `corner` is the page's upper left corner in the plane, millimetres.
 struct Sheet {
     corner: DVec2,
 }
@@ -133,7 +133,7 @@ impl Sheet {
         }
     }
 
-    /// The head of a grainline; it has no meaning of its own.
+    /// The arrow head of a grainline; it has no attributes, so it is not read back.
     fn arrow(&self, tail: DVec2, head: DVec2) -> String {
         let back = (tail - head).normalize_or_zero() * ARROW / SCALE;
         let sides = [0.4, -0.4].map(|turn: f64| self.point(head + DVec2::from_angle(turn).rotate(back)));
@@ -159,7 +159,7 @@ impl Sheet {
                 }
                 EdgeShape::Arc { radius, large, sweep } => {
                     let r = number(radius * SCALE);
-                    // y is down here, and what turned left turns right.
+                    // The y axis points down here, which mirrors the plane, so the sweep is reversed.
                     write!(data, " A {r} {r} 0 {} {} {to}", u8::from(large), u8::from(!sweep))
                 }
             };
@@ -174,7 +174,7 @@ impl Sheet {
     }
 }
 
-/// To a ten-thousandth of a unit, without needless zeros.
+/// A number rounded to four decimals, without trailing zeros.
 fn number(x: f64) -> String {
     let text = format!("{x:.5}");
     let text = text.trim_end_matches('0').trim_end_matches('.');

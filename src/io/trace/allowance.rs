@@ -1,4 +1,4 @@
-//! The line at an even distance outside a closed line.
+//! Seam allowances: the cut line at an even offset outside an outline, and where notches meet it.
 
 use glam::DVec2;
 use kurbo::{ParamCurve, ParamCurveDeriv, ParamCurveNearest};
@@ -8,17 +8,16 @@ use super::fit;
 use crate::pattern::piece::flattened_loop;
 use crate::pattern::{Edge, Piece, curve};
 
-/// Chords of the outline that the line is offset from, metres.
+/// Flattening tolerance of the outline that is offset, metres.
 const CHORDS: f64 = 5e-5;
-/// Corners sharper than this many widths are cut off.
+/// Mitre limit: a corner whose mitre would be longer than this many allowance widths is cut off.
 const MITRE: f64 = 3.0;
-/// Points of an outline; of finer ones every so manieth.
+/// Largest number of points of a flattened outline; of a finer one only every n-th point is used.
 const MOST_POINTS: usize = 10_000;
-/// A cut line further off (metres) has nothing to do with the notch.
+/// Largest distance (metres) from a notch to a cut line that is taken to be its own.
 const LONGEST_NOTCH: f64 = 0.05;
 
-/// Where `piece` is cut: its own cut line, else its outline made wider by its allowance, else nothing. In the piece's own
-/// plane, metres.
+/// The cut line of `piece`: its own, else its outline offset by its allowance, else empty. In the piece's plane, metres.
 pub fn cut_line(piece: &Piece) -> Vec<Edge> {
     if !piece.cut_line.is_empty() || piece.allowance <= 0.0 {
         return piece.cut_line.clone();
@@ -30,8 +29,8 @@ pub fn cut_line(piece: &Piece) -> Vec<Edge> {
     fit::closed(&points, &vec![fit::Knot::Unknown; points.len()])
 }
 
-/// Where a notch at `at` on the outline is cut, and the direction into the piece: on the cut line straight outside, if
-/// there is one.
+/// The tip of a notch at `at` on the outline, and the direction into the piece. The tip is the point of the cut line straight
+/// outside, else `at` itself.
 pub fn notch_tip(outline: &[Edge], cut_line: &[Edge], at: DVec2) -> [DVec2; 2] {
     let outward = outward(outline, at);
     let tip = if cut_line.is_empty() {
@@ -42,7 +41,7 @@ pub fn notch_tip(outline: &[Edge], cut_line: &[Edge], at: DVec2) -> [DVec2; 2] {
     [tip.filter(|tip| tip.distance(at) <= LONGEST_NOTCH).unwrap_or(at), -outward]
 }
 
-/// The direction straight out of a closed line at its point nearest to `p`.
+/// The outward normal of a closed line at its point nearest to `p`.
 fn outward(outline: &[Edge], p: DVec2) -> DVec2 {
     let ends = (0..outline.len()).map(|i| (&outline[i], outline[(i + 1) % outline.len()].start));
     let segments = ends.flat_map(|(edge, end)| curve::segments(edge.start, edge.shape, end));
@@ -57,7 +56,8 @@ fn outward(outline: &[Edge], p: DVec2) -> DVec2 {
     -along.perp() * area.signum()
 }
 
-/// `points` moved outward by `width`; corners stay corners. Where the line would cross itself it is cut short.
+/// The closed polyline `points` offset outward by `width`, with mitred corners. Points that come nearer to the line than `width`
+/// are dropped, which removes most loops.
 fn offset(points: &[DVec2], width: f64) -> Vec<DVec2> {
     let line = Contour::new(points.to_vec());
     let side = -line.signed_area().signum();
@@ -71,7 +71,7 @@ fn offset(points: &[DVec2], width: f64) -> Vec<DVec2> {
         if scale > 2.0 / (MITRE * MITRE) {
             moved.push(b + along / scale * width);
         } else {
-            // A corner this sharp is cut across.
+            // A corner sharper than the mitre limit is cut off.
             let out = (b - a).normalize_or_zero() - (c - b).normalize_or_zero();
             let tip = b + out.normalize_or_zero() * width;
             moved.extend([b + before * width, tip, b + after * width]);

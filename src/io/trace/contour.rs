@@ -1,18 +1,18 @@
-//! A closed polyline: what it surrounds, how far it is from another.
+//! Closed polylines: area, containment and distance.
 
 use glam::DVec2;
 
 use crate::geometry::polygon;
 
-/// A cut line runs mostly within this of its seam line, metres.
+/// Largest median distance between a cut line and its seam line, metres.
 const USUAL_ALLOWANCE: f64 = 0.03;
-/// ... and everywhere within this: corners and hems, metres.
+/// Largest distance of any point of a cut line from its seam line, metres; corners and hems are wider than usual.
 const MOST_ALLOWANCE: f64 = 0.12;
-/// A seam line surrounds at least this share of its cut line.
+/// Smallest area of a seam line, as a fraction of the area of its cut line.
 const LEAST_SHARE: f64 = 0.25;
-/// Points at which two lines are compared.
+/// Approximate number of points at which two lines are compared.
 const SPREAD: usize = 200;
-/// Points of a coarse line.
+/// Approximate largest number of points of a coarse line.
 const MOST_POINTS: usize = 2000;
 
 /// A closed polyline; the last point is not the first.
@@ -24,14 +24,15 @@ pub struct Contour {
 }
 
 impl Contour {
-    /// Around these points.
+    /// The closed polyline through `points`.
     pub fn new(points: Vec<DVec2>) -> Self {
         let lower = points.iter().copied().reduce(DVec2::min).unwrap_or_default();
         let upper = points.iter().copied().reduce(DVec2::max).unwrap_or_default();
         Self { points, lower, upper }
     }
 
-    /// Around these points, or where they are very many, every so manieth: enough to tell what lies in what.
+    /// The closed polyline through `points`, reduced to every n-th where there are more than `MOST_POINTS`: accurate enough to
+    /// tell which line is inside which.
     pub fn coarse(points: Vec<DVec2>) -> Self {
         let step = points.len() / MOST_POINTS + 1;
         Self::new(if step > 1 { points.into_iter().step_by(step).collect() } else { points })
@@ -43,23 +44,23 @@ impl Contour {
         !beyond.any() && (self.contains(p) || self.distance(p) <= reach)
     }
 
-    /// Whether the boxes of two overlap by more than a millimetre.
+    /// Whether the bounding boxes of two lines overlap by more than a millimetre.
     pub fn boxes_overlap(&self, other: &Self) -> bool {
         let apart = self.lower.cmpge(other.upper - 1e-3) | self.upper.cmple(other.lower + 1e-3);
         !apart.any()
     }
 
-    /// Lowest and highest corner of its box.
+    /// Lower and upper corner of the bounding box.
     pub fn bounds(&self) -> (DVec2, DVec2) {
         (self.lower, self.upper)
     }
 
-    /// The middle of its box.
+    /// Centre of the bounding box.
     pub fn middle(&self) -> DVec2 {
         (self.lower + self.upper) / 2.0
     }
 
-    /// Positive when it runs counter-clockwise.
+    /// Area enclosed; positive when the line runs counter-clockwise.
     pub fn signed_area(&self) -> f64 {
         self.sides().map(|(a, b)| (a - self.lower).perp_dot(b - self.lower) / 2.0).sum()
     }
@@ -77,14 +78,14 @@ impl Contour {
         polygon::contains(&self.points, p)
     }
 
-    /// Whether all of `other` is inside, as far as its corners tell.
+    /// Whether all of `other` is inside, tested at its points only.
     pub fn surrounds(&self, other: &Self) -> bool {
         self.lower.cmple(other.lower).all()
             && self.upper.cmpge(other.upper).all()
             && other.spread().into_iter().all(|p| self.contains(p))
     }
 
-    /// Whether a point of one is well inside the other.
+    /// Whether two lines overlap: a point of one is more than 1 mm inside the other, or their centres coincide.
     pub fn overlaps(&self, other: &Self) -> bool {
         let deep = |inner: &Self, outer: &Self| {
             inner.spread().into_iter().any(|p| outer.contains(p) && outer.distance(p) > 1e-3)
@@ -93,7 +94,7 @@ impl Contour {
             && (deep(self, other) || deep(other, self) || self.middle().distance(other.middle()) < 1e-3)
     }
 
-    /// Metres from `p` to the nearest point of the line.
+    /// Distance from `p` to the nearest point of the line, metres.
     pub fn distance(&self, p: DVec2) -> f64 {
         let to_side = |(a, b): (DVec2, DVec2)| {
             let along = b - a;
@@ -103,7 +104,7 @@ impl Contour {
         self.sides().map(to_side).fold(f64::INFINITY, f64::min).sqrt()
     }
 
-    /// Where a ray first meets it.
+    /// The first intersection of a ray with the line. `way` is the ray's direction.
     pub fn hit(&self, from: DVec2, way: DVec2) -> Option<DVec2> {
         let meets = |(a, b): (DVec2, DVec2)| {
             let along = b - a;
@@ -114,18 +115,18 @@ impl Contour {
         self.sides().filter_map(meets).min_by(f64::total_cmp).map(|t| from + way * t)
     }
 
-    /// Its corners, or where there are very many, some of them.
+    /// The points of the line, or, where there are more than `SPREAD`, an evenly picked part of them.
     pub fn spread(&self) -> Vec<DVec2> {
         self.points.iter().step_by(self.points.len() / SPREAD + 1).copied().collect()
     }
 
-    /// Whether this is the seam line of a piece cut on `cut_line`: inside it, and near it all round.
+    /// Whether this is the seam line of a piece with the cut line `cut_line`: inside it, and near it all round.
     pub fn is_seam_line_in(&self, cut_line: &Self) -> bool {
         let share = self.signed_area().abs() / cut_line.signed_area().abs();
         if !(LEAST_SHARE..1.0).contains(&share) || !cut_line.surrounds(self) {
             return false;
         }
-        // Darts may reach far into the piece, so only the cut line must be near everywhere.
+        // Darts of a seam line may reach far into the piece, so only the cut line's points must all be near.
         let outer: Vec<f64> = cut_line.spread().into_iter().map(|p| self.distance(p)).collect();
         let farthest = outer.iter().copied().fold(0.0, f64::max);
         let mut all: Vec<f64> =

@@ -1,52 +1,54 @@
-//! Curves through the points of a polyline, as drawing programs write them for curves.
+//! Fits lines, arcs and cubic Béziers to the points of a polyline, since drawing programs write curves as polylines.
 //!
-//! Between two corners the points are met by one straight line, one circular arc or one cubic Bézier where that can be,
-//! else by several. Points of a curve of ours come back as that curve: the fit is by true distances (Gauss-Newton on the
-//! two control points, each point held to the nearest place on the curve), which converges to it, not near it.
+//! Between two corners one straight line, one circular arc or one cubic is fitted where possible, else several. A curve that this
+//! program wrote as points comes back as the same curve: the fit minimises true distances (Gauss-Newton on the two control
+//! points, each point projected to the nearest place on the curve), so it converges to the original and not only near it.
 
 use glam::{DMat4, DVec2, DVec4};
 use kurbo::{CubicBez, ParamCurve, ParamCurveArclen, ParamCurveDeriv};
 
 use crate::pattern::{Edge, EdgeShape};
 
-/// Points may lie this far from a fitted cubic, metres.
+/// Largest distance of a point from a fitted cubic, metres.
 const TOLERANCE: f64 = 1e-4;
-/// Points may lie this far from a fitted line or arc, metres: numbers of a file are rounded.
+/// Largest distance of a point from a fitted line or arc, metres; numbers of a file are rounded.
 const EXACT: f64 = 5e-6;
-/// Larger circles (metres) are cubics.
+/// Largest radius of a fitted arc, metres; flatter arcs become cubics.
 const LARGEST_RADIUS: f64 = 10.0;
-/// A point where a polyline turns by more than this (radians) is a corner.
+/// Turning angle of a polyline (radians) above which a point is a corner.
 const SHARPEST_CURVE: f64 = 0.5;
-/// ... and where the curve would leave the shorter of its two chords by more than this, metres.
+/// Height of the curve over the shorter of a point's two chords (metres) above which the point is a corner, even if it turns by
+/// less than [`SHARPEST_CURVE`].
 const FLATTEST_CORNER: f64 = 3e-4;
-/// Turns by more than this (radians) are corners even where a file calls them points of a curve.
+/// Turning angle (radians) above which a point is a corner even where the file marks it as a point of a curve.
 const SHARPEST_TURN: f64 = 1.0;
-/// A fitted curve may turn by this more than its points do, radians.
+/// Turning angle (radians) that a fitted curve may have in addition to that of its points.
 const SLACK_TURN: f64 = 0.2;
-/// Places where a fitted curve is looked at.
+/// Number of samples at which a fitted curve is checked.
 const SAMPLES: usize = 64;
-/// Steps after which points further off than this (metres) on the whole will not be met.
+/// Number of Gauss-Newton steps after which the fit is given up if points are still further off than [`HOPELESS`].
 const HOPELESS_STEPS: usize = 6;
+/// Root mean square distance (metres) above which a fit is given up after [`HOPELESS_STEPS`] steps.
 const HOPELESS: f64 = 5e-3;
-/// Gauss-Newton steps.
+/// Largest number of Gauss-Newton steps.
 const STEPS: usize = 60;
-/// Ranges of more points are split near their middle, so that no file takes long.
+/// Number of points above which a range is split near its middle (in its middle half), so that no file takes long.
 const LONG_RANGE: usize = 64;
 
-/// What a file says about a point of a polyline.
+/// What a file states about a point of a polyline.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Knot {
-    /// Nothing.
+    /// Nothing is stated; the angle decides.
     Unknown,
-    /// Lines meet at an angle.
+    /// Two edges meet here at an angle.
     Corner,
-    /// An edge ends here, smoothly.
+    /// Two edges meet here smoothly.
     Smooth,
-    /// Only a point a curve runs through.
+    /// A point within a curve, not the end of an edge.
     Curve,
 }
 
-/// The edges of a closed line through `points`, which do not repeat the first. `knots` are as long as `points`.
+/// Fits the edges of a closed line through `points`, the first of which is not repeated. `knots` has an entry for each point.
 pub fn closed(points: &[DVec2], knots: &[Knot]) -> Vec<Edge> {
     let n = points.len();
     if n < 3 {
@@ -55,7 +57,7 @@ pub fn closed(points: &[DVec2], knots: &[Knot]) -> Vec<Edge> {
     let around = |i: usize| [points[(i + n - 1) % n], points[i], points[(i + 1) % n]];
     let mut knots: Vec<Knot> = (0..n).map(|i| settled(knots[i], around(i))).collect();
     if knots.iter().filter(|k| **k != Knot::Curve).count() < 2 {
-        // A line without corners, or with one, still has ends of edges.
+        // A closed line needs two edges: with fewer than two corners it is also split half-way round.
         let first = knots.iter().position(|k| *k != Knot::Curve).unwrap_or(0);
         for i in [first, (first + n / 2) % n] {
             if knots[i] == Knot::Curve {
@@ -70,7 +72,7 @@ pub fn closed(points: &[DVec2], knots: &[Knot]) -> Vec<Edge> {
     edges(&points, &knots)
 }
 
-/// The edges of an open line through `points` (two or more); the last ends at the last point.
+/// Fits the edges of an open line through `points` (two or more); the last edge ends at the last point.
 pub fn open(points: &[DVec2], knots: &[Knot]) -> Vec<Edge> {
     let last = points.len() - 1;
     let knots: Vec<Knot> = (0..=last)
@@ -82,7 +84,7 @@ pub fn open(points: &[DVec2], knots: &[Knot]) -> Vec<Edge> {
     edges(points, &knots)
 }
 
-/// Decides about a point by its neighbours where the file does not.
+/// Decides whether `b`, between `a` and `c`, is a corner where the file does not state it.
 fn settled(knot: Knot, [a, b, c]: [DVec2; 3]) -> Knot {
     let turn = (b - a).angle_to(c - b).abs();
     let off_chord = a.distance(b).min(b.distance(c)) * turn / 8.0;
@@ -94,7 +96,7 @@ fn settled(knot: Knot, [a, b, c]: [DVec2; 3]) -> Knot {
     }
 }
 
-/// `knots` holds no `Unknown`; its ends are ends of edges.
+/// Fits the edges of a line. `knots` holds no `Unknown`, and its first and last entry are ends of edges.
 fn edges(points: &[DVec2], knots: &[Knot]) -> Vec<Edge> {
     let mut edges = Vec::new();
     let mut from = 0;
@@ -110,7 +112,7 @@ fn edges(points: &[DVec2], knots: &[Knot]) -> Vec<Edge> {
     edges
 }
 
-/// The edges of one run between ends of edges. Places where it was split are smooth.
+/// Fits the edges between two ends of edges. Places where the run is split are smooth.
 fn run(points: &[DVec2], edges: &mut Vec<Edge>) {
     let mut ranges = vec![(0, points.len() - 1)];
     while let Some((from, to)) = ranges.pop() {
@@ -130,7 +132,7 @@ fn run(points: &[DVec2], edges: &mut Vec<Edge>) {
     }
 }
 
-/// One shape through all of `points`, or the point inside at which to split.
+/// One shape that fits all of `points`, or the index of the inner point at which to split.
 fn fitted(points: &[DVec2]) -> Result<EdgeShape, usize> {
     let last = points.len() - 1;
     if last == 1 || is_straight(points) {
@@ -166,7 +168,7 @@ fn is_straight(points: &[DVec2]) -> bool {
         })
 }
 
-/// The circle through the ends and the middle point, where all others lie on it in order.
+/// The arc through the ends and the middle point, if all other points are on it in order.
 fn arc_through(points: &[DVec2]) -> Option<EdgeShape> {
     let last = points.len() - 1;
     let (a, m, b) = (points[0], points[last / 2], points[last]);
@@ -178,7 +180,7 @@ fn arc_through(points: &[DVec2]) -> Option<EdgeShape> {
     let turns = points.windows(2).map(|w| (w[0] - centre).angle_to(w[1] - centre));
     let total: f64 = turns.clone().sum();
     let one_way = turns.clone().all(|turn| turn * total > 0.0);
-    // Chords this wide would be corners.
+    // Points that turn by more would be corners.
     let fine = turns.clone().all(|turn| turn.abs() < 2.0 * SHARPEST_TURN);
     (one_way && fine && total.abs() < std::f64::consts::TAU - 1e-3).then_some(EdgeShape::Arc {
         radius,
@@ -194,16 +196,16 @@ fn circle_centre(a: DVec2, b: DVec2, c: DVec2) -> Option<DVec2> {
     (centre.is_finite() && twice_area != 0.0).then_some(centre)
 }
 
-/// A cubic between fixed ends, and where on it each point lies.
+/// A cubic Bézier with fixed ends, and the parameter of each point on it.
 struct Cubic {
     ends: [DVec2; 2],
     controls: [DVec2; 2],
-    /// A parameter for each point, ends included.
+    /// A parameter in 0..=1 for each point, ends included.
     at: Vec<f64>,
 }
 
 impl Cubic {
-    /// The least-squares cubic for parameters by chord length.
+    /// The least-squares cubic for chord-length parameters.
     fn near(points: &[DVec2]) -> Self {
         let ends = [points[0], points[points.len() - 1]];
         let mut at = vec![0.0];
@@ -218,7 +220,7 @@ impl Cubic {
         cubic
     }
 
-    /// Linear least squares of the controls with the parameters as they are.
+    /// Solves for the control points by linear least squares with fixed parameters.
     fn settle_controls(&mut self, points: &[DVec2]) {
         let (mut cc, mut cd, mut dd) = (0.0, 0.0, 0.0);
         let (mut rc, mut rd) = (DVec2::ZERO, DVec2::ZERO);
@@ -243,7 +245,7 @@ impl Cubic {
         CubicBez::new(a, c, d, b)
     }
 
-    /// Moves each parameter to the nearest place on the curve, from where it is.
+    /// Moves each parameter to the nearest place on the curve, by Newton steps from its current value.
     fn project(&mut self, points: &[DVec2]) {
         let curve = self.curve();
         let (first, second) = (curve.deriv(), curve.deriv().deriv());
@@ -261,19 +263,19 @@ impl Cubic {
         }
     }
 
-    /// Sum of squared distances.
+    /// Sum of squared distances between the points and their places on the curve, m².
     fn cost(&self, points: &[DVec2]) -> f64 {
         let curve = self.curve();
         points.iter().zip(&self.at).map(|(&p, &t)| p.distance_squared(vector(curve.eval(t)))).sum()
     }
 
-    /// Gauss-Newton with damping until the controls stand still.
+    /// Damped Gauss-Newton steps until the control points no longer move.
     fn improve(&mut self, points: &[DVec2]) {
         self.project(points);
         let mut cost = self.cost(points);
         let mut damping = 1e-6;
         for taken in 0..STEPS {
-            // Still this far off: it must be split.
+            // The points are still too far off, so the run must be split.
             if taken >= HOPELESS_STEPS && cost > points.len() as f64 * HOPELESS * HOPELESS {
                 return;
             }
@@ -301,7 +303,7 @@ impl Cubic {
         }
     }
 
-    /// The change of both controls (x, y, x, y) that takes the normal distances away to first order.
+    /// The Gauss-Newton step of both control points (x, y, x, y): it cancels the distances along the normals to first order.
     fn step(&self, points: &[DVec2], damping: f64) -> Option<DVec4> {
         let curve = self.curve();
         let derivative = curve.deriv();
@@ -319,8 +321,8 @@ impl Cubic {
         step.is_finite().then_some(step)
     }
 
-    /// The point inside from which the curve is too far, if there is one. Between points it may leave the chord by no
-    /// more than a curve does that turns as the polyline turns.
+    /// The inner point at which to split because the curve is too far off there, if there is one. Between points the curve may
+    /// leave the chord by as much as a curve does that turns like the polyline.
     fn worst(&self, points: &[DVec2]) -> Option<usize> {
         let curve = self.curve();
         let last = points.len() - 1;
@@ -353,8 +355,8 @@ impl Cubic {
         worst
     }
 
-    /// Where the curve turns about between the points, if it turns by much more than they do, or is much longer: the
-    /// nearest point inside.
+    /// The inner point at which to split because the curve turns much more than its points or is much longer than the polyline,
+    /// such as in a loop between two points.
     fn hook(&self, points: &[DVec2]) -> Option<usize> {
         let curve = self.curve();
         let last = points.len() - 1;
@@ -376,7 +378,7 @@ impl Cubic {
     }
 }
 
-/// Bernstein's.
+/// The four cubic Bernstein polynomials at `t`.
 fn weights(t: f64) -> [f64; 4] {
     let s = 1.0 - t;
     [s * s * s, 3.0 * s * s * t, 3.0 * s * t * t, t * t * t]

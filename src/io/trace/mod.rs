@@ -1,4 +1,4 @@
-//! Lines of a drawing become pieces of a pattern.
+//! Makes the pieces of a pattern out of the lines of a drawing.
 
 pub mod allowance;
 pub mod contour;
@@ -15,40 +15,40 @@ use crate::pattern::piece::flattened_loop;
 use crate::pattern::{Edge, InternalLine, Notch, Pattern, Piece, PlanePose, curve};
 use contour::Contour;
 
-/// Chords of outlines where shapes are compared, metres.
+/// Flattening tolerance of outlines where shapes are compared, metres.
 const CHORDS: f64 = 2e-4;
-/// Notches further from every edge (metres) belong to something else.
+/// Largest distance of a notch from the nearest edge, metres; notches further off are left out.
 const NOTCH_REACH: f64 = 0.06;
-/// Places on curves are found to this accuracy, metres.
+/// Accuracy of nearest points and arc lengths on curves, metres.
 const FINE: f64 = 1e-10;
-/// Pairs of pieces with overlapping boxes from which a drawing is no layout.
+/// Largest number of pairs of pieces with overlapping bounding boxes that are tested; a drawing with more is laid out anew.
 const MOST_CLOSE: usize = 300;
-/// Notches of one piece.
+/// Largest number of notches of one piece.
 const MOST_NOTCHES: usize = 1000;
 /// The widest seam allowance a piece may have, metres.
 const WIDEST_ALLOWANCE: f64 = 0.2;
 
-/// A piece as it was drawn, seen from its front, in the pattern plane, metres.
+/// A piece as drawn, seen from its front, in the pattern plane, metres.
 #[derive(Clone, Debug, Default)]
 pub struct Traced {
-    /// Shown to people.
+    /// Name of the piece.
     pub name: String,
-    /// The line it is sewn on.
+    /// The seam line.
     pub outline: Vec<Edge>,
-    /// The line it is cut on, where the file has one.
+    /// The cut line; empty where the file has none.
     pub cut_line: Vec<Edge>,
-    /// Closed lines cut out.
+    /// Closed lines that are cut out of the piece.
     pub holes: Vec<Vec<Edge>>,
-    /// Lines drawn inside.
+    /// Internal lines.
     pub lines: Vec<InternalLine>,
-    /// Places near edges.
+    /// Positions of notches, on or near edges.
     pub notches: Vec<DVec2>,
-    /// From tail to head.
+    /// The grainline from tail to head.
     pub grainline: Option<[DVec2; 2]>,
 }
 
 impl Traced {
-    /// Lowest and highest corner of the box around everything drawn, metres.
+    /// Lower and upper corner of the bounding box of the outline (or cut line), internal lines and grainline, metres.
     pub fn bounds(&self) -> [DVec2; 2] {
         let line = if self.cut_line.is_empty() { &self.outline } else { &self.cut_line };
         let mut points = flattened_loop(line, CHORDS);
@@ -59,11 +59,11 @@ impl Traced {
     }
 }
 
-/// A piece as it lies on the table, seen from its front: to be drawn in other programs. Metres.
+/// A piece at its position in the pattern plane, seen from its front, for writing to a drawing. Metres.
 pub fn on_table(piece: &Piece) -> Traced {
     let pose = &piece.pose;
     let outline_area = piece.signed_area() * if pose.flipped { -1.0 } else { 1.0 };
-    // A piece that shows its back is turned over in its place.
+    // A piece that shows its back is mirrored about its centre, to show its front.
     let centre = pose.plane_from_piece(Contour::new(piece.flattened(CHORDS)).middle());
     let turns_over = outline_area < 0.0;
     let place = |p: DVec2| {
@@ -91,7 +91,8 @@ pub fn on_table(piece: &Piece) -> Traced {
     }
 }
 
-/// A pattern of these pieces, lying as they were drawn unless two would overlap, and what could not be used.
+/// A pattern of these pieces, and notes about what was left out. Pieces keep their positions unless two overlap; then all are
+/// laid out anew.
 pub fn pattern(traced: Vec<Traced>) -> (Pattern, Vec<String>) {
     let mut pattern = Pattern::default();
     let mut notes = Vec::new();
@@ -111,7 +112,7 @@ pub fn pattern(traced: Vec<Traced>) -> (Pattern, Vec<String>) {
     (pattern, notes)
 }
 
-/// The piece around the middle of its box, and how many notches found no edge.
+/// The piece with its origin at the centre of its bounding box, and the number of notches that were left out.
 fn piece_of(traced: Traced) -> (Piece, usize) {
     let Traced { name, outline, cut_line, holes, lines, notches, grainline } = traced;
     let outline = counter_clockwise(outline);
@@ -149,7 +150,7 @@ fn moved(edges: Vec<Edge>, origin: DVec2) -> Vec<Edge> {
     edges.into_iter().map(moved).collect()
 }
 
-/// The usual distance between two lines, to half a millimetre.
+/// The median distance between an outline and its cut line, rounded to half a millimetre, metres.
 fn allowance_between(outline: &[Edge], cut_line: &[Edge]) -> f64 {
     if cut_line.is_empty() {
         return 0.0;
@@ -161,7 +162,7 @@ fn allowance_between(outline: &[Edge], cut_line: &[Edge]) -> f64 {
     ((usual * 2e3).round() / 2e3).min(WIDEST_ALLOWANCE)
 }
 
-/// The place on an edge nearest to `p`.
+/// The notch on the edge point nearest to `p`; None if that is further off than [`NOTCH_REACH`].
 fn notch(piece: &Piece, p: DVec2) -> Option<Notch> {
     let (notch, distance) =
         (0..piece.edge_count()).map(|edge| nearest_on(piece, edge, p)).min_by(|a, b| a.1.total_cmp(&b.1))?;
@@ -184,7 +185,7 @@ fn nearest_on(piece: &Piece, edge: usize, p: DVec2) -> (Notch, f64) {
     (Notch { edge, at }, best.1.sqrt())
 }
 
-/// Whether no piece lies on another where they were drawn.
+/// Whether no two pieces overlap at their positions in the drawing.
 fn lie_apart(pattern: &Pattern) -> bool {
     let shapes: Vec<Contour> = pattern
         .pieces

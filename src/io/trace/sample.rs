@@ -1,4 +1,4 @@
-//! Points on curves, for formats that know only polylines.
+//! Samples curves at points, for formats that have only polylines.
 
 use glam::DVec2;
 use kurbo::{ParamCurve, PathSeg};
@@ -6,19 +6,20 @@ use kurbo::{ParamCurve, PathSeg};
 use super::fit::Knot;
 use crate::pattern::{Edge, EdgeShape, curve};
 
-/// Chords stay this near to a curve, metres.
+/// Largest distance between a chord and its curve, metres.
 const SAGITTA: f64 = 5e-5;
-/// Chords of one curve.
+/// Smallest number of chords of one curve.
 const FEWEST: usize = 8;
+/// Largest number of chords of one curve.
 const MOST: usize = 400;
 
-/// Points on a closed line, and what each is. The first is not repeated.
+/// Points on a closed line, the first not repeated, and the kind of each.
 pub fn closed(edges: &[Edge]) -> (Vec<DVec2>, Vec<Knot>) {
     let end = edges.first().map_or(DVec2::ZERO, |e| e.start);
     open(edges, end)
 }
 
-/// Points on an open line without its end, and what each is.
+/// Points on an open line without its end, and the kind of each.
 pub fn open(edges: &[Edge], end: DVec2) -> (Vec<DVec2>, Vec<Knot>) {
     let (mut points, mut knots) = (Vec::new(), Vec::new());
     for (i, edge) in edges.iter().enumerate() {
@@ -31,7 +32,7 @@ pub fn open(edges: &[Edge], end: DVec2) -> (Vec<DVec2>, Vec<Knot>) {
     (points, knots)
 }
 
-/// Evenly in the curve's own parameter, which shows its shape best.
+/// Adds points inside an edge, at even steps of the curve's own parameter.
 fn inside(edge: &Edge, to: DVec2, points: &mut Vec<DVec2>) {
     let count = |n: f64| (n.ceil() as usize).clamp(FEWEST, MOST);
     let fractions = |n: usize| (1..n).map(move |i| i as f64 / n as f64);
@@ -54,7 +55,7 @@ fn inside(edge: &Edge, to: DVec2, points: &mut Vec<DVec2>) {
     }
 }
 
-/// The largest second derivative, metres.
+/// Upper bound of the second derivative of a segment by its parameter, metres.
 fn bend(segment: PathSeg) -> f64 {
     let c = segment.to_cubic();
     let second = |a: kurbo::Point, b: kurbo::Point, c: kurbo::Point| ((a - b) + (c - b)).hypot() * 6.0;

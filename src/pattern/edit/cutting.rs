@@ -1,4 +1,4 @@
-//! Cutting pieces in two, darts, and what is drawn on a piece: notches, lines, holes.
+//! Cutting pieces in two, darts, and things drawn on a piece: notches, lines and the grainline.
 
 use std::sync::Arc;
 
@@ -13,13 +13,13 @@ use crate::pattern::edit::{Carried, Change, find, points, symmetric_image};
 use crate::pattern::piece::flattened_loop;
 use crate::pattern::{Edge, EdgeRef, InternalLine, Notch, Pattern, Piece, Seam, Stretch};
 
-/// The ends of a cut may miss the outline by this much, metres.
+/// Distance by which an end of a cut may miss the outline, metres.
 const NEAR: f64 = 2e-3;
-/// An end of a cut this near a point is that point, metres.
+/// Distance within which an end of a cut is snapped to a point of the outline, metres.
 const AT_POINT: f64 = 1e-4;
-/// Chords by which curves are judged, metres.
+/// Tolerance of the polylines by which curves are checked, metres.
 const TOLERANCE: f64 = 1e-4;
-/// The least a dart measures, metres.
+/// Smallest width and depth of a dart, metres.
 const SMALLEST_DART: f64 = 1e-3;
 
 pub(super) fn cut(
@@ -36,7 +36,7 @@ pub(super) fn cut(
     let a = point_on_outline(pattern, id, from).map_err(miss)?;
     let a_place = find(pattern, id)?.edge(a).start;
     let b = point_on_outline(pattern, id, to).map_err(miss)?;
-    // The second point may have moved the first one up.
+    // Inserting the second point may have changed the number of the first.
     let piece = find(pattern, id)?;
     let a = (0..piece.outline.len()).find(|&i| piece.edge(i).start == a_place).unwrap_or(a);
     let n = piece.outline.len();
@@ -103,8 +103,8 @@ pub(super) fn cut(
     Ok(Change { carried, ..Change::new(format!("cut {name}")) })
 }
 
-/// Gives each part its edges' new numbers (by the old ones: which part, and where in it), its holes, lines and notches. `halves`
-/// hold the old edges of each, `first` is the outline of the first.
+/// Distributes edges, holes, lines and notches over the two `parts` of a cut piece. Returns for each old edge its
+/// part and its number there. `halves` hold the old edges of each part, `first` is the outline of the first part.
 fn share_out(
     piece: &Piece,
     halves: &[(Vec<usize>, Vec<Edge>); 2],
@@ -144,7 +144,7 @@ fn is_straight(piece: &Piece, a: usize, b: usize) -> bool {
     matches!(piece.outline[edge].shape, crate::pattern::EdgeShape::Line)
 }
 
-/// The edges of an open line from its end to its start.
+/// The edges of an open line in the opposite direction.
 fn backwards(line: &InternalLine) -> Vec<Edge> {
     let n = line.edges.len();
     let end = |i: usize| line.edges.get(i + 1).map_or(line.end, |e| e.start);
@@ -154,7 +154,7 @@ fn backwards(line: &InternalLine) -> Vec<Edge> {
         .collect()
 }
 
-/// That an open line lies on the cloth between its ends, and does not cross itself or a closed line of the piece.
+/// Checks that an open line is on the cloth between its ends, and crosses neither itself nor a closed line of the piece.
 fn inside(piece: &Piece, path: &InternalLine) -> Result<(), ()> {
     let points = path.flattened(TOLERANCE);
     let outline = piece.flattened(TOLERANCE);
@@ -174,7 +174,7 @@ fn inside(piece: &Piece, path: &InternalLine) -> Result<(), ()> {
     let itself =
         (0..count - 1).any(|i| (i + 2..count - 1).any(|j| crosses(own(i).0, own(i).1, own(j).0, own(j).1)));
     let closed = std::iter::once(outline).chain(piece.holes.iter().map(|h| flattened_loop(h, TOLERANCE)));
-    // Beside its ends it may not touch the outline; there it does.
+    // The path may touch the outline only near its ends.
     let (start, end) = (points[0], points[count - 1]);
     let clear = |p: DVec2| p.distance(start) > 2.0 * TOLERANCE && p.distance(end) > 2.0 * TOLERANCE;
     let meets = closed.into_iter().any(|line| {
@@ -194,7 +194,7 @@ fn crossing_of(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> DVec2 {
     a + (b - a) * t
 }
 
-/// The number of the outline's point at `p`, put there when there is none. Err when the outline is too far.
+/// The number of the outline's point at `p`, inserted when there is none. Err when the outline is farther than [`NEAR`].
 fn point_on_outline(pattern: &mut Pattern, id: PieceId, p: DVec2) -> Result<usize, ()> {
     let piece = pattern.pieces.get(&id).ok_or(())?;
     let near = (0..piece.outline.len()).map(|edge| {
@@ -216,7 +216,7 @@ fn point_on_outline(pattern: &mut Pattern, id: PieceId, p: DVec2) -> Result<usiz
     Ok(edge + 1)
 }
 
-/// The place of an edge nearest to `p`: the fraction of its arc length, and how far it is, metres.
+/// The point of an edge nearest to `p`: the fraction of the edge's arc length, and the distance to `p`, metres.
 pub fn nearest_on_edge(piece: &Piece, edge: usize, p: DVec2) -> (f64, f64) {
     use kurbo::{ParamCurve, ParamCurveArclen, ParamCurveNearest};
     let (mut best, mut before) = ((0.0, f64::INFINITY), 0.0);
@@ -265,7 +265,7 @@ fn one_dart(pattern: &mut Pattern, edge: EdgeRef, from: f64, to: f64, depth: f64
     let piece = find(pattern, edge.piece)?.clone();
     let (k, first) = piece.loop_of(mouth.edge);
     let (a, b) = piece.edge_ends(mouth.edge);
-    // The cloth lies to the left of a line drawn counter-clockwise; a hole's is the other way.
+    // The cloth is to the left of an outline drawn counter-clockwise; for a hole it is the other way round.
     let ccw = (piece.signed_area() > 0.0) == (k == 0 || hole_runs_as_outline(&piece, k));
     let inward = (b - a).perp().normalize_or_zero() * if ccw { 1.0 } else { -1.0 };
     let tip = (a + b) / 2.0 + inward * depth;
@@ -273,7 +273,7 @@ fn one_dart(pattern: &mut Pattern, edge: EdgeRef, from: f64, to: f64, depth: f64
     if !contains(&outline, tip) {
         return Err(format!("the tip of the dart lies outside {}", piece.name));
     }
-    // The edge was sewn whole: now its two parts are sewn, one behind the other, to the whole of what it met.
+    // The edge was sewn as a whole: now its two parts are sewn, one after the other, to what it was sewn to.
     let seams: Vec<(SeamId, Seam)> = pattern.seams.iter().map(|(&id, &seam)| (id, seam)).collect();
     for (id, seam) in seams {
         for side in 0..2 {
@@ -308,10 +308,10 @@ fn one_dart(pattern: &mut Pattern, edge: EdgeRef, from: f64, to: f64, depth: f64
     Ok(())
 }
 
-/// Whether hole `k` runs the way round that the outline does.
+/// Whether hole `k` has the same orientation as the outline.
 fn hole_runs_as_outline(piece: &Piece, k: usize) -> bool {
     let hole = signed_area(&flattened_loop(piece.loop_edges(k), TOLERANCE));
-    // Cloth lies to its left only where it runs against the outline.
+    // The cloth is to the left of the hole only where the hole runs against the outline.
     hole * piece.signed_area() < 0.0
 }
 

@@ -1,4 +1,4 @@
-//! Holes cut into pieces and closed again.
+//! Cutting holes into pieces and closing them.
 
 use crate::geometry::ids::PieceId;
 use crate::geometry::polygon::{contains, signed_area};
@@ -7,7 +7,7 @@ use crate::pattern::edit::{Change, find};
 use crate::pattern::piece::flattened_loop;
 use crate::pattern::{Edge, Pattern, curve};
 
-/// Chords of outline and hole, metres.
+/// Tolerance of the polylines of outline and hole, metres.
 const TOLERANCE: f64 = 1e-4;
 
 pub(super) fn add_hole(pattern: &mut Pattern, id: PieceId, edges: &[Edge]) -> Result<Change, String> {
@@ -17,7 +17,7 @@ pub(super) fn add_hole(pattern: &mut Pattern, id: PieceId, edges: &[Edge]) -> Re
     if edges.len() < 2 || !hole.iter().all(|&p| contains(&outline, p)) {
         return Err(format!("a hole lies inside the outline of {}", piece.name));
     }
-    // Cloth lies on the same side of all closed lines, so that seams join them front to front.
+    // The cloth must be on the same side of all closed lines, so that seams join them front to front.
     let against = signed_area(&hole) * piece.signed_area() < 0.0;
     let edges = if against { edges.to_vec() } else { curve::reversed(edges) };
     change(pattern, id, |p| p.holes.push(edges));
@@ -33,7 +33,7 @@ pub(super) fn delete_hole(pattern: &mut Pattern, id: PieceId, hole: usize) -> Re
     Ok(Change::new("close a hole"))
 }
 
-/// Takes hole `hole` away, with the seams on it; the numbers of later holes' edges move up.
+/// Removes hole `hole` with its seams; the edges of later holes get lower numbers.
 pub(super) fn drop_hole(pattern: &mut Pattern, id: PieceId, hole: usize) {
     let Some(piece) = pattern.pieces.get(&id).cloned() else { return };
     let first: usize = piece.loops().take(hole + 1).map(Vec::len).sum();

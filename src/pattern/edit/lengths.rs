@@ -1,8 +1,8 @@
-//! Sides of seams kept as long as each other while pieces are edited (paper A, 3.1: "the lengths of connected edges").
+//! Keeps the length ratios of seams while pieces are edited (paper A, 3.1: "the lengths of connected edges").
 //!
-//! Curves turn and scale with their chords, so an edge is always a constant times as long as its chord, and what is
-//! sought are points alone: the nearest ones, in the sense of weighted least squares, at which all seams have their
-//! ratio. Newton's method on the ratios, each step of least norm.
+//! Curves rotate and scale with their chords, so that the length of an edge is a constant times its chord and the
+//! only unknowns are points. The result is the nearest one, by weighted least squares, at which all seams have their
+//! ratio: Newton's method on the ratio constraints with steps of least norm.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -16,30 +16,31 @@ use crate::pattern::edit::mirror::{self, Dofs};
 use crate::pattern::edit::points;
 use crate::pattern::{EdgeRef, Pattern, Piece, Seam, Stretch};
 
-/// Lengths that differ by less than this are equal, metres.
+/// Error of a seam's length up to which its ratio counts as met in the solver, metres.
 const EQUAL: f64 = 1e-11;
-/// A seam that misses its ratio by more than this is not kept, metres.
+/// Error of a seam's length above which the result is rejected, metres.
 const KEPT: f64 = 5e-10;
 const MOST_STEPS: usize = 60;
-/// Rounds of keeping lengths and smoothness by turns.
+/// Most rounds that alternate between keeping lengths and keeping points smooth.
 const MOST_ROUNDS: usize = 12;
-/// How readily points move that are sewn to none that was moved, where those that are have 1.
+/// Mobility (inverse weight) of points on pieces that were not edited and that are not sewn to moved points. Points
+/// sewn to moved points have 1.
 const BESIDE: f64 = 1e-2;
-/// How readily points of an edited piece move.
+/// Mobility (inverse weight) of points on an edited piece that were not moved themselves. Points sewn to moved points have 1.
 const SAME_PIECE: f64 = 1e-4;
-/// How readily points move that were put where they are.
+/// Mobility (inverse weight) of points that the person moved. Points sewn to them have 1.
 const HELD: f64 = 1e-6;
-/// No piece is left with less than this share of its area.
+/// Smallest area of a piece after a step, as a fraction of its area before; a smaller result is rejected.
 const SMALLEST_AREA: f64 = 0.2;
-/// In one step no point moves further than this many times the shortest chord.
+/// Longest move of a point in one Newton step, as a multiple of the shortest chord.
 const LONGEST_STEP: f64 = 0.5;
 
-/// Moves points until every seam with a ratio has it. `held` points were put where they are by the person.
-/// Err: the seam whose sides cannot be had.
+/// Moves points until every seam with a ratio has it. `held` are the points that the person moved. Err: a seam whose
+/// ratio cannot be reached.
 pub(super) fn keep(pattern: &mut Pattern, held: &BTreeSet<EdgeRef>) -> Result<(), SeamId> {
     for round in 0..MOST_ROUNDS {
         solve(pattern, held)?;
-        // Turned tangents change lengths; the last word is the lengths'.
+        // Smoothing changes lengths, so that the lengths must be solved last.
         if round + 1 == MOST_ROUNDS || !points::smooth_all(pattern) {
             break;
         }
@@ -52,7 +53,7 @@ pub(super) fn keep(pattern: &mut Pattern, held: &BTreeSet<EdgeRef>) -> Result<()
     }
 }
 
-/// The seam that misses its ratio most, and by how much, metres.
+/// The seam with the largest error against its ratio, and that error, metres.
 fn worst(pattern: &Pattern) -> Option<(SeamId, f64)> {
     let error = |(&id, seam): (&SeamId, &Seam)| {
         let length = |k: usize| seam.sides[k].length(pattern.pieces.get(&seam.sides[k].piece)?);
@@ -61,7 +62,7 @@ fn worst(pattern: &Pattern) -> Option<(SeamId, f64)> {
     pattern.seams.iter().filter_map(error).max_by(|a, b| a.1.total_cmp(&b.1))
 }
 
-/// An edge's share of a side: its points, and how long a stretch of it is for each metre of chord.
+/// The contribution of an edge to the length of a seam side: its end points, and the signed length per metre of chord.
 struct Term {
     ends: [EdgeRef; 2],
     factor: f64,
@@ -130,7 +131,7 @@ fn solve(pattern: &mut Pattern, held: &BTreeSet<EdgeRef>) -> Result<(), SeamId> 
     }
     let before = pattern.clone();
     put(pattern, &dofs, &x);
-    // Lengths can be had by laying a piece flat, but nobody means that.
+    // Collapsing a piece also meets the lengths, but nobody wants that.
     let collapsed = |id: &PieceId| {
         let [old, new] = [&before, &*pattern].map(|p| p.pieces[id].signed_area());
         new / old < SMALLEST_AREA
@@ -145,8 +146,8 @@ fn solve(pattern: &mut Pattern, held: &BTreeSet<EdgeRef>) -> Result<(), SeamId> 
     }
 }
 
-/// How far each degree of freedom goes for the errors `now` to vanish to first order, by the least motion: Newton's step under equality
-/// constraints with these gradients. None where the constraints are singular.
+/// Newton step of least weighted norm under linearised equality constraints: a move of each degree of freedom that makes
+/// the errors `now` vanish to first order. `rows` are the gradients of the constraints. None where the system is singular.
 fn step(rows: &[BTreeMap<usize, DVec2>], weights: &[f64], now: &[f64]) -> Option<Vec<DVec2>> {
     let n = rows.len();
     let mut matrix = faer::Mat::<f64>::zeros(n, n);
@@ -159,7 +160,7 @@ fn step(rows: &[BTreeMap<usize, DVec2>], weights: &[f64], now: &[f64]) -> Option
             (matrix[(i, j)], matrix[(j, i)]) = (sum, sum);
         }
     }
-    // Seams that say the same twice leave the matrix singular.
+    // Redundant seams leave the matrix singular: add a little to its diagonal.
     let top = (0..n).map(|i| matrix[(i, i)]).fold(0.0, f64::max);
     for i in 0..n {
         matrix[(i, i)] += matrix[(i, i)] * 1e-13 + top * 1e-15 + f64::MIN_POSITIVE;
@@ -176,7 +177,7 @@ fn step(rows: &[BTreeMap<usize, DVec2>], weights: &[f64], now: &[f64]) -> Option
     Some(step)
 }
 
-/// Points that are sewn to those in `held`, at the ends of seams, over any number of seams.
+/// The points in `held` and those that seams with a ratio tie to them, through any number of seams.
 fn followers(pattern: &Pattern, held: &BTreeSet<EdgeRef>) -> BTreeSet<EdgeRef> {
     let ends = |side: &Stretch| -> Option<[Option<EdgeRef>; 2]> {
         let piece = pattern.pieces.get(&side.piece)?;
@@ -244,7 +245,7 @@ fn gradient(constraint: &Constraint, dofs: &Dofs, x: &[DVec2]) -> BTreeMap<usize
     row
 }
 
-/// Puts all points where `x` says; curves go with their chords.
+/// Moves all points to `x`; curves rotate and scale with their chords.
 fn put(pattern: &mut Pattern, dofs: &Dofs, x: &[DVec2]) {
     let ids: Vec<PieceId> = pattern.pieces.keys().copied().collect();
     for id in ids {

@@ -1,35 +1,35 @@
-//! Closed lines redrawn: what lies on their edges finds its place again.
+//! Replacing closed lines of a piece, with notches and seams moved on to the new edges.
 
 use std::sync::Arc;
 
 use crate::geometry::ids::{PieceId, SeamId};
 use crate::pattern::{Edge, EdgeRef, Notch, Pattern, Piece, Seam, Stretch, curve};
 
-/// Fractions of an edge nearer than this are one.
+/// Difference of fractions of an edge up to which two places count as one.
 const SAME: f64 = 1e-9;
 
-/// A part of an old edge, and the part of a new edge that took its place; fractions of arc lengths.
+/// A part of an old edge and the part of a new edge that replaces it, as fractions of arc lengths.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Part {
-    /// From and to on the old edge.
+    /// Start and end on the old edge.
     pub old: [f64; 2],
-    /// The new edge's number on its closed line.
+    /// Number of the new edge on its closed line.
     pub edge: usize,
-    /// From and to on the new edge.
+    /// Start and end on the new edge.
     pub new: [f64; 2],
 }
 
 impl Part {
-    /// All of an old edge has become all of a new one.
+    /// The part by which a whole old edge becomes a whole new edge.
     pub fn whole(edge: usize) -> Self {
         Self { old: [0.0, 1.0], edge, new: [0.0, 1.0] }
     }
 }
 
-/// For each old edge of a closed line its parts in order; what is in none is gone.
+/// For each old edge of a closed line its parts in order; stretches in no part are removed.
 pub(super) type LineMap = Vec<Vec<Part>>;
 
-/// Replaces closed line `k` of a piece. Notches and seams that lie on what is gone go too.
+/// Replaces closed line `k` of a piece. Notches and seams on removed stretches are removed too.
 pub(super) fn replace(pattern: &mut Pattern, id: PieceId, k: usize, edges: Vec<Edge>, map: &LineMap) {
     let Some(old) = pattern.pieces.get(&id).cloned() else { return };
     let mut new = Piece::clone(&old);
@@ -80,7 +80,7 @@ pub(super) fn replace(pattern: &mut Pattern, id: PieceId, k: usize, edges: Vec<E
     pattern.pieces.insert(id, Arc::new(new));
 }
 
-/// The stretch from one place to another along the line; all round where they are one place and `round`.
+/// The stretch from one place to another along the line. Where the two are equal it runs all the way round if `round` is set.
 pub(super) fn stretch_between(
     piece: &Piece,
     id: PieceId,
@@ -131,7 +131,7 @@ pub(super) fn insert_points(pattern: &mut Pattern, edge: EdgeRef, fractions: &[f
     let count = parts.len();
     let mut edges = old.clone();
     let new = parts.into_iter().enumerate().map(|(i, (start, shape))| {
-        // A point put on a curve lies within it smoothly.
+        // A point inserted on a curve is smooth.
         let curved = !matches!(shape, crate::pattern::EdgeShape::Line);
         let smooth = if i == 0 { old[at].smooth } else { curved };
         Edge { start, shape, smooth, label: old[at].label.clone() }
@@ -172,7 +172,7 @@ pub(super) fn part_of(piece: &Piece, stretch: &Stretch, from: f64, to: f64) -> O
     stretch_between(piece, stretch.piece, place(from, false), place(to, true), to - from > 0.5)
 }
 
-/// Splits every seam that runs over the start of an edge into one before and one behind it, with both its sides.
+/// Splits every seam that runs over the start of an edge there into two seams.
 pub(super) fn split_seams_at(pattern: &mut Pattern, point: EdgeRef) {
     let seams: Vec<SeamId> = pattern.seams.keys().copied().collect();
     for id in seams {
@@ -187,7 +187,7 @@ pub(super) fn split_seams_at(pattern: &mut Pattern, point: EdgeRef) {
     }
 }
 
-/// Where on a stretch the start of an edge lies, a fraction of its length; only inside it.
+/// The start of an edge as a fraction of the length of a stretch. None unless it is inside the stretch.
 pub(super) fn fraction_at(pattern: &Pattern, stretch: &Stretch, point: EdgeRef) -> Option<f64> {
     if stretch.piece != point.piece {
         return None;
@@ -200,8 +200,8 @@ pub(super) fn fraction_at(pattern: &Pattern, stretch: &Stretch, point: EdgeRef) 
     Some(parts[..at].iter().map(length).sum::<f64>() / total)
 }
 
-/// A seam as two: side `k` up to fraction `until` and from fraction `on` of it, the other side cut where the lengths of
-/// the two stand in the same proportion.
+/// Splits a seam in two: side `k` up to fraction `until` and from fraction `on`; the other side is split in
+/// proportion to the lengths of these two.
 pub(super) fn halves(pattern: &Pattern, seam: &Seam, k: usize, until: f64, on: f64) -> Option<[Seam; 2]> {
     let (own, other) = (seam.sides[k], seam.sides[1 - k]);
     let (own_piece, other_piece) = (pattern.pieces.get(&own.piece)?, pattern.pieces.get(&other.piece)?);

@@ -1,4 +1,4 @@
-//! Twins and symmetric pieces: which points are images of which, and making them so.
+//! Mirror images of twins and symmetric pieces: which points are images of which, and restoring the symmetry.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -9,9 +9,9 @@ use crate::geometry::ids::PieceId;
 use crate::pattern::curve::{self, mirror};
 use crate::pattern::{EdgeRef, InternalLine, Notch, Pattern, Piece, Roll, Seam, SpacePose, Stretch};
 
-/// The points that can be moved, and how all others follow from them.
+/// The degrees of freedom of a pattern: the points that move freely, and how the others follow from them by mirroring.
 pub(super) struct Dofs {
-    /// For each point its mover, whether it is the image of it, and whether it stays on the line x = 0.
+    /// For each point of a piece the index of its degree of freedom, and whether the point is its mirror image.
     of: BTreeMap<PieceId, Vec<(usize, bool)>>,
     on_axis: Vec<bool>,
 }
@@ -50,7 +50,7 @@ impl Dofs {
         own
     }
 
-    /// Where the movers are.
+    /// Current positions of the degrees of freedom.
     pub fn start(&self, pattern: &Pattern) -> Vec<DVec2> {
         let mut x = vec![DVec2::ZERO; self.on_axis.len()];
         for (id, own) in self.of.iter().rev() {
@@ -62,21 +62,21 @@ impl Dofs {
         x
     }
 
-    /// Where a point is when the movers are at `x`.
+    /// Position of a point when the degrees of freedom are at `x`.
     pub fn place(&self, x: &[DVec2], point: EdgeRef) -> DVec2 {
         let (dof, image) = self.of[&point.piece][point.edge];
         let p = if self.on_axis[dof] { DVec2::new(0.0, x[dof].y) } else { x[dof] };
         if image { mirror(p) } else { p }
     }
 
-    /// A pull at a point as a pull at its mover.
+    /// A gradient at a point as a gradient of its degree of freedom, which is returned with its index.
     pub fn pulled(&self, point: EdgeRef, pull: DVec2) -> (usize, DVec2) {
         let (dof, image) = self.of[&point.piece][point.edge];
         let pull = if image { mirror(pull) } else { pull };
         (dof, if self.on_axis[dof] { DVec2::new(0.0, pull.y) } else { pull })
     }
 
-    /// For each mover the least of what its points have.
+    /// For each degree of freedom the least weight of its points.
     pub fn weights(&self, of_point: impl Fn(EdgeRef) -> f64) -> Vec<f64> {
         let mut weights = vec![f64::INFINITY; self.on_axis.len()];
         for (&piece, own) in &self.of {
@@ -88,27 +88,27 @@ impl Dofs {
     }
 }
 
-/// The point of the twin whose image point `i` is; the two have the same closed lines.
+/// The point of the twin of which point `i` is the image; the two pieces have the same closed lines.
 pub(super) fn image_point(piece: &Piece, i: usize) -> usize {
     let (k, first) = piece.loop_of(i);
     let n = piece.loop_edges(k).len();
     first + (n - (i - first)) % n
 }
 
-/// The edge of the twin whose image edge `i` is.
+/// The edge of the twin of which edge `i` is the image.
 pub(super) fn image_edge(piece: &Piece, i: usize) -> usize {
     let (k, first) = piece.loop_of(i);
     let n = piece.loop_edges(k).len();
     first + n - 1 - (i - first)
 }
 
-/// The image of a seam: on the twins of its pieces, or on the other half of symmetric ones. None where a side has none, or
-/// the seam is its own image.
+/// The mirror image of a seam: on the twins of its pieces, or on the other half of symmetric pieces. None where a
+/// side has no image, or where the seam is its own image.
 pub(super) fn image_seam(pattern: &Pattern, seam: &Seam) -> Option<Seam> {
     let [one, other] = seam.sides;
     let sides = [image_stretch(pattern, &one)?, image_stretch(pattern, &other)?];
     let is_own = sides == seam.sides || sides == [other, one];
-    // Gone through the other way, both of them.
+    // Both sides run in the opposite direction, so that `same_direction` stays.
     (!is_own).then_some(Seam { sides, ..*seam })
 }
 
@@ -129,7 +129,8 @@ fn image_stretch(pattern: &Pattern, side: &Stretch) -> Option<Stretch> {
     })
 }
 
-/// Takes the shape of `twin` over: everything but name, place, lock and visibility is the image of it.
+/// Makes the shape of `piece` the mirror image of `twin`: outline, holes, lines, notches, grainline, allowance and
+/// cutting line.
 pub(super) fn take_image(piece: &mut Piece, twin: &Piece) {
     piece.outline = curve::mirrored(&twin.outline);
     piece.holes = twin.holes.iter().map(|hole| curve::mirrored(hole)).collect();
@@ -152,7 +153,7 @@ pub(super) fn image_line(line: &InternalLine) -> InternalLine {
     new
 }
 
-/// A placement in space mirrored from left to right, for a piece that is mirrored in its own plane.
+/// The mirror image in x = 0 of a placement in space, for a piece that is mirrored in its own plane.
 pub(super) fn image_placement(pose: SpacePose) -> SpacePose {
     let (t, q) = (pose.translation, pose.rotation);
     let roll = pose.roll.map(|roll| Roll {
@@ -164,7 +165,7 @@ pub(super) fn image_placement(pose: SpacePose) -> SpacePose {
     SpacePose { translation: DVec3::new(-t.x, t.y, t.z), rotation, roll }
 }
 
-/// Makes the right half of a symmetric outline the image of its left half, to the last bit.
+/// Makes the right half of a symmetric outline exactly the mirror image of its left half.
 pub(super) fn mend_symmetry(piece: &mut Piece) {
     let n = piece.outline.len();
     piece.outline[0].start.x = 0.0;
@@ -175,11 +176,12 @@ pub(super) fn mend_symmetry(piece: &mut Piece) {
         piece.outline[i] = image[i].clone();
         piece.outline[i].label = labels[i].clone();
     }
-    // The point at the lower end belongs to both halves.
+    // The lower point on the axis belongs to both halves.
     piece.outline[n / 2].start.x = 0.0;
 }
 
-/// All twins are images of those of `from` among them, or else of the one with the lower id; symmetric pieces are theirs.
+/// Restores all symmetry. Of two twins the one in `from` leads, else the one with the lower id; symmetric pieces
+/// follow their left half.
 pub(super) fn mend_all(pattern: &mut Pattern, from: &[PieceId]) {
     let ids: Vec<PieceId> = pattern.pieces.keys().copied().collect();
     for &id in &ids {

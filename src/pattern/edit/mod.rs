@@ -1,4 +1,4 @@
-//! What an editor does to a pattern. Pure: a new pattern comes back, or words why not.
+//! Edits of a pattern. Pure functions: they return a new pattern, or a message that says why not.
 
 mod cutting;
 mod holes;
@@ -28,123 +28,125 @@ pub use pieces::WIDEST_ALLOWANCE;
 pub use sewing::{RATIOS, sound};
 pub use twists::{Twists, twists, untwisted};
 
-/// A corner or other point of a closed line: where the edge of the same number starts.
+/// A point of a closed line: the start of the edge with the same number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct PointRef {
     /// The piece.
     pub piece: PieceId,
-    /// The edge that starts there, as [`Piece::edge`] counts.
+    /// The edge that starts at the point, as [`Piece::edge`] counts.
     pub point: usize,
 }
 
-/// One change. Places are in the piece's own plane, metres, and absolute: a change given twice changes nothing the second
-/// time, but for those that make something new.
+/// One edit. Positions are in the piece's own plane, metres, and absolute: an edit applied twice has no effect the
+/// second time, unless it adds something new.
 ///
-/// After each change twins and symmetric halves are mirror images again, and every seam with a ratio has it again: points
-/// beside those that were moved go as far as they must, the moved ones only where it cannot be had otherwise.
+/// After each edit twins and symmetric halves are mirror images again, and every seam with a ratio has it again: points
+/// near the moved ones move as far as needed; the moved points themselves only where it is not possible otherwise.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum PatternEdit {
-    /// Put a new piece on the table.
+    /// Add a new piece to the table.
     AddPiece { piece: Arc<Piece> },
-    /// Take pieces away with their seams.
+    /// Delete pieces and their seams.
     DeletePieces { pieces: Vec<PieceId> },
     /// Copy pieces and the seams among them, moved by `offset` on the table.
     Duplicate { pieces: Vec<PieceId>, offset: DVec2 },
-    /// Lay a mirror image of a piece on the table, moved by `offset`, sewn as the piece is where what it is sewn to has an
-    /// image; the two stay mirror images.
+    /// Add a mirror image of a piece, moved by `offset` on the table, which is kept its twin. The seams of the piece
+    /// are copied where their other side has an image too.
     AddTwin { piece: PieceId, offset: DVec2 },
-    /// Make a piece its own mirror image in the line through two points: what lies left of the line, seen from its first
-    /// to its second point, is mirrored over it and replaces what lies right of it.
+    /// Make a piece symmetric about the line through two points: the part left of the line, seen from the first point
+    /// to the second, is mirrored and replaces the part right of it.
     MakeSymmetric { piece: PieceId, axis: [DVec2; 2] },
-    /// Open a half piece out along a straight edge of its outline, which becomes the middle: it is symmetric from then on.
+    /// Unfold a half piece along a straight edge of its outline, which becomes the axis of symmetry.
     Unfold { edge: EdgeRef },
-    /// Fold a symmetric piece: only the half left of its middle stays, and its middle becomes an edge.
+    /// Fold a symmetric piece: only the half left of its axis stays, and the axis becomes an edge.
     Fold { piece: PieceId },
-    /// A piece is no longer bound to its twin, nor to its own symmetry.
+    /// Unlink a piece from its twin and from its own symmetry.
     Unlink { piece: PieceId },
-    /// Lay pieces elsewhere on the table.
+    /// Move, rotate or flip pieces on the table.
     Place { poses: Vec<(PieceId, PlanePose)> },
-    /// Stand pieces round the body, or (none) take them from there. They are sewn from where they stand.
+    /// Set the placements of pieces round the body, from which they are sewn, or remove them (None).
     PlaceInSpace { placements: Vec<(PieceId, Option<SpacePose>)> },
-    /// Redraw the outline of a piece. A sewn piece keeps its number of edges.
+    /// Redraw the outline of a piece. A sewn piece must keep its number of edges.
     SetOutline { piece: PieceId, outline: Vec<Edge> },
-    /// Scale pieces in their own planes by `factor` (x, y; over 0) about a point of the table.
+    /// Scale pieces in their own planes by `factor` (x and y, more than 0) about a point of the table.
     Scale { pieces: Vec<PieceId>, about: DVec2, factor: DVec2 },
-    /// Give a piece another name.
+    /// Rename a piece.
     Rename { piece: PieceId, name: String },
-    /// Lock pieces against the pointer, or not.
+    /// Lock pieces against the pointer, or unlock them.
     SetLocked { pieces: Vec<PieceId>, locked: bool },
-    /// Hide pieces in the pane, or not.
+    /// Hide pieces in the pattern pane, or show them.
     SetHidden { pieces: Vec<PieceId>, hidden: bool },
-    /// Wear pieces on another layer, 0..=15: over all pieces of lower ones. Counts when they are sewn the next time.
+    /// Set the layer of pieces, 0..=15: they are worn over all pieces of lower layers. Takes effect when they are
+    /// sewn the next time.
     SetLayer { pieces: Vec<PieceId>, layer: u8 },
-    /// Freeze pieces where they lie on the body, deactivate them there, or let draping and relaxing move them again.
+    /// Freeze or deactivate pieces where they are on the body, or let draping and relaxing move them again.
     SetActivity { pieces: Vec<PieceId>, activity: Activity },
 
-    /// Move points. The curves beside them turn and scale with their chords.
+    /// Move points. The curves beside them rotate and scale with their chords.
     MovePoints { points: Vec<(PointRef, DVec2)> },
-    /// Give an edge another curve. Where its ends are smooth, the tangents of its neighbours follow.
+    /// Set the curve of an edge. Where its ends are smooth, the tangents of its neighbours follow.
     SetEdge { edge: EdgeRef, shape: EdgeShape },
-    /// Put a point on an edge, at a fraction of its arc length inside 0..1. The line stays as it is.
+    /// Insert a point on an edge, at a fraction of its arc length inside 0..1. The line keeps its shape.
     InsertPoint { edge: EdgeRef, at: f64 },
-    /// Take a point away: its two edges become one that starts and ends as they did.
+    /// Delete a point: its two edges become one with the same tangents at its ends.
     DeletePoint { point: PointRef },
-    /// Make the line run on smoothly at a point, or break there. Straight edges beside a smooth point become curves.
+    /// Make the line smooth at a point, or let it have a corner there. Straight edges beside a smooth point become curves.
     SetSmooth { point: PointRef, smooth: bool },
 
-    /// Cut a piece in two along a line from edge to edge: a piece's outline is met at the line's ends and not between.
-    /// `sew` joins the two again by a seam.
+    /// Cut a piece in two along a line that touches the outline at its ends and nowhere between. `sew` joins the two
+    /// parts again by a seam.
     Cut { piece: PieceId, line: InternalLine, sew: bool },
-    /// Cut a dart into an edge: `width` on the edge with its middle at a fraction of the edge's length, its tip `depth`
-    /// inside. Its legs are sewn.
+    /// Cut a dart into an edge: `width` (m) along the edge, its middle at a fraction of the edge's length, its tip
+    /// `depth` (m) inside. Its legs are sewn together.
     AddDart { edge: EdgeRef, at: f64, width: f64, depth: f64 },
-    /// Mark a place of an edge, at a fraction of its arc length.
+    /// Add a notch to an edge, at a fraction of its arc length.
     AddNotch { edge: EdgeRef, at: f64 },
-    /// Take a notch away, by its number from 0.
+    /// Delete a notch, by its number from 0.
     DeleteNotch { piece: PieceId, notch: usize },
-    /// Draw a line on a piece.
+    /// Add an internal line to a piece.
     AddLine { piece: PieceId, line: InternalLine },
-    /// Take a line away, by its number from 0.
+    /// Delete an internal line, by its number from 0.
     DeleteLine { piece: PieceId, line: usize },
     /// Cut a hole into a piece.
     AddHole { piece: PieceId, edges: Vec<Edge> },
-    /// Close a hole, by its number from 0, and undo the seams on its edge.
+    /// Close a hole, by its number from 0, and remove the seams on its edges.
     DeleteHole { piece: PieceId, hole: usize },
-    /// Draw the arrow along the warp, from tail to head, or none.
+    /// Set the grainline, from tail to head of the arrow, or remove it.
     SetGrainline { piece: PieceId, grainline: Option<[DVec2; 2]> },
-    /// Cloth left outside the outline, metres.
+    /// Set the seam allowance, metres.
     SetAllowance { pieces: Vec<PieceId>, width: f64 },
 
-    /// Sew two stretches. A seam with a ratio gets it at once. Where both have an image, on twins or symmetric halves, and
-    /// that is free, it is sewn too; this and the next three do to the image of a seam what they do to the seam.
+    /// Sew two stretches. A seam with a ratio reaches it at once. The mirror image of the seam, on twins or symmetric
+    /// halves, is sewn too where its stretches are free. This edit and the next three apply to the image of a seam as well.
     Sew { seam: Seam },
-    /// Undo seams.
+    /// Delete seams.
     Unpick { seams: Vec<SeamId> },
-    /// Sew stretches the other way round.
+    /// Reverse the direction in which the stretches of a seam are joined.
     TurnSeam { seam: SeamId },
-    /// Keep the first side this many times as long as the second from now on (1: equal), or let either change alone.
+    /// Keep the length of the first side this many times that of the second from now on (1: equal), or (None) let
+    /// either side change alone.
     SetRatio { seam: SeamId, ratio: Option<f64> },
-    /// Turn over pieces that are drawn from their backs, and turn round every seam that joins the front of one piece to the
-    /// back of another.
+    /// Turn over pieces that are drawn from their backs, then reverse every seam that still joins the front of one
+    /// piece to the back of another.
     UntwistSeams,
 }
 
-/// Where places of a piece went.
+/// How points of a piece moved in an edit, so that what is drawn there can follow.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Carried {
-    /// The piece they were on.
+    /// The piece on which the points were.
     pub from: PieceId,
-    /// The piece they are on.
+    /// The piece on which the points are now.
     pub to: PieceId,
-    /// From the old piece's plane to the new one's.
+    /// Maps points from the old piece's plane to the new one's.
     pub map: DAffine2,
-    /// Only those inside this closed polyline of the new plane; all where there is none.
+    /// Closed polyline in the new plane: only points that arrive inside it moved this way. None: all points.
     pub inside: Option<Vec<DVec2>>,
 }
 
 impl Carried {
-    /// The ways of `first`, then those of `second`.
+    /// The moves of `first` followed by those of `second`.
     pub fn then(first: &[Self], second: Vec<Self>) -> Vec<Self> {
         let untouched = first.iter().filter(|one| second.iter().all(|other| other.from != one.to));
         let mut all: Vec<Self> = untouched.cloned().collect();
@@ -157,7 +159,7 @@ impl Carried {
         all
     }
 
-    /// The ways from where `before` leads to where `now` leads; both begin at one pattern.
+    /// The moves from the result of `before` to the result of `now`; both start from the same pattern.
     pub fn since(before: &[Self], now: &[Self]) -> Vec<Self> {
         let back = before.iter().map(|one| Self {
             from: one.to,
@@ -169,21 +171,21 @@ impl Carried {
     }
 }
 
-/// An edited pattern.
+/// The result of an edit.
 #[derive(Clone, Debug)]
 pub struct Edited {
     /// The pattern afterwards.
     pub pattern: Pattern,
-    /// For menus: "Undo LABEL".
+    /// Name of the edit for menus: "Undo LABEL".
     pub label: String,
-    /// What is drawn on these pieces must be moved; on all others places are what they were.
+    /// How points moved. On pieces that are not listed they stayed where they were.
     pub carried: Vec<Carried>,
 }
 
-/// What one change did, before lengths and images are seen to.
+/// The result of one edit before seam lengths and mirror images are restored.
 struct Change {
     label: String,
-    /// Points that were put where they are.
+    /// Points that the person moved.
     held: BTreeSet<EdgeRef>,
     carried: Vec<Carried>,
 }
@@ -194,10 +196,10 @@ impl Change {
     }
 }
 
-/// An edge shorter than this has no length, metres.
+/// Length below which an edge counts as collapsed, metres.
 const SHORTEST_EDGE: f64 = 1e-5;
 
-/// What `edit` does to `pattern`. Err: why not, for a person.
+/// Applies `edit` to `pattern`. Err: why not, for a person.
 pub fn apply(pattern: &Pattern, edit: &PatternEdit) -> Result<Edited, String> {
     let mut new = pattern.clone();
     let change = carry_out(&mut new, edit)?;
@@ -297,7 +299,7 @@ fn carry_out(pattern: &mut Pattern, edit: &PatternEdit) -> Result<Change, String
     }
 }
 
-/// The pieces whose shape an edit changes, as far as their twins must follow.
+/// The pieces whose shape an edit changes, so that their twins must follow.
 fn pieces_named(edit: &PatternEdit) -> Vec<PieceId> {
     match edit {
         PatternEdit::Scale { pieces, .. } | PatternEdit::SetAllowance { pieces, .. } => pieces.clone(),
@@ -318,7 +320,7 @@ fn pieces_named(edit: &PatternEdit) -> Vec<PieceId> {
     }
 }
 
-/// The same change on the twin of `id`, where it changes how edges are numbered.
+/// The same edit on the twin of `id`, for edits that change the numbering of edges; None for the others.
 fn for_twin(before: &Pattern, id: PieceId, edit: &PatternEdit) -> Option<PatternEdit> {
     let piece = before.pieces.get(&id)?;
     let twin = piece.twin?;
@@ -341,7 +343,7 @@ fn for_twin(before: &Pattern, id: PieceId, edit: &PatternEdit) -> Option<Pattern
     })
 }
 
-/// The image of an edge of a symmetric piece's outline.
+/// The mirror image of an edge of a symmetric piece's outline.
 fn symmetric_image(piece: &Piece, edge: usize) -> Option<usize> {
     let n = piece.outline.len();
     (piece.symmetric && edge < n).then(|| n - 1 - edge)
@@ -351,7 +353,7 @@ fn find(pattern: &Pattern, id: PieceId) -> Result<&Arc<Piece>, String> {
     pattern.pieces.get(&id).ok_or_else(|| format!("there is no {id}"))
 }
 
-/// Whether a closed line is its own mirror image as [`Piece::symmetric`] asks, to the last bit.
+/// Whether a closed line is exactly its own mirror image, as [`Piece::symmetric`] requires.
 pub fn is_symmetric(edges: &[Edge]) -> bool {
     let half = edges.len() / 2;
     let drawn = |e: &Edge| (e.start, e.shape, e.smooth);

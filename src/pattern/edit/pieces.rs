@@ -1,4 +1,4 @@
-//! Whole pieces.
+//! Edits of whole pieces: adding, deleting, copying, placing, scaling, naming.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -12,11 +12,11 @@ use crate::pattern::{
     Edge, EdgeRef, EdgeShape, InternalLine, Pattern, Piece, PlanePose, Seam, SpacePose, curve,
 };
 
-/// Metres of seam allowance.
+/// Widest seam allowance, metres.
 pub const WIDEST_ALLOWANCE: f64 = 0.2;
-/// A cubic takes the place of an arc up to this turn, radians: to 3e-5 of its radius.
+/// Largest angle of an arc that one cubic replaces, radians; the error is 3e-5 of the radius.
 const LONGEST_ARC: f64 = std::f64::consts::FRAC_PI_4;
-/// Factors of one scaling.
+/// Range of the factors of one scaling.
 const SCALES: std::ops::RangeInclusive<f64> = 1e-3..=1e3;
 
 pub(super) fn add(pattern: &mut Pattern, piece: &Arc<Piece>) -> Change {
@@ -50,7 +50,7 @@ pub(super) fn duplicate(pattern: &mut Pattern, ids: &[PieceId], offset: DVec2) -
         copies.insert(id, pattern.add_piece(copy));
     }
     for &copy in copies.values() {
-        // Copies of twins are twins of each other; the copy of one alone is nobody's.
+        // Copies of twins are twins of each other; the copy of one twin alone has none.
         change(pattern, copy, |p| p.twin = p.twin.and_then(|twin| copies.get(&twin).copied()));
     }
     let inner: Vec<Seam> = pattern.seams.values().copied().collect();
@@ -99,7 +99,7 @@ pub(super) fn set_outline(pattern: &mut Pattern, id: PieceId, outline: &[Edge]) 
     if piece.symmetric && !is_symmetric(outline) {
         return Err(format!("{} is symmetric, this outline is not: unlink its halves first", piece.name));
     }
-    // Edges keep their numbers as far as there are any; those of holes count on behind them.
+    // Edges keep their numbers where they still exist; those of holes come after them.
     let map = (0..old).map(|i| if i < new { vec![Part::whole(i)] } else { Vec::new() }).collect();
     lines::replace(pattern, id, 0, outline.to_vec(), &map);
     let held = (0..new).map(|edge| EdgeRef { piece: id, edge }).collect();
@@ -129,7 +129,7 @@ pub(super) fn scale(
         }
         let mut new = Piece::clone(piece);
         let centre = piece.pose.piece_from_plane(about);
-        // A symmetric piece stays so: its middle stays where it is.
+        // A symmetric piece must stay so: keep its axis in place.
         let fixed = if piece.symmetric { DVec2::new(0.0, centre.y) } else { centre };
         let map = DAffine2::from_mat2_translation(DMat2::from_diagonal(factor), fixed - factor * fixed);
         map_piece(&mut new, map);
@@ -150,7 +150,7 @@ pub(super) fn scale(
     Ok(result)
 }
 
-/// Long arcs become several, each near enough to a cubic.
+/// Splits long arcs into several, each short enough to be replaced by a cubic.
 fn split_arcs(pattern: &mut Pattern, id: PieceId) {
     let Some(piece) = pattern.pieces.get(&id).cloned() else { return };
     for edge in (0..piece.edge_count()).rev() {
@@ -163,7 +163,7 @@ fn split_arcs(pattern: &mut Pattern, id: PieceId) {
     }
 }
 
-/// Takes everything drawn on a piece to its image.
+/// Maps a piece and everything drawn on it by `map`.
 pub(super) fn map_piece(piece: &mut Piece, map: DAffine2) {
     let scale = DVec2::new(map.matrix2.x_axis.length(), map.matrix2.y_axis.length());
     let alike = (scale.x / scale.y - 1.0).abs() < 1e-12;
@@ -176,7 +176,7 @@ pub(super) fn map_piece(piece: &mut Piece, map: DAffine2) {
                 EdgeShape::Arc { radius, large, sweep } if alike => {
                     EdgeShape::Arc { radius: radius * scale.x, large, sweep }
                 }
-                // Pressed into an ellipse it is no arc any more.
+                // An arc scaled into an ellipse is no arc any more.
                 EdgeShape::Arc { .. } => {
                     EdgeShape::Cubic { controls: points::as_cubic(edge.start, edge.shape, end) }
                         .mapped(false, |p| map.transform_point2(p))
@@ -226,14 +226,14 @@ pub(super) fn set_allowance(pattern: &mut Pattern, ids: &[PieceId], width: f64) 
     set_all(pattern, ids, "set the seam allowance of", set)
 }
 
-/// Changes a piece that is there.
+/// Changes a piece, if it exists, by `set`.
 pub(super) fn change(pattern: &mut Pattern, id: PieceId, set: impl FnOnce(&mut Piece)) {
     if let Some(piece) = pattern.pieces.get_mut(&id) {
         set(Arc::make_mut(piece));
     }
 }
 
-/// "move front", "move 3 pieces"; Err when one of them is not there, or none is named.
+/// Label of an edit: "move front", "move 3 pieces". Err when one of the pieces does not exist, or none is named.
 pub(super) fn named(pattern: &Pattern, what: &str, ids: &[PieceId]) -> Result<String, String> {
     for &id in ids {
         find(pattern, id)?;
@@ -245,7 +245,7 @@ pub(super) fn named(pattern: &Pattern, what: &str, ids: &[PieceId]) -> Result<St
     }
 }
 
-/// `name`, with a number no piece has yet: "sleeve 2".
+/// `name` with the lowest number that makes it new: "sleeve 2".
 pub(super) fn fresh_name(pattern: &Pattern, name: &str) -> String {
     let stem = match name.rsplit_once(' ') {
         Some((stem, number)) if !number.is_empty() && number.bytes().all(|b| b.is_ascii_digit()) => stem,

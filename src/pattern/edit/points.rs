@@ -1,4 +1,4 @@
-//! Points and curves of closed lines.
+//! Edits of points and curves of closed lines.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -9,7 +9,7 @@ use crate::pattern::edit::lines::{self, Part, previous};
 use crate::pattern::edit::{Change, PointRef, find, symmetric_image};
 use crate::pattern::{Edge, EdgeRef, EdgeShape, Pattern, Piece, curve};
 
-/// Tangents that differ by less than this run on smoothly, radians.
+/// Angle between two tangents up to which they count as smooth, radians.
 const SMOOTH: f64 = 1e-7;
 
 pub(super) fn move_points(pattern: &mut Pattern, moves: &[(PointRef, DVec2)]) -> Result<Change, String> {
@@ -93,7 +93,7 @@ pub(super) fn insert(pattern: &mut Pattern, edge: EdgeRef, at: f64) -> Result<Ch
         return Err("a point on an edge lies between its ends".to_owned());
     }
     let image = symmetric_image(piece, edge.edge);
-    // The later edge first: its points do not renumber the earlier.
+    // Split the later edge first, so that the number of the earlier one stays valid.
     let mut sites = vec![(edge.edge, at)];
     sites.extend(image.map(|image| (image, 1.0 - at)));
     sites.sort_by_key(|site| std::cmp::Reverse(site.0));
@@ -125,7 +125,7 @@ pub(super) fn delete(pattern: &mut Pattern, point: PointRef) -> Result<Change, S
     Ok(Change::new("take a point away"))
 }
 
-/// Makes one edge of the two that meet at the start of `point`.
+/// Joins the two edges that meet at the start of `point` into one.
 fn join(pattern: &mut Pattern, point: EdgeRef) {
     let Some(piece) = pattern.pieces.get(&point.piece) else { return };
     let before = previous(piece, point.edge);
@@ -152,7 +152,7 @@ fn join(pattern: &mut Pattern, point: EdgeRef) {
     lines::replace(pattern, point.piece, k, edges, &map);
 }
 
-/// One curve for two that meet: it starts and ends as they do. Parts of one curve give that curve again.
+/// One curve in place of two that meet, with the same tangents at its ends. Two parts of one curve give that curve again.
 fn joined([a, m, b]: [DVec2; 3], [first, second]: [EdgeShape; 2]) -> EdgeShape {
     match (first, second) {
         (EdgeShape::Line, EdgeShape::Line) => return EdgeShape::Line,
@@ -174,7 +174,7 @@ fn joined([a, m, b]: [DVec2; 3], [first, second]: [EdgeShape; 2]) -> EdgeShape {
     EdgeShape::Cubic { controls: [a + (c - a) / t, b + (f - b) / (1.0 - t)] }
 }
 
-/// The control points of a cubic that runs as the curve does; exactly, but for arcs.
+/// The control points of a cubic equal to the curve; for arcs an approximation.
 pub(super) fn as_cubic(a: DVec2, shape: EdgeShape, b: DVec2) -> [DVec2; 2] {
     match shape {
         EdgeShape::Line => [a.lerp(b, 1.0 / 3.0), a.lerp(b, 2.0 / 3.0)],
@@ -183,7 +183,7 @@ pub(super) fn as_cubic(a: DVec2, shape: EdgeShape, b: DVec2) -> [DVec2; 2] {
         EdgeShape::Arc { .. } => match curve::arc(a, shape, b) {
             None => as_cubic(a, EdgeShape::Line, b),
             Some(arc) => {
-                // The usual handle: four thirds of the tangent of a quarter of the turn.
+                // The usual handle length: 4/3 of the tangent of a quarter of the angle, times the radius.
                 let handle = arc.radius * (4.0 / 3.0) * (arc.turn / 4.0).tan();
                 let way = |angle: f64| DVec2::from_angle(angle).perp() * handle;
                 [a + way(arc.start), b - way(arc.start + arc.turn)]
@@ -222,7 +222,7 @@ pub(super) fn set_smooth(pattern: &mut Pattern, point: PointRef, smooth: bool) -
     Ok(Change::new(if smooth { "make a point smooth" } else { "make a corner" }))
 }
 
-/// Puts every point where `places` says; curves turn and scale with their chords.
+/// Moves every point to its entry of `places`; curves rotate and scale with their chords.
 pub(super) fn put_all(piece: &mut Piece, places: &[DVec2]) {
     let count = piece.edge_count();
     let carried: Vec<EdgeShape> = (0..count)
@@ -237,7 +237,7 @@ pub(super) fn put_all(piece: &mut Piece, places: &[DVec2]) {
     }
 }
 
-/// Lets the line run on smoothly at all points that should be. True where it had to turn a tangent.
+/// Restores smooth tangents at all smooth points. True where it had to turn one.
 pub(super) fn smooth_all(pattern: &mut Pattern) -> bool {
     let mut turned = false;
     for piece in pattern.pieces.values_mut() {
@@ -251,7 +251,7 @@ pub(super) fn smooth_all(pattern: &mut Pattern) -> bool {
     turned
 }
 
-/// Smooth points at and beside point `i` run on smoothly again.
+/// Restores smooth tangents at point `i` and its neighbours, where they are smooth points.
 fn smooth_around(piece: &mut Piece, i: usize) {
     for j in [previous(piece, i), i, piece.next_edge(i)] {
         if piece.edge(j).smooth && !runs_on(piece, j) {
@@ -265,8 +265,8 @@ fn runs_on(piece: &Piece, i: usize) -> bool {
     arriving.angle_to(tangents(piece, i)[0]).abs() <= SMOOTH
 }
 
-/// Turns the tangents at a point to one direction: that of a straight edge or an arc, or half-way between two curves.
-/// False where nothing can be turned.
+/// Turns the tangents at a point to a common direction: that of a straight edge or an arc, or half-way between two
+/// curves. False where neither edge is a Bézier curve.
 fn smooth_point(piece: &mut Piece, i: usize) -> bool {
     let before = previous(piece, i);
     let bends = |p: &Piece, i: usize| {
@@ -284,7 +284,7 @@ fn smooth_point(piece: &mut Piece, i: usize) -> bool {
     true
 }
 
-/// Unit directions in which edge `i` leaves its start and arrives at its end.
+/// Unit tangents of edge `i` at its start and its end, in the direction of the edge.
 fn tangents(piece: &Piece, i: usize) -> [DVec2; 2] {
     let (a, b) = piece.edge_ends(i);
     let shape = piece.edge(i).shape;

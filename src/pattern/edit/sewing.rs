@@ -1,4 +1,4 @@
-//! Seams.
+//! Edits of seams.
 
 use std::collections::BTreeSet;
 
@@ -7,11 +7,11 @@ use crate::pattern::edit::mirror::image_seam;
 use crate::pattern::edit::{Change, PatternEdit, find};
 use crate::pattern::{Pattern, Seam, Stretch};
 
-/// Two stretches of one edge may have this much in common, metres.
+/// Length by which two stretches of one edge may overlap, metres.
 const TOUCHING: f64 = 1e-6;
-/// Ends of stretches nearer than this fraction of their edge are one place.
+/// Fraction of an edge within which ends of stretches count as one place.
 const SAME_PLACE: f64 = 1e-9;
-/// The ratio of a gather, at least and at most.
+/// Range of the length ratio of a seam.
 pub const RATIOS: std::ops::RangeInclusive<f64> = 0.01..=100.0;
 
 pub(super) fn sew(pattern: &mut Pattern, seam: Seam) -> Result<Change, String> {
@@ -22,8 +22,8 @@ pub(super) fn sew(pattern: &mut Pattern, seam: Seam) -> Result<Change, String> {
     Ok(Change { held, ..Change::new(format!("sew {} to {}", names[0], names[1])) })
 }
 
-/// What an edit of seams does to their images on twins and symmetric halves; nothing where there are none, or where the
-/// image cannot be sewn because something else is there. `before`: without the edit; `after`: with it.
+/// The edit of seams that does the same to the mirror images, on twins and symmetric halves. None where there are none, or
+/// where the image cannot be sewn because its place is taken. `before` and `after` are the pattern without and with `edit`.
 pub(super) fn for_images(before: &Pattern, after: &Pattern, edit: &PatternEdit) -> Option<PatternEdit> {
     let image = |id: &SeamId| {
         let image = image_seam(before, before.seams.get(id)?)?;
@@ -56,7 +56,7 @@ pub(super) fn for_images(before: &Pattern, after: &Pattern, edit: &PatternEdit) 
     })
 }
 
-/// Whether two seams join the same, the same way round; which side comes first does not matter.
+/// Whether two seams join the same stretches in the same direction; the order of the sides does not matter.
 fn is_same(one: &Seam, other: &Seam) -> bool {
     let [a, b] = &one.sides;
     let [c, d] = &other.sides;
@@ -68,7 +68,7 @@ fn near(a: &Stretch, b: &Stretch) -> bool {
     a.piece == b.piece && a.edge == b.edge && a.further == b.further && fractions < SAME_PLACE
 }
 
-/// That a seam joins what is there and free.
+/// Checks that the stretches of a seam exist and are free.
 pub(super) fn fits(pattern: &Pattern, seam: &Seam) -> Result<(), String> {
     sound(pattern, seam)?;
     if overlap(pattern, &seam.sides[0], &seam.sides[1]).is_some() {
@@ -83,7 +83,7 @@ pub(super) fn fits(pattern: &Pattern, seam: &Seam) -> Result<(), String> {
     Ok(())
 }
 
-/// That a seam joins what is there, and keeps a ratio that can be.
+/// Checks that the stretches of a seam exist and that its ratio is valid.
 pub fn sound(pattern: &Pattern, seam: &Seam) -> Result<(), String> {
     for side in &seam.sides {
         let piece = find(pattern, side.piece)?;
@@ -102,7 +102,7 @@ pub fn sound(pattern: &Pattern, seam: &Seam) -> Result<(), String> {
     }
 }
 
-/// An edge that both stretches run over in part.
+/// The number of an edge that both stretches cover in part, if any.
 fn overlap(pattern: &Pattern, one: &Stretch, other: &Stretch) -> Option<usize> {
     if one.piece != other.piece {
         return None;
@@ -116,7 +116,7 @@ fn overlap(pattern: &Pattern, one: &Stretch, other: &Stretch) -> Option<usize> {
     parts.iter().find(|part| both(part)).map(|part| part.0)
 }
 
-/// The points of a side: they stay when the other side must follow.
+/// The points of a side, which are held while the other side adapts.
 fn held(pattern: &Pattern, side: &Stretch) -> BTreeSet<crate::pattern::EdgeRef> {
     let Some(piece) = pattern.pieces.get(&side.piece) else { return Default::default() };
     let parts = side.parts(piece).unwrap_or_default();

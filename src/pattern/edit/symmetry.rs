@@ -1,4 +1,4 @@
-//! Making twins and symmetric pieces, opening them out, folding and unlinking them.
+//! Making twins and symmetric pieces, unfolding, folding and unlinking them.
 
 use glam::{DAffine2, DMat2, DVec2};
 use kurbo::{Line, ParamCurveArclen, Point};
@@ -12,7 +12,7 @@ use crate::pattern::{
     Edge, EdgeRef, EdgeShape, Notch, Pattern, Piece, PlanePose, Roll, Seam, SpacePose, curve,
 };
 
-/// Points this near the middle lie on it, metres.
+/// Distance within which a point is snapped to the axis of symmetry, metres.
 const ON_AXIS: f64 = 1e-6;
 
 pub(super) fn add_twin(pattern: &mut Pattern, id: PieceId, offset: DVec2) -> Result<Change, String> {
@@ -43,7 +43,7 @@ pub(super) fn add_twin(pattern: &mut Pattern, id: PieceId, offset: DVec2) -> Res
     Ok(Change::new(format!("mirror {}", piece.name)))
 }
 
-/// "left sleeve" for "right sleeve".
+/// The name of the piece on the other side: "left sleeve" for "right sleeve".
 fn other_side(name: &str) -> Option<String> {
     let pairs = [("left", "right"), ("Left", "Right"), ("LEFT", "RIGHT")];
     pairs.iter().find_map(|(l, r)| match (name.contains(l), name.contains(r)) {
@@ -62,7 +62,7 @@ pub(super) fn unlink(pattern: &mut Pattern, id: PieceId) -> Result<Change, Strin
     Ok(Change::new(format!("unlink {}", piece.name)))
 }
 
-/// The piece has no twin and need not be symmetric any more.
+/// Removes the twin of a piece and its own symmetry.
 pub(super) fn loosen(pattern: &mut Pattern, id: PieceId) {
     if let Some(twin) = pattern.pieces.get(&id).and_then(|p| p.twin) {
         change(pattern, twin, |p| p.twin = None);
@@ -77,7 +77,7 @@ pub(super) fn make_symmetric(pattern: &mut Pattern, id: PieceId, axis: [DVec2; 2
     let name = find(pattern, id)?.name.clone();
     let along = (axis[1] - axis[0]).try_normalize().ok_or("the middle line needs two points")?;
     loosen(pattern, id);
-    // Left of the line becomes x < 0.
+    // The part left of the line is mapped to x < 0.
     let map = turn(pattern, id, axis[0], along);
     cross(pattern, id);
     let piece = find(pattern, id)?.clone();
@@ -93,7 +93,7 @@ pub(super) fn make_symmetric(pattern: &mut Pattern, id: PieceId, axis: [DVec2; 2
         return Err(format!("the line does not cut {name}"));
     }
     let mut map_old: LineMap = vec![Vec::new(); n];
-    // Where the right half is drawn as the left one is, its seams stay.
+    // Where the right half is drawn like the left one, its seams stay.
     let alike = n - half == half;
     for k in 0..n {
         if k < half || alike {
@@ -175,7 +175,7 @@ pub(super) fn fold(pattern: &mut Pattern, id: PieceId) -> Result<Change, String>
     let side = piece.edge_points(0, &[0.5])[0].x.signum();
     let kept = |p: DVec2| p.x * side >= -ON_AXIS;
     lines::replace(pattern, id, 0, edges, &map);
-    // Holes beyond the fold go, with their seams; the last first, so that numbers hold.
+    // Holes beyond the fold are removed with their seams; the last first, so that numbers stay valid.
     for hole in (0..piece.holes.len()).rev() {
         if !piece.holes[hole].iter().all(|e| kept(e.start)) {
             super::holes::drop_hole(pattern, id, hole);
@@ -188,7 +188,8 @@ pub(super) fn fold(pattern: &mut Pattern, id: PieceId) -> Result<Change, String>
     Ok(Change::new(format!("fold {}", piece.name)))
 }
 
-/// An open half from the middle to the middle (the last edge's start is its end), and its image.
+/// A closed outline from an open half that runs from axis to axis (its end is the last edge's start) and the mirror
+/// image of that half.
 fn doubled(half: &[Edge], image_labels: Vec<Option<String>>) -> Vec<Edge> {
     let m = half.len() - 1;
     let mut edges = half[..m].to_vec();
@@ -202,8 +203,8 @@ fn doubled(half: &[Edge], image_labels: Vec<Option<String>>) -> Vec<Edge> {
     edges
 }
 
-/// Turns the plane of a piece so that `origin` becomes zero and `along` the y axis; on the table and in space the piece
-/// stays where it is. Returns where places go.
+/// Changes the plane of a piece so that `origin` becomes zero and `along` the y axis; the piece stays in place on the
+/// table and in space. Returns the map from the old plane to the new one.
 fn turn(pattern: &mut Pattern, id: PieceId, origin: DVec2, along: DVec2) -> DAffine2 {
     let matrix = DMat2::from_cols(DVec2::new(along.y, along.x), DVec2::new(-along.x, along.y));
     let map = DAffine2::from_mat2_translation(matrix, -(matrix * origin));
@@ -231,7 +232,7 @@ fn turn(pattern: &mut Pattern, id: PieceId, origin: DVec2, along: DVec2) -> DAff
     map
 }
 
-/// Puts points on the outline where it crosses the line x = 0, exactly on it.
+/// Inserts points where the outline crosses the line x = 0, exactly on it.
 fn cross(pattern: &mut Pattern, id: PieceId) {
     let Some(piece) = pattern.pieces.get(&id).cloned() else { return };
     for i in (0..piece.outline.len()).rev() {

@@ -1,7 +1,8 @@
-//! Which way seams run, solved over the whole garment.
+//! Orientation of seams, solved over the whole garment.
 //!
-//! Every outline runs counter-clockwise seen from its front, so a seam joins front to front when start meets end. A piece
-//! all of whose seams say otherwise is not twisted but drawn from its back: it is turned over. What disagrees then is.
+//! Every outline runs counter-clockwise seen from its front, so that a seam joins front to front when start meets
+//! end. A piece whose seams all disagree is not twisted but drawn from its back, and is turned over. Seams that still
+//! disagree after that are twisted.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -11,17 +12,17 @@ use crate::pattern::edit::symmetry::loosen;
 use crate::pattern::edit::{Change, mirror};
 use crate::pattern::{Notch, Pattern, Piece, Seam, Stretch, curve};
 
-/// Pieces to turn over, and seams that join the front of a piece to the back of another even so: each piece lies as
-/// most of its seams say.
+/// Result of [`twists`]: pieces to turn over, and seams that even then join the front of a piece to the back of
+/// another. Pieces are oriented as most of their seams say.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Twists {
-    /// Drawn from their backs.
+    /// Pieces drawn from their backs.
     pub pieces: Vec<PieceId>,
-    /// Crossed.
+    /// Twisted seams.
     pub seams: Vec<SeamId>,
 }
 
-/// What is twisted in `pattern`.
+/// Finds pieces drawn from their backs and twisted seams in `pattern`.
 pub fn twists(pattern: &Pattern) -> Twists {
     let sides = over(pattern);
     let turned = |side: &Stretch| sides.get(&side.piece).copied().unwrap_or(false);
@@ -35,18 +36,18 @@ pub fn twists(pattern: &Pattern) -> Twists {
     }
 }
 
-/// `same_direction` of a seam between these sides that twists nothing.
+/// The value of `same_direction` for which a seam between these sides is not twisted.
 pub fn untwisted(pattern: &Pattern, sides: &[Stretch; 2]) -> bool {
     let over = over(pattern);
     let turned = |side: &Stretch| over.get(&side.piece).copied().unwrap_or(false);
     turned(&sides[0]) != turned(&sides[1])
 }
 
-/// A seam and the length of its first side, metres.
+/// The length of a seam's first side, metres, and the seam.
 type Measured<'a> = (f64, &'a Seam);
 
-/// For each piece whether it is drawn from its back, as most of its seams say. Begun from the pieces as they are drawn and
-/// from a forest of the longest seams; what leaves fewer seams crossed is taken, of equals the pieces as they are drawn.
+/// For each piece whether it is drawn from its back. Two starting points are improved, the pieces as they are drawn and
+/// those turned by a forest of the longest seams; the result with fewer twisted seams is taken, on a tie the first.
 fn over(pattern: &Pattern) -> BTreeMap<PieceId, bool> {
     let length = |side: &Stretch| pattern.pieces.get(&side.piece).and_then(|p| side.length(p)).unwrap_or(0.0);
     let mut seams: Vec<Measured<'_>> =
@@ -63,9 +64,9 @@ fn is_crossed(over: &BTreeMap<PieceId, bool>, seam: &Seam) -> bool {
     (turned(0) != turned(1)) != seam.same_direction
 }
 
-/// Each piece as the longest seams to the others say; in each sewn part the fewer pieces are turned.
+/// Orients pieces by a spanning forest of the longest seams; of each sewn component the smaller group is turned.
 fn by_forest(pattern: &Pattern, seams: &[Measured<'_>]) -> BTreeMap<PieceId, bool> {
-    // Each piece knows its root and whether it faces as the root does.
+    // Each piece knows its root and whether it faces the same way as the root (union-find).
     let mut root: BTreeMap<PieceId, (PieceId, bool)> =
         pattern.pieces.keys().map(|&id| (id, (id, false))).collect();
     for (_, seam) in seams {
@@ -86,7 +87,7 @@ fn by_forest(pattern: &Pattern, seams: &[Measured<'_>]) -> BTreeMap<PieceId, boo
     root.into_iter().map(|(id, (of, over))| (id, over != (count[&of][1] > count[&of][0]))).collect()
 }
 
-/// Turns pieces over, one at a time, as long as that leaves fewer seams crossed.
+/// Turns pieces over, one at a time, while that leaves fewer seams twisted.
 fn improved(mut over: BTreeMap<PieceId, bool>, seams: &[Measured<'_>]) -> BTreeMap<PieceId, bool> {
     for _ in 0..over.len() {
         let mut doubt: BTreeMap<PieceId, i64> = BTreeMap::new();
@@ -123,7 +124,7 @@ pub(super) fn untwist_all(pattern: &mut Pattern) -> Result<Change, String> {
     Ok(Change::new("untwist the seams"))
 }
 
-/// Draws a piece the other way round: its back becomes its front. Seams join the same places as before.
+/// Turns a piece over: its back becomes its front. Seams still join the same points.
 fn turn_over(pattern: &mut Pattern, id: PieceId) {
     loosen(pattern, id);
     let Some(old) = pattern.pieces.get(&id).cloned() else { return };

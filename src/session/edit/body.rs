@@ -1,4 +1,4 @@
-//! The body.
+//! Commands that change the body.
 
 use std::sync::Arc;
 
@@ -14,7 +14,7 @@ use crate::session::command::Rejection;
 use crate::session::document::{Aim, Document};
 use crate::session::edit::{ClothChange, Edit, checks};
 
-/// Strokes on the old body are carried to the new one.
+/// Changes the body; strokes on the old one are transferred to it.
 pub fn set(
     mut document: Document,
     body: &BodyChoice,
@@ -35,7 +35,7 @@ pub fn set(
     Ok(Edit { problems, ..Edit::new("change the body", document).with(ClothChange::Clear) })
 }
 
-/// The mannequin in another size, in the same pose; the cloth goes along.
+/// Changes the measurements of the mannequin in its present pose; the cloth follows.
 pub fn resize(
     mut document: Document,
     measurements: Measurements,
@@ -54,7 +54,7 @@ pub fn resize(
     Ok(Edit { problems, ..Edit::new("change the size", document).with(ClothChange::Resize) })
 }
 
-/// Takes `body`, which is `to`, in place of the document's. Returns which strokes on that found no place on this one.
+/// Replaces the document's body by `body`, which is `to`. Returns the strokes that were lost.
 fn replace(document: &mut Document, body: &BodyChoice, to: &Body, bodies: &mut BodyCache) -> Vec<Problem> {
     let mut problems = Vec::new();
     if !document.marks.body.is_empty() {
@@ -69,7 +69,7 @@ fn replace(document: &mut Document, body: &BodyChoice, to: &Body, bodies: &mut B
     problems
 }
 
-/// The same body in another pose; the cloth goes along.
+/// Changes the pose of the body; the cloth follows.
 pub fn repose(
     mut document: Document,
     body: &BodyChoice,
@@ -90,7 +90,7 @@ pub fn repose(
     })
 }
 
-/// Another body must be the dressed one in another pose.
+/// Rejects a body that does not have the triangles of the present one.
 fn same_triangles((to, other): (&TriMesh, &str), (from, own): (&TriMesh, &str)) -> Result<(), Rejection> {
     let counts = |mesh: &TriMesh| (mesh.positions.len(), mesh.triangles.len());
     if from.triangles == to.triangles {
@@ -107,7 +107,7 @@ fn same_triangles((to, other): (&TriMesh, &str), (from, own): (&TriMesh, &str)) 
     Err(Rejection(format!("{other} is not {own} in another pose: {words}")))
 }
 
-/// Another pose of the body, to be led to.
+/// Sets the target pose.
 pub fn aim(mut document: Document, body: &BodyChoice, bodies: &mut BodyCache) -> Result<Edit, Rejection> {
     checks::body(body)?;
     let (from, to) = (bodies.body(&document.body)?, bodies.body(body)?);
@@ -116,7 +116,7 @@ pub fn aim(mut document: Document, body: &BodyChoice, bodies: &mut BodyCache) ->
     Ok(Edit::new("choose a pose", document))
 }
 
-/// The body so far on the way to that pose; the cloth goes along.
+/// Moves the body to `share` of the way to the target pose; the cloth follows.
 pub fn towards(
     document: Document,
     share: f64,
@@ -131,7 +131,7 @@ pub fn towards(
     repose(document, &body, [false, draft], bodies)
 }
 
-/// Animations that the body can go through.
+/// Takes animations for the body.
 pub fn take_animations(
     mut document: Document,
     animations: &Arc<Animations>,
@@ -143,7 +143,7 @@ pub fn take_animations(
     Ok(Edit::new("take animations", document))
 }
 
-/// The body at a moment of its animations, or at rest; the cloth goes along.
+/// Moves the body to a moment of its animations, or to rest; the cloth follows.
 pub fn animate(
     document: Document,
     at: Option<Moment>,
@@ -158,7 +158,7 @@ pub fn animate(
     Ok(edit)
 }
 
-/// Bones drawn by the user, or the body's own again.
+/// Sets bones drawn by the user, or returns to the body's own.
 pub fn set_bones(mut document: Document, bones: Option<&[Bone]>) -> Result<Edit, Rejection> {
     bones.map_or(Ok(()), checks::bones)?;
     document.bones = bones.map(|bones| Arc::new(bones.to_vec()));

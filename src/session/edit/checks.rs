@@ -1,4 +1,4 @@
-//! What holds for every number and name a command brings.
+//! Checks of every number and name that a command brings.
 
 use glam::{DVec2, DVec3};
 
@@ -13,17 +13,17 @@ use crate::session::document::Settings;
 use crate::sim::ClothPlace;
 use crate::wrap::Marks;
 
-/// Points one stroke may have.
+/// Most points of a stroke.
 const MOST_POINTS: usize = 100_000;
-/// Edges one outline may have.
+/// Most edges of an outline.
 const MOST_EDGES: usize = 10_000;
-/// Pieces one pattern may have.
+/// Most pieces of a pattern.
 pub const MOST_PIECES: usize = 1_000;
-/// Metres: nothing lies further from the origin.
+/// Largest coordinate of points on the table and in pieces, metres.
 const FARTHEST: f64 = 1e4;
-/// Metres: no body or cloth on it, in whatever unit it was read.
+/// Largest coordinate of points on a body or its cloth, metres; generous, since files may be in any unit.
 const FARTHEST_BODY: f64 = 1e6;
-/// Characters of a name.
+/// Most characters of a name.
 const LONGEST_NAME: usize = 200;
 
 pub fn stroke_2d(points: &[DVec2]) -> Result<(), Rejection> {
@@ -47,7 +47,7 @@ fn stroke(count: usize, all_good: bool, farthest: f64) -> Result<(), Rejection> 
     }
 }
 
-/// A point of a body or of cloth on it.
+/// Whether `p` is valid as a point of a body or of cloth on it.
 pub fn point_3d(p: DVec3) -> bool {
     p.is_finite() && p.abs().max_element() <= FARTHEST_BODY
 }
@@ -155,7 +155,7 @@ pub fn shape(shape: &EdgeShape) -> Result<(), Rejection> {
     Err(Rejection::new("the curve has a number that means no place"))
 }
 
-/// Lines, notches and the rest that is drawn on a piece.
+/// Checks holes, lines, notches and all else drawn on a piece.
 fn inside(piece: &Piece) -> Result<(), Rejection> {
     let lines = &piece.lines;
     if piece.holes.len() + lines.len() + piece.notches.len() > MOST_EDGES {
@@ -182,7 +182,7 @@ fn inside(piece: &Piece) -> Result<(), Rejection> {
     }
 }
 
-/// Every piece and seam of a whole pattern, and that its counter is ahead of its ids.
+/// Checks every piece of a pattern, and that its counter is not below its ids.
 pub fn pattern(pattern: &Pattern) -> Result<(), Rejection> {
     if pattern.pieces.len() > MOST_PIECES {
         return Err(Rejection(format!("a pattern may have {MOST_PIECES} pieces")));
@@ -197,7 +197,7 @@ pub fn pattern(pattern: &Pattern) -> Result<(), Rejection> {
     Ok(())
 }
 
-/// Every stroke, and that no id is used twice.
+/// Checks every stroke, and that no id is used twice.
 pub fn marks(marks: &Marks, pattern: &Pattern) -> Result<(), Rejection> {
     for mark in &marks.cloth {
         stroke_2d(&mark.points)?;
@@ -273,7 +273,7 @@ pub fn body(body: &BodyChoice) -> Result<(), Rejection> {
     }
 }
 
-/// Bones a body may have.
+/// Most bones of a body.
 const MOST_BONES: usize = 200;
 
 pub fn bones(bones: &[Bone]) -> Result<(), Rejection> {

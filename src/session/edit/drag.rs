@@ -1,4 +1,4 @@
-//! Pushpins and dragging.
+//! Commands for pushpins and dragging.
 
 use std::sync::Arc;
 
@@ -11,7 +11,7 @@ use crate::session::document::{Document, Pin};
 use crate::session::edit::{ClothChange, Edit, checks};
 use crate::sim::ClothPlace;
 
-/// Pins one garment may have.
+/// Most pins of a garment.
 const MOST_PINS: usize = 1000;
 
 pub fn add_pin(mut document: Document, piece: PieceId, at: DVec2) -> Result<Edit, Rejection> {
@@ -87,7 +87,7 @@ fn find(document: &Document, pin: PinId) -> Result<usize, Rejection> {
     index.ok_or_else(|| Rejection(format!("there is no {pin}")))
 }
 
-/// Where a pin stands among all, if it may be moved.
+/// Index of a pin, if it is not locked.
 fn loose(document: &Document, pin: PinId) -> Result<usize, Rejection> {
     let index = find(document, pin)?;
     if document.pins[index].locked {

@@ -1,4 +1,4 @@
-//! Draping, and what the cloth is made of.
+//! Commands for sewing, dressing, draping and fabrics.
 
 use crate::cloth::Fabric;
 use crate::geometry::ids::PieceId;
@@ -8,12 +8,12 @@ use crate::session::document::{Document, Fabrics};
 use crate::session::edit::{ClothChange, Edit, checks};
 use crate::sim::{Start, StartChoice};
 
-/// Ten seconds.
+/// Most ticks in one command: ten seconds of draping.
 const MOST_TICKS: u32 = 600;
 
 pub fn sew(mut document: Document) -> Result<Edit, Rejection> {
     check_placed(&document)?;
-    // They held cloth that lay elsewhere.
+    // Pins held the previous cloth.
     document.drop_pins();
     Ok(Edit::new("sew", document).with(ClothChange::Sew))
 }
@@ -26,7 +26,7 @@ pub fn dress(mut document: Document, choice: StartChoice) -> Result<Edit, Reject
     if !has_marks {
         check_placed(&document)?;
     }
-    // They held cloth that lay elsewhere.
+    // Pins held the previous cloth.
     document.drop_pins();
     Ok(Edit::new("dress", document).with(ClothChange::Dress(choice)))
 }
@@ -83,7 +83,7 @@ fn known(name: Option<&str>) -> Result<(), Rejection> {
     }
 }
 
-/// What no command would have let in.
+/// The first fabric in `fabrics` that does not exist; for documents from files.
 pub fn unknown_fabric(fabrics: &Fabrics) -> Option<Rejection> {
     let Fabrics { all, pieces } = fabrics;
     all.iter().chain(pieces.values()).find_map(|name| known(Some(name)).err())

@@ -1,4 +1,4 @@
-//! Strokes.
+//! Commands for strokes.
 
 use std::sync::Arc;
 
@@ -52,7 +52,7 @@ pub fn delete_pair(mut document: Document, number: usize) -> Result<Edit, Reject
     Ok(Edit::new(format!("delete marks {number}"), document))
 }
 
-/// Takes the strokes numbered `number` (from 1) away on both sides.
+/// Removes the strokes numbered `number` (from 1) on both sides.
 pub fn remove_number(marks: &mut Marks, number: usize) {
     if number <= marks.cloth.len() {
         marks.cloth.remove(number - 1);

@@ -1,4 +1,4 @@
-//! What each command does to a document. Pure: a new document comes back, or words why not.
+//! What each command does to a document. Pure functions: they return a new document, or a rejection.
 
 mod body;
 mod checks;
@@ -25,7 +25,7 @@ use crate::session::history::StepKind;
 use crate::sim::{ClothPlace, StartChoice};
 use crate::wrap::Marks;
 
-/// What a command asks of the simulation.
+/// The request to the simulation that a command makes.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ClothChange {
     /// Nothing.
@@ -36,48 +36,48 @@ pub enum ClothChange {
     Rewrap(Vec<usize>),
     /// Take the cloth off.
     Clear,
-    /// The pattern was edited: the dressed cloth follows. What is drawn on these pieces was moved.
+    /// The pattern was edited: the dressed cloth follows. The vector tells which drawings on pieces were moved.
     Resew(Vec<Carried>),
-    /// The body takes the pose of the document's; then, perhaps, the cloth settles.
+    /// Change the pose to that of the document's body; the cloth follows and, with `settle`, settles.
     Repose { settle: bool, draft: bool },
-    /// The mannequin is of the document's size.
+    /// Change the size to that of the document's mannequin.
     Resize,
-    /// Relax differently.
+    /// Change the settings of relaxation.
     SetRelax(RelaxSettings),
-    /// Pin it where the document's pins are.
+    /// Pin the cloth where the document's pins are.
     SetPins,
-    /// Take it in the hand.
+    /// Begin to drag the cloth.
     Grab { at: ClothPlace, mode: DragMode },
-    /// Move the hand.
+    /// Move the dragged point.
     DragTo(Ray),
-    /// Let go.
+    /// End the drag.
     Release,
-    /// Pause or go on.
+    /// Pause (false) or go on (true).
     SetRelaxing(bool),
-    /// Sew it from where its pieces are placed.
+    /// Sew the garment from the placement of its pieces.
     Sew,
-    /// Put it on by the best start.
+    /// Put the garment on by the best start.
     Dress(StartChoice),
-    /// Drape it, or stop that.
+    /// Start or stop draping.
     SetDraping(bool),
-    /// Drape it for `ticks` ticks.
+    /// Drape for this many ticks.
     StepDraping(u32),
-    /// It is made of what the document says now.
+    /// Change the fabrics to those of the document.
     SetFabrics,
-    /// Its pieces are frozen or not as the document says now.
+    /// Change which pieces are frozen or deactivated to what the document has.
     SetActivities,
 }
 
-/// What a command does.
+/// Result of a command.
 #[derive(Clone, Debug)]
 pub struct Edit {
-    /// The document afterwards.
+    /// The new document.
     pub document: Document,
-    /// For menus: "Undo LABEL".
+    /// Label for menus: "Undo LABEL".
     pub label: String,
-    /// What it asks of the simulation.
+    /// Request to the simulation.
     pub cloth: ClothChange,
-    /// What was lost by it, in words.
+    /// What was lost, such as marks that found no place.
     pub problems: Vec<Problem>,
 }
 
@@ -90,7 +90,7 @@ impl Edit {
         Self { cloth, ..self }
     }
 
-    /// Whether it is a step of undo: pausing is not, and a drag's step begins with taking hold.
+    /// Whether it is an undo step. Pausing is not; the step of a drag begins with its start.
     pub fn is_step(&self) -> bool {
         let is_none = matches!(
             self.cloth,
@@ -102,7 +102,7 @@ impl Edit {
         !is_none
     }
 
-    /// What history remembers of it.
+    /// Kind of its undo step.
     pub fn kind(&self) -> StepKind {
         match self.cloth {
             ClothChange::Wrap | ClothChange::Rewrap(_) | ClothChange::Sew | ClothChange::Dress(_) => {
@@ -123,13 +123,13 @@ impl Edit {
     }
 }
 
-/// What `command` does to `document`. Commands about history belong to the session and are refused here.
+/// Carries out `command` on a copy of `document`. Commands about history belong to the session and are rejected here.
 ///
-/// `bodies` only saves making the same body twice. New strokes on the body are tied to it.
+/// `bodies` is a cache of bodies. New strokes on the body are tied to it.
 pub fn edit(document: &Document, command: &Command, bodies: &mut BodyCache) -> Result<Edit, Rejection> {
     let mut edit = untied(document, command, bodies)?;
     let new = &mut edit.document;
-    // By what they are: a replay has others that are equal, where the session was given its own.
+    // Compared by value: in a replay the marks are equal to, but not the same object as, those given in the session.
     if new.marks != document.marks
         && let Ok(body) = bodies.body(&new.body)
     {
@@ -151,7 +151,7 @@ fn untied(document: &Document, command: &Command, bodies: &mut BodyCache) -> Res
         Command::SetMarks { marks } => marks::set(new, marks),
         Command::ReplacePattern { name, pattern, marks } => pattern::replace_all(new, name, pattern, marks),
         Command::EditPattern { edits, .. } => pattern::edit(new, edits),
-        // As recordings have had it from the beginning.
+        // Older commands, which recordings use from the beginning.
         Command::AddPiece { piece } => edit_by(new, PatternEdit::AddPiece { piece: Arc::clone(piece) }),
         Command::DeletePiece { piece } => edit_by(new, PatternEdit::DeletePieces { pieces: vec![*piece] }),
         Command::RenamePiece { piece, name } => {
@@ -205,7 +205,7 @@ fn edit_by(document: Document, edit: PatternEdit) -> Result<Edit, Rejection> {
     pattern::edit(document, &[edit])
 }
 
-/// What no command would have let into `document`; for documents from files.
+/// The first thing in `document` that no command would accept; for documents from files.
 pub fn document_problem(document: &Document) -> Option<String> {
     let Document {
         pattern,
@@ -249,17 +249,17 @@ pub fn document_problem(document: &Document) -> Option<String> {
         .or_else(|| checks::settings(settings).err().map(|why| why.0))
 }
 
-/// What no command would have let into `pattern`; for patterns from files.
+/// The first thing in `pattern` that no command would accept; for patterns from files.
 fn pattern_problem(pattern: &Pattern) -> Option<String> {
     checks::pattern(pattern).err().map(|why| why.0)
 }
 
-/// Whether cloth can lie there: on a body, or beside it.
+/// Whether `p` is valid as a position of cloth, on a body or beside it.
 pub fn is_place(p: DVec3) -> bool {
     checks::point_3d(p / 2.0)
 }
 
-/// What no command would have let into what cloth is cut from; for cloth from files.
+/// The first thing in the source of cloth that no command would accept; for cloth from files.
 pub fn source_problem(pattern: &Pattern, marks: &Marks, settings: &Settings) -> Option<String> {
     let checked = checks::pattern(pattern).and_then(|()| checks::marks(marks, pattern));
     checked.and_then(|()| checks::settings(settings)).err().map(|why| why.0)

@@ -1,4 +1,4 @@
-//! The pattern: what an editor does to it, and what lies on it.
+//! Commands that edit the pattern, and the strokes and pins on it.
 
 use std::sync::Arc;
 
@@ -12,7 +12,7 @@ use crate::session::edit::marks::remove_number;
 use crate::session::edit::{ClothChange, Edit, checks};
 use crate::wrap::Marks;
 
-/// Changes one command may hold.
+/// Most edits of one command.
 const MOST_EDITS: usize = 10_000;
 
 pub fn edit(mut document: Document, edits: &[PatternEdit]) -> Result<Edit, Rejection> {
@@ -41,7 +41,7 @@ pub fn edit(mut document: Document, edits: &[PatternEdit]) -> Result<Edit, Rejec
     Ok(edit.with(change))
 }
 
-/// Another pattern with its strokes.
+/// Replaces the pattern and its strokes.
 pub fn replace_all(
     mut document: Document,
     name: &str,
@@ -57,7 +57,7 @@ pub fn replace_all(
     Ok(Edit::new(format!("take {name}"), document).with(ClothChange::Clear))
 }
 
-/// What holds for the numbers and names of a change by itself.
+/// Checks the numbers and names of an edit by itself.
 fn check(edit: &PatternEdit) -> Result<(), Rejection> {
     match edit {
         PatternEdit::AddPiece { piece } => checks::piece(piece),
@@ -84,7 +84,7 @@ fn check(edit: &PatternEdit) -> Result<(), Rejection> {
     }
 }
 
-/// Strokes and pins go where their places go.
+/// Moves strokes and pins along with the places they are on.
 fn carry(document: &mut Document, carried: &[Carried]) {
     if carried.is_empty() {
         return;
@@ -111,7 +111,7 @@ fn carry(document: &mut Document, carried: &[Carried]) {
     }
 }
 
-/// Strokes on pieces that are gone go with their partners, and pins.
+/// Deletes strokes on deleted pieces, with their partners, and pins.
 fn forget_gone(document: &mut Document) {
     let pieces = &document.pattern.pieces;
     let gone = |piece: &PieceId| !pieces.contains_key(piece);

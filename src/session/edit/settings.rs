@@ -1,4 +1,4 @@
-//! Settings.
+//! The command that changes settings.
 
 use crate::session::command::Rejection;
 use crate::session::document::{Document, Settings};

@@ -1,4 +1,4 @@
-//! Putting cloth on and taking it off.
+//! Commands that wrap, rewrap and take the cloth off.
 
 use crate::session::command::Rejection;
 use crate::session::document::Document;
@@ -13,7 +13,7 @@ pub fn wrap(mut document: Document) -> Result<Edit, Rejection> {
             "there is no pair of marks: paint at least one stroke on the cloth and one on the body",
         ));
     }
-    // They held cloth that lay elsewhere.
+    // Pins held the previous cloth.
     document.drop_pins();
     Ok(Edit::new("wrap", document).with(ClothChange::Wrap))
 }

@@ -1,4 +1,4 @@
-//! Commands written as they are given, each line with its own checksum.
+//! Journal: commands written as they are given, each on a line with its own checksum.
 
 use std::fs::File;
 use std::io::{self, Write};
@@ -8,19 +8,19 @@ use serde::{Deserialize, Serialize};
 
 use crate::session::command::Command;
 
-/// Commands after which the disk is told to keep what it was given; the system keeps it at once.
+/// Commands after which the file is synced to disk; the operating system has each one at once.
 const SYNC_EVERY: u32 = 50;
-/// Bytes a journal may have when it is read.
+/// Largest journal that is read, bytes.
 const MOST_BYTES: u64 = 1 << 30;
 
-/// One line, read.
+/// A line, as read.
 #[derive(Deserialize)]
 struct Entry {
     gesture: u64,
     command: Command,
 }
 
-/// One line, written.
+/// A line, as written.
 #[derive(Serialize)]
 struct EntryRef<'a> {
     gesture: u64,
@@ -35,12 +35,12 @@ pub struct Journal {
 }
 
 impl Journal {
-    /// An empty one at `path`.
+    /// An empty journal at `path`.
     pub(super) fn begin(path: &Path) -> io::Result<Self> {
         Ok(Self { file: File::create(path)?, since_sync: 0 })
     }
 
-    /// Writes down a command of a gesture.
+    /// Appends a command of a gesture.
     pub fn append(&mut self, gesture: u64, command: &Command) -> io::Result<()> {
         let json = serde_json::to_string(&EntryRef { gesture, command }).map_err(io::Error::other)?;
         let line = format!("{:08x} {json}\n", crc32fast::hash(json.as_bytes()));
@@ -54,8 +54,8 @@ impl Journal {
     }
 }
 
-/// The commands in the journal at `path`, up to the first line that is not as it was written, and how many lines are lost
-/// by that. A last line that was cut off counts as one.
+/// The commands in the journal at `path`, up to the first damaged line, and how many lines are lost by that. A truncated last
+/// line counts as one.
 pub(super) fn read(path: &Path) -> (Vec<(u64, Command)>, usize) {
     let small = std::fs::metadata(path).is_ok_and(|file| file.len() <= MOST_BYTES);
     let bytes = if small { std::fs::read(path).unwrap_or_default() } else { Vec::new() };

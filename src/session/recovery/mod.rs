@@ -1,8 +1,8 @@
-//! Work that outlives a crash.
+//! Recovery of work after a crash.
 //!
-//! Each session keeps a folder of its own: copies of the project, made now and then, and behind each copy a journal of the
-//! commands given since. While the session lives it holds the folder's lock; a folder whose lock is free was left by a
-//! crash, and its work is offered. Nothing is removed that could not be read.
+//! Each session has a folder: copies of the project, made now and then, and for each copy a journal of the commands given since.
+//! A live session holds the folder's lock. A folder whose lock is free was left by a crash, and its work is offered to the user.
+//! Nothing that could not be read is removed.
 
 mod journal;
 
@@ -20,34 +20,34 @@ pub use journal::Journal;
 const LOCK: &str = "lock";
 const ABOUT: &str = "about.json";
 const PREFIX: &str = "session-";
-/// Folders looked through.
+/// Most folders looked through.
 const MOST_SESSIONS: usize = 1000;
 
-/// What a person should see of work that was left.
+/// Description of left work for the user.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct About {
-    /// Of the project.
+    /// Name of the project.
     pub name: String,
     /// The project's own file, if it has one.
     #[serde(default)]
     pub path: Option<PathBuf>,
-    /// Whether the copy holds what no file of the person's does.
+    /// Whether the copy contains work that is in no file of the user's.
     #[serde(default)]
     pub unsaved: bool,
 }
 
-/// Keeps the work of one session safe.
+/// Keeps recovery copies of one session.
 #[derive(Debug)]
 pub struct Keeper {
     folder: PathBuf,
-    /// Free again when the process ends, however it ends.
+    /// Lock of the folder, released when the process ends, however it ends.
     _lock: File,
-    /// Of the newest copy.
+    /// Number of the newest copy.
     number: u64,
 }
 
 impl Keeper {
-    /// Begins a folder of its own under `root`.
+    /// Creates a folder for this session under `root`.
     pub fn begin(root: &Path) -> io::Result<Self> {
         fs::create_dir_all(root)?;
         for number in 1..MOST_SESSIONS {
@@ -68,8 +68,8 @@ impl Keeper {
         Err(io::Error::other("too many sessions were left in this folder"))
     }
 
-    /// Begins a copy: the journal takes the commands from here on, and the copy is written by whoever has the time. Until
-    /// it is, the copy before and all journals since tell the same.
+    /// Begins a copy: the journal takes the commands from here on, and the copy can be written on any thread. Until it is
+    /// written, the previous copy and all journals since contain the same work.
     pub fn copy(&mut self, about: &About) -> io::Result<(Journal, Copying)> {
         let number = self.number + 1;
         let journal = Journal::begin(&journal_path(&self.folder, number))?;
@@ -77,13 +77,13 @@ impl Keeper {
         Ok((journal, Copying { folder: self.folder.clone(), number, about: about.clone() }))
     }
 
-    /// The work is safe elsewhere, or not wanted: nothing is left behind.
+    /// Removes the folder: the work is safe elsewhere, or not wanted.
     pub fn finish(self) -> io::Result<()> {
         fs::remove_dir_all(&self.folder)
     }
 }
 
-/// A copy to be written, on any thread; one after the other.
+/// A copy still to be written, on any thread; one after the other.
 #[derive(Debug)]
 pub struct Copying {
     folder: PathBuf,
@@ -92,7 +92,7 @@ pub struct Copying {
 }
 
 impl Copying {
-    /// Writes the copy. The one before and its journal stay until the next.
+    /// Writes the copy. The previous one and its journal stay until the next.
     pub fn write(self, project: &Project) -> Result<(), ProjectFileError> {
         let Self { folder, number, about } = self;
         let path = copy_path(&folder, number);
@@ -107,27 +107,27 @@ impl Copying {
     }
 }
 
-/// Work that a session left behind.
+/// Work left by another session.
 #[derive(Debug)]
 pub struct Left {
     folder: PathBuf,
     lock: File,
-    /// What it is.
+    /// Description of the work.
     pub about: About,
 }
 
-/// Work found again.
+/// Recovered work.
 #[derive(Debug)]
 pub struct Found {
     /// The newest copy that could be read.
     pub project: Project,
-    /// What was done after it, each command with the number of its gesture.
+    /// Commands given after the copy, each with the number of its gesture.
     pub commands: Vec<(u64, Command)>,
-    /// Lines of the journal that were damaged or came after one that was.
+    /// Lines of journals that were lost: damaged, or after a damaged one.
     pub lost: usize,
 }
 
-/// The work left under `root` by sessions that did not end well, the newest first. Live sessions are passed over.
+/// The work left under `root` by sessions that crashed, the newest first. Live sessions are skipped.
 pub fn left(root: &Path) -> Vec<Left> {
     let Ok(entries) = fs::read_dir(root) else { return Vec::new() };
     let mut folders: Vec<_> = entries
@@ -135,7 +135,7 @@ pub fn left(root: &Path) -> Vec<Left> {
         .filter(|path| path.file_name().is_some_and(|n| n.to_string_lossy().starts_with(PREFIX)))
         .take(MOST_SESSIONS)
         .collect();
-    // Only for the order in which they are shown: which copy is newer, numbers tell.
+    // The time decides only the order in which they are shown; which copy is newer follows from their numbers.
     folders.sort_by_cached_key(|path| fs::metadata(path.join(ABOUT)).and_then(|m| m.modified()).ok());
     folders.into_iter().rev().filter_map(Left::open).collect()
 }
@@ -149,14 +149,14 @@ impl Left {
         let is_empty = |number| fs::metadata(journal_path(&folder, number)).map_or(true, |j| j.len() == 0);
         let nothing_since = |newest| is_empty(newest) && is_empty(newest + 1);
         if newest(&folder).is_none_or(|newest| !about.unsaved && nothing_since(newest)) {
-            // It died before its first copy, or with all work saved: there is nothing to lose.
+            // The session ended before its first copy, or with all work saved: there is nothing to lose.
             fs::remove_dir_all(&folder).ok();
             return None;
         }
         Some(Self { about, folder, lock })
     }
 
-    /// Reads it: the newest copy, or the one before where the newest is damaged, and all journals since.
+    /// Reads the newest copy, or the one before where the newest is damaged, and all journals since.
     pub fn read(&self) -> Result<Found, ProjectFileError> {
         let newest = newest(&self.folder).unwrap_or(1);
         let mut number = newest;
@@ -170,7 +170,7 @@ impl Left {
         let (mut commands, mut lost) = (Vec::new(), 0);
         while journal_path(&self.folder, number).exists() {
             let (more, more_lost) = journal::read(&journal_path(&self.folder, number));
-            // Behind a gap nothing can be done again.
+            // Commands after a gap cannot be carried out.
             if lost == 0 {
                 commands.extend(more);
                 lost = more_lost;
@@ -182,17 +182,17 @@ impl Left {
         Ok(Found { project, commands, lost })
     }
 
-    /// A file that was written with the newest copy: its time tells when that was, as far as the clock was right.
+    /// A file written with the newest copy; its modification time tells when.
     pub fn written(&self) -> PathBuf {
         self.folder.join(ABOUT)
     }
 
-    /// The newest copy; what was done after it is in journals. None: there is none that was written whole.
+    /// The newest copy; commands given after it are in journals. None: no copy was completed.
     pub fn copy(&self) -> Option<PathBuf> {
         Some(copy_path(&self.folder, newest(&self.folder)?))
     }
 
-    /// Removes it: it was taken over, or is not wanted.
+    /// Removes the work: it was recovered, or is not wanted.
     pub fn forget(self) -> io::Result<()> {
         let Self { folder, lock, .. } = self;
         drop(lock);
@@ -200,7 +200,7 @@ impl Left {
     }
 }
 
-/// The number of the newest copy in a folder.
+/// Number of the newest copy in a folder.
 fn newest(folder: &Path) -> Option<u64> {
     let entries = fs::read_dir(folder).ok()?;
     let number = |path: PathBuf| path.file_name()?.to_str()?.strip_suffix(".toile")?.parse::<u64>().ok();

@@ -1,4 +1,4 @@
-//! Drawing outlines: one half with a straight middle, mirrored, or a whole piece edge by edge.
+//! Helpers for drawing outlines edge by edge, and for sewing and laying out pieces.
 
 use std::sync::Arc;
 
@@ -42,7 +42,7 @@ impl Outline {
     }
 }
 
-/// `piece` mirrored in its own y axis, under another name. Labels keep their words except that left and right change.
+/// `piece` mirrored in its own y axis, under another name. In labels, left and right are exchanged.
 pub fn mirrored(piece: &Piece, name: &str) -> Piece {
     let mut outline = curve::mirrored(&piece.outline);
     for edge in &mut outline {
@@ -62,7 +62,7 @@ pub fn edge(pattern: &Pattern, piece: PieceId, label: &str) -> EdgeRef {
     EdgeRef { piece, edge: found.unwrap_or_else(|| panic!("no edge {label} in {piece}")) }
 }
 
-/// Sews edges, both fronts on one side.
+/// Sews two edges, with both fronts on one side.
 pub fn sew(pattern: &mut Pattern, a: (PieceId, &str), b: (PieceId, &str)) {
     let sides = [edge(pattern, a.0, a.1), edge(pattern, b.0, b.1)];
     pattern.add_seam(Seam::of_edges(sides, false));
@@ -74,12 +74,12 @@ pub fn edge_length(piece: &Piece, label: &str) -> f64 {
     found.map_or(0.0, |i| piece.edge_length(i))
 }
 
-/// A piece standing upright round the body, its origin at `at`, its outer side turned `turn` radians from +z towards +x.
+/// Placement of a piece upright beside the body: its origin at `at`, its outer side rotated by `turn` radians from +z towards +x.
 pub fn standing(at: DVec3, turn: f64) -> SpacePose {
     SpacePose::flat(at, DQuat::from_rotation_y(turn))
 }
 
-/// A piece that lies on the table with the lower left corner of its box at `corner`.
+/// `piece` placed on the table with the lower left corner of its bounding box at `corner`.
 pub fn laid(mut piece: Piece, corner: DVec2) -> Piece {
     let outline = piece.flattened(1e-3);
     let lower = outline.iter().copied().reduce(DVec2::min).unwrap_or_default();
@@ -87,7 +87,7 @@ pub fn laid(mut piece: Piece, corner: DVec2) -> Piece {
     piece
 }
 
-/// The width and height of the box round a piece's outline.
+/// Width and height of the bounding box of a piece's outline, metres.
 pub fn extent(piece: &Piece) -> DVec2 {
     let outline = piece.flattened(1e-3);
     let lower = outline.iter().copied().reduce(DVec2::min).unwrap_or_default();
@@ -95,7 +95,7 @@ pub fn extent(piece: &Piece) -> DVec2 {
     upper - lower
 }
 
-/// Lays pieces out in rows, left to right, 4 cm apart, rows downwards from the top; the sheet's top left is the origin.
+/// Lays pieces out in rows, left to right, 4 cm apart, rows from top to bottom; the top left corner is at the origin.
 pub fn sheet(rows: Vec<Vec<Piece>>) -> Vec<Piece> {
     const GAP: f64 = 0.04;
     let mut top = 0.0;
@@ -116,7 +116,7 @@ pub fn sheet(rows: Vec<Vec<Piece>>) -> Vec<Piece> {
 /// Seam allowance of the samples, metres.
 const ALLOWANCE: f64 = 0.01;
 
-/// What a pattern needs to be cut out and edited: grain, allowance, seams that keep their lengths.
+/// Completes a pattern for cutting and editing: grainlines, allowances, seams that keep their length ratios.
 pub fn finish(pattern: &mut Pattern) {
     for piece in pattern.pieces.values_mut() {
         let piece = Arc::make_mut(piece);

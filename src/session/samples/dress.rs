@@ -10,32 +10,32 @@ use crate::geometry::ids::PieceId;
 use crate::pattern::{Pattern, Piece};
 use crate::wrap::Marks;
 
-/// Added to the bust girth, metres.
+/// Ease added to the bust girth, metres.
 const BUST_EASE: f64 = 0.07;
-/// Added to the waist girth.
+/// Ease added to the waist girth, metres.
 const WAIST_EASE: f64 = 0.05;
-/// Added to the hip girth.
+/// Ease added to the hip girth, metres.
 const HIP_EASE: f64 = 0.07;
-/// Moved from each quarter of the back to the front at the bust.
+/// Width moved from each quarter of the back to the front at the bust, metres.
 const FRONT_SHARE: f64 = 0.008;
-/// Length and flare of the skirt.
+/// Length and flare of the skirt, metres.
 const SKIRT: [f64; 2] = [0.60, 0.10];
 
-/// How front and back of the bodice differ; metres.
+/// Measures in which front and back of the bodice differ, metres.
 struct Bodice {
-    /// 0 front, 1 back.
+    /// 0: front, 1: back.
     side: usize,
-    /// From the neck end of the shoulder seam down to the neckline's middle.
+    /// Drop from the neck end of the shoulder seam to the middle of the neckline.
     neck_drop: f64,
     /// Half-width at the bust line.
     quarter: f64,
-    /// How far the armhole cuts in from the shoulder tip.
+    /// Depth of the armhole, measured in from the shoulder tip.
     hollow: f64,
-    /// Length of the dart over the waist, and its width.
+    /// Length of the dart above the waist, and its width.
     dart: [f64; 2],
 }
 
-/// Lengths of the waist edges that the bodice must match, and heights over the bust line.
+/// Lengths of the waist edges that the bodice must match, and heights above the bust line, metres.
 struct Lines {
     middle: f64,
     outer: f64,
@@ -43,7 +43,7 @@ struct Lines {
     waist: f64,
 }
 
-/// Front or back of the bodice, drawn from outside; the bust line is y = 0.
+/// Front or back of the bodice, seen from outside; the bust line is y = 0.
 fn bodice(name: &str, yoke: &Yoke, cut: &Bodice, lines: &Lines) -> Piece {
     let [neck, tip] = yoke.seam(cut.side);
     let drop = DVec2::new(0.0, neck.y - cut.neck_drop);
@@ -78,7 +78,7 @@ fn bodice(name: &str, yoke: &Yoke, cut: &Bodice, lines: &Lines) -> Piece {
         .piece(name)
 }
 
-/// Pattern and marks.
+/// Pattern and marks of the dress.
 pub fn dress(form: &Form) -> (Pattern, Marks) {
     let m = &form.body.measurements;
     let [bust, waist] = ["bust_front", "waist_front"].map(|name| form.mark(name).y);
@@ -156,7 +156,7 @@ fn sew_bodice(pattern: &mut Pattern, front: PieceId, back: PieceId) {
             sew(pattern, (piece, &format!("dart inner {side}")), (piece, &format!("dart outer {side}")));
         }
     }
-    // The wearer's left is drawn on the right in front and on the left behind.
+    // The wearer's left is drawn on the right in the front piece and on the left in the back piece.
     for (side, other) in [("left", "right"), ("right", "left")] {
         for label in ["side", "shoulder"] {
             sew(pattern, (front, &format!("{label} {side}")), (back, &format!("{label} {other}")));

@@ -1,4 +1,4 @@
-//! The dress form that samples are drafted on: lengths and strokes read off a mannequin.
+//! The dress form that samples are drafted on: lengths and strokes measured on a mannequin.
 
 use glam::{DVec2, DVec3};
 
@@ -6,13 +6,13 @@ use crate::body::measure::{length, taut};
 use crate::body::{Mannequin, Surface};
 use crate::relax::RelaxSettings;
 
-/// Spacing of strokes on the body, metres.
+/// Spacing of points in strokes on the body, metres.
 const STEP: f64 = 0.01;
 
-/// Share of the bust's extra length that a front without a dart gets.
+/// Share of the extra length over the bust that a front without a dart gets.
 const FRONT_BALANCE: f64 = 1.0;
 
-/// Shoulder seams fall a little less steeply than the shoulder: room for its roundness.
+/// Slope of the shoulder seam as a share of the shoulder's slope: less steep, to leave room for its roundness.
 const SLOPE_EASE: f64 = 0.85;
 
 /// A mannequin with its surface.
@@ -24,19 +24,19 @@ pub struct Form<'a> {
 }
 
 impl<'a> Form<'a> {
-    /// Over `body`. Panics when the mannequin has no triangles: it is built by us.
+    /// The form of `body`. Panics when the mannequin has no triangles, which cannot happen: this program builds it.
     pub fn new(body: &'a Mannequin) -> Self {
         let surface = Surface::new(body.mesh.clone()).expect("a mannequin has a surface");
         let offset = RelaxSettings::default().offset * surface.scale();
         Self { body, surface, offset }
     }
 
-    /// A named point. Panics when there is none: names are written in code.
+    /// A landmark. Panics when there is none: names are written in code.
     pub fn mark(&self, name: &str) -> DVec3 {
         self.body.landmarks.get(name).unwrap_or_else(|| panic!("no landmark {name}"))
     }
 
-    /// The skin at `x`, `y`: in front (`side` 1) or behind (`side` -1).
+    /// The point of the skin at `x`, `y`, in front (`side` 1) or behind (`side` -1).
     pub fn skin(&self, x: f64, y: f64, side: f64) -> Option<DVec3> {
         // The mannequin has edges along its plane of symmetry, and a ray just along an edge may slip through.
         let hit = self.surface.ray(DVec3::new(x + 3e-4, y, side), DVec3::new(0.0, 0.0, -side))?;
@@ -49,7 +49,8 @@ impl<'a> Form<'a> {
         self.surface.ray(DVec3::new(x, 1.0e3, z), DVec3::NEG_Y).map_or(DVec3::ZERO, |hit| hit.point)
     }
 
-    /// The skin straight out from the middle of the trunk at height `y`, the way of `angle` from the front towards +x.
+    /// The point of the skin at height `y` in the direction `angle` (radians from the front towards +x) from the middle of the
+    /// trunk.
     pub fn round(&self, y: f64, angle: f64) -> Option<DVec3> {
         let middle = (self.skin(0.0, y, 1.0)? + self.skin(0.0, y, -1.0)?) / 2.0;
         let way = DVec3::new((angle + 1e-3).sin(), 0.0, (angle + 1e-3).cos());
@@ -66,11 +67,12 @@ impl<'a> Form<'a> {
             self.skin(x, at, side).map(lifted)
         });
         let points: Vec<DVec2> = down.chain([lifted(top)]).collect();
-        // The body lies to the left of a tape that runs up its front seen with the front to the right.
+        // Seen with the front to the right, the body is to the left of a tape that runs up its front.
         length(&taut(points.into_iter()))
     }
 
-    /// A stroke on the skin through `points` (any spacing), with its length where the cloth lies.
+    /// Cumulative lengths of a stroke on the skin through `points` (any spacing), measured at the offset where the cloth is,
+    /// metres.
     pub fn lengths(&self, points: &[DVec3]) -> Vec<f64> {
         let lifted: Vec<DVec3> = points.iter().map(|&p| p + self.smooth_normal(p) * self.offset).collect();
         let mut lengths = vec![0.0];
@@ -80,8 +82,7 @@ impl<'a> Form<'a> {
         lengths
     }
 
-    /// The vertices' normals mixed at the point of the skin nearest to `p`: the faces' own make strokes along an edge
-    /// zigzag.
+    /// Unit normal near `p`, blended from vertex normals: with face normals strokes along an edge would zigzag.
     fn smooth_normal(&self, p: DVec3) -> DVec3 {
         let near = self.surface.nearest(p);
         let corners = self.surface.mesh.triangles[near.triangle as usize];
@@ -95,8 +96,8 @@ impl<'a> Form<'a> {
             .normalize_or_zero()
     }
 
-    /// The part of the stroke `path` that runs from `from` to `to` metres (where the cloth lies) after the point of it
-    /// nearest to `anchor`; as much of it as there is.
+    /// The part of the stroke `path` between `from` and `to` metres (measured at the cloth's offset) after its point nearest to
+    /// `anchor`; shortened where the stroke ends.
     pub fn part(&self, path: &[DVec3], anchor: DVec3, from: f64, to: f64) -> Vec<DVec3> {
         let lengths = self.lengths(path);
         let nearest = (0..path.len())
@@ -114,39 +115,39 @@ impl<'a> Form<'a> {
         (0..=count).map(|k| at(low + (high - low) * k as f64 / count as f64)).collect()
     }
 
-    /// A stroke straight up the middle of front (`side` 1) or back (-1) from height `low` to `high`.
+    /// A vertical stroke at `x` on the front (`side` 1) or back (-1) from height `low` to `high`.
     pub fn upright(&self, x: f64, low: f64, high: f64, side: f64) -> Vec<DVec3> {
         let count = ((high - low) / STEP).ceil().max(1.0) as usize;
         (0..=count).filter_map(|i| self.skin(x, low + (high - low) * i as f64 / count as f64, side)).collect()
     }
 
-    /// A stroke on the skin below the straight line from `a` to `b`.
+    /// A stroke on the skin along the straight line from `a` to `b`.
     pub fn straight(&self, a: DVec3, b: DVec3) -> Vec<DVec3> {
         let count = (a.distance(b) / STEP).ceil().max(1.0) as usize;
         (0..=count).map(|i| self.surface.nearest(a.lerp(b, i as f64 / count as f64)).point).collect()
     }
 
-    /// A stroke round the trunk at height `y` from `from` to `to` radians, as `round` counts them.
+    /// A horizontal stroke round the trunk at height `y` between the angles `from` and `to`, as in [`Self::round`].
     pub fn level(&self, y: f64, from: f64, to: f64) -> Vec<DVec3> {
         (0..=60).filter_map(|i| self.round(y, from + (to - from) * f64::from(i) / 60.0)).collect()
     }
 }
 
-/// Where neck and shoulder of a bodice lie.
+/// Neck and shoulder measures of a bodice, metres.
 pub struct Yoke {
-    /// From the middle to where the shoulder seam meets the neckline.
+    /// Distance from the middle to where the shoulder seam meets the neckline.
     pub neck_width: f64,
     /// Length of the shoulder seam.
     pub shoulder: f64,
-    /// How steeply it falls, radians.
+    /// Slope of the shoulder seam, radians.
     pub slope: f64,
-    /// Height of the neck end above the bust line by the tape, in front and behind.
+    /// Height of the neck end above the bust line, measured by tape along the front and the back.
     pub heights: [f64; 2],
 }
 
 impl Yoke {
-    /// With the neckline `neck_width` from the middle on the default figure, and a seam `short` metres shorter than the
-    /// shoulder.
+    /// A yoke with the neckline `neck_width` metres from the middle on the default figure, scaled to this one, and a seam `short`
+    /// metres shorter than the shoulder.
     pub fn new(form: &Form, neck_width: f64, short: f64) -> Self {
         let m = &form.body.measurements;
         let neck_width = neck_width * m.half_across_shoulder / 0.2009;
@@ -157,12 +158,12 @@ impl Yoke {
             neck_width,
             shoulder: neck.distance(tip) - short,
             slope: SLOPE_EASE * ((neck.y - tip.y) / (tip.x - neck.x)).atan(),
-            // Most of what the bust asks for in length goes in at the front.
+            // The extra length over the bust is added at the front.
             heights: [back + FRONT_BALANCE * (front - back), back],
         }
     }
 
-    /// Neck and tip ends of the shoulder seam, drawn at +x, in front (0) or behind (1).
+    /// Neck and tip ends of the shoulder seam at +x, in front (0) or behind (1).
     pub fn seam(&self, side: usize) -> [DVec2; 2] {
         let neck = DVec2::new(self.neck_width, self.heights[side]);
         [neck, neck + DVec2::new(self.slope.cos(), -self.slope.sin()) * self.shoulder]

@@ -1,4 +1,4 @@
-//! Garments drafted for the mannequin, each with its marks: what a first-time user opens.
+//! Sample garments drafted for the mannequin, each with its marks: what a first-time user opens.
 //!
 //! Every sample is drafted from the mannequin's own measurements, so a sample can be drafted for another body, too.
 
@@ -17,7 +17,7 @@ use crate::body::Mannequin;
 use crate::session::{BodyChoice, Document, Project};
 use form::Form;
 
-/// The garments there are.
+/// A sample garment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sample {
     /// Front, back, two sleeves.
@@ -33,10 +33,10 @@ pub enum Sample {
 }
 
 impl Sample {
-    /// All of them, in the order of the menu.
+    /// All samples, in the order of the menu.
     pub const ALL: [Self; 5] = [Self::Tshirt, Self::Skirt, Self::Dress, Self::Trousers, Self::Scarf];
 
-    /// Shown to people.
+    /// Name for the user.
     pub fn name(self) -> &'static str {
         match self {
             Self::Tshirt => "T-shirt",

@@ -11,7 +11,7 @@ use crate::wrap::Marks;
 /// Length and width, metres. A wider strip has to stretch round the neck.
 const SIZE: DVec2 = DVec2::new(1.70, 0.13);
 
-/// Pattern and marks.
+/// Pattern and marks of the scarf.
 pub fn scarf(form: &Form) -> (Pattern, Marks) {
     let half = SIZE / 2.0;
     let mut piece = Outline::from(-half)
@@ -34,7 +34,7 @@ pub fn scarf(form: &Form) -> (Pattern, Marks) {
     (pattern, strokes.finish())
 }
 
-/// From the wearer's left front up over the breast and the shoulder, round the nape, and down the right front.
+/// Stroke from the wearer's left front up over the breast and the shoulder, round the nape, and down the right front.
 fn path(form: &Form) -> Vec<DVec3> {
     let (nape, neck) = (form.mark("neck_back"), form.mark("neck_side_left"));
     let shoulder = form.shoulder(neck.x + 0.030);

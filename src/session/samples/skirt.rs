@@ -11,20 +11,20 @@ use crate::geometry::ids::PieceId;
 use crate::pattern::{Pattern, Piece};
 use crate::wrap::Marks;
 
-/// Added to the waist girth, metres: what the distance that cloth keeps all round takes, and a little.
+/// Ease added to the waist girth, metres: what the offset of the cloth takes all round, and a little more.
 const WAIST_EASE: f64 = 0.032;
-/// Added to the hip girth.
+/// Ease added to the hip girth, metres.
 const HIP_EASE: f64 = 0.06;
-/// Taken in by each of the four darts.
+/// Width of each of the four darts, metres.
 const DART: f64 = 0.026;
-/// Length of the skirt below the waist.
+/// Length of the skirt below the waist, metres.
 const LENGTH: f64 = 0.58;
-/// Added to each quarter at the hem.
+/// Width added to each quarter at the hem, metres.
 const FLARE: f64 = 0.05;
-/// Height of the waistband.
+/// Height of the waistband, metres.
 pub const BAND: f64 = 0.035;
 
-/// Half a waistband, its lower edge at the waist and cut into `parts` (metres, left to right in the drawing).
+/// Half a waistband, with its lower edge at the waist divided into `parts` (metres, left to right in the drawing).
 pub fn band(name: &str, parts: &[f64]) -> Piece {
     let half = parts.iter().sum::<f64>() / 2.0;
     let corner = DVec2::new;
@@ -55,21 +55,21 @@ pub fn band_strokes(form: &Form, front: PieceId, back: PieceId, waist: f64, stro
     }
 }
 
-/// How a skirt panel is cut; metres.
+/// Measures of a skirt panel, metres.
 pub struct Cut {
     /// Girth of the whole skirt at waist and hip.
     pub girths: [f64; 2],
-    /// From the waist down to the hip.
+    /// Distance from the waist down to the hip.
     pub hip_depth: f64,
     /// Width and length of each dart.
     pub dart: [f64; 2],
-    /// From the waist down to the hem.
+    /// Distance from the waist down to the hem.
     pub length: f64,
-    /// Added to each quarter at the hem.
+    /// Width added to each quarter at the hem.
     pub flare: f64,
 }
 
-/// Front or back, drawn from outside: the waist line is y = 0 in the middle.
+/// Front or back panel, seen from outside: the waist line is y = 0 in the middle.
 pub fn panel(name: &str, cut: &Cut) -> Piece {
     let [waist, hip] = cut.girths.map(|g| g / 4.0);
     let [width, depth] = cut.dart;
@@ -99,10 +99,10 @@ pub fn panel(name: &str, cut: &Cut) -> Piece {
         .piece(name)
 }
 
-/// The waist edges of a panel, left to right in the drawing.
+/// Labels of a panel's waist edges, left to right in the drawing.
 pub const WAIST_EDGES: [&str; 3] = ["waist outer left", "waist middle", "waist outer right"];
 
-/// Stands `front` and `back` before and behind the body with their own x axis at height `y`.
+/// Places `front` and `back` in front of and behind the body, with their own x axis at height `y`.
 pub fn face(front: &mut Piece, back: &mut Piece, y: f64) {
     front.placement = Some(standing(DVec3::new(0.0, y, 0.30), 0.0));
     back.placement = Some(standing(DVec3::new(0.0, y, -0.30), PI));
@@ -133,7 +133,7 @@ pub fn sew_panels(pattern: &mut Pattern, front: PieceId, back: PieceId) {
     }
 }
 
-/// Pattern and marks.
+/// Pattern and marks of the skirt.
 pub fn skirt(form: &Form) -> (Pattern, Marks) {
     let m = &form.body.measurements;
     let y = form.mark("waist_front").y;

@@ -1,11 +1,11 @@
-//! Collects numbered pairs of strokes.
+//! Builder of numbered pairs of strokes.
 
 use glam::{DVec2, DVec3};
 
 use crate::geometry::ids::{MarkId, PieceId};
 use crate::wrap::{BodyMark, ClothMark, ClothSide, Marks};
 
-/// Pairs in the making; ids count up from one.
+/// Pairs added so far; ids count up from one.
 #[derive(Default)]
 pub struct Strokes {
     marks: Marks,

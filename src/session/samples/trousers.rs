@@ -10,22 +10,22 @@ use crate::geometry::ids::PieceId;
 use crate::pattern::{Pattern, Piece};
 use crate::wrap::Marks;
 
-/// Added to the waist girth, metres.
+/// Ease added to the waist girth, metres.
 const WAIST_EASE: f64 = 0.03;
-/// Added to the hip girth.
+/// Ease added to the hip girth, metres.
 const HIP_EASE: f64 = 0.075;
-/// Added to the girth of the knee.
+/// Ease added to the girth of the knee, metres.
 const KNEE_EASE: f64 = 0.085;
-/// Width of the leg at the hem over the girth of the ankle.
+/// Girth of the leg at the hem minus the girth of the ankle, metres.
 const HEM_EASE: f64 = 0.14;
-/// From the ankle bone up to the hem: clear of the foot.
+/// Height of the hem above the ankle bone, metres: clear of the foot.
 const HEM_HEIGHT: f64 = 0.07;
-/// Added to the depth of the crotch.
+/// Ease added to the depth of the crotch, metres.
 const CROTCH_EASE: f64 = 0.03;
-/// Moved from each front's width to each back's.
+/// Width moved from each front to each back, metres.
 const BACK_SHARE: f64 = 0.018;
 
-/// Heights below the waist, and girths, that both pieces share.
+/// Depths below the waist, and shares of girths, that front and back have in common, metres.
 struct Block {
     hip: f64,
     crotch: f64,
@@ -37,17 +37,17 @@ struct Block {
     hem_half: f64,
 }
 
-/// What differs between front and back.
+/// Measures in which front and back differ, metres.
 struct Cut {
-    /// From the middle line out to the point between the legs.
+    /// Distance from the middle line out to the point between the legs.
     fork: f64,
-    /// How far the middle seam leans in at the waist.
+    /// Distance by which the middle seam leans in at the waist.
     lean: f64,
-    /// How much higher the waist is at the middle.
+    /// Extra height of the waist at the middle.
     rise: f64,
     /// Width and length of the dart.
     dart: [f64; 2],
-    /// Added to widths of the leg and the hip.
+    /// Width added to the leg and the hip.
     wider: f64,
 }
 
@@ -67,8 +67,8 @@ impl Block {
         }
     }
 
-    /// Half of the trousers' front or back, seen from outside: the body's middle at x = 0, the side at +x, the waist at
-    /// y = 0. `drop` lowers the fork.
+    /// Half of the trousers' front or back, seen from outside: the body's middle at x = 0, the side at +x, the waist at y = 0.
+    /// `drop` lowers the crotch point.
     fn leg(&self, name: &str, cut: &Cut, drop: f64) -> Piece {
         let at = |x: f64, below: f64| DVec2::new(x, -below);
         let towards = |from: DVec2, to: DVec2, t: f64| from + (to - from) * t;
@@ -123,13 +123,13 @@ impl Block {
     }
 }
 
-/// Pattern and marks.
+/// Pattern and marks of the trousers.
 pub fn trousers(form: &Form) -> (Pattern, Marks) {
     let block = Block::new(form);
     let front = Cut { fork: 0.042, lean: 0.010, rise: 0.0, dart: [0.018, 0.09], wider: -BACK_SHARE };
     let back = Cut { fork: 0.108, lean: 0.028, rise: 0.036, dart: [0.026, 0.12], wider: BACK_SHARE };
     let mut front_left = block.leg("front left", &front, 0.0);
-    // The back's fork is lowered until both inner seams are as long.
+    // The crotch point of the back is lowered until both inner seams have the same length.
     let inner = edge_length(&front_left, "in upper");
     let drop =
         (0..40).fold(0.0, |drop, _| drop + edge_length(&block.leg("", &back, drop), "in upper") - inner);

@@ -8,22 +8,22 @@ use super::strokes::Strokes;
 use crate::pattern::{Pattern, Piece};
 use crate::wrap::Marks;
 
-/// Added to the bust girth, metres.
+/// Ease added to the bust girth, metres.
 const BUST_EASE: f64 = 0.12;
-/// Moved from each quarter of the back to the front.
+/// Width moved from each quarter of the back to the front, metres.
 const FRONT_SHARE: f64 = 0.008;
-/// Added to the hip girth at the hem.
+/// Ease added to the hip girth at the hem, metres.
 const HEM_EASE: f64 = 0.09;
-/// Added to the girth of the upper arm.
+/// Ease added to the girth of the upper arm, metres.
 const ARM_EASE: f64 = 0.085;
-/// How much longer the sleeve cap is than the armhole.
+/// Length of the sleeve cap over the length of the armhole.
 const CAP_EASE: f64 = 1.01;
-/// From the armpit down to the shirt's underarm point.
+/// Distance from the armpit down to the shirt's underarm point, metres.
 const UNDERARM_DROP: f64 = 0.032;
-/// Underarm seam of the sleeve.
+/// Length of the sleeve's underarm seam, metres.
 const SLEEVE_SEAM: f64 = 0.11;
 
-/// Lengths that front and back share. Heights are counted from the bust line.
+/// Lengths that front and back have in common, metres. Heights are measured from the bust line.
 struct Block {
     quarter: f64,
     hem_quarter: f64,
@@ -45,9 +45,9 @@ impl Block {
         }
     }
 
-    /// Front or back, drawn from its outer side; `left` is the wearer's side that lies at +x.
+    /// Front or back, seen from its outer side; `left` tells whether the wearer's left is at +x.
     fn body_piece(&self, name: &str, neck_drop: f64, left: bool) -> Piece {
-        // The bust takes more of the width in front.
+        // The front is wider: the bust takes more of the girth there.
         let wider = if left { FRONT_SHARE } else { -FRONT_SHARE };
         let [neck, tip] = self.yoke.seam(usize::from(!left));
         let under = DVec2::new(self.quarter + wider, self.underarm);
@@ -75,7 +75,7 @@ impl Block {
     }
 }
 
-/// The left sleeve, drawn from outside: the front of the wearer lies at -x.
+/// The left sleeve, seen from outside: the wearer's front is at -x.
 fn sleeve(front_armhole: f64, back_armhole: f64, width: f64, hem_width: f64) -> Piece {
     let cap_length = |half: f64, height: f64| {
         let piece =
@@ -106,7 +106,7 @@ fn half_cap(half: f64, height: f64) -> Outline {
     )
 }
 
-/// Where the rising (or falling) function `f` is zero between `low` and `high`, by halving.
+/// Zero of the monotonic function `f` between `low` and `high`, by bisection.
 fn bisect(mut low: f64, mut high: f64, f: impl Fn(f64) -> f64) -> f64 {
     let rising = f(high) > f(low);
     for _ in 0..60 {
@@ -116,7 +116,7 @@ fn bisect(mut low: f64, mut high: f64, f: impl Fn(f64) -> f64) -> f64 {
     (low + high) / 2.0
 }
 
-/// Pattern and marks.
+/// Pattern and marks of the T-shirt.
 pub fn tshirt(form: &Form) -> (Pattern, Marks) {
     let block = Block::new(form);
     let bust = form.mark("bust_front").y;

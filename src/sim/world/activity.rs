@@ -1,4 +1,4 @@
-//! What stays where it is: pinned vertices, frozen and deactivated pieces.
+//! Cloth that is held: pinned vertices, frozen and deactivated pieces.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -11,7 +11,7 @@ use crate::sim::source::GarmentSource;
 use crate::sim::world::World;
 
 impl World {
-    /// From now on these pieces are what they are named with, all others active.
+    /// Sets the activity of these pieces; all others become active.
     pub fn set_activities(&mut self, activities: &BTreeMap<PieceId, Activity>) {
         let before = self.held();
         let Some(source) = &mut self.source else { return };
@@ -33,7 +33,7 @@ impl World {
         self.hold(&before);
     }
 
-    /// Sets aside what is deactivated.
+    /// Builds [`World::active`], the garment without its deactivated pieces.
     pub(in crate::sim) fn part_active(&mut self) {
         let activities = self.source.as_ref().map(|source| source.pattern.activities()).unwrap_or_default();
         let asleep: BTreeSet<PieceId> = activities
@@ -45,7 +45,7 @@ impl World {
         self.active = garment.map(|garment| Arc::new(garment.without(&asleep)));
     }
 
-    /// The vertices that stay: those under pins, then, unless a wrap lays them just now, those that [`staying`] names.
+    /// Held vertices: those under pins and, unless a wrap is laying cloth just now, those of [`staying`].
     pub(in crate::sim) fn held(&self) -> Vec<u32> {
         let pins = self.pinned.iter().flatten().copied();
         let grows = self.dressing.as_ref().is_some_and(|dressing| dressing.relaxer().is_none());
@@ -56,7 +56,7 @@ impl World {
         pins.chain(staying).collect()
     }
 
-    /// Holds what stays now; where something that stayed `before` no longer does, the cloth settles.
+    /// Holds the vertices of [`World::held`]. Where a vertex of `before` is no longer held, the cloth settles.
     pub(in crate::sim) fn hold(&mut self, before: &[u32]) {
         if self.dragging.is_some() || self.sewing.is_some() {
             return; // What is in the hand settles later, and what is being sewn is held when it lies.
@@ -74,7 +74,7 @@ impl World {
     }
 }
 
-/// The laid vertices of frozen pieces, seams with others among them, and those of deactivated pieces alone.
+/// Laid vertices of frozen pieces, including their seams, and laid vertices that belong to deactivated pieces only.
 pub(in crate::sim) fn staying(pattern: &Pattern, garment: &Garment, cloth: &ClothState) -> BTreeSet<u32> {
     let activities = pattern.activities();
     if activities.is_empty() {

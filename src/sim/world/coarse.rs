@@ -1,5 +1,5 @@
-//! Coarse to fine: a garment of many triangles is put on in a coarser mesh, from which the fine one goes on. Pieces come together,
-//! and cloth comes down, in hundreds of ticks whatever the mesh, and finer ones need more small steps in each.
+//! Coarse to fine: a garment of many triangles is dressed in a coarser mesh, and its own mesh settles from there. Sewing and
+//! draping take hundreds of ticks in any mesh, and each tick of a finer one needs more small steps.
 
 use std::sync::Arc;
 
@@ -7,12 +7,12 @@ use crate::cloth::{self, Carry, Skip};
 use crate::sim::source::{DrapeSource, GarmentSource};
 use crate::sim::world::{World, unlaid};
 
-/// Most triangles of a garment that is put on in its own mesh.
+/// Largest number of triangles of a garment that is dressed in its own mesh from the start.
 const MOST_TRIANGLES: f64 = 6000.0;
-/// Triangles of the coarser mesh: it must follow arms and necks as the fine one does.
+/// Number of triangles of the coarser mesh: enough to follow arms and necks.
 const COARSE_TRIANGLES: f64 = 4000.0;
 
-/// The edge length, metres, of the mesh in which the garment of `source` is put on first; None: in its own.
+/// Edge length (metres) of the coarser mesh in which the garment of `source` is dressed first. None: in its own mesh.
 pub(in crate::sim) fn coarse_edge(source: &GarmentSource) -> Option<f64> {
     let area: f64 = source.pattern.pieces.values().map(|piece| piece.signed_area().abs()).sum();
     let count = area / (3.0f64.sqrt() / 4.0 * source.edge_length.powi(2));
@@ -21,7 +21,7 @@ pub(in crate::sim) fn coarse_edge(source: &GarmentSource) -> Option<f64> {
 }
 
 impl World {
-    /// The same cloth in a mesh with edges of `edge_length` metres; it settles, or drapes where it was draped.
+    /// This cloth carried to a mesh with edges of `edge_length` metres, where it is draped if it was draped before, else relaxed.
     pub(in crate::sim) fn refined(self, edge_length: f64, fabrics: Arc<DrapeSource>) -> Self {
         let (Some(source), Some(coarse)) = (&self.source, &self.garment) else { return self };
         let source = Arc::new(GarmentSource { edge_length, ..GarmentSource::clone(source) });

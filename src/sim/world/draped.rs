@@ -1,4 +1,4 @@
-//! Draping: physics moves the garment that lies on the body, until it rests.
+//! Draping: physics moves the garment on the body until it rests.
 
 use std::sync::Arc;
 
@@ -13,24 +13,24 @@ use crate::sim::world::World;
 use crate::sim::world::posed::Posed;
 use crate::wrap::Phase;
 
-/// Draping under way, paused, or at rest.
+/// Draping in progress, paused or at rest.
 #[derive(Clone, Debug)]
 pub struct Draping {
     source: Arc<DrapeSource>,
-    /// None while it waits for the cloth to lie.
+    /// The garment simulation; None until all of the cloth is laid.
     worn: Option<DrapedGarment>,
     /// Ticks left; None: until it rests.
     left: Option<u32>,
-    /// A hand pulls.
+    /// Whether the cloth is dragged.
     held: bool,
-    /// It is the end of a change of pose.
+    /// Set while draping ends a change of pose.
     ends: Option<EndOfPose>,
 }
 
-/// What is left of a change of pose once the cloth rests there.
+/// What is still to be done for a change of pose once the cloth rests.
 #[derive(Clone, Debug)]
 struct EndOfPose {
-    /// None where the body has got other triangles with it.
+    /// The change of pose; None where the body got other triangles with it.
     posed: Option<Arc<Posed>>,
 }
 
@@ -45,7 +45,7 @@ impl Draping {
 }
 
 impl World {
-    /// Drapes from now on, as soon as all cloth lies, or (false) stops. Nothing happens where nothing is dressed.
+    /// Starts draping, as soon as all of the cloth is laid, or stops it (false). Does nothing where nothing is dressed.
     pub fn set_draping(&mut self, on: bool, source: Arc<DrapeSource>) {
         self.trials = None;
         self.release();
@@ -55,7 +55,7 @@ impl World {
         }
     }
 
-    /// Drapes for `ticks` ticks; None: until it rests.
+    /// Drapes for `ticks` ticks; None: until the cloth rests.
     pub fn drape_for(&mut self, ticks: Option<u32>, source: Arc<DrapeSource>) {
         if self.sewing.is_some() || (!self.cloth.mapped.contains(&true) && self.dressing.is_none()) {
             return; // Sewing ends with draping.
@@ -69,13 +69,14 @@ impl World {
         self.draping = Some(Arc::new(draping));
     }
 
-    /// Drapes cloth that has just come to another pose until it rests; then it lies as that change of pose left it.
+    /// Drapes cloth that has just come to another pose until it rests; then its position counts as the result of that change of
+    /// pose.
     pub(in crate::sim) fn drape_posed(&mut self, source: Arc<DrapeSource>) {
         let ends = Some(EndOfPose { posed: self.posed.clone() });
         self.draping = Some(Arc::new(Draping { ends, ..Draping::new(source) }));
     }
 
-    /// Cloth that is draped stays as it is.
+    /// Stops draping; the cloth stays as it is.
     pub fn stop_draping(&mut self) {
         let Some(draping) = &mut self.draping else { return };
         if draping.worn.is_none() {
@@ -86,7 +87,7 @@ impl World {
         self.split_draped();
     }
 
-    /// What is draped is made of something else from now on.
+    /// Replaces the fabrics of draped cloth.
     pub fn set_fabrics(&mut self, source: Arc<DrapeSource>) {
         self.change_trial_fabrics(&source);
         if let Some(draping) = &mut self.draping {
@@ -96,14 +97,14 @@ impl World {
         }
     }
 
-    /// What is draped is other pieces from now on.
+    /// Starts draping again with the present active pieces.
     pub(in crate::sim) fn drape_anew(&mut self) {
         if let Some(source) = self.draping.as_ref().map(|draping| Arc::clone(&draping.source)) {
             self.set_fabrics(source);
         }
     }
 
-    /// What is about to be draped moves already, m/s.
+    /// Begins draping with these vertex velocities, m/s.
     pub(in crate::sim) fn begin_moving(&mut self, velocities: &[DVec3]) {
         if let Err(Undrapable(words)) = self.begin_draping() {
             return self.fail_draping(words);
@@ -113,7 +114,7 @@ impl World {
         }
     }
 
-    /// Whether the next tick drapes.
+    /// Whether the next tick is one of draping.
     pub(in crate::sim) fn drapes_now(&self) -> bool {
         let lies = self.dragging.is_none()
             && self.dressing.as_ref().is_none_or(|dressing| {
@@ -122,12 +123,12 @@ impl World {
         self.draping.as_ref().is_some_and(|draping| draping.runs() && (draping.worn.is_some() || lies))
     }
 
-    /// Whether physics has the cloth, moving or not.
+    /// Whether physics controls the cloth, moving or not.
     pub(in crate::sim) fn is_draped(&self) -> bool {
         self.draping.as_ref().is_some_and(|draping| draping.worn.is_some())
     }
 
-    /// A tick of it.
+    /// Does a tick of draping, or a part of one.
     pub(in crate::sim) fn drape(&mut self) {
         if !self.is_draped()
             && let Err(Undrapable(words)) = self.begin_draping()
@@ -192,7 +193,7 @@ impl World {
         self.tell("garment".to_owned(), words);
     }
 
-    /// Where it rests, edges that would cut the body are split.
+    /// Once cloth rests, splits edges that would cut the body.
     fn split_draped(&mut self) {
         if let (Some(garment), Some(body), Some(worn)) =
             (&self.garment, &self.body, self.draping.as_ref().and_then(|d| d.worn.as_ref()))
@@ -202,7 +203,7 @@ impl World {
         }
     }
 
-    /// Exactly these vertices of what is draped stay. False where nothing is draped.
+    /// Pins exactly these vertices of draped cloth. False where nothing is draped.
     pub(in crate::sim) fn hold_draped(&mut self, held: &[u32]) -> bool {
         let Some(draping) = self.draping.as_mut().map(Arc::make_mut) else { return false };
         let Some(worn) = &mut draping.worn else { return false };
@@ -211,7 +212,7 @@ impl World {
         true
     }
 
-    /// Takes cloth in the hand while it drapes. False where it does not: other hands take it then.
+    /// Drags cloth that is being draped. False where it is not: then the drag of the relaxer takes over.
     pub(in crate::sim) fn grab_draped(&mut self, at: ClothPlace) -> bool {
         if !self.draping.as_ref().is_some_and(|d| d.left.is_none() && d.worn.is_some()) {
             self.draping = None;
@@ -228,7 +229,7 @@ impl World {
         true
     }
 
-    /// The hand goes to where `pointer` passes nearest to what is in it.
+    /// Moves the target of the drag to the point of the ray `pointer` that is nearest to the dragged vertex.
     pub(in crate::sim) fn drag_draped(&mut self, pointer: Ray) {
         let Some(draping) = self.draping.as_mut().filter(|d| d.held) else { return };
         let Some(worn) = &mut Arc::make_mut(draping).worn else { return };
@@ -237,7 +238,7 @@ impl World {
         }
     }
 
-    /// Lets go of it.
+    /// Ends the drag of draped cloth.
     pub(in crate::sim) fn release_draped(&mut self) {
         if let Some(draping) = self.draping.as_mut().filter(|d| d.held) {
             let draping = Arc::make_mut(draping);
@@ -247,7 +248,7 @@ impl World {
         }
     }
 
-    /// How draping stands; None where there is none.
+    /// The state of draping; None where there is none.
     pub fn drape_state(&self) -> Option<DrapeState> {
         let draping = self.draping.as_ref()?;
         let progress = draping.worn.as_ref().map(DrapedGarment::progress);

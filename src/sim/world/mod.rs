@@ -1,4 +1,4 @@
-//! All that moves or decides how things move: what a checkpoint keeps. Copying it copies pointers.
+//! All moving state and all settings that decide how it moves: the content of a checkpoint. Cloning it clones pointers.
 
 mod activity;
 mod coarse;
@@ -35,53 +35,53 @@ use crate::wrap::{Dressed, Dressing, Marks, Phase, coarser};
 pub struct World {
     /// What the garment was built from.
     pub source: Option<Arc<GarmentSource>>,
-    /// What it is put on.
+    /// The body.
     pub body: Option<Arc<Surface>>,
     /// The garment.
     pub garment: Option<Arc<Garment>>,
-    /// Where it is. Shared with snapshots and checkpoints until it moves.
+    /// Positions of the garment's vertices. Shared with snapshots and checkpoints until they change.
     pub cloth: Arc<ClothState>,
-    /// The wrap under way, or at rest. None for cloth that was adopted and not touched since, or is in the hand.
+    /// The wrap, in progress or at rest. None for cloth that was adopted and not touched since, or that is dragged.
     pub dressing: Option<Arc<Dressing>>,
-    /// Cloth in the hand.
+    /// The drag in progress.
     pub dragging: Option<Arc<Dragging>>,
-    /// How much of the drag reaches each vertex.
+    /// Share of the drag that reaches each vertex, 0..=1.
     pub dragged: Option<Arc<Vec<f32>>>,
-    /// Where the pins are stuck in.
+    /// Points of the flat cloth that are pinned.
     pub places: Arc<Vec<ClothPlace>>,
-    /// The vertex under each pin, in the pins' order; None where no cloth lies.
+    /// The vertex under each pin, in the pins' order; None where no cloth is laid.
     pub pinned: Arc<Vec<Option<u32>>>,
-    /// Split edges of cloth that was adopted and not touched since.
+    /// Split edges of cloth that was adopted, carried to another pose or draped, and not touched since.
     pub splits: Option<Arc<Splits>>,
-    /// False while paused.
+    /// Whether the simulation runs; false while paused.
     pub relaxing: bool,
-    /// What building and wrapping found wrong.
+    /// Problems found by building, wrapping and sewing.
     pub problems: Arc<Vec<Problem>>,
-    /// The flat pieces as they were triangulated while the pattern was edited.
+    /// Triangulations of the flat pieces, kept while the pattern is edited.
     pub meshes: Arc<Meshes>,
     /// The last change of pose.
     pub posed: Option<Arc<Posed>>,
-    /// The change of pose under way.
+    /// The change of pose in progress.
     pub posing: Option<Arc<Posing>>,
-    /// Physics: has the cloth, or waits for it to lie.
+    /// Draping: controls the cloth, or waits until it is laid.
     pub draping: Option<Arc<Draping>>,
-    /// Physics has moved the cloth since it was grown: it may lie in folds, wherever it has gone since.
+    /// Whether physics has moved the cloth since it was grown: it may have folds, even after it moved on.
     pub was_draped: bool,
-    /// It was sewn from where its pieces were placed, round the body as it is.
+    /// Whether the cloth was sewn from the placement of its pieces, on the body in its present pose.
     pub was_sewn: bool,
-    /// Whether its seams came together is still to be told.
+    /// Whether seams that are too short are still to be reported.
     pub seams_unseen: bool,
-    /// Pieces being sewn from where they were placed: `garment` is then the one with open seams.
+    /// The sewing in progress: `garment` is then the one with open seams.
     pub sewing: Option<Arc<Placed>>,
     /// The garment without its deactivated pieces; None while it has none.
     pub active: Option<Arc<Garment>>,
-    /// What is sewn over the cloth once it rests, and its next layer.
+    /// Garment and next layer to be sewn over the cloth once it rests.
     pub outer: Option<(Arc<Outfit>, u8)>,
-    /// Starts being tried: what lies is the one under way.
+    /// Starts being tried: the cloth is that of the present one.
     pub trials: Option<Arc<Trials>>,
-    /// What came of the starts that were tried; of cloth that was dressed otherwise nothing.
+    /// Results of the starts that were tried; None for cloth that was dressed otherwise.
     pub started: Option<Arc<Started>>,
-    /// Work of the contact of cloth that was sewn or draped.
+    /// Work counters of collision in sewing and draping.
     pub separated: separation::Counters,
 }
 
@@ -118,7 +118,7 @@ impl Default for World {
 }
 
 impl World {
-    /// A garment just built and pasted to its marks.
+    /// A garment just built, with the wrap from its marks begun.
     pub fn wrapped(source: Arc<GarmentSource>, body: Arc<Surface>) -> Self {
         let mut meshes = Meshes::default();
         let (garment, problems) = cloth::build_again(&source.pattern, source.edge_length, &mut meshes);
@@ -156,8 +156,8 @@ impl World {
         }
     }
 
-    /// The dressed cloth grown anew from some pairs of marks. Where the pattern has changed since, it is recut first: pins
-    /// hold what they held.
+    /// The dressed cloth, grown anew from some pairs of marks. Where the pattern has changed since, the cloth is transferred to
+    /// it first: pins hold the same points.
     pub fn rewrapped(&mut self, source: Arc<GarmentSource>, body: Arc<Surface>, pairs: &[usize]) -> Self {
         self.trials = None;
         self.release();
@@ -183,8 +183,8 @@ impl World {
         Self { places, pinned: Arc::new(pinned), ..Self::begun(source, body, garment, problems, begun) }
     }
 
-    /// The dressed cloth cut and sewn anew after `pattern`: the same place of a piece lies where it lay, then all settles.
-    /// Cloth that is still growing begins again. None where nothing is dressed.
+    /// The dressed cloth, transferred to the edited `pattern`: each point of a piece stays where it was, then all settles. Cloth
+    /// that is still growing starts again. None where nothing is dressed.
     pub fn resewn(
         &mut self,
         pattern: Arc<Pattern>,
@@ -231,7 +231,7 @@ impl World {
         Some(world)
     }
 
-    /// The cloth of `old`, which lies, in the mesh of `source`: the same flat point, the same place.
+    /// Transfers the cloth of `old` to the mesh of `source`: the same flat point keeps its position.
     fn recut(&self, source: &GarmentSource, old: Arc<Garment>) -> Cut {
         let same = |old: &GarmentSource| {
             (Arc::ptr_eq(&old.pattern, &source.pattern) || old.pattern == source.pattern)
@@ -248,7 +248,7 @@ impl World {
         Cut { is_as_before: false, garment: Arc::new(garment), cloth: Arc::new(cloth), pinned, problems }
     }
 
-    /// Cloth that was dressed before, and perhaps draped. The error is in words.
+    /// Cloth that was dressed, and perhaps draped, before. The error is in words.
     pub fn adopted(
         source: Arc<GarmentSource>,
         body: Arc<Surface>,
@@ -276,7 +276,7 @@ impl World {
         })
     }
 
-    /// Relaxes differently from now on; cloth at rest wakes.
+    /// Changes the settings of relaxation; cloth at rest wakes.
     pub fn set_relax(&mut self, relax: RelaxSettings) {
         if let Some(source) = &mut self.source {
             Arc::make_mut(source).relax = relax;
@@ -298,7 +298,7 @@ impl World {
         }
     }
 
-    /// Exactly the vertices nearest to `places` are pinned. Cloth that lies wakes when a pin is pulled out.
+    /// Pins exactly the vertices nearest to `places`. Cloth at rest wakes when a pin is removed.
     pub fn set_pins(&mut self, places: &[ClothPlace]) {
         let before = self.held();
         self.places = Arc::new(places.to_vec());
@@ -306,7 +306,7 @@ impl World {
         self.hold(&before);
     }
 
-    /// Takes the cloth at `at` in the hand. Cloth that is not there, or still grows, stays as it is.
+    /// Begins to drag the cloth at `at`. Does nothing where no cloth is laid, or while it grows.
     pub fn grab(&mut self, at: ClothPlace, mode: DragMode, bones: &[Bone]) {
         self.trials = None;
         self.release();
@@ -324,7 +324,7 @@ impl World {
         self.dressing = None;
     }
 
-    /// The hand is there now.
+    /// Moves the target of the drag.
     pub fn drag_to(&mut self, pointer: Ray) {
         self.drag_draped(pointer);
         if let Some(dragging) = &mut self.dragging {
@@ -332,7 +332,7 @@ impl World {
         }
     }
 
-    /// Lets go of what is in the hand; it settles.
+    /// Ends the drag; the cloth settles.
     pub fn release(&mut self) {
         self.release_draped();
         if let Some(dragging) = self.dragging.take() {
@@ -357,14 +357,14 @@ impl World {
         vertex_under(self.garment.as_deref()?, &self.cloth, place)
     }
 
-    /// Pins stuck in where cloth was still to come hold it now that it lies.
+    /// Pins placed before the cloth was laid hold it now.
     fn find_lost_pins(&mut self) {
         if self.pinned.contains(&None) {
             self.set_pins(&Arc::clone(&self.places));
         }
     }
 
-    /// Cloth that was adopted gets what is needed to relax it.
+    /// Prepares adopted cloth for relaxation.
     fn resume(&mut self) {
         if self.dressing.is_none() && self.dragging.is_none() {
             self.dressing = self.resumed();
@@ -378,14 +378,14 @@ impl World {
         Some(Arc::new(dressing))
     }
 
-    /// Work done by the dressing under way or at rest.
+    /// Work counters of the wrap or of the drag.
     pub fn work(&self) -> Counters {
         let dragging = self.dragging.as_ref().map(|d| d.counters());
         dragging.or_else(|| self.dressing.as_ref().map(|d| d.counters())).unwrap_or_default()
     }
 
-    /// The garment as it is drawn and measured, where edges are split or pieces deactivated, and where that is; None where
-    /// none is.
+    /// The garment and its cloth as drawn and measured, where edges are split or pieces are deactivated; None where neither is
+    /// so.
     pub fn drawn(&self) -> Option<(Arc<Garment>, Arc<ClothState>)> {
         if let Some(active) = self.active.as_ref().filter(|_| self.sewing.is_none()) {
             return Some((Arc::clone(active), Arc::clone(self.shown().0)));
@@ -401,7 +401,7 @@ impl World {
         drawn.map(|(garment, cloth)| (garment, Arc::new(cloth)))
     }
 
-    /// One tick of work.
+    /// Does a tick of work.
     pub fn step(&mut self) {
         match (&self.posing, &self.trials) {
             (Some(_), _) => self.pose(),
@@ -410,7 +410,7 @@ impl World {
         }
     }
 
-    /// A tick of the cloth as it lies.
+    /// Does a tick of work on the present cloth, leaving changes of pose and trials aside.
     pub(in crate::sim) fn advance(&mut self) {
         if self.sewing.is_some() {
             self.sew();
@@ -427,7 +427,7 @@ impl World {
         }
     }
 
-    /// How far the dressing has come; None without a garment.
+    /// Phase of dressing; None without a garment.
     pub fn phase(&self) -> Option<Phase> {
         self.garment.as_ref()?;
         if self.posing.is_some() || (self.trials.is_some() && self.lies_still()) {
@@ -445,7 +445,7 @@ impl World {
         Some(self.dressing.as_ref().map_or(Phase::AtRest, |d| d.phase()))
     }
 
-    /// 0..=1 over growing and settling.
+    /// Progress of growing and settling, 0..=1.
     pub fn progress(&self) -> f64 {
         if let Some(posing) = &self.posing {
             return posing.progress();
@@ -464,7 +464,7 @@ impl World {
         self.posing.is_none() && self.lies_still() && (self.trials.is_none() || !self.relaxing)
     }
 
-    /// Whether the cloth as it lies has come to rest, or is held still.
+    /// Whether the present cloth has come to rest, or is paused.
     pub(in crate::sim) fn lies_still(&self) -> bool {
         if let Some(dragging) = &self.dragging {
             return dragging.is_still();
@@ -478,7 +478,7 @@ impl World {
         !self.relaxing || self.dressing.as_ref().is_none_or(|d| d.phase() == Phase::AtRest)
     }
 
-    /// Hash of what moves.
+    /// Hash of the moving state.
     pub fn hash(&self) -> u64 {
         cloth_hash(&self.cloth, self.phase(), self.relaxing)
     }
@@ -489,12 +489,13 @@ impl World {
         cloth.positions.iter().zip(&cloth.mapped).position(|(p, &mapped)| mapped && !p.is_finite())
     }
 
-    /// About how much memory this keeps that `other` does not, bytes.
+    /// Estimate of the memory that this takes and does not share with `other`, bytes.
     pub fn bytes_beside(&self, other: Option<&World>) -> usize {
-        /// Position, flag and what a dressing keeps per vertex: most of it the factored matrix.
+        /// Bytes per vertex: position, flag and what a wrap stores, most of it the factored matrix.
         const PER_VERTEX: usize = 1000;
-        /// Corners, rest shape and neighbours per triangle.
+        /// Bytes per triangle: corners, rest shape and neighbours.
         const PER_TRIANGLE: usize = 250;
+        /// Bytes of a world without a garment.
         const ALWAYS: usize = 256;
         let cloth_shared = other.is_some_and(|o| Arc::ptr_eq(&o.cloth, &self.cloth));
         let cloth = if cloth_shared { 0 } else { self.cloth.positions.len() * PER_VERTEX };
@@ -507,9 +508,9 @@ impl World {
     }
 }
 
-/// A garment, cloth that lies in its mesh, and the vertices under the pins.
+/// A garment, cloth in its mesh, and the vertices under the pins.
 struct Cut {
-    /// The mesh is the one that was dressed.
+    /// Whether the mesh is that of the dressed garment.
     is_as_before: bool,
     garment: Arc<Garment>,
     cloth: Arc<ClothState>,
@@ -517,13 +518,13 @@ struct Cut {
     problems: Vec<Problem>,
 }
 
-/// No cloth of `garment`.
+/// Cloth of `garment` with no vertex laid.
 pub(in crate::sim) fn unlaid(garment: &Garment) -> ClothState {
     let count = garment.vertex_count;
     ClothState { positions: vec![DVec3::ZERO; count], mapped: vec![false; count] }
 }
 
-/// Pieces that came to a dressed garment and do not lie yet.
+/// A problem for each piece that was added to a dressed garment and is not laid yet.
 fn unlaid_pieces(garment: &Garment, cloth: &ClothState) -> Vec<Problem> {
     let lies = |piece: PieceId| {
         let mut of_piece =
@@ -540,7 +541,7 @@ fn unlaid_pieces(garment: &Garment, cloth: &ClothState) -> Vec<Problem> {
         .collect()
 }
 
-/// The laid vertex nearest to a flat place, and where that place is, metres.
+/// The laid vertex nearest to a point of the flat cloth, and the position of that point, metres.
 fn vertex_under(garment: &Garment, cloth: &ClothState, place: ClothPlace) -> Option<(u32, DVec3)> {
     let place = FlatPiece::new(garment, place.piece).nearest(garment, place.at)?;
     let point = place.point(garment, cloth)?;

@@ -1,4 +1,4 @@
-//! Cloth that went along when its body took another pose.
+//! Change of pose: the cloth follows when its body takes another pose.
 
 use std::sync::Arc;
 
@@ -11,11 +11,11 @@ use crate::sim::source::GarmentSource;
 use crate::sim::world::World;
 use crate::wrap::Marks;
 
-/// Vertices moved by global steps in one tick of a change of pose, about; one piece of work is done at least.
+/// Approximate number of vertices moved by global steps in one tick of a change of pose; at least one step is done.
 const VERTICES_A_TICK: usize = 40_000;
 
-/// A change of pose. While the cloth lies as it left it, the next one starts from the pose that the cloth was dressed in:
-/// through however many poses it goes, it comes back to where it lay.
+/// A finished change of pose. Until the cloth moves otherwise, the next change starts from the pose that the cloth was dressed
+/// in: after any number of poses, it returns exactly to where it was.
 #[derive(Clone, Debug)]
 pub struct Posed {
     reposer: Reposer,
@@ -23,13 +23,13 @@ pub struct Posed {
     outcome: Outcome,
 }
 
-/// A change of pose under way: the cloth stays as it was before until it has come there. Meanwhile it is shown as carried there.
+/// A change of pose in progress. The cloth keeps its old state until it is done; meanwhile a preview in the new pose is shown.
 #[derive(Clone, Debug)]
 pub struct Posing {
     source: Arc<GarmentSource>,
-    /// In the new pose.
+    /// The body in the new pose.
     body: Arc<Surface>,
-    /// The same body in another size, where the cloth goes at the end.
+    /// The body in its new size, to which the cloth is moved at the end; None for a change of pose alone.
     size: Option<Arc<Surface>>,
     then: Then,
     reposer: Reposer,
@@ -37,14 +37,14 @@ pub struct Posing {
     shown: Arc<ClothState>,
 }
 
-/// What is done with cloth that has come to another pose.
+/// What is done with the cloth once it is in the new pose.
 #[derive(Clone, Debug)]
 pub enum Then {
-    /// It is a picture of a pose on the way.
+    /// Nothing: the pose is a preview.
     Nothing,
-    /// Where it runs through itself in more places than before, physics moves it till it rests, made of that.
+    /// Where the cloth intersects itself in more places than before, drapes it with these fabrics until it rests.
     Part(Arc<DrapeSource>),
-    /// The same, and otherwise it settles.
+    /// Drapes like [`Then::Part`] where that is needed, and settles the cloth otherwise.
     Settle(Arc<DrapeSource>),
 }
 
@@ -55,15 +55,15 @@ impl Then {
 }
 
 impl Posing {
-    /// 0..=1.
+    /// Progress, 0..=1.
     pub fn progress(&self) -> f64 {
         self.change.progress()
     }
 }
 
 impl World {
-    /// On its way to lying on its body in the pose of `body`, which takes some ticks. None where nothing is dressed; cloth that
-    /// still grows begins again there. The error is in words.
+    /// A world in which the cloth begins to follow its body to the pose of `body`, which takes some ticks. None where nothing is
+    /// dressed; cloth that still grows starts again there. The error is in words.
     pub fn reposed(
         &mut self,
         body: Arc<Surface>,
@@ -103,8 +103,9 @@ impl World {
         Ok(Some(Self { posing: Some(Arc::new(posing)), ..self.clone() }))
     }
 
-    /// The dressed cloth on `body`, its own in another size, of which `through` is the same in the triangles of its own. None
-    /// where nothing is dressed; cloth that still grows or is sewn begins again there. The error is in words.
+    /// A world in which the cloth begins to follow its body to the size of `body`; `through` is that size in the present
+    /// triangles. None where nothing is dressed; cloth that still grows or is being sewn starts again there. The error is in
+    /// words.
     pub fn resized(
         &mut self,
         through: Arc<Surface>,
@@ -124,7 +125,7 @@ impl World {
         Ok(world)
     }
 
-    /// What is shown and saved: the cloth, what it was cut from, and the body it is on.
+    /// What is shown and saved: the cloth, the source of its garment, and the body it is on.
     pub fn shown(&self) -> (&Arc<ClothState>, Option<&Arc<GarmentSource>>, Option<&Arc<Surface>>) {
         match &self.posing {
             Some(posing) => {
@@ -135,7 +136,7 @@ impl World {
         }
     }
 
-    /// A tick of the change of pose under way.
+    /// Does a tick of the change of pose.
     pub(in crate::sim) fn pose(&mut self) {
         let Some(posing) = &mut self.posing else { return };
         let posing = Arc::make_mut(posing);
@@ -149,7 +150,7 @@ impl World {
         }
     }
 
-    /// Ends the change of pose under way, if there is one, at once.
+    /// Finishes the change of pose, if there is one, at once.
     pub fn finish_posing(&mut self) {
         let Some(posing) = self.posing.take() else { return };
         let Posing { source, body, size, then, mut reposer, mut change, .. } = Arc::unwrap_or_clone(posing);
@@ -164,7 +165,7 @@ impl World {
             .as_ref()
             .and_then(|garment| Splits::of_lying(garment, &cloth, to, source.relax.offset).map(Arc::new));
         let more_crossings = outcome.crossings > reposer.crossings();
-        // Another pose is not gone to from triangles that the body has no longer.
+        // The next change of pose cannot start from triangles that the body no longer has.
         let posed = Posed { reposer, cloth: Arc::clone(&cloth), outcome };
         self.posed = size.is_none().then(|| Arc::new(posed));
         (self.source, self.body, self.cloth) = (Some(source), Some(size.unwrap_or(body)), cloth);
@@ -177,12 +178,12 @@ impl World {
         self.part_active();
     }
 
-    /// What came of the last change of pose, while the cloth lies as it left it.
+    /// Statistics of the last change of pose; None once the cloth has moved since.
     pub fn outcome(&self) -> Option<Outcome> {
         self.lying_as_posed().map(|posed| posed.outcome)
     }
 
-    /// Where it lies now, the last change of pose has left it.
+    /// Declares the present position of the cloth the result of the change of pose `posed`.
     pub(in crate::sim) fn lies_as(&mut self, posed: Arc<Posed>) {
         self.posed = Some(Arc::new(Posed { cloth: Arc::clone(&self.cloth), ..Arc::unwrap_or_clone(posed) }));
     }

@@ -1,4 +1,4 @@
-//! Sewing a garment together from where its pieces were placed. One of many triangles is sewn and draped in a coarser mesh first.
+//! Sewing a garment together from the placement of its pieces. A garment of many triangles is sewn and draped in a coarser mesh first.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -22,27 +22,27 @@ use crate::sim::source::GarmentSource;
 use crate::sim::world::coarse::coarse_edge;
 use crate::sim::world::{World, unlaid};
 
-/// Share of the progress that sewing has where draping in the same mesh follows.
+/// Share of the progress that is shown for sewing when draping of the coarser mesh follows.
 const SEWING_SHARE: f64 = 0.7;
 
-/// A garment that is sewn layer by layer, the innermost first: each over those that lie already (paper B, "multi-layer").
+/// A garment sewn in layers, the innermost first, each over those already worn (paper B, "multi-layer").
 #[derive(Debug)]
 pub struct Outfit {
     garment: Arc<Garment>,
-    /// Where its flat corners were placed, metres.
+    /// Placement of each flat corner, metres; None: not placed.
     places: Vec<Option<DVec3>>,
     fabrics: Arc<DrapeSource>,
 }
 
 impl Outfit {
-    /// The first layer above `inner`, or of all, that has a placed piece.
+    /// The lowest layer above `inner`, or of all, that has a placed piece.
     fn next(&self, inner: Option<u8>) -> Option<u8> {
         let placed = self.garment.corners.iter().zip(&self.places).filter(|(_, place)| place.is_some());
         let layers = placed.map(|(corner, _)| self.garment.layer(corner.piece));
         layers.filter(|&layer| inner.is_none_or(|inner| layer > inner)).min()
     }
 
-    /// Begins to sew `layer` over what is laid of `worn`.
+    /// Begins to sew `layer` over the laid part of `worn`.
     fn begun(
         &self,
         layer: u8,
@@ -76,20 +76,20 @@ fn coarser(source: &GarmentSource, garment: &Garment) -> Option<Garment> {
     is_whole.then_some(coarse)
 }
 
-/// Pieces on their way to one another.
+/// The sewing of a layer in progress.
 #[derive(Clone, Debug)]
 pub struct Placed {
     sewing: Sewing,
     outfit: Arc<Outfit>,
     layer: u8,
-    /// The mesh that goes on from where the coarser one of `outfit` comes to rest; None: that is the garment's own.
+    /// The garment's own mesh, if that of `outfit` is coarser: it is draped from where the coarser one comes to rest.
     fine: Option<Arc<Garment>>,
-    /// The coarser one once it is sewn.
+    /// Simulation of the coarser mesh once its seams are sewn.
     draped: Option<DrapedGarment>,
 }
 
 impl Placed {
-    /// 0..=1.
+    /// Progress, 0..=1.
     pub fn progress(&self) -> f64 {
         match (&self.fine, &self.draped) {
             (None, _) => self.sewing.progress(),
@@ -113,7 +113,7 @@ impl Placed {
 }
 
 impl World {
-    /// A garment just built, its pieces where they were placed. Draping follows the sewing.
+    /// A garment just built, with sewing from the placement of its pieces begun. Draping follows.
     pub fn placed(
         source: Arc<GarmentSource>,
         body: Arc<Surface>,
@@ -159,7 +159,7 @@ impl World {
         })
     }
 
-    /// The same again, of what has changed meanwhile.
+    /// Starts the sewing again with changed `source` and `body`; None while nothing is being sewn.
     pub(in crate::sim) fn placed_again(
         &self,
         source: Arc<GarmentSource>,
@@ -170,7 +170,7 @@ impl World {
         Some(Self::placed(source, body, fabrics).map(|world| Self { places, ..world }))
     }
 
-    /// A tick of sewing.
+    /// Does a tick of sewing, or a part of one.
     pub(in crate::sim) fn sew(&mut self) {
         let Some(placed) = self.sewing.as_mut().map(Arc::make_mut) else { return };
         let ticked = placed.go_on(Arc::make_mut(&mut self.cloth));
@@ -242,7 +242,7 @@ impl World {
         self.outer = outfit.next(Some(placed.layer)).map(|layer| (Arc::clone(outfit), layer));
     }
 
-    /// Once sewn cloth lies still: which seams are too short for this body. Before that the skin or folds may hold them open.
+    /// Once sewn cloth rests, reports seams that are too short for this body. Earlier, skin or folds may hold them open.
     pub(in crate::sim) fn tell_short_seams(&mut self) {
         let Some(garment) = self.garment.clone().filter(|_| std::mem::take(&mut self.seams_unseen)) else {
             return;
@@ -260,7 +260,7 @@ impl World {
         }
     }
 
-    /// What has come to rest is dressed over, where there is more to wear.
+    /// Once the cloth rests, begins to sew the next layer, if there is one.
     pub(in crate::sim) fn sew_next_layer(&mut self) {
         let Some((outfit, layer)) = self.outer.take() else { return };
         let (Some(body), Some(source)) = (&self.body, &self.source) else { return };

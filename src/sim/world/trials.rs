@@ -1,4 +1,4 @@
-//! The best start for a garment without marks: ways to put it on are tried one after the other until one has no fault.
+//! Search for the best start of a garment: ways to put it on are tried one after the other until one has no fault.
 
 use std::sync::Arc;
 
@@ -12,16 +12,16 @@ use crate::sim::world::World;
 use crate::sim::world::coarse::coarse_edge;
 use crate::wrap::suggested;
 
-/// Ticks after which a start is judged as its cloth lies, unless there is no other start.
+/// Ticks after which a start is judged even if its cloth still moves, unless it is the only one.
 const MOST_TICKS: u32 = 2000;
 
-/// What cloth is judged by.
+/// Judgement of the cloth.
 pub(in crate::sim) struct Judged {
     pub faults: Vec<Fault>,
     pub tight: Vec<TightPlace>,
-    /// Crossings, triangles and vertices that are wrong, and open seams.
+    /// Number of self-intersections, wrong triangles and vertices, and open seams.
     pub places: usize,
-    /// The body does not pass through an opening, or cloth never reached it: no draping mends that.
+    /// Whether the body does not pass through an opening, or some cloth was never laid: draping cannot mend that.
     pub is_astray: bool,
 }
 
@@ -34,45 +34,44 @@ pub struct Trials {
     choice: StartChoice,
     left: Vec<Start>,
     now: Start,
-    /// The start is being draped by [`Trials`], as marks are after their wrap.
+    /// Whether [`Trials`] is draping the start, as it does after the wrap of [`Start::Marks`].
     draping: bool,
-    /// Of this start so far.
+    /// Ticks of the present start.
     ticks: u32,
     tried: Vec<Tried>,
-    /// What was kept of those that may be taken, and which of `tried` it is.
+    /// The best result so far, as a world and an index in `tried`.
     best: Option<(Arc<World>, usize)>,
-    /// The last tick broke down.
+    /// Failure of the last tick, in words.
     broken: Option<String>,
-    /// The garment's own edge length, metres, where `source` has a coarser one.
+    /// Edge length of the garment's own mesh, metres, if `source` has a coarser one.
     fine: Option<f64>,
-    /// What was taken, once its cloth goes on in the garment's own mesh.
+    /// Result of the trials, while the cloth of the start that was taken settles in the garment's own mesh.
     refining: Option<Started>,
 }
 
 impl Trials {
-    /// What is being dressed.
+    /// The source of the garment.
     pub(in crate::sim) fn source(&self) -> &Arc<GarmentSource> {
         &self.source
     }
 
-    /// The start under way, and whether it is draped already.
+    /// The present start, and whether it is being draped.
     pub fn now(&self) -> (Start, bool) {
         (self.now, self.draping || self.now == Start::Placement)
     }
 
-    /// Whether the start under way has had its time. It has all it needs where there is no other, as where several layers are sewn
-    /// over each other.
+    /// Whether the present start has used up its time. An only start has as much as it needs, for example to sew several layers.
     fn is_out_of_time(&self) -> bool {
         let is_last = self.best.is_none() && self.left.is_empty();
         self.ticks >= MOST_TICKS && !is_last && self.refining.is_none()
     }
 
-    /// How many starts have been judged.
+    /// Number of results so far.
     pub fn count(&self) -> usize {
         self.tried.len()
     }
 
-    /// Notes what came of the start under way, whose cloth is `world`.
+    /// Records the result of the present start, whose cloth is in `world`.
     fn note(&mut self, world: World, faults: Vec<String>, places: usize) {
         let tried = Tried { start: self.now, draped: self.now().1, faults, places, ticks: self.ticks };
         let is_clean = self.is_clean(&tried);
@@ -87,19 +86,19 @@ impl Trials {
         self.tried.push(tried);
     }
 
-    /// Whether `tried` may be taken and has no fault.
+    /// Whether `tried` is acceptable and has no fault.
     fn is_clean(&self, tried: &Tried) -> bool {
         tried.faults.is_empty() && (tried.draped || !self.choice.draped)
     }
 
-    /// Whether one without a fault was kept.
+    /// Whether the best result has no fault.
     fn has_clean(&self) -> bool {
         self.best.as_ref().is_some_and(|(_, best)| self.is_clean(&self.tried[*best]))
     }
 }
 
 impl World {
-    /// Begins to try the starts that `choice` allows. The error is in words: none of them can be begun.
+    /// Begins to try the starts that `choice` allows. The error, in words, says that none of them can be begun.
     pub fn dressed(
         source: Arc<GarmentSource>,
         body: Arc<Surface>,
@@ -137,7 +136,7 @@ impl World {
         }
     }
 
-    /// The next start that can be begun; those that cannot are noted.
+    /// Begins the next start that can be begun; failures are recorded.
     fn next_start(trials: &mut Trials) -> Option<Self> {
         while let Some(start) = trials.left.pop() {
             (trials.now, trials.draping, trials.ticks) = (start, false, 0);
@@ -152,7 +151,7 @@ impl World {
         None
     }
 
-    /// A tick while starts are tried: of the one under way, or what comes after it.
+    /// Does a tick while starts are tried: one of the present start, or the transition to the next.
     pub(in crate::sim) fn try_on(&mut self) {
         let Some(mut trials) = self.trials.take() else { return };
         let now = Arc::make_mut(&mut trials);
@@ -160,7 +159,7 @@ impl World {
         let is_over = broken.is_some() || self.lies_still() || now.is_out_of_time();
         if !is_over {
             now.ticks += 1;
-            // Kept where this tick breaks down.
+            // Kept in place in case this tick fails.
             self.trials = Some(trials);
             return self.advance();
         }
@@ -170,14 +169,14 @@ impl World {
         }
     }
 
-    /// The start under way failed with these words. False where none is under way.
+    /// Records the failure of the present start, in words. False where none is being tried.
     pub fn break_start(&mut self, words: String) -> bool {
         let Some(trials) = &mut self.trials else { return false };
         Arc::make_mut(trials).broken = Some(words);
         true
     }
 
-    /// Tries all starts again with what has changed meanwhile; None where none is being tried.
+    /// Starts the trials again with changed `source` and `body`; None where none are in progress.
     pub(in crate::sim) fn tried_again(
         &self,
         source: Arc<GarmentSource>,
@@ -192,21 +191,21 @@ impl World {
         Some(again.map(|world| Self { relaxing: self.relaxing, ..world }))
     }
 
-    /// Starts that are still to be tried begin with what `change` makes of the garment.
+    /// Applies `change` to the source of the starts still to be tried.
     pub(in crate::sim) fn change_trials(&mut self, change: impl FnOnce(&mut GarmentSource)) {
         if let Some(trials) = &mut self.trials {
             change(Arc::make_mut(&mut Arc::make_mut(trials).source));
         }
     }
 
-    /// They are made of something else.
+    /// Replaces the fabrics of the starts still to be tried.
     pub(in crate::sim) fn change_trial_fabrics(&mut self, fabrics: &Arc<DrapeSource>) {
         if let Some(trials) = &mut self.trials {
             Arc::make_mut(trials).fabrics = Arc::clone(fabrics);
         }
     }
 
-    /// Judges the start that has ended. What was taken, once it is known; else this is now the next one.
+    /// Judges the start that has ended. Returns the world that was taken, or None where another stage or start has begun.
     fn after_start(&mut self, trials: &mut Trials, broken: Option<String>) -> Option<Self> {
         let mut faults: Vec<String> = broken.into_iter().collect();
         let (mut places, mut is_astray) = (0, false);
@@ -237,7 +236,7 @@ impl World {
             self.drape_for(None, Arc::clone(&trials.fabrics));
             return None;
         }
-        // The same marks without draping may have been clean.
+        // The same marks may have been without fault before draping.
         if !trials.has_clean() {
             let relaxing = self.relaxing;
             if let Some(next) = Self::next_start(trials) {
@@ -257,7 +256,7 @@ impl World {
         Some(Self { started: Some(Arc::new(started)), ..world })
     }
 
-    /// What is wrong with the cloth as it lies and where it is tight; None where there is no garment.
+    /// Faults and tight places of the cloth; None where there is no garment.
     pub(in crate::sim) fn judged(&self) -> Option<Judged> {
         let (source, garment, body) = (self.source.as_ref()?, self.garment.as_ref()?, self.body.as_ref()?);
         let split = self.drawn();
@@ -275,7 +274,7 @@ impl World {
     }
 }
 
-/// The garment of `trials` begun by `start`; the error is in words.
+/// Begins `start` with the garment of `trials`; the error is in words.
 fn begun(start: Start, trials: &Trials) -> Result<World, String> {
     let (source, body) = (Arc::clone(&trials.source), Arc::clone(&trials.body));
     if start == Start::Placement {
@@ -298,7 +297,7 @@ fn begun(start: Start, trials: &Trials) -> Result<World, String> {
     ))
 }
 
-/// In how many places a garment is wrong.
+/// Number of places with faults.
 fn places(report: &Report, lies: Lies) -> usize {
     let folds = if lies.draped { report.faces_in_folds + report.faces_between } else { 0 };
     let inside = report.penetration.vertices + report.penetration.faces;
@@ -308,7 +307,7 @@ fn places(report: &Report, lies: Lies) -> usize {
     inside + through + cloth + missing + report.seams.open + (report.flipped_faces - folds)
 }
 
-/// Whether cloth is where no draping can mend it.
+/// Whether the cloth is where draping cannot mend it.
 fn is_astray(report: &Report) -> bool {
     let is_missed = report.openings.len() > 1 && report.openings.iter().any(|opening| !opening.body_through);
     is_missed || report.pieces.iter().any(|piece| piece.missing_triangles > 0)

@@ -1,4 +1,4 @@
-//! What panes and panels ask for. They read the document and never change it.
+//! Requests that panes and panels make to the app. They read the document and never change it themselves.
 
 use crate::fit::MapKind;
 use crate::geometry::ids::MarkId;
@@ -7,39 +7,39 @@ use crate::sim::ClothPlace;
 use crate::ui::actions::Action;
 use crate::ui::selection::Selection;
 
-/// One wish.
+/// A request to the app.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Ask {
-    /// Choose something.
+    /// Run an action, as if it was chosen in a menu.
     Act(Action),
-    /// Carry out a command as a step of its own.
+    /// Apply a command as an undo step of its own.
     Do(Command),
-    /// Carry out a command as part of the drag under way.
+    /// Apply a command as part of the drag in progress.
     Drag(Command),
-    /// The drag is over.
+    /// End the drag.
     EndDrag,
-    /// Take the drag back.
+    /// Undo what the drag has done and end it.
     CancelDrag,
-    /// Select a mark, or none.
+    /// Select a mark, or no mark.
     Select(Option<MarkId>),
-    /// Select this of the pattern, and nothing else.
+    /// Replace the selection in the pattern.
     Pick(Selection),
-    /// Select the first of the pairs of marks with these numbers (from 1), and show them all.
+    /// Select the first of the pairs of marks with these numbers (from 1), and turn the view to all of them.
     ShowMarks(Vec<usize>),
-    /// Select the piece of this tight place, ring the place and turn the view to it.
+    /// Select the piece of this tight place, draw a ring round the place and turn the view to it.
     ShowPlace(ClothPlace),
-    /// Go this many steps back (less than 0) or forth in the history.
+    /// Go this many steps through the history: negative undoes, positive redoes.
     Jump(i32),
-    /// Let the colours of a map span this, in the unit that is shown; None: as far as its values do.
+    /// Set the range of values that the colours of a map span, in the unit that is shown; None: the range of its values.
     MapRange(MapKind, Option<[f64; 2]>),
-    /// Say something to the person.
+    /// Show a message to the user.
     Say(String),
 }
 
-/// Wishes in order.
+/// Requests in the order in which they were made.
 pub type Asks = Vec<Ask>;
 
-/// Asks for `commands` as one step of undo.
+/// Requests that `commands` are applied as one undo step.
 pub fn in_one_step(commands: Vec<Command>, asks: &mut Asks) {
     if !commands.is_empty() {
         asks.extend(commands.into_iter().map(Ask::Drag));

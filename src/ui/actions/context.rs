@@ -1,4 +1,4 @@
-//! What menus, buttons and panels need to know to show themselves.
+//! The state of the app that menus, buttons and panels need to show themselves, and when an action is enabled.
 
 use std::sync::Arc;
 
@@ -24,111 +24,111 @@ use crate::ui::selection::Item;
 use crate::ui::shell::pace::Pace;
 use crate::wrap::{MarkPlace, Phase};
 
-/// How things stand in this frame.
+/// The state of the app in this frame.
 #[derive(Clone, Debug)]
 pub struct FrameContext {
-    /// What undo would take back.
+    /// Name of the step that undo would take back; None if there is none.
     pub undo: Option<String>,
-    /// What redo would do again.
+    /// Name of the step that redo would do again; None if there is none.
     pub redo: Option<String>,
-    /// What the left button does.
+    /// The chosen tool, which the left mouse button uses.
     pub tool: Tool,
-    /// What all mouse buttons do.
+    /// The mapping of mouse buttons.
     pub mouse: Mouse,
-    /// What patterns are printed on.
+    /// Paper that patterns are printed on.
     pub paper: Paper,
-    /// Strokes go through everything under the pointer.
+    /// Laser mode: strokes go through all layers under the pointer.
     pub laser: bool,
-    /// Pieces on the table.
+    /// Number of pieces in the pattern.
     pub pieces: usize,
-    /// Marks on the cloth and on the body.
+    /// Number of marks on the cloth and on the body.
     pub marks: [usize; 2],
-    /// Pins in the cloth.
+    /// Number of pins in the cloth.
     pub pins: usize,
-    /// What is selected of the pattern.
+    /// Summary of the selection in the pattern.
     pub picked: Picked,
-    /// Seams join fronts to backs.
+    /// Whether some seam is twisted: it joins the front of one piece to the back of another.
     pub twisted: bool,
-    /// What lies near draws the pointer on.
+    /// Whether the pointer snaps to points, edges, guides and the grid.
     pub snapping: bool,
-    /// What of the pattern the pointer is over, in either pane.
+    /// The item of the pattern under the pointer, in either pane.
     pub highlight: Option<Item>,
-    /// How many points of the screen a metre takes.
+    /// Screen points per metre at true size.
     pub points_per_metre: f64,
-    /// How fast window and simulation go.
+    /// Speed of the window and of the simulation.
     pub pace: Pace,
-    /// What lengths are shown in.
+    /// Unit in which lengths are shown.
     pub unit: LengthUnit,
-    /// The selected mark.
+    /// The selected mark and its place among the marks.
     pub selected: Option<(MarkId, MarkPlace)>,
-    /// Pairs of marks proposed and not accepted yet.
+    /// Number of proposed pairs of marks that are not accepted yet.
     pub proposed: usize,
-    /// There is a body that cloth can be put on.
+    /// Whether there is a body that cloth can be put on.
     pub has_body: bool,
-    /// There is cloth on the body.
+    /// Whether there is cloth on the body.
     pub dressed: bool,
-    /// The cloth lies as a wrap has laid it, which can be taken back.
+    /// Whether the cloth is the result of a wrap, which can be removed again.
     pub wrapped: bool,
-    /// A wrap was asked for and the cloth is not all on the body yet.
+    /// Whether a wrap is in progress and the cloth is not all on the body yet.
     pub wrapping: bool,
-    /// While starts are tried: the one under way, and whether it is draped already.
+    /// While starts are tried: the current start, and whether it is being draped.
     pub trying: Option<(Start, bool)>,
-    /// The simulation has something to do.
+    /// Whether the simulation has work to do.
     pub working: bool,
-    /// The simulation has done what it was asked for so far.
+    /// Whether the simulation has finished all requests.
     pub caught_up: bool,
-    /// Cloth is in the hand.
+    /// Whether cloth is being dragged.
     pub dragging: bool,
-    /// False while held still.
+    /// Whether the cloth relaxes; false while it is paused.
     pub relaxing: bool,
-    /// A piece is placed in space.
+    /// Whether some piece is placed around the body.
     pub placed: bool,
-    /// How draping stands.
+    /// State of draping.
     pub drape: Option<DrapeState>,
-    /// How far the dressing has come.
+    /// Phase of the wrap.
     pub phase: Option<Phase>,
-    /// 0..=1.
+    /// Progress of the work, 0..=1.
     pub progress: f64,
-    /// Ticks of the simulation.
+    /// Number of ticks of the simulation.
     pub tick: u64,
-    /// Triangles of the garment.
+    /// Number of triangles of the garment.
     pub triangles: usize,
-    /// The cloth is drawn.
+    /// Whether the cloth is drawn.
     pub show_cloth: bool,
     /// Which panes are shown, and where.
     pub layout: Layout,
-    /// The side panel is open.
+    /// Whether the side panel is open.
     pub show_panel: bool,
-    /// The project is in a file.
+    /// Whether the project has a file.
     pub has_file: bool,
-    /// Near and far look the same size.
+    /// Whether the projection is parallel.
     pub parallel: bool,
-    /// The view turns like a ball.
+    /// Whether the view turns by trackball instead of turntable.
     pub free_turning: bool,
-    /// A demo is shown.
+    /// Whether a demo is shown.
     pub demo: bool,
-    /// Dark, light or as the system.
+    /// Theme of the interface.
     pub theme: ThemePreference,
-    /// Which keys do what.
+    /// Keyboard shortcuts.
     pub keymap: Arc<Keymap>,
-    /// Files that were open before.
+    /// Recently opened files.
     pub recent: Arc<Vec<RecentFile>>,
-    /// What is drawn of body and cloth besides their surfaces.
+    /// Display options of body and cloth.
     pub sight: Sight,
-    /// What is open below the panes.
+    /// What the drawer below the panes shows; None when it is closed.
     pub drawer: Option<Drawer>,
-    /// What the cloth is coloured by.
+    /// Map that the cloth is coloured by.
     pub map: Option<MapKind>,
-    /// Another garment is shown beside; whether the difference to it is.
+    /// None: no other garment is shown beside; else whether the difference to it is shown.
     pub difference: Option<bool>,
-    /// What draws the body; None: nothing can.
+    /// Name of the graphics adapter; None if there is none.
     pub adapter: Option<String>,
-    /// A turn of pictures or a fit report is being made.
+    /// Whether a turntable or a fit report is being made.
     pub picturing: bool,
 }
 
 impl FrameContext {
-    /// Why `action` cannot be chosen now; None when it can.
+    /// Why `action` is disabled; None when it is enabled.
     pub fn why_not(&self, action: Action) -> Option<&'static str> {
         let row = action.row();
         if self.demo && !row.in_demos {
@@ -137,7 +137,7 @@ impl FrameContext {
         row.needs.iter().find_map(|&need| self.lacks(need, action))
     }
 
-    /// What is to be told where there is not what `action` needs.
+    /// The reason to show if `need` of `action` is not met; None when it is met.
     fn lacks(&self, need: Need, action: Action) -> Option<&'static str> {
         let picked = &self.picked;
         let (is_there, words) = match need {
@@ -202,7 +202,7 @@ impl FrameContext {
         }
     }
 
-    /// Whether physics moves the cloth.
+    /// Whether the cloth is moved by draping.
     fn drapes(&self) -> bool {
         self.drape.is_some_and(|drape| drape.on && drape.runs)
     }
@@ -212,15 +212,15 @@ impl FrameContext {
         self.marks[0].min(self.marks[1]) > 0
     }
 
-    /// Whether *Dress* is what comes next, rather than *Wrap*: pieces stand round the body, and there are no marks.
+    /// Whether *Dress* is the next step rather than *Wrap*: pieces are placed around the body, and there are no marks.
     pub fn is_for_dress(&self) -> bool {
         self.placed && !self.has_pairs()
     }
 
-    /// Whether `action` names something that is on.
+    /// Whether the option or tool that `action` chooses is on.
     pub fn is_on(&self, action: Action) -> bool {
         match action {
-            // The one button for dragging stands for all its ways.
+            // The one button for dragging is on for all drag modes.
             Action::Choose(Tool::Drag(DragMode::Surface)) => matches!(self.tool, Tool::Drag(_)),
             Action::Choose(tool) => self.tool == tool,
             Action::ToggleLaser => self.laser,
@@ -254,7 +254,7 @@ impl FrameContext {
         }
     }
 
-    /// The text of `action`, with what undo and redo are about.
+    /// The label of `action`; for undo and redo with the name of the step.
     pub fn text(&self, action: Action) -> String {
         let plain = action.row().text;
         if let Action::OpenRecent(i) = action

@@ -1,12 +1,12 @@
-//! What can be opened below the panes.
+//! The contents of the drawer below the panes.
 
-/// What is open.
+/// What the drawer shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Drawer {
-    /// Every step that can be undone or done again.
+    /// The undo history.
     History,
-    /// Messages of this session.
+    /// The messages of this session.
     Log,
-    /// What the map shows, in figures.
+    /// The map as a table.
     Map,
 }

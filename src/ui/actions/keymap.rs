@@ -1,4 +1,4 @@
-//! Which keys do what: those of the table of actions, or others of the person's own.
+//! Keyboard shortcuts: the defaults of the table of actions, or the user's own.
 
 use std::collections::BTreeMap;
 
@@ -8,16 +8,16 @@ use serde::{Deserialize, Serialize};
 use crate::ui::actions::Action;
 use crate::ui::actions::rows::all;
 
-/// Keys of the person's own; every other action has those of the table.
+/// The user's own keyboard shortcuts; every other action has its default ones.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Keymap {
-    /// By the action's id, each key as [`written`]. An empty list takes all keys away.
+    /// The user's keys by the action's id, each key as [`written`]. An empty list leaves the action without keys.
     own: BTreeMap<String, Vec<String>>,
 }
 
 impl Keymap {
-    /// The keys of `action`, the first one shown.
+    /// The keys of `action`; menus show the first.
     pub fn keys(&self, action: Action) -> Vec<KeyboardShortcut> {
         match self.own.get(&action.id()) {
             Some(own) => own.iter().filter_map(|text| read(text)).collect(),
@@ -25,7 +25,7 @@ impl Keymap {
         }
     }
 
-    /// Everything with keys, longest combinations first so that Ctrl+Shift+Z is not taken for Ctrl+Z.
+    /// All actions with keys, combinations with most modifiers first, so that Ctrl+Shift+Z is not taken for Ctrl+Z.
     pub fn bound(&self) -> Vec<(Action, KeyboardShortcut)> {
         let mut all: Vec<(Action, KeyboardShortcut)> =
             all().flat_map(|action| self.keys(action).into_iter().map(move |k| (action, k))).collect();
@@ -35,18 +35,18 @@ impl Keymap {
         all
     }
 
-    /// What else `keys` do besides `action`.
+    /// Other actions that `keys` are bound to.
     pub fn others(&self, action: Action, keys: KeyboardShortcut) -> Vec<Action> {
         let others = self.bound().into_iter().filter(|(other, k)| *other != action && *k == keys);
         others.map(|(other, _)| other).collect()
     }
 
-    /// Whether `action` has keys of the person's own.
+    /// Whether the user has changed the keys of `action`.
     pub fn is_own(&self, action: Action) -> bool {
         self.own.contains_key(&action.id())
     }
 
-    /// From now on `keys` do `action` and nothing else.
+    /// Binds `keys` to `action` and to no other.
     pub fn bind(&mut self, action: Action, keys: KeyboardShortcut) {
         for other in self.others(action, keys) {
             let left = self.keys(other).into_iter().filter(|k| *k != keys).map(written).collect();
@@ -55,12 +55,12 @@ impl Keymap {
         self.set(action, vec![written(keys)]);
     }
 
-    /// No keys do `action` any more.
+    /// Removes all keys of `action`.
     pub fn unbind(&mut self, action: Action) {
         self.set(action, Vec::new());
     }
 
-    /// The keys of the table again, where nothing else has them.
+    /// Restores the default keys of `action` and removes them from other actions.
     pub fn reset(&mut self, action: Action) {
         self.own.remove(&action.id());
         for keys in self.keys(action) {
@@ -81,7 +81,7 @@ impl Keymap {
     }
 }
 
-/// "Ctrl+Shift+Z".
+/// A key combination in words, such as "Ctrl+Shift+Z".
 pub fn written(keys: KeyboardShortcut) -> String {
     let held = keys.modifiers;
     let named = [(held.command || held.ctrl, "Ctrl+"), (held.shift, "Shift+"), (held.alt, "Alt+")];
@@ -90,7 +90,7 @@ pub fn written(keys: KeyboardShortcut) -> String {
     text
 }
 
-/// The reverse of [`written`]; None for what is no key.
+/// The reverse of [`written`]; None if `text` is not a key combination.
 fn read(text: &str) -> Option<KeyboardShortcut> {
     let mut modifiers = Modifiers::NONE;
     let mut rest = text;
@@ -104,7 +104,7 @@ fn read(text: &str) -> Option<KeyboardShortcut> {
     Some(KeyboardShortcut::new(modifiers, Key::from_name(rest)?))
 }
 
-/// Keys as they came from the keyboard, on any system: Ctrl and Cmd are one.
+/// A pressed key combination, the same on all systems: Ctrl and Cmd are one.
 pub fn pressed(key: Key, held: Modifiers) -> KeyboardShortcut {
     let mut modifiers = Modifiers::NONE;
     for (is, modifier) in [

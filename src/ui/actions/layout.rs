@@ -1,4 +1,4 @@
-//! Which panes are shown, and where.
+//! The layout of the two panes.
 
 use serde::{Deserialize, Serialize};
 
@@ -13,16 +13,16 @@ pub enum Panes {
 }
 
 impl Panes {
-    /// All ways.
+    /// All choices, in the order of menus.
     pub const ALL: [Self; 3] = [Self::Both, Self::Pattern, Self::Body];
 }
 
-/// How the panes are laid out.
+/// Which panes are shown, and on which side.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Layout {
-    /// Which are shown.
+    /// The panes that are shown.
     pub panes: Panes,
-    /// The body is on the left.
+    /// Whether the body pane is on the left.
     pub swapped: bool,
 }

@@ -1,4 +1,4 @@
-//! Everything that can be chosen, its row in one table, and what panes and panels ask for.
+//! Everything that can be chosen: the actions with their table, the tools, and the requests of panes and panels.
 
 pub(in crate::ui) mod asks;
 pub(in crate::ui) mod context;
@@ -22,17 +22,17 @@ use crate::ui::actions::layout::Panes;
 use crate::ui::pointer::mouse::Mouse;
 use crate::ui::preferences::units::LengthUnit;
 
-/// What the left mouse button does in the panes.
+/// A tool, which the left mouse button uses in the panes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Tool {
     /// Paints marks on cloth and body.
     #[default]
     Mark,
-    /// Takes marks away.
+    /// Deletes marks.
     Erase,
     /// Selects, moves, scales, turns and flips pieces.
     Move,
-    /// Moves points, edges and curves of pieces.
+    /// Moves points, edges and curves of outlines.
     Points,
     /// Draws pieces point by point.
     Pen,
@@ -48,30 +48,30 @@ pub enum Tool {
     Hole,
     /// Cuts pieces in two.
     Cut,
-    /// Stands pieces round the body, before they are sewn.
+    /// Places pieces around the body before they are sewn.
     Place,
     /// Cuts darts into edges.
     Dart,
     /// Cuts notches into edges.
     Notch,
-    /// Draws the arrow along the warp.
+    /// Draws the grainline.
     Grain,
     /// Drags dressed cloth.
     Drag(DragMode),
     /// Pins dressed cloth to where it is.
     Pin,
-    /// Draws bones in the body.
+    /// Draws bones inside the body.
     Bone,
 }
 
-/// Something that can be chosen.
+/// An action: something that can be chosen in menus, on buttons or by keys.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Action {
     New,
     StartPage,
     Sample(Sample),
     Open,
-    /// The file with this place in the list of those opened before, from 0.
+    /// Open the file at this index (from 0) of the recent files.
     OpenRecent(u8),
     ClearRecent,
     Save,
@@ -83,7 +83,7 @@ pub enum Action {
     ExportPattern,
     ImportBody,
     PoseFromFile,
-    /// Take numbered OBJ files as an animation of the body.
+    /// Read numbered OBJ files as an animation of the body.
     Sequence,
     Sizes,
     UseMannequin,
@@ -103,11 +103,11 @@ pub enum Action {
     ClearPins,
     OwnBones,
     NoBones,
-    /// Bring the pieces to where they belong on this body.
+    /// Move the placed pieces to the body, and sleeves to its arms.
     BringPieces,
-    /// Roll standing pieces, or make them flat.
+    /// Roll placed pieces round the limbs, or make them flat.
     ToggleRolled,
-    /// Take pieces from the body: they stand nowhere.
+    /// Remove the placement of pieces.
     Unplace,
     SuggestMarks,
     AcceptMarks,
@@ -166,7 +166,7 @@ pub enum Action {
     SwapPanes,
     ToggleHistory,
     ToggleLog,
-    /// Colours the cloth; None: as it is.
+    /// Colour the cloth by a map; None: by its own colours.
     Map(Option<MapKind>),
     ToggleMapTable,
     Compare,
@@ -184,7 +184,7 @@ pub enum Action {
     StopDemo,
 }
 
-/// The tools of the pattern in the order of their strip and menu, group by group.
+/// Tools of the pattern pane in the order of their strip and menu, group by group.
 pub const PATTERN_TOOLS: [&[Tool]; 4] = [
     &[Tool::Move, Tool::Points],
     &[Tool::Pen, Tool::Rectangle, Tool::Ellipse],
@@ -192,7 +192,7 @@ pub const PATTERN_TOOLS: [&[Tool]; 4] = [
     &[Tool::Line, Tool::Hole, Tool::Cut, Tool::Dart, Tool::Notch, Tool::Grain],
 ];
 
-/// Whether a plain key belongs to `shortcut`, which a focused widget may want for itself.
+/// Whether `shortcut` is a key without modifiers, which a focused widget may need itself.
 pub fn is_plain(shortcut: egui::KeyboardShortcut) -> bool {
     shortcut.modifiers.is_none()
 }

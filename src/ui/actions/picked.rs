@@ -1,4 +1,4 @@
-//! What can be said of a selection.
+//! A summary of the selection in the pattern, for menus.
 
 use std::collections::BTreeSet;
 
@@ -8,37 +8,37 @@ use crate::pattern::activity::Activity;
 use crate::ui::pattern_pane::edits::{deletions, is_rolled, is_straight};
 use crate::ui::selection::Selection;
 
-/// What can be said of the selection, for menus.
+/// What the selection in the pattern consists of, for menus.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Picked {
-    /// Pieces, or pieces that points and edges are of.
+    /// Number of selected pieces, including those of selected points and edges.
     pub pieces: usize,
     pub points: usize,
     pub edges: usize,
     pub seams: usize,
     pub pins: usize,
-    /// One of the pieces is its own mirror image.
+    /// Whether one of the pieces is symmetric.
     pub symmetric: bool,
-    /// One of the pieces follows another, or its other half.
+    /// Whether one of the pieces is a twin or symmetric.
     pub linked: bool,
-    /// One of the edges is straight and on an outline.
+    /// Whether one of the edges is straight and part of an outline.
     pub straight: bool,
-    /// All of the pieces are locked.
+    /// Whether all of the pieces are locked.
     pub locked: bool,
-    /// What draping does with all of the pieces, where that is the same.
+    /// The activity in draping, if it is the same for all of the pieces.
     pub activity: Option<Activity>,
-    /// Anything that can be deleted.
+    /// Whether something selected can be deleted.
     pub deletable: bool,
-    /// Some piece of the pattern is hidden.
+    /// Whether some piece of the pattern is hidden.
     pub hidden: bool,
-    /// One of the pieces stands round the body.
+    /// Whether one of the pieces is placed around the body.
     pub standing: bool,
-    /// All of those that do are rolled.
+    /// Whether all of the placed pieces are rolled.
     pub rolled: bool,
 }
 
 impl Picked {
-    /// Of `selection`.
+    /// The summary of `selection`.
     pub fn new(pattern: &Pattern, selection: &Selection) -> Self {
         let touched: BTreeSet<PieceId> = selection.pieces_touched();
         let pieces = || touched.iter().filter_map(|id| pattern.pieces.get(id));

@@ -1,4 +1,4 @@
-//! What is known of an action: its words, its keys, where it is found and what it needs.
+//! The row of an action in the table: its texts, keys, menu and needs.
 
 use egui::{Key, KeyboardShortcut, Modifiers};
 
@@ -7,156 +7,156 @@ use crate::ui::actions::Action;
 /// One row of the table of actions.
 #[derive(Clone, Copy, Debug)]
 pub struct Row {
-    /// Which.
+    /// The action.
     pub action: Action,
-    /// The menu it is found in.
+    /// The menu that it is in.
     pub menu: &'static str,
-    /// In menus and on buttons.
+    /// Label in menus and on buttons.
     pub text: &'static str,
-    /// In tooltips.
+    /// Tooltip.
     pub tip: &'static str,
-    /// Keys, the first one shown.
+    /// Default keys; menus show the first.
     pub keys: &'static [KeyboardShortcut],
-    /// What must be before it can be chosen; the first that lacks is told.
+    /// What the action needs to be enabled; the first need that is not met gives the reason.
     pub needs: &'static [Need],
-    /// It may be chosen while a demo is shown: it changes nothing but the view.
+    /// Whether it is enabled while a demo is shown: it changes nothing but the view.
     pub in_demos: bool,
-    /// The start page stays when it is chosen there; everything else goes to the panes.
+    /// Whether the start page stays open when it is chosen there.
     pub on_start_page: bool,
-    /// It is not found among all others: it can be chosen only where it is offered.
+    /// Whether it is left out of the list of all actions: it can be chosen only where it is offered.
     pub aside: bool,
 }
 
-/// What an action may need.
+/// A condition for an action to be enabled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Need {
     /// A demo is shown.
     Demo,
-    /// The file that was open before is still there.
+    /// The recent file still exists.
     RecentFile,
-    /// Some file was open before.
+    /// There are recent files.
     Recent,
     /// No pictures are being made.
     NotPicturing,
-    /// A graphics adapter.
+    /// There is a graphics adapter.
     Adapter,
-    /// Something to undo.
+    /// There is a step to undo.
     Undo,
-    /// Something to do again.
+    /// There is a step to redo.
     Redo,
-    /// The project is in a file.
+    /// The project has a file.
     File,
-    /// A piece on the table.
+    /// The pattern has a piece.
     Pieces,
-    /// A body that cloth can be put on.
+    /// There is a body that cloth can be put on.
     Body,
-    /// Cloth on the body.
+    /// There is cloth on the body.
     Dressed,
-    /// A wrap is under way.
+    /// A wrap is in progress.
     Growing,
-    /// None is.
+    /// No wrap is in progress.
     NotGrowing,
     /// No start is being tried.
     NotTrying,
-    /// Physics is not moving the cloth.
+    /// Draping is not moving the cloth.
     NotDraping,
-    /// A piece that stands round the body,
+    /// A piece is placed around the body.
     Placed,
-    /// to be sewn from there,
+    /// A piece is placed around the body. The message says how to place one.
     PlacedFirst,
-    /// or a pair of marks.
+    /// A piece is placed around the body, or there is a pair of marks.
     PlacedOrPairs,
-    /// A pair of marks.
+    /// There is a pair of marks.
     Pairs,
-    /// A pair of marks for cloth that is dressed.
+    /// There is a pair of marks. The message asks to paint new ones for dressed cloth.
     NewPairs,
-    /// Any mark.
+    /// There is a mark.
     Marks,
-    /// A selected mark.
+    /// A mark is selected.
     Mark,
-    /// It can be given the number before,
+    /// The selected mark is not the first.
     NotFirstMark,
-    /// or after.
+    /// The selected mark is not the last.
     NotLastMark,
-    /// A pin.
+    /// There is a pin.
     Pins,
-    /// Another garment shown beside.
+    /// Another garment is shown beside.
     Comparison,
-    /// A selection that can be deleted.
+    /// Something that can be deleted is selected.
     Selection,
-    /// A selected piece,
+    /// A piece is selected.
     PickedPiece,
-    /// or pin.
+    /// A piece or a pin is selected.
     PickedPieceOrPin,
-    /// A selected straight edge of an outline.
+    /// A straight edge of an outline is selected.
     PickedStraight,
-    /// A selected symmetric piece,
+    /// A symmetric piece is selected.
     PickedSymmetric,
-    /// or twin.
+    /// A symmetric piece or a twin is selected.
     PickedLinked,
-    /// A selected piece that stands round the body.
+    /// A piece that is placed around the body is selected.
     Standing,
-    /// A selected edge.
+    /// An edge is selected.
     PickedEdge,
-    /// A selected point.
+    /// A point is selected.
     PickedPoint,
-    /// A selected seam.
+    /// A seam is selected.
     PickedSeam,
-    /// A hidden piece.
+    /// A piece is hidden.
     Hidden,
-    /// A twisted seam.
+    /// A seam is twisted.
     Twisted,
 }
 
-/// An action of `menu` that can always be chosen and has no keys.
+/// An action of `menu` that is always enabled and has no keys.
 pub const fn row(menu: &'static str, action: Action, text: &'static str, tip: &'static str) -> Row {
     let (keys, needs): (&[KeyboardShortcut], &[Need]) = (&[], &[]);
     Row { action, menu, text, tip, keys, needs, in_demos: false, on_start_page: false, aside: false }
 }
 
 impl Row {
-    /// With these keys.
+    /// The row with these default keys.
     pub const fn keys(self, keys: &'static [KeyboardShortcut]) -> Self {
         Self { keys, ..self }
     }
 
-    /// Only where there is all of this.
+    /// The row with these needs.
     pub const fn needs(self, needs: &'static [Need]) -> Self {
         Self { needs, ..self }
     }
 
-    /// Also while a demo is shown.
+    /// The row of an action that is also enabled while a demo is shown.
     pub const fn in_demos(self) -> Self {
         Self { in_demos: true, ..self }
     }
 
-    /// The start page stays.
+    /// The row of an action that leaves the start page open.
     pub const fn on_start_page(self) -> Self {
         Self { on_start_page: true, ..self }
     }
 
-    /// Only where it is offered.
+    /// The row of an action that is left out of the list of all actions.
     pub const fn aside(self) -> Self {
         Self { aside: true, ..self }
     }
 }
 
-/// `key` alone,
+/// The shortcut of `key` alone.
 pub const fn key(key: Key) -> KeyboardShortcut {
     KeyboardShortcut::new(Modifiers::NONE, key)
 }
 
-/// with Shift,
+/// The shortcut of `key` with Shift.
 pub const fn shift(key: Key) -> KeyboardShortcut {
     KeyboardShortcut::new(Modifiers::SHIFT, key)
 }
 
-/// with Ctrl (Cmd on a Mac),
+/// The shortcut of `key` with Ctrl (Cmd on a Mac).
 pub const fn ctrl(key: Key) -> KeyboardShortcut {
     KeyboardShortcut::new(Modifiers::COMMAND, key)
 }
 
-/// with both.
+/// The shortcut of `key` with Shift and Ctrl (Cmd on a Mac).
 pub const fn ctrl_shift(key: Key) -> KeyboardShortcut {
     KeyboardShortcut::new(Modifiers::COMMAND.plus(Modifiers::SHIFT), key)
 }

@@ -1,17 +1,17 @@
-//! What of body and cloth is drawn besides their surfaces.
+//! Display options of body and cloth.
 
 use crate::render::Look;
 
-/// What of body and cloth is drawn besides their surfaces.
+/// Display options of body and cloth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sight {
-    /// Edges of the cloth's triangles.
+    /// Draw the edges of the cloth's triangles (wireframe).
     pub wire: bool,
-    /// The body can be seen through.
+    /// Draw the body half transparent.
     pub sheer: bool,
-    /// Marks, pins and seams show through.
+    /// Let marks, pins and seams show through.
     pub xray: bool,
-    /// Marks on the table are joined to their partners on the body.
+    /// Draw lines from marks on the pattern to their partners on the body.
     pub pairs: bool,
 }
 
@@ -22,7 +22,7 @@ impl Default for Sight {
 }
 
 impl Sight {
-    /// `look` with it.
+    /// `look` with these options.
     pub fn on(self, look: Look) -> Look {
         let Self { wire, sheer, xray, .. } = self;
         Look { wire, sheer, xray, ..look }

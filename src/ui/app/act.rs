@@ -1,4 +1,4 @@
-//! What each action does.
+//! Carries out actions.
 
 use std::sync::Arc;
 
@@ -17,10 +17,10 @@ use crate::ui::shell::dialogs::Dialog;
 use crate::wrap::{BodyMark, ClothMark};
 
 impl App {
-    /// Carries out `action`; one that would lose unsaved changes asks first.
+    /// Carries out `action`; if it would lose unsaved changes, asks first.
     pub fn act(&mut self, ctx: &egui::Context, action: Action) {
         if let Action::OpenRecent(i) = action {
-            // Which one that is may have changed when the present work has been saved.
+            // The file is noted now, since saving the project may change the order of the list.
             let file = self.shell.recent.files().get(usize::from(i));
             self.shell.opening = file.map(|file| file.path.clone());
         }
@@ -40,7 +40,7 @@ impl App {
         }
     }
 
-    /// Carries out `action`.
+    /// Carries out `action` without asking about unsaved changes.
     pub(in crate::ui) fn act_unguarded(&mut self, ctx: &egui::Context, action: Action) {
         if self.shell.start.is_some() && !action.row().on_start_page {
             self.leave_start_page();
@@ -58,7 +58,7 @@ impl App {
         }
     }
 
-    /// What the File menu holds.
+    /// Carries out an action of the File menu.
     fn act_on_file(&mut self, ctx: &egui::Context, action: Action) {
         match action {
             Action::New => self.replace(Project::default(), None),
@@ -92,7 +92,7 @@ impl App {
         }
     }
 
-    /// What the Edit menu holds.
+    /// Carries out an action of the Edit menu.
     fn act_on_edit(&mut self, ctx: &egui::Context, action: Action) {
         match action {
             Action::Undo => self.apply(Command::Undo),
@@ -109,7 +109,7 @@ impl App {
         }
     }
 
-    /// What the Garment menu holds.
+    /// Carries out an action of the Garment menu.
     fn act_on_garment(&mut self, action: Action) {
         match action {
             Action::Dress => self.dress(),
@@ -127,7 +127,7 @@ impl App {
             Action::BringPieces => self.bring_pieces(),
             Action::Sew => {
                 if self.tool == Tool::Place {
-                    // What is sewn is looked at, not what stood before.
+                    // The placement tool shows pieces in place of the cloth, so another tool is chosen to show what is sewn.
                     self.tool = Tool::Move;
                 }
                 self.show_cloth = true;
@@ -145,7 +145,7 @@ impl App {
         }
     }
 
-    /// What the View and Help menus hold.
+    /// Carries out an action of the View or Help menu.
     fn act_on_view(&mut self, ctx: &egui::Context, action: Action) {
         match action {
             Action::Look(_)
@@ -162,7 +162,7 @@ impl App {
             Action::Unit(unit) => self.prefer(ctx, |p| p.unit = unit),
             Action::ToggleCloth => self.show_cloth = !self.show_cloth,
             Action::Show(panes) => self.prefer(ctx, |p| {
-                // Chosen again, both come back.
+                // Choosing the same pane again shows both.
                 p.layout.panes = if p.layout.panes == panes { Panes::Both } else { panes };
             }),
             Action::SwapPanes => self.prefer(ctx, |p| p.layout.swapped = !p.layout.swapped),
@@ -179,7 +179,7 @@ impl App {
         }
     }
 
-    /// Selects the first of these pairs and turns the view to all of them.
+    /// Selects the first of the pairs of marks with these numbers and turns the view to all of them.
     pub(in crate::ui) fn show_marks(&mut self, numbers: &[usize]) {
         let marks = Arc::clone(&self.shown().document().marks);
         let shown: Vec<&BodyMark> =
@@ -201,7 +201,7 @@ impl App {
         });
     }
 
-    /// By the pairs painted since the last wrap; by all when there is none.
+    /// Wraps again by the pairs painted since the last wrap, or by all pairs when there are none.
     fn rewrap(&mut self) {
         let used =
             self.session.snapshot().source.as_ref().map(|source| source.marks.clone()).unwrap_or_default();
@@ -221,7 +221,7 @@ impl App {
                 "No marks can be proposed: the pattern does not say where its pieces go round the body.";
             return self.messages.error(words);
         }
-        // There they are accepted.
+        // The side panel has the buttons to accept them.
         self.show_panel = true;
     }
 

@@ -1,4 +1,4 @@
-//! The panels and panes of one frame, and what they are shown.
+//! Lays out the panels and panes of one frame, and collects the state they show.
 
 use std::sync::Arc;
 
@@ -146,7 +146,7 @@ impl App {
             pace,
             undo: self.shown().undo_label().map(str::to_owned),
             redo: self.shown().redo_label().map(str::to_owned),
-            // In a demo the mouse only turns the view.
+            // In a demo the mouse only moves the view.
             tool: if self.demo.is_some() { Tool::Move } else { self.tool },
             mouse: if self.demo.is_some() { Mouse::Clo } else { self.preferences.mouse },
             paper: self.preferences.paper,
@@ -178,7 +178,7 @@ impl App {
             progress: snapshot.progress,
             tick: snapshot.tick,
             triangles: snapshot.garment.as_ref().map_or(0, |g| g.triangles.len()),
-            // Demos and the tour point at both.
+            // Demos and the tour refer to both panes.
             layout: if self.demo.is_some() || self.shell.tour.is_some() {
                 Layout { panes: Panes::Both, ..self.preferences.layout }
             } else {
@@ -202,7 +202,7 @@ impl App {
     }
 }
 
-/// Which edge this is and how long it is drawn.
+/// Name and length of the edge `item`, in words.
 fn edge_words(pattern: &Pattern, item: Item, unit: LengthUnit) -> Option<String> {
     let Item::Edge(edge) = item else { return None };
     let piece = pattern.pieces.get(&edge.piece).filter(|piece| edge.edge < piece.edge_count())?;

@@ -1,4 +1,4 @@
-//! Showing a demo in the window, and going back to the document.
+//! Shows a demo in the window, and returns to the document.
 
 use std::sync::Arc;
 
@@ -8,7 +8,7 @@ use crate::ui::app::App;
 use crate::ui::app::player::{Player, Stage};
 
 impl App {
-    /// Shows `demo` from its beginning. The document waits as it is.
+    /// Shows `demo` from its beginning; the document stays unchanged meanwhile.
     pub(in crate::ui) fn begin_demo(&mut self, demo: Demo) {
         self.end_drag();
         match Player::new(demo) {
@@ -28,7 +28,7 @@ impl App {
         }
     }
 
-    /// Back to the document, seen as before.
+    /// Returns to the document with the views as they were before the demo.
     pub(in crate::ui) fn stop_demo(&mut self) {
         if let Some((_, camera, table)) = self.demo.take() {
             self.scene_pane.camera = camera;
@@ -37,7 +37,7 @@ impl App {
         }
     }
 
-    /// Goes on with the demo by the time of a frame.
+    /// Advances the demo by the time of a frame.
     pub(in crate::ui) fn play_demo(&mut self, ctx: &egui::Context) {
         let Some((player, ..)) = &mut self.demo else { return };
         let (Some(table), Some(scene)) = (self.pattern_pane.area, self.scene_pane.area) else { return };

@@ -1,4 +1,4 @@
-//! The drawer below the panes: the history, or what was told so far.
+//! The drawer below the panes: history, messages, or the map as a table.
 
 use egui::{Frame, Margin, Panel, RichText, ScrollArea};
 
@@ -11,7 +11,7 @@ use crate::ui::look::theme::Palette;
 use crate::ui::maps;
 
 impl App {
-    /// Shows what is open, if anything is.
+    /// Draws the drawer if it is open.
     pub(in crate::ui) fn drawer_panel(
         &mut self,
         ui: &mut egui::Ui,
@@ -65,7 +65,7 @@ impl App {
             });
     }
 
-    /// The steps, oldest first; those undone fainter below them. A click goes there.
+    /// The undo history, oldest step first; undone steps are fainter. A click goes to a step.
     fn history_ui(&self, ui: &mut egui::Ui, palette: &Palette, asks: &mut Asks) {
         let session = self.shown();
         let labels = std::iter::once("As it was opened").chain(session.step_labels());

@@ -1,4 +1,4 @@
-//! Dressing by the best start: what came of it is told, and marks that were suggested for it are shown, to be kept.
+//! Dressing by the best start: reports the result, and shows the marks that were suggested for it, to be accepted.
 
 use std::sync::Arc;
 
@@ -9,10 +9,10 @@ use crate::ui::app::App;
 use crate::ui::body_pane::ghosts::Ghosts;
 
 impl App {
-    /// Puts the garment on by the best start.
+    /// Dresses the garment by the best start.
     pub(in crate::ui) fn dress(&mut self) {
         if self.tool == Tool::Place {
-            // What is dressed is looked at, not what stood before.
+            // The placement tool shows pieces in place of the cloth, so another tool is chosen to show what is dressed.
             self.tool = Tool::Move;
         }
         self.show_cloth = true;
@@ -20,8 +20,7 @@ impl App {
         self.apply(Command::Dress { choice: StartChoice::default() });
     }
 
-    /// Tells what came of the starts once they have been tried, and shows the marks that were suggested. Those go with the
-    /// cloth.
+    /// Reports the result once all starts are tried, and shows suggested marks, which disappear with the cloth.
     pub(in crate::ui) fn take_start(&mut self, document: &Document, snapshot: &Snapshot) {
         let is_same = match (&self.started, &snapshot.started) {
             (Some(known), Some(new)) => Arc::ptr_eq(known, new),
@@ -44,7 +43,7 @@ impl App {
     }
 }
 
-/// How the garment came on to the body, and whether it is as it should be.
+/// A message: how the garment was put on the body, and whether it has faults.
 fn words(started: &Started, has_marks: bool) -> String {
     let taken = started.taken();
     let how = match (taken.start, taken.draped) {

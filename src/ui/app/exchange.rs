@@ -1,4 +1,4 @@
-//! Files that come into the window and leave it.
+//! Import and export of files in the window.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -17,7 +17,7 @@ use crate::ui::shell::dialogs::{Dialog, NativeDialog};
 use crate::ui::shell::drop_overlay::Dropped;
 
 impl App {
-    /// Asks the person for a file.
+    /// Opens a file dialog.
     pub(in crate::ui) fn ask_file(&mut self, purpose: Purpose) {
         match NativeDialog::open(purpose, self.path.as_deref()) {
             Some(native) => self.native = Some(native),
@@ -70,13 +70,13 @@ impl App {
         }
     }
 
-    /// Saves beside the project's file, under the next number; from then on that is its file.
+    /// Saves under the next version number beside the project's file; the new file becomes that of the project.
     pub(in crate::ui) fn save_next(&mut self, ctx: &egui::Context) {
         let Some(path) = self.path.as_deref().map(files::next_version) else { return };
         self.save_or_ask(ctx, &path);
     }
 
-    /// Asks for the unit first when the file does not say it.
+    /// Imports a pattern; asks for the unit of length first when the file does not state it.
     pub(in crate::ui) fn import_pattern(
         &mut self,
         path: &Path,
@@ -101,7 +101,8 @@ impl App {
         Ok(())
     }
 
-    /// A pattern that a file places for another body stands round the present one. What was done is told.
+    /// A command that replaces the pattern, changed so that its placement fits the present body. What was moved is added to
+    /// `notes`.
     fn brought(&mut self, command: Command, notes: &mut Vec<String>) -> Command {
         let Command::ReplacePattern { name, mut pattern, marks } = command else { return command };
         let moved = self.session.brought(&pattern);
@@ -112,7 +113,7 @@ impl App {
         Command::ReplacePattern { name, pattern, marks }
     }
 
-    /// Moves the pieces as a whole to where they belong on the body, and sleeves to its arms.
+    /// Moves the placed pieces as a whole to the body, and sleeves to its arms.
     pub(in crate::ui) fn bring_pieces(&mut self) {
         let pattern = Arc::clone(&self.session.document().pattern);
         let Moved { placements, words } = self.session.brought(&pattern);
@@ -133,7 +134,7 @@ impl App {
         Ok(())
     }
 
-    /// Asks for the unit first when there is a doubt.
+    /// Imports a body; asks for the unit first when it is doubtful.
     pub(in crate::ui) fn import_body(&mut self, mut raw: RawBody) -> Result<(), String> {
         if raw.is_doubtful {
             raw.answered_before(self.preferences.answers.body);
@@ -152,7 +153,7 @@ impl App {
         Ok(())
     }
 
-    /// A pose of the body to be led to, or a motion that the mannequin can make.
+    /// Reads a pose or animations of the body, or a motion for the mannequin.
     fn take_pose(&mut self, path: &Path) -> Result<(), String> {
         let dressed = self.session.surface().ok_or("There is no body that could take a pose")?;
         match files::read_pose(path, &dressed.mesh)? {
@@ -171,7 +172,7 @@ impl App {
         Ok(())
     }
 
-    /// Takes the files numbered like this one as an animation; the side panel has it.
+    /// Reads the files numbered like this one as an animation of the body, which the side panel then shows.
     fn take_sequence(&mut self, path: &Path) -> Result<(), String> {
         let dressed = self.session.surface().ok_or("There is no body that could take a pose")?;
         let (command, count) = read_sequence(path, &dressed.mesh)?;
@@ -196,7 +197,7 @@ impl App {
         }
     }
 
-    /// A table of sizes to choose from; the side panel has them.
+    /// Reads a table of sizes, which the side panel then offers.
     fn take_sizes(&mut self, path: &Path) -> Result<(), String> {
         self.shell.tape.sizes.take(path, &files::read(path)?)?;
         self.messages.tell("The sizes are listed in Measures of the body");

@@ -1,4 +1,4 @@
-//! From keys to actions.
+//! Maps keys to actions.
 
 use egui::{Key, KeyboardShortcut, Modifiers};
 
@@ -35,8 +35,7 @@ impl App {
             asks.push(Ask::Select(None));
         }
         for (action, keys) in now.keymap.bound() {
-            // A focused button takes Enter and Space for itself; Space over the table moves the view; Esc first gives up a
-            // stroke.
+            // A focused button uses Enter and Space itself; Space over the table moves the view; Esc first cancels a stroke.
             let of_table = [Key::Enter, Key::Backspace, Key::Delete].contains(&keys.logical_key);
             let is_figure = keys.logical_key.symbol_or_name().parse::<u8>().is_ok();
             if self.shell.start.is_some() && !(action.row().on_start_page || action == Action::New) {
@@ -50,7 +49,7 @@ impl App {
                     || (table.takes_numbers() && at_table && is_figure)
                     || (keys.logical_key == Key::Space && at_table)
                     || (action == Action::CancelWrap && (drawing || self.drag.is_some())));
-            // What cannot be chosen now leaves its keys to the panes.
+            // The keys of a disabled action are left to the panes.
             if !taken && now.why_not(action).is_none() && ctx.input_mut(|i| i.consume_shortcut(&keys)) {
                 asks.push(Ask::Act(action));
             }

@@ -1,4 +1,4 @@
-//! The window's state and one frame of it.
+//! The window's state, and the drawing of one frame.
 
 pub(in crate::ui) mod act;
 pub(in crate::ui) mod arrange;
@@ -56,24 +56,24 @@ use crate::ui::shell::messages::Messages;
 use crate::ui::shell::pace::Pacer;
 use crate::ui::shell::status;
 
-/// The window's state. What the user has done is the session's; the rest is how it is looked at.
+/// The window's state. What the user has done is in the session; everything else is about how it is shown.
 #[derive(Debug)]
 pub struct App {
     pub(in crate::ui) session: Session,
     pub(in crate::ui) path: Option<PathBuf>,
     pub(in crate::ui) tool: Tool,
     pub(in crate::ui) laser: bool,
-    /// The mark chosen in a pane or in the list.
+    /// The mark selected in a pane or in the list.
     pub(in crate::ui) selected: Option<MarkId>,
-    /// What is selected of the pattern.
+    /// The selection in the pattern.
     pub(in crate::ui) picks: Picks,
-    /// What lies near draws the pointer on.
+    /// Whether the pointer snaps to points, edges, guides and the grid.
     pub(in crate::ui) snapping: bool,
     pub(in crate::ui) marks_panel: MarksPanel,
     pub(in crate::ui) pattern_panel: PatternPanel,
-    /// Marks proposed and not accepted yet.
+    /// Proposed marks that are not accepted yet.
     pub(in crate::ui) ghosts: Option<Ghosts>,
-    /// What came of the starts that were tried last, once it was told.
+    /// The result of the last starts, once it was reported.
     pub(in crate::ui) started: Option<Arc<Started>>,
     pub(in crate::ui) pattern_pane: PatternPane,
     pub(in crate::ui) scene_pane: ScenePane,
@@ -83,39 +83,39 @@ pub struct App {
     pub(in crate::ui) native: Option<NativeDialog>,
     pub(in crate::ui) messages: Messages,
     pub(in crate::ui) may_close: bool,
-    /// A demo that is shown instead of the document, and how both panes were seen before.
+    /// A demo that is shown instead of the document, with the views of both panes to return to.
     pub(in crate::ui) demo: Option<(Player, Camera, TableView)>,
     pub(in crate::ui) preferences: Preferences,
-    /// Where they are kept.
+    /// The file of the preferences.
     pub(in crate::ui) preferences_path: Option<PathBuf>,
-    /// To be done once the project is saved.
+    /// An action to be carried out once the project is saved.
     pub(in crate::ui) after_save: Option<Action>,
     pub(in crate::ui) safety: Safety,
-    /// What the project's file was when it was opened or saved here.
+    /// State of the project's file when it was last opened or saved here.
     pub(in crate::ui) on_disk: Option<files::OnDisk>,
     pub(in crate::ui) drag: Option<GestureId>,
-    /// The last wrap asked for, and what was then the tick of the simulation.
+    /// Sequence number of the last request for a wrap.
     pub(in crate::ui) wrap_seq: Option<u64>,
-    /// What stands round the panes.
+    /// The interface around the panes.
     pub(in crate::ui) shell: Shell,
-    /// How the last picture was wanted.
+    /// The options of the last picture.
     pub(in crate::ui) picture_options: PictureOptions,
-    /// For pictures that are written.
+    /// Builds the scenes of pictures that are written to files.
     pub(in crate::ui) scenery: Scenery,
-    /// Wakes the window when the simulation has something new.
+    /// Wakes the window when the simulation has new results.
     pub(in crate::ui) wakeup: Wakeup,
-    /// The window closes only to be opened again.
+    /// Whether the window closes only to be reopened.
     pub(in crate::ui) moving: bool,
-    /// Light on dark, in the last frame.
+    /// Whether the last frame used the dark theme.
     pub(in crate::ui) dark: bool,
-    /// Measures how fast everything goes.
+    /// Measures the speed of the window and of the simulation.
     pub(in crate::ui) pacer: Pacer,
     title: String,
     pub(in crate::ui) frames: u64,
 }
 
 impl App {
-    /// The window on `project`. Without `graphics` the body pane stays empty.
+    /// The window's state on `project`. Without `graphics` the body pane stays empty.
     pub fn new(
         ctx: &egui::Context,
         project: Project,
@@ -165,17 +165,17 @@ impl App {
         })
     }
 
-    /// What every window needs.
+    /// Settings that every window needs.
     pub(in crate::ui) fn set_up(ctx: &egui::Context) {
         theme::install(ctx);
         ctx.options_mut(|options| {
-            // Closing goes by our own question; plus, minus and zero belong to the panes.
+            // The program asks by itself before closing; plus, minus and zero are keys of the panes.
             options.quit_shortcuts.clear();
             options.zoom_with_keyboard = false;
         });
     }
 
-    /// Prefers what `path` says, and keeps there what is preferred from now on.
+    /// Reads the preferences from `path` and saves changes there from now on.
     pub fn keep_preferences(&mut self, ctx: &egui::Context, path: PathBuf) {
         let (preferences, words) = Preferences::read(&path);
         self.preferences = preferences;
@@ -187,17 +187,17 @@ impl App {
         self.live_by_preferences(ctx);
     }
 
-    /// Tells the person something that is to be read.
+    /// Shows an error message.
     pub fn warn(&mut self, words: &str) {
         self.messages.error(words);
     }
 
-    /// Writes everything done, from the beginning, to `file` as well.
+    /// Also writes the recording, from the beginning on, to `file`.
     pub fn record_to(&mut self, file: std::fs::File) -> std::io::Result<()> {
         self.session.recorder().also_to(file)
     }
 
-    /// Frames drawn so far.
+    /// Number of frames drawn.
     pub fn frames(&self) -> u64 {
         self.frames
     }
@@ -207,47 +207,47 @@ impl App {
         &self.session
     }
 
-    /// The session, to be given commands as by a person.
+    /// The session, to apply commands as the user would.
     pub fn session_mut(&mut self) -> &mut Session {
         &mut self.session
     }
 
-    /// Saves the project to `path`; asks first where somebody else has changed it.
+    /// Saves the project to `path`; asks first if another program has changed the file.
     pub fn save_as(&mut self, ctx: &egui::Context, path: &Path) -> Result<(), String> {
         self.save_to(ctx, path)
     }
 
-    /// From where the body is seen.
+    /// The camera of the body pane.
     pub fn camera(&self) -> Camera {
         self.scene_pane.camera
     }
 
-    /// Where a point of the table is on the screen; none before the first frame.
+    /// Position of a point of the table on the screen; None before the first frame.
     pub fn on_screen(&self, p: glam::DVec2) -> Option<egui::Pos2> {
         Some(self.pattern_pane.view.screen_from_table(self.pattern_pane.area?, p))
     }
 
-    /// While the pointer is over cloth that pins hold back: how much of a drag would reach each vertex, 0..=1.
+    /// While the pointer is over cloth held by pins: the fraction of a drag's motion that would reach each vertex, 0..=1.
     pub fn reach(&self) -> Option<&[f32]> {
         self.scene_pane.reached()
     }
 
-    /// Everything done so far, as a recording.
+    /// The recording of everything done.
     pub fn recording(&mut self) -> String {
         self.session.recording()
     }
 
-    /// Pictures of the body drawn so far.
+    /// Number of pictures of the body drawn.
     pub fn pictures(&self) -> u64 {
         self.scene_pane.graphics.as_ref().map_or(0, |g| g.pictures)
     }
 
-    /// Maps over the cloth worked out so far.
+    /// Number of maps computed.
     pub fn maps(&self) -> u64 {
         self.shell.maps.computed()
     }
 
-    /// Starts over with `project`.
+    /// Replaces the project by `project`.
     pub(in crate::ui) fn replace(&mut self, project: Project, path: Option<PathBuf>) {
         match runner(&self.wakeup) {
             Ok(runner) => self.session = Session::new(project, runner),
@@ -267,7 +267,7 @@ impl App {
         self.scene_pane.frame = Some(Some(crate::render::View::Front));
     }
 
-    /// One frame.
+    /// Draws one frame and carries out its requests.
     pub fn ui(&mut self, ui: &mut egui::Ui) {
         self.frames += 1;
         let ctx = ui.ctx().clone();
@@ -297,7 +297,7 @@ impl App {
             asks.retain(|ask| matches!(ask, Ask::Act(action) if action.row().in_demos));
         }
         if !asks.is_empty() {
-            // This frame showed how things stood before.
+            // This frame showed the state before the requests were carried out.
             ctx.request_repaint();
         }
         for ask in asks {
@@ -311,12 +311,12 @@ impl App {
         self.tend_graphics(&ctx);
     }
 
-    /// The next frame sets the title.
+    /// Makes the next frame set the window's title.
     pub(in crate::ui) fn forget_title(&mut self) {
         self.title.clear();
     }
 
-    /// What is on the screen: the document, or a demo.
+    /// The session that is shown: the document's, or that of a demo.
     pub fn shown(&self) -> &Session {
         self.demo.as_ref().map_or(&self.session, |(player, ..)| player.session())
     }
@@ -358,7 +358,7 @@ impl App {
         }
     }
 
-    /// Carries out `command` as a step of its own; a refusal is told.
+    /// Applies `command` as an undo step of its own; if it is refused, an error is shown.
     pub(in crate::ui) fn apply(&mut self, command: Command) {
         self.end_drag();
         let is_wrap =
@@ -382,7 +382,7 @@ impl App {
 
     fn drag(&mut self, command: Command) {
         let gesture = *self.drag.get_or_insert_with(|| self.session.begin_gesture());
-        // The hand may go on to where it can be done: no error that stays.
+        // The drag may go on to a place where the command is possible, so this is no error that stays on the screen.
         if let Err(why) = self.session.apply(command, gesture) {
             self.messages.tell(sentence(&why.0));
         }
@@ -396,7 +396,7 @@ impl App {
 
     fn cancel_drag(&mut self) {
         if let Some(gesture) = self.drag.take() {
-            // Refused only when the drag has changed nothing yet.
+            // It is refused only when the drag has changed nothing yet.
             self.session.apply(Command::CancelGesture, gesture).ok();
             self.session.end_gesture(gesture);
         }
@@ -470,7 +470,7 @@ impl App {
     }
 }
 
-/// A simulation on its own thread that wakes the window when there is something new.
+/// A simulation on its own thread that wakes the window when it has new results.
 fn runner(wakeup: &Wakeup) -> std::io::Result<Runner> {
     let wakeup = wakeup.clone();
     Runner::threaded(Simulation::default(), DEFAULT_RATE_HZ, Box::new(move || wakeup.wake()))

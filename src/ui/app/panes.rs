@@ -1,4 +1,4 @@
-//! The two panes side by side: which are shown, and which is on the left.
+//! Lays out the two panes: which of them are shown, and which is on the left.
 
 use std::sync::Arc;
 
@@ -21,10 +21,10 @@ use crate::ui::pattern_pane;
 use crate::ui::selection::Item;
 use crate::ui::shell::menu;
 
-/// Below this width both panes are small, points.
+/// Width of the window (points) below which the panes share it evenly.
 const NARROW: f32 = 500.0;
 
-/// What both panes show.
+/// The state that both panes show.
 struct PaneContents<'a> {
     document: &'a Document,
     snapshot: &'a Snapshot,
@@ -34,7 +34,7 @@ struct PaneContents<'a> {
 }
 
 impl App {
-    /// Draws the panes in what is left of the window.
+    /// Draws the panes in the remaining area of the window.
     pub(in crate::ui) fn panes(
         &mut self,
         ui: &mut egui::Ui,
@@ -44,7 +44,7 @@ impl App {
         palette: &Palette,
         asks: &mut Asks,
     ) {
-        // Looked for only while they are worked on.
+        // The bones are computed only while they are edited.
         let on_bones = now.tool == Tool::Bone && !now.demo;
         let bones = if on_bones { self.session.bones() } else { Arc::default() };
         if now.tool == Tool::Place && !now.demo {
@@ -54,7 +54,7 @@ impl App {
         let with = PaneContents { document, snapshot, now, palette, bones: &bones };
         let Layout { panes, swapped } = now.layout;
         if panes == Panes::Both {
-            // Each order keeps its own width, and a narrow window does not spoil that of a wide one.
+            // Each order of the panes and a narrow window keep a width of their own.
             let width = ui.available_width();
             let (id, share) = match (swapped, width < NARROW) {
                 (false, false) => ("table", 0.46),
@@ -87,7 +87,7 @@ impl App {
         if body { self.body_ui(ui, with, asks) } else { self.table_ui(ui, with, asks) }
     }
 
-    /// A pane that is not there has no pointer over it.
+    /// Marks a hidden pane as having no pointer over it.
     fn hide_pane(&mut self, table: bool) {
         if table {
             let pane = &mut self.pattern_pane;
@@ -134,7 +134,7 @@ impl App {
         }
     }
 
-    /// While the cloth has not followed the body to another pose yet, the pose it still lies on.
+    /// The body to show: while the cloth has not followed to another pose yet, the body in the pose that the cloth has.
     fn body_shown(&self, snapshot: &Snapshot) -> Option<Arc<Surface>> {
         let shown = self.shown();
         let follows = snapshot.is_dressed() && snapshot.seq < shown.last_seq();

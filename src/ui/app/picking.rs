@@ -1,4 +1,4 @@
-//! The selection of the pattern: what picks it, what it goes through, and what is done to it.
+//! The selection in the pattern: how it changes, and how commands change the selected items.
 
 use std::sync::Arc;
 
@@ -12,18 +12,18 @@ use crate::ui::app::shell::Shell;
 use crate::ui::pattern_pane::edits;
 use crate::ui::selection::{Item, Selection};
 
-/// What is selected, and of which pattern.
+/// The selection, and the pattern it refers to.
 #[derive(Debug, Default)]
 pub struct Picks {
-    /// What is selected.
+    /// The selected items.
     pub selection: Selection,
-    /// The place of the selected piece that is ringed.
+    /// The place that is marked by a ring, on the selected piece.
     pub spot: Option<ClothPlace>,
     of: Arc<Pattern>,
 }
 
 impl Picks {
-    /// Edges and seams that are selected, and the one the pointer is over.
+    /// Items drawn emphasised: selected edges and seams, and the one under the pointer.
     pub fn standing_out(&self, highlight: Option<Item>) -> Vec<Item> {
         let Selection { edges, seams, .. } = &self.selection;
         let chosen = edges.iter().map(|&edge| Item::Edge(edge)).chain(seams.iter().map(|&id| Item::Seam(id)));
@@ -33,20 +33,20 @@ impl Picks {
 }
 
 impl App {
-    /// Forgets what is selected that is there no longer.
+    /// Updates the selection after the pattern changed: items that no longer exist are removed.
     pub(in crate::ui) fn carry_selection(&mut self, document: &Document) {
         let old = std::mem::replace(&mut self.picks.of, Arc::clone(&document.pattern));
         self.picks.selection.carried(&old, &document.pattern);
         self.picks.selection.pins.retain(|&id| document.pins.iter().any(|pin| pin.id == id));
     }
 
-    /// What the pointer is over, in either pane.
+    /// The item under the pointer, in either pane.
     pub fn highlight(&self) -> Option<Item> {
         let pattern = &self.picks.of;
         self.pattern_pane.under.or(self.scene_pane.under).filter(|item| item.is_in(pattern))
     }
 
-    /// Selects this, and no mark.
+    /// Selects these items, and no mark.
     pub(in crate::ui) fn pick(&mut self, selection: Selection) {
         if !selection.is_empty() {
             self.selected = None;
@@ -55,7 +55,7 @@ impl App {
         self.picks.spot = None;
     }
 
-    /// Carries out `command`; pieces and seams that are new are selected.
+    /// Applies `command` and selects the pieces and seams that it adds.
     pub(in crate::ui) fn apply_and_select(&mut self, command: Command) {
         let is_edit = matches!(command, Command::EditPattern { .. });
         let before = Arc::clone(&self.session.document().pattern);
@@ -75,7 +75,7 @@ impl App {
         }
     }
 
-    /// Does something to what is selected.
+    /// Applies `action` to the selection.
     pub(in crate::ui) fn change_pattern(&mut self, action: Action) {
         let pattern = Arc::clone(&self.session.document().pattern);
         if action == Action::SelectAll {
@@ -97,7 +97,8 @@ impl App {
         }
     }
 
-    /// The keyboard goes from pattern to body, side panel and toolbar, and round, or `back`; from anywhere else to the first.
+    /// Moves the keyboard focus from the pattern pane to body pane, side panel, toolbar and round again, or `back`; from anywhere
+    /// else to the first of them.
     pub(in crate::ui) fn next_pane(&mut self, ctx: &egui::Context, back: bool) {
         let Shell { first_of_panel, first_tool, .. } = self.shell;
         let mut panes = [self.pattern_pane.id, self.scene_pane.id, first_of_panel, first_tool];

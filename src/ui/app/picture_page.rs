@@ -1,4 +1,4 @@
-//! The question what picture of the body to write, and the picture.
+//! The dialog with options of a picture of the body, and the rendering of the picture.
 
 use std::path::Path;
 
@@ -12,21 +12,21 @@ use crate::ui::files::{self, Purpose};
 use crate::ui::look::theme::{self, Palette};
 use crate::ui::scenery::portrait::{Extras, portrait};
 
-/// Pixels a side.
+/// Accepted side of a picture, pixels.
 const SIDES: std::ops::RangeInclusive<u32> = 16..=16384;
 
-/// What picture.
+/// Options of a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PictureOptions {
-    /// Pixels.
+    /// Size, pixels.
     pub size: UVec2,
-    /// From there, all of it; None: as it is seen now.
+    /// The view, which shows everything; None: the present view of the body pane.
     pub view: Option<View>,
-    /// Nothing behind it.
+    /// Leave out background and floor.
     pub cut_out: bool,
-    /// With marks.
+    /// Draw marks.
     pub marks: bool,
-    /// Pictures in a full turn; 1: a single one.
+    /// Number of pictures in a full turn; 1 is a single picture.
     pub count: u32,
 }
 
@@ -36,13 +36,13 @@ impl Default for PictureOptions {
     }
 }
 
-/// The question, open.
+/// The open dialog.
 #[derive(Debug)]
 pub struct PicturePage {
     options: PictureOptions,
 }
 
-/// What is answered.
+/// The user's answer to the dialog.
 enum Answer {
     None,
     Cancel,
@@ -50,7 +50,7 @@ enum Answer {
 }
 
 impl PicturePage {
-    /// For a pane of this size, pixels.
+    /// The dialog with the size of the pane, in pixels.
     pub fn new(pane: egui::Vec2) -> Self {
         let size = UVec2::new(pane.x.round().max(16.0) as u32, pane.y.round().max(16.0) as u32);
         Self { options: PictureOptions { size, ..PictureOptions::default() } }
@@ -119,7 +119,7 @@ impl PicturePage {
     }
 }
 
-/// Sizes that are often wanted.
+/// Buttons for common sizes.
 fn sizes_ui(ui: &mut egui::Ui, size: &mut UVec2) {
     ui.menu_button("…", |ui| {
         for (width, height) in
@@ -148,7 +148,7 @@ impl App {
         }
     }
 
-    /// Writes one picture by the options chosen last. The error is in words.
+    /// Renders a picture by the options chosen last and writes it. The error is a message.
     pub(in crate::ui) fn write_picture(&mut self, path: &Path) -> Result<(), String> {
         let options = self.picture_options;
         let camera = self.camera_of_picture(&options);
@@ -158,7 +158,7 @@ impl App {
         Ok(())
     }
 
-    /// From where a picture by `options` is taken.
+    /// The camera for a picture with `options`.
     pub(in crate::ui) fn camera_of_picture(&mut self, options: &PictureOptions) -> Camera {
         let mut camera = self.scene_pane.camera;
         if let Some(view) = options.view {
@@ -174,7 +174,7 @@ impl App {
         camera
     }
 
-    /// The picture as PNG. The error is in words.
+    /// Renders a picture as PNG. The error is a message.
     pub(in crate::ui) fn photograph(
         &mut self,
         options: &PictureOptions,
@@ -189,7 +189,7 @@ impl App {
             return Err("There is no graphics adapter to draw with".to_owned());
         };
         let theme = if self.dark { egui::Theme::Dark } else { egui::Theme::Light };
-        // Lines as thick as in the pane, whatever the size.
+        // Lines keep their width relative to the picture, as in the pane.
         let points = self.scene_pane.area.map_or(options.size.y as f32, |pane| pane.height());
         let look = Look {
             pixels_per_point: options.size.y as f32 / points.max(1.0),
@@ -210,12 +210,12 @@ impl App {
     }
 }
 
-/// All that `camera` shows in a picture so much wider than high, in one of another shape.
+/// The camera that shows in a picture of `size` all that `camera` shows at the width-to-height ratio `aspect`.
 fn widened(camera: Camera, aspect: f32, size: UVec2) -> Camera {
     let other = size.x as f32 / size.y.max(1) as f32;
     let factor = (aspect / other).max(1.0);
     match camera.projection {
-        // A wider view from the same eye: what is behind what stays.
+        // A larger field of view from the same eye keeps the perspective and what hides what.
         Projection::Perspective => {
             Camera { fov_y: 2.0 * ((camera.fov_y / 2.0).tan() * factor).atan(), ..camera }
         }

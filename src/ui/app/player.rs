@@ -1,4 +1,4 @@
-//! A demo played in the window: its commands carried out by a hand that can be watched.
+//! Plays a demo in the window: the commands of a recording, carried out by an animated pointer ("hand").
 
 use std::time::{Duration, Instant};
 
@@ -19,54 +19,54 @@ use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::look::theme::Palette;
 use crate::ui::pattern_pane::view::TableView;
 
-/// How many times as fast settling cloth is watched.
+/// Playing speed of settling cloth relative to real time.
 const SETTLING_SPEED: f64 = 2.5;
-/// Ticks of one frame take no longer than this.
+/// Time budget for the ticks of one frame.
 const BUDGET: Duration = Duration::from_millis(45);
-/// A frame counts for no more seconds than this: after a pause the demo goes on where it was.
+/// Longest time step of a frame, seconds, so that after a pause the demo goes on where it was.
 const LONGEST_FRAME: f64 = 0.2;
-/// The hand takes so long to where it is needed next, seconds.
+/// Time that the hand takes to move to the next place, seconds.
 const TRAVEL: f64 = 0.45;
-/// The fastest turn of the view, rad/s.
+/// Largest angular speed of the view, rad/s.
 const TURN_RATE: f32 = 2.2;
-/// It turns when what is shown faces away by more than this cosine.
+/// The view turns when the cosine between the direction of the eye and that of the place is not above this.
 const SEEN_FROM: f32 = 0.35;
-/// Radius of the hand's ring, points.
+/// Radius of the ring that shows the hand, points.
 const RING: f32 = 9.0;
 
-/// The panes the hand moves over.
+/// The panes that the hand moves over.
 pub struct Stage<'a> {
-    /// Where the table is on the screen, and how it is seen.
+    /// Area of the pattern pane on the screen, and its view.
     pub table: (Rect, TableView),
-    /// Where the body is on the screen.
+    /// Area of the body pane on the screen.
     pub scene: Rect,
-    /// From where the body is seen; turned when the hand needs it.
+    /// Camera of the body pane; it is turned when the place of a command is out of sight.
     pub camera: &'a mut Camera,
 }
 
-/// A demo under way.
+/// A demo that is being played.
 #[derive(Debug)]
 pub struct Player {
-    /// Which one.
+    /// The demo.
     pub demo: Demo,
     replay: Box<Replay>,
-    /// Seconds since the hand began what the next command does.
+    /// Seconds spent on the next command.
     acted: f64,
     ticks_due: f64,
-    /// Where the hand is on the screen, and where it set out from.
+    /// Position of the hand on the screen; `from` is where its present motion began.
     hand: Option<Pos2>,
     from: Option<Pos2>,
-    /// What it does, in words.
+    /// What the hand does, in words.
     deed: String,
-    /// Cloth in the hand, where it was taken.
+    /// The point where the dragged cloth was grabbed, metres.
     held: Option<DVec3>,
-    /// The part of a stroke painted so far, on the screen, and its number.
+    /// The part of a stroke painted so far, on the screen, and the number of its mark.
     painted: (Vec<Pos2>, usize),
     ended: bool,
 }
 
 impl Player {
-    /// Ready to begin. The error is in words.
+    /// A player at the beginning of `demo`. The error is a message.
     pub fn new(demo: Demo) -> Result<Self, String> {
         let recording = Recording::parse(demo.recording())
             .map_err(|e| format!("The demo {:?} cannot be read: {e}", demo.name()))?;
@@ -84,17 +84,17 @@ impl Player {
         })
     }
 
-    /// What is shown.
+    /// The session of the demo.
     pub fn session(&self) -> &Session {
         self.replay.shown()
     }
 
-    /// Whether all of it was shown.
+    /// Whether the demo has ended.
     pub fn has_ended(&self) -> bool {
         self.ended
     }
 
-    /// Goes on by `seconds`. The error is in words.
+    /// Advances by `seconds`. The error is a message.
     pub fn advance(&mut self, seconds: f64, stage: &mut Stage<'_>) -> Result<(), String> {
         let mut left = seconds.min(LONGEST_FRAME);
         let begun = Instant::now();
@@ -112,7 +112,7 @@ impl Player {
                 }
                 if self.ticks_due >= 1.0 {
                     self.ticks_due -= 1.0;
-                    // What could not be done in time is not made up for.
+                    // Ticks that do not fit in the time budget are not caught up on.
                     left = left.max(f64::MIN_POSITIVE);
                     self.step()?;
                 }
@@ -133,12 +133,12 @@ impl Player {
         Ok(())
     }
 
-    /// Ticks a second.
+    /// Playing speed, ticks per second.
     fn rate(&self) -> f64 {
         DEFAULT_RATE_HZ * if self.held.is_some() { 1.0 } else { SETTLING_SPEED }
     }
 
-    /// The hand does what `command` does, for as much of `left` as it takes. True when it is done.
+    /// Animates the hand for `command`, using up to `left` seconds. True when the animation is finished.
     fn act(&mut self, command: &Command, left: &mut f64, stage: &mut Stage<'_>) -> bool {
         if !self.turn_to(command, *left as f32, stage) {
             return false;
@@ -173,7 +173,7 @@ impl Player {
         }
     }
 
-    /// Turns the view until what `command` shows is seen; true when it is.
+    /// Turns the view towards the place of `command`; true when it is in sight.
     fn turn_to(&self, command: &Command, seconds: f32, stage: &mut Stage<'_>) -> bool {
         let Some(out) = self.faces(command) else { return true };
         let eye = stage.camera.towards_eye();
@@ -188,7 +188,7 @@ impl Player {
         (angle - step).abs() < 0.35 && flat.dot(eye) > SEEN_FROM
     }
 
-    /// Which way the place that `command` is about looks.
+    /// Direction in which the place of `command` faces.
     fn faces(&self, command: &Command) -> Option<DVec3> {
         let surface = self.session().surface()?;
         match command {
@@ -211,7 +211,7 @@ impl Player {
         found.point(garment, &snapshot.cloth)
     }
 
-    /// Where on the screen the hand is after `share` of what `command` does.
+    /// Position of the hand on the screen after the fraction `share` of the animation of `command`.
     fn target(&self, command: &Command, share: f64, stage: &Stage<'_>) -> Option<Pos2> {
         match command {
             Command::AddClothMark { .. } | Command::AddBodyMark { .. } => {
@@ -246,7 +246,7 @@ impl Player {
         self.painted = (line, number);
     }
 
-    /// Draws the hand over the panes, and over the table what is shown.
+    /// Draws the hand over the panes, and the banner.
     pub fn ui(&self, ctx: &egui::Context, palette: &Palette, table: Rect, asks: &mut Asks) {
         let painter = ctx.layer_painter(egui::LayerId::new(Order::Middle, Id::unique("hand of the demo")));
         if self.painted.0.len() > 1 {
@@ -260,7 +260,7 @@ impl Player {
         self.banner_ui(ctx, palette, table, asks);
     }
 
-    /// Over the table, where it hides no body.
+    /// Draws the banner with the demo's title and buttons. It is over the pattern pane, where it hides no body.
     fn banner_ui(&self, ctx: &egui::Context, palette: &Palette, table: Rect, asks: &mut Asks) {
         let area = Area::new(Id::unique("demo")).order(Order::Foreground).pivot(Align2::CENTER_TOP);
         area.fixed_pos(table.center_top() + Vec2::new(0.0, 10.0)).show(ctx, |ui| {
@@ -283,7 +283,7 @@ impl Player {
     }
 }
 
-/// Seconds the hand takes for `command` where it is done.
+/// Duration of the animation of `command` at its place, seconds.
 fn length(command: &Command) -> f64 {
     match command {
         Command::AddClothMark { .. } | Command::AddBodyMark { .. } => 0.9,
@@ -294,7 +294,7 @@ fn length(command: &Command) -> f64 {
     }
 }
 
-/// What the hand does, beside it.
+/// The words shown beside the hand during `command`.
 fn words(command: &Command, session: &Session) -> String {
     let marks = &session.document().marks;
     match command {
@@ -312,7 +312,7 @@ fn words(command: &Command, session: &Session) -> String {
     }
 }
 
-/// The first `share` of a stroke, on the screen; at least its first point.
+/// The first fraction `share` of a stroke on the screen, at least its first point.
 fn stroke(session: &Session, command: &Command, share: f64, stage: &Stage<'_>) -> Vec<Pos2> {
     let upto = |count: usize| 1 + (share * count.saturating_sub(1) as f64).round() as usize;
     match command {
@@ -338,7 +338,7 @@ fn on_body(stage: &Stage<'_>, p: DVec3) -> Option<Pos2> {
     Some(stage.scene.min + Vec2::new(seen.pixel.x, seen.pixel.y))
 }
 
-/// A ring, filled while the button is down, and what is done beside it.
+/// Draws the hand as a ring, filled while the button is down, with the words of what it does.
 fn hand_ui(painter: &Painter, at: Pos2, is_down: bool, deed: &str, palette: &Palette) {
     painter.circle_stroke(at, RING, Stroke::new(4.5, palette.halo));
     painter.circle_stroke(at, RING, Stroke::new(2.2, palette.accent));

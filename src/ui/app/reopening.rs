@@ -1,4 +1,4 @@
-//! When the graphics device is lost, the window is opened anew with everything that was in it.
+//! Reopens the window with all its contents when the graphics device is lost.
 
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -8,17 +8,17 @@ use glam::UVec2;
 use crate::ui::app::App;
 use crate::ui::app::picture_page::PictureOptions;
 
-/// Wakes whichever window there is.
+/// Wakes the current window, also after it was reopened.
 #[derive(Clone, Debug)]
 pub struct Wakeup(Arc<Mutex<egui::Context>>);
 
 impl Wakeup {
-    /// For the window of `ctx`.
+    /// Wakes the window of `ctx`.
     pub fn new(ctx: &egui::Context) -> Self {
         Self(Arc::new(Mutex::new(ctx.clone())))
     }
 
-    /// The window looks at what is new.
+    /// Requests a repaint, so that the window notices new results.
     pub fn wake(&self) {
         self.0.lock().unwrap_or_else(PoisonError::into_inner).request_repaint();
     }
@@ -29,12 +29,12 @@ impl Wakeup {
 }
 
 impl App {
-    /// Whether the window closes only to be opened again by [`Self::move_into`].
+    /// Whether the window closes only to be reopened by [`Self::move_into`].
     pub fn is_moving(&self) -> bool {
         self.moving
     }
 
-    /// Closes the window once the device that draws is gone.
+    /// Closes the window if the graphics device is lost.
     pub(in crate::ui) fn tend_graphics(&mut self, ctx: &egui::Context) {
         let graphics = self.scene_pane.graphics.as_ref();
         let Some(why) = graphics.and_then(|graphics| graphics.lost()).filter(|_| !self.moving) else {
@@ -46,8 +46,8 @@ impl App {
         ctx.send_viewport_cmd(ViewportCommand::Close);
     }
 
-    /// Lives on in another window, with its device; without `graphics` the body pane stays empty. Document, history and
-    /// cloth are what they were.
+    /// Moves the app into another window with its device; without `graphics` the body pane stays empty. Document, history and
+    /// cloth are unchanged.
     pub fn move_into(&mut self, ctx: &egui::Context, graphics: Option<egui_wgpu::RenderState>) {
         Self::set_up(ctx);
         self.wakeup.set(ctx);
@@ -62,7 +62,7 @@ impl App {
         self.messages.error("The graphics device was lost and is there again. Nothing of your work is lost.");
     }
 
-    /// The body as it is seen now, as PNG of `size` pixels. The error is in words.
+    /// The present view of the body as a PNG of `size` pixels. The error is a message.
     pub fn picture_of_body(&mut self, size: UVec2) -> Result<Vec<u8>, String> {
         let options = PictureOptions { size, ..PictureOptions::default() };
         let camera = self.camera_of_picture(&options);

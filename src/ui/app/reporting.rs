@@ -1,4 +1,4 @@
-//! The fit report in the making: a picture a frame, that can be stopped.
+//! Makes the fit report: one picture per frame, so that it can be stopped.
 
 use std::path::{Path, PathBuf};
 
@@ -8,7 +8,7 @@ use crate::ui::files;
 use crate::ui::fit_page::FitPage;
 use crate::ui::look::theme::Palette;
 
-/// Under way.
+/// A fit report in the making.
 #[derive(Debug)]
 pub struct Reporting {
     path: PathBuf,
@@ -16,7 +16,7 @@ pub struct Reporting {
 }
 
 impl App {
-    /// Begins the fit report of what is dressed, into the file at `path`.
+    /// Begins the fit report of the dressed garment; it is written to `path`.
     pub(in crate::ui) fn begin_fit_page(&mut self, path: &Path) {
         let name = self.path.as_deref().map_or_else(|| "untitled".to_owned(), files::stem);
         match FitPage::of(&self.session, &name) {
@@ -25,7 +25,7 @@ impl App {
         }
     }
 
-    /// The next picture of the report under way, and how far it has come; after the last the page is written.
+    /// Draws the next picture of the report and the progress; after the last picture the page is written.
     pub(in crate::ui) fn go_on_reporting(&mut self, ctx: &egui::Context, palette: &Palette, above: f32) {
         let Some(mut report) = self.shell.reporting.take() else { return };
         match &mut self.scene_pane.graphics {

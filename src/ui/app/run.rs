@@ -1,4 +1,4 @@
-//! Opens the window.
+//! Opens the window and runs it.
 
 use std::cell::RefCell;
 use std::fs::File;
@@ -16,11 +16,11 @@ use crate::ui::app::tries::{PLAIN, STARTED, Starts, prefer_processor};
 use crate::ui::files::thumbnails;
 use crate::ui::preferences;
 
-/// A device that is lost more often than this will not stay.
+/// Number of losses of the graphics device after which the window is not reopened again.
 const MOST_LOSSES: usize = 5;
 
-/// Opens the window on `project`, which came from the file `path`, or on the start page, and returns when it is closed.
-/// Everything done is also written to `record`. A window whose graphics device is lost is opened anew.
+/// Opens the window on `project`, which came from the file `path`, or on the start page; returns when it is closed. The recording
+/// is also written to `record`. A window that loses its graphics device is reopened.
 pub fn run(project: Option<Project>, path: Option<PathBuf>, record: Option<File>) -> anyhow::Result<()> {
     let kept: Kept = Rc::default();
     let mut first = Some((project, path, record));
@@ -54,7 +54,7 @@ pub fn run(project: Option<Project>, path: Option<PathBuf>, record: Option<File>
             drop(app);
             Ok(Box::new(Window { app: shared, starting }))
         });
-        // egui itself may panic when it draws with a device that is gone.
+        // egui itself may panic when it draws with a lost device.
         let ended = catch_unwind(AssertUnwindSafe(|| eframe::run_native("Toile", options, create)));
         match ended {
             Ok(ended) => {
@@ -107,10 +107,10 @@ fn opened(
     Ok(app)
 }
 
-/// The app, which outlives its windows.
+/// The app, which survives when its window is reopened.
 type Kept = Rc<RefCell<Option<App>>>;
 
-/// This start, until it is known to have succeeded, and when it began.
+/// The start being counted, until it has succeeded, and when it began.
 type Starting = Rc<RefCell<Option<(Starts, Instant)>>>;
 
 struct Window {
@@ -119,7 +119,7 @@ struct Window {
 }
 
 impl Window {
-    /// The window is open; `closes`: and is closed as it should be.
+    /// Tells the counter that the window is open, or with `closes` that it closes normally.
     fn tell_start(&self, ctx: &egui::Context, closes: bool) {
         let mut starting = self.starting.borrow_mut();
         let Some(waits) = starting.as_ref().map(|(_, begun)| STARTED.saturating_sub(begun.elapsed())) else {
@@ -153,7 +153,7 @@ impl eframe::App for Window {
     }
 }
 
-/// What went wrong, and what to do about it where that is known.
+/// The error as a message, with advice where there is any.
 fn words(error: &eframe::Error) -> String {
     use winit::error::EventLoopError;
     match error {

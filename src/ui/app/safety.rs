@@ -1,4 +1,4 @@
-//! Work kept safe from crashes, and offered again after one.
+//! Saves unsaved work for recovery after a crash, and offers it after one.
 
 use std::path::{Path, PathBuf};
 use std::thread::JoinHandle;
@@ -10,10 +10,10 @@ use crate::ui::app::App;
 use crate::ui::files;
 use crate::ui::shell::dialogs::Dialog;
 
-/// A copy is made no later than this after the time for one while the cloth does not come to rest, seconds.
+/// Additional delay of a copy while the cloth is moving, seconds.
 const LATEST: f64 = 50.0;
 
-/// Where this system keeps work that is not saved yet. None where there is no home.
+/// The system's folder for work that is not saved yet; None where there is no home folder.
 pub fn usual_root() -> Option<PathBuf> {
     let folder = |name: &str| std::env::var_os(name).map(PathBuf::from).filter(|p| p.is_absolute());
     let base = if cfg!(windows) {
@@ -26,23 +26,23 @@ pub fn usual_root() -> Option<PathBuf> {
     base.map(|base| base.join("toile/sessions"))
 }
 
-/// Keeps the window's work safe.
+/// Keeps copies of the window's work for recovery.
 #[derive(Debug, Default)]
 pub struct Safety {
     keeper: Option<Keeper>,
-    /// A copy being written, so that the window need not wait for the disk.
+    /// The thread that writes a copy, so that the window need not wait for the disk.
     writing: Option<JoinHandle<Result<(), String>>>,
-    /// When the newest copy was made, in the window's time.
+    /// Time of the newest copy, in the window's seconds.
     copied: f64,
-    /// The newest copy, if there is one, is of work that is saved.
+    /// Whether the work has been saved or replaced since the newest copy, so that a new one is needed.
     fresh: bool,
-    /// A copy is made no sooner than this after the one before, seconds; where a step is undone that is older than it, at
-    /// once.
+    /// Shortest time between two copies, seconds. After an undo beyond the last copy one is made at once.
     pub soonest: f64,
 }
 
 impl Safety {
-    /// Begins to keep work under `root`; also what sessions left there that did not end well. Err: why nothing is kept.
+    /// Begins to keep work under `root`. Also returns the work left there by sessions that did not end properly, and why nothing
+    /// can be kept, if so.
     pub fn begin(root: &Path) -> (Self, Vec<Left>, Option<String>) {
         let found = left(root);
         match Keeper::begin(root) {
@@ -55,13 +55,13 @@ impl Safety {
         }
     }
 
-    /// The session is another, or its work was saved.
+    /// Notes that the session was replaced or its work saved.
     pub fn work_is_saved(&mut self) {
         self.fresh = true;
     }
 
-    /// Copies the work where it is time to. `now`: seconds; `busy`: something is held with the pointer; `at_rest`: the cloth
-    /// does not move. Err: why no more is kept.
+    /// Makes a copy if one is due. `now` is in seconds; `busy`: something is being dragged; `at_rest`: the cloth does not move.
+    /// The error says why no more work is kept.
     pub fn tend(
         &mut self,
         session: &mut Session,
@@ -100,7 +100,7 @@ impl Safety {
         begun
     }
 
-    /// Waits for a copy that is being written, if it is finished or `at_any_rate`.
+    /// Takes the result of a copy that is being written if it has finished; with `at_any_rate` waits for it.
     fn join(&mut self, at_any_rate: bool) -> Result<(), String> {
         match self.writing.take_if(|writing| at_any_rate || writing.is_finished()) {
             Some(writing) => {
@@ -115,13 +115,13 @@ impl Safety {
         session.mark_copied(None);
     }
 
-    /// In how many seconds a copy is due that nothing else would wake the window for.
+    /// Time until a copy is due, for which the window must be woken.
     pub fn due_in(&self, session: &Session, now: f64) -> Option<Duration> {
         let waits = self.keeper.is_some() && !session.is_copied();
         waits.then(|| Duration::from_secs_f64((self.copied + self.soonest + 0.5 - now).max(0.5)))
     }
 
-    /// The window closes as it should: what is not saved is not wanted.
+    /// The window closes properly: unsaved work is discarded.
     pub fn finish(&mut self) {
         self.join(true).ok();
         if let Some(keeper) = self.keeper.take() {
@@ -131,14 +131,14 @@ impl Safety {
 }
 
 impl Drop for Safety {
-    /// Also where the window falls over: a copy under way is worth waiting for.
+    /// Waits for a copy in progress, also when the window panics.
     fn drop(&mut self) {
         self.join(true).ok();
     }
 }
 
 impl App {
-    /// Keeps work safe under `root` from now on, and offers what was left there by sessions that did not end well.
+    /// Begins to keep work under `root`, and offers work left there by sessions that did not end properly.
     pub fn keep_safe(&mut self, root: &Path) {
         let (safety, found, problem) = Safety::begin(root);
         self.safety = safety;
@@ -172,7 +172,7 @@ impl App {
         }
     }
 
-    /// Takes work up again that a session left behind.
+    /// Restores work that a session left behind.
     pub(in crate::ui) fn restore(&mut self, ctx: &egui::Context, left: Left) {
         let found = match left.read() {
             Ok(found) => found,
@@ -187,7 +187,7 @@ impl App {
                 _ => self.session.begin_gesture(),
             };
             open = Some((gesture, own));
-            // What was done after it was done to something else.
+            // This command no longer applies, so the later ones would be applied to a different state.
             if self.session.apply(command, own).is_err() {
                 break;
             }
@@ -202,7 +202,7 @@ impl App {
                 "Your work is back, but for the last {lost} of the things you did, which were not written down whole."
             )),
         }
-        // The old copy goes only when the new session has one of its own.
+        // The old copy is removed only when the new session has one of its own.
         self.safety.join(true).ok();
         self.tend_safety(ctx);
         if self.session.is_copied() && self.safety.join(true).is_ok() {
@@ -210,7 +210,7 @@ impl App {
         }
     }
 
-    /// Saves there, or asks what to do where that cannot be.
+    /// Saves to `path`; if that fails, asks what to do.
     pub(in crate::ui) fn save_or_ask(&mut self, ctx: &egui::Context, path: &Path) {
         if let Err(words) = self.save_to(ctx, path) {
             self.dialog = Some(Dialog::NotSaved { path: path.to_owned(), words });
@@ -231,7 +231,7 @@ impl App {
         Ok(())
     }
 
-    /// Saves there also where that is write-protected.
+    /// Saves to `path` even if the file is write-protected.
     pub(in crate::ui) fn save_over(&mut self, ctx: &egui::Context, path: &Path) {
         match files::save_over(path, &self.session.project()) {
             Ok(()) => self.is_saved(ctx, path),
@@ -252,7 +252,7 @@ impl App {
     }
 }
 
-/// "shirt, 12 minutes ago".
+/// A name for left work, such as "shirt, 12 minutes ago".
 pub fn words_for(left: &Left) -> String {
     let written = std::fs::metadata(left.written()).and_then(|file| file.modified()).ok();
     let ago = written.and_then(|then| SystemTime::now().duration_since(then).ok());

@@ -1,4 +1,4 @@
-//! What stands round the panes: start page, tour, palette, preferences, pictures; and what their actions do.
+//! The interface around the panes: start page, tour, palette, preferences, pictures; and their actions.
 
 use std::sync::Arc;
 
@@ -29,50 +29,50 @@ use crate::ui::shell::drop_overlay;
 use crate::ui::shell::manual::ManualPage;
 use crate::ui::shell::status;
 
-/// What stands round the panes.
+/// The interface around the panes.
 #[derive(Debug, Default)]
 pub struct Shell {
-    /// Instead of the panes.
+    /// The start page, shown instead of the panes.
     pub start: Option<StartPage>,
-    /// Over the panes.
+    /// The tour, shown over the panes.
     pub tour: Option<Tour>,
-    /// Commands by their letters.
+    /// The command palette.
     pub palette: Option<CommandPalette>,
-    /// What the program does.
+    /// The manual.
     pub manual: Option<ManualPage>,
-    /// The page of preferences.
+    /// The preferences dialog.
     pub preferences: Option<PreferencesPage>,
-    /// The question what picture to write.
+    /// The dialog with options of a picture.
     pub picture: Option<PicturePage>,
-    /// A turn of pictures being written.
+    /// A turntable being rendered.
     pub turn: Option<Turn>,
-    /// A fit report under way.
+    /// A fit report in the making.
     pub reporting: Option<Reporting>,
-    /// What is open below the panes.
+    /// What the drawer below the panes shows; None when it is closed.
     pub drawer: Option<Drawer>,
-    /// Files that were open before.
+    /// The list of recent files.
     pub recent: Recent,
     /// The file that is opened next.
     pub opening: Option<std::path::PathBuf>,
-    /// What pieces are stood round the body by.
+    /// Arrangement points and placed pieces, for the placement tool.
     pub placing: Placing,
-    /// How body and cloth are drawn.
+    /// Display options of body and cloth.
     pub sight: Sight,
-    /// What gets the keyboard with the toolbar and with the side panel.
+    /// First widgets of the toolbar and of the side panel, which get the keyboard focus.
     pub first_tool: Option<egui::Id>,
     pub first_of_panel: Option<egui::Id>,
-    /// Poses of the mannequin.
+    /// Panel of the mannequin's poses.
     pub pose: PosePanel,
-    /// Measures of the body.
+    /// Panel of body measurements.
     pub tape: TapePanel,
-    /// What cloth is coloured by.
+    /// The map that the cloth is coloured by.
     pub maps: MapView,
-    /// Small pictures of samples and projects.
+    /// Thumbnails of samples and projects.
     pub thumbnails: Thumbnails,
 }
 
 impl Shell {
-    /// Whether keys belong to something over the panes.
+    /// Whether keys go to a dialog or page over the panes.
     pub fn is_asking(&self) -> bool {
         self.palette.is_some()
             || self.manual.is_some()
@@ -88,7 +88,7 @@ impl App {
         self.shell.start = Some(StartPage::default());
     }
 
-    /// Makes small pictures of samples and projects in the background, and keeps those of samples in `folder`.
+    /// Makes thumbnails of samples and projects in the background; those of samples are kept in `folder`.
     pub fn keep_thumbnails(&mut self, folder: std::path::PathBuf) {
         self.shell.thumbnails = Thumbnails::kept_in(folder);
     }
@@ -132,7 +132,7 @@ impl App {
         }
     }
 
-    /// What lies over the panes in this frame.
+    /// Draws pages and dialogs over the panes in this frame.
     pub(in crate::ui) fn over_panes(
         &mut self,
         ctx: &egui::Context,
@@ -172,7 +172,7 @@ impl App {
         }
     }
 
-    /// From now on, and the next time.
+    /// Changes the preferences, applies them and saves them.
     pub(in crate::ui) fn prefer(&mut self, ctx: &egui::Context, change: impl FnOnce(&mut Preferences)) {
         change(&mut self.preferences);
         self.live_by_preferences(ctx);
@@ -195,14 +195,14 @@ impl App {
         self.shell.recent.look();
     }
 
-    /// `path` goes to the top of the list of files that were open.
+    /// Moves `path` to the top of the list of recent files.
     pub(in crate::ui) fn remember(&mut self, path: &std::path::Path) {
         if let Err(words) = self.shell.recent.add(path) {
             self.messages.error(format!("The list of files could not be kept: {words}"));
         }
     }
 
-    /// Undoes (less than 0) or does again `steps` steps.
+    /// Undoes (negative) or redoes (positive) this many steps.
     pub(in crate::ui) fn jump(&mut self, steps: i32) {
         for _ in 0..steps.unsigned_abs() {
             self.apply(if steps < 0 { Command::Undo } else { Command::Redo });
@@ -214,8 +214,8 @@ impl App {
         self.scene_pane.hovered || (focused && !self.pattern_pane.hovered)
     }
 
-    /// Shows the selected mark or the cloth of the selected pieces where they lie on the body; everything where nothing is
-    /// selected or lies there.
+    /// Turns the view of the body to the selected mark or the cloth of the selected pieces; to everything where nothing selected
+    /// is on the body.
     pub(in crate::ui) fn frame_selected_on_body(&mut self) {
         let session = self.shown();
         let Some(surface) = session.surface().cloned() else { return };

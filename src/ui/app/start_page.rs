@@ -1,4 +1,4 @@
-//! The start page: begin anew, take up what was open before, open a sample, take the tour.
+//! The start page: new project, recent files, samples, tour.
 
 use egui::{
     Align2, CentralPanel, FontId, Frame, Key, Margin, Modifiers, Pos2, Rect, RichText, ScrollArea, Sense,
@@ -15,17 +15,17 @@ use crate::ui::files::thumbnails::Subject;
 use crate::ui::look::theme::Palette;
 use crate::ui::shell::menu;
 
-/// Width of a sample's card, points: all in a row where there is room.
+/// Width of a sample's card, points; within it the cards fill one row if possible.
 const CARD: std::ops::RangeInclusive<f32> = 130.0..=210.0;
-/// Of the column of what to begin with, points.
+/// Width of the column with new and recent projects, points.
 const COLUMN: f32 = 300.0;
 
-/// The page, open.
+/// The open start page.
 #[derive(Debug, Default)]
 pub struct StartPage {}
 
 impl App {
-    /// Shows it instead of the panes.
+    /// Draws the start page instead of the panes.
     pub(in crate::ui) fn start_page(
         &mut self,
         ui: &mut egui::Ui,
@@ -188,7 +188,7 @@ impl App {
         });
     }
 
-    /// A figure opens the file with that number; Esc goes to the panes.
+    /// A digit key opens the file with that number; Esc goes to the panes.
     fn start_keys(&mut self, ctx: &egui::Context, now: &FrameContext, asks: &mut Asks) {
         if self.dialog.is_some() || self.shell.is_asking() || egui::Popup::is_any_open(ctx) {
             return;
@@ -215,7 +215,7 @@ impl App {
         }
     }
 
-    /// To the panes.
+    /// Closes the start page.
     pub(in crate::ui) fn leave_start_page(&mut self) {
         self.shell.start = None;
         self.shell.thumbnails.rest();

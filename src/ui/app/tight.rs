@@ -1,4 +1,4 @@
-//! A tight place is shown in both panes.
+//! Shows a tight place in both panes.
 
 use glam::DVec3;
 
@@ -8,7 +8,7 @@ use crate::ui::scenery::ring::flat;
 use crate::ui::selection::Selection;
 
 impl App {
-    /// Selects the piece of a tight place, rings the place and turns the view to it.
+    /// Selects the piece of a tight place, marks the place by a ring and turns the view to it.
     pub(in crate::ui) fn show_place(&mut self, place: ClothPlace) {
         let session = self.shown();
         let found = session.snapshot().tight.iter().find(|tight| flat(tight) == place);
@@ -21,7 +21,7 @@ impl App {
         self.scene_pane.show(&[DVec3::from_array(at)], &surface);
     }
 
-    /// The tight place that is shown, while the cloth lies as it did then.
+    /// The tight place that is shown; None once the cloth has moved.
     pub fn spot(&self) -> Option<ClothPlace> {
         let tight = &self.shown().snapshot().tight;
         self.picks.spot.filter(|spot| tight.iter().any(|place| flat(place) == *spot))

@@ -1,4 +1,4 @@
-//! The tour: from an empty table to a dressed body in five steps, each done by the person's own hand.
+//! The tour: from an empty table to a dressed body in five steps, which the user carries out.
 
 use std::sync::Arc;
 
@@ -14,23 +14,23 @@ use crate::ui::app::App;
 use crate::ui::look::theme::Palette;
 use crate::wrap::{Marks, Phase};
 
-/// Steps there are.
+/// Number of steps.
 const STEPS: usize = 5;
 
-/// Where the person stands.
+/// Progress of the tour.
 #[derive(Debug, Default)]
 pub struct Tour {
-    /// From 0.
+    /// Current step, from 0.
     step: usize,
-    /// The garment lay at rest before the last step.
+    /// Length of the undo history when the last step began.
     steps_before: usize,
 }
 
-/// What one step says.
+/// The texts of one step.
 struct Step {
     title: &'static str,
     words: &'static str,
-    /// What is done for a person who asks.
+    /// Label of the button that carries the step out for the user.
     help: Option<&'static str>,
 }
 
@@ -65,7 +65,7 @@ fn step(i: usize) -> Step {
 }
 
 impl Tour {
-    /// Whether what the step asks for is done.
+    /// Whether the user has done what the step asks for. `steps` is the length of the undo history.
     fn is_done(&self, now: &FrameContext, steps: usize) -> bool {
         match self.step {
             0 => now.pieces > 0,
@@ -78,7 +78,7 @@ impl Tour {
 }
 
 impl App {
-    /// Begins it on an empty table; the caller has asked about unsaved changes.
+    /// Begins the tour on an empty table; the caller has asked about unsaved changes.
     pub(in crate::ui) fn begin_tour(&mut self) {
         self.replace(Project::default(), None);
         self.leave_start_page();
@@ -86,7 +86,7 @@ impl App {
         self.shell.tour = Some(Tour::default());
     }
 
-    /// The card of the step, over the body pane.
+    /// Draws the card of the current step over the body pane.
     pub(in crate::ui) fn tour_ui(
         &mut self,
         ctx: &egui::Context,
@@ -155,7 +155,7 @@ impl App {
         }
     }
 
-    /// What is done for a person who asks in this step.
+    /// Requests that carry out the current step for the user.
     fn help_in_tour(&self, step: usize) -> Vec<Ask> {
         let sample = Sample::Tshirt.project(&mannequin::default()).document;
         match step {

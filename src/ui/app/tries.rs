@@ -1,4 +1,4 @@
-//! Starts that did not get far: after three in a row the next one does without what may be to blame.
+//! Detects failed starts: after three in a row the next one does without what may be the cause.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -6,11 +6,11 @@ use std::time::Duration;
 
 use crate::ui::files;
 
-/// Failed starts in a row after which the next is a plain one.
+/// Number of failed starts in a row after which the next is a plain one.
 const MOST_FAILED: u32 = 3;
-/// A window that was open so long has started.
+/// Time after which an open window counts as a successful start.
 pub const STARTED: Duration = Duration::from_secs(3);
-/// What a plain start says.
+/// Message of a plain start.
 pub const PLAIN: &str = "Toile did not get far the last times it was started. This time it draws with the processor where it can, \
                      and does without your preferences and recent files; they are still there, and back with the next start.";
 
@@ -22,7 +22,7 @@ pub struct Starts {
 }
 
 impl Starts {
-    /// A start, counted in `folder`. A count that cannot be read is 0; one that cannot be written is not kept.
+    /// Counts a start in `folder`. A count that cannot be read is 0; one that cannot be written is ignored.
     pub fn begin(folder: &Path) -> Self {
         let file = folder.join("starts");
         let failed = std::fs::read_to_string(&file).ok().and_then(|n| n.trim().parse().ok()).unwrap_or(0);
@@ -36,12 +36,12 @@ impl Starts {
         Self { file, failed }
     }
 
-    /// Whether this start does without preferences, pictures of before and the graphics card.
+    /// Whether this is a plain start: without preferences, old thumbnails and the graphics card.
     pub fn is_plain(&self) -> bool {
         self.failed >= MOST_FAILED
     }
 
-    /// This start has succeeded.
+    /// Notes that this start has succeeded.
     pub fn well(&self) {
         if let Err(why) = std::fs::remove_file(&self.file) {
             tracing::debug!("{}: {why}", self.file.display());
@@ -49,7 +49,7 @@ impl Starts {
     }
 }
 
-/// Makes `options` prefer an adapter that is a processor, whose driver is the least likely to fail.
+/// Makes `options` prefer a software adapter, whose driver is the least likely to fail.
 pub fn prefer_processor(options: &mut eframe::NativeOptions) {
     if let egui_wgpu::WgpuSetup::CreateNew(setup) = &mut options.wgpu_options.wgpu_setup {
         setup.native_adapter_selector = Some(Arc::new(|adapters, surface| {

@@ -1,4 +1,4 @@
-//! A turn of pictures, one a frame, that can be stopped.
+//! Renders a turntable: one picture per frame, so that it can be stopped.
 
 use std::path::{Path, PathBuf};
 
@@ -11,7 +11,7 @@ use crate::ui::files;
 use crate::ui::look::theme::Palette;
 use crate::ui::scenery::portrait::numbered;
 
-/// Under way.
+/// A turntable being rendered.
 #[derive(Debug)]
 pub struct Turn {
     path: PathBuf,
@@ -21,14 +21,14 @@ pub struct Turn {
 }
 
 impl App {
-    /// Begins a turn of pictures by the options chosen last, into files numbered after `path`.
+    /// Begins a turntable by the options chosen last, into files numbered after `path`.
     pub(in crate::ui) fn begin_turn(&mut self, path: &Path) {
         let options = self.picture_options;
         let first = self.camera_of_picture(&options);
         self.shell.turn = Some(Turn { path: path.to_owned(), options, first, done: 0 });
     }
 
-    /// The next picture of the turn under way, and how far it has come.
+    /// Renders the next picture of the turntable and draws the progress.
     pub(in crate::ui) fn go_on_turning(&mut self, ctx: &egui::Context, palette: &Palette, above: f32) {
         let Some(mut turn) = self.shell.turn.take() else { return };
         let count = turn.options.count;
@@ -54,7 +54,7 @@ impl App {
     }
 }
 
-/// How many of `count` pictures are done, low in the window, `above` its edge; true: they shall be stopped.
+/// Draws the progress, `done` of `count` pictures, at the bottom of the window, `above` its edge; true when the user stops it.
 pub fn progress_ui(ctx: &egui::Context, palette: &Palette, above: f32, done: usize, count: usize) -> bool {
     let area = Area::new(Id::unique("pictures")).order(Order::Foreground);
     let shown = area.anchor(Align2::CENTER_BOTTOM, [0.0, -above - 14.0]).show(ctx, |ui| {

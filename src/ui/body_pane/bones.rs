@@ -1,4 +1,4 @@
-//! Drawing bones in the body.
+//! The tool that draws bones inside the body.
 
 use egui::{Pos2, Rect};
 use glam::DVec3;
@@ -9,11 +9,12 @@ use crate::contact::Bone;
 use crate::session::Command;
 use crate::ui::actions::asks::{Ask, Asks};
 
-/// A shorter bone is a slip of the hand, metres on a body 1.5 m large.
+/// Shortest bone, metres on a body 1.5 m tall; a shorter one was drawn by accident.
 const SHORTEST: f64 = 0.01;
 
 impl ScenePane {
-    /// The point halfway through the body under a point of the screen: between where a ray enters and where it first leaves.
+    /// The point halfway through the body under a point of the screen: the middle between where a ray enters and where it first
+    /// leaves.
     pub(super) fn within_body(&self, seen: &Seen<'_>, pane: Rect, at: Pos2) -> Option<DVec3> {
         let (body, ray) = (seen.body?, self.ray(pane, at));
         let direction = ray.direction.normalize_or_zero();
@@ -22,7 +23,7 @@ impl ScenePane {
         Some(entry.midpoint(body.ray(inside, direction)?.point))
     }
 
-    /// The bone being drawn goes on to under the pointer.
+    /// Moves the end of the bone being drawn to the pointer.
     pub(super) fn draw_bone(&mut self, seen: &Seen<'_>, pane: Rect, at: Option<Pos2>) {
         let end = at.and_then(|at| self.within_body(seen, pane, at));
         if let (Some(Drag::Bone(bone)), Some(end)) = (&mut self.drag, end) {
@@ -30,7 +31,7 @@ impl ScenePane {
         }
     }
 
-    /// The bone that was drawn joins the others.
+    /// Adds the drawn bone to the document.
     pub(super) fn end_bone(&mut self, seen: &Seen<'_>, bone: Bone, asks: &mut Asks) {
         let scale = seen.body.map_or(1.0, |body| body.scale());
         if bone[0].distance(bone[1]) >= SHORTEST * scale {
@@ -39,7 +40,7 @@ impl ScenePane {
         }
     }
 
-    /// A Ctrl+click takes away the bone under the pointer.
+    /// Deletes the bone under the pointer, on a Ctrl+click.
     pub(super) fn delete_bone(&self, seen: &Seen<'_>, pane: Rect, at: Pos2) -> Option<Ask> {
         let away = |bone: &Bone| {
             let [a, b] = bone.map(|p| self.place_of(p, pane));
@@ -54,7 +55,7 @@ impl ScenePane {
         Some(Ask::Do(Command::SetBones { bones: Some(others.collect()) }))
     }
 
-    /// Those of the document and the one being drawn.
+    /// The bones of the document and the one being drawn.
     pub(super) fn shown_bones(&self, seen: &Seen<'_>) -> Vec<Bone> {
         let drawn = match self.drag {
             Some(Drag::Bone(bone)) => Some(bone),

@@ -1,4 +1,4 @@
-//! A small cube that turns with the view; a click on a side looks from there.
+//! The view cube: it turns with the view, and a click on a side chooses that view.
 
 use egui::accesskit::Role;
 use egui::{Align2, FontId, Pos2, Rect, Sense, Shape, Stroke, WidgetInfo};
@@ -9,12 +9,12 @@ use crate::ui::actions::Action;
 use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::look::theme::Palette;
 
-/// Half an edge, points.
+/// Half the length of an edge, points.
 const HALF: f32 = 21.0;
-/// From the corner of the pane to the middle of the cube, points.
+/// Distance of the cube's centre from the pane's edges, points.
 const FROM_CORNER: f32 = 50.0;
 
-/// A side of it: where it looks, the way its picture's right and up run, the letter on it.
+/// A side of the cube: its outward normal, the directions of its letter's right and up, and the letter.
 struct Side {
     view: View,
     out: Vec3,
@@ -32,7 +32,7 @@ const SIDES: [Side; 6] = [
     Side { view: View::Below, out: Vec3::NEG_Y, right: Vec3::X, up: Vec3::Z, letter: "U" },
 ];
 
-/// Draws it into the upper right corner of `pane`.
+/// Draws the cube in the upper right corner of `pane`.
 pub(super) fn view_cube(ui: &mut egui::Ui, pane: Rect, camera: &Camera, palette: &Palette, asks: &mut Asks) {
     let middle = pane.right_top() + egui::vec2(-FROM_CORNER, FROM_CORNER);
     let turn = camera.rotation.inverse();
@@ -45,7 +45,7 @@ pub(super) fn view_cube(ui: &mut egui::Ui, pane: Rect, camera: &Camera, palette:
         let facing = (turn * side.out).z;
         let corners = corners(side, middle, turn);
         let centre = on_screen(side.out, middle, turn);
-        // For the keyboard and screen readers each side is a button, whichever way it looks.
+        // Each side is a button for the keyboard and screen readers, even if it faces away.
         let spot = Rect::from_center_size(centre, egui::Vec2::splat(if facing > 0.3 { 12.0 } else { 1.0 }));
         let button = ui.interact(spot, ui.scope_id().with(("side of the view cube", i)), Sense::click());
         let entry = Action::Look(side.view).row();
@@ -96,14 +96,14 @@ fn corners(side: &Side, middle: Pos2, turn: Quat) -> [Pos2; 4] {
     [at(-1.0, -1.0), at(1.0, -1.0), at(1.0, 1.0), at(-1.0, 1.0)]
 }
 
-/// The side that a point of the screen is on.
+/// The side under a point of the screen.
 fn side_under(at: Pos2, middle: Pos2, turn: Quat) -> Option<usize> {
     SIDES.iter().position(|side| {
         let corners = corners(side, middle, turn);
         let left_of = |i: usize| {
             let (a, b) = (corners[i], corners[(i + 1) % 4]);
             let (along, to) = (b - a, at - a);
-            // y runs down on the screen: a side seen from outside runs the other way round.
+            // y points down on the screen, so a side that faces the eye has the opposite orientation.
             along.x * to.y - along.y * to.x < 0.0
         };
         (turn * side.out).z > 0.02 && (0..4).all(left_of)

@@ -1,4 +1,4 @@
-//! The picture of the scene in its pane.
+//! Draws the picture of the scene in its pane.
 
 use std::sync::Arc;
 
@@ -14,16 +14,16 @@ use crate::session::Pin;
 use crate::ui::scenery::ring::ring;
 use crate::ui::scenery::scene::{PinLook, Shown};
 
-/// How each pin is drawn.
+/// The look of each pin.
 fn pin_looks(seen: &Seen<'_>) -> Vec<PinLook> {
     let look = |pin: &Pin| PinLook { locked: pin.locked, selected: seen.selected_pins.contains(&pin.id) };
     seen.document.pins.iter().map(look).collect()
 }
 
-/// Pictures drawn by a processor shrink by this much while things move.
+/// Scale of pictures while things move, with software rendering.
 const DRAFT: f32 = 0.8;
 
-/// Words in the middle of the pane that `painter` paints.
+/// Draws a text in the middle of the pane.
 fn tell(painter: &egui::Painter, words: &str, ink: Color32) {
     let font = FontId::proportional(14.0);
     painter.text(painter.clip_rect().center(), Align2::CENTER_CENTER, words, font, ink);

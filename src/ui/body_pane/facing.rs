@@ -1,20 +1,20 @@
-//! From where places on a body are seen: the skin of an armpit or between the legs looks at other skin.
+//! Finds a view of places on the body. Skin in an armpit or between the legs faces other skin and must be seen past it.
 
 use glam::DVec3;
 
 use crate::body::Surface;
 
-/// Degrees above the horizon from where places are looked at, the first preferred,
+/// Pitches to try, degrees above the horizon; earlier ones are preferred.
 const PITCHES: [f64; 3] = [10.0, -25.0, 45.0];
-/// and to the sides of where their skin looks.
+/// Yaws to try, degrees to either side of the direction that the skin faces; earlier ones are preferred.
 const YAWS: [f64; 7] = [0.0, 30.0, -30.0, 60.0, -60.0, 80.0, -80.0];
-/// Skin seen at less than this sine is not seen.
+/// Smallest cosine between normal and view direction at which skin counts as visible.
 const GRAZING: f64 = 0.15;
-/// Sight begins so far above the skin, metres on a body 1.5 m large.
+/// Height above the skin at which rays of sight begin, metres on a body 1.5 m tall.
 const ABOVE: f64 = 0.005;
 
-/// Yaw and pitch, degrees, from where most of `points` near `body` are seen, with as little turning aside from where their skin looks
-/// as that takes; None where their skin looks up, down or all ways.
+/// Yaw and pitch (degrees) from which most of `points` near `body` are visible, with as little deviation as possible from the
+/// direction that their skin faces; None where the skin faces up, down or all ways.
 pub(super) fn facing(points: &[DVec3], body: &Surface) -> Option<(f64, f64)> {
     let skin: Vec<(DVec3, DVec3)> = points
         .iter()
@@ -35,11 +35,11 @@ pub(super) fn facing(points: &[DVec3], body: &Surface) -> Option<(f64, f64)> {
         skin.iter().filter(is_seen).count()
     };
     let all = PITCHES.iter().flat_map(|&pitch| YAWS.iter().map(move |yaw| (straight + yaw, pitch)));
-    // Of equals the last would be the greatest.
+    // `max_by_key` takes the last of equal ones, so the order is reversed to take the first.
     all.rev().max_by_key(seen)
 }
 
-/// Where one looks from, a unit vector.
+/// Unit vector towards the eye; angles in degrees.
 fn towards(yaw: f64, pitch: f64) -> DVec3 {
     let ((sin, cos), (up, along)) = (yaw.to_radians().sin_cos(), pitch.to_radians().sin_cos());
     DVec3::new(sin * along, up, cos * along)

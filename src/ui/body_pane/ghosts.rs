@@ -1,4 +1,4 @@
-//! Marks proposed and not accepted yet: they are seen, and never in the document.
+//! Proposed marks that are not accepted yet: they are shown, but are not part of the document.
 
 use std::sync::Arc;
 
@@ -7,17 +7,17 @@ use crate::pattern::Pattern;
 use crate::session::{Document, Session};
 use crate::wrap::{Marks, suggested};
 
-/// Proposed marks, and what they were proposed for.
+/// Proposed marks, with the pattern and body they were proposed for.
 #[derive(Clone, Debug)]
 pub struct Ghosts {
-    /// At least one pair.
+    /// The marks, at least one pair.
     pub marks: Arc<Marks>,
     pattern: Arc<Pattern>,
     surface: Arc<Surface>,
 }
 
 impl Ghosts {
-    /// Marks for the pattern and body of `session`. None when none can be proposed.
+    /// Proposes marks for the pattern and body of `session`; None when none can be proposed.
     pub fn proposed(session: &Session) -> Option<Self> {
         let document = session.document();
         let surface = session.surface()?;
@@ -25,14 +25,14 @@ impl Ghosts {
         Self::of(Arc::new(suggested(&document.pattern, surface, offset)), session)
     }
 
-    /// These marks, proposed for the pattern and body of `session`. None without a pair or a body.
+    /// `marks` as proposed for the pattern and body of `session`; None without a pair or a body.
     pub fn of(marks: Arc<Marks>, session: &Session) -> Option<Self> {
         marks.pairs().next()?;
         let surface = Arc::clone(session.surface()?);
         Some(Self { marks, pattern: Arc::clone(&session.document().pattern), surface })
     }
 
-    /// Whether pieces and body are still those they were proposed for. Pieces may have been moved on the table.
+    /// Whether pieces and body are still those that the marks were proposed for. Moving pieces on the table does not matter.
     pub fn fit(&self, document: &Document, surface: Option<&Arc<Surface>>) -> bool {
         let outlines =
             |p: &Pattern| p.pieces.iter().map(|(id, piece)| (*id, piece.outline.clone())).collect::<Vec<_>>();

@@ -1,4 +1,4 @@
-//! Our own picture of the scene, kept as a texture that egui shows.
+//! Renders the scene of the body pane to a texture that egui shows.
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -19,48 +19,48 @@ use crate::ui::scenery::scene::PinLook;
 use crate::ui::selection::Item;
 use crate::wrap::Marks;
 
-/// What a picture depends on: with the same key nothing is drawn again.
+/// Everything that the picture depends on: with an equal key nothing is rendered again.
 #[derive(Clone, Debug, Default)]
 pub struct Key {
-    /// From where.
+    /// The camera.
     pub camera: Camera,
-    /// How.
+    /// Colours, light and display options.
     pub look: Look,
-    /// Pixels.
+    /// Size, pixels.
     pub size: UVec2,
-    /// With how much work.
+    /// Rendering quality.
     pub quality: Quality,
-    /// Of what.
+    /// The body.
     pub body: Option<Arc<Surface>>,
-    /// With which cloth.
+    /// The cloth.
     pub cloth: Option<Arc<ClothState>>,
-    /// With which marks.
+    /// The marks of the document.
     pub marks: Option<Arc<Marks>>,
-    /// Points of the stroke under way.
+    /// Number of points of the stroke in progress.
     pub stroke: usize,
     /// The mark under the pointer.
     pub near: Option<MarkId>,
-    /// With which pins.
+    /// Vertices under the pins.
     pub pinned: Option<Arc<Vec<Option<u32>>>>,
-    /// How those are drawn.
+    /// Looks of the pins.
     pub pins: Vec<PinLook>,
-    /// With which bones.
+    /// The bones that are drawn.
     pub bones: Vec<Bone>,
-    /// With which pieces not active.
+    /// Pieces that are not active.
     pub activities: BTreeMap<PieceId, Activity>,
-    /// With which drag.
+    /// Fraction of the drag's motion that reaches each vertex.
     pub dragged: Option<Arc<Vec<f32>>>,
-    /// In the colours of which map.
+    /// Colours of the map.
     pub map: Option<Arc<Vec<Rgb>>>,
-    /// With which other garment.
+    /// Meshes of another garment beside.
     pub beside: Option<Arc<Vec<Arc<Mesh>>>>,
-    /// The mark that stands out.
+    /// The emphasised mark.
     pub selected: Option<MarkId>,
-    /// With which proposed marks.
+    /// Proposed marks.
     pub ghosts: Option<Arc<Marks>>,
-    /// With which edges and seams standing out.
+    /// Emphasised edges and seams.
     pub stand_out: Vec<Item>,
-    /// With a ring round which place.
+    /// The place marked by a ring.
     pub spot: Option<ClothPlace>,
 }
 
@@ -119,16 +119,16 @@ fn same<T>(a: &Option<Arc<T>>, b: &Option<Arc<T>>) -> bool {
     }
 }
 
-/// The renderer, on the window's device.
+/// The renderer of the body pane, on egui's device.
 pub struct Graphics {
     state: egui_wgpu::RenderState,
     gpu: Gpu,
     renderer: Renderer,
     target: Option<(OffscreenTarget, TextureId)>,
     drawn: Option<Key>,
-    /// Pictures drawn so far.
+    /// Number of pictures rendered.
     pub pictures: u64,
-    /// Why the device is gone.
+    /// Why the device is lost; None while it works.
     lost: Arc<Mutex<Option<String>>>,
 }
 
@@ -139,7 +139,7 @@ impl std::fmt::Debug for Graphics {
 }
 
 impl Graphics {
-    /// On the device that egui draws with.
+    /// A renderer on the device that egui draws with.
     pub fn new(state: egui_wgpu::RenderState) -> Self {
         let gpu = Gpu::from_parts(&state.adapter, state.device.clone(), state.queue.clone());
         let renderer = Renderer::new(&gpu);
@@ -152,24 +152,24 @@ impl Graphics {
         Self { state, gpu, renderer, target: None, drawn: None, pictures: 0, lost }
     }
 
-    /// Why nothing can be drawn any more; None while the device is there.
+    /// Why the device is lost; None while it works.
     pub fn lost(&self) -> Option<String> {
         self.lost.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
-    /// What draws, for people.
+    /// Name of the adapter, for people.
     pub fn adapter_name(&self) -> &str {
         &self.gpu.adapter_name
     }
 
-    /// A processor does the drawing.
+    /// Whether the adapter renders in software.
     pub fn is_slow(&self) -> bool {
         self.gpu.software
     }
 
-    /// The picture for `key`, drawn only when it differs from the last one. `scene` makes what is to be drawn.
+    /// The picture for `key`, rendered only when the key differs from the last one. `scene` builds the scene.
     pub fn picture(&mut self, key: Key, scene: impl FnOnce() -> Scene) -> Result<TextureId, RenderError> {
-        // A device that is gone says so only when it is asked.
+        // A lost device reports this only when it is polled.
         self.state.device.poll(wgpu::PollType::Poll).ok();
         if let Some(why) = self.lost() {
             return Err(RenderError::Device(why));
@@ -185,7 +185,7 @@ impl Graphics {
         Ok(texture)
     }
 
-    /// A picture of its own, of `size` pixels; what is shown stays as it is. Waits for the device.
+    /// Renders a separate picture of `size` pixels and waits for it; the picture in the pane is unchanged.
     pub fn photograph(
         &mut self,
         scene: &Scene,

@@ -20,10 +20,10 @@ use crate::ui::body_pane::pick::{ClothHit, cloth_under};
 use crate::ui::panels::pins::named;
 use crate::ui::selection::Selection;
 
-/// Pins of a row stand this far apart, metres on a body 1.5 m large.
+/// Distance between the pins of a row, metres on a body 1.5 m tall.
 const ROW_STEP: f64 = 0.03;
 
-/// The cloth under a ray, if the body is not before it.
+/// The cloth under a ray, unless the body is in front of it.
 pub fn cloth_at(seen: &Seen<'_>, ray: Ray) -> Option<ClothHit> {
     let (garment, state) = seen.cloth?;
     let hit = cloth_under(garment, state, &ray)?;
@@ -31,7 +31,7 @@ pub fn cloth_at(seen: &Seen<'_>, ray: Ray) -> Option<ClothHit> {
     skin.is_none_or(|skin| skin.distance > hit.distance - 1e-3).then_some(hit)
 }
 
-/// What begins when the button goes down on cloth with one of the tools of the hand.
+/// The request when the button goes down on cloth with the drag or pin tool.
 pub fn begun(seen: &Seen<'_>, hit: &ClothHit) -> Ask {
     let (piece, at) = (hit.place.piece, hit.place.at);
     Ask::Drag(match seen.tool {
@@ -41,15 +41,15 @@ pub fn begun(seen: &Seen<'_>, hit: &ClothHit) -> Ask {
     })
 }
 
-/// The next pin of a row whose last one is at `last`, when the pointer has come far enough.
+/// The next pin of a row whose last pin is at `last`, once the pointer is far enough from it.
 pub fn next_in_row(seen: &Seen<'_>, last: DVec3, hit: &ClothHit) -> Option<Ask> {
     let scale = seen.body.map_or(1.0, |b| b.scale());
     (hit.point.distance(last) > ROW_STEP * scale)
         .then_some(Ask::Drag(Command::AddPin { piece: hit.place.piece, at: hit.place.at }))
 }
 
-/// The pins of the document with the places of the cloth they hold. Where the simulation has found them may be of pins
-/// there were before: their own places count.
+/// The pins of the document with their positions on the cloth, metres. The simulation's positions may be those of older pins, so
+/// the pins' own places are used.
 pub fn pins(seen: &Seen<'_>) -> Vec<(PinId, DVec3)> {
     let Some((garment, state)) = seen.cloth else { return Vec::new() };
     let mut pieces: BTreeMap<PieceId, FlatPiece> = BTreeMap::new();
@@ -61,7 +61,7 @@ pub fn pins(seen: &Seen<'_>) -> Vec<(PinId, DVec3)> {
     seen.document.pins.iter().filter_map(&mut place).collect()
 }
 
-/// How much of a drag from under the pointer would reach each vertex, and what that was worked out for.
+/// Cache of the fraction of a drag's motion that would reach each vertex.
 #[derive(Debug, Default)]
 pub struct Reach {
     metric: Option<(Arc<Garment>, EdgeMetric)>,
@@ -70,7 +70,7 @@ pub struct Reach {
 }
 
 impl Reach {
-    /// From `hand` against `pins`; worked out anew only when they change.
+    /// The fractions for a drag at the vertex `hand` with the vertices `pins` fixed; computed only when these change.
     fn of(
         &mut self,
         garment: &Arc<Garment>,
@@ -94,12 +94,12 @@ impl Reach {
 }
 
 impl ScenePane {
-    /// What a drag would reach, as shown in the last frame.
+    /// The fractions shown in the last frame.
     pub fn reached(&self) -> Option<&[f32]> {
         self.reach.shares.as_ref().map(|shares| &shares[..])
     }
 
-    /// Before a drag: what it would reach, where pins hold cloth back.
+    /// Before a drag: the fractions for a drag from under the pointer, where pins hold the cloth.
     pub(super) fn reach_under(
         &mut self,
         seen: &Seen<'_>,
@@ -117,7 +117,7 @@ impl ScenePane {
         self.reach.of(garment, &state.mapped, hand, pins)
     }
 
-    /// A click with the pin tool: pulls the pin out that is there, or sticks one in.
+    /// A click with the pin tool: removes the pin under the pointer, or adds one.
     pub(super) fn pin_or_pull(&self, seen: &Seen<'_>, pane: Rect, at: Pos2) -> Option<Ask> {
         let hit = cloth_at(seen, self.ray(pane, at))?;
         Some(Ask::Do(match self.pin_at(seen, pane, at) {
@@ -126,7 +126,7 @@ impl ScenePane {
         }))
     }
 
-    /// The pin within reach of a point of the screen that the body does not hide.
+    /// The visible pin near a point of the screen.
     pub(super) fn pin_at(&self, seen: &Seen<'_>, pane: Rect, at: Pos2) -> Option<PinId> {
         let away = |p: DVec3| self.place_of(p, pane).map(|place| place.distance(at));
         let near = pins(seen)
@@ -136,7 +136,7 @@ impl ScenePane {
         near.min_by(|a, b| a.2.total_cmp(&b.2)).map(|(id, ..)| id)
     }
 
-    /// A click that selects a pin: with the tool that selects, or with Shift and the tool for pins.
+    /// A click that selects a pin: with the selection tool, or with Shift and the pin tool.
     pub(super) fn picked_pin(&self, seen: &Seen<'_>, pane: Rect, at: Pos2, add: bool) -> Option<Ask> {
         let selects = seen.tool == Tool::Move || (add && seen.tool == Tool::Pin);
         let pin = self.pin_at(seen, pane, at).filter(|_| selects)?;
@@ -144,7 +144,7 @@ impl ScenePane {
         Some(Ask::Pick(before.clicked_pin(pin, add)))
     }
 
-    /// Tells screen readers and tests where each pin is.
+    /// Publishes the position of each pin to screen readers and tests.
     pub(super) fn publish_pins(&self, ui: &egui::Ui, seen: &Seen<'_>, pane: Rect) {
         for (pin, (id, place)) in seen.document.pins.iter().zip(pins(seen)) {
             let Some(at) = self.place_of(place, pane).filter(|_| pin.id == id) else { continue };
@@ -156,7 +156,7 @@ impl ScenePane {
         }
     }
 
-    /// Takes cloth in the hand or begins a row of pins; false when there is no cloth under the pointer.
+    /// Begins to drag cloth or a row of pins; false when there is no cloth under the pointer.
     pub(super) fn take_cloth(
         &mut self,
         ui: &egui::Ui,

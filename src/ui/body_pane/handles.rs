@@ -1,23 +1,24 @@
-//! Arrows and rings by which standing pieces are moved and turned along the axes of space.
+//! Handles (arrows and rings) that move and turn placed pieces along and about the axes of space.
 
 use egui::{Color32, Painter, Pos2, Shape, Stroke};
 use glam::{DQuat, DVec3};
 
 use crate::drag::Ray;
 
-/// How long an arrow is, points on the screen.
+/// Length of an arrow, points.
 const ARROW: f32 = 78.0;
-/// Radius of a ring seen from the front, points on the screen.
+/// Radius of a ring seen from the front, points.
 const RING: f32 = 56.0;
 /// Half the size of an arrow's head, points.
 const HEAD: f32 = 6.0;
-/// Straight pieces that a ring is drawn as.
+/// Number of straight segments of a ring.
 const SIDES: usize = 48;
-/// How near the pointer must come, points.
+/// Largest distance of the pointer from a handle, points.
 const NEAR: f32 = 7.0;
-/// A plane that is seen at a flatter angle (cosine) is no good for turning in.
+/// Smallest cosine between the pointer's ray and a ring's axis, or sine between the ray and an arrow, at which the handle can be
+/// dragged.
 const FLAT: f64 = 0.08;
-/// Across the body, up, and to the front.
+/// The axes of the handles: across the body, up, and to the front.
 pub(super) const AXES: [DVec3; 3] = [DVec3::X, DVec3::Y, DVec3::Z];
 const COLOURS: [Color32; 3] = [
     Color32::from_rgb(0xc8, 0x4a, 0x42),
@@ -25,25 +26,25 @@ const COLOURS: [Color32; 3] = [
     Color32::from_rgb(0x3d, 0x6f, 0xc4),
 ];
 
-/// What is taken hold of.
+/// A handle that can be dragged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Handle {
-    /// Moves along an axis.
+    /// Moves along an axis of space.
     Arrow(usize),
-    /// Turns about an axis.
+    /// Turns about an axis of space.
     Ring(usize),
-    /// Moves in the plane of the screen.
+    /// The piece itself: moves in the plane of the screen.
     Piece,
 }
 
-/// The handles about a point, as they are on the screen.
+/// The handles around a point, in screen coordinates.
 pub(super) struct Handles {
     arrows: Vec<(usize, [Pos2; 2])>,
     rings: Vec<(usize, Vec<Pos2>)>,
 }
 
 impl Handles {
-    /// About `centre`, where a point on the screen is `metres` large. `at` puts points of space on the screen.
+    /// Handles around `centre`, where a screen point is `metres` long. `at` projects points of space to the screen.
     pub fn new(centre: DVec3, metres: f64, at: impl Fn(DVec3) -> Option<Pos2>) -> Self {
         let arrow = |k: usize| Some((k, [at(centre)?, at(centre + AXES[k] * (metres * f64::from(ARROW)))?]));
         let ring = |k: usize| {
@@ -57,11 +58,11 @@ impl Handles {
         Self { arrows: (0..3).filter_map(arrow).collect(), rings: (0..3).filter_map(ring).collect() }
     }
 
-    /// The one under a point of the screen.
+    /// The handle under a point of the screen.
     pub fn under(&self, at: Pos2) -> Option<Handle> {
         let arrows = self.arrows.iter().filter_map(|(k, [from, to])| {
             let (away, share) = from_line(at, *from, *to);
-            // Near the middle all of them are under the pointer.
+            // Near the centre all handles would be under the pointer.
             (share > 0.25).then_some((Handle::Arrow(*k), away))
         });
         let rings = self.rings.iter().map(|(k, points)| {
@@ -105,15 +106,15 @@ fn ink(colour: Color32, hot: bool) -> Color32 {
     if hot { Color32::from_rgb(0xf2, 0xb0, 0x1e) } else { colour }
 }
 
-/// How far `at` is from a line, and where on it the nearest point is.
+/// Distance of `at` from a line segment, and the fraction along it of the nearest point.
 fn from_line(at: Pos2, from: Pos2, to: Pos2) -> (f32, f32) {
     let along = to - from;
     let share = ((at - from).dot(along) / along.length_sq().max(1e-6)).clamp(0.0, 1.0);
     ((from + along * share).distance(at), share)
 }
 
-/// Where a ray takes hold of a handle about `centre`: metres along an arrow's axis, or radians round a ring's; for a piece the
-/// place in the plane through `centre` that looks along `eye`. None where that is not to be told.
+/// Where a ray grabs a handle around `centre`: metres along an arrow's axis, radians on a ring, or for a piece the point in the
+/// plane through `centre` perpendicular to `eye`. None where this cannot be determined.
 pub(super) fn hold(handle: Handle, centre: DVec3, eye: DVec3, ray: Ray) -> Option<Held> {
     let direction = ray.direction.normalize_or_zero();
     let on_plane = |normal: DVec3| {
@@ -139,7 +140,7 @@ pub(super) fn hold(handle: Handle, centre: DVec3, eye: DVec3, ray: Ray) -> Optio
     }
 }
 
-/// Where a handle is held.
+/// The position at which a handle is held.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Held {
     Along(f64),
@@ -147,8 +148,8 @@ pub(super) enum Held {
     At(DVec3),
 }
 
-/// What is done by a handle that was held `from` and is held `to` now: a turn about its centre, and a way. `steps`: turned
-/// by whole multiples of 15 degrees.
+/// The rotation about the centre and the translation of a handle dragged `from` one position `to` another. `steps`: the rotation
+/// is a multiple of 15 degrees.
 pub(super) fn done(handle: Handle, from: Held, to: Held, steps: bool) -> (DQuat, DVec3) {
     match (handle, from, to) {
         (Handle::Arrow(k), Held::Along(from), Held::Along(to)) => (DQuat::IDENTITY, AXES[k] * (to - from)),

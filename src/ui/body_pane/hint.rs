@@ -1,9 +1,9 @@
-//! What the pointer does in the body pane, in words.
+//! Hints for the status bar: what the pointer does in the body pane.
 
 use crate::ui::actions::Tool;
 use crate::ui::pointer::mouse::Mouse;
 
-/// What the pointer does here, for the status bar.
+/// The hint of the body pane for the status bar.
 pub fn hint(tool: Tool, mouse: Mouse, laser: bool, dressed: bool, next: usize) -> String {
     let view = mouse.view_hint();
     match tool {

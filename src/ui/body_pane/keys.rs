@@ -1,4 +1,4 @@
-//! Painting, pinning and dragging without a pointer: arrow keys move a cross over the picture, Space presses there.
+//! Painting, pinning and dragging by keyboard: arrow keys move a cursor over the picture, Space presses there.
 
 use egui::{EventFilter, Key, Painter, Pos2, Rect, Response, Stroke};
 use glam::DVec3;
@@ -11,24 +11,24 @@ use crate::ui::actions::asks::{Ask, Asks, in_one_step};
 use crate::ui::look::theme::Palette;
 use crate::ui::pointer::stroke;
 
-/// How far arrow keys move the cross, and with Shift, logical pixels.
+/// Step of the cursor by an arrow key, and with Shift, logical pixels.
 const STEPS: [f32; 2] = [8.0, 1.0];
-/// Half the size of the cross, logical pixels.
+/// Half the size of the cursor's cross, logical pixels.
 const ARM: f32 = 8.0;
 
-/// What is under way by keys.
+/// State of painting and dragging by keys.
 #[derive(Debug, Default)]
 pub(super) struct ByKeys {
-    /// The cross, from the middle of the pane, logical pixels; none before the first arrow.
+    /// The cursor relative to the centre of the pane, logical pixels; None before the first arrow key.
     cross: Option<egui::Vec2>,
-    /// A stroke on the near and, with the laser, on the far side; empty when none is under way.
+    /// Strokes on the near and, with the laser, on the far side; empty when none is in progress.
     strokes: [Vec<DVec3>; 2],
-    /// Cloth is in the hand.
+    /// Whether cloth is being dragged.
     holds: bool,
 }
 
 impl ByKeys {
-    /// The strokes under way on the near and the far side.
+    /// The strokes in progress on the near and the far side.
     pub fn strokes(&self) -> Option<&[Vec<DVec3>; 2]> {
         (!self.strokes[0].is_empty()).then_some(&self.strokes)
     }
@@ -37,7 +37,7 @@ impl ByKeys {
         self.cross.map(|away| pane.center() + away)
     }
 
-    /// The keyboard's cross, and the ring round a pane that has the keyboard.
+    /// Draws the keyboard's cursor, and a frame round a pane that has the keyboard focus.
     pub fn draw(&self, painter: &Painter, pane: Rect, focused: bool, palette: &Palette) {
         if focused {
             let ring = Stroke::new(1.5, palette.accent);
@@ -53,12 +53,12 @@ impl ByKeys {
 }
 
 impl ScenePane {
-    /// Something is under way by keys: Esc gives it up.
+    /// Whether a stroke or drag by keys is in progress, which Esc cancels.
     pub(super) fn is_busy_by_keys(&self) -> bool {
         self.by_keys.holds || self.by_keys.strokes().is_some()
     }
 
-    /// Whether the pane listens to `key` itself now.
+    /// Whether the pane uses `key` itself now.
     pub fn takes_key(&self, key: Key) -> bool {
         match key {
             Key::Enter => self.is_busy_by_keys(),
@@ -67,12 +67,12 @@ impl ScenePane {
         }
     }
 
-    /// The keyboard is the pane's.
+    /// Whether the pane has the keyboard focus.
     pub fn has_focus(&self, ctx: &egui::Context) -> bool {
         self.id.is_some() && ctx.memory(|m| m.focused()) == self.id
     }
 
-    /// What the keys do here, for the status bar; none while the pointer rules.
+    /// The hint for the status bar about keys; None while the pointer is used.
     pub fn hint_by_keys(&self, tool: Tool, next: usize) -> Option<String> {
         let busy = self.is_busy_by_keys();
         self.by_keys.cross?;
@@ -88,12 +88,12 @@ impl ScenePane {
         })
     }
 
-    /// Where the keyboard's cross is.
+    /// Position of the keyboard's cursor on the screen.
     pub(super) fn cross(&self, pane: Rect) -> Option<Pos2> {
         self.by_keys.place(pane)
     }
 
-    /// Takes the keys while the pane has the keyboard. The pointer takes over when it moves.
+    /// Handles the keys while the pane has the focus. A movement of the pointer ends the use of the cursor.
     pub(super) fn listen_to_keys(
         &mut self,
         ui: &egui::Ui,
@@ -154,7 +154,7 @@ impl ScenePane {
         }
     }
 
-    /// Space: a corner of a stroke, cloth taken or let go, or what a click does.
+    /// Space: adds a corner to a stroke, grabs or releases cloth, or does what a click does.
     fn press(&mut self, seen: &Seen<'_>, pane: Rect, at: Pos2, asks: &mut Asks) {
         match seen.tool {
             Tool::Mark => self.add_corner(seen, pane, at, asks),
@@ -171,7 +171,7 @@ impl ScenePane {
         }
     }
 
-    /// The stroke goes on along the skin to what is under the cross, wherever the view has been turned since.
+    /// Continues the stroke along the skin to the point under the cursor, even if the view was turned meanwhile.
     fn add_corner(&mut self, seen: &Seen<'_>, pane: Rect, at: Pos2, asks: &mut Asks) {
         let last = self.by_keys.strokes[0].last().and_then(|p| {
             let place = self.camera.project(p.as_vec3(), size_of(pane))?;
@@ -192,7 +192,7 @@ impl ScenePane {
         }
     }
 
-    /// Enter: the stroke is painted, the cloth let go.
+    /// Enter: finishes the stroke, releases the cloth.
     fn end_by_keys(&mut self, seen: &Seen<'_>, asks: &mut Asks) {
         if std::mem::take(&mut self.by_keys.holds) {
             asks.push(Ask::Drag(Command::Release));

@@ -1,4 +1,4 @@
-//! The body pane: the body and the cloth on it, turned and painted with the pointer.
+//! The body pane: shows the body and the cloth on it; the pointer turns the view, paints and drags.
 
 mod bones;
 mod cube;
@@ -55,110 +55,110 @@ use overlay::{publish_marks, view_buttons};
 pub use place::Places;
 use place::Stood;
 
-/// What the pane shows.
+/// The state that the pane shows.
 #[derive(Clone, Copy)]
 pub struct Seen<'a> {
     /// The document.
     pub document: &'a Document,
     /// Its body.
     pub body: Option<&'a Arc<Surface>>,
-    /// The garment on it.
+    /// The garment, and its positions on the body.
     pub cloth: Option<(&'a Arc<Garment>, &'a Arc<ClothState>)>,
-    /// The same with its deactivated pieces.
+    /// The garment including its deactivated pieces, and their positions.
     pub whole: Option<(&'a Arc<Garment>, &'a Arc<ClothState>)>,
     /// The vertex of the garment under each pin of the document.
     pub pinned: &'a Arc<Vec<Option<u32>>>,
-    /// How much of the drag under way reaches each vertex.
+    /// Fraction of the motion of the drag in progress that reaches each vertex.
     pub dragged: Option<&'a Arc<Vec<f32>>>,
-    /// What the cloth is coloured by, instead of its own colours.
+    /// The map that the cloth is coloured by; None: its own colours.
     pub map: Option<&'a ShownMap>,
-    /// Another garment on its body, beside this one.
+    /// Meshes of another garment on its body, beside this one.
     pub beside: Option<&'a Arc<Vec<Arc<Mesh>>>>,
-    /// Whether cloth is still being laid.
+    /// Whether a wrap is still growing cloth.
     pub growing: bool,
     /// Whether the cloth is moving.
     pub working: bool,
-    /// What the left button does.
+    /// The chosen tool, which the left button uses.
     pub tool: Tool,
-    /// What all buttons do.
+    /// The mapping of mouse buttons.
     pub mouse: Mouse,
-    /// Strokes go through to the far side of the body.
+    /// Laser mode: strokes go through to the far side of the body.
     pub laser: bool,
-    /// The mark that stands out.
+    /// The emphasised mark.
     pub selected: Option<MarkId>,
-    /// Bones of the body, while they are worked on.
+    /// Bones of the body, while they are edited.
     pub bones: &'a [Bone],
-    /// What pieces are stood by, while that is done: they are seen instead of the cloth.
+    /// Arrangement points and placed pieces, which are shown instead of the cloth while pieces are placed.
     pub places: Option<Places<'a>>,
-    /// Pins that are selected.
+    /// Selected pins.
     pub selected_pins: &'a BTreeSet<PinId>,
-    /// What of the pattern stands out: what is selected, and what the pointer is over in either pane.
+    /// Emphasised items of the pattern: selected ones, and the one under the pointer in either pane.
     pub stand_out: &'a [Item],
-    /// The place that is ringed.
+    /// The place marked by a ring.
     pub spot: Option<ClothPlace>,
-    /// Marks proposed and not accepted yet.
+    /// Proposed marks that are not accepted yet.
     pub ghosts: Option<&'a Arc<Marks>>,
-    /// Colours and light.
+    /// Colours, light and display options.
     pub look: Look,
     /// Colours of the interface.
     pub palette: &'a Palette,
 }
 
-/// The camera, the drag under way and the last picture.
+/// State of the pane: camera, drag in progress and last picture.
 #[derive(Debug, Default)]
 pub struct ScenePane {
-    /// From where the body is seen.
+    /// The camera.
     pub camera: Camera,
-    /// Show everything from here in the next frame.
+    /// Frame everything in the next frame, from this view or (inner None) from the present one.
     pub frame: Option<Option<View>>,
-    /// Turn like a ball, not upright.
+    /// Whether the view turns by trackball instead of turntable.
     pub free_turning: bool,
     /// Whether the pointer was over the pane in the last frame.
     pub hovered: bool,
-    /// Where it was on the screen in the last frame.
+    /// Area of the pane on the screen in the last frame.
     pub area: Option<Rect>,
-    /// Where its small buttons were.
+    /// Area of its small buttons in the last frame.
     pub buttons: Option<Rect>,
-    /// The widget, for the keyboard.
+    /// Id of the pane's widget, for the keyboard focus.
     pub id: Option<egui::Id>,
-    /// What of the pattern was under the pointer in the last frame.
+    /// Item of the pattern under the pointer in the last frame.
     pub under: Option<Item>,
-    /// The value of the map under the pointer in the last frame.
+    /// Value of the map under the pointer in the last frame.
     pub value: Option<f64>,
-    /// The renderer; none without a graphics adapter.
+    /// The renderer; None without a graphics adapter.
     pub graphics: Option<Graphics>,
     scenery: Scenery,
     drag: Option<Drag>,
     by_keys: ByKeys,
     reach: Reach,
-    /// Where the pointer of the drag was last followed to.
+    /// Position of the pointer up to which the stroke is painted.
     followed: Option<Pos2>,
     framed_body: Option<Arc<Surface>>,
     moving: bool,
 }
 
-/// Between two places of the pointer the skin is looked for at this distance, logical pixels.
+/// Distance at which the skin is sampled between two positions of the pointer, logical pixels.
 const FOLLOW_STEP: f32 = 4.0;
-/// A leap of the pointer is followed in no more steps than these.
+/// Largest number of samples between two positions of the pointer.
 const MOST_FOLLOW_STEPS: f32 = 500.0;
 
 #[derive(Debug)]
 enum Drag {
-    /// A stroke on the body, and with the laser the one on its far side.
+    /// A stroke on the body, and with the laser the one on the far side.
     Paint([Vec<DVec3>; 2]),
-    /// The view is moved, with this button.
+    /// Moves the view, with this button.
     View(PointerAction, PointerButton),
-    /// Cloth is in the hand, held with this button.
+    /// Drags cloth, with this button.
     Cloth(PointerButton),
-    /// A row of pins, the last of which is here.
+    /// Adds a row of pins, the last of which is here.
     Row(DVec3),
-    /// A pin is stuck in elsewhere.
+    /// Moves a pin.
     Pin(PinId),
-    /// A bone, from end to end.
+    /// Draws a bone, from end to end.
     Bone([DVec3; 2]),
-    /// Pieces that stand before they are sewn.
+    /// Moves placed pieces.
     Stand(Stood),
-    /// Given up; the button is still down.
+    /// The drag was cancelled; the button is still down.
     Over,
 }
 
@@ -168,12 +168,12 @@ impl ScenePane {
         Self { graphics: device.map(Graphics::new), ..Self::default() }
     }
 
-    /// The same pane, seen as before, drawn by another device.
+    /// This pane, with its view, drawn by another device.
     pub fn drawn_by(self, device: Option<egui_wgpu::RenderState>) -> Self {
         Self { graphics: device.map(Graphics::new), drag: None, ..self }
     }
 
-    /// Draws the pane and listens to the pointer.
+    /// Draws the pane and handles the pointer.
     pub fn ui(&mut self, ui: &mut egui::Ui, seen: &Seen<'_>, asks: &mut Asks) {
         let pane = ui.available_rect_before_wrap();
         let response = ui.allocate_rect(pane, Sense::click_and_drag());
@@ -202,12 +202,12 @@ impl ScenePane {
         self.buttons = Some(view_buttons(ui, pane, seen, asks));
     }
 
-    /// The stroke under way on the near side.
+    /// The stroke in progress on the near side.
     pub fn stroke(&self) -> &[DVec3] {
         self.strokes().map_or(&[], |[near, _]| near)
     }
 
-    /// The strokes under way on the near and the far side.
+    /// The strokes in progress on the near and the far side.
     fn strokes(&self) -> Option<&[Vec<DVec3>; 2]> {
         match &self.drag {
             Some(Drag::Paint(strokes)) => Some(strokes),
@@ -288,7 +288,7 @@ impl ScenePane {
             (Some(_), Tool::Mark | Tool::Move) => asks.push(Ask::Select(near)),
             (None, Tool::Move) => asks.push(Ask::Select(None)),
             (None, Tool::Mark) if !erasing => {
-                // Paper A: the left button paints on the body and pins cloth.
+                // In paper A's mapping the left button paints on the body and pins cloth.
                 let pin = self.pin_or_pull(seen, pane, at).filter(|_| seen.mouse == Mouse::Paper);
                 if let Some(pin) = pin {
                     return asks.push(pin);
@@ -327,7 +327,8 @@ impl ScenePane {
         });
     }
 
-    /// Follows the pointer through every place it was in since the last frame, and between them: a fast hand leaves few.
+    /// Continues the drag through every position of the pointer since the last frame and, for strokes, between them: a fast
+    /// motion gives few positions.
     fn go_on(&mut self, ui: &egui::Ui, seen: &Seen<'_>, pane: Rect) {
         if matches!(self.drag, Some(Drag::Bone(_))) {
             return self.draw_bone(seen, pane, ui.input(|i| i.pointer.latest_pos()));
@@ -342,7 +343,7 @@ impl ScenePane {
             });
             moved.collect()
         });
-        // A jump from one limb to another is no stroke along the body.
+        // A jump from one limb to another is not part of a stroke along the body.
         let leap = 0.12 * seen.body.map_or(1.0, |b| b.scale());
         let mut hits: Vec<[Option<DVec3>; 2]> = Vec::new();
         for at in trail {
@@ -403,12 +404,12 @@ impl ScenePane {
     }
 }
 
-/// Whether the release of a button would not be seen.
+/// Whether the release of a button may be missed, since the window lost the focus or the pointer.
 fn is_lost(input: &egui::InputState) -> bool {
     input.events.contains(&Event::WindowFocused(false)) || input.events.contains(&Event::PointerGone)
 }
 
-/// The commands that paint `strokes`, laid back on the skin after smoothing. Empty ones are left out.
+/// Commands that paint `strokes`, projected back to the skin after smoothing; empty strokes are left out.
 fn painted(seen: &Seen<'_>, strokes: [Vec<DVec3>; 2]) -> Vec<Command> {
     let on_skin = |p: DVec3| seen.body.map_or(p, |b| b.nearest(p).point);
     let strokes = strokes.into_iter().filter(|points| !points.is_empty());

@@ -1,4 +1,4 @@
-//! Edges and seams of the pattern where they lie on the dressed body.
+//! Edges and seams of the pattern on the dressed cloth.
 
 use glam::DVec2;
 
@@ -10,12 +10,12 @@ use crate::pattern::edit::nearest_on_edge;
 use crate::pattern::{EdgeRef, Pattern, Stretch};
 use crate::ui::selection::Item;
 
-/// How near to an edge of the cloth the pointer is over it, metres on a body 1.5 m large.
+/// Largest distance of the pointer from an edge of the cloth, metres on a body 1.5 m tall.
 const NEAR_EDGE: f64 = 0.02;
 
 /// The edge of the dressed cloth under a ray.
 pub fn edge_under(seen: &Seen<'_>, ray: Ray) -> Option<Item> {
-    // While it moves there is nothing to be read off.
+    // While the cloth moves no edge is picked.
     let hit = cloth_at(seen, ray).filter(|_| !seen.working)?;
     let piece = seen.document.pattern.pieces.get(&hit.place.piece)?;
     let edges = (0..piece.edge_count()).map(|edge| {
@@ -26,7 +26,7 @@ pub fn edge_under(seen: &Seen<'_>, ray: Ray) -> Option<Item> {
     (distance <= NEAR_EDGE * seen.body.map_or(1.0, |b| b.scale())).then_some(Item::Edge(edge))
 }
 
-/// The lines of edges and seams, each in its piece's own plane.
+/// The polylines of edges and seams, each in its piece's own plane.
 pub fn outlines(pattern: &Pattern, items: &[Item]) -> Vec<(PieceId, Vec<DVec2>)> {
     let at: Vec<f64> = (0..=48).map(|i| f64::from(i) / 48.0).collect();
     let line = |side: Stretch| {

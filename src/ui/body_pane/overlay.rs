@@ -1,4 +1,4 @@
-//! What lies over the picture: small buttons, and what screen readers are told.
+//! Widgets over the picture: small buttons, and nodes for screen readers.
 
 use egui::accesskit::Role;
 use egui::{Pos2, Rect, Sense, WidgetInfo};
@@ -9,8 +9,8 @@ use crate::ui::actions::Action;
 use crate::ui::actions::asks::{Ask, Asks};
 use crate::wrap::Marks;
 
-/// Small buttons over the lower right corner, where they hide only floor: how body and cloth are drawn, and all of them.
-/// Returns where they are.
+/// Draws the small buttons for display options and framing in the lower right corner, where they hide only floor. Returns their
+/// area.
 pub(super) fn view_buttons(ui: &mut egui::Ui, pane: Rect, seen: &Seen<'_>, asks: &mut Asks) -> Rect {
     let area = Rect::from_min_max(
         Pos2::new(pane.left() + 8.0, pane.bottom() - 34.0),
@@ -41,7 +41,7 @@ pub(super) fn view_buttons(ui: &mut egui::Ui, pane: Rect, seen: &Seen<'_>, asks:
     taken
 }
 
-/// Tells screen readers and tests where each mark is.
+/// Publishes the position of each mark to screen readers and tests.
 pub(super) fn publish_marks(ui: &egui::Ui, marks: &Marks, what: &str, pane: Rect, camera: &Camera) {
     for (i, mark) in marks.body.iter().enumerate() {
         let place = mark.points.first().and_then(|p| camera.project(p.as_vec3(), size_of(pane)));

@@ -1,4 +1,4 @@
-//! Lines from marks on the table to their partners on the body, over both panes.
+//! Lines from marks on the pattern to their partners on the body, across both panes.
 
 use egui::epaint::CubicBezierShape;
 use egui::{Color32, Pos2, Stroke, vec2};
@@ -10,13 +10,15 @@ use crate::ui::look::theme::colour;
 use crate::ui::pattern_pane::PatternPane;
 use crate::wrap::{BodyMark, ClothMark};
 
-/// How strongly a line is drawn: of any pair, behind the body, and of the selected one.
+/// Opacity of the line of a pair whose mark on the body is visible.
 const FAINT: f32 = 0.45;
+/// Opacity of the line of a pair whose mark is behind the body.
 const HIDDEN: f32 = 0.18;
+/// Opacity of the line of the selected pair.
 const STRONG: f32 = 0.95;
 
-/// Draws the pairs that a wrap would join: all of them while marks are painted and nothing is dressed, else only the one
-/// that is selected.
+/// Draws lines of the pairs that a wrap would join: all pairs while marks are painted and nothing is dressed, else only the
+/// selected one.
 pub fn pair_lines_ui(ui: &egui::Ui, seen: &Seen<'_>, table: &PatternPane, scene: &ScenePane) {
     let (Some(left), Some(right)) = (table.area, scene.area) else { return };
     let towards = (right.center().x - left.center().x).signum();
@@ -54,7 +56,7 @@ fn middle(mark: &BodyMark) -> usize {
     mark.points.len() / 2
 }
 
-/// Where the middle of a stroke lies on the screen; none where its piece is hidden.
+/// Position on the screen of the middle of a mark on the pattern; None where its piece is hidden.
 fn on_table(seen: &Seen<'_>, mark: &ClothMark, table: &PatternPane) -> Option<Pos2> {
     let piece = seen.document.pattern.pieces.get(&mark.piece).filter(|piece| !piece.hidden)?;
     let at = *mark.points.get(mark.points.len() / 2)?;

@@ -1,4 +1,4 @@
-//! Which point of the cloth lies under the pointer.
+//! Picks the point of the cloth under the pointer.
 
 use glam::{DVec2, DVec3};
 
@@ -6,20 +6,20 @@ use crate::cloth::{ClothState, FlatPlace, Garment};
 use crate::drag::Ray;
 use crate::sim::ClothPlace;
 
-/// A point of dressed cloth.
+/// A picked point of dressed cloth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ClothHit {
-    /// In the flat pattern.
+    /// Position in the flat pattern.
     pub place: ClothPlace,
-    /// In the triangle that is met.
+    /// Triangle and barycentric coordinates.
     pub flat: FlatPlace,
-    /// In space, metres.
+    /// Position in space, metres.
     pub point: DVec3,
-    /// From the ray's origin, metres.
+    /// Distance from the ray's origin, metres.
     pub distance: f64,
 }
 
-/// The first point of the laid cloth that `ray` meets, from either side.
+/// The first point of the placed cloth that `ray` hits, from either side.
 pub fn cloth_under(garment: &Garment, state: &ClothState, ray: &Ray) -> Option<ClothHit> {
     let direction = ray.direction.normalize();
     let mut best: Option<(f64, usize, DVec2)> = None;
@@ -42,7 +42,8 @@ pub fn cloth_under(garment: &Garment, state: &ClothState, ray: &Ray) -> Option<C
     Some(ClothHit { place, flat, point: ray.origin + direction * distance, distance })
 }
 
-/// Distance along the ray and barycentric weights of the second and third corner (Moeller and Trumbore 1997).
+/// Ray-triangle intersection: distance along the ray and barycentric weights of the second and third corner (Moeller and Trumbore
+/// 1997).
 pub(in crate::ui) fn meets(origin: DVec3, direction: DVec3, [a, b, c]: [DVec3; 3]) -> Option<(f64, DVec2)> {
     let (ab, ac) = (b - a, c - a);
     let across = direction.cross(ac);

@@ -1,4 +1,4 @@
-//! Standing pieces round the body: dots to stand them at, and handles to move and turn them.
+//! The placement tool: dots at arrangement points to place pieces at, and handles to move and turn them.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -21,32 +21,33 @@ use crate::ui::selection::{Item, Selection};
 
 /// Radius of a dot, points.
 const DOT: f32 = 4.5;
-/// Dots are shown where the skin looks towards the eye by more than this cosine: those at the outline of a limb, too.
+/// Smallest cosine between the skin's normal and the view direction at which a dot is shown; it includes dots on the outline of a
+/// limb.
 const FACES: f64 = -0.1;
 
-/// What is there to stand pieces by.
+/// Arrangement points and placed pieces that the pane shows.
 #[derive(Clone, Copy, Debug)]
 pub struct Places<'a> {
     /// Arrangement points of the body.
     pub points: &'a [Point],
-    /// The pieces as they stand.
+    /// The placed pieces.
     pub standing: &'a Standing,
-    /// Those that are selected.
+    /// The selected pieces.
     pub selected: &'a BTreeSet<PieceId>,
 }
 
-/// A drag of standing pieces.
+/// A drag of placed pieces.
 #[derive(Clone, Debug)]
 pub(super) struct Stood {
     handle: Handle,
     centre: DVec3,
     held: Held,
-    /// Of those in the hand, as the drag began.
+    /// Poses of the dragged pieces when the drag began.
     poses: Vec<(PieceId, SpacePose)>,
 }
 
 impl ScenePane {
-    /// Dots, handles and outlines over the picture; a click on a dot stands the selected pieces there.
+    /// Draws dots, handles and outlines over the picture; a click on a dot places the selected pieces there.
     pub(super) fn places_ui(&mut self, ui: &mut egui::Ui, seen: &Seen<'_>, pane: Rect, asks: &mut Asks) {
         let (Some(places), Some(body)) = (seen.places, seen.body) else { return };
         let painter = ui.painter_at(pane);
@@ -94,19 +95,19 @@ impl ScenePane {
         }
     }
 
-    /// The handles about the selected pieces that stand.
+    /// The handles around the selected pieces that are placed.
     fn handles(&self, seen: &Seen<'_>, pane: Rect) -> Option<Handles> {
         let centre = centre(&seen.document.pattern, seen.places?.selected)?;
         let size = size_of(pane);
         let depth = self.camera.project(centre.as_vec3(), size)?;
-        // How large a point on the screen is there.
+        // Size of a screen point at that depth.
         let right = self.camera.rotation * glam::Vec3::X;
         let beside = self.camera.project(centre.as_vec3() + right * 0.1, size)?;
         let metres = 0.1 / f64::from((beside.pixel - depth.pixel).length().max(1e-3));
         Some(Handles::new(centre, metres, |p| self.place_of(p, pane)))
     }
 
-    /// A click that met no dot: selects the piece there, with `add` beside what is selected.
+    /// A click that hit no dot: selects the piece there, with `add` in addition to the selection.
     pub(super) fn click_standing(&self, seen: &Seen<'_>, pane: Rect, at: Pos2, add: bool, asks: &mut Asks) {
         let Some(places) = seen.places else { return };
         if self.handles(seen, pane).is_some_and(|handles| handles.under(at).is_some()) {
@@ -125,7 +126,7 @@ impl ScenePane {
         }));
     }
 
-    /// Takes a handle or a piece in the hand; false where there is none.
+    /// Begins to drag a handle or a piece; false where there is none.
     pub(super) fn take_standing(&mut self, seen: &Seen<'_>, pane: Rect, at: Pos2, asks: &mut Asks) -> bool {
         let Some(places) = seen.places else { return false };
         let (pattern, ray) = (&seen.document.pattern, self.ray(pane, at));
@@ -153,7 +154,7 @@ impl ScenePane {
         true
     }
 
-    /// What is in the hand follows the pointer.
+    /// Moves what is dragged to the pointer.
     pub(super) fn stand_on(&self, pane: Rect, at: Pos2, steps: bool) -> Option<Ask> {
         let Some(Drag::Stand(stood)) = &self.drag else { return None };
         let eye = self.camera.towards_eye().as_dvec3();
@@ -170,7 +171,7 @@ fn standing(pattern: &Pattern, id: PieceId) -> Option<(&Arc<Piece>, SpacePose)> 
     Some((piece, piece.placement?))
 }
 
-/// The standing piece that a ray meets before the body, and where.
+/// The placed piece that a ray hits before the body, and the point where.
 fn standing_under(seen: &Seen<'_>, places: &Places<'_>, ray: Ray) -> Option<(PieceId, DVec3)> {
     let (piece, at, far) = places.standing.under(ray)?;
     let skin = seen.body.and_then(|body| body.ray(ray.origin, ray.direction));
@@ -178,7 +179,7 @@ fn standing_under(seen: &Seen<'_>, places: &Places<'_>, ray: Ray) -> Option<(Pie
     (!is_hidden || seen.look.xray).then_some((piece, at))
 }
 
-/// The middle of the pieces among `selected` that stand.
+/// The centre of those pieces of `selected` that are placed.
 fn centre(pattern: &Pattern, selected: &BTreeSet<PieceId>) -> Option<DVec3> {
     let middle = |id: &PieceId| {
         let (piece, pose) = standing(pattern, *id)?;
@@ -191,7 +192,7 @@ fn centre(pattern: &Pattern, selected: &BTreeSet<PieceId>) -> Option<DVec3> {
     (!all.is_empty()).then(|| all.iter().sum::<DVec3>() / all.len() as f64)
 }
 
-/// Stands what is selected at a point, and twins that are not selected at the one on the other side of the body.
+/// Places the selected pieces at a point, and unselected twins at the mirrored point on the other side of the body.
 fn stand_at(seen: &Seen<'_>, places: &Places<'_>, point: &Point) -> Ask {
     let (pattern, Some(body)) = (&seen.document.pattern, seen.body) else {
         return Ask::Say("There is no body to stand pieces at".to_owned());
@@ -217,7 +218,7 @@ fn stand_at(seen: &Seen<'_>, places: &Places<'_>, point: &Point) -> Ask {
     Ask::Do(Command::EditPattern { edits: vec![PatternEdit::PlaceInSpace { placements }], anew: false })
 }
 
-/// The name of the point on the other side of the body; None for those in the middle.
+/// The name of the mirrored point on the other side of the body; None for points in the middle.
 fn other_side(name: &str) -> Option<String> {
     let (left, right) = (name.contains("left"), name.contains("right"));
     match (left, right) {

@@ -1,4 +1,4 @@
-//! What pieces are stood round the body by: its arrangement points, and the pieces as they stand.
+//! Data of the placement tool: the arrangement points of the body, and the placed pieces.
 
 use std::sync::Arc;
 
@@ -10,7 +10,7 @@ use crate::ui::body_pane::Places;
 use crate::ui::body_pane::standing::Standing;
 use crate::ui::selection::Selection;
 
-/// Both, made anew when body or pattern change.
+/// Arrangement points and placed pieces, computed anew when body or pattern change.
 #[derive(Debug, Default)]
 pub struct Placing {
     standing: Standing,
@@ -19,7 +19,7 @@ pub struct Placing {
 }
 
 impl Placing {
-    /// For the pieces of `document` and its body.
+    /// Updates both for the pieces and the body of `document`.
     pub fn update(&mut self, document: &Document, body: Option<&Arc<Surface>>, bones: &Arc<Vec<Bone>>) {
         self.standing.update(&document.pattern);
         let Some(body) = body else {
@@ -34,7 +34,7 @@ impl Placing {
         }
     }
 
-    /// What the pane shows of it.
+    /// The part of it that the pane shows.
     pub fn places<'a>(&'a self, selection: &'a Selection) -> Places<'a> {
         Places { points: &self.points, standing: &self.standing, selected: &selection.pieces }
     }

@@ -8,7 +8,7 @@ use super::{ScenePane, Seen};
 use crate::ui::maps::probe_ui;
 
 impl ScenePane {
-    /// Reads it off and writes it beside the pointer.
+    /// Determines the value and writes it beside the pointer.
     pub(super) fn probe(&mut self, ui: &egui::Ui, seen: &Seen<'_>, pane: Rect, hovered: Option<Pos2>) {
         self.value = None;
         let (Some(map), Some(at)) = (seen.map, hovered) else { return };

@@ -1,4 +1,4 @@
-//! What lies under a point of the screen.
+//! Picking in the body pane: what is under a point of the screen.
 
 use egui::{Pos2, Rect, Response};
 use glam::DVec3;
@@ -8,7 +8,7 @@ use crate::drag::Ray;
 use crate::geometry::ids::MarkId;
 use crate::render::Projection;
 
-/// How near to a mark a click counts, points on the screen.
+/// Largest distance of a click from a mark, points.
 pub(super) const REACH: f32 = 12.0;
 
 impl ScenePane {
@@ -19,7 +19,7 @@ impl ScenePane {
         Some(hit.point)
     }
 
-    /// The point of the body furthest behind a point of the screen, where the skin looks away.
+    /// The farthest point of the body behind a point of the screen, where the skin faces away.
     pub(super) fn pick_far(&self, seen: &Seen<'_>, pane: Rect, at: Pos2) -> Option<DVec3> {
         let ray = self.camera.ray(within(pane, at), size_of(pane));
         let (origin, direction) = (ray.origin.as_dvec3(), ray.direction.as_dvec3().normalize_or_zero());
@@ -29,7 +29,7 @@ impl ScenePane {
         Some(body.ray(origin + direction * beyond, -direction)?.point)
     }
 
-    /// Where a stroke at a point of the screen lies: on the near side, with the laser on the far side, too.
+    /// The points that a stroke at a point of the screen paints: on the near side, with the laser also on the far side.
     pub(super) fn hits(&self, seen: &Seen<'_>, pane: Rect, at: Pos2) -> [Option<DVec3>; 2] {
         let near = self.pick(seen, pane, at);
         [near, near.filter(|_| seen.laser).and_then(|_| self.pick_far(seen, pane, at))]
@@ -39,7 +39,7 @@ impl ScenePane {
         self.mark_at(seen, pane, response.hover_pos().filter(|_| self.drag.is_none())?)
     }
 
-    /// The mark on the body within reach of a point of the screen that is not behind the body.
+    /// The visible mark on the body near a point of the screen.
     pub(super) fn mark_at(&self, seen: &Seen<'_>, pane: Rect, at: Pos2) -> Option<MarkId> {
         let (at, size) = (within(pane, at), size_of(pane));
         let distance = |points: &[DVec3]| {
@@ -58,13 +58,13 @@ impl ScenePane {
             .map(|(id, _)| id)
     }
 
-    /// Where a point of the scene is on the screen.
+    /// Position on the screen of a point of the scene.
     pub fn place_of(&self, point: DVec3, pane: Rect) -> Option<Pos2> {
         let place = self.camera.project(point.as_vec3(), size_of(pane))?;
         Some(pane.min + egui::vec2(place.pixel.x, place.pixel.y))
     }
 
-    /// Whether the body does not hide a point.
+    /// Whether a point is not hidden by the body.
     pub fn is_in_sight(&self, seen: &Seen<'_>, point: DVec3) -> bool {
         let eye = match self.camera.projection {
             Projection::Perspective => self.camera.eye(),

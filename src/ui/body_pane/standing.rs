@@ -1,4 +1,4 @@
-//! Pieces where they stand in space before they are sewn. No egui here.
+//! Meshes of pieces placed in space before they are sewn. No egui here.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -13,10 +13,10 @@ use crate::pattern::{Pattern, SpacePose};
 use crate::render::{CLOTH_BACK, Mesh, cloth_front};
 use crate::ui::body_pane::pick::meets;
 
-/// Length of their triangles' edges, metres: tubes look round.
+/// Edge length of their triangles, metres; fine enough for rolled pieces to look round.
 const EDGE: f64 = 0.03;
 
-/// The standing pieces of a pattern, made anew when it changes.
+/// The placed pieces of a pattern as meshes, built anew when it changes.
 #[derive(Debug, Default)]
 pub struct Standing {
     of: Arc<Pattern>,
@@ -27,7 +27,7 @@ pub struct Standing {
 }
 
 impl Standing {
-    /// Those of `pattern`.
+    /// Updates the meshes to those of `pattern`.
     pub fn update(&mut self, pattern: &Arc<Pattern>) {
         if Arc::ptr_eq(&self.of, pattern) {
             return;
@@ -67,12 +67,12 @@ impl Standing {
         self.meshes = Arc::new(of_pieces.into_iter().map(mesh).collect());
     }
 
-    /// To be drawn.
+    /// The meshes to be drawn.
     pub fn meshes(&self) -> &Arc<Vec<Arc<Mesh>>> {
         &self.meshes
     }
 
-    /// The piece that a ray meets first, where, and how far from its origin, metres.
+    /// The first piece that a ray hits, the point, and its distance from the ray's origin, metres.
     pub fn under(&self, ray: Ray) -> Option<(PieceId, DVec3, f64)> {
         let triangles = self.garment.triangle_corners.iter().zip(&self.garment.triangle_pieces);
         let direction = ray.direction.normalize();
@@ -85,7 +85,7 @@ impl Standing {
     }
 }
 
-/// The way the plane's +z looks where `pose` puts `p`, unit.
+/// Unit normal of the piece's front at `p` under `pose`.
 fn normal(pose: &SpacePose, p: DVec2) -> DVec3 {
     const STEP: f64 = 1e-4;
     let slope = |d: DVec2| pose.at(p + d * STEP) - pose.at(p - d * STEP);

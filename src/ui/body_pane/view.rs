@@ -1,4 +1,4 @@
-//! From where the body is seen: turning, moving, zooming, framing.
+//! The view of the body: turning, moving, zooming, framing.
 
 use std::sync::Arc;
 
@@ -11,20 +11,20 @@ use crate::body::Surface;
 use crate::render::View;
 use crate::ui::pointer::mouse::PointerAction;
 
-/// Radians the view turns for each point the pointer moves.
+/// Rotation of the view per point of pointer motion, radians.
 const TURN: f32 = 0.0085;
-/// Logarithm of the zoom for each point the pointer moves.
+/// Logarithm of the zoom factor per point of pointer motion.
 const ZOOM: f32 = 0.008;
-/// What is shown by itself has so much room round it, metres on a body 1.5 m large.
+/// Space around points that are framed by themselves, metres on a body 1.5 m tall.
 const ROOM: f64 = 0.18;
 
 impl ScenePane {
-    /// What is shown changes to `body`, and is to be seen as the camera stands.
+    /// Notes that `body` is shown next, for which the camera is to stay as it is.
     pub fn keep_view(&mut self, body: Option<Arc<Surface>>) {
         (self.framed_body, self.frame) = (body, None);
     }
 
-    /// Turns to `points` on `body` and comes near enough to see them well.
+    /// Turns the view to `points` on `body` and frames them with some space around.
     pub fn show(&mut self, points: &[DVec3], body: &Surface) {
         if let Some((yaw, pitch)) = facing(points, body) {
             self.camera.look(View::Angles { yaw: yaw as f32, pitch: pitch as f32 });
@@ -32,7 +32,7 @@ impl ScenePane {
         self.come_near(points, body);
     }
 
-    /// Comes near enough to `points` on `body` to see them well, without turning.
+    /// Frames `points` on `body` with some space around, without turning.
     pub fn come_near(&mut self, points: &[DVec3], body: &Surface) {
         let room = ROOM * body.scale();
         let around = |p: &DVec3| [-1.0, 1.0].map(|s| (*p + DVec3::splat(s * room)).as_vec3());
@@ -99,7 +99,7 @@ impl ScenePane {
     }
 }
 
-/// Points of the cloth that lie on the body.
+/// Positions of the cloth's vertices that are placed on the body.
 fn on_body<'a>(seen: &Seen<'a>) -> impl Iterator<Item = &'a DVec3> + use<'a> {
     let state = seen.cloth.map(|(_, state)| state);
     state.into_iter().flat_map(|s| s.positions.iter().zip(&s.mapped).filter(|(_, m)| **m).map(|(p, _)| p))
@@ -111,7 +111,7 @@ fn everything(seen: &Seen<'_>, body: &Surface) -> (Vec3, Vec3) {
     points.fold((bounds.0.as_vec3(), bounds.1.as_vec3()), |(lower, upper), p| (lower.min(p), upper.max(p)))
 }
 
-/// Points of the body and the garment beside.
+/// Points of the body and the garment shown beside.
 fn beside<'a>(seen: &Seen<'a>) -> impl Iterator<Item = Vec3> + use<'a> {
     seen.beside.into_iter().flat_map(|meshes| meshes.iter().flat_map(|mesh| mesh.positions.iter().copied()))
 }

@@ -1,4 +1,4 @@
-//! Files as the window sees them: bytes in and out, errors in words.
+//! Reading and writing of files for the window. Errors are messages for the user.
 
 pub(in crate::ui) mod obj_sequence;
 pub(in crate::ui) mod posed_motion;
@@ -25,19 +25,19 @@ use crate::session::samples::Sample;
 use crate::session::{AnimatedFile, Animations, BodyChoice, Command, Project, project_file, whole_file};
 use crate::sim::Snapshot;
 
-/// Endings of patterns that are written,
+/// Extensions of the pattern formats that can be written.
 const WRITTEN_ENDINGS: [&str; 4] = {
     let [a, b, c, d] = PatternFormat::ALL;
     [a.ending(), b.ending(), c.ending(), d.ending()]
 };
-/// and of those that are read.
+/// Extensions of the pattern formats that can be read.
 const READ_ENDINGS: [&str; 3] = {
     let [_, b, c, d] = PatternFormat::ALL;
     assert!(b.is_read() && c.is_read() && d.is_read());
     [b.ending(), c.ending(), d.ending()]
 };
 
-/// What a file dialog is for.
+/// The purpose of a file dialog.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Purpose {
     /// Open a project.
@@ -64,7 +64,7 @@ pub enum Purpose {
     Recording,
     /// Write a picture of the body pane.
     Picture,
-    /// Write a turn of pictures.
+    /// Write a turntable (numbered pictures of a full turn).
     Turn,
     /// Write the fit report.
     FitPage,
@@ -94,7 +94,7 @@ impl Purpose {
         }
     }
 
-    /// Kind of file in words, and its extensions.
+    /// The kind of file in words, and its extensions.
     pub fn filter(self) -> (&'static str, &'static [&'static str]) {
         match self {
             Self::Open | Self::Save | Self::Copy | Self::Compare => ("Toile project", &["toile"]),
@@ -111,7 +111,7 @@ impl Purpose {
         }
     }
 
-    /// Whether a file is written.
+    /// Whether the purpose is to write a file.
     pub fn writes(self) -> bool {
         matches!(
             self,
@@ -126,7 +126,7 @@ impl Purpose {
         )
     }
 
-    /// The name a new file gets.
+    /// The suggested name of a new file.
     pub fn default_name(self) -> String {
         let stem = match self {
             Self::Recording => "recording",
@@ -141,7 +141,7 @@ impl Purpose {
     }
 }
 
-/// What tells that a file is still as it was written.
+/// Properties of a file that tell whether another program has changed it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct OnDisk {
     bytes: u64,
@@ -149,7 +149,7 @@ pub struct OnDisk {
 }
 
 impl OnDisk {
-    /// Of the file at `path`; none when there is none.
+    /// The properties of the file at `path`; None if it does not exist.
     pub fn of(path: &Path) -> Option<Self> {
         let file = std::fs::metadata(path).ok()?;
         Some(Self { bytes: file.len(), modified: file.modified().ok() })
@@ -166,26 +166,26 @@ pub fn save(path: &Path, project: &Project) -> Result<(), String> {
     project_file::save(path, project).map_err(|e| in_words(path, "saved", reason(e)))
 }
 
-/// The same over a file that is write-protected.
+/// Writes a project over a write-protected file.
 pub fn save_over(path: &Path, project: &Project) -> Result<(), String> {
     project_file::save_over(path, project).map_err(|e| in_words(path, "saved", reason(e)))
 }
 
-/// Writes a file, whole or not at all.
+/// Writes a file atomically: whole or not at all.
 pub fn write(path: &Path, bytes: &[u8]) -> Result<(), String> {
     whole_file::write(path, bytes).map_err(|e| in_words(path, "written", e))
 }
 
-/// What a file of a pattern gives.
+/// The result of importing a pattern.
 #[derive(Debug)]
 pub enum PatternImport {
-    /// The command that replaces what is on the table, and what a person should know about it.
+    /// The command that replaces the pattern, and notes for the user.
     Pattern(Command, Vec<String>),
-    /// It does not say how large it is.
+    /// A question: the file does not state its unit of length.
     Question(ScaleQuestion),
 }
 
-/// Reads a pattern. `unit` is the answer to the question how large it is.
+/// Reads a pattern. `unit` is the user's answer to the question about the unit of length.
 pub fn import_pattern(path: &Path, unit: Option<DrawingUnit>) -> Result<PatternImport, String> {
     match pattern_formats::read(&read(path)?, unit) {
         Ok(read) => {
@@ -198,7 +198,7 @@ pub fn import_pattern(path: &Path, unit: Option<DrawingUnit>) -> Result<PatternI
     }
 }
 
-/// Writes `pattern` as the name of the file says; a PDF on `paper`. Returns what the format does not hold.
+/// Writes `pattern` in the format of the file's extension; `paper` is for PDF. Returns what the format cannot hold.
 pub fn export_pattern(path: &Path, pattern: &Pattern, paper: Paper) -> Result<Vec<String>, String> {
     let ending = path.extension().unwrap_or_default().to_string_lossy();
     let Some(format) = PatternFormat::of_ending(&ending) else {
@@ -211,26 +211,26 @@ pub fn export_pattern(path: &Path, pattern: &Pattern, paper: Paper) -> Result<Ve
     Ok(written.left_out)
 }
 
-/// A body as its file has it.
+/// A body as read from a file, before its unit and up axis are settled.
 #[derive(Clone, Debug)]
 pub struct RawBody {
-    /// Shown to people.
+    /// Name for the user.
     pub name: String,
-    /// In the file's unit.
+    /// The mesh in the file's unit and axes.
     pub mesh: TriMesh,
     /// Sides of its bounding box, in the file's unit.
     pub size: DVec3,
-    /// What points up in the file.
+    /// The axis that points up in the file.
     pub up: UpAxis,
-    /// What the unit probably is.
+    /// The guessed unit.
     pub unit: Unit,
-    /// The guess is only one of several, or there is none.
+    /// Whether the user must confirm the unit and axis: there is no guess, or not the usual one.
     pub is_doubtful: bool,
-    /// The file, if there are animations in it.
+    /// The file's contents, if it has animations.
     animated: Option<Box<AnimatedFile>>,
 }
 
-/// Reads a body; its unit may still have to be asked for.
+/// Reads a body and guesses its unit and up axis.
 pub fn read_body(path: &Path) -> Result<RawBody, String> {
     let (bytes, name) = (read(path)?, stem(path));
     let mut animated = None;
@@ -254,12 +254,12 @@ pub fn read_body(path: &Path) -> Result<RawBody, String> {
 }
 
 impl RawBody {
-    /// How tall it stands, metres.
+    /// Height of the body if lengths are in `unit`, metres.
     pub fn height(&self, unit: Unit) -> f64 {
         self.up.height(self.size) * unit.metres()
     }
 
-    /// Takes what was answered for files of this kind before, where a body would be as tall as bodies are.
+    /// Takes the user's answer for an earlier file, if it gives the body a plausible height.
     pub fn answered_before(&mut self, before: Option<(Unit, UpAxis)>) {
         if let Some((unit, up)) = before
             && guess_unit(up.height(self.size) * unit.metres() / Unit::Metre.metres()) == Some(Unit::Metre)
@@ -269,16 +269,16 @@ impl RawBody {
     }
 }
 
-/// A pose in a file.
+/// A pose read from a file.
 pub enum PoseFile {
-    /// Of the body, or animations of it.
+    /// A pose of the body, or animations of it.
     Body(Command),
-    /// Captured.
+    /// A captured motion (BVH).
     Motion(Clip),
 }
 
-/// Reads a pose of a body that looks like `dressed`: its own triangles elsewhere, in the unit that makes their sides as long
-/// as there; or a motion.
+/// Reads a pose of the body whose mesh is `dressed` (the same triangles in other positions, in the unit that gives them the same
+/// edge lengths), or a captured motion.
 pub fn read_pose(path: &Path, dressed: &TriMesh) -> Result<PoseFile, String> {
     let bytes = read(path)?;
     if bvh::is_bvh(&bytes) {
@@ -292,7 +292,7 @@ pub fn read_pose(path: &Path, dressed: &TriMesh) -> Result<PoseFile, String> {
     }))
 }
 
-/// The unit in which the triangles of `raw` have sides as long as those of `dressed`.
+/// The unit in which the triangles of `raw` have the edge lengths of those of `dressed`.
 pub(in crate::ui) fn unit_like(dressed: &TriMesh, raw: &TriMesh) -> Unit {
     let sides = |mesh: &TriMesh| {
         let sides = (0..mesh.triangles.len()).map(|t| mesh.corners(t)).map(|[a, b, _]| a.distance(b));
@@ -303,14 +303,14 @@ pub(in crate::ui) fn unit_like(dressed: &TriMesh, raw: &TriMesh) -> Unit {
     Unit::ALL.into_iter().min_by(|a, b| far(a).total_cmp(&far(b))).unwrap_or_default()
 }
 
-/// The command that takes `raw` as the body, and what was put right on the way.
+/// The command that replaces the body by `raw`, and notes on what was corrected.
 pub fn take_body(raw: RawBody) -> Result<(Command, Vec<String>), String> {
     let animations = animations(&raw)?;
     let (body, notes) = imported(raw)?;
     Ok((Command::SetBody { body, animations }, notes))
 }
 
-/// Those of `raw`, if it has any.
+/// The animations of `raw`, if it has any.
 fn animations(raw: &RawBody) -> Result<Option<Arc<Animations>>, String> {
     let Some(file) = raw.animated.as_deref() else { return Ok(None) };
     let (animations, _) = Animations::new(AnimatedFile { up: raw.up, unit: raw.unit, ..file.clone() })?;
@@ -328,7 +328,7 @@ fn imported(mut raw: RawBody) -> Result<(BodyChoice, Vec<String>), String> {
     Ok((body, imported.notes))
 }
 
-/// Writes the dressed garment of `snapshot`, as .glb with its body; `pattern` gives the places on the table.
+/// Writes the dressed garment of `snapshot`, as .glb together with its body. `pattern` gives the texture coordinates.
 pub fn export(path: &Path, snapshot: &Snapshot, pattern: &Pattern) -> Result<(), String> {
     let Some((garment, cloth)) = snapshot.drawn().filter(|_| snapshot.is_dressed()) else {
         return Err("There is no cloth on the body to be written".to_owned());
@@ -345,22 +345,23 @@ pub fn export(path: &Path, snapshot: &Snapshot, pattern: &Pattern) -> Result<(),
     }
 }
 
-/// A sample with its marks, on the built-in figure.
+/// The project of a sample with its marks, on the built-in figure.
 pub fn sample(sample: Sample) -> Project {
     sample.project(&mannequin::default())
 }
 
-/// The command that brings the built-in figure back.
+/// The command that restores the built-in figure.
 pub fn use_mannequin() -> Command {
     Command::SetBody { body: BodyChoice::default(), animations: None }
 }
 
-/// All of the file at `path`; the error is in words.
+/// Reads the whole file at `path`. The error is a message.
 pub fn read(path: &Path) -> Result<Vec<u8>, String> {
     whole_file::read(path, FILE_BYTES).map_err(|e| in_words(path, "read", e))
 }
 
-/// "shirt-2.toile" for "shirt.toile", "shirt-8.toile" for "shirt-7.toile": the next one that is not there yet.
+/// The next version of a file name that does not exist yet: "shirt-2.toile" for "shirt.toile", "shirt-8.toile" for
+/// "shirt-7.toile".
 pub fn next_version(path: &Path) -> std::path::PathBuf {
     let name = stem(path);
     let (base, number) = match name.rsplit_once('-') {
@@ -383,7 +384,7 @@ pub fn stem(path: &Path) -> String {
     path.file_stem().map_or_else(|| "file".to_owned(), |n| n.to_string_lossy().into_owned())
 }
 
-/// Without the name of the file, which is told before.
+/// The message of an error without the file's name, which is given before it.
 fn reason(error: ProjectFileError) -> String {
     match error {
         ProjectFileError::File { source, .. } => source.to_string(),

@@ -1,4 +1,4 @@
-//! A body in numbered OBJ files, one for each picture, taken as an animation of it.
+//! Numbered OBJ files of a body, one per frame, read as an animation of it.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -14,13 +14,14 @@ use crate::io::obj;
 use crate::session::{AnimatedFile, Animations, Command};
 use crate::ui::files::{read, unit_like};
 
-/// Pictures a second.
+/// Frames per second.
 const RATE: f64 = 30.0;
-/// Most bytes of pictures that a project keeps.
+/// Largest size of an animation in a project, bytes.
 const MOST_BYTES: usize = 256 << 20;
 
-/// The command that takes the files numbered like the one at `path` as an animation of a body that looks like `dressed`: its own
-/// triangles elsewhere, in the unit that makes their sides as long as there. And how many there are.
+/// Reads the OBJ files numbered like the one at `path` as an animation of the body whose mesh is `dressed`: the same triangles in
+/// other positions, in the unit that gives them the same edge lengths. Returns the command that takes it, and the number of
+/// files.
 pub fn read_sequence(path: &Path, dressed: &TriMesh) -> Result<(Command, usize), String> {
     let (name, files) = numbered_like(path)?;
     let bytes = files.len() * bytes_per_frame(0, dressed.positions.len());
@@ -36,7 +37,7 @@ pub fn read_sequence(path: &Path, dressed: &TriMesh) -> Result<(Command, usize),
     let mut pictures: Vec<Vec<DVec3>> = Vec::new();
     for file in &files {
         let mesh = obj::read(&read(file)?).map_err(|e| format!("{}: {e}", file.display()))?.mesh;
-        // A person who sits down is not smaller.
+        // The unit of the first file holds for all: guessed from each, it would change when the person sits down.
         let unit = *unit.get_or_insert_with(|| unit_like(dressed, &mesh));
         let positions = positions(mesh, unit, dressed);
         pictures.push(positions.ok_or_else(|| {
@@ -50,7 +51,7 @@ pub fn read_sequence(path: &Path, dressed: &TriMesh) -> Result<(Command, usize),
     Ok((Command::TakeAnimations { animations: Arc::new(animations) }, files.len()))
 }
 
-/// Where the vertices of `dressed` are in `mesh`, metres. None: it has other triangles.
+/// Positions of the vertices of `dressed` in `mesh`, metres; None if it has other triangles.
 fn positions(mesh: TriMesh, unit: Unit, dressed: &TriMesh) -> Option<Vec<DVec3>> {
     let is_same = |mesh: &TriMesh| {
         mesh.triangles == dressed.triangles && mesh.positions.len() == dressed.positions.len()
@@ -62,8 +63,8 @@ fn positions(mesh: TriMesh, unit: Unit, dressed: &TriMesh) -> Option<Vec<DVec3>>
     is_same(&mesh).then_some(mesh.positions)
 }
 
-/// The OBJ files beside the one at `path` whose names differ from its own only in the last number, by that; and what they are
-/// called without it.
+/// The OBJ files beside the one at `path` whose names differ from its own only in the last number, in the order of that number;
+/// and their name without it.
 fn numbered_like(path: &Path) -> Result<(String, Vec<PathBuf>), String> {
     let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let digits = |c: char| c.is_ascii_digit();

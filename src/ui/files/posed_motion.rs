@@ -1,14 +1,14 @@
-//! A captured motion that the mannequin can be led through.
+//! A captured motion retargeted to the mannequin.
 
 use crate::body::UpAxis;
 use crate::body::mannequin::mannequin;
 use crate::body::pose::motion::{Clip, Retarget};
 use crate::session::BodyChoice;
 
-/// A motion put on the mannequin of one set of measurements: its angles do for all.
+/// A motion retargeted to the mannequin; its joint angles hold for mannequins of all measurements.
 #[derive(Debug)]
 pub struct PosedMotion {
-    /// Of the file.
+    /// Name of the file.
     pub name: String,
     clip: Clip,
     retarget: Retarget,
@@ -16,8 +16,8 @@ pub struct PosedMotion {
 }
 
 impl PosedMotion {
-    /// The motion `clip` for the mannequin of `body`, set upright as its rest pose tells. The error says in words why it
-    /// cannot make it.
+    /// Retargets the motion `clip` to the mannequin of `body`, with the up axis that its rest pose suggests. The error is a
+    /// message.
     pub fn new(name: String, mut clip: Clip, body: &BodyChoice) -> Result<Self, String> {
         let measurements = body.measurements().ok_or("a BVH motion is for the mannequin")?;
         let figure = mannequin(&measurements).map_err(|e| e.to_string())?;
@@ -27,17 +27,17 @@ impl PosedMotion {
         Ok(Self { name, clip, retarget, up })
     }
 
-    /// How many frames it has, one or more.
+    /// Number of frames, at least 1.
     pub fn frames(&self) -> usize {
         self.clip.frames().max(1)
     }
 
-    /// `body` in frame `i`, where it stands. None for a body from a file.
+    /// `body` in the pose and place of frame `i`; None for a body from a file.
     pub fn body(&self, body: &BodyChoice, i: usize) -> Option<BodyChoice> {
         body.posed(self.retarget.frame(&self.clip, 0, i).0)
     }
 
-    /// How it was taken, and which joints found no partner, in words.
+    /// A message about the up axis, and about joints without a counterpart.
     pub fn note(&self) -> Option<String> {
         let Retarget { unused, unmoved, .. } = &self.retarget;
         let list = |words: &str, names: String| format!("{words}: {names}");

@@ -1,42 +1,42 @@
-//! Files that were open before, the newest first, kept between runs.
+//! The list of recent files, kept between runs.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::ui::files;
 
-/// Files remembered.
+/// Largest number of files in the list.
 const MOST: usize = 10;
-/// Bytes the list may have.
+/// Largest size of the list's file, bytes.
 const MOST_BYTES: u64 = 1 << 20;
 
-/// A file that was open before.
+/// A recent file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RecentFile {
-    /// Where it was.
+    /// Path of the file.
     pub path: PathBuf,
-    /// Whether it was still there when that was last looked at.
+    /// Whether the file existed when this was last checked.
     pub is_there: bool,
 }
 
 impl RecentFile {
-    /// Its name and folder, for people.
+    /// Name and folder of the file, for people.
     pub fn name(&self) -> (String, String) {
         let folder = self.path.parent().map(|f| f.display().to_string()).unwrap_or_default();
         (files::stem(&self.path), folder)
     }
 }
 
-/// The list of them.
+/// The list of recent files.
 #[derive(Debug, Default)]
 pub struct Recent {
     files: Arc<Vec<RecentFile>>,
-    /// Where the list is kept.
+    /// The file in which the list is kept.
     kept: Option<PathBuf>,
 }
 
 impl Recent {
-    /// The list in `path`, which is kept there from now on. A list that cannot be read is as good as none.
+    /// Reads the list from `path`, where it is kept from now on. A list that cannot be read is treated as empty.
     pub fn read(path: PathBuf) -> Self {
         let is_small = std::fs::metadata(&path).is_ok_and(|file| file.is_file() && file.len() <= MOST_BYTES);
         let text = if is_small { std::fs::read_to_string(&path).ok() } else { None };
@@ -47,12 +47,12 @@ impl Recent {
         recent
     }
 
-    /// The files, the newest first.
+    /// The files, newest first.
     pub fn files(&self) -> &Arc<Vec<RecentFile>> {
         &self.files
     }
 
-    /// Sees which of them are still there.
+    /// Checks which of the files still exist.
     pub fn look(&mut self) {
         let is_there: Vec<bool> = self.files.iter().map(|f| f.path.is_file()).collect();
         if self.files.iter().zip(&is_there).any(|(f, there)| f.is_there != *there) {
@@ -62,7 +62,7 @@ impl Recent {
         }
     }
 
-    /// `path` was opened or saved just now. The error is in words.
+    /// Moves `path` to the top of the list and saves it. The error is a message.
     pub fn add(&mut self, path: &Path) -> Result<(), String> {
         let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
         let files = Arc::make_mut(&mut self.files);
@@ -72,7 +72,7 @@ impl Recent {
         self.write()
     }
 
-    /// Forgets them all. The error is in words.
+    /// Empties the list and saves it. The error is a message.
     pub fn clear(&mut self) -> Result<(), String> {
         self.files = Arc::default();
         self.write()
@@ -80,7 +80,7 @@ impl Recent {
 
     fn write(&self) -> Result<(), String> {
         let Some(kept) = &self.kept else { return Ok(()) };
-        // A name that is not Unicode cannot be written down here; the others can.
+        // Names that are not Unicode cannot be saved and are left out.
         let paths: Vec<&str> = self.files.iter().filter_map(|f| f.path.to_str()).collect();
         let text = serde_json::to_string_pretty(&paths).map_err(|e| e.to_string())?;
         if let Some(folder) = kept.parent() {

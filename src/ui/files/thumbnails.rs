@@ -1,4 +1,4 @@
-//! Small pictures of samples and projects, made by a thread of its own so that the window never waits for them.
+//! Thumbnails of samples and projects, made by a separate thread so that the window never waits for them.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -18,25 +18,25 @@ use crate::ui::files;
 use crate::ui::scenery::portrait::{Extras, portrait};
 use crate::ui::scenery::scene::Scenery;
 
-/// Pixels.
+/// Size of a thumbnail, pixels.
 pub const SIZE: UVec2 = UVec2::new(320, 400);
-/// A sample that is not at rest by then is drawn as it is.
+/// Largest number of ticks for a sample; then it is drawn even if it is not at rest.
 const MOST_TICKS: usize = 4000;
 
-/// What there is a picture of.
+/// The subject of a thumbnail.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Subject {
-    /// A sample, dressed; by its file's name.
+    /// A dressed sample, by the name of its file.
     Sample(&'static str),
-    /// A project file as it is.
+    /// A project file, as it is.
     Project(PathBuf),
 }
 
-/// Pictures there are, and the thread that makes them.
+/// Thumbnails, and the thread that makes them.
 #[derive(Default)]
 pub struct Thumbnails {
     folder: Option<PathBuf>,
-    /// None: asked for, or there will be none.
+    /// None: requested, or it could not be made.
     pictures: BTreeMap<Subject, Option<TextureHandle>>,
     worker: Option<Worker>,
 }
@@ -60,12 +60,12 @@ impl std::fmt::Debug for Thumbnails {
 }
 
 impl Thumbnails {
-    /// Pictures of samples are kept in `folder`. Without a folder none are made at all.
+    /// Begins to make thumbnails; those of samples are kept in `folder`. Before this none are made.
     pub fn kept_in(folder: PathBuf) -> Self {
         Self { folder: Some(folder), ..Self::default() }
     }
 
-    /// The picture of `subject`, if it is there; asked for the first time it will be made.
+    /// The thumbnail of `subject`, if it is ready; it is requested the first time.
     pub fn get(&mut self, ctx: &egui::Context, subject: &Subject) -> Option<&TextureHandle> {
         if !self.pictures.contains_key(subject)
             && let Some(folder) = &self.folder
@@ -77,7 +77,7 @@ impl Thumbnails {
         self.pictures.get(subject)?.as_ref()
     }
 
-    /// Takes in the pictures made since the last frame.
+    /// Takes the thumbnails made since the last frame.
     pub fn take(&mut self, ctx: &egui::Context) {
         let Some(worker) = &self.worker else { return };
         for (subject, image) in worker.made.try_iter() {
@@ -86,12 +86,12 @@ impl Thumbnails {
         }
     }
 
-    /// Those that there are belong to a window that is gone.
+    /// Forgets all thumbnails, since their textures belong to a window that was closed.
     pub fn begin_anew(&mut self) {
         (self.worker, self.pictures) = (None, BTreeMap::new());
     }
 
-    /// Makes no more: the processor is needed for other things. What is still missing is asked for again later.
+    /// Stops making thumbnails, since the processor is needed for other work. Missing ones are requested again later.
     pub fn rest(&mut self) {
         if self.worker.take().is_some() {
             self.pictures.retain(|_, picture| picture.is_some());
@@ -100,7 +100,7 @@ impl Thumbnails {
 }
 
 impl Worker {
-    /// Where there can be no thread there will be no pictures.
+    /// Starts the thread. If no thread can be started there are no thumbnails.
     fn start(folder: PathBuf, ctx: egui::Context) -> Self {
         let (wanted, subjects) = channel::<Subject>();
         let (send, made) = channel();
@@ -127,7 +127,7 @@ impl Worker {
     }
 }
 
-/// The picture of `subject`; None where it cannot be read or drawn.
+/// Renders the thumbnail of `subject`; None where it cannot be read or drawn.
 fn image(
     subject: &Subject,
     folder: &Path,
@@ -142,7 +142,7 @@ fn image(
         Subject::Sample(stem) => {
             let sample = Sample::ALL.into_iter().find(|s| s.file_stem() == *stem)?;
             let mut session = session(sample.project(&mannequin::default()));
-            // Another draft of the sample is another picture.
+            // The name contains a hash, so that a changed sample gets a new thumbnail.
             let kept = folder.join(format!("{stem}-{:016x}.png", session.document_hash()));
             if let Ok(picture) = image::open(&kept) {
                 return Some(picture.to_rgba8());
@@ -159,7 +159,7 @@ fn image(
             }
             session.update();
             let picture = draw(&mut session, artist)?;
-            // Without a place to keep it, it is made anew the next time.
+            // If the folder cannot be made, the thumbnail is rendered again the next time.
             std::fs::create_dir_all(folder).ok();
             png(&picture).ok().and_then(|bytes| files::write(&kept, &bytes).ok());
             Some(picture)
@@ -183,7 +183,7 @@ fn draw(session: &mut Session, artist: &mut Option<Studio>) -> Option<image::Rgb
     Some(straightened(studio.picture(&scene, View::ThreeQuarter, &look, SIZE).ok()?))
 }
 
-/// Where this system keeps what can be made again. None where there is no home.
+/// The system's cache folder for thumbnails; None where there is no home folder.
 pub fn usual_folder() -> Option<PathBuf> {
     let folder = |name: &str| std::env::var_os(name).map(PathBuf::from).filter(|p| p.is_absolute());
     let base = if cfg!(windows) {

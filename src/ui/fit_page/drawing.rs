@@ -1,4 +1,4 @@
-//! The pattern on the page, with the numbers of its seams.
+//! The drawing of the pattern on the fit report, with the numbers of the seams.
 
 use std::fmt::Write;
 
@@ -7,14 +7,14 @@ use maud::{Markup, html};
 
 use crate::pattern::{Pattern, Piece};
 
-/// Curves are drawn as exactly as that, metres.
+/// Flattening tolerance of curves, metres.
 const TOLERANCE: f64 = 5e-4;
-/// Letters are this share of the drawing's width high: some 2.5 mm on A4.
+/// Height of the letters relative to the drawing's width: some 2.5 mm on A4.
 const LETTERS: f64 = 0.0145;
-/// Free space round the pieces, in letters.
+/// Margin around the pieces, in heights of a letter.
 const ROOM: f64 = 2.0;
 
-/// Every piece where it lies on the table, with its name, grainline and, on its edges, the numbers of its seams.
+/// SVG of every piece at its position in the pattern plane, with name, grainline and, at its edges, the numbers of its seams.
 pub fn drawing(pattern: &Pattern) -> Markup {
     let shown = || pattern.pieces.values().filter(|piece| !piece.hidden);
     let corners: Vec<DVec2> = shown().flat_map(|piece| in_plane(piece, piece.flattened(TOLERANCE))).collect();
@@ -22,7 +22,7 @@ pub fn drawing(pattern: &Pattern) -> Markup {
     let (low, high) = corners.iter().fold((first, first), |(low, high), &p| (low.min(p), high.max(p)));
     let letters = LETTERS * (high.x - low.x).max(high.y - low.y).max(1e-3);
     let (low, high) = (low - DVec2::splat(ROOM * letters), high + DVec2::splat(ROOM * letters));
-    // Millimetres, y down.
+    // Converts to millimetres with y down.
     let at = |p: DVec2| DVec2::new(p.x - low.x, high.y - p.y) * 1e3;
     let size = (high - low) * 1e3;
     let letters = letters * 1e3;
@@ -60,7 +60,7 @@ fn in_plane(piece: &Piece, points: Vec<DVec2>) -> impl Iterator<Item = DVec2> {
     points.into_iter().map(|p| piece.pose.plane_from_piece(p))
 }
 
-/// Outline and holes.
+/// SVG path of outline and holes.
 fn path(piece: &Piece, at: impl Fn(DVec2) -> DVec2) -> String {
     let mut path = String::new();
     for edges in piece.loops() {
@@ -74,7 +74,7 @@ fn path(piece: &Piece, at: impl Fn(DVec2) -> DVec2) -> String {
     path
 }
 
-/// The middle of its bounds.
+/// Centre of the piece's bounding box.
 fn middle(piece: &Piece) -> DVec2 {
     let points: Vec<DVec2> = in_plane(piece, piece.flattened(TOLERANCE)).collect();
     let first = points.first().copied().unwrap_or_default();

@@ -1,4 +1,4 @@
-//! What the page tells, read off the garment.
+//! The contents of the fit report, measured on the garment.
 
 use crate::body::landmarks;
 use crate::body::readings::Reading;
@@ -9,48 +9,48 @@ use crate::session::body::readings_of;
 use crate::session::{Outfit, Session};
 use crate::sim;
 
-/// Maps of the page, in its order.
+/// The maps of the report, in its order.
 pub const MAPS: [MapKind; 5] =
     [MapKind::Warp, MapKind::Weft, MapKind::Ease, MapKind::MeanCurvature, MapKind::Pressure];
 
-/// Everything on the page but its pictures.
+/// The contents of the report without its pictures.
 #[derive(Debug)]
 pub struct Facts {
-    /// Of the project.
+    /// Name of the project.
     pub name: String,
-    /// Of the body.
+    /// Description of the body.
     pub body: String,
-    /// The garment and the body it lies on.
+    /// The garment and the body it is on.
     pub outfit: Outfit,
-    /// Its figures.
+    /// Measurements of the garment.
     pub report: Report,
-    /// Why it is not a dressed garment, and what building and sewing found; empty when all is well.
+    /// Faults of the dressed garment, and problems found while building and sewing it; empty when all is well.
     pub problems: Vec<Problem>,
-    /// Where it is tightest, in words.
+    /// The tightest place, in words.
     pub tight: Option<String>,
-    /// What the tape reads on the body; empty of what is no standing human.
+    /// Body measurements; empty if the body is not a standing human.
     pub readings: Vec<Reading>,
-    /// Round the garment where the body's girths were taken, by their place in `readings`.
+    /// Girths of the garment at the girths of the body, each with its index in `readings`.
     pub girths: Vec<(usize, Girth)>,
-    /// Seams in id order.
+    /// The fit of each seam, in id order.
     pub seams: Vec<SeamFit>,
-    /// Each of [`MAPS`].
+    /// The maps, in the order of [`MAPS`].
     pub maps: Vec<MapFacts>,
-    /// Of warp, weft and shear, by piece in id order.
+    /// Strain of the pieces in warp, weft and shear, each in id order.
     pub strains: [Vec<PieceStats>; 3],
 }
 
-/// A map.
+/// A map and the range of its colours.
 #[derive(Debug)]
 pub struct MapFacts {
     /// The map.
     pub map: Map,
-    /// What its colours span, in its own unit.
+    /// Values at the ends of the colour bar, in the map's own unit.
     pub range: [f64; 2],
 }
 
 impl Facts {
-    /// None while there is no cloth on the body.
+    /// Measures the garment of `session`; None while there is no cloth on the body.
     pub fn of(session: &Session, name: &str) -> Option<Self> {
         let snapshot = session.snapshot();
         let outfit = Outfit::of(snapshot, &session.document().fabrics)?;

@@ -1,4 +1,4 @@
-//! The page itself.
+//! The HTML of the fit report.
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
@@ -10,10 +10,10 @@ use crate::ui::fit_page::pictures::Picture;
 use crate::ui::fit_page::tables;
 
 const STYLE: &str = include_str!("style.css");
-/// Nothing is fetched from anywhere; the style stands in the page.
+/// Content security policy: the page loads nothing, and its style is part of it.
 const POLICY: &str = include_str!("policy.txt");
 
-/// The whole page; `left_out`: why it has no pictures.
+/// The HTML page. `left_out` is the reason why it has no pictures.
 pub fn page(facts: &Facts, pictures: &[Picture], left_out: Option<&str>) -> String {
     let title = format!("{}: fit report", facts.name);
     html! {
@@ -98,7 +98,7 @@ fn figure(picture: &Picture) -> Markup {
     }
 }
 
-/// The few that sum the garment up.
+/// The key figures of the garment.
 fn figures(facts: &Facts) -> Markup {
     let report = &facts.report;
     let closed = facts.seams.iter().filter(|seam| seam.is_closed()).count();

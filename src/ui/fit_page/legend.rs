@@ -1,4 +1,4 @@
-//! The legend of a map on the page: its colours, what they stand for, and how often each is there.
+//! The legend of a map on the fit report: colour bar, values, and a histogram.
 
 use maud::{Markup, html};
 
@@ -6,14 +6,14 @@ use crate::render::{Legend, Rgb};
 use crate::ui::fit_page::facts::MapFacts;
 use crate::ui::fit_page::pictures::palette;
 
-/// Of the drawing, in its own unit.
+/// Width of the drawing, SVG units.
 const WIDTH: f64 = 320.0;
-/// Height of the histogram.
+/// Height of the histogram, SVG units.
 const BARS: f64 = 56.0;
-/// The stripe of colours: top and height.
+/// Top and height of the colour bar, SVG units.
 const STRIPE: (f64, f64) = (60.0, 11.0);
 
-/// Histogram over a stripe of colours over ticks.
+/// SVG of the legend: histogram, colour bar, tick labels.
 pub fn legend(map: &MapFacts) -> Markup {
     let kind = map.map.kind;
     let (unit, times) = kind.unit();
@@ -56,7 +56,7 @@ fn css([r, g, b]: Rgb) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 
-/// A number with a minus sign as wide as a plus, and with neither when it was rounded to nothing.
+/// A number with a typographic minus sign, as wide as a plus; a zero has no sign.
 pub fn minus(number: &str) -> String {
     let digits = number.trim_start_matches(['-', '+']);
     let is_nothing = !digits.contains(|c: char| c.is_ascii_digit() && c != '0');

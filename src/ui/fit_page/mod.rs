@@ -1,4 +1,5 @@
-//! The fit report as one page: what a designer reads off a dressed garment. No egui here: the command line writes it too.
+//! The fit report as one page: what a designer needs to know about a dressed garment. No egui here: the command line writes it
+//! too.
 
 mod drawing;
 mod facts;
@@ -14,31 +15,31 @@ use crate::ui::fit_page::pictures::{Picture, Shot};
 use crate::ui::scenery::scene::Scenery;
 use glam::UVec2;
 
-/// A page in the making: its figures are read off at once, its pictures drawn one by one.
+/// A report in the making: its contents are measured at once, its pictures are drawn one by one.
 #[derive(Debug)]
 pub struct FitPage {
     facts: Facts,
     shots: Vec<Shot>,
-    /// Those of `shots` that are drawn, in their order.
+    /// The pictures drawn so far, in the order of `shots`.
     pictures: Vec<Picture>,
     scenery: Scenery,
     left_out: Option<String>,
 }
 
 impl FitPage {
-    /// Of the garment that `session` has on its body, called `name`. None while there is none.
+    /// Begins the report on the dressed garment of `session`, called `name`; None while there is none.
     pub fn of(session: &Session, name: &str) -> Option<Self> {
         let facts = Facts::of(session, name)?;
         let shots = pictures::shots(&facts);
         Some(Self { facts, shots, pictures: Vec::new(), scenery: Scenery::default(), left_out: None })
     }
 
-    /// How many pictures are drawn, and how many there will be.
+    /// Number of pictures drawn, and number of all pictures.
     pub fn progress(&self) -> (usize, usize) {
         (self.pictures.len(), self.shots.len())
     }
 
-    /// Draws the next picture by `draw`, whose colours are not multiplied with opacity.
+    /// Draws the next picture with `draw`, whose result has straight (not premultiplied) alpha.
     pub fn draw_next(
         &mut self,
         draw: impl FnOnce(&Scene, &Camera, &Look, UVec2) -> Result<image::RgbaImage, RenderError>,
@@ -49,13 +50,13 @@ impl FitPage {
         Ok(())
     }
 
-    /// The page will have no pictures, and say why.
+    /// Leaves all pictures out; the page states `why`.
     pub fn leave_pictures_out(&mut self, why: String) {
         self.pictures.clear();
         self.left_out = Some(why);
     }
 
-    /// The page, complete in itself.
+    /// The self-contained HTML page.
     pub fn html(&self) -> String {
         html::page(&self.facts, &self.pictures, self.left_out.as_deref())
     }

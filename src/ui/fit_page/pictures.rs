@@ -1,4 +1,4 @@
-//! The pictures of the page: what each shows, and how it gets into the page.
+//! The pictures of the fit report.
 
 use std::sync::Arc;
 
@@ -13,17 +13,17 @@ use crate::ui::fit_page::facts::{Facts, MapFacts};
 use crate::ui::scenery::portrait::worn_scene;
 use crate::ui::scenery::scene::Scenery;
 
-/// Sides of the garment, as a person goes round it, and how wide their pictures are, pixels: arms are spread sideways. The page's
-/// columns stand in the same ratio.
+/// The views of the garment, in the order of a walk round it, with the width of their pictures in pixels; front and back are
+/// wider, as arms are spread sideways. The page's columns have the same proportions.
 const SIDES: [(View, &str, u32); 4] = [
     (View::Front, "Front", 640),
     (View::Right, "Right", 300),
     (View::Back, "Back", 640),
     (View::Left, "Left", 300),
 ];
-/// How high they are.
+/// Height of the views, pixels.
 const HEIGHT: u32 = 760;
-/// Of a map over the garment, pixels.
+/// Size of a picture of a map, pixels.
 const MAP: UVec2 = UVec2::new(600, 600);
 
 /// A picture to be drawn.
@@ -34,24 +34,24 @@ pub struct Shot {
     colours: Option<Arc<Vec<Rgb>>>,
     view: View,
     side: &'static str,
-    /// Pixels.
+    /// Size, pixels.
     size: UVec2,
 }
 
-/// A picture that is drawn.
+/// A drawn picture.
 #[derive(Debug)]
 pub struct Picture {
     /// The map that it shows; None: the garment in its own colours.
     pub kind: Option<MapKind>,
-    /// "Front".
+    /// Name of the view, such as "Front".
     pub side: &'static str,
-    /// Pixels.
+    /// Size, pixels.
     pub size: UVec2,
-    /// As the source of an image: a data URI.
+    /// The picture as a data URI, for an HTML image.
     pub source: String,
 }
 
-/// All pictures of the page, in its order.
+/// All pictures of the report, in its order.
 pub fn shots(facts: &Facts) -> Vec<Shot> {
     let views = SIDES.map(|(view, side, width)| {
         let size = UVec2::new(width, HEIGHT);
@@ -67,7 +67,7 @@ pub fn shots(facts: &Facts) -> Vec<Shot> {
     views.into_iter().chain(maps).collect()
 }
 
-/// How the values of `kind` become colours.
+/// The colour map for values of `kind`.
 pub fn palette(kind: MapKind) -> Palette {
     if kind.is_signed() { Palette::Diverging } else { Palette::Sequential }
 }
@@ -78,7 +78,7 @@ fn colours(map: &MapFacts) -> Vec<Rgb> {
 }
 
 impl Shot {
-    /// Draws it by `draw`, with nothing behind the figure, so that it stands on the page.
+    /// Draws the picture with `draw`, without a background.
     pub fn picture(
         &self,
         scenery: &mut Scenery,
@@ -92,8 +92,7 @@ impl Shot {
         Ok(Picture { kind: self.kind, side: self.side, size: self.size, source })
     }
 
-    /// Parallel, so that sizes can be compared. Views of the figure have one scale; maps are seen from nearer, as far as the cloth
-    /// goes.
+    /// A parallel camera, so that sizes can be compared. Views of the figure have one scale; maps are framed to the cloth.
     fn camera(&self, scene: &Scene, outfit: &Outfit) -> Camera {
         let mut camera = Camera { projection: Projection::Orthographic, ..Camera::default() };
         let aspect = |size: UVec2| size.x as f32 / size.y as f32;
@@ -108,7 +107,7 @@ impl Shot {
         }
         let laid = outfit.state.positions.iter().zip(&outfit.state.mapped).filter(|(_, mapped)| **mapped);
         camera.frame_points(&laid.map(|(p, _)| p.as_vec3()).collect::<Vec<Vec3>>(), aspect(self.size));
-        // The body is larger than what is framed.
+        // The clipping bounds include the whole body, which is larger than the framed cloth.
         Camera { bounds, ..camera }
     }
 }

@@ -1,4 +1,4 @@
-//! The tables of the page. Lengths in centimetres.
+//! The tables of the fit report. Lengths are in centimetres.
 
 use maud::{Markup, html};
 
@@ -10,9 +10,9 @@ use crate::geometry::ids::PieceId;
 use crate::ui::fit_page::facts::Facts;
 use crate::ui::fit_page::legend::minus;
 
-/// Where there is no value.
+/// The entry where there is no value.
 const NONE: &str = "–";
-/// Sides that differ by less (a share) are alike: nothing is gathered.
+/// Relative difference between the sides of a seam below which they count as equal, not gathered.
 const ALIKE: f64 = 0.005;
 
 fn cm(metres: f64) -> String {
@@ -23,7 +23,7 @@ fn signed_cm(metres: f64) -> String {
     minus(&format!("{:+.1}", metres * 100.0))
 }
 
-/// A share in percent, with its sign.
+/// A fraction as a percentage with sign.
 fn percent(share: f64) -> String {
     minus(&format!("{:+.1}", share * 100.0))
 }
@@ -32,14 +32,14 @@ fn or_none(value: Option<f64>, words: impl Fn(f64) -> String) -> String {
     value.map_or_else(|| NONE.to_owned(), words)
 }
 
-/// The first `words` columns hold words.
+/// The head of a table; its first `words` columns hold text, the others numbers.
 fn head(words: usize, columns: &[&str]) -> Markup {
     html! { thead { tr { @for (i, column) in columns.iter().enumerate() {
         th.words[i < words] { (column) }
     } } } }
 }
 
-/// Body and garment at each girth of the body where cloth goes all the way round, with the ease.
+/// Girths of body and garment with the ease, where the cloth goes all the way round.
 pub fn girths(facts: &Facts) -> Markup {
     html! {
         table {
@@ -61,7 +61,7 @@ pub fn girths(facts: &Facts) -> Markup {
     }
 }
 
-/// What the strain of the cloth comes from.
+/// The causes of the cloth's strain.
 pub fn strain_causes(causes: &Causes) -> Markup {
     let all = [
         ("The pattern is small there", causes.fit),
@@ -80,7 +80,7 @@ pub fn strain_causes(causes: &Causes) -> Markup {
     }
 }
 
-/// What the tape reads on the body.
+/// The body measurements.
 pub fn readings(facts: &Facts) -> Markup {
     html! {
         table {
@@ -92,7 +92,7 @@ pub fn readings(facts: &Facts) -> Markup {
     }
 }
 
-/// Every seam of the pattern.
+/// All seams of the pattern.
 pub fn seams(facts: &Facts) -> Markup {
     html! {
         table.seams {
@@ -161,14 +161,14 @@ pub fn pieces(facts: &Facts) -> Markup {
     }
 }
 
-/// m².
+/// Flat area of a piece, m².
 fn flat_area(facts: &Facts, id: PieceId) -> f64 {
     let garment = &facts.outfit.garment;
     let own = garment.rest.iter().zip(&garment.triangle_pieces).filter(|(_, piece)| **piece == id);
     own.map(|([a, b, c], _)| (b - a).perp_dot(c - a).abs() / 2.0).sum()
 }
 
-/// What the fabrics of the garment are.
+/// The properties of the garment's fabrics.
 pub fn fabrics(facts: &Facts) -> Markup {
     let mut fabrics: Vec<&Fabric> = facts.outfit.fabrics.values().collect();
     fabrics.sort_by(|a, b| a.name.cmp(&b.name));
@@ -191,7 +191,7 @@ pub fn fabrics(facts: &Facts) -> Markup {
     }
 }
 
-/// Hems, neck, cuffs.
+/// The openings of the garment: hems, neck, cuffs.
 pub fn openings(facts: &Facts) -> Markup {
     html! {
         table {

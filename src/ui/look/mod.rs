@@ -1,4 +1,4 @@
-//! Colours, letters and signs.
+//! Colours, fonts and icons.
 
 pub(in crate::ui) mod signs;
 pub(in crate::ui) mod theme;

@@ -1,9 +1,9 @@
-//! Small drawn signs that are buttons: the fonts have no such letters.
+//! Small drawn icons for buttons, which the fonts lack.
 
 use egui::accesskit::Role;
 use egui::{Color32, Painter, Pos2, Rect, Sense, Shape, Stroke, Vec2, WidgetInfo, vec2};
 
-/// What is drawn.
+/// An icon.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sign {
     Eye,
@@ -12,7 +12,7 @@ pub enum Sign {
     Cross,
 }
 
-/// A button with nothing but a sign. `on`: as it would be after a click, drawn fainter when it is not.
+/// A button that shows only an icon. `on` is the state of the option; the icon is fainter when it is off.
 pub fn sign_button(ui: &mut egui::Ui, sign: Sign, on: bool, name: &str, tip: &str) -> bool {
     let (rect, response) = ui.allocate_exact_size(Vec2::new(20.0, 20.0), Sense::click());
     response.widget_info(|| match sign {
@@ -28,7 +28,7 @@ pub fn sign_button(ui: &mut egui::Ui, sign: Sign, on: bool, name: &str, tip: &st
     response.on_hover_text(tip).clicked()
 }
 
-/// Draws a sign into `area`.
+/// Draws an icon into `area`.
 pub fn draw(painter: &Painter, area: Rect, sign: Sign, on: bool, ink: Color32) {
     let stroke = Stroke::new(1.4, ink);
     let at = |x: f32, y: f32| area.min + vec2(x, y) * area.size();

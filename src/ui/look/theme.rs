@@ -1,4 +1,4 @@
-//! Colours and spacing, dark and light.
+//! Colours and spacing of the dark and the light theme.
 
 use egui::{Color32, CornerRadius, Margin, Stroke, Theme, Vec2, Visuals};
 
@@ -8,43 +8,43 @@ use crate::render::{Look, Rgb};
 /// Colours that egui has no place for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Palette {
-    /// Primary actions and what is chosen.
+    /// Primary actions and selected items.
     pub accent: Color32,
     /// Text on `accent`.
     pub on_accent: Color32,
     /// Background of the pattern pane.
     pub table: Color32,
-    /// Ten-centimetre lines on it.
+    /// Grid lines every 10 cm.
     pub table_grid: Color32,
-    /// Half-metre lines on it.
+    /// Grid lines every 50 cm.
     pub table_grid_strong: Color32,
-    /// A piece seen from its front, and its outline.
+    /// Fill and outline of a piece seen from its front.
     pub front: [Color32; 2],
-    /// A piece seen from its back, and its outline.
+    /// Fill and outline of a piece seen from its back.
     pub back: [Color32; 2],
-    /// The same of fronts of what is worn over other cloth, layer by layer: as light, and in the hues it has on the body.
+    /// Fill and outline of pieces on layers 1 to 4 seen from their front, with the hues they have on the body.
     pub over: [[Color32; 2]; 4],
-    /// What the cloth of frozen pieces is mixed with.
+    /// The colour that is mixed into frozen pieces.
     pub frozen: Color32,
-    /// Threads between sewn edges.
+    /// Lines between sewn edges.
     pub thread: Color32,
     /// Names of pieces.
     pub piece_text: Color32,
-    /// Border round marks and numbers.
+    /// Border around marks and numbers.
     pub halo: Color32,
-    /// Something to look at.
+    /// Warnings.
     pub warning: Color32,
-    /// Something wrong.
+    /// Errors.
     pub error: Color32,
-    /// Less important text; still readable.
+    /// Secondary text; still readable.
     pub weak: Color32,
     /// Small frames over a pane.
     pub overlay: Color32,
-    /// Lines laid on the table to draw along.
+    /// Guides.
     pub guide: Color32,
-    /// Inside of points that can be taken hold of.
+    /// Inside of points that can be dragged.
     pub knob: Color32,
-    /// Saturation and value of the colours that tell seams apart.
+    /// Saturation and value of the colours of seams.
     pub seam_tone: [f32; 2],
 }
 
@@ -109,7 +109,7 @@ impl Palette {
 }
 
 impl Palette {
-    /// The cloth of a piece and its outline. What is worn over other cloth is told apart as it is on the body.
+    /// Fill and outline of a piece, by side, layer and activity. Layers have the hues that they have on the body.
     pub fn piece(&self, front: bool, layer: u8, activity: Activity) -> [Color32; 2] {
         let [cloth, line] = match (front, usize::from(layer)) {
             (false, _) => self.back,
@@ -125,16 +125,16 @@ impl Palette {
         }
     }
 
-    /// The colour of the seam with this number, the same on both its edges; neighbours differ.
+    /// The colour of the seam with this number, for both its edges; consecutive numbers have different hues.
     pub fn seam(&self, number: u32) -> Color32 {
         let [saturation, value] = self.seam_tone;
-        // The golden ratio: however many there are, their hues lie apart.
+        // Multiples of the golden ratio keep the hues of any number of seams apart.
         let hue = (number as f32 * 0.618_034).fract();
         egui::ecolor::Hsva::new(hue, saturation, value, 1.0).into()
     }
 }
 
-/// How the body pane looks under `theme`.
+/// Colours and light of the body pane under `theme`.
 pub fn look(theme: Theme) -> Look {
     match theme {
         Theme::Light => Look::light(),
@@ -142,7 +142,7 @@ pub fn look(theme: Theme) -> Look {
     }
 }
 
-/// As egui writes it.
+/// The colour as egui's type.
 pub fn colour(c: Rgb) -> Color32 {
     Color32::from_rgb(c[0], c[1], c[2])
 }
@@ -151,7 +151,7 @@ const fn rgb(hex: u32) -> Color32 {
     Color32::from_rgb((hex >> 16) as u8, (hex >> 8) as u8, hex as u8)
 }
 
-/// Sets both themes of `ctx`.
+/// Sets the styles of both themes in `ctx`.
 pub fn install(ctx: &egui::Context) {
     ctx.set_visuals_of(Theme::Light, visuals(Theme::Light));
     ctx.set_visuals_of(Theme::Dark, visuals(Theme::Dark));

@@ -1,4 +1,5 @@
-//! The bar over the body pane while another garment is shown beside: what the present one shows, and an end to it.
+//! The bar over the body pane while another garment is shown beside: what the present garment shows, and a button to end the
+//! comparison.
 
 use egui::accesskit::Role;
 use egui::{Button, Frame, Margin, Rect, RichText, Spinner, Stroke, WidgetInfo, vec2};
@@ -8,10 +9,10 @@ use crate::ui::actions::Action;
 use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::look::theme::Palette;
 
-/// Its size, points.
+/// Size of the bar, points.
 const SIZE: egui::Vec2 = vec2(390.0, 34.0);
 
-/// Draws the bar of `beside`, which stands on the left or on the right, in the upper left corner of `pane`.
+/// Draws the bar of `beside` in the upper left corner of `pane`. The other garment is drawn on the left or on the right.
 pub fn beside_ui(
     ui: &mut egui::Ui,
     pane: Rect,
@@ -22,7 +23,7 @@ pub fn beside_ui(
     framed_ui(ui, pane, palette, |ui| bar_ui(ui, beside, on_the_left, asks));
 }
 
-/// Draws the bar while `opening` is on its way.
+/// Draws the bar while `opening` is in progress.
 pub fn opening_ui(ui: &mut egui::Ui, pane: Rect, opening: &Opening, palette: &Palette, asks: &mut Asks) {
     framed_ui(ui, pane, palette, |ui| {
         ui.add(Spinner::new().size(14.0));

@@ -1,4 +1,4 @@
-//! The button that chooses a map.
+//! The menu button that chooses a map.
 
 use egui::ComboBox;
 
@@ -7,7 +7,7 @@ use crate::ui::actions::Action;
 use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::actions::context::FrameContext;
 
-/// Every map, and none.
+/// All choices: no map, and every map.
 pub fn choices() -> impl Iterator<Item = Option<MapKind>> {
     std::iter::once(None).chain(MapKind::ALL.into_iter().map(Some))
 }

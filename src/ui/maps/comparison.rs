@@ -1,4 +1,4 @@
-//! Another garment of the same pieces beside the one on the body, and the difference of their maps.
+//! Comparison with another garment of the same pieces: it is shown beside the present one, and maps are subtracted.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -14,25 +14,25 @@ use crate::ui::files;
 use crate::ui::scenery::mapped::in_colours;
 use crate::ui::scenery::scene::{body_mesh, cloth_mesh};
 
-/// Between the two, as a share of the scale of a body.
+/// Gap between the two figures, metres on a body 1.5 m tall.
 const GAP: f64 = 0.12;
 
 /// The garment of another project.
 #[derive(Debug)]
 pub struct Comparison {
-    /// Of its file.
+    /// Name of its file.
     pub name: String,
-    /// The present garment shows what it has more than this one, not its own map.
+    /// Whether the present garment shows the difference of the maps instead of its own map.
     pub difference: bool,
     outfit: Outfit,
-    /// With the garment that was matched last; the error tells which pieces differ.
+    /// Matching with the present garment that was compared last; the error names the pieces that differ.
     matched: Option<(Arc<Garment>, Result<Matching, String>)>,
-    /// Its map, of the kind that was shown last.
+    /// The map of this garment, of the kind that was shown last.
     map: Option<Map>,
     drawn: Option<(Place, Arc<Vec<Arc<Mesh>>>)>,
 }
 
-/// Where it is drawn, and what its colours are and span.
+/// Position and colours of the drawn garment, to tell whether it must be drawn again.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Place {
     shift: Vec3,
@@ -40,7 +40,7 @@ struct Place {
 }
 
 impl Comparison {
-    /// The garment in the project at `path`, to be held against `present`. The error is in words.
+    /// Opens the project at `path` and matches its garment with `present`. The error is a message.
     pub fn open(path: &Path, present: &Outfit) -> Result<Self, String> {
         let fault = |words: &str| format!("{}: {words}", path.display());
         let mut session = Session::new(files::open(path)?, Runner::inline(Simulation::default()));
@@ -54,7 +54,7 @@ impl Comparison {
         Ok(Self { name, difference: false, outfit, matched, map: None, drawn: None })
     }
 
-    /// Its own map of `kind`.
+    /// This garment's map of `kind`.
     fn map(&mut self, kind: MapKind) -> &Map {
         if self.map.as_ref().is_some_and(|map| map.kind != kind) {
             self.map = None;
@@ -62,7 +62,7 @@ impl Comparison {
         self.map.get_or_insert_with(|| Map::new(kind, self.outfit.worn()))
     }
 
-    /// What `map` over `present` has more than the same over this garment. None where their pieces differ by now.
+    /// The difference: `map` of `present` minus the same map of this garment. None if their pieces differ.
     pub fn less(&mut self, present: &Outfit, map: &Map) -> Option<Map> {
         if !self.matched.as_ref().is_some_and(|(of, _)| Arc::ptr_eq(of, &present.garment)) {
             let matching = Matching::new(self.outfit.worn(), present.worn()).map_err(|why| why.to_string());
@@ -73,12 +73,12 @@ impl Comparison {
         Some(matching.difference((&self.outfit.garment, own), (&present.garment, map)))
     }
 
-    /// Why there is no difference to `present`, in words.
+    /// Why there is no difference to `present`, as a message.
     pub fn unlike(&self) -> Option<&str> {
         self.matched.as_ref()?.1.as_ref().err().map(String::as_str)
     }
 
-    /// Draws it on the right of `present`, or on the left, in the colours of the map whose kind and span are given.
+    /// Builds the meshes of this garment, on the right of `present` or on the left, in the colours of the given map and range.
     pub(super) fn draw_beside(
         &mut self,
         present: &Outfit,
@@ -105,12 +105,12 @@ impl Comparison {
         self.drawn = Some((place, Arc::new(meshes.into())));
     }
 
-    /// There is no cloth to compare it with.
+    /// Removes the meshes while there is no cloth to compare with.
     pub(super) fn put_away(&mut self) {
         self.drawn = None;
     }
 
-    /// As it is drawn; None while there is no cloth to compare it with.
+    /// The meshes of this garment; None while there is no cloth to compare with.
     pub fn meshes(&self) -> Option<&Arc<Vec<Arc<Mesh>>>> {
         self.drawn.as_ref().map(|(_, meshes)| meshes)
     }

@@ -1,4 +1,4 @@
-//! The map on the flat pieces.
+//! The map on the flat pieces of the pattern pane.
 
 use glam::DVec2;
 
@@ -8,7 +8,7 @@ use crate::geometry::barycentric;
 use crate::geometry::ids::PieceId;
 use crate::render::Rgb;
 
-/// How far outside a triangle a point still belongs to it, barycentric.
+/// Tolerance of barycentric coordinates for points just outside a triangle.
 const EDGE: f64 = 1e-6;
 
 impl ShownMap {

@@ -1,4 +1,4 @@
-//! The legend over the body pane: which colour stands for which value, and how often each is there.
+//! The legend over the body pane: colour bar, values and histogram.
 
 use egui::accesskit::Role;
 use egui::{Align2, Color32, DragValue, FontId, Frame, Margin, Rect, Sense, Stroke, WidgetInfo, pos2, vec2};
@@ -8,20 +8,20 @@ use crate::ui::actions::Action;
 use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::look::theme::{Palette, colour};
 
-/// Width of the whole, points.
+/// Width of the legend, points.
 const WIDTH: f32 = 222.0;
-/// Height of the bar of colours, points.
+/// Height of the colour bar, points.
 const BAR: f32 = 150.0;
-/// Its width.
+/// Width of the colour bar, points.
 const BAR_WIDTH: f32 = 16.0;
-/// From the bar to the histogram, where the values are written.
+/// Width of the column of values between colour bar and histogram, points.
 const TICKS_WIDTH: f32 = 52.0;
 
-/// From the legend to the pane's edges, points.
+/// Margin to the pane's edges, points.
 const BESIDE: f32 = 10.0;
 
-/// Draws the legend of `map` in the lower left corner of `pane`, above the `buttons` there where both would not find room
-/// side by side; `value`: what the pointer is over.
+/// Draws the legend of `map` in the lower left corner of `pane`, above the `buttons` there if there is no room beside them.
+/// `value` is the value under the pointer.
 pub fn legend_ui(
     ui: &mut egui::Ui,
     (pane, buttons): (Rect, Option<Rect>),
@@ -67,7 +67,7 @@ fn title_ui(ui: &mut egui::Ui, map: &ShownMap, asks: &mut Asks) {
     });
 }
 
-/// Colours, values beside them, and how many vertices have each.
+/// Draws colour bar, values, and histogram.
 fn bar_ui(ui: &mut egui::Ui, map: &ShownMap, value: Option<f64>, palette: &Palette) {
     let (whole, response) = ui.allocate_exact_size(vec2(ui.available_width(), BAR + 12.0), Sense::hover());
     let legend = map.legend();
@@ -112,7 +112,7 @@ fn bar_ui(ui: &mut egui::Ui, map: &ShownMap, value: Option<f64>, palette: &Palet
     }
 }
 
-/// Bars from left to right, one for each step of the colours.
+/// Draws the histogram as horizontal bars, one for each step of the colours.
 fn histogram(painter: &egui::Painter, map: &ShownMap, area: Rect) {
     let counts = &map.histogram.counts;
     let most = counts.iter().copied().max().unwrap_or(0).max(1) as f32;
@@ -127,7 +127,7 @@ fn histogram(painter: &egui::Painter, map: &ShownMap, area: Rect) {
             pos2(area.left() + width, bottom - 0.5),
         );
         painter.rect_filled(bar, 0.0, colour(palette.colour(middle, map.range)));
-        // Pale bars stand out from pale paper.
+        // Bars in pale colours need an outline on a light background.
         let ink = Color32::from_gray(128).gamma_multiply(0.5);
         painter.rect_stroke(bar, 0.0, Stroke::new(0.6, ink), egui::StrokeKind::Inside);
     }

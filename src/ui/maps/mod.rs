@@ -1,5 +1,5 @@
-//! Shows and keeps the maps of [`crate::fit::maps`] in both panes: they are worked out while one is shown and the cloth has
-//! changed, never else.
+//! Computes and shows the maps of [`crate::fit::maps`] in both panes. A map is computed only while it is shown and after the
+//! cloth has changed.
 
 mod beside;
 mod chooser;
@@ -27,55 +27,55 @@ pub use opening::Opening;
 pub use probe::probe_ui;
 pub use table::{table_ui, text as table_text};
 
-/// Which map is shown, and the newest one.
+/// The chosen map, and the last one computed.
 #[derive(Debug, Default)]
 pub struct MapView {
     kind: Option<MapKind>,
-    /// Ranges chosen by hand, of maps and of differences, in the units that people see.
+    /// Ranges set by the user, by map and whether it is a difference, in the units that people see.
     ranges: BTreeMap<(MapKind, bool), [f64; 2]>,
     shown: Option<ShownMap>,
-    /// Another garment.
+    /// The other garment of a comparison.
     beside: Option<Comparison>,
-    /// It is drawn on the left of the present one.
+    /// Whether the other garment is drawn on the left.
     on_the_left: bool,
-    /// Another garment on its way.
+    /// A comparison that is being opened.
     opening: Option<Opening>,
-    /// Maps worked out so far.
+    /// Number of maps computed.
     computed: u64,
 }
 
-/// A map as it is shown.
+/// A computed map with its colours.
 #[derive(Debug)]
 pub struct ShownMap {
     outfit: Outfit,
     map: Map,
-    /// What it has more than the garment beside, not its own map.
+    /// Whether it is the difference to the garment beside.
     is_difference: bool,
-    /// That was asked for: where the pieces differ there is none.
+    /// Whether the difference was requested; there is none if the pieces differ.
     asks_difference: bool,
-    /// Of all its values.
+    /// Statistics of all values.
     pub stats: MapStats,
     pieces: OnceLock<Vec<PieceStats>>,
-    /// What the colours span, in the unit of the map.
+    /// Values at the ends of the colour bar, in the unit of the map.
     range: [f64; 2],
     is_automatic: bool,
-    /// One for each vertex of the cloth as it is drawn.
+    /// A colour for each vertex of the cloth as it is drawn.
     pub colours: Arc<Vec<Rgb>>,
     histogram: Histogram,
 }
 
 impl MapView {
-    /// What is shown.
+    /// The chosen map.
     pub fn kind(&self) -> Option<MapKind> {
         self.kind
     }
 
-    /// Shows this from now on.
+    /// Chooses a map.
     pub fn choose(&mut self, kind: Option<MapKind>) {
         self.kind = kind;
     }
 
-    /// Lets the colours of `kind` span `range`, in the unit that people see; None: as far as its values do.
+    /// Sets the range that the colours of `kind` span, in the unit that people see; None: the range of its values.
     pub fn set_range(&mut self, kind: MapKind, range: Option<[f64; 2]>) {
         let of = (kind, self.shown.as_ref().is_some_and(|shown| shown.is_difference));
         match range {
@@ -84,22 +84,22 @@ impl MapView {
         };
     }
 
-    /// Shows `other` beside from now on; None: nothing.
+    /// Shows `other` beside; None ends the comparison.
     pub fn compare(&mut self, other: Option<Comparison>) {
         (self.beside, self.shown, self.opening) = (other, None, None);
     }
 
-    /// Shows beside what is being opened, once it is there.
+    /// Shows the result of `opening` beside once it is there.
     pub fn wait_for(&mut self, opening: Opening) {
         self.opening = Some(opening);
     }
 
-    /// What is being opened to be shown beside.
+    /// The comparison that is being opened.
     pub fn opening(&self) -> Option<&Opening> {
         self.opening.as_ref()
     }
 
-    /// Shows beside what has been opened. True if it does from now on; the error tells why it cannot be.
+    /// Shows a comparison that has finished opening. True if it does so now; the error says why it cannot be shown.
     pub fn take_opened(&mut self) -> Result<bool, String> {
         let Some(opened) = self.opening.as_ref().and_then(Opening::take) else { return Ok(false) };
         self.opening = None;
@@ -112,17 +112,17 @@ impl MapView {
         self.on_the_left
     }
 
-    /// Draws the other garment on the other side.
+    /// Draws the other garment on the opposite side.
     pub fn change_sides(&mut self) {
         self.on_the_left = !self.on_the_left;
     }
 
-    /// What is shown beside, while there is cloth to compare it with.
+    /// The other garment, while there is cloth to compare it with.
     pub fn beside(&self) -> Option<&Comparison> {
         self.beside.as_ref().filter(|beside| beside.meshes().is_some())
     }
 
-    /// Shows the difference to the garment beside instead of the map, or the map again. Without a map that of the ease.
+    /// Switches between the map and its difference to the garment beside. If no map is chosen, that of the ease is.
     pub fn toggle_difference(&mut self) {
         if let Some(beside) = &mut self.beside {
             beside.difference = !beside.difference;
@@ -130,17 +130,17 @@ impl MapView {
         }
     }
 
-    /// Maps worked out so far.
+    /// Number of maps computed.
     pub fn computed(&self) -> u64 {
         self.computed
     }
 
-    /// The map over the cloth as it lay at the last [`MapView::look`].
+    /// The map of the cloth at the last [`MapView::look`].
     pub fn shown(&self) -> Option<&ShownMap> {
         self.shown.as_ref()
     }
 
-    /// Reads the map off the cloth of `snapshot`, made of `fabrics`, unless none is shown or that was done before.
+    /// Computes the chosen map of the cloth of `snapshot`, unless that was done before. `fabrics` are those of the cloth.
     pub fn look(&mut self, snapshot: &Snapshot, fabrics: &Fabrics) {
         let is_wanted = self.kind.is_some() || self.beside.is_some();
         let outfit = is_wanted.then(|| Outfit::of(snapshot, fabrics)).flatten();
@@ -197,7 +197,7 @@ impl MapView {
 }
 
 impl ShownMap {
-    /// Lets the colours span `range`, or as far as the values do.
+    /// Sets the range of the colours to `by_hand`, or to that of the values.
     fn span(&mut self, by_hand: Option<[f64; 2]>) {
         self.is_automatic = by_hand.is_none();
         let automatic = || match self.is_difference {
@@ -214,12 +214,12 @@ impl ShownMap {
         self.range = range;
     }
 
-    /// What is mapped.
+    /// The kind of the map.
     pub fn kind(&self) -> MapKind {
         self.map.kind
     }
 
-    /// What it is called.
+    /// Title of the map.
     pub fn title(&self) -> String {
         match self.is_difference {
             true => format!("Difference of {}", self.map.kind.short().to_lowercase()),
@@ -231,7 +231,7 @@ impl ShownMap {
         if self.is_difference || self.map.kind.is_signed() { Palette::Diverging } else { Palette::Sequential }
     }
 
-    /// For pictures.
+    /// The legend for pictures.
     pub fn legend(&self) -> Legend {
         let (unit, times) = self.map.kind.unit();
         Legend {
@@ -249,13 +249,13 @@ impl ShownMap {
         value.is_finite().then_some(value)
     }
 
-    /// "12.3 mm".
+    /// A value with its unit, such as "12.3 mm".
     pub fn words(&self, value: f64) -> String {
         let (unit, times) = self.map.kind.unit();
         format!("{:.*} {unit}", self.map.kind.digits(), value * times + 0.0)
     }
 
-    /// Piece by piece; counted when first asked for.
+    /// Statistics of each piece, computed when first needed.
     pub fn pieces(&self) -> &[PieceStats] {
         self.pieces.get_or_init(|| self.map.pieces(&self.outfit.garment))
     }

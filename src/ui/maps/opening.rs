@@ -1,4 +1,4 @@
-//! Another project on its way to be compared with: opened and matched beside the window.
+//! Opens and matches another project for a comparison on a separate thread.
 
 use std::path::Path;
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
@@ -6,22 +6,22 @@ use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use super::Comparison;
 use crate::session::Outfit;
 
-/// A project being opened.
+/// A project that is being opened for a comparison.
 #[derive(Debug)]
 pub struct Opening {
-    /// Of its file.
+    /// Name of its file.
     pub name: String,
     coming: Receiver<Result<Comparison, String>>,
 }
 
 impl Opening {
-    /// Begins to open the project at `path`, to be held against `present`. The error is the system's, for want of a thread.
+    /// Begins to open the project at `path` and to match it with `present`. The error means that no thread could be started.
     pub fn begin(path: &Path, present: Outfit, ctx: &egui::Context) -> Result<Self, String> {
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let (send, coming) = channel();
         let (path, ctx) = (path.to_owned(), ctx.clone());
         let work = move || {
-            // Nobody waits any longer where it was called off.
+            // Sending fails if the comparison was cancelled.
             send.send(Comparison::open(&path, &present)).ok();
             ctx.request_repaint();
         };
@@ -30,7 +30,7 @@ impl Opening {
         Ok(Self { name, coming })
     }
 
-    /// What came of it. None: it is still being opened.
+    /// The result; None while the project is still being opened.
     pub fn take(&self) -> Option<Result<Comparison, String>> {
         match self.coming.try_recv() {
             Ok(opened) => Some(opened),

@@ -1,11 +1,11 @@
-//! A value beside the pointer.
+//! Shows the value of the map beside the pointer.
 
 use egui::{FontId, Pos2, Rect, Stroke, Vec2};
 
 use super::ShownMap;
 use crate::ui::look::theme::Palette;
 
-/// Writes what `map` shows at `at` on the screen, inside `pane`. Returns what is written: "12.3 mm, Front".
+/// Writes the value of `map` at `at` beside the pointer, inside `pane`. Returns the text: "12.3 mm, Front".
 pub fn probe_ui(
     ui: &egui::Ui,
     pane: Rect,

@@ -1,4 +1,4 @@
-//! The map in figures, piece by piece.
+//! The statistics of the map, piece by piece.
 
 use egui::RichText;
 
@@ -8,7 +8,7 @@ use crate::ui::look::theme::Palette;
 
 const HEADINGS: [&str; 8] = ["Piece", "Vertices", "Least", "1 %", "Median", "Mean", "99 %", "Most"];
 
-/// Draws the table; a heading tells what is mapped and in which unit.
+/// Draws the table with a heading that names the map and its unit.
 pub fn table_ui(ui: &mut egui::Ui, map: Option<&ShownMap>, palette: &Palette) {
     let Some(map) = map else {
         ui.label(RichText::new("No map is shown: choose one in View › Map").color(palette.weak));
@@ -34,7 +34,7 @@ pub fn table_ui(ui: &mut egui::Ui, map: Option<&ShownMap>, palette: &Palette) {
     );
 }
 
-/// As tab-separated text with a line of headings.
+/// The table as tab-separated text with a line of headings.
 pub fn text(map: &ShownMap) -> String {
     let (unit, _) = map.kind().unit();
     let head = HEADINGS.join("\t");

@@ -1,4 +1,4 @@
-//! The animations of a body from a file: a list of them, a slider through the chosen one, and its play.
+//! The section for animations of a body from a file: a list, a slider for the time, and buttons that play.
 
 use egui::{Button, ComboBox, RichText, Slider};
 
@@ -11,7 +11,7 @@ use crate::ui::panels::pose_slider::{follow, let_go};
 /// Width of the list, points.
 const WIDTH: f32 = 150.0;
 
-/// Where the body is wanted.
+/// The chosen animation and time, and whether it is playing.
 #[derive(Debug, Default)]
 pub struct AnimationPanel {
     animation: usize,
@@ -19,12 +19,12 @@ pub struct AnimationPanel {
     playing: Option<Play>,
 }
 
-/// An animation under way.
+/// An animation that is playing.
 #[derive(Debug)]
 struct Play {
-    /// When the clock of the window was looked at last, seconds.
+    /// Time of the window's clock in the last frame, seconds.
     looked: f64,
-    /// Where the body was when it began, then what was asked for last.
+    /// The moment that the body was last set to; a different one means that something else has moved the body.
     expected: Option<Moment>,
 }
 
@@ -36,7 +36,7 @@ impl AnimationPanel {
         ui.label(RichText::new(animations.name()).color(told.palette.weak).size(12.5));
         self.list_ui(ui, animations, asks);
         let length = animations.seconds(self.animation).unwrap_or(0.0);
-        // Rounded by the slider itself, it would seem to be moved while it plays.
+        // The slider must not round the value itself: it would report a change while the animation plays.
         let slider = Slider::new(&mut self.seconds, 0.0..=length).suffix(" s");
         let slider = slider.custom_formatter(|seconds, _| format!("{seconds:.2}"));
         let response =
@@ -53,7 +53,7 @@ impl AnimationPanel {
         ui.horizontal(|ui| self.buttons_ui(ui, told, asks));
     }
 
-    /// As undo left it, too.
+    /// Takes the moment of the document, which undo may have changed.
     fn as_document(&mut self, told: &PanelContext<'_>) {
         match told.document.moment {
             Some(Moment { animation, seconds }) => (self.animation, self.seconds) = (animation, seconds),
@@ -100,7 +100,8 @@ impl AnimationPanel {
         }
     }
 
-    /// Goes on with what is played, once a frame whether or not it is drawn. It ends where something else moves the body.
+    /// Advances a playing animation once per frame, whether or not the section is drawn. It stops when something else moves the
+    /// body.
     pub fn play(&mut self, ctx: &egui::Context, document: &Document, now: &FrameContext, asks: &mut Asks) {
         let Some(play) = &mut self.playing else { return };
         let length = document.animations.as_ref().and_then(|all| all.seconds(self.animation));
@@ -110,7 +111,7 @@ impl AnimationPanel {
             return;
         };
         ctx.request_repaint();
-        // What a person asks for comes first: it may end the play.
+        // Requests of the user come first: they may stop the animation.
         if !now.caught_up || !asks.is_empty() {
             return;
         }

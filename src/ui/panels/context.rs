@@ -1,4 +1,4 @@
-//! What the sections of the side panel read.
+//! The state that the sections of the side panel show.
 
 use std::sync::Arc;
 
@@ -11,7 +11,7 @@ use crate::ui::actions::context::FrameContext;
 use crate::ui::look::theme::Palette;
 use crate::ui::selection::Selection;
 
-/// What the side panel shows.
+/// The state that the side panel shows.
 #[derive(Clone, Copy)]
 pub struct PanelContext<'a> {
     /// The document.
@@ -20,21 +20,21 @@ pub struct PanelContext<'a> {
     pub surface: Option<&'a Arc<Surface>>,
     /// The cloth.
     pub snapshot: &'a Snapshot,
-    /// What is selected of the pattern.
+    /// The selection in the pattern.
     pub selection: &'a Selection,
-    /// What is wrong with the garment.
+    /// Problems of building and sewing the garment.
     pub problems: &'a [Problem],
-    /// What is wrong with the cloth as it lies.
+    /// Faults of the cloth in its present state.
     pub verdict: &'a [Fault],
-    /// Marks that found no place on the body.
+    /// Marks without a place on the body.
     pub lost: &'a [Problem],
-    /// How things stand.
+    /// State of the app in this frame.
     pub now: &'a FrameContext,
-    /// Colours.
+    /// Colours of the interface.
     pub palette: &'a Palette,
 }
 
-/// A click on it asks for what `shows` it, if anything does; with a tip.
+/// Draws a problem; a click on it makes the request that shows its place, if there is one.
 pub fn problem_row(
     ui: &mut egui::Ui,
     ink: egui::Color32,

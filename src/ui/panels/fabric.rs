@@ -1,4 +1,4 @@
-//! What the cloth is made of, and draping it.
+//! The section of fabrics and draping.
 
 use egui::{ComboBox, RichText};
 
@@ -12,7 +12,7 @@ use crate::ui::panels::context::PanelContext;
 /// Width of the lists, points.
 const WIDTH: f32 = 112.0;
 
-/// A list for the garment and one for each piece.
+/// Draws a list of fabrics for the garment and one for each piece.
 pub fn fabric_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, asks: &mut Asks) {
     list(ui, told, None, "All pieces", asks);
     for (&id, piece) in &told.document.pattern.pieces {
@@ -52,7 +52,7 @@ fn list(ui: &mut egui::Ui, told: &PanelContext<'_>, piece: Option<PieceId>, name
     });
 }
 
-/// Weight, stretch and bending for people.
+/// Density, stretch and bending stiffness, for people.
 fn figures(fabric: &Fabric) -> String {
     let grams = fabric.density_kg_per_m2 * 1000.0;
     let bending = fabric.bending.warp.max(fabric.bending.weft) * 1e6;

@@ -1,15 +1,15 @@
-//! Fields for numbers with units and arithmetic. What is typed counts when Enter is pressed or the field is left.
+//! Text fields for numbers with units and arithmetic. An entry takes effect when Enter is pressed or the field loses the focus.
 
 use egui::{Key, Response, TextEdit};
 
 use crate::ui::preferences::units::{LengthUnit, degrees, length, number};
 
-/// Of a field, points.
+/// Width of a field, points.
 const WIDTH: f32 = 68.0;
-/// Round the text in it.
+/// Margin around the text in a field.
 const MARGIN: egui::Margin = egui::Margin::symmetric(4, 3);
 
-/// A length in metres. Some: another one was typed.
+/// A field for a length in metres; returns a newly entered value.
 pub fn length_field(
     ui: &mut egui::Ui,
     salt: impl egui::AsIdSalt,
@@ -20,7 +20,7 @@ pub fn length_field(
     field(ui, salt, label, &unit.text(metres), |text| length(text, unit))
 }
 
-/// An angle in radians, shown in degrees.
+/// A field for an angle in radians, shown in degrees; returns a newly entered value.
 pub fn angle_field(
     ui: &mut egui::Ui,
     salt: impl egui::AsIdSalt,
@@ -31,7 +31,7 @@ pub fn angle_field(
     field(ui, salt, label, &format!("{}°", degrees(radians)), read)
 }
 
-/// A plain number.
+/// A field for a plain number; returns a newly entered value.
 pub fn number_field(
     ui: &mut egui::Ui,
     salt: impl egui::AsIdSalt,

@@ -1,4 +1,4 @@
-//! The joints of the mannequin one by one: a list of them, and a slider for each way in which the chosen one turns.
+//! The section for the joints of the mannequin: a list, and a slider for each axis of the chosen joint.
 
 use egui::{Button, ComboBox, RichText, Slider};
 use glam::DVec3;
@@ -12,14 +12,14 @@ use crate::ui::panels::pose_slider::{follow, let_go, posed};
 /// Width of the list, points.
 const WIDTH: f32 = 150.0;
 
-/// Which joint was chosen, and the angles it was given last.
+/// The chosen joint, and the angles set last.
 #[derive(Debug)]
 pub struct JointPanel {
     limb: Limb,
-    /// While the joint is turned like this, these are its angles, degrees: where two of its axes lie along each other, the
-    /// turn alone does not tell.
+    /// The last rotation that was set with its angles, in degrees: where two axes of a joint coincide, the rotation alone does
+    /// not determine the angles.
     given: Option<(DVec3, [f64; 3])>,
-    /// A slider is in the hand: the body may be behind.
+    /// Whether a slider is being dragged; the body may lag behind it.
     dragged: bool,
 }
 
@@ -90,7 +90,7 @@ impl JointPanel {
             new[movement.axis as usize] = degrees;
             let mut turned = pose.clone();
             anatomy.set(&mut turned, limb, new);
-            // Several turns together can be more than a joint does.
+            // Angles that are each in range may together exceed what the joint allows.
             if turned.problem().is_some() {
                 continue;
             }

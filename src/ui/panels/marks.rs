@@ -1,4 +1,4 @@
-//! Marks in the side panel: the pairs with their stretch; name and number of the selected mark.
+//! The section of marks: the pairs with their stretch; name and number of the selected mark.
 
 use std::sync::Arc;
 
@@ -16,15 +16,15 @@ use crate::ui::panels::context::PanelContext;
 use crate::ui::preferences::units::signed;
 use crate::wrap::{MarkPlace, Marks, PairStretch, stretches};
 
-/// What the list remembers from frame to frame.
+/// State of the section between frames.
 #[derive(Debug, Default)]
 pub struct MarksPanel {
     lengths: Option<Lengths>,
-    /// The name being typed, and whose it is.
+    /// The name being typed, and its mark.
     typed: Option<(MarkId, String)>,
 }
 
-/// Lengths of the pairs, and what they were measured on.
+/// Cache of the lengths of the pairs.
 #[derive(Debug)]
 struct Lengths {
     marks: Arc<Marks>,
@@ -34,7 +34,7 @@ struct Lengths {
 }
 
 impl MarksPanel {
-    /// Draws the list.
+    /// Draws the section.
     pub fn ui(&mut self, ui: &mut egui::Ui, told: &PanelContext<'_>, asks: &mut Asks) {
         if told.now.proposed > 0 {
             proposal_ui(ui, told, asks);
@@ -61,7 +61,7 @@ impl MarksPanel {
         }
     }
 
-    /// Only what has changed is measured again.
+    /// Measures the lengths again if something has changed.
     fn measure(&mut self, told: &PanelContext<'_>) {
         let Some(surface) = told.surface else {
             self.lengths = None;
@@ -142,7 +142,7 @@ impl MarksPanel {
     }
 }
 
-/// A small button with a word of its own for `action`.
+/// A small button for `action` with a label of its own.
 fn action_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, action: Action, text: &str, asks: &mut Asks) {
     let why_not = told.now.why_not(action);
     let button = ui.add_enabled(why_not.is_none(), Button::new(text).small());
@@ -153,7 +153,7 @@ fn action_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, action: Action, text: &
     }
 }
 
-/// What to do with proposed marks.
+/// Draws the buttons for proposed marks.
 fn proposal_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, asks: &mut Asks) {
     let count = told.now.proposed;
     let pairs = if count == 1 { "pair of marks is" } else { "pairs of marks are" };
@@ -176,7 +176,7 @@ fn proposal_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, asks: &mut Asks) {
     ui.separator();
 }
 
-/// Number, both strokes, stretch.
+/// Draws the row of a pair: number, both strokes, stretch.
 fn pair_row(
     ui: &mut egui::Ui,
     told: &PanelContext<'_>,
@@ -222,7 +222,7 @@ fn stretch_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, pair: &PairStretch) {
     shown.widget_info(|| WidgetInfo::labeled(Role::Label, true, &words));
 }
 
-/// The strokes of one number, each to be selected by a click.
+/// Draws a button for each stroke of a number, which selects it.
 fn strokes_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, number: usize, asks: &mut Asks) {
     let marks = &told.document.marks;
     ui.spacing_mut().item_spacing.x = 2.0;

@@ -1,4 +1,4 @@
-//! The side panel: its sections and the fields in them.
+//! The side panel: its sections and their fields.
 
 pub(in crate::ui) mod animation;
 pub(in crate::ui) mod context;

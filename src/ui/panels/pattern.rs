@@ -1,4 +1,4 @@
-//! The pattern in the side panel: numbers of what is selected, and lists of pieces and seams.
+//! The sections of the pattern: properties of the selection, and lists of pieces and seams.
 
 use egui::accesskit::Role;
 use egui::{Button, Grid, Key, RichText, TextEdit, WidgetInfo};
@@ -19,10 +19,10 @@ use crate::ui::pattern_pane::seam_words;
 use crate::ui::preferences::units::signed;
 use crate::ui::selection::{Item, Selection};
 
-/// What the lists remember from frame to frame.
+/// State of the sections between frames.
 #[derive(Debug, Default)]
 pub struct PatternPanel {
-    /// The name being typed, and whose it is.
+    /// The name being typed, and its piece.
     typed: Option<(PieceId, String)>,
 }
 
@@ -31,7 +31,7 @@ fn ask(edits: Vec<PatternEdit>) -> Ask {
 }
 
 impl PatternPanel {
-    /// Numbers of what is selected.
+    /// Draws the properties of the selection.
     pub fn inspector_ui(&mut self, ui: &mut egui::Ui, told: &PanelContext<'_>, asks: &mut Asks) {
         let selection = told.selection;
         ui.label(RichText::new(selection.words()).color(told.palette.weak).size(12.5));
@@ -142,14 +142,14 @@ impl PatternPanel {
         }
     }
 
-    /// The list of pieces: select, rename, lock, hide.
+    /// Draws the list of pieces: select, rename, lock, hide.
     pub fn outliner_ui(&mut self, ui: &mut egui::Ui, told: &PanelContext<'_>, asks: &mut Asks) {
         let pattern = &*told.document.pattern;
         if pattern.pieces.is_empty() {
             ui.label(RichText::new("None").color(told.palette.weak));
         }
         for (&id, piece) in &pattern.pieces {
-            // Signs come first: on the right the scroll bar would lie over them.
+            // Icons come first: on the right the scroll bar would cover them.
             ui.horizontal(|ui| {
                 ui.spacing_mut().item_spacing.x = 3.0;
                 let words = |what: &str| format!("{what} {}", piece.name);
@@ -178,7 +178,7 @@ impl PatternPanel {
     }
 }
 
-/// The list of seams: select, turn round, undo.
+/// Draws the list of seams: select, reverse, undo.
 pub fn seams_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, asks: &mut Asks) {
     let pattern = &*told.document.pattern;
     if pattern.seams.is_empty() {
@@ -234,10 +234,10 @@ fn weak(ui: &mut egui::Ui, told: &PanelContext<'_>, text: &str) -> egui::Respons
     ui.label(RichText::new(text).color(told.palette.weak).size(12.5))
 }
 
-/// What draping does with `pieces`.
+/// Draws the choice of the pieces' activity in draping.
 fn activity_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, pieces: &[PieceId], asks: &mut Asks) {
     weak(ui, told, "Draping");
-    // Side by side with their label they would widen the panel, and move the body aside.
+    // Beside their label the buttons would widen the panel and shift the body pane.
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 2.0;
         for (activity, text, tip) in [
@@ -264,7 +264,7 @@ fn edge_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, edge: EdgeRef, asks: &mut
         if let Some(new) =
             length_field(ui, "edge length", &label, length, told.now.unit).filter(|l| *l > 1e-4)
         {
-            // The curve grows with its chord.
+            // The curve is scaled with its chord.
             let to = a + (b - a) * (new / length);
             asks.push(ask(vec![PatternEdit::MovePoints { points: vec![(end, to)] }]));
         }
@@ -337,12 +337,12 @@ fn seam_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, id: SeamId, asks: &mut As
     });
 }
 
-/// No gather anybody would see: patterns from files seldom have lengths that are equal to the last digit.
+/// Whether a seam counts as not gathered: the lengths in pattern files are seldom equal to the last digit.
 fn is_equal(ratio: f64) -> bool {
     (ratio - 1.0).abs() < 5e-4
 }
 
-/// How the lengths of both sides are held to each other.
+/// Draws the ratio of both sides' lengths, and whether it is kept.
 fn ratio_ui(
     ui: &mut egui::Ui,
     told: &PanelContext<'_>,

@@ -1,4 +1,4 @@
-//! Pins in the side panel: to be selected, locked and pulled out.
+//! The section of pins: select, lock, remove.
 
 use egui::accesskit::Role;
 use egui::{Align, Button, Layout, RichText, WidgetInfo};
@@ -9,7 +9,7 @@ use crate::ui::actions::Action;
 use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::panels::context::PanelContext;
 
-/// What a pin is called.
+/// The name of a pin.
 pub fn named(pin: PinId) -> String {
     format!("Pin {}", pin.0)
 }

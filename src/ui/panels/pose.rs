@@ -1,4 +1,4 @@
-//! The section of the side panel that poses the mannequin.
+//! The section for the pose of the body.
 
 use std::sync::Arc;
 
@@ -14,17 +14,17 @@ use crate::ui::panels::context::PanelContext;
 use crate::ui::panels::joint::JointPanel;
 use crate::ui::panels::pose_slider::{follow, let_go, posed};
 
-/// Which pose was chosen last, and how far the mannequin has gone to it.
+/// The pose chosen last, and the fraction of the way to it.
 #[derive(Debug)]
 pub struct PosePanel {
     to: NamedPose,
     share: f64,
     joints: JointPanel,
-    /// Of a body from a file.
+    /// Animations of a body from a file.
     pub animation: AnimationPanel,
-    /// The pose from a file that the body is led to, and how far it is.
+    /// A pose from a file that the body can be moved to, and the fraction of the way to it.
     aim: Option<(Arc<Aim>, f64)>,
-    /// A motion, and the frame it is at, from 1.
+    /// A captured motion, and its current frame, from 1.
     motion: Option<(PosedMotion, usize)>,
 }
 
@@ -48,7 +48,8 @@ impl PosePanel {
         let has_joints = body.measurements().is_some();
         let enabled = !told.now.wrapping && !told.now.demo;
         ui.add_enabled_ui(enabled, |ui| {
-            // First: in an animation the mannequin is a body like others, and what it has below goes away under the mouse.
+            // It comes first: while an animation is shown the mannequin is treated like a body from a file, and the widgets below
+            // disappear under the pointer.
             self.animation.ui(ui, told, asks);
             if has_joints {
                 self.names_ui(ui, body, asks);
@@ -88,7 +89,7 @@ impl PosePanel {
         });
     }
 
-    /// A slider from the built pose to the chosen one.
+    /// Draws a slider from the built pose to the chosen one.
     fn way_ui(&mut self, ui: &mut egui::Ui, told: &PanelContext<'_>, asks: &mut Asks) {
         if self.to == NamedPose::A {
             return;
@@ -103,7 +104,7 @@ impl PosePanel {
         }
     }
 
-    /// The way to a pose from a file, or through a motion.
+    /// Draws sliders to a pose from a file and through a motion.
     fn files_ui(&mut self, ui: &mut egui::Ui, told: &PanelContext<'_>, asks: &mut Asks) {
         ui.add_space(4.0);
         if ui.button("From a file…").on_hover_text(Action::PoseFromFile.row().tip).clicked() {
@@ -115,7 +116,7 @@ impl PosePanel {
             }
             if let Some((_, share)) = &mut self.aim {
                 if ui.ctx().dragged_id().is_none() {
-                    // As undo left it, too.
+                    // Takes the state of the document, which undo may have changed.
                     let at = |end: &BodyChoice| told.document.body == *end;
                     *share = if at(&aim.from) {
                         0.0
@@ -147,13 +148,13 @@ impl PosePanel {
         }
     }
 
-    /// A motion was read.
+    /// Takes a motion that was read.
     pub fn take_motion(&mut self, motion: PosedMotion) {
         self.motion = Some((motion, 1));
     }
 }
 
-/// A slider of a share of the way. Some when it was moved: whether it was let go, too.
+/// Draws a slider of a fraction in percent. Returns Some when it was moved, with whether it was released.
 fn percent_ui(
     ui: &mut egui::Ui,
     told: &PanelContext<'_>,
@@ -171,12 +172,12 @@ fn percent_ui(
     let_go(&response, told)
 }
 
-/// The body in a pose with a name, unless it is in it.
+/// The body in a named pose; None if it is in that pose already.
 fn whole(body: &BodyChoice, pose: NamedPose) -> Option<BodyChoice> {
     body.in_named_pose(pose).filter(|posed| posed != body)
 }
 
-/// The body between the built pose and another.
+/// The body between the built pose and another, at the fraction `share`.
 fn part(body: &BodyChoice, to: NamedPose, share: f64) -> Option<BodyChoice> {
     let built = body.posed(crate::body::Pose::default())?;
     let whole = built.in_named_pose(to)?.pose()?;

@@ -1,4 +1,4 @@
-//! The side panel: marks, problems, cloth settings.
+//! The side panel: sections for the pattern, marks, problems and cloth settings.
 
 use egui::{CollapsingHeader, Id, RichText, ScrollArea, Slider};
 
@@ -16,7 +16,7 @@ use crate::ui::panels::pose::PosePanel;
 use crate::ui::panels::tape::TapePanel;
 use crate::ui::panels::tight::tight_ui;
 
-/// Draws the panel. Returns its first widget, for the keyboard.
+/// Draws the panel. Returns its first widget, for the keyboard focus.
 pub fn side_panel_ui(
     ui: &mut egui::Ui,
     told: &PanelContext<'_>,
@@ -28,7 +28,7 @@ pub fn side_panel_ui(
     let PanelContext { document, palette, .. } = *told;
     let mut first = None;
     ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
-        // What the tool in hand is about comes first.
+        // The section of the chosen tool comes first.
         let on_pattern =
             !matches!(told.now.tool, Tool::Mark | Tool::Erase | Tool::Drag(_) | Tool::Pin | Tool::Bone);
         if on_pattern {
@@ -64,7 +64,7 @@ fn pattern_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, pattern: &mut PatternP
 
 fn section(ui: &mut egui::Ui, title: &str, open: bool, contents: impl FnOnce(&mut egui::Ui)) -> Id {
     ui.add_space(4.0);
-    // "Seams (12)" is the same section as "Seams (13)".
+    // The id leaves the count out: "Seams (12)" and "Seams (13)" are one section.
     let id = title.split(' ').next();
     let header = CollapsingHeader::new(RichText::new(title).strong().size(14.0));
     let shown = header.id_salt(id).default_open(open).show_unindented(ui, |ui| {
@@ -75,14 +75,14 @@ fn section(ui: &mut egui::Ui, title: &str, open: bool, contents: impl FnOnce(&mu
     shown.header_response.id
 }
 
-/// A setting of how cloth relaxes and drapes.
+/// A setting of relaxation and draping.
 struct Setting {
     text: &'static str,
     tip: &'static str,
     value: fn(&mut Settings) -> &mut f64,
-    /// In what is shown.
+    /// Accepted values, in the shown unit.
     range: std::ops::RangeInclusive<f64>,
-    /// How many of what is shown one of it is, and its sign.
+    /// Factor from the setting's own unit to the shown one, and the shown unit's name.
     unit: (f64, &'static str),
 }
 
@@ -199,7 +199,7 @@ fn problems_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, asks: &mut Asks) {
     }
 }
 
-/// Marks that no wrap can use.
+/// A message about marks that have no partner, so that no wrap can use them.
 fn unpaired(document: &Document) -> Option<String> {
     let (cloth, body) = (document.marks.cloth.len(), document.marks.body.len());
     let (where_to, numbers) = match cloth.cmp(&body) {

@@ -1,4 +1,4 @@
-//! The choice of sizes, once a table of them was opened.
+//! The choice of a size from a table.
 
 use std::path::Path;
 
@@ -10,18 +10,18 @@ use crate::ui::actions::Action;
 use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::panels::context::PanelContext;
 
-/// Width of the list.
+/// Width of the list, points.
 const WIDTH: f32 = 140.0;
 
-/// A table of sizes.
+/// A table of sizes to choose from.
 #[derive(Debug, Default)]
 pub struct SizePanel {
-    /// Of its file, and what is in it.
+    /// Name of the table's file, and its sizes.
     table: Option<(String, Vec<Size>)>,
 }
 
 impl SizePanel {
-    /// The sizes in `bytes`, read from `path`, can be chosen from now on; the error is in words.
+    /// Reads the sizes in `bytes`, from the file `path`. The error is a message.
     pub fn take(&mut self, path: &Path, bytes: &[u8]) -> Result<(), String> {
         let sizes = sizes::read(bytes).map_err(|why| format!("{}: {why}", path.display()))?;
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
@@ -29,7 +29,7 @@ impl SizePanel {
         Ok(())
     }
 
-    /// Draws what opens a table, and the list of its sizes: those that no mannequin has cannot be chosen.
+    /// Draws the button that opens a table, and the list of its sizes; sizes that no mannequin can have are disabled.
     pub fn ui(&self, ui: &mut egui::Ui, told: &PanelContext<'_>, asks: &mut Asks) {
         let enabled = !told.now.wrapping && !told.now.demo;
         ui.add_enabled_ui(enabled, |ui| {

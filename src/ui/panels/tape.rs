@@ -1,4 +1,4 @@
-//! The section of the side panel that tells what the tape reads on the body, and on the garment there.
+//! The section of body measurements, with those of the garment at the same places.
 
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, channel};
@@ -15,7 +15,7 @@ use crate::ui::panels::context::PanelContext;
 use crate::ui::panels::fields::length_field;
 use crate::ui::panels::size::SizePanel;
 
-/// Measures of the body, taken beside the window as soon as they are looked at, and of the garment where it rests.
+/// Measurements of the body, computed on a separate thread when they are first shown, and of the garment when it is at rest.
 #[derive(Debug, Default)]
 pub struct TapePanel {
     /// Sizes that the body can be built to.
@@ -27,7 +27,7 @@ pub struct TapePanel {
     chosen: Chosen,
 }
 
-/// A garment at rest, and its girths by the place of the body's in the readings.
+/// A garment at rest and its girths, each with the index of the body's girth in the readings.
 #[derive(Debug)]
 struct Measured {
     outfit: Outfit,
@@ -35,7 +35,7 @@ struct Measured {
     girths: Vec<(usize, Girth)>,
 }
 
-/// A height that was asked for, metres above the floor, and what was read there, on that body and in that garment.
+/// A height chosen by the user, metres above the floor, and the girths of body and garment measured there.
 #[derive(Debug, Default)]
 struct Chosen {
     height: f64,
@@ -81,7 +81,7 @@ impl TapePanel {
         }
     }
 
-    /// A girth at any height, of body and garment.
+    /// Draws the girth of body and garment at a chosen height.
     fn chosen_ui(&mut self, ui: &mut egui::Ui, told: &PanelContext<'_>) {
         let (Some(read), Some(worn), Some(surface)) = (&self.read, &self.garment, &self.of) else { return };
         let Some(hip) = read.iter().find(|r| r.name == "hip").and_then(|hip| hip.tape.as_ref()) else {
@@ -116,7 +116,7 @@ impl TapePanel {
         }
     }
 
-    /// Measures the cloth when it has come to rest somewhere else.
+    /// Measures the garment when it has come to rest in a new state.
     fn look_at_garment(&mut self, ctx: &egui::Context, told: &PanelContext<'_>) {
         let rests = !told.snapshot.working && self.read.is_some();
         let outfit = Outfit::of(told.snapshot, &told.document.fabrics)
@@ -147,7 +147,7 @@ impl TapePanel {
         let (send, coming) = channel();
         let body = Arc::clone(surface);
         let work = move || {
-            // Nobody waits any longer where the window has gone or the body is another.
+            // Sending fails if the window was closed or the body has changed.
             send.send(readings_of(&choice, &body.mesh)).ok();
             ctx.request_repaint();
         };
@@ -157,10 +157,10 @@ impl TapePanel {
     }
 }
 
-/// Name, body, and where cloth goes round there the pattern and its ease.
+/// Draws a row: name, girth of the body, and where cloth goes all the way round, that of the pattern and its ease.
 fn row_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, reading: &Reading, round: Option<&Girth>) {
     let Reading { name, metres, height, .. } = reading;
-    // Tapes are read to the millimetre.
+    // Body measurements are rounded to the millimetre.
     let text = |metres: f64| told.now.unit.text((metres * 1e3).round() / 1e3);
     let label = ui.label(*name);
     if let Some(height) = height {

@@ -1,4 +1,4 @@
-//! Where the garment is tight: told in the side panel, shown in both panes by a click.
+//! The list of tight places; a click shows one in both panes.
 
 use egui::Ui;
 
@@ -7,7 +7,7 @@ use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::panels::context::{PanelContext, problem_row};
 use crate::ui::scenery::ring::flat;
 
-/// A row for each tight place.
+/// Draws a row for each tight place.
 pub fn tight_ui(ui: &mut Ui, told: &PanelContext<'_>, asks: &mut Asks) {
     for place in &*told.snapshot.tight {
         let shows = (Ask::ShowPlace(flat(place)), "Show it in both panes");

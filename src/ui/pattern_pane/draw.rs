@@ -1,4 +1,4 @@
-//! Draws the table: grid, marks, and what tools need.
+//! Draws the table (the pattern plane on the screen): grid, marks, and what tools need.
 
 use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, Vec2};
 use glam::DVec2;
@@ -13,13 +13,13 @@ use crate::ui::look::theme::{Palette, colour};
 use crate::ui::preferences::units::LengthUnit;
 use crate::wrap::Marks;
 
-/// What is drawn on, and how.
+/// The painter of the pane, with what drawing needs.
 pub struct Drawing<'a> {
-    /// Clipped to the pane.
+    /// Painter, clipped to the pane.
     pub painter: Painter,
-    /// The pane.
+    /// Area of the pane on the screen.
     pub pane: Rect,
-    /// Which part of the table is seen.
+    /// The part of the table that is visible.
     pub view: &'a TableView,
     /// Colours.
     pub palette: &'a Palette,
@@ -28,21 +28,21 @@ pub struct Drawing<'a> {
 /// Opacity of proposed marks.
 const GHOST: f32 = 0.6;
 
-/// How a mark is drawn.
+/// The look of a mark.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct MarkLook {
-    /// One without a partner has a hollow number.
+    /// Whether the mark has a partner; without one its number is hollow.
     pub paired: bool,
-    /// It is under the pointer.
+    /// Whether the mark is under the pointer.
     pub near: bool,
-    /// It is the chosen one.
+    /// Whether the mark is selected.
     pub selected: bool,
-    /// It is proposed only.
+    /// Whether the mark is only proposed.
     pub ghost: bool,
 }
 
 impl Drawing<'_> {
-    /// Background with a grid that grows finer as the view comes nearer.
+    /// Draws the background with a grid that becomes finer as the view zooms in.
     pub fn table(&self, unit: LengthUnit) {
         self.painter.rect_filled(self.pane, 0.0, self.palette.table);
         let (lower, upper) = self.view.seen(self.pane);
@@ -59,7 +59,7 @@ impl Drawing<'_> {
         }
     }
 
-    /// Lines to draw along.
+    /// Draws guides.
     pub fn guides<'g>(&self, guides: impl Iterator<Item = &'g Guide>) {
         let stroke = Stroke::new(1.0, self.palette.guide);
         for guide in guides {
@@ -74,7 +74,7 @@ impl Drawing<'_> {
         }
     }
 
-    /// A point that can be taken hold of.
+    /// Draws a point that can be dragged.
     pub fn knob(&self, p: DVec2, is_round: bool, is_chosen: bool) {
         let at = self.place(p);
         let (paper, ink) = (self.palette.knob, self.palette.accent);
@@ -87,12 +87,12 @@ impl Drawing<'_> {
         }
     }
 
-    /// Words on a small patch, beside a point of the screen.
+    /// Draws a text on a small background, beside a point of the screen.
     pub fn chip(&self, at: Pos2, words: &str) {
         self.chip_in(at, words, self.palette.weak);
     }
 
-    /// The same in another ink.
+    /// Draws a text in the colour `ink` on a small background, beside a point of the screen.
     pub fn chip_in(&self, at: Pos2, words: &str, ink: Color32) {
         let text = self.painter.layout_no_wrap(words.to_owned(), FontId::proportional(12.0), ink);
         let size = text.size() + Vec2::new(12.0, 6.0);
@@ -111,7 +111,7 @@ impl Drawing<'_> {
         self.painter.galley(corner + Vec2::new(6.0, 3.0), text, ink);
     }
 
-    /// Where the pointer was drawn on, and by what.
+    /// Draws the place that the pointer snapped to, and the name of what it snapped to.
     pub fn snapped(&self, snapped: &Snapped) {
         let at = self.place(snapped.place);
         let Some(by) = snapped.by else { return };
@@ -134,7 +134,7 @@ impl Drawing<'_> {
         }
     }
 
-    /// Where the pointer is, in the lower left corner.
+    /// Writes the position of the pointer in the lower left corner.
     pub fn place_told(&self, p: DVec2, unit: LengthUnit) {
         let words = format!("{}, {}", unit.number(p.x), unit.text(p.y));
         let at = self.pane.left_bottom() + Vec2::new(10.0, -8.0);
@@ -142,7 +142,7 @@ impl Drawing<'_> {
         self.painter.text(at, Align2::LEFT_BOTTOM, words, font, self.palette.weak);
     }
 
-    /// The keyboard's cursor.
+    /// Draws the keyboard's cursor.
     pub fn cross(&self, p: DVec2) {
         let at = self.place(p);
         for way in [Vec2::X, Vec2::Y] {
@@ -153,13 +153,13 @@ impl Drawing<'_> {
         }
     }
 
-    /// A dashed line.
+    /// Draws a dashed line.
     pub fn dashed(&self, points: &[DVec2], stroke: Stroke) {
         let placed: Vec<Pos2> = points.iter().map(|&p| self.place(p)).collect();
         self.painter.extend(Shape::dashed_line(&placed, stroke, 6.0, 4.0));
     }
 
-    /// All marks with their numbers; `near` is under the pointer.
+    /// Draws all marks with their numbers; `near` is under the pointer.
     pub fn marks(&self, pattern: &Pattern, marks: &Marks, near: Option<MarkId>, selected: Option<MarkId>) {
         for (i, mark) in marks.cloth.iter().enumerate() {
             if let Some(piece) = pattern.pieces.get(&mark.piece).filter(|piece| !piece.hidden) {
@@ -176,7 +176,7 @@ impl Drawing<'_> {
         }
     }
 
-    /// Proposed marks with the numbers they would have.
+    /// Draws proposed marks with the numbers they would have.
     pub fn ghosts(&self, pattern: &Pattern, marks: &Marks) {
         for (mark, number) in marks.cloth.iter().zip(1..) {
             let Some(piece) = pattern.pieces.get(&mark.piece) else { continue };
@@ -185,7 +185,7 @@ impl Drawing<'_> {
         }
     }
 
-    /// One mark, points on the table.
+    /// Draws a mark with `points` on the table.
     pub fn mark(&self, points: &[DVec2], number: usize, look: MarkLook) {
         let fade = if look.ghost { GHOST } else { 1.0 };
         let [ink, halo] = [colour(mark_colour(number)), self.palette.halo].map(|c| c.gamma_multiply(fade));
@@ -220,17 +220,17 @@ impl Drawing<'_> {
         self.painter.text(at, Align2::CENTER_CENTER, text, FontId::proportional(12.0), letters);
     }
 
-    /// A line with round ends.
+    /// Draws a polyline with round ends.
     pub fn polyline(&self, points: &[DVec2], stroke: Stroke) {
         let placed: Vec<Pos2> = points.iter().map(|&p| self.place(p)).collect();
-        // Round ends, as egui draws none.
+        // egui does not draw round ends.
         for end in [placed.first(), placed.last()].into_iter().flatten() {
             self.painter.circle_filled(*end, stroke.width / 2.0, stroke.color);
         }
         self.painter.add(Shape::line(placed, stroke));
     }
 
-    /// Where a point of the table is on the screen.
+    /// Position on the screen of a point of the table.
     pub fn place(&self, p: DVec2) -> Pos2 {
         self.view.screen_from_table(self.pane, p)
     }

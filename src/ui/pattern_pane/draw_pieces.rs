@@ -1,4 +1,4 @@
-//! Draws pieces with what lies on them, and the threads between them.
+//! Draws pieces with their contents, and the threads between sewn edges.
 
 use egui::{Color32, FontId, Pos2, Rect, Shape, Stroke, Vec2, pos2};
 use glam::DVec2;
@@ -17,20 +17,20 @@ use crate::ui::maps::ShownMap;
 use crate::ui::scenery::ring::ring;
 use crate::ui::selection::{Item, LineRef};
 
-/// Whether the front of `piece` is seen.
+/// Whether `piece` shows its front.
 pub fn front_is_seen(piece: &Piece, shape: &PieceShape) -> bool {
     shape.drawn_from_front != piece.pose.flipped
 }
 
-/// How strongly seams are drawn that nobody is asking after.
+/// Opacity of seams that are neither selected nor under the pointer.
 const FAINT: f32 = 0.42;
 /// Radius of a seam's badge, points.
 pub const BADGE: f32 = 7.5;
-/// Lengths that differ by more than this share do so on purpose.
+/// Relative difference of two lengths up to which they count as equal; a larger one is intended.
 pub const EQUAL: f64 = 0.01;
 
 impl Drawing<'_> {
-    /// All pieces in view.
+    /// Draws all visible pieces.
     pub fn pieces(&self, table: &Table<'_>) {
         for (id, piece, shape) in table.seen() {
             if self.is_in_view(piece, shape) {
@@ -41,7 +41,7 @@ impl Drawing<'_> {
         }
     }
 
-    /// Whether any of a piece's box is in the pane.
+    /// Whether a part of the piece's bounding box is in the pane.
     pub fn is_in_view(&self, piece: &Piece, shape: &PieceShape) -> bool {
         let corners = shape.corners().map(|p| self.place(piece.pose.plane_from_piece(p)));
         let room = (piece.allowance * self.view.scale) as f32 + 8.0;
@@ -118,8 +118,8 @@ impl Drawing<'_> {
         }
     }
 
-    /// Names of the pieces, on a patch of the piece's own colour so that marks do not run through them. Where there is no
-    /// room a name is cut short; where another has it already, it waits until the pointer is over its piece.
+    /// Draws the names of the pieces on a patch of the piece's colour, so that marks do not run through them. A name without
+    /// enough room is shortened; one whose place is taken by another name is drawn only while the pointer is over its piece.
     pub fn names(&self, table: &Table<'_>) {
         let size = (self.view.scale * 0.028).clamp(10.5, 15.0) as f32;
         let mut taken: Vec<Rect> = Vec::new();
@@ -155,7 +155,7 @@ impl Drawing<'_> {
         }
     }
 
-    /// Threads between sewn edges, and the edges in the colour of their seam.
+    /// Draws the threads between sewn edges, and the edges in the colour of their seam.
     pub fn seams(&self, table: &Table<'_>) {
         let near = match table.laid.highlight {
             Some(Item::Seam(id)) => Some(id),
@@ -196,7 +196,7 @@ impl Drawing<'_> {
         self.painter.add(Shape::mesh(mesh));
     }
 
-    /// Twisted seams are in the colour of warnings.
+    /// The colour of a seam; twisted seams have the colour of errors.
     pub fn seam_ink(&self, id: SeamId, ends: &Ends) -> Color32 {
         if ends.is_twisted { self.palette.error } else { self.palette.seam(id.0) }
     }
@@ -207,7 +207,8 @@ impl Drawing<'_> {
         }
     }
 
-    /// A round sign in the middle of each sewn stretch: a click turns the seam round. A tick tells where it begins.
+    /// Draws a round badge in the middle of each sewn stretch; a click on it reverses the seam. A tick marks where the seam
+    /// begins.
     pub fn badges(&self, table: &Table<'_>) {
         for (id, ends) in table.threads.all().filter(|(_, ends)| ends.is_seen(table.pattern())) {
             let Some(sides) = ends.on_table(table.pattern()) else { continue };
@@ -227,7 +228,7 @@ impl Drawing<'_> {
         }
     }
 
-    /// A short tick near the end where the seam's threads begin.
+    /// Draws a short tick near the end of `side` where the seam's threads begin.
     pub fn direction(&self, side: &[DVec2], ink: Color32) {
         let [first, second, ..] = side else { return };
         let along = (self.place(*second) - self.place(*first)).normalized();
@@ -236,7 +237,7 @@ impl Drawing<'_> {
             .line_segment([at - along.rot90() * 5.0, at + along.rot90() * 5.0], Stroke::new(2.0, ink));
     }
 
-    /// One seam as it would be sewn.
+    /// Draws a seam that would be sewn by the next click.
     pub fn seam_to_be(&self, table: &Table<'_>, seam: &crate::pattern::Seam, ink: Color32) {
         let Some(sides) = super::threads::threads(table.pattern(), seam) else { return };
         let pose = |k: usize| table.pattern().pieces[&seam.sides[k].piece].pose;
@@ -251,7 +252,7 @@ impl Drawing<'_> {
         }
     }
 
-    /// A stretch of outline that stands out.
+    /// Draws an emphasised stretch of outline.
     pub fn stretch(&self, table: &Table<'_>, stretch: Stretch, ink: Color32, width: f32) {
         let Some(piece) = table.pattern().pieces.get(&stretch.piece) else { return };
         let at: Vec<f64> = (0..=32).map(|i| f64::from(i) / 32.0).collect();
@@ -261,7 +262,7 @@ impl Drawing<'_> {
         }
     }
 
-    /// A ring round the place that is shown.
+    /// Draws a ring round the place that is shown.
     pub fn spot(&self, table: &Table<'_>) {
         let Some((id, ring)) = table.laid.spot.map(ring) else { return };
         let Some(piece) = table.pattern().pieces.get(&id) else { return };
@@ -270,7 +271,7 @@ impl Drawing<'_> {
         self.polyline(&points, Stroke::new(3.0, self.palette.accent));
     }
 
-    /// Edges and lines that are selected or under the pointer.
+    /// Draws edges and lines that are selected or under the pointer.
     pub fn edges_standing_out(&self, table: &Table<'_>) {
         let near = match table.laid.highlight {
             Some(Item::Edge(edge)) => Some(edge),
@@ -296,14 +297,14 @@ impl Drawing<'_> {
     }
 }
 
-/// A side that is short on the screen has its badge only while its seam stands out.
+/// Whether a sewn side has a badge: sides that are short on the screen have one only while their seam is emphasised.
 pub fn has_badge(table: &Table<'_>, id: SeamId, side: &[DVec2]) -> bool {
     let length: f64 = side.windows(2).map(|w| w[0].distance(w[1])).sum();
     let item = Item::Seam(id);
     length > table.reach(34.0) || table.laid.highlight == Some(item) || table.laid.selection.has(item)
 }
 
-/// Where the badge of a sewn side sits.
+/// Position of the badge of a sewn side.
 pub fn badge_place(side: &[DVec2]) -> Option<DVec2> {
     let middle = side.len() / 2;
     Some(match side.len() {
@@ -313,7 +314,7 @@ pub fn badge_place(side: &[DVec2]) -> Option<DVec2> {
     })
 }
 
-/// Its name, and what is special about it.
+/// The text on a piece: its name and special properties.
 fn words_on(piece: &Piece, front: bool) -> String {
     let mut words = piece.name.clone();
     for (is_so, sign) in [
@@ -331,7 +332,7 @@ fn words_on(piece: &Piece, front: bool) -> String {
     words
 }
 
-/// A line as two triangles a segment: many of them cost little.
+/// Adds a polyline to `mesh` as two triangles per segment, which is cheap for many lines.
 fn strip(mesh: &mut egui::Mesh, points: &[Pos2], ink: Color32, width: f32) {
     for w in points.windows(2) {
         let along = (w[1] - w[0]).normalized() * (width / 2.0);

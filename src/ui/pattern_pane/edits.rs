@@ -1,4 +1,4 @@
-//! What each action does to the pattern, given what is selected.
+//! The pattern edits that each action makes, given the selection.
 
 use std::collections::BTreeSet;
 
@@ -13,12 +13,12 @@ use crate::ui::actions::Action;
 use crate::ui::pattern_pane::shapes::cloth_is_left;
 use crate::ui::selection::{LineRef, Selection};
 
-/// Between a piece and the twin laid beside it, metres.
+/// Distance between a piece and its new twin, metres.
 const BESIDE: f64 = 0.03;
-/// From a piece to its copy, metres.
+/// Offset of a copy from its piece, metres.
 const COPY: DVec2 = DVec2::new(0.02, -0.02);
 
-/// The changes `action` makes; none when it is about nothing that is selected.
+/// The edits that `action` makes; empty when nothing selected is concerned.
 pub fn edits(action: Action, pattern: &Pattern, selection: &Selection) -> Vec<PatternEdit> {
     let touched = selection.pieces_touched();
     let pieces: Vec<PieceId> = touched.iter().copied().collect();
@@ -84,10 +84,10 @@ pub fn edits(action: Action, pattern: &Pattern, selection: &Selection) -> Vec<Pa
     }
 }
 
-/// Those to the selected points, edges and seams.
+/// The edits that `action` makes to the selected points, edges and seams.
 fn edits_of_edges(action: Action, pattern: &Pattern, selection: &Selection) -> Vec<PatternEdit> {
     match action {
-        // From the last on: the numbers of those before stay.
+        // From the last point to the first, so that the indices of the remaining ones stay valid.
         Action::InsertPoint => {
             let edges = selection.edges.iter().rev();
             edges.map(|&edge| PatternEdit::InsertPoint { edge, at: 0.5 }).collect()
@@ -116,7 +116,7 @@ fn edits_of_edges(action: Action, pattern: &Pattern, selection: &Selection) -> V
     }
 }
 
-/// Rolls those of `pieces` that stand somewhere, or makes them flat where all of them are rolled.
+/// Rolls the placed pieces of `pieces`, or makes them flat if all of them are rolled.
 fn rolled(pattern: &Pattern, pieces: &BTreeSet<PieceId>) -> Vec<PatternEdit> {
     let flat = is_rolled(pattern, pieces);
     let turned = |id: &PieceId| {
@@ -129,13 +129,13 @@ fn rolled(pattern: &Pattern, pieces: &BTreeSet<PieceId>) -> Vec<PatternEdit> {
     if placements.is_empty() { Vec::new() } else { vec![PatternEdit::PlaceInSpace { placements }] }
 }
 
-/// Whether some of `pieces` stand round the body, and all that do are rolled.
+/// Whether some of `pieces` are placed around the body, and all of those are rolled.
 pub fn is_rolled(pattern: &Pattern, pieces: &BTreeSet<PieceId>) -> bool {
     let mut standing = pieces.iter().filter_map(|id| pattern.pieces.get(id)?.placement).peekable();
     standing.peek().is_some() && standing.all(|pose| pose.roll.is_some())
 }
 
-/// Makes `pieces` what `activity` says, or active again where all are that.
+/// Sets the activity of `pieces` to `activity`, or to active if all have it already.
 fn toggled(pattern: &Pattern, pieces: Vec<PieceId>, activity: Activity) -> Vec<PatternEdit> {
     let all = pieces.iter().all(|id| pattern.pieces[id].activity == activity);
     let activity = if all { Activity::Active } else { activity };
@@ -146,14 +146,14 @@ fn of_each(pieces: &[PieceId], edit: impl Fn(PieceId) -> Option<PatternEdit>) ->
     pieces.iter().filter_map(|&id| edit(id)).collect()
 }
 
-/// Selected pieces, points, lines and seams; of a hole whose edge is selected the whole.
+/// Deletions of the selected pieces, points, lines and seams; for a selected edge of a hole, of the whole hole.
 pub fn deletions(pattern: &Pattern, selection: &Selection) -> Vec<PatternEdit> {
     let Selection { pieces, points, edges, lines, seams, .. } = selection;
     let mut all = Vec::new();
     if !seams.is_empty() {
         all.push(PatternEdit::Unpick { seams: seams.iter().copied().collect() });
     }
-    // From the last on: the numbers of those before stay.
+    // From the last line to the first, so that the indices of the remaining ones stay valid.
     let is_left = |piece: &PieceId| !pieces.contains(piece) && pattern.pieces.contains_key(piece);
     let lines = lines.iter().rev().filter(|line| is_left(&line.piece));
     all.extend(lines.map(|&LineRef { piece, line }| PatternEdit::DeleteLine { piece, line }));
@@ -175,7 +175,7 @@ pub fn deletions(pattern: &Pattern, selection: &Selection) -> Vec<PatternEdit> {
     all
 }
 
-/// Whether an edge can become the middle of a piece.
+/// Whether an edge is straight and part of the outline, so that a piece can be mirrored in it.
 pub fn is_straight(pattern: &Pattern, EdgeRef { piece, edge }: EdgeRef) -> bool {
     let found = pattern.pieces.get(&piece);
     found.is_some_and(|piece| edge < piece.outline.len() && piece.edge(edge).shape == EdgeShape::Line)
@@ -189,7 +189,7 @@ fn curved(pattern: &Pattern, edge: EdgeRef) -> Option<PatternEdit> {
         EdgeShape::Quadratic { control } => [a.lerp(control, 2.0 / 3.0), b.lerp(control, 2.0 / 3.0)],
         EdgeShape::Line => [a.lerp(b, 1.0 / 3.0), a.lerp(b, 2.0 / 3.0)],
         EdgeShape::Arc { .. } => {
-            // The cubic through the arc's thirds.
+            // The control points of the cubic through the arc's points at 1/3 and 2/3.
             let p = piece.edge_points(edge.edge, &[1.0 / 3.0, 2.0 / 3.0]);
             let control =
                 |p: DVec2, q: DVec2, a: DVec2, b: DVec2| (18.0 * p - 9.0 * q - 5.0 * a + 2.0 * b) / 6.0;
@@ -199,7 +199,8 @@ fn curved(pattern: &Pattern, edge: EdgeRef) -> Option<PatternEdit> {
     Some(PatternEdit::SetEdge { edge, shape: EdgeShape::Cubic { controls } })
 }
 
-/// An arc through the middle of a curve; of a straight edge one that bulges out of the cloth by a tenth of its length.
+/// The edit that makes an edge an arc: through the middle of a curve; for a straight edge one that bulges outward by a tenth of
+/// its length.
 fn rounded(pattern: &Pattern, edge: EdgeRef) -> Option<PatternEdit> {
     let piece = pattern.pieces.get(&edge.piece)?;
     let (a, b) = piece.edge_ends(edge.edge);
@@ -215,8 +216,8 @@ fn rounded(pattern: &Pattern, edge: EdgeRef) -> Option<PatternEdit> {
     (shape != EdgeShape::Line).then_some(PatternEdit::SetEdge { edge, shape })
 }
 
-/// The line a piece is mirrored in, in its own plane: through two of its selected points, along its selected edge, or
-/// upright through its middle as it lies. What lies on the left on the table stays.
+/// The mirror line of a piece, in its own plane: through two of its selected points, along its selected edge, or vertical (on the
+/// table) through its middle. The side that is on the left on the table is kept.
 fn axis_of(pattern: &Pattern, selection: &Selection, id: PieceId) -> Option<[DVec2; 2]> {
     let piece = pattern.pieces.get(&id)?;
     let points: Vec<DVec2> =
@@ -234,19 +235,19 @@ fn axis_of(pattern: &Pattern, selection: &Selection, id: PieceId) -> Option<[DVe
             [DVec2::new(x, lower.y), DVec2::new(x, upper.y)].map(|p| piece.pose.piece_from_plane(p))
         }
     };
-    // Upwards on the table its left is the table's left; turned over, its own left lies on the right.
+    // If the line points up on the table, its left is the table's left; on a flipped piece it is the other side.
     let placed = ends.map(|p| piece.pose.plane_from_piece(p));
     let up = (placed[1] - placed[0]).y > 0.0;
     Some(if up != piece.pose.flipped { ends } else { [ends[1], ends[0]] })
 }
 
-/// The box round a piece on the table.
+/// Bounding box of a piece on the table: lower and upper corner.
 fn box_of(piece: &Piece) -> Option<[DVec2; 2]> {
     let points = piece.flattened(1e-3).into_iter().map(|p| piece.pose.plane_from_piece(p));
     points.map(|p| [p, p]).reduce(|[a, b], [c, d]| [a.min(c), b.max(d)])
 }
 
-/// The pose of a piece mirrored in the upright line through its middle.
+/// The pose of a piece that is flipped about the vertical line through its middle.
 fn turned_over(piece: &Piece) -> Option<PlanePose> {
     let [lower, upper] = box_of(piece)?;
     let middle = (lower + upper) / 2.0;

@@ -1,22 +1,22 @@
-//! The small field that opens when a figure is typed while drawing or dragging.
+//! The small text field that opens when a digit is typed while drawing or dragging.
 
 use egui::{Area, Event, Frame, Key, Pos2, RichText, TextEdit, Vec2};
 
 use super::{Laid, begins_number};
 use crate::ui::preferences::units::{Typed, typed};
 
-/// What is being typed.
+/// The open field.
 #[derive(Debug)]
 pub struct Entry {
     text: String,
     at: Pos2,
-    /// It was opened in this frame.
+    /// Whether it was opened in this frame.
     is_new: bool,
     wrong: Option<String>,
 }
 
 impl Entry {
-    /// Opens where `at` is when a figure was typed in this frame, and takes that.
+    /// Opens a field at `at` if a number was begun in this frame, with what was typed.
     pub fn opened(ui: &egui::Ui, at: Pos2) -> Option<Self> {
         let text: String = ui.input_mut(|i| {
             let first = i.events.iter().position(|e| begins_number(e).is_some())?;
@@ -31,7 +31,7 @@ impl Entry {
         Some(Self { text, at, is_new: true, wrong: None })
     }
 
-    /// Shows the field. `take` gets what is entered. False: it is done.
+    /// Draws the field. `take` receives the text when Enter is pressed. False when the field is to be closed.
     pub fn ui(
         &mut self,
         ui: &egui::Ui,

@@ -1,4 +1,4 @@
-//! Guides: lines laid on the table to draw along, dragged out of the rulers and moved.
+//! Guides: lines on the table to draw along, dragged out of the rulers and moved.
 
 use egui::{CursorIcon, Pos2, Rect};
 use glam::DVec2;
@@ -7,30 +7,30 @@ use super::input::Input;
 use super::table::Guide;
 use super::view::TableView;
 
-/// How near a press takes hold of one, points on the screen.
+/// Largest distance of a press from a guide, points.
 const REACH: f32 = 4.0;
 
-/// The guides, and which is in the hand.
+/// The guides, and the one being dragged.
 #[derive(Debug, Default)]
 pub(super) struct Guides {
-    /// Those that lie.
+    /// The guides on the table.
     pub all: Vec<Guide>,
-    /// One is being dragged out of a ruler.
+    /// A guide being dragged out of a ruler.
     pub new: Option<Guide>,
-    /// One is being moved: its number, and how it lay.
+    /// The index of a guide being moved, and its old position.
     held: Option<(usize, Guide)>,
-    /// One is under the pointer and could be taken.
+    /// The guide under the pointer, which could be dragged.
     near: Option<Guide>,
 }
 
 impl Guides {
-    /// One is in the hand.
+    /// Whether a guide is being dragged.
     pub fn is_held(&self) -> bool {
         self.held.is_some()
     }
 
-    /// Takes what the pointer does with guides out of `input`. `free`: it is over nothing else; `escape`: it is given up;
-    /// `rounded` gives the nearest round measures.
+    /// Handles the part of `input` that concerns guides and removes it. `free`: the pointer is over nothing else; `escape`: the
+    /// drag is cancelled; `rounded` rounds a position to the grid.
     pub fn step(
         &mut self,
         view: &TableView,
@@ -63,7 +63,7 @@ impl Guides {
         *input = Input { hover: input.hover, held: input.held, ..Input::default() };
     }
 
-    /// The pointer is over a guide or has one.
+    /// The cursor over a guide or while one is dragged.
     pub fn cursor(&self) -> Option<CursorIcon> {
         Some(match self.held.map(|(_, guide)| guide).or(self.near)? {
             Guide::Upright(_) => CursorIcon::ResizeHorizontal,
@@ -71,7 +71,7 @@ impl Guides {
         })
     }
 
-    /// Takes one dragged out of a ruler, and whether it was let go.
+    /// Takes a guide that is dragged out of a ruler, and whether it was released.
     pub fn take(&mut self, view: &TableView, pane: Rect, dragged: Option<(Guide, bool)>) {
         self.new = None;
         let Some((guide, let_go)) = dragged else { return };

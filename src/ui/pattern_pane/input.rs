@@ -1,4 +1,4 @@
-//! What pointer and keys did over the table since the last frame.
+//! The input of pointer and keys over the table since the last frame.
 
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, Response};
 use glam::DVec2;
@@ -6,40 +6,40 @@ use glam::DVec2;
 use crate::ui::pointer::clicks::clicks;
 use crate::ui::pointer::mouse::{Mouse, PointerAction};
 
-/// For the tool in hand; what moves the view is left out.
+/// The input for the chosen tool, without what moves the view.
 #[derive(Clone, Debug, Default)]
 pub struct Input {
-    /// Where the pointer is, or the keyboard's cursor.
+    /// Position of the pointer, or of the keyboard's cursor.
     pub hover: Option<Pos2>,
-    /// Where was clicked, in order.
+    /// Positions of clicks, in order.
     pub clicks: Vec<Pos2>,
-    /// The clicks are presses of Space at the keyboard's cursor.
+    /// Whether the clicks are presses of Space at the keyboard's cursor.
     pub by_keys: bool,
-    /// The last click was the second of two.
+    /// Whether the last click was the second of a double-click.
     pub double: bool,
-    /// A drag began there.
+    /// Position where a drag began in this frame.
     pub pressed: Option<Pos2>,
-    /// Where a drag has been since the last frame.
+    /// Positions of the pointer during a drag since the last frame.
     pub trail: Vec<Pos2>,
-    /// The drag is over.
+    /// Whether a drag ended.
     pub let_go: bool,
-    /// Keys held.
+    /// Modifier keys held.
     pub held: Modifiers,
-    /// Enter: what is being made is ready.
+    /// Enter: finish what is being drawn.
     pub enter: bool,
-    /// Backspace: the last point goes.
+    /// Backspace: remove the last point.
     pub backspace: bool,
-    /// Tab (1) or Shift+Tab (-1): the next or the last thing.
+    /// Tab (1) or Shift+Tab (-1): select the next or previous item; else 0.
     pub next: i32,
-    /// Arrow keys, metres.
+    /// Movement by arrow keys, metres.
     pub nudge: DVec2,
 }
 
-/// How far arrow keys go, and with Shift, metres.
+/// Step of arrow keys, and with Shift, metres.
 const NUDGE: [f64; 2] = [0.001, 0.01];
 
 impl Input {
-    /// Reads what the pointer did. `dragging`: the tool is at work on a drag.
+    /// Reads the input of the pointer. `dragging`: the tool is following a drag.
     pub fn of_pointer(ui: &egui::Ui, response: &Response, mouse: Mouse, dragging: bool) -> Self {
         let (held, space) = ui.input(|i| (i.modifiers, i.key_down(Key::Space)));
         let of_tool = !space && mouse.deed(PointerButton::Primary, held) == Some(PointerAction::Tool);
@@ -62,7 +62,7 @@ impl Input {
         }
     }
 
-    /// Adds the keys that are the pane's.
+    /// Adds the keys that the pane uses.
     pub fn read_keys(&mut self, ui: &egui::Ui) {
         let pressed = |key| ui.input(|i| i.num_presses(key) as i32);
         let step = NUDGE[usize::from(self.held.shift)];
@@ -84,7 +84,7 @@ fn trail(input: &egui::InputState) -> Vec<Pos2> {
     moved.collect()
 }
 
-/// Whether the release of a button would not be seen.
+/// Whether the release of a button may be missed, since the window lost the focus or the pointer.
 fn is_lost(input: &egui::InputState) -> bool {
     input.events.contains(&Event::WindowFocused(false)) || input.events.contains(&Event::PointerGone)
 }

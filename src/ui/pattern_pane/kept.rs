@@ -1,15 +1,15 @@
-//! What the tools of the table keep from one use to the next.
+//! Options of the pattern tools.
 
-/// Kept while the program runs.
+/// Options of the pattern tools, kept while the program runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
-    /// The two sides of a cut are sewn together again.
+    /// Whether the two sides of a cut are sewn together.
     pub sew_cut: bool,
-    /// Of the next dart, metres.
+    /// Width of the next dart, metres.
     pub dart_width: f64,
-    /// Of the next dart, metres.
+    /// Depth of the next dart, metres.
     pub dart_depth: f64,
-    /// Editing keeps the lengths of sewn edges as they are to each other.
+    /// Whether editing keeps the ratio of the lengths of sewn edges.
     pub keep_equal: bool,
 }
 

@@ -1,4 +1,4 @@
-//! The pattern pane: flat pieces on a table, drawn, sewn, painted and moved with pointer and keys.
+//! The pattern pane: flat pieces on a table, which pointer and keys draw, sew, paint and move.
 
 mod draw;
 mod draw_pieces;
@@ -47,12 +47,12 @@ use threads::Threads;
 use tools::{PatternTool, handler};
 use view::TableView;
 
-/// Logarithm of the zoom for each point the pointer moves.
+/// Logarithm of the zoom factor per point of pointer motion.
 const ZOOM: f64 = 0.008;
-/// A step of the keyboard's cursor, in nudges by an arrow key.
+/// Step of the keyboard's cursor, in steps of an arrow key.
 const CURSOR_STEPS: f64 = 10.0;
 
-/// What is to be shown in the next frame.
+/// What to frame in the next frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fit {
     All,
@@ -60,80 +60,80 @@ pub enum Fit {
     TrueSize,
 }
 
-/// The table as it is seen, and what the tool in hand is at.
+/// State of the pane: the view of the table, and the tool in use.
 #[derive(Debug, Default)]
 pub struct PatternPane {
-    /// Which part of the table is seen.
+    /// The part of the table that is visible.
     pub view: TableView,
-    /// Show the whole pattern in the next frame.
+    /// Whether to show the whole pattern in the next frame.
     pub fit: bool,
-    /// Show something else in the next frame.
+    /// What to frame in the next frame.
     pub show: Option<Fit>,
     /// Whether the pointer was over the pane in the last frame.
     pub hovered: bool,
-    /// Where it was on the screen in the last frame.
+    /// Area of the pane on the screen in the last frame.
     pub area: Option<Rect>,
-    /// The widget, for the keyboard.
+    /// Id of the pane's widget, for the keyboard focus.
     pub id: Option<egui::Id>,
-    /// For the menu of a right click, in this frame.
+    /// Response of the pane in this frame, for the context menu.
     pub response: Option<Response>,
-    /// What was under the pointer in the last frame.
+    /// Item under the pointer in the last frame.
     pub under: Option<Item>,
-    /// The value of the map under the pointer in the last frame.
+    /// Value of the map under the pointer in the last frame.
     pub value: Option<f64>,
-    /// How tools work.
+    /// Options of the tools.
     pub options: Options,
     guides: Guides,
     shapes: Shapes,
     threads: Threads,
     tool: Option<(Tool, Box<dyn PatternTool>)>,
     entry: Option<Entry>,
-    /// The keyboard's cursor, on the table.
+    /// The keyboard's cursor, in metres on the table.
     cursor: Option<DVec2>,
-    /// What was under way was given up and the button is still down.
+    /// Whether a drag was cancelled while the button is still down.
     over: bool,
 }
 
-/// What the pane shows, and what the pointer does there.
+/// The state that the pane shows, and the options of the pointer.
 #[derive(Clone, Copy)]
 pub struct Laid<'a> {
     /// The document.
     pub document: &'a Document,
-    /// What the left button does.
+    /// The chosen tool, which the left button uses.
     pub tool: Tool,
-    /// What all buttons do.
+    /// The mapping of mouse buttons.
     pub mouse: Mouse,
-    /// Strokes go through to the pieces below.
+    /// Laser mode: strokes go through to the pieces below.
     pub laser: bool,
-    /// The mark that stands out.
+    /// The emphasised mark.
     pub selected: Option<MarkId>,
-    /// What is selected of the pattern.
+    /// The selection in the pattern.
     pub selection: &'a Selection,
-    /// What the pointer is over, in this pane or the other.
+    /// The item under the pointer, in this pane or the other.
     pub highlight: Option<Item>,
-    /// The place that is ringed.
+    /// The place marked by a ring.
     pub spot: Option<ClothPlace>,
-    /// How many points of the screen a metre takes.
+    /// Screen points per metre at true size.
     pub points_per_metre: f64,
-    /// What lengths are shown in.
+    /// Unit in which lengths are shown.
     pub unit: LengthUnit,
-    /// What lies near draws the pointer on.
+    /// Whether the pointer snaps to points, edges, guides and the grid.
     pub snapping: bool,
-    /// Marks proposed and not accepted yet.
+    /// Proposed marks that are not accepted yet.
     pub ghosts: Option<&'a Marks>,
-    /// What pieces are coloured by, instead of their own colours.
+    /// The map that pieces are coloured by; None: their own colours.
     pub map: Option<&'a ShownMap>,
     /// Colours.
     pub palette: &'a Palette,
 }
 
 impl PatternPane {
-    /// A pane that will show the whole pattern.
+    /// A pane that shows the whole pattern in its first frame.
     pub fn fitted() -> Self {
         Self { fit: true, ..Self::default() }
     }
 
-    /// Draws the pane and listens to pointer and keys.
+    /// Draws the pane and handles pointer and keys.
     pub fn ui(&mut self, ui: &mut egui::Ui, laid: &Laid<'_>, asks: &mut Asks) {
         let pattern = &*laid.document.pattern;
         self.shapes.update(pattern);
@@ -172,7 +172,7 @@ impl PatternPane {
             Drawing { painter: ui.painter_at(pane), pane, view: &table.view, palette: laid.palette };
         draw_table(&drawing, &table, self.guides.new.as_ref(), at);
         tool.draw(&drawing, &table, &input);
-        // A right click is about what lies there.
+        // A right click selects the item under the pointer, which its menu is about.
         if response.secondary_clicked()
             && let Some(item) = under.filter(|item| !laid.selection.has(*item))
         {
@@ -204,32 +204,32 @@ impl PatternPane {
         self.guides.take(&self.view, pane, dragged);
     }
 
-    /// The mark being painted, or anything else under way that Esc gives up.
+    /// Whether a mark is being painted or something else is in progress that Esc cancels.
     pub fn is_busy(&self) -> bool {
         self.entry.is_some() || self.tool.as_ref().is_some_and(|(_, tool)| tool.is_busy())
     }
 
-    /// Figures typed now are the tool's, not shortcuts.
+    /// Whether typed digits go to the tool and are no shortcuts.
     pub fn takes_numbers(&self) -> bool {
         self.tool.as_ref().is_some_and(|(_, tool)| tool.takes_numbers())
     }
 
-    /// The keyboard is the pane's.
+    /// Whether the pane has the keyboard focus.
     pub fn has_focus(&self, ctx: &egui::Context) -> bool {
         self.id.is_some() && ctx.memory(|m| m.focused()) == self.id
     }
 
-    /// Takes all guides away.
+    /// Removes all guides.
     pub fn clear_guides(&mut self) {
         self.guides.all.clear();
     }
 
-    /// Seams that join the front of one piece to the back of another.
+    /// Whether some seam is twisted: it joins the front of one piece to the back of another.
     pub fn has_twisted(&self) -> bool {
         self.threads.twisted().next().is_some()
     }
 
-    /// What the mouse does here, for the status bar.
+    /// The hint of the pane for the status bar.
     pub fn hint(&self, laid: &Laid<'_>) -> String {
         let view = format!("{} · F: show all", laid.mouse.table_hint());
         if self.guides.cursor().is_some() {
@@ -254,7 +254,7 @@ impl PatternPane {
         }
     }
 
-    /// The machine of the chosen tool; the one before gives up what it was at.
+    /// The handler of the chosen tool; when the tool changes, the old one cancels what is in progress.
     fn in_hand(&mut self, chosen: Tool, asks: &mut Asks) -> Box<dyn PatternTool> {
         match self.tool.take() {
             Some((tool, machine)) if tool == chosen => machine,
@@ -311,8 +311,8 @@ impl PatternPane {
         }
     }
 
-    /// What pointer and keys did, for the tool. Keys are the pane's while it has the keyboard, or nothing else has and the
-    /// pointer is over it.
+    /// The input for the tool. Keys belong to the pane while it has the focus, or while nothing has it and the pointer is over
+    /// the pane.
     fn input(
         &mut self,
         ui: &egui::Ui,
@@ -351,7 +351,7 @@ impl PatternPane {
         input
     }
 
-    /// Esc gives up what is under way; then the selection; then the tool; then the keyboard.
+    /// Esc cancels what is in progress; then it clears the selection; then leaves the tool; then gives up the keyboard focus.
     fn escape(&mut self, ui: &egui::Ui, laid: &Laid<'_>, tool: &mut dyn PatternTool, asks: &mut Asks) {
         if !ui.input(|i| i.key_pressed(Key::Escape)) {
             return;
@@ -372,7 +372,7 @@ impl PatternPane {
         }
     }
 
-    /// While a tool draws, arrow keys move a cursor and Space presses there. The pointer takes over when it moves.
+    /// While a tool draws, arrow keys move a cursor and Space clicks there. A movement of the pointer ends its use.
     fn move_cursor(
         &mut self,
         ui: &egui::Ui,
@@ -404,7 +404,7 @@ impl PatternPane {
         }
     }
 
-    /// A figure typed opens a small field; what is entered there goes to the tool.
+    /// A typed digit opens a small text field; the entered text goes to the tool.
     fn take_entry(
         &mut self,
         ui: &mut egui::Ui,
@@ -424,13 +424,13 @@ impl PatternPane {
         if stays {
             self.entry = Some(entry);
         } else {
-            // The next figure is typed to the pane as well.
+            // The next digit is typed to the pane as well.
             let id = self.id.unwrap_or(egui::Id::NULL);
             ui.ctx().memory_mut(|m| m.request_focus(id));
         }
     }
 
-    /// Whether there is nothing but the table where the pointer is.
+    /// Whether only the empty table is under the pointer.
     fn is_bare(&self, laid: &Laid<'_>, pane: Rect, input: &Input) -> bool {
         let table = self.table(laid, pane);
         input.pressed.or(input.hover).map(|at| table.at(at)).is_some_and(|p| {
@@ -459,7 +459,7 @@ fn draw_table(drawing: &Drawing<'_>, table: &Table<'_>, new_guide: Option<&Guide
     drawing.guides(table.guides.iter().chain(new_guide));
 }
 
-/// Whether anything typed since the last frame begins a number.
+/// The text that was typed, if it begins a number.
 fn begins_number(event: &Event) -> Option<String> {
     match event {
         Event::Text(text) if text.starts_with(|c: char| c.is_ascii_digit() || "@.(-".contains(c)) => {
@@ -469,7 +469,7 @@ fn begins_number(event: &Event) -> Option<String> {
     }
 }
 
-/// What to offer when the table is empty.
+/// Draws suggestions for an empty table.
 pub fn empty_ui(ui: &mut egui::Ui, asks: &mut Asks) {
     ui.vertical_centered(|ui| {
         ui.heading("An empty table");

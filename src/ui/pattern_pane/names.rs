@@ -1,4 +1,4 @@
-//! Tells screen readers and tests what lies where on the table.
+//! Publishes the items on the table to screen readers and tests.
 
 use egui::accesskit::Role;
 use egui::{Rect, Sense, WidgetInfo, vec2};
@@ -10,7 +10,7 @@ use crate::pattern::{EdgeRef, Pattern, Seam};
 use crate::ui::actions::Tool;
 use crate::wrap::Marks;
 
-/// Puts a node at everything in view: pieces, edges, seams, marks; points while they are edited.
+/// Adds an accessibility node at each visible item: pieces, edges, seams, marks; points while they are edited.
 pub fn publish(ui: &egui::Ui, table: &Table<'_>) {
     let unit = table.laid.unit;
     for (id, piece, shape) in table.seen() {
@@ -53,7 +53,7 @@ pub fn publish(ui: &egui::Ui, table: &Table<'_>) {
     }
 }
 
-/// What a seam joins, in words.
+/// The two sides of a seam, in words.
 pub fn seam_words(pattern: &Pattern, seam: &Seam) -> String {
     let side = |k: usize| {
         let EdgeRef { piece, edge } = seam.sides[k].first_edge();

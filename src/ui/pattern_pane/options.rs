@@ -1,4 +1,4 @@
-//! How tools work: a small bar over the table with what the chosen tool can be told.
+//! The bar over the table with the options of the chosen tool.
 
 use super::kept::Options;
 use egui::{Frame, Rect, RichText, UiBuilder, vec2};
@@ -8,7 +8,7 @@ use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::actions::{Action, Tool};
 use crate::ui::panels::fields::length_field;
 
-/// The bar; nothing for tools that need none.
+/// Draws the bar; nothing for tools without options.
 pub fn options_ui(ui: &mut egui::Ui, table: &Table<'_>, options: &mut Options, asks: &mut Asks) {
     let twisted = table.threads.twisted().count();
     let wanted = match table.laid.tool {

@@ -1,4 +1,4 @@
-//! Rulers along the edges of the pane, in the unit shown; guides are dragged out of them.
+//! Rulers along the edges of the pane, in the shown unit; guides are dragged out of them.
 
 use egui::accesskit::Role;
 use egui::{
@@ -11,14 +11,14 @@ use super::view::TableView;
 use crate::ui::look::theme::Palette;
 use crate::ui::preferences::units::LengthUnit;
 
-/// Breadth of a ruler, points.
+/// Width of a ruler, points.
 pub const BREADTH: f32 = 18.0;
-/// Figures stand at least so far apart, points.
+/// Smallest distance between numbers, points.
 const BETWEEN_FIGURES: f64 = 56.0;
-/// And lines so far.
+/// Smallest distance between lines, points.
 const BETWEEN_LINES: f64 = 5.0;
 
-/// The rulers' places round a pane.
+/// The areas of the rulers around a pane.
 #[derive(Clone, Copy, Debug)]
 pub struct Rulers {
     above: Rect,
@@ -26,7 +26,7 @@ pub struct Rulers {
 }
 
 impl Rulers {
-    /// Takes the rulers' room from `whole`; the rest is the pane.
+    /// Divides `whole` into rulers and pane.
     pub fn around(whole: Rect) -> (Self, Rect) {
         let pane = Rect::from_min_max(whole.min + vec2(BREADTH, BREADTH), whole.max);
         let above = Rect::from_min_max(pos2(pane.left(), whole.top()), pos2(pane.right(), pane.top()));
@@ -34,7 +34,7 @@ impl Rulers {
         (Self { above, beside }, pane)
     }
 
-    /// Draws them and listens: a guide dragged out of one is returned while the button is down, and whether it was let go.
+    /// Draws the rulers. While a guide is dragged out of one, returns it, and whether it was released.
     pub fn ui(
         &self,
         ui: &mut egui::Ui,
@@ -97,7 +97,7 @@ impl Rulers {
             let is_figure = is_multiple(y, figures);
             tick(&along, [pos2(self.beside.right(), at), vec2(-1.0, 0.0).to_pos2()], is_figure, stroke);
             if is_figure {
-                // Upwards, as the ruler is narrow.
+                // The text runs upwards, as the ruler is narrow.
                 let text = along.layout_no_wrap(unit.number(y), font.clone(), palette.weak);
                 let place = pos2(self.beside.left() + 1.0, at - 3.0);
                 let shape = egui::epaint::TextShape::new(place, text, palette.weak);

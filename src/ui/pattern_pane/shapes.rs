@@ -1,4 +1,4 @@
-//! Outlines and filled areas of pieces, kept until a piece changes.
+//! Flattened outlines and fills of pieces, cached until a piece changes.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -10,36 +10,36 @@ use crate::geometry::polygon::{is_inside, sides, signed_area};
 use crate::pattern::piece::flattened_loop;
 use crate::pattern::{Pattern, Piece, curve};
 
-/// Chords stay this close to the outline, metres.
+/// Flattening tolerance, metres.
 const TOLERANCE: f64 = 4e-4;
 
-/// A piece ready to draw, in its own plane.
+/// The flattened shape of a piece, in its own plane.
 #[derive(Clone, Debug)]
 pub struct PieceShape {
     piece: Arc<Piece>,
-    /// Differs whenever the outline differs.
+    /// A number that changes whenever the outline changes.
     pub version: u64,
-    /// The outline, closed.
+    /// The outline as a closed polyline.
     pub outline: Vec<DVec2>,
-    /// The holes, closed.
+    /// The holes as closed polylines.
     pub holes: Vec<Vec<DVec2>>,
-    /// Each edge from its start to its end.
+    /// A polyline for each edge, from its start to its end.
     pub edges: Vec<Vec<DVec2>>,
     /// Arc length of each edge, metres.
     pub lengths: Vec<f64>,
-    /// Each line drawn inside.
+    /// A polyline for each internal line.
     pub lines: Vec<Vec<DVec2>>,
-    /// Where each notch is, and the way into the cloth.
+    /// Position of each notch, and the direction into the cloth.
     pub notches: Vec<(DVec2, DVec2)>,
-    /// The line it is cut on, closed; empty without allowance.
+    /// The cut line as a closed polyline; empty without allowance.
     pub cut: Vec<DVec2>,
-    /// Filled by trapezoids: four corners each.
+    /// The interior as trapezoids, four corners each.
     pub fill: Vec<[DVec2; 4]>,
-    /// A good place for the name.
+    /// A position for the name, on the cloth.
     pub middle: DVec2,
-    /// Lower and upper corner.
+    /// Bounding box: lower and upper corner.
     pub bounds: [DVec2; 2],
-    /// The side the outline is drawn from is the front.
+    /// Whether the outline runs counter-clockwise seen from the front.
     pub drawn_from_front: bool,
 }
 
@@ -68,13 +68,13 @@ impl PieceShape {
         }
     }
 
-    /// Whether `p`, in the piece's own plane, lies on the cloth.
+    /// Whether `p`, in the piece's own plane, is on the cloth.
     pub fn contains(&self, p: DVec2) -> bool {
         let lines = std::iter::once(&self.outline).chain(&self.holes);
         is_inside(lines.flat_map(|line| sides(line)), p)
     }
 
-    /// The four corners of its box.
+    /// The four corners of the bounding box.
     pub fn corners(&self) -> [DVec2; 4] {
         let [a, b] = self.bounds;
         [a, DVec2::new(b.x, a.y), b, DVec2::new(a.x, b.y)]
@@ -94,21 +94,21 @@ fn notches(piece: &Piece) -> Vec<(DVec2, DVec2)> {
         let near = [at - 1e-3, at, at + 1e-3].map(|f| f.clamp(0.0, 1.0));
         let p = piece.edge_points(edge, &near);
         let along = (p[2] - p[0]).normalize_or_zero();
-        // Cloth lies on the left of a line that runs counter-clockwise round it.
+        // Cloth is on the left of a line that runs counter-clockwise around it.
         (p[1], along.perp() * if cloth_is_left(piece, edge) { 1.0 } else { -1.0 })
     };
     let known = piece.notches.iter().filter(|n| n.edge < piece.edge_count());
     known.map(|n| place(n.edge, n.at)).collect()
 }
 
-/// Whether the cloth lies left of an edge, as it is drawn.
+/// Whether the cloth is on the left of an edge, in its own direction.
 pub fn cloth_is_left(piece: &Piece, edge: usize) -> bool {
     let (line, _) = piece.loop_of(edge);
     let turns_left = signed_area(&flattened_loop(piece.loop_edges(line), TOLERANCE * 10.0)) >= 0.0;
     turns_left == (line == 0)
 }
 
-/// The line a piece is cut on: what a file gave, or the outline moved out by the allowance.
+/// The cut line of a piece: the one from a file, or the outline offset by the allowance.
 fn cut_line(piece: &Piece, outline: &[DVec2], drawn_from_front: bool) -> Vec<DVec2> {
     if !piece.cut_line.is_empty() {
         return flattened_loop(&piece.cut_line, TOLERANCE);
@@ -120,7 +120,7 @@ fn cut_line(piece: &Piece, outline: &[DVec2], drawn_from_front: bool) -> Vec<DVe
     moved_out(outline, out)
 }
 
-/// A closed line moved to its left by `by` metres, corners drawn out to a point or, where that is far, cut off.
+/// A closed polyline offset to its left by `by` metres, with mitred corners; very sharp corners are cut off.
 fn moved_out(line: &[DVec2], by: f64) -> Vec<DVec2> {
     let n = line.len();
     let normal = |i: usize| (line[(i + 1) % n] - line[i]).normalize_or_zero().perp();
@@ -128,7 +128,7 @@ fn moved_out(line: &[DVec2], by: f64) -> Vec<DVec2> {
     for (i, &corner) in line.iter().enumerate() {
         let (before, after) = (normal((i + n - 1) % n), normal(i));
         let middle = (before + after) / 2.0;
-        // A corner of 60 degrees is drawn out to twice the allowance; a sharper one is cut off there.
+        // A corner of 60 degrees has a mitre of twice the allowance; sharper corners are cut off at that distance.
         if middle.length_squared() > 0.2 {
             moved.push(corner + middle / middle.length_squared() * by);
         } else {
@@ -140,7 +140,7 @@ fn moved_out(line: &[DVec2], by: f64) -> Vec<DVec2> {
     moved
 }
 
-/// Shapes of the pieces of the pattern drawn last.
+/// Cache of the shapes of the pattern that was drawn last.
 #[derive(Clone, Debug, Default)]
 pub struct Shapes {
     shapes: BTreeMap<PieceId, PieceShape>,
@@ -148,7 +148,7 @@ pub struct Shapes {
 }
 
 impl Shapes {
-    /// Brings the shapes up to date. Pieces that did not change cost nothing.
+    /// Updates the shapes of pieces that changed.
     pub fn update(&mut self, pattern: &Pattern) {
         self.shapes.retain(|id, shape| {
             pattern
@@ -169,12 +169,12 @@ impl Shapes {
         self.shapes.get(&id)
     }
 
-    /// The topmost piece under a point of the table, and the point in its own plane.
+    /// The topmost piece at a point of the table, and the point in its own plane.
     pub fn at(&self, pattern: &Pattern, table: DVec2) -> Option<(PieceId, DVec2)> {
         self.all_at(pattern, table).next()
     }
 
-    /// All pieces under a point of the table, topmost first, and the point in the plane of each.
+    /// All pieces at a point of the table, topmost first, and the point in the plane of each.
     pub fn all_at(&self, pattern: &Pattern, table: DVec2) -> impl Iterator<Item = (PieceId, DVec2)> {
         pattern.pieces.iter().rev().filter_map(move |(&id, piece)| {
             if piece.hidden {
@@ -186,7 +186,7 @@ impl Shapes {
     }
 }
 
-/// Moving or renaming a piece does not change its shape.
+/// Whether two versions of a piece have the same shape; position and name do not matter.
 fn same_outline(a: &Piece, b: &Piece) -> bool {
     a.outline == b.outline
         && a.holes == b.holes
@@ -196,8 +196,8 @@ fn same_outline(a: &Piece, b: &Piece) -> bool {
         && a.cut_line == b.cut_line
 }
 
-/// The inside by the even-odd rule, cut into slabs at every corner: also right for outlines that cross themselves, up to the
-/// height of a slab.
+/// The interior by the even-odd rule, divided into slabs at every corner. Outlines that cross themselves are filled correctly up
+/// to the height of a slab.
 fn trapezoids<'a>(lines: impl Iterator<Item = &'a Vec<DVec2>>) -> Vec<[DVec2; 4]> {
     let all: Vec<[DVec2; 2]> = lines.flat_map(|line| sides(line)).collect();
     let mut heights: Vec<f64> = all.iter().map(|[a, _]| a.y).filter(|y| y.is_finite()).collect();
@@ -224,7 +224,7 @@ fn trapezoids<'a>(lines: impl Iterator<Item = &'a Vec<DVec2>>) -> Vec<[DVec2; 4]
     out
 }
 
-/// The middle of the widest trapezoid near half the height: a name there lies on cloth.
+/// The centre of the widest trapezoid near half the height, so that a name there is on cloth.
 fn middle(fill: &[[DVec2; 4]]) -> DVec2 {
     let mut total = 0.0;
     let mut weighted = DVec2::ZERO;

@@ -1,4 +1,4 @@
-//! Drawing hands tremble: what lies near the pointer draws it on.
+//! Snapping: the pointer is drawn to points, edges, guides and the grid near it.
 
 use egui::Modifiers;
 use glam::DVec2;
@@ -7,22 +7,21 @@ use super::table::{Guide, Table};
 use crate::pattern::EdgeRef;
 use crate::pattern::edit::PointRef;
 
-/// How near things draw the pointer on, points on the screen: points, middles, edges, guides.
+/// Snapping distances, points: to points, middles of edges, edges, guides.
 const PULL: [f64; 4] = [10.0, 9.0, 7.0, 6.0];
-/// Places that nothing draws on are rounded to steps no shorter than this, points on the screen: round measures, and no
-/// hand can tell.
+/// Smallest grid step to which free places are rounded, points. It is too short to be noticed, and gives round measurements.
 const FINEST_STEP: f64 = 3.0;
 
-/// A place, and what it was drawn on by.
+/// A place after snapping, and what it snapped to.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Snapped {
-    /// On the table, metres.
+    /// Position on the table, metres.
     pub place: DVec2,
-    /// None: where the pointer is.
+    /// What the place snapped to; None if it is where the pointer is.
     pub by: Option<Snap>,
 }
 
-/// What draws the pointer on.
+/// What a place can snap to.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Snap {
     Point,
@@ -34,7 +33,7 @@ pub enum Snap {
 }
 
 impl Snap {
-    /// Beside the pointer.
+    /// The name shown beside the pointer.
     pub fn name(self) -> &'static str {
         match self {
             Self::Point => "point",
@@ -48,8 +47,8 @@ impl Snap {
 }
 
 impl Table<'_> {
-    /// Where a hand at `p` means to be. Shift keeps to eighths of a turn round `from`; Alt and Ctrl keep it where it is.
-    /// Points for which `moves` says yes, and edges beside them, draw nothing on.
+    /// The place that `p` snaps to. Shift restricts it to multiples of 45 degrees around `from`; Alt and Ctrl switch snapping
+    /// off. Points for which `moves` is true, and edges at them, are ignored.
     pub fn snapped(
         &self,
         p: DVec2,
@@ -90,7 +89,7 @@ impl Table<'_> {
         near.then_some(Snapped { place: on_curve, by: Some(Snap::Edge(hit.edge, hit.at)) })
     }
 
-    /// By guides, and to round measures, each way by itself.
+    /// Snaps to guides and the grid, x and y independently.
     fn by_lines(&self, p: DVec2) -> Snapped {
         let (mut place, mut by) = (self.rounded(p), Some(Snap::Grid));
         for guide in self.guides {
@@ -105,7 +104,7 @@ impl Table<'_> {
         Snapped { place, by }
     }
 
-    /// The nearest round measures, as fine as can be told apart at this scale.
+    /// `p` rounded to the grid, with the finest step that is distinguishable at this scale.
     pub fn rounded(&self, p: DVec2) -> DVec2 {
         let steps = self.laid.unit.steps();
         let fine = steps.iter().find(|&&step| step * self.view.scale >= FINEST_STEP);
@@ -114,7 +113,7 @@ impl Table<'_> {
     }
 }
 
-/// `p` on the nearest of the eight rays from `from`.
+/// `p` projected to the nearest of the eight rays from `from`.
 pub fn on_eighth(from: DVec2, p: DVec2) -> DVec2 {
     let eighth = std::f64::consts::FRAC_PI_4;
     let turn = ((p - from).to_angle() / eighth).round() * eighth;

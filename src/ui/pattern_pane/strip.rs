@@ -1,4 +1,4 @@
-//! The strip of tools beside the table, with drawn signs.
+//! The strip of tool buttons beside the table.
 
 use egui::{Painter, Pos2, Rect, Sense, Shape, Stroke, UiBuilder, Vec2, WidgetInfo, pos2, vec2};
 
@@ -6,12 +6,12 @@ use super::Laid;
 use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::actions::{Action, PATTERN_TOOLS, Tool};
 
-/// Breadth of the strip, points.
+/// Width of the strip, points.
 const BREADTH: f32 = 36.0;
-/// Of a button.
+/// Size of a button, points.
 const SIZE: f32 = 28.0;
 
-/// Takes the strip's room from `whole`.
+/// Divides `whole` into strip and remaining area.
 pub fn beside(whole: Rect) -> (Rect, Rect) {
     whole.split_left_right_at_x(whole.left() + BREADTH)
 }
@@ -58,7 +58,7 @@ fn button(ui: &mut egui::Ui, laid: &Laid<'_>, tool: Tool, asks: &mut Asks) {
     }
 }
 
-/// Signs are drawn on a square from (0, 0), upper left, to (1, 1).
+/// Draws the icon of a tool, in coordinates from (0, 0), upper left, to (1, 1).
 fn sign(painter: &Painter, area: Rect, tool: Tool, stroke: Stroke) {
     let at = |x: f32, y: f32| area.min + vec2(x, y) * area.size();
     let line = |points: &[[f32; 2]]| {

@@ -1,4 +1,4 @@
-//! The table as tools see it: what lies where, and what the pointer is near to.
+//! The table as tools see it: positions of all items, and the items near the pointer.
 
 use egui::{Pos2, Rect};
 use glam::DVec2;
@@ -12,36 +12,36 @@ use crate::pattern::edit::PointRef;
 use crate::pattern::{EdgeRef, Pattern, Piece};
 use crate::ui::selection::LineRef;
 
-/// How near to a mark or a point a click counts, points on the screen.
+/// Largest distance of a click from a mark or a point, points.
 pub const REACH: f64 = 10.0;
-/// The same for edges and seams.
+/// Largest distance of a click from an edge or seam, points.
 pub const NEAR_EDGE: f64 = 7.0;
 
-/// A line laid on the table to draw along.
+/// A guide: a line on the table to draw along.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Guide {
-    /// Runs up at this x.
+    /// A vertical line at this x, metres.
     Upright(f64),
-    /// Runs across at this y.
+    /// A horizontal line at this y, metres.
     Level(f64),
 }
 
-/// Everything on the table in this frame. Places are on the table, metres, unless they are said to be elsewhere.
+/// Everything on the table in this frame. Positions are on the table, in metres, unless stated otherwise.
 #[derive(Clone, Copy)]
 pub struct Table<'a> {
-    /// What is shown.
+    /// The state of the pane.
     pub laid: &'a Laid<'a>,
-    /// Its outlines.
+    /// Shapes of the pieces.
     pub shapes: &'a Shapes,
-    /// Its seams.
+    /// Threads of the seams.
     pub threads: &'a Threads,
-    /// Lines to draw along.
+    /// The guides.
     pub guides: &'a [Guide],
-    /// Which part is seen.
+    /// The part of the table that is visible.
     pub view: TableView,
-    /// Where on the screen.
+    /// Area of the pane on the screen.
     pub pane: Rect,
-    /// How tools work.
+    /// Options of the tools.
     pub options: Options,
 }
 
@@ -50,11 +50,11 @@ pub struct Table<'a> {
 pub struct OnEdge {
     /// The edge.
     pub edge: EdgeRef,
-    /// A fraction of its arc length.
+    /// Position as a fraction of the edge's arc length.
     pub at: f64,
-    /// On the table.
+    /// Position on the table.
     pub place: DVec2,
-    /// From what was asked for, metres.
+    /// Distance from the point asked for, metres.
     pub distance: f64,
 }
 
@@ -64,7 +64,7 @@ impl<'a> Table<'a> {
         &self.laid.document.pattern
     }
 
-    /// Where a point of the table is on the screen.
+    /// Position on the screen of a point of the table.
     pub fn screen(&self, p: DVec2) -> Pos2 {
         self.view.screen_from_table(self.pane, p)
     }
@@ -74,47 +74,47 @@ impl<'a> Table<'a> {
         self.view.table_from_screen(self.pane, p)
     }
 
-    /// Points on the screen as metres of the pattern.
+    /// A length in screen points, converted to metres on the table.
     pub fn reach(&self, points: f64) -> f64 {
         points / self.view.scale
     }
 
-    /// A piece and its outline.
+    /// A piece and its shape.
     pub fn piece(&self, id: PieceId) -> Option<(&'a Piece, &'a PieceShape)> {
         Some((self.pattern().pieces.get(&id)?, self.shapes.of(id)?))
     }
 
-    /// Pieces that are drawn.
+    /// Pieces that are drawn: all but hidden ones.
     pub fn seen(&self) -> impl Iterator<Item = (PieceId, &'a Piece, &'a PieceShape)> {
         let shapes = self.shapes;
         let seen = self.pattern().pieces.iter().filter(|(_, piece)| !piece.hidden);
         seen.filter_map(move |(&id, piece)| Some((id, &**piece, shapes.of(id)?)))
     }
 
-    /// Whether the pointer may change a piece.
+    /// Whether a piece may be changed: it is neither locked nor hidden.
     pub fn is_free(&self, id: PieceId) -> bool {
         self.pattern().pieces.get(&id).is_some_and(|piece| !piece.locked && !piece.hidden)
     }
 
-    /// The topmost piece there, and the point in its own plane.
+    /// The topmost piece at a point, and the point in its own plane.
     pub fn piece_at(&self, p: DVec2) -> Option<(PieceId, DVec2)> {
         self.shapes.at(self.pattern(), p)
     }
 
-    /// Where a point of a piece is.
+    /// Position of a point of a piece.
     pub fn point(&self, point: PointRef) -> Option<DVec2> {
         let piece = self.pattern().pieces.get(&point.piece)?;
         let known = point.point < piece.edge_count();
         known.then(|| piece.pose.plane_from_piece(piece.edge(point.point).start))
     }
 
-    /// An edge from its start to its end.
+    /// The polyline of an edge, from its start to its end.
     pub fn edge(&self, edge: EdgeRef) -> Option<Vec<DVec2>> {
         let (piece, shape) = self.piece(edge.piece)?;
         Some(shape.edges.get(edge.edge)?.iter().map(|&p| piece.pose.plane_from_piece(p)).collect())
     }
 
-    /// All points that are drawn.
+    /// All points of pieces that are drawn.
     pub fn points(&self) -> impl Iterator<Item = (PointRef, DVec2)> {
         self.seen().flat_map(|(id, piece, _)| {
             let starts = piece.loops().flatten().map(|edge| piece.pose.plane_from_piece(edge.start));
@@ -122,14 +122,14 @@ impl<'a> Table<'a> {
         })
     }
 
-    /// The nearest point within reach; of several the topmost piece's.
+    /// The nearest point within reach of `p`; of equal ones that of the topmost piece.
     pub fn point_at(&self, p: DVec2) -> Option<PointRef> {
         let near = self.points().map(|(point, q)| (point, q.distance(p)));
         let near = near.filter(|(_, d)| *d <= self.reach(REACH));
         near.min_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0))).map(|(point, _)| point)
     }
 
-    /// The nearest place on an edge within `points` on the screen; of several the topmost piece's.
+    /// The nearest place on an edge within this many points on the screen; of equal ones that of the topmost piece.
     pub fn edge_near(&self, p: DVec2, points: f64) -> Option<OnEdge> {
         let reach = self.reach(points);
         let mut best: Option<OnEdge> = None;
@@ -150,12 +150,12 @@ impl<'a> Table<'a> {
         best
     }
 
-    /// The nearest place on an edge a click is near enough to.
+    /// The nearest place on an edge, within reach of a click at `p`.
     pub fn edge_at(&self, p: DVec2) -> Option<OnEdge> {
         self.edge_near(p, NEAR_EDGE)
     }
 
-    /// The line drawn inside a piece a click is near enough to; of several the topmost piece's.
+    /// The internal line within reach of a click at `p`; of equal ones that of the topmost piece.
     pub fn line_at(&self, p: DVec2) -> Option<LineRef> {
         let all = self.seen().flat_map(|(piece, found, shape)| {
             let own = found.pose.piece_from_plane(p);
@@ -166,12 +166,12 @@ impl<'a> Table<'a> {
         near.min_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0))).map(|(line, _)| line)
     }
 
-    /// The seam with a thread there.
+    /// The seam with a thread at `p`.
     pub fn thread_at(&self, p: DVec2) -> Option<SeamId> {
         self.threads.thread_near(self.pattern(), p, self.reach(NEAR_EDGE * 0.7))
     }
 
-    /// The mark within reach.
+    /// The mark within reach of `p`.
     pub fn mark_at(&self, p: DVec2) -> Option<MarkId> {
         let distance = |mark: &crate::wrap::ClothMark| {
             let piece = self.pattern().pieces.get(&mark.piece).filter(|piece| !piece.hidden)?;
@@ -183,7 +183,7 @@ impl<'a> Table<'a> {
         near.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(id, _)| id)
     }
 
-    /// The box round pieces: lower and upper corner.
+    /// Bounding box of pieces: lower and upper corner.
     pub fn bounds(&self, pieces: impl Iterator<Item = PieceId>) -> Option<[DVec2; 2]> {
         let outlines = pieces
             .filter_map(|id| self.piece(id))
@@ -192,7 +192,7 @@ impl<'a> Table<'a> {
     }
 }
 
-/// The distance of `p` from a polyline, where on it the nearest place is (a fraction of its length), and that place.
+/// The nearest point to `p` on a polyline: its distance, its position as a fraction of the length, and the point.
 pub fn on_line(p: DVec2, line: &[DVec2]) -> (f64, f64, DVec2) {
     let total: f64 = line.windows(2).map(|w| w[0].distance(w[1])).sum();
     let mut best = (f64::INFINITY, 0.0, p);

@@ -1,4 +1,4 @@
-//! Threads between sewn edges, kept until a seam or one of its pieces changes.
+//! Threads between sewn edges, cached until a seam or one of its pieces changes.
 
 use std::collections::BTreeMap;
 
@@ -9,10 +9,10 @@ use crate::geometry::ids::{PieceId, SeamId};
 use crate::pattern::edit::twists;
 use crate::pattern::{Pattern, Seam};
 
-/// Distance between threads, metres, within limits.
+/// Distance between threads, metres; the number of threads of a seam is limited.
 const SPACING: f64 = 0.03;
 
-/// Both ends of the threads of one seam, each in its own piece's plane.
+/// The threads of a seam: their ends on both sides, each in its own piece's plane.
 #[derive(Clone, Debug)]
 pub struct Ends {
     key: (Seam, [u64; 2]),
@@ -20,12 +20,12 @@ pub struct Ends {
     points: [Vec<DVec2>; 2],
     /// Lengths of both sides, metres.
     pub lengths: [f64; 2],
-    /// It joins the front of one piece to the back of another.
+    /// Whether the seam is twisted: it joins the front of one piece to the back of another.
     pub is_twisted: bool,
 }
 
 impl Ends {
-    /// Both ends on the table, paired.
+    /// Ends of the threads on the table, in pairs.
     pub fn on_table(&self, pattern: &Pattern) -> Option<[Vec<DVec2>; 2]> {
         let side = |k: usize| {
             let pose = pattern.pieces.get(&self.pieces[k])?.pose;
@@ -34,20 +34,20 @@ impl Ends {
         Some([side(0)?, side(1)?])
     }
 
-    /// Whether it is drawn: where one of its pieces is hidden it is not.
+    /// Whether the seam is drawn: none of its pieces is hidden.
     pub fn is_seen(&self, pattern: &Pattern) -> bool {
         self.pieces.iter().all(|id| pattern.pieces.get(id).is_some_and(|piece| !piece.hidden))
     }
 }
 
-/// The threads of all seams.
+/// Cache of the threads of all seams.
 #[derive(Clone, Debug, Default)]
 pub struct Threads {
     seams: BTreeMap<SeamId, Ends>,
 }
 
 impl Threads {
-    /// Brings the threads up to date; `shapes` must be.
+    /// Updates the threads; `shapes` must be up to date.
     pub fn update(&mut self, pattern: &Pattern, shapes: &Shapes) {
         let before = self.seams.len();
         self.seams.retain(|id, ends| pattern.seams.get(id).and_then(|s| key(s, shapes)) == Some(ends.key));
@@ -67,7 +67,7 @@ impl Threads {
         }
     }
 
-    /// All of them, in id order.
+    /// The threads of all seams, in id order.
     pub fn all(&self) -> impl Iterator<Item = (SeamId, &Ends)> {
         self.seams.iter().map(|(&id, ends)| (id, ends))
     }
@@ -77,7 +77,7 @@ impl Threads {
         self.seams.get(&id)
     }
 
-    /// Seams that are twisted, in id order.
+    /// Twisted seams, in id order.
     pub fn twisted(&self) -> impl Iterator<Item = SeamId> {
         self.all().filter(|(_, ends)| ends.is_twisted).map(|(id, _)| id)
     }
@@ -126,7 +126,7 @@ fn ends(pattern: &Pattern, seam: &Seam, shapes: &Shapes) -> Option<Ends> {
     })
 }
 
-/// Where the threads of a seam begin and end, each side in its own piece's plane, paired.
+/// Ends of the threads of a seam in pairs, each side in its own piece's plane.
 pub fn threads(pattern: &Pattern, seam: &Seam) -> Option<[Vec<DVec2>; 2]> {
     let [a, b] = seam.sides;
     let (first, second) = (pattern.pieces.get(&a.piece)?, pattern.pieces.get(&b.piece)?);

@@ -1,20 +1,21 @@
-//! Which part of the table is seen.
+//! The view of the table: the visible part of the pattern plane.
 
 use egui::{Pos2, Rect, Vec2, pos2};
 use glam::DVec2;
 
 use crate::pattern::Pattern;
 
-/// Points on the screen a metre may take.
+/// Largest scale, screen points per metre.
 const CLOSEST: f64 = 20_000.0;
+/// Smallest scale, screen points per metre.
 const FARTHEST: f64 = 20.0;
 
-/// The view of the table: y runs up there and down on the screen.
+/// The mapping from table to screen; y points up on the table and down on the screen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TableView {
-    /// The point of the table in the middle of the pane, metres.
+    /// The point of the table in the centre of the pane, metres.
     pub centre: DVec2,
-    /// Points on the screen a metre takes.
+    /// Scale, screen points per metre.
     pub scale: f64,
 }
 
@@ -25,7 +26,7 @@ impl Default for TableView {
 }
 
 impl TableView {
-    /// Where a point of the table is on the screen.
+    /// Position on the screen of a point of the table.
     pub fn screen_from_table(&self, pane: Rect, p: DVec2) -> Pos2 {
         let d = (p - self.centre) * self.scale;
         pane.center() + Vec2::new(d.x as f32, -d.y as f32)
@@ -37,25 +38,25 @@ impl TableView {
         self.centre + DVec2::new(f64::from(d.x), -f64::from(d.y)) / self.scale
     }
 
-    /// Moves with the pointer.
+    /// Moves the view with the pointer, by screen points.
     pub fn pan(&mut self, by: Vec2) {
         self.centre -= DVec2::new(f64::from(by.x), -f64::from(by.y)) / self.scale;
     }
 
-    /// Scales so that the point under `at` stays there.
+    /// Zooms by `factor`; the point of the table under `at` stays there.
     pub fn zoom(&mut self, pane: Rect, at: Pos2, factor: f64) {
         let fixed = self.table_from_screen(pane, at);
         self.scale = (self.scale * factor).clamp(FARTHEST, CLOSEST);
         self.centre += fixed - self.table_from_screen(pane, at);
     }
 
-    /// Shows the whole pattern.
+    /// Frames the whole pattern.
     pub fn fit(&mut self, pane: Rect, pattern: &Pattern) {
         let (lower, upper) = bounds(pattern).unwrap_or((DVec2::splat(-0.5), DVec2::splat(0.5)));
         self.fit_box(pane, [lower, upper]);
     }
 
-    /// Shows everything between two corners of the table.
+    /// Frames everything between two corners of the table.
     pub fn fit_box(&mut self, pane: Rect, [lower, upper]: [DVec2; 2]) {
         let size = (upper - lower).max(DVec2::splat(0.05));
         let room = pane.shrink(28.0).size().max(Vec2::splat(20.0));
@@ -63,12 +64,12 @@ impl TableView {
         self.centre = (lower + upper) / 2.0;
     }
 
-    /// As large as the cloth is, on a screen with this many points a metre.
+    /// Shows the pattern at true size on a screen with this many points per metre.
     pub fn true_size(&mut self, points_per_metre: f64) {
         self.scale = points_per_metre.clamp(FARTHEST, CLOSEST);
     }
 
-    /// The part of the table that is seen: lower and upper corner.
+    /// The visible part of the table: lower and upper corner.
     pub fn seen(&self, pane: Rect) -> (DVec2, DVec2) {
         (
             self.table_from_screen(pane, pos2(pane.left(), pane.bottom())),

@@ -1,11 +1,11 @@
-//! The clicks of one frame. A slow frame may hold several, each at its own place; egui tells of one.
+//! All clicks of one frame. A slow frame may contain several at different positions, of which egui reports only one.
 
 use egui::{Event, PointerButton, Pos2, Response};
 
-/// Two clicks of one frame nearer than this are one trembling finger's, points.
+/// Distance below which two clicks of one frame count as one, from a trembling finger, points.
 const SAME: f32 = 8.0;
 
-/// Where `button` was clicked on the widget of `response` since the last frame, in order.
+/// Positions at which `button` was clicked on the widget of `response` since the last frame, in order.
 pub fn clicks(ui: &egui::Ui, response: &Response, button: PointerButton) -> Vec<Pos2> {
     if !response.clicked_by(button) {
         return Vec::new();
@@ -14,13 +14,13 @@ pub fn clicks(ui: &egui::Ui, response: &Response, button: PointerButton) -> Vec<
     places.retain(|at| response.interact_rect.contains(*at));
     places.dedup_by(|later, earlier| later.distance(*earlier) < SAME);
     if places.is_empty() {
-        // By the keyboard or a screen reader.
+        // A click by the keyboard or a screen reader.
         places.extend(response.interact_pointer_pos());
     }
     places
 }
 
-/// Where the button went up; what was dragged since it went down in the same frame is no click.
+/// Positions at which the button was released; a drag that began in the same frame is no click.
 fn releases(events: &[Event], button: PointerButton) -> Vec<Pos2> {
     let mut pressed_at = None;
     let mut places = Vec::new();

@@ -1,4 +1,4 @@
-//! What a hand does with the mouse: clicks, drags, strokes.
+//! Mouse input: button mappings, clicks, strokes.
 
 pub(in crate::ui) mod clicks;
 pub(in crate::ui) mod mouse;

@@ -1,41 +1,41 @@
-//! What the mouse buttons do: one table for each habit, read by the panes, the status bar and the help.
+//! Mouse button mappings, one table for each program that users may be used to. Panes, status bar and help read them.
 
 use egui::{Modifiers, PointerButton};
 use serde::{Deserialize, Serialize};
 
-/// Whose habits the mouse follows.
+/// A mouse button mapping, after the program it is taken from.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Mouse {
     /// Paper A: left paints and pins, right drags cloth or turns the body.
     #[default]
     Paper,
-    /// CLO, Marvelous Designer: right turns, whatever lies there.
+    /// CLO, Marvelous Designer: right turns the view, also over cloth.
     Clo,
-    /// Blender: the middle button turns.
+    /// Blender: the middle button turns the view.
     Blender,
-    /// Maya: Alt and any button moves the view.
+    /// Maya: Alt with any button moves the view.
     Maya,
 }
 
-/// What a button does.
+/// What a mouse button does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PointerAction {
-    /// What the chosen tool does.
+    /// Uses the chosen tool.
     Tool,
-    /// Drags cloth that lies there; turns the view elsewhere.
+    /// Drags the cloth under the pointer; elsewhere turns the view.
     HandOrTurn,
-    /// Drags cloth that lies there, with a tool of the hand.
+    /// Drags the cloth under the pointer, with a drag tool.
     Hand,
     /// Turns the view.
     Turn,
-    /// Moves the view.
+    /// Moves (pans) the view.
     Pan,
-    /// Comes nearer and goes away.
+    /// Zooms the view.
     Zoom,
 }
 
-/// A row of the table: with these keys held this button does that.
+/// A row of a mapping: modifier keys, button, and what the button does with them.
 pub type Row = (Modifiers, PointerButton, PointerAction);
 
 const NONE: Modifiers = Modifiers::NONE;
@@ -44,10 +44,10 @@ const CTRL: Modifiers = Modifiers::CTRL;
 const ALT: Modifiers = Modifiers::ALT;
 
 impl Mouse {
-    /// All of them, in the order of the menu.
+    /// All mappings, in the order of the menu.
     pub const ALL: [Self; 4] = [Self::Paper, Self::Clo, Self::Blender, Self::Maya];
 
-    /// Rows with keys come before those without.
+    /// The rows of the mapping; rows with modifier keys come before those without.
     pub fn table(self) -> &'static [Row] {
         use PointerButton::{Middle, Primary, Secondary};
         match self {
@@ -81,7 +81,7 @@ impl Mouse {
         }
     }
 
-    /// What `button` does with `held` keys: the first row whose keys are among them.
+    /// What `button` does with the modifier keys `held`: the first row whose keys are all held.
     pub fn deed(self, button: PointerButton, held: Modifiers) -> Option<PointerAction> {
         let among = |keys: Modifiers| {
             (!keys.shift || held.shift)
@@ -92,7 +92,7 @@ impl Mouse {
         row.map(|(.., deed)| *deed)
     }
 
-    /// Shown to people.
+    /// Name for menus.
     pub fn name(self) -> &'static str {
         match self {
             Self::Paper => "Left paints and pins, right drags and turns",
@@ -102,7 +102,7 @@ impl Mouse {
         }
     }
 
-    /// Where it comes from.
+    /// Tooltip.
     pub fn tip(self) -> &'static str {
         match self {
             Self::Paper => {
@@ -114,7 +114,7 @@ impl Mouse {
         }
     }
 
-    /// How the view of the body is moved, for the status bar.
+    /// How the body's view is moved, for the status bar.
     pub fn view_hint(self) -> String {
         self.hint(|deed| match deed {
             PointerAction::Turn => Some("turn"),
@@ -125,7 +125,7 @@ impl Mouse {
         })
     }
 
-    /// How the view of the table is moved, for the status bar.
+    /// How the table's view is moved, for the status bar.
     pub fn table_hint(self) -> String {
         self.hint(|deed| match deed {
             PointerAction::Pan | PointerAction::Turn | PointerAction::HandOrTurn => Some("move the view"),
@@ -140,7 +140,7 @@ impl Mouse {
             let Some(does) = words(deed) else { continue };
             let named = named(keys, button);
             match parts.iter_mut().find(|(_, known)| *known == does) {
-                // Two ways to the same: the one without keys is told.
+                // Of two ways to do the same, the one without modifier keys is named.
                 Some((known, _)) if keys.is_none() => *known = named,
                 Some(_) => {}
                 None => parts.push((named, does)),
@@ -150,7 +150,7 @@ impl Mouse {
         format!("{} · Wheel: zoom", told.join(" · "))
     }
 
-    /// Every row in words, for the help.
+    /// All rows in words, for the help.
     pub fn help(self) -> Vec<(String, &'static str)> {
         let words = |deed| match deed {
             PointerAction::Tool => "What the chosen tool does",

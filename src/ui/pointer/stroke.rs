@@ -1,12 +1,12 @@
-//! From a hand's trembling points to a mark.
+//! Smooths the points of a hand-drawn stroke to a mark.
 
 use glam::{DVec2, DVec3};
 
-/// A point of the plane or of space.
+/// A point of the plane or of space, metres.
 pub trait Place: Copy {
-    /// Metres between two.
+    /// Distance between two points, metres.
     fn away(self, other: Self) -> f64;
-    /// The point at `t` of the way.
+    /// Linear interpolation between two points at `t`, 0..=1.
     fn between(self, other: Self, t: f64) -> Self;
 }
 
@@ -28,12 +28,12 @@ impl Place for DVec3 {
     }
 }
 
-/// Strokes shorter than this are dots, metres.
+/// Length below which a stroke counts as a dot, metres.
 pub const DOT: f64 = 0.006;
 /// Distance between the points of a finished stroke, metres.
 pub const SPACING: f64 = 0.008;
-/// The hand's tremble is smoothed at an eighth of that distance by so many passes of (1, 2, 1) / 4: waves up to half a
-/// centimetre long go, corners are rounded within as much.
+/// Number of smoothing passes with the weights (1, 2, 1) / 4, at an eighth of [`SPACING`]: waves up to half a centimetre long
+/// disappear, and corners are rounded within the same length.
 const PASSES: usize = 24;
 
 /// Length of the polyline, metres.
@@ -61,7 +61,8 @@ pub fn resampled<P: Place>(points: &[P], count: usize) -> Vec<P> {
     out
 }
 
-/// A stroke as it goes into the document: evenly spaced, tremble smoothed away, ends kept. A short one becomes its first point.
+/// The stroke as it is stored: smoothed and evenly spaced, with its ends kept. A stroke shorter than [`DOT`] becomes its first
+/// point.
 pub fn finished<P: Place>(points: &[P]) -> Vec<P> {
     let total = length(points);
     let Some(&first) = points.first() else { return Vec::new() };
@@ -75,11 +76,11 @@ pub fn finished<P: Place>(points: &[P]) -> Vec<P> {
             fine[i] = last[i].between(last[i - 1].between(last[i + 1], 0.5), 0.5);
         }
     }
-    // A trembling line is longer than the one the hand meant.
+    // A trembling line is longer than the smoothed one, so the number of points is computed again.
     resampled(&fine, count(length(&fine)))
 }
 
-/// How many points a stroke of `length` metres gets.
+/// Number of points of a stroke of `length` metres.
 fn count(length: f64) -> usize {
     (length / SPACING).ceil() as usize + 1
 }

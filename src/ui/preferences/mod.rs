@@ -1,4 +1,4 @@
-//! What a person prefers, kept between runs. A file that cannot be read is set aside.
+//! The user's preferences, kept between runs.
 
 pub(in crate::ui) mod page;
 pub(in crate::ui) mod units;
@@ -20,46 +20,46 @@ use crate::ui::files;
 use crate::ui::pointer::mouse::Mouse;
 use crate::ui::preferences::units::LengthUnit;
 
-/// Bytes a file of preferences may have.
+/// Largest size of a file of preferences, bytes.
 const MOST_BYTES: u64 = 1 << 20;
 
-/// What there is to prefer.
+/// The user's preferences.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Preferences {
-    /// What the mouse buttons do.
+    /// Mapping of mouse buttons.
     #[serde(deserialize_with = "or_default")]
     pub mouse: Mouse,
-    /// Dark, light or as the system.
+    /// Theme of the interface: dark, light or that of the system.
     #[serde(deserialize_with = "or_default")]
     pub theme: Theme,
-    /// What lengths are shown in.
+    /// Unit in which lengths are shown.
     #[serde(deserialize_with = "or_default")]
     pub unit: LengthUnit,
-    /// What patterns are printed on.
+    /// Paper that patterns are printed on.
     #[serde(deserialize_with = "or_default")]
     pub paper: Paper,
-    /// How large everything in the window is.
+    /// Size of the interface.
     #[serde(deserialize_with = "or_default")]
     pub scale: Scale,
-    /// Which panes are shown, and where.
+    /// Layout of the panes.
     #[serde(deserialize_with = "or_default")]
     pub layout: Layout,
-    /// How fine the screen is.
+    /// Resolution of the screen.
     #[serde(deserialize_with = "or_default")]
     pub screen: Screen,
-    /// How files that do not say it were last answered to be.
+    /// Last answers to questions about units of files.
     #[serde(deserialize_with = "or_default")]
     pub answers: Answers,
-    /// How often unsaved work is copied.
+    /// Interval of copies of unsaved work.
     #[serde(deserialize_with = "or_default")]
     pub copies: Copies,
-    /// Which keys do what.
+    /// Keyboard shortcuts.
     #[serde(deserialize_with = "or_default")]
     pub keymap: Arc<Keymap>,
 }
 
-/// Size of the interface, per cent.
+/// Size of the interface, percent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Scale(pub u16);
@@ -71,32 +71,32 @@ impl Default for Scale {
 }
 
 impl Scale {
-    /// Those that can be chosen.
+    /// The choices, percent.
     pub const ALL: [u16; 11] = [75, 85, 100, 110, 125, 150, 175, 200, 225, 250, 300];
 
-    /// As a factor, 0.75..=3.
+    /// The size as a factor, 0.75..=3.
     pub fn factor(self) -> f32 {
         f32::from(self.0.clamp(75, 300)) / 100.0
     }
 }
 
-/// What was answered when a file did not say how large it is.
+/// The user's last answers to questions about the unit of files that do not state it.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Answers {
-    /// Unit and upright axis of bodies.
+    /// Unit and up axis of bodies.
     pub body: Option<(Unit, UpAxis)>,
-    /// What a unit of a drawing is, by the ending of its name in small letters.
+    /// Length of a drawing unit, by the drawing's extension in small letters.
     pub drawings: BTreeMap<String, DrawingUnit>,
 }
 
 impl Answers {
-    /// For drawings with the ending of `path`.
+    /// The answer for drawings with the extension of `path`.
     pub fn drawing(&self, path: &Path) -> Option<DrawingUnit> {
         self.drawings.get(&ending(path)).copied()
     }
 
-    /// `unit` is the answer for drawings with the ending of `path`.
+    /// Keeps `unit` as the answer for drawings with the extension of `path`.
     pub fn keep_drawing(&mut self, path: &Path, unit: DrawingUnit) {
         self.drawings.insert(ending(path), unit);
     }
@@ -106,30 +106,30 @@ fn ending(path: &Path) -> String {
     path.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default()
 }
 
-/// How fine the screen is, as a person has measured it.
+/// Resolution of the screen in pixels per inch, as measured by the user; None if it was not measured.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Screen(pub Option<f32>);
 
 impl Screen {
-    /// Pixels in an inch that a screen can have.
+    /// Accepted resolutions, pixels per inch.
     pub const PIXELS: RangeInclusive<f32> = 40.0..=600.0;
-    /// Points in an inch where nobody has measured, on a screen that is honest about its scale.
+    /// Resolution if the user has not measured it: logical pixels per inch on a screen with a correct scale factor.
     const USUAL: f32 = 96.0;
 
-    /// Pixels in an inch; `native`: pixels in a point before the window is scaled.
+    /// Pixels per inch; `native` is the number of pixels per point before the interface is scaled.
     pub fn pixels_per_inch(self, native: f32) -> f32 {
         let said = self.0.filter(|said| Self::PIXELS.contains(said));
         said.unwrap_or(Self::USUAL * native)
     }
 
-    /// Points in a metre; `per_point`: pixels in a point of the window as it is scaled.
+    /// Points per metre; `per_point` is the number of pixels per point after the interface is scaled.
     pub fn points_per_metre(self, native: f32, per_point: f32) -> f64 {
         f64::from(self.pixels_per_inch(native)) / f64::from(per_point) / 0.0254
     }
 }
 
-/// Seconds between two copies of unsaved work, at the least.
+/// Shortest interval between two copies of unsaved work, seconds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Copies(pub u16);
@@ -141,16 +141,16 @@ impl Default for Copies {
 }
 
 impl Copies {
-    /// Those that can be chosen.
+    /// The choices, seconds.
     pub const ALL: [u16; 5] = [10, 30, 60, 120, 300];
 
-    /// 5..=600.
+    /// The interval, limited to 5..=600 s.
     pub fn seconds(self) -> f64 {
         f64::from(self.0.clamp(5, 600))
     }
 }
 
-/// See [`ThemePreference`].
+/// The theme of the interface; see [`ThemePreference`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Theme {
@@ -180,7 +180,8 @@ impl From<Theme> for ThemePreference {
     }
 }
 
-/// A value that is not understood, from a newer version say, leaves the others as they are.
+/// Deserialises a value, or takes the default if it is not understood (from a newer version, say), so that the other values are
+/// kept.
 fn or_default<'de, D, T>(from: D) -> Result<T, D::Error>
 where
     D: serde::Deserializer<'de>,
@@ -191,7 +192,7 @@ where
 }
 
 impl Preferences {
-    /// Those that `text` tells. None where it tells none.
+    /// The preferences in `text`; None if it holds none.
     pub fn understood(text: &str) -> Option<Self> {
         serde_json::from_str(text).ok()
     }
@@ -202,8 +203,8 @@ impl Preferences {
         text.and_then(|text| Self::understood(&text))
     }
 
-    /// Those in `path`; the usual ones where there is no such file. One that is there and cannot be understood is set aside
-    /// under another name, so that what is preferred from now on does not replace it; also that name, in words.
+    /// Reads the preferences from `path`; the defaults if there is no such file. A file that cannot be understood is renamed, so
+    /// that it is not overwritten; then a message with its new name is returned too.
     pub fn read(path: &Path) -> (Self, Option<String>) {
         if let Some(kept) = Self::kept(path) {
             return (kept, None);
@@ -224,7 +225,7 @@ impl Preferences {
         (Self::default(), words)
     }
 
-    /// Writes them to `path`: the whole new file or the whole old one. The error is in words.
+    /// Writes the preferences to `path` atomically. The error is a message.
     pub fn write(&self, path: &Path) -> Result<(), String> {
         let mut text = serde_json::to_string_pretty(self).map_err(|e| e.to_string())?;
         text.push('\n');
@@ -235,7 +236,7 @@ impl Preferences {
     }
 }
 
-/// Where this system keeps preferences. None where there is no home.
+/// The system's file for preferences; None where there is no home folder.
 pub fn usual_path() -> Option<PathBuf> {
     let folder = |name: &str| std::env::var_os(name).map(PathBuf::from).filter(|p| p.is_absolute());
     let base = if cfg!(windows) {

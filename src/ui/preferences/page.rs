@@ -1,4 +1,4 @@
-//! The page of preferences: how the window looks, and which keys do what.
+//! The page of preferences: look of the window, and keyboard shortcuts.
 
 use std::sync::Arc;
 
@@ -13,23 +13,23 @@ use crate::ui::pointer::mouse::Mouse;
 use crate::ui::preferences::units::LengthUnit;
 use crate::ui::preferences::{Copies, Preferences, Scale, Screen, Theme};
 
-/// How long the bar is that a ruler is held against, metres.
+/// Length of the bar that a ruler is held against, metres.
 const RULER: f64 = 0.05;
 
-/// What is being changed.
+/// State of the page.
 #[derive(Debug, Default)]
 pub struct PreferencesPage {
     keys: bool,
-    /// What the list of keys is narrowed to.
+    /// Filter of the list of shortcuts.
     filter: String,
-    /// The action whose key is pressed next.
+    /// The action whose new shortcut is being pressed.
     waiting: Option<Action>,
-    /// A key that does something else already.
+    /// A new shortcut that other actions have already: action, keys, and the other actions.
     taken: Option<(Action, KeyboardShortcut, Vec<Action>)>,
 }
 
 impl PreferencesPage {
-    /// Shows it; what is chosen goes into `preferences`. False when it is to be closed.
+    /// Draws the page; choices are written to `preferences`. False when it is to be closed.
     pub fn ui(&mut self, ctx: &egui::Context, preferences: &mut Preferences, palette: &Palette) -> bool {
         let waited = self.waiting.is_some();
         self.catch_key(ctx, preferences);
@@ -149,7 +149,7 @@ impl PreferencesPage {
         });
     }
 
-    /// A key that is wanted for two things.
+    /// Asks what to do with a shortcut that other actions have.
     fn conflict_ui(&mut self, ui: &mut egui::Ui, preferences: &mut Preferences, palette: &Palette) {
         let Some((action, keys, others)) = &self.taken else { return };
         let names: Vec<&str> = others.iter().map(|other| other.row().text).collect();
@@ -170,18 +170,18 @@ impl PreferencesPage {
     }
 }
 
-/// What a list that opens is called, with what is chosen.
+/// Names a combo box and its choice for screen readers and tests.
 fn combo_name(response: &egui::Response, name: &str, chosen: &str) {
     let words = format!("{name}: {chosen}");
     response.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::ComboBox, true, words.clone()));
 }
 
-/// Points of this window in a metre of `screen`.
+/// Points of this window per metre of `screen`.
 pub(in crate::ui) fn points_per_metre(ctx: &egui::Context, screen: Screen) -> f64 {
     screen.points_per_metre(ctx.native_pixels_per_point().unwrap_or(1.0), ctx.pixels_per_point())
 }
 
-/// A bar that is to be made as long as it says, so that *True size* is true.
+/// Draws a bar whose length the user adjusts to the length written on it, so that *True size* is correct.
 fn screen_ui(ui: &mut egui::Ui, screen: &mut Screen, palette: &Palette) {
     ui.vertical(|ui| {
         let native = ui.ctx().native_pixels_per_point().unwrap_or(1.0);

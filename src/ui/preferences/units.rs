@@ -3,7 +3,7 @@
 use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
-/// What lengths are shown in, and what a number typed without a unit means.
+/// The unit in which lengths are shown, and of numbers typed without a unit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum LengthUnit {
@@ -14,10 +14,10 @@ pub enum LengthUnit {
 }
 
 impl LengthUnit {
-    /// In the order of the menu.
+    /// All units, in the order of the menu.
     pub const ALL: [Self; 3] = [Self::Cm, Self::Mm, Self::Inch];
 
-    /// In menus.
+    /// Name for menus.
     pub fn name(self) -> &'static str {
         match self {
             Self::Cm => "Centimetres",
@@ -26,7 +26,7 @@ impl LengthUnit {
         }
     }
 
-    /// Behind numbers.
+    /// Symbol after numbers.
     pub fn sign(self) -> &'static str {
         match self {
             Self::Cm => "cm",
@@ -35,7 +35,7 @@ impl LengthUnit {
         }
     }
 
-    /// Metres in one.
+    /// Length of the unit, metres.
     pub fn metres(self) -> f64 {
         match self {
             Self::Cm => 0.01,
@@ -44,7 +44,7 @@ impl LengthUnit {
         }
     }
 
-    /// A length without its unit, rounded to what a hand can draw.
+    /// A length without its unit, rounded to what can be drawn by hand.
     pub fn number(self, metres: f64) -> String {
         let digits = match self {
             Self::Cm => 2,
@@ -61,7 +61,7 @@ impl LengthUnit {
         format!("{} {}", self.number(metres), self.sign())
     }
 
-    /// Steps of the grid and the rulers in metres, each a whole multiple of one before it.
+    /// Steps of grid and rulers, metres; each is a whole multiple of an earlier one.
     pub fn steps(self) -> &'static [f64] {
         match self {
             Self::Cm | Self::Mm => &[0.001, 0.005, 0.01, 0.05, 0.1, 0.5, 1.0],
@@ -70,32 +70,32 @@ impl LengthUnit {
     }
 }
 
-/// `x` with its sign, to `digits` digits; what rounds to nothing has no sign.
+/// `x` with its sign and `digits` digits; a value rounded to zero has no sign.
 pub fn signed(x: f64, digits: usize) -> String {
     let text = format!("{x:+.digits$}");
     let is_nothing = text[1..].chars().all(|c| c == '0' || c == '.');
     if is_nothing { text[1..].to_owned() } else { text }
 }
 
-/// Angles as people read them.
+/// An angle in degrees, for people.
 pub fn degrees(radians: f64) -> String {
     let text = format!("{:.1}", radians.to_degrees());
     let text = text.trim_end_matches('0').trim_end_matches('.');
     if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }
 
-/// What was typed while drawing or dragging.
+/// Numbers typed while drawing or dragging.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Typed {
-    /// So far, the way the pointer goes: "12".
+    /// A length in the direction of the pointer: "12". Metres.
     Length(f64),
-    /// There on the table, or so wide and high: "30,40".
+    /// A position on the table, or a width and height: "30,40". Metres.
     At(DVec2),
-    /// So far from the last point: "@10,0", and "10<45" by length and degrees.
+    /// An offset from the last point: "@10,0", or by length and angle in degrees: "10<45". Metres.
     By(DVec2),
 }
 
-/// Reads what was typed. A comma parts x from y; behind a semicolon it may stand in numbers.
+/// Parses typed numbers. x and y are separated by a comma, or by a semicolon, so that numbers may have decimal commas.
 pub fn typed(text: &str, unit: LengthUnit) -> Result<Typed, String> {
     let text = text.trim();
     let (relative, text) = match text.strip_prefix('@') {
@@ -116,7 +116,7 @@ pub fn typed(text: &str, unit: LengthUnit) -> Result<Typed, String> {
     }
 }
 
-/// A length in metres: "12.5cm+1/2in", "3 1/2 in", "(40-2)/3". A number without a unit is one of `unit`.
+/// Parses a length: "12.5cm+1/2in", "3 1/2 in", "(40-2)/3". A number without a unit is in `unit`. The result is in metres.
 pub fn length(text: &str, unit: LengthUnit) -> Result<f64, String> {
     let value = Reader::read(text, unit)?;
     match value.power {
@@ -127,7 +127,7 @@ pub fn length(text: &str, unit: LengthUnit) -> Result<f64, String> {
     .and_then(finite)
 }
 
-/// A plain number, with arithmetic.
+/// Parses a plain number, with arithmetic.
 pub fn number(text: &str) -> Result<f64, String> {
     let value = Reader::read(text, LengthUnit::Cm)?;
     if value.power == 0 {
@@ -141,21 +141,21 @@ fn finite(x: f64) -> Result<f64, String> {
     if x.is_finite() && x.abs() < 1e6 { Ok(x) } else { Err("that number is too large".to_owned()) }
 }
 
-/// A number (power 0) or a length in metres (power 1), or what multiplying made of them.
+/// A value during parsing: `power` is 0 for a number, 1 for a length in metres, others for products and quotients of lengths.
 #[derive(Clone, Copy, Debug)]
 struct Value {
     amount: f64,
     power: i32,
 }
 
-/// Reads sums of products of numbers, fractions, units and brackets.
+/// A parser of sums of products of numbers, fractions, units and brackets.
 struct Reader<'a> {
     rest: &'a str,
     unit: LengthUnit,
     depth: u32,
 }
 
-/// Brackets within brackets.
+/// Largest nesting depth of brackets.
 const DEEPEST: u32 = 40;
 
 impl<'a> Reader<'a> {
@@ -193,7 +193,7 @@ impl<'a> Reader<'a> {
                 return Ok(total);
             };
             let mut next = self.product()?;
-            // "12 cm + 3": the 3 is of the unit shown.
+            // In a sum of a length and a plain number, such as "12 cm + 3", the number is in the shown unit.
             if total.power + next.power == 1 {
                 for value in [&mut total, &mut next].into_iter().filter(|value| value.power == 0) {
                     *value = Value { amount: value.amount * self.unit.metres(), power: 1 };
@@ -248,7 +248,7 @@ impl<'a> Reader<'a> {
         Ok(value)
     }
 
-    /// "3", "3.5", "3,5", "3 1/2", and "1/2" where a unit follows.
+    /// Parses a number: "3", "3.5", "3,5", "3 1/2", and "1/2" where a unit follows.
     fn mixed(&mut self) -> Result<f64, String> {
         let whole = self.digits()?;
         let fraction = |text: &'a str| -> Option<(f64, &'a str)> {
@@ -310,7 +310,7 @@ fn whole_number(text: &str) -> Option<(f64, &str)> {
     Some((value, &text[end..]))
 }
 
-/// The unit at the front of `text`, metres in one, and what follows.
+/// The unit at the beginning of `text` as metres, and the rest of the text.
 fn unit_of(text: &str) -> Option<(f64, &str)> {
     let text = text.trim_start();
     let units = [

@@ -1,5 +1,5 @@
-//! Which cloth lies right under other cloth: its seams and hems are not seen, and drawn a little nearer to the eye than they are
-//! they would show through. No egui here: the headless pictures use it too.
+//! Finds cloth that is covered by another layer. Its seams and hems are hidden; since lines are drawn slightly nearer to the eye,
+//! they would otherwise show through. No egui here: pictures without a window use it too.
 
 use glam::DVec3;
 
@@ -7,10 +7,10 @@ use crate::body::Surface;
 use crate::cloth::{ClothState, Garment};
 use crate::geometry::mesh::TriMesh;
 
-/// What has cloth of a higher layer no farther out than this is covered, metres on a body of 1.5 m.
+/// Largest distance of an outer layer that covers cloth, metres on a body 1.5 m tall.
 const NEAR: f64 = 0.012;
 
-/// For each vertex of `garment` whether cloth of a higher layer lies right over it; empty where all is worn on one layer.
+/// For each vertex of `garment` whether cloth of a higher layer covers it; empty if there is only one layer.
 pub fn covered(garment: &Garment, state: &ClothState, scale: f64) -> Vec<bool> {
     if garment.layers.is_empty() {
         return Vec::new();
@@ -47,7 +47,7 @@ pub fn covered(garment: &Garment, state: &ClothState, scale: f64) -> Vec<bool> {
     covered
 }
 
-/// Whether `outer` lies before `p`, no farther than `near` metres: not beside it, where it ends.
+/// Whether `outer` is in front of `p` within `near` metres, and not beside it, where it ends.
 fn is_under(outer: &Surface, p: DVec3, near: f64) -> bool {
     outer.nearest_within(p, near).is_some_and(|found| {
         let normal = outer.face_normals[found.triangle as usize];

@@ -1,4 +1,4 @@
-//! Document and cloth as the buffers that are drawn, in the window and without one.
+//! Converts document and cloth to what the renderer draws, with and without a window.
 
 pub(in crate::ui) mod covered;
 pub mod mapped;

@@ -1,5 +1,5 @@
-//! Cloth drawn so that garments worn over each other are told apart, and frozen and deactivated pieces from those that move. No
-//! egui here: the headless pictures use it too.
+//! Divides cloth into meshes of different colours, by layer and by activity (frozen, deactivated). No egui here: pictures without
+//! a window use it too.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -8,16 +8,16 @@ use crate::geometry::ids::PieceId;
 use crate::pattern::activity::Activity;
 use crate::render::{Mesh, Rgb, cloth_front};
 
-/// What the colours of frozen cloth are mixed with, and how much of it there is then.
+/// The colour that is mixed into frozen cloth, and its fraction.
 const ICE: (Rgb, f32) = ([96, 150, 226], 0.6);
-/// The same of deactivated cloth.
+/// The colour that is mixed into deactivated cloth, and its fraction.
 const PALE: (Rgb, f32) = ([228, 228, 226], 0.8);
-/// Triangles of deactivated pieces are left out where what moved has drawn an edge out to more than so many times its length:
-/// their seams do not hold.
+/// Stretch of an edge (length over rest length) above which triangles of deactivated pieces are left out: their seams do not
+/// hold, so cloth that moved has pulled them apart.
 const TORN: f64 = 1.5;
 
-/// `whole`, the drawn mesh of `garment`, with a mesh for the active and one for the frozen pieces of each layer: a triangle has one
-/// colour up to its seams.
+/// Divides `whole`, the mesh of `garment`, into meshes of the active and of the frozen pieces of each layer, so that colours end
+/// exactly at seams.
 pub fn parted(
     whole: Mesh,
     garment: &Garment,
@@ -38,7 +38,7 @@ pub fn parted(
     parts.map(|(layer, look)| of(layer, look)).filter(|mesh| !mesh.triangles.is_empty()).collect()
 }
 
-/// The deactivated pieces of `garment`, of which `whole` is the drawn mesh.
+/// The mesh of the deactivated pieces of `garment`, whose whole mesh is `whole`.
 pub fn deactivated(
     whole: &Mesh,
     garment: &Garment,

@@ -1,4 +1,4 @@
-//! What a picture of a session shows, in the window and without one.
+//! The contents of pictures of a session, with and without a window.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -8,18 +8,19 @@ use crate::render::{Rgb, Scene, View};
 use crate::session::{Outfit, Session};
 use crate::ui::scenery::scene::{Scenery, Shown};
 
-/// What else a picture of a session shows.
+/// Optional contents of a picture of a session.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Extras<'a> {
-    /// Marks also where the cloth is on the body.
+    /// Draw marks also where the cloth is on the body.
     pub marks: bool,
-    /// Pins.
+    /// Draw pins.
     pub pins: bool,
-    /// The colours of a map, one for each vertex of the cloth, instead of its own.
+    /// Colours of a map, one for each vertex of the cloth; None: the cloth's own colours.
     pub map: Option<&'a Arc<Vec<Rgb>>>,
 }
 
-/// The body and the cloth on it, frozen and deactivated pieces in their colours; where nothing is dressed yet also the marks.
+/// The scene of a session: the body and the cloth, with frozen and deactivated pieces in their colours; where nothing is dressed
+/// yet also the marks.
 pub fn portrait(scenery: &mut Scenery, session: &Session, extras: Extras<'_>) -> Scene {
     let snapshot = session.snapshot();
     let dressed = snapshot.is_dressed();
@@ -37,8 +38,7 @@ pub fn portrait(scenery: &mut Scenery, session: &Session, extras: Extras<'_>) ->
     })
 }
 
-/// The cloth of `outfit` on its body, in `colours` of a map, one for each vertex, or in its own; what of it is deactivated is
-/// pale.
+/// The scene of `outfit` on its body, in `colours` of a map, one for each vertex, or in its own; deactivated pieces are pale.
 pub fn worn_scene(scenery: &mut Scenery, outfit: &Outfit, colours: Option<&Arc<Vec<Rgb>>>) -> Scene {
     scenery.scene(&Shown {
         body: Some(&outfit.body),
@@ -50,13 +50,13 @@ pub fn worn_scene(scenery: &mut Scenery, outfit: &Outfit, colours: Option<&Arc<V
     })
 }
 
-/// From where picture `i` of `count` in a full turn is taken, beginning at `first`.
+/// The view of picture `i` of `count` in a full turn that begins at `first`.
 pub fn turned(first: View, i: u32, count: u32) -> View {
     let (yaw, pitch) = first.angles();
     View::Angles { yaw: yaw.to_degrees() + 360.0 * i as f32 / count as f32, pitch: pitch.to_degrees() }
 }
 
-/// "a/b.png" becomes "a/b-07.png", with as many digits as the last of `count` needs.
+/// A numbered file name: "a/b.png" becomes "a/b-07.png", with as many digits as the last of `count` needs.
 pub fn numbered(path: &Path, i: u32, count: u32) -> PathBuf {
     let digits = count.saturating_sub(1).to_string().len().max(2);
     let mut name = path.file_stem().unwrap_or_default().to_owned();

@@ -1,4 +1,4 @@
-//! From a body, marks and cloth to what the renderer draws. No egui here: the headless pictures use it too.
+//! Builds the renderer's scene from body, marks and cloth. No egui here: pictures without a window use it too.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -19,63 +19,63 @@ use crate::ui::scenery::parted::{deactivated, parted};
 use crate::ui::scenery::stitches::stitched;
 use crate::wrap::{ClothMark, Marks};
 
-/// How a pin is drawn.
+/// The look of a pin.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct PinLook {
-    /// It can be neither moved nor pulled out.
+    /// Whether the pin is locked, so that it can be neither moved nor removed.
     pub locked: bool,
-    /// It is selected.
+    /// Whether the pin is selected.
     pub selected: bool,
 }
 
-/// What is to be seen.
+/// The contents of a scene.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Shown<'a> {
     /// The body.
     pub body: Option<&'a Arc<Surface>>,
-    /// The garment on it and where it is.
+    /// The garment, and its positions.
     pub cloth: Option<(&'a Arc<Garment>, &'a Arc<ClothState>)>,
     /// Marks of the document.
     pub marks: Option<&'a Arc<Marks>>,
-    /// A stroke being painted on the body.
+    /// The stroke being painted on the body.
     pub stroke: &'a [DVec3],
-    /// The stroke that goes with it on the far side of the body: seen through it.
+    /// The stroke painted at the same time on the far side of the body; it shows through the body.
     pub far_stroke: &'a [DVec3],
     /// The mark under the pointer.
     pub near: Option<MarkId>,
-    /// Vertices under pins.
+    /// Vertices under the pins.
     pub pinned: &'a [Option<u32>],
-    /// How each of those is drawn; more than these as usual.
+    /// Looks of the pins, in the same order; further pins have the default look.
     pub pins: &'a [PinLook],
-    /// Bones, seen through the body.
+    /// Bones, which show through the body.
     pub bones: &'a [Bone],
     /// Pieces that are not active.
     pub activities: Option<&'a BTreeMap<PieceId, Activity>>,
-    /// With its deactivated pieces, where it lacks them.
+    /// The garment including its deactivated pieces, where `cloth` lacks them.
     pub whole: Option<(&'a Arc<Garment>, &'a Arc<ClothState>)>,
-    /// How much of a drag reaches each vertex of the cloth, 0..=1.
+    /// Fraction of a drag's motion that reaches each vertex of the cloth, 0..=1.
     pub dragged: Option<&'a Arc<Vec<f32>>>,
-    /// The colours of a map, one for each vertex of the cloth, instead of its own.
+    /// Colours of a map, one for each vertex of the cloth; None: its own colours.
     pub map: Option<&'a Arc<Vec<Rgb>>>,
-    /// Another garment on its body, where it is drawn.
+    /// Meshes of another garment and its body.
     pub beside: &'a [Arc<Mesh>],
-    /// The mark that stands out.
+    /// The emphasised mark.
     pub selected: Option<MarkId>,
-    /// Marks proposed and not accepted yet.
+    /// Proposed marks that are not accepted yet.
     pub ghosts: Option<&'a Marks>,
-    /// Lines of pieces that stand out, each in its piece's own plane.
+    /// Emphasised lines of pieces, each in its piece's own plane.
     pub outlines: &'a [(PieceId, Vec<DVec2>)],
 }
 
 impl Shown<'_> {
-    /// How wide a mark is drawn, logical pixels.
+    /// Width of the line of a mark, logical pixels.
     fn width(&self, mark: MarkId) -> f32 {
         let stands_out = [self.near, self.selected].contains(&Some(mark));
         if stands_out { MARK_WIDTH + 2.0 } else { MARK_WIDTH }
     }
 }
 
-/// Makes scenes; keeps what did not change since the last one.
+/// Builds scenes; parts that did not change since the last scene are kept.
 #[derive(Debug, Default)]
 pub struct Scenery {
     body: Option<(Arc<Surface>, Arc<Mesh>)>,
@@ -90,12 +90,12 @@ struct DrawnCloth {
     dragged: Option<Arc<Vec<f32>>>,
     map: Option<Arc<Vec<Rgb>>>,
     activities: BTreeMap<PieceId, Activity>,
-    /// With the same vertices.
+    /// Meshes of the cloth, which share their vertices.
     meshes: Vec<Arc<Mesh>>,
     lines: Vec<Polyline>,
 }
 
-/// Where each point of each cloth mark lies in the garment's mesh.
+/// Position of each point of each cloth mark in the garment's mesh.
 #[derive(Debug)]
 struct MarkPlaces {
     garment: Arc<Garment>,
@@ -107,30 +107,30 @@ const INK: u8 = 255;
 const WHITE: [u8; 4] = [255, 255, 255, 235];
 /// Opacity of proposed marks.
 const GHOST: u8 = 160;
-/// Logical pixels.
+/// Width of the line of a mark, logical pixels.
 const MARK_WIDTH: f32 = 3.2;
-/// How much nearer to the eye a mark is drawn: metres on a body of 1.5 m, and half widths of the line.
+/// Depth bias of a line: metres on a body 1.5 m tall, and half widths of the line.
 type Lift = (f32, f32);
 const ON_SKIN: Lift = (0.0025, 1.6);
-/// Less than the cloth lies above the skin.
+/// Less than the cloth's offset from the skin, so that cloth hides it.
 const UNDER_CLOTH: Lift = (0.002, 0.0);
 const ON_CLOTH: Lift = (0.003, 1.6);
 const ABOVE_ALL: Lift = (0.03, 1.6);
-/// More than a body is thick: what lies behind it is seen through it.
+/// More than a body is thick, so that what is behind the body shows through it.
 const BEHIND: Lift = (0.6, 1.6);
 const ABOVE_BEHIND: Lift = (0.7, 1.6);
-/// Seams and edges of the cloth, sRGB and opacity.
+/// Colour of seams and edges of the cloth, sRGB and opacity.
 const SEAM: [u8; 4] = [66, 78, 70, 150];
-/// What the colour of cloth is multiplied with where a drag under way does not reach.
+/// Factor for the colour of cloth that a drag in progress does not reach, sRGB.
 const UNREACHED: Rgb = [150, 158, 172];
-/// How far a pin's head stands off the cloth, metres on a body of 1.5 m.
+/// Distance of a pin's head from the cloth, metres on a body 1.5 m tall.
 const PIN_LENGTH: f32 = 0.014;
-/// Half a diagonal of the collar of a locked pin, metres on a body of 1.5 m.
+/// Half a diagonal of the square collar of a locked pin, metres on a body 1.5 m tall.
 const COLLAR: f32 = 0.013;
 const BONE: [u8; 4] = [250, 246, 228, 255];
 const NEEDLE: [u8; 4] = [70, 74, 84, 255];
 const PIN_HEAD: [u8; 4] = [214, 48, 49, 255];
-/// Lines that stand out, sRGB and opacity.
+/// Colour of emphasised lines, sRGB and opacity.
 const STANDS_OUT: [u8; 4] = [20, 132, 214, 255];
 const HEM: [u8; 4] = [52, 84, 56, 170];
 
@@ -232,7 +232,8 @@ impl Scenery {
         }
     }
 
-    /// Draws the marks of the cloth where it lies. Returns how many leading ones could be drawn in full.
+    /// Adds the marks of the cloth at their present position. Returns how many of the first ones have all their points on
+    /// cloth that is there.
     fn cloth_marks(
         &self,
         garment: &Garment,
@@ -255,7 +256,7 @@ impl Scenery {
     }
 }
 
-/// A body in its own colour.
+/// The mesh of a body in its colour.
 pub fn body_mesh(body: &Surface) -> Mesh {
     Mesh {
         positions: body.mesh.positions.iter().map(|p| p.as_vec3()).collect(),
@@ -267,7 +268,7 @@ pub fn body_mesh(body: &Surface) -> Mesh {
     }
 }
 
-/// The cloth that lies, in its own colours.
+/// The mesh of the cloth that is placed on the body, in its own colours.
 pub fn cloth_mesh(garment: &Garment, state: &ClothState) -> Mesh {
     let on_body = |t: &[u32; 3]| t.iter().all(|&v| state.mapped[v as usize]);
     let triangles: Vec<[u32; 3]> = garment.triangles.iter().copied().filter(on_body).collect();
@@ -283,17 +284,17 @@ pub fn cloth_mesh(garment: &Garment, state: &ClothState) -> Mesh {
     }
 }
 
-/// Where a drag reaches, the cloth is lighter.
+/// Vertex colours that make cloth lighter where a drag reaches it.
 fn tints(shares: &[f32], state: &ClothState) -> Vec<Rgb> {
     let split = state.positions.len().saturating_sub(shares.len());
-    // What was put in on split edges is tinted as if the drag reached it.
+    // Vertices added on split edges are treated as reached by the drag.
     let shares = shares.iter().chain(std::iter::repeat_n(&1.0, split));
     let far: Vec<Rgb> = shares.map(|&s| UNREACHED.map(|c| c + ((255 - c) as f32 * s) as u8)).collect();
     if far.len() == state.positions.len() { far } else { Vec::new() }
 }
 
-/// A needle with a head on each pinned vertex: a larger one where the pin is selected, a square collar at its foot where it
-/// is locked.
+/// Adds a needle with a head at each pinned vertex: the head is larger if the pin is selected, and a locked pin has a square
+/// collar at its foot.
 fn push_pins(shown: &Shown<'_>, cloth: &DrawnCloth, scale: f32, scene: &mut Scene) {
     let looks = shown.pins.iter().copied().chain(std::iter::repeat(PinLook::default()));
     let Some(mesh) = cloth.meshes.first() else { return };
@@ -329,7 +330,7 @@ fn push_pins(shown: &Shown<'_>, cloth: &DrawnCloth, scale: f32, scene: &mut Scen
     }
 }
 
-/// Bones, each with a joint at either end, through whatever lies before them.
+/// Adds bones with a joint at either end; they show through everything in front of them.
 fn push_bones(bones: &[Bone], scale: f32, scene: &mut Scene) {
     for bone in bones {
         let ends = bone.map(|p| p.as_vec3());
@@ -347,7 +348,7 @@ fn push_bones(bones: &[Bone], scale: f32, scene: &mut Scene) {
     }
 }
 
-/// Lines of pieces where they lie on the body.
+/// Adds emphasised lines of pieces at their position on the body.
 fn push_outlines(
     garment: &Garment,
     state: &ClothState,
@@ -392,7 +393,7 @@ fn seam_lines(
     lines
 }
 
-/// The border of the cloth that is on the body: hems, and the front of a wrap that is growing.
+/// The border of the cloth that is on the body: hems, and the front of a wrap in progress.
 fn hem_lines(
     garment: &Garment,
     state: &ClothState,
@@ -427,7 +428,7 @@ fn thin_line(points: Vec<Vec3>, colour: [u8; 4], width: f32, scale: f32) -> Poly
     Polyline { points, colour, width, lift: 0.002 * scale, lift_widths: 1.0, ..Polyline::default() }
 }
 
-/// Marks on the body: those whose partner lies on the cloth above them keep their line but need no second number.
+/// Adds marks on the body. Those whose partner on the cloth covers them keep their line but have no number of their own.
 fn body_marks(marks: &Marks, shown: &Shown<'_>, covered: usize, scale: f32, scene: &mut Scene) {
     for (i, mark) in marks.body.iter().enumerate() {
         let points: Vec<Vec3> = mark.points.iter().map(|p| p.as_vec3()).collect();
@@ -440,20 +441,21 @@ fn body_marks(marks: &Marks, shown: &Shown<'_>, covered: usize, scale: f32, scen
     }
     let points = |stroke: &[DVec3]| stroke.iter().map(|p| p.as_vec3()).collect();
     if !shown.far_stroke.is_empty() {
-        // From where it is painted it lies right behind the near one: a broad band on both sides of that.
+        // From where it is painted, the far stroke is right behind the near one, so it is a broad band that shows on both sides
+        // of it.
         push_ghost(scene, points(shown.far_stroke), marks.body.len() + 2, MARK_WIDTH * 3.0, BEHIND, scale);
         if let Some(label) = scene.labels.last_mut() {
             label.offset.x = -label.offset.x;
         }
     }
     if !shown.stroke.is_empty() {
-        // Above cloth that may lie there, so that the hand sees what it does.
+        // It is drawn above cloth, so that the user sees the stroke.
         let lift = if shown.far_stroke.is_empty() { ABOVE_ALL } else { ABOVE_BEHIND };
         push_mark(scene, points(shown.stroke), marks.body.len() + 1, MARK_WIDTH, lift, scale);
     }
 }
 
-/// Thinner than marks, and half transparent.
+/// Adds proposed marks: thinner than marks, and half transparent.
 fn body_ghosts(ghosts: &Marks, scale: f32, scene: &mut Scene) {
     for (mark, number) in ghosts.body.iter().zip(1..) {
         let points = mark.points.iter().map(|p| p.as_vec3()).collect();
@@ -499,7 +501,7 @@ fn push_mark(scene: &mut Scene, points: Vec<Vec3>, number: usize, width: f32, li
     });
 }
 
-/// Fewer points, none of the old ones further away than `tolerance` metres (Ramer, Douglas and Peucker): many short capsules
+/// A polyline with fewer points, within `tolerance` metres of the old ones (Ramer, Douglas and Peucker): many short capsules
 /// would look like beads.
 fn simplified(points: &[Vec3], tolerance: f32) -> Vec<Vec3> {
     let (Some(&first), Some(&last)) = (points.first(), points.last()) else { return Vec::new() };

@@ -1,23 +1,24 @@
-//! Seams as rows of stitches.
+//! Draws seams as rows of stitches.
 
 use glam::Vec3;
 
 use crate::render::Polyline;
 
-/// Length of a stitch and of the gap behind it, metres on a body of 1.5 m.
+/// Length of a stitch, metres on a body 1.5 m tall.
 const STITCH: f32 = 0.007;
+/// Length of the gap between two stitches, metres on a body 1.5 m tall.
 const GAP: f32 = 0.005;
-/// The thread, sRGB and opacity.
+/// Colour of the thread, sRGB and opacity.
 const THREAD: [u8; 4] = [246, 243, 232, 235];
-/// Logical pixels.
+/// Width of the thread, logical pixels.
 const WIDTH: f32 = 1.7;
 
-/// Each of `seams` as the line it is, and stitches upon it.
+/// For each of `seams` the seam's line and the stitches on it.
 pub fn stitched(seams: Vec<Polyline>, scale: f32) -> Vec<Polyline> {
     let mut all = Vec::new();
     for seam in seams {
         let stitches = dashes(&seam.points, STITCH * scale, GAP * scale);
-        // Above the line they lie on.
+        // Stitches are drawn above the line they are on.
         let thread =
             Polyline { points: Vec::new(), colour: THREAD, width: WIDTH, lift: seam.lift * 1.3, ..seam };
         all.push(seam);
@@ -26,11 +27,11 @@ pub fn stitched(seams: Vec<Polyline>, scale: f32) -> Vec<Polyline> {
     all
 }
 
-/// Pieces of the polyline, each `length` long with `gap` between them; corners are kept.
+/// Dashes of the polyline, each `length` long with gaps of `gap`; corners are kept.
 fn dashes(points: &[Vec3], length: f32, gap: f32) -> Vec<Vec<Vec3>> {
     let mut all = Vec::new();
     let mut dash: Vec<Vec3> = points.first().copied().into_iter().collect();
-    // Of the stitch or the gap under way.
+    // Remaining length of the current stitch or gap.
     let (mut left, mut sewing) = (length, true);
     for w in points.windows(2) {
         let side = w[0].distance(w[1]);

@@ -1,4 +1,4 @@
-//! Every command by a few of its letters.
+//! The command palette: finds actions by a few of their letters.
 
 use egui::{Align2, Area, Frame, Id, Key, Modifiers, Order, ScrollArea, TextEdit};
 use nucleo_matcher::pattern::{CaseMatching, Normalization, Pattern};
@@ -13,17 +13,17 @@ use crate::ui::look::theme::Palette;
 /// Width of the list, points.
 const WIDTH: f32 = 520.0;
 
-/// What was typed, and which of the commands found is chosen.
+/// The open palette: the typed text, and the chosen one of the actions found.
 #[derive(Debug, Default)]
 pub struct CommandPalette {
     text: String,
     chosen: usize,
-    /// The chosen row is to be brought into sight.
+    /// Whether to scroll to the chosen row.
     moved: bool,
 }
 
 impl CommandPalette {
-    /// Shows it; false when it is to be closed.
+    /// Draws the palette; false when it is to be closed.
     pub fn ui(
         &mut self,
         ctx: &egui::Context,
@@ -103,7 +103,7 @@ impl CommandPalette {
     }
 }
 
-/// Carries it out, or says why not.
+/// Carries out an action, or shows why it is disabled.
 fn choose(action: Action, now: &FrameContext, asks: &mut Asks) {
     asks.push(match now.why_not(action) {
         None => Ask::Act(action),
@@ -142,7 +142,7 @@ fn row_ui(
     response.on_hover_text(action.row().tip)
 }
 
-/// The commands that `text` may mean, the likeliest first; all of them for an empty one.
+/// The actions that match `text`, best match first; all of them for an empty text.
 pub fn found(text: &str, now: &FrameContext) -> Vec<Action> {
     let pattern = Pattern::parse(text, CaseMatching::Ignore, Normalization::Smart);
     let mut matcher = Matcher::new(Config::DEFAULT);
@@ -152,7 +152,7 @@ pub fn found(text: &str, now: &FrameContext) -> Vec<Action> {
         .chain(recent)
         .filter(|action| *action != Action::CommandPalette)
         .filter_map(|action| {
-            // What it is called counts more than where it is found and what its tip says.
+            // A match in the label counts more than one in the menu or the tooltip.
             let mut score = |words: &str| {
                 buffer.clear();
                 pattern.score(Utf32Str::new(words, &mut buffer), &mut matcher)

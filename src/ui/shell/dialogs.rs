@@ -1,4 +1,4 @@
-//! Questions over the window: unsaved changes, a path, keys and mouse.
+//! Dialogs over the window: unsaved changes, a path, units, shortcuts, recovery.
 
 use std::future::Future;
 use std::path::{Path, PathBuf};
@@ -19,68 +19,68 @@ use crate::ui::files::thumbnails::{Subject, Thumbnails};
 use crate::ui::files::{Purpose, RawBody};
 use crate::ui::pointer::mouse::Mouse;
 
-/// A dialog that says "cancelled" sooner than a hand can click has not been shown at all.
+/// If a native dialog reports "cancelled" sooner than this, it has not been shown at all: no hand clicks that fast.
 const TOO_QUICK: Duration = Duration::from_millis(400);
 
-/// What is asked.
+/// A dialog.
 #[derive(Debug)]
 pub enum Dialog {
-    /// What to do with unsaved changes before `then`.
+    /// Asks what to do with unsaved changes before `then`.
     Unsaved { then: Action },
-    /// A path typed by hand, where the desktop offers no dialog.
+    /// Asks for a path, where the desktop offers no file dialog.
     Path { purpose: Purpose, text: String },
-    /// Whether to go back to what is in this file.
+    /// Asks whether to revert to the saved file.
     Revert { path: PathBuf },
-    /// The unit of a body.
+    /// Asks for the unit of a body.
     Unit { raw: Box<RawBody> },
-    /// How large the drawing in a file is.
+    /// Asks for the unit of length of a drawing.
     Scale { path: PathBuf, question: ScaleQuestion, unit: DrawingUnit },
-    /// Keys, and what this mouse does.
+    /// Shows the shortcuts, and the mapping of mouse buttons.
     Shortcuts { mouse: Mouse, keymap: Arc<Keymap> },
-    /// Work that sessions left behind which did not end well, and what it is called.
+    /// Offers work left by sessions that did not end properly, each with its name.
     Recover { found: Vec<(Left, String)> },
-    /// The project's file was changed by somebody else since it was opened or saved.
+    /// Tells that another program has changed the project's file since it was opened or saved.
     ChangedOnDisk { path: PathBuf },
-    /// The project could not be saved there, and why.
+    /// Tells that the project could not be saved to the file, and why.
     NotSaved { path: PathBuf, words: String },
 }
 
-/// What was answered.
+/// The user's answer to a dialog.
 #[derive(Debug)]
 pub enum Answer {
-    /// Nothing yet.
+    /// No answer yet.
     None,
-    /// Leave everything as it is.
+    /// Cancel: leave everything as it is.
     Cancel,
-    /// Save, then go on.
+    /// Save, then carry out the action.
     SaveThen(Action),
-    /// Go on without saving.
+    /// Carry out the action without saving.
     Discard(Action),
-    /// This file.
+    /// The chosen file.
     File(Purpose, PathBuf),
-    /// This body, in the unit it says.
+    /// The body, with its unit and up axis chosen.
     Body(Box<RawBody>),
-    /// Take this work up again; the rest is offered the next time.
+    /// Restore this work; the rest is offered the next time.
     Restore(Box<Left>),
-    /// Save over what somebody else wrote.
+    /// Overwrite the changes of another program.
     Overwrite(PathBuf),
-    /// Save over a file that is write-protected.
+    /// Overwrite a write-protected file.
     Replace(PathBuf),
     /// Save under another name.
     SaveAs,
-    /// The pattern in this file, whose unit is this.
+    /// The pattern in this file, in this unit.
     Pattern(PathBuf, DrawingUnit),
 }
 
 impl Answer {
-    /// Esc and a click beside the dialog cancel it.
+    /// The answer, or Cancel if there is none and the dialog was closed by Esc or a click beside it.
     fn or_cancel(self, closed: bool) -> Self {
         if matches!(self, Self::None) && closed { Self::Cancel } else { self }
     }
 }
 
 impl Dialog {
-    /// Shows the dialog.
+    /// Draws the dialog.
     pub fn ui(&mut self, ctx: &egui::Context, thumbnails: &mut Thumbnails) -> Answer {
         match self {
             Self::Unsaved { then } => unsaved_ui(ctx, *then),
@@ -96,7 +96,7 @@ impl Dialog {
     }
 }
 
-/// A question with a row of buttons: what each says, a tip, and the answer it gives. The last one leaves things as they are.
+/// Draws a question with a row of buttons: label, tooltip and answer of each. The last button cancels.
 fn question_ui(
     ctx: &egui::Context,
     id: &str,
@@ -177,7 +177,7 @@ fn recover_ui(ctx: &egui::Context, found: &mut Vec<(Left, String)>, thumbnails: 
     shown.inner.or_cancel(closed)
 }
 
-/// What the work looked like when it was copied last, as soon as it is drawn.
+/// Draws the thumbnail of the last copy of the work, once it is ready.
 fn picture_ui(ui: &mut egui::Ui, left: &Left, thumbnails: &mut Thumbnails) {
     let (rect, _) = ui.allocate_exact_size(egui::vec2(56.0, 70.0), egui::Sense::hover());
     ui.painter().rect_filled(rect, 4.0, ui.visuals().faint_bg_color);
@@ -311,7 +311,7 @@ fn scale_ui(ctx: &egui::Context, path: &Path, question: &ScaleQuestion, unit: &m
     shown.inner.or_cancel(closed)
 }
 
-/// Folders and fitting files where the text points to. A double-click takes a file.
+/// Lists folders and matching files at the typed path. A double-click chooses a file.
 fn files_ui(ui: &mut egui::Ui, purpose: Purpose, text: &mut String) -> Option<PathBuf> {
     let path = PathBuf::from(text.trim());
     let folder = if path.is_dir() { path } else { path.parent().map(Path::to_owned).unwrap_or_default() };
@@ -352,7 +352,7 @@ fn listing(folder: &Path, purpose: Purpose) -> Vec<(String, bool)> {
     all
 }
 
-/// `path` with the extension that belongs to `purpose`, unless it has one of those.
+/// `path` with the extension for `purpose`, unless it has a suitable one.
 pub fn with_extension(path: PathBuf, purpose: Purpose) -> PathBuf {
     let fits = path.extension().is_some_and(|e| purpose.filter().1.iter().any(|f| e.eq_ignore_ascii_case(f)));
     if fits || !purpose.writes() {
@@ -410,7 +410,7 @@ const MOUSE: &[(&str, &str)] = &[
     ("Esc while drawing", "Give the stroke up"),
 ];
 
-/// A dialog of the desktop, open beside the window.
+/// A native file dialog of the desktop, open beside the window.
 pub struct NativeDialog {
     purpose: Purpose,
     opened: Instant,
@@ -423,7 +423,7 @@ impl std::fmt::Debug for NativeDialog {
     }
 }
 
-/// Wakes the window when the desktop's dialog has an answer.
+/// Wakes the window when the native dialog has an answer.
 struct Repaint(egui::Context);
 
 impl Wake for Repaint {
@@ -433,7 +433,7 @@ impl Wake for Repaint {
 }
 
 impl NativeDialog {
-    /// Opens the desktop's dialog. None where there is no desktop to ask.
+    /// Opens a native dialog; None where there is no desktop that has one.
     pub fn open(purpose: Purpose, current: Option<&Path>) -> Option<Self> {
         if cfg!(target_os = "linux") && std::env::var_os("DBUS_SESSION_BUS_ADDRESS").is_none() {
             return None;
@@ -455,7 +455,7 @@ impl NativeDialog {
         Some(Self { purpose, opened: Instant::now(), answer })
     }
 
-    /// Asks whether there is an answer. A dialog that could not be shown is followed by one of our own.
+    /// Checks for an answer. A native dialog that could not be shown is replaced by one of our own.
     pub fn poll(&mut self, ctx: &egui::Context) -> Option<Result<PathBuf, Option<Dialog>>> {
         let waker = Waker::from(Arc::new(Repaint(ctx.clone())));
         match self.answer.as_mut().poll(&mut Context::from_waker(&waker)) {
@@ -468,7 +468,7 @@ impl NativeDialog {
         }
     }
 
-    /// What it is for.
+    /// The purpose of the dialog.
     pub fn purpose(&self) -> Purpose {
         self.purpose
     }

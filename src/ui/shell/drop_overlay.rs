@@ -1,4 +1,4 @@
-//! While files are held over the window: what each pane will do with them.
+//! The overlay shown while files are dragged over the window: it says what each pane will do with them.
 
 use std::path::Path;
 
@@ -7,21 +7,21 @@ use egui::{Align2, Color32, FontId, Id, LayerId, Order, Rect, Stroke, StrokeKind
 use crate::io::pattern_formats::PatternFormat;
 use crate::ui::look::theme::Palette;
 
-/// What a dropped file becomes.
+/// What happens with a dropped file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Dropped {
-    /// The project is opened.
+    /// It is opened as a project.
     Project,
-    /// Its pieces go on the table.
+    /// It is imported as a pattern.
     Pattern,
-    /// The body is changed.
+    /// It is imported as the body.
     Body,
     /// It cannot be read.
     Nothing,
 }
 
 impl Dropped {
-    /// By the name of the file.
+    /// Determined by the extension of the file.
     pub fn of(path: &Path) -> Self {
         let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
         let is_pattern = |ending: &str| PatternFormat::of_ending(ending).is_some_and(PatternFormat::is_read);
@@ -33,7 +33,7 @@ impl Dropped {
         }
     }
 
-    /// What the pattern pane and the body pane will do, in words; None: nothing.
+    /// What the pattern pane and the body pane will do, in words; None for nothing.
     fn words(self, name: &str) -> [Option<String>; 2] {
         match self {
             Self::Project => {
@@ -49,7 +49,7 @@ impl Dropped {
     }
 }
 
-/// Tells what would happen, over both `panes`.
+/// Draws the overlay over both `panes`.
 pub fn ui(ctx: &egui::Context, palette: &Palette, panes: [Option<Rect>; 2]) {
     let held = ctx.input(|i| i.raw.hovered_files.clone());
     let Some(first) = held.first() else { return };

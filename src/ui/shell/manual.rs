@@ -5,19 +5,19 @@ use egui::{Grid, Id, Label, Modal, RichText, ScrollArea, text::LayoutJob};
 use crate::manual::{Block, TOPICS, Topic, parts};
 use crate::ui::look::theme::Palette;
 
-/// Most columns of words, points.
+/// Largest width of the text, points.
 const WIDTH: f32 = 820.0;
-/// The list of topics, points.
+/// Width of the list of topics, points.
 const LIST: f32 = 190.0;
 
-/// The page, and which topic is open.
+/// The open manual, and its chosen topic.
 #[derive(Debug, Default)]
 pub struct ManualPage {
     topic: usize,
 }
 
 impl ManualPage {
-    /// Shows it. False when it is to be closed.
+    /// Draws the manual. False when it is to be closed.
     pub fn ui(&mut self, ctx: &egui::Context, palette: &Palette) -> bool {
         let room = ctx.content_rect().size();
         let height = (room.y - 200.0).max(160.0);
@@ -37,7 +37,7 @@ impl ManualPage {
                 });
                 ui.separator();
                 ui.vertical(|ui| {
-                    // Each topic is read from its beginning.
+                    // Each topic keeps its own scroll position and begins at its top.
                     let scroll = ScrollArea::vertical().id_salt(self.topic).max_height(height);
                     scroll.auto_shrink(false).show(ui, |ui| topic_ui(ui, &TOPICS[self.topic], palette));
                 });
@@ -92,7 +92,7 @@ fn table_ui(ui: &mut egui::Ui, number: usize, rows: &[Vec<String>]) {
     });
 }
 
-/// What can be chosen or typed stands out.
+/// Text with menu entries and typed text emphasised.
 fn emphasised(ui: &egui::Ui, words: &str) -> egui::WidgetText {
     let mut job = LayoutJob::default();
     for (stands_out, part) in parts(words) {

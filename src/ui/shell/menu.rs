@@ -1,4 +1,4 @@
-//! The menu bar. Every entry comes from the table of actions.
+//! The menu bar and context menus. All entries come from the table of actions.
 
 use egui::{Button, ThemePreference};
 
@@ -122,7 +122,7 @@ fn pattern_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) {
     items(ui, now, asks, &[Action::Untwist, Action::ShowPieces]);
 }
 
-/// What can be done with what is selected on the table.
+/// Draws the entries for the selection in the pattern.
 pub fn selection_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) {
     items(
         ui,
@@ -154,7 +154,7 @@ pub fn selection_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) {
     items(ui, now, asks, &[Action::TurnSeam, Action::MakeEqual, Action::FreeLengths]);
 }
 
-/// What a right click on the table offers.
+/// Draws the context menu of the table.
 pub fn context_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) {
     let picked = &now.picked;
     let mut groups: Vec<&[Action]> = Vec::new();
@@ -247,7 +247,7 @@ fn item(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks, action: Action) 
         button = button.shortcut_text(ui.ctx().format_shortcut(keys));
     }
     let response = ui.add_enabled(why_not.is_none(), button.min_size(egui::vec2(190.0, 0.0)));
-    // A tip over an entry that can be chosen would only hide the next one.
+    // Only disabled entries have a tooltip: over an enabled one it would hide the next entry.
     let response = response.on_disabled_hover_text(why_not.unwrap_or_default());
     if response.clicked() {
         asks.push(Ask::Act(action));

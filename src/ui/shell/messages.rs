@@ -6,15 +6,15 @@ use egui::{Align2, Area, Color32, Frame, Id, Order, Stroke};
 
 use crate::ui::look::theme::Palette;
 
-/// How long a message that is no error is shown.
+/// Time that a message which is no error is shown.
 const SHOWN: Duration = Duration::from_secs(6);
-/// Messages shown at once; older ones go.
+/// Largest number of messages shown at once; older ones are removed.
 const MOST: usize = 4;
 
-/// Messages that can be read again.
+/// Largest number of messages in the log.
 const MOST_LOGGED: usize = 500;
 
-/// One message.
+/// A message being shown.
 #[derive(Debug)]
 struct Message {
     words: String,
@@ -22,31 +22,31 @@ struct Message {
     since: Instant,
 }
 
-/// Something that was told.
+/// A message in the log.
 #[derive(Debug)]
 struct LogEntry {
     words: String,
     is_error: bool,
-    /// Since the first message.
+    /// Time since the first message.
     after: Duration,
 }
 
-/// Messages, oldest first.
+/// The shown messages, oldest first, and the log.
 #[derive(Debug, Default)]
 pub struct Messages {
     all: Vec<Message>,
-    /// All of them, to be read again.
+    /// The log of all messages.
     log: Vec<LogEntry>,
     begun: Option<Instant>,
 }
 
 impl Messages {
-    /// Tells something.
+    /// Shows a message.
     pub fn tell(&mut self, words: impl Into<String>) {
         self.push(words.into(), false);
     }
 
-    /// Tells that something went wrong.
+    /// Shows an error.
     pub fn error(&mut self, words: impl Into<String>) {
         self.push(words.into(), true);
     }
@@ -54,7 +54,7 @@ impl Messages {
     fn push(&mut self, words: String, is_error: bool) {
         self.all.retain(|m| m.words != words);
         if self.all.len() >= MOST {
-            // Errors wait for somebody to read them.
+            // The oldest message that is no error is removed; errors stay until they are read.
             let oldest = self.all.iter().position(|m| !m.is_error).unwrap_or(0);
             self.all.remove(oldest);
         }
@@ -66,7 +66,7 @@ impl Messages {
         self.all.push(Message { words, is_error, since: Instant::now() });
     }
 
-    /// Shows them in the lower left corner.
+    /// Draws the messages in the lower left corner, above `above`.
     pub fn ui(&mut self, ctx: &egui::Context, palette: &Palette, above: f32) {
         self.all.retain(|m| m.is_error || m.since.elapsed() < SHOWN);
         let Some(next) = self.all.iter().filter(|m| !m.is_error).map(|m| m.since).min() else {
@@ -76,12 +76,12 @@ impl Messages {
         self.show(ctx, palette, above);
     }
 
-    /// Everything told so far, a line each.
+    /// The log as text, a line for each message.
     pub fn text(&self) -> String {
         self.log.iter().map(|told| format!("{}\n", told.line())).collect()
     }
 
-    /// Everything told so far, each line with a button that copies it.
+    /// Draws the log, each message with a button that copies it.
     pub fn log_ui(&self, ui: &mut egui::Ui, palette: &Palette) {
         if self.log.is_empty() {
             ui.label(egui::RichText::new("Nothing was told yet").color(palette.weak));

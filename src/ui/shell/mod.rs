@@ -1,4 +1,4 @@
-//! What stands round the panes: menu, toolbar, status bar, command palette, dialogs, messages.
+//! The interface around the panes: menu, toolbar, status bar, command palette, dialogs, messages.
 
 pub(in crate::ui) mod command_palette;
 pub(in crate::ui) mod dialogs;

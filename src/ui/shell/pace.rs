@@ -1,44 +1,45 @@
-//! How fast the window draws, the simulation goes, and when it will be done.
+//! Measures the speed of the window and of the simulation, and estimates when work is done.
 
-/// Seconds over which speeds are averaged.
+/// Time over which speeds are averaged, seconds.
 const WINDOW: f64 = 0.5;
-/// Seconds after which something lasts long enough for its end to be told.
+/// Shortest duration of work for which the remaining time is shown, seconds.
 const LONG: f64 = 2.0;
 
-/// What the simulation is at.
+/// A kind of work of the simulation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Work {
-    /// The cloth grows.
+    /// A wrap grows cloth.
     Growing,
-    /// It settles.
+    /// The cloth settles.
     Settling,
-    /// It follows the hand.
+    /// The cloth follows a drag.
     Hand,
 }
 
-/// What the status bar tells.
+/// The figures for the status bar.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Pace {
-    /// Pictures of the window in a second; none while nothing moves.
+    /// Frames per second of the window; None while nothing moves.
     pub frames: Option<f64>,
-    /// Milliseconds a tick of the simulation takes, with the pauses between them.
+    /// Time per tick of the simulation including pauses, milliseconds.
     pub tick_ms: Option<f64>,
-    /// Seconds until the work under way is done.
+    /// Estimated remaining time of the work in progress, seconds.
     pub left: Option<f64>,
 }
 
-/// Measures it from frame to frame.
+/// Measures the speeds from frame to frame.
 #[derive(Clone, Debug, Default)]
 pub struct Pacer {
-    /// When the present half second began, and what was then drawn and ticked.
+    /// Start of the present averaging interval, with the numbers of frames and ticks at that time.
     since: Option<(f64, u64, u64)>,
-    /// What work is under way, when it was first seen and how far it had come.
+    /// The work in progress, the time when it was first seen, and its progress then.
     work: Option<(Work, f64, f64)>,
     pace: Pace,
 }
 
 impl Pacer {
-    /// A frame at `time` seconds; `frames` and `ticks` so far; the work under way, if any, and how far it has come (0..=1).
+    /// Updates the figures in a frame at `time` seconds. `frames` and `ticks` are totals; `work` is the work in progress and its
+    /// progress, 0..=1.
     pub fn frame(&mut self, time: f64, frames: u64, ticks: u64, work: Option<(Work, f64)>) -> Pace {
         self.work = work.map(|(kind, progress)| match self.work {
             Some((known, began, from)) if known == kind && progress >= from => (known, began, from),
@@ -65,7 +66,7 @@ impl Pacer {
     }
 }
 
-/// "3 s left", "2 min left".
+/// The remaining time in words: "3 s left", "2 min left".
 pub fn left_words(seconds: f64) -> String {
     match seconds.ceil() {
         s if s < 60.0 => format!("{s:.0} s left"),

@@ -1,4 +1,4 @@
-//! The status bar: what the mouse does here, and what the simulation does now.
+//! The status bar: a hint about the mouse, and the state of the simulation.
 
 use egui::{Align, Layout, ProgressBar, RichText};
 
@@ -74,7 +74,7 @@ fn phase_words(now: &FrameContext) -> String {
     }
 }
 
-/// What moves the cloth still, as a share of its weight.
+/// State of draping in words: the residual force as a fraction of the cloth's weight.
 fn drape_words(drape: Option<DrapeState>) -> String {
     match drape {
         Some(drape) if drape.runs => format!("Draping: {:.1} % out of balance", drape.residual * 100.0),
@@ -83,13 +83,13 @@ fn drape_words(drape: Option<DrapeState>) -> String {
     }
 }
 
-/// The name of an adapter without what stands in brackets, and not too long.
+/// The name of an adapter without its part in brackets, shortened.
 fn short(adapter: &str) -> String {
     let name = adapter.split(" (").next().unwrap_or_default();
     if name.chars().count() <= 22 { name.to_owned() } else { name.chars().take(21).chain(['…']).collect() }
 }
 
-/// 12345 as "12 345".
+/// A number with grouped digits: 12345 as "12 345".
 fn grouped(n: usize) -> String {
     let digits = n.to_string();
     let mut out = String::new();
@@ -102,7 +102,7 @@ fn grouped(n: usize) -> String {
     out
 }
 
-/// What the bar below says while starts are tried: `start` is the one under way.
+/// The text of the status bar while starts are tried; `start` is the current one.
 pub fn trying_words((start, draped): (Start, bool), percent: u32) -> String {
     match (start, draped) {
         (Start::Marks, false) => format!("By marks: growing {percent} %"),

@@ -1,4 +1,4 @@
-//! Tools, undo, and the one big button.
+//! The toolbar: tools, undo, and the main button.
 
 use egui::{Align, Button, Id, Layout, RichText};
 
@@ -12,7 +12,7 @@ use crate::ui::maps::chooser_ui;
 /// Height of the buttons, points.
 const HEIGHT: f32 = 30.0;
 
-/// Draws the toolbar. Returns its first button, for the keyboard.
+/// Draws the toolbar. Returns its first button, for the keyboard focus.
 pub fn toolbar_ui(ui: &mut egui::Ui, now: &FrameContext, palette: &Palette, asks: &mut Asks) -> Option<Id> {
     let mut first = None;
     ui.horizontal(|ui| {

@@ -1,11 +1,11 @@
-//! What the Edit menu holds, and the tools for marks.
+//! Actions of the Edit menu, and the tools for marks.
 
 use egui::Key;
 
 use crate::ui::actions::row::{Need, Row, ctrl, ctrl_shift, key, row};
 use crate::ui::actions::{Action, Tool};
 
-/// Each of them, in the order of the menus.
+/// The rows in the order of the menus.
 pub const ROWS: &[Row] = &[
     row("Edit", Action::Preferences, "Preferences…", "Theme, size, units, mouse, keys")
         .keys(&[ctrl(Key::Comma)])

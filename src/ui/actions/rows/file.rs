@@ -1,4 +1,4 @@
-//! What the File menu holds.
+//! Actions of the File menu.
 
 use egui::{Key, KeyboardShortcut, Modifiers};
 
@@ -6,7 +6,7 @@ use crate::io::pdf::Paper;
 use crate::ui::actions::Action;
 use crate::ui::actions::row::{Need, Row, ctrl, ctrl_shift, row};
 
-/// Each of them, in the order of the menus.
+/// The rows in the order of the menus.
 pub const ROWS: &[Row] = &[
     row("File", Action::New, "New", "Start with an empty table and the mannequin").keys(&[ctrl(Key::N)]),
     row("File", Action::StartPage, "Start page", "Begin anew, open a file or a sample, or take the tour")

@@ -1,4 +1,4 @@
-//! What puts cloth on the body and moves it.
+//! Actions that put cloth on the body and move it.
 
 use egui::{Key, KeyboardShortcut, Modifiers};
 
@@ -6,7 +6,7 @@ use crate::drag::DragMode;
 use crate::ui::actions::row::{Need, Row, ctrl, key, row, shift};
 use crate::ui::actions::{Action, Tool};
 
-/// Each of them, in the order of the menus.
+/// The rows in the order of the menus.
 pub const ROWS: &[Row] = &[
     row(
         "Garment",

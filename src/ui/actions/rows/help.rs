@@ -1,11 +1,11 @@
-//! What tells how things are done.
+//! Actions of the Help menu.
 
 use egui::Key;
 
 use crate::ui::actions::Action;
 use crate::ui::actions::row::{Need, Row, ctrl, key, row, shift};
 
-/// Each of them, in the order of the menus.
+/// The rows in the order of the menus.
 pub const ROWS: &[Row] = &[
     row("Help", Action::CommandPalette, "Find a command…", "Type a few letters of what you want to do")
         .keys(&[ctrl(Key::P), key(Key::F3)])

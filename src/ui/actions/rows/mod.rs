@@ -1,4 +1,4 @@
-//! The table of everything that can be chosen: menus, buttons, tooltips, keys and the command palette all read it.
+//! The table of all actions; menus, buttons, tooltips, keys and the command palette read it.
 
 mod edit;
 mod file;
@@ -40,18 +40,18 @@ static ROWS: LazyLock<Vec<Row>> = LazyLock::new(|| {
     rows
 });
 
-/// A view without a name of its own.
+/// The row of views without a name.
 static OTHER_VIEW: Row =
     row("View", Action::Look(View::ThreeQuarter), "View", "Look from there").in_demos().aside();
 
-/// Everything that can be chosen at any time. Not proposed marks, whose keys come before all others while there are any,
-/// and not files opened before.
+/// All actions that can be chosen at any time. Left out are those for proposed marks, whose keys have precedence while there are
+/// any, and recent files.
 pub fn all() -> impl Iterator<Item = Action> {
     ROWS.iter().filter(|row| !row.aside).map(|row| row.action)
 }
 
 impl Action {
-    /// What is known of it.
+    /// The row of the action in the table.
     pub fn row(self) -> &'static Row {
         let known = match self {
             Self::OpenRecent(_) => Self::OpenRecent(0),
@@ -60,7 +60,7 @@ impl Action {
         ROWS.iter().find(|row| row.action == known).unwrap_or(&OTHER_VIEW)
     }
 
-    /// Its name in files: stays the same whatever language people speak.
+    /// The action's name in files, which does not depend on the language of the interface.
     pub fn id(self) -> String {
         format!("{self:?}")
     }

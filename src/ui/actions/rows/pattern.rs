@@ -1,11 +1,11 @@
-//! Tools that draw, and what is done to what is selected of the pattern.
+//! Actions of the Pattern menu: drawing tools, and changes to the selection.
 
 use egui::Key;
 
 use crate::ui::actions::row::{Need, Row, ctrl, ctrl_shift, key, row, shift};
 use crate::ui::actions::{Action, Tool};
 
-/// Each of them, in the order of the menus.
+/// The rows in the order of the menus.
 pub const ROWS: &[Row] = &[
     row(
         "Pattern › Tools",

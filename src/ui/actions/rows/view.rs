@@ -1,4 +1,4 @@
-//! How everything is looked at.
+//! Actions of the View menu.
 
 use egui::{Key, ThemePreference};
 
@@ -7,7 +7,7 @@ use crate::ui::actions::Action;
 use crate::ui::actions::layout::Panes;
 use crate::ui::actions::row::{Need, Row, ctrl, key, row, shift};
 
-/// Each of them, in the order of the menus.
+/// The rows in the order of the menus.
 pub const ROWS: &[Row] = &[
     row("View", Action::Look(View::Front), "Front", "Look from the front").keys(&[key(Key::Num1)]).in_demos(),
     row("View", Action::Look(View::Back), "Back", "Look from behind").keys(&[ctrl(Key::Num1)]).in_demos(),

@@ -1,4 +1,4 @@
-//! Draws the arrow along the warp.
+//! The tool that draws the grainline.
 
 use egui::{CursorIcon, Stroke};
 use glam::DVec2;
@@ -15,7 +15,7 @@ use crate::ui::preferences::units::degrees;
 /// The tool Grainline.
 #[derive(Debug, Default)]
 pub struct Grain {
-    /// The piece, the tail and the head, on the table.
+    /// The piece, and tail and head of the arrow being drawn, on the table.
     drawn: Option<(PieceId, [DVec2; 2])>,
 }
 
@@ -28,7 +28,7 @@ impl PatternTool for Grain {
                 continue;
             };
             let found = &table.pattern().pieces[&piece];
-            // A click sets an upright arrow a third as long as the piece, or takes the one there away.
+            // A click adds a vertical arrow a third as long as the piece, or removes the existing one.
             let grainline = found.grainline.is_none().then(|| {
                 let height = table.bounds([piece].into_iter()).map_or(0.1, |[a, b]| b.y - a.y);
                 let half = DVec2::Y * (height / 6.0);

@@ -1,4 +1,4 @@
-//! Paints marks on pieces, and takes them away.
+//! The tools that paint and erase marks on pieces.
 
 use egui::CursorIcon;
 use glam::DVec2;
@@ -15,29 +15,29 @@ use crate::ui::pointer::stroke;
 use crate::ui::preferences::units::Typed;
 use crate::wrap::ClothSide;
 
-/// One stroke on one piece, in the piece's own plane.
+/// A stroke on a piece, in the piece's own plane.
 type Stroke = (PieceId, Vec<DVec2>);
 
 /// The tools Mark and Erase.
 #[derive(Debug)]
 pub struct Marks {
     erases: bool,
-    /// Strokes under way: the topmost piece's first, those of pieces under it only with the laser.
+    /// Strokes in progress: that on the topmost piece first, with the laser followed by those on pieces below.
     strokes: Option<Vec<Stroke>>,
-    /// By keys a stroke runs straight from corner to corner: those so far, on the table.
+    /// Corners of a stroke drawn by keys, on the table; it is straight between them.
     corners: Vec<DVec2>,
 }
 
-/// A stroke by keys is followed in steps of this, metres.
+/// Sampling distance of a stroke drawn by keys, metres.
 const FOLLOW_STEP: f64 = 0.002;
 
 impl Marks {
-    /// Paints.
+    /// The tool that paints.
     pub fn painting() -> Self {
         Self { erases: false, strokes: None, corners: Vec::new() }
     }
 
-    /// Takes away.
+    /// The tool that erases.
     pub fn erasing() -> Self {
         Self { erases: true, strokes: None, corners: Vec::new() }
     }
@@ -207,8 +207,8 @@ fn dot(table: &Table<'_>, p: DVec2, asks: &mut Asks) {
     }
 }
 
-/// Takes the strokes on to a point of the table. Off the first piece nothing is painted; with the laser every piece below
-/// gets its own stroke as soon as the pointer is over it.
+/// Continues the strokes to a point of the table. Outside of the first piece nothing is painted. With the laser each piece below
+/// gets its own stroke once the pointer is over it.
 fn go_through(strokes: &mut Vec<Stroke>, table: &Table<'_>, p: DVec2) {
     let Some(&(first, _)) = strokes.first() else { return };
     let below = table.shapes.all_at(table.pattern(), p).skip_while(|(piece, _)| *piece != first);
@@ -221,8 +221,8 @@ fn go_through(strokes: &mut Vec<Stroke>, table: &Table<'_>, p: DVec2) {
     }
 }
 
-/// The commands that paint `strokes`: the first on the side that is seen, the others on the outer side of their
-/// pieces, however they lie: nobody means to turn half a garment inside out.
+/// The commands that paint `strokes`. The first is painted on the visible side. The others are painted on the front of their
+/// pieces even where their back is visible, since nobody wants to turn half a garment inside out.
 fn painted(table: &Table<'_>, strokes: Vec<Stroke>) -> Vec<Command> {
     let command = |(i, (piece, points)): (usize, Stroke)| {
         let (found, shape) = table.piece(piece)?;

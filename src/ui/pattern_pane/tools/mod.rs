@@ -1,4 +1,4 @@
-//! What the left button does on the table: one small machine for each tool, one file each.
+//! The tools of the pattern pane: one state machine for each, in a file of its own.
 
 mod grain;
 mod marks;
@@ -24,62 +24,62 @@ use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::preferences::units::Typed;
 use crate::ui::selection::Item;
 
-/// A tool. It reads the table and asks; what it remembers is only what is under way.
+/// A tool. It reads the table and makes requests; it keeps only the state of what is in progress.
 pub trait PatternTool: std::fmt::Debug {
-    /// Takes what pointer and keys did.
+    /// Handles the input of a frame.
     fn step(&mut self, table: &Table<'_>, input: &Input, asks: &mut Asks);
 
-    /// Draws what is under way.
+    /// Draws what is in progress.
     fn draw(&self, _drawing: &Drawing<'_>, _table: &Table<'_>, _input: &Input) {}
 
-    /// Something is under way: Esc gives it up.
+    /// Whether something is in progress that Esc cancels.
     fn is_busy(&self) -> bool {
         false
     }
 
-    /// Gives up what is under way.
+    /// Cancels what is in progress.
     fn give_up(&mut self, _asks: &mut Asks) {}
 
-    /// The button is down and the tool follows it.
+    /// Whether the tool is following a drag.
     fn is_dragging(&self) -> bool {
         false
     }
 
-    /// Numbers can be typed now.
+    /// Whether the tool accepts typed numbers now.
     fn takes_numbers(&self) -> bool {
         self.is_busy()
     }
 
-    /// Takes typed numbers. The error is in words.
+    /// Takes typed numbers. The error is a message.
     fn typed(&mut self, _table: &Table<'_>, _typed: Typed, _asks: &mut Asks) -> Result<(), String> {
         Err("nothing here can be typed".to_owned())
     }
 
-    /// Draws at free places: the keyboard moves a cursor.
+    /// Whether the tool draws at free positions, for which the keyboard has a cursor.
     fn draws(&self) -> bool {
         false
     }
 
-    /// What a click there would be about.
+    /// The item that a click at `p` would be about.
     fn under(&self, table: &Table<'_>, p: DVec2) -> Option<Item> {
         table.piece_at(p).map(|(piece, _)| Item::Piece(piece))
     }
 
-    /// Over the table.
+    /// The cursor at a point of the table.
     fn cursor(&self, _table: &Table<'_>, _at: DVec2) -> CursorIcon {
         CursorIcon::Default
     }
 
-    /// The points of the mark being painted, in its piece's plane.
+    /// The mark being painted: its piece, and its points in the piece's plane.
     fn stroke(&self) -> Option<(PieceId, &[DVec2])> {
         None
     }
 
-    /// What the mouse does now, for the status bar.
+    /// The hint for the status bar.
     fn hint(&self, table: &Table<'_>) -> String;
 }
 
-/// What handles the pointer and keys of a tool over the table.
+/// A new handler for a tool.
 pub fn handler(tool: Tool) -> Box<dyn PatternTool> {
     match tool {
         Tool::Mark => Box::new(marks::Marks::painting()),
@@ -100,17 +100,17 @@ pub fn handler(tool: Tool) -> Box<dyn PatternTool> {
     }
 }
 
-/// Asks for changes as a step of their own.
+/// A request for edits as an undo step of their own.
 fn done(edits: Vec<PatternEdit>) -> Ask {
     Ask::Do(Command::EditPattern { edits, anew: false })
 }
 
-/// Asks for changes to what was there when the drag began.
+/// A request for edits to the state at the beginning of the drag.
 fn dragged(edits: Vec<PatternEdit>) -> Ask {
     Ask::Drag(Command::EditPattern { edits, anew: true })
 }
 
-/// A closed line in the plane of a piece at `pose`, from one on the table.
+/// A closed line on the table, converted to the plane of a piece at `pose`.
 fn in_piece(edges: &[Edge], pose: &PlanePose) -> Vec<Edge> {
     let own = |p: DVec2| pose.piece_from_plane(p);
     let edge = |edge: &Edge| Edge {
@@ -122,7 +122,7 @@ fn in_piece(edges: &[Edge], pose: &PlanePose) -> Vec<Edge> {
     edges.iter().map(edge).collect()
 }
 
-/// A new piece whose outline is this closed line on the table, its front up.
+/// A new piece with this closed line on the table as outline, its front up.
 fn new_piece(pattern: &Pattern, edges: &[Edge]) -> Piece {
     let starts = edges.iter().map(|edge| edge.start);
     let [lower, upper] =
@@ -141,7 +141,7 @@ fn free_name(pattern: &Pattern) -> String {
     names.into_iter().find(|name| pattern.piece_named(name).is_none()).unwrap_or_default()
 }
 
-/// The closed line the other way round.
+/// The closed line in the opposite direction.
 fn turned_round(edges: &[Edge]) -> Vec<Edge> {
     let n = edges.len();
     let edge = |i: usize| Edge {

@@ -1,4 +1,4 @@
-//! What is put on an edge: darts and notches.
+//! The tools that put darts and notches on edges.
 
 use egui::{CursorIcon, Stroke};
 use glam::DVec2;
@@ -17,19 +17,19 @@ use crate::ui::selection::Item;
 #[derive(Debug)]
 pub struct OnEdgeTool {
     is_dart: bool,
-    /// Where on an edge the pointer is.
+    /// The place on an edge under the pointer.
     near: Option<OnEdge>,
-    /// A dart is being pulled into the cloth, this deep.
+    /// A dart being dragged into the cloth: its place, and its depth in metres.
     pulled: Option<(OnEdge, f64)>,
 }
 
 impl OnEdgeTool {
-    /// Cuts darts.
+    /// The tool that cuts darts.
     pub fn dart() -> Self {
         Self { is_dart: true, near: None, pulled: None }
     }
 
-    /// Cuts notches.
+    /// The tool that cuts notches.
     pub fn notch() -> Self {
         Self { is_dart: false, ..Self::dart() }
     }
@@ -53,7 +53,7 @@ impl OnEdgeTool {
         }]));
     }
 
-    /// Where on an edge, its middle where that is near.
+    /// The place on an edge at `p`; it snaps to the middle of the edge.
     fn place(&self, table: &Table<'_>, p: DVec2, input: &Input) -> Option<OnEdge> {
         let mut on = table.edge_near(p, 14.0)?;
         let (piece, shape) = table.piece(on.edge.piece)?;
@@ -66,7 +66,7 @@ impl OnEdgeTool {
     }
 }
 
-/// The way into the cloth from a place on an edge, on the table.
+/// Direction into the cloth at a place on an edge, on the table.
 fn into_cloth(table: &Table<'_>, on: OnEdge) -> Option<DVec2> {
     let piece = table.pattern().pieces.get(&on.edge.piece)?;
     let near = [on.at - 1e-3, on.at + 1e-3].map(|f| f.clamp(0.0, 1.0));

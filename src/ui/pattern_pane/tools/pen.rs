@@ -1,4 +1,4 @@
-//! Draws lines point by point: pieces, holes, lines inside, cuts. A click makes a corner, a drag a curve.
+//! The pens: they draw pieces, holes, internal lines and cuts point by point. A click makes a corner, a drag a curve.
 
 use egui::{CursorIcon, Stroke};
 use glam::DVec2;
@@ -15,7 +15,7 @@ use crate::ui::pattern_pane::table::Table;
 use crate::ui::preferences::units::{Typed, degrees};
 use crate::ui::selection::Item;
 
-/// What a finished line becomes.
+/// What a pen draws.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Makes {
     /// The outline of a new piece.
@@ -28,7 +28,7 @@ pub enum Makes {
     Cut,
 }
 
-/// How near to the first point a click closes the line, points on the screen.
+/// Largest distance of a click from the first point that closes the line, points.
 const CLOSE: f64 = 9.0;
 
 /// A pen.
@@ -36,24 +36,24 @@ const CLOSE: f64 = 9.0;
 pub struct Pen {
     makes: Makes,
     points: Vec<PenPoint>,
-    /// The last point's handle is being drawn out.
+    /// Whether the handle of the last point is being dragged.
     pulling: bool,
-    /// Where the next point would be.
+    /// Position of the next point.
     next: Option<Snapped>,
 }
 
-/// A point on the table, metres.
+/// A point of the line on the table, metres.
 #[derive(Clone, Copy, Debug, Default)]
 struct PenPoint {
     at: DVec2,
-    /// Where the line leaves it for, when it is smooth; it comes from the other side.
+    /// Control point of the curve that leaves a smooth point; the arriving curve has the mirrored one.
     handle: Option<DVec2>,
-    /// What the arc to the next point goes through, when it is one.
+    /// A point on the arc to the next point, if that edge is an arc.
     through: Option<DVec2>,
 }
 
 impl Pen {
-    /// A pen for this.
+    /// A pen that draws `makes`.
     pub fn new(makes: Makes) -> Self {
         Self { makes, points: Vec::new(), pulling: false, next: None }
     }
@@ -74,7 +74,7 @@ impl Pen {
 
     fn snapped(&self, table: &Table<'_>, p: DVec2, input: &Input) -> Snapped {
         let from = self.points.last().map(|last| last.at);
-        // A cut ends on edges, however the hand is held.
+        // A cut must end on edges, so it snaps to them even when modifier keys are held.
         if self.makes == Makes::Cut
             && let Some(hit) = table.edge_at(p)
         {
@@ -100,7 +100,7 @@ impl Pen {
         self.points.push(PenPoint { at, ..PenPoint::default() });
     }
 
-    /// The piece the line is drawn on.
+    /// The piece that the line is drawn on.
     fn piece(&self, table: &Table<'_>, first: DVec2) -> Option<PieceId> {
         let on_edge = table.edge_at(first).map(|hit| hit.edge.piece);
         let piece = match self.makes {
@@ -136,7 +136,7 @@ impl Pen {
             self.points.clear();
             return;
         }
-        // Begun on an edge that two pieces share: the one that most of the line lies on.
+        // A line that begins on an edge shared by two pieces belongs to the piece that contains most of it.
         let Some(piece) = self.piece_of_line(table, &edges).or_else(|| self.piece(table, first.at)) else {
             return;
         };
@@ -160,7 +160,8 @@ impl Pen {
     }
 }
 
-/// Holes run against the outline, so that cloth lies on the same side of every line and seams on them are not twisted.
+/// Holes run in the opposite direction to the outline, so that cloth is on the same side of all lines and seams on them are not
+/// twisted.
 fn round_hole(table: &Table<'_>, piece: PieceId, edges: Vec<Edge>) -> Vec<Edge> {
     let runs_left = |piece: &Piece| piece.signed_area() >= 0.0;
     let hole = Piece { outline: edges, ..Piece::default() };
@@ -201,7 +202,7 @@ impl PatternTool for Pen {
         }
         if let Some(at) = input.pressed {
             let p = table.at(at);
-            // A drag from the first point gives the closing curve its handle.
+            // A drag that begins at the first point closes the line with a curve.
             if self.closes(table, p) {
                 self.finish(table, asks);
             } else {
@@ -218,7 +219,7 @@ impl PatternTool for Pen {
             self.pulling = false;
         }
         if input.backspace {
-            // First the arc, then the point it goes out from.
+            // Removes the arc first, then the point that it starts from.
             let arc = self.points.last_mut().and_then(|last| last.through.take());
             if arc.is_none() {
                 self.points.pop();

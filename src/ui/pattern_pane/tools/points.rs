@@ -1,4 +1,4 @@
-//! Edits outlines: moves points, edges and the handles of curves; double-clicks insert points and smooth corners.
+//! The tool Edit points: moves points, edges and handles of curves; double-clicks insert points and smooth corners.
 
 use std::collections::BTreeSet;
 
@@ -26,17 +26,17 @@ pub struct Points {
 
 #[derive(Debug)]
 enum Drag {
-    /// The points the box holds are selected.
+    /// Selects the points in a box.
     Box { from: DVec2, to: DVec2, add: bool },
-    /// Points where they lay on the table, and the place they are held at.
+    /// Moves points: their old positions on the table, and the point where they are held.
     Move { held: DVec2, points: Vec<(PointRef, DVec2)>, by: DVec2, snapped: Option<Snapped> },
-    /// An edge as it was, bent through the pointer.
+    /// Bends an edge through the pointer; `shape` is its old shape.
     Bend { edge: EdgeRef, ends: [DVec2; 2], shape: EdgeShape, at: f64, held: DVec2 },
-    /// A handle of a curve.
+    /// Moves a handle of a curve.
     Handle { edge: EdgeRef, shape: EdgeShape, which: usize, to: DVec2 },
 }
 
-/// A handle of a curve: its edge, which of its control points it is, where it and the point it belongs to are on the table.
+/// A handle of a curve: its edge, index of the control point, position of the handle and of its end point on the table.
 type CurveHandle = (EdgeRef, usize, DVec2, DVec2);
 
 impl Points {
@@ -78,7 +78,7 @@ impl Points {
         let piece = &table.pattern().pieces[&hit.edge.piece];
         let (shape, (a, b)) = (piece.edge(hit.edge.edge).shape, piece.edge_ends(hit.edge.edge));
         if shape != EdgeShape::Line || input.held.alt {
-            // As an arc with Shift: bent through the pointer wherever it begins.
+            // With Shift the edge becomes an arc through the pointer.
             let arc = EdgeShape::Arc { radius: a.distance(b), large: false, sweep: true };
             let shape = if input.held.shift { arc } else { shape };
             let held = piece.pose.piece_from_plane(hit.place);
@@ -90,7 +90,7 @@ impl Points {
         self.drag = Some(Drag::Move { held: hit.place, points, by: DVec2::ZERO, snapped: None });
     }
 
-    /// What is moved when `item` is taken hold of: it alone, or everything selected when it is one of that.
+    /// The items that a drag of `item` moves: all selected ones if it is one of them, else it alone.
     fn taken(&self, table: &Table<'_>, item: Item, input: &Input, asks: &mut Asks) -> Selection {
         let selection = table.laid.selection;
         if selection.has(item) {
@@ -159,7 +159,7 @@ impl Points {
     }
 }
 
-/// The middle of an edge where it is near enough.
+/// `at`, or the middle of the edge if that is near.
 fn nice_fraction(at: f64, reach: f64, table: &Table<'_>, edge: EdgeRef) -> f64 {
     let length = table.piece(edge.piece).map_or(1.0, |(_, shape)| shape.lengths[edge.edge]);
     if (at - 0.5).abs() * length <= reach { 0.5 } else { at }
@@ -298,7 +298,7 @@ impl PatternTool for Points {
     }
 }
 
-/// Selected points and the ends of selected edges, where they are on the table. Of locked pieces none.
+/// Selected points and the ends of selected edges, with their positions on the table; those of locked pieces are left out.
 fn held_points(table: &Table<'_>, selection: &Selection) -> Vec<(PointRef, DVec2)> {
     let mut points = selection.points.clone();
     for &EdgeRef { piece, edge } in &selection.edges {
@@ -319,7 +319,7 @@ fn moved(table: &Table<'_>, points: &[(PointRef, DVec2)], by: DVec2) -> Option<P
     (!points.is_empty()).then_some(PatternEdit::MovePoints { points })
 }
 
-/// One point: where it is. Two of one edge: how long that is, and which way it runs.
+/// A readout: the position of a single point, or the length and direction of an edge whose two points are moved.
 fn readout(table: &Table<'_>, points: &[(PointRef, DVec2)], by: DVec2) -> String {
     let unit = table.laid.unit;
     match points {
@@ -342,7 +342,7 @@ fn readout(table: &Table<'_>, points: &[(PointRef, DVec2)], by: DVec2) -> String
     }
 }
 
-/// Handles of curves beside selected points and edges, and of the piece under the pointer when nothing is selected.
+/// Handles of curves at selected points and edges, or of the piece under the pointer when nothing is selected.
 fn curve_handles(table: &Table<'_>) -> Vec<CurveHandle> {
     let selection = table.laid.selection;
     let mut pieces = selection.pieces_touched();
@@ -375,7 +375,7 @@ fn curve_handles(table: &Table<'_>) -> Vec<CurveHandle> {
 fn handle_at(table: &Table<'_>, p: DVec2) -> Option<CurveHandle> {
     let near = curve_handles(table).into_iter().filter(|h| h.2.distance(p) <= table.reach(REACH * 0.8));
     let points = table.point_at(p);
-    // Where a handle lies on a point the point is meant.
+    // Where a handle coincides with a point, the point is picked.
     let near = near.filter(|h| {
         points.is_none_or(|point| table.point(point).is_none_or(|q| q.distance(p) > h.2.distance(p)))
     });
@@ -401,8 +401,8 @@ fn handle_set(
     Some(PatternEdit::SetEdge { edge, shape })
 }
 
-/// The curve from `a` to `b` bent so that what was at `held`, a share `at` of the way, comes to lie at `to`. All in the
-/// piece's own plane.
+/// The curve from `a` to `b` bent so that the point `held`, at the fraction `at` of it, moves to `to`. All in the piece's own
+/// plane.
 fn bent([a, b]: [DVec2; 2], shape: EdgeShape, at: f64, held: DVec2, to: DVec2) -> EdgeShape {
     let t = at.clamp(0.15, 0.85);
     let by = to - held;

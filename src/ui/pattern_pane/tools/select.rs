@@ -1,4 +1,4 @@
-//! Selects pieces and seams, and moves, scales and turns pieces by their handles.
+//! The tool Move: selects pieces and seams, and moves, scales and rotates pieces by handles.
 
 use std::collections::BTreeSet;
 
@@ -17,15 +17,15 @@ use crate::ui::pattern_pane::table::Table;
 use crate::ui::preferences::units::{Typed, degrees};
 use crate::ui::selection::{Item, Selection};
 
-/// From the box round what is selected to the knob that turns it, points.
+/// Distance from the selection's box to the handle that rotates it, points.
 const STALK: f32 = 24.0;
-/// How near to a handle a press counts, points.
+/// Largest distance of a press from a handle, points.
 const GRIP: f32 = 8.0;
-/// Handles of the box, as shares of half its size from its middle.
+/// Positions of the box's handles relative to its centre, in halves of its size.
 const HANDLES: [[f64; 2]; 8] =
     [[-1.0, -1.0], [0.0, -1.0], [1.0, -1.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [-1.0, 1.0], [-1.0, 0.0]];
 
-/// The tool Move. While cloth is dragged or pinned in the other pane it only selects.
+/// The tool Move. While cloth is dragged or pinned in the body pane it only selects.
 #[derive(Debug, Default)]
 pub struct Select {
     drag: Option<Drag>,
@@ -34,17 +34,17 @@ pub struct Select {
 
 #[derive(Debug)]
 enum Drag {
-    /// What the box touches is selected.
+    /// Selects the pieces that a box touches.
     Box { from: DVec2, to: DVec2, add: bool },
-    /// Pieces as they lay, and the point they are held at.
+    /// Moves pieces: their old poses, and the point where they are held.
     Move { held: DVec2, poses: Vec<(PieceId, PlanePose)>, by: DVec2, snapped: Option<Snapped> },
-    /// The box they filled, and which of its handles is held.
+    /// Scales pieces: the handle, and their old bounding box.
     Scale { handle: DVec2, frame: [DVec2; 2], pieces: Vec<PieceId>, factor: DVec2 },
-    /// Pieces as they lay, what they turn about, and from which angle.
+    /// Rotates pieces: the centre, the starting angle, and their old poses.
     Turn { about: DVec2, from: f64, poses: Vec<(PieceId, PlanePose)>, by: f64 },
 }
 
-/// A part of the box round what is selected.
+/// A handle of the box around the selection.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Handle {
     Scale(DVec2),
@@ -52,7 +52,7 @@ enum Handle {
 }
 
 impl Select {
-    /// Selects and does nothing else.
+    /// A tool that only selects.
     pub fn idle() -> Self {
         Self { drag: None, only_selects: true }
     }
@@ -240,7 +240,7 @@ impl PatternTool for Select {
                 scaled(*frame, *handle, pieces, DVec2::splat(factor))
             }
             (Some(Drag::Turn { about, poses, .. }), Typed::Length(turn)) => {
-                // Typed as a plain number: degrees.
+                // A number typed without a unit is in degrees.
                 turned(poses, *about, (turn / table.laid.unit.metres()).to_radians())
             }
             _ => return Err("type how far: 10, or 10,5".to_owned()),
@@ -292,7 +292,7 @@ impl PatternTool for Select {
     }
 }
 
-/// The one after or before `chosen`.
+/// The item after (`step` 1) or before (-1) `chosen` in `all`.
 pub fn next(all: &[Item], chosen: Option<Item>, step: i32) -> Option<Item> {
     let count = all.len() as i32;
     let now = chosen.and_then(|item| all.iter().position(|&i| i == item));
@@ -314,7 +314,7 @@ fn moved(poses: &[(PieceId, PlanePose)], by: DVec2) -> PatternEdit {
     PatternEdit::Place { poses: poses.iter().map(pose).collect() }
 }
 
-/// Pieces turned about a point of the table.
+/// The edit that rotates pieces about a point of the table.
 pub fn turned(poses: &[(PieceId, PlanePose)], about: DVec2, by: f64) -> PatternEdit {
     let turn = DVec2::from_angle(by);
     let pose = |&(id, pose): &(PieceId, PlanePose)| {
@@ -345,7 +345,7 @@ fn factor_of([lower, upper]: [DVec2; 2], handle: DVec2, p: DVec2, alike: bool) -
     }
 }
 
-/// Mirrors a piece about the upright line through its middle.
+/// The edit that flips a piece about the vertical line through its middle.
 pub fn turned_over(table: &Table<'_>, id: PieceId) -> PatternEdit {
     let poses = table.piece(id).map(|(piece, shape)| {
         let middle = piece.pose.plane_from_piece(shape.middle);
@@ -357,8 +357,8 @@ pub fn turned_over(table: &Table<'_>, id: PieceId) -> PatternEdit {
     PatternEdit::Place { poses: poses.into_iter().collect() }
 }
 
-/// How far pieces go when the hand goes `by`: the first of their points that meets a snap decides. They lie `before` from
-/// where they lay.
+/// The displacement of pieces for a pointer motion `by`: the best snap of any of their points decides. `before` is their present
+/// displacement from where they were.
 fn snapped_move(
     table: &Table<'_>,
     input: &Input,
@@ -388,7 +388,7 @@ fn snapped_move(
     best.map_or((round, None), |(_, _, snapped, by)| (by, Some(snapped)))
 }
 
-/// What a box touches.
+/// The selection of a box; with `add` the old selection is kept.
 fn boxed(table: &Table<'_>, from: DVec2, to: DVec2, add: bool) -> Selection {
     let (lower, upper) = (from.min(to), from.max(to));
     let inside = |p: DVec2| p.cmpge(lower).all() && p.cmple(upper).all();
@@ -400,13 +400,13 @@ fn boxed(table: &Table<'_>, from: DVec2, to: DVec2, add: bool) -> Selection {
     selection
 }
 
-/// The box round the selected pieces that may be changed.
+/// Bounding box of the selected pieces that may be changed.
 fn frame(table: &Table<'_>) -> Option<[DVec2; 2]> {
     let pieces = table.laid.selection.pieces.iter().copied().filter(|&id| table.is_free(id));
     table.bounds(pieces)
 }
 
-/// Where the handles are on the screen.
+/// Positions of the handles on the screen.
 fn handles(table: &Table<'_>) -> Vec<(Handle, Pos2)> {
     let Some([lower, upper]) = frame(table) else { return Vec::new() };
     let area = Rect::from_two_pos(table.screen(lower), table.screen(upper)).expand(7.0);

@@ -1,4 +1,4 @@
-//! Sews: edge to edge, stretches of edges, and several edges to one. The threads are seen before the click that sews.
+//! The tool Sew: joins edges, stretches of edges, or several edges to one. The threads are shown before the click that sews.
 
 use egui::{CursorIcon, Stroke};
 use glam::DVec2;
@@ -20,18 +20,18 @@ use crate::ui::selection::{Item, Selection};
 /// The tool Sew.
 #[derive(Debug, Default)]
 pub struct Sew {
-    /// The first side, and the second as far as it is chosen.
+    /// Stretches of the first side, and those of the second chosen so far.
     sides: [Vec<Stretch>; 2],
-    /// The second side is being chosen: of several edges, after Enter.
+    /// Whether the second side is being chosen; with several edges Enter ends the first side.
     on_second: bool,
-    /// A stretch is being drawn along a line: where it began, and where it is now.
+    /// A stretch being drawn along a line: its beginning, and its present end.
     drawn: Option<[OnEdge; 2]>,
     /// The edge under the pointer.
     near: Option<EdgeRef>,
 }
 
 impl Sew {
-    /// Takes a stretch as the next one of the side that is being chosen.
+    /// Adds a stretch to the side that is being chosen.
     fn take(&mut self, table: &Table<'_>, stretch: Stretch, more: bool, asks: &mut Asks) {
         let second = self.on_second || (!self.sides[0].is_empty() && !more);
         let side = &mut self.sides[usize::from(second)];
@@ -91,7 +91,7 @@ impl Sew {
     }
 }
 
-/// The seam whose badge is there.
+/// The seam whose badge is at `p`.
 fn badge_at(table: &Table<'_>, p: DVec2) -> Option<SeamId> {
     let reach = table.reach(f64::from(BADGE) + 2.0);
     let distance = |side: &Vec<DVec2>| badge_place(side).map(|q| q.distance(p));
@@ -230,7 +230,7 @@ impl PatternTool for Sew {
     }
 }
 
-/// Both lengths, and how far they differ.
+/// The lengths of both sides and their difference, in words.
 pub fn compared(table: &Table<'_>, [a, b]: [f64; 2]) -> String {
     let unit = table.laid.unit;
     let percent = (a / b.max(1e-9) - 1.0) * 100.0;
@@ -253,19 +253,20 @@ fn total(pattern: &Pattern, side: &[Stretch]) -> f64 {
     side.iter().filter_map(|s| s.length(pattern.pieces.get(&s.piece)?)).sum()
 }
 
-/// Keeps lengths that are equal so, and the ratio of those that are not.
+/// Sets the ratio of lengths that the seam keeps: 1 if the lengths are nearly equal, else their present ratio; None without
+/// `keep`.
 fn with_ratio(pattern: &Pattern, seam: Seam, keep: bool) -> Seam {
     let [a, b] = seam.sides.map(|side| total(pattern, &[side]));
     let ratio = if (a / b.max(1e-9) - 1.0).abs() > EQUAL { a / b.max(1e-9) } else { 1.0 };
     Seam { ratio: keep.then_some(ratio), ..seam }
 }
 
-/// The place on an edge, drawn on by its ends and middle.
+/// The place on an edge at `p`; it snaps to the edge's ends, middle and notches.
 fn place(table: &Table<'_>, p: DVec2, input: &Input) -> Option<OnEdge> {
     table.edge_at(p).map(|on| drawn_on(table, on, input))
 }
 
-/// The nearest place on the line that `from` is on.
+/// The nearest place on the closed line that contains `from`.
 fn place_on_line(table: &Table<'_>, p: DVec2, from: OnEdge, input: &Input) -> Option<OnEdge> {
     let (piece, shape) = table.piece(from.edge.piece)?;
     let (line, first) = piece.loop_of(from.edge.edge);
@@ -296,7 +297,7 @@ fn drawn_on(table: &Table<'_>, mut on: OnEdge, input: &Input) -> OnEdge {
     on
 }
 
-/// The shorter way round from one place on a line to another, as it is drawn.
+/// The shorter of the two stretches between two places on a closed line, in the line's direction.
 fn between(table: &Table<'_>, from: OnEdge, to: OnEdge) -> Option<Stretch> {
     let (piece, shape) = table.piece(from.edge.piece)?;
     let one = stretch(piece, from, to)?;
@@ -306,7 +307,7 @@ fn between(table: &Table<'_>, from: OnEdge, to: OnEdge) -> Option<Stretch> {
     (length(&shorter) > 1e-3 && !shape.edges.is_empty()).then_some(shorter)
 }
 
-/// From one place to another the way the line is drawn.
+/// The stretch from one place to another in the line's direction.
 fn stretch(piece: &Piece, from: OnEdge, to: OnEdge) -> Option<Stretch> {
     let (line, first) = piece.loop_of(from.edge.edge);
     let count = piece.loop_edges(line).len();
@@ -325,21 +326,21 @@ fn stretch(piece: &Piece, from: OnEdge, to: OnEdge) -> Option<Stretch> {
     Some(Stretch { piece: from.edge.piece, edge: edge + first, from: start, further, to: end })
 }
 
-/// One way of going along a stretch: the part of it between two shares of its length.
+/// A stretch with its length and the direction in which it is sewn.
 #[derive(Clone, Copy, Debug)]
 struct Run {
     stretch: Stretch,
     length: f64,
-    /// Along the line as it is drawn.
+    /// Whether it is sewn in the line's own direction.
     forward: bool,
 }
 
-/// The seams that join two sides, untwisted: one to one where both have as many stretches, else cut where the other side
-/// has an end, in proportion to the lengths.
+/// The untwisted seams that join two sides: one to one if both have equally many stretches. Otherwise each side is cut where the
+/// other has an end, in proportion to the lengths.
 pub fn seams(pattern: &Pattern, sides: &[Vec<Stretch>; 2]) -> Vec<Seam> {
     let Some(reference) = sides[0].first() else { return Vec::new() };
-    // A stretch is sewn along as its line is drawn, on the other side against it; where a piece is drawn from its back, the
-    // other way round.
+    // A stretch of the first side is sewn in its line's direction, one of the second side against it; on pieces drawn from their
+    // back it is the other way round.
     let faces = |stretch: &Stretch| !untwisted(pattern, &[*reference, *stretch]);
     let [a, b] = [0, 1].map(|k| runs(pattern, &sides[k], |stretch| faces(stretch) == (k == 0)));
     let (Some(a), Some(b)) = (a, b) else { return Vec::new() };
@@ -372,7 +373,7 @@ pub fn seams(pattern: &Pattern, sides: &[Vec<Stretch>; 2]) -> Vec<Seam> {
     cuts.windows(2).filter_map(join).collect()
 }
 
-/// Shares of a side's length at which its runs begin and end.
+/// Fractions of a side's length at which its runs begin and end.
 fn ends(runs: &[Run]) -> Vec<f64> {
     let total: f64 = runs.iter().map(|run| run.length).sum();
     let mut ends = vec![0.0];
@@ -382,7 +383,8 @@ fn ends(runs: &[Run]) -> Vec<f64> {
     ends
 }
 
-/// A side in the order it is sewn along, each stretch the way `forward` says. Stretches of one line follow each other as they lie on it; others in the order they were chosen.
+/// The stretches of a side in sewing order, each with the direction that `forward` gives. Stretches of one line are ordered along
+/// it; others keep the order in which they were chosen.
 fn runs(pattern: &Pattern, side: &[Stretch], forward: impl Fn(&Stretch) -> bool) -> Option<Vec<Run>> {
     let run = |&stretch: &Stretch| {
         let piece = pattern.pieces.get(&stretch.piece)?;
@@ -408,7 +410,7 @@ fn runs(pattern: &Pattern, side: &[Stretch], forward: impl Fn(&Stretch) -> bool)
             let end = (x.stretch.edge - start + x.stretch.further + usize::from(x.stretch.to >= 1.0)) % count;
             end == y.stretch.edge - start
         };
-        // Where the line's first edge is one of several that run on, it does not begin there.
+        // If consecutive stretches run across the line's first edge, the side begins at the gap instead.
         let n = runs.len();
         let gap = (0..n).find(|&i| !follows(&runs[(i + n - 1) % n], &runs[i]));
         runs.rotate_left(gap.unwrap_or(0));
@@ -419,7 +421,7 @@ fn runs(pattern: &Pattern, side: &[Stretch], forward: impl Fn(&Stretch) -> bool)
     Some(runs)
 }
 
-/// The part of a run between two shares of its length.
+/// The part of a run between two fractions of its length.
 fn part(pattern: &Pattern, run: &Run, [from, to]: [f64; 2]) -> Option<Stretch> {
     if from <= 1e-9 && to >= 1.0 - 1e-9 {
         return Some(run.stretch);

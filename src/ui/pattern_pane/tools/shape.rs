@@ -1,4 +1,4 @@
-//! Draws rectangles and ellipses: drag from corner to corner, or click both, or type the size.
+//! The tools that draw rectangles and ellipses: drag from corner to corner, click both corners, or type the size.
 
 use egui::{CursorIcon, Stroke};
 use glam::DVec2;
@@ -14,30 +14,30 @@ use crate::ui::pattern_pane::table::Table;
 use crate::ui::preferences::units::Typed;
 use crate::ui::selection::Item;
 
-/// Smaller ones are a slip of the hand, metres.
+/// Smallest side, metres; a smaller shape was drawn by accident.
 const LEAST: f64 = 0.002;
-/// Control points of a quarter of a circle, as a share of its radius.
+/// Length of the control arms of a cubic that approximates a quarter circle, relative to the radius.
 const KAPPA: f64 = 0.552_284_75;
 
-/// A rectangle or an ellipse.
+/// The tool that draws rectangles or ellipses.
 #[derive(Debug)]
 pub struct Shape {
     is_ellipse: bool,
     /// The first corner.
     from: Option<DVec2>,
-    /// The button is down since the first corner.
+    /// Whether the button is still down since the first corner.
     dragging: bool,
-    /// Where the other corner would be.
+    /// Position of the opposite corner.
     next: Option<Snapped>,
 }
 
 impl Shape {
-    /// Draws rectangles.
+    /// The tool that draws rectangles.
     pub fn rectangle() -> Self {
         Self { is_ellipse: false, from: None, dragging: false, next: None }
     }
 
-    /// Draws ellipses.
+    /// The tool that draws ellipses.
     pub fn ellipse() -> Self {
         Self { is_ellipse: true, ..Self::rectangle() }
     }
@@ -74,7 +74,7 @@ impl Shape {
         (0..4).map(edge).collect()
     }
 
-    /// The other corner; with Shift as far across as up.
+    /// The opposite corner; with Shift the shape is as wide as it is high.
     fn other(&self, table: &Table<'_>, p: DVec2, input: &Input) -> Snapped {
         let found = table.snapped(p, None, egui::Modifiers { shift: false, ..input.held }, |_| false);
         match self.from.filter(|_| input.held.shift) {
@@ -155,7 +155,7 @@ impl PatternTool for Shape {
             return Err("that is too small".to_owned());
         }
         let from = self.from.unwrap_or_default();
-        // Typed without signs it grows the way the pointer goes.
+        // A typed size has no signs; the shape grows in the direction of the pointer.
         let way = self.next.map_or(DVec2::ONE, |next| next.place - from);
         let signed = |size: f64, way: f64| if way < 0.0 { -size } else { size };
         self.make(table, from + DVec2::new(signed(size.x, way.x), signed(size.y, way.y)), asks);
