@@ -184,6 +184,11 @@ fn a_journal_cut_anywhere_gives_what_came_before() {
             assert_eq!(command, &Command::RenamePiece { piece: PieceId(1), name: name.clone() });
         }
     }
+    // One that is there and cannot be read is not one without commands.
+    fs::remove_file(&journal).expect("gone");
+    fs::create_dir(&journal).expect("a folder in its place");
+    let found = work.read().expect("read");
+    assert_eq!((found.commands.len(), found.lost), (0, 1));
 }
 
 #[test]

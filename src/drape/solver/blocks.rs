@@ -131,8 +131,7 @@ impl BlockMatrix {
                     self.values[at..at + own + 3 * below.len()].fill(0.0);
                     self.values[at] = 1.0;
                 } else {
-                    for (k, &i) in below.iter().enumerate().filter(|&(_, &i)| held[i as usize]) {
-                        let _ = i;
+                    for (k, _) in below.iter().enumerate().filter(|&(_, &i)| held[i as usize]) {
                         self.values[at + own + 3 * k..][..3].fill(0.0);
                     }
                 }

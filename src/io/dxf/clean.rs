@@ -28,8 +28,6 @@ pub struct Clean {
     pub notes: Vec<String>,
     /// `$INSUNITS`, if it is there.
     pub units: Option<i64>,
-    /// `$MEASUREMENT`, if it is there: 0 inches, 1 metric. It is not used: metric alone does not tell which unit.
-    pub measurement: Option<i64>,
     /// Number of entities (shapes and texts) kept.
     pub entities: usize,
 }
@@ -297,14 +295,13 @@ impl<'l> Cleaner<'l> {
         }
     }
 
-    /// Takes the two unit variables out of the header, all of whose variables are tags of its SECTION record.
+    /// Reads `$INSUNITS` from the header, all of whose variables are tags of its SECTION record.
     fn read_header(&mut self, record: &Record<'_>) {
         let value = |name: &str| {
             let at = record.tags.iter().position(|t| t.code == 9 && t.value == name)?;
             record.tags.get(at + 1)?.value.parse::<i64>().ok()
         };
         self.out.units = value("$INSUNITS");
-        self.out.measurement = value("$MEASUREMENT");
     }
 
     fn end_section(&mut self) {

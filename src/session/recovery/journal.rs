@@ -55,10 +55,10 @@ impl Journal {
 }
 
 /// The commands in the journal at `path`, up to the first damaged line, and how many lines are lost by that. A truncated last
-/// line counts as one.
+/// line counts as one, and so does a whole file that is too large or cannot be read.
 pub(super) fn read(path: &Path) -> (Vec<(u64, Command)>, usize) {
-    let small = std::fs::metadata(path).is_ok_and(|file| file.len() <= MOST_BYTES);
-    let bytes = if small { std::fs::read(path).unwrap_or_default() } else { Vec::new() };
+    let is_small = std::fs::metadata(path).is_ok_and(|file| file.len() <= MOST_BYTES);
+    let Some(bytes) = is_small.then(|| std::fs::read(path).ok()).flatten() else { return (Vec::new(), 1) };
     let mut lines = bytes.split(|&b| b == b'\n').filter(|line| !line.is_empty());
     let mut commands = Vec::new();
     while let Some(line) = lines.next() {
