@@ -12,8 +12,8 @@ fn draft_vertex(in: MeshVertex) -> Draft {
     let dye = in.colour.rgb * in.colour.rgb;
     var out: Draft;
     out.clip = frame.clip_from_world * vec4f(in.position, 1.0);
-    out.front = encoded(reflected(material.front.rgb * dye, normal, eye, 1.0, 1.0));
-    out.back = encoded(reflected(material.back.rgb * dye, -normal, eye, 1.0, 1.0));
+    out.front = encoded(reflected(material.front.rgb * dye, normal, normal, eye, 1.0, 1.0));
+    out.back = encoded(reflected(material.back.rgb * dye, -normal, -normal, eye, 1.0, 1.0));
     return out;
 }
 
@@ -25,4 +25,9 @@ fn draft_fragment(in: Draft, @builtin(front_facing) front: bool) -> @location(0)
 @fragment
 fn draft_sheer_fragment(in: Draft, @builtin(front_facing) front: bool) -> @location(0) vec4f {
     return vec4f(select(in.back, in.front, front), 0.45);
+}
+
+@fragment
+fn draft_open_fragment(in: Draft, @builtin(front_facing) front: bool) -> @location(0) vec4f {
+    return vec4f(select(in.back, in.front, front), material.gloss.z * select(1.0, 0.4, material.second.w == 7.0));
 }

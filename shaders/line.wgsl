@@ -5,7 +5,7 @@ struct Stroke {
     @location(2) offset_a: vec2f, // pixels, right and up
     @location(3) offset_b: vec2f,
     @location(4) colour: vec4f,
-    @location(5) size: vec3f,     // half width in pixels, lift towards the eye in metres and in half widths
+    @location(5) size: vec4f,     // half width in pixels, lift towards the eye in metres and in half widths, real width in metres
 }
 
 struct Capsule {
@@ -15,10 +15,14 @@ struct Capsule {
     @location(2) @interpolate(flat) radius: f32,
 }
 
-fn lifted(world: vec3f, size: vec3f) -> vec3f {
+// Size of a pixel at a view-space depth, metres.
+fn pixel_at(z: f32) -> f32 {
+    return 2.0 * mix(1.0, -z, frame.eye.w) / (frame.projection[1][1] * frame.viewport.y);
+}
+
+fn lifted(world: vec3f, size: vec4f) -> vec3f {
     let p = (frame.view * vec4f(world, 1.0)).xyz;
-    let pixel = 2.0 * mix(1.0, -p.z, frame.eye.w) / (frame.projection[1][1] * frame.viewport.y);
-    let lift = size.y + size.z * size.x * pixel;
+    let lift = size.y + size.z * size.x * pixel_at(p.z);
     if frame.eye.w < 0.5 {
         return p + vec3f(0.0, 0.0, lift);
     }
@@ -57,7 +61,10 @@ fn line_vertex(in: Stroke, @builtin(vertex_index) i: u32) -> Capsule {
     let direction = select(vec2f(1.0, 0.0), along / max(span, 1e-6), span > 1e-6);
     let across = vec2f(-direction.y, direction.x);
     let corner = corners[i];
-    let reach = in.size.x + 1.0;
+    let real = in.size.w * 0.5 / max(pixel_at(va.z), 1e-9);
+    let wanted = select(in.size.x, min(in.size.x, real), in.size.w > 0.0);
+    let radius = max(wanted, min(in.size.x, 0.5));
+    let reach = radius + 1.0;
     let at = mix(a, b, corner.x) + direction * (corner.x * 2.0 - 1.0) * reach + across * corner.y * reach;
     let end = select(ca, cb, corner.x > 0.5);
     let ndc = vec2f(at.x * frame.viewport.z * 2.0 - 1.0, 1.0 - at.y * frame.viewport.w * 2.0);
@@ -65,8 +72,9 @@ fn line_vertex(in: Stroke, @builtin(vertex_index) i: u32) -> Capsule {
     // Ends behind the eye leave no line.
     out.clip = select(vec4f(2.0, 2.0, 2.0, 1.0), vec4f(ndc * end.w, end.z, end.w), ca.w > 0.0 && cb.w > 0.0);
     out.ends = vec4f(a, b);
-    out.colour = in.colour;
-    out.radius = in.size.x;
+    // Thinner than a pixel is paler.
+    out.colour = vec4f(in.colour.rgb, in.colour.a * clamp(wanted / max(radius, 1e-6), 0.0, 1.0));
+    out.radius = radius;
     return out;
 }
 

@@ -5,6 +5,8 @@ use std::sync::LazyLock;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
+use crate::cloth::look::FabricLook;
+
 /// The presets as JSON, each with the source of its figures.
 const PRESETS: &str = include_str!("../../assets/fabrics/presets.json");
 
@@ -32,6 +34,9 @@ pub struct Fabric {
     /// Source of the figures.
     #[serde(default)]
     pub source: String,
+    /// Appearance.
+    #[serde(default)]
+    pub look: FabricLook,
 }
 
 /// Membrane stiffness: force per metre of width and unit of strain.
@@ -84,6 +89,7 @@ impl Fabric {
             friction: 0.3,
             damping_per_s: 0.0,
             source: String::new(),
+            look: FabricLook::default(),
         }
     }
 
@@ -110,6 +116,7 @@ impl Fabric {
             friction,
             damping_per_s,
             source: _,
+            look,
         } = self;
         let Stretch { warp, weft, shear, poisson } = *stretch;
         let outside = |what: &str, value: f64, least: f64, most: f64| {
@@ -131,6 +138,7 @@ impl Fabric {
             .or_else(|| {
                 (bending.twist() < 0.0).then(|| "bending bias is too small beside warp and weft".to_owned())
             })
+            .or_else(|| look.problem())
     }
 }
 

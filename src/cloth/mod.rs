@@ -7,6 +7,7 @@ pub mod distance;
 pub mod fabric;
 pub mod garment;
 pub mod locate;
+pub mod look;
 pub mod refine;
 pub mod skips;
 
@@ -17,4 +18,5 @@ pub use distance::{EdgeMetric, Reached};
 pub use fabric::Fabric;
 pub use garment::{ClothState, Corner, Garment};
 pub use locate::{FlatPiece, FlatPlace};
+pub use look::{FabricLook, Weave};
 pub use skips::{Skip, Skips};

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use bytemuck::{Pod, Zeroable};
-use glam::{Vec3, Vec4};
+use glam::{Vec2, Vec3, Vec4};
 
 use super::frame::linear;
 use super::pipelines::{MESH_STRIDE, Pipelines};
@@ -28,13 +28,33 @@ struct Vertex {
     position: Vec3,
     normal: Vec3,
     colour: [u8; 4],
+    flat: Vec2,
 }
 
+/// Matches `Material` in shaders/material.wgsl.
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
 struct Material {
     front: Vec4,
     back: Vec4,
+    second: Vec4,
+    threads: Vec4,
+    gloss: Vec4,
+}
+
+impl Material {
+    fn of(mesh: &Mesh) -> Self {
+        let textile = &mesh.textile;
+        let weave = if mesh.flat.is_empty() { 0 } else { textile.weave };
+        let second = linear(textile.second.unwrap_or(mesh.front));
+        Self {
+            front: linear(mesh.front).extend(mesh.cloth),
+            back: linear(mesh.back).extend(0.0),
+            second: second.extend(weave as f32),
+            threads: Vec4::new(textile.pitch, textile.relief, textile.sheen, textile.slubs),
+            gloss: Vec4::new(textile.gloss, textile.roughness, textile.cover, textile.along),
+        }
+    }
 }
 
 /// Uploads the meshes of one picture, reusing those of the last one. `wire` also makes the edge buffers of cloth.
@@ -71,16 +91,12 @@ impl DeviceMesh {
         let count = mesh.positions.len() as u32;
         let indices: Vec<[u32; 3]> =
             mesh.triangles.iter().copied().filter(|t| t.iter().all(|&v| v < count)).collect();
-        let material =
-            Material { front: linear(mesh.front).extend(mesh.cloth), back: linear(mesh.back).extend(0.0) };
+        let (vertices, indices) = flat_vertices(mesh, vertices(mesh), indices);
+        let material = Material::of(mesh);
         let material = gpu.buffer("material", bytemuck::bytes_of(&material), wgpu::BufferUsages::UNIFORM);
         Ok(Self {
             mesh: Arc::clone(mesh),
-            vertices: gpu.buffer(
-                "vertices",
-                bytemuck::cast_slice(&vertices(mesh)),
-                wgpu::BufferUsages::VERTEX,
-            ),
+            vertices: gpu.buffer("vertices", bytemuck::cast_slice(&vertices), wgpu::BufferUsages::VERTEX),
             indices: gpu.buffer("indices", bytemuck::cast_slice(&indices), wgpu::BufferUsages::INDEX),
             index_count: indices.len() as u32 * 3,
             edges: None,
@@ -91,6 +107,11 @@ impl DeviceMesh {
     /// Whether the mesh is woven cloth, not skin.
     pub(super) fn is_cloth(&self) -> bool {
         self.mesh.cloth > 0.5
+    }
+
+    /// Whether it is transparent cloth.
+    pub(super) fn is_open(&self) -> bool {
+        self.is_cloth() && self.mesh.textile.is_open
     }
 
     fn edge_buffer(&self, gpu: &Gpu) -> (wgpu::Buffer, u32) {
@@ -125,9 +146,41 @@ fn vertices(mesh: &Mesh) -> Vec<Vertex> {
         .enumerate()
         .map(|(i, (&position, &normal))| {
             let [r, g, b] = if coloured { mesh.colours[i] } else { [255; 3] };
-            Vertex { position, normal, colour: [r, g, b, 255] }
+            Vertex { position, normal, colour: [r, g, b, 255], flat: Vec2::ZERO }
         })
         .collect()
+}
+
+/// Writes texture coordinates into `vertices`. A vertex with several, as on a seam, is duplicated; returns the vertices and the
+/// triangles that use them.
+fn flat_vertices(
+    mesh: &Mesh,
+    mut vertices: Vec<Vertex>,
+    mut triangles: Vec<[u32; 3]>,
+) -> (Vec<Vertex>, Vec<[u32; 3]>) {
+    if mesh.flat.len() != triangles.len() {
+        return (vertices, triangles);
+    }
+    // Next duplicate of each vertex, and whether its coordinates are set.
+    let mut next: Vec<u32> = vec![u32::MAX; vertices.len()];
+    let mut is_set = vec![false; vertices.len()];
+    for (triangle, flat) in triangles.iter_mut().zip(&mesh.flat) {
+        for (corner, &place) in triangle.iter_mut().zip(flat) {
+            let mut v = *corner as usize;
+            while is_set[v] && vertices[v].flat != place && next[v] != u32::MAX {
+                v = next[v] as usize;
+            }
+            if is_set[v] && vertices[v].flat != place {
+                let twin = vertices.len();
+                vertices.push(vertices[v]);
+                (next[v], v) = (twin as u32, twin);
+                next.push(u32::MAX);
+                is_set.push(false);
+            }
+            (vertices[v].flat, is_set[v], *corner) = (place, true, v as u32);
+        }
+    }
+    (vertices, triangles)
 }
 
 fn area_weighted_normals(mesh: &Mesh) -> Vec<Vec3> {
@@ -158,6 +211,22 @@ pub(super) fn bind(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_vertex_on_a_seam_has_a_place_on_either_side() {
+        let [a, b, c, d] = [Vec2::ZERO, Vec2::X, Vec2::Y, Vec2::ONE];
+        let mesh = Mesh {
+            positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::ONE],
+            triangles: vec![[0, 1, 2], [2, 1, 3], [1, 0, 3]],
+            flat: vec![[a, b, c], [c, b, d], [d, a, c]],
+            ..Mesh::default()
+        };
+        let (vertices, triangles) = flat_vertices(&mesh, vertices(&mesh), mesh.triangles.clone());
+        assert_eq!(triangles, [[0, 1, 2], [2, 1, 3], [4, 0, 5]]);
+        let flat: Vec<Vec2> = triangles.iter().flatten().map(|&v| vertices[v as usize].flat).collect();
+        assert_eq!(flat, mesh.flat.concat());
+        assert!(vertices[4].position == Vec3::X && vertices[5].position == Vec3::ONE);
+    }
 
     #[test]
     fn every_edge_is_drawn_once() {

@@ -19,6 +19,7 @@ pub mod scene;
 mod shaders;
 mod strokes;
 pub mod target;
+pub mod textile;
 pub mod view;
 
 pub use camera::{Camera, PixelRay, Projected, Projection};
@@ -31,4 +32,5 @@ pub use picture::{Studio, picture, png, save_png, straightened};
 pub use renderer::Renderer;
 pub use scene::{Ground, Label, Mesh, Polyline, Rgb, Scene};
 pub use target::{OffscreenTarget, Quality};
+pub use textile::Textile;
 pub use view::View;

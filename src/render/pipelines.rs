@@ -34,14 +34,16 @@ pub(super) struct Pictured {
     pub(super) line: wgpu::RenderPipeline,
     /// Transparent meshes.
     pub(super) sheer: wgpu::RenderPipeline,
+    /// Transparent cloth, such as a net.
+    pub(super) open: wgpu::RenderPipeline,
     /// Edges of triangles (wireframe).
     pub(super) wire: wgpu::RenderPipeline,
     /// Lines and labels without depth test, drawn faintly where something hides them.
     pub(super) faint: wgpu::RenderPipeline,
 }
 
-/// Size of a mesh vertex (position, normal, colour), bytes.
-pub(super) const MESH_STRIDE: u64 = 28;
+/// Size of a mesh vertex (position, normal, colour, texture coordinates), bytes.
+pub(super) const MESH_STRIDE: u64 = 36;
 
 impl Pipelines {
     pub(super) fn new(gpu: &Gpu) -> Self {
@@ -142,8 +144,8 @@ impl Pictured {
             samples,
             ..Pass::new(&ground, "ground_vertex")
         };
-        let sheer = ("sheer_fragment", Some(sheer_target(samples)));
-        Self::of(make, samples, ground, opaque.clone(), opaque, sheer)
+        let fragments = ["sheer_fragment", "open_fragment"];
+        Self::of(make, samples, ground, opaque.clone(), opaque, fragments)
     }
 
     /// Pipelines for drafts: lit per vertex, without textures.
@@ -162,8 +164,8 @@ impl Pictured {
             ..Pass::new(&ground, "ground_vertex")
         };
         let skin = Pass { cull: Some(wgpu::Face::Back), ..cloth.clone() };
-        let sheer = ("draft_sheer_fragment", Some(sheer_target(1)));
-        Self::of(make, 1, ground, cloth, skin, sheer)
+        let fragments = ["draft_sheer_fragment", "draft_open_fragment"];
+        Self::of(make, 1, ground, cloth, skin, fragments)
     }
 
     fn of(
@@ -172,7 +174,7 @@ impl Pictured {
         ground: Pass<'_>,
         cloth: Pass<'_>,
         skin: Pass<'_>,
-        sheer: (&str, Option<wgpu::ColorTargetState>),
+        [sheer, open]: [&str; 2],
     ) -> Self {
         let background = make.module(&shaders::background());
         let line = make.module(&shaders::line());
@@ -193,9 +195,14 @@ impl Pictured {
             }),
             ground: make.pipeline(ground),
             sheer: make.pipeline(Pass {
-                fragment: Some(sheer),
+                fragment: Some((sheer, Some(sheer_target(samples)))),
                 covers_by_alpha: samples > 1,
                 ..skin.clone()
+            }),
+            open: make.pipeline(Pass {
+                fragment: Some((open, Some(sheer_target(samples)))),
+                covers_by_alpha: samples > 1,
+                ..cloth.clone()
             }),
             cloth: make.pipeline(cloth),
             skin: make.pipeline(skin),
@@ -330,8 +337,8 @@ fn sheer_target(samples: u32) -> wgpu::ColorTargetState {
 }
 
 fn mesh_vertices() -> wgpu::VertexBufferLayout<'static> {
-    const ATTRIBUTES: [wgpu::VertexAttribute; 3] =
-        wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Unorm8x4];
+    const ATTRIBUTES: [wgpu::VertexAttribute; 4] =
+        wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Unorm8x4, 3 => Float32x2];
     wgpu::VertexBufferLayout {
         array_stride: MESH_STRIDE,
         step_mode: wgpu::VertexStepMode::Vertex,
@@ -341,7 +348,7 @@ fn mesh_vertices() -> wgpu::VertexBufferLayout<'static> {
 
 fn stroke_instances() -> wgpu::VertexBufferLayout<'static> {
     const ATTRIBUTES: [wgpu::VertexAttribute; 6] = wgpu::vertex_attr_array![
-        0 => Float32x3, 1 => Float32x3, 2 => Float32x2, 3 => Float32x2, 4 => Unorm8x4, 5 => Float32x3
+        0 => Float32x3, 1 => Float32x3, 2 => Float32x2, 3 => Float32x2, 4 => Unorm8x4, 5 => Float32x4
     ];
     wgpu::VertexBufferLayout {
         array_stride: size_of::<Stroke>() as u64,

@@ -138,7 +138,7 @@ impl Renderer {
         let mut pass = begin(encoder, "shadow map", None, Some((&self.shadow_map, 1.0)));
         pass.set_bind_group(0, &bound.frame, &[]);
         pass.set_pipeline(&self.pipelines.shadow);
-        self.draw_meshes(&mut pass, false, |_| true);
+        self.draw_meshes(&mut pass, false, |mesh| !mesh.is_open());
     }
 
     fn draw_hollows(&self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, bound: &Bound, half: &HalfSize) {
@@ -153,7 +153,7 @@ impl Renderer {
                 pass.draw(0..6, 0..1);
             }
             pass.set_pipeline(&self.pipelines.depth);
-            self.draw_meshes(&mut pass, false, |_| true);
+            self.draw_meshes(&mut pass, false, |mesh| !mesh.is_open());
         }
         for (label, pipeline, inputs, output) in [
             ("hollows", &self.pipelines.hollows, &hollows, &half.rough_hollows),
@@ -195,9 +195,11 @@ impl Renderer {
         // A cut-out picture has no background that could show through.
         let sheer = look.sheer && !look.cut_out;
         pass.set_pipeline(&with.cloth);
-        self.draw_meshes(&mut pass, true, DeviceMesh::is_cloth);
+        self.draw_meshes(&mut pass, true, |mesh| mesh.is_cloth() && !mesh.is_open());
         pass.set_pipeline(if sheer { &with.sheer } else { &with.skin });
         self.draw_meshes(&mut pass, true, |mesh| !mesh.is_cloth());
+        pass.set_pipeline(&with.open);
+        self.draw_meshes(&mut pass, true, DeviceMesh::is_open);
         if look.wire {
             self.draw_wires(&mut pass, with);
         }

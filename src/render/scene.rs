@@ -4,6 +4,8 @@ use std::sync::Arc;
 
 use glam::{Vec2, Vec3};
 
+use super::textile::Textile;
+
 /// An sRGB colour: red, green, blue, 0..=255.
 pub type Rgb = [u8; 3];
 
@@ -24,6 +26,10 @@ pub struct Mesh {
     pub back: Rgb,
     /// Material: 0 is skin and plaster, 1 woven cloth, which has a soft sheen at grazing angles.
     pub cloth: f32,
+    /// Texture coordinates of the corners of each triangle: places in the flat cloth, metres, y along the grain. Empty: no texture.
+    pub flat: Vec<[Vec2; 3]>,
+    /// Surface of the cloth; its weave needs `flat`.
+    pub textile: Textile,
 }
 
 impl Mesh {
@@ -54,6 +60,8 @@ pub struct Polyline {
     pub lift: f32,
     /// Additional depth bias in half widths of the line: 1.5 keeps both sides above a surface seen at a slant.
     pub lift_widths: f32,
+    /// Real width, metres: from afar the line is thinner than `width`, then paler. 0: `width` at any distance.
+    pub thickness: f32,
 }
 
 /// A number on a badge that always faces the eye.

@@ -12,6 +12,7 @@ pub(super) struct Shader {
 const FRAME: &str = include_str!("../../shaders/frame.wgsl");
 const LIGHT: &str = include_str!("../../shaders/light.wgsl");
 const MATERIAL: &str = include_str!("../../shaders/material.wgsl");
+const TEXTILE: &str = include_str!("../../shaders/textile.wgsl");
 const FLOOR: &str = include_str!("../../shaders/floor.wgsl");
 
 fn shader(name: &'static str, headers: &[&str], own: &str) -> Shader {
@@ -27,7 +28,7 @@ pub(super) fn ground() -> Shader {
 }
 
 pub(super) fn mesh() -> Shader {
-    shader("mesh.wgsl", &[FRAME, LIGHT, MATERIAL], include_str!("../../shaders/mesh.wgsl"))
+    shader("mesh.wgsl", &[FRAME, LIGHT, MATERIAL, TEXTILE], include_str!("../../shaders/mesh.wgsl"))
 }
 
 pub(super) fn draft() -> Shader {
@@ -85,7 +86,7 @@ mod tests {
     #[test]
     fn every_file_is_used() {
         let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/shaders");
-        let headers = ["frame.wgsl", "light.wgsl", "material.wgsl", "floor.wgsl"];
+        let headers = ["frame.wgsl", "light.wgsl", "material.wgsl", "textile.wgsl", "floor.wgsl"];
         let used = headers.into_iter().chain(all().map(|s| s.name));
         let used: std::collections::BTreeSet<String> = used.map(str::to_owned).collect();
         let found: std::collections::BTreeSet<String> = std::fs::read_dir(folder)

@@ -17,6 +17,8 @@ pub(super) struct Stroke {
     half_width: f32,
     lift: f32,
     lift_widths: f32,
+    /// Real width, metres; 0: none.
+    thickness: f32,
 }
 
 /// All capsules in drawing order: borders of lines, lines, then each label with its badge and digits. `scale` is the number of
@@ -47,6 +49,7 @@ fn push_line(all: &mut Vec<Stroke>, line: &Polyline, colour: [u8; 4], half_width
             half_width,
             lift: line.lift,
             lift_widths: line.lift_widths,
+            thickness: line.thickness,
         });
     };
     match line.points.as_slice() {
@@ -76,6 +79,7 @@ fn push_badge(all: &mut Vec<Stroke>, label: &Label, scale: f32) {
             half_width: half_width * height,
             lift: label.lift,
             lift_widths: 0.0,
+            thickness: 0.0,
         });
     }
 }
@@ -99,6 +103,7 @@ fn push_digits(all: &mut Vec<Stroke>, label: &Label, scale: f32) {
                     half_width: 0.085 * height,
                     lift: label.lift,
                     lift_widths: 0.0,
+                    thickness: 0.0,
                 });
             }
         }
@@ -243,6 +248,7 @@ mod tests {
             halo_width: 1.0,
             lift: 0.0,
             lift_widths: 0.0,
+            thickness: 0.0,
         };
         let all = strokes(&[line], &[], 2.0);
         assert_eq!(all.len(), 6);

@@ -4,10 +4,12 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use glam::{UVec2, Vec2, Vec3};
+use toile::cloth::{Fabric, FabricLook, Weave};
 use toile::render::{
     BODY, CLOTH_BACK, CLOTH_FRONT, Camera, Ground, Label, Look, Mesh, Polyline, RenderError, Scene, Studio,
-    View,
+    Textile, View,
 };
+use toile::ui::scenery::fabric_looks::textile;
 
 const SIZE: UVec2 = UVec2::new(320, 240);
 
@@ -152,6 +154,70 @@ fn a_number_is_drawn_beside_its_anchor() {
     // White strokes of the digit on the badge.
     let white = (90..110).filter(|&y| image.get_pixel(160, y)[0] > 230).count();
     assert!((3..12).contains(&white), "{white}");
+}
+
+/// A square of cloth with sides of `side` metres that faces the eye.
+fn swatch(look: &FabricLook, side: f32) -> Mesh {
+    let flat = [Vec2::ZERO, Vec2::X, Vec2::ONE, Vec2::Y].map(|p| (p - 0.5) * side);
+    let triangles = vec![[0u32, 1, 2], [0, 2, 3]];
+    Mesh {
+        positions: flat.map(|p| p.extend(0.0)).to_vec(),
+        flat: triangles.iter().map(|t| t.map(|v| flat[v as usize])).collect(),
+        triangles,
+        front: look.colour.unwrap_or(CLOTH_FRONT),
+        back: CLOTH_BACK,
+        cloth: 1.0,
+        textile: textile(look),
+        ..Mesh::default()
+    }
+}
+
+/// Mean and standard deviation of the brightness in the middle of a picture of `mesh`, which is saved as `name` in the folder
+/// TOILE_PICTURES.
+fn brightness(studio: &mut Studio, mesh: Mesh, name: Option<&str>) -> (f64, f64) {
+    let scene = Scene { meshes: vec![Arc::new(mesh)], ..Default::default() };
+    let image = studio.picture(&scene, View::Front, &Look::light(), SIZE).expect("a picture");
+    if let (Some(folder), Some(name)) = (std::env::var_os("TOILE_PICTURES"), name) {
+        image.save(std::path::Path::new(&folder).join(format!("{name}.png"))).expect("saved");
+    }
+    let place = |i: u32| (120 + i % 80, 80 + i / 80);
+    let values: Vec<f64> = (0..80 * 80).map(place).map(|(x, y)| f64::from(pixel(&image, x, y)[1])).collect();
+    let mean = values.iter().sum::<f64>() / values.len() as f64;
+    (mean, (values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / values.len() as f64).sqrt())
+}
+
+#[test]
+fn every_fabric_shows_its_weave_from_near_and_no_pattern_of_pixels_from_afar() {
+    let Some(mut studio) = studio() else { return };
+    for fabric in Fabric::presets() {
+        let (name, look) = (&fabric.name, &fabric.look);
+        assert!(look.weave != Weave::Smooth, "{name}");
+        let (near, rough) = brightness(&mut studio, swatch(look, 12.0 * look.pitch_m as f32), Some(name));
+        assert!(rough > 2.0, "{name}: {rough} from near");
+        let (far, smooth) = brightness(&mut studio, swatch(look, 600.0 * look.pitch_m as f32), None);
+        let open = if look.is_open() { 20.0 } else { 3.0 };
+        assert!(smooth < open, "{name}: {smooth} from afar");
+        // What threads and gaps are together is what is seen from afar.
+        assert!((near - far).abs() < 26.0, "{name}: {near} from near, {far} from afar");
+    }
+}
+
+#[test]
+fn what_lies_behind_is_seen_through_open_cloth_only() {
+    let Some(mut studio) = studio() else { return };
+    let mut over_black = |name: &str| {
+        let look = Fabric::preset(name).expect("a preset").look;
+        let cloth = swatch(&look, 0.3);
+        let mut wall = Mesh { front: [0; 3], textile: Textile::default(), flat: Vec::new(), ..cloth.clone() };
+        wall.positions.iter_mut().for_each(|p| p.z = -0.1);
+        let alone = brightness(&mut studio, cloth.clone(), None).0;
+        let scene = Scene { meshes: vec![Arc::new(wall), Arc::new(cloth)], ..Default::default() };
+        let image = studio.picture(&scene, View::Front, &Look::light(), SIZE).expect("a picture");
+        let middle: i32 = (0..400).map(|i| pixel(&image, 150 + i % 20, 110 + i / 20)[1]).sum();
+        alone - f64::from(middle) / 400.0
+    };
+    assert!(over_black("tulle") > 60.0 && over_black("chiffon") > 40.0);
+    assert!(over_black("linen").abs() < 6.0);
 }
 
 #[test]

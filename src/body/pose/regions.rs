@@ -30,8 +30,8 @@ pub const JOINTS: [(&str, f64); 18] = [
 /// Radius of an arm or a thigh about its bone, metres on a figure of default height. Points belong to the bone to
 /// which their distance, divided by the radius, is smallest.
 const ARM: f64 = 0.045;
-const TRUNK: f64 = 0.135;
 /// Radius of the trunk about its bones, metres on a figure of default height; see [`ARM`].
+const TRUNK: f64 = 0.135;
 
 /// The skeleton's division of space into regions.
 pub struct Regions<'a> {

@@ -91,7 +91,7 @@ impl Measure<'_> {
     /// Whether the figure is worse than `before` by more than [`BEARABLE`].
     fn is_loss_from(&self, before: f64) -> bool {
         let bearable = before.abs() * BEARABLE;
-        if self.is_rate { self.value < before - bearable } else { !(self.value <= before + bearable) }
+        if self.is_rate { self.value < before - bearable } else { self.value > before + bearable }
     }
 }
 

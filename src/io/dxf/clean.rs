@@ -297,11 +297,8 @@ impl<'l> Cleaner<'l> {
 
     /// Reads `$INSUNITS` from the header, all of whose variables are tags of its SECTION record.
     fn read_header(&mut self, record: &Record<'_>) {
-        let value = |name: &str| {
-            let at = record.tags.iter().position(|t| t.code == 9 && t.value == name)?;
-            record.tags.get(at + 1)?.value.parse::<i64>().ok()
-        };
-        self.out.units = value("$INSUNITS");
+        let at = record.tags.iter().position(|t| t.code == 9 && t.value == "$INSUNITS");
+        self.out.units = at.and_then(|at| record.tags.get(at + 1)?.value.parse().ok());
     }
 
     fn end_section(&mut self) {

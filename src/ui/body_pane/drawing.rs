@@ -11,6 +11,7 @@ use crate::geometry::ids::MarkId;
 use crate::pattern::activity::Activity;
 use crate::render::{Look, Quality};
 use crate::session::Pin;
+use crate::ui::scenery::fabric_looks::named_looks;
 use crate::ui::scenery::ring::ring;
 use crate::ui::scenery::scene::{PinLook, Shown};
 
@@ -54,6 +55,7 @@ impl ScenePane {
             pins: pin_looks(seen),
             bones,
             activities: seen.document.pattern.activities(),
+            looks: Arc::new(named_looks(&seen.document.pattern, &seen.document.fabrics)),
             dragged: seen.dragged.cloned(),
             map: seen.map.map(|map| Arc::clone(&map.colours)),
             beside: seen.beside.cloned(),
@@ -63,6 +65,7 @@ impl ScenePane {
             stand_out: if seen.cloth.is_some() { seen.stand_out.to_vec() } else { Vec::new() },
         };
         let (pins, bones, activities) = (key.pins.clone(), key.bones.clone(), key.activities.clone());
+        let looks = Arc::clone(&key.looks);
         let mut outlines = outlines(&seen.document.pattern, &key.stand_out);
         outlines.extend(seen.spot.map(ring));
         let shown = Shown {
@@ -76,6 +79,7 @@ impl ScenePane {
             pins: &pins,
             bones: &bones,
             activities: Some(&activities),
+            looks: Some(&looks),
             whole: seen.whole.filter(|_| activities.values().any(Activity::is_deactivated)),
             dragged: seen.dragged,
             map: seen.map.map(|map| &map.colours),

@@ -15,6 +15,7 @@ use crate::render::{
     Camera, Gpu, Look, Mesh, OffscreenTarget, Quality, RenderError, Renderer, Rgb, Scene, straightened,
 };
 use crate::sim::ClothPlace;
+use crate::ui::scenery::fabric_looks::PieceLooks;
 use crate::ui::scenery::scene::PinLook;
 use crate::ui::selection::Item;
 use crate::wrap::Marks;
@@ -48,6 +49,8 @@ pub struct Key {
     pub bones: Vec<Bone>,
     /// Pieces that are not active.
     pub activities: BTreeMap<PieceId, Activity>,
+    /// Appearance of each piece.
+    pub looks: Arc<PieceLooks>,
     /// Fraction of the drag's motion that reaches each vertex.
     pub dragged: Option<Arc<Vec<f32>>>,
     /// Colours of the map.
@@ -82,6 +85,7 @@ impl PartialEq for Key {
             pins,
             bones,
             activities,
+            looks,
             dragged,
             map,
             beside,
@@ -96,6 +100,7 @@ impl PartialEq for Key {
             && *pins == other.pins
             && *bones == other.bones
             && *activities == other.activities
+            && *looks == other.looks
             && *stand_out == other.stand_out
             && *spot == other.spot
             && *near == other.near

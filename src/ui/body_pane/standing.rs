@@ -62,6 +62,7 @@ impl Standing {
                 front: cloth_front(layer),
                 back: CLOTH_BACK,
                 cloth: 1.0,
+                ..Mesh::default()
             })
         };
         self.meshes = Arc::new(of_pieces.into_iter().map(mesh).collect());

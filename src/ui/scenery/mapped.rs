@@ -1,6 +1,6 @@
 //! Cloth in the colours of a map. No egui here: pictures without a window use it too.
 
-use crate::render::{Mesh, Rgb};
+use crate::render::{Mesh, Rgb, Textile};
 
 /// Front and back colour under a map's colours, which are multiplied with it.
 const PLAIN: Rgb = [255; 3];
@@ -11,6 +11,8 @@ pub fn in_colours(mesh: &Mesh, colours: &[Rgb]) -> Option<Mesh> {
         colours: colours.to_vec(),
         front: PLAIN,
         back: PLAIN,
+        flat: Vec::new(),
+        textile: Textile::default(),
         ..mesh.clone()
     })
 }

@@ -1,6 +1,7 @@
 //! Converts document and cloth to what the renderer draws, with and without a window.
 
 pub(in crate::ui) mod covered;
+pub mod fabric_looks;
 pub mod mapped;
 pub(in crate::ui) mod parted;
 pub mod portrait;

@@ -3,10 +3,13 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use glam::Vec2;
+
 use crate::cloth::{ClothState, Garment};
 use crate::geometry::ids::PieceId;
 use crate::pattern::activity::Activity;
-use crate::render::{Mesh, Rgb, cloth_front};
+use crate::render::{Mesh, Rgb, Textile, cloth_front};
+use crate::ui::scenery::fabric_looks::{PieceLook, PieceLooks, flat};
 
 /// The colour that is mixed into frozen cloth, and its fraction.
 const ICE: (Rgb, f32) = ([96, 150, 226], 0.6);
@@ -16,26 +19,49 @@ const PALE: (Rgb, f32) = ([228, 228, 226], 0.8);
 /// hold, so cloth that moved has pulled them apart.
 const TORN: f64 = 1.5;
 
-/// Divides `whole`, the mesh of `garment`, into meshes of the active and of the frozen pieces of each layer, so that colours end
-/// exactly at seams.
+/// Divides `whole`, the mesh of `garment`, into meshes of the active and of the frozen pieces of each layer and appearance, so that
+/// colours end exactly at seams.
 pub fn parted(
     whole: Mesh,
     garment: &Garment,
     state: &ClothState,
     activities: &BTreeMap<PieceId, Activity>,
+    looks: &PieceLooks,
 ) -> Vec<Mesh> {
-    if activities.is_empty() && garment.layers.is_empty() {
+    if activities.is_empty() && garment.layers.is_empty() && looks.is_empty() {
         return vec![whole];
     }
+    let kinds: Vec<&PieceLook> = looks.values().fold(Vec::new(), |mut kinds, look| {
+        if !kinds.contains(&look) {
+            kinds.push(look);
+        }
+        kinds
+    });
+    let kind =
+        |piece: PieceId| looks.get(&piece).and_then(|look| kinds.iter().position(|kind| *kind == look));
     let layers: BTreeSet<u8> = garment.pieces.iter().map(|(piece, _)| garment.layer(*piece)).collect();
-    let of = |layer: u8, activity: Activity| {
-        let is_of =
-            |t: usize| garment.layer(garment.triangle_pieces[t]) == layer && is_laid(garment, state, t);
-        part(&Mesh { front: cloth_front(layer), ..whole.clone() }, garment, activities, activity, is_of)
-    };
-    let looks = [Activity::Active, Activity::Frozen];
-    let parts = looks.into_iter().flat_map(|look| layers.iter().map(move |&layer| (layer, look)));
-    parts.map(|(layer, look)| of(layer, look)).filter(|mesh| !mesh.triangles.is_empty()).collect()
+    let mut meshes = Vec::new();
+    for activity in [Activity::Active, Activity::Frozen] {
+        for &layer in &layers {
+            for look in (0..kinds.len()).map(Some).chain([None]) {
+                let is_of = |t: usize| {
+                    let piece = garment.triangle_pieces[t];
+                    garment.layer(piece) == layer && kind(piece) == look && is_laid(garment, state, t)
+                };
+                let own = worn_on(&whole, layer, look.map(|look| kinds[look]));
+                let grain = look.map(|look| kinds[look].grain);
+                meshes.push(part(&own, garment, activities, activity, (grain, is_of)));
+            }
+        }
+    }
+    meshes.retain(|mesh| !mesh.triangles.is_empty());
+    meshes
+}
+
+/// Gives `whole` the colours and surface of `look`, else the colours of `layer`.
+fn worn_on(whole: &Mesh, layer: u8, look: Option<&PieceLook>) -> Mesh {
+    let [front, back] = look.and_then(|look| look.colours).unwrap_or([cloth_front(layer), whole.back]);
+    Mesh { front, back, textile: look.map(|look| look.textile).unwrap_or_default(), ..whole.clone() }
 }
 
 /// The mesh of the deactivated pieces of `garment`, whose whole mesh is `whole`.
@@ -46,7 +72,7 @@ pub fn deactivated(
     activities: &BTreeMap<PieceId, Activity>,
 ) -> Mesh {
     let is_whole = |t: usize| is_laid(garment, state, t) && !is_torn(garment, state, t);
-    part(whole, garment, activities, Activity::Deactivated, is_whole)
+    part(whole, garment, activities, Activity::Deactivated, (None, is_whole))
 }
 
 fn part(
@@ -54,13 +80,16 @@ fn part(
     garment: &Garment,
     activities: &BTreeMap<PieceId, Activity>,
     activity: Activity,
-    is_seen: impl Fn(usize) -> bool,
+    (grain, is_seen): (Option<Vec2>, impl Fn(usize) -> bool),
 ) -> Mesh {
     let of = |t: &usize| activities.get(&garment.triangle_pieces[*t]).copied().unwrap_or_default();
     let all = (0..garment.triangles.len()).filter(|t| of(t) == activity && is_seen(*t));
-    let triangles: Vec<[u32; 3]> = all.map(|t| garment.triangles[t]).collect();
+    let all: Vec<usize> = all.collect();
+    let triangles: Vec<[u32; 3]> = all.iter().map(|&t| garment.triangles[t]).collect();
+    let flat = grain.map(|grain| all.iter().map(|&t| flat(garment, t, grain)).collect()).unwrap_or_default();
     let [front, back] = [whole.front, whole.back].map(|own| looks(own, activity));
-    Mesh { triangles, front, back, ..whole.clone() }
+    let second = whole.textile.second.map(|own| looks(own, activity));
+    Mesh { triangles, front, back, flat, textile: Textile { second, ..whole.textile }, ..whole.clone() }
 }
 
 fn is_laid(garment: &Garment, state: &ClothState, t: usize) -> bool {
@@ -109,7 +138,7 @@ mod tests {
     fn frozen_triangles_have_a_mesh_of_their_own() {
         let (garment, state, whole) = square();
         let parts = |activities: &[(PieceId, Activity)]| {
-            parted(whole.clone(), &garment, &state, &activities.iter().copied().collect())
+            parted(whole.clone(), &garment, &state, &activities.iter().copied().collect(), &PieceLooks::new())
         };
         assert_eq!(parts(&[]).len(), 1);
         let two = parts(&[(PieceId(2), Activity::Frozen)]);
@@ -124,7 +153,7 @@ mod tests {
         let (mut garment, state, whole) = square();
         garment.layers = BTreeMap::from([(PieceId(2), 1)]);
         let fronts = |activities: &BTreeMap<PieceId, Activity>| {
-            let meshes = parted(whole.clone(), &garment, &state, activities);
+            let meshes = parted(whole.clone(), &garment, &state, activities, &PieceLooks::new());
             meshes.iter().map(|mesh| (mesh.triangles.clone(), mesh.front)).collect::<Vec<_>>()
         };
         let two = fronts(&BTreeMap::new());
@@ -138,7 +167,10 @@ mod tests {
     fn deactivated_triangles_are_pale_and_left_out_where_they_would_be_drawn_out() {
         let (garment, mut state, whole) = square();
         let activities = BTreeMap::from([(PieceId(1), Activity::Deactivated)]);
-        assert_eq!(parted(whole.clone(), &garment, &state, &activities)[0].triangles, [[0, 2, 3]]);
+        assert_eq!(
+            parted(whole.clone(), &garment, &state, &activities, &PieceLooks::new())[0].triangles,
+            [[0, 2, 3]]
+        );
         let mesh = deactivated(&whole, &garment, &state, &activities);
         assert_eq!(mesh.triangles, [[0, 1, 2]]);
         assert!(mesh.front.iter().zip(CLOTH_FRONT).all(|(pale, own)| *pale > own));

@@ -14,6 +14,7 @@ use crate::geometry::mesh::vertex_normals;
 use crate::pattern::activity::Activity;
 use crate::render::{BODY, CLOTH_BACK, CLOTH_FRONT, Ground, Label, Mesh, Polyline, Rgb, Scene, mark_colour};
 use crate::ui::scenery::covered::covered;
+use crate::ui::scenery::fabric_looks::PieceLooks;
 use crate::ui::scenery::mapped::in_colours;
 use crate::ui::scenery::parted::{deactivated, parted};
 use crate::ui::scenery::stitches::stitched;
@@ -51,6 +52,8 @@ pub struct Shown<'a> {
     pub bones: &'a [Bone],
     /// Pieces that are not active.
     pub activities: Option<&'a BTreeMap<PieceId, Activity>>,
+    /// Appearance of each piece; None: the colours of the layers, without a weave.
+    pub looks: Option<&'a Arc<PieceLooks>>,
     /// The garment including its deactivated pieces, where `cloth` lacks them.
     pub whole: Option<(&'a Arc<Garment>, &'a Arc<ClothState>)>,
     /// Fraction of a drag's motion that reaches each vertex of the cloth, 0..=1.
@@ -90,6 +93,7 @@ struct DrawnCloth {
     dragged: Option<Arc<Vec<f32>>>,
     map: Option<Arc<Vec<Rgb>>>,
     activities: BTreeMap<PieceId, Activity>,
+    looks: Option<Arc<PieceLooks>>,
     /// Meshes of the cloth, which share their vertices.
     meshes: Vec<Arc<Mesh>>,
     lines: Vec<Polyline>,
@@ -120,7 +124,7 @@ const ABOVE_ALL: Lift = (0.03, 1.6);
 const BEHIND: Lift = (0.6, 1.6);
 const ABOVE_BEHIND: Lift = (0.7, 1.6);
 /// Colour of seams and edges of the cloth, sRGB and opacity.
-const SEAM: [u8; 4] = [66, 78, 70, 150];
+const SEAM: [u8; 4] = [62, 66, 70, 150];
 /// Factor for the colour of cloth that a drag in progress does not reach, sRGB.
 const UNREACHED: Rgb = [150, 158, 172];
 /// Distance of a pin's head from the cloth, metres on a body 1.5 m tall.
@@ -132,7 +136,7 @@ const NEEDLE: [u8; 4] = [70, 74, 84, 255];
 const PIN_HEAD: [u8; 4] = [214, 48, 49, 255];
 /// Colour of emphasised lines, sRGB and opacity.
 const STANDS_OUT: [u8; 4] = [20, 132, 214, 255];
-const HEM: [u8; 4] = [52, 84, 56, 170];
+const HEM: [u8; 4] = [52, 58, 60, 170];
 
 impl Scenery {
     /// The scene of `shown`.
@@ -188,6 +192,7 @@ impl Scenery {
                 && c.dragged.as_ref().map(Arc::as_ptr) == dragged.map(Arc::as_ptr)
                 && c.map.as_ref().map(Arc::as_ptr) == map.map(Arc::as_ptr)
                 && c.activities == activities
+                && c.looks.as_ref() == shown.looks
         });
         if kept || state.positions.len() != garment.vertex_count {
             return;
@@ -211,12 +216,19 @@ impl Scenery {
             state: Arc::clone(state),
             dragged: dragged.cloned(),
             map: map.cloned(),
-            meshes: parted(mesh, garment, state, &activities)
-                .into_iter()
-                .map(coloured)
-                .chain(asleep)
-                .collect(),
+            meshes: parted(
+                mesh,
+                garment,
+                state,
+                &activities,
+                shown.looks.map_or(&PieceLooks::new(), |looks| looks),
+            )
+            .into_iter()
+            .map(coloured)
+            .chain(asleep)
+            .collect(),
             activities,
+            looks: shown.looks.cloned(),
             lines,
         });
     }
@@ -311,6 +323,7 @@ fn push_pins(shown: &Shown<'_>, cloth: &DrawnCloth, scale: f32, scene: &mut Scen
             halo_width: 1.2,
             lift: lift * scale,
             lift_widths: 1.0,
+            thickness: 0.0,
             closed: false,
         };
         if look.locked {
@@ -489,6 +502,7 @@ fn push_mark(scene: &mut Scene, points: Vec<Vec3>, number: usize, width: f32, li
         lift,
         lift_widths,
         closed: false,
+        thickness: 0.0,
     });
     scene.labels.push(Label {
         anchor: first,

@@ -10,8 +10,10 @@ const STITCH: f32 = 0.007;
 const GAP: f32 = 0.005;
 /// Colour of the thread, sRGB and opacity.
 const THREAD: [u8; 4] = [246, 243, 232, 235];
-/// Width of the thread, logical pixels.
+/// Largest width of the thread, logical pixels.
 const WIDTH: f32 = 1.7;
+/// Thickness of the thread, metres on a body 1.5 m tall: from afar stitches fade.
+const THICKNESS: f32 = 0.0012;
 
 /// For each of `seams` the seam's line and the stitches on it.
 pub fn stitched(seams: Vec<Polyline>, scale: f32) -> Vec<Polyline> {
@@ -19,8 +21,14 @@ pub fn stitched(seams: Vec<Polyline>, scale: f32) -> Vec<Polyline> {
     for seam in seams {
         let stitches = dashes(&seam.points, STITCH * scale, GAP * scale);
         // Stitches are drawn above the line they are on.
-        let thread =
-            Polyline { points: Vec::new(), colour: THREAD, width: WIDTH, lift: seam.lift * 1.3, ..seam };
+        let thread = Polyline {
+            points: Vec::new(),
+            colour: THREAD,
+            width: WIDTH,
+            lift: seam.lift * 1.3,
+            thickness: THICKNESS * scale,
+            ..seam
+        };
         all.push(seam);
         all.extend(stitches.into_iter().map(|points| Polyline { points, ..thread.clone() }));
     }
