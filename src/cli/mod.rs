@@ -69,6 +69,7 @@ fn run() -> u8 {
 fn carry_out(arguments: Arguments) -> Result<(), Failure> {
     quiet::begin_anew();
     interrupt::listen();
+    run::start_threads()?;
     match arguments.task {
         None => open::open(arguments.project.as_deref(), arguments.record.as_deref()),
         Some(Task::Dress(dress)) => run::on_threads(dress.threads, || dress::dress(&dress)),

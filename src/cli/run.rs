@@ -10,6 +10,15 @@ use crate::session::{Command, Notice, Project, Session};
 use crate::sim::{Runner, Simulation};
 use crate::wrap::Phase;
 
+/// Stack of each worker thread, bytes: they also call graphics drivers, which need more than RUST_MIN_STACK may allow.
+const STACK: usize = 8 << 20;
+
+/// Starts the worker threads for parallel steps, one per processor or as many as RAYON_NUM_THREADS says.
+pub fn start_threads() -> Result<(), Failure> {
+    let pool = rayon::ThreadPoolBuilder::new().stack_size(STACK);
+    pool.build_global().map_err(|e| Failure::Limit(format!("worker threads cannot be started: {e}")))
+}
+
 /// Calls `work` with `threads` worker threads for parallel steps; without a number, one per processor. `work` runs on a worker
 /// thread itself: from another thread every parallel loop would be handed over and waited for.
 pub fn on_threads(
@@ -22,6 +31,7 @@ pub fn on_threads(
     }
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
+        .stack_size(STACK)
         .build()
         .map_err(|e| Failure::Limit(format!("{threads} threads cannot be started: {e}")))?;
     pool.install(work)
