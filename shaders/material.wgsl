@@ -5,6 +5,8 @@ struct Material {
     second: vec4f,  // linear, of the threads across the grain; w the kind of weave
     threads: vec4f, // pitch in metres, relief in pitches, sheen, unevenness
     gloss: vec4f,   // its strength, roughness, share of light stopped, how far it is drawn out along the threads
+    print: vec4f,   // linear; w the kind of print
+    repeat: vec4f,  // x metres
 }
 
 @group(1) @binding(0) var<uniform> material: Material;

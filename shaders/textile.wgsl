@@ -129,6 +129,29 @@ fn mean_yarn(kind: u32) -> Yarn {
     }
 }
 
+// Share of a stripe as wide as its gap, one a unit, averaged over a pixel `width` units wide.
+fn stripe(x: f32, width: f32) -> f32 {
+    let edge = abs(fract(x) - 0.5) - 0.25;
+    let sharp = clamp(0.5 - edge / max(width, 1e-4), 0.0, 1.0);
+    return mix(sharp, 0.5, smoothstep(0.4, 1.0, width));
+}
+
+// Share of the print's colour at a place in repeats.
+fn printed(kind: u32, p: vec2f, width: f32) -> f32 {
+    switch kind {
+        case 1u: { return stripe(p.x, width); }
+        case 2u: { return stripe(p.y, width); }
+        case 3u: { return 0.5 * (stripe(p.x, width) + stripe(p.y, width)); }
+        case 4u: {
+            let row = floor(p.y * 2.0);
+            let q = vec2f(fract(p.x + 0.5 * wrapped(row, 2.0)) - 0.5, (fract(p.y * 2.0) - 0.5) * 0.5);
+            let sharp = clamp(0.5 - (length(q) - 0.15) / max(width, 1e-4), 0.0, 1.0);
+            return mix(sharp, 0.141, smoothstep(0.3, 0.8, width));
+        }
+        default: { return 0.0; }
+    }
+}
+
 // The surface of a textile at a pixel.
 struct Textured {
     albedo: vec3f,
@@ -174,9 +197,12 @@ fn textured(uv: vec2f, world: vec3f, normal: vec3f, albedo: vec3f, second: vec3f
     let slubs = 1.0 + material.threads.w * uneven * (1.0 - smoothstep(0.3, 0.9, width * 0.31));
     let height = mix(mean.height, here.height, sharp);
     let share = mix(mean.second, here.second, sharp);
+    let repeat = uv / max(material.repeat.x, 1e-6);
+    let blur = max(length(dpdx(repeat)), length(dpdy(repeat)));
+    let inked = printed(u32(material.print.w + 0.5), repeat, blur);
     let depth = mix(1.0, 0.45 + 0.55 * height / max(mean.height, 0.1), clamp(material.threads.y * 1.5, 0.0, 1.0));
     return Textured(
-        mix(albedo, second, share) * slubs * min(depth, 1.25),
+        mix(mix(albedo, second, share), material.print.rgb, inked) * slubs * min(depth, 1.25),
         bent,
         along,
         mix(mean.cover, here.cover, sharp) * material.gloss.z,

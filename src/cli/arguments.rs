@@ -7,6 +7,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::body::pose::anatomy::JointAngle;
 use crate::body::{NamedPose, Unit, UpAxis};
+use crate::cli::cloth_options::ClothOptions;
 use crate::cloth::Skips;
 use crate::draft::{BodySize, Corpus, Kind, SIZES, Shard};
 use crate::fit::MapKind;
@@ -149,9 +150,8 @@ pub struct Dress {
     /// Then drapes it by weight and fabric until it rests
     #[arg(long)]
     pub drape: bool,
-    /// The fabric (a preset) of all pieces that have none of their own
-    #[arg(long, value_name = "NAME")]
-    pub fabric: Option<String>,
+    #[command(flatten)]
+    pub cloth: ClothOptions,
     /// Also writes the dressed project to this file
     #[arg(long, value_name = "PROJECT")]
     pub save: Option<PathBuf>,
@@ -190,7 +190,7 @@ impl Dress {
             input: InputOptions::default(),
             start: None,
             drape: false,
-            fabric: None,
+            cloth: ClothOptions::default(),
             save: None,
             record: None,
             max_ticks: MAX_TICKS,
@@ -417,6 +417,8 @@ pub struct Render {
     pub project: PathBuf,
     #[command(flatten)]
     pub input: InputOptions,
+    #[command(flatten)]
+    pub cloth: ClothOptions,
     #[command(flatten)]
     pub picture: PictureOptions,
     /// The picture (PNG)

@@ -41,10 +41,7 @@ pub fn dress_one(project: &Path, folder: &Path, arguments: &Dress) -> Result<Don
         session.recorder().also_to(file).map_err(|e| Failure::file(path, e))?;
     }
     run::simulation(&mut session)?.set_skips(arguments.work.no_skip);
-    if let Some(fabric) = &arguments.fabric {
-        let command = Command::SetFabric { piece: None, fabric: Some(fabric.clone()) };
-        session.apply_alone(command).map_err(|why| Failure::Usage(why.0))?;
-    }
+    run::choose_cloth(&mut session, &arguments.cloth)?;
     dress_by(&mut session, project, arguments, &mut seconds)?;
     run::to_rest(&mut session, arguments.max_ticks, &mut seconds)?;
     let started = session.snapshot().started.clone();

@@ -4,6 +4,7 @@ use crate::cli::arguments::{Export, InputOptions};
 use crate::cli::failure::Failure;
 use crate::cli::{formats, input, output, run};
 use crate::io::pattern_formats::{self, PatternFormat, endings};
+use crate::ui::scenery::fabric_looks::materials;
 
 /// Extensions of formats for dressed cloth.
 const OF_CLOTH: [&str; 2] = ["obj", "glb"];
@@ -45,7 +46,7 @@ pub fn export(arguments: &Export) -> Result<(), Failure> {
         "obj" => formats::garment_obj(garment, cloth, &source.pattern),
         _ => {
             let body = snapshot.body.as_ref().map(|b| &b.mesh);
-            formats::scene_glb(garment, cloth, &source.pattern, body)?
+            formats::scene_glb(garment, cloth, &source.pattern, body, &materials(session.document()))?
         }
     };
     output::write(&arguments.output, &bytes)

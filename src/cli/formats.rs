@@ -146,9 +146,10 @@ pub fn scene_glb(
     cloth: &ClothState,
     pattern: &Pattern,
     body: Option<&TriMesh>,
+    colours: &glb::Colours,
 ) -> Result<Vec<u8>, Failure> {
     let dressed = glb::Dressed { garment, state: cloth, pattern };
-    glb::write(Some(dressed), body, &glb::Colours::default()).map_err(|e| Failure::Limit(e.to_string()))
+    glb::write(Some(dressed), body, colours).map_err(|e| Failure::Limit(e.to_string()))
 }
 
 /// Dressed cloth and its body as animated binary glTF.
@@ -159,8 +160,9 @@ pub fn sequence_glb(
     body: &TriMesh,
     frames: &[Frame],
     fps: f64,
+    colours: &glb::Colours,
 ) -> Result<Vec<u8>, Failure> {
     let dressed = glb::Dressed { garment, state: cloth, pattern };
-    let written = write_animated(dressed, body, frames, fps, &glb::Colours::default());
+    let written = write_animated(dressed, body, frames, fps, colours);
     written.map_err(|e| Failure::Limit(e.to_string()))
 }

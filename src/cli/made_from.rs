@@ -31,7 +31,7 @@ pub fn made_from(project: &Path, arguments: &Dress) -> Result<String, Failure> {
             },
         start,
         drape,
-        fabric,
+        cloth,
         save: _,
         record: _,
         max_ticks,
@@ -44,7 +44,7 @@ pub fn made_from(project: &Path, arguments: &Dress) -> Result<String, Failure> {
     } = arguments;
     let placed = (raise, as_placed);
     let of_input = (body_file, &sized.body_size, pose, over.len(), placed, scale, suggest_marks, edge_length);
-    let options = (of_input, start, drape, fabric, max_ticks, picture, work);
+    let options = (of_input, start, drape, cloth, max_ticks, picture, work);
     let mut hash = Fnv::default();
     let mut take = |bytes: &[u8]| {
         hash.number(bytes.len() as u64);

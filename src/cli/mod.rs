@@ -4,6 +4,7 @@ mod arguments;
 mod batch;
 mod bench;
 mod check;
+mod cloth_options;
 mod compare;
 mod dress;
 mod dress_one;

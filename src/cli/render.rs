@@ -12,7 +12,8 @@ use crate::ui::scenery::portrait::{numbered, turned};
 /// Draws one picture, or those of a full turn.
 pub fn render(arguments: &Render) -> Result<(), Failure> {
     let input = input::load(&arguments.project, &arguments.input)?;
-    let session = run::opened(input.project, &arguments.project)?;
+    let mut session = run::opened(input.project, &arguments.project)?;
+    run::choose_cloth(&mut session, &arguments.cloth)?;
     let mut artist = Artist::new()?;
     for (path, view) in pictures(arguments) {
         interrupt::check()?;

@@ -3,10 +3,11 @@
 use std::path::Path;
 use std::time::Instant;
 
+use crate::cli::cloth_options::ClothOptions;
 use crate::cli::failure::Failure;
 use crate::cli::seconds::Seconds;
 use crate::cli::{interrupt, output};
-use crate::session::{Command, Notice, Project, Session};
+use crate::session::{Command, Dye, Notice, Project, Session};
 use crate::sim::{Runner, Simulation};
 use crate::wrap::Phase;
 
@@ -51,6 +52,23 @@ pub fn opened(project: Project, path: &Path) -> Result<Session, Failure> {
         return Err(Failure::input(path, "the cloth in it cannot be put on its body"));
     }
     Ok(session)
+}
+
+/// Takes the colourway, fabric, colour and print that `options` name.
+pub fn choose_cloth(session: &mut Session, options: &ClothOptions) -> Result<(), Failure> {
+    let ClothOptions { colourway, fabric, colour, print } = options;
+    let mut commands = Vec::new();
+    commands.extend(colourway.clone().map(|name| Command::WearColourway { name }));
+    commands.extend(fabric.clone().map(|fabric| Command::SetFabric { piece: None, fabric: Some(fabric) }));
+    let mut choose = |command| session.apply_alone(command).map_err(|why| Failure::Usage(why.0));
+    commands.into_iter().try_for_each(&mut choose)?;
+    if colour.is_some() || print.is_some() {
+        let all = session.document().dyes.all;
+        let dye = Dye { colour: colour.or(all.colour), print: print.or(all.print) };
+        let command = Command::SetDye { piece: None, dye };
+        session.apply_alone(command).map_err(|why| Failure::Usage(why.0))?;
+    }
+    Ok(())
 }
 
 /// The simulation of a session that runs inline.

@@ -40,12 +40,14 @@ struct Material {
     second: Vec4,
     threads: Vec4,
     gloss: Vec4,
+    print: Vec4,
+    repeat: Vec4,
 }
 
 impl Material {
     fn of(mesh: &Mesh) -> Self {
         let textile = &mesh.textile;
-        let weave = if mesh.flat.is_empty() { 0 } else { textile.weave };
+        let [weave, print] = if mesh.flat.is_empty() { [0; 2] } else { [textile.weave, textile.print] };
         let second = linear(textile.second.unwrap_or(mesh.front));
         Self {
             front: linear(mesh.front).extend(mesh.cloth),
@@ -53,6 +55,8 @@ impl Material {
             second: second.extend(weave as f32),
             threads: Vec4::new(textile.pitch, textile.relief, textile.sheen, textile.slubs),
             gloss: Vec4::new(textile.gloss, textile.roughness, textile.cover, textile.along),
+            print: linear(textile.ink).extend(print as f32),
+            repeat: Vec4::new(textile.repeat, 0.0, 0.0, 0.0),
         }
     }
 }

@@ -88,7 +88,7 @@ pub(super) fn gamma(c: Rgb) -> Vec3 {
 }
 
 /// Linear RGB, 0..=1 (sRGB transfer function, IEC 61966-2-1).
-pub(super) fn linear(c: Rgb) -> Vec3 {
+pub fn linear(c: Rgb) -> Vec3 {
     let one = |v: f32| if v <= 0.040_45 { v / 12.92 } else { ((v + 0.055) / 1.055).powf(2.4) };
     Vec3::from(gamma(c).to_array().map(one))
 }

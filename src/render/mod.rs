@@ -24,6 +24,7 @@ pub mod view;
 
 pub use camera::{Camera, PixelRay, Projected, Projection};
 pub use error::RenderError;
+pub use frame::linear;
 pub use gpu::Gpu;
 pub use legend::Legend;
 pub use look::{BODY, CLOTH_BACK, CLOTH_FRONT, Look, cloth_front, mark_colour};

@@ -25,6 +25,12 @@ pub struct Textile {
     pub cover: f32,
     /// Whether light passes, through threads or between them.
     pub is_open: bool,
+    /// Kind of print, as numbered in shaders/textile.wgsl; 0: none.
+    pub print: u32,
+    /// Length of a repeat of the print, metres.
+    pub repeat: f32,
+    /// Colour of the print, sRGB.
+    pub ink: [u8; 3],
 }
 
 impl Default for Textile {
@@ -41,6 +47,9 @@ impl Default for Textile {
             slubs: 0.0,
             cover: 1.0,
             is_open: false,
+            print: 0,
+            repeat: 0.1,
+            ink: [255; 3],
         }
     }
 }

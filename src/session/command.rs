@@ -13,6 +13,7 @@ use crate::pattern::{Edge, Pattern, Piece, PlanePose, Seam};
 use crate::session::animations::{Animations, Moment};
 use crate::session::body_choice::BodyChoice;
 use crate::session::document::Settings;
+use crate::session::dyes::Dye;
 use crate::sim::StartChoice;
 use crate::wrap::{ClothSide, Marks};
 
@@ -146,6 +147,14 @@ pub enum Command {
     /// Set the fabric of a piece, or (no piece) of all that have no fabric of their own. No fabric: that of all the others, or
     /// the usual one.
     SetFabric { piece: Option<PieceId>, fabric: Option<String> },
+    /// Set colour and print of a piece, or (no piece) of all that have none of their own.
+    SetDye { piece: Option<PieceId>, dye: Dye },
+    /// Keep the present fabrics, colours and prints as the colourway of this name.
+    KeepColourway { name: String },
+    /// Take fabrics, colours and prints from the colourway of this name.
+    WearColourway { name: String },
+    /// Delete the colourway of this name.
+    DeleteColourway { name: String },
 
     /// Undo the last step, document and cloth.
     Undo,

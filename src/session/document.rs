@@ -1,17 +1,17 @@
 //! The document: all of the user's own data. Cheap to clone.
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use crate::cloth::Fabric;
 use crate::contact::Bone;
-use crate::geometry::ids::{MarkId, PieceId, PinId};
+use crate::geometry::ids::{MarkId, PinId};
 use crate::pattern::Pattern;
 use crate::relax::RelaxSettings;
 use crate::session::animations::{Animations, Moment};
 use crate::session::body_choice::BodyChoice;
+use crate::session::dyes::{Colourway, Dyes};
+use crate::session::fabrics::Fabrics;
 use crate::sim::ClothPlace;
 use crate::wrap::Marks;
 
@@ -47,6 +47,12 @@ pub struct Document {
     /// Fabrics of the pieces.
     #[serde(default, skip_serializing_if = "Fabrics::is_usual")]
     pub fabrics: Fabrics,
+    /// Colours and prints of the pieces.
+    #[serde(default, skip_serializing_if = "Dyes::is_plain")]
+    pub dyes: Dyes,
+    /// Named sets of fabrics, colours and prints.
+    #[serde(default, skip_serializing_if = "is_none_kept")]
+    pub colourways: Arc<Vec<Colourway>>,
     /// Mesh size, relaxation and draping.
     pub settings: Settings,
 }
@@ -58,37 +64,6 @@ pub struct Aim {
     pub from: BodyChoice,
     /// The body in the target pose, with the same triangles.
     pub to: BodyChoice,
-}
-
-/// Names of the fabrics of a garment.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
-pub struct Fabrics {
-    /// Fabric of every piece without its own; None: [`Fabric::USUAL`].
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub all: Option<String>,
-    /// Fabrics of single pieces.
-    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
-    pub pieces: BTreeMap<PieceId, String>,
-}
-
-impl Fabrics {
-    /// Whether no fabric was chosen.
-    pub fn is_usual(&self) -> bool {
-        *self == Self::default()
-    }
-
-    /// Name of the fabric of `piece`; None: of pieces without their own.
-    pub fn name(&self, piece: Option<PieceId>) -> &str {
-        let own = piece.and_then(|piece| self.pieces.get(&piece));
-        own.or(self.all.as_ref()).map_or(Fabric::USUAL, |name| name)
-    }
-
-    /// Fabric of each piece of `pattern`.
-    pub fn of(&self, pattern: &Pattern) -> BTreeMap<PieceId, Fabric> {
-        let fabric = |&id: &PieceId| Some((id, Fabric::preset(self.name(Some(id)))?.clone()));
-        pattern.pieces.keys().filter_map(fabric).collect()
-    }
 }
 
 /// A pushpin: the cloth under it keeps its position on the body.
@@ -106,6 +81,10 @@ pub struct Pin {
 
 fn is_empty(pins: &Arc<Vec<Pin>>) -> bool {
     pins.is_empty()
+}
+
+fn is_none_kept(colourways: &Arc<Vec<Colourway>>) -> bool {
+    colourways.is_empty()
 }
 
 pub(super) fn is_false(flag: &bool) -> bool {
@@ -130,6 +109,8 @@ impl Default for Document {
             moment: None,
             bones: None,
             fabrics: Fabrics::default(),
+            dyes: Dyes::default(),
+            colourways: Arc::default(),
             settings: Settings::default(),
         }
     }

@@ -36,6 +36,8 @@ impl DocumentHasher {
             moment,
             bones,
             fabrics,
+            dyes,
+            colourways,
             settings,
         } = document;
         let mut hash = Fnv::default();
@@ -61,6 +63,12 @@ impl DocumentHasher {
         }
         if !fabrics.is_usual() {
             hash.number(json_hash(fabrics));
+        }
+        if !dyes.is_plain() {
+            hash.number(json_hash(dyes));
+        }
+        if !colourways.is_empty() {
+            hash.number(json_hash(&**colourways));
         }
         hash.number(json_hash(settings));
         hash.number(done as u64);

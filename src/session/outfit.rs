@@ -7,7 +7,7 @@ use crate::body::Surface;
 use crate::cloth::{ClothState, Fabric, Garment};
 use crate::fit::Worn;
 use crate::geometry::ids::PieceId;
-use crate::session::document::Fabrics;
+use crate::session::fabrics::Fabrics;
 use crate::sim::{GarmentSource, Snapshot};
 
 /// A dressed garment as it is drawn and measured.

@@ -68,6 +68,12 @@ pub fn good() -> Vec<Vec<u8>> {
             Command::LockPins { pins: vec![crate::geometry::ids::PinId(1)], locked: true },
         ]),
         json!([Command::SetFabric { piece: Some(front), fabric: Some("wool".to_owned()) }, Command::Sew]),
+        json!([
+            Command::SetDye { piece: Some(front), dye: good::dye() },
+            Command::KeepColourway { name: "red".to_owned() },
+            Command::WearColourway { name: "red".to_owned() },
+            Command::DeleteColourway { name: "red".to_owned() },
+        ]),
         json!([Command::ReplacePattern {
             name: "another".to_owned(),
             pattern: Arc::new(Pattern { next_id: 9, ..good::pattern() }),

@@ -12,7 +12,7 @@ use crate::io::obj;
 use crate::pattern::{
     Edge, EdgeRef, EdgeShape, InternalLine, Notch, Pattern, Piece, PlanePose, Seam, SpacePose,
 };
-use crate::session::{BodyChoice, Command, Document, Project, Session, Settings};
+use crate::session::{BodyChoice, Command, Document, Dye, Motif, Print, Project, Session, Settings};
 use crate::sim::{Runner, Simulation};
 use crate::wrap::{BodyMark, ClothMark, ClothSide, Marks};
 
@@ -79,6 +79,14 @@ pub fn project() -> Project {
     Project { document, dressed: None }
 }
 
+/// A colour and a print.
+pub fn dye() -> Dye {
+    Dye {
+        colour: Some([200, 30, 40]),
+        print: Some(Print { motif: Motif::Checks, repeat_m: 0.02, colour: [240; 3] }),
+    }
+}
+
 /// A session in which a little was done, with cloth on the limb.
 pub fn session() -> Session {
     let mut session = Session::new(project(), Runner::inline(Simulation::default()));
@@ -87,6 +95,8 @@ pub fn session() -> Session {
         Command::Wrap,
         Command::AddPin { piece, at: DVec2::new(0.1, 0.1) },
         Command::SetFabric { piece: None, fabric: Some("wool".to_owned()) },
+        Command::SetDye { piece: Some(piece), dye: dye() },
+        Command::KeepColourway { name: "red".to_owned() },
         Command::RenamePiece { piece, name: "Vorderteil".to_owned() },
         Command::StepDraping { ticks: 2 },
         Command::Undo,

@@ -81,6 +81,34 @@ fn marks_come_from_a_file() {
 }
 
 #[test]
+fn cloth_is_drawn_in_the_fabric_colour_and_print_that_are_asked_for() {
+    let place = Place::with_ball();
+    place.ends(0, "dress ball.toile --out out --save dressed.toile");
+    let plain = place.draws("render dressed.toile -o plain.png --size 120x120");
+    if plain.code == 5 && !adapter_required() {
+        println!("no graphics adapter: pictures not tested");
+        return;
+    }
+    let options = ["", "--fabric denim-11oz", "--colour ff0000", "--colour ff0000 --print checks:60:ffffff"];
+    let pictures = options.map(|options| {
+        let done = place.draws(&format!("render dressed.toile {options} -o out.png --size 120x120"));
+        assert_eq!(done.code, 0, "{options}: {}", done.err);
+        std::fs::read(place.path("out.png")).expect("a picture")
+    });
+    for (i, picture) in pictures.iter().enumerate() {
+        assert!(!pictures[..i].contains(picture), "{:?} changes nothing", options[i]);
+    }
+    let fails = |options: &str, words: &str| {
+        place.ends_with_words(2, &format!("render dressed.toile {options} -o out.png"), words);
+    };
+    fails("--colourway red", "red");
+    fails("--fabric rubber", "rubber");
+    fails("--colour red", "hexadecimal");
+    fails("--print checks:0:ffffff", "repeats");
+    fails("--print plaid:20:ffffff", "plaid");
+}
+
+#[test]
 fn pictures_are_drawn_where_there_is_an_adapter() {
     let place = Place::with_ball();
     let first = place.draws("render ball.toile -o view.png --size 200x100");

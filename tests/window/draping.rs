@@ -1,6 +1,7 @@
 //! Draping dressed cloth in the window.
 
 use toile::pattern::activity::Activity;
+use toile::session::Motif;
 
 use super::hand::{dressed_window, positions};
 use super::*;
@@ -46,6 +47,36 @@ fn cloth_is_grabbed_while_it_drapes() {
     assert!(drape(&window).is_some_and(|d| d.runs), "physics goes on");
     key(&mut window, Modifiers::NONE, Key::Escape);
     wait(&mut window, "letting go", |app| app.session().snapshot().dragged.is_none());
+}
+
+#[test]
+fn colours_prints_and_colourways_are_chosen_in_the_side_panel() {
+    let mut window = dressed_window();
+    let dye = |window: &Window| app(window).session().document().dyes.all;
+    window.get_by_label("Colour and print of All pieces").click();
+    window.run_steps(3);
+    window.get_by_label("Own colour").click();
+    window.run_steps(3);
+    assert!(dye(&window).colour.is_some());
+    assert_eq!(app(&window).session().undo_label(), Some("change the colour"));
+    window.get_by_label("Print").click();
+    window.run_steps(3);
+    window.get_by_label("checks").click();
+    window.run_steps(3);
+    assert_eq!(dye(&window).print.map(|print| print.motif), Some(Motif::Checks));
+    key(&mut window, Modifiers::NONE, Key::Escape);
+    window.run_steps(3);
+    window.get_by_label("Keep colourway…").click();
+    window.run_steps(3);
+    window.get_by_role(egui::accesskit::Role::TextInput).focus();
+    window.run_steps(2);
+    window.get_by_role(egui::accesskit::Role::TextInput).type_text("picnic");
+    window.run_steps(3);
+    window.get_by_label("Keep").click();
+    window.run_steps(3);
+    let document = app(&window).session().document();
+    assert_eq!(document.colourways.iter().map(|c| c.name.as_str()).collect::<Vec<_>>(), ["picnic"]);
+    assert_eq!(document.colourways[0].dyes, document.dyes);
 }
 
 #[test]

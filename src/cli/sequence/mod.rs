@@ -17,6 +17,7 @@ use crate::cli::failure::Failure;
 use crate::cli::seconds::Seconds;
 use crate::cli::{files, formats, input, interrupt, output, repose, run};
 use crate::fit;
+use crate::io::glb::Colours;
 use crate::io::glb::animated::{Frame, bytes_per_frame};
 use crate::io::gltf;
 use crate::repose::{ReposeSettings, Reposer};
@@ -338,6 +339,14 @@ impl<'a> Carrier<'a> {
         let (Some(garment), Some(source)) = (&self.snapshot.garment, &self.snapshot.source) else {
             return Err(Failure::Internal("the garment is gone".to_owned()));
         };
-        formats::sequence_glb(garment, &self.snapshot.cloth, &source.pattern, &body.mesh, frames, fps)
+        formats::sequence_glb(
+            garment,
+            &self.snapshot.cloth,
+            &source.pattern,
+            &body.mesh,
+            frames,
+            fps,
+            &Colours::default(),
+        )
     }
 }

@@ -40,8 +40,7 @@ pub fn write_animated(
 ) -> Result<Vec<u8>, GlbError> {
     let first = frames.first().ok_or(GlbError::Empty)?;
     let mut builder = Builder::new();
-    let [front, back] = [("cloth, front", colours.front), ("cloth, back", colours.back)]
-        .map(|(name, colour)| builder.material(name, colour));
+    let mut materials = Vec::new();
     let cloth =
         |frame: &Frame| ClothState { positions: frame.cloth.clone(), mapped: dressed.state.mapped.clone() };
     let state = cloth(first);
@@ -58,7 +57,8 @@ pub fn write_animated(
         if shown.triangles.is_empty() {
             continue;
         }
-        builder.piece(name, &shown, [front, back]);
+        let sides = builder.sides(colours, *id, &mut materials);
+        builder.piece(name, &shown, sides);
         let others = frames[1..].iter().map(arrays);
         let moves = others.map(|piece| (piece.positions, piece.normals));
         builder.moving((&shown.positions, &shown.normals), moves, 2);

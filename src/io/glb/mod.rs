@@ -4,10 +4,12 @@
 
 pub mod animated;
 
+use std::collections::BTreeMap;
+
 use glam::{DVec2, DVec3};
 use gltf_json::accessor::{ComponentType, GenericComponentType, Type};
 use gltf_json::buffer::{Buffer, Target, View};
-use gltf_json::material::{Material, PbrBaseColorFactor, PbrMetallicRoughness, StrengthFactor};
+use gltf_json::material::{AlphaMode, Material, PbrBaseColorFactor, PbrMetallicRoughness, StrengthFactor};
 use gltf_json::mesh::{Mesh, Mode, Primitive, Semantic};
 use gltf_json::validation::{Checked, USize64};
 use gltf_json::{Accessor, Asset, Index, Node, Root, Scene};
@@ -38,8 +40,21 @@ impl Dressed<'_> {
     }
 }
 
+/// Material of a side of a piece.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ClothMaterial {
+    /// Name of the fabric.
+    pub name: String,
+    /// Base colours of the outer and of the inner side, linear RGB, 0..=1.
+    pub sides: [[f32; 3]; 2],
+    /// Roughness, 0..=1.
+    pub roughness: f32,
+    /// Opacity, 0..=1.
+    pub opacity: f32,
+}
+
 /// Base colours, linear RGB, 0..=1.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Colours {
     /// Outer side of the cloth.
     pub front: [f32; 3],
@@ -47,11 +62,18 @@ pub struct Colours {
     pub back: [f32; 3],
     /// Skin of the body.
     pub body: [f32; 3],
+    /// Materials of single pieces, in place of `front` and `back`.
+    pub pieces: BTreeMap<PieceId, ClothMaterial>,
 }
 
 impl Default for Colours {
     fn default() -> Self {
-        Self { front: [0.18, 0.42, 0.22], back: [0.72, 0.32, 0.38], body: [0.5, 0.48, 0.46] }
+        Self {
+            front: [0.18, 0.42, 0.22],
+            back: [0.72, 0.32, 0.38],
+            body: [0.5, 0.48, 0.46],
+            pieces: BTreeMap::new(),
+        }
     }
 }
 
@@ -85,6 +107,12 @@ pub fn write(
     builder.finish()
 }
 
+/// Roughness of materials that name none.
+const ROUGHNESS: f32 = 0.9;
+
+/// A material of cloth, and its indices in the file.
+type MadeMaterial = (ClothMaterial, [Index<Material>; 2]);
+
 struct Builder {
     root: Root,
     data: Vec<u8>,
@@ -98,8 +126,7 @@ impl Builder {
     }
 
     fn garment(&mut self, dressed: &Dressed<'_>, colours: &Colours) {
-        let front = self.material("cloth, front", colours.front);
-        let back = self.material("cloth, back", colours.back);
+        let mut materials = Vec::new();
         let Dressed { garment, state, .. } = dressed;
         let triangles = dressed.laid();
         let on_body: Vec<[u32; 3]> = triangles.iter().map(|&t| garment.triangles[t]).collect();
@@ -108,7 +135,8 @@ impl Builder {
             let own = triangles.iter().copied().filter(|&t| garment.triangle_pieces[t] == *id);
             let piece = PieceArrays::new(dressed, *id, own, &normals);
             if !piece.triangles.is_empty() {
-                self.piece(name, &piece, [front, back]);
+                let sides = self.sides(colours, *id, &mut materials);
+                self.piece(name, &piece, sides);
             }
         }
     }
@@ -150,13 +178,46 @@ impl Builder {
         self.nodes.push(node);
     }
 
+    /// The materials of both sides of piece `id`; `made` holds those that are in the file already.
+    fn sides(
+        &mut self,
+        colours: &Colours,
+        id: PieceId,
+        made: &mut Vec<MadeMaterial>,
+    ) -> [Index<Material>; 2] {
+        let own = colours.pieces.get(&id).cloned();
+        let wanted = own.unwrap_or_else(|| ClothMaterial {
+            name: "cloth".to_owned(),
+            sides: [colours.front, colours.back],
+            roughness: ROUGHNESS,
+            opacity: 1.0,
+        });
+        if let Some((_, sides)) = made.iter().find(|(material, _)| *material == wanted) {
+            return *sides;
+        }
+        let [front, back] = ["front", "back"].map(|side| format!("{}, {side}", wanted.name));
+        let sides = [(front, wanted.sides[0]), (back, wanted.sides[1])].map(|(name, colour)| {
+            let material = self.material(&name, colour);
+            let written = &mut self.root.materials[material.value()];
+            let factors = &mut written.pbr_metallic_roughness;
+            factors.roughness_factor = StrengthFactor(wanted.roughness);
+            if wanted.opacity < 1.0 {
+                factors.base_color_factor.0[3] = wanted.opacity;
+                written.alpha_mode = Checked::Valid(AlphaMode::Blend);
+            }
+            material
+        });
+        made.push((wanted, sides));
+        sides
+    }
+
     fn material(&mut self, name: &str, [r, g, b]: [f32; 3]) -> Index<Material> {
         self.root.push(Material {
             name: Some(name.to_owned()),
             pbr_metallic_roughness: PbrMetallicRoughness {
                 base_color_factor: PbrBaseColorFactor([r, g, b, 1.0]),
                 metallic_factor: StrengthFactor(0.0),
-                roughness_factor: StrengthFactor(0.9),
+                roughness_factor: StrengthFactor(ROUGHNESS),
                 ..PbrMetallicRoughness::default()
             },
             ..Material::default()

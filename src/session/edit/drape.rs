@@ -4,8 +4,9 @@ use crate::cloth::Fabric;
 use crate::geometry::ids::PieceId;
 use crate::io::words::readable;
 use crate::session::command::Rejection;
-use crate::session::document::{Document, Fabrics};
+use crate::session::document::Document;
 use crate::session::edit::{ClothChange, Edit, checks};
+use crate::session::fabrics::Fabrics;
 use crate::sim::{Start, StartChoice};
 
 /// Most ticks in one command: ten seconds of draping.

@@ -4,6 +4,7 @@ mod body;
 mod checks;
 mod drag;
 mod drape;
+mod dyes;
 mod marks;
 mod pattern;
 mod settings;
@@ -21,6 +22,7 @@ use crate::session::body::BodyCache;
 use crate::session::carry;
 use crate::session::command::{Command, Rejection};
 use crate::session::document::{Document, Settings};
+use crate::session::dyes::colourways_problem;
 use crate::session::history::StepKind;
 use crate::sim::{ClothPlace, StartChoice};
 use crate::wrap::Marks;
@@ -193,6 +195,10 @@ fn untied(document: &Document, command: &Command, bodies: &mut BodyCache) -> Res
         Command::SetDraping { on } => drape::set_draping(new, *on),
         Command::StepDraping { ticks } => drape::step(new, *ticks),
         Command::SetFabric { piece, fabric } => drape::set_fabric(new, *piece, fabric.as_deref()),
+        Command::SetDye { piece, dye } => dyes::set_dye(new, *piece, *dye),
+        Command::KeepColourway { name } => dyes::keep(new, name),
+        Command::WearColourway { name } => dyes::wear(new, name),
+        Command::DeleteColourway { name } => dyes::delete(new, name),
         Command::CancelWrap
         | Command::Undo
         | Command::Redo
@@ -219,6 +225,8 @@ pub fn document_problem(document: &Document) -> Option<String> {
         moment,
         bones,
         fabrics,
+        dyes,
+        colourways,
         settings,
     } = document;
     if marks.ids().max().is_some_and(|id| id.0 > *last_mark) {
@@ -246,6 +254,12 @@ pub fn document_problem(document: &Document) -> Option<String> {
         })
         .or_else(|| bones.as_ref().and_then(|bones| checks::bones(bones).err()).map(|why| why.0))
         .or_else(|| drape::unknown_fabric(fabrics).map(|why| why.0))
+        .or_else(|| dyes.problem())
+        .or_else(|| colourways_problem(colourways))
+        .or_else(|| {
+            let mut fabrics = colourways.iter().map(|colourway| &colourway.fabrics);
+            fabrics.find_map(drape::unknown_fabric).map(|why| why.0)
+        })
         .or_else(|| checks::settings(settings).err().map(|why| why.0))
 }
 

@@ -56,7 +56,8 @@ impl App {
             Purpose::Sizes => self.take_sizes(path),
             Purpose::Export => {
                 let pattern = &self.session.document().pattern;
-                files::export(path, self.session.snapshot(), pattern).map(|()| self.wrote(path))
+                files::export(path, self.session.snapshot(), pattern, self.session.document())
+                    .map(|()| self.wrote(path))
             }
             Purpose::ExportPattern => self.export_pattern(path),
             Purpose::Recording => {

@@ -11,7 +11,7 @@ use crate::geometry::ids::MarkId;
 use crate::pattern::activity::Activity;
 use crate::render::{Look, Quality};
 use crate::session::Pin;
-use crate::ui::scenery::fabric_looks::named_looks;
+use crate::ui::scenery::fabric_looks::looks_of;
 use crate::ui::scenery::ring::ring;
 use crate::ui::scenery::scene::{PinLook, Shown};
 
@@ -55,7 +55,7 @@ impl ScenePane {
             pins: pin_looks(seen),
             bones,
             activities: seen.document.pattern.activities(),
-            looks: Arc::new(named_looks(&seen.document.pattern, &seen.document.fabrics)),
+            looks: Arc::new(looks_of(seen.document)),
             dragged: seen.dragged.cloned(),
             map: seen.map.map(|map| Arc::clone(&map.colours)),
             beside: seen.beside.cloned(),

@@ -22,8 +22,11 @@ use crate::io::{FILE_BYTES, bvh, glb, gltf, obj};
 use crate::pattern::Pattern;
 use crate::session::project_file::ProjectFileError;
 use crate::session::samples::Sample;
-use crate::session::{AnimatedFile, Animations, BodyChoice, Command, Project, project_file, whole_file};
+use crate::session::{
+    AnimatedFile, Animations, BodyChoice, Command, Document, Project, project_file, whole_file,
+};
 use crate::sim::Snapshot;
+use crate::ui::scenery::fabric_looks::materials;
 
 /// Extensions of the pattern formats that can be written.
 const WRITTEN_ENDINGS: [&str; 4] = {
@@ -329,7 +332,12 @@ fn imported(mut raw: RawBody) -> Result<(BodyChoice, Vec<String>), String> {
 }
 
 /// Writes the dressed garment of `snapshot`, as .glb together with its body. `pattern` gives the texture coordinates.
-pub fn export(path: &Path, snapshot: &Snapshot, pattern: &Pattern) -> Result<(), String> {
+pub fn export(
+    path: &Path,
+    snapshot: &Snapshot,
+    pattern: &Pattern,
+    document: &Document,
+) -> Result<(), String> {
     let Some((garment, cloth)) = snapshot.drawn().filter(|_| snapshot.is_dressed()) else {
         return Err("There is no cloth on the body to be written".to_owned());
     };
@@ -338,7 +346,7 @@ pub fn export(path: &Path, snapshot: &Snapshot, pattern: &Pattern) -> Result<(),
         Some("glb") => {
             let dressed = glb::Dressed { garment, state: cloth, pattern };
             let body = snapshot.body.as_ref().map(|b| &b.mesh);
-            let bytes = glb::write(Some(dressed), body, &glb::Colours::default());
+            let bytes = glb::write(Some(dressed), body, &materials(document));
             write(path, &bytes.map_err(|e| in_words(path, "written", e))?)
         }
         _ => Err(in_words(path, "written", "the name must end in .obj or .glb")),

@@ -1,23 +1,31 @@
-//! The section of fabrics and draping.
+//! The section of the side panel for fabrics, colours, prints and colourways, and for draping step by step.
 
-use egui::{ComboBox, RichText};
+use egui::{ComboBox, DragValue, RichText, Ui};
 
 use crate::cloth::Fabric;
 use crate::geometry::ids::PieceId;
-use crate::session::Command;
+use crate::session::{Command, Dye, Motif, Print};
 use crate::ui::actions::Action;
 use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::panels::context::PanelContext;
 
 /// Width of the lists, points.
-const WIDTH: f32 = 112.0;
+const WIDTH: f32 = 104.0;
+/// Size of the button that shows a colour, points.
+const SWATCH: egui::Vec2 = egui::vec2(18.0, 18.0);
+/// Colour that a piece without a fabric colour is given first, sRGB.
+const FIRST_COLOUR: [u8; 3] = [176, 60, 62];
+/// The print that a piece is given first.
+const FIRST_PRINT: Print = Print { motif: Motif::Stripes, repeat_m: 0.02, colour: [244, 242, 236] };
 
-/// Draws a list of fabrics for the garment and one for each piece.
-pub fn fabric_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, asks: &mut Asks) {
-    list(ui, told, None, "All pieces", asks);
+/// Draws a row for the whole garment and one for each piece, the colourways, and the button for one step of draping.
+pub fn fabric_ui(ui: &mut Ui, told: &PanelContext<'_>, asks: &mut Asks) {
+    row(ui, told, None, "All pieces", asks);
     for (&id, piece) in &told.document.pattern.pieces {
-        list(ui, told, Some(id), &piece.name, asks);
+        row(ui, told, Some(id), &piece.name, asks);
     }
+    ui.add_space(2.0);
+    colourways_ui(ui, told, asks);
     ui.add_space(2.0);
     let step = Action::StepDrape;
     let why_not = told.now.why_not(step);
@@ -28,7 +36,15 @@ pub fn fabric_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, asks: &mut Asks) {
     }
 }
 
-fn list(ui: &mut egui::Ui, told: &PanelContext<'_>, piece: Option<PieceId>, name: &str, asks: &mut Asks) {
+/// Fabric, colour and print of a piece.
+fn row(ui: &mut Ui, told: &PanelContext<'_>, piece: Option<PieceId>, name: &str, asks: &mut Asks) {
+    ui.horizontal(|ui| {
+        dye_menu(ui, told, piece, name, asks);
+        fabric_list(ui, told, piece, name, asks);
+    });
+}
+
+fn fabric_list(ui: &mut Ui, told: &PanelContext<'_>, piece: Option<PieceId>, name: &str, asks: &mut Asks) {
     let fabrics = &told.document.fabrics;
     let own = match piece {
         None => Some(fabrics.name(None)),
@@ -52,7 +68,120 @@ fn list(ui: &mut egui::Ui, told: &PanelContext<'_>, piece: Option<PieceId>, name
     });
 }
 
-/// Density, stretch and bending stiffness, for people.
+/// A button in the colour of the piece that opens its colour and print.
+fn dye_menu(ui: &mut Ui, told: &PanelContext<'_>, piece: Option<PieceId>, name: &str, asks: &mut Asks) {
+    let document = told.document;
+    let own = match piece {
+        None => document.dyes.all,
+        Some(piece) => document.dyes.pieces.get(&piece).copied().unwrap_or_default(),
+    };
+    let fabric = Fabric::preset(document.fabrics.name(piece)).and_then(|fabric| fabric.look.colour);
+    let all = document.dyes.all.colour.filter(|_| piece.is_some());
+    let seen = own.colour.or(all).or(fabric);
+    let opaque = |[r, g, b]: [u8; 3]| egui::Color32::from_rgb(r, g, b);
+    let border = own.print.map_or(told.palette.weak, |print| opaque(print.colour));
+    let button = egui::Button::new("").min_size(SWATCH).stroke(egui::Stroke::new(2.0, border));
+    let button = seen.into_iter().fold(button, |button, colour| button.fill(opaque(colour)));
+    let (response, _) = open_menu(button).ui(ui, |ui| {
+        if let Some(dye) = dye_ui(ui, own, seen, piece.is_none()) {
+            asks.push(Ask::Drag(Command::SetDye { piece, dye }));
+        }
+        // A drag over the colours is one step.
+        if ui.input(|input| input.pointer.any_released() || input.key_pressed(egui::Key::Enter)) {
+            asks.push(Ask::EndDrag);
+        }
+    });
+    let label = format!("Colour and print of {name}");
+    let name_of_button = label.clone();
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &name_of_button));
+    response.on_hover_text(label);
+}
+
+/// The dye that was chosen, if any was.
+fn dye_ui(ui: &mut Ui, own: Dye, seen: Option<[u8; 3]>, is_for_all: bool) -> Option<Dye> {
+    let mut dye = own;
+    let plain = if is_for_all { "As the fabric" } else { "As all pieces" };
+    let mut is_own = own.colour.is_some();
+    if ui.checkbox(&mut is_own, "Own colour").on_hover_text(plain).changed() {
+        dye.colour = is_own.then(|| seen.unwrap_or(FIRST_COLOUR));
+    }
+    if let Some(colour) = &mut dye.colour {
+        let mut shown = egui::Color32::from_rgb(colour[0], colour[1], colour[2]);
+        if egui::color_picker::color_picker_color32(ui, &mut shown, egui::color_picker::Alpha::Opaque) {
+            *colour = [shown.r(), shown.g(), shown.b()];
+        }
+    }
+    ui.separator();
+    let mut has_print = own.print.is_some();
+    if ui.checkbox(&mut has_print, "Print").changed() {
+        dye.print = has_print.then_some(FIRST_PRINT);
+    }
+    if let Some(print) = &mut dye.print {
+        ui.horizontal(|ui| {
+            for motif in Motif::ALL {
+                ui.selectable_value(&mut print.motif, motif, motif.name());
+            }
+        });
+        ui.horizontal(|ui| {
+            let mut millimetres = print.repeat_m * 1e3;
+            let value = DragValue::new(&mut millimetres).range(1.0..=2000.0).suffix(" mm").max_decimals(1);
+            if ui.add(value).on_hover_text("Length of a repeat").changed() {
+                print.repeat_m = millimetres / 1e3;
+            }
+            ui.color_edit_button_srgb(&mut print.colour);
+        });
+    }
+    (dye != own).then_some(dye)
+}
+
+/// The list of colourways, and the name under which the present one is kept.
+fn colourways_ui(ui: &mut Ui, told: &PanelContext<'_>, asks: &mut Asks) {
+    let document = told.document;
+    let is_worn = |c: &&crate::session::Colourway| c.fabrics == document.fabrics && c.dyes == document.dyes;
+    let worn = document.colourways.iter().find(is_worn).map(|colourway| colourway.name.as_str());
+    let id = ui.scope_id().with("new colourway");
+    ui.horizontal(|ui| {
+        let shown = RichText::new(worn.unwrap_or("not kept")).color(told.palette.weak);
+        let combo = ComboBox::from_label("Colourway").selected_text(shown).width(WIDTH);
+        combo.show_ui(ui, |ui| {
+            for colourway in document.colourways.iter() {
+                let name = &colourway.name;
+                if ui.selectable_label(worn == Some(name), name).clicked() {
+                    asks.push(Ask::Do(Command::WearColourway { name: name.clone() }));
+                }
+            }
+            if let Some(name) = worn
+                && ui.button(format!("Delete {name}")).clicked()
+            {
+                asks.push(Ask::Do(Command::DeleteColourway { name: name.to_owned() }));
+            }
+        });
+    });
+    let keep = egui::Button::new("Keep colourway…").small();
+    let (response, _) = open_menu(keep).ui(ui, |ui| {
+        let mut name: String = ui.data(|data| data.get_temp(id)).unwrap_or_default();
+        let typed = ui.add(egui::TextEdit::singleline(&mut name).hint_text("Name").desired_width(WIDTH));
+        let is_entered = typed.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
+        let is_named = !name.trim().is_empty();
+        let is_kept = ui.add_enabled(is_named, egui::Button::new("Keep")).clicked();
+        if is_kept || (is_entered && is_named) {
+            asks.push(Ask::Do(Command::KeepColourway { name: name.trim().to_owned() }));
+            name.clear();
+            ui.close();
+        }
+        ui.data_mut(|data| data.insert_temp(id, name));
+    });
+    response.on_hover_text("Keep the present fabrics, colours and prints under a name");
+}
+
+/// A menu that a click inside does not close.
+fn open_menu(button: egui::Button<'_>) -> egui::containers::menu::MenuButton<'_> {
+    let config = egui::containers::menu::MenuConfig::new()
+        .close_behavior(egui::PopupCloseBehavior::CloseOnClickOutside);
+    egui::containers::menu::MenuButton::from_button(button).config(config)
+}
+
+/// Weight, stretch and bending stiffness as text.
 fn figures(fabric: &Fabric) -> String {
     let grams = fabric.density_kg_per_m2 * 1000.0;
     let bending = fabric.bending.warp.max(fabric.bending.weft) * 1e6;

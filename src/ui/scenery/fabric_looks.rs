@@ -7,9 +7,15 @@ use glam::Vec2;
 
 use crate::cloth::{Fabric, FabricLook, Garment};
 use crate::geometry::ids::PieceId;
+use crate::io::glb::{ClothMaterial, Colours};
 use crate::pattern::{Pattern, Piece};
-use crate::render::{Rgb, Textile};
-use crate::session::Fabrics;
+use crate::render::{Rgb, Textile, linear};
+use crate::session::{Document, Dye, Dyes, Print};
+
+/// Roughness of exported fabrics without gloss.
+const MATT: f32 = 0.9;
+/// Opacity of exported open fabrics, as a share of that of their threads.
+const OPEN: f32 = 0.7;
 
 /// Appearance of each piece.
 pub type PieceLooks = BTreeMap<PieceId, PieceLook>;
@@ -25,20 +31,51 @@ pub struct PieceLook {
     pub grain: Vec2,
 }
 
-/// Appearance of the pieces of `pattern`; `fabric` gives the fabric of each.
-pub fn piece_looks<'f>(pattern: &Pattern, fabric: impl Fn(PieceId) -> Option<&'f Fabric>) -> PieceLooks {
+/// Appearance of the pieces of `pattern`; `fabric` gives the fabric of each, `dyes` colours and prints.
+pub fn piece_looks<'f>(
+    pattern: &Pattern,
+    fabric: impl Fn(PieceId) -> Option<&'f Fabric>,
+    dyes: &Dyes,
+) -> PieceLooks {
     let look = |(&id, piece): (&PieceId, &Arc<Piece>)| {
-        let look = fabric(id).map(|fabric| fabric.look).unwrap_or_default();
+        let mut look = fabric(id).map(|fabric| fabric.look).unwrap_or_default();
+        let Dye { colour, print } = dyes.of(id);
+        if colour.is_some() {
+            (look.colour, look.weft) = (colour, None);
+        }
         let along = piece.grainline.and_then(|[tail, head]| (head - tail).as_vec2().try_normalize());
         let colours = look.colour.map(|outside| [outside, inside(&look, outside)]);
-        (id, PieceLook { colours, textile: textile(&look), grain: along.unwrap_or(Vec2::Y) })
+        (id, PieceLook { colours, textile: printed(textile(&look), print), grain: along.unwrap_or(Vec2::Y) })
     };
     pattern.pieces.iter().map(look).collect()
 }
 
-/// Appearance of the pieces of `pattern`, made of presets.
-pub fn named_looks(pattern: &Pattern, fabrics: &Fabrics) -> PieceLooks {
-    piece_looks(pattern, |piece| Fabric::preset(fabrics.name(Some(piece))))
+/// Appearance of the pieces of `document`.
+pub fn looks_of(document: &Document) -> PieceLooks {
+    let fabric = |piece| Fabric::preset(document.fabrics.name(Some(piece)));
+    piece_looks(&document.pattern, fabric, &document.dyes)
+}
+
+/// Materials of the pieces of `document` for export. Weave and print are left out.
+pub fn materials(document: &Document) -> Colours {
+    let material = |(id, look): (PieceId, PieceLook)| {
+        let [outside, inside] = look.colours?;
+        let (textile, colour) = (look.textile, |side: Rgb| linear(side).to_array());
+        let material = ClothMaterial {
+            name: document.fabrics.name(Some(id)).to_owned(),
+            sides: [colour(outside), colour(inside)],
+            roughness: if textile.gloss > 0.0 { textile.roughness } else { MATT },
+            opacity: if textile.is_open { textile.cover * OPEN } else { 1.0 },
+        };
+        Some((id, material))
+    };
+    Colours { pieces: looks_of(document).into_iter().filter_map(material).collect(), ..Colours::default() }
+}
+
+/// `textile` with `print` on it.
+fn printed(textile: Textile, print: Option<Print>) -> Textile {
+    let Some(print) = print else { return textile };
+    Textile { print: print.motif as u32, repeat: print.repeat_m as f32, ink: print.colour, ..textile }
 }
 
 /// Colour of the inside: half weft, and slightly darker.
@@ -61,6 +98,7 @@ pub fn textile(look: &FabricLook) -> Textile {
         slubs: look.slubs as f32,
         cover: look.cover as f32,
         is_open: look.is_open(),
+        ..Textile::default()
     }
 }
 
@@ -78,6 +116,7 @@ mod tests {
 
     use super::*;
     use crate::cloth::Corner;
+    use crate::session::Motif;
 
     #[test]
     fn the_grain_runs_up_in_the_cloth() {
@@ -97,18 +136,24 @@ mod tests {
 
     #[test]
     fn a_piece_looks_like_its_own_fabric_else_like_that_of_all() {
-        let mut pattern = Pattern::default();
+        let mut document = Document::default();
         let square = [DVec2::ZERO, DVec2::X, DVec2::Y];
+        let pattern = Arc::make_mut(&mut document.pattern);
         let [one, two] = ["one", "two"].map(|name| pattern.add_piece(Piece::polygon(name, &square)));
-        let mut fabrics = Fabrics::default();
-        assert!(named_looks(&pattern, &fabrics).values().all(|look| look.colours.is_none()), "undyed");
-        fabrics.pieces.insert(two, "denim-11oz".to_owned());
-        let looks = named_looks(&pattern, &fabrics);
-        assert!(looks[&one].colours.is_none() && looks[&two].colours.is_some());
-        assert!(looks[&two].textile.second.is_some(), "white threads in blue");
         let turned =
             Piece { grainline: Some([DVec2::ZERO, DVec2::X * 0.2]), ..(*pattern.pieces[&one]).clone() };
         pattern.pieces.insert(one, Arc::new(turned));
-        assert_eq!(named_looks(&pattern, &fabrics)[&one].grain, Vec2::X);
+        assert!(looks_of(&document).values().all(|look| look.colours.is_none()), "undyed");
+        document.fabrics.pieces.insert(two, "denim-11oz".to_owned());
+        let looks = looks_of(&document);
+        assert!(looks[&one].colours.is_none() && looks[&two].colours.is_some());
+        assert!(looks[&two].textile.second.is_some(), "white threads in blue");
+        assert_eq!((looks[&one].grain, looks[&two].grain), (Vec2::X, Vec2::Y));
+        let print = Print { motif: Motif::Dots, repeat_m: 0.03, colour: [7; 3] };
+        document.dyes.set(None, Dye { colour: Some([200, 0, 0]), print: None });
+        document.dyes.set(Some(two), Dye { colour: None, print: Some(print) });
+        let looks = looks_of(&document);
+        assert!(looks.values().all(|look| look.colours.is_some_and(|[outside, _]| outside == [200, 0, 0])));
+        assert_eq!([looks[&one].textile.print, looks[&two].textile.print], [0, Motif::Dots as u32]);
     }
 }

@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use crate::pattern::activity::Activity;
 use crate::render::{Rgb, Scene, View};
-use crate::session::{Outfit, Session};
-use crate::ui::scenery::fabric_looks::{named_looks, piece_looks};
+use crate::session::{Dyes, Outfit, Session};
+use crate::ui::scenery::fabric_looks::{looks_of, piece_looks};
 use crate::ui::scenery::scene::{Scenery, Shown};
 
 /// Optional contents of a picture of a session.
@@ -27,7 +27,7 @@ pub fn portrait(scenery: &mut Scenery, session: &Session, extras: Extras<'_>) ->
     let dressed = snapshot.is_dressed();
     let activities = session.document().pattern.activities();
     let whole = snapshot.garment.as_ref().map(|garment| (garment, &snapshot.cloth));
-    let looks = Arc::new(named_looks(&session.document().pattern, &session.document().fabrics));
+    let looks = Arc::new(looks_of(session.document()));
     scenery.scene(&Shown {
         body: snapshot.body.as_ref().filter(|_| dressed).or(session.surface()),
         cloth: snapshot.drawn().filter(|_| dressed),
@@ -43,7 +43,8 @@ pub fn portrait(scenery: &mut Scenery, session: &Session, extras: Extras<'_>) ->
 
 /// The scene of `outfit` on its body, in `colours` of a map, one for each vertex, or in its own; deactivated pieces are pale.
 pub fn worn_scene(scenery: &mut Scenery, outfit: &Outfit, colours: Option<&Arc<Vec<Rgb>>>) -> Scene {
-    let looks = Arc::new(piece_looks(&outfit.source.pattern, |piece| outfit.fabrics.get(&piece)));
+    let looks =
+        Arc::new(piece_looks(&outfit.source.pattern, |piece| outfit.fabrics.get(&piece), &Dyes::default()));
     scenery.scene(&Shown {
         body: Some(&outfit.body),
         cloth: Some((&outfit.garment, &outfit.state)),
