@@ -194,7 +194,12 @@ impl Dress {
             save: None,
             record: None,
             max_ticks: MAX_TICKS,
-            picture: PictureOptions { view: View::ThreeQuarter, size: [1280, 800], transparent: false },
+            picture: PictureOptions {
+                view: View::ThreeQuarter,
+                size: [1280, 800],
+                transparent: false,
+                supersample: 1,
+            },
             work: WorkOptions::default(),
             resume: false,
             progress: false,
@@ -229,6 +234,9 @@ pub struct PictureOptions {
     /// Draws neither background nor floor
     #[arg(long)]
     pub transparent: bool,
+    /// Draws this many times as wide and high, 1 to 4, and shrinks the picture: smoother edges and threads
+    #[arg(long, value_name = "TIMES", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=4))]
+    pub supersample: u32,
 }
 
 /// Runs a recording, compares its hashes, and stops at the first difference

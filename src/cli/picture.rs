@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use glam::UVec2;
 use image::RgbaImage;
+use image::imageops::thumbnail;
 
 use crate::cli::arguments::PictureOptions;
 use crate::cli::failure::Failure;
@@ -57,9 +58,12 @@ impl Artist {
     /// Draws the body, the cloth and, where there is no cloth yet, the marks of `session`, as PNG.
     pub fn png(&mut self, session: &Session, options: &PictureOptions) -> Result<Vec<u8>, Failure> {
         let scene = portrait(&mut self.scenery, session, Extras { pins: true, ..Extras::default() });
-        let size = UVec2::from_array(options.size);
-        let look = Look { cut_out: options.transparent, ..Look::light() };
-        let picture = self.studio.picture(&scene, options.view, &look, size).map_err(failure)?;
+        let (size, times) = (UVec2::from_array(options.size), options.supersample);
+        let pixels_per_point = times as f32;
+        let look = Look { cut_out: options.transparent, pixels_per_point, ..Look::light() };
+        let picture = self.studio.picture(&scene, options.view, &look, size * times).map_err(failure)?;
+        // Averages in whole blocks of pixels.
+        let picture = if times > 1 { thumbnail(&picture, size.x, size.y) } else { picture };
         png(&if options.transparent { straightened(picture) } else { picture }).map_err(failure)
     }
 }

@@ -98,6 +98,11 @@ fn cloth_is_drawn_in_the_fabric_colour_and_print_that_are_asked_for() {
     for (i, picture) in pictures.iter().enumerate() {
         assert!(!pictures[..i].contains(picture), "{:?} changes nothing", options[i]);
     }
+    place.draws("render dressed.toile --supersample 2 -o fine.png --size 120x120");
+    let fine = std::fs::read(place.path("fine.png")).expect("a picture");
+    let picture = image::load_from_memory(&fine).expect("a picture");
+    assert_eq!((picture.width(), picture.height()), (120, 120));
+    assert!(!pictures.contains(&fine), "smoother");
     let fails = |options: &str, words: &str| {
         place.ends_with_words(2, &format!("render dressed.toile {options} -o out.png"), words);
     };
@@ -106,6 +111,7 @@ fn cloth_is_drawn_in_the_fabric_colour_and_print_that_are_asked_for() {
     fails("--colour red", "hexadecimal");
     fails("--print checks:0:ffffff", "repeats");
     fails("--print plaid:20:ffffff", "plaid");
+    fails("--supersample 9", "9");
 }
 
 #[test]

@@ -108,6 +108,9 @@ impl Palette {
     }
 }
 
+/// How much of the cloth's colour a piece in the pattern pane has.
+const DYED: f32 = 0.42;
+
 impl Palette {
     /// Fill and outline of a piece, by side, layer and activity. Layers have the hues that they have on the body.
     pub fn piece(&self, front: bool, layer: u8, activity: Activity) -> [Color32; 2] {
@@ -123,6 +126,12 @@ impl Palette {
                 [cloth.lerp_to_gamma(self.table, 0.75), line.lerp_to_gamma(self.table, 0.4)]
             }
         }
+    }
+
+    /// Fill of an active piece seen from its front, whose cloth has this colour: as pale as those of the layers, so that lines and
+    /// words stay readable on it.
+    pub fn dyed(&self, cloth: Color32) -> Color32 {
+        self.table.lerp_to_gamma(cloth, DYED)
     }
 
     /// The colour of the seam with this number, for both its edges; consecutive numbers have different hues.

@@ -14,6 +14,7 @@ use crate::ui::actions::Tool;
 use crate::ui::look::signs::{self, Sign};
 use crate::ui::look::theme::colour;
 use crate::ui::maps::ShownMap;
+use crate::ui::scenery::fabric_looks::outside_colour;
 use crate::ui::scenery::ring::ring;
 use crate::ui::selection::{Item, LineRef};
 
@@ -36,7 +37,8 @@ impl Drawing<'_> {
             if self.is_in_view(piece, shape) {
                 let item = Item::Piece(id);
                 let look = [table.laid.selection.has(item), table.laid.highlight == Some(item)];
-                self.piece(piece, shape, look, table.laid.map.map(|map| (map, id)));
+                let fill = self.fill(table, (id, piece), front_is_seen(piece, shape));
+                self.piece(piece, shape, look, fill, table.laid.map.map(|map| (map, id)));
             }
         }
     }
@@ -48,16 +50,25 @@ impl Drawing<'_> {
         Rect::from_points(&corners).expand(room).intersects(self.pane)
     }
 
+    /// Fill of a piece: in the colour of its cloth, or of its layer.
+    fn fill(&self, table: &Table<'_>, (id, piece): (PieceId, &Piece), front: bool) -> Color32 {
+        let [plain, _] = self.palette.piece(front, piece.layer, piece.activity);
+        let own = outside_colour(table.laid.document, id);
+        let own = own.filter(|_| front && piece.activity == Activity::Active);
+        own.map_or(plain, |own| self.palette.dyed(colour(own)))
+    }
+
     fn piece(
         &self,
         piece: &Piece,
         shape: &PieceShape,
         [selected, near]: [bool; 2],
+        fill: Color32,
         map: Option<(&ShownMap, PieceId)>,
     ) {
         let place = |p: DVec2| self.place(piece.pose.plane_from_piece(p));
         let front = front_is_seen(piece, shape);
-        let [fill, line] = self.palette.piece(front, piece.layer, piece.activity);
+        let [_, line] = self.palette.piece(front, piece.layer, piece.activity);
         let mut mesh = egui::Mesh::default();
         mesh.reserve_vertices(shape.fill.len() * 4);
         mesh.reserve_triangles(shape.fill.len() * 2);
@@ -133,7 +144,7 @@ impl Drawing<'_> {
                 continue;
             }
             let front = front_is_seen(piece, shape);
-            let [fill, _] = self.palette.piece(front, piece.layer, piece.activity);
+            let fill = self.fill(table, (id, piece), front);
             let name = words_on(piece, front);
             let corners = shape.corners().map(|p| self.place(piece.pose.plane_from_piece(p)));
             let room = Rect::from_points(&corners).width() * 1.15;

@@ -56,6 +56,12 @@ pub fn looks_of(document: &Document) -> PieceLooks {
     piece_looks(&document.pattern, fabric, &document.dyes)
 }
 
+/// Colour of the outside of `piece`: its own, else that of its fabric. None: that of its layer.
+pub fn outside_colour(document: &Document, piece: PieceId) -> Option<Rgb> {
+    let fabric = || Fabric::preset(document.fabrics.name(Some(piece)))?.look.colour;
+    document.dyes.of(piece).colour.or_else(fabric)
+}
+
 /// Materials of the pieces of `document` for export. Weave and print are left out.
 pub fn materials(document: &Document) -> Colours {
     let material = |(id, look): (PieceId, PieceLook)| {
