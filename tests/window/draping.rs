@@ -58,6 +58,9 @@ fn colours_prints_and_colourways_are_chosen_in_the_side_panel() {
     window.get_by_label("Own colour").click();
     window.run_steps(3);
     assert!(dye(&window).colour.is_some());
+    window.get_by_label("#a82a30").click();
+    window.run_steps(3);
+    assert_eq!(dye(&window).colour, Some([168, 42, 48]));
     assert_eq!(app(&window).session().undo_label(), Some("change the colour"));
     window.get_by_label("Print").click();
     window.run_steps(3);

@@ -47,6 +47,19 @@ pub struct Trials {
     fine: Option<f64>,
     /// Result of the trials, while the cloth of the start that was taken settles in the garment's own mesh.
     refining: Option<Started>,
+    /// What that cloth does now.
+    refinement: Refinement,
+}
+
+/// Stages of settling in the garment's own mesh.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Refinement {
+    /// From where the coarser mesh came to rest.
+    First,
+    /// Relaxing what had a fault then, which turns cloth that lies wrong side out.
+    Mending,
+    /// Draping once more.
+    Again,
 }
 
 impl Trials {
@@ -116,6 +129,7 @@ impl World {
         let mut trials = Trials {
             fine: coarse.map(|_| own),
             refining: None,
+            refinement: Refinement::First,
             source,
             body,
             fabrics,
@@ -223,6 +237,9 @@ impl World {
                 faults.push(format!("it was not draped: {why}"));
             }
         }
+        if trials.refining.is_some() && self.mends_refined(trials, faults.is_empty()) {
+            return None;
+        }
         if let Some(mut started) = trials.refining.take() {
             let taken = &mut started.tried[started.taken];
             (taken.faults, taken.places, taken.ticks) = (faults, places, taken.ticks + trials.ticks);
@@ -254,6 +271,24 @@ impl World {
             return None;
         }
         Some(Self { started: Some(Arc::new(started)), ..world })
+    }
+
+    /// Goes on with draped cloth that had a fault in the garment's own mesh. False when there is nothing more to try.
+    fn mends_refined(&mut self, trials: &mut Trials, is_clean: bool) -> bool {
+        match trials.refinement {
+            Refinement::First if trials.draping && !is_clean && self.not_finite().is_none() => {
+                trials.refinement = Refinement::Mending;
+                self.draping = None;
+                self.settle();
+                true
+            }
+            Refinement::Mending => {
+                trials.refinement = Refinement::Again;
+                self.drape_for(None, Arc::clone(&trials.fabrics));
+                true
+            }
+            Refinement::First | Refinement::Again => false,
+        }
     }
 
     /// Faults and tight places of the cloth; None where there is no garment.
