@@ -1,5 +1,7 @@
 //! Position of the cloth relative to the body: inside, intersecting, or wrong side out.
 
+use std::collections::BTreeSet;
+
 use glam::DVec3;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -211,8 +213,8 @@ fn face_depth(corners: [DVec3; 3], body: &BodyIndex<'_>) -> Option<f64> {
         .reduce(f64::max)
 }
 
-/// Triangles with their outer side to the body, each with whether it is in a fold: within [`FOLD`] above or below it there is
-/// cloth the right way round.
+/// Triangles with their outer side to the body, each with whether it is in a fold: within [`FOLD`] above or below it, or a neighbour
+/// of it, there is cloth the right way round. At the crease itself there is none.
 fn in_folds(
     laid: &Laid,
     cloth_tree: &Bvh,
@@ -232,6 +234,15 @@ fn in_folds(
     let mut folded = vec![false; segments.len()];
     for [s, t] in meetings(&ends, &segments, &laid.mesh, cloth_tree) {
         folded[s as usize] |= wrong[t as usize] != Some(true);
+    }
+    let edges = |t: usize| {
+        let [a, b, c] = laid.mesh.triangles[t];
+        [[a, b], [b, c], [c, a]].map(|[p, q]| [p.min(q), p.max(q)])
+    };
+    let sides: BTreeSet<[u32; 2]> =
+        shown.iter().zip(&folded).filter(|(_, folded)| **folded).flat_map(|(&t, _)| edges(t)).collect();
+    for (&t, folded) in shown.iter().zip(&mut folded) {
+        *folded |= edges(t).iter().any(|edge| sides.contains(edge));
     }
     shown.into_iter().zip(folded).collect()
 }

@@ -198,18 +198,24 @@ fn what_lies_much_lower_than_it_was_placed_has_fallen_down() {
 #[test]
 fn a_fold_all_round_is_told_from_cloth_inside_out() {
     let r = exact_radius();
-    // Up, down again for 4 cm a little farther out, and up again still farther out.
-    let folded = |p: DVec3| {
-        let (up, out) = match p.y - 0.5 {
-            h if h < 0.14 => (h, 0.0),
-            h if h < 0.18 => (0.28 - h, 0.004),
-            h => (h - 0.08, 0.008),
-        };
-        DVec3::new(p.x * (r + out) / r, 0.5 + up, p.z * (r + out) / r)
+    // Up, down again for 4 cm a little farther out, and up again still farther out; the crease lies across the triangles, too.
+    let folded = |at: f64| {
+        move |p: DVec3| {
+            let (up, out) = match p.y - 0.5 {
+                h if h < at => (h, 0.0),
+                h if h < at + 0.04 => (2.0 * at - h, 0.004),
+                h => (h - 0.08, 0.008),
+            };
+            DVec3::new(p.x * (r + out) / r, 0.5 + up, p.z * (r + out) / r)
+        }
     };
-    let report = report(&sleeve(r, folded), cylinder(r - 0.004, 0.2, 1.2, 96, 40));
-    assert!(report.flipped_faces > 50, "{}", report.flipped_faces);
-    assert_eq!(report.faces_in_folds, report.flipped_faces);
+    let at = |at| report(&sleeve(r, folded(at)), cylinder(r - 0.004, 0.2, 1.2, 96, 40));
+    for across in [0.14, 0.143, 0.146, 0.149, 0.152] {
+        let report = at(across);
+        assert!(report.flipped_faces > 50, "{}", report.flipped_faces);
+        assert_eq!(report.faces_in_folds, report.flipped_faces, "crease at {across}");
+    }
+    let report = at(0.14);
     let tells = |draped| {
         let found = faults(&report, draped);
         found.iter().any(|(problem, _)| problem.words.contains("wrong side out"))
