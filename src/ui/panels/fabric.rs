@@ -4,10 +4,13 @@ use egui::{ComboBox, DragValue, RichText, Ui};
 
 use crate::cloth::Fabric;
 use crate::geometry::ids::PieceId;
+use crate::pattern::naming;
+use crate::render::cloth_front;
 use crate::session::{Command, Dye, Motif, Print};
 use crate::ui::actions::Action;
 use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::panels::context::PanelContext;
+use crate::ui::scenery::print_match::{PrintMatch, print_matches};
 
 /// Width of the lists, points.
 const WIDTH: f32 = 104.0;
@@ -18,6 +21,8 @@ const FIRST_COLOUR: [u8; 3] = [176, 60, 62];
 /// The print that a piece is given first.
 const FIRST_PRINT: Print = Print { motif: Motif::Stripes, repeat_m: 0.02, colour: [244, 242, 236] };
 
+/// Prints that are off by less than this at a seam count as meeting, mm: a sewer does not do better.
+const MATCHES_MM: f64 = 1.0;
 /// Dyes of the palette, sRGB: neutrals, then warm and cold hues from pale to deep.
 const DYES: [[u8; 3]; 32] = [
     [250, 248, 244],
@@ -62,6 +67,7 @@ pub fn fabric_ui(ui: &mut Ui, told: &PanelContext<'_>, asks: &mut Asks) {
     }
     ui.add_space(2.0);
     colourways_ui(ui, told, asks);
+    matches_ui(ui, told);
     ui.add_space(2.0);
     let step = Action::StepDrape;
     let why_not = told.now.why_not(step);
@@ -117,7 +123,8 @@ fn dye_menu(ui: &mut Ui, told: &PanelContext<'_>, piece: Option<PieceId>, name: 
     let opaque = |[r, g, b]: [u8; 3]| egui::Color32::from_rgb(r, g, b);
     let border = own.print.map_or(told.palette.weak, |print| opaque(print.colour));
     let button = egui::Button::new("").min_size(SWATCH).stroke(egui::Stroke::new(2.0, border));
-    let button = seen.into_iter().fold(button, |button, colour| button.fill(opaque(colour)));
+    let layer = piece.and_then(|id| document.pattern.pieces.get(&id)).map_or(0, |piece| piece.layer);
+    let button = button.fill(opaque(seen.unwrap_or_else(|| cloth_front(layer))));
     let (response, _) = open_menu(button).ui(ui, |ui| {
         if let Some(dye) = dye_ui(ui, own, seen, piece.is_none()) {
             asks.push(Ask::Drag(Command::SetDye { piece, dye }));
@@ -236,6 +243,22 @@ fn colourways_ui(ui: &mut Ui, told: &PanelContext<'_>, asks: &mut Asks) {
         ui.data_mut(|data| data.insert_temp(id, name));
     });
     response.on_hover_text("Keep the present fabrics, colours and prints under a name");
+}
+
+/// How far the prints on both sides of each seam are off each other.
+fn matches_ui(ui: &mut Ui, told: &PanelContext<'_>) {
+    let Some(garment) = told.snapshot.garment.as_ref().filter(|_| !told.document.dyes.is_plain()) else {
+        return;
+    };
+    for PrintMatch { seam, motif, offset } in print_matches(garment, &told.document.dyes) {
+        let place = naming::seam_place(&told.document.pattern, seam);
+        let millimetres = offset * 1e3;
+        let words = match millimetres < MATCHES_MM {
+            true => format!("{place}: {} meet", motif.name()),
+            false => format!("{place}: {} are {millimetres:.0} mm off", motif.name()),
+        };
+        ui.label(RichText::new(words).small().color(told.palette.weak));
+    }
 }
 
 /// A menu that a click inside does not close.

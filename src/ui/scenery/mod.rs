@@ -5,6 +5,7 @@ pub mod fabric_looks;
 pub mod mapped;
 pub(in crate::ui) mod parted;
 pub mod portrait;
+pub mod print_match;
 pub(in crate::ui) mod ring;
 pub mod scene;
 pub(in crate::ui) mod stitches;
