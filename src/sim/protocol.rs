@@ -135,7 +135,7 @@ pub struct Snapshot {
     /// Whether the cloth was sewn from the placement of its pieces on the body in its present pose; then it should still be
     /// there.
     pub was_sewn: bool,
-    /// Pieces are being sewn: `garment` then has open seams or a coarser mesh than `source` gives.
+    /// Pieces are being sewn: `garment` then has open seams.
     pub is_sewing: bool,
     /// While starts are tried: the present one, and whether it is being draped.
     pub trying: Option<(Start, bool)>,

@@ -267,7 +267,7 @@ impl Simulation {
                 self.world.drape_for(Some(ticks), source);
             }
             RequestKind::Sew { source, body, fabrics } => {
-                self.set_world(World::placed(source, body, fabrics)?);
+                self.set_world(World::sewn(source, body, fabrics)?);
             }
             RequestKind::Dress { source, body, fabrics, choice } => {
                 self.set_world(World::dressed(source, body, fabrics, choice)?);

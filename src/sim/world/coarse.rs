@@ -3,8 +3,10 @@
 
 use std::sync::Arc;
 
+use crate::body::Surface;
 use crate::cloth::{self, Carry, Skip};
 use crate::sim::source::{DrapeSource, GarmentSource};
+use crate::sim::start::{Start, StartChoice};
 use crate::sim::world::{World, unlaid};
 
 /// Largest number of triangles of a garment that is dressed in its own mesh from the start.
@@ -13,7 +15,7 @@ const MOST_TRIANGLES: f64 = 6000.0;
 const COARSE_TRIANGLES: f64 = 4000.0;
 
 /// Edge length (metres) of the coarser mesh in which the garment of `source` is dressed first. None: in its own mesh.
-pub(in crate::sim) fn coarse_edge(source: &GarmentSource) -> Option<f64> {
+pub(super) fn coarse_edge(source: &GarmentSource) -> Option<f64> {
     let area: f64 = source.pattern.pieces.values().map(|piece| piece.signed_area().abs()).sum();
     let count = area / (3.0f64.sqrt() / 4.0 * source.edge_length.powi(2));
     let is_large = count > MOST_TRIANGLES && source.relax.skips.allow(Skip::Fine);
@@ -21,6 +23,20 @@ pub(in crate::sim) fn coarse_edge(source: &GarmentSource) -> Option<f64> {
 }
 
 impl World {
+    /// Begins to sew a garment from the placement of its pieces; one of many triangles as the only start that is tried. The error is
+    /// in words.
+    pub(in crate::sim) fn sewn(
+        source: Arc<GarmentSource>,
+        body: Arc<Surface>,
+        fabrics: Arc<DrapeSource>,
+    ) -> Result<Self, String> {
+        let choice = StartChoice { only: Some(Start::Placement), draped: true };
+        match coarse_edge(&source) {
+            None => Self::placed(source, body, fabrics),
+            Some(_) => Self::dressed(source, body, fabrics, choice),
+        }
+    }
+
     /// This cloth carried to a mesh with edges of `edge_length` metres, where it is draped if it was draped before, else relaxed.
     pub(in crate::sim) fn refined(self, edge_length: f64, fabrics: Arc<DrapeSource>) -> Self {
         let (Some(source), Some(coarse)) = (&self.source, &self.garment) else { return self };

@@ -1,16 +1,14 @@
-//! Sewing a garment together from the placement of its pieces. A garment of many triangles is sewn and draped in a coarser mesh first.
+//! Sewing a garment together from the placement of its pieces.
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use glam::DVec3;
 
 use crate::body::Surface;
-use crate::cloth::{self, Carry, ClothState, Fabric, Garment, Skips};
-use crate::contact::separation;
+use crate::cloth::{self, ClothState, Garment, Skips};
 use crate::drape::garment::clear::cleared;
 use crate::drape::garment::sewing::{Sewing, Stage};
-use crate::drape::{DrapedGarment, DrapedSettings, Undrapable};
+use crate::drape::{DrapedSettings, Undrapable};
 use crate::fit::{ShortSeam, short_seams};
 use crate::geometry::ids::PieceId;
 use crate::pattern::naming;
@@ -19,11 +17,7 @@ use crate::pattern::{Problem, ProblemKind};
 use crate::place::led;
 use crate::sim::source::DrapeSource;
 use crate::sim::source::GarmentSource;
-use crate::sim::world::coarse::coarse_edge;
 use crate::sim::world::{World, unlaid};
-
-/// Share of the progress that is shown for sewing when draping of the coarser mesh follows.
-const SEWING_SHARE: f64 = 0.7;
 
 /// A garment sewn in layers, the innermost first, each over those already worn (paper B, "multi-layer").
 #[derive(Debug)]
@@ -50,30 +44,13 @@ impl Outfit {
         body: &Arc<Surface>,
         skips: Skips,
     ) -> Result<(Sewing, ClothState), Undrapable> {
-        let (settings, of) = (self.settings(skips), self.of());
+        let settings = DrapedSettings { strain: self.fabrics.strain, self_collision: true, skips };
+        let of = (&self.fabrics.of_pieces, &self.fabrics.fabric);
         let now = |piece: PieceId| self.garment.layer(piece) == layer;
         let places = cleared(&self.garment, worn, &self.places, &now);
         let stage = Stage { places: &places, now: &now, worn };
         Sewing::new(Arc::clone(&self.garment), stage, Arc::clone(body), of, settings)
     }
-
-    fn settings(&self, skips: Skips) -> DrapedSettings {
-        DrapedSettings { strain: self.fabrics.strain, self_collision: true, skips }
-    }
-
-    /// What its pieces are made of.
-    fn of(&self) -> (&BTreeMap<PieceId, Fabric>, &Fabric) {
-        (&self.fabrics.of_pieces, &self.fabrics.fabric)
-    }
-}
-
-/// A coarser mesh of the same pattern as `garment`, where that has too many triangles to be sewn itself.
-fn coarser(source: &GarmentSource, garment: &Garment) -> Option<Garment> {
-    let edge =
-        coarse_edge(source).filter(|_| garment.pieces.iter().all(|(piece, _)| garment.layer(*piece) == 0))?;
-    let (coarse, _) = cloth::build(&source.pattern, edge);
-    let is_whole = coarse.pieces == garment.pieces && coarse.seam_pairs.len() == garment.seam_pairs.len();
-    is_whole.then_some(coarse)
 }
 
 /// The sewing of a layer in progress.
@@ -82,33 +59,12 @@ pub struct Placed {
     sewing: Sewing,
     outfit: Arc<Outfit>,
     layer: u8,
-    /// The garment's own mesh, if that of `outfit` is coarser: it is draped from where the coarser one comes to rest.
-    fine: Option<Arc<Garment>>,
-    /// Simulation of the coarser mesh once its seams are sewn.
-    draped: Option<DrapedGarment>,
 }
 
 impl Placed {
     /// Progress, 0..=1.
     pub fn progress(&self) -> f64 {
-        match (&self.fine, &self.draped) {
-            (None, _) => self.sewing.progress(),
-            (Some(_), None) => SEWING_SHARE * self.sewing.progress(),
-            (Some(_), Some(_)) => SEWING_SHARE,
-        }
-    }
-
-    /// Some of the work of a tick. True when it is sewn, or the coarser mesh rests.
-    fn go_on(&mut self, cloth: &mut ClothState) -> Result<bool, Undrapable> {
-        match &mut self.draped {
-            None => self.sewing.go_on(cloth),
-            Some(draped) => draped.go_on(cloth).map(|is_tick| is_tick && draped.progress().at_rest),
-        }
-    }
-
-    /// What contact took since it was last asked.
-    fn take_separation(&mut self) -> separation::Counters {
-        self.draped.as_mut().map_or_else(|| self.sewing.take_separation(), DrapedGarment::take_separation)
+        self.sewing.progress()
     }
 }
 
@@ -121,9 +77,7 @@ impl World {
     ) -> Result<Self, String> {
         let mut meshes = Meshes::default();
         let (garment, mut problems) = cloth::build_again(&source.pattern, source.edge_length, &mut meshes);
-        let fine = Arc::new(garment);
-        let coarse = coarser(&source, &fine).map(Arc::new);
-        let garment = coarse.clone().unwrap_or_else(|| Arc::clone(&fine));
+        let garment = Arc::new(garment);
         let place = |corner: &cloth::Corner| -> Option<DVec3> {
             Some(source.pattern.pieces.get(&corner.piece)?.placement?.at(corner.uv))
         };
@@ -146,13 +100,7 @@ impl World {
             body: Some(body),
             garment: Some(Arc::clone(sewing.garment())),
             cloth: Arc::new(cloth),
-            sewing: Some(Arc::new(Placed {
-                sewing,
-                outfit: Arc::new(outfit),
-                layer,
-                fine: coarse.map(|_| fine),
-                draped: None,
-            })),
+            sewing: Some(Arc::new(Placed { sewing, outfit: Arc::new(outfit), layer })),
             problems: Arc::new(problems),
             meshes: Arc::new(meshes),
             ..Self::default()
@@ -173,71 +121,28 @@ impl World {
     /// Does a tick of sewing, or a part of one.
     pub(in crate::sim) fn sew(&mut self) {
         let Some(placed) = self.sewing.as_mut().map(Arc::make_mut) else { return };
-        let ticked = placed.go_on(Arc::make_mut(&mut self.cloth));
-        self.separated = self.separated.and(placed.take_separation());
-        let done = match (ticked, &placed.fine, &placed.draped) {
-            (Ok(false), ..) => Ok(()),
-            (Ok(true), None, _) => {
-                self.finish_sewing();
-                Ok(())
+        let ticked = placed.sewing.go_on(Arc::make_mut(&mut self.cloth));
+        self.separated = self.separated.and(placed.sewing.take_separation());
+        match ticked {
+            Ok(false) => {}
+            Ok(true) => self.finish_sewing(),
+            Err(Undrapable(words)) => {
+                self.sewing = None;
+                self.tell("garment".to_owned(), words);
             }
-            (Ok(true), Some(_), None) => self.drape_coarse(),
-            (Ok(true), Some(fine), Some(_)) => {
-                let fine = Arc::clone(fine);
-                self.refine_sewn(fine);
-                Ok(())
-            }
-            (Err(why), ..) => Err(why),
-        };
-        if let Err(Undrapable(words)) = done {
-            self.sewing = None;
-            self.tell("garment".to_owned(), words);
         }
-    }
-
-    /// The coarser mesh is sewn: now it drapes.
-    fn drape_coarse(&mut self) -> Result<(), Undrapable> {
-        let (Some(placed), Some(body), Some(source)) = (&mut self.sewing, &self.body, &self.source) else {
-            return Ok(());
-        };
-        let placed = Arc::make_mut(placed);
-        let sewn = placed.sewing.merged(&self.cloth);
-        let outfit = &placed.outfit;
-        let garment = Arc::clone(&outfit.garment);
-        let (body, settings) = (Arc::clone(body), outfit.settings(source.relax.skips));
-        let mut draped = DrapedGarment::new(garment, &sewn.cloth, body, outfit.of(), &[], settings)?;
-        draped.set_velocities(&sewn.velocities);
-        placed.draped = Some(draped);
-        self.garment = Some(Arc::clone(&outfit.garment));
-        self.cloth = Arc::new(sewn.cloth);
-        Ok(())
-    }
-
-    /// The coarser mesh rests: `fine` goes on draping from there.
-    fn refine_sewn(&mut self, fine: Arc<Garment>) {
-        let Some(placed) = self.sewing.take() else { return };
-        let mut cloth = unlaid(&fine);
-        Carry::new(&placed.outfit.garment, &fine).places(&self.cloth, &mut cloth);
-        (self.garment, self.cloth) = (Some(fine), Arc::new(cloth));
-        self.drape_sewn(&placed, None);
     }
 
     fn finish_sewing(&mut self) {
         let Some(placed) = self.sewing.take() else { return };
         let sewn = placed.sewing.merged(&self.cloth);
-        (self.garment, self.cloth) = (Some(Arc::clone(&placed.outfit.garment)), Arc::new(sewn.cloth));
-        self.drape_sewn(&placed, Some(&sewn.velocities));
-    }
-
-    /// Drapes what has been sewn, which moves with these velocities, m/s (None: lies still).
-    fn drape_sewn(&mut self, placed: &Placed, velocities: Option<&[DVec3]>) {
         let outfit = &placed.outfit;
+        self.garment = Some(Arc::clone(&outfit.garment));
+        self.cloth = Arc::new(ClothState::clone(&sewn.cloth));
         (self.was_sewn, self.seams_unseen) = (true, true);
         self.part_active();
         self.drape_for(None, Arc::clone(&outfit.fabrics));
-        if let Some(velocities) = velocities {
-            self.begin_moving(velocities);
-        }
+        self.begin_moving(&sewn.velocities);
         self.set_pins(&Arc::clone(&self.places));
         self.outer = outfit.next(Some(placed.layer)).map(|layer| (Arc::clone(outfit), layer));
     }
@@ -269,7 +174,7 @@ impl World {
                 (self.draping, self.splits) = (None, None);
                 self.garment = Some(Arc::clone(sewing.garment()));
                 self.cloth = Arc::new(cloth);
-                self.sewing = Some(Arc::new(Placed { sewing, outfit, layer, fine: None, draped: None }));
+                self.sewing = Some(Arc::new(Placed { sewing, outfit, layer }));
             }
             Err(Undrapable(words)) => self.tell("garment".to_owned(), words),
         }
