@@ -29,5 +29,5 @@ fn draft_sheer_fragment(in: Draft, @builtin(front_facing) front: bool) -> @locat
 
 @fragment
 fn draft_open_fragment(in: Draft, @builtin(front_facing) front: bool) -> @location(0) vec4f {
-    return vec4f(select(in.back, in.front, front), material.gloss.z * select(1.0, 0.4, material.second.w == 7.0));
+    return vec4f(select(in.back, in.front, front), material.repeat.y);
 }

@@ -22,10 +22,14 @@ fn encoded(linear: vec3f) -> vec3f {
     return select(1.055 * pow(c, vec3f(1.0 / 2.4)) - 0.055, c * 12.92, c <= vec3f(0.0031308));
 }
 
+// Interleaved gradient noise (Jimenez 2014), 0..1: every value once among neighbouring pixels.
+fn speckle(pixel: vec2f) -> f32 {
+    return fract(52.9829189 * fract(dot(pixel, vec2f(0.06711056, 0.00583715))));
+}
+
 // Half a step of noise, so that eight bits show no bands.
 fn dither(pixel: vec2f) -> f32 {
-    let n = fract(52.9829189 * fract(dot(pixel, vec2f(0.06711056, 0.00583715))));
-    return (n - 0.5) / 255.0;
+    return (speckle(pixel) - 0.5) / 255.0;
 }
 
 // View-space position of a depth value at a place in the picture (0..1, y down).

@@ -11,7 +11,7 @@ fn lit(world: vec3f, spread: f32, pixel: vec2f) -> f32 {
         return 1.0;
     }
     let texel = spread / vec2f(textureDimensions(shadow_map));
-    let turn = 6.2831853 * fract(52.9829189 * fract(dot(pixel, vec2f(0.06711056, 0.00583715))));
+    let turn = 6.2831853 * speckle(pixel);
     let x = vec2f(cos(turn), sin(turn)) * texel;
     let y = vec2f(-sin(turn), cos(turn)) * texel;
     // Points of a Vogel disc, turned differently in every pixel.

@@ -6,7 +6,7 @@ struct Material {
     threads: vec4f, // pitch in metres, relief in pitches, sheen, unevenness
     gloss: vec4f,   // its strength, roughness, share of light stopped, how far it is drawn out along the threads
     print: vec4f,   // linear; w the kind of print
-    repeat: vec4f,  // x metres
+    repeat: vec4f,  // of the print in metres, share of light stopped by threads and gaps together
 }
 
 @group(1) @binding(0) var<uniform> material: Material;

@@ -56,7 +56,7 @@ fn sheer_fragment(in: Shaded, @builtin(front_facing) front: bool) -> @location(0
 @fragment
 fn open_fragment(in: Shaded, @builtin(front_facing) front: bool) -> @location(0) vec4f {
     let out = shaded(in, front);
-    let uneven = fract(52.9829189 * fract(dot(in.clip.xy, vec2f(0.06711056, 0.00583715)))) - 0.5;
+    let uneven = speckle(in.clip.xy) - 0.5;
     return vec4f(out.rgb, clamp(out.a + uneven * 0.25 * step(0.02, out.a) * step(out.a, 0.98), 0.0, 1.0));
 }
 

@@ -57,16 +57,17 @@ pub fn opened(project: Project, path: &Path) -> Result<Session, Failure> {
 /// Takes the colourway, fabric, colour and print that `options` name.
 pub fn choose_cloth(session: &mut Session, options: &ClothOptions) -> Result<(), Failure> {
     let ClothOptions { colourway, fabric, colour, print } = options;
-    let mut commands = Vec::new();
-    commands.extend(colourway.clone().map(|name| Command::WearColourway { name }));
-    commands.extend(fabric.clone().map(|fabric| Command::SetFabric { piece: None, fabric: Some(fabric) }));
     let mut choose = |command| session.apply_alone(command).map_err(|why| Failure::Usage(why.0));
-    commands.into_iter().try_for_each(&mut choose)?;
+    if let Some(name) = colourway.clone() {
+        choose(Command::WearColourway { name })?;
+    }
+    if fabric.is_some() {
+        choose(Command::SetFabric { piece: None, fabric: fabric.clone() })?;
+    }
     if colour.is_some() || print.is_some() {
         let all = session.document().dyes.all;
         let dye = Dye { colour: colour.or(all.colour), print: print.or(all.print) };
-        let command = Command::SetDye { piece: None, dye };
-        session.apply_alone(command).map_err(|why| Failure::Usage(why.0))?;
+        session.apply_alone(Command::SetDye { piece: None, dye }).map_err(|why| Failure::Usage(why.0))?;
     }
     Ok(())
 }

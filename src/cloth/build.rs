@@ -80,8 +80,7 @@ fn sewn(
 
 /// Unit vector along the grainline of `piece` seen from the front. None if the piece has no grainline or it runs along y.
 fn warp(piece: &Piece, mesh: &PieceMesh) -> Option<DVec2> {
-    let [tail, head] = piece.grainline?;
-    let along = (head - tail).try_normalize()?;
+    let along = piece.grain();
     let along = if mesh.front_is_far { DVec2::new(-along.x, along.y) } else { along };
     (along != DVec2::Y).then_some(along)
 }

@@ -2,6 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
+/// Share of a net that its threads cover; the same as in shaders/textile.wgsl.
+const NET: f64 = 0.34;
+
 /// Weave, knit or surface of a fabric. The numbers are those of shaders/textile.wgsl.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -78,7 +81,12 @@ impl Default for FabricLook {
 impl FabricLook {
     /// Whether light passes, through threads or between them.
     pub fn is_open(&self) -> bool {
-        self.weave == Weave::Tulle || self.cover < 1.0
+        self.mean_cover() < 1.0
+    }
+
+    /// Opacity of the cloth, threads and holes together, 0..=1.
+    pub fn mean_cover(&self) -> f64 {
+        if self.weave == Weave::Tulle { self.cover * NET } else { self.cover }
     }
 
     /// The first value out of range, in words.

@@ -125,6 +125,11 @@ impl Piece {
         }
     }
 
+    /// Unit vector along the warp, in the piece's own plane: along the grainline, or y without one.
+    pub fn grain(&self) -> DVec2 {
+        self.grainline.and_then(|[tail, head]| (head - tail).try_normalize()).unwrap_or(DVec2::Y)
+    }
+
     /// The closed lines along which the piece is cut: the outline, then the holes.
     pub fn loops(&self) -> impl Iterator<Item = &Vec<Edge>> {
         std::iter::once(&self.outline).chain(&self.holes)

@@ -56,7 +56,7 @@ impl Material {
             threads: Vec4::new(textile.pitch, textile.relief, textile.sheen, textile.slubs),
             gloss: Vec4::new(textile.gloss, textile.roughness, textile.cover, textile.along),
             print: linear(textile.ink).extend(print as f32),
-            repeat: Vec4::new(textile.repeat, 0.0, 0.0, 0.0),
+            repeat: Vec4::new(textile.repeat, textile.mean_cover, 0.0, 0.0),
         }
     }
 }
@@ -115,7 +115,7 @@ impl DeviceMesh {
 
     /// Whether it is transparent cloth.
     pub(super) fn is_open(&self) -> bool {
-        self.is_cloth() && self.mesh.textile.is_open
+        self.is_cloth() && self.mesh.textile.mean_cover < 1.0
     }
 
     fn edge_buffer(&self, gpu: &Gpu) -> (wgpu::Buffer, u32) {

@@ -23,8 +23,8 @@ pub struct Textile {
     pub slubs: f32,
     /// Opacity of the threads, 0.05..=1.
     pub cover: f32,
-    /// Whether light passes, through threads or between them.
-    pub is_open: bool,
+    /// Opacity of threads and gaps together, 0..=1.
+    pub mean_cover: f32,
     /// Kind of print, as numbered in shaders/textile.wgsl; 0: none.
     pub print: u32,
     /// Length of a repeat of the print, metres.
@@ -46,7 +46,7 @@ impl Default for Textile {
             sheen: 0.16,
             slubs: 0.0,
             cover: 1.0,
-            is_open: false,
+            mean_cover: 1.0,
             print: 0,
             repeat: 0.1,
             ink: [255; 3],

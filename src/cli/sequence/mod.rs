@@ -25,6 +25,7 @@ use crate::session::recording::Hex;
 use crate::session::{BodyChoice, Session};
 use crate::sim::Snapshot;
 use crate::sim::hash::{Fnv, cloth_hash};
+use crate::ui::scenery::fabric_looks::materials;
 use crate::wrap::Phase;
 
 use animated::Animated;
@@ -204,7 +205,7 @@ pub fn sequence(arguments: &Repose) -> Result<(), Failure> {
         lines.push(line);
     }
     seconds.repose = Some(lines.iter().map(|line: &Line| line.seconds).sum());
-    let bytes = carrier.animated(&body, &frames, motion.fps)?;
+    let bytes = carrier.animated(&body, &frames, motion.fps, &materials(session.document()))?;
     seconds.total = start.elapsed().as_secs_f64();
     let fault = fault(&lines);
     let read = motion.inputs.iter().map(|path| path.display().to_string());
@@ -335,7 +336,13 @@ impl<'a> Carrier<'a> {
         Ok((Frame { cloth: state.positions, body: surface.mesh.positions.clone() }, line))
     }
 
-    fn animated(&self, body: &Surface, frames: &[Frame], fps: f64) -> Result<Vec<u8>, Failure> {
+    fn animated(
+        &self,
+        body: &Surface,
+        frames: &[Frame],
+        fps: f64,
+        colours: &Colours,
+    ) -> Result<Vec<u8>, Failure> {
         let (Some(garment), Some(source)) = (&self.snapshot.garment, &self.snapshot.source) else {
             return Err(Failure::Internal("the garment is gone".to_owned()));
         };
@@ -346,7 +353,7 @@ impl<'a> Carrier<'a> {
             &body.mesh,
             frames,
             fps,
-            &Colours::default(),
+            colours,
         )
     }
 }

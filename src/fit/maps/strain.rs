@@ -7,7 +7,6 @@ use rayon::prelude::*;
 
 use crate::fit::maps::{LEAST_SHARE, MapKind, Worn, laid_corners};
 use crate::geometry::ids::PieceId;
-use crate::pattern::Piece;
 
 /// A triangle whose area is less than this share of its longest side squared has no strain.
 const FLAT: f64 = 1e-9;
@@ -37,9 +36,7 @@ pub(super) fn strain(kind: MapKind, worn: Worn<'_>) -> Vec<f64> {
 
 /// Warp direction of each piece in its plane, unit vector.
 pub(super) fn grain(worn: Worn<'_>) -> BTreeMap<PieceId, DVec2> {
-    let along =
-        |piece: &Piece| piece.grainline.and_then(|[a, b]| (b - a).try_normalize()).unwrap_or(DVec2::Y);
-    worn.pattern.pieces.iter().map(|(&id, piece)| (id, along(piece))).collect()
+    worn.pattern.pieces.iter().map(|(&id, piece)| (id, piece.grain())).collect()
 }
 
 /// Images of the unit vectors along and across the grain under the deformation gradient.

@@ -40,7 +40,6 @@ pub fn write_animated(
 ) -> Result<Vec<u8>, GlbError> {
     let first = frames.first().ok_or(GlbError::Empty)?;
     let mut builder = Builder::new();
-    let mut materials = Vec::new();
     let cloth =
         |frame: &Frame| ClothState { positions: frame.cloth.clone(), mapped: dressed.state.mapped.clone() };
     let state = cloth(first);
@@ -57,7 +56,7 @@ pub fn write_animated(
         if shown.triangles.is_empty() {
             continue;
         }
-        let sides = builder.sides(colours, *id, &mut materials);
+        let sides = builder.sides(colours, *id);
         builder.piece(name, &shown, sides);
         let others = frames[1..].iter().map(arrays);
         let moves = others.map(|piece| (piece.positions, piece.normals));

@@ -110,23 +110,26 @@ pub fn write(
 /// Roughness of materials that name none.
 const ROUGHNESS: f32 = 0.9;
 
-/// A material of cloth, and its indices in the file.
-type MadeMaterial = (ClothMaterial, [Index<Material>; 2]);
-
 struct Builder {
     root: Root,
     data: Vec<u8>,
     nodes: Vec<Index<Node>>,
+    /// Materials of cloth that are written, and their indices for both sides.
+    cloth: Vec<(ClothMaterial, [Index<Material>; 2])>,
 }
 
 impl Builder {
     fn new() -> Self {
         let asset = Asset { generator: Some("Toile".to_owned()), ..Asset::default() };
-        Self { root: Root { asset, ..Root::default() }, data: Vec::new(), nodes: Vec::new() }
+        Self {
+            root: Root { asset, ..Root::default() },
+            data: Vec::new(),
+            nodes: Vec::new(),
+            cloth: Vec::new(),
+        }
     }
 
     fn garment(&mut self, dressed: &Dressed<'_>, colours: &Colours) {
-        let mut materials = Vec::new();
         let Dressed { garment, state, .. } = dressed;
         let triangles = dressed.laid();
         let on_body: Vec<[u32; 3]> = triangles.iter().map(|&t| garment.triangles[t]).collect();
@@ -135,7 +138,7 @@ impl Builder {
             let own = triangles.iter().copied().filter(|&t| garment.triangle_pieces[t] == *id);
             let piece = PieceArrays::new(dressed, *id, own, &normals);
             if !piece.triangles.is_empty() {
-                let sides = self.sides(colours, *id, &mut materials);
+                let sides = self.sides(colours, *id);
                 self.piece(name, &piece, sides);
             }
         }
@@ -159,7 +162,7 @@ impl Builder {
     }
 
     fn body(&mut self, body: &TriMesh, colours: &Colours) {
-        let material = self.material("body", colours.body);
+        let material = self.material("body", colours.body, ROUGHNESS, 1.0);
         let positions = self.vectors(&body.positions, true);
         let normals = self.vectors(&body.vertex_normals(), false);
         let triangles = self.triangles(&body.triangles);
@@ -178,48 +181,35 @@ impl Builder {
         self.nodes.push(node);
     }
 
-    /// The materials of both sides of piece `id`; `made` holds those that are in the file already.
-    fn sides(
-        &mut self,
-        colours: &Colours,
-        id: PieceId,
-        made: &mut Vec<MadeMaterial>,
-    ) -> [Index<Material>; 2] {
-        let own = colours.pieces.get(&id).cloned();
-        let wanted = own.unwrap_or_else(|| ClothMaterial {
+    /// The materials of both sides of piece `id`.
+    fn sides(&mut self, colours: &Colours, id: PieceId) -> [Index<Material>; 2] {
+        let wanted = colours.pieces.get(&id).cloned().unwrap_or_else(|| ClothMaterial {
             name: "cloth".to_owned(),
             sides: [colours.front, colours.back],
             roughness: ROUGHNESS,
             opacity: 1.0,
         });
-        if let Some((_, sides)) = made.iter().find(|(material, _)| *material == wanted) {
+        if let Some((_, sides)) = self.cloth.iter().find(|(material, _)| *material == wanted) {
             return *sides;
         }
-        let [front, back] = ["front", "back"].map(|side| format!("{}, {side}", wanted.name));
-        let sides = [(front, wanted.sides[0]), (back, wanted.sides[1])].map(|(name, colour)| {
-            let material = self.material(&name, colour);
-            let written = &mut self.root.materials[material.value()];
-            let factors = &mut written.pbr_metallic_roughness;
-            factors.roughness_factor = StrengthFactor(wanted.roughness);
-            if wanted.opacity < 1.0 {
-                factors.base_color_factor.0[3] = wanted.opacity;
-                written.alpha_mode = Checked::Valid(AlphaMode::Blend);
-            }
-            material
-        });
-        made.push((wanted, sides));
+        let ClothMaterial { name, sides: [front, back], roughness, opacity } = &wanted;
+        let sides = [("front", front), ("back", back)]
+            .map(|(side, colour)| self.material(&format!("{name}, {side}"), *colour, *roughness, *opacity));
+        self.cloth.push((wanted, sides));
         sides
     }
 
-    fn material(&mut self, name: &str, [r, g, b]: [f32; 3]) -> Index<Material> {
+    fn material(&mut self, name: &str, [r, g, b]: [f32; 3], roughness: f32, opacity: f32) -> Index<Material> {
+        let alpha_mode = if opacity < 1.0 { AlphaMode::Blend } else { AlphaMode::Opaque };
         self.root.push(Material {
             name: Some(name.to_owned()),
             pbr_metallic_roughness: PbrMetallicRoughness {
-                base_color_factor: PbrBaseColorFactor([r, g, b, 1.0]),
+                base_color_factor: PbrBaseColorFactor([r, g, b, opacity]),
                 metallic_factor: StrengthFactor(0.0),
-                roughness_factor: StrengthFactor(ROUGHNESS),
+                roughness_factor: StrengthFactor(roughness),
                 ..PbrMetallicRoughness::default()
             },
+            alpha_mode: Checked::Valid(alpha_mode),
             ..Material::default()
         })
     }

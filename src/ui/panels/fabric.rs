@@ -250,7 +250,9 @@ fn matches_ui(ui: &mut Ui, told: &PanelContext<'_>) {
     let Some(garment) = told.snapshot.garment.as_ref().filter(|_| !told.document.dyes.is_plain()) else {
         return;
     };
-    for PrintMatch { seam, motif, offset } in print_matches(garment, &told.document.dyes) {
+    for PrintMatch { seam, motif, offset } in
+        print_matches(garment, &told.document.pattern, &told.document.dyes)
+    {
         let place = naming::seam_place(&told.document.pattern, seam);
         let millimetres = offset * 1e3;
         let words = match millimetres < MATCHES_MM {

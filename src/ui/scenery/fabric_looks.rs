@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use glam::Vec2;
+use glam::{DVec2, Vec2};
 
 use crate::cloth::{Fabric, FabricLook, Garment};
 use crate::geometry::ids::PieceId;
@@ -14,8 +14,6 @@ use crate::session::{Document, Dye, Dyes, Print};
 
 /// Roughness of exported fabrics without gloss.
 const MATT: f32 = 0.9;
-/// Opacity of exported open fabrics, as a share of that of their threads.
-const OPEN: f32 = 0.7;
 
 /// Appearance of each piece.
 pub type PieceLooks = BTreeMap<PieceId, PieceLook>;
@@ -28,7 +26,7 @@ pub struct PieceLook {
     /// Surface.
     pub textile: Textile,
     /// Unit vector along the grain, in the piece's plane.
-    pub grain: Vec2,
+    pub grain: DVec2,
 }
 
 /// Appearance of the pieces of `pattern`; `fabric` gives the fabric of each, `dyes` colours and prints.
@@ -43,9 +41,8 @@ pub fn piece_looks<'f>(
         if colour.is_some() {
             (look.colour, look.weft) = (colour, None);
         }
-        let along = piece.grainline.and_then(|[tail, head]| (head - tail).as_vec2().try_normalize());
         let colours = look.colour.map(|outside| [outside, inside(&look, outside)]);
-        (id, PieceLook { colours, textile: printed(textile(&look), print), grain: along.unwrap_or(Vec2::Y) })
+        (id, PieceLook { colours, textile: printed(textile(&look), print), grain: piece.grain() })
     };
     pattern.pieces.iter().map(look).collect()
 }
@@ -71,7 +68,7 @@ pub fn materials(document: &Document) -> Colours {
             name: document.fabrics.name(Some(id)).to_owned(),
             sides: [colour(outside), colour(inside)],
             roughness: if textile.gloss > 0.0 { textile.roughness } else { MATT },
-            opacity: if textile.is_open { textile.cover * OPEN } else { 1.0 },
+            opacity: textile.mean_cover,
         };
         Some((id, material))
     };
@@ -103,23 +100,23 @@ pub fn textile(look: &FabricLook) -> Textile {
         sheen: look.sheen as f32,
         slubs: look.slubs as f32,
         cover: look.cover as f32,
-        is_open: look.is_open(),
+        mean_cover: look.mean_cover() as f32,
         ..Textile::default()
     }
 }
 
 /// Texture coordinates (metres) of the corners of triangle `t`: y along `grain`, a unit vector in the piece's plane.
-pub fn flat(garment: &Garment, t: usize, grain: Vec2) -> [Vec2; 3] {
-    garment.triangle_corners[t].map(|corner| {
-        let uv = garment.corners[corner as usize].uv.as_vec2();
-        Vec2::new(uv.dot(-grain.perp()), uv.dot(grain))
-    })
+pub fn flat(garment: &Garment, t: usize, grain: DVec2) -> [Vec2; 3] {
+    garment.triangle_corners[t].map(|c| on_fabric(garment.corners[c as usize].uv, grain).as_vec2())
+}
+
+/// Place in the fabric, metres, of the point `uv` of a piece: y along `grain`, a unit vector in the piece's plane.
+pub fn on_fabric(uv: DVec2, grain: DVec2) -> DVec2 {
+    DVec2::new(uv.perp_dot(grain), uv.dot(grain))
 }
 
 #[cfg(test)]
 mod tests {
-    use glam::DVec2;
-
     use super::*;
     use crate::cloth::Corner;
     use crate::session::Motif;
@@ -132,9 +129,9 @@ mod tests {
             triangle_corners: vec![[0, 1, 2]],
             ..Garment::default()
         };
-        assert_eq!(flat(&garment, 0, Vec2::Y), [Vec2::X, Vec2::Y, Vec2::ZERO]);
+        assert_eq!(flat(&garment, 0, DVec2::Y), [Vec2::X, Vec2::Y, Vec2::ZERO]);
         assert_eq!(
-            flat(&garment, 0, Vec2::X),
+            flat(&garment, 0, DVec2::X),
             [Vec2::Y, -Vec2::X, Vec2::ZERO],
             "along x: x of the piece runs up"
         );
@@ -154,7 +151,7 @@ mod tests {
         let looks = looks_of(&document);
         assert!(looks[&one].colours.is_none() && looks[&two].colours.is_some());
         assert!(looks[&two].textile.second.is_some(), "white threads in blue");
-        assert_eq!((looks[&one].grain, looks[&two].grain), (Vec2::X, Vec2::Y));
+        assert_eq!((looks[&one].grain, looks[&two].grain), (DVec2::X, DVec2::Y));
         let print = Print { motif: Motif::Dots, repeat_m: 0.03, colour: [7; 3] };
         document.dyes.set(None, Dye { colour: Some([200, 0, 0]), print: None });
         document.dyes.set(Some(two), Dye { colour: None, print: Some(print) });

@@ -1,9 +1,8 @@
 //! Divides cloth into meshes of different colours, by layer and by activity (frozen, deactivated). No egui here: pictures without
 //! a window use it too.
 
-use std::collections::{BTreeMap, BTreeSet};
-
-use glam::Vec2;
+use std::collections::BTreeMap;
+use std::ops::Range;
 
 use crate::cloth::{ClothState, Garment};
 use crate::geometry::ids::PieceId;
@@ -19,6 +18,14 @@ const PALE: (Rgb, f32) = ([228, 228, 226], 0.8);
 /// hold, so cloth that moved has pulled them apart.
 const TORN: f64 = 1.5;
 
+/// The parts of a garment that are drawn alike.
+#[derive(Clone, Copy, PartialEq)]
+struct Group<'a> {
+    activity: Activity,
+    layer: u8,
+    look: Option<&'a PieceLook>,
+}
+
 /// Divides `whole`, the mesh of `garment`, into meshes of the active and of the frozen pieces of each layer and appearance, so that
 /// colours end exactly at seams.
 pub fn parted(
@@ -28,68 +35,66 @@ pub fn parted(
     activities: &BTreeMap<PieceId, Activity>,
     looks: &PieceLooks,
 ) -> Vec<Mesh> {
-    if activities.is_empty() && garment.layers.is_empty() && looks.is_empty() {
-        return vec![whole];
+    let group = |piece: PieceId| {
+        let activity = activities.get(&piece).copied().unwrap_or_default();
+        Group { activity, layer: garment.layer(piece), look: looks.get(&piece) }
+    };
+    let mut groups: Vec<(Group<'_>, Vec<usize>)> = Vec::new();
+    // Triangles of a piece follow each other.
+    for run in runs(&garment.triangle_pieces) {
+        let own = group(garment.triangle_pieces[run.start]);
+        let at = groups.iter().position(|(group, _)| *group == own).unwrap_or_else(|| {
+            groups.push((own, Vec::new()));
+            groups.len() - 1
+        });
+        groups[at].1.extend(run.filter(|&t| is_laid(garment, state, t)));
     }
-    let kinds: Vec<&PieceLook> = looks.values().fold(Vec::new(), |mut kinds, look| {
-        if !kinds.contains(&look) {
-            kinds.push(look);
-        }
-        kinds
-    });
-    let kind =
-        |piece: PieceId| looks.get(&piece).and_then(|look| kinds.iter().position(|kind| *kind == look));
-    let layers: BTreeSet<u8> = garment.pieces.iter().map(|(piece, _)| garment.layer(*piece)).collect();
-    let mut meshes = Vec::new();
-    for activity in [Activity::Active, Activity::Frozen] {
-        for &layer in &layers {
-            for look in (0..kinds.len()).map(Some).chain([None]) {
-                let is_of = |t: usize| {
-                    let piece = garment.triangle_pieces[t];
-                    garment.layer(piece) == layer && kind(piece) == look && is_laid(garment, state, t)
-                };
-                let own = worn_on(&whole, layer, look.map(|look| kinds[look]));
-                let grain = look.map(|look| kinds[look].grain);
-                meshes.push(part(&own, garment, activities, activity, (grain, is_of)));
-            }
-        }
-    }
-    meshes.retain(|mesh| !mesh.triangles.is_empty());
-    meshes
+    groups.retain(|(group, triangles)| !group.activity.is_deactivated() && !triangles.is_empty());
+    groups.sort_by_key(|(group, _)| (group.activity != Activity::Active, group.layer));
+    groups.into_iter().map(|(group, triangles)| part(&whole, garment, &triangles, group)).collect()
 }
 
-/// Gives `whole` the colours and surface of `look`, else the colours of `layer`.
-fn worn_on(whole: &Mesh, layer: u8, look: Option<&PieceLook>) -> Mesh {
-    let [front, back] = look.and_then(|look| look.colours).unwrap_or([cloth_front(layer), whole.back]);
-    Mesh { front, back, textile: look.map(|look| look.textile).unwrap_or_default(), ..whole.clone() }
+/// Ranges of equal neighbours.
+fn runs(pieces: &[PieceId]) -> impl Iterator<Item = Range<usize>> {
+    let mut start = 0;
+    pieces.chunk_by(|a, b| a == b).map(move |run| {
+        let range = start..start + run.len();
+        start = range.end;
+        range
+    })
 }
 
-/// The mesh of the deactivated pieces of `garment`, whose whole mesh is `whole`.
+/// The mesh of the deactivated pieces of `garment`, the mesh of which is `whole`. Torn triangles are left out.
 pub fn deactivated(
     whole: &Mesh,
     garment: &Garment,
     state: &ClothState,
     activities: &BTreeMap<PieceId, Activity>,
 ) -> Mesh {
-    let is_whole = |t: usize| is_laid(garment, state, t) && !is_torn(garment, state, t);
-    part(whole, garment, activities, Activity::Deactivated, (None, is_whole))
+    let activity = Activity::Deactivated;
+    let is_of = |t: &usize| activities.get(&garment.triangle_pieces[*t]) == Some(&activity);
+    let all = (0..garment.triangles.len()).filter(is_of);
+    let triangles: Vec<usize> =
+        all.filter(|&t| is_laid(garment, state, t) && !is_torn(garment, state, t)).collect();
+    part(whole, garment, &triangles, Group { activity, layer: 0, look: None })
 }
 
-fn part(
-    whole: &Mesh,
-    garment: &Garment,
-    activities: &BTreeMap<PieceId, Activity>,
-    activity: Activity,
-    (grain, is_seen): (Option<Vec2>, impl Fn(usize) -> bool),
-) -> Mesh {
-    let of = |t: &usize| activities.get(&garment.triangle_pieces[*t]).copied().unwrap_or_default();
-    let all = (0..garment.triangles.len()).filter(|t| of(t) == activity && is_seen(*t));
-    let all: Vec<usize> = all.collect();
-    let triangles: Vec<[u32; 3]> = all.iter().map(|&t| garment.triangles[t]).collect();
-    let flat = grain.map(|grain| all.iter().map(|&t| flat(garment, t, grain)).collect()).unwrap_or_default();
-    let [front, back] = [whole.front, whole.back].map(|own| looks(own, activity));
-    let second = whole.textile.second.map(|own| looks(own, activity));
-    Mesh { triangles, front, back, flat, textile: Textile { second, ..whole.textile }, ..whole.clone() }
+/// These triangles of `garment`, the mesh of which is `whole`, in the colours of `group`.
+fn part(whole: &Mesh, garment: &Garment, triangles: &[usize], group: Group<'_>) -> Mesh {
+    let Group { activity, layer, look } = group;
+    let own = look.and_then(|look| look.colours).unwrap_or([cloth_front(layer), whole.back]);
+    let [front, back] = own.map(|own| looks(own, activity));
+    let textile = look.map(|look| look.textile).unwrap_or_default();
+    let second = textile.second.map(|own| looks(own, activity));
+    let flat = look.map(|look| triangles.iter().map(|&t| flat(garment, t, look.grain)).collect());
+    Mesh {
+        triangles: triangles.iter().map(|&t| garment.triangles[t]).collect(),
+        front,
+        back,
+        flat: flat.unwrap_or_default(),
+        textile: Textile { second, ..textile },
+        ..whole.clone()
+    }
 }
 
 fn is_laid(garment: &Garment, state: &ClothState, t: usize) -> bool {

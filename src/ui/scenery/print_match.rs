@@ -2,9 +2,11 @@
 
 use glam::DVec2;
 
-use crate::cloth::{Corner, Garment};
+use crate::cloth::Garment;
 use crate::geometry::ids::SeamId;
+use crate::pattern::Pattern;
 use crate::session::{Dyes, Motif, Print};
+use crate::ui::scenery::fabric_looks::on_fabric;
 
 /// A seam between pieces with the same print.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,8 +19,9 @@ pub struct PrintMatch {
     pub offset: f64,
 }
 
-/// The seams of `garment` both sides of which have the same motif and repeat.
-pub fn print_matches(garment: &Garment, dyes: &Dyes) -> Vec<PrintMatch> {
+/// The seams of `garment`, cut from `pattern`, both sides of which have the same motif and repeat.
+pub fn print_matches(garment: &Garment, pattern: &Pattern, dyes: &Dyes) -> Vec<PrintMatch> {
+    let grain = |piece| pattern.pieces.get(&piece).map_or(DVec2::Y, |piece| piece.grain());
     let of_seam = |(seam, pairs): &(SeamId, Vec<[u32; 2]>)| {
         let sides = pairs.iter().map(|pair| pair.map(|corner| garment.corners[corner as usize]));
         let mut offset = None;
@@ -29,7 +32,7 @@ pub fn print_matches(garment: &Garment, dyes: &Dyes) -> Vec<PrintMatch> {
             if (one.motif, one.repeat_m) != (other.motif, other.repeat_m) {
                 return None;
             }
-            let apart = offset_of(one, [a, b].map(|corner| along_grain(garment, corner)));
+            let apart = offset_of(one, [a, b].map(|corner| on_fabric(corner.uv, grain(corner.piece))));
             offset = Some(offset.map_or(apart, |most: f64| most.max(apart)));
             motif = Some(one.motif);
         }
@@ -51,23 +54,15 @@ fn offset_of(print: Print, [a, b]: [DVec2; 2]) -> f64 {
     }
 }
 
-/// Place of `corner` in the flat cloth as the print lies on it, metres: y along the grain.
-fn along_grain(garment: &Garment, corner: Corner) -> DVec2 {
-    match garment.grains.get(&corner.piece) {
-        None => corner.uv,
-        Some(&warp) => DVec2::new(corner.uv.perp_dot(warp), corner.uv.dot(warp)),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::cloth::build;
-    use crate::pattern::{EdgeRef, Pattern, Piece, Seam};
+    use crate::pattern::{EdgeRef, Piece, Seam};
     use crate::session::Dye;
 
     /// Two squares with sides of 20 cm sewn along upright sides; the second is drawn `up` metres higher in its own plane.
-    fn garment(up: f64) -> Garment {
+    fn garment(up: f64) -> (Garment, Pattern) {
         let square =
             |up: f64| [(0.0, 0.0), (0.2, 0.0), (0.2, 0.2), (0.0, 0.2)].map(|(x, y)| DVec2::new(x, y + up));
         let mut pattern = Pattern::default();
@@ -75,14 +70,14 @@ mod tests {
             [("a", 0.0), ("b", up)].map(|(name, up)| pattern.add_piece(Piece::polygon(name, &square(up))));
         let sides = [EdgeRef { piece: a, edge: 1 }, EdgeRef { piece: b, edge: 3 }];
         pattern.add_seam(Seam::of_edges(sides, false));
-        build(&pattern, 0.05).0
+        (build(&pattern, 0.05).0, pattern)
     }
 
-    fn offsets(garment: &Garment, motif: Motif, repeat_m: f64) -> Vec<f64> {
+    fn offsets((garment, pattern): &(Garment, Pattern), motif: Motif, repeat_m: f64) -> Vec<f64> {
         let print = Print { motif, repeat_m, colour: [255; 3] };
         let mut dyes = Dyes::default();
         dyes.set(None, Dye { colour: None, print: Some(print) });
-        print_matches(garment, &dyes).iter().map(|found| found.offset).collect()
+        print_matches(garment, pattern, &dyes).iter().map(|found| found.offset).collect()
     }
 
     #[test]
@@ -94,6 +89,7 @@ mod tests {
         assert!(near(offsets(&garment(0.0), Motif::Stripes, 0.03), 0.01), "and six and two thirds");
         let higher = offsets(&garment(0.005), Motif::Hoops, 0.03);
         assert!(higher.len() == 1 && higher[0] > 0.001 && higher[0] < 0.0051, "{higher:?}");
-        assert!(print_matches(&garment(0.0), &Dyes::default()).is_empty(), "nothing is printed");
+        let (garment, pattern) = garment(0.0);
+        assert!(print_matches(&garment, &pattern, &Dyes::default()).is_empty(), "nothing is printed");
     }
 }
