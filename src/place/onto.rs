@@ -184,8 +184,31 @@ impl Sleeve {
     }
 }
 
+/// Adds placed pieces that are sewn to `pieces` and to nothing else, such as a cuff.
+fn join_attached(pieces: &mut BTreeSet<PieceId>, cut: &CutPattern, poses: &BTreeMap<PieceId, SpacePose>) {
+    let mut sewn_to: BTreeMap<PieceId, BTreeSet<PieceId>> = BTreeMap::new();
+    for seam in cut.edge_seams() {
+        let [a, b] = seam.sides.map(|edge| edge.piece);
+        sewn_to.entry(a).or_default().insert(b);
+        sewn_to.entry(b).or_default().insert(a);
+    }
+    loop {
+        let is_attached = |id: &PieceId, others: &BTreeSet<PieceId>| {
+            poses.contains_key(id)
+                && others.iter().any(|other| pieces.contains(other))
+                && others.iter().all(|other| other == id || pieces.contains(other))
+        };
+        let attached = sewn_to.iter().filter(|(id, others)| !pieces.contains(id) && is_attached(id, others));
+        let attached: Vec<PieceId> = attached.map(|(id, _)| *id).collect();
+        if attached.is_empty() {
+            return;
+        }
+        pieces.extend(attached);
+    }
+}
+
 /// The pieces of the left or right arm: those that are so by label or name, or that are wholly beside the trunk above
-/// the waist. None where there are none, or where they are sewn to nothing else.
+/// the waist, and what is sewn to those alone. None where there are none, or where they are sewn to nothing else.
 fn sleeve(
     cut: &CutPattern,
     trunk: &Trunk,
@@ -206,8 +229,9 @@ fn sleeve(
         let elsewhere = piece.label.as_deref().is_some_and(|label| label != "arm");
         out > 0.0 && (said || stands && !elsewhere)
     };
-    let pieces: BTreeSet<PieceId> =
+    let mut pieces: BTreeSet<PieceId> =
         poses.iter().filter(|(id, pose)| is_arm(id, pose)).map(|(id, _)| *id).collect();
+    join_attached(&mut pieces, cut, poses);
     let chord = |edge: &EdgeRef| {
         let (piece, pose) = (cut.pieces.get(&edge.piece)?, poses.get(&edge.piece)?);
         let (a, b) = (edge.edge < piece.edge_count()).then(|| piece.edge_ends(edge.edge))?;

@@ -7,7 +7,7 @@ use toile::body::pose::rig;
 use toile::body::{Measurements, NamedPose, Surface, Trunk, mannequin};
 use toile::contact::Bone;
 use toile::draft::{Design, Form, Kind, SIZES};
-use toile::pattern::{CutPattern, Pattern, Piece};
+use toile::pattern::{CutPattern, EdgeRef, Pattern, Piece, Seam};
 use toile::place::{Moved, Part, limbs, onto};
 use toile::session::samples::Sample;
 use toile::wrap::stand;
@@ -104,6 +104,34 @@ fn sleeves_turn_to_the_arms_of_another_pose() {
         let off = (middle - limb.bone[0] - limb.along() * along) * DVec3::new(1.0, 1.0, 0.0);
         assert!(off.length() < 0.08, "{} is {off} beside the arm", sleeve.name);
     }
+}
+
+#[test]
+fn what_is_sewn_to_a_sleeve_alone_turns_with_it() {
+    let (mut pattern, _, _) = tshirt();
+    let at = |piece: &Piece| piece.placement.expect("placed").translation.x;
+    let sleeve = pattern.pieces.iter().find(|(_, piece)| piece.name.contains("sleeve") && at(piece) > 0.0);
+    let (sleeve, cloth) = sleeve.map(|(id, piece)| (*id, Arc::clone(piece))).expect("a left sleeve");
+    let is_sewn = |edge: usize| {
+        let sides = pattern.seams.values().flat_map(|seam| seam.sides);
+        sides.into_iter().any(|side| side.piece == sleeve && side.edge == edge)
+    };
+    let hem = (0..cloth.edge_count()).find(|edge| !is_sewn(*edge)).expect("a hem");
+    let (a, b) = cloth.edge_ends(hem);
+    let out = (b - a).perp() * -0.3;
+    let band = Piece { placement: cloth.placement, ..Piece::polygon("band", &[b, a, a + out, b + out]) };
+    let band = pattern.add_piece(band);
+    pattern.add_seam(Seam::of_edges(
+        [(sleeve, hem), (band, 0)].map(|(piece, edge)| EdgeRef { piece, edge }),
+        false,
+    ));
+    let posed = rig(&Measurements::default()).expect("a rig");
+    let posed = posed.posed(&NamedPose::T.pose(&mannequin::default().skeleton)).expect("a pose");
+    let change = onto(&pattern, &posed.surface, &posed.skeleton.six_segments(), OFFSET);
+    let after = placed(&pattern, &change);
+    let place = |id| after.pieces[&id].placement.expect("placed");
+    assert_ne!(place(sleeve), cloth.placement.expect("placed"));
+    assert_eq!(place(band), place(sleeve), "{:?}", change.words);
 }
 
 #[test]
