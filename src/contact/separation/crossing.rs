@@ -1,7 +1,6 @@
 //! Features that intersect at a detection, and so get no plane to separate them.
 
 use crate::contact::separation::Separation;
-use crate::geometry::bvh::Aabb;
 use crate::geometry::crossings::segment_meets_triangle;
 
 /// Pairs of features that may pass through each other, because they intersect; sorted.
@@ -26,10 +25,9 @@ pub(super) struct Crossings {
 
 impl Crossings {
     /// Finds the intersections of the cloth at its anchors.
-    pub fn found(this: &Separation, boxes: &[Aabb], is_inside: impl Fn(usize) -> bool + Sync) -> Self {
+    pub fn found(this: &Separation, is_inside: impl Fn(usize) -> bool + Sync) -> Self {
         let x = &this.anchors;
         let all = this.search(
-            boxes,
             |s, t, found: &mut Self| {
                 for [s, t] in [[s, t], [t, s]] {
                     let vs = this.cloth.triangles[t as usize];

@@ -10,9 +10,13 @@
 //!
 //! Features that intersect at a detection get no plane: they may separate.
 
+mod beside;
+mod broad;
 mod crossing;
 mod features;
 mod repulsion;
+#[cfg(test)]
+mod tests;
 mod topology;
 
 use std::sync::Arc;
@@ -21,6 +25,8 @@ use glam::DVec3;
 use rayon::prelude::*;
 use serde::Serialize;
 
+use crate::contact::separation::beside::Beside;
+use crate::contact::separation::broad::Broad;
 use crate::contact::separation::crossing::Crossings;
 use crate::contact::separation::features::Seen;
 use crate::contact::separation::repulsion::Pair;
@@ -28,7 +34,7 @@ pub use crate::contact::separation::repulsion::Touch;
 pub use crate::contact::separation::topology::Obstacle;
 use crate::contact::separation::topology::{PlacedTriangle, Topology};
 use crate::geometry::adjacency::Adjacency;
-use crate::geometry::bvh::{Aabb, Bvh};
+use crate::geometry::bvh::Aabb;
 
 /// Fraction of the distance between two features that remains at least until the next detection; see [`kept`].
 const KEPT: f64 = 0.1;
@@ -41,6 +47,8 @@ const LEAST_ROOM: f64 = 0.2;
 const SWEEPS: usize = 3;
 /// Least number of vertices, or nodes of a tree, for a parallel task.
 const LEAST_SHARE: usize = 256;
+/// Pairs of features of neighbouring triangles for a parallel task.
+const LEAST_BESIDE: usize = 2048;
 
 /// A half-space: normal · x ≥ height.
 #[derive(Clone, Copy, Debug)]
@@ -61,7 +69,8 @@ pub struct Separation {
     /// Rest length (m) of each edge between sewn vertices, the smaller vertex first, sorted. Features that are joined
     /// by an edge keep less than the thickness.
     rest: Vec<([u32; 2], f64)>,
-    tree: Bvh,
+    broad: Broad,
+    beside: Beside,
     /// Positions of the vertices at the last detection (anchors), metres; empty before the first.
     anchors: Vec<DVec3>,
     /// Reach: for each vertex how far it may move from its anchor, metres.
@@ -80,9 +89,9 @@ pub struct Separation {
     come: Vec<f64>,
     /// Number of intersections when they were last searched for.
     crossings: usize,
-    is_clean: bool,
     /// Whether the last detection found nothing that intersects, is inside the obstacle, or touches: then
     /// intersections are not searched for again.
+    is_clean: bool,
     /// Counters of the work done.
     pub counters: Counters,
 }
@@ -138,15 +147,18 @@ impl Separation {
         names: Option<Vec<u32>>,
         obstacle: Option<Arc<Obstacle>>,
     ) -> Self {
+        let cloth = Topology::new(vertices, triangles, adjacency);
+        let beside = Beside::new(&cloth, names.as_deref());
         Self {
-            cloth: Topology::new(vertices, triangles, adjacency),
+            beside,
             obstacle,
             rest: repulsion::rest_lengths(&adjacency.edges, rest, names.as_deref()),
             thickness,
-            names,
             pairs: Vec::new(),
             come: Vec::new(),
-            tree: Bvh::default(),
+            cloth,
+            names,
+            broad: Broad::default(),
             anchors: Vec::new(),
             reach: Vec::new(),
             placed: Vec::new(),
@@ -194,13 +206,9 @@ impl Separation {
             .collect_into_vec(&mut self.placed);
         let box_of = |placed: &PlacedTriangle| grown(&placed.around, placed.farthest + self.thickness / 2.0);
         let boxes: Vec<Aabb> = self.placed.par_iter().with_min_len(LEAST_SHARE).map(box_of).collect();
-        match self.tree.items.len() == boxes.len() {
-            true => self.tree.refit(&boxes),
-            false => self.tree = Bvh::new(&boxes),
-        }
-        let crossings =
-            if self.is_clean { Crossings::default() } else { Crossings::found(self, &boxes, is_inside) };
-        let found = self.gathered(&boxes, &crossings);
+        self.broad.fit(&boxes);
+        let crossings = if self.is_clean { Crossings::default() } else { Crossings::found(self, is_inside) };
+        let found = self.gathered(&crossings);
         self.crossings = crossings.count();
         self.is_clean = crossings.is_none() && found.iter().all(|found| found.touching == 0);
         self.counters.detections += 1;
@@ -212,96 +220,72 @@ impl Separation {
         self.sort(&found);
     }
 
-    /// Calls `look` for every two triangles of the cloth whose `boxes` meet, and `look_at_obstacle` for every triangle
+    /// Calls `look` for every two triangles of the cloth that may be near each other, and `look_at_obstacle` for every triangle
     /// of the cloth and triangle of the obstacle. The results come in an order that does not depend on threads.
     fn search<T: Default + Send>(
         &self,
-        boxes: &[Aabb],
         look: impl Fn(u32, u32, &mut T) + Sync,
         look_at_obstacle: impl Fn(u32, u32, &mut T) + Sync,
     ) -> Vec<T> {
-        let tree = &self.tree;
-        let nodes = (0..tree.nodes.len() as u32).into_par_iter().with_min_len(LEAST_SHARE);
-        let found = nodes.map(|node| {
-            let mut found = T::default();
-            tree.leaves_between(node, |one, other| {
-                let [ones, others] = [one, other].map(|leaf| tree.items_of(leaf));
-                for (k, &s) in ones.iter().enumerate() {
-                    let others = if one == other { &others[k + 1..] } else { others };
-                    others
-                        .iter()
-                        .filter(|&&t| boxes[t as usize].meets(&boxes[s as usize]))
-                        .for_each(|&t| look(s, t, &mut found));
+        self.broad.search(self.obstacle.as_deref().map(|obstacle| &obstacle.broad), look, look_at_obstacle)
+    }
+
+    fn gathered(&self, crossings: &Crossings) -> Vec<Found> {
+        let mut found = self.search(
+            |s, t, found| {
+                let [own, other] = [s, t].map(|t| &self.placed[t as usize]);
+                let far = own.farthest + other.farthest + self.thickness;
+                if self.beside.are(s, t) || own.is_off(other, far) || other.is_off(own, far) {
+                    return;
                 }
-            });
-            if let (Some(obstacle), true) = (&self.obstacle, tree.nodes[node as usize].is_leaf()) {
-                let ones = tree.items_of(node);
-                obstacle.tree.leaves_near(&tree.nodes[node as usize].bounds, |leaf| {
-                    for &t in obstacle.tree.items_of(leaf) {
-                        let around = &obstacle.placed[t as usize].around;
-                        ones.iter()
-                            .filter(|&&s| boxes[s as usize].meets(around))
-                            .for_each(|&s| look_at_obstacle(s, t, &mut found));
-                    }
-                });
+                self.cloth.corners_of(s).for_each(|k| self.vertex_at([s, t], k, crossings, found));
+                self.cloth.corners_of(t).for_each(|k| self.vertex_at([t, s], k, crossings, found));
+                for k in self.cloth.sides_of(s) {
+                    self.cloth.sides_of(t).for_each(|m| self.edges_at([s, t], [k, m], crossings, found));
+                }
+            },
+            |s, t, found| self.at_obstacle(s, t, crossings, found),
+        );
+        let corners = self.beside.corners.par_chunks(LEAST_BESIDE).map(|pairs| {
+            let mut found = Found::default();
+            pairs.iter().for_each(|&(s, k, t)| self.vertex_at([s, t], k.into(), crossings, &mut found));
+            found
+        });
+        found.par_extend(corners);
+        let sides = self.beside.sides.par_chunks(LEAST_BESIDE).map(|pairs| {
+            let mut found = Found::default();
+            for &(s, t, [k, m]) in pairs {
+                self.edges_at([s, t], [k.into(), m.into()], crossings, &mut found);
             }
             found
         });
-        found.collect()
+        found.par_extend(sides);
+        found
     }
 
-    fn gathered(&self, boxes: &[Aabb], crossings: &Crossings) -> Vec<Found> {
-        self.search(
-            boxes,
-            |s, t, found| {
-                self.vertices_at(s, t, crossings, found);
-                self.vertices_at(t, s, crossings, found);
-                self.edges_at(s, t, crossings, found);
-            },
-            |s, t, found| self.at_obstacle(s, t, crossings, found),
-        )
-    }
-
-    /// Vertices that `s` owns, against triangle `t`.
-    fn vertices_at(&self, s: u32, t: u32, crossings: &Crossings, found: &mut Found) {
-        let (own, other) = (&self.placed[s as usize], &self.placed[t as usize]);
-        for k in self.cloth.corners_of(s) {
-            let (v, p, reach) = (own.vertices[k], own.corners[k], own.reach[k]);
-            if !holds(&other.around, p, reach + other.farthest + self.thickness)
-                || self.joined(&[v], &other.vertices)
-                || crossings.vertex_is_free(v, t)
-            {
-                continue;
-            }
+    /// Corner `k` of triangle `s` against triangle `t`, which does not have it.
+    fn vertex_at(&self, [s, t]: [u32; 2], k: usize, crossings: &Crossings, found: &mut Found) {
+        let [own, other] = [s, t].map(|t| &self.placed[t as usize]);
+        let (v, p, reach) = (own.vertices[k], own.corners[k], own.reach[k]);
+        if holds(&other.around, p, reach + other.farthest + self.thickness) && !crossings.vertex_is_free(v, t)
+        {
             found.looked_at += 1;
             let seen = features::vertex_and_triangle(p, other.corners);
             self.part(seen, [&[v], &other.vertices], [reach, other.farthest], found);
         }
     }
 
-    /// Edges that `s` owns, against edges that `t` owns.
-    fn edges_at(&self, s: u32, t: u32, crossings: &Crossings, found: &mut Found) {
-        let (own, other) = (&self.placed[s as usize], &self.placed[t as usize]);
-        for k in self.cloth.sides_of(s) {
-            let (e, ends, one, reach) =
-                (self.cloth.triangle_edges[s as usize][k], own.ends(k), own.side(k), own.side_reach(k));
-            let around = grown(&Aabb::around(&one), reach + self.thickness);
-            if !near(&around, &other.around, other.farthest) {
-                continue;
-            }
-            for m in self.cloth.sides_of(t) {
-                let (f, others, other_reach) =
-                    (self.cloth.triangle_edges[t as usize][m], other.ends(m), other.side_reach(m));
-                let two = other.side(m);
-                if !near(&around, &Aabb::around(&two), other_reach)
-                    || self.joined(&ends, &others)
-                    || crossings.edges_are_free(e, f)
-                {
-                    continue;
-                }
-                found.looked_at += 1;
-                self.part(features::edges(one, two), [&ends, &others], [reach, other_reach], found);
-            }
+    /// Side `k` of triangle `s` against side `m` of triangle `t`, which share no vertex.
+    fn edges_at(&self, [s, t]: [u32; 2], [k, m]: [usize; 2], crossings: &Crossings, found: &mut Found) {
+        let [own, other] = [s, t].map(|t| &self.placed[t as usize]);
+        let (one, two, reach) = (own.side(k), other.side(m), [own.side_reach(k), other.side_reach(m)]);
+        if !near(&Aabb::around(&one), &Aabb::around(&two), reach[0] + reach[1] + self.thickness) {
+            return;
+        }
+        let [e, f] = [(s, k), (t, m)].map(|(t, k)| self.cloth.triangle_edges[t as usize][k]);
+        if !crossings.edges_are_free(e, f) {
+            found.looked_at += 1;
+            self.part(features::edges(one, two), [&own.ends(k), &other.ends(m)], reach, found);
         }
     }
 
@@ -310,6 +294,9 @@ impl Separation {
         let Some(obstacle) = self.obstacle.as_deref() else { return };
         let (own, other, topology) =
             (&self.placed[s as usize], &obstacle.placed[t as usize], &obstacle.topology);
+        if own.is_off(other, own.farthest) || other.is_off(own, own.farthest) {
+            return;
+        }
         for k in self.cloth.corners_of(s) {
             let (v, p, reach) = (own.vertices[k], own.corners[k], own.reach[k]);
             if holds(&other.around, p, reach) && !crossings.vertex_is_free_of_obstacle(v, t) {

@@ -4,8 +4,12 @@
 use glam::DVec3;
 
 use crate::body::Surface;
+use crate::contact::separation::broad::Broad;
 use crate::geometry::adjacency::Adjacency;
-use crate::geometry::bvh::{Aabb, Bvh};
+use crate::geometry::bvh::Aabb;
+
+/// Rounding errors of heights, metres and as a share.
+const SLACK: f64 = 1e-9;
 
 /// The features of a mesh.
 #[derive(Clone, Debug)]
@@ -81,6 +85,10 @@ pub(super) struct PlacedTriangle {
     pub farthest: f64,
     /// Bounding box of the corners.
     pub around: Aabb,
+    /// Unit normal; zero where the triangle has no area.
+    normal: DVec3,
+    /// Height of its plane along the normal, metres.
+    height: f64,
 }
 
 impl PlacedTriangle {
@@ -90,7 +98,17 @@ impl PlacedTriangle {
         let corners = topology.corners(x, t);
         let reach = vertices.map(|v| reach.get(v as usize).copied().unwrap_or_default());
         let farthest = reach.into_iter().fold(0.0, f64::max);
-        Self { vertices, corners, reach, farthest, around: Aabb::around(&corners) }
+        let [a, b, c] = corners;
+        let normal = (b - a).cross(c - a).normalize_or_zero();
+        let height = normal.dot(a);
+        Self { vertices, corners, reach, farthest, around: Aabb::around(&corners), normal, height }
+    }
+
+    /// Whether `other` is wholly on one side of this triangle's plane, farther from it than `far` metres.
+    pub fn is_off(&self, other: &Self, far: f64) -> bool {
+        let far = far * (1.0 + SLACK) + SLACK;
+        let heights = other.corners.map(|p| self.normal.dot(p) - self.height);
+        heights.iter().all(|height| *height > far) || heights.iter().all(|height| *height < -far)
     }
 
     /// The vertices of side `k`.
@@ -115,7 +133,7 @@ pub struct Obstacle {
     pub(super) topology: Topology,
     pub(super) positions: Vec<DVec3>,
     pub(super) placed: Vec<PlacedTriangle>,
-    pub(super) tree: Bvh,
+    pub(super) broad: Broad,
 }
 
 impl Obstacle {
@@ -130,6 +148,8 @@ impl Obstacle {
         let placed: Vec<PlacedTriangle> =
             (0..triangles.len() as u32).map(|t| PlacedTriangle::new(&topology, positions, &[], t)).collect();
         let boxes: Vec<Aabb> = placed.iter().map(|placed| placed.around).collect();
-        Self { topology, positions: positions.to_vec(), tree: Bvh::new(&boxes), placed }
+        let mut broad = Broad::default();
+        broad.fit(&boxes);
+        Self { topology, positions: positions.to_vec(), broad, placed }
     }
 }

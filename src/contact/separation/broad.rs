@@ -1,0 +1,155 @@
+//! Broad phase: a bounding volume hierarchy over triangles whose boxes are kept in single precision, rounded outwards.
+
+use glam::Vec3A;
+use rayon::prelude::*;
+
+use crate::geometry::bvh::{Aabb, Bvh};
+
+/// Nodes for a parallel task.
+const SHARE: usize = 64;
+
+/// A box in single precision, which contains the box in double precision that it was made from.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Around {
+    lower: Vec3A,
+    upper: Vec3A,
+}
+
+impl Around {
+    const EMPTY: Self = Self { lower: Vec3A::INFINITY, upper: Vec3A::NEG_INFINITY };
+
+    fn of(exact: &Aabb) -> Self {
+        let [lower, upper] = [exact.lower.as_vec3a(), exact.upper.as_vec3a()];
+        Self {
+            lower: Vec3A::from_array(lower.to_array().map(f32::next_down)),
+            upper: Vec3A::from_array(upper.to_array().map(f32::next_up)),
+        }
+    }
+
+    fn joined(&self, other: &Self) -> Self {
+        Self { lower: self.lower.min(other.lower), upper: self.upper.max(other.upper) }
+    }
+
+    fn meets(&self, other: &Self) -> bool {
+        (self.lower.cmple(other.upper) & self.upper.cmpge(other.lower)).all()
+    }
+}
+
+/// A hierarchy over boxes, which can move.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Broad {
+    tree: Bvh,
+    /// Box of each node.
+    nodes: Vec<Around>,
+    /// Box of each item, in the order of the leaves.
+    items: Vec<Around>,
+}
+
+impl Broad {
+    /// Moves the boxes, in the order in which the tree was built; builds it where their number is another.
+    pub fn fit(&mut self, boxes: &[Aabb]) {
+        if self.tree.items.len() != boxes.len() {
+            self.tree = Bvh::new(boxes);
+        }
+        self.items.clear();
+        self.items.extend(self.tree.items.iter().map(|&i| Around::of(&boxes[i as usize])));
+        self.nodes.resize(self.tree.nodes.len(), Around::EMPTY);
+        // Children come after their parents.
+        for (at, node) in self.tree.nodes.iter().enumerate().rev() {
+            self.nodes[at] = if node.is_leaf() {
+                let first = node.first as usize;
+                let items = &self.items[first..first + node.count as usize];
+                items.iter().fold(Around::EMPTY, |all, one| all.joined(one))
+            } else {
+                self.nodes[at + 1].joined(&self.nodes[node.right as usize])
+            };
+        }
+    }
+
+    /// Calls `look` for every two items whose boxes meet, and `look_at` for every item and item of `other` whose boxes
+    /// meet. The results come in an order that does not depend on threads.
+    pub fn search<T: Default + Send>(
+        &self,
+        other: Option<&Self>,
+        look: impl Fn(u32, u32, &mut T) + Sync,
+        look_at: impl Fn(u32, u32, &mut T) + Sync,
+    ) -> Vec<T> {
+        let count = self.nodes.len();
+        let share = |share: usize| {
+            let (mut found, mut open) = (T::default(), Vec::new());
+            for node in share * SHARE..count.min((share + 1) * SHARE) {
+                self.pairs_below(node as u32, &mut open, |s, t| look(s, t, &mut found));
+                if let (Some(other), true) = (other, self.tree.nodes[node].is_leaf()) {
+                    self.pairs_with(node as u32, other, |s, t| look_at(s, t, &mut found));
+                }
+            }
+            found
+        };
+        (0..count.div_ceil(SHARE)).into_par_iter().map(share).collect()
+    }
+
+    /// Calls `found` for every two items whose boxes meet, one below each child of `node`; for a leaf for every two of it.
+    fn pairs_below(&self, node: u32, open: &mut Vec<[u32; 2]>, mut found: impl FnMut(u32, u32)) {
+        let tree = &self.tree;
+        if tree.nodes[node as usize].is_leaf() {
+            let range = self.range(node);
+            for k in range.clone() {
+                let first = tree.items[k];
+                let others = (k + 1..range.end).filter(|&m| self.items[k].meets(&self.items[m]));
+                others.for_each(|m| found(first, tree.items[m]));
+            }
+            return;
+        }
+        open.push([node + 1, tree.nodes[node as usize].right]);
+        while let Some([a, b]) = open.pop() {
+            if !self.nodes[a as usize].meets(&self.nodes[b as usize]) {
+                continue;
+            }
+            let [one, two] = [a, b].map(|at| &tree.nodes[at as usize]);
+            if one.is_leaf() && two.is_leaf() {
+                for k in self.range(a) {
+                    let others = self.range(b).filter(|&m| self.items[k].meets(&self.items[m]));
+                    others.for_each(|m| found(tree.items[k], tree.items[m]));
+                }
+            } else if two.is_leaf() || (!one.is_leaf() && one.count >= two.count) {
+                open.extend([[a + 1, b], [one.right, b]]);
+            } else {
+                open.extend([[a, b + 1], [a, two.right]]);
+            }
+        }
+    }
+
+    /// Calls `found` for every item of `leaf` and item of `other` whose boxes meet.
+    fn pairs_with(&self, leaf: u32, other: &Self, mut found: impl FnMut(u32, u32)) {
+        if other.nodes.is_empty() {
+            return;
+        }
+        let own = &self.nodes[leaf as usize];
+        // The tree is halved at every level, so that no tree of 2³² items is deeper than this.
+        let mut open = [0u32; 40];
+        let mut count = 1;
+        while count > 0 {
+            count -= 1;
+            let at = open[count];
+            if !other.nodes[at as usize].meets(own) {
+                continue;
+            }
+            let node = &other.tree.nodes[at as usize];
+            if node.is_leaf() {
+                for m in other.range(at) {
+                    let ones = self.range(leaf).filter(|&k| self.items[k].meets(&other.items[m]));
+                    ones.for_each(|k| found(self.tree.items[k], other.tree.items[m]));
+                }
+            } else {
+                (open[count], open[count + 1]) = (node.right, at + 1);
+                count += 2;
+            }
+        }
+    }
+
+    /// The items of a leaf, as indices in the order of the leaves.
+    fn range(&self, leaf: u32) -> std::ops::Range<usize> {
+        let node = &self.tree.nodes[leaf as usize];
+        node.first as usize..(node.first + node.count) as usize
+    }
+}
