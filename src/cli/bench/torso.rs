@@ -22,8 +22,8 @@ use crate::relax::RelaxSettings;
 use crate::sim::{DrapeSource, GarmentSource, Request, RequestKind, Simulation};
 use crate::wrap::Phase;
 
-/// Width and height of each panel, metres.
-const PANEL: DVec2 = DVec2::new(0.49, 0.6);
+/// Width and height of each panel, metres: together wider than the waist of the torso and narrower than its hips.
+const PANEL: DVec2 = DVec2::new(0.46, 0.6);
 /// Distance between the panels, metres.
 const APART: f64 = 0.3;
 /// Height of the panels' lower edge, metres.
