@@ -17,6 +17,7 @@ mod install;
 mod limits;
 mod patterns;
 mod program;
+mod python;
 mod quiet;
 mod replay;
 mod repose;
