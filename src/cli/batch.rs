@@ -1,37 +1,53 @@
 //! `toile dress` for several projects, one after the other: each gets a folder and a line of output.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
-use std::time::Instant;
+use std::time::{Instant, SystemTime, UNIX_EPOCH};
 
 use serde::Serialize;
+use serde_json::{Map, Value};
 
 use crate::cli::arguments::Dress;
 use crate::cli::dress_one::{Done, dress_one};
 use crate::cli::failure::Failure;
-use crate::cli::verdict::Verdict;
-use crate::cli::{files, interrupt, output};
+use crate::cli::lines::Lines;
+use crate::cli::list::{self, Entry};
+use crate::cli::seconds::Begun;
+use crate::cli::verdict::{Times, Verdict};
+use crate::cli::{interrupt, output};
 
-/// A project to dress and the folder for its results.
+/// A garment to dress and the folder for its results.
 struct Job {
-    project: PathBuf,
+    entry: Entry,
+    /// Name of the folder, which no other of all garments has.
+    name: String,
     folder: PathBuf,
 }
 
-/// The line printed with --json for a project.
+/// The line of a garment: printed with --json, and added to the lines of a list.
 #[derive(Debug, Serialize)]
 struct Line<'a> {
+    garment: &'a str,
     project: &'a Path,
     folder: &'a Path,
+    /// The options that its line of the list gives.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    options: Option<Map<String, Value>>,
     outcome: Outcome,
     /// The exit code of dressing this project alone.
     exit_code: u8,
     /// Whether the result was already there and --resume skipped the project.
     resumed: bool,
+    /// When this line was written, seconds since 1970.
+    finished: f64,
     #[serde(skip_serializing_if = "Option::is_none")]
     error: Option<String>,
     #[serde(flatten)]
     verdict: Option<&'a Verdict>,
+    /// How long it took to fail.
+    #[serde(flatten)]
+    times: Option<Times>,
 }
 
 #[derive(Clone, Copy, Debug, Serialize)]
@@ -42,27 +58,39 @@ enum Outcome {
     Failed,
 }
 
-/// Dresses all projects. Its failure is that of the project with the greatest exit code, of several the first.
+/// Dresses all projects of the chosen part. Its failure is that of the project with the greatest exit code, of several the first.
 pub fn batch(arguments: &Dress) -> Result<(), Failure> {
     if arguments.save.is_some() || arguments.record.is_some() {
-        return Err(Failure::Usage("--save and --record take one project, not several".to_owned()));
+        let words = "--save and --record take one project, not several; a line of a list can save";
+        return Err(Failure::Usage(words.to_owned()));
     }
     let jobs = jobs(arguments)?;
+    let mut lines = None;
+    if arguments.list.is_some() {
+        output::make_folder(&arguments.out)?;
+        lines = Some(Lines::open(&arguments.out, arguments.shard)?);
+    }
     let (start, mut worst) = (Instant::now(), None::<Failure>);
     for (i, job) in jobs.iter().enumerate() {
         if arguments.progress || output::is_watched() {
-            let (name, so_far) = (files::name_of(&job.project), start.elapsed().as_secs_f64());
+            let (name, so_far) = (&job.name, start.elapsed().as_secs_f64());
             output::complain(&format!("{} of {}: {name}, after {so_far:.1} s", i + 1, jobs.len()));
         }
+        let begun = Begun::now();
         let done = interrupt::check().and_then(|()| dressed(job, arguments));
         if let Err(signal @ Failure::Signal(_)) = done {
             output::complain(&format!("{i} of {} are done; --resume goes on from there", jobs.len()));
             return Err(signal);
         }
-        let failure = tell(job, done, arguments.json)?;
+        let told = Told::new(job, done, begun);
+        let line = serde_json::to_string(&told.line()).map_err(|e| Failure::Internal(e.to_string()))?;
+        if let Some(lines) = &mut lines {
+            lines.add(&line)?;
+        }
+        output::say(if arguments.json { &line } else { &told.words });
         let code = |failure: &Option<Failure>| failure.as_ref().map_or(0, Failure::exit_code);
-        if code(&failure) > code(&worst) {
-            worst = failure;
+        if code(&told.failure) > code(&worst) {
+            worst = told.failure;
         }
     }
     worst.map_or(Ok(()), Err)
@@ -70,83 +98,106 @@ pub fn batch(arguments: &Dress) -> Result<(), Failure> {
 
 /// Dresses one project. A panic counts as its failure, so that the projects after it are still dressed.
 fn dressed(job: &Job, arguments: &Dress) -> Result<Done, Failure> {
+    let own = job.entry.arguments(arguments, &job.folder)?;
     let words = || Failure::Internal("internal error, see above".to_owned());
-    let done = catch_unwind(AssertUnwindSafe(|| dress_one(&job.project, &job.folder, arguments)));
+    let done = catch_unwind(AssertUnwindSafe(|| dress_one(&job.entry.project, &job.folder, &own)));
     done.unwrap_or_else(|_| Err(words()))
 }
 
-/// Prints the line of one project and returns its failure, if it failed.
-fn tell(job: &Job, done: Result<Done, Failure>, json: bool) -> Result<Option<Failure>, Failure> {
-    let Job { project, folder } = job;
-    let (verdict, resumed, failure) = match done {
-        Ok(Done { verdict, resumed, .. }) => {
-            let failure = verdict.failed_check().map(Failure::Check);
-            (Some(verdict), resumed, failure)
-        }
-        Err(failure) => (None, false, Some(failure)),
-    };
-    let words = match (&verdict, &failure) {
-        (_, failure) if json => {
-            let outcome = match (&verdict, failure) {
-                (Some(_), None) => Outcome::Dressed,
-                (Some(_), Some(_)) => Outcome::NotDressed,
-                (None, _) => Outcome::Failed,
-            };
-            let line = Line {
-                project,
-                folder,
-                outcome,
-                exit_code: failure.as_ref().map_or(0, Failure::exit_code),
-                resumed,
-                error: failure.as_ref().map(Failure::to_string),
-                verdict: verdict.as_ref(),
-            };
-            serde_json::to_string(&line).map_err(|e| Failure::Internal(e.to_string()))?
-        }
-        (Some(verdict), _) if resumed => format!("{verdict} (done before)"),
-        (Some(verdict), _) => verdict.to_string(),
-        (None, failure) => {
-            let words = failure.as_ref().map(Failure::to_string).unwrap_or_default();
-            format!("{}: failed: {words}", project.display())
-        }
-    };
-    output::say(&words);
-    Ok(failure)
+/// What came of one project.
+struct Told<'a> {
+    job: &'a Job,
+    verdict: Option<Verdict>,
+    resumed: bool,
+    failure: Option<Failure>,
+    times: Times,
+    /// A summary for people.
+    words: String,
 }
 
-/// The projects named on the command line, then those of the list, each with a folder of its name; equal names get a number.
+impl<'a> Told<'a> {
+    fn new(job: &'a Job, done: Result<Done, Failure>, begun: Begun) -> Self {
+        let times = Times { seconds: begun.seconds(), processor_seconds: begun.processor_seconds() };
+        match done {
+            Ok(Done { verdict, resumed, .. }) => {
+                let failure = verdict.failed_check().map(Failure::Check);
+                let before = if resumed { " (done before)" } else { "" };
+                let words = format!("{verdict}{before}");
+                Self { job, verdict: Some(verdict), resumed, failure, times, words }
+            }
+            Err(failure) => {
+                let words = format!("{}: failed: {failure}", job.entry.project.display());
+                Self { job, verdict: None, resumed: false, failure: Some(failure), times, words }
+            }
+        }
+    }
+
+    fn line(&self) -> Line<'_> {
+        let outcome = match (&self.verdict, &self.failure) {
+            (Some(_), None) => Outcome::Dressed,
+            (Some(_), Some(_)) => Outcome::NotDressed,
+            (None, _) => Outcome::Failed,
+        };
+        let now = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
+        Line {
+            garment: &self.job.name,
+            project: &self.job.entry.project,
+            folder: &self.job.folder,
+            options: self.job.entry.options(),
+            outcome,
+            exit_code: self.failure.as_ref().map_or(0, Failure::exit_code),
+            resumed: self.resumed,
+            finished: now.as_secs_f64(),
+            error: self.failure.as_ref().map(Failure::to_string),
+            verdict: self.verdict.as_ref(),
+            times: self.verdict.is_none().then_some(self.times),
+        }
+    }
+}
+
+/// The chosen part of the projects named on the command line and then those of the list, each with a folder of its name; equal
+/// names get a number.
 fn jobs(arguments: &Dress) -> Result<Vec<Job>, Failure> {
-    let mut projects = arguments.projects.clone();
+    let mut entries: Vec<Entry> = arguments.projects.iter().map(|project| Entry::named(project)).collect();
     if let Some(path) = &arguments.list {
-        projects.extend(listed(path)?);
+        entries.extend(list::entries(path)?);
     }
-    let mut names: Vec<String> = Vec::new();
-    for project in &projects {
-        let stem = files::name_of(project);
-        let taken = |name: &String| names.contains(name);
-        let numbered = (2..).map(|i| format!("{stem}-{i}"));
-        let name = std::iter::once(stem.clone()).chain(numbered).find(|n| !taken(n)).unwrap_or(stem);
-        names.push(name);
-    }
-    let folders = names.iter().map(|name| arguments.out.join(name));
-    Ok(projects.into_iter().zip(folders).map(|(project, folder)| Job { project, folder }).collect())
+    let mut names = Names::default();
+    let named = entries.into_iter().map(|entry| (names.unlike(&entry.name), entry));
+    let job = |(name, entry): (String, Entry)| Job { folder: arguments.out.join(&name), entry, name };
+    let shard = arguments.shard.unwrap_or_default();
+    Ok(named.map(job).enumerate().filter(|(i, _)| shard.has(*i)).map(|(_, job)| job).collect())
 }
 
-/// The projects that the list file at `path` names.
-fn listed(path: &Path) -> Result<Vec<PathBuf>, Failure> {
-    let text = String::from_utf8(files::read(path)?).map_err(|e| {
-        Failure::input(path, format!("not a list: no UTF-8 at byte {}", e.utf8_error().valid_up_to()))
-    })?;
-    let folder = path.parent().unwrap_or(Path::new(""));
-    let lines = text.trim_start_matches('\u{feff}').lines().map(str::trim);
-    let named = lines.filter(|line| !line.is_empty() && !line.starts_with('#'));
-    let place = |line: &str| match files::is_sample(Path::new(line)) {
-        true => PathBuf::from(line),
-        false => folder.join(line),
-    };
-    let projects: Vec<PathBuf> = named.map(place).collect();
-    match projects.is_empty() {
-        true => Err(Failure::input(path, "this list names no project")),
-        false => Ok(projects),
+/// The names that folders have.
+#[derive(Default)]
+struct Names {
+    taken: BTreeSet<String>,
+    /// The last number that was given to each name.
+    numbers: BTreeMap<String, usize>,
+}
+
+impl Names {
+    /// `name`, or the first of name-2, name-3, … that is not taken; taken from now on.
+    fn unlike(&mut self, name: &str) -> String {
+        let mut unlike = name.to_owned();
+        while !self.taken.insert(unlike.clone()) {
+            let number = self.numbers.entry(name.to_owned()).or_insert(1);
+            *number += 1;
+            unlike = format!("{name}-{number}");
+        }
+        unlike
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn equal_names_get_numbers_and_none_comes_twice() {
+        let mut names = Names::default();
+        let given = ["a", "a-2", "a", "b", "a", "a-2"].map(|name| names.unlike(name));
+        assert_eq!(given, ["a", "a-2", "a-3", "b", "a-4", "a-2-2"]);
     }
 }

@@ -7,7 +7,7 @@ use std::time::Instant;
 use crate::cli::arguments::Dress;
 use crate::cli::failure::Failure;
 use crate::cli::made_from::made_from;
-use crate::cli::seconds::Seconds;
+use crate::cli::seconds::{Begun, Seconds};
 use crate::cli::verdict::Verdict;
 use crate::cli::{input, output, report, run};
 use crate::session::{Command, Session, project_file};
@@ -24,9 +24,10 @@ pub struct Done {
 
 /// Dresses `project` into `folder`. With --resume a result that is already there is left.
 pub fn dress_one(project: &Path, folder: &Path, arguments: &Dress) -> Result<Done, Failure> {
-    let start = Instant::now();
+    let start = Begun::now();
     let made_from = made_from(project, arguments)?;
     if arguments.resume
+        && arguments.save.as_deref().is_none_or(Path::exists)
         && let Some((verdict, report)) = Verdict::stored(folder, &made_from)
     {
         return Ok(Done { verdict, report, resumed: true });
@@ -35,7 +36,7 @@ pub fn dress_one(project: &Path, folder: &Path, arguments: &Dress) -> Result<Don
     let input = input::load(project, &arguments.input)?;
     output::make_folder(&arguments.out)?;
     let mut session = run::opened(input.project, project)?;
-    seconds.load = start.elapsed().as_secs_f64();
+    seconds.load = start.seconds();
     if let Some(path) = &arguments.record {
         let file = File::create(path).map_err(|e| Failure::file(path, e))?;
         session.recorder().also_to(file).map_err(|e| Failure::file(path, e))?;
@@ -55,9 +56,11 @@ pub fn dress_one(project: &Path, folder: &Path, arguments: &Dress) -> Result<Don
         return Err(Failure::file(arguments.record.as_deref().unwrap_or(Path::new("recording")), error));
     }
     if let Some(path) = &arguments.save {
+        path.parent().filter(|to| *to == folder).map_or(Ok(()), output::make_folder)?;
         project_file::save(path, &session.project()).map_err(|e| input::project_failure(path, e))?;
     }
-    let mut report = report::report(&mut session, &input.name, &arguments.picture, seconds)?;
+    let picture = (!arguments.no_picture).then_some(&arguments.picture);
+    let mut report = report::report(&mut session, &input.name, picture, seconds)?;
     (report.inputs, report.made_from) = (input.files, Some(made_from));
     report.finish(folder, start)?;
     Ok(Done { verdict: report.verdict()?, report: report.json()?, resumed: false })

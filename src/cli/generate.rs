@@ -16,6 +16,19 @@ use crate::pattern::Pattern;
 /// File name of the table of sizes, written beside the patterns.
 pub const SIZES_FILE: &str = "sizes.csv";
 
+/// File name of the list for `dress --list`, written beside the patterns.
+const LIST_FILE: &str = "list.jsonl";
+
+/// A line of list.jsonl: a garment with the options that dress it.
+#[derive(Serialize)]
+struct Listed<'a> {
+    project: &'a str,
+    sizes: &'static str,
+    body_size: &'a str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pose: Option<&'a str>,
+}
+
 /// A line of corpus.jsonl, which describes one pattern.
 #[derive(Serialize)]
 struct Line<'a> {
@@ -33,7 +46,7 @@ pub fn generate(arguments: &Generate) -> Result<(), Failure> {
     output::make_folder(&arguments.out)?;
     write_sizes(&arguments.out)?;
     let mut forms = Forms::default();
-    let mut lines = String::new();
+    let (mut lines, mut list) = (String::new(), String::new());
     for case in &cases {
         interrupt::check()?;
         let design = corpus.design(case);
@@ -43,13 +56,19 @@ pub fn generate(arguments: &Generate) -> Result<(), Failure> {
         }
         let file = format!("{}.json", case.name(&design));
         output::write(&arguments.out.join(&file), &garmentcode::write(&pattern).bytes)?;
-        let line = Line { file, body_size: case.size.name, pose: case.pose.name(), design: &design };
-        lines += &serde_json::to_string(&line).map_err(|e| Failure::Internal(e.to_string()))?;
-        lines.push('\n');
+        let (body_size, pose) = (case.size.name, case.pose.name());
+        let own = (case.pose != NamedPose::A).then_some(pose);
+        list += &json_line(&Listed { project: &file, sizes: SIZES_FILE, body_size, pose: own })?;
+        lines += &json_line(&Line { file, body_size, pose, design: &design })?;
     }
+    output::write(&arguments.out.join(LIST_FILE), list.as_bytes())?;
     output::write(&arguments.out.join("corpus.jsonl"), lines.as_bytes())?;
     output::say(&told(&corpus, cases.len(), &arguments.out));
     Ok(())
+}
+
+fn json_line(line: &impl Serialize) -> Result<String, Failure> {
+    serde_json::to_string(line).map(|text| text + "\n").map_err(|e| Failure::Internal(e.to_string()))
 }
 
 fn told(corpus: &Corpus, cases: usize, folder: &Path) -> String {
@@ -57,9 +76,10 @@ fn told(corpus: &Corpus, cases: usize, folder: &Path) -> String {
     let (sizes, poses) = (sizes.len(), poses.len());
     format!(
         "{cases} patterns of {designs} designs for {sizes} bodies in {poses} poses: {}; dress one with --sizes {} \
-         --body-size SIZE --pose POSE",
+         --body-size SIZE --pose POSE, all with --list {}",
         folder.display(),
-        folder.join(SIZES_FILE).display()
+        folder.join(SIZES_FILE).display(),
+        folder.join(LIST_FILE).display()
     )
 }
 

@@ -14,6 +14,7 @@ pub fn made_from(project: &Path, arguments: &Dress) -> Result<String, Failure> {
     let Dress {
         projects: _,
         list: _,
+        shard: _,
         out: _,
         input:
             InputOptions {
@@ -36,6 +37,7 @@ pub fn made_from(project: &Path, arguments: &Dress) -> Result<String, Failure> {
         record: _,
         max_ticks,
         picture,
+        no_picture,
         work,
         resume: _,
         progress: _,
@@ -44,7 +46,7 @@ pub fn made_from(project: &Path, arguments: &Dress) -> Result<String, Failure> {
     } = arguments;
     let placed = (raise, as_placed);
     let of_input = (body_file, &sized.body_size, pose, over.len(), placed, scale, suggest_marks, edge_length);
-    let options = (of_input, start, drape, cloth, max_ticks, picture, work);
+    let options = (of_input, start, drape, cloth, max_ticks, picture, no_picture, work);
     let mut hash = Fnv::default();
     let mut take = |bytes: &[u8]| {
         hash.number(bytes.len() as u64);

@@ -6,6 +6,7 @@ mod bench;
 mod check;
 mod cloth_options;
 mod compare;
+mod completions;
 mod dress;
 mod dress_one;
 mod export;
@@ -18,8 +19,12 @@ mod help;
 mod import;
 mod input;
 mod interrupt;
+mod lines;
+mod list;
 mod made_from;
+mod man;
 mod measure;
+mod merge;
 mod open;
 mod output;
 mod picture;
@@ -40,7 +45,7 @@ use std::process::ExitCode;
 use clap::Parser;
 use tracing_subscriber::EnvFilter;
 
-use crate::cli::arguments::{Arguments, Task};
+use crate::cli::arguments::{Arguments, Report, ReportTask, Task};
 use crate::cli::failure::{Failure, PANIC};
 use crate::session::whole_file;
 
@@ -91,7 +96,10 @@ fn carry_out(arguments: Arguments) -> Result<(), Failure> {
         Some(Task::Measure(measure)) => measure::measure(&measure),
         Some(Task::Generate(generate)) => generate::generate(&generate),
         Some(Task::Simulate(simulate)) => run::on_threads(simulate.threads, || simulate::simulate(&simulate)),
+        Some(Task::Report(Report { task: ReportTask::Merge(merge) })) => merge::merge(&merge),
         Some(Task::Help(topic)) => help::help(&topic),
+        Some(Task::Completions(completions)) => completions::completions(&completions),
+        Some(Task::Man(man)) => man::man(&man),
         Some(Task::Bench(bench)) => run::on_threads(bench.threads, || bench::bench(&bench)),
     }
 }

@@ -1,14 +1,13 @@
 //! `toile replay`: runs a recording and compares its hashes.
 
 use std::path::Path;
-use std::time::Instant;
 
 use serde::Serialize;
 
 use crate::cli::arguments;
 use crate::cli::failure::Failure;
 use crate::cli::report;
-use crate::cli::seconds::Seconds;
+use crate::cli::seconds::{Begun, Seconds};
 use crate::cli::{files, interrupt, output, run};
 use crate::session::demos::Demo;
 use crate::session::recording::{Hex, Recording};
@@ -36,7 +35,7 @@ struct Diverged {
 
 /// Runs the recording to its end or to the first difference.
 pub fn replay(arguments: &arguments::Replay) -> Result<(), Failure> {
-    let start = Instant::now();
+    let start = Begun::now();
     let path = &arguments.recording;
     let text = text_of(path)?;
     let recording = Recording::parse(&text).map_err(|e| Failure::input(path, e))?;
@@ -66,9 +65,9 @@ pub fn replay(arguments: &arguments::Replay) -> Result<(), Failure> {
         return Err(Failure::Check("the recording holds no hash: nothing was compared".to_owned()));
     }
     if let Some(folder) = &arguments.out {
-        let seconds = Seconds { replay: Some(start.elapsed().as_secs_f64()), ..Seconds::default() };
+        let seconds = Seconds { replay: Some(start.seconds()), ..Seconds::default() };
         let name = files::name_of(path);
-        let mut report = report::report(replay.session(), &name, &arguments.picture, seconds)?;
+        let mut report = report::report(replay.session(), &name, Some(&arguments.picture), seconds)?;
         report.inputs = vec![path.display().to_string()];
         report.finish(folder, start)?;
     }

@@ -9,7 +9,7 @@ use crate::body::{Surface, landmarks};
 use crate::cli::arguments::PictureOptions;
 use crate::cli::failure::Failure;
 use crate::cli::picture::Artist;
-use crate::cli::seconds::Seconds;
+use crate::cli::seconds::{Begun, Seconds};
 use crate::cli::verdict::{FILE_NAME, Verdict};
 use crate::cli::{formats, interrupt, output, run};
 use crate::fit;
@@ -141,11 +141,11 @@ impl std::fmt::Display for PairLengths {
     }
 }
 
-/// The report on `session`, with garment.obj, body.obj and view.png. [`Report::finish`] writes them.
+/// The report on `session`, with garment.obj, body.obj and, where a picture is asked for, view.png. [`Report::finish`] writes them.
 pub fn report(
     session: &mut Session,
     name: &str,
-    picture: &PictureOptions,
+    picture: Option<&PictureOptions>,
     mut seconds: Seconds,
 ) -> Result<Report, Failure> {
     session.update();
@@ -164,7 +164,8 @@ pub fn report(
     }
     let start = Instant::now();
     interrupt::check()?;
-    let pictures_left_out = match draw(session, picture)? {
+    let drawn = picture.map_or_else(|| Ok(Err("--no-picture".to_owned())), |picture| draw(session, picture));
+    let pictures_left_out = match drawn? {
         Ok(png) => {
             files.push(("view.png", png));
             None
@@ -248,8 +249,9 @@ impl Report {
     /// Writes the files and report.json to `folder`, which is made if needed. `start` is when the work began. All files are put
     /// in place together, report.json last: if the machine fails meanwhile, there is no report.json, and where there is one, the
     /// other files are whole and of the same garment.
-    pub fn finish(&mut self, folder: &Path, start: Instant) -> Result<(), Failure> {
-        self.seconds.total = start.elapsed().as_secs_f64();
+    pub fn finish(&mut self, folder: &Path, start: Begun) -> Result<(), Failure> {
+        self.seconds.total = start.seconds();
+        self.seconds.processor = start.processor_seconds();
         let mut text = self.json()?;
         text.push('\n');
         output::make_folder(folder)?;

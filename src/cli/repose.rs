@@ -8,7 +8,7 @@ use crate::body::pose::anatomy::JointAngle;
 use crate::cli::arguments::{InputOptions, Repose};
 use crate::cli::failure::Failure;
 use crate::cli::report::Report;
-use crate::cli::seconds::Seconds;
+use crate::cli::seconds::{Begun, Seconds};
 use crate::cli::{dress_one, files, formats, input, interrupt, output, report, run};
 use crate::io::joints;
 use crate::session::{BodyChoice, Command, Notice, Session, project_file};
@@ -19,11 +19,11 @@ pub fn repose(arguments: &Repose) -> Result<(), Failure> {
     if several && arguments.save.is_some() {
         return Err(Failure::Usage("--save takes one pose, not several".to_owned()));
     }
-    let start = Instant::now();
+    let start = Begun::now();
     let input = input::load(&arguments.project, &InputOptions::default())?;
     let poses = poses(arguments, &input.project.document.body)?;
     let mut session = run::opened(input.project, &arguments.project)?;
-    let mut seconds = Seconds { load: start.elapsed().as_secs_f64(), ..Seconds::default() };
+    let mut seconds = Seconds { load: start.seconds(), ..Seconds::default() };
     dress_first(&mut session, arguments, &mut seconds)?;
     let mut first_failure = None;
     for (i, (pose, from)) in poses.into_iter().enumerate() {
@@ -32,7 +32,7 @@ pub fn repose(arguments: &Repose) -> Result<(), Failure> {
         let folder = if several { numbered(&arguments.out, i, path) } else { arguments.out.clone() };
         let name = format!("{} on {}", input.name, files::name_of(path));
         let carried = one(&mut session, pose, path, arguments, seconds.clone());
-        let mut report = report::report(&mut session, &name, &arguments.picture, carried?)?;
+        let mut report = report::report(&mut session, &name, Some(&arguments.picture), carried?)?;
         report.inputs = input.files.iter().cloned().chain([from.clone()]).collect();
         report.finish(&folder, start)?;
         let verdict = report.verdict()?;

@@ -1,6 +1,33 @@
 //! Times of the phases of a command.
 
+use std::time::Instant;
+
 use serde::Serialize;
+
+use crate::cli::simulate::times::cpu_seconds;
+
+/// When some work began, by the clock on the wall and by that of the processor.
+#[derive(Clone, Copy, Debug)]
+pub struct Begun {
+    at: Instant,
+    processor: Option<f64>,
+}
+
+impl Begun {
+    pub fn now() -> Self {
+        Self { at: Instant::now(), processor: cpu_seconds() }
+    }
+
+    /// Wall-clock time since, seconds.
+    pub fn seconds(&self) -> f64 {
+        self.at.elapsed().as_secs_f64()
+    }
+
+    /// Processor time of all threads since, seconds; None where the system does not tell.
+    pub fn processor_seconds(&self) -> Option<f64> {
+        self.processor.zip(cpu_seconds()).map(|(before, now)| now - before)
+    }
+}
 
 /// Wall-clock time of each phase, seconds.
 #[derive(Clone, Debug, Default, Serialize)]
@@ -30,6 +57,9 @@ pub struct Seconds {
     pub picture: f64,
     /// From the first byte read to the last written, without the report itself.
     pub total: f64,
+    /// Processor time of all threads in that time.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub processor: Option<f64>,
     /// Ticks of each start that was tried, in order.
     #[serde(skip)]
     pub starts: Vec<f64>,

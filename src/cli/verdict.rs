@@ -38,9 +38,18 @@ pub struct Verdict {
     faults: Vec<Fault>,
     /// What is wrong with the pattern, its seams and marks.
     problems: Vec<Problem>,
+    #[serde(flatten, deserialize_with = "times")]
+    times: Times,
+}
+
+/// How long it took.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+pub struct Times {
     /// Total wall-clock time, seconds.
-    #[serde(deserialize_with = "total")]
-    seconds: f64,
+    pub seconds: f64,
+    /// Processor time of all threads, seconds; None where the system does not tell.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub processor_seconds: Option<f64>,
 }
 
 /// The start that was taken.
@@ -57,12 +66,19 @@ struct Fault {
     problem: Problem,
 }
 
-fn total<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
+fn times<'de, D: Deserializer<'de>>(from: D) -> Result<Times, D::Error> {
+    #[derive(Deserialize)]
+    struct Report {
+        seconds: Seconds,
+    }
     #[derive(Deserialize)]
     struct Seconds {
         total: f64,
+        #[serde(default)]
+        processor: Option<f64>,
     }
-    Seconds::deserialize(from).map(|seconds| seconds.total)
+    let Report { seconds } = Report::deserialize(from)?;
+    Ok(Times { seconds: seconds.total, processor_seconds: seconds.processor })
 }
 
 impl Verdict {
@@ -83,7 +99,7 @@ impl Verdict {
 
     /// Total wall-clock time, seconds.
     pub fn seconds(&self) -> f64 {
-        self.seconds
+        self.times.seconds
     }
 
     /// All faults with their places in one message; None when the project is dressed.
@@ -114,6 +130,6 @@ impl std::fmt::Display for Verdict {
             Some(TakenStart { taken: Start::Marks, draped: false }) => write!(f, ", by suggested marks")?,
             None => write!(f, ", marks met within {millimetres:.1} mm")?,
         }
-        write!(f, ", {:.2} s", self.seconds)
+        write!(f, ", {:.2} s", self.times.seconds)
     }
 }

@@ -45,6 +45,18 @@ pub struct Shard {
     of: usize,
 }
 
+impl Shard {
+    /// Whether the `index`-th of all (from 0) is in this part.
+    pub fn has(self, index: usize) -> bool {
+        index % self.of == self.part - 1
+    }
+
+    /// Name for files, such as "2-of-8".
+    pub fn name(self) -> String {
+        format!("{}-of-{}", self.part, self.of)
+    }
+}
+
 impl Default for Shard {
     fn default() -> Self {
         Self { part: 1, of: 1 }
@@ -76,7 +88,7 @@ impl Corpus {
             Case { number, size, pose }
         };
         let all = (0..count).flat_map(|round| (0..self.designs).map(move |number| (round, number)));
-        let own = all.enumerate().filter(|(i, _)| i % shard.of == shard.part - 1);
+        let own = all.enumerate().filter(|(i, _)| shard.has(*i));
         own.map(|(_, (round, number))| case(round, number)).collect()
     }
 

@@ -20,7 +20,10 @@ macro_rules! topics {
     };
 }
 
-topics!("start", "pattern", "marks", "dressing", "draping", "bodies", "fitting", "looking", "files", "batch");
+topics!(
+    "start", "pattern", "marks", "dressing", "draping", "bodies", "fitting", "looking", "files", "batch",
+    "many", "install"
+);
 
 /// A block of a topic's text.
 #[derive(Clone, Debug, PartialEq, Eq)]

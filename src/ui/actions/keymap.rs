@@ -81,10 +81,13 @@ impl Keymap {
     }
 }
 
+/// Name of the key for commands: Cmd on a Mac, where it is Ctrl elsewhere. Either name is read on any system.
+const COMMAND: &str = if cfg!(target_os = "macos") { "Cmd+" } else { "Ctrl+" };
+
 /// A key combination in words, such as "Ctrl+Shift+Z".
 pub fn written(keys: KeyboardShortcut) -> String {
     let held = keys.modifiers;
-    let named = [(held.command || held.ctrl, "Ctrl+"), (held.shift, "Shift+"), (held.alt, "Alt+")];
+    let named = [(held.command || held.ctrl, COMMAND), (held.shift, "Shift+"), (held.alt, "Alt+")];
     let mut text: String = named.into_iter().filter(|(is, _)| *is).map(|(_, name)| name).collect();
     text.push_str(keys.logical_key.name());
     text
@@ -94,9 +97,12 @@ pub fn written(keys: KeyboardShortcut) -> String {
 fn read(text: &str) -> Option<KeyboardShortcut> {
     let mut modifiers = Modifiers::NONE;
     let mut rest = text;
-    for (name, modifier) in
-        [("Ctrl+", Modifiers::COMMAND), ("Shift+", Modifiers::SHIFT), ("Alt+", Modifiers::ALT)]
-    {
+    for (name, modifier) in [
+        ("Ctrl+", Modifiers::COMMAND),
+        ("Cmd+", Modifiers::COMMAND),
+        ("Shift+", Modifiers::SHIFT),
+        ("Alt+", Modifiers::ALT),
+    ] {
         if let Some(after) = rest.strip_prefix(name) {
             (modifiers, rest) = (modifiers.plus(modifier), after);
         }

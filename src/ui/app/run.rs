@@ -16,6 +16,8 @@ use crate::ui::app::tries::{PLAIN, STARTED, Starts, prefer_processor};
 use crate::ui::files::thumbnails;
 use crate::ui::preferences;
 
+/// The picture in the window's frame and in lists of windows, where the desktop does not take it from the installed files.
+const ICON: &[u8] = include_bytes!("../../../assets/install/icons/toile-256.png");
 /// Number of losses of the graphics device after which the window is not reopened again.
 const MOST_LOSSES: usize = 5;
 
@@ -29,14 +31,7 @@ pub fn run(project: Option<Project>, path: Option<PathBuf>, record: Option<File>
     let is_plain = starts.as_ref().is_some_and(Starts::is_plain);
     let starting: Starting = Rc::new(RefCell::new(starts.map(|starts| (starts, Instant::now()))));
     for _ in 0..=MOST_LOSSES {
-        let mut options = eframe::NativeOptions {
-            viewport: egui::ViewportBuilder::default()
-                .with_title("Toile")
-                .with_app_id("toile")
-                .with_inner_size([1400.0, 880.0])
-                .with_min_inner_size([880.0, 540.0]),
-            ..Default::default()
-        };
+        let mut options = eframe::NativeOptions { viewport: viewport(), ..Default::default() };
         if is_plain {
             prefer_processor(&mut options);
         }
@@ -70,6 +65,19 @@ pub fn run(project: Option<Project>, path: Option<PathBuf>, record: Option<File>
     Err(anyhow!(
         "the graphics device was lost again and again; the work is offered when Toile is started next"
     ))
+}
+
+/// The window as the desktop sees it. Its id is the name of the installed desktop file.
+fn viewport() -> egui::ViewportBuilder {
+    let viewport = egui::ViewportBuilder::default()
+        .with_title("Toile")
+        .with_app_id("toile")
+        .with_inner_size([1400.0, 880.0])
+        .with_min_inner_size([880.0, 540.0]);
+    match eframe::icon_data::from_png_bytes(ICON) {
+        Ok(icon) => viewport.with_icon(icon),
+        Err(_) => viewport,
+    }
 }
 
 fn opened(
