@@ -3,6 +3,7 @@
 mod bad_input;
 mod batch;
 mod bench;
+mod blender;
 mod bodies;
 #[path = "../common/mod.rs"]
 mod common;
@@ -12,6 +13,7 @@ mod environment;
 mod faults;
 mod fit_page;
 mod gltf;
+mod images;
 mod limits;
 mod patterns;
 mod program;
@@ -23,4 +25,5 @@ mod signals;
 mod simulate;
 mod starts;
 mod stopped;
+mod textures;
 mod trust;
