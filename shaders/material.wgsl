@@ -1,4 +1,9 @@
 // What cloth and skin are made of and how they take light. Appended to frame.wgsl.
+struct PlacedPicture {
+    map: vec4f,   // the place in the picture, 0..1, from that in the flat cloth in metres: columns of a matrix
+    place: vec4f, // and what is added; z the layer, w 1 where it is repeated all over the cloth
+}
+
 struct Material {
     front: vec4f,   // linear; w 1 for cloth, 0 for skin
     back: vec4f,    // linear
@@ -6,16 +11,50 @@ struct Material {
     threads: vec4f, // pitch in metres, relief in pitches, sheen, unevenness
     gloss: vec4f,   // its strength, roughness, share of light stopped, how far it is drawn out along the threads
     print: vec4f,   // linear; w the kind of print
-    repeat: vec4f,  // of the print in metres, share of light stopped by threads and gaps together
+    repeat: vec4f,  // of the print in metres, share of light stopped by threads and gaps together, number of pictures
+    pictures: array<PlacedPicture, 16>,
 }
 
 @group(1) @binding(0) var<uniform> material: Material;
+@group(1) @binding(1) var pictures: texture_2d_array<f32>;
+@group(1) @binding(2) var picture_sampler: sampler;
 
 struct MeshVertex {
     @location(0) position: vec3f,
     @location(1) normal: vec3f,
     @location(2) colour: vec4f,
     @location(3) flat: vec2f,
+}
+
+// `colour` with the pictures over it at a place of the flat cloth, whose change over the pixel is `px` and `py`. Those at one
+// place are on the outside alone. Pictures are premultiplied.
+fn with_pictures(colour: vec3f, flat: vec2f, px: vec2f, py: vec2f, outside: bool) -> vec3f {
+    var out = colour;
+    for (var i = 0; i < i32(material.repeat.z + 0.5); i++) {
+        let picture = material.pictures[i];
+        let map = mat2x2f(picture.map.xy, picture.map.zw);
+        let at = map * flat + picture.place.xy;
+        let dx = map * px;
+        let dy = map * py;
+        var share = 1.0;
+        var place = at;
+        if picture.place.w < 0.5 {
+            let width = max(abs(dx) + abs(dy), vec2f(1e-9));
+            let border = clamp(min(at, 1.0 - at) / width + 0.5, vec2f(0.0), vec2f(1.0));
+            share = select(0.0, border.x * border.y, outside);
+            // The sampler repeats: a border must not see the opposite one.
+            let half = 0.5 / vec2f(textureDimensions(pictures));
+            place = clamp(at, half, 1.0 - half);
+        }
+        if share > 0.0 {
+            let seen = vec2f(place.x, 1.0 - place.y);
+            let flipped = vec2f(1.0, -1.0);
+            let layer = i32(picture.place.z + 0.5);
+            let ink = textureSampleGrad(pictures, picture_sampler, seen, layer, dx * flipped, dy * flipped) * share;
+            out = out * (1.0 - ink.a) + ink.rgb;
+        }
+    }
+    return out;
 }
 
 // Unit, from a place towards the eye.

@@ -25,7 +25,7 @@ fn shaded(in: Shaded, front: bool) -> vec4f {
     let side = select(-1.0, 1.0, front);
     let smooth_normal = normalize(in.normal + vec3f(0.0, 1e-9, 0.0)) * side;
     let dye = select(material.back.rgb, material.front.rgb, front) * in.colour;
-    let cloth = textured(in.flat, in.world, smooth_normal, dye, material.second.rgb * in.colour);
+    let cloth = textured(in.flat, in.world, smooth_normal, dye, material.second.rgb * in.colour, front);
     let toward = dot(smooth_normal, frame.lamp.xyz);
     var shadow = 1.0;
     if toward > -0.1 {

@@ -161,7 +161,7 @@ struct Textured {
 }
 
 // `uv` metres in the flat cloth, `normal` unit. Derivatives are taken: call it where control is uniform.
-fn textured(uv: vec2f, world: vec3f, normal: vec3f, albedo: vec3f, second: vec3f) -> Textured {
+fn textured(uv: vec2f, world: vec3f, normal: vec3f, albedo: vec3f, second: vec3f, front: bool) -> Textured {
     let kind = u32(material.second.w + 0.5);
     let p = uv / max(material.threads.x, 1e-6);
     let px = dpdx(p);
@@ -201,8 +201,11 @@ fn textured(uv: vec2f, world: vec3f, normal: vec3f, albedo: vec3f, second: vec3f
     let blur = max(length(dpdx(repeat)), length(dpdy(repeat)));
     let inked = printed(u32(material.print.w + 0.5), repeat, blur);
     let depth = mix(1.0, 0.45 + 0.55 * height / max(mean.height, 0.1), clamp(material.threads.y * 1.5, 0.0, 1.0));
+    let dyed = mix(mix(albedo, second, share), material.print.rgb, inked);
+    let pitch = max(material.threads.x, 1e-6);
+    let colour = with_pictures(dyed, uv, px * pitch, py * pitch, front);
     return Textured(
-        mix(mix(albedo, second, share), material.print.rgb, inked) * slubs * min(depth, 1.25),
+        colour * slubs * min(depth, 1.25),
         bent,
         along,
         mix(mean.cover, here.cover, sharp) * material.gloss.z,

@@ -1,7 +1,8 @@
-//! Command line options of fabrics, colours and prints.
+//! Command line options of fabrics, colours, prints and images.
 
 use clap::Args;
 
+use crate::cli::art_options::ArtOptions;
 use crate::session::Print;
 
 /// Options of fabrics and colours.
@@ -20,6 +21,8 @@ pub struct ClothOptions {
     /// colour
     #[arg(long, value_name = "MOTIF:MM:RRGGBB", value_parser = print)]
     pub print: Option<Print>,
+    #[command(flatten)]
+    pub art: ArtOptions,
 }
 
 fn colour(text: &str) -> Result<[u8; 3], String> {

@@ -2,9 +2,9 @@
 
 use crate::cli::arguments::{Export, InputOptions};
 use crate::cli::failure::Failure;
-use crate::cli::{formats, input, output, run};
+use crate::cli::worn::Worn;
+use crate::cli::{input, output, run};
 use crate::io::pattern_formats::{self, PatternFormat, endings};
-use crate::ui::scenery::fabric_looks::materials;
 
 /// Extensions of formats for dressed cloth.
 const OF_CLOTH: [&str; 2] = ["obj", "glb"];
@@ -33,7 +33,8 @@ pub fn export(arguments: &Export) -> Result<(), Failure> {
         }
         return output::write(&arguments.output, &written.bytes);
     }
-    let session = run::opened(input.project, &arguments.project)?;
+    let mut session = run::opened(input.project, &arguments.project)?;
+    run::choose_cloth(&mut session, &arguments.cloth)?;
     let snapshot = session.snapshot();
     let (true, Some((garment, cloth)), Some(source)) =
         (snapshot.is_dressed(), snapshot.drawn(), &snapshot.source)
@@ -42,12 +43,10 @@ pub fn export(arguments: &Export) -> Result<(), Failure> {
             "there is no dressed cloth in it: `toile dress` with --save makes a project that has some";
         return Err(Failure::input(&arguments.project, words));
     };
-    let bytes = match ending.as_str() {
-        "obj" => formats::garment_obj(garment, cloth, &source.pattern),
-        _ => {
-            let body = snapshot.body.as_ref().map(|b| &b.mesh);
-            formats::scene_glb(garment, cloth, &source.pattern, body, &materials(session.document()))?
-        }
-    };
-    output::write(&arguments.output, &bytes)
+    let worn = Worn { garment, cloth, pattern: &source.pattern, document: session.document() };
+    if ending == "obj" {
+        return output::write_together(&worn.obj(arguments.textures, &arguments.output)?);
+    }
+    let body = snapshot.body.as_ref().map(|b| &b.mesh);
+    output::write(&arguments.output, &worn.glb(arguments.textures, body)?)
 }

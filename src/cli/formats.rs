@@ -13,6 +13,7 @@ use crate::cloth::{ClothState, Garment};
 use crate::geometry::mesh::TriMesh;
 use crate::io::body_file::{self, BodyFileError};
 use crate::io::glb::animated::{Frame, write_animated};
+use crate::io::materials::Colours;
 use crate::io::pattern_file::PatternFileError;
 use crate::io::pattern_formats;
 use crate::io::scale::DrawingUnit;
@@ -146,7 +147,7 @@ pub fn scene_glb(
     cloth: &ClothState,
     pattern: &Pattern,
     body: Option<&TriMesh>,
-    colours: &glb::Colours,
+    colours: &Colours,
 ) -> Result<Vec<u8>, Failure> {
     let dressed = glb::Dressed { garment, state: cloth, pattern };
     glb::write(Some(dressed), body, colours).map_err(|e| Failure::Limit(e.to_string()))
@@ -160,7 +161,7 @@ pub fn sequence_glb(
     body: &TriMesh,
     frames: &[Frame],
     fps: f64,
-    colours: &glb::Colours,
+    colours: &Colours,
 ) -> Result<Vec<u8>, Failure> {
     let dressed = glb::Dressed { garment, state: cloth, pattern };
     let written = write_animated(dressed, body, frames, fps, colours);

@@ -27,7 +27,7 @@ const MOST_TRIANGLES: f64 = 4e6;
 
 /// The contents of a file, by its type.
 pub enum Content {
-    Project(Project),
+    Project(Box<Project>),
     Pattern(Pattern),
     Body(Imported),
 }
@@ -46,7 +46,7 @@ pub struct Input {
 /// Loads the project, pattern or sample called `path` and applies `options`.
 pub fn load(path: &Path, options: &InputOptions) -> Result<Input, Failure> {
     let (mut project, is_file) = match content(path, options.body_file, options.scale)? {
-        Content::Project(project) => (project, false),
+        Content::Project(project) => (*project, false),
         Content::Pattern(pattern) => {
             let mut project = Project::default();
             take_pattern(&mut project, pattern);
@@ -64,6 +64,10 @@ pub fn load(path: &Path, options: &InputOptions) -> Result<Input, Failure> {
         return Err(Failure::input(path, words));
     }
     few_enough_triangles(path, &project.document)?;
+    for (name, why) in project.document.artwork.unreadable() {
+        let words = format!("the image {name:?} is shown as squares: {why}");
+        output::complain(&format!("{}: note: {words}", path.display()));
+    }
     let read = [&options.body, &options.sized.sizes, &options.marks];
     let named = std::iter::once(path).chain(read.into_iter().filter_map(Option::as_deref));
     let files = named.map(|p| p.display().to_string()).collect();
@@ -97,11 +101,13 @@ fn piece_area(piece: &Piece) -> f64 {
 /// Reads `path` and determines its type by its contents.
 pub fn content(path: &Path, how: BodyFile, scale: Option<DrawingUnit>) -> Result<Content, Failure> {
     if let Some(name) = sample_name(path) {
-        return sample(path, name).map(Content::Project);
+        return sample(path, name).map(|project| Content::Project(Box::new(project)));
     }
     let bytes = read(path)?;
     if project_file::is_project(&bytes) {
-        return project_file::from_bytes(&bytes).map(Content::Project).map_err(|e| project_failure(path, e));
+        return project_file::from_bytes(&bytes)
+            .map(|project| Content::Project(Box::new(project)))
+            .map_err(|e| project_failure(path, e));
     }
     let is_pattern = !gltf::is_gltf(&bytes) && pattern_formats::format(&bytes).is_some();
     if bytes.trim_ascii().is_empty() || is_pattern {

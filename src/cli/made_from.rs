@@ -62,5 +62,8 @@ pub fn made_from(project: &Path, arguments: &Dress) -> Result<String, Failure> {
             None => take(&[]),
         }
     }
+    for file in cloth.art.files() {
+        take(&files::bytes_of(file)?);
+    }
     Ok(Hex(hash.finish()).to_string())
 }

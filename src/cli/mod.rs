@@ -1,6 +1,7 @@
 //! The command line: one file per subcommand, with nothing but arguments, calls and printing.
 
 mod arguments;
+mod art_options;
 mod batch;
 mod bench;
 mod check;
@@ -37,7 +38,9 @@ mod run;
 mod seconds;
 mod sequence;
 mod simulate;
+mod texture_options;
 mod verdict;
+mod worn;
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::process::ExitCode;

@@ -54,9 +54,9 @@ pub fn opened(project: Project, path: &Path) -> Result<Session, Failure> {
     Ok(session)
 }
 
-/// Takes the colourway, fabric, colour and print that `options` name.
+/// Takes the colourway, fabric, colour, print and images that `options` name.
 pub fn choose_cloth(session: &mut Session, options: &ClothOptions) -> Result<(), Failure> {
-    let ClothOptions { colourway, fabric, colour, print } = options;
+    let ClothOptions { colourway, fabric, colour, print, art } = options;
     let mut choose = |command| session.apply_alone(command).map_err(|why| Failure::Usage(why.0));
     if let Some(name) = colourway.clone() {
         choose(Command::WearColourway { name })?;
@@ -66,10 +66,10 @@ pub fn choose_cloth(session: &mut Session, options: &ClothOptions) -> Result<(),
     }
     if colour.is_some() || print.is_some() {
         let all = session.document().dyes.all;
-        let dye = Dye { colour: colour.or(all.colour), print: print.or(all.print) };
+        let dye = Dye { colour: colour.or(all.colour), print: print.or(all.print), image: all.image };
         session.apply_alone(Command::SetDye { piece: None, dye }).map_err(|why| Failure::Usage(why.0))?;
     }
-    Ok(())
+    art.choose(session)
 }
 
 /// The simulation of a session that runs inline.

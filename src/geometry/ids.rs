@@ -28,6 +28,14 @@ typed_id!(
     MarkId, "mark"
 );
 typed_id!(
+    /// An image of a document.
+    ImageId, "image"
+);
+typed_id!(
+    /// An image placed on a piece.
+    GraphicId, "graphic"
+);
+typed_id!(
     /// A pushpin.
     PinId, "pin"
 );

@@ -6,10 +6,12 @@
 //! | `pattern_formats` | the list of pattern formats: begin there to add one; `garmentcode`, `dxf`, `svg`, `pdf` implement them |
 //! | `pattern_file` | the result of reading a pattern, and its errors |
 //! | `body_file` | the body formats: `obj`, `gltf`; `moving_body`, `bvh`, `joints` are their motion, `sizes` their measurements |
-//! | `obj`, `glb` | dressed cloth written; `cloth_obj` cloth read |
+//! | `obj`, `mtl`, `glb` | dressed cloth written, with its `materials` and their textures (`atlas`); `cloth_obj` cloth read |
 //! | `trace`, `polygon`, `sheet`, `scale` | shared by drawings: making pieces of lines, finding the unit of length |
+//! | `picture` | PNG and JPEG |
 //! | `json`, `limits`, `words`, `written` | shared by all |
 
+pub mod atlas;
 pub mod body_file;
 pub mod bvh;
 pub mod cloth_obj;
@@ -20,11 +22,14 @@ pub mod gltf;
 pub mod joints;
 pub mod json;
 pub mod limits;
+pub mod materials;
 pub mod moving_body;
+pub mod mtl;
 pub mod obj;
 pub mod pattern_file;
 pub mod pattern_formats;
 pub mod pdf;
+pub mod picture;
 mod polygon;
 pub mod scale;
 mod sheet;

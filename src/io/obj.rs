@@ -11,6 +11,8 @@ use glam::DVec3;
 use crate::cloth::{ClothState, Garment};
 use crate::geometry::mesh::TriMesh;
 use crate::io::Limits;
+use crate::io::atlas::Atlas;
+use crate::io::mtl::MaterialFile;
 use crate::io::polygon;
 use crate::pattern::Pattern;
 
@@ -389,20 +391,54 @@ fn triangulated(mesh: tobj::Mesh, arities: &[u32], notes: &mut ObjNotes) -> Resu
     Ok(TriMesh { positions, triangles })
 }
 
+/// Materials that an OBJ file names.
+#[derive(Clone, Copy, Debug)]
+pub struct UsedMaterials<'a> {
+    /// The materials.
+    pub file: &'a MaterialFile,
+    /// Name of the file they are in.
+    pub file_name: &'a str,
+    /// Texture coordinates; None: the pattern plane in metres.
+    pub atlas: Option<&'a Atlas>,
+}
+
 /// Writes the draped garment: one object per piece, sewn vertices shared, `v` in metres, `vt` the pattern plane in metres,
 /// separate for each piece. Triangles with a vertex that is not yet placed on the body are left out.
 pub fn garment(garment: &Garment, state: &ClothState, pattern: &Pattern) -> String {
-    let mut text = String::from("# garment; v in metres, vt in metres of the pattern plane\n");
+    garment_with(garment, state, pattern, None)
+}
+
+/// Writes the draped garment like [`garment`], with materials.
+pub fn garment_with(
+    garment: &Garment,
+    state: &ClothState,
+    pattern: &Pattern,
+    materials: Option<UsedMaterials<'_>>,
+) -> String {
+    let atlas = materials.and_then(|used| used.atlas);
+    let mut text = match atlas {
+        None => String::from("# garment; v in metres, vt in metres of the pattern plane\n"),
+        Some(_) => String::from("# garment; v in metres, vt in the textures\n"),
+    };
+    if let Some(used) = materials {
+        let _ = writeln!(text, "mtllib {}", used.file_name);
+    }
     for p in &state.positions {
         write_vertex(&mut text, *p);
     }
     for corner in &garment.corners {
         let pose = pattern.pieces.get(&corner.piece).map(|piece| piece.pose).unwrap_or_default();
-        let p = pose.plane_from_piece(corner.uv);
+        let p = match atlas {
+            None => pose.plane_from_piece(corner.uv),
+            Some(atlas) => atlas.uv(corner.piece, corner.uv),
+        };
         let _ = writeln!(text, "vt {:.9} {:.9}", p.x, p.y);
     }
     for (id, name) in &garment.pieces {
         let _ = writeln!(text, "o {}", object_name(name));
+        if let Some(material) = materials.and_then(|used| used.file.names.get(id)) {
+            let _ = writeln!(text, "usemtl {material}");
+        }
         for (t, vertices) in garment.triangles.iter().enumerate() {
             let mapped = vertices.iter().all(|&v| state.mapped.get(v as usize) == Some(&true));
             if garment.triangle_pieces[t] != *id || !mapped {

@@ -5,7 +5,9 @@ use std::sync::Arc;
 use bytemuck::{Pod, Zeroable};
 use glam::{Vec2, Vec3, Vec4};
 
+use super::decal::{Decal, MOST_DECALS, pictures};
 use super::frame::linear;
+use super::picture_array::PictureArray;
 use super::pipelines::{MESH_STRIDE, Pipelines};
 use super::scene::Mesh;
 use super::{Gpu, RenderError};
@@ -20,6 +22,8 @@ pub(super) struct DeviceMesh {
     /// Index buffer of all edges, for the wireframe, and the number of its indices; made when the edges are first drawn.
     pub(super) edges: Option<(wgpu::Buffer, u32)>,
     pub(super) material: wgpu::BindGroup,
+    /// The pictures of its decals.
+    pictures: PictureArray,
 }
 
 #[repr(C)]
@@ -42,12 +46,37 @@ struct Material {
     gloss: Vec4,
     print: Vec4,
     repeat: Vec4,
+    decals: [PlacedPicture; MOST_DECALS],
+}
+
+/// Matches `PlacedPicture` in shaders/material.wgsl.
+#[repr(C)]
+#[derive(Clone, Copy, Default, Pod, Zeroable)]
+struct PlacedPicture {
+    map: Vec4,
+    place: Vec4,
+}
+
+impl PlacedPicture {
+    fn of((decal, layer): (&Decal, &usize)) -> Self {
+        let (map, move_by) = decal.picture_from_flat;
+        Self {
+            map: Vec4::new(map.x_axis.x, map.x_axis.y, map.y_axis.x, map.y_axis.y),
+            place: Vec4::new(move_by.x, move_by.y, *layer as f32, f32::from(u8::from(decal.repeats))),
+        }
+    }
 }
 
 impl Material {
-    fn of(mesh: &Mesh) -> Self {
+    /// The material of `mesh`; `layers` are the layers of the pictures of its decals.
+    fn of(mesh: &Mesh, layers: &[usize]) -> Self {
         let textile = &mesh.textile;
         let [weave, print] = if mesh.flat.is_empty() { [0; 2] } else { [textile.weave, textile.print] };
+        let count = if mesh.flat.is_empty() { 0 } else { mesh.decals.len().min(MOST_DECALS) };
+        let mut decals = [PlacedPicture::default(); MOST_DECALS];
+        for (place, decal) in decals.iter_mut().zip(mesh.decals.iter().zip(layers)).take(count) {
+            *place = PlacedPicture::of(decal);
+        }
         let second = linear(textile.second.unwrap_or(mesh.front));
         Self {
             front: linear(mesh.front).extend(mesh.cloth),
@@ -56,7 +85,8 @@ impl Material {
             threads: Vec4::new(textile.pitch, textile.relief, textile.sheen, textile.slubs),
             gloss: Vec4::new(textile.gloss, textile.roughness, textile.cover, textile.along),
             print: linear(textile.ink).extend(print as f32),
-            repeat: Vec4::new(textile.repeat, textile.mean_cover, 0.0, 0.0),
+            repeat: Vec4::new(textile.repeat, textile.mean_cover, count as f32, 0.0),
+            decals,
         }
     }
 }
@@ -69,12 +99,13 @@ pub(super) fn upload(
     meshes: &[Arc<Mesh>],
     wire: bool,
 ) -> Result<Vec<DeviceMesh>, RenderError> {
+    let mut known: Vec<PictureArray> = last.iter().map(|mesh| mesh.pictures.clone()).collect();
     let mut all: Vec<DeviceMesh> = meshes
         .iter()
         .filter(|m| !m.triangles.is_empty())
         .map(|mesh| match last.iter().position(|d| Arc::ptr_eq(&d.mesh, mesh)) {
             Some(i) => Ok(last.swap_remove(i)),
-            None => DeviceMesh::new(gpu, pipelines, mesh),
+            None => DeviceMesh::new(gpu, pipelines, mesh, &mut known),
         })
         .collect::<Result<_, _>>()?;
     for mesh in all.iter_mut().filter(|m| wire && m.is_cloth() && m.edges.is_none()) {
@@ -84,7 +115,13 @@ pub(super) fn upload(
 }
 
 impl DeviceMesh {
-    fn new(gpu: &Gpu, pipelines: &Pipelines, mesh: &Arc<Mesh>) -> Result<Self, RenderError> {
+    /// Uploads `mesh`, and its pictures unless they are `known`.
+    fn new(
+        gpu: &Gpu,
+        pipelines: &Pipelines,
+        mesh: &Arc<Mesh>,
+        known: &mut Vec<PictureArray>,
+    ) -> Result<Self, RenderError> {
         let limit = gpu.device.limits().max_buffer_size;
         if mesh.positions.len() as u64 * MESH_STRIDE > limit || mesh.triangles.len() as u64 * 12 > limit {
             return Err(RenderError::TooLarge {
@@ -96,7 +133,16 @@ impl DeviceMesh {
         let indices: Vec<[u32; 3]> =
             mesh.triangles.iter().copied().filter(|t| t.iter().all(|&v| v < count)).collect();
         let (vertices, indices) = flat_vertices(mesh, vertices(mesh), indices);
-        let material = Material::of(mesh);
+        let (pictures, layers) = pictures(&mesh.decals);
+        let pictures = match known.iter().find(|other| other.has(&pictures)) {
+            Some(found) => found.clone(),
+            None => {
+                let made = PictureArray::new(gpu, pictures);
+                known.push(made.clone());
+                made
+            }
+        };
+        let material = Material::of(mesh, &layers);
         let material = gpu.buffer("material", bytemuck::bytes_of(&material), wgpu::BufferUsages::UNIFORM);
         Ok(Self {
             mesh: Arc::clone(mesh),
@@ -104,7 +150,16 @@ impl DeviceMesh {
             indices: gpu.buffer("indices", bytemuck::cast_slice(&indices), wgpu::BufferUsages::INDEX),
             index_count: indices.len() as u32 * 3,
             edges: None,
-            material: bind(gpu, &pipelines.material_layout, &[material.as_entire_binding()]),
+            material: bind(
+                gpu,
+                &pipelines.material_layout,
+                &[
+                    material.as_entire_binding(),
+                    wgpu::BindingResource::TextureView(&pictures.view),
+                    wgpu::BindingResource::Sampler(&pipelines.picture_sampler),
+                ],
+            ),
+            pictures,
         })
     }
 

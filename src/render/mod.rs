@@ -3,8 +3,10 @@
 //! A picture takes up to six passes: shadow map; depth and normals at half size; ambient occlusion ("hollows") and its blur; then
 //! background, floor, meshes, wires and lines with light, at four samples per pixel.
 
+pub mod bake;
 mod buffers;
 pub mod camera;
+pub mod decal;
 pub mod error;
 mod frame;
 pub mod gpu;
@@ -13,7 +15,9 @@ mod letters;
 pub mod look;
 pub mod palette;
 pub mod picture;
+mod picture_array;
 mod pipelines;
+mod pyramid;
 pub mod renderer;
 pub mod scene;
 mod shaders;
@@ -23,6 +27,7 @@ pub mod textile;
 pub mod view;
 
 pub use camera::{Camera, PixelRay, Projected, Projection};
+pub use decal::Decal;
 pub use error::RenderError;
 pub use frame::linear;
 pub use gpu::Gpu;

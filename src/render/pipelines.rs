@@ -11,6 +11,7 @@ pub(super) struct Pipelines {
     pub(super) frame_layout: wgpu::BindGroupLayout,
     pub(super) light_layout: wgpu::BindGroupLayout,
     pub(super) material_layout: wgpu::BindGroupLayout,
+    pub(super) picture_sampler: wgpu::Sampler,
     pub(super) hollows_layout: wgpu::BindGroupLayout,
     pub(super) blur_layout: wgpu::BindGroupLayout,
     pub(super) shadow: wgpu::RenderPipeline,
@@ -49,7 +50,7 @@ impl Pipelines {
     pub(super) fn new(gpu: &Gpu) -> Self {
         let frame_layout = layout(gpu, "frame", &[uniform()]);
         let light_layout = layout(gpu, "light", &[depth_texture(), comparison(), colour_texture()]);
-        let material_layout = layout(gpu, "material", &[uniform()]);
+        let material_layout = layout(gpu, "material", &[uniform(), pictures(), smooth()]);
         let hollows_layout = layout(gpu, "hollows", &[depth_texture(), colour_texture()]);
         let blur_layout = layout(gpu, "blur", &[colour_texture()]);
 
@@ -89,6 +90,15 @@ impl Pipelines {
             }),
             finished: Pictured::finished(&make, gpu.samples, &light_layout, &material_layout),
             draft: None,
+            picture_sampler: gpu.device.create_sampler(&wgpu::SamplerDescriptor {
+                label: Some("pictures"),
+                address_mode_u: wgpu::AddressMode::Repeat,
+                address_mode_v: wgpu::AddressMode::Repeat,
+                mag_filter: wgpu::FilterMode::Linear,
+                min_filter: wgpu::FilterMode::Linear,
+                mipmap_filter: wgpu::MipmapFilterMode::Linear,
+                ..Default::default()
+            }),
             frame_layout,
             light_layout,
             material_layout,
@@ -394,6 +404,19 @@ fn depth_texture() -> wgpu::BindingType {
 
 fn colour_texture() -> wgpu::BindingType {
     sampled(wgpu::TextureSampleType::Float { filterable: false })
+}
+
+/// Pictures as layers of a texture.
+fn pictures() -> wgpu::BindingType {
+    wgpu::BindingType::Texture {
+        sample_type: wgpu::TextureSampleType::Float { filterable: true },
+        view_dimension: wgpu::TextureViewDimension::D2Array,
+        multisampled: false,
+    }
+}
+
+fn smooth() -> wgpu::BindingType {
+    wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering)
 }
 
 fn comparison() -> wgpu::BindingType {

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use glam::{Vec2, Vec3};
 
+use super::decal::Decal;
 use super::textile::Textile;
 
 /// An sRGB colour: red, green, blue, 0..=255.
@@ -30,6 +31,8 @@ pub struct Mesh {
     pub flat: Vec<[Vec2; 3]>,
     /// Surface of the cloth; its weave needs `flat`.
     pub textile: Textile,
+    /// Pictures on the cloth, the last on top; at most [`MOST_DECALS`](super::decal::MOST_DECALS) are drawn. They need `flat`.
+    pub decals: Arc<Vec<Decal>>,
 }
 
 impl Mesh {

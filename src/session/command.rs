@@ -7,10 +7,11 @@ use serde::{Deserialize, Serialize};
 
 use crate::body::mannequin::Measurements;
 use crate::drag::{DragMode, Ray};
-use crate::geometry::ids::{MarkId, PieceId, PinId, SeamId};
+use crate::geometry::ids::{GraphicId, ImageId, MarkId, PieceId, PinId, SeamId};
 use crate::pattern::edit::PatternEdit;
 use crate::pattern::{Edge, Pattern, Piece, PlanePose, Seam};
 use crate::session::animations::{Animations, Moment};
+use crate::session::artwork::{Graphic, ImageFile};
 use crate::session::body_choice::BodyChoice;
 use crate::session::document::Settings;
 use crate::session::dyes::Dye;
@@ -147,7 +148,7 @@ pub enum Command {
     /// Set the fabric of a piece, or (no piece) of all that have no fabric of their own. No fabric: that of all the others, or
     /// the usual one.
     SetFabric { piece: Option<PieceId>, fabric: Option<String> },
-    /// Set colour and print of a piece, or (no piece) of all that have none of their own.
+    /// Set colour, print and image of a piece, or (no piece) of all that have none of their own.
     SetDye { piece: Option<PieceId>, dye: Dye },
     /// Keep the present fabrics, colours and prints as the colourway of this name.
     KeepColourway { name: String },
@@ -155,6 +156,16 @@ pub enum Command {
     WearColourway { name: String },
     /// Delete the colourway of this name.
     DeleteColourway { name: String },
+    /// Take an image (PNG, JPEG) into the document.
+    AddImage { file: Arc<ImageFile> },
+    /// Delete an image with its graphics; fabrics lose it as their surface.
+    DeleteImage { image: ImageId },
+    /// Place an image on a piece.
+    AddGraphic { graphic: Graphic },
+    /// Move, scale or turn a graphic, or give it another image.
+    SetGraphic { id: GraphicId, graphic: Graphic },
+    /// Delete a graphic.
+    DeleteGraphic { id: GraphicId },
 
     /// Undo the last step, document and cloth.
     Undo,

@@ -9,6 +9,7 @@ use crate::geometry::ids::{MarkId, PinId};
 use crate::pattern::Pattern;
 use crate::relax::RelaxSettings;
 use crate::session::animations::{Animations, Moment};
+use crate::session::artwork::Artwork;
 use crate::session::body_choice::BodyChoice;
 use crate::session::dyes::{Colourway, Dyes};
 use crate::session::fabrics::Fabrics;
@@ -53,6 +54,9 @@ pub struct Document {
     /// Named sets of fabrics, colours and prints.
     #[serde(default, skip_serializing_if = "is_none_kept")]
     pub colourways: Arc<Vec<Colourway>>,
+    /// Images, and graphics on pieces.
+    #[serde(default, skip_serializing_if = "has_no_images")]
+    pub artwork: Arc<Artwork>,
     /// Mesh size, relaxation and draping.
     pub settings: Settings,
 }
@@ -87,6 +91,10 @@ fn is_none_kept(colourways: &Arc<Vec<Colourway>>) -> bool {
     colourways.is_empty()
 }
 
+fn has_no_images(artwork: &Arc<Artwork>) -> bool {
+    artwork.is_empty()
+}
+
 pub(super) fn is_false(flag: &bool) -> bool {
     !flag
 }
@@ -111,6 +119,7 @@ impl Default for Document {
             fabrics: Fabrics::default(),
             dyes: Dyes::default(),
             colourways: Arc::default(),
+            artwork: Arc::default(),
             settings: Settings::default(),
         }
     }

@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use crate::geometry::ids::PieceId;
+use crate::geometry::ids::{ImageId, PieceId};
+use crate::session::artwork::Repeated;
 use crate::session::fabrics::Fabrics;
 
 /// Range of the repeat of a print, metres.
@@ -65,7 +66,7 @@ pub struct Print {
     pub colour: [u8; 3],
 }
 
-/// Colour and print of a piece; None: those of all pieces, or of the fabric.
+/// Colour, print and image of a piece; None: those of all pieces, or of the fabric.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Dye {
@@ -75,6 +76,9 @@ pub struct Dye {
     /// Print on it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub print: Option<Print>,
+    /// Image all over it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub image: Option<Repeated>,
 }
 
 impl Dye {
@@ -105,7 +109,8 @@ impl Dyes {
     /// Colour and print of `piece`: its own, else those of all pieces.
     pub fn of(&self, piece: PieceId) -> Dye {
         let own = self.pieces.get(&piece).copied().unwrap_or_default();
-        Dye { colour: own.colour.or(self.all.colour), print: own.print.or(self.all.print) }
+        let Dye { colour, print, image } = self.all;
+        Dye { colour: own.colour.or(colour), print: own.print.or(print), image: own.image.or(image) }
     }
 
     /// Sets the dye of `piece` (None: of all pieces that have none of their own).
@@ -121,12 +126,31 @@ impl Dyes {
         }
     }
 
-    /// The first print that cannot be drawn, in words.
+    fn each(&self) -> impl Iterator<Item = &Dye> {
+        std::iter::once(&self.all).chain(self.pieces.values())
+    }
+
+    /// The images of fabrics, with repetitions.
+    pub fn images(&self) -> impl Iterator<Item = ImageId> {
+        self.each().filter_map(|dye| Some(dye.image?.image))
+    }
+
+    /// Removes an image from all fabrics.
+    pub fn forget(&mut self, image: ImageId) {
+        for dye in std::iter::once(&mut self.all).chain(self.pieces.values_mut()) {
+            dye.image = dye.image.filter(|own| own.image != image);
+        }
+        self.pieces.retain(|_, dye| !dye.is_plain());
+    }
+
+    /// The first print or image that cannot be drawn, in words.
     pub fn problem(&self) -> Option<String> {
-        let prints = std::iter::once(&self.all).chain(self.pieces.values()).filter_map(|dye| dye.print);
+        let prints = self.each().filter_map(|dye| dye.print);
         let [least, most] = REPEATS;
         let wrong = prints.map(|print| print.repeat_m).find(|repeat| !(least..=most).contains(repeat));
-        wrong.map(|repeat| format!("a print repeats every {repeat} m, not every {least} to {most} m"))
+        let wrong =
+            wrong.map(|repeat| format!("a print repeats every {repeat} m, not every {least} to {most} m"));
+        wrong.or_else(|| self.each().find_map(|dye| dye.image?.problem()))
     }
 }
 
@@ -169,13 +193,13 @@ mod tests {
         let mut dyes = Dyes::default();
         assert!(dyes.is_plain());
         let print = Print { motif: Motif::Checks, repeat_m: 0.02, colour: [9; 3] };
-        dyes.set(None, Dye { colour: Some([1; 3]), print: Some(print) });
-        dyes.set(Some(PieceId(2)), Dye { colour: Some([2; 3]), print: None });
-        assert_eq!(dyes.of(PieceId(1)), Dye { colour: Some([1; 3]), print: Some(print) });
-        assert_eq!(dyes.of(PieceId(2)), Dye { colour: Some([2; 3]), print: Some(print) });
+        dyes.set(None, Dye { colour: Some([1; 3]), print: Some(print), image: None });
+        dyes.set(Some(PieceId(2)), Dye { colour: Some([2; 3]), ..Dye::default() });
+        assert_eq!(dyes.of(PieceId(1)), Dye { colour: Some([1; 3]), print: Some(print), image: None });
+        assert_eq!(dyes.of(PieceId(2)), Dye { colour: Some([2; 3]), print: Some(print), image: None });
         dyes.set(Some(PieceId(2)), Dye::default());
         assert!(dyes.pieces.is_empty() && dyes.problem().is_none());
-        dyes.set(None, Dye { colour: None, print: Some(Print { repeat_m: f64::NAN, ..print }) });
+        dyes.set(None, Dye { print: Some(Print { repeat_m: f64::NAN, ..print }), ..Dye::default() });
         assert!(dyes.problem().is_some_and(|words| words.contains("NaN")));
     }
 

@@ -1,11 +1,14 @@
 //! Document hashes. Parts that have not changed are not hashed again.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use serde::Serialize;
 
+use crate::geometry::ids::ImageId;
 use crate::pattern::Pattern;
 use crate::session::animations::Animations;
+use crate::session::artwork::{Artwork, ImageFile};
 use crate::session::body_choice::BodyChoice;
 use crate::session::document::{Aim, Document};
 use crate::sim::hash::{Fnv, hash_of};
@@ -19,6 +22,7 @@ pub struct DocumentHasher {
     body: Option<(BodyChoice, u64)>,
     aim: Option<(Arc<Aim>, u64)>,
     animations: Option<(Arc<Animations>, u64)>,
+    images: BTreeMap<ImageId, Option<(Arc<ImageFile>, u64)>>,
 }
 
 impl DocumentHasher {
@@ -38,6 +42,7 @@ impl DocumentHasher {
             fabrics,
             dyes,
             colourways,
+            artwork,
             settings,
         } = document;
         let mut hash = Fnv::default();
@@ -70,10 +75,25 @@ impl DocumentHasher {
         if !colourways.is_empty() {
             hash.number(json_hash(&**colourways));
         }
+        if !artwork.is_empty() {
+            self.artwork(artwork, &mut hash);
+        }
         hash.number(json_hash(settings));
         hash.number(done as u64);
         hash.number(undone as u64);
         hash.finish()
+    }
+
+    /// Adds images, each of which is hashed once, and graphics.
+    fn artwork(&mut self, artwork: &Artwork, hash: &mut Fnv) {
+        let Artwork { images, graphics, last } = artwork;
+        self.images.retain(|id, _| images.contains_key(id));
+        for (id, file) in images {
+            hash.number(u64::from(id.0));
+            hash.number(shared(self.images.entry(*id).or_default(), file));
+        }
+        hash.number(json_hash(graphics));
+        hash.number(u64::from(*last));
     }
 
     fn body(&mut self, body: &BodyChoice) -> u64 {

@@ -1,6 +1,7 @@
 //! The user's session: one stream of commands builds the document, its undo history and its recording.
 
 pub mod animations;
+pub mod artwork;
 pub mod body;
 pub mod body_choice;
 pub mod carry;
@@ -26,6 +27,7 @@ pub mod session;
 pub mod whole_file;
 
 pub use animations::{AnimatedFile, Animations, Moment};
+pub use artwork::{Artwork, Graphic, ImageFile, Repeated};
 pub use body_choice::BodyChoice;
 pub use command::{Command, Rejection};
 pub use document::{Aim, Document, Pin, Settings};

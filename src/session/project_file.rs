@@ -125,7 +125,9 @@ pub fn from_bytes(bytes: &[u8]) -> Result<Project, ProjectFileError> {
 
 /// The content of a project file with `project`.
 pub fn to_bytes(project: &Project) -> Result<Vec<u8>, ProjectFileError> {
-    let small = project.dressed.is_none() && project.document.body == BodyChoice::default();
+    let document = &project.document;
+    let has_images = !document.artwork.images.is_empty();
+    let small = project.dressed.is_none() && document.body == BodyChoice::default() && !has_images;
     if small { to_json(project) } else { to_zip(project) }
 }
 

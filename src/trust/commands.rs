@@ -5,11 +5,11 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 use serde_json::json;
 
-use crate::geometry::ids::{PieceId, SeamId};
+use crate::geometry::ids::{GraphicId, ImageId, PieceId, SeamId};
 use crate::io::words::readable;
 use crate::pattern::edit::{PatternEdit, PointRef};
 use crate::pattern::{Edge, EdgeRef, EdgeShape, InternalLine, Pattern, Piece, PlanePose, Seam, SpacePose};
-use crate::session::{BodyChoice, Command, Session, Settings};
+use crate::session::{BodyChoice, Command, Dye, Graphic, ImageFile, Repeated, Session, Settings};
 use crate::sim::{Runner, Simulation};
 use crate::trust::good;
 use crate::trust::ticks::go_on;
@@ -74,6 +74,7 @@ pub fn good() -> Vec<Vec<u8>> {
             Command::WearColourway { name: "red".to_owned() },
             Command::DeleteColourway { name: "red".to_owned() },
         ]),
+        of_images(front, [low, high]),
         json!([Command::ReplacePattern {
             name: "another".to_owned(),
             pattern: Arc::new(Pattern { next_id: 9, ..good::pattern() }),
@@ -82,6 +83,25 @@ pub fn good() -> Vec<Vec<u8>> {
     ];
     let edits = edits([front, back], seam).map(|edits| json!([Command::EditPattern { edits, anew: false }]));
     lists.iter().chain(&edits).map(|list| list.to_string().into_bytes()).collect()
+}
+
+/// Commands about an image on `piece`.
+fn of_images(piece: PieceId, [low, high]: [DVec2; 2]) -> serde_json::Value {
+    let graphic = Graphic { piece, image: ImageId(1), at: low, width_m: 0.05, angle: 0.0, on_twin: true };
+    json!([
+        Command::AddImage { file: Arc::new(ImageFile::new("logo.png", good::picture())) },
+        Command::AddGraphic { graphic },
+        Command::SetDye {
+            piece: Some(piece),
+            dye: Dye {
+                image: Some(Repeated { image: ImageId(1), width_m: 0.1, angle: 0.2 }),
+                ..Dye::default()
+            },
+        },
+        Command::SetGraphic { id: GraphicId(2), graphic: Graphic { at: high, angle: 0.3, ..graphic } },
+        Command::DeleteGraphic { id: GraphicId(2) },
+        Command::DeleteImage { image: ImageId(1) },
+    ])
 }
 
 /// Edits of two pieces and the seam between them.

@@ -7,7 +7,8 @@ use glam::{DQuat, DVec2, DVec3};
 use crate::geometry::ids::MarkId;
 use crate::geometry::mesh::TriMesh;
 use crate::geometry::shapes::cylinder;
-use crate::io::glb::{self, Colours};
+use crate::io::glb;
+use crate::io::materials::Colours;
 use crate::io::obj;
 use crate::pattern::{
     Edge, EdgeRef, EdgeShape, InternalLine, Notch, Pattern, Piece, PlanePose, Seam, SpacePose,
@@ -84,7 +85,18 @@ pub fn dye() -> Dye {
     Dye {
         colour: Some([200, 30, 40]),
         print: Some(Print { motif: Motif::Checks, repeat_m: 0.02, colour: [240; 3] }),
+        image: None,
     }
+}
+
+/// A small picture, PNG.
+pub fn picture() -> Vec<u8> {
+    let picture = image::RgbaImage::from_fn(16, 12, |x, y| {
+        image::Rgba([16 * x as u8, 20 * y as u8, 90, 255 - x as u8])
+    });
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    picture.write_to(&mut bytes, image::ImageFormat::Png).expect("a picture");
+    bytes.into_inner()
 }
 
 /// A session in which a little was done, with cloth on the limb.

@@ -3,6 +3,7 @@
 mod bad_input;
 mod batch;
 mod bench;
+mod blender;
 mod bodies;
 #[path = "../common/mod.rs"]
 mod common;
@@ -14,6 +15,7 @@ mod fit_page;
 mod gltf;
 mod icon;
 mod install;
+mod images;
 mod limits;
 mod patterns;
 mod program;
@@ -27,4 +29,5 @@ mod simulate;
 mod starts;
 mod stopped;
 mod thousand;
+mod textures;
 mod trust;

@@ -2,6 +2,7 @@
 
 mod answers;
 mod bad_inputs;
+mod baked;
 mod bones;
 #[path = "../common/mod.rs"]
 mod common;

@@ -2,6 +2,7 @@
 
 mod activities;
 mod animations;
+mod artwork;
 mod bodies;
 mod commands;
 #[path = "../common/mod.rs"]

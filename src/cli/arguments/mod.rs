@@ -15,6 +15,7 @@ pub use crate::cli::arguments::bench::{Bench, BenchKind, CorpusOptions, TrustOpt
 pub use crate::cli::arguments::install::{Completions, Man};
 pub use crate::cli::arguments::report::{Merge, Report, ReportTask};
 use crate::cli::cloth_options::ClothOptions;
+use crate::cli::texture_options::TextureOptions;
 use crate::cloth::Skips;
 use crate::draft::Shard;
 use crate::fit::MapKind;
@@ -473,7 +474,7 @@ pub struct Import {
 }
 
 /// Writes the pattern as .json (GarmentCode), .dxf (AAMA/ASTM), .svg (1 unit = 1 mm) or .pdf (true size), or the dressed
-/// cloth of a project as .obj (alone) or .glb (with the body)
+/// cloth of a project as .obj (alone, its materials beside it) or .glb (with the body, materials and textures)
 #[derive(Debug, Args)]
 pub struct Export {
     /// A project, a pattern or a sample (sample:NAME); for .obj and .glb a dressed project
@@ -481,6 +482,10 @@ pub struct Export {
     /// The file to write; its ending gives the format
     #[arg(short, long, visible_alias = "out", value_name = "FILE")]
     pub output: PathBuf,
+    #[command(flatten)]
+    pub cloth: ClothOptions,
+    #[command(flatten)]
+    pub textures: TextureOptions,
     /// The paper of a PDF: a4 or letter, to be glued together, or one large page
     #[arg(long, default_value_t, value_name = "a4|letter|one")]
     pub paper: Paper,

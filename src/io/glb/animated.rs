@@ -11,9 +11,10 @@ use gltf_json::mesh::MorphTarget;
 use gltf_json::validation::Checked;
 use gltf_json::{Accessor, Index};
 
-use super::{Builder, Colours, Dressed, GlbError, PieceArrays, accessor};
+use super::{Builder, Dressed, GlbError, PieceArrays, accessor};
 use crate::cloth::ClothState;
 use crate::geometry::mesh::{TriMesh, vertex_normals};
+use crate::io::materials::Colours;
 
 /// Vertex positions of the garment and the body in one frame.
 #[derive(Clone, Debug)]
@@ -50,7 +51,13 @@ pub fn write_animated(
         let arrays = |frame: &Frame| {
             let state = cloth(frame);
             let normals = vertex_normals(&state.positions, &on_body);
-            PieceArrays::new(&Dressed { state: &state, ..dressed }, *id, own(), &normals)
+            PieceArrays::new(
+                &Dressed { state: &state, ..dressed },
+                *id,
+                own(),
+                &normals,
+                colours.textures.as_deref(),
+            )
         };
         let shown = arrays(first);
         if shown.triangles.is_empty() {

@@ -1,10 +1,10 @@
 //! Writes scenes as binary glTF 2.0 (GLB): the garment as one mesh per piece with a material for each side, and the body.
 //!
-//! Texture coordinates are the pattern plane in metres, u = x and v = 1 - y, since glTF counts v downward.
+//! Texture coordinates are the pattern plane in metres, u = x and v = 1 - y, since glTF counts v downward. With textures they are
+//! those of the atlas; a second set then counts repeats of the weave.
 
 pub mod animated;
-
-use std::collections::BTreeMap;
+mod images;
 
 use glam::{DVec2, DVec3};
 use gltf_json::accessor::{ComponentType, GenericComponentType, Type};
@@ -12,11 +12,13 @@ use gltf_json::buffer::{Buffer, Target, View};
 use gltf_json::material::{AlphaMode, Material, PbrBaseColorFactor, PbrMetallicRoughness, StrengthFactor};
 use gltf_json::mesh::{Mesh, Mode, Primitive, Semantic};
 use gltf_json::validation::{Checked, USize64};
-use gltf_json::{Accessor, Asset, Index, Node, Root, Scene};
+use gltf_json::{Accessor, Asset, Index, Node, Root, Scene, Texture};
+use images::Map;
 
 use crate::cloth::{ClothState, Garment};
 use crate::geometry::ids::PieceId;
 use crate::geometry::mesh::{TriMesh, vertex_normals};
+use crate::io::materials::{ClothMaterial, ClothTextures, Colours, ROUGHNESS, Textures};
 use crate::pattern::Pattern;
 
 /// A garment with its current vertex positions.
@@ -37,43 +39,6 @@ impl Dressed<'_> {
             self.garment.triangles[*t].iter().all(|&v| self.state.mapped.get(v as usize) == Some(&true))
         };
         (0..self.garment.triangles.len()).filter(is_laid).collect()
-    }
-}
-
-/// Material of a side of a piece.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ClothMaterial {
-    /// Name of the fabric.
-    pub name: String,
-    /// Base colours of the outer and of the inner side, linear RGB, 0..=1.
-    pub sides: [[f32; 3]; 2],
-    /// Roughness, 0..=1.
-    pub roughness: f32,
-    /// Opacity, 0..=1.
-    pub opacity: f32,
-}
-
-/// Base colours, linear RGB, 0..=1.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Colours {
-    /// Outer side of the cloth.
-    pub front: [f32; 3],
-    /// Inner side of the cloth.
-    pub back: [f32; 3],
-    /// Skin of the body.
-    pub body: [f32; 3],
-    /// Materials of single pieces, in place of `front` and `back`.
-    pub pieces: BTreeMap<PieceId, ClothMaterial>,
-}
-
-impl Default for Colours {
-    fn default() -> Self {
-        Self {
-            front: [0.18, 0.42, 0.22],
-            back: [0.72, 0.32, 0.38],
-            body: [0.5, 0.48, 0.46],
-            pieces: BTreeMap::new(),
-        }
     }
 }
 
@@ -107,15 +72,14 @@ pub fn write(
     builder.finish()
 }
 
-/// Roughness of materials that name none.
-const ROUGHNESS: f32 = 0.9;
-
 struct Builder {
     root: Root,
     data: Vec<u8>,
     nodes: Vec<Index<Node>>,
     /// Materials of cloth that are written, and their indices for both sides.
     cloth: Vec<(ClothMaterial, [Index<Material>; 2])>,
+    /// Images that are written, by their numbers, and their textures.
+    textures: Vec<(usize, Index<Texture>)>,
 }
 
 impl Builder {
@@ -126,6 +90,7 @@ impl Builder {
             data: Vec::new(),
             nodes: Vec::new(),
             cloth: Vec::new(),
+            textures: Vec::new(),
         }
     }
 
@@ -136,7 +101,7 @@ impl Builder {
         let normals = vertex_normals(&state.positions, &on_body);
         for (id, name) in &garment.pieces {
             let own = triangles.iter().copied().filter(|&t| garment.triangle_pieces[t] == *id);
-            let piece = PieceArrays::new(dressed, *id, own, &normals);
+            let piece = PieceArrays::new(dressed, *id, own, &normals, colours.textures.as_deref());
             if !piece.triangles.is_empty() {
                 let sides = self.sides(colours, *id);
                 self.piece(name, &piece, sides);
@@ -147,7 +112,8 @@ impl Builder {
     /// Adds a piece as one mesh with two single-sided primitives, for the front and the back of the cloth.
     fn piece(&mut self, name: &str, piece: &PieceArrays, [front, back]: [Index<Material>; 2]) {
         let positions = self.vectors(&piece.positions, true);
-        let uv = self.texture_coordinates(&piece.uv);
+        let mut uv = vec![self.texture_coordinates(&piece.uv)];
+        uv.extend((!piece.weave.is_empty()).then(|| self.texture_coordinates(&piece.weave)));
         let normals = self.vectors(&piece.normals, false);
         let inward: Vec<DVec3> = piece.normals.iter().map(|&n| -n).collect();
         let inward = self.vectors(&inward, false);
@@ -155,18 +121,18 @@ impl Builder {
         let outside = self.triangles(&piece.triangles);
         let inside = self.triangles(&turned);
         let primitives = vec![
-            primitive([positions, normals], Some(uv), outside, front),
-            primitive([positions, inward], Some(uv), inside, back),
+            primitive([positions, normals], &uv, outside, front),
+            primitive([positions, inward], &uv, inside, back),
         ];
         self.node(name, primitives);
     }
 
     fn body(&mut self, body: &TriMesh, colours: &Colours) {
-        let material = self.material("body", colours.body, ROUGHNESS, 1.0);
+        let material = self.material("body", colours.body, ROUGHNESS, 1.0, [None; 2]);
         let positions = self.vectors(&body.positions, true);
         let normals = self.vectors(&body.vertex_normals(), false);
         let triangles = self.triangles(&body.triangles);
-        self.node("body", vec![primitive([positions, normals], None, triangles, material)]);
+        self.node("body", vec![primitive([positions, normals], &[], triangles, material)]);
     }
 
     fn node(&mut self, name: &str, primitives: Vec<Primitive>) {
@@ -183,23 +149,39 @@ impl Builder {
 
     /// The materials of both sides of piece `id`.
     fn sides(&mut self, colours: &Colours, id: PieceId) -> [Index<Material>; 2] {
-        let wanted = colours.pieces.get(&id).cloned().unwrap_or_else(|| ClothMaterial {
-            name: "cloth".to_owned(),
-            sides: [colours.front, colours.back],
-            roughness: ROUGHNESS,
-            opacity: 1.0,
-        });
+        let wanted = colours.of(id);
         if let Some((_, sides)) = self.cloth.iter().find(|(material, _)| *material == wanted) {
             return *sides;
         }
-        let ClothMaterial { name, sides: [front, back], roughness, opacity } = &wanted;
-        let sides = [("front", front), ("back", back)]
-            .map(|(side, colour)| self.material(&format!("{name}, {side}"), *colour, *roughness, *opacity));
-        self.cloth.push((wanted, sides));
-        sides
+        let ClothMaterial { name, sides, roughness, opacity, textures } = &wanted;
+        let images = colours.textures.as_deref();
+        let made = [0, 1].map(|side| {
+            let maps = textures.zip(images).map(|(own, images)| self.maps(&own, side, images));
+            // A texture is multiplied by the colour.
+            let colour = if maps.is_some() { [1.0; 3] } else { sides[side] };
+            let name = format!("{name}, {}", ["front", "back"][side]);
+            self.material(&name, colour, *roughness, *opacity, maps.unwrap_or_default())
+        });
+        self.cloth.push((wanted, made));
+        made
     }
 
-    fn material(&mut self, name: &str, [r, g, b]: [f32; 3], roughness: f32, opacity: f32) -> Index<Material> {
+    /// The base colour and the normal texture of one side: 0 the outer, 1 the inner.
+    fn maps(&mut self, own: &ClothTextures, side: usize, textures: &Textures) -> [Option<Map>; 2] {
+        let mut map = |image: usize, set: u32| Some(Map { texture: self.texture(textures, image)?, set });
+        let colour = map(own.sides[side], 0);
+        let normal = own.weave.map(|image| (image, 1)).or(own.normal.map(|image| (image, 0)));
+        [colour, normal.and_then(|(image, set)| map(image, set))]
+    }
+
+    fn material(
+        &mut self,
+        name: &str,
+        [r, g, b]: [f32; 3],
+        roughness: f32,
+        opacity: f32,
+        [colour, normal]: [Option<Map>; 2],
+    ) -> Index<Material> {
         let alpha_mode = if opacity < 1.0 { AlphaMode::Blend } else { AlphaMode::Opaque };
         self.root.push(Material {
             name: Some(name.to_owned()),
@@ -207,8 +189,10 @@ impl Builder {
                 base_color_factor: PbrBaseColorFactor([r, g, b, opacity]),
                 metallic_factor: StrengthFactor(0.0),
                 roughness_factor: StrengthFactor(roughness),
+                base_color_texture: colour.map(Map::info),
                 ..PbrMetallicRoughness::default()
             },
+            normal_texture: normal.map(Map::normal),
             alpha_mode: Checked::Valid(alpha_mode),
             ..Material::default()
         })
@@ -283,6 +267,8 @@ struct PieceArrays {
     positions: Vec<DVec3>,
     normals: Vec<DVec3>,
     uv: Vec<DVec2>,
+    /// Places in repeats of the weave; empty: no weave.
+    weave: Vec<DVec2>,
     triangles: Vec<[u32; 3]>,
 }
 
@@ -292,15 +278,24 @@ impl PieceArrays {
         piece: PieceId,
         triangles: impl Iterator<Item = usize>,
         normals: &[DVec3],
+        textures: Option<&Textures>,
     ) -> Self {
         let Dressed { garment, state, pattern } = dressed;
         let first = garment.corners.partition_point(|c| c.piece < piece);
         let corners = &garment.corners[first..garment.corners.partition_point(|c| c.piece <= piece)];
         let pose = pattern.pieces.get(&piece).map(|p| p.pose).unwrap_or_default();
+        let weave = textures.and_then(|textures| textures.weave_from_piece.get(&piece));
+        let uv = |at: DVec2| match textures {
+            Some(textures) => textures.atlas.uv(piece, at),
+            None => pose.plane_from_piece(at),
+        };
         Self {
+            weave: weave
+                .map(|map| corners.iter().map(|c| map.transform_point2(c.uv)).collect())
+                .unwrap_or_default(),
             positions: corners.iter().map(|c| state.positions[c.vertex as usize]).collect(),
             normals: corners.iter().map(|c| normals[c.vertex as usize]).collect(),
-            uv: corners.iter().map(|c| pose.plane_from_piece(c.uv)).collect(),
+            uv: corners.iter().map(|c| uv(c.uv)).collect(),
             triangles: triangles.map(|t| garment.triangle_corners[t].map(|c| c - first as u32)).collect(),
         }
     }
@@ -325,17 +320,14 @@ fn accessor(view: Index<View>, count: usize, component: ComponentType, type_: Ty
 
 fn primitive(
     [positions, normals]: [Index<Accessor>; 2],
-    uv: Option<Index<Accessor>>,
+    uv: &[Index<Accessor>],
     triangles: Index<Accessor>,
     material: Index<Material>,
 ) -> Primitive {
-    let given = [
-        (Semantic::Positions, Some(positions)),
-        (Semantic::Normals, Some(normals)),
-        (Semantic::TexCoords(0), uv),
-    ];
+    let given = [(Semantic::Positions, positions), (Semantic::Normals, normals)];
+    let uv = (0..).map(Semantic::TexCoords).zip(uv.iter().copied());
     Primitive {
-        attributes: given.into_iter().filter_map(|(s, a)| Some((Checked::Valid(s), a?))).collect(),
+        attributes: given.into_iter().chain(uv).map(|(s, a)| (Checked::Valid(s), a)).collect(),
         extensions: None,
         extras: Default::default(),
         indices: Some(triangles),

@@ -6,7 +6,7 @@ use crate::geometry::ids::PieceId;
 use crate::session::command::Rejection;
 use crate::session::document::Document;
 use crate::session::dyes::{Colourway, Dye, colourways_problem};
-use crate::session::edit::{ClothChange, Edit, checks};
+use crate::session::edit::{ClothChange, Edit, artwork, checks};
 
 /// Sets colour and print of `piece` (None: of all pieces that have none of their own).
 pub fn set_dye(mut document: Document, piece: Option<PieceId>, dye: Dye) -> Result<Edit, Rejection> {
@@ -14,7 +14,7 @@ pub fn set_dye(mut document: Document, piece: Option<PieceId>, dye: Dye) -> Resu
         checks::find_piece(&document.pattern, piece)?;
     }
     document.dyes.set(piece, dye);
-    match document.dyes.problem() {
+    match document.dyes.problem().or_else(|| artwork::problem(&document)) {
         None => Ok(Edit::new("change the colour", document)),
         Some(words) => Err(Rejection(words)),
     }

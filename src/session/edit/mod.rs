@@ -1,5 +1,6 @@
 //! What each command does to a document. Pure functions: they return a new document, or a rejection.
 
+mod artwork;
 mod body;
 mod checks;
 mod drag;
@@ -199,6 +200,11 @@ fn untied(document: &Document, command: &Command, bodies: &mut BodyCache) -> Res
         Command::KeepColourway { name } => dyes::keep(new, name),
         Command::WearColourway { name } => dyes::wear(new, name),
         Command::DeleteColourway { name } => dyes::delete(new, name),
+        Command::AddImage { file } => artwork::add_image(new, file),
+        Command::DeleteImage { image } => artwork::delete_image(new, *image),
+        Command::AddGraphic { graphic } => artwork::add_graphic(new, graphic),
+        Command::SetGraphic { id, graphic } => artwork::set_graphic(new, *id, graphic),
+        Command::DeleteGraphic { id } => artwork::delete_graphic(new, *id),
         Command::CancelWrap
         | Command::Undo
         | Command::Redo
@@ -227,6 +233,7 @@ pub fn document_problem(document: &Document) -> Option<String> {
         fabrics,
         dyes,
         colourways,
+        artwork: _,
         settings,
     } = document;
     if marks.ids().max().is_some_and(|id| id.0 > *last_mark) {
@@ -256,6 +263,7 @@ pub fn document_problem(document: &Document) -> Option<String> {
         .or_else(|| drape::unknown_fabric(fabrics).map(|why| why.0))
         .or_else(|| dyes.problem())
         .or_else(|| colourways_problem(colourways))
+        .or_else(|| artwork::problem(document))
         .or_else(|| {
             let mut fabrics = colourways.iter().map(|colourway| &colourway.fabrics);
             fabrics.find_map(drape::unknown_fabric).map(|why| why.0)

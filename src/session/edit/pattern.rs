@@ -9,7 +9,7 @@ use crate::pattern::{Pattern, Piece};
 use crate::session::command::Rejection;
 use crate::session::document::Document;
 use crate::session::edit::marks::remove_number;
-use crate::session::edit::{ClothChange, Edit, checks};
+use crate::session::edit::{ClothChange, Edit, artwork, checks};
 use crate::wrap::Marks;
 
 /// Most edits of one command.
@@ -54,6 +54,7 @@ pub fn replace_all(
     document.pattern = Arc::clone(pattern);
     document.take_marks(Arc::clone(marks));
     document.drop_pins();
+    artwork::forget_gone(&mut document.artwork, |_| false);
     Ok(Edit::new(format!("take {name}"), document).with(ClothChange::Clear))
 }
 
@@ -95,6 +96,7 @@ fn carry(document: &mut Document, carried: &[Carried]) {
             c.inside.as_ref().is_none_or(inside)
         })
     };
+    artwork::carry(&mut document.artwork, |piece, at| place(piece, at).map(|found| (found.to, &found.map)));
     let marks = Arc::make_mut(&mut document.marks);
     for mark in &mut marks.cloth {
         if let Some(carried) = place(mark.piece, mark.points[mark.points.len() / 2]) {
@@ -115,6 +117,7 @@ fn carry(document: &mut Document, carried: &[Carried]) {
 fn forget_gone(document: &mut Document) {
     let pieces = &document.pattern.pieces;
     let gone = |piece: &PieceId| !pieces.contains_key(piece);
+    artwork::forget_gone(&mut document.artwork, |piece| !gone(&piece));
     if document.marks.cloth.iter().any(|mark| gone(&mark.piece)) {
         let marks = Arc::make_mut(&mut document.marks);
         while let Some(i) = marks.cloth.iter().position(|m| gone(&m.piece)) {

@@ -56,6 +56,8 @@ pub enum Tool {
     Notch,
     /// Draws the grainline.
     Grain,
+    /// Moves, scales and turns graphics on pieces.
+    Graphic,
     /// Drags dressed cloth.
     Drag(DragMode),
     /// Pins dressed cloth to where it is.
@@ -82,6 +84,8 @@ pub enum Action {
     ImportPattern,
     ExportPattern,
     ImportBody,
+    /// Take an image into the document.
+    AddImage,
     PoseFromFile,
     /// Read numbered OBJ files as an animation of the body.
     Sequence,
@@ -189,7 +193,7 @@ pub const PATTERN_TOOLS: [&[Tool]; 4] = [
     &[Tool::Move, Tool::Points],
     &[Tool::Pen, Tool::Rectangle, Tool::Ellipse],
     &[Tool::Sew],
-    &[Tool::Line, Tool::Hole, Tool::Cut, Tool::Dart, Tool::Notch, Tool::Grain],
+    &[Tool::Line, Tool::Hole, Tool::Cut, Tool::Dart, Tool::Notch, Tool::Grain, Tool::Graphic],
 ];
 
 /// Whether `shortcut` is a key without modifiers, which a focused widget may need itself.

@@ -75,6 +75,7 @@ impl App {
             }
             Action::ImportPattern => self.ask_file(Purpose::ImportPattern),
             Action::ImportBody => self.ask_file(Purpose::ImportBody),
+            Action::AddImage => self.ask_file(Purpose::Image),
             Action::PoseFromFile => self.ask_file(Purpose::Pose),
             Action::Sequence => self.ask_file(Purpose::Sequence),
             Action::Sizes => self.ask_file(Purpose::Sizes),

@@ -50,6 +50,7 @@ impl App {
             Purpose::Copy => files::save(path, &self.session.project()).map(|()| self.wrote(path)),
             Purpose::ImportPattern => self.import_pattern(path, None),
             Purpose::ImportBody => files::read_body(path).and_then(|raw| self.import_body(raw)),
+            Purpose::Image => files::take_image(path).map(|command| self.apply(command)),
             Purpose::Pose => self.take_pose(path),
             Purpose::Sequence => self.take_sequence(path),
             Purpose::Compare => self.compare_with(ctx, path),
@@ -220,8 +221,9 @@ impl App {
                 Dropped::Project => self.file(ctx, Purpose::Open, &path),
                 Dropped::Pattern => self.file(ctx, Purpose::ImportPattern, &path),
                 Dropped::Body => self.file(ctx, Purpose::ImportBody, &path),
+                Dropped::Image => self.file(ctx, Purpose::Image, &path),
                 Dropped::Nothing => self.messages.error(format!(
-                    "{} is neither a project (.toile), a pattern (.dxf, .svg, .json) nor a body (.obj, .glb, .gltf)",
+                    "{} is neither a project (.toile), a pattern (.dxf, .svg, .json), a body (.obj, .glb, .gltf) nor an image (.png, .jpg)",
                     path.display()
                 )),
             }

@@ -13,6 +13,7 @@ use glam::DVec3;
 use crate::body::pose::motion::Clip;
 use crate::body::{Unit, UpAxis, guess_unit, import, mannequin};
 use crate::geometry::mesh::TriMesh;
+use crate::io::atlas::AtlasLayout;
 use crate::io::body_file;
 use crate::io::pattern_file::PatternFileError;
 use crate::io::pattern_formats::{self, PatternFormat, endings};
@@ -23,10 +24,10 @@ use crate::pattern::Pattern;
 use crate::session::project_file::ProjectFileError;
 use crate::session::samples::Sample;
 use crate::session::{
-    AnimatedFile, Animations, BodyChoice, Command, Document, Project, project_file, whole_file,
+    AnimatedFile, Animations, BodyChoice, Command, Document, ImageFile, Project, project_file, whole_file,
 };
 use crate::sim::Snapshot;
-use crate::ui::scenery::fabric_looks::materials;
+use crate::ui::scenery::fabric_textures::{Relief, TextureOptions, USUAL_SIDE, textured};
 
 /// Extensions of the pattern formats that can be written.
 const WRITTEN_ENDINGS: [&str; 4] = {
@@ -59,6 +60,8 @@ pub enum Purpose {
     Sequence,
     /// Read a table of sizes.
     Sizes,
+    /// Read an image.
+    Image,
     /// Write the dressed garment.
     Export,
     /// Write the pattern.
@@ -87,6 +90,7 @@ impl Purpose {
             Self::Pose => "Take a pose from a file",
             Self::Sequence => "Take a sequence of OBJ files: choose any one of them",
             Self::Sizes => "Read a table of sizes",
+            Self::Image => "Take an image",
             Self::Export => "Export the dressed garment",
             Self::ExportPattern => "Export the pattern",
             Self::Recording => "Save the recording",
@@ -107,6 +111,7 @@ impl Purpose {
             Self::Pose => ("Body or motion", &["obj", "glb", "gltf", "bvh"]),
             Self::Sequence => ("Body", &["obj"]),
             Self::Sizes => ("Table of sizes", &["csv", "tsv", "txt"]),
+            Self::Image => ("Image", &["png", "jpg", "jpeg"]),
             Self::Export => ("Garment", &["obj", "glb"]),
             Self::Recording => ("Recording", &["jsonl"]),
             Self::Picture | Self::Turn => ("Picture", &["png"]),
@@ -331,7 +336,16 @@ fn imported(mut raw: RawBody) -> Result<(BodyChoice, Vec<String>), String> {
     Ok((body, imported.notes))
 }
 
-/// Writes the dressed garment of `snapshot`, as .glb together with its body. `pattern` gives the texture coordinates.
+/// The command that takes the image at `path` into the document.
+pub fn take_image(path: &Path) -> Result<Command, String> {
+    let name = path.file_name().map_or_else(|| "image".into(), |name| name.to_string_lossy());
+    let file = ImageFile::new(name, read(path)?);
+    file.picture().map_err(|why| in_words(path, "taken", why))?;
+    Ok(Command::AddImage { file: Arc::new(file) })
+}
+
+/// Writes the dressed garment of `snapshot`, as .glb together with its body and with textures. `pattern` gives the texture
+/// coordinates.
 pub fn export(
     path: &Path,
     snapshot: &Snapshot,
@@ -346,7 +360,11 @@ pub fn export(
         Some("glb") => {
             let dressed = glb::Dressed { garment, state: cloth, pattern };
             let body = snapshot.body.as_ref().map(|b| &b.mesh);
-            let bytes = glb::write(Some(dressed), body, &materials(document));
+            let options =
+                TextureOptions { side: USUAL_SIDE, layout: AtlasLayout::Pattern, relief: Relief::Tiles };
+            let colours =
+                textured(garment, pattern, document, options).map_err(|e| in_words(path, "written", e))?;
+            let bytes = glb::write(Some(dressed), body, &colours);
             write(path, &bytes.map_err(|e| in_words(path, "written", e))?)
         }
         _ => Err(in_words(path, "written", "the name must end in .obj or .glb")),

@@ -8,8 +8,8 @@ use glam::DVec3;
 
 use crate::body::{Unit, UpAxis, import};
 use crate::geometry::mesh::TriMesh;
-use crate::io::glb::Colours;
 use crate::io::glb::animated::{bytes_per_frame, write_moving_body};
+use crate::io::materials::Colours;
 use crate::io::obj;
 use crate::session::{AnimatedFile, Animations, Command};
 use crate::ui::files::{read, unit_like};

@@ -1,4 +1,4 @@
-//! The section of the side panel for fabrics, colours, prints and colourways, and for draping step by step.
+//! The section of the side panel for fabrics, colours, prints, images and colourways, and for draping step by step.
 
 use egui::{ComboBox, DragValue, RichText, Ui};
 
@@ -6,9 +6,10 @@ use crate::cloth::Fabric;
 use crate::geometry::ids::PieceId;
 use crate::pattern::naming;
 use crate::render::cloth_front;
-use crate::session::{Command, Dye, Motif, Print};
+use crate::session::{Artwork, Command, Dye, Motif, Print};
 use crate::ui::actions::Action;
 use crate::ui::actions::asks::{Ask, Asks};
+use crate::ui::panels::artwork::surface_ui;
 use crate::ui::panels::context::PanelContext;
 use crate::ui::scenery::print_match::{PrintMatch, print_matches};
 
@@ -126,7 +127,7 @@ fn dye_menu(ui: &mut Ui, told: &PanelContext<'_>, piece: Option<PieceId>, name: 
     let layer = piece.and_then(|id| document.pattern.pieces.get(&id)).map_or(0, |piece| piece.layer);
     let button = button.fill(opaque(seen.unwrap_or_else(|| cloth_front(layer))));
     let (response, _) = open_menu(button).ui(ui, |ui| {
-        if let Some(dye) = dye_ui(ui, own, seen, piece.is_none()) {
+        if let Some(dye) = dye_ui(ui, &document.artwork, own, seen, piece.is_none()) {
             asks.push(Ask::Drag(Command::SetDye { piece, dye }));
         }
         // A drag over the colours is one step.
@@ -141,7 +142,7 @@ fn dye_menu(ui: &mut Ui, told: &PanelContext<'_>, piece: Option<PieceId>, name: 
 }
 
 /// The dye that was chosen, if any was.
-fn dye_ui(ui: &mut Ui, own: Dye, seen: Option<[u8; 3]>, is_for_all: bool) -> Option<Dye> {
+fn dye_ui(ui: &mut Ui, artwork: &Artwork, own: Dye, seen: Option<[u8; 3]>, is_for_all: bool) -> Option<Dye> {
     let mut dye = own;
     let plain = if is_for_all { "As the fabric" } else { "As all pieces" };
     let mut is_own = own.colour.is_some();
@@ -171,6 +172,8 @@ fn dye_ui(ui: &mut Ui, own: Dye, seen: Option<[u8; 3]>, is_for_all: bool) -> Opt
         });
         colour_ui(ui, "print", &mut print.colour);
     }
+    ui.separator();
+    surface_ui(ui, artwork, &mut dye);
     (dye != own).then_some(dye)
 }
 

@@ -1,6 +1,7 @@
 //! The side panel: its sections and their fields.
 
-pub(in crate::ui) mod animation;
+mod animation;
+pub(in crate::ui) mod artwork;
 pub(in crate::ui) mod context;
 pub(in crate::ui) mod fabric;
 pub(in crate::ui) mod fields;

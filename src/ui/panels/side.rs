@@ -7,6 +7,7 @@ use crate::sim::Fault;
 use crate::ui::actions::Tool;
 use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::look::theme::Palette;
+use crate::ui::panels::artwork::artwork_ui;
 use crate::ui::panels::context::{PanelContext, problem_row};
 use crate::ui::panels::fabric;
 use crate::ui::panels::marks::MarksPanel;
@@ -42,6 +43,7 @@ pub fn side_panel_ui(
         }
         section(ui, "Problems", true, |ui| problems_ui(ui, told, asks));
         section(ui, "Fabric", true, |ui| fabric::fabric_ui(ui, told, asks));
+        section(ui, "Images", true, |ui| artwork_ui(ui, told, asks));
         section(ui, "Pose", false, |ui| pose.ui(ui, told, asks));
         section(ui, "Measures of the body", false, |ui| tape.ui(ui, told, asks));
         section(ui, "Cloth", true, |ui| settings_ui(ui, &document.settings, palette, asks));

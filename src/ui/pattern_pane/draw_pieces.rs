@@ -37,8 +37,16 @@ impl Drawing<'_> {
             if self.is_in_view(piece, shape) {
                 let item = Item::Piece(id);
                 let look = [table.laid.selection.has(item), table.laid.highlight == Some(item)];
-                let fill = self.fill(table, (id, piece), front_is_seen(piece, shape));
-                self.piece(piece, shape, look, fill, table.laid.map.map(|map| (map, id)));
+                let front = front_is_seen(piece, shape);
+                let fill = self.fill(table, (id, piece), front);
+                let is_plain = front && piece.activity == Activity::Active && table.laid.map.is_none();
+                let pictures = match is_plain {
+                    true => {
+                        table.pictures.on_piece(table.laid.document, (id, piece, shape), |p| self.place(p))
+                    }
+                    false => Vec::new(),
+                };
+                self.piece(piece, shape, look, fill, table.laid.map.map(|map| (map, id)), pictures);
             }
         }
     }
@@ -65,6 +73,7 @@ impl Drawing<'_> {
         [selected, near]: [bool; 2],
         fill: Color32,
         map: Option<(&ShownMap, PieceId)>,
+        pictures: Vec<egui::Mesh>,
     ) {
         let place = |p: DVec2| self.place(piece.pose.plane_from_piece(p));
         let front = front_is_seen(piece, shape);
@@ -84,6 +93,7 @@ impl Drawing<'_> {
             mesh.add_triangle(base, base + 1, base + 2);
         }
         self.painter.add(Shape::mesh(mesh));
+        self.painter.extend(pictures.into_iter().map(Shape::mesh));
         if !shape.cut.is_empty() {
             let mut points: Vec<DVec2> = shape.cut.iter().map(|&p| piece.pose.plane_from_piece(p)).collect();
             points.extend(points.first().copied());

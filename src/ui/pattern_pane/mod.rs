@@ -9,6 +9,7 @@ mod input;
 pub(in crate::ui) mod kept;
 mod names;
 mod options;
+mod pictures;
 mod rulers;
 pub mod shapes;
 mod snap;
@@ -40,6 +41,7 @@ use guides::Guides;
 use input::Input;
 pub use kept::Options;
 pub use names::seam_words;
+use pictures::Pictures;
 use rulers::Rulers;
 use shapes::Shapes;
 use table::{Guide, Table};
@@ -86,6 +88,7 @@ pub struct PatternPane {
     guides: Guides,
     shapes: Shapes,
     threads: Threads,
+    pictures: Pictures,
     tool: Option<(Tool, Box<dyn PatternTool>)>,
     entry: Option<Entry>,
     /// The keyboard's cursor, in metres on the table.
@@ -138,6 +141,7 @@ impl PatternPane {
         let pattern = &*laid.document.pattern;
         self.shapes.update(pattern);
         self.threads.update(pattern, &self.shapes);
+        self.pictures.update(ui.ctx(), laid.document);
         let whole = ui.available_rect_before_wrap();
         ui.allocate_rect(whole, Sense::hover());
         let (strip, rest) = strip::beside(whole);
@@ -247,6 +251,7 @@ impl PatternPane {
             laid,
             shapes: &self.shapes,
             threads: &self.threads,
+            pictures: &self.pictures,
             guides: &self.guides.all,
             view,
             pane,

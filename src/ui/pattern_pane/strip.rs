@@ -130,12 +130,21 @@ fn sign(painter: &Painter, area: Rect, tool: Tool, stroke: Stroke) {
             line(&[[0.0, 0.75], [1.0, 0.75]]);
             line(&[[0.5, 0.75], [0.5, 0.25]]);
         }
-        Tool::Grain => {
-            line(&[[0.5, 1.0], [0.5, 0.0]]);
-            line(&[[0.25, 0.28], [0.5, 0.0], [0.75, 0.28]]);
-        }
+        Tool::Grain => line(&[[0.25, 0.28], [0.5, 0.0], [0.5, 1.0], [0.5, 0.0], [0.75, 0.28]]),
+        Tool::Graphic => picture_sign(painter, area, stroke),
         Tool::Mark | Tool::Erase | Tool::Drag(_) | Tool::Pin | Tool::Bone | Tool::Place => {
             painter.circle_filled(pos2(area.center().x, area.center().y), 3.0, stroke.color);
         }
     }
+}
+
+/// Draws a framed picture of hills and a sun.
+fn picture_sign(painter: &Painter, area: Rect, stroke: Stroke) {
+    let at = |x: f32, y: f32| area.min + vec2(x, y) * area.size();
+    let frame = [[0.0, 0.1], [1.0, 0.1], [1.0, 0.9], [0.0, 0.9], [0.0, 0.1]];
+    let hills = [[0.1, 0.8], [0.4, 0.4], [0.6, 0.65], [0.72, 0.52], [0.9, 0.8]];
+    for line in [frame, hills] {
+        painter.add(Shape::line(line.map(|[x, y]| at(x, y)).to_vec(), stroke));
+    }
+    painter.circle_filled(at(0.7, 0.3), 2.0, stroke.color);
 }

@@ -3,6 +3,7 @@
 use egui::{Pos2, Rect};
 use glam::DVec2;
 
+use super::pictures::Pictures;
 use super::shapes::{PieceShape, Shapes};
 use super::threads::{Threads, to_polyline};
 use super::view::TableView;
@@ -35,6 +36,8 @@ pub struct Table<'a> {
     pub shapes: &'a Shapes,
     /// Threads of the seams.
     pub threads: &'a Threads,
+    /// Pictures on pieces.
+    pub pictures: &'a Pictures,
     /// The guides.
     pub guides: &'a [Guide],
     /// The part of the table that is visible.

@@ -7,19 +7,17 @@ use glam::{DVec2, Vec2};
 
 use crate::cloth::{Fabric, FabricLook, Garment};
 use crate::geometry::ids::PieceId;
-use crate::io::glb::{ClothMaterial, Colours};
+use crate::io::materials::{ClothMaterial, Colours, ROUGHNESS};
 use crate::pattern::{Pattern, Piece};
-use crate::render::{Rgb, Textile, linear};
+use crate::render::{Decal, Rgb, Textile, linear};
 use crate::session::{Document, Dye, Dyes, Print};
-
-/// Roughness of exported fabrics without gloss.
-const MATT: f32 = 0.9;
+use crate::ui::scenery::pictures::decals;
 
 /// Appearance of each piece.
 pub type PieceLooks = BTreeMap<PieceId, PieceLook>;
 
 /// Appearance of a piece.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct PieceLook {
     /// Colours of the outside and the inside; None: those of the layer.
     pub colours: Option<[Rgb; 2]>,
@@ -27,9 +25,17 @@ pub struct PieceLook {
     pub textile: Textile,
     /// Unit vector along the grain, in the piece's plane.
     pub grain: DVec2,
+    /// Pictures on it.
+    pub decals: Arc<Vec<Decal>>,
 }
 
-/// Appearance of the pieces of `pattern`; `fabric` gives the fabric of each, `dyes` colours and prints.
+impl Default for PieceLook {
+    fn default() -> Self {
+        Self { colours: None, textile: Textile::default(), grain: DVec2::Y, decals: Arc::default() }
+    }
+}
+
+/// Appearance of the pieces of `pattern`; `fabric` gives the fabric of each, `dyes` colours and prints. Without pictures.
 pub fn piece_looks<'f>(
     pattern: &Pattern,
     fabric: impl Fn(PieceId) -> Option<&'f Fabric>,
@@ -37,12 +43,13 @@ pub fn piece_looks<'f>(
 ) -> PieceLooks {
     let look = |(&id, piece): (&PieceId, &Arc<Piece>)| {
         let mut look = fabric(id).map(|fabric| fabric.look).unwrap_or_default();
-        let Dye { colour, print } = dyes.of(id);
+        let Dye { colour, print, image: _ } = dyes.of(id);
         if colour.is_some() {
             (look.colour, look.weft) = (colour, None);
         }
         let colours = look.colour.map(|outside| [outside, inside(&look, outside)]);
-        (id, PieceLook { colours, textile: printed(textile(&look), print), grain: piece.grain() })
+        let textile = printed(textile(&look), print);
+        (id, PieceLook { colours, textile, grain: piece.grain(), decals: Arc::default() })
     };
     pattern.pieces.iter().map(look).collect()
 }
@@ -50,7 +57,11 @@ pub fn piece_looks<'f>(
 /// Appearance of the pieces of `document`.
 pub fn looks_of(document: &Document) -> PieceLooks {
     let fabric = |piece| Fabric::preset(document.fabrics.name(Some(piece)));
-    piece_looks(&document.pattern, fabric, &document.dyes)
+    let mut looks = piece_looks(&document.pattern, fabric, &document.dyes);
+    for (&piece, look) in &mut looks {
+        look.decals = Arc::new(decals(document, piece, look.grain));
+    }
+    looks
 }
 
 /// Colour of the outside of `piece`: its own, else that of its fabric. None: that of its layer.
@@ -62,17 +73,22 @@ pub fn outside_colour(document: &Document, piece: PieceId) -> Option<Rgb> {
 /// Materials of the pieces of `document` for export. Weave and print are left out.
 pub fn materials(document: &Document) -> Colours {
     let material = |(id, look): (PieceId, PieceLook)| {
-        let [outside, inside] = look.colours?;
-        let (textile, colour) = (look.textile, |side: Rgb| linear(side).to_array());
-        let material = ClothMaterial {
-            name: document.fabrics.name(Some(id)).to_owned(),
-            sides: [colour(outside), colour(inside)],
-            roughness: if textile.gloss > 0.0 { textile.roughness } else { MATT },
-            opacity: textile.mean_cover,
-        };
-        Some((id, material))
+        let sides = look.colours?;
+        Some((id, material_of(document, id, &look, sides)))
     };
     Colours { pieces: looks_of(document).into_iter().filter_map(material).collect(), ..Colours::default() }
+}
+
+/// Material of `piece`, which looks like `look`, in the colours `sides`; without textures.
+pub fn material_of(document: &Document, piece: PieceId, look: &PieceLook, sides: [Rgb; 2]) -> ClothMaterial {
+    let textile = &look.textile;
+    ClothMaterial {
+        name: document.fabrics.name(Some(piece)).to_owned(),
+        sides: sides.map(|side| linear(side).to_array()),
+        roughness: if textile.gloss > 0.0 { textile.roughness } else { ROUGHNESS },
+        opacity: textile.mean_cover,
+        textures: None,
+    }
 }
 
 /// `textile` with `print` on it.
@@ -153,8 +169,8 @@ mod tests {
         assert!(looks[&two].textile.second.is_some(), "white threads in blue");
         assert_eq!((looks[&one].grain, looks[&two].grain), (DVec2::X, DVec2::Y));
         let print = Print { motif: Motif::Dots, repeat_m: 0.03, colour: [7; 3] };
-        document.dyes.set(None, Dye { colour: Some([200, 0, 0]), print: None });
-        document.dyes.set(Some(two), Dye { colour: None, print: Some(print) });
+        document.dyes.set(None, Dye { colour: Some([200, 0, 0]), ..Dye::default() });
+        document.dyes.set(Some(two), Dye { print: Some(print), ..Dye::default() });
         let looks = looks_of(&document);
         assert!(looks.values().all(|look| look.colours.is_some_and(|[outside, _]| outside == [200, 0, 0])));
         assert_eq!([looks[&one].textile.print, looks[&two].textile.print], [0, Motif::Dots as u32]);

@@ -2,8 +2,10 @@
 
 pub(in crate::ui) mod covered;
 pub mod fabric_looks;
+pub mod fabric_textures;
 pub mod mapped;
 pub(in crate::ui) mod parted;
+pub mod pictures;
 pub mod portrait;
 pub mod print_match;
 pub(in crate::ui) mod ring;

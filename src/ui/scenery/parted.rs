@@ -3,6 +3,7 @@
 
 use std::collections::BTreeMap;
 use std::ops::Range;
+use std::sync::Arc;
 
 use crate::cloth::{ClothState, Garment};
 use crate::geometry::ids::PieceId;
@@ -93,6 +94,7 @@ fn part(whole: &Mesh, garment: &Garment, triangles: &[usize], group: Group<'_>) 
         back,
         flat: flat.unwrap_or_default(),
         textile: Textile { second, ..textile },
+        decals: look.map(|look| Arc::clone(&look.decals)).unwrap_or_default(),
         ..whole.clone()
     }
 }

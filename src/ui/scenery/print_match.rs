@@ -76,7 +76,7 @@ mod tests {
     fn offsets((garment, pattern): &(Garment, Pattern), motif: Motif, repeat_m: f64) -> Vec<f64> {
         let print = Print { motif, repeat_m, colour: [255; 3] };
         let mut dyes = Dyes::default();
-        dyes.set(None, Dye { colour: None, print: Some(print) });
+        dyes.set(None, Dye { print: Some(print), ..Dye::default() });
         print_matches(garment, pattern, &dyes).iter().map(|found| found.offset).collect()
     }
 

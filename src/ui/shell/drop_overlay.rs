@@ -16,6 +16,8 @@ pub enum Dropped {
     Pattern,
     /// It is imported as the body.
     Body,
+    /// It is taken as an image.
+    Image,
     /// It cannot be read.
     Nothing,
 }
@@ -29,6 +31,7 @@ impl Dropped {
             Some("toile") => Self::Project,
             Some(ending) if is_pattern(ending) => Self::Pattern,
             Some("obj" | "glb" | "gltf") => Self::Body,
+            Some("png" | "jpg" | "jpeg") => Self::Image,
             _ => Self::Nothing,
         }
     }
@@ -41,6 +44,7 @@ impl Dropped {
             }
             Self::Pattern => [Some(format!("Lay the pieces of {name} on the table")), None],
             Self::Body => [None, Some(format!("{name} becomes the body"))],
+            Self::Image => [Some(format!("Take the image {name} into the project")), None],
             Self::Nothing => [
                 Some(format!("{name}: not a project (.toile) or pattern (.dxf, .svg, .json)")),
                 Some("nor a body (.obj, .glb, .gltf)".to_owned()),
@@ -100,7 +104,8 @@ mod tests {
             ("c.json", Dropped::Pattern),
             ("d.obj", Dropped::Body),
             ("d.GLB", Dropped::Body),
-            ("e.png", Dropped::Nothing),
+            ("e.png", Dropped::Image),
+            ("e.gif", Dropped::Nothing),
             ("toile", Dropped::Nothing),
         ] {
             assert_eq!(Dropped::of(Path::new(name)), goes, "{name}");

@@ -70,6 +70,7 @@ fn file_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) {
         &[
             Action::ImportPattern,
             Action::ImportBody,
+            Action::AddImage,
             Action::UseMannequin,
             Action::Sizes,
             Action::PoseFromFile,

@@ -12,6 +12,7 @@ use toile::session::{Document, Project};
 use crate::{Window, app, key, move_to, wait};
 
 mod details;
+mod graphics;
 mod keyboard;
 
 /// The window on an empty table, 1 m seen from side to side.

@@ -40,6 +40,12 @@ pub const ROWS: &[Row] = &[
     row("File", Action::ImportBody, "Import body…", "Take a body from an OBJ or glTF file"),
     row(
         "File",
+        Action::AddImage,
+        "Take an image…",
+        "Take a PNG or JPEG into the project, for fabrics and graphics",
+    ),
+    row(
+        "File",
         Action::PoseFromFile,
         "Pose from a file…",
         "Lead the body to its pose in an OBJ or glTF file or through the animations \

@@ -57,6 +57,12 @@ pub const ROWS: &[Row] = &[
     row("Pattern › Tools", Action::Choose(Tool::Grain), "Grainline", "Drag along the warp of a piece")
         .keys(&[key(Key::G)]),
     row(
+        "Pattern › Tools",
+        Action::Choose(Tool::Graphic),
+        "Graphics",
+        "Move, scale and turn images on pieces",
+    ),
+    row(
         "Pattern",
         Action::Twin,
         "Add a twin",

@@ -1,6 +1,7 @@
 //! The tools of the pattern pane: one state machine for each, in a file of its own.
 
 mod grain;
+mod graphic;
 mod marks;
 mod on_edge;
 mod pen;
@@ -96,6 +97,7 @@ pub fn handler(tool: Tool) -> Box<dyn PatternTool> {
         Tool::Dart => Box::new(on_edge::OnEdgeTool::dart()),
         Tool::Notch => Box::new(on_edge::OnEdgeTool::notch()),
         Tool::Grain => Box::<grain::Grain>::default(),
+        Tool::Graphic => Box::<graphic::Graphics>::default(),
         Tool::Sew => Box::<sew::Sew>::default(),
     }
 }

@@ -1,0 +1,91 @@
+//! Pictures from PNG and JPEG files, for cloth.
+
+use std::io::Cursor;
+
+use image::{ImageDecoder, ImageFormat, ImageReader, Limits, RgbaImage};
+
+/// Largest size of a picture file, bytes.
+pub const MOST_BYTES: usize = 32 << 20;
+/// Largest width and height, pixels.
+pub const MOST_SIDE: u32 = 8192;
+/// Most memory that reading a picture may take, bytes.
+const MEMORY: u64 = 640 << 20;
+
+/// Reads a PNG or JPEG file: rows from the top, straight alpha, sRGB, turned upright as the file says.
+///
+/// # Errors
+/// A message: another format, damaged, or larger than [`MOST_BYTES`] or [`MOST_SIDE`].
+pub fn read(bytes: &[u8]) -> Result<RgbaImage, String> {
+    if bytes.len() > MOST_BYTES {
+        let (size, most) = (bytes.len() >> 20, MOST_BYTES >> 20);
+        return Err(format!("it has {size} MiB, more than the {most} MiB that a picture may have"));
+    }
+    let format = image::guess_format(bytes).ok();
+    if !format.is_some_and(|format| [ImageFormat::Png, ImageFormat::Jpeg].contains(&format)) {
+        return Err("it is neither PNG nor JPEG".to_owned());
+    }
+    let mut reader = ImageReader::new(Cursor::new(bytes));
+    if let Some(format) = format {
+        reader.set_format(format);
+    }
+    let mut limits = Limits::default();
+    limits.max_image_width = Some(MOST_SIDE);
+    limits.max_image_height = Some(MOST_SIDE);
+    limits.max_alloc = Some(MEMORY);
+    reader.limits(limits);
+    let mut decoder = reader.into_decoder().map_err(in_words)?;
+    let turned = decoder.orientation().map_err(in_words)?;
+    let mut picture = image::DynamicImage::from_decoder(decoder).map_err(in_words)?;
+    picture.apply_orientation(turned);
+    Ok(picture.to_rgba8())
+}
+
+fn in_words(error: image::ImageError) -> String {
+    match error {
+        image::ImageError::Limits(_) => {
+            format!("it is larger than {MOST_SIDE} by {MOST_SIDE} pixels, which a picture may have")
+        }
+        other => format!("it cannot be read: {other}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn written(format: ImageFormat) -> Vec<u8> {
+        let picture =
+            image::RgbImage::from_fn(20, 10, |x, _| image::Rgb([if x < 10 { 200 } else { 20 }, 90, 40]));
+        let mut bytes = Cursor::new(Vec::new());
+        picture.write_to(&mut bytes, format).expect("written");
+        bytes.into_inner()
+    }
+
+    #[test]
+    fn png_and_jpeg_are_read() {
+        for format in [ImageFormat::Png, ImageFormat::Jpeg] {
+            let picture = read(&written(format)).expect("a picture");
+            assert_eq!(picture.dimensions(), (20, 10));
+            let [r, _, _, a] = picture.get_pixel(2, 5).0;
+            assert!(r > 180 && a == 255, "{format:?}: {r} {a}");
+        }
+    }
+
+    #[test]
+    fn what_is_no_picture_is_refused_in_words() {
+        let png = written(ImageFormat::Png);
+        for (bytes, words) in [
+            (&b"GIF89a"[..], "neither PNG nor JPEG"),
+            (&[], "neither PNG nor JPEG"),
+            (&png[..png.len() / 2], "cannot be read"),
+        ] {
+            assert!(read(bytes).is_err_and(|why| why.contains(words)), "{words}");
+        }
+        let mut wide = png;
+        wide[16..20].copy_from_slice(&20_000_u32.to_be_bytes());
+        let sum = crc32fast::hash(&wide[12..29]);
+        wide[29..33].copy_from_slice(&sum.to_be_bytes());
+        assert!(read(&wide).is_err_and(|why| why.contains("8192")));
+        assert!(read(&vec![0; MOST_BYTES + 1]).is_err_and(|why| why.contains("32 MiB")));
+    }
+}
