@@ -38,7 +38,7 @@ fn with_art() -> Session {
         Command::AddGraphic { graphic: graphic() },
         Command::SetDye { piece: None, dye: surface() },
     ];
-    commands.into_iter().for_each(|command| drop(s.apply_alone(command).expect("accepted")));
+    commands.into_iter().for_each(|command| s.apply_alone(command).expect("accepted"));
     s
 }
 
@@ -102,7 +102,7 @@ fn a_recording_with_images_replays_to_the_same_hashes() {
 #[test]
 fn the_project_file_keeps_images_whole_even_those_that_cannot_be_read() {
     let mut kept = with_art().project();
-    let read = |project| project_file::from_bytes(&project_file::to_bytes(project).expect("written"));
+    let read = |project: &_| project_file::from_bytes(&project_file::to_bytes(project).expect("written"));
     assert_eq!(read(&kept).expect("read"), kept);
     let artwork = Arc::make_mut(&mut kept.document.artwork);
     artwork.images.insert(ImageId(1), Arc::new(ImageFile::new("logo.png", png()[..40].to_vec())));
