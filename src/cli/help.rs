@@ -186,7 +186,9 @@ mod tests {
                 page.lines().all(|line| line.starts_with("    ") || line.chars().count() <= WIDTH),
                 "{page}"
             );
-            assert!(!page.contains(['*', '`', '|']), "{page}");
+            let is_typed = |line: &&str| line.starts_with("    ");
+            assert!(!page.contains(['*', '`']), "{page}");
+            assert!(!page.lines().filter(|line| !is_typed(line)).any(|line| line.contains('|')), "{page}");
         }
     }
 }

@@ -221,11 +221,12 @@ fn command() -> clap::Command {
     })
 }
 
-/// The first line of what clap says, without its "error: ".
+/// What clap says on one line, without its "error: " and its advice.
 fn reason(error: &clap::Error) -> String {
     let words = error.render().to_string();
-    let first = words.lines().next().unwrap_or_default();
-    first.strip_prefix("error: ").unwrap_or(first).to_owned()
+    let lines: Vec<&str> = words.lines().map(str::trim).take_while(|line| !line.is_empty()).collect();
+    let line = lines.join(" ");
+    line.strip_prefix("error: ").unwrap_or(&line).to_owned()
 }
 
 #[cfg(test)]

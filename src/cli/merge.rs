@@ -235,7 +235,7 @@ mod tests {
         let heading = "garment,folder,project,outcome,exit_code,error,seconds,processor_seconds,finished,picture,seams.open";
         assert_eq!(lines.next(), Some(heading));
         assert!(
-            lines.next().is_some_and(|row| row.starts_with("a,") && row.ends_with(",1.5,2.0,,0")),
+            lines.next().is_some_and(|row| row.starts_with("a,") && row.ends_with(",1.5,2,,0")),
             "{table}"
         );
         assert!(lines.next().is_some_and(|row| row.contains(",\"a, \"\"b\"\"\",")), "{table}");

@@ -53,7 +53,7 @@ fn a_list_is_read_beside_itself_and_each_verdict_is_an_object() {
     }
     assert!(lines[0]["triangles"].as_u64() < lines[1]["triangles"].as_u64(), "the one beside the list first");
     assert!(done.err.contains("1 of 2: ball, after 0.0 s\n"), "{done:#?}");
-    assert!(done.err.contains("2 of 2: ball, after "), "{done:#?}");
+    assert!(done.err.contains("2 of 2: ball-2, after "), "{done:#?}");
 }
 
 #[test]

@@ -80,7 +80,8 @@ fn copy(from: &Path, to: &Path) {
 fn a_wheel_is_built_and_its_arrays_are_right() {
     let place = Place::with_ball();
     place.write("broken.toile", "{}");
-    let needs = "import numpy, pip, setuptools, wheel";
+    let needs =
+        "import importlib.util as u; assert all(map(u.find_spec, ['numpy', 'pip', 'setuptools', 'wheel']))";
     if !python(&["-c", needs], &place).output().is_ok_and(|output| output.status.success()) {
         println!("there is no Python with NumPy, pip, setuptools and wheel: its package is not tested");
         return;
