@@ -56,6 +56,7 @@ impl ArtOptions {
         }
         for PlacedFile { file, piece, at, width_m, angle } in &self.graphics {
             let piece = find_piece(session, piece)?;
+            refuse_beside(session, piece, file, (*at, *width_m))?;
             let image = take(session, file)?;
             let graphic = Graphic { piece, image, at: *at, width_m: *width_m, angle: *angle, on_twin: false };
             apply(session, Command::AddGraphic { graphic })?;
@@ -91,6 +92,30 @@ fn find_piece(session: &Session, name: &str) -> Result<PieceId, Failure> {
         let names: Vec<&str> = pattern.pieces.values().map(|piece| &*piece.name).collect();
         Failure::Usage(format!("there is no piece {name:?}; there are {}", names.join(", ")))
     })
+}
+
+/// Refuses a graphic that would not be seen: its middle is farther from the piece than it is wide.
+fn refuse_beside(
+    session: &Session,
+    id: PieceId,
+    file: &Path,
+    (at, width_m): (DVec2, f64),
+) -> Result<(), Failure> {
+    let piece = &session.document().pattern.pieces[&id];
+    let corners = piece.outline.iter().map(|edge| edge.start);
+    let (low, high) = corners.fold((DVec2::MAX, DVec2::MIN), |(low, high), p| (low.min(p), high.max(p)));
+    if (at.clamp(low, high) - at).length() <= width_m {
+        return Ok(());
+    }
+    Err(Failure::Usage(format!(
+        "{} would lie beside {:?}, whose plane reaches from x {:.3}, y {:.3} to x {:.3}, y {:.3} m",
+        file.display(),
+        piece.name,
+        low.x,
+        low.y,
+        high.x,
+        high.y
+    )))
 }
 
 fn number(text: &str, what: &str) -> Result<f64, String> {

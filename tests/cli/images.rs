@@ -75,6 +75,7 @@ fn a_dressed_project_keeps_its_graphic_and_bad_ones_are_told() {
         ("--graphic none.png:left:0,0:0.1", 6, "none.png"),
         ("--graphic logo.png:sleeve:0,0:0.1", 2, "there are left, right"),
         ("--graphic logo.png:left:0,0:80", 2, "80 m wide"),
+        ("--graphic logo.png:left:0,9:0.1", 2, "would lie beside \"left\""),
         ("--image logo.png", 2, "FILE:WIDTH_MM"),
     ] {
         place.ends_with_words(code, &format!("export dressed.toile -o x.glb {options}"), words);
