@@ -56,7 +56,7 @@ fn garments_are_generated_the_same_each_time() {
     place.ends(0, &format!("generate {of} --poses a,t --out one"));
     place.ends(0, &format!("generate {of} --poses a,t --out two"));
     let names = place.names("one");
-    assert_eq!(names.len(), 14, "twelve patterns, the sizes and a list: {names:?}");
+    assert_eq!(names.len(), 15, "twelve patterns, the sizes and two lists: {names:?}");
     for name in &names {
         assert_eq!(place.read(&format!("one/{name}")), place.read(&format!("two/{name}")), "{name}");
     }
