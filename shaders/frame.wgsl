@@ -13,6 +13,9 @@ struct Frame {
     ground: vec4f,            // linear; w strength of the grid
     floor: vec4f,             // centre x, centre z, height, radius, metres
     hollows: vec4f,           // radius in metres, strength, 1 when they were drawn, shadow normal offset in metres
+    lamp_tint: vec4f,         // linear, colour of the lamp
+    above: vec4f,             // linear, colour of the light from above
+    below: vec4f,             // linear, colour of the light from below
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;

@@ -71,8 +71,8 @@ fn reflected(albedo: vec3f, normal: vec3f, shape: vec3f, eye: vec3f, open: f32, 
     let spread = mix(vec3f(0.42, 0.3, 0.24), vec3f(0.3), material.front.w);
     let diffuse = clamp((toward + spread) / (1.0 + spread), vec3f(0.0), vec3f(1.0));
     let from_above = normal.y * 0.5 + 0.5;
-    let around = mix(vec3f(0.72, 0.68, 0.66), vec3f(1.02, 1.03, 1.06), from_above) * frame.sky.w;
-    let lamp = vec3f(1.04, 1.0, 0.95) * (frame.lamp.w * diffuse * diffuse * shadow);
+    let around = mix(vec3f(0.72, 0.68, 0.66) * frame.below.rgb, vec3f(1.02, 1.03, 1.06) * frame.above.rgb, from_above) * frame.sky.w;
+    let lamp = vec3f(1.04, 1.0, 0.95) * frame.lamp_tint.rgb * (frame.lamp.w * diffuse * diffuse * shadow);
     let hollow = mix(1.0, open, frame.hollows.y);
     // Light that bounced in a hollow took on the colour of its walls.
     let tinted = mix(albedo * hollow, vec3f(hollow), hollow);
@@ -103,5 +103,5 @@ fn mirrored(albedo: vec3f, normal: vec3f, along: vec3f, eye: vec3f, open: f32, s
     let up = 2.0 * facing * normal.y - eye.y;
     let sky = mix(0.35, 1.0, smoothstep(-0.4, 0.5, up)) * frame.sky.w * open * (1.0 - material.gloss.y);
     let tint = mix(vec3f(1.0), albedo / max(max(albedo.r, albedo.g), max(albedo.b, 0.02)), 0.5);
-    return tint * (material.gloss.x * (0.06 * lamp + grazing * sky));
+    return tint * material.gloss.x * (0.06 * lamp * frame.lamp_tint.rgb + grazing * sky * frame.above.rgb);
 }

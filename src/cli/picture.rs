@@ -60,7 +60,8 @@ impl Artist {
         let scene = portrait(&mut self.scenery, session, Extras { pins: true, ..Extras::default() });
         let (size, times) = (UVec2::from_array(options.size), options.supersample);
         let pixels_per_point = times as f32;
-        let look = Look { cut_out: options.transparent, pixels_per_point, ..Look::light() };
+        let look =
+            Look { cut_out: options.transparent, pixels_per_point, light: options.light, ..Look::light() };
         let picture = self.studio.picture(&scene, options.view, &look, size * times).map_err(failure)?;
         // Averages in whole blocks of pixels.
         let picture = if times > 1 { thumbnail(&picture, size.x, size.y) } else { picture };

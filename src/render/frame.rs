@@ -4,6 +4,7 @@ use bytemuck::{Pod, Zeroable};
 use glam::camera::rh::{proj::directx, view::look_at_mat4};
 use glam::{Mat4, Quat, UVec2, Vec3, Vec4};
 
+use super::light::Light;
 use super::scene::Rgb;
 use super::{Camera, Look, Projection, Scene};
 
@@ -24,6 +25,9 @@ pub(super) struct Frame {
     ground: Vec4,
     floor: Vec4,
     hollows: Vec4,
+    lamp_tint: Vec4,
+    above: Vec4,
+    below: Vec4,
 }
 
 /// Radius of ambient occlusion relative to the radius of the sphere around all meshes: 7 cm on a person.
@@ -34,7 +38,10 @@ impl Frame {
     pub(super) fn new(camera: &Camera, scene: &Scene, look: &Look, size: UVec2) -> Self {
         let viewport = size.max(UVec2::ONE).as_vec2();
         let (view, projection) = (camera.view(), camera.projection(viewport.x / viewport.y));
-        let lamp = lamp_direction(camera);
+        let lamp = lamp_direction(camera, look.light);
+        let [sky, horizon, floor_colour] =
+            look.light.backdrop().unwrap_or([look.sky, look.horizon, look.ground]);
+        let [lamp_tint, above, below] = look.light.tints().map(|tint| tint.extend(0.0));
         let (centre, radius) = mesh_ball(scene).unwrap_or(camera.bounds);
         let perspective = f32::from(camera.projection == Projection::Perspective);
         let floor =
@@ -48,9 +55,9 @@ impl Frame {
             towards_eye: camera.towards_eye().extend(0.0),
             viewport: Vec4::new(viewport.x, viewport.y, viewport.x.recip(), viewport.y.recip()),
             lamp: lamp.extend(look.key),
-            sky: gamma(look.sky).extend(look.ambient),
-            horizon: gamma(look.horizon).extend(look.shadow),
-            ground: linear(look.ground).extend(look.grid),
+            sky: gamma(sky).extend(look.ambient),
+            horizon: gamma(horizon).extend(look.shadow),
+            ground: linear(floor_colour).extend(look.grid),
             floor,
             hollows: Vec4::new(
                 radius * HOLLOW_REACH,
@@ -58,16 +65,20 @@ impl Frame {
                 f32::from(look.occlusion > 0.0),
                 radius * 0.004,
             ),
+            lamp_tint,
+            above,
+            below,
         }
     }
 }
 
 /// Unit vector towards the lamp: above and left of the eye, so that folds show from every side.
-fn lamp_direction(camera: &Camera) -> Vec3 {
+fn lamp_direction(camera: &Camera, light: Light) -> Vec3 {
+    let [turn, up, before] = light.lamp();
     let back = camera.towards_eye();
     let yaw = back.x.atan2(back.z);
     let yaw = if back.x.hypot(back.z) < 1e-3 { 0.0 } else { yaw };
-    Quat::from_rotation_y(yaw - 0.72) * Vec3::new(0.0, 0.82, 0.78).normalize()
+    Quat::from_rotation_y(yaw - turn) * Vec3::new(0.0, up, before).normalize()
 }
 
 fn mesh_ball(scene: &Scene) -> Option<(Vec3, f32)> {

@@ -1,5 +1,6 @@
 //! Colours and light of a picture.
 
+use super::light::Light;
 use super::scene::Rgb;
 
 /// Colours, light and display options of a picture. Colours are sRGB.
@@ -11,6 +12,8 @@ pub struct Look {
     pub horizon: Rgb,
     /// Colour of the floor.
     pub ground: Rgb,
+    /// Surroundings; all but the studio have a background and a floor of their own.
+    pub light: Light,
     /// Strength of the grid lines on the floor, 0..=1.
     pub grid: f32,
     /// Ambient light, 0..=1.
@@ -49,6 +52,7 @@ impl Look {
             sky: [226, 231, 237],
             horizon: [247, 248, 249],
             ground: [226, 228, 232],
+            light: Light::Studio,
             grid: 0.5,
             ambient: 0.48,
             key: 0.84,

@@ -6,8 +6,8 @@ use std::time::Duration;
 use glam::{UVec2, Vec2, Vec3};
 use toile::cloth::{Fabric, FabricLook, Weave};
 use toile::render::{
-    BODY, CLOTH_BACK, CLOTH_FRONT, Camera, Ground, Label, Look, Mesh, Polyline, RenderError, Scene, Studio,
-    Textile, View,
+    BODY, CLOTH_BACK, CLOTH_FRONT, Camera, Ground, Label, Light, Look, Mesh, Polyline, RenderError, Scene,
+    Studio, Textile, View,
 };
 use toile::ui::scenery::fabric_looks::textile;
 
@@ -320,4 +320,24 @@ fn with_x_ray_lines_show_faintly_through_what_hides_them() {
     };
     assert!(blue(&mut studio, false) < 10);
     assert!(blue(&mut studio, true) > 40);
+}
+
+#[test]
+fn evening_is_redder_and_daylight_has_a_blue_sky() {
+    let Some(mut studio) = studio() else { return };
+    let grey = || Arc::new(sphere(0.5, [160; 3], [160; 3]));
+    let mut draw = |light| {
+        let scene = Scene { meshes: vec![grey()], ..Default::default() };
+        studio.picture(&scene, View::Front, &Look { light, ..Look::light() }, SIZE).expect("a picture")
+    };
+    let [plain, day, evening] = Light::ALL.map(&mut draw);
+    let warmth = |image: &image::RgbaImage| {
+        let [r, _, b] = pixel(image, 140, 100);
+        r - b
+    };
+    assert!(warmth(&evening) > warmth(&plain) + 20, "{} {}", warmth(&evening), warmth(&plain));
+    let [r, _, b] = pixel(&day, 2, 2);
+    assert!(b > r + 40, "{r} {b}");
+    assert_eq!("evening".parse(), Ok(Light::Evening));
+    assert!("noon".parse::<Light>().is_err_and(|words| words.contains("studio, daylight, evening")));
 }

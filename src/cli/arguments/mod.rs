@@ -21,7 +21,7 @@ use crate::draft::Shard;
 use crate::fit::MapKind;
 use crate::io::pdf::Paper;
 use crate::io::scale::DrawingUnit;
-use crate::render::View;
+use crate::render::{Light, View};
 use crate::sim::Start;
 
 /// Dress a body in cloth: draw and sew flat pieces, paint marks, press Wrap.
@@ -221,6 +221,7 @@ impl Dress {
                 size: [1280, 800],
                 transparent: false,
                 supersample: 1,
+                light: Light::Studio,
             },
             no_picture: false,
             work: WorkOptions::default(),
@@ -260,6 +261,9 @@ pub struct PictureOptions {
     /// Draws this many times as wide and high, 1 to 4, and shrinks the picture: smoother edges and threads
     #[arg(long, value_name = "TIMES", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=4))]
     pub supersample: u32,
+    /// The light: studio, daylight or evening; a transparent picture has it, too
+    #[arg(long, value_name = "NAME", default_value = "studio")]
+    pub light: Light,
 }
 
 /// Runs a recording, compares its hashes, and stops at the first difference

@@ -243,6 +243,7 @@ impl FrameContext {
             Action::ToggleWire => self.sight.wire,
             Action::ToggleSheer => self.sight.sheer,
             Action::ToggleXray => self.sight.xray,
+            Action::Light(light) => self.sight.light == light,
             Action::ToggleHistory => self.drawer == Some(Drawer::History),
             Action::ToggleLog => self.drawer == Some(Drawer::Log),
             Action::ToggleMapTable => self.drawer == Some(Drawer::Map),

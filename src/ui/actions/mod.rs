@@ -15,7 +15,7 @@ use egui::ThemePreference;
 use crate::drag::DragMode;
 use crate::fit::MapKind;
 use crate::io::pdf::Paper;
-use crate::render::View;
+use crate::render::{Light, View};
 use crate::session::demos::Demo;
 use crate::session::samples::Sample;
 use crate::ui::actions::layout::Panes;
@@ -165,6 +165,7 @@ pub enum Action {
     ToggleSheer,
     ToggleXray,
     TogglePairs,
+    Light(Light),
     TogglePanel,
     Show(Panes),
     SwapPanes,

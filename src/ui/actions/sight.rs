@@ -1,6 +1,6 @@
 //! Display options of body and cloth.
 
-use crate::render::Look;
+use crate::render::{Light, Look};
 
 /// Display options of body and cloth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -13,18 +13,20 @@ pub struct Sight {
     pub xray: bool,
     /// Draw lines from marks on the pattern to their partners on the body.
     pub pairs: bool,
+    /// Light of the surroundings.
+    pub light: Light,
 }
 
 impl Default for Sight {
     fn default() -> Self {
-        Self { wire: false, sheer: false, xray: false, pairs: true }
+        Self { wire: false, sheer: false, xray: false, pairs: true, light: Light::Studio }
     }
 }
 
 impl Sight {
     /// `look` with these options.
     pub fn on(self, look: Look) -> Look {
-        let Self { wire, sheer, xray, .. } = self;
-        Look { wire, sheer, xray, ..look }
+        let Self { wire, sheer, xray, light, pairs: _ } = self;
+        Look { wire, sheer, xray, light, ..look }
     }
 }

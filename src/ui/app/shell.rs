@@ -111,6 +111,7 @@ impl App {
             Action::ToggleWire => self.shell.sight.wire = !self.shell.sight.wire,
             Action::ToggleSheer => self.shell.sight.sheer = !self.shell.sight.sheer,
             Action::ToggleXray => self.shell.sight.xray = !self.shell.sight.xray,
+            Action::Light(light) => self.shell.sight.light = light,
             Action::TogglePairs => self.shell.sight.pairs = !self.shell.sight.pairs,
             Action::ToggleHistory => self.shell.drawer = toggled(Drawer::History),
             Action::ToggleLog => self.shell.drawer = toggled(Drawer::Log),

@@ -13,6 +13,9 @@ use crate::render::{Decal, Rgb, Textile, linear};
 use crate::session::{Document, Dye, Dyes, Print};
 use crate::ui::scenery::pictures::decals;
 
+/// Thickness of cloth of no fabric, metres.
+const USUAL_THICKNESS: f64 = 5e-4;
+
 /// Appearance of each piece.
 pub type PieceLooks = BTreeMap<PieceId, PieceLook>;
 
@@ -25,13 +28,16 @@ pub struct PieceLook {
     pub textile: Textile,
     /// Unit vector along the grain, in the piece's plane.
     pub grain: DVec2,
+    /// Distance that the cloth keeps from what it touches, metres.
+    pub thickness: f64,
     /// Pictures on it.
     pub decals: Arc<Vec<Decal>>,
 }
 
 impl Default for PieceLook {
     fn default() -> Self {
-        Self { colours: None, textile: Textile::default(), grain: DVec2::Y, decals: Arc::default() }
+        let (textile, decals) = (Textile::default(), Arc::default());
+        Self { colours: None, textile, grain: DVec2::Y, thickness: USUAL_THICKNESS, decals }
     }
 }
 
@@ -42,6 +48,7 @@ pub fn piece_looks<'f>(
     dyes: &Dyes,
 ) -> PieceLooks {
     let look = |(&id, piece): (&PieceId, &Arc<Piece>)| {
+        let thickness = fabric(id).map_or(USUAL_THICKNESS, |fabric| fabric.thickness_m);
         let mut look = fabric(id).map(|fabric| fabric.look).unwrap_or_default();
         let Dye { colour, print, image: _ } = dyes.of(id);
         if colour.is_some() {
@@ -49,7 +56,7 @@ pub fn piece_looks<'f>(
         }
         let colours = look.colour.map(|outside| [outside, inside(&look, outside)]);
         let textile = printed(textile(&look), print);
-        (id, PieceLook { colours, textile, grain: piece.grain(), decals: Arc::default() })
+        (id, PieceLook { colours, textile, grain: piece.grain(), thickness, decals: Arc::default() })
     };
     pattern.pieces.iter().map(look).collect()
 }

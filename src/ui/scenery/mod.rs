@@ -8,6 +8,7 @@ pub(in crate::ui) mod parted;
 pub mod pictures;
 pub mod portrait;
 pub mod print_match;
+pub mod rims;
 pub(in crate::ui) mod ring;
 pub mod scene;
 pub(in crate::ui) mod stitches;

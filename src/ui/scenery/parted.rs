@@ -55,6 +55,21 @@ pub fn parted(
     groups.into_iter().map(|(group, triangles)| part(&whole, garment, &triangles, group)).collect()
 }
 
+/// A mesh without triangles in the colours that `piece` has among the parts of `whole`; None: it is deactivated.
+pub fn painted(
+    whole: &Mesh,
+    garment: &Garment,
+    activities: &BTreeMap<PieceId, Activity>,
+    looks: &PieceLooks,
+    piece: PieceId,
+) -> Option<Mesh> {
+    let activity = activities.get(&piece).copied().unwrap_or_default();
+    let (front, back, cloth) = (whole.front, whole.back, whole.cloth);
+    let bare = Mesh { front, back, cloth, ..Mesh::default() };
+    let group = Group { activity, layer: garment.layer(piece), look: looks.get(&piece) };
+    (!activity.is_deactivated()).then(|| part(&bare, garment, &[], group))
+}
+
 /// Ranges of equal neighbours.
 fn runs(pieces: &[PieceId]) -> impl Iterator<Item = Range<usize>> {
     let mut start = 0;

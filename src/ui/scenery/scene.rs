@@ -16,7 +16,8 @@ use crate::render::{BODY, CLOTH_BACK, CLOTH_FRONT, Ground, Label, Mesh, Polyline
 use crate::ui::scenery::covered::covered;
 use crate::ui::scenery::fabric_looks::PieceLooks;
 use crate::ui::scenery::mapped::in_colours;
-use crate::ui::scenery::parted::{deactivated, parted};
+use crate::ui::scenery::parted::{deactivated, painted, parted};
+use crate::ui::scenery::rims::{open_edges, rims};
 use crate::ui::scenery::stitches::stitched;
 use crate::wrap::{ClothMark, Marks};
 
@@ -211,6 +212,10 @@ impl Scenery {
             Arc::new(deactivated(&cloth_mesh(garment, state), garment, state, &activities))
         });
         let asleep = asleep.filter(|mesh| !mesh.triangles.is_empty());
+        let rims = match (map, dragged) {
+            (None, None) => rims_of(garment, state, &mesh, &activities, shown.looks, &is_seen),
+            _ => Vec::new(),
+        };
         self.cloth = Some(DrawnCloth {
             garment: Arc::clone(garment),
             state: Arc::clone(state),
@@ -226,6 +231,7 @@ impl Scenery {
             .into_iter()
             .map(coloured)
             .chain(asleep)
+            .chain(rims.into_iter().map(Arc::new))
             .collect(),
             activities,
             looks: shown.looks.cloned(),
@@ -435,6 +441,22 @@ fn hem_lines(
         }
     }
     lines
+}
+
+/// The thickness of cloth at its open edges. A map or a drag, which colour vertices, are shown without.
+fn rims_of(
+    garment: &Garment,
+    state: &ClothState,
+    whole: &Mesh,
+    activities: &BTreeMap<PieceId, Activity>,
+    looks: Option<&Arc<PieceLooks>>,
+    is_seen: &dyn Fn(u32) -> bool,
+) -> Vec<Mesh> {
+    let none = PieceLooks::new();
+    let looks = looks.map_or(&none, |looks| looks);
+    let edges = open_edges(garment, state, is_seen);
+    let thickness = |piece| looks.get(&piece).map_or(0.0, |look| look.thickness as f32);
+    rims(garment, whole, &edges, looks, thickness, |piece| painted(whole, garment, activities, looks, piece))
 }
 
 fn thin_line(points: Vec<Vec3>, colour: [u8; 4], width: f32, scale: f32) -> Polyline {

@@ -4,6 +4,7 @@ use egui::{Button, ThemePreference};
 
 use crate::drag::DragMode;
 use crate::io::pdf::Paper;
+use crate::render::Light;
 use crate::session::demos::Demo;
 use crate::session::samples::Sample;
 use crate::ui::actions::asks::{Ask, Asks};
@@ -198,6 +199,7 @@ fn view_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) {
     items(ui, now, asks, &[Action::ToggleParallel, Action::ToggleFreeTurning]);
     ui.separator();
     items(ui, now, asks, &[Action::ToggleWire, Action::ToggleSheer, Action::ToggleXray, Action::TogglePairs]);
+    ui.menu_button("Light", |ui| items(ui, now, asks, &Light::ALL.map(Action::Light)));
     ui.menu_button("Map", |ui| {
         maps::choices().for_each(|kind| item(ui, now, asks, Action::Map(kind)));
         ui.separator();

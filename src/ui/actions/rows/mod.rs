@@ -10,7 +10,7 @@ mod view;
 use std::sync::LazyLock;
 
 use crate::fit::MapKind;
-use crate::render::View;
+use crate::render::{Light, View};
 use crate::session::demos::Demo;
 use crate::session::samples::Sample;
 use crate::ui::actions::Action;
@@ -30,6 +30,14 @@ static ROWS: LazyLock<Vec<Row>> = LazyLock::new(|| {
     rows.extend(LengthUnit::ALL.map(|unit| {
         let row = row("View › Unit", Action::Unit(unit), unit.name(), "Show lengths in this unit");
         row.in_demos().on_start_page()
+    }));
+    rows.extend(Light::ALL.map(|light| {
+        let (text, tip) = match light {
+            Light::Studio => ("Studio", "A lamp in a bright room"),
+            Light::Daylight => ("Daylight", "The sun in a blue sky"),
+            Light::Evening => ("Evening", "The low sun of the evening"),
+        };
+        row("View › Light", Action::Light(light), text, tip).in_demos()
     }));
     rows.extend(Mouse::ALL.map(|mouse| {
         row("View › Mouse", Action::Mouse(mouse), mouse.name(), mouse.tip()).in_demos().on_start_page()
