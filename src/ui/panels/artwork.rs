@@ -74,7 +74,14 @@ fn graphic_ui(ui: &mut Ui, told: &PanelContext<'_>, id: GraphicId, graphic: &Gra
     let Some(piece) = told.document.pattern.pieces.get(&graphic.piece) else { return };
     let name = told.document.artwork.images.get(&graphic.image).map_or("", |file| &file.name);
     ui.add_space(2.0);
-    ui.label(RichText::new(format!("{name} on {}", piece.name)).strong());
+    ui.horizontal(|ui| {
+        let close = ui.add(Button::new("×").small());
+        close.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("Delete {id}")));
+        if close.on_hover_text("Delete this graphic").clicked() {
+            asks.push(Ask::Do(Command::DeleteGraphic { id }));
+        }
+        ui.add(egui::Label::new(RichText::new(format!("{name} on {}", piece.name)).strong()).truncate());
+    });
     let mut new = *graphic;
     let mut fields = Vec::new();
     ui.horizontal(|ui| {
@@ -84,11 +91,6 @@ fn graphic_ui(ui: &mut Ui, told: &PanelContext<'_>, id: GraphicId, graphic: &Gra
     ui.horizontal(|ui| {
         fields.push(millimetres(ui, "w ", &mut new.width_m, 1.0..=10_000.0));
         fields.push(degrees_ui(ui, &mut new.angle));
-        let close = ui.add(Button::new("×").small());
-        close.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("Delete {id}")));
-        if close.on_hover_text("Delete this graphic").clicked() {
-            asks.push(Ask::Do(Command::DeleteGraphic { id }));
-        }
     });
     if piece.twin.is_some() {
         ui.checkbox(&mut new.on_twin, "Mirrored on the twin");

@@ -47,7 +47,7 @@ impl Dropped {
             Self::Image => [Some(format!("Take the image {name} into the project")), None],
             Self::Nothing => [
                 Some(format!("{name}: not a project (.toile) or pattern (.dxf, .svg, .json)")),
-                Some("nor a body (.obj, .glb, .gltf)".to_owned()),
+                Some("nor a body (.obj, .glb, .gltf) or image (.png, .jpg)".to_owned()),
             ],
         }
     }

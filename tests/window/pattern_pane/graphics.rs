@@ -68,9 +68,13 @@ fn a_graphic_is_dragged_scaled_and_turned() {
 fn a_graphic_is_deleted_in_the_side_panel() {
     let mut window = with_graphic();
     let id = *app(&window).session().document().artwork.graphics.keys().next().expect("a graphic");
+    window.get_by_label(&format!("Delete {id}")).scroll_to_me();
+    window.run_steps(3);
     window.get_by_label(&format!("Delete {id}")).click();
     window.run_steps(3);
     assert!(app(&window).session().document().artwork.graphics.is_empty());
+    window.get_by_label("Delete logo.png").scroll_to_me();
+    window.run_steps(3);
     window.get_by_label("Delete logo.png").click();
     window.run_steps(3);
     assert!(app(&window).session().document().artwork.images.is_empty());
