@@ -199,7 +199,6 @@ fn view_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) {
     items(ui, now, asks, &[Action::ToggleParallel, Action::ToggleFreeTurning]);
     ui.separator();
     items(ui, now, asks, &[Action::ToggleWire, Action::ToggleSheer, Action::ToggleXray, Action::TogglePairs]);
-    ui.menu_button("Light", |ui| items(ui, now, asks, &Light::ALL.map(Action::Light)));
     ui.menu_button("Map", |ui| {
         maps::choices().for_each(|kind| item(ui, now, asks, Action::Map(kind)));
         ui.separator();
@@ -223,6 +222,8 @@ fn view_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) {
     ui.menu_button("Theme", |ui| {
         let themes = [ThemePreference::Dark, ThemePreference::Light, ThemePreference::System];
         items(ui, now, asks, &themes.map(Action::Theme));
+        ui.separator();
+        items(ui, now, asks, &Light::ALL.map(Action::Light));
     });
     ui.menu_button("Mouse", |ui| items(ui, now, asks, &Mouse::ALL.map(Action::Mouse)));
 }

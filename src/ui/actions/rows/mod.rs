@@ -33,11 +33,11 @@ static ROWS: LazyLock<Vec<Row>> = LazyLock::new(|| {
     }));
     rows.extend(Light::ALL.map(|light| {
         let (text, tip) = match light {
-            Light::Studio => ("Studio", "A lamp in a bright room"),
+            Light::Studio => ("Studio light", "A lamp in a bright room"),
             Light::Daylight => ("Daylight", "The sun in a blue sky"),
-            Light::Evening => ("Evening", "The low sun of the evening"),
+            Light::Evening => ("Evening light", "The low sun of the evening"),
         };
-        row("View › Light", Action::Light(light), text, tip).in_demos()
+        row("View › Theme", Action::Light(light), text, tip).in_demos()
     }));
     rows.extend(Mouse::ALL.map(|mouse| {
         row("View › Mouse", Action::Mouse(mouse), mouse.name(), mouse.tip()).in_demos().on_start_page()
