@@ -46,6 +46,16 @@ impl ArtOptions {
         self.image.iter().map(|own| &own.file).chain(self.graphics.iter().map(|own| &own.file))
     }
 
+    /// The file of the image all over the cloth.
+    pub fn image_file_mut(&mut self) -> Option<&mut PathBuf> {
+        self.image.as_mut().map(|own| &mut own.file)
+    }
+
+    /// The files of the graphics.
+    pub fn graphic_files_mut(&mut self) -> impl Iterator<Item = &mut PathBuf> {
+        self.graphics.iter_mut().map(|own| &mut own.file)
+    }
+
     /// Takes the images into `session`.
     pub fn choose(&self, session: &mut Session) -> Result<(), Failure> {
         if let Some(RepeatedFile { file, width_m }) = &self.image {
@@ -72,16 +82,16 @@ fn apply(session: &mut Session, command: Command) -> Result<(), Failure> {
 /// Takes the image of a file into the document, unless it is there; its id.
 fn take(session: &mut Session, path: &Path) -> Result<ImageId, Failure> {
     let name = path.file_name().map_or_else(|| "image".into(), |name| name.to_string_lossy());
-    let file = ImageFile::new(name, files::read(path)?);
+    let file = Arc::new(ImageFile::new(name, files::read(path)?));
     file.picture().map_err(|why| Failure::input(path, why))?;
     let known = |session: &Session| {
         let images = &session.document().artwork.images;
-        images.iter().find(|(_, other)| ***other == file).map(|(id, _)| *id)
+        images.iter().find(|(_, other)| **other == file).map(|(id, _)| *id)
     };
     if let Some(image) = known(session) {
         return Ok(image);
     }
-    apply(session, Command::AddImage { file: Arc::new(file.clone()) })?;
+    apply(session, Command::AddImage { file: Arc::clone(&file) })?;
     known(session).ok_or_else(|| Failure::Internal("an image that was taken is not there".to_owned()))
 }
 
@@ -104,7 +114,8 @@ fn refuse_beside(
     let piece = &session.document().pattern.pieces[&id];
     let corners = piece.outline.iter().map(|edge| edge.start);
     let (low, high) = corners.fold((DVec2::MAX, DVec2::MIN), |(low, high), p| (low.min(p), high.max(p)));
-    if (at.clamp(low, high) - at).length() <= width_m {
+    // A width that no graphic has is refused in words of its own.
+    if width_m <= 0.0 || (at.clamp(low, high) - at).length() <= width_m {
         return Ok(());
     }
     Err(Failure::Usage(format!(

@@ -15,8 +15,6 @@ const PROJECT: &str = "project";
 const NAME: &str = "name";
 /// The option that names a file in the garment's own folder.
 const SAVE: &str = "save";
-/// Options whose values are files to read, relative to the list.
-const FILES: [&str; 4] = ["body", "sizes", "marks", "over"];
 /// Options of the whole list, which no line can change.
 const OF_ALL: [&str; 8] = ["list", "shard", "out", "record", "resume", "progress", "json", "threads"];
 /// Options that exclude each other: where a line has one of them, those of the command line give way.
@@ -129,9 +127,10 @@ fn is_name(name: &str) -> bool {
 }
 
 /// What `name` stands for in a list in `folder`.
-fn beside(folder: &Path, name: &str) -> PathBuf {
-    match files::is_sample(Path::new(name)) || name == files::MANNEQUIN {
-        true => PathBuf::from(name),
+fn beside(folder: &Path, name: impl AsRef<Path>) -> PathBuf {
+    let name = name.as_ref();
+    match files::is_sample(name) || name == Path::new(files::MANNEQUIN) {
+        true => name.to_owned(),
         false => folder.join(name),
     }
 }
@@ -152,41 +151,89 @@ fn with(
     folder: &Path,
 ) -> Result<Dress, String> {
     let mut words: Vec<String> = Vec::new();
-    let mut dress = all.clone();
+    let (mut dress, command) = (all.clone(), command());
+    let mut given: Vec<String> = Vec::new();
     for (key, value) in options.iter().filter(|(key, _)| ![PROJECT, NAME].contains(&key.as_str())) {
         let option = key.replace('_', "-");
         if OF_ALL.contains(&option.as_str()) {
-            return Err(format!("{key:?} is for all garments: it goes on the command line"));
+            return Err(format!("{key:?} is for all garments: no line can have it"));
+        }
+        if command.get_arguments().all(|own| own.get_long() != Some(&option)) {
+            return Err(format!("there is no option {key:?}"));
         }
         let values = match value {
             Value::Array(values) => &values[..],
             other => std::slice::from_ref(other),
         };
         for value in values {
-            words.extend(word(&option, value, list_folder, folder)?);
+            words.extend(word(&option, value, folder)?);
         }
-        EXCLUDING
-            .iter()
-            .filter(|group| group.contains(&option.as_str()))
-            .for_each(|_| give_way(&mut dress, &option));
+        match value {
+            Value::Array(values) if values.is_empty() => empty(&mut dress, &option)?,
+            // What is not there excludes nothing.
+            Value::Null | Value::Bool(false) => {}
+            _ => {
+                if EXCLUDING.iter().any(|group| group.contains(&option.as_str())) {
+                    give_way(&mut dress, &option);
+                }
+                given.push(option);
+            }
+        }
     }
+    words.extend(needed(&given, all));
     // The project itself and its folder are needed where options are read; the list's own are put back.
     words.extend(["--out", ".", "--", "."].map(str::to_owned));
-    let matches = command().try_get_matches_from(words).map_err(|error| reason(&error))?;
+    let matches = command.try_get_matches_from(words).map_err(|error| reason(&error))?;
     dress.update_from_arg_matches(&matches).map_err(|error| reason(&error))?;
     (dress.projects, dress.out) = (Vec::new(), all.out.clone());
+    for option in &given {
+        files_of(&mut dress, option).into_iter().for_each(|file| *file = beside(list_folder, &*file));
+    }
     Ok(dress)
 }
 
+/// The one of `--sizes` and `--body-size` that a line does not give, from the command line: neither goes without the other.
+fn needed(given: &[String], all: &Dress) -> Option<String> {
+    let [has_sizes, has_size] = ["sizes", "body-size"].map(|own| given.iter().any(|option| option == own));
+    match (has_sizes, has_size, &all.input.sized.sizes, &all.input.sized.body_size) {
+        (false, true, Some(sizes), _) => Some(format!("--sizes={}", sizes.display())),
+        (true, false, _, Some(size)) => Some(format!("--body-size={size}")),
+        _ => None,
+    }
+}
+
+/// The files that `option` names, which are relative to the list.
+fn files_of<'a>(dress: &'a mut Dress, option: &str) -> Vec<&'a mut PathBuf> {
+    let input = &mut dress.input;
+    match option {
+        "body" => input.body.iter_mut().collect(),
+        "sizes" => input.sized.sizes.iter_mut().collect(),
+        "marks" => input.marks.iter_mut().collect(),
+        "over" => input.over.iter_mut().collect(),
+        "image" => dress.cloth.art.image_file_mut().into_iter().collect(),
+        "graphic" => dress.cloth.art.graphic_files_mut().collect(),
+        _ => Vec::new(),
+    }
+}
+
+/// Takes back the values of an option that has several.
+fn empty(dress: &mut Dress, option: &str) -> Result<(), String> {
+    match option {
+        "over" => dress.input.over.clear(),
+        "graphic" => dress.cloth.art.graphics.clear(),
+        _ => return Err(format!("{option:?} takes no list without a value")),
+    }
+    Ok(())
+}
+
 /// The option with one of its values as it is typed; None for null.
-fn word(option: &str, value: &Value, list_folder: &Path, folder: &Path) -> Result<Option<String>, String> {
+fn word(option: &str, value: &Value, folder: &Path) -> Result<Option<String>, String> {
     let value = match value {
         Value::Null => return Ok(None),
         Value::String(text) if option == SAVE => match is_name(text) {
             true => folder.join(text).display().to_string(),
             false => return Err(format!("{SAVE:?} is {text:?}, which is no name of a file")),
         },
-        Value::String(text) if FILES.contains(&option) => beside(list_folder, text).display().to_string(),
         Value::String(text) => text.clone(),
         Value::Bool(_) | Value::Number(_) => value.to_string(),
         Value::Array(_) | Value::Object(_) => return Err(format!("{option:?} takes no {value}")),
@@ -268,6 +315,15 @@ mod tests {
         assert_eq!(own.input.body.as_deref(), Some(Path::new("lists/b.obj")));
         assert_eq!(own.input.over, [Path::new("lists/coat.json"), Path::new("/x/hat.json")]);
         assert_eq!(own.save.as_deref(), Some(Path::new("o/a/dressed.toile")));
+        let own =
+            r#"{"image": "silk.png:120", "graphic": ["logo.png:front:0,0:0.1", "/x/a.png:back:0,0:1"]}"#;
+        let mut own = read(&base(""), own).expect("read");
+        let image = own.cloth.art.image_file_mut().expect("an image").clone();
+        let graphics: Vec<PathBuf> = own.cloth.art.graphic_files_mut().map(|file| file.clone()).collect();
+        assert_eq!(image, Path::new("lists/silk.png"));
+        assert_eq!(graphics, [Path::new("lists/logo.png"), Path::new("/x/a.png")]);
+        let own = read(&base("--body b.obj --over c.json"), r#"{"over": []}"#).expect("read");
+        assert!(own.input.over.is_empty() && own.input.body.as_deref() == Some(Path::new("b.obj")));
         let mannequin = read(&base(""), r#"{"body": "mannequin"}"#).expect("read");
         assert_eq!(mannequin.input.body.as_deref(), Some(Path::new("mannequin")));
     }
@@ -280,6 +336,21 @@ mod tests {
         assert!(!own.input.suggest_marks && own.start.is_some());
         let own = read(&base("--start placement"), r#"{"marks": "m.json"}"#).expect("read");
         assert!(own.input.marks.is_some() && own.start.is_none());
+        for nothing in [r#"{"suggest_marks": false}"#, r#"{"start": null}"#, r#"{"sizes": null}"#] {
+            let own = read(&base("--body b.obj --marks m.json"), nothing).expect("read");
+            assert!(own.input.marks.is_some() && own.input.body.is_some(), "{nothing} takes nothing back");
+        }
+    }
+
+    #[test]
+    fn a_size_table_and_a_size_may_come_from_different_places() {
+        let all = base("--sizes s.csv --body-size m");
+        let of = |line: &str| {
+            let own = read(&all, line).expect("read").input.sized;
+            (own.sizes.expect("a table"), own.body_size.expect("a size"))
+        };
+        assert_eq!(of(r#"{"body_size": "l"}"#), (PathBuf::from("s.csv"), "l".to_owned()));
+        assert_eq!(of(r#"{"sizes": "t.csv"}"#), (PathBuf::from("lists/t.csv"), "m".to_owned()));
     }
 
     #[test]
@@ -287,6 +358,7 @@ mod tests {
         for (line, words) in [
             (r#"{"edge_length": "wide"}"#, "wide"),
             (r#"{"sleeves": 3}"#, "sleeves"),
+            (r#"{"sleeves": null}"#, "sleeves"),
             (r#"{"drape": 3}"#, "3"),
             (r#"{"out": "x"}"#, "for all garments"),
             (r#"{"save": "../x"}"#, "no name of a file"),

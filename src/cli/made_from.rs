@@ -1,7 +1,7 @@
 //! A hash of everything that a result depends on: the bytes of its inputs, the options that can change it, and the version of the
 //! program. Names and times of files are not included.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::cli::arguments::{Dress, InputOptions};
 use crate::cli::failure::Failure;
@@ -33,7 +33,7 @@ pub fn made_from(project: &Path, arguments: &Dress) -> Result<String, Failure> {
         start,
         drape,
         cloth,
-        save: _,
+        save,
         record: _,
         max_ticks,
         picture,
@@ -46,7 +46,11 @@ pub fn made_from(project: &Path, arguments: &Dress) -> Result<String, Failure> {
     } = arguments;
     let placed = (raise, as_placed);
     let of_input = (body_file, &sized.body_size, pose, over.len(), placed, scale, suggest_marks, edge_length);
-    let options = (of_input, start, drape, cloth, max_ticks, picture, no_picture, work);
+    let mut cloth = cloth.clone();
+    cloth.art.image_file_mut().into_iter().for_each(PathBuf::clear);
+    cloth.art.graphic_files_mut().for_each(PathBuf::clear);
+    let art = &arguments.cloth.art;
+    let options = (of_input, start, drape, cloth, save.is_some(), max_ticks, picture, no_picture, work);
     let mut hash = Fnv::default();
     let mut take = |bytes: &[u8]| {
         hash.number(bytes.len() as u64);
@@ -62,7 +66,7 @@ pub fn made_from(project: &Path, arguments: &Dress) -> Result<String, Failure> {
             None => take(&[]),
         }
     }
-    for file in cloth.art.files() {
+    for file in art.files() {
         take(&files::bytes_of(file)?);
     }
     Ok(Hex(hash.finish()).to_string())

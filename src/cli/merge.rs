@@ -9,6 +9,7 @@ use serde_json::{Map, Value};
 
 use crate::cli::arguments::Merge;
 use crate::cli::failure::Failure;
+use crate::cli::verdict::PICTURE_NAME;
 use crate::cli::{files, lines, output};
 
 /// Columns that come first; the others follow in the order of their names.
@@ -28,7 +29,7 @@ pub fn merge(arguments: &Merge) -> Result<(), Failure> {
         let (newest, wrong) = newest(folder)?;
         unread += wrong;
         for (garment, line) in newest {
-            rows.push(row(folder, &garment, &line, arguments.picture)?);
+            rows.push(row(folder, &garment, line, arguments.picture));
         }
     }
     let summary = Summary::new(&rows, unread);
@@ -41,67 +42,52 @@ pub fn merge(arguments: &Merge) -> Result<(), Failure> {
 }
 
 /// The newest line of each garment in `folder`, by name, and the number of lines that could not be read.
-fn newest(folder: &Path) -> Result<(BTreeMap<String, String>, usize), Failure> {
+fn newest(folder: &Path) -> Result<(BTreeMap<String, Line>, usize), Failure> {
     let files = lines::files_in(folder)?;
     if files.is_empty() {
         return Err(Failure::input(folder, "there are no lines*.jsonl in it, which dress --list writes"));
     }
-    let mut newest: BTreeMap<String, (f64, String)> = BTreeMap::new();
+    let mut newest: BTreeMap<String, (f64, Line)> = BTreeMap::new();
     let mut unread = 0;
     for path in files {
         let bytes = files::read(&path)?;
         for (i, text) in bytes.split(|&byte| byte == b'\n').enumerate().filter(|(_, text)| !text.is_empty()) {
-            match known(text) {
-                Some((garment, finished)) => {
-                    let text = String::from_utf8_lossy(text).into_owned();
-                    let is_newer = newest.get(&garment).is_none_or(|(at, _)| *at <= finished);
-                    if is_newer {
-                        newest.insert(garment, (finished, text));
-                    }
-                }
-                None => {
-                    output::complain(&format!(
-                        "{}: line {} is no whole line, skipped",
-                        path.display(),
-                        i + 1
-                    ));
-                    unread += 1;
-                }
+            let Some((garment, finished, line)) = known(text) else {
+                let words = format!("{}: line {} is no whole line, skipped", path.display(), i + 1);
+                output::complain(&words);
+                unread += 1;
+                continue;
+            };
+            if newest.get(&garment).is_none_or(|(at, _)| *at <= finished) {
+                newest.insert(garment, (finished, line));
             }
         }
     }
-    Ok((newest.into_iter().map(|(garment, (_, text))| (garment, text)).collect(), unread))
+    Ok((newest.into_iter().map(|(garment, (_, line))| (garment, line)).collect(), unread))
 }
 
-/// The garment of a line, and when the line was written; None if it is not whole.
-fn known(text: &[u8]) -> Option<(String, f64)> {
-    #[derive(serde::Deserialize)]
-    struct Known {
-        garment: String,
-        #[allow(dead_code, reason = "a line without an outcome is none")]
-        outcome: String,
-        finished: f64,
-    }
-    let Known { garment, finished, .. } = serde_json::from_slice(text).ok()?;
-    Some((garment, finished))
+/// The garment of a line, when the line was written, and the line; None if it is not whole or has no outcome.
+fn known(text: &[u8]) -> Option<(String, f64, Line)> {
+    let line: Line = serde_json::from_slice(text).ok()?;
+    line.get("outcome")?.as_str()?;
+    Some((line.get("garment")?.as_str()?.to_owned(), line.get("finished")?.as_f64()?, line))
 }
 
 /// The cells of a row by the names of their columns.
 type Row = BTreeMap<String, String>;
 
 /// The row of `garment`, whose results are in `folder`, as this program finds it now.
-fn row(folder: &Path, garment: &str, line: &str, picture: bool) -> Result<Row, Failure> {
-    let mut line: Line = serde_json::from_str(line).map_err(|e| Failure::Internal(e.to_string()))?;
+fn row(folder: &Path, garment: &str, mut line: Line, picture: bool) -> Row {
     let own: PathBuf = folder.join(garment);
     line.insert("folder".to_owned(), own.display().to_string().into());
     if picture {
-        let view = own.join("view.png");
+        let view = own.join(PICTURE_NAME);
         let path = if view.exists() { view.display().to_string() } else { String::new() };
         line.insert(PICTURE.to_owned(), path.into());
     }
     let mut row = Row::new();
     line.iter().for_each(|(key, value)| add(&mut row, key, value));
-    Ok(row)
+    row
 }
 
 /// Adds `value` to `row`: of an object each member in a column "key.member", of a list its values with semicolons.
@@ -224,7 +210,7 @@ mod tests {
         write("lines.jsonl", line("a", 2.0, dressed) + &line("b", 4.0, dressed));
         let (newest, unread) = newest(folder.path()).expect("read");
         let rows: Vec<Row> =
-            newest.iter().map(|(name, line)| row(folder.path(), name, line, true).expect("a row")).collect();
+            newest.into_iter().map(|(name, line)| row(folder.path(), &name, line, true)).collect();
         let outcomes: Vec<&str> = rows.iter().map(|row| row["outcome"].as_str()).collect();
         assert_eq!((outcomes, unread), (vec!["dressed", "failed"], 1));
         let summary = Summary::new(&rows, unread);

@@ -10,7 +10,7 @@ use crate::cli::arguments::PictureOptions;
 use crate::cli::failure::Failure;
 use crate::cli::picture::Artist;
 use crate::cli::seconds::{Begun, Seconds};
-use crate::cli::verdict::{FILE_NAME, Verdict};
+use crate::cli::verdict::{FILE_NAME, PICTURE_NAME, Verdict};
 use crate::cli::{formats, interrupt, output, run};
 use crate::fit;
 use crate::pattern::{Problem, ProblemKind};
@@ -167,7 +167,7 @@ pub fn report(
     let drawn = picture.map_or_else(|| Ok(Err("--no-picture".to_owned())), |picture| draw(session, picture));
     let pictures_left_out = match drawn? {
         Ok(png) => {
-            files.push(("view.png", png));
+            files.push((PICTURE_NAME, png));
             None
         }
         Err(why) => Some(why),
@@ -255,6 +255,9 @@ impl Report {
         let mut text = self.json()?;
         text.push('\n');
         output::make_folder(folder)?;
+        if self.files.iter().all(|(name, _)| *name != PICTURE_NAME) {
+            output::take_away(&folder.join(PICTURE_NAME))?;
+        }
         let placed = std::mem::take(&mut self.files).into_iter();
         let mut files: Vec<(PathBuf, Vec<u8>)> =
             placed.map(|(name, bytes)| (folder.join(name), bytes)).collect();

@@ -12,6 +12,8 @@ use crate::wrap::MarkError;
 
 /// File name of the report.
 pub const FILE_NAME: &str = "report.json";
+/// Name of the picture beside it.
+pub const PICTURE_NAME: &str = "view.png";
 
 /// The part of a report that tells whether the project is dressed.
 #[derive(Debug, Serialize, Deserialize)]

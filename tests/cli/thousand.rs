@@ -52,6 +52,10 @@ fn each_line_has_its_options_and_a_broken_one_stops_no_other() {
     assert_eq!(of("exit_code"), [0, 0, 3, 3, 0].map(Value::from));
     assert_eq!(place.names("out"), ["coarse", "lines.jsonl", "plain", "plain-2"]);
     assert_eq!(place.names("out/plain"), ["body.obj", "garment.obj", "report.json"]);
+    place.write("out/plain/view.png", "of an earlier time");
+    place.ends(3, "dress --list list.jsonl --out out --no-picture");
+    assert!(!place.names("out/plain").contains(&"view.png".to_owned()), "no picture of another garment");
+    place.write("out/lines.jsonl", &done.out);
     assert!(place.names("out/coarse").contains(&"dressed.toile".to_owned()));
     assert_eq!(place.read("out/lines.jsonl"), done.out, "the same lines are kept");
     let triangles = of("triangles");
