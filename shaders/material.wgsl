@@ -12,7 +12,7 @@ struct Material {
     gloss: vec4f,   // its strength, roughness, share of light stopped, how far it is drawn out along the threads
     print: vec4f,   // linear; w the kind of print
     repeat: vec4f,  // of the print in metres, share of light stopped by threads and gaps together, number of pictures
-    pictures: array<PlacedPicture, 16>,
+    pictures: array<PlacedPicture, 25>,
 }
 
 @group(1) @binding(0) var<uniform> material: Material;

@@ -25,6 +25,18 @@ pub struct ClothOptions {
     pub art: ArtOptions,
 }
 
+impl ClothOptions {
+    /// Whether none of them is given.
+    pub fn is_empty(&self) -> bool {
+        let Self { colourway, fabric, colour, print, art } = self;
+        colourway.is_none()
+            && fabric.is_none()
+            && colour.is_none()
+            && print.is_none()
+            && art.files().next().is_none()
+    }
+}
+
 fn colour(text: &str) -> Result<[u8; 3], String> {
     let digits = text.strip_prefix('#').unwrap_or(text);
     let number =

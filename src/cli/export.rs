@@ -2,9 +2,10 @@
 
 use crate::cli::arguments::{Export, InputOptions};
 use crate::cli::failure::Failure;
-use crate::cli::worn::Worn;
 use crate::cli::{input, output, run};
 use crate::io::pattern_formats::{self, PatternFormat, endings};
+use crate::ui::scenery::fabric_textures::USUAL_SIDE;
+use crate::ui::scenery::worn::Worn;
 
 /// Extensions of formats for dressed cloth.
 const OF_CLOTH: [&str; 2] = ["obj", "glb"];
@@ -21,6 +22,10 @@ pub fn export(arguments: &Export) -> Result<(), Failure> {
             endings(PatternFormat::ALL)
         );
         return Err(Failure::Usage(words));
+    }
+    if of_pattern.is_some() && (arguments.textures.textures.is_some() || !arguments.cloth.is_empty()) {
+        let words = "--textures, fabrics, colours and images are of dressed cloth, as .obj or .glb";
+        return Err(Failure::Usage(words.to_owned()));
     }
     let options = InputOptions { scale: arguments.scale, as_placed: true, ..InputOptions::default() };
     let input = input::load(&arguments.project, &options)?;
@@ -44,9 +49,12 @@ pub fn export(arguments: &Export) -> Result<(), Failure> {
         return Err(Failure::input(&arguments.project, words));
     };
     let worn = Worn { garment, cloth, pattern: &source.pattern, document: session.document() };
+    let (side, layout) = (arguments.textures.textures, arguments.textures.atlas);
     if ending == "obj" {
-        return output::write_together(&worn.obj(arguments.textures, &arguments.output)?);
+        let files = worn.obj(side.unwrap_or(0), layout, &arguments.output).map_err(Failure::Limit)?;
+        return output::write_together(&files);
     }
     let body = snapshot.body.as_ref().map(|b| &b.mesh);
-    output::write(&arguments.output, &worn.glb(arguments.textures, body)?)
+    let bytes = worn.glb(side.unwrap_or(USUAL_SIDE), layout, body).map_err(Failure::Limit)?;
+    output::write(&arguments.output, &bytes)
 }

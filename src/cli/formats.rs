@@ -141,18 +141,6 @@ pub fn garment_obj(garment: &Garment, cloth: &ClothState, pattern: &Pattern) -> 
     obj::garment(garment, cloth, pattern).into_bytes()
 }
 
-/// Dressed cloth on its body as binary glTF.
-pub fn scene_glb(
-    garment: &Garment,
-    cloth: &ClothState,
-    pattern: &Pattern,
-    body: Option<&TriMesh>,
-    colours: &Colours,
-) -> Result<Vec<u8>, Failure> {
-    let dressed = glb::Dressed { garment, state: cloth, pattern };
-    glb::write(Some(dressed), body, colours).map_err(|e| Failure::Limit(e.to_string()))
-}
-
 /// Dressed cloth and its body as animated binary glTF.
 pub fn sequence_glb(
     garment: &Garment,

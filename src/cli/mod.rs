@@ -40,7 +40,6 @@ mod sequence;
 mod simulate;
 mod texture_options;
 mod verdict;
-mod worn;
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::process::ExitCode;

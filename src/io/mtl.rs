@@ -40,10 +40,14 @@ pub fn write(
     MaterialFile { text, names }
 }
 
+/// `name` without spaces, at which names in such files end.
+pub fn plain(name: &str) -> String {
+    name.chars().map(|c| if c.is_control() || c.is_whitespace() { '_' } else { c }).collect()
+}
+
 /// A name without spaces that no other material has.
 fn unique(name: &str, written: &[(ClothMaterial, String)]) -> String {
-    let plain: String =
-        name.chars().map(|c| if c.is_control() || c.is_whitespace() { '_' } else { c }).collect();
+    let plain = plain(name);
     let is_free = |name: &String| written.iter().all(|(_, other)| other != name);
     let mut numbered = (2..).map(|i| format!("{plain}-{i}"));
     std::iter::once(plain.clone()).chain(&mut numbered).find(is_free).unwrap_or(plain)
@@ -78,6 +82,11 @@ fn one(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn names_have_no_spaces() {
+        assert_eq!(plain("my\tshirt 2"), "my_shirt_2");
+    }
 
     #[test]
     fn equal_materials_are_written_once_and_names_are_unique() {

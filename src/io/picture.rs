@@ -37,7 +37,7 @@ pub fn read(bytes: &[u8]) -> Result<RgbaImage, String> {
     let turned = decoder.orientation().map_err(in_words)?;
     let mut picture = image::DynamicImage::from_decoder(decoder).map_err(in_words)?;
     picture.apply_orientation(turned);
-    Ok(picture.to_rgba8())
+    Ok(picture.into_rgba8())
 }
 
 fn in_words(error: image::ImageError) -> String {

@@ -6,7 +6,7 @@ use glam::{Mat2, Vec2};
 use image::RgbaImage;
 
 /// Most pictures on one mesh.
-pub const MOST_DECALS: usize = 16;
+pub const MOST_DECALS: usize = 25;
 
 /// A picture on the flat cloth.
 #[derive(Clone, Debug)]

@@ -14,7 +14,7 @@ use crate::geometry::ids::{GraphicId, ImageId, PieceId};
 use crate::io::picture;
 
 /// Range of the width of a graphic and of a repeat of an image, metres.
-const WIDTHS: [f64; 2] = [0.001, 10.0];
+pub const WIDTHS: [f64; 2] = [0.001, 10.0];
 /// Largest absolute coordinate of a graphic, metres.
 const FARTHEST: f64 = 100.0;
 /// Most images of a document.
@@ -23,6 +23,8 @@ const MOST_IMAGES: usize = 64;
 const MOST_BYTES: usize = 128 << 20;
 /// Most graphics on one piece.
 pub const MOST_ON_A_PIECE: usize = 12;
+/// Largest id in a document that is read: there is room for as many more.
+const LARGEST_ID: u32 = u32::MAX / 2;
 /// Largest number of characters of an image's name.
 const LONGEST_NAME: usize = 200;
 
@@ -131,6 +133,13 @@ impl Graphic {
         placed(self.at, DVec2::new(self.width_m, self.width_m * aspect), self.angle)
     }
 
+    /// It with its place and width brought into the range that a document may have.
+    pub fn clamped(self) -> Self {
+        let [least, most] = WIDTHS;
+        let at = self.at.clamp(DVec2::splat(-FARTHEST), DVec2::splat(FARTHEST));
+        Self { at, width_m: self.width_m.clamp(least, most), ..self }
+    }
+
     fn problem(&self) -> Option<String> {
         let is_near = self.at.is_finite() && self.at.abs().max_element() <= FARTHEST;
         if !is_near {
@@ -202,6 +211,9 @@ impl Artwork {
         let ids = images.keys().map(|id| id.0).chain(graphics.keys().map(|id| id.0));
         if ids.max().is_some_and(|id| id > *last) {
             return Some("the counter of images is behind their ids".to_owned());
+        }
+        if *last > LARGEST_ID {
+            return Some(format!("the counter of images is {last}, more than {LARGEST_ID}"));
         }
         if images.len() > MOST_IMAGES {
             return Some(format!("there are {} images, more than {MOST_IMAGES}", images.len()));

@@ -135,6 +135,13 @@ fn textures_may_be_left_out_or_one_for_each_piece() {
         "export dressed.toile -o x.glb --atlas tight",
         "none of pattern, packed, pieces",
     );
+    for options in ["--textures 64", "--fabric denim-11oz"] {
+        place.ends_with_words(
+            2,
+            &format!("export dressed.toile -o flat.svg {options}"),
+            "are of dressed cloth",
+        );
+    }
 }
 
 #[test]

@@ -84,9 +84,9 @@ pub fn carry<'c>(
         .filter_map(|(id, graphic)| {
             let (piece, map) = found(graphic.piece, graphic.at)?;
             let along = map.matrix2 * DVec2::from_angle(graphic.angle);
-            let width_m = (graphic.width_m * along.length()).clamp(0.001, 10.0);
+            let width_m = graphic.width_m * along.length();
             let at = map.transform_point2(graphic.at);
-            Some((*id, Graphic { piece, at, angle: along.to_angle(), width_m, ..*graphic }))
+            Some((*id, Graphic { piece, at, angle: along.to_angle(), width_m, ..*graphic }.clamped()))
         })
         .collect();
     if !moved.is_empty() {

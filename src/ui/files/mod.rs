@@ -19,7 +19,7 @@ use crate::io::pattern_file::PatternFileError;
 use crate::io::pattern_formats::{self, PatternFormat, endings};
 use crate::io::pdf::Paper;
 use crate::io::scale::{DrawingUnit, ScaleQuestion};
-use crate::io::{FILE_BYTES, bvh, glb, gltf, obj};
+use crate::io::{FILE_BYTES, bvh, gltf};
 use crate::pattern::Pattern;
 use crate::session::project_file::ProjectFileError;
 use crate::session::samples::Sample;
@@ -27,7 +27,8 @@ use crate::session::{
     AnimatedFile, Animations, BodyChoice, Command, Document, ImageFile, Project, project_file, whole_file,
 };
 use crate::sim::Snapshot;
-use crate::ui::scenery::fabric_textures::{Relief, TextureOptions, USUAL_SIDE, textured};
+use crate::ui::scenery::fabric_textures::USUAL_SIDE;
+use crate::ui::scenery::worn::Worn;
 
 /// Extensions of the pattern formats that can be written.
 const WRITTEN_ENDINGS: [&str; 4] = {
@@ -344,8 +345,8 @@ pub fn take_image(path: &Path) -> Result<Command, String> {
     Ok(Command::AddImage { file: Arc::new(file) })
 }
 
-/// Writes the dressed garment of `snapshot`, as .glb together with its body and with textures. `pattern` gives the texture
-/// coordinates.
+/// Writes the dressed garment of `snapshot` with its textures: as .obj with files beside it, as .glb together with its body.
+/// `pattern` gives the texture coordinates.
 pub fn export(
     path: &Path,
     snapshot: &Snapshot,
@@ -355,16 +356,16 @@ pub fn export(
     let Some((garment, cloth)) = snapshot.drawn().filter(|_| snapshot.is_dressed()) else {
         return Err("There is no cloth on the body to be written".to_owned());
     };
+    let worn = Worn { garment, cloth, pattern, document };
     match path.extension().map(|e| e.to_string_lossy().to_lowercase()).as_deref() {
-        Some("obj") => write(path, obj::garment(garment, cloth, pattern).as_bytes()),
+        Some("obj") => {
+            let files = worn.obj(USUAL_SIDE, AtlasLayout::Pattern, path);
+            let files = files.map_err(|e| in_words(path, "written", e))?;
+            whole_file::write_together(&files).map_err(|(path, e)| in_words(&path, "written", e))
+        }
         Some("glb") => {
-            let dressed = glb::Dressed { garment, state: cloth, pattern };
             let body = snapshot.body.as_ref().map(|b| &b.mesh);
-            let options =
-                TextureOptions { side: USUAL_SIDE, layout: AtlasLayout::Pattern, relief: Relief::Tiles };
-            let colours =
-                textured(garment, pattern, document, options).map_err(|e| in_words(path, "written", e))?;
-            let bytes = glb::write(Some(dressed), body, &colours);
+            let bytes = worn.glb(USUAL_SIDE, AtlasLayout::Pattern, body);
             write(path, &bytes.map_err(|e| in_words(path, "written", e))?)
         }
         _ => Err(in_words(path, "written", "the name must end in .obj or .glb")),

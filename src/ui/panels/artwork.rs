@@ -6,6 +6,7 @@ use glam::DVec2;
 
 use crate::geometry::ids::{GraphicId, ImageId, PieceId};
 use crate::pattern::Piece;
+use crate::session::artwork::WIDTHS;
 use crate::session::{Artwork, Command, Dye, Graphic, Repeated};
 use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::actions::{Action, Tool};
@@ -89,7 +90,7 @@ fn graphic_ui(ui: &mut Ui, told: &PanelContext<'_>, id: GraphicId, graphic: &Gra
         fields.push(millimetres(ui, "y ", &mut new.at.y, -100_000.0..=100_000.0));
     });
     ui.horizontal(|ui| {
-        fields.push(millimetres(ui, "w ", &mut new.width_m, 1.0..=10_000.0));
+        fields.push(millimetres(ui, "w ", &mut new.width_m, widths()));
         fields.push(degrees_ui(ui, &mut new.angle));
     });
     if piece.twin.is_some() {
@@ -104,6 +105,12 @@ fn graphic_ui(ui: &mut Ui, told: &PanelContext<'_>, id: GraphicId, graphic: &Gra
     if is_ended || (new != *graphic && !is_dragged && !fields.iter().any(Response::has_focus)) {
         asks.push(Ask::EndDrag);
     }
+}
+
+/// Range of widths, millimetres.
+fn widths() -> std::ops::RangeInclusive<f64> {
+    let [least, most] = WIDTHS.map(|metres| metres * 1e3);
+    least..=most
 }
 
 fn millimetres(ui: &mut Ui, name: &str, metres: &mut f64, range: std::ops::RangeInclusive<f64>) -> Response {
@@ -148,7 +155,7 @@ pub fn surface_ui(ui: &mut Ui, artwork: &Artwork, dye: &mut Dye) {
         },
     );
     ui.horizontal(|ui| {
-        millimetres(ui, "every ", &mut own.width_m, 1.0..=10_000.0);
+        millimetres(ui, "every ", &mut own.width_m, widths());
         degrees_ui(ui, &mut own.angle);
     });
 }

@@ -66,15 +66,20 @@ pub fn textured(
         let own: Vec<Chart> =
             charts.iter().filter(|(_, at, _)| *at == texture).map(|(_, _, chart)| chart.clone()).collect();
         let ending = if texture > 0 { format!("-{}", texture + 1) } else { String::new() };
-        let sides = [(Side::Outside, "colour"), (Side::Inside, "inside")].map(|(side, name)| {
+        let mut add = |side, name: &str| {
             images.add(format!("{name}{ending}"), &bake::base_colour(&own, side, options.side))
-        });
+        };
+        let outside = add(Side::Outside, "colour")?;
+        // Formats with a normal map for each texture know no sides.
+        let inside = match options.relief {
+            Relief::Tiles => add(Side::Inside, "inside")?,
+            Relief::Atlas => outside,
+        };
         let normal = match options.relief {
             Relief::Tiles => None,
             Relief::Atlas => Some(images.add(format!("normal{ending}"), &bake::normals(&own, options.side))?),
         };
-        let [outside, inside] = sides;
-        textures.push(([outside?, inside?], normal));
+        textures.push(([outside, inside], normal));
     }
     let mut pieces = BTreeMap::new();
     let mut weave_from_piece = BTreeMap::new();

@@ -12,3 +12,4 @@ pub mod rims;
 pub(in crate::ui) mod ring;
 pub mod scene;
 pub(in crate::ui) mod stitches;
+pub mod worn;

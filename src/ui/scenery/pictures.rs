@@ -8,10 +8,15 @@ use image::{Rgba, RgbaImage};
 use crate::geometry::ids::{ImageId, PieceId};
 use crate::pattern::Pattern;
 use crate::render::Decal;
+use crate::render::decal::MOST_DECALS;
+use crate::session::artwork::MOST_ON_A_PIECE;
 use crate::session::{Artwork, Document, Dyes, Graphic};
 
 /// Pixels of a square of the placeholder.
 const CHECK: u32 = 8;
+
+// A surface, a piece's own graphics and those of its twin are all drawn.
+const _: () = assert!(2 * MOST_ON_A_PIECE < MOST_DECALS);
 
 /// A picture on a piece.
 #[derive(Clone, Debug)]

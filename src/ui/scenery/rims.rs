@@ -69,8 +69,8 @@ fn outward(garment: &Garment, whole: &Mesh, edges: &[OpenEdge]) -> BTreeMap<u32,
     out
 }
 
-/// Rims along `edges` of the cloth `whole`, one mesh for each piece that has any, in the colours of `parts`: the mesh of a piece
-/// is found by `part`. `thickness` is that of the cloth of a piece, metres.
+/// Rims along `edges` of the cloth `whole`, one mesh for each piece that has any and for which `painted` gives one without
+/// triangles in its colours. `thickness` is that of the cloth of a piece, metres.
 pub fn rims(
     garment: &Garment,
     whole: &Mesh,

@@ -19,8 +19,6 @@ use crate::ui::scenery::pictures::image_from_piece;
 const STALK: f64 = 22.0;
 /// Step of turning with Shift, radians.
 const TURN: f64 = std::f64::consts::PI / 12.0;
-/// Range of widths, metres.
-const WIDTHS: [f64; 2] = [0.001, 10.0];
 
 /// What a drag changes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -110,7 +108,7 @@ impl Held {
             Change::Move => Graphic { at: before.at + p - self.from, ..before },
             Change::Scale => {
                 let factor = p.distance(before.at) / self.from.distance(before.at).max(1e-6);
-                Graphic { width_m: (before.width_m * factor).clamp(WIDTHS[0], WIDTHS[1]), ..before }
+                Graphic { width_m: before.width_m * factor, ..before }.clamped()
             }
             Change::Turn => {
                 let angle = (p - before.at).to_angle() - FRAC_PI_2;
