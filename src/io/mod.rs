@@ -4,6 +4,7 @@
 //! | files | hold |
 //! | --- | --- |
 //! | `pattern_formats` | the list of pattern formats: begin there to add one; `garmentcode`, `dxf`, `svg`, `pdf` implement them |
+//! | `rul` | grade rule tables, beside `dxf` |
 //! | `pattern_file` | the result of reading a pattern, and its errors |
 //! | `body_file` | the body formats: `obj`, `gltf`; `moving_body`, `bvh`, `joints` are their motion, `sizes` their measurements |
 //! | `obj`, `mtl`, `glb` | dressed cloth written, with its `materials` and their textures (`atlas`); `cloth_obj` cloth read |
@@ -31,6 +32,7 @@ pub mod pattern_formats;
 pub mod pdf;
 pub mod picture;
 mod polygon;
+pub mod rul;
 pub mod scale;
 mod sheet;
 pub mod sizes;

@@ -3,7 +3,7 @@
 use crate::io::pattern_file::{PatternFileError, ReadPattern};
 use crate::io::pdf::{Paper, PdfError};
 use crate::io::scale::DrawingUnit;
-use crate::io::{Limits, Written, dxf, garmentcode, pdf, svg};
+use crate::io::{Limits, Written, dxf, garmentcode, pdf, rul, svg};
 use crate::pattern::Pattern;
 
 /// A file format of patterns.
@@ -80,13 +80,32 @@ pub fn format(bytes: &[u8]) -> Option<PatternFormat> {
 /// # Errors
 /// What is wrong with the file and where, or a question when the unit of length is not known.
 pub fn read(bytes: &[u8], unit: Option<DrawingUnit>) -> Result<ReadPattern, PatternFileError> {
+    read_with_rules(bytes, unit, None)
+}
+
+/// Reads a pattern like [`read`], with the bytes of the grade rule table beside it; formats other than DXF have none.
+///
+/// # Errors
+/// As for [`read`]; what is wrong with the rule table says so.
+pub fn read_with_rules(
+    bytes: &[u8],
+    unit: Option<DrawingUnit>,
+    rules: Option<&[u8]>,
+) -> Result<ReadPattern, PatternFileError> {
     let limits = Limits::default();
     if bytes.len() > limits.file_bytes {
         let words = format!("the file has {} bytes; {} are allowed", bytes.len(), limits.file_bytes);
         return Err(PatternFileError::OverLimit(words));
     }
     let mut read = match format(bytes) {
-        Some(PatternFormat::Dxf) => dxf::read(bytes, unit)?,
+        Some(PatternFormat::Dxf) => {
+            let in_table = |error: PatternFileError| match error {
+                PatternFileError::OverLimit(words) => PatternFileError::OverLimit(words),
+                error => PatternFileError::bad("the rule table beside it", error),
+            };
+            let rules = rules.map(rul::read).transpose().map_err(in_table)?;
+            dxf::read_with_rules(bytes, unit, rules.as_ref())?
+        }
         Some(PatternFormat::Svg) => svg::read(bytes, unit)?,
         Some(PatternFormat::Pdf) => {
             let formats = PatternFormat::ALL.into_iter().filter(|format| format.is_read());

@@ -15,6 +15,8 @@ pub struct Written {
     pub bytes: Vec<u8>,
     /// Parts of the pattern that the format cannot hold, a line each; empty when all of it is there.
     pub left_out: Vec<String>,
+    /// The grade rule table that belongs beside a DXF (`.rul`), where the pattern has sizes.
+    pub rules: Option<Vec<u8>>,
 }
 
 /// Parts of a pattern that not every format can hold.
@@ -38,6 +40,7 @@ pub(super) enum Part {
     PlaceOnBody,
     Seams,
     Ratios,
+    Sizes,
 }
 
 impl Part {
@@ -61,6 +64,7 @@ impl Part {
             Self::PlaceOnBody => "the part of the body it belongs to",
             Self::Seams => "seams",
             Self::Ratios => "that lengths of seams are kept",
+            Self::Sizes => "the sizes and their grade rules",
         }
     }
 }
@@ -78,6 +82,9 @@ pub(super) fn left_out(pattern: &Pattern, holds: &[Part]) -> Vec<String> {
         .filter(|(part, _)| !holds.contains(part))
         .map(|(part, names)| format!("{}: not in the file: {}", listed(&names), part.words()))
         .collect();
+    if !pattern.sizes.is_empty() && !holds.contains(&Part::Sizes) {
+        lines.push(format!("not in the file: {}", Part::Sizes.words()));
+    }
     let count = |part: Part, has: fn(&Seam) -> bool| {
         let count = pattern.seams.values().filter(|seam| has(seam)).count();
         (count > 0 && !holds.contains(&part)).then(|| format!("{count} seams: {}", part.words()))

@@ -4,6 +4,7 @@ use glam::DVec2;
 use kurbo::{CubicBez, Line, ParamCurve, ParamCurveArclen, PathSeg, Point, QuadBez};
 
 use crate::pattern::edge::{ARC_LENGTH_ACCURACY, Edge, EdgeShape};
+use crate::pattern::grading::rule::GradeRule;
 
 /// Accuracy of [`exact_length`], metres.
 const FINEST_LENGTH: f64 = 1e-12;
@@ -183,6 +184,7 @@ pub fn reversed(edges: &[Edge]) -> Vec<Edge> {
                 shape: edge.shape.reversed(),
                 smooth: next.smooth,
                 label: edge.label.clone(),
+                rule: next.rule.clone(),
             }
         })
         .collect()
@@ -194,6 +196,7 @@ pub fn mirrored(edges: &[Edge]) -> Vec<Edge> {
     for edge in &mut new {
         edge.start = mirror(edge.start);
         edge.shape = edge.shape.mapped(true, mirror);
+        edge.rule = edge.rule.as_ref().map(GradeRule::mirrored);
     }
     new
 }
@@ -326,7 +329,13 @@ mod tests {
     #[test]
     fn a_mirror_image_mirrored_is_the_line_itself() {
         let edges: Vec<Edge> = [(A, 1), (B, 2), (DVec2::ZERO, 3)]
-            .map(|(start, i)| Edge { start, shape: shapes()[i], smooth: i == 2, label: Some(i.to_string()) })
+            .map(|(start, i)| Edge {
+                start,
+                shape: shapes()[i],
+                smooth: i == 2,
+                label: Some(i.to_string()),
+                rule: (i == 1).then(|| GradeRule(vec![DVec2::new(0.01, 0.02), DVec2::ZERO])),
+            })
             .to_vec();
         let image = mirrored(&edges);
         assert_eq!(mirrored(&image), edges);

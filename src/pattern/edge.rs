@@ -3,6 +3,8 @@
 use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
+use crate::pattern::grading::rule::GradeRule;
+
 /// Accuracy to which arc lengths are computed, metres.
 pub const ARC_LENGTH_ACCURACY: f64 = 1e-7;
 
@@ -34,4 +36,8 @@ pub struct Edge {
     /// A name from the source file ("left_collar"), if any.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub label: Option<String>,
+    /// How the start point moves from size to size. None: it stays, or follows its neighbours
+    /// ([`graded`](crate::pattern::grading::graded)).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rule: Option<GradeRule>,
 }

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use crate::geometry::ids::PieceId;
+use crate::pattern::edit::grading::take_run;
 use crate::pattern::{Pattern, Piece};
 
 /// The highest layer.
@@ -26,6 +27,9 @@ impl Pattern {
         if first.saturating_add(garment.outermost()) > MOST_LAYER {
             return Err(format!("no more than {} layers can be worn", MOST_LAYER + 1));
         }
+        if self.sizes.is_empty() {
+            self.sizes = garment.sizes.clone();
+        }
         let beside = match (self.bounds(), garment.bounds()) {
             (Some((_, right)), Some((left, _))) => DVec2::X * (right.x - left.x + BESIDE),
             _ => DVec2::ZERO,
@@ -39,7 +43,9 @@ impl Pattern {
             }
             piece.layer += first;
             piece.pose.offset += beside;
-            ids.insert(old, self.add_piece(piece));
+            let mut piece = Arc::new(piece);
+            take_run(&mut piece, &garment.sizes, &self.sizes);
+            ids.insert(old, self.add_piece(Arc::unwrap_or_clone(piece)));
         }
         for id in ids.values() {
             if let Some(piece) = self.pieces.get_mut(id)

@@ -5,6 +5,7 @@ pub mod curve;
 pub mod cut;
 pub mod edge;
 pub mod edit;
+pub mod grading;
 pub mod layers;
 pub mod naming;
 pub mod piece;
@@ -22,6 +23,7 @@ use crate::geometry::ids::{PieceId, SeamId};
 pub use crate::geometry::problem::{self, Problem, ProblemKind};
 pub use cut::CutPattern;
 pub use edge::{Edge, EdgeShape};
+pub use grading::{GradeRule, RulePoint, SizeRun};
 pub use piece::{InternalLine, Notch, Piece, PlanePose};
 pub use seam::{EdgeRef, EdgeSeam, Seam, Stretch};
 pub use space::{Roll, SpacePose};
@@ -36,6 +38,9 @@ pub struct Pattern {
     pub seams: BTreeMap<SeamId, Seam>,
     /// The next free number for any id.
     pub next_id: u32,
+    /// The sizes that the pattern can be graded to; each rule of its points has a displacement for each.
+    #[serde(default, skip_serializing_if = "SizeRun::is_empty")]
+    pub sizes: SizeRun,
 }
 
 impl Pattern {

@@ -8,6 +8,7 @@ use crate::geometry::ids::PieceId;
 use crate::geometry::polygon::signed_area;
 use crate::pattern::activity::Activity;
 use crate::pattern::edge::{ARC_LENGTH_ACCURACY, Edge};
+use crate::pattern::grading::rule::GradeRule;
 use crate::pattern::{SpacePose, curve};
 
 /// Position, rotation and flip of a piece on the table (the pattern plane). It has no effect on the cloth.
@@ -36,7 +37,7 @@ impl PlanePose {
 }
 
 /// An internal line: drawn on a piece, but not cut; for sewing along, folding, or placing a pocket.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct InternalLine {
     /// The edges in order, each starting where the one before ends; the last ends at `end`. At least one.
     pub edges: Vec<Edge>,
@@ -45,6 +46,9 @@ pub struct InternalLine {
     /// Name shown to people; may be empty.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub name: String,
+    /// How the end moves from size to size, as [`Edge::rule`] says of the other points.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub end_rule: Option<GradeRule>,
 }
 
 /// A notch: a small mark on an edge that shows the sewer what to align there.

@@ -11,6 +11,7 @@ pub mod document;
 pub mod dyes;
 pub mod edit;
 pub mod fabrics;
+pub mod grading;
 pub mod hashes;
 pub mod history;
 pub mod marks_file;

@@ -8,7 +8,10 @@ use serde_json::json;
 use crate::geometry::ids::{GraphicId, ImageId, PieceId, SeamId};
 use crate::io::words::readable;
 use crate::pattern::edit::{PatternEdit, PointRef};
-use crate::pattern::{Edge, EdgeRef, EdgeShape, InternalLine, Pattern, Piece, PlanePose, Seam, SpacePose};
+use crate::pattern::grading::READY_SIZES;
+use crate::pattern::{
+    Edge, EdgeRef, EdgeShape, GradeRule, InternalLine, Pattern, Piece, PlanePose, RulePoint, Seam, SpacePose,
+};
 use crate::session::{BodyChoice, Command, Dye, Graphic, ImageFile, Repeated, Session, Settings};
 use crate::sim::{Runner, Simulation};
 use crate::trust::good;
@@ -105,13 +108,14 @@ fn of_images(piece: PieceId, [low, high]: [DVec2; 2]) -> serde_json::Value {
 }
 
 /// Edits of two pieces and the seam between them.
-fn edits([front, back]: [PieceId; 2], seam: SeamId) -> [Vec<PatternEdit>; 5] {
+fn edits([front, back]: [PieceId; 2], seam: SeamId) -> [Vec<PatternEdit>; 6] {
     let [low, high] = [(0.05, 0.05), (0.2, 0.2)].map(DVec2::from);
     let pocket = Piece::polygon("pocket", &[low, DVec2::new(0.1, 0.05), DVec2::new(0.1, 0.1)]);
     let line = InternalLine {
         name: "dart".to_owned(),
         edges: vec![Edge { start: DVec2::new(0.0, 0.1), ..Edge::default() }],
         end: DVec2::new(0.36, 0.12),
+        ..InternalLine::default()
     };
     let edge = EdgeRef { piece: back, edge: 2 };
     let curve = EdgeShape::Quadratic { control: DVec2::new(0.18, 0.36) };
@@ -146,6 +150,20 @@ fn edits([front, back]: [PieceId; 2], seam: SeamId) -> [Vec<PatternEdit>; 5] {
             PatternEdit::MakeSymmetric { piece: back, axis: [DVec2::new(0.18, 0.0), DVec2::new(0.18, 0.3)] },
             PatternEdit::SetLayer { pieces: vec![back], layer: 2 },
         ],
+        of_sizes([front, back]),
+    ]
+}
+
+/// Edits of sizes and grade rules.
+fn of_sizes([front, back]: [PieceId; 2]) -> Vec<PatternEdit> {
+    let ready = READY_SIZES[0].run();
+    let rule = GradeRule::even(DVec2::new(0.01, 0.005), ready.len(), ready.base);
+    let at = |piece, point| RulePoint { piece, line: None, point };
+    vec![
+        PatternEdit::SetSizes { sizes: ready },
+        PatternEdit::SetRules { rules: vec![(at(front, 1), Some(rule.clone())), (at(back, 2), Some(rule))] },
+        PatternEdit::SetRules { rules: vec![(at(front, 1), None)] },
+        PatternEdit::SetSizes { sizes: READY_SIZES[1].run() },
     ]
 }
 

@@ -10,8 +10,10 @@ use crate::geometry::shapes::cylinder;
 use crate::io::glb;
 use crate::io::materials::Colours;
 use crate::io::obj;
+use crate::io::rul::RuleTable;
+use crate::pattern::grading::READY_SIZES;
 use crate::pattern::{
-    Edge, EdgeRef, EdgeShape, InternalLine, Notch, Pattern, Piece, PlanePose, Seam, SpacePose,
+    Edge, EdgeRef, EdgeShape, GradeRule, InternalLine, Notch, Pattern, Piece, PlanePose, Seam, SpacePose,
 };
 use crate::session::{BodyChoice, Command, Document, Dye, Motif, Print, Project, Session, Settings};
 use crate::sim::{Runner, Simulation};
@@ -28,8 +30,12 @@ pub fn pattern() -> Pattern {
     let hole = [(0.15, 0.15), (0.15, 0.2), (0.2, 0.2)].map(DVec2::from);
     front.holes = vec![Piece::polygon("hole", &hole).outline];
     let line = Edge { start: DVec2::new(0.05, 0.1), ..front.outline[1].clone() };
-    front.lines =
-        vec![InternalLine { name: "fold".to_owned(), edges: vec![line], end: DVec2::new(0.3, 0.1) }];
+    front.lines = vec![InternalLine {
+        name: "fold".to_owned(),
+        edges: vec![line],
+        end: DVec2::new(0.3, 0.1),
+        ..InternalLine::default()
+    }];
     front.notches = vec![Notch { edge: 1, at: 0.5 }];
     front.grainline = Some([(0.1, 0.05), (0.1, 0.25)].map(DVec2::from));
     front.allowance = 0.01;
@@ -219,6 +225,17 @@ pub const MOTION: &str = "HIERARCHY\nROOT Hips\n{\n OFFSET 0 90 0\n CHANNELS 6 X
     Xrotation Yrotation\n JOINT LeftUpLeg\n {\n  OFFSET 10 0 0\n  CHANNELS 3 Zrotation Xrotation Yrotation\n  JOINT LeftLeg\n  \
     {\n   OFFSET 0 -40 0\n   CHANNELS 3 Zrotation Xrotation Yrotation\n   End Site\n   {\n    OFFSET 0 -40 0\n   }\n  }\n }\n}\n\
     MOTION\nFrames: 2\nFrame Time: 0.0333\n0 90 0 0 0 0 0 30 0 0 10 0\n0 91 4 0 5 0 0 -30 0 0 45 0\n";
+
+/// A grade rule table.
+pub fn rules() -> Vec<u8> {
+    let sizes = READY_SIZES[0].run();
+    let mut table = RuleTable { sizes, ..RuleTable::default() };
+    for step in [0.01, 0.02] {
+        let rule = GradeRule::even(DVec2::new(step, -step), table.sizes.len(), table.sizes.base);
+        table.number(&rule);
+    }
+    table.write("SHIRT")
+}
 
 /// CSV table of sizes.
 pub const SIZES: &str =

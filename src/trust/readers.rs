@@ -8,7 +8,9 @@ use crate::body::pose::motion::Retarget;
 use crate::body::{Unit, UpAxis, import};
 use crate::geometry::mesh::TriMesh;
 use crate::io::moving_body::MovingBody;
-use crate::io::{body_file, bvh, cloth_obj, dxf, garmentcode, joints, pattern_formats, picture, sizes, svg};
+use crate::io::{
+    body_file, bvh, cloth_obj, dxf, garmentcode, joints, pattern_formats, picture, rul, sizes, svg,
+};
 use crate::pattern::Pattern;
 use crate::session::body::Body;
 use crate::session::recording::Recording;
@@ -92,6 +94,9 @@ pub fn readers() -> Vec<Reader> {
         Reader::new("sizes", Form::Text, vec![good::SIZES.as_bytes().to_vec()], |bytes| {
             let sizes = sizes::read(bytes).map_err(|e| e.to_string())?;
             sizes.iter().try_for_each(|size| size.checked().map(drop)).map_err(|e| e.to_string())
+        }),
+        Reader::new("grade rules", Form::Text, vec![good::rules()], |bytes| {
+            rul::read(bytes).map(drop).map_err(|e| e.to_string())
         }),
         Reader::new("motion", Form::Text, vec![motions], motion),
         Reader::new("picture", Form::Bytes, vec![good::picture()], |bytes| picture::read(bytes).map(drop)),

@@ -341,6 +341,7 @@ fn a_cut_piece_is_sewn_as_before_and_along_the_cut() {
         }],
         end: v(0.3, 0.2),
         name: String::new(),
+        ..InternalLine::default()
     };
     let result = edited(&pattern, PatternEdit::Cut { piece: A, line: line.clone(), sew: true });
     let cut = &result.pattern;
@@ -531,6 +532,7 @@ fn random(pattern: &Pattern, c: &mut Chance) -> PatternEdit {
                 edges: vec![Edge { start: near(c, 0.1), ..Edge::default() }],
                 end: near(c, 0.4),
                 name: String::new(),
+                ..InternalLine::default()
             };
             match pattern.pieces.get(&piece) {
                 Some(p) => {

@@ -120,7 +120,7 @@ fn a_scaled_piece_takes_its_marks_pins_and_cloth_along() {
 fn cutting_stitching_and_taking_away_work_while_dressed() {
     let mut s = dressed();
     let edges = vec![Edge { start: DVec2::new(0.1, 0.0), ..Edge::default() }];
-    let line = InternalLine { edges, end: DVec2::new(0.1, 0.3), name: String::new() };
+    let line = InternalLine { edges, end: DVec2::new(0.1, 0.3), ..InternalLine::default() };
     s.apply_alone(edit(vec![PatternEdit::Cut { piece: RIGHT, line, sew: true }])).expect("cut");
     run(&mut s, 3000);
     assert_eq!(s.document().pattern.pieces.len(), 3);

@@ -11,6 +11,7 @@ mod determinism;
 mod dragging;
 mod draping;
 mod fuzz;
+mod grading;
 mod live;
 mod project_files;
 mod random_work;

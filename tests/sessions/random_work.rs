@@ -240,6 +240,7 @@ impl Work {
                     name: String::new(),
                     edges: vec![Edge { start: from, ..Edge::default() }],
                     end: to,
+                    ..InternalLine::default()
                 };
                 PatternEdit::Cut { piece, line, sew: self.heads() }
             }
@@ -256,6 +257,7 @@ impl Work {
                     name: "fold".to_owned(),
                     edges: vec![Edge { start: from, ..Edge::default() }],
                     end: to,
+                    ..InternalLine::default()
                 };
                 PatternEdit::AddLine { piece, line }
             }

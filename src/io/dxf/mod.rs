@@ -4,7 +4,7 @@
 //! | --- | --- |
 //! | 1 | the cut line; where there is no layer 14, the only outline there is |
 //! | 14 | the seam line (in Valentina's AAMA files on layer 8) |
-//! | 2, 3 | corners, points of curves; a point on both is an end of an edge where the line runs on smoothly |
+//! | 2, 3 | corners, points of curves; a point on both is an end of an edge where the line runs on smoothly; texts "# 7" at points with a grade rule of that number in the table beside the file (`io::rul`) |
 //! | 4, 80–83 | notches |
 //! | 7 | grainline |
 //! | 8, 6 | internal lines, mirror line |
@@ -22,7 +22,7 @@ mod units;
 mod write;
 
 pub use clean::looks_like;
-pub use read::read;
+pub use read::{read, read_with_rules};
 pub use write::write;
 
 /// Layer numbers of AAMA-292 and ASTM D6673.

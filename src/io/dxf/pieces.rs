@@ -8,6 +8,7 @@ use super::drawn::{Drawn, DrawnLine, LineShape};
 use super::layer;
 use crate::io::Limits;
 use crate::io::pattern_file::PatternFileError;
+use crate::io::rul::RuleTable;
 use crate::io::trace::Traced;
 use crate::io::trace::contour::Contour;
 use crate::io::trace::fit::{self, Knot};
@@ -18,6 +19,8 @@ use crate::pattern::{Edge, InternalLine};
 const MEETING: f64 = 1e-4;
 /// Largest distance (in x and in y, metres) between a corner or curve mark and the point of a line that it marks.
 const SAME_POINT: f64 = 2e-5;
+/// Largest distance between a point and the text that numbers its grade rule, metres.
+const AT_POINT: f64 = 1e-3;
 /// Largest number of open parts from which outlines are joined; a block with more keeps them open, as joining takes quadratic
 /// time.
 const MOST_PARTS: usize = 2000;
@@ -98,7 +101,7 @@ pub fn told_apart(loose: Drawn) -> Result<Vec<Drawn>, PatternFileError> {
 }
 
 /// The piece of each block, in metres. A block without a closed line gives a note instead.
-pub fn traced(all: Vec<Drawn>, notes: &mut Vec<String>) -> Vec<Traced> {
+pub fn traced(all: Vec<Drawn>, rules: Option<&RuleTable>, notes: &mut Vec<String>) -> Vec<Traced> {
     let mut names: BTreeMap<String, usize> = BTreeMap::new();
     let mut traced = Vec::new();
     for drawn in all {
@@ -112,7 +115,12 @@ pub fn traced(all: Vec<Drawn>, notes: &mut Vec<String>) -> Vec<Traced> {
             name = format!("{name} {count}");
         }
         match piece(&drawn, name.clone(), notes) {
-            Some(piece) => traced.push(piece),
+            Some(mut piece) => {
+                if let Some(rules) = rules {
+                    notes.extend(piece.take_rules(&drawn, rules));
+                }
+                traced.push(piece);
+            }
             None => notes.push(format!("{name}: it has no closed line and was left out")),
         }
     }
@@ -185,7 +193,12 @@ fn piece(drawn: &Drawn, name: String, notes: &mut Vec<String>) -> Option<Traced>
                 traced.holes.push(line.edges);
             } else {
                 let end = line.edges[0].start;
-                traced.lines.push(InternalLine { edges: line.edges, end, name: line_name(of) });
+                traced.lines.push(InternalLine {
+                    edges: line.edges,
+                    end,
+                    name: line_name(of),
+                    ..InternalLine::default()
+                });
             }
         }
     }
@@ -223,6 +236,38 @@ pub fn line_layer(name: &str) -> Option<u32> {
 }
 
 impl Traced {
+    /// Gives the points at texts such as "# 7" the rule of that number. Returns a note on those that found no point or rule.
+    fn take_rules(&mut self, drawn: &Drawn, table: &RuleTable) -> Option<String> {
+        let number = |text: &str| text.trim().strip_prefix('#')?.trim().parse::<u32>().ok();
+        let labels = drawn.texts.iter().filter_map(|(_, text, at)| Some((number(text)?, *at)));
+        let (mut lost, mut unknown) = (0, 0);
+        for (number, at) in labels {
+            let Some(rule) = table.rules.get(&number) else {
+                unknown += 1;
+                continue;
+            };
+            let Self { outline, holes, lines, .. } = self;
+            let closed = outline.iter_mut().chain(holes.iter_mut().flatten());
+            let closed = closed.map(|edge| (edge.start, &mut edge.rule));
+            let open = lines.iter_mut().flat_map(|line| {
+                let end = [(line.end, &mut line.end_rule)];
+                line.edges.iter_mut().map(|edge| (edge.start, &mut edge.rule)).chain(end)
+            });
+            let near = closed.chain(open).map(|(p, slot)| (p.distance(at), slot));
+            match near.filter(|(d, _)| *d <= AT_POINT).min_by(|a, b| a.0.total_cmp(&b.0)) {
+                Some((_, slot)) => *slot = Some(rule.clone()),
+                None => lost += 1,
+            }
+        }
+        let words = |count: usize, words: &str| (count > 0).then(|| format!("{count} {words}"));
+        let told = [
+            words(lost, "grade rules are at no end of an edge; these points follow those beside them"),
+            words(unknown, "grade rules are not in the table"),
+        ];
+        let told: Vec<String> = told.into_iter().flatten().collect();
+        (!told.is_empty()).then(|| format!("{}: {}", self.name, told.join("; ")))
+    }
+
     fn take_open(&mut self, open: Vec<(Option<u32>, Vec<Edge>, DVec2)>, notes: &mut Vec<String>) {
         for (of, edges, end) in open {
             match of {
@@ -244,7 +289,12 @@ impl Traced {
                             self.name
                         ));
                     }
-                    self.lines.push(InternalLine { edges, end, name: line_name(of) });
+                    self.lines.push(InternalLine {
+                        edges,
+                        end,
+                        name: line_name(of),
+                        ..InternalLine::default()
+                    });
                 }
             }
         }

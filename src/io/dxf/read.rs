@@ -11,6 +11,7 @@ use super::drawn::{Drawn, DrawnLine, LineShape, Placing};
 use super::{layer, pieces, units};
 use crate::io::Limits;
 use crate::io::pattern_file::{PatternFileError, ReadPattern};
+use crate::io::rul::RuleTable;
 use crate::io::scale::DrawingUnit;
 use crate::io::trace;
 use crate::pattern::{Edge, EdgeShape};
@@ -20,6 +21,18 @@ use crate::pattern::{Edge, EdgeShape};
 /// # Errors
 /// What cannot be read, with its line; a value over one of the [`Limits`]; or a question when the unit is not known.
 pub fn read(bytes: &[u8], unit: Option<DrawingUnit>) -> Result<ReadPattern, PatternFileError> {
+    read_with_rules(bytes, unit, None)
+}
+
+/// Reads a pattern like [`read`], with the grade rules of the table that came beside it.
+///
+/// # Errors
+/// As for [`read`].
+pub fn read_with_rules(
+    bytes: &[u8],
+    unit: Option<DrawingUnit>,
+    rules: Option<&RuleTable>,
+) -> Result<ReadPattern, PatternFileError> {
     let mut clean = clean::clean(bytes)?;
     let drawing = Drawing::load_with_encoding(&mut clean.text.as_bytes(), encoding_rs::UTF_8)
         .map_err(|e| PatternFileError::Whole(format!("no sound DXF: {e}")))?;
@@ -58,7 +71,7 @@ pub fn read(bytes: &[u8], unit: Option<DrawingUnit>) -> Result<ReadPattern, Patt
         contents.transform(&scale);
         contents.check(limits.pattern_coordinate)?;
     }
-    let traced = pieces::traced(all, &mut notes);
+    let traced = pieces::traced(all, rules, &mut notes);
     if traced.is_empty() {
         return Err(nothing(&clean, &notes));
     }
@@ -66,7 +79,8 @@ pub fn read(bytes: &[u8], unit: Option<DrawingUnit>) -> Result<ReadPattern, Patt
         let words = format!("{} pieces; {} are allowed", traced.len(), limits.pieces);
         return Err(PatternFileError::OverLimit(words));
     }
-    let (pattern, more) = trace::pattern(traced);
+    let (mut pattern, more) = trace::pattern(traced);
+    pattern.sizes = rules.map(|table| table.sizes.clone()).unwrap_or_default();
     notes.extend(more);
     Ok(ReadPattern { pattern, notes })
 }

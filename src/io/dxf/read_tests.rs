@@ -145,6 +145,7 @@ fn a_full_piece_comes_back() {
         edges: vec![Edge { start: p(0.2, 0.1), ..Edge::default() }],
         end: p(0.2, 0.3),
         name: String::new(),
+        ..crate::pattern::InternalLine::default()
     });
     piece.notches = vec![Notch { edge: 1, at: 0.3 }, Notch { edge: 3, at: 0.7 }];
     piece.grainline = Some([p(0.25, 0.1), p(0.25, 0.4)]);
@@ -180,4 +181,45 @@ fn a_full_piece_comes_back() {
         crate::pattern::piece::flattened_loop(edges, 1e-5).len() as f64
     };
     assert_eq!(lengths(&once), lengths(&twice));
+}
+
+/// Rules go out as numbers at their points and a table beside, and come in again, whatever way the piece lies.
+#[test]
+fn grade_rules_come_back_with_their_table() {
+    use crate::io::rul;
+    use crate::pattern::grading::{READY_SIZES, graded};
+    use crate::pattern::{GradeRule, PlanePose};
+    let p = |x: f64, y: f64| DVec2::new(x, y);
+    let sizes = READY_SIZES[0].run();
+    let rule = |x: f64, y: f64| Some(GradeRule::even(p(x, y), sizes.len(), sizes.base));
+    for (rotation, flipped) in [(0.0, false), (std::f64::consts::FRAC_PI_2, false), (0.4, true)] {
+        let mut piece = Piece::polygon("front", &[p(0.0, 0.0), p(0.3, 0.0), p(0.3, 0.5), p(0.0, 0.5)]);
+        piece.outline[1].rule = rule(0.01, 0.0);
+        piece.outline[2].rule = rule(0.01, 0.005);
+        piece.lines.push(crate::pattern::InternalLine {
+            edges: vec![Edge { start: p(0.1, 0.1), ..Edge::default() }],
+            end: p(0.1, 0.3),
+            end_rule: rule(0.0, 0.005),
+            ..crate::pattern::InternalLine::default()
+        });
+        piece.pose = PlanePose { offset: p(0.2, 0.1), rotation, flipped };
+        let mut pattern = Pattern { sizes: sizes.clone(), ..Pattern::default() };
+        let id = pattern.add_piece(piece);
+        let written = write(&pattern);
+        assert!(written.left_out.is_empty(), "{:?}", written.left_out);
+        let table = rul::read(&written.rules.expect("a table")).expect("a sound table");
+        assert_eq!((table.rules.len(), &table.sizes), (3, &sizes));
+        let read = read_with_rules(&written.bytes, None, Some(&table)).expect("a pattern");
+        assert!(read.notes.is_empty(), "{:?}", read.notes);
+        assert_eq!(read.pattern.sizes, sizes);
+        for size in ["XS", "L", "XXL"] {
+            let [was, is] = [&pattern, &read.pattern]
+                .map(|pattern| graded(pattern, size).expect("a size").pattern.pieces[&id].clone());
+            assert!((was.signed_area().abs() - is.signed_area().abs()).abs() < 1e-7, "{size} {rotation}");
+            let length = |piece: &Piece| piece.lines[0].edges[0].start.distance(piece.lines[0].end);
+            assert!((length(&was) - length(&is)).abs() < 1e-6, "{size} {rotation}");
+        }
+        let read = super::read(&written.bytes, None).expect("a pattern without its table");
+        assert!(read.pattern.sizes.is_empty());
+    }
 }

@@ -12,6 +12,7 @@ use glam::DVec2;
 use super::layer;
 use super::pieces::line_layer;
 use crate::io::Written;
+use crate::io::rul::RuleTable;
 use crate::io::trace::contour::Contour;
 use crate::io::trace::fit::Knot;
 use crate::io::trace::{self, Traced, allowance, sample};
@@ -19,7 +20,7 @@ use crate::io::written::{self, Part};
 use crate::pattern::{Pattern, Piece};
 
 /// Parts of a pattern that this format can hold.
-const HOLDS: [Part; 8] = [
+const HOLDS: [Part; 9] = [
     Part::Curves,
     Part::SmoothPoints,
     Part::Holes,
@@ -28,6 +29,7 @@ const HOLDS: [Part; 8] = [
     Part::Grainline,
     Part::Allowance,
     Part::CutLine,
+    Part::Sizes,
 ];
 /// Millimetres in a metre.
 const SCALE: f64 = 1000.0;
@@ -46,6 +48,7 @@ pub fn write(pattern: &Pattern) -> Written {
         drawing.add_layer(Layer { name: number.to_string(), ..Layer::default() });
     }
     let mut names = BTreeSet::new();
+    let mut rules = RuleTable { sizes: pattern.sizes.clone(), ..RuleTable::default() };
     let corners: Vec<DVec2> =
         pattern.pieces.values().flat_map(|piece| trace::on_table(piece).bounds()).collect();
     let (lower, upper) = Contour::new(corners).bounds();
@@ -53,14 +56,16 @@ pub fn write(pattern: &Pattern) -> Written {
     drawing.header.maximum_drawing_extents = point(upper);
     for piece in pattern.pieces.values() {
         let name = block_name(&piece.name, &mut names);
-        let entities = entities(&mut drawing, piece);
+        let entities = entities(&mut drawing, piece, &mut rules);
         let block = Block { name: name.clone(), layer: "1".to_owned(), entities, ..Block::default() };
         drawing.add_block(block);
         drawing.add_entity(on(layer::BOUNDARY, EntityType::Insert(Insert { name, ..Insert::default() })));
     }
-    for (i, words) in
-        ["STYLE NAME: PATTERN", "AUTHOR: TOILE", "SAMPLE SIZE: 1", "UNITS: METRIC"].iter().enumerate()
-    {
+    let is_graded = !pattern.sizes.is_empty();
+    let sample = format!("SAMPLE SIZE: {}", sample_size(&rules));
+    let mut words = vec!["STYLE NAME: PATTERN", "AUTHOR: TOILE", &sample, "UNITS: METRIC"];
+    words.extend(is_graded.then_some("GRADE RULE TABLE: PATTERN"));
+    for (i, words) in words.iter().enumerate() {
         let at = DVec2::new(0.0, -2.0 * LETTERS * i as f64);
         drawing.add_entity(text(layer::BOUNDARY, at, words));
     }
@@ -75,7 +80,13 @@ pub fn write(pattern: &Pattern) -> Written {
     if let Err(error) = drawing.save(&mut bytes) {
         left_out.push(format!("the drawing could not be written: {error}"));
     }
-    Written { bytes: without_times(&bytes), left_out }
+    let rules = is_graded.then(|| rules.write("PATTERN"));
+    Written { bytes: without_times(&bytes), left_out, rules }
+}
+
+/// The size that the drawing is in.
+fn sample_size(rules: &RuleTable) -> &str {
+    if rules.sizes.is_empty() { "1" } else { rules.sizes.base_name() }
 }
 
 /// Removes the header's timestamps (`$TD…`), so that equal patterns give equal bytes.
@@ -114,7 +125,7 @@ fn block_name(name: &str, taken: &mut BTreeSet<String>) -> String {
     unique
 }
 
-fn entities(drawing: &mut Drawing, piece: &Piece) -> Vec<Entity> {
+fn entities(drawing: &mut Drawing, piece: &Piece, rules: &mut RuleTable) -> Vec<Entity> {
     let Traced { name, outline, cut_line, holes, lines, notches, grainline } = trace::on_table(piece);
     let mut sheet = Sheet { drawing, entities: Vec::new() };
     let cut = if cut_line.is_empty() { &outline } else { &cut_line };
@@ -138,8 +149,20 @@ fn entities(drawing: &mut Drawing, piece: &Piece) -> Vec<Entity> {
         let line = Line { p1: point(tail), p2: point(head), ..Line::default() };
         sheet.entities.push(on(layer::GRAIN, EntityType::Line(line)));
     }
+    let closed = outline.iter().chain(holes.iter().flatten()).map(|edge| (edge.start, &edge.rule));
+    let open = lines.iter().flat_map(|line| {
+        let edges = line.edges.iter().map(|edge| (edge.start, &edge.rule));
+        edges.chain([(line.end, &line.end_rule)])
+    });
+    for (at, rule) in closed.chain(open) {
+        if let Some(rule) = rule {
+            let number = format!("# {}", rules.number(rule));
+            sheet.entities.push(text(layer::CORNER, at * SCALE, &number));
+        }
+    }
     let middle = Contour::new(outline.iter().map(|e| e.start).collect()).middle();
-    let words = [format!("PIECE NAME: {name}"), "SIZE: 1".to_owned(), "QUANTITY: 1".to_owned()];
+    let size = format!("SIZE: {}", sample_size(rules));
+    let words = [format!("PIECE NAME: {name}"), size, "QUANTITY: 1".to_owned()];
     for (i, words) in words.iter().enumerate() {
         let at = middle * SCALE - DVec2::Y * (2.0 * LETTERS * i as f64);
         sheet.entities.push(text(layer::BOUNDARY, at, words));

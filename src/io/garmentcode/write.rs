@@ -45,7 +45,7 @@ pub fn write(pattern: &Pattern) -> Written {
     };
     let mut bytes = serde_json::to_vec_pretty(&file).unwrap_or_default();
     bytes.push(b'\n');
-    Written { bytes, left_out }
+    Written { bytes, left_out, rules: None }
 }
 
 /// The JSON of the file, which keeps the order of panels; `serde_json::Value` would not.

@@ -90,7 +90,7 @@ pub fn write(pattern: &Pattern, name: &str, paper: Paper) -> Result<Written, Pdf
         Some(size) => sheet.tiles(&mut document, &pens, name, size)?,
     }
     let bytes = document.finish().map_err(|e| PdfError::Library(format!("{e:?}")))?;
-    Ok(Written { bytes, left_out: written::left_out(pattern, &HOLDS) })
+    Ok(Written { bytes, left_out: written::left_out(pattern, &HOLDS), rules: None })
 }
 
 /// All pieces with their bounding boxes, in millimetres with y down from the upper left corner of all.

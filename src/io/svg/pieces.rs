@@ -60,7 +60,7 @@ fn told(lines: Vec<Line>) -> Vec<Traced> {
             "hole" => piece.holes.push(edges),
             "notch" => piece.notches.push(edges[0].start),
             "grain" => piece.grainline = Some([edges[0].start, line.end]),
-            _ => piece.lines.push(InternalLine { edges, end: line.end, name }),
+            _ => piece.lines.push(InternalLine { edges, end: line.end, name, ..InternalLine::default() }),
         }
     }
     pieces.into_values().filter(|piece| piece.outline.len() > 1).collect()
@@ -181,12 +181,22 @@ impl Outer {
                 traced.holes.push(edges);
             } else {
                 let name = line.shape.name.clone().unwrap_or_default();
-                traced.lines.push(InternalLine { end: edges[0].start, edges, name });
+                traced.lines.push(InternalLine {
+                    end: edges[0].start,
+                    edges,
+                    name,
+                    ..InternalLine::default()
+                });
             }
         }
         for line in self.open {
             let name = line.shape.name.clone().unwrap_or_default();
-            traced.lines.push(InternalLine { edges: fitted(&line), end: line.end, name });
+            traced.lines.push(InternalLine {
+                edges: fitted(&line),
+                end: line.end,
+                name,
+                ..InternalLine::default()
+            });
         }
         traced
     }

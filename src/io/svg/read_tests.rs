@@ -113,7 +113,12 @@ fn a_full_piece_comes_back() {
         [p(0.1, 0.1), p(0.15, 0.1), p(0.15, 0.2)].map(|start| Edge { start, ..Edge::default() }).to_vec(),
     );
     let edge = Edge { start: p(0.2, 0.1), ..Edge::default() };
-    piece.lines.push(InternalLine { edges: vec![edge], end: p(0.2, 0.3), name: "pocket".to_owned() });
+    piece.lines.push(InternalLine {
+        edges: vec![edge],
+        end: p(0.2, 0.3),
+        name: "pocket".to_owned(),
+        ..InternalLine::default()
+    });
     piece.notches = vec![Notch { edge: 1, at: 0.3 }, Notch { edge: 3, at: 0.7 }];
     piece.grainline = Some([p(0.25, 0.1), p(0.25, 0.4)]);
     piece.allowance = 0.01;

@@ -73,7 +73,7 @@ pub fn write(pattern: &Pattern) -> Written {
         format!("fill=\"#333333\" font-family=\"sans-serif\" font-size=\"{LETTERS}\" text-anchor=\"middle\"");
     layer(&mut text, "Names", &style, &names);
     text.push_str("</svg>\n");
-    Written { bytes: text.into_bytes(), left_out: written::left_out(pattern, &HOLDS) }
+    Written { bytes: text.into_bytes(), left_out: written::left_out(pattern, &HOLDS), rules: None }
 }
 
 fn layer(text: &mut String, label: &str, style: &str, contents: &str) {

@@ -12,7 +12,7 @@ use kurbo::{ParamCurve, ParamCurveArclen, ParamCurveNearest};
 
 use crate::io::sheet;
 use crate::pattern::piece::flattened_loop;
-use crate::pattern::{Edge, InternalLine, Notch, Pattern, Piece, PlanePose, curve};
+use crate::pattern::{Edge, GradeRule, InternalLine, Notch, Pattern, Piece, PlanePose, curve};
 use contour::Contour;
 
 /// Flattening tolerance of outlines where shapes are compared, metres.
@@ -71,9 +71,14 @@ pub fn on_table(piece: &Piece) -> Traced {
         if turns_over { DVec2::new(2.0 * centre.x - q.x, q.y) } else { q }
     };
     let turns = pose.flipped != turns_over;
+    let turned = |rule: &GradeRule| rule.mapped(|by| place(by) - place(DVec2::ZERO));
     let placed = |edges: &[Edge]| -> Vec<Edge> {
-        let placed =
-            |e: &Edge| Edge { start: place(e.start), shape: e.shape.mapped(turns, place), ..e.clone() };
+        let placed = |e: &Edge| Edge {
+            start: place(e.start),
+            shape: e.shape.mapped(turns, place),
+            rule: e.rule.as_ref().map(turned),
+            ..e.clone()
+        };
         edges.iter().map(placed).collect()
     };
     Traced {
@@ -84,7 +89,12 @@ pub fn on_table(piece: &Piece) -> Traced {
         lines: piece
             .lines
             .iter()
-            .map(|l| InternalLine { edges: placed(&l.edges), end: place(l.end), name: l.name.clone() })
+            .map(|l| InternalLine {
+                edges: placed(&l.edges),
+                end: place(l.end),
+                name: l.name.clone(),
+                end_rule: l.end_rule.as_ref().map(turned),
+            })
             .collect(),
         notches: piece.notches.iter().map(|n| place(piece.edge_points(n.edge, &[n.at])[0])).collect(),
         grainline: piece.grainline.map(|ends| ends.map(place)),
@@ -125,7 +135,7 @@ fn piece_of(traced: Traced) -> (Piece, usize) {
         holes: holes.into_iter().map(|hole| moved(hole, middle)).collect(),
         lines: lines
             .into_iter()
-            .map(|l| InternalLine { edges: moved(l.edges, middle), end: l.end - middle, name: l.name })
+            .map(|l| InternalLine { edges: moved(l.edges.clone(), middle), end: l.end - middle, ..l })
             .collect(),
         grainline: grainline.map(|ends| ends.map(|p| p - middle)),
         allowance,

@@ -11,7 +11,7 @@ use crate::pattern::edit::pieces::{change, fresh_name};
 use crate::pattern::edit::symmetry::loosen;
 use crate::pattern::edit::{Carried, Change, find, points, symmetric_image};
 use crate::pattern::piece::flattened_loop;
-use crate::pattern::{Edge, EdgeRef, InternalLine, Notch, Pattern, Piece, Seam, Stretch};
+use crate::pattern::{Edge, EdgeRef, GradeRule, InternalLine, Notch, Pattern, Piece, Seam, Stretch};
 
 /// Distance by which an end of a cut may miss the outline, metres.
 const NEAR: f64 = 2e-3;
@@ -55,8 +55,10 @@ pub(super) fn cut(
         let count = (to + n - from) % n;
         (0..count).map(|k| (from + k) % n).collect()
     };
-    let forward: Vec<Edge> = path.edges.clone();
+    let mut forward: Vec<Edge> = path.edges.clone();
     let m = forward.len();
+    forward[0].rule = piece.outline[a].rule.clone();
+    path.end_rule = piece.outline[b].rule.clone();
     let halves = [(run(a, b), backwards(&path)), (run(b, a), forward)];
     let outlines: Vec<Vec<Edge>> = halves
         .iter()
@@ -150,7 +152,12 @@ fn backwards(line: &InternalLine) -> Vec<Edge> {
     let end = |i: usize| line.edges.get(i + 1).map_or(line.end, |e| e.start);
     (0..n)
         .rev()
-        .map(|i| Edge { start: end(i), shape: line.edges[i].shape.reversed(), ..Edge::default() })
+        .map(|i| Edge {
+            start: end(i),
+            shape: line.edges[i].shape.reversed(),
+            rule: line.edges.get(i + 1).map_or(&line.end_rule, |e| &e.rule).clone(),
+            ..Edge::default()
+        })
         .collect()
 }
 
@@ -290,8 +297,10 @@ fn one_dart(pattern: &mut Pattern, edge: EdgeRef, from: f64, to: f64, depth: f64
     }
     let mut edges = piece.loop_edges(k).clone();
     let own = mouth.edge - first;
-    edges[own] = Edge { start: a, ..Edge::default() };
-    edges.insert(own + 1, Edge { start: tip, ..Edge::default() });
+    let rules = [own, (own + 1) % edges.len()].map(|i| edges[i].rule.clone());
+    let of_tip = GradeRule::between(rules[0].as_ref(), rules[1].as_ref(), 0.5);
+    edges[own] = Edge { start: a, rule: rules[0].clone(), ..Edge::default() };
+    edges.insert(own + 1, Edge { start: tip, rule: of_tip, ..Edge::default() });
     if let Some(behind) = edges.get_mut(own + 2) {
         behind.smooth = false;
     }

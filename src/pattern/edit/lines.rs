@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::geometry::ids::{PieceId, SeamId};
-use crate::pattern::{Edge, EdgeRef, Notch, Pattern, Piece, Seam, Stretch, curve};
+use crate::pattern::{Edge, EdgeRef, GradeRule, Notch, Pattern, Piece, Seam, Stretch, curve};
 
 /// Difference of fractions of an edge up to which two places count as one.
 const SAME: f64 = 1e-9;
@@ -134,7 +134,13 @@ pub(super) fn insert_points(pattern: &mut Pattern, edge: EdgeRef, fractions: &[f
         // A point inserted on a curve is smooth.
         let curved = !matches!(shape, crate::pattern::EdgeShape::Line);
         let smooth = if i == 0 { old[at].smooth } else { curved };
-        Edge { start, shape, smooth, label: old[at].label.clone() }
+        let place = if i == 0 { 0.0 } else { fractions[i - 1] };
+        let rule = if i == 0 {
+            old[at].rule.clone()
+        } else {
+            GradeRule::between(old[at].rule.as_ref(), old[(at + 1) % old.len()].rule.as_ref(), place)
+        };
+        Edge { start, shape, smooth, label: old[at].label.clone(), rule }
     });
     edges.splice(at..=at, new);
     let mut bounds = vec![0.0];

@@ -7,7 +7,9 @@ use glam::{DQuat, DVec2, DVec3};
 
 use crate::geometry::ids::PieceId;
 use crate::pattern::curve::{self, mirror};
-use crate::pattern::{EdgeRef, InternalLine, Notch, Pattern, Piece, Roll, Seam, SpacePose, Stretch};
+use crate::pattern::{
+    EdgeRef, GradeRule, InternalLine, Notch, Pattern, Piece, Roll, Seam, SpacePose, Stretch,
+};
 
 /// The degrees of freedom of a pattern: the points that move freely, and how the others follow from them by mirroring.
 pub(super) struct Dofs {
@@ -146,9 +148,11 @@ pub(super) fn take_image(piece: &mut Piece, twin: &Piece) {
 pub(super) fn image_line(line: &InternalLine) -> InternalLine {
     let mut new = line.clone();
     new.end = mirror(line.end);
+    new.end_rule = line.end_rule.as_ref().map(GradeRule::mirrored);
     for edge in &mut new.edges {
         edge.start = mirror(edge.start);
         edge.shape = edge.shape.mapped(true, mirror);
+        edge.rule = edge.rule.as_ref().map(GradeRule::mirrored);
     }
     new
 }
@@ -170,6 +174,10 @@ pub(super) fn mend_symmetry(piece: &mut Piece) {
     let n = piece.outline.len();
     piece.outline[0].start.x = 0.0;
     piece.outline[n / 2].start.x = 0.0;
+    for i in [0, n / 2] {
+        let rule = &mut piece.outline[i].rule;
+        *rule = rule.as_ref().map(|rule| rule.mapped(|by| DVec2::new(0.0, by.y)));
+    }
     let image = curve::mirrored(&piece.outline);
     let labels: Vec<_> = piece.outline.iter().map(|edge| edge.label.clone()).collect();
     for i in n / 2..n {

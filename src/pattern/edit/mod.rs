@@ -1,6 +1,7 @@
 //! Edits of a pattern. Pure functions: they return a new pattern, or a message that says why not.
 
 mod cutting;
+pub(in crate::pattern) mod grading;
 mod holes;
 mod lengths;
 mod lines;
@@ -21,7 +22,8 @@ use crate::geometry::ids::{PieceId, SeamId};
 use crate::pattern::activity::Activity;
 use crate::pattern::layers::MOST_LAYER;
 use crate::pattern::{
-    Edge, EdgeRef, EdgeShape, InternalLine, Pattern, Piece, PlanePose, Seam, SpacePose, curve,
+    Edge, EdgeRef, EdgeShape, GradeRule, InternalLine, Pattern, Piece, PlanePose, RulePoint, Seam, SizeRun,
+    SpacePose, curve,
 };
 pub use cutting::nearest_on_edge;
 pub use pieces::WIDEST_ALLOWANCE;
@@ -130,6 +132,12 @@ pub enum PatternEdit {
     /// Turn over pieces that are drawn from their backs, then reverse every seam that still joins the front of one
     /// piece to the back of another.
     UntwistSeams,
+
+    /// Set the sizes of the pattern. Rules keep what they say of sizes of the same name, or where no name stays, of those as far
+    /// from the base; new sizes go on in even steps. What is drawn is then the new base size. No sizes: all rules go.
+    SetSizes { sizes: SizeRun },
+    /// Set or remove (None) the grade rules of points. The images of points on twins and symmetric halves follow.
+    SetRules { rules: Vec<(RulePoint, Option<GradeRule>)> },
 }
 
 /// How points of a piece moved in an edit, so that what is drawn there can follow.
@@ -296,6 +304,8 @@ fn carry_out(pattern: &mut Pattern, edit: &PatternEdit) -> Result<Change, String
         PatternEdit::TurnSeam { seam } => sewing::turn(pattern, *seam),
         PatternEdit::SetRatio { seam, ratio } => sewing::set_ratio(pattern, *seam, *ratio),
         PatternEdit::UntwistSeams => twists::untwist_all(pattern),
+        PatternEdit::SetSizes { sizes } => grading::set_sizes(pattern, sizes),
+        PatternEdit::SetRules { rules } => grading::set_rules(pattern, rules),
     }
 }
 
@@ -304,6 +314,7 @@ fn pieces_named(edit: &PatternEdit) -> Vec<PieceId> {
     match edit {
         PatternEdit::Scale { pieces, .. } | PatternEdit::SetAllowance { pieces, .. } => pieces.clone(),
         PatternEdit::MovePoints { points } => points.iter().map(|(point, _)| point.piece).collect(),
+        PatternEdit::SetRules { rules } => rules.iter().map(|(point, _)| point.piece).collect(),
         PatternEdit::SetEdge { edge, .. }
         | PatternEdit::InsertPoint { edge, .. }
         | PatternEdit::AddDart { edge, .. }

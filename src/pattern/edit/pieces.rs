@@ -6,10 +6,11 @@ use std::sync::Arc;
 use glam::{DAffine2, DMat2, DVec2};
 
 use crate::geometry::ids::PieceId;
+use crate::pattern::edit::grading::drop_foreign;
 use crate::pattern::edit::lines::{self, Part};
 use crate::pattern::edit::{Carried, Change, find, is_symmetric, points};
 use crate::pattern::{
-    Edge, EdgeRef, EdgeShape, InternalLine, Pattern, Piece, PlanePose, Seam, SpacePose, curve,
+    Edge, EdgeRef, EdgeShape, GradeRule, InternalLine, Pattern, Piece, PlanePose, Seam, SpacePose, curve,
 };
 
 /// Widest seam allowance, metres.
@@ -22,6 +23,7 @@ const SCALES: std::ops::RangeInclusive<f64> = 1e-3..=1e3;
 pub(super) fn add(pattern: &mut Pattern, piece: &Arc<Piece>) -> Change {
     let mut piece = Piece::clone(piece);
     piece.twin = None;
+    drop_foreign(&mut piece, &pattern.sizes);
     let label = format!("add {}", piece.name);
     pattern.add_piece(piece);
     Change::new(label)
@@ -167,6 +169,9 @@ fn split_arcs(pattern: &mut Pattern, id: PieceId) {
 pub(super) fn map_piece(piece: &mut Piece, map: DAffine2) {
     let scale = DVec2::new(map.matrix2.x_axis.length(), map.matrix2.y_axis.length());
     let alike = (scale.x / scale.y - 1.0).abs() < 1e-12;
+    // Rules turn with the piece, but keep their lengths.
+    let turn = map.matrix2.y_axis / scale.y;
+    let turned = |rule: &GradeRule| rule.from_grain(turn);
     let edges = |edges: &mut Vec<Edge>, end: Option<DVec2>| {
         let ends: Vec<DVec2> = (0..edges.len())
             .map(|i| edges.get(i + 1).map_or(end.unwrap_or(edges[0].start), |next| next.start))
@@ -184,14 +189,16 @@ pub(super) fn map_piece(piece: &mut Piece, map: DAffine2) {
                 shape => shape.mapped(false, |p| map.transform_point2(p)),
             };
             edge.start = map.transform_point2(edge.start);
+            edge.rule = edge.rule.as_ref().map(&turned);
         }
     };
     edges(&mut piece.outline, None);
     piece.holes.iter_mut().for_each(|hole| edges(hole, None));
     edges(&mut piece.cut_line, None);
-    for InternalLine { edges: own, end, .. } in &mut piece.lines {
+    for InternalLine { edges: own, end, end_rule, .. } in &mut piece.lines {
         edges(own, Some(*end));
         *end = map.transform_point2(*end);
+        *end_rule = end_rule.as_ref().map(&turned);
     }
     piece.grainline = piece.grainline.map(|ends| ends.map(|p| map.transform_point2(p)));
 }

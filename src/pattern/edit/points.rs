@@ -251,6 +251,15 @@ pub(super) fn smooth_all(pattern: &mut Pattern) -> bool {
     turned
 }
 
+/// Restores smooth tangents at all smooth points of a piece.
+pub(super) fn smooth_piece(piece: &mut Piece) {
+    for i in 0..piece.edge_count() {
+        if piece.edge(i).smooth && !runs_on(piece, i) {
+            smooth_point(piece, i);
+        }
+    }
+}
+
 /// Restores smooth tangents at point `i` and its neighbours, where they are smooth points.
 fn smooth_around(piece: &mut Piece, i: usize) {
     for j in [previous(piece, i), i, piece.next_edge(i)] {
@@ -285,7 +294,7 @@ fn smooth_point(piece: &mut Piece, i: usize) -> bool {
 }
 
 /// Unit tangents of edge `i` at its start and its end, in the direction of the edge.
-fn tangents(piece: &Piece, i: usize) -> [DVec2; 2] {
+pub(super) fn tangents(piece: &Piece, i: usize) -> [DVec2; 2] {
     let (a, b) = piece.edge_ends(i);
     let shape = piece.edge(i).shape;
     if let Some(arc) = curve::arc(a, shape, b) {

@@ -199,6 +199,7 @@ fn doubled(half: &[Edge], image_labels: Vec<Option<String>>) -> Vec<Edge> {
     for i in [0, m] {
         edges[i].start.x = 0.0;
         edges[i].smooth = false;
+        edges[i].rule = edges[i].rule.as_ref().map(|rule| rule.mapped(|by| DVec2::new(0.0, by.y)));
     }
     edges
 }

@@ -190,11 +190,35 @@ pub fn pattern(pattern: &Pattern) -> Result<(), Rejection> {
     for p in pattern.pieces.values() {
         piece(p).map_err(|why| Rejection(readable(&format!("piece {:?}: {why}", p.name))))?;
     }
+    if let Some(words) = pattern.sizes.problem().or_else(|| rule_problem(pattern)) {
+        return Err(Rejection(readable(&words)));
+    }
     let ids = pattern.pieces.keys().map(|p| p.0).chain(pattern.seams.keys().map(|s| s.0));
     if ids.max().is_some_and(|last| last > pattern.next_id) {
         return Err(Rejection::new("the pattern's counter is behind its ids"));
     }
     Ok(())
+}
+
+/// The first grade rule that does not fit the pattern's sizes, in words.
+fn rule_problem(pattern: &Pattern) -> Option<String> {
+    let sizes = &pattern.sizes;
+    pattern.pieces.values().find_map(|piece| {
+        let closed = piece.loops().flatten().map(|edge| &edge.rule).enumerate();
+        let open = piece.lines.iter().enumerate().flat_map(|(k, line)| {
+            let rules = line.edges.iter().map(|edge| &edge.rule).chain([&line.end_rule]);
+            rules.enumerate().map(move |(i, rule)| (k, i, rule))
+        });
+        let closed = closed.filter_map(|(i, rule)| {
+            let words = rule.as_ref()?.problem(sizes.len(), sizes.base)?;
+            Some(format!("piece {:?}, point {}: {words}", piece.name, i + 1))
+        });
+        let open = open.filter_map(|(k, i, rule)| {
+            let words = rule.as_ref()?.problem(sizes.len(), sizes.base)?;
+            Some(format!("piece {:?}, internal line {}, point {}: {words}", piece.name, k + 1, i + 1))
+        });
+        closed.chain(open).next()
+    })
 }
 
 /// Checks every stroke, and that no id is used twice.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::geometry::ids::PieceId;
 use crate::geometry::polygon;
 use crate::pattern::edit::{self, Carried, PatternEdit};
-use crate::pattern::{Pattern, Piece};
+use crate::pattern::{Edge, Pattern, Piece};
 use crate::session::command::Rejection;
 use crate::session::document::Document;
 use crate::session::edit::marks::remove_number;
@@ -131,8 +131,16 @@ fn forget_gone(document: &mut Document) {
 
 /// Whether two patterns give the same cloth: nothing that is cut or sewn differs.
 fn is_cut_alike(one: &Pattern, other: &Pattern) -> bool {
-    let alike =
-        |a: &Arc<Piece>, b: &Arc<Piece>| Arc::ptr_eq(a, b) || (a.outline == b.outline && a.holes == b.holes);
+    let is_edge_alike = |a: &Edge, b: &Edge| {
+        a.start == b.start && a.shape == b.shape && a.smooth == b.smooth && a.label == b.label
+    };
+    let alike = |a: &Arc<Piece>, b: &Arc<Piece>| {
+        let loops = || a.loops().zip(b.loops());
+        Arc::ptr_eq(a, b)
+            || (a.holes.len() == b.holes.len()
+                && loops()
+                    .all(|(a, b)| a.len() == b.len() && a.iter().zip(b).all(|(a, b)| is_edge_alike(a, b))))
+    };
     let pieces = one.pieces.len() == other.pieces.len()
         && one.pieces.iter().zip(&other.pieces).all(|((i, a), (j, b))| i == j && alike(a, b));
     let seams = one.seams.len() == other.seams.len()

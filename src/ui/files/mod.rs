@@ -18,6 +18,7 @@ use crate::io::body_file;
 use crate::io::pattern_file::PatternFileError;
 use crate::io::pattern_formats::{self, PatternFormat, endings};
 use crate::io::pdf::Paper;
+use crate::io::rul;
 use crate::io::scale::{DrawingUnit, ScaleQuestion};
 use crate::io::{FILE_BYTES, bvh, gltf};
 use crate::pattern::Pattern;
@@ -196,7 +197,8 @@ pub enum PatternImport {
 
 /// Reads a pattern. `unit` is the user's answer to the question about the unit of length.
 pub fn import_pattern(path: &Path, unit: Option<DrawingUnit>) -> Result<PatternImport, String> {
-    match pattern_formats::read(&read(path)?, unit) {
+    let rules = rules_beside(path)?;
+    match pattern_formats::read_with_rules(&read(path)?, unit, rules.as_deref()) {
         Ok(read) => {
             let pattern = Arc::new(read.pattern);
             let command = Command::ReplacePattern { name: stem(path), pattern, marks: Arc::default() };
@@ -205,6 +207,13 @@ pub fn import_pattern(path: &Path, unit: Option<DrawingUnit>) -> Result<PatternI
         Err(PatternFileError::Scale(question)) => Ok(PatternImport::Question(question)),
         Err(error) => Err(in_words(path, "imported", error)),
     }
+}
+
+/// The grade rule table beside a DXF, if there is one.
+fn rules_beside(path: &Path) -> Result<Option<Vec<u8>>, String> {
+    let is_dxf = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("dxf"));
+    let mut beside = rul::ENDINGS.iter().map(|ending| path.with_extension(ending)).filter(|_| is_dxf);
+    beside.find(|path| path.is_file()).map(|path| read(&path)).transpose()
 }
 
 /// Writes `pattern` in the format of the file's extension; `paper` is for PDF. Returns what the format cannot hold.
@@ -217,6 +226,9 @@ pub fn export_pattern(path: &Path, pattern: &Pattern, paper: Paper) -> Result<Ve
     let written = pattern_formats::write(format, pattern, &stem(path), paper);
     let written = written.map_err(|e| in_words(path, "written", e))?;
     write(path, &written.bytes)?;
+    if let Some(rules) = &written.rules {
+        write(&path.with_extension("rul"), rules)?;
+    }
     Ok(written.left_out)
 }
 

@@ -12,7 +12,7 @@ fn detailed() -> Pattern {
     let line =
         |ends: &[[f64; 2]]| Piece::polygon("", &ends.iter().map(|&p| DVec2::from(p)).collect::<Vec<_>>());
     let edges = vec![line(&[[0.02, 0.03], [0.1, 0.03], [0.1, 0.05]]).outline[0].clone()];
-    piece.lines.push(InternalLine { edges, end: DVec2::new(0.18, 0.03), name: String::new() });
+    piece.lines.push(InternalLine { edges, end: DVec2::new(0.18, 0.03), ..InternalLine::default() });
     piece.holes.push(line(&[[0.08, 0.1], [0.08, 0.14], [0.12, 0.14], [0.12, 0.1]]).outline);
     pattern
 }

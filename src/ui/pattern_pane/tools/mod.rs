@@ -119,7 +119,7 @@ fn in_piece(edges: &[Edge], pose: &PlanePose) -> Vec<Edge> {
         start: own(edge.start),
         shape: edge.shape.mapped(pose.flipped, own),
         smooth: edge.smooth,
-        label: None,
+        ..Edge::default()
     };
     edges.iter().map(edge).collect()
 }
@@ -151,6 +151,7 @@ fn turned_round(edges: &[Edge]) -> Vec<Edge> {
         shape: edges[n - 1 - i].shape.reversed(),
         smooth: edges[(n - i) % n].smooth,
         label: edges[n - 1 - i].label.clone(),
+        rule: edges[(n - i) % n].rule.clone(),
     };
     (0..n).map(edge).collect()
 }

@@ -114,7 +114,7 @@ impl Pen {
         let n = self.points.len();
         let edge = |i: usize| {
             let (p, q) = (self.points[i], self.points[(i + 1) % n]);
-            Edge { start: p.at, shape: shape_between(p, q), smooth: p.handle.is_some(), label: None }
+            Edge { start: p.at, shape: shape_between(p, q), smooth: p.handle.is_some(), ..Edge::default() }
         };
         let count = if self.is_closed_line() { n } else { n - 1 };
         (0..count).map(edge).collect()
@@ -142,7 +142,7 @@ impl Pen {
         };
         let pose = table.pattern().pieces[&piece].pose;
         let edges = in_piece(&edges, &pose);
-        let line = |edges| InternalLine { edges, end: pose.piece_from_plane(end), name: String::new() };
+        let line = |edges| InternalLine { edges, end: pose.piece_from_plane(end), ..InternalLine::default() };
         asks.push(done(vec![match self.makes {
             Makes::Piece | Makes::Line => PatternEdit::AddLine { piece, line: line(edges) },
             Makes::Hole => PatternEdit::AddHole { piece, edges: round_hole(table, piece, edges) },

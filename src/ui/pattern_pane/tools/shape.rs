@@ -69,7 +69,7 @@ impl Shape {
             } else {
                 EdgeShape::Cubic { controls: [place(p + q * KAPPA), place(q + p * KAPPA)] }
             };
-            Edge { start: place(p), shape, smooth: true, label: None }
+            Edge { start: place(p), shape, smooth: true, ..Edge::default() }
         };
         (0..4).map(edge).collect()
     }

@@ -1,0 +1,252 @@
+//! A pattern in another size of its run.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use glam::DVec2;
+
+use crate::geometry::ids::PieceId;
+use crate::geometry::polygon::{sides, signed_area};
+use crate::pattern::edit::grading::{put, rules_of, tangents_at};
+use crate::pattern::grading::field::Field;
+use crate::pattern::grading::rule::GradeRule;
+use crate::pattern::{Edge, InternalLine, Pattern, Piece, Problem, ProblemKind, curve};
+
+/// Largest angle by which a line may turn at a point without rule that follows its neighbours, radians: 10 degrees. At a
+/// sharper one it stays.
+const CORNER: f64 = std::f64::consts::PI / 18.0;
+/// Length below which an edge has vanished, metres.
+const SHORTEST: f64 = 1e-3;
+/// Largest distance of chords from the outline when it is looked at for crossings, metres.
+const TOLERANCE: f64 = 5e-4;
+
+/// A pattern in another size.
+#[derive(Clone, Debug)]
+pub struct Graded {
+    /// The pattern: same ids, same seams; pieces without rules are the very same.
+    pub pattern: Pattern,
+    /// How places inside the pieces moved; pieces that are not named did not.
+    pub moved: BTreeMap<PieceId, Field>,
+    /// Outlines that cross themselves and edges that vanish in this size, in words with piece, point and size.
+    pub problems: Vec<Problem>,
+}
+
+/// `pattern` in the size called `size`. In the base size it is the pattern itself, to the bit.
+///
+/// The result has the same run, drawn in that size: its rules are relative to it.
+///
+/// A point with a rule moves by it. A point of the outline without one stays at a corner; where the line runs on it moves
+/// between its neighbours, by the share of arc length. Points of holes and internal lines without a rule move with the cloth
+/// round them. Curves turn and scale with their chords, and smooth points stay smooth, as where points are moved by hand.
+/// Grainlines keep their direction.
+///
+/// # Errors
+/// The pattern has no such size, in words.
+pub fn graded(pattern: &Pattern, size: &str) -> Result<Graded, String> {
+    let number = pattern.sizes.number(size)?;
+    let mut new = pattern.clone();
+    let mut moved = BTreeMap::new();
+    for (&id, piece) in &pattern.pieces {
+        let by = displacements(piece, number);
+        let is_still = by.iter().all(|by| *by == DVec2::ZERO);
+        if (is_still && piece.lines.iter().all(|line| is_still_line(line, number)))
+            || number == pattern.sizes.base
+        {
+            continue;
+        }
+        let (own, field) = graded_piece(piece, &by, number);
+        new.pieces.insert(id, Arc::new(own));
+        moved.insert(id, field);
+    }
+    new.sizes.base = number;
+    let problems = moved.keys().flat_map(|id| problems(&pattern.pieces[id], &new.pieces[id], size)).collect();
+    Ok(Graded { pattern: new, moved, problems })
+}
+
+fn is_still_line(line: &InternalLine, size: usize) -> bool {
+    let rules = line.edges.iter().map(|edge| &edge.rule).chain([&line.end_rule]);
+    rules.flatten().all(|rule| rule.at(size) == DVec2::ZERO)
+}
+
+/// The displacement of each point of the closed lines of `piece` in size number `size`: of the outline by rule or from
+/// its neighbours; of holes by rule, else NaN.
+fn displacements(piece: &Piece, size: usize) -> Vec<DVec2> {
+    let count = piece.outline.len();
+    let given: Vec<Option<DVec2>> = (0..count)
+        .map(|i| match &piece.outline[i].rule {
+            Some(rule) => Some(rule.at(size)),
+            None if piece.outline[i].smooth || runs_on(piece, i) => None,
+            None => Some(DVec2::ZERO),
+        })
+        .collect();
+    let mut all = between_given(piece, &given);
+    all.extend(
+        piece.holes.iter().flatten().map(|edge| edge.rule.as_ref().map_or(DVec2::NAN, |r| r.at(size))),
+    );
+    match all.iter().all(|by| by.is_nan() || *by == DVec2::ZERO) {
+        // Holes move with the cloth: not at all.
+        true => vec![DVec2::ZERO; all.len()],
+        false => all,
+    }
+}
+
+/// Fills what is not given by the share of arc length between the neighbours that are.
+fn between_given(piece: &Piece, given: &[Option<DVec2>]) -> Vec<DVec2> {
+    let n = given.len();
+    let Some(first) = given.iter().position(Option::is_some) else { return vec![DVec2::ZERO; n] };
+    let mut all = vec![DVec2::ZERO; n];
+    let mut from = first;
+    loop {
+        let further = (1..=n).find(|k| given[(from + k) % n].is_some()).unwrap_or(n);
+        let (start, end) = (given[from].unwrap_or_default(), given[(from + further) % n].unwrap_or_default());
+        let lengths: Vec<f64> = (0..further).map(|k| piece.edge_length((from + k) % n)).collect();
+        let total: f64 = lengths.iter().sum();
+        let mut before = 0.0;
+        for (k, length) in lengths.iter().enumerate() {
+            let share = if total > 0.0 { before / total } else { 0.0 };
+            // A lerp of equal ends may miss them in the last place.
+            all[(from + k) % n] = if k == 0 || start == end { start } else { start.lerp(end, share) };
+            before += length;
+        }
+        from = (from + further) % n;
+        if from == first {
+            return all;
+        }
+    }
+}
+
+/// Whether the outline runs on at point `i`: it does not turn there by more than [`CORNER`].
+fn runs_on(piece: &Piece, i: usize) -> bool {
+    let [arriving, leaving] = tangents_at(piece, i);
+    arriving.angle_to(leaving).abs() <= CORNER
+}
+
+fn graded_piece(piece: &Piece, by: &[DVec2], size: usize) -> (Piece, Field) {
+    let of_outline: Vec<DVec2> = (0..piece.edge_count())
+        .map(|i| piece.edge(i).start + if i < piece.outline.len() { by[i] } else { DVec2::ZERO })
+        .collect();
+    let mut new = put(piece, &of_outline);
+    let field = Field::between(piece, &new);
+    if !piece.holes.is_empty() {
+        let count = piece.outline.len();
+        let places: Vec<DVec2> = (0..piece.edge_count())
+            .map(|i| match piece.edge(i).start {
+                p if i < count => p + by[i],
+                p if by[i].is_nan() => field.moved(p),
+                p => p + by[i],
+            })
+            .collect();
+        new = put(piece, &places);
+    }
+    new.lines = piece.lines.iter().map(|line| graded_line(line, &field, size)).collect();
+    rules_of(&mut new).for_each(|rule| *rule = rule.from_size(size));
+    new.grainline = piece.grainline.map(|[tail, head]| {
+        let by = field.at((tail + head) / 2.0);
+        [tail + by, head + by]
+    });
+    new.cut_line = graded_closed(&piece.cut_line, &field);
+    (new, field)
+}
+
+fn graded_line(line: &InternalLine, field: &Field, size: usize) -> InternalLine {
+    let mut new = line.clone();
+    let to = |p: DVec2, rule: &Option<GradeRule>| match rule {
+        Some(rule) => p + rule.at(size),
+        None => field.moved(p),
+    };
+    new.end = to(line.end, &line.end_rule);
+    let starts: Vec<DVec2> = line.edges.iter().map(|edge| to(edge.start, &edge.rule)).collect();
+    for (i, edge) in new.edges.iter_mut().enumerate() {
+        let old = [edge.start, line.edges.get(i + 1).map_or(line.end, |next| next.start)];
+        let ends = [starts[i], starts.get(i + 1).copied().unwrap_or(new.end)];
+        (edge.start, edge.shape) = (ends[0], edge.shape.carried(old, ends));
+    }
+    new
+}
+
+fn graded_closed(edges: &[Edge], field: &Field) -> Vec<Edge> {
+    let n = edges.len();
+    let starts: Vec<DVec2> = edges.iter().map(|edge| field.moved(edge.start)).collect();
+    let end = |i: usize| [edges[(i + 1) % n].start, starts[(i + 1) % n]];
+    edges
+        .iter()
+        .enumerate()
+        .map(|(i, edge)| {
+            let [old, new] = end(i);
+            let shape = edge.shape.carried([edge.start, old], [starts[i], new]);
+            Edge { start: starts[i], shape, ..edge.clone() }
+        })
+        .collect()
+}
+
+/// What grading made of `piece` that cannot be cut, in words.
+fn problems(piece: &Piece, graded: &Piece, size: &str) -> Vec<Problem> {
+    let at = |point: usize| format!("{}, point {}, size {size}", piece.name, point + 1);
+    let mut problems: Vec<Problem> = (0..graded.edge_count())
+        .filter(|&i| graded.edge_length(i) < SHORTEST && piece.edge_length(i) >= SHORTEST)
+        .map(|i| Problem {
+            kind: ProblemKind::ZeroLength,
+            place: at(i),
+            words: format!(
+                "the edge to point {} vanishes: change the rules of its ends",
+                piece.next_edge(i) + 1
+            ),
+        })
+        .collect();
+    if let Some((i, j)) = crossing(graded)
+        && crossing(piece).is_none()
+    {
+        problems.push(Problem {
+            kind: ProblemKind::SelfCrossing,
+            place: at(i),
+            words: format!(
+                "the outline crosses itself: the edge from point {} meets that from point {}",
+                i + 1,
+                j + 1
+            ),
+        });
+    }
+    let area = |piece: &Piece| signed_area(&piece.flattened(TOLERANCE));
+    if problems.is_empty() && area(piece) * area(graded) <= 0.0 {
+        problems.push(Problem {
+            kind: ProblemKind::SelfCrossing,
+            place: at(0),
+            words: "the piece is turned inside out: its rules move points past each other".to_owned(),
+        });
+    }
+    problems
+}
+
+/// Two edges of the outline that cross.
+fn crossing(piece: &Piece) -> Option<(usize, usize)> {
+    let (mut points, mut of) = (Vec::new(), Vec::new());
+    for (i, edge) in piece.outline.iter().enumerate() {
+        curve::flatten(edge.start, edge.shape, piece.edge_ends(i).1, TOLERANCE, &mut points);
+        of.resize(points.len(), i);
+    }
+    let lines: Vec<[DVec2; 2]> = sides(&points).collect();
+    let n = lines.len();
+    let side = |[a, b]: [DVec2; 2], p: DVec2| (b - a).perp_dot(p - a);
+    let meet = |s: [DVec2; 2], t: [DVec2; 2]| {
+        side(s, t[0]) * side(s, t[1]) < 0.0 && side(t, s[0]) * side(t, s[1]) < 0.0
+    };
+    let low = |s: &[DVec2; 2]| s[0].min(s[1]);
+    let high = |s: &[DVec2; 2]| s[0].max(s[1]);
+    // Sorted by their left ends, so that only lines above each other are compared.
+    let mut order: Vec<usize> = (0..n).collect();
+    order.sort_by(|&i, &j| low(&lines[i]).x.total_cmp(&low(&lines[j]).x).then(i.cmp(&j)));
+    let mut found: Option<(usize, usize)> = None;
+    for (k, &i) in order.iter().enumerate() {
+        for &j in order[k + 1..].iter().take_while(|&&j| low(&lines[j]).x <= high(&lines[i]).x) {
+            if meet(lines[i], lines[j]) {
+                let pair = (of[i.min(j)], of[i.max(j)]);
+                found = Some(found.map_or(pair, |known| known.min(pair)));
+            }
+        }
+    }
+    found
+}
+
+#[cfg(test)]
+#[path = "apply_tests.rs"]
+mod tests;

@@ -1,0 +1,173 @@
+//! Size runs: the sizes of a pattern in order, one of which it is drawn in.
+
+use serde::{Deserialize, Serialize};
+
+/// Most sizes of a run.
+pub const MOST_SIZES: usize = 40;
+/// Most characters of a size's name.
+const LONGEST_NAME: usize = 40;
+
+/// The sizes of a pattern, from small to large. Empty: the pattern is not graded.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SizeRun {
+    /// Their names, each once.
+    pub names: Vec<String>,
+    /// Number of the base size, in which the pattern is drawn, from 0.
+    pub base: usize,
+}
+
+impl SizeRun {
+    /// A run of these sizes with `base` as its base size. None where `base` is not among them.
+    pub fn new<'a>(names: impl IntoIterator<Item = &'a str>, base: &str) -> Option<Self> {
+        let names: Vec<String> = names.into_iter().map(str::to_owned).collect();
+        let base = names.iter().position(|name| name == base)?;
+        Some(Self { names, base })
+    }
+
+    /// Whether there are no sizes.
+    pub fn is_empty(&self) -> bool {
+        self.names.is_empty()
+    }
+
+    /// Number of sizes.
+    pub fn len(&self) -> usize {
+        self.names.len()
+    }
+
+    /// Name of the base size; empty where there are no sizes.
+    pub fn base_name(&self) -> &str {
+        self.names.get(self.base).map_or("", String::as_str)
+    }
+
+    /// The number of the size called `name`, from 0.
+    ///
+    /// # Errors
+    /// There is no such size, in words that list those there are.
+    pub fn number(&self, name: &str) -> Result<usize, String> {
+        let found = self.names.iter().position(|own| own == name.trim());
+        found.ok_or_else(|| match self.is_empty() {
+            true => "the pattern has no sizes: choose a size run first".to_owned(),
+            false => {
+                format!("the pattern has no size {:?}: it has {}", name.trim(), self.names.join(", "))
+            }
+        })
+    }
+
+    /// What is wrong with the run, in words.
+    pub fn problem(&self) -> Option<String> {
+        let Self { names, base } = self;
+        if names.is_empty() {
+            return (*base != 0).then(|| "there are no sizes, but a base size".to_owned());
+        }
+        if names.len() > MOST_SIZES {
+            return Some(format!("a pattern may have {MOST_SIZES} sizes, this has {}", names.len()));
+        }
+        if *base >= names.len() {
+            return Some(format!(
+                "size {} is to be the base of {} sizes",
+                base.saturating_add(1),
+                names.len()
+            ));
+        }
+        names.iter().enumerate().find_map(|(i, name)| {
+            let is_name = !name.is_empty()
+                && name.trim() == name
+                && name.chars().count() <= LONGEST_NAME
+                && !name.chars().any(|c| c.is_control() || c == ',');
+            if !is_name {
+                return Some(format!(
+                    "size {} is called {name:?}: a name has 1 to {LONGEST_NAME} characters, none of them a comma",
+                    i + 1
+                ));
+            }
+            names[..i].contains(name).then(|| format!("there are two sizes {name}"))
+        })
+    }
+}
+
+/// A size run that is offered.
+#[derive(Clone, Copy, Debug)]
+pub struct ReadySizes {
+    /// Title for people.
+    pub title: &'static str,
+    /// Names of its sizes.
+    pub names: &'static [&'static str],
+    /// Its base size.
+    pub base: &'static str,
+}
+
+impl ReadySizes {
+    /// It as a run.
+    pub fn run(&self) -> SizeRun {
+        SizeRun::new(self.names.iter().copied(), self.base).unwrap_or_default()
+    }
+}
+
+/// The size runs that are offered.
+pub const READY_SIZES: [ReadySizes; 7] = [
+    ReadySizes { title: "XS to XXL", names: &["XS", "S", "M", "L", "XL", "XXL"], base: "M" },
+    ReadySizes {
+        title: "Women, EU 34 to 46",
+        names: &["34", "36", "38", "40", "42", "44", "46"],
+        base: "38",
+    },
+    ReadySizes { title: "Men, EU 44 to 56", names: &["44", "46", "48", "50", "52", "54", "56"], base: "50" },
+    ReadySizes { title: "Women, US 0 to 14", names: &["0", "2", "4", "6", "8", "10", "12", "14"], base: "6" },
+    ReadySizes { title: "Women, UK 6 to 18", names: &["6", "8", "10", "12", "14", "16", "18"], base: "10" },
+    ReadySizes {
+        title: "Children, 92 to 146 cm",
+        names: &["92", "98", "104", "110", "116", "122", "128", "134", "140", "146"],
+        base: "116",
+    },
+    ReadySizes {
+        title: "Babies, 50 to 86 cm",
+        names: &["50", "56", "62", "68", "74", "80", "86"],
+        base: "68",
+    },
+];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_ready_runs_are_sound_and_have_their_bases() {
+        for ready in READY_SIZES {
+            let run = ready.run();
+            assert_eq!((run.problem(), run.len()), (None, ready.names.len()), "{}", ready.title);
+            assert_eq!(run.base_name(), ready.base);
+        }
+        assert_eq!(SizeRun::default().problem(), None);
+        assert!(SizeRun::new(["S", "M"], "L").is_none());
+    }
+
+    #[test]
+    fn sizes_are_found_by_name() {
+        let run = READY_SIZES[0].run();
+        assert_eq!(run.number(" L"), Ok(3));
+        let why = run.number("38").expect_err("not there");
+        assert_eq!(why, "the pattern has no size \"38\": it has XS, S, M, L, XL, XXL");
+        assert!(SizeRun::default().number("M").expect_err("none").contains("no sizes"));
+    }
+
+    #[test]
+    fn faulty_runs_are_told() {
+        let run = |names: &[&str], base: usize| SizeRun {
+            names: names.iter().map(|name| (*name).to_owned()).collect(),
+            base,
+        };
+        for (run, words) in [
+            (run(&["S", "S"], 0), "two sizes S"),
+            (run(&["S", " M"], 0), "size 2 is called \" M\""),
+            (run(&["S,M"], 0), "comma"),
+            (run(&[""], 0), "characters"),
+            (run(&["S"], 1), "size 2 is to be the base of 1"),
+            (run(&[], 2), "no sizes"),
+        ] {
+            assert!(run.problem().is_some_and(|told| told.contains(words)), "{run:?}: {:?}", run.problem());
+        }
+        let many: Vec<String> = (0..=MOST_SIZES).map(|i| i.to_string()).collect();
+        assert!(SizeRun { names: many, base: 0 }.problem().is_some_and(|told| told.contains("40 sizes")));
+    }
+}
