@@ -10,7 +10,7 @@
 //! | folder | holds | may use |
 //! | --- | --- | --- |
 //! | `geometry` | ids, curves, meshes and adjacency, sparse factorisation; nothing about cloth | nothing of ours |
-//! | `pattern`  | the flat garment: piece, seam, edges cut for sewing, editing that keeps seam lengths and symmetry, triangulation, problems a person can fix | geometry |
+//! | `pattern`  | the flat garment: piece, seam, edges cut for sewing, editing that keeps seam lengths and symmetry, grading to sizes, triangulation, problems a person can fix | geometry |
 //! | `body`     | surface (nearest point, ray, walk), import checks, mannequin, skeleton, poses, bones, landmarks, measurements | geometry |
 //! | `cloth`    | the sewn garment as solvers see it: topology and rest shape, moving state; fabrics | pattern, geometry |
 //! | `contact`  | collision of cloth with the body, its bones and itself; edges split where they would cut the body | cloth, body, geometry |
@@ -24,7 +24,7 @@
 //! | `sim`      | owner of the moving state: stages, protocol, checkpoints, thread, state hash | the above |
 //! | `session`  | the user's work: document, commands, history, recording, replay, project file, recovery | sim and below, place, io |
 //! | `draft`    | garments of our own, drawn from a seed and drafted to the mannequin's measurements: parts, designs, the corpus | body, pattern, geometry |
-//! | `io`       | obj, gltf, bvh; patterns as garmentcode json, dxf, svg, pdf: bytes in, checked data out, and back | cloth, body, pattern, geometry |
+//! | `io`       | obj, gltf, bvh; patterns as garmentcode json, dxf with grade rules, svg, pdf: bytes in, checked data out, and back | cloth, body, pattern, geometry |
 //! | `render`   | plain buffers in, pixels out: camera, passes, offscreen target | nothing of ours |
 //! | `trust`    | fuzz tests: files damaged at random, and the readers that must withstand them | session and below, draft |
 //! | `manual`   | what the program does, topic by topic, for the window and the command line | nothing of ours |

@@ -41,7 +41,7 @@ pub(super) fn cut(
     let a = (0..piece.outline.len()).find(|&i| piece.edge(i).start == a_place).unwrap_or(a);
     let n = piece.outline.len();
     let mut path = line.clone();
-    (path.edges[0].start, path.end) = (piece.edge(a).start, piece.edge(b).start);
+    join(&mut path, [piece.edge(a), piece.edge(b)]);
     if a == b || (path.edges.len() == 1 && ((a + 1) % n == b || (b + 1) % n == a) && is_straight(piece, a, b))
     {
         return Err(format!("the cut does not cut {name}"));
@@ -55,10 +55,8 @@ pub(super) fn cut(
         let count = (to + n - from) % n;
         (0..count).map(|k| (from + k) % n).collect()
     };
-    let mut forward: Vec<Edge> = path.edges.clone();
+    let forward: Vec<Edge> = path.edges.clone();
     let m = forward.len();
-    forward[0].rule = piece.outline[a].rule.clone();
-    path.end_rule = piece.outline[b].rule.clone();
     let halves = [(run(a, b), backwards(&path)), (run(b, a), forward)];
     let outlines: Vec<Vec<Edge>> = halves
         .iter()
@@ -103,6 +101,12 @@ pub(super) fn cut(
         })
         .to_vec();
     Ok(Change { carried, ..Change::new(format!("cut {name}")) })
+}
+
+/// Makes `path` begin and end exactly at the points where these edges start, with their grade rules.
+fn join(path: &mut InternalLine, [from, to]: [&Edge; 2]) {
+    (path.edges[0].start, path.end) = (from.start, to.start);
+    (path.edges[0].rule, path.end_rule) = (from.rule.clone(), to.rule.clone());
 }
 
 /// Distributes edges, holes, lines and notches over the two `parts` of a cut piece. Returns for each old edge its

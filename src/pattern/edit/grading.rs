@@ -6,7 +6,6 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use crate::pattern::edit::lines::previous;
-use crate::pattern::edit::pieces::change;
 use crate::pattern::edit::{Change, find, mirror, points};
 use crate::pattern::{GradeRule, Pattern, Piece, RulePoint, SizeRun};
 
@@ -60,12 +59,13 @@ pub(super) fn set_rules(
             }
             Some(_) => None,
         };
-        change(pattern, at.piece, |piece| {
+        if let Some(piece) = pattern.pieces.get_mut(&at.piece) {
+            let piece = Arc::make_mut(piece);
             *rule_mut(piece, at) = rule.clone();
             if let Some(point) = image {
                 *rule_mut(piece, &RulePoint { point, ..*at }) = rule.as_ref().map(GradeRule::mirrored);
             }
-        });
+        }
     }
     let what = if rules.iter().all(|(_, rule)| rule.is_none()) { "clear" } else { "set" };
     let count = rules.iter().map(|(at, _)| at).collect::<BTreeSet<_>>().len();

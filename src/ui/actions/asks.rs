@@ -5,6 +5,7 @@ use crate::geometry::ids::MarkId;
 use crate::session::Command;
 use crate::sim::ClothPlace;
 use crate::ui::actions::Action;
+use crate::ui::pattern_pane::nests::SizeView;
 use crate::ui::selection::Selection;
 
 /// A request to the app.
@@ -32,6 +33,8 @@ pub enum Ask {
     Jump(i32),
     /// Set the range of values that the colours of a map span, in the unit that is shown; None: the range of its values.
     MapRange(MapKind, Option<[f64; 2]>),
+    /// Show these sizes of the pattern.
+    ShowSizes(SizeView),
     /// Show a message to the user.
     Say(String),
 }

@@ -54,6 +54,8 @@ impl App {
         Panel::bottom("status").frame(thin).exact_size(status::HEIGHT).show(ui, |ui| {
             status::status_ui(ui, now, &self.hint(document, now, palette), palette);
         });
+        // Here, since the table may be hidden.
+        self.pattern_pane.nests.update(&document.pattern);
         self.shell.first_of_panel = None;
         self.shell.pose.animation.play(ui.ctx(), document, now, asks);
         if self.show_panel {
@@ -67,9 +69,12 @@ impl App {
                     verdict: snapshot.verdict.as_ref().map_or(&[], |found| found),
                     lost: &lost,
                     now,
+                    sizes: self.pattern_pane.sizes,
+                    nests: &self.pattern_pane.nests,
                     palette,
                 };
                 let (marks, pattern) = (&mut self.marks_panel, &mut self.pattern_panel);
+                let pattern = (pattern, &mut self.shell.sizes);
                 let of_body = (&mut self.shell.pose, &mut self.shell.tape);
                 let first = side::side_panel_ui(ui, &told, marks, pattern, of_body, asks);
                 self.shell.first_of_panel = first;
@@ -96,6 +101,7 @@ impl App {
             spot: self.spot(),
             points_per_metre: now.points_per_metre,
             unit: now.unit,
+            sizes: self.pattern_pane.sizes,
             snapping: self.snapping,
             ghosts: self.ghosts.as_ref().map(|g| &*g.marks),
             map: self.shell.maps.shown(),

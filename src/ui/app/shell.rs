@@ -21,6 +21,7 @@ use crate::ui::files::thumbnails::Thumbnails;
 use crate::ui::look::theme::Palette;
 use crate::ui::maps::MapView;
 use crate::ui::panels::pose::PosePanel;
+use crate::ui::panels::sizes::SizesPanel;
 use crate::ui::panels::tape::TapePanel;
 use crate::ui::preferences::Preferences;
 use crate::ui::preferences::page::PreferencesPage;
@@ -65,6 +66,8 @@ pub struct Shell {
     pub pose: PosePanel,
     /// Panel of body measurements.
     pub tape: TapePanel,
+    /// Sizes and grade rules of the pattern.
+    pub sizes: SizesPanel,
     /// The map that the cloth is coloured by.
     pub maps: MapView,
     /// Thumbnails of samples and projects.

@@ -9,6 +9,7 @@ use crate::sim::{Fault, Snapshot};
 use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::actions::context::FrameContext;
 use crate::ui::look::theme::Palette;
+use crate::ui::pattern_pane::nests::{Nests, SizeView};
 use crate::ui::selection::Selection;
 
 /// The state that the side panel shows.
@@ -30,6 +31,10 @@ pub struct PanelContext<'a> {
     pub lost: &'a [Problem],
     /// State of the app in this frame.
     pub now: &'a FrameContext,
+    /// Which sizes of the pattern are shown.
+    pub sizes: SizeView,
+    /// The pattern in all its sizes.
+    pub nests: &'a Nests,
     /// Colours of the interface.
     pub palette: &'a Palette,
 }

@@ -13,5 +13,6 @@ pub(in crate::ui) mod pose;
 pub(in crate::ui) mod pose_slider;
 pub(in crate::ui) mod side;
 pub(in crate::ui) mod size;
+pub(in crate::ui) mod sizes;
 pub(in crate::ui) mod tape;
 pub(in crate::ui) mod tight;

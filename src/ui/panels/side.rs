@@ -14,6 +14,7 @@ use crate::ui::panels::marks::MarksPanel;
 use crate::ui::panels::pattern::{PatternPanel, seams_ui};
 use crate::ui::panels::pins::pins_ui;
 use crate::ui::panels::pose::PosePanel;
+use crate::ui::panels::sizes::SizesPanel;
 use crate::ui::panels::tape::TapePanel;
 use crate::ui::panels::tight::tight_ui;
 
@@ -22,12 +23,13 @@ pub fn side_panel_ui(
     ui: &mut egui::Ui,
     told: &PanelContext<'_>,
     marks: &mut MarksPanel,
-    pattern: &mut PatternPanel,
+    pattern: (&mut PatternPanel, &mut SizesPanel),
     (pose, tape): (&mut PosePanel, &mut TapePanel),
     asks: &mut Asks,
 ) -> Option<Id> {
     let PanelContext { document, palette, .. } = *told;
     let mut first = None;
+    let (pattern, sizes) = pattern;
     ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
         // The section of the chosen tool comes first.
         let on_pattern =
@@ -44,6 +46,7 @@ pub fn side_panel_ui(
         section(ui, "Problems", true, |ui| problems_ui(ui, told, asks));
         section(ui, "Fabric", true, |ui| fabric::fabric_ui(ui, told, asks));
         section(ui, "Images", true, |ui| artwork_ui(ui, told, asks));
+        section(ui, "Sizes of the pattern", false, |ui| sizes.ui(ui, told, asks));
         section(ui, "Pose", false, |ui| pose.ui(ui, told, asks));
         section(ui, "Measures of the body", false, |ui| tape.ui(ui, told, asks));
         section(ui, "Cloth", true, |ui| settings_ui(ui, &document.settings, palette, asks));

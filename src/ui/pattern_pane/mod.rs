@@ -1,6 +1,7 @@
 //! The pattern pane: flat pieces on a table, which pointer and keys draw, sew, paint and move.
 
 mod draw;
+mod draw_nests;
 mod draw_pieces;
 pub(in crate::ui) mod edits;
 mod entry;
@@ -8,6 +9,7 @@ mod guides;
 mod input;
 pub(in crate::ui) mod kept;
 mod names;
+pub(in crate::ui) mod nests;
 mod options;
 mod pictures;
 mod rulers;
@@ -41,6 +43,7 @@ use guides::Guides;
 use input::Input;
 pub use kept::Options;
 pub use names::seam_words;
+use nests::{Nests, SizeView};
 use pictures::Pictures;
 use rulers::Rulers;
 use shapes::Shapes;
@@ -89,6 +92,10 @@ pub struct PatternPane {
     shapes: Shapes,
     threads: Threads,
     pictures: Pictures,
+    /// The pattern in all its sizes.
+    pub nests: Nests,
+    /// Which sizes are shown.
+    pub sizes: SizeView,
     tool: Option<(Tool, Box<dyn PatternTool>)>,
     entry: Option<Entry>,
     /// The keyboard's cursor, in metres on the table.
@@ -120,6 +127,8 @@ pub struct Laid<'a> {
     pub points_per_metre: f64,
     /// Unit in which lengths are shown.
     pub unit: LengthUnit,
+    /// Which sizes are shown.
+    pub sizes: SizeView,
     /// Whether the pointer snaps to points, edges, guides and the grid.
     pub snapping: bool,
     /// Proposed marks that are not accepted yet.
@@ -252,6 +261,7 @@ impl PatternPane {
             shapes: &self.shapes,
             threads: &self.threads,
             pictures: &self.pictures,
+            nests: &self.nests,
             guides: &self.guides.all,
             view,
             pane,
@@ -449,6 +459,7 @@ fn draw_table(drawing: &Drawing<'_>, table: &Table<'_>, new_guide: Option<&Guide
     let pattern = &*document.pattern;
     drawing.table(table.laid.unit);
     drawing.pieces(table);
+    drawing.nests(table);
     drawing.seams(table);
     drawing.edges_standing_out(table);
     drawing.spot(table);

@@ -33,7 +33,11 @@ pub fn publish(ui: &egui::Ui, table: &Table<'_>) {
                 node(ui, table, ("line", id.0, i), piece.pose.plane_from_piece(on), words);
             }
         }
-        for (point, p) in table.points() {
+        let points: Vec<_> = match table.size() {
+            Some(size) => table.points_in(size).collect(),
+            None => table.points().collect(),
+        };
+        for (point, p) in points {
             let name = &table.pattern().pieces[&point.piece].name;
             let words = || format!("{name}, point {}", point.point + 1);
             node(ui, table, ("point", point.piece.0, point.point), p, words);

@@ -3,6 +3,7 @@
 use egui::{Pos2, Rect};
 use glam::DVec2;
 
+use super::nests::Nests;
 use super::pictures::Pictures;
 use super::shapes::{PieceShape, Shapes};
 use super::threads::{Threads, to_polyline};
@@ -38,6 +39,8 @@ pub struct Table<'a> {
     pub threads: &'a Threads,
     /// Pictures on pieces.
     pub pictures: &'a Pictures,
+    /// The pattern in all its sizes.
+    pub nests: &'a Nests,
     /// The guides.
     pub guides: &'a [Guide],
     /// The part of the table that is visible.

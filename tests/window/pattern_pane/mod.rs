@@ -14,6 +14,7 @@ use crate::{Window, app, key, move_to, wait};
 mod details;
 mod graphics;
 mod keyboard;
+mod sizes;
 
 /// The window on an empty table, 1 m seen from side to side.
 fn window() -> Window {

@@ -1,5 +1,6 @@
 //! The tools of the pattern pane: one state machine for each, in a file of its own.
 
+mod grade;
 mod grain;
 mod graphic;
 mod marks;

@@ -6,7 +6,7 @@ use egui::{CursorIcon, Pos2, Rect, Stroke};
 use glam::DVec2;
 
 use super::select::next;
-use super::{PatternTool, done, dragged};
+use super::{PatternTool, done, dragged, grade};
 use crate::geometry::ids::PieceId;
 use crate::pattern::edit::{PatternEdit, PointRef};
 use crate::pattern::{EdgeRef, EdgeShape, curve};
@@ -30,6 +30,8 @@ enum Drag {
     Box { from: DVec2, to: DVec2, add: bool },
     /// Moves points: their old positions on the table, and the point where they are held.
     Move { held: DVec2, points: Vec<(PointRef, DVec2)>, by: DVec2, snapped: Option<Snapped> },
+    /// Moves points of a size other than the base: their old positions on the table, and the point where they are held.
+    Grade { size: usize, held: DVec2, points: Vec<(PointRef, DVec2)>, by: DVec2 },
     /// Bends an edge through the pointer; `shape` is its old shape.
     Bend { edge: EdgeRef, ends: [DVec2; 2], shape: EdgeShape, at: f64, held: DVec2 },
     /// Moves a handle of a curve.
@@ -42,6 +44,10 @@ type CurveHandle = (EdgeRef, usize, DVec2, DVec2);
 impl Points {
     fn press(&mut self, table: &Table<'_>, input: &Input, at: Pos2, asks: &mut Asks) {
         let p = table.at(at);
+        if let Some(size) = table.size() {
+            self.press_in(table, size, input, p, asks);
+            return;
+        }
         if let Some((edge, which, to, _)) = handle_at(table, p).filter(|h| table.is_free(h.0.piece)) {
             let shape = table.pattern().pieces[&edge.piece].edge(edge.edge).shape;
             self.drag = Some(Drag::Handle { edge, shape, which, to });
@@ -72,6 +78,21 @@ impl Points {
         } else {
             self.drag = Some(Drag::Box { from: p, to: p, add: input.held.shift });
         }
+    }
+
+    /// A press in a size other than the base, whose points can be moved.
+    fn press_in(&mut self, table: &Table<'_>, size: usize, input: &Input, p: DVec2, asks: &mut Asks) {
+        let Some(point) = table.point_in(size, p) else {
+            self.drag = Some(Drag::Box { from: p, to: p, add: input.held.shift });
+            return;
+        };
+        if !table.is_free(point.piece) {
+            asks.push(Ask::Say("This piece is locked.".to_owned()));
+            return;
+        }
+        let selection = self.taken(table, Item::Point(point), input, asks);
+        let points = grade::held_points(table, size, &selection);
+        self.drag = Some(Drag::Grade { size, held: p, points, by: DVec2::ZERO });
     }
 
     fn press_edge(&mut self, table: &Table<'_>, input: &Input, hit: OnEdge, asks: &mut Asks) {
@@ -111,6 +132,11 @@ impl Points {
                 (*by, *snapped) = (found.place - *held, found.by.map(|_| found));
                 asks.extend(moved(table, points, *by).map(|edit| dragged(vec![edit])));
             }
+            Some(Drag::Grade { size, held, points, by }) => {
+                *by = p - *held;
+                let edit = grade::moved(table, *size, points, *by, input.held.shift);
+                asks.extend(edit.map(|edit| dragged(vec![edit])));
+            }
             Some(Drag::Bend { edge, ends, shape, at, held }) => {
                 let Some(piece) = table.pattern().pieces.get(&edge.piece) else { return };
                 let to = piece.pose.piece_from_plane(p);
@@ -133,7 +159,9 @@ impl Points {
                 let (lower, upper) = (from.min(to), from.max(to));
                 let inside = |p: DVec2| p.cmpge(lower).all() && p.cmple(upper).all();
                 let mut selection = if add { table.laid.selection.clone() } else { Selection::default() };
-                selection.points.extend(table.points().filter(|(_, p)| inside(*p)).map(|(point, _)| point));
+                selection
+                    .points
+                    .extend(points_shown(table).filter(|(_, p)| inside(*p)).map(|(point, _)| point));
                 asks.push(Ask::Pick(selection));
             }
             Some(_) => asks.push(Ask::EndDrag),
@@ -169,12 +197,13 @@ impl PatternTool for Points {
     fn step(&mut self, table: &Table<'_>, input: &Input, asks: &mut Asks) {
         for &at in &input.clicks {
             let p = table.at(at);
-            if handle_at(table, p).is_none() {
+            if table.size().is_some() || handle_at(table, p).is_none() {
                 let item = self.under(table, p);
                 asks.push(Ask::Pick(table.laid.selection.clicked(item, input.held.shift)));
             }
         }
         if input.double
+            && table.size().is_none()
             && let Some(at) = input.hover
         {
             self.double_click(table, table.at(at), asks);
@@ -189,8 +218,14 @@ impl PatternTool for Points {
             self.finish(table, asks);
         }
         if input.nudge != DVec2::ZERO && self.drag.is_none() {
-            let points = held_points(table, table.laid.selection);
-            asks.extend(moved(table, &points, input.nudge).map(|edit| done(vec![edit])));
+            let edit = match table.size() {
+                Some(size) => {
+                    let points = grade::held_points(table, size, table.laid.selection);
+                    grade::moved(table, size, &points, input.nudge, false)
+                }
+                None => moved(table, &held_points(table, table.laid.selection), input.nudge),
+            };
+            asks.extend(edit.map(|edit| done(vec![edit])));
         }
         if input.next != 0 {
             let all: Vec<Item> = table.points().map(|(point, _)| Item::Point(point)).collect();
@@ -201,11 +236,12 @@ impl PatternTool for Points {
 
     fn draw(&self, drawing: &Drawing<'_>, table: &Table<'_>, input: &Input) {
         let stroke = Stroke::new(1.2, drawing.palette.accent.gamma_multiply(0.8));
-        for (_, _, p, end) in curve_handles(table) {
+        let handles = if table.size().is_none() { curve_handles(table) } else { Vec::new() };
+        for (_, _, p, end) in handles {
             drawing.painter.line_segment([drawing.place(p), drawing.place(end)], stroke);
             drawing.knob(p, true, false);
         }
-        for (point, p) in table.points() {
+        for (point, p) in points_shown(table) {
             if drawing.pane.contains(drawing.place(p)) {
                 let is_smooth = table.pattern().pieces[&point.piece].edge(point.point).smooth;
                 drawing.knob(p, is_smooth, table.laid.selection.points.contains(&point));
@@ -224,6 +260,9 @@ impl PatternTool for Points {
                     drawing.snapped(snapped);
                 }
                 drawing.chip(at, &readout(table, points, *by));
+            }
+            Some(Drag::Grade { size, points, by, .. }) => {
+                drawing.chip(at, &grade::readout(table, *size, points, *by));
             }
             Some(Drag::Bend { edge, .. } | Drag::Handle { edge, .. }) => {
                 if let Some((_, shape)) = table.piece(edge.piece) {
@@ -269,6 +308,10 @@ impl PatternTool for Points {
     }
 
     fn under(&self, table: &Table<'_>, p: DVec2) -> Option<Item> {
+        if let Some(size) = table.size() {
+            let point = table.point_in(size, p).map(Item::Point);
+            return point.or_else(|| table.piece_at(p).map(|(piece, _)| Item::Piece(piece)));
+        }
         let point = table.point_at(p).map(Item::Point);
         let edge = || table.edge_at(p).map(|hit| Item::Edge(hit.edge));
         let line = || table.line_at(p).map(Item::Line);
@@ -279,13 +322,15 @@ impl PatternTool for Points {
         match self.under(table, at) {
             _ if self.drag.is_some() => CursorIcon::Grabbing,
             Some(Item::Point(_) | Item::Edge(_) | Item::Line(_)) => CursorIcon::PointingHand,
-            _ if handle_at(table, at).is_some() => CursorIcon::PointingHand,
+            _ if table.size().is_none() && handle_at(table, at).is_some() => CursorIcon::PointingHand,
             _ => CursorIcon::Default,
         }
     }
 
-    fn hint(&self, _table: &Table<'_>) -> String {
+    fn hint(&self, table: &Table<'_>) -> String {
         match &self.drag {
+            Some(Drag::Grade { .. }) => "Shift: the same step in every size · Esc: back",
+            _ if table.size().is_some() => "Drag a point: it moves in this size alone, with Shift in all by the same step · Choose the base size to change the pattern itself",
             Some(Drag::Move { .. }) => {
                 "Type a place (30,40), a way (@10,0) or how far (5) · Shift: straight or slanting · Alt: do not snap · Esc: back"
             }
@@ -295,6 +340,14 @@ impl PatternTool for Points {
             }
         }
         .to_owned()
+    }
+}
+
+/// The points where they are drawn: of the shown size.
+fn points_shown<'t>(table: &'t Table<'_>) -> Box<dyn Iterator<Item = (PointRef, DVec2)> + 't> {
+    match table.size() {
+        Some(size) => Box::new(table.points_in(size)),
+        None => Box::new(table.points()),
     }
 }
 
