@@ -35,7 +35,7 @@ pub fn side_panel_ui(
         let on_pattern =
             !matches!(told.now.tool, Tool::Mark | Tool::Erase | Tool::Drag(_) | Tool::Pin | Tool::Bone);
         if on_pattern {
-            first = Some(pattern_ui(ui, told, pattern, asks));
+            first = Some(pattern_ui(ui, told, (&mut *pattern, &mut *sizes), asks));
         }
         let marks = section(ui, "Marks", true, |ui| marks.ui(ui, told, asks));
         first = first.or(Some(marks));
@@ -46,24 +46,29 @@ pub fn side_panel_ui(
         section(ui, "Problems", true, |ui| problems_ui(ui, told, asks));
         section(ui, "Fabric", true, |ui| fabric::fabric_ui(ui, told, asks));
         section(ui, "Images", true, |ui| artwork_ui(ui, told, asks));
-        section(ui, "Sizes of the pattern", false, |ui| sizes.ui(ui, told, asks));
         section(ui, "Pose", false, |ui| pose.ui(ui, told, asks));
         section(ui, "Measures of the body", false, |ui| tape.ui(ui, told, asks));
         section(ui, "Cloth", true, |ui| settings_ui(ui, &document.settings, palette, asks));
         if !on_pattern {
-            pattern_ui(ui, told, pattern, asks);
+            pattern_ui(ui, told, (pattern, sizes), asks);
         }
     });
     first
 }
 
-fn pattern_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, pattern: &mut PatternPanel, asks: &mut Asks) -> Id {
+fn pattern_ui(
+    ui: &mut egui::Ui,
+    told: &PanelContext<'_>,
+    (pattern, sizes): (&mut PatternPanel, &mut SizesPanel),
+    asks: &mut Asks,
+) -> Id {
     let of_pattern = !told.selection.is_empty() && told.selection.pins.is_empty();
     let selected =
         of_pattern.then(|| section(ui, "Selected", true, |ui| pattern.inspector_ui(ui, told, asks)));
     let pieces = section(ui, "Pieces", true, |ui| pattern.outliner_ui(ui, told, asks));
     let seams = format!("Seams ({})", told.document.pattern.seams.len());
     section(ui, &seams, false, |ui| seams_ui(ui, told, asks));
+    section(ui, "Sizes of the pattern", false, |ui| sizes.ui(ui, told, asks));
     selected.unwrap_or(pieces)
 }
 

@@ -1,6 +1,7 @@
 //! The section of sizes: the size run, the shown size, and the grade rules of selected points.
 
-use egui::{Button, Grid, Key, RichText, TextEdit};
+use egui::accesskit::Role;
+use egui::{Button, Grid, Key, RichText, TextEdit, WidgetInfo};
 use glam::DVec2;
 
 use crate::pattern::edit::{PatternEdit, PointRef};
@@ -210,7 +211,7 @@ fn rule_grid(
                 ui.end_row();
                 continue;
             }
-            let label = ui.label(RichText::new(format!("● {name}")).color(ink));
+            let label = ui.label(RichText::new(name).strong().color(ink));
             for axis in 0..2 {
                 if let Some(to) = length_field(ui, ("rule", size, axis), &label, seen.at(size)[axis], unit) {
                     let mut rule = seen.clone();
@@ -279,7 +280,10 @@ fn shown_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, asks: &mut Asks) {
                 true => "The base size, in which the pattern is drawn",
                 false => "Show this size: points that are moved then (Edit points) get rules; with Shift the same step in all sizes",
             };
-            if ui.selectable_label(size == shown, text).on_hover_text(tip).clicked() {
+            let button = ui.selectable_label(size == shown, text).on_hover_text(tip);
+            let words = format!("Show size {name}");
+            button.widget_info(|| WidgetInfo::selected(Role::Button, true, size == shown, words.clone()));
+            if button.clicked() {
                 asks.push(Ask::ShowSizes(SizeView { nested, shown: (!is_base).then_some(size) }));
             }
         }
