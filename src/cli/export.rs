@@ -27,7 +27,8 @@ pub fn export(arguments: &Export) -> Result<(), Failure> {
         let words = "--textures, fabrics, colours and images are of dressed cloth, as .obj or .glb";
         return Err(Failure::Usage(words.to_owned()));
     }
-    let options = InputOptions { scale: arguments.scale, as_placed: true, ..InputOptions::default() };
+    let (scale, grade) = (arguments.scale, arguments.grade.clone());
+    let options = InputOptions { scale, grade, as_placed: true, ..InputOptions::default() };
     let input = input::load(&arguments.project, &options)?;
     if let Some(format) = of_pattern {
         let pattern = &input.project.document.pattern;
@@ -36,7 +37,10 @@ pub fn export(arguments: &Export) -> Result<(), Failure> {
         for line in &written.left_out {
             output::complain(&format!("{}: {line}", arguments.output.display()));
         }
-        return output::write(&arguments.output, &written.bytes);
+        let rules = written.rules.map(|rules| (arguments.output.with_extension("rul"), rules));
+        let mut files = vec![(arguments.output.clone(), written.bytes)];
+        files.extend(rules);
+        return output::write_together(&files);
     }
     let mut session = run::opened(input.project, &arguments.project)?;
     run::choose_cloth(&mut session, &arguments.cloth)?;

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::cli::failure::Failure;
-use crate::io::FILE_BYTES;
+use crate::io::{FILE_BYTES, rul};
 use crate::session::whole_file;
 
 /// Prefix of the names of built-in samples.
@@ -35,6 +35,13 @@ pub fn bytes_of(path: &Path) -> Result<Vec<u8>, Failure> {
         Some(name) if is_sample(path) || name == MANNEQUIN => Ok(name.as_bytes().to_vec()),
         _ => read(path),
     }
+}
+
+/// The grade rule table beside a DXF, if there is one.
+pub fn rules_beside(path: &Path) -> Result<Option<Vec<u8>>, Failure> {
+    let is_dxf = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("dxf"));
+    let mut beside = rul::ENDINGS.iter().map(|ending| path.with_extension(ending)).filter(|_| is_dxf);
+    beside.find(|path| path.is_file()).map(|path| read(&path)).transpose()
 }
 
 /// Reads the whole file at `path`.

@@ -23,7 +23,9 @@ use crate::session::{AnimatedFile, Animations};
 
 /// Reads a pattern file of one of the known formats. Notes about it are printed.
 pub fn pattern(path: &Path, bytes: &[u8], scale: Option<DrawingUnit>) -> Result<Pattern, Failure> {
-    let read = pattern_formats::read(bytes, scale).map_err(|error| match error {
+    let rules = files::rules_beside(path)?;
+    let read = pattern_formats::read_with_rules(bytes, scale, rules.as_deref());
+    let read = read.map_err(|error| match error {
         PatternFileError::OverLimit(words) => Failure::Limit(format!("{}: {words}", path.display())),
         PatternFileError::Scale(question) => {
             Failure::input(path, format!("{question}: say which with --scale"))

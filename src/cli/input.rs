@@ -16,6 +16,7 @@ use crate::io::{gltf, pattern_formats};
 use crate::pattern::{Pattern, Piece};
 use crate::session::body::{Body, surface_of};
 use crate::session::carry::carried;
+use crate::session::grading::grade;
 use crate::session::placing::brought;
 use crate::session::project_file::ProjectFileError;
 use crate::session::samples::Sample;
@@ -186,6 +187,9 @@ pub fn take_options(
         // The marks of the option replace those of the project.
         project.document.marks = Arc::default();
     }
+    if let Some(size) = &options.grade {
+        take_size(project, path, size)?;
+    }
     match &options.body {
         Some(body) if body == Path::new(MANNEQUIN) => set_body(project, body, BodyChoice::default())?,
         Some(body) => {
@@ -243,6 +247,19 @@ pub fn take_options(
     }
     if options.suggest_marks {
         suggest_marks(project, path)?;
+    }
+    Ok(())
+}
+
+/// Takes the pattern of `project`, read from `path`, in the size called `size`; the cloth comes off.
+fn take_size(project: &mut Project, path: &Path, size: &str) -> Result<(), Failure> {
+    let before = Arc::clone(&project.document.pattern);
+    let problems = grade(&mut project.document, size).map_err(|why| Failure::input(path, why))?;
+    for problem in problems {
+        output::complain(&format!("{}: {}: {}", path.display(), problem.place, problem.words));
+    }
+    if !Arc::ptr_eq(&before, &project.document.pattern) {
+        project.dressed = None;
     }
     Ok(())
 }

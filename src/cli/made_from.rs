@@ -21,6 +21,7 @@ pub fn made_from(project: &Path, arguments: &Dress) -> Result<String, Failure> {
                 body,
                 body_file,
                 sized,
+                grade,
                 pose,
                 over,
                 raise,
@@ -44,7 +45,7 @@ pub fn made_from(project: &Path, arguments: &Dress) -> Result<String, Failure> {
         json: _,
         threads: _,
     } = arguments;
-    let placed = (raise, as_placed);
+    let placed = (raise, as_placed, grade);
     let of_input = (body_file, &sized.body_size, pose, over.len(), placed, scale, suggest_marks, edge_length);
     let mut cloth = cloth.clone();
     cloth.art.image_file_mut().into_iter().for_each(PathBuf::clear);
@@ -59,6 +60,9 @@ pub fn made_from(project: &Path, arguments: &Dress) -> Result<String, Failure> {
     take(env!("CARGO_PKG_VERSION").as_bytes());
     take(format!("{options:?}").as_bytes());
     take(&files::bytes_of(project)?);
+    if let Some(rules) = files::rules_beside(project)? {
+        take(&rules);
+    }
     for file in [body.as_ref(), sized.sizes.as_ref(), marks.as_ref()].into_iter().chain(over.iter().map(Some))
     {
         match file {

@@ -38,6 +38,8 @@ mod run;
 mod seconds;
 mod sequence;
 mod simulate;
+mod size_report;
+mod sizes;
 mod texture_options;
 mod verdict;
 
@@ -89,6 +91,7 @@ fn carry_out(arguments: Arguments) -> Result<(), Failure> {
                 repose::repose(&repose)
             }
         }),
+        Some(Task::Sizes(sizes)) => run::on_threads(sizes.threads, || sizes::sizes(&sizes)),
         Some(Task::Fit(fit)) => run::on_threads(fit.threads, || fit::fit(&fit)),
         Some(Task::Compare(compare)) => run::on_threads(compare.threads, || compare::compare(&compare)),
         Some(Task::Render(render)) => render::render(&render),

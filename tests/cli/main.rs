@@ -26,6 +26,7 @@ mod repose;
 mod sequence;
 mod signals;
 mod simulate;
+mod sizes;
 mod starts;
 mod stopped;
 mod textures;

@@ -52,6 +52,7 @@ pub enum Task {
     Measure(Measure),
     Simulate(Simulate),
     Repose(Repose),
+    Sizes(Sizes),
     Fit(Fit),
     Compare(Compare),
     Generate(Generate),
@@ -105,6 +106,9 @@ pub struct InputOptions {
     pub body_file: BodyFile,
     #[command(flatten)]
     pub sized: SizeOptions,
+    /// Takes the pattern in this size of its run; marks and graphics on it go along
+    #[arg(long, value_name = "SIZE")]
+    pub grade: Option<String>,
     /// Puts the mannequin in this pose, bare: a, t, standing, walking, running, sitting, arms-up or kung-fu; marks move with it,
     /// cloth comes off
     #[arg(long, value_name = "NAME")]
@@ -415,6 +419,69 @@ fn maps(text: &str) -> Result<Maps, String> {
     }
 }
 
+/// Dresses every size of a graded pattern, and tells how each fits
+///
+/// With --sizes each size is put on the mannequin of the same name in the table; else all are put on one body, and the report says
+/// which fits it best: the smallest that is dressed without a fault and nowhere tighter than the body. Writes a folder for each
+/// size as dress does, with dressed.toile in it, and sizes.json, sizes.csv (strain; girths of body and pattern, ease) and sizes.png
+/// (a map of each size side by side, in the same colours).
+#[derive(Debug, Args)]
+pub struct Sizes {
+    /// Project whose pattern has a size run
+    pub project: PathBuf,
+    /// A table of sizes (CSV, as for dress): a body for each size of the run, by its name
+    #[arg(long, value_name = "CSV")]
+    pub sizes: Option<PathBuf>,
+    /// Puts all sizes on this body (OBJ, glTF); "mannequin" is the built-in figure; left out, on that of the project
+    #[arg(long, value_name = "FILE", conflicts_with = "sizes")]
+    pub body: Option<PathBuf>,
+    #[command(flatten)]
+    pub body_file: BodyFile,
+    /// Dresses only this size; can be repeated
+    #[arg(long, value_name = "SIZE")]
+    pub only: Vec<String>,
+    /// The folder to write to
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+    /// Puts the mannequin in this pose, as for dress
+    #[arg(long, value_name = "NAME")]
+    pub pose: Option<NamedPose>,
+    /// How a pattern without marks is put on, as for dress: marks or placement
+    #[arg(long, value_name = "marks|placement")]
+    pub start: Option<Start>,
+    /// Then drapes each size by weight and fabric until it rests
+    #[arg(long)]
+    pub drape: bool,
+    #[command(flatten)]
+    pub cloth: ClothOptions,
+    /// The unit of a DXF or SVG pattern: mm, cm, m, in, px, px90 or pt
+    #[arg(long, value_name = "UNIT")]
+    pub scale: Option<DrawingUnit>,
+    /// Length of the triangles' edges, metres
+    #[arg(long, value_name = "METRES")]
+    pub edge_length: Option<f64>,
+    /// The map in sizes.png
+    #[arg(long, value_name = "NAME", default_value = "ease")]
+    pub map: MapKind,
+    /// Limit of ticks for each size; one that needs more is not dressed
+    #[arg(long, default_value_t = MAX_TICKS)]
+    pub max_ticks: u64,
+    #[command(flatten)]
+    pub picture: PictureOptions,
+    /// Leaves out all pictures
+    #[arg(long)]
+    pub no_picture: bool,
+    /// Leaves sizes whose result is already there, made from the same bytes with the same options
+    #[arg(long)]
+    pub resume: bool,
+    /// Prints sizes.json
+    #[arg(long)]
+    pub json: bool,
+    /// Number of threads; the result is the same
+    #[arg(long)]
+    pub threads: Option<usize>,
+}
+
 /// Compares two dressed projects of the same pieces: other poses, sizes, fabrics or bodies
 ///
 /// Writes compare.json (of each map the mean, the 99th percentile and the maximum of the difference for the garment and each
@@ -496,6 +563,9 @@ pub struct Export {
     /// The unit of a DXF or SVG pattern that is read: mm, cm, m, in, px, px90 or pt
     #[arg(long, value_name = "UNIT")]
     pub scale: Option<DrawingUnit>,
+    /// Takes the pattern in this size of its run
+    #[arg(long, value_name = "SIZE")]
+    pub grade: Option<String>,
 }
 
 /// Says what is wrong with a project, pattern or body, in words

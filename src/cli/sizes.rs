@@ -1,0 +1,214 @@
+//! `toile sizes`: grades a pattern to each size of its run, dresses every size, and tells how each fits.
+
+use std::path::Path;
+
+use image::RgbaImage;
+
+use crate::cli::arguments::{Dress, InputOptions, SizeOptions, Sizes};
+use crate::cli::dress_one::{Done, dress_one};
+use crate::cli::failure::Failure;
+use crate::cli::fit::{Pictures, dressed};
+use crate::cli::size_report::{Ease, SizeReport, SizeRow};
+use crate::cli::{files, input, interrupt, output, run};
+use crate::fit::{Map, girths};
+use crate::io::sizes::{self, SizesError};
+use crate::pattern::grading::{graded, growth_in};
+use crate::pattern::{Pattern, Problem};
+use crate::render::{Legend, Palette, png};
+use crate::session::Outfit;
+use crate::session::body::readings_of;
+
+/// Difference of the lengths of a seam's sides from which it is told, metres.
+const APART: f64 = 1e-3;
+
+/// Dresses every size, and writes sizes.json, sizes.csv and sizes.png.
+pub fn sizes(arguments: &Sizes) -> Result<(), Failure> {
+    let options = InputOptions { scale: arguments.scale, as_placed: true, ..InputOptions::default() };
+    let input = input::load(&arguments.project, &options)?;
+    let pattern = &input.project.document.pattern;
+    let names = chosen(pattern, arguments)?;
+    if let Some(table) = &arguments.sizes {
+        check_bodies(table, &names)?;
+    }
+    output::make_folder(&arguments.out)?;
+    let mut worn: Vec<(String, Outfit)> = Vec::new();
+    let mut rows = Vec::new();
+    for (i, name) in names.iter().enumerate() {
+        interrupt::check()?;
+        let folder = arguments.out.join(folder_name(&names[..i], name));
+        let (row, outfit) = in_size(arguments, pattern, name, &folder)?;
+        if !arguments.json {
+            output::say(&row.words());
+        }
+        worn.extend(outfit.map(|outfit| (name.clone(), outfit)));
+        rows.push(row);
+    }
+    let report = SizeReport::new(&input.name, pattern, arguments.sizes.is_none(), rows);
+    let mut written = vec![
+        (arguments.out.join("sizes.json"), format!("{}\n", report.json()?).into_bytes()),
+        (arguments.out.join("sizes.csv"), report.csv().into_bytes()),
+    ];
+    if let Some(bytes) = picture(arguments, &worn)? {
+        written.push((arguments.out.join("sizes.png"), bytes));
+    }
+    output::write_together(&written)?;
+    output::say(&if arguments.json { report.json()? } else { report.summary() });
+    report.failed().map_or(Ok(()), |words| Err(Failure::Check(words)))
+}
+
+/// The names of the sizes to dress, in the order of the run.
+fn chosen(pattern: &Pattern, arguments: &Sizes) -> Result<Vec<String>, Failure> {
+    if pattern.sizes.is_empty() {
+        let words = "the pattern has no sizes: give it some in the window (Sizes of the pattern), or read a rule table";
+        return Err(Failure::input(&arguments.project, words));
+    }
+    let numbers = arguments.only.iter().map(|name| pattern.sizes.number(name));
+    let numbers: Vec<usize> =
+        numbers.collect::<Result<_, String>>().map_err(|why| Failure::input(&arguments.project, why))?;
+    let is_chosen = |i: &usize| numbers.is_empty() || numbers.contains(i);
+    Ok((0..pattern.sizes.len()).filter(is_chosen).map(|i| pattern.sizes.names[i].clone()).collect())
+}
+
+/// Refuses a table without a body for each of the sizes, before the first of them is dressed.
+fn check_bodies(table: &Path, names: &[String]) -> Result<(), Failure> {
+    let refused = |error: SizesError| Failure::input(table, error);
+    let bodies = sizes::read(&files::read(table)?).map_err(refused)?;
+    names.iter().try_for_each(|name| {
+        sizes::chosen(&bodies, name).and_then(|size| size.checked()).map(drop).map_err(refused)
+    })
+}
+
+/// A name for the folder of a size that any system can have; `before` are the names of earlier sizes.
+fn folder_name(before: &[String], name: &str) -> String {
+    let plain = |name: &str| -> String {
+        let is_plain = |c: char| c.is_alphanumeric() || "-_+".contains(c);
+        name.chars().map(|c| if is_plain(c) { c } else { '-' }).collect()
+    };
+    let own = plain(name);
+    match before.iter().any(|other| plain(other) == own) {
+        true => format!("{own}-{}", before.len() + 1),
+        false => own,
+    }
+}
+
+/// Dresses one size into `folder`; what cannot be dressed is a row that says why.
+fn in_size(
+    arguments: &Sizes,
+    pattern: &Pattern,
+    name: &str,
+    folder: &Path,
+) -> Result<(SizeRow, Option<Outfit>), Failure> {
+    let graded = graded(pattern, name).map_err(|why| Failure::input(&arguments.project, why))?;
+    let mut row = SizeRow::new(name, folder);
+    row.problems = graded.problems.iter().map(told).collect();
+    row.seams_apart = growth_in(pattern, &graded, name)
+        .into_iter()
+        .filter(|growth| growth.change.abs() > APART)
+        .map(|growth| (growth.seam.to_string(), growth.change))
+        .collect();
+    let saved = folder.join("dressed.toile");
+    match dress_one(&arguments.project, folder, &dress_arguments(arguments, name, folder, &saved)) {
+        Ok(Done { verdict, report, .. }) => {
+            row.take(&report);
+            row.why = verdict.failed_check();
+        }
+        Err(failure @ (Failure::Input { .. } | Failure::Limit(_))) => {
+            row.why = Some(failure.to_string());
+            return Ok((row, None));
+        }
+        Err(failure) => return Err(failure),
+    }
+    let outfit = worn(&saved, &mut row)?;
+    Ok((row, Some(outfit)))
+}
+
+fn told(problem: &Problem) -> String {
+    format!("{}: {}", problem.place, problem.words)
+}
+
+/// What `toile dress` would be told for this size.
+fn dress_arguments(arguments: &Sizes, name: &str, folder: &Path, saved: &Path) -> Dress {
+    let Sizes { project, sizes, body, body_file, pose, scale, edge_length, start, drape, cloth, .. } =
+        arguments;
+    let sized = match sizes {
+        Some(table) => SizeOptions { sizes: Some(table.clone()), body_size: Some(name.to_owned()) },
+        None => SizeOptions::default(),
+    };
+    let input = InputOptions {
+        grade: Some(name.to_owned()),
+        body: body.clone(),
+        body_file: *body_file,
+        sized,
+        pose: *pose,
+        scale: *scale,
+        edge_length: *edge_length,
+        ..InputOptions::default()
+    };
+    Dress {
+        input,
+        start: *start,
+        drape: *drape,
+        cloth: cloth.clone(),
+        save: Some(saved.to_owned()),
+        max_ticks: arguments.max_ticks,
+        picture: arguments.picture,
+        no_picture: arguments.no_picture,
+        resume: arguments.resume,
+        ..Dress::sample(project, folder)
+    }
+}
+
+/// The dressed garment that was saved; its ease at every girth goes into `row`.
+fn worn(saved: &Path, row: &mut SizeRow) -> Result<Outfit, Failure> {
+    let project = input::load(saved, &InputOptions::default())?.project;
+    let session = run::opened(project, saved)?;
+    let outfit = dressed(&session, saved)?;
+    let readings = readings_of(&session.document().body, &outfit.body.mesh).unwrap_or_default();
+    let round = girths(&outfit.garment, &outfit.state, &readings);
+    row.ease = round
+        .into_iter()
+        .map(|(i, girth)| Ease { name: readings[i].name, body: readings[i].metres, pattern: girth.flat })
+        .collect();
+    Ok(outfit)
+}
+
+/// A map of every size side by side, in the same colours.
+fn picture(arguments: &Sizes, worn: &[(String, Outfit)]) -> Result<Option<Vec<u8>>, Failure> {
+    if arguments.no_picture || worn.is_empty() {
+        return Ok(None);
+    }
+    let mut pictures = Pictures::new()?;
+    let Some(artist) = &mut pictures.artist else { return Ok(None) };
+    let kind = arguments.map;
+    let (unit, times) = kind.unit();
+    let maps: Vec<Map> = worn.iter().map(|(_, outfit)| Map::new(kind, outfit.worn())).collect();
+    let ranges = maps.iter().map(Map::range);
+    let range = ranges.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]).unwrap_or([0.0, 1.0]);
+    let palette = if kind.is_signed() { Palette::Diverging } else { Palette::Sequential };
+    let [width, height] = arguments.picture.size;
+    // Bodies are narrow: each has half the width of a picture of its own.
+    let size = [(width / 2).max(1), height];
+    let mut whole = RgbaImage::new(size[0] * worn.len() as u32, height);
+    for (i, ((name, outfit), map)) in worn.iter().zip(&maps).enumerate() {
+        let colours: Vec<_> = map.vertices.iter().map(|&v| palette.colour(v, range)).collect();
+        let title = format!("{name}: {}", kind.short());
+        let legend = Legend { title, unit: unit.to_owned(), range: range.map(|v| v * times), palette };
+        let panel = artist.coloured(outfit, &colours, &legend, arguments.picture.view, size)?;
+        image::imageops::replace(&mut whole, &panel, i64::from(size[0]) * i as i64, 0);
+    }
+    png(&whole).map(Some).map_err(|e| Failure::Internal(e.to_string()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes_get_folders_that_any_system_can_have() {
+        let before = ["S/M".to_owned(), "M".to_owned()];
+        assert_eq!(folder_name(&before[..0], "S/M"), "S-M");
+        assert_eq!(folder_name(&before, "S:M"), "S-M-3");
+        assert_eq!(folder_name(&before, "../x"), "---x");
+        assert_eq!(folder_name(&before, "38"), "38");
+    }
+}
