@@ -21,6 +21,8 @@ const SEED: u64 = 28;
 const STRETCHES: u64 = 4;
 /// So long a program that is told to end may go on, seconds: 0.5 is promised on a machine that has nothing else to do.
 const MOST: f64 = 3.0;
+/// What goes on for longer does not stop.
+const HANGS: Duration = Duration::from_secs(60);
 /// So long a program may take to start, seconds: a signal before ends it as the system does.
 const STARTING: f64 = 0.3;
 
@@ -109,6 +111,15 @@ fn sheet(n: usize) -> String {
     text
 }
 
+/// Processor time of a running process, seconds; None where the system does not tell.
+fn worked(child: &Child) -> Option<f64> {
+    let stat = std::fs::read_to_string(format!("/proc/{}/stat", child.id())).ok()?;
+    // The 14th and 15th field, in hundredths; the second, a name in brackets, may have spaces.
+    let fields: Vec<&str> = stat.rsplit_once(')')?.1.split_whitespace().collect();
+    let hundredths = |i: usize| fields.get(i)?.parse::<f64>().ok();
+    Some((hundredths(11)? + hundredths(12)?) / 100.0)
+}
+
 /// Names of all files and of empty folders under `folder`, with what is in them.
 fn found(folder: &Path, name: &str, into: &mut BTreeMap<String, Vec<u8>>) {
     let entries = std::fs::read_dir(folder).expect("a folder").flatten();
@@ -140,7 +151,8 @@ impl Case {
         command.spawn().expect("started")
     }
 
-    /// Stops the run, which takes `whole` seconds, `after` so many; gives how long it went on.
+    /// Stops the run `after` so many seconds; gives how long it went on, in seconds of the clock or, on a busy machine, of the
+    /// processor.
     fn stopped(
         &self,
         (signal, code): (&str, i32),
@@ -148,13 +160,20 @@ impl Case {
         reference: (i32, &BTreeMap<String, Vec<u8>>),
     ) -> Option<f64> {
         let place = Place::new();
-        let child = self.begun(&place);
+        let mut child = self.begun(&place);
         std::thread::sleep(Duration::from_secs_f64(after));
         let pid = child.id().to_string();
         Command::new("kill").args([format!("-{signal}"), pid]).stderr(Stdio::null()).status().expect("sent");
-        let since = Instant::now();
+        let (since, worked) = (Instant::now(), worked(&child));
+        let mut at = worked;
+        while child.try_wait().expect("a child").is_none() && since.elapsed() < HANGS {
+            at = self::worked(&child).or(at);
+            std::thread::sleep(Duration::from_millis(5));
+        }
+        let waited = since.elapsed().as_secs_f64();
+        let went_on = at.zip(worked).map_or(waited, |(end, start)| waited.min(end - start));
+        child.kill().expect("it is there or was");
         let output = child.wait_with_output().expect("ended");
-        let went_on = since.elapsed().as_secs_f64();
         let by_system = output.status.signal().is_some_and(|number| number + 128 == code);
         let Ended { code: got, err, .. } = ended(output);
         let place_of = format!("toile {} with SIG{signal} after {after:.3} s: {got}, {err}", self.words);
