@@ -69,7 +69,7 @@ impl App {
                     verdict: snapshot.verdict.as_ref().map_or(&[], |found| found),
                     lost: &lost,
                     now,
-                    sizes: self.pattern_pane.sizes,
+                    sizes: self.shell.size_view,
                     nests: &self.pattern_pane.nests,
                     palette,
                 };
@@ -101,7 +101,7 @@ impl App {
             spot: self.spot(),
             points_per_metre: now.points_per_metre,
             unit: now.unit,
-            sizes: self.pattern_pane.sizes,
+            sizes: self.shell.size_view,
             snapping: self.snapping,
             ghosts: self.ghosts.as_ref().map(|g| &*g.marks),
             map: self.shell.maps.shown(),

@@ -354,7 +354,7 @@ impl App {
             Ask::ShowPlace(place) => self.show_place(place),
             Ask::MapRange(kind, range) => self.shell.maps.set_range(kind, range),
             Ask::Say(words) => self.messages.tell(words),
-            Ask::ShowSizes(sizes) => self.pattern_pane.sizes = sizes,
+            Ask::ShowSizes(sizes) => self.shell.size_view = sizes,
             Ask::Jump(steps) => self.jump(steps),
         }
     }

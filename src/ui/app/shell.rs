@@ -23,6 +23,7 @@ use crate::ui::maps::MapView;
 use crate::ui::panels::pose::PosePanel;
 use crate::ui::panels::sizes::SizesPanel;
 use crate::ui::panels::tape::TapePanel;
+use crate::ui::pattern_pane::nests::SizeView;
 use crate::ui::preferences::Preferences;
 use crate::ui::preferences::page::PreferencesPage;
 use crate::ui::shell::command_palette::CommandPalette;
@@ -68,6 +69,8 @@ pub struct Shell {
     pub tape: TapePanel,
     /// Sizes and grade rules of the pattern.
     pub sizes: SizesPanel,
+    /// Which sizes are shown. Not kept in the pattern pane, which is taken out while it is shown.
+    pub size_view: SizeView,
     /// The map that the cloth is coloured by.
     pub maps: MapView,
     /// Thumbnails of samples and projects.

@@ -94,8 +94,6 @@ pub struct PatternPane {
     pictures: Pictures,
     /// The pattern in all its sizes.
     pub nests: Nests,
-    /// Which sizes are shown.
-    pub sizes: SizeView,
     tool: Option<(Tool, Box<dyn PatternTool>)>,
     entry: Option<Entry>,
     /// The keyboard's cursor, in metres on the table.

@@ -81,3 +81,28 @@ fn the_base_is_changed_and_all_sizes_removed() {
     assert_eq!(pattern(&window).sizes, SizeRun::default());
     assert_eq!(steps(&window), ["set the sizes", "remove the sizes"]);
 }
+
+#[test]
+fn a_point_dragged_in_a_size_moves_in_that_size_alone_and_with_shift_in_all() {
+    let mut window = window_on(graded());
+    open(&mut window);
+    select(&mut window, "A, point 2");
+    click_label(&mut window, "Show size XL");
+    let point = drawn(&window, "A, point 2");
+    drag(&mut window, point, point + Vec2::new(20.0, 0.0));
+    let own = rule(&window, 1).expect("a rule");
+    assert!(own.at(4).x > 0.005 && own.at(4).y.abs() < 1e-9, "{own:?}");
+    assert!((0..6).all(|size| size == 4 || own.at(size) == DVec2::ZERO), "{own:?}");
+    assert_eq!(piece(&pattern(&window), "A").edge(1).start, piece(&graded(), "A").edge(1).start);
+    assert_eq!(steps(&window), ["set a rule"]);
+    let point = drawn(&window, "A, point 3");
+    window.event(Event::ModifiersChanged(Modifiers::SHIFT));
+    move_to(&mut window, point);
+    button(&mut window, point, true, Modifiers::SHIFT);
+    move_to(&mut window, point + Vec2::new(12.0, 0.0));
+    button(&mut window, point + Vec2::new(12.0, 0.0), false, Modifiers::SHIFT);
+    window.event(Event::ModifiersChanged(Modifiers::NONE));
+    window.run_steps(3);
+    let even = rule(&window, 2).expect("a rule");
+    assert!((even.at(4).x - 2.0 * even.at(3).x).abs() < 1e-9 && even.at(1).x < -0.001, "{even:?}");
+}
