@@ -4,6 +4,7 @@ use crate::cli::arguments::{Export, InputOptions};
 use crate::cli::failure::Failure;
 use crate::cli::{input, output, run};
 use crate::io::pattern_formats::{self, PatternFormat, endings};
+use crate::io::rul;
 use crate::ui::scenery::fabric_textures::USUAL_SIDE;
 use crate::ui::scenery::worn::Worn;
 
@@ -37,10 +38,9 @@ pub fn export(arguments: &Export) -> Result<(), Failure> {
         for line in &written.left_out {
             output::complain(&format!("{}: {line}", arguments.output.display()));
         }
-        let rules = written.rules.map(|rules| (arguments.output.with_extension("rul"), rules));
-        let mut files = vec![(arguments.output.clone(), written.bytes)];
-        files.extend(rules);
-        return output::write_together(&files);
+        let Some(rules) = written.rules else { return output::write(&arguments.output, &written.bytes) };
+        let table = arguments.output.with_extension(rul::ENDING);
+        return output::write_together(&[(arguments.output.clone(), written.bytes), (table, rules)]);
     }
     let mut session = run::opened(input.project, &arguments.project)?;
     run::choose_cloth(&mut session, &arguments.cloth)?;

@@ -39,9 +39,8 @@ pub fn bytes_of(path: &Path) -> Result<Vec<u8>, Failure> {
 
 /// The grade rule table beside a DXF, if there is one.
 pub fn rules_beside(path: &Path) -> Result<Option<Vec<u8>>, Failure> {
-    let is_dxf = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("dxf"));
-    let mut beside = rul::ENDINGS.iter().map(|ending| path.with_extension(ending)).filter(|_| is_dxf);
-    beside.find(|path| path.is_file()).map(|path| read(&path)).transpose()
+    let mut names = rul::names_beside(path).into_iter();
+    names.find(|name| name.is_file()).map(|name| read(&name)).transpose()
 }
 
 /// Reads the whole file at `path`.

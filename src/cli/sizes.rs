@@ -18,9 +18,6 @@ use crate::render::{Legend, Palette, png};
 use crate::session::Outfit;
 use crate::session::body::readings_of;
 
-/// Difference of the lengths of a seam's sides from which it is told, metres.
-const APART: f64 = 1e-3;
-
 /// Dresses every size, and writes sizes.json, sizes.csv and sizes.png.
 pub fn sizes(arguments: &Sizes) -> Result<(), Failure> {
     let options = InputOptions { scale: arguments.scale, as_placed: true, ..InputOptions::default() };
@@ -103,14 +100,12 @@ fn in_size(
     row.problems = graded.problems.iter().map(told).collect();
     row.seams_apart = growth_in(pattern, &graded, name)
         .into_iter()
-        .filter(|growth| growth.change.abs() > APART)
         .map(|growth| (growth.seam.to_string(), growth.change))
         .collect();
     let saved = folder.join("dressed.toile");
     match dress_one(&arguments.project, folder, &dress_arguments(arguments, name, folder, &saved)) {
-        Ok(Done { verdict, report, .. }) => {
-            row.take(&report);
-            row.why = verdict.failed_check();
+        Ok(Done { verdict, .. }) => {
+            row.take(verdict.triangles(), verdict.strain_p99(), verdict.failed_check())
         }
         Err(failure @ (Failure::Input { .. } | Failure::Limit(_))) => {
             row.why = Some(failure.to_string());

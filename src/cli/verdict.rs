@@ -104,6 +104,16 @@ impl Verdict {
         self.times.seconds
     }
 
+    /// Number of triangles of the garment.
+    pub fn triangles(&self) -> usize {
+        self.triangles
+    }
+
+    /// 99th percentile of the strain of edges, a fraction.
+    pub fn strain_p99(&self) -> f64 {
+        self.strain.p99
+    }
+
     /// All faults with their places in one message; None when the project is dressed.
     pub fn failed_check(&self) -> Option<String> {
         let words = |f: &Fault| format!("{}: {}", f.problem.place, f.problem.words);

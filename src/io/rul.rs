@@ -16,6 +16,7 @@
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
+use std::path::{Path, PathBuf};
 
 use glam::DVec2;
 
@@ -24,8 +25,8 @@ use crate::io::pattern_file::PatternFileError;
 use crate::io::words::readable;
 use crate::pattern::{GradeRule, SizeRun};
 
-/// Extensions of the files, as they are looked for beside a drawing.
-pub const ENDINGS: [&str; 2] = ["rul", "RUL"];
+/// Extension of the files.
+pub const ENDING: &str = "rul";
 /// Most rules of a table.
 const MOST_RULES: usize = 10_000;
 /// Millimetres in a metre.
@@ -42,6 +43,13 @@ pub struct RuleTable {
     pub sizes: SizeRun,
     /// The rules by number, in the axes of the drawing, metres.
     pub rules: BTreeMap<u32, GradeRule>,
+}
+
+/// The names that the table of a drawing may have, in the order in which they are looked for; none where it is no DXF.
+pub fn names_beside(drawing: &Path) -> Vec<PathBuf> {
+    let is_dxf = drawing.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("dxf"));
+    let endings = if is_dxf { &[ENDING, "RUL"][..] } else { &[] };
+    endings.iter().map(|ending| drawing.with_extension(ending)).collect()
 }
 
 /// What has been read so far.

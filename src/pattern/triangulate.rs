@@ -6,9 +6,8 @@ use std::sync::Arc;
 use glam::DVec2;
 use spade::{AngleLimit, ConstrainedDelaunayTriangulation, Point2, RefinementParameters, Triangulation};
 
-use crate::geometry::bvh::{Aabb, Bvh};
 use crate::geometry::ids::PieceId;
-use crate::geometry::polygon::{contains, signed_area};
+use crate::geometry::polygon::{contains, first_crossing, signed_area};
 use crate::pattern::sampling::Sampling;
 use crate::pattern::{CutPattern, EdgeRef, EdgeShape, Piece, Problem, ProblemKind};
 
@@ -213,26 +212,8 @@ impl Lines {
 
     /// The first two segments that intersect without being neighbours.
     fn crossing(&self) -> Option<(usize, usize)> {
-        let around = |i: usize| {
-            let (a, b) = self.segment(i);
-            Aabb::around(&[a.extend(0.0), b.extend(0.0)])
-        };
-        let boxes: Vec<Aabb> = (0..self.points.len()).map(around).collect();
-        let tree = Bvh::new(&boxes);
-        (0..boxes.len()).find_map(|i| {
-            let (a, b) = self.segment(i);
-            let mut first: Option<usize> = None;
-            tree.near(&boxes[i], |j| {
-                let j = j as usize;
-                let is_neighbour = self.next[i] as usize == j || self.next[j] as usize == i;
-                let (c, d) = self.segment(j);
-                if j > i && first.is_none_or(|first| j < first) && !is_neighbour && segments_meet(a, b, c, d)
-                {
-                    first = Some(j);
-                }
-            });
-            first.map(|j| (i, j))
-        })
+        let segments: Vec<[DVec2; 2]> = (0..self.points.len()).map(|i| self.segment(i).into()).collect();
+        first_crossing(&segments, |i, j| self.next[i] as usize == j || self.next[j] as usize == i)
     }
 
     /// Describes a hole that lies outside the outline or inside another hole; assumes that the lines do not cross.
@@ -252,25 +233,6 @@ impl Lines {
 
 fn edge_of(edge_points: &[Vec<u32>], segment: usize) -> usize {
     edge_points.iter().position(|e| e[..e.len() - 1].contains(&(segment as u32))).unwrap_or(0)
-}
-
-fn segments_meet(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> bool {
-    let side = |p: DVec2, q: DVec2, r: DVec2| robust_orientation(p, q, r);
-    let (o1, o2, o3, o4) = (side(a, b, c), side(a, b, d), side(c, d, a), side(c, d, b));
-    if o1 * o2 < 0.0 && o3 * o4 < 0.0 {
-        return true;
-    }
-    let on = |p: DVec2, q: DVec2, r: DVec2| r.cmpge(p.min(q)).all() && r.cmple(p.max(q)).all();
-    (o1 == 0.0 && on(a, b, c))
-        || (o2 == 0.0 && on(a, b, d))
-        || (o3 == 0.0 && on(c, d, a))
-        || (o4 == 0.0 && on(c, d, b))
-}
-
-fn robust_orientation(a: DVec2, b: DVec2, c: DVec2) -> f64 {
-    // Values below the accuracy of curve sampling are rounded to zero.
-    let o = (b - a).perp_dot(c - a);
-    if o.abs() < 1e-16 { 0.0 } else { o }
 }
 
 /// Refined triangulation: its points, those of the outline first, and its triangles, counter-clockwise in the drawing.
@@ -378,47 +340,4 @@ fn distance_to_segment(p: DVec2, a: DVec2, b: DVec2) -> f64 {
     let ab = b - a;
     let t = ((p - a).dot(ab) / ab.length_squared().max(1e-300)).clamp(0.0, 1.0);
     (p - a - ab * t).length()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// A closed loop through these points.
-    fn loop_of(points: Vec<DVec2>) -> Lines {
-        let count = points.len();
-        let next = (0..count).map(|i| ((i + 1) % count) as u32).collect();
-        Lines { points, next, starts: vec![0, count], edge_points: Vec::new() }
-    }
-
-    #[test]
-    fn the_first_crossing_is_that_of_all_pairs() {
-        let mut state = 7u64;
-        let mut chance = || {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-            (state >> 33) as f64 / f64::from(1u32 << 31)
-        };
-        let mut clean = 0;
-        for round in 0..300 {
-            let count = 4 + round % 30;
-            let points = (0..count).map(|k| {
-                let angle = std::f64::consts::TAU * k as f64 / count as f64;
-                // Rough ones cross, fine ones do not.
-                DVec2::from_angle(angle) + DVec2::new(chance(), chance()) * (0.006 * f64::from(round as u32))
-            });
-            let lines = loop_of(points.collect());
-            let meet = |i: usize, j: usize| {
-                let ((a, b), (c, d)) = (lines.segment(i), lines.segment(j));
-                j > i && (i + 1) % count != j && (j + 1) % count != i && segments_meet(a, b, c, d)
-            };
-            let pairs = (0..count).flat_map(|i| (0..count).map(move |j| (i, j)));
-            let first = pairs.into_iter().find(|&(i, j)| meet(i, j));
-            assert_eq!(lines.crossing(), first, "round {round}");
-            clean += usize::from(first.is_none());
-        }
-        assert!((50..250).contains(&clean), "{clean} of 300 do not cross");
-        // What runs to and fro over itself meets at once.
-        let to_and_fro: Vec<DVec2> = (0..50_000).map(|k| DVec2::new(f64::from(k % 2), 0.0)).collect();
-        assert_eq!(loop_of(to_and_fro).crossing(), Some((0, 2)));
-    }
 }

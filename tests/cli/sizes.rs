@@ -23,11 +23,16 @@ fn skirt() -> Project {
     project
 }
 
+/// Writes the graded skirt and a table of a body for each of its sizes.
+pub(crate) fn write_inputs(place: &Place, project: &str, table: &str) {
+    let bytes = project_file::to_bytes(&skirt()).expect("a project");
+    std::fs::write(place.path(project), bytes).expect("written");
+    place.write(table, "size,waist,hip\nS,68,94\nM,70.6,98\nL,74,102\n");
+}
+
 fn place() -> Place {
     let place = Place::new();
-    let bytes = project_file::to_bytes(&skirt()).expect("a project");
-    std::fs::write(place.path("skirt.toile"), bytes).expect("written");
-    place.write("bodies.csv", "size,waist,hip\nS,68,94\nM,70.6,98\nL,74,102\n");
+    write_inputs(&place, "skirt.toile", "bodies.csv");
     place
 }
 

@@ -62,6 +62,10 @@ const FILES: &[(&str, bool)] = &[
     ("bench drape --runs 1 --triangles 300", false),
 ];
 
+/// Files of a size take their places together, a size after the other.
+const GRADED: &[(&str, bool)] =
+    &[("sizes IN/graded.toile --sizes IN/bodies.csv --edge-length 0.03 --out out", true)];
+
 /// Inputs of the runs: a skirt that lies on its body and one that is not dressed, a body, a motion, a falling cloth.
 fn inputs() -> &'static Place {
     static INPUTS: OnceLock<Place> = OnceLock::new();
@@ -83,6 +87,7 @@ fn inputs() -> &'static Place {
         let line =
             r#"{"garment": "a", "folder": "a", "outcome": "dressed", "exit_code": 0, "finished": 1.0}"#;
         place.write("lists/lines.jsonl", format!("{line}\n"));
+        crate::sizes::write_inputs(&place, "graded.toile", "bodies.csv");
         place.write("cloth.obj", sheet(60));
         place.write(
             "scene.json",
@@ -262,6 +267,11 @@ fn files_and_benches_stop_at_any_moment_and_leave_nothing_half_done() {
     stop(FILES);
 }
 
+#[test]
+fn sizes_stop_at_any_moment_and_leave_nothing_half_done() {
+    stop(GRADED);
+}
+
 /// One that is new is not forgotten here.
 #[test]
 fn every_subcommand_is_stopped() {
@@ -269,7 +279,7 @@ fn every_subcommand_is_stopped() {
     let commands = help.lines().skip_while(|line| *line != "Commands:").skip(1);
     let names =
         commands.take_while(|line| !line.is_empty()).filter_map(|line| line.split_whitespace().next());
-    let cases = [DRESSING, REPOSING, READING, FILES].concat();
+    let cases = [DRESSING, REPOSING, READING, FILES, GRADED].concat();
     let is_stopped = |name: &&str| cases.iter().any(|(words, _)| words.split(' ').next() == Some(name));
     let missing: Vec<&str> = names.filter(|name| *name != "help" && !is_stopped(name)).collect();
     assert!(missing.is_empty(), "{missing:?}");

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use crate::geometry::ids::PieceId;
-use crate::geometry::polygon::{sides, signed_area};
+use crate::geometry::polygon::{first_crossing, sides, signed_area};
 use crate::pattern::edit::grading::{put, rules_of, tangents_at};
 use crate::pattern::grading::field::Field;
 use crate::pattern::grading::rule::GradeRule;
@@ -48,7 +48,7 @@ pub fn graded(pattern: &Pattern, size: &str) -> Result<Graded, String> {
     let mut moved = BTreeMap::new();
     for (&id, piece) in &pattern.pieces {
         let by = displacements(piece, number);
-        let is_still = by.iter().all(|by| *by == DVec2::ZERO);
+        let is_still = by.iter().flatten().all(|by| *by == DVec2::ZERO);
         if (is_still && piece.lines.iter().all(|line| is_still_line(line, number)))
             || number == pattern.sizes.base
         {
@@ -69,8 +69,8 @@ fn is_still_line(line: &InternalLine, size: usize) -> bool {
 }
 
 /// The displacement of each point of the closed lines of `piece` in size number `size`: of the outline by rule or from
-/// its neighbours; of holes by rule, else NaN.
-fn displacements(piece: &Piece, size: usize) -> Vec<DVec2> {
+/// its neighbours; of holes by rule, None where they move with the cloth.
+fn displacements(piece: &Piece, size: usize) -> Vec<Option<DVec2>> {
     let count = piece.outline.len();
     let given: Vec<Option<DVec2>> = (0..count)
         .map(|i| match &piece.outline[i].rule {
@@ -79,15 +79,9 @@ fn displacements(piece: &Piece, size: usize) -> Vec<DVec2> {
             None => Some(DVec2::ZERO),
         })
         .collect();
-    let mut all = between_given(piece, &given);
-    all.extend(
-        piece.holes.iter().flatten().map(|edge| edge.rule.as_ref().map_or(DVec2::NAN, |r| r.at(size))),
-    );
-    match all.iter().all(|by| by.is_nan() || *by == DVec2::ZERO) {
-        // Holes move with the cloth: not at all.
-        true => vec![DVec2::ZERO; all.len()],
-        false => all,
-    }
+    let of_outline = between_given(piece, &given).into_iter().map(Some);
+    let of_holes = piece.holes.iter().flatten().map(|edge| edge.rule.as_ref().map(|rule| rule.at(size)));
+    of_outline.chain(of_holes).collect()
 }
 
 /// Fills what is not given by the share of arc length between the neighbours that are.
@@ -121,22 +115,16 @@ fn runs_on(piece: &Piece, i: usize) -> bool {
     arriving.angle_to(leaving).abs() <= CORNER
 }
 
-fn graded_piece(piece: &Piece, by: &[DVec2], size: usize) -> (Piece, Field) {
-    let of_outline: Vec<DVec2> = (0..piece.edge_count())
-        .map(|i| piece.edge(i).start + if i < piece.outline.len() { by[i] } else { DVec2::ZERO })
-        .collect();
-    let mut new = put(piece, &of_outline);
+fn graded_piece(piece: &Piece, by: &[Option<DVec2>], size: usize) -> (Piece, Field) {
+    // The holes follow once the outline tells how.
+    let with_holes_at = |hole: &dyn Fn(DVec2) -> DVec2| -> Vec<DVec2> {
+        let starts = (0..piece.edge_count()).map(|i| piece.edge(i).start);
+        starts.zip(by).map(|(p, by)| by.map_or_else(|| hole(p), |by| p + by)).collect()
+    };
+    let mut new = put(piece, &with_holes_at(&|p| p));
     let field = Field::between(piece, &new);
     if !piece.holes.is_empty() {
-        let count = piece.outline.len();
-        let places: Vec<DVec2> = (0..piece.edge_count())
-            .map(|i| match piece.edge(i).start {
-                p if i < count => p + by[i],
-                p if by[i].is_nan() => field.moved(p),
-                p => p + by[i],
-            })
-            .collect();
-        new = put(piece, &places);
+        new = put(piece, &with_holes_at(&|p| field.moved(p)));
     }
     new.lines = piece.lines.iter().map(|line| graded_line(line, &field, size)).collect();
     rules_of(&mut new).for_each(|rule| *rule = rule.from_size(size));
@@ -224,27 +212,9 @@ fn crossing(piece: &Piece) -> Option<(usize, usize)> {
         curve::flatten(edge.start, edge.shape, piece.edge_ends(i).1, TOLERANCE, &mut points);
         of.resize(points.len(), i);
     }
-    let lines: Vec<[DVec2; 2]> = sides(&points).collect();
-    let n = lines.len();
-    let side = |[a, b]: [DVec2; 2], p: DVec2| (b - a).perp_dot(p - a);
-    let meet = |s: [DVec2; 2], t: [DVec2; 2]| {
-        side(s, t[0]) * side(s, t[1]) < 0.0 && side(t, s[0]) * side(t, s[1]) < 0.0
-    };
-    let low = |s: &[DVec2; 2]| s[0].min(s[1]);
-    let high = |s: &[DVec2; 2]| s[0].max(s[1]);
-    // Sorted by their left ends, so that only lines above each other are compared.
-    let mut order: Vec<usize> = (0..n).collect();
-    order.sort_by(|&i, &j| low(&lines[i]).x.total_cmp(&low(&lines[j]).x).then(i.cmp(&j)));
-    let mut found: Option<(usize, usize)> = None;
-    for (k, &i) in order.iter().enumerate() {
-        for &j in order[k + 1..].iter().take_while(|&&j| low(&lines[j]).x <= high(&lines[i]).x) {
-            if meet(lines[i], lines[j]) {
-                let pair = (of[i.min(j)], of[i.max(j)]);
-                found = Some(found.map_or(pair, |known| known.min(pair)));
-            }
-        }
-    }
-    found
+    let (lines, n) = (sides(&points).collect::<Vec<_>>(), points.len());
+    let crossing = first_crossing(&lines, |i, j| (i + 1) % n == j || (j + 1) % n == i);
+    crossing.map(|(i, j)| (of[i], of[j]))
 }
 
 #[cfg(test)]

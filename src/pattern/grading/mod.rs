@@ -8,6 +8,6 @@ pub mod sizes;
 
 pub use apply::{Graded, graded};
 pub use field::Field;
-pub use lengths::{SeamGrowth, growth_in, seam_growth};
+pub use lengths::{SeamGrowth, growth_in};
 pub use rule::{GradeRule, RulePoint};
 pub use sizes::{READY_SIZES, ReadySizes, SizeRun};

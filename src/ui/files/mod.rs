@@ -211,9 +211,8 @@ pub fn import_pattern(path: &Path, unit: Option<DrawingUnit>) -> Result<PatternI
 
 /// The grade rule table beside a DXF, if there is one.
 fn rules_beside(path: &Path) -> Result<Option<Vec<u8>>, String> {
-    let is_dxf = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("dxf"));
-    let mut beside = rul::ENDINGS.iter().map(|ending| path.with_extension(ending)).filter(|_| is_dxf);
-    beside.find(|path| path.is_file()).map(|path| read(&path)).transpose()
+    let mut names = rul::names_beside(path).into_iter();
+    names.find(|name| name.is_file()).map(|name| read(&name)).transpose()
 }
 
 /// Writes `pattern` in the format of the file's extension; `paper` is for PDF. Returns what the format cannot hold.
@@ -225,9 +224,12 @@ pub fn export_pattern(path: &Path, pattern: &Pattern, paper: Paper) -> Result<Ve
     };
     let written = pattern_formats::write(format, pattern, &stem(path), paper);
     let written = written.map_err(|e| in_words(path, "written", e))?;
-    write(path, &written.bytes)?;
-    if let Some(rules) = &written.rules {
-        write(&path.with_extension("rul"), rules)?;
+    match written.rules {
+        Some(rules) => {
+            let files = [(path.to_owned(), written.bytes), (path.with_extension(rul::ENDING), rules)];
+            whole_file::write_together(&files).map_err(|(path, e)| in_words(&path, "written", e))?;
+        }
+        None => write(path, &written.bytes)?,
     }
     Ok(written.left_out)
 }

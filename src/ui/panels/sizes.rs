@@ -14,8 +14,6 @@ use crate::ui::panels::context::{PanelContext, problem_row};
 use crate::ui::panels::fields::length_field;
 use crate::ui::pattern_pane::nests::{SizeView, size_colour};
 
-/// Difference of the lengths of a seam's sides from which it is told, metres.
-const APART: f64 = 1e-3;
 /// Most seams that are told.
 const MOST_TOLD: usize = 6;
 
@@ -303,8 +301,7 @@ fn problems_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, asks: &mut Asks) {
     let pattern = &*told.document.pattern;
     let (unit, mut told_of) = (told.now.unit, 0);
     for (id, seam) in &pattern.seams {
-        let apart =
-            || told.nests.growth.iter().filter(|growth| growth.seam == *id && growth.change.abs() > APART);
+        let apart = || told.nests.growth.iter().filter(|growth| growth.seam == *id);
         if apart().next().is_none() || told_of == MOST_TOLD {
             continue;
         }
