@@ -22,7 +22,7 @@
 //! | `place`    | placement of pieces in space before they are sewn: points round the body, tubes round limbs, a file's placement adapted to another body, sleeves moved to their arms | wrap, contact, cloth, body, pattern, geometry |
 //! | `fit`      | measurements of a garment: strain, self-intersections, openings, the report, maps | cloth, body, pattern, geometry |
 //! | `sim`      | owner of the moving state: stages, protocol, checkpoints, thread, state hash | the above |
-//! | `session`  | the user's work: document, commands, history, recording, replay, project file, recovery | sim and below, place, io |
+//! | `session`  | the user's work: document, commands, history, recording, replay, project file, recovery; samples | sim and below, place, io, draft |
 //! | `draft`    | garments of our own, drawn from a seed and drafted to the mannequin's measurements: parts, designs, the corpus | body, pattern, geometry |
 //! | `io`       | obj, gltf, bvh; patterns as garmentcode json, dxf with grade rules, svg, pdf: bytes in, checked data out, and back | cloth, body, pattern, geometry |
 //! | `render`   | plain buffers in, pixels out: camera, passes, offscreen target | nothing of ours |

@@ -23,8 +23,16 @@ mod skirt;
 mod sleeve;
 mod trousers;
 
+pub use bodice::{Bodice, Hem};
+pub use collar::Collar;
 pub use corpus::{Case, Corpus, Shard};
-pub use design::{Design, Kind};
+pub use design::{Bottom, Design, Kind, Top, Upper, Waist};
+pub use dolman::Dolman;
 pub use form::Form;
+pub use hood::Hood;
+pub use neckline::{Neckline, Shape as NecklineShape};
 pub use random::Random;
 pub use sizes::{BodySize, SIZES, table};
+pub use skirt::{Shape, Skirt};
+pub use sleeve::Sleeve;
+pub use trousers::Trousers;

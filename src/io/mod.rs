@@ -34,7 +34,7 @@ pub mod picture;
 mod polygon;
 pub mod rul;
 pub mod scale;
-mod sheet;
+pub mod sheet;
 pub mod sizes;
 pub mod svg;
 mod trace;

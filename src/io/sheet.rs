@@ -18,7 +18,7 @@ const HALVES_GAP: f64 = 0.12;
 const TOLERANCE: f64 = 1e-3;
 
 /// Sets `pose` of every piece so that no two boxes overlap; the sheet is centred on the origin.
-pub(super) fn lay_out(pattern: &mut Pattern) {
+pub fn lay_out(pattern: &mut Pattern) {
     let mut halves: [Vec<Placed>; 2] = [Vec::new(), Vec::new()];
     for (&id, piece) in &pattern.pieces {
         let placed = Placed::new(id, piece);

@@ -148,7 +148,7 @@ fn pictures_are_written_for_whoever_wants_to_look() {
     let Some(folder) = std::env::var_os("TOILE_PICTURES").map(std::path::PathBuf::from) else { return };
     std::fs::create_dir_all(&folder).expect("a folder");
     let large = Setting { scale: 2.0, ..PLAIN };
-    for sample in Sample::ALL {
+    for sample in Sample::MARKED {
         for (theme, mode) in [(Theme::Dark, "dark"), (Theme::Light, "light")] {
             let name = sample.file_stem();
             let Some(mut window) = drawn_window(project_of(sample), Setting { theme, ..PLAIN }) else {

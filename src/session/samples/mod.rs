@@ -1,10 +1,11 @@
-//! Sample garments drafted for the mannequin, each with its marks: what a first-time user opens.
+//! Sample garments drafted for the mannequin, with marks or placed round it: what a first-time user opens.
 //!
 //! Every sample is drafted from the mannequin's own measurements, so a sample can be drafted for another body, too.
 
 mod draft;
 mod dress;
 mod form;
+mod gallery;
 mod scarf;
 mod skirt;
 mod strokes;
@@ -14,7 +15,9 @@ mod tshirt;
 use std::sync::Arc;
 
 use crate::body::Mannequin;
+use crate::pattern::Pattern;
 use crate::session::{BodyChoice, Document, Project};
+use crate::wrap::Marks;
 use form::Form;
 
 /// A sample garment.
@@ -30,11 +33,56 @@ pub enum Sample {
     Trousers,
     /// One strip round the neck.
     Scarf,
+    /// A blouse with a collar and cuffs.
+    Blouse,
+    /// A roomy top with a hood.
+    Hoodie,
+    /// A top with raglan sleeves.
+    Raglan,
+    /// A wide top with its sleeves in one piece.
+    Kimono,
+    /// A long warm top with a funnel collar.
+    Tunic,
+    /// A fitted bodice on a long skirt with godets.
+    Gown,
+    /// A bodice on wide trousers.
+    Jumpsuit,
+    /// Narrow trousers of knitted cloth.
+    Leggings,
+    /// Short trousers.
+    Shorts,
+    /// A skirt cut from a full circle.
+    CircleSkirt,
+    /// A skirt gathered into its waistband.
+    GatheredSkirt,
+    /// A skirt of three tiers.
+    TieredSkirt,
 }
 
 impl Sample {
     /// All samples, in the order of the menu.
-    pub const ALL: [Self; 5] = [Self::Tshirt, Self::Skirt, Self::Dress, Self::Trousers, Self::Scarf];
+    pub const ALL: [Self; 17] = [
+        Self::Tshirt,
+        Self::Skirt,
+        Self::Dress,
+        Self::Trousers,
+        Self::Scarf,
+        Self::Blouse,
+        Self::Hoodie,
+        Self::Raglan,
+        Self::Kimono,
+        Self::Tunic,
+        Self::Gown,
+        Self::Jumpsuit,
+        Self::Leggings,
+        Self::Shorts,
+        Self::CircleSkirt,
+        Self::GatheredSkirt,
+        Self::TieredSkirt,
+    ];
+
+    /// Those with marks, to be wrapped; the others have their pieces placed round the body, to be dressed.
+    pub const MARKED: [Self; 5] = [Self::Tshirt, Self::Skirt, Self::Dress, Self::Trousers, Self::Scarf];
 
     /// Name for the user.
     pub fn name(self) -> &'static str {
@@ -44,6 +92,18 @@ impl Sample {
             Self::Dress => "Dress",
             Self::Trousers => "Trousers",
             Self::Scarf => "Scarf",
+            Self::Blouse => "Blouse",
+            Self::Hoodie => "Hoodie",
+            Self::Raglan => "Raglan shirt",
+            Self::Kimono => "Kimono top",
+            Self::Tunic => "Tunic",
+            Self::Gown => "Gown",
+            Self::Jumpsuit => "Jumpsuit",
+            Self::Leggings => "Leggings",
+            Self::Shorts => "Shorts",
+            Self::CircleSkirt => "Circle skirt",
+            Self::GatheredSkirt => "Gathered skirt",
+            Self::TieredSkirt => "Tiered skirt",
         }
     }
 
@@ -55,26 +115,68 @@ impl Sample {
             Self::Dress => "dress",
             Self::Trousers => "trousers",
             Self::Scarf => "scarf",
+            Self::Blouse => "blouse",
+            Self::Hoodie => "hoodie",
+            Self::Raglan => "raglan",
+            Self::Kimono => "kimono",
+            Self::Tunic => "tunic",
+            Self::Gown => "gown",
+            Self::Jumpsuit => "jumpsuit",
+            Self::Leggings => "leggings",
+            Self::Shorts => "shorts",
+            Self::CircleSkirt => "circle-skirt",
+            Self::GatheredSkirt => "gathered-skirt",
+            Self::TieredSkirt => "tiered-skirt",
         }
     }
 
-    /// The sample drafted for `body`, with its marks.
+    /// The sample drafted for `body`, with its marks or placed round the body. Panics where the measurements are those of no
+    /// mannequin: this one has been built.
     pub fn project(self, body: &Mannequin) -> Project {
-        let form = Form::new(body);
-        let (mut pattern, marks) = match self {
-            Self::Tshirt => tshirt::tshirt(&form),
-            Self::Skirt => skirt::skirt(&form),
-            Self::Dress => dress::dress(&form),
-            Self::Trousers => trousers::trousers(&form),
-            Self::Scarf => scarf::scarf(&form),
+        let document = match self.cut() {
+            Cut::Marked(drafted) => marked(drafted, body),
+            Cut::Placed(garment) => gallery::document(&garment(), body).expect("measurements of a mannequin"),
         };
-        draft::finish(&mut pattern);
-        let mut document = Document {
-            pattern: Arc::new(pattern),
-            body: BodyChoice::Mannequin(body.measurements),
-            ..Document::default()
-        };
-        document.take_marks(Arc::new(marks));
         Project { document, dressed: None }
     }
+
+    fn cut(self) -> Cut {
+        match self {
+            Self::Tshirt => Cut::Marked(tshirt::tshirt),
+            Self::Skirt => Cut::Marked(skirt::skirt),
+            Self::Dress => Cut::Marked(dress::dress),
+            Self::Trousers => Cut::Marked(trousers::trousers),
+            Self::Scarf => Cut::Marked(scarf::scarf),
+            Self::Blouse => Cut::Placed(gallery::blouse),
+            Self::Hoodie => Cut::Placed(gallery::hoodie),
+            Self::Raglan => Cut::Placed(gallery::raglan),
+            Self::Kimono => Cut::Placed(gallery::kimono),
+            Self::Tunic => Cut::Placed(gallery::tunic),
+            Self::Gown => Cut::Placed(gallery::gown),
+            Self::Jumpsuit => Cut::Placed(gallery::jumpsuit),
+            Self::Leggings => Cut::Placed(gallery::leggings),
+            Self::Shorts => Cut::Placed(gallery::shorts),
+            Self::CircleSkirt => Cut::Placed(gallery::circle_skirt),
+            Self::GatheredSkirt => Cut::Placed(gallery::gathered_skirt),
+            Self::TieredSkirt => Cut::Placed(gallery::tiered_skirt),
+        }
+    }
+}
+
+/// How a sample is drafted.
+enum Cut {
+    Marked(fn(&Form) -> (Pattern, Marks)),
+    Placed(fn() -> gallery::Garment),
+}
+
+fn marked(drafted: fn(&Form) -> (Pattern, Marks), body: &Mannequin) -> Document {
+    let (mut pattern, marks) = drafted(&Form::new(body));
+    draft::finish(&mut pattern);
+    let mut document = Document {
+        pattern: Arc::new(pattern),
+        body: BodyChoice::Mannequin(body.measurements),
+        ..Document::default()
+    };
+    document.take_marks(Arc::new(marks));
+    document
 }

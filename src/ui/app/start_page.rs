@@ -17,6 +17,8 @@ use crate::ui::shell::menu;
 
 /// Width of a sample's card, points; within it the cards fill one row if possible.
 const CARD: std::ops::RangeInclusive<f32> = 130.0..=210.0;
+/// Cards in a row, where there is room.
+const CARDS: f32 = 6.0;
 /// Width of the column with new and recent projects, points.
 const COLUMN: f32 = 300.0;
 
@@ -148,44 +150,63 @@ impl App {
     }
 
     fn gallery_ui(&mut self, ui: &mut egui::Ui, palette: &Palette, asks: &mut Asks) {
-        ui.label(RichText::new("Samples").strong().size(15.0));
-        ui.add_space(4.0);
-        ui.horizontal_wrapped(|ui| {
-            ui.spacing_mut().item_spacing = egui::vec2(12.0, 12.0);
-            let width =
-                (ui.available_width() / Sample::ALL.len() as f32 - 12.0).clamp(*CARD.start(), *CARD.end());
-            let card = egui::vec2(width, width * 1.25 + 30.0);
-            for sample in Sample::ALL {
-                let (rect, response) = ui.allocate_exact_size(card, Sense::click());
-                let name = sample.name();
-                response.widget_info(|| {
-                    WidgetInfo::labeled(egui::accesskit::Role::Button, true, format!("Sample {name}"))
-                });
-                card_frame(ui, rect, &response);
-                let area = Rect::from_min_max(rect.min, rect.max - egui::vec2(0.0, 30.0)).shrink(4.0);
-                let subject = Subject::Sample(sample.file_stem());
-                match self.shell.thumbnails.get(ui.ctx(), &subject) {
-                    Some(texture) => {
-                        let size = texture.size_vec2();
-                        let scale = (area.width() / size.x).min(area.height() / size.y);
-                        let place = Rect::from_center_size(area.center(), size * scale);
-                        ui.painter().image(texture.id(), place, WHOLE, egui::Color32::WHITE);
-                    }
-                    None => {
-                        let initial: String = name.chars().take(1).collect();
-                        let font = FontId::proportional(54.0);
-                        let ink = palette.weak.gamma_multiply(0.35);
-                        ui.painter().text(area.center(), Align2::CENTER_CENTER, initial, font, ink);
-                    }
-                }
-                let at = Pos2::new(rect.center().x, rect.bottom() - 16.0);
-                let ink = ui.visuals().text_color();
-                ui.painter().text(at, Align2::CENTER_CENTER, name, FontId::proportional(14.0), ink);
-                if response.on_hover_text(Action::Sample(sample).row().tip).clicked() {
-                    asks.push(Ask::Act(Action::Sample(sample)));
-                }
-            }
+        let is_marked = |sample: &Sample| Sample::MARKED.contains(sample);
+        let (marked, placed): (Vec<Sample>, Vec<Sample>) = Sample::ALL.into_iter().partition(is_marked);
+        let width = (ui.available_width() / CARDS - 12.0).clamp(*CARD.start(), *CARD.end());
+        let card = egui::vec2(width, width * 1.25 + 30.0);
+        for (title, then, samples) in [
+            ("Samples", "with marks: press Wrap", marked),
+            ("Gallery", "placed round the body: press Dress", placed),
+        ] {
+            ui.horizontal(|ui| {
+                ui.label(RichText::new(title).strong().size(15.0));
+                ui.label(RichText::new(then).color(palette.weak));
+            });
+            ui.add_space(4.0);
+            ui.horizontal_wrapped(|ui| {
+                ui.spacing_mut().item_spacing = egui::vec2(12.0, 12.0);
+                samples.into_iter().for_each(|sample| self.sample_card(ui, sample, card, palette, asks));
+            });
+            ui.add_space(14.0);
+        }
+    }
+
+    fn sample_card(
+        &mut self,
+        ui: &mut egui::Ui,
+        sample: Sample,
+        card: egui::Vec2,
+        palette: &Palette,
+        asks: &mut Asks,
+    ) {
+        let (rect, response) = ui.allocate_exact_size(card, Sense::click());
+        let name = sample.name();
+        response.widget_info(|| {
+            WidgetInfo::labeled(egui::accesskit::Role::Button, true, format!("Sample {name}"))
         });
+        card_frame(ui, rect, &response);
+        let area = Rect::from_min_max(rect.min, rect.max - egui::vec2(0.0, 30.0)).shrink(4.0);
+        let subject = Subject::Sample(sample.file_stem());
+        match self.shell.thumbnails.get(ui.ctx(), &subject) {
+            Some(texture) => {
+                let size = texture.size_vec2();
+                let scale = (area.width() / size.x).min(area.height() / size.y);
+                let place = Rect::from_center_size(area.center(), size * scale);
+                ui.painter().image(texture.id(), place, WHOLE, egui::Color32::WHITE);
+            }
+            None => {
+                let initial: String = name.chars().take(1).collect();
+                let font = FontId::proportional(54.0);
+                let ink = palette.weak.gamma_multiply(0.35);
+                ui.painter().text(area.center(), Align2::CENTER_CENTER, initial, font, ink);
+            }
+        }
+        let at = Pos2::new(rect.center().x, rect.bottom() - 16.0);
+        let ink = ui.visuals().text_color();
+        ui.painter().text(at, Align2::CENTER_CENTER, name, FontId::proportional(14.0), ink);
+        if response.on_hover_text(Action::Sample(sample).row().tip).clicked() {
+            asks.push(Ask::Act(Action::Sample(sample)));
+        }
     }
 
     /// A digit key opens the file with that number; Esc goes to the panes.

@@ -386,7 +386,7 @@ pub fn export(
     }
 }
 
-/// The project of a sample with its marks, on the built-in figure.
+/// The project of a sample on the built-in figure.
 pub fn sample(sample: Sample) -> Project {
     sample.project(&mannequin::default())
 }

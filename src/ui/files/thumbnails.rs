@@ -13,13 +13,15 @@ use crate::body::mannequin;
 use crate::render::{Look, Studio, View, png, straightened};
 use crate::session::samples::Sample;
 use crate::session::{Command, Project, Session, project_file};
-use crate::sim::{Runner, Simulation};
+use crate::sim::{Runner, Simulation, StartChoice};
 use crate::ui::files;
 use crate::ui::scenery::portrait::{Extras, portrait};
 use crate::ui::scenery::scene::Scenery;
 
 /// Size of a thumbnail, pixels.
 pub const SIZE: UVec2 = UVec2::new(320, 400);
+/// Edge length of samples that are dressed by the best start, metres: several starts may be tried.
+const COARSE: f64 = 0.03;
 /// Largest number of ticks for a sample; then it is drawn even if it is not at rest.
 const MOST_TICKS: usize = 4000;
 
@@ -141,13 +143,17 @@ fn image(
         }
         Subject::Sample(stem) => {
             let sample = Sample::ALL.into_iter().find(|s| s.file_stem() == *stem)?;
-            let mut session = session(sample.project(&mannequin::default()));
+            let mut project = sample.project(&mannequin::default());
+            if !Sample::MARKED.contains(&sample) {
+                project.document.settings.edge_length = COARSE;
+            }
+            let mut session = session(project);
             // The name contains a hash, so that a changed sample gets a new thumbnail.
             let kept = folder.join(format!("{stem}-{:016x}.png", session.document_hash()));
             if let Ok(picture) = image::open(&kept) {
                 return Some(picture.to_rgba8());
             }
-            session.apply_alone(Command::Wrap).ok()?;
+            session.apply_alone(put_on(sample)).ok()?;
             let simulation = session.runner().simulation()?;
             for _ in 0..MOST_TICKS {
                 if stop.load(Ordering::Relaxed) {
@@ -164,6 +170,14 @@ fn image(
             png(&picture).ok().and_then(|bytes| files::write(&kept, &bytes).ok());
             Some(picture)
         }
+    }
+}
+
+/// The command that puts a sample on.
+fn put_on(sample: Sample) -> Command {
+    match Sample::MARKED.contains(&sample) {
+        true => Command::Wrap,
+        false => Command::Dress { choice: StartChoice::default() },
     }
 }
 

@@ -20,9 +20,10 @@ use crate::ui::preferences::units::LengthUnit;
 
 static ROWS: LazyLock<Vec<Row>> = LazyLock::new(|| {
     let mut rows = [file::ROWS, edit::ROWS, pattern::ROWS, garment::ROWS, view::ROWS, help::ROWS].concat();
-    rows.extend(Sample::ALL.map(|sample| {
-        row("File › Samples", Action::Sample(sample), sample.name(), "Open this sample with its marks")
-    }));
+    rows.extend(
+        Sample::ALL
+            .map(|sample| row("File › Samples", Action::Sample(sample), sample.name(), "Open this sample")),
+    );
     rows.extend(MapKind::ALL.map(|kind| {
         let map = row("View › Map", Action::Map(Some(kind)), kind.title(), kind.tip());
         map.needs(&[Need::Dressed]).in_demos()

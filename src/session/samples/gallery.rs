@@ -1,0 +1,198 @@
+//! Samples without marks: designs with chosen measures, drafted with every piece placed round the body, in a fabric of their own.
+
+use std::sync::Arc;
+
+use crate::body::{Mannequin, MannequinError, NamedPose};
+use crate::draft::{
+    Bodice, Bottom, Collar, Design, Dolman, Form, Hem, Hood, Kind, Neckline, NecklineShape, Shape, Skirt,
+    Sleeve, Top, Trousers, Upper, Waist,
+};
+use crate::io::sheet;
+use crate::session::dyes::{Dye, Motif, Print};
+use crate::session::samples::draft;
+use crate::session::{BodyChoice, Document};
+
+/// A garment of the gallery: its cut, fabric and colours.
+pub struct Garment {
+    design: Design,
+    fabric: &'static str,
+    dye: Dye,
+}
+
+/// A document with `garment` drafted for `body`. The error is that of the mannequin's measurements.
+pub fn document(garment: &Garment, body: &Mannequin) -> Result<Document, MannequinError> {
+    let form = Form::new(&body.measurements, NamedPose::A)?;
+    let mut pattern = garment.design.drafted(&form);
+    draft::finish(&mut pattern);
+    sheet::lay_out(&mut pattern);
+    let mut document = Document {
+        pattern: Arc::new(pattern),
+        body: BodyChoice::Mannequin(body.measurements),
+        ..Document::default()
+    };
+    document.fabrics.all = Some(garment.fabric.to_owned());
+    document.dyes.all = garment.dye;
+    Ok(document)
+}
+
+/// A blouse with a turned-out collar and cuffs.
+pub fn blouse() -> Garment {
+    let bodice = Bodice { bust_ease: 0.13, hem_ease: 0.10, ..boxy(Hem::Hip) };
+    let collar = Collar { height: 0.060, flare: 1.15 };
+    let sleeve = Sleeve { puff: 1.12, cuff: Some(0.05), gather: 1.35, ..sleeve(0.88) };
+    let upper = Upper { collar: Some(collar), sleeve: Some(sleeve), ..upper(bodice, close()) };
+    Garment { design: top(Kind::Collared, upper), fabric: "polyester", dye: dyed([222, 214, 232]) }
+}
+
+/// A roomy top with a hood.
+pub fn hoodie() -> Garment {
+    let bodice = Bodice { bust_ease: 0.20, hem_ease: 0.12, ..boxy(Hem::Hip) };
+    let hood = Hood { above: 0.05, fullness: 0.035 };
+    let sleeve = Sleeve { ease: 0.13, cuff: Some(0.05), gather: 1.2, ..sleeve(0.9) };
+    let upper = Upper { hood: Some(hood), sleeve: Some(sleeve), ..upper(bodice, close()) };
+    Garment { design: top(Kind::Hooded, upper), fabric: "fleece", dye: dyed([92, 112, 104]) }
+}
+
+/// A top whose raglan sleeves reach up to the neckline.
+pub fn raglan() -> Garment {
+    let bodice = Bodice { bust_ease: 0.14, hem_ease: 0.10, ..boxy(Hem::Hip) };
+    let upper = Upper { raglan: true, sleeve: Some(sleeve(0.55)), ..upper(bodice, round()) };
+    Garment { design: top(Kind::Raglan, upper), fabric: "jersey", dye: dyed([196, 92, 70]) }
+}
+
+/// A wide top with its sleeves in one piece.
+pub fn kimono() -> Garment {
+    let cut =
+        Dolman { hem: Hem::Hip, ease: 0.18, hem_ease: 0.12, length: 0.42, sleeve_ease: 0.08, depth: 0.08 };
+    let neckline = Neckline { shape: NecklineShape::V, width: 0.090, drops: [0.15, 0.03] };
+    let design = Design { top: Some(Top::Dolman(cut, neckline)), ..plain(Kind::Dolman) };
+    let print = Print { motif: Motif::Dots, repeat_m: 0.05, colour: [226, 206, 160] };
+    let dye = Dye { print: Some(print), ..dyed([58, 74, 110]) };
+    Garment { design, fabric: "woven-light", dye }
+}
+
+/// A long warm top with a funnel collar.
+pub fn tunic() -> Garment {
+    let bodice = Bodice { bust_ease: 0.18, hem_ease: 0.16, ..boxy(Hem::Tunic) };
+    let collar = Collar { height: 0.075, flare: 1.05 };
+    let upper = Upper { collar: Some(collar), sleeve: Some(sleeve(0.88)), ..upper(bodice, close()) };
+    Garment { design: top(Kind::Collared, upper), fabric: "wool", dye: dyed([120, 76, 66]) }
+}
+
+/// A fitted bodice on a long skirt of godets.
+pub fn gown() -> Garment {
+    let bodice = Bodice { short_shoulder: 0.03, ..fitted() };
+    let neckline = Neckline { shape: NecklineShape::V, width: 0.095, drops: [0.17, 0.045] };
+    let shape = Shape::Godets { ease: 0.06, depth: 0.55, angle: 0.45, middles: true };
+    let design = Design {
+        top: Some(Top::Cut(upper(bodice, neckline))),
+        bottom: Some(Bottom::Skirt(Skirt { shape, length: 0.8 })),
+        ..plain(Kind::Dress)
+    };
+    Garment { design, fabric: "satin", dye: Dye::default() }
+}
+
+/// A bodice on wide trousers.
+pub fn jumpsuit() -> Garment {
+    let bodice = Bodice { blouse: 0.02, short_shoulder: 0.025, ..fitted() };
+    let legs = Trousers { length: 1.8, hip_ease: 0.09, crotch_ease: 0.04, knee_ease: 0.15, hem_ease: 0.24 };
+    let neckline = Neckline { shape: NecklineShape::Square, width: 0.095, drops: [0.11, 0.03] };
+    let design = Design {
+        top: Some(Top::Cut(upper(bodice, neckline))),
+        bottom: Some(Bottom::Trousers(legs)),
+        ..plain(Kind::Jumpsuit)
+    };
+    Garment { design, fabric: "linen", dye: dyed([150, 160, 124]) }
+}
+
+/// Narrow trousers of knitted cloth.
+pub fn leggings() -> Garment {
+    let legs =
+        Trousers { length: 1.86, hip_ease: 0.02, crotch_ease: 0.015, knee_ease: 0.025, hem_ease: 0.03 };
+    let design = Design {
+        bottom: Some(Bottom::Trousers(legs)),
+        waist: Waist { ease: 0.02, band: Some(0.05) },
+        ..plain(Kind::Trousers)
+    };
+    Garment { design, fabric: "ponte-roma", dye: dyed([52, 54, 62]) }
+}
+
+/// Short trousers.
+pub fn shorts() -> Garment {
+    let legs = Trousers { length: 0.6, hip_ease: 0.09, crotch_ease: 0.035, knee_ease: 0.0, hem_ease: 0.10 };
+    let design = Design { bottom: Some(Bottom::Trousers(legs)), ..plain(Kind::Shorts) };
+    Garment { design, fabric: "denim-11oz", dye: Dye::default() }
+}
+
+/// A skirt cut from a full circle.
+pub fn circle_skirt() -> Garment {
+    let print = Print { motif: Motif::Checks, repeat_m: 0.06, colour: [236, 226, 206] };
+    let dye = Dye { print: Some(print), ..dyed([172, 62, 60]) };
+    Garment { design: skirt(Kind::CircleSkirt, Shape::Circle { share: 1.0 }, 0.5), fabric: "cotton", dye }
+}
+
+/// A skirt gathered into its waistband.
+pub fn gathered_skirt() -> Garment {
+    let shape = Shape::Gathered { ratio: 1.6 };
+    Garment {
+        design: skirt(Kind::GatheredSkirt, shape, 0.6),
+        fabric: "woven-light",
+        dye: dyed([206, 150, 92]),
+    }
+}
+
+/// A skirt of three tiers.
+pub fn tiered_skirt() -> Garment {
+    let shape = Shape::Levels { ratio: 1.35, count: 3 };
+    Garment { design: skirt(Kind::LevelSkirt, shape, 0.68), fabric: "linen", dye: dyed([104, 140, 160]) }
+}
+
+fn plain(kind: Kind) -> Design {
+    Design { kind, top: None, bottom: None, waist: Waist { ease: 0.035, band: Some(0.04) } }
+}
+
+fn top(kind: Kind, upper: Upper) -> Design {
+    Design { top: Some(Top::Cut(upper)), ..plain(kind) }
+}
+
+fn skirt(kind: Kind, shape: Shape, length: f64) -> Design {
+    Design { bottom: Some(Bottom::Skirt(Skirt { shape, length })), ..plain(kind) }
+}
+
+fn upper(bodice: Bodice, neckline: Neckline) -> Upper {
+    Upper { bodice, neckline, sleeve: None, raglan: false, collar: None, hood: None }
+}
+
+fn boxy(hem: Hem) -> Bodice {
+    Bodice {
+        hem,
+        bust_ease: 0.12,
+        hem_ease: 0.10,
+        waist_dart: 0.0,
+        bust_dart: false,
+        centre_seams: [false, false],
+        blouse: 0.0,
+        short_shoulder: 0.0,
+    }
+}
+
+fn fitted() -> Bodice {
+    Bodice { bust_ease: 0.06, hem_ease: 0.045, waist_dart: 0.026, bust_dart: true, ..boxy(Hem::Waist) }
+}
+
+/// A sleeve of this share of the arm's length.
+fn sleeve(length: f64) -> Sleeve {
+    Sleeve { length, ease: 0.10, hem_ease: 0.09, puff: 1.0, cuff: None, gather: 1.0 }
+}
+
+fn round() -> Neckline {
+    Neckline { shape: NecklineShape::Round, width: 0.092, drops: [0.10, 0.03] }
+}
+
+fn close() -> Neckline {
+    Neckline { shape: NecklineShape::Round, width: 0.083, drops: [0.085, 0.024] }
+}
+
+fn dyed(colour: [u8; 3]) -> Dye {
+    Dye { colour: Some(colour), ..Dye::default() }
+}
