@@ -34,7 +34,7 @@ fn crowd() -> Pattern {
     for i in 0..70 {
         let (a, b) = (ids[i % 26], ids[(i + 1 + i / 26) % 26]);
         let sides = [Stretch::edge(a, i % 6), Stretch::edge(b, (i + 3) % 6)];
-        pattern.add_seam(Seam { sides, same_direction: false, ratio: None });
+        pattern.add_seam(Seam { sides, same_direction: false, ratio: None, zip: None });
     }
     pattern
 }

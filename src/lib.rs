@@ -10,14 +10,14 @@
 //! | folder | holds | may use |
 //! | --- | --- | --- |
 //! | `geometry` | ids, curves, meshes and adjacency, sparse factorisation; nothing about cloth | nothing of ours |
-//! | `pattern`  | the flat garment: piece, seam, edges cut for sewing, editing that keeps seam lengths and symmetry, grading to sizes, triangulation, problems a person can fix | geometry |
+//! | `pattern`  | the flat garment: piece, seam, trims (folds, elastic, stitches), buttons and zips, edges cut for sewing, editing that keeps seam lengths and symmetry, grading to sizes, triangulation, problems a person can fix | geometry |
 //! | `body`     | surface (nearest point, ray, walk), import checks, mannequin, skeleton, poses, bones, landmarks, measurements | geometry |
 //! | `cloth`    | the sewn garment as solvers see it: topology and rest shape, moving state; fabrics | pattern, geometry |
 //! | `contact`  | collision of cloth with the body, its bones and itself; edges split where they would cut the body | cloth, body, geometry |
 //! | `relax`    | paper A's relaxation: shape matching, flattening, gravity, friction; no physics (see `drape`) | contact, cloth, body, geometry |
 //! | `wrap`     | paper A: marks, root edges, growth | relax, contact, cloth, body, pattern, geometry |
 //! | `drag`     | paper A: dependency graph, motion in local frames, pushpins | relax, contact, cloth, body, pattern, geometry |
-//! | `drape`    | physics: forces (membrane, bending), contact, solvers (implicit steps, small steps, direct equilibrium); a garment on its body; sewing | contact, cloth, body, geometry |
+//! | `drape`    | physics: forces (membrane, bending, folds, elastic), contact, solvers (implicit steps, small steps, direct equilibrium); a garment on its body; sewing | contact, cloth, body, geometry |
 //! | `repose`   | paper C: distance map, conforming to another pose of the body, recovery, strain control | relax, contact, cloth, body, pattern, geometry |
 //! | `place`    | placement of pieces in space before they are sewn: points round the body, tubes round limbs, a file's placement adapted to another body, sleeves moved to their arms | wrap, contact, cloth, body, pattern, geometry |
 //! | `fit`      | measurements of a garment: strain, self-intersections, openings, the report, maps | cloth, body, pattern, geometry |

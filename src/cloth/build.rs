@@ -5,7 +5,8 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use crate::cloth::{Corner, Garment};
+use crate::cloth::trims::ClothPoint;
+use crate::cloth::{Corner, Garment, GarmentTrims};
 use crate::geometry::adjacency::Adjacency;
 use crate::geometry::ids::{PieceId, SeamId};
 use crate::pattern::sampling::sampling;
@@ -23,13 +24,33 @@ pub fn build_again(pattern: &Pattern, edge_length: f64, meshes: &mut Meshes) -> 
     let (cut, mut problems) = CutPattern::new(pattern);
     let sampling = sampling(&cut, edge_length, &mut problems);
     let meshes = meshes.update(&cut, &sampling, edge_length, &mut problems);
-    let garment = sewn(pattern, &meshes, &sampling.seams);
+    let mut garment = sewn(pattern, &cut, &meshes, &sampling.seams);
+    garment.trims.buttons = buttons(pattern, &garment, &mut problems);
     report_twisted(pattern, &garment, &mut problems);
     (garment, problems)
 }
 
+/// Both points of each fastened button; one that is off its piece is reported.
+fn buttons(pattern: &Pattern, garment: &Garment, problems: &mut Vec<Problem>) -> Vec<[ClothPoint; 2]> {
+    let mut found = Vec::new();
+    for (id, button) in &pattern.buttons {
+        let places = [button.button, button.hole].map(|place| ClothPoint::new(garment, place));
+        match places {
+            [Some(a), Some(b)] if !button.open => found.push([a, b]),
+            [Some(_), Some(_)] => {}
+            _ => problems.push(Problem {
+                kind: ProblemKind::Fastening,
+                place: id.to_string(),
+                words: "it or its buttonhole is not on the cloth; move it on to a piece".to_owned(),
+            }),
+        }
+    }
+    found
+}
+
 fn sewn(
     pattern: &Pattern,
+    cut: &CutPattern,
     meshes: &BTreeMap<PieceId, Arc<PieceMesh>>,
     seams: &[(SeamId, EdgeSeam)],
 ) -> Garment {
@@ -50,7 +71,8 @@ fn sewn(
         }
     }
     let vertex_count = name_vertices(&mut corners, &seam_pairs);
-    let mut garment = Garment { vertex_count, seam_pairs, ..Garment::default() };
+    let trims = GarmentTrims::of(cut, meshes, &first_corner);
+    let mut garment = Garment { vertex_count, seam_pairs, trims, ..Garment::default() };
     for (&piece, mesh) in meshes {
         let flat = &pattern.pieces[&piece];
         garment.pieces.push((piece, flat.name.clone()));

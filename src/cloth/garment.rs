@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use glam::{DVec2, DVec3};
 
+use crate::cloth::trims::GarmentTrims;
 use crate::geometry::adjacency::Adjacency;
 use crate::geometry::ids::{PieceId, SeamId};
 
@@ -44,6 +45,8 @@ pub struct Garment {
     pub layers: BTreeMap<PieceId, u8>,
     /// Unit vector along the warp, in the piece's plane seen from the front, of each piece whose warp does not run along y.
     pub grains: BTreeMap<PieceId, DVec2>,
+    /// What is worked along its edges.
+    pub trims: GarmentTrims,
 }
 
 impl Garment {
@@ -83,6 +86,7 @@ impl Garment {
             pieces: self.pieces.iter().filter(|(id, _)| !pieces.contains(id)).cloned().collect(),
             layers: self.layers.clone(),
             grains: self.grains.clone(),
+            trims: self.trims.clone(),
         }
     }
 

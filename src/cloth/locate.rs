@@ -2,10 +2,12 @@
 
 use glam::{DVec2, DVec3};
 
+use crate::cloth::trims::ClothPoint;
 use crate::cloth::{ClothState, Garment};
 use crate::geometry::barycentric;
 use crate::geometry::bvh::{Aabb, Bvh};
 use crate::geometry::ids::PieceId;
+use crate::pattern::PiecePoint;
 
 /// Smallest barycentric coordinate at which a flat point counts as inside a triangle.
 const INSIDE: f64 = -1e-9;
@@ -95,6 +97,26 @@ impl FlatPiece {
 
 fn flat(garment: &Garment, t: u32) -> [DVec2; 3] {
     garment.triangle_corners[t as usize].map(|c| garment.corners[c as usize].uv)
+}
+
+impl ClothPoint {
+    /// The point of a piece; None when it is not on the cloth of `garment`.
+    pub fn new(garment: &Garment, point: PiecePoint) -> Option<Self> {
+        let place = FlatPiece::new(garment, point.piece).inside(garment, point.at)?;
+        Some(Self { corners: garment.triangle_corners[place.triangle as usize], shares: place.shares })
+    }
+
+    /// The vertices round the point with the barycentric coordinates as weights.
+    pub fn vertices(&self, garment: &Garment) -> [(u32, f64); 3] {
+        [0, 1, 2].map(|k| (garment.corners[self.corners[k] as usize].vertex, self.shares[k]))
+    }
+
+    /// Position in space, metres; None while it is not on the body.
+    pub fn place(&self, garment: &Garment, state: &ClothState) -> Option<DVec3> {
+        let vertices = self.vertices(garment);
+        let is_laid = vertices.iter().all(|&(v, _)| state.mapped[v as usize]);
+        is_laid.then(|| vertices.iter().map(|&(v, share)| state.positions[v as usize] * share).sum())
+    }
 }
 
 #[cfg(test)]

@@ -10,6 +10,7 @@ pub mod locate;
 pub mod look;
 pub mod refine;
 pub mod skips;
+pub mod trims;
 
 pub use build::{build, build_again};
 pub use carry::Carry;
@@ -20,3 +21,4 @@ pub use garment::{ClothState, Corner, Garment};
 pub use locate::{FlatPiece, FlatPlace};
 pub use look::{FabricLook, Weave};
 pub use skips::{Skip, Skips};
+pub use trims::GarmentTrims;

@@ -171,6 +171,7 @@ impl Builder<'_> {
             layers: plain.layers.clone(),
             grains: plain.grains.clone(),
             seam_pairs: plain.seam_pairs.clone(),
+            trims: plain.trims.renumbered(&place),
             ..Garment::default()
         };
         let pairs = garment.seam_pairs.iter_mut().flat_map(|(_, pairs)| pairs);

@@ -131,7 +131,12 @@ impl Garment {
         for to in cuts {
             let sides = [(one, &runs[0]), (other, &runs[1])].map(|(run, ends)| part(run, ends, from, to));
             if let [Some((a, forth)), Some((b, back))] = sides {
-                self.pattern.add_seam(Seam { sides: [a, b], same_direction: forth == back, ratio: None });
+                self.pattern.add_seam(Seam {
+                    sides: [a, b],
+                    same_direction: forth == back,
+                    ratio: None,
+                    zip: None,
+                });
             }
             from = to;
         }

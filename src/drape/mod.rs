@@ -6,7 +6,7 @@
 //!
 //! | what moves | by | forces on it |
 //! | --- | --- | --- |
-//! | a garment on its body: the window's *Drape*, `toile dress` | [`DrapedGarment`], always in [`solver::small_steps`] | `Surroundings`: bending, gravity, drag, contact; stretching as the springs of `solver::net` |
+//! | a garment on its body: the window's *Drape*, `toile dress` | [`DrapedGarment`], always in [`solver::small_steps`] | `Surroundings`: bending, gravity, drag, contact; stretching as the springs of `solver::net`; folds, elastic and buttons by projection |
 //! | any cloth mesh: `toile simulate`, the bench | [`Drape`], in implicit ([`solver::steps`]) or small steps | [`Elastic`] in implicit ones: `forces` |
 //!
 //! A new force must be added to both.

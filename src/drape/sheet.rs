@@ -22,6 +22,8 @@ pub struct Sheet {
     pub vertex_area: Vec<f64>,
     /// Adjacency of vertices, edges and triangles.
     pub adjacency: Adjacency,
+    /// Edges at which the cloth is creased, ascending: it does not bend across them.
+    creases: Vec<u32>,
 }
 
 /// Why triangles do not form a sheet.
@@ -73,7 +75,73 @@ impl Sheet {
             return Err(SheetError::Lonely(v));
         }
         let adjacency = Adjacency::new(vertices, &triangles);
-        Ok(Self { triangles, rest, areas, vertex_area, adjacency })
+        Ok(Self { triangles, rest, areas, vertex_area, adjacency, creases: Vec::new() })
+    }
+
+    /// The sheet with creases at these edges, each given by its ends; what is no edge of the sheet is left out.
+    pub fn creased(mut self, edges: impl IntoIterator<Item = [u32; 2]>) -> Self {
+        self.creases = edges.into_iter().filter_map(|ends| self.edge_between(ends)).collect();
+        self.creases.sort_unstable();
+        self.creases.dedup();
+        self
+    }
+
+    /// The edge between two vertices.
+    pub fn edge_between(&self, [a, b]: [u32; 2]) -> Option<u32> {
+        let beside = self.adjacency.vertex_triangles.of(a);
+        let edges = beside.iter().flat_map(|&t| self.adjacency.triangle_edges[t as usize]);
+        let is_it = |e: &u32| {
+            let [p, q] = self.adjacency.edges[*e as usize];
+            (p, q) == (a, b) || (q, p) == (a, b)
+        };
+        edges.into_iter().find(is_it)
+    }
+
+    /// The sheet cut along its creases, and for each of its vertices the one that it is a part of. None without creases.
+    pub fn parted(&self) -> Option<(Self, Vec<u32>)> {
+        if self.creases.is_empty() {
+            return None;
+        }
+        let mut triangles = self.triangles.clone();
+        let mut whole: Vec<u32> = (0..self.len() as u32).collect();
+        let mut ends: Vec<u32> =
+            self.creases.iter().flat_map(|&e| self.adjacency.edges[e as usize]).collect();
+        ends.sort_unstable();
+        ends.dedup();
+        for v in ends {
+            let mut left: Vec<u32> = self.adjacency.vertex_triangles.of(v).to_vec();
+            let mut name = v;
+            while let Some(&first) = left.first() {
+                for t in self.fan(v, first) {
+                    left.retain(|other| *other != t);
+                    triangles[t as usize].iter_mut().filter(|c| **c == v).for_each(|c| *c = name);
+                }
+                if !left.is_empty() {
+                    name = whole.len() as u32;
+                    whole.push(v);
+                }
+            }
+        }
+        let parted = Self::new(whole.len(), triangles, self.rest.clone()).ok()?;
+        Some((parted, whole))
+    }
+
+    /// The triangles round vertex `v` that are reached from `first` without crossing a crease.
+    fn fan(&self, v: u32, first: u32) -> Vec<u32> {
+        let mut fan = vec![first];
+        let mut at = 0;
+        while at < fan.len() {
+            let t = fan[at] as usize;
+            for k in 0..3 {
+                let (e, other) = (self.adjacency.triangle_edges[t][k], self.adjacency.across[t][k]);
+                let is_near = self.adjacency.edges[e as usize].contains(&v) && other != NONE;
+                if is_near && !fan.contains(&other) && self.creases.binary_search(&e).is_err() {
+                    fan.push(other);
+                }
+            }
+            at += 1;
+        }
+        fan
     }
 
     /// Number of vertices.

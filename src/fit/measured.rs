@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::cloth::{ClothState, Garment};
 use crate::fit::causes::{causes, smaller, uneased_p99};
+use crate::fit::fastenings::fastenings;
 use crate::fit::laid::Laid;
 use crate::fit::on_body::{BodyIndex, on_body};
 use crate::fit::report::{Report, Seams};
@@ -11,7 +12,7 @@ use crate::fit::shape;
 use crate::fit::verdict::verdict;
 use crate::geometry::crossings::self_crossings;
 use crate::geometry::ids::{PieceId, SeamId};
-use crate::pattern::Pattern;
+use crate::pattern::{Pattern, Seam};
 
 /// Largest gap of a closed seam, metres.
 pub(super) const CLOSED: f64 = 1e-4;
@@ -35,6 +36,7 @@ pub fn measure(pattern: &Pattern, garment: &Garment, state: &ClothState, body: &
         pieces,
         seams: seams(pattern, garment, state),
         open_seams: open_seams(pattern, garment, state),
+        fastenings: fastenings(pattern, garment, state),
         vertices_shared_by_pieces: shape::vertices_shared_by_pieces(&laid),
         pieces_in_space: shape::pieces_in_space(&laid),
         pieces_expected: pieces_expected(pattern),
@@ -73,8 +75,14 @@ fn seams(pattern: &Pattern, garment: &Garment, state: &ClothState) -> Seams {
         found.max_gap = found.max_gap.max(gap);
         found.closed += usize::from(gap <= CLOSED);
     }
-    found.open = pattern.seams.len().max(garment.seam_pairs.len()) - found.closed;
+    let sewn = pattern.seams.values().filter(|seam| !is_wide_open(seam)).count();
+    found.open = sewn.max(garment.seam_pairs.len()) - found.closed;
     found
+}
+
+/// Whether a seam is a zip that is open from end to end: its sides are not sewn.
+fn is_wide_open(seam: &Seam) -> bool {
+    seam.zip.is_some_and(|zip| zip.closed().is_none())
 }
 
 /// Names such as "seam 2 (front and back)" of the pattern's seams that are open anywhere.
@@ -85,7 +93,7 @@ fn open_seams(pattern: &Pattern, garment: &Garment, state: &ClothState) -> Vec<S
         parts.peek().is_some() && parts.all(|(_, pairs)| holds(pairs))
     };
     let name = |id: PieceId| pattern.pieces.get(&id).map_or_else(|| id.to_string(), |p| p.name.clone());
-    let open = pattern.seams.iter().filter(|(id, _)| !is_closed(id));
+    let open = pattern.seams.iter().filter(|(id, seam)| !is_wide_open(seam) && !is_closed(id));
     open.map(|(id, seam)| format!("{id} ({} and {})", name(seam.sides[0].piece), name(seam.sides[1].piece)))
         .collect()
 }
@@ -111,7 +119,7 @@ pub(super) fn groups(pattern: &Pattern) -> BTreeMap<PieceId, PieceId> {
         let pieces = pattern.pieces.iter().filter(|(_, piece)| !piece.activity.is_deactivated());
         pieces.map(|(&id, _)| (id, id)).collect()
     };
-    for seam in pattern.seams.values() {
+    for seam in pattern.seams.values().filter(|seam| !is_wide_open(seam)) {
         let [Some(&a), Some(&b)] = seam.sides.map(|side| group.get(&side.piece)) else { continue };
         let (low, high) = (a.min(b), a.max(b));
         for g in group.values_mut().filter(|g| **g == high) {

@@ -4,6 +4,7 @@ mod causes;
 mod compare;
 pub mod exact;
 mod fallen;
+pub mod fastenings;
 mod girth;
 mod laid;
 pub mod maps;

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::fit::causes::Causes;
+use crate::fit::fastenings::Fastenings;
 use crate::fit::on_body::{Clearance, Penetration};
 use crate::fit::openings::Opening;
 use crate::fit::shape::{PieceChange, Strain};
@@ -33,6 +34,9 @@ pub struct Report {
     /// Open seams, by number and pieces.
     #[serde(default)]
     pub open_seams: Vec<String>,
+    /// Buttons and zips.
+    #[serde(default, skip_serializing_if = "Fastenings::is_none")]
+    pub fastenings: Fastenings,
     /// Sewn vertices that belong to more than one piece.
     pub vertices_shared_by_pieces: usize,
     /// Connected components in space.

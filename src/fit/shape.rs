@@ -1,5 +1,7 @@
 //! Distortion of the cloth compared with its flat shape: strain, area, perimeter, folds.
 
+use std::collections::BTreeMap;
+
 use serde::{Deserialize, Serialize};
 
 use crate::cloth::Garment;
@@ -13,7 +15,8 @@ const SMALLEST_AREA: f64 = 1e-12;
 /// Two faces are folded onto each other when the cosine of the angle between their normals is below this.
 const FOLDED: f64 = -0.5;
 
-/// Statistics of |l / l0 - 1| over the edges of the flat cloth; an edge in a seam counts once for each piece.
+/// Statistics of |l / l0 - 1| over the edges of the flat cloth; an edge in a seam counts once for each piece. Along elastic, where
+/// the cloth is gathered, it has no strain down to the length of the elastic.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Strain {
     /// Number of edges.
@@ -57,6 +60,8 @@ struct FlatEdge {
     piece: PieceId,
     border: bool,
     flat: f64,
+    /// Length down to which it has no strain, metres: along elastic the cloth is gathered.
+    gathered: f64,
     length: f64,
 }
 
@@ -68,13 +73,18 @@ fn flat_edges(garment: &Garment, laid: &Laid) -> Vec<FlatEdge> {
         .flat_map(|(&[a, b, c], &piece)| [[a, b], [b, c], [c, a]].map(|[a, b]| ([a.min(b), a.max(b)], piece)))
         .collect();
     sides.sort_unstable();
+    let along = |[a, b]: [u32; 2]| [a.min(b), a.max(b)];
+    let elastics = garment.trims.elastics.iter();
+    let ratios: BTreeMap<[u32; 2], f64> = elastics.map(|e| (along(e.corners), e.what.ratio)).collect();
     sides
         .chunk_by(|a, b| a.0 == b.0)
         .map(|group| {
             let (ends, piece) = group[0];
             let [a, b] = ends.map(|c| garment.corners[c as usize]);
             let [p, q] = [a, b].map(|c| laid.mesh.positions[c.vertex as usize]);
-            FlatEdge { piece, border: group.len() == 1, flat: a.uv.distance(b.uv), length: p.distance(q) }
+            let flat = a.uv.distance(b.uv);
+            let gathered = ratios.get(&ends).map_or(flat, |ratio| flat * ratio);
+            FlatEdge { piece, border: group.len() == 1, flat, gathered, length: p.distance(q) }
         })
         .collect()
 }
@@ -82,7 +92,8 @@ fn flat_edges(garment: &Garment, laid: &Laid) -> Vec<FlatEdge> {
 /// Strain |l / l0 - 1| over all flat edges, and the change of each piece.
 pub(super) fn strain_and_pieces(garment: &Garment, laid: &Laid) -> (Strain, Vec<PieceChange>) {
     let edges = flat_edges(garment, laid);
-    let strains = edges.iter().filter(|e| e.flat > SHORTEST).map(|e| e.length / e.flat - 1.0).collect();
+    let strain_of = |e: &FlatEdge| e.length / e.length.clamp(e.gathered, e.flat) - 1.0;
+    let strains = edges.iter().filter(|e| e.flat > SHORTEST).map(strain_of).collect();
     let pieces =
         garment.pieces.iter().map(|(id, name)| piece_change(garment, laid, &edges, *id, name)).collect();
     (strain(strains), pieces)

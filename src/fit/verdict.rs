@@ -26,6 +26,9 @@ pub fn faults(report: &Report, draped: bool) -> Vec<(Problem, Spot)> {
     let mut faults = Faults::default();
     faults.placing(report);
     faults.sewing(report);
+    if draped {
+        faults.fastening(report);
+    }
     faults.body(report, draped);
     faults.openings(report);
     faults.cloth(report);
@@ -103,6 +106,15 @@ impl Faults {
                 "garment",
                 format!("it lies in {found} separate parts; its seams should make {expected}"),
             );
+        }
+    }
+
+    /// Cloth that was not draped is not buttoned yet.
+    fn fastening(&mut self, report: &Report) {
+        let (apart, gap) = (report.fastenings.apart, report.fastenings.max_gap * 1000.0);
+        if apart > 0 {
+            let words = format!("{apart} fastened buttons do not close; the widest gap is {gap:.1} mm");
+            self.tell(Spot::Nowhere, "fastenings", words);
         }
     }
 

@@ -24,6 +24,10 @@ typed_id!(
     SeamId, "seam"
 );
 typed_id!(
+    /// A button with its buttonhole.
+    ButtonId, "button"
+);
+typed_id!(
     /// A stroke on cloth or body.
     MarkId, "mark"
 );

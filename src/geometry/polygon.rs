@@ -27,6 +27,13 @@ pub fn is_inside(sides: impl Iterator<Item = [DVec2; 2]>, p: DVec2) -> bool {
     sides.filter(passed).count() % 2 == 1
 }
 
+/// Distance of `p` from the segment from `a` to `b`.
+pub fn distance_to_segment(p: DVec2, a: DVec2, b: DVec2) -> f64 {
+    let ab = b - a;
+    let t = ((p - a).dot(ab) / ab.length_squared().max(1e-300)).clamp(0.0, 1.0);
+    (p - a - ab * t).length()
+}
+
 /// The first two of `segments` that meet, apart from those that `are_neighbours`: the lowest first, and of those that it meets the
 /// lowest.
 pub fn first_crossing(

@@ -24,6 +24,8 @@ pub enum ProblemKind {
     NotTriangulated,
     /// A mark lies off its piece, or its number has no partner.
     Mark,
+    /// A button or buttonhole lies off the cloth.
+    Fastening,
     /// The body is open, non-manifold, inside out or crosses itself.
     Body,
     /// The wrap did not come out as a dressed garment.

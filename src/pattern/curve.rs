@@ -1,7 +1,7 @@
 //! Curves between two points of a plane: lengths, points by arc length, splitting, reversing, mirroring.
 
 use glam::DVec2;
-use kurbo::{CubicBez, Line, ParamCurve, ParamCurveArclen, PathSeg, Point, QuadBez};
+use kurbo::{CubicBez, Line, ParamCurve, ParamCurveArclen, ParamCurveNearest, PathSeg, Point, QuadBez};
 
 use crate::pattern::edge::{ARC_LENGTH_ACCURACY, Edge, EdgeShape};
 use crate::pattern::grading::rule::GradeRule;
@@ -111,6 +111,19 @@ pub fn split(a: DVec2, shape: EdgeShape, b: DVec2, fractions: &[f64]) -> Vec<(DV
     }
 }
 
+/// The point of a curve nearest to `p`: its fraction of the arc length, and its distance in metres.
+pub fn nearest(segments: &[PathSeg], p: DVec2) -> (f64, f64) {
+    let (mut best, mut before) = ((0.0, f64::INFINITY), 0.0);
+    for segment in segments {
+        let near = segment.nearest(point(p), 1e-9);
+        if near.distance_sq < best.1 {
+            best = (before + segment.subsegment(0.0..near.t).arclen(1e-10), near.distance_sq);
+        }
+        before += segment.arclen(1e-10);
+    }
+    ((best.0 / before.max(f64::MIN_POSITIVE)).clamp(0.0, 1.0), best.1.sqrt())
+}
+
 fn shape_of(segment: PathSeg) -> EdgeShape {
     match segment {
         PathSeg::Line(_) => EdgeShape::Line,
@@ -185,6 +198,7 @@ pub fn reversed(edges: &[Edge]) -> Vec<Edge> {
                 smooth: next.smooth,
                 label: edge.label.clone(),
                 rule: next.rule.clone(),
+                trims: edge.trims,
             }
         })
         .collect()
@@ -335,6 +349,7 @@ mod tests {
                 smooth: i == 2,
                 label: Some(i.to_string()),
                 rule: (i == 1).then(|| GradeRule(vec![DVec2::new(0.01, 0.02), DVec2::ZERO])),
+                ..Edge::default()
             })
             .to_vec();
         let image = mirrored(&edges);

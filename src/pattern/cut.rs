@@ -10,6 +10,9 @@ use crate::pattern::{
 
 /// Distance along an edge within which two places count as one, metres.
 const SAME_PLACE: f64 = 1e-4;
+/// Distance from the outline within which a line that the mesh follows ends on it, and from a place where an edge is split within
+/// which that place is its end, metres.
+pub const LINE_TOUCHES: f64 = 2e-3;
 
 /// A pattern with split edges, as the cloth is made from. Where all seams join whole edges already, the pieces are
 /// those of the pattern.
@@ -46,12 +49,14 @@ impl CutPattern {
         let mut problems = Vec::new();
         let mut cut = Self { pieces: pattern.pieces.clone(), ..Self::default() };
         let mut places: BTreeMap<SeamId, [Vec<Place>; 2]> = BTreeMap::new();
-        let mut splits: BTreeMap<(PieceId, usize), Vec<f64>> = BTreeMap::new();
-        for (&id, seam) in &pattern.seams {
-            if seam.sides.iter().all(|side| side.whole_edge().is_some()) {
+        let seams = closed_seams(pattern);
+        let ends = line_ends(pattern);
+        let mut splits = unsewn_ends(pattern, &seams, &ends);
+        for (&id, seam) in &seams {
+            if seam.sides.iter().all(|side| side.whole_edge().is_some() && !is_met(side, &ends)) {
                 continue;
             }
-            match breaks(pattern, seam) {
+            match breaks(pattern, seam, &ends) {
                 Ok(found) => {
                     for (side, found) in seam.sides.iter().zip(&found) {
                         for place in found.iter().filter(|place| place.at > 0.0) {
@@ -71,7 +76,7 @@ impl CutPattern {
             }
         }
         let firsts = cut.split(splits);
-        for (&id, seam) in &pattern.seams {
+        for (&id, seam) in &seams {
             match (seam.sides.map(|side| side.whole_edge()), places.get(&id)) {
                 ([Some(one), Some(other)], None) => {
                     let renamed = [one, other].map(|e| EdgeRef { edge: first(&firsts, e), ..e });
@@ -200,6 +205,77 @@ impl CutPattern {
 /// which its parts start.
 type Firsts = BTreeMap<PieceId, Vec<(usize, Vec<f64>)>>;
 
+/// For an edge of a piece the fractions of its arc length at which it is split.
+type Splits = BTreeMap<(PieceId, usize), Vec<f64>>;
+
+/// Where lines that the mesh follows end on edges, farther than [`LINE_TOUCHES`] from the ends of the edge and from each other.
+fn line_ends(pattern: &Pattern) -> Splits {
+    let mut ends = Splits::new();
+    for (&id, piece) in &pattern.pieces {
+        for line in piece.lines.iter().filter(|line| line.needs_mesh()) {
+            for p in line.edges.first().map(|edge| edge.start).into_iter().chain([line.end]) {
+                let near =
+                    (0..piece.edge_count()).map(|edge| (edge, curve::nearest(&piece.edge_segments(edge), p)));
+                let Some((edge, (at, distance))) = near.min_by(|a, b| a.1.1.total_cmp(&b.1.1)) else {
+                    continue;
+                };
+                let length = piece.edge_length(edge);
+                let inside = at * length > LINE_TOUCHES && (1.0 - at) * length > LINE_TOUCHES;
+                let of_edge = || ends.get(&(id, edge)).into_iter().flatten();
+                let is_new = of_edge().all(|other| (at - other).abs() * length > LINE_TOUCHES);
+                if distance <= LINE_TOUCHES && inside && is_new {
+                    ends.entry((id, edge)).or_default().push(at);
+                }
+            }
+        }
+    }
+    ends
+}
+
+/// The seams as they are sewn: of a zip only what is closed.
+fn closed_seams(pattern: &Pattern) -> BTreeMap<SeamId, Seam> {
+    let piece = |id: PieceId| pattern.pieces.get(&id).map(|piece| &**piece);
+    let closed = |(&id, seam): (&SeamId, &Seam)| Some((id, seam.closed(piece)?));
+    pattern.seams.iter().filter_map(closed).collect()
+}
+
+/// Those of `ends` that are not on a sewn stretch: where one is, [`breaks`] splits both sides.
+fn unsewn_ends(pattern: &Pattern, seams: &BTreeMap<SeamId, Seam>, ends: &Splits) -> Splits {
+    let sides = || seams.values().flat_map(|seam| seam.sides);
+    let is_sewn = |piece: PieceId, edge: usize, at: f64| {
+        sides().filter(|side| side.piece == piece).any(|side| {
+            let parts = pattern.pieces.get(&piece).and_then(|of| side.parts(of)).unwrap_or_default();
+            parts.into_iter().any(|(of, from, to)| of == edge && at > from && at < to)
+        })
+    };
+    let mut left = Splits::new();
+    for (&(piece, edge), all) in ends {
+        let unsewn: Vec<f64> = all.iter().copied().filter(|&at| !is_sewn(piece, edge, at)).collect();
+        if !unsewn.is_empty() {
+            left.insert((piece, edge), unsewn);
+        }
+    }
+    left
+}
+
+/// Whether a line ends on one of the edges of a stretch.
+fn is_met(side: &Stretch, ends: &Splits) -> bool {
+    !ends.is_empty() && ends.contains_key(&(side.piece, side.edge))
+}
+
+/// The ends of lines on the portions of a side `total` metres long, as fractions of its length.
+fn met(portions: &[Portion], piece: PieceId, ends: &Splits, total: f64) -> Vec<f64> {
+    let (mut found, mut before) = (Vec::new(), 0.0);
+    for portion in portions {
+        let whole = portion.length / (portion.to - portion.from);
+        let of_edge = ends.get(&(piece, portion.edge)).into_iter().flatten();
+        let within = of_edge.filter(|&&at| at > portion.from && at < portion.to);
+        found.extend(within.map(|at| (before + (at - portion.from) * whole) / total));
+        before += portion.length;
+    }
+    found
+}
+
 fn first(firsts: &Firsts, edge: EdgeRef) -> usize {
     let found = firsts.get(&edge.piece).and_then(|of_edges| of_edges.get(edge.edge));
     found.map_or(edge.edge, |(first, _)| *first)
@@ -207,7 +283,7 @@ fn first(firsts: &Firsts, edge: EdgeRef) -> usize {
 
 /// The places at which both sides of a seam are split, each side in its own direction, its ends included. Err: the
 /// side that does not exist.
-fn breaks(pattern: &Pattern, seam: &Seam) -> Result<[Vec<Place>; 2], Stretch> {
+fn breaks(pattern: &Pattern, seam: &Seam, ends: &Splits) -> Result<[Vec<Place>; 2], Stretch> {
     let mut sides = Vec::new();
     for side in seam.sides {
         sides.push(portions(pattern, &side).ok_or(side)?);
@@ -230,6 +306,15 @@ fn breaks(pattern: &Pattern, seam: &Seam) -> Result<[Vec<Place>; 2], Stretch> {
     for f in corners(1) {
         if fractions.iter().all(|g| (f - g).abs() > near) {
             fractions.push(f);
+        }
+    }
+    for k in 0..2 {
+        for f in met(&sides[k], seam.sides[k].piece, ends, totals[k]) {
+            let f = if k == 1 && !seam.same_direction { 1.0 - f } else { f };
+            let room = LINE_TOUCHES / totals[0].min(totals[1]);
+            if f > room && f < 1.0 - room && fractions.iter().all(|g| (f - g).abs() > room) {
+                fractions.push(f);
+            }
         }
     }
     fractions.sort_by(f64::total_cmp);

@@ -3,6 +3,7 @@
 use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
+use crate::pattern::Trims;
 use crate::pattern::grading::rule::GradeRule;
 
 /// Accuracy to which arc lengths are computed, metres.
@@ -40,4 +41,7 @@ pub struct Edge {
     /// ([`graded`](crate::pattern::grading::graded)).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rule: Option<GradeRule>,
+    /// What is worked along the edge.
+    #[serde(default, skip_serializing_if = "Trims::is_none")]
+    pub trims: Trims,
 }

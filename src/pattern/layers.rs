@@ -60,6 +60,12 @@ impl Pattern {
             (seam.sides[0].piece, seam.sides[1].piece) = (one, other);
             self.add_seam(seam);
         }
+        for button in garment.buttons.values() {
+            let [Some(&one), Some(&other)] = button.pieces().map(|piece| ids.get(&piece)) else { continue };
+            let mut button = *button;
+            (button.button.piece, button.hole.piece) = (one, other);
+            self.add_button(button);
+        }
         Ok(())
     }
 

@@ -1,10 +1,12 @@
 //! The flat pattern of a garment: pieces and seams.
 
 pub mod activity;
+mod chains;
 pub mod curve;
 pub mod cut;
 pub mod edge;
 pub mod edit;
+pub mod fastenings;
 pub mod grading;
 pub mod layers;
 pub mod naming;
@@ -12,22 +14,26 @@ pub mod piece;
 pub mod sampling;
 pub mod seam;
 pub mod space;
+pub mod stitches;
 pub mod triangulate;
+pub mod trims;
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use crate::geometry::ids::{PieceId, SeamId};
+use crate::geometry::ids::{ButtonId, PieceId, SeamId};
 pub use crate::geometry::problem::{self, Problem, ProblemKind};
 pub use cut::CutPattern;
 pub use edge::{Edge, EdgeShape};
+pub use fastenings::{Button, PiecePoint, Zip};
 pub use grading::{GradeRule, RulePoint, SizeRun};
 pub use piece::{InternalLine, Notch, Piece, PlanePose};
 pub use seam::{EdgeRef, EdgeSeam, Seam, Stretch};
 pub use space::{Roll, SpacePose};
 pub use triangulate::PieceMesh;
+pub use trims::{Elastic, Fold, Hem, Topstitch, Trims};
 
 /// A pattern: pieces and the seams between them. Ids come from `next_id` and are never used twice.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -36,6 +42,9 @@ pub struct Pattern {
     pub pieces: BTreeMap<PieceId, Arc<Piece>>,
     /// The seams, in the order of their ids.
     pub seams: BTreeMap<SeamId, Seam>,
+    /// The buttons, in the order of their ids.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub buttons: BTreeMap<ButtonId, Button>,
     /// The next free number for any id.
     pub next_id: u32,
     /// The sizes that the pattern can be graded to; each rule of its points has a displacement for each.
@@ -55,6 +64,13 @@ impl Pattern {
     pub fn add_seam(&mut self, seam: Seam) -> SeamId {
         let id = SeamId(self.fresh_id());
         self.seams.insert(id, seam);
+        id
+    }
+
+    /// Adds a button under a new id.
+    pub fn add_button(&mut self, button: Button) -> ButtonId {
+        let id = ButtonId(self.fresh_id());
+        self.buttons.insert(id, button);
         id
     }
 

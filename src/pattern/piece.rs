@@ -231,6 +231,11 @@ pub fn flattened_loop(edges: &[Edge], tolerance: f64) -> Vec<DVec2> {
 }
 
 impl InternalLine {
+    /// Whether edges of the mesh must follow the line.
+    pub fn needs_mesh(&self) -> bool {
+        self.edges.iter().any(|edge| edge.trims.needs_mesh())
+    }
+
     /// The line as a polyline whose chords stay within `tolerance` metres of it.
     pub fn flattened(&self, tolerance: f64) -> Vec<DVec2> {
         let mut points = Vec::new();

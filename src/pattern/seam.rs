@@ -4,7 +4,10 @@ use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
 use crate::geometry::ids::PieceId;
-use crate::pattern::Piece;
+use crate::pattern::{Piece, Zip};
+
+/// Length within which an end of a part of a stretch is moved to a point of the line, metres.
+const NEARLY: f64 = 2e-3;
 
 /// An edge of a piece.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -109,6 +112,32 @@ impl Stretch {
         Some(points)
     }
 
+    /// The part of the stretch between two shares `from` < `to` of its arc length, 0..=1. None when the stretch is not on `piece` or
+    /// the part has no length. An end within [`NEARLY`] of a point of the line is moved there.
+    pub fn part(&self, piece: &Piece, [from, to]: [f64; 2]) -> Option<Self> {
+        let parts = self.parts(piece)?;
+        let lengths: Vec<f64> = parts.iter().map(|&(edge, a, b)| (b - a) * piece.edge_length(edge)).collect();
+        let total: f64 = lengths.iter().sum();
+        let place = |share: f64, at_end: bool| {
+            let mut left = share * total;
+            for (i, (&(edge, a, b), &length)) in parts.iter().zip(&lengths).enumerate() {
+                let is_last = i + 1 == parts.len();
+                let within = if at_end { left <= length + NEARLY } else { left < length - NEARLY };
+                if within || is_last {
+                    let at = a + (left / length).clamp(0.0, 1.0) * (b - a);
+                    let near = NEARLY / piece.edge_length(edge);
+                    let at = [a, b].into_iter().find(|end| (end - at).abs() < near).unwrap_or(at);
+                    return (i, edge, at);
+                }
+                left -= length;
+            }
+            (0, parts[0].0, parts[0].1)
+        };
+        let ((i, edge, from), (j, _, to)) = (place(from, false), place(to, true));
+        let part = Self { piece: self.piece, edge, from, further: j.checked_sub(i)?, to };
+        part.parts(piece).map(|_| part)
+    }
+
     /// The edge, where the stretch is the whole of one edge.
     pub fn whole_edge(&self) -> Option<EdgeRef> {
         let whole = self.from == 0.0 && self.further == 0 && self.to == 1.0;
@@ -134,12 +163,27 @@ pub struct Seam {
     /// None: either side may change its length alone.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ratio: Option<f64>,
+    /// The zip along the seam, if any.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub zip: Option<Zip>,
 }
 
 impl Seam {
+    /// The part of the seam that is sewn: of a zip what is closed. None where all of it is open; `piece` finds a piece.
+    pub fn closed<'p>(&self, piece: impl Fn(PieceId) -> Option<&'p Piece>) -> Option<Self> {
+        let Some(zip) = self.zip else { return Some(*self) };
+        let [from, to] = zip.closed()?;
+        if [from, to] == [0.0, 1.0] {
+            return Some(*self);
+        }
+        let other = if self.same_direction { [from, to] } else { [1.0 - to, 1.0 - from] };
+        let part = |k: usize, span: [f64; 2]| self.sides[k].part(piece(self.sides[k].piece)?, span);
+        Some(Self { sides: [part(0, [from, to])?, part(1, other)?], ..*self })
+    }
+
     /// A seam between two whole edges, without a ratio.
     pub fn of_edges(sides: [EdgeRef; 2], same_direction: bool) -> Self {
-        Self { sides: sides.map(Stretch::from), same_direction, ratio: None }
+        Self { sides: sides.map(Stretch::from), same_direction, ratio: None, zip: None }
     }
 }
 

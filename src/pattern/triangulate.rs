@@ -7,9 +7,10 @@ use glam::DVec2;
 use spade::{AngleLimit, ConstrainedDelaunayTriangulation, Point2, RefinementParameters, Triangulation};
 
 use crate::geometry::ids::PieceId;
-use crate::geometry::polygon::{contains, first_crossing, signed_area};
+use crate::geometry::polygon::{contains, distance_to_segment, first_crossing, is_inside, signed_area};
+use crate::pattern::chains::{Link, links};
 use crate::pattern::sampling::Sampling;
-use crate::pattern::{CutPattern, EdgeRef, EdgeShape, Piece, Problem, ProblemKind};
+use crate::pattern::{CutPattern, Edge, EdgeRef, EdgeShape, InternalLine, Piece, Problem, ProblemKind};
 
 /// Smallest angle that refinement aims at, degrees; sharp corners of the outline keep theirs.
 const SMALLEST_ANGLE_DEG: f64 = 27.0;
@@ -27,10 +28,23 @@ pub struct PieceMesh {
     pub points: Vec<DVec2>,
     /// For each edge its points from start to end, both included.
     pub edge_points: Vec<Vec<u32>>,
+    /// Edges of the mesh that follow internal lines.
+    pub line_edges: Vec<LineEdge>,
     /// Counter-clockwise seen from the front of the piece.
     pub triangles: Vec<[u32; 3]>,
     /// Whether the outline runs clockwise, so that the front is the far side of the drawing.
     pub front_is_far: bool,
+}
+
+/// An edge of the mesh that follows an internal line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LineEdge {
+    /// Its points.
+    pub ends: [u32; 2],
+    /// Number of the internal line.
+    pub line: usize,
+    /// Number of the edge of that line.
+    pub edge: usize,
 }
 
 /// Triangulated pieces, kept so that unchanged ones are not triangulated again.
@@ -61,8 +75,7 @@ impl Meshes {
         for (&id, piece) in &pattern.pieces {
             let intervals = &sampling.intervals[&id];
             let same = |(old, of_edges): &Key| {
-                of_edges == intervals
-                    && (Arc::ptr_eq(old, piece) || (old.outline == piece.outline && old.holes == piece.holes))
+                of_edges == intervals && (Arc::ptr_eq(old, piece) || is_cut_alike(old, piece))
             };
             let kept = before.get(&id).filter(|(key, _)| same_size && same(key));
             let mesh = match kept {
@@ -79,6 +92,31 @@ impl Meshes {
         }
         self.made.iter().map(|(&id, (_, mesh))| (id, Arc::clone(mesh))).collect()
     }
+}
+
+/// Whether two pieces with the same intervals give the same mesh.
+fn is_cut_alike(one: &Piece, other: &Piece) -> bool {
+    let is_alike = |a: &[Edge], b: &[Edge]| {
+        a.len() == b.len() && a.iter().zip(b).all(|(a, b)| (a.start, a.shape) == (b.start, b.shape))
+    };
+    let followed = |piece: &Piece| -> Vec<InternalLine> {
+        piece.lines.iter().filter(|line| line.needs_mesh()).cloned().collect()
+    };
+    let is_line = |a: &InternalLine, b: &InternalLine| {
+        let needs = |line: &InternalLine| -> Vec<bool> {
+            line.edges.iter().map(|edge| edge.trims.needs_mesh()).collect()
+        };
+        is_alike(&a.edges, &b.edges) && a.end == b.end && needs(a) == needs(b)
+    };
+    let (mine, others) = (followed(one), followed(other));
+    let numbers = |piece: &Piece| -> Vec<usize> {
+        (0..piece.lines.len()).filter(|&k| piece.lines[k].needs_mesh()).collect()
+    };
+    is_alike(&one.outline, &other.outline)
+        && one.holes.len() == other.holes.len()
+        && one.holes.iter().zip(&other.holes).all(|(a, b)| is_alike(a, b))
+        && numbers(one) == numbers(other)
+        && mine.iter().zip(&others).all(|(a, b)| is_line(a, b))
 }
 
 fn piece_mesh(
@@ -136,7 +174,9 @@ fn piece_mesh(
     if area.abs() / (edge_length * edge_length * 0.433) > MOST_TRIANGLES {
         return Err(too_fine());
     }
-    let (points, mut triangles) = refined(&lines, edge_length)
+    let within: Vec<[DVec2; 2]> = (0..lines.points.len()).map(|i| lines.segment(i).into()).collect();
+    let links = links(piece, edge_length, &within, |p| is_inside(within.iter().copied(), p));
+    let (points, mut triangles, line_edges) = refined(&lines, &links, edge_length)
         .ok_or_else(|| fault(ProblemKind::NotTriangulated, "its outline could not be triangulated"))?;
     let front_is_far = area < 0.0;
     if front_is_far {
@@ -144,7 +184,7 @@ fn piece_mesh(
             t.swap(1, 2);
         }
     }
-    Ok(PieceMesh { points, edge_points: lines.edge_points, triangles, front_is_far })
+    Ok(PieceMesh { points, edge_points: lines.edge_points, line_edges, triangles, front_is_far })
 }
 
 /// Whether all points are on one line, to within a millionth of their extent.
@@ -235,8 +275,11 @@ fn edge_of(edge_points: &[Vec<u32>], segment: usize) -> usize {
     edge_points.iter().position(|e| e[..e.len() - 1].contains(&(segment as u32))).unwrap_or(0)
 }
 
-/// Refined triangulation: its points, those of the outline first, and its triangles, counter-clockwise in the drawing.
-fn refined(lines: &Lines, edge_length: f64) -> Option<(Vec<DVec2>, Vec<[u32; 3]>)> {
+/// Points, those of the outline first; triangles, counter-clockwise in the drawing; edges along internal lines.
+type Refined = (Vec<DVec2>, Vec<[u32; 3]>, Vec<LineEdge>);
+
+/// Refined triangulation with edges along `links`.
+fn refined(lines: &Lines, links: &[Link], edge_length: f64) -> Option<Refined> {
     let outline = &lines.points;
     let mut cdt = ConstrainedDelaunayTriangulation::<Point2<f64>>::new();
     let mut handles = Vec::with_capacity(outline.len());
@@ -255,17 +298,39 @@ fn refined(lines: &Lines, edge_length: f64) -> Option<(Vec<DVec2>, Vec<[u32; 3]>
             cdt.add_constraint(a, b);
         }
     }
-    for p in lattice(lines, edge_length) {
+    let mut line_edges = Vec::with_capacity(links.len());
+    for link in links {
+        let [a, b] = link.ends.map(|p| cdt.insert(Point2::new(p.x, p.y)));
+        let (a, b) = (a.ok()?, b.ok()?);
+        if a != b && !cdt.exists_constraint(a, b) && cdt.can_add_constraint(a, b) {
+            cdt.add_constraint(a, b);
+            let ends = [a, b].map(|v| v.index() as u32);
+            line_edges.push(LineEdge { ends, line: link.line, edge: link.edge });
+        }
+    }
+    let keep = cdt.num_vertices();
+    for p in lattice(lines, links, edge_length) {
         cdt.insert(Point2::new(p.x, p.y)).ok()?;
     }
-    let result = cdt.refine(
-        RefinementParameters::new()
-            .exclude_outer_faces(true)
-            .keep_constraint_edges()
-            .with_angle_limit(AngleLimit::from_deg(SMALLEST_ANGLE_DEG))
-            .with_max_additional_vertices(4 * cdt.num_vertices() + 1000),
-    );
-    let outside: BTreeSet<usize> = result.excluded_faces.iter().map(|f| f.index()).collect();
+    // What open lines enclose would count as a hole, so that with them the surroundings are refined, too: faces between a nearly
+    // straight edge of the outline and the hull could not be, and would draw ever more points to them.
+    let has_links = !links.is_empty();
+    if has_links {
+        for p in corners_around(outline) {
+            cdt.insert(Point2::new(p.x, p.y)).ok()?;
+        }
+    }
+    let most = 4 * cdt.num_vertices() + 1000;
+    let parameters = RefinementParameters::new()
+        .keep_constraint_edges()
+        .with_angle_limit(AngleLimit::from_deg(SMALLEST_ANGLE_DEG))
+        .exclude_outer_faces(!has_links)
+        .with_max_additional_vertices(most);
+    let result = cdt.refine(parameters);
+    let outside = match has_links {
+        true => beyond_outline(&cdt, lines),
+        false => result.excluded_faces.iter().map(|f| f.index()).collect(),
+    };
     let mut triangles: Vec<[u32; 3]> = Vec::new();
     for face in cdt.inner_faces() {
         if !outside.contains(&face.fix().index()) {
@@ -273,7 +338,38 @@ fn refined(lines: &Lines, edge_length: f64) -> Option<(Vec<DVec2>, Vec<[u32; 3]>
         }
     }
     let points: Vec<DVec2> = cdt.vertices().map(|v| DVec2::new(v.position().x, v.position().y)).collect();
-    Some(only_used(points, triangles, outline.len()))
+    let (points, triangles) = only_used(points, triangles, keep);
+    Some((points, triangles, line_edges))
+}
+
+/// Corners of a box that clears the outline by a third of its extent.
+fn corners_around(outline: &[DVec2]) -> [DVec2; 4] {
+    let lower = outline.iter().fold(DVec2::INFINITY, |m, &p| m.min(p));
+    let upper = outline.iter().fold(DVec2::NEG_INFINITY, |m, &p| m.max(p));
+    let by = DVec2::splat((upper - lower).max_element() / 3.0);
+    let [lower, upper] = [lower - by, upper + by];
+    [lower, DVec2::new(upper.x, lower.y), upper, DVec2::new(lower.x, upper.y)]
+}
+
+/// Indices of the faces outside the closed lines, which the first points of `cdt` follow: those reached from outside over an even
+/// number of their segments.
+fn beyond_outline(cdt: &ConstrainedDelaunayTriangulation<Point2<f64>>, lines: &Lines) -> BTreeSet<usize> {
+    let is_segment = |ends: [usize; 2]| {
+        let follows = |a: usize, b: usize| lines.next.get(a).is_some_and(|&next| next as usize == b);
+        follows(ends[0], ends[1]) || follows(ends[1], ends[0])
+    };
+    let mut is_outside: Vec<Option<bool>> = vec![None; cdt.num_all_faces()];
+    is_outside[cdt.outer_face().fix().index()] = Some(true);
+    let mut open: Vec<_> = cdt.convex_hull().map(|edge| (edge, true)).collect();
+    while let Some((edge, from_outside)) = open.pop() {
+        let face = edge.rev().face();
+        let here = from_outside != is_segment(edge.vertices().map(|v| v.fix().index()));
+        if let (None, Some(inner)) = (is_outside[face.fix().index()], face.as_inner()) {
+            is_outside[face.fix().index()] = Some(here);
+            open.extend(inner.adjacent_edges().map(|next| (next, here)));
+        }
+    }
+    cdt.inner_faces().map(|f| f.fix().index()).filter(|&f| is_outside[f] == Some(true)).collect()
 }
 
 /// Removes points that no triangle uses (refinement may leave some outside), keeping the first `keep`.
@@ -297,8 +393,8 @@ fn only_used(points: Vec<DVec2>, mut triangles: Vec<[u32; 3]>, keep: usize) -> (
     (kept, triangles)
 }
 
-/// Points of an equilateral lattice inside the outline, with clearance from it.
-fn lattice(lines: &Lines, spacing: f64) -> Vec<DVec2> {
+/// Points of an equilateral lattice inside the outline, with clearance from it and from `links`.
+fn lattice(lines: &Lines, links: &[Link], spacing: f64) -> Vec<DVec2> {
     let outline = &lines.points;
     let lower = outline.iter().fold(DVec2::INFINITY, |m, &p| m.min(p));
     let upper = outline.iter().fold(DVec2::NEG_INFINITY, |m, &p| m.max(p));
@@ -313,6 +409,7 @@ fn lattice(lines: &Lines, spacing: f64) -> Vec<DVec2> {
             (1..lines.starts.len()).flat_map(|k| row_crossings(lines.of_loop(k - 1), y)).collect();
         let near: Vec<(DVec2, DVec2)> = (0..outline.len())
             .map(|i| lines.segment(i))
+            .chain(links.iter().map(|link| link.ends.into()))
             .filter(|(a, b)| a.y.min(b.y) <= y + clearance && a.y.max(b.y) >= y - clearance)
             .collect();
         let shift = if row % 2 == 0 { 0.0 } else { 0.5 };
@@ -334,10 +431,4 @@ fn row_crossings(outline: &[DVec2], y: f64) -> Vec<f64> {
             ((a.y <= y) != (b.y <= y)).then(|| a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x))
         })
         .collect()
-}
-
-fn distance_to_segment(p: DVec2, a: DVec2, b: DVec2) -> f64 {
-    let ab = b - a;
-    let t = ((p - a).dot(ab) / ab.length_squared().max(1e-300)).clamp(0.0, 1.0);
-    (p - a - ab * t).length()
 }

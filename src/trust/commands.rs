@@ -7,10 +7,11 @@ use serde_json::json;
 
 use crate::geometry::ids::{GraphicId, ImageId, PieceId, SeamId};
 use crate::io::words::readable;
-use crate::pattern::edit::{PatternEdit, PointRef};
+use crate::pattern::edit::{PatternEdit, PointRef, TrimLine};
 use crate::pattern::grading::READY_SIZES;
 use crate::pattern::{
-    Edge, EdgeRef, EdgeShape, GradeRule, InternalLine, Pattern, Piece, PlanePose, RulePoint, Seam, SpacePose,
+    Button, Edge, EdgeRef, EdgeShape, Elastic, Fold, GradeRule, Hem, InternalLine, Pattern, Piece,
+    PiecePoint, PlanePose, RulePoint, Seam, SpacePose, Topstitch, Zip,
 };
 use crate::session::{BodyChoice, Command, Dye, Graphic, ImageFile, Repeated, Session, Settings};
 use crate::sim::{Runner, Simulation};
@@ -108,7 +109,7 @@ fn of_images(piece: PieceId, [low, high]: [DVec2; 2]) -> serde_json::Value {
 }
 
 /// Edits of two pieces and the seam between them.
-fn edits([front, back]: [PieceId; 2], seam: SeamId) -> [Vec<PatternEdit>; 6] {
+fn edits([front, back]: [PieceId; 2], seam: SeamId) -> [Vec<PatternEdit>; 7] {
     let [low, high] = [(0.05, 0.05), (0.2, 0.2)].map(DVec2::from);
     let pocket = Piece::polygon("pocket", &[low, DVec2::new(0.1, 0.05), DVec2::new(0.1, 0.1)]);
     let line = InternalLine {
@@ -137,7 +138,7 @@ fn edits([front, back]: [PieceId; 2], seam: SeamId) -> [Vec<PatternEdit>; 6] {
         ],
         vec![PatternEdit::Cut { piece: back, line: line.clone(), sew: true }],
         vec![
-            PatternEdit::AddLine { piece: front, line },
+            PatternEdit::AddLine { piece: front, line: line.clone() },
             PatternEdit::AddHole { piece: back, edges: pocket.outline },
             PatternEdit::PlaceInSpace {
                 placements: vec![(front, Some(SpacePose::flat(DVec3::Z, Default::default())))],
@@ -151,6 +152,7 @@ fn edits([front, back]: [PieceId; 2], seam: SeamId) -> [Vec<PatternEdit>; 6] {
             PatternEdit::SetLayer { pieces: vec![back], layer: 2 },
         ],
         of_sizes([front, back]),
+        trims([front, back], seam, line),
     ]
 }
 
@@ -164,6 +166,24 @@ fn of_sizes([front, back]: [PieceId; 2]) -> Vec<PatternEdit> {
         PatternEdit::SetRules { rules: vec![(at(front, 1), Some(rule.clone())), (at(back, 2), Some(rule))] },
         PatternEdit::SetRules { rules: vec![(at(front, 1), None)] },
         PatternEdit::SetSizes { sizes: READY_SIZES[1].run() },
+    ]
+}
+
+/// Edits of what is worked on two pieces and the seam between them.
+fn trims([front, back]: [PieceId; 2], seam: SeamId, line: InternalLine) -> Vec<PatternEdit> {
+    let lines =
+        vec![TrimLine::Line { piece: back, line: 0 }, TrimLine::Edge(EdgeRef { piece: front, edge: 1 })];
+    let at = |piece| PiecePoint { piece, at: DVec2::new(0.05, 0.05) };
+    let (diameter, colour) = (Button::SHIRT, Button::PEARL);
+    let button = Button { button: at(front), hole: at(back), diameter, colour, open: false };
+    vec![
+        PatternEdit::AddLine { piece: back, line },
+        PatternEdit::SetFold { lines: lines.clone(), fold: Some(Fold::pressed(2.0)) },
+        PatternEdit::SetElastic { lines: lines.clone(), elastic: Some(Elastic { ratio: 0.7, tension: 9.0 }) },
+        PatternEdit::SetTopstitch { lines: lines.clone(), topstitch: Some(Topstitch::default()) },
+        PatternEdit::SetHem { lines, hem: Some(Hem { width: 0.02, colour: Some([9; 3]) }) },
+        PatternEdit::AddButtons { buttons: vec![button] },
+        PatternEdit::SetZip { seam, zip: Some(Zip { open: 0.4, from_end: true, colour }) },
     ]
 }
 

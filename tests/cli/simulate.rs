@@ -94,6 +94,31 @@ fn a_membrane_of_springs_is_chosen_by_name() {
 }
 
 #[test]
+fn a_fold_line_turns_the_cloth_up() {
+    let place = Place::new();
+    place.write("cloth.obj", square(true));
+    for solver in ["implicit", "small_steps"] {
+        // Damped, so that it no longer swings about the angle.
+        let scene = format!(
+            r#"{{"cloth": "cloth.obj", "gravity": [0, 0, 0], "seconds": 3, "solver": "{solver}",
+                 "fabric": {{"name": "slow", "stretch": {{"warp": 1500, "weft": 1500, "shear": 75, "poisson": 0.2}},
+                    "bending": {{"warp": 4e-5, "bias": 4e-5, "weft": 4e-5, "poisson": 0}}, "density_kg_per_m2": 0.15,
+                    "thickness_m": 0.0003, "friction": 0.3, "damping_per_s": 6, "source": "this test"}},
+                 "folds": [{{"vertices": [2, 7, 12, 17, 22], "angle_degrees": -60}}]}}"#
+        );
+        place.write("scene.json", scene);
+        place.ends_with_words(0, "simulate scene.json --out out", "");
+        let x = positions(&place, 180);
+        let at = |v: usize| glam::Vec3::from_slice(&x[3 * v..]);
+        // The front of this cloth is its lower side.
+        let (one, other) = (at(0) - at(2), at(4) - at(2));
+        let angle = 180.0 - one.angle_between(other).to_degrees();
+        assert!((angle - 60.0).abs() < 0.05, "{solver}: {angle}");
+        assert!(one.y + other.y > 0.0, "{solver}: to the back, which is up");
+    }
+}
+
+#[test]
 fn a_rising_floor_lifts_the_cloth() {
     let place = Place::new();
     place.write("cloth.obj", square(true));
@@ -124,6 +149,14 @@ fn bad_scenes_are_told() {
         (r#"{"cloth": "cloth.obj", "seconds": 1, "fabric": "tweed"}"#, "there are denim"),
         (r#"{"cloth": "cloth.obj", "seconds": 1, "density_kg_per_m2": 0}"#, "density_kg_per_m2 is 0"),
         (r#"{"cloth": "cloth.obj", "seconds": 1, "seams": [[0, 1]]}"#, "seams"),
+        (
+            r#"{"cloth": "cloth.obj", "seconds": 1, "folds": [{"vertices": [0, 2], "angle_degrees": 9}]}"#,
+            "fold 0: no edge of the cloth joins the vertices 0 and 2",
+        ),
+        (
+            r#"{"cloth": "cloth.obj", "seconds": 1, "folds": [{"vertices": [0, 1], "angle_degrees": 200}]}"#,
+            "-180 to 180 degrees",
+        ),
         (r#"{"cloth": "half.obj", "seconds": 1}"#, "half.obj: line 5"),
     ] {
         place.write("scene.json", scene);

@@ -40,7 +40,10 @@ fn two() -> Pattern {
     back.outline[3].shape = cubic(v(0.05, 0.3), v(-0.03, 0.1));
     pattern.add_piece(back);
     let sides = [Stretch::edge(A, 1), Stretch::edge(B, 3)];
-    done(&pattern, PatternEdit::Sew { seam: Seam { sides, same_direction: false, ratio: Some(1.0) } })
+    done(
+        &pattern,
+        PatternEdit::Sew { seam: Seam { sides, same_direction: false, ratio: Some(1.0), zip: None } },
+    )
 }
 
 #[track_caller]
@@ -146,7 +149,7 @@ fn what_cannot_be_had_is_refused_and_nothing_changes() {
     let triangle = Piece::polygon("triangle", &[v(0.0, 0.0), v(0.3, 0.0), v(0.1, 0.2)]);
     let t = pattern.add_piece(triangle);
     let sides = [Stretch { further: 1, ..Stretch::edge(t, 0) }, Stretch::edge(t, 2)];
-    let seam = Seam { sides, same_direction: false, ratio: Some(1.0) };
+    let seam = Seam { sides, same_direction: false, ratio: Some(1.0), zip: None };
     refused(&pattern, PatternEdit::Sew { seam }, "cannot be kept");
     refused(&pattern, PatternEdit::MovePoints { points: vec![(point(A, 0), v(0.3, 0.0))] }, "fall together");
     refused(&pattern, PatternEdit::MovePoints { points: vec![(point(A, 9), v(0.3, 0.0))] }, "no point 10");
@@ -239,7 +242,7 @@ fn what_is_done_to_a_seam_is_done_to_its_image() {
     let n = pattern.pieces[&A].outline.len();
     // Part of the side of the body to the end of the sleeve.
     let of_body = Stretch { piece: A, edge: 1, from: 0.25, further: 0, to: 0.75 };
-    let seam = Seam { sides: [of_body, Stretch::edge(B, 3)], same_direction: false, ratio: None };
+    let seam = Seam { sides: [of_body, Stretch::edge(B, 3)], same_direction: false, ratio: None, zip: None };
     let sewn = done(&pattern, PatternEdit::Sew { seam });
     assert_eq!(sewn.seams.len(), 2);
     let (own, image) = (sewn.seams.keys().next().copied(), sewn.seams.keys().last().copied());
@@ -383,7 +386,7 @@ fn a_twisted_seam_is_found_and_mended() {
     let mut pattern = two();
     let c = pattern.add_piece(rectangle("third", 0.3, 0.4));
     let sew = |pattern: &Pattern, sides: [Stretch; 2], same_direction: bool| {
-        done(pattern, PatternEdit::Sew { seam: Seam { sides, same_direction, ratio: None } })
+        done(pattern, PatternEdit::Sew { seam: Seam { sides, same_direction, ratio: None, zip: None } })
     };
     let long = [Stretch::edge(B, 1), Stretch::edge(c, 3)];
     let short = [Stretch::edge(B, 0), Stretch::edge(c, 0)];
@@ -509,7 +512,7 @@ fn random(pattern: &Pattern, c: &mut Chance) -> PatternEdit {
             }
             sides[1].further = (c.below(5) / 3) as usize;
             let ratio = [Some(1.0), Some(c.between(0.8, 1.3)), None][c.below(3) as usize];
-            PatternEdit::Sew { seam: Seam { sides, same_direction: c.below(2) > 0, ratio } }
+            PatternEdit::Sew { seam: Seam { sides, same_direction: c.below(2) > 0, ratio, zip: None } }
         }
         23 => PatternEdit::SetRatio { seam, ratio: [None, Some(1.0), Some(1.2)][c.below(3) as usize] },
         24 => PatternEdit::Unpick { seams: vec![seam] },

@@ -265,7 +265,7 @@ fn banded(stretches: bool) -> Pattern {
         } else {
             Stretch::edge(band, k)
         };
-        pattern.add_seam(Seam { sides: [side, top.into()], same_direction: false, ratio: None });
+        pattern.add_seam(Seam { sides: [side, top.into()], same_direction: false, ratio: None, zip: None });
     }
     sew(&mut pattern, (pieces[0], 1), (pieces[1], 3));
     pattern
@@ -287,7 +287,7 @@ fn one_edge_is_sewn_along_several() {
     let band = pattern.add_piece(rectangle(0.5, 0.04));
     let tops = Stretch { further: 1, ..Stretch::edge(body, 2) };
     let lower = Stretch::edge(band, 0);
-    let seam = pattern.add_seam(Seam { sides: [tops, lower], same_direction: false, ratio: None });
+    let seam = pattern.add_seam(Seam { sides: [tops, lower], same_direction: false, ratio: None, zip: None });
     let (garment, problems) = build(&pattern, 0.02);
     assert!(problems.is_empty(), "{problems:?}");
     let (id, pairs) = &garment.seam_pairs[0];

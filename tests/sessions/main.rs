@@ -26,4 +26,5 @@ mod scales;
 mod scenario;
 mod starts;
 mod threads;
+mod trims;
 mod undo;

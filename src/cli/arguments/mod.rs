@@ -297,7 +297,8 @@ pub struct Simulate {
     /// JSON: {"cloth": OBJ, "seconds": 2} and, each with a default, "pins": [0-based ids], "collider": OBJ or [OBJ per frame],
     /// "fabric": preset or object, "density_kg_per_m2", "gravity": [0, -9.81, 0], "fps": 60, "self_collision": false,
     /// "thickness_m", "strain": 0.01, "solver": "implicit" or "small_steps", "steps_per_frame": 1, "integrator": "bdf2",
-    /// "membrane": "triangles" or "springs"
+    /// "membrane": "triangles" or "springs", "folds": [{"vertices": [ids along it], "angle_degrees", "strength": 0.02}],
+    /// "elastics": [{"vertices": [ids], "ratio", "tension": 15}]
     pub scene: PathBuf,
     /// The folder to write to
     #[arg(long, value_name = "DIR")]

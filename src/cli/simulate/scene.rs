@@ -10,10 +10,13 @@ use crate::body::Surface;
 use crate::cli::failure::Failure;
 use crate::cli::files;
 use crate::cloth::Fabric;
+use crate::drape::forces::bands::Bands;
+use crate::drape::forces::folds::Folds;
 use crate::drape::{Elastic, Integrator, Method, Scene, Sheet};
 use crate::geometry::mesh::TriMesh;
 use crate::io::obj::ObjError;
 use crate::io::{cloth_obj, obj};
+use crate::pattern::{self, Fold};
 
 /// Stiffness of the membrane under compression relative to its stiffness under tension.
 const COMPRESSION: f64 = 0.1;
@@ -29,6 +32,12 @@ pub struct SceneFile {
     pins: Vec<usize>,
     #[serde(default)]
     seams: Vec<[usize; 2]>,
+    /// Fold lines.
+    #[serde(default)]
+    folds: Vec<FoldLine>,
+    /// Elastic.
+    #[serde(default)]
+    elastics: Vec<ElasticLine>,
     #[serde(default)]
     collider: Option<Colliders>,
     #[serde(default)]
@@ -58,6 +67,32 @@ pub struct SceneFile {
     /// The membrane model of implicit steps; small steps always have springs.
     #[serde(default)]
     pub membrane: MembraneChoice,
+}
+
+/// A fold line along edges of the cloth.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct FoldLine {
+    /// The vertices that it leads through, from 0.
+    vertices: Vec<usize>,
+    /// Angle at rest, -180..=180, positive towards the front of the cloth.
+    angle_degrees: f64,
+    /// Moment per length and radian, N; that of a pressed crease when left out.
+    #[serde(default)]
+    strength: Option<f64>,
+}
+
+/// Elastic along edges of the cloth.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ElasticLine {
+    /// The vertices that it leads through, from 0.
+    vertices: Vec<usize>,
+    /// Length at rest as a share of that of the cloth, 0.3..=1.
+    ratio: f64,
+    /// Force at double length, N; that of a waistband when left out.
+    #[serde(default)]
+    tension: Option<f64>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -194,15 +229,63 @@ pub fn load(path: &Path) -> Result<Loaded, Failure> {
     }
     let bodies = bodies_of(&file, folder)?;
     let mass = sheet.vertex_area.iter().map(|a| a * fabric.density_kg_per_m2).collect();
-    let elastic = match file.membrane {
+    let (sheet, folds) = folded(sheet, &file.folds).map_err(|words| Failure::input(path, words))?;
+    let mut elastic = match file.membrane {
         MembraneChoice::Triangles => Elastic::new(&sheet, &fabric, COMPRESSION),
         MembraneChoice::Springs => Elastic::of_springs(&sheet, &fabric),
     };
+    elastic.folds = folds;
+    elastic.bands = gathered(&sheet, &file.elastics).map_err(|words| Failure::input(path, words))?;
     let gravity = DVec3::from_array(file.gravity);
     let damping = fabric.damping_per_s;
     let scene = Scene { sheet, elastic, mass, pinned, gravity, damping, collider: None };
     let thickness = file.thickness_m.unwrap_or(fabric.thickness_m);
     Ok(Loaded { file, scene, positions, fabric, thickness, bodies })
+}
+
+/// The sheet creased along `lines`, and these folds. The error is in words.
+fn folded(sheet: Sheet, lines: &[FoldLine]) -> Result<(Sheet, Folds), String> {
+    let mut edges = Vec::new();
+    for (number, line) in lines.iter().enumerate() {
+        let fold =
+            Fold { angle: line.angle_degrees.to_radians(), strength: line.strength.unwrap_or(Fold::PRESSED) };
+        if let Some(words) = fold.problem() {
+            return Err(format!("fold {number}: {words}"));
+        }
+        let along = edges_along(&sheet, &line.vertices).map_err(|words| format!("fold {number}: {words}"))?;
+        edges.extend(along.into_iter().map(|ends| (ends, fold.angle, fold.strength)));
+    }
+    let sheet = sheet.creased(edges.iter().map(|(ends, ..)| *ends));
+    let folds = Folds::new(&sheet, edges);
+    Ok((sheet, folds))
+}
+
+/// The elastic along `lines`. The error is in words.
+fn gathered(sheet: &Sheet, lines: &[ElasticLine]) -> Result<Bands, String> {
+    let mut edges = Vec::new();
+    for (number, line) in lines.iter().enumerate() {
+        let tension = line.tension.unwrap_or(pattern::Elastic::WAISTBAND);
+        let elastic = pattern::Elastic { ratio: line.ratio, tension };
+        if let Some(words) = elastic.problem() {
+            return Err(format!("elastic {number}: {words}"));
+        }
+        let along =
+            edges_along(sheet, &line.vertices).map_err(|words| format!("elastic {number}: {words}"))?;
+        edges.extend(along.into_iter().map(|ends| (ends, elastic.ratio, elastic.tension)));
+    }
+    Ok(Bands::new(sheet, edges))
+}
+
+/// The edges that lead through `vertices`. The error is in words.
+fn edges_along(sheet: &Sheet, vertices: &[usize]) -> Result<Vec<[u32; 2]>, String> {
+    let edge = |pair: &[usize]| {
+        let ends = [pair[0], pair[1]].map(|v| u32::try_from(v).unwrap_or(u32::MAX));
+        let is_known = ends.iter().all(|&v| (v as usize) < sheet.len());
+        let found = is_known.then(|| sheet.edge_between(ends)).flatten();
+        let words = || format!("no edge of the cloth joins the vertices {} and {}", pair[0], pair[1]);
+        found.map(|_| ends).ok_or_else(words)
+    };
+    vertices.windows(2).map(edge).collect()
 }
 
 /// The corners of a triangle in its own plane, with its first side along x.

@@ -196,7 +196,20 @@ struct Energy {
     entries: Vec<(u32, u32, f64)>,
 }
 
+/// Bending energies of a sheet; across its creases there is none.
 fn energies<'a>(sheet: &Sheet, stiffness: impl Fn(u32) -> &'a Stiffness) -> Vec<Energy> {
+    let Some((parted, whole)) = sheet.parted() else { return smooth_energies(sheet, stiffness) };
+    let mut energies = smooth_energies(&parted, |v| stiffness(whole[v as usize]));
+    for energy in &mut energies {
+        energy.stencil.iter_mut().for_each(|v| *v = whole[*v as usize]);
+        for (i, j, _) in &mut energy.entries {
+            (*i, *j) = (whole[*i as usize], whole[*j as usize]);
+        }
+    }
+    energies
+}
+
+fn smooth_energies<'a>(sheet: &Sheet, stiffness: impl Fn(u32) -> &'a Stiffness) -> Vec<Energy> {
     let of = |(v, area): (usize, f64)| {
         let own = stiffness(v as u32);
         if own.warp <= 0.0 && own.weft <= 0.0 && own.bias <= 0.0 {

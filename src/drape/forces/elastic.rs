@@ -4,7 +4,9 @@ use glam::{DMat3, DVec3};
 
 use crate::cloth::Fabric;
 use crate::cloth::fabric::Bending as Plate;
+use crate::drape::forces::bands::Bands;
 use crate::drape::forces::bending::Bending;
+use crate::drape::forces::folds::Folds;
 use crate::drape::forces::limits::StrainLimits;
 use crate::drape::forces::membrane::Membrane;
 use crate::drape::sheet::Sheet;
@@ -20,6 +22,10 @@ pub struct Elastic {
     pub plate: Plate,
     /// Springs along edges, for strain control or in place of the membrane.
     pub limits: Option<StrainLimits>,
+    /// Elastic sewn along edges.
+    pub bands: Bands,
+    /// Fold lines; the sheet must be creased there ([`Sheet::creased`]).
+    pub folds: Folds,
     /// Excess pressure on the back of the cloth, which pushes it towards its front normal, Pa. 0 for none.
     pub pressure: f64,
     triangles: Vec<[u32; 3]>,
@@ -33,6 +39,8 @@ impl Elastic {
             bending: Bending::new(sheet, &fabric.bending),
             plate: fabric.bending,
             limits: None,
+            bands: Bands::default(),
+            folds: Folds::default(),
             pressure: 0.0,
             triangles: sheet.triangles.clone(),
         }
@@ -55,6 +63,7 @@ impl Elastic {
         if let Some(limits) = &self.limits {
             energy += limits.add_gradient(x, gradient);
         }
+        energy += self.bands.add_gradient(x, gradient) + self.folds.add_gradient(x, gradient);
         if self.pressure != 0.0 {
             energy += self.add_pressure(x, gradient);
         }

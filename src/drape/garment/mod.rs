@@ -8,6 +8,7 @@ mod laid;
 mod routes;
 pub mod sewing;
 mod tangles;
+mod worked;
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -22,10 +23,12 @@ use crate::drape::contact::body::Collider;
 use crate::drape::forces::bending::Bending;
 use crate::drape::garment::laid::{ordered, shortest_sides, springs};
 use crate::drape::garment::tangles::Pulling;
+use crate::drape::garment::worked::{Worked, plates};
 use crate::drape::sheet::Sheet;
 use crate::drape::solver::small_steps::{
-    Advance, GrabConstraint, SewingSpring, SmallSteps, Surroundings, stable_rate, substeps,
+    Advance, GrabConstraint, SmallSteps, Surroundings, stable_rate, substeps,
 };
+use crate::drape::solver::ties::SewingSpring;
 use crate::drape::state::State;
 use crate::geometry::crossings::meetings;
 use crate::geometry::ids::PieceId;
@@ -225,6 +228,7 @@ impl DrapedGarment {
         let rest: Vec<[DVec2; 3]> = laid.iter().map(|&t| garment.rest[t]).collect();
         let sheet = Sheet::new(vertices.len(), triangles, rest)
             .map_err(|why| Undrapable(format!("the cloth cannot be draped: {why}")))?;
+        let (sheet, mut worked) = Worked::new(sheet, &garment, &own, sewn.is_some());
         let of_triangle: Vec<&Fabric> = laid.iter().map(|&t| fabric(t)).collect();
         let first = |v: u32| of_triangle[sheet.adjacency.vertex_triangles.of(v)[0] as usize];
         let mass = masses(&sheet, &of_triangle);
@@ -235,12 +239,14 @@ impl DrapedGarment {
         let hanging = || steps_a_tick(&positions, sheet.mean_edge(), settings.strain);
         let count = sewn.map_or_else(hanging, |(.., substeps)| substeps);
         let slow = stable_rate(TICK / count as f64, BENDING_DAMPING);
-        let bending = Bending::slower_than(slow, &mass, &sheet, |v| &first(v).bending);
+        let plates = plates(&garment, &own, sheet.len(), |v| first(v).bending);
+        let bending = Bending::slower_than(slow, &mass, &sheet, |v| &plates[v as usize]);
         let mut pinned = vec![false; sheet.len()];
         pins.iter().filter_map(|&v| own_number(&own, v)).for_each(|v| pinned[v] = true);
         let length = shortest_lengths(&garment, sewn, &vertices);
-        let springs = springs(&sheet, &of_triangle, length);
-        let small = SmallSteps::of(springs, settings.strain, &sheet, &bending, &mass, &pinned);
+        let springs = worked.bands.take_springs(springs(&sheet, &of_triangle, length)).into_iter();
+        let mut small = SmallSteps::of(springs, settings.strain, &sheet, &bending, &mass, &pinned);
+        worked.give(&mut small, thickness);
         let obstacle = Arc::new(Obstacle::of(&surface));
         let collider = Collider::still(surface);
         Ok(Self {

@@ -15,7 +15,7 @@ use crate::cloth::{ClothState, Fabric, Garment};
 use crate::contact::separation;
 use crate::drape::garment::routes::{self, Route};
 use crate::drape::garment::{DrapedGarment, DrapedSettings, TICK, Undrapable};
-use crate::drape::solver::small_steps::SewingSpring;
+use crate::drape::solver::ties::SewingSpring;
 use crate::geometry::adjacency::Adjacency;
 use crate::geometry::ids::PieceId;
 

@@ -1,11 +1,13 @@
 //! Time steppers: implicit steps, many small explicit ones, and a direct solve for equilibrium; sparse matrices of 3 × 3 blocks.
 
 mod blocks;
+pub mod chain;
 pub mod net;
 pub mod newton;
 mod ordering;
 pub mod settle;
 pub mod small_steps;
 pub mod steps;
+pub mod ties;
 
 pub use steps::{Integrator, Scene, Steps};

@@ -80,6 +80,11 @@ impl Net {
         }
     }
 
+    /// Strain, either way, beyond which edges are rigid.
+    pub fn limit(&self) -> f64 {
+        self.limit
+    }
+
     /// Vertex range of each part, in order.
     pub fn parts(&self) -> impl ExactSizeIterator<Item = Range<usize>> {
         self.parts.iter().map(|part| part.vertices.clone())

@@ -118,7 +118,7 @@ impl Newton {
     pub fn new(sheet: &Sheet, elastic: &Elastic) -> Option<Self> {
         let edges = sheet.adjacency.edges.iter().copied();
         let bent = (0..sheet.len()).flat_map(|i| elastic.bending.row(i).map(move |(j, _)| [i as u32, j]));
-        let matrix = BlockMatrix::new(sheet.len(), edges.chain(bent))?;
+        let matrix = BlockMatrix::new(sheet.len(), edges.chain(bent).chain(elastic.folds.pairs()))?;
         let diagonal: Option<Vec<Slot>> = (0..sheet.len() as u32).map(|v| matrix.slot(v, v)).collect();
         let corners = sheet.triangles.iter().map(|vs| {
             let slot = |k: usize, l: usize| matrix.slot(vs[k], vs[l]);
@@ -334,15 +334,22 @@ impl Newton {
                 matrix.add(self.diagonal[touch.vertex as usize], &touch.hessian());
             }
         }
+        let mut spring = |[a, b]: [u32; 2], block: DMat3| {
+            matrix.add(self.diagonal[a as usize], &block);
+            matrix.add(self.diagonal[b as usize], &block);
+            if let Some(slot) = matrix.slot(b, a) {
+                matrix.add(slot, &(block * -1.0));
+            }
+        };
         if let Some(limits) = &task.elastic.limits {
-            limits.hessian(x, exact, |[a, b], block| {
-                matrix.add(self.diagonal[a as usize], &block);
-                matrix.add(self.diagonal[b as usize], &block);
-                if let Some(slot) = matrix.slot(b, a) {
-                    matrix.add(slot, &(block * -1.0));
-                }
-            });
+            limits.hessian(x, exact, &mut spring);
         }
+        task.elastic.bands.hessian(x, spring);
+        task.elastic.folds.hessian(x, |[i, j], block| {
+            if let Some(slot) = matrix.slot(i, j) {
+                matrix.add(slot, &block);
+            }
+        });
         itself.hessian(|v, block| matrix.add(self.diagonal[v as usize], &block));
         matrix.hold(task.pinned);
     }

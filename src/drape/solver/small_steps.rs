@@ -14,11 +14,14 @@ use crate::body::Surface;
 use crate::contact::separation::Touch;
 use crate::contact::{Obstacle, Separation};
 use crate::drape::contact::body::Collider;
+use crate::drape::forces::bands::Bands;
 use crate::drape::forces::bending::Bending;
+use crate::drape::forces::folds::Folds;
 use crate::drape::forces::limits::StrainLimits;
 use crate::drape::sheet::Sheet;
 use crate::drape::solver::net::{Net, Spring};
 use crate::drape::solver::steps::Scene;
+use crate::drape::solver::ties::{Fastened, SewingSpring};
 use crate::drape::state::State;
 
 /// Distance, in offsets, that a vertex may move before its nearest point of the body is looked up again. Over a sphere of radius
@@ -26,8 +29,6 @@ use crate::drape::state::State;
 const STALE: f64 = 2.0;
 /// Safety factor on the stability limit of explicit bending.
 const SAFE: f64 = 0.9;
-/// Largest speed at which sewing springs close, m/s: a gap that cloth and body hold open against that stays open.
-pub const THREAD_SPEED: f64 = 2.0;
 /// Gap (m) below which sewn ends are kept together even though the body pushes them apart.
 const NEARLY_SHUT: f64 = 0.002;
 /// Speed at which cloth leaves a body when it is deeper than its own motion brought it, m/s; it gains no momentum by that.
@@ -72,6 +73,14 @@ pub struct SmallSteps {
     pub hand: Option<GrabConstraint>,
     /// Sewing springs.
     pub ties: Vec<SewingSpring>,
+    /// Fastened buttons.
+    pub fastened: Vec<Fastened>,
+    /// Fold lines.
+    pub folds: Folds,
+    /// Elastic sewn along edges.
+    pub bands: Bands,
+    /// How far elastic moved each vertex in this small step, metres; empty without elastic.
+    pulled: Vec<f64>,
     /// Constraints that keep the cloth from crossing itself and the body.
     pub separation: Option<Separation>,
     /// Surface that `separation` was given as its obstacle.
@@ -109,17 +118,6 @@ impl Advance {
     pub fn is_done(&self) -> bool {
         self.done == self.count
     }
-}
-
-/// Sewing spring: a distance constraint between two vertices that only pulls.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SewingSpring {
-    /// The vertices.
-    pub ends: [u32; 2],
-    /// Length beyond which it pulls, metres.
-    pub length: f64,
-    /// Waypoint over which it runs, metres; None: straight.
-    pub over: Option<DVec3>,
 }
 
 /// Drag constraint: a spring that pulls one vertex towards a target.
@@ -199,11 +197,19 @@ impl SmallSteps {
         let Scene { sheet, elastic, mass, pinned, .. } = scene;
         let limits = StrainLimits::new(sheet, 0.0, stiffness);
         let springs = limits.springs().map(|(ends, length, stiffness)| Spring { ends, length, stiffness });
+        let mut bands = elastic.bands.clone();
+        let springs = bands.take_springs(springs).into_iter();
         let most = stable_rate(small, 0.0);
         let softened = (fastest(&elastic.bending, mass) > most)
             .then(|| Arc::new(Bending::slower_than(most, mass, sheet, |_| &elastic.plate)));
         let bending = softened.as_deref().unwrap_or(&elastic.bending);
-        Self { softened: softened.clone(), ..Self::of(springs, f64::MAX, sheet, bending, mass, pinned) }
+        let folds = elastic.folds.clone();
+        Self {
+            softened: softened.clone(),
+            folds,
+            bands,
+            ..Self::of(springs, f64::MAX, sheet, bending, mass, pinned)
+        }
     }
 
     /// A solver for any springs, rigid beyond a strain of `limit`. `mass` in kg per vertex; `pinned` vertices are held.
@@ -231,6 +237,10 @@ impl SmallSteps {
             eases: false,
             hand: None,
             ties: Vec::new(),
+            fastened: Vec::new(),
+            folds: Folds::default(),
+            bands: Bands::default(),
+            pulled: Vec::new(),
             separation: None,
             body: None,
             lag: 0.0,
@@ -363,6 +373,8 @@ impl SmallSteps {
             net.project_part(p, x);
         });
         net.project_between(x);
+        self.bands.project(x, &self.inverse_mass, self.net.limit(), small, &mut self.pulled);
+        self.folds.project(x, before, &self.inverse_mass, small);
         if let Some(separation) = &mut self.separation {
             let friction = if around.grip > 0.0 { around.friction } else { &[] };
             let touch = Touch { inverse_mass: &self.inverse_mass, friction, ease: EASE * small };
@@ -379,6 +391,7 @@ impl SmallSteps {
                 inverse_mass: &self.inverse_mass,
                 lift: &self.lift,
                 spread: &self.spread,
+                pulled: &self.pulled,
                 eases: self.eases,
             };
             let looked = side_by_side(&mut work, |_, share| this.collide(&scene, share));
@@ -474,21 +487,10 @@ impl SmallSteps {
         }
     }
 
-    /// Projects sewing springs whose ends are at most `within` metres apart.
+    /// Projects fastened buttons, and sewing springs whose ends are at most `within` metres apart.
     fn draw(&self, x: &mut [DVec3], within: f64, small: f64) {
-        for tie in &self.ties {
-            let [a, b] = tie.ends.map(|v| v as usize);
-            let (from_a, from_b, distance) = match tie.over {
-                Some(place) => (place - x[a], place - x[b], place.distance(x[a]) + place.distance(x[b])),
-                None => (x[b] - x[a], x[a] - x[b], x[a].distance(x[b])),
-            };
-            let (long, [wa, wb]) = (distance - tie.length, [a, b].map(|v| self.inverse_mass[v]));
-            if long > 0.0 && distance <= within && wa + wb > 0.0 {
-                let pull = long.min(THREAD_SPEED * small) / (wa + wb);
-                x[a] += from_a.normalize_or_zero() * (pull * wa);
-                x[b] += from_b.normalize_or_zero() * (pull * wb);
-            }
-        }
+        self.ties.iter().for_each(|tie| tie.draw(x, &self.inverse_mass, within, small));
+        self.fastened.iter().for_each(|tie| tie.draw(x, &self.inverse_mass, small));
     }
 
     /// Projects the drag constraint in one small step.
@@ -596,6 +598,7 @@ struct Knowing<'a> {
     inverse_mass: &'a [f64],
     lift: &'a [f64],
     spread: &'a [f64],
+    pulled: &'a [f64],
     eases: bool,
 }
 
@@ -638,7 +641,10 @@ impl Knowing<'_> {
                 let slip = *x - *before - carried;
                 let slip = slip - plane.normal * slip.dot(plane.normal);
                 let length = slip.length();
-                let hold = around.friction[i] * depth.min(around.grip * self.spread[i] * small * small);
+                // Pressure of elastic is known, and not limited.
+                let pulled = self.pulled.get(i).copied().unwrap_or(0.0);
+                let hold =
+                    around.friction[i] * depth.min(around.grip * self.spread[i] * small * small + pulled);
                 *x -= if length <= hold { slip } else { slip * (hold / length) };
             }
         }

@@ -44,7 +44,7 @@ fn a_seam_along_a_stretch_is_written_by_cutting_edges() {
     let [a, b] = ["a", "b"].map(|n| pattern.add_piece(square(n)));
     // The left 10 cm of one lower edge to the whole of the other: 10 cm to 20 cm.
     let sides = [Stretch { to: 0.5, ..Stretch::edge(a, 0) }, Stretch::edge(b, 0)];
-    pattern.add_seam(Seam { sides, same_direction: false, ratio: Some(0.5) });
+    pattern.add_seam(Seam { sides, same_direction: false, ratio: Some(0.5), zip: None });
     let (read, left_out) = again(&pattern);
     let [a, b] = ["a", "b"].map(|n| read.piece_named(n).expect(n));
     assert_eq!((read.pieces[&a].outline.len(), read.pieces[&b].outline.len()), (5, 4));

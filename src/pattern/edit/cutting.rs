@@ -11,7 +11,7 @@ use crate::pattern::edit::pieces::{change, fresh_name};
 use crate::pattern::edit::symmetry::loosen;
 use crate::pattern::edit::{Carried, Change, find, points, symmetric_image};
 use crate::pattern::piece::flattened_loop;
-use crate::pattern::{Edge, EdgeRef, GradeRule, InternalLine, Notch, Pattern, Piece, Seam, Stretch};
+use crate::pattern::{Edge, EdgeRef, GradeRule, InternalLine, Notch, Pattern, Piece, Seam, Stretch, curve};
 
 /// Distance by which an end of a cut may miss the outline, metres.
 const NEAR: f64 = 2e-3;
@@ -90,7 +90,7 @@ pub(super) fn cut(
     if sew {
         let [one, two] =
             [0, 1].map(|part| Stretch { further: m - 1, ..Stretch::edge(ids[part], halves[part].0.len()) });
-        pattern.add_seam(Seam { sides: [one, two], same_direction: false, ratio: Some(1.0) });
+        pattern.add_seam(Seam { sides: [one, two], same_direction: false, ratio: Some(1.0), zip: None });
     }
     let carried = [0, 1]
         .map(|part| Carried {
@@ -229,16 +229,7 @@ fn point_on_outline(pattern: &mut Pattern, id: PieceId, p: DVec2) -> Result<usiz
 
 /// The point of an edge nearest to `p`: the fraction of the edge's arc length, and the distance to `p`, metres.
 pub fn nearest_on_edge(piece: &Piece, edge: usize, p: DVec2) -> (f64, f64) {
-    use kurbo::{ParamCurve, ParamCurveArclen, ParamCurveNearest};
-    let (mut best, mut before) = ((0.0, f64::INFINITY), 0.0);
-    for segment in piece.edge_segments(edge) {
-        let near = segment.nearest(kurbo::Point::new(p.x, p.y), 1e-9);
-        if near.distance_sq < best.1 {
-            best = (before + segment.subsegment(0.0..near.t).arclen(1e-10), near.distance_sq);
-        }
-        before += segment.arclen(1e-10);
-    }
-    ((best.0 / before.max(f64::MIN_POSITIVE)).clamp(0.0, 1.0), best.1.sqrt())
+    curve::nearest(&piece.edge_segments(edge), p)
 }
 
 pub(super) fn dart(
@@ -317,7 +308,7 @@ fn one_dart(pattern: &mut Pattern, edge: EdgeRef, from: f64, to: f64, depth: f64
         .collect();
     lines::replace(pattern, edge.piece, k, edges, &map);
     let legs = [mouth.edge, mouth.edge + 1].map(|edge| Stretch::edge(mouth.piece, edge));
-    pattern.add_seam(Seam { sides: legs, same_direction: false, ratio: Some(1.0) });
+    pattern.add_seam(Seam { sides: legs, same_direction: false, ratio: Some(1.0), zip: None });
     Ok(())
 }
 

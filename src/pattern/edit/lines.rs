@@ -140,7 +140,7 @@ pub(super) fn insert_points(pattern: &mut Pattern, edge: EdgeRef, fractions: &[f
         } else {
             GradeRule::between(old[at].rule.as_ref(), old[(at + 1) % old.len()].rule.as_ref(), place)
         };
-        Edge { start, shape, smooth, label: old[at].label.clone(), rule }
+        Edge { start, shape, smooth, rule, ..old[at].clone() }
     });
     edges.splice(at..=at, new);
     let mut bounds = vec![0.0];

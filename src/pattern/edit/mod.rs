@@ -1,6 +1,7 @@
 //! Edits of a pattern. Pure functions: they return a new pattern, or a message that says why not.
 
 mod cutting;
+mod fastenings;
 pub(in crate::pattern) mod grading;
 mod holes;
 mod lengths;
@@ -10,6 +11,7 @@ mod pieces;
 mod points;
 mod sewing;
 mod symmetry;
+mod trims;
 mod twists;
 
 use std::collections::BTreeSet;
@@ -18,16 +20,17 @@ use std::sync::Arc;
 use glam::{DAffine2, DVec2};
 use serde::{Deserialize, Serialize};
 
-use crate::geometry::ids::{PieceId, SeamId};
+use crate::geometry::ids::{ButtonId, PieceId, SeamId};
 use crate::pattern::activity::Activity;
-use crate::pattern::layers::MOST_LAYER;
 use crate::pattern::{
-    Edge, EdgeRef, EdgeShape, GradeRule, InternalLine, Pattern, Piece, PlanePose, RulePoint, Seam, SizeRun,
-    SpacePose, curve,
+    Button, Edge, EdgeRef, EdgeShape, Elastic, Fold, GradeRule, Hem, InternalLine, Pattern, Piece, PlanePose,
+    RulePoint, Seam, SizeRun, SpacePose, Topstitch, Zip, curve,
 };
 pub use cutting::nearest_on_edge;
+pub use fastenings::MOST_BUTTONS;
 pub use pieces::WIDEST_ALLOWANCE;
 pub use sewing::{RATIOS, sound};
+pub use trims::TrimLine;
 pub use twists::{Twists, twists, untwisted};
 
 /// A point of a closed line: the start of the edge with the same number.
@@ -118,6 +121,27 @@ pub enum PatternEdit {
     SetGrainline { piece: PieceId, grainline: Option<[DVec2; 2]> },
     /// Set the seam allowance, metres.
     SetAllowance { pieces: Vec<PieceId>, width: f64 },
+
+    /// Crease edges or internal lines, or (None) let them be flat.
+    SetFold { lines: Vec<TrimLine>, fold: Option<Fold> },
+    /// Sew elastic along edges or internal lines, or (None) take it off.
+    SetElastic { lines: Vec<TrimLine>, elastic: Option<Elastic> },
+
+    /// Topstitch edges or internal lines, or (None) unpick that.
+    SetTopstitch { lines: Vec<TrimLine>, topstitch: Option<Topstitch> },
+    /// Hem edges, or (None) unpick the hem.
+    SetHem { lines: Vec<TrimLine>, hem: Option<Hem> },
+
+    /// Sew on buttons, each with its buttonhole.
+    AddButtons { buttons: Vec<Button> },
+    /// Change place, size, colour or state of a button.
+    SetButton { id: ButtonId, button: Button },
+    /// Take buttons off.
+    DeleteButtons { buttons: Vec<ButtonId> },
+    /// Fasten buttons, or unfasten them.
+    Fasten { buttons: Vec<ButtonId>, fastened: bool },
+    /// Put a zip into a seam, open or close it, or (None) take it out: the seam is then sewn.
+    SetZip { seam: SeamId, zip: Option<Zip> },
 
     /// Sew two stretches. A seam with a ratio reaches it at once. The mirror image of the seam, on twins or symmetric
     /// halves, is sewn too where its stretches are free. This edit and the next three apply to the image of a seam as well.
@@ -211,6 +235,7 @@ const SHORTEST_EDGE: f64 = 1e-5;
 pub fn apply(pattern: &Pattern, edit: &PatternEdit) -> Result<Edited, String> {
     let mut new = pattern.clone();
     let change = carry_out(&mut new, edit)?;
+    fastenings::carry(&mut new, &change.carried);
     let named = pieces_named(edit);
     for twin_edit in named.iter().filter_map(|&id| for_twin(pattern, id, edit)) {
         carry_out(&mut new, &twin_edit)?;
@@ -270,20 +295,8 @@ fn carry_out(pattern: &mut Pattern, edit: &PatternEdit) -> Result<Change, String
             let what = if *hidden { "hide" } else { "show" };
             pieces::set_all(pattern, pieces, what, |p| p.hidden = *hidden)
         }
-        PatternEdit::SetLayer { pieces, layer } => {
-            if *layer > MOST_LAYER {
-                return Err(format!("layer {layer} is none: there are 0 to {MOST_LAYER}"));
-            }
-            pieces::set_all(pattern, pieces, "wear on another layer", |p| p.layer = *layer)
-        }
-        PatternEdit::SetActivity { pieces, activity } => {
-            let what = match activity {
-                Activity::Active => "activate",
-                Activity::Frozen => "freeze",
-                Activity::Deactivated => "deactivate",
-            };
-            pieces::set_all(pattern, pieces, what, |p| p.activity = *activity)
-        }
+        PatternEdit::SetLayer { pieces, layer } => pieces::set_layer(pattern, pieces, *layer),
+        PatternEdit::SetActivity { pieces, activity } => pieces::set_activity(pattern, pieces, *activity),
         PatternEdit::MovePoints { points } => points::move_points(pattern, points),
         PatternEdit::SetEdge { edge, shape } => points::set_edge(pattern, *edge, *shape),
         PatternEdit::InsertPoint { edge, at } => points::insert(pattern, *edge, *at),
@@ -299,6 +312,27 @@ fn carry_out(pattern: &mut Pattern, edit: &PatternEdit) -> Result<Change, String
         PatternEdit::DeleteHole { piece, hole } => holes::delete_hole(pattern, *piece, *hole),
         PatternEdit::SetGrainline { piece, grainline } => cutting::set_grainline(pattern, *piece, *grainline),
         PatternEdit::SetAllowance { pieces, width } => pieces::set_allowance(pattern, pieces, *width),
+        PatternEdit::SetFold { lines, fold } => {
+            let what = if fold.is_some() { "fold" } else { "unfold a crease" };
+            trims::set(pattern, lines, what, |trims| trims.fold = *fold)
+        }
+        PatternEdit::SetElastic { lines, elastic } => {
+            let what = if elastic.is_some() { "sew on elastic" } else { "take elastic off" };
+            trims::set(pattern, lines, what, |trims| trims.elastic = *elastic)
+        }
+        PatternEdit::SetTopstitch { lines, topstitch } => {
+            let what = if topstitch.is_some() { "topstitch" } else { "unpick topstitching" };
+            trims::set(pattern, lines, what, |trims| trims.topstitch = *topstitch)
+        }
+        PatternEdit::SetHem { lines, hem } => {
+            let what = if hem.is_some() { "hem" } else { "unpick a hem" };
+            trims::set(pattern, lines, what, |trims| trims.hem = *hem)
+        }
+        PatternEdit::AddButtons { buttons } => fastenings::add_buttons(pattern, buttons),
+        PatternEdit::SetButton { id, button } => fastenings::set_button(pattern, *id, button),
+        PatternEdit::DeleteButtons { buttons } => fastenings::delete_buttons(pattern, buttons),
+        PatternEdit::Fasten { buttons, fastened } => fastenings::fasten(pattern, buttons, *fastened),
+        PatternEdit::SetZip { seam, zip } => fastenings::set_zip(pattern, *seam, *zip),
         PatternEdit::Sew { seam } => sewing::sew(pattern, *seam),
         PatternEdit::Unpick { seams } => sewing::unpick(pattern, seams),
         PatternEdit::TurnSeam { seam } => sewing::turn(pattern, *seam),
@@ -327,6 +361,10 @@ fn pieces_named(edit: &PatternEdit) -> Vec<PieceId> {
         | PatternEdit::DeleteHole { piece, .. }
         | PatternEdit::SetGrainline { piece, .. }
         | PatternEdit::SetOutline { piece, .. } => vec![*piece],
+        PatternEdit::SetFold { lines, .. }
+        | PatternEdit::SetElastic { lines, .. }
+        | PatternEdit::SetTopstitch { lines, .. }
+        | PatternEdit::SetHem { lines, .. } => lines.iter().map(TrimLine::piece).collect(),
         _ => Vec::new(),
     }
 }

@@ -6,9 +6,11 @@ use std::sync::Arc;
 use glam::{DAffine2, DMat2, DVec2};
 
 use crate::geometry::ids::PieceId;
+use crate::pattern::activity::Activity;
 use crate::pattern::edit::grading::drop_foreign;
 use crate::pattern::edit::lines::{self, Part};
 use crate::pattern::edit::{Carried, Change, find, is_symmetric, points};
+use crate::pattern::layers::MOST_LAYER;
 use crate::pattern::{
     Edge, EdgeRef, EdgeShape, GradeRule, InternalLine, Pattern, Piece, PlanePose, Seam, SpacePose, curve,
 };
@@ -220,6 +222,26 @@ pub(super) fn set_all(
         change(pattern, id, &set);
     }
     Ok(Change::new(label))
+}
+
+pub(super) fn set_layer(pattern: &mut Pattern, ids: &[PieceId], layer: u8) -> Result<Change, String> {
+    if layer > MOST_LAYER {
+        return Err(format!("layer {layer} is none: there are 0 to {MOST_LAYER}"));
+    }
+    set_all(pattern, ids, "wear on another layer", |p| p.layer = layer)
+}
+
+pub(super) fn set_activity(
+    pattern: &mut Pattern,
+    ids: &[PieceId],
+    activity: Activity,
+) -> Result<Change, String> {
+    let what = match activity {
+        Activity::Active => "activate",
+        Activity::Frozen => "freeze",
+        Activity::Deactivated => "deactivate",
+    };
+    set_all(pattern, ids, what, |p| p.activity = activity)
 }
 
 pub(super) fn set_allowance(pattern: &mut Pattern, ids: &[PieceId], width: f64) -> Result<Change, String> {

@@ -5,8 +5,8 @@ use glam::{DVec2, DVec3};
 use crate::contact::Bone;
 use crate::geometry::ids::{MarkId, PieceId};
 use crate::io::words::readable;
-use crate::pattern::edit::{WIDEST_ALLOWANCE, is_symmetric};
-use crate::pattern::{Edge, EdgeShape, InternalLine, Pattern, Piece, PlanePose, SpacePose};
+use crate::pattern::edit::{MOST_BUTTONS, WIDEST_ALLOWANCE, is_symmetric};
+use crate::pattern::{Button, Edge, EdgeShape, InternalLine, Pattern, Piece, PlanePose, SpacePose};
 use crate::session::body_choice::BodyChoice;
 use crate::session::command::Rejection;
 use crate::session::document::Settings;
@@ -88,10 +88,16 @@ pub fn outline(outline: &[Edge]) -> Result<(), Rejection> {
     if outline.len() > MOST_EDGES {
         return Err(Rejection(format!("an outline may have {MOST_EDGES} edges, this has {}", outline.len())));
     }
+    trims(outline)?;
     match outline.iter().position(|e| !edge(e)) {
         Some(i) => Err(Rejection(format!("edge {} of the outline has a number that means no place", i + 1))),
         None => Ok(()),
     }
+}
+
+/// Checks what is worked along the edges of a line.
+fn trims(edges: &[Edge]) -> Result<(), Rejection> {
+    edges.iter().find_map(|edge| edge.trims.problem()).map_or(Ok(()), |why| Err(Rejection(why)))
 }
 
 fn edge(edge: &Edge) -> bool {
@@ -133,6 +139,7 @@ pub fn line(line: &InternalLine) -> Result<(), Rejection> {
     if line.edges.is_empty() || line.edges.len() > MOST_EDGES {
         return Err(Rejection(format!("a line inside a piece has 1 to {MOST_EDGES} edges")));
     }
+    trims(&line.edges)?;
     if !point_2d(line.end) || !line.edges.iter().all(edge) {
         return Err(Rejection::new("a line inside a piece has a number that means no place"));
     }
@@ -193,7 +200,19 @@ pub fn pattern(pattern: &Pattern) -> Result<(), Rejection> {
     if let Some(words) = pattern.sizes.problem().or_else(|| rule_problem(pattern)) {
         return Err(Rejection(readable(&words)));
     }
-    let ids = pattern.pieces.keys().map(|p| p.0).chain(pattern.seams.keys().map(|s| s.0));
+    if pattern.buttons.len() > MOST_BUTTONS {
+        return Err(Rejection(format!("a pattern may have {MOST_BUTTONS} buttons")));
+    }
+    for (id, b) in &pattern.buttons {
+        button(b).map_err(|why| Rejection(format!("{id}: {why}")))?;
+        b.pieces().into_iter().try_for_each(|piece| find_piece(pattern, piece).map(|_| ()))?;
+    }
+    let mut zips = pattern.seams.iter().filter_map(|(id, seam)| Some((id, seam.zip?)));
+    if let Some((id, words)) = zips.find_map(|(id, zip)| Some((id, zip.problem()?))) {
+        return Err(Rejection(format!("{id}: {words}")));
+    }
+    let buttons = pattern.buttons.keys().map(|b| b.0);
+    let ids = pattern.pieces.keys().map(|p| p.0).chain(pattern.seams.keys().map(|s| s.0)).chain(buttons);
     if ids.max().is_some_and(|last| last > pattern.next_id) {
         return Err(Rejection::new("the pattern's counter is behind its ids"));
     }
@@ -219,6 +238,13 @@ fn rule_problem(pattern: &Pattern) -> Option<String> {
         });
         closed.chain(open).next()
     })
+}
+
+/// A button.
+pub fn button(button: &Button) -> Result<(), Rejection> {
+    place(button.button.at)?;
+    place(button.hole.at)?;
+    button.problem().map_or(Ok(()), |why| Err(Rejection(why)))
 }
 
 /// Checks every stroke, and that no id is used twice.

@@ -2,10 +2,12 @@
 
 use std::sync::Arc;
 
+use glam::DVec2;
+
 use crate::geometry::ids::PieceId;
 use crate::geometry::polygon;
 use crate::pattern::edit::{self, Carried, PatternEdit};
-use crate::pattern::{Edge, Pattern, Piece};
+use crate::pattern::{Edge, Pattern, Piece, PiecePoint, Seam};
 use crate::session::command::Rejection;
 use crate::session::document::Document;
 use crate::session::edit::marks::remove_number;
@@ -81,8 +83,19 @@ fn check(edit: &PatternEdit) -> Result<(), Rejection> {
         PatternEdit::SetEdge { shape, .. } => checks::shape(shape),
         PatternEdit::Cut { line, .. } | PatternEdit::AddLine { line, .. } => checks::line(line),
         PatternEdit::AddHole { edges, .. } => checks::outline(edges),
+        PatternEdit::SetFold { fold, .. } => sound(fold.and_then(|fold| fold.problem())),
+        PatternEdit::SetElastic { elastic, .. } => sound(elastic.and_then(|elastic| elastic.problem())),
+        PatternEdit::SetTopstitch { topstitch, .. } => sound(topstitch.and_then(|stitch| stitch.problem())),
+        PatternEdit::SetHem { hem, .. } => sound(hem.and_then(|hem| hem.problem())),
+        PatternEdit::AddButtons { buttons } => buttons.iter().try_for_each(checks::button),
+        PatternEdit::SetButton { button, .. } => checks::button(button),
+        PatternEdit::SetZip { zip, .. } => sound(zip.and_then(|zip| zip.problem())),
         _ => Ok(()),
     }
+}
+
+fn sound(problem: Option<String>) -> Result<(), Rejection> {
+    problem.map_or(Ok(()), |words| Err(Rejection(words)))
 }
 
 /// Moves strokes and pins along with the places they are on.
@@ -129,25 +142,41 @@ fn forget_gone(document: &mut Document) {
     }
 }
 
-/// Whether two patterns give the same cloth: nothing that is cut or sewn differs.
+/// Whether two patterns give the same cloth: nothing that is cut, sewn or worked along it differs.
 fn is_cut_alike(one: &Pattern, other: &Pattern) -> bool {
-    let is_edge_alike = |a: &Edge, b: &Edge| {
-        a.start == b.start && a.shape == b.shape && a.smooth == b.smooth && a.label == b.label
-    };
-    let alike = |a: &Arc<Piece>, b: &Arc<Piece>| {
-        let loops = || a.loops().zip(b.loops());
-        Arc::ptr_eq(a, b)
-            || (a.holes.len() == b.holes.len()
-                && loops()
-                    .all(|(a, b)| a.len() == b.len() && a.iter().zip(b).all(|(a, b)| is_edge_alike(a, b))))
-    };
+    let alike = |a: &Arc<Piece>, b: &Arc<Piece>| Arc::ptr_eq(a, b) || is_piece_alike(a, b);
     let pieces = one.pieces.len() == other.pieces.len()
         && one.pieces.iter().zip(&other.pieces).all(|((i, a), (j, b))| i == j && alike(a, b));
     let seams = one.seams.len() == other.seams.len()
-        && one
-            .seams
-            .iter()
-            .zip(&other.seams)
-            .all(|((i, a), (j, b))| i == j && a.sides == b.sides && a.same_direction == b.same_direction);
-    pieces && seams
+        && one.seams.iter().zip(&other.seams).all(|((i, a), (j, b))| i == j && is_seam_alike(a, b));
+    let held = |pattern: &Pattern| -> Vec<[PiecePoint; 2]> {
+        pattern.buttons.values().filter(|b| !b.open).map(|b| [b.button, b.hole]).collect()
+    };
+    pieces && seams && held(one) == held(other)
+}
+
+fn is_seam_alike(one: &Seam, other: &Seam) -> bool {
+    let closed = |seam: &Seam| seam.zip.map_or(Some([0.0, 1.0]), |zip| zip.closed());
+    one.sides == other.sides && one.same_direction == other.same_direction && closed(one) == closed(other)
+}
+
+fn is_piece_alike(one: &Piece, other: &Piece) -> bool {
+    let worked = |piece: &Piece| -> Vec<Edge> {
+        let lines = piece.lines.iter().filter(|line| line.needs_mesh());
+        lines.flat_map(|line| line.edges.clone().into_iter().chain([ends_at(line.end)])).collect()
+    };
+    is_line_alike(&one.outline, &other.outline)
+        && one.holes.len() == other.holes.len()
+        && one.holes.iter().zip(&other.holes).all(|(a, b)| is_line_alike(a, b))
+        && is_line_alike(&worked(one), &worked(other))
+}
+
+fn ends_at(start: DVec2) -> Edge {
+    Edge { start, ..Edge::default() }
+}
+
+/// Whether two lines have the same shape, names and physical trims; grade rules do not count.
+fn is_line_alike(one: &[Edge], other: &[Edge]) -> bool {
+    let plain = |edge: &Edge| Edge { trims: edge.trims.physical(), rule: None, ..edge.clone() };
+    one.len() == other.len() && one.iter().zip(other).all(|(a, b)| a == b || plain(a) == plain(b))
 }

@@ -104,6 +104,14 @@ impl World {
         }
     }
 
+    /// Drapes the cloth as that of `before` was draped.
+    pub(in crate::sim) fn drape_like(&mut self, before: &Self) {
+        self.draping = before.draping.as_ref().map(|draping| {
+            let Draping { source, left, .. } = &**draping;
+            Arc::new(Draping { left: *left, ..Draping::new(Arc::clone(source)) })
+        });
+    }
+
     /// Begins draping with these vertex velocities, m/s.
     pub(in crate::sim) fn begin_moving(&mut self, velocities: &[DVec3]) {
         if let Err(Undrapable(words)) = self.begin_draping() {

@@ -6,6 +6,7 @@ mod draped;
 pub(in crate::sim) mod posed;
 mod sewn;
 pub(in crate::sim) mod trials;
+mod trimmed;
 
 use std::sync::Arc;
 
@@ -28,6 +29,7 @@ use crate::sim::world::draped::Draping;
 use crate::sim::world::posed::{Posed, Posing};
 use crate::sim::world::sewn::{Outfit, Placed};
 use crate::sim::world::trials::Trials;
+use crate::sim::world::trimmed::Built;
 use crate::wrap::{Dressed, Dressing, Marks, Phase, coarser};
 
 /// The state of the simulation.
@@ -206,9 +208,13 @@ impl World {
             return Some(Self { relaxing: self.relaxing, places, ..Self::wrapped(source, body) });
         }
         let mut meshes = Arc::clone(&self.meshes);
-        let (garment, mut problems) =
+        let (garment, problems) =
             cloth::build_again(&source.pattern, source.edge_length, Arc::make_mut(&mut meshes));
-        let garment = Arc::new(garment);
+        let built = Built { source, garment: Arc::new(garment), problems, meshes };
+        if let Some(world) = self.retrimmed(&built, &places) {
+            return Some(world);
+        }
+        let Built { source, garment, mut problems, meshes } = built;
         let mut cloth = unlaid(&garment);
         Carry::moved(&old, &garment, carried).places(&self.cloth, &mut cloth);
         let under = |place: &ClothPlace| vertex_under(&garment, &cloth, *place).map(|(v, _)| v);
@@ -227,7 +233,9 @@ impl World {
             was_draped: self.was_draped,
             ..Self::default()
         };
-        world.settle();
+        if !world.worked_as_draped(self) {
+            world.settle();
+        }
         Some(world)
     }
 

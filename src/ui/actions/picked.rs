@@ -15,6 +15,10 @@ pub struct Picked {
     pub pieces: usize,
     pub points: usize,
     pub edges: usize,
+    /// Number of selected lines inside pieces.
+    pub lines: usize,
+    /// Whether the pattern has a button.
+    pub buttons: bool,
     pub seams: usize,
     pub pins: usize,
     /// Whether one of the pieces is symmetric.
@@ -47,6 +51,8 @@ impl Picked {
             pieces: touched.len(),
             points: selection.points.len(),
             edges: selection.edges.len(),
+            lines: selection.lines.len(),
+            buttons: !pattern.buttons.is_empty(),
             seams: selection.seams.len(),
             pins: selection.pins.len(),
             symmetric: pieces().any(|piece| piece.symmetric),

@@ -98,6 +98,10 @@ pub enum Need {
     Standing,
     /// An edge is selected.
     PickedEdge,
+    /// An edge or a line inside a piece is selected.
+    PickedLine,
+    /// There is a button.
+    Buttons,
     /// A point is selected.
     PickedPoint,
     /// A seam is selected.

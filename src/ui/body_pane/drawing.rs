@@ -54,6 +54,7 @@ impl ScenePane {
             pinned: Some(Arc::clone(seen.pinned)),
             pins: pin_looks(seen),
             bones,
+            pattern: Arc::clone(&seen.document.pattern),
             activities: seen.document.pattern.activities(),
             looks: Arc::new(looks_of(seen.document)),
             dragged: seen.dragged.cloned(),
@@ -71,6 +72,7 @@ impl ScenePane {
         let shown = Shown {
             body: seen.body,
             cloth: seen.cloth,
+            pattern: Some(&seen.document.pattern),
             marks: Some(&seen.document.marks),
             stroke: &stroke,
             far_stroke: &far_stroke,

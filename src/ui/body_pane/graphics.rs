@@ -10,7 +10,9 @@ use crate::body::Surface;
 use crate::cloth::ClothState;
 use crate::contact::Bone;
 use crate::geometry::ids::{MarkId, PieceId};
+use crate::pattern::Pattern;
 use crate::pattern::activity::Activity;
+use crate::pattern::stitches::is_trimmed_alike;
 use crate::render::{
     Camera, Gpu, Look, Mesh, OffscreenTarget, Quality, RenderError, Renderer, Rgb, Scene, straightened,
 };
@@ -47,6 +49,8 @@ pub struct Key {
     pub pins: Vec<PinLook>,
     /// The bones that are drawn.
     pub bones: Vec<Bone>,
+    /// The pattern, for its stitches, zips and buttons.
+    pub pattern: Arc<Pattern>,
     /// Pieces that are not active.
     pub activities: BTreeMap<PieceId, Activity>,
     /// Appearance of each piece.
@@ -84,6 +88,7 @@ impl PartialEq for Key {
             pinned,
             pins,
             bones,
+            pattern,
             activities,
             looks,
             dragged,
@@ -100,6 +105,7 @@ impl PartialEq for Key {
             && *pins == other.pins
             && *bones == other.bones
             && *activities == other.activities
+            && (Arc::ptr_eq(pattern, &other.pattern) || is_trimmed_alike(pattern, &other.pattern))
             && *looks == other.looks
             && *stand_out == other.stand_out
             && *spot == other.spot

@@ -10,13 +10,12 @@ use crate::session::{Artwork, Command, Dye, Motif, Print};
 use crate::ui::actions::Action;
 use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::panels::artwork::surface_ui;
+use crate::ui::panels::colours::{SWATCH, colour_ui, open_menu};
 use crate::ui::panels::context::PanelContext;
 use crate::ui::scenery::print_match::{PrintMatch, print_matches};
 
 /// Width of the lists, points.
 const WIDTH: f32 = 104.0;
-/// Size of the button that shows a colour, points.
-const SWATCH: egui::Vec2 = egui::vec2(18.0, 18.0);
 /// Colour that a piece without a fabric colour is given first, sRGB.
 const FIRST_COLOUR: [u8; 3] = [176, 60, 62];
 /// The print that a piece is given first.
@@ -24,41 +23,6 @@ const FIRST_PRINT: Print = Print { motif: Motif::Stripes, repeat_m: 0.02, colour
 
 /// Prints that are off by less than this at a seam count as meeting, mm: a sewer does not do better.
 const MATCHES_MM: f64 = 1.0;
-/// Dyes of the palette, sRGB: neutrals, then warm and cold hues from pale to deep.
-const DYES: [[u8; 3]; 32] = [
-    [250, 248, 244],
-    [226, 220, 208],
-    [190, 186, 178],
-    [150, 148, 146],
-    [104, 104, 106],
-    [66, 66, 70],
-    [36, 36, 40],
-    [16, 16, 18],
-    [240, 214, 206],
-    [226, 160, 148],
-    [206, 92, 84],
-    [168, 42, 48],
-    [120, 26, 38],
-    [238, 200, 148],
-    [222, 150, 70],
-    [150, 84, 40],
-    [244, 230, 160],
-    [224, 190, 70],
-    [176, 148, 48],
-    [110, 100, 50],
-    [206, 222, 190],
-    [138, 186, 134],
-    [74, 130, 84],
-    [34, 76, 54],
-    [196, 220, 232],
-    [116, 170, 204],
-    [47, 104, 160],
-    [40, 54, 92],
-    [214, 198, 224],
-    [160, 128, 178],
-    [104, 66, 120],
-    [58, 34, 62],
-];
 
 /// Draws a row for the whole garment and one for each piece, the colourways, and the button for one step of draping.
 pub fn fabric_ui(ui: &mut Ui, told: &PanelContext<'_>, asks: &mut Asks) {
@@ -177,37 +141,6 @@ fn dye_ui(ui: &mut Ui, artwork: &Artwork, own: Dye, seen: Option<[u8; 3]>, is_fo
     (dye != own).then_some(dye)
 }
 
-/// A palette of dyes, and the colour as six hexadecimal digits.
-fn colour_ui(ui: &mut Ui, what: &str, colour: &mut [u8; 3]) {
-    let opaque = |[r, g, b]: [u8; 3]| egui::Color32::from_rgb(r, g, b);
-    egui::Grid::new(("palette", what)).spacing(egui::vec2(3.0, 3.0)).show(ui, |ui| {
-        for row in DYES.chunks(8) {
-            for &dye in row {
-                let line = if dye == *colour { ui.visuals().strong_text_color() } else { opaque(dye) };
-                let button = egui::Button::new("").fill(opaque(dye)).stroke(egui::Stroke::new(2.0, line));
-                let name = hex(dye);
-                let response = ui.add(button.min_size(SWATCH));
-                response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &name));
-                if response.on_hover_text(&name).clicked() {
-                    *colour = dye;
-                }
-            }
-            ui.end_row();
-        }
-    });
-    let [r, g, b] = *colour;
-    let mut number = u32::from_be_bytes([0, r, g, b]);
-    let value = DragValue::new(&mut number).hexadecimal(6, false, false).range(0..=0xff_ffffu32).prefix("#");
-    if ui.add(value).on_hover_text("Red, green and blue, two digits each").changed() {
-        let [_, r, g, b] = number.to_be_bytes();
-        *colour = [r, g, b];
-    }
-}
-
-fn hex([r, g, b]: [u8; 3]) -> String {
-    format!("#{r:02x}{g:02x}{b:02x}")
-}
-
 /// The list of colourways, and the name under which the present one is kept.
 fn colourways_ui(ui: &mut Ui, told: &PanelContext<'_>, asks: &mut Asks) {
     let document = told.document;
@@ -264,13 +197,6 @@ fn matches_ui(ui: &mut Ui, told: &PanelContext<'_>) {
         };
         ui.label(RichText::new(words).small().color(told.palette.weak));
     }
-}
-
-/// A menu that a click inside does not close.
-fn open_menu(button: egui::Button<'_>) -> egui::containers::menu::MenuButton<'_> {
-    let config = egui::containers::menu::MenuConfig::new()
-        .close_behavior(egui::PopupCloseBehavior::CloseOnClickOutside);
-    egui::containers::menu::MenuButton::from_button(button).config(config)
 }
 
 /// Weight, stretch and bending stiffness as text.

@@ -2,8 +2,10 @@
 
 mod animation;
 pub(in crate::ui) mod artwork;
+pub(in crate::ui) mod colours;
 pub(in crate::ui) mod context;
 pub(in crate::ui) mod fabric;
+pub(in crate::ui) mod fastenings;
 pub(in crate::ui) mod fields;
 pub(in crate::ui) mod joint;
 pub(in crate::ui) mod marks;
@@ -16,3 +18,4 @@ pub(in crate::ui) mod size;
 pub(in crate::ui) mod sizes;
 pub(in crate::ui) mod tape;
 pub(in crate::ui) mod tight;
+pub(in crate::ui) mod trims;

@@ -14,7 +14,9 @@ use crate::ui::actions::Action;
 use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::look::signs::{Sign, sign_button};
 use crate::ui::panels::context::PanelContext;
+use crate::ui::panels::fastenings::zip_ui;
 use crate::ui::panels::fields::{angle_field, length_field, number_field};
+use crate::ui::panels::trims::trims_ui;
 use crate::ui::pattern_pane::seam_words;
 use crate::ui::preferences::units::signed;
 use crate::ui::selection::{Item, Selection};
@@ -41,6 +43,7 @@ impl PatternPanel {
         if let Some(&edge) = selection.edges.first().filter(|_| selection.edges.len() == 1) {
             edge_ui(ui, told, edge, asks);
         }
+        trims_ui(ui, told, asks);
         if let Some(&point) = selection.points.first().filter(|_| selection.points.len() == 1) {
             point_ui(ui, told, point, asks);
         }
@@ -332,6 +335,7 @@ fn seam_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, id: SeamId, asks: &mut As
             .size(12.5),
     );
     ratio_ui(ui, told, id, seam, a / b.max(1e-9), asks);
+    zip_ui(ui, told, id, seam, asks);
     ui.horizontal(|ui| {
         action_row(ui, told, &[Action::TurnSeam, Action::Delete], asks);
     });

@@ -10,6 +10,7 @@ use crate::ui::look::theme::Palette;
 use crate::ui::panels::artwork::artwork_ui;
 use crate::ui::panels::context::{PanelContext, problem_row};
 use crate::ui::panels::fabric;
+use crate::ui::panels::fastenings::fastenings_ui;
 use crate::ui::panels::marks::MarksPanel;
 use crate::ui::panels::pattern::{PatternPanel, seams_ui};
 use crate::ui::panels::pins::pins_ui;
@@ -69,6 +70,12 @@ fn pattern_ui(
     let seams = format!("Seams ({})", told.document.pattern.seams.len());
     section(ui, &seams, false, |ui| seams_ui(ui, told, asks));
     section(ui, "Sizes of the pattern", false, |ui| sizes.ui(ui, told, asks));
+    let pattern = &told.document.pattern;
+    let zips = pattern.seams.values().filter(|seam| seam.zip.is_some()).count();
+    let count = pattern.buttons.len() + zips;
+    if count > 0 {
+        section(ui, &format!("Fastenings ({count})"), false, |ui| fastenings_ui(ui, told, asks));
+    }
     selected.unwrap_or(pieces)
 }
 

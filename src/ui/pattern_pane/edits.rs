@@ -4,10 +4,13 @@ use std::collections::BTreeSet;
 
 use glam::DVec2;
 
-use crate::geometry::ids::PieceId;
+use crate::geometry::ids::{PieceId, SeamId};
 use crate::pattern::activity::Activity;
-use crate::pattern::edit::{PatternEdit, PointRef};
-use crate::pattern::{EdgeRef, EdgeShape, Pattern, Piece, PlanePose, SpacePose, curve};
+use crate::pattern::edit::{PatternEdit, PointRef, TrimLine};
+use crate::pattern::{
+    EdgeRef, EdgeShape, Elastic, Fold, Hem, Pattern, Piece, PlanePose, SpacePose, Topstitch, Trims, Zip,
+    curve,
+};
 use crate::place::rolled_up;
 use crate::ui::actions::Action;
 use crate::ui::pattern_pane::shapes::cloth_is_left;
@@ -80,7 +83,49 @@ pub fn edits(action: Action, pattern: &Pattern, selection: &Selection) -> Vec<Pa
             if placements.is_empty() { Vec::new() } else { vec![PatternEdit::PlaceInSpace { placements }] }
         }
         Action::Untwist => vec![PatternEdit::UntwistSeams],
+        Action::ToggleFold
+        | Action::ToggleElastic
+        | Action::ToggleTopstitch
+        | Action::ToggleHem
+        | Action::ToggleZip
+        | Action::ToggleFastened => edits_of_trims(action, pattern, selection),
         _ => edits_of_edges(action, pattern, selection),
+    }
+}
+
+/// The edits that `action` makes to what is worked along the selected edges, lines and seams: all get it, or none where the first
+/// has it.
+fn edits_of_trims(action: Action, pattern: &Pattern, selection: &Selection) -> Vec<PatternEdit> {
+    let edges: Vec<TrimLine> = selection.edges.iter().map(|&edge| TrimLine::Edge(edge)).collect();
+    let inside = selection.lines.iter().map(|l| TrimLine::Line { piece: l.piece, line: l.line });
+    let lines: Vec<TrimLine> = edges.iter().copied().chain(inside).collect();
+    let first = lines.first().and_then(|line| line.of(pattern.pieces.get(&line.piece())?));
+    let is_zipped = |id: &SeamId| pattern.seams.get(id).is_some_and(|seam| seam.zip.is_some());
+    match (action, first) {
+        (Action::ToggleFold, Some(Trims { fold, .. })) => {
+            let fold = fold.is_none().then(|| Fold::pressed(std::f64::consts::PI));
+            vec![PatternEdit::SetFold { lines, fold }]
+        }
+        (Action::ToggleElastic, Some(Trims { elastic, .. })) => {
+            let elastic = elastic.is_none().then_some(Elastic::USUAL);
+            vec![PatternEdit::SetElastic { lines, elastic }]
+        }
+        (Action::ToggleTopstitch, Some(Trims { topstitch, .. })) => {
+            let topstitch = topstitch.is_none().then(Topstitch::default);
+            vec![PatternEdit::SetTopstitch { lines, topstitch }]
+        }
+        (Action::ToggleHem, Some(Trims { hem, .. })) if !edges.is_empty() => {
+            vec![PatternEdit::SetHem { lines: edges, hem: hem.is_none().then_some(Hem::USUAL) }]
+        }
+        (Action::ToggleZip, _) => {
+            let zip = (!selection.seams.iter().all(is_zipped)).then_some(Zip::CLOSED);
+            selection.seams.iter().map(|&seam| PatternEdit::SetZip { seam, zip }).collect()
+        }
+        (Action::ToggleFastened, _) if !pattern.buttons.is_empty() => {
+            let fastened = pattern.buttons.values().any(|button| button.open);
+            vec![PatternEdit::Fasten { buttons: pattern.buttons.keys().copied().collect(), fastened }]
+        }
+        _ => Vec::new(),
     }
 }
 

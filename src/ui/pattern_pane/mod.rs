@@ -3,6 +3,7 @@
 mod draw;
 mod draw_nests;
 mod draw_pieces;
+mod draw_trims;
 pub(in crate::ui) mod edits;
 mod entry;
 mod guides;
@@ -38,6 +39,7 @@ use crate::ui::preferences::units::LengthUnit;
 use crate::ui::selection::{Item, Selection};
 use crate::wrap::Marks;
 use draw::Drawing;
+use draw_trims::Rows;
 use entry::Entry;
 use guides::Guides;
 use input::Input;
@@ -91,6 +93,7 @@ pub struct PatternPane {
     guides: Guides,
     shapes: Shapes,
     threads: Threads,
+    rows: Rows,
     pictures: Pictures,
     /// The pattern in all its sizes.
     pub nests: Nests,
@@ -148,6 +151,7 @@ impl PatternPane {
         let pattern = &*laid.document.pattern;
         self.shapes.update(pattern);
         self.threads.update(pattern, &self.shapes);
+        self.rows.update(&laid.document.pattern);
         self.pictures.update(ui.ctx(), laid.document);
         let whole = ui.available_rect_before_wrap();
         ui.allocate_rect(whole, Sense::hover());
@@ -258,6 +262,7 @@ impl PatternPane {
             laid,
             shapes: &self.shapes,
             threads: &self.threads,
+            rows: &self.rows.all,
             pictures: &self.pictures,
             nests: &self.nests,
             guides: &self.guides.all,
@@ -459,6 +464,7 @@ fn draw_table(drawing: &Drawing<'_>, table: &Table<'_>, new_guide: Option<&Guide
     drawing.pieces(table);
     drawing.nests(table);
     drawing.seams(table);
+    drawing.trims(table);
     drawing.edges_standing_out(table);
     drawing.spot(table);
     let near = at.and_then(|at| table.mark_at(table.at(at)));

@@ -11,6 +11,7 @@ use super::view::TableView;
 use super::{Laid, Options};
 use crate::geometry::ids::{MarkId, PieceId, SeamId};
 use crate::pattern::edit::PointRef;
+use crate::pattern::stitches::Row;
 use crate::pattern::{EdgeRef, Pattern, Piece};
 use crate::ui::selection::LineRef;
 
@@ -37,6 +38,8 @@ pub struct Table<'a> {
     pub shapes: &'a Shapes,
     /// Threads of the seams.
     pub threads: &'a Threads,
+    /// Rows of stitches.
+    pub rows: &'a [Row],
     /// Pictures on pieces.
     pub pictures: &'a Pictures,
     /// The pattern in all its sizes.

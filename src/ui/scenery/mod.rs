@@ -12,4 +12,5 @@ pub mod rims;
 pub(in crate::ui) mod ring;
 pub mod scene;
 pub(in crate::ui) mod stitches;
+pub(in crate::ui) mod trims;
 pub mod worn;

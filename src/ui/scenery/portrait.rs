@@ -31,6 +31,7 @@ pub fn portrait(scenery: &mut Scenery, session: &Session, extras: Extras<'_>) ->
     scenery.scene(&Shown {
         body: snapshot.body.as_ref().filter(|_| dressed).or(session.surface()),
         cloth: snapshot.drawn().filter(|_| dressed),
+        pattern: Some(&session.document().pattern),
         marks: (extras.marks || !dressed).then_some(&session.document().marks),
         activities: Some(&activities),
         looks: Some(&looks),
@@ -48,6 +49,7 @@ pub fn worn_scene(scenery: &mut Scenery, outfit: &Outfit, colours: Option<&Arc<V
     scenery.scene(&Shown {
         body: Some(&outfit.body),
         cloth: Some((&outfit.garment, &outfit.state)),
+        pattern: Some(&outfit.source.pattern),
         activities: Some(&outfit.source.pattern.activities()),
         looks: Some(&looks),
         whole: outfit.whole.as_ref().map(|(garment, state)| (garment, state)),

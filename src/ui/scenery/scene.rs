@@ -11,6 +11,7 @@ use crate::contact::Bone;
 use crate::geometry::adjacency::NONE;
 use crate::geometry::ids::{MarkId, PieceId};
 use crate::geometry::mesh::vertex_normals;
+use crate::pattern::Pattern;
 use crate::pattern::activity::Activity;
 use crate::render::{BODY, CLOTH_BACK, CLOTH_FRONT, Ground, Label, Mesh, Polyline, Rgb, Scene, mark_colour};
 use crate::ui::scenery::covered::covered;
@@ -19,6 +20,7 @@ use crate::ui::scenery::mapped::in_colours;
 use crate::ui::scenery::parted::{deactivated, painted, parted};
 use crate::ui::scenery::rims::{open_edges, rims};
 use crate::ui::scenery::stitches::stitched;
+use crate::ui::scenery::trims::{TrimScenery, fold_lines};
 use crate::wrap::{ClothMark, Marks};
 
 /// The look of a pin.
@@ -37,6 +39,8 @@ pub struct Shown<'a> {
     pub body: Option<&'a Arc<Surface>>,
     /// The garment, and its positions.
     pub cloth: Option<(&'a Arc<Garment>, &'a Arc<ClothState>)>,
+    /// The pattern, whose stitches, zips and buttons are drawn on the cloth.
+    pub pattern: Option<&'a Arc<Pattern>>,
     /// Marks of the document.
     pub marks: Option<&'a Arc<Marks>>,
     /// The stroke being painted on the body.
@@ -85,6 +89,7 @@ pub struct Scenery {
     body: Option<(Arc<Surface>, Arc<Mesh>)>,
     cloth: Option<DrawnCloth>,
     places: Option<MarkPlaces>,
+    trims: TrimScenery,
 }
 
 #[derive(Debug)]
@@ -98,6 +103,8 @@ struct DrawnCloth {
     /// Meshes of the cloth, which share their vertices.
     meshes: Vec<Arc<Mesh>>,
     lines: Vec<Polyline>,
+    /// Whether each vertex is covered by another layer; empty: none is.
+    hidden: Vec<bool>,
 }
 
 /// Position of each point of each cloth mark in the garment's mesh.
@@ -156,6 +163,10 @@ impl Scenery {
                 scene.lines.extend(drawn.lines.iter().cloned());
                 push_pins(shown, drawn, scale, &mut scene);
             }
+            if let Some(pattern) = shown.pattern.filter(|_| state.positions.len() == garment.vertex_count) {
+                let looks = shown.looks.map(|looks| &**looks);
+                self.draw_trims(pattern, (garment, state), looks, scale, &mut scene);
+            }
             push_outlines(garment, state, shown.outlines, scale, &mut scene);
             if let Some(marks) = shown.marks {
                 self.find_places(garment, marks);
@@ -171,6 +182,21 @@ impl Scenery {
             body_ghosts(ghosts, scale, &mut scene);
         }
         scene
+    }
+
+    fn draw_trims(
+        &mut self,
+        pattern: &Arc<Pattern>,
+        cloth: (&Arc<Garment>, &Arc<ClothState>),
+        looks: Option<&PieceLooks>,
+        scale: f32,
+        scene: &mut Scene,
+    ) {
+        let hidden = self.cloth.as_ref().map_or(&[][..], |drawn| &drawn.hidden);
+        let is_seen = |v: u32| !hidden.get(v as usize).is_some_and(|hidden| *hidden);
+        let (lines, mesh) = self.trims.drawn(pattern, (cloth.0, cloth.1), (&is_seen, looks), scale);
+        scene.lines.extend(lines);
+        scene.meshes.extend(mesh.map(Arc::new));
     }
 
     fn body_mesh(&mut self, body: &Arc<Surface>) -> Arc<Mesh> {
@@ -202,6 +228,7 @@ impl Scenery {
         let is_seen = |v: u32| !hidden.get(v as usize).is_some_and(|hidden| *hidden);
         let mut lines = stitched(seam_lines(garment, state, &is_seen, scale), scale);
         lines.extend(hem_lines(garment, state, &is_seen, scale));
+        lines.extend(fold_lines(garment, state, &is_seen, scale));
         let mesh = Mesh {
             colours: dragged.map(|shares| tints(shares, state)).unwrap_or_default(),
             ..cloth_mesh(garment, state)
@@ -236,6 +263,7 @@ impl Scenery {
             activities,
             looks: shown.looks.cloned(),
             lines,
+            hidden,
         });
     }
 

@@ -13,7 +13,7 @@ const THREAD: [u8; 4] = [246, 243, 232, 235];
 /// Largest width of the thread, logical pixels.
 const WIDTH: f32 = 1.7;
 /// Thickness of the thread, metres on a body 1.5 m tall: from afar stitches fade.
-const THICKNESS: f32 = 0.0012;
+pub const THREAD_THICKNESS: f32 = 0.0012;
 
 /// For each of `seams` the seam's line and the stitches on it.
 pub fn stitched(seams: Vec<Polyline>, scale: f32) -> Vec<Polyline> {
@@ -26,7 +26,7 @@ pub fn stitched(seams: Vec<Polyline>, scale: f32) -> Vec<Polyline> {
             colour: THREAD,
             width: WIDTH,
             lift: seam.lift * 1.3,
-            thickness: THICKNESS * scale,
+            thickness: THREAD_THICKNESS * scale,
             ..seam
         };
         all.push(seam);
@@ -36,7 +36,7 @@ pub fn stitched(seams: Vec<Polyline>, scale: f32) -> Vec<Polyline> {
 }
 
 /// Dashes of the polyline, each `length` long with gaps of `gap`; corners are kept.
-fn dashes(points: &[Vec3], length: f32, gap: f32) -> Vec<Vec<Vec3>> {
+pub fn dashes(points: &[Vec3], length: f32, gap: f32) -> Vec<Vec<Vec3>> {
     let mut all = Vec::new();
     let mut dash: Vec<Vec3> = points.first().copied().into_iter().collect();
     // Remaining length of the current stitch or gap.

@@ -153,8 +153,20 @@ pub fn selection_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) {
         &[Action::InsertPoint, Action::ToggleSmooth, Action::Straighten, Action::Curve, Action::Arc],
     );
     ui.separator();
+    items(ui, now, asks, &TRIMS);
+    ui.separator();
     items(ui, now, asks, &[Action::TurnSeam, Action::MakeEqual, Action::FreeLengths]);
 }
+
+/// What is worked along edges, lines and seams.
+const TRIMS: [Action; 6] = [
+    Action::ToggleFold,
+    Action::ToggleElastic,
+    Action::ToggleTopstitch,
+    Action::ToggleHem,
+    Action::ToggleZip,
+    Action::ToggleFastened,
+];
 
 /// Draws the context menu of the table.
 pub fn context_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) {

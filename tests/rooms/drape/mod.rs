@@ -4,6 +4,8 @@ mod bends;
 mod capstan;
 mod crossings;
 mod cusick;
+mod elastic;
+mod folds;
 mod inflates;
 mod meshes;
 mod moves;

@@ -42,7 +42,7 @@ fn twisted() -> Pattern {
     let [a, b] = [0, 1].map(|i| *pattern.pieces.keys().nth(i).expect("a square"));
     for (edges, same_direction) in [([0, 0], false), ([2, 2], false), ([1, 3], true)] {
         let sides = [Stretch::edge(a, edges[0]), Stretch::edge(b, edges[1])];
-        pattern.add_seam(Seam { sides, same_direction, ratio: None });
+        pattern.add_seam(Seam { sides, same_direction, ratio: None, zip: None });
     }
     pattern
 }

@@ -142,6 +142,18 @@ pub const ROWS: &[Row] = &[
         .needs(&[Need::PickedEdge]),
     row("Pattern", Action::Arc, "Arc", "Make the selected edges round: arcs of circles, bent by dragging")
         .needs(&[Need::PickedEdge]),
+    row("Pattern", Action::ToggleFold, "Fold line", "Crease draped cloth along the selected edges and lines")
+        .needs(&[Need::PickedLine]),
+    row("Pattern", Action::ToggleElastic, "Elastic", "Sew elastic along the selected edges and lines")
+        .needs(&[Need::PickedLine]),
+    row("Pattern", Action::ToggleTopstitch, "Topstitching", "Stitch along the selected edges and lines")
+        .needs(&[Need::PickedLine]),
+    row("Pattern", Action::ToggleHem, "Hem", "Turn in the selected edges and sew them down")
+        .needs(&[Need::PickedEdge]),
+    row("Pattern", Action::ToggleZip, "Zip", "Put a zip into the selected seams, or take it out")
+        .needs(&[Need::PickedSeam]),
+    row("Pattern", Action::ToggleFastened, "Fasten buttons", "Fasten all buttons, or unfasten them")
+        .needs(&[Need::Buttons]),
     row("Pattern", Action::TurnSeam, "Reverse seam", "Sew the selected seams the other way round")
         .keys(&[shift(Key::S)])
         .needs(&[Need::PickedSeam]),

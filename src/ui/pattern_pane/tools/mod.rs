@@ -120,6 +120,7 @@ fn in_piece(edges: &[Edge], pose: &PlanePose) -> Vec<Edge> {
         start: own(edge.start),
         shape: edge.shape.mapped(pose.flipped, own),
         smooth: edge.smooth,
+        trims: edge.trims,
         ..Edge::default()
     };
     edges.iter().map(edge).collect()
@@ -151,8 +152,8 @@ fn turned_round(edges: &[Edge]) -> Vec<Edge> {
         start: edges[(n - i) % n].start,
         shape: edges[n - 1 - i].shape.reversed(),
         smooth: edges[(n - i) % n].smooth,
-        label: edges[n - 1 - i].label.clone(),
         rule: edges[(n - i) % n].rule.clone(),
+        ..edges[n - 1 - i].clone()
     };
     (0..n).map(edge).collect()
 }

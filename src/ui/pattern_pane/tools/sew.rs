@@ -349,7 +349,7 @@ pub fn seams(pattern: &Pattern, sides: &[Vec<Stretch>; 2]) -> Vec<Seam> {
     }
     let seam = |x: &Run, x_part: [f64; 2], y: &Run, y_part: [f64; 2]| {
         let sides = [part(pattern, x, x_part)?, part(pattern, y, y_part)?];
-        Some(Seam { sides, same_direction: x.forward == y.forward, ratio: None })
+        Some(Seam { sides, same_direction: x.forward == y.forward, ratio: None, zip: None })
     };
     const WHOLE: [f64; 2] = [0.0, 1.0];
     if a.len() == b.len() {

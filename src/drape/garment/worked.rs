@@ -1,0 +1,82 @@
+//! What is worked on a garment, as the solver sees it: folds, elastic, buttons and hems.
+
+use crate::cloth::Garment;
+use crate::cloth::fabric::Bending as Plate;
+use crate::drape::forces::bands::Bands;
+use crate::drape::forces::folds::Folds;
+use crate::drape::sheet::Sheet;
+use crate::drape::solver::small_steps::SmallSteps;
+use crate::drape::solver::ties::Fastened;
+
+/// Distance of two layers that a button holds together, in thicknesses of the cloth: a little more than contact keeps them apart.
+const LAYERS_APART: f64 = 1.2;
+/// Bending stiffness of a hem in that of the cloth: between two layers that slide on each other (2) and that are one (8).
+const HEM_STIFFNESS: f64 = 4.0;
+
+/// Folds, elastic and fastened buttons of a garment that is draped.
+pub(in crate::drape) struct Worked {
+    pub folds: Folds,
+    pub bands: Bands,
+    /// Both points of each fastened button.
+    pub buttons: Vec<[[(u32, f64); 3]; 2]>,
+}
+
+impl Worked {
+    /// What is worked on `garment`, whose vertices are numbered `own` in `sheet`. The sheet is then creased along the folds. Nothing
+    /// is, while it is still `sewn`: pieces are neither folded nor buttoned before, and elastic without weight slides off upwards.
+    pub fn new(sheet: Sheet, garment: &Garment, own: &[u32], is_sewn: bool) -> (Sheet, Self) {
+        if is_sewn {
+            let (folds, bands) = (Folds::default(), Bands::default());
+            return (sheet, Self { folds, bands, buttons: Vec::new() });
+        }
+        let ends = |corners: [u32; 2]| {
+            let ends = corners.map(|c| own[garment.corners[c as usize].vertex as usize]);
+            ends.iter().all(|&v| v != u32::MAX).then_some(ends)
+        };
+        let trims = &garment.trims;
+        let elastics = trims.elastics.iter();
+        let bands = elastics.filter_map(|e| Some((ends(e.corners)?, e.what.ratio, e.what.tension)));
+        let bands = Bands::new(&sheet, bands);
+        let folds = trims.folds.iter();
+        let edges: Vec<([u32; 2], f64, f64)> =
+            folds.filter_map(|f| Some((ends(f.corners)?, f.what.angle, f.what.strength))).collect();
+        let sheet = sheet.creased(edges.iter().map(|(ends, ..)| *ends));
+        let folds = Folds::new(&sheet, edges);
+        let point = |point: &crate::cloth::trims::ClothPoint| {
+            let vertices = point.vertices(garment).map(|(v, share)| (own[v as usize], share));
+            vertices.iter().all(|&(v, _)| v != u32::MAX).then_some(vertices)
+        };
+        let buttons = trims.buttons.iter().filter_map(|[a, b]| Some([point(a)?, point(b)?])).collect();
+        (sheet, Self { folds, bands, buttons })
+    }
+
+    /// Hands it to the solver; cloth is `thickness` metres thick.
+    pub fn give(self, small: &mut SmallSteps, thickness: f64) {
+        let length = LAYERS_APART * thickness;
+        small.fastened = self.buttons.into_iter().map(|ends| Fastened { ends, length }).collect();
+        (small.folds, small.bands) = (self.folds, self.bands);
+    }
+}
+
+/// Bending stiffness at each of `count` vertices: that of the cloth, `of`, and more in hems.
+pub(in crate::drape) fn plates(
+    garment: &Garment,
+    own: &[u32],
+    count: usize,
+    of: impl Fn(u32) -> Plate,
+) -> Vec<Plate> {
+    let mut plates: Vec<Plate> = (0..count as u32).map(of).collect();
+    let mut is_stiff = vec![false; count];
+    for &corner in &garment.trims.hemmed {
+        let v = own[garment.corners[corner as usize].vertex as usize];
+        if let Some(stiff) = is_stiff.get_mut(v as usize) {
+            *stiff = true;
+        }
+    }
+    for (plate, _) in plates.iter_mut().zip(is_stiff).filter(|(_, is_stiff)| *is_stiff) {
+        plate.warp *= HEM_STIFFNESS;
+        plate.weft *= HEM_STIFFNESS;
+        plate.bias *= HEM_STIFFNESS;
+    }
+    plates
+}
