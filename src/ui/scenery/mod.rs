@@ -11,5 +11,6 @@ pub mod print_match;
 pub mod rims;
 pub(in crate::ui) mod ring;
 pub mod scene;
+pub mod size_maps;
 pub(in crate::ui) mod stitches;
 pub mod worn;
