@@ -8,15 +8,15 @@ use crate::cli::arguments::{Dress, InputOptions, SizeOptions, Sizes};
 use crate::cli::dress_one::{Done, dress_one};
 use crate::cli::failure::Failure;
 use crate::cli::fit::{Pictures, dressed};
-use crate::cli::size_report::{Ease, SizeReport, SizeRow};
+use crate::cli::size_report::SizeReport;
 use crate::cli::{files, input, interrupt, output, run};
-use crate::fit::{Map, girths};
 use crate::io::sizes::{self, SizesError};
-use crate::pattern::grading::{graded, growth_in};
-use crate::pattern::{Pattern, Problem};
-use crate::render::{Legend, Palette, png};
+use crate::pattern::Pattern;
+use crate::pattern::grading::graded;
+use crate::render::png;
 use crate::session::Outfit;
-use crate::session::body::readings_of;
+use crate::session::size_fit::{Ease, SizeFit};
+use crate::ui::scenery::size_maps::SizeMaps;
 
 /// Dresses every size, and writes sizes.json, sizes.csv and sizes.png.
 pub fn sizes(arguments: &Sizes) -> Result<(), Failure> {
@@ -29,18 +29,17 @@ pub fn sizes(arguments: &Sizes) -> Result<(), Failure> {
     }
     output::make_folder(&arguments.out)?;
     let mut worn: Vec<(String, Outfit)> = Vec::new();
-    let mut rows = Vec::new();
+    let mut report = SizeReport::new(&input.name, pattern, arguments.sizes.is_none());
     for (i, name) in names.iter().enumerate() {
         interrupt::check()?;
         let folder = arguments.out.join(folder_name(&names[..i], name));
-        let (row, outfit) = in_size(arguments, pattern, name, &folder)?;
+        let (size, outfit) = in_size(arguments, pattern, name, &folder)?;
         if !arguments.json {
-            output::say(&row.words());
+            output::say(&size.words());
         }
         worn.extend(outfit.map(|outfit| (name.clone(), outfit)));
-        rows.push(row);
+        report.add(size);
     }
-    let report = SizeReport::new(&input.name, pattern, arguments.sizes.is_none(), rows);
     let mut written = vec![
         (arguments.out.join("sizes.json"), format!("{}\n", report.json()?).into_bytes()),
         (arguments.out.join("sizes.csv"), report.csv().into_bytes()),
@@ -88,37 +87,29 @@ fn folder_name(before: &[String], name: &str) -> String {
     }
 }
 
-/// Dresses one size into `folder`; what cannot be dressed is a row that says why.
+/// Dresses one size into `folder`; of what cannot be dressed the result says why.
 fn in_size(
     arguments: &Sizes,
     pattern: &Pattern,
     name: &str,
     folder: &Path,
-) -> Result<(SizeRow, Option<Outfit>), Failure> {
+) -> Result<(SizeFit, Option<Outfit>), Failure> {
     let graded = graded(pattern, name).map_err(|why| Failure::input(&arguments.project, why))?;
-    let mut row = SizeRow::new(name, folder);
-    row.problems = graded.problems.iter().map(told).collect();
-    row.seams_apart = growth_in(pattern, &graded, name)
-        .into_iter()
-        .map(|growth| (growth.seam.to_string(), growth.change))
-        .collect();
+    let mut size = SizeFit::cut(pattern, name, &graded);
+    size.folder = folder.file_name().map(|folder| folder.to_string_lossy().into_owned());
     let saved = folder.join("dressed.toile");
     match dress_one(&arguments.project, folder, &dress_arguments(arguments, name, folder, &saved)) {
         Ok(Done { verdict, .. }) => {
-            row.take(verdict.triangles(), verdict.strain_p99(), verdict.failed_check())
+            size.take(verdict.triangles(), verdict.strain_p99(), verdict.failed_check())
         }
         Err(failure @ (Failure::Input { .. } | Failure::Limit(_))) => {
-            row.why = Some(failure.to_string());
-            return Ok((row, None));
+            size.why = Some(failure.to_string());
+            return Ok((size, None));
         }
         Err(failure) => return Err(failure),
     }
-    let outfit = worn(&saved, &mut row)?;
-    Ok((row, Some(outfit)))
-}
-
-fn told(problem: &Problem) -> String {
-    format!("{}: {}", problem.place, problem.words)
+    let outfit = worn(&saved, &mut size)?;
+    Ok((size, Some(outfit)))
 }
 
 /// What `toile dress` would be told for this size.
@@ -153,17 +144,12 @@ fn dress_arguments(arguments: &Sizes, name: &str, folder: &Path, saved: &Path) -
     }
 }
 
-/// The dressed garment that was saved; its ease at every girth goes into `row`.
-fn worn(saved: &Path, row: &mut SizeRow) -> Result<Outfit, Failure> {
+/// The dressed garment that was saved; its ease at every girth goes into `size`.
+fn worn(saved: &Path, size: &mut SizeFit) -> Result<Outfit, Failure> {
     let project = input::load(saved, &InputOptions::default())?.project;
     let session = run::opened(project, saved)?;
     let outfit = dressed(&session, saved)?;
-    let readings = readings_of(&session.document().body, &outfit.body.mesh).unwrap_or_default();
-    let round = girths(&outfit.garment, &outfit.state, &readings);
-    row.ease = round
-        .into_iter()
-        .map(|(i, girth)| Ease { name: readings[i].name, body: readings[i].metres, pattern: girth.flat })
-        .collect();
+    size.ease = Ease::of(&session.document().body, &outfit);
     Ok(outfit)
 }
 
@@ -174,21 +160,14 @@ fn picture(arguments: &Sizes, worn: &[(String, Outfit)]) -> Result<Option<Vec<u8
     }
     let mut pictures = Pictures::new()?;
     let Some(artist) = &mut pictures.artist else { return Ok(None) };
-    let kind = arguments.map;
-    let (unit, times) = kind.unit();
-    let maps: Vec<Map> = worn.iter().map(|(_, outfit)| Map::new(kind, outfit.worn())).collect();
-    let ranges = maps.iter().map(Map::range);
-    let range = ranges.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]).unwrap_or([0.0, 1.0]);
-    let palette = if kind.is_signed() { Palette::Diverging } else { Palette::Sequential };
     let [width, height] = arguments.picture.size;
     // Bodies are narrow: each has half the width of a picture of its own.
     let size = [(width / 2).max(1), height];
     let mut whole = RgbaImage::new(size[0] * worn.len() as u32, height);
-    for (i, ((name, outfit), map)) in worn.iter().zip(&maps).enumerate() {
-        let colours: Vec<_> = map.vertices.iter().map(|&v| palette.colour(v, range)).collect();
-        let title = format!("{name}: {}", kind.short());
-        let legend = Legend { title, unit: unit.to_owned(), range: range.map(|v| v * times), palette };
-        let panel = artist.coloured(outfit, &colours, &legend, arguments.picture.view, size)?;
+    let maps = SizeMaps::new(arguments.map, worn.iter().map(|(_, outfit)| outfit));
+    for (i, (name, outfit)) in worn.iter().enumerate() {
+        let panel =
+            artist.coloured(outfit, &maps.colours(i), &maps.legend(name), arguments.picture.view, size)?;
         image::imageops::replace(&mut whole, &panel, i64::from(size[0]) * i as i64, 0);
     }
     png(&whole).map(Some).map_err(|e| Failure::Internal(e.to_string()))

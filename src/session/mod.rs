@@ -25,6 +25,7 @@ pub mod replay;
 pub mod samples;
 #[expect(clippy::module_inception, reason = "a file is named by what it holds")]
 pub mod session;
+pub mod size_fit;
 pub mod whole_file;
 
 pub use animations::{AnimatedFile, Animations, Moment};

@@ -39,6 +39,8 @@ pub struct FrameContext {
     pub paper: Paper,
     /// Laser mode: strokes go through all layers under the pointer.
     pub laser: bool,
+    /// Whether the pattern has sizes.
+    pub sizes: bool,
     /// Number of pieces in the pattern.
     pub pieces: usize,
     /// Number of marks on the cloth and on the body.
@@ -150,6 +152,9 @@ impl FrameContext {
             Need::Redo => (self.redo.is_some(), "There is nothing to redo"),
             Need::File => (self.has_file, "The project was not saved yet"),
             Need::Pieces => (self.pieces > 0, "There is no piece on the table"),
+            Need::Sizes => {
+                (self.sizes, "The pattern has no sizes: give it some first (Sizes of the pattern)")
+            }
             Need::Body => (self.has_body, "There is no body"),
             Need::Dressed => (self.dressed, "There is no cloth on the body"),
             Need::Growing => (self.wrapping, "Nothing is growing"),

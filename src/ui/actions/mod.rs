@@ -93,6 +93,8 @@ pub enum Action {
     UseMannequin,
     Export,
     FitPage,
+    /// Dress all sizes of the pattern.
+    DressAllSizes,
     Picture,
     SaveRecording,
     Preferences,

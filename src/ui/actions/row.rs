@@ -48,6 +48,8 @@ pub enum Need {
     File,
     /// The pattern has a piece.
     Pieces,
+    /// The pattern has sizes.
+    Sizes,
     /// There is a body that cloth can be put on.
     Body,
     /// There is cloth on the body.

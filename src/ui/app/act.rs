@@ -82,6 +82,7 @@ impl App {
             Action::UseMannequin => self.apply(files::use_mannequin()),
             Action::ExportPattern => self.ask_file(Purpose::ExportPattern),
             Action::Export => self.ask_file(Purpose::Export),
+            Action::DressAllSizes => self.dress_all_sizes(),
             Action::FitPage => self.ask_file(Purpose::FitPage),
             Action::SaveRecording => self.ask_file(Purpose::Recording),
             Action::Paper(paper) => self.prefer(ctx, |p| p.paper = paper),

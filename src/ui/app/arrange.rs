@@ -164,6 +164,7 @@ impl App {
             points_per_metre: points_per_metre(ctx, self.preferences.screen),
             unit: self.preferences.unit,
             selected: self.selected.and_then(|mark| Some((mark, document.marks.place(mark)?))),
+            sizes: !document.pattern.sizes.is_empty(),
             pieces: document.pattern.pieces.len(),
             marks: [document.marks.cloth.len(), document.marks.body.len()],
             pins: document.pins.len(),

@@ -39,6 +39,7 @@ impl App {
                 self.begin_turn(path);
                 Ok(())
             }
+            Purpose::AllSizes => self.write_all_sizes(path),
             Purpose::FitPage => {
                 self.begin_fit_page(path);
                 Ok(())

@@ -1,6 +1,7 @@
 //! The window's state, and the drawing of one frame.
 
 pub(in crate::ui) mod act;
+pub(in crate::ui) mod all_sizes;
 pub(in crate::ui) mod arrange;
 pub(in crate::ui) mod demo;
 pub(in crate::ui) mod drawer;

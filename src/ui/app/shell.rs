@@ -9,6 +9,7 @@ use crate::ui::actions::context::FrameContext;
 use crate::ui::actions::drawer::Drawer;
 use crate::ui::actions::sight::Sight;
 use crate::ui::app::App;
+use crate::ui::app::all_sizes::AllSizes;
 use crate::ui::app::picture_page::PicturePage;
 use crate::ui::app::reporting::Reporting;
 use crate::ui::app::start_page::StartPage;
@@ -48,6 +49,8 @@ pub struct Shell {
     pub picture: Option<PicturePage>,
     /// A turntable being rendered.
     pub turn: Option<Turn>,
+    /// The dialog in which all sizes are dressed.
+    pub all_sizes: Option<AllSizes>,
     /// A fit report in the making.
     pub reporting: Option<Reporting>,
     /// What the drawer below the panes shows; None when it is closed.
@@ -84,6 +87,7 @@ impl Shell {
             || self.manual.is_some()
             || self.preferences.is_some()
             || self.picture.is_some()
+            || self.all_sizes.is_some()
     }
 }
 
@@ -163,6 +167,7 @@ impl App {
         }
         self.preferences_ui(ctx, palette);
         self.picture_ui(ctx, palette);
+        self.all_sizes_ui(ctx, palette);
         self.go_on_turning(ctx, palette, status::HEIGHT);
         self.go_on_reporting(ctx, palette, status::HEIGHT);
         drop_overlay::ui(ctx, palette, [self.pattern_pane.area, self.scene_pane.area]);

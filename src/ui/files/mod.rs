@@ -76,6 +76,8 @@ pub enum Purpose {
     Turn,
     /// Write the fit report.
     FitPage,
+    /// Write the table of all sizes.
+    AllSizes,
     /// Read another project, to compare with.
     Compare,
 }
@@ -99,6 +101,7 @@ impl Purpose {
             Self::Picture => "Save a picture",
             Self::Turn => "Save a turn of pictures",
             Self::FitPage => "Write the fit report",
+            Self::AllSizes => "Save the table of all sizes",
             Self::Compare => "Compare with another project",
         }
     }
@@ -118,6 +121,7 @@ impl Purpose {
             Self::Recording => ("Recording", &["jsonl"]),
             Self::Picture | Self::Turn => ("Picture", &["png"]),
             Self::FitPage => ("Page", &["html"]),
+            Self::AllSizes => ("Table", &["csv"]),
         }
     }
 
@@ -133,6 +137,7 @@ impl Purpose {
                 | Self::Picture
                 | Self::Turn
                 | Self::FitPage
+                | Self::AllSizes
         )
     }
 
@@ -145,6 +150,7 @@ impl Purpose {
             Self::Picture => "picture",
             Self::Turn => "turn",
             Self::FitPage => "fit",
+            Self::AllSizes => "sizes",
             _ => "untitled",
         };
         format!("{stem}.{}", self.filter().1[0])

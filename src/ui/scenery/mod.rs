@@ -11,6 +11,7 @@ pub mod print_match;
 pub mod rims;
 pub(in crate::ui) mod ring;
 pub mod scene;
+pub mod size_maps;
 pub(in crate::ui) mod stitches;
 pub(in crate::ui) mod trims;
 pub mod worn;

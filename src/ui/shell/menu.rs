@@ -32,7 +32,12 @@ pub fn menu_bar_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) {
         });
         ui.menu_button("Pattern", |ui| pattern_ui(ui, now, asks));
         ui.menu_button("Garment", |ui| {
-            items(ui, now, asks, &[Action::Dress, Action::Wrap, Action::Rewrap, Action::CancelWrap]);
+            items(
+                ui,
+                now,
+                asks,
+                &[Action::Dress, Action::Wrap, Action::Rewrap, Action::CancelWrap, Action::DressAllSizes],
+            );
             items(ui, now, asks, &[Action::Unwrap]);
             ui.separator();
             items(ui, now, asks, &[Action::Choose(Tool::Place), Action::BringPieces]);

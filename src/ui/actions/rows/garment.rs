@@ -17,6 +17,13 @@ pub const ROWS: &[Row] = &[
     )
     .keys(&[ctrl(Key::Enter)])
     .needs(&[Need::Pieces, Need::Body, Need::NotGrowing, Need::PlacedOrPairs]),
+    row(
+        "Garment",
+        Action::DressAllSizes,
+        "Dress all sizes…",
+        "Dress the pattern in each of its sizes on this body, and show how they fit side by side",
+    )
+    .needs(&[Need::Sizes, Need::Pieces, Need::Body, Need::PlacedOrPairs]),
     row("Garment", Action::Wrap, "Wrap", "Grow the cloth round the body so that the marks meet")
         .keys(&[key(Key::Enter)])
         .needs(&[Need::Pieces, Need::Body, Need::NotGrowing, Need::Pairs]),

@@ -1,0 +1,39 @@
+//! Maps of several sizes of a garment in the same colours.
+
+use crate::fit::{Map, MapKind};
+use crate::render::{Legend, Palette, Rgb};
+use crate::session::Outfit;
+
+/// A map of each size, and the range of all of them.
+#[derive(Debug)]
+pub struct SizeMaps {
+    kind: MapKind,
+    maps: Vec<Map>,
+    range: [f64; 2],
+}
+
+impl SizeMaps {
+    /// Maps of this kind of all `outfits`.
+    pub fn new<'a>(kind: MapKind, outfits: impl Iterator<Item = &'a Outfit>) -> Self {
+        let maps: Vec<Map> = outfits.map(|outfit| Map::new(kind, outfit.worn())).collect();
+        let ranges = maps.iter().map(Map::range);
+        let range = ranges.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]).unwrap_or([0.0, 1.0]);
+        Self { kind, maps, range }
+    }
+
+    /// A colour for each vertex of outfit number `i`.
+    pub fn colours(&self, i: usize) -> Vec<Rgb> {
+        self.maps[i].vertices.iter().map(|&v| self.palette().colour(v, self.range)).collect()
+    }
+
+    /// The legend of the size called `name`.
+    pub fn legend(&self, name: &str) -> Legend {
+        let (unit, times) = self.kind.unit();
+        let title = format!("{name}: {}", self.kind.short());
+        Legend { title, unit: unit.to_owned(), range: self.range.map(|v| v * times), palette: self.palette() }
+    }
+
+    fn palette(&self) -> Palette {
+        if self.kind.is_signed() { Palette::Diverging } else { Palette::Sequential }
+    }
+}
