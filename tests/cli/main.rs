@@ -23,6 +23,7 @@ mod python;
 mod quiet;
 mod replay;
 mod repose;
+mod sample_pictures;
 mod sequence;
 mod signals;
 mod simulate;

@@ -21,7 +21,7 @@ use crate::wrap::Marks;
 use form::Form;
 
 /// A sample garment.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Sample {
     /// Front, back, two sleeves.
     Tshirt,

@@ -13,7 +13,6 @@ use crate::session::Project;
 use crate::ui::app::App;
 use crate::ui::app::safety;
 use crate::ui::app::tries::{PLAIN, STARTED, Starts, prefer_processor};
-use crate::ui::files::thumbnails;
 use crate::ui::preferences;
 
 /// The picture in the window's frame and in lists of windows, where the desktop does not take it from the installed files.
@@ -96,9 +95,7 @@ fn opened(
         if let Some(path) = preferences::usual_path() {
             app.keep_preferences(&cc.egui_ctx, path);
         }
-        if let Some(folder) = thumbnails::usual_folder() {
-            app.keep_thumbnails(folder);
-        }
+        app.make_thumbnails();
     }
     if let Some(path) = &path {
         app.remember(path);

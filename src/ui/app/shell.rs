@@ -98,9 +98,9 @@ impl App {
         self.shell.start = Some(StartPage::default());
     }
 
-    /// Makes thumbnails of samples and projects in the background; those of samples are kept in `folder`.
-    pub fn keep_thumbnails(&mut self, folder: std::path::PathBuf) {
-        self.shell.thumbnails = Thumbnails::kept_in(folder);
+    /// Makes thumbnails of samples and projects in the background.
+    pub fn make_thumbnails(&mut self) {
+        self.shell.thumbnails = Thumbnails::on();
     }
 
     pub(in crate::ui) fn act_on_shell(&mut self, ctx: &egui::Context, action: Action) {

@@ -186,7 +186,7 @@ impl App {
         });
         card_frame(ui, rect, &response);
         let area = Rect::from_min_max(rect.min, rect.max - egui::vec2(0.0, 30.0)).shrink(4.0);
-        let subject = Subject::Sample(sample.file_stem());
+        let subject = Subject::Sample(sample);
         match self.shell.thumbnails.get(ui.ctx(), &subject) {
             Some(texture) => {
                 let size = texture.size_vec2();

@@ -20,16 +20,33 @@ use crate::ui::scenery::scene::Scenery;
 
 /// Size of a thumbnail, pixels.
 pub const SIZE: UVec2 = UVec2::new(320, 400);
-/// Edge length of samples that are dressed by the best start, metres: several starts may be tried.
-const COARSE: f64 = 0.03;
-/// Largest number of ticks for a sample; then it is drawn even if it is not at rest.
-const MOST_TICKS: usize = 4000;
+
+/// Pictures of the samples as they are dressed, in the order of [`Sample::ALL`].
+const SAMPLES: [&[u8]; Sample::ALL.len()] = [
+    include_bytes!("../../../assets/samples/tshirt.png"),
+    include_bytes!("../../../assets/samples/skirt.png"),
+    include_bytes!("../../../assets/samples/dress.png"),
+    include_bytes!("../../../assets/samples/trousers.png"),
+    include_bytes!("../../../assets/samples/scarf.png"),
+    include_bytes!("../../../assets/samples/blouse.png"),
+    include_bytes!("../../../assets/samples/hoodie.png"),
+    include_bytes!("../../../assets/samples/raglan.png"),
+    include_bytes!("../../../assets/samples/kimono.png"),
+    include_bytes!("../../../assets/samples/tunic.png"),
+    include_bytes!("../../../assets/samples/gown.png"),
+    include_bytes!("../../../assets/samples/jumpsuit.png"),
+    include_bytes!("../../../assets/samples/leggings.png"),
+    include_bytes!("../../../assets/samples/shorts.png"),
+    include_bytes!("../../../assets/samples/circle-skirt.png"),
+    include_bytes!("../../../assets/samples/gathered-skirt.png"),
+    include_bytes!("../../../assets/samples/tiered-skirt.png"),
+];
 
 /// The subject of a thumbnail.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Subject {
-    /// A dressed sample, by the name of its file.
-    Sample(&'static str),
+    /// A dressed sample.
+    Sample(Sample),
     /// A project file, as it is.
     Project(PathBuf),
 }
@@ -37,7 +54,8 @@ pub enum Subject {
 /// Thumbnails, and the thread that makes them.
 #[derive(Default)]
 pub struct Thumbnails {
-    folder: Option<PathBuf>,
+    /// Whether any are made.
+    on: bool,
     /// None: requested, or it could not be made.
     pictures: BTreeMap<Subject, Option<TextureHandle>>,
     worker: Option<Worker>,
@@ -62,17 +80,15 @@ impl std::fmt::Debug for Thumbnails {
 }
 
 impl Thumbnails {
-    /// Begins to make thumbnails; those of samples are kept in `folder`. Before this none are made.
-    pub fn kept_in(folder: PathBuf) -> Self {
-        Self { folder: Some(folder), ..Self::default() }
+    /// Begins to make thumbnails. Before this none are made.
+    pub fn on() -> Self {
+        Self { on: true, ..Self::default() }
     }
 
     /// The thumbnail of `subject`, if it is ready; it is requested the first time.
     pub fn get(&mut self, ctx: &egui::Context, subject: &Subject) -> Option<&TextureHandle> {
-        if !self.pictures.contains_key(subject)
-            && let Some(folder) = &self.folder
-        {
-            let worker = self.worker.get_or_insert_with(|| Worker::start(folder.clone(), ctx.clone()));
+        if self.on && !self.pictures.contains_key(subject) {
+            let worker = self.worker.get_or_insert_with(|| Worker::start(ctx.clone()));
             worker.wanted.send(subject.clone()).ok();
             self.pictures.insert(subject.clone(), None);
         }
@@ -103,7 +119,7 @@ impl Thumbnails {
 
 impl Worker {
     /// Starts the thread. If no thread can be started there are no thumbnails.
-    fn start(folder: PathBuf, ctx: egui::Context) -> Self {
+    fn start(ctx: egui::Context) -> Self {
         let (wanted, subjects) = channel::<Subject>();
         let (send, made) = channel();
         let stop = Arc::new(AtomicBool::new(false));
@@ -114,7 +130,7 @@ impl Worker {
                 if stopped.load(Ordering::Relaxed) {
                     return;
                 }
-                if let Some(image) = image(&subject, &folder, &mut artist, &stopped) {
+                if let Some(image) = image(&subject, &mut artist) {
                     let size = [image.width() as usize, image.height() as usize];
                     let image = ColorImage::from_rgba_unmultiplied(size, image.as_raw());
                     if send.send((subject, image)).is_err() {
@@ -129,55 +145,17 @@ impl Worker {
     }
 }
 
-/// Renders the thumbnail of `subject`; None where it cannot be read or drawn.
-fn image(
-    subject: &Subject,
-    folder: &Path,
-    artist: &mut Option<Studio>,
-    stop: &AtomicBool,
-) -> Option<image::RgbaImage> {
+/// The thumbnail of `subject`; None where it cannot be read or drawn.
+fn image(subject: &Subject, artist: &mut Option<Studio>) -> Option<image::RgbaImage> {
     match subject {
         Subject::Project(path) => {
             let project = project_file::open(path).ok()?;
             draw(&mut session(project), artist)
         }
-        Subject::Sample(stem) => {
-            let sample = Sample::ALL.into_iter().find(|s| s.file_stem() == *stem)?;
-            let mut project = sample.project(&mannequin::default());
-            if !Sample::MARKED.contains(&sample) {
-                project.document.settings.edge_length = COARSE;
-            }
-            let mut session = session(project);
-            // The name contains a hash, so that a changed sample gets a new thumbnail.
-            let kept = folder.join(format!("{stem}-{:016x}.png", session.document_hash()));
-            if let Ok(picture) = image::open(&kept) {
-                return Some(picture.to_rgba8());
-            }
-            session.apply_alone(put_on(sample)).ok()?;
-            let simulation = session.runner().simulation()?;
-            for _ in 0..MOST_TICKS {
-                if stop.load(Ordering::Relaxed) {
-                    return None;
-                }
-                if !simulation.tick() {
-                    break;
-                }
-            }
-            session.update();
-            let picture = draw(&mut session, artist)?;
-            // If the folder cannot be made, the thumbnail is rendered again the next time.
-            std::fs::create_dir_all(folder).ok();
-            png(&picture).ok().and_then(|bytes| files::write(&kept, &bytes).ok());
-            Some(picture)
+        Subject::Sample(sample) => {
+            let number = Sample::ALL.iter().position(|other| other == sample)?;
+            image::load_from_memory(SAMPLES[number]).ok().map(|picture| picture.to_rgba8())
         }
-    }
-}
-
-/// The command that puts a sample on.
-fn put_on(sample: Sample) -> Command {
-    match Sample::MARKED.contains(&sample) {
-        true => Command::Wrap,
-        false => Command::Dress { choice: StartChoice::default() },
     }
 }
 
@@ -195,17 +173,4 @@ fn draw(session: &mut Session, artist: &mut Option<Studio>) -> Option<image::Rgb
     let scene = portrait(&mut Scenery::default(), session, Extras::default());
     let look = Look { cut_out: true, ..Look::light() };
     Some(straightened(studio.picture(&scene, View::ThreeQuarter, &look, SIZE).ok()?))
-}
-
-/// The system's cache folder for thumbnails; None where there is no home folder.
-pub fn usual_folder() -> Option<PathBuf> {
-    let folder = |name: &str| std::env::var_os(name).map(PathBuf::from).filter(|p| p.is_absolute());
-    let base = if cfg!(windows) {
-        folder("LOCALAPPDATA")
-    } else if cfg!(target_os = "macos") {
-        folder("HOME").map(|home| home.join("Library/Caches"))
-    } else {
-        folder("XDG_CACHE_HOME").or_else(|| folder("HOME").map(|home| home.join(".cache")))
-    };
-    base.map(|base| base.join("toile/thumbnails"))
 }
