@@ -23,7 +23,8 @@ fn skirt() -> Project {
     project
 }
 
-fn place() -> Place {
+/// A folder with that skirt and a table of bodies.
+pub fn place() -> Place {
     let place = Place::new();
     let bytes = project_file::to_bytes(&skirt()).expect("a project");
     std::fs::write(place.path("skirt.toile"), bytes).expect("written");
