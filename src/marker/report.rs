@@ -110,7 +110,7 @@ impl MarkerReport {
             self.length, self.width, self.yield_percent
         );
         let garments = format!(
-            "{} pieces of {} garments: {:.3} m for each; gap {:.1} mm, {way}",
+            "{} pieces, garments: {}; {:.3} m for each; gap {:.1} mm, {way}",
             self.places.len(),
             garments.join(", "),
             self.length_per_garment,

@@ -155,10 +155,13 @@ impl Sheet {
         format!("<path d=\"M {} L {} L {}\"/>\n", sides[0], self.point(head), sides[1])
     }
 
-    /// The border of the cloth and the words below it; without attributes, so that it is not read as a piece.
+    /// The border of the cloth, as four lines so that it is not read as a piece, and the words below it.
     fn cloth(&self, cloth: &ClothSheet) -> String {
-        let corners: Vec<String> = cloth.corners().iter().map(|&p| self.point(p)).collect();
-        let mut text = format!("<path d=\"M {} Z\"/>\n", corners.join(" L "));
+        let corners = cloth.corners().map(|p| self.point(p));
+        let mut text = String::new();
+        for (i, from) in corners.iter().enumerate() {
+            let _ = writeln!(text, "<path d=\"M {from} L {}\"/>", corners[(i + 1) % corners.len()]);
+        }
         for (i, words) in cloth.words.iter().enumerate() {
             let at = self.at(DVec2::ZERO) + DVec2::Y * LINE * (i as f64 + 1.0);
             let _ = writeln!(
