@@ -24,6 +24,7 @@ mod lines;
 mod list;
 mod made_from;
 mod man;
+mod marker;
 mod measure;
 mod merge;
 mod open;
@@ -92,6 +93,7 @@ fn carry_out(arguments: Arguments) -> Result<(), Failure> {
             }
         }),
         Some(Task::Sizes(sizes)) => run::on_threads(sizes.threads, || sizes::sizes(&sizes)),
+        Some(Task::Marker(marker)) => run::on_threads(marker.threads, || marker::marker(&marker)),
         Some(Task::Fit(fit)) => run::on_threads(fit.threads, || fit::fit(&fit)),
         Some(Task::Compare(compare)) => run::on_threads(compare.threads, || compare::compare(&compare)),
         Some(Task::Render(render)) => render::render(&render),

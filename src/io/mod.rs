@@ -8,6 +8,7 @@
 //! | `pattern_file` | the result of reading a pattern, and its errors |
 //! | `body_file` | the body formats: `obj`, `gltf`; `moving_body`, `bvh`, `joints` are their motion, `sizes` their measurements |
 //! | `obj`, `mtl`, `glb` | dressed cloth written, with its `materials` and their textures (`atlas`); `cloth_obj` cloth read |
+//! | `cloth_sheet` | the cloth that a marker is drawn on, for `svg`, `dxf` and `pdf` |
 //! | `trace`, `polygon`, `sheet`, `scale` | shared by drawings: making pieces of lines, finding the unit of length |
 //! | `picture` | PNG and JPEG |
 //! | `json`, `limits`, `words`, `written` | shared by all |
@@ -16,6 +17,7 @@ pub mod atlas;
 pub mod body_file;
 pub mod bvh;
 pub mod cloth_obj;
+pub mod cloth_sheet;
 pub mod dxf;
 pub mod garmentcode;
 pub mod glb;
@@ -41,5 +43,7 @@ mod trace;
 pub mod words;
 pub mod written;
 
+pub use cloth_sheet::ClothSheet;
 pub use limits::{FILE_BYTES, Limits};
+pub use trace::allowance::cutting_line;
 pub use written::Written;

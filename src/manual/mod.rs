@@ -21,8 +21,8 @@ macro_rules! topics {
 }
 
 topics!(
-    "start", "pattern", "grading", "marks", "dressing", "draping", "bodies", "fitting", "looking", "files",
-    "batch", "many", "install"
+    "start", "pattern", "grading", "cutting", "marks", "dressing", "draping", "bodies", "fitting", "looking",
+    "files", "batch", "many", "install"
 );
 
 /// A block of a topic's text.

@@ -17,6 +17,7 @@ mod icon;
 mod images;
 mod install;
 mod limits;
+mod marker;
 mod patterns;
 mod program;
 mod python;

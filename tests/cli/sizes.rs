@@ -30,7 +30,8 @@ pub(crate) fn write_inputs(place: &Place, project: &str, table: &str) {
     place.write(table, "size,waist,hip\nS,68,94\nM,70.6,98\nL,74,102\n");
 }
 
-fn place() -> Place {
+/// A folder with that skirt and a table of bodies.
+pub fn place() -> Place {
     let place = Place::new();
     write_inputs(&place, "skirt.toile", "bodies.csv");
     place

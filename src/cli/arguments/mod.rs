@@ -2,6 +2,7 @@
 
 mod bench;
 mod install;
+mod marker;
 mod report;
 
 use std::ops::Range;
@@ -13,6 +14,7 @@ use crate::body::pose::anatomy::JointAngle;
 use crate::body::{NamedPose, Unit, UpAxis};
 pub use crate::cli::arguments::bench::{Bench, BenchKind, CorpusOptions, TrustOptions};
 pub use crate::cli::arguments::install::{Completions, Man};
+pub use crate::cli::arguments::marker::Marker;
 pub use crate::cli::arguments::report::{Merge, Report, ReportTask};
 use crate::cli::cloth_options::ClothOptions;
 use crate::cli::texture_options::TextureOptions;
@@ -53,6 +55,7 @@ pub enum Task {
     Simulate(Simulate),
     Repose(Repose),
     Sizes(Sizes),
+    Marker(Marker),
     Fit(Fit),
     Compare(Compare),
     Generate(Generate),

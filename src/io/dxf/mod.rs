@@ -23,7 +23,7 @@ mod write;
 
 pub use clean::looks_like;
 pub use read::{read, read_with_rules};
-pub use write::write;
+pub use write::{write, write_on};
 
 /// Layer numbers of AAMA-292 and ASTM D6673.
 mod layer {

@@ -11,12 +11,12 @@ use glam::DVec2;
 
 use super::layer;
 use super::pieces::line_layer;
-use crate::io::Written;
 use crate::io::rul::RuleTable;
 use crate::io::trace::contour::Contour;
 use crate::io::trace::fit::Knot;
 use crate::io::trace::{self, Traced, allowance, sample};
 use crate::io::written::{self, Part};
+use crate::io::{ClothSheet, Written};
 use crate::pattern::{Pattern, Piece};
 
 /// Parts of a pattern that this format can hold.
@@ -41,10 +41,15 @@ const LONGEST_NAME: usize = 31;
 /// Writes the pieces at their positions in the pattern plane. Curves become polylines within 0.05 mm; this program's reader fits
 /// the original curves to them again.
 pub fn write(pattern: &Pattern) -> Written {
+    write_on(pattern, None)
+}
+
+/// Writes the pieces like [`write`], on `cloth` if there is one: its border and words on the layer of annotations.
+pub fn write_on(pattern: &Pattern, cloth: Option<&ClothSheet>) -> Written {
     let mut drawing = Drawing::new();
     drawing.header.version = AcadVersion::R12;
     drawing.header.drawing_code_page = "ANSI_1252".to_owned();
-    for number in [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 14] {
+    for number in [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 14, layer::ANNOTATION] {
         drawing.add_layer(Layer { name: number.to_string(), ..Layer::default() });
     }
     let mut names = BTreeSet::new();
@@ -54,9 +59,10 @@ pub fn write(pattern: &Pattern) -> Written {
     let (lower, upper) = Contour::new(corners).bounds();
     drawing.header.minimum_drawing_extents = point(lower);
     drawing.header.maximum_drawing_extents = point(upper);
-    for piece in pattern.pieces.values() {
+    for (id, piece) in &pattern.pieces {
         let name = block_name(&piece.name, &mut names);
-        let entities = entities(&mut drawing, piece, &mut rules);
+        let size = cloth.and_then(|cloth| cloth.sizes.get(id)).map(String::as_str);
+        let entities = entities(&mut drawing, piece, size, &mut rules);
         let block = Block { name: name.clone(), layer: "1".to_owned(), entities, ..Block::default() };
         drawing.add_block(block);
         drawing.add_entity(on(layer::BOUNDARY, EntityType::Insert(Insert { name, ..Insert::default() })));
@@ -69,6 +75,7 @@ pub fn write(pattern: &Pattern) -> Written {
         let at = DVec2::new(0.0, -2.0 * LETTERS * i as f64);
         drawing.add_entity(text(layer::BOUNDARY, at, words));
     }
+    cloth.into_iter().for_each(|cloth| draw_cloth(&mut drawing, cloth));
     let mut bytes = Vec::new();
     let mut holds = HOLDS.to_vec();
     let mut lines = pattern.pieces.values().flat_map(|piece| &piece.lines);
@@ -125,7 +132,21 @@ fn block_name(name: &str, taken: &mut BTreeSet<String>) -> String {
     unique
 }
 
-fn entities(drawing: &mut Drawing, piece: &Piece, rules: &mut RuleTable) -> Vec<Entity> {
+fn draw_cloth(drawing: &mut Drawing, cloth: &ClothSheet) {
+    let corners = cloth.corners();
+    for (i, &from) in corners.iter().enumerate() {
+        let line = Line { p1: point(from), p2: point(corners[(i + 1) % corners.len()]), ..Line::default() };
+        drawing.add_entity(on(layer::ANNOTATION, EntityType::Line(line)));
+    }
+    for (i, words) in cloth.words.iter().enumerate() {
+        // Below the words that tell about the whole file.
+        let at = DVec2::new(0.0, -2.0 * LETTERS * (i + 6) as f64);
+        drawing.add_entity(text(layer::ANNOTATION, at, words));
+    }
+}
+
+/// The entities of a piece, which is in `size` if that is given.
+fn entities(drawing: &mut Drawing, piece: &Piece, size: Option<&str>, rules: &mut RuleTable) -> Vec<Entity> {
     let Traced { name, outline, cut_line, holes, lines, notches, grainline } = trace::on_table(piece);
     let mut sheet = Sheet { drawing, entities: Vec::new() };
     let cut = if cut_line.is_empty() { &outline } else { &cut_line };
@@ -161,7 +182,7 @@ fn entities(drawing: &mut Drawing, piece: &Piece, rules: &mut RuleTable) -> Vec<
         }
     }
     let middle = Contour::new(outline.iter().map(|e| e.start).collect()).middle();
-    let size = format!("SIZE: {}", sample_size(rules));
+    let size = format!("SIZE: {}", size.unwrap_or(sample_size(rules)));
     let words = [format!("PIECE NAME: {name}"), size, "QUANTITY: 1".to_owned()];
     for (i, words) in words.iter().enumerate() {
         let at = middle * SCALE - DVec2::Y * (2.0 * LETTERS * i as f64);

@@ -11,6 +11,7 @@ use kurbo::PathSeg;
 
 use super::POINTS;
 use super::paper::{MARGIN, OVERLAP, Tile, Tiling};
+use crate::io::ClothSheet;
 use crate::io::trace::{Traced, allowance};
 use crate::pattern::{Edge, curve};
 
@@ -109,6 +110,13 @@ impl<'a, 's> Canvas<'a, 's> {
             let words = format!("{:.0} × {:.0} mm", size.x, size.y);
             self.centred(middle + DVec2::Y * letters * 1.1, letters * 0.6, &words);
         }
+    }
+
+    /// Draws the border of the cloth.
+    pub fn cloth(&mut self, cloth: &ClothSheet) {
+        let shift = self.shift;
+        let corners = cloth.corners().map(|p| DVec2::new(p.x * SCALE - shift.x, shift.y - p.y * SCALE));
+        self.stroke(polygon(&corners, true), Ink::Grey, 0.5, &[]);
     }
 
     fn grainline(&mut self, tail: DVec2, head: DVec2) {

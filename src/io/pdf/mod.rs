@@ -10,9 +10,9 @@ use krilla::Document;
 use krilla::metadata::Metadata;
 use krilla::page::PageSettings;
 
-use crate::io::Written;
 use crate::io::trace::{self, Traced};
 use crate::io::written::{self, Part};
+use crate::io::{ClothSheet, Written};
 use crate::pattern::Pattern;
 use draw::{Canvas, Pens};
 pub use paper::Paper;
@@ -41,6 +41,8 @@ const SQUARE: f64 = 50.0;
 const FOOT: f64 = 75.0;
 /// Longest side of a PDF page, millimetres: 14400 points.
 const LARGEST_PAGE: f64 = 14_400.0 / POINTS;
+/// Length of cloth up to which a marker is printed on one page, and of the pages of a longer one, millimetres.
+const LONGEST_CLOTH: f64 = 5000.0;
 /// Points in a millimetre.
 const POINTS: f64 = 72.0 / 25.4;
 
@@ -77,6 +79,19 @@ const MOST_PAGES: usize = 2000;
 /// # Errors
 /// See [`PdfError`].
 pub fn write(pattern: &Pattern, name: &str, paper: Paper) -> Result<Written, PdfError> {
+    write_on(pattern, name, paper, None)
+}
+
+/// Writes the pieces like [`write`], on `cloth` if there is one. A cloth longer than a PDF page is printed on several.
+///
+/// # Errors
+/// See [`PdfError`].
+pub fn write_on(
+    pattern: &Pattern,
+    name: &str,
+    paper: Paper,
+    cloth: Option<&ClothSheet>,
+) -> Result<Written, PdfError> {
     let pieces: Vec<Traced> = pattern.pieces.values().map(|piece| trace::on_table(piece)).collect();
     if pieces.is_empty() {
         return Err(PdfError::Empty);
@@ -84,8 +99,16 @@ pub fn write(pattern: &Pattern, name: &str, paper: Paper) -> Result<Written, Pdf
     let mut document = Document::new();
     document.set_metadata(Metadata::new().title(name.to_owned()).creator("Toile".to_owned()));
     let pens = Pens::new().ok_or_else(|| PdfError::Library("its letters cannot be read".to_owned()))?;
-    let sheet = Sheet::new(&pieces);
+    let sheet = Sheet::new(&pieces, cloth);
     match paper.size() {
+        None if cloth.is_some_and(|cloth| cloth.size.x * 1000.0 > LONGEST_CLOTH) => {
+            sheet.tiles(
+                &mut document,
+                &pens,
+                name,
+                DVec2::new(LONGEST_CLOTH, sheet.size.y + 2.0 * MARGIN),
+            )?;
+        }
         None => sheet.one_page(&mut document, &pens, name)?,
         Some(size) => sheet.tiles(&mut document, &pens, name, size)?,
     }
@@ -99,29 +122,36 @@ struct Sheet<'a> {
     /// The upper left corner in the pattern plane, millimetres with y up; it becomes the origin.
     corner: DVec2,
     size: DVec2,
+    cloth: Option<&'a ClothSheet>,
 }
 
 impl<'a> Sheet<'a> {
-    fn new(pieces: &'a [Traced]) -> Self {
+    fn new(pieces: &'a [Traced], cloth: Option<&'a ClothSheet>) -> Self {
         let around = |piece: &Traced| {
             let [lower, upper] = piece.bounds().map(|p| p * 1000.0);
             [lower - DVec2::ONE, upper + DVec2::ONE]
         };
         let boxes: Vec<[DVec2; 2]> = pieces.iter().map(around).collect();
-        let lower = boxes.iter().map(|b| b[0]).reduce(DVec2::min).unwrap_or_default();
-        let upper = boxes.iter().map(|b| b[1]).reduce(DVec2::max).unwrap_or_default();
+        let drawn = || {
+            boxes.iter().copied().chain(cloth.map(|cloth| [DVec2::NEG_ONE, cloth.size * 1000.0 + DVec2::ONE]))
+        };
+        let lower = drawn().map(|b| b[0]).reduce(DVec2::min).unwrap_or_default();
+        let upper = drawn().map(|b| b[1]).reduce(DVec2::max).unwrap_or_default();
         let corner = DVec2::new(lower.x, upper.y);
         let down = |p: DVec2| DVec2::new(p.x - corner.x, corner.y - p.y);
         let on_sheet = boxes.iter().map(|[lo, hi]| {
             let (a, b) = (down(*lo), down(*hi));
             [a.min(b), a.max(b)]
         });
-        Self { pieces: pieces.iter().zip(on_sheet).collect(), corner, size: upper - lower }
+        Self { pieces: pieces.iter().zip(on_sheet).collect(), corner, size: upper - lower, cloth }
     }
 
     /// Draws the pieces that reach into the rectangle from `from` to `to` of the sheet, whose corner comes to `at` on the page.
     fn draw(&self, canvas: &mut Canvas<'_, '_>, [from, to]: [DVec2; 2], at: DVec2) {
         canvas.shift = DVec2::new(self.corner.x, self.corner.y) + DVec2::new(from.x - at.x, at.y - from.y);
+        if let Some(cloth) = self.cloth {
+            canvas.cloth(cloth);
+        }
         for (piece, [lower, upper]) in &self.pieces {
             if (lower.cmple(to) & upper.cmpge(from)).all() {
                 canvas.piece(piece);
@@ -142,8 +172,17 @@ impl<'a> Sheet<'a> {
         self.draw(&mut canvas, [DVec2::ZERO, self.size], DVec2::splat(MARGIN));
         let foot = DVec2::new(MARGIN, size.y - MARGIN - SQUARE);
         canvas.test_square(foot, SQUARE);
-        canvas.text(foot + DVec2::new(SQUARE + 6.0, 24.0), 5.0, name);
+        let beside = foot + DVec2::new(SQUARE + 6.0, 24.0);
+        canvas.text(beside, 5.0, name);
+        for (i, words) in self.words().iter().enumerate() {
+            canvas.text(beside + DVec2::Y * 7.0 * (i + 1) as f64, 5.0, words);
+        }
         Ok(())
+    }
+
+    /// What is told about the cloth.
+    fn words(&self) -> &[String] {
+        self.cloth.map_or(&[], |cloth| &cloth.words)
     }
 
     fn tiles(&self, document: &mut Document, pens: &Pens, name: &str, paper: DVec2) -> Result<(), PdfError> {
@@ -182,11 +221,12 @@ impl<'a> Sheet<'a> {
                 .to_owned(),
             "Black: cut. Blue: sew. Grey: lines on the piece, and the way of the grain.".to_owned(),
         ];
-        for (i, words) in words.iter().enumerate() {
+        for (i, words) in words.iter().chain(self.words()).enumerate() {
             canvas.text(DVec2::new(left, MARGIN + 19.0 + 5.5 * i as f64), 3.5, words);
         }
-        canvas.test_square(DVec2::new(left, MARGIN + 40.0), SQUARE);
-        let room = [DVec2::new(left, MARGIN + 105.0), paper - DVec2::splat(MARGIN + 5.0)];
+        let below = MARGIN + 40.0 + 5.5 * self.words().len() as f64;
+        canvas.test_square(DVec2::new(left, below), SQUARE);
+        let room = [DVec2::new(left, below + 65.0), paper - DVec2::splat(MARGIN + 5.0)];
         let whole = tiling.whole();
         let scale = ((room[1] - room[0]) / whole).min_element().min(0.25);
         for tile in &tiling.tiles {

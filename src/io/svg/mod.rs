@@ -12,7 +12,7 @@ mod read;
 mod write;
 
 pub use read::read;
-pub use write::write;
+pub use write::{write, write_on};
 
 /// Attribute of the root element that marks files of this program.
 const OURS: &str = "data-toile";

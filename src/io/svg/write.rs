@@ -5,10 +5,10 @@ use std::fmt::Write;
 use glam::DVec2;
 
 use super::{EDGES, KIND, NAME, OURS, PIECE, SMOOTH};
-use crate::io::Written;
 use crate::io::trace::contour::Contour;
 use crate::io::trace::{self, Traced, allowance};
 use crate::io::written::{self, Part};
+use crate::io::{ClothSheet, Written};
 use crate::pattern::{Edge, EdgeShape, Pattern};
 
 /// Parts of a pattern that this format can hold.
@@ -29,6 +29,8 @@ const SCALE: f64 = 1000.0;
 const MARGIN: f64 = 10.0;
 /// Height of the letters of names, millimetres.
 const LETTERS: f64 = 8.0;
+/// Height of a line of words below the cloth of a marker, millimetres.
+const LINE: f64 = 24.0;
 /// Length of a notch drawn into the piece, millimetres.
 const NOTCH: f64 = 4.0;
 /// Length of the sides of a grainline's arrow head, millimetres.
@@ -46,8 +48,13 @@ const LAYERS: [(&str, &str, &str); 6] = [
 
 /// Writes the pieces at their positions in the pattern plane.
 pub fn write(pattern: &Pattern) -> Written {
+    write_on(pattern, None)
+}
+
+/// Writes the pieces at their positions in the pattern plane, on `cloth` if there is one.
+pub fn write_on(pattern: &Pattern, cloth: Option<&ClothSheet>) -> Written {
     let pieces: Vec<Traced> = pattern.pieces.values().map(|piece| trace::on_table(piece)).collect();
-    let corners = pieces.iter().flat_map(Traced::bounds);
+    let corners = pieces.iter().flat_map(Traced::bounds).chain(cloth.into_iter().flat_map(extent));
     let (lower, upper) = Contour::new(corners.collect()).bounds();
     let size = (upper - lower) * SCALE + DVec2::splat(2.0 * MARGIN);
     let sheet = Sheet { corner: DVec2::new(lower.x * SCALE - MARGIN, upper.y * SCALE + MARGIN) };
@@ -72,6 +79,9 @@ pub fn write(pattern: &Pattern) -> Written {
     let style =
         format!("fill=\"#333333\" font-family=\"sans-serif\" font-size=\"{LETTERS}\" text-anchor=\"middle\"");
     layer(&mut text, "Names", &style, &names);
+    if let Some(cloth) = cloth {
+        layer(&mut text, "Cloth", "stroke=\"#999999\" stroke-width=\"1\"", &sheet.cloth(cloth));
+    }
     text.push_str("</svg>\n");
     Written { bytes: text.into_bytes(), left_out: written::left_out(pattern, &HOLDS), rules: None }
 }
@@ -79,6 +89,11 @@ pub fn write(pattern: &Pattern) -> Written {
 fn layer(text: &mut String, label: &str, style: &str, contents: &str) {
     let _ =
         write!(text, "<g inkscape:groupmode=\"layer\" inkscape:label=\"{label}\" {style}>\n{contents}</g>\n");
+}
+
+/// Lower and upper corner of what is drawn of `cloth`: its border, and its words below it.
+fn extent(cloth: &ClothSheet) -> [DVec2; 2] {
+    [DVec2::new(0.0, -(cloth.words.len() as f64 + 0.5) * LINE / SCALE), cloth.size]
 }
 
 /// The mapping from the pattern plane to the page: `corner` is the page's upper left corner in the plane, millimetres.
@@ -138,6 +153,27 @@ impl Sheet {
         let back = (tail - head).normalize_or_zero() * ARROW / SCALE;
         let sides = [0.4, -0.4].map(|turn: f64| self.point(head + DVec2::from_angle(turn).rotate(back)));
         format!("<path d=\"M {} L {} L {}\"/>\n", sides[0], self.point(head), sides[1])
+    }
+
+    /// The border of the cloth, as four lines so that it is not read as a piece, and the words below it.
+    fn cloth(&self, cloth: &ClothSheet) -> String {
+        let corners = cloth.corners().map(|p| self.point(p));
+        let mut text = String::new();
+        for (i, from) in corners.iter().enumerate() {
+            let _ = writeln!(text, "<path d=\"M {from} L {}\"/>", corners[(i + 1) % corners.len()]);
+        }
+        for (i, words) in cloth.words.iter().enumerate() {
+            let at = self.at(DVec2::ZERO) + DVec2::Y * LINE * (i as f64 + 1.0);
+            let _ = writeln!(
+                text,
+                "<text x=\"{}\" y=\"{}\" stroke=\"none\" fill=\"#333333\" font-family=\"sans-serif\" font-size=\"{}\">{}</text>",
+                number(at.x),
+                number(at.y),
+                LINE * 0.75,
+                escaped(words)
+            );
+        }
+        text
     }
 
     fn loop_data(&self, edges: &[Edge]) -> String {

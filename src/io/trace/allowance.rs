@@ -29,6 +29,13 @@ pub fn cut_line(piece: &Piece) -> Vec<Edge> {
     fit::closed(&points, &vec![fit::Knot::Unknown; points.len()])
 }
 
+/// The line along which `piece` is cut, allowance included, as a closed polyline whose chords stay within `tolerance` metres of it;
+/// in the piece's plane.
+pub fn cutting_line(piece: &Piece, tolerance: f64) -> Vec<DVec2> {
+    let line = cut_line(piece);
+    flattened_loop(if line.is_empty() { &piece.outline } else { &line }, tolerance)
+}
+
 /// The tip of a notch at `at` on the outline, and the direction into the piece. The tip is the point of the cut line straight
 /// outside, else `at` itself.
 pub fn notch_tip(outline: &[Edge], cut_line: &[Edge], at: DVec2) -> [DVec2; 2] {

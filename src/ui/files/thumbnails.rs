@@ -1,7 +1,7 @@
 //! Thumbnails of samples and projects, made by a separate thread so that the window never waits for them.
 
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
@@ -9,12 +9,10 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use egui::{ColorImage, TextureHandle, TextureOptions};
 use glam::UVec2;
 
-use crate::body::mannequin;
-use crate::render::{Look, Studio, View, png, straightened};
+use crate::render::{Look, Studio, View, straightened};
 use crate::session::samples::Sample;
-use crate::session::{Command, Project, Session, project_file};
-use crate::sim::{Runner, Simulation, StartChoice};
-use crate::ui::files;
+use crate::session::{Project, Session, project_file};
+use crate::sim::{Runner, Simulation};
 use crate::ui::scenery::portrait::{Extras, portrait};
 use crate::ui::scenery::scene::Scenery;
 

@@ -1,0 +1,120 @@
+//! What is to be cut, on which cloth, and what may be turned.
+
+use crate::marker::nest::Effort;
+use crate::pattern::Pattern;
+
+/// Most pieces on one marker.
+pub const MOST_PIECES: usize = 400;
+/// The widest cloth, metres.
+pub const WIDEST: f64 = 20.0;
+/// The widest gap, metres.
+const WIDEST_GAP: f64 = 0.2;
+/// The largest tilt, radians.
+const MOST_TILT: f64 = std::f64::consts::FRAC_PI_4;
+
+/// An order of garments.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Order {
+    /// Names of sizes, and how many garments of each; a pattern without sizes has one, with an empty name.
+    pub garments: Vec<(String, usize)>,
+    /// Width of the cloth that can be used, metres.
+    pub width: f64,
+    /// Least distance between pieces, metres.
+    pub gap: f64,
+    /// Whether the cloth has a nap or a one-way print, so that all pieces point the same way.
+    pub nap: bool,
+    /// By how much a piece may be tilted out of the grain, radians.
+    pub tilt: f64,
+    /// What may be spent on the layout.
+    pub effort: Effort,
+}
+
+impl Default for Order {
+    fn default() -> Self {
+        let effort = Effort { seconds: 5.0, seed: 1 };
+        Self { garments: Vec::new(), width: 1.5, gap: 0.003, nap: false, tilt: 0.0, effort }
+    }
+}
+
+/// Why there is no marker.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum MarkerError {
+    /// The pattern has no pieces.
+    #[error("the pattern has no pieces to cut")]
+    Empty,
+    /// Every quantity is 0.
+    #[error("no garment is asked for: give a size a quantity of 1 or more")]
+    Nothing,
+    /// A size that there is not, told in words.
+    #[error("{0}")]
+    Size(String),
+    /// A number that cannot be, told in words.
+    #[error("{0}")]
+    Number(String),
+    /// A piece does not fit the cloth.
+    #[error("{piece:?} needs cloth of {:.1} cm, and this is {:.1} cm wide", needs * 100.0, width * 100.0)]
+    TooWide { piece: String, needs: f64, width: f64 },
+    /// More pieces than [`MOST_PIECES`].
+    #[error("{0} pieces would be cut; a marker holds {MOST_PIECES}: make several")]
+    TooMany(usize),
+    /// A piece whose outline encloses nothing.
+    #[error("{0:?} encloses no cloth: its outline has no area")]
+    NoArea(String),
+}
+
+/// The garments of an order by words: one of each of `sizes`, or for `quantities` such as "M=2" that many; "3" alone means the
+/// base size, and so does nothing at all.
+///
+/// # Errors
+/// A word that is no quantity, or a size that there is not.
+pub fn garments(
+    pattern: &Pattern,
+    sizes: &[String],
+    quantities: &[String],
+) -> Result<Vec<(String, usize)>, MarkerError> {
+    let base = || pattern.sizes.base_name().to_owned();
+    let mut all: Vec<(String, usize)> = sizes.iter().map(|size| (size.trim().to_owned(), 1)).collect();
+    for words in quantities {
+        let (size, number) = match words.rsplit_once('=') {
+            Some((size, number)) => (size.trim().to_owned(), number),
+            None => (base(), words.as_str()),
+        };
+        let number = number.trim().parse().map_err(|_| {
+            MarkerError::Number(format!("{words:?} is no quantity: it is written SIZE=N, such as M=2, or N"))
+        })?;
+        all.push((size, number));
+    }
+    if all.is_empty() {
+        all.push((base(), 1));
+    }
+    for (size, _) in &all {
+        if !(pattern.sizes.is_empty() && size.is_empty()) {
+            pattern.sizes.number(size).map_err(MarkerError::Size)?;
+        }
+    }
+    Ok(all)
+}
+
+impl Order {
+    /// Refuses numbers that no cloth has.
+    pub(super) fn check(&self) -> Result<(), MarkerError> {
+        let Self { garments, width, gap, nap: _, tilt, effort } = self;
+        let wrong = |words: String| Err(MarkerError::Number(words));
+        if !(*width > 0.0 && *width <= WIDEST) {
+            return wrong(format!("cloth {width} m wide: it must be more than 0 and at most {WIDEST}"));
+        }
+        if !(0.0..=WIDEST_GAP).contains(gap) {
+            return wrong(format!("a gap of {gap} m: it must be 0 to {WIDEST_GAP}"));
+        }
+        if !(0.0..=MOST_TILT).contains(tilt) {
+            return wrong(format!("a tilt of {:.1} degrees: it must be 0 to 45", tilt.to_degrees()));
+        }
+        if !(effort.seconds >= 0.0 && effort.seconds.is_finite()) {
+            return wrong(format!("{} seconds: it must be 0 or more", effort.seconds));
+        }
+        if garments.iter().all(|(_, count)| *count == 0) {
+            return Err(MarkerError::Nothing);
+        }
+        Ok(())
+    }
+}
