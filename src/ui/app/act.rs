@@ -82,7 +82,6 @@ impl App {
             Action::UseMannequin => self.apply(files::use_mannequin()),
             Action::ExportPattern => self.ask_file(Purpose::ExportPattern),
             Action::Export => self.ask_file(Purpose::Export),
-            Action::DressAllSizes => self.dress_all_sizes(),
             Action::FitPage => self.ask_file(Purpose::FitPage),
             Action::SaveRecording => self.ask_file(Purpose::Recording),
             Action::Paper(paper) => self.prefer(ctx, |p| p.paper = paper),
@@ -115,6 +114,7 @@ impl App {
     fn act_on_garment(&mut self, action: Action) {
         match action {
             Action::Dress => self.dress(),
+            Action::DressAllSizes => self.dress_all_sizes(),
             Action::Wrap => {
                 self.show_cloth = true;
                 self.apply(Command::Wrap);
