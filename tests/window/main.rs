@@ -16,6 +16,7 @@ use toile::wrap::ClothSide;
 
 use common::limb;
 
+mod all_sizes;
 mod animations;
 #[path = "../common/mod.rs"]
 mod common;

@@ -20,6 +20,8 @@ use crate::ui::scenery::portrait::worn_scene;
 use crate::ui::scenery::scene::Scenery;
 use crate::ui::scenery::size_maps::SizeMaps;
 
+/// Ticks a second at most: nobody watches.
+const UNSEEN_RATE_HZ: f64 = 1e5;
 /// Size of the picture of a size, pixels.
 const PICTURE: UVec2 = UVec2::new(360, 620);
 /// Width of a picture in the dialog, points.
@@ -343,7 +345,7 @@ impl App {
     pub(in crate::ui) fn all_sizes_ui(&mut self, ctx: &egui::Context, palette: &Palette) {
         let Some(mut sizes) = self.shell.all_sizes.take() else { return };
         let wakeup = self.wakeup.clone();
-        sizes.go_on(|| super::runner(&wakeup));
+        sizes.go_on(|| super::runner(&wakeup, UNSEEN_RATE_HZ));
         if let Some(graphics) = &mut self.scene_pane.graphics
             && let Err(why) = sizes.draw(ctx, graphics)
         {

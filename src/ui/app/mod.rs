@@ -127,7 +127,7 @@ impl App {
         let on_disk = path.as_deref().and_then(files::OnDisk::of);
         let wakeup = Wakeup::new(ctx);
         Ok(Self {
-            session: Session::new(project, runner(&wakeup)?),
+            session: Session::new(project, runner(&wakeup, DEFAULT_RATE_HZ)?),
             wakeup,
             moving: false,
             path,
@@ -250,7 +250,7 @@ impl App {
 
     /// Replaces the project by `project`.
     pub(in crate::ui) fn replace(&mut self, project: Project, path: Option<PathBuf>) {
-        match runner(&self.wakeup) {
+        match runner(&self.wakeup, DEFAULT_RATE_HZ) {
             Ok(runner) => self.session = Session::new(project, runner),
             Err(e) => return self.messages.error(format!("The simulation could not be started: {e}")),
         }
@@ -472,10 +472,10 @@ impl App {
     }
 }
 
-/// A simulation on its own thread that wakes the window when it has new results.
-fn runner(wakeup: &Wakeup) -> std::io::Result<Runner> {
+/// A simulation on its own thread, of `rate_hz` ticks a second at most, that wakes the window when it has new results.
+fn runner(wakeup: &Wakeup, rate_hz: f64) -> std::io::Result<Runner> {
     let wakeup = wakeup.clone();
-    Runner::threaded(Simulation::default(), DEFAULT_RATE_HZ, Box::new(move || wakeup.wake()))
+    Runner::threaded(Simulation::default(), rate_hz, Box::new(move || wakeup.wake()))
 }
 
 pub(in crate::ui) fn sentence(words: &str) -> String {
