@@ -48,12 +48,13 @@ fn all_sizes_are_dressed_beside_the_garment_and_compared() {
         assert!(window.query_by_label(size).is_some(), "{size} has a column");
     }
     let row = window.get_by_label("Ease at hip, cm").rect();
-    let value = |label: &str| label.replace('−', "-").parse::<f64>().ok();
-    let in_row = window.query_all_by(|node| node.label().is_some_and(|label| value(&label).is_some()));
-    let mut cells: Vec<(f32, f64)> = in_row
-        .filter(|node| (node.rect().center().y - row.center().y).abs() < 4.0)
-        .filter_map(|node| Some((node.rect().left(), value(&node.accesskit_node().label()?)?)))
-        .collect();
+    let in_row = window.get_all_by_role(egui::accesskit::Role::Label).filter_map(|node| {
+        let place = node.rect();
+        let is_beside = (place.center().y - row.center().y).abs() < 4.0 && place.left() > row.right();
+        let value = node.accesskit_node().value().filter(|_| is_beside)?.parse::<f64>();
+        Some((place.left(), value.ok()?))
+    });
+    let mut cells: Vec<(f32, f64)> = in_row.collect();
     cells.sort_by(|a, b| a.0.total_cmp(&b.0));
     let ease: Vec<f64> = cells.into_iter().map(|(_, ease)| ease).collect();
     assert!(ease.len() == 3 && ease[0] < ease[1] && ease[1] < ease[2], "{ease:?}");
