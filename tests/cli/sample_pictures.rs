@@ -22,7 +22,7 @@ fn drawn(sample: Sample) -> Option<Vec<u8>> {
     let place = Place::new();
     let name = sample.file_stem();
     place.ends(0, &format!("dress sample:{name} --no-picture --out out --save worn.toile"));
-    let ended = place.run(
+    let ended = place.draws(
         "render worn.toile -o picture.png --size 320x400 --transparent --view three-quarter --supersample 2",
     );
     if ended.code == 5 && !adapter_required() {
