@@ -47,7 +47,7 @@ pub fn blouse() -> Garment {
 /// A roomy top with a hood.
 pub fn hoodie() -> Garment {
     let bodice = Bodice { bust_ease: 0.20, hem_ease: 0.12, ..boxy(Hem::Hip) };
-    let hood = Hood { above: 0.05, fullness: 0.035 };
+    let hood = Hood { above: 0.03, fullness: 0.02 };
     let sleeve = Sleeve { ease: 0.13, cuff: Some(0.05), gather: 1.2, ..sleeve(0.9) };
     let upper = Upper { hood: Some(hood), sleeve: Some(sleeve), ..upper(bodice, close()) };
     Garment { design: top(Kind::Hooded, upper), fabric: "fleece", dye: dyed([92, 112, 104]) }
