@@ -9,13 +9,15 @@ use serde::Serialize;
 use crate::body::readings::Reading;
 use crate::cli::arguments::{Compare, InputOptions};
 use crate::cli::failure::Failure;
-use crate::cli::fit::{Pictures, column, dressed, kinds, quoted};
+use crate::cli::fit::{Pictures, column, dressed, kinds};
 use crate::cli::{input, interrupt, output, run};
 use crate::fit::{Change, Map, MapKind, Matching, girths};
 use crate::geometry::ids::PieceId;
+use crate::io::words::quoted;
 use crate::render::{Legend, Palette, png};
 use crate::session::Outfit;
 use crate::session::body::readings_of;
+use crate::ui::scenery::map_colours::palette;
 
 /// The contents of `compare.json`. Of two values the first is that of the first project.
 #[derive(Debug, Serialize)]
@@ -258,7 +260,7 @@ impl Compared {
         arguments: &Compare,
     ) -> Result<Option<Vec<u8>>, Failure> {
         let Some(artist) = &mut pictures.artist else { return Ok(None) };
-        let own = if self.kind.is_signed() { Palette::Diverging } else { Palette::Sequential };
+        let own = palette(self.kind);
         let mut panels = Vec::new();
         for (title, side, values, range, palette) in [
             ("A", &sides[0], &self.values[0], self.range, own),

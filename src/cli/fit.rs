@@ -13,9 +13,11 @@ use crate::cloth::{ClothState, Garment};
 use crate::fit::maps::{Histogram, MapStats, PieceStats};
 use crate::fit::{Map, MapKind, MapReader};
 use crate::geometry::ids::PieceId;
-use crate::render::{Legend, Palette, Rgb, png};
+use crate::io::words::quoted;
+use crate::render::{Legend, png};
 use crate::session::{Outfit, Session};
 use crate::ui::fit_page::FitPage;
+use crate::ui::scenery::map_colours::{colours, palette};
 
 /// The contents of `fit.json`.
 #[derive(Debug, Serialize)]
@@ -204,11 +206,6 @@ fn piece_name(garment: &Garment, piece: PieceId) -> String {
     quoted(garment.pieces.iter().find(|(id, _)| *id == piece).map_or("", |(_, name)| name))
 }
 
-/// A CSV field in quotes (RFC 4180); quotes in it are doubled.
-pub fn quoted(words: &str) -> String {
-    format!("\"{}\"", words.replace('"', "\"\""))
-}
-
 /// Draws pictures of maps, if there is a graphics adapter.
 pub struct Pictures {
     /// None where there is no graphics adapter.
@@ -233,14 +230,13 @@ impl Pictures {
     fn png(&mut self, map: &Map, outfit: &Outfit, arguments: &Fit) -> Result<Option<Vec<u8>>, Failure> {
         let Some(artist) = &mut self.artist else { return Ok(None) };
         let range = map.range();
-        let palette = if map.kind.is_signed() { Palette::Diverging } else { Palette::Sequential };
-        let colours: Vec<Rgb> = map.vertices.iter().map(|&v| palette.colour(v, range)).collect();
+        let colours = colours(map.kind, &map.vertices, range);
         let (unit, times) = map.kind.unit();
         let legend = Legend {
             title: map.kind.title().to_owned(),
             unit: unit.to_owned(),
             range: range.map(|v| v * times),
-            palette,
+            palette: palette(map.kind),
         };
         let PictureOptions { view, size, .. } = arguments.picture;
         let picture = artist.coloured(outfit, &colours, &legend, view, size)?;

@@ -7,8 +7,8 @@ use crate::draft::form::{Form, Yoke};
 use crate::draft::garment::{Facing, Garment, Part, Run};
 use crate::draft::neckline::Neckline;
 use crate::draft::path::{Dart, Path, cubic_length, to_the_right};
-use crate::draft::random::Random;
 use crate::geometry::ids::PieceId;
+use crate::geometry::random::Random;
 
 /// Width moved from each quarter of the back to the front, metres: the bust takes more of the girth in front.
 const FRONT_SHARE: f64 = 0.008;

@@ -7,7 +7,7 @@ use crate::draft::bodice::Trunk;
 use crate::draft::form::Form;
 use crate::draft::garment::{Facing, Garment, Part};
 use crate::draft::path::Path;
-use crate::draft::random::Random;
+use crate::geometry::random::Random;
 
 /// Distance at which the strips are placed in front of and behind the neck, metres.
 const BESIDE: f64 = 0.10;

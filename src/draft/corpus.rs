@@ -2,8 +2,8 @@
 
 use crate::body::NamedPose;
 use crate::draft::design::{Design, Kind};
-use crate::draft::random::Random;
 use crate::draft::sizes::BodySize;
+use crate::geometry::random::Random;
 
 /// Definition of a corpus.
 #[derive(Clone, Debug)]

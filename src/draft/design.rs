@@ -11,10 +11,10 @@ use crate::draft::garment::Garment;
 use crate::draft::hood::{Hood, hood};
 use crate::draft::neckline::Neckline;
 use crate::draft::one_shoulder::{OneShoulder, one_shoulder};
-use crate::draft::random::Random;
 use crate::draft::skirt::{Shape, Skirt, skirt};
 use crate::draft::sleeve::{self, Sleeve};
 use crate::draft::trousers::{Trousers, trousers};
+use crate::geometry::random::Random;
 use crate::pattern::Pattern;
 
 /// Height of the waistband of a skirt that was drawn without one, but whose own upper edge would stretch under its weight, being

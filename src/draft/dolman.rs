@@ -8,7 +8,7 @@ use crate::draft::form::{Form, Yoke};
 use crate::draft::garment::Garment;
 use crate::draft::neckline::Neckline;
 use crate::draft::path::Path;
-use crate::draft::random::Random;
+use crate::geometry::random::Random;
 
 /// Largest slope of the sleeve below the horizontal, radians: where the arm hangs lower, cloth folds under it.
 const STEEPEST: f64 = 0.42;

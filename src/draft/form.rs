@@ -94,7 +94,7 @@ impl Form {
     }
 
     /// The form of `figure` in the pose it is built in. None where the mannequin lacks a landmark, which does not happen.
-    fn of(figure: &Mannequin) -> Option<Self> {
+    pub fn of(figure: &Mannequin) -> Option<Self> {
         let mark = |name: &str| figure.landmarks.get(name);
         let z = |name: &str| mark(name).map(|p| p.z);
         Some(Self {

@@ -9,7 +9,7 @@ use crate::draft::bodice::Trunk;
 use crate::draft::form::Form;
 use crate::draft::garment::{Facing, Garment, Part};
 use crate::draft::path::{Path, to_the_right};
-use crate::draft::random::Random;
+use crate::geometry::random::Random;
 
 /// Distance at which the halves are placed beside the middle of the neck, metres.
 const BESIDE: f64 = 0.13;

@@ -4,7 +4,7 @@ use glam::DVec2;
 use serde::Serialize;
 
 use crate::draft::path::Path;
-use crate::draft::random::Random;
+use crate::geometry::random::Random;
 
 /// Shape of the line between shoulder seam and middle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]

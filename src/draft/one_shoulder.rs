@@ -7,7 +7,7 @@ use crate::draft::bodice::{CLEARANCE, placed_height, sew_trunk};
 use crate::draft::form::{Form, Yoke};
 use crate::draft::garment::{Facing, Garment, Part};
 use crate::draft::path::Path;
-use crate::draft::random::Random;
+use crate::geometry::random::Random;
 
 /// Distance from the armpit down to the underarm points, metres.
 const UNDERARM_DROP: f64 = 0.025;

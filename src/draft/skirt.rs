@@ -8,8 +8,8 @@ use serde::Serialize;
 use crate::draft::form::Form;
 use crate::draft::garment::{Facing, Garment, Part, Run, UPWARDS};
 use crate::draft::path::{Dart, Path, to_the_right};
-use crate::draft::random::Random;
 use crate::geometry::ids::PieceId;
+use crate::geometry::random::Random;
 use crate::pattern::Piece;
 
 /// Distance at which panels are placed in front of and behind the skin of the hip, metres.

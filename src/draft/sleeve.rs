@@ -7,8 +7,8 @@ use crate::draft::bodice::Trunk;
 use crate::draft::form::Form;
 use crate::draft::garment::{Facing, Garment, Part};
 use crate::draft::path::{Path, cubic_length, solved};
-use crate::draft::random::Random;
 use crate::geometry::ids::PieceId;
+use crate::geometry::random::Random;
 use crate::pattern::Piece;
 
 /// Distance at which the two halves are placed in front of and behind the middle of the arm, metres.

@@ -6,9 +6,9 @@ use serde::Serialize;
 use crate::draft::form::Form;
 use crate::draft::garment::{Facing, Garment, Part, Run, UPWARDS};
 use crate::draft::path::{Dart, Path, solved};
-use crate::draft::random::Random;
 use crate::draft::skirt::CLEARANCE;
 use crate::geometry::ids::PieceId;
+use crate::geometry::random::Random;
 use crate::pattern::Piece;
 
 /// Gap between left and right half at the fork as placed, metres.

@@ -1,4 +1,5 @@
-//! Geometry that knows nothing of cloth: meshes, adjacency, spatial trees, sparse factors, walks, winding numbers.
+//! Geometry that knows nothing of cloth: meshes, adjacency, spatial trees, sparse factors, walks, winding numbers; seeded random
+//! numbers.
 
 pub mod adjacency;
 pub mod barycentric;
@@ -12,6 +13,7 @@ pub mod mesh;
 pub mod orient;
 pub mod polygon;
 pub mod problem;
+pub mod random;
 pub mod rebuild;
 pub mod shapes;
 pub mod walk;

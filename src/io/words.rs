@@ -25,6 +25,11 @@ fn is_turning(c: char) -> bool {
     matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 
+/// A CSV field in quotes (RFC 4180); quotes in it are doubled.
+pub fn quoted(words: &str) -> String {
+    format!("\"{}\"", words.replace('"', "\"\""))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -51,7 +51,7 @@ pub fn cut_pieces(pattern: &Pattern, order: &Order) -> Result<Cut, MarkerError> 
     if pattern.pieces.is_empty() {
         return Err(MarkerError::Empty);
     }
-    let wanted = order.garments.iter().map(|(_, count)| count * pattern.pieces.len());
+    let wanted = order.garments.iter().map(|(_, count)| count.saturating_mul(pattern.pieces.len()));
     let count = wanted.fold(0_usize, usize::saturating_add);
     if count > MOST_PIECES {
         return Err(MarkerError::TooMany(count));

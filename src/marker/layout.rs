@@ -6,7 +6,7 @@ use glam::DVec2;
 
 use crate::geometry::ids::PieceId;
 use crate::marker::cut::{CHORDS, Cut, CutPiece, cut_pieces};
-use crate::marker::nest::{Nesting, TooWide, nest, shelves};
+use crate::marker::nest::{Nesting, TooWide, nest};
 use crate::marker::order::{MarkerError, Order};
 use crate::pattern::{Pattern, Piece, PlanePose};
 
@@ -96,7 +96,7 @@ pub fn make(pattern: &Pattern, order: &Order) -> Result<Marker, MarkerError> {
         .collect();
     Ok(Marker {
         length: layout.length + 2.0 * slack,
-        plain_length: shelves::shelf_length(&nesting).map_or(0.0, |length| length + 2.0 * slack),
+        plain_length: layout.plain_length + 2.0 * slack,
         area: wanted.iter().map(|&(i, _)| pieces[i].0.area).sum(),
         order: order.clone(),
         placed,

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::pattern::Problem;
-use crate::pattern::grading::graded;
+use crate::pattern::grading::{Graded, graded};
 use crate::session::document::Document;
 
 /// Takes the pattern of `document` in the size called `size`; strokes and graphics on the pieces go along, pins go. The base
@@ -12,9 +12,13 @@ use crate::session::document::Document;
 /// # Errors
 /// The pattern has no such size, in words; the document is as it was.
 pub fn grade(document: &mut Document, size: &str) -> Result<Vec<Problem>, String> {
-    let graded = graded(&document.pattern, size)?;
+    graded(&document.pattern, size).map(|graded| take(document, graded))
+}
+
+/// Takes `graded`, which is the pattern of `document` in one of its sizes, like [`grade`].
+pub fn take(document: &mut Document, graded: Graded) -> Vec<Problem> {
     if graded.moved.is_empty() && graded.pattern == *document.pattern {
-        return Ok(graded.problems);
+        return graded.problems;
     }
     let field = |piece| graded.moved.get(&piece);
     if document.marks.cloth.iter().any(|mark| field(mark.piece).is_some()) {
@@ -34,7 +38,7 @@ pub fn grade(document: &mut Document, size: &str) -> Result<Vec<Problem>, String
     }
     document.drop_pins();
     document.pattern = Arc::new(graded.pattern);
-    Ok(graded.problems)
+    graded.problems
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@ use std::fmt::Write;
 use serde::Serialize;
 
 use crate::fit::girths;
+use crate::io::words::quoted;
 use crate::pattern::grading::{Graded, growth_in};
 use crate::pattern::{Pattern, Problem};
 use crate::session::body::readings_of;
@@ -153,8 +154,7 @@ pub fn csv(sizes: &[SizeFit]) -> String {
     csv.push('\n');
     for size in sizes {
         let strain = size.strain_p99.map_or(String::new(), |p99| format!("{:.3}", p99 * 100.0));
-        let name = size.size.replace('"', "\"\"");
-        write!(csv, "\"{name}\",{},{strain}", size.is_clean()).unwrap_or_default();
+        write!(csv, "{},{},{strain}", quoted(&size.size), size.is_clean()).unwrap_or_default();
         for name in &names {
             match size.ease.iter().find(|ease| ease.name == *name) {
                 Some(ease) => {

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Instant;
 
-use crate::draft::Random;
+use crate::geometry::random::Random;
 use crate::trust::readers::Reader;
 use crate::trust::structure::{self, Form};
 

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::draft::Random;
+use crate::geometry::random::Random;
 
 /// Most bytes of a damaged file: a file that is slow only because it is long shows nothing.
 pub const MOST_BYTES: usize = 256 << 10;

@@ -8,7 +8,7 @@ use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipArchive, ZipWriter};
 
 use super::damage::{self, MOST_BYTES};
-use crate::draft::Random;
+use crate::geometry::random::Random;
 use crate::io::glb::container;
 
 /// Structure of a format.

@@ -156,6 +156,11 @@ fn what_cannot_be_laid_out_is_told() {
         (3, "marker skirt.toile --width 1.5 --sizes S,XXL -o m.svg", "no size \"XXL\": it has S, M, L"),
         (3, "marker skirt.toile --width 1.5 --quantity M=0 -o m.svg", "no garment is asked for"),
         (4, "marker skirt.toile --width 1.5 --quantity M=101 -o m.svg", "404 pieces would be cut"),
+        (
+            4,
+            "marker skirt.toile --width 1.5 --quantity M=18446744073709551615 -o m.svg",
+            "pieces would be cut",
+        ),
     ] {
         place.ends_with_words(code, run, words);
     }

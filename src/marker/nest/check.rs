@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use crate::geometry::polygon::{contains, sides};
+use crate::geometry::polygon::{contains, distance_to_segment, sides};
 
 /// The least distance between two outlines, metres; 0 where they cross or one lies in the other.
 pub fn distance(a: &[DVec2], b: &[DVec2]) -> f64 {
@@ -11,7 +11,8 @@ pub fn distance(a: &[DVec2], b: &[DVec2]) -> f64 {
         return 0.0;
     }
     let to_sides = |points: &[DVec2], outline: &[DVec2]| {
-        let each = points.iter().flat_map(|&p| sides(outline).map(move |side| to_side(p, side)));
+        let each =
+            points.iter().flat_map(|&p| sides(outline).map(move |[a, b]| distance_to_segment(p, a, b)));
         each.fold(f64::INFINITY, f64::min)
     };
     to_sides(a, b).min(to_sides(b, a))
@@ -23,17 +24,11 @@ fn cross(s: [DVec2; 2], t: [DVec2; 2]) -> bool {
     side(s, t[0]) * side(s, t[1]) < 0.0 && side(t, s[0]) * side(t, s[1]) < 0.0
 }
 
-fn to_side(p: DVec2, [a, b]: [DVec2; 2]) -> f64 {
-    let along = b - a;
-    let t = ((p - a).dot(along) / along.length_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
-    p.distance(a + along * t)
-}
-
 /// Whether two outlines overlap by more than `reach` metres: their sides cross, or one lies in the other. Outlines that only touch
 /// do not.
 pub fn overlap(a: &[DVec2], b: &[DVec2], reach: f64) -> bool {
     let is_deep = |p: DVec2, outline: &[DVec2]| {
-        contains(outline, p) && sides(outline).all(|side| to_side(p, side) > reach)
+        contains(outline, p) && sides(outline).all(|[a, b]| distance_to_segment(p, a, b) > reach)
     };
     // Corners, and points along the sides between them where those of the other cross: a cross of two bars has no corner inside.
     let deep_point = |points: &[DVec2], outline: &[DVec2]| {

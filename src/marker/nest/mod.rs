@@ -15,7 +15,7 @@
 mod apart;
 pub mod check;
 mod fill;
-pub mod shelves;
+mod shelves;
 mod slabs;
 mod squeeze;
 mod strip;
@@ -23,8 +23,8 @@ mod strip;
 use glam::DVec2;
 use rayon::prelude::*;
 
-use crate::draft::Random;
 use crate::geometry::polygon::signed_area;
+use crate::geometry::random::Random;
 use apart::{Tables, Turned};
 use slabs::Slabs;
 use squeeze::Squeeze;
@@ -71,6 +71,8 @@ pub struct Layout {
     pub places: Vec<Place>,
     /// Length of the strip that is used.
     pub length: f64,
+    /// Length that bounding boxes in columns would take: the plain way.
+    pub plain_length: f64,
 }
 
 /// A shape that is wider than the strip, and the width it needs.
@@ -91,7 +93,9 @@ pub fn nest(nesting: &Nesting, effort: Effort) -> Result<Layout, TooWide> {
     let area: f64 = nesting.parts.iter().map(|&shape| signed_area(&nesting.shapes[shape][0]).abs()).sum();
     let longest = |part: &Vec<usize>| part.iter().map(|&n| turned[n].size[0]).fold(f64::INFINITY, f64::min);
     let least = strip.parts.iter().map(longest).fold(area / nesting.width, f64::max);
-    let start = first(&strip, shelves::shelves(nesting, &numbers));
+    let shelves = shelves::shelves(nesting, &numbers);
+    let plain_length = strip.length(&shelves);
+    let start = first(&strip, shelves);
     let work = (effort.seconds.max(0.0) * 2.0 * LOOKS_PER_SECOND) as u64 / SEARCHES;
     let searches: Vec<u64> = (0..SEARCHES).collect();
     let found: Vec<Vec<Spot>> = searches
@@ -104,7 +108,7 @@ pub fn nest(nesting: &Nesting, effort: Effort) -> Result<Layout, TooWide> {
             numbers.iter().flatten().find(|n| n.0 == spot.turned).copied().unwrap_or_default();
         Place { turn, by: DVec2::new(spot.x, spot.y) - lower }
     };
-    Ok(Layout { length: strip.length(&best), places: best.iter().map(place).collect() })
+    Ok(Layout { length: strip.length(&best), places: best.iter().map(place).collect(), plain_length })
 }
 
 /// A way to turn a shape: its number among all, its number among those of its shape, and the lower left corner of its outline.

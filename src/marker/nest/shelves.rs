@@ -32,10 +32,3 @@ pub(super) fn shelves(nesting: &Nesting, numbers: &[Vec<Numbered>]) -> Vec<Spot>
     }
     spots
 }
-
-/// The length of that layout; None where a part is wider than the strip.
-pub fn shelf_length(nesting: &Nesting) -> Option<f64> {
-    let (turned, numbers) = super::turned(nesting).ok()?;
-    let ends = shelves(nesting, &numbers).into_iter().map(|spot| spot.x + turned[spot.turned].size[0]);
-    Some(ends.fold(0.0, f64::max))
-}

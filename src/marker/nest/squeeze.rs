@@ -4,7 +4,7 @@
 
 use super::fill::compact;
 use super::strip::{Block, Spot, Strip, cheapest};
-use crate::draft::Random;
+use crate::geometry::random::Random;
 
 /// By what share the strip is shortened at first; after each failure by half of it.
 const SHORTER: f64 = 0.02;

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::body::{Mannequin, MannequinError, NamedPose};
+use crate::body::Mannequin;
 use crate::draft::{
     Bodice, Bottom, Collar, Design, Dolman, Form, Hem, Hood, Kind, Neckline, NecklineShape, Shape, Skirt,
     Sleeve, Top, Trousers, Upper, Waist,
@@ -19,9 +19,9 @@ pub struct Garment {
     dye: Dye,
 }
 
-/// A document with `garment` drafted for `body`. The error is that of the mannequin's measurements.
-pub fn document(garment: &Garment, body: &Mannequin) -> Result<Document, MannequinError> {
-    let form = Form::new(&body.measurements, NamedPose::A)?;
+/// A document with `garment` drafted for `body`. Panics where it lacks a landmark, which does not happen: this program builds it.
+pub fn document(garment: &Garment, body: &Mannequin) -> Document {
+    let form = Form::of(body).expect("a mannequin has its landmarks");
     let mut pattern = garment.design.drafted(&form);
     draft::finish(&mut pattern);
     sheet::lay_out(&mut pattern);
@@ -32,7 +32,7 @@ pub fn document(garment: &Garment, body: &Mannequin) -> Result<Document, Mannequ
     };
     document.fabrics.all = Some(garment.fabric.to_owned());
     document.dyes.all = garment.dye;
-    Ok(document)
+    document
 }
 
 /// A blouse with a turned-out collar and cuffs.

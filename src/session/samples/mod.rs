@@ -135,7 +135,7 @@ impl Sample {
     pub fn project(self, body: &Mannequin) -> Project {
         let document = match self.cut() {
             Cut::Marked(drafted) => marked(drafted, body),
-            Cut::Placed(garment) => gallery::document(&garment(), body).expect("measurements of a mannequin"),
+            Cut::Placed(garment) => gallery::document(&garment(), body),
         };
         Project { document, dressed: None }
     }

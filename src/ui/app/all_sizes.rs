@@ -7,8 +7,9 @@ use glam::UVec2;
 use image::RgbaImage;
 
 use crate::fit::{self, BodyIndex, MapKind};
+use crate::pattern::grading::graded;
 use crate::render::{Camera, Look, View, png};
-use crate::session::grading::grade;
+use crate::session::grading;
 use crate::session::size_fit::{self, Ease, SizeFit};
 use crate::session::{Command, Document, Notice, Outfit, Project, Session};
 use crate::sim::{Runner, StartChoice};
@@ -276,13 +277,12 @@ impl Trial {
         size: &str,
         runner: impl FnOnce() -> std::io::Result<Runner>,
     ) -> Result<Self, Box<SizeFit>> {
+        let refused = |why| Box::new(SizeFit::refused(size, why));
+        let graded = graded(&document.pattern, size).map_err(refused)?;
+        let mut fit = SizeFit::cut(&document.pattern, size, &graded);
         let mut document = document.clone();
-        let mut fit = match crate::pattern::grading::graded(&document.pattern, size) {
-            Ok(graded) => SizeFit::cut(&document.pattern, size, &graded),
-            Err(why) => return Err(Box::new(SizeFit::refused(size, why))),
-        };
-        let begun = grade(&mut document, size).and_then(|_| {
-            let runner = runner().map_err(|why| why.to_string())?;
+        grading::take(&mut document, graded);
+        let begun = runner().map_err(|why| why.to_string()).and_then(|runner| {
             let mut session = Session::new(Project { document, dressed: None }, runner);
             let dress = Command::Dress { choice: StartChoice::default() };
             session.apply_alone(dress).map_err(|why| why.to_string())?;

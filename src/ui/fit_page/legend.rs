@@ -4,7 +4,7 @@ use maud::{Markup, html};
 
 use crate::render::{Legend, Rgb};
 use crate::ui::fit_page::facts::MapFacts;
-use crate::ui::fit_page::pictures::palette;
+use crate::ui::scenery::map_colours::palette;
 
 /// Width of the drawing, SVG units.
 const WIDTH: f64 = 320.0;

@@ -7,9 +7,10 @@ use base64::engine::general_purpose::STANDARD;
 use glam::{UVec2, Vec3};
 
 use crate::fit::MapKind;
-use crate::render::{Camera, Look, Palette, Projection, RenderError, Rgb, Scene, View, png};
+use crate::render::{Camera, Look, Projection, RenderError, Rgb, Scene, View, png};
 use crate::session::Outfit;
-use crate::ui::fit_page::facts::{Facts, MapFacts};
+use crate::ui::fit_page::facts::Facts;
+use crate::ui::scenery::map_colours::colours;
 use crate::ui::scenery::portrait::worn_scene;
 use crate::ui::scenery::scene::Scenery;
 
@@ -58,23 +59,13 @@ pub fn shots(facts: &Facts) -> Vec<Shot> {
         Shot { kind: None, colours: None, view, side, size }
     });
     let maps = facts.maps.iter().filter(|map| map.map.stats().count > 0).flat_map(|map| {
-        let colours = Arc::new(colours(map));
+        let colours = Arc::new(colours(map.map.kind, &map.map.vertices, map.range));
         [0, 2].map(|side| {
             let (view, side, _) = SIDES[side];
             Shot { kind: Some(map.map.kind), colours: Some(Arc::clone(&colours)), view, side, size: MAP }
         })
     });
     views.into_iter().chain(maps).collect()
-}
-
-/// The colour map for values of `kind`.
-pub fn palette(kind: MapKind) -> Palette {
-    if kind.is_signed() { Palette::Diverging } else { Palette::Sequential }
-}
-
-fn colours(map: &MapFacts) -> Vec<Rgb> {
-    let palette = palette(map.map.kind);
-    map.map.vertices.iter().map(|&v| palette.colour(v, map.range)).collect()
 }
 
 impl Shot {

@@ -19,6 +19,7 @@ use crate::fit::{Map, MapKind};
 use crate::render::{Legend, Palette, Rgb};
 use crate::session::{Fabrics, Outfit};
 use crate::sim::Snapshot;
+use crate::ui::scenery::map_colours::palette;
 pub use beside::{beside_ui, opening_ui};
 pub use chooser::{choices, chooser_ui};
 pub use comparison::Comparison;
@@ -228,7 +229,7 @@ impl ShownMap {
     }
 
     fn palette(&self) -> Palette {
-        if self.is_difference || self.map.kind.is_signed() { Palette::Diverging } else { Palette::Sequential }
+        if self.is_difference { Palette::Diverging } else { palette(self.map.kind) }
     }
 
     /// The legend for pictures.

@@ -1,8 +1,9 @@
 //! Maps of several sizes of a garment in the same colours.
 
 use crate::fit::{Map, MapKind};
-use crate::render::{Legend, Palette, Rgb};
+use crate::render::{Legend, Rgb};
 use crate::session::Outfit;
+use crate::ui::scenery::map_colours::{colours, palette};
 
 /// A map of each size, and the range of all of them.
 #[derive(Debug)]
@@ -23,17 +24,18 @@ impl SizeMaps {
 
     /// A colour for each vertex of outfit number `i`.
     pub fn colours(&self, i: usize) -> Vec<Rgb> {
-        self.maps[i].vertices.iter().map(|&v| self.palette().colour(v, self.range)).collect()
+        colours(self.kind, &self.maps[i].vertices, self.range)
     }
 
     /// The legend of the size called `name`.
     pub fn legend(&self, name: &str) -> Legend {
         let (unit, times) = self.kind.unit();
         let title = format!("{name}: {}", self.kind.short());
-        Legend { title, unit: unit.to_owned(), range: self.range.map(|v| v * times), palette: self.palette() }
-    }
-
-    fn palette(&self) -> Palette {
-        if self.kind.is_signed() { Palette::Diverging } else { Palette::Sequential }
+        Legend {
+            title,
+            unit: unit.to_owned(),
+            range: self.range.map(|v| v * times),
+            palette: palette(self.kind),
+        }
     }
 }
