@@ -17,7 +17,8 @@
 //! | `relax`    | paper A's relaxation: shape matching, flattening, gravity, friction; no physics (see `drape`) | contact, cloth, body, geometry |
 //! | `wrap`     | paper A: marks, root edges, growth | relax, contact, cloth, body, pattern, geometry |
 //! | `drag`     | paper A: dependency graph, motion in local frames, pushpins | relax, contact, cloth, body, pattern, geometry |
-//! | `drape`    | physics: forces (membrane, bending, folds, elastic), contact, solvers (implicit steps, small steps, direct equilibrium); a garment on its body; sewing | contact, cloth, body, geometry |
+//! | `card`     | small steps of cloth with contact on a graphics card: compute shaders, plain buffers in, positions out | geometry |
+//! | `drape`    | physics: forces (membrane, bending, folds, elastic), contact, solvers (implicit steps, small steps, direct equilibrium); a garment on its body, on a graphics card where one may be used; sewing | card, contact, cloth, body, geometry |
 //! | `repose`   | paper C: distance map, conforming to another pose of the body, recovery, strain control | relax, contact, cloth, body, pattern, geometry |
 //! | `place`    | placement of pieces in space before they are sewn: points round the body, tubes round limbs, a file's placement adapted to another body, sleeves moved to their arms | wrap, contact, cloth, body, pattern, geometry |
 //! | `fit`      | measurements of a garment: strain, self-intersections, openings, the report, maps | cloth, body, pattern, geometry |
@@ -37,7 +38,7 @@
 //!   the viewer.
 //! - `geometry` and `render` use nothing of ours. `pattern` and `body` do not use each other.
 //! - `sim` never uses `session`: a request carries a garment source, never the document.
-//! - egui only in `ui`; wgpu only in `render` and `ui`; threads only in `sim::thread` (and rayon inside steps), and the one
+//! - egui only in `ui`; wgpu only in `render`, `card` and `ui`; threads only in `sim::thread` (and rayon inside steps), and the one
 //!   that waits for signals in `cli::interrupt`.
 //! - No clock, no unseeded randomness, no hash-map iteration in `session`, `sim` or below, nor in `marker`.
 //! - Same input, same bits, on any number of threads.
@@ -45,6 +46,7 @@
 //! `tests/tidy` checks these rules.
 
 pub mod body;
+pub mod card;
 pub mod cli;
 pub mod cloth;
 pub mod contact;

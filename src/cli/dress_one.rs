@@ -42,6 +42,9 @@ pub fn dress_one(project: &Path, folder: &Path, arguments: &Dress) -> Result<Don
         session.recorder().also_to(file).map_err(|e| Failure::file(path, e))?;
     }
     run::simulation(&mut session)?.set_skips(arguments.work.no_skip);
+    if let Some(kind) = arguments.card {
+        session.use_card(Some(run::card(kind)?));
+    }
     run::choose_cloth(&mut session, &arguments.cloth)?;
     dress_by(&mut session, project, arguments, &mut seconds)?;
     run::to_rest(&mut session, arguments.max_ticks, &mut seconds)?;

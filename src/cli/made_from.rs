@@ -33,6 +33,7 @@ pub fn made_from(project: &Path, arguments: &Dress) -> Result<String, Failure> {
             },
         start,
         drape,
+        card,
         cloth,
         save,
         record: _,
@@ -51,7 +52,8 @@ pub fn made_from(project: &Path, arguments: &Dress) -> Result<String, Failure> {
     cloth.art.image_file_mut().into_iter().for_each(PathBuf::clear);
     cloth.art.graphic_files_mut().for_each(PathBuf::clear);
     let art = &arguments.cloth.art;
-    let options = (of_input, start, drape, cloth, save.is_some(), max_ticks, picture, no_picture, work);
+    let options =
+        (of_input, start, (drape, card), cloth, save.is_some(), max_ticks, picture, no_picture, work);
     let mut hash = Fnv::default();
     let mut take = |bytes: &[u8]| {
         hash.number(bytes.len() as u64);

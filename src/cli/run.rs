@@ -1,8 +1,11 @@
 //! Runs a session inline until its cloth is at rest.
 
 use std::path::Path;
+use std::sync::Arc;
 use std::time::Instant;
 
+use crate::card::CardSlot;
+use crate::cli::arguments::CardKind;
 use crate::cli::cloth_options::ClothOptions;
 use crate::cli::failure::Failure;
 use crate::cli::seconds::Seconds;
@@ -76,6 +79,16 @@ pub fn choose_cloth(session: &mut Session, options: &ClothOptions) -> Result<(),
 pub fn simulation(session: &mut Session) -> Result<&mut Simulation, Failure> {
     let words = "the simulation does not run inline".to_owned();
     session.runner().simulation().ok_or(Failure::Internal(words))
+}
+
+/// The graphics card to drape any cloth on.
+///
+/// # Errors
+/// There is none.
+pub fn card(kind: CardKind) -> Result<Arc<CardSlot>, Failure> {
+    let slot = CardSlot::new(kind == CardKind::Software, 0);
+    slot.look().map_err(|why| Failure::Limit(format!("--card: {why}")))?;
+    Ok(Arc::new(slot))
 }
 
 /// Runs ticks until nothing moves.

@@ -1,7 +1,7 @@
 //! Recordings: JSON lines, always kept in memory, and written to a file on request.
 //!
 //! A header, then in order of time: each command, the tick in which the simulation applied it, and hashes at the end of every
-//! gesture and whenever the cloth comes to rest.
+//! gesture and whenever the cloth comes to rest, but for cloth that a graphics card has moved.
 
 use std::collections::VecDeque;
 use std::fs::File;
@@ -39,6 +39,8 @@ pub enum Line {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         document: Option<Hex>,
     },
+    /// A graphics card has moved the cloth by `tick`: it is not the same on every machine, nor are the ticks that follow.
+    Card { tick: u64 },
 }
 
 /// A hash, written as 16 hexadecimal digits.
@@ -92,6 +94,8 @@ pub struct Recorder {
     awaited: VecDeque<(u64, u64)>,
     /// Id of the last gesture in the session, and its number in the recording.
     gesture: (u64, u64),
+    /// Whether it has told that a graphics card has moved the cloth.
+    by_card: bool,
     file: Option<BufWriter<File>>,
     file_error: Option<std::io::Error>,
     journal: Option<Journal>,
@@ -105,6 +109,7 @@ impl Recorder {
             lines: String::new(),
             awaited: VecDeque::new(),
             gesture: (0, 0),
+            by_card: false,
             file: None,
             file_error: None,
             journal: None,
@@ -163,6 +168,11 @@ impl Recorder {
         self.write(&Line::Command { seq, gesture: self.gesture.1, command });
     }
 
+    /// Whether the recording is also written to a file.
+    pub fn has_file(&self) -> bool {
+        self.file.is_some()
+    }
+
     /// Stores the `document` hash until the cloth hash that request `seq` asked for arrives.
     pub fn expect_hash(&mut self, seq: u64, document: u64) {
         self.awaited.push_back((seq, document));
@@ -177,7 +187,7 @@ impl Recorder {
         }
     }
 
-    fn hash(&mut self, tick: u64, seq: u64, cloth: u64, asked: Option<u64>) {
+    fn hash(&mut self, tick: u64, seq: u64, cloth: Option<u64>, asked: Option<u64>) {
         let document = match (asked, self.awaited.front()) {
             (Some(asked), Some(&(awaited, document))) if asked == awaited => {
                 self.awaited.pop_front();
@@ -185,7 +195,13 @@ impl Recorder {
             }
             _ => None,
         };
-        self.write(&Line::Hash { tick, seq: asked.unwrap_or(seq), cloth: Hex(cloth), document });
+        let Some(cloth) = cloth.map(Hex) else {
+            if !std::mem::replace(&mut self.by_card, true) {
+                self.write(&Line::Card { tick });
+            }
+            return;
+        };
+        self.write(&Line::Hash { tick, seq: asked.unwrap_or(seq), cloth, document });
     }
 
     fn write(&mut self, line: &Line) {
@@ -216,6 +232,8 @@ pub struct Recording {
     pub commands: Vec<(u64, u64, Command)>,
     /// Events of the simulation, in order.
     pub told: Vec<RecordedEvent>,
+    /// Whether a graphics card has moved the cloth: ticks and hashes then cannot be held against it.
+    pub by_card: bool,
 }
 
 /// A recorded event of the simulation.
@@ -245,7 +263,7 @@ impl Recording {
             return Err(RecordingError { line: 1, words: "the recording is empty".to_owned() });
         };
         let (project, machine) = header(first).map_err(|words| RecordingError { line: i + 1, words })?;
-        let mut recording = Self { project, machine, commands: Vec::new(), told: Vec::new() };
+        let mut recording = Self { project, machine, commands: Vec::new(), told: Vec::new(), by_card: false };
         for (i, line) in lines {
             recording.take(line).map_err(|words| RecordingError { line: i + 1, words })?;
         }
@@ -256,6 +274,7 @@ impl Recording {
         match serde_json::from_str(line).map_err(json_words)? {
             Line::Header { .. } => return Err("a second header".to_owned()),
             Line::Command { seq, gesture, command } => self.commands.push((seq, gesture, command)),
+            Line::Card { .. } => self.by_card = true,
             Line::Applied { seq, tick } => self.told.push(RecordedEvent::Applied { seq, tick }),
             Line::Hash { tick, seq, cloth, document } => {
                 self.told.push(RecordedEvent::Hash {

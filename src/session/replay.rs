@@ -34,7 +34,7 @@ pub struct Replay {
 }
 
 impl Replay {
-    /// A replay that has not begun.
+    /// A replay that has not begun. Cloth that a graphics card has moved cannot be compared: differences then do not stop it.
     pub fn new(recording: Recording) -> Self {
         let runner = Runner::inline(Simulation::default());
         let other_machine = Some(recording.machine).filter(|kind| *kind != machine());
@@ -45,7 +45,7 @@ impl Replay {
             told: recording.told.into(),
             last_gesture: 0,
             hashes_compared: 0,
-            watched: false,
+            watched: recording.by_card,
         }
     }
 

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use crate::body::Surface;
+use crate::card::CardSlot;
 use crate::cloth::Fabric;
 use crate::contact::Bone;
 use crate::pattern::edit::Carried;
@@ -513,6 +514,13 @@ impl Session {
         self.open_gesture = None;
         self.history.close();
         self.ask_for_hash();
+    }
+
+    /// Drapes on this graphics card from the next start of draping on; None: on the processor. Not a command: recordings then have
+    /// no hashes of the cloth.
+    pub fn use_card(&mut self, card: Option<Arc<CardSlot>>) {
+        let kind = RequestKind::UseCard(card);
+        self.runner.send(Request { seq: self.last_seq, checkpoint: false, kind });
     }
 
     fn ask_for_hash(&mut self) {

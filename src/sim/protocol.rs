@@ -6,6 +6,7 @@ use std::sync::Arc;
 use serde::Serialize;
 
 use crate::body::Surface;
+use crate::card::CardSlot;
 use crate::cloth::{ClothState, Garment};
 use crate::contact::Bone;
 use crate::drag::{DragMode, Ray};
@@ -83,6 +84,9 @@ pub enum RequestKind {
     Clear,
     /// Return to the state before the request numbered `before_seq`, bit for bit.
     Restore { before_seq: u64 },
+    /// Drape on this graphics card from the next start of draping on; None: on the processor. The cloth is then not the same on
+    /// every machine: nothing tells its hash.
+    UseCard(Option<Arc<CardSlot>>),
     /// Report the state hash. Changes nothing.
     Hash,
 }
@@ -165,8 +169,10 @@ pub struct DrapeState {
     pub speed: f64,
     /// Ticks of physics so far. For large cloth one takes several ticks of the simulation.
     pub ticks: u64,
-    /// Small steps in each tick of physics.
+    /// Small steps in each tick of physics, on the processor.
     pub substeps: usize,
+    /// Whether a graphics card has moved the cloth.
+    pub card: bool,
 }
 
 impl Snapshot {
@@ -193,8 +199,8 @@ pub enum Event {
     /// Request `seq` took effect before tick number `tick + 1`.
     Applied { seq: u64, tick: u64 },
     /// The state hash after request `seq`: sent when a request asks for it (`asked` is its number) and whenever the cloth comes
-    /// to rest.
-    Hash { tick: u64, seq: u64, cloth: u64, asked: Option<u64> },
+    /// to rest. None for cloth that a graphics card has moved.
+    Hash { tick: u64, seq: u64, cloth: Option<u64>, asked: Option<u64> },
     /// A tick or a request failed (not a number, or a panic). The state is that of before the request, or of the last checkpoint,
     /// and relaxing is paused.
     Failed { tick: u64, seq: u64, words: String },

@@ -3,6 +3,7 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
+use crate::card::CardSlot;
 use crate::cloth::Skips;
 use crate::fit::TightPlace;
 use crate::sim::checkpoints::{Checkpoints, DEFAULT_CAPACITY};
@@ -33,6 +34,7 @@ pub struct Simulation {
     events: Vec<Event>,
     looked: Option<Looked>,
     skips: Skips,
+    card: Option<Arc<CardSlot>>,
 }
 
 impl Default for Simulation {
@@ -53,6 +55,7 @@ impl Simulation {
             events: Vec::new(),
             looked: None,
             skips: Skips::default(),
+            card: None,
         }
     }
 
@@ -70,7 +73,12 @@ impl Simulation {
             self.report_hash(Some(request.seq));
             return;
         }
+        if let RequestKind::UseCard(card) = request.kind {
+            self.card = card;
+            return;
+        }
         self.looked = None;
+        self.world.card.clone_from(&self.card);
         let before = self.world.clone();
         if request.checkpoint {
             self.keep(request.seq);
@@ -97,6 +105,7 @@ impl Simulation {
         self.tick += 1;
         self.looked = None;
         self.count_tick();
+        self.world.card.clone_from(&self.card);
         let problem = match catch_unwind(AssertUnwindSafe(|| self.world.step())) {
             Ok(()) => self.world.not_finite().map(not_a_number),
             Err(panic) => Some(panic_words(&*panic)),
@@ -227,6 +236,7 @@ impl Simulation {
             // All others act on the cloth in the new pose.
             _ => self.world.finish_posing(),
         }
+        let by_card = self.world.moved_by_card && keeps_cloth(&kind);
         match self.with_skips(kind) {
             RequestKind::Wrap { source, body } => self.set_world(World::wrapped(source, body)),
             RequestKind::Rewrap { source, body, pairs } => {
@@ -280,8 +290,9 @@ impl Simulation {
             RequestKind::Release => self.world.release(),
             RequestKind::Clear => self.world = World::default(),
             RequestKind::Restore { before_seq } => self.restore(before_seq)?,
-            RequestKind::Hash => {}
+            RequestKind::UseCard(_) | RequestKind::Hash => {}
         }
+        self.world.moved_by_card |= by_card;
         Ok(())
     }
 
@@ -340,9 +351,16 @@ impl Simulation {
     }
 
     fn report_hash(&mut self, asked: Option<u64>) {
-        let (tick, seq, cloth) = (self.tick, self.seq, self.world.hash());
+        let (tick, seq) = (self.tick, self.seq);
+        let cloth = (!self.world.moved_by_card).then(|| self.world.hash());
         self.events.push(Event::Hash { tick, seq, cloth, asked });
     }
+}
+
+/// Whether the request makes another garment of the cloth as it lies.
+fn keeps_cloth(kind: &RequestKind) -> bool {
+    use RequestKind::{Repose, Resew, Resize, Rewrap};
+    matches!(kind, Rewrap { .. } | Resew { .. } | Repose { .. } | Resize { .. })
 }
 
 fn not_a_number(vertex: usize) -> String {

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use glam::{DQuat, DVec2, DVec3};
 use toile::body::mannequin::{Measurements, mannequin};
+use toile::card::CardSlot;
 use toile::cloth::{Corner, Fabric};
 use toile::drag::{DragMode, Ray};
 use toile::fit::{BodyIndex, Report, measure};
@@ -84,6 +85,41 @@ fn cloth_drapes_to_rest_and_costs_nothing_then() {
     s.apply_alone(Command::Redo).expect("done again");
     run(&mut s, 1100);
     assert_eq!(cloth_hash(&mut s), draped);
+}
+
+/// On software that stands in for a graphics card; without an adapter the test says so and passes.
+#[test]
+fn cloth_drapes_on_a_card_as_on_the_processor_and_tells_no_hash() {
+    let slot = CardSlot::new(true, 0);
+    if let Err(why) = slot.look() {
+        assert!(std::env::var_os("TOILE_REQUIRE_ADAPTER").is_none(), "{why}");
+        return println!("skipped: {why}");
+    }
+    let [mut plain, mut s] = [on_top(), on_top()];
+    let before = cloth_hash(&mut s);
+    let lines = |s: &mut Session| s.recording().lines().filter(|line| line.contains("\"cloth\"")).count();
+    s.use_card(Some(Arc::new(slot)));
+    for session in [&mut plain, &mut s] {
+        session.apply_alone(Command::SetDraping { on: true }).expect("draped");
+    }
+    let hashes = lines(&mut s);
+    for session in [&mut plain, &mut s] {
+        let ticks = run(session, 1100);
+        assert!((10..1100).contains(&ticks), "{ticks} ticks");
+    }
+    assert!(drape(&s).card && !drape(&plain).card);
+    assert_eq!(lines(&mut s), hashes, "what a card has moved has no hash");
+    assert!((mean_height(&s) - mean_height(&plain)).abs() < 0.001);
+    let report = measured(&s);
+    assert_eq!(report.penetration.vertices + report.penetration.faces, 0);
+    assert_eq!(report.edges_through_body + report.self_crossings, 0);
+    assert!(report.strain.p99 < 0.012, "strain {}", report.strain.p99);
+    s.apply_alone(Command::Undo).expect("undone");
+    assert_eq!(cloth_hash(&mut s), before);
+    // Commands of the recording can be done again by the processor.
+    let text = s.recording();
+    let mut replay = Replay::new(Recording::parse(&text).expect("a recording"));
+    replay.run().expect("no divergence");
 }
 
 #[test]

@@ -117,6 +117,8 @@ pub enum BenchKind {
     Corpus,
     /// The longest tick and the longest request of every stage: a cancel or another request waits for no more than that
     Ticks,
+    /// A dress draped by the processor and on the graphics card
+    Card,
     /// Files damaged at random: each is read or refused in words, in time
     Trust,
 }

@@ -175,6 +175,10 @@ pub struct Dress {
     /// Then drapes it by weight and fabric until it rests
     #[arg(long)]
     pub drape: bool,
+    /// Drapes on the graphics card, with the same accuracy but other last digits on every kind of card; with =software on the
+    /// processor's stand-in for one, to try it
+    #[arg(long, value_name = "software", num_args = 0..=1, require_equals = true, default_missing_value = "hardware")]
+    pub card: Option<CardKind>,
     #[command(flatten)]
     pub cloth: ClothOptions,
     /// Also writes the dressed project to this file
@@ -219,6 +223,7 @@ impl Dress {
             input: InputOptions::default(),
             start: None,
             drape: false,
+            card: None,
             cloth: ClothOptions::default(),
             save: None,
             record: None,
@@ -238,6 +243,15 @@ impl Dress {
             threads: None,
         }
     }
+}
+
+/// What counts as a graphics card.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum CardKind {
+    /// A device of its own or one beside the processor.
+    Hardware,
+    /// The driver's software, too.
+    Software,
 }
 
 /// Options that switch off optimisations.

@@ -4,20 +4,41 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::Instant;
 
+use crate::body::mannequin;
+use crate::card::CardSlot;
 use crate::cli::bench::row::{Check, Figure, Row, Unit};
 use crate::cli::bench::scenes::Scene;
 use crate::cli::bench::{median, one_hash};
 use crate::cli::failure::Failure;
-use crate::cli::interrupt;
-use crate::cloth::Fabric;
+use crate::cli::{interrupt, output};
+use crate::cloth::{Fabric, Skips};
 use crate::drape::{DrapedGarment, DrapedSettings};
 use crate::fit::{self, BodyIndex};
+use crate::session::samples::Sample;
 use crate::sim::hash::cloth_hash;
 use crate::wrap::Phase;
 
-/// Wraps the garment of `scene` once and drapes it `runs` times.
-pub fn drape(scene: &Scene, runs: usize) -> Result<Row, Failure> {
-    let scene_name = "drape of the dress, to rest";
+/// Drapes the sample dress, of about `triangles` triangles, by the processor and then on the graphics card.
+pub fn on_card(
+    triangles: usize,
+    runs: usize,
+    skips: Skips,
+    mut tell: impl FnMut(Row) -> Result<(), Failure>,
+) -> Result<(), Failure> {
+    let slot = CardSlot::new(true, 0);
+    let card = slot.look().map_err(|why| Failure::Limit(why.to_string()))?;
+    output::complain(&format!("      on {}", card.name()));
+    let scene = Scene::sample(Sample::Dress, &mannequin::default(), triangles)?.skipping(skips);
+    tell(drape(&scene, runs, None)?)?;
+    tell(drape(&scene, runs, Some(&slot))?)
+}
+
+/// Wraps the garment of `scene` once and drapes it `runs` times; on a graphics card if there is a `slot` with one.
+pub fn drape(scene: &Scene, runs: usize, slot: Option<&CardSlot>) -> Result<Row, Failure> {
+    let scene_name = match slot {
+        Some(_) => "the same on the graphics card",
+        None => "drape of the dress, to rest",
+    };
     let wrapped = scene.wrap()?;
     let words = || Failure::Internal("a sample cannot be draped".to_owned());
     let cotton = Fabric::preset(Fabric::USUAL).ok_or_else(words)?;
@@ -32,6 +53,9 @@ pub fn drape(scene: &Scene, runs: usize) -> Result<Row, Failure> {
         let mut worn =
             DrapedGarment::new(garment, &cloth, surface, (&BTreeMap::new(), cotton), &[], settings)
                 .map_err(|why| Failure::Internal(why.0))?;
+        if let Some(slot) = slot {
+            worn = worn.with_card(slot);
+        }
         while !worn.progress().at_rest {
             interrupt::check()?;
             let start = Instant::now();
@@ -41,6 +65,9 @@ pub fn drape(scene: &Scene, runs: usize) -> Result<Row, Failure> {
         all.push(start.elapsed().as_secs_f64());
         ticks = worn.progress().ticks;
         hashes.push(cloth_hash(&cloth, Some(Phase::AtRest), true));
+        if slot.is_some() && !worn.was_on_card() {
+            return Err(Failure::Internal("the graphics card was not used".to_owned()));
+        }
         last = Some(worn);
     }
     let worn = last.ok_or_else(words)?;

@@ -25,7 +25,8 @@ use crate::cli::output;
 
 /// Runs the chosen benchmarks and prints a row for each scene as it is done.
 pub fn bench(arguments: &Bench) -> Result<(), Failure> {
-    let without_plot = [BenchKind::Speed, BenchKind::Corpus, BenchKind::Ticks, BenchKind::Trust];
+    let without_plot =
+        [BenchKind::Speed, BenchKind::Corpus, BenchKind::Ticks, BenchKind::Card, BenchKind::Trust];
     let has_plot = arguments.what.is_none_or(|what| !without_plot.contains(&what));
     if arguments.plot.is_some() && !has_plot {
         return Err(Failure::Usage("--plot draws what accuracy and drape measure".to_owned()));
@@ -63,6 +64,9 @@ fn measure(arguments: &Bench, teller: &mut Teller) -> Result<(), Failure> {
     let runs = usize::from(arguments.runs);
     match arguments.what {
         Some(BenchKind::Drape) => return drape_scenes(arguments, runs, teller),
+        Some(BenchKind::Card) => {
+            return drape::on_card(size_of(arguments), runs, arguments.work.no_skip, |row| teller.say(&row));
+        }
         Some(BenchKind::Ticks) => {
             let triangles = arguments.triangles.map_or(TICKS_TRIANGLES, |n| n as usize);
             return ticks::ticks(triangles, runs, arguments.work.no_skip, |row| teller.say(row));

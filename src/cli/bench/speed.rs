@@ -59,7 +59,7 @@ pub fn speed(
     tell(&closest(&shirt.surface, &worn.state, runs)?)?;
     tell(&idle(&shirt)?)?;
     let dress = Scene::sample(Sample::Dress, &body, triangles)?.skipping(skips);
-    tell(&drape(&dress, runs)?)?;
+    tell(&drape(&dress, runs, None)?)?;
     poses(&shirt, &worn, runs)?.iter().try_for_each(tell)
 }
 

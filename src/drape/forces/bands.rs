@@ -69,6 +69,11 @@ impl Bands {
         Self { bands, rows: chains(&ends) }
     }
 
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.bands.is_empty()
+    }
+
     /// The bands.
     pub fn all(&self) -> &[Band] {
         &self.bands

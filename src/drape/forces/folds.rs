@@ -51,6 +51,11 @@ impl Folds {
         Self { hinges }
     }
 
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.hinges.is_empty()
+    }
+
     /// The hinges.
     pub fn hinges(&self) -> &[Hinge] {
         &self.hinges

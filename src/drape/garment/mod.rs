@@ -5,6 +5,7 @@
 
 pub mod clear;
 mod laid;
+pub mod on_card;
 mod routes;
 pub mod sewing;
 mod tangles;
@@ -22,9 +23,11 @@ use crate::contact::{Faces, Obstacle, Separation, separation};
 use crate::drape::contact::body::Collider;
 use crate::drape::forces::bending::Bending;
 use crate::drape::garment::laid::{ordered, shortest_sides, springs};
+use crate::drape::garment::on_card::OnCard;
 use crate::drape::garment::tangles::Pulling;
 use crate::drape::garment::worked::{Worked, plates};
 use crate::drape::sheet::Sheet;
+use crate::drape::solver::net::Spring;
 use crate::drape::solver::small_steps::{
     Advance, GrabConstraint, SmallSteps, Surroundings, stable_rate, substeps,
 };
@@ -128,6 +131,7 @@ struct Fixed {
     /// Simulated vertex of each garment vertex; `u32::MAX` where it is not draped.
     own: Vec<u32>,
     bending: Bending,
+    springs: Vec<Spring>,
     mass: Vec<f64>,
     friction: Vec<f64>,
     collider: Collider,
@@ -171,6 +175,10 @@ pub struct DrapedGarment {
     pulling: Option<Box<Pulling>>,
     /// Faces too near the body at the last check.
     lacking: usize,
+    /// The garment on a graphics card, if one is used.
+    card: Option<OnCard>,
+    /// Whether a card has moved it.
+    was_on_card: bool,
     /// Work done.
     pub counters: Counters,
 }
@@ -244,8 +252,9 @@ impl DrapedGarment {
         let mut pinned = vec![false; sheet.len()];
         pins.iter().filter_map(|&v| own_number(&own, v)).for_each(|v| pinned[v] = true);
         let length = shortest_lengths(&garment, sewn, &vertices);
-        let springs = worked.bands.take_springs(springs(&sheet, &of_triangle, length)).into_iter();
-        let mut small = SmallSteps::of(springs, settings.strain, &sheet, &bending, &mass, &pinned);
+        let springs = worked.bands.take_springs(springs(&sheet, &of_triangle, length));
+        let mut small =
+            SmallSteps::of(springs.iter().copied(), settings.strain, &sheet, &bending, &mass, &pinned);
         worked.give(&mut small, thickness);
         let obstacle = Arc::new(Obstacle::of(&surface));
         let collider = Collider::still(surface);
@@ -269,6 +278,8 @@ impl DrapedGarment {
             begun: None,
             pulling: None,
             lacking: 0,
+            card: None,
+            was_on_card: false,
             counters: Counters::default(),
             fixed: Arc::new(Fixed {
                 garment,
@@ -276,6 +287,7 @@ impl DrapedGarment {
                 vertices,
                 own,
                 bending,
+                springs,
                 mass,
                 friction,
                 collider,
@@ -451,25 +463,35 @@ impl DrapedGarment {
     /// Makes some small steps. True when they are the last of a tick.
     fn move_on(&mut self) -> Result<bool, Undrapable> {
         let fixed = Arc::clone(&self.fixed);
-        let mut begun = self.begun.take().unwrap_or_else(|| {
-            let span = TICK * self.pace;
-            Box::new(Begun { span, before: self.state.clone(), advance: Advance::new(span, self.substeps) })
-        });
+        let mut begun = match self.begun.take() {
+            Some(begun) => begun,
+            None => {
+                let (span, steps) = (TICK * self.pace, self.steps_on_card());
+                let advance = Advance::new(span, steps.unwrap_or(self.substeps));
+                Box::new(Begun { span, before: self.state.clone(), advance, on_card: steps.is_some() })
+            }
+        };
         let seconds = self.progress.ticks as f64 * TICK;
-        let around = Surroundings {
+        let grip = if self.floats && self.rubs.is_none() { 0.0 } else { GRIP };
+        let mut around = Surroundings {
             bending: &fixed.bending,
             bending_damping: BENDING_DAMPING,
             gravity: if self.floats { DVec3::ZERO } else { GRAVITY },
             damping: fixed.damping + (CALMING * (seconds - CALM_AFTER)).clamp(0.0, CALMEST) / self.pace,
             collider: Some(&fixed.collider),
             offset: fixed.offset,
-            friction: self.rubs.as_ref().unwrap_or(&fixed.friction),
-            grip: if self.floats && self.rubs.is_none() { 0.0 } else { GRIP },
+            friction: &fixed.friction,
+            grip,
         };
+        let mut moved = 0;
+        if begun.on_card {
+            self.move_on_card(&mut begun, &around);
+            moved += self.state.positions.len() as u64;
+        }
+        around.friction = self.rubs.as_ref().unwrap_or(&fixed.friction);
         let asked = self.small.queries;
         let work = self.small.pairs() + MOST_WORK;
-        let mut moved = 0;
-        while !begun.advance.is_done() && self.small.pairs() + moved < work {
+        while !begun.on_card && !begun.advance.is_done() && self.small.pairs() + moved < work {
             self.small.go_on(&mut begun.advance, &around, &mut self.state);
             moved += self.state.positions.len() as u64;
         }
@@ -553,8 +575,8 @@ impl DrapedGarment {
         let fixed = Arc::clone(&self.fixed);
         let (garment, surface) = (&*fixed.garment, &*fixed.collider.surface);
         let mut near = vec![false; garment.vertex_count];
-        for (v, x) in self.state.positions.iter().enumerate() {
-            near[fixed.vertices[v] as usize] = self.small.height(v, *x).is_some();
+        for (v, is_near) in self.near_body().into_iter().enumerate() {
+            near[fixed.vertices[v] as usize] = is_near;
         }
         let lying =
             Lying { garment, surface, state: cloth, skips: self.settings.skips, split: None, apart: None };
@@ -612,6 +634,8 @@ struct Begun {
     /// State before the tick.
     before: State,
     advance: Advance,
+    /// Whether a graphics card makes it.
+    on_card: bool,
 }
 
 /// Rest length (metres) of an edge between simulated vertices, whose garment vertices are `vertices`. Along a seam, or a future

@@ -1,5 +1,6 @@
 //! Time steppers: implicit steps, many small explicit ones, and a direct solve for equilibrium; sparse matrices of 3 × 3 blocks.
 
+mod advance;
 mod blocks;
 pub mod chain;
 pub mod net;

@@ -5,23 +5,14 @@ use std::ops::Range;
 
 use glam::DVec3;
 
+pub use crate::card::Spring;
+
 /// Vertices per part at least, as a smaller part is not worth it.
 const PART: usize = 1250;
 /// Most parts.
 const MOST_PARTS: usize = 8;
 /// Largest share of edges between parts with which a partition is used; otherwise the net stays in one part.
 const MOST_BETWEEN: f64 = 0.35;
-
-/// A spring between two vertices.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Spring {
-    /// The vertices.
-    pub ends: [u32; 2],
-    /// Rest length, metres.
-    pub length: f64,
-    /// Stiffness, N/m.
-    pub stiffness: f64,
-}
 
 /// Net of springs that become rigid beyond a strain.
 #[derive(Clone, Debug)]

@@ -19,6 +19,7 @@ use crate::drape::forces::bending::Bending;
 use crate::drape::forces::folds::Folds;
 use crate::drape::forces::limits::StrainLimits;
 use crate::drape::sheet::Sheet;
+pub use crate::drape::solver::advance::Advance;
 use crate::drape::solver::net::{Net, Spring};
 use crate::drape::solver::steps::Scene;
 use crate::drape::solver::ties::{Fastened, SewingSpring};
@@ -32,7 +33,7 @@ const SAFE: f64 = 0.9;
 /// Gap (m) below which sewn ends are kept together even though the body pushes them apart.
 const NEARLY_SHUT: f64 = 0.002;
 /// Speed at which cloth leaves a body when it is deeper than its own motion brought it, m/s; it gains no momentum by that.
-const EASE: f64 = 0.3;
+pub const EASE: f64 = 0.3;
 /// Cosine of the angle between the normals of two successive nearest points below which they form a crease: cloth is then kept
 /// off both sides.
 const CREASE: f64 = 0.5;
@@ -91,33 +92,6 @@ pub struct SmallSteps {
     pub queries: u64,
     /// Queries saved because the vertex was known to be far from the body.
     pub skipped: u64,
-}
-
-/// A time span divided into small steps, and how many of them are done.
-#[derive(Clone, Debug)]
-pub struct Advance {
-    /// Size of a small step, s.
-    small: f64,
-    /// Number of small steps.
-    count: usize,
-    /// Small steps done.
-    done: usize,
-    /// Velocity change by bending in each small step, m/s, for every vertex, while the bending force is held constant.
-    bent: Vec<DVec3>,
-    /// Positions before the current small step.
-    before: Vec<DVec3>,
-}
-
-impl Advance {
-    /// A span of `h` seconds in `count` small steps.
-    pub fn new(h: f64, count: usize) -> Self {
-        Self { small: h / count as f64, count, done: 0, bent: Vec::new(), before: Vec::new() }
-    }
-
-    /// Whether all small steps are done.
-    pub fn is_done(&self) -> bool {
-        self.done == self.count
-    }
 }
 
 /// Drag constraint: a spring that pulls one vertex towards a target.
@@ -475,6 +449,15 @@ impl SmallSteps {
         separation.truncate(x);
     }
 
+    /// Whether the cloth at `x` is known to cross neither itself nor the body; looks where that is not known.
+    pub fn is_clean(&mut self, x: &[DVec3], collider: &Collider) -> bool {
+        let Some(separation) = &mut self.separation else { return false };
+        if !separation.is_clean() {
+            separation.detect(x, |_| REACH.0, |v| collider.surface.contains(x[v]));
+        }
+        separation.is_clean()
+    }
+
     /// Moves the vertices at `x` by `ways`, metres, truncated so that no new intersection arises.
     pub fn send(&mut self, x: &mut [DVec3], collider: &Collider, ways: &[DVec3]) {
         if let Some(separation) = &mut self.separation {
@@ -501,6 +484,11 @@ impl SmallSteps {
         let share = self.inverse_mass[v] / (self.inverse_mass[v] + softness);
         let most = hand.most * self.inverse_mass[v] * small * small;
         x[v] += ((hand.target - x[v]) * share).clamp_length_max(most);
+    }
+
+    /// Whether nothing acts on the cloth besides springs, bending, a hand, contact and [`Surroundings`].
+    pub fn is_plain(&self) -> bool {
+        self.ties.is_empty() && self.fastened.is_empty() && self.folds.is_empty() && self.bands.is_empty()
     }
 
     /// Velocity at the end of the step, m/s: `v` of the state lags by half a small step, which gravity makes up for.

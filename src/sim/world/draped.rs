@@ -147,6 +147,7 @@ impl World {
         let Some(worn) = &mut draping.worn else { return };
         let gone_on = worn.go_on(Arc::make_mut(&mut self.cloth));
         self.separated = self.separated.and(worn.take_separation());
+        self.moved_by_card |= worn.was_on_card();
         match gone_on {
             Ok(true) => {}
             Ok(false) => return,
@@ -190,7 +191,10 @@ impl World {
             &held,
             settings,
         )?;
-        Arc::make_mut(draping).worn = Some(worn);
+        Arc::make_mut(draping).worn = Some(match &self.card {
+            Some(slot) => worn.with_card(slot),
+            None => worn,
+        });
         (self.dressing, self.splits, self.posed) = (None, None, None);
         self.was_draped = true;
         Ok(())
@@ -268,6 +272,7 @@ impl World {
             speed: progress.map_or(0.0, |p| p.speed),
             ticks: progress.map_or(0, |p| p.ticks),
             substeps: draping.worn.as_ref().map_or(0, DrapedGarment::substeps),
+            card: draping.worn.as_ref().is_some_and(DrapedGarment::was_on_card),
         })
     }
 }

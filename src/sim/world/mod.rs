@@ -13,6 +13,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use crate::body::Surface;
+use crate::card::CardSlot;
 use crate::cloth::{self, Carry, ClothState, Counters, FlatPiece, Garment, Skip};
 use crate::contact::{Bone, Bones, Splits, separation};
 use crate::drag::{DragMode, Dragging, Ray};
@@ -85,6 +86,10 @@ pub struct World {
     pub started: Option<Arc<Started>>,
     /// Work counters of collision in sewing and draping.
     pub separated: separation::Counters,
+    /// Graphics card to drape on, if any.
+    pub card: Option<Arc<CardSlot>>,
+    /// Whether a graphics card has moved the cloth: it is then not the same on every machine.
+    pub moved_by_card: bool,
 }
 
 impl Default for World {
@@ -115,6 +120,8 @@ impl Default for World {
             trials: None,
             started: None,
             separated: separation::Counters::default(),
+            card: None,
+            moved_by_card: false,
         }
     }
 }

@@ -28,6 +28,8 @@ use std::sync::Arc;
 
 use egui::ViewportCommand;
 
+use crate::card::CardSlot;
+use crate::drape::garment::on_card::LEAST_TRIANGLES;
 use crate::geometry::ids::MarkId;
 use crate::render::Camera;
 use crate::session::{Command, GestureId, Notice, Project, Session};
@@ -111,6 +113,8 @@ pub struct App {
     pub(in crate::ui) dark: bool,
     /// Measures the speed of the window and of the simulation.
     pub(in crate::ui) pacer: Pacer,
+    /// The graphics card that large garments are draped on.
+    card: Arc<CardSlot>,
     title: String,
     pub(in crate::ui) frames: u64,
 }
@@ -161,6 +165,7 @@ impl App {
             scenery: Scenery::default(),
             dark: false,
             pacer: Pacer::default(),
+            card: Arc::new(CardSlot::new(false, LEAST_TRIANGLES)),
             title: String::new(),
             frames: 0,
         })
@@ -188,6 +193,12 @@ impl App {
         self.live_by_preferences(ctx);
     }
 
+    /// Lets the session drape on the graphics card if the user wants that, and no recording is written whose hashes it would cost.
+    pub(super) fn use_card(&mut self) {
+        let wanted = self.preferences.card.0 && !self.session.recorder().has_file();
+        self.session.use_card(wanted.then(|| Arc::clone(&self.card)));
+    }
+
     /// Shows an error message.
     pub fn warn(&mut self, words: &str) {
         self.messages.error(words);
@@ -195,7 +206,9 @@ impl App {
 
     /// Also writes the recording, from the beginning on, to `file`.
     pub fn record_to(&mut self, file: std::fs::File) -> std::io::Result<()> {
-        self.session.recorder().also_to(file)
+        self.session.recorder().also_to(file)?;
+        self.use_card();
+        Ok(())
     }
 
     /// Number of frames drawn.
@@ -251,7 +264,10 @@ impl App {
     /// Replaces the project by `project`.
     pub(in crate::ui) fn replace(&mut self, project: Project, path: Option<PathBuf>) {
         match runner(&self.wakeup, DEFAULT_RATE_HZ) {
-            Ok(runner) => self.session = Session::new(project, runner),
+            Ok(runner) => {
+                self.session = Session::new(project, runner);
+                self.use_card();
+            }
             Err(e) => return self.messages.error(format!("The simulation could not be started: {e}")),
         }
         self.on_disk = path.as_deref().and_then(files::OnDisk::of);

@@ -195,7 +195,8 @@ impl App {
         }
     }
 
-    pub(in crate::ui) fn live_by_preferences(&self, ctx: &egui::Context) {
+    pub(in crate::ui) fn live_by_preferences(&mut self, ctx: &egui::Context) {
+        self.use_card();
         ctx.set_theme(egui::ThemePreference::from(self.preferences.theme));
         ctx.set_zoom_factor(self.preferences.scale.factor());
     }

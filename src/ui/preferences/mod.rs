@@ -54,6 +54,9 @@ pub struct Preferences {
     /// Interval of copies of unsaved work.
     #[serde(deserialize_with = "or_default")]
     pub copies: Copies,
+    /// Whether large garments are draped on the graphics card.
+    #[serde(deserialize_with = "or_default")]
+    pub card: UsesCard,
     /// Keyboard shortcuts.
     #[serde(deserialize_with = "or_default")]
     pub keymap: Arc<Keymap>,
@@ -147,6 +150,17 @@ impl Copies {
     /// The interval, limited to 5..=600 s.
     pub fn seconds(self) -> f64 {
         f64::from(self.0.clamp(5, 600))
+    }
+}
+
+/// Whether large garments are draped on the graphics card.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct UsesCard(pub bool);
+
+impl Default for UsesCard {
+    fn default() -> Self {
+        Self(true)
     }
 }
 

@@ -274,6 +274,12 @@ fn general_ui(ui: &mut egui::Ui, preferences: &mut Preferences, palette: &Palett
             });
             combo_name(&shown.response, "Copies of unsaved work", &words(preferences.copies.0));
             ui.end_row();
+            ui.label("Large garments");
+            ui.checkbox(&mut preferences.card.0, "Drape on the graphics card").on_hover_text(
+                "Where there is one. As accurate as on the processor, but not the same in every last digit on every \
+                 machine: recordings then tell no hashes of the cloth.",
+            );
+            ui.end_row();
         });
         ui.add_space(6.0);
         let tip =

@@ -77,7 +77,10 @@ fn phase_words(now: &FrameContext) -> String {
 /// State of draping in words: the residual force as a fraction of the cloth's weight.
 fn drape_words(drape: Option<DrapeState>) -> String {
     match drape {
-        Some(drape) if drape.runs => format!("Draping: {:.1} % out of balance", drape.residual * 100.0),
+        Some(drape) if drape.runs => {
+            let place = if drape.card { " on the graphics card" } else { "" };
+            format!("Draping{place}: {:.1} % out of balance", drape.residual * 100.0)
+        }
         Some(drape) if !drape.on => "Draping paused".to_owned(),
         _ => "Draped, at rest".to_owned(),
     }

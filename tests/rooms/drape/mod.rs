@@ -2,6 +2,7 @@
 
 mod bends;
 mod capstan;
+mod card;
 mod crossings;
 mod cusick;
 mod elastic;
