@@ -10,7 +10,7 @@ use crate::pack::words;
 use crate::pattern::{Pattern, Piece, Trims};
 
 /// Scales that are used, and their tenfolds: of 1 to each.
-const SCALES: [f64; 8] = [1.0, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0];
+const SCALES: [f64; 9] = [1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0];
 /// Millimetres in a metre.
 const MM: f64 = 1000.0;
 /// Space between drawings, millimetres.
@@ -156,18 +156,28 @@ fn placed(sketches: &[Sketch], ratio: f64, room: DVec2, (least, lines): (f64, f6
     Some(pages)
 }
 
-/// The largest scale, of 1 to the number given, at which the drawings fit `most` pages.
-fn scaled(sketches: &[Sketch], room: DVec2, cell: (f64, f64), most: usize) -> Option<(f64, Places)> {
-    let ratios = (0..7).flat_map(|tens| SCALES.map(|scale| scale * 10.0_f64.powi(tens)));
+/// The first of `ratios` at which the drawings fit `most` pages, where one does.
+fn scaled(
+    sketches: &[Sketch],
+    ratios: impl Iterator<Item = f64>,
+    room: DVec2,
+    cell: (f64, f64),
+    most: usize,
+) -> Option<(f64, Places)> {
     let fits = |ratio: f64| Some((ratio, placed(sketches, ratio, room, cell)?));
     ratios.filter_map(fits).find(|(_, pages)| pages.len() <= most)
+}
+
+/// Scales that are round numbers, from large to small.
+fn round() -> impl Iterator<Item = f64> {
+    (0..7).flat_map(|tens| SCALES.map(|scale| scale * 10.0_f64.powi(tens)))
 }
 
 /// Draws all pieces on pages of their own.
 pub fn pages(flow: &mut Flow, sketches: &[Sketch]) {
     let most = sketches.len().div_ceil(ON_A_PAGE).max(1);
     let room = ROOM - DVec2::Y * 24.0;
-    let Some((ratio, pages)) = scaled(sketches, room, (LEAST, 3.0), most) else {
+    let Some((ratio, pages)) = scaled(sketches, round(), room, (LEAST, 3.0), most) else {
         return flow.words("The pieces are too large to be drawn.", Ink::Grey);
     };
     for (k, page) in pages.iter().enumerate() {
@@ -186,19 +196,23 @@ pub fn pages(flow: &mut Flow, sketches: &[Sketch]) {
     }
 }
 
-/// Draws all pieces small in a strip of this height; false where they do not fit it.
-pub fn overview(flow: &mut Flow, sketches: &[Sketch], height: f64) -> bool {
-    let room = DVec2::new(ROOM.x, height - 4.0);
-    let Some((ratio, pages)) = scaled(sketches, room, (14.0, 1.0), 1) else { return false };
-    let corner = flow.strip(height);
+/// Draws all pieces small in a strip of at most this height; false where they do not fit it.
+pub fn overview(flow: &mut Flow, sketches: &[Sketch], most: f64) -> bool {
+    let (least, room) = (14.0, DVec2::new(ROOM.x, most));
+    let any = std::iter::successors(Some(2.0), |ratio| Some(ratio * 1.05)).take(300);
+    let Some((ratio, pages)) = scaled(sketches, any, room, (least, 1.0), 1) else { return false };
+    let below = |&(i, at): &(usize, DVec2)| at.y + sketches[i].on_paper(ratio).y + LINE;
+    let corner = flow.strip(pages[0].iter().map(below).fold(0.0, f64::max) + 4.0);
     for &(i, at) in &pages[0] {
         let own = sketches[i].on_paper(ratio);
-        let cell = own.x.max(14.0);
+        let cell = own.x.max(least);
         let plain = Sketch { seams: Vec::new(), ..sketches[i].clone() };
         draw(flow, &plain, ratio, corner + at + DVec2::X * (cell - own.x) / 2.0);
         let name = flow.letters().cut(&sketches[i].name, NAME, cell + GAP - 1.0);
-        let middle = corner + at + DVec2::new(cell / 2.0, own.y + LINE);
-        flow.centred(middle, NAME, &name, Ink::Black);
+        let width = flow.letters().width(&name, NAME);
+        // A wide name does not stand out at the left.
+        let middle = (at.x + cell / 2.0).max(width / 2.0);
+        flow.centred(corner + DVec2::new(middle, at.y + own.y + LINE), NAME, &name, Ink::Black);
     }
     true
 }
@@ -225,8 +239,8 @@ fn legend(flow: &mut Flow, sketches: &[Sketch], page: &[(usize, DVec2)]) {
 
 /// A bar of a round length, above the right corner of the drawings.
 fn scale_bar(flow: &mut Flow, ratio: f64, corner: DVec2) {
-    let lengths = (0..7).flat_map(|tens| [0.01, 0.02, 0.05].map(|m| m * 10.0_f64.powi(tens)));
-    let length = lengths.filter(|m| m * MM / ratio <= 40.0).last().unwrap_or(0.01);
+    let mut lengths = (0..7).flat_map(|tens| [0.01, 0.02, 0.05].map(|m| m * 10.0_f64.powi(tens)));
+    let length = lengths.rfind(|m| m * MM / ratio <= 40.0).unwrap_or(0.01);
     let right = corner + DVec2::new(ROOM.x, -16.0);
     let left = right - DVec2::X * (length * MM / ratio);
     flow.rule([left, right], Ink::Black, 0.3);
@@ -311,8 +325,8 @@ fn seam_numbers(flow: &mut Flow, sketch: &Sketch, place: impl Fn(DVec2) -> DVec2
     let mut taken: Vec<DVec2> = Vec::new();
     for (seam, points) in &sketch.seams {
         let is_free = |p: &DVec2| taken.iter().all(|other| other.distance(*p) > 2.2 * CIRCLE);
-        let places = TRIED.iter().filter_map(|&i| points.get(i)).map(|&p| place(p));
-        let Some(at) = places.filter(|p| is_free(p)).next() else { continue };
+        let mut places = TRIED.iter().filter_map(|&i| points.get(i)).map(|&p| place(p));
+        let Some(at) = places.find(|p| is_free(p)) else { continue };
         taken.push(at);
         let points = circle(at, CIRCLE);
         flow.mark(Mark::Fill { points: points.clone(), ink: Ink::Own([255; 3]) });
@@ -368,7 +382,7 @@ mod tests {
     #[test]
     fn a_drawing_is_to_the_scale_that_is_told() {
         let (ratio, places) =
-            scaled(&sketches(1, 0.7), DVec2::new(180.0, 230.0), (27.0, 3.0), 1).expect("a scale");
+            scaled(&sketches(1, 0.7), round(), DVec2::new(180.0, 230.0), (27.0, 3.0), 1).expect("a scale");
         assert_eq!((ratio, places[0].len()), (4.0, 1));
         assert!((sketches(1, 0.7)[0].on_paper(ratio).x - 175.0).abs() < 1e-9);
     }

@@ -8,6 +8,7 @@ use crate::fit::{self, BodyIndex, Opening};
 use crate::geometry::polygon::signed_area;
 use crate::io::cutting_line;
 use crate::marker::{MarkerError, WIDEST};
+use crate::pack::alike::{Cut, Likeness};
 use crate::pack::cloths::{Cloth, Colourway, Taken, Wish, cloths, colourways};
 use crate::pack::seams::SeamRow;
 use crate::pack::shape::{Front, size_of};
@@ -30,7 +31,7 @@ pub struct Source<'a> {
     pub outfit: Option<&'a Outfit>,
 }
 
-/// A piece, or two that are mirror images of each other.
+/// A piece, or several that are cut alike or as mirror images.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PieceRow {
     /// Numbers of the pieces.
@@ -39,8 +40,8 @@ pub struct PieceRow {
     pub names: Vec<String>,
     /// How many are cut for a garment.
     pub cut: usize,
-    /// Whether the second of them is the mirror image of the first.
-    pub mirrored: bool,
+    /// How many of these are mirror images of the first.
+    pub mirrored: usize,
     /// Number of its cloth in [`Pack::cloths`], from 0.
     pub cloth: usize,
     /// Angle of the grain from upright in the drawing, counter-clockwise, degrees, above -90 and at most 90.
@@ -131,7 +132,7 @@ impl Pack {
 
     /// The cloth that is needed, in a few lines, for people.
     pub fn words(&self) -> Vec<String> {
-        let line = |cloth: &Cloth, taken: &Taken| {
+        let line = |i: usize, cloth: &Cloth, taken: &Taken| {
             let size = if taken.size.is_empty() { String::new() } else { format!(", size {}", taken.size) };
             let needed = match (taken.length, taken.yield_percent, &taken.why) {
                 (Some(length), Some(percent), _) => {
@@ -139,10 +140,10 @@ impl Pack {
                 }
                 (_, _, why) => why.clone().unwrap_or_default(),
             };
-            format!("{}{size}: {needed}", cloth.fabric)
+            format!("cloth {} ({}){size}: {needed}", self.cloth_name(i), cloth.fabric)
         };
-        let lines = |cloth: &'_ Cloth| cloth.taken.iter().map(|taken| line(cloth, taken)).collect::<Vec<_>>();
-        self.cloths.iter().flat_map(lines).collect()
+        let all = self.cloths.iter().enumerate();
+        all.flat_map(|(i, cloth)| cloth.taken.iter().map(move |taken| line(i, cloth, taken))).collect()
     }
 
     /// Name of the cloth with this number, for people.
@@ -159,21 +160,26 @@ fn openings(outfit: &Outfit) -> Vec<Opening> {
 
 fn piece_rows(pattern: &Pattern, cloths: &[Cloth]) -> Vec<PieceRow> {
     let cloth = |id: u32| cloths.iter().position(|cloth| cloth.pieces.contains(&id)).unwrap_or(0);
-    let mut rows: Vec<PieceRow> = Vec::new();
+    let mut rows: Vec<(PieceRow, Cut)> = Vec::new();
     for (&id, piece) in &pattern.pieces {
-        let twin = piece.twin.map(|twin| twin.0);
-        let pair = |row: &&mut PieceRow| {
-            row.pieces.len() == 1 && twin == Some(row.pieces[0]) && row.cloth == cloth(id.0)
+        let (own, cloth) = (Cut::of(piece), cloth(id.0));
+        let likeness = |(row, cut): &(PieceRow, Cut)| {
+            let is_twin = piece.twin.is_some_and(|twin| row.pieces.first() == Some(&twin.0));
+            let alike = if is_twin { Some(Likeness::Mirrored) } else { cut.likeness(&own) };
+            alike.filter(|_| row.cloth == cloth)
         };
-        if let Some(row) = rows.iter_mut().find(pair) {
-            row.pieces.push(id.0);
-            row.names.push(piece.name.clone());
-            (row.cut, row.mirrored) = (2, true);
+        let found = rows.iter().enumerate().find_map(|(k, row)| Some((k, likeness(row)?)));
+        let Some((k, likeness)) = found else {
+            rows.push((piece_row(id.0, piece, cloth), own));
             continue;
-        }
-        rows.push(piece_row(id.0, piece, cloth(id.0)));
+        };
+        let row = &mut rows[k].0;
+        row.pieces.push(id.0);
+        row.names.push(piece.name.clone());
+        row.cut += 1;
+        row.mirrored += usize::from(likeness == Likeness::Mirrored);
     }
-    rows
+    rows.into_iter().map(|(row, _)| row).collect()
 }
 
 fn piece_row(id: u32, piece: &Piece, cloth: usize) -> PieceRow {
@@ -191,7 +197,7 @@ fn piece_row(id: u32, piece: &Piece, cloth: usize) -> PieceRow {
         pieces: vec![id],
         names: vec![piece.name.clone()],
         cut: 1,
-        mirrored: false,
+        mirrored: 0,
         cloth,
         grain_degrees: upright,
         has_grainline: piece.grainline.is_some(),
@@ -231,7 +237,7 @@ fn notes(pattern: &Pattern, outfit: Option<&Outfit>, measures: &[SizeRow]) -> Ve
         );
     }
     for size in measures {
-        notes.extend(size.problems.iter().map(|problem| format!("Size {}: {problem}", size.size)));
+        notes.extend(size.problems.iter().cloned());
     }
     notes
 }
@@ -264,19 +270,21 @@ mod tests {
     }
 
     #[test]
-    fn twins_are_one_row_of_two_that_are_mirrored() {
+    fn twins_and_copies_are_one_row() {
         let mut pattern = Pattern::default();
         let front = pattern.add_piece(Piece { allowance: 0.01, ..square("front") });
-        let left = pattern.add_piece(square("left"));
-        let right = pattern.add_piece(Piece { twin: Some(left), ..square("right") });
+        let mut sleeve = square("left");
+        sleeve.outline[1].start.x += 0.1;
+        let left = pattern.add_piece(sleeve.clone());
+        let right = pattern.add_piece(Piece { twin: Some(left), name: "right".to_owned(), ..sleeve });
         Arc::make_mut(pattern.pieces.get_mut(&left).expect("a piece")).twin = Some(right);
+        pattern.add_piece(Piece { allowance: 0.01, ..square("back") });
         let pack = of(pattern).expect("contents");
         let rows: Vec<_> =
             pack.pieces.iter().map(|row| (row.names.join(" "), row.cut, row.mirrored)).collect();
-        assert_eq!(rows, [("front".to_owned(), 1, false), ("left right".to_owned(), 2, true)]);
-        assert_eq!(pack.pieces[0].pieces, [front.0]);
-        assert!(pack.notes[0].starts_with("2 of 3 pieces have no seam allowance"), "{:?}", pack.notes);
-        assert!(pack.pieces[0].area > 0.1 && pack.pieces[1].area < 0.0901);
+        assert_eq!(rows, [("front back".to_owned(), 2, 0), ("left right".to_owned(), 2, 1)]);
+        assert_eq!(pack.pieces[0].pieces[0], front.0);
+        assert!(pack.notes[0].starts_with("2 of 4 pieces have no seam allowance"), "{:?}", pack.notes);
         assert_eq!(of(Pattern::default()).expect_err("none"), MarkerError::Empty);
     }
 

@@ -67,6 +67,20 @@ impl Table {
     }
 }
 
+impl Table {
+    /// It without the columns in which there is nothing.
+    fn without_empty(&self) -> Self {
+        let is_filled =
+            |k: &usize| self.rows.iter().any(|row| row.get(*k).is_some_and(|cell| *cell != Cell::default()));
+        let kept: Vec<usize> = (0..self.columns.len()).filter(is_filled).collect();
+        let row = |row: &Vec<Cell>| kept.iter().filter_map(|&k| row.get(k).cloned()).collect();
+        Self {
+            columns: kept.iter().map(|&k| self.columns[k].clone()).collect(),
+            rows: self.rows.iter().map(row).collect(),
+        }
+    }
+}
+
 /// Pages in the making.
 #[derive(Debug)]
 pub struct Flow {
@@ -175,23 +189,28 @@ impl Flow {
         self.y += 0.6;
     }
 
-    /// Pictures side by side in a strip of this height, each with its title below.
-    pub fn pictures(&mut self, height: f64, pictures: &[(String, Arc<RgbaImage>)]) {
-        let at = self.strip(height);
+    /// Pictures side by side in a strip of at most this height, each with its title below.
+    pub fn pictures(&mut self, most: f64, pictures: &[(String, Arc<RgbaImage>)]) {
         let width = ROOM.x / pictures.len().max(1) as f64;
-        for (i, (title, picture)) in pictures.iter().enumerate() {
-            let room = DVec2::new(width - 4.0, height - 6.0);
+        let room = DVec2::new(width - 4.0, most - 6.0);
+        let on_page = |picture: &RgbaImage| {
             let own = DVec2::new(f64::from(picture.width()), f64::from(picture.height()));
-            let size = own * (room / own.max(DVec2::ONE)).min_element();
+            own * (room / own.max(DVec2::ONE)).min_element()
+        };
+        let tallest = pictures.iter().map(|(_, picture)| on_page(picture).y).fold(0.0, f64::max);
+        let at = self.strip(tallest + 6.0);
+        for (i, (title, picture)) in pictures.iter().enumerate() {
+            let size = on_page(picture);
             let middle = at + DVec2::X * width * (i as f64 + 0.5);
-            let corner = middle + DVec2::new(-size.x / 2.0, (room.y - size.y) / 2.0);
+            let corner = middle + DVec2::new(-size.x / 2.0, tallest - size.y);
             self.mark(Mark::Picture { picture: Arc::clone(picture), at: corner, size });
-            self.centred(middle + DVec2::Y * (height - 1.5), TEXT, title, Ink::Grey);
+            self.centred(middle + DVec2::Y * (tallest + 4.5), TEXT, title, Ink::Grey);
         }
     }
 
-    /// A table; its titles are repeated on each page that it goes on to.
+    /// A table; its titles are repeated on each page that it goes on to, and columns in which there is nothing are left out.
     pub fn table(&mut self, table: &Table) {
+        let table = &table.without_empty();
         let widths = widths(&self.letters, table);
         self.need(20.0);
         self.titles(table, &widths);
@@ -212,7 +231,7 @@ impl Flow {
             let words = format!("{} more rows are left out here.", table.rows.len() - MOST_ROWS);
             self.words(&words, Ink::Grey);
         }
-        self.y += 1.5;
+        self.y += 3.0;
     }
 
     fn cell_lines(&self, cell: &Cell, width: f64) -> Vec<String> {
@@ -346,12 +365,11 @@ mod tests {
     }
 
     fn texts(page: &[Mark]) -> Vec<&str> {
-        let words = |mark: &'_ Mark| matches!(mark, Mark::Words { .. });
-        let text = |mark: &'_ Mark| -> Option<&str> {
-            let Mark::Words { words, .. } = mark else { return None };
-            Some(words)
-        };
-        page.iter().filter(|mark| words(mark)).filter_map(text).collect()
+        let texts = page.iter().filter_map(|mark| match mark {
+            Mark::Words { words, .. } => Some(words.as_str()),
+            _ => None,
+        });
+        texts.collect()
     }
 
     #[test]

@@ -5,6 +5,7 @@
 //! | `facts` | the contents, measured on pattern and dressed garment, for people and programs |
 //! | `cloths` | the cloths that the pieces are cut from, colourways, and how much of each is needed |
 //! | `seams` | which edges are sewn to which, their lengths and ease |
+//! | `alike` | pieces that are cut alike, or as mirror images |
 //! | `trims` | buttons, zips, elastic, folds, stitches, hems and graphics |
 //! | `sizes` | pieces and seams measured in every size |
 //! | `words` | numbers and names as they are written |
@@ -15,6 +16,7 @@
 //!
 //! Lengths are metres in the contents, millimetres on the pages.
 
+mod alike;
 mod cloths;
 mod drawing;
 mod facts;

@@ -43,7 +43,9 @@ pub fn trims(pattern: &Pattern, artwork: &Artwork) -> Vec<TrimRow> {
     for (&id, piece) in &pattern.pieces {
         let mut own = Rows { id, piece, rows: Vec::new() };
         for edge in 0..piece.edge_count() {
-            own.along(piece.edge(edge).trims, format!("edge {edge}"), || piece.edge_length(edge));
+            let label = piece.edge(edge).label.as_deref().map(str::trim).filter(|label| !label.is_empty());
+            let place = label.map_or_else(|| format!("edge {edge}"), words::name);
+            own.along(piece.edge(edge).trims, place, || piece.edge_length(edge));
         }
         for (k, line) in piece.lines.iter().enumerate() {
             for (i, edge) in line.edges.iter().enumerate() {
@@ -182,7 +184,7 @@ pub fn supplies(pattern: &Pattern, trims: &[TrimRow]) -> Vec<Supply> {
         supplies.push(Supply { what, count: Some(1), length, colour: Some(zip.colour) });
     }
     let mut elastic = 0.0;
-    for (_, piece) in &pattern.pieces {
+    for piece in pattern.pieces.values() {
         let edges = (0..piece.edge_count())
             .filter_map(|i| Some(piece.edge(i).trims.elastic?.ratio * piece.edge_length(i)));
         let lines = piece.lines.iter().flat_map(|line| {
@@ -196,7 +198,7 @@ pub fn supplies(pattern: &Pattern, trims: &[TrimRow]) -> Vec<Supply> {
         supplies.push(Supply { what, count: None, length: Some(elastic), colour: None });
     }
     for row in trims.iter().filter(|row| row.what == "topstitching") {
-        let what = "seam lines with topstitching in this thread".to_owned();
+        let what = "topstitching in this thread, length of its lines".to_owned();
         add(&mut supplies, Supply { what, count: None, length: row.length, colour: row.colour });
     }
     supplies

@@ -130,7 +130,7 @@ fn cloth_row(pack: &Pack, letter: String, cloth: &Cloth) -> Vec<Cell> {
         cloth.print.clone().or_else(|| Some(format!("image {}", words::name(cloth.image.as_ref()?))));
     let colour = match cloth.colour {
         Some(colour) => Cell { words: words::colour(colour), swatch: Some(colour) },
-        None => NONE.into(),
+        None => "not chosen".into(),
     };
     let density =
         cloth.density_kg_per_m2.map_or_else(|| NONE.to_owned(), |density| format!("{:.0}", density * 1e3));
@@ -139,7 +139,7 @@ fn cloth_row(pack: &Pack, letter: String, cloth: &Cloth) -> Vec<Cell> {
         letter.into(),
         words::name(&cloth.fabric).into(),
         colour,
-        printed.unwrap_or_else(|| NONE.to_owned()).into(),
+        printed.unwrap_or_default().into(),
         names_of(pack, &cloth.pieces).into(),
         density.into(),
         format!("{:.2}", cloth.area).into(),
@@ -166,26 +166,40 @@ fn needed(flow: &mut Flow, pack: &Pack) {
         &format!("Of cloth {:.2} m wide between its selvedges, {way}, 3 mm between pieces.", pack.width),
         Ink::Grey,
     );
-    let is_graded = !pack.sizes.is_empty();
-    let mut table = match is_graded {
-        true => Table::new(["Cloth", "Size", "#Length, m", "#In pieces, %", ""]),
-        false => Table::new(["Cloth", "#Length, m", "#In pieces, %", ""]),
-    };
-    let number = |value: Option<f64>, digits: usize| {
-        Cell::from(value.map_or_else(|| NONE.to_owned(), |value| format!("{value:.digits$}")))
-    };
+    let count = pack.cloths.iter().map(|cloth| cloth.taken.len()).max().unwrap_or(0);
+    for first in (0..count).step_by(SIZES) {
+        let sizes: Vec<usize> = (first..count.min(first + SIZES)).collect();
+        let titles: Vec<String> = match pack.sizes.is_empty() {
+            true => vec!["#Length, and what of it is in pieces".to_owned()],
+            false => sizes.iter().map(|&k| format!("#{}", words::name(&pack.sizes[k]))).collect(),
+        };
+        let mut table = Table::new(std::iter::once("Cloth").chain(titles.iter().map(String::as_str)));
+        let row = |(i, cloth): (usize, &Cloth)| -> Vec<Cell> {
+            let name = format!("{} {}", pack.cloth_name(i), words::name(&cloth.fabric));
+            std::iter::once(name.into())
+                .chain(sizes.iter().map(|&k| length(&cloth.taken[k]).into()))
+                .collect()
+        };
+        table.rows = pack.cloths.iter().enumerate().map(row).collect();
+        flow.table(&table);
+    }
     for (i, cloth) in pack.cloths.iter().enumerate() {
-        for Taken { size, length, yield_percent, why } in &cloth.taken {
-            let mut row = vec![Cell::from(format!("{} {}", pack.cloth_name(i), words::name(&cloth.fabric)))];
-            if is_graded {
-                row.push(words::name(size).into());
+        let mut told: Vec<&str> = Vec::new();
+        for why in cloth.taken.iter().filter_map(|taken| taken.why.as_deref()) {
+            if !told.contains(&why) {
+                told.push(why);
+                flow.item(&format!("Cloth {}: {}.", pack.cloth_name(i), words::line(why)));
             }
-            row.extend([number(*length, 2), number(*yield_percent, 1)]);
-            row.push(why.as_deref().map(words::line).unwrap_or_default().into());
-            table.rows.push(row);
         }
     }
-    flow.table(&table);
+}
+
+/// Length of cloth, and the share of it that is in pieces.
+fn length(taken: &Taken) -> String {
+    match (taken.length, taken.yield_percent) {
+        (Some(length), Some(percent)) => format!("{length:.2} m, {percent:.0} %"),
+        _ => NONE.to_owned(),
+    }
 }
 
 /// Girths and openings of the dressed garment.
@@ -210,12 +224,12 @@ fn fit(flow: &mut Flow, pack: &Pack) {
         flow.table(&table);
     }
     if !pack.openings.is_empty() {
-        let mut table =
-            Table::new(["Opening (hem, neck, cuff)", "#Round as worn, cm", "#Height above the floor, cm"]);
-        let row = |(i, opening): (usize, &crate::fit::Opening)| -> Vec<Cell> {
-            vec![(i + 1).to_string().into(), cm(opening.length).into(), cm(opening.height).into()]
+        let mut table = Table::new(["Opening (hem, neck, cuff)", "#Round as worn, cm"]);
+        let row = |opening: &crate::fit::Opening| -> Vec<Cell> {
+            let place = format!("{} cm above the floor", cm(opening.height));
+            vec![place.into(), cm(opening.length).into()]
         };
-        table.rows = pack.openings.iter().enumerate().map(row).collect();
+        table.rows = pack.openings.iter().map(row).collect();
         flow.table(&table);
     }
 }
@@ -224,20 +238,34 @@ fn fit(flow: &mut Flow, pack: &Pack) {
 fn grain(row: &PieceRow) -> String {
     let degrees = row.grain_degrees;
     let near = |angle: f64| (degrees.abs() - angle).abs() <= ANGLE;
-    let words = match () {
-        () if near(0.0) => "upright".to_owned(),
-        () if near(90.0) => "across".to_owned(),
-        () if near(45.0) => "bias".to_owned(),
-        () => format!("{:.0}° to the {}", degrees.abs(), if degrees > 0.0 { "left" } else { "right" }),
+    let words = if near(0.0) {
+        "upright".to_owned()
+    } else if near(90.0) {
+        "across".to_owned()
+    } else if near(45.0) {
+        "bias".to_owned()
+    } else {
+        format!("{:.0}° to the {}", degrees.abs(), if degrees > 0.0 { "left" } else { "right" })
     };
     if row.has_grainline { words } else { format!("{words}, not drawn") }
 }
 
-/// What is worked on a piece, each once: "elastic, 3 buttons".
+/// What is worked on the pieces of a row, where they differ piece by piece.
 fn worked(pack: &Pack, row: &PieceRow) -> String {
+    let all: Vec<String> = row.pieces.iter().map(|piece| worked_on(pack, *piece)).collect();
+    match all.iter().all(|words| *words == all[0]) {
+        true => all.into_iter().next().unwrap_or_default(),
+        false => {
+            let each = row.names.iter().zip(&all).filter(|(_, words)| !words.is_empty());
+            each.map(|(name, words)| format!("{}: {words}", words::name(name))).collect::<Vec<_>>().join("; ")
+        }
+    }
+}
+
+/// What is worked on a piece, each once: "elastic, 3 buttons".
+fn worked_on(pack: &Pack, piece: u32) -> String {
     let mut all: Vec<(&str, usize)> = Vec::new();
-    let Some(first) = row.pieces.first() else { return String::new() };
-    for trim in pack.trims.iter().filter(|trim| trim.piece == *first) {
+    for trim in pack.trims.iter().filter(|trim| trim.piece == piece) {
         let places = if trim.length.is_none() { trim.places.len() } else { 0 };
         match all.iter_mut().find(|(what, _)| *what == trim.what) {
             Some((_, known)) => *known += places,
@@ -279,7 +307,11 @@ fn pieces(flow: &mut Flow, pack: &Pack) {
             numbers.join(", ").into(),
             names.join(", ").into(),
             row.cut.to_string().into(),
-            if row.mirrored { "mirrored" } else { "" }.into(),
+            match row.mirrored {
+                0 => "".into(),
+                1 if row.cut == 2 => "a pair".into(),
+                mirrored => format!("{mirrored} mirrored").into(),
+            },
             pack.cloth_name(row.cloth).into(),
             grain(row).into(),
             format!("{} × {}", cm(row.size[0]), cm(row.size[1])).into(),
@@ -290,14 +322,6 @@ fn pieces(flow: &mut Flow, pack: &Pack) {
         ]
     };
     table.rows = pack.pieces.iter().map(row).collect();
-    // Columns in which there is nothing take no room.
-    for title in ["", "Worked"] {
-        let Some(k) = table.columns.iter().position(|(own, _)| own == title) else { continue };
-        if table.rows.iter().all(|row| row[k].words.is_empty()) {
-            table.columns.remove(k);
-            table.rows.iter_mut().for_each(|row| drop(row.remove(k)));
-        }
-    }
     flow.table(&table);
     flow.words(
         "Sizes are of the piece as it is drawn below, without allowance; areas are within the cutting line.",

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use glam::{UVec2, Vec3};
 use image::RgbaImage;
+use image::imageops::crop_imm;
 
 use crate::pack::Picture;
 use crate::render::{Camera, Look, Projection, RenderError, Scene, View};
@@ -26,10 +27,25 @@ pub fn front_and_back(
     let scene = portrait(scenery, session, Extras::default());
     let look = Look { cut_out: true, ..Look::light() };
     let cameras = cameras(&scene, &outfit);
-    let pictures = VIEWS.iter().zip(cameras).map(|(&(_, title), camera)| {
-        draw(&scene, &camera, &look, SIZE).map(|image| Picture { title, image: Arc::new(image) })
-    });
-    Some(pictures.collect())
+    let images = cameras.iter().map(|camera| draw(&scene, camera, &look, SIZE));
+    let images: Result<Vec<RgbaImage>, RenderError> = images.collect();
+    Some(images.map(|images| {
+        let titles = VIEWS.iter().map(|(_, title)| *title);
+        titles.zip(cropped(&images)).map(|(title, image)| Picture { title, image: Arc::new(image) }).collect()
+    }))
+}
+
+/// All images without the edges in which none of them shows anything.
+fn cropped(images: &[RgbaImage]) -> Vec<RgbaImage> {
+    let shown = || {
+        let pixels = images.iter().flat_map(|image| image.enumerate_pixels());
+        pixels.filter(|(.., pixel)| pixel.0[3] > 0).map(|(x, y, _)| UVec2::new(x, y))
+    };
+    let (Some(low), Some(high)) = (shown().reduce(UVec2::min), shown().reduce(UVec2::max)) else {
+        return images.to_vec();
+    };
+    let size = high - low + 1;
+    images.iter().map(|image| crop_imm(image, low.x, low.y, size.x, size.y).to_image()).collect()
 }
 
 /// Parallel cameras framed to the cloth. The clipping bounds include the whole body, which may be larger.
@@ -49,4 +65,21 @@ fn cameras(scene: &Scene, outfit: &Outfit) -> [Camera; 2] {
     });
     let distance = cameras.iter().map(|camera| camera.distance).fold(0.0, f32::max);
     cameras.map(|camera| Camera { distance, ..camera })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn edges_that_show_nothing_are_cut_off_alike() {
+        let mut one = RgbaImage::new(10, 8);
+        let mut other = one.clone();
+        one.put_pixel(2, 3, image::Rgba([9, 9, 9, 255]));
+        other.put_pixel(6, 4, image::Rgba([9, 9, 9, 1]));
+        let cropped = cropped(&[one, other]);
+        assert!(cropped.iter().all(|image| image.dimensions() == (5, 2)));
+        assert_eq!((cropped[0].get_pixel(0, 0).0[3], cropped[1].get_pixel(4, 1).0[3]), (255, 1));
+        assert_eq!(super::cropped(&[RgbaImage::new(3, 2)])[0].dimensions(), (3, 2));
+    }
 }
