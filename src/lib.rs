@@ -27,11 +27,12 @@
 //! | `draft`    | garments of our own, drawn from a seed and drafted to the mannequin's measurements: parts, designs, the corpus | body, pattern, geometry |
 //! | `io`       | obj, gltf, bvh; patterns as garmentcode json, dxf with grade rules, svg, pdf: bytes in, checked data out, and back | cloth, body, pattern, geometry |
 //! | `marker`   | all pieces of garments laid out on a width of cloth: nesting, yield and consumption, the files to cut from | io, pattern, geometry |
+//! | `pack`     | the tech pack: what a garment maker needs to know, measured, and its pages | session and below, marker |
 //! | `render`   | plain buffers in, pixels out: camera, passes, offscreen target | nothing of ours |
 //! | `trust`    | fuzz tests: files damaged at random, and the readers that must withstand them | session and below |
 //! | `manual`   | what the program does, topic by topic, for the window and the command line | nothing of ours |
-//! | `ui`       | egui: app, actions, panes, tools | session and below, place, marker, render, manual |
-//! | `cli`      | one file per subcommand: arguments, calls, printing | session and below, draft, place, marker, render, trust, manual, ui |
+//! | `ui`       | egui: app, actions, panes, tools | session and below, place, marker, pack, render, manual |
+//! | `cli`      | one file per subcommand: arguments, calls, printing | session and below, draft, place, marker, pack, render, trust, manual, ui |
 //!
 //! Invariants:
 //! - Metres, radians, seconds; right-handed, y up, bodies face +z. Pattern planes have y up, with the front of the cloth towards
@@ -40,7 +41,7 @@
 //! - `sim` never uses `session`: a request carries a garment source, never the document.
 //! - egui only in `ui`; wgpu only in `render`, `card` and `ui`; threads only in `sim::thread` (and rayon inside steps), and the one
 //!   that waits for signals in `cli::interrupt`.
-//! - No clock, no unseeded randomness, no hash-map iteration in `session`, `sim` or below, nor in `marker`.
+//! - No clock, no unseeded randomness, no hash-map iteration in `session`, `sim` or below, nor in `marker` and `pack`.
 //! - Same input, same bits, on any number of threads.
 //!
 //! `tests/tidy` checks these rules.
@@ -58,6 +59,7 @@ pub mod geometry;
 pub mod io;
 pub mod manual;
 pub mod marker;
+pub mod pack;
 pub mod pattern;
 pub mod place;
 pub mod relax;

@@ -41,6 +41,7 @@ mod sequence;
 mod simulate;
 mod size_report;
 mod sizes;
+mod techpack;
 mod texture_options;
 mod verdict;
 
@@ -94,6 +95,7 @@ fn carry_out(arguments: Arguments) -> Result<(), Failure> {
         }),
         Some(Task::Sizes(sizes)) => run::on_threads(sizes.threads, || sizes::sizes(&sizes)),
         Some(Task::Marker(marker)) => run::on_threads(marker.threads, || marker::marker(&marker)),
+        Some(Task::TechPack(pack)) => run::on_threads(pack.threads, || techpack::techpack(&pack)),
         Some(Task::Fit(fit)) => run::on_threads(fit.threads, || fit::fit(&fit)),
         Some(Task::Compare(compare)) => run::on_threads(compare.threads, || compare::compare(&compare)),
         Some(Task::Render(render)) => render::render(&render),

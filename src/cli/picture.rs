@@ -9,9 +9,11 @@ use image::imageops::thumbnail;
 use crate::cli::arguments::PictureOptions;
 use crate::cli::failure::Failure;
 use crate::cli::interrupt;
+use crate::pack::Picture;
 use crate::render::{Legend, Look, RenderError, Rgb, Studio, View, png, straightened};
 use crate::session::{Outfit, Session};
 use crate::ui::fit_page::FitPage;
+use crate::ui::scenery::front_and_back::front_and_back;
 use crate::ui::scenery::portrait::{Extras, portrait, worn_scene};
 use crate::ui::scenery::scene::Scenery;
 
@@ -53,6 +55,15 @@ impl Artist {
             .map_err(failure)?;
         }
         Ok(())
+    }
+
+    /// Draws the dressed garment of `session` from the front and from the back; nothing where there is none.
+    pub fn front_and_back(&mut self, session: &Session) -> Result<Vec<Picture>, Failure> {
+        let Self { studio, scenery } = self;
+        let pictures = front_and_back(session, scenery, |scene, camera, look, size| {
+            studio.draw(scene, camera, look, size).map(straightened)
+        });
+        pictures.unwrap_or_else(|| Ok(Vec::new())).map_err(failure)
     }
 
     /// Draws the body, the cloth and, where there is no cloth yet, the marks of `session`, as PNG.

@@ -31,6 +31,7 @@ mod simulate;
 mod sizes;
 mod starts;
 mod stopped;
+mod techpack;
 mod textures;
 mod thousand;
 mod trust;

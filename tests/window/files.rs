@@ -329,28 +329,55 @@ fn a_copy_a_next_version_and_the_way_back() {
     assert!(is(&window, "second") && !app(&window).session().is_modified());
 }
 
+/// Chooses `entry` of the file menu and types the path of the file to be written. False where the desktop has a dialog of its own.
+fn write_file(window: &mut Window, entry: &str, path: &Path) -> bool {
+    window.get_by_label("File").click();
+    window.run_steps(3);
+    window.get_by_label_contains(entry).click();
+    window.run_steps(3);
+    if window.query_by_label("Write").is_none() {
+        println!("skipped: this desktop may have a dialog of its own");
+        return false;
+    }
+    window.get_by_role(egui::accesskit::Role::TextInput).focus();
+    window.run_steps(2);
+    key(window, Modifiers::COMMAND, Key::A);
+    window.get_by_role(egui::accesskit::Role::TextInput).type_text(&path.display().to_string());
+    window.run_steps(2);
+    window.get_by_label("Write").click();
+    true
+}
+
 #[test]
 fn the_fit_report_is_written_where_it_is_asked_for() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("fit.html");
     let mut window = super::hand::dressed_window();
-    window.get_by_label("File").click();
-    window.run_steps(3);
-    window.get_by_label_contains("Fit report…").click();
-    window.run_steps(3);
-    if window.query_by_label("Write").is_none() {
-        println!("skipped: this desktop may have a dialog of its own");
+    if !write_file(&mut window, "Fit report…", &path) {
         return;
     }
-    window.get_by_role(egui::accesskit::Role::TextInput).focus();
-    window.run_steps(2);
-    key(&mut window, Modifiers::COMMAND, Key::A);
-    window.get_by_role(egui::accesskit::Role::TextInput).type_text(&path.display().to_string());
-    window.run_steps(2);
-    window.get_by_label("Write").click();
     // A picture a frame, where there is an adapter.
     window.run_steps(30);
     let page = std::fs::read_to_string(&path).expect("the page");
     assert!(page.contains("Garment and body") && page.ends_with("</html>"));
+    assert!(window.query_by_label_contains("Written: ").is_some());
+}
+
+#[test]
+fn the_tech_pack_is_made_behind_the_window() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("pack.pdf");
+    let mut window = super::hand::dressed_window();
+    if !write_file(&mut window, "Tech pack…", &path) {
+        return;
+    }
+    let since = std::time::Instant::now();
+    while !path.exists() && since.elapsed().as_secs() < 120 {
+        window.run_steps(1);
+        std::thread::sleep(std::time::Duration::from_millis(20));
+    }
+    window.run_steps(2);
+    let pdf = lopdf::Document::load(&path).expect("a PDF");
+    assert!(pdf.extract_text(&[1]).expect("words").contains("Tech pack"));
     assert!(window.query_by_label_contains("Written: ").is_some());
 }

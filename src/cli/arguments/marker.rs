@@ -58,7 +58,8 @@ pub struct Marker {
     pub threads: Option<usize>,
 }
 
-fn width(text: &str) -> Result<f64, String> {
+/// A width of cloth, metres.
+pub fn width(text: &str) -> Result<f64, String> {
     let width = text.parse::<f64>().ok().filter(|width| *width > 0.0 && *width <= crate::marker::WIDEST);
     width.ok_or_else(|| {
         format!("{text:?} is no width of cloth: more than 0 and at most {} metres", crate::marker::WIDEST)

@@ -4,6 +4,7 @@ mod bench;
 mod install;
 mod marker;
 mod report;
+mod techpack;
 
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -16,6 +17,7 @@ pub use crate::cli::arguments::bench::{Bench, BenchKind, CorpusOptions, TrustOpt
 pub use crate::cli::arguments::install::{Completions, Man};
 pub use crate::cli::arguments::marker::Marker;
 pub use crate::cli::arguments::report::{Merge, Report, ReportTask};
+pub use crate::cli::arguments::techpack::TechPack;
 use crate::cli::cloth_options::ClothOptions;
 use crate::cli::texture_options::TextureOptions;
 use crate::cloth::Skips;
@@ -56,6 +58,8 @@ pub enum Task {
     Repose(Repose),
     Sizes(Sizes),
     Marker(Marker),
+    #[command(name = "techpack")]
+    TechPack(TechPack),
     Fit(Fit),
     Compare(Compare),
     Generate(Generate),

@@ -1,8 +1,10 @@
 //! Drawing on a PDF page: lines and texts, in millimetres with y down from the page's upper left corner.
 
 use glam::DVec2;
+use image::RgbaImage;
 use krilla::color::rgb;
-use krilla::geom::{Path, PathBuilder, Point};
+use krilla::geom::{Path, PathBuilder, Point, Size, Transform};
+use krilla::image::Image;
 use krilla::num::NormalizedF32;
 use krilla::paint::{Fill, FillRule, Stroke, StrokeDash};
 use krilla::surface::Surface;
@@ -27,11 +29,13 @@ const LETTER_WIDTH: f64 = 0.5;
 const DIAMOND: f64 = 4.0;
 
 /// Colours that are drawn with.
-#[derive(Clone, Copy)]
-enum Ink {
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ink {
     Black,
     Blue,
     Grey,
+    /// Any colour, sRGB.
+    Own([u8; 3]),
 }
 
 impl Ink {
@@ -40,6 +44,7 @@ impl Ink {
             Self::Black => rgb::Color::new(0, 0, 0),
             Self::Blue => rgb::Color::new(31, 95, 191),
             Self::Grey => rgb::Color::new(110, 110, 110),
+            Self::Own([r, g, b]) => rgb::Color::new(r, g, b),
         }
     }
 }
@@ -234,14 +239,41 @@ impl<'a, 's> Canvas<'a, 's> {
         self.words(at - DVec2::X * width / 2.0, size, words, Ink::Black);
     }
 
-    fn words(&mut self, at: DVec2, size: f64, words: &str, ink: Ink) {
-        let plain: String = words.chars().filter(|c| !c.is_control()).collect();
+    /// Draws a line through `points`, millimetres; `dash` holds the lengths of dashes and gaps, none for a whole line.
+    pub fn polyline(&mut self, points: &[DVec2], is_closed: bool, ink: Ink, width: f64, dash: &[f64]) {
+        self.stroke(polygon(points, is_closed), ink, width, dash);
+    }
+
+    /// Fills what `points` enclose.
+    pub fn fill(&mut self, points: &[DVec2], ink: Ink) {
+        let Some(path) = polygon(points, true) else { return };
+        self.fill_with(ink);
+        self.surface.draw_path(&path);
+    }
+
+    /// Draws `picture` (straight alpha) with its upper left corner at `at`, `size` wide and high.
+    pub fn picture(&mut self, picture: &RgbaImage, at: DVec2, size: DVec2) {
+        let [x, y, width, height] = [at.x, at.y, size.x, size.y].map(|mm| (mm * POINTS) as f32);
+        let Some(size) = Size::from_wh(width, height) else { return };
+        let image = Image::from_rgba8(picture.as_raw().clone(), picture.width(), picture.height());
+        self.surface.push_transform(&Transform::from_translate(x, y));
+        self.surface.draw_image(image, size);
+        self.surface.pop();
+    }
+
+    fn fill_with(&mut self, ink: Ink) {
         self.surface.set_stroke(None);
         self.surface.set_fill(Some(Fill {
             paint: ink.colour().into(),
             opacity: NormalizedF32::ONE,
             rule: FillRule::NonZero,
         }));
+    }
+
+    /// Draws text that begins at `at`; `size` is the font size, millimetres.
+    pub fn words(&mut self, at: DVec2, size: f64, words: &str, ink: Ink) {
+        let plain: String = words.chars().filter(|c| !c.is_control()).collect();
+        self.fill_with(ink);
         let [x, y, size] = [at.x, at.y, size].map(|mm| (mm * POINTS) as f32);
         self.surface.draw_text(
             Point::from_xy(x, y),

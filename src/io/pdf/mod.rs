@@ -1,7 +1,10 @@
 //! Patterns as PDF at true size: on one page, or on pages of a printer's paper to be glued together.
 //!
 //! The first page of several is an overview: how the pages lie, and a square of 50 mm to measure before cutting.
+//!
+//! `booklet` writes pages of words, lines and pictures that others lay out.
 
+pub mod booklet;
 mod draw;
 mod paper;
 
@@ -96,9 +99,7 @@ pub fn write_on(
     if pieces.is_empty() {
         return Err(PdfError::Empty);
     }
-    let mut document = Document::new();
-    document.set_metadata(Metadata::new().title(name.to_owned()).creator("Toile".to_owned()));
-    let pens = Pens::new().ok_or_else(|| PdfError::Library("its letters cannot be read".to_owned()))?;
+    let (mut document, pens) = (titled(name), pens()?);
     let sheet = Sheet::new(&pieces, cloth);
     match paper.size() {
         None if cloth.is_some_and(|cloth| cloth.size.x * 1000.0 > LONGEST_CLOTH) => {
@@ -238,6 +239,17 @@ impl<'a> Sheet<'a> {
             canvas.miniature(piece, self.corner, room[0], scale);
         }
     }
+}
+
+/// A document without pages; there is no date in it, so that the same input gives the same bits.
+fn titled(name: &str) -> Document {
+    let mut document = Document::new();
+    document.set_metadata(Metadata::new().title(name.to_owned()).creator("Toile".to_owned()));
+    document
+}
+
+fn pens() -> Result<Pens, PdfError> {
+    Pens::new().ok_or_else(|| PdfError::Library("its letters cannot be read".to_owned()))
 }
 
 fn settings(size: DVec2) -> Result<PageSettings, PdfError> {

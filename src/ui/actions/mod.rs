@@ -93,6 +93,7 @@ pub enum Action {
     UseMannequin,
     Export,
     FitPage,
+    TechPack,
     /// Dress all sizes of the pattern.
     DressAllSizes,
     Picture,

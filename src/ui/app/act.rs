@@ -83,6 +83,7 @@ impl App {
             Action::ExportPattern => self.ask_file(Purpose::ExportPattern),
             Action::Export => self.ask_file(Purpose::Export),
             Action::FitPage => self.ask_file(Purpose::FitPage),
+            Action::TechPack => self.ask_file(Purpose::TechPack),
             Action::SaveRecording => self.ask_file(Purpose::Recording),
             Action::Paper(paper) => self.prefer(ctx, |p| p.paper = paper),
             Action::Quit => {

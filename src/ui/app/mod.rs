@@ -18,6 +18,7 @@ pub(in crate::ui) mod run;
 pub(in crate::ui) mod safety;
 pub(in crate::ui) mod shell;
 pub(in crate::ui) mod start_page;
+pub(in crate::ui) mod tech_pack;
 pub(in crate::ui) mod tight;
 pub(in crate::ui) mod tour;
 pub(in crate::ui) mod tries;
@@ -296,6 +297,7 @@ impl App {
         self.ghosts = self.ghosts.take().filter(|g| g.fit(&document, self.shown().surface()));
         self.carry_selection(&document);
         self.take_comparison();
+        self.take_tech_pack();
         self.shell.maps.look(&snapshot, &document.fabrics);
         let now = self.situation(&ctx, &document, &snapshot);
         let palette = Palette::of(ctx.theme());

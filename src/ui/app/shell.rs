@@ -13,6 +13,7 @@ use crate::ui::app::all_sizes::AllSizes;
 use crate::ui::app::picture_page::PicturePage;
 use crate::ui::app::reporting::Reporting;
 use crate::ui::app::start_page::StartPage;
+use crate::ui::app::tech_pack::TechPack;
 use crate::ui::app::tour::Tour;
 use crate::ui::app::turn::Turn;
 use crate::ui::body_pane::placing::Placing;
@@ -53,6 +54,8 @@ pub struct Shell {
     pub all_sizes: Option<AllSizes>,
     /// A fit report in the making.
     pub reporting: Option<Reporting>,
+    /// A tech pack in the making.
+    pub tech_pack: Option<TechPack>,
     /// What the drawer below the panes shows; None when it is closed.
     pub drawer: Option<Drawer>,
     /// The list of recent files.

@@ -76,6 +76,8 @@ pub enum Purpose {
     Turn,
     /// Write the fit report.
     FitPage,
+    /// Write the tech pack.
+    TechPack,
     /// Write the table of all sizes.
     AllSizes,
     /// Read another project, to compare with.
@@ -101,6 +103,7 @@ impl Purpose {
             Self::Picture => "Save a picture",
             Self::Turn => "Save a turn of pictures",
             Self::FitPage => "Write the fit report",
+            Self::TechPack => "Write the tech pack",
             Self::AllSizes => "Save the table of all sizes",
             Self::Compare => "Compare with another project",
         }
@@ -121,6 +124,7 @@ impl Purpose {
             Self::Recording => ("Recording", &["jsonl"]),
             Self::Picture | Self::Turn => ("Picture", &["png"]),
             Self::FitPage => ("Page", &["html"]),
+            Self::TechPack => ("Document", &["pdf"]),
             Self::AllSizes => ("Table", &["csv"]),
         }
     }
@@ -137,6 +141,7 @@ impl Purpose {
                 | Self::Picture
                 | Self::Turn
                 | Self::FitPage
+                | Self::TechPack
                 | Self::AllSizes
         )
     }
@@ -150,6 +155,7 @@ impl Purpose {
             Self::Picture => "picture",
             Self::Turn => "turn",
             Self::FitPage => "fit",
+            Self::TechPack => "techpack",
             Self::AllSizes => "sizes",
             _ => "untitled",
         };

@@ -3,6 +3,7 @@
 pub(in crate::ui) mod covered;
 pub mod fabric_looks;
 pub mod fabric_textures;
+pub mod front_and_back;
 pub mod map_colours;
 pub mod mapped;
 pub(in crate::ui) mod parted;

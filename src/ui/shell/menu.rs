@@ -86,7 +86,12 @@ fn file_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) {
     ui.separator();
     items(ui, now, asks, &[Action::ExportPattern]);
     ui.menu_button("Paper", |ui| items(ui, now, asks, &Paper::ALL.map(Action::Paper)));
-    items(ui, now, asks, &[Action::Export, Action::FitPage, Action::Picture, Action::SaveRecording]);
+    items(
+        ui,
+        now,
+        asks,
+        &[Action::Export, Action::FitPage, Action::TechPack, Action::Picture, Action::SaveRecording],
+    );
     ui.separator();
     items(ui, now, asks, &[Action::Quit]);
 }

@@ -84,6 +84,13 @@ pub const ROWS: &[Row] = &[
     .needs(&[Need::NotPicturing, Need::Dressed]),
     row(
         "File",
+        Action::TechPack,
+        "Tech pack…",
+        "Write what a garment maker needs to know as PDF: pictures, cloth needed, measures, pieces, seams, trims",
+    )
+    .needs(&[Need::NotPicturing, Need::Pieces]),
+    row(
+        "File",
         Action::Picture,
         "Save a picture…",
         "Write the body pane as PNG: any size, any side, with a transparent background, \

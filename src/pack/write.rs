@@ -1,0 +1,436 @@
+//! The pages of a tech pack.
+
+use std::sync::Arc;
+
+use image::RgbaImage;
+
+use crate::geometry::ids::PieceId;
+use crate::io::pdf::PdfError;
+use crate::io::pdf::booklet::{self, Ink, Letters};
+use crate::pack::cloths::{Cloth, Taken};
+use crate::pack::drawing::{self, Sketch};
+use crate::pack::facts::{Pack, PieceRow};
+use crate::pack::flow::{Cell, Flow, Table};
+use crate::pack::trims::TrimRow;
+use crate::pack::words::{self, NONE, cm, count, signed_cm};
+use crate::pattern::Pattern;
+
+/// Height of the pictures on the first page, millimetres.
+const PICTURES: f64 = 104.0;
+/// Height of the small drawings that stand in their place, millimetres.
+const OVERVIEW: f64 = 96.0;
+/// Sizes in one table.
+const SIZES: usize = 8;
+/// Angle up to which a grain counts as straight, cross or bias, degrees.
+const ANGLE: f64 = 0.5;
+
+/// A picture of the dressed garment.
+#[derive(Clone, Debug)]
+pub struct Picture {
+    /// What it shows, such as "Front".
+    pub title: &'static str,
+    /// The picture, with straight alpha.
+    pub image: Arc<RgbaImage>,
+}
+
+/// The pictures of the dressed garment.
+#[derive(Clone, Debug)]
+pub enum Pictures {
+    Drawn(Vec<Picture>),
+    /// There are none, and why.
+    LeftOut(String),
+}
+
+/// Writes the tech pack of `pattern` as PDF.
+///
+/// # Errors
+/// See [`PdfError`].
+pub fn write(pack: &Pack, pattern: &Pattern, pictures: &Pictures) -> Result<Vec<u8>, PdfError> {
+    let mut flow = Flow::new(Letters::new()?);
+    let cloth_of = |id: PieceId| pack.cloths.iter().find(|cloth| cloth.pieces.contains(&id.0));
+    let sketches = Sketch::all(pattern, |id| cloth_of(id)?.colour);
+    let name = words::name(&pack.name);
+    flow.title(&name, &subtitle(pack));
+    first_pictures(&mut flow, &sketches, pictures);
+    notes(&mut flow, pack);
+    cloths(&mut flow, pack);
+    needed(&mut flow, pack);
+    fit(&mut flow, pack);
+    pieces(&mut flow, pack);
+    trims(&mut flow, pack);
+    supplies(&mut flow, pack);
+    seams(&mut flow, pack);
+    sizes(&mut flow, pack, pattern);
+    colourways(&mut flow, pack);
+    drawing::pages(&mut flow, &sketches);
+    booklet::write(&name, &flow.finish(&name))
+}
+
+fn subtitle(pack: &Pack) -> String {
+    let cut: usize = pack.pieces.iter().map(|row| row.cut).sum();
+    let mut all = vec!["Tech pack".to_owned(), count(cut, "piece"), count(pack.seams.len(), "seam")];
+    if pack.sizes.len() > 1 {
+        let run = pack.sizes.iter().map(|size| words::name(size)).collect::<Vec<_>>().join(", ");
+        all.push(format!("sizes {run}; drawn in {}", words::name(&pack.base_size)));
+    } else if let Some(size) = pack.sizes.first() {
+        all.push(format!("size {}", words::name(size)));
+    }
+    if let Some(body) = &pack.body {
+        all.push(format!("dressed on {}", words::name(body)));
+    }
+    all.join(" · ")
+}
+
+/// The pictures, or the pieces drawn flat in their place and why.
+fn first_pictures(flow: &mut Flow, sketches: &[Sketch], pictures: &Pictures) {
+    match pictures {
+        Pictures::Drawn(pictures) => {
+            let all: Vec<(String, Arc<RgbaImage>)> =
+                pictures.iter().map(|p| (p.title.to_owned(), Arc::clone(&p.image))).collect();
+            flow.pictures(PICTURES, &all);
+        }
+        Pictures::LeftOut(why) => {
+            let drawn = drawing::overview(flow, sketches, OVERVIEW);
+            let instead =
+                if drawn { "the flat pieces are shown in their place" } else { "the pieces are drawn below" };
+            flow.words(
+                &format!("There are no pictures of the garment, as {}; {instead}.", words::line(why)),
+                Ink::Grey,
+            );
+        }
+    }
+}
+
+fn notes(flow: &mut Flow, pack: &Pack) {
+    let mut notes: Vec<String> = pack.notes.iter().map(|note| words::line(note)).collect();
+    let pieces = pack.pieces.iter().flat_map(|row| &row.names);
+    let mut names = pieces.chain(&pack.sizes).chain([&pack.name]);
+    if !names.all(|name| flow.letters().have(&words::name(name))) {
+        notes.push("Some names have characters that the letters here lack: boxes stand for them.".to_owned());
+    }
+    if !notes.is_empty() {
+        flow.heading("To be known");
+        notes.iter().for_each(|note| flow.item(note));
+    }
+}
+
+/// Names of the pieces with these numbers.
+fn names_of(pack: &Pack, pieces: &[u32]) -> String {
+    let count: usize = pack.pieces.iter().map(|row| row.pieces.len()).sum();
+    if pieces.len() == count && count > 1 {
+        return "all pieces".to_owned();
+    }
+    let named = pack.pieces.iter().flat_map(|row| row.pieces.iter().zip(&row.names));
+    let own = named.filter(|(id, _)| pieces.contains(id)).map(|(_, name)| words::name(name));
+    own.collect::<Vec<_>>().join(", ")
+}
+
+fn cloth_row(pack: &Pack, letter: String, cloth: &Cloth) -> Vec<Cell> {
+    let printed =
+        cloth.print.clone().or_else(|| Some(format!("image {}", words::name(cloth.image.as_ref()?))));
+    let colour = match cloth.colour {
+        Some(colour) => Cell { words: words::colour(colour), swatch: Some(colour) },
+        None => "not chosen".into(),
+    };
+    let density =
+        cloth.density_kg_per_m2.map_or_else(|| NONE.to_owned(), |density| format!("{:.0}", density * 1e3));
+    let mass = cloth.mass().map_or_else(|| NONE.to_owned(), |mass| format!("{:.0}", mass * 1e3));
+    vec![
+        letter.into(),
+        words::name(&cloth.fabric).into(),
+        colour,
+        printed.unwrap_or_default().into(),
+        names_of(pack, &cloth.pieces).into(),
+        density.into(),
+        format!("{:.2}", cloth.area).into(),
+        mass.into(),
+    ]
+}
+
+fn cloth_table() -> Table {
+    Table::new(["", "Fabric", "Colour", "Print", "Pieces", "#g/m²", "#Pieces, m²", "#Pieces, g"])
+}
+
+fn cloths(flow: &mut Flow, pack: &Pack) {
+    flow.heading("Cloth");
+    let mut table = cloth_table();
+    let row = |(i, cloth)| cloth_row(pack, pack.cloth_name(i), cloth);
+    table.rows = pack.cloths.iter().enumerate().map(row).collect();
+    flow.table(&table);
+}
+
+fn needed(flow: &mut Flow, pack: &Pack) {
+    flow.heading("Cloth needed for one garment");
+    let way = if pack.nap { "all pieces one way" } else { "pieces may be turned by 180 degrees" };
+    flow.words(
+        &format!("Of cloth {:.2} m wide between its selvedges, {way}, 3 mm between pieces.", pack.width),
+        Ink::Grey,
+    );
+    let count = pack.cloths.iter().map(|cloth| cloth.taken.len()).max().unwrap_or(0);
+    for first in (0..count).step_by(SIZES) {
+        let sizes: Vec<usize> = (first..count.min(first + SIZES)).collect();
+        let titles: Vec<String> = match pack.sizes.is_empty() {
+            true => vec!["#Length, and what of it is in pieces".to_owned()],
+            false => sizes.iter().map(|&k| format!("#{}", words::name(&pack.sizes[k]))).collect(),
+        };
+        let mut table = Table::new(std::iter::once("Cloth").chain(titles.iter().map(String::as_str)));
+        let row = |(i, cloth): (usize, &Cloth)| -> Vec<Cell> {
+            let name = format!("{} {}", pack.cloth_name(i), words::name(&cloth.fabric));
+            std::iter::once(name.into())
+                .chain(sizes.iter().map(|&k| length(&cloth.taken[k]).into()))
+                .collect()
+        };
+        table.rows = pack.cloths.iter().enumerate().map(row).collect();
+        flow.table(&table);
+    }
+    for (i, cloth) in pack.cloths.iter().enumerate() {
+        let mut told: Vec<&str> = Vec::new();
+        for why in cloth.taken.iter().filter_map(|taken| taken.why.as_deref()) {
+            if !told.contains(&why) {
+                told.push(why);
+                flow.item(&format!("Cloth {}: {}.", pack.cloth_name(i), words::line(why)));
+            }
+        }
+    }
+}
+
+/// Length of cloth, and the share of it that is in pieces.
+fn length(taken: &Taken) -> String {
+    match (taken.length, taken.yield_percent) {
+        (Some(length), Some(percent)) => format!("{length:.2} m, {percent:.0} %"),
+        _ => NONE.to_owned(),
+    }
+}
+
+/// Girths and openings of the dressed garment.
+fn fit(flow: &mut Flow, pack: &Pack) {
+    flow.heading("Measures of the garment");
+    if pack.body.is_none() {
+        return flow.words("Girths, ease and openings are told of a dressed garment.", Ink::Grey);
+    }
+    if pack.ease.is_empty() {
+        flow.words("The cloth goes all the way round nowhere that the body is measured.", Ink::Grey);
+    } else {
+        let mut table = Table::new(["Girth", "#Garment, cm", "#Body, cm", "#Ease, cm", "#Ease, %"]);
+        table.rows = pack
+            .ease
+            .iter()
+            .map(|ease| {
+                let percent = format!("{:+.0}", ease.metres() / ease.body * 100.0).replace('-', "−");
+                let [garment, body, by] = [cm(ease.pattern), cm(ease.body), signed_cm(ease.metres())];
+                vec![ease.name.into(), garment.into(), body.into(), by.into(), percent.into()]
+            })
+            .collect();
+        flow.table(&table);
+    }
+    if !pack.openings.is_empty() {
+        let mut table = Table::new(["Opening (hem, neck, cuff)", "#Round as worn, cm"]);
+        let row = |opening: &crate::fit::Opening| -> Vec<Cell> {
+            let place = format!("{} cm above the floor", cm(opening.height));
+            vec![place.into(), cm(opening.length).into()]
+        };
+        table.rows = pack.openings.iter().map(row).collect();
+        flow.table(&table);
+    }
+}
+
+/// The grain in words.
+fn grain(row: &PieceRow) -> String {
+    let degrees = row.grain_degrees;
+    let near = |angle: f64| (degrees.abs() - angle).abs() <= ANGLE;
+    let words = if near(0.0) {
+        "upright".to_owned()
+    } else if near(90.0) {
+        "across".to_owned()
+    } else if near(45.0) {
+        "bias".to_owned()
+    } else {
+        format!("{:.0}° to the {}", degrees.abs(), if degrees > 0.0 { "left" } else { "right" })
+    };
+    if row.has_grainline { words } else { format!("{words}, not drawn") }
+}
+
+/// What is worked on the pieces of a row, where they differ piece by piece.
+fn worked(pack: &Pack, row: &PieceRow) -> String {
+    let all: Vec<String> = row.pieces.iter().map(|piece| worked_on(pack, *piece)).collect();
+    match all.iter().all(|words| *words == all[0]) {
+        true => all.into_iter().next().unwrap_or_default(),
+        false => {
+            let each = row.names.iter().zip(&all).filter(|(_, words)| !words.is_empty());
+            each.map(|(name, words)| format!("{}: {words}", words::name(name))).collect::<Vec<_>>().join("; ")
+        }
+    }
+}
+
+/// What is worked on a piece, each once: "elastic, 3 buttons".
+fn worked_on(pack: &Pack, piece: u32) -> String {
+    let mut all: Vec<(&str, usize)> = Vec::new();
+    for trim in pack.trims.iter().filter(|trim| trim.piece == piece) {
+        let places = if trim.length.is_none() { trim.places.len() } else { 0 };
+        match all.iter_mut().find(|(what, _)| *what == trim.what) {
+            Some((_, known)) => *known += places,
+            None => all.push((trim.what, places)),
+        }
+    }
+    let words = |&(what, places): &(&str, usize)| match places {
+        0 => what.to_owned(),
+        places => count(places, what),
+    };
+    all.iter().map(words).collect::<Vec<_>>().join(", ")
+}
+
+fn pieces(flow: &mut Flow, pack: &Pack) {
+    flow.heading("Pieces");
+    let titles = [
+        "No.",
+        "Piece",
+        "#Cut",
+        "",
+        "Cloth",
+        "Grain",
+        "#Width × height, cm",
+        "#Area, cm²",
+        "#Allowance, cm",
+        "#Notches",
+        "Worked",
+    ];
+    let mut table = Table::new(titles);
+    let row = |row: &PieceRow| -> Vec<Cell> {
+        let numbers: Vec<String> = row.pieces.iter().map(u32::to_string).collect();
+        let names: Vec<String> = row.names.iter().map(|name| words::name(name)).collect();
+        let allowance = match row.allowance {
+            None => "as drawn".to_owned(),
+            Some(0.0) => NONE.to_owned(),
+            Some(metres) => cm(metres),
+        };
+        vec![
+            numbers.join(", ").into(),
+            names.join(", ").into(),
+            row.cut.to_string().into(),
+            match row.mirrored {
+                0 => "".into(),
+                1 if row.cut == 2 => "a pair".into(),
+                mirrored => format!("{mirrored} mirrored").into(),
+            },
+            pack.cloth_name(row.cloth).into(),
+            grain(row).into(),
+            format!("{} × {}", cm(row.size[0]), cm(row.size[1])).into(),
+            format!("{:.0}", row.area * 1e4).into(),
+            allowance.into(),
+            row.notches.to_string().into(),
+            worked(pack, row).into(),
+        ]
+    };
+    table.rows = pack.pieces.iter().map(row).collect();
+    flow.table(&table);
+    flow.words(
+        "Sizes are of the piece as it is drawn below, without allowance; areas are within the cutting line.",
+        Ink::Grey,
+    );
+}
+
+fn coloured(words: String, swatch: Option<[u8; 3]>) -> Cell {
+    Cell { words, swatch }
+}
+
+fn trims(flow: &mut Flow, pack: &Pack) {
+    if pack.trims.is_empty() {
+        return;
+    }
+    flow.heading("Worked on the pieces");
+    let mut table = Table::new(["No.", "Piece", "What", "Where", "#Length, cm", "Measures"]);
+    let row = |row: &TrimRow| -> Vec<Cell> {
+        vec![
+            row.piece.to_string().into(),
+            words::name(&row.piece_name).into(),
+            row.what.into(),
+            row.places.join(", ").into(),
+            row.length.map(cm).unwrap_or_default().into(),
+            coloured(row.measures.clone(), row.colour),
+        ]
+    };
+    table.rows = pack.trims.iter().map(row).collect();
+    flow.table(&table);
+}
+
+fn supplies(flow: &mut Flow, pack: &Pack) {
+    if pack.supplies.is_empty() {
+        return;
+    }
+    flow.heading("Bought for one garment");
+    let mut table = Table::new(["What", "Colour", "#Number", "#Length, cm"]);
+    let row = |supply: &crate::pack::trims::Supply| -> Vec<Cell> {
+        vec![
+            supply.what.clone().into(),
+            supply.colour.map_or_else(|| NONE.into(), |own| coloured(words::colour(own), Some(own))),
+            supply.count.map(|count| count.to_string()).unwrap_or_default().into(),
+            supply.length.map(cm).unwrap_or_default().into(),
+        ]
+    };
+    table.rows = pack.supplies.iter().map(row).collect();
+    flow.table(&table);
+}
+
+fn seams(flow: &mut Flow, pack: &Pack) {
+    flow.heading("Seams");
+    if pack.seams.is_empty() {
+        return flow.words("Nothing is sewn.", Ink::Grey);
+    }
+    let mut table =
+        Table::new(["No.", "First side", "Second side", "#First, cm", "#Second, cm", "To be sewn"]);
+    let row = |seam: &crate::pack::seams::SeamRow| -> Vec<Cell> {
+        let side = |k: usize| format!("{}, {}", words::name(&seam.sides[k].piece), seam.sides[k].edge);
+        let length = |k: usize| seam.lengths()[k].map_or_else(|| NONE.to_owned(), cm);
+        let zip = if seam.zip { ", with a zip" } else { "" };
+        vec![
+            seam.seam.to_string().into(),
+            side(0).into(),
+            side(1).into(),
+            length(0).into(),
+            length(1).into(),
+            format!("{}{zip}", seam.ease_words()).into(),
+        ]
+    };
+    table.rows = pack.seams.iter().map(row).collect();
+    flow.table(&table);
+}
+
+/// Pieces and seams in every size, a few sizes in each table.
+fn sizes(flow: &mut Flow, pack: &Pack, pattern: &Pattern) {
+    for sizes in pack.measures.chunks(SIZES) {
+        let titles: Vec<String> = sizes.iter().map(|size| format!("#{}", words::name(&size.size))).collect();
+        let table = |first: &str, rows: Vec<Vec<Cell>>| {
+            let titles = std::iter::once(first).chain(titles.iter().map(String::as_str));
+            Table { rows, ..Table::new(titles) }
+        };
+        flow.heading("Pieces in each size: width × height, cm");
+        let row = |(i, (id, piece)): (usize, (&PieceId, &Arc<crate::pattern::Piece>))| -> Vec<Cell> {
+            let name = Cell::from(format!("{} {}", id.0, words::name(&piece.name)));
+            let size = |[w, h]: [f64; 2]| Cell::from(format!("{} × {}", cm(w), cm(h)));
+            std::iter::once(name).chain(sizes.iter().map(|own| size(own.pieces[i]))).collect()
+        };
+        flow.table(&table("Piece", pattern.pieces.iter().enumerate().map(row).collect()));
+        if pack.seams.is_empty() {
+            continue;
+        }
+        flow.heading("Seams in each size: length of the first side, cm");
+        let row = |(i, seam): (usize, &crate::pack::seams::SeamRow)| -> Vec<Cell> {
+            let side = &seam.sides[0];
+            let name = Cell::from(format!("{} {}, {}", seam.seam, words::name(&side.piece), side.edge));
+            let length = |length: Option<f64>| Cell::from(length.map_or_else(|| NONE.to_owned(), cm));
+            std::iter::once(name).chain(sizes.iter().map(|own| length(own.seams[i]))).collect()
+        };
+        flow.table(&table("Seam", pack.seams.iter().enumerate().map(row).collect()));
+    }
+}
+
+fn colourways(flow: &mut Flow, pack: &Pack) {
+    for colourway in &pack.colourways {
+        let chosen = if colourway.is_chosen { " (as above)" } else { "" };
+        flow.heading(&format!("Colourway {}{chosen}", words::name(&colourway.name)));
+        let mut table = cloth_table();
+        let row = |(i, cloth)| cloth_row(pack, pack.cloth_name(i), cloth);
+        table.rows = colourway.cloths.iter().enumerate().map(row).collect();
+        flow.table(&table);
+    }
+}

@@ -1,0 +1,79 @@
+//! Makes the tech pack: its pictures at once, the rest behind the window.
+
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::{Receiver, TryRecvError, channel};
+
+use crate::pack::{Pack, Pictures, Source, Wish, write};
+use crate::session::{Document, Outfit};
+use crate::ui::app::App;
+use crate::ui::files;
+use crate::ui::scenery::front_and_back::front_and_back;
+
+/// A tech pack in the making.
+#[derive(Debug)]
+pub struct TechPack {
+    path: PathBuf,
+    coming: Receiver<Result<Vec<u8>, String>>,
+}
+
+impl App {
+    /// Begins the tech pack of the garment; it is written to `path`.
+    pub(in crate::ui) fn begin_tech_pack(&mut self, ctx: &egui::Context, path: &Path) -> Result<(), String> {
+        let name = self.path.as_deref().map_or_else(|| "untitled".to_owned(), files::stem);
+        let document = self.session.document().clone();
+        let outfit = Outfit::of(self.session.snapshot(), &document.fabrics);
+        let pictures = self.pictures_of_pack(outfit.is_some())?;
+        let (send, coming) = channel();
+        let done = ctx.clone();
+        let work = move || {
+            // Sending fails if the window was closed.
+            send.send(made(&name, &document, outfit.as_ref(), &pictures)).ok();
+            done.request_repaint();
+        };
+        let thread = std::thread::Builder::new().name("tech pack".to_owned()).spawn(work);
+        thread.map_err(|why| format!("The tech pack cannot be made: {why}"))?;
+        self.shell.tech_pack = Some(TechPack { path: path.to_owned(), coming });
+        self.messages.tell("The tech pack is being made");
+        Ok(())
+    }
+
+    fn pictures_of_pack(&mut self, is_dressed: bool) -> Result<Pictures, String> {
+        if !is_dressed {
+            return Ok(Pictures::LeftOut("it is not dressed".to_owned()));
+        }
+        let Some(graphics) = &mut self.scene_pane.graphics else {
+            return Ok(Pictures::LeftOut("there is no graphics adapter to draw with".to_owned()));
+        };
+        let drawn = front_and_back(&self.session, &mut self.scenery, |scene, camera, look, size| {
+            graphics.photograph(scene, camera, look, size)
+        });
+        let pictures = drawn.unwrap_or_else(|| Ok(Vec::new()));
+        pictures.map(Pictures::Drawn).map_err(|why| format!("There is no picture: {why}"))
+    }
+
+    /// Writes the tech pack once it is made.
+    pub(in crate::ui) fn take_tech_pack(&mut self) {
+        let Some(pack) = self.shell.tech_pack.take() else { return };
+        let made = match pack.coming.try_recv() {
+            Err(TryRecvError::Empty) => return self.shell.tech_pack = Some(pack),
+            Err(TryRecvError::Disconnected) => Err("The tech pack could not be made".to_owned()),
+            Ok(made) => made,
+        };
+        match made.and_then(|bytes| files::write(&pack.path, &bytes)) {
+            Ok(()) => self.wrote(&pack.path),
+            Err(words) => self.messages.error(words),
+        }
+    }
+}
+
+/// The tech pack as PDF. The error is a message.
+fn made(
+    name: &str,
+    document: &Document,
+    outfit: Option<&Outfit>,
+    pictures: &Pictures,
+) -> Result<Vec<u8>, String> {
+    let in_words = |why: &dyn std::fmt::Display| format!("There is no tech pack: {why}");
+    let pack = Pack::of(Source { name, document, outfit }, &Wish::default()).map_err(|why| in_words(&why))?;
+    write(&pack, &document.pattern, pictures).map_err(|why| in_words(&why))
+}
