@@ -14,6 +14,7 @@ use crate::pack::seams::SeamRow;
 use crate::pack::shape::{Front, size_of};
 use crate::pack::sizes::SizeRow;
 use crate::pack::trims::{Supply, TrimRow, supplies, trims};
+use crate::pack::words;
 use crate::pattern::{Pattern, Piece};
 use crate::session::size_fit::Ease;
 use crate::session::{Document, Outfit};
@@ -133,7 +134,11 @@ impl Pack {
     /// The cloth that is needed, in a few lines, for people.
     pub fn words(&self) -> Vec<String> {
         let line = |i: usize, cloth: &Cloth, taken: &Taken| {
-            let size = if taken.size.is_empty() { String::new() } else { format!(", size {}", taken.size) };
+            let size = if taken.size.is_empty() {
+                String::new()
+            } else {
+                format!(", size {}", words::name(&taken.size))
+            };
             let needed = match (taken.length, taken.yield_percent, &taken.why) {
                 (Some(length), Some(percent), _) => {
                     format!("{length:.3} m of cloth {:.3} m wide; {percent:.1} % of it in pieces", self.width)

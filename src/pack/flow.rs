@@ -24,7 +24,7 @@ const TITLE: f64 = 2.6;
 const BETWEEN: f64 = 3.0;
 const PADDING: f64 = 0.9;
 /// Height below which a heading goes to the next page with what follows, millimetres.
-const TOGETHER: f64 = 30.0;
+const TOGETHER: f64 = 42.0;
 /// Most lines of a cell: the rest is left out.
 const MOST_LINES: usize = 30;
 /// Most rows of a table: the rest is left out.
