@@ -1,4 +1,4 @@
-//! The buffers of a card, each under the number that shaders/card.wgsl binds it to.
+//! The buffers of a card, each under the number that shaders/card/scene.wgsl binds it to.
 
 use std::collections::BTreeMap;
 
@@ -10,7 +10,7 @@ use crate::card::scene::{Body, Cloth, SceneData, in_units};
 use crate::geometry::adjacency::NONE;
 use crate::geometry::bvh::{Aabb, Bvh};
 
-/// Bindings of shaders/card.wgsl.
+/// Bindings of shaders/card/scene.wgsl.
 pub mod slot {
     pub const SCENE: u32 = 0;
     pub const SPRINGS: u32 = 1;

@@ -6,10 +6,10 @@ use crate::card::buffers::{Buffers, slot};
 use crate::card::device::Device;
 
 const SOURCE: [&str; 4] = [
-    include_str!("../../shaders/card.wgsl"),
-    include_str!("../../shaders/card_step.wgsl"),
-    include_str!("../../shaders/card_body.wgsl"),
-    include_str!("../../shaders/card_contact.wgsl"),
+    include_str!("../../shaders/card/scene.wgsl"),
+    include_str!("../../shaders/card/step.wgsl"),
+    include_str!("../../shaders/card/body.wgsl"),
+    include_str!("../../shaders/card/contact.wgsl"),
 ];
 
 /// The entry points.

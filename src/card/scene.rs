@@ -88,7 +88,7 @@ pub struct Span<'a> {
     pub hand: Option<Hand>,
 }
 
-/// The uniform `Scene` of shaders/card.wgsl.
+/// The uniform `Scene` of shaders/card/scene.wgsl.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
 pub struct SceneData {

@@ -41,7 +41,7 @@ const FLOOR: (f64, f64) = (1e-5, 1e-3);
 const FARTHEST_REACH: f64 = 1.5;
 /// Share of the vertices whose walls or contacts found no room, above which the lists get longer.
 const CROWDED: f64 = 0.001;
-/// What `faults` counts, in the order of shaders/card_contact.wgsl: the longest list of near triangles if there was no room;
+/// What `faults` counts, in the order of shaders/card/contact.wgsl: the longest list of near triangles if there was no room;
 /// walls and contacts without room; features that touch; features that touch the body.
 const FAULTS: usize = 5;
 /// Speed beyond which something is wrong, m/s.
@@ -443,7 +443,7 @@ fn mean(of: impl ExactSizeIterator<Item = f64>) -> f64 {
     of.sum::<f64>() / count
 }
 
-/// For each vertex its springs, as shaders/card.wgsl has them, for small steps of this size and these inverse masses.
+/// For each vertex its springs, as shaders/card/scene.wgsl has them, for small steps of this size and these inverse masses.
 fn spring_list(
     springs: &[Spring],
     shares: &Shares,

@@ -242,6 +242,8 @@ fn preferences_change_at_once_are_kept_and_reset() {
     }
     act(&mut window, "Reset this page");
     assert!((window.ctx.zoom_factor() - 1.0).abs() < 1e-6);
+    // The page finds its place at the other size.
+    window.run_steps(3);
     act(&mut window, "Done");
     assert!(window.query_by_label("Reset this page").is_none());
 }

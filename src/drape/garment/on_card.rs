@@ -16,7 +16,7 @@ use crate::drape::solver::small_steps::{Advance, EASE, Surroundings};
 /// Triangles from which on a card is faster than two processor cores: at 10,000 three times (H100), and more with more.
 pub const LEAST_TRIANGLES: usize = 8000;
 /// Vertices times small steps in one call of [`DrapedGarment::go_on`].
-const MOST_WORK: usize = 4_000_000;
+const MOST_WORK: usize = 12_000_000;
 /// Ticks for which the processor drapes after the card could not.
 const PAUSE: u32 = 12;
 /// Vertices for a parallel task.
