@@ -178,42 +178,14 @@ fn driven(v: u32, velocity: vec3<f32>) -> vec3<f32> {
     return velocity * scene.keep + scene.gravity * scene.small + bent[v].xyz;
 }
 
-// The first small step: forces only.
-@compute @workgroup_size(64)
-fn begin(@builtin(global_invocation_id) id: vec3<u32>) {
-    let v = id.x;
-    if v >= scene.vertices { return; }
-    let place = places[v];
-    let old = velocities[v];
-    var speed = vec3<f32>(0.0);
-    if old.w > 0.0 { speed = driven(v, old.xyz); }
-    next_velocities[v] = vec4<f32>(speed, old.w);
-    next_places[v] = vec4<i32>(place.xyz + units(speed * scene.small), place.w);
-}
-
-// The end of a small step, and the forces of the next.
-@compute @workgroup_size(64)
-fn go(@builtin(global_invocation_id) id: vec3<u32>) {
-    let v = id.x;
-    if v >= scene.vertices { return; }
-    let place = places[v];
-    let old = velocities[v];
-    var speed = vec3<f32>(0.0);
-    var way = vec3<f32>(0.0);
-    if old.w > 0.0 {
-        let moved = solved(v, place, old.xyz);
-        speed = driven(v, old.xyz + (moved.way - moved.free) / scene.small);
-        way = moved.way + speed * scene.small;
-    }
-    next_velocities[v] = vec4<f32>(speed, old.w);
+// Stores vertex v of velocity `speed`, moved from `place` by `way`.
+fn store(v: u32, place: vec4<i32>, way: vec3<f32>, speed: vec3<f32>, inverse_mass: f32) {
+    next_velocities[v] = vec4<f32>(speed, inverse_mass);
     next_places[v] = vec4<i32>(place.xyz + units(way), place.w);
 }
 
-// The end of the last small step.
-@compute @workgroup_size(64)
-fn finish(@builtin(global_invocation_id) id: vec3<u32>) {
-    let v = id.x;
-    if v >= scene.vertices { return; }
+// Ends a small step of vertex v, and adds the forces of the next unless it is the last.
+fn end(v: u32, is_last: bool) {
     let place = places[v];
     let old = velocities[v];
     var speed = vec3<f32>(0.0);
@@ -222,9 +194,33 @@ fn finish(@builtin(global_invocation_id) id: vec3<u32>) {
         let moved = solved(v, place, old.xyz);
         speed = old.xyz + (moved.way - moved.free) / scene.small;
         way = moved.way;
+        if !is_last {
+            speed = driven(v, speed);
+            way += speed * scene.small;
+        }
     }
-    next_velocities[v] = vec4<f32>(speed, old.w);
-    next_places[v] = vec4<i32>(place.xyz + units(way), place.w);
+    store(v, place, way, speed, old.w);
+}
+
+// The first small step: forces only.
+@compute @workgroup_size(64)
+fn begin(@builtin(global_invocation_id) id: vec3<u32>) {
+    let v = id.x;
+    if v >= scene.vertices { return; }
+    let old = velocities[v];
+    var speed = vec3<f32>(0.0);
+    if old.w > 0.0 { speed = driven(v, old.xyz); }
+    store(v, places[v], speed * scene.small, speed, old.w);
+}
+
+@compute @workgroup_size(64)
+fn go(@builtin(global_invocation_id) id: vec3<u32>) {
+    if id.x < scene.vertices { end(id.x, false); }
+}
+
+@compute @workgroup_size(64)
+fn finish(@builtin(global_invocation_id) id: vec3<u32>) {
+    if id.x < scene.vertices { end(id.x, true); }
 }
 
 // Bending, held constant until it is evaluated again.

@@ -248,17 +248,29 @@ impl Surface {
         })
     }
 
+    /// Pseudonormals of each triangle: of its face, its sides (from corner k to the next) and its corners. See
+    /// [`pseudonormal`](crate::body::closest::pseudonormal).
+    pub fn pseudonormals(&self) -> Vec<[DVec3; 7]> {
+        let parts = [
+            Part::Face,
+            Part::Side(0),
+            Part::Side(1),
+            Part::Side(2),
+            Part::Corner(0),
+            Part::Corner(1),
+            Part::Corner(2),
+        ];
+        (0..self.mesh.triangles.len() as u32).map(|t| parts.map(|part| self.outward(t, part))).collect()
+    }
+
+    fn outward(&self, triangle: u32, part: Part) -> DVec3 {
+        pseudonormal(&self.mesh, &self.adjacency, &self.face_normals, &self.vertex_normals, triangle, part)
+    }
+
     fn signed(&self, p: DVec3, (point, triangle, part): (DVec3, u32, Part)) -> Nearest {
         let along = p - point;
         let length = along.length();
-        let outward = pseudonormal(
-            &self.mesh,
-            &self.adjacency,
-            &self.face_normals,
-            &self.vertex_normals,
-            triangle,
-            part,
-        );
+        let outward = self.outward(triangle, part);
         let inside = along.dot(outward) < 0.0;
         let normal = match length > 1e-7 {
             true if inside => -along / length,

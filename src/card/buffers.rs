@@ -2,12 +2,12 @@
 
 use std::collections::BTreeMap;
 
+use bytemuck::{Pod, Zeroable};
 use glam::{DVec3, Vec4};
 
 use crate::card::device::Device;
 use crate::card::lists;
 use crate::card::scene::{Body, Cloth, SceneData, in_units};
-use crate::geometry::adjacency::NONE;
 use crate::geometry::bvh::{Aabb, Bvh};
 
 /// Bindings of shaders/card/scene.wgsl.
@@ -74,8 +74,22 @@ pub mod slot {
     ];
 }
 
+/// What shaders/card/contact.wgsl counts as `faults`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+pub struct Faults {
+    /// The longest list of near triangles, if there was no room for one.
+    pub near: u32,
+    /// Walls, and contacts, for which a vertex had no room.
+    pub walls: u32,
+    pub contacts: u32,
+    /// Features of the cloth that touch each other, and that touch the body.
+    pub touching: u32,
+    pub in_body: u32,
+}
+
 /// Bytes of `faults`.
-pub const FAULT_BYTES: u64 = 32;
+pub const FAULT_BYTES: u64 = size_of::<Faults>() as u64;
 /// Bytes of a `Skin`, a wall and a `Contact`.
 const SKIN: usize = 64;
 const WALL: usize = 16;
@@ -116,10 +130,10 @@ pub struct Buffers {
 }
 
 impl Buffers {
-    /// Buffers of `cloth`, at `x` now, and `body`; positions are relative to `origin`.
+    /// Buffers of `cloth`, at `x` now, with its list of `springs`, and `body`; positions are relative to `origin`.
     pub fn new(
         device: &Device,
-        cloth: &Cloth<'_>,
+        (cloth, springs): (&Cloth<'_>, &[[u32; 4]]),
         body: Option<&Body<'_>>,
         x: &[DVec3],
         origin: DVec3,
@@ -130,6 +144,7 @@ impl Buffers {
         moving.into_iter().chain([slot::BENT, slot::ANCHORS, slot::VERTICES]).for_each(|at| {
             filled.empty(at, count * 16);
         });
+        filled.put(slot::SPRINGS, bytemuck::cast_slice(springs));
         filled.empty(slot::COUNTS, count * 8);
         filled.empty(slot::FAULTS, FAULT_BYTES as usize);
         // Not looked up yet: valid within a negative distance.
@@ -140,7 +155,7 @@ impl Buffers {
         let counts: Vec<u32> = rows.iter().map(|row| row.len() as u32).collect();
         filled.put(slot::BENDING_COUNTS, bytemuck::cast_slice(&counts));
         filled.put(slot::BENDING, bytemuck::cast_slice(&lists::interleaved(&rows)));
-        let owned = lists::owned(count, cloth.triangles, cloth.adjacency);
+        let owned = lists::owned(cloth.triangles, cloth.adjacency);
         filled.put(slot::TRIANGLES, bytemuck::cast_slice(&owned));
         let around = |vs: &[u32; 3]| Aabb::around(&vs.map(|v| x[v as usize]));
         let tree = Bvh::new(&cloth.triangles.iter().map(around).collect::<Vec<_>>());
@@ -198,14 +213,9 @@ impl Buffers {
         true
     }
 
-    /// Writes `contents` into the buffer behind a binding; makes it where there is none as large.
-    pub fn write(&mut self, device: &Device, slot: u32, contents: &[u8]) {
-        match self.of.get(&slot).filter(|buffer| buffer.size() >= contents.len() as u64) {
-            Some(buffer) => device.queue.write_buffer(buffer, 0, contents),
-            None => {
-                Filled { device, of: std::mem::take(&mut self.of) }.into_with(slot, contents, &mut self.of)
-            }
-        }
+    /// Writes `contents`, as long as what was there at first or shorter, into the buffer behind a binding.
+    pub fn write(&self, device: &Device, slot: u32, contents: &[u8]) {
+        device.queue.write_buffer(&self.of[&slot], 0, contents);
     }
 }
 
@@ -226,11 +236,6 @@ impl Filled<'_> {
         self.device.queue.write_buffer(&self.of[&slot], 0, contents);
     }
 
-    fn into_with(mut self, slot: u32, contents: &[u8], all: &mut BTreeMap<u32, wgpu::Buffer>) {
-        self.put(slot, contents);
-        *all = self.of;
-    }
-
     fn body(&mut self, body: Option<&Body<'_>>, origin: DVec3) {
         let slots = [
             slot::BODY_PLACES,
@@ -245,7 +250,7 @@ impl Filled<'_> {
         let places: Vec<[i32; 4]> =
             mesh.positions.iter().map(|p| in_units(*p, origin).extend(0).to_array()).collect();
         self.put(slot::BODY_PLACES, bytemuck::cast_slice(&places));
-        let owned = lists::owned(mesh.positions.len(), &mesh.triangles, body.adjacency);
+        let owned = lists::owned(&mesh.triangles, body.adjacency);
         self.put(slot::BODY_TRIANGLES, bytemuck::cast_slice(&owned));
         let tree = mesh.tree();
         self.put(slot::BODY_NODES, bytemuck::cast_slice(&lists::nodes(&tree)));
@@ -256,21 +261,10 @@ impl Filled<'_> {
         let boxes: Vec<[i32; 4]> = tree.nodes.iter().flat_map(|node| corners(&node.bounds)).collect();
         self.put(slot::BODY_BOXES, bytemuck::cast_slice(&boxes));
         self.put(slot::BODY_SLOTS, bytemuck::cast_slice(&tree.items));
-        let normals: Vec<Vec4> = (0..mesh.triangles.len()).flat_map(|t| normals(body, t)).collect();
+        let unit = |normal: &DVec3| normal.normalize_or_zero().as_vec3().extend(0.0);
+        let normals: Vec<Vec4> = body.normals.iter().flatten().map(unit).collect();
         self.put(slot::BODY_NORMALS, bytemuck::cast_slice(&normals));
     }
-}
-
-/// Pseudonormals of the face, the sides and the corners of triangle `t`, as `body::closest` has them.
-fn normals(body: &Body<'_>, t: usize) -> [Vec4; 7] {
-    let own = body.face_normals[t];
-    let side = |k: usize| match body.adjacency.across[t][k] {
-        NONE => own,
-        other => own + body.face_normals[other as usize],
-    };
-    let corner = |k: usize| body.vertex_normals[body.mesh.triangles[t][k] as usize];
-    [own, side(0), side(1), side(2), corner(0), corner(1), corner(2)]
-        .map(|normal| normal.normalize_or_zero().as_vec3().extend(0.0))
 }
 
 /// Rows of the bending matrix without their diagonal: rows sum to zero.

@@ -13,19 +13,10 @@ pub fn interleaved<T: Copy + Default>(lists: &[Vec<T>]) -> Vec<T> {
     all
 }
 
-/// Corners of each triangle and, last, which corners (bits 0..3) and sides (bits 3..6) it owns: each feature has one owner.
-pub fn owned(vertices: usize, triangles: &[[u32; 3]], adjacency: &Adjacency) -> Vec<[u32; 4]> {
-    let mut known = vec![false; vertices];
-    let mut known_edges = vec![false; adjacency.edges.len()];
-    let mut of = |([a, b, c], edges): (&[u32; 3], &[u32; 3])| {
-        let mut bits = 0;
-        for (k, (v, e)) in [a, b, c].into_iter().zip(edges).enumerate() {
-            bits |= u32::from(!std::mem::replace(&mut known[*v as usize], true)) << k;
-            bits |= u32::from(!std::mem::replace(&mut known_edges[*e as usize], true)) << (3 + k);
-        }
-        [*a, *b, *c, bits]
-    };
-    triangles.iter().zip(&adjacency.triangle_edges).map(&mut of).collect()
+/// Corners of each triangle and, last, what it owns, see [`Adjacency::owned`].
+pub fn owned(triangles: &[[u32; 3]], adjacency: &Adjacency) -> Vec<[u32; 4]> {
+    let owned = adjacency.owned(triangles);
+    triangles.iter().zip(owned).map(|(&[a, b, c], bits)| [a, b, c, bits.into()]).collect()
 }
 
 /// For each triangle those that share a vertex with it: where its list begins, and all lists.

@@ -32,7 +32,7 @@ pub enum Work {
 const TABLE: [(Work, &str, &[u32]); 11] = [
     (Work::Begin, "begin", &[0, 2, 3, 4, 5, 6]),
     (Work::Go, "go", &[0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 33]),
-    (Work::Finish, "finish", &[0, 1, 2, 3, 4, 5, 7, 8, 9, 10, 11, 33]),
+    (Work::Finish, "finish", &[0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 33]),
     (Work::Bend, "bend", &[0, 2, 4, 6, 24, 25]),
     (Work::Look, "look", &[0, 2, 4, 7, 26, 27, 28, 29, 30, 31, 33]),
     (Work::Anchor, "anchor", &[0, 2, 4, 8]),

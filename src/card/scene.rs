@@ -42,10 +42,8 @@ pub struct Body<'a> {
     pub mesh: &'a TriMesh,
     /// Adjacency of the mesh.
     pub adjacency: &'a Adjacency,
-    /// Unit normals of the triangles.
-    pub face_normals: &'a [DVec3],
-    /// Unit normals of the vertices, weighted by angle.
-    pub vertex_normals: &'a [DVec3],
+    /// Pseudonormals of each triangle: of its face, its sides and its corners; of any length.
+    pub normals: &'a [[DVec3; 7]],
 }
 
 /// A vertex that is pulled by a spring.

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use glam::{DVec3, Vec4};
 
-use crate::card::buffers::{Buffers, FAULT_BYTES, Rooms, Sizes, slot};
+use crate::card::buffers::{Buffers, FAULT_BYTES, Faults, Rooms, Sizes, slot};
 use crate::card::lists;
 use crate::card::pipelines::{Bound, Work};
 use crate::card::scene::{Body, Cloth, FARTHEST, SceneData, Span, UNIT, in_units};
@@ -41,9 +41,6 @@ const FLOOR: (f64, f64) = (1e-5, 1e-3);
 const FARTHEST_REACH: f64 = 1.5;
 /// Share of the vertices whose walls or contacts found no room, above which the lists get longer.
 const CROWDED: f64 = 0.001;
-/// What `faults` counts, in the order of shaders/card/contact.wgsl: the longest list of near triangles if there was no room;
-/// walls and contacts without room; features that touch; features that touch the body.
-const FAULTS: usize = 5;
 /// Speed beyond which something is wrong, m/s.
 const FASTEST: f32 = 1000.0;
 /// Time after which the card counts as lost.
@@ -93,8 +90,6 @@ pub struct CardSteps {
     /// Largest angular frequency of bending, 1/s.
     bending_rate: f64,
     origin: DVec3,
-    /// Which of the two buffers holds the positions.
-    turn: usize,
     /// Detections made.
     pub detections: u64,
 }
@@ -105,6 +100,13 @@ struct Rhythm {
     detection: usize,
     bending: usize,
     look: usize,
+}
+
+/// What comes back from the card.
+struct Moved {
+    places: Vec<[i32; 4]>,
+    speeds: Vec<Vec4>,
+    faults: Faults,
 }
 
 impl CardSteps {
@@ -125,11 +127,10 @@ impl CardSteps {
         let stiffest =
             |(i, row): (usize, &Vec<(u32, f64)>)| row.iter().map(|(_, q)| q.abs()).sum::<f64>() * inverse[i];
         let bending_rate = cloth.bending.iter().enumerate().map(stiffest).fold(0.0, f64::max).sqrt();
-        let mut buffers = Buffers::new(&card.device, cloth, body, x, origin);
+        let list = spring_list(cloth.springs, &shares, (1.0, &inverse));
+        let mut buffers = Buffers::new(&card.device, (cloth, &lists::interleaved(&list)), body, x, origin);
         let rounds = cloth.triangles.len() * 3;
         let (rooms, sizes) = (ROOMS, Sizes { vertices: x.len(), triangles: cloth.triangles.len(), rounds });
-        let list = spring_list(cloth.springs, &shares, (1.0, &inverse));
-        buffers.write(&card.device, slot::SPRINGS, bytemuck::cast_slice(&lists::interleaved(&list)));
         if !buffers.make_rooms(&card.device, sizes, rooms) {
             return Err(CardFault::Full);
         }
@@ -154,7 +155,6 @@ impl CardSteps {
             mean_length: mean(cloth.springs.iter().map(|spring| spring.length)),
             bending_rate,
             origin,
-            turn: 0,
             detections: 0,
             card,
         })
@@ -180,15 +180,15 @@ impl CardSteps {
         loop {
             self.write(positions, velocities, span, rhythm);
             self.submit(count, rhythm);
-            let (places, speeds, faults) = self.read(positions.len())?;
-            if faults[0] > 0 {
-                let near = (faults[0] as usize).next_power_of_two();
+            let Moved { places, speeds, faults } = self.read(positions.len())?;
+            if faults.near > 0 {
+                let near = (faults.near as usize).next_power_of_two();
                 if !self.enlarge(Rooms { near, ..self.rooms }) {
                     return Err(CardFault::Full);
                 }
                 continue;
             }
-            if faults[3] + faults[4] > 0 {
+            if faults.touching + faults.in_body > 0 {
                 return Err(CardFault::Touching);
             }
             let is_lost = |v: &Vec4| !v.is_finite() || v.truncate().length() > FASTEST;
@@ -208,13 +208,13 @@ impl CardSteps {
 
     /// Lengthens the lists of walls and contacts for the next run if many found no room: without, nothing crosses, but what is in
     /// the way is kept farther away or not pushed away.
-    fn make_room(&mut self, faults: &[u32; FAULTS]) {
+    fn make_room(&mut self, faults: &Faults) {
         let mut rooms = self.rooms;
         let crowded = CROWDED * self.degree.len() as f64;
-        if f64::from(faults[1]) > crowded {
+        if f64::from(faults.walls) > crowded {
             rooms.walls = (2 * rooms.walls).min(MOST_ROOMS.walls);
         }
-        if f64::from(faults[2]) > crowded {
+        if f64::from(faults.contacts) > crowded {
             rooms.contacts = (2 * rooms.contacts).min(MOST_ROOMS.contacts);
         }
         if rooms != self.rooms {
@@ -264,7 +264,7 @@ impl CardSteps {
         }
     }
 
-    fn write(&mut self, positions: &[DVec3], velocities: &[DVec3], span: &Span<'_>, rhythm: Rhythm) {
+    fn write(&self, positions: &[DVec3], velocities: &[DVec3], span: &Span<'_>, rhythm: Rhythm) {
         let places: Vec<[i32; 4]> = positions
             .iter()
             .zip(&self.degree)
@@ -278,7 +278,6 @@ impl CardSteps {
                 [w, self.friction[v], span.lift[v], self.area[v] * w].map(|x| x as f32)
             })
             .collect();
-        self.turn = 0;
         let scene = self.scene(span, rhythm);
         for (at, contents) in [
             (slot::PLACES, bytemuck::cast_slice(&places)),
@@ -341,7 +340,8 @@ impl CardSteps {
         let mut encoder =
             self.card.device.gpu.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
-        let mut turn = self.turn;
+        // Which of the two buffers holds the positions.
+        let mut turn = 0;
         let mut done = 0;
         while done < count {
             let part = rhythm.detection.min(count - done);
@@ -374,7 +374,6 @@ impl CardSteps {
             done += part;
         }
         drop(pass);
-        self.turn = turn;
         let [places, speeds] = match turn {
             0 => [slot::PLACES, slot::VELOCITIES],
             _ => [slot::NEXT_PLACES, slot::NEXT_VELOCITIES],
@@ -399,9 +398,8 @@ impl CardSteps {
     }
 
     /// Positions, velocities and faults after the work that was submitted.
-    #[allow(clippy::type_complexity, reason = "what is read, once")]
-    fn read(&self, vertices: usize) -> Result<(Vec<[i32; 4]>, Vec<Vec4>, [u32; FAULTS]), CardFault> {
-        let broken = |words: String| CardFault::Broken(words);
+    fn read(&self, vertices: usize) -> Result<Moved, CardFault> {
+        let broken = CardFault::Broken;
         let (sender, receiver) = std::sync::mpsc::channel();
         let slice = self.buffers.read.slice(..);
         slice.map_async(wgpu::MapMode::Read, move |result| {
@@ -422,12 +420,11 @@ impl CardSteps {
             return Err(broken(self.card.name().to_owned()));
         }
         let at = vertices * 16;
-        let faults: &[u32] = bytemuck::cast_slice(&bytes[2 * at..2 * at + FAULTS * 4]);
-        Ok((
-            bytemuck::pod_collect_to_vec(&bytes[..at]),
-            bytemuck::pod_collect_to_vec(&bytes[at..2 * at]),
-            std::array::from_fn(|k| faults[k]),
-        ))
+        Ok(Moved {
+            places: bytemuck::pod_collect_to_vec(&bytes[..at]),
+            speeds: bytemuck::pod_collect_to_vec(&bytes[at..2 * at]),
+            faults: bytemuck::pod_read_unaligned(&bytes[2 * at..2 * at + size_of::<Faults>()]),
+        })
     }
 }
 

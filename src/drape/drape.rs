@@ -232,5 +232,5 @@ fn chosen(scene: &Scene, settings: &DrapeSettings, h: f64) -> Result<Solver, Dra
 fn separation(scene: &Scene, thickness: f64) -> Separation {
     let sheet = &scene.sheet;
     let rest: Vec<f64> = (0..sheet.adjacency.edges.len()).map(|e| sheet.rest_length(e)).collect();
-    Separation::new(sheet.len(), &sheet.triangles, &sheet.adjacency, (&rest, thickness), None, None)
+    Separation::new(&sheet.triangles, &sheet.adjacency, (&rest, thickness), None, None)
 }

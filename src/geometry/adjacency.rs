@@ -119,6 +119,21 @@ impl Adjacency {
         Self { edges, triangle_edges, across, edge_triangles, vertex_triangles, vertex_neighbours }
     }
 
+    /// One owner for every corner and edge: for each of `triangles` (those that this is the adjacency of) which corners (bits 0..3)
+    /// and sides (bits 3..6, from that corner to the next) it owns.
+    pub fn owned(&self, triangles: &[[u32; 3]]) -> Vec<u8> {
+        let mut known = vec![false; self.vertex_triangles.len()];
+        let mut known_edges = vec![false; self.edges.len()];
+        let bits = |(vs, es): (&[u32; 3], &[u32; 3])| {
+            (0..3).fold(0, |bits, k| {
+                let corner = !std::mem::replace(&mut known[vs[k] as usize], true);
+                let side = !std::mem::replace(&mut known_edges[es[k] as usize], true);
+                bits | u8::from(corner) << k | u8::from(side) << (3 + k)
+            })
+        };
+        triangles.iter().zip(&self.triangle_edges).map(bits).collect()
+    }
+
     /// Memory used by all lists, bytes.
     pub fn bytes(&self) -> usize {
         let Self { edges, triangle_edges, across, edge_triangles, vertex_triangles, vertex_neighbours } =

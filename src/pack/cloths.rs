@@ -11,11 +11,16 @@ use crate::io::cutting_line;
 use crate::marker::nest::Effort;
 use crate::marker::{MarkerError, Order, make};
 use crate::pack::words;
-use crate::pattern::Pattern;
+use crate::pattern::{Pattern, Piece};
 use crate::session::{Artwork, Document, Dye, Dyes, Fabrics};
 
 /// Largest distance of chords from cutting lines where areas are measured, metres.
 const CHORDS: f64 = 2e-4;
+
+/// Area of a piece within its cutting line, square metres.
+pub(super) fn area(piece: &Piece) -> f64 {
+    signed_area(&cutting_line(piece, CHORDS)).abs()
+}
 
 /// What is wished of a tech pack.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -131,7 +136,7 @@ fn grouped(pattern: &Pattern, fabrics: &Fabrics, dyes: &Dyes, artwork: &Arc<Artw
             None => groups.push((fabric, dye, vec![id])),
         }
     }
-    let area = |id: &PieceId| signed_area(&cutting_line(&pattern.pieces[id], CHORDS)).abs();
+    let area = |id: &PieceId| area(&pattern.pieces[id]);
     let cloth = |(name, dye, pieces): (&str, Dye, Vec<PieceId>)| {
         let fabric = Fabric::preset(name);
         let image = dye.image.and_then(|repeated| artwork.images.get(&repeated.image));

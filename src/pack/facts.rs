@@ -5,11 +5,9 @@ use std::sync::Arc;
 use serde::Serialize;
 
 use crate::fit::{self, BodyIndex, Opening};
-use crate::geometry::polygon::signed_area;
-use crate::io::cutting_line;
 use crate::marker::{MarkerError, WIDEST};
 use crate::pack::alike::{Cut, Likeness};
-use crate::pack::cloths::{Cloth, Colourway, Taken, Wish, cloths, colourways};
+use crate::pack::cloths::{Cloth, Colourway, Taken, Wish, area, cloths, colourways};
 use crate::pack::seams::SeamRow;
 use crate::pack::shape::{Front, size_of};
 use crate::pack::sizes::SizeRow;
@@ -18,9 +16,6 @@ use crate::pack::words;
 use crate::pattern::{Pattern, Piece};
 use crate::session::size_fit::Ease;
 use crate::session::{Document, Outfit};
-
-/// Largest distance of chords from cutting lines where areas are measured, metres.
-const CHORDS: f64 = 2e-4;
 
 /// What a tech pack is made of.
 #[derive(Clone, Copy, Debug)]
@@ -207,7 +202,7 @@ fn piece_row(id: u32, piece: &Piece, cloth: usize) -> PieceRow {
         grain_degrees: upright,
         has_grainline: piece.grainline.is_some(),
         size: size_of(piece).to_array(),
-        area: signed_area(&cutting_line(piece, CHORDS)).abs(),
+        area: area(piece),
         allowance: piece.cut_line.is_empty().then_some(piece.allowance),
         notches: piece.notches.len(),
     }

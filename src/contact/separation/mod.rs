@@ -140,14 +140,13 @@ impl Separation {
     /// distance it keeps from itself, metres. `names` gives for each vertex the one to which it is or will be sewn
     /// (None: itself). The cloth does not cross `obstacle`.
     pub fn new(
-        vertices: usize,
         triangles: &[[u32; 3]],
         adjacency: &Adjacency,
         (rest, thickness): (&[f64], f64),
         names: Option<Vec<u32>>,
         obstacle: Option<Arc<Obstacle>>,
     ) -> Self {
-        let cloth = Topology::new(vertices, triangles, adjacency);
+        let cloth = Topology::new(triangles, adjacency);
         let beside = Beside::new(&cloth, names.as_deref());
         Self {
             beside,

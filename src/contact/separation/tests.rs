@@ -90,8 +90,7 @@ fn the_planes_are_those_of_all_pairs_of_features() {
     let names = (0..x.len() as u32).map(|v| if v < 100 && v % 10 == 9 { v - 1 } else { v }).collect();
     for names in [None, Some(names)] {
         let made = (&rest[..], 0.001);
-        let mut this =
-            Separation::new(x.len(), &triangles, &adjacency, made, names, Some(Arc::clone(&obstacle)));
+        let mut this = Separation::new(&triangles, &adjacency, made, names, Some(Arc::clone(&obstacle)));
         for reach in [5e-4, 0.003, 0.012] {
             this.detect(&x, |v| reach * (0.5 + 0.5 * (v % 3) as f64), |_| false);
             assert_eq!(this.crossings(), 0);

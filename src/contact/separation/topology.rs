@@ -24,25 +24,12 @@ pub(super) struct Topology {
 }
 
 impl Topology {
-    pub fn new(vertices: usize, triangles: &[[u32; 3]], adjacency: &Adjacency) -> Self {
-        let mut owned = vec![0; triangles.len()];
-        let mut known = vec![false; vertices];
-        let mut known_edges = vec![false; adjacency.edges.len()];
-        for (t, (vs, es)) in triangles.iter().zip(&adjacency.triangle_edges).enumerate() {
-            for k in 0..3 {
-                if !std::mem::replace(&mut known[vs[k] as usize], true) {
-                    owned[t] |= 1 << k;
-                }
-                if !std::mem::replace(&mut known_edges[es[k] as usize], true) {
-                    owned[t] |= 8 << k;
-                }
-            }
-        }
+    pub fn new(triangles: &[[u32; 3]], adjacency: &Adjacency) -> Self {
         Self {
             triangles: triangles.to_vec(),
             triangle_edges: adjacency.triangle_edges.clone(),
             edges: adjacency.edges.clone(),
-            owned,
+            owned: adjacency.owned(triangles),
         }
     }
 
@@ -144,7 +131,7 @@ impl Obstacle {
 
     /// The obstacle of a mesh at these `positions`, metres.
     pub fn new(positions: &[DVec3], triangles: &[[u32; 3]], adjacency: &Adjacency) -> Self {
-        let topology = Topology::new(positions.len(), triangles, adjacency);
+        let topology = Topology::new(triangles, adjacency);
         let placed: Vec<PlacedTriangle> =
             (0..triangles.len() as u32).map(|t| PlacedTriangle::new(&topology, positions, &[], t)).collect();
         let boxes: Vec<Aabb> = placed.iter().map(|placed| placed.around).collect();

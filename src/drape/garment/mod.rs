@@ -308,7 +308,6 @@ impl DrapedGarment {
         let Fixed { sheet, obstacle, thickness, .. } = &*self.fixed;
         let rest: Vec<f64> = (0..sheet.adjacency.edges.len()).map(|e| sheet.rest_length(e)).collect();
         self.small.separation = Some(Separation::new(
-            sheet.len(),
             &sheet.triangles,
             &sheet.adjacency,
             (&rest, *thickness),

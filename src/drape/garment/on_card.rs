@@ -101,7 +101,13 @@ impl DrapedGarment {
             }),
         };
         let moving = (&mut self.state.positions[..], &mut self.state.velocities[..]);
-        let outcome = card.lock().run(moving, &span, count);
+        let mut steps = card.lock();
+        let before = steps.detections;
+        let outcome = steps.run(moving, &span, count);
+        if let Some(separation) = &mut self.small.separation {
+            separation.counters.detections += steps.detections - before;
+        }
+        drop(steps);
         match outcome {
             Ok(()) => self.was_on_card = true,
             Err(fault) => {
@@ -150,11 +156,7 @@ fn steps(fixed: &Fixed, card: &Arc<Card>, x: &[DVec3], limit: f64) -> Result<Car
         thickness: Some(fixed.thickness),
     };
     let surface = &collider.surface;
-    let body = Body {
-        mesh: &surface.mesh,
-        adjacency: &surface.adjacency,
-        face_normals: &surface.face_normals,
-        vertex_normals: &surface.vertex_normals,
-    };
+    let normals = surface.pseudonormals();
+    let body = Body { mesh: &surface.mesh, adjacency: &surface.adjacency, normals: &normals };
     CardSteps::new(Arc::clone(card), &cloth, Some(&body), x)
 }

@@ -102,12 +102,8 @@ impl<'a> Run<'a> {
             friction: &friction,
             thickness: ball.map(|_| THICKNESS),
         };
-        let body = ball.map(|ball| Body {
-            mesh: &ball.mesh,
-            adjacency: &ball.adjacency,
-            face_normals: &ball.face_normals,
-            vertex_normals: &ball.vertex_normals,
-        });
+        let normals = ball.map(Surface::pseudonormals).unwrap_or_default();
+        let body = ball.map(|ball| Body { mesh: &ball.mesh, adjacency: &ball.adjacency, normals: &normals });
         let steps = CardSteps::new(card, &cloth, body.as_ref(), &sheet.start).expect("room");
         let count = (sheet.substeps() * steps.slowness()).ceil() as usize;
         let inverse = |(m, held): (&f64, &bool)| if *held { 0.0 } else { 1.0 / m };

@@ -204,7 +204,7 @@ fn planes_come_to_rest_where_the_isotropic_bound_does() {
         },
     );
     let (triangles, adjacency) = (&sheets.triangles, &sheets.adjacency);
-    let mut planes = Separation::new(plain.len(), triangles, adjacency, (&sheets.rest, 0.0), None, None);
+    let mut planes = Separation::new(triangles, adjacency, (&sheets.rest, 0.0), None, None);
     let fast = sheets.to_rest(
         &mut planes,
         |planes, x| planes.detect(x, |_| 0.01, |_| false),
