@@ -171,6 +171,26 @@ fn every_menu_opens() {
     }
 }
 
+/// On a screen of 1366 × 768 the file menu was higher than the window: it lay over its own button, and its end was cut off.
+#[test]
+fn every_menu_lies_below_its_button_in_a_low_window() {
+    let mut window = window();
+    for size in [Vec2::new(1366.0, 720.0), Vec2::new(1024.0, 500.0)] {
+        window.set_size(size);
+        window.run_steps(3);
+        for (menu, entry) in
+            [("File", "Save as…"), ("Pattern", "Tools"), ("Garment", "Undress"), ("View", "Theme")]
+        {
+            let at = window.get_by_label(menu).rect();
+            drag(&mut window, &[at.center()], PointerButton::Primary);
+            window.run_steps(20);
+            let found = window.query_by_label_contains(entry).map(|found| found.rect());
+            assert!(found.is_some_and(|found| found.top() >= at.bottom()), "{menu} at {size}: {found:?}");
+            key(&mut window, Modifiers::NONE, Key::Escape);
+        }
+    }
+}
+
 #[test]
 fn wrap_waits_for_a_pair_of_marks() {
     let mut window = window();

@@ -8,10 +8,13 @@ use super::hand::{dressed_window, positions};
 use super::*;
 
 fn prefer(window: &mut Window, name: &str) {
-    for label in ["View", "Mouse"] {
-        window.get_by_label_contains(label).click();
-        window.run_steps(4);
-    }
+    window.get_by_label("View").click();
+    window.run_steps(4);
+    // The last entries of a menu that is higher than the window must be scrolled to.
+    window.get_by_label_contains("Mouse").scroll_to_me();
+    window.run_steps(30);
+    window.get_by_label_contains("Mouse").click();
+    window.run_steps(4);
     window.get_by_label(name).click();
     window.run_steps(4);
 }

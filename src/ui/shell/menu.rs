@@ -1,6 +1,6 @@
 //! The menu bar and context menus. All entries come from the table of actions.
 
-use egui::{Button, ThemePreference};
+use egui::{Button, ScrollArea, ThemePreference};
 
 use crate::drag::DragMode;
 use crate::io::pdf::Paper;
@@ -15,11 +15,15 @@ use crate::ui::maps;
 use crate::ui::pointer::mouse::Mouse;
 use crate::ui::preferences::units::LengthUnit;
 
+/// Height that the frame of a menu takes, and least height of its entries, points.
+const FRAME: f32 = 20.0;
+const LOWEST: f32 = 80.0;
+
 /// Draws the menu bar.
 pub fn menu_bar_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) {
     egui::MenuBar::new().ui(ui, |ui| {
-        ui.menu_button("File", |ui| file_ui(ui, now, asks));
-        ui.menu_button("Edit", |ui| {
+        menu(ui, "File", |ui| file_ui(ui, now, asks));
+        menu(ui, "Edit", |ui| {
             items(ui, now, asks, &[Action::Undo, Action::Redo]);
             ui.separator();
             items(ui, now, asks, &[Action::SelectAll, Action::Duplicate, Action::Delete]);
@@ -30,8 +34,8 @@ pub fn menu_bar_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) {
             ui.separator();
             items(ui, now, asks, &[Action::Preferences]);
         });
-        ui.menu_button("Pattern", |ui| pattern_ui(ui, now, asks));
-        ui.menu_button("Garment", |ui| {
+        menu(ui, "Pattern", |ui| pattern_ui(ui, now, asks));
+        menu(ui, "Garment", |ui| {
             items(
                 ui,
                 now,
@@ -51,8 +55,17 @@ pub fn menu_bar_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) {
             ui.separator();
             items(ui, now, asks, &[Action::Choose(Tool::Bone), Action::OwnBones, Action::NoBones]);
         });
-        ui.menu_button("View", |ui| view_ui(ui, now, asks));
-        ui.menu_button("Help", |ui| help_ui(ui, now, asks));
+        menu(ui, "View", |ui| view_ui(ui, now, asks));
+        menu(ui, "Help", |ui| help_ui(ui, now, asks));
+    });
+}
+
+/// A menu of the bar. Where the window is lower than it, it scrolls: its last entries could not be reached otherwise.
+fn menu(ui: &mut egui::Ui, name: &str, contents: impl FnOnce(&mut egui::Ui)) {
+    let below = ui.ctx().content_rect().bottom() - ui.max_rect().bottom() - FRAME;
+    ui.menu_button(name, |ui| {
+        ui.set_max_height(below.max(LOWEST));
+        ScrollArea::vertical().show(ui, contents);
     });
 }
 
