@@ -94,6 +94,7 @@ pub enum Action {
     Export,
     FitPage,
     TechPack,
+    Marker,
     /// Dress all sizes of the pattern.
     DressAllSizes,
     Picture,

@@ -84,6 +84,7 @@ impl App {
             Action::Export => self.ask_file(Purpose::Export),
             Action::FitPage => self.ask_file(Purpose::FitPage),
             Action::TechPack => self.ask_file(Purpose::TechPack),
+            Action::Marker => self.open_marker(),
             Action::SaveRecording => self.ask_file(Purpose::Recording),
             Action::Paper(paper) => self.prefer(ctx, |p| p.paper = paper),
             Action::Quit => {

@@ -8,6 +8,8 @@ pub(in crate::ui) mod drawer;
 pub(in crate::ui) mod dressing;
 pub(in crate::ui) mod exchange;
 pub(in crate::ui) mod keyboard;
+pub(in crate::ui) mod marker_page;
+mod marker_preview;
 pub(in crate::ui) mod panes;
 pub(in crate::ui) mod picking;
 pub(in crate::ui) mod picture_page;

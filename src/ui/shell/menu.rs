@@ -90,7 +90,14 @@ fn file_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) {
         ui,
         now,
         asks,
-        &[Action::Export, Action::FitPage, Action::TechPack, Action::Picture, Action::SaveRecording],
+        &[
+            Action::Export,
+            Action::Marker,
+            Action::TechPack,
+            Action::FitPage,
+            Action::Picture,
+            Action::SaveRecording,
+        ],
     );
     ui.separator();
     items(ui, now, asks, &[Action::Quit]);
