@@ -171,7 +171,7 @@ impl App {
             }),
             Action::SwapPanes => self.prefer(ctx, |p| p.layout.swapped = !p.layout.swapped),
             Action::TogglePanel => self.show_panel = !self.show_panel,
-            Action::Theme(theme) => self.prefer(ctx, |p| p.theme = theme.into()),
+            Action::Theme(theme) => self.prefer(ctx, |p| p.theme = theme),
             Action::Mouse(mouse) => self.prefer(ctx, |p| p.mouse = mouse),
             Action::Demo(demo) => self.begin_demo(demo),
             Action::StopDemo => self.stop_demo(),

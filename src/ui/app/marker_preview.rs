@@ -180,12 +180,15 @@ impl PieceView {
                 3.0,
             ));
         }
-        let stroke = if is_pointed { Stroke::new(2.4, palette.accent) } else { Stroke::new(1.4, line) };
+        let stroke = match (is_pointed, palette.outline) {
+            (true, [_, strong]) => Stroke::new(strong, palette.accent),
+            (false, [plain, _]) => Stroke::new(plain, line),
+        };
         closed_line(painter, place.line(&self.outline), stroke);
         if let Some(ends) = self.grain {
             arrow(painter, ends.map(|p| place.point(p)), Stroke::new(1.2, line));
         }
-        self.name(painter, place, fill, palette.piece_text);
+        self.name(painter, place, fill, palette.name_on(fill));
     }
 
     /// Draws the name in the largest size that has room, along the cloth or across it; where it has none, the pointer tells it.

@@ -22,7 +22,7 @@ use crate::ui::body_pane::placing::Placing;
 use crate::ui::files::Purpose;
 use crate::ui::files::recent::Recent;
 use crate::ui::files::thumbnails::Thumbnails;
-use crate::ui::look::theme::Palette;
+use crate::ui::look::theme::{self, Palette};
 use crate::ui::maps::MapView;
 use crate::ui::panels::pose::PosePanel;
 use crate::ui::panels::sizes::SizesPanel;
@@ -208,7 +208,7 @@ impl App {
 
     pub(in crate::ui) fn live_by_preferences(&mut self, ctx: &egui::Context) {
         self.use_card();
-        ctx.set_theme(egui::ThemePreference::from(self.preferences.theme));
+        theme::choose(ctx, self.preferences.theme);
         ctx.set_zoom_factor(self.preferences.scale.factor());
     }
 
