@@ -3,8 +3,8 @@
 use crate::cli::arguments::{InputOptions, Marker};
 use crate::cli::failure::Failure;
 use crate::cli::{input, output};
-use crate::marker::nest::Effort;
-use crate::marker::{MarkerError, MarkerFormat, MarkerReport, Order, garments, make, write};
+use crate::marker::nest::{Effort, Watch};
+use crate::marker::{FinishedMarker, MarkerError, MarkerFormat, Order, garments};
 
 /// Makes the marker and writes it.
 pub fn marker(arguments: &Marker) -> Result<(), Failure> {
@@ -28,19 +28,17 @@ pub fn marker(arguments: &Marker) -> Result<(), Failure> {
         tilt: arguments.tilt.to_radians(),
         effort: Effort { seconds: arguments.seconds, seed: arguments.seed },
     };
-    let marker = make(pattern, &order).map_err(failure)?;
-    let report = MarkerReport::new(&input.name, pattern, &marker);
-    let words = report.words();
-    let bytes = write(format, &marker, &input.name, &words, arguments.paper)
-        .map_err(|why| Failure::input(&arguments.project, why))?;
+    let made = FinishedMarker::new(&input.name, pattern, &order, &Watch::default()).map_err(failure)?;
+    let bytes = made.file(format, arguments.paper).map_err(|why| Failure::input(&arguments.project, why))?;
+    let report = &made.report;
     output::write(&arguments.output, &bytes)?;
     for problem in &report.problems {
         output::complain(&format!("{}: note: {problem}", arguments.project.display()));
     }
     output::say(&if arguments.json {
-        serde_json::to_string_pretty(&report).map_err(|e| Failure::Internal(e.to_string()))?
+        serde_json::to_string_pretty(report).map_err(|e| Failure::Internal(e.to_string()))?
     } else {
-        words.join("\n")
+        report.words().join("\n")
     });
     Ok(())
 }

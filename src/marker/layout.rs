@@ -6,7 +6,7 @@ use glam::DVec2;
 
 use crate::geometry::ids::PieceId;
 use crate::marker::cut::{CHORDS, Cut, CutPiece, cut_pieces};
-use crate::marker::nest::{Nesting, TooWide, nest};
+use crate::marker::nest::{Nesting, NoLayout, Watch, nest};
 use crate::marker::order::{MarkerError, Order};
 use crate::pattern::{Pattern, Piece, PlanePose};
 
@@ -63,11 +63,11 @@ impl Marker {
     }
 }
 
-/// Lays out the pieces of an order.
+/// Lays out the pieces of an order. `watch` tells of its progress and may stop it.
 ///
 /// # Errors
-/// What cannot be laid out, in words.
-pub fn make(pattern: &Pattern, order: &Order) -> Result<Marker, MarkerError> {
+/// What cannot be laid out, in words, or a stop.
+pub fn make(pattern: &Pattern, order: &Order, watch: &Watch) -> Result<Marker, MarkerError> {
     order.check()?;
     let Cut { pieces, problems } = cut_pieces(pattern, order)?;
     let wanted: Vec<(usize, usize)> =
@@ -80,10 +80,13 @@ pub fn make(pattern: &Pattern, order: &Order) -> Result<Marker, MarkerError> {
         shapes: pieces.iter().map(|(piece, _)| piece.turned.clone()).collect(),
         parts: wanted.iter().map(|&(i, _)| i).collect(),
     };
-    let layout = nest(&nesting, order.effort).map_err(|TooWide { shape, needs }| MarkerError::TooWide {
-        piece: pieces[shape].0.piece.name.clone(),
-        needs: needs + 2.0 * slack,
-        width: order.width,
+    let layout = nest(&nesting, order.effort, watch).map_err(|why| match why {
+        NoLayout::TooWide { shape, needs } => MarkerError::TooWide {
+            piece: pieces[shape].0.piece.name.clone(),
+            needs: needs + 2.0 * slack,
+            width: order.width,
+        },
+        NoLayout::Stopped => MarkerError::Stopped,
     })?;
     let several = |i: usize| pieces[i].1 > 1;
     let placed: Vec<Placed> = wanted

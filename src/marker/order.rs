@@ -52,7 +52,7 @@ pub enum MarkerError {
     #[error("{0}")]
     Number(String),
     /// A piece does not fit the cloth.
-    #[error("{piece:?} needs cloth of {:.1} cm, and this is {:.1} cm wide", needs * 100.0, width * 100.0)]
+    #[error("{}", too_wide(piece, *needs, *width, &|metres| format!("{:.1} cm", metres * 100.0)))]
     TooWide { piece: String, needs: f64, width: f64 },
     /// More pieces than [`MOST_PIECES`].
     #[error("{0} pieces would be cut; a marker holds {MOST_PIECES}: make several")]
@@ -60,6 +60,23 @@ pub enum MarkerError {
     /// A piece whose outline encloses nothing.
     #[error("{0:?} encloses no cloth: its outline has no area")]
     NoArea(String),
+    /// It was stopped.
+    #[error("the layout was stopped")]
+    Stopped,
+}
+
+impl MarkerError {
+    /// The error in words, with lengths (metres) told by `length`.
+    pub fn words(&self, length: &dyn Fn(f64) -> String) -> String {
+        match self {
+            Self::TooWide { piece, needs, width } => too_wide(piece, *needs, *width, length),
+            other => other.to_string(),
+        }
+    }
+}
+
+fn too_wide(piece: &str, needs: f64, width: f64, length: &dyn Fn(f64) -> String) -> String {
+    format!("{piece:?} needs cloth of {}, and this is {} wide", length(needs), length(width))
 }
 
 /// The garments of an order by words: one of each of `sizes`, or for `quantities` such as "M=2" that many; "3" alone means the

@@ -8,7 +8,7 @@ use crate::cloth::Fabric;
 use crate::geometry::ids::PieceId;
 use crate::geometry::polygon::signed_area;
 use crate::io::cutting_line;
-use crate::marker::nest::Effort;
+use crate::marker::nest::{Effort, Watch};
 use crate::marker::{MarkerError, Order, make};
 use crate::pack::words;
 use crate::pattern::{Pattern, Piece};
@@ -158,7 +158,7 @@ fn taken(pattern: &Pattern, size: &str, wish: &Wish, effort: Effort) -> Result<T
     let garments = vec![(size.to_owned(), 1)];
     let order = Order { garments, width: wish.width, nap: wish.nap, effort, ..Order::default() };
     let none = Taken { size: size.to_owned(), length: None, yield_percent: None, why: None };
-    match make(pattern, &order) {
+    match make(pattern, &order, &Watch::default()) {
         Ok(marker) => {
             let percent = marker.share() * 100.0;
             Ok(Taken { length: Some(marker.length), yield_percent: Some(percent), ..none })

@@ -70,6 +70,11 @@ impl Look {
     pub fn dark() -> Self {
         Self { sky: [31, 34, 39], horizon: [52, 56, 62], ground: [62, 66, 72], grid: 0.45, ..Self::light() }
     }
+
+    /// Colours for a black background.
+    pub fn high_contrast() -> Self {
+        Self { sky: [0, 0, 0], horizon: [14, 14, 14], ground: [40, 40, 40], grid: 0.9, ..Self::light() }
+    }
 }
 
 impl Default for Look {

@@ -26,6 +26,7 @@ mod dressing;
 mod files;
 mod hand;
 mod maps;
+mod marker;
 mod mouse;
 mod pattern_pane;
 mod pictures;

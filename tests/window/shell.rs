@@ -233,6 +233,13 @@ fn preferences_change_at_once_are_kept_and_reset() {
     act(&mut window, "Inches");
     act(&mut window, "Light");
     assert_eq!(window.ctx.theme(), egui::Theme::Light);
+    let panel = |window: &Window| window.ctx.style_of(egui::Theme::Dark).visuals.panel_fill;
+    let dark = panel(&window);
+    act(&mut window, "High contrast");
+    assert_eq!((window.ctx.theme(), panel(&window)), (egui::Theme::Dark, egui::Color32::BLACK));
+    assert!(std::fs::read_to_string(&path).expect("kept").contains("high_contrast"));
+    act(&mut window, "Light");
+    assert_eq!((window.ctx.theme(), panel(&window)), (egui::Theme::Light, dark));
     act(&mut window, "Size of everything: 100 %");
     act(&mut window, "150 %");
     assert!((window.ctx.zoom_factor() - 1.5).abs() < 1e-6);

@@ -6,6 +6,7 @@ use clap::Args;
 
 use crate::io::pdf::Paper;
 use crate::io::scale::DrawingUnit;
+use crate::marker::Order;
 
 /// Lays out all pieces of a pattern on a width of cloth, as short as it can, and writes what to cut from as .svg, .dxf or .pdf
 ///
@@ -26,7 +27,7 @@ pub struct Marker {
     #[arg(long, value_name = "SIZE=N")]
     pub quantity: Vec<String>,
     /// Least distance between pieces, metres
-    #[arg(long, value_name = "METRES", default_value_t = 0.003)]
+    #[arg(long, value_name = "METRES", default_value_t = Order::default().gap)]
     pub gap: f64,
     /// The cloth has a nap or a one-way print: all pieces point the same way. Otherwise they may be turned by 180 degrees
     #[arg(long)]
@@ -36,10 +37,10 @@ pub struct Marker {
     pub tilt: f64,
     /// How long to look for a shorter layout: what a usual processor does in these seconds. It is counted, not timed, so that the
     /// result is the same on any machine
-    #[arg(long, value_name = "SECONDS", default_value_t = 5.0)]
+    #[arg(long, value_name = "SECONDS", default_value_t = Order::default().effort.seconds)]
     pub seconds: f64,
     /// Another seed finds another layout
-    #[arg(long, default_value_t = 1)]
+    #[arg(long, default_value_t = Order::default().effort.seed)]
     pub seed: u64,
     /// The file to write; its ending gives the format
     #[arg(short, long, visible_alias = "out", value_name = "FILE")]

@@ -42,9 +42,11 @@ pub fn compact(strip: &Strip<'_>, spots: &mut [Spot], passes: usize, work: &mut 
     }
 }
 
-/// The spot at which a part ends furthest left.
+/// The spot at which a part ends furthest left. Once the layout is stopped any spot will do: it is thrown away.
 fn best(strip: &Strip<'_>, turns: &[usize], placed: &[Spot], work: &mut u64) -> Spot {
     let mut best: Option<(f64, Spot)> = None;
+    let first = turns[0];
+    let turns = if strip.watch.is_stopped() { &[] } else { turns };
     let (mut heights, mut blocks) = (Vec::new(), Vec::new());
     for &turned in turns {
         heights.clear();
@@ -66,7 +68,7 @@ fn best(strip: &Strip<'_>, turns: &[usize], placed: &[Spot], work: &mut u64) -> 
         }
         own.into_iter().for_each(|found| take(&mut best, found));
     }
-    best.map_or(Spot { turned: turns[0], x: 0.0, y: 0.0 }, |best| best.1)
+    best.map_or(Spot { turned: first, x: 0.0, y: 0.0 }, |best| best.1)
 }
 
 /// Where a part would end at height `y`, and its spot there.

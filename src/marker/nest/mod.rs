@@ -8,6 +8,7 @@
 //! | `fill` | bottom-left fill |
 //! | `squeeze` | shorter strips by guided local search |
 //! | `shelves` | bounding boxes in columns: the plain way, which a layout is never worse than |
+//! | `watch` | progress, and the wish to stop |
 //! | `check` | whether outlines lie apart, by their sides alone: what is handed out is checked by it |
 //!
 //! What may be spent is counted in looks at pairs of parts, not timed: the same input gives the same layout on any machine.
@@ -19,6 +20,9 @@ mod shelves;
 mod slabs;
 mod squeeze;
 mod strip;
+mod watch;
+
+pub use watch::Watch;
 
 use glam::DVec2;
 use rayon::prelude::*;
@@ -75,21 +79,23 @@ pub struct Layout {
     pub plain_length: f64,
 }
 
-/// A shape that is wider than the strip, and the width it needs.
+/// Why there is no layout.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TooWide {
-    pub shape: usize,
-    pub needs: f64,
+pub enum NoLayout {
+    /// The first shape that is wider than the strip in every way it may be turned, and the width it needs, metres.
+    TooWide { shape: usize, needs: f64 },
+    /// It was stopped.
+    Stopped,
 }
 
-/// The shortest layout that is found.
+/// The shortest layout that is found. `watch` tells of its progress and may stop it.
 ///
 /// # Errors
-/// The first shape that is wider than the strip in every way it may be turned.
-pub fn nest(nesting: &Nesting, effort: Effort) -> Result<Layout, TooWide> {
+/// A shape that is too wide, or a stop.
+pub fn nest(nesting: &Nesting, effort: Effort, watch: &Watch) -> Result<Layout, NoLayout> {
     let (turned, numbers) = turned(nesting)?;
     let parts = nesting.parts.iter().map(|&shape| numbers[shape].iter().map(|n| n.0).collect()).collect();
-    let strip = Strip { width: nesting.width, parts, turned: &turned, tables: Tables::new(&turned) };
+    let strip = Strip { width: nesting.width, parts, turned: &turned, tables: Tables::new(&turned), watch };
     let area: f64 = nesting.parts.iter().map(|&shape| signed_area(&nesting.shapes[shape][0]).abs()).sum();
     let longest = |part: &Vec<usize>| part.iter().map(|&n| turned[n].size[0]).fold(f64::INFINITY, f64::min);
     let least = strip.parts.iter().map(longest).fold(area / nesting.width, f64::max);
@@ -97,11 +103,15 @@ pub fn nest(nesting: &Nesting, effort: Effort) -> Result<Layout, TooWide> {
     let plain_length = strip.length(&shelves);
     let start = first(&strip, shelves);
     let work = (effort.seconds.max(0.0) * 2.0 * LOOKS_PER_SECOND) as u64 / SEARCHES;
+    watch.begin(work * SEARCHES);
     let searches: Vec<u64> = (0..SEARCHES).collect();
     let found: Vec<Vec<Spot>> = searches
         .par_iter()
         .map(|&k| Squeeze::new(&strip, Random::stream(effort.seed, k), work).shortest(start.clone(), least))
         .collect();
+    if watch.is_stopped() {
+        return Err(NoLayout::Stopped);
+    }
     let best = shorter(&strip, std::iter::once(start).chain(found));
     let place = |spot: &Spot| {
         let (_, turn, lower) =
@@ -115,7 +125,7 @@ pub fn nest(nesting: &Nesting, effort: Effort) -> Result<Layout, TooWide> {
 type Numbered = (usize, usize, DVec2);
 
 /// All shapes in all ways that fit the strip, and of each shape the numbers of its ways.
-fn turned(nesting: &Nesting) -> Result<(Vec<Turned>, Vec<Vec<Numbered>>), TooWide> {
+fn turned(nesting: &Nesting) -> Result<(Vec<Turned>, Vec<Vec<Numbered>>), NoLayout> {
     let (mut all, mut numbers) = (Vec::new(), Vec::new());
     for (shape, outlines) in nesting.shapes.iter().enumerate() {
         let (mut own, mut needs) = (Vec::new(), f64::INFINITY);
@@ -131,7 +141,7 @@ fn turned(nesting: &Nesting) -> Result<(Vec<Turned>, Vec<Vec<Numbered>>), TooWid
             }
         }
         if own.is_empty() {
-            return Err(TooWide { shape, needs });
+            return Err(NoLayout::TooWide { shape, needs });
         }
         numbers.push(own);
     }

@@ -24,6 +24,8 @@ pub struct Squeeze<'a, 's> {
     random: Random,
     /// Looks at a pair of parts that are left.
     work: u64,
+    /// What was left when the watch was told last.
+    told: u64,
     /// What a metre of overlap of two parts costs, a row of all parts for each.
     weights: Vec<f64>,
     spots: Vec<Spot>,
@@ -35,7 +37,7 @@ impl<'a, 's> Squeeze<'a, 's> {
     /// A search that spends `work`.
     pub fn new(strip: &'a Strip<'s>, random: Random, work: u64) -> Self {
         let (blocks, heights, weights, spots) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        Self { strip, random, work, weights, spots, blocks, heights }
+        Self { strip, random, work, told: work, weights, spots, blocks, heights }
     }
 
     /// The shortest layout found from `start`, whose parts lie apart. `least` is a length that none can be shorter than.
@@ -43,7 +45,7 @@ impl<'a, 's> Squeeze<'a, 's> {
         let mut best = start;
         let mut length = self.strip.length(&best);
         let mut by = SHORTER;
-        while self.work > 0 && length > least * (1.0 + 1e-6) && best.len() > 1 {
+        while self.is_to_go_on() && length > least * (1.0 + 1e-6) && best.len() > 1 {
             let goal = (length * (1.0 - by)).max(least);
             self.spots.clone_from(&best);
             if by <= SHORTER / 8.0 {
@@ -64,6 +66,13 @@ impl<'a, 's> Squeeze<'a, 's> {
             }
         }
         best
+    }
+
+    /// Whether there is work left to spend and nobody has stopped the layout; tells the watch what was spent.
+    fn is_to_go_on(&mut self) -> bool {
+        self.strip.watch.spend(self.told - self.work);
+        self.told = self.work;
+        self.work > 0 && !self.strip.watch.is_stopped()
     }
 
     /// Exchanges the places of two parts.
@@ -102,7 +111,7 @@ impl<'a, 's> Squeeze<'a, 's> {
             } else {
                 waited += 1;
             }
-            if waited > PATIENCE || self.work == 0 {
+            if waited > PATIENCE || !self.is_to_go_on() {
                 return false;
             }
         }

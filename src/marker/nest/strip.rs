@@ -1,6 +1,7 @@
 //! A strip of cloth with parts on it: where a part is free, and by how much it lies in others.
 
 use super::apart::{CONTACT, Table, Tables, Turned, forbidden};
+use super::watch::Watch;
 
 /// Where a part lies.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,6 +22,8 @@ pub struct Strip<'a> {
     pub parts: Vec<Vec<usize>>,
     pub turned: &'a [Turned],
     pub tables: Tables<'a>,
+    /// Progress, and the wish to stop.
+    pub watch: &'a Watch,
 }
 
 /// An interval of x that another part forbids at a height.

@@ -16,7 +16,7 @@ fn effort(seconds: f64) -> Effort {
 
 /// The layout, after it was checked: all parts on the strip, none nearer to another than the gap, by their sides alone.
 fn checked(nesting: &Nesting, seconds: f64) -> Layout {
-    let layout = nest(nesting, effort(seconds)).expect("all parts fit");
+    let layout = nest(nesting, effort(seconds), &Watch::default()).expect("all parts fit");
     assert_eq!(layout.places.len(), nesting.parts.len());
     let outline = |(&shape, place): (&usize, &Place)| -> Vec<DVec2> {
         nesting.shapes[shape][place.turn].iter().map(|&p| p + place.by).collect()
@@ -123,10 +123,16 @@ fn the_same_seed_gives_the_same_bits_on_any_number_of_threads() {
 fn what_is_too_wide_is_told_with_the_width_it_needs() {
     let shapes = vec![vec![rectangle(0.1, 0.1)], vec![rectangle(0.1, 0.9), rectangle(0.9, 0.8)]];
     let nesting = Nesting { width: 0.7, gap: 0.0, shapes, parts: vec![0, 1] };
-    assert_eq!(nest(&nesting, effort(0.1)), Err(TooWide { shape: 1, needs: 0.8 }));
+    assert_eq!(
+        nest(&nesting, effort(0.1), &Watch::default()),
+        Err(NoLayout::TooWide { shape: 1, needs: 0.8 })
+    );
     let fits = Nesting { width: 0.8, ..nesting };
     assert_eq!(checked(&fits, 0.1).places[1].turn, 1, "in the way in which it fits");
-    assert_eq!(nest(&Nesting { parts: vec![], ..fits }, effort(0.1)).map(|layout| layout.length), Ok(0.0));
+    assert_eq!(
+        nest(&Nesting { parts: vec![], ..fits }, effort(0.1), &Watch::default()).map(|layout| layout.length),
+        Ok(0.0)
+    );
 }
 
 #[test]

@@ -2,8 +2,6 @@
 
 use std::sync::Arc;
 
-use egui::ThemePreference;
-
 use crate::drag::DragMode;
 use crate::fit::MapKind;
 use crate::geometry::ids::MarkId;
@@ -18,6 +16,7 @@ use crate::ui::actions::row::Need;
 use crate::ui::actions::sight::Sight;
 use crate::ui::actions::{Action, Tool};
 use crate::ui::files::recent::RecentFile;
+use crate::ui::look::scheme::Theme;
 use crate::ui::pointer::mouse::Mouse;
 use crate::ui::preferences::units::LengthUnit;
 use crate::ui::selection::Item;
@@ -110,7 +109,7 @@ pub struct FrameContext {
     /// Whether a demo is shown.
     pub demo: bool,
     /// Theme of the interface.
-    pub theme: ThemePreference,
+    pub theme: Theme,
     /// Keyboard shortcuts.
     pub keymap: Arc<Keymap>,
     /// Recently opened files.

@@ -10,8 +10,6 @@ pub(in crate::ui) mod row;
 pub mod rows;
 pub(in crate::ui) mod sight;
 
-use egui::ThemePreference;
-
 use crate::drag::DragMode;
 use crate::fit::MapKind;
 use crate::io::pdf::Paper;
@@ -19,6 +17,7 @@ use crate::render::{Light, View};
 use crate::session::demos::Demo;
 use crate::session::samples::Sample;
 use crate::ui::actions::layout::Panes;
+use crate::ui::look::scheme::Theme;
 use crate::ui::pointer::mouse::Mouse;
 use crate::ui::preferences::units::LengthUnit;
 
@@ -94,6 +93,7 @@ pub enum Action {
     Export,
     FitPage,
     TechPack,
+    Marker,
     /// Dress all sizes of the pattern.
     DressAllSizes,
     Picture,
@@ -187,7 +187,7 @@ pub enum Action {
     ToggleDifference,
     ChangeSides,
     CloseComparison,
-    Theme(ThemePreference),
+    Theme(Theme),
     Mouse(Mouse),
     Paper(Paper),
     CommandPalette,

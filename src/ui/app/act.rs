@@ -84,6 +84,7 @@ impl App {
             Action::Export => self.ask_file(Purpose::Export),
             Action::FitPage => self.ask_file(Purpose::FitPage),
             Action::TechPack => self.ask_file(Purpose::TechPack),
+            Action::Marker => self.open_marker(),
             Action::SaveRecording => self.ask_file(Purpose::Recording),
             Action::Paper(paper) => self.prefer(ctx, |p| p.paper = paper),
             Action::Quit => {
@@ -170,7 +171,7 @@ impl App {
             }),
             Action::SwapPanes => self.prefer(ctx, |p| p.layout.swapped = !p.layout.swapped),
             Action::TogglePanel => self.show_panel = !self.show_panel,
-            Action::Theme(theme) => self.prefer(ctx, |p| p.theme = theme.into()),
+            Action::Theme(theme) => self.prefer(ctx, |p| p.theme = theme),
             Action::Mouse(mouse) => self.prefer(ctx, |p| p.mouse = mouse),
             Action::Demo(demo) => self.begin_demo(demo),
             Action::StopDemo => self.stop_demo(),

@@ -196,7 +196,7 @@ impl App {
             show_panel: self.show_panel,
             parallel: self.scene_pane.camera.projection == crate::render::Projection::Orthographic,
             free_turning: self.scene_pane.free_turning,
-            theme: ctx.options(|o| o.theme_preference),
+            theme: self.preferences.theme,
             keymap: Arc::clone(&self.preferences.keymap),
             recent: Arc::clone(self.shell.recent.files()),
             sight: self.shell.sight,

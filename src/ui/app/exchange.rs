@@ -44,6 +44,7 @@ impl App {
                 self.begin_fit_page(path);
                 Ok(())
             }
+            Purpose::Marker(format) => self.write_marker(path, format),
             Purpose::TechPack => self.begin_tech_pack(ctx, path),
             Purpose::Save => {
                 self.save_or_ask(ctx, path);

@@ -8,6 +8,8 @@ pub(in crate::ui) mod drawer;
 pub(in crate::ui) mod dressing;
 pub(in crate::ui) mod exchange;
 pub(in crate::ui) mod keyboard;
+pub(in crate::ui) mod marker_page;
+mod marker_preview;
 pub(in crate::ui) mod panes;
 pub(in crate::ui) mod picking;
 pub(in crate::ui) mod picture_page;
@@ -47,6 +49,7 @@ use crate::ui::body_pane::ScenePane;
 use crate::ui::body_pane::ghosts::Ghosts;
 use crate::ui::files::recent::Recent;
 use crate::ui::files::{self, Purpose};
+use crate::ui::look::scheme::Scheme;
 use crate::ui::look::theme::{self, Palette};
 use crate::ui::panels::marks::MarksPanel;
 use crate::ui::panels::pattern::PatternPanel;
@@ -110,8 +113,8 @@ pub struct App {
     pub(in crate::ui) wakeup: Wakeup,
     /// Whether the window closes only to be reopened.
     pub(in crate::ui) moving: bool,
-    /// Whether the last frame used the dark theme.
-    pub(in crate::ui) dark: bool,
+    /// The colours of the last frame.
+    pub(in crate::ui) scheme: Scheme,
     /// Measures the speed of the window and of the simulation.
     pub(in crate::ui) pacer: Pacer,
     /// The graphics card that large garments are draped on.
@@ -164,7 +167,7 @@ impl App {
             shell: Shell::default(),
             picture_options: PictureOptions::default(),
             scenery: Scenery::default(),
-            dark: false,
+            scheme: Scheme::default(),
             pacer: Pacer::default(),
             card: Arc::new(CardSlot::new(false, LEAST_TRIANGLES)),
             title: String::new(),
@@ -300,8 +303,8 @@ impl App {
         self.take_tech_pack();
         self.shell.maps.look(&snapshot, &document.fabrics);
         let now = self.situation(&ctx, &document, &snapshot);
-        let palette = Palette::of(ctx.theme());
-        self.dark = ctx.theme() == egui::Theme::Dark;
+        self.scheme = Scheme::of(self.preferences.theme, ctx.theme());
+        let palette = Palette::of(self.scheme);
         let mut asks = Asks::new();
         self.keys(&ctx, &now, &mut asks);
         if self.shell.start.is_some() {

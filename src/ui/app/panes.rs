@@ -75,7 +75,7 @@ impl App {
                 let surface = self.body_shown(snapshot);
                 pair_lines_ui(
                     ui,
-                    &self.seen(ui, &with, surface.as_ref(), &[]),
+                    &self.seen(&with, surface.as_ref(), &[]),
                     &self.pattern_pane,
                     &self.scene_pane,
                 );
@@ -118,7 +118,7 @@ impl App {
         let stand_out = self.picks.standing_out(with.now.highlight);
         let surface = self.body_shown(with.snapshot);
         let mut pane = std::mem::take(&mut self.scene_pane);
-        pane.ui(ui, &self.seen(ui, with, surface.as_ref(), &stand_out), asks);
+        pane.ui(ui, &self.seen(with, surface.as_ref(), &stand_out), asks);
         self.scene_pane = pane;
         if let (Some(map), Some(pane)) = (self.shell.maps.shown(), self.scene_pane.area) {
             let value = self.scene_pane.value.or(self.pattern_pane.value);
@@ -143,7 +143,6 @@ impl App {
 
     fn seen<'a>(
         &'a self,
-        ui: &egui::Ui,
         with: &PaneContents<'a>,
         body: Option<&'a Arc<Surface>>,
         stand_out: &'a [Item],
@@ -173,7 +172,7 @@ impl App {
             stand_out,
             spot: self.spot(),
             ghosts: self.ghosts.as_ref().map(|g| &g.marks),
-            look: self.shell.sight.on(theme::look(ui.ctx().theme())),
+            look: self.shell.sight.on(theme::look(self.scheme)),
             palette,
         }
     }

@@ -188,13 +188,12 @@ impl App {
         let Some(graphics) = &mut self.scene_pane.graphics else {
             return Err("There is no graphics adapter to draw with".to_owned());
         };
-        let theme = if self.dark { egui::Theme::Dark } else { egui::Theme::Light };
         // Lines keep their width relative to the picture, as in the pane.
         let points = self.scene_pane.area.map_or(options.size.y as f32, |pane| pane.height());
         let look = Look {
             pixels_per_point: options.size.y as f32 / points.max(1.0),
             cut_out: options.cut_out,
-            ..self.shell.sight.on(theme::look(theme))
+            ..self.shell.sight.on(theme::look(self.scheme))
         };
         let picture = graphics.photograph(&scene, camera, &look, options.size);
         let with_legend = |mut picture| {

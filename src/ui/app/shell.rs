@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use crate::marker::Order;
 use crate::session::Command;
 use crate::ui::actions::Action;
 use crate::ui::actions::asks::Asks;
@@ -10,6 +11,7 @@ use crate::ui::actions::drawer::Drawer;
 use crate::ui::actions::sight::Sight;
 use crate::ui::app::App;
 use crate::ui::app::all_sizes::AllSizes;
+use crate::ui::app::marker_page::MarkerPage;
 use crate::ui::app::picture_page::PicturePage;
 use crate::ui::app::reporting::Reporting;
 use crate::ui::app::start_page::StartPage;
@@ -20,7 +22,7 @@ use crate::ui::body_pane::placing::Placing;
 use crate::ui::files::Purpose;
 use crate::ui::files::recent::Recent;
 use crate::ui::files::thumbnails::Thumbnails;
-use crate::ui::look::theme::Palette;
+use crate::ui::look::theme::{self, Palette};
 use crate::ui::maps::MapView;
 use crate::ui::panels::pose::PosePanel;
 use crate::ui::panels::sizes::SizesPanel;
@@ -52,6 +54,10 @@ pub struct Shell {
     pub turn: Option<Turn>,
     /// The dialog in which all sizes are dressed.
     pub all_sizes: Option<AllSizes>,
+    /// The Marker window.
+    pub marker: Option<MarkerPage>,
+    /// The order of the last marker.
+    pub marker_order: Order,
     /// A fit report in the making.
     pub reporting: Option<Reporting>,
     /// A tech pack in the making.
@@ -91,6 +97,7 @@ impl Shell {
             || self.preferences.is_some()
             || self.picture.is_some()
             || self.all_sizes.is_some()
+            || self.marker.is_some()
     }
 }
 
@@ -171,6 +178,7 @@ impl App {
         self.preferences_ui(ctx, palette);
         self.picture_ui(ctx, palette);
         self.all_sizes_ui(ctx, palette);
+        self.marker_ui(ctx, palette);
         self.go_on_turning(ctx, palette, status::HEIGHT);
         self.go_on_reporting(ctx, palette, status::HEIGHT);
         drop_overlay::ui(ctx, palette, [self.pattern_pane.area, self.scene_pane.area]);
@@ -200,7 +208,7 @@ impl App {
 
     pub(in crate::ui) fn live_by_preferences(&mut self, ctx: &egui::Context) {
         self.use_card();
-        ctx.set_theme(egui::ThemePreference::from(self.preferences.theme));
+        theme::choose(ctx, self.preferences.theme);
         ctx.set_zoom_factor(self.preferences.scale.factor());
     }
 

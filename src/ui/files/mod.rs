@@ -21,6 +21,7 @@ use crate::io::pdf::Paper;
 use crate::io::rul;
 use crate::io::scale::{DrawingUnit, ScaleQuestion};
 use crate::io::{FILE_BYTES, bvh, gltf};
+use crate::marker::{FinishedMarker, MarkerFormat};
 use crate::pattern::Pattern;
 use crate::session::project_file::ProjectFileError;
 use crate::session::samples::Sample;
@@ -78,6 +79,8 @@ pub enum Purpose {
     FitPage,
     /// Write the tech pack.
     TechPack,
+    /// Write the marker.
+    Marker(MarkerFormat),
     /// Write the table of all sizes.
     AllSizes,
     /// Read another project, to compare with.
@@ -104,6 +107,7 @@ impl Purpose {
             Self::Turn => "Save a turn of pictures",
             Self::FitPage => "Write the fit report",
             Self::TechPack => "Write the tech pack",
+            Self::Marker(_) => "Save the marker",
             Self::AllSizes => "Save the table of all sizes",
             Self::Compare => "Compare with another project",
         }
@@ -125,6 +129,9 @@ impl Purpose {
             Self::Picture | Self::Turn => ("Picture", &["png"]),
             Self::FitPage => ("Page", &["html"]),
             Self::TechPack => ("Document", &["pdf"]),
+            Self::Marker(MarkerFormat::Pdf) => ("Marker", &["pdf"]),
+            Self::Marker(MarkerFormat::Svg) => ("Marker", &["svg"]),
+            Self::Marker(MarkerFormat::Dxf) => ("Marker", &["dxf"]),
             Self::AllSizes => ("Table", &["csv"]),
         }
     }
@@ -142,6 +149,7 @@ impl Purpose {
                 | Self::Turn
                 | Self::FitPage
                 | Self::TechPack
+                | Self::Marker(_)
                 | Self::AllSizes
         )
     }
@@ -156,6 +164,7 @@ impl Purpose {
             Self::Turn => "turn",
             Self::FitPage => "fit",
             Self::TechPack => "techpack",
+            Self::Marker(_) => "marker",
             Self::AllSizes => "sizes",
             _ => "untitled",
         };
@@ -244,6 +253,17 @@ pub fn export_pattern(path: &Path, pattern: &Pattern, paper: Paper) -> Result<Ve
         None => write(path, &written.bytes)?,
     }
     Ok(written.left_out)
+}
+
+/// Writes a marker; `paper` is for PDF.
+pub fn write_marker(
+    path: &Path,
+    made: &FinishedMarker,
+    format: MarkerFormat,
+    paper: Paper,
+) -> Result<(), String> {
+    let bytes = made.file(format, paper).map_err(|e| in_words(path, "written", e))?;
+    write(path, &bytes)
 }
 
 /// A body as read from a file, before its unit and up axis are settled.

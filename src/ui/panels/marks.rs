@@ -186,9 +186,11 @@ fn pair_row(
 ) {
     ui.horizontal(|ui| {
         let (dot, _) = ui.allocate_exact_size(egui::vec2(18.0, 18.0), egui::Sense::hover());
-        ui.painter().circle_filled(dot.center(), 8.0, colour(mark_colour(number)));
+        let hue = colour(mark_colour(number));
+        let [paper, ink] = told.palette.label(hue, egui::Color32::WHITE);
+        ui.painter().circle(dot.center(), 7.5, paper, egui::Stroke::new(1.0, hue));
         let font = egui::FontId::proportional(11.5);
-        ui.painter().text(dot.center(), egui::Align2::CENTER_CENTER, number, font, egui::Color32::WHITE);
+        ui.painter().text(dot.center(), egui::Align2::CENTER_CENTER, number, font, ink);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             let close = ui.small_button("×").on_hover_text(format!("Take the marks {number} away"));
             name(&close, &format!("Delete marks {number}"));

@@ -211,7 +211,11 @@ impl Drawing<'_> {
         let text = number.to_string();
         let radius = if text.len() > 1 { 10.5 } else { 8.5 };
         let halo = if look.ghost { self.palette.halo.gamma_multiply(GHOST) } else { self.palette.halo };
-        let (paper, letters) = if look.paired { (ink, Color32::WHITE) } else { (halo, ink) };
+        let [paper, letters] = match (look.ghost, look.paired) {
+            (true, _) => [halo, ink],
+            (false, true) => self.palette.label(ink, Color32::WHITE),
+            (false, false) => self.palette.label(halo, ink),
+        };
         self.painter.circle_filled(at, radius + 1.6, halo);
         self.painter.circle(at, radius, paper, Stroke::new(1.6, ink));
         if look.selected {

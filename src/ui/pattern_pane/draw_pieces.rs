@@ -23,8 +23,6 @@ pub fn front_is_seen(piece: &Piece, shape: &PieceShape) -> bool {
     shape.drawn_from_front != piece.pose.flipped
 }
 
-/// Opacity of seams that are neither selected nor under the pointer.
-const FAINT: f32 = 0.42;
 /// Radius of a seam's badge, points.
 pub const BADGE: f32 = 7.5;
 /// Relative difference of two lengths up to which they count as equal; a larger one is intended.
@@ -99,10 +97,11 @@ impl Drawing<'_> {
             points.extend(points.first().copied());
             self.dashed(&points, Stroke::new(1.0, line.gamma_multiply(0.75)));
         }
+        let [plain, strong] = self.palette.outline;
         let (width, ink) = match (selected, near) {
-            (true, _) => (2.4, self.palette.accent),
-            (false, true) => (2.4, line),
-            _ => (1.4, line),
+            (true, _) => (strong, self.palette.accent),
+            (false, true) => (strong, line),
+            _ => (plain, line),
         };
         for closed in std::iter::once(&shape.outline).chain(&shape.holes) {
             let points: Vec<Pos2> = closed.iter().map(|&p| place(p)).collect();
@@ -158,7 +157,7 @@ impl Drawing<'_> {
             let name = words_on(piece, front);
             let corners = shape.corners().map(|p| self.place(piece.pose.plane_from_piece(p)));
             let room = Rect::from_points(&corners).width() * 1.15;
-            let ink = self.palette.piece_text;
+            let ink = self.palette.name_on(fill);
             let mut job = egui::text::LayoutJob::simple_singleline(name, FontId::proportional(size), ink);
             if !stands_out(id) {
                 job.wrap = egui::text::TextWrapping::truncate_at_width(room.max(26.0));
@@ -201,10 +200,16 @@ impl Drawing<'_> {
                 continue;
             }
             let ink = self.seam_ink(id, ends);
-            let strength = if sewing || ends.is_twisted { 0.7 } else { FAINT };
+            let strength =
+                if sewing || ends.is_twisted { self.palette.faint.max(0.7) } else { self.palette.faint };
             self.threads(&mut mesh, &sides, ink.gamma_multiply(strength), 1.0);
             for side in &sides {
-                strip(&mut mesh, side, ink.gamma_multiply(if sewing { 1.0 } else { 0.8 }), 2.0);
+                strip(
+                    &mut mesh,
+                    side,
+                    ink.gamma_multiply(if sewing { 1.0 } else { self.palette.faint.max(0.8) }),
+                    2.0,
+                );
             }
         }
         for (id, ends, sides) in &loud {

@@ -198,7 +198,7 @@ fn same_outline(a: &Piece, b: &Piece) -> bool {
 
 /// The interior by the even-odd rule, divided into slabs at every corner. Outlines that cross themselves are filled correctly up
 /// to the height of a slab.
-fn trapezoids<'a>(lines: impl Iterator<Item = &'a Vec<DVec2>>) -> Vec<[DVec2; 4]> {
+pub fn trapezoids<'a>(lines: impl Iterator<Item = &'a Vec<DVec2>>) -> Vec<[DVec2; 4]> {
     let all: Vec<[DVec2; 2]> = lines.flat_map(|line| sides(line)).collect();
     let mut heights: Vec<f64> = all.iter().map(|[a, _]| a.y).filter(|y| y.is_finite()).collect();
     heights.sort_by(f64::total_cmp);
@@ -225,7 +225,7 @@ fn trapezoids<'a>(lines: impl Iterator<Item = &'a Vec<DVec2>>) -> Vec<[DVec2; 4]
 }
 
 /// The centre of the widest trapezoid near half the height, so that a name there is on cloth.
-fn middle(fill: &[[DVec2; 4]]) -> DVec2 {
+pub fn middle(fill: &[[DVec2; 4]]) -> DVec2 {
     let mut total = 0.0;
     let mut weighted = DVec2::ZERO;
     for t in fill {

@@ -8,7 +8,6 @@ use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use egui::ThemePreference;
 use serde::{Deserialize, Serialize};
 
 use crate::body::{Unit, UpAxis};
@@ -17,6 +16,7 @@ use crate::io::scale::DrawingUnit;
 use crate::ui::actions::keymap::Keymap;
 use crate::ui::actions::layout::Layout;
 use crate::ui::files;
+use crate::ui::look::scheme::Theme;
 use crate::ui::pointer::mouse::Mouse;
 use crate::ui::preferences::units::LengthUnit;
 
@@ -30,7 +30,7 @@ pub struct Preferences {
     /// Mapping of mouse buttons.
     #[serde(deserialize_with = "or_default")]
     pub mouse: Mouse,
-    /// Theme of the interface: dark, light or that of the system.
+    /// Theme of the interface.
     #[serde(deserialize_with = "or_default")]
     pub theme: Theme,
     /// Unit in which lengths are shown.
@@ -161,36 +161,6 @@ pub struct UsesCard(pub bool);
 impl Default for UsesCard {
     fn default() -> Self {
         Self(true)
-    }
-}
-
-/// The theme of the interface; see [`ThemePreference`].
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Theme {
-    Dark,
-    Light,
-    #[default]
-    System,
-}
-
-impl From<ThemePreference> for Theme {
-    fn from(theme: ThemePreference) -> Self {
-        match theme {
-            ThemePreference::Dark => Self::Dark,
-            ThemePreference::Light => Self::Light,
-            ThemePreference::System => Self::System,
-        }
-    }
-}
-
-impl From<Theme> for ThemePreference {
-    fn from(theme: Theme) -> Self {
-        match theme {
-            Theme::Dark => Self::Dark,
-            Theme::Light => Self::Light,
-            Theme::System => Self::System,
-        }
     }
 }
 

@@ -7,11 +7,12 @@ use egui::{ComboBox, DragValue, Event, Id, Key, KeyboardShortcut, Modal, RichTex
 use crate::ui::actions::Action;
 use crate::ui::actions::keymap::{Keymap, pressed};
 use crate::ui::actions::rows::all;
+use crate::ui::look::scheme::Theme;
 use crate::ui::look::signs::{Sign, sign_button};
 use crate::ui::look::theme::Palette;
 use crate::ui::pointer::mouse::Mouse;
 use crate::ui::preferences::units::LengthUnit;
-use crate::ui::preferences::{Copies, Preferences, Scale, Screen, Theme};
+use crate::ui::preferences::{Copies, Preferences, Scale, Screen};
 
 /// Length of the bar that a ruler is held against, metres.
 const RULER: f64 = 0.05;
@@ -226,10 +227,8 @@ fn general_ui(ui: &mut egui::Ui, preferences: &mut Preferences, palette: &Palett
         egui::Grid::new("general").num_columns(2).spacing([24.0, 12.0]).show(ui, |ui| {
             ui.label("Colours");
             ui.horizontal(|ui| {
-                for (theme, name) in
-                    [(Theme::Dark, "Dark"), (Theme::Light, "Light"), (Theme::System, "As the system")]
-                {
-                    ui.selectable_value(&mut preferences.theme, theme, name);
+                for theme in Theme::ALL {
+                    ui.selectable_value(&mut preferences.theme, theme, theme.name());
                 }
             });
             ui.end_row();

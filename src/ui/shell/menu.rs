@@ -1,6 +1,6 @@
 //! The menu bar and context menus. All entries come from the table of actions.
 
-use egui::{Button, ScrollArea, ThemePreference};
+use egui::{Button, ScrollArea};
 
 use crate::drag::DragMode;
 use crate::io::pdf::Paper;
@@ -11,6 +11,7 @@ use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::actions::context::FrameContext;
 use crate::ui::actions::layout::Panes;
 use crate::ui::actions::{Action, PATTERN_TOOLS, Tool, VIEWS};
+use crate::ui::look::scheme::Theme;
 use crate::ui::maps;
 use crate::ui::pointer::mouse::Mouse;
 use crate::ui::preferences::units::LengthUnit;
@@ -103,7 +104,14 @@ fn file_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) {
         ui,
         now,
         asks,
-        &[Action::Export, Action::FitPage, Action::TechPack, Action::Picture, Action::SaveRecording],
+        &[
+            Action::Export,
+            Action::Marker,
+            Action::TechPack,
+            Action::FitPage,
+            Action::Picture,
+            Action::SaveRecording,
+        ],
     );
     ui.separator();
     items(ui, now, asks, &[Action::Quit]);
@@ -255,8 +263,7 @@ fn view_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) {
     items(ui, now, asks, &[Action::ToggleHistory, Action::ToggleLog]);
     ui.separator();
     ui.menu_button("Theme", |ui| {
-        let themes = [ThemePreference::Dark, ThemePreference::Light, ThemePreference::System];
-        items(ui, now, asks, &themes.map(Action::Theme));
+        items(ui, now, asks, &Theme::ALL.map(Action::Theme));
         ui.separator();
         items(ui, now, asks, &Light::ALL.map(Action::Light));
     });

@@ -28,7 +28,7 @@ pub fn toolbar_ui(ui: &mut egui::Ui, now: &FrameContext, palette: &Palette, asks
         plain(ui, now, asks, Action::Redo, Some("Redo"));
         gap(ui);
         if now.wrapping {
-            primary(ui, now, asks, Action::CancelWrap, palette.error, palette);
+            primary(ui, now, asks, Action::CancelWrap, palette.stop, palette);
         } else if now.is_for_dress() {
             primary(ui, now, asks, Action::Dress, palette.accent, palette);
         } else {
@@ -71,11 +71,7 @@ fn primary(
     let mut button_fill = ui.visuals().widgets.inactive.weak_bg_fill;
     if now.why_not(action).is_none() {
         text = text.color(palette.on_accent);
-        button_fill = if action == Action::CancelWrap && ui.visuals().dark_mode {
-            egui::Color32::from_rgb(0xb0, 0x3a, 0x33)
-        } else {
-            fill
-        };
+        button_fill = fill;
     }
     press(ui, now, asks, action, Button::new(text).fill(button_fill).min_size(egui::vec2(108.0, HEIGHT)));
 }

@@ -91,6 +91,13 @@ pub const ROWS: &[Row] = &[
     .needs(&[Need::NotPicturing, Need::Pieces]),
     row(
         "File",
+        Action::Marker,
+        "Marker…",
+        "Lay all pieces out on a width of cloth, to be cut: length, yield, and the layout as .pdf, .svg or .dxf",
+    )
+    .needs(&[Need::Pieces]),
+    row(
+        "File",
         Action::Picture,
         "Save a picture…",
         "Write the body pane as PNG: any size, any side, with a transparent background, \

@@ -1,11 +1,12 @@
 //! Actions of the View menu.
 
-use egui::{Key, ThemePreference};
+use egui::Key;
 
 use crate::render::View;
 use crate::ui::actions::Action;
 use crate::ui::actions::layout::Panes;
 use crate::ui::actions::row::{Need, Row, ctrl, key, row, shift};
+use crate::ui::look::scheme::Theme;
 
 /// The rows in the order of the menus.
 pub const ROWS: &[Row] = &[
@@ -152,13 +153,21 @@ pub const ROWS: &[Row] = &[
     row("View", Action::PreviousPane, "Previous pane", "The same, the other way round")
         .keys(&[shift(Key::F6)])
         .in_demos(),
-    row("View › Theme", Action::Theme(ThemePreference::Dark), "Dark", "Light text on dark")
+    row("View › Theme", Action::Theme(Theme::Dark), Theme::Dark.name(), "Light text on dark")
         .in_demos()
         .on_start_page(),
-    row("View › Theme", Action::Theme(ThemePreference::Light), "Light", "Dark text on light")
+    row("View › Theme", Action::Theme(Theme::Light), Theme::Light.name(), "Dark text on light")
         .in_demos()
         .on_start_page(),
-    row("View › Theme", Action::Theme(ThemePreference::System), "As the system", "Follow the desktop")
+    row(
+        "View › Theme",
+        Action::Theme(Theme::HighContrast),
+        Theme::HighContrast.name(),
+        "White on black, with strong lines and borders",
+    )
+    .in_demos()
+    .on_start_page(),
+    row("View › Theme", Action::Theme(Theme::System), Theme::System.name(), "Follow the desktop")
         .in_demos()
         .on_start_page(),
 ];
