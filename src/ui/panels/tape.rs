@@ -101,7 +101,7 @@ impl TapePanel {
         if chosen.read.as_ref().is_none_or(|(at, ..)| *at != chosen.height) {
             let body = round_at(&surface.mesh, chosen.height, hip.origin.x);
             let tape = body.as_ref().and_then(|body| body.tape.as_ref());
-            let round = tape.and_then(|tape| girth(&worn.outfit.garment, &worn.outfit.state, tape, None));
+            let round = tape.and_then(|tape| girth(&worn.outfit.garment, &worn.outfit.state, tape, &[]));
             chosen.read = Some((chosen.height, body, round));
         }
         let Some((_, body, round)) = &chosen.read else { return };
