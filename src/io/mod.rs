@@ -45,5 +45,5 @@ pub mod written;
 
 pub use cloth_sheet::ClothSheet;
 pub use limits::{FILE_BYTES, Limits};
-pub use trace::allowance::cutting_line;
+pub use trace::allowance::{allowance_line, cutting_line};
 pub use written::Written;

@@ -196,6 +196,7 @@ pub fn reversed(edges: &[Edge]) -> Vec<Edge> {
                 start: next.start,
                 shape: edge.shape.reversed(),
                 smooth: next.smooth,
+                corner: next.corner.reversed(),
                 label: edge.label.clone(),
                 rule: next.rule.clone(),
                 trims: edge.trims,
@@ -296,6 +297,7 @@ fn arc_segments(a: DVec2, b: DVec2, radius: f64, large: bool, sweep: bool) -> Ve
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::pattern::AllowanceCorner;
 
     const A: DVec2 = DVec2::new(0.3, 0.1);
     const B: DVec2 = DVec2::new(-0.2, 0.4);
@@ -347,6 +349,7 @@ mod tests {
                 start,
                 shape: shapes()[i],
                 smooth: i == 2,
+                corner: AllowanceCorner::ALL[i + 1],
                 label: Some(i.to_string()),
                 rule: (i == 1).then(|| GradeRule(vec![DVec2::new(0.01, 0.02), DVec2::ZERO])),
                 ..Edge::default()

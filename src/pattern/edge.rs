@@ -4,6 +4,7 @@ use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
 use crate::pattern::Trims;
+use crate::pattern::corner::AllowanceCorner;
 use crate::pattern::grading::rule::GradeRule;
 
 /// Accuracy to which arc lengths are computed, metres.
@@ -34,6 +35,9 @@ pub struct Edge {
     /// Whether the line is smooth at the start point: when an editor turns one of its two tangents, the other follows.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub smooth: bool,
+    /// How the seam allowance goes round the start point.
+    #[serde(default, skip_serializing_if = "AllowanceCorner::is_mitre")]
+    pub corner: AllowanceCorner,
     /// A name from the source file ("left_collar"), if any.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub label: Option<String>,

@@ -2,6 +2,7 @@
 
 pub mod activity;
 mod chains;
+pub mod corner;
 pub mod curve;
 pub mod cut;
 pub mod edge;
@@ -25,6 +26,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::geometry::ids::{ButtonId, PieceId, SeamId};
 pub use crate::geometry::problem::{self, Problem, ProblemKind};
+pub use corner::{AllowanceCorner, Side};
 pub use cut::CutPattern;
 pub use edge::{Edge, EdgeShape};
 pub use fastenings::{Button, PiecePoint, Zip};

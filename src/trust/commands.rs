@@ -10,8 +10,8 @@ use crate::io::words::readable;
 use crate::pattern::edit::{PatternEdit, PointRef, TrimLine};
 use crate::pattern::grading::READY_SIZES;
 use crate::pattern::{
-    Button, Edge, EdgeRef, EdgeShape, Elastic, Fold, GradeRule, Hem, InternalLine, Pattern, Piece,
-    PiecePoint, PlanePose, RulePoint, Seam, SpacePose, Topstitch, Zip,
+    AllowanceCorner, Button, Edge, EdgeRef, EdgeShape, Elastic, Fold, GradeRule, Hem, InternalLine, Pattern,
+    Piece, PiecePoint, PlanePose, RulePoint, Seam, Side, SpacePose, Topstitch, Zip,
 };
 use crate::session::{BodyChoice, Command, Dye, Graphic, ImageFile, Repeated, Session, Settings};
 use crate::sim::{Runner, Simulation};
@@ -135,6 +135,10 @@ fn edits([front, back]: [PieceId; 2], seam: SeamId) -> [Vec<PatternEdit>; 7] {
             PatternEdit::AddDart { edge, at: 0.5, width: 0.02, depth: 0.05 },
             PatternEdit::AddNotch { edge, at: 0.5 },
             PatternEdit::SetAllowance { pieces: vec![back], width: 0.01 },
+            PatternEdit::SetCorner {
+                point: PointRef { piece: back, point: 0 },
+                corner: AllowanceCorner::TurnedUp(Side::After),
+            },
         ],
         vec![PatternEdit::Cut { piece: back, line: line.clone(), sew: true }],
         vec![

@@ -10,7 +10,8 @@ use toile::pattern::edit::{
     Edited, PatternEdit, PointRef, Twists, apply, is_symmetric, sound, twists, untwisted,
 };
 use toile::pattern::{
-    Edge, EdgeRef, EdgeShape, InternalLine, Pattern, Piece, PlanePose, ProblemKind, Seam, Stretch, curve,
+    AllowanceCorner, Edge, EdgeRef, EdgeShape, InternalLine, Pattern, Piece, PlanePose, ProblemKind, Seam,
+    Side, Stretch, curve,
 };
 use toile::session::{Command, Project, Session};
 use toile::sim::{Runner, Simulation};
@@ -203,6 +204,32 @@ fn a_smooth_point_stays_smooth_and_a_corner_turns_no_neighbour() {
     assert!(kink(&moved) > 0.1);
     let smooth = done(&moved, PatternEdit::SetSmooth { point: point(B, 4), smooth: true });
     assert!(kink(&smooth) < 1e-5);
+}
+
+#[test]
+fn corners_of_the_allowance_follow_on_twins_and_other_halves_and_stay_where_points_are_inserted() {
+    let turned_up = |side| AllowanceCorner::TurnedUp(side);
+    let set =
+        |p: &Pattern, piece, i, corner| done(p, PatternEdit::SetCorner { point: point(piece, i), corner });
+    let corner = |p: &Pattern, piece: PieceId, i: usize| p.pieces[&piece].edge(i).corner;
+    let twins = done(&two(), PatternEdit::AddTwin { piece: B, offset: v(0.5, 0.0) });
+    let twin = twins.pieces[&B].twin.expect("a twin");
+    let twins = set(&twins, B, 1, turned_up(Side::Before));
+    assert_eq!(corner(&twins, twin, 3), turned_up(Side::After), "the outline runs the other way");
+    let more = done(&twins, PatternEdit::InsertPoint { edge: edge(B, 1), at: 0.5 });
+    assert_eq!([1, 2].map(|i| corner(&more, B, i)), [turned_up(Side::Before), AllowanceCorner::Mitre]);
+    // A symmetric piece: its points 0 and 2 lie on the fold line.
+    let mut pattern = Pattern::default();
+    let mut kite = Piece::polygon("kite", &[v(0.0, 0.0), v(0.2, 0.2), v(0.0, 0.4), v(-0.2, 0.2)]);
+    kite.symmetric = true;
+    pattern.add_piece(kite);
+    let square = AllowanceCorner::Square(Side::After);
+    let pattern = set(&pattern, A, 1, square);
+    assert_eq!([1, 3].map(|i| corner(&pattern, A, i)), [square, square.reversed()]);
+    let refused = |piece, i| PatternEdit::SetCorner { point: point(piece, i), corner: square };
+    assert!(apply(&pattern, &refused(A, 2)).is_err() && apply(&pattern, &refused(A, 9)).is_err());
+    let pattern = set(&pattern, A, 3, AllowanceCorner::Mitre);
+    assert_eq!(corner(&pattern, A, 1), AllowanceCorner::Mitre);
 }
 
 #[test]

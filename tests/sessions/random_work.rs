@@ -11,7 +11,9 @@ use toile::geometry::ids::{MarkId, PieceId, PinId, SeamId};
 use toile::geometry::mesh::TriMesh;
 use toile::pattern::activity::Activity;
 use toile::pattern::edit::{PatternEdit, PointRef};
-use toile::pattern::{Edge, EdgeRef, EdgeShape, InternalLine, Piece, PlanePose, Seam, SpacePose};
+use toile::pattern::{
+    AllowanceCorner, Edge, EdgeRef, EdgeShape, InternalLine, Piece, PlanePose, Seam, SpacePose,
+};
 use toile::session::recording::Recording;
 use toile::session::replay::Replay;
 use toile::session::{BodyChoice, Command, Document, Notice, Project, Session, Settings, project_file};
@@ -204,7 +206,7 @@ impl Work {
         let point = PointRef { piece, point: self.chance.below(5) as usize };
         let [from, to] = [self.flat(), self.flat()];
         let is_full = self.document().pattern.pieces.len() >= MOST_PIECES;
-        match self.chance.below(30) {
+        match self.chance.below(31) {
             0 if !is_full => {
                 PatternEdit::AddPiece { piece: Arc::new(Piece::polygon("new", &self.corners())) }
             }
@@ -268,8 +270,11 @@ impl Work {
             24 => PatternEdit::DeleteHole { piece, hole: 0 },
             25 => PatternEdit::SetGrainline { piece, grainline: self.heads().then_some([from, to]) },
             26 => PatternEdit::SetAllowance { pieces: vec![piece], width: self.chance.number(0.0, 0.05) },
-            27 => PatternEdit::Sew { seam: Seam::of_edges([edge, self.edge()], self.heads()) },
-            28 => PatternEdit::SetRatio { seam, ratio: self.heads().then(|| self.chance.number(0.5, 2.0)) },
+            27 => {
+                PatternEdit::SetCorner { point, corner: AllowanceCorner::ALL[self.chance.below(5) as usize] }
+            }
+            28 => PatternEdit::Sew { seam: Seam::of_edges([edge, self.edge()], self.heads()) },
+            29 => PatternEdit::SetRatio { seam, ratio: self.heads().then(|| self.chance.number(0.5, 2.0)) },
             _ => PatternEdit::UntwistSeams,
         }
     }

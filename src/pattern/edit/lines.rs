@@ -3,7 +3,9 @@
 use std::sync::Arc;
 
 use crate::geometry::ids::{PieceId, SeamId};
-use crate::pattern::{Edge, EdgeRef, GradeRule, Notch, Pattern, Piece, Seam, Stretch, curve};
+use crate::pattern::{
+    AllowanceCorner, Edge, EdgeRef, GradeRule, Notch, Pattern, Piece, Seam, Stretch, curve,
+};
 
 /// Difference of fractions of an edge up to which two places count as one.
 const SAME: f64 = 1e-9;
@@ -140,7 +142,8 @@ pub(super) fn insert_points(pattern: &mut Pattern, edge: EdgeRef, fractions: &[f
         } else {
             GradeRule::between(old[at].rule.as_ref(), old[(at + 1) % old.len()].rule.as_ref(), place)
         };
-        Edge { start, shape, smooth, rule, ..old[at].clone() }
+        let corner = if i == 0 { old[at].corner } else { AllowanceCorner::default() };
+        Edge { start, shape, smooth, corner, rule, ..old[at].clone() }
     });
     edges.splice(at..=at, new);
     let mut bounds = vec![0.0];

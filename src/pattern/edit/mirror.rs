@@ -8,7 +8,7 @@ use glam::{DQuat, DVec2, DVec3};
 use crate::geometry::ids::PieceId;
 use crate::pattern::curve::{self, mirror};
 use crate::pattern::{
-    EdgeRef, GradeRule, InternalLine, Notch, Pattern, Piece, Roll, Seam, SpacePose, Stretch,
+    AllowanceCorner, EdgeRef, GradeRule, InternalLine, Notch, Pattern, Piece, Roll, Seam, SpacePose, Stretch,
 };
 
 /// The degrees of freedom of a pattern: the points that move freely, and how the others follow from them by mirroring.
@@ -184,8 +184,11 @@ pub(super) fn mend_symmetry(piece: &mut Piece) {
         piece.outline[i] = image[i].clone();
         piece.outline[i].label = labels[i].clone();
     }
-    // The lower point on the axis belongs to both halves.
+    // The points on the axis belong to both halves.
     piece.outline[n / 2].start.x = 0.0;
+    for i in [0, n / 2] {
+        piece.outline[i].corner = AllowanceCorner::default();
+    }
 }
 
 /// Restores all symmetry. Of two twins the one in `from` leads, else the one with the lower id; symmetric pieces

@@ -23,8 +23,8 @@ use serde::{Deserialize, Serialize};
 use crate::geometry::ids::{ButtonId, PieceId, SeamId};
 use crate::pattern::activity::Activity;
 use crate::pattern::{
-    Button, Edge, EdgeRef, EdgeShape, Elastic, Fold, GradeRule, Hem, InternalLine, Pattern, Piece, PlanePose,
-    RulePoint, Seam, SizeRun, SpacePose, Topstitch, Zip, curve,
+    AllowanceCorner, Button, Edge, EdgeRef, EdgeShape, Elastic, Fold, GradeRule, Hem, InternalLine, Pattern,
+    Piece, PlanePose, RulePoint, Seam, SizeRun, SpacePose, Topstitch, Zip, curve,
 };
 pub use cutting::nearest_on_edge;
 pub use fastenings::MOST_BUTTONS;
@@ -121,6 +121,8 @@ pub enum PatternEdit {
     SetGrainline { piece: PieceId, grainline: Option<[DVec2; 2]> },
     /// Set the seam allowance, metres.
     SetAllowance { pieces: Vec<PieceId>, width: f64 },
+    /// Set how the seam allowance goes round a point of an outline. The image of the point on a twin or the other half follows.
+    SetCorner { point: PointRef, corner: AllowanceCorner },
 
     /// Crease edges or internal lines, or (None) let them be flat.
     SetFold { lines: Vec<TrimLine>, fold: Option<Fold> },
@@ -312,6 +314,7 @@ fn carry_out(pattern: &mut Pattern, edit: &PatternEdit) -> Result<Change, String
         PatternEdit::DeleteHole { piece, hole } => holes::delete_hole(pattern, *piece, *hole),
         PatternEdit::SetGrainline { piece, grainline } => cutting::set_grainline(pattern, *piece, *grainline),
         PatternEdit::SetAllowance { pieces, width } => pieces::set_allowance(pattern, pieces, *width),
+        PatternEdit::SetCorner { point, corner } => points::set_corner(pattern, *point, *corner),
         PatternEdit::SetFold { lines, fold } => {
             let what = if fold.is_some() { "fold" } else { "unfold a crease" };
             trims::set(pattern, lines, what, |trims| trims.fold = *fold)
@@ -353,7 +356,9 @@ fn pieces_named(edit: &PatternEdit) -> Vec<PieceId> {
         | PatternEdit::InsertPoint { edge, .. }
         | PatternEdit::AddDart { edge, .. }
         | PatternEdit::AddNotch { edge, .. } => vec![edge.piece],
-        PatternEdit::DeletePoint { point } | PatternEdit::SetSmooth { point, .. } => vec![point.piece],
+        PatternEdit::DeletePoint { point }
+        | PatternEdit::SetSmooth { point, .. }
+        | PatternEdit::SetCorner { point, .. } => vec![point.piece],
         PatternEdit::DeleteNotch { piece, .. }
         | PatternEdit::AddLine { piece, .. }
         | PatternEdit::DeleteLine { piece, .. }

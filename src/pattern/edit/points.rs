@@ -7,7 +7,7 @@ use glam::DVec2;
 
 use crate::pattern::edit::lines::{self, Part, previous};
 use crate::pattern::edit::{Change, PointRef, find, symmetric_image};
-use crate::pattern::{Edge, EdgeRef, EdgeShape, Pattern, Piece, curve};
+use crate::pattern::{AllowanceCorner, Edge, EdgeRef, EdgeShape, Pattern, Piece, curve};
 
 /// Angle between two tangents up to which they count as smooth, radians.
 const SMOOTH: f64 = 1e-7;
@@ -220,6 +220,31 @@ pub(super) fn set_smooth(pattern: &mut Pattern, point: PointRef, smooth: bool) -
     }
     pattern.pieces.insert(point.piece, Arc::new(new));
     Ok(Change::new(if smooth { "make a point smooth" } else { "make a corner" }))
+}
+
+/// Sets how the seam allowance goes round a point of an outline.
+pub(super) fn set_corner(
+    pattern: &mut Pattern,
+    point: PointRef,
+    corner: AllowanceCorner,
+) -> Result<Change, String> {
+    let piece = find(pattern, point.piece)?;
+    point_number(piece, point.point)?;
+    let n = piece.outline.len();
+    if point.point >= n {
+        return Err("a seam allowance runs round the outline, not round holes".to_owned());
+    }
+    let image = (n - point.point) % n;
+    if piece.symmetric && image == point.point && !corner.is_mitre() {
+        return Err("on the fold line of a symmetric piece a corner of the allowance stays mitred".to_owned());
+    }
+    let mut new = Piece::clone(piece);
+    new.outline[point.point].corner = corner;
+    if piece.symmetric && image != point.point {
+        new.outline[image].corner = corner.reversed();
+    }
+    pattern.pieces.insert(point.piece, Arc::new(new));
+    Ok(Change::new("change a corner of the allowance"))
 }
 
 /// Moves every point to its entry of `places`; curves rotate and scale with their chords.

@@ -9,7 +9,7 @@ use crate::pattern::edit::mirror::{self, image_line, image_placement, take_image
 use crate::pattern::edit::pieces::{change, fresh_name, map_piece};
 use crate::pattern::edit::{Carried, Change, find, sewing};
 use crate::pattern::{
-    Edge, EdgeRef, EdgeShape, Notch, Pattern, Piece, PlanePose, Roll, Seam, SpacePose, curve,
+    AllowanceCorner, Edge, EdgeRef, EdgeShape, Notch, Pattern, Piece, PlanePose, Roll, Seam, SpacePose, curve,
 };
 
 /// Distance within which a point is snapped to the axis of symmetry, metres.
@@ -199,6 +199,7 @@ fn doubled(half: &[Edge], image_labels: Vec<Option<String>>) -> Vec<Edge> {
     for i in [0, m] {
         edges[i].start.x = 0.0;
         edges[i].smooth = false;
+        edges[i].corner = AllowanceCorner::default();
         edges[i].rule = edges[i].rule.as_ref().map(|rule| rule.mapped(|by| DVec2::new(0.0, by.y)));
     }
     edges

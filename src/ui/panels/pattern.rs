@@ -1,14 +1,14 @@
 //! The sections of the pattern: properties of the selection, and lists of pieces and seams.
 
 use egui::accesskit::Role;
-use egui::{Button, Grid, Key, RichText, TextEdit, WidgetInfo};
+use egui::{Button, ComboBox, Grid, Key, RichText, TextEdit, WidgetInfo};
 use glam::DVec2;
 
 use crate::geometry::ids::{PieceId, SeamId};
 use crate::pattern::activity::Activity;
 use crate::pattern::edit::{PatternEdit, PointRef, WIDEST_ALLOWANCE};
 use crate::pattern::layers::MOST_LAYER;
-use crate::pattern::{EdgeRef, EdgeShape, Piece, PlanePose, Seam};
+use crate::pattern::{AllowanceCorner, EdgeRef, EdgeShape, Piece, PlanePose, Seam, Side};
 use crate::session::Command;
 use crate::ui::actions::Action;
 use crate::ui::actions::asks::{Ask, Asks};
@@ -315,6 +315,42 @@ fn point_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, point: PointRef, asks: &
     if ui.checkbox(&mut smooth, "Smooth").on_hover_text(Action::ToggleSmooth.row().tip).changed() {
         asks.push(ask(vec![PatternEdit::SetSmooth { point, smooth }]));
     }
+    if point.point < piece.outline.len() && piece.allowance > 0.0 && piece.cut_line.is_empty() {
+        corner_ui(ui, told, point, piece, asks);
+    }
+}
+
+/// Draws the choice of how the seam allowance goes round a point of the outline.
+fn corner_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, point: PointRef, piece: &Piece, asks: &mut Asks) {
+    let n = piece.outline.len();
+    let number = |side: Side| match side {
+        Side::Before => (point.point + n - 1) % n + 1,
+        Side::After => point.point + 1,
+    };
+    let words = |corner: AllowanceCorner| match corner {
+        AllowanceCorner::Mitre => "Mitred".to_owned(),
+        AllowanceCorner::Square(side) => format!("Square to edge {}", number(side)),
+        AllowanceCorner::TurnedUp(side) => format!("Turned up at edge {}", number(side)),
+    };
+    let tip = |corner: AllowanceCorner| match corner {
+        AllowanceCorner::Mitre => "Both sides run on until they meet",
+        AllowanceCorner::Square(_) => "The allowance of this edge ends at right angles to it",
+        AllowanceCorner::TurnedUp(_) => {
+            "For a hem: its allowance mirrors the other edge, so that it fits turned up"
+        }
+    };
+    let old = piece.outline[point.point].corner;
+    let label = weak(ui, told, "Corner of the allowance");
+    let combo = ComboBox::from_id_salt("allowance corner").selected_text(words(old)).width(170.0);
+    let shown = combo.show_ui(ui, |ui| {
+        for corner in AllowanceCorner::ALL {
+            let entry = ui.selectable_label(corner == old, words(corner)).on_hover_text(tip(corner));
+            if entry.clicked() && corner != old {
+                asks.push(ask(vec![PatternEdit::SetCorner { point, corner }]));
+            }
+        }
+    });
+    shown.response.labelled_by(label.id);
 }
 
 fn seam_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, id: SeamId, asks: &mut Asks) {

@@ -7,6 +7,7 @@ use glam::DVec2;
 
 use crate::geometry::ids::PieceId;
 use crate::geometry::polygon::{is_inside, sides, signed_area};
+use crate::io::allowance_line;
 use crate::pattern::piece::flattened_loop;
 use crate::pattern::{Pattern, Piece, curve};
 
@@ -59,7 +60,7 @@ impl PieceShape {
             lengths: (0..piece.edge_count()).map(|i| piece.edge_length(i)).collect(),
             lines: piece.lines.iter().map(|line| line.flattened(TOLERANCE)).collect(),
             notches: notches(piece),
-            cut: cut_line(piece, &outline, drawn_from_front),
+            cut: cut_line(piece),
             drawn_from_front,
             edges,
             fill,
@@ -108,36 +109,13 @@ pub fn cloth_is_left(piece: &Piece, edge: usize) -> bool {
     turns_left == (line == 0)
 }
 
-/// The cut line of a piece: the one from a file, or the outline offset by the allowance.
-fn cut_line(piece: &Piece, outline: &[DVec2], drawn_from_front: bool) -> Vec<DVec2> {
-    if !piece.cut_line.is_empty() {
-        return flattened_loop(&piece.cut_line, TOLERANCE);
+/// The cut line of a piece: the one from a file, or the edge of its allowance; empty without allowance.
+fn cut_line(piece: &Piece) -> Vec<DVec2> {
+    match &piece.cut_line[..] {
+        [] if piece.allowance <= 0.0 => Vec::new(),
+        [] => allowance_line(piece, TOLERANCE),
+        line => flattened_loop(line, TOLERANCE),
     }
-    if piece.allowance <= 0.0 {
-        return Vec::new();
-    }
-    let out = if drawn_from_front { -piece.allowance } else { piece.allowance };
-    moved_out(outline, out)
-}
-
-/// A closed polyline offset to its left by `by` metres, with mitred corners; very sharp corners are cut off.
-fn moved_out(line: &[DVec2], by: f64) -> Vec<DVec2> {
-    let n = line.len();
-    let normal = |i: usize| (line[(i + 1) % n] - line[i]).normalize_or_zero().perp();
-    let mut moved = Vec::with_capacity(n);
-    for (i, &corner) in line.iter().enumerate() {
-        let (before, after) = (normal((i + n - 1) % n), normal(i));
-        let middle = (before + after) / 2.0;
-        // A corner of 60 degrees has a mitre of twice the allowance; sharper corners are cut off at that distance.
-        if middle.length_squared() > 0.2 {
-            moved.push(corner + middle / middle.length_squared() * by);
-        } else {
-            let along = (before.perp() - after.perp()).normalize_or_zero() * -by;
-            moved.push(corner + before * by + along);
-            moved.push(corner + after * by + along);
-        }
-    }
-    moved
 }
 
 /// Cache of the shapes of the pattern that was drawn last.

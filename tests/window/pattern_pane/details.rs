@@ -1,6 +1,6 @@
 //! Lines, holes, arcs, guides; pieces folded, unfolded and made symmetric.
 
-use toile::pattern::{EdgeShape, InternalLine};
+use toile::pattern::{AllowanceCorner, EdgeShape, InternalLine, Side};
 
 use super::*;
 
@@ -143,4 +143,28 @@ fn a_piece_is_scaled_by_its_handles() {
     assert!(after[0].distance(before[0]) < 1e-9, "the far corner stays");
     let grown = (after[1] - after[0]) / (before[1] - before[0]);
     assert!(grown.x > 1.05 && (grown.x - grown.y).abs() < 0.02, "{grown}");
+}
+
+#[test]
+fn a_corner_of_the_allowance_is_chosen_in_the_side_panel_and_undone() {
+    let mut squares = squares();
+    for piece in squares.pieces.values_mut() {
+        Arc::make_mut(piece).allowance = 0.01;
+    }
+    let mut window = window_on(squares);
+    press(&mut window, Key::A);
+    let corner = place(&window, "A, point 2");
+    click(&mut window, corner);
+    let role = egui::accesskit::Role::ComboBox;
+    window.get_by_role_and_label(role, "Corner of the allowance").click();
+    window.run_steps(4);
+    window.get_by_label("Turned up at edge 1").click();
+    window.run_steps(4);
+    let chosen = |window: &Window| piece(&pattern(window), "A").outline[1].corner;
+    assert_eq!(chosen(&window), AllowanceCorner::TurnedUp(Side::Before));
+    assert_eq!(steps(&window), ["change a corner of the allowance"]);
+    let recording = window.state_mut().as_mut().expect("the app").recording();
+    assert!(recording.contains("set_corner"), "it is recorded");
+    key(&mut window, Modifiers::COMMAND, Key::Z);
+    assert_eq!(chosen(&window), AllowanceCorner::Mitre);
 }

@@ -152,6 +152,7 @@ fn turned_round(edges: &[Edge]) -> Vec<Edge> {
         start: edges[(n - i) % n].start,
         shape: edges[n - 1 - i].shape.reversed(),
         smooth: edges[(n - i) % n].smooth,
+        corner: edges[(n - i) % n].corner.reversed(),
         rule: edges[(n - i) % n].rule.clone(),
         ..edges[n - 1 - i].clone()
     };
