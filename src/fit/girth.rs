@@ -47,8 +47,7 @@ fn round(garment: &Garment, laid: &Laid, tape: &Tape, but: &[DVec3]) -> Option<G
     let (x, y) = tape.normal.any_orthonormal_pair();
     let in_plane = |p: DVec3| DVec2::new((p - tape.origin).dot(x), (p - tape.origin).dot(y));
     let round_others = |points: &[DVec2]| {
-        but.iter()
-            .any(|but| encloses_origin(&points.iter().map(|p| p - in_plane(*but)).collect::<Vec<_>>()))
+        but.iter().any(|but| encloses_origin(&points.iter().map(|p| p - in_plane(*but)).collect::<Vec<_>>()))
     };
     let mut least: Option<Girth> = None;
     while let Some((&first, _)) = steps.first_key_value() {
