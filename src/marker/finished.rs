@@ -40,6 +40,7 @@ mod tests {
     use glam::DVec2;
 
     use super::*;
+    use crate::marker::nest::Effort;
     use crate::pattern::Piece;
 
     fn pattern() -> Pattern {
@@ -51,7 +52,8 @@ mod tests {
 
     #[test]
     fn the_watch_tells_how_far_it_is_and_stops_it() {
-        let order = Order { garments: vec![(String::new(), 9)], ..Order::default() };
+        let effort = Effort { seconds: 0.2, seed: 1 };
+        let order = Order { garments: vec![(String::new(), 9)], effort, ..Order::default() };
         let watch = Watch::default();
         let made = FinishedMarker::new("a", &pattern(), &order, &watch).expect("a marker");
         assert!((0.0..=1.0).contains(&watch.share()));
