@@ -5,6 +5,7 @@ use kurbo::{ParamCurve, ParamCurveDeriv, ParamCurveNearest};
 
 use super::contour::Contour;
 use super::fit;
+use super::outer::outer;
 use crate::pattern::piece::flattened_loop;
 use crate::pattern::{AllowanceCorner, Edge, Piece, Side, curve};
 
@@ -14,6 +15,8 @@ const CHORDS: f64 = 5e-5;
 const MITRE: f64 = 3.0;
 /// Sine of the least angle at which the allowance has a corner that can be shaped.
 const LEAST_TURN: f64 = 0.05;
+/// Distance within which two points of an offset line are the same, metres.
+const SAME: f64 = 1e-8;
 /// Largest number of points of a flattened outline; of a finer one only every n-th point is used.
 const MOST_POINTS: usize = 10_000;
 /// Largest distance (metres) from a notch to a cut line that is taken to be its own.
@@ -181,8 +184,8 @@ impl Bend {
     }
 }
 
-/// The closed polyline `points` offset outward by `width`, its corners shaped as each point says. Points that come nearer to the
-/// line than `width` are dropped, which removes most loops. `chords` is how far the points' chords are from the true outline.
+/// The closed polyline `points` offset outward by `width`, its corners shaped as each point says. `chords` is how far the points'
+/// chords are from the true outline. Where allowances run into each other, as beside a dart, the outer line of both is taken.
 fn offset(points: &[Point], width: f64, chords: f64) -> Vec<Moved> {
     let line = Contour::new(points.iter().map(|point| point.at).collect());
     let side = -line.signed_area().signum();
@@ -196,9 +199,34 @@ fn offset(points: &[Point], width: f64, chords: f64) -> Vec<Moved> {
         }
     }
     let apart = width * (1.0 - 1e-3) - 2.0 * chords;
-    let mut all = moved.concat();
-    all.retain(|point| line.distance(point.at) >= apart);
-    all
+    let is_clear = |point: &Moved| line.distance(point.at) >= apart && !line.contains(point.at);
+    if moved.iter().flatten().all(is_clear) {
+        return moved.concat();
+    }
+    let own = points.iter().map(|point| point.at).collect();
+    without_overlaps(&bends, &moved, own, width)
+}
+
+/// The outer boundary of a piece with its allowance, where parts of the offset line run over each other. `outline` is the line
+/// that was offset to `moved`.
+fn without_overlaps(bends: &[Bend], moved: &[Vec<Moved>], outline: Vec<DVec2>, width: f64) -> Vec<Moved> {
+    let mut line = Vec::new();
+    for (bend, own) in bends.iter().zip(moved) {
+        // Where the outline turns inwards the offset of each side ends beside the corner: what then runs backwards has the
+        // winding of no cloth, whatever the lengths of the sides.
+        if bend.turn() < 0.0 && !own.is_empty() {
+            line.extend([bend.at + bend.out[0] * width, bend.at, bend.at + bend.out[1] * width]);
+        } else {
+            line.extend(own.iter().map(|point| point.at));
+        }
+    }
+    let known: Vec<&Moved> = moved.iter().flatten().collect();
+    let told = |at: DVec2| {
+        let same = known.iter().find(|point| point.at.distance_squared(at) < SAME * SAME);
+        // What is new is where two offset lines meet.
+        Moved { at, is_corner: same.is_none_or(|point| point.is_corner) }
+    };
+    outer([line, outline]).into_iter().map(told).collect()
 }
 
 /// Gives corner `i` its shape. What lies beyond a hem that is turned up there goes.
@@ -373,6 +401,48 @@ mod tests {
             let own = [points[1] - DVec2::Y * 0.03, points[1] + side * 0.03];
             with(&mut piece, 1, AllowanceCorner::Square(of), own);
         }
+    }
+
+    /// A skirt panel whose upper edge is at y = 0.3, with a dart of 2 cm and 9 cm in its middle.
+    fn darted(width: f64) -> Piece {
+        let corners =
+            [[-0.2, 0.0], [0.2, 0.0], [0.2, 0.3], [0.01, 0.3], [0.0, 0.21], [-0.01, 0.3], [-0.2, 0.3]];
+        let mut piece = Piece::polygon("panel", &corners.map(DVec2::from));
+        piece.allowance = width;
+        piece
+    }
+
+    #[test]
+    fn the_allowance_runs_over_a_dart_that_is_narrower_than_it() {
+        for width in [0.012, 0.02, 0.03, 0.05] {
+            for is_reversed in [false, true] {
+                let mut piece = darted(width);
+                if is_reversed {
+                    piece.outline = curve::reversed(&piece.outline);
+                }
+                let [x, top, bottom] = [0.2 + width, 0.3 + width, -width];
+                let found = corners(&piece);
+                let wanted = [[-x, bottom], [x, bottom], [x, top], [-x, top]].map(DVec2::from);
+                let line = Contour::new(found.clone());
+                assert!(
+                    (line.signed_area().abs() - 2.0 * x * (top - bottom)).abs() < 1e-9,
+                    "{width} {found:?}"
+                );
+                assert!(wanted.iter().all(|p| line.distance(*p) < 1e-9), "{width} {found:?}");
+                assert_eq!(found.len(), 4, "{width} {found:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn beside_a_dart_that_is_wider_than_both_allowances_the_line_goes_into_it() {
+        let mut piece = darted(0.004);
+        piece.outline[4].start = DVec2::new(0.0, 0.1);
+        let found = corners(&piece);
+        let lowest = found.iter().filter(|p| p.y > 0.01).map(|p| p.y).fold(1.0, f64::min);
+        // Where the offsets of both sides meet: above the tip by the allowance over the sine of half the dart's angle.
+        let wanted = 0.1 + 0.004 * 0.01_f64.hypot(0.2) / 0.01;
+        assert!((lowest - wanted).abs() < 1e-9, "{lowest} {wanted}");
     }
 
     #[test]

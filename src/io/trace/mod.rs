@@ -3,6 +3,7 @@
 pub mod allowance;
 pub mod contour;
 pub mod fit;
+mod outer;
 pub mod sample;
 
 use std::sync::Arc;
