@@ -21,10 +21,7 @@ fn graded_window() -> Window {
 }
 
 fn open(window: &mut Window) {
-    window.get_by_label("Garment").click();
-    window.run_steps(4);
-    window.get_by_label("Dress all sizes…").click();
-    window.run_steps(4);
+    from_menu(window, "Garment", "Dress all sizes…");
 }
 
 /// Waits for `label`, for at most 30 seconds.

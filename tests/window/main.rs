@@ -155,6 +155,14 @@ fn wait(window: &mut Window, what: &str, done: impl Fn(&App) -> bool) {
     }
 }
 
+/// Clicks an entry of a menu of the bar.
+fn from_menu(window: &mut Window, menu: &str, entry: &str) {
+    for label in [menu, entry] {
+        window.get_by_label(label).click();
+        window.run_steps(4);
+    }
+}
+
 #[test]
 fn every_menu_opens() {
     let mut window = window();

@@ -15,10 +15,7 @@ fn trousers() -> Project {
 }
 
 fn open(window: &mut Window) {
-    window.get_by_label("File").click();
-    window.run_steps(4);
-    window.get_by_label("Marker…").click();
-    window.run_steps(4);
+    from_menu(window, "File", "Marker…");
 }
 
 fn click(window: &mut Window, label: &str) {
