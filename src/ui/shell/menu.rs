@@ -1,6 +1,7 @@
 //! The menu bar and context menus. All entries come from the table of actions.
 
-use egui::{Button, ScrollArea};
+use egui::style::ScrollStyle;
+use egui::{Button, ScrollArea, TextWrapMode};
 
 use crate::drag::DragMode;
 use crate::io::pdf::Paper;
@@ -66,6 +67,9 @@ fn menu(ui: &mut egui::Ui, name: &str, contents: impl FnOnce(&mut egui::Ui)) {
     let below = ui.ctx().content_rect().bottom() - ui.max_rect().bottom() - FRAME;
     ui.menu_button(name, |ui| {
         ui.set_max_height(below.max(LOWEST));
+        // The bar has a place of its own, and does not lie over the keys.
+        ui.spacing_mut().scroll = ScrollStyle::thin();
+        ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
         ScrollArea::vertical().show(ui, contents);
     });
 }
