@@ -17,6 +17,10 @@ macro_rules! topics {
         /// All topics, in the order in which they are read.
         pub const TOPICS: &[Topic] =
             &[$(Topic { name: $name, text: include_str!(concat!("../../assets/manual/", $name, ".md")) }),*];
+
+        /// The same in German, block by block.
+        pub const GERMAN: &[Topic] =
+            &[$(Topic { name: $name, text: include_str!(concat!("../../assets/manual/de/", $name, ".md")) }),*];
     };
 }
 
@@ -24,6 +28,11 @@ topics!(
     "start", "pattern", "grading", "cutting", "marks", "dressing", "draping", "bodies", "fitting", "looking",
     "files", "batch", "many", "install"
 );
+
+/// All topics in the language with this code; in English where there is no manual in it.
+pub fn topics_in(code: &str) -> &'static [Topic] {
+    if code.starts_with("de") { GERMAN } else { TOPICS }
+}
 
 /// A block of a topic's text.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -99,11 +108,11 @@ mod tests {
 
     #[test]
     fn every_topic_has_a_title_and_no_sign_is_left_open() {
-        for topic in TOPICS {
+        for topic in TOPICS.iter().chain(GERMAN) {
             assert!(!topic.title().is_empty() && topic.text.starts_with("# "), "{}", topic.name);
             for line in topic.text.lines() {
                 assert_eq!(line.matches(['*', '`']).count() % 2, 0, "{}: {line}", topic.name);
-                let is_drawn = |c: char| c.is_ascii() || "…›é°".contains(c);
+                let is_drawn = |c: char| c.is_ascii() || "…›é°äöüÄÖÜß–„“×".contains(c);
                 assert!(
                     line.chars().all(is_drawn),
                     "{}: the window's letters lack a sign: {line}",
@@ -112,6 +121,21 @@ mod tests {
             }
         }
         assert_eq!(Topic::named("marks").map(|topic| topic.name), Some("marks"));
+    }
+
+    #[test]
+    fn the_german_manual_has_the_same_blocks() {
+        let kind = |block: &Block| match block {
+            Block::Heading(level, _) => format!("heading {level}"),
+            Block::Words(_) => "words".to_owned(),
+            Block::Item(sign, _) => format!("item {sign}"),
+            Block::Table(rows) => format!("table {:?}", rows.iter().map(Vec::len).collect::<Vec<_>>()),
+            Block::Command(words) => format!("command {}", words.split("  ").next().unwrap_or_default()),
+        };
+        for (english, german) in TOPICS.iter().zip(topics_in("de_DE")) {
+            let kinds = |topic: &Topic| topic.blocks().iter().map(kind).collect::<Vec<_>>();
+            assert_eq!(kinds(english), kinds(german), "{}", english.name);
+        }
     }
 
     #[test]

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use crate::geometry::ids::{PieceId, PinId, SeamId};
 use crate::pattern::edit::PointRef;
 use crate::pattern::{EdgeRef, Pattern};
+use crate::ui::language::counted;
 
 /// A reference to an internal line of a piece, by its index from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -160,20 +161,17 @@ impl Selection {
 
     /// The selection in words, for the status bar and screen readers.
     pub fn words(&self) -> String {
-        let count = |n: usize, one: &str| match n {
-            0 => None,
-            1 => Some(format!("1 {one}")),
-            _ => Some(format!("{n} {one}s")),
-        };
+        let Self { pieces, points, edges, lines, seams, pins } = self;
         let parts = [
-            count(self.pieces.len(), "piece"),
-            count(self.edges.len(), "edge"),
-            count(self.points.len(), "point"),
-            count(self.lines.len(), "line"),
-            count(self.seams.len(), "seam"),
-            count(self.pins.len(), "pin"),
+            (pieces.len(), counted(pieces.len(), "1 piece", "{n} pieces")),
+            (edges.len(), counted(edges.len(), "1 edge", "{n} edges")),
+            (points.len(), counted(points.len(), "1 point", "{n} points")),
+            (lines.len(), counted(lines.len(), "1 line", "{n} lines")),
+            (seams.len(), counted(seams.len(), "1 seam", "{n} seams")),
+            (pins.len(), counted(pins.len(), "1 pin", "{n} pins")),
         ];
-        parts.into_iter().flatten().collect::<Vec<_>>().join(", ")
+        let is_there = parts.into_iter().filter(|(n, _)| *n > 0);
+        is_there.map(|(_, words)| words).collect::<Vec<_>>().join(", ")
     }
 }
 

@@ -14,8 +14,10 @@ use crate::ui::actions::layout::Layout;
 use crate::ui::actions::picked::Picked;
 use crate::ui::actions::row::Need;
 use crate::ui::actions::sight::Sight;
+use crate::ui::actions::steps::step_words;
 use crate::ui::actions::{Action, Tool};
 use crate::ui::files::recent::RecentFile;
+use crate::ui::language::{say, tr};
 use crate::ui::look::scheme::Theme;
 use crate::ui::pointer::mouse::Mouse;
 use crate::ui::preferences::units::LengthUnit;
@@ -133,7 +135,7 @@ impl FrameContext {
     pub fn why_not(&self, action: Action) -> Option<&'static str> {
         let row = action.row();
         if self.demo && !row.in_demos {
-            return Some("A demo is shown: stop it first");
+            return Some(tr("A demo is shown: stop it first"));
         }
         row.needs.iter().find_map(|&need| self.lacks(need, action))
     }
@@ -197,14 +199,14 @@ impl FrameContext {
             Need::Hidden => (picked.hidden, "No piece is hidden"),
             Need::Twisted => (self.twisted, "No seam is twisted"),
         };
-        (!is_there).then_some(words)
+        (!is_there).then(|| tr(words))
     }
 
     fn lacks_file(&self, action: Action) -> Option<&'static str> {
         let Action::OpenRecent(i) = action else { return None };
         match self.recent.get(usize::from(i)) {
-            None => Some("No such file was open"),
-            Some(file) => (!file.is_there).then_some("The file is no longer there"),
+            None => Some(tr("No such file was open")),
+            Some(file) => (!file.is_there).then(|| tr("The file is no longer there")),
         }
     }
 
@@ -263,15 +265,15 @@ impl FrameContext {
 
     /// The label of `action`; for undo and redo with the name of the step.
     pub fn text(&self, action: Action) -> String {
-        let plain = action.row().text;
         if let Action::OpenRecent(i) = action
             && let Some(file) = self.recent.get(usize::from(i))
         {
             return file.name().0;
         }
         match (action, &self.undo, &self.redo) {
-            (Action::Undo, Some(what), _) | (Action::Redo, _, Some(what)) => format!("{plain} {what}"),
-            _ => plain.to_owned(),
+            (Action::Undo, Some(what), _) => say!("Undo {what}", what = step_words(what)),
+            (Action::Redo, _, Some(what)) => say!("Redo {what}", what = step_words(what)),
+            _ => action.row().label().to_owned(),
         }
     }
 }

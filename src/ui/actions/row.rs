@@ -2,7 +2,9 @@
 
 use egui::{Key, KeyboardShortcut, Modifiers};
 
+use crate::session::samples::Sample;
 use crate::ui::actions::Action;
+use crate::ui::language::{tr, translated};
 
 /// One row of the table of actions.
 #[derive(Clone, Copy, Debug)]
@@ -121,6 +123,19 @@ pub const fn row(menu: &'static str, action: Action, text: &'static str, tip: &'
 }
 
 impl Row {
+    /// The label in the language of the window.
+    pub fn label(&self) -> &'static str {
+        // Only in English the sample is called like the action that puts it on.
+        let is_garment = self.action == Action::Sample(Sample::Dress);
+        let garment = if is_garment { translated("Dress, a sample") } else { None };
+        garment.unwrap_or(tr(self.text))
+    }
+
+    /// The menu that it is in, in the language of the window.
+    pub fn place(&self) -> String {
+        self.menu.split(" › ").map(tr).collect::<Vec<_>>().join(" › ")
+    }
+
     /// The row with these default keys.
     pub const fn keys(self, keys: &'static [KeyboardShortcut]) -> Self {
         Self { keys, ..self }

@@ -12,6 +12,7 @@ use crate::ui::actions::{Action, Tool};
 use crate::ui::app::App;
 use crate::ui::body_pane::ghosts::Ghosts;
 use crate::ui::files::{self, Purpose};
+use crate::ui::language::tr;
 use crate::ui::pattern_pane::Fit;
 use crate::ui::shell::dialogs::Dialog;
 use crate::wrap::{BodyMark, ClothMark};
@@ -222,7 +223,7 @@ impl App {
         self.ghosts = Ghosts::proposed(&self.session);
         if self.ghosts.is_none() {
             let words =
-                "No marks can be proposed: the pattern does not say where its pieces go round the body.";
+                tr("No marks can be proposed: the pattern does not say where its pieces go round the body.");
             return self.messages.error(words);
         }
         // The side panel has the buttons to accept them.

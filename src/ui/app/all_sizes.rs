@@ -16,6 +16,7 @@ use crate::sim::{Runner, StartChoice};
 use crate::ui::app::App;
 use crate::ui::body_pane::Graphics;
 use crate::ui::files::{self, Purpose};
+use crate::ui::language::{say, tr};
 use crate::ui::look::theme::Palette;
 use crate::ui::scenery::portrait::worn_scene;
 use crate::ui::scenery::scene::Scenery;
@@ -156,7 +157,7 @@ impl AllSizes {
         let room = ctx.content_rect().size() - egui::vec2(80.0, 120.0);
         let shown = Modal::new(Id::unique("all sizes")).show(ctx, |ui| {
             ui.set_width((self.count() as f32 * (SHOWN + 16.0) + 150.0).clamp(420.0, room.x.max(420.0)));
-            ui.heading("All sizes on this body");
+            ui.heading(tr("All sizes on this body"));
             ui.add_space(4.0);
             let mut answer = Answer::None;
             ui.horizontal(|ui| answer = self.head_ui(ui, palette));
@@ -164,13 +165,13 @@ impl AllSizes {
             ScrollArea::both().max_height(room.y - 110.0).show(ui, |ui| self.table_ui(ui, palette));
             ui.add_space(8.0);
             ui.horizontal(|ui| {
-                let text = RichText::new("Save the table…").color(palette.on_accent);
+                let text = RichText::new(tr("Save the table…")).color(palette.on_accent);
                 let save =
                     ui.add_enabled(!self.done.is_empty(), egui::Button::new(text).fill(palette.accent));
-                if save.on_hover_text("Write it as CSV, with the pictures beside it as PNG").clicked() {
+                if save.on_hover_text(tr("Write it as CSV, with the pictures beside it as PNG")).clicked() {
                     answer = Answer::Save;
                 }
-                if ui.button("Close").clicked() {
+                if ui.button(tr("Close")).clicked() {
                     answer = Answer::Close;
                 }
             });
@@ -185,25 +186,26 @@ impl AllSizes {
         match &self.trial {
             Some(trial) => {
                 let (done, count) = (self.done.len(), self.count());
-                ui.label(format!("Dressing {}: {} of {count}", trial.fit.size, done + 1));
+                let size = &trial.fit.size;
+                ui.label(say!("Dressing {size}: {number} of {count}", size, number = done + 1, count));
                 let bar = egui::ProgressBar::new(done as f32 / count as f32).fill(palette.accent);
                 ui.add(bar.desired_width(160.0).desired_height(8.0));
-                if ui.button("Stop").on_hover_text("Leave the other sizes out").clicked() {
+                if ui.button(tr("Stop")).on_hover_text(tr("Leave the other sizes out")).clicked() {
                     answer = Answer::Stop;
                 }
             }
             None => {
-                ui.label(size_fit::summary(&self.done, true));
+                ui.label(summary(&self.done));
             }
         }
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            let combo = ComboBox::from_id_salt("map of sizes").selected_text(self.map.title());
+            let combo = ComboBox::from_id_salt("map of sizes").selected_text(tr(self.map.title()));
             let shown = combo.show_ui(ui, |ui| {
                 for kind in MAPS {
-                    ui.selectable_value(&mut self.map, kind, kind.title());
+                    ui.selectable_value(&mut self.map, kind, tr(kind.title()));
                 }
             });
-            let label = ui.label("Map");
+            let label = ui.label(tr("Map"));
             shown.response.labelled_by(label.id);
         });
         answer
@@ -236,11 +238,11 @@ impl AllSizes {
                     }
                     ui.end_row();
                 }
-                ui.label(weak("Result"));
+                ui.label(weak(tr("Result")));
                 for size in &self.done {
                     let (words, ink) = match size.is_clean() {
-                        true => ("dressed", ui.visuals().text_color()),
-                        false => ("not without faults", palette.error),
+                        true => (tr("dressed"), ui.visuals().text_color()),
+                        false => (tr("not without faults"), palette.error),
                     };
                     let all = size.why.iter().chain(&size.problems).cloned().collect::<Vec<_>>().join("\n");
                     let response = ui.label(RichText::new(words).color(ink));
@@ -249,13 +251,13 @@ impl AllSizes {
                     }
                 }
                 ui.end_row();
-                ui.label(weak("Strain p99, %"));
+                ui.label(weak(tr("Strain p99, %")));
                 for size in &self.done {
                     ui.label(size.strain_p99.map_or("–".to_owned(), |p99| format!("{:.1}", p99 * 100.0)));
                 }
                 ui.end_row();
                 for name in size_fit::girth_names(&self.done) {
-                    ui.label(weak(&format!("Ease at {name}, cm")));
+                    ui.label(weak(&say!("Ease at {name}, cm", name = tr(name))));
                     for size in &self.done {
                         let ease = size.ease.iter().find(|ease| ease.name == name).map(Ease::metres);
                         let text = ease.map_or("–".to_owned(), |ease| format!("{:+.1}", ease * 100.0));
@@ -268,6 +270,21 @@ impl AllSizes {
             },
         );
     }
+}
+
+/// The result in one or two lines.
+fn summary(sizes: &[SizeFit]) -> String {
+    let clean = sizes.iter().filter(|size| size.is_clean()).count();
+    let dressed = say!("{clean} of {count} sizes are dressed without a fault", clean, count = sizes.len());
+    let best = size_fit::best(sizes).and_then(|size| Some((&size.size, size.tightest()?)));
+    let Some((size, (ease, girth))) = best else { return dressed };
+    let best = say!(
+        "{size} fits this body best: its least ease is {ease} cm, at the {girth}",
+        size,
+        ease = format!("{:+.1}", ease * 100.0),
+        girth = tr(girth)
+    );
+    format!("{dressed}\n{best}")
 }
 
 impl Trial {
@@ -329,7 +346,7 @@ impl Trial {
                 .iter()
                 .map(|problem| format!("{}: {}", problem.place, problem.words))
                 .collect();
-            self.fit.why = Some(format!("no cloth could be put on the body: {}", words.join("; ")));
+            self.fit.why = Some(say!("no cloth could be put on the body: {why}", why = words.join("; ")));
         }
         outfit
     }
@@ -349,7 +366,7 @@ impl App {
         if let Some(graphics) = &mut self.scene_pane.graphics
             && let Err(why) = sizes.draw(ctx, graphics)
         {
-            self.messages.error(format!("There is no picture: {why}"));
+            self.messages.error(say!("There is no picture: {why}", why));
         }
         if sizes.trial.is_none() && !sizes.waiting.is_empty() {
             ctx.request_repaint();

@@ -14,6 +14,7 @@ use crate::ui::actions::layout::{Layout, Panes};
 use crate::ui::actions::picked::Picked;
 use crate::ui::app::App;
 use crate::ui::body_pane;
+use crate::ui::language::{say, tr};
 use crate::ui::look::theme::Palette;
 use crate::ui::panels::context::PanelContext;
 use crate::ui::panels::side;
@@ -113,9 +114,9 @@ impl App {
         let mouse = now.mouse;
         let next = |painted: usize| painted + 1;
         if self.demo.is_some() {
-            "A demo is shown. Drag: turn · Wheel: zoom · Esc: back to your work".to_owned()
+            tr("A demo is shown. Drag: turn · Wheel: zoom · Esc: back to your work").to_owned()
         } else if self.ghosts.is_some() {
-            "Proposed marks: Enter takes them, Esc forgets them.".to_owned()
+            tr("Proposed marks: Enter takes them, Esc forgets them.").to_owned()
         } else if let Some(words) = self.scene_pane.hint_by_keys(self.tool, next(document.marks.body.len())) {
             words
         } else if self.pattern_pane.hovered || self.pattern_pane.is_busy() {
@@ -128,7 +129,7 @@ impl App {
                 None => words,
             }
         } else {
-            "Paint a mark on a piece and one on the body where it should lie, then press Wrap.".to_owned()
+            tr("Paint a mark on a piece and one on the body where it should lie, then press Wrap.").to_owned()
         }
     }
 
@@ -215,5 +216,10 @@ impl App {
 fn edge_words(pattern: &Pattern, item: Item, unit: LengthUnit) -> Option<String> {
     let Item::Edge(edge) = item else { return None };
     let piece = pattern.pieces.get(&edge.piece).filter(|piece| edge.edge < piece.edge_count())?;
-    Some(format!("{}, edge {}: {}", piece.name, edge.edge + 1, unit.text(piece.edge_length(edge.edge))))
+    Some(say!(
+        "{piece}, edge {number}: {length}",
+        piece = piece.name,
+        number = edge.edge + 1,
+        length = unit.text(piece.edge_length(edge.edge))
+    ))
 }

@@ -6,7 +6,9 @@ use crate::ui::actions::Action;
 use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::actions::context::FrameContext;
 use crate::ui::actions::drawer::Drawer;
+use crate::ui::actions::steps::step_words;
 use crate::ui::app::App;
+use crate::ui::language::{say, tr};
 use crate::ui::look::theme::Palette;
 use crate::ui::maps;
 
@@ -29,13 +31,13 @@ impl App {
             .show(ui, |ui| {
                 ui.horizontal(|ui| {
                     for action in [Action::ToggleHistory, Action::ToggleLog, Action::ToggleMapTable] {
-                        let tab = egui::Button::selectable(now.is_on(action), action.row().text);
+                        let tab = egui::Button::selectable(now.is_on(action), tr(action.row().text));
                         if ui.add(tab).clicked() && !now.is_on(action) {
                             asks.push(Ask::Act(action));
                         }
                     }
                     ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-                        if ui.small_button("×").on_hover_text("Close").clicked() {
+                        if ui.small_button("×").on_hover_text(tr("Close")).clicked() {
                             asks.push(Ask::Act(match drawer {
                                 Drawer::History => Action::ToggleHistory,
                                 Drawer::Log => Action::ToggleLog,
@@ -48,7 +50,7 @@ impl App {
                             Drawer::Map => self.shell.maps.shown().map(maps::table_text),
                         };
                         if let Some(text) = text
-                            && ui.button("Copy all").clicked()
+                            && ui.button(tr("Copy all")).clicked()
                         {
                             ui.ctx().copy_text(text);
                         }
@@ -68,12 +70,12 @@ impl App {
     /// The undo history, oldest step first; undone steps are fainter. A click goes to a step.
     fn history_ui(&self, ui: &mut egui::Ui, palette: &Palette, asks: &mut Asks) {
         let session = self.shown();
-        let labels = std::iter::once("As it was opened").chain(session.step_labels());
-        let labels: Vec<&str> = labels.chain(session.undone_labels()).collect();
+        let steps = session.step_labels().chain(session.undone_labels()).map(step_words);
+        let labels: Vec<String> = std::iter::once(tr("As it was opened").to_owned()).chain(steps).collect();
         let done = session.step_labels().count();
         ui.spacing_mut().item_spacing.y = 1.0;
         for (i, label) in labels.iter().enumerate() {
-            let words = if i == 0 { (*label).to_owned() } else { format!("{i}  {label}") };
+            let words = if i == 0 { label.clone() } else { format!("{i}  {label}") };
             let text =
                 if i > done { RichText::new(&words).color(palette.weak) } else { RichText::new(&words) };
             let row =
@@ -84,7 +86,7 @@ impl App {
                     egui::accesskit::Role::ListBoxOption,
                     true,
                     i == done,
-                    format!("Step {words}"),
+                    say!("Step {words}", words),
                 )
             });
             if row.clicked() && i != done {

@@ -7,6 +7,7 @@ use crate::sim::{Snapshot, Start, StartChoice, Started};
 use crate::ui::actions::Tool;
 use crate::ui::app::App;
 use crate::ui::body_pane::ghosts::Ghosts;
+use crate::ui::language::{say, tr};
 
 impl App {
     /// Dresses the garment by the best start.
@@ -46,15 +47,15 @@ impl App {
 /// A message: how the garment was put on the body, and whether it has faults.
 fn words(started: &Started, has_marks: bool) -> String {
     let taken = started.taken();
-    let how = match (taken.start, taken.draped) {
-        (Start::Placement, _) => "sewn from placement",
-        (Start::Marks, true) if has_marks => "by its marks, draped",
-        (Start::Marks, true) => "by suggested marks, draped",
-        (Start::Marks, false) if has_marks => "by its marks, not draped",
-        (Start::Marks, false) => "by suggested marks, not draped",
+    let dressed = match (taken.start, taken.draped) {
+        (Start::Placement, _) => tr("Dressed sewn from placement"),
+        (Start::Marks, true) if has_marks => tr("Dressed by its marks, draped"),
+        (Start::Marks, true) => tr("Dressed by suggested marks, draped"),
+        (Start::Marks, false) if has_marks => tr("Dressed by its marks, not draped"),
+        (Start::Marks, false) => tr("Dressed by suggested marks, not draped"),
     };
     match taken.faults.len() {
-        0 => format!("Dressed {how}."),
-        _ => format!("Dressed {how}: the best of the starts, and not without faults (see Problems)."),
+        0 => format!("{dressed}."),
+        _ => say!("{dressed}: the best of the starts, and not without faults (see Problems).", dressed),
     }
 }

@@ -12,6 +12,7 @@ use crate::ui::app::{App, sentence};
 use crate::ui::files::obj_sequence::read_sequence;
 use crate::ui::files::posed_motion::PosedMotion;
 use crate::ui::files::{self, PatternImport, PoseFile, Purpose, RawBody};
+use crate::ui::language::{say, tr};
 use crate::ui::maps::Opening;
 use crate::ui::shell::dialogs::{Dialog, NativeDialog};
 use crate::ui::shell::drop_overlay::Dropped;
@@ -113,7 +114,8 @@ impl App {
         let moved = self.session.brought(&pattern);
         if !moved.placements.is_empty() {
             moved.carry_out(Arc::make_mut(&mut pattern));
-            notes.push(format!("Its pieces were placed for another body: {}", moved.words.join(", ")));
+            let how = moved.words.join(", ");
+            notes.push(say!("Its pieces were placed for another body: {how}", how));
         }
         Command::ReplacePattern { name, pattern, marks }
     }
@@ -123,7 +125,7 @@ impl App {
         let pattern = Arc::clone(&self.session.document().pattern);
         let Moved { placements, words } = self.session.brought(&pattern);
         if placements.is_empty() {
-            return self.messages.tell("The pieces stand where they belong on this body".to_owned());
+            return self.messages.tell(tr("The pieces stand where they belong on this body"));
         }
         let edits = vec![PatternEdit::PlaceInSpace { placements }];
         self.apply(Command::EditPattern { edits, anew: false });
@@ -160,7 +162,7 @@ impl App {
 
     /// Reads a pose or animations of the body, or a motion for the mannequin.
     fn take_pose(&mut self, path: &Path) -> Result<(), String> {
-        let dressed = self.session.surface().ok_or("There is no body that could take a pose")?;
+        let dressed = self.session.surface().ok_or(tr("There is no body that could take a pose"))?;
         match files::read_pose(path, &dressed.mesh)? {
             PoseFile::Body(command) => self.apply(command),
             PoseFile::Motion(clip) => {
@@ -179,17 +181,17 @@ impl App {
 
     /// Reads the files numbered like this one as an animation of the body, which the side panel then shows.
     fn take_sequence(&mut self, path: &Path) -> Result<(), String> {
-        let dressed = self.session.surface().ok_or("There is no body that could take a pose")?;
+        let dressed = self.session.surface().ok_or(tr("There is no body that could take a pose"))?;
         let (command, count) = read_sequence(path, &dressed.mesh)?;
         self.apply(command);
-        self.messages.tell(format!("{count} files are an animation under Pose, of 30 a second"));
+        self.messages.tell(say!("{count} files are an animation under Pose, of 30 a second", count));
         Ok(())
     }
 
     /// Shows the garment of another project beside, once it is opened.
     fn compare_with(&mut self, ctx: &egui::Context, path: &Path) -> Result<(), String> {
         let present = Outfit::of(self.session.snapshot(), &self.session.document().fabrics);
-        let present = present.ok_or("There is no cloth on the body to be compared")?;
+        let present = present.ok_or(tr("There is no cloth on the body to be compared"))?;
         self.shell.maps.wait_for(Opening::begin(path, present, ctx)?);
         Ok(())
     }
@@ -205,12 +207,12 @@ impl App {
     /// Reads a table of sizes, which the side panel then offers.
     fn take_sizes(&mut self, path: &Path) -> Result<(), String> {
         self.shell.tape.sizes.take(path, &files::read(path)?)?;
-        self.messages.tell("The sizes are listed in Measures of the body");
+        self.messages.tell(tr("The sizes are listed in Measures of the body"));
         Ok(())
     }
 
     pub(in crate::ui) fn wrote(&mut self, path: &Path) {
-        self.messages.tell(format!("Written: {}", path.display()));
+        self.messages.tell(say!("Written: {path}", path = path.display()));
     }
 
     pub(in crate::ui) fn dropped_files(&mut self, ctx: &egui::Context) {
@@ -225,9 +227,9 @@ impl App {
                 Dropped::Pattern => self.file(ctx, Purpose::ImportPattern, &path),
                 Dropped::Body => self.file(ctx, Purpose::ImportBody, &path),
                 Dropped::Image => self.file(ctx, Purpose::Image, &path),
-                Dropped::Nothing => self.messages.error(format!(
-                    "{} is neither a project (.toile), a pattern (.dxf, .svg, .json), a body (.obj, .glb, .gltf) nor an image (.png, .jpg)",
-                    path.display()
+                Dropped::Nothing => self.messages.error(say!(
+                    "{path} is neither a project (.toile), a pattern (.dxf, .svg, .json), a body (.obj, .glb, .gltf) nor an image (.png, .jpg)",
+                    path = path.display()
                 )),
             }
         }

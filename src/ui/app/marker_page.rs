@@ -14,6 +14,7 @@ use crate::pattern::Pattern;
 use crate::ui::app::App;
 use crate::ui::app::marker_preview::Preview;
 use crate::ui::files::{self, Purpose};
+use crate::ui::language::{say, tr};
 use crate::ui::look::theme::Palette;
 use crate::ui::panels::fields::length_field;
 use crate::ui::preferences::units::LengthUnit;
@@ -98,7 +99,7 @@ impl MarkerPage {
         self.error = None;
         match std::thread::Builder::new().name("marker".to_owned()).spawn(work) {
             Ok(_) => self.work = Some(Work { watch, coming }),
-            Err(why) => self.error = Some(format!("The marker cannot be made: {why}")),
+            Err(why) => self.error = Some(say!("The marker cannot be made: {why}", why)),
         }
     }
 
@@ -107,10 +108,12 @@ impl MarkerPage {
         let Some(work) = self.work.take() else { return };
         match work.coming.try_recv() {
             Err(TryRecvError::Empty) => self.work = Some(work),
-            Err(TryRecvError::Disconnected) => self.error = Some("The marker could not be made".to_owned()),
+            Err(TryRecvError::Disconnected) => {
+                self.error = Some(tr("The marker could not be made").to_owned());
+            }
             Ok(Err(why)) => {
                 let words = why.words(&|metres| unit.text(metres));
-                (self.error, self.shown) = (Some(format!("There is no marker: {words}")), None);
+                (self.error, self.shown) = (Some(say!("There is no marker: {words}", words)), None);
             }
             Ok(Ok(made)) => {
                 let preview = Preview::new(&made.marker);
@@ -124,7 +127,7 @@ impl MarkerPage {
         let size = egui::vec2(room.x.clamp(560.0, WIDEST), (room.y - 110.0).clamp(240.0, 560.0));
         let shown = Modal::new(Id::unique("marker")).show(ctx, |ui| {
             ui.set_width(size.x);
-            ui.heading("Marker");
+            ui.heading(tr("Marker"));
             ui.add_space(6.0);
             let mut answer = Answer::None;
             ui.horizontal_top(|ui| {
@@ -146,7 +149,7 @@ impl MarkerPage {
                     answer = Answer::Save(format);
                 }
                 ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-                    if ui.button("Close").clicked() {
+                    if ui.button(tr("Close")).clicked() {
                         answer = Answer::Close;
                     }
                 });
@@ -160,46 +163,47 @@ impl MarkerPage {
         let has_sizes = !self.pattern.sizes.is_empty();
         let order = &mut self.order;
         Grid::new("marker options").num_columns(2).spacing([14.0, 7.0]).show(ui, |ui| {
-            let label = ui.label("Width of the cloth");
-            let label = label.on_hover_text("What can be used of it, without the selvedges");
+            let label = ui.label(tr("Width of the cloth"));
+            let label = label.on_hover_text(tr("What can be used of it, without the selvedges"));
             order.width = length_field(ui, "width", &label, order.width, unit).unwrap_or(order.width);
             ui.end_row();
             for (size, count) in &mut order.garments {
-                let words =
-                    if has_sizes { format!("Garments in size {size}") } else { "Garments".to_owned() };
+                let words = match has_sizes {
+                    true => say!("Garments in size {size}", size),
+                    false => tr("Garments").to_owned(),
+                };
                 let label = ui.label(words);
                 ui.add(DragValue::new(count).range(0..=MOST_PIECES)).labelled_by(label.id);
                 ui.end_row();
             }
-            let label = ui.label("Gap");
-            let label = label.on_hover_text("Least distance between pieces");
+            let label = ui.label(tr("Gap"));
+            let label = label.on_hover_text(tr("Least distance between pieces"));
             order.gap = length_field(ui, "gap", &label, order.gap, unit).unwrap_or(order.gap);
             ui.end_row();
-            let label = ui.label("Tilt");
-            let label = label.on_hover_text("By how much pieces may also lie out of the grain");
+            let label = ui.label(tr("Tilt"));
+            let label = label.on_hover_text(tr("By how much pieces may also lie out of the grain"));
             let mut degrees = order.tilt.to_degrees();
             let value = DragValue::new(&mut degrees).range(0.0..=45.0).speed(0.1).max_decimals(1).suffix("°");
             if ui.add(value).labelled_by(label.id).changed() {
                 order.tilt = degrees.to_radians();
             }
             ui.end_row();
-            let label = ui.label("Search");
-            let label =
-                label.on_hover_text("How long to look for a shorter layout: longer finds some percent more");
+            let label = ui.label(tr("Search"));
+            let label = label
+                .on_hover_text(tr("How long to look for a shorter layout: longer finds some percent more"));
             let value = DragValue::new(&mut order.effort.seconds);
             ui.add(value.range(0.0..=600.0).speed(0.1).max_decimals(1).suffix(" s")).labelled_by(label.id);
             ui.end_row();
         });
         ui.add_space(2.0);
-        ui.checkbox(&mut order.nap, "Nap: all pieces point one way").on_hover_text(
-            "For velvet, fur or a one-way print. Otherwise pieces may be turned by 180 degrees",
-        );
+        let tip = tr("For velvet, fur or a one-way print. Otherwise pieces may be turned by 180 degrees");
+        ui.checkbox(&mut order.nap, tr("Nap: all pieces point one way")).on_hover_text(tip);
     }
 
     /// The button that begins, or the progress with the button that stops it.
     fn work_ui(&self, ui: &mut egui::Ui, palette: &Palette) -> Answer {
         let Some(work) = &self.work else {
-            let words = if self.shown.is_some() { "Make it again" } else { "Make the marker" };
+            let words = if self.shown.is_some() { tr("Make it again") } else { tr("Make the marker") };
             let button = Button::new(RichText::new(words).color(palette.on_accent)).fill(palette.accent);
             return if ui.add(button).clicked() { Answer::Make } else { Answer::None };
         };
@@ -207,7 +211,7 @@ impl MarkerPage {
         ui.horizontal(|ui| {
             let bar = egui::ProgressBar::new(work.watch.share() as f32).fill(palette.accent);
             ui.add(bar.desired_width(OPTIONS - 90.0).desired_height(8.0));
-            let button = ui.button("Cancel").on_hover_text("Stop making this marker");
+            let button = ui.button(tr("Cancel")).on_hover_text(tr("Stop making this marker"));
             if button.clicked() { Answer::Cancel } else { Answer::None }
         })
         .inner
@@ -222,7 +226,10 @@ impl MarkerPage {
             None => {
                 let (rect, _) = ui.allocate_exact_size(size, egui::Sense::hover());
                 ui.painter().rect_filled(rect, 5.0, look.palette.table);
-                let words = if self.work.is_some() { "Laying the pieces out…" } else { "No marker yet" };
+                let words = match self.work {
+                    Some(_) => tr("Laying the pieces out…"),
+                    None => tr("No marker yet"),
+                };
                 let font = egui::TextStyle::Body.resolve(ui.style());
                 ui.painter().text(rect.center(), egui::Align2::CENTER_CENTER, words, font, look.palette.weak);
             }
@@ -243,10 +250,10 @@ impl MarkerPage {
     fn figures_ui(&self, ui: &mut egui::Ui, made: &FinishedMarker, look: Look<'_>) {
         let report = &made.report;
         let figures = [
-            ("Length", look.unit.text(report.length)),
-            ("Yield", format!("{:.1} %", report.yield_percent)),
-            ("For each garment", look.unit.text(report.length_per_garment)),
-            ("Pieces", report.places.len().to_string()),
+            (tr("Length"), look.unit.text(report.length)),
+            (tr("Yield"), format!("{:.1} %", report.yield_percent)),
+            (tr("For each garment"), look.unit.text(report.length_per_garment)),
+            (tr("Pieces"), report.places.len().to_string()),
         ];
         ui.horizontal(|ui| {
             ui.spacing_mut().item_spacing.x = 26.0;
@@ -258,12 +265,14 @@ impl MarkerPage {
                 });
             }
             if made.marker.order != self.order {
-                let words = "The options have changed since: make it again";
+                let words = tr("The options have changed since: make it again");
                 ui.add(egui::Label::new(RichText::new(words).color(look.palette.warning)).wrap());
             } else if let [first, rest @ ..] = &report.problems[..] {
-                let more =
-                    if rest.is_empty() { String::new() } else { format!(" (and {} more)", rest.len()) };
-                let words = RichText::new(format!("{first}{more}")).color(look.palette.warning);
+                let words = match rest.len() {
+                    0 => first.clone(),
+                    more => say!("{problem} (and {more} more)", problem = first, more),
+                };
+                let words = RichText::new(words).color(look.palette.warning);
                 ui.add(egui::Label::new(words).wrap()).on_hover_text(report.problems.join("\n"));
             }
         });
@@ -275,11 +284,13 @@ impl MarkerPage {
         for format in MarkerFormat::ALL {
             let (words, tip) = match format {
                 MarkerFormat::Pdf => {
-                    let paper = crate::ui::actions::Action::Paper(paper).row().text;
-                    ("Save as PDF…", format!("At true size. Paper: {paper} (File › Paper)"))
+                    let paper = tr(crate::ui::actions::Action::Paper(paper).row().text);
+                    (tr("Save as PDF…"), say!("At true size. Paper: {paper} (File › Paper)", paper))
                 }
-                MarkerFormat::Svg => ("Save as SVG…", "At true size".to_owned()),
-                MarkerFormat::Dxf => ("Save as DXF…", "For a plotter or cutter (AAMA, ASTM)".to_owned()),
+                MarkerFormat::Svg => (tr("Save as SVG…"), tr("At true size").to_owned()),
+                MarkerFormat::Dxf => {
+                    (tr("Save as DXF…"), tr("For a plotter or cutter (AAMA, ASTM)").to_owned())
+                }
             };
             let button = ui.add_enabled(self.shown.is_some() && self.work.is_none(), Button::new(words));
             if button.on_hover_text(tip).clicked() {

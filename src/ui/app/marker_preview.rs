@@ -8,6 +8,7 @@ use glam::DVec2;
 use crate::geometry::polygon::contains;
 use crate::marker::{Marker, Placed};
 use crate::pattern::piece::flattened_loop;
+use crate::ui::language::say;
 use crate::ui::look::theme::Palette;
 use crate::ui::pattern_pane::shapes::{middle, trapezoids};
 use crate::ui::preferences::units::LengthUnit;
@@ -129,7 +130,12 @@ impl Preview {
         let drawn = Rect::from_center_size(rect.center(), cloth * scale + rim);
         let place = Place { origin: drawn.left_bottom() + vec2(LEFT, -BELOW), scale };
         let [length, width] = [self.cloth.x, self.cloth.y].map(|side| unit.text(side));
-        let words = format!("Marker: {} pieces on {length} of cloth {width} wide", self.pieces.len());
+        let words = say!(
+            "Marker: {count} pieces on {length} of cloth {width} wide",
+            count = self.pieces.len(),
+            length,
+            width
+        );
         response.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::Image, true, &words));
         let at = response.hover_pos().map(|at| place.cloth(at));
         let pointed = at.and_then(|at| self.pieces.iter().position(|piece| contains(&piece.outline, at)));
@@ -139,7 +145,8 @@ impl Preview {
         }
         if let Some(piece) = pointed.map(|i| &self.pieces[i]) {
             let [along, across] = [piece.size.x, piece.size.y].map(|side| unit.text(side));
-            let words = format!("{}: {along} along the cloth, {across} across", piece.name);
+            let name = &piece.name;
+            let words = say!("{name}: {along} along the cloth, {across} across", name, along, across);
             response.on_hover_text_at_pointer(words);
         }
     }

@@ -49,6 +49,9 @@ use crate::ui::body_pane::ScenePane;
 use crate::ui::body_pane::ghosts::Ghosts;
 use crate::ui::files::recent::Recent;
 use crate::ui::files::{self, Purpose};
+use crate::ui::language;
+use crate::ui::language::choice::{self, Languages};
+use crate::ui::language::{say, tr};
 use crate::ui::look::scheme::Scheme;
 use crate::ui::look::theme::{self, Palette};
 use crate::ui::panels::marks::MarksPanel;
@@ -93,6 +96,7 @@ pub struct App {
     /// A demo that is shown instead of the document, with the views of both panes to return to.
     pub(in crate::ui) demo: Option<(Player, Camera, TableView)>,
     pub(in crate::ui) preferences: Preferences,
+    pub(in crate::ui) languages: Languages,
     /// The file of the preferences.
     pub(in crate::ui) preferences_path: Option<PathBuf>,
     /// An action to be carried out once the project is saved.
@@ -158,6 +162,7 @@ impl App {
             may_close: false,
             demo: None,
             preferences: Preferences::default(),
+            languages: Languages::default(),
             preferences_path: None,
             after_save: None,
             safety: Safety::default(),
@@ -193,6 +198,9 @@ impl App {
             self.messages.error(words);
         }
         self.shell.recent = Recent::read(path.with_file_name("recent.json"));
+        for words in self.languages.read(&path.with_file_name(choice::FOLDER)) {
+            self.messages.error(words);
+        }
         self.preferences_path = Some(path);
         self.live_by_preferences(ctx);
     }
@@ -201,6 +209,17 @@ impl App {
     pub(super) fn use_card(&mut self) {
         let wanted = self.preferences.card.0 && !self.session.recorder().has_file();
         self.session.use_card(wanted.then(|| Arc::clone(&self.card)));
+    }
+
+    /// Follows the system's language, `locale`, unless the user chose another.
+    pub fn follow_language(&mut self, locale: String) {
+        self.languages.take_system(locale);
+        self.speak();
+    }
+
+    /// Shows all texts from now on in the chosen language.
+    pub(in crate::ui) fn speak(&self) {
+        language::show(self.languages.table(&self.preferences.language));
     }
 
     /// Shows an error message.
@@ -272,7 +291,9 @@ impl App {
                 self.session = Session::new(project, runner);
                 self.use_card();
             }
-            Err(e) => return self.messages.error(format!("The simulation could not be started: {e}")),
+            Err(e) => {
+                return self.messages.error(say!("The simulation could not be started: {why}", why = e));
+            }
         }
         self.on_disk = path.as_deref().and_then(files::OnDisk::of);
         self.path = path;
@@ -291,6 +312,7 @@ impl App {
     /// Draws one frame and carries out its requests.
     pub fn ui(&mut self, ui: &mut egui::Ui) {
         self.frames += 1;
+        self.speak();
         let ctx = ui.ctx().clone();
         self.take_notices();
         self.play_demo(&ctx);
@@ -345,14 +367,14 @@ impl App {
 
     fn take_notices(&mut self) {
         if let Some(why) = self.session.recorder().take_file_error() {
-            self.messages.error(format!("The recording is no longer written to its file: {why}"));
+            self.messages.error(say!("The recording is no longer written to its file: {why}", why));
         }
         for notice in self.session.update() {
             match notice {
                 Notice::AtRest { .. } => {}
                 Notice::Failed { words, .. } => self.messages.error(words),
                 Notice::HistoryShortened => {
-                    self.messages.tell("Older steps can no longer be undone, to save memory.");
+                    self.messages.tell(tr("Older steps can no longer be undone, to save memory."));
                 }
             }
         }
@@ -399,7 +421,7 @@ impl App {
         let lost = self.session.problems();
         if !lost.is_empty() {
             let places: Vec<&str> = lost.iter().map(|p| p.place.as_str()).collect();
-            self.messages.error(format!("Not carried to the new body: {}.", places.join(", ")));
+            self.messages.error(say!("Not carried to the new body: {places}.", places = places.join(", ")));
         }
     }
 
@@ -485,7 +507,7 @@ impl App {
     fn set_title(&mut self, ctx: &egui::Context) {
         let name = self.path.as_deref().and_then(Path::file_stem).map(|n| n.to_string_lossy());
         let mark = if self.session.is_modified() { " •" } else { "" };
-        let title = format!("{}{mark} – Toile", name.as_deref().unwrap_or("Untitled"));
+        let title = format!("{}{mark} – Toile", name.as_deref().unwrap_or(tr("Untitled")));
         if title != self.title {
             ctx.send_viewport_cmd(ViewportCommand::Title(title.clone()));
             self.title = title;

@@ -9,6 +9,7 @@ use crate::render::{Camera, Look, Projection, View, png};
 use crate::ui::actions::{Action, VIEWS};
 use crate::ui::app::App;
 use crate::ui::files::{self, Purpose};
+use crate::ui::language::{say, tr};
 use crate::ui::look::theme::{self, Palette};
 use crate::ui::scenery::portrait::{Extras, portrait};
 
@@ -60,12 +61,13 @@ impl PicturePage {
         let options = &mut self.options;
         let shown = Modal::new(Id::unique("picture")).show(ctx, |ui| {
             ui.set_width(360.0);
-            ui.heading("Save a picture");
+            ui.heading(tr("Save a picture"));
             ui.add_space(6.0);
             egui::Grid::new("picture").num_columns(2).spacing([18.0, 8.0]).show(ui, |ui| {
-                let label = ui.label("Size");
+                let label = ui.label(tr("Size"));
                 ui.horizontal(|ui| {
-                    for (side, name) in [(&mut options.size.x, "Width"), (&mut options.size.y, "Height")] {
+                    let sides = [(&mut options.size.x, tr("Width")), (&mut options.size.y, tr("Height"))];
+                    for (side, name) in sides {
                         let value = DragValue::new(side).range(SIDES).suffix(" px");
                         let field = ui.add(value).labelled_by(label.id);
                         field.widget_info(|| {
@@ -75,10 +77,10 @@ impl PicturePage {
                     sizes_ui(ui, &mut options.size);
                 });
                 ui.end_row();
-                let label = ui.label("Seen");
+                let label = ui.label(tr("Seen"));
                 let words = |view: Option<View>| match view {
-                    None => "as now",
-                    Some(view) => Action::Look(view).row().text,
+                    None => tr("as now"),
+                    Some(view) => tr(Action::Look(view).row().text),
                 };
                 let combo = ComboBox::from_id_salt("side").selected_text(words(options.view));
                 let shown = combo.show_ui(ui, |ui| {
@@ -88,26 +90,26 @@ impl PicturePage {
                 });
                 shown.response.labelled_by(label.id);
                 ui.end_row();
-                ui.label("Background");
-                ui.checkbox(&mut options.cut_out, "none: transparent, without floor");
+                ui.label(tr("Background"));
+                ui.checkbox(&mut options.cut_out, tr("none: transparent, without floor"));
                 ui.end_row();
-                ui.label("Marks");
-                ui.checkbox(&mut options.marks, "with marks and pins");
+                ui.label(tr("Marks"));
+                ui.checkbox(&mut options.marks, tr("with marks and pins"));
                 ui.end_row();
-                let label = ui.label("A full turn");
+                let label = ui.label(tr("A full turn"));
                 ui.horizontal(|ui| {
                     let value = DragValue::new(&mut options.count).range(1..=360);
                     ui.add(value).labelled_by(label.id);
-                    ui.label(if options.count == 1 { "picture" } else { "pictures, numbered" });
+                    ui.label(if options.count == 1 { tr("picture") } else { tr("pictures, numbered") });
                 });
                 ui.end_row();
             });
             ui.add_space(10.0);
             ui.horizontal(|ui| {
-                let text = egui::RichText::new("Choose a file…").color(palette.on_accent);
+                let text = egui::RichText::new(tr("Choose a file…")).color(palette.on_accent);
                 if ui.add(egui::Button::new(text).fill(palette.accent)).clicked() {
                     Answer::Write
-                } else if ui.button("Cancel").clicked() {
+                } else if ui.button(tr("Cancel")).clicked() {
                     Answer::Cancel
                 } else {
                     Answer::None
@@ -132,7 +134,7 @@ fn sizes_ui(ui: &mut egui::Ui, size: &mut UVec2) {
         }
     })
     .response
-    .on_hover_text("Sizes that are often wanted");
+    .on_hover_text(tr("Sizes that are often wanted"));
 }
 
 impl App {
@@ -186,7 +188,7 @@ impl App {
         let extras = Extras { marks: options.marks, pins: options.marks, map: colours };
         let scene = portrait(&mut self.scenery, session, extras);
         let Some(graphics) = &mut self.scene_pane.graphics else {
-            return Err("There is no graphics adapter to draw with".to_owned());
+            return Err(tr("There is no graphics adapter to draw with").to_owned());
         };
         // Lines keep their width relative to the picture, as in the pane.
         let points = self.scene_pane.area.map_or(options.size.y as f32, |pane| pane.height());
@@ -205,7 +207,7 @@ impl App {
         picture
             .map(with_legend)
             .and_then(|picture| png(&picture))
-            .map_err(|e| format!("There is no picture: {e}"))
+            .map_err(|e| say!("There is no picture: {why}", why = e))
     }
 }
 

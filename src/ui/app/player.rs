@@ -16,6 +16,7 @@ use crate::sim::ClothPlace;
 use crate::sim::thread::DEFAULT_RATE_HZ;
 use crate::ui::actions::Action;
 use crate::ui::actions::asks::{Ask, Asks};
+use crate::ui::language::{say, tr};
 use crate::ui::look::theme::Palette;
 use crate::ui::pattern_pane::view::TableView;
 
@@ -69,7 +70,7 @@ impl Player {
     /// A player at the beginning of `demo`. The error is a message.
     pub fn new(demo: Demo) -> Result<Self, String> {
         let recording = Recording::parse(demo.recording())
-            .map_err(|e| format!("The demo {:?} cannot be read: {e}", demo.name()))?;
+            .map_err(|e| say!("The demo {name} cannot be read: {why}", name = quoted(demo), why = e))?;
         Ok(Self {
             demo,
             replay: Box::new(Replay::to_watch(recording)),
@@ -128,7 +129,7 @@ impl Player {
     fn step(&mut self) -> Result<(), String> {
         match self.replay.step() {
             Ok(goes_on) => self.ended = !goes_on,
-            Err(why) => return Err(format!("The demo {:?} stopped: {why}", self.demo.name())),
+            Err(why) => return Err(say!("The demo {name} stopped: {why}", name = quoted(self.demo), why)),
         }
         Ok(())
     }
@@ -267,20 +268,26 @@ impl Player {
             Frame::popup(ui.style()).stroke(Stroke::new(1.0, palette.accent)).show(ui, |ui| {
                 ui.set_max_width((table.width() - 40.0).clamp(120.0, 560.0));
                 ui.horizontal(|ui| {
-                    let title = format!("{} · Figure {}", self.demo.name(), self.demo.figure());
+                    let (name, figure) = (tr(self.demo.name()), self.demo.figure());
+                    let title = say!("{name} · Figure {figure}", name, figure);
                     ui.label(RichText::new(title).strong().size(14.5));
-                    if ui.button(if self.ended { "Back to your work" } else { "Stop" }).clicked() {
+                    if ui.button(if self.ended { tr("Back to your work") } else { tr("Stop") }).clicked() {
                         asks.push(Ask::Act(Action::StopDemo));
                     }
-                    if self.ended && ui.button("Again").clicked() {
+                    if self.ended && ui.button(tr("Again")).clicked() {
                         asks.push(Ask::Act(Action::Demo(self.demo)));
                     }
                     ui.label(RichText::new("Esc").color(palette.weak).size(12.0));
                 });
-                ui.label(RichText::new(self.demo.tells()).color(palette.weak));
+                ui.label(RichText::new(tr(self.demo.tells())).color(palette.weak));
             });
         });
     }
+}
+
+/// The name of `demo` in quotes.
+fn quoted(demo: Demo) -> String {
+    format!("{:?}", tr(demo.name()))
 }
 
 /// Duration of the animation of `command` at its place, seconds.
@@ -298,16 +305,18 @@ fn length(command: &Command) -> f64 {
 fn words(command: &Command, session: &Session) -> String {
     let marks = &session.document().marks;
     match command {
-        Command::AddClothMark { .. } => format!("Mark {} on the cloth", marks.cloth.len() + 1),
-        Command::AddBodyMark { .. } => format!("Mark {} on the body", marks.body.len() + 1),
-        Command::SetPiecePose { .. } => "Turn the piece over".to_owned(),
-        Command::Wrap => "Wrap".to_owned(),
-        Command::Rewrap { .. } => "Rewrap".to_owned(),
-        Command::Undo => "Undo".to_owned(),
-        Command::AddPin { .. } => "Pin".to_owned(),
-        Command::Grab { mode: DragMode::Surface, .. } => "Drag along the skin".to_owned(),
-        Command::Grab { mode: DragMode::Vertex, .. } => "Drag one point".to_owned(),
-        Command::Grab { mode: DragMode::Rigid, .. } => "Drag rigidly".to_owned(),
+        Command::AddClothMark { .. } => {
+            say!("Mark {number} on the cloth", number = marks.cloth.len() + 1)
+        }
+        Command::AddBodyMark { .. } => say!("Mark {number} on the body", number = marks.body.len() + 1),
+        Command::SetPiecePose { .. } => tr("Turn the piece over").to_owned(),
+        Command::Wrap => tr("Wrap").to_owned(),
+        Command::Rewrap { .. } => tr("Rewrap").to_owned(),
+        Command::Undo => tr("Undo").to_owned(),
+        Command::AddPin { .. } => tr("Pin").to_owned(),
+        Command::Grab { mode: DragMode::Surface, .. } => tr("Drag along the skin").to_owned(),
+        Command::Grab { mode: DragMode::Vertex, .. } => tr("Drag one point").to_owned(),
+        Command::Grab { mode: DragMode::Rigid, .. } => tr("Drag rigidly").to_owned(),
         _ => String::new(),
     }
 }

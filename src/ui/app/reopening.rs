@@ -7,6 +7,7 @@ use glam::UVec2;
 
 use crate::ui::app::App;
 use crate::ui::app::picture_page::PictureOptions;
+use crate::ui::language::tr;
 
 /// Wakes the current window, also after it was reopened.
 #[derive(Clone, Debug)]
@@ -59,7 +60,8 @@ impl App {
         self.live_by_preferences(ctx);
         self.forget_title();
         (self.moving, self.may_close) = (false, false);
-        self.messages.error("The graphics device was lost and is there again. Nothing of your work is lost.");
+        let words = tr("The graphics device was lost and is there again. Nothing of your work is lost.");
+        self.messages.error(words);
     }
 
     /// The present view of the body as a PNG of `size` pixels. The error is a message.

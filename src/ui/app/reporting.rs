@@ -6,6 +6,7 @@ use crate::ui::app::App;
 use crate::ui::app::turn::progress_ui;
 use crate::ui::files;
 use crate::ui::fit_page::FitPage;
+use crate::ui::language::{say, tr};
 use crate::ui::look::theme::Palette;
 
 /// A fit report in the making.
@@ -21,7 +22,7 @@ impl App {
         let name = self.path.as_deref().map_or_else(|| "untitled".to_owned(), files::stem);
         match FitPage::of(&self.session, &name) {
             Some(page) => self.shell.reporting = Some(Reporting { path: path.to_owned(), page }),
-            None => self.messages.error("There is no cloth on the body"),
+            None => self.messages.error(tr("There is no cloth on the body")),
         }
     }
 
@@ -34,7 +35,7 @@ impl App {
                     .page
                     .draw_next(|scene, camera, look, size| graphics.photograph(scene, camera, look, size));
                 if let Err(why) = drawn {
-                    return self.messages.error(format!("There is no picture: {why}"));
+                    return self.messages.error(say!("There is no picture: {why}", why));
                 }
             }
             None => report.page.leave_pictures_out("there is no graphics adapter to draw with".to_owned()),
@@ -47,7 +48,7 @@ impl App {
             };
         }
         if progress_ui(ctx, palette, above, done, count) {
-            return self.messages.tell("The fit report was stopped: nothing is written");
+            return self.messages.tell(tr("The fit report was stopped: nothing is written"));
         }
         self.shell.reporting = Some(report);
         ctx.request_repaint();

@@ -13,6 +13,7 @@ use crate::session::Project;
 use crate::ui::app::App;
 use crate::ui::app::safety;
 use crate::ui::app::tries::{PLAIN, STARTED, Starts, prefer_processor};
+use crate::ui::language::tr;
 use crate::ui::preferences;
 
 /// The picture in the window's frame and in lists of windows, where the desktop does not take it from the installed files.
@@ -89,8 +90,9 @@ fn opened(
     let is_start = project.is_none();
     let project = project.unwrap_or_default();
     let mut app = App::new(&cc.egui_ctx, project, path.clone(), cc.wgpu_render_state.clone())?;
+    app.follow_language(sys_locale::get_locale().unwrap_or_default());
     if is_plain {
-        app.warn(PLAIN);
+        app.warn(tr(PLAIN));
     } else {
         if let Some(path) = preferences::usual_path() {
             app.keep_preferences(&cc.egui_ctx, path);

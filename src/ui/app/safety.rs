@@ -8,6 +8,7 @@ use crate::session::Session;
 use crate::session::recovery::{About, Keeper, Left, left};
 use crate::ui::app::App;
 use crate::ui::files;
+use crate::ui::language::{counted, say, tr};
 use crate::ui::shell::dialogs::Dialog;
 
 /// Additional delay of a copy while the cloth is moving, seconds.
@@ -104,7 +105,7 @@ impl Safety {
     fn join(&mut self, at_any_rate: bool) -> Result<(), String> {
         match self.writing.take_if(|writing| at_any_rate || writing.is_finished()) {
             Some(writing) => {
-                writing.join().unwrap_or_else(|_| Err("the copy could not be written".to_owned()))
+                writing.join().unwrap_or_else(|_| Err(tr("the copy could not be written").to_owned()))
             }
             None => Ok(()),
         }
@@ -143,7 +144,7 @@ impl App {
         let (safety, found, problem) = Safety::begin(root);
         self.safety = safety;
         if let Some(words) = problem {
-            self.messages.error(format!("Unsaved work cannot be kept safe: {words}"));
+            self.messages.error(say!("Unsaved work cannot be kept safe: {why}", why = words));
         }
         if !found.is_empty() {
             let found = found.into_iter().map(|left| (words_for(&left), left)).map(|(w, l)| (l, w));
@@ -162,10 +163,10 @@ impl App {
         let busy = held || self.drag.is_some();
         self.safety.soonest = self.preferences.copies.seconds();
         if let Err(words) = self.safety.tend(&mut self.session, self.path.as_deref(), now, busy, at_rest) {
-            self.messages.error(format!("Unsaved work is no longer kept safe: {words}"));
+            self.messages.error(say!("Unsaved work is no longer kept safe: {why}", why = words));
         }
         if let Some(why) = self.session.recorder().take_journal_error() {
-            self.messages.error(format!("Unsaved work is no longer kept safe: {why}"));
+            self.messages.error(say!("Unsaved work is no longer kept safe: {why}", why));
         }
         if let Some(wait) = self.safety.due_in(&self.session, now) {
             ctx.request_repaint_after(wait);
@@ -176,7 +177,9 @@ impl App {
     pub(in crate::ui) fn restore(&mut self, ctx: &egui::Context, left: Left) {
         let found = match left.read() {
             Ok(found) => found,
-            Err(why) => return self.messages.error(format!("This work cannot be read; it is kept: {why}")),
+            Err(why) => {
+                return self.messages.error(say!("This work cannot be read; it is kept: {why}", why));
+            }
         };
         self.replace(found.project, left.about.path.clone());
         self.session.mark_modified();
@@ -197,9 +200,10 @@ impl App {
             self.session.end_gesture(own);
         }
         match found.lost + left_over {
-            0 => self.messages.tell("Your work is back. Save it when it is as you want it."),
-            lost => self.messages.error(format!(
-                "Your work is back, but for the last {lost} of the things you did, which were not written down whole."
+            0 => self.messages.tell(tr("Your work is back. Save it when it is as you want it.")),
+            lost => self.messages.error(say!(
+                "Your work is back, but for the last {lost} of the things you did, which were not written down whole.",
+                lost
             )),
         }
         // The old copy is removed only when the new session has one of its own.
@@ -256,7 +260,10 @@ impl App {
 pub fn words_for(left: &Left) -> String {
     let written = std::fs::metadata(left.written()).and_then(|file| file.modified()).ok();
     let ago = written.and_then(|then| SystemTime::now().duration_since(then).ok());
-    let name = if left.about.name.is_empty() { "untitled" } else { &left.about.name };
+    let name = match (left.about.name.as_str(), &left.about.path) {
+        ("", _) | ("untitled", None) => tr("untitled"),
+        (name, _) => name,
+    };
     match ago {
         Some(ago) => format!("{name}, {}", in_words(ago)),
         None => name.to_owned(),
@@ -264,13 +271,12 @@ pub fn words_for(left: &Left) -> String {
 }
 
 fn in_words(ago: Duration) -> String {
-    let minutes = ago.as_secs() / 60;
-    let many = |n: u64, what: &str| format!("{n} {what}{} ago", if n == 1 { "" } else { "s" });
+    let minutes = ago.as_secs() as usize / 60;
     match minutes {
-        0 => "just now".to_owned(),
-        1..60 => many(minutes, "minute"),
-        60..1440 => many(minutes / 60, "hour"),
-        _ => many(minutes / 1440, "day"),
+        0 => tr("just now").to_owned(),
+        1..60 => counted(minutes, "1 minute ago", "{n} minutes ago"),
+        60..1440 => counted(minutes / 60, "1 hour ago", "{n} hours ago"),
+        _ => counted(minutes / 1440, "1 day ago", "{n} days ago"),
     }
 }
 

@@ -22,6 +22,7 @@ use crate::ui::body_pane::placing::Placing;
 use crate::ui::files::Purpose;
 use crate::ui::files::recent::Recent;
 use crate::ui::files::thumbnails::Thumbnails;
+use crate::ui::language::say;
 use crate::ui::look::theme::{self, Palette};
 use crate::ui::maps::MapView;
 use crate::ui::panels::pose::PosePanel;
@@ -187,7 +188,7 @@ impl App {
     fn preferences_ui(&mut self, ctx: &egui::Context, palette: &Palette) {
         let Some(mut page) = self.shell.preferences.take() else { return };
         let mut new = self.preferences.clone();
-        if page.ui(ctx, &mut new, palette) {
+        if page.ui(ctx, &mut new, &self.languages, palette) {
             self.shell.preferences = Some(page);
         }
         if new != self.preferences {
@@ -202,11 +203,12 @@ impl App {
         if let Some(path) = &self.preferences_path
             && let Err(words) = self.preferences.write(path)
         {
-            self.messages.error(format!("Your preferences could not be kept: {words}"));
+            self.messages.error(say!("Your preferences could not be kept: {why}", why = words));
         }
     }
 
     pub(in crate::ui) fn live_by_preferences(&mut self, ctx: &egui::Context) {
+        self.speak();
         self.use_card();
         theme::choose(ctx, self.preferences.theme);
         ctx.set_zoom_factor(self.preferences.scale.factor());
@@ -222,7 +224,7 @@ impl App {
     /// Moves `path` to the top of the list of recent files.
     pub(in crate::ui) fn remember(&mut self, path: &std::path::Path) {
         if let Err(words) = self.shell.recent.add(path) {
-            self.messages.error(format!("The list of files could not be kept: {words}"));
+            self.messages.error(say!("The list of files could not be kept: {why}", why = words));
         }
     }
 

@@ -12,6 +12,8 @@ use crate::ui::actions::context::FrameContext;
 use crate::ui::app::App;
 use crate::ui::files::recent::RecentFile;
 use crate::ui::files::thumbnails::Subject;
+use crate::ui::language::keys::shortcut_text;
+use crate::ui::language::{say, tr};
 use crate::ui::look::theme::Palette;
 use crate::ui::shell::menu;
 
@@ -44,7 +46,7 @@ impl App {
             ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
                 ui.label(RichText::new("Toile").size(30.0).strong());
                 ui.label(
-                    RichText::new("Lay out flat pieces, paint marks on cloth and body, press Wrap.")
+                    RichText::new(tr("Lay out flat pieces, paint marks on cloth and body, press Wrap."))
                         .color(palette.weak),
                 );
                 ui.add_space(18.0);
@@ -62,13 +64,15 @@ impl App {
     }
 
     fn begin_ui(&mut self, ui: &mut egui::Ui, now: &FrameContext, palette: &Palette, asks: &mut Asks) {
-        ui.label(RichText::new("Begin").strong().size(15.0));
+        ui.label(RichText::new(tr("Begin")).strong().size(15.0));
         ui.add_space(4.0);
-        let tour = "Tour: dressed in five steps";
         let wide = egui::vec2(COLUMN, 34.0);
-        for (action, text) in
-            [(Action::Tour, tour), (Action::New, "New: an empty table"), (Action::Open, "Open…")]
-        {
+        let choices = [
+            (Action::Tour, tr("Tour: dressed in five steps")),
+            (Action::New, tr("New: an empty table")),
+            (Action::Open, tr("Open…")),
+        ];
+        for (action, text) in choices {
             let mut label = RichText::new(text).size(14.5);
             let mut fill = ui.visuals().widgets.inactive.weak_bg_fill;
             if action == Action::Tour {
@@ -76,9 +80,9 @@ impl App {
                 fill = palette.accent;
             }
             let keys = now.keymap.keys(action);
-            let keys = keys.first().map(|k| ui.ctx().format_shortcut(k)).unwrap_or_default();
+            let keys = keys.first().map(|k| shortcut_text(ui.ctx(), k)).unwrap_or_default();
             let button = egui::Button::new(label).fill(fill).shortcut_text(keys).min_size(wide);
-            let response = ui.add(button).on_hover_text(action.row().tip);
+            let response = ui.add(button).on_hover_text(tr(action.row().tip));
             response.widget_info(|| WidgetInfo::labeled(egui::accesskit::Role::Button, true, text));
             if response.clicked() {
                 asks.push(Ask::Act(action));
@@ -86,10 +90,11 @@ impl App {
         }
         ui.add_space(16.0);
         ui.horizontal(|ui| {
-            ui.label(RichText::new("Open before").strong().size(15.0));
+            ui.label(RichText::new(tr("Open before")).strong().size(15.0));
             if !now.recent.is_empty() {
                 ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-                    let clear = ui.small_button("Clear").on_hover_text(Action::ClearRecent.row().tip);
+                    let clear = ui.small_button(tr("Clear"));
+                    let clear = clear.on_hover_text(tr(Action::ClearRecent.row().tip));
                     if clear.clicked() {
                         asks.push(Ask::Act(Action::ClearRecent));
                     }
@@ -97,7 +102,8 @@ impl App {
             }
         });
         if now.recent.is_empty() {
-            ui.label(RichText::new("Projects you save or open are found here again.").color(palette.weak));
+            let words = tr("Projects you save or open are found here again.");
+            ui.label(RichText::new(words).color(palette.weak));
         }
         for (i, file) in now.recent.iter().enumerate() {
             self.recent_row(ui, i, file, palette, asks);
@@ -115,13 +121,12 @@ impl App {
         let (name, folder) = file.name();
         let sense = if file.is_there { Sense::click() } else { Sense::hover() };
         let (rect, response) = ui.allocate_exact_size(egui::vec2(COLUMN, 44.0), sense);
-        let missing = if file.is_there { "" } else { ", no longer there" };
         response.widget_info(|| {
-            WidgetInfo::labeled(
-                egui::accesskit::Role::Button,
-                file.is_there,
-                format!("Open {name} in {folder}{missing}"),
-            )
+            let words = match file.is_there {
+                true => say!("Open {name} in {folder}", name, folder),
+                false => say!("Open {name} in {folder}, no longer there", name, folder),
+            };
+            WidgetInfo::labeled(egui::accesskit::Role::Button, file.is_there, words)
         });
         card_frame(ui, rect, &response);
         let picture = Rect::from_min_size(rect.min + egui::vec2(24.0, 3.0), egui::vec2(30.4, 38.0));
@@ -142,7 +147,7 @@ impl App {
             palette.weak,
         );
         painter.text(rect.min + egui::vec2(62.0, 5.0), Align2::LEFT_TOP, &name, font(14.0), ink);
-        let under = if file.is_there { folder.clone() } else { "no longer there".to_owned() };
+        let under = if file.is_there { folder.clone() } else { tr("no longer there").to_owned() };
         painter.text(rect.min + egui::vec2(62.0, 24.0), Align2::LEFT_TOP, under, font(11.5), palette.weak);
         if response.on_hover_text(file.path.display().to_string()).clicked() {
             asks.push(Ask::Act(Action::OpenRecent(i as u8)));
@@ -155,8 +160,8 @@ impl App {
         let width = (ui.available_width() / CARDS - 12.0).clamp(*CARD.start(), *CARD.end());
         let card = egui::vec2(width, width * 1.25 + 30.0);
         for (title, then, samples) in [
-            ("Samples", "with marks: press Wrap", marked),
-            ("Gallery", "placed round the body: press Dress", placed),
+            (tr("Samples"), tr("with marks: press Wrap"), marked),
+            (tr("Gallery"), tr("placed round the body: press Dress"), placed),
         ] {
             ui.horizontal(|ui| {
                 ui.label(RichText::new(title).strong().size(15.0));
@@ -180,9 +185,9 @@ impl App {
         asks: &mut Asks,
     ) {
         let (rect, response) = ui.allocate_exact_size(card, Sense::click());
-        let name = sample.name();
+        let name = Action::Sample(sample).row().label();
         response.widget_info(|| {
-            WidgetInfo::labeled(egui::accesskit::Role::Button, true, format!("Sample {name}"))
+            WidgetInfo::labeled(egui::accesskit::Role::Button, true, say!("Sample {name}", name))
         });
         card_frame(ui, rect, &response);
         let area = Rect::from_min_max(rect.min, rect.max - egui::vec2(0.0, 30.0)).shrink(4.0);
@@ -204,7 +209,7 @@ impl App {
         let at = Pos2::new(rect.center().x, rect.bottom() - 16.0);
         let ink = ui.visuals().text_color();
         ui.painter().text(at, Align2::CENTER_CENTER, name, FontId::proportional(14.0), ink);
-        if response.on_hover_text(Action::Sample(sample).row().tip).clicked() {
+        if response.on_hover_text(tr(Action::Sample(sample).row().tip)).clicked() {
             asks.push(Ask::Act(Action::Sample(sample)));
         }
     }

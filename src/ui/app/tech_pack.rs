@@ -7,12 +7,14 @@ use crate::pack::{Pack, Pictures, Source, Wish, write};
 use crate::session::{Document, Outfit};
 use crate::ui::app::App;
 use crate::ui::files;
+use crate::ui::language::{say, tr};
 use crate::ui::scenery::front_and_back::front_and_back;
 
 /// A tech pack in the making.
 #[derive(Debug)]
 pub struct TechPack {
     path: PathBuf,
+    /// The file, or why there is none.
     coming: Receiver<Result<Vec<u8>, String>>,
 }
 
@@ -31,9 +33,9 @@ impl App {
             done.request_repaint();
         };
         let thread = std::thread::Builder::new().name("tech pack".to_owned()).spawn(work);
-        thread.map_err(|why| format!("The tech pack cannot be made: {why}"))?;
+        thread.map_err(|why| say!("The tech pack cannot be made: {why}", why))?;
         self.shell.tech_pack = Some(TechPack { path: path.to_owned(), coming });
-        self.messages.tell("The tech pack is being made");
+        self.messages.tell(tr("The tech pack is being made"));
         Ok(())
     }
 
@@ -48,7 +50,7 @@ impl App {
             graphics.photograph(scene, camera, look, size)
         });
         let pictures = drawn.unwrap_or_else(|| Ok(Vec::new()));
-        pictures.map(Pictures::Drawn).map_err(|why| format!("There is no picture: {why}"))
+        pictures.map(Pictures::Drawn).map_err(|why| say!("There is no picture: {why}", why))
     }
 
     /// Writes the tech pack once it is made.
@@ -56,8 +58,8 @@ impl App {
         let Some(pack) = self.shell.tech_pack.take() else { return };
         let made = match pack.coming.try_recv() {
             Err(TryRecvError::Empty) => return self.shell.tech_pack = Some(pack),
-            Err(TryRecvError::Disconnected) => Err("The tech pack could not be made".to_owned()),
-            Ok(made) => made,
+            Err(TryRecvError::Disconnected) => Err(tr("The tech pack could not be made").to_owned()),
+            Ok(made) => made.map_err(|why| say!("There is no tech pack: {why}", why)),
         };
         match made.and_then(|bytes| files::write(&pack.path, &bytes)) {
             Ok(()) => self.wrote(&pack.path),
@@ -66,14 +68,14 @@ impl App {
     }
 }
 
-/// The tech pack as PDF. The error is a message.
+/// The tech pack as PDF, or why there is none.
 fn made(
     name: &str,
     document: &Document,
     outfit: Option<&Outfit>,
     pictures: &Pictures,
 ) -> Result<Vec<u8>, String> {
-    let in_words = |why: &dyn std::fmt::Display| format!("There is no tech pack: {why}");
-    let pack = Pack::of(Source { name, document, outfit }, &Wish::default()).map_err(|why| in_words(&why))?;
-    write(&pack, &document.pattern, pictures).map_err(|why| in_words(&why))
+    let pack =
+        Pack::of(Source { name, document, outfit }, &Wish::default()).map_err(|why| why.to_string())?;
+    write(&pack, &document.pattern, pictures).map_err(|why| why.to_string())
 }

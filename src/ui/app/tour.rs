@@ -11,6 +11,7 @@ use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::actions::context::FrameContext;
 use crate::ui::actions::{Action, Tool};
 use crate::ui::app::App;
+use crate::ui::language::{say, tr, translated};
 use crate::ui::look::theme::Palette;
 use crate::wrap::{Marks, Phase};
 
@@ -37,28 +38,38 @@ struct Step {
 fn step(i: usize) -> Step {
     match i {
         0 => Step {
-            title: "Flat pieces",
-            words: "On the left is the table for flat pieces. Take those of a T-shirt, or draw your own with Pattern › Tools.",
-            help: Some("Take the T-shirt's pieces"),
+            title: tr("Flat pieces"),
+            words: tr(
+                "On the left is the table for flat pieces. Take those of a T-shirt, or draw your own with Pattern › Tools.",
+            ),
+            help: Some(tr("Take the T-shirt's pieces")),
         },
         1 => Step {
-            title: "A mark on the cloth",
-            words: "Drag with the left button over the middle of the front piece, from the neck down: that paints mark 1.",
+            title: tr("A mark on the cloth"),
+            words: tr(
+                "Drag with the left button over the middle of the front piece, from the neck down: that paints mark 1.",
+            ),
             help: None,
         },
         2 => Step {
-            title: "Its partner on the body",
-            words: "Drag over the body where the mark is to lie: down the middle of the chest. Marks with the same number will meet.",
+            title: tr("Its partner on the body"),
+            words: tr(
+                "Drag over the body where the mark is to lie: down the middle of the chest. Marks with the same number will meet.",
+            ),
             help: None,
         },
         3 => Step {
-            title: "Wrap",
-            words: "A T-shirt wants a mark on each shoulder and sleeve, too: have them painted for you. Then press Wrap, or Enter.",
-            help: Some("Paint all the marks"),
+            title: tr("Wrap"),
+            words: tr(
+                "A T-shirt wants a mark on each shoulder and sleeve, too: have them painted for you. Then press Wrap, or Enter.",
+            ),
+            help: Some(tr("Paint all the marks")),
         },
         _ => Step {
-            title: "Put it right",
-            words: "Drag the cloth over the skin with the right button. A click with the tool Pin (P) holds it fast where it is.",
+            title: tr("Put it right"),
+            words: tr(
+                "Drag the cloth over the skin with the right button. A click with the tool Pin (P) holds it fast where it is.",
+            ),
             help: None,
         },
     }
@@ -111,7 +122,7 @@ impl App {
                     let Step { title, words, help } = step(tour.step);
                     ui.horizontal(|ui| {
                         ui.label(RichText::new(format!("{}  {title}", tour.step + 1)).strong().size(15.0));
-                        ui.label(RichText::new(format!("of {STEPS}")).color(palette.weak));
+                        ui.label(RichText::new(say!("of {count}", count = STEPS)).color(palette.weak));
                     });
                     ui.label(words);
                     if let Some(help) = help.filter(|_| tour.step != 0 || now.pieces == 0)
@@ -120,17 +131,17 @@ impl App {
                         asks.extend(self.help_in_tour(tour.step));
                     }
                     if done {
-                        ui.label(RichText::new("This step is done").color(palette.accent).strong());
+                        ui.label(RichText::new(tr("This step is done")).color(palette.accent).strong());
                     }
                     ui.add_space(4.0);
                     ui.horizontal(|ui| {
                         let last = tour.step + 1 == STEPS;
                         let text = if last {
-                            "Finish"
+                            tr("Finish")
                         } else if done {
-                            "Next"
+                            tr("Next")
                         } else {
-                            "Skip this step"
+                            tr("Skip this step")
                         };
                         let mut label = RichText::new(text);
                         let mut fill = ui.visuals().widgets.inactive.weak_bg_fill;
@@ -141,10 +152,13 @@ impl App {
                             stays = !last;
                             (tour.step, tour.steps_before) = (tour.step + 1, steps);
                         }
-                        if tour.step > 0 && tour.step < STEPS && ui.button("Back").clicked() {
+                        // In tables "Back" is the view from behind.
+                        let back = translated("Back to the step before").unwrap_or("Back");
+                        if tour.step > 0 && tour.step < STEPS && ui.button(back).clicked() {
                             tour.step -= 1;
                         }
-                        let leave = ui.button("Leave the tour").on_hover_text("Help › Tour begins it again");
+                        let leave = ui.button(tr("Leave the tour"));
+                        let leave = leave.on_hover_text(tr("Help › Tour begins it again"));
                         stays &= !leave.clicked();
                     });
                 },

@@ -8,6 +8,7 @@ use crate::render::Camera;
 use crate::ui::app::App;
 use crate::ui::app::picture_page::PictureOptions;
 use crate::ui::files;
+use crate::ui::language::{say, tr};
 use crate::ui::look::theme::Palette;
 use crate::ui::scenery::portrait::numbered;
 
@@ -44,10 +45,12 @@ impl App {
         }
         turn.done += 1;
         if turn.done == count {
-            return self.messages.tell(format!("Written: {count} pictures, the last {}", path.display()));
+            let path = path.display();
+            return self.messages.tell(say!("Written: {count} pictures, the last {path}", count, path));
         }
         if progress_ui(ctx, palette, above, turn.done as usize, count as usize) {
-            return self.messages.tell(format!("Stopped after {} of {count} pictures", turn.done));
+            let done = turn.done;
+            return self.messages.tell(say!("Stopped after {done} of {count} pictures", done, count));
         }
         self.shell.turn = Some(turn);
         ctx.request_repaint();
@@ -59,10 +62,10 @@ pub fn progress_ui(ctx: &egui::Context, palette: &Palette, above: f32, done: usi
     let area = Area::new(Id::unique("pictures")).order(Order::Foreground);
     let shown = area.anchor(Align2::CENTER_BOTTOM, [0.0, -above - 14.0]).show(ctx, |ui| {
         let row = |ui: &mut egui::Ui| {
-            ui.label(format!("Picture {done} of {count}"));
+            ui.label(say!("Picture {done} of {count}", done, count));
             let bar = egui::ProgressBar::new(done as f32 / count as f32).fill(palette.accent);
             ui.add(bar.desired_width(160.0).desired_height(8.0));
-            ui.button("Stop").clicked()
+            ui.button(tr("Stop")).clicked()
         };
         Frame::popup(ui.style()).show(ui, |ui| ui.horizontal(row).inner).inner
     });

@@ -7,6 +7,7 @@ use glam::{Quat, Vec3};
 use crate::render::{Camera, View};
 use crate::ui::actions::Action;
 use crate::ui::actions::asks::{Ask, Asks};
+use crate::ui::language::{say, tr};
 use crate::ui::look::theme::Palette;
 
 /// Half the length of an edge, points.
@@ -38,7 +39,7 @@ pub(super) fn view_cube(ui: &mut egui::Ui, pane: Rect, camera: &Camera, palette:
     let turn = camera.rotation.inverse();
     let whole = Rect::from_center_size(middle, egui::Vec2::splat(HALF * 3.6));
     let area = ui.interact(whole, ui.scope_id().with("view cube"), Sense::click());
-    area.widget_info(|| WidgetInfo::labeled(Role::Group, true, "Orientation cube"));
+    area.widget_info(|| WidgetInfo::labeled(Role::Group, true, tr("Orientation cube")));
     let under = area.hover_pos().and_then(|at| side_under(at, middle, turn));
     let painter = ui.painter_at(pane);
     for (i, side) in SIDES.iter().enumerate() {
@@ -53,7 +54,7 @@ pub(super) fn view_cube(ui: &mut egui::Ui, pane: Rect, camera: &Camera, palette:
             WidgetInfo::labeled(
                 Role::Button,
                 true,
-                format!("Orientation cube: {}", entry.text.to_lowercase()),
+                say!("Orientation cube: {side}", side = tr(entry.text).to_lowercase()),
             )
         });
         let hot = under == Some(i) || button.hovered() || button.has_focus();
@@ -71,7 +72,7 @@ pub(super) fn view_cube(ui: &mut egui::Ui, pane: Rect, camera: &Camera, palette:
             ));
             if facing > 0.35 {
                 let font = FontId::proportional(8.0 + 7.0 * facing);
-                painter.text(centre, Align2::CENTER_CENTER, side.letter, font, ink);
+                painter.text(centre, Align2::CENTER_CENTER, tr(side.letter), font, ink);
             }
         }
     }
@@ -82,7 +83,7 @@ pub(super) fn view_cube(ui: &mut egui::Ui, pane: Rect, camera: &Camera, palette:
 
 impl Side {
     fn view_tip(&self) -> &'static str {
-        Action::Look(self.view).row().tip
+        tr(Action::Look(self.view).row().tip)
     }
 }
 

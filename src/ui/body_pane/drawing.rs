@@ -11,6 +11,7 @@ use crate::geometry::ids::MarkId;
 use crate::pattern::activity::Activity;
 use crate::render::{Look, Quality};
 use crate::session::Pin;
+use crate::ui::language::tr;
 use crate::ui::scenery::fabric_looks::looks_of;
 use crate::ui::scenery::ring::ring;
 use crate::ui::scenery::scene::{PinLook, Shown};
@@ -36,7 +37,8 @@ impl ScenePane {
         let [stroke, far_stroke] = self.strokes().cloned().unwrap_or_default();
         let bones = self.shown_bones(seen);
         let Some(graphics) = &mut self.graphics else {
-            return tell(&painter, "No graphics adapter: the body cannot be shown.", seen.palette.weak);
+            let words = tr("No graphics adapter: the body cannot be shown.");
+            return tell(&painter, words, seen.palette.weak);
         };
         let draft = graphics.is_slow() && (self.moving || seen.working || !stroke.is_empty());
         let scale = ui.ctx().pixels_per_point() * if draft { DRAFT } else { 1.0 };

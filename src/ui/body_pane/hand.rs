@@ -17,6 +17,7 @@ use crate::sim::ClothPlace;
 use crate::ui::actions::Tool;
 use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::body_pane::pick::{ClothHit, cloth_under};
+use crate::ui::language::say;
 use crate::ui::panels::pins::named;
 use crate::ui::selection::Selection;
 
@@ -150,7 +151,8 @@ impl ScenePane {
             let Some(at) = self.place_of(place, pane).filter(|_| pin.id == id) else { continue };
             let rect = Rect::from_center_size(at, egui::vec2(12.0, 12.0));
             let node = ui.interact(rect, ui.scope_id().with(("pin", id)), egui::Sense::hover());
-            let words = format!("{}{}", named(id), if pin.locked { ", locked" } else { "" });
+            let name = named(id);
+            let words = if pin.locked { say!("{name}, locked", name) } else { name };
             let selected = seen.selected_pins.contains(&id);
             node.widget_info(|| WidgetInfo::selected(Role::Label, true, selected, &words));
         }

@@ -8,6 +8,7 @@ use super::{FOLLOW_STEP, ScenePane, Seen, painted, size_of};
 use crate::session::Command;
 use crate::ui::actions::Tool;
 use crate::ui::actions::asks::{Ask, Asks, in_one_step};
+use crate::ui::language::{say, tr};
 use crate::ui::look::theme::Palette;
 use crate::ui::pointer::stroke;
 
@@ -78,13 +79,15 @@ impl ScenePane {
         self.by_keys.cross?;
         Some(match tool {
             Tool::Mark if busy => {
-                format!("Arrows and Space: on along the skin · Enter: paint mark {next} · Esc: give up")
+                say!("Arrows and Space: on along the skin · Enter: paint mark {next} · Esc: give up", next)
             }
-            Tool::Mark => format!("Arrows and Space: begin mark {next} · Shift: small steps"),
-            Tool::Drag(_) if busy => "Arrows: drag the cloth · Space: let go · Esc: put it back".to_owned(),
-            Tool::Drag(_) => "Arrows and Space: take the cloth · Shift: small steps".to_owned(),
-            Tool::Pin => "Arrows and Space: pin the cloth, or pull the pin out".to_owned(),
-            _ => "Arrows and Space: what a click does".to_owned(),
+            Tool::Mark => say!("Arrows and Space: begin mark {next} · Shift: small steps", next),
+            Tool::Drag(_) if busy => {
+                tr("Arrows: drag the cloth · Space: let go · Esc: put it back").to_owned()
+            }
+            Tool::Drag(_) => tr("Arrows and Space: take the cloth · Shift: small steps").to_owned(),
+            Tool::Pin => tr("Arrows and Space: pin the cloth, or pull the pin out").to_owned(),
+            _ => tr("Arrows and Space: what a click does").to_owned(),
         })
     }
 
@@ -164,7 +167,7 @@ impl ScenePane {
                 self.by_keys.holds = hit.is_some();
                 match hit {
                     Some(hit) => asks.push(begun(seen, &hit)),
-                    None => asks.push(Ask::Say("There is no cloth under the cross.".to_owned())),
+                    None => asks.push(Ask::Say(tr("There is no cloth under the cross.").to_owned())),
                 }
             }
             _ => self.click(seen, pane, at, [seen.tool == Tool::Erase, false], asks),
@@ -182,7 +185,7 @@ impl ScenePane {
         let places = (1..=steps as u32).map(|i| from.lerp(at, i as f32 / steps));
         let hits: Vec<[Option<DVec3>; 2]> = places.map(|place| self.hits(seen, pane, place)).collect();
         if hits.last().is_none_or(|hit| hit[0].is_none()) {
-            asks.push(Ask::Say("There is no skin under the cross.".to_owned()));
+            asks.push(Ask::Say(tr("There is no skin under the cross.").to_owned()));
             return;
         }
         for hit in hits {

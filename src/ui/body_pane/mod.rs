@@ -37,6 +37,7 @@ use crate::session::{Command, Document};
 use crate::sim::ClothPlace;
 use crate::ui::actions::Tool;
 use crate::ui::actions::asks::{Ask, Asks, in_one_step};
+use crate::ui::language::tr;
 use crate::ui::look::theme::Palette;
 use crate::ui::maps::ShownMap;
 use crate::ui::pointer::clicks::clicks;
@@ -177,7 +178,7 @@ impl ScenePane {
     pub fn ui(&mut self, ui: &mut egui::Ui, seen: &Seen<'_>, asks: &mut Asks) {
         let pane = ui.available_rect_before_wrap();
         let response = ui.allocate_rect(pane, Sense::click_and_drag());
-        response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, "Body pane"));
+        response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, tr("Body pane")));
         self.hovered = response.contains_pointer();
         (self.area, self.id) = (Some(pane), Some(response.id));
         self.frame_if_asked(seen, pane);
@@ -193,9 +194,9 @@ impl ScenePane {
         self.probe(ui, seen, pane, hovered);
         self.places_ui(ui, seen, pane, asks);
         self.by_keys.draw(&ui.painter_at(pane), pane, response.has_focus(), seen.palette);
-        publish_marks(ui, &seen.document.marks, "Mark", pane, &self.camera);
+        publish_marks(ui, &seen.document.marks, false, pane, &self.camera);
         if let Some(ghosts) = seen.ghosts {
-            publish_marks(ui, ghosts, "Proposed mark", pane, &self.camera);
+            publish_marks(ui, ghosts, true, pane, &self.camera);
         }
         self.publish_pins(ui, seen, pane);
         view_cube(ui, pane, &self.camera, seen.palette, asks);

@@ -7,6 +7,7 @@ use super::{Seen, size_of};
 use crate::render::{Camera, Look};
 use crate::ui::actions::Action;
 use crate::ui::actions::asks::{Ask, Asks};
+use crate::ui::language::{say, tr};
 use crate::wrap::Marks;
 
 /// Draws the small buttons for display options and framing in the lower right corner, where they hide only floor. Returns their
@@ -28,10 +29,10 @@ pub(super) fn view_buttons(ui: &mut egui::Ui, pane: Rect, seen: &Seen<'_>, asks:
             (Action::ToggleWire, wire),
         ] {
             let entry = action.row();
-            let text = egui::RichText::new(entry.text).size(12.5);
+            let text = egui::RichText::new(tr(entry.text)).size(12.5);
             let button = egui::Button::new(text).selected(on).small();
             let button = if on { button } else { button.fill(seen.palette.overlay) };
-            let button = ui.add(button).on_hover_text(entry.tip);
+            let button = ui.add(button).on_hover_text(tr(entry.tip));
             taken |= button.rect;
             if button.clicked() {
                 asks.push(Ask::Act(action));
@@ -42,16 +43,19 @@ pub(super) fn view_buttons(ui: &mut egui::Ui, pane: Rect, seen: &Seen<'_>, asks:
 }
 
 /// Publishes the position of each mark to screen readers and tests.
-pub(super) fn publish_marks(ui: &egui::Ui, marks: &Marks, what: &str, pane: Rect, camera: &Camera) {
+pub(super) fn publish_marks(ui: &egui::Ui, marks: &Marks, proposed: bool, pane: Rect, camera: &Camera) {
     for (i, mark) in marks.body.iter().enumerate() {
         let place = mark.points.first().and_then(|p| camera.project(p.as_vec3(), size_of(pane)));
         if let Some(place) = place {
             let at = pane.min + egui::vec2(place.pixel.x, place.pixel.y);
             let rect = Rect::from_center_size(at, egui::vec2(12.0, 12.0));
-            let node = ui.interact(rect, ui.scope_id().with((what, "on the body", i)), Sense::hover());
-            node.widget_info(|| {
-                WidgetInfo::labeled(Role::Label, true, format!("{what} {} on the body", i + 1))
-            });
+            let node =
+                ui.interact(rect, ui.scope_id().with(("mark on the body", proposed, i)), Sense::hover());
+            let words = || match proposed {
+                true => say!("Proposed mark {number} on the body", number = i + 1),
+                false => say!("Mark {number} on the body", number = i + 1),
+            };
+            node.widget_info(|| WidgetInfo::labeled(Role::Label, true, words()));
         }
     }
 }

@@ -13,10 +13,11 @@ use crate::drag::Ray;
 use crate::geometry::ids::PieceId;
 use crate::pattern::edit::PatternEdit;
 use crate::pattern::{Pattern, Piece, SpacePose};
-use crate::place::{Point, stood_at};
+use crate::place::{Part, Point, stood_at};
 use crate::session::Command;
 use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::body_pane::standing::Standing;
+use crate::ui::language::{say, tr};
 use crate::ui::selection::{Item, Selection};
 
 /// Radius of a dot, points.
@@ -83,7 +84,8 @@ impl ScenePane {
             }
             let rect = Rect::from_center_size(at, egui::Vec2::splat(DOT * 3.0));
             let dot = ui.interact(rect, ui.scope_id().with(("arrangement point", k)), Sense::click());
-            let words = format!("Arrangement point: {}", point.name);
+            let name = shown_name(point);
+            let words = say!("Arrangement point: {name}", name);
             dot.widget_info(|| WidgetInfo::labeled(Role::Button, true, &words));
             let hot = dot.hovered() || dot.has_focus();
             let fill = if hot { seen.palette.accent } else { Color32::from_rgb(0x3d, 0x7d, 0xd8) };
@@ -91,7 +93,7 @@ impl ScenePane {
             if dot.clicked() {
                 asks.push(stand_at(seen, &places, point));
             }
-            dot.on_hover_text(&point.name).on_hover_cursor(egui::CursorIcon::PointingHand);
+            dot.on_hover_text(name).on_hover_cursor(egui::CursorIcon::PointingHand);
         }
     }
 
@@ -195,11 +197,11 @@ fn centre(pattern: &Pattern, selected: &BTreeSet<PieceId>) -> Option<DVec3> {
 /// Places the selected pieces at a point, and unselected twins at the mirrored point on the other side of the body.
 fn stand_at(seen: &Seen<'_>, places: &Places<'_>, point: &Point) -> Ask {
     let (pattern, Some(body)) = (&seen.document.pattern, seen.body) else {
-        return Ask::Say("There is no body to stand pieces at".to_owned());
+        return Ask::Say(tr("There is no body to stand pieces at").to_owned());
     };
     if places.selected.is_empty() {
         return Ask::Say(
-            "Select a piece first, on the table or where it stands; then click a dot".to_owned(),
+            tr("Select a piece first, on the table or where it stands; then click a dot").to_owned(),
         );
     }
     let opposite = other_side(&point.name);
@@ -216,6 +218,32 @@ fn stand_at(seen: &Seen<'_>, places: &Places<'_>, point: &Point) -> Ask {
         }
     }
     Ask::Do(Command::EditPattern { edits: vec![PatternEdit::PlaceInSpace { placements }], anew: false })
+}
+
+/// The name of a point as it is shown.
+fn shown_name(point: &Point) -> String {
+    let Some((place, side)) = point.name.rsplit_once(", ") else { return point.name.clone() };
+    let place = match (point.part, place.rsplit_once(", ")) {
+        (Part::Other(number), Some((_, height))) => {
+            say!("bone {number}, {height}", number, height = tr(height))
+        }
+        _ => limb_name(place).to_owned(),
+    };
+    format!("{place}, {}", tr(side))
+}
+
+fn limb_name(place: &str) -> &str {
+    match place {
+        "left upper arm" => tr("left upper arm"),
+        "right upper arm" => tr("right upper arm"),
+        "left forearm" => tr("left forearm"),
+        "right forearm" => tr("right forearm"),
+        "left thigh" => tr("left thigh"),
+        "right thigh" => tr("right thigh"),
+        "left shin" => tr("left shin"),
+        "right shin" => tr("right shin"),
+        other => tr(other),
+    }
 }
 
 /// The name of the mirrored point on the other side of the body; None for points in the middle.

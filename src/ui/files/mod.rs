@@ -29,6 +29,7 @@ use crate::session::{
     AnimatedFile, Animations, BodyChoice, Command, Document, ImageFile, Project, project_file, whole_file,
 };
 use crate::sim::Snapshot;
+use crate::ui::language::{say, tr};
 use crate::ui::scenery::fabric_textures::USUAL_SIDE;
 use crate::ui::scenery::worn::Worn;
 
@@ -189,22 +190,22 @@ impl OnDisk {
 
 /// Reads a project.
 pub fn open(path: &Path) -> Result<Project, String> {
-    project_file::open(path).map_err(|e| in_words(path, "opened", reason(e)))
+    project_file::open(path).map_err(|e| in_words(path, Deed::Open, reason(e)))
 }
 
 /// Writes a project.
 pub fn save(path: &Path, project: &Project) -> Result<(), String> {
-    project_file::save(path, project).map_err(|e| in_words(path, "saved", reason(e)))
+    project_file::save(path, project).map_err(|e| in_words(path, Deed::Save, reason(e)))
 }
 
 /// Writes a project over a write-protected file.
 pub fn save_over(path: &Path, project: &Project) -> Result<(), String> {
-    project_file::save_over(path, project).map_err(|e| in_words(path, "saved", reason(e)))
+    project_file::save_over(path, project).map_err(|e| in_words(path, Deed::Save, reason(e)))
 }
 
 /// Writes a file atomically: whole or not at all.
 pub fn write(path: &Path, bytes: &[u8]) -> Result<(), String> {
-    whole_file::write(path, bytes).map_err(|e| in_words(path, "written", e))
+    whole_file::write(path, bytes).map_err(|e| in_words(path, Deed::Write, e))
 }
 
 /// The result of importing a pattern.
@@ -226,7 +227,7 @@ pub fn import_pattern(path: &Path, unit: Option<DrawingUnit>) -> Result<PatternI
             Ok(PatternImport::Pattern(command, read.notes))
         }
         Err(PatternFileError::Scale(question)) => Ok(PatternImport::Question(question)),
-        Err(error) => Err(in_words(path, "imported", error)),
+        Err(error) => Err(in_words(path, Deed::Import, error)),
     }
 }
 
@@ -240,15 +241,15 @@ fn rules_beside(path: &Path) -> Result<Option<Vec<u8>>, String> {
 pub fn export_pattern(path: &Path, pattern: &Pattern, paper: Paper) -> Result<Vec<String>, String> {
     let ending = path.extension().unwrap_or_default().to_string_lossy();
     let Some(format) = PatternFormat::of_ending(&ending) else {
-        let words = format!("the name must end in {}", endings(PatternFormat::ALL));
-        return Err(in_words(path, "written", words));
+        let words = say!("the name must end in {endings}", endings = endings(PatternFormat::ALL));
+        return Err(in_words(path, Deed::Write, words));
     };
     let written = pattern_formats::write(format, pattern, &stem(path), paper);
-    let written = written.map_err(|e| in_words(path, "written", e))?;
+    let written = written.map_err(|e| in_words(path, Deed::Write, e))?;
     match written.rules {
         Some(rules) => {
             let files = [(path.to_owned(), written.bytes), (path.with_extension(rul::ENDING), rules)];
-            whole_file::write_together(&files).map_err(|(path, e)| in_words(&path, "written", e))?;
+            whole_file::write_together(&files).map_err(|(path, e)| in_words(&path, Deed::Write, e))?;
         }
         None => write(path, &written.bytes)?,
     }
@@ -262,7 +263,7 @@ pub fn write_marker(
     format: MarkerFormat,
     paper: Paper,
 ) -> Result<(), String> {
-    let bytes = made.file(format, paper).map_err(|e| in_words(path, "written", e))?;
+    let bytes = made.file(format, paper).map_err(|e| in_words(path, Deed::Write, e))?;
     write(path, &bytes)
 }
 
@@ -291,14 +292,14 @@ pub fn read_body(path: &Path) -> Result<RawBody, String> {
     let mut animated = None;
     let mesh = if gltf::is_gltf(&bytes) {
         let read = body_file::model_with_buffers(path, &bytes, &read);
-        let (model, buffers) = read.map_err(|e| in_words(path, "imported", e))?;
+        let (model, buffers) = read.map_err(|e| in_words(path, Deed::Import, e))?;
         if model.animations().next().is_some() {
             let (up, unit, name) = (UpAxis::default(), Unit::default(), name.clone());
             animated = Some(Box::new(AnimatedFile { name, bytes, buffers, up, unit }));
         }
         model.mesh()
     } else {
-        body_file::read(path, &bytes, &read).map_err(|e| in_words(path, "imported", e))?
+        body_file::read(path, &bytes, &read).map_err(|e| in_words(path, Deed::Import, e))?
     };
     let (lower, upper) = mesh.bounds();
     let size = upper - lower;
@@ -337,7 +338,7 @@ pub enum PoseFile {
 pub fn read_pose(path: &Path, dressed: &TriMesh) -> Result<PoseFile, String> {
     let bytes = read(path)?;
     if bvh::is_bvh(&bytes) {
-        return bvh::read(&bytes).map(PoseFile::Motion).map_err(|e| in_words(path, "read", e));
+        return bvh::read(&bytes).map(PoseFile::Motion).map_err(|e| in_words(path, Deed::Read, e));
     }
     let raw = RawBody { up: UpAxis::Y, ..read_body(path)? };
     let raw = RawBody { unit: unit_like(dressed, &raw.mesh), ..raw };
@@ -377,7 +378,8 @@ fn imported(mut raw: RawBody) -> Result<(BodyChoice, Vec<String>), String> {
     let imported = import(raw.mesh, raw.unit);
     if !imported.is_usable() {
         let faults: Vec<String> = imported.problems.into_iter().map(|p| p.words).collect();
-        return Err(format!("{} cannot be used as a body: {}", raw.name, faults.join("; ")));
+        let why = faults.join("; ");
+        return Err(say!("{name} cannot be used as a body: {why}", name = raw.name, why));
     }
     let body = BodyChoice::Imported { name: raw.name, mesh: Arc::new(imported.mesh) };
     Ok((body, imported.notes))
@@ -387,7 +389,7 @@ fn imported(mut raw: RawBody) -> Result<(BodyChoice, Vec<String>), String> {
 pub fn take_image(path: &Path) -> Result<Command, String> {
     let name = path.file_name().map_or_else(|| "image".into(), |name| name.to_string_lossy());
     let file = ImageFile::new(name, read(path)?);
-    file.picture().map_err(|why| in_words(path, "taken", why))?;
+    file.picture().map_err(|why| in_words(path, Deed::Take, why))?;
     Ok(Command::AddImage { file: Arc::new(file) })
 }
 
@@ -400,21 +402,21 @@ pub fn export(
     document: &Document,
 ) -> Result<(), String> {
     let Some((garment, cloth)) = snapshot.drawn().filter(|_| snapshot.is_dressed()) else {
-        return Err("There is no cloth on the body to be written".to_owned());
+        return Err(tr("There is no cloth on the body to be written").to_owned());
     };
     let worn = Worn { garment, cloth, pattern, document };
     match path.extension().map(|e| e.to_string_lossy().to_lowercase()).as_deref() {
         Some("obj") => {
             let files = worn.obj(USUAL_SIDE, AtlasLayout::Pattern, path);
-            let files = files.map_err(|e| in_words(path, "written", e))?;
-            whole_file::write_together(&files).map_err(|(path, e)| in_words(&path, "written", e))
+            let files = files.map_err(|e| in_words(path, Deed::Write, e))?;
+            whole_file::write_together(&files).map_err(|(path, e)| in_words(&path, Deed::Write, e))
         }
         Some("glb") => {
             let body = snapshot.body.as_ref().map(|b| &b.mesh);
             let bytes = worn.glb(USUAL_SIDE, AtlasLayout::Pattern, body);
-            write(path, &bytes.map_err(|e| in_words(path, "written", e))?)
+            write(path, &bytes.map_err(|e| in_words(path, Deed::Write, e))?)
         }
-        _ => Err(in_words(path, "written", "the name must end in .obj or .glb")),
+        _ => Err(in_words(path, Deed::Write, tr("the name must end in .obj or .glb"))),
     }
 }
 
@@ -430,7 +432,7 @@ pub fn use_mannequin() -> Command {
 
 /// Reads the whole file at `path`. The error is a message.
 pub fn read(path: &Path) -> Result<Vec<u8>, String> {
-    whole_file::read(path, FILE_BYTES).map_err(|e| in_words(path, "read", e))
+    whole_file::read(path, FILE_BYTES).map_err(|e| in_words(path, Deed::Read, e))
 }
 
 /// The next version of a file name that does not exist yet: "shirt-2.toile" for "shirt.toile", "shirt-8.toile" for
@@ -465,8 +467,26 @@ fn reason(error: ProjectFileError) -> String {
     }
 }
 
-fn in_words(path: &Path, done: &str, why: impl std::fmt::Display) -> String {
+/// What was to be done with a file.
+#[derive(Clone, Copy, Debug)]
+enum Deed {
+    Open,
+    Save,
+    Write,
+    Import,
+    Read,
+    Take,
+}
+
+fn in_words(path: &Path, deed: Deed, why: impl std::fmt::Display) -> String {
     let name =
         path.file_name().map_or_else(|| path.display().to_string(), |n| n.to_string_lossy().into_owned());
-    format!("{name} could not be {done}: {why}")
+    match deed {
+        Deed::Open => say!("{name} could not be opened: {why}", name, why),
+        Deed::Save => say!("{name} could not be saved: {why}", name, why),
+        Deed::Write => say!("{name} could not be written: {why}", name, why),
+        Deed::Import => say!("{name} could not be imported: {why}", name, why),
+        Deed::Read => say!("{name} could not be read: {why}", name, why),
+        Deed::Take => say!("{name} could not be taken: {why}", name, why),
+    }
 }

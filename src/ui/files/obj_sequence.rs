@@ -13,6 +13,7 @@ use crate::io::materials::Colours;
 use crate::io::obj;
 use crate::session::{AnimatedFile, Animations, Command};
 use crate::ui::files::{read, unit_like};
+use crate::ui::language::say;
 
 /// Frames per second.
 const RATE: f64 = 30.0;
@@ -27,10 +28,12 @@ pub fn read_sequence(path: &Path, dressed: &TriMesh) -> Result<(Command, usize),
     let bytes = files.len() * bytes_per_frame(0, dressed.positions.len());
     if bytes > MOST_BYTES {
         let [needed, most] = [bytes, MOST_BYTES].map(|bytes| bytes >> 20);
-        return Err(format!(
-            "{} files like {} would take {needed} MiB in the project, and {most} are the most there may be: leave some out",
-            files.len(),
-            path.display()
+        return Err(say!(
+            "{count} files like {path} would take {needed} MiB in the project, and {most} are the most there may be: leave some out",
+            count = files.len(),
+            path = path.display(),
+            needed,
+            most
         ));
     }
     let mut unit = None;
@@ -41,7 +44,7 @@ pub fn read_sequence(path: &Path, dressed: &TriMesh) -> Result<(Command, usize),
         let unit = *unit.get_or_insert_with(|| unit_like(dressed, &mesh));
         let positions = positions(mesh, unit, dressed);
         pictures.push(positions.ok_or_else(|| {
-            format!("{} has other triangles than the body: it is no pose of it", file.display())
+            say!("{path} has other triangles than the body: it is no pose of it", path = file.display())
         })?);
     }
     let written = write_moving_body(&dressed.triangles, &pictures, RATE, &Colours::default());
@@ -68,7 +71,7 @@ fn positions(mesh: TriMesh, unit: Unit, dressed: &TriMesh) -> Option<Vec<DVec3>>
 fn numbered_like(path: &Path) -> Result<(String, Vec<PathBuf>), String> {
     let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let digits = |c: char| c.is_ascii_digit();
-    let unnumbered = || format!("There is no number in the name of {}", path.display());
+    let unnumbered = || say!("There is no number in the name of {path}", path = path.display());
     let end = stem.rfind(digits).map(|last| last + 1).ok_or_else(unnumbered)?;
     let begin = stem[..end].trim_end_matches(digits).len();
     let (before, after) = (&stem[..begin], &stem[end..]);
@@ -84,7 +87,8 @@ fn numbered_like(path: &Path) -> Result<(String, Vec<PathBuf>), String> {
     };
     let mut files: Vec<_> = entries.flatten().filter_map(|entry| number(entry.path())).collect();
     if files.len() < 2 {
-        return Err(format!("There is no other file beside {} that is numbered like it", path.display()));
+        let path = path.display();
+        return Err(say!("There is no other file beside {path} that is numbered like it", path));
     }
     files.sort();
     let name = format!("{before}{after}");

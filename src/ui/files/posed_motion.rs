@@ -4,6 +4,7 @@ use crate::body::UpAxis;
 use crate::body::mannequin::mannequin;
 use crate::body::pose::motion::{Clip, Retarget};
 use crate::session::BodyChoice;
+use crate::ui::language::{say, tr};
 
 /// A motion retargeted to the mannequin; its joint angles hold for mannequins of all measurements.
 #[derive(Debug)]
@@ -19,7 +20,7 @@ impl PosedMotion {
     /// Retargets the motion `clip` to the mannequin of `body`, with the up axis that its rest pose suggests. The error is a
     /// message.
     pub fn new(name: String, mut clip: Clip, body: &BodyChoice) -> Result<Self, String> {
-        let measurements = body.measurements().ok_or("a BVH motion is for the mannequin")?;
+        let measurements = body.measurements().ok_or(tr("a BVH motion is for the mannequin"))?;
         let figure = mannequin(&measurements).map_err(|e| e.to_string())?;
         let up = clip.likely_up();
         clip.set_upright(up);
@@ -40,16 +41,17 @@ impl PosedMotion {
     /// A message about the up axis, and about joints without a counterpart.
     pub fn note(&self) -> Option<String> {
         let Retarget { unused, unmoved, .. } = &self.retarget;
-        let list = |words: &str, names: String| format!("{words}: {names}");
         let mut notes = Vec::new();
         if self.up == UpAxis::Z {
-            notes.push("Its rest pose stands along z, which is taken to point up".to_owned());
+            notes.push(tr("Its rest pose stands along z, which is taken to point up").to_owned());
         }
         if !unused.is_empty() {
-            notes.push(list("Joints that move nothing of the mannequin", unused.join(", ")));
+            let names = unused.join(", ");
+            notes.push(say!("Joints that move nothing of the mannequin: {names}", names));
         }
         if !unmoved.is_empty() {
-            notes.push(list("Joints of the mannequin that nothing moves", unmoved.join(", ")));
+            let names = unmoved.join(", ");
+            notes.push(say!("Joints of the mannequin that nothing moves: {names}", names));
         }
         (!notes.is_empty()).then(|| notes.join(". "))
     }

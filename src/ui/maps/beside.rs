@@ -7,6 +7,7 @@ use egui::{Button, Frame, Margin, Rect, RichText, Spinner, Stroke, WidgetInfo, v
 use super::{Comparison, Opening};
 use crate::ui::actions::Action;
 use crate::ui::actions::asks::{Ask, Asks};
+use crate::ui::language::{say, tr};
 use crate::ui::look::theme::Palette;
 
 /// Size of the bar, points.
@@ -29,7 +30,7 @@ pub fn opening_ui(ui: &mut egui::Ui, pane: Rect, opening: &Opening, palette: &Pa
         ui.add(Spinner::new().size(14.0));
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             close_ui(ui, asks);
-            let words = RichText::new(format!("opening {}…", opening.name)).size(12.5);
+            let words = RichText::new(say!("opening {name}…", name = opening.name)).size(12.5);
             ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
                 ui.add(egui::Label::new(words).truncate());
             });
@@ -53,29 +54,29 @@ fn bar_ui(ui: &mut egui::Ui, beside: &Comparison, on_the_left: bool, asks: &mut 
         ("Difference", true, "This garment in the colours of what it has more than the one beside"),
     ] {
         let is_chosen = beside.difference == difference;
-        let button = ui.add(Button::selectable(is_chosen, text)).on_hover_text(tip);
+        let button = ui.add(Button::selectable(is_chosen, tr(text))).on_hover_text(tr(tip));
         if button.clicked() && !is_chosen {
             asks.push(Ask::Act(Action::ToggleDifference));
         }
     }
     ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
         close_ui(ui, asks);
-        let side = if on_the_left { "To the right" } else { "To the left" };
-        let change = ui.button(side).on_hover_text(Action::ChangeSides.row().tip);
+        let side = if on_the_left { tr("To the right") } else { tr("To the left") };
+        let change = ui.button(side).on_hover_text(tr(Action::ChangeSides.row().tip));
         if change.clicked() {
             asks.push(Ask::Act(Action::ChangeSides));
         }
         let words = match beside.unlike() {
             Some(why) => RichText::new(why).color(ui.visuals().warn_fg_color),
-            None => RichText::new(format!("beside: {}", beside.name)),
+            None => RichText::new(say!("beside: {name}", name = beside.name)),
         };
         ui.add(egui::Label::new(words.size(12.5)).truncate());
     });
 }
 
 fn close_ui(ui: &mut egui::Ui, asks: &mut Asks) {
-    let close = ui.add(Button::new("×").small().frame(false)).on_hover_text("No comparison");
-    close.widget_info(|| WidgetInfo::labeled(Role::Button, true, "Close the comparison"));
+    let close = ui.add(Button::new("×").small().frame(false)).on_hover_text(tr("No comparison"));
+    close.widget_info(|| WidgetInfo::labeled(Role::Button, true, tr("Close the comparison")));
     if close.clicked() {
         asks.push(Ask::Act(Action::CloseComparison));
     }

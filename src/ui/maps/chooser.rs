@@ -6,6 +6,7 @@ use crate::fit::MapKind;
 use crate::ui::actions::Action;
 use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::actions::context::FrameContext;
+use crate::ui::language::{say, tr};
 
 /// All choices: no map, and every map.
 pub fn choices() -> impl Iterator<Item = Option<MapKind>> {
@@ -14,24 +15,24 @@ pub fn choices() -> impl Iterator<Item = Option<MapKind>> {
 
 /// Draws the button.
 pub fn chooser_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) {
-    let text = now.map.map_or("No map", MapKind::short);
+    let text = now.map.map_or(tr("No map"), |kind| tr(kind.short()));
     let why_not = now.why_not(Action::Map(Some(MapKind::Ease)));
     ui.add_enabled_ui(why_not.is_none() || now.map.is_some(), |ui| {
         let combo = ComboBox::from_id_salt("map").selected_text(text).width(112.0).height(320.0);
         let shown = combo.show_ui(ui, |ui| {
             for kind in choices() {
                 let action = Action::Map(kind);
-                if ui.selectable_label(now.map == kind, action.row().text).clicked() {
+                if ui.selectable_label(now.map == kind, tr(action.row().text)).clicked() {
                     asks.push(Ask::Act(action));
                 }
             }
         });
-        let words = format!("Map: {text}");
+        let words = say!("Map: {text}", text);
         let enabled = ui.is_enabled();
         shown.response.widget_info(|| {
             egui::WidgetInfo::labeled(egui::accesskit::Role::ComboBox, enabled, words.clone())
         });
-        let tip = "Colour the cloth by its strain, its ease or its curves";
+        let tip = tr("Colour the cloth by its strain, its ease or its curves");
         shown.response.on_hover_text(tip).on_disabled_hover_text(why_not.unwrap_or_default());
     });
 }

@@ -11,6 +11,7 @@ use crate::render::{Mesh, Palette};
 use crate::session::{Outfit, Session};
 use crate::sim::{Runner, Simulation};
 use crate::ui::files;
+use crate::ui::language::say;
 use crate::ui::scenery::mapped::in_colours;
 use crate::ui::scenery::scene::{body_mesh, cloth_mesh};
 
@@ -32,6 +33,30 @@ pub struct Comparison {
     drawn: Option<(Place, Arc<Vec<Arc<Mesh>>>)>,
 }
 
+/// Why a project cannot be shown beside, with the path of its file. It is put into words on the thread of the window.
+#[derive(Debug)]
+pub enum Unlike {
+    /// The file cannot be read, in words.
+    Unread(String),
+    /// No cloth is on its body.
+    NoCloth(String),
+    /// The pieces differ, and how.
+    Pieces(String, String),
+}
+
+impl Unlike {
+    /// A message.
+    pub fn words(self) -> String {
+        match self {
+            Self::Unread(words) => words,
+            Self::NoCloth(file) => say!("{file}: there is no cloth on its body", file),
+            Self::Pieces(file, why) => {
+                say!("{file}: it has not the pieces of this pattern: {why}", file, why)
+            }
+        }
+    }
+}
+
 /// Position and colours of the drawn garment, to tell whether it must be drawn again.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Place {
@@ -40,15 +65,16 @@ struct Place {
 }
 
 impl Comparison {
-    /// Opens the project at `path` and matches its garment with `present`. The error is a message.
-    pub fn open(path: &Path, present: &Outfit) -> Result<Self, String> {
-        let fault = |words: &str| format!("{}: {words}", path.display());
-        let mut session = Session::new(files::open(path)?, Runner::inline(Simulation::default()));
+    /// Opens the project at `path` and matches its garment with `present`.
+    pub fn open(path: &Path, present: &Outfit) -> Result<Self, Unlike> {
+        let file = || path.display().to_string();
+        let project = files::open(path).map_err(Unlike::Unread)?;
+        let mut session = Session::new(project, Runner::inline(Simulation::default()));
         session.update();
         let outfit = Outfit::of(session.snapshot(), &session.document().fabrics);
-        let outfit = outfit.ok_or_else(|| fault("there is no cloth on its body"))?;
+        let outfit = outfit.ok_or_else(|| Unlike::NoCloth(file()))?;
         let matching = Matching::new(outfit.worn(), present.worn())
-            .map_err(|why| fault(&format!("it has not the pieces of this pattern: {why}")))?;
+            .map_err(|why| Unlike::Pieces(file(), why.to_string()))?;
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let matched = Some((Arc::clone(&present.garment), Ok(matching)));
         Ok(Self { name, difference: false, outfit, matched, map: None, drawn: None })

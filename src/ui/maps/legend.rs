@@ -6,6 +6,7 @@ use egui::{Align2, Color32, DragValue, FontId, Frame, Margin, Rect, Sense, Strok
 use super::ShownMap;
 use crate::ui::actions::Action;
 use crate::ui::actions::asks::{Ask, Asks};
+use crate::ui::language::{say, tr};
 use crate::ui::look::theme::{Palette, colour};
 
 /// Width of the legend, points.
@@ -54,12 +55,12 @@ pub fn legend_ui(
 
 fn title_ui(ui: &mut egui::Ui, map: &ShownMap, asks: &mut Asks) {
     let (unit, _) = map.kind().unit();
-    let text = egui::RichText::new(format!("{}, {unit}", map.title())).size(12.5).strong();
+    let text = egui::RichText::new(format!("{}, {unit}", map.heading())).size(12.5).strong();
     ui.horizontal(|ui| {
         ui.add(egui::Label::new(text).truncate());
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            let close = ui.add(egui::Button::new("×").small().frame(false)).on_hover_text("No map");
-            close.widget_info(|| WidgetInfo::labeled(Role::Button, true, "Close the map"));
+            let close = ui.add(egui::Button::new("×").small().frame(false)).on_hover_text(tr("No map"));
+            close.widget_info(|| WidgetInfo::labeled(Role::Button, true, tr("Close the map")));
             if close.clicked() {
                 asks.push(Ask::Act(Action::Map(None)));
             }
@@ -71,8 +72,9 @@ fn title_ui(ui: &mut egui::Ui, map: &ShownMap, asks: &mut Asks) {
 fn bar_ui(ui: &mut egui::Ui, map: &ShownMap, value: Option<f64>, palette: &Palette) {
     let (whole, response) = ui.allocate_exact_size(vec2(ui.available_width(), BAR + 12.0), Sense::hover());
     let legend = map.legend();
-    let words =
-        format!("Legend: {}, {:.2} to {:.2} {}", legend.title, legend.range[0], legend.range[1], legend.unit);
+    let [from, to] = legend.range.map(|v| format!("{v:.2}"));
+    let (map_name, unit) = (map.heading(), &legend.unit);
+    let words = say!("Legend: {map}, {from} to {to} {unit}", map = map_name, from, to, unit);
     response.widget_info(|| WidgetInfo::labeled(Role::Image, true, words.clone()));
     let painter = ui.painter_at(whole);
     let bar = Rect::from_min_size(whole.min + vec2(0.0, 6.0), vec2(BAR_WIDTH, BAR));
@@ -142,10 +144,10 @@ fn range_ui(ui: &mut egui::Ui, map: &ShownMap, palette: &Palette, asks: &mut Ask
         for (value, name) in [(&mut from, "Range from"), (&mut to, "Range to")] {
             let drag = DragValue::new(value).speed(speed).max_decimals(2).range(-1e4..=1e4);
             let field = ui.add(drag);
-            field.widget_info(|| WidgetInfo::labeled(Role::SpinButton, true, name));
+            field.widget_info(|| WidgetInfo::labeled(Role::SpinButton, true, tr(name)));
             changed |= field.changed();
             if name == "Range from" {
-                ui.label("to");
+                ui.label(tr("to"));
             }
         }
         ui.label(unit);
@@ -155,17 +157,18 @@ fn range_ui(ui: &mut egui::Ui, map: &ShownMap, palette: &Palette, asks: &mut Ask
     }
     ui.horizontal(|ui| {
         let mut automatic = map.is_automatic;
-        let tip = "From the smallest to the largest hundredth of the values";
-        if ui.checkbox(&mut automatic, "Automatic range").on_hover_text(tip).changed() {
+        let tip = tr("From the smallest to the largest hundredth of the values");
+        if ui.checkbox(&mut automatic, tr("Automatic range")).on_hover_text(tip).changed() {
             asks.push(Ask::MapRange(map.kind(), (!automatic).then_some([from, to])));
         }
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             let entry = Action::ToggleMapTable.row();
-            if ui.small_button("Table").on_hover_text(entry.tip).clicked() {
+            if ui.small_button(tr("Table")).on_hover_text(tr(entry.tip)).clicked() {
                 asks.push(Ask::Act(Action::ToggleMapTable));
             }
         });
     });
-    let words = format!("median {}, 99 % below {}", map.words(map.stats.median), map.words(map.stats.p99));
+    let (median, most) = (map.words(map.stats.median), map.words(map.stats.p99));
+    let words = say!("median {median}, 99 % below {most}", median, most);
     ui.add(egui::Label::new(egui::RichText::new(words).size(11.5).color(palette.weak)).truncate());
 }

@@ -19,6 +19,7 @@ use crate::fit::{Map, MapKind};
 use crate::render::{Legend, Palette, Rgb};
 use crate::session::{Fabrics, Outfit};
 use crate::sim::Snapshot;
+use crate::ui::language::{say, tr};
 use crate::ui::scenery::map_colours::palette;
 pub use beside::{beside_ui, opening_ui};
 pub use chooser::{choices, chooser_ui};
@@ -220,7 +221,16 @@ impl ShownMap {
         self.map.kind
     }
 
-    /// Title of the map.
+    /// Title of the map in the language of the window.
+    pub fn heading(&self) -> String {
+        let kind = self.map.kind;
+        match self.is_difference {
+            true => say!("Difference of {map}", map = tr(&kind.short().to_lowercase())),
+            false => tr(kind.title()).to_owned(),
+        }
+    }
+
+    /// Title of the map in English, for files.
     pub fn title(&self) -> String {
         match self.is_difference {
             true => format!("Difference of {}", self.map.kind.short().to_lowercase()),

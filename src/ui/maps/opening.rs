@@ -4,14 +4,16 @@ use std::path::Path;
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
 use super::Comparison;
+use super::comparison::Unlike;
 use crate::session::Outfit;
+use crate::ui::language::say;
 
 /// A project that is being opened for a comparison.
 #[derive(Debug)]
 pub struct Opening {
     /// Name of its file.
     pub name: String,
-    coming: Receiver<Result<Comparison, String>>,
+    coming: Receiver<Result<Comparison, Unlike>>,
 }
 
 impl Opening {
@@ -26,16 +28,18 @@ impl Opening {
             ctx.request_repaint();
         };
         let thread = std::thread::Builder::new().name("comparison".to_owned()).spawn(work);
-        thread.map_err(|why| format!("{name} cannot be opened: {why}"))?;
+        thread.map_err(|why| say!("{name} cannot be opened: {why}", name, why))?;
         Ok(Self { name, coming })
     }
 
     /// The result; None while the project is still being opened.
     pub fn take(&self) -> Option<Result<Comparison, String>> {
         match self.coming.try_recv() {
-            Ok(opened) => Some(opened),
+            Ok(opened) => Some(opened.map_err(Unlike::words)),
             Err(TryRecvError::Empty) => None,
-            Err(TryRecvError::Disconnected) => Some(Err(format!("{} could not be opened", self.name))),
+            Err(TryRecvError::Disconnected) => {
+                Some(Err(say!("{name} could not be opened", name = self.name)))
+            }
         }
     }
 }

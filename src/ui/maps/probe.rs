@@ -3,6 +3,7 @@
 use egui::{FontId, Pos2, Rect, Stroke, Vec2};
 
 use super::ShownMap;
+use crate::ui::language::tr;
 use crate::ui::look::theme::Palette;
 
 /// Writes the value of `map` at `at` beside the pointer, inside `pane`. Returns the text: "12.3 mm, Front".
@@ -15,7 +16,7 @@ pub fn probe_ui(
     piece: &str,
     palette: &Palette,
 ) -> String {
-    let value = value.map_or("no value".to_owned(), |value| map.words(value));
+    let value = value.map_or(tr("no value").to_owned(), |value| map.words(value));
     let words = if piece.is_empty() { value } else { format!("{value}, {piece}") };
     let painter = ui.painter_at(pane);
     let ink = ui.visuals().text_color();

@@ -4,6 +4,7 @@ use egui::RichText;
 
 use super::ShownMap;
 use crate::fit::maps::{MapStats, PieceStats};
+use crate::ui::language::tr;
 use crate::ui::look::theme::Palette;
 
 const HEADINGS: [&str; 8] = ["Piece", "Vertices", "Least", "1 %", "Median", "Mean", "99 %", "Most"];
@@ -11,19 +12,19 @@ const HEADINGS: [&str; 8] = ["Piece", "Vertices", "Least", "1 %", "Median", "Mea
 /// Draws the table with a heading that names the map and its unit.
 pub fn table_ui(ui: &mut egui::Ui, map: Option<&ShownMap>, palette: &Palette) {
     let Some(map) = map else {
-        ui.label(RichText::new("No map is shown: choose one in View › Map").color(palette.weak));
+        ui.label(RichText::new(tr("No map is shown: choose one in View › Map")).color(palette.weak));
         return;
     };
     let (unit, _) = map.kind().unit();
-    ui.label(RichText::new(format!("{}, {unit}", map.title())).strong());
+    ui.label(RichText::new(format!("{}, {unit}", map.heading())).strong());
     egui::Grid::new("map by pieces").num_columns(HEADINGS.len()).spacing([18.0, 4.0]).striped(true).show(
         ui,
         |ui| {
             for heading in HEADINGS {
-                ui.label(RichText::new(heading).color(palette.weak).size(12.0));
+                ui.label(RichText::new(tr(heading)).color(palette.weak).size(12.0));
             }
             ui.end_row();
-            for cells in rows(map) {
+            for cells in rows(map, tr("All")) {
                 for (i, cell) in cells.iter().enumerate() {
                     let text = if i == 0 { RichText::new(cell) } else { RichText::new(cell).monospace() };
                     ui.label(text);
@@ -34,17 +35,17 @@ pub fn table_ui(ui: &mut egui::Ui, map: Option<&ShownMap>, palette: &Palette) {
     );
 }
 
-/// The table as tab-separated text with a line of headings.
+/// The table as tab-separated text with a line of headings, in English.
 pub fn text(map: &ShownMap) -> String {
     let (unit, _) = map.kind().unit();
     let head = HEADINGS.join("\t");
-    let lines: Vec<String> = rows(map).map(|cells| cells.join("\t")).collect();
+    let lines: Vec<String> = rows(map, "All").map(|cells| cells.join("\t")).collect();
     format!("{}, {unit}\n{head}\n{}\n", map.title(), lines.join("\n"))
 }
 
-fn rows(map: &ShownMap) -> impl Iterator<Item = [String; 8]> {
+fn rows<'a>(map: &'a ShownMap, all: &'a str) -> impl Iterator<Item = [String; 8]> {
     let ((_, times), digits) = (map.kind().unit(), map.kind().digits());
-    let whole = ("All", &map.stats);
+    let whole = (all, &map.stats);
     let pieces = map.pieces().iter().map(|PieceStats { piece, stats }| (piece.as_str(), stats));
     std::iter::once(whole).chain(pieces).map(move |(name, stats)| {
         let MapStats { count, min, p01, median, mean, p99, max } = *stats;

@@ -5,6 +5,7 @@ use egui::{Button, ComboBox, RichText, Slider};
 use crate::session::{Animations, Command, Document, Moment};
 use crate::ui::actions::asks::Asks;
 use crate::ui::actions::context::FrameContext;
+use crate::ui::language::tr;
 use crate::ui::panels::context::PanelContext;
 use crate::ui::panels::pose_slider::{follow, let_go};
 
@@ -39,10 +40,10 @@ impl AnimationPanel {
         // The slider must not round the value itself: it would report a change while the animation plays.
         let slider = Slider::new(&mut self.seconds, 0.0..=length).suffix(" s");
         let slider = slider.custom_formatter(|seconds, _| format!("{seconds:.2}"));
-        let response =
-            ui.add(slider).on_hover_text("Leads the body through its animation, the cloth follows");
+        let tip = tr("Leads the body through its animation, the cloth follows");
+        let response = ui.add(slider).on_hover_text(tip);
         let seconds = self.seconds;
-        response.widget_info(|| egui::WidgetInfo::slider(true, seconds, "Time of the animation"));
+        response.widget_info(|| egui::WidgetInfo::slider(true, seconds, tr("Time of the animation")));
         if let Some(done) = let_go(&response, told) {
             self.playing = None;
             self.go(!done, asks);
@@ -65,7 +66,7 @@ impl AnimationPanel {
         let names: Vec<String> = animations.names().collect();
         self.animation = self.animation.min(names.len().saturating_sub(1));
         let chosen = names.get(self.animation).cloned().unwrap_or_default();
-        let combo = ComboBox::from_label("Animation").selected_text(chosen).width(WIDTH);
+        let combo = ComboBox::from_label(tr("Animation")).selected_text(chosen).width(WIDTH);
         combo.show_ui(ui, |ui| {
             for (i, name) in names.iter().enumerate() {
                 if ui.selectable_label(i == self.animation, name).clicked() {
@@ -78,8 +79,8 @@ impl AnimationPanel {
 
     fn buttons_ui(&mut self, ui: &mut egui::Ui, told: &PanelContext<'_>, asks: &mut Asks) {
         let plays = self.playing.is_some();
-        let words = if plays { "Stop" } else { "Play" };
-        let tip = "Plays the animation over and over; the cloth follows as quickly as it can";
+        let words = if plays { tr("Stop") } else { tr("Play") };
+        let tip = tr("Plays the animation over and over; the cloth follows as quickly as it can");
         if ui.button(words).on_hover_text(tip).clicked() {
             match plays {
                 true => {
@@ -93,8 +94,8 @@ impl AnimationPanel {
             }
         }
         let is_off = told.document.moment.is_some() || plays;
-        let rest = ui.add_enabled(is_off, Button::new("Rest pose"));
-        if rest.on_hover_text("As the body stands in the file without animation").clicked() {
+        let rest = ui.add_enabled(is_off, Button::new(tr("Rest pose")));
+        if rest.on_hover_text(tr("As the body stands in the file without animation")).clicked() {
             self.playing = None;
             follow(Command::Animate { at: None, draft: false }, true, asks);
         }

@@ -10,6 +10,7 @@ use crate::session::artwork::WIDTHS;
 use crate::session::{Artwork, Command, Dye, Graphic, Repeated};
 use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::actions::{Action, Tool};
+use crate::ui::language::{say, tr};
 use crate::ui::panels::context::{PanelContext, problem_row};
 
 /// Width of lists, points.
@@ -25,8 +26,11 @@ pub fn artwork_ui(ui: &mut Ui, told: &PanelContext<'_>, asks: &mut Asks) {
     for (&image, file) in &artwork.images {
         image_row(ui, told, (image, &file.name), asks);
         if let Err(why) = file.picture() {
-            let words =
-                format!("{}: {why}. It is kept in the project, and squares are shown instead", file.name);
+            let words = say!(
+                "{image}: {why}. It is kept in the project, and squares are shown instead",
+                image = file.name,
+                why
+            );
             problem_row(ui, told.palette.error, &words, None, asks);
         }
     }
@@ -34,7 +38,7 @@ pub fn artwork_ui(ui: &mut Ui, told: &PanelContext<'_>, asks: &mut Asks) {
         graphic_ui(ui, told, id, graphic, asks);
     }
     let row = Action::AddImage.row();
-    if ui.add(Button::new(row.text).small()).on_hover_text(row.tip).clicked() {
+    if ui.add(Button::new(tr(row.text)).small()).on_hover_text(tr(row.tip)).clicked() {
         asks.push(Ask::Act(Action::AddImage));
     }
 }
@@ -43,18 +47,18 @@ fn image_row(ui: &mut Ui, told: &PanelContext<'_>, (image, name): (ImageId, &str
     ui.horizontal(|ui| {
         let piece = told.selection.pieces.first().copied();
         let piece = piece.or_else(|| told.document.pattern.pieces.keys().next().copied());
-        let place = ui.add_enabled(piece.is_some(), Button::new("Place").small());
-        place.widget_info(|| WidgetInfo::labeled(Role::Button, piece.is_some(), format!("Place {name}")));
-        let tip = "Place it on the selected piece, or the first; drag it there with the tool Graphics";
-        if place.on_hover_text(tip).on_disabled_hover_text("There is no piece").clicked()
+        let place = ui.add_enabled(piece.is_some(), Button::new(tr("Place")).small());
+        place.widget_info(|| WidgetInfo::labeled(Role::Button, piece.is_some(), say!("Place {name}", name)));
+        let tip = tr("Place it on the selected piece, or the first; drag it there with the tool Graphics");
+        if place.on_hover_text(tip).on_disabled_hover_text(tr("There is no piece")).clicked()
             && let Some(found) = piece.and_then(|id| Some((id, told.document.pattern.pieces.get(&id)?)))
         {
             asks.push(Ask::Do(Command::AddGraphic { graphic: first_graphic(image, found.0, found.1) }));
             asks.push(Ask::Act(Action::Choose(Tool::Graphic)));
         }
         let close = ui.add(Button::new("×").small());
-        close.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("Delete {name}")));
-        if close.on_hover_text("Delete it with its graphics").clicked() {
+        close.widget_info(|| WidgetInfo::labeled(Role::Button, true, say!("Delete {name}", name)));
+        if close.on_hover_text(tr("Delete it with its graphics")).clicked() {
             asks.push(Ask::Do(Command::DeleteImage { image }));
         }
         ui.add(egui::Label::new(name).truncate());
@@ -77,11 +81,12 @@ fn graphic_ui(ui: &mut Ui, told: &PanelContext<'_>, id: GraphicId, graphic: &Gra
     ui.add_space(2.0);
     ui.horizontal(|ui| {
         let close = ui.add(Button::new("×").small());
-        close.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("Delete {id}")));
-        if close.on_hover_text("Delete this graphic").clicked() {
+        close.widget_info(|| WidgetInfo::labeled(Role::Button, true, say!("Delete graphic {n}", n = id.0)));
+        if close.on_hover_text(tr("Delete this graphic")).clicked() {
             asks.push(Ask::Do(Command::DeleteGraphic { id }));
         }
-        ui.add(egui::Label::new(RichText::new(format!("{name} on {}", piece.name)).strong()).truncate());
+        let words = say!("{image} on {piece}", image = name, piece = piece.name);
+        ui.add(egui::Label::new(RichText::new(words).strong()).truncate());
     });
     let mut new = *graphic;
     let mut fields = Vec::new();
@@ -90,11 +95,11 @@ fn graphic_ui(ui: &mut Ui, told: &PanelContext<'_>, id: GraphicId, graphic: &Gra
         fields.push(millimetres(ui, "y ", &mut new.at.y, -100_000.0..=100_000.0));
     });
     ui.horizontal(|ui| {
-        fields.push(millimetres(ui, "w ", &mut new.width_m, widths()));
+        fields.push(millimetres(ui, &format!("{} ", tr("w")), &mut new.width_m, widths()));
         fields.push(degrees_ui(ui, &mut new.angle));
     });
     if piece.twin.is_some() {
-        ui.checkbox(&mut new.on_twin, "Mirrored on the twin");
+        ui.checkbox(&mut new.on_twin, tr("Mirrored on the twin"));
     }
     // A drag over a number is one step.
     let is_dragged = fields.iter().any(|field| field.dragged());
@@ -126,7 +131,7 @@ fn millimetres(ui: &mut Ui, name: &str, metres: &mut f64, range: std::ops::Range
 fn degrees_ui(ui: &mut Ui, angle: &mut f64) -> Response {
     let mut value = angle.to_degrees();
     let field = DragValue::new(&mut value).range(-360.0..=360.0).suffix("°").max_decimals(1);
-    let response = ui.add(field).on_hover_text("Angle, counter-clockwise");
+    let response = ui.add(field).on_hover_text(tr("Angle, counter-clockwise"));
     if response.changed() {
         *angle = value.to_radians();
     }
@@ -136,12 +141,13 @@ fn degrees_ui(ui: &mut Ui, angle: &mut f64) -> Response {
 /// The image all over a fabric, as a part of `dye`.
 pub fn surface_ui(ui: &mut Ui, artwork: &Artwork, dye: &mut Dye) {
     let Some(&first) = artwork.images.keys().next() else {
-        ui.add_enabled(false, egui::Checkbox::new(&mut false, "Image"))
-            .on_disabled_hover_text("Take an image first: Images in the side panel");
+        ui.add_enabled(false, egui::Checkbox::new(&mut false, tr("Image")))
+            .on_disabled_hover_text(tr("Take an image first: Images in the side panel"));
         return;
     };
     let mut has_image = dye.image.is_some();
-    if ui.checkbox(&mut has_image, "Image").on_hover_text("An image all over the cloth").changed() {
+    let tip = tr("An image all over the cloth");
+    if ui.checkbox(&mut has_image, tr("Image")).on_hover_text(tip).changed() {
         dye.image = has_image.then_some(Repeated { image: first, width_m: FIRST_REPEAT, angle: 0.0 });
     }
     let Some(own) = &mut dye.image else { return };
@@ -155,7 +161,7 @@ pub fn surface_ui(ui: &mut Ui, artwork: &Artwork, dye: &mut Dye) {
         },
     );
     ui.horizontal(|ui| {
-        millimetres(ui, "every ", &mut own.width_m, widths());
+        millimetres(ui, &format!("{} ", tr("every")), &mut own.width_m, widths());
         degrees_ui(ui, &mut own.angle);
     });
 }

@@ -9,6 +9,7 @@ use crate::render::cloth_front;
 use crate::session::{Artwork, Command, Dye, Motif, Print};
 use crate::ui::actions::Action;
 use crate::ui::actions::asks::{Ask, Asks};
+use crate::ui::language::{say, tr};
 use crate::ui::panels::artwork::surface_ui;
 use crate::ui::panels::colours::{SWATCH, colour_ui, open_menu};
 use crate::ui::panels::context::PanelContext;
@@ -26,7 +27,7 @@ const MATCHES_MM: f64 = 1.0;
 
 /// Draws a row for the whole garment and one for each piece, the colourways, and the button for one step of draping.
 pub fn fabric_ui(ui: &mut Ui, told: &PanelContext<'_>, asks: &mut Asks) {
-    row(ui, told, None, "All pieces", asks);
+    row(ui, told, None, tr("All pieces"), asks);
     for (&id, piece) in &told.document.pattern.pieces {
         row(ui, told, Some(id), &piece.name, asks);
     }
@@ -36,8 +37,8 @@ pub fn fabric_ui(ui: &mut Ui, told: &PanelContext<'_>, asks: &mut Asks) {
     ui.add_space(2.0);
     let step = Action::StepDrape;
     let why_not = told.now.why_not(step);
-    let button = egui::Button::new(step.row().text).small();
-    let response = ui.add_enabled(why_not.is_none(), button).on_hover_text(step.row().tip);
+    let button = egui::Button::new(tr(step.row().text)).small();
+    let response = ui.add_enabled(why_not.is_none(), button).on_hover_text(tr(step.row().tip));
     if response.on_disabled_hover_text(why_not.unwrap_or_default()).clicked() {
         asks.push(Ask::Act(step));
     }
@@ -57,17 +58,18 @@ fn fabric_list(ui: &mut Ui, told: &PanelContext<'_>, piece: Option<PieceId>, nam
         None => Some(fabrics.name(None)),
         Some(piece) => fabrics.pieces.get(&piece).map(String::as_str),
     };
-    let shown = own.map_or(RichText::new("as all").color(told.palette.weak), RichText::new);
+    let shown =
+        own.map_or(RichText::new(tr("as all")).color(told.palette.weak), |own| RichText::new(tr(own)));
     let combo = ComboBox::from_label(name).selected_text(shown).width(WIDTH);
     combo.show_ui(ui, |ui| {
         let mut set = |fabric: Option<&str>| {
             asks.push(Ask::Do(Command::SetFabric { piece, fabric: fabric.map(str::to_owned) }));
         };
-        if piece.is_some() && ui.selectable_label(own.is_none(), "as all").clicked() {
+        if piece.is_some() && ui.selectable_label(own.is_none(), tr("as all")).clicked() {
             set(None);
         }
         for fabric in Fabric::presets() {
-            let row = ui.selectable_label(own == Some(&fabric.name), &fabric.name);
+            let row = ui.selectable_label(own == Some(&fabric.name), tr(&fabric.name));
             if row.on_hover_text(figures(fabric)).clicked() {
                 set(Some(&fabric.name));
             }
@@ -99,7 +101,7 @@ fn dye_menu(ui: &mut Ui, told: &PanelContext<'_>, piece: Option<PieceId>, name: 
             asks.push(Ask::EndDrag);
         }
     });
-    let label = format!("Colour and print of {name}");
+    let label = say!("Colour and print of {name}", name);
     let name_of_button = label.clone();
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &name_of_button));
     response.on_hover_text(label);
@@ -108,9 +110,9 @@ fn dye_menu(ui: &mut Ui, told: &PanelContext<'_>, piece: Option<PieceId>, name: 
 /// The dye that was chosen, if any was.
 fn dye_ui(ui: &mut Ui, artwork: &Artwork, own: Dye, seen: Option<[u8; 3]>, is_for_all: bool) -> Option<Dye> {
     let mut dye = own;
-    let plain = if is_for_all { "As the fabric" } else { "As all pieces" };
+    let plain = if is_for_all { tr("As the fabric") } else { tr("As all pieces") };
     let mut is_own = own.colour.is_some();
-    if ui.checkbox(&mut is_own, "Own colour").on_hover_text(plain).changed() {
+    if ui.checkbox(&mut is_own, tr("Own colour")).on_hover_text(plain).changed() {
         dye.colour = is_own.then(|| seen.unwrap_or(FIRST_COLOUR));
     }
     if let Some(colour) = &mut dye.colour {
@@ -118,19 +120,19 @@ fn dye_ui(ui: &mut Ui, artwork: &Artwork, own: Dye, seen: Option<[u8; 3]>, is_fo
     }
     ui.separator();
     let mut has_print = own.print.is_some();
-    if ui.checkbox(&mut has_print, "Print").changed() {
+    if ui.checkbox(&mut has_print, tr("Print")).changed() {
         dye.print = has_print.then_some(FIRST_PRINT);
     }
     if let Some(print) = &mut dye.print {
         ui.horizontal(|ui| {
             for motif in Motif::ALL {
-                ui.selectable_value(&mut print.motif, motif, motif.name());
+                ui.selectable_value(&mut print.motif, motif, tr(motif.name()));
             }
         });
         ui.horizontal(|ui| {
             let mut millimetres = print.repeat_m * 1e3;
             let value = DragValue::new(&mut millimetres).range(1.0..=2000.0).suffix(" mm").max_decimals(1);
-            if ui.add(value).on_hover_text("Length of a repeat").changed() {
+            if ui.add(value).on_hover_text(tr("Length of a repeat")).changed() {
                 print.repeat_m = millimetres / 1e3;
             }
         });
@@ -148,8 +150,8 @@ fn colourways_ui(ui: &mut Ui, told: &PanelContext<'_>, asks: &mut Asks) {
     let worn = document.colourways.iter().find(is_worn).map(|colourway| colourway.name.as_str());
     let id = ui.scope_id().with("new colourway");
     ui.horizontal(|ui| {
-        let shown = RichText::new(worn.unwrap_or("not kept")).color(told.palette.weak);
-        let combo = ComboBox::from_label("Colourway").selected_text(shown).width(WIDTH);
+        let shown = RichText::new(worn.unwrap_or(tr("not kept"))).color(told.palette.weak);
+        let combo = ComboBox::from_label(tr("Colourway")).selected_text(shown).width(WIDTH);
         combo.show_ui(ui, |ui| {
             for colourway in document.colourways.iter() {
                 let name = &colourway.name;
@@ -158,19 +160,20 @@ fn colourways_ui(ui: &mut Ui, told: &PanelContext<'_>, asks: &mut Asks) {
                 }
             }
             if let Some(name) = worn
-                && ui.button(format!("Delete {name}")).clicked()
+                && ui.button(say!("Delete {name}", name)).clicked()
             {
                 asks.push(Ask::Do(Command::DeleteColourway { name: name.to_owned() }));
             }
         });
     });
-    let keep = egui::Button::new("Keep colourway…").small();
+    let keep = egui::Button::new(tr("Keep colourway…")).small();
     let (response, _) = open_menu(keep).ui(ui, |ui| {
         let mut name: String = ui.data(|data| data.get_temp(id)).unwrap_or_default();
-        let typed = ui.add(egui::TextEdit::singleline(&mut name).hint_text("Name").desired_width(WIDTH));
+        let field = egui::TextEdit::singleline(&mut name).hint_text(tr("Name"));
+        let typed = ui.add(field.desired_width(WIDTH));
         let is_entered = typed.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
         let is_named = !name.trim().is_empty();
-        let is_kept = ui.add_enabled(is_named, egui::Button::new("Keep")).clicked();
+        let is_kept = ui.add_enabled(is_named, egui::Button::new(tr("Keep"))).clicked();
         if is_kept || (is_entered && is_named) {
             asks.push(Ask::Do(Command::KeepColourway { name: name.trim().to_owned() }));
             name.clear();
@@ -178,7 +181,7 @@ fn colourways_ui(ui: &mut Ui, told: &PanelContext<'_>, asks: &mut Asks) {
         }
         ui.data_mut(|data| data.insert_temp(id, name));
     });
-    response.on_hover_text("Keep the present fabrics, colours and prints under a name");
+    response.on_hover_text(tr("Keep the present fabrics, colours and prints under a name"));
 }
 
 /// How far the prints on both sides of each seam are off each other.
@@ -192,8 +195,13 @@ fn matches_ui(ui: &mut Ui, told: &PanelContext<'_>) {
         let place = naming::seam_place(&told.document.pattern, seam);
         let millimetres = offset * 1e3;
         let words = match millimetres < MATCHES_MM {
-            true => format!("{place}: {} meet", motif.name()),
-            false => format!("{place}: {} are {millimetres:.0} mm off", motif.name()),
+            true => say!("{place}: {print} meet", place, print = tr(motif.name())),
+            false => say!(
+                "{place}: {print} are {mm} mm off",
+                place,
+                print = tr(motif.name()),
+                mm = format!("{millimetres:.0}")
+            ),
         };
         ui.label(RichText::new(words).small().color(told.palette.weak));
     }
@@ -204,5 +212,11 @@ fn figures(fabric: &Fabric) -> String {
     let grams = fabric.density_kg_per_m2 * 1000.0;
     let bending = fabric.bending.warp.max(fabric.bending.weft) * 1e6;
     let (warp, weft) = (fabric.stretch.warp, fabric.stretch.weft);
-    format!("{grams:.0} g/m², stretch {warp:.0} × {weft:.0} N/m, bending {bending:.0} µN·m")
+    say!(
+        "{grams} g/m², stretch {warp} × {weft} N/m, bending {bending} µN·m",
+        grams = format!("{grams:.0}"),
+        warp = format!("{warp:.0}"),
+        weft = format!("{weft:.0}"),
+        bending = format!("{bending:.0}")
+    )
 }

@@ -8,6 +8,7 @@ use crate::pattern::edit::{PatternEdit, TrimLine};
 use crate::pattern::{Button, EdgeRef, Pattern, Piece, PiecePoint, Seam, Stretch, Zip, curve};
 use crate::session::Command;
 use crate::ui::actions::asks::{Ask, Asks};
+use crate::ui::language::{say, tr};
 use crate::ui::look::signs::{Sign, sign_button};
 use crate::ui::panels::colours::colour_menu;
 use crate::ui::panels::context::PanelContext;
@@ -33,28 +34,29 @@ fn ask(edit: PatternEdit) -> Ask {
 pub fn zip_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, id: SeamId, seam: &Seam, asks: &mut Asks) {
     let set = |zip: Option<Zip>| ask(PatternEdit::SetZip { seam: id, zip });
     let mut on = seam.zip.is_some();
-    if ui.checkbox(&mut on, "Zip").on_hover_text("A seam that can be opened from one end").changed() {
+    let tip = tr("A seam that can be opened from one end");
+    if ui.checkbox(&mut on, tr("Zip")).on_hover_text(tip).changed() {
         asks.push(set(on.then_some(Zip::CLOSED)));
     }
     let Some(zip) = seam.zip else { return };
     ui.horizontal(|ui| {
-        let label = ui.label(RichText::new("Open, %").color(told.palette.weak).size(12.5));
-        let label = label.on_hover_text("Share of its length that is open: 0 closed, 100 wide open");
+        let label = ui.label(RichText::new(tr("Open, %")).color(told.palette.weak).size(12.5));
+        let label = label.on_hover_text(tr("Share of its length that is open: 0 closed, 100 wide open"));
         if let Some(new) = number_field(ui, "zip open", &label, zip.open * 100.0) {
             asks.push(set(Some(Zip { open: (new / 100.0).clamp(0.0, 1.0), ..zip })));
         }
-        let text = if zip.open > 0.0 { "Close" } else { "Open" };
+        let text = if zip.open > 0.0 { tr("Close") } else { tr("Open") };
         if ui.small_button(text).clicked() {
             let open = if zip.open > 0.0 { 0.0 } else { 1.0 };
             asks.push(set(Some(Zip { open, ..zip })));
         }
-        if ui.small_button("Other end").on_hover_text("Open it from its other end").clicked() {
+        if ui.small_button(tr("Other end")).on_hover_text(tr("Open it from its other end")).clicked() {
             asks.push(set(Some(Zip { from_end: !zip.from_end, ..zip })));
         }
     });
     ui.horizontal(|ui| {
-        ui.label(RichText::new("Teeth").color(told.palette.weak).size(12.5));
-        colour_menu(ui, "Teeth of the zip", zip.colour, asks, |colour| {
+        ui.label(RichText::new(tr("Teeth")).color(told.palette.weak).size(12.5));
+        colour_menu(ui, tr("Teeth of the zip"), zip.colour, asks, |colour| {
             dragged(PatternEdit::SetZip { seam: id, zip: Some(Zip { colour, ..zip }) })
         });
     });
@@ -66,12 +68,12 @@ pub fn buttons_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, lines: &[TrimLine]
     let id = ui.scope_id().with("button count");
     let mut count: usize = ui.data(|d| d.get_temp(id)).unwrap_or(USUAL_COUNT);
     ui.horizontal(|ui| {
-        let label = ui.label(RichText::new("Buttons").color(told.palette.weak).size(12.5));
+        let label = ui.label(RichText::new(tr("Buttons")).color(told.palette.weak).size(12.5));
         if let Some(new) = number_field(ui, "buttons", &label, count as f64) {
             count = new.clamp(1.0, MOST_AT_ONCE) as usize;
         }
-        let tip = "Evenly along both lines: buttons on the first, buttonholes on the second";
-        if ui.button("Sew on").on_hover_text(tip).clicked() {
+        let tip = tr("Evenly along both lines: buttons on the first, buttonholes on the second");
+        if ui.button(tr("Sew on")).on_hover_text(tip).clicked() {
             let buttons = buttons_along(&told.document.pattern, *one, *other, count);
             asks.push(ask(PatternEdit::AddButtons { buttons }));
         }
@@ -86,7 +88,7 @@ pub fn fastenings_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, asks: &mut Asks
     if !all.is_empty() {
         ui.horizontal(|ui| {
             for (text, fastened) in [("Fasten all", true), ("Unfasten all", false)] {
-                if ui.small_button(text).clicked() {
+                if ui.small_button(tr(text)).clicked() {
                     asks.push(ask(PatternEdit::Fasten { buttons: all.clone(), fastened }));
                 }
             }
@@ -98,7 +100,9 @@ pub fn fastenings_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, asks: &mut Asks
     for (id, seam) in pattern.seams.iter().filter(|(_, seam)| seam.zip.is_some()) {
         let words = seam_words(pattern, seam);
         let open = seam.zip.map_or(0.0, |zip| zip.open);
-        ui.label(RichText::new(format!("Zip, {words}: {:.0} % open", open * 100.0)).size(12.5));
+        let percent = format!("{:.0}", open * 100.0);
+        let words = say!("Zip, {seam}: {percent} % open", seam = words, percent);
+        ui.label(RichText::new(words).size(12.5));
         ui.push_id(id, |ui| zip_ui(ui, told, *id, seam, asks));
     }
 }
@@ -110,17 +114,18 @@ fn button_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, id: ButtonId, button: &
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
         let mut fastened = !button.open;
-        if ui.checkbox(&mut fastened, "").on_hover_text("Fastened").changed() {
+        if ui.checkbox(&mut fastened, "").on_hover_text(tr("Fastened")).changed() {
             asks.push(ask(PatternEdit::Fasten { buttons: vec![id], fastened }));
         }
-        let words = format!("Take off {id}");
-        if sign_button(ui, Sign::Cross, true, &words, "Take the button off") {
+        let words = say!("Take off button {n}", n = id.0);
+        if sign_button(ui, Sign::Cross, true, &words, tr("Take the button off")) {
             asks.push(ask(PatternEdit::DeleteButtons { buttons: vec![id] }));
         }
-        colour_menu(ui, &format!("Colour of {id}"), button.colour, asks, |colour| {
+        colour_menu(ui, &say!("Colour of button {n}", n = id.0), button.colour, asks, |colour| {
             dragged(PatternEdit::SetButton { id, button: Button { colour, ..*button } })
         });
-        let words = format!("{id}, {} to {}", name(&button.button), name(&button.hole));
+        let (piece, other) = (name(&button.button), name(&button.hole));
+        let words = say!("button {n}, {piece} to {other}", n = id.0, piece, other);
         let label = ui.label(RichText::new(words).size(12.5));
         if let Some(new) = length_field(ui, ("diameter", id), &label, button.diameter, told.now.unit) {
             let range = crate::pattern::fastenings::BUTTON_DIAMETERS;

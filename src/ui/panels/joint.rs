@@ -6,6 +6,7 @@ use glam::DVec3;
 use crate::body::Pose;
 use crate::body::pose::anatomy::{Anatomy, Limb, mirrored_to_the_right};
 use crate::ui::actions::asks::{Ask, Asks};
+use crate::ui::language::tr;
 use crate::ui::panels::context::PanelContext;
 use crate::ui::panels::pose_slider::{follow, let_go, posed};
 
@@ -48,17 +49,18 @@ impl JointPanel {
             };
             let mut reset = pose.clone();
             reset.set(self.limb.joint, DVec3::ZERO);
-            button("Reset joint", "As the mannequin was built", reset);
-            let tip = "Turns every joint of the right side as that of the left";
-            button("Mirror left to right", tip, mirrored_to_the_right(&pose));
+            button(tr("Reset joint"), tr("As the mannequin was built"), reset);
+            let tip = tr("Turns every joint of the right side as that of the left");
+            button(tr("Mirror left to right"), tip, mirrored_to_the_right(&pose));
         });
     }
 
     fn list_ui(&mut self, ui: &mut egui::Ui) {
-        let combo = ComboBox::from_label("Joint").selected_text(self.limb.title()).width(WIDTH);
+        let chosen = self.limb.title();
+        let combo = ComboBox::from_label(tr("Joint")).selected_text(tr(&chosen)).width(WIDTH);
         combo.height(360.0).show_ui(ui, |ui| {
             for limb in Limb::all() {
-                if ui.selectable_label(limb == self.limb, limb.title()).clicked() {
+                if ui.selectable_label(limb == self.limb, tr(&limb.title())).clicked() {
                     (self.limb, self.given) = (limb, None);
                 }
             }
@@ -78,12 +80,12 @@ impl JointPanel {
         let angles = given.map_or_else(|| anatomy.angles(pose, limb), |(_, angles)| angles);
         self.dragged = false;
         for movement in limb.movements {
-            ui.label(RichText::new(movement.title).color(told.palette.weak).size(12.5));
+            ui.label(RichText::new(tr(movement.title)).color(told.palette.weak).size(12.5));
             let [least, largest] = movement.range;
             let mut degrees = angles[movement.axis as usize];
             let slider = Slider::new(&mut degrees, least..=largest).suffix("°").max_decimals(0);
             let response = ui.add(slider);
-            let words = format!("{}: {}", limb.title(), movement.title);
+            let words = format!("{}: {}", tr(&limb.title()), tr(movement.title));
             response.widget_info(|| egui::WidgetInfo::slider(true, degrees, words.clone()));
             self.dragged |= response.dragged();
             let mut new = angles;

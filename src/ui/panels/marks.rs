@@ -11,6 +11,8 @@ use crate::render::mark_colour;
 use crate::session::Command;
 use crate::ui::actions::Action;
 use crate::ui::actions::asks::{Ask, Asks};
+use crate::ui::language::keys::shortcut_text;
+use crate::ui::language::{counted, say, tr};
 use crate::ui::look::theme::colour;
 use crate::ui::panels::context::PanelContext;
 use crate::ui::preferences::units::signed;
@@ -41,7 +43,9 @@ impl MarksPanel {
         }
         let [cloth, body] = told.now.marks;
         if cloth + body == 0 {
-            let words = "Paint a mark on a piece, then one on the body where it should lie. Marks with the same number meet.";
+            let words = tr(
+                "Paint a mark on a piece, then one on the body where it should lie. Marks with the same number meet.",
+            );
             ui.add(egui::Label::new(RichText::new(words).color(told.palette.weak)).wrap());
             return;
         }
@@ -56,7 +60,7 @@ impl MarksPanel {
             None => self.typed = None,
         }
         ui.add_space(2.0);
-        if ui.small_button(Action::ClearMarks.row().text).clicked() {
+        if ui.small_button(tr(Action::ClearMarks.row().text)).clicked() {
             asks.push(Ask::Act(Action::ClearMarks));
         }
     }
@@ -89,21 +93,25 @@ impl MarksPanel {
     ) {
         ui.separator();
         ui.horizontal(|ui| {
-            ui.label(RichText::new(format!("Selected: {place}")).strong());
+            let words = match place.on_cloth {
+                true => say!("Selected: mark {number} on the cloth", number = place.number),
+                false => say!("Selected: mark {number} on the body", number = place.number),
+            };
+            ui.label(RichText::new(words).strong());
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                action_ui(ui, told, Action::DeleteMark, "Delete", asks);
+                action_ui(ui, told, Action::DeleteMark, tr("Delete"), asks);
             });
         });
         if let Some(landmark) = told.document.marks.landmark(mark) {
-            let words = format!("near {}", landmark.replace('_', " "));
+            let words = say!("near {place}", place = tr(&landmark.replace('_', " ")));
             ui.label(RichText::new(words).color(told.palette.weak).size(12.5));
         }
         ui.horizontal(|ui| {
-            let label = ui.label(RichText::new("Name").color(told.palette.weak));
+            let label = ui.label(RichText::new(tr("Name")).color(told.palette.weak));
             self.name_ui(ui, told, mark, asks, label.id);
         });
         ui.horizontal(|ui| {
-            let label = ui.label(RichText::new("Number").color(told.palette.weak));
+            let label = ui.label(RichText::new(tr("Number")).color(told.palette.weak));
             let mut to = place.number;
             let value = ui.add(DragValue::new(&mut to).range(1..=place.count).speed(0.05));
             let value = value.labelled_by(label.id);
@@ -114,7 +122,7 @@ impl MarksPanel {
                 asks.push(Ask::EndDrag);
             }
             for (action, text) in [(Action::RaiseMark, "Up"), (Action::LowerMark, "Down")] {
-                action_ui(ui, told, action, text, asks);
+                action_ui(ui, told, action, tr(text), asks);
             }
         });
     }
@@ -132,7 +140,7 @@ impl MarksPanel {
         if *whose != mark {
             (*whose, *text) = (mark, known.to_owned());
         }
-        let field = TextEdit::singleline(text).hint_text("none").desired_width(f32::INFINITY);
+        let field = TextEdit::singleline(text).hint_text(tr("none")).desired_width(f32::INFINITY);
         let field = ui.add(field).labelled_by(label);
         if field.lost_focus() && text.trim() != known && !ui.input(|i| i.key_pressed(egui::Key::Escape)) {
             asks.push(Ask::Do(Command::RenameMark { mark, name: text.trim().to_owned() }));
@@ -146,9 +154,9 @@ impl MarksPanel {
 fn action_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, action: Action, text: &str, asks: &mut Asks) {
     let why_not = told.now.why_not(action);
     let button = ui.add_enabled(why_not.is_none(), Button::new(text).small());
-    name(&button, action.row().text);
+    name(&button, tr(action.row().text));
     let button = button.on_disabled_hover_text(why_not.unwrap_or_default());
-    if button.on_hover_text(action.row().tip).clicked() {
+    if button.on_hover_text(tr(action.row().tip)).clicked() {
         asks.push(Ask::Act(action));
     }
 }
@@ -156,19 +164,27 @@ fn action_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, action: Action, text: &
 /// Draws the buttons for proposed marks.
 fn proposal_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, asks: &mut Asks) {
     let count = told.now.proposed;
-    let pairs = if count == 1 { "pair of marks is" } else { "pairs of marks are" };
-    let instead = if told.now.marks == [0, 0] { "" } else { " They would take the place of those below." };
-    ui.add(egui::Label::new(format!("{count} {pairs} proposed.{instead}")).wrap());
+    let words = match told.now.marks {
+        [0, 0] => counted(count, "1 pair of marks is proposed.", "{n} pairs of marks are proposed."),
+        _ => counted(
+            count,
+            "1 pair of marks is proposed. They would take the place of those below.",
+            "{n} pairs of marks are proposed. They would take the place of those below.",
+        ),
+    };
+    ui.add(egui::Label::new(words).wrap());
     ui.horizontal(|ui| {
         for (action, fill) in [(Action::AcceptMarks, Some(told.palette.accent)), (Action::DismissMarks, None)]
         {
             let entry = action.row();
             let button = match fill {
-                Some(fill) => Button::new(RichText::new(entry.text).color(told.palette.on_accent)).fill(fill),
-                None => Button::new(entry.text),
+                Some(fill) => {
+                    Button::new(RichText::new(tr(entry.text)).color(told.palette.on_accent)).fill(fill)
+                }
+                None => Button::new(tr(entry.text)),
             };
-            let keys = entry.keys.first().map(|k| ui.ctx().format_shortcut(k)).unwrap_or_default();
-            if ui.add(button).on_hover_text(format!("{}  ({keys})", entry.tip)).clicked() {
+            let keys = entry.keys.first().map(|k| shortcut_text(ui.ctx(), k)).unwrap_or_default();
+            if ui.add(button).on_hover_text(format!("{}  ({keys})", tr(entry.tip))).clicked() {
                 asks.push(Ask::Act(action));
             }
         }
@@ -192,8 +208,8 @@ fn pair_row(
         let font = egui::FontId::proportional(11.5);
         ui.painter().text(dot.center(), egui::Align2::CENTER_CENTER, number, font, ink);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            let close = ui.small_button("×").on_hover_text(format!("Take the marks {number} away"));
-            name(&close, &format!("Delete marks {number}"));
+            let close = ui.small_button("×").on_hover_text(say!("Take the marks {number} away", number));
+            name(&close, &say!("Delete marks {number}", number));
             if close.clicked() {
                 asks.push(Ask::Do(Command::DeletePair { number }));
             }
@@ -208,19 +224,19 @@ fn pair_row(
 fn stretch_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, pair: &PairStretch) {
     let PairStretch { number, cloth, body } = *pair;
     if cloth == 0.0 {
-        ui.label(RichText::new("point").color(told.palette.weak).size(12.5));
+        ui.label(RichText::new(tr("point")).color(told.palette.weak).size(12.5));
         return;
     }
     let percent = format!("{} %", signed(pair.stretch() * 100.0, 1));
     let text = RichText::new(&percent).size(12.5);
     let ink = if pair.is_large() { told.palette.error } else { told.palette.weak };
     let text = if pair.is_large() { text.strong().color(ink) } else { text.color(ink) };
-    let shown = ui.label(text).on_hover_text(format!(
-        "{:.1} cm on the cloth, {:.1} cm on the body: the cloth has to stretch by so much there",
-        cloth * 100.0,
-        body * 100.0
+    let shown = ui.label(text).on_hover_text(say!(
+        "{cloth} cm on the cloth, {body} cm on the body: the cloth has to stretch by so much there",
+        cloth = format!("{:.1}", cloth * 100.0),
+        body = format!("{:.1}", body * 100.0)
     ));
-    let words = format!("Stretch of pair {number}: {percent}");
+    let words = say!("Stretch of pair {number}: {percent}", number, percent);
     shown.widget_info(|| WidgetInfo::labeled(Role::Label, true, &words));
 }
 
@@ -229,12 +245,15 @@ fn strokes_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, number: usize, asks: &
     let marks = &told.document.marks;
     ui.spacing_mut().item_spacing.x = 2.0;
     ui.spacing_mut().button_padding.x = 4.0;
-    let mut stroke = |ui: &mut egui::Ui, mark: MarkId, otherwise: &str, side: &str| {
+    let mut stroke = |ui: &mut egui::Ui, mark: MarkId, otherwise: &str, on_cloth: bool| {
         let given = marks.name(mark);
         let is_selected = told.now.selected.is_some_and(|(selected, _)| selected == mark);
         let text = if given.is_empty() { otherwise } else { given };
         let button = ui.add(Button::selectable(is_selected, text).truncate());
-        let words = format!("{text}: select mark {number} on the {side}");
+        let words = match on_cloth {
+            true => say!("{text}: select mark {number} on the cloth", text, number),
+            false => say!("{text}: select mark {number} on the body", text, number),
+        };
         button.widget_info(|| WidgetInfo::selected(Role::Button, true, is_selected, &words));
         if button.clicked() {
             asks.push(Ask::Select((!is_selected).then_some(mark)));
@@ -246,16 +265,16 @@ fn strokes_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, number: usize, asks: &
     let cloth = marks.cloth.get(number - 1);
     let body = marks.body.get(number - 1);
     if let Some(mark) = cloth {
-        let piece = told.document.pattern.pieces.get(&mark.piece).map_or("a piece", |p| &p.name);
-        stroke(ui, mark.id, piece, "cloth");
+        let piece = told.document.pattern.pieces.get(&mark.piece).map_or(tr("a piece"), |p| &p.name);
+        stroke(ui, mark.id, piece, true);
     }
     match (cloth, body) {
-        (Some(_), Some(mark)) => stroke(ui, mark.id, "body", "body"),
+        (Some(_), Some(mark)) => stroke(ui, mark.id, tr("body"), false),
         (None, Some(mark)) => {
-            stroke(ui, mark.id, "body", "body");
-            lacks(ui, "not on the cloth yet");
+            stroke(ui, mark.id, tr("body"), false);
+            lacks(ui, tr("not on the cloth yet"));
         }
-        _ => lacks(ui, "not on the body yet"),
+        _ => lacks(ui, tr("not on the body yet")),
     }
 }
 

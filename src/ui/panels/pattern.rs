@@ -12,6 +12,7 @@ use crate::pattern::{AllowanceCorner, EdgeRef, EdgeShape, Piece, PlanePose, Seam
 use crate::session::Command;
 use crate::ui::actions::Action;
 use crate::ui::actions::asks::{Ask, Asks};
+use crate::ui::language::{say, tr};
 use crate::ui::look::signs::{Sign, sign_button};
 use crate::ui::panels::context::PanelContext;
 use crate::ui::panels::fastenings::zip_ui;
@@ -60,7 +61,7 @@ impl PatternPanel {
         let unit = told.now.unit;
         if let [(id, piece)] = pieces[..] {
             ui.horizontal(|ui| {
-                let label = weak(ui, told, "Name");
+                let label = weak(ui, told, tr("Name"));
                 self.name_ui(ui, id, piece, &label, asks);
             });
         }
@@ -80,7 +81,7 @@ impl PatternPanel {
             }
             ui.end_row();
             for (name, old, way) in [("Width", size.x, DVec2::X), ("Height", size.y, DVec2::Y)] {
-                let label = weak(ui, told, name);
+                let label = weak(ui, told, tr(name));
                 if let Some(new) =
                     length_field(ui, ("size", name), &label, old, unit).filter(|new| *new > 1e-4)
                 {
@@ -90,7 +91,7 @@ impl PatternPanel {
             }
             ui.end_row();
             if let [(_, piece)] = pieces[..] {
-                let label = weak(ui, told, "Angle");
+                let label = weak(ui, told, tr("Angle"));
                 if let Some(new) = angle_field(ui, "angle", &label, piece.pose.rotation) {
                     let (by, about) = (new - piece.pose.rotation, (lower + upper) / 2.0);
                     let turn = DVec2::from_angle(by);
@@ -103,7 +104,7 @@ impl PatternPanel {
             }
         });
         ui.horizontal(|ui| {
-            let label = weak(ui, told, "Seam allowance");
+            let label = weak(ui, told, tr("Seam allowance"));
             let old = pieces[0].1.allowance;
             if let Some(width) = length_field(ui, "allowance", &label, old, unit) {
                 let width = width.clamp(0.0, WIDEST_ALLOWANCE);
@@ -111,13 +112,13 @@ impl PatternPanel {
             }
         });
         ui.horizontal(|ui| {
-            let label = weak(ui, told, "Layer");
+            let label = weak(ui, told, tr("Layer"));
             let old = pieces[0].1.layer;
             if let Some(new) = number_field(ui, "layer", &label, f64::from(old)) {
                 let layer = new.round().clamp(0.0, f64::from(MOST_LAYER)) as u8;
                 asks.push(ask(vec![PatternEdit::SetLayer { pieces: ids.clone(), layer }]));
             }
-            weak(ui, told, "0 next to the skin");
+            weak(ui, told, tr("0 next to the skin"));
         });
         activity_ui(ui, told, &ids, asks);
         let seen = [Action::Twin, Action::MakeSymmetric, Action::Unlink, Action::Fold];
@@ -149,33 +150,33 @@ impl PatternPanel {
     pub fn outliner_ui(&mut self, ui: &mut egui::Ui, told: &PanelContext<'_>, asks: &mut Asks) {
         let pattern = &*told.document.pattern;
         if pattern.pieces.is_empty() {
-            ui.label(RichText::new("None").color(told.palette.weak));
+            ui.label(RichText::new(tr("None")).color(told.palette.weak));
         }
         for (&id, piece) in &pattern.pieces {
             // Icons come first: on the right the scroll bar would cover them.
             ui.horizontal(|ui| {
                 ui.spacing_mut().item_spacing.x = 3.0;
-                let words = |what: &str| format!("{what} {}", piece.name);
-                let tip = "Hidden pieces are not shown here; they are sewn all the same";
-                if sign_button(ui, Sign::Eye, !piece.hidden, &words("Show"), tip) {
+                let name = &piece.name;
+                let tip = tr("Hidden pieces are not shown here; they are sewn all the same");
+                if sign_button(ui, Sign::Eye, !piece.hidden, &say!("Show {name}", name), tip) {
                     let hidden = !piece.hidden;
                     asks.push(ask(vec![PatternEdit::SetHidden { pieces: vec![id], hidden }]));
                 }
-                let tip = "Locked pieces are not changed by the pointer";
-                if sign_button(ui, Sign::Lock, piece.locked, &words("Lock"), tip) {
+                let tip = tr("Locked pieces are not changed by the pointer");
+                if sign_button(ui, Sign::Lock, piece.locked, &say!("Lock {name}", name), tip) {
                     let locked = !piece.locked;
                     asks.push(ask(vec![PatternEdit::SetLocked { pieces: vec![id], locked }]));
                 }
                 let signs = [
-                    (piece.symmetric, " · symmetric"),
-                    (piece.twin.is_some(), " · twin"),
-                    (piece.activity == Activity::Frozen, " · frozen"),
-                    (piece.activity.is_deactivated(), " · deactivated"),
+                    (piece.symmetric, tr("symmetric")),
+                    (piece.twin.is_some(), tr("twin")),
+                    (piece.activity == Activity::Frozen, tr("frozen")),
+                    (piece.activity.is_deactivated(), tr("deactivated")),
                 ];
-                let signs: String = signs.iter().filter(|s| s.0).map(|s| s.1).collect();
-                let text = RichText::new(format!("{}{signs}", piece.name));
+                let signs: String = signs.iter().filter(|s| s.0).map(|s| format!(" · {}", s.1)).collect();
+                let text = RichText::new(format!("{name}{signs}"));
                 let text = if piece.hidden { text.color(told.palette.weak) } else { text };
-                row(ui, told, Item::Piece(id), text, &format!("Select {}", piece.name), asks);
+                row(ui, told, Item::Piece(id), text, &say!("Select {name}", name), asks);
             });
         }
     }
@@ -185,7 +186,7 @@ impl PatternPanel {
 pub fn seams_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, asks: &mut Asks) {
     let pattern = &*told.document.pattern;
     if pattern.seams.is_empty() {
-        let words = "None yet: choose Sew and click two edges.";
+        let words = tr("None yet: choose Sew and click two edges.");
         ui.add(egui::Label::new(RichText::new(words).color(told.palette.weak)).wrap());
     }
     for (&id, seam) in &pattern.seams {
@@ -193,16 +194,17 @@ pub fn seams_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, asks: &mut Asks) {
             ui.spacing_mut().item_spacing.x = 3.0;
             let (dot, _) = ui.allocate_exact_size(egui::vec2(14.0, 16.0), egui::Sense::hover());
             ui.painter().circle_filled(dot.center(), 4.5, told.palette.seam(id.0));
-            let words = |what: &str| format!("{what}: {}", seam_words(pattern, seam));
-            if sign_button(ui, Sign::Turn, true, &words("Turn round"), "Sew it the other way round") {
+            let words = seam_words(pattern, seam);
+            let name = say!("Turn round: {seam}", seam = words);
+            if sign_button(ui, Sign::Turn, true, &name, tr("Sew it the other way round")) {
                 asks.push(ask(vec![PatternEdit::TurnSeam { seam: id }]));
             }
-            if sign_button(ui, Sign::Cross, true, &words("Unpick"), "Undo this seam") {
+            let name = say!("Unpick: {seam}", seam = words);
+            if sign_button(ui, Sign::Cross, true, &name, tr("Undo this seam")) {
                 asks.push(ask(vec![PatternEdit::Unpick { seams: vec![id] }]));
             }
-            let words = seam_words(pattern, seam);
             let text = RichText::new(&words).size(12.5);
-            row(ui, told, Item::Seam(id), text, &format!("Select {words}"), asks);
+            row(ui, told, Item::Seam(id), text, &say!("Select {name}", name = words), asks);
         });
     }
 }
@@ -226,7 +228,7 @@ fn action_row(ui: &mut egui::Ui, told: &PanelContext<'_>, actions: &[Action], as
     ui.horizontal_wrapped(|ui| {
         for &action in actions.iter().filter(|&&action| told.now.why_not(action).is_none()) {
             let entry = action.row();
-            if ui.small_button(entry.text).on_hover_text(entry.tip).clicked() {
+            if ui.small_button(tr(entry.text)).on_hover_text(tr(entry.tip)).clicked() {
                 asks.push(Ask::Act(action));
             }
         }
@@ -239,7 +241,7 @@ fn weak(ui: &mut egui::Ui, told: &PanelContext<'_>, text: &str) -> egui::Respons
 
 /// Draws the choice of the pieces' activity in draping.
 fn activity_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, pieces: &[PieceId], asks: &mut Asks) {
-    weak(ui, told, "Draping");
+    weak(ui, told, tr("Draping"));
     // Beside their label the buttons would widen the panel and shift the body pane.
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 2.0;
@@ -249,7 +251,7 @@ fn activity_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, pieces: &[PieceId], a
             (Activity::Deactivated, "Deactivated", Action::ToggleDeactivated.row().tip),
         ] {
             let is_so = told.now.picked.activity == Some(activity);
-            if ui.selectable_label(is_so, text).on_hover_text(tip).clicked() && !is_so {
+            if ui.selectable_label(is_so, tr(text)).on_hover_text(tr(tip)).clicked() && !is_so {
                 asks.push(ask(vec![PatternEdit::SetActivity { pieces: pieces.to_vec(), activity }]));
             }
         }
@@ -260,9 +262,9 @@ fn edge_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, edge: EdgeRef, asks: &mut
     let Some(piece) = told.document.pattern.pieces.get(&edge.piece) else { return };
     let (a, b) = piece.edge_ends(edge.edge);
     let length = piece.edge_length(edge.edge);
-    ui.label(format!("{}, edge {}", piece.name, edge.edge + 1));
+    ui.label(say!("{piece}, edge {n}", piece = piece.name, n = edge.edge + 1));
     Grid::new("edge numbers").num_columns(4).spacing([6.0, 4.0]).show(ui, |ui| {
-        let label = weak(ui, told, "Length");
+        let label = weak(ui, told, tr("Length"));
         let end = PointRef { piece: edge.piece, point: piece.next_edge(edge.edge) };
         if let Some(new) =
             length_field(ui, "edge length", &label, length, told.now.unit).filter(|l| *l > 1e-4)
@@ -271,7 +273,7 @@ fn edge_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, edge: EdgeRef, asks: &mut
             let to = a + (b - a) * (new / length);
             asks.push(ask(vec![PatternEdit::MovePoints { points: vec![(end, to)] }]));
         }
-        let label = weak(ui, told, "Angle");
+        let label = weak(ui, told, tr("Angle"));
         let placed = [a, b].map(|p| piece.pose.plane_from_piece(p));
         let way = placed[1] - placed[0];
         if let Some(new) = angle_field(ui, "edge angle", &label, way.to_angle()) {
@@ -280,7 +282,7 @@ fn edge_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, edge: EdgeRef, asks: &mut
         }
         ui.end_row();
         if let EdgeShape::Arc { radius, large, sweep } = piece.edge(edge.edge).shape {
-            let label = weak(ui, told, "Radius");
+            let label = weak(ui, told, tr("Radius"));
             if let Some(new) = length_field(ui, "radius", &label, radius, told.now.unit) {
                 let radius = new.max(a.distance(b) / 2.0);
                 let shape = EdgeShape::Arc { radius, large, sweep };
@@ -301,7 +303,7 @@ fn point_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, point: PointRef, asks: &
     let Some(piece) = told.document.pattern.pieces.get(&point.piece) else { return };
     let edge = piece.edge(point.point);
     let p = piece.pose.plane_from_piece(edge.start);
-    ui.label(format!("{}, point {}", piece.name, point.point + 1));
+    ui.label(say!("{piece}, point {n}", piece = piece.name, n = point.point + 1));
     Grid::new("point numbers").num_columns(4).spacing([6.0, 4.0]).show(ui, |ui| {
         for (name, old, way) in [("x", p.x, DVec2::X), ("y", p.y, DVec2::Y)] {
             let label = weak(ui, told, name);
@@ -312,7 +314,7 @@ fn point_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, point: PointRef, asks: &
         }
     });
     let mut smooth = edge.smooth;
-    if ui.checkbox(&mut smooth, "Smooth").on_hover_text(Action::ToggleSmooth.row().tip).changed() {
+    if ui.checkbox(&mut smooth, tr("Smooth")).on_hover_text(tr(Action::ToggleSmooth.row().tip)).changed() {
         asks.push(ask(vec![PatternEdit::SetSmooth { point, smooth }]));
     }
     if point.point < piece.outline.len() && piece.allowance > 0.0 && piece.cut_line.is_empty() {
@@ -328,19 +330,19 @@ fn corner_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, point: PointRef, piece:
         Side::After => point.point + 1,
     };
     let words = |corner: AllowanceCorner| match corner {
-        AllowanceCorner::Mitre => "Mitred".to_owned(),
-        AllowanceCorner::Square(side) => format!("Square to edge {}", number(side)),
-        AllowanceCorner::TurnedUp(side) => format!("Turned up at edge {}", number(side)),
+        AllowanceCorner::Mitre => tr("Mitred").to_owned(),
+        AllowanceCorner::Square(side) => say!("Square to edge {n}", n = number(side)),
+        AllowanceCorner::TurnedUp(side) => say!("Turned up at edge {n}", n = number(side)),
     };
     let tip = |corner: AllowanceCorner| match corner {
-        AllowanceCorner::Mitre => "Both sides run on until they meet",
-        AllowanceCorner::Square(_) => "The allowance of this edge ends at right angles to it",
+        AllowanceCorner::Mitre => tr("Both sides run on until they meet"),
+        AllowanceCorner::Square(_) => tr("The allowance of this edge ends at right angles to it"),
         AllowanceCorner::TurnedUp(_) => {
-            "For a hem: its allowance mirrors the other edge, so that it fits turned up"
+            tr("For a hem: its allowance mirrors the other edge, so that it fits turned up")
         }
     };
     let old = piece.outline[point.point].corner;
-    let label = weak(ui, told, "Corner of the allowance");
+    let label = weak(ui, told, tr("Corner of the allowance"));
     let combo = ComboBox::from_id_salt("allowance corner").selected_text(words(old)).width(170.0);
     let shown = combo.show_ui(ui, |ui| {
         for corner in AllowanceCorner::ALL {
@@ -362,14 +364,11 @@ fn seam_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, id: SeamId, asks: &mut As
     ui.add(egui::Label::new(seam_words(pattern, seam)).wrap());
     let percent = (a / b.max(1e-9) - 1.0) * 100.0;
     let more = (a - b) * 1000.0;
-    let words = format!("{} on {}", unit.text(a), unit.text(b));
+    let words = say!("{one} on {other}", one = unit.text(a), other = unit.text(b));
     ui.label(words);
     let ink = if percent.abs() > 1.0 { told.palette.warning } else { told.palette.weak };
-    ui.label(
-        RichText::new(format!("Difference {} mm ({} %)", signed(more, 1), signed(percent, 2)))
-            .color(ink)
-            .size(12.5),
-    );
+    let words = say!("Difference {mm} mm ({share} %)", mm = signed(more, 1), share = signed(percent, 2));
+    ui.label(RichText::new(words).color(ink).size(12.5));
     ratio_ui(ui, told, id, seam, a / b.max(1e-9), asks);
     zip_ui(ui, told, id, seam, asks);
     ui.horizontal(|ui| {
@@ -394,24 +393,24 @@ fn ratio_ui(
     let set = |ratio: Option<f64>| ask(vec![PatternEdit::SetRatio { seam, ratio }]);
     ui.horizontal_wrapped(|ui| {
         let equal = old.ratio.is_some_and(is_equal);
-        let text = if equal { "Equal" } else { "Make equal" };
-        if ui.selectable_label(equal, text).on_hover_text("Both sides have one length, and keep it").clicked()
-        {
+        let text = if equal { tr("Equal") } else { tr("Make equal") };
+        let tip = tr("Both sides have one length, and keep it");
+        if ui.selectable_label(equal, text).on_hover_text(tip).clicked() {
             asks.push(set(Some(1.0)));
         }
         let gathered = old.ratio.is_some() && !equal;
-        let tip = "The first side stays so many times as long as the second";
-        if ui.selectable_label(gathered, "Gather").on_hover_text(tip).clicked() {
+        let tip = tr("The first side stays so many times as long as the second");
+        if ui.selectable_label(gathered, tr("Gather")).on_hover_text(tip).clicked() {
             asks.push(set(Some(present)));
         }
-        let tip = "Each side may change alone";
-        if ui.selectable_label(old.ratio.is_none(), "Free").on_hover_text(tip).clicked() {
+        let tip = tr("Each side may change alone");
+        if ui.selectable_label(old.ratio.is_none(), tr("Free")).on_hover_text(tip).clicked() {
             asks.push(set(None));
         }
     });
     if let Some(ratio) = old.ratio.filter(|ratio| !is_equal(*ratio)) {
         ui.horizontal(|ui| {
-            let label = weak(ui, told, "Ratio");
+            let label = weak(ui, told, tr("Ratio"));
             if let Some(new) = number_field(ui, "ratio", &label, ratio).filter(|r| (0.1..=10.0).contains(r)) {
                 asks.push(set(Some(new)));
             }

@@ -7,11 +7,12 @@ use crate::geometry::ids::PinId;
 use crate::session::{Command, Pin};
 use crate::ui::actions::Action;
 use crate::ui::actions::asks::{Ask, Asks};
+use crate::ui::language::{say, tr};
 use crate::ui::panels::context::PanelContext;
 
 /// The name of a pin.
 pub fn named(pin: PinId) -> String {
-    format!("Pin {}", pin.0)
+    say!("Pin {n}", n = pin.0)
 }
 
 /// Draws the list.
@@ -24,11 +25,12 @@ pub fn pins_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, asks: &mut Asks) {
         for action in [Action::ToggleLock, Action::ClearPins] {
             let why_not = told.now.why_not(action).or_else(|| {
                 let none = action == Action::ToggleLock && told.selection.pins.is_empty();
-                none.then_some("No pin is selected")
+                none.then_some(tr("No pin is selected"))
             });
-            let text = action.row().text;
+            let text = tr(action.row().text);
             let button = ui.add_enabled(why_not.is_none(), Button::new(text).small());
-            let button = button.on_hover_text(action.row().tip).on_disabled_hover_text(why_not.unwrap_or(""));
+            let button = button.on_hover_text(tr(action.row().tip));
+            let button = button.on_disabled_hover_text(why_not.unwrap_or_default());
             if button.clicked() {
                 asks.push(Ask::Act(action));
             }
@@ -43,23 +45,25 @@ fn pin_row(ui: &mut egui::Ui, told: &PanelContext<'_>, pin: &Pin, asks: &mut Ask
     let add = ui.input(|i| i.modifiers.shift || i.modifiers.command);
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
         let close = ui.add_enabled(!pin.locked, Button::new("×").small());
-        let close = close.on_hover_text("Pull it out").on_disabled_hover_text("It is locked");
-        close.widget_info(|| WidgetInfo::labeled(Role::Button, !pin.locked, format!("Pull {name} out")));
+        let close = close.on_hover_text(tr("Pull it out")).on_disabled_hover_text(tr("It is locked"));
+        close.widget_info(|| {
+            WidgetInfo::labeled(Role::Button, !pin.locked, say!("Pull {pin} out", pin = name))
+        });
         if close.clicked() {
             asks.push(Ask::Do(Command::DeletePin { pin: pin.id }));
         }
         let mut locked = pin.locked;
-        let lock = ui.toggle_value(&mut locked, RichText::new("Lock").size(12.0));
-        lock.widget_info(|| WidgetInfo::selected(Role::Switch, true, pin.locked, format!("Lock {name}")));
-        if lock.on_hover_text("Keep it from being moved and pulled out").changed() {
+        let lock = ui.toggle_value(&mut locked, RichText::new(tr("Lock")).size(12.0));
+        lock.widget_info(|| WidgetInfo::selected(Role::Switch, true, pin.locked, say!("Lock {name}", name)));
+        if lock.on_hover_text(tr("Keep it from being moved and pulled out")).changed() {
             asks.push(Ask::Do(Command::LockPins { pins: vec![pin.id], locked }));
         }
         ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
             let row = ui.add(Button::selectable(is_selected, format!("{name} · {piece}")).truncate());
             row.widget_info(|| {
-                WidgetInfo::selected(Role::Button, true, is_selected, format!("Select {name}"))
+                WidgetInfo::selected(Role::Button, true, is_selected, say!("Select {name}", name))
             });
-            if row.on_hover_text("Shift: several").clicked() {
+            if row.on_hover_text(tr("Shift: several")).clicked() {
                 asks.push(Ask::Pick(told.selection.clicked_pin(pin.id, add)));
             }
         });

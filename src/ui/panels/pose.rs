@@ -9,6 +9,7 @@ use crate::session::{Aim, BodyChoice, Command};
 use crate::ui::actions::Action;
 use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::files::posed_motion::PosedMotion;
+use crate::ui::language::{say, tr};
 use crate::ui::panels::animation::AnimationPanel;
 use crate::ui::panels::context::PanelContext;
 use crate::ui::panels::joint::JointPanel;
@@ -57,7 +58,7 @@ impl PosePanel {
                 self.joints.ui(ui, told, asks);
             } else if told.document.animations.is_none() {
                 let words =
-                    "The body is from a file: it takes the poses that other files of the same mesh have.";
+                    tr("The body is from a file: it takes the poses that other files of the same mesh have.");
                 ui.add(egui::Label::new(RichText::new(words).color(told.palette.weak)).wrap());
             }
             self.files_ui(ui, told, asks);
@@ -73,8 +74,8 @@ impl PosePanel {
                     self.to == pose && self.share == 1.0 && matches!(body, BodyChoice::Posed { .. })
                 };
                 let size = egui::vec2(ui.available_width().min(112.0), 0.0);
-                let button = ui.add(Button::selectable(is_taken, pose.title()).min_size(size));
-                let words = format!("Pose {}", pose.title());
+                let button = ui.add(Button::selectable(is_taken, tr(pose.title())).min_size(size));
+                let words = say!("Pose {name}", name = tr(pose.title()));
                 button.widget_info(|| {
                     egui::WidgetInfo::selected(egui::accesskit::Role::Button, true, is_taken, words.clone())
                 });
@@ -94,8 +95,8 @@ impl PosePanel {
         if self.to == NamedPose::A {
             return;
         }
-        let text = format!("On the way to {}", self.to.title());
-        let done = percent_ui(ui, told, &text, "On the way to the pose", &mut self.share);
+        let text = say!("On the way to {pose}", pose = tr(self.to.title()));
+        let done = percent_ui(ui, told, &text, tr("On the way to the pose"), &mut self.share);
         let body = &told.document.body;
         if let (Some(done), Some(new)) = (done, part(body, self.to, self.share))
             && (done || new != *body)
@@ -107,7 +108,7 @@ impl PosePanel {
     /// Draws sliders to a pose from a file and through a motion.
     fn files_ui(&mut self, ui: &mut egui::Ui, told: &PanelContext<'_>, asks: &mut Asks) {
         ui.add_space(4.0);
-        if ui.button("From a file…").on_hover_text(Action::PoseFromFile.row().tip).clicked() {
+        if ui.button(tr("From a file…")).on_hover_text(tr(Action::PoseFromFile.row().tip)).clicked() {
             asks.push(Ask::Act(Action::PoseFromFile));
         }
         if let Some(aim) = &told.document.aim {
@@ -126,8 +127,9 @@ impl PosePanel {
                         *share
                     };
                 }
-                let text = format!("On the way to {}", aim.to.name());
-                if let Some(done) = percent_ui(ui, told, &text, "On the way to the pose of the file", share) {
+                let text = say!("On the way to {pose}", pose = tr(aim.to.name()));
+                let name = tr("On the way to the pose of the file");
+                if let Some(done) = percent_ui(ui, told, &text, name, share) {
                     follow(Command::PoseTowards { share: *share, draft: !done }, done, asks);
                 }
             }
@@ -136,9 +138,9 @@ impl PosePanel {
             && told.document.body.measurements().is_some()
         {
             ui.label(RichText::new(&motion.name).color(told.palette.weak).size(12.5));
-            let slider = Slider::new(frame, 1..=motion.frames()).prefix("frame ");
+            let slider = Slider::new(frame, 1..=motion.frames()).prefix(format!("{} ", tr("frame")));
             let response = ui.add(slider);
-            response.widget_info(|| egui::WidgetInfo::slider(true, *frame as f64, "Frame of the motion"));
+            response.widget_info(|| egui::WidgetInfo::slider(true, *frame as f64, tr("Frame of the motion")));
             let body = &told.document.body;
             if let (Some(done), Some(new)) = (let_go(&response, told), motion.body(body, *frame - 1))
                 && (done || new != *body)

@@ -1,11 +1,14 @@
 //! The side panel: sections for the pattern, marks, problems and cloth settings.
 
+use std::cmp::Ordering;
+
 use egui::{CollapsingHeader, Id, RichText, ScrollArea, Slider};
 
 use crate::session::{Command, Document, Settings};
 use crate::sim::Fault;
 use crate::ui::actions::Tool;
 use crate::ui::actions::asks::{Ask, Asks};
+use crate::ui::language::{say, tr};
 use crate::ui::look::theme::Palette;
 use crate::ui::panels::artwork::artwork_ui;
 use crate::ui::panels::context::{PanelContext, problem_row};
@@ -38,18 +41,18 @@ pub fn side_panel_ui(
         if on_pattern {
             first = Some(pattern_ui(ui, told, (&mut *pattern, &mut *sizes), asks));
         }
-        let marks = section(ui, "Marks", true, |ui| marks.ui(ui, told, asks));
+        let marks = section(ui, "Marks", tr("Marks"), true, |ui| marks.ui(ui, told, asks));
         first = first.or(Some(marks));
         if !document.pins.is_empty() {
-            let title = format!("Pins ({})", document.pins.len());
-            section(ui, &title, true, |ui| pins_ui(ui, told, asks));
+            let title = say!("Pins ({count})", count = document.pins.len());
+            section(ui, "Pins", &title, true, |ui| pins_ui(ui, told, asks));
         }
-        section(ui, "Problems", true, |ui| problems_ui(ui, told, asks));
-        section(ui, "Fabric", true, |ui| fabric::fabric_ui(ui, told, asks));
-        section(ui, "Images", true, |ui| artwork_ui(ui, told, asks));
-        section(ui, "Pose", false, |ui| pose.ui(ui, told, asks));
-        section(ui, "Measures of the body", false, |ui| tape.ui(ui, told, asks));
-        section(ui, "Cloth", true, |ui| settings_ui(ui, &document.settings, palette, asks));
+        section(ui, "Problems", tr("Problems"), true, |ui| problems_ui(ui, told, asks));
+        section(ui, "Fabric", tr("Fabric"), true, |ui| fabric::fabric_ui(ui, told, asks));
+        section(ui, "Images", tr("Images"), true, |ui| artwork_ui(ui, told, asks));
+        section(ui, "Pose", tr("Pose"), false, |ui| pose.ui(ui, told, asks));
+        section(ui, "Measures", tr("Measures of the body"), false, |ui| tape.ui(ui, told, asks));
+        section(ui, "Cloth", tr("Cloth"), true, |ui| settings_ui(ui, &document.settings, palette, asks));
         if !on_pattern {
             pattern_ui(ui, told, (pattern, sizes), asks);
         }
@@ -64,27 +67,32 @@ fn pattern_ui(
     asks: &mut Asks,
 ) -> Id {
     let of_pattern = !told.selection.is_empty() && told.selection.pins.is_empty();
-    let selected =
-        of_pattern.then(|| section(ui, "Selected", true, |ui| pattern.inspector_ui(ui, told, asks)));
-    let pieces = section(ui, "Pieces", true, |ui| pattern.outliner_ui(ui, told, asks));
-    let seams = format!("Seams ({})", told.document.pattern.seams.len());
-    section(ui, &seams, false, |ui| seams_ui(ui, told, asks));
-    section(ui, "Sizes of the pattern", false, |ui| sizes.ui(ui, told, asks));
+    let selected = of_pattern
+        .then(|| section(ui, "Selected", tr("Selected"), true, |ui| pattern.inspector_ui(ui, told, asks)));
+    let pieces = section(ui, "Pieces", tr("Pieces"), true, |ui| pattern.outliner_ui(ui, told, asks));
+    let seams = say!("Seams ({count})", count = told.document.pattern.seams.len());
+    section(ui, "Seams", &seams, false, |ui| seams_ui(ui, told, asks));
+    section(ui, "Sizes", tr("Sizes of the pattern"), false, |ui| sizes.ui(ui, told, asks));
     let pattern = &told.document.pattern;
     let zips = pattern.seams.values().filter(|seam| seam.zip.is_some()).count();
     let count = pattern.buttons.len() + zips;
     if count > 0 {
-        section(ui, &format!("Fastenings ({count})"), false, |ui| fastenings_ui(ui, told, asks));
+        let title = say!("Fastenings ({count})", count);
+        section(ui, "Fastenings", &title, false, |ui| fastenings_ui(ui, told, asks));
     }
     selected.unwrap_or(pieces)
 }
 
-fn section(ui: &mut egui::Ui, title: &str, open: bool, contents: impl FnOnce(&mut egui::Ui)) -> Id {
+fn section(
+    ui: &mut egui::Ui,
+    salt: &str,
+    title: &str,
+    open: bool,
+    contents: impl FnOnce(&mut egui::Ui),
+) -> Id {
     ui.add_space(4.0);
-    // The id leaves the count out: "Seams (12)" and "Seams (13)" are one section.
-    let id = title.split(' ').next();
     let header = CollapsingHeader::new(RichText::new(title).strong().size(14.0));
-    let shown = header.id_salt(id).default_open(open).show_unindented(ui, |ui| {
+    let shown = header.id_salt(salt).default_open(open).show_unindented(ui, |ui| {
         ui.add_space(2.0);
         contents(ui);
         ui.add_space(6.0);
@@ -162,17 +170,17 @@ fn settings_ui(ui: &mut egui::Ui, settings: &Settings, palette: &Palette, asks: 
         let value = value(&mut new);
         let mut shown = *value * unit;
         let digits = if unit > 500.0 { 1 } else { 3 };
-        ui.label(RichText::new(text).color(palette.weak).size(12.5));
+        ui.label(RichText::new(tr(text)).color(palette.weak).size(12.5));
         let slider = Slider::new(&mut shown, range).suffix(sign).max_decimals(digits);
-        let response = ui.add(slider).on_hover_text(tip);
-        response.widget_info(|| egui::WidgetInfo::slider(true, shown, text));
+        let response = ui.add(slider).on_hover_text(tr(tip));
+        response.widget_info(|| egui::WidgetInfo::slider(true, shown, tr(text)));
         if response.changed() {
             *value = shown / unit;
         }
         ended |= response.drag_stopped() || (response.changed() && !response.dragged());
     }
     ui.add_space(2.0);
-    if ui.add_enabled(*settings != Settings::default(), egui::Button::new("Reset").small()).clicked() {
+    if ui.add_enabled(*settings != Settings::default(), egui::Button::new(tr("Reset")).small()).clicked() {
         asks.push(Ask::Do(Command::SetSettings { settings: Settings::default() }));
         return;
     }
@@ -189,7 +197,7 @@ fn problems_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, asks: &mut Asks) {
     let lonely: Vec<String> = unpaired(told.document).into_iter().collect();
     let nothing = told.lost.is_empty() && told.problems.is_empty() && told.verdict.is_empty();
     if lonely.is_empty() && nothing && told.snapshot.tight.is_empty() {
-        ui.label(RichText::new("None").color(palette.weak));
+        ui.label(RichText::new(tr("None")).color(palette.weak));
         return;
     }
     for words in lonely {
@@ -202,15 +210,15 @@ fn problems_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, asks: &mut Asks) {
     for Fault { problem, marks } in told.verdict {
         let numbers: Vec<usize> = marks.iter().map(|m| m.number).collect();
         let words = format!("{}: {}", problem.place, problem.words);
-        let shows = (Ask::ShowMarks(numbers), "Show the marks concerned");
+        let shows = (Ask::ShowMarks(numbers), tr("Show the marks concerned"));
         let shows = Some(shows).filter(|_| !marks.is_empty());
         problem_row(ui, palette.error, &words, shows, asks);
     }
     tight_ui(ui, told, asks);
     if !told.verdict.is_empty() && told.now.wrapped {
         ui.add_space(4.0);
-        let tip = "What was on the body before this wrap comes back; then paint the marks anew";
-        if ui.button("Take this wrap back").on_hover_text(tip).clicked() {
+        let tip = tr("What was on the body before this wrap comes back; then paint the marks anew");
+        if ui.button(tr("Take this wrap back")).on_hover_text(tip).clicked() {
             asks.push(Ask::Do(Command::CancelWrap));
         }
     }
@@ -219,13 +227,16 @@ fn problems_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, asks: &mut Asks) {
 /// A message about marks that have no partner, so that no wrap can use them.
 fn unpaired(document: &Document) -> Option<String> {
     let (cloth, body) = (document.marks.cloth.len(), document.marks.body.len());
-    let (where_to, numbers) = match cloth.cmp(&body) {
-        std::cmp::Ordering::Equal => return None,
-        std::cmp::Ordering::Less => ("cloth", cloth + 1..=body),
-        std::cmp::Ordering::Greater => ("body", body + 1..=cloth),
-    };
-    let (first, last) = (*numbers.start(), *numbers.end());
-    let which =
-        if first == last { format!("Mark {first} has") } else { format!("Marks {first} to {last} have") };
-    Some(format!("{which} no partner on the {where_to} yet"))
+    let (first, last) = (cloth.min(body) + 1, cloth.max(body));
+    Some(match (cloth.cmp(&body), first == last) {
+        (Ordering::Equal, _) => return None,
+        (Ordering::Less, true) => say!("Mark {n} has no partner on the cloth yet", n = first),
+        (Ordering::Less, false) => {
+            say!("Marks {first} to {last} have no partner on the cloth yet", first, last)
+        }
+        (Ordering::Greater, true) => say!("Mark {n} has no partner on the body yet", n = first),
+        (Ordering::Greater, false) => {
+            say!("Marks {first} to {last} have no partner on the body yet", first, last)
+        }
+    })
 }

@@ -8,6 +8,7 @@ use crate::io::sizes::{self, Size};
 use crate::session::{BodyChoice, Command};
 use crate::ui::actions::Action;
 use crate::ui::actions::asks::{Ask, Asks};
+use crate::ui::language::tr;
 use crate::ui::panels::context::PanelContext;
 
 /// Width of the list, points.
@@ -33,15 +34,17 @@ impl SizePanel {
     pub fn ui(&self, ui: &mut egui::Ui, told: &PanelContext<'_>, asks: &mut Asks) {
         let enabled = !told.now.wrapping && !told.now.demo;
         ui.add_enabled_ui(enabled, |ui| {
-            if ui.button("From a table of sizes…").on_hover_text(Action::Sizes.row().tip).clicked() {
+            if ui.button(tr("From a table of sizes…")).on_hover_text(tr(Action::Sizes.row().tip)).clicked()
+            {
                 asks.push(Ask::Act(Action::Sizes));
             }
             let Some((name, sizes)) = &self.table else { return };
             ui.label(RichText::new(name).color(told.palette.weak).size(12.5));
             let body = &told.document.body;
             let is_taken = |size: &Size| body.measurements() == Some(size.measurements);
-            let taken = sizes.iter().find(|size| is_taken(size)).map_or("none of these", |size| &size.name);
-            ComboBox::from_label("Size").selected_text(taken).width(WIDTH).show_ui(ui, |ui| {
+            let taken = sizes.iter().find(|size| is_taken(size));
+            let taken = taken.map_or(tr("none of these"), |size| &size.name);
+            ComboBox::from_label(tr("Size")).selected_text(taken).width(WIDTH).show_ui(ui, |ui| {
                 for size in sizes {
                     size_ui(ui, size, is_taken(size), body, asks);
                 }
@@ -56,7 +59,7 @@ fn size_ui(ui: &mut egui::Ui, size: &Size, is_taken: bool, body: &BodyChoice, as
     let button = ui.add_enabled(checked.is_ok(), Button::selectable(is_taken, &size.name));
     match checked {
         Ok(measurements) => {
-            let words = "The mannequin is built to this size; marks and garment go along";
+            let words = tr("The mannequin is built to this size; marks and garment go along");
             if button.on_hover_text(words).clicked() && !is_taken {
                 asks.push(Ask::Do(match body.measurements() {
                     Some(_) => Command::ChangeSize { measurements },

@@ -10,6 +10,7 @@ use crate::pattern::grading::rule::from_grain;
 use crate::pattern::{GradeRule, Piece, RulePoint, SizeRun};
 use crate::session::Command;
 use crate::ui::actions::asks::{Ask, Asks};
+use crate::ui::language::{say, tr};
 use crate::ui::panels::context::{PanelContext, problem_row};
 use crate::ui::panels::fields::length_field;
 use crate::ui::pattern_pane::nests::{SizeView, size_colour};
@@ -37,9 +38,9 @@ impl SizesPanel {
     pub fn ui(&mut self, ui: &mut egui::Ui, told: &PanelContext<'_>, asks: &mut Asks) {
         let sizes = &told.document.pattern.sizes;
         if sizes.is_empty() {
-            let words = "None yet. With sizes, points get rules that say how far they move in each.";
+            let words = tr("None yet. With sizes, points get rules that say how far they move in each.");
             ui.add(egui::Label::new(RichText::new(words).color(told.palette.weak).size(12.5)).wrap());
-            ready_ui(ui, sizes, "Choose sizes…", asks);
+            ready_ui(ui, sizes, tr("Choose sizes…"), asks);
             return;
         }
         shown_ui(ui, told, asks);
@@ -56,9 +57,10 @@ impl SizesPanel {
         if *of != sizes.names {
             (*of, *text) = (sizes.names.clone(), sizes.names.join(", "));
         }
-        let label = ui.label(RichText::new("Names").color(told.palette.weak).size(12.5));
+        let label = ui.label(RichText::new(tr("Names")).color(told.palette.weak).size(12.5));
         let field = ui.add(TextEdit::singleline(text).desired_width(f32::INFINITY)).labelled_by(label.id);
-        let field = field.on_hover_text("Names from small to large, with commas between; Enter takes them");
+        let tip = tr("Names from small to large, with commas between; Enter takes them");
+        let field = field.on_hover_text(tip);
         let given_up = ui.input(|i| i.key_pressed(Key::Escape));
         if field.lost_focus() && !given_up && *text != sizes.names.join(", ") {
             self.wrong = match typed(text, sizes) {
@@ -75,18 +77,19 @@ impl SizesPanel {
             ui.add(egui::Label::new(RichText::new(words).color(told.palette.error).size(12.5)).wrap());
         }
         ui.horizontal_wrapped(|ui| {
-            ready_ui(ui, sizes, "Change…", asks);
-            ui.menu_button(format!("Base {}", sizes.base_name()), |ui| {
+            ready_ui(ui, sizes, tr("Change…"), asks);
+            ui.menu_button(say!("Base {size}", size = sizes.base_name()), |ui| {
                 for (base, name) in sizes.names.iter().enumerate() {
-                    let tip = "What is drawn is this size from now on";
-                    let text = format!("{name} is the base");
+                    let tip = tr("What is drawn is this size from now on");
+                    let text = say!("{size} is the base", size = name);
                     if ui.selectable_label(base == sizes.base, text).on_hover_text(tip).clicked() {
                         asks.push(ask(PatternEdit::SetSizes { sizes: SizeRun { base, ..sizes.clone() } }));
                         ui.close();
                     }
                 }
             });
-            if ui.small_button("Remove sizes").on_hover_text("Remove all sizes and their rules").clicked() {
+            let tip = tr("Remove all sizes and their rules");
+            if ui.small_button(tr("Remove sizes")).on_hover_text(tip).clicked() {
                 asks.push(ask(PatternEdit::SetSizes { sizes: SizeRun::default() }));
             }
         });
@@ -98,27 +101,24 @@ impl SizesPanel {
         let points: Vec<PointRef> = told.selection.points.iter().copied().collect();
         let first = points.first().and_then(|point| Some((*point, &**pattern.pieces.get(&point.piece)?)));
         let Some((point, piece)) = first.filter(|(point, piece)| point.point < piece.edge_count()) else {
-            let words = "Select points (Edit points) to see and set their rules.";
+            let words = tr("Select points (Edit points) to see and set their rules.");
             ui.add(egui::Label::new(RichText::new(words).color(told.palette.weak).size(12.5)).wrap());
             return;
         };
         let own = piece.edge(point.point).rule.as_ref();
-        let more = match points.len() {
-            1 => String::new(),
-            n => format!(" and {} more", n - 1),
-        };
-        ui.label(format!("Rule of {}, point {}{more}", piece.name, point.point + 1));
+        let (name, number) = (&piece.name, point.point + 1);
+        ui.label(match points.len() {
+            1 => say!("Rule of {piece}, point {number}", piece = name, number),
+            n => say!("Rule of {piece}, point {number} and {more} more", piece = name, number, more = n - 1),
+        });
         let Some(rule) = told.nests.rule(point) else { return };
         let seen = rule.by_grain(piece.grain());
         if let Some(new) = rule_grid(ui, told, &seen, own.is_some()) {
             asks.push(set(told, &points, Some(&new)));
         }
         ui.horizontal_wrapped(|ui| {
-            if ui
-                .small_button("Copy rule")
-                .on_hover_text("Keep this rule to give it to other points")
-                .clicked()
-            {
+            let tip = tr("Keep this rule to give it to other points");
+            if ui.small_button(tr("Copy rule")).on_hover_text(tip).clicked() {
                 self.copied = Some(seen.clone());
             }
             let fits = self
@@ -126,8 +126,8 @@ impl SizesPanel {
                 .as_ref()
                 .filter(|copied| copied.problem(pattern.sizes.len(), pattern.sizes.base).is_none());
             for (text, tip, map) in PASTES {
-                let button = ui.add_enabled(fits.is_some(), Button::new(text).small());
-                if button.on_hover_text(tip).on_disabled_hover_text("Copy a rule first").clicked()
+                let button = ui.add_enabled(fits.is_some(), Button::new(tr(text)).small());
+                if button.on_hover_text(tr(tip)).on_disabled_hover_text(tr("Copy a rule first")).clicked()
                     && let Some(copied) = fits
                 {
                     asks.push(set(told, &points, Some(&copied.mapped(map))));
@@ -138,8 +138,8 @@ impl SizesPanel {
                     point.point < piece.edge_count() && piece.edge(point.point).rule.is_some()
                 })
             });
-            let clear = ui.add_enabled(has_any, Button::new("Clear rule").small());
-            if clear.on_hover_text("Remove the rules of the selected points").clicked() {
+            let clear = ui.add_enabled(has_any, Button::new(tr("Clear rule")).small());
+            if clear.on_hover_text(tr("Remove the rules of the selected points")).clicked() {
                 asks.push(set(told, &points, None));
             }
         });
@@ -182,11 +182,11 @@ fn rule_grid(
     let mut new = None;
     Grid::new("grade rule").num_columns(3).spacing([6.0, 3.0]).show(ui, |ui| {
         for heading in ["", "Across", "Along"] {
-            ui.label(RichText::new(heading).color(told.palette.weak).size(12.5));
+            ui.label(RichText::new(tr(heading)).color(told.palette.weak).size(12.5));
         }
         ui.end_row();
-        let even = ui.label(RichText::new("Each step").size(12.5));
-        let even = even.on_hover_text("The same step from every size to the next");
+        let even = ui.label(RichText::new(tr("Each step")).size(12.5));
+        let even = even.on_hover_text(tr("The same step from every size to the next"));
         let step = step_of(seen, sizes);
         for axis in 0..2 {
             if let Some(to) = length_field(ui, ("step", axis), &even, step[axis], unit) {
@@ -205,7 +205,7 @@ fn rule_grid(
             let ink = size_colour(told.palette, size, sizes.len());
             if size == sizes.base {
                 ui.label(RichText::new(name).strong());
-                ui.label(RichText::new("base").color(told.palette.weak).size(12.5));
+                ui.label(RichText::new(tr("base")).color(told.palette.weak).size(12.5));
                 ui.end_row();
                 continue;
             }
@@ -223,7 +223,7 @@ fn rule_grid(
         }
     });
     if !is_own && !seen.is_still() {
-        let words = "It follows the points beside it; a number gives it a rule of its own.";
+        let words = tr("It follows the points beside it; a number gives it a rule of its own.");
         ui.add(egui::Label::new(RichText::new(words).color(told.palette.weak).size(12.5)).wrap());
     }
     new
@@ -242,7 +242,7 @@ fn typed(text: &str, old: &SizeRun) -> Result<SizeRun, String> {
     let names: Vec<String> =
         text.split(',').map(|name| name.trim().to_owned()).filter(|name| !name.is_empty()).collect();
     if names.is_empty() {
-        return Err("a size run has at least one name; Remove takes all sizes away".to_owned());
+        return Err(tr("a size run has at least one name; Remove takes all sizes away").to_owned());
     }
     let base = names.iter().position(|name| name == old.base_name());
     let base = base.unwrap_or_else(|| old.base.min(names.len() - 1));
@@ -255,7 +255,7 @@ fn ready_ui(ui: &mut egui::Ui, sizes: &SizeRun, text: &str, asks: &mut Asks) {
     ui.menu_button(text, |ui| {
         for ready in READY_SIZES {
             let run = ready.run();
-            if ui.selectable_label(*sizes == run, ready.title).clicked() {
+            if ui.selectable_label(*sizes == run, tr(ready.title)).clicked() {
                 asks.push(ask(PatternEdit::SetSizes { sizes: run }));
                 ui.close();
             }
@@ -275,11 +275,11 @@ fn shown_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, asks: &mut Asks) {
             let text = RichText::new(name);
             let text = if is_base { text.strong() } else { text.color(size_colour(told.palette, size, sizes.len())) };
             let tip = match is_base {
-                true => "The base size, in which the pattern is drawn",
-                false => "Show this size: points that are moved then (Edit points) get rules; with Shift the same step in all sizes",
+                true => tr("The base size, in which the pattern is drawn"),
+                false => tr("Show this size: points that are moved then (Edit points) get rules; with Shift the same step in all sizes"),
             };
             let button = ui.selectable_label(size == shown, text).on_hover_text(tip);
-            let words = format!("Show size {name}");
+            let words = say!("Show size {size}", size = name);
             button.widget_info(|| WidgetInfo::selected(Role::Button, true, size == shown, words.clone()));
             if button.clicked() {
                 asks.push(Ask::ShowSizes(SizeView { nested, shown: (!is_base).then_some(size) }));
@@ -287,7 +287,8 @@ fn shown_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, asks: &mut Asks) {
         }
     });
     let mut all = nested;
-    if ui.checkbox(&mut all, "Draw all sizes").on_hover_text("Nested outlines on the table").changed() {
+    if ui.checkbox(&mut all, tr("Draw all sizes")).on_hover_text(tr("Nested outlines on the table")).changed()
+    {
         asks.push(Ask::ShowSizes(SizeView { nested: all, ..told.sizes }));
     }
 }
@@ -308,9 +309,12 @@ fn problems_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, asks: &mut Asks) {
         told_of += 1;
         let each: Vec<String> =
             apart().map(|growth| format!("{} {}", growth.size, unit.number(growth.change))).collect();
-        let name = crate::ui::pattern_pane::seam_words(pattern, seam);
-        let words =
-            format!("{name}: the first side outgrows the second ({}): {}", unit.sign(), each.join(", "));
+        let words = say!(
+            "{seam}: the first side outgrows the second ({unit}): {each}",
+            seam = crate::ui::pattern_pane::seam_words(pattern, seam),
+            unit = unit.sign(),
+            each = each.join(", ")
+        );
         problem_row(ui, told.palette.warning, &words, None, asks);
     }
 }

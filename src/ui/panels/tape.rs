@@ -11,6 +11,7 @@ use crate::fit::{Girth, girth, girths};
 use crate::session::body::readings_of;
 use crate::session::{BodyChoice, Outfit};
 use crate::ui::actions::asks::Asks;
+use crate::ui::language::{say, tr};
 use crate::ui::panels::context::PanelContext;
 use crate::ui::panels::fields::length_field;
 use crate::ui::panels::size::SizePanel;
@@ -62,7 +63,7 @@ impl TapePanel {
                 Grid::new("tape").num_columns(columns).striped(true).spacing([12.0, 2.0]).show(ui, |ui| {
                     if worn.is_some() {
                         for heading in ["", "Body", "Pattern", "Ease"] {
-                            ui.add(weak(heading));
+                            ui.add(weak(tr(heading)));
                         }
                         ui.end_row();
                     }
@@ -76,8 +77,8 @@ impl TapePanel {
                     self.chosen_ui(ui, told);
                 }
             }
-            (None, Some(_)) => _ = ui.add(weak("Measuring…")),
-            (None, None) => _ = ui.add(weak("It does not look like a standing human.")),
+            (None, Some(_)) => _ = ui.add(weak(tr("Measuring…"))),
+            (None, None) => _ = ui.add(weak(tr("It does not look like a standing human."))),
         }
     }
 
@@ -94,7 +95,7 @@ impl TapePanel {
             chosen.height = waist.unwrap_or(0.6 * tall);
         }
         ui.horizontal(|ui| {
-            let label = ui.label("Round the trunk at").on_hover_text("Height above the floor");
+            let label = ui.label(tr("Round the trunk at")).on_hover_text(tr("Height above the floor"));
             let typed = length_field(ui, "tape height", &label, chosen.height, told.now.unit);
             chosen.height = typed.map_or(chosen.height, |typed| typed.clamp(0.0, tall));
         });
@@ -112,7 +113,7 @@ impl TapePanel {
                     ui.end_row();
                 });
             }
-            None => _ = ui.label(RichText::new("There is no trunk.").color(told.palette.weak)),
+            None => _ = ui.label(RichText::new(tr("There is no trunk.")).color(told.palette.weak)),
         }
     }
 
@@ -162,13 +163,13 @@ fn row_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, reading: &Reading, round: 
     let Reading { name, metres, height, .. } = reading;
     // Body measurements are rounded to the millimetre.
     let text = |metres: f64| told.now.unit.text((metres * 1e3).round() / 1e3);
-    let label = ui.label(*name);
+    let label = ui.label(tr(name));
     if let Some(height) = height {
-        label.on_hover_text(format!("{} above the floor", text(*height)));
+        label.on_hover_text(say!("{height} above the floor", height = text(*height)));
     }
     ui.label(text(*metres));
     if let Some(round) = round {
-        let worn = format!("As it lies: {}", text(round.worn));
+        let worn = say!("As it lies: {girth}", girth = text(round.worn));
         ui.label(text(round.flat)).on_hover_text(worn);
         let ease = round.flat - metres;
         let sign = if ease > 0.0 { "+" } else { "" };

@@ -8,6 +8,7 @@ use crate::pattern::trims::{ELASTIC_RATIOS, ELASTIC_TENSIONS};
 use crate::pattern::{Elastic, Fold, Hem, Topstitch, Trims};
 use crate::session::Command;
 use crate::ui::actions::asks::{Ask, Asks};
+use crate::ui::language::tr;
 use crate::ui::panels::colours::colour_menu;
 use crate::ui::panels::context::PanelContext;
 use crate::ui::panels::fastenings::buttons_ui;
@@ -57,33 +58,33 @@ fn topstitch_ui(
     let set =
         |topstitch: Option<Topstitch>| ask(PatternEdit::SetTopstitch { lines: lines.to_vec(), topstitch });
     let mut on = trims.topstitch.is_some();
-    let tip = "Rows of stitches that are seen on the outside";
-    if ui.checkbox(&mut on, "Topstitching").on_hover_text(tip).changed() {
+    let tip = tr("Rows of stitches that are seen on the outside");
+    if ui.checkbox(&mut on, tr("Topstitching")).on_hover_text(tip).changed() {
         asks.push(set(on.then(Topstitch::default)));
     }
     let Some(old) = trims.topstitch else { return };
     let unit = told.now.unit;
     Grid::new("topstitching").num_columns(4).spacing([6.0, 4.0]).show(ui, |ui| {
-        let label = weak(ui, told, "Distance");
+        let label = weak(ui, told, tr("Distance"));
         if let Some(new) = length_field(ui, "stitch distance", &label, old.distance, unit) {
             asks.push(set(Some(Topstitch { distance: new.clamp(0.0, 0.1), ..old })));
         }
-        let label = weak(ui, told, "Stitch");
+        let label = weak(ui, told, tr("Stitch"));
         if let Some(new) = length_field(ui, "stitch length", &label, old.length, unit) {
             asks.push(set(Some(Topstitch { length: new.clamp(0.0005, 0.03), ..old })));
         }
         ui.end_row();
-        let label = weak(ui, told, "Rows");
+        let label = weak(ui, told, tr("Rows"));
         if let Some(new) = number_field(ui, "stitch rows", &label, f64::from(old.rows)) {
             asks.push(set(Some(Topstitch { rows: new.round().clamp(1.0, 6.0) as u8, ..old })));
         }
-        let label = weak(ui, told, "Apart");
+        let label = weak(ui, told, tr("Apart"));
         if let Some(new) = length_field(ui, "stitch spacing", &label, old.spacing, unit) {
             asks.push(set(Some(Topstitch { spacing: new.clamp(0.0005, 0.05), ..old })));
         }
         ui.end_row();
-        weak(ui, told, "Thread");
-        colour_menu(ui, "Thread of the topstitching", old.colour, asks, |colour| {
+        weak(ui, told, tr("Thread"));
+        colour_menu(ui, tr("Thread of the topstitching"), old.colour, asks, |colour| {
             let topstitch = Some(Topstitch { colour, ..old });
             dragged(PatternEdit::SetTopstitch { lines: lines.to_vec(), topstitch })
         });
@@ -96,17 +97,17 @@ fn hem_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, lines: &[TrimLine], trims:
     }
     let set = |hem: Option<Hem>| ask(PatternEdit::SetHem { lines: lines.to_vec(), hem });
     let mut on = trims.hem.is_some();
-    let tip = "The edge is turned in and sewn down: it is doubled, and stiffer";
-    if ui.checkbox(&mut on, "Hem").on_hover_text(tip).changed() {
+    let tip = tr("The edge is turned in and sewn down: it is doubled, and stiffer");
+    if ui.checkbox(&mut on, tr("Hem")).on_hover_text(tip).changed() {
         asks.push(set(on.then_some(Hem::USUAL)));
     }
     let Some(hem) = trims.hem else { return };
     ui.horizontal(|ui| {
-        let label = weak(ui, told, "Width");
+        let label = weak(ui, told, tr("Width"));
         if let Some(new) = length_field(ui, "hem width", &label, hem.width, told.now.unit) {
             asks.push(set(Some(Hem { width: new.clamp(0.003, 0.2), ..hem })));
         }
-        colour_menu(ui, "Thread of the hem", hem.colour.unwrap_or(PLAIN), asks, |colour| {
+        colour_menu(ui, tr("Thread of the hem"), hem.colour.unwrap_or(PLAIN), asks, |colour| {
             let hem = Some(Hem { colour: Some(colour), ..hem });
             dragged(PatternEdit::SetHem { lines: lines.to_vec(), hem })
         });
@@ -126,22 +127,22 @@ fn elastic_ui(
 ) {
     let set = |elastic: Option<Elastic>| ask(PatternEdit::SetElastic { lines: lines.to_vec(), elastic });
     let mut on = trims.elastic.is_some();
-    let tip = "Draped cloth is gathered to the length of the elastic: waistbands, cuffs, ruffles";
-    if ui.checkbox(&mut on, "Elastic").on_hover_text(tip).changed() {
+    let tip = tr("Draped cloth is gathered to the length of the elastic: waistbands, cuffs, ruffles");
+    if ui.checkbox(&mut on, tr("Elastic")).on_hover_text(tip).changed() {
         asks.push(set(on.then_some(Elastic::USUAL)));
     }
     let Some(elastic) = trims.elastic else { return };
     ui.horizontal(|ui| {
-        let label = ui.label(RichText::new("Length, %").color(told.palette.weak).size(12.5));
-        let label = label.on_hover_text("Of the elastic at rest, of that of the cloth: 30 to 100");
+        let label = weak(ui, told, tr("Length, %"));
+        let label = label.on_hover_text(tr("Of the elastic at rest, of that of the cloth: 30 to 100"));
         if let Some(new) = number_field(ui, "elastic length", &label, elastic.ratio * 100.0) {
             let ratio = (new / 100.0).clamp(*ELASTIC_RATIOS.start(), *ELASTIC_RATIOS.end());
             asks.push(set(Some(Elastic { ratio, ..elastic })));
         }
     });
     ui.horizontal(|ui| {
-        let label = ui.label(RichText::new("Tension, N").color(told.palette.weak).size(12.5));
-        let label = label.on_hover_text("Force at double length; a waistband elastic has about 15");
+        let label = weak(ui, told, tr("Tension, N"));
+        let label = label.on_hover_text(tr("Force at double length; a waistband elastic has about 15"));
         if let Some(new) = number_field(ui, "elastic tension", &label, elastic.tension) {
             let tension = new.clamp(*ELASTIC_TENSIONS.start(), *ELASTIC_TENSIONS.end());
             asks.push(set(Some(Elastic { tension, ..elastic })));
@@ -152,25 +153,26 @@ fn elastic_ui(
 fn fold_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, lines: &[TrimLine], trims: &Trims, asks: &mut Asks) {
     let set = |fold: Option<Fold>| ask(PatternEdit::SetFold { lines: lines.to_vec(), fold });
     let mut on = trims.fold.is_some();
-    let tip = "Draped cloth is creased here: pleats, collars, cuffs, pressed edges";
-    if ui.checkbox(&mut on, "Fold line").on_hover_text(tip).changed() {
+    let tip = tr("Draped cloth is creased here: pleats, collars, cuffs, pressed edges");
+    if ui.checkbox(&mut on, tr("Fold line")).on_hover_text(tip).changed() {
         asks.push(set(on.then(|| Fold::pressed(std::f64::consts::PI))));
     }
     let Some(fold) = trims.fold else { return };
     ui.horizontal(|ui| {
-        let label = ui.label(RichText::new("Angle").color(told.palette.weak).size(12.5));
-        let label = label.on_hover_text("0 is flat; positive towards the outer side; 180 is folded double");
+        let label = weak(ui, told, tr("Angle"));
+        let label =
+            label.on_hover_text(tr("0 is flat; positive towards the outer side; 180 is folded double"));
         let half = std::f64::consts::PI;
         if let Some(new) = angle_field(ui, "fold angle", &label, fold.angle) {
             asks.push(set(Some(Fold { angle: new.clamp(-half, half), ..fold })));
         }
-        if ui.small_button("Other side").on_hover_text("Fold it to the other side").clicked() {
+        if ui.small_button(tr("Other side")).on_hover_text(tr("Fold it to the other side")).clicked() {
             asks.push(set(Some(Fold { angle: -fold.angle, ..fold })));
         }
     });
     ui.horizontal_wrapped(|ui| {
         for (strength, name, tip) in STRENGTHS {
-            if ui.selectable_label(fold.strength == strength, name).on_hover_text(tip).clicked() {
+            if ui.selectable_label(fold.strength == strength, tr(name)).on_hover_text(tr(tip)).clicked() {
                 asks.push(set(Some(Fold { strength, ..fold })));
             }
         }

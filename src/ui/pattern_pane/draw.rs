@@ -9,6 +9,7 @@ use super::view::TableView;
 use crate::geometry::ids::MarkId;
 use crate::pattern::Pattern;
 use crate::render::mark_colour;
+use crate::ui::language::tr;
 use crate::ui::look::theme::{Palette, colour};
 use crate::ui::preferences::units::LengthUnit;
 use crate::wrap::Marks;
@@ -129,7 +130,7 @@ impl Drawing<'_> {
                 self.painter.rect_stroke(square, 0.0, ink, egui::StrokeKind::Middle);
                 let font = FontId::proportional(11.0);
                 let place = at + Vec2::new(-9.0, -9.0);
-                self.painter.text(place, Align2::RIGHT_BOTTOM, by.name(), font, self.palette.guide);
+                self.painter.text(place, Align2::RIGHT_BOTTOM, tr(by.name()), font, self.palette.guide);
             }
         }
     }

@@ -11,6 +11,7 @@ use crate::geometry::ids::{PieceId, SeamId};
 use crate::pattern::activity::Activity;
 use crate::pattern::{Piece, Stretch};
 use crate::ui::actions::Tool;
+use crate::ui::language::tr;
 use crate::ui::look::signs::{self, Sign};
 use crate::ui::look::theme::colour;
 use crate::ui::maps::ShownMap;
@@ -344,12 +345,12 @@ pub fn badge_place(side: &[DVec2]) -> Option<DVec2> {
 fn words_on(piece: &Piece, front: bool) -> String {
     let mut words = piece.name.clone();
     for (is_so, sign) in [
-        (!front, " (back)"),
-        (piece.twin.is_some(), " · twin"),
-        (piece.symmetric, " · symmetric"),
-        (piece.locked, " · locked"),
-        (piece.activity == Activity::Frozen, " · frozen"),
-        (piece.activity.is_deactivated(), " · deactivated"),
+        (!front, tr(" (back)")),
+        (piece.twin.is_some(), tr(" · twin")),
+        (piece.symmetric, tr(" · symmetric")),
+        (piece.locked, tr(" · locked")),
+        (piece.activity == Activity::Frozen, tr(" · frozen")),
+        (piece.activity.is_deactivated(), tr(" · deactivated")),
     ] {
         if is_so {
             words.push_str(sign);

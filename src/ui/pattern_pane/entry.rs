@@ -3,6 +3,7 @@
 use egui::{Area, Event, Frame, Key, Pos2, RichText, TextEdit, Vec2};
 
 use super::{Laid, begins_number};
+use crate::ui::language::tr;
 use crate::ui::preferences::units::{Typed, typed};
 
 /// The open field.
@@ -48,7 +49,7 @@ impl Entry {
                         let field = TextEdit::singleline(&mut self.text).id(id).desired_width(92.0);
                         let field = ui.add(field);
                         let name = ui.label(RichText::new(laid.unit.sign()).color(laid.palette.weak));
-                        let words = "Length, or x,y";
+                        let words = tr("Length, or x,y");
                         field.widget_info(|| {
                             egui::WidgetInfo::labeled(egui::accesskit::Role::TextInput, true, words)
                         });

@@ -32,6 +32,7 @@ use crate::session::samples::Sample;
 use crate::sim::ClothPlace;
 use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::actions::{Action, Tool};
+use crate::ui::language::{say, tr};
 use crate::ui::look::theme::Palette;
 use crate::ui::maps::{ShownMap, probe_ui};
 use crate::ui::pointer::mouse::{Mouse, PointerAction};
@@ -160,7 +161,7 @@ impl PatternPane {
         let (rulers, pane) = Rulers::around(rest);
         let id = ui.scope_id().with("table");
         let response = ui.interact(pane, id, Sense::click_and_drag());
-        response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, "Pattern pane"));
+        response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, tr("Pattern pane")));
         self.hovered = response.contains_pointer();
         (self.area, self.id) = (Some(pane), Some(id));
         self.fit_if_asked(laid, pane);
@@ -246,9 +247,9 @@ impl PatternPane {
 
     /// The hint of the pane for the status bar.
     pub fn hint(&self, laid: &Laid<'_>) -> String {
-        let view = format!("{} · F: show all", laid.mouse.table_hint());
+        let view = say!("{view} · F: show all", view = laid.mouse.table_hint());
         if self.guides.cursor().is_some() {
-            return format!("Drag the guide; back to its ruler: take it away · {view}");
+            return say!("Drag the guide; back to its ruler: take it away · {view}", view);
         }
         match (&self.tool, self.area) {
             (Some((_, tool)), Some(pane)) => format!("{} · {view}", tool.hint(&self.table(laid, pane))),
@@ -492,16 +493,16 @@ fn begins_number(event: &Event) -> Option<String> {
 /// Draws suggestions for an empty table.
 pub fn empty_ui(ui: &mut egui::Ui, asks: &mut Asks) {
     ui.vertical_centered(|ui| {
-        ui.heading("An empty table");
-        ui.label("Draw a piece, open a sample, or bring a pattern of your own.");
+        ui.heading(tr("An empty table"));
+        ui.label(tr("Draw a piece, open a sample, or bring a pattern of your own."));
         ui.add_space(6.0);
-        if ui.button("Draw a rectangle").clicked() {
+        if ui.button(tr("Draw a rectangle")).clicked() {
             asks.push(Ask::Act(Action::Choose(Tool::Rectangle)));
         }
-        if ui.button("Open the T-shirt").clicked() {
+        if ui.button(tr("Open the T-shirt")).clicked() {
             asks.push(Ask::Act(Action::Sample(Sample::Tshirt)));
         }
-        if ui.button(Action::ImportPattern.row().text).clicked() {
+        if ui.button(tr(Action::ImportPattern.row().text)).clicked() {
             asks.push(Ask::Act(Action::ImportPattern));
         }
     });

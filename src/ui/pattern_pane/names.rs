@@ -8,6 +8,7 @@ use super::draw_pieces::badge_place;
 use super::table::Table;
 use crate::pattern::{EdgeRef, Pattern, Seam};
 use crate::ui::actions::Tool;
+use crate::ui::language::say;
 use crate::wrap::Marks;
 
 /// Adds an accessibility node at each visible item: pieces, edges, seams, marks; points while they are edited.
@@ -16,12 +17,13 @@ pub fn publish(ui: &egui::Ui, table: &Table<'_>) {
     for (id, piece, shape) in table.seen() {
         let name = &piece.name;
         let middle = piece.pose.plane_from_piece(shape.middle);
-        node(ui, table, ("piece", id.0), middle, || format!("Piece {name}"));
+        node(ui, table, ("piece", id.0), middle, || say!("Piece {name}", name));
         for (i, length) in shape.lengths.iter().enumerate() {
             let line = &shape.edges[i];
             let on = badge_place(line).unwrap_or_default();
             let on = if line.len() == 2 { line[0].midpoint(line[1]) } else { on };
-            let words = || format!("{name}, edge {}: {}", i + 1, unit.text(*length));
+            let words =
+                || say!("{name}, edge {number}: {length}", name, number = i + 1, length = unit.text(*length));
             node(ui, table, ("edge", id.0, i), piece.pose.plane_from_piece(on), words);
         }
     }
@@ -29,7 +31,7 @@ pub fn publish(ui: &egui::Ui, table: &Table<'_>) {
         for (id, piece, shape) in table.seen() {
             for (i, line) in shape.lines.iter().enumerate() {
                 let on = badge_place(line).unwrap_or_default();
-                let words = || format!("{}, line {}", piece.name, i + 1);
+                let words = || say!("{name}, line {number}", name = piece.name, number = i + 1);
                 node(ui, table, ("line", id.0, i), piece.pose.plane_from_piece(on), words);
             }
         }
@@ -39,21 +41,26 @@ pub fn publish(ui: &egui::Ui, table: &Table<'_>) {
         };
         for (point, p) in points {
             let name = &table.pattern().pieces[&point.piece].name;
-            let words = || format!("{name}, point {}", point.point + 1);
+            let words = || say!("{name}, point {number}", name, number = point.point + 1);
             node(ui, table, ("point", point.piece.0, point.point), p, words);
         }
     }
     for (id, ends) in table.threads.all().filter(|(_, ends)| ends.is_seen(table.pattern())) {
         let at = ends.on_table(table.pattern()).and_then(|[from, _]| badge_place(&from));
         if let (Some(at), Some(seam)) = (at, table.pattern().seams.get(&id)) {
-            let twisted = if ends.is_twisted { ", twisted" } else { "" };
-            let words = || format!("Seam: {}{twisted}", seam_words(table.pattern(), seam));
+            let words = || {
+                let sides = seam_words(table.pattern(), seam);
+                match ends.is_twisted {
+                    true => say!("Seam: {sides}, twisted", sides),
+                    false => say!("Seam: {sides}", sides),
+                }
+            };
             node(ui, table, ("seam", id.0), at, words);
         }
     }
-    marks(ui, table, &table.laid.document.marks, "Mark");
+    marks(ui, table, &table.laid.document.marks, false);
     if let Some(ghosts) = table.laid.ghosts {
-        marks(ui, table, ghosts, "Proposed mark");
+        marks(ui, table, ghosts, true);
     }
 }
 
@@ -62,17 +69,20 @@ pub fn seam_words(pattern: &Pattern, seam: &Seam) -> String {
     let side = |k: usize| {
         let EdgeRef { piece, edge } = seam.sides[k].first_edge();
         let name = pattern.pieces.get(&piece).map_or("?", |piece| &piece.name);
-        format!("{name} edge {}", edge + 1)
+        say!("{name} edge {number}", name, number = edge + 1)
     };
     format!("{} – {}", side(0), side(1))
 }
 
-fn marks(ui: &egui::Ui, table: &Table<'_>, marks: &Marks, what: &str) {
+fn marks(ui: &egui::Ui, table: &Table<'_>, marks: &Marks, proposed: bool) {
     for (i, mark) in marks.cloth.iter().enumerate() {
         let piece = table.pattern().pieces.get(&mark.piece).filter(|piece| !piece.hidden);
         if let (Some(piece), Some(&first)) = (piece, mark.points.first()) {
-            let words = || format!("{what} {} on the cloth", i + 1);
-            node(ui, table, (what, i), piece.pose.plane_from_piece(first), words);
+            let words = || match proposed {
+                true => say!("Proposed mark {number} on the cloth", number = i + 1),
+                false => say!("Mark {number} on the cloth", number = i + 1),
+            };
+            node(ui, table, ("mark", proposed, i), piece.pose.plane_from_piece(first), words);
         }
     }
 }

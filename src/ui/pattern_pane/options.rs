@@ -6,6 +6,8 @@ use egui::{Frame, Rect, RichText, UiBuilder, vec2};
 use super::table::Table;
 use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::actions::{Action, Tool};
+use crate::ui::language::keys::shortcut_text;
+use crate::ui::language::{counted, tr};
 use crate::ui::panels::fields::length_field;
 
 /// Draws the bar; nothing for tools without options.
@@ -32,35 +34,35 @@ pub fn options_ui(ui: &mut egui::Ui, table: &Table<'_>, options: &mut Options, a
                     let weak = |text: &str| RichText::new(text).color(palette.weak).size(12.5);
                     match table.laid.tool {
                         Tool::Cut => {
-                            let tip = "The two sides of the cut become a seam";
-                            ui.checkbox(&mut options.sew_cut, "Sew it together again").on_hover_text(tip);
+                            let tip = tr("The two sides of the cut become a seam");
+                            let text = tr("Sew it together again");
+                            ui.checkbox(&mut options.sew_cut, text).on_hover_text(tip);
                         }
                         Tool::Dart => {
                             let unit = table.laid.unit;
                             for (label, value) in
                                 [("Width", &mut options.dart_width), ("Depth", &mut options.dart_depth)]
                             {
-                                let name = ui.label(weak(label));
+                                let name = ui.label(weak(tr(label)));
                                 let new = length_field(ui, ("dart", label), &name, *value, unit);
                                 *value = new.map_or(*value, |new| new.clamp(0.001, 1.0));
                             }
                         }
                         Tool::Sew => {
-                            let tip = "Editing one sewn edge changes the other, too";
-                            ui.checkbox(&mut options.keep_equal, "Keep lengths equal").on_hover_text(tip);
+                            let tip = tr("Editing one sewn edge changes the other, too");
+                            let text = tr("Keep lengths equal");
+                            ui.checkbox(&mut options.keep_equal, text).on_hover_text(tip);
                         }
                         _ => {}
                     }
                     if twisted > 0 {
-                        let words =
-                            if twisted == 1 { "1 twisted seam" } else { &format!("{twisted} twisted seams") };
+                        let words = counted(twisted, "1 twisted seam", "{n} twisted seams");
                         ui.label(RichText::new(words).color(palette.error).size(12.5));
                         let entry = Action::Untwist.row();
-                        let keys =
-                            entry.keys.first().map(|k| ui.ctx().format_shortcut(k)).unwrap_or_default();
+                        let keys = entry.keys.first().map(|k| shortcut_text(ui.ctx(), k)).unwrap_or_default();
                         if ui
-                            .small_button(entry.text)
-                            .on_hover_text(format!("{}  ({keys})", entry.tip))
+                            .small_button(tr(entry.text))
+                            .on_hover_text(format!("{}  ({keys})", tr(entry.tip)))
                             .clicked()
                         {
                             asks.push(Ask::Act(Action::Untwist));

@@ -8,6 +8,7 @@ use glam::DVec2;
 
 use super::table::Guide;
 use super::view::TableView;
+use crate::ui::language::tr;
 use crate::ui::look::theme::Palette;
 use crate::ui::preferences::units::LengthUnit;
 
@@ -57,14 +58,16 @@ impl Rulers {
             ui.painter().vline(at.x, self.above.y_range(), stroke);
             ui.painter().hline(self.beside.x_range(), at.y, stroke);
         }
-        let sense = |ui: &mut egui::Ui, rect, words: &str, icon| {
-            let id = ui.scope_id().with(words);
+        let sense = |ui: &mut egui::Ui, rect, (salt, words): (&str, &str), icon| {
+            let id = ui.scope_id().with(salt);
             let ruler = ui.interact(rect, id, Sense::drag()).on_hover_cursor(icon);
             ruler.widget_info(|| WidgetInfo::labeled(Role::Group, true, words));
             ruler
         };
-        let above = sense(ui, self.above, "Ruler above the pattern", CursorIcon::ResizeVertical);
-        let beside = sense(ui, self.beside, "Ruler beside the pattern", CursorIcon::ResizeHorizontal);
+        let above =
+            sense(ui, self.above, ("above", tr("Ruler above the pattern")), CursorIcon::ResizeVertical);
+        let beside =
+            sense(ui, self.beside, ("beside", tr("Ruler beside the pattern")), CursorIcon::ResizeHorizontal);
         let dragged = |ruler: &Response| {
             let at = ruler.interact_pointer_pos().map(|at| view.table_from_screen(pane, at));
             at.filter(|_| ruler.dragged() || ruler.drag_stopped())

@@ -5,6 +5,8 @@ use egui::{Painter, Pos2, Rect, Sense, Shape, Stroke, UiBuilder, Vec2, WidgetInf
 use super::Laid;
 use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::actions::{Action, PATTERN_TOOLS, Tool};
+use crate::ui::language::keys::shortcut_text;
+use crate::ui::language::tr;
 
 /// Width of the strip, points.
 const BREADTH: f32 = 36.0;
@@ -44,15 +46,15 @@ fn button(ui: &mut egui::Ui, laid: &Laid<'_>, tool: Tool, asks: &mut Asks) {
     let entry = action.row();
     let (rect, response) = ui.allocate_exact_size(Vec2::splat(SIZE), Sense::click());
     let chosen = laid.tool == tool;
-    response.widget_info(|| WidgetInfo::selected(egui::accesskit::Role::Button, true, chosen, entry.text));
+    let name = tr(entry.text);
+    response.widget_info(|| WidgetInfo::selected(egui::accesskit::Role::Button, true, chosen, name));
     let visuals = ui.style().interact_selectable(&response, chosen);
     if chosen || response.hovered() || response.has_focus() {
         ui.painter().rect(rect, 5.0, visuals.weak_bg_fill, visuals.bg_stroke, egui::StrokeKind::Inside);
     }
     sign(ui.painter(), rect.shrink(6.0), tool, Stroke::new(1.5, visuals.text_color()));
-    let keys = entry.keys.first().map(|k| format!("  ({})", ui.ctx().format_shortcut(k)));
-    let response =
-        response.on_hover_text(format!("{}: {}{}", entry.text, entry.tip, keys.unwrap_or_default()));
+    let keys = entry.keys.first().map(|k| format!("  ({})", shortcut_text(ui.ctx(), k)));
+    let response = response.on_hover_text(format!("{name}: {}{}", tr(entry.tip), keys.unwrap_or_default()));
     if response.clicked() {
         asks.push(Ask::Act(action));
     }

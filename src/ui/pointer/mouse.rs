@@ -3,6 +3,8 @@
 use egui::{Modifiers, PointerButton};
 use serde::{Deserialize, Serialize};
 
+use crate::ui::language::{say, tr};
+
 /// A mouse button mapping, after the program it is taken from.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -117,10 +119,10 @@ impl Mouse {
     /// How the body's view is moved, for the status bar.
     pub fn view_hint(self) -> String {
         self.hint(|deed| match deed {
-            PointerAction::Turn => Some("turn"),
-            PointerAction::HandOrTurn => Some("drag cloth, or turn"),
-            PointerAction::Pan => Some("move the view"),
-            PointerAction::Zoom => Some("zoom"),
+            PointerAction::Turn => Some(tr("turn")),
+            PointerAction::HandOrTurn => Some(tr("drag cloth, or turn")),
+            PointerAction::Pan => Some(tr("move the view")),
+            PointerAction::Zoom => Some(tr("zoom")),
             PointerAction::Tool | PointerAction::Hand => None,
         })
     }
@@ -128,8 +130,8 @@ impl Mouse {
     /// How the table's view is moved, for the status bar.
     pub fn table_hint(self) -> String {
         self.hint(|deed| match deed {
-            PointerAction::Pan | PointerAction::Turn | PointerAction::HandOrTurn => Some("move the view"),
-            PointerAction::Zoom => Some("zoom"),
+            PointerAction::Pan | PointerAction::Turn | PointerAction::HandOrTurn => Some(tr("move the view")),
+            PointerAction::Zoom => Some(tr("zoom")),
             PointerAction::Tool | PointerAction::Hand => None,
         })
     }
@@ -146,45 +148,46 @@ impl Mouse {
                 None => parts.push((named, does)),
             }
         }
-        let told: Vec<String> = parts.iter().map(|(named, does)| format!("{named} drag: {does}")).collect();
-        format!("{} · Wheel: zoom", told.join(" · "))
+        let told = parts.iter().map(|(button, deed)| say!("{button} drag: {deed}", button, deed));
+        let told: Vec<String> = told.collect();
+        say!("{drags} · Wheel: zoom", drags = told.join(" · "))
     }
 
     /// All rows in words, for the help.
     pub fn help(self) -> Vec<(String, &'static str)> {
         let words = |deed| match deed {
-            PointerAction::Tool => "What the chosen tool does",
-            PointerAction::HandOrTurn => "Drag the cloth that lies there; elsewhere turn the view",
-            PointerAction::Hand => "Drag the cloth that lies there (tools Drag and Pin)",
-            PointerAction::Turn => "Turn the view; on the table move it",
-            PointerAction::Pan => "Move the view",
-            PointerAction::Zoom => "Zoom",
+            PointerAction::Tool => tr("What the chosen tool does"),
+            PointerAction::HandOrTurn => tr("Drag the cloth that lies there; elsewhere turn the view"),
+            PointerAction::Hand => tr("Drag the cloth that lies there (tools Drag and Pin)"),
+            PointerAction::Turn => tr("Turn the view; on the table move it"),
+            PointerAction::Pan => tr("Move the view"),
+            PointerAction::Zoom => tr("Zoom"),
         };
         self.table()
             .iter()
-            .map(|&(keys, button, deed)| (format!("{} drag", named(keys, button)), words(deed)))
+            .map(|&(keys, button, deed)| (say!("{button} drag", button = named(keys, button)), words(deed)))
             .collect()
     }
 }
 
 fn named(keys: Modifiers, button: PointerButton) -> String {
-    let keys = match (keys.shift, keys.ctrl, keys.alt) {
-        (true, ..) => "Shift+",
-        (_, true, _) => "Ctrl+",
-        (_, _, true) => "Alt+",
-        _ => "",
+    let held = match (keys.shift, keys.ctrl, keys.alt) {
+        (true, ..) => Some(tr("Shift")),
+        (_, true, _) => Some(tr("Ctrl")),
+        (_, _, true) => Some("Alt"),
+        _ => None,
     };
-    let button = match button {
-        PointerButton::Primary => "left",
-        PointerButton::Secondary => "right",
-        PointerButton::Middle => "middle",
-        _ => "extra",
+    let button = match (button, held.is_none()) {
+        (PointerButton::Primary, true) => tr("Left"),
+        (PointerButton::Primary, false) => tr("left"),
+        (PointerButton::Secondary, true) => tr("Right"),
+        (PointerButton::Secondary, false) => tr("right"),
+        (PointerButton::Middle, true) => tr("Middle"),
+        (PointerButton::Middle, false) => tr("middle"),
+        (_, true) => tr("Extra"),
+        (_, false) => tr("extra"),
     };
-    let mut words = format!("{keys}{button}");
-    if keys.is_empty() {
-        words[..1].make_ascii_uppercase();
-    }
-    words
+    held.map_or(button.to_owned(), |held| format!("{held}+{button}"))
 }
 
 #[cfg(test)]

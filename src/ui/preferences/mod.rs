@@ -16,6 +16,8 @@ use crate::io::scale::DrawingUnit;
 use crate::ui::actions::keymap::Keymap;
 use crate::ui::actions::layout::Layout;
 use crate::ui::files;
+use crate::ui::language::choice::Language;
+use crate::ui::language::say;
 use crate::ui::look::scheme::Theme;
 use crate::ui::pointer::mouse::Mouse;
 use crate::ui::preferences::units::LengthUnit;
@@ -27,6 +29,9 @@ const MOST_BYTES: u64 = 1 << 20;
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Preferences {
+    /// Language of the window.
+    #[serde(deserialize_with = "or_default")]
+    pub language: Language,
     /// Mapping of mouse buttons.
     #[serde(deserialize_with = "or_default")]
     pub mouse: Mouse,
@@ -200,10 +205,11 @@ impl Preferences {
             let set_aside =
                 free.as_ref().and_then(|aside| std::fs::rename(path, aside).ok()).and(free.as_ref());
             match set_aside {
-                Some(aside) => {
-                    format!("The preferences could not be read. They were set aside as {}.", aside.display())
-                }
-                None => format!("The preferences in {} cannot be read.", path.display()),
+                Some(aside) => say!(
+                    "The preferences could not be read. They were set aside as {path}.",
+                    path = aside.display()
+                ),
+                None => say!("The preferences in {path} cannot be read.", path = path.display()),
             }
         });
         (Self::default(), words)
@@ -244,6 +250,7 @@ mod tests {
         let path = folder.path().join("deep/preferences.json");
         assert_eq!(read(&path), Preferences::default());
         let preferences = Preferences {
+            language: Language(Some("de".to_owned())),
             mouse: Mouse::Blender,
             theme: Theme::Light,
             unit: LengthUnit::Inch,

@@ -7,6 +7,9 @@ use egui::{ComboBox, DragValue, Event, Id, Key, KeyboardShortcut, Modal, RichTex
 use crate::ui::actions::Action;
 use crate::ui::actions::keymap::{Keymap, pressed};
 use crate::ui::actions::rows::all;
+use crate::ui::language::choice::{Language, Languages};
+use crate::ui::language::keys::shortcut_text;
+use crate::ui::language::{counted, say, tr};
 use crate::ui::look::scheme::Theme;
 use crate::ui::look::signs::{Sign, sign_button};
 use crate::ui::look::theme::Palette;
@@ -31,15 +34,21 @@ pub struct PreferencesPage {
 
 impl PreferencesPage {
     /// Draws the page; choices are written to `preferences`. False when it is to be closed.
-    pub fn ui(&mut self, ctx: &egui::Context, preferences: &mut Preferences, palette: &Palette) -> bool {
+    pub fn ui(
+        &mut self,
+        ctx: &egui::Context,
+        preferences: &mut Preferences,
+        languages: &Languages,
+        palette: &Palette,
+    ) -> bool {
         let waited = self.waiting.is_some();
         self.catch_key(ctx, preferences);
         let height = (ctx.content_rect().height() - 200.0).clamp(160.0, 420.0);
         let shown = Modal::new(Id::unique("preferences")).show(ctx, |ui| {
             ui.set_width((ctx.content_rect().width() - 80.0).min(560.0));
-            ui.heading("Preferences");
+            ui.heading(tr("Preferences"));
             ui.horizontal(|ui| {
-                for (keys, name) in [(false, "General"), (true, "Keys")] {
+                for (keys, name) in [(false, tr("General")), (true, tr("Keys"))] {
                     if ui.selectable_label(self.keys == keys, name).clicked() {
                         (self.keys, self.waiting, self.taken) = (keys, None, None);
                     }
@@ -49,12 +58,12 @@ impl PreferencesPage {
             if self.keys {
                 self.keys_ui(ui, preferences, palette, height);
             } else {
-                general_ui(ui, preferences, palette, height);
+                general_ui(ui, preferences, languages, palette, height);
             }
             ui.separator();
             ui.horizontal(|ui| {
-                let done = ui.button("Done").clicked();
-                if ui.button("Reset this page").clicked() {
+                let done = ui.button(tr("Done")).clicked();
+                if ui.button(tr("Reset this page")).clicked() {
                     let keymap = Arc::clone(&preferences.keymap);
                     *preferences = if self.keys {
                         Preferences { keymap: Arc::default(), ..preferences.clone() }
@@ -91,16 +100,18 @@ impl PreferencesPage {
     }
 
     fn keys_ui(&mut self, ui: &mut egui::Ui, preferences: &mut Preferences, palette: &Palette, height: f32) {
-        let field = TextEdit::singleline(&mut self.filter).hint_text("Find an action").desired_width(220.0);
-        let field = ui.add(field);
+        let field = TextEdit::singleline(&mut self.filter).hint_text(tr("Find an action"));
+        let field = ui.add(field.desired_width(220.0));
         field.widget_info(|| {
-            egui::WidgetInfo::labeled(egui::accesskit::Role::SearchInput, true, "Find an action")
+            egui::WidgetInfo::labeled(egui::accesskit::Role::SearchInput, true, tr("Find an action"))
         });
         self.conflict_ui(ui, preferences, palette);
         let filter = self.filter.to_lowercase();
         let wanted = |action: &Action| {
-            let entry = action.row();
-            format!("{} {}", action.row().menu, entry.text).to_lowercase().contains(&filter)
+            let row = action.row();
+            let shown = format!("{} {}", row.place(), row.label());
+            let english = format!("{} {}", row.menu, row.text);
+            [shown, english].iter().any(|text| text.to_lowercase().contains(&filter))
         };
         ScrollArea::vertical().max_height(height - 40.0).auto_shrink([false, false]).show(ui, |ui| {
             egui::Grid::new("own keys").num_columns(3).striped(true).spacing([16.0, 4.0]).show(ui, |ui| {
@@ -116,13 +127,13 @@ impl PreferencesPage {
         let entry = action.row();
         ui.horizontal(|ui| {
             ui.spacing_mut().item_spacing.x = 0.0;
-            ui.label(RichText::new(format!("{} › ", action.row().menu)).color(palette.weak));
-            ui.label(entry.text).on_hover_text(entry.tip);
+            ui.label(RichText::new(format!("{} › ", entry.place())).color(palette.weak));
+            ui.label(entry.label()).on_hover_text(tr(entry.tip));
         });
-        let keys: Vec<String> = keymap.keys(action).iter().map(|k| ui.ctx().format_shortcut(k)).collect();
+        let keys: Vec<String> = keymap.keys(action).iter().map(|k| shortcut_text(ui.ctx(), k)).collect();
         let shown = match (&self.waiting, keys.is_empty()) {
-            (Some(of), _) if *of == action => "Press a key, or Esc".to_owned(),
-            (_, true) => "none".to_owned(),
+            (Some(of), _) if *of == action => tr("Press a key, or Esc").to_owned(),
+            (_, true) => tr("none").to_owned(),
             _ => keys.join(", "),
         };
         let button = ui.add(egui::Button::new(shown.as_str()).min_size(egui::vec2(150.0, 0.0)));
@@ -130,7 +141,7 @@ impl PreferencesPage {
             egui::WidgetInfo::labeled(
                 egui::accesskit::Role::Button,
                 true,
-                format!("Key of {}: {shown}", entry.text),
+                say!("Key of {action}: {shown}", action = entry.label(), shown),
             )
         });
         if button.clicked() {
@@ -139,12 +150,12 @@ impl PreferencesPage {
         }
         ui.horizontal(|ui| {
             if !keys.is_empty() {
-                let name = format!("Take the key of {} away", entry.text);
-                if sign_button(ui, Sign::Cross, true, &name, "No key") {
+                let name = say!("Take the key of {action} away", action = entry.label());
+                if sign_button(ui, Sign::Cross, true, &name, tr("No key")) {
                     Arc::make_mut(keymap).unbind(action);
                 }
             }
-            if keymap.is_own(action) && ui.small_button("as usual").clicked() {
+            if keymap.is_own(action) && ui.small_button(tr("as usual")).clicked() {
                 Arc::make_mut(keymap).reset(action);
             }
         });
@@ -153,18 +164,16 @@ impl PreferencesPage {
     /// Asks what to do with a shortcut that other actions have.
     fn conflict_ui(&mut self, ui: &mut egui::Ui, preferences: &mut Preferences, palette: &Palette) {
         let Some((action, keys, others)) = &self.taken else { return };
-        let names: Vec<&str> = others.iter().map(|other| other.row().text).collect();
-        let (key, action, keys) = (ui.ctx().format_shortcut(keys), *action, *keys);
+        let names: Vec<&str> = others.iter().map(|other| other.row().label()).collect();
+        let (key, action, keys) = (shortcut_text(ui.ctx(), keys), *action, *keys);
         ui.horizontal_wrapped(|ui| {
-            ui.label(
-                RichText::new(format!("{key} is the key of {} already.", names.join(", ")))
-                    .color(palette.warning),
-            );
-            let give = ui.button(format!("Use it for {}", action.row().text)).clicked();
+            let words = say!("{key} is the key of {actions} already.", key, actions = names.join(", "));
+            ui.label(RichText::new(words).color(palette.warning));
+            let give = ui.button(say!("Use it for {action}", action = action.row().label())).clicked();
             if give {
                 Arc::make_mut(&mut preferences.keymap).bind(action, keys);
             }
-            if ui.button("Leave it").clicked() || give {
+            if ui.button(tr("Leave it")).clicked() || give {
                 self.taken = None;
             }
         });
@@ -192,19 +201,19 @@ fn screen_ui(ui: &mut egui::Ui, screen: &mut Screen, palette: &Palette) {
                 .range(Screen::PIXELS)
                 .speed(0.2)
                 .max_decimals(1)
-                .suffix(" pixels an inch");
+                .suffix(tr(" pixels an inch"));
             let value = ui.add(value);
             value.widget_info(|| {
                 egui::WidgetInfo::labeled(
                     egui::accesskit::Role::SpinButton,
                     true,
-                    "Pixels an inch of the screen",
+                    tr("Pixels an inch of the screen"),
                 )
             });
             if value.changed() {
                 *screen = Screen(Some(pixels));
             }
-            if screen.0.is_some() && ui.small_button("as usual").clicked() {
+            if screen.0.is_some() && ui.small_button(tr("as usual")).clicked() {
                 *screen = Screen::default();
             }
         });
@@ -217,22 +226,46 @@ fn screen_ui(ui: &mut egui::Ui, screen: &mut Screen, palette: &Palette) {
             let half = if i % 5 == 0 { 6.0 } else { 3.5 };
             ui.painter().vline(x, rect.center().y - half..=rect.center().y + half, line);
         }
-        let tip = "Hold a ruler here: the bar is 5 cm long. Then a pattern at 1:1 is as large as cloth.";
+        let tip = tr("Hold a ruler here: the bar is 5 cm long. Then a pattern at 1:1 is as large as cloth.");
         ui.label(RichText::new(tip).color(palette.weak).size(12.0));
     });
 }
 
-fn general_ui(ui: &mut egui::Ui, preferences: &mut Preferences, palette: &Palette, height: f32) {
+/// The choice of the language, each by its own name.
+fn language_ui(ui: &mut egui::Ui, chosen: &mut Language, languages: &Languages) {
+    let all = languages.all();
+    let name = |code: &str| all.iter().find(|(known, _)| *known == code).map(|(_, name)| (*name).to_owned());
+    let system = tr("As the system");
+    let shown = chosen.0.as_deref().map_or(system.to_owned(), |code| name(code).unwrap_or(code.to_owned()));
+    let combo = ComboBox::from_id_salt("language").selected_text(&shown).show_ui(ui, |ui| {
+        ui.selectable_value(&mut chosen.0, None, system);
+        for (code, name) in &all {
+            ui.selectable_value(&mut chosen.0, Some((*code).to_owned()), *name);
+        }
+    });
+    combo_name(&combo.response, tr("Language"), &shown);
+}
+
+fn general_ui(
+    ui: &mut egui::Ui,
+    preferences: &mut Preferences,
+    languages: &Languages,
+    palette: &Palette,
+    height: f32,
+) {
     ScrollArea::vertical().max_height(height).show(ui, |ui| {
         egui::Grid::new("general").num_columns(2).spacing([24.0, 12.0]).show(ui, |ui| {
-            ui.label("Colours");
+            ui.label(tr("Language"));
+            language_ui(ui, &mut preferences.language, languages);
+            ui.end_row();
+            ui.label(tr("Colours"));
             ui.horizontal(|ui| {
                 for theme in Theme::ALL {
-                    ui.selectable_value(&mut preferences.theme, theme, theme.name());
+                    ui.selectable_value(&mut preferences.theme, theme, tr(theme.name()));
                 }
             });
             ui.end_row();
-            ui.label("Size of everything");
+            ui.label(tr("Size of everything"));
             let words = |percent: u16| format!("{percent} %");
             let combo = ComboBox::from_id_salt("scale").selected_text(words(preferences.scale.0));
             let shown = combo.show_ui(ui, |ui| {
@@ -240,30 +273,30 @@ fn general_ui(ui: &mut egui::Ui, preferences: &mut Preferences, palette: &Palett
                     ui.selectable_value(&mut preferences.scale, Scale(percent), words(percent));
                 }
             });
-            combo_name(&shown.response, "Size of everything", &words(preferences.scale.0));
+            combo_name(&shown.response, tr("Size of everything"), &words(preferences.scale.0));
             ui.end_row();
-            ui.label("Lengths in");
+            ui.label(tr("Lengths in"));
             ui.horizontal(|ui| {
                 for unit in LengthUnit::ALL {
-                    ui.selectable_value(&mut preferences.unit, unit, unit.name());
+                    ui.selectable_value(&mut preferences.unit, unit, tr(unit.name()));
                 }
             });
             ui.end_row();
-            ui.label("Fineness of the screen");
+            ui.label(tr("Fineness of the screen"));
             screen_ui(ui, &mut preferences.screen, palette);
             ui.end_row();
-            ui.label("Mouse");
+            ui.label(tr("Mouse"));
             ui.vertical(|ui| {
                 for mouse in Mouse::ALL {
-                    ui.radio_value(&mut preferences.mouse, mouse, mouse.name()).on_hover_text(mouse.tip());
+                    let choice = ui.radio_value(&mut preferences.mouse, mouse, tr(mouse.name()));
+                    choice.on_hover_text(tr(mouse.tip()));
                 }
             });
             ui.end_row();
-            ui.label("Copies of unsaved work");
+            ui.label(tr("Copies of unsaved work"));
             let words = |seconds: u16| match seconds {
-                0..60 => format!("every {seconds} seconds"),
-                60 => "every minute".to_owned(),
-                _ => format!("every {} minutes", seconds / 60),
+                0..60 => say!("every {seconds} seconds", seconds),
+                _ => counted(usize::from(seconds / 60), "every minute", "every {n} minutes"),
             };
             let combo = ComboBox::from_id_salt("copies").selected_text(words(preferences.copies.0));
             let shown = combo.show_ui(ui, |ui| {
@@ -271,18 +304,18 @@ fn general_ui(ui: &mut egui::Ui, preferences: &mut Preferences, palette: &Palett
                     ui.selectable_value(&mut preferences.copies, Copies(seconds), words(seconds));
                 }
             });
-            combo_name(&shown.response, "Copies of unsaved work", &words(preferences.copies.0));
+            combo_name(&shown.response, tr("Copies of unsaved work"), &words(preferences.copies.0));
             ui.end_row();
-            ui.label("Large garments");
-            ui.checkbox(&mut preferences.card.0, "Drape on the graphics card").on_hover_text(
+            ui.label(tr("Large garments"));
+            ui.checkbox(&mut preferences.card.0, tr("Drape on the graphics card")).on_hover_text(tr(
                 "Where there is one. As accurate as on the processor, but not the same in every last digit on every \
                  machine: recordings then tell no hashes of the cloth.",
-            );
+            ));
             ui.end_row();
         });
         ui.add_space(6.0);
         let tip =
-            "Every command is written down at once besides: after a crash no more than the last is lost.";
+            tr("Every command is written down at once besides: after a crash no more than the last is lost.");
         ui.label(RichText::new(tip).color(palette.weak).size(12.0));
     });
 }

@@ -3,6 +3,8 @@
 use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
+use crate::ui::language::{say, tr};
+
 /// The unit in which lengths are shown, and of numbers typed without a unit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -122,7 +124,7 @@ pub fn length(text: &str, unit: LengthUnit) -> Result<f64, String> {
     match value.power {
         0 => Ok(value.amount * unit.metres()),
         1 => Ok(value.amount),
-        _ => Err("that is not a length".to_owned()),
+        _ => Err(tr("that is not a length").to_owned()),
     }
     .and_then(finite)
 }
@@ -133,12 +135,12 @@ pub fn number(text: &str) -> Result<f64, String> {
     if value.power == 0 {
         finite(value.amount)
     } else {
-        Err("here belongs a number without a unit".to_owned())
+        Err(tr("here belongs a number without a unit").to_owned())
     }
 }
 
 fn finite(x: f64) -> Result<f64, String> {
-    if x.is_finite() && x.abs() < 1e6 { Ok(x) } else { Err("that number is too large".to_owned()) }
+    if x.is_finite() && x.abs() < 1e6 { Ok(x) } else { Err(tr("that number is too large").to_owned()) }
 }
 
 /// A value during parsing: `power` is 0 for a number, 1 for a length in metres, others for products and quotients of lengths.
@@ -162,12 +164,12 @@ impl<'a> Reader<'a> {
     fn read(text: &'a str, unit: LengthUnit) -> Result<Value, String> {
         let mut reader = Self { rest: text.trim(), unit, depth: 0 };
         if reader.rest.is_empty() {
-            return Err("type a number".to_owned());
+            return Err(tr("type a number").to_owned());
         }
         let value = reader.sum()?;
         match reader.rest.chars().next() {
             None => Ok(value),
-            Some(c) => Err(format!("'{c}' is not understood here")),
+            Some(c) => Err(say!("'{c}' is not understood here", c)),
         }
     }
 
@@ -200,7 +202,7 @@ impl<'a> Reader<'a> {
                 }
             }
             if total.power != next.power {
-                return Err("a length and an area cannot be added".to_owned());
+                return Err(tr("a length and an area cannot be added").to_owned());
             }
             total.amount += sign * next.amount;
         }
@@ -215,7 +217,7 @@ impl<'a> Reader<'a> {
             } else if self.take('/') {
                 let next = self.factor()?;
                 if next.amount == 0.0 {
-                    return Err("nothing can be divided by zero".to_owned());
+                    return Err(tr("nothing can be divided by zero").to_owned());
                 }
                 total = Value { amount: total.amount / next.amount, power: total.power - next.power };
             } else {
@@ -227,7 +229,7 @@ impl<'a> Reader<'a> {
     fn factor(&mut self) -> Result<Value, String> {
         self.depth += 1;
         if self.depth > DEEPEST {
-            return Err("that is too deeply nested".to_owned());
+            return Err(tr("that is too deeply nested").to_owned());
         }
         let value = if self.take('-') {
             let Value { amount, power } = self.factor()?;
@@ -237,7 +239,7 @@ impl<'a> Reader<'a> {
         } else if self.take('(') {
             let inner = self.sum()?;
             if !self.take(')') {
-                return Err("a bracket is not closed".to_owned());
+                return Err(tr("a bracket is not closed").to_owned());
             }
             self.with_unit(inner)
         } else {
@@ -284,9 +286,9 @@ impl<'a> Reader<'a> {
         let value = number.replace(',', ".").parse::<f64>();
         let Ok(value) = value else {
             return Err(match self.rest.chars().next() {
-                Some(c) if number.is_empty() => format!("'{c}' is not understood here"),
-                Some(_) => format!("'{number}' is no number"),
-                None => "something is missing at the end".to_owned(),
+                Some(c) if number.is_empty() => say!("'{c}' is not understood here", c),
+                Some(_) => say!("'{number}' is no number", number),
+                None => tr("something is missing at the end").to_owned(),
             });
         };
         self.rest = rest;

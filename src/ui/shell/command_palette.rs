@@ -8,6 +8,8 @@ use crate::ui::actions::Action;
 use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::actions::context::FrameContext;
 use crate::ui::actions::rows::all;
+use crate::ui::language::keys::shortcut_text;
+use crate::ui::language::{say, tr, translated};
 use crate::ui::look::theme::Palette;
 
 /// Width of the list, points.
@@ -44,7 +46,7 @@ impl CommandPalette {
                 self.field_ui(ui);
                 ui.add_space(4.0);
                 if found.is_empty() {
-                    ui.label(egui::RichText::new("No command is called so").color(palette.weak));
+                    ui.label(egui::RichText::new(tr("No command is called so")).color(palette.weak));
                 }
                 ScrollArea::vertical().max_height(room.height() * 0.55).show(ui, |ui| {
                     for (i, &action) in found.iter().enumerate() {
@@ -69,11 +71,11 @@ impl CommandPalette {
     fn field_ui(&mut self, ui: &mut egui::Ui) {
         let field = TextEdit::singleline(&mut self.text)
             .desired_width(f32::INFINITY)
-            .hint_text("What do you want to do?")
+            .hint_text(tr("What do you want to do?"))
             .font(egui::FontId::proportional(16.0));
         let response = ui.add(field);
         response.widget_info(|| {
-            egui::WidgetInfo::labeled(egui::accesskit::Role::SearchInput, true, "Find a command")
+            egui::WidgetInfo::labeled(egui::accesskit::Role::SearchInput, true, tr("Find a command"))
         });
         if !response.has_focus() {
             response.request_focus();
@@ -107,7 +109,7 @@ impl CommandPalette {
 fn choose(action: Action, now: &FrameContext, asks: &mut Asks) {
     asks.push(match now.why_not(action) {
         None => Ask::Act(action),
-        Some(why) => Ask::Say(format!("{}: {why}.", action.row().text)),
+        Some(why) => Ask::Say(format!("{}: {why}.", action.row().label())),
     });
 }
 
@@ -119,13 +121,13 @@ fn row_ui(
     palette: &Palette,
 ) -> egui::Response {
     let why_not = now.why_not(action);
-    let keys: Vec<String> = now.keymap.keys(action).iter().map(|k| ui.ctx().format_shortcut(k)).collect();
+    let keys: Vec<String> = now.keymap.keys(action).iter().map(|k| shortcut_text(ui.ctx(), k)).collect();
     let right = why_not.map_or_else(|| keys.join("   "), str::to_owned);
     let ink = if why_not.is_some() { palette.weak } else { ui.visuals().text_color() };
     let mut text = egui::text::LayoutJob::default();
     let font = egui::TextStyle::Button.resolve(ui.style());
     let format = |color| egui::TextFormat { font_id: font.clone(), color, ..Default::default() };
-    text.append(&format!("{} › ", action.row().menu), 0.0, format(palette.weak));
+    text.append(&format!("{} › ", action.row().place()), 0.0, format(palette.weak));
     text.append(&now.text(action), 0.0, format(ink));
     let button = egui::Button::selectable(chosen, text)
         .shortcut_text(egui::RichText::new(right).color(palette.weak))
@@ -134,15 +136,15 @@ fn row_ui(
     let response = ui.add(button);
     let name = match why_not {
         Some(why) => format!("{}: {why}", now.text(action)),
-        None => format!("Command {}", now.text(action)),
+        None => say!("Command {name}", name = now.text(action)),
     };
     response.widget_info(|| {
         egui::WidgetInfo::selected(egui::accesskit::Role::ListBoxOption, why_not.is_none(), chosen, &name)
     });
-    response.on_hover_text(action.row().tip)
+    response.on_hover_text(tr(action.row().tip))
 }
 
-/// The actions that match `text`, best match first; all of them for an empty text.
+/// The actions that match `text` by the names shown or the English ones, best match first; all of them for an empty text.
 pub fn found(text: &str, now: &FrameContext) -> Vec<Action> {
     let pattern = Pattern::parse(text, CaseMatching::Ignore, Normalization::Smart);
     let mut matcher = Matcher::new(Config::DEFAULT);
@@ -157,9 +159,16 @@ pub fn found(text: &str, now: &FrameContext) -> Vec<Action> {
                 buffer.clear();
                 pattern.score(Utf32Str::new(words, &mut buffer), &mut matcher)
             };
-            let name = score(&now.text(action)).map(|s| s * 4);
-            let place = score(&format!("{} {}", action.row().menu, now.text(action))).map(|s| s * 2);
-            name.max(place).map(|score| (score, action))
+            let row = action.row();
+            let mut names = vec![(row.place(), now.text(action))];
+            if translated(row.text).is_some() {
+                names.push((row.menu.to_owned(), row.text.to_owned()));
+            }
+            let scores = names.iter().filter_map(|(menu, name)| {
+                let place = score(&format!("{menu} {name}")).map(|s| s * 2);
+                score(name).map(|s| s * 4).max(place)
+            });
+            scores.max().map(|score| (score, action))
         })
         .collect();
     all.sort_by_key(|(score, _)| std::cmp::Reverse(*score));

@@ -17,6 +17,8 @@ use crate::ui::actions::Action;
 use crate::ui::actions::keymap::Keymap;
 use crate::ui::files::thumbnails::{Subject, Thumbnails};
 use crate::ui::files::{Purpose, RawBody};
+use crate::ui::language::keys::shortcut_text;
+use crate::ui::language::{say, tr};
 use crate::ui::pointer::mouse::Mouse;
 
 /// If a native dialog reports "cancelled" sooner than this, it has not been shown at all: no hand clicks that fast.
@@ -128,31 +130,31 @@ fn question_ui(
 }
 
 fn unsaved_ui(ctx: &egui::Context, then: Action) -> Answer {
-    let words = "This project has changes that are not saved.";
+    let words = tr("This project has changes that are not saved.");
     let buttons = vec![
-        ("Save", "", Answer::SaveThen(then)),
-        ("Don't save", "", Answer::Discard(then)),
-        ("Cancel", "", Answer::Cancel),
+        (tr("Save"), "", Answer::SaveThen(then)),
+        (tr("Don't save"), "", Answer::Discard(then)),
+        (tr("Cancel"), "", Answer::Cancel),
     ];
-    question_ui(ctx, "unsaved", "Save the changes?", words, buttons)
+    question_ui(ctx, "unsaved", tr("Save the changes?"), words, buttons)
 }
 
 fn recover_ui(ctx: &egui::Context, found: &mut Vec<(Left, String)>, thumbnails: &mut Thumbnails) -> Answer {
     let shown = Modal::new(Id::unique("recover")).show(ctx, |ui| {
         ui.set_width(460.0);
-        ui.heading("Go on with unsaved work?");
+        ui.heading(tr("Go on with unsaved work?"));
         ui.add_space(4.0);
-        ui.label("Toile did not end as it should. This was not saved:");
+        ui.label(tr("Toile did not end as it should. This was not saved:"));
         ui.add_space(6.0);
         let (mut restored, mut forgotten) = (None, None);
         ScrollArea::vertical().max_height(300.0).show(ui, |ui| {
             for (i, (left, words)) in found.iter().enumerate() {
                 ui.horizontal(|ui| {
                     picture_ui(ui, left, thumbnails);
-                    if ui.button("Restore").clicked() {
+                    if ui.button(tr("Restore")).clicked() {
                         restored = Some(i);
                     }
-                    if ui.button("Delete").on_hover_text("This work is gone then").clicked() {
+                    if ui.button(tr("Delete")).on_hover_text(tr("This work is gone then")).clicked() {
                         forgotten = Some(i);
                     }
                     let label = ui.label(words);
@@ -163,7 +165,7 @@ fn recover_ui(ctx: &egui::Context, found: &mut Vec<(Left, String)>, thumbnails: 
             }
         });
         ui.add_space(10.0);
-        let later = ui.button("Later").on_hover_text("It is offered again the next time").clicked();
+        let later = ui.button(tr("Later")).on_hover_text(tr("It is offered again the next time")).clicked();
         if let Some(i) = forgotten {
             found.remove(i).0.forget().ok();
         }
@@ -189,40 +191,42 @@ fn picture_ui(ui: &mut egui::Ui, left: &Left, thumbnails: &mut Thumbnails) {
 }
 
 fn changed_ui(ctx: &egui::Context, path: &Path) -> Answer {
-    let words = format!("{} was changed by another program since you opened or saved it.", path.display());
+    let words =
+        say!("{path} was changed by another program since you opened or saved it.", path = path.display());
     let buttons = vec![
-        ("Save as…", "", Answer::SaveAs),
-        ("Save over it", "The other version stays as .bak", Answer::Overwrite(path.to_owned())),
-        ("Cancel", "", Answer::Cancel),
+        (tr("Save as…"), "", Answer::SaveAs),
+        (tr("Save over it"), tr("The other version stays as .bak"), Answer::Overwrite(path.to_owned())),
+        (tr("Cancel"), "", Answer::Cancel),
     ];
-    question_ui(ctx, "changed", "The file has changed", &words, buttons)
+    question_ui(ctx, "changed", tr("The file has changed"), &words, buttons)
 }
 
 fn not_saved_ui(ctx: &egui::Context, path: &Path, words: &str) -> Answer {
-    let mut buttons = vec![("Save as…", "", Answer::SaveAs)];
+    let mut buttons = vec![(tr("Save as…"), "", Answer::SaveAs)];
     if whole_file::is_protected(path) {
-        let tip = "It stays write-protected; the version before stays as .bak";
-        buttons.push(("Replace it anyway", tip, Answer::Replace(path.to_owned())));
+        let tip = tr("It stays write-protected; the version before stays as .bak");
+        buttons.push((tr("Replace it anyway"), tip, Answer::Replace(path.to_owned())));
     }
-    buttons.push(("Cancel", "", Answer::Cancel));
-    let words = format!("{words}.\n{} is as it was; your work is kept here.", path.display());
-    question_ui(ctx, "not saved", "Not saved", &words, buttons)
+    buttons.push((tr("Cancel"), "", Answer::Cancel));
+    let kept = say!("{path} is as it was; your work is kept here.", path = path.display());
+    question_ui(ctx, "not saved", tr("Not saved"), &format!("{words}.\n{kept}"), buttons)
 }
 
 fn revert_ui(ctx: &egui::Context, path: &Path) -> Answer {
-    let words = format!("What has changed since {} was saved will be gone.", path.display());
+    let words = say!("What has changed since {path} was saved will be gone.", path = path.display());
     let back = Answer::File(Purpose::Open, path.to_owned());
-    let buttons = vec![("Go back", "", back), ("Cancel", "", Answer::Cancel)];
-    question_ui(ctx, "revert", "Go back to the saved version?", &words, buttons)
+    let buttons = vec![(tr("Go back"), "", back), (tr("Cancel"), "", Answer::Cancel)];
+    question_ui(ctx, "revert", tr("Go back to the saved version?"), &words, buttons)
 }
 
 fn path_ui(ctx: &egui::Context, purpose: Purpose, text: &mut String) -> Answer {
     let shown = Modal::new(Id::unique("path")).show(ctx, |ui| {
         ui.set_width(460.0);
-        ui.heading(purpose.title());
+        ui.heading(tr(purpose.title()));
         ui.add_space(4.0);
+        let (kind, endings) = purpose.filter();
         let label =
-            ui.label(format!("Path of the {} (.{})", purpose.filter().0, purpose.filter().1.join(", .")));
+            ui.label(say!("Path of the {kind} (.{endings})", kind = tr(kind), endings = endings.join(", .")));
         let field = ui
             .add(TextEdit::singleline(text).desired_width(f32::INFINITY).hint_text("/home/me/shirt.toile"))
             .labelled_by(label.id);
@@ -235,11 +239,12 @@ fn path_ui(ctx: &egui::Context, purpose: Purpose, text: &mut String) -> Answer {
         ui.horizontal(|ui| {
             let path = PathBuf::from(text.trim());
             let good = !text.trim().is_empty() && (purpose.writes() || path.is_file());
-            let go = ui.add_enabled(good, egui::Button::new(if purpose.writes() { "Write" } else { "Read" }));
+            let words = if purpose.writes() { tr("Write") } else { tr("Read") };
+            let go = ui.add_enabled(good, egui::Button::new(words));
             if go.clicked() || (entered && good) {
                 return Answer::File(purpose, with_extension(path, purpose));
             }
-            if ui.button("Cancel").clicked() {
+            if ui.button(tr("Cancel")).clicked() {
                 return Answer::Cancel;
             }
             picked.map_or(Answer::None, |path| Answer::File(purpose, path))
@@ -253,23 +258,24 @@ fn path_ui(ctx: &egui::Context, purpose: Purpose, text: &mut String) -> Answer {
 fn unit_ui(ctx: &egui::Context, raw: &mut RawBody) -> Answer {
     let shown = Modal::new(Id::unique("unit")).show(ctx, |ui| {
         ui.set_width(360.0);
-        ui.heading(format!("In which unit is {}?", raw.name));
+        ui.heading(say!("In which unit is {name}?", name = raw.name));
         ui.add_space(4.0);
         for unit in Unit::ALL {
-            let words = format!("{unit}: the body is {:.2} m tall", raw.height(unit));
+            let height = format!("{:.2}", raw.height(unit));
+            let words = say!("{unit}: the body is {height} m tall", unit, height);
             ui.radio_value(&mut raw.unit, unit, words);
         }
         ui.add_space(6.0);
-        ui.label("Which axis points up?");
+        ui.label(tr("Which axis points up?"));
         ui.horizontal(|ui| {
-            ui.radio_value(&mut raw.up, UpAxis::Y, "y up");
-            ui.radio_value(&mut raw.up, UpAxis::Z, "z up");
+            ui.radio_value(&mut raw.up, UpAxis::Y, tr("y up"));
+            ui.radio_value(&mut raw.up, UpAxis::Z, tr("z up"));
         });
         ui.add_space(8.0);
         ui.horizontal(|ui| {
-            if ui.button("Take it").clicked() {
+            if ui.button(tr("Take it")).clicked() {
                 Answer::Body(Box::new(raw.clone()))
-            } else if ui.button("Cancel").clicked() {
+            } else if ui.button(tr("Cancel")).clicked() {
                 Answer::Cancel
             } else {
                 Answer::None
@@ -284,22 +290,26 @@ fn unit_ui(ctx: &egui::Context, raw: &mut RawBody) -> Answer {
 fn scale_ui(ctx: &egui::Context, path: &Path, question: &ScaleQuestion, unit: &mut DrawingUnit) -> Answer {
     let shown = Modal::new(Id::unique("scale")).show(ctx, |ui| {
         ui.set_width(420.0);
-        ui.heading("How large is the pattern?");
+        ui.heading(tr("How large is the pattern?"));
         ui.add_space(4.0);
         let name = path.file_name().unwrap_or_default().to_string_lossy();
-        ui.label(format!("{name}: {}.", question.why));
+        ui.label(format!("{name}: {}.", tr(&question.why)));
         ui.add_space(4.0);
         for &candidate in &question.candidates {
             let size = question.size(candidate) * 100.0;
-            let words =
-                format!("{}: the largest piece is {:.1} × {:.1} cm", candidate.long(), size.x, size.y);
+            let words = say!(
+                "{unit}: the largest piece is {width} × {height} cm",
+                unit = tr(candidate.long()),
+                width = format!("{:.1}", size.x),
+                height = format!("{:.1}", size.y)
+            );
             ui.radio_value(unit, candidate, words);
         }
         ui.add_space(8.0);
         ui.horizontal(|ui| {
-            if ui.button("Take it").clicked() {
+            if ui.button(tr("Take it")).clicked() {
                 Answer::Pattern(path.to_owned(), *unit)
-            } else if ui.button("Cancel").clicked() {
+            } else if ui.button(tr("Cancel")).clicked() {
                 Answer::Cancel
             } else {
                 Answer::None
@@ -367,34 +377,34 @@ pub fn with_extension(path: PathBuf, purpose: Purpose) -> PathBuf {
 fn shortcuts_ui(ctx: &egui::Context, mouse: Mouse, keymap: &Keymap) -> Answer {
     let shown = Modal::new(Id::unique("shortcuts")).show(ctx, |ui| {
         ui.set_width(560.0);
-        ui.heading("Keys and mouse");
+        ui.heading(tr("Keys and mouse"));
         ui.add_space(6.0);
         ScrollArea::vertical().max_height(ctx.content_rect().height() * 0.7).show(ui, |ui| {
-            ui.strong("Mouse");
+            ui.strong(tr("Mouse"));
             egui::Grid::new("mouse").num_columns(2).spacing([24.0, 5.0]).striped(true).show(ui, |ui| {
                 let of_view = mouse.help();
                 let of_view = of_view.iter().map(|(what, does)| (what.as_str(), *does));
-                for (what, does) in of_view.chain(MOUSE.iter().copied()) {
+                for (what, does) in of_view.chain(MOUSE.iter().map(|(what, does)| (tr(what), tr(does)))) {
                     ui.label(what);
                     ui.label(does);
                     ui.end_row();
                 }
             });
             ui.add_space(8.0);
-            ui.strong("Keys");
+            ui.strong(tr("Keys"));
             egui::Grid::new("keys").num_columns(3).spacing([24.0, 5.0]).striped(true).show(ui, |ui| {
                 let mut all = keymap.bound();
-                all.sort_by_key(|(action, _)| action.row().text);
+                all.sort_by_key(|(action, _)| action.row().label());
                 for (action, keys) in all {
-                    ui.label(ctx.format_shortcut(&keys));
-                    ui.label(action.row().text);
-                    ui.label(action.row().tip);
+                    ui.label(shortcut_text(ctx, &keys));
+                    ui.label(action.row().label());
+                    ui.label(tr(action.row().tip));
                     ui.end_row();
                 }
             });
         });
         ui.add_space(8.0);
-        ui.button("Close").clicked()
+        ui.button(tr("Close")).clicked()
     });
     let closed = shown.should_close();
     if shown.inner { Answer::Cancel } else { Answer::None.or_cancel(closed) }
@@ -439,7 +449,8 @@ impl NativeDialog {
             return None;
         }
         let (kind, extensions) = purpose.filter();
-        let mut dialog = rfd::AsyncFileDialog::new().set_title(purpose.title()).add_filter(kind, extensions);
+        let mut dialog =
+            rfd::AsyncFileDialog::new().set_title(tr(purpose.title())).add_filter(tr(kind), extensions);
         if let Some(folder) = current.and_then(Path::parent) {
             dialog = dialog.set_directory(folder);
         }

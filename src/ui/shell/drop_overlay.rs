@@ -5,6 +5,7 @@ use std::path::Path;
 use egui::{Align2, Color32, FontId, Id, LayerId, Order, Rect, Stroke, StrokeKind};
 
 use crate::io::pattern_formats::PatternFormat;
+use crate::ui::language::{say, tr};
 use crate::ui::look::theme::Palette;
 
 /// What happens with a dropped file.
@@ -40,14 +41,14 @@ impl Dropped {
     fn words(self, name: &str) -> [Option<String>; 2] {
         match self {
             Self::Project => {
-                [Some(format!("Open the project {name}")), Some("with its body and cloth".to_owned())]
+                [Some(say!("Open the project {name}", name)), Some(tr("with its body and cloth").to_owned())]
             }
-            Self::Pattern => [Some(format!("Lay the pieces of {name} on the table")), None],
-            Self::Body => [None, Some(format!("{name} becomes the body"))],
-            Self::Image => [Some(format!("Take the image {name} into the project")), None],
+            Self::Pattern => [Some(say!("Lay the pieces of {name} on the table", name)), None],
+            Self::Body => [None, Some(say!("{name} becomes the body", name))],
+            Self::Image => [Some(say!("Take the image {name} into the project", name)), None],
             Self::Nothing => [
-                Some(format!("{name}: not a project (.toile) or pattern (.dxf, .svg, .json)")),
-                Some("nor a body (.obj, .glb, .gltf) or image (.png, .jpg)".to_owned()),
+                Some(say!("{name}: not a project (.toile) or pattern (.dxf, .svg, .json)", name)),
+                Some(tr("nor a body (.obj, .glb, .gltf) or image (.png, .jpg)").to_owned()),
             ],
         }
     }
@@ -60,7 +61,7 @@ pub fn ui(ctx: &egui::Context, palette: &Palette, panes: [Option<Rect>; 2]) {
     let path = first.path.clone().unwrap_or_default();
     let name = match path.file_name() {
         Some(name) => name.to_string_lossy().into_owned(),
-        None => "the file".to_owned(),
+        None => tr("the file").to_owned(),
     };
     let dropped = Dropped::of(&path);
     let painter = ctx.layer_painter(LayerId::new(Order::Foreground, Id::unique("dropped files")));
@@ -75,7 +76,7 @@ pub fn ui(ctx: &egui::Context, palette: &Palette, panes: [Option<Rect>; 2]) {
         };
         painter.rect_filled(pane, 0.0, palette.overlay.gamma_multiply(0.92));
         painter.rect_stroke(pane.shrink(10.0), 8.0, Stroke::new(2.5, line), StrokeKind::Inside);
-        let words = words.unwrap_or_else(|| "Nothing changes here".to_owned());
+        let words = words.unwrap_or_else(|| tr("Nothing changes here").to_owned());
         let text = painter.layout(words.clone(), FontId::proportional(17.0), ink, pane.width() - 60.0);
         let at = Align2::CENTER_CENTER.align_size_within_rect(text.size(), pane).min;
         painter.galley(at, text, ink);
@@ -84,7 +85,8 @@ pub fn ui(ctx: &egui::Context, palette: &Palette, panes: [Option<Rect>; 2]) {
             |ui| {
                 let node = ui.interact(pane, ui.scope_id().with(what), egui::Sense::hover());
                 node.widget_info(|| {
-                    egui::WidgetInfo::labeled(egui::accesskit::Role::Status, true, format!("{what}: {words}"))
+                    let name = format!("{}: {words}", tr(what));
+                    egui::WidgetInfo::labeled(egui::accesskit::Role::Status, true, name)
                 });
             },
         );

@@ -2,7 +2,8 @@
 
 use egui::{Grid, Id, Label, Modal, RichText, ScrollArea, text::LayoutJob};
 
-use crate::manual::{Block, TOPICS, Topic, parts};
+use crate::manual::{Block, Topic, parts, topics_in};
+use crate::ui::language::{self, tr};
 use crate::ui::look::theme::Palette;
 
 /// Largest width of the text, points.
@@ -21,15 +22,16 @@ impl ManualPage {
     pub fn ui(&mut self, ctx: &egui::Context, palette: &Palette) -> bool {
         let room = ctx.content_rect().size();
         let height = (room.y - 200.0).max(160.0);
+        let topics = topics_in(language::code());
         let shown = Modal::new(Id::unique("manual")).show(ctx, |ui| {
             ui.set_width((room.x - 80.0).min(WIDTH));
-            ui.heading("Manual");
+            ui.heading(tr("Manual"));
             ui.separator();
             ui.horizontal_top(|ui| {
                 ui.set_height(height);
                 ui.vertical(|ui| {
                     ui.set_width(LIST);
-                    for (i, topic) in TOPICS.iter().enumerate() {
+                    for (i, topic) in topics.iter().enumerate() {
                         if ui.selectable_label(self.topic == i, topic.title()).clicked() {
                             self.topic = i;
                         }
@@ -39,11 +41,11 @@ impl ManualPage {
                 ui.vertical(|ui| {
                     // Each topic keeps its own scroll position and begins at its top.
                     let scroll = ScrollArea::vertical().id_salt(self.topic).max_height(height);
-                    scroll.auto_shrink(false).show(ui, |ui| topic_ui(ui, &TOPICS[self.topic], palette));
+                    scroll.auto_shrink(false).show(ui, |ui| topic_ui(ui, &topics[self.topic], palette));
                 });
             });
             ui.separator();
-            ui.button("Close").clicked()
+            ui.button(tr("Close")).clicked()
         });
         !(shown.inner || shown.should_close())
     }

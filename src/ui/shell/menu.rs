@@ -12,6 +12,8 @@ use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::actions::context::FrameContext;
 use crate::ui::actions::layout::Panes;
 use crate::ui::actions::{Action, PATTERN_TOOLS, Tool, VIEWS};
+use crate::ui::language::keys::shortcut_text;
+use crate::ui::language::{say, tr};
 use crate::ui::look::scheme::Theme;
 use crate::ui::maps;
 use crate::ui::pointer::mouse::Mouse;
@@ -24,8 +26,8 @@ const LOWEST: f32 = 80.0;
 /// Draws the menu bar.
 pub fn menu_bar_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) {
     egui::MenuBar::new().ui(ui, |ui| {
-        menu(ui, "File", |ui| file_ui(ui, now, asks));
-        menu(ui, "Edit", |ui| {
+        menu(ui, tr("File"), |ui| file_ui(ui, now, asks));
+        menu(ui, tr("Edit"), |ui| {
             items(ui, now, asks, &[Action::Undo, Action::Redo]);
             ui.separator();
             items(ui, now, asks, &[Action::SelectAll, Action::Duplicate, Action::Delete]);
@@ -36,8 +38,8 @@ pub fn menu_bar_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) {
             ui.separator();
             items(ui, now, asks, &[Action::Preferences]);
         });
-        menu(ui, "Pattern", |ui| pattern_ui(ui, now, asks));
-        menu(ui, "Garment", |ui| {
+        menu(ui, tr("Pattern"), |ui| pattern_ui(ui, now, asks));
+        menu(ui, tr("Garment"), |ui| {
             items(
                 ui,
                 now,
@@ -57,8 +59,8 @@ pub fn menu_bar_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) {
             ui.separator();
             items(ui, now, asks, &[Action::Choose(Tool::Bone), Action::OwnBones, Action::NoBones]);
         });
-        menu(ui, "View", |ui| view_ui(ui, now, asks));
-        menu(ui, "Help", |ui| help_ui(ui, now, asks));
+        menu(ui, tr("View"), |ui| view_ui(ui, now, asks));
+        menu(ui, tr("Help"), |ui| help_ui(ui, now, asks));
     });
 }
 
@@ -76,13 +78,13 @@ fn menu(ui: &mut egui::Ui, name: &str, contents: impl FnOnce(&mut egui::Ui)) {
 
 fn file_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) {
     items(ui, now, asks, &[Action::New]);
-    ui.menu_button("Samples", |ui| {
+    ui.menu_button(tr("Samples"), |ui| {
         for sample in Sample::ALL {
             item(ui, now, asks, Action::Sample(sample));
         }
     });
     items(ui, now, asks, &[Action::Open]);
-    ui.menu_button("Open recent", |ui| recent_ui(ui, now, asks));
+    ui.menu_button(tr("Open recent"), |ui| recent_ui(ui, now, asks));
     items(ui, now, asks, &[Action::StartPage]);
     ui.separator();
     items(ui, now, asks, &[Action::Save, Action::SaveAs, Action::SaveCopy, Action::SaveNext, Action::Revert]);
@@ -103,7 +105,7 @@ fn file_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) {
     );
     ui.separator();
     items(ui, now, asks, &[Action::ExportPattern]);
-    ui.menu_button("Paper", |ui| items(ui, now, asks, &Paper::ALL.map(Action::Paper)));
+    ui.menu_button(tr("Paper"), |ui| items(ui, now, asks, &Paper::ALL.map(Action::Paper)));
     items(
         ui,
         now,
@@ -123,14 +125,14 @@ fn file_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) {
 
 fn recent_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) {
     if now.recent.is_empty() {
-        ui.weak("No file was open before");
+        ui.weak(tr("No file was open before"));
     }
     for (i, file) in now.recent.iter().enumerate() {
         let (name, folder) = file.name();
         let why_not = now.why_not(Action::OpenRecent(i as u8));
         let button = Button::new(name).shortcut_text(folder).min_size(egui::vec2(260.0, 0.0));
         let response = ui.add_enabled(why_not.is_none(), button);
-        let words = format!("Open again: {}", file.name().0);
+        let words = say!("Open again: {name}", name = file.name().0);
         response.widget_info(|| {
             egui::WidgetInfo::labeled(egui::accesskit::Role::Button, why_not.is_none(), words.clone())
         });
@@ -145,7 +147,7 @@ fn recent_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) {
 }
 
 fn pattern_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) {
-    ui.menu_button("Tools", |ui| {
+    ui.menu_button(tr("Tools"), |ui| {
         for (i, tools) in PATTERN_TOOLS.into_iter().enumerate() {
             if i > 0 {
                 ui.separator();
@@ -241,12 +243,12 @@ pub fn context_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) {
 }
 
 fn view_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) {
-    ui.menu_button("Look from", |ui| items(ui, now, asks, &VIEWS.map(Action::Look)));
+    ui.menu_button(tr("Look from"), |ui| items(ui, now, asks, &VIEWS.map(Action::Look)));
     items(ui, now, asks, &[Action::FrameAll, Action::FrameSelection, Action::TrueSize]);
     items(ui, now, asks, &[Action::ToggleParallel, Action::ToggleFreeTurning]);
     ui.separator();
     items(ui, now, asks, &[Action::ToggleWire, Action::ToggleSheer, Action::ToggleXray, Action::TogglePairs]);
-    ui.menu_button("Map", |ui| {
+    ui.menu_button(tr("Map"), |ui| {
         maps::choices().for_each(|kind| item(ui, now, asks, Action::Map(kind)));
         ui.separator();
         item(ui, now, asks, Action::ToggleMapTable);
@@ -257,28 +259,28 @@ fn view_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) {
     }
     ui.separator();
     items(ui, now, asks, &[Action::ToggleSnapping, Action::ClearGuides]);
-    ui.menu_button("Unit", |ui| items(ui, now, asks, &LengthUnit::ALL.map(Action::Unit)));
+    ui.menu_button(tr("Unit"), |ui| items(ui, now, asks, &LengthUnit::ALL.map(Action::Unit)));
     ui.separator();
-    ui.menu_button("Panes", |ui| {
+    ui.menu_button(tr("Panes"), |ui| {
         items(ui, now, asks, &Panes::ALL.map(Action::Show));
         items(ui, now, asks, &[Action::SwapPanes]);
     });
     items(ui, now, asks, &[Action::ToggleCloth, Action::TogglePanel]);
     items(ui, now, asks, &[Action::ToggleHistory, Action::ToggleLog]);
     ui.separator();
-    ui.menu_button("Theme", |ui| {
+    ui.menu_button(tr("Theme"), |ui| {
         items(ui, now, asks, &Theme::ALL.map(Action::Theme));
         ui.separator();
         items(ui, now, asks, &Light::ALL.map(Action::Light));
     });
-    ui.menu_button("Mouse", |ui| items(ui, now, asks, &Mouse::ALL.map(Action::Mouse)));
+    ui.menu_button(tr("Mouse"), |ui| items(ui, now, asks, &Mouse::ALL.map(Action::Mouse)));
 }
 
 fn help_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) {
     items(ui, now, asks, &[Action::CommandPalette, Action::Manual, Action::Shortcuts]);
     ui.separator();
     items(ui, now, asks, &[Action::Tour]);
-    ui.menu_button("Demos", |ui| {
+    ui.menu_button(tr("Demos"), |ui| {
         items(ui, now, asks, &Demo::ALL.map(Action::Demo));
     });
     items(ui, now, asks, &[Action::StopDemo]);
@@ -294,7 +296,7 @@ fn item(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks, action: Action) 
     let why_not = now.why_not(action);
     let mut button = Button::selectable(now.is_on(action), now.text(action));
     if let Some(keys) = now.keymap.keys(action).first() {
-        button = button.shortcut_text(ui.ctx().format_shortcut(keys));
+        button = button.shortcut_text(shortcut_text(ui.ctx(), keys));
     }
     let response = ui.add_enabled(why_not.is_none(), button.min_size(egui::vec2(190.0, 0.0)));
     // Only disabled entries have a tooltip: over an enabled one it would hide the next entry.

@@ -4,6 +4,7 @@ use std::time::{Duration, Instant};
 
 use egui::{Align2, Area, Color32, Frame, Id, Order, Stroke};
 
+use crate::ui::language::{say, tr};
 use crate::ui::look::theme::Palette;
 
 /// Time that a message which is no error is shown.
@@ -84,11 +85,11 @@ impl Messages {
     /// Draws the log, each message with a button that copies it.
     pub fn log_ui(&self, ui: &mut egui::Ui, palette: &Palette) {
         if self.log.is_empty() {
-            ui.label(egui::RichText::new("Nothing was told yet").color(palette.weak));
+            ui.label(egui::RichText::new(tr("Nothing was told yet")).color(palette.weak));
         }
         for told in &self.log {
             ui.horizontal_top(|ui| {
-                if ui.small_button("Copy").clicked() {
+                if ui.small_button(tr("Copy")).clicked() {
                     ui.ctx().copy_text(told.words.clone());
                 }
                 let text = egui::RichText::new(told.line());
@@ -122,8 +123,10 @@ impl Messages {
 
 impl LogEntry {
     fn line(&self) -> String {
-        let (seconds, kind) = (self.after.as_secs(), if self.is_error { "Error: " } else { "" });
-        format!("{:02}:{:02}  {kind}{}", seconds / 60, seconds % 60, self.words)
+        let seconds = self.after.as_secs();
+        let told =
+            if self.is_error { say!("Error: {words}", words = self.words) } else { self.words.clone() };
+        format!("{:02}:{:02}  {told}", seconds / 60, seconds % 60)
     }
 }
 
@@ -134,7 +137,7 @@ fn message_ui(ui: &mut egui::Ui, message: &Message, palette: &Palette) -> bool {
         .shadow(egui::Shadow { offset: [0, 2], blur: 10, spread: 0, color: Color32::from_black_alpha(40) })
         .show(ui, |ui| {
             ui.horizontal_top(|ui| {
-                let close = ui.small_button("×").on_hover_text("Close this message");
+                let close = ui.small_button("×").on_hover_text(tr("Close this message"));
                 let text = egui::RichText::new(&message.words);
                 ui.add(egui::Label::new(if message.is_error { text.color(edge) } else { text }).wrap());
                 close.clicked()

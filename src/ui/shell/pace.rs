@@ -1,5 +1,7 @@
 //! Measures the speed of the window and of the simulation, and estimates when work is done.
 
+use crate::ui::language::say;
+
 /// Time over which speeds are averaged, seconds.
 const WINDOW: f64 = 0.5;
 /// Shortest duration of work for which the remaining time is shown, seconds.
@@ -69,8 +71,8 @@ impl Pacer {
 /// The remaining time in words: "3 s left", "2 min left".
 pub fn left_words(seconds: f64) -> String {
     match seconds.ceil() {
-        s if s < 60.0 => format!("{s:.0} s left"),
-        s => format!("{:.0} min left", (s / 60.0).ceil()),
+        s if s < 60.0 => say!("{seconds} s left", seconds = format!("{s:.0}")),
+        s => say!("{minutes} min left", minutes = format!("{:.0}", (s / 60.0).ceil())),
     }
 }
 

@@ -5,6 +5,7 @@ use egui::{Align, Layout, ProgressBar, RichText};
 use crate::sim::DrapeState;
 use crate::sim::Start;
 use crate::ui::actions::context::FrameContext;
+use crate::ui::language::{say, tr};
 use crate::ui::look::theme::Palette;
 use crate::ui::shell::pace::{Pace, left_words};
 use crate::wrap::Phase;
@@ -17,19 +18,20 @@ pub fn status_ui(ui: &mut egui::Ui, now: &FrameContext, hint: &str, palette: &Pa
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
         let weak = |text: String| RichText::new(text).color(palette.weak).size(12.0);
         if let Some(adapter) = &now.adapter {
-            ui.label(weak(short(adapter))).on_hover_text(format!("Drawn by {adapter}"));
+            ui.label(weak(short(adapter))).on_hover_text(say!("Drawn by {adapter}", adapter));
             ui.separator();
         }
-        ui.label(weak(now.unit.sign().trim().to_owned())).on_hover_text("Lengths are shown in this unit");
+        let unit = ui.label(weak(now.unit.sign().trim().to_owned()));
+        unit.on_hover_text(tr("Lengths are shown in this unit"));
         ui.separator();
         if now.triangles > 0 {
-            ui.label(weak(format!("tick {}", now.tick)));
+            ui.label(weak(say!("tick {n}", n = now.tick)));
             ui.separator();
-            ui.label(weak(format!("{} triangles", grouped(now.triangles))));
+            ui.label(weak(say!("{n} triangles", n = grouped(now.triangles))));
             ui.separator();
         }
         if let Some(words) = pace_words(&now.pace) {
-            let tip = "Pictures of the window a second, and how long a tick of the simulation takes";
+            let tip = tr("Pictures of the window a second, and how long a tick of the simulation takes");
             ui.label(weak(words)).on_hover_text(tip);
             ui.separator();
         }
@@ -49,12 +51,10 @@ pub fn status_ui(ui: &mut egui::Ui, now: &FrameContext, hint: &str, palette: &Pa
 }
 
 fn pace_words(pace: &Pace) -> Option<String> {
-    let frames = format!("{:.0} fps", pace.frames?);
-    Some(match pace.tick_ms {
-        Some(ms) if ms < 10.0 => format!("{frames}, {ms:.1} ms a tick"),
-        Some(ms) => format!("{frames}, {ms:.0} ms a tick"),
-        None => frames,
-    })
+    let frames = format!("{:.0}", pace.frames?);
+    let Some(ms) = pace.tick_ms else { return Some(say!("{frames} fps", frames)) };
+    let digits = usize::from(ms < 10.0);
+    Some(say!("{frames} fps, {ms} ms a tick", frames, ms = format!("{ms:.digits$}")))
 }
 
 fn phase_words(now: &FrameContext) -> String {
@@ -63,14 +63,14 @@ fn phase_words(now: &FrameContext) -> String {
         Some(_) if now.trying.is_some() => {
             now.trying.map(|now| trying_words(now, percent)).unwrap_or_default()
         }
-        _ if now.wrapping && now.phase != Some(Phase::Growing) => "Cutting the cloth".to_owned(),
-        None => "No cloth on the body".to_owned(),
-        Some(_) if now.dragging => "In your hand".to_owned(),
+        _ if now.wrapping && now.phase != Some(Phase::Growing) => tr("Cutting the cloth").to_owned(),
+        None => tr("No cloth on the body").to_owned(),
+        Some(_) if now.dragging => tr("In your hand").to_owned(),
         Some(_) if now.drape.is_some_and(|drape| !drape.waits) => drape_words(now.drape),
-        Some(_) if !now.relaxing => "Held still".to_owned(),
-        Some(Phase::Growing) => format!("Growing {percent} %"),
-        Some(Phase::Settling) => format!("Settling {percent} %"),
-        Some(Phase::AtRest) => "At rest".to_owned(),
+        Some(_) if !now.relaxing => tr("Held still").to_owned(),
+        Some(Phase::Growing) => say!("Growing {percent} %", percent),
+        Some(Phase::Settling) => say!("Settling {percent} %", percent),
+        Some(Phase::AtRest) => tr("At rest").to_owned(),
     }
 }
 
@@ -78,11 +78,14 @@ fn phase_words(now: &FrameContext) -> String {
 fn drape_words(drape: Option<DrapeState>) -> String {
     match drape {
         Some(drape) if drape.runs => {
-            let place = if drape.card { " on the graphics card" } else { "" };
-            format!("Draping{place}: {:.1} % out of balance", drape.residual * 100.0)
+            let percent = format!("{:.1}", drape.residual * 100.0);
+            match drape.card {
+                true => say!("Draping on the graphics card: {percent} % out of balance", percent),
+                false => say!("Draping: {percent} % out of balance", percent),
+            }
         }
-        Some(drape) if !drape.on => "Draping paused".to_owned(),
-        _ => "Draped, at rest".to_owned(),
+        Some(drape) if !drape.on => tr("Draping paused").to_owned(),
+        _ => tr("Draped, at rest").to_owned(),
     }
 }
 
@@ -108,9 +111,9 @@ fn grouped(n: usize) -> String {
 /// The text of the status bar while starts are tried; `start` is the current one.
 pub fn trying_words((start, draped): (Start, bool), percent: u32) -> String {
     match (start, draped) {
-        (Start::Marks, false) => format!("By marks: growing {percent} %"),
-        (Start::Marks, true) => format!("By marks: draping {percent} %"),
-        (Start::Placement, _) => format!("From placement: sewing {percent} %"),
+        (Start::Marks, false) => say!("By marks: growing {percent} %", percent),
+        (Start::Marks, true) => say!("By marks: draping {percent} %", percent),
+        (Start::Placement, _) => say!("From placement: sewing {percent} %", percent),
     }
 }
 

@@ -6,6 +6,8 @@ use crate::drag::DragMode;
 use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::actions::context::FrameContext;
 use crate::ui::actions::{Action, Tool};
+use crate::ui::language::keys::shortcut_text;
+use crate::ui::language::tr;
 use crate::ui::look::theme::Palette;
 use crate::ui::maps::chooser_ui;
 
@@ -24,8 +26,8 @@ pub fn toolbar_ui(ui: &mut egui::Ui, now: &FrameContext, palette: &Palette, asks
         gap(ui);
         plain(ui, now, asks, Action::ToggleLaser, None);
         gap(ui);
-        plain(ui, now, asks, Action::Undo, Some("Undo"));
-        plain(ui, now, asks, Action::Redo, Some("Redo"));
+        plain(ui, now, asks, Action::Undo, Some(tr("Undo")));
+        plain(ui, now, asks, Action::Redo, Some(tr("Redo")));
         gap(ui);
         if now.wrapping {
             primary(ui, now, asks, Action::CancelWrap, palette.stop, palette);
@@ -54,8 +56,8 @@ fn gap(ui: &mut egui::Ui) {
 
 fn plain(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks, action: Action, text: Option<&str>) -> Id {
     let entry = action.row();
-    let button =
-        Button::new(text.unwrap_or(entry.text)).selected(now.is_on(action)).min_size(egui::vec2(0.0, HEIGHT));
+    let button = Button::new(text.unwrap_or(tr(entry.text)));
+    let button = button.selected(now.is_on(action)).min_size(egui::vec2(0.0, HEIGHT));
     press(ui, now, asks, action, button)
 }
 
@@ -67,7 +69,7 @@ fn primary(
     fill: egui::Color32,
     palette: &Palette,
 ) {
-    let mut text = RichText::new(action.row().text).size(15.5).strong();
+    let mut text = RichText::new(tr(action.row().text)).size(15.5).strong();
     let mut button_fill = ui.visuals().widgets.inactive.weak_bg_fill;
     if now.why_not(action).is_none() {
         text = text.color(palette.on_accent);
@@ -79,10 +81,10 @@ fn primary(
 fn press(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks, action: Action, button: Button<'_>) -> Id {
     let entry = action.row();
     let why_not = now.why_not(action);
-    let keys = now.keymap.keys(action).first().map(|k| format!("  ({})", ui.ctx().format_shortcut(k)));
+    let keys = now.keymap.keys(action).first().map(|k| format!("  ({})", shortcut_text(ui.ctx(), k)));
     let tip = match action {
         Action::Undo | Action::Redo => now.text(action),
-        _ => entry.tip.to_owned(),
+        _ => tr(entry.tip).to_owned(),
     };
     let response = ui
         .add_enabled(why_not.is_none(), button)

@@ -123,6 +123,36 @@ mod tests {
         }
     }
 
+    #[test]
+    fn the_german_manual_names_what_the_english_one_names() {
+        use crate::manual::{GERMAN, TOPICS, parts};
+        use crate::ui::language::choice::german;
+        let table = german().expect("a table");
+        let marked = |text: &str| {
+            // What is typed stays as it is; only menu entries are compared.
+            let words = text.replace('`', "'");
+            let all: Vec<String> = parts(&words).filter(|(is, _)| *is).map(|(_, name)| name.to_owned()).collect();
+            all
+        };
+        let mut wrong = Vec::new();
+        for (english, ours) in TOPICS.iter().zip(GERMAN) {
+            for (line, other) in english.text.lines().zip(ours.text.lines()) {
+                let translated = |name: String| {
+                    let names: Vec<&str> = name.split(" › ").map(|one| table.text(one).unwrap_or(one)).collect();
+                    names.join(" › ")
+                };
+                let mut expected: Vec<String> = marked(line).into_iter().map(translated).collect();
+                let mut found = marked(other);
+                expected.sort();
+                found.sort();
+                if expected != found {
+                    wrong.push(format!("{}: {expected:?}, not {found:?}", english.name));
+                }
+            }
+        }
+        assert!(wrong.is_empty(), "{wrong:#?}");
+    }
+
     /// Whether some menu holds a menu called `text`.
     fn is_submenu(menu: &str, text: &str) -> bool {
         ROWS.iter().any(|row| row.menu == format!("{menu} › {text}"))

@@ -4,6 +4,7 @@ use glam::DVec2;
 
 use crate::pattern::edit::{PatternEdit, PointRef};
 use crate::pattern::{GradeRule, RulePoint};
+use crate::ui::language::say;
 use crate::ui::pattern_pane::table::Table;
 use crate::ui::selection::Selection;
 
@@ -48,5 +49,6 @@ pub(super) fn readout(table: &Table<'_>, size: usize, points: &[(PointRef, DVec2
     let seen = crate::pattern::grading::rule::by_grain(own, piece.grain());
     let unit = table.laid.unit;
     let name = table.pattern().sizes.names.get(size).map_or("", String::as_str);
-    format!("{name}: across {}, along {}", unit.number(seen.x), unit.text(seen.y))
+    let (across, along) = (unit.number(seen.x), unit.text(seen.y));
+    say!("{name}: across {across}, along {along}", name, across, along)
 }

@@ -7,6 +7,7 @@ use super::{PatternTool, done};
 use crate::geometry::ids::PieceId;
 use crate::pattern::edit::PatternEdit;
 use crate::ui::actions::asks::{Ask, Asks};
+use crate::ui::language::tr;
 use crate::ui::pattern_pane::draw::Drawing;
 use crate::ui::pattern_pane::input::Input;
 use crate::ui::pattern_pane::table::Table;
@@ -24,7 +25,7 @@ impl PatternTool for Grain {
         for &at in &input.clicks {
             let p = table.at(at);
             let Some((piece, _)) = table.piece_at(p).filter(|(id, _)| table.is_free(*id)) else {
-                asks.push(Ask::Say("Drag along the warp, on a piece that is not locked.".to_owned()));
+                asks.push(Ask::Say(tr("Drag along the warp, on a piece that is not locked.").to_owned()));
                 continue;
             };
             let found = &table.pattern().pieces[&piece];
@@ -84,6 +85,7 @@ impl PatternTool for Grain {
     }
 
     fn hint(&self, _table: &Table<'_>) -> String {
-        "Drag on a piece along the warp, from tail to head · Shift: 45° · Click: upright, or none".to_owned()
+        tr("Drag on a piece along the warp, from tail to head · Shift: 45° · Click: upright, or none")
+            .to_owned()
     }
 }

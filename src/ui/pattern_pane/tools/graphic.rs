@@ -9,6 +9,7 @@ use super::PatternTool;
 use crate::geometry::ids::GraphicId;
 use crate::session::{Command, Graphic};
 use crate::ui::actions::asks::{Ask, Asks};
+use crate::ui::language::tr;
 use crate::ui::pattern_pane::draw::Drawing;
 use crate::ui::pattern_pane::input::Input;
 use crate::ui::pattern_pane::table::{REACH, Table};
@@ -125,7 +126,7 @@ impl PatternTool for Graphics {
             self.chosen = graphic_at(table, table.at(at)).map(|(id, _)| id);
             if table.laid.document.artwork.graphics.is_empty() {
                 let words =
-                    "There is no graphic yet: take an image under Images in the side panel, and place it";
+                    tr("There is no graphic yet: take an image under Images in the side panel, and place it");
                 asks.push(Ask::Say(words.to_owned()));
             }
         }
@@ -216,6 +217,9 @@ impl PatternTool for Graphics {
     }
 
     fn hint(&self, _table: &Table<'_>) -> String {
-        "Drag a graphic · Its corners: scale · Its knob: turn, Shift: in steps · Arrows: move · Backspace: delete".to_owned()
+        tr(
+            "Drag a graphic · Its corners: scale · Its knob: turn, Shift: in steps · Arrows: move · Backspace: delete",
+        )
+        .to_owned()
     }
 }

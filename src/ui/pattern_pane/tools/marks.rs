@@ -7,6 +7,7 @@ use super::PatternTool;
 use crate::geometry::ids::PieceId;
 use crate::session::Command;
 use crate::ui::actions::asks::{Ask, Asks, in_one_step};
+use crate::ui::language::{say, tr};
 use crate::ui::pattern_pane::draw::{Drawing, MarkLook};
 use crate::ui::pattern_pane::draw_pieces::front_is_seen;
 use crate::ui::pattern_pane::input::Input;
@@ -53,7 +54,7 @@ impl Marks {
 
     fn add_corner(&mut self, table: &Table<'_>, p: DVec2, asks: &mut Asks) {
         if self.corners.is_empty() && table.piece_at(p).is_none() {
-            asks.push(Ask::Say("Marks are painted on the pieces: begin on one of them.".to_owned()));
+            asks.push(Ask::Say(tr("Marks are painted on the pieces: begin on one of them.").to_owned()));
         } else if self.corners.last() != Some(&p) {
             self.corners.push(p);
         }
@@ -143,11 +144,12 @@ impl PatternTool for Marks {
     }
 
     fn typed(&mut self, table: &Table<'_>, typed: Typed, asks: &mut Asks) -> Result<(), String> {
-        let last = *self.corners.last().ok_or("the first corner is set with the arrow keys and Space")?;
+        let none = || tr("the first corner is set with the arrow keys and Space");
+        let last = *self.corners.last().ok_or_else(none)?;
         let at = match typed {
             Typed::At(p) => p,
             Typed::By(by) => last + by,
-            Typed::Length(_) => return Err("the next corner needs both: 30,40 or @0,12".to_owned()),
+            Typed::Length(_) => return Err(tr("the next corner needs both: 30,40 or @0,12").to_owned()),
         };
         self.add_corner(table, at, asks);
         Ok(())
@@ -174,17 +176,19 @@ impl PatternTool for Marks {
     fn hint(&self, table: &Table<'_>) -> String {
         let next = table.laid.document.marks.cloth.len() + 1;
         if !self.corners.is_empty() {
-            return format!(
-                "Arrows and Space: the next corner · Enter: paint mark {next} · Backspace: one corner back · Esc: give up"
+            return say!(
+                "Arrows and Space: the next corner · Enter: paint mark {next} · Backspace: one corner back · Esc: give up",
+                next
             );
         }
         match (self.erases, table.laid.laser) {
-            (true, _) => "Click a mark: take it away".to_owned(),
+            (true, _) => tr("Click a mark: take it away").to_owned(),
             (_, true) => {
-                format!("Drag: paint marks {next}… on every piece that lies here · L: only the topmost")
+                say!("Drag: paint marks {next}… on every piece that lies here · L: only the topmost", next)
             }
-            _ => format!(
-                "Drag: paint mark {next} on the cloth · Click: a dot, or select a mark · Ctrl+click: erase"
+            _ => say!(
+                "Drag: paint mark {next} on the cloth · Click: a dot, or select a mark · Ctrl+click: erase",
+                next
             ),
         }
     }
@@ -203,7 +207,7 @@ fn dot(table: &Table<'_>, p: DVec2, asks: &mut Asks) {
     match dots.is_empty() {
         false => in_one_step(painted(table, dots), asks),
         true if table.pattern().pieces.is_empty() => {}
-        true => asks.push(Ask::Say("Marks are painted on the pieces: press on one of them.".to_owned())),
+        true => asks.push(Ask::Say(tr("Marks are painted on the pieces: press on one of them.").to_owned())),
     }
 }
 

@@ -23,6 +23,7 @@ use crate::pattern::{Edge, Pattern, Piece, PlanePose};
 use crate::session::Command;
 use crate::ui::actions::Tool;
 use crate::ui::actions::asks::{Ask, Asks};
+use crate::ui::language::tr;
 use crate::ui::preferences::units::Typed;
 use crate::ui::selection::Item;
 
@@ -54,7 +55,7 @@ pub trait PatternTool: std::fmt::Debug {
 
     /// Takes typed numbers. The error is a message.
     fn typed(&mut self, _table: &Table<'_>, _typed: Typed, _asks: &mut Asks) -> Result<(), String> {
-        Err("nothing here can be typed".to_owned())
+        Err(tr("nothing here can be typed").to_owned())
     }
 
     /// Whether the tool draws at free positions, for which the keyboard has a cursor.

@@ -6,6 +6,7 @@ use glam::DVec2;
 use super::{PatternTool, done};
 use crate::pattern::edit::PatternEdit;
 use crate::ui::actions::asks::{Ask, Asks};
+use crate::ui::language::{say, tr};
 use crate::ui::pattern_pane::draw::Drawing;
 use crate::ui::pattern_pane::input::Input;
 use crate::ui::pattern_pane::shapes::cloth_is_left;
@@ -37,7 +38,7 @@ impl OnEdgeTool {
     fn put(&self, table: &Table<'_>, on: OnEdge, depth: f64, asks: &mut Asks) {
         let OnEdge { edge, at, .. } = on;
         if !table.is_free(edge.piece) {
-            return asks.push(Ask::Say("This piece is locked.".to_owned()));
+            return asks.push(Ask::Say(tr("This piece is locked.").to_owned()));
         }
         let piece = &table.pattern().pieces[&edge.piece];
         if self.is_dart {
@@ -81,7 +82,7 @@ impl PatternTool for OnEdgeTool {
         for &at in &input.clicks {
             match self.place(table, table.at(at), input) {
                 Some(on) => self.put(table, on, table.options.dart_depth, asks),
-                None => asks.push(Ask::Say("Click an edge of a piece.".to_owned())),
+                None => asks.push(Ask::Say(tr("Click an edge of a piece.").to_owned())),
             }
         }
         if let Some(at) = input.pressed.filter(|_| self.is_dart) {
@@ -115,7 +116,7 @@ impl PatternTool for OnEdgeTool {
             let ends = piece.edge_points(on.edge.edge, &ends);
             let legs = [ends[0], ends[1]].map(|p| piece.pose.plane_from_piece(p));
             drawing.polyline(&[legs[0], on.place + way * depth, legs[1]], Stroke::new(2.0, ink));
-            words += &format!("   {} deep", unit.text(depth));
+            words = say!("{places}   {depth} deep", places = words, depth = unit.text(depth));
         }
         drawing.painter.circle_filled(drawing.place(on.place), 4.0, ink);
         drawing.chip(input.hover.unwrap_or(drawing.pane.center()), &words);
@@ -139,9 +140,9 @@ impl PatternTool for OnEdgeTool {
 
     fn typed(&mut self, table: &Table<'_>, typed: Typed, asks: &mut Asks) -> Result<(), String> {
         let Some(mut on) = self.pulled.map(|(on, _)| on).or(self.near) else {
-            return Err("point at an edge first".to_owned());
+            return Err(tr("point at an edge first").to_owned());
         };
-        let Typed::Length(far) = typed else { return Err("type one length".to_owned()) };
+        let Typed::Length(far) = typed else { return Err(tr("type one length").to_owned()) };
         let length = table.piece(on.edge.piece).map_or(1.0, |(_, shape)| shape.lengths[on.edge.edge]);
         if self.pulled.take().is_some() {
             self.put(table, on, far, asks);
@@ -149,7 +150,7 @@ impl PatternTool for OnEdgeTool {
             on.at = far / length;
             self.put(table, on, table.options.dart_depth, asks);
         } else {
-            return Err("the edge is not so long".to_owned());
+            return Err(tr("the edge is not so long").to_owned());
         }
         Ok(())
     }
@@ -164,9 +165,9 @@ impl PatternTool for OnEdgeTool {
 
     fn hint(&self, _table: &Table<'_>) -> String {
         match (self.is_dart, self.pulled.is_some()) {
-            (true, true) => "Let go at the tip · Type how deep · Esc: give up",
-            (true, false) => "Drag from an edge into the cloth: a dart · Click: one as deep as the last · Type how far along the edge",
-            _ => "Click an edge: a notch; a notch: take it away · Type how far along the edge",
+            (true, true) => tr("Let go at the tip · Type how deep · Esc: give up"),
+            (true, false) => tr("Drag from an edge into the cloth: a dart · Click: one as deep as the last · Type how far along the edge"),
+            _ => tr("Click an edge: a notch; a notch: take it away · Type how far along the edge"),
         }
         .to_owned()
     }

@@ -8,6 +8,7 @@ use crate::geometry::ids::PieceId;
 use crate::pattern::edit::PatternEdit;
 use crate::pattern::{Edge, EdgeShape, InternalLine, Piece, curve};
 use crate::ui::actions::asks::{Ask, Asks};
+use crate::ui::language::{say, tr};
 use crate::ui::pattern_pane::draw::Drawing;
 use crate::ui::pattern_pane::input::Input;
 use crate::ui::pattern_pane::snap::{Snap, Snapped};
@@ -91,7 +92,7 @@ impl Pen {
 
     fn add(&mut self, table: &Table<'_>, at: DVec2, asks: &mut Asks) {
         if self.points.is_empty() && self.makes != Makes::Piece && self.piece(table, at).is_none() {
-            asks.push(Ask::Say("Begin on a piece that is not locked.".to_owned()));
+            asks.push(Ask::Say(tr("Begin on a piece that is not locked.").to_owned()));
             return;
         }
         if self.points.last().is_some_and(|last| last.at.distance(at) < 1e-6) {
@@ -125,7 +126,7 @@ impl Pen {
         let Some(first) = self.points.first().copied() else { return };
         if self.points.len() < self.least() && !(curved && self.points.len() == 2) {
             let least = self.least();
-            asks.push(Ask::Say(format!("It needs {least} points at least.")));
+            asks.push(Ask::Say(say!("It needs {least} points at least.", least)));
             return;
         }
         let edges = self.edges();
@@ -260,7 +261,7 @@ impl PatternTool for Pen {
             let length: f64 = line.windows(2).map(|w| w[0].distance(w[1])).sum();
             let turn = degrees((end.at - last.at).to_angle());
             let words = format!("{}  {turn}°", table.laid.unit.text(length));
-            drawing.chip(at, &if closes { format!("{words}   close") } else { words });
+            drawing.chip(at, &if closes { say!("{words}   close", words) } else { words });
         }
         if closes {
             drawing.painter.circle_stroke(drawing.place(self.points[0].at), 8.0, Stroke::new(2.0, ink));
@@ -295,7 +296,7 @@ impl PatternTool for Pen {
                 let toward = self.next.map_or(DVec2::X, |next| next.place - last);
                 last + toward.normalize_or(DVec2::X) * far
             }
-            (_, None) => return Err("the first point needs both: 30,40".to_owned()),
+            (_, None) => return Err(tr("the first point needs both: 30,40").to_owned()),
         };
         if self.points.len() >= self.least() && self.is_closed_line() && self.points[0].at.distance(at) < 1e-6
         {
@@ -323,23 +324,27 @@ impl PatternTool for Pen {
     }
 
     fn hint(&self, _table: &Table<'_>) -> String {
-        let what = match self.makes {
-            Makes::Piece => "a piece",
-            Makes::Line => "a line on a piece",
-            Makes::Hole => "a hole in a piece",
-            Makes::Cut => "a cut from edge to edge",
-        };
-        let ends = if self.is_closed_line() {
-            "Click the first point or Enter: close"
-        } else {
-            "Double-click or Enter: done"
-        };
-        match self.points.len() {
-            0 => format!("Draw {what} · Click: a corner · Drag: a curve · Type a place: 30,40"),
-            _ => format!(
-                "{ends} · Ctrl+click: an arc through here · Backspace: one back · Type 12, @10,0 or 10<45 · Shift: 45° · Esc: give up"
+        match (self.points.is_empty(), self.makes) {
+            (true, Makes::Piece) => {
+                tr("Draw a piece · Click: a corner · Drag: a curve · Type a place: 30,40")
+            }
+            (true, Makes::Line) => {
+                tr("Draw a line on a piece · Click: a corner · Drag: a curve · Type a place: 30,40")
+            }
+            (true, Makes::Hole) => {
+                tr("Draw a hole in a piece · Click: a corner · Drag: a curve · Type a place: 30,40")
+            }
+            (true, Makes::Cut) => {
+                tr("Draw a cut from edge to edge · Click: a corner · Drag: a curve · Type a place: 30,40")
+            }
+            (false, Makes::Piece | Makes::Hole) => tr(
+                "Click the first point or Enter: close · Ctrl+click: an arc through here · Backspace: one back · Type 12, @10,0 or 10<45 · Shift: 45° · Esc: give up",
+            ),
+            (false, Makes::Line | Makes::Cut) => tr(
+                "Double-click or Enter: done · Ctrl+click: an arc through here · Backspace: one back · Type 12, @10,0 or 10<45 · Shift: 45° · Esc: give up",
             ),
         }
+        .to_owned()
     }
 }
 

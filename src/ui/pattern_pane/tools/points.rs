@@ -11,6 +11,7 @@ use crate::geometry::ids::PieceId;
 use crate::pattern::edit::{PatternEdit, PointRef};
 use crate::pattern::{EdgeRef, EdgeShape, curve};
 use crate::ui::actions::asks::{Ask, Asks};
+use crate::ui::language::{say, tr};
 use crate::ui::pattern_pane::draw::Drawing;
 use crate::ui::pattern_pane::input::Input;
 use crate::ui::pattern_pane::snap::Snapped;
@@ -56,7 +57,7 @@ impl Points {
         let free = |piece: PieceId, asks: &mut Asks| {
             let is_free = table.is_free(piece);
             if !is_free {
-                asks.push(Ask::Say("This piece is locked.".to_owned()));
+                asks.push(Ask::Say(tr("This piece is locked.").to_owned()));
             }
             is_free
         };
@@ -87,7 +88,7 @@ impl Points {
             return;
         };
         if !table.is_free(point.piece) {
-            asks.push(Ask::Say("This piece is locked.".to_owned()));
+            asks.push(Ask::Say(tr("This piece is locked.").to_owned()));
             return;
         }
         let selection = self.taken(table, Item::Point(point), input, asks);
@@ -287,7 +288,7 @@ impl PatternTool for Points {
 
     fn typed(&mut self, table: &Table<'_>, typed: Typed, asks: &mut Asks) -> Result<(), String> {
         let Some(Drag::Move { points, by, .. }) = &self.drag else {
-            return Err("drag a point, then type".to_owned());
+            return Err(tr("drag a point, then type").to_owned());
         };
         let by = match (typed, &points[..]) {
             (Typed::Length(far), _) => by.normalize_or(DVec2::X) * far,
@@ -329,14 +330,14 @@ impl PatternTool for Points {
 
     fn hint(&self, table: &Table<'_>) -> String {
         match &self.drag {
-            Some(Drag::Grade { .. }) => "Shift: the same step in every size · Esc: back",
-            _ if table.size().is_some() => "Drag a point: it moves in this size alone, with Shift in all by the same step · Choose the base size to change the pattern itself",
+            Some(Drag::Grade { .. }) => tr("Shift: the same step in every size · Esc: back"),
+            _ if table.size().is_some() => tr("Drag a point: it moves in this size alone, with Shift in all by the same step · Choose the base size to change the pattern itself"),
             Some(Drag::Move { .. }) => {
-                "Type a place (30,40), a way (@10,0) or how far (5) · Shift: straight or slanting · Alt: do not snap · Esc: back"
+                tr("Type a place (30,40), a way (@10,0) or how far (5) · Shift: straight or slanting · Alt: do not snap · Esc: back")
             }
-            Some(_) => "Alt: do not snap · Esc: back",
+            Some(_) => tr("Alt: do not snap · Esc: back"),
             None => {
-                "Drag a point or an edge · Alt+drag an edge: bend it, with Shift to an arc · Double-click an edge: insert a point; a point: corner or smooth · Delete: take it away"
+                tr("Drag a point or an edge · Alt+drag an edge: bend it, with Shift to an arc · Double-click an edge: insert a point; a point: corner or smooth · Delete: take it away")
             }
         }
         .to_owned()
@@ -383,10 +384,11 @@ fn readout(table: &Table<'_>, points: &[(PointRef, DVec2)], by: DVec2) -> String
                 let (line, first) = piece.loop_of(point.point);
                 let count = piece.loop_edges(line).len();
                 let before = first + (point.point - first + count - 1) % count;
-                words += &format!(
-                    "   edges {} and {}",
-                    unit.number(shape.lengths[before]),
-                    unit.text(shape.lengths[point.point])
+                words = say!(
+                    "{place}   edges {before} and {after}",
+                    place = words,
+                    before = unit.number(shape.lengths[before]),
+                    after = unit.text(shape.lengths[point.point])
                 );
             }
             words

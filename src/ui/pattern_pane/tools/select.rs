@@ -10,6 +10,7 @@ use crate::geometry::ids::PieceId;
 use crate::pattern::PlanePose;
 use crate::pattern::edit::{PatternEdit, PointRef};
 use crate::ui::actions::asks::{Ask, Asks};
+use crate::ui::language::tr;
 use crate::ui::pattern_pane::draw::Drawing;
 use crate::ui::pattern_pane::input::Input;
 use crate::ui::pattern_pane::snap::{Snap, Snapped, on_eighth};
@@ -85,7 +86,7 @@ impl Select {
         }
         let poses = poses(table, &selection.pieces);
         if poses.is_empty() {
-            asks.push(Ask::Say("This piece is locked.".to_owned()));
+            asks.push(Ask::Say(tr("This piece is locked.").to_owned()));
         } else {
             self.drag = Some(Drag::Move { held: p, poses, by: DVec2::ZERO, snapped: None });
         }
@@ -243,7 +244,7 @@ impl PatternTool for Select {
                 // A number typed without a unit is in degrees.
                 turned(poses, *about, (turn / table.laid.unit.metres()).to_radians())
             }
-            _ => return Err("type how far: 10, or 10,5".to_owned()),
+            _ => return Err(tr("type how far: 10, or 10,5").to_owned()),
         };
         asks.extend([dragged(vec![edit]), Ask::EndDrag]);
         self.drag = None;
@@ -279,13 +280,13 @@ impl PatternTool for Select {
 
     fn hint(&self, _table: &Table<'_>) -> String {
         match &self.drag {
-            _ if self.only_selects => "The cloth is dragged and pinned on the body · Click: select a piece",
-            Some(Drag::Move { .. }) => "Type how far (10 or 10,5) · Alt: do not snap · Esc: put it back",
-            Some(Drag::Scale { .. }) => "Type the size (40,60) · Shift: keep the proportions · Esc: put it back",
-            Some(Drag::Turn { .. }) => "Type degrees · Shift: steps of 15° · Esc: put it back",
-            Some(Drag::Box { .. }) => "Everything the box touches is selected",
+            _ if self.only_selects => tr("The cloth is dragged and pinned on the body · Click: select a piece"),
+            Some(Drag::Move { .. }) => tr("Type how far (10 or 10,5) · Alt: do not snap · Esc: put it back"),
+            Some(Drag::Scale { .. }) => tr("Type the size (40,60) · Shift: keep the proportions · Esc: put it back"),
+            Some(Drag::Turn { .. }) => tr("Type degrees · Shift: steps of 15° · Esc: put it back"),
+            Some(Drag::Box { .. }) => tr("Everything the box touches is selected"),
             None => {
-                "Click: select, Shift adds · Drag a piece: move it · Drag beside: select by a box · Double-click: turn it over · Arrows: nudge"
+                tr("Click: select, Shift adds · Drag a piece: move it · Drag beside: select by a box · Double-click: turn it over · Arrows: nudge")
             }
         }
         .to_owned()

@@ -10,6 +10,7 @@ use crate::pattern::edit::{PatternEdit, untwisted};
 
 use crate::pattern::{EdgeRef, Pattern, Piece, Seam, Stretch};
 use crate::ui::actions::asks::{Ask, Asks};
+use crate::ui::language::{say, tr};
 use crate::ui::pattern_pane::draw::Drawing;
 use crate::ui::pattern_pane::draw_pieces::{BADGE, EQUAL, badge_place, has_badge};
 use crate::ui::pattern_pane::input::Input;
@@ -50,7 +51,7 @@ impl Sew {
     fn sew(&mut self, table: &Table<'_>, asks: &mut Asks) {
         let seams = seams(table.pattern(), &self.sides);
         if seams.is_empty() {
-            asks.push(Ask::Say("An edge cannot be sewn to itself.".to_owned()));
+            asks.push(Ask::Say(tr("An edge cannot be sewn to itself.").to_owned()));
             self.sides[1].clear();
             return;
         }
@@ -186,7 +187,7 @@ impl PatternTool for Sew {
             && let Some(ends) = table.threads.of(id)
         {
             let words = compared(table, ends.lengths);
-            drawing.chip(at, &if ends.is_twisted { format!("{words}   twisted") } else { words });
+            drawing.chip(at, &if ends.is_twisted { say!("{words}   twisted", words) } else { words });
         }
     }
 
@@ -219,12 +220,12 @@ impl PatternTool for Sew {
     fn hint(&self, _table: &Table<'_>) -> String {
         match (self.sides[0].len(), self.on_second) {
             (0, _) => {
-                "Click an edge, then the one it is sewn to · Drag along edges: a stretch · Click a round sign: turn a seam round · Shift: several edges"
+                tr("Click an edge, then the one it is sewn to · Drag along edges: a stretch · Click a round sign: turn a seam round · Shift: several edges")
             }
             (_, false) => {
-                "Click the edge it is sewn to · Shift+click: more edges on this side · Enter: several on the other · Esc: give up"
+                tr("Click the edge it is sewn to · Shift+click: more edges on this side · Enter: several on the other · Esc: give up")
             }
-            (_, true) => "Shift+click the edges of the other side · Enter: sew · Esc: give up",
+            (_, true) => tr("Shift+click the edges of the other side · Enter: sew · Esc: give up"),
         }
         .to_owned()
     }
@@ -235,16 +236,23 @@ pub fn compared(table: &Table<'_>, [a, b]: [f64; 2]) -> String {
     let unit = table.laid.unit;
     let percent = (a / b.max(1e-9) - 1.0) * 100.0;
     let more = signed((a - b) * 1000.0, 1);
-    format!("{} on {}   {more} mm ({} %)", unit.number(a), unit.text(b), signed(percent, 1))
+    say!(
+        "{first} on {second}   {more} mm ({percent} %)",
+        first = unit.number(a),
+        second = unit.text(b),
+        more,
+        percent = signed(percent, 1)
+    )
 }
 
 fn told_difference(table: &Table<'_>, sides: &[Vec<Stretch>; 2]) -> Option<String> {
     let [a, b] = [0, 1].map(|k| total(table.pattern(), &sides[k]));
     let differs = (a / b.max(1e-9) - 1.0).abs() > EQUAL;
     differs.then(|| {
-        format!(
-            "Sewn with a gather: {}. Select the seam and press \"Make equal\" to even it out.",
-            compared(table, [a, b])
+        say!(
+            "Sewn with a gather: {lengths}. Select the seam and press \"{button}\" to even it out.",
+            lengths = compared(table, [a, b]),
+            button = tr("Make equal")
         )
     })
 }

@@ -7,6 +7,7 @@ use super::{PatternTool, done, new_piece};
 use crate::pattern::edit::PatternEdit;
 use crate::pattern::{Edge, EdgeShape};
 use crate::ui::actions::asks::Asks;
+use crate::ui::language::tr;
 use crate::ui::pattern_pane::draw::Drawing;
 use crate::ui::pattern_pane::input::Input;
 use crate::ui::pattern_pane::snap::Snapped;
@@ -147,12 +148,12 @@ impl PatternTool for Shape {
                 self.from = Some(p);
                 return Ok(());
             }
-            (_, None) => return Err("the first corner needs both: 30,40".to_owned()),
+            (_, None) => return Err(tr("the first corner needs both: 30,40").to_owned()),
             (Typed::At(size) | Typed::By(size), Some(_)) => size,
             (Typed::Length(side), Some(_)) => DVec2::splat(side),
         };
         if size.abs().min_element() < LEAST {
-            return Err("that is too small".to_owned());
+            return Err(tr("that is too small").to_owned());
         }
         let from = self.from.unwrap_or_default();
         // A typed size has no signs; the shape grows in the direction of the pointer.
@@ -175,14 +176,17 @@ impl PatternTool for Shape {
     }
 
     fn hint(&self, _table: &Table<'_>) -> String {
-        let (what, alike) =
-            if self.is_ellipse { ("an ellipse", "circle") } else { ("a rectangle", "square") };
-        match self.from {
-            None => format!("Drag: {what} · Click: its first corner · Type a place: 30,40"),
-            Some(_) => {
-                format!("Click: the other corner · Type its size: 40,60 · Shift: {alike} · Esc: give up")
+        match (self.from.is_some(), self.is_ellipse) {
+            (false, true) => tr("Drag: an ellipse · Click: its first corner · Type a place: 30,40"),
+            (false, false) => tr("Drag: a rectangle · Click: its first corner · Type a place: 30,40"),
+            (true, true) => {
+                tr("Click: the other corner · Type its size: 40,60 · Shift: circle · Esc: give up")
+            }
+            (true, false) => {
+                tr("Click: the other corner · Type its size: 40,60 · Shift: square · Esc: give up")
             }
         }
+        .to_owned()
     }
 }
 

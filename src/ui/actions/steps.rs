@@ -1,0 +1,155 @@
+//! Names of undo steps in the language of the window. The session gives them in English, some with names and numbers in them.
+
+use std::fmt::Display;
+
+use crate::ui::language::{filled, tr, translated};
+
+/// Names of steps that the session puts together, those with more words first. `{n}` stands for a number.
+const NAMES: &[&str] = &[
+    "take the name of mark {n} on the cloth away",
+    "take the name of mark {n} on the body away",
+    "name mark {n} on the cloth {name}",
+    "name mark {n} on the body {name}",
+    "delete mark {n} on the cloth",
+    "delete mark {n} on the body",
+    "mark {n} on the cloth",
+    "mark {n} on the body",
+    "delete marks {n}",
+    "renumber a mark to {n}",
+    "pull {n} pins out",
+    "lock {n} pins",
+    "unlock {n} pins",
+    "lock pin {n}",
+    "unlock pin {n}",
+    "move {n} points",
+    "set a rule",
+    "clear a rule",
+    "set {n} rules",
+    "clear {n} rules",
+    "unpick {n} seams",
+    "unpick seam {n}",
+    "turn seam {n} round",
+    "change the gather of seam {n}",
+    "delete {n} pieces",
+    "duplicate {n} pieces",
+    "move {n} pieces",
+    "scale {n} pieces",
+    "place {n} pieces",
+    "take from the body {n} pieces",
+    "lock {n} pieces",
+    "unlock {n} pieces",
+    "hide {n} pieces",
+    "show {n} pieces",
+    "wear on another layer {n} pieces",
+    "activate {n} pieces",
+    "freeze {n} pieces",
+    "deactivate {n} pieces",
+    "set the seam allowance of {n} pieces",
+    "take from the body {name}",
+    "wear on another layer {name}",
+    "set the seam allowance of {name}",
+    "rename {old} to {name}",
+    "sew {one} to {other}",
+    "cut a dart into {name}",
+    "draw the grain of {name}",
+    "make {name} symmetric",
+    "open {name} out",
+    "delete {name}",
+    "duplicate {name}",
+    "move {name}",
+    "scale {name}",
+    "place {name}",
+    "lock {name}",
+    "unlock {name}",
+    "hide {name}",
+    "show {name}",
+    "activate {name}",
+    "freeze {name}",
+    "deactivate {name}",
+    "add {name}",
+    "redraw {name}",
+    "cut {name}",
+    "mirror {name}",
+    "unlink {name}",
+    "fold {name}",
+    "take {name}",
+];
+
+/// The name of a step that the session calls `label`.
+pub fn step_words(label: &str) -> String {
+    if let Some(text) = translated(label) {
+        return text.to_owned();
+    }
+    let found = NAMES.iter().find_map(|name| Some((name, values(name, label)?)));
+    let Some((name, values)) = found else { return label.to_owned() };
+    let values: Vec<(&str, &dyn Display)> =
+        values.iter().map(|(name, v)| (*name, v as &dyn Display)).collect();
+    filled(tr(name), &values)
+}
+
+/// What stands in `text` in place of each `{name}` of `template`; None if it is not made by it.
+fn values<'a>(template: &'a str, text: &'a str) -> Option<Vec<(&'a str, &'a str)>> {
+    let (before, mut template) = template.split_once('{')?;
+    let mut text = text.strip_prefix(before)?;
+    let mut found = Vec::new();
+    loop {
+        let (name, after) = template.split_once('}')?;
+        let (value, rest) = match after.split_once('{') {
+            Some((between, next)) => {
+                template = next;
+                text.split_once(between)?
+            }
+            None => (text.strip_suffix(after)?, ""),
+        };
+        if value.is_empty() || (name == "n" && value.parse::<u32>().is_err()) {
+            return None;
+        }
+        found.push((name, value));
+        if !after.contains('{') {
+            return Some(found);
+        }
+        text = rest;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ui::language;
+
+    #[test]
+    fn names_and_numbers_are_found_in_steps() {
+        let first = |label: &'static str| NAMES.iter().find_map(|name| Some((*name, values(name, label)?)));
+        for (label, name, wanted) in [
+            ("move 3 pieces", "move {n} pieces", vec![("n", "3")]),
+            ("move two pieces", "move {name}", vec![("name", "two pieces")]),
+            ("delete mark 2 on the body", "delete mark {n} on the body", vec![("n", "2")]),
+            (
+                "name mark 2 on the cloth my hem",
+                "name mark {n} on the cloth {name}",
+                vec![("n", "2"), ("name", "my hem")],
+            ),
+            (
+                "sew left front to back",
+                "sew {one} to {other}",
+                vec![("one", "left front"), ("other", "back")],
+            ),
+            ("make front symmetric", "make {name} symmetric", vec![("name", "front")]),
+        ] {
+            assert_eq!(first(label), Some((name, wanted)), "{label}");
+        }
+        assert_eq!((first("wrap"), first("move ")), (None, None));
+    }
+
+    #[test]
+    fn steps_are_named_in_the_language_of_the_window() {
+        assert_eq!(step_words("move front"), "move front");
+        language::show(language::choice::german());
+        assert_eq!(
+            (step_words("wrap").as_str(), step_words("nothing known").as_str()),
+            ("Anlegen", "nothing known")
+        );
+        assert_eq!(step_words("move Ärmel {n}"), "Ärmel {n} bewegen");
+        language::show(None);
+    }
+}

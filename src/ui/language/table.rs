@@ -1,0 +1,82 @@
+//! A table of texts: what each English text is in one other language.
+
+use std::collections::BTreeMap;
+
+use serde::Deserialize;
+
+/// The texts of one language.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Table {
+    /// Code of the language as in a locale: "de", "pt_BR".
+    pub code: String,
+    /// Its own name for itself: "Deutsch".
+    pub name: String,
+    /// The text for each English text. `{name}` stands for a value in both.
+    texts: BTreeMap<String, String>,
+}
+
+impl Table {
+    /// Reads a table of JSON. The error is a message without the name of the file.
+    pub fn read(bytes: &[u8]) -> Result<Self, String> {
+        let table: Self = serde_json::from_slice(bytes).map_err(|e| e.to_string())?;
+        let is_code = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
+        if table.code.is_empty() || !table.code.chars().all(is_code) {
+            return Err(format!(
+                "\"code\" is {:?}, which is no code of a language such as \"de\"",
+                table.code
+            ));
+        }
+        if table.name.trim().is_empty() {
+            return Err("\"name\" is empty".to_owned());
+        }
+        let differs = table.texts.iter().find(|(english, text)| names(english) != names(text));
+        match differs {
+            Some((english, text)) => {
+                Err(format!("the values in braces of {text:?} are not those of {english:?}"))
+            }
+            None => Ok(table),
+        }
+    }
+
+    /// The text for `english`; None where there is none or it is empty.
+    pub fn text(&self, english: &str) -> Option<&str> {
+        self.texts.get(english).map(String::as_str).filter(|text| !text.is_empty())
+    }
+
+    /// All English texts and theirs.
+    pub fn texts(&self) -> impl Iterator<Item = (&str, &str)> {
+        self.texts.iter().map(|(english, text)| (english.as_str(), text.as_str()))
+    }
+}
+
+/// The names of the values in a text, sorted, each once.
+fn names(text: &str) -> Vec<&str> {
+    let inside = text.split('{').skip(1).filter_map(|rest| Some(rest.split_once('}')?.0));
+    let mut names: Vec<&str> = inside.collect();
+    names.sort_unstable();
+    names.dedup();
+    names
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn why(text: &str) -> String {
+        Table::read(text.as_bytes()).expect_err("no table")
+    }
+
+    #[test]
+    fn tables_that_could_mislead_are_refused() {
+        let whole =
+            r#"{"code": "de", "name": "Deutsch", "texts": {"{a} of {b}": "{b}, davon {a}", "Undo": ""}}"#;
+        let table = Table::read(whole.as_bytes()).expect("a table");
+        assert_eq!((table.text("{a} of {b}"), table.text("Undo")), (Some("{b}, davon {a}"), None));
+        assert!(why(r#"{"code": "de", "name": "D", "texts": {"{a} of": "{b}"}}"#).contains("in braces"));
+        assert!(why(r#"{"code": "../de", "name": "D", "texts": {}}"#).contains("no code"));
+        assert!(why(r#"{"code": "de", "name": " ", "texts": {}}"#).contains("empty"));
+        assert!(why(r#"{"code": "de", "name": "D"}"#).contains("texts"));
+        assert!(why(r#"{"code": "de""#).contains("EOF"));
+    }
+}
