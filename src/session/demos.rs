@@ -1,8 +1,20 @@
-//! Recordings that come with the program: the figures of paper A, made with the program's own samples.
+//! Recordings that come with the program: walks through its tasks, and the figures of paper A, made with the program's own samples.
 
 /// A demo: a recording that comes with the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Demo {
+    /// A skirt drafted from a rectangle, sewn, wrapped and draped.
+    Drafting,
+    /// Trousers let out for a larger hip.
+    Fitting,
+    /// A pattern from a file, dressed without marks.
+    Drawing,
+    /// A cloth on a creature.
+    Creature,
+    /// Sizes and grade rules of a skirt.
+    Grading,
+    /// A dressed body in other poses.
+    Posing,
     /// Figure 1: marks on cloth and body, and the wrap.
     Wrapping,
     /// Figure 2: one point dragged, and the whole cloth dragged along the skin as far as a pin lets it.
@@ -22,8 +34,14 @@ pub enum Demo {
 }
 
 impl Demo {
-    /// All of them, in the order of the menu.
-    pub const ALL: [Self; 8] = [
+    /// All of them, in the order of the menu: the walks, then the figures.
+    pub const ALL: [Self; 14] = [
+        Self::Drafting,
+        Self::Fitting,
+        Self::Drawing,
+        Self::Creature,
+        Self::Grading,
+        Self::Posing,
         Self::Wrapping,
         Self::Dragging,
         Self::Rewrapping,
@@ -37,6 +55,12 @@ impl Demo {
     /// Name for the user.
     pub fn name(self) -> &'static str {
         match self {
+            Self::Drafting => "Draft a skirt",
+            Self::Fitting => "Fit trousers",
+            Self::Drawing => "Dress a pattern from a file",
+            Self::Creature => "Wrap a creature",
+            Self::Grading => "Grade a skirt",
+            Self::Posing => "Take another pose",
             Self::Wrapping => "Wrapping by marks",
             Self::Dragging => "A point, or all of it",
             Self::Rewrapping => "Rewrapping within pins",
@@ -48,21 +72,45 @@ impl Demo {
         }
     }
 
-    /// Number of the paper's figure that shows the same.
-    pub fn figure(self) -> &'static str {
-        match self {
+    /// Number of the paper's figure that shows the same; None for a walk.
+    pub fn figure(self) -> Option<&'static str> {
+        Some(match self {
+            Self::Drafting
+            | Self::Fitting
+            | Self::Drawing
+            | Self::Creature
+            | Self::Grading
+            | Self::Posing => return None,
             Self::Wrapping => "1",
             Self::Dragging => "2",
             Self::Rewrapping | Self::Rewearing => "4",
             Self::Laser | Self::Scarf => "5",
             Self::Modes => "7",
             Self::Pins => "8",
-        }
+        })
     }
 
     /// Caption, a sentence or two.
     pub fn tells(self) -> &'static str {
         match self {
+            Self::Drafting => {
+                "A rectangle becomes a front: narrower at the waist, wider at the hem, with two darts. A copy is the back. Sides sewn, a mark on each waist, Wrap, Drape."
+            }
+            Self::Fitting => {
+                "On larger hips the trousers are tight. Their pieces are made wider on the table, and the cloth on the body follows at once."
+            }
+            Self::Drawing => {
+                "A pattern with placements comes from a file. Dress suggests marks of its own, wraps, drapes, and takes the first start without a fault."
+            }
+            Self::Creature => {
+                "Any closed mesh is a body. One mark along the middle of the cloth and one along the back say how it lies; Drape lets it hang."
+            }
+            Self::Grading => {
+                "Sizes are chosen, then points get rules: how far they go from size to size. The table shows all sizes nested. What is wrapped is the base size."
+            }
+            Self::Posing => {
+                "Marks, pins and dressed cloth go along when the body moves: arms down, then a step."
+            }
             Self::Wrapping => {
                 "Marks are painted in pairs, one on a piece and one on the body. Wrap grows the shirt round the body so that they meet."
             }
@@ -91,6 +139,12 @@ impl Demo {
     /// Name of its file in `assets/demos`, without `.jsonl`.
     pub fn file_stem(self) -> &'static str {
         match self {
+            Self::Drafting => "drafting",
+            Self::Fitting => "fitting",
+            Self::Drawing => "drawing",
+            Self::Creature => "creature",
+            Self::Grading => "grading",
+            Self::Posing => "posing",
             Self::Wrapping => "wrapping",
             Self::Dragging => "dragging",
             Self::Rewrapping => "rewrapping",
@@ -105,6 +159,12 @@ impl Demo {
     /// The recording, as JSON lines.
     pub fn recording(self) -> &'static str {
         match self {
+            Self::Drafting => include_str!("../../assets/demos/drafting.jsonl"),
+            Self::Fitting => include_str!("../../assets/demos/fitting.jsonl"),
+            Self::Drawing => include_str!("../../assets/demos/drawing.jsonl"),
+            Self::Creature => include_str!("../../assets/demos/creature.jsonl"),
+            Self::Grading => include_str!("../../assets/demos/grading.jsonl"),
+            Self::Posing => include_str!("../../assets/demos/posing.jsonl"),
             Self::Wrapping => include_str!("../../assets/demos/wrapping.jsonl"),
             Self::Dragging => include_str!("../../assets/demos/dragging.jsonl"),
             Self::Rewrapping => include_str!("../../assets/demos/rewrapping.jsonl"),

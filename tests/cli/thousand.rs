@@ -92,6 +92,60 @@ fn shards_share_the_work_and_are_resumed_whatever_their_number() {
     place.ends_with_words(2, "dress ball.toile --shard 1/2 --out out", "--list");
 }
 
+/// What a run leaves, without times: the reports, the bytes of the meshes, and what each garment's newest line says.
+#[cfg(unix)]
+fn left(place: &Place) -> Vec<(String, String)> {
+    let timeless = |mut value: Value| {
+        for name in ["seconds", "processor_seconds", "finished", "resumed"] {
+            value.as_object_mut().expect("an object").remove(name);
+        }
+        value.to_string()
+    };
+    let mut all: Vec<(String, String)> = Vec::new();
+    for garment in place.names("out").iter().filter(|name| !name.contains('.')) {
+        for name in place.names(&format!("out/{garment}")) {
+            let path = format!("out/{garment}/{name}");
+            let text = if name == "report.json" { timeless(place.json(&path)) } else { place.read(&path) };
+            all.push((path, text));
+        }
+    }
+    let newest: std::collections::BTreeMap<String, Value> = lines(&place.read("out/lines.jsonl"))
+        .into_iter()
+        .map(|line| (line["garment"].as_str().expect("a name").to_owned(), line))
+        .collect();
+    all.extend(newest.into_iter().map(|(name, line)| (name, timeless(line))));
+    all
+}
+
+#[cfg(unix)]
+#[test]
+fn killed_again_and_again_a_list_is_resumed_to_the_same_end() {
+    let balls = || {
+        let place = Place::with_ball();
+        let line = |n: u32| {
+            format!("{{\"project\": \"ball.toile\", \"name\": \"{n}\", \"max_ticks\": {}}}", 5000 + n)
+        };
+        place.write("list.jsonl", (0..6).map(line).collect::<Vec<_>>().join("\n"));
+        place
+    };
+    let arguments = "dress --list list.jsonl --out out --no-picture --threads 1 --resume";
+    let whole = balls();
+    let begun = std::time::Instant::now();
+    whole.ends(0, arguments);
+    let one_garment = begun.elapsed() / 6;
+    let killed = balls();
+    for i in 0..9 {
+        let mut child =
+            killed.command(arguments).stdout(std::process::Stdio::null()).spawn().expect("started");
+        std::thread::sleep(one_garment * (3 + 2 * i) / 8);
+        child.kill().expect("killed: SIGKILL cannot be answered");
+        child.wait().expect("gone");
+    }
+    killed.ends(0, arguments);
+    assert_eq!(left(&killed), left(&whole));
+    assert!(killed.ends(0, arguments).out.lines().all(|line| line.ends_with(" (done before)")));
+}
+
 #[test]
 fn lines_become_one_table_and_a_summary() {
     let place = five();

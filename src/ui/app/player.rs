@@ -7,6 +7,7 @@ use glam::{DVec2, DVec3};
 
 use crate::cloth::FlatPiece;
 use crate::drag::DragMode;
+use crate::pattern::edit::PatternEdit;
 use crate::render::{Camera, mark_colour};
 use crate::session::demos::Demo;
 use crate::session::recording::Recording;
@@ -223,6 +224,12 @@ impl Player {
                 let middle = piece.flattened(0.01).iter().sum::<DVec2>() / piece.flattened(0.01).len() as f64;
                 Some(on_table(stage, piece.pose.plane_from_piece(middle)))
             }
+            Command::EditPattern { edits, .. } => edited(edits.first()?, self.session(), stage),
+            Command::AddSeam { seam } => {
+                let side = &seam.sides[0];
+                let piece = self.session().document().pattern.pieces.get(&side.piece)?;
+                Some(on_table(stage, piece.pose.plane_from_piece(*side.points(piece, &[0.5])?.first()?)))
+            }
             Command::AddPin { piece, at } | Command::Grab { piece, at, .. } => {
                 on_body(stage, self.place(ClothPlace { piece: *piece, at: *at })?)
             }
@@ -268,8 +275,11 @@ impl Player {
             Frame::popup(ui.style()).stroke(Stroke::new(1.0, palette.accent)).show(ui, |ui| {
                 ui.set_max_width((table.width() - 40.0).clamp(120.0, 560.0));
                 ui.horizontal(|ui| {
-                    let (name, figure) = (tr(self.demo.name()), self.demo.figure());
-                    let title = say!("{name} · Figure {figure}", name, figure);
+                    let name = tr(self.demo.name());
+                    let title = match self.demo.figure() {
+                        Some(figure) => say!("{name} · Figure {figure}", name, figure),
+                        None => name.to_owned(),
+                    };
                     ui.label(RichText::new(title).strong().size(14.5));
                     if ui.button(if self.ended { tr("Back to your work") } else { tr("Stop") }).clicked() {
                         asks.push(Ask::Act(Action::StopDemo));
@@ -297,6 +307,15 @@ fn length(command: &Command) -> f64 {
         Command::SetPiecePose { .. } => 0.3,
         Command::Wrap | Command::Rewrap { .. } | Command::Undo => 0.9,
         Command::AddPin { .. } | Command::Grab { .. } => 0.25,
+        Command::AddPiece { .. }
+        | Command::EditPattern { .. }
+        | Command::AddSeam { .. }
+        | Command::ReplacePattern { .. }
+        | Command::SetBody { .. }
+        | Command::ChangeSize { .. }
+        | Command::Repose { .. }
+        | Command::Dress { .. }
+        | Command::SetDraping { .. } => 0.8,
         _ => 0.05,
     }
 }
@@ -317,7 +336,28 @@ fn words(command: &Command, session: &Session) -> String {
         Command::Grab { mode: DragMode::Surface, .. } => tr("Drag along the skin").to_owned(),
         Command::Grab { mode: DragMode::Vertex, .. } => tr("Drag one point").to_owned(),
         Command::Grab { mode: DragMode::Rigid, .. } => tr("Drag rigidly").to_owned(),
+        Command::AddPiece { .. } => tr("A new piece").to_owned(),
+        Command::EditPattern { edits, .. } => edits.first().map_or("", edit_words).to_owned(),
+        Command::AddSeam { .. } => tr("Sew a seam").to_owned(),
+        Command::ReplacePattern { .. } => tr("Import a pattern").to_owned(),
+        Command::SetBody { .. } => tr("Another body").to_owned(),
+        Command::ChangeSize { .. } => tr("Another size").to_owned(),
+        Command::Repose { .. } => tr("Another pose").to_owned(),
+        Command::Dress { .. } => tr("Dress").to_owned(),
+        Command::SetDraping { on: true } => tr("Drape").to_owned(),
         _ => String::new(),
+    }
+}
+
+fn edit_words(edit: &PatternEdit) -> &'static str {
+    match edit {
+        PatternEdit::MovePoints { .. } => tr("Move points"),
+        PatternEdit::AddDart { .. } => tr("Cut a dart"),
+        PatternEdit::Duplicate { .. } => tr("Duplicate"),
+        PatternEdit::Scale { .. } => tr("Make it wider"),
+        PatternEdit::SetSizes { .. } => tr("Choose sizes"),
+        PatternEdit::SetRules { .. } => tr("Rules for its points"),
+        _ => "",
     }
 }
 
@@ -335,6 +375,21 @@ fn stroke(session: &Session, command: &Command, share: f64, stage: &Stage<'_>) -
         }
         _ => Vec::new(),
     }
+}
+
+/// Where on the table an edit is made.
+fn edited(edit: &PatternEdit, session: &Session, stage: &Stage<'_>) -> Option<Pos2> {
+    let (id, at) = match edit {
+        PatternEdit::MovePoints { points } => points.first().map(|(point, to)| (point.piece, Some(*to)))?,
+        PatternEdit::AddDart { edge, .. } => (edge.piece, None),
+        PatternEdit::Duplicate { pieces, .. } | PatternEdit::Scale { pieces, .. } => (*pieces.first()?, None),
+        PatternEdit::SetRules { rules } => (rules.first()?.0.piece, None),
+        _ => return None,
+    };
+    let piece = session.document().pattern.pieces.get(&id)?;
+    let line = piece.flattened(0.01);
+    let middle = || line.iter().sum::<DVec2>() / line.len() as f64;
+    Some(on_table(stage, piece.pose.plane_from_piece(at.unwrap_or_else(middle))))
 }
 
 fn on_table(stage: &Stage<'_>, p: DVec2) -> Pos2 {

@@ -4,6 +4,7 @@
 
 mod scripts;
 mod stage;
+mod walks;
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -49,6 +50,12 @@ macro_rules! demos {
 }
 
 demos! {
+    a_skirt_is_drafted_sewn_and_draped: Drafting,
+    trousers_are_let_out_for_larger_hips: Fitting,
+    a_pattern_of_a_file_is_dressed: Drawing,
+    a_creature_gets_a_cloak: Creature,
+    a_skirt_gets_sizes: Grading,
+    cloth_goes_along_to_other_poses: Posing,
     the_shirt_is_wrapped_by_its_marks: Wrapping,
     all_of_the_shirt_follows_the_hand_but_for_its_pin: Dragging,
     a_rewrap_moves_only_what_pins_let_it: Rewrapping,

@@ -8,10 +8,17 @@ use toile::session::samples::Sample;
 use toile::wrap::ClothSide;
 
 use super::stage::{At, Stage, heading, paint_body, paint_cloth, round, straight, turned};
+use super::walks;
 
 /// Plays `demo` to its end.
 pub fn play(demo: Demo) -> Stage {
     match demo {
+        Demo::Drafting => walks::drafting(),
+        Demo::Fitting => walks::fitting(),
+        Demo::Drawing => walks::drawing(),
+        Demo::Creature => walks::creature(),
+        Demo::Grading => walks::grading(),
+        Demo::Posing => walks::posing(),
         Demo::Wrapping => wrapping(),
         Demo::Dragging => dragging(),
         Demo::Rewrapping => rewrapping(),

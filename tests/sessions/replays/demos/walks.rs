@@ -1,0 +1,245 @@
+//! The walks: each does one of the program's tasks from its beginning, and what must come of it.
+
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+use glam::{DVec2, DVec3};
+use toile::body::{NamedPose, mannequin};
+use toile::draft::{Design, Form, Kind};
+use toile::geometry::mesh::TriMesh;
+use toile::io::garmentcode;
+use toile::pattern::edit::{PatternEdit, PointRef};
+use toile::pattern::grading::{READY_SIZES, graded};
+use toile::pattern::{EdgeRef, GradeRule, Piece, PlanePose, RulePoint, Seam};
+use toile::session::samples::Sample;
+use toile::session::{BodyChoice, Command, Project};
+use toile::sim::StartChoice;
+use toile::wrap::{ClothSide, Marks};
+
+use super::stage::Stage;
+use crate::common::exact::{quantile, strains};
+
+fn edit(edits: Vec<PatternEdit>) -> Command {
+    Command::EditPattern { edits, anew: false }
+}
+
+fn laid_at(x: f64, y: f64) -> PlanePose {
+    PlanePose { offset: DVec2::new(x, y), ..PlanePose::default() }
+}
+
+/// Height of the hem below the waist, half widths at hem and waist, metres.
+const SKIRT: [f64; 3] = [0.58, 0.31, 0.225];
+
+pub fn drafting() -> Stage {
+    let mut stage = Stage::new(Project::default());
+    let [length, hem, waist] = SKIRT;
+    let corner = |x: f64, y: f64| DVec2::new(x, y);
+    let width = 0.265;
+    let corners = [corner(-width, -length), corner(width, -length), corner(width, 0.0), corner(-width, 0.0)];
+    let sketch = Piece { pose: laid_at(0.35, -0.05), ..Piece::polygon("front", &corners) };
+    stage.give(Command::AddPiece { piece: Arc::new(sketch) });
+    let front = stage.piece("front");
+    let moved = |point: usize, to: DVec2| (PointRef { piece: front, point }, to);
+    stage.give(edit(vec![PatternEdit::MovePoints {
+        points: vec![moved(0, corner(-hem, -length)), moved(1, corner(hem, -length))],
+    }]));
+    stage.give(edit(vec![PatternEdit::MovePoints {
+        points: vec![moved(2, corner(waist, 0.01)), moved(3, corner(-waist, 0.01))],
+    }]));
+    // Along the waist from its right end to its left; the second dart is cut into what the first has left of it.
+    for (edge, at) in [(2, 0.25), (5, 0.62)] {
+        let edge = EdgeRef { piece: front, edge };
+        stage.give(edit(vec![PatternEdit::AddDart { edge, at, width: 0.02, depth: 0.09 }]));
+    }
+    stage.give(edit(vec![PatternEdit::Duplicate { pieces: vec![front], offset: DVec2::new(0.7, 0.0) }]));
+    let pattern = stage.session.document().pattern.clone();
+    let back = *pattern.pieces.keys().find(|id| **id != front).expect("a copy");
+    stage.give(Command::RenamePiece { piece: back, name: "back".to_owned() });
+    let last = pattern.pieces[&front].edge_count() - 1;
+    for (ours, theirs) in [(1, last), (last, 1)] {
+        let sides = [EdgeRef { piece: front, edge: ours }, EdgeRef { piece: back, edge: theirs }];
+        stage.give(Command::AddSeam { seam: Seam::of_edges(sides, false) });
+    }
+    let y = mannequin::default().landmarks.get("waist_front").expect("a landmark").y;
+    for (piece, z) in [(front, 1.0), (back, -1.0)] {
+        let points = (0..=8).map(|i| DVec2::new(-0.06 + 0.015 * f64::from(i), 0.0)).collect();
+        stage.give(Command::AddClothMark { piece, side: ClothSide::Front, points });
+        // From outside, the right of the front is the body's left.
+        let points = stage.stroke(&[DVec3::new(-0.06 * z, y, 0.3 * z), DVec3::new(0.06 * z, y, 0.3 * z)]);
+        stage.give(Command::AddBodyMark { points });
+    }
+    stage.give(Command::Wrap);
+    stage.rest();
+    stage.give(Command::SetDraping { on: true });
+    stage.rest();
+    stage
+}
+
+pub fn fitting() -> Stage {
+    let mut stage = Stage::dressed(Sample::Trousers);
+    let worst = |stage: &Stage| {
+        let snapshot = stage.session.snapshot();
+        let garment = snapshot.garment.as_ref().expect("dressed");
+        quantile(&strains(garment, &snapshot.cloth), 0.99)
+    };
+    let loose = worst(&stage);
+    let usual = toile::body::Measurements::default();
+    let measurements = toile::body::Measurements { hip: usual.hip + 0.07, ..usual };
+    stage.give(Command::ChangeSize { measurements });
+    stage.rest();
+    let tight = worst(&stage);
+    let pieces: Vec<_> = stage.session.document().pattern.pieces.keys().copied().collect();
+    stage.give(edit(vec![PatternEdit::Scale { pieces, about: DVec2::ZERO, factor: DVec2::new(1.06, 1.0) }]));
+    stage.rest();
+    let let_out = worst(&stage);
+    println!("fitting: {loose:.4}, tight {tight:.4}, let out {let_out:.4}");
+    assert!(tight > loose + 0.01 && let_out < tight - 0.01);
+    stage
+}
+
+pub fn drawing() -> Stage {
+    let mut stage = Stage::new(Project::default());
+    let form = Form::new(&toile::body::Measurements::default(), NamedPose::A).expect("a form");
+    let design = Design::drawn(3, 0, &[Kind::Shirt]);
+    let bytes = garmentcode::write(&design.drafted(&form)).bytes;
+    let pattern = Arc::new(garmentcode::read(&bytes).expect("read"));
+    stage.give(Command::ReplacePattern {
+        name: "shirt".to_owned(),
+        pattern,
+        marks: Arc::new(Marks::default()),
+    });
+    stage.give(Command::Dress { choice: StartChoice::default() });
+    stage.rest();
+    let started = stage.session.snapshot().started.clone().expect("starts were tried");
+    println!("drawing: {started:?}");
+    assert!(started.taken().faults.is_empty());
+    stage
+}
+
+/// Centre line and radius of the creature, a seal, from tail to nose: x, y, radius, metres.
+const SEAL: [[f64; 3]; 9] = [
+    [-0.80, 0.06, 0.03],
+    [-0.70, 0.08, 0.06],
+    [-0.50, 0.14, 0.12],
+    [-0.20, 0.22, 0.20],
+    [0.10, 0.30, 0.23],
+    [0.35, 0.42, 0.20],
+    [0.52, 0.58, 0.14],
+    [0.64, 0.68, 0.12],
+    [0.80, 0.72, 0.05],
+];
+
+/// A seal that lies on its belly and holds its head up.
+fn seal() -> TriMesh {
+    let (rings, sectors) = (40, 28);
+    let at = |t: f64| {
+        let s = t * (SEAL.len() - 1) as f64;
+        let i = (s as usize).min(SEAL.len() - 2);
+        let [a, b] = [SEAL[i], SEAL[i + 1]];
+        let f = s - i as f64;
+        let f = f * f * (3.0 - 2.0 * f) * 0.5 + f * 0.5;
+        [0, 1, 2].map(|k| a[k] + (b[k] - a[k]) * f)
+    };
+    let mut positions = Vec::new();
+    for i in 0..rings {
+        let t = (f64::from(i) + 0.5) / f64::from(rings);
+        let [x, y, r] = at(t);
+        let [ahead, behind] = [at((t + 0.02).min(1.0)), at((t - 0.02).max(0.0))];
+        let along = DVec3::new(ahead[0] - behind[0], ahead[1] - behind[1], 0.0).normalize();
+        let up = DVec3::Z.cross(along);
+        for k in 0..sectors {
+            let turn = TAU * f64::from(k) / f64::from(sectors);
+            positions.push(DVec3::new(x, y, 0.0) + (DVec3::Z * turn.cos() + up * turn.sin()) * r);
+        }
+    }
+    let ends = [at(0.0), at(1.0)].map(|[x, y, _]| DVec3::new(x, y, 0.0));
+    let [tail, nose] = [positions.len() as u32, positions.len() as u32 + 1];
+    positions.extend(ends);
+    let mut triangles = Vec::new();
+    for k in 0..sectors as u32 {
+        let next = (k + 1) % sectors as u32;
+        for i in 0..rings as u32 - 1 {
+            let [a, b] = [i, i + 1].map(|ring| ring * sectors as u32);
+            triangles.push([a + k, b + next, b + k]);
+            triangles.push([a + k, a + next, b + next]);
+        }
+        let last = (rings as u32 - 1) * sectors as u32;
+        triangles.push([tail, next, k]);
+        triangles.push([nose, last + k, last + next]);
+    }
+    let mut mesh = TriMesh { positions, triangles };
+    let volume: f64 = mesh
+        .triangles
+        .iter()
+        .map(|t| t.map(|v| mesh.positions[v as usize]))
+        .map(|[a, b, c]| a.dot(b.cross(c)))
+        .sum();
+    if volume < 0.0 {
+        mesh.triangles.iter_mut().for_each(|t| t.swap(1, 2));
+    }
+    mesh
+}
+
+pub fn creature() -> Stage {
+    let mut stage = Stage::new(Project::default());
+    let body = BodyChoice::Imported { name: "seal".to_owned(), mesh: Arc::new(seal()) };
+    stage.give(Command::SetBody { body, animations: None });
+    let [long, wide] = [0.34, 0.40];
+    let corners = [(-wide, -long), (wide, -long), (wide, long), (-wide, long)].map(|(x, y)| DVec2::new(x, y));
+    stage.give(Command::AddPiece {
+        piece: Arc::new(Piece { pose: laid_at(0.5, -0.5), ..Piece::polygon("cloak", &corners) }),
+    });
+    let piece = stage.piece("cloak");
+    let points = (0..=16).map(|i| DVec2::new(0.0, -0.28 + 0.035 * f64::from(i))).collect();
+    stage.give(Command::AddClothMark { piece, side: ClothSide::Front, points });
+    let points =
+        stage.stroke(&[DVec3::new(-0.38, 0.8, 0.0), DVec3::new(0.10, 0.9, 0.0), DVec3::new(0.24, 1.0, 0.0)]);
+    stage.give(Command::AddBodyMark { points });
+    stage.give(Command::Wrap);
+    stage.rest();
+    stage.give(Command::SetDraping { on: true });
+    stage.rest();
+    stage
+}
+
+pub fn grading() -> Stage {
+    let (mut stage, marks) = Stage::bare(Sample::Skirt);
+    let run = READY_SIZES[0].run();
+    let (count, base) = (run.names.len(), run.base);
+    stage.give(edit(vec![PatternEdit::SetSizes { sizes: run }]));
+    // A quarter of the girth's step goes to each side, from the side seam inwards; a centimetre of length to the hem.
+    for name in ["waistband front", "waistband back", "skirt front", "skirt back"] {
+        let piece = stage.piece(name);
+        let shape = stage.session.document().pattern.pieces[&piece].clone();
+        let rules = (0..shape.edge_count()).map(|point| {
+            let at = shape.edge(point).start;
+            let widest = (0..shape.edge_count()).map(|i| shape.edge(i).start.x.abs()).fold(0.0, f64::max);
+            let low = if name.starts_with("skirt") && at.y < -0.3 { -0.01 } else { 0.0 };
+            let step = DVec2::new(0.01 * (at.x / widest), low);
+            (RulePoint { piece, line: None, point }, Some(GradeRule::even(step, count, base)))
+        });
+        stage.give(edit(vec![PatternEdit::SetRules { rules: rules.collect() }]));
+    }
+    let pattern = stage.session.document().pattern.clone();
+    let last = pattern.sizes.names.last().expect("sizes").clone();
+    let large = graded(&pattern, &last).expect("the last size");
+    assert!(large.problems.is_empty(), "{:?}", large.problems);
+    let front = stage.piece("skirt front");
+    let grown = large.pattern.pieces[&front].edge_length(0) / pattern.pieces[&front].edge_length(0);
+    println!("grading: the hem of {last} is {grown:.3} of the base");
+    assert!(grown > 1.05);
+    marks.pairs().for_each(|(cloth, body)| stage.paint_pair(cloth, body));
+    stage.give(Command::Wrap);
+    stage.rest();
+    stage
+}
+
+pub fn posing() -> Stage {
+    let mut stage = Stage::dressed(Sample::Tshirt);
+    for pose in [NamedPose::Standing, NamedPose::Walking] {
+        let body = stage.session.document().body.in_named_pose(pose).expect("the mannequin");
+        stage.give(Command::Repose { body, settle: true, draft: false });
+        stage.rest();
+    }
+    stage
+}
