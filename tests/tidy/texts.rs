@@ -171,14 +171,18 @@ fn every_text_of_the_window_is_in_german() {
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
+/// Ends of the tapes round limbs.
+const ENDS: [&str; 4] = ["high x", "low x", "front", "back"];
+
 /// Texts that are put together or read from files: landmarks of the mannequin, its joints, fabrics, names of maps in small letters.
 fn put_together(literals: &BTreeSet<String>) -> BTreeSet<String> {
     let mannequin = toile::body::mannequin::default();
     let mut texts: BTreeSet<String> = mannequin.landmarks.iter().map(|(name, _)| name.to_owned()).collect();
-    texts.extend(["high x", "low x", "front", "back"].iter().flat_map(|end| {
-        let parts = ["knee", "ankle", "forearm", "upper arm"];
-        parts.iter().flat_map(move |part| ["left", "right"].map(|side| format!("{part} {side} {end}")))
-    }));
+    for part in ["knee", "ankle", "forearm", "upper arm"] {
+        for (side, end) in ["left", "right"].iter().flat_map(|side| ENDS.map(|end| (side, end))) {
+            texts.insert(format!("{part} {side} {end}"));
+        }
+    }
     let presets = std::fs::read_to_string(root().join("assets/fabrics/presets.json")).expect("read");
     texts.extend(self::literals(&presets).into_iter().map(|literal| literal.text));
     for text in literals {

@@ -43,11 +43,6 @@ impl Table {
     pub fn text(&self, english: &str) -> Option<&str> {
         self.texts.get(english).map(String::as_str).filter(|text| !text.is_empty())
     }
-
-    /// All English texts and theirs.
-    pub fn texts(&self) -> impl Iterator<Item = (&str, &str)> {
-        self.texts.iter().map(|(english, text)| (english.as_str(), text.as_str()))
-    }
 }
 
 /// The names of the values in a text, sorted, each once.

@@ -131,14 +131,16 @@ mod tests {
         let marked = |text: &str| {
             // What is typed stays as it is; only menu entries are compared.
             let words = text.replace('`', "'");
-            let all: Vec<String> = parts(&words).filter(|(is, _)| *is).map(|(_, name)| name.to_owned()).collect();
+            let all: Vec<String> =
+                parts(&words).filter(|(is, _)| *is).map(|(_, name)| name.to_owned()).collect();
             all
         };
         let mut wrong = Vec::new();
         for (english, ours) in TOPICS.iter().zip(GERMAN) {
             for (line, other) in english.text.lines().zip(ours.text.lines()) {
                 let translated = |name: String| {
-                    let names: Vec<&str> = name.split(" › ").map(|one| table.text(one).unwrap_or(one)).collect();
+                    let names: Vec<&str> =
+                        name.split(" › ").map(|one| table.text(one).unwrap_or(one)).collect();
                     names.join(" › ")
                 };
                 let mut expected: Vec<String> = marked(line).into_iter().map(translated).collect();
