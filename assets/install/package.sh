@@ -57,6 +57,7 @@ lay_out() {
     install -D -m 644 "$work/completions-fish" "$share/fish/vendor_completions.d/toile.fish"
     install -D -m 644 -t "$share/doc/toile" "$here/copyright" "$root/README.md"
     install -D -m 644 -t "$share/doc/toile/recipes" "$root/assets/recipes"/*
+    install -D -m 644 -t "$share/doc/toile/languages" "$root/assets/languages"/*
 }
 
 # What is packed has one owner, one order and one time.

@@ -72,6 +72,11 @@ impl Demo {
         }
     }
 
+    /// Whether it walks through a task, instead of showing a figure.
+    pub fn is_walk(self) -> bool {
+        self.figure().is_none()
+    }
+
     /// Number of the paper's figure that shows the same; None for a walk.
     pub fn figure(self) -> Option<&'static str> {
         Some(match self {

@@ -98,6 +98,7 @@ fn check_installed(prefix: &Path, place: &Place) {
     assert!(prefix.join("share/man/man1/toile-dress.1.gz").exists());
     assert!(file("share/bash-completion/completions/toile").contains("complete -F _toile"));
     assert!(prefix.join("share/doc/toile/recipes/dress.mk").exists());
+    assert!(prefix.join("share/doc/toile/languages/de.json").exists());
     file("share/doc/toile/copyright");
     succeeds("desktop-file-validate", &[text(&prefix.join("share/applications/toile.desktop"))]);
     succeeds("xmllint", &["--noout", text(&prefix.join("share/mime/packages/toile.xml"))]);

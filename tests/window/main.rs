@@ -25,6 +25,7 @@ mod draping;
 mod dressing;
 mod files;
 mod hand;
+mod language;
 mod maps;
 mod marker;
 mod mouse;

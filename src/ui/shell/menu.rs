@@ -280,9 +280,13 @@ fn help_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) {
     items(ui, now, asks, &[Action::CommandPalette, Action::Manual, Action::Shortcuts]);
     ui.separator();
     items(ui, now, asks, &[Action::Tour]);
-    ui.menu_button(tr("Demos"), |ui| {
-        items(ui, now, asks, &Demo::ALL.map(Action::Demo));
-    });
+    let (walks, figures): (Vec<Demo>, Vec<Demo>) = Demo::ALL.iter().partition(|demo| demo.is_walk());
+    for (name, demos) in [(tr("Walks"), walks), (tr("Demos"), figures)] {
+        ui.menu_button(name, |ui| {
+            let actions: Vec<Action> = demos.into_iter().map(Action::Demo).collect();
+            items(ui, now, asks, &actions);
+        });
+    }
     items(ui, now, asks, &[Action::StopDemo]);
 }
 

@@ -43,9 +43,10 @@ static ROWS: LazyLock<Vec<Row>> = LazyLock::new(|| {
     rows.extend(Mouse::ALL.map(|mouse| {
         row("View › Mouse", Action::Mouse(mouse), mouse.name(), mouse.tip()).in_demos().on_start_page()
     }));
-    rows.extend(
-        Demo::ALL.map(|demo| row("Help › Demos", Action::Demo(demo), demo.name(), demo.tells()).in_demos()),
-    );
+    rows.extend(Demo::ALL.map(|demo| {
+        let menu = if demo.is_walk() { "Help › Walks" } else { "Help › Demos" };
+        row(menu, Action::Demo(demo), demo.name(), demo.tells()).in_demos()
+    }));
     rows
 });
 
@@ -138,11 +139,18 @@ mod tests {
         let mut wrong = Vec::new();
         for (english, ours) in TOPICS.iter().zip(GERMAN) {
             for (line, other) in english.text.lines().zip(ours.text.lines()) {
-                let translated = |name: String| {
-                    let names: Vec<&str> =
-                        name.split(" › ").map(|one| table.text(one).unwrap_or(one)).collect();
-                    names.join(" › ")
+                // Sections of the side panel are written with their numbers.
+                let shown = |one: &str| {
+                    let whole = |end: &str| {
+                        let text = table.text(&format!("{one}{end}"))?;
+                        Some(text.strip_suffix(end)?.to_owned())
+                    };
+                    let text = table.text(one).map(str::to_owned);
+                    text.or_else(|| whole(" ({count})"))
+                        .or_else(|| whole(" {size}"))
+                        .unwrap_or(one.to_owned())
                 };
+                let translated = |name: String| name.split(" › ").map(shown).collect::<Vec<_>>().join(" › ");
                 let mut expected: Vec<String> = marked(line).into_iter().map(translated).collect();
                 let mut found = marked(other);
                 expected.sort();
