@@ -108,7 +108,8 @@ pub fn to_rest(session: &mut Session, max_ticks: u64, seconds: &mut Seconds) -> 
         simulation.tick();
         let took = start.elapsed().as_secs_f64();
         if let Some((.., number)) = trying {
-            seconds.starts.resize(number + 1, 0.0);
+            let count = seconds.starts.len().max(number + 1);
+            seconds.starts.resize(count, 0.0);
             seconds.starts[number] += took;
         }
         match phase {

@@ -203,6 +203,24 @@ pub fn write_together(files: &[(PathBuf, Vec<u8>)]) -> std::result::Result<(), (
     written.into_iter().try_for_each(|(path, file)| file.place().map_err(|error| (path.clone(), error)))
 }
 
+/// Removes temporary files of `files` from `folder`: those of a run that was killed while it wrote, since nobody else writes there.
+/// What cannot be removed is left.
+pub fn sweep(folder: &Path, files: &[&Path]) {
+    let names: Vec<String> =
+        files.iter().filter_map(|path| Some(format!(".{}.", path.file_name()?.to_str()?))).collect();
+    let is_left = |name: &str| {
+        names.iter().any(|start| {
+            let end = name.strip_prefix(start.as_str());
+            end.is_some_and(|end| end.len() == 6 && end.chars().all(|c| c.is_ascii_alphanumeric()))
+        })
+    };
+    for file in fs::read_dir(folder).into_iter().flatten().flatten() {
+        if file.file_name().to_str().is_some_and(is_left) {
+            fs::remove_file(file.path()).ok();
+        }
+    }
+}
+
 /// Whether `path` is a write-protected file; permission of the folder to replace it does not count.
 pub fn is_protected(path: &Path) -> bool {
     fs::metadata(path).is_ok_and(|file| file.is_file() && file.permissions().readonly())
@@ -249,6 +267,18 @@ mod tests {
             assert!(fs::symlink_metadata(at(link)).expect("a link").is_symlink());
         }
         assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 3, "nothing else is left");
+    }
+
+    #[test]
+    fn what_a_killed_run_left_is_swept_and_nothing_else() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let at = |name: &str| folder.path().join(name);
+        let left = [".body.obj.Pvvjmb", ".report.json.0aB3c9"];
+        let kept = [".body.obj.Pvvjm", ".body.obj.Pv_jmb", ".other.obj.Pvvjmb", "body.obj", ".body.obj"];
+        left.iter().chain(&kept).for_each(|name| fs::write(at(name), b"x").expect("written"));
+        sweep(folder.path(), &[&at("body.obj"), &at("report.json")]);
+        assert!(left.iter().all(|name| !at(name).exists()));
+        assert!(kept.iter().all(|name| at(name).exists()));
     }
 
     #[test]

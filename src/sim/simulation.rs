@@ -142,7 +142,7 @@ impl Simulation {
         self.world.phase()
     }
 
-    /// While starts are tried: the present one, whether it is being draped, and how many were judged before it.
+    /// While starts are tried: the present one, whether it is being draped, and the number of its result, from 0.
     pub fn trying(&self) -> Option<(Start, bool, usize)> {
         let trials = self.world.trials.as_ref()?;
         let (start, draped) = trials.now();
@@ -378,4 +378,4 @@ fn panic_words(panic: &(dyn std::any::Any + Send)) -> String {
 
 #[cfg(test)]
 #[path = "simulation_tests.rs"]
-mod tests;
+pub(in crate::sim) mod tests;

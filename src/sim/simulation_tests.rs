@@ -14,7 +14,7 @@ use crate::sim::source::{ClothPlace, GarmentSource};
 use crate::sim::start::StartChoice;
 use crate::wrap::{BodyMark, ClothMark, Marks};
 
-fn ball() -> Arc<Surface> {
+pub(in crate::sim) fn ball() -> Arc<Surface> {
     // An octahedron, 1.5 m from corner to corner.
     let corner = |axis: usize, sign: f64| DVec3::AXES[axis] * (0.75 * sign);
     let positions = vec![
@@ -33,7 +33,7 @@ fn ball() -> Arc<Surface> {
     Arc::new(Surface::new(TriMesh { positions, triangles }).expect("an octahedron"))
 }
 
-fn source() -> Arc<GarmentSource> {
+pub(in crate::sim) fn source() -> Arc<GarmentSource> {
     let corners = [(0.0, 0.0), (0.2, 0.0), (0.2, 0.1), (0.0, 0.1)].map(glam::DVec2::from);
     let mut pattern = Pattern::default();
     let piece = pattern.add_piece(Piece::polygon("patch", &corners));
@@ -188,7 +188,7 @@ fn cloth_that_lies_still_is_looked_at_once() {
     assert!(simulation.snapshot().tight.is_empty());
 }
 
-fn cotton() -> Arc<DrapeSource> {
+pub(in crate::sim) fn cotton() -> Arc<DrapeSource> {
     let fabric = Fabric::preset("cotton").cloned().expect("a preset");
     Arc::new(DrapeSource { fabric, of_pieces: BTreeMap::new(), strain: 0.01 })
 }

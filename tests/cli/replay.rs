@@ -66,7 +66,7 @@ fn damaged_recordings_name_the_line() {
 #[test]
 fn demos_are_replayed_by_name() {
     let place = Place::with_ball();
-    place.ends_with_words(3, "replay demo:nothing", "there are wrapping, dragging");
+    place.ends_with_words(3, "replay demo:nothing", "wrapping, dragging");
     let text = toile::session::demos::Demo::Scarf.recording();
     let recording = toile::session::recording::Recording::parse(text).expect("a recording");
     if recording.machine == toile::session::recording::machine() {

@@ -75,6 +75,11 @@ const CALM_AFTER: f64 = 0.5;
 const CALMING: f64 = 10.0;
 /// Largest damping added by [`CALMING`], 1/s; slow swings are then about critically damped.
 const CALMEST: f64 = 8.0;
+/// Damping at the beginning, 1/s, which falls to nothing within [`GENTLE_FOR`] seconds: cloth is let down rather than dropped. It
+/// comes from a wrap with slack above tight places, and a skirt that falls 5 cm pulls its band over the hips, as soft as it is.
+const GENTLE: f64 = 60.0;
+/// Seconds in which the damping of the beginning falls to nothing.
+const GENTLE_FOR: f64 = 0.75;
 /// Time is slowed down once the unbalanced force is below this share of the weight: the cloth has come down. One pass in a small
 /// step leaves edges only as stiff as mass over the step squared, far softer than woven cloth, so cloth that hangs from a tight
 /// place is overstretched; shorter steps take that strain away.
@@ -171,6 +176,8 @@ pub struct DrapedGarment {
     in_vain: u32,
     /// The tick that is partly done.
     begun: Option<Box<Begun>>,
+    /// Seconds for which it has been draped; those of sewing do not count.
+    age: f64,
     /// The attempt under way to pull out deep intersections.
     pulling: Option<Box<Pulling>>,
     /// Faces too near the body at the last check.
@@ -276,6 +283,7 @@ impl DrapedGarment {
             parting: (usize::MAX, 0),
             in_vain: 0,
             begun: None,
+            age: if sewn.is_some() { GENTLE_FOR } else { 0.0 },
             pulling: None,
             lacking: 0,
             card: None,
@@ -476,7 +484,9 @@ impl DrapedGarment {
             bending: &fixed.bending,
             bending_damping: BENDING_DAMPING,
             gravity: if self.floats { DVec3::ZERO } else { GRAVITY },
-            damping: fixed.damping + (CALMING * (seconds - CALM_AFTER)).clamp(0.0, CALMEST) / self.pace,
+            damping: fixed.damping
+                + (CALMING * (seconds - CALM_AFTER)).clamp(0.0, CALMEST) / self.pace
+                + GENTLE * (1.0 - self.age / GENTLE_FOR).max(0.0),
             collider: Some(&fixed.collider),
             offset: fixed.offset,
             friction: &fixed.friction,
@@ -535,7 +545,8 @@ impl DrapedGarment {
 
     /// Lowers the time scale if it is time to. False where it did not change.
     fn slow_down(&mut self) -> bool {
-        let begins = self.pace < 1.0 || self.progress.residual < DOWN || self.progress.ticks > DOWN_BY;
+        let is_down = self.progress.residual < DOWN && self.age >= GENTLE_FOR;
+        let begins = self.pace < 1.0 || is_down || self.progress.ticks > DOWN_BY;
         if self.floats || self.pace == SLOWEST || !begins {
             return false;
         }
@@ -556,6 +567,7 @@ impl DrapedGarment {
             fastest = fastest.max(now.length() / span);
             *way = now;
         }
+        self.age += span;
         let weight = mass.iter().sum::<f64>() * GRAVITY.length();
         let (residual, speed) = (unbalanced / weight, fastest);
         self.progress = Progress { ticks: self.progress.ticks + 1, residual, speed, at_rest: false };

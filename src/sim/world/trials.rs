@@ -49,6 +49,10 @@ pub struct Trials {
     refining: Option<Started>,
     /// What that cloth does now.
     refinement: Refinement,
+    /// The cloth of the coarser mesh, from which it began.
+    coarse: Option<Arc<World>>,
+    /// That cloth once it was draped and had faults all the same, with those faults and their number of places.
+    draped_fine: Option<(Arc<World>, Vec<String>, usize)>,
 }
 
 /// Stages of settling in the garment's own mesh.
@@ -60,6 +64,8 @@ enum Refinement {
     Mending,
     /// Draping once more.
     Again,
+    /// Relaxing from where the coarser mesh came to rest: what has a fault when draped may have none without.
+    Undraped,
 }
 
 impl Trials {
@@ -79,9 +85,13 @@ impl Trials {
         self.ticks >= MOST_TICKS && !is_last && self.refining.is_none()
     }
 
-    /// Number of results so far.
+    /// The number of the result that is being worked for, from 0.
     pub fn count(&self) -> usize {
-        self.tried.len()
+        match &self.refining {
+            Some(started) if self.refinement == Refinement::Undraped => started.tried.len(),
+            Some(started) => started.taken,
+            None => self.tried.len(),
+        }
     }
 
     /// Records the result of the present start, whose cloth is in `world`.
@@ -130,6 +140,8 @@ impl World {
             fine: coarse.map(|_| own),
             refining: None,
             refinement: Refinement::First,
+            coarse: None,
+            draped_fine: None,
             source,
             body,
             fabrics,
@@ -237,13 +249,24 @@ impl World {
                 faults.push(format!("it was not draped: {why}"));
             }
         }
-        if trials.refining.is_some() && self.mends_refined(trials, faults.is_empty()) {
+        if trials.refining.is_some() && self.mends_refined(trials, &faults, places) {
             return None;
         }
         if let Some(mut started) = trials.refining.take() {
             let taken = &mut started.tried[started.taken];
-            (taken.faults, taken.places, taken.ticks) = (faults, places, taken.ticks + trials.ticks);
-            return Some(Self { started: Some(Arc::new(started)), ..self.clone() });
+            let Some((draped, its_faults, its_places)) = trials.draped_fine.take() else {
+                (taken.faults, taken.places, taken.ticks) = (faults, places, taken.ticks + trials.ticks);
+                return Some(Self { started: Some(Arc::new(started)), ..self.clone() });
+            };
+            (taken.faults, taken.places) = (its_faults, its_places);
+            let (start, ticks) = (taken.start, trials.ticks);
+            let is_better = faults.is_empty();
+            started.tried.push(Tried { start, draped: false, faults, places, ticks });
+            if is_better {
+                started.taken = started.tried.len() - 1;
+                return Some(Self { started: Some(Arc::new(started)), ..self.clone() });
+            }
+            return Some(Self { started: Some(Arc::new(started)), ..Arc::unwrap_or_clone(draped) });
         }
         let lies = self.cloth.mapped.contains(&true) && self.not_finite().is_none();
         let drapes_next = trials.now == Start::Marks && !trials.draping && lies && !is_astray;
@@ -267,16 +290,17 @@ impl World {
         if let Some(edge_length) = trials.fine {
             (trials.now, trials.draping) = (started.taken().start, started.taken().draped);
             (trials.refining, trials.ticks) = (Some(started), 0);
+            trials.coarse = Some(Arc::new(world.clone()));
             *self = world.refined(edge_length, Arc::clone(&trials.fabrics));
             return None;
         }
         Some(Self { started: Some(Arc::new(started)), ..world })
     }
 
-    /// Goes on with draped cloth that had a fault in the garment's own mesh. False when there is nothing more to try.
-    fn mends_refined(&mut self, trials: &mut Trials, is_clean: bool) -> bool {
+    /// Goes on with draped cloth that had `faults` in the garment's own mesh. False when there is nothing more to try.
+    fn mends_refined(&mut self, trials: &mut Trials, faults: &[String], places: usize) -> bool {
         match trials.refinement {
-            Refinement::First if trials.draping && !is_clean && self.not_finite().is_none() => {
+            Refinement::First if trials.draping && !faults.is_empty() && self.not_finite().is_none() => {
                 trials.refinement = Refinement::Mending;
                 self.draping = None;
                 self.settle();
@@ -287,7 +311,20 @@ impl World {
                 self.drape_for(None, Arc::clone(&trials.fabrics));
                 true
             }
-            Refinement::First | Refinement::Again => false,
+            Refinement::Again if !faults.is_empty() && !trials.choice.draped => {
+                let (Some(coarse), Some(edge_length)) = (trials.coarse.take(), trials.fine) else {
+                    return false;
+                };
+                (trials.refinement, trials.draping) = (Refinement::Undraped, false);
+                if let Some(started) = &mut trials.refining {
+                    started.tried[started.taken].ticks += std::mem::take(&mut trials.ticks);
+                }
+                trials.draped_fine = Some((Arc::new(self.clone()), faults.to_vec(), places));
+                let undraped = Self { was_draped: false, ..Arc::unwrap_or_clone(coarse) };
+                *self = undraped.refined(edge_length, Arc::clone(&trials.fabrics));
+                true
+            }
+            Refinement::First | Refinement::Again | Refinement::Undraped => false,
         }
     }
 
@@ -346,4 +383,67 @@ fn places(report: &Report, lies: Lies) -> usize {
 fn is_astray(report: &Report) -> bool {
     let is_missed = report.openings.len() > 1 && report.openings.iter().any(|opening| !opening.body_through);
     is_missed || report.pieces.iter().any(|piece| piece.missing_triangles > 0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sim::simulation::tests::{ball, cotton, source};
+
+    fn rested(mut world: World) -> World {
+        while !world.lies_still() {
+            world.advance();
+        }
+        world
+    }
+
+    /// Trials whose cloth has a fault in the garment's own mesh although it was draped twice there, and the world of that cloth.
+    fn faulty() -> (World, Trials) {
+        let begun = World::dressed(source(), ball(), cotton(), StartChoice::default());
+        let mut world = begun.expect("begun");
+        let mut trials = Arc::unwrap_or_clone(world.trials.take().expect("begun"));
+        let world = rested(world);
+        let tried = Tried { start: Start::Marks, draped: true, faults: Vec::new(), places: 0, ticks: 9 };
+        trials.fine = Some(0.03);
+        trials.refining = Some(Started { tried: vec![tried], taken: 0 });
+        (trials.refinement, trials.draping) = (Refinement::Again, true);
+        trials.coarse = Some(Arc::new(World { was_draped: true, ..world.clone() }));
+        (World { was_draped: true, ..world }, trials)
+    }
+
+    #[test]
+    fn what_has_a_fault_draped_in_its_own_mesh_alone_is_taken_undraped() {
+        let (mut world, mut trials) = faulty();
+        let before = world.garment.as_ref().map_or(0, |garment| garment.triangles.len());
+        assert!(world.after_start(&mut trials, Some("it fell off".to_owned())).is_none());
+        assert_eq!(
+            (trials.refinement, trials.now(), trials.count()),
+            (Refinement::Undraped, (Start::Marks, false), 1)
+        );
+        let world = rested(world).after_start(&mut trials, None).expect("taken");
+        let started = world.started.expect("told");
+        let told: Vec<(bool, usize)> =
+            started.tried.iter().map(|tried| (tried.draped, tried.faults.len())).collect();
+        assert_eq!((told, started.taken), (vec![(true, 1), (false, 0)], 1));
+        assert!(!world.was_draped && world.garment.is_some_and(|garment| garment.triangles.len() > before));
+    }
+
+    #[test]
+    fn draped_cloth_is_taken_where_relaxed_cloth_has_a_fault_too() {
+        let (mut world, mut trials) = faulty();
+        assert!(world.after_start(&mut trials, Some("it fell off".to_owned())).is_none());
+        let world =
+            rested(world).after_start(&mut trials, Some("it crosses itself".to_owned())).expect("taken");
+        let started = world.started.expect("told");
+        assert_eq!((started.taken, &started.taken().faults[..]), (0, &["it fell off".to_owned()][..]));
+        assert!(world.was_draped && started.tried.len() == 2);
+    }
+
+    #[test]
+    fn only_draped_cloth_is_taken_where_that_is_asked_for() {
+        let (mut world, mut trials) = faulty();
+        trials.choice.draped = true;
+        let world = world.after_start(&mut trials, Some("it fell off".to_owned())).expect("taken");
+        assert_eq!(world.started.expect("told").tried.len(), 1);
+    }
 }
