@@ -176,7 +176,7 @@ pub struct DrapedGarment {
     in_vain: u32,
     /// The tick that is partly done.
     begun: Option<Box<Begun>>,
-    /// Seconds for which it has been draped; those of sewing do not count.
+    /// Time for which it has been draped, seconds of unslowed time; sewing does not count.
     age: f64,
     /// The attempt under way to pull out deep intersections.
     pulling: Option<Box<Pulling>>,
@@ -263,8 +263,6 @@ impl DrapedGarment {
         let mut small =
             SmallSteps::of(springs.iter().copied(), settings.strain, &sheet, &bending, &mass, &pinned);
         worked.give(&mut small, thickness);
-        let obstacle = Arc::new(Obstacle::of(&surface));
-        let collider = Collider::still(surface);
         Ok(Self {
             settings,
             small: small.easing(),
@@ -298,8 +296,8 @@ impl DrapedGarment {
                 springs,
                 mass,
                 friction,
-                collider,
-                obstacle,
+                obstacle: Arc::new(Obstacle::of(&surface)),
+                collider: Collider::still(surface),
                 offset: thickness + SKIN,
                 thickness,
                 damping: damping + AIR,
@@ -545,8 +543,7 @@ impl DrapedGarment {
 
     /// Lowers the time scale if it is time to. False where it did not change.
     fn slow_down(&mut self) -> bool {
-        let is_down = self.progress.residual < DOWN && self.age >= GENTLE_FOR;
-        let begins = self.pace < 1.0 || is_down || self.progress.ticks > DOWN_BY;
+        let begins = self.pace < 1.0 || self.progress.residual < DOWN || self.progress.ticks > DOWN_BY;
         if self.floats || self.pace == SLOWEST || !begins {
             return false;
         }
@@ -567,7 +564,7 @@ impl DrapedGarment {
             fastest = fastest.max(now.length() / span);
             *way = now;
         }
-        self.age += span;
+        self.age += TICK;
         let weight = mass.iter().sum::<f64>() * GRAVITY.length();
         let (residual, speed) = (unbalanced / weight, fastest);
         self.progress = Progress { ticks: self.progress.ticks + 1, residual, speed, at_rest: false };
