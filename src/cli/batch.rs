@@ -82,6 +82,10 @@ pub fn batch(arguments: &Dress) -> Result<(), Failure> {
             output::complain(&format!("{i} of {} are done; --resume goes on from there", jobs.len()));
             return Err(signal);
         }
+        if done.is_ok() && lines.is_some() {
+            // The folder is this garment's own.
+            output::sweep(&job.folder);
+        }
         let told = Told::new(job, done, begun);
         let line = serde_json::to_string(&told.line()).map_err(|e| Failure::Internal(e.to_string()))?;
         if let Some(lines) = &mut lines {

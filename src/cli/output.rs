@@ -49,9 +49,9 @@ pub fn write_together(files: &[(PathBuf, Vec<u8>)]) -> Result<(), Failure> {
     whole_file::write_together(files).map_err(|(path, error)| Failure::file(&path, error))
 }
 
-/// Removes from `folder` what a killed run has left of any of `files`.
-pub fn sweep(folder: &Path, files: &[&Path]) {
-    whole_file::sweep(folder, files);
+/// Removes from `folder`, in which nobody else writes, what a killed run has left.
+pub fn sweep(folder: &Path) {
+    whole_file::sweep(folder);
 }
 
 /// Makes `folder` and its parents. If a signal comes while they are empty, they are removed again.

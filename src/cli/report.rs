@@ -262,9 +262,7 @@ impl Report {
         let mut files: Vec<(PathBuf, Vec<u8>)> =
             placed.map(|(name, bytes)| (folder.join(name), bytes)).collect();
         files.push((folder.join(FILE_NAME), text.into_bytes()));
-        output::write_together(&files)?;
-        output::sweep(folder, &files.iter().map(|(path, _)| path.as_path()).collect::<Vec<_>>());
-        Ok(())
+        output::write_together(&files)
     }
 
     /// The report on several lines.

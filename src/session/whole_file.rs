@@ -203,18 +203,19 @@ pub fn write_together(files: &[(PathBuf, Vec<u8>)]) -> std::result::Result<(), (
     written.into_iter().try_for_each(|(path, file)| file.place().map_err(|error| (path.clone(), error)))
 }
 
-/// Removes temporary files of `files` from `folder`: those of a run that was killed while it wrote, since nobody else writes there.
-/// What cannot be removed is left.
-pub fn sweep(folder: &Path, files: &[&Path]) {
+/// Removes temporary files for files of `folder`, in which nobody else writes: those of a run that was killed while it wrote. What
+/// cannot be removed is left.
+pub fn sweep(folder: &Path) {
+    let all = || fs::read_dir(folder).into_iter().flatten().flatten();
     let names: Vec<String> =
-        files.iter().filter_map(|path| Some(format!(".{}.", path.file_name()?.to_str()?))).collect();
+        all().filter_map(|file| Some(format!(".{}.", file.file_name().to_str()?))).collect();
     let is_left = |name: &str| {
         names.iter().any(|start| {
             let end = name.strip_prefix(start.as_str());
             end.is_some_and(|end| end.len() == 6 && end.chars().all(|c| c.is_ascii_alphanumeric()))
         })
     };
-    for file in fs::read_dir(folder).into_iter().flatten().flatten() {
+    for file in all() {
         if file.file_name().to_str().is_some_and(is_left) {
             fs::remove_file(file.path()).ok();
         }
@@ -274,9 +275,9 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let at = |name: &str| folder.path().join(name);
         let left = [".body.obj.Pvvjmb", ".report.json.0aB3c9"];
-        let kept = [".body.obj.Pvvjm", ".body.obj.Pv_jmb", ".other.obj.Pvvjmb", "body.obj", ".body.obj"];
+        let kept = [".body.obj.Pvvjm", ".body.obj.Pv_jmb", ".other.obj.Pvvjmb", "body.obj", "report.json"];
         left.iter().chain(&kept).for_each(|name| fs::write(at(name), b"x").expect("written"));
-        sweep(folder.path(), &[&at("body.obj"), &at("report.json")]);
+        sweep(folder.path());
         assert!(left.iter().all(|name| !at(name).exists()));
         assert!(kept.iter().all(|name| at(name).exists()));
     }

@@ -370,6 +370,8 @@ impl DrapedGarment {
 
     /// Begins to drag `vertex`, with its present position as the target. Does nothing where no cloth is draped.
     pub fn take(&mut self, vertex: u32) {
+        // A hand is not slowed.
+        self.age = GENTLE_FOR;
         let Some(v) = own_number(&self.fixed.own, vertex) else { return };
         let weight: f64 = self.fixed.mass.iter().sum::<f64>() * GRAVITY.length();
         let (stiffness, times) = HAND;
