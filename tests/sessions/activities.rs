@@ -142,7 +142,7 @@ fn a_deactivated_piece_stays_and_holds_nothing() {
     set(&mut s, Activity::Deactivated);
     assert_eq!(s.undo_label(), Some("deactivate left"));
     s.apply_alone(Command::SetDraping { on: true }).expect("draped");
-    run(&mut s, 200);
+    run(&mut s, 90);
     assert_eq!(left_alone(&s), before);
     assert!(lowest(&s) < low - 0.3, "nothing holds the other: {} under {low}", lowest(&s));
     let snapshot = s.snapshot();

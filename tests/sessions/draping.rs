@@ -439,7 +439,7 @@ fn what_falls_down_is_told() {
         assert!(run(&mut s, 1) > 0, "sewn in time");
     }
     assert!(!told(&s));
-    run(&mut s, 160);
+    run(&mut s, 40);
     assert!(told(&s));
 }
 

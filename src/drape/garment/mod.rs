@@ -176,7 +176,7 @@ pub struct DrapedGarment {
     in_vain: u32,
     /// The tick that is partly done.
     begun: Option<Box<Begun>>,
-    /// Time for which it has been draped, seconds of unslowed time; sewing does not count.
+    /// Time for which it has been let down, seconds of unslowed time.
     age: f64,
     /// The attempt under way to pull out deep intersections.
     pulling: Option<Box<Pulling>>,
@@ -281,7 +281,7 @@ impl DrapedGarment {
             parting: (usize::MAX, 0),
             in_vain: 0,
             begun: None,
-            age: if sewn.is_some() { GENTLE_FOR } else { 0.0 },
+            age: GENTLE_FOR,
             pulling: None,
             lacking: 0,
             card: None,
@@ -321,6 +321,12 @@ impl DrapedGarment {
             Some(Arc::clone(obstacle)),
         ));
         self.part(&mut cloth.clone());
+    }
+
+    /// Begins damped: see [`GENTLE`]. For cloth that nobody watches or holds, since it also falls slowly.
+    pub fn let_down(mut self) -> Self {
+        self.age = 0.0;
+        self
     }
 
     /// The state of convergence.
@@ -370,8 +376,6 @@ impl DrapedGarment {
 
     /// Begins to drag `vertex`, with its present position as the target. Does nothing where no cloth is draped.
     pub fn take(&mut self, vertex: u32) {
-        // A hand is not slowed.
-        self.age = GENTLE_FOR;
         let Some(v) = own_number(&self.fixed.own, vertex) else { return };
         let weight: f64 = self.fixed.mass.iter().sum::<f64>() * GRAVITY.length();
         let (stiffness, times) = HAND;

@@ -191,6 +191,7 @@ impl World {
             &held,
             settings,
         )?;
+        let worn = if self.trials.is_some() { worn.let_down() } else { worn };
         Arc::make_mut(draping).worn = Some(match &self.card {
             Some(slot) => worn.with_card(slot),
             None => worn,
