@@ -7,7 +7,7 @@ use super::*;
 fn open(window: &mut Window, demo: Demo) {
     window.get_by_label("Help").click();
     window.run_steps(4);
-    window.get_by_label_contains("Demos").click();
+    window.get_by_label_contains(if demo.is_walk() { "Walks" } else { "Demos" }).click();
     window.run_steps(4);
     window.get_by_label(demo.name()).click();
     window.run_steps(4);
@@ -50,4 +50,20 @@ fn a_demo_that_is_over_stays_to_be_looked_at() {
     window.get_by_label("Back to your work").click();
     window.run_steps(3);
     assert!(!app(&window).shown().snapshot().is_dressed());
+}
+
+#[test]
+fn a_walk_that_begins_with_an_empty_table_shows_its_pieces() {
+    let mut window = window();
+    open(&mut window, Demo::Drafting);
+    assert!(app(&window).shown().document().pattern.pieces.is_empty());
+    wait(&mut window, "two pieces", |app| app.shown().document().pattern.pieces.len() == 2);
+    window.run_steps(3);
+    let area = pane(&window, "Pattern pane");
+    for piece in app(&window).shown().document().pattern.pieces.values() {
+        for edge in &piece.outline {
+            let at = app(&window).on_screen(piece.pose.plane_from_piece(edge.start)).expect("drawn");
+            assert!(area.contains(at), "{}: {at} is outside of {area}", piece.name);
+        }
+    }
 }

@@ -2,17 +2,6 @@
 
 use super::*;
 
-fn act(window: &mut Window, label: &str) {
-    window.get_by_label(label).click();
-    window.run_steps(4);
-}
-
-fn edit(window: &mut Window, change: impl FnOnce(&mut App, &egui::Context)) {
-    let ctx = window.ctx.clone();
-    change(window.state_mut().as_mut().expect("the app"), &ctx);
-    window.run_steps(3);
-}
-
 /// A window that keeps its preferences in `folder`.
 fn window_kept_in(folder: &std::path::Path) -> Window {
     let mut window = window();

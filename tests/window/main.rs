@@ -156,12 +156,23 @@ fn wait(window: &mut Window, what: &str, done: impl Fn(&App) -> bool) {
     }
 }
 
+/// Clicks what has this label.
+fn act(window: &mut Window, label: &str) {
+    window.get_by_label(label).click();
+    window.run_steps(4);
+}
+
+/// Changes the app by hand.
+fn edit(window: &mut Window, change: impl FnOnce(&mut App, &egui::Context)) {
+    let ctx = window.ctx.clone();
+    change(window.state_mut().as_mut().expect("the app"), &ctx);
+    window.run_steps(3);
+}
+
 /// Clicks an entry of a menu of the bar.
 fn from_menu(window: &mut Window, menu: &str, entry: &str) {
-    for label in [menu, entry] {
-        window.get_by_label(label).click();
-        window.run_steps(4);
-    }
+    act(window, menu);
+    act(window, entry);
 }
 
 #[test]

@@ -4,21 +4,10 @@ use toile::session::project_file;
 
 use super::*;
 
-fn act(window: &mut Window, label: &str) {
-    window.get_by_label(label).click();
-    window.run_steps(4);
-}
-
 fn menu(window: &mut Window, menu: &str, entry: &str) {
     act(window, menu);
     window.get_by_label_contains(entry).click();
     window.run_steps(4);
-}
-
-fn edit(window: &mut Window, change: impl FnOnce(&mut App, &egui::Context)) {
-    let ctx = window.ctx.clone();
-    change(window.state_mut().as_mut().expect("the app"), &ctx);
-    window.run_steps(3);
 }
 
 fn type_into(window: &mut Window, text: &str) {

@@ -44,10 +44,14 @@ impl App {
         let seconds = f64::from(ctx.input(|i| i.unstable_dt));
         let mut stage =
             Stage { table: (table, self.pattern_pane.view), scene, camera: &mut self.scene_pane.camera };
+        let pieces = |player: &Player| player.session().document().pattern.pieces.len();
+        let before = pieces(player);
         if let Err(words) = player.advance(seconds, &mut stage) {
             self.messages.error(words);
             return self.stop_demo();
         }
+        // A walk may begin with an empty table.
+        self.pattern_pane.fit |= pieces(player) != before;
         if !player.has_ended() {
             ctx.request_repaint();
         }

@@ -73,6 +73,13 @@ impl Stage {
         assert_eq!(self.session.snapshot().phase, Some(Phase::AtRest));
     }
 
+    pub fn wrap_and_drape(&mut self) {
+        for command in [Command::Wrap, Command::SetDraping { on: true }] {
+            self.give(command);
+            self.rest();
+        }
+    }
+
     pub fn piece(&self, name: &str) -> PieceId {
         self.session.document().pattern.piece_named(name).expect("a piece of this name")
     }

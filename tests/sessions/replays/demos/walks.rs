@@ -68,10 +68,7 @@ pub fn drafting() -> Stage {
         let points = stage.stroke(&[DVec3::new(-0.06 * z, y, 0.3 * z), DVec3::new(0.06 * z, y, 0.3 * z)]);
         stage.give(Command::AddBodyMark { points });
     }
-    stage.give(Command::Wrap);
-    stage.rest();
-    stage.give(Command::SetDraping { on: true });
-    stage.rest();
+    stage.wrap_and_drape();
     stage
 }
 
@@ -190,15 +187,15 @@ pub fn creature() -> Stage {
         piece: Arc::new(Piece { pose: laid_at(0.5, -0.5), ..Piece::polygon("cloak", &corners) }),
     });
     let piece = stage.piece("cloak");
-    let points = (0..=16).map(|i| DVec2::new(0.0, -0.28 + 0.035 * f64::from(i))).collect();
-    stage.give(Command::AddClothMark { piece, side: ClothSide::Front, points });
     let points =
-        stage.stroke(&[DVec3::new(-0.38, 0.8, 0.0), DVec3::new(0.10, 0.9, 0.0), DVec3::new(0.24, 1.0, 0.0)]);
+        stage.stroke(&[DVec3::new(-0.36, 0.8, 0.0), DVec3::new(0.10, 0.9, 0.0), DVec3::new(0.20, 1.0, 0.0)]);
+    // As long on the cloth as on the body.
+    let length: f64 = points.windows(2).map(|side| side[0].distance(side[1])).sum();
+    assert!(length < 2.0 * long, "{length}");
+    let on_cloth = (0..=16).map(|i| DVec2::new(0.0, length * (f64::from(i) / 16.0 - 0.5))).collect();
+    stage.give(Command::AddClothMark { piece, side: ClothSide::Front, points: on_cloth });
     stage.give(Command::AddBodyMark { points });
-    stage.give(Command::Wrap);
-    stage.rest();
-    stage.give(Command::SetDraping { on: true });
-    stage.rest();
+    stage.wrap_and_drape();
     stage
 }
 
