@@ -8,7 +8,7 @@ use crate::geometry::ids::PieceId;
 use crate::geometry::polygon::signed_area;
 use crate::pattern::activity::Activity;
 use crate::pattern::edge::{ARC_LENGTH_ACCURACY, Edge};
-use crate::pattern::grading::rule::GradeRule;
+use crate::pattern::grading::rule::{GradeRule, RulePoint};
 use crate::pattern::{SpacePose, curve};
 
 /// Position, rotation and flip of a piece on the table (the pattern plane). It has no effect on the cloth.
@@ -208,6 +208,23 @@ impl Piece {
         curve::points(a, self.edge(i).shape, b, fractions)
     }
 
+    /// Where a point of a closed or an internal line is, in the piece's own plane. None where there is no such point.
+    pub fn place_of(&self, at: &RulePoint) -> Option<DVec2> {
+        match at.line {
+            None => (at.point < self.edge_count()).then(|| self.edge(at.point).start),
+            Some(line) => self.lines.get(line)?.point(at.point),
+        }
+    }
+
+    /// The grade rule of a point of a closed or an internal line, where it has one.
+    pub fn rule_of(&self, at: &RulePoint) -> Option<&GradeRule> {
+        match at.line {
+            None if at.point < self.edge_count() => self.edge(at.point).rule.as_ref(),
+            None => None,
+            Some(line) => self.lines.get(line)?.rule(at.point),
+        }
+    }
+
     /// The outline as a closed polyline whose chords stay within `tolerance` metres of it; the first point is not repeated.
     pub fn flattened(&self, tolerance: f64) -> Vec<DVec2> {
         flattened_loop(&self.outline, tolerance)
@@ -231,6 +248,31 @@ pub fn flattened_loop(edges: &[Edge], tolerance: f64) -> Vec<DVec2> {
 }
 
 impl InternalLine {
+    /// The points in order, one more than edges: where each edge starts, then the end.
+    pub fn points(&self) -> impl Iterator<Item = DVec2> {
+        self.edges.iter().map(|edge| edge.start).chain([self.end])
+    }
+
+    /// Point `i`: where edge `i` starts; on a line of n edges point n is its end. None where there is no such point.
+    pub fn point(&self, i: usize) -> Option<DVec2> {
+        self.points().nth(i)
+    }
+
+    /// The grade rule of point `i`, where it has one.
+    pub fn rule(&self, i: usize) -> Option<&GradeRule> {
+        match self.edges.get(i) {
+            Some(edge) => edge.rule.as_ref(),
+            None => self.end_rule.as_ref().filter(|_| i == self.edges.len()),
+        }
+    }
+
+    /// The other end, for an end of a line that ends where it starts.
+    pub fn meeting_end(&self, i: usize) -> Option<usize> {
+        let last = self.edges.len();
+        let meets = self.point(0) == Some(self.end) && (i == 0 || i == last);
+        meets.then_some(last - i)
+    }
+
     /// Whether edges of the mesh must follow the line.
     pub fn needs_mesh(&self) -> bool {
         self.edges.iter().any(|edge| edge.trims.needs_mesh())

@@ -7,7 +7,7 @@ use serde_json::json;
 
 use crate::geometry::ids::{GraphicId, ImageId, PieceId, SeamId};
 use crate::io::words::readable;
-use crate::pattern::edit::{PatternEdit, PointRef, TrimLine};
+use crate::pattern::edit::{LinePoint, PatternEdit, PointRef, TrimLine};
 use crate::pattern::grading::READY_SIZES;
 use crate::pattern::{
     AllowanceCorner, Button, Edge, EdgeRef, EdgeShape, Elastic, Fold, GradeRule, Hem, InternalLine, Pattern,
@@ -143,6 +143,9 @@ fn edits([front, back]: [PieceId; 2], seam: SeamId) -> [Vec<PatternEdit>; 7] {
         vec![PatternEdit::Cut { piece: back, line: line.clone(), sew: true }],
         vec![
             PatternEdit::AddLine { piece: front, line: line.clone() },
+            PatternEdit::MoveLinePoints {
+                points: vec![(LinePoint { piece: front, line: 0, point: 1 }, high)],
+            },
             PatternEdit::AddHole { piece: back, edges: pocket.outline },
             PatternEdit::PlaceInSpace {
                 placements: vec![(front, Some(SpacePose::flat(DVec3::Z, Default::default())))],

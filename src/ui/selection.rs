@@ -4,8 +4,8 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use crate::geometry::ids::{PieceId, PinId, SeamId};
-use crate::pattern::edit::PointRef;
-use crate::pattern::{EdgeRef, Pattern};
+use crate::pattern::edit::{LinePoint, PointRef};
+use crate::pattern::{EdgeRef, Pattern, RulePoint};
 use crate::ui::language::counted;
 
 /// A reference to an internal line of a piece, by its index from 0.
@@ -28,6 +28,8 @@ pub struct Selection {
     pub edges: BTreeSet<EdgeRef>,
     /// Lines drawn inside pieces.
     pub lines: BTreeSet<LineRef>,
+    /// Points of lines drawn inside pieces.
+    pub line_points: BTreeSet<LinePoint>,
     /// Seams.
     pub seams: BTreeSet<SeamId>,
     /// Pins in the dressed cloth. Pins and items of the pattern are never selected together.
@@ -41,7 +43,17 @@ pub enum Item {
     Point(PointRef),
     Edge(EdgeRef),
     Line(LineRef),
+    LinePoint(LinePoint),
     Seam(SeamId),
+}
+
+impl From<RulePoint> for Item {
+    fn from(RulePoint { piece, line, point }: RulePoint) -> Self {
+        match line {
+            None => Self::Point(PointRef { piece, point }),
+            Some(line) => Self::LinePoint(LinePoint { piece, line, point }),
+        }
+    }
 }
 
 impl Item {
@@ -54,6 +66,9 @@ impl Item {
             Self::Edge(EdgeRef { piece, edge: i }) => edge(piece, i),
             Self::Line(LineRef { piece, line }) => {
                 pattern.pieces.get(&piece).is_some_and(|p| line < p.lines.len())
+            }
+            Self::LinePoint(at) => {
+                pattern.pieces.get(&at.piece).is_some_and(|piece| piece.place_of(&at.into()).is_some())
             }
             Self::Seam(seam) => pattern.seams.contains_key(&seam),
         }
@@ -75,9 +90,9 @@ impl Selection {
 
     /// Whether nothing is selected.
     pub fn is_empty(&self) -> bool {
-        let Self { pieces, points, edges, lines, seams, pins } = self;
+        let Self { pieces, points, edges, lines, line_points, seams, pins } = self;
         let outlines = pieces.is_empty() && points.is_empty() && edges.is_empty();
-        outlines && lines.is_empty() && seams.is_empty() && pins.is_empty()
+        outlines && lines.is_empty() && line_points.is_empty() && seams.is_empty() && pins.is_empty()
     }
 
     /// Whether `item` is selected.
@@ -87,6 +102,7 @@ impl Selection {
             Item::Point(id) => self.points.contains(&id),
             Item::Edge(id) => self.edges.contains(&id),
             Item::Line(id) => self.lines.contains(&id),
+            Item::LinePoint(id) => self.line_points.contains(&id),
             Item::Seam(id) => self.seams.contains(&id),
         }
     }
@@ -103,6 +119,7 @@ impl Selection {
             Item::Point(id) => flip(&mut self.points, id),
             Item::Edge(id) => flip(&mut self.edges, id),
             Item::Line(id) => flip(&mut self.lines, id),
+            Item::LinePoint(id) => flip(&mut self.line_points, id),
             Item::Seam(id) => flip(&mut self.seams, id),
         }
     }
@@ -130,12 +147,25 @@ impl Selection {
         Self { pins, ..Self::default() }
     }
 
-    /// Selected pieces, and the pieces of selected points, edges and lines.
+    /// Selected pieces, and the pieces of selected points, edges, lines and points of lines.
     pub fn pieces_touched(&self) -> BTreeSet<PieceId> {
         let points = self.points.iter().map(|p| p.piece);
         let edges = self.edges.iter().map(|e| e.piece);
         let lines = self.lines.iter().map(|l| l.piece);
+        let lines = lines.chain(self.line_points.iter().map(|p| p.piece));
         self.pieces.iter().copied().chain(points).chain(edges).chain(lines).collect()
+    }
+
+    /// Selected points of closed and of internal lines.
+    pub fn all_points(&self) -> impl Iterator<Item = RulePoint> {
+        let closed = self.points.iter().map(|&point| point.into());
+        closed.chain(self.line_points.iter().map(|&point| point.into()))
+    }
+
+    /// Internal lines that are selected or have a selected point.
+    pub fn lines_touched(&self) -> BTreeSet<LineRef> {
+        let of_points = self.line_points.iter().map(|&LinePoint { piece, line, .. }| LineRef { piece, line });
+        self.lines.iter().copied().chain(of_points).collect()
     }
 
     /// A selection of everything visible.
@@ -155,17 +185,25 @@ impl Selection {
         self.points.retain(|p| same(&p.piece) && Item::Point(*p).is_in(new));
         self.edges.retain(|e| same(&e.piece) && Item::Edge(*e).is_in(new));
         let lines = |pattern: &Pattern, id: &PieceId| pattern.pieces.get(id).map(|p| p.lines.len());
-        self.lines.retain(|l| lines(old, &l.piece) == lines(new, &l.piece) && Item::Line(*l).is_in(new));
+        let same_lines = |id: &PieceId| lines(old, id) == lines(new, id);
+        self.lines.retain(|l| same_lines(&l.piece) && Item::Line(*l).is_in(new));
+        let inside = |pattern: &Pattern, at: &LinePoint| {
+            pattern.pieces.get(&at.piece)?.lines.get(at.line).map(|line| line.edges.len())
+        };
+        self.line_points.retain(|at| {
+            same_lines(&at.piece) && inside(old, at) == inside(new, at) && Item::LinePoint(*at).is_in(new)
+        });
         self.seams.retain(|id| Item::Seam(*id).is_in(new));
     }
 
     /// The selection in words, for the status bar and screen readers.
     pub fn words(&self) -> String {
-        let Self { pieces, points, edges, lines, seams, pins } = self;
+        let Self { pieces, points, edges, lines, line_points, seams, pins } = self;
+        let points = points.len() + line_points.len();
         let parts = [
             (pieces.len(), counted(pieces.len(), "1 piece", "{n} pieces")),
             (edges.len(), counted(edges.len(), "1 edge", "{n} edges")),
-            (points.len(), counted(points.len(), "1 point", "{n} points")),
+            (points, counted(points, "1 point", "{n} points")),
             (lines.len(), counted(lines.len(), "1 line", "{n} lines")),
             (seams.len(), counted(seams.len(), "1 seam", "{n} seams")),
             (pins.len(), counted(pins.len(), "1 pin", "{n} pins")),
@@ -217,5 +255,29 @@ mod tests {
         selection.edges.insert(EdgeRef { piece: ids[1], edge: 0 });
         selection.carried(&old, &Arc::new(pattern));
         assert_eq!(selection, Selection::of_pieces([ids[1]]));
+    }
+
+    #[test]
+    fn points_of_lines_are_selected_until_their_line_is_another() {
+        let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(DVec2::from);
+        let edges = vec![crate::pattern::Edge { start: DVec2::splat(0.2), ..Default::default() }];
+        let line = crate::pattern::InternalLine { edges, end: DVec2::splat(0.8), ..Default::default() };
+        let mut pattern = Pattern::default();
+        let piece = pattern.add_piece(Piece { lines: vec![line], ..Piece::polygon("p", &square) });
+        let at = |point| RulePoint { piece, line: Some(0), point };
+        let mut selection = Selection::of(at(1).into());
+        assert_eq!((selection.words(), selection.is_empty()), ("1 point".to_owned(), false));
+        assert_eq!(selection.all_points().collect::<Vec<_>>(), [at(1)]);
+        assert_eq!(selection.lines_touched(), [LineRef { piece, line: 0 }].into());
+        assert_eq!(selection.pieces_touched(), [piece].into());
+        assert!(Item::from(at(1)).is_in(&pattern) && !Item::from(at(2)).is_in(&pattern));
+        let old = Arc::new(pattern.clone());
+        let mut change = |of: fn(&mut Piece)| {
+            of(Arc::make_mut(pattern.pieces.get_mut(&piece).expect("the piece")));
+            selection.carried(&old, &Arc::new(pattern.clone()));
+            selection.is_empty()
+        };
+        assert!(!change(|piece| piece.lines[0].end = DVec2::ONE), "it only moved");
+        assert!(change(|piece| piece.lines.clear()));
     }
 }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec2;
 use toile::body::mannequin::{Measurements, mannequin};
-use toile::pattern::{GradeRule, SizeRun};
+use toile::pattern::{Edge, GradeRule, InternalLine, SizeRun};
 use toile::session::samples::Sample;
 use toile::session::{Project, project_file};
 
@@ -104,4 +104,37 @@ fn a_dxf_goes_out_with_its_rules_and_in_again() {
     assert!((was / is - 1.0).abs() < 1e-4, "{was} {is}");
     place.write("skirt.rul", rules.replace("UNITS: METRIC", "UNITS: ELLS"));
     place.ends_with_words(3, "import skirt.dxf -o no.toile", "the rule table beside it: line 3: the units");
+}
+
+/// The end of a line inside has a rule of its own, which goes out with the DXF and comes in again.
+#[test]
+fn rules_of_points_inside_go_out_and_in_again() {
+    let place = place();
+    let read = |name: &str| {
+        let bytes = std::fs::read(place.path(name)).expect("a file");
+        project_file::from_bytes(&bytes).expect("a project")
+    };
+    let mut project = read("skirt.toile");
+    let pattern = Arc::make_mut(&mut project.document.pattern);
+    let first = Arc::make_mut(pattern.pieces.values_mut().next().expect("a piece"));
+    let middle = first.outline.iter().map(|edge| edge.start).sum::<DVec2>() / first.outline.len() as f64;
+    let edges = vec![Edge { start: middle, ..Edge::default() }];
+    let end_rule = Some(GradeRule::even(DVec2::new(0.0, 0.015), 3, 1));
+    let line = InternalLine { edges, end: middle + DVec2::Y * 0.1, end_rule, ..InternalLine::default() };
+    first.lines.push(line);
+    std::fs::write(place.path("lined.toile"), project_file::to_bytes(&project).expect("bytes"))
+        .expect("written");
+    place.ends(0, "export lined.toile -o lined.dxf");
+    place.ends(0, "import lined.dxf -o again.toile");
+    let length = |name: &str, size: &str| {
+        let pattern = &read(name).document.pattern;
+        let graded = toile::pattern::grading::graded(pattern, size).expect("a size").pattern;
+        let lines = graded.pieces.values().flat_map(|piece| piece.lines.clone());
+        lines.map(|line| line.edges[0].start.distance(line.end)).sum::<f64>()
+    };
+    for size in ["S", "M", "L"] {
+        let [was, is] = ["lined.toile", "again.toile"].map(|name| length(name, size));
+        assert!((was - is).abs() < 1e-5, "{size}: {was} {is}");
+    }
+    assert!(length("again.toile", "L") > length("again.toile", "M") + 0.01, "it grows with the size");
 }

@@ -2,9 +2,9 @@
 
 use glam::DVec2;
 use toile::geometry::ids::PieceId;
-use toile::pattern::edit::PatternEdit;
+use toile::pattern::edit::{LinePoint, PatternEdit};
 use toile::pattern::grading::{READY_SIZES, graded};
-use toile::pattern::{GradeRule, Pattern, RulePoint, SizeRun};
+use toile::pattern::{Edge, GradeRule, InternalLine, Pattern, RulePoint, SizeRun};
 use toile::session::recording::Recording;
 use toile::session::replay::Replay;
 use toile::session::{Command, Project, Session, project_file};
@@ -115,4 +115,43 @@ fn the_project_file_keeps_rules_and_refuses_bad_ones() {
     // Files without sizes, as older programs wrote them, have no word of them.
     let plain = project_file::to_bytes(&session().project()).expect("written");
     assert!(!String::from_utf8_lossy(&plain).contains("sizes"));
+}
+
+/// A session with a line inside the first piece, whose end was moved and has a rule.
+fn with_line() -> Session {
+    let mut s = with_rules();
+    let edges = vec![Edge { start: DVec2::new(0.05, 0.05), ..Edge::default() }];
+    let line = InternalLine { edges, end: DVec2::new(0.2, 0.05), ..InternalLine::default() };
+    let end = LinePoint { piece: PieceId(1), line: 0, point: 1 };
+    for command in [
+        edit(PatternEdit::AddLine { piece: PieceId(1), line }),
+        edit(PatternEdit::MoveLinePoints { points: vec![(end, DVec2::new(0.2, 0.1))] }),
+        edit(PatternEdit::SetRules { rules: vec![(end.into(), Some(rule(0.03)))] }),
+    ] {
+        s.apply_alone(command).expect("accepted");
+    }
+    s
+}
+
+#[test]
+fn points_of_lines_are_moved_graded_undone_and_recorded() {
+    let mut s = with_line();
+    let line = |s: &Session| pattern(s).pieces[&PieceId(1)].lines[0].clone();
+    assert_eq!((line(&s).end, line(&s).end_rule), (DVec2::new(0.2, 0.1), Some(rule(0.03))));
+    let large = graded(&pattern(&s), "L").expect("a size").pattern;
+    assert!(large.pieces[&PieceId(1)].lines[0].end.distance(DVec2::new(0.23, 0.1)) < 1e-12);
+    let mut replay = Replay::new(Recording::parse(&s.recording()).expect("a recording"));
+    replay.run().expect("the same document");
+    assert_eq!(replay.session().document(), s.document());
+    let project = s.project();
+    let bytes = project_file::to_bytes(&project).expect("written");
+    assert_eq!(project_file::from_bytes(&bytes).expect("read"), project);
+    for (label, end) in [("set a rule", [0.2, 0.1]), ("move a point", [0.2, 0.05])] {
+        assert_eq!(s.undo_label(), Some(label));
+        s.apply_alone(Command::Undo).expect("undone");
+        assert_eq!((line(&s).end, line(&s).end_rule), (DVec2::from(end), None));
+    }
+    let far = LinePoint { piece: PieceId(1), line: 0, point: 0 };
+    let moved = PatternEdit::MoveLinePoints { points: vec![(far, DVec2::new(f64::NAN, 0.0))] };
+    assert!(s.apply_alone(edit(moved)).expect_err("no place").0.contains("a place is not within"));
 }

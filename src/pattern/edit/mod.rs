@@ -4,6 +4,7 @@ mod cutting;
 mod fastenings;
 pub(in crate::pattern) mod grading;
 mod holes;
+mod internal_lines;
 mod lengths;
 mod lines;
 mod mirror;
@@ -40,6 +41,30 @@ pub struct PointRef {
     pub piece: PieceId,
     /// The edge that starts at the point, as [`Piece::edge`] counts.
     pub point: usize,
+}
+
+/// A point of an internal line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LinePoint {
+    /// The piece.
+    pub piece: PieceId,
+    /// The internal line, from 0.
+    pub line: usize,
+    /// The edge of the line that starts at the point; on a line of n edges point n is its end.
+    pub point: usize,
+}
+
+impl From<PointRef> for RulePoint {
+    fn from(PointRef { piece, point }: PointRef) -> Self {
+        Self { piece, line: None, point }
+    }
+}
+
+impl From<LinePoint> for RulePoint {
+    fn from(LinePoint { piece, line, point }: LinePoint) -> Self {
+        Self { piece, line: Some(line), point }
+    }
 }
 
 /// One edit. Positions are in the piece's own plane, metres, and absolute: an edit applied twice has no effect the
@@ -113,6 +138,8 @@ pub enum PatternEdit {
     AddLine { piece: PieceId, line: InternalLine },
     /// Delete an internal line, by its number from 0.
     DeleteLine { piece: PieceId, line: usize },
+    /// Move points of internal lines. The curves beside them rotate and scale with their chords.
+    MoveLinePoints { points: Vec<(LinePoint, DVec2)> },
     /// Cut a hole into a piece.
     AddHole { piece: PieceId, edges: Vec<Edge> },
     /// Close a hole, by its number from 0, and remove the seams on its edges.
@@ -310,6 +337,7 @@ fn carry_out(pattern: &mut Pattern, edit: &PatternEdit) -> Result<Change, String
         PatternEdit::DeleteNotch { piece, notch } => cutting::delete_notch(pattern, *piece, *notch),
         PatternEdit::AddLine { piece, line } => cutting::add_line(pattern, *piece, line),
         PatternEdit::DeleteLine { piece, line } => cutting::delete_line(pattern, *piece, *line),
+        PatternEdit::MoveLinePoints { points } => internal_lines::move_points(pattern, points),
         PatternEdit::AddHole { piece, edges } => holes::add_hole(pattern, *piece, edges),
         PatternEdit::DeleteHole { piece, hole } => holes::delete_hole(pattern, *piece, *hole),
         PatternEdit::SetGrainline { piece, grainline } => cutting::set_grainline(pattern, *piece, *grainline),
@@ -351,6 +379,7 @@ fn pieces_named(edit: &PatternEdit) -> Vec<PieceId> {
     match edit {
         PatternEdit::Scale { pieces, .. } | PatternEdit::SetAllowance { pieces, .. } => pieces.clone(),
         PatternEdit::MovePoints { points } => points.iter().map(|(point, _)| point.piece).collect(),
+        PatternEdit::MoveLinePoints { points } => points.iter().map(|(point, _)| point.piece).collect(),
         PatternEdit::SetRules { rules } => rules.iter().map(|(point, _)| point.piece).collect(),
         PatternEdit::SetEdge { edge, .. }
         | PatternEdit::InsertPoint { edge, .. }

@@ -286,7 +286,7 @@ pub(super) fn smooth_piece(piece: &mut Piece) {
 }
 
 /// Restores smooth tangents at point `i` and its neighbours, where they are smooth points.
-fn smooth_around(piece: &mut Piece, i: usize) {
+pub(super) fn smooth_around(piece: &mut Piece, i: usize) {
     for j in [previous(piece, i), i, piece.next_edge(i)] {
         if piece.edge(j).smooth && !runs_on(piece, j) {
             smooth_point(piece, j);

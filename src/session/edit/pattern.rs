@@ -71,6 +71,7 @@ fn check(edit: &PatternEdit) -> Result<(), Rejection> {
             placements.iter().filter_map(|(_, pose)| pose.as_ref()).try_for_each(checks::space)
         }
         PatternEdit::MovePoints { points } => points.iter().try_for_each(|(_, to)| checks::place(*to)),
+        PatternEdit::MoveLinePoints { points } => points.iter().try_for_each(|(_, to)| checks::place(*to)),
         PatternEdit::Duplicate { offset, .. } | PatternEdit::AddTwin { offset, .. } => checks::place(*offset),
         PatternEdit::Scale { about, factor, .. } => {
             checks::place(*about)?;

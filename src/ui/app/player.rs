@@ -351,7 +351,7 @@ fn words(command: &Command, session: &Session) -> String {
 
 fn edit_words(edit: &PatternEdit) -> &'static str {
     match edit {
-        PatternEdit::MovePoints { .. } => tr("Move points"),
+        PatternEdit::MovePoints { .. } | PatternEdit::MoveLinePoints { .. } => tr("Move points"),
         PatternEdit::AddDart { .. } => tr("Cut a dart"),
         PatternEdit::Duplicate { .. } => tr("Duplicate"),
         PatternEdit::Scale { .. } => tr("Make it wider"),
@@ -381,6 +381,9 @@ fn stroke(session: &Session, command: &Command, share: f64, stage: &Stage<'_>) -
 fn edited(edit: &PatternEdit, session: &Session, stage: &Stage<'_>) -> Option<Pos2> {
     let (id, at) = match edit {
         PatternEdit::MovePoints { points } => points.first().map(|(point, to)| (point.piece, Some(*to)))?,
+        PatternEdit::MoveLinePoints { points } => {
+            points.first().map(|(point, to)| (point.piece, Some(*to)))?
+        }
         PatternEdit::AddDart { edge, .. } => (edge.piece, None),
         PatternEdit::Duplicate { pieces, .. } | PatternEdit::Scale { pieces, .. } => (*pieces.first()?, None),
         PatternEdit::SetRules { rules } => (rules.first()?.0.piece, None),

@@ -36,7 +36,7 @@ pub fn outlines(pattern: &Pattern, items: &[Item]) -> Vec<(PieceId, Vec<DVec2>)>
     let sides = |item: &Item| match item {
         Item::Edge(EdgeRef { piece, edge }) => vec![Stretch::edge(*piece, *edge)],
         Item::Seam(seam) => pattern.seams.get(seam).map(|s| s.sides.to_vec()).unwrap_or_default(),
-        Item::Point(_) | Item::Piece(_) | Item::Line(_) => Vec::new(),
+        Item::Point(_) | Item::Piece(_) | Item::Line(_) | Item::LinePoint(_) => Vec::new(),
     };
     items.iter().flat_map(sides).filter_map(line).collect()
 }

@@ -6,7 +6,7 @@ use glam::DVec2;
 
 use crate::geometry::ids::{PieceId, SeamId};
 use crate::pattern::activity::Activity;
-use crate::pattern::edit::{PatternEdit, PointRef, WIDEST_ALLOWANCE};
+use crate::pattern::edit::{LinePoint, PatternEdit, PointRef, WIDEST_ALLOWANCE};
 use crate::pattern::layers::MOST_LAYER;
 use crate::pattern::{AllowanceCorner, EdgeRef, EdgeShape, Piece, PlanePose, Seam, Side};
 use crate::session::Command;
@@ -47,6 +47,9 @@ impl PatternPanel {
         trims_ui(ui, told, asks);
         if let Some(&point) = selection.points.first().filter(|_| selection.points.len() == 1) {
             point_ui(ui, told, point, asks);
+        }
+        if let Some(&point) = selection.line_points.first().filter(|_| selection.line_points.len() == 1) {
+            line_point_ui(ui, told, point, asks);
         }
         if !selection.pieces.is_empty() {
             self.pieces_ui(ui, told, asks);
@@ -304,15 +307,10 @@ fn point_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, point: PointRef, asks: &
     let edge = piece.edge(point.point);
     let p = piece.pose.plane_from_piece(edge.start);
     ui.label(say!("{piece}, point {n}", piece = piece.name, n = point.point + 1));
-    Grid::new("point numbers").num_columns(4).spacing([6.0, 4.0]).show(ui, |ui| {
-        for (name, old, way) in [("x", p.x, DVec2::X), ("y", p.y, DVec2::Y)] {
-            let label = weak(ui, told, name);
-            if let Some(new) = length_field(ui, ("point", name), &label, old, told.now.unit) {
-                let to = piece.pose.piece_from_plane(p + way * (new - old));
-                asks.push(ask(vec![PatternEdit::MovePoints { points: vec![(point, to)] }]));
-            }
-        }
-    });
+    if let Some(to) = place_ui(ui, told, "point", p) {
+        let to = piece.pose.piece_from_plane(to);
+        asks.push(ask(vec![PatternEdit::MovePoints { points: vec![(point, to)] }]));
+    }
     let mut smooth = edge.smooth;
     if ui.checkbox(&mut smooth, tr("Smooth")).on_hover_text(tr(Action::ToggleSmooth.row().tip)).changed() {
         asks.push(ask(vec![PatternEdit::SetSmooth { point, smooth }]));
@@ -320,6 +318,32 @@ fn point_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, point: PointRef, asks: &
     if point.point < piece.outline.len() && piece.allowance > 0.0 && piece.cut_line.is_empty() {
         corner_ui(ui, told, point, piece, asks);
     }
+}
+
+/// Draws the place of a point of an internal line.
+fn line_point_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, at: LinePoint, asks: &mut Asks) {
+    let Some(piece) = told.document.pattern.pieces.get(&at.piece) else { return };
+    let Some(p) = piece.place_of(&at.into()).map(|p| piece.pose.plane_from_piece(p)) else { return };
+    let (line, number) = (at.line + 1, at.point + 1);
+    ui.label(say!("{name}, line {line}, point {number}", name = piece.name, line, number));
+    if let Some(to) = place_ui(ui, told, "line point", p) {
+        let to = piece.pose.piece_from_plane(to);
+        asks.push(ask(vec![PatternEdit::MoveLinePoints { points: vec![(at, to)] }]));
+    }
+}
+
+/// Draws fields with the coordinates of a place on the table; returns the place with a newly entered one.
+fn place_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, salt: &str, p: DVec2) -> Option<DVec2> {
+    let mut to = None;
+    Grid::new((salt, "numbers")).num_columns(4).spacing([6.0, 4.0]).show(ui, |ui| {
+        for (name, old, way) in [("x", p.x, DVec2::X), ("y", p.y, DVec2::Y)] {
+            let label = weak(ui, told, name);
+            if let Some(new) = length_field(ui, (salt, name), &label, old, told.now.unit) {
+                to = Some(p + way * (new - old));
+            }
+        }
+    });
+    to
 }
 
 /// Draws the choice of how the seam allowance goes round a point of the outline.

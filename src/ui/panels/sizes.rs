@@ -4,9 +4,8 @@ use egui::accesskit::Role;
 use egui::{Button, Grid, Key, RichText, TextEdit, WidgetInfo};
 use glam::DVec2;
 
-use crate::pattern::edit::{PatternEdit, PointRef};
+use crate::pattern::edit::PatternEdit;
 use crate::pattern::grading::READY_SIZES;
-use crate::pattern::grading::rule::from_grain;
 use crate::pattern::{GradeRule, Piece, RulePoint, SizeRun};
 use crate::session::Command;
 use crate::ui::actions::asks::{Ask, Asks};
@@ -14,6 +13,7 @@ use crate::ui::language::{say, tr};
 use crate::ui::panels::context::{PanelContext, problem_row};
 use crate::ui::panels::fields::length_field;
 use crate::ui::pattern_pane::nests::{SizeView, size_colour};
+use crate::ui::selection::LineRef;
 
 /// Most seams that are told.
 const MOST_TOLD: usize = 6;
@@ -98,22 +98,18 @@ impl SizesPanel {
     /// The rule of the selected points in numbers.
     fn rule_ui(&mut self, ui: &mut egui::Ui, told: &PanelContext<'_>, asks: &mut Asks) {
         let pattern = &*told.document.pattern;
-        let points: Vec<PointRef> = told.selection.points.iter().copied().collect();
-        let first = points.first().and_then(|point| Some((*point, &**pattern.pieces.get(&point.piece)?)));
-        let Some((point, piece)) = first.filter(|(point, piece)| point.point < piece.edge_count()) else {
+        let points = selected(told);
+        let first = points.first().and_then(|at| Some((*at, &**pattern.pieces.get(&at.piece)?)));
+        let Some((point, piece)) = first.filter(|(at, piece)| piece.place_of(at).is_some()) else {
             let words = tr("Select points (Edit points) to see and set their rules.");
             ui.add(egui::Label::new(RichText::new(words).color(told.palette.weak).size(12.5)).wrap());
             return;
         };
-        let own = piece.edge(point.point).rule.as_ref();
-        let (name, number) = (&piece.name, point.point + 1);
-        ui.label(match points.len() {
-            1 => say!("Rule of {piece}, point {number}", piece = name, number),
-            n => say!("Rule of {piece}, point {number} and {more} more", piece = name, number, more = n - 1),
-        });
+        let is_own = piece.rule_of(&point).is_some();
+        ui.label(heading(piece, point, points.len() - 1));
         let Some(rule) = told.nests.rule(point) else { return };
         let seen = rule.by_grain(piece.grain());
-        if let Some(new) = rule_grid(ui, told, &seen, own.is_some()) {
+        if let Some(new) = rule_grid(ui, told, &seen, is_own) {
             asks.push(set(told, &points, Some(&new)));
         }
         ui.horizontal_wrapped(|ui| {
@@ -133,16 +129,40 @@ impl SizesPanel {
                     asks.push(set(told, &points, Some(&copied.mapped(map))));
                 }
             }
-            let has_any = points.iter().any(|point| {
-                pattern.pieces.get(&point.piece).is_some_and(|piece| {
-                    point.point < piece.edge_count() && piece.edge(point.point).rule.is_some()
-                })
-            });
+            let has_rule = |at: &RulePoint| pattern.pieces.get(&at.piece)?.rule_of(at);
+            let has_any = points.iter().any(|at| has_rule(at).is_some());
             let clear = ui.add_enabled(has_any, Button::new(tr("Clear rule")).small());
             if clear.on_hover_text(tr("Remove the rules of the selected points")).clicked() {
                 asks.push(set(told, &points, None));
             }
         });
+    }
+}
+
+/// The points whose rules are shown and set: the selected ones, or where there are none those of selected internal lines.
+fn selected(told: &PanelContext<'_>) -> Vec<RulePoint> {
+    let points: Vec<RulePoint> = told.selection.all_points().collect();
+    if !points.is_empty() {
+        return points;
+    }
+    let of_line = |&LineRef { piece, line }: &LineRef| {
+        let found = told.document.pattern.pieces.get(&piece).and_then(|piece| piece.lines.get(line));
+        let count = found.map_or(0, |line| line.edges.len() + 1);
+        (0..count).map(move |point| RulePoint { piece, line: Some(line), point })
+    };
+    told.selection.lines.iter().flat_map(of_line).collect()
+}
+
+/// Whose rule is shown: that of a point, for so many `more`.
+fn heading(piece: &Piece, RulePoint { line, point, .. }: RulePoint, more: usize) -> String {
+    let (piece, number) = (&piece.name, point + 1);
+    match (line.map(|line| line + 1), more) {
+        (None, 0) => say!("Rule of {piece}, point {number}", piece, number),
+        (None, more) => say!("Rule of {piece}, point {number} and {more} more", piece, number, more),
+        (Some(line), 0) => say!("Rule of {piece}, line {line}, point {number}", piece, line, number),
+        (Some(line), more) => {
+            say!("Rule of {piece}, line {line}, point {number} and {more} more", piece, line, number, more)
+        }
     }
 }
 
@@ -160,12 +180,10 @@ const PASTES: [Paste; 3] = [
 ];
 
 /// The request that gives all of `points` a rule, seen by the grain; None removes theirs.
-fn set(told: &PanelContext<'_>, points: &[PointRef], rule: Option<&GradeRule>) -> Ask {
-    let grain = |piece: &Piece| piece.grain();
-    let rules = points.iter().filter_map(|point| {
-        let piece = told.document.pattern.pieces.get(&point.piece)?;
-        let at = RulePoint { piece: point.piece, line: None, point: point.point };
-        Some((at, rule.map(|rule| rule.mapped(|by| from_grain(by, grain(piece))))))
+fn set(told: &PanelContext<'_>, points: &[RulePoint], rule: Option<&GradeRule>) -> Ask {
+    let rules = points.iter().filter_map(|at| {
+        let piece = told.document.pattern.pieces.get(&at.piece)?;
+        Some((*at, rule.map(|rule| rule.from_grain(piece.grain()))))
     });
     ask(PatternEdit::SetRules { rules: rules.collect() })
 }

@@ -1,37 +1,21 @@
-//! Draws the outlines of all sizes, and finds their points.
+//! Draws the outlines and internal lines of all sizes.
 
 use egui::{Align2, FontId, Pos2, Rect, Shape, Stroke, Vec2};
 use glam::DVec2;
 
 use super::draw::Drawing;
 use super::nests::size_colour;
-use super::table::{REACH, Table};
-use crate::pattern::edit::PointRef;
+use super::table::Table;
 
 impl Table<'_> {
     /// The size whose points are moved in place of those of the base.
     pub fn size(&self) -> Option<usize> {
         self.laid.sizes.of(self.pattern())
     }
-
-    /// All points of pieces that are drawn, where they are in size number `size`.
-    pub fn points_in(&self, size: usize) -> impl Iterator<Item = (PointRef, DVec2)> {
-        self.points().filter_map(move |(point, _)| {
-            let pose = self.pattern().pieces.get(&point.piece)?.pose;
-            Some((point, pose.plane_from_piece(self.nests.point(size, point)?)))
-        })
-    }
-
-    /// The nearest point within reach of `p` in size number `size`.
-    pub fn point_in(&self, size: usize, p: DVec2) -> Option<PointRef> {
-        let near = self.points_in(size).map(|(point, q)| (point, q.distance(p)));
-        let near = near.filter(|(_, d)| *d <= self.reach(REACH));
-        near.min_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0))).map(|(point, _)| point)
-    }
 }
 
 impl Drawing<'_> {
-    /// Draws the outlines of all sizes, that of the shown one bolder, and a key to their colours.
+    /// Draws the outlines and internal lines of all sizes, that of the shown one bolder, and a key to their colours.
     pub fn nests(&self, table: &Table<'_>) {
         let pattern = table.pattern();
         let (view, shown) = (table.laid.sizes, table.size());
@@ -47,10 +31,14 @@ impl Drawing<'_> {
                 if !self.is_in_view(piece, shape) {
                     continue;
                 }
+                let placed = |line: &Vec<DVec2>| -> Vec<Pos2> {
+                    line.iter().map(|&p| self.place(piece.pose.plane_from_piece(p))).collect()
+                };
                 for line in &nested.lines {
-                    let points: Vec<Pos2> =
-                        line.iter().map(|&p| self.place(piece.pose.plane_from_piece(p))).collect();
-                    self.painter.add(Shape::closed_line(points, stroke));
+                    self.painter.add(Shape::closed_line(placed(line), stroke));
+                }
+                for line in &nested.inside {
+                    self.painter.add(Shape::line(placed(line), Stroke::new(width * 0.7, stroke.color)));
                 }
             }
         }

@@ -17,7 +17,7 @@ use crate::ui::look::theme::colour;
 use crate::ui::maps::ShownMap;
 use crate::ui::scenery::fabric_looks::outside_colour;
 use crate::ui::scenery::ring::ring;
-use crate::ui::selection::{Item, LineRef};
+use crate::ui::selection::Item;
 
 /// Whether `piece` shows its front.
 pub fn front_is_seen(piece: &Piece, shape: &PieceShape) -> bool {
@@ -313,9 +313,9 @@ impl Drawing<'_> {
             Some(Item::Line(line)) => Some(line),
             _ => None,
         };
-        for &LineRef { piece, line } in table.laid.selection.lines.iter().chain(&near) {
-            if let Some((found, shape)) = table.piece(piece)
-                && let Some(points) = shape.lines.get(line)
+        for &line in table.laid.selection.lines.iter().chain(&near) {
+            if let Some((found, _)) = table.piece(line.piece)
+                && let Some(points) = table.line_shown(line)
             {
                 let points: Vec<DVec2> = points.iter().map(|&p| found.pose.plane_from_piece(p)).collect();
                 self.polyline(&points, Stroke::new(3.0, self.palette.accent));

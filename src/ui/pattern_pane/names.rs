@@ -6,9 +6,10 @@ use glam::DVec2;
 
 use super::draw_pieces::badge_place;
 use super::table::Table;
-use crate::pattern::{EdgeRef, Pattern, Seam};
+use crate::pattern::{EdgeRef, Pattern, RulePoint, Seam};
 use crate::ui::actions::Tool;
 use crate::ui::language::say;
+use crate::ui::selection::LineRef;
 use crate::wrap::Marks;
 
 /// Adds an accessibility node at each visible item: pieces, edges, seams, marks; points while they are edited.
@@ -28,22 +29,7 @@ pub fn publish(ui: &egui::Ui, table: &Table<'_>) {
         }
     }
     if table.laid.tool == Tool::Points {
-        for (id, piece, shape) in table.seen() {
-            for (i, line) in shape.lines.iter().enumerate() {
-                let on = badge_place(line).unwrap_or_default();
-                let words = || say!("{name}, line {number}", name = piece.name, number = i + 1);
-                node(ui, table, ("line", id.0, i), piece.pose.plane_from_piece(on), words);
-            }
-        }
-        let points: Vec<_> = match table.size() {
-            Some(size) => table.points_in(size).collect(),
-            None => table.points().collect(),
-        };
-        for (point, p) in points {
-            let name = &table.pattern().pieces[&point.piece].name;
-            let words = || say!("{name}, point {number}", name, number = point.point + 1);
-            node(ui, table, ("point", point.piece.0, point.point), p, words);
-        }
+        lines_and_points(ui, table);
     }
     for (id, ends) in table.threads.all().filter(|(_, ends)| ends.is_seen(table.pattern())) {
         let at = ends.on_table(table.pattern()).and_then(|[from, _]| badge_place(&from));
@@ -61,6 +47,28 @@ pub fn publish(ui: &egui::Ui, table: &Table<'_>) {
     marks(ui, table, &table.laid.document.marks, false);
     if let Some(ghosts) = table.laid.ghosts {
         marks(ui, table, ghosts, true);
+    }
+}
+
+/// Internal lines and the points of all lines, where they are in the shown size.
+fn lines_and_points(ui: &egui::Ui, table: &Table<'_>) {
+    for (id, piece, _) in table.seen() {
+        for line in 0..piece.lines.len() {
+            let points = table.line_shown(LineRef { piece: id, line });
+            let on = points.and_then(badge_place).unwrap_or_default();
+            let words = || say!("{name}, line {number}", name = piece.name, number = line + 1);
+            node(ui, table, ("line", id.0, line), piece.pose.plane_from_piece(on), words);
+        }
+    }
+    for (RulePoint { piece, line, point }, p) in table.points_shown().collect::<Vec<_>>() {
+        let name = &table.pattern().pieces[&piece].name;
+        let words = || match line {
+            None => say!("{name}, point {number}", name, number = point + 1),
+            Some(line) => {
+                say!("{name}, line {line}, point {number}", name, line = line + 1, number = point + 1)
+            }
+        };
+        node(ui, table, ("point", piece.0, line, point), p, words);
     }
 }
 

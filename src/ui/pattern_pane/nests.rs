@@ -7,10 +7,9 @@ use egui::Color32;
 use glam::DVec2;
 
 use crate::geometry::ids::PieceId;
-use crate::pattern::edit::PointRef;
 use crate::pattern::grading::{SeamGrowth, graded, growth_in};
 use crate::pattern::piece::flattened_loop;
-use crate::pattern::{GradeRule, Pattern, Problem};
+use crate::pattern::{GradeRule, Pattern, Piece, Problem, RulePoint};
 use crate::ui::look::theme::Palette;
 
 /// Flattening tolerance, metres.
@@ -21,8 +20,10 @@ const TOLERANCE: f64 = 4e-4;
 pub struct NestedPiece {
     /// Its closed lines as closed polylines.
     pub lines: Vec<Vec<DVec2>>,
-    /// The points of its closed lines.
-    points: Vec<DVec2>,
+    /// Its internal lines as polylines.
+    pub inside: Vec<Vec<DVec2>>,
+    /// The piece itself.
+    piece: Arc<Piece>,
 }
 
 /// The pattern in all sizes but the base.
@@ -49,8 +50,8 @@ impl Nests {
             let pieces = graded.moved.keys().filter_map(|id| {
                 let piece = graded.pattern.pieces.get(id)?;
                 let lines = piece.loops().map(|line| flattened_loop(line, TOLERANCE)).collect();
-                let points = piece.loops().flatten().map(|edge| edge.start).collect();
-                Some((*id, NestedPiece { lines, points }))
+                let inside = piece.lines.iter().map(|line| line.flattened(TOLERANCE)).collect();
+                Some((*id, NestedPiece { lines, inside, piece: Arc::clone(piece) }))
             });
             self.pieces.push(pieces.collect());
             self.growth.extend(growth_in(pattern, &graded, size));
@@ -58,26 +59,24 @@ impl Nests {
         }
     }
 
-    /// The place of a point in size number `size`, in the plane of its piece.
-    pub fn point(&self, size: usize, point: PointRef) -> Option<DVec2> {
+    /// The place of a point of a closed or an internal line in size number `size`, in the plane of its piece.
+    pub fn point(&self, size: usize, point: impl Into<RulePoint>) -> Option<DVec2> {
+        let point = point.into();
         let in_size = self.pieces.get(size).and_then(|pieces| pieces.get(&point.piece));
         match in_size {
-            Some(piece) => piece.points.get(point.point).copied(),
-            None => {
-                let piece = self.of.as_ref()?.pieces.get(&point.piece)?;
-                (point.point < piece.edge_count()).then(|| piece.edge(point.point).start)
-            }
+            Some(nested) => nested.piece.place_of(&point),
+            None => self.of.as_ref()?.pieces.get(&point.piece)?.place_of(&point),
         }
     }
 
-    /// How a point moves from size to size: by its rule, or as it follows the points beside it.
-    pub fn rule(&self, point: PointRef) -> Option<GradeRule> {
-        let pattern = self.of.as_ref()?;
-        let piece = pattern.pieces.get(&point.piece).filter(|piece| point.point < piece.edge_count())?;
-        if let Some(rule) = &piece.edge(point.point).rule {
+    /// How a point moves from size to size: by its rule, or as it follows the points beside it or the cloth round it.
+    pub fn rule(&self, point: impl Into<RulePoint>) -> Option<GradeRule> {
+        let (pattern, point) = (self.of.as_ref()?, point.into());
+        let piece = pattern.pieces.get(&point.piece)?;
+        let base = piece.place_of(&point)?;
+        if let Some(rule) = piece.rule_of(&point) {
             return Some(rule.clone());
         }
-        let base = piece.edge(point.point).start;
         let by = |size| self.point(size, point).map_or(DVec2::ZERO, |p| p - base);
         Some(GradeRule((0..pattern.sizes.len()).map(by).collect()))
     }
@@ -115,8 +114,9 @@ pub fn size_colour(palette: &Palette, size: usize, count: usize) -> Color32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::pattern::Piece;
+    use crate::pattern::edit::PointRef;
     use crate::pattern::grading::READY_SIZES;
+    use crate::pattern::{Edge, InternalLine};
 
     #[test]
     fn every_point_has_its_place_in_every_size() {
@@ -132,6 +132,23 @@ mod tests {
         assert_eq!(nests.point(4, point(3)), None);
         assert_eq!(nests.rule(point(0)), Some(GradeRule(vec![DVec2::ZERO; 6])));
         assert!(nests.problems.is_empty() && nests.growth.is_empty());
+    }
+
+    #[test]
+    fn points_of_internal_lines_have_their_places_too() {
+        let mut pattern = Pattern { sizes: READY_SIZES[0].run(), ..Pattern::default() };
+        let mut piece = Piece::polygon("p", &[(0.0, 0.0), (1.0, 0.0), (1.0, 1.0)].map(DVec2::from));
+        let edges = vec![Edge { start: DVec2::new(0.5, 0.2), ..Edge::default() }];
+        let (end, end_rule) = (DVec2::new(0.8, 0.2), Some(GradeRule::even(DVec2::Y * 0.01, 6, 2)));
+        piece.lines.push(InternalLine { edges, end, end_rule: end_rule.clone(), ..InternalLine::default() });
+        let id = pattern.add_piece(piece);
+        let mut nests = Nests::default();
+        nests.update(&Arc::new(pattern));
+        let at = |point| RulePoint { piece: id, line: Some(0), point };
+        assert_eq!(nests.point(4, at(1)), Some(DVec2::new(0.8, 0.22)));
+        assert_eq!((nests.point(2, at(1)), nests.point(4, at(2))), (Some(end), None));
+        assert_eq!((nests.rule(at(1)), nests.rule(at(0))), (end_rule, Some(GradeRule(vec![DVec2::ZERO; 6]))));
+        assert_eq!(nests.pieces[4][&id].inside[0].last(), Some(&DVec2::new(0.8, 0.22)));
     }
 
     #[test]

@@ -13,7 +13,6 @@ use crate::geometry::ids::{MarkId, PieceId, SeamId};
 use crate::pattern::edit::PointRef;
 use crate::pattern::stitches::Row;
 use crate::pattern::{EdgeRef, Pattern, Piece};
-use crate::ui::selection::LineRef;
 
 /// Largest distance of a click from a mark or a point, points.
 pub const REACH: f64 = 10.0;
@@ -110,13 +109,6 @@ impl<'a> Table<'a> {
         self.shapes.at(self.pattern(), p)
     }
 
-    /// Position of a point of a piece.
-    pub fn point(&self, point: PointRef) -> Option<DVec2> {
-        let piece = self.pattern().pieces.get(&point.piece)?;
-        let known = point.point < piece.edge_count();
-        known.then(|| piece.pose.plane_from_piece(piece.edge(point.point).start))
-    }
-
     /// The polyline of an edge, from its start to its end.
     pub fn edge(&self, edge: EdgeRef) -> Option<Vec<DVec2>> {
         let (piece, shape) = self.piece(edge.piece)?;
@@ -129,13 +121,6 @@ impl<'a> Table<'a> {
             let starts = piece.loops().flatten().map(|edge| piece.pose.plane_from_piece(edge.start));
             starts.enumerate().map(move |(point, p)| (PointRef { piece: id, point }, p))
         })
-    }
-
-    /// The nearest point within reach of `p`; of equal ones that of the topmost piece.
-    pub fn point_at(&self, p: DVec2) -> Option<PointRef> {
-        let near = self.points().map(|(point, q)| (point, q.distance(p)));
-        let near = near.filter(|(_, d)| *d <= self.reach(REACH));
-        near.min_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0))).map(|(point, _)| point)
     }
 
     /// The nearest place on an edge within this many points on the screen; of equal ones that of the topmost piece.
@@ -162,17 +147,6 @@ impl<'a> Table<'a> {
     /// The nearest place on an edge, within reach of a click at `p`.
     pub fn edge_at(&self, p: DVec2) -> Option<OnEdge> {
         self.edge_near(p, NEAR_EDGE)
-    }
-
-    /// The internal line within reach of a click at `p`; of equal ones that of the topmost piece.
-    pub fn line_at(&self, p: DVec2) -> Option<LineRef> {
-        let all = self.seen().flat_map(|(piece, found, shape)| {
-            let own = found.pose.piece_from_plane(p);
-            let far = move |line: &Vec<DVec2>| to_polyline(own, line);
-            shape.lines.iter().enumerate().map(move |(line, points)| (LineRef { piece, line }, far(points)))
-        });
-        let near = all.filter(|(_, d)| *d <= self.reach(NEAR_EDGE));
-        near.min_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0))).map(|(line, _)| line)
     }
 
     /// The seam with a thread at `p`.

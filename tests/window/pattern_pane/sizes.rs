@@ -1,7 +1,7 @@
 //! Sizes in the window: the panel's numbers, and points moved in a size other than the base.
 
 use toile::pattern::grading::READY_SIZES;
-use toile::pattern::{GradeRule, SizeRun};
+use toile::pattern::{Edge, GradeRule, InternalLine, SizeRun};
 
 use super::*;
 
@@ -105,4 +105,94 @@ fn a_point_dragged_in_a_size_moves_in_that_size_alone_and_with_shift_in_all() {
     window.run_steps(3);
     let even = rule(&window, 2).expect("a rule");
     assert!((even.at(4).x - 2.0 * even.at(3).x).abs() < 1e-9 && even.at(1).x < -0.001, "{even:?}");
+}
+
+/// The graded squares with a line inside the first, 10 cm long.
+fn with_line() -> Pattern {
+    let mut start = graded();
+    let id = start.piece_named("A").expect("a square");
+    let piece = Arc::make_mut(start.pieces.get_mut(&id).expect("the square"));
+    let edges = vec![Edge { start: DVec2::new(0.05, 0.05), ..Edge::default() }];
+    piece.lines.push(InternalLine { edges, end: DVec2::new(0.15, 0.05), ..InternalLine::default() });
+    piece.outline[1].rule = Some(GradeRule::even(DVec2::new(0.01, 0.005), 6, 2));
+    start
+}
+
+fn line(window: &Window) -> InternalLine {
+    piece(&pattern(window), "A").lines[0].clone()
+}
+
+/// Selects the line, then its end.
+fn select_end(window: &mut Window) {
+    select(window, "A, line 1");
+    let end = drawn(window, "A, line 1, point 2");
+    click(window, end);
+}
+
+#[test]
+fn a_point_of_a_line_gets_its_rule_in_the_panel() {
+    let mut window = window_on(with_line());
+    open(&mut window);
+    select(&mut window, "A, point 2");
+    click_label(&mut window, "Copy rule");
+    select_end(&mut window);
+    assert!(window.query_by_label("Rule of A, line 1, point 2").is_some());
+    let of = |x: f64, y: f64| GradeRule::even(DVec2::new(x, y), 6, 2);
+    for (label, rule) in [
+        ("Paste rule", Some(of(0.01, 0.005))),
+        ("Mirrored across", Some(of(-0.01, 0.005))),
+        ("Mirrored along", Some(of(0.01, -0.005))),
+        ("Clear rule", None),
+    ] {
+        click_label(&mut window, label);
+        assert_eq!((line(&window).end_rule, &line(&window).edges[0].rule), (rule, &None), "{label}");
+    }
+    let role = egui::accesskit::Role::TextInput;
+    window.get_all_by_role_and_label(role, "Each step").nth(1).expect("a field along the grain").focus();
+    window.run_steps(2);
+    key(&mut window, Modifiers::COMMAND, Key::A);
+    type_text(&mut window, "0.4 cm");
+    press(&mut window, Key::Enter);
+    let rule = line(&window).end_rule.expect("a rule");
+    assert!((0..6).all(|size| (rule.at(size).y - of(0.0, 0.004).at(size).y).abs() < 1e-9), "{rule:?}");
+    assert_eq!(steps(&window).len(), 5);
+    key(&mut window, Modifiers::COMMAND, Key::Z);
+    assert_eq!(line(&window).end_rule, None);
+}
+
+#[test]
+fn a_point_of_a_line_dragged_in_a_size_moves_in_that_size_alone() {
+    let mut window = window_on(with_line());
+    open(&mut window);
+    select(&mut window, "A, line 1");
+    click_label(&mut window, "Show size XL");
+    let end = drawn(&window, "A, line 1, point 2");
+    drag(&mut window, end, end + Vec2::new(0.0, -20.0));
+    let own = line(&window).end_rule.expect("a rule");
+    // The end followed the cloth round it in the other sizes, and does so still.
+    assert!(own.at(4).y > 0.01 && own.at(2) == DVec2::ZERO && own.at(3).y < 0.01, "{own:?}");
+    assert_eq!((line(&window).end, &line(&window).edges[0].rule), (DVec2::new(0.15, 0.05), &None));
+    assert_eq!(steps(&window), ["set a rule"]);
+    key(&mut window, Modifiers::COMMAND, Key::Z);
+    assert_eq!(pattern(&window), with_line());
+}
+
+#[test]
+fn points_of_a_line_and_the_line_are_dragged_in_the_base_size() {
+    let mut window = window_on(with_line());
+    select_end(&mut window);
+    let end = drawn(&window, "A, line 1, point 2");
+    drag(&mut window, end, end + Vec2::new(0.0, -20.0));
+    let moved = line(&window);
+    assert!(moved.end.y > 0.06 && moved.edges[0].start == DVec2::new(0.05, 0.05), "{moved:?}");
+    assert_eq!(steps(&window), ["move a point"]);
+    key(&mut window, Modifiers::COMMAND, Key::Z);
+    assert_eq!(pattern(&window), with_line());
+    let middle = drawn(&window, "A, line 1");
+    drag(&mut window, middle, middle + Vec2::new(0.0, -20.0));
+    let moved = line(&window);
+    let [start, end] = [moved.edges[0].start, moved.end];
+    assert!(start.y > 0.06 && (end - start).distance(DVec2::new(0.1, 0.0)) < 1e-9, "{moved:?}");
+    assert_eq!(piece(&pattern(&window), "A").outline, piece(&with_line(), "A").outline);
+    assert_eq!(steps(&window), ["move 2 points"]);
 }

@@ -1,4 +1,4 @@
-//! The tool Edit points: moves points, edges and handles of curves; double-clicks insert points and smooth corners.
+//! The tool Edit points: moves points, edges, internal lines and handles of curves; double-clicks insert points and smooth corners.
 
 use std::collections::BTreeSet;
 
@@ -8,8 +8,8 @@ use glam::DVec2;
 use super::select::next;
 use super::{PatternTool, done, dragged, grade};
 use crate::geometry::ids::PieceId;
-use crate::pattern::edit::{PatternEdit, PointRef};
-use crate::pattern::{EdgeRef, EdgeShape, curve};
+use crate::pattern::edit::{LinePoint, PatternEdit, PointRef};
+use crate::pattern::{EdgeRef, EdgeShape, Piece, RulePoint, curve};
 use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::language::{say, tr};
 use crate::ui::pattern_pane::draw::Drawing;
@@ -30,9 +30,9 @@ enum Drag {
     /// Selects the points in a box.
     Box { from: DVec2, to: DVec2, add: bool },
     /// Moves points: their old positions on the table, and the point where they are held.
-    Move { held: DVec2, points: Vec<(PointRef, DVec2)>, by: DVec2, snapped: Option<Snapped> },
+    Move { held: DVec2, points: Vec<(RulePoint, DVec2)>, by: DVec2, snapped: Option<Snapped> },
     /// Moves points of a size other than the base: their old positions on the table, and the point where they are held.
-    Grade { size: usize, held: DVec2, points: Vec<(PointRef, DVec2)>, by: DVec2 },
+    Grade { size: usize, held: DVec2, points: Vec<(RulePoint, DVec2)>, by: DVec2 },
     /// Bends an edge through the pointer; `shape` is its old shape.
     Bend { edge: EdgeRef, ends: [DVec2; 2], shape: EdgeShape, at: f64, held: DVec2 },
     /// Moves a handle of a curve.
@@ -61,20 +61,19 @@ impl Points {
             }
             is_free
         };
-        if let Some(point) = table.point_at(p) {
+        if let Some(point) = table.shown_point_at(p) {
             if free(point.piece, asks) {
-                let selection = self.taken(table, Item::Point(point), input, asks);
-                let held = table.point(point).unwrap_or(p);
-                self.drag = Some(Drag::Move {
-                    held,
-                    points: held_points(table, &selection),
-                    by: DVec2::ZERO,
-                    snapped: None,
-                });
+                let selection = self.taken(table, point.into(), input, asks);
+                self.take(table, &selection, table.place_shown(point).unwrap_or(p));
             }
         } else if let Some(hit) = table.edge_at(p) {
             if free(hit.edge.piece, asks) {
                 self.press_edge(table, input, hit, asks);
+            }
+        } else if let Some(line) = table.shown_line_at(p) {
+            if free(line.piece, asks) {
+                let selection = self.taken(table, Item::Line(line), input, asks);
+                self.take(table, &selection, p);
             }
         } else {
             self.drag = Some(Drag::Box { from: p, to: p, add: input.held.shift });
@@ -83,16 +82,18 @@ impl Points {
 
     /// A press in a size other than the base, whose points can be moved.
     fn press_in(&mut self, table: &Table<'_>, size: usize, input: &Input, p: DVec2, asks: &mut Asks) {
-        let Some(point) = table.point_in(size, p) else {
+        let point = table.shown_point_at(p).map(|point| (point.piece, point.into()));
+        let line = || table.shown_line_at(p).map(|line| (line.piece, Item::Line(line)));
+        let Some((piece, item)) = point.or_else(line) else {
             self.drag = Some(Drag::Box { from: p, to: p, add: input.held.shift });
             return;
         };
-        if !table.is_free(point.piece) {
+        if !table.is_free(piece) {
             asks.push(Ask::Say(tr("This piece is locked.").to_owned()));
             return;
         }
-        let selection = self.taken(table, Item::Point(point), input, asks);
-        let points = grade::held_points(table, size, &selection);
+        let selection = self.taken(table, item, input, asks);
+        let points = table.held_points(&selection);
         self.drag = Some(Drag::Grade { size, held: p, points, by: DVec2::ZERO });
     }
 
@@ -108,8 +109,13 @@ impl Points {
             return;
         }
         let selection = self.taken(table, Item::Edge(hit.edge), input, asks);
-        let points = held_points(table, &selection);
-        self.drag = Some(Drag::Move { held: hit.place, points, by: DVec2::ZERO, snapped: None });
+        self.take(table, &selection, hit.place);
+    }
+
+    /// Begins to move the points of `selection`, held at a place on the table.
+    fn take(&mut self, table: &Table<'_>, selection: &Selection, held: DVec2) {
+        let points = held_points(table, selection);
+        self.drag = Some(Drag::Move { held, points, by: DVec2::ZERO, snapped: None });
     }
 
     /// The items that a drag of `item` moves: all selected ones if it is one of them, else it alone.
@@ -128,10 +134,10 @@ impl Points {
         match &mut self.drag {
             Some(Drag::Box { to, .. }) => *to = p,
             Some(Drag::Move { held, points, by, snapped }) => {
-                let moving: BTreeSet<PointRef> = points.iter().map(|(point, _)| *point).collect();
-                let found = table.snapped(p, Some(*held), input.held, |point| moving.contains(&point));
+                let moving: BTreeSet<RulePoint> = points.iter().map(|(point, _)| *point).collect();
+                let found = table.snapped(p, Some(*held), input.held, |point| moving.contains(&point.into()));
                 (*by, *snapped) = (found.place - *held, found.by.map(|_| found));
-                asks.extend(moved(table, points, *by).map(|edit| dragged(vec![edit])));
+                asks.extend(moved(table, points, *by).map(dragged));
             }
             Some(Drag::Grade { size, held, points, by }) => {
                 *by = p - *held;
@@ -160,9 +166,16 @@ impl Points {
                 let (lower, upper) = (from.min(to), from.max(to));
                 let inside = |p: DVec2| p.cmpge(lower).all() && p.cmple(upper).all();
                 let mut selection = if add { table.laid.selection.clone() } else { Selection::default() };
-                selection
-                    .points
-                    .extend(points_shown(table).filter(|(_, p)| inside(*p)).map(|(point, _)| point));
+                for (point, _) in table.points_shown().filter(|(_, p)| inside(*p)) {
+                    match point {
+                        RulePoint { piece, line: None, point } => {
+                            selection.points.insert(PointRef { piece, point });
+                        }
+                        RulePoint { piece, line: Some(line), point } => {
+                            selection.line_points.insert(LinePoint { piece, line, point });
+                        }
+                    }
+                }
                 asks.push(Ask::Pick(selection));
             }
             Some(_) => asks.push(Ask::EndDrag),
@@ -219,18 +232,19 @@ impl PatternTool for Points {
             self.finish(table, asks);
         }
         if input.nudge != DVec2::ZERO && self.drag.is_none() {
-            let edit = match table.size() {
+            let selection = table.laid.selection;
+            let edits = match table.size() {
                 Some(size) => {
-                    let points = grade::held_points(table, size, table.laid.selection);
-                    grade::moved(table, size, &points, input.nudge, false)
+                    let edit = grade::moved(table, size, &table.held_points(selection), input.nudge, false);
+                    edit.map(|edit| vec![edit])
                 }
-                None => moved(table, &held_points(table, table.laid.selection), input.nudge),
+                None => moved(table, &held_points(table, selection), input.nudge),
             };
-            asks.extend(edit.map(|edit| done(vec![edit])));
+            asks.extend(edits.map(done));
         }
         if input.next != 0 {
-            let all: Vec<Item> = table.points().map(|(point, _)| Item::Point(point)).collect();
-            let chosen = table.laid.selection.points.last().map(|&point| Item::Point(point));
+            let all: Vec<Item> = table.points_shown().map(|(point, _)| point.into()).collect();
+            let chosen = table.laid.selection.all_points().last().map(Item::from);
             asks.extend(next(&all, chosen, input.next).map(|item| Ask::Pick(Selection::of(item))));
         }
     }
@@ -242,10 +256,10 @@ impl PatternTool for Points {
             drawing.painter.line_segment([drawing.place(p), drawing.place(end)], stroke);
             drawing.knob(p, true, false);
         }
-        for (point, p) in points_shown(table) {
+        for (point, p) in table.points_shown() {
             if drawing.pane.contains(drawing.place(p)) {
-                let is_smooth = table.pattern().pieces[&point.piece].edge(point.point).smooth;
-                drawing.knob(p, is_smooth, table.laid.selection.points.contains(&point));
+                let is_selected = table.laid.selection.has(point.into());
+                drawing.knob(p, is_smooth(&table.pattern().pieces[&point.piece], point), is_selected);
             }
         }
         let at = input.hover.unwrap_or(drawing.pane.center());
@@ -296,7 +310,7 @@ impl PatternTool for Points {
             (Typed::At(p), [(_, from)]) => p - *from,
             (Typed::At(by), _) => by,
         };
-        asks.extend(moved(table, points, by).map(|edit| dragged(vec![edit])));
+        asks.extend(moved(table, points, by).map(dragged));
         asks.push(Ask::EndDrag);
         self.drag = None;
         Ok(())
@@ -309,20 +323,19 @@ impl PatternTool for Points {
     }
 
     fn under(&self, table: &Table<'_>, p: DVec2) -> Option<Item> {
-        if let Some(size) = table.size() {
-            let point = table.point_in(size, p).map(Item::Point);
-            return point.or_else(|| table.piece_at(p).map(|(piece, _)| Item::Piece(piece)));
-        }
-        let point = table.point_at(p).map(Item::Point);
-        let edge = || table.edge_at(p).map(|hit| Item::Edge(hit.edge));
-        let line = || table.line_at(p).map(Item::Line);
+        let point = table.shown_point_at(p).map(Item::from);
+        // In a size other than the base edges cannot be moved.
+        let edge = || table.edge_at(p).filter(|_| table.size().is_none()).map(|hit| Item::Edge(hit.edge));
+        let line = || table.shown_line_at(p).map(Item::Line);
         point.or_else(edge).or_else(line).or_else(|| table.piece_at(p).map(|(piece, _)| Item::Piece(piece)))
     }
 
     fn cursor(&self, table: &Table<'_>, at: DVec2) -> CursorIcon {
         match self.under(table, at) {
             _ if self.drag.is_some() => CursorIcon::Grabbing,
-            Some(Item::Point(_) | Item::Edge(_) | Item::Line(_)) => CursorIcon::PointingHand,
+            Some(Item::Point(_) | Item::Edge(_) | Item::Line(_) | Item::LinePoint(_)) => {
+                CursorIcon::PointingHand
+            }
             _ if table.size().is_none() && handle_at(table, at).is_some() => CursorIcon::PointingHand,
             _ => CursorIcon::Default,
         }
@@ -337,50 +350,64 @@ impl PatternTool for Points {
             }
             Some(_) => tr("Alt: do not snap · Esc: back"),
             None => {
-                tr("Drag a point or an edge · Alt+drag an edge: bend it, with Shift to an arc · Double-click an edge: insert a point; a point: corner or smooth · Delete: take it away")
+                tr("Drag a point, an edge or a line; click a line to see its points · Alt+drag an edge: bend it, with Shift to an arc · Double-click an edge: insert a point; a point: corner or smooth · Delete: take it away")
             }
         }
         .to_owned()
     }
 }
 
-/// The points where they are drawn: of the shown size.
-fn points_shown<'t>(table: &'t Table<'_>) -> Box<dyn Iterator<Item = (PointRef, DVec2)> + 't> {
-    match table.size() {
-        Some(size) => Box::new(table.points_in(size)),
-        None => Box::new(table.points()),
-    }
-}
-
-/// Selected points and the ends of selected edges, with their positions on the table; those of locked pieces are left out.
-fn held_points(table: &Table<'_>, selection: &Selection) -> Vec<(PointRef, DVec2)> {
-    let mut points = selection.points.clone();
-    for &EdgeRef { piece, edge } in &selection.edges {
-        if let Some(found) = table.pattern().pieces.get(&piece).filter(|p| edge < p.edge_count()) {
-            points.extend([edge, found.next_edge(edge)].map(|point| PointRef { piece, point }));
+/// Whether a closed or an internal line is smooth at a point.
+fn is_smooth(piece: &Piece, at: RulePoint) -> bool {
+    match at.line {
+        None => piece.edge(at.point).smooth,
+        Some(line) => {
+            let edges = piece.lines.get(line).map_or(&[][..], |line| &line.edges);
+            at.point > 0 && edges.get(at.point).is_some_and(|edge| edge.smooth)
         }
     }
-    let free = points.into_iter().filter(|point| table.is_free(point.piece));
-    free.filter_map(|point| Some((point, table.point(point)?))).collect()
 }
 
-fn moved(table: &Table<'_>, points: &[(PointRef, DVec2)], by: DVec2) -> Option<PatternEdit> {
-    let own = |&(point, p): &(PointRef, DVec2)| {
-        let pose = table.pattern().pieces.get(&point.piece)?.pose;
-        Some((point, pose.piece_from_plane(p + by)))
-    };
-    let points: Vec<_> = points.iter().filter_map(own).collect();
-    (!points.is_empty()).then_some(PatternEdit::MovePoints { points })
+/// Selected points, those of selected internal lines and the ends of selected edges, with their positions on the table; those of
+/// locked pieces are left out.
+fn held_points(table: &Table<'_>, selection: &Selection) -> Vec<(RulePoint, DVec2)> {
+    let mut selection = selection.clone();
+    for &EdgeRef { piece, edge } in &selection.edges {
+        if let Some(found) = table.pattern().pieces.get(&piece).filter(|p| edge < p.edge_count()) {
+            selection.points.extend([edge, found.next_edge(edge)].map(|point| PointRef { piece, point }));
+        }
+    }
+    table.held_points(&selection)
+}
+
+/// The edits that move points of closed and internal lines by `by` on the table; None where there is no point.
+fn moved(table: &Table<'_>, points: &[(RulePoint, DVec2)], by: DVec2) -> Option<Vec<PatternEdit>> {
+    let (mut closed, mut inside) = (Vec::new(), Vec::new());
+    for &(RulePoint { piece, line, point }, p) in points {
+        let to = table.pattern().pieces.get(&piece)?.pose.piece_from_plane(p + by);
+        match line {
+            None => closed.push((PointRef { piece, point }, to)),
+            Some(line) => inside.push((LinePoint { piece, line, point }, to)),
+        }
+    }
+    let mut edits = Vec::new();
+    if !closed.is_empty() {
+        edits.push(PatternEdit::MovePoints { points: closed });
+    }
+    if !inside.is_empty() {
+        edits.push(PatternEdit::MoveLinePoints { points: inside });
+    }
+    (!edits.is_empty()).then_some(edits)
 }
 
 /// A readout: the position of a single point, or the length and direction of an edge whose two points are moved.
-fn readout(table: &Table<'_>, points: &[(PointRef, DVec2)], by: DVec2) -> String {
+fn readout(table: &Table<'_>, points: &[(RulePoint, DVec2)], by: DVec2) -> String {
     let unit = table.laid.unit;
     match points {
         [(point, p)] => {
             let at = *p + by;
             let mut words = format!("{}, {}", unit.number(at.x), unit.text(at.y));
-            if let Some((piece, shape)) = table.piece(point.piece) {
+            if let Some((piece, shape)) = table.piece(point.piece).filter(|_| point.line.is_none()) {
                 let (line, first) = piece.loop_of(point.point);
                 let count = piece.loop_edges(line).len();
                 let before = first + (point.point - first + count - 1) % count;
@@ -429,10 +456,10 @@ fn curve_handles(table: &Table<'_>) -> Vec<CurveHandle> {
 
 fn handle_at(table: &Table<'_>, p: DVec2) -> Option<CurveHandle> {
     let near = curve_handles(table).into_iter().filter(|h| h.2.distance(p) <= table.reach(REACH * 0.8));
-    let points = table.point_at(p);
+    let points = table.shown_point_at(p);
     // Where a handle coincides with a point, the point is picked.
     let near = near.filter(|h| {
-        points.is_none_or(|point| table.point(point).is_none_or(|q| q.distance(p) > h.2.distance(p)))
+        points.is_none_or(|point| table.place_shown(point).is_none_or(|q| q.distance(p) > h.2.distance(p)))
     });
     near.min_by(|a, b| a.2.distance(p).total_cmp(&b.2.distance(p)))
 }
