@@ -8,8 +8,9 @@ use crate::cli::arguments;
 use crate::cli::failure::Failure;
 use crate::cli::report;
 use crate::cli::seconds::{Begun, Seconds};
-use crate::cli::{files, interrupt, output, run};
+use crate::cli::{files, input, interrupt, output, run};
 use crate::session::demos::Demo;
+use crate::session::project_file;
 use crate::session::recording::{Hex, Recording};
 use crate::session::replay::{Divergence, Replay};
 
@@ -63,6 +64,10 @@ pub fn replay(arguments: &arguments::Replay) -> Result<(), Failure> {
     }
     if outcome.hashes_compared == 0 {
         return Err(Failure::Check("the recording holds no hash: nothing was compared".to_owned()));
+    }
+    if let Some(path) = &arguments.save {
+        let project = replay.session().project();
+        project_file::save(path, &project).map_err(|e| input::project_failure(path, e))?;
     }
     if let Some(folder) = &arguments.out {
         let seconds = Seconds { replay: Some(start.seconds()), ..Seconds::default() };

@@ -15,6 +15,8 @@ pub enum Demo {
     Grading,
     /// A dressed body in other poses.
     Posing,
+    /// A skirt of a chosen fabric and print, to be exported to Blender.
+    Export,
     /// Figure 1: marks on cloth and body, and the wrap.
     Wrapping,
     /// Figure 2: one point dragged, and the whole cloth dragged along the skin as far as a pin lets it.
@@ -35,13 +37,14 @@ pub enum Demo {
 
 impl Demo {
     /// All of them, in the order of the menu: the walks, then the figures.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 15] = [
         Self::Drafting,
         Self::Fitting,
         Self::Drawing,
         Self::Creature,
         Self::Grading,
         Self::Posing,
+        Self::Export,
         Self::Wrapping,
         Self::Dragging,
         Self::Rewrapping,
@@ -61,6 +64,7 @@ impl Demo {
             Self::Creature => "Wrap a creature",
             Self::Grading => "Grade a skirt",
             Self::Posing => "Take another pose",
+            Self::Export => "Export to Blender",
             Self::Wrapping => "Wrapping by marks",
             Self::Dragging => "A point, or all of it",
             Self::Rewrapping => "Rewrapping within pins",
@@ -85,7 +89,8 @@ impl Demo {
             | Self::Drawing
             | Self::Creature
             | Self::Grading
-            | Self::Posing => return None,
+            | Self::Posing
+            | Self::Export => return None,
             Self::Wrapping => "1",
             Self::Dragging => "2",
             Self::Rewrapping | Self::Rewearing => "4",
@@ -116,6 +121,9 @@ impl Demo {
             Self::Posing => {
                 "Marks, pins and dressed cloth go along when the body moves: arms down, then a step."
             }
+            Self::Export => {
+                "The skirt gets a fabric and a colour, front and back a print; then it is wrapped and draped. Blender gets all of that."
+            }
             Self::Wrapping => {
                 "Marks are painted in pairs, one on a piece and one on the body. Wrap grows the shirt round the body so that they meet."
             }
@@ -141,6 +149,12 @@ impl Demo {
         }
     }
 
+    /// What a person does next, told in place of the caption when the demo has ended.
+    pub fn leads_to(self) -> Option<&'static str> {
+        let words = "File › Export… writes it as .glb: cloth and body in metres, with materials, textures and texture coordinates. In Blender it comes in by File › Import › glTF 2.0.";
+        (self == Self::Export).then_some(words)
+    }
+
     /// Name of its file in `assets/demos`, without `.jsonl`.
     pub fn file_stem(self) -> &'static str {
         match self {
@@ -150,6 +164,7 @@ impl Demo {
             Self::Creature => "creature",
             Self::Grading => "grading",
             Self::Posing => "posing",
+            Self::Export => "export",
             Self::Wrapping => "wrapping",
             Self::Dragging => "dragging",
             Self::Rewrapping => "rewrapping",
@@ -170,6 +185,7 @@ impl Demo {
             Self::Creature => include_str!("../../assets/demos/creature.jsonl"),
             Self::Grading => include_str!("../../assets/demos/grading.jsonl"),
             Self::Posing => include_str!("../../assets/demos/posing.jsonl"),
+            Self::Export => include_str!("../../assets/demos/export.jsonl"),
             Self::Wrapping => include_str!("../../assets/demos/wrapping.jsonl"),
             Self::Dragging => include_str!("../../assets/demos/dragging.jsonl"),
             Self::Rewrapping => include_str!("../../assets/demos/rewrapping.jsonl"),

@@ -4,7 +4,7 @@
 use std::process::Command;
 
 use crate::program::Place;
-use crate::textures::dressed;
+use crate::textures::{Scene, dressed};
 
 /// A Python with Blender in it.
 fn python() -> Option<String> {
@@ -107,4 +107,54 @@ fn blender_gets_the_images_of_an_obj() {
     }
     let shared = places(&seen["left"]).intersection(&places(&seen["right"])).count();
     assert!(shared >= 5, "{shared} places are shared");
+}
+
+/// The skirt of the walk that ends with an export, in "skirt.glb"; None where the recording was made on another kind of machine,
+/// whose bits differ.
+fn walked() -> Option<Place> {
+    let text = toile::session::demos::Demo::Export.recording();
+    let recording = toile::session::recording::Recording::parse(text).expect("a recording");
+    if recording.machine != toile::session::recording::machine() {
+        println!("skipped: the walk was recorded on {}", recording.machine);
+        return None;
+    }
+    let place = Place::new();
+    let done = place.ends(0, "replay demo:export --out out --save skirt.toile");
+    assert!(done.out.contains("hashes the same"), "{done:?}");
+    assert!(place.read("out/garment.obj").contains("skirt front"));
+    place.ends(0, "export skirt.toile -o skirt.glb --textures 256");
+    Some(place)
+}
+
+#[test]
+fn the_walk_ends_with_cloth_that_has_its_print() {
+    let Some(place) = walked() else { return };
+    let scene = Scene::read(&place, "skirt.glb");
+    let colours = |name: &str| {
+        let (_, image) = scene.outside(name);
+        let image = image.expect("base colours");
+        let light = image.pixels().filter(|p| p.0.iter().all(|c| *c > 120)).count();
+        light as f64 / f64::from(image.width() * image.height())
+    };
+    assert!(colours("skirt front") > 0.02, "light checks");
+}
+
+#[test]
+fn blender_gets_the_skirt_of_the_walk() {
+    let Some(python) = python() else { return };
+    let Some(place) = walked() else { return };
+    let script = format!(
+        "import bpy\nbpy.ops.wm.read_factory_settings(use_empty=True)\nbpy.ops.import_scene.gltf(filepath='skirt.glb')\n{LOOK}"
+    );
+    let seen = told(&python, &place, &script);
+    assert!(seen["body"].is_object(), "{seen}");
+    for piece in ["waistband front", "waistband back", "skirt front", "skirt back"] {
+        let front = &seen[piece]["materials"]["wool, front"];
+        assert_eq!(front["colour"][1], serde_json::json!([256, 256]), "{piece}");
+        assert!(front["normal"].is_array(), "{piece}: {front}");
+    }
+    // Blender's z is up: the skirt hangs between knee and waist of a body of usual height.
+    let places = seen["skirt front"]["places"].as_array().expect("places");
+    let heights: Vec<f64> = places.iter().filter_map(|p| p[2].as_f64()).collect();
+    assert!(heights.iter().all(|z| (0.2..1.4).contains(z)), "metres");
 }

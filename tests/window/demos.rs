@@ -67,3 +67,31 @@ fn a_walk_that_begins_with_an_empty_table_shows_its_pieces() {
         }
     }
 }
+
+#[test]
+fn the_walk_to_blender_ends_with_an_export_of_what_it_made() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("skirt.glb");
+    let mut window = window();
+    open(&mut window, Demo::Export);
+    wait(&mut window, "the fabric", |app| !app.shown().document().fabrics.is_usual());
+    wait(&mut window, "the marks", |app| app.shown().document().marks.pairs().count() == 2);
+    wait(&mut window, "the wrap", |app| app.shown().snapshot().is_dressed());
+    let start = Instant::now();
+    while window.query_by_label("Again").is_none() {
+        assert!(start.elapsed() < Duration::from_secs(60), "the end took too long");
+        window.run_steps(1);
+    }
+    assert!(window.query_by_label_contains("File › Import › glTF 2.0").is_some());
+    window.get_by_label("Export…").click();
+    window.run_steps(3);
+    if !files::write_asked(&mut window, &path) {
+        return;
+    }
+    window.run_steps(3);
+    let bytes = std::fs::read(&path).expect("the file");
+    let text = String::from_utf8_lossy(&bytes);
+    assert!(bytes.starts_with(b"glTF") && text.contains("skirt front"), "the skirt, not the document");
+    key(&mut window, Modifiers::NONE, Key::Escape);
+    assert!(!app(&window).shown().snapshot().is_dressed(), "back to the document");
+}

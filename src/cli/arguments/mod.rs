@@ -299,6 +299,9 @@ pub struct Replay {
     /// Writes the same files as dress to this folder
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+    /// Also writes the project as it is at the end to this file
+    #[arg(long, value_name = "PROJECT")]
+    pub save: Option<PathBuf>,
     #[command(flatten)]
     pub picture: PictureOptions,
     #[command(flatten)]

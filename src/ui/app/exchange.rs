@@ -60,8 +60,8 @@ impl App {
             Purpose::Compare => self.compare_with(ctx, path),
             Purpose::Sizes => self.take_sizes(path),
             Purpose::Export => {
-                let pattern = &self.session.document().pattern;
-                files::export(path, self.session.snapshot(), pattern, self.session.document())
+                let shown = self.shown();
+                files::export(path, shown.snapshot(), &shown.document().pattern, shown.document())
                     .map(|()| self.wrote(path))
             }
             Purpose::ExportPattern => self.export_pattern(path),

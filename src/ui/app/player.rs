@@ -7,6 +7,7 @@ use glam::{DVec2, DVec3};
 
 use crate::cloth::FlatPiece;
 use crate::drag::DragMode;
+use crate::geometry::ids::PieceId;
 use crate::pattern::edit::PatternEdit;
 use crate::render::{Camera, mark_colour};
 use crate::session::demos::Demo;
@@ -219,10 +220,11 @@ impl Player {
             Command::AddClothMark { .. } | Command::AddBodyMark { .. } => {
                 stroke(self.session(), command, share, stage).last().copied()
             }
-            Command::SetPiecePose { piece, .. } => {
-                let piece = self.session().document().pattern.pieces.get(piece)?;
-                let middle = piece.flattened(0.01).iter().sum::<DVec2>() / piece.flattened(0.01).len() as f64;
-                Some(on_table(stage, piece.pose.plane_from_piece(middle)))
+            Command::SetPiecePose { piece, .. } => self.middle(*piece, stage),
+            Command::SetFabric { piece, .. } | Command::SetDye { piece, .. } => {
+                // What all pieces get is shown on the last, which is mostly the largest.
+                let last = || self.session().document().pattern.pieces.keys().last().copied();
+                self.middle(piece.or_else(last)?, stage)
             }
             Command::EditPattern { edits, .. } => edited(edits.first()?, self.session(), stage),
             Command::AddSeam { seam } => {
@@ -240,6 +242,14 @@ impl Player {
             }
             _ => None,
         }
+    }
+
+    /// The middle of a piece's outline on the screen.
+    fn middle(&self, piece: PieceId, stage: &Stage<'_>) -> Option<Pos2> {
+        let piece = self.session().document().pattern.pieces.get(&piece)?;
+        let line = piece.flattened(0.01);
+        let middle = line.iter().sum::<DVec2>() / line.len() as f64;
+        Some(on_table(stage, piece.pose.plane_from_piece(middle)))
     }
 
     fn paint(&mut self, command: &Command, share: f64, stage: &Stage<'_>) {
@@ -284,12 +294,19 @@ impl Player {
                     if ui.button(if self.ended { tr("Back to your work") } else { tr("Stop") }).clicked() {
                         asks.push(Ask::Act(Action::StopDemo));
                     }
+                    if self.ended && self.demo.leads_to().is_some() {
+                        let row = Action::Export.row();
+                        if ui.button(tr(row.text)).on_hover_text(tr(row.tip)).clicked() {
+                            asks.push(Ask::Act(Action::Export));
+                        }
+                    }
                     if self.ended && ui.button(tr("Again")).clicked() {
                         asks.push(Ask::Act(Action::Demo(self.demo)));
                     }
                     ui.label(RichText::new("Esc").color(palette.weak).size(12.0));
                 });
-                ui.label(RichText::new(tr(self.demo.tells())).color(palette.weak));
+                let next = self.demo.leads_to().filter(|_| self.ended);
+                ui.label(RichText::new(tr(next.unwrap_or(self.demo.tells()))).color(palette.weak));
             });
         });
     }
@@ -315,6 +332,8 @@ fn length(command: &Command) -> f64 {
         | Command::ChangeSize { .. }
         | Command::Repose { .. }
         | Command::Dress { .. }
+        | Command::SetFabric { .. }
+        | Command::SetDye { .. }
         | Command::SetDraping { .. } => 0.8,
         _ => 0.05,
     }
@@ -344,6 +363,8 @@ fn words(command: &Command, session: &Session) -> String {
         Command::ChangeSize { .. } => tr("Another size").to_owned(),
         Command::Repose { .. } => tr("Another pose").to_owned(),
         Command::Dress { .. } => tr("Dress").to_owned(),
+        Command::SetFabric { .. } => tr("A fabric for all pieces").to_owned(),
+        Command::SetDye { .. } => tr("Colour and print").to_owned(),
         Command::SetDraping { on: true } => tr("Drape").to_owned(),
         _ => String::new(),
     }

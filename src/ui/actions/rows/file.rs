@@ -74,7 +74,8 @@ pub const ROWS: &[Row] = &[
     .needs(&[Need::Pieces]),
     row("File", Action::Export, "Export…", "Write the dressed garment as .obj or .glb")
         .keys(&[ctrl(Key::E)])
-        .needs(&[Need::Dressed]),
+        .needs(&[Need::Dressed])
+        .in_demos(),
     row(
         "File",
         Action::FitPage,

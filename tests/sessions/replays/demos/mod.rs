@@ -56,6 +56,7 @@ demos! {
     a_creature_gets_a_cloak: Creature,
     a_skirt_gets_sizes: Grading,
     cloth_goes_along_to_other_poses: Posing,
+    a_skirt_is_made_for_blender: Export,
     the_shirt_is_wrapped_by_its_marks: Wrapping,
     all_of_the_shirt_follows_the_hand_but_for_its_pin: Dragging,
     a_rewrap_moves_only_what_pins_let_it: Rewrapping,

@@ -19,6 +19,7 @@ pub fn play(demo: Demo) -> Stage {
         Demo::Creature => walks::creature(),
         Demo::Grading => walks::grading(),
         Demo::Posing => walks::posing(),
+        Demo::Export => walks::export(),
         Demo::Wrapping => wrapping(),
         Demo::Dragging => dragging(),
         Demo::Rewrapping => rewrapping(),

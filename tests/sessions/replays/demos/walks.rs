@@ -12,7 +12,7 @@ use toile::pattern::edit::{PatternEdit, PointRef};
 use toile::pattern::grading::{READY_SIZES, graded};
 use toile::pattern::{EdgeRef, GradeRule, Piece, PlanePose, RulePoint, Seam};
 use toile::session::samples::Sample;
-use toile::session::{BodyChoice, Command, Project};
+use toile::session::{BodyChoice, Command, Dye, Motif, Print, Project};
 use toile::sim::StartChoice;
 use toile::wrap::{ClothSide, Marks};
 
@@ -238,5 +238,21 @@ pub fn posing() -> Stage {
         stage.give(Command::Repose { body, settle: true, draft: false });
         stage.rest();
     }
+    stage
+}
+
+pub fn export() -> Stage {
+    let (mut stage, marks) = Stage::bare(Sample::Skirt);
+    stage.give(Command::SetFabric { piece: None, fabric: Some("wool".to_owned()) });
+    stage.give(Command::SetDye { piece: None, dye: Dye { colour: Some([44, 62, 74]), ..Dye::default() } });
+    let print = Print { motif: Motif::Checks, repeat_m: 0.08, colour: [214, 196, 160] };
+    for name in ["skirt front", "skirt back"] {
+        let piece = Some(stage.piece(name));
+        stage.give(Command::SetDye { piece, dye: Dye { print: Some(print), ..Dye::default() } });
+    }
+    marks.pairs().for_each(|(cloth, body)| stage.paint_pair(cloth, body));
+    stage.wrap_and_drape();
+    let front = stage.piece("skirt front");
+    assert_eq!(stage.session.document().fabrics.name(Some(front)), "wool");
     stage
 }
