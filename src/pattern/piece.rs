@@ -258,6 +258,16 @@ impl InternalLine {
         self.points().nth(i)
     }
 
+    /// The place of the line that is nearest to `p`: its edge, the fraction of the edge's arc length, and the distance, metres.
+    pub fn nearest(&self, p: DVec2) -> Option<(usize, f64, f64)> {
+        let ends = self.points().zip(self.points().skip(1));
+        let near = self.edges.iter().zip(ends).enumerate().map(|(i, (edge, (a, b)))| {
+            let (at, distance) = curve::nearest(&curve::segments(a, edge.shape, b), p);
+            (i, at, distance)
+        });
+        near.min_by(|one, other| one.2.total_cmp(&other.2))
+    }
+
     /// The grade rule of point `i`, where it has one.
     pub fn rule(&self, i: usize) -> Option<&GradeRule> {
         match self.edges.get(i) {

@@ -146,6 +146,8 @@ fn edits([front, back]: [PieceId; 2], seam: SeamId) -> [Vec<PatternEdit>; 7] {
             PatternEdit::MoveLinePoints {
                 points: vec![(LinePoint { piece: front, line: 0, point: 1 }, high)],
             },
+            PatternEdit::InsertLinePoint { edge: LinePoint { piece: front, line: 0, point: 0 }, at: 0.4 },
+            PatternEdit::DeleteLinePoint { point: LinePoint { piece: front, line: 0, point: 1 } },
             PatternEdit::AddHole { piece: back, edges: pocket.outline },
             PatternEdit::PlaceInSpace {
                 placements: vec![(front, Some(SpacePose::flat(DVec3::Z, Default::default())))],

@@ -6,8 +6,8 @@ use glam::DVec2;
 
 use crate::geometry::ids::PieceId;
 use crate::pattern::edit::pieces::change;
-use crate::pattern::edit::{Change, LinePoint, SHORTEST_EDGE, find, points};
-use crate::pattern::{Edge, InternalLine, Pattern, Piece};
+use crate::pattern::edit::{Change, LinePoint, SHORTEST_EDGE, find, lines, points};
+use crate::pattern::{Edge, EdgeRef, InternalLine, Pattern, Piece};
 
 pub(super) fn move_points(pattern: &mut Pattern, moves: &[(LinePoint, DVec2)]) -> Result<Change, String> {
     if moves.is_empty() {
@@ -15,13 +15,7 @@ pub(super) fn move_points(pattern: &mut Pattern, moves: &[(LinePoint, DVec2)]) -
     }
     let mut of_line: BTreeMap<(PieceId, usize), BTreeMap<usize, DVec2>> = BTreeMap::new();
     for (at, to) in moves {
-        let piece = find(pattern, at.piece)?;
-        let number = at.line.saturating_add(1);
-        let line = piece.lines.get(at.line).ok_or_else(|| format!("{} has no line {number}", piece.name))?;
-        if line.point(at.point).is_none() {
-            let point = at.point.saturating_add(1);
-            return Err(format!("line {number} of {} has no point {point}", piece.name));
-        }
+        line_of(pattern, *at)?;
         of_line.entry((at.piece, at.line)).or_default().insert(at.point, *to);
     }
     for ((id, line), moved) in of_line {
@@ -39,6 +33,54 @@ pub(super) fn move_points(pattern: &mut Pattern, moves: &[(LinePoint, DVec2)]) -
     }))
 }
 
+pub(super) fn insert(pattern: &mut Pattern, edge: LinePoint, at: f64) -> Result<Change, String> {
+    let line = line_of(pattern, edge)?;
+    if edge.point == line.edges.len() {
+        return Err("no edge starts at the end of a line".to_owned());
+    }
+    if !(at > 0.0 && at < 1.0) {
+        return Err("a point on an edge lies between its ends".to_owned());
+    }
+    let mut closed = Closed::new(line);
+    let on = EdgeRef { piece: closed.id, edge: edge.point };
+    lines::insert_points(&mut closed.pattern, on, &[at]);
+    let new = closed.opened(line);
+    change(pattern, edge.piece, |piece| piece.lines[edge.line] = new);
+    Ok(Change::new("add a point"))
+}
+
+pub(super) fn delete(pattern: &mut Pattern, at: LinePoint) -> Result<Change, String> {
+    let line = line_of(pattern, at)?;
+    let last = line.edges.len();
+    if last < 2 {
+        return Err("a line needs two points at least: take the line away".to_owned());
+    }
+    let mut new = line.clone();
+    if at.point == 0 {
+        new.edges.remove(0);
+    } else if at.point < last {
+        let mut closed = Closed::new(line);
+        points::join(&mut closed.pattern, EdgeRef { piece: closed.id, edge: at.point });
+        new = closed.opened(line);
+    } else if let Some(edge) = new.edges.pop() {
+        (new.end, new.end_rule) = (edge.start, edge.rule);
+    }
+    change(pattern, at.piece, |piece| piece.lines[at.line] = new);
+    Ok(Change::new("take a point away"))
+}
+
+/// The line that a point is on. Err where there is no such line or point.
+fn line_of(pattern: &Pattern, at: LinePoint) -> Result<&InternalLine, String> {
+    let piece = find(pattern, at.piece)?;
+    let number = at.line.saturating_add(1);
+    let line = piece.lines.get(at.line).ok_or_else(|| format!("{} has no line {number}", piece.name))?;
+    if line.point(at.point).is_none() {
+        let point = at.point.saturating_add(1);
+        return Err(format!("line {number} of {} has no point {point}", piece.name));
+    }
+    Ok(line)
+}
+
 /// Distances between the ends of the edges of a line, metres.
 fn chords(line: &InternalLine) -> impl Iterator<Item = f64> {
     line.points().zip(line.points().skip(1)).map(|(a, b)| a.distance(b))
@@ -47,30 +89,56 @@ fn chords(line: &InternalLine) -> impl Iterator<Item = f64> {
 /// The line with the points `moved` at their new places. Curves rotate and scale with their chords, and smooth points beside
 /// the moved ones stay smooth.
 fn put(line: &InternalLine, moved: &BTreeMap<usize, DVec2>) -> InternalLine {
-    // As a closed line with an edge from the end back to the start, and corners there, it moves like any other.
-    let closing = Edge { start: line.end, ..Edge::default() };
-    let outline = line.edges.iter().cloned().chain([closing]).collect();
-    let mut closed = Piece { outline, ..Piece::default() };
-    closed.outline[0].smooth = false;
+    let mut closed = Closed::new(line);
     let places: Vec<DVec2> =
         line.points().enumerate().map(|(i, p)| moved.get(&i).copied().unwrap_or(p)).collect();
-    points::put_all(&mut closed, &places);
-    for &i in moved.keys() {
-        points::smooth_around(&mut closed, i);
+    change(&mut closed.pattern, closed.id, |piece| {
+        points::put_all(piece, &places);
+        for &i in moved.keys() {
+            points::smooth_around(piece, i);
+        }
+    });
+    closed.opened(line)
+}
+
+/// An internal line as the outline of a piece, with an edge from its end back to its start and corners there: so it is changed
+/// like any closed line.
+struct Closed {
+    pattern: Pattern,
+    id: PieceId,
+}
+
+impl Closed {
+    fn new(line: &InternalLine) -> Self {
+        let closing = Edge { start: line.end, rule: line.end_rule.clone(), ..Edge::default() };
+        let outline = line.edges.iter().cloned().chain([closing]).collect();
+        let mut piece = Piece { outline, ..Piece::default() };
+        piece.outline[0].smooth = false;
+        let mut pattern = Pattern::default();
+        let id = pattern.add_piece(piece);
+        Self { pattern, id }
     }
-    let mut new = line.clone();
-    for (edge, put) in new.edges.iter_mut().zip(&closed.outline) {
-        (edge.start, edge.shape) = (put.start, put.shape);
+
+    /// It as an internal line again; `before` is what it was made of.
+    fn opened(self, before: &InternalLine) -> InternalLine {
+        let mut new = before.clone();
+        if let Some(piece) = self.pattern.pieces.get(&self.id)
+            && let Some((closing, edges)) = piece.outline.split_last()
+        {
+            (new.end, new.edges) = (closing.start, edges.to_vec());
+        }
+        if let (Some(first), Some(was)) = (new.edges.first_mut(), before.edges.first()) {
+            first.smooth = was.smooth;
+        }
+        new
     }
-    new.end = places.last().copied().unwrap_or(line.end);
-    new
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::pattern::EdgeShape;
     use crate::pattern::edit::{PatternEdit, apply};
+    use crate::pattern::{EdgeShape, GradeRule};
 
     const A: PieceId = PieceId(1);
 
@@ -134,6 +202,35 @@ mod tests {
         let at = LinePoint { piece: A, line: 2, point: 0 };
         let edit = PatternEdit::MoveLinePoints { points: vec![(at, DVec2::ZERO)] };
         assert!(apply(&pattern, &edit).expect_err("no line").contains("front has no line 3"));
+    }
+
+    #[test]
+    fn a_point_is_put_on_a_line_and_taken_away_again() {
+        let mut pattern = square(EdgeShape::Quadratic { control: v(0.3, 0.1) }, true);
+        let line = &mut std::sync::Arc::make_mut(pattern.pieces.get_mut(&A).expect("the piece")).lines[0];
+        line.end_rule = Some(GradeRule(vec![v(0.0, 0.0), v(0.02, 0.0)]));
+        let at = |point| LinePoint { piece: A, line: 0, point };
+        let done = |pattern: &Pattern, edit: PatternEdit| apply(pattern, &edit).map(|edited| edited.pattern);
+        let more = done(&pattern, PatternEdit::InsertLinePoint { edge: at(1), at: 0.5 }).expect("a point");
+        let line = &more.pieces[&A].lines[0];
+        assert_eq!((line.edges.len(), line.end), (3, v(0.3, 0.2)));
+        assert_eq!(line.rule(2), Some(&GradeRule(vec![v(0.0, 0.0), v(0.01, 0.0)])), "half of the end's");
+        let length = |line: &InternalLine| {
+            line.flattened(1e-6).windows(2).map(|side| side[0].distance(side[1])).sum::<f64>()
+        };
+        assert!((length(line) - length(&pattern.pieces[&A].lines[0])).abs() < 1e-6, "it keeps its shape");
+        let less = done(&more, PatternEdit::DeleteLinePoint { point: at(2) }).expect("one point less");
+        assert!((length(&less.pieces[&A].lines[0]) - length(line)).abs() < 1e-6);
+        for (point, ends) in [(0, [v(0.2, 0.1), v(0.3, 0.2)]), (2, [v(0.1, 0.1), v(0.2, 0.1)])] {
+            let less = done(&pattern, PatternEdit::DeleteLinePoint { point: at(point) }).expect("an end");
+            assert_eq!(less.pieces[&A].lines[0].points().collect::<Vec<_>>(), ends);
+            let none = done(&less, PatternEdit::DeleteLinePoint { point: at(0) });
+            assert!(none.expect_err("refused").contains("two points at least"));
+        }
+        let words =
+            |edge, at| done(&pattern, PatternEdit::InsertLinePoint { edge, at }).expect_err("refused");
+        assert!(words(at(2), 0.5).contains("no edge starts at the end"));
+        assert!(words(at(0), 1.0).contains("between its ends"));
     }
 
     #[test]

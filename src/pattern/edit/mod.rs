@@ -140,6 +140,11 @@ pub enum PatternEdit {
     DeleteLine { piece: PieceId, line: usize },
     /// Move points of internal lines. The curves beside them rotate and scale with their chords.
     MoveLinePoints { points: Vec<(LinePoint, DVec2)> },
+    /// Insert a point on the edge of an internal line that starts at `edge`, at a fraction of its arc length inside 0..1. The
+    /// line keeps its shape.
+    InsertLinePoint { edge: LinePoint, at: f64 },
+    /// Delete a point of an internal line: two edges become one with the same tangents at its ends; at an end an edge goes.
+    DeleteLinePoint { point: LinePoint },
     /// Cut a hole into a piece.
     AddHole { piece: PieceId, edges: Vec<Edge> },
     /// Close a hole, by its number from 0, and remove the seams on its edges.
@@ -338,6 +343,8 @@ fn carry_out(pattern: &mut Pattern, edit: &PatternEdit) -> Result<Change, String
         PatternEdit::AddLine { piece, line } => cutting::add_line(pattern, *piece, line),
         PatternEdit::DeleteLine { piece, line } => cutting::delete_line(pattern, *piece, *line),
         PatternEdit::MoveLinePoints { points } => internal_lines::move_points(pattern, points),
+        PatternEdit::InsertLinePoint { edge, at } => internal_lines::insert(pattern, *edge, *at),
+        PatternEdit::DeleteLinePoint { point } => internal_lines::delete(pattern, *point),
         PatternEdit::AddHole { piece, edges } => holes::add_hole(pattern, *piece, edges),
         PatternEdit::DeleteHole { piece, hole } => holes::delete_hole(pattern, *piece, *hole),
         PatternEdit::SetGrainline { piece, grainline } => cutting::set_grainline(pattern, *piece, *grainline),
@@ -380,6 +387,9 @@ fn pieces_named(edit: &PatternEdit) -> Vec<PieceId> {
         PatternEdit::Scale { pieces, .. } | PatternEdit::SetAllowance { pieces, .. } => pieces.clone(),
         PatternEdit::MovePoints { points } => points.iter().map(|(point, _)| point.piece).collect(),
         PatternEdit::MoveLinePoints { points } => points.iter().map(|(point, _)| point.piece).collect(),
+        PatternEdit::InsertLinePoint { edge: point, .. } | PatternEdit::DeleteLinePoint { point } => {
+            vec![point.piece]
+        }
         PatternEdit::SetRules { rules } => rules.iter().map(|(point, _)| point.piece).collect(),
         PatternEdit::SetEdge { edge, .. }
         | PatternEdit::InsertPoint { edge, .. }

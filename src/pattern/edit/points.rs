@@ -126,7 +126,7 @@ pub(super) fn delete(pattern: &mut Pattern, point: PointRef) -> Result<Change, S
 }
 
 /// Joins the two edges that meet at the start of `point` into one.
-fn join(pattern: &mut Pattern, point: EdgeRef) {
+pub(super) fn join(pattern: &mut Pattern, point: EdgeRef) {
     let Some(piece) = pattern.pieces.get(&point.piece) else { return };
     let before = previous(piece, point.edge);
     let (a, m) = piece.edge_ends(before);

@@ -6,7 +6,7 @@ use glam::DVec2;
 
 use crate::geometry::ids::{PieceId, SeamId};
 use crate::pattern::activity::Activity;
-use crate::pattern::edit::{PatternEdit, PointRef, TrimLine};
+use crate::pattern::edit::{LinePoint, PatternEdit, PointRef, TrimLine};
 use crate::pattern::{
     EdgeRef, EdgeShape, Elastic, Fold, Hem, Pattern, Piece, PlanePose, SpacePose, Topstitch, Trims, Zip,
     curve,
@@ -193,15 +193,13 @@ fn of_each(pieces: &[PieceId], edit: impl Fn(PieceId) -> Option<PatternEdit>) ->
 
 /// Deletions of the selected pieces, points, lines and seams; for a selected edge of a hole, of the whole hole.
 pub fn deletions(pattern: &Pattern, selection: &Selection) -> Vec<PatternEdit> {
-    let Selection { pieces, points, edges, lines, seams, .. } = selection;
+    let Selection { pieces, points, edges, seams, .. } = selection;
     let mut all = Vec::new();
     if !seams.is_empty() {
         all.push(PatternEdit::Unpick { seams: seams.iter().copied().collect() });
     }
-    // From the last line to the first, so that the indices of the remaining ones stay valid.
     let is_left = |piece: &PieceId| !pieces.contains(piece) && pattern.pieces.contains_key(piece);
-    let lines = lines.iter().rev().filter(|line| is_left(&line.piece));
-    all.extend(lines.map(|&LineRef { piece, line }| PatternEdit::DeleteLine { piece, line }));
+    all.extend(line_deletions(pattern, selection, is_left));
     let edges = edges.iter().filter(|edge| is_left(&edge.piece));
     let loops: BTreeSet<(PieceId, usize)> =
         edges.map(|edge| (edge.piece, pattern.pieces[&edge.piece].loop_of(edge.edge).0)).collect();
@@ -217,6 +215,30 @@ pub fn deletions(pattern: &Pattern, selection: &Selection) -> Vec<PatternEdit> {
     if !pieces.is_empty() {
         all.push(PatternEdit::DeletePieces { pieces: pieces.iter().copied().collect() });
     }
+    all
+}
+
+/// Deletions of the selected internal lines and of the selected points of others, on pieces that stay. A line that would keep
+/// less than two points goes as a whole.
+fn line_deletions(
+    pattern: &Pattern,
+    selection: &Selection,
+    is_left: impl Fn(&PieceId) -> bool,
+) -> Vec<PatternEdit> {
+    let (mut all, mut gone) = (Vec::new(), Vec::new());
+    for line in selection.lines_touched().into_iter().filter(|line| is_left(&line.piece)) {
+        let is_on = |at: &&LinePoint| LineRef { piece: at.piece, line: at.line } == line;
+        let chosen: Vec<LinePoint> = selection.line_points.iter().filter(is_on).copied().collect();
+        let edges = pattern.pieces[&line.piece].lines.get(line.line).map_or(0, |line| line.edges.len());
+        if selection.lines.contains(&line) || chosen.len() >= edges {
+            gone.push(line);
+        } else {
+            // From the last point to the first, so that the indices of the remaining ones stay valid; so with lines.
+            all.extend(chosen.into_iter().rev().map(|point| PatternEdit::DeleteLinePoint { point }));
+        }
+    }
+    let gone = gone.into_iter().rev();
+    all.extend(gone.map(|LineRef { piece, line }| PatternEdit::DeleteLine { piece, line }));
     all
 }
 
@@ -337,6 +359,22 @@ mod tests {
         let found = edits(Action::Delete, &pattern, &selection);
         let point = |point| PatternEdit::DeletePoint { point: PointRef { piece, point } };
         assert_eq!(found, [point(2), point(0)]);
+    }
+
+    #[test]
+    fn points_of_lines_go_and_the_line_with_its_last_but_one() {
+        let (mut pattern, piece) = square();
+        let edges = [0.2, 0.4].map(|x| crate::pattern::Edge { start: DVec2::splat(x), ..Default::default() });
+        let (edges, end) = (edges.to_vec(), DVec2::splat(0.8));
+        let line = crate::pattern::InternalLine { edges, end, ..Default::default() };
+        Arc::make_mut(pattern.pieces.get_mut(&piece).expect("the piece")).lines.push(line);
+        let at = |point| LinePoint { piece, line: 0, point };
+        let gone = |points: &[usize]| {
+            let line_points = points.iter().map(|&point| at(point)).collect();
+            edits(Action::Delete, &pattern, &Selection { line_points, ..Selection::default() })
+        };
+        assert_eq!(gone(&[1]), [PatternEdit::DeleteLinePoint { point: at(1) }]);
+        assert_eq!(gone(&[0, 2]), [PatternEdit::DeleteLine { piece, line: 0 }]);
     }
 
     #[test]

@@ -196,3 +196,24 @@ fn points_of_a_line_and_the_line_are_dragged_in_the_base_size() {
     assert_eq!(piece(&pattern(&window), "A").outline, piece(&with_line(), "A").outline);
     assert_eq!(steps(&window), ["move 2 points"]);
 }
+
+#[test]
+fn a_line_gets_a_point_by_a_double_click_and_loses_it_again() {
+    let mut window = window_on(with_line());
+    press(&mut window, Key::A);
+    let middle = drawn(&window, "A, line 1");
+    move_to(&mut window, middle);
+    for _ in 0..2 {
+        button(&mut window, middle, true, Modifiers::NONE);
+        button(&mut window, middle, false, Modifiers::NONE);
+    }
+    window.run_steps(3);
+    assert_eq!(line(&window).edges.len(), 2);
+    std::thread::sleep(Duration::from_millis(2));
+    window.run_steps(30);
+    let point = drawn(&window, "A, line 1, point 2");
+    click(&mut window, point);
+    press(&mut window, Key::Delete);
+    assert_eq!(pattern(&window), with_line());
+    assert_eq!(steps(&window), ["add a point", "take a point away"]);
+}

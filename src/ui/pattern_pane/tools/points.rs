@@ -17,7 +17,7 @@ use crate::ui::pattern_pane::input::Input;
 use crate::ui::pattern_pane::snap::Snapped;
 use crate::ui::pattern_pane::table::{OnEdge, REACH, Table};
 use crate::ui::preferences::units::{Typed, degrees};
-use crate::ui::selection::{Item, Selection};
+use crate::ui::selection::{Item, LineRef, Selection};
 
 /// The tool Edit points.
 #[derive(Debug, Default)]
@@ -195,6 +195,14 @@ impl Points {
                 let at = hit.at.clamp(0.01, 0.99);
                 PatternEdit::InsertPoint { edge, at: nice_fraction(at, table.reach(REACH), table, edge) }
             }
+            Item::Line(LineRef { piece, line }) if table.is_free(piece) => {
+                let found = &table.pattern().pieces[&piece];
+                let Some((point, at, _)) = found.lines[line].nearest(found.pose.piece_from_plane(p)) else {
+                    return;
+                };
+                let edge = LinePoint { piece, line, point };
+                PatternEdit::InsertLinePoint { edge, at: at.clamp(0.01, 0.99) }
+            }
             _ => return,
         };
         asks.push(done(vec![edit]));
@@ -350,7 +358,7 @@ impl PatternTool for Points {
             }
             Some(_) => tr("Alt: do not snap · Esc: back"),
             None => {
-                tr("Drag a point, an edge or a line; click a line to see its points · Alt+drag an edge: bend it, with Shift to an arc · Double-click an edge: insert a point; a point: corner or smooth · Delete: take it away")
+                tr("Drag a point, an edge or a line; click a line to see its points · Alt+drag an edge: bend it, with Shift to an arc · Double-click an edge or a line: insert a point; a point: corner or smooth · Delete: take it away")
             }
         }
         .to_owned()
