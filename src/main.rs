@@ -2,6 +2,7 @@
 
 /// Memory allocator. glibc's fragments memory where many threads allocate and free all the time, as while a window is open: see
 /// `Cargo.toml`.
+#[cfg(not(target_os = "macos"))]
 #[global_allocator]
 static MEMORY: mimalloc::MiMalloc = mimalloc::MiMalloc;
 

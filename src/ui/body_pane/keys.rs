@@ -10,6 +10,7 @@ use crate::ui::actions::Tool;
 use crate::ui::actions::asks::{Ask, Asks, in_one_step};
 use crate::ui::language::{say, tr};
 use crate::ui::look::theme::Palette;
+use crate::ui::pointer::mouse::held;
 use crate::ui::pointer::stroke;
 
 /// Step of the cursor by an arrow key, and with Shift, logical pixels.
@@ -119,7 +120,7 @@ impl ScenePane {
             ..Default::default()
         };
         ui.ctx().memory_mut(|m| m.set_focus_lock_filter(response.id, filter));
-        if ui.input(|i| i.modifiers.command || i.modifiers.alt) {
+        if held(ui).command || held(ui).alt {
             return;
         }
         self.move_cross(ui, pane, asks);

@@ -41,7 +41,7 @@ use crate::ui::language::tr;
 use crate::ui::look::theme::Palette;
 use crate::ui::maps::ShownMap;
 use crate::ui::pointer::clicks::clicks;
-use crate::ui::pointer::mouse::{Mouse, PointerAction};
+use crate::ui::pointer::mouse::{Mouse, PointerAction, held};
 use crate::ui::pointer::stroke;
 use crate::ui::scenery::scene::Scenery;
 use crate::ui::selection::Item;
@@ -217,8 +217,8 @@ impl ScenePane {
     }
 
     fn listen(&mut self, ui: &egui::Ui, seen: &Seen<'_>, pane: Rect, response: &Response, asks: &mut Asks) {
-        let erasing = seen.tool == Tool::Erase || ui.input(|i| i.modifiers.command);
-        let held = ui.input(|i| i.modifiers);
+        let held = held(ui);
+        let erasing = seen.tool == Tool::Erase || held.command;
         let of_tool = seen.mouse.deed(PointerButton::Primary, held) == Some(PointerAction::Tool);
         for at in clicks(ui, response, PointerButton::Primary).into_iter().filter(|_| of_tool) {
             self.click(seen, pane, at, [erasing, held.shift], asks);
@@ -379,7 +379,7 @@ impl ScenePane {
         response: &Response,
     ) {
         let Some(at) = response.hover_pos() else { return };
-        let erasing = seen.tool == Tool::Erase || ui.input(|i| i.modifiers.command);
+        let erasing = seen.tool == Tool::Erase || held(ui).command;
         ui.ctx().set_cursor_icon(match &self.drag {
             Some(Drag::View(..) | Drag::Cloth(_) | Drag::Pin(_) | Drag::Stand(_)) => CursorIcon::Grabbing,
             Some(Drag::Paint(_) | Drag::Bone(_)) => CursorIcon::Crosshair,

@@ -19,6 +19,7 @@ use crate::ui::panels::fastenings::zip_ui;
 use crate::ui::panels::fields::{angle_field, length_field, number_field};
 use crate::ui::panels::trims::trims_ui;
 use crate::ui::pattern_pane::seam_words;
+use crate::ui::pointer::mouse::held;
 use crate::ui::preferences::units::signed;
 use crate::ui::selection::{Item, Selection};
 
@@ -217,7 +218,7 @@ fn row(ui: &mut egui::Ui, told: &PanelContext<'_>, item: Item, text: RichText, w
     let button = ui.add(Button::selectable(is_selected, text).truncate());
     button.widget_info(|| WidgetInfo::selected(Role::Button, true, is_selected, words));
     if button.clicked() {
-        let more = ui.input(|i| i.modifiers.shift || i.modifiers.command);
+        let more = held(ui).shift || held(ui).command;
         asks.push(Ask::Pick(
             match is_selected && told.selection.pieces.len() + told.selection.seams.len() == 1 {
                 true => Selection::default(),

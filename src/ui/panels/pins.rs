@@ -9,6 +9,7 @@ use crate::ui::actions::Action;
 use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::language::{say, tr};
 use crate::ui::panels::context::PanelContext;
+use crate::ui::pointer::mouse::held;
 
 /// The name of a pin.
 pub fn named(pin: PinId) -> String {
@@ -42,7 +43,7 @@ fn pin_row(ui: &mut egui::Ui, told: &PanelContext<'_>, pin: &Pin, asks: &mut Ask
     let name = named(pin.id);
     let is_selected = told.selection.pins.contains(&pin.id);
     let piece = told.document.pattern.pieces.get(&pin.place.piece).map_or("", |piece| &piece.name);
-    let add = ui.input(|i| i.modifiers.shift || i.modifiers.command);
+    let add = held(ui).shift || held(ui).command;
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
         let close = ui.add_enabled(!pin.locked, Button::new("×").small());
         let close = close.on_hover_text(tr("Pull it out")).on_disabled_hover_text(tr("It is locked"));

@@ -4,7 +4,7 @@ use egui::{Event, Key, Modifiers, PointerButton, Pos2, Response};
 use glam::DVec2;
 
 use crate::ui::pointer::clicks::clicks;
-use crate::ui::pointer::mouse::{Mouse, PointerAction};
+use crate::ui::pointer::mouse::{Mouse, PointerAction, held};
 
 /// The input for the chosen tool, without what moves the view.
 #[derive(Clone, Debug, Default)]
@@ -41,7 +41,7 @@ const NUDGE: [f64; 2] = [0.001, 0.01];
 impl Input {
     /// Reads the input of the pointer. `dragging`: the tool is following a drag.
     pub fn of_pointer(ui: &egui::Ui, response: &Response, mouse: Mouse, dragging: bool) -> Self {
-        let (held, space) = ui.input(|i| (i.modifiers, i.key_down(Key::Space)));
+        let (held, space) = (held(ui), ui.input(|i| i.key_down(Key::Space)));
         let of_tool = !space && mouse.deed(PointerButton::Primary, held) == Some(PointerAction::Tool);
         let by_pointer = ui.input(|i| i.events.iter().any(|e| matches!(e, Event::PointerButton { .. })));
         let clicks =

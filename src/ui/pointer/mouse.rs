@@ -45,6 +45,16 @@ const SHIFT: Modifiers = Modifiers::SHIFT;
 const CTRL: Modifiers = Modifiers::CTRL;
 const ALT: Modifiers = Modifiers::ALT;
 
+/// The modifier keys that are held, the same on all systems.
+pub fn held(ui: &egui::Ui) -> Modifiers {
+    alike(ui.input(|i| i.modifiers))
+}
+
+/// On a Mac Ctrl is as good as Cmd, as it is for shortcuts: texts that speak of Ctrl are true there, too.
+fn alike(held: Modifiers) -> Modifiers {
+    Modifiers { command: held.command || held.ctrl, ..held }
+}
+
 impl Mouse {
     /// All mappings, in the order of the menu.
     pub const ALL: [Self; 4] = [Self::Paper, Self::Clo, Self::Blender, Self::Maya];
@@ -241,5 +251,14 @@ mod tests {
         );
         assert!(Mouse::Maya.view_hint().contains("Alt+left drag: turn"));
         assert!(Mouse::Blender.view_hint().contains("Ctrl+middle drag: zoom"));
+    }
+
+    #[test]
+    fn ctrl_and_cmd_are_one() {
+        let on_mac = [Modifiers::CTRL, Modifiers::MAC_CMD | Modifiers::COMMAND];
+        assert!(on_mac.into_iter().all(|held| alike(held).command));
+        for held in [NONE, SHIFT, ALT] {
+            assert_eq!(alike(held), held);
+        }
     }
 }
