@@ -12,12 +12,13 @@ use crate::cli::{files, output};
 use crate::cloth::{ClothState, Garment};
 use crate::geometry::mesh::TriMesh;
 use crate::io::body_file::{self, BodyFileError};
-use crate::io::glb::animated::{Frame, write_animated};
+use crate::io::dressed::{Dressed, Frame};
+use crate::io::glb::animated::write_animated;
 use crate::io::materials::Colours;
 use crate::io::pattern_file::PatternFileError;
 use crate::io::pattern_formats;
 use crate::io::scale::DrawingUnit;
-use crate::io::{glb, gltf, obj};
+use crate::io::{gltf, obj};
 use crate::pattern::Pattern;
 use crate::session::{AnimatedFile, Animations};
 
@@ -153,7 +154,7 @@ pub fn sequence_glb(
     fps: f64,
     colours: &Colours,
 ) -> Result<Vec<u8>, Failure> {
-    let dressed = glb::Dressed { garment, state: cloth, pattern };
+    let dressed = Dressed { garment, state: cloth, pattern };
     let written = write_animated(dressed, body, frames, fps, colours);
     written.map_err(|e| Failure::Limit(e.to_string()))
 }

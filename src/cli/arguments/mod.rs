@@ -567,10 +567,11 @@ pub struct Import {
 }
 
 /// Writes the pattern as .json (GarmentCode), .dxf (AAMA/ASTM), .svg (1 unit = 1 mm) or .pdf (true size), or the dressed
-/// cloth of a project as .obj (alone, its materials beside it) or .glb (with the body, materials and textures)
+/// cloth of a project as .obj (alone, its materials beside it), or with the body, materials and textures as .glb, .usda (the
+/// textures beside it) or .usdz
 #[derive(Debug, Args)]
 pub struct Export {
-    /// A project, a pattern or a sample (sample:NAME); for .obj and .glb a dressed project
+    /// A project, a pattern or a sample (sample:NAME); for .obj, .glb, .usda and .usdz a dressed project
     pub project: PathBuf,
     /// The file to write; its ending gives the format
     #[arg(short, long, visible_alias = "out", value_name = "FILE")]
