@@ -66,6 +66,33 @@ fn usd_has_its_images_beside_it_or_inside() {
     place.ends_with_words(3, "export ball.toile -o cloth.usdz", "no dressed cloth");
 }
 
+#[test]
+fn a_sequence_is_written_as_usd_where_that_is_asked() {
+    let place = dressed();
+    std::fs::create_dir(place.path("frames")).expect("a folder");
+    for i in 0..3 {
+        let there = |p: DVec3| p + DVec3::Y * (0.05 * f64::from(i));
+        place.write(&format!("frames/ball{i}.obj"), crate::repose::moved(&place.read("out/body.obj"), there));
+    }
+    let ended =
+        place.run("repose dressed.toile --sequence --body frames --unit m --fps 25 --usd --out posed");
+    assert!([0, 1].contains(&ended.code), "{ended:#?}");
+    let files = unpacked(&place, "posed/sequence.usdz");
+    let text = String::from_utf8_lossy(&files["garment.usda"]);
+    for words in ["endTimeCode = 2\n", "timeCodesPerSecond = 25\n"] {
+        assert!(text.contains(words), "{words}");
+    }
+    assert_eq!(text.matches("points.timeSamples").count(), 3, "two pieces and the body");
+    place.run("repose dressed.toile --sequence --body frames --unit m --out posed");
+    assert!(place.names("posed").contains(&"sequence.glb".to_owned()));
+    assert!(!place.names("posed").contains(&"sequence.usdz".to_owned()), "that was of another motion");
+    place.ends_with_words(
+        2,
+        "repose dressed.toile --body frames/ball1.obj --usd --out x",
+        "--sequence or --motion",
+    );
+}
+
 /// A Python with USD in it.
 fn python() -> Option<String> {
     let name = std::env::var("TOILE_USD").unwrap_or_else(|_| "python3".to_owned());

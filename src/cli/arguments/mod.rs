@@ -371,9 +371,12 @@ pub struct Repose {
     /// Only every Nth of these frames
     #[arg(long, value_name = "COUNT", default_value_t = 1, value_parser = step)]
     pub every: usize,
-    /// Frames a second of sequence.glb; if left out, those of the motion, or 30
+    /// Frames a second of sequence.glb and sequence.usdz; if left out, those of the motion, or 30
     #[arg(long, value_parser = frame_rate)]
     pub fps: Option<f64>,
+    /// Also writes sequence.usdz, the same as USD, with --sequence or --motion
+    #[arg(long, conflicts_with_all = ["poses", "joints", "joint_files", "settle", "save"])]
+    pub usd: bool,
     /// The folder to write to
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,

@@ -66,6 +66,11 @@ impl UsdFormat {
     }
 }
 
+/// Approximate number of bytes that one frame adds to a moving scene.
+pub fn bytes_per_frame(cloth_vertices: usize, body_vertices: usize) -> usize {
+    84 * (cloth_vertices + body_vertices)
+}
+
 /// A scene in USD.
 #[derive(Clone, Debug)]
 pub struct UsdScene {
