@@ -5,11 +5,12 @@ use crate::cli::failure::Failure;
 use crate::cli::{input, output, run};
 use crate::io::pattern_formats::{self, PatternFormat, endings};
 use crate::io::rul;
+use crate::io::usd::UsdFormat;
 use crate::ui::scenery::fabric_textures::USUAL_SIDE;
 use crate::ui::scenery::worn::Worn;
 
 /// Extensions of formats for dressed cloth.
-const OF_CLOTH: [&str; 2] = ["obj", "glb"];
+const OF_CLOTH: [&str; 4] = ["obj", "glb", "usda", "usdz"];
 
 /// Writes the pattern or the cloth in the format of the file's extension.
 pub fn export(arguments: &Export) -> Result<(), Failure> {
@@ -18,14 +19,15 @@ pub fn export(arguments: &Export) -> Result<(), Failure> {
     let of_pattern = PatternFormat::of_ending(&ending);
     if of_pattern.is_none() && !OF_CLOTH.contains(&ending.as_str()) {
         let words = format!(
-            "{}: the ending must be {} for the pattern, .obj or .glb for the dressed cloth",
+            "{}: the ending must be {} for the pattern, .obj, .glb, .usda or .usdz for the dressed cloth",
             arguments.output.display(),
             endings(PatternFormat::ALL)
         );
         return Err(Failure::Usage(words));
     }
     if of_pattern.is_some() && (arguments.textures.textures.is_some() || !arguments.cloth.is_empty()) {
-        let words = "--textures, fabrics, colours and images are of dressed cloth, as .obj or .glb";
+        let words =
+            "--textures, fabrics, colours and images are of dressed cloth, as .obj, .glb, .usda or .usdz";
         return Err(Failure::Usage(words.to_owned()));
     }
     let (scale, grade) = (arguments.scale, arguments.grade.clone());
@@ -54,11 +56,14 @@ pub fn export(arguments: &Export) -> Result<(), Failure> {
     };
     let worn = Worn { garment, cloth, pattern: &source.pattern, document: session.document() };
     let (side, layout) = (arguments.textures.textures, arguments.textures.atlas);
-    if ending == "obj" {
-        let files = worn.obj(side.unwrap_or(0), layout, &arguments.output).map_err(Failure::Limit)?;
-        return output::write_together(&files);
+    let (body, path) = (snapshot.body.as_ref().map(|b| &b.mesh), &arguments.output);
+    let files = match (ending.as_str(), UsdFormat::of_ending(&ending)) {
+        ("obj", _) => worn.obj(side.unwrap_or(0), layout, path),
+        (_, Some(format)) => worn.usd(side.unwrap_or(USUAL_SIDE), layout, body, path, format),
+        _ => worn.glb(side.unwrap_or(USUAL_SIDE), layout, body).map(|bytes| vec![(path.clone(), bytes)]),
+    };
+    match &files.map_err(Failure::Limit)?[..] {
+        [(path, bytes)] => output::write(path, bytes),
+        files => output::write_together(files),
     }
-    let body = snapshot.body.as_ref().map(|b| &b.mesh);
-    let bytes = worn.glb(side.unwrap_or(USUAL_SIDE), layout, body).map_err(Failure::Limit)?;
-    output::write(&arguments.output, &bytes)
 }

@@ -12,12 +12,14 @@ use crate::cli::{files, output};
 use crate::cloth::{ClothState, Garment};
 use crate::geometry::mesh::TriMesh;
 use crate::io::body_file::{self, BodyFileError};
-use crate::io::glb::animated::{Frame, write_animated};
+use crate::io::dressed::{Dressed, Frame};
+use crate::io::glb::animated::write_animated;
 use crate::io::materials::Colours;
 use crate::io::pattern_file::PatternFileError;
 use crate::io::pattern_formats;
 use crate::io::scale::DrawingUnit;
-use crate::io::{glb, gltf, obj};
+use crate::io::usd::UsdScene;
+use crate::io::{gltf, obj};
 use crate::pattern::Pattern;
 use crate::session::{AnimatedFile, Animations};
 
@@ -145,15 +147,23 @@ pub fn garment_obj(garment: &Garment, cloth: &ClothState, pattern: &Pattern) -> 
 
 /// Dressed cloth and its body as animated binary glTF.
 pub fn sequence_glb(
-    garment: &Garment,
-    cloth: &ClothState,
-    pattern: &Pattern,
+    dressed: Dressed<'_>,
     body: &TriMesh,
     frames: &[Frame],
     fps: f64,
     colours: &Colours,
 ) -> Result<Vec<u8>, Failure> {
-    let dressed = glb::Dressed { garment, state: cloth, pattern };
-    let written = write_animated(dressed, body, frames, fps, colours);
-    written.map_err(|e| Failure::Limit(e.to_string()))
+    write_animated(dressed, body, frames, fps, colours).map_err(|e| Failure::Limit(e.to_string()))
+}
+
+/// Dressed cloth and its body as USD with a time sample for each frame, in one file.
+pub fn sequence_usdz(
+    dressed: Dressed<'_>,
+    body: &TriMesh,
+    frames: &[Frame],
+    fps: f64,
+    colours: &Colours,
+) -> Result<Vec<u8>, Failure> {
+    let scene = UsdScene::moving(dressed, body, frames, fps, colours);
+    scene.and_then(|scene| scene.package()).map_err(|e| Failure::Limit(e.to_string()))
 }

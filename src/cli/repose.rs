@@ -19,6 +19,9 @@ pub fn repose(arguments: &Repose) -> Result<(), Failure> {
     if several && arguments.save.is_some() {
         return Err(Failure::Usage("--save takes one pose, not several".to_owned()));
     }
+    if arguments.usd {
+        return Err(Failure::Usage("--usd is of frames: give --sequence or --motion".to_owned()));
+    }
     let start = Begun::now();
     let input = input::load(&arguments.project, &InputOptions::default())?;
     let poses = poses(arguments, &input.project.document.body)?;

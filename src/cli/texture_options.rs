@@ -8,7 +8,7 @@ use crate::io::atlas::AtlasLayout;
 #[derive(Clone, Copy, Debug, Default, Args)]
 pub struct TextureOptions {
     /// Width and height in pixels of the textures with colours, prints and pictures, 16 to 8192; 0: colours alone. If left out,
-    /// 2048 for .glb and 0 for .obj, whose texture coordinates then are metres of the pattern
+    /// 2048 for .glb, .usda and .usdz, and 0 for .obj, whose texture coordinates then are metres of the pattern
     #[arg(long, value_name = "PIXELS", value_parser = side)]
     pub textures: Option<u32>,
     /// Where the pieces are in the textures: pattern (all in one as they lie on the table; packed where they cover each other),

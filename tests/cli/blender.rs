@@ -18,7 +18,7 @@ fn python() -> Option<String> {
 }
 
 /// Runs `script` in the folder of `place`; the JSON object of the last line it prints.
-fn told(python: &str, place: &Place, script: &str) -> serde_json::Value {
+pub fn told(python: &str, place: &Place, script: &str) -> serde_json::Value {
     place.write("script.py", script);
     let done = Command::new(python).arg("script.py").current_dir(place.path("")).output().expect("it starts");
     let (out, err) = (String::from_utf8_lossy(&done.stdout), String::from_utf8_lossy(&done.stderr));

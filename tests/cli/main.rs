@@ -35,3 +35,4 @@ mod techpack;
 mod textures;
 mod thousand;
 mod trust;
+mod usd;

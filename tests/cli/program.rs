@@ -132,7 +132,7 @@ fn wrong_arguments_are_told() {
     place.ends_with_words(2, "dress ball.toile --out o --size 0x7", "0x7");
     place.ends_with_words(2, "dress ball.toile --out o --threads 0", "--threads");
     place.ends_with_words(2, "dress ball.toile ball.toile --out o --save p.toile", "one project");
-    place.ends_with_words(2, "export ball.toile -o cloth.dwg", ".obj or .glb");
+    place.ends_with_words(2, "export ball.toile -o cloth.dwg", ".obj, .glb, .usda or .usdz");
     place.ends_with_words(2, "import ball.toile --marks m --suggest-marks -o p", "cannot be used with");
 }
 

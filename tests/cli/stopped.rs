@@ -54,6 +54,7 @@ const FILES: &[(&str, bool)] = &[
     ("measure IN/o/body.obj", false),
     ("import IN/o/body.obj IN/shirt.json -o project.toile", false),
     ("export IN/dressed.toile -o cloth.glb", false),
+    ("export IN/dressed.toile -o cloth.usdz", false),
     ("techpack IN/dressed.toile -o pack.pdf --seconds 1", false),
     ("marker sample:trousers --width 1.5 --quantity 4 --seconds 1 -o marker.svg", false),
     ("generate --count 12 --seed 3 --out out", true),

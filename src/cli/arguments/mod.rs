@@ -374,9 +374,12 @@ pub struct Repose {
     /// Only every Nth of these frames
     #[arg(long, value_name = "COUNT", default_value_t = 1, value_parser = step)]
     pub every: usize,
-    /// Frames a second of sequence.glb; if left out, those of the motion, or 30
+    /// Frames a second of sequence.glb and sequence.usdz; if left out, those of the motion, or 30
     #[arg(long, value_parser = frame_rate)]
     pub fps: Option<f64>,
+    /// Also writes sequence.usdz, the same as USD, with --sequence or --motion
+    #[arg(long, conflicts_with_all = ["poses", "joints", "joint_files", "settle", "save"])]
+    pub usd: bool,
     /// The folder to write to
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
@@ -570,10 +573,11 @@ pub struct Import {
 }
 
 /// Writes the pattern as .json (GarmentCode), .dxf (AAMA/ASTM), .svg (1 unit = 1 mm) or .pdf (true size), or the dressed
-/// cloth of a project as .obj (alone, its materials beside it) or .glb (with the body, materials and textures)
+/// cloth of a project as .obj (alone, its materials beside it), or with the body, materials and textures as .glb, .usda (the
+/// textures beside it) or .usdz
 #[derive(Debug, Args)]
 pub struct Export {
-    /// A project, a pattern or a sample (sample:NAME); for .obj and .glb a dressed project
+    /// A project, a pattern or a sample (sample:NAME); for .obj, .glb, .usda and .usdz a dressed project
     pub project: PathBuf,
     /// The file to write; its ending gives the format
     #[arg(short, long, visible_alias = "out", value_name = "FILE")]

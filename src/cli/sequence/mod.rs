@@ -17,9 +17,9 @@ use crate::cli::failure::Failure;
 use crate::cli::seconds::Seconds;
 use crate::cli::{files, formats, input, interrupt, output, repose, run};
 use crate::fit;
-use crate::io::glb::animated::{Frame, bytes_per_frame};
-use crate::io::gltf;
+use crate::io::dressed::{Dressed, Frame};
 use crate::io::materials::Colours;
+use crate::io::{glb, gltf, usd};
 use crate::repose::{ReposeSettings, Reposer};
 use crate::session::recording::Hex;
 use crate::session::{BodyChoice, Session};
@@ -36,7 +36,7 @@ use captured::Captured;
 const MOST_FRAMES: usize = 10_000;
 /// Frames per second of body files and of animated bodies when --fps is not given.
 const USUAL_FPS: f64 = 30.0;
-/// Largest size of an animated file, bytes: lengths in GLB are 32-bit.
+/// Largest size of an animated file, bytes: lengths in GLB and USDZ are 32-bit.
 const MOST_BYTES: usize = u32::MAX as usize;
 
 /// The source of the bodies of the frames.
@@ -187,10 +187,12 @@ pub fn sequence(arguments: &Repose) -> Result<(), Failure> {
     repose::dress_first(&mut session, arguments, &mut seconds)?;
     let snapshot = Arc::clone(session.snapshot());
     let body = body_of(&session, &snapshot, &arguments.project)?;
-    check_size(&snapshot, &body, motion.frames.len())?;
+    check_size(&snapshot, &body, motion.frames.len(), arguments.usd)?;
     output::make_folder(&arguments.out)?;
-    // The old report is of another motion and must not stay beside new frames.
-    output::take_away(&arguments.out.join("report.json"))?;
+    // The old report is of another motion and must not stay beside new frames, nor that motion as USD.
+    for name in ["report.json", "sequence.usdz"] {
+        output::take_away(&arguments.out.join(name))?;
+    }
     let mut carrier = Carrier::new(&snapshot, Arc::clone(&body), &arguments.project)?;
     let (mut frames, mut lines, mut hash) = (Vec::new(), Vec::new(), Fnv::default());
     let count = motion.frames.len();
@@ -205,7 +207,8 @@ pub fn sequence(arguments: &Repose) -> Result<(), Failure> {
         lines.push(line);
     }
     seconds.repose = Some(lines.iter().map(|line: &Line| line.seconds).sum());
-    let bytes = carrier.animated(&body, &frames, motion.fps, &materials(session.document()))?;
+    let (bytes, usd) =
+        carrier.animated(&body, &frames, motion.fps, &materials(session.document()), arguments.usd)?;
     seconds.total = start.elapsed().as_secs_f64();
     let fault = fault(&lines);
     let read = motion.inputs.iter().map(|path| path.display().to_string());
@@ -224,10 +227,10 @@ pub fn sequence(arguments: &Repose) -> Result<(), Failure> {
     let (mean, mib) =
         (summary.seconds.repose.unwrap_or_default() / count as f64, bytes.len() as f64 / 1048576.0);
     let into = |name: &str, bytes: Vec<u8>| (arguments.out.join(name), bytes);
-    output::write_together(&[
-        into("sequence.glb", bytes),
-        into("report.json", format!("{text}\n").into_bytes()),
-    ])?;
+    let mut written = vec![into("sequence.glb", bytes)];
+    written.extend(usd.map(|bytes| into("sequence.usdz", bytes)));
+    written.push(into("report.json", format!("{text}\n").into_bytes()));
+    output::write_together(&written)?;
     if !arguments.json {
         output::say(&format!("{count} frames, {:.0} ms each, sequence.glb of {mib:.1} MiB", mean * 1000.0));
     }
@@ -240,17 +243,21 @@ fn body_of(session: &Session, snapshot: &Snapshot, project: &Path) -> Result<Arc
 }
 
 /// Refuses, before the work is done, a sequence that would not fit in the file.
-fn check_size(snapshot: &Snapshot, body: &Surface, frames: usize) -> Result<(), Failure> {
+fn check_size(snapshot: &Snapshot, body: &Surface, frames: usize, usd: bool) -> Result<(), Failure> {
     let cloth = snapshot.garment.as_ref().map_or(0, |garment| garment.corners.len());
-    let each = bytes_per_frame(cloth, body.mesh.positions.len());
-    if each.saturating_mul(frames) < MOST_BYTES {
-        return Ok(());
+    let skin = body.mesh.positions.len();
+    let glb = (glb::animated::bytes_per_frame(cloth, skin), "glTF");
+    let usd = usd.then(|| (usd::bytes_per_frame(cloth, skin), "USDZ"));
+    for (each, format) in std::iter::once(glb).chain(usd) {
+        if each.saturating_mul(frames) >= MOST_BYTES {
+            let words = format!(
+                "{frames} frames of {each} bytes are more than a {format} file can hold: take at most {}",
+                MOST_BYTES / each
+            );
+            return Err(Failure::Limit(words));
+        }
     }
-    let words = format!(
-        "{frames} frames of {each} bytes are more than a glTF file can hold: take at most {}",
-        MOST_BYTES / each
-    );
-    Err(Failure::Limit(words))
+    Ok(())
 }
 
 fn tell(line: &Line, count: usize, json: bool) -> Result<(), Failure> {
@@ -336,24 +343,21 @@ impl<'a> Carrier<'a> {
         Ok((Frame { cloth: state.positions, body: surface.mesh.positions.clone() }, line))
     }
 
+    /// The frames as binary glTF, and as USD where that is wanted.
     fn animated(
         &self,
         body: &Surface,
         frames: &[Frame],
         fps: f64,
         colours: &Colours,
-    ) -> Result<Vec<u8>, Failure> {
+        usd: bool,
+    ) -> Result<(Vec<u8>, Option<Vec<u8>>), Failure> {
         let (Some(garment), Some(source)) = (&self.snapshot.garment, &self.snapshot.source) else {
             return Err(Failure::Internal("the garment is gone".to_owned()));
         };
-        formats::sequence_glb(
-            garment,
-            &self.snapshot.cloth,
-            &source.pattern,
-            &body.mesh,
-            frames,
-            fps,
-            colours,
-        )
+        let dressed = Dressed { garment, state: &self.snapshot.cloth, pattern: &source.pattern };
+        let glb = formats::sequence_glb(dressed, &body.mesh, frames, fps, colours)?;
+        let usd = usd.then(|| formats::sequence_usdz(dressed, &body.mesh, frames, fps, colours));
+        Ok((glb, usd.transpose()?))
     }
 }

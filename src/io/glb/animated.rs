@@ -11,19 +11,11 @@ use gltf_json::mesh::MorphTarget;
 use gltf_json::validation::Checked;
 use gltf_json::{Accessor, Index};
 
-use super::{Builder, Dressed, GlbError, PieceArrays, accessor};
+use super::{Builder, GlbError, accessor};
 use crate::cloth::ClothState;
 use crate::geometry::mesh::{TriMesh, vertex_normals};
+use crate::io::dressed::{Dressed, Frame, PieceArrays};
 use crate::io::materials::Colours;
-
-/// Vertex positions of the garment and the body in one frame.
-#[derive(Clone, Debug)]
-pub struct Frame {
-    /// Positions of the garment's vertices, metres.
-    pub cloth: Vec<DVec3>,
-    /// Positions of the body's vertices, metres.
-    pub body: Vec<DVec3>,
-}
 
 /// Approximate number of bytes that one frame adds to the file.
 pub fn bytes_per_frame(cloth_vertices: usize, body_vertices: usize) -> usize {
@@ -188,8 +180,9 @@ impl Builder {
 
 #[cfg(test)]
 mod tests {
-    use super::super::tests::{parsed, two_squares};
+    use super::super::tests::parsed;
     use super::*;
+    use crate::io::dressed::tests::two_squares;
 
     /// The vectors of an accessor.
     fn vectors(root: &gltf_json::Root, data: &[u8], at: Index<Accessor>) -> Vec<DVec3> {

@@ -15,32 +15,10 @@ use gltf_json::validation::{Checked, USize64};
 use gltf_json::{Accessor, Asset, Index, Node, Root, Scene, Texture};
 use images::Map;
 
-use crate::cloth::{ClothState, Garment};
 use crate::geometry::ids::PieceId;
 use crate::geometry::mesh::{TriMesh, vertex_normals};
+use crate::io::dressed::{Dressed, PieceArrays};
 use crate::io::materials::{ClothMaterial, ClothTextures, Colours, ROUGHNESS, Textures};
-use crate::pattern::Pattern;
-
-/// A garment with its current vertex positions.
-#[derive(Clone, Copy, Debug)]
-pub struct Dressed<'a> {
-    /// Topology and rest shape of the cloth.
-    pub garment: &'a Garment,
-    /// Current positions.
-    pub state: &'a ClothState,
-    /// The pattern, for the poses of its pieces in the pattern plane.
-    pub pattern: &'a Pattern,
-}
-
-impl Dressed<'_> {
-    /// Indices of the triangles all of whose vertices are placed on the body.
-    fn laid(&self) -> Vec<usize> {
-        let is_laid = |t: &usize| {
-            self.garment.triangles[*t].iter().all(|&v| self.state.mapped.get(v as usize) == Some(&true))
-        };
-        (0..self.garment.triangles.len()).filter(is_laid).collect()
-    }
-}
 
 /// Why no file was written.
 #[derive(Debug, thiserror::Error)]
@@ -262,45 +240,6 @@ impl Builder {
     }
 }
 
-/// Vertex arrays of a piece: one entry per flat corner (a vertex of one piece in the pattern plane).
-struct PieceArrays {
-    positions: Vec<DVec3>,
-    normals: Vec<DVec3>,
-    uv: Vec<DVec2>,
-    /// Places in repeats of the weave; empty: no weave.
-    weave: Vec<DVec2>,
-    triangles: Vec<[u32; 3]>,
-}
-
-impl PieceArrays {
-    fn new(
-        dressed: &Dressed<'_>,
-        piece: PieceId,
-        triangles: impl Iterator<Item = usize>,
-        normals: &[DVec3],
-        textures: Option<&Textures>,
-    ) -> Self {
-        let Dressed { garment, state, pattern } = dressed;
-        let first = garment.corners.partition_point(|c| c.piece < piece);
-        let corners = &garment.corners[first..garment.corners.partition_point(|c| c.piece <= piece)];
-        let pose = pattern.pieces.get(&piece).map(|p| p.pose).unwrap_or_default();
-        let weave = textures.and_then(|textures| textures.weave_from_piece.get(&piece));
-        let uv = |at: DVec2| match textures {
-            Some(textures) => textures.atlas.uv(piece, at),
-            None => pose.plane_from_piece(at),
-        };
-        Self {
-            weave: weave
-                .map(|map| corners.iter().map(|c| map.transform_point2(c.uv)).collect())
-                .unwrap_or_default(),
-            positions: corners.iter().map(|c| state.positions[c.vertex as usize]).collect(),
-            normals: corners.iter().map(|c| normals[c.vertex as usize]).collect(),
-            uv: corners.iter().map(|c| uv(c.uv)).collect(),
-            triangles: triangles.map(|t| garment.triangle_corners[t].map(|c| c - first as u32)).collect(),
-        }
-    }
-}
-
 fn accessor(view: Index<View>, count: usize, component: ComponentType, type_: Type) -> Accessor {
     Accessor {
         buffer_view: Some(view),
@@ -363,25 +302,7 @@ mod tests {
     use gltf_json::validation::Validate;
 
     use super::*;
-    use crate::pattern::{EdgeRef, Piece, Seam};
-
-    /// Two squares sewn along one edge, bent at the seam.
-    pub(super) fn two_squares() -> (Pattern, Garment, ClothState) {
-        let square = [DVec2::ZERO, DVec2::X * 0.1, DVec2::splat(0.1), DVec2::Y * 0.1];
-        let mut pattern = Pattern::default();
-        let ids = ["a", "b"].map(|name| pattern.add_piece(Piece::polygon(name, &square)));
-        let sides = [EdgeRef { piece: ids[0], edge: 1 }, EdgeRef { piece: ids[1], edge: 3 }];
-        pattern.add_seam(Seam::of_edges(sides, false));
-        let (garment, problems) = crate::cloth::build(&pattern, 0.03);
-        assert!(problems.is_empty(), "{problems:?}");
-        let mut positions = vec![DVec3::ZERO; garment.vertex_count];
-        for c in &garment.corners {
-            positions[c.vertex as usize] =
-                if c.piece == ids[0] { c.uv.extend(0.0) } else { DVec3::new(0.1, c.uv.y, -c.uv.x) };
-        }
-        let mapped = vec![true; garment.vertex_count];
-        (pattern, garment, ClothState { positions, mapped })
-    }
+    use crate::io::dressed::tests::two_squares;
 
     pub(super) fn parsed(bytes: &[u8]) -> (Root, &[u8]) {
         assert_eq!(&bytes[..4], b"glTF");

@@ -20,6 +20,7 @@ use crate::io::pattern_formats::{self, PatternFormat, endings};
 use crate::io::pdf::Paper;
 use crate::io::rul;
 use crate::io::scale::{DrawingUnit, ScaleQuestion};
+use crate::io::usd::UsdFormat;
 use crate::io::{FILE_BYTES, bvh, gltf};
 use crate::marker::{FinishedMarker, MarkerFormat};
 use crate::pattern::Pattern;
@@ -125,7 +126,7 @@ impl Purpose {
             Self::Sequence => ("Body", &["obj"]),
             Self::Sizes => ("Table of sizes", &["csv", "tsv", "txt"]),
             Self::Image => ("Image", &["png", "jpg", "jpeg"]),
-            Self::Export => ("Garment", &["obj", "glb"]),
+            Self::Export => ("Garment", &["obj", "glb", "usda", "usdz"]),
             Self::Recording => ("Recording", &["jsonl"]),
             Self::Picture | Self::Turn => ("Picture", &["png"]),
             Self::FitPage => ("Page", &["html"]),
@@ -393,7 +394,8 @@ pub fn take_image(path: &Path) -> Result<Command, String> {
     Ok(Command::AddImage { file: Arc::new(file) })
 }
 
-/// Writes the dressed garment of `snapshot` with its textures: as .obj with files beside it, as .glb together with its body.
+/// Writes the dressed garment of `snapshot` with its textures: as .obj with files beside it, as .glb or USD together with its
+/// body.
 /// `pattern` gives the texture coordinates.
 pub fn export(
     path: &Path,
@@ -405,18 +407,19 @@ pub fn export(
         return Err(tr("There is no cloth on the body to be written").to_owned());
     };
     let worn = Worn { garment, cloth, pattern, document };
-    match path.extension().map(|e| e.to_string_lossy().to_lowercase()).as_deref() {
-        Some("obj") => {
-            let files = worn.obj(USUAL_SIDE, AtlasLayout::Pattern, path);
-            let files = files.map_err(|e| in_words(path, Deed::Write, e))?;
-            whole_file::write_together(&files).map_err(|(path, e)| in_words(&path, Deed::Write, e))
-        }
-        Some("glb") => {
-            let body = snapshot.body.as_ref().map(|b| &b.mesh);
-            let bytes = worn.glb(USUAL_SIDE, AtlasLayout::Pattern, body);
-            write(path, &bytes.map_err(|e| in_words(path, Deed::Write, e))?)
-        }
-        _ => Err(in_words(path, Deed::Write, tr("the name must end in .obj or .glb"))),
+    let body = snapshot.body.as_ref().map(|b| &b.mesh);
+    let (side, layout) = (USUAL_SIDE, AtlasLayout::Pattern);
+    let ending = path.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
+    let written = match (ending.as_str(), UsdFormat::of_ending(&ending)) {
+        ("obj", _) => worn.obj(side, layout, path),
+        ("glb", _) => worn.glb(side, layout, body).map(|bytes| vec![(path.to_owned(), bytes)]),
+        (_, Some(format)) => worn.usd(side, layout, body, path, format),
+        _ => Err(tr("the name must end in .obj, .glb, .usda or .usdz").to_owned()),
+    };
+    let files = written.map_err(|e| in_words(path, Deed::Write, e))?;
+    match &files[..] {
+        [(path, bytes)] => write(path, bytes),
+        _ => whole_file::write_together(&files).map_err(|(path, e)| in_words(&path, Deed::Write, e)),
     }
 }
 

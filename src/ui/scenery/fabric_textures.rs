@@ -42,6 +42,8 @@ pub struct TextureOptions {
     pub layout: AtlasLayout,
     /// How relief is written.
     pub relief: Relief,
+    /// Whether the inner side has base colours of its own, for formats that know sides of a surface.
+    pub inside: bool,
 }
 
 /// Materials with textures of the pieces of `garment`, cut from `pattern`, with the fabrics of `document`. Pieces that cover each
@@ -70,11 +72,7 @@ pub fn textured(
             images.add(format!("{name}{ending}"), &bake::base_colour(&own, side, options.side))
         };
         let outside = add(Side::Outside, "colour")?;
-        // Formats with a normal map for each texture know no sides.
-        let inside = match options.relief {
-            Relief::Tiles => add(Side::Inside, "inside")?,
-            Relief::Atlas => outside,
-        };
+        let inside = if options.inside { add(Side::Inside, "inside")? } else { outside };
         let normal = match options.relief {
             Relief::Tiles => None,
             Relief::Atlas => Some(images.add(format!("normal{ending}"), &bake::normals(&own, options.side))?),

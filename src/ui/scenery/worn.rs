@@ -1,11 +1,13 @@
-//! The files of dressed cloth: OBJ with its materials, and binary glTF. Without egui, as the command line writes them, too.
+//! The files of dressed cloth: OBJ with its materials, binary glTF, and USD. Without egui, as the command line writes them, too.
 
 use std::path::{Path, PathBuf};
 
 use crate::cloth::{ClothState, Garment};
 use crate::geometry::mesh::TriMesh;
 use crate::io::atlas::AtlasLayout;
+use crate::io::dressed::Dressed;
 use crate::io::materials::Colours;
+use crate::io::usd::{UsdFormat, UsdScene};
 use crate::io::{glb, mtl, obj};
 use crate::pattern::Pattern;
 use crate::session::Document;
@@ -26,10 +28,10 @@ pub struct Worn<'a> {
 }
 
 impl Worn<'_> {
-    fn colours(self, side: u32, layout: AtlasLayout, relief: Relief) -> Result<Colours, String> {
-        match side {
+    fn colours(self, options: TextureOptions) -> Result<Colours, String> {
+        match options.side {
             0 => Ok(materials(self.document)),
-            _ => textured(self.garment, self.pattern, self.document, TextureOptions { side, layout, relief }),
+            _ => textured(self.garment, self.pattern, self.document, options),
         }
     }
 
@@ -38,9 +40,39 @@ impl Worn<'_> {
     /// # Errors
     /// In words: what is larger than the format or a texture allows.
     pub fn glb(self, side: u32, layout: AtlasLayout, body: Option<&TriMesh>) -> Result<Vec<u8>, String> {
-        let colours = self.colours(side, layout, Relief::Tiles)?;
-        let dressed = glb::Dressed { garment: self.garment, state: self.cloth, pattern: self.pattern };
-        glb::write(Some(dressed), body, &colours).map_err(|e| e.to_string())
+        let colours = self.colours(TextureOptions { side, layout, relief: Relief::Tiles, inside: true })?;
+        glb::write(Some(self.dressed()), body, &colours).map_err(|e| e.to_string())
+    }
+
+    /// It on `body` as USD at `path`, with textures of `side` pixels each way; 0: colours alone. A package is one file, text has
+    /// its images beside it.
+    ///
+    /// # Errors
+    /// In words: what is larger than the format or a texture allows.
+    pub fn usd(
+        self,
+        side: u32,
+        layout: AtlasLayout,
+        body: Option<&TriMesh>,
+        path: &Path,
+        format: UsdFormat,
+    ) -> Result<Vec<(PathBuf, Vec<u8>)>, String> {
+        let colours = self.colours(TextureOptions { side, layout, relief: Relief::Tiles, inside: false })?;
+        let stem = stem(path);
+        let image_path = |name: &str| match format {
+            UsdFormat::Text => format!("{stem}-{name}.png"),
+            UsdFormat::Package => format!("textures/{name}.png"),
+        };
+        let scene = UsdScene::new(self.dressed(), body, &colours, image_path).map_err(|e| e.to_string())?;
+        if format == UsdFormat::Package {
+            return Ok(vec![(path.to_owned(), scene.package().map_err(|e| e.to_string())?)]);
+        }
+        let images = scene.images().iter().map(|(name, png)| (path.with_file_name(name), png.to_vec()));
+        Ok(std::iter::once((path.to_owned(), scene.text().into())).chain(images).collect())
+    }
+
+    fn dressed(&self) -> Dressed<'_> {
+        Dressed { garment: self.garment, state: self.cloth, pattern: self.pattern }
     }
 
     /// It as OBJ at `path`, its materials and their images, of `side` pixels each way, beside it; 0: colours alone.
@@ -48,9 +80,8 @@ impl Worn<'_> {
     /// # Errors
     /// In words: what is larger than a texture allows.
     pub fn obj(self, side: u32, layout: AtlasLayout, path: &Path) -> Result<Vec<(PathBuf, Vec<u8>)>, String> {
-        let colours = self.colours(side, layout, Relief::Atlas)?;
-        let stem = path.file_stem().map_or_else(|| "garment".into(), |stem| stem.to_string_lossy());
-        let stem = mtl::plain(&stem);
+        let colours = self.colours(TextureOptions { side, layout, relief: Relief::Atlas, inside: false })?;
+        let stem = stem(path);
         let image_name = |name: &str| format!("{stem}-{name}.png");
         let library = format!("{stem}.mtl");
         let textures = colours.textures.as_deref();
@@ -67,4 +98,10 @@ impl Worn<'_> {
             [(path.to_owned(), text.into_bytes()), (path.with_file_name(&library), file.text.into_bytes())];
         Ok(all.into_iter().chain(images).collect())
     }
+}
+
+/// The name of `path` without its ending, for files beside it.
+fn stem(path: &Path) -> String {
+    let stem = path.file_stem().map_or_else(|| "garment".into(), |stem| stem.to_string_lossy());
+    mtl::plain(&stem)
 }

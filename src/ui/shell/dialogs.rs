@@ -495,6 +495,7 @@ mod tests {
             (Purpose::Save, "a/b", "a/b.toile"),
             (Purpose::Save, "a/b.toile", "a/b.toile"),
             (Purpose::Export, "x.GLB", "x.GLB"),
+            (Purpose::Export, "x.usdz", "x.usdz"),
             (Purpose::Export, "x.y", "x.y.obj"),
             (Purpose::Open, "whatever", "whatever"),
         ];

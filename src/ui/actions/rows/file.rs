@@ -72,7 +72,7 @@ pub const ROWS: &[Row] = &[
     )
     .keys(&[ctrl_shift(Key::E)])
     .needs(&[Need::Pieces]),
-    row("File", Action::Export, "Export…", "Write the dressed garment as .obj or .glb")
+    row("File", Action::Export, "Export…", "Write the dressed garment as .obj, .glb, .usda or .usdz")
         .keys(&[ctrl(Key::E)])
         .needs(&[Need::Dressed])
         .in_demos(),
