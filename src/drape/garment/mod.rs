@@ -3,6 +3,7 @@
 //! Small steps are used, not implicit ones, by measurement (`toile bench speed`): on a body most of a garment is held by contact,
 //! the parts that hang free are short, and then few small steps suffice.
 
+mod calm;
 pub mod clear;
 mod laid;
 pub mod on_card;
@@ -22,6 +23,7 @@ use crate::contact::faces::Lying;
 use crate::contact::{Faces, Obstacle, Separation, separation};
 use crate::drape::contact::body::Collider;
 use crate::drape::forces::bending::Bending;
+use crate::drape::garment::calm::{GENTLE_FOR, calming, gentle};
 use crate::drape::garment::laid::{ordered, shortest_sides, springs};
 use crate::drape::garment::on_card::OnCard;
 use crate::drape::garment::tangles::Pulling;
@@ -69,17 +71,6 @@ const REST_WAY: f64 = 5e-5;
 const REST_RESIDUAL: f64 = 0.01;
 /// Consecutive ticks that must meet [`REST_WAY`] and [`REST_RESIDUAL`] before the cloth counts as resting.
 const QUIET_TICKS: u32 = 12;
-/// Seconds after which damping starts to grow, to stop what still creeps or trembles.
-const CALM_AFTER: f64 = 0.5;
-/// Growth of damping from [`CALM_AFTER`] on, 1/s².
-const CALMING: f64 = 10.0;
-/// Largest damping added by [`CALMING`], 1/s; slow swings are then about critically damped.
-const CALMEST: f64 = 8.0;
-/// Damping at the beginning, 1/s, which falls to nothing within [`GENTLE_FOR`] seconds: cloth is let down rather than dropped. It
-/// comes from a wrap with slack above tight places, and a skirt that falls 5 cm pulls its band over the hips, as soft as it is.
-const GENTLE: f64 = 60.0;
-/// Seconds in which the damping of the beginning falls to nothing.
-const GENTLE_FOR: f64 = 0.75;
 /// Time is slowed down once the unbalanced force is below this share of the weight: the cloth has come down. One pass in a small
 /// step leaves edges only as stiff as mass over the step squared, far softer than woven cloth, so cloth that hangs from a tight
 /// place is overstretched; shorter steps take that strain away.
@@ -323,7 +314,7 @@ impl DrapedGarment {
         self.part(&mut cloth.clone());
     }
 
-    /// Begins damped: see [`GENTLE`]. For cloth that nobody watches or holds, since it also falls slowly.
+    /// Begins damped: see [`gentle`]. For cloth that nobody watches or holds, since it also falls slowly.
     pub fn let_down(mut self) -> Self {
         self.age = 0.0;
         self
@@ -482,15 +473,12 @@ impl DrapedGarment {
                 Box::new(Begun { span, before: self.state.clone(), advance, on_card: steps.is_some() })
             }
         };
-        let seconds = self.progress.ticks as f64 * TICK;
         let grip = if self.floats && self.rubs.is_none() { 0.0 } else { GRIP };
         let mut around = Surroundings {
             bending: &fixed.bending,
             bending_damping: BENDING_DAMPING,
             gravity: if self.floats { DVec3::ZERO } else { GRAVITY },
-            damping: fixed.damping
-                + (CALMING * (seconds - CALM_AFTER)).clamp(0.0, CALMEST) / self.pace
-                + GENTLE * (1.0 - self.age / GENTLE_FOR).max(0.0),
+            damping: fixed.damping + calming(self.progress.ticks, self.pace) + gentle(self.age),
             collider: Some(&fixed.collider),
             offset: fixed.offset,
             friction: &fixed.friction,
