@@ -4,13 +4,12 @@ use std::sync::Arc;
 
 use glam::UVec2;
 use image::RgbaImage;
-use image::imageops::thumbnail;
 
 use crate::cli::arguments::PictureOptions;
 use crate::cli::failure::Failure;
 use crate::cli::interrupt;
 use crate::pack::Picture;
-use crate::render::{Legend, Look, RenderError, Rgb, Studio, View, png, straightened};
+use crate::render::{Fineness, Legend, Look, RenderError, Rgb, Studio, View, framed, png, straightened};
 use crate::session::{Outfit, Session};
 use crate::ui::fit_page::FitPage;
 use crate::ui::scenery::front_and_back::front_and_back;
@@ -68,15 +67,18 @@ impl Artist {
 
     /// Draws the body, the cloth and, where there is no cloth yet, the marks of `session`, as PNG.
     pub fn png(&mut self, session: &Session, options: &PictureOptions) -> Result<Vec<u8>, Failure> {
-        let scene = portrait(&mut self.scenery, session, Extras { pins: true, ..Extras::default() });
-        let (size, times) = (UVec2::from_array(options.size), options.supersample);
-        let pixels_per_point = times as f32;
-        let look =
-            Look { cut_out: options.transparent, pixels_per_point, light: options.light, ..Look::light() };
-        let picture = self.studio.picture(&scene, options.view, &look, size * times).map_err(failure)?;
-        // Averages in whole blocks of pixels.
-        let picture = if times > 1 { thumbnail(&picture, size.x, size.y) } else { picture };
-        png(&if options.transparent { straightened(picture) } else { picture }).map_err(failure)
+        let extras = Extras { pins: true, body_look: options.body_look, ..Extras::default() };
+        let scene = portrait(&mut self.scenery, session, extras);
+        let size = UVec2::from_array(options.size);
+        let look = Look { cut_out: options.transparent, light: options.light, ..Look::light() };
+        let camera = framed(&scene, options.view, size);
+        let fineness = Fineness::new(options.supersample);
+        let mut picture = self.studio.fine(scene, camera, &look, size, fineness).map_err(failure)?;
+        while !picture.is_done() {
+            interrupt::check()?;
+            self.studio.go_on(&mut picture).map_err(failure)?;
+        }
+        png(&picture.finish()).map_err(failure)
     }
 }
 

@@ -26,6 +26,9 @@ pub struct Look {
     pub occlusion: f32,
     /// Physical pixels per logical pixel (egui point).
     pub pixels_per_point: f32,
+    /// Drawn pixels along each side of a pixel of the picture that is made of them, at least 1: what is a pixel wide is drawn so
+    /// wide. [`FinePicture`](super::FinePicture) sets it.
+    pub drawn_per_pixel: f32,
     /// Whether the edges of the cloth's triangles are drawn over it (wireframe).
     pub wire: bool,
     /// Whether everything but cloth is half transparent.
@@ -59,6 +62,7 @@ impl Look {
             shadow: 0.48,
             occlusion: 0.85,
             pixels_per_point: 1.0,
+            drawn_per_pixel: 1.0,
             wire: false,
             sheer: false,
             xray: false,

@@ -103,6 +103,9 @@ fn cloth_is_drawn_in_the_fabric_colour_and_print_that_are_asked_for() {
     for (i, picture) in pictures.iter().enumerate() {
         assert!(!pictures[..i].contains(picture), "{:?} changes nothing", options[i]);
     }
+    let form = place.draws("render dressed.toile --body-look form -o form.png --size 120x120");
+    assert_eq!(form.code, 0, "{}", form.err);
+    assert!(!pictures.contains(&std::fs::read(place.path("form.png")).expect("a picture")), "linen");
     place.draws("render dressed.toile --supersample 2 -o fine.png --size 120x120");
     let fine = std::fs::read(place.path("fine.png")).expect("a picture");
     let picture = image::load_from_memory(&fine).expect("a picture");
@@ -117,6 +120,7 @@ fn cloth_is_drawn_in_the_fabric_colour_and_print_that_are_asked_for() {
     fails("--print checks:0:ffffff", "repeats");
     fails("--print plaid:20:ffffff", "plaid");
     fails("--supersample 9", "9");
+    fails("--body-look clay", "skin, form");
 }
 
 #[test]

@@ -335,6 +335,11 @@ fn write_file(window: &mut Window, entry: &str, path: &Path) -> bool {
     window.run_steps(3);
     window.get_by_label_contains(entry).click();
     window.run_steps(3);
+    type_path(window, path)
+}
+
+/// Types the path of the file to be written. False where the desktop has a dialog of its own.
+fn type_path(window: &mut Window, path: &Path) -> bool {
     if window.query_by_label("Write").is_none() {
         println!("skipped: this desktop may have a dialog of its own");
         return false;
@@ -346,6 +351,45 @@ fn write_file(window: &mut Window, entry: &str, path: &Path) -> bool {
     window.run_steps(2);
     window.get_by_label("Write").click();
     true
+}
+
+#[test]
+fn a_fine_picture_is_drawn_tile_by_tile_and_can_be_stopped() {
+    let Some(device) = egui_wgpu_device() else { return };
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = window_on(project(), Some(device));
+    let begin = |window: &mut Window, name: &str| {
+        key(window, Modifiers::COMMAND | Modifiers::SHIFT, Key::P);
+        window.run_steps(3);
+        if let Some(list) = window.query_by_label_contains("usual") {
+            list.click();
+            window.run_steps(3);
+            window.get_by_label("4 × 4 samples for each pixel").click();
+            window.run_steps(3);
+        }
+        window.get_by_label("Choose a file…").click();
+        window.run_steps(3);
+        type_path(window, &folder.path().join(name))
+    };
+    if !begin(&mut window, "fine.png") {
+        return;
+    }
+    let path = folder.path().join("fine.png");
+    window.run_steps(1);
+    assert!(window.query_by_label("The picture is being drawn").is_some() && !path.exists());
+    let since = std::time::Instant::now();
+    while !path.exists() && since.elapsed().as_secs() < 120 {
+        window.run_steps(1);
+    }
+    window.run_steps(2);
+    let picture = image::open(&path).expect("a PNG");
+    assert!(picture.width() > 300 && window.query_by_label_contains("Written: ").is_some());
+    assert!(begin(&mut window, "stopped.png"));
+    window.run_steps(1);
+    window.get_by_label("Stop").click();
+    window.run_steps(3);
+    assert!(window.query_by_label("The picture was stopped: nothing is written").is_some());
+    assert!(!folder.path().join("stopped.png").exists());
 }
 
 #[test]
