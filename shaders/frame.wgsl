@@ -1,4 +1,19 @@
 // What every pass of one picture, or of one tile of it, knows. Prepended to each of the other files; Frame in src/render/frame.rs matches it.
+// A bright rectangle far away; directions are in the frame of the surroundings.
+struct Softbox {
+    toward: vec4f, // unit; w tangent of half its width
+    right: vec4f,  // unit; w tangent of half its height
+    light: vec4f,  // linear; w width of its border, a tangent
+}
+
+// Light from all sides. Surroundings in src/render/environment.rs matches it.
+struct Surroundings {
+    reflected: array<vec4f, 9>, // linear, what a matt surface reflects: factors of polynomials of its normal
+    gradient: array<vec4f, 3>,  // linear, straight above, at the horizon, straight below
+    boxes: array<Softbox, 2>,
+    turned: vec4f,              // cosine and sine of the turn about y from this frame to the world; z 1 for an image
+}
+
 struct Frame {
     view: mat4x4f,
     projection: mat4x4f,      // depth reversed: 1 near, 0 far
@@ -14,10 +29,9 @@ struct Frame {
     floor: vec4f,             // centre x, centre z, height, radius, metres
     hollows: vec4f,           // radius in metres, strength, 1 when they were drawn, shadow normal offset in metres
     lamp_tint: vec4f,         // linear, colour of the lamp
-    above: vec4f,             // linear, colour of the light from above
-    below: vec4f,             // linear, colour of the light from below
     part: vec4f,              // what of the picture is drawn: left, top, width, height, pixels
     around: vec4f,            // the same of the textures at half size, whose texels are 2 x 2 pixels; even
+    surroundings: Surroundings,
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;

@@ -38,6 +38,9 @@ fn shaded(in: Shaded, front: bool) -> vec4f {
     if material.gloss.x > 0.0 {
         colour += mirrored(cloth.albedo, cloth.normal, cloth.along, eye, open, shadow);
     }
+    if material.front.w < 0.5 {
+        colour += skin_sheen(smooth_normal, eye, open);
+    }
     return vec4f(encoded(colour) + dither(in_whole(in.clip.xy)), cloth.cover);
 }
 

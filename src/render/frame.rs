@@ -4,6 +4,7 @@ use bytemuck::{Pod, Zeroable};
 use glam::camera::rh::{proj::directx, view::look_at_mat4};
 use glam::{Mat4, Quat, UVec2, Vec2, Vec3, Vec4};
 
+use super::environment::Surroundings;
 use super::light::Light;
 use super::part::Part;
 use super::scene::Rgb;
@@ -27,10 +28,9 @@ pub(super) struct Frame {
     floor: Vec4,
     hollows: Vec4,
     lamp_tint: Vec4,
-    above: Vec4,
-    below: Vec4,
     part: Vec4,
     around: Vec4,
+    surroundings: Surroundings,
 }
 
 /// Radius of ambient occlusion relative to the radius of the sphere around all meshes: 7 cm on a person.
@@ -44,7 +44,6 @@ impl Frame {
         let lamp = lamp_direction(camera, look.light);
         let [sky, horizon, floor_colour] =
             look.light.backdrop().unwrap_or([look.sky, look.horizon, look.ground]);
-        let [lamp_tint, above, below] = look.light.tints().map(|tint| tint.extend(0.0));
         let (centre, radius) = mesh_ball(scene).unwrap_or(camera.bounds);
         let perspective = f32::from(camera.projection == Projection::Perspective);
         let floor =
@@ -68,11 +67,10 @@ impl Frame {
                 f32::from(look.occlusion > 0.0),
                 radius * 0.004,
             ),
-            lamp_tint,
-            above,
-            below,
+            lamp_tint: look.light.tint().extend(0.0),
             part: rectangle(part.at, part.size),
             around: rectangle(part.around_at, part.around_size),
+            surroundings: Surroundings::new(look.light, look.environment.as_ref(), yaw(camera)),
         }
     }
 }
@@ -132,10 +130,13 @@ fn nearest_depth(camera: &Camera, scene: &Scene, size: Vec2) -> f32 {
 /// Unit vector towards the lamp: above and left of the eye, so that folds show from every side.
 fn lamp_direction(camera: &Camera, light: Light) -> Vec3 {
     let [turn, up, before] = light.lamp();
+    Quat::from_rotation_y(yaw(camera) - turn) * Vec3::new(0.0, up, before).normalize()
+}
+
+/// Direction of the eye about y, radians from +z towards +x; 0 where it is straight above or below.
+fn yaw(camera: &Camera) -> f32 {
     let back = camera.towards_eye();
-    let yaw = back.x.atan2(back.z);
-    let yaw = if back.x.hypot(back.z) < 1e-3 { 0.0 } else { yaw };
-    Quat::from_rotation_y(yaw - turn) * Vec3::new(0.0, up, before).normalize()
+    if back.x.hypot(back.z) < 1e-3 { 0.0 } else { back.x.atan2(back.z) }
 }
 
 fn mesh_ball(scene: &Scene) -> Option<(Vec3, f32)> {

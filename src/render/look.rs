@@ -1,5 +1,6 @@
 //! Colours and light of a picture.
 
+use super::harmonics::Harmonics;
 use super::light::Light;
 use super::scene::Rgb;
 
@@ -14,6 +15,8 @@ pub struct Look {
     pub ground: Rgb,
     /// Surroundings; all but the studio have a background and a floor of their own.
     pub light: Light,
+    /// Light from everywhere in place of that of `light`, as from an image.
+    pub environment: Option<Harmonics>,
     /// Strength of the grid lines on the floor, 0..=1.
     pub grid: f32,
     /// Ambient light, 0..=1.
@@ -56,6 +59,7 @@ impl Look {
             horizon: [247, 248, 249],
             ground: [226, 228, 232],
             light: Light::Studio,
+            environment: None,
             grid: 0.5,
             ambient: 0.48,
             key: 0.84,

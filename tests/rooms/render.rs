@@ -6,8 +6,8 @@ use std::time::Duration;
 use glam::{UVec2, Vec2, Vec3};
 use toile::cloth::{Fabric, FabricLook, Weave};
 use toile::render::{
-    BODY, CLOTH_BACK, CLOTH_FRONT, Camera, Fineness, Ground, Label, Light, Look, Mesh, Polyline, RenderError,
-    Scene, Studio, Textile, View, framed,
+    BODY, CLOTH_BACK, CLOTH_FRONT, Camera, Fineness, Ground, Harmonics, Label, Light, Look, MEAN_LIGHT, Mesh,
+    Polyline, RenderError, Scene, Studio, Textile, View, framed,
 };
 use toile::ui::scenery::fabric_looks::textile;
 
@@ -462,4 +462,59 @@ fn a_picture_larger_than_the_textures_is_drawn_in_tiles() {
     let (picture, tiles) = fine(&mut studio, &scene, camera, &Look::light(), (size, Fineness::new(8)));
     assert_eq!((picture.dimensions(), tiles > 1), ((4200, 8), true));
     assert!(picture.pixels().all(|p| p[3] == 255), "no tile is missing");
+}
+
+#[test]
+fn an_image_lights_from_where_it_is_bright() {
+    let Some(mut studio) = studio() else { return };
+    // Red on the right of one who stands in it with the back to -z, that is, on the left of one who looks at the front.
+    let image = image::Rgb32FImage::from_fn(64, 32, |x, _| {
+        image::Rgb(if x >= 32 { [90.0, 20.0, 20.0] } else { [20.0, 20.0, 90.0] })
+    });
+    let environment = Harmonics::of_image(&image).with_mean(MEAN_LIGHT);
+    assert!(environment.is_some());
+    let look = Look { environment, key: 0.0, ..Look::light() };
+    let scene = Scene { meshes: vec![Arc::new(sphere(0.5, [160; 3], [160; 3]))], ..Default::default() };
+    let warmth = |image: &image::RgbaImage, x: u32| {
+        let [r, _, b] = pixel(image, x, 120);
+        r - b
+    };
+    let front = studio.picture(&scene, View::Front, &look, SIZE).expect("a picture");
+    assert!(warmth(&front, 90) > 30 && warmth(&front, 230) < -30);
+    assert!(warmth(&front, 160).abs() < 12, "both from the middle");
+    // It stays where it is when the eye goes round, while the studio's light goes with the eye.
+    let back = studio.picture(&scene, View::Back, &look, SIZE).expect("a picture");
+    assert!(warmth(&back, 90) < -30 && warmth(&back, 230) > 30);
+    let plain = Look { key: 0.0, ..Look::light() };
+    let [front, back] =
+        [View::Front, View::Back].map(|view| studio.picture(&scene, view, &plain, SIZE).expect("a picture"));
+    let apart: f64 = front.iter().zip(back.iter()).map(|(a, b)| f64::from(a.abs_diff(*b))).sum();
+    assert!(apart / (front.len() as f64) < 0.5, "{apart}");
+}
+
+#[test]
+fn polished_cloth_reflects_what_is_around_it() {
+    let Some(mut studio) = studio() else { return };
+    let look = Look { key: 0.0, occlusion: 0.0, ..Look::light() };
+    let mut draw = |gloss: f32, roughness: f32| {
+        let mut cloth = sphere(0.5, [40; 3], [40; 3]);
+        cloth.cloth = 1.0;
+        cloth.textile = Textile { gloss, roughness, sheen: 0.0, ..Textile::default() };
+        let scene = Scene { meshes: vec![Arc::new(cloth)], ..Default::default() };
+        studio.picture(&scene, View::Front, &look, SIZE).expect("a picture")
+    };
+    let [matt, rough, polished] = [(0.0, 0.5), (1.0, 0.6), (1.0, 0.1)].map(|(g, r)| draw(g, r));
+    let brighter = |image: &image::RgbaImage| {
+        let rises = image.pixels().zip(matt.pixels()).map(|(a, b)| i32::from(a[1]) - i32::from(b[1]));
+        rises.collect::<Vec<i32>>()
+    };
+    let [soft, hard] = [&rough, &polished].map(brighter);
+    assert!(soft.iter().chain(&hard).all(|rise| *rise >= -2), "a reflection only adds light");
+    // The edge of a softbox is sharp in polished cloth: the steepest rise from pixel to pixel inside the sphere.
+    let steepest = |rises: &[i32]| {
+        let inside = |x: usize, y: usize| (x as i32 - 160).pow(2) + (y as i32 - 120).pow(2) < 75 * 75;
+        let steps = (0..240).flat_map(|y| (1..320).map(move |x| (x, y))).filter(|&(x, y)| inside(x, y));
+        steps.map(|(x, y)| (rises[y * 320 + x] - rises[y * 320 + x - 1]).abs()).max().unwrap_or(0)
+    };
+    assert!(steepest(&hard) > 2 * steepest(&soft), "{} and {}", steepest(&hard), steepest(&soft));
 }

@@ -235,7 +235,7 @@ impl Dress {
             save: None,
             record: None,
             max_ticks: MAX_TICKS,
-            picture: PictureOptions::from(View::ThreeQuarter),
+            picture: PictureOptions::seen_from(View::ThreeQuarter),
             no_picture: false,
             work: WorkOptions::default(),
             resume: false,
@@ -522,6 +522,10 @@ pub struct Render {
     pub cloth: ClothOptions,
     #[command(flatten)]
     pub picture: PictureOptions,
+    /// Light from all sides out of an image of all directions (PNG, JPEG or Radiance HDR, equirectangular, twice as wide as high),
+    /// its middle before the body; its mean brightness is set to the studio's, and the lamp of --light stays
+    #[arg(long, value_name = "IMAGE")]
+    pub environment: Option<PathBuf>,
     /// The picture (PNG)
     #[arg(short, long, value_name = "PNG")]
     pub output: PathBuf,

@@ -30,7 +30,7 @@ pub struct PictureOptions {
 
 impl PictureOptions {
     /// The options by default, seen from `view`.
-    pub fn from(view: View) -> Self {
+    pub fn seen_from(view: View) -> Self {
         Self {
             view,
             size: [1280, 800],
