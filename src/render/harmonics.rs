@@ -79,12 +79,7 @@ impl Harmonics {
     /// Factors of the polynomials 1; y, z, x; xy, yz, 3z² - 1, xz, x² - y² of a normal, of which the sum is the light that a matt
     /// white surface reflects: the irradiance over π.
     pub(super) fn reflected(&self) -> [Vec3; 9] {
-        let mut i = 0;
-        self.0.map(|c| {
-            let factor = COSINE[ORDER[i]] / PI * NORMS[i];
-            i += 1;
-            c * factor as f32
-        })
+        std::array::from_fn(|i| self.0[i] * (COSINE[ORDER[i]] / PI * NORMS[i]) as f32)
     }
 }
 

@@ -5,7 +5,7 @@ use std::path::Path;
 use egui::{ComboBox, DragValue, Id, Modal};
 use glam::UVec2;
 
-use crate::render::{Camera, FinePicture, Fineness, Look, Projection, RenderError, View, png};
+use crate::render::{Camera, FinePicture, Fineness, Legend, Look, Projection, RenderError, View, png};
 use crate::ui::actions::{Action, VIEWS};
 use crate::ui::app::App;
 use crate::ui::files::{self, Purpose};
@@ -37,6 +37,15 @@ impl Default for PictureOptions {
     fn default() -> Self {
         Self { size: UVec2::new(1920, 1200), view: None, cut_out: false, marks: false, times: 1, count: 1 }
     }
+}
+
+/// A picture that is being drawn.
+#[derive(Debug)]
+pub struct PlannedPicture {
+    /// The drawing so far.
+    pub drawing: FinePicture,
+    /// The legend of the map that it shows.
+    legend: Option<Legend>,
 }
 
 /// The open dialog.
@@ -207,10 +216,10 @@ impl App {
         camera: &Camera,
     ) -> Result<Vec<u8>, String> {
         let mut picture = self.plan_picture(options, camera)?;
-        while !picture.is_done() {
+        while !picture.drawing.is_done() {
             self.draw_more(&mut picture)?;
         }
-        self.developed(picture)
+        picture.developed()
     }
 
     /// Plans a picture with `options`. The error is a message.
@@ -218,12 +227,13 @@ impl App {
         &mut self,
         options: &PictureOptions,
         camera: &Camera,
-    ) -> Result<FinePicture, String> {
+    ) -> Result<PlannedPicture, String> {
         let session = self.demo.as_ref().map_or(&self.session, |(player, ..)| player.session());
+        let map = self.shell.maps.shown();
         let extras = Extras {
             marks: options.marks,
             pins: options.marks,
-            map: self.shell.maps.shown().map(|map| &map.colours),
+            map: map.map(|map| &map.colours),
             body_look: self.shell.sight.body_look,
         };
         let scene = portrait(&mut self.scenery, session, extras);
@@ -235,22 +245,25 @@ impl App {
             cut_out: options.cut_out,
             ..self.shell.sight.on(theme::look(self.scheme))
         };
-        graphics
-            .fine(scene, *camera, &look, options.size, Fineness::new(options.times))
-            .map_err(|why| no_picture(&why))
+        let fineness = Fineness::new(options.times);
+        let drawing = graphics.fine(scene, *camera, &look, options.size, fineness);
+        let drawing = drawing.map_err(|why| no_picture(&why))?;
+        Ok(PlannedPicture { drawing, legend: map.map(|map| map.legend()) })
     }
 
     /// Draws the next tile of `picture`. The error is a message.
-    pub(in crate::ui) fn draw_more(&mut self, picture: &mut FinePicture) -> Result<(), String> {
+    pub(in crate::ui) fn draw_more(&mut self, picture: &mut PlannedPicture) -> Result<(), String> {
         let graphics = self.scene_pane.graphics.as_mut().ok_or_else(no_adapter)?;
-        graphics.go_on(picture).map_err(|why| no_picture(&why))
+        graphics.go_on(&mut picture.drawing).map_err(|why| no_picture(&why))
     }
+}
 
-    /// A picture that is drawn, as PNG with the legend of the map. The error is a message.
-    pub(in crate::ui) fn developed(&self, picture: FinePicture) -> Result<Vec<u8>, String> {
-        let mut picture = picture.finish();
-        if let Some(map) = self.shell.maps.shown() {
-            map.legend().burn(&mut picture);
+impl PlannedPicture {
+    /// The picture, drawn, as PNG with its legend. The error is a message.
+    pub fn developed(self) -> Result<Vec<u8>, String> {
+        let mut picture = self.drawing.finish();
+        if let Some(legend) = self.legend {
+            legend.burn(&mut picture);
         }
         png(&picture).map_err(|why| no_picture(&why))
     }

@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 
 use egui::{Align2, Area, Frame, Id, Order};
 
-use crate::render::{Camera, FinePicture};
+use crate::render::Camera;
 use crate::ui::app::App;
-use crate::ui::app::picture_page::PictureOptions;
+use crate::ui::app::picture_page::{PictureOptions, PlannedPicture};
 use crate::ui::files;
 use crate::ui::language::{say, tr};
 use crate::ui::look::theme::Palette;
@@ -20,7 +20,7 @@ pub struct Turn {
     first: Camera,
     done: u32,
     /// The picture that is being drawn.
-    present: Option<FinePicture>,
+    present: Option<PlannedPicture>,
 }
 
 impl Turn {
@@ -43,7 +43,7 @@ impl Turn {
 
     /// Part of the work that is done, 0..=1.
     fn share(&self) -> f32 {
-        let (tile, tiles) = self.present.as_ref().map_or((0, 1), FinePicture::progress);
+        let (tile, tiles) = self.present.as_ref().map_or((0, 1), |picture| picture.drawing.progress());
         (self.done as f32 + tile as f32 / tiles.max(1) as f32) / self.options.count as f32
     }
 }
@@ -93,8 +93,8 @@ impl App {
             None => self.plan_picture(&turn.options, &turn.camera())?,
         };
         self.draw_more(&mut picture)?;
-        if picture.is_done() {
-            files::write(&turn.file(turn.done), &self.developed(picture)?)?;
+        if picture.drawing.is_done() {
+            files::write(&turn.file(turn.done), &picture.developed()?)?;
             turn.done += 1;
         } else {
             turn.present = Some(picture);
