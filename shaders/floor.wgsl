@@ -14,7 +14,7 @@ fn ground_vertex(@builtin(vertex_index) i: u32) -> Floor {
     let place = frame.floor.xy + corners[i] * frame.floor.w;
     var out: Floor;
     out.world = vec3f(place.x, frame.floor.z, place.y);
-    out.clip = in_part(frame.clip_from_world * vec4f(out.world, 1.0), frame.part);
+    out.clip = in_part(frame.clip_from_world * vec4f(out.world, 1.0));
     out.depth = -(frame.view * vec4f(out.world, 1.0)).z;
     return out;
 }

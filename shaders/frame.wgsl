@@ -30,28 +30,29 @@ struct Frame {
     hollows: vec4f,           // radius in metres, strength, 1 when they were drawn, shadow normal offset in metres
     lamp_tint: vec4f,         // linear, colour of the lamp
     part: vec4f,              // what of the picture is drawn: left, top, width, height, pixels
-    around: vec4f,            // the same of the textures at half size, whose texels are 2 x 2 pixels; even
+    around: vec4f,            // the same with its surroundings, for the textures at half size, whose texels are 2 x 2 pixels; even
     surroundings: Surroundings,
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;
 
-// From clip space of the whole picture to that of a part of it.
-fn in_part(clip: vec4f, part: vec4f) -> vec4f {
-    let scale = frame.viewport.xy / part.zw;
-    let by = (scale - 2.0 * part.xy / part.zw - 1.0) * vec2f(1.0, -1.0);
+// From clip space of the whole picture to that of the part with its surroundings, which is the viewport of every pass: what
+// reaches beyond the part itself is clipped far from its border.
+fn in_part(clip: vec4f) -> vec4f {
+    let scale = frame.viewport.xy / frame.around.zw;
+    let by = (scale - 2.0 * frame.around.xy / frame.around.zw - 1.0) * vec2f(1.0, -1.0);
     return vec4f(clip.xy * scale + by * clip.w, clip.zw);
 }
 
 // The same, on a grid of `steps` a pixel of the whole picture, the one that rasterisation rounds to: the tiles of a picture then
 // cover the same samples as the whole.
-fn on_grid(clip: vec4f, part: vec4f, steps: f32) -> vec4f {
+fn on_grid(clip: vec4f, steps: f32) -> vec4f {
     let ndc = clip.xy / clip.w;
     if clip.w <= 0.0 || any(abs(ndc) > vec2f(2.0)) {
-        return in_part(clip, part);
+        return in_part(clip);
     }
     let pixel = vec2f(0.5 + 0.5 * ndc.x, 0.5 - 0.5 * ndc.y) * frame.viewport.xy;
-    let place = (round(pixel * steps) / steps - part.xy) / part.zw;
+    let place = (round(pixel * steps) / steps - frame.around.xy) / frame.around.zw;
     return vec4f(vec2f(2.0 * place.x - 1.0, 1.0 - 2.0 * place.y) * clip.w, clip.zw);
 }
 

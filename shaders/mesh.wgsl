@@ -11,7 +11,7 @@ struct Shaded {
 @vertex
 fn mesh_vertex(in: MeshVertex) -> Shaded {
     var out: Shaded;
-    out.clip = on_grid(frame.clip_from_world * vec4f(in.position, 1.0), frame.part, 256.0);
+    out.clip = on_grid(frame.clip_from_world * vec4f(in.position, 1.0), 256.0);
     out.world = in.position;
     out.normal = in.normal;
     out.colour = in.colour.rgb * in.colour.rgb;

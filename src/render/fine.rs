@@ -35,6 +35,9 @@ impl Fineness {
 /// Longest side of a tile where a processor draws, pixels: between two tiles the work can be stopped.
 const SOFTWARE_TILE: u32 = 1024;
 
+/// Pixels round a tile within which triangles are not clipped.
+const CLIP_MARGIN: u32 = 256;
+
 /// A picture that is being drawn, tile by tile.
 #[derive(Debug)]
 pub struct FinePicture {
@@ -66,10 +69,12 @@ impl FinePicture {
         let parts = if times == 1 {
             vec![Part::all(whole)]
         } else {
-            let most = gpu.max_side().min(if gpu.software { SOFTWARE_TILE } else { u32::MAX });
+            let most = (gpu.max_side() / 2).min(if gpu.software { SOFTWARE_TILE } else { u32::MAX });
             let step = 32 * times;
             let side = (fineness.tile.min(most) / step).max(1) * step;
-            Part::tiles(whole, side, occlusion_margin(&camera, &scene, look, whole))
+            // A tile with its surroundings is a viewport, which is no larger than a texture.
+            let margin = occlusion_margin(&camera, &scene, look, whole).max(CLIP_MARGIN);
+            Part::tiles(whole, side, margin.min((gpu.max_side() - side) / 4 * 2))
         };
         let look = Look {
             pixels_per_point: look.pixels_per_point * times as f32,

@@ -2,7 +2,8 @@
 
 use glam::UVec2;
 
-/// A rectangle of the pixels of a picture, and the larger one from which ambient occlusion is computed for it.
+/// A rectangle of the pixels of a picture, and the larger one round it that things are projected to and from which ambient
+/// occlusion is computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Part {
     /// Size of the whole picture, pixels.

@@ -205,6 +205,12 @@ impl Renderer {
         let with = self.pipelines.pictured(target.quality);
         let mut pass = begin(encoder, "picture", Some(colour), Some((&target.depth, 0.0)));
         pass.set_bind_group(0, &bound.frame, &[]);
+        // Shaders place things in the part with its surroundings, so that triangles are not clipped at the border of a tile: a
+        // clipped edge is rounded a little otherwise than the whole.
+        let part = &target.part;
+        let corner = part.around_at.as_vec2() - part.at.as_vec2();
+        let size = part.around_size.as_vec2();
+        pass.set_viewport(corner.x, corner.y, size.x, size.y, 0.0, 1.0);
         if !look.cut_out {
             pass.set_pipeline(&with.background);
             pass.draw(0..3, 0..1);

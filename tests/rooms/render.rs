@@ -423,8 +423,8 @@ fn a_picture_in_tiles_is_the_picture_in_one_piece() {
         // A place at the very border of a texel's shadow may fall on its other side, as positions are interpolated from another
         // corner: that changes one of six readings, in one of the samples of a pixel.
         let at_shadows = apart.iter().filter(|d| **d > 1).count();
-        assert!(at_shadows * 10_000 <= apart.len(), "{name}: {at_shadows} of {}", apart.len());
-        assert!(apart.iter().all(|d| *d <= 4), "{name}: {:?} of 255", apart.iter().max());
+        assert!(at_shadows * 100_000 <= apart.len(), "{name}: {at_shadows} of {}", apart.len());
+        assert!(apart.iter().all(|d| *d <= 2), "{name}: {:?} of 255", apart.iter().max());
         assert_eq!(whole.pixels().any(|p| p[3] < 255), look.cut_out, "{name}");
     }
 }
