@@ -150,9 +150,10 @@ fn mirrored(albedo: vec3f, normal: vec3f, along: vec3f, eye: vec3f, open: f32, s
     return tint * material.gloss.x * (0.06 * lamp * frame.lamp_tint.rgb + grazing * sky);
 }
 
-// Linear light that skin mirrors of what is around it, more at grazing angles: a rough surface with little oil.
+// Linear light that skin mirrors of what is around it, more at grazing angles: a surface with little oil, so rough that it blurs
+// light as much as a matt one.
 fn skin_sheen(normal: vec3f, eye: vec3f, open: f32) -> vec3f {
     let facing = clamp(dot(normal, eye), 0.0, 1.0);
     let fresnel = 0.018 + 0.1 * pow(1.0 - facing, 5.0);
-    return mirrored_light(reflect(-eye, normal), 0.5) * (fresnel * frame.sky.w * open);
+    return light_around(reflect(-eye, normal)) * (fresnel * frame.sky.w * open);
 }
