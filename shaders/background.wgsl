@@ -7,6 +7,7 @@ fn background_vertex(@builtin(vertex_index) i: u32) -> @builtin(position) vec4f 
 
 @fragment
 fn background_fragment(@builtin(position) at: vec4f) -> @location(0) vec4f {
-    let down = smoothstep(0.0, 1.0, at.y * frame.viewport.w);
-    return vec4f(mix(frame.sky.rgb, frame.horizon.rgb, down) + dither(at.xy), 1.0);
+    let pixel = in_whole(at.xy);
+    let down = smoothstep(0.0, 1.0, pixel.y * frame.viewport.w);
+    return vec4f(mix(frame.sky.rgb, frame.horizon.rgb, down) + dither(pixel), 1.0);
 }

@@ -6,7 +6,7 @@ struct Seen {
 
 @vertex
 fn depth_vertex(@location(0) position: vec3f, @location(1) normal: vec3f) -> Seen {
-    return Seen(frame.clip_from_world * vec4f(position, 1.0), normal);
+    return Seen(on_grid(frame.clip_from_world * vec4f(position, 1.0), 128.0), normal);
 }
 
 @vertex
@@ -17,7 +17,7 @@ fn depth_ground_vertex(@builtin(vertex_index) i: u32) -> Seen {
     );
     let place = frame.floor.xy + corners[i] * frame.floor.w;
     let world = vec4f(place.x, frame.floor.z, place.y, 1.0);
-    return Seen(frame.clip_from_world * world, vec3f(0.0, 1.0, 0.0));
+    return Seen(in_part(frame.clip_from_world * world), vec3f(0.0, 1.0, 0.0));
 }
 
 @fragment

@@ -12,7 +12,7 @@ fn draft_vertex(in: MeshVertex) -> Draft {
     let eye = eyeward(in.position);
     let dye = in.colour.rgb * in.colour.rgb;
     var out: Draft;
-    out.clip = frame.clip_from_world * vec4f(in.position, 1.0);
+    out.clip = in_part(frame.clip_from_world * vec4f(in.position, 1.0));
     out.front = encoded(reflected(material.front.rgb * dye, normal, normal, eye, 1.0, 1.0));
     out.back = encoded(reflected(material.back.rgb * dye, -normal, -normal, eye, 1.0, 1.0));
     out.flat = in.flat;

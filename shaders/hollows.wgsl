@@ -11,22 +11,29 @@ fn hollows_vertex(@builtin(vertex_index) i: u32) -> @builtin(position) vec4f {
     return vec4f(corner * 2.0 - 1.0, 0.0, 1.0);
 }
 
+// The place in the whole picture, 0..1, of a texel.
+fn place_of(texel: vec2i) -> vec2f {
+    return (frame.around.xy + 2.0 * vec2f(texel) + 1.0) * frame.viewport.zw;
+}
+
 @fragment
 fn hollows_fragment(@builtin(position) at: vec4f) -> @location(0) vec4f {
     let pixel = vec2i(at.xy);
     let size = vec2i(textureDimensions(depth_map));
+    let whole = pixel + vec2i(frame.around.xy * 0.5);
     let depth = textureLoad(depth_map, pixel, 0);
     if depth <= 0.0 {
         return vec4f(1.0, 60000.0, 0.0, 1.0);
     }
-    let here = view_position(at.xy / vec2f(size), depth);
+    let here = view_position(place_of(pixel), depth);
     let normal = normalize(textureLoad(normal_map, pixel, 0).xyz * 2.0 - 1.0);
     let radius = frame.hollows.x;
     let w = frame.projection[2][3] * here.z + frame.projection[3][3];
-    let reach = min(radius * frame.projection[1][1] * f32(size.y) * 0.5 / w, f32(size.y) * 0.3);
+    let height = frame.viewport.y * 0.5;
+    let reach = min(radius * frame.projection[1][1] * height * 0.5 / w, height * 0.3);
     // A 4 x 4 pattern of turns, which the blur evens out.
-    let turn = f32((pixel.x & 3) * 4 + ((pixel.y * 7 + pixel.x * 2) & 3)) * 0.39269908;
-    let noise = f32((pixel.y & 3) * 4 + (pixel.x * 3 & 3)) / 16.0;
+    let turn = f32((whole.x & 3) * 4 + ((whole.y * 7 + whole.x * 2) & 3)) * 0.39269908;
+    let noise = f32((whole.y & 3) * 4 + (whole.x * 3 & 3)) / 16.0;
     let bias = radius * 0.02 - here.z * 0.0006;
     var sum = 0.0;
     for (var i = 0; i < SAMPLES; i++) {
@@ -36,7 +43,7 @@ fn hollows_fragment(@builtin(position) at: vec4f) -> @location(0) vec4f {
         let inside = clamp(other, vec2i(0), size - 1);
         let there = textureLoad(depth_map, inside, 0);
         if there > 0.0 {
-            let v = view_position((vec2f(inside) + 0.5) / vec2f(size), there) - here;
+            let v = view_position(place_of(inside), there) - here;
             let vv = dot(v, v);
             let near = max(1.0 - vv / (radius * radius), 0.0);
             sum += near * near * near * max((dot(v, normal) - bias) / (vv + radius * radius * 1e-3), 0.0);

@@ -3,7 +3,7 @@
 @group(2) @binding(1) var shadow_sampler: sampler_comparison;
 @group(2) @binding(2) var hollow_map: texture_2d<f32>;
 
-// 1 in the light, 0 in shadow; `spread` in texels of the shadow map.
+// 1 in the light, 0 in shadow; `spread` in texels of the shadow map, `pixel` in the whole picture.
 fn lit(world: vec3f, spread: f32, pixel: vec2f) -> f32 {
     let clip = frame.lamp_from_world * vec4f(world, 1.0);
     let place = vec2f(clip.x * 0.5 + 0.5, 0.5 - clip.y * 0.5);
@@ -27,13 +27,13 @@ fn lit(world: vec3f, spread: f32, pixel: vec2f) -> f32 {
     return sum / 6.0;
 }
 
-// 1 in the open, less in hollows: four texels of the half-size map, weighed by how near in depth they are.
+// 1 in the open, less in hollows; `pixel` in the part that is drawn. Four texels of the half-size map, weighed by how near in depth they are.
 fn openness(pixel: vec2f, depth: f32) -> f32 {
     if frame.hollows.z < 0.5 {
         return 1.0;
     }
     let size = vec2i(textureDimensions(hollow_map));
-    let at = pixel * 0.5 - 0.5;
+    let at = (pixel + frame.part.xy - frame.around.xy) * 0.5 - 0.5;
     let base = vec2i(floor(at));
     let part = at - floor(at);
     var sum = 0.0;

@@ -70,7 +70,7 @@ fn line_vertex(in: Stroke, @builtin(vertex_index) i: u32) -> Capsule {
     let ndc = vec2f(at.x * frame.viewport.z * 2.0 - 1.0, 1.0 - at.y * frame.viewport.w * 2.0);
     var out: Capsule;
     // Ends behind the eye leave no line.
-    out.clip = select(vec4f(2.0, 2.0, 2.0, 1.0), vec4f(ndc * end.w, end.z, end.w), ca.w > 0.0 && cb.w > 0.0);
+    out.clip = select(vec4f(2.0, 2.0, 2.0, 1.0), in_part(vec4f(ndc * end.w, end.z, end.w)), ca.w > 0.0 && cb.w > 0.0);
     out.ends = vec4f(a, b);
     // Thinner than a pixel is paler.
     out.colour = vec4f(in.colour.rgb, in.colour.a * clamp(wanted / max(radius, 1e-6), 0.0, 1.0));
@@ -79,7 +79,7 @@ fn line_vertex(in: Stroke, @builtin(vertex_index) i: u32) -> Capsule {
 }
 
 fn inked(in: Capsule) -> vec4f {
-    let p = in.clip.xy - in.ends.xy;
+    let p = in_whole(in.clip.xy) - in.ends.xy;
     let ab = in.ends.zw - in.ends.xy;
     let t = clamp(dot(p, ab) / max(dot(ab, ab), 1e-6), 0.0, 1.0);
     let away = length(p - ab * t);

@@ -11,7 +11,7 @@ struct Shaded {
 @vertex
 fn mesh_vertex(in: MeshVertex) -> Shaded {
     var out: Shaded;
-    out.clip = frame.clip_from_world * vec4f(in.position, 1.0);
+    out.clip = on_grid(frame.clip_from_world * vec4f(in.position, 1.0), 256.0);
     out.world = in.position;
     out.normal = in.normal;
     out.colour = in.colour.rgb * in.colour.rgb;
@@ -29,7 +29,7 @@ fn shaded(in: Shaded, front: bool) -> vec4f {
     let toward = dot(smooth_normal, frame.lamp.xyz);
     var shadow = 1.0;
     if toward > -0.1 {
-        let shade = lit(in.world + smooth_normal * frame.hollows.w, 2.6, in.clip.xy);
+        let shade = lit(in.world + smooth_normal * frame.hollows.w, 2.6, in_whole(in.clip.xy));
         shadow = mix(1.0, shade, frame.horizon.w * smoothstep(-0.1, 0.25, toward));
     }
     let eye = eyeward(in.world);
@@ -38,7 +38,10 @@ fn shaded(in: Shaded, front: bool) -> vec4f {
     if material.gloss.x > 0.0 {
         colour += mirrored(cloth.albedo, cloth.normal, cloth.along, eye, open, shadow);
     }
-    return vec4f(encoded(colour) + dither(in.clip.xy), cloth.cover);
+    if material.front.w < 0.5 {
+        colour += skin_sheen(smooth_normal, eye, open);
+    }
+    return vec4f(encoded(colour) + dither(in_whole(in.clip.xy)), cloth.cover);
 }
 
 @fragment
@@ -56,7 +59,7 @@ fn sheer_fragment(in: Shaded, @builtin(front_facing) front: bool) -> @location(0
 @fragment
 fn open_fragment(in: Shaded, @builtin(front_facing) front: bool) -> @location(0) vec4f {
     let out = shaded(in, front);
-    let uneven = speckle(in.clip.xy) - 0.5;
+    let uneven = speckle(in_whole(in.clip.xy)) - 0.5;
     return vec4f(out.rgb, clamp(out.a + uneven * 0.25 * step(0.02, out.a) * step(out.a, 0.98), 0.0, 1.0));
 }
 

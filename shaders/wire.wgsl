@@ -5,7 +5,7 @@ fn wire_vertex(@location(0) position: vec3f) -> @builtin(position) vec4f {
     let lift = frame.hollows.w * 0.3;
     let away = max(length(p), 1e-6);
     let nearer = select(p + vec3f(0.0, 0.0, lift), p * max(1.0 - lift / away, 0.5), frame.eye.w > 0.5);
-    return frame.projection * vec4f(nearer, 1.0);
+    return on_grid(frame.projection * vec4f(nearer, 1.0), 256.0);
 }
 
 @fragment

@@ -1,16 +1,20 @@
 //! Pictures without a window.
 
+use std::path::Path;
 use std::sync::Arc;
 
 use glam::UVec2;
 use image::RgbaImage;
-use image::imageops::thumbnail;
 
 use crate::cli::arguments::PictureOptions;
 use crate::cli::failure::Failure;
+use crate::cli::files;
 use crate::cli::interrupt;
+use crate::io::environment;
 use crate::pack::Picture;
-use crate::render::{Legend, Look, RenderError, Rgb, Studio, View, png, straightened};
+use crate::render::{
+    Fineness, Harmonics, Legend, Look, MEAN_LIGHT, RenderError, Rgb, Studio, View, framed, png, straightened,
+};
 use crate::session::{Outfit, Session};
 use crate::ui::fit_page::FitPage;
 use crate::ui::scenery::front_and_back::front_and_back;
@@ -21,12 +25,20 @@ use crate::ui::scenery::scene::Scenery;
 pub struct Artist {
     studio: Studio,
     scenery: Scenery,
+    /// Light from all sides; None: that of the options.
+    environment: Option<Harmonics>,
 }
 
 impl Artist {
     /// Opens the best graphics adapter available.
     pub fn new() -> Result<Self, Failure> {
-        Ok(Self { studio: Studio::new().map_err(failure)?, scenery: Scenery::default() })
+        let studio = Studio::new().map_err(failure)?;
+        Ok(Self { studio, scenery: Scenery::default(), environment: None })
+    }
+
+    /// The same with this light from all sides in [`Artist::png`].
+    pub fn lit_by(self, environment: Option<Harmonics>) -> Self {
+        Self { environment, ..self }
     }
 
     /// Draws the cloth of `outfit` on its body, with a colour for each vertex and `legend`.
@@ -59,7 +71,7 @@ impl Artist {
 
     /// Draws the dressed garment of `session` from the front and from the back; nothing where there is none.
     pub fn front_and_back(&mut self, session: &Session) -> Result<Vec<Picture>, Failure> {
-        let Self { studio, scenery } = self;
+        let Self { studio, scenery, .. } = self;
         let pictures = front_and_back(session, scenery, |scene, camera, look, size| {
             studio.draw(scene, camera, look, size).map(straightened)
         });
@@ -68,16 +80,31 @@ impl Artist {
 
     /// Draws the body, the cloth and, where there is no cloth yet, the marks of `session`, as PNG.
     pub fn png(&mut self, session: &Session, options: &PictureOptions) -> Result<Vec<u8>, Failure> {
-        let scene = portrait(&mut self.scenery, session, Extras { pins: true, ..Extras::default() });
-        let (size, times) = (UVec2::from_array(options.size), options.supersample);
-        let pixels_per_point = times as f32;
-        let look =
-            Look { cut_out: options.transparent, pixels_per_point, light: options.light, ..Look::light() };
-        let picture = self.studio.picture(&scene, options.view, &look, size * times).map_err(failure)?;
-        // Averages in whole blocks of pixels.
-        let picture = if times > 1 { thumbnail(&picture, size.x, size.y) } else { picture };
-        png(&if options.transparent { straightened(picture) } else { picture }).map_err(failure)
+        let extras = Extras { pins: true, body_look: options.body_look, ..Extras::default() };
+        let scene = portrait(&mut self.scenery, session, extras);
+        let size = UVec2::from_array(options.size);
+        let look = Look {
+            cut_out: options.transparent,
+            light: options.light,
+            environment: self.environment,
+            ..Look::light()
+        };
+        let camera = framed(&scene, options.view, size);
+        let fineness = Fineness::new(options.supersample);
+        let mut picture = self.studio.fine(scene, camera, &look, size, fineness).map_err(failure)?;
+        while !picture.is_done() {
+            interrupt::check()?;
+            self.studio.go_on(&mut picture).map_err(failure)?;
+        }
+        png(&picture.finish()).map_err(failure)
     }
+}
+
+/// Light from all sides out of the image at `path`, as bright as the studio's.
+pub fn environment(path: &Path) -> Result<Harmonics, Failure> {
+    let image = environment::read(&files::read(path)?).map_err(|words| Failure::input(path, words))?;
+    let light = Harmonics::of_image(&image).with_mean(MEAN_LIGHT);
+    light.ok_or_else(|| Failure::input(path, "it is black: no light comes from it"))
 }
 
 fn failure(error: RenderError) -> Failure {

@@ -4,17 +4,18 @@ use std::path::PathBuf;
 
 use crate::cli::arguments::{PictureOptions, Render};
 use crate::cli::failure::Failure;
-use crate::cli::picture::Artist;
+use crate::cli::picture::{Artist, environment};
 use crate::cli::{input, interrupt, output, run};
 use crate::render::View;
 use crate::ui::scenery::portrait::{numbered, turned};
 
 /// Draws one picture, or those of a full turn.
 pub fn render(arguments: &Render) -> Result<(), Failure> {
+    let environment = arguments.environment.as_deref().map(environment).transpose()?;
     let input = input::load(&arguments.project, &arguments.input)?;
     let mut session = run::opened(input.project, &arguments.project)?;
     run::choose_cloth(&mut session, &arguments.cloth)?;
-    let mut artist = Artist::new()?;
+    let mut artist = Artist::new()?.lit_by(environment);
     for (path, view) in pictures(arguments) {
         interrupt::check()?;
         let png = artist.png(&session, &PictureOptions { view, ..arguments.picture })?;

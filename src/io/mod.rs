@@ -10,7 +10,7 @@
 //! | `obj`, `mtl`, `glb`, `usd` | dressed cloth written (`dressed`), with its `materials` and their textures (`atlas`); `cloth_obj` cloth read |
 //! | `cloth_sheet` | the cloth that a marker is drawn on, for `svg`, `dxf` and `pdf` |
 //! | `trace`, `polygon`, `sheet`, `scale` | shared by drawings: making pieces of lines, finding the unit of length |
-//! | `picture` | PNG and JPEG |
+//! | `picture` | PNG and JPEG; `environment`: light from all sides, also Radiance HDR |
 //! | `json`, `limits`, `words`, `written` | shared by all |
 
 pub mod atlas;
@@ -20,6 +20,7 @@ pub mod cloth_obj;
 pub mod cloth_sheet;
 pub mod dressed;
 pub mod dxf;
+pub mod environment;
 pub mod garmentcode;
 pub mod glb;
 pub mod gltf;

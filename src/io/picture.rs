@@ -21,26 +21,31 @@ pub fn read(bytes: &[u8]) -> Result<RgbaImage, String> {
         return Err(format!("it has {size} MiB, more than the {most} MiB that a picture may have"));
     }
     let format = image::guess_format(bytes).ok();
-    if !format.is_some_and(|format| [ImageFormat::Png, ImageFormat::Jpeg].contains(&format)) {
-        return Err("it is neither PNG nor JPEG".to_owned());
-    }
-    let mut reader = ImageReader::new(Cursor::new(bytes));
-    if let Some(format) = format {
-        reader.set_format(format);
-    }
-    let mut limits = Limits::default();
-    limits.max_image_width = Some(MOST_SIDE);
-    limits.max_image_height = Some(MOST_SIDE);
-    limits.max_alloc = Some(MEMORY);
-    reader.limits(limits);
-    let mut decoder = reader.into_decoder().map_err(in_words)?;
+    let format = format.filter(|format| [ImageFormat::Png, ImageFormat::Jpeg].contains(format));
+    let mut decoder = decoder(bytes, format.ok_or("it is neither PNG nor JPEG")?)?;
     let turned = decoder.orientation().map_err(in_words)?;
     let mut picture = image::DynamicImage::from_decoder(decoder).map_err(in_words)?;
     picture.apply_orientation(turned);
     Ok(picture.into_rgba8())
 }
 
-fn in_words(error: image::ImageError) -> String {
+/// A decoder of `bytes` in a format, of at most [`MOST_SIDE`] pixels a side and a bounded size in memory.
+pub(super) fn decoder(bytes: &[u8], format: ImageFormat) -> Result<impl ImageDecoder + '_, String> {
+    let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
+    let mut limits = Limits::default();
+    limits.max_image_width = Some(MOST_SIDE);
+    limits.max_image_height = Some(MOST_SIDE);
+    limits.max_alloc = Some(MEMORY);
+    reader.limits(limits);
+    let decoder = reader.into_decoder().map_err(in_words)?;
+    // Not every format asks the limits before it takes the memory of the whole picture.
+    if decoder.total_bytes() > MEMORY {
+        return Err(format!("it takes more than {} MiB in memory", MEMORY >> 20));
+    }
+    Ok(decoder)
+}
+
+pub(super) fn in_words(error: image::ImageError) -> String {
     match error {
         image::ImageError::Limits(_) => {
             format!("it is larger than {MOST_SIDE} by {MOST_SIDE} pixels, which a picture may have")

@@ -10,6 +10,7 @@ use super::frame::linear;
 use super::picture_array::PictureArray;
 use super::pipelines::{MESH_STRIDE, Pipelines};
 use super::scene::Mesh;
+use super::strokes::Stroke;
 use super::{Gpu, RenderError};
 
 /// The GPU buffers of a mesh.
@@ -25,6 +26,9 @@ pub(super) struct DeviceMesh {
     /// The pictures of its decals.
     pictures: PictureArray,
 }
+
+/// Colour of edges of triangles and opacity, sRGB. As in shaders/wire.wgsl.
+const WIRE: [u8; 4] = [15, 23, 20, 128];
 
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
@@ -79,7 +83,7 @@ impl Material {
         }
         let second = linear(textile.second.unwrap_or(mesh.front));
         Self {
-            front: linear(mesh.front).extend(mesh.cloth),
+            front: linear(mesh.front).extend(if mesh.covered { 1.0 } else { mesh.cloth }),
             back: linear(mesh.back).extend(0.0),
             second: second.extend(weave as f32),
             threads: Vec4::new(textile.pitch, textile.relief, textile.sheen, textile.slubs),
@@ -171,6 +175,16 @@ impl DeviceMesh {
     /// Whether it is transparent cloth.
     pub(super) fn is_open(&self) -> bool {
         self.is_cloth() && self.mesh.textile.mean_cover < 1.0
+    }
+
+    /// Lines along all edges, one stroke each: `half_width` pixels, nearer to the eye by `lift` metres.
+    pub(super) fn edge_strokes(&self, half_width: f32, lift: f32) -> Vec<Stroke> {
+        let positions = &self.mesh.positions;
+        let edges = edges(&self.mesh.triangles, positions.len() as u32);
+        let stroke = |[a, b]: [u32; 2]| {
+            Stroke::along(positions[a as usize], positions[b as usize], WIRE, half_width, lift)
+        };
+        edges.into_iter().map(stroke).collect()
     }
 
     fn edge_buffer(&self, gpu: &Gpu) -> (wgpu::Buffer, u32) {

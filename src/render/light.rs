@@ -40,16 +40,12 @@ impl Light {
         }
     }
 
-    /// Tints of the lamp, and of the light from above and from below, as factors of those of the studio.
-    pub(super) fn tints(self) -> [Vec3; 3] {
+    /// Tint of the lamp, a factor of that of the studio.
+    pub(super) fn tint(self) -> Vec3 {
         match self {
-            Self::Studio => [Vec3::ONE; 3],
-            Self::Daylight => {
-                [Vec3::new(1.1, 1.06, 0.98), Vec3::new(0.86, 0.98, 1.16), Vec3::new(0.98, 1.0, 0.96)]
-            }
-            Self::Evening => {
-                [Vec3::new(1.42, 0.92, 0.52), Vec3::new(0.68, 0.68, 0.98), Vec3::new(1.02, 0.76, 0.62)]
-            }
+            Self::Studio => Vec3::ONE,
+            Self::Daylight => Vec3::new(1.1, 1.06, 0.98),
+            Self::Evening => Vec3::new(1.42, 0.92, 0.52),
         }
     }
 

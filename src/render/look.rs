@@ -1,5 +1,6 @@
 //! Colours and light of a picture.
 
+use super::harmonics::Harmonics;
 use super::light::Light;
 use super::scene::Rgb;
 
@@ -14,6 +15,8 @@ pub struct Look {
     pub ground: Rgb,
     /// Surroundings; all but the studio have a background and a floor of their own.
     pub light: Light,
+    /// Light from everywhere in place of that of `light`, as from an image.
+    pub environment: Option<Harmonics>,
     /// Strength of the grid lines on the floor, 0..=1.
     pub grid: f32,
     /// Ambient light, 0..=1.
@@ -26,6 +29,9 @@ pub struct Look {
     pub occlusion: f32,
     /// Physical pixels per logical pixel (egui point).
     pub pixels_per_point: f32,
+    /// Drawn pixels along each side of a pixel of the picture that is made of them, at least 1: what is a pixel wide is drawn so
+    /// wide. [`FinePicture`](super::FinePicture) sets it.
+    pub drawn_per_pixel: f32,
     /// Whether the edges of the cloth's triangles are drawn over it (wireframe).
     pub wire: bool,
     /// Whether everything but cloth is half transparent.
@@ -53,12 +59,14 @@ impl Look {
             horizon: [247, 248, 249],
             ground: [226, 228, 232],
             light: Light::Studio,
+            environment: None,
             grid: 0.5,
             ambient: 0.48,
             key: 0.84,
             shadow: 0.48,
             occlusion: 0.85,
             pixels_per_point: 1.0,
+            drawn_per_pixel: 1.0,
             wire: false,
             sheer: false,
             xray: false,

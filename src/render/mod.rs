@@ -1,20 +1,26 @@
 //! Rendering: plain buffers in, pixels out. It has cameras, meshes and lines, and no notion of cloth or bodies.
 //!
 //! A picture takes up to six passes: shadow map; depth and normals at half size; ambient occlusion ("hollows") and its blur; then
-//! background, floor, meshes, wires and lines with light, at four samples per pixel.
+//! background, floor, meshes, wires and lines with light, at four samples per pixel. Finer pictures are drawn larger, tile by tile,
+//! and averaged (`fine`).
 
+pub mod alpha;
 pub mod bake;
 mod buffers;
 pub mod camera;
 pub mod decal;
+pub mod environment;
 pub mod error;
+pub mod fine;
 mod frame;
 pub mod gpu;
+pub mod harmonics;
 pub mod legend;
 mod letters;
 pub mod light;
 pub mod look;
 pub mod palette;
+mod part;
 pub mod picture;
 mod picture_array;
 mod pipelines;
@@ -27,16 +33,20 @@ pub mod target;
 pub mod textile;
 pub mod view;
 
+pub use alpha::straightened;
 pub use camera::{Camera, PixelRay, Projected, Projection};
 pub use decal::Decal;
+pub use environment::MEAN_LIGHT;
 pub use error::RenderError;
+pub use fine::{FinePicture, Fineness};
 pub use frame::linear;
 pub use gpu::Gpu;
+pub use harmonics::Harmonics;
 pub use legend::Legend;
 pub use light::Light;
 pub use look::{BODY, CLOTH_BACK, CLOTH_FRONT, Look, cloth_front, mark_colour};
 pub use palette::Palette;
-pub use picture::{Studio, picture, png, save_png, straightened};
+pub use picture::{Studio, framed, picture, png, save_png};
 pub use renderer::Renderer;
 pub use scene::{Ground, Label, Mesh, Polyline, Rgb, Scene};
 pub use target::{OffscreenTarget, Quality};

@@ -6,6 +6,7 @@ use std::time::Duration;
 
 use glam::UVec2;
 
+use super::fine::{FinePicture, Fineness};
 use super::{Camera, Gpu, Look, OffscreenTarget, Quality, RenderError, Renderer, Scene, View};
 
 /// A device and renderer for pictures without a window; make one and use it for many pictures.
@@ -60,28 +61,38 @@ impl Studio {
         look: &Look,
         size: UVec2,
     ) -> Result<image::RgbaImage, RenderError> {
-        let mut camera = Camera::default();
-        camera.look(view);
-        camera.frame_points(&scene.points(), size.x.max(1) as f32 / size.y.max(1) as f32);
-        self.draw(scene, &camera, look, size)
+        self.draw(scene, &framed(scene, view, size), look, size)
     }
+
+    /// Plans a picture that is drawn finer than its pixels; [`Studio::go_on`] draws it.
+    pub fn fine(
+        &self,
+        scene: Scene,
+        camera: Camera,
+        look: &Look,
+        size: UVec2,
+        fineness: Fineness,
+    ) -> Result<FinePicture, RenderError> {
+        FinePicture::new(&self.gpu, scene, camera, look, size, fineness)
+    }
+
+    /// Draws the next tile of `picture`.
+    pub fn go_on(&mut self, picture: &mut FinePicture) -> Result<(), RenderError> {
+        picture.draw_next(&self.gpu, &mut self.renderer)
+    }
+}
+
+/// A camera that shows the whole of `scene` from `view` in a picture of `size` pixels.
+pub fn framed(scene: &Scene, view: View, size: UVec2) -> Camera {
+    let mut camera = Camera::default();
+    camera.look(view);
+    camera.frame_points(&scene.points(), size.x.max(1) as f32 / size.y.max(1) as f32);
+    camera
 }
 
 /// Draws the whole of `scene` from `view`, on a device opened for this one picture. For several pictures use [`Studio`].
 pub fn picture(scene: &Scene, view: View, look: &Look, size: UVec2) -> Result<image::RgbaImage, RenderError> {
     Studio::new()?.picture(scene, view, look, size)
-}
-
-/// A picture drawn with [`Look::cut_out`], converted from premultiplied to straight alpha as image files have it.
-pub fn straightened(mut picture: image::RgbaImage) -> image::RgbaImage {
-    for pixel in picture.pixels_mut() {
-        let [r, g, b, a] = pixel.0;
-        if a > 0 {
-            let straight = |c: u8| ((u32::from(c) * 255 + u32::from(a) / 2) / u32::from(a)).min(255) as u8;
-            pixel.0 = [straight(r), straight(g), straight(b), a];
-        }
-    }
-    picture
 }
 
 /// Encodes `picture` as PNG bytes.

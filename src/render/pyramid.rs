@@ -106,10 +106,11 @@ fn decoded(pixel: &Rgba<u8>) -> Vec4 {
 }
 
 /// Linear light of each sRGB value.
-static LINEAR: std::sync::LazyLock<[f32; 256]> =
+pub(super) static LINEAR: std::sync::LazyLock<[f32; 256]> =
     std::sync::LazyLock::new(|| std::array::from_fn(|i| linear([i as u8; 3]).x));
 
-fn encoded(colour: Vec4) -> Rgba<u8> {
+/// sRGB of a linear colour; alpha stays.
+pub(super) fn encoded(colour: Vec4) -> Rgba<u8> {
     let byte = |c: f32| (c.clamp(0.0, 1.0) * 255.0).round() as u8;
     let one = |c: f32| byte(if c <= 0.003_130_8 { c * 12.92 } else { 1.055 * c.powf(1.0 / 2.4) - 0.055 });
     Rgba([one(colour.x), one(colour.y), one(colour.z), byte(colour.w)])

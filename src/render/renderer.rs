@@ -6,7 +6,7 @@ use super::buffers::{DeviceMesh, bind, upload};
 use super::frame::Frame;
 use super::gpu::DEPTH;
 use super::pipelines::{Pictured, Pipelines};
-use super::strokes::strokes;
+use super::strokes::{Stroke, strokes};
 use super::target::{HalfSize, texture};
 use super::{Camera, Gpu, Look, OffscreenTarget, Quality, RenderError, Scene};
 
@@ -25,8 +25,13 @@ struct Bound {
     /// Shadow map and ambient occlusion; None in a draft.
     light: Option<wgpu::BindGroup>,
     strokes: Option<(wgpu::Buffer, u32)>,
+    /// Edges of triangles as strokes, where they are wider than a pixel.
+    wires: Option<(wgpu::Buffer, u32)>,
     ground: bool,
 }
+
+/// Texels of ambient occlusion that are computed round those that a tile shows: the blur and the interpolation read them.
+const BLUR_REACH: u32 = 6;
 
 impl Renderer {
     /// Creates the pipelines and the shadow map.
@@ -65,7 +70,7 @@ impl Renderer {
         if let Some(half) = &target.half {
             self.draw_shadow_map(&mut encoder, &bound);
             if look.occlusion > 0.0 {
-                self.draw_hollows(gpu, &mut encoder, &bound, half);
+                self.draw_hollows(gpu, &mut encoder, &bound, target, half);
             }
         }
         if target.quality == Quality::Draft {
@@ -87,9 +92,20 @@ impl Renderer {
         look: &Look,
         target: &OffscreenTarget,
     ) -> Bound {
-        let frame = Frame::new(camera, scene, look, target.size);
+        let frame = Frame::new(camera, scene, look, &target.part);
+        let lift = frame.wire_lift();
         let frame = gpu.buffer("frame", bytemuck::bytes_of(&frame), wgpu::BufferUsages::UNIFORM);
-        let strokes = strokes(&scene.lines, &scene.labels, look.pixels_per_point);
+        let wires: Vec<Stroke> = if look.wire && look.drawn_per_pixel > 1.0 {
+            let cloth = self.meshes.iter().filter(|mesh| mesh.is_cloth());
+            cloth.flat_map(|mesh| mesh.edge_strokes(look.drawn_per_pixel / 2.0, lift)).collect()
+        } else {
+            Vec::new()
+        };
+        let instances = |strokes: &[Stroke]| {
+            let bytes = bytemuck::cast_slice(strokes);
+            let buffer = || gpu.buffer("strokes", bytes, wgpu::BufferUsages::VERTEX);
+            (!strokes.is_empty()).then(|| (buffer(), strokes.len() as u32))
+        };
         let view = wgpu::BindingResource::TextureView;
         let p = &self.pipelines;
         Bound {
@@ -98,10 +114,8 @@ impl Renderer {
                 let sampler = wgpu::BindingResource::Sampler(&self.shadow_sampler);
                 bind(gpu, &p.light_layout, &[view(&self.shadow_map), sampler, view(&half.hollows)])
             }),
-            strokes: (!strokes.is_empty()).then(|| {
-                let bytes = bytemuck::cast_slice(&strokes);
-                (gpu.buffer("strokes", bytes, wgpu::BufferUsages::VERTEX), strokes.len() as u32)
-            }),
+            strokes: instances(&strokes(&scene.lines, &scene.labels, look.pixels_per_point)),
+            wires: instances(&wires),
             // Seen from below, the floor would only hide the scene.
             ground: scene.ground.is_some_and(|g| camera.eye().y > g.height) && !look.cut_out,
         }
@@ -141,7 +155,14 @@ impl Renderer {
         self.draw_meshes(&mut pass, false, |mesh| !mesh.is_open());
     }
 
-    fn draw_hollows(&self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, bound: &Bound, half: &HalfSize) {
+    fn draw_hollows(
+        &self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        bound: &Bound,
+        target: &OffscreenTarget,
+        half: &HalfSize,
+    ) {
         let view = wgpu::BindingResource::TextureView;
         let hollows = bind(gpu, &self.pipelines.hollows_layout, &[view(&half.depth), view(&half.normals)]);
         let blur = bind(gpu, &self.pipelines.blur_layout, &[view(&half.rough_hollows)]);
@@ -162,6 +183,9 @@ impl Renderer {
             let mut pass = begin(encoder, label, Some((output, None)), None);
             pass.set_bind_group(0, &bound.frame, &[]);
             pass.set_bind_group(1, inputs, &[]);
+            // Of a tile's surroundings only the depths are needed.
+            let [first, size] = target.part.needed(BLUR_REACH);
+            pass.set_scissor_rect(first.x, first.y, size.x, size.y);
             pass.set_pipeline(pipeline);
             pass.draw(0..3, 0..1);
         }
@@ -181,6 +205,12 @@ impl Renderer {
         let with = self.pipelines.pictured(target.quality);
         let mut pass = begin(encoder, "picture", Some(colour), Some((&target.depth, 0.0)));
         pass.set_bind_group(0, &bound.frame, &[]);
+        // Shaders place things in the part with its surroundings, so that triangles are not clipped at the border of a tile: a
+        // clipped edge is rounded a little otherwise than the whole.
+        let part = &target.part;
+        let corner = part.around_at.as_vec2() - part.at.as_vec2();
+        let size = part.around_size.as_vec2();
+        pass.set_viewport(corner.x, corner.y, size.x, size.y, 0.0, 1.0);
         if !look.cut_out {
             pass.set_pipeline(&with.background);
             pass.draw(0..3, 0..1);
@@ -200,7 +230,11 @@ impl Renderer {
         self.draw_meshes(&mut pass, true, |mesh| !mesh.is_cloth());
         pass.set_pipeline(&with.open);
         self.draw_meshes(&mut pass, true, DeviceMesh::is_open);
-        if look.wire {
+        if let Some((wires, count)) = &bound.wires {
+            pass.set_vertex_buffer(0, wires.slice(..));
+            pass.set_pipeline(&with.line);
+            pass.draw(0..6, 0..*count);
+        } else if look.wire {
             self.draw_wires(&mut pass, with);
         }
         if let Some((strokes, count)) = &bound.strokes {

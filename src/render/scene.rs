@@ -27,6 +27,8 @@ pub struct Mesh {
     pub back: Rgb,
     /// Material: 0 is skin and plaster, 1 woven cloth, which has a soft sheen at grazing angles.
     pub cloth: f32,
+    /// Whether it is skin covered in cloth: it takes light as cloth does, and is drawn in the passes of skin.
+    pub covered: bool,
     /// Texture coordinates of the corners of each triangle: places in the flat cloth, metres, y along the grain. Empty: no texture.
     pub flat: Vec<[Vec2; 3]>,
     /// Surface of the cloth; its weave needs `flat`.

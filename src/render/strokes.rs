@@ -21,6 +21,14 @@ pub(super) struct Stroke {
     thickness: f32,
 }
 
+impl Stroke {
+    /// A stroke from `a` to `b`, `half_width` in pixels, nearer to the eye by `lift` metres.
+    pub(super) fn along(a: Vec3, b: Vec3, colour: [u8; 4], half_width: f32, lift: f32) -> Self {
+        let (offset_a, offset_b) = (Vec2::ZERO, Vec2::ZERO);
+        Self { a, b, offset_a, offset_b, colour, half_width, lift, lift_widths: 0.0, thickness: 0.0 }
+    }
+}
+
 /// All capsules in drawing order: borders of lines, lines, then each label with its badge and digits. `scale` is the number of
 /// physical pixels per logical pixel.
 pub(super) fn strokes(lines: &[Polyline], labels: &[Label], scale: f32) -> Vec<Stroke> {

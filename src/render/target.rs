@@ -3,6 +3,7 @@
 use glam::UVec2;
 
 use super::gpu::{COLOUR, DEPTH};
+use super::part::Part;
 use super::{Gpu, RenderError};
 
 /// Rendering quality.
@@ -15,7 +16,7 @@ pub enum Quality {
     Draft,
 }
 
-/// The textures of pictures of one size.
+/// The textures of pictures, or of tiles of pictures, of one size.
 #[derive(Debug)]
 pub struct OffscreenTarget {
     /// Size, pixels.
@@ -26,6 +27,8 @@ pub struct OffscreenTarget {
     pub picture: wgpu::Texture,
     /// A view of `picture`.
     pub picture_view: wgpu::TextureView,
+    /// The part of a picture that is drawn on it.
+    pub(super) part: Part,
     pub(super) samples: Option<wgpu::TextureView>,
     pub(super) depth: wgpu::TextureView,
     /// Textures for ambient occlusion; None in a draft.
@@ -59,20 +62,20 @@ impl Quality {
 impl OffscreenTarget {
     /// Makes the textures. `size` is in pixels, at least 1 x 1.
     pub fn new(gpu: &Gpu, size: UVec2, quality: Quality) -> Result<Self, RenderError> {
-        let size = size.max(UVec2::ONE);
-        if size.max_element() > gpu.max_side() {
-            return Err(RenderError::TooLarge {
-                what: format!("a picture of {} x {} pixels", size.x, size.y),
-                limit: format!("{} pixels a side", gpu.max_side()),
-            });
-        }
+        Self::of_part(gpu, Part::all(size.max(UVec2::ONE)), quality)
+    }
+
+    /// Makes the textures for a part of a picture.
+    pub(super) fn of_part(gpu: &Gpu, part: Part, quality: Quality) -> Result<Self, RenderError> {
+        let size = part.size;
+        check_size(gpu, size)?;
         let used = wgpu::TextureUsages::RENDER_ATTACHMENT;
         let read = used | wgpu::TextureUsages::TEXTURE_BINDING;
         let view = |label, size, format, samples, usage| {
             texture(gpu, label, size, format, samples, usage).create_view(&Default::default())
         };
-        let halved = |size: UVec2| {
-            let half = (size + 1) / 2;
+        let halved = || {
+            let half = part.around_size / 2;
             HalfSize {
                 depth: view("half depth", half, DEPTH, 1, read),
                 normals: view("half normals", half, NORMALS, 1, read),
@@ -85,12 +88,23 @@ impl OffscreenTarget {
         Ok(Self {
             size,
             quality,
+            part,
             picture_view: picture.create_view(&Default::default()),
             picture,
             samples: (samples > 1).then(|| view("samples", size, COLOUR, samples, used)),
             depth: view("depth", size, DEPTH, samples, used),
-            half: (quality == Quality::Finished).then(|| halved(size)),
+            half: (quality == Quality::Finished).then(halved),
         })
+    }
+
+    /// The same for another part, on the same textures if that has the same sizes.
+    pub(super) fn moved_to(self, gpu: &Gpu, part: Part) -> Result<Self, RenderError> {
+        if (self.part.size, self.part.around_size) == (part.size, part.around_size) {
+            return Ok(Self { part, ..self });
+        }
+        let quality = self.quality;
+        drop(self);
+        Self::of_part(gpu, part, quality)
     }
 
     /// Reads the picture back from the device: RGBA, rows from the top.
@@ -122,6 +136,17 @@ impl OffscreenTarget {
         image::RgbaImage::from_raw(self.size.x, self.size.y, pixels)
             .ok_or_else(|| RenderError::Device("the picture came back too short".to_owned()))
     }
+}
+
+/// Refuses a picture that is larger than the device's textures. `size` in pixels.
+pub(super) fn check_size(gpu: &Gpu, size: UVec2) -> Result<(), RenderError> {
+    if size.max_element() > gpu.max_side() {
+        return Err(RenderError::TooLarge {
+            what: format!("a picture of {} x {} pixels", size.x, size.y),
+            limit: format!("{} pixels a side", gpu.max_side()),
+        });
+    }
+    Ok(())
 }
 
 fn extent(size: UVec2) -> wgpu::Extent3d {

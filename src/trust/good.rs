@@ -105,6 +105,15 @@ pub fn picture() -> Vec<u8> {
     bytes.into_inner()
 }
 
+/// A small image of light from all sides, Radiance HDR.
+pub fn environment() -> Vec<u8> {
+    let mut bytes = Vec::new();
+    let pixel = |i: u8| image::Rgb([f32::from(i), 3.0, 0.25 * f32::from(i % 7)]);
+    let pixels: Vec<image::Rgb<f32>> = (0..128).map(pixel).collect();
+    image::codecs::hdr::HdrEncoder::new(&mut bytes).encode(&pixels, 16, 8).expect("an image");
+    bytes
+}
+
 /// A session in which a little was done, with cloth on the limb.
 pub fn session() -> Session {
     let mut session = Session::new(project(), Runner::inline(Simulation::default()));

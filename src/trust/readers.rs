@@ -9,7 +9,8 @@ use crate::body::{Unit, UpAxis, import};
 use crate::geometry::mesh::TriMesh;
 use crate::io::moving_body::MovingBody;
 use crate::io::{
-    body_file, bvh, cloth_obj, dxf, garmentcode, joints, pattern_formats, picture, rul, sizes, svg,
+    body_file, bvh, cloth_obj, dxf, environment, garmentcode, joints, pattern_formats, picture, rul, sizes,
+    svg,
 };
 use crate::pattern::Pattern;
 use crate::session::body::Body;
@@ -100,6 +101,9 @@ pub fn readers() -> Vec<Reader> {
         }),
         Reader::new("motion", Form::Text, vec![motions], motion),
         Reader::new("picture", Form::Bytes, vec![good::picture()], |bytes| picture::read(bytes).map(drop)),
+        Reader::new("environment", Form::Bytes, vec![good::environment()], |bytes| {
+            environment::read(bytes).map(drop)
+        }),
     ]
 }
 

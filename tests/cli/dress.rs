@@ -103,6 +103,9 @@ fn cloth_is_drawn_in_the_fabric_colour_and_print_that_are_asked_for() {
     for (i, picture) in pictures.iter().enumerate() {
         assert!(!pictures[..i].contains(picture), "{:?} changes nothing", options[i]);
     }
+    let form = place.draws("render dressed.toile --body-look form -o form.png --size 120x120");
+    assert_eq!(form.code, 0, "{}", form.err);
+    assert!(!pictures.contains(&std::fs::read(place.path("form.png")).expect("a picture")), "linen");
     place.draws("render dressed.toile --supersample 2 -o fine.png --size 120x120");
     let fine = std::fs::read(place.path("fine.png")).expect("a picture");
     let picture = image::load_from_memory(&fine).expect("a picture");
@@ -117,6 +120,27 @@ fn cloth_is_drawn_in_the_fabric_colour_and_print_that_are_asked_for() {
     fails("--print checks:0:ffffff", "repeats");
     fails("--print plaid:20:ffffff", "plaid");
     fails("--supersample 9", "9");
+    fails("--body-look clay", "skin, form");
+    let image = |name: &str, width: u32| {
+        let garden =
+            image::RgbImage::from_fn(width, 16, |x, y| image::Rgb([8 * x as u8, 200 - 9 * y as u8, 40]));
+        garden.save(place.path(name)).expect("written");
+    };
+    image("garden.png", 32);
+    image("square.png", 16);
+    let lit = place.draws("render dressed.toile --environment garden.png -o lit.png --size 120x120");
+    assert_eq!(lit.code, 0, "{}", lit.err);
+    assert!(!pictures.contains(&std::fs::read(place.path("lit.png")).expect("a picture")), "in other light");
+    let refused = |code, name: &str, words: &str| {
+        place.ends_with_words(code, &format!("render dressed.toile --environment {name} -o out.png"), words);
+    };
+    refused(
+        3,
+        "square.png",
+        "square.png: it has 16 by 16 pixels; an image of all directions is twice as wide",
+    );
+    refused(3, "dressed.toile", "neither PNG, JPEG nor Radiance HDR");
+    refused(6, "nowhere.hdr", "nowhere.hdr");
 }
 
 #[test]

@@ -6,8 +6,8 @@ use std::time::Duration;
 use glam::{UVec2, Vec2, Vec3};
 use toile::cloth::{Fabric, FabricLook, Weave};
 use toile::render::{
-    BODY, CLOTH_BACK, CLOTH_FRONT, Camera, Ground, Label, Light, Look, Mesh, Polyline, RenderError, Scene,
-    Studio, Textile, View,
+    BODY, CLOTH_BACK, CLOTH_FRONT, Camera, Fineness, Ground, Harmonics, Label, Light, Look, MEAN_LIGHT, Mesh,
+    Polyline, RenderError, Scene, Studio, Textile, View, framed,
 };
 use toile::ui::scenery::fabric_looks::textile;
 
@@ -340,4 +340,181 @@ fn evening_is_redder_and_daylight_has_a_blue_sky() {
     assert!(b > r + 40, "{r} {b}");
     assert_eq!("evening".parse(), Ok(Light::Evening));
     assert!("noon".parse::<Light>().is_err_and(|words| words.contains("studio, daylight, evening")));
+}
+
+/// Everything that a picture can hold: cloth with a weave, cloth that lets light through, a body, lines, a number, a floor.
+fn full_scene() -> Scene {
+    let woven =
+        FabricLook { weave: Weave::Twill, pitch_m: 0.01, relief: 0.5, slubs: 0.2, ..FabricLook::default() };
+    let net = Fabric::preset("chiffon").expect("a preset").look;
+    let placed = |look: &FabricLook, by: Vec3| {
+        let mut mesh = swatch(look, 0.5);
+        mesh.positions.iter_mut().for_each(|p| *p += by);
+        Arc::new(mesh)
+    };
+    let line = Polyline {
+        points: vec![Vec3::new(-0.6, -0.3, 0.52), Vec3::new(0.6, 0.4, 0.52)],
+        colour: [0, 0, 255, 255],
+        width: 3.0,
+        halo: [255, 255, 255, 255],
+        halo_width: 1.5,
+        lift: 0.01,
+        ..Polyline::default()
+    };
+    let label = Label {
+        anchor: Vec3::new(0.0, 0.0, 0.5),
+        offset: Vec2::new(-11.0, 11.0),
+        text: "28".to_owned(),
+        height: 9.5,
+        colour: [200, 50, 52, 255],
+        halo: [255; 4],
+        lift: 0.05,
+    };
+    Scene {
+        meshes: vec![
+            Arc::new(sphere(0.5, BODY, BODY)),
+            placed(&woven, Vec3::new(-0.55, 0.1, 0.2)),
+            placed(&net, Vec3::new(0.4, 0.1, 0.6)),
+        ],
+        lines: vec![line],
+        labels: vec![label],
+        ground: Some(Ground { height: -0.5, centre: Vec2::ZERO, radius: 2.0 }),
+    }
+}
+
+/// A picture of `scene`, and the number of its tiles.
+fn fine(
+    studio: &mut Studio,
+    scene: &Scene,
+    camera: Camera,
+    look: &Look,
+    (size, fineness): (UVec2, Fineness),
+) -> (image::RgbaImage, usize) {
+    let mut picture = studio.fine(scene.clone(), camera, look, size, fineness).expect("a plan");
+    let tiles = picture.progress().1;
+    while !picture.is_done() {
+        studio.go_on(&mut picture).expect("a tile");
+    }
+    (picture.finish(), tiles)
+}
+
+#[test]
+fn a_picture_in_tiles_is_the_picture_in_one_piece() {
+    let Some(mut studio) = studio() else { return };
+    let scene = full_scene();
+    let wide = framed(&scene, View::ThreeQuarter, SIZE);
+    let parallel = Camera { projection: toile::render::Projection::Orthographic, ..wide };
+    let mut near = wide;
+    near.zoom(0.3, near.pivot);
+    let plain = Look::light();
+    let odd = UVec2::new(157, 101);
+    for (name, camera, look, size, times) in [
+        ("opaque", wide, plain, SIZE, 2),
+        ("parallel", parallel, Look { wire: true, ..plain }, SIZE, 2),
+        ("near", near, Look { xray: true, sheer: true, ..plain }, SIZE, 2),
+        ("transparent", wide, Look { cut_out: true, pixels_per_point: 1.5, ..plain }, SIZE, 2),
+        ("evening", wide, Look { light: Light::Evening, ..plain }, odd, 3),
+    ] {
+        let (whole, one) = fine(&mut studio, &scene, camera, &look, (size, Fineness { times, tile: 1024 }));
+        let (tiled, many) = fine(&mut studio, &scene, camera, &look, (size, Fineness { times, tile: 128 }));
+        assert!(one == 1 && many > 10, "{name}: {one} and {many} tiles");
+        assert_eq!(whole.dimensions(), (size.x, size.y));
+        let apart: Vec<u8> = whole.iter().zip(tiled.iter()).map(|(a, b)| a.abs_diff(*b)).collect();
+        // A place at the very border of a texel's shadow may fall on its other side, as positions are interpolated from another
+        // corner: that changes one of six readings, in one of the samples of a pixel.
+        let at_shadows = apart.iter().filter(|d| **d > 1).count();
+        assert!(at_shadows * 100_000 <= apart.len(), "{name}: {at_shadows} of {}", apart.len());
+        assert!(apart.iter().all(|d| *d <= 2), "{name}: {:?} of 255", apart.iter().max());
+        assert_eq!(whole.pixels().any(|p| p[3] < 255), look.cut_out, "{name}");
+    }
+}
+
+#[test]
+fn a_finer_picture_shows_the_same_in_the_same_widths() {
+    let Some(mut studio) = studio() else { return };
+    let mut scene = full_scene();
+    (scene.lines[0].points[1].x, scene.lines[0].width) = (0.1, 12.0);
+    let camera = framed(&scene, View::Front, SIZE);
+    let look = Look::light();
+    let plain = studio.draw(&scene, &camera, &look, SIZE).expect("a picture");
+    let (once, _) = fine(&mut studio, &scene, camera, &look, (SIZE, Fineness::new(1)));
+    assert!(once == plain, "a sample for each pixel is the picture itself");
+    let blue = |image: &image::RgbaImage| {
+        let bluer = image.pixels().map(|p| (i32::from(p[2]) - i32::from(p[0]) - 60).max(0));
+        f64::from(bluer.sum::<i32>())
+    };
+    for times in [2, Fineness::MOST_TIMES] {
+        let (finer, _) = fine(&mut studio, &scene, camera, &look, (SIZE, Fineness::new(times)));
+        let share = blue(&finer) / blue(&plain);
+        assert!((0.9..1.1).contains(&share), "the line is {share} times as wide at {times}");
+        let apart: f64 = plain.iter().zip(finer.iter()).map(|(a, b)| f64::from(a.abs_diff(*b))).sum();
+        let apart = apart / plain.len() as f64;
+        assert!(apart < 4.0, "{apart} of 255 apart at {times}");
+    }
+}
+
+#[test]
+fn a_picture_larger_than_the_textures_is_drawn_in_tiles() {
+    let Some(mut studio) = studio() else { return };
+    // Eight times as wide it is more than adapters hold in one texture.
+    let (scene, size) = (full_scene(), UVec2::new(4200, 8));
+    let camera = framed(&scene, View::Front, size);
+    let (picture, tiles) = fine(&mut studio, &scene, camera, &Look::light(), (size, Fineness::new(8)));
+    assert_eq!((picture.dimensions(), tiles > 1), ((4200, 8), true));
+    assert!(picture.pixels().all(|p| p[3] == 255), "no tile is missing");
+}
+
+#[test]
+fn an_image_lights_from_where_it_is_bright() {
+    let Some(mut studio) = studio() else { return };
+    // Red on the right of one who stands in it with the back to -z, that is, on the left of one who looks at the front.
+    let image = image::Rgb32FImage::from_fn(64, 32, |x, _| {
+        image::Rgb(if x >= 32 { [90.0, 20.0, 20.0] } else { [20.0, 20.0, 90.0] })
+    });
+    let environment = Harmonics::of_image(&image).with_mean(MEAN_LIGHT);
+    assert!(environment.is_some());
+    let look = Look { environment, key: 0.0, ..Look::light() };
+    let scene = Scene { meshes: vec![Arc::new(sphere(0.5, [160; 3], [160; 3]))], ..Default::default() };
+    let warmth = |image: &image::RgbaImage, x: u32| {
+        let [r, _, b] = pixel(image, x, 120);
+        r - b
+    };
+    let front = studio.picture(&scene, View::Front, &look, SIZE).expect("a picture");
+    assert!(warmth(&front, 90) > 30 && warmth(&front, 230) < -30);
+    assert!(warmth(&front, 160).abs() < 12, "both from the middle");
+    // It stays where it is when the eye goes round, while the studio's light goes with the eye.
+    let back = studio.picture(&scene, View::Back, &look, SIZE).expect("a picture");
+    assert!(warmth(&back, 90) < -30 && warmth(&back, 230) > 30);
+    let plain = Look { key: 0.0, ..Look::light() };
+    let [front, back] =
+        [View::Front, View::Back].map(|view| studio.picture(&scene, view, &plain, SIZE).expect("a picture"));
+    let apart: f64 = front.iter().zip(back.iter()).map(|(a, b)| f64::from(a.abs_diff(*b))).sum();
+    assert!(apart / (front.len() as f64) < 0.5, "{apart}");
+}
+
+#[test]
+fn polished_cloth_reflects_what_is_around_it() {
+    let Some(mut studio) = studio() else { return };
+    let look = Look { key: 0.0, occlusion: 0.0, ..Look::light() };
+    let mut draw = |gloss: f32, roughness: f32| {
+        let mut cloth = sphere(0.5, [40; 3], [40; 3]);
+        cloth.cloth = 1.0;
+        cloth.textile = Textile { gloss, roughness, sheen: 0.0, ..Textile::default() };
+        let scene = Scene { meshes: vec![Arc::new(cloth)], ..Default::default() };
+        studio.picture(&scene, View::Front, &look, SIZE).expect("a picture")
+    };
+    let [matt, rough, polished] = [(0.0, 0.5), (1.0, 0.6), (1.0, 0.1)].map(|(g, r)| draw(g, r));
+    let brighter = |image: &image::RgbaImage| {
+        let rises = image.pixels().zip(matt.pixels()).map(|(a, b)| i32::from(a[1]) - i32::from(b[1]));
+        rises.collect::<Vec<i32>>()
+    };
+    let [soft, hard] = [&rough, &polished].map(brighter);
+    assert!(soft.iter().chain(&hard).all(|rise| *rise >= -2), "a reflection only adds light");
+    // The edge of a softbox is sharp in polished cloth: the steepest rise from pixel to pixel inside the sphere.
+    let steepest = |rises: &[i32]| {
+        let inside = |x: usize, y: usize| (x as i32 - 160).pow(2) + (y as i32 - 120).pow(2) < 75 * 75;
+        let steps = (0..240).flat_map(|y| (1..320).map(move |x| (x, y))).filter(|&(x, y)| inside(x, y));
+        steps.map(|(x, y)| (rises[y * 320 + x] - rises[y * 320 + x - 1]).abs()).max().unwrap_or(0)
+    };
+    assert!(steepest(&hard) > 2 * steepest(&soft), "{} and {}", steepest(&hard), steepest(&soft));
 }

@@ -354,6 +354,43 @@ pub fn write_asked(window: &mut Window, path: &Path) -> bool {
 }
 
 #[test]
+fn a_fine_picture_is_drawn_tile_by_tile_and_can_be_stopped() {
+    let Some(device) = egui_wgpu_device() else { return };
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = window_on(project(), Some(device));
+    let begin = |window: &mut Window, times: u32, name: &str| {
+        key(window, Modifiers::COMMAND | Modifiers::SHIFT, Key::P);
+        window.run_steps(3);
+        window.get_by_role_and_label(egui::accesskit::Role::ComboBox, "Smoothness").click();
+        window.run_steps(3);
+        window.get_by_label(&format!("{times} × {times} samples for each pixel")).click();
+        window.run_steps(3);
+        window.get_by_label("Choose a file…").click();
+        window.run_steps(3);
+        write_asked(window, &folder.path().join(name))
+    };
+    if !begin(&mut window, 4, "fine.png") {
+        return;
+    }
+    let path = folder.path().join("fine.png");
+    window.run_steps(2);
+    assert!(window.query_by_label("The picture is being drawn").is_some() && !path.exists());
+    let since = std::time::Instant::now();
+    while !path.exists() && since.elapsed().as_secs() < 120 {
+        window.run_steps(1);
+    }
+    window.run_steps(2);
+    let picture = image::open(&path).expect("a PNG");
+    assert!(picture.width() > 300 && window.query_by_label_contains("Written: ").is_some());
+    assert!(begin(&mut window, 8, "stopped.png"));
+    window.run_steps(2);
+    window.get_by_label("Stop").click();
+    window.run_steps(3);
+    assert!(window.query_by_label("The picture was stopped: nothing is written").is_some());
+    assert!(!folder.path().join("stopped.png").exists());
+}
+
+#[test]
 fn the_fit_report_is_written_where_it_is_asked_for() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("fit.html");

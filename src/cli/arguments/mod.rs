@@ -3,6 +3,7 @@
 mod bench;
 mod install;
 mod marker;
+mod picture;
 mod report;
 mod techpack;
 
@@ -16,6 +17,8 @@ use crate::body::{NamedPose, Unit, UpAxis};
 pub use crate::cli::arguments::bench::{Bench, BenchKind, CorpusOptions, TrustOptions};
 pub use crate::cli::arguments::install::{Completions, Man};
 pub use crate::cli::arguments::marker::Marker;
+pub use crate::cli::arguments::picture::PictureOptions;
+use crate::cli::arguments::picture::{size, view};
 pub use crate::cli::arguments::report::{Merge, Report, ReportTask};
 pub use crate::cli::arguments::techpack::TechPack;
 use crate::cli::cloth_options::ClothOptions;
@@ -25,7 +28,7 @@ use crate::draft::Shard;
 use crate::fit::MapKind;
 use crate::io::pdf::Paper;
 use crate::io::scale::DrawingUnit;
-use crate::render::{Light, View};
+use crate::render::View;
 use crate::sim::Start;
 
 /// Dress a body in cloth: draw and sew flat pieces, paint marks, press Wrap.
@@ -232,13 +235,7 @@ impl Dress {
             save: None,
             record: None,
             max_ticks: MAX_TICKS,
-            picture: PictureOptions {
-                view: View::ThreeQuarter,
-                size: [1280, 800],
-                transparent: false,
-                supersample: 1,
-                light: Light::Studio,
-            },
+            picture: PictureOptions::seen_from(View::ThreeQuarter),
             no_picture: false,
             work: WorkOptions::default(),
             resume: false,
@@ -269,26 +266,6 @@ pub struct WorkOptions {
 
 fn skips(text: &str) -> Result<Skips, String> {
     if text.is_empty() { Ok(Skips::default()) } else { text.parse() }
-}
-
-/// Options of a picture.
-#[derive(Clone, Copy, Debug, Args)]
-pub struct PictureOptions {
-    /// The view: front, back, left, right, top, below, three-quarter, or YAW,PITCH in degrees
-    #[arg(long, default_value = "front", value_parser = view, allow_hyphen_values = true)]
-    pub view: View,
-    /// Width and height in pixels
-    #[arg(long, default_value = "1280x800", value_parser = size)]
-    pub size: [u32; 2],
-    /// Draws neither background nor floor
-    #[arg(long)]
-    pub transparent: bool,
-    /// Draws this many times as wide and high, 1 to 4, and shrinks the picture: smoother edges and threads
-    #[arg(long, value_name = "TIMES", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=4))]
-    pub supersample: u32,
-    /// The light: studio, daylight or evening; a transparent picture has it, too
-    #[arg(long, value_name = "NAME", default_value = "studio")]
-    pub light: Light,
 }
 
 /// Runs a recording, compares its hashes, and stops at the first difference
@@ -551,6 +528,10 @@ pub struct Render {
     pub cloth: ClothOptions,
     #[command(flatten)]
     pub picture: PictureOptions,
+    /// Light from all sides out of an image of all directions (PNG, JPEG or Radiance HDR, equirectangular, twice as wide as high),
+    /// its middle before the body; its mean brightness is set to the studio's, and the lamp of --light stays
+    #[arg(long, value_name = "IMAGE")]
+    pub environment: Option<PathBuf>,
     /// The picture (PNG)
     #[arg(short, long, value_name = "PNG")]
     pub output: PathBuf,
@@ -657,18 +638,6 @@ fn frame_rate(text: &str) -> Result<f64, String> {
     rate.ok_or_else(|| format!("{text:?} is not a number of frames a second from 0.1 to 1000"))
 }
 
-fn view(text: &str) -> Result<View, String> {
-    text.parse::<View>().map_err(|e| e.to_string())
-}
-
-fn size(text: &str) -> Result<[u32; 2], String> {
-    let side = |t: &str| t.parse::<u32>().ok().filter(|n| (1..=16384).contains(n));
-    match text.split_once('x').map(|(w, h)| (side(w), side(h))) {
-        Some((Some(width), Some(height))) => Ok([width, height]),
-        _ => Err(format!("{text:?} is not WIDTHxHEIGHT, each 1 to 16384")),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use clap::CommandFactory;
@@ -678,12 +647,5 @@ mod tests {
     #[test]
     fn the_arguments_are_consistent() {
         Arguments::command().debug_assert();
-    }
-
-    #[test]
-    fn sizes_and_views_are_read() {
-        assert_eq!(size("1280x800"), Ok([1280, 800]));
-        assert!(size("0x10").is_err() && size("99999x9").is_err() && size("12").is_err());
-        assert!(view("front").is_ok() && view("-30,10").is_ok() && view("inside").is_err());
     }
 }

@@ -252,6 +252,7 @@ impl FrameContext {
             Action::ToggleSheer => self.sight.sheer,
             Action::ToggleXray => self.sight.xray,
             Action::Light(light) => self.sight.light == light,
+            Action::BodyLook(look) => self.sight.body_look == look,
             Action::ToggleHistory => self.drawer == Some(Drawer::History),
             Action::ToggleLog => self.drawer == Some(Drawer::Log),
             Action::ToggleMapTable => self.drawer == Some(Drawer::Map),

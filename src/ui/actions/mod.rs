@@ -21,6 +21,7 @@ use crate::ui::actions::layout::Panes;
 use crate::ui::look::scheme::Theme;
 use crate::ui::pointer::mouse::Mouse;
 use crate::ui::preferences::units::LengthUnit;
+use crate::ui::scenery::body_look::BodyLook;
 
 /// A tool, which the left mouse button uses in the panes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -176,6 +177,7 @@ pub enum Action {
     ToggleXray,
     TogglePairs,
     Light(Light),
+    BodyLook(BodyLook),
     TogglePanel,
     Show(Panes),
     SwapPanes,

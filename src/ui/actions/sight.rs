@@ -1,6 +1,7 @@
 //! Display options of body and cloth.
 
 use crate::render::{Light, Look};
+use crate::ui::scenery::body_look::BodyLook;
 
 /// Display options of body and cloth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -15,18 +16,27 @@ pub struct Sight {
     pub pairs: bool,
     /// Light of the surroundings.
     pub light: Light,
+    /// How the body is shown.
+    pub body_look: BodyLook,
 }
 
 impl Default for Sight {
     fn default() -> Self {
-        Self { wire: false, sheer: false, xray: false, pairs: true, light: Light::Studio }
+        Self {
+            wire: false,
+            sheer: false,
+            xray: false,
+            pairs: true,
+            light: Light::Studio,
+            body_look: BodyLook::Skin,
+        }
     }
 }
 
 impl Sight {
-    /// `look` with these options.
+    /// `look` with the options of these that the renderer knows.
     pub fn on(self, look: Look) -> Look {
-        let Self { wire, sheer, xray, light, pairs: _ } = self;
+        let Self { wire, sheer, xray, light, pairs: _, body_look: _ } = self;
         Look { wire, sheer, xray, light, ..look }
     }
 }

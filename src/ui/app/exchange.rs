@@ -37,7 +37,7 @@ impl App {
             }),
             Purpose::Picture => self.write_picture(path),
             Purpose::Turn => {
-                self.begin_turn(path);
+                self.begin_pictures(path);
                 Ok(())
             }
             Purpose::AllSizes => self.write_all_sizes(path),

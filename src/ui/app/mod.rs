@@ -322,7 +322,7 @@ impl App {
         self.carry_selection(&document);
         self.take_comparison();
         self.take_tech_pack();
-        self.shell.maps.look(&snapshot, &document.fabrics);
+        self.shell.maps.look(&snapshot, &document.fabrics, self.shell.sight.body_look);
         let now = self.situation(&ctx, &document, &snapshot);
         self.scheme = Scheme::of(self.preferences.theme, ctx.theme());
         let palette = Palette::of(self.scheme);

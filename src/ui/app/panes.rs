@@ -173,6 +173,7 @@ impl App {
             spot: self.spot(),
             ghosts: self.ghosts.as_ref().map(|g| &g.marks),
             look: self.shell.sight.on(theme::look(self.scheme)),
+            body_look: self.shell.sight.body_look,
             palette,
         }
     }

@@ -5,7 +5,7 @@ use std::path::Path;
 use egui::{ComboBox, DragValue, Id, Modal};
 use glam::UVec2;
 
-use crate::render::{Camera, Look, Projection, View, png};
+use crate::render::{Camera, FinePicture, Fineness, Legend, Look, Projection, RenderError, View, png};
 use crate::ui::actions::{Action, VIEWS};
 use crate::ui::app::App;
 use crate::ui::files::{self, Purpose};
@@ -27,14 +27,25 @@ pub struct PictureOptions {
     pub cut_out: bool,
     /// Draw marks.
     pub marks: bool,
+    /// Drawn pixels along each side of a pixel, 1..=8.
+    pub times: u32,
     /// Number of pictures in a full turn; 1 is a single picture.
     pub count: u32,
 }
 
 impl Default for PictureOptions {
     fn default() -> Self {
-        Self { size: UVec2::new(1920, 1200), view: None, cut_out: false, marks: false, count: 1 }
+        Self { size: UVec2::new(1920, 1200), view: None, cut_out: false, marks: false, times: 1, count: 1 }
     }
+}
+
+/// A picture that is being drawn.
+#[derive(Debug)]
+pub struct PlannedPicture {
+    /// The drawing so far.
+    pub drawing: FinePicture,
+    /// The legend of the map that it shows.
+    legend: Option<Legend>,
 }
 
 /// The open dialog.
@@ -96,6 +107,8 @@ impl PicturePage {
                 ui.label(tr("Marks"));
                 ui.checkbox(&mut options.marks, tr("with marks and pins"));
                 ui.end_row();
+                smoothness_ui(ui, &mut options.times);
+                ui.end_row();
                 let label = ui.label(tr("A full turn"));
                 ui.horizontal(|ui| {
                     let value = DragValue::new(&mut options.count).range(1..=360);
@@ -119,6 +132,21 @@ impl PicturePage {
         });
         if shown.should_close() { Answer::Cancel } else { shown.inner }
     }
+}
+
+/// The list of how often each pixel is drawn.
+fn smoothness_ui(ui: &mut egui::Ui, times: &mut u32) {
+    let words = |times: u32| match times {
+        1 => tr("usual").to_owned(),
+        _ => say!("{times} × {times} samples for each pixel", times),
+    };
+    let label = ui.label(tr("Smoothness"));
+    let shown = ComboBox::from_id_salt("times").selected_text(words(*times)).show_ui(ui, |ui| {
+        for choice in [1, 2, 4, Fineness::MOST_TIMES] {
+            ui.selectable_value(times, choice, words(choice));
+        }
+    });
+    shown.response.labelled_by(label.id).on_hover_text(tr("Smoother edges and threads, drawn more slowly"));
 }
 
 /// Buttons for common sizes.
@@ -150,9 +178,14 @@ impl App {
         }
     }
 
-    /// Renders a picture by the options chosen last and writes it. The error is a message.
+    /// Renders a picture by the options chosen last and writes it; a fine one is begun, and goes on in the next frames. The error
+    /// is a message.
     pub(in crate::ui) fn write_picture(&mut self, path: &Path) -> Result<(), String> {
         let options = self.picture_options;
+        if options.times > 1 {
+            self.begin_pictures(path);
+            return Ok(());
+        }
         let camera = self.camera_of_picture(&options);
         let bytes = self.photograph(&options, &camera)?;
         files::write(path, &bytes)?;
@@ -165,7 +198,7 @@ impl App {
         let mut camera = self.scene_pane.camera;
         if let Some(view) = options.view {
             let session = self.demo.as_ref().map_or(&self.session, |(player, ..)| player.session());
-            let extras = Extras { marks: options.marks, pins: options.marks, map: None };
+            let extras = Extras { marks: options.marks, pins: options.marks, ..Extras::default() };
             let scene = portrait(&mut self.scenery, session, extras);
             camera = Camera { projection: camera.projection, ..Camera::default() };
             camera.look(view);
@@ -182,14 +215,29 @@ impl App {
         options: &PictureOptions,
         camera: &Camera,
     ) -> Result<Vec<u8>, String> {
+        let mut picture = self.plan_picture(options, camera)?;
+        while !picture.drawing.is_done() {
+            self.draw_more(&mut picture)?;
+        }
+        picture.developed()
+    }
+
+    /// Plans a picture with `options`. The error is a message.
+    pub(in crate::ui) fn plan_picture(
+        &mut self,
+        options: &PictureOptions,
+        camera: &Camera,
+    ) -> Result<PlannedPicture, String> {
         let session = self.demo.as_ref().map_or(&self.session, |(player, ..)| player.session());
         let map = self.shell.maps.shown();
-        let colours = map.map(|map| &map.colours);
-        let extras = Extras { marks: options.marks, pins: options.marks, map: colours };
-        let scene = portrait(&mut self.scenery, session, extras);
-        let Some(graphics) = &mut self.scene_pane.graphics else {
-            return Err(tr("There is no graphics adapter to draw with").to_owned());
+        let extras = Extras {
+            marks: options.marks,
+            pins: options.marks,
+            map: map.map(|map| &map.colours),
+            body_look: self.shell.sight.body_look,
         };
+        let scene = portrait(&mut self.scenery, session, extras);
+        let graphics = self.scene_pane.graphics.as_ref().ok_or_else(no_adapter)?;
         // Lines keep their width relative to the picture, as in the pane.
         let points = self.scene_pane.area.map_or(options.size.y as f32, |pane| pane.height());
         let look = Look {
@@ -197,18 +245,36 @@ impl App {
             cut_out: options.cut_out,
             ..self.shell.sight.on(theme::look(self.scheme))
         };
-        let picture = graphics.photograph(&scene, camera, &look, options.size);
-        let with_legend = |mut picture| {
-            if let Some(map) = map {
-                map.legend().burn(&mut picture);
-            }
-            picture
-        };
-        picture
-            .map(with_legend)
-            .and_then(|picture| png(&picture))
-            .map_err(|e| say!("There is no picture: {why}", why = e))
+        let fineness = Fineness::new(options.times);
+        let drawing = graphics.fine(scene, *camera, &look, options.size, fineness);
+        let drawing = drawing.map_err(|why| no_picture(&why))?;
+        Ok(PlannedPicture { drawing, legend: map.map(|map| map.legend()) })
     }
+
+    /// Draws the next tile of `picture`. The error is a message.
+    pub(in crate::ui) fn draw_more(&mut self, picture: &mut PlannedPicture) -> Result<(), String> {
+        let graphics = self.scene_pane.graphics.as_mut().ok_or_else(no_adapter)?;
+        graphics.go_on(&mut picture.drawing).map_err(|why| no_picture(&why))
+    }
+}
+
+impl PlannedPicture {
+    /// The picture, drawn, as PNG with its legend. The error is a message.
+    pub fn developed(self) -> Result<Vec<u8>, String> {
+        let mut picture = self.drawing.finish();
+        if let Some(legend) = self.legend {
+            legend.burn(&mut picture);
+        }
+        png(&picture).map_err(|why| no_picture(&why))
+    }
+}
+
+fn no_adapter() -> String {
+    tr("There is no graphics adapter to draw with").to_owned()
+}
+
+fn no_picture(why: &RenderError) -> String {
+    say!("There is no picture: {why}", why)
 }
 
 /// The camera that shows in a picture of `size` all that `camera` shows at the width-to-height ratio `aspect`.

@@ -133,6 +133,7 @@ impl App {
             Action::ToggleSheer => self.shell.sight.sheer = !self.shell.sight.sheer,
             Action::ToggleXray => self.shell.sight.xray = !self.shell.sight.xray,
             Action::Light(light) => self.shell.sight.light = light,
+            Action::BodyLook(look) => self.shell.sight.body_look = look,
             Action::TogglePairs => self.shell.sight.pairs = !self.shell.sight.pairs,
             Action::ToggleHistory => self.shell.drawer = toggled(Drawer::History),
             Action::ToggleLog => self.shell.drawer = toggled(Drawer::Log),

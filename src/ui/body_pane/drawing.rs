@@ -49,6 +49,7 @@ impl ScenePane {
             quality: if draft { Quality::Draft } else { Quality::Finished },
             size: UVec2::new(pixels.x.max(1.0) as u32, pixels.y.max(1.0) as u32),
             body: seen.body.cloned(),
+            body_look: seen.body_look,
             cloth: seen.cloth.map(|(_, state)| Arc::clone(state)),
             marks: Some(Arc::clone(&seen.document.marks)),
             stroke: stroke.len() + far_stroke.len(),
@@ -73,6 +74,7 @@ impl ScenePane {
         outlines.extend(seen.spot.map(ring));
         let shown = Shown {
             body: seen.body,
+            body_look: seen.body_look,
             cloth: seen.cloth,
             pattern: Some(&seen.document.pattern),
             marks: Some(&seen.document.marks),

@@ -14,9 +14,11 @@ use crate::pattern::Pattern;
 use crate::pattern::activity::Activity;
 use crate::pattern::stitches::is_trimmed_alike;
 use crate::render::{
-    Camera, Gpu, Look, Mesh, OffscreenTarget, Quality, RenderError, Renderer, Rgb, Scene, straightened,
+    Camera, FinePicture, Fineness, Gpu, Look, Mesh, OffscreenTarget, Quality, RenderError, Renderer, Rgb,
+    Scene, straightened,
 };
 use crate::sim::ClothPlace;
+use crate::ui::scenery::body_look::BodyLook;
 use crate::ui::scenery::fabric_looks::PieceLooks;
 use crate::ui::scenery::scene::PinLook;
 use crate::ui::selection::Item;
@@ -35,6 +37,8 @@ pub struct Key {
     pub quality: Quality,
     /// The body.
     pub body: Option<Arc<Surface>>,
+    /// How it is shown.
+    pub body_look: BodyLook,
     /// The cloth.
     pub cloth: Option<Arc<ClothState>>,
     /// The marks of the document.
@@ -79,6 +83,7 @@ impl PartialEq for Key {
             size,
             quality,
             body,
+            body_look,
             cloth,
             marks,
             stroke,
@@ -101,6 +106,7 @@ impl PartialEq for Key {
             && *look == other.look
             && *size == other.size
             && *quality == other.quality
+            && *body_look == other.body_look
             && *stroke == other.stroke
             && *pins == other.pins
             && *bones == other.bones
@@ -208,6 +214,23 @@ impl Graphics {
         self.renderer.draw(&self.gpu, scene, camera, look, &target)?;
         let picture = target.read(&self.gpu)?;
         Ok(if look.cut_out { straightened(picture) } else { picture })
+    }
+
+    /// Plans a separate picture of `size` pixels; [`Graphics::go_on`] draws it.
+    pub fn fine(
+        &self,
+        scene: Scene,
+        camera: Camera,
+        look: &Look,
+        size: UVec2,
+        fineness: Fineness,
+    ) -> Result<FinePicture, RenderError> {
+        FinePicture::new(&self.gpu, scene, camera, look, size, fineness)
+    }
+
+    /// Draws the next tile of `picture` and waits for it.
+    pub fn go_on(&mut self, picture: &mut FinePicture) -> Result<(), RenderError> {
+        picture.draw_next(&self.gpu, &mut self.renderer)
     }
 
     fn target_of(&mut self, size: UVec2, quality: Quality) -> Result<TextureId, RenderError> {

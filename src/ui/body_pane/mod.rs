@@ -43,6 +43,7 @@ use crate::ui::maps::ShownMap;
 use crate::ui::pointer::clicks::clicks;
 use crate::ui::pointer::mouse::{Mouse, PointerAction, held};
 use crate::ui::pointer::stroke;
+use crate::ui::scenery::body_look::BodyLook;
 use crate::ui::scenery::scene::Scenery;
 use crate::ui::selection::Item;
 use crate::wrap::Marks;
@@ -101,6 +102,8 @@ pub struct Seen<'a> {
     pub ghosts: Option<&'a Arc<Marks>>,
     /// Colours, light and display options.
     pub look: Look,
+    /// How the body is shown.
+    pub body_look: BodyLook,
     /// Colours of the interface.
     pub palette: &'a Palette,
 }

@@ -12,6 +12,7 @@ use crate::session::{Outfit, Session};
 use crate::sim::{Runner, Simulation};
 use crate::ui::files;
 use crate::ui::language::say;
+use crate::ui::scenery::body_look::BodyLook;
 use crate::ui::scenery::mapped::in_colours;
 use crate::ui::scenery::scene::{body_mesh, cloth_mesh};
 
@@ -62,6 +63,7 @@ impl Unlike {
 struct Place {
     shift: Vec3,
     colours: Option<(MapKind, [f64; 2])>,
+    body_look: BodyLook,
 }
 
 impl Comparison {
@@ -104,18 +106,20 @@ impl Comparison {
         self.matched.as_ref()?.1.as_ref().err().map(String::as_str)
     }
 
-    /// Builds the meshes of this garment, on the right of `present` or on the left, in the colours of the given map and range.
+    /// Builds the meshes of this garment, on the right of `present` or on the left, in the colours of the given map and range, on
+    /// its body with `body_look`.
     pub(super) fn draw_beside(
         &mut self,
         present: &Outfit,
         on_the_left: bool,
         colours: Option<(MapKind, [f64; 2], Palette)>,
+        body_look: BodyLook,
     ) {
         let ((left, right), (own_left, own_right)) = (present.body.bounds(), self.outfit.body.bounds());
         let gap = GAP * present.body.scale();
         let aside = if on_the_left { left.x - own_right.x - gap } else { right.x - own_left.x + gap };
         let shift = (DVec3::X * aside).as_vec3();
-        let place = Place { shift, colours: colours.map(|(kind, range, _)| (kind, range)) };
+        let place = Place { shift, colours: colours.map(|(kind, range, _)| (kind, range)), body_look };
         if self.drawn.as_ref().is_some_and(|(drawn, _)| *drawn == place) {
             return;
         }
@@ -124,7 +128,7 @@ impl Comparison {
             let inks: Vec<_> = self.map(kind).vertices.iter().map(|&v| palette.colour(v, range)).collect();
             cloth = in_colours(&cloth, &inks).unwrap_or(cloth);
         }
-        let meshes = [body_mesh(&self.outfit.body), cloth].map(|mut mesh| {
+        let meshes = [body_mesh(&self.outfit.body, body_look), cloth].map(|mut mesh| {
             mesh.positions.iter_mut().for_each(|p| *p += shift);
             Arc::new(mesh)
         });

@@ -20,6 +20,7 @@ use crate::render::{Legend, Palette, Rgb};
 use crate::session::{Fabrics, Outfit};
 use crate::sim::Snapshot;
 use crate::ui::language::{say, tr};
+use crate::ui::scenery::body_look::BodyLook;
 use crate::ui::scenery::map_colours::palette;
 pub use beside::{beside_ui, opening_ui};
 pub use chooser::{choices, chooser_ui};
@@ -142,8 +143,9 @@ impl MapView {
         self.shown.as_ref()
     }
 
-    /// Computes the chosen map of the cloth of `snapshot`, unless that was done before. `fabrics` are those of the cloth.
-    pub fn look(&mut self, snapshot: &Snapshot, fabrics: &Fabrics) {
+    /// Computes the chosen map of the cloth of `snapshot`, unless that was done before. `fabrics` are those of the cloth; a
+    /// garment beside is on a body with `body_look`.
+    pub fn look(&mut self, snapshot: &Snapshot, fabrics: &Fabrics, body_look: BodyLook) {
         let is_wanted = self.kind.is_some() || self.beside.is_some();
         let outfit = is_wanted.then(|| Outfit::of(snapshot, fabrics)).flatten();
         self.look_at(outfit.as_ref());
@@ -152,7 +154,7 @@ impl MapView {
             Some(outfit) => {
                 let own = self.shown.as_ref().filter(|shown| !shown.is_difference);
                 let colours = own.map(|shown| (shown.map.kind, shown.range, shown.palette()));
-                beside.draw_beside(outfit, self.on_the_left, colours);
+                beside.draw_beside(outfit, self.on_the_left, colours, body_look);
             }
             None => beside.put_away(),
         }

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use crate::pattern::activity::Activity;
 use crate::render::{Rgb, Scene, View};
 use crate::session::{Dyes, Outfit, Session};
+use crate::ui::scenery::body_look::BodyLook;
 use crate::ui::scenery::fabric_looks::{looks_of, piece_looks};
 use crate::ui::scenery::scene::{Scenery, Shown};
 
@@ -18,6 +19,8 @@ pub struct Extras<'a> {
     pub pins: bool,
     /// Colours of a map, one for each vertex of the cloth; None: the cloth's own colours.
     pub map: Option<&'a Arc<Vec<Rgb>>>,
+    /// How the body is shown.
+    pub body_look: BodyLook,
 }
 
 /// The scene of a session: the body and the cloth, with frozen and deactivated pieces in their colours; where nothing is dressed
@@ -37,6 +40,7 @@ pub fn portrait(scenery: &mut Scenery, session: &Session, extras: Extras<'_>) ->
         looks: Some(&looks),
         whole: whole.filter(|_| dressed && activities.values().any(Activity::is_deactivated)),
         map: extras.map,
+        body_look: extras.body_look,
         pinned: if extras.pins { &snapshot.pinned } else { &[] },
         ..Shown::default()
     })

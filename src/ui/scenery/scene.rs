@@ -13,7 +13,8 @@ use crate::geometry::ids::{MarkId, PieceId};
 use crate::geometry::mesh::vertex_normals;
 use crate::pattern::Pattern;
 use crate::pattern::activity::Activity;
-use crate::render::{BODY, CLOTH_BACK, CLOTH_FRONT, Ground, Label, Mesh, Polyline, Rgb, Scene, mark_colour};
+use crate::render::{CLOTH_BACK, CLOTH_FRONT, Ground, Label, Mesh, Polyline, Rgb, Scene, mark_colour};
+use crate::ui::scenery::body_look::BodyLook;
 use crate::ui::scenery::covered::covered;
 use crate::ui::scenery::fabric_looks::PieceLooks;
 use crate::ui::scenery::mapped::in_colours;
@@ -37,6 +38,8 @@ pub struct PinLook {
 pub struct Shown<'a> {
     /// The body.
     pub body: Option<&'a Arc<Surface>>,
+    /// How the body is shown.
+    pub body_look: BodyLook,
     /// The garment, and its positions.
     pub cloth: Option<(&'a Arc<Garment>, &'a Arc<ClothState>)>,
     /// The pattern, whose stitches, zips and buttons are drawn on the cloth.
@@ -86,7 +89,7 @@ impl Shown<'_> {
 /// Builds scenes; parts that did not change since the last scene are kept.
 #[derive(Debug, Default)]
 pub struct Scenery {
-    body: Option<(Arc<Surface>, Arc<Mesh>)>,
+    body: Option<(Arc<Surface>, BodyLook, Arc<Mesh>)>,
     cloth: Option<DrawnCloth>,
     places: Option<MarkPlaces>,
     trims: TrimScenery,
@@ -152,7 +155,7 @@ impl Scenery {
         let mut scene = Scene::default();
         let scale = shown.body.map_or(1.0, |b| b.scale() as f32);
         if let Some(body) = shown.body {
-            scene.meshes.push(self.body_mesh(body));
+            scene.meshes.push(self.body_mesh(body, shown.body_look));
             scene.ground = Some(ground(body));
         }
         let mut covered = 0;
@@ -199,12 +202,12 @@ impl Scenery {
         scene.meshes.extend(mesh.map(Arc::new));
     }
 
-    fn body_mesh(&mut self, body: &Arc<Surface>) -> Arc<Mesh> {
+    fn body_mesh(&mut self, body: &Arc<Surface>, look: BodyLook) -> Arc<Mesh> {
         match &self.body {
-            Some((kept, mesh)) if Arc::ptr_eq(kept, body) => Arc::clone(mesh),
+            Some((kept, of, mesh)) if Arc::ptr_eq(kept, body) && *of == look => Arc::clone(mesh),
             _ => {
-                let mesh = Arc::new(body_mesh(body));
-                self.body = Some((Arc::clone(body), Arc::clone(&mesh)));
+                let mesh = Arc::new(body_mesh(body, look));
+                self.body = Some((Arc::clone(body), look, Arc::clone(&mesh)));
                 mesh
             }
         }
@@ -302,16 +305,14 @@ impl Scenery {
     }
 }
 
-/// The mesh of a body in its colour.
-pub fn body_mesh(body: &Surface) -> Mesh {
-    Mesh {
+/// The mesh of a body as it looks.
+pub fn body_mesh(body: &Surface, look: BodyLook) -> Mesh {
+    look.on(Mesh {
         positions: body.mesh.positions.iter().map(|p| p.as_vec3()).collect(),
         normals: body.vertex_normals.iter().map(|n| n.as_vec3()).collect(),
         triangles: body.mesh.triangles.clone(),
-        front: BODY,
-        back: BODY,
         ..Mesh::default()
-    }
+    })
 }
 
 /// The mesh of the cloth that is placed on the body, in its own colours.

@@ -18,6 +18,7 @@ use crate::ui::look::scheme::Theme;
 use crate::ui::maps;
 use crate::ui::pointer::mouse::Mouse;
 use crate::ui::preferences::units::LengthUnit;
+use crate::ui::scenery::body_look::BodyLook;
 
 /// Height that the frame of a menu takes, and least height of its entries, points.
 const FRAME: f32 = 20.0;
@@ -248,6 +249,7 @@ fn view_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) {
     items(ui, now, asks, &[Action::ToggleParallel, Action::ToggleFreeTurning]);
     ui.separator();
     items(ui, now, asks, &[Action::ToggleWire, Action::ToggleSheer, Action::ToggleXray, Action::TogglePairs]);
+    ui.menu_button(tr("Look of the body"), |ui| items(ui, now, asks, &BodyLook::ALL.map(Action::BodyLook)));
     ui.menu_button(tr("Map"), |ui| {
         maps::choices().for_each(|kind| item(ui, now, asks, Action::Map(kind)));
         ui.separator();

@@ -17,6 +17,7 @@ use crate::ui::actions::Action;
 use crate::ui::actions::row::{Need, Row, row};
 use crate::ui::pointer::mouse::Mouse;
 use crate::ui::preferences::units::LengthUnit;
+use crate::ui::scenery::body_look::BodyLook;
 
 static ROWS: LazyLock<Vec<Row>> = LazyLock::new(|| {
     let mut rows = [file::ROWS, edit::ROWS, pattern::ROWS, garment::ROWS, view::ROWS, help::ROWS].concat();
@@ -39,6 +40,13 @@ static ROWS: LazyLock<Vec<Row>> = LazyLock::new(|| {
             Light::Evening => ("Evening light", "The low sun of the evening"),
         };
         row("View › Theme", Action::Light(light), text, tip).in_demos()
+    }));
+    rows.extend(BodyLook::ALL.map(|look| {
+        let (text, tip) = match look {
+            BodyLook::Skin => ("Skin", "Show the body in its own colour"),
+            BodyLook::Form => ("Dress form", "Show the body as a dress form covered in linen"),
+        };
+        row("View › Look of the body", Action::BodyLook(look), text, tip).in_demos()
     }));
     rows.extend(Mouse::ALL.map(|mouse| {
         row("View › Mouse", Action::Mouse(mouse), mouse.name(), mouse.tip()).in_demos().on_start_page()
