@@ -144,6 +144,7 @@ pub enum Action {
     ToggleElastic,
     ToggleTopstitch,
     ToggleHem,
+    TogglePiping,
     ToggleZip,
     ToggleFastened,
     TurnSeam,
