@@ -1,4 +1,4 @@
-//! Trims of the sewn garment along edges of its mesh: folds, elastic, buttons and hems.
+//! Trims of the sewn garment along edges of its mesh: folds, elastic, buttons, hems and piping.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -20,6 +20,8 @@ pub struct GarmentTrims {
     pub buttons: Vec<[ClothPoint; 2]>,
     /// Flat corners that lie in a hem.
     pub hemmed: Vec<u32>,
+    /// Edges along which piping is sewn in, with its radius, metres. On a seam each side that names it has edges of its own.
+    pub piped: Vec<Along<f64>>,
 }
 
 /// A point of the flat cloth, by flat corners, so that it holds for open pieces too.
@@ -66,6 +68,7 @@ impl GarmentTrims {
     fn put(&mut self, worked: Trims, corners: [u32; 2]) {
         self.folds.extend(worked.fold.map(|what| Along { corners, what }));
         self.elastics.extend(worked.elastic.map(|what| Along { corners, what }));
+        self.piped.extend(worked.piping.map(|piping| Along { corners, what: piping.radius }));
     }
 
     /// The trims with corner c as corner `place[c]`.
@@ -76,6 +79,7 @@ impl GarmentTrims {
             elastics: renumbered(&self.elastics, place),
             hemmed: self.hemmed.iter().map(|&c| place[c as usize]).collect(),
             buttons: self.buttons.iter().map(|ends| ends.map(moved)).collect(),
+            piped: renumbered(&self.piped, place),
         }
     }
 }

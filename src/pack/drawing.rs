@@ -33,11 +33,12 @@ const PLACES: [f64; 7] = [0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8];
 const TRIED: [usize; 7] = [3, 2, 4, 1, 5, 0, 6];
 
 /// What is worked along lines: its ink, and what the legend says of it.
-const WORKED: [(Ink, &str); 4] = [
+const WORKED: [(Ink, &str); 5] = [
     (Ink::Own([222, 120, 20]), "Orange: elastic."),
     (Ink::Own([30, 140, 80]), "Green: hem."),
     (Ink::Own([140, 70, 180]), "Violet: topstitching."),
     (Ink::Own([200, 45, 60]), "Red: fold."),
+    (Ink::Own([20, 150, 190]), "Cyan: piping."),
 ];
 
 /// A piece to be drawn.
@@ -105,8 +106,8 @@ fn pale(colour: [u8; 3]) -> [u8; 3] {
 fn worked(piece: &Piece, front: Front) -> Vec<(usize, Vec<DVec2>)> {
     let fractions: Vec<f64> = (0..=16).map(|i| f64::from(i) / 16.0).collect();
     let kinds = |trims: Trims| {
-        let Trims { fold, elastic, topstitch, hem } = trims;
-        let all = [elastic.is_some(), hem.is_some(), topstitch.is_some(), fold.is_some()];
+        let Trims { fold, elastic, topstitch, hem, piping } = trims;
+        let all = [elastic.is_some(), hem.is_some(), topstitch.is_some(), fold.is_some(), piping.is_some()];
         (0..all.len()).filter(move |&k| all[k])
     };
     let mut lines = Vec::new();

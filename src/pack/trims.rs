@@ -1,10 +1,10 @@
-//! What is worked on the pieces (folds, elastic, stitches, hems, buttons, zips, graphics), and what is bought for it.
+//! What is worked on the pieces (folds, elastic, stitches, hems, piping, buttons, zips, graphics), and what is bought for it.
 
 use serde::Serialize;
 
 use crate::geometry::ids::PieceId;
 use crate::pack::words;
-use crate::pattern::{Pattern, Piece, Trims};
+use crate::pattern::{Pattern, Piece, Piping, Stretch, Trims};
 use crate::session::Artwork;
 
 /// Something worked on a piece, alike in one or several places.
@@ -103,7 +103,7 @@ impl Rows<'_> {
         if trims.is_none() {
             return;
         }
-        let Trims { fold, elastic, topstitch, hem } = trims;
+        let Trims { fold, elastic, topstitch, hem, piping } = trims;
         let length = Some(length());
         if let Some(fold) = fold {
             let way = if fold.angle >= 0.0 { "outwards" } else { "inwards" };
@@ -128,7 +128,10 @@ impl Rows<'_> {
         }
         if let Some(hem) = hem {
             let measures = format!("{:.1} cm turned in", hem.width * 100.0);
-            self.add("hem", place, length, measures, hem.colour);
+            self.add("hem", place.clone(), length, measures, hem.colour);
+        }
+        if let Some(piping) = piping {
+            self.add("piping", place, length, thickness(&piping), Some(piping.colour));
         }
     }
 
@@ -161,13 +164,61 @@ impl Rows<'_> {
     }
 }
 
+/// Thickness of a covered cord, in words.
+fn thickness(piping: &Piping) -> String {
+    format!("{:.1} mm thick", piping.radius * 2e3)
+}
+
+/// Lengths of piping, metres; on a seam whose sides both name it, of one of them: where they differ, as on the first side.
+fn piping(pattern: &Pattern) -> Vec<(Piping, f64)> {
+    let mut lengths = Vec::new();
+    for piece in pattern.pieces.values() {
+        for i in 0..piece.edge_count() {
+            lengths.extend(piece.edge(i).trims.piping.map(|piping| (piping, piece.edge_length(i))));
+        }
+        for line in &piece.lines {
+            let each = |i: usize| Some((line.edges[i].trims.piping?, line_length(line, i)));
+            lengths.extend((0..line.edges.len()).filter_map(each));
+        }
+    }
+    for seam in pattern.seams.values() {
+        let [first, mut second] = seam.sides.map(|side| piped_shares(pattern, &side));
+        if !seam.same_direction {
+            second.iter_mut().for_each(|(_, ends)| *ends = [1.0 - ends[1], 1.0 - ends[0]]);
+        }
+        let length = pattern.pieces.get(&seam.sides[1].piece).and_then(|piece| seam.sides[1].length(piece));
+        for (piping, [from, to]) in second {
+            let common = |[a, b]: [f64; 2]| (b.min(to) - a.max(from)).max(0.0);
+            let shared: f64 = first.iter().map(|(_, ends)| common(*ends)).sum();
+            lengths.push((piping, -shared * length.unwrap_or(0.0)));
+        }
+    }
+    lengths
+}
+
+/// The parts of a side of a seam that have piping, as shares of its length.
+fn piped_shares(pattern: &Pattern, side: &Stretch) -> Vec<(Piping, [f64; 2])> {
+    let Some((piece, parts)) = pattern.pieces.get(&side.piece).and_then(|p| Some((p, side.parts(p)?))) else {
+        return Vec::new();
+    };
+    let lengths: Vec<f64> = parts.iter().map(|&(edge, a, b)| (b - a) * piece.edge_length(edge)).collect();
+    let (total, mut at) = (lengths.iter().sum::<f64>(), 0.0);
+    let mut shares = Vec::new();
+    for ((edge, ..), length) in parts.into_iter().zip(lengths) {
+        let ends = [at / total, (at + length) / total];
+        shares.extend(piece.edge(edge).trims.piping.map(|piping| (piping, ends)));
+        at += length;
+    }
+    shares
+}
+
 /// Length of edge `i` of an internal line, metres.
 fn line_length(line: &crate::pattern::InternalLine, i: usize) -> f64 {
     let end = line.edges.get(i + 1).map_or(line.end, |next| next.start);
     crate::pattern::curve::exact_length(line.edges[i].start, line.edges[i].shape, end)
 }
 
-/// What is bought for one garment: buttons, zips, elastic and thread that is seen.
+/// What is bought for one garment: buttons, zips, elastic, piping and thread that is seen.
 pub fn supplies(pattern: &Pattern, trims: &[TrimRow]) -> Vec<Supply> {
     let mut supplies: Vec<Supply> = Vec::new();
     for button in pattern.buttons.values() {
@@ -197,6 +248,12 @@ pub fn supplies(pattern: &Pattern, trims: &[TrimRow]) -> Vec<Supply> {
         let what = "elastic, cut to its length at rest".to_owned();
         supplies.push(Supply { what, count: None, length: Some(elastic), colour: None });
     }
+    let mut cords: Vec<Supply> = Vec::new();
+    for (cord, length) in piping(pattern) {
+        let what = format!("piping {}", thickness(&cord));
+        add(&mut cords, Supply { what, count: None, length: Some(length), colour: Some(cord.colour) });
+    }
+    supplies.extend(cords.into_iter().filter(|cord| cord.length > Some(1e-6)));
     for row in trims.iter().filter(|row| row.what == "topstitching") {
         let what = "topstitching in this thread, length of its lines".to_owned();
         add(&mut supplies, Supply { what, count: None, length: row.length, colour: row.colour });
@@ -263,5 +320,39 @@ mod tests {
             ]
         );
         assert!((supplies[2].length.expect("a length") - 0.4).abs() < 1e-6);
+    }
+
+    #[test]
+    fn piping_has_rows_and_a_seam_is_bought_one_cord() {
+        let mut pattern = Pattern::default();
+        let corners = [DVec2::ZERO, DVec2::X * 0.4, DVec2::new(0.4, 0.2), DVec2::Y * 0.2];
+        let mut piece = Piece::polygon("front", &corners);
+        let cord = Piping { radius: 0.0015, colour: [1, 2, 3] };
+        for edge in [0, 3] {
+            piece.outline[edge].trims.piping = Some(cord);
+        }
+        let front = pattern.add_piece(piece.clone());
+        let back = pattern.add_piece(Piece { name: "back".to_owned(), ..piece });
+        let bought = |pattern: &Pattern| {
+            let rows = trims(pattern, &Artwork::default());
+            let row = rows.iter().find(|row| row.piece_name == "front" && row.what == "piping");
+            let row = row.expect("a row");
+            assert_eq!((row.measures.as_str(), row.colour), ("3.0 mm thick", Some([1, 2, 3])));
+            assert_eq!(row.places, ["edge 0", "edge 3"]);
+            assert!((row.length.expect("a length") - 0.6).abs() < 1e-6);
+            let supplies = supplies(pattern, &rows);
+            let [cord] = &supplies[..] else { panic!("one supply") };
+            assert_eq!((cord.what.as_str(), cord.count), ("piping 3.0 mm thick", None));
+            cord.length.expect("a length")
+        };
+        assert!((bought(&pattern) - 1.2).abs() < 1e-6, "two pieces that are not sewn");
+        let sides = [front, back].map(|piece| EdgeRef { piece, edge: 3 });
+        pattern.add_seam(Seam::of_edges(sides, true));
+        assert!((bought(&pattern) - 1.0).abs() < 1e-6, "the seam has one cord");
+        // A quarter of the lower edge of the back, sewn to the first quarter of that of the front.
+        let side = |piece, from, to| Stretch { from, to, ..Stretch::edge(piece, 0) };
+        let sides = [side(front, 0.0, 0.25), side(back, 0.75, 1.0)];
+        pattern.add_seam(Seam { sides, ..Seam::of_edges([EdgeRef { piece: front, edge: 0 }; 2], false) });
+        assert!((bought(&pattern) - 0.9).abs() < 1e-6, "{}", bought(&pattern));
     }
 }

@@ -8,7 +8,9 @@ use toile::fit::fastenings::Fastenings;
 use toile::fit::{BodyIndex, measure};
 use toile::geometry::ids::{ButtonId, PieceId};
 use toile::pattern::edit::{PatternEdit, TrimLine};
-use toile::pattern::{Button, Edge, EdgeRef, Elastic, Fold, Hem, InternalLine, PiecePoint, Topstitch, Zip};
+use toile::pattern::{
+    Button, Edge, EdgeRef, Elastic, Fold, Hem, InternalLine, PiecePoint, Piping, Topstitch, Zip,
+};
 use toile::session::project_file::{from_bytes, to_bytes};
 use toile::session::recording::Recording;
 use toile::session::replay::Replay;
@@ -287,5 +289,50 @@ fn stitches_and_colours_leave_the_cloth_at_rest_and_hems_do_not() {
     s.update();
     assert_eq!(cloth_hash(&mut s), before);
     assert!(s.apply_alone(Command::Redo).is_ok());
+    again(&mut s);
+}
+
+#[test]
+fn piping_is_stiff_undone_recorded_and_kept_and_dyed_at_rest() {
+    let mut s = draped();
+    let lines = vec![TrimLine::Edge(EdgeRef { piece: LEFT, edge: 1 })];
+    let pipe = |radius: f64, colour: [u8; 3]| {
+        let piping = Some(Piping { radius, colour });
+        edit(PatternEdit::SetPiping { lines: lines.clone(), piping })
+    };
+    let before = hash_of(&mut s);
+    assert!(s.apply_alone(pipe(0.02, [9; 3])).is_err_and(|why| why.0.contains("radius of piping")));
+    assert_eq!(hash_of(&mut s), before);
+    let lying = s.snapshot().cloth.positions.clone();
+    s.apply_alone(pipe(0.003, [9; 3])).expect("sewn in");
+    s.update();
+    assert_eq!(s.undo_label(), Some("sew piping in"));
+    assert_eq!(s.snapshot().cloth.positions, lying, "the mesh and the cloth stay");
+    let radii = |s: &Session| -> Vec<f64> {
+        let garment = s.snapshot().garment.clone().expect("a garment");
+        garment.trims.piped.iter().map(|along| along.what).collect()
+    };
+    assert_eq!(radii(&s), [0.003; 10], "the edge is 0.3 m long");
+    assert!(run(&mut s, 50) > 0, "it is stiffer and heavier now");
+    let (stiff, garment) = (cloth_hash(&mut s), s.snapshot().garment.clone().expect("a garment"));
+    s.apply_alone(pipe(0.003, [200, 0, 0])).expect("dyed");
+    s.update();
+    assert_eq!(cloth_hash(&mut s), stiff, "a colour moves nothing");
+    let dyed = s.snapshot().garment.clone().expect("a garment");
+    assert!(Arc::ptr_eq(&dyed, &garment), "and needs no new garment");
+    s.apply_alone(edit(PatternEdit::SetPiping { lines: lines.clone(), piping: None })).expect("taken out");
+    s.update();
+    assert_eq!((s.undo_label(), radii(&s).len()), (Some("take piping out"), 0));
+    for _ in 0..3 {
+        s.apply_alone(Command::Undo).expect("undone");
+    }
+    s.update();
+    assert_eq!(hash_of(&mut s), before);
+    for _ in 0..2 {
+        s.apply_alone(Command::Redo).expect("done again");
+    }
+    run(&mut s, 20);
+    let piping = s.document().pattern.pieces[&LEFT].edge(1).trims.piping;
+    assert_eq!(piping, Some(Piping { radius: 0.003, colour: [200, 0, 0] }));
     again(&mut s);
 }

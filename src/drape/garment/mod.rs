@@ -27,7 +27,7 @@ use crate::drape::garment::calm::{GENTLE_FOR, calming, gentle};
 use crate::drape::garment::laid::{ordered, shortest_sides, springs};
 use crate::drape::garment::on_card::OnCard;
 use crate::drape::garment::tangles::Pulling;
-use crate::drape::garment::worked::{Worked, plates};
+use crate::drape::garment::worked::{Worked, plates, weighted};
 use crate::drape::sheet::Sheet;
 use crate::drape::solver::net::Spring;
 use crate::drape::solver::small_steps::{
@@ -237,7 +237,7 @@ impl DrapedGarment {
         let (sheet, mut worked) = Worked::new(sheet, &garment, &own, sewn.is_some());
         let of_triangle: Vec<&Fabric> = laid.iter().map(|&t| fabric(t)).collect();
         let first = |v: u32| of_triangle[sheet.adjacency.vertex_triangles.of(v)[0] as usize];
-        let mass = masses(&sheet, &of_triangle);
+        let mass = weighted(masses(&sheet, &of_triangle), &garment, &own, sewn.is_some());
         let most = |of: fn(&Fabric) -> f64| of_triangle.iter().map(|f| of(f)).fold(0.0, f64::max);
         let (thickness, damping) = (most(|f| f.thickness_m), most(|f| f.damping_per_s));
         let friction = (0..sheet.len() as u32).map(|v| first(v).friction).collect();

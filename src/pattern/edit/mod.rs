@@ -25,7 +25,7 @@ use crate::geometry::ids::{ButtonId, PieceId, SeamId};
 use crate::pattern::activity::Activity;
 use crate::pattern::{
     AllowanceCorner, Button, Edge, EdgeRef, EdgeShape, Elastic, Fold, GradeRule, Hem, InternalLine, Pattern,
-    Piece, PlanePose, RulePoint, Seam, SizeRun, SpacePose, Topstitch, Zip, curve,
+    Piece, Piping, PlanePose, RulePoint, Seam, SizeRun, SpacePose, Topstitch, Zip, curve,
 };
 pub use cutting::nearest_on_edge;
 pub use fastenings::MOST_BUTTONS;
@@ -165,6 +165,8 @@ pub enum PatternEdit {
     SetTopstitch { lines: Vec<TrimLine>, topstitch: Option<Topstitch> },
     /// Hem edges, or (None) unpick the hem.
     SetHem { lines: Vec<TrimLine>, hem: Option<Hem> },
+    /// Sew piping in along edges or internal lines, or (None) take it out.
+    SetPiping { lines: Vec<TrimLine>, piping: Option<Piping> },
 
     /// Sew on buttons, each with its buttonhole.
     AddButtons { buttons: Vec<Button> },
@@ -366,6 +368,10 @@ fn carry_out(pattern: &mut Pattern, edit: &PatternEdit) -> Result<Change, String
             let what = if hem.is_some() { "hem" } else { "unpick a hem" };
             trims::set(pattern, lines, what, |trims| trims.hem = *hem)
         }
+        PatternEdit::SetPiping { lines, piping } => {
+            let what = if piping.is_some() { "sew piping in" } else { "take piping out" };
+            trims::set(pattern, lines, what, |trims| trims.piping = *piping)
+        }
         PatternEdit::AddButtons { buttons } => fastenings::add_buttons(pattern, buttons),
         PatternEdit::SetButton { id, button } => fastenings::set_button(pattern, *id, button),
         PatternEdit::DeleteButtons { buttons } => fastenings::delete_buttons(pattern, buttons),
@@ -408,7 +414,8 @@ fn pieces_named(edit: &PatternEdit) -> Vec<PieceId> {
         PatternEdit::SetFold { lines, .. }
         | PatternEdit::SetElastic { lines, .. }
         | PatternEdit::SetTopstitch { lines, .. }
-        | PatternEdit::SetHem { lines, .. } => lines.iter().map(TrimLine::piece).collect(),
+        | PatternEdit::SetHem { lines, .. }
+        | PatternEdit::SetPiping { lines, .. } => lines.iter().map(TrimLine::piece).collect(),
         _ => Vec::new(),
     }
 }

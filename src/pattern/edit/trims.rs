@@ -1,4 +1,4 @@
-//! Edits of trims: fold lines and elastic.
+//! Edits of trims: what is worked along edges and internal lines.
 
 use serde::{Deserialize, Serialize};
 
@@ -73,4 +73,58 @@ pub(super) fn set(
         });
     }
     Ok(Change::new(label))
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec2;
+
+    use super::*;
+    use crate::pattern::Piping;
+    use crate::pattern::edit::{PatternEdit, apply};
+
+    fn kite(symmetric: bool) -> Pattern {
+        // Its points 0 and 2 lie on the line of symmetry.
+        let corners = [(0.0, 0.0), (0.2, 0.2), (0.0, 0.4), (-0.2, 0.2)].map(DVec2::from);
+        let mut pattern = Pattern::default();
+        pattern.add_piece(Piece { symmetric, ..Piece::polygon("kite", &corners) });
+        pattern
+    }
+
+    fn done(pattern: &Pattern, edit: &PatternEdit) -> Pattern {
+        apply(pattern, edit).expect("accepted").pattern
+    }
+
+    fn piped(piece: &Piece) -> Vec<usize> {
+        (0..piece.edge_count()).filter(|&i| piece.edge(i).trims.piping == Some(Piping::USUAL)).collect()
+    }
+
+    #[test]
+    fn piping_follows_on_twins_other_halves_and_both_parts_of_a_split_edge() {
+        let piece = PieceId(1);
+        let edge = EdgeRef { piece, edge: 0 };
+        let set = |piping| PatternEdit::SetPiping { lines: vec![TrimLine::Edge(edge)], piping };
+        let pipe = set(Some(Piping::USUAL));
+        let symmetric = done(&kite(true), &pipe);
+        assert_eq!(piped(&symmetric.pieces[&piece]), [0, 3]);
+        assert_eq!(done(&symmetric, &set(None)), kite(true));
+        let twins = done(&kite(false), &PatternEdit::AddTwin { piece, offset: DVec2::X });
+        let twin = twins.pieces[&piece].twin.expect("a twin");
+        let twins = done(&twins, &pipe);
+        assert_eq!([piece, twin].map(|id| piped(&twins.pieces[&id])), [vec![0], vec![3]]);
+        let more = done(&twins, &PatternEdit::InsertPoint { edge, at: 0.5 });
+        assert_eq!([piece, twin].map(|id| piped(&more.pieces[&id])), [vec![0, 1], vec![3, 4]]);
+    }
+
+    #[test]
+    fn piping_needs_a_line_that_is_there() {
+        let refused = |lines: Vec<TrimLine>| {
+            let edit = PatternEdit::SetPiping { lines, piping: Some(Piping::USUAL) };
+            apply(&kite(false), &edit).expect_err("refused")
+        };
+        assert_eq!(refused(Vec::new()), "choose an edge or a line first to sew piping in");
+        let beyond = EdgeRef { piece: PieceId(1), edge: 4 };
+        assert_eq!(refused(vec![TrimLine::Edge(beyond)]), "kite has no edge 5");
+        assert_eq!(refused(vec![TrimLine::Line { piece: PieceId(1), line: 0 }]), "kite has no line 1");
+    }
 }

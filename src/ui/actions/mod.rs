@@ -145,6 +145,7 @@ pub enum Action {
     ToggleElastic,
     ToggleTopstitch,
     ToggleHem,
+    TogglePiping,
     ToggleZip,
     ToggleFastened,
     TurnSeam,

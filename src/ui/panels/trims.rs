@@ -1,11 +1,11 @@
-//! What is worked along the selected edges and lines: fold lines, elastic, topstitching, hems, buttons.
+//! What is worked along the selected edges and lines: fold lines, elastic, topstitching, hems, piping, buttons.
 
 use egui::{Grid, RichText};
 
 use crate::pattern::edit::{PatternEdit, TrimLine};
 use crate::pattern::stitches::PLAIN;
-use crate::pattern::trims::{ELASTIC_RATIOS, ELASTIC_TENSIONS};
-use crate::pattern::{Elastic, Fold, Hem, Topstitch, Trims};
+use crate::pattern::trims::{ELASTIC_RATIOS, ELASTIC_TENSIONS, PIPING_RADII};
+use crate::pattern::{Elastic, Fold, Hem, Piping, Topstitch, Trims};
 use crate::session::Command;
 use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::language::tr;
@@ -45,6 +45,7 @@ pub fn trims_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, asks: &mut Asks) {
     elastic_ui(ui, told, &lines, &trims, asks);
     topstitch_ui(ui, told, &lines, &trims, asks);
     hem_ui(ui, told, &lines, &trims, asks);
+    piping_ui(ui, told, &lines, &trims, asks);
     buttons_ui(ui, told, &lines, asks);
 }
 
@@ -110,6 +111,27 @@ fn hem_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, lines: &[TrimLine], trims:
         colour_menu(ui, tr("Thread of the hem"), hem.colour.unwrap_or(PLAIN), asks, |colour| {
             let hem = Some(Hem { colour: Some(colour), ..hem });
             dragged(PatternEdit::SetHem { lines: lines.to_vec(), hem })
+        });
+    });
+}
+
+fn piping_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, lines: &[TrimLine], trims: &Trims, asks: &mut Asks) {
+    let edit = |piping: Option<Piping>| PatternEdit::SetPiping { lines: lines.to_vec(), piping };
+    let mut on = trims.piping.is_some();
+    let tip = tr("A covered cord is sewn in here: it shows as an edge, and is stiffer");
+    if ui.checkbox(&mut on, tr("Piping")).on_hover_text(tip).changed() {
+        asks.push(ask(edit(on.then_some(Piping::USUAL))));
+    }
+    let Some(piping) = trims.piping else { return };
+    ui.horizontal(|ui| {
+        let label = weak(ui, told, tr("Radius"));
+        let label = label.on_hover_text(tr("Of the covered cord: 0.5 to 6 mm"));
+        if let Some(new) = length_field(ui, "piping radius", &label, piping.radius, told.now.unit) {
+            let radius = new.clamp(*PIPING_RADII.start(), *PIPING_RADII.end());
+            asks.push(ask(edit(Some(Piping { radius, ..piping }))));
+        }
+        colour_menu(ui, tr("Colour of the piping"), piping.colour, asks, |colour| {
+            dragged(edit(Some(Piping { colour, ..piping })))
         });
     });
 }

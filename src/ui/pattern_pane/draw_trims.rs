@@ -1,4 +1,4 @@
-//! Draws what is worked on pieces: fold lines, topstitching, hems, elastic, zips and buttons.
+//! Draws what is worked on pieces: fold lines, topstitching, hems, elastic, piping, zips and buttons.
 
 use std::sync::Arc;
 
@@ -8,7 +8,7 @@ use glam::DVec2;
 use super::draw::Drawing;
 use super::table::Table;
 use crate::pattern::stitches::{Row, Thread, is_trimmed_alike, rows};
-use crate::pattern::{Button, Fold, Pattern, PlanePose, Trims};
+use crate::pattern::{Button, Fold, Pattern, Piping, PlanePose, Trims};
 use crate::ui::look::theme::colour;
 
 /// The rows of stitches of a pattern, kept until it changes.
@@ -114,9 +114,22 @@ impl Drawing<'_> {
 
     fn worked(&self, pose: &PlanePose, points: &[DVec2], trims: Trims) {
         let points: Vec<DVec2> = points.iter().map(|&p| pose.plane_from_piece(p)).collect();
+        if let Some(piping) = trims.piping {
+            self.piping(&points, piping);
+        }
         if let Some(fold) = trims.fold {
             self.fold(&points, fold);
         }
+    }
+
+    /// Draws piping: a line in its colour, as thick as the cord is; from afar 2.5 points.
+    fn piping(&self, points: &[DVec2], piping: Piping) {
+        let points: Vec<Pos2> = points.iter().map(|&p| self.place(p)).collect();
+        let width = ((2.0 * piping.radius * self.view.scale) as f32).max(2.5);
+        // A cord in the colour of the cloth would not be seen.
+        let halo = Stroke::new(width + 1.5, self.palette.halo.gamma_multiply(0.6));
+        self.painter.add(Shape::line(points.clone(), halo));
+        self.painter.add(Shape::line(points, Stroke::new(width, colour(piping.colour))));
     }
 
     /// Draws a fold line: dashed, and its angle beside it where there is room.

@@ -8,8 +8,8 @@ use crate::geometry::ids::{PieceId, SeamId};
 use crate::pattern::activity::Activity;
 use crate::pattern::edit::{LinePoint, PatternEdit, PointRef, TrimLine};
 use crate::pattern::{
-    EdgeRef, EdgeShape, Elastic, Fold, Hem, Pattern, Piece, PlanePose, SpacePose, Topstitch, Trims, Zip,
-    curve,
+    EdgeRef, EdgeShape, Elastic, Fold, Hem, Pattern, Piece, Piping, PlanePose, SpacePose, Topstitch, Trims,
+    Zip, curve,
 };
 use crate::place::rolled_up;
 use crate::ui::actions::Action;
@@ -87,6 +87,7 @@ pub fn edits(action: Action, pattern: &Pattern, selection: &Selection) -> Vec<Pa
         | Action::ToggleElastic
         | Action::ToggleTopstitch
         | Action::ToggleHem
+        | Action::TogglePiping
         | Action::ToggleZip
         | Action::ToggleFastened => edits_of_trims(action, pattern, selection),
         _ => edits_of_edges(action, pattern, selection),
@@ -116,6 +117,9 @@ fn edits_of_trims(action: Action, pattern: &Pattern, selection: &Selection) -> V
         }
         (Action::ToggleHem, Some(Trims { hem, .. })) if !edges.is_empty() => {
             vec![PatternEdit::SetHem { lines: edges, hem: hem.is_none().then_some(Hem::USUAL) }]
+        }
+        (Action::TogglePiping, Some(Trims { piping, .. })) => {
+            vec![PatternEdit::SetPiping { lines, piping: piping.is_none().then_some(Piping::USUAL) }]
         }
         (Action::ToggleZip, _) => {
             let zip = (!selection.seams.iter().all(is_zipped)).then_some(Zip::CLOSED);

@@ -15,6 +15,7 @@ use crate::pattern::Pattern;
 use crate::pattern::activity::Activity;
 use crate::render::{CLOTH_BACK, CLOTH_FRONT, Ground, Label, Mesh, Polyline, Rgb, Scene, mark_colour};
 use crate::ui::scenery::body_look::BodyLook;
+use crate::ui::scenery::cords::{Lined, is_piped, piped};
 use crate::ui::scenery::covered::covered;
 use crate::ui::scenery::fabric_looks::PieceLooks;
 use crate::ui::scenery::mapped::in_colours;
@@ -197,9 +198,9 @@ impl Scenery {
     ) {
         let hidden = self.cloth.as_ref().map_or(&[][..], |drawn| &drawn.hidden);
         let is_seen = |v: u32| !hidden.get(v as usize).is_some_and(|hidden| *hidden);
-        let (lines, mesh) = self.trims.drawn(pattern, (cloth.0, cloth.1), (&is_seen, looks), scale);
+        let (lines, meshes) = self.trims.drawn(pattern, (cloth.0, cloth.1), (&is_seen, looks), scale);
         scene.lines.extend(lines);
-        scene.meshes.extend(mesh.map(Arc::new));
+        scene.meshes.extend(meshes.into_iter().map(Arc::new));
     }
 
     fn body_mesh(&mut self, body: &Arc<Surface>, look: BodyLook) -> Arc<Mesh> {
@@ -229,9 +230,12 @@ impl Scenery {
         }
         let hidden = covered(garment, state, f64::from(scale));
         let is_seen = |v: u32| !hidden.get(v as usize).is_some_and(|hidden| *hidden);
-        let mut lines = stitched(seam_lines(garment, state, &is_seen, scale), scale);
-        lines.extend(hem_lines(garment, state, &is_seen, scale));
-        lines.extend(fold_lines(garment, state, &is_seen, scale));
+        // A cord covers what would be drawn along its edges.
+        let piped = piped(garment);
+        let which: Lined<'_> = (&is_seen, &piped);
+        let mut lines = stitched(seam_lines(garment, state, which, scale), scale);
+        lines.extend(hem_lines(garment, state, which, scale));
+        lines.extend(fold_lines(garment, state, which, scale));
         let mesh = Mesh {
             colours: dragged.map(|shares| tints(shares, state)).unwrap_or_default(),
             ..cloth_mesh(garment, state)
@@ -424,7 +428,7 @@ fn places_of(garment: &Garment, mark: &ClothMark) -> Vec<FlatPlace> {
 fn seam_lines(
     garment: &Garment,
     state: &ClothState,
-    is_seen: &dyn Fn(u32) -> bool,
+    (is_seen, piped): Lined<'_>,
     scale: f32,
 ) -> Vec<Polyline> {
     let is_drawn = |v: &u32| {
@@ -433,7 +437,9 @@ fn seam_lines(
     let mut lines = Vec::new();
     for (_, pairs) in &garment.seam_pairs {
         let vertices: Vec<u32> = pairs.iter().map(|pair| garment.corners[pair[0] as usize].vertex).collect();
-        for run in vertices.split(|v| !is_drawn(v)).filter(|run| run.len() > 1) {
+        let drawn = vertices.split(|v| !is_drawn(v));
+        let plain = drawn.flat_map(|run| run.chunk_by(|&a, &b| !is_piped(piped, [a, b])));
+        for run in plain.filter(|run| run.len() > 1) {
             let points = run.iter().map(|&v| state.positions[v as usize].as_vec3()).collect();
             lines.push(thin_line(points, SEAM, 1.3, scale));
         }
@@ -445,7 +451,7 @@ fn seam_lines(
 fn hem_lines(
     garment: &Garment,
     state: &ClothState,
-    is_seen: &dyn Fn(u32) -> bool,
+    (is_seen, piped): Lined<'_>,
     scale: f32,
 ) -> Vec<Polyline> {
     let on_body =
@@ -461,7 +467,7 @@ fn hem_lines(
             let across = garment.adjacency.across[t][k];
             if lonely || (across != NONE && !on_body(across)) {
                 let ends = [vertices[k], vertices[(k + 1) % 3]];
-                if !ends.into_iter().all(is_seen) {
+                if !ends.into_iter().all(is_seen) || is_piped(piped, ends) {
                     continue;
                 }
                 let points = ends.iter().map(|&v| state.positions[v as usize].as_vec3()).collect();
@@ -605,7 +611,11 @@ fn ground(body: &Surface) -> Ground {
 
 #[cfg(test)]
 mod tests {
+    use std::collections::BTreeSet;
+
     use super::*;
+    use crate::cloth::build;
+    use crate::pattern::{EdgeRef, Piece, Seam};
 
     #[test]
     fn a_straight_line_needs_two_points_and_a_bend_keeps_its_corner() {
@@ -630,5 +640,38 @@ mod tests {
         assert!(far.colour[3] < near.colour[3], "and fainter");
         let numbers: Vec<&str> = scene.labels.iter().map(|label| label.text.as_str()).collect();
         assert_eq!(numbers, ["2", "1"]);
+    }
+
+    #[test]
+    fn no_line_is_drawn_where_a_cord_lies() {
+        let mut pattern = Pattern::default();
+        let corners = [(0.0, 0.0), (0.1, 0.0), (0.1, 0.1), (0.0, 0.1)].map(DVec2::from);
+        let ids = [0, 1].map(|_| pattern.add_piece(Piece::polygon("square", &corners)));
+        let sides = [EdgeRef { piece: ids[0], edge: 1 }, EdgeRef { piece: ids[1], edge: 3 }];
+        pattern.add_seam(Seam::of_edges(sides, false));
+        let garment = build(&pattern, 0.02).0;
+        let count = garment.vertex_count;
+        let state = ClothState { positions: vec![DVec3::ZERO; count], mapped: vec![true; count] };
+        let pairs = &garment.seam_pairs[0].1;
+        let along: Vec<[u32; 2]> = pairs
+            .windows(2)
+            .map(|w| [w[0], w[1]].map(|pair| garment.corners[pair[0] as usize].vertex))
+            .map(|[a, b]| [a.min(b), a.max(b)])
+            .collect();
+        let sides = |piped: &[[u32; 2]]| -> Vec<usize> {
+            let piped = piped.iter().copied().collect();
+            let lines = seam_lines(&garment, &state, (&|_| true, &piped), 1.0);
+            lines.iter().map(|line| line.points.len() - 1).collect()
+        };
+        assert_eq!(along.len(), 5);
+        assert_eq!((sides(&[]), sides(&along[..2])), (vec![5], vec![3]));
+        assert_eq!((sides(&along[2..3]), sides(&along)), (vec![2, 2], vec![]));
+        let open = |piped: &BTreeSet<[u32; 2]>| hem_lines(&garment, &state, (&|_| true, piped), 1.0).len();
+        let all = open(&BTreeSet::new());
+        let lowest = |v: u32| garment.corners.iter().any(|c| c.vertex == v && c.uv.y == 0.0);
+        let ends = garment.triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
+        let lower: BTreeSet<[u32; 2]> =
+            ends.map(|[a, b]| [a.min(b), a.max(b)]).filter(|ends| ends.iter().all(|&v| lowest(v))).collect();
+        assert_eq!((all, open(&lower)), (30, 20), "the lower edges of both have 10 sides");
     }
 }

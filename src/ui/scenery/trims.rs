@@ -1,5 +1,5 @@
-//! Draws what is worked on the cloth: fold lines, topstitching, hems, elastic, zips and buttons. No egui here: pictures without a
-//! window use it too.
+//! Draws what is worked on the cloth: fold lines, topstitching, hems, elastic, piping, zips and buttons. No egui here: pictures
+//! without a window use it too.
 
 use std::sync::Arc;
 
@@ -11,6 +11,7 @@ use crate::geometry::mesh::vertex_normals;
 use crate::pattern::stitches::{Row, Thread, hems, rows};
 use crate::pattern::{Button, Pattern};
 use crate::render::{CLOTH_BACK, Mesh, Polyline, Rgb};
+use crate::ui::scenery::cords::{Cord, Lined, cords, is_piped};
 use crate::ui::scenery::fabric_looks::PieceLooks;
 use crate::ui::scenery::stitches::{THREAD_THICKNESS, dashes};
 
@@ -49,6 +50,7 @@ struct Places {
     buttons: Vec<ButtonPlaces>,
     /// For each hem its piece, and pairs of a point of the edge and one of where it ends.
     hems: Vec<(PieceId, Vec<[FlatPlace; 2]>)>,
+    cords: Vec<Cord>,
 }
 
 #[derive(Debug)]
@@ -68,7 +70,7 @@ impl TrimScenery {
         (garment, state): (&Arc<Garment>, &ClothState),
         (is_seen, looks): (&dyn Fn(u32) -> bool, Option<&PieceLooks>),
         scale: f32,
-    ) -> (Vec<Polyline>, Option<Mesh>) {
+    ) -> (Vec<Polyline>, Vec<Mesh>) {
         let is_known = self
             .places
             .as_ref()
@@ -76,7 +78,7 @@ impl TrimScenery {
         if !is_known {
             self.places = Some(Places::new(garment, pattern));
         }
-        let Some(places) = &self.places else { return (Vec::new(), None) };
+        let Some(places) = &self.places else { return (Vec::new(), Vec::new()) };
         let seen = |place: &FlatPlace| {
             let vertices = place.vertices(garment);
             let is_seen = vertices.iter().all(|&(v, _)| is_seen(v));
@@ -127,7 +129,9 @@ impl TrimScenery {
                 push_hem(&mut mesh, &run.iter().flatten().copied().collect::<Vec<_>>(), inside);
             }
         }
-        (lines, (!mesh.triangles.is_empty()).then_some(mesh))
+        let mut meshes = vec![mesh, tubes(&places.cords, state, is_seen, scale)];
+        meshes.retain(|mesh| !mesh.triangles.is_empty());
+        (lines, meshes)
     }
 }
 
@@ -168,8 +172,20 @@ impl Places {
                 (piece, pairs.into_iter().filter_map(pair).collect())
             })
             .collect();
-        Self { garment: Arc::clone(garment), pattern: Arc::clone(pattern), rows, buttons, hems }
+        let cords = cords(garment, pattern);
+        Self { garment: Arc::clone(garment), pattern: Arc::clone(pattern), rows, buttons, hems, cords }
     }
+}
+
+/// The tubes of `cords`, in cloth.
+fn tubes(cords: &[Cord], state: &ClothState, is_seen: &dyn Fn(u32) -> bool, scale: f32) -> Mesh {
+    let mut mesh = Mesh { front: [255; 3], back: [255; 3], cloth: 1.0, ..Mesh::default() };
+    let place = |v: u32| {
+        let is_shown = state.mapped[v as usize] && is_seen(v);
+        is_shown.then(|| state.positions[v as usize].as_vec3())
+    };
+    cords.iter().for_each(|cord| cord.push(&mut mesh, place, scale));
+    mesh
 }
 
 /// The lines of one row of stitches.
@@ -282,17 +298,19 @@ fn push_hem(mesh: &mut Mesh, ends: &[[Vec3; 3]], colour: Rgb) {
     }
 }
 
-/// Lines along the folds of the cloth that is on the body; `is_seen` tells which vertices are not covered.
+/// Lines along the folds of the cloth that is on the body, without those that are `piped`; `is_seen` tells which vertices are not
+/// covered.
 pub fn fold_lines(
     garment: &Garment,
     state: &ClothState,
-    is_seen: &dyn Fn(u32) -> bool,
+    (is_seen, piped): Lined<'_>,
     scale: f32,
 ) -> Vec<Polyline> {
     let crease = |corners: [u32; 2]| {
         let ends = corners.map(|c| garment.corners[c as usize].vertex);
         let is_laid = ends.iter().all(|&v| state.mapped.get(v as usize).copied().unwrap_or(false));
-        (is_laid && ends.into_iter().all(is_seen)).then(|| Polyline {
+        let is_drawn = is_laid && ends.into_iter().all(is_seen) && !is_piped(piped, ends);
+        is_drawn.then(|| Polyline {
             points: ends.map(|v| state.positions[v as usize].as_vec3()).to_vec(),
             ..line(CREASE, 1.2, 0.0, scale)
         })
@@ -304,7 +322,7 @@ pub fn fold_lines(
 mod tests {
     use super::*;
     use crate::cloth::build;
-    use crate::pattern::{Piece, PiecePoint, Topstitch};
+    use crate::pattern::{Piece, PiecePoint, Piping, Topstitch};
 
     #[test]
     fn stitches_and_buttons_lie_on_the_cloth_wherever_it_goes() {
@@ -332,14 +350,54 @@ mod tests {
             state.positions[c.vertex as usize] = glam::DVec3::new(c.uv.x, 1.0 + c.uv.y, 3.0);
         }
         let mut scenery = TrimScenery::default();
-        let (lines, mesh) = scenery.drawn(&Arc::new(pattern), (&garment, &state), (&|_| true, None), 1.0);
+        let (lines, meshes) = scenery.drawn(&Arc::new(pattern), (&garment, &state), (&|_| true, None), 1.0);
         let stitches: Vec<&Polyline> = lines.iter().filter(|l| l.colour[..3] == [246, 243, 232]).collect();
         assert_eq!(stitches.len(), 2 * 67, "a stitch each 3 mm of two rows of 20 cm");
         let height = |l: &&Polyline| (l.points[0].y - 1.01).abs().min((l.points[0].y - 1.016).abs());
         assert!(stitches.iter().all(|l| height(l) < 1e-5));
-        let mesh = mesh.expect("a button");
+        let [mesh] = &meshes[..] else { panic!("a button, not {} meshes", meshes.len()) };
         let far = mesh.positions.iter().map(|p| p.distance(Vec3::new(0.15, 1.05, 3.0))).fold(0.0, f32::max);
         assert!((0.005..0.008).contains(&far), "fastened it is on its hole: {far}");
         assert!(mesh.positions.iter().all(|p| p.z > 3.0), "on the outer side");
+    }
+
+    #[test]
+    fn piping_is_a_tube_along_its_edge_and_dyed_without_new_cloth() {
+        let corners = [(0.0, 0.0), (0.2, 0.0), (0.2, 0.1), (0.0, 0.1)].map(DVec2::from);
+        let mut piece = Piece::polygon("front", &corners);
+        let piping = Piping { radius: 0.002, colour: [10, 20, 30] };
+        piece.outline[0].trims.piping = Some(piping);
+        let mut pattern = Pattern::default();
+        let id = pattern.add_piece(piece);
+        let garment = Arc::new(build(&pattern, 0.02).0);
+        let mut state = ClothState {
+            positions: vec![glam::DVec3::ZERO; garment.vertex_count],
+            mapped: vec![true; garment.vertex_count],
+        };
+        for c in &garment.corners {
+            state.positions[c.vertex as usize] = glam::DVec3::new(c.uv.x, 1.0 + c.uv.y, 3.0);
+        }
+        let mut scenery = TrimScenery::default();
+        let mut drawn = |pattern: &Pattern, scale: f32| {
+            let pattern = Arc::new(pattern.clone());
+            let (lines, meshes) = scenery.drawn(&pattern, (&garment, &state), (&|_| true, None), scale);
+            assert!(lines.is_empty());
+            let [tube] = &meshes[..] else { panic!("a tube, not {} meshes", meshes.len()) };
+            tube.clone()
+        };
+        for scale in [1.0, 2.0] {
+            let tube = drawn(&pattern, scale);
+            let lowest = tube.positions.iter().map(|p| p.z).fold(f32::MAX, f32::min);
+            let highest = tube.positions.iter().map(|p| p.z).fold(0.0, f32::max);
+            assert!((highest - 3.0 - 0.002 * scale).abs() < 1.2e-4 * scale, "half above: {highest}");
+            assert!((3.0 - lowest - 0.002 * scale).abs() < 1.2e-4 * scale, "half below: {lowest}");
+            assert!(tube.positions.iter().all(|p| (p.y - 1.0).abs() < 0.00201 * scale));
+            assert!(
+                tube.colours.iter().all(|c| *c == [10, 20, 30]) && tube.normals.len() == tube.colours.len()
+            );
+        }
+        let dyed = Some(Piping { colour: [200, 0, 0], ..piping });
+        Arc::make_mut(pattern.pieces.get_mut(&id).expect("the piece")).outline[0].trims.piping = dyed;
+        assert!(drawn(&pattern, 1.0).colours.iter().all(|c| *c == [200, 0, 0]));
     }
 }

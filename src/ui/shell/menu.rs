@@ -197,11 +197,12 @@ pub fn selection_ui(ui: &mut egui::Ui, now: &FrameContext, asks: &mut Asks) {
 }
 
 /// What is worked along edges, lines and seams.
-const TRIMS: [Action; 6] = [
+const TRIMS: [Action; 7] = [
     Action::ToggleFold,
     Action::ToggleElastic,
     Action::ToggleTopstitch,
     Action::ToggleHem,
+    Action::TogglePiping,
     Action::ToggleZip,
     Action::ToggleFastened,
 ];

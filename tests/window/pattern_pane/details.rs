@@ -1,6 +1,6 @@
 //! Lines, holes, arcs, guides; pieces folded, unfolded and made symmetric.
 
-use toile::pattern::{AllowanceCorner, EdgeShape, InternalLine, Side};
+use toile::pattern::{AllowanceCorner, EdgeShape, InternalLine, Piping, Side};
 
 use super::*;
 
@@ -167,4 +167,57 @@ fn a_corner_of_the_allowance_is_chosen_in_the_side_panel_and_undone() {
     assert!(recording.contains("set_corner"), "it is recorded");
     key(&mut window, Modifiers::COMMAND, Key::Z);
     assert_eq!(chosen(&window), AllowanceCorner::Mitre);
+}
+
+#[test]
+fn piping_is_sewn_in_changed_and_taken_out_in_the_side_panel_and_undone() {
+    use egui::accesskit::Role;
+    let mut window = window_on(squares());
+    press(&mut window, Key::A);
+    let edge = place(&window, "A, edge 1:");
+    click(&mut window, edge);
+    let piping = |window: &Window| piece(&pattern(window), "A").edge(0).trims.piping;
+    window.get_by_role_and_label(Role::CheckBox, "Piping").click_accesskit();
+    window.run_steps(4);
+    assert_eq!(piping(&window), Some(Piping::USUAL));
+    // Of its radius and its colour.
+    assert!(window.query_by_label("Colour of the piping").is_some());
+    let radius = |window: &mut Window, text: &str| {
+        window.get_by_role_and_label(Role::TextInput, "Radius").focus();
+        window.run_steps(2);
+        key(window, Modifiers::COMMAND, Key::A);
+        window.get_by_role_and_label(Role::TextInput, "Radius").type_text(text);
+        window.run_steps(2);
+        press(window, Key::Enter);
+        piping(window).expect("piping").radius
+    };
+    assert!((radius(&mut window, "2.5 mm") - 0.0025).abs() < 1e-12);
+    assert!((radius(&mut window, "9 mm") - 0.006).abs() < 1e-12, "the thickest there is");
+    assert_eq!(steps(&window), ["sew piping in"; 3]);
+    window.get_by_role_and_label(Role::CheckBox, "Piping").click_accesskit();
+    window.run_steps(4);
+    assert_eq!(piping(&window), None);
+    key(&mut window, Modifiers::COMMAND, Key::Z);
+    assert!(piping(&window).is_some_and(|piping| (piping.radius - 0.006).abs() < 1e-12));
+    let recording = window.state_mut().as_mut().expect("the app").recording();
+    assert!(recording.contains("set_piping"), "it is recorded");
+}
+
+#[test]
+fn piping_is_in_the_menu_of_the_pattern() {
+    let mut window = window_on(detailed());
+    press(&mut window, Key::A);
+    let line = place(&window, "A, line 1");
+    click(&mut window, line);
+    crate::act(&mut window, "Pattern");
+    // The side panel has a box of that name.
+    let is_box = |role| role == egui::accesskit::Role::CheckBox;
+    let mut entries = window.get_all_by_label("Piping").filter(|node| !is_box(node.accesskit_node().role()));
+    entries.next().expect("an entry").click();
+    drop(entries);
+    window.run_steps(4);
+    let trims = |window: &Window| piece(&pattern(window), "A").lines[0].edges[0].trims;
+    assert_eq!(trims(&window).piping, Some(Piping::USUAL));
+    key(&mut window, Modifiers::COMMAND, Key::Z);
+    assert!(trims(&window).is_none());
 }

@@ -150,6 +150,13 @@ pub const ROWS: &[Row] = &[
         .needs(&[Need::PickedLine]),
     row("Pattern", Action::ToggleHem, "Hem", "Turn in the selected edges and sew them down")
         .needs(&[Need::PickedEdge]),
+    row(
+        "Pattern",
+        Action::TogglePiping,
+        "Piping",
+        "Sew a covered cord in along the selected edges and lines",
+    )
+    .needs(&[Need::PickedLine]),
     row("Pattern", Action::ToggleZip, "Zip", "Put a zip into the selected seams, or take it out")
         .needs(&[Need::PickedSeam]),
     row("Pattern", Action::ToggleFastened, "Fasten buttons", "Fasten all buttons, or unfasten them")
