@@ -237,6 +237,7 @@ impl Pictures {
             unit: unit.to_owned(),
             range: range.map(|v| v * times),
             palette: palette(map.kind),
+            decimal_sign: '.',
         };
         let PictureOptions { view, size, .. } = arguments.picture;
         let picture = artist.coloured(outfit, &colours, &legend, view, size)?;

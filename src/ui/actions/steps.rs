@@ -144,7 +144,7 @@ mod tests {
     #[test]
     fn steps_are_named_in_the_language_of_the_window() {
         assert_eq!(step_words("move front"), "move front");
-        language::show(language::choice::german());
+        language::show(crate::language::Table::german());
         assert_eq!(
             (step_words("wrap").as_str(), step_words("nothing known").as_str()),
             ("Anlegen", "nothing known")

@@ -4,6 +4,7 @@ use maud::{Markup, html};
 
 use crate::render::{Legend, Rgb};
 use crate::ui::fit_page::facts::MapFacts;
+use crate::ui::language::decimal_sign;
 use crate::ui::scenery::map_colours::palette;
 
 /// Width of the drawing, SVG units.
@@ -23,6 +24,7 @@ pub fn legend(map: &MapFacts) -> Markup {
         unit: unit.to_owned(),
         range: range.map(|v| v * times),
         palette,
+        decimal_sign: decimal_sign(),
     };
     let histogram = map.map.histogram(range);
     let count = histogram.counts.len().max(1);

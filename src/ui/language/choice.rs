@@ -1,11 +1,10 @@
 //! Which language the window is shown in: the system's, a built-in one, or one of a file beside the preferences.
 
 use std::path::Path;
-use std::sync::OnceLock;
 
 use serde::{Deserialize, Serialize};
 
-use crate::ui::language::Table;
+use crate::language::Table;
 
 /// Folder of the tables beside the preferences.
 pub const FOLDER: &str = "languages";
@@ -32,13 +31,6 @@ impl Default for Languages {
     fn default() -> Self {
         Self { system: ENGLISH.to_owned(), own: Vec::new() }
     }
-}
-
-/// The German table.
-pub fn german() -> Option<&'static Table> {
-    static GERMAN: OnceLock<Option<Table>> = OnceLock::new();
-    let bytes = include_bytes!("../../../assets/languages/de.json");
-    GERMAN.get_or_init(|| Table::read(bytes).ok()).as_ref()
 }
 
 impl Languages {
@@ -89,7 +81,7 @@ impl Languages {
 
     /// The tables; a file comes before a built-in one of the same code.
     fn tables(&self) -> impl Iterator<Item = &'static Table> {
-        self.own.iter().copied().chain(german())
+        self.own.iter().copied().chain(Table::german())
     }
 }
 

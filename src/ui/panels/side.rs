@@ -2,12 +2,13 @@
 
 use std::cmp::Ordering;
 
-use egui::{CollapsingHeader, Id, RichText, ScrollArea, Slider};
+use egui::{CollapsingHeader, Id, RichText, ScrollArea};
 
 use crate::session::{Command, Document, Settings};
 use crate::sim::Fault;
 use crate::ui::actions::Tool;
 use crate::ui::actions::asks::{Ask, Asks};
+use crate::ui::language::fields::slider;
 use crate::ui::language::{say, tr};
 use crate::ui::look::theme::Palette;
 use crate::ui::panels::artwork::artwork_ui;
@@ -171,8 +172,8 @@ fn settings_ui(ui: &mut egui::Ui, settings: &Settings, palette: &Palette, asks: 
         let mut shown = *value * unit;
         let digits = if unit > 500.0 { 1 } else { 3 };
         ui.label(RichText::new(tr(text)).color(palette.weak).size(12.5));
-        let slider = Slider::new(&mut shown, range).suffix(sign).max_decimals(digits);
-        let response = ui.add(slider).on_hover_text(tr(tip));
+        let field = slider(&mut shown, range).suffix(sign).max_decimals(digits);
+        let response = ui.add(field).on_hover_text(tr(tip));
         response.widget_info(|| egui::WidgetInfo::slider(true, shown, tr(text)));
         if response.changed() {
             *value = shown / unit;

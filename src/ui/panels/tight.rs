@@ -4,9 +4,8 @@ use egui::Ui;
 
 use crate::fit::TightPlace;
 use crate::ui::actions::asks::{Ask, Asks};
-use crate::ui::language::{say, tr, translated};
+use crate::ui::language::{say, signed, tr, translated};
 use crate::ui::panels::context::{PanelContext, problem_row};
-use crate::ui::preferences::units::signed;
 use crate::ui::scenery::ring::flat;
 
 /// Draws a row for each tight place.

@@ -18,7 +18,7 @@ use crate::ui::actions::keymap::Keymap;
 use crate::ui::files::thumbnails::{Subject, Thumbnails};
 use crate::ui::files::{Purpose, RawBody};
 use crate::ui::language::keys::shortcut_text;
-use crate::ui::language::{say, tr};
+use crate::ui::language::{number, say, tr};
 use crate::ui::pointer::mouse::Mouse;
 
 /// If a native dialog reports "cancelled" sooner than this, it has not been shown at all: no hand clicks that fast.
@@ -261,7 +261,7 @@ fn unit_ui(ctx: &egui::Context, raw: &mut RawBody) -> Answer {
         ui.heading(say!("In which unit is {name}?", name = raw.name));
         ui.add_space(4.0);
         for unit in Unit::ALL {
-            let height = format!("{:.2}", raw.height(unit));
+            let height = number(raw.height(unit), 2);
             let words = say!("{unit}: the body is {height} m tall", unit, height);
             ui.radio_value(&mut raw.unit, unit, words);
         }
@@ -300,8 +300,8 @@ fn scale_ui(ctx: &egui::Context, path: &Path, question: &ScaleQuestion, unit: &m
             let words = say!(
                 "{unit}: the largest piece is {width} × {height} cm",
                 unit = tr(candidate.long()),
-                width = format!("{:.1}", size.x),
-                height = format!("{:.1}", size.y)
+                width = number(size.x, 1),
+                height = number(size.y, 1)
             );
             ui.radio_value(unit, candidate, words);
         }
