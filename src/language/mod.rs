@@ -13,6 +13,7 @@
 //! with a decimal point: files, recordings, and what the command line prints.
 
 mod numbers;
+pub mod sentences;
 mod table;
 
 use std::cell::Cell;

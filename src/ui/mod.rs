@@ -21,7 +21,7 @@ pub mod app;
 mod body_pane;
 mod files;
 pub mod fit_page;
-mod language;
+pub(crate) mod language;
 mod look;
 mod maps;
 mod panels;

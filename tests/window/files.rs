@@ -340,7 +340,12 @@ fn write_file(window: &mut Window, entry: &str, path: &Path) -> bool {
 
 /// Types the path of the file to be written into the dialog that asks for it. False where the desktop has a dialog of its own.
 pub fn write_asked(window: &mut Window, path: &Path) -> bool {
-    if window.query_by_label("Write").is_none() {
+    write_by(window, "Write", path)
+}
+
+/// As [`write_asked`], where the button that writes is called `button`.
+pub fn write_by(window: &mut Window, button: &str, path: &Path) -> bool {
+    if window.query_by_label(button).is_none() {
         println!("skipped: this desktop may have a dialog of its own");
         return false;
     }
@@ -349,7 +354,7 @@ pub fn write_asked(window: &mut Window, path: &Path) -> bool {
     key(window, Modifiers::COMMAND, Key::A);
     window.get_by_role(egui::accesskit::Role::TextInput).type_text(&path.display().to_string());
     window.run_steps(2);
-    window.get_by_label("Write").click();
+    window.get_by_label(button).click();
     true
 }
 

@@ -2,6 +2,7 @@
 
 use egui::accesskit::Role;
 
+use super::files::write_by;
 use super::hand::dressed_window;
 use super::marker::enter;
 use super::*;
@@ -102,4 +103,23 @@ fn the_legend_of_a_map_is_in_the_language_of_the_window() {
     let has_comma =
         legend.split(' ').any(|word| word.contains(',') && word.replace(',', ".").parse::<f64>().is_ok());
     assert!(has_comma && !legend.contains('.'), "{legend}");
+}
+
+#[test]
+fn the_fit_report_is_in_the_language_of_the_window() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("fit.html");
+    let mut window = dressed_window();
+    edit(&mut window, |app, _| app.follow_language("de".to_owned()));
+    window.get_by_label("Datei").click();
+    window.run_steps(3);
+    window.get_by_label_contains("Passformbericht…").click();
+    window.run_steps(3);
+    if !write_by(&mut window, "Schreiben", &path) {
+        return;
+    }
+    window.run_steps(30);
+    let page = std::fs::read_to_string(&path).expect("the page");
+    assert!(page.contains("<html lang=\"de\">") && page.contains("Kleidungsstück und Körper"), "{page:.400}");
+    assert!(!page.contains("Garment and body") && !page.contains("Measures of the body"));
 }

@@ -8,6 +8,7 @@ use crate::session::{Command, Document, Settings};
 use crate::sim::Fault;
 use crate::ui::actions::Tool;
 use crate::ui::actions::asks::{Ask, Asks};
+use crate::ui::fit_page::words::{fault_words, place_words};
 use crate::ui::language::fields::slider;
 use crate::ui::language::{say, tr};
 use crate::ui::look::theme::Palette;
@@ -210,7 +211,7 @@ fn problems_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, asks: &mut Asks) {
     }
     for Fault { problem, marks } in told.verdict {
         let numbers: Vec<usize> = marks.iter().map(|m| m.number).collect();
-        let words = format!("{}: {}", problem.place, problem.words);
+        let words = format!("{}: {}", place_words(&problem.place), fault_words(&problem.words));
         let shows = (Ask::ShowMarks(numbers), tr("Show the marks concerned"));
         let shows = Some(shows).filter(|_| !marks.is_empty());
         problem_row(ui, palette.error, &words, shows, asks);
