@@ -19,7 +19,7 @@ mod table;
 use std::cell::Cell;
 use std::fmt::Display;
 
-pub use numbers::{decimal_sign, localised, number, parsed, short, signed};
+pub use numbers::{decimal_sign, decimal_signs, localised, number, parsed, short, signed};
 pub use table::Table;
 
 thread_local! {

@@ -4,16 +4,14 @@ use std::fmt::Display;
 
 use crate::language::{filled, shown, translated};
 
-/// `text`, which one of `templates` may have made, in the language that is shown. `value` gives each value of the template in that
-/// language, from its name and its English text. None if no template made it, or if it is shown in English.
+/// `text`, which one of `templates` may have made, in the language that is shown. The first that fits is taken. `value` gives each
+/// value of the template in that language, from its name and its English text. None if no template made it, if the table lacks it,
+/// and in English.
 pub fn translated_by(
     templates: &[&'static str],
     text: &str,
     value: impl Fn(&str, &str) -> String,
 ) -> Option<String> {
-    if let Some(text) = translated(text) {
-        return Some(text.to_owned());
-    }
     shown()?;
     let (template, values) =
         templates.iter().find_map(|template| Some((*template, values(template, text)?)))?;
@@ -26,7 +24,9 @@ pub fn translated_by(
 
 /// What stands in `text` in place of each `{name}` of `template`; None if it is not made by it. `{n}` is a whole number.
 pub fn values<'a>(template: &'a str, text: &'a str) -> Option<Vec<(&'a str, &'a str)>> {
-    let (before, mut template) = template.split_once('{')?;
+    let Some((before, mut template)) = template.split_once('{') else {
+        return (template == text).then(Vec::new);
+    };
     let mut text = text.strip_prefix(before)?;
     let mut found = Vec::new();
     loop {

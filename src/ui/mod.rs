@@ -12,7 +12,7 @@
 //! | `maps`, `fit_page` | maps of the cloth; the fit report as a page |
 //! | `scenery` | document and cloth as the buffers that are drawn |
 //! | `files` | files, recent files, thumbnails |
-//! | `language` | the texts in other languages |
+//! | `language` | which language is shown, its keys, fields for its numbers |
 //! | `preferences` | the user's preferences, and their page; units |
 //! | `pointer`, `look` | mouse and strokes; colours and icons |
 

@@ -77,9 +77,10 @@ fn unescaped(code: &str) -> Option<(String, usize)> {
     None
 }
 
+/// What is shown in the language of the window: its code, and that of the tech pack.
 fn code_of_window() -> Vec<Source> {
     let mut sources = sources();
-    sources.retain(|s| s.folder == "ui");
+    sources.retain(|s| ["ui", "pack"].contains(&s.folder.as_str()));
     for source in &mut sources {
         let end = source.code.find("#[cfg(test)]\nmod").unwrap_or(source.code.len());
         source.code.truncate(end);
@@ -207,7 +208,9 @@ fn no_number_of_the_window_has_a_decimal_point_of_its_own() {
     // Drawings in SVG; a table that is copied as text.
     let plain = ["src/ui/fit_page/drawing.rs", "src/ui/fit_page/legend.rs", "src/ui/maps/table.rs"];
     let mut wrong = Vec::new();
-    for source in code_of_window().iter().filter(|s| !s.path.starts_with("src/ui/language")) {
+    for source in
+        code_of_window().iter().filter(|s| s.folder == "ui" && !s.path.starts_with("src/ui/language"))
+    {
         wrong.extend(
             ["DragValue::new", "Slider::new"]
                 .iter()

@@ -1,6 +1,7 @@
 //! Names of undo steps in the language of the window. The session gives them in English, some with names and numbers in them.
 
 use crate::language::sentences::translated_by;
+use crate::ui::language::translated;
 
 /// Names of steps that the session puts together, those with more words first. `{n}` stands for a number.
 const NAMES: &[&str] = &[
@@ -75,7 +76,8 @@ const NAMES: &[&str] = &[
 
 /// The name of a step that the session calls `label`.
 pub fn step_words(label: &str) -> String {
-    translated_by(NAMES, label, |_, value| value.to_owned()).unwrap_or_else(|| label.to_owned())
+    let known = || translated_by(NAMES, label, |_, value| value.to_owned());
+    translated(label).map(str::to_owned).or_else(known).unwrap_or_else(|| label.to_owned())
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use crate::fit::{Smaller, Tight};
 use crate::language::sentences::translated_by;
-use crate::ui::language::{decimal_sign, number, say, signed, tr, translated};
+use crate::ui::language::{decimal_signs, number, say, signed, tr, translated};
 
 /// Sentences, and parts of them between semicolons, with which faults are told; see `fit::faults` and `sim::faults`.
 const FAULTS: &[&str] = &[
@@ -53,22 +53,8 @@ fn value(name: &str, english: &str) -> String {
     match name {
         "name" | "names" => english.to_owned(),
         "place" => tr(english).to_owned(),
-        _ => with_decimal_sign(english),
+        _ => decimal_signs(english),
     }
-}
-
-/// `words` with the decimal sign of the language between digits.
-fn with_decimal_sign(words: &str) -> String {
-    let is_digit = |c: Option<char>| c.is_some_and(|c| c.is_ascii_digit());
-    let mut before = None;
-    let mut rest = words.chars().peekable();
-    let mut out = String::with_capacity(words.len());
-    while let Some(c) = rest.next() {
-        let is_sign = c == '.' && is_digit(before) && is_digit(rest.peek().copied());
-        out.push(if is_sign { decimal_sign() } else { c });
-        before = Some(c);
-    }
-    out
 }
 
 /// A tight place with its strain: "front near armpit left, +5.0 %".
