@@ -61,6 +61,12 @@ impl LengthUnit {
         format!("{} {}", self.number(metres), self.sign())
     }
 
+    /// A point with its unit: "12.5, 30 cm"; where numbers have commas, "12,5; 30 cm".
+    pub fn point(self, p: DVec2) -> String {
+        let between = if decimal_sign() == ',' { ';' } else { ',' };
+        format!("{}{between} {}", self.number(p.x), self.text(p.y))
+    }
+
     /// Steps of grid and rulers, metres; each is a whole multiple of an earlier one.
     pub fn steps(self) -> &'static [f64] {
         match self {
@@ -378,8 +384,11 @@ mod tests {
                 assert_eq!(length(text, LengthUnit::Cm), Ok(0.125), "{text}");
                 assert_eq!(typed(text, LengthUnit::Cm), Ok(Typed::Length(0.125)), "{text}");
             }
-            assert_eq!(typed("30,5;40", LengthUnit::Cm), Ok(Typed::At(DVec2::new(0.305, 0.4))));
+            let p = DVec2::new(0.305, 0.4);
+            assert_eq!(typed("30,5;40", LengthUnit::Cm), Ok(Typed::At(p)));
+            assert_eq!(LengthUnit::Cm.point(p), "30,5; 40 cm");
         });
+        assert_eq!(LengthUnit::Cm.point(DVec2::new(0.305, 0.4)), "30.5, 40 cm");
     }
 
     #[test]
