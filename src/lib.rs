@@ -27,12 +27,13 @@
 //! | `draft`    | garments of our own, drawn from a seed and drafted to the mannequin's measurements: parts, designs, the corpus | body, pattern, geometry |
 //! | `io`       | obj, gltf, bvh; patterns as garmentcode json, dxf with grade rules, svg, pdf: bytes in, checked data out, and back | cloth, body, pattern, geometry |
 //! | `marker`   | all pieces of garments laid out on a width of cloth: nesting, yield and consumption, the files to cut from | io, pattern, geometry |
-//! | `pack`     | the tech pack: what a garment maker needs to know, measured, and its pages | session and below, marker |
+//! | `language` | the texts and numbers of window and pages in other languages | nothing of ours |
+//! | `pack`     | the tech pack: what a garment maker needs to know, measured, and its pages | session and below, marker, language |
 //! | `render`   | plain buffers in, pixels out: camera, passes, offscreen target | nothing of ours |
 //! | `trust`    | fuzz tests: files damaged at random, and the readers that must withstand them | session and below |
 //! | `manual`   | what the program does, topic by topic, for the window and the command line | nothing of ours |
-//! | `ui`       | egui: app, actions, panes, tools | session and below, place, marker, pack, render, manual |
-//! | `cli`      | one file per subcommand: arguments, calls, printing | session and below, draft, place, marker, pack, render, trust, manual, ui |
+//! | `ui`       | egui: app, actions, panes, tools | session and below, place, marker, language, pack, render, manual |
+//! | `cli`      | one file per subcommand: arguments, calls, printing | session and below, draft, place, marker, language, pack, render, trust, manual, ui |
 //!
 //! Invariants:
 //! - Metres, radians, seconds; right-handed, y up, bodies face +z. Pattern planes have y up, with the front of the cloth towards
@@ -57,6 +58,7 @@ pub mod drape;
 pub mod fit;
 pub mod geometry;
 pub mod io;
+pub mod language;
 pub mod manual;
 pub mod marker;
 pub mod pack;

@@ -272,6 +272,7 @@ impl Compared {
                 unit: self.kind.unit().0.to_owned(),
                 range,
                 palette,
+                decimal_sign: '.',
             };
             let colours: Vec<_> = values.iter().map(|&v| palette.colour(v, range)).collect();
             panels.push(artist.coloured(&side.outfit, &colours, &legend, arguments.view, arguments.size)?);

@@ -8,12 +8,13 @@ use serde::Serialize;
 use crate::cli::arguments::{Fit, InputOptions, Maps, PictureOptions};
 use crate::cli::failure::Failure;
 use crate::cli::picture::Artist;
-use crate::cli::{input, interrupt, output, run};
+use crate::cli::{input, interrupt, language, output, run};
 use crate::cloth::{ClothState, Garment};
 use crate::fit::maps::{Histogram, MapStats, PieceStats};
 use crate::fit::{Map, MapKind, MapReader};
 use crate::geometry::ids::PieceId;
 use crate::io::words::quoted;
+use crate::language::{Table, shown_in};
 use crate::render::{Legend, png};
 use crate::session::{Outfit, Session};
 use crate::ui::fit_page::FitPage;
@@ -51,12 +52,13 @@ pub fn fit(arguments: &Fit) -> Result<(), Failure> {
     let input = input::load(&arguments.project, &InputOptions::default())?;
     let session = run::opened(input.project, &arguments.project)?;
     let outfit = dressed(&session, &arguments.project)?;
+    let table = language::table(&arguments.language)?;
     let mut pictures = Pictures::new()?;
     if let Some(folder) = &arguments.out {
         maps(arguments, folder, &outfit, input.name.clone(), &mut pictures)?;
     }
     if let Some(path) = &arguments.page {
-        page(path, &session, &input.name, &mut pictures)?;
+        page(path, &session, &input.name, table, &mut pictures)?;
     }
     Ok(())
 }
@@ -68,15 +70,21 @@ pub fn dressed(session: &Session, path: &Path) -> Result<Outfit, Failure> {
     outfit.ok_or_else(|| Failure::input(path, words))
 }
 
-/// Writes the fit report, without pictures where there is no graphics adapter.
-fn page(path: &Path, session: &Session, name: &str, pictures: &mut Pictures) -> Result<(), Failure> {
+/// Writes the fit report with the texts of `table`, without pictures where there is no graphics adapter.
+fn page(
+    path: &Path,
+    session: &Session,
+    name: &str,
+    table: Option<&'static Table>,
+    pictures: &mut Pictures,
+) -> Result<(), Failure> {
     let no_cloth = || Failure::Internal("the cloth has gone".to_owned());
     let mut page = FitPage::of(session, name).ok_or_else(no_cloth)?;
     match (&mut pictures.artist, &pictures.left_out) {
         (Some(artist), _) => artist.page(&mut page)?,
         (None, why) => page.leave_pictures_out(why.clone().unwrap_or_default()),
     }
-    output::write(path, page.html().as_bytes())
+    output::write(path, shown_in(table, || page.html()).as_bytes())
 }
 
 fn maps(
@@ -237,6 +245,7 @@ impl Pictures {
             unit: unit.to_owned(),
             range: range.map(|v| v * times),
             palette: palette(map.kind),
+            decimal_sign: '.',
         };
         let PictureOptions { view, size, .. } = arguments.picture;
         let picture = artist.coloured(outfit, &colours, &legend, view, size)?;

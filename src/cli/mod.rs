@@ -20,6 +20,7 @@ mod help;
 mod import;
 mod input;
 mod interrupt;
+mod language;
 mod lines;
 mod list;
 mod made_from;

@@ -3,7 +3,8 @@
 use crate::cli::arguments::{InputOptions, TechPack};
 use crate::cli::failure::Failure;
 use crate::cli::fit::Pictures as Drawing;
-use crate::cli::{input, interrupt, output, run};
+use crate::cli::{input, interrupt, language, output, run};
+use crate::language::shown_in;
 use crate::marker::MarkerError;
 use crate::marker::nest::Effort;
 use crate::pack::{Pack, Pictures, Source, Wish, write};
@@ -14,6 +15,7 @@ pub fn techpack(arguments: &TechPack) -> Result<(), Failure> {
     if !arguments.output.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("pdf")) {
         return Err(Failure::Usage(format!("{}: the ending must be .pdf", arguments.output.display())));
     }
+    let table = language::table(&arguments.language)?;
     let options = InputOptions { scale: arguments.scale, as_placed: true, ..InputOptions::default() };
     let input = input::load(&arguments.project, &options)?;
     let session = run::opened(input.project, &arguments.project)?;
@@ -30,8 +32,8 @@ pub fn techpack(arguments: &TechPack) -> Result<(), Failure> {
     interrupt::check()?;
     let pictures = pictures(arguments, &session, outfit.is_some())?;
     interrupt::check()?;
-    let bytes =
-        write(&pack, &document.pattern, &pictures).map_err(|why| Failure::input(&arguments.project, why))?;
+    let bytes = shown_in(table, || write(&pack, &document.pattern, &pictures))
+        .map_err(|why| Failure::input(&arguments.project, why))?;
     output::write(&arguments.output, &bytes)?;
     for note in &pack.notes {
         output::complain(&format!("{}: note: {note}", arguments.project.display()));

@@ -4,6 +4,7 @@ use glam::DVec2;
 
 use crate::geometry::ids::PieceId;
 use crate::io::pdf::booklet::{Ink, Mark};
+use crate::language::{short, tr};
 use crate::pack::flow::{Flow, ROOM};
 use crate::pack::shape::{Front, Shape, size_of};
 use crate::pack::words;
@@ -179,11 +180,11 @@ pub fn pages(flow: &mut Flow, sketches: &[Sketch]) {
     let most = sketches.len().div_ceil(ON_A_PAGE).max(1);
     let room = ROOM - DVec2::Y * 24.0;
     let Some((ratio, pages)) = scaled(sketches, round(), room, (LEAST, 3.0), most) else {
-        return flow.words("The pieces are too large to be drawn.", Ink::Grey);
+        return flow.words(tr("The pieces are too large to be drawn."), Ink::Grey);
     };
     for (k, page) in pages.iter().enumerate() {
         flow.turn();
-        let heading = if k == 0 { "Pieces to scale" } else { "Pieces to scale, continued" };
+        let heading = if k == 0 { tr("Pieces to scale") } else { tr("Pieces to scale, continued") };
         flow.heading(heading);
         legend(flow, sketches, page);
         let corner = flow.strip(room.y);
@@ -221,21 +222,21 @@ pub fn overview(flow: &mut Flow, sketches: &[Sketch], most: f64) -> bool {
 /// What the lines on this page mean.
 fn legend(flow: &mut Flow, sketches: &[Sketch], page: &[(usize, DVec2)]) {
     let shown = || page.iter().map(|&(i, _)| &sketches[i]);
-    let mut words = "Black: cut.".to_owned();
+    let mut all = vec![tr("Black: cut.")];
     if shown().any(|sketch| !sketch.shape.seam.is_empty()) {
-        words += " Blue dashes: sew.";
+        all.push(tr("Blue dashes: sew."));
     }
-    words += " Grey: grain, and lines on the piece.";
+    all.push(tr("Grey: grain, and lines on the piece."));
     if shown().any(|sketch| !sketch.seams.is_empty()) {
-        words += " Circles: numbers of seams.";
+        all.push(tr("Circles: numbers of seams."));
     }
     for (kind, (_, meaning)) in WORKED.iter().enumerate() {
         if shown().any(|sketch| sketch.worked.iter().any(|(own, _)| *own == kind)) {
-            words += &format!(" {meaning}");
+            all.push(tr(meaning));
         }
     }
-    words += " Sizes are without seam allowance.";
-    flow.words(&words, Ink::Grey);
+    all.push(tr("Sizes are without seam allowance."));
+    flow.words(&all.join(" "), Ink::Grey);
 }
 
 /// A bar of a round length, above the right corner of the drawings.
@@ -248,7 +249,7 @@ fn scale_bar(flow: &mut Flow, ratio: f64, corner: DVec2) {
     for end in [left, right] {
         flow.rule([end - DVec2::Y * 1.2, end + DVec2::Y * 1.2], Ink::Black, 0.3);
     }
-    let words = format!("1 : {ratio}   {:.0} cm", length * 100.0);
+    let words = format!("1 : {}   {:.0} cm", short(ratio, 1), length * 100.0);
     let width = flow.letters().width(&words, NAME);
     flow.write(left - DVec2::new(width + 2.0, -1.0), NAME, &words, Ink::Black);
 }

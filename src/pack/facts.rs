@@ -54,7 +54,7 @@ pub struct PieceRow {
     pub notches: usize,
 }
 
-/// The contents of a tech pack.
+/// The contents of a tech pack, for people and programs: its texts are English, and translated where they are written.
 #[derive(Clone, Debug, Serialize)]
 pub struct Pack {
     pub version: &'static str,
@@ -218,16 +218,16 @@ fn notes(pattern: &Pattern, outfit: Option<&Outfit>, measures: &[SizeRow]) -> Ve
                 .to_owned(),
         );
     } else if bare > 0 {
-        notes.push(format!("{bare} of {} pieces have no seam allowance.", pattern.pieces.len()));
+        let (n, count) = (bare, pattern.pieces.len());
+        notes.push(format!("{n} of {count} pieces have no seam allowance."));
     }
     if pieces().any(|piece| piece.outline.iter().any(|edge| edge.trims.hem.is_some())) {
         notes.push("Hems are turned in: their width is cloth beyond the edge.".to_owned());
     }
-    let ungrained = pieces().filter(|piece| piece.grainline.is_none()).count();
-    if ungrained > 0 {
+    let (n, count) = (pieces().filter(|piece| piece.grainline.is_none()).count(), pattern.pieces.len());
+    if n > 0 {
         notes.push(format!(
-            "No grainline is drawn on {ungrained} of {} pieces: their own upright is taken for it.",
-            pattern.pieces.len()
+            "No grainline is drawn on {n} of {count} pieces: their own upright is taken for it."
         ));
     }
     if outfit.is_some_and(|outfit| is_changed(&outfit.source.pattern, pattern)) {

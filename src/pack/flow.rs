@@ -6,6 +6,7 @@ use glam::DVec2;
 use image::RgbaImage;
 
 use crate::io::pdf::booklet::{Ink, Letters, Mark, PAGE};
+use crate::language::say;
 
 /// Blank margin at the sides, millimetres.
 pub const MARGIN: f64 = 15.0;
@@ -228,7 +229,7 @@ impl Flow {
             self.rule([at + DVec2::Y * height, at + DVec2::new(ROOM.x, height)], FAINT, 0.1);
         }
         if table.rows.len() > MOST_ROWS {
-            let words = format!("{} more rows are left out here.", table.rows.len() - MOST_ROWS);
+            let words = say!("{n} more rows are left out here.", n = table.rows.len() - MOST_ROWS);
             self.words(&words, Ink::Grey);
         }
         self.y += 3.0;
@@ -310,7 +311,7 @@ impl Flow {
                 let name = self.letters.cut(name, TITLE, ROOM.x);
                 words(DVec2::new(MARGIN, 14.0), name);
             }
-            let number = format!("Page {} of {count}", i + 1);
+            let number = say!("Page {page} of {count}", page = i + 1, count);
             let width = self.letters.width(&number, TITLE);
             words(DVec2::new(PAGE.x - MARGIN - width, PAGE.y - 10.0), number);
             words(DVec2::new(MARGIN, PAGE.y - 10.0), format!("Toile {}", env!("CARGO_PKG_VERSION")));

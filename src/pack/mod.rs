@@ -8,13 +8,13 @@
 //! | `alike` | pieces that are cut alike, or as mirror images |
 //! | `trims` | buttons, zips, elastic, folds, stitches, hems and graphics |
 //! | `sizes` | pieces and seams measured in every size |
-//! | `words` | numbers and names as they are written |
+//! | `words` | texts, numbers and names as they are written in the language that is shown |
 //! | `flow` | headings, words and tables that flow from page to page |
 //! | `shape` | a piece as it is drawn: seen from its front |
 //! | `drawing` | pieces drawn to scale |
 //! | `write` | the pages |
 //!
-//! Lengths are metres in the contents, millimetres on the pages.
+//! The contents are English, for programs; the pages are in the language that is shown. Lengths are metres in the contents, millimetres on the pages.
 
 mod alike;
 mod cloths;

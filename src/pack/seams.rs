@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use crate::geometry::ids::SeamId;
+use crate::language::{number, say, tr};
 use crate::pack::words;
 use crate::pattern::{Pattern, Piece, Seam, Stretch};
 
@@ -46,20 +47,22 @@ impl SeamRow {
         Self { seam: id.0, sides, ease, zip: seam.zip.is_some() }
     }
 
-    /// What is to be done with the excess of a side, in words.
+    /// What is to be done with the excess of a side, in the language that is shown.
     pub fn ease_words(&self) -> String {
         let (Some(ease), [Some(one), Some(other)]) = (self.ease, self.lengths()) else {
-            return "one side is not there".to_owned();
+            return tr("one side is not there").to_owned();
         };
         if ease.abs() <= ALIKE {
-            return "even".to_owned();
+            return tr("even").to_owned();
         }
         let (longer, shorter) = (one.max(other), one.min(other));
-        let side = if ease > 0.0 { "first" } else { "second" };
-        if shorter > 0.0 && longer / shorter >= GATHERED {
-            format!("gather the {side}, {:.2} to 1", longer / shorter)
-        } else {
-            format!("ease the {side} in, {} cm", words::cm(longer - shorter))
+        let (is_first, cm) = (ease > 0.0, words::cm(longer - shorter));
+        let ratio = number(longer / shorter, 2);
+        match (is_first, shorter > 0.0 && longer / shorter >= GATHERED) {
+            (true, true) => say!("gather the first, {ratio} to 1", ratio),
+            (false, true) => say!("gather the second, {ratio} to 1", ratio),
+            (true, false) => say!("ease the first in, {cm} cm", cm),
+            (false, false) => say!("ease the second in, {cm} cm", cm),
         }
     }
 

@@ -21,6 +21,8 @@ pub struct Legend {
     pub range: [f64; 2],
     /// Colours of the bar.
     pub palette: Palette,
+    /// Sign between the whole part of a value and its decimals.
+    pub decimal_sign: char,
 }
 
 impl Legend {
@@ -35,7 +37,8 @@ impl Legend {
             2
         };
         let value = |i: u32| self.range[0] + span * f64::from(i) / f64::from(TICKS - 1);
-        (0..TICKS).map(|i| format!("{:.digits$}", value(i) + 0.0)).collect()
+        let sign = self.decimal_sign.to_string();
+        (0..TICKS).map(|i| format!("{:.digits$}", value(i) + 0.0).replace('.', &sign)).collect()
     }
 
     /// Draws the legend in the lower left corner, scaled to the picture.
@@ -76,7 +79,24 @@ mod tests {
 
     fn legend(range: [f64; 2]) -> Legend {
         let (title, unit) = ("Strain along the grain".to_owned(), "%".to_owned());
-        Legend { title, unit, range, palette: Palette::Diverging }
+        Legend { title, unit, range, palette: Palette::Diverging, decimal_sign: '.' }
+    }
+
+    fn drawn(legend: &Legend) -> RgbaImage {
+        let mut picture = RgbaImage::from_pixel(640, 400, Rgba([1, 2, 3, 255]));
+        legend.burn(&mut picture);
+        picture
+    }
+
+    #[test]
+    fn a_decimal_comma_and_german_words_are_drawn() {
+        let english = legend([-4.0, 4.0]);
+        let comma = Legend { decimal_sign: ',', ..english.clone() };
+        assert_eq!(comma.ticks(), ["-4,0", "-2,0", "0,0", "2,0", "4,0"]);
+        assert_ne!(drawn(&comma), drawn(&english), "the comma is in the picture");
+        let named = |title: &str| drawn(&Legend { title: title.to_owned(), ..comma.clone() });
+        let all = ["Größe: Dehnung", "Grosse: Dehnung", "Gro\u{1f600}e: Dehnung"].map(named);
+        assert!(all[0] != all[1] && all[0] != all[2], "umlauts are letters of their own, no boxes");
     }
 
     #[test]

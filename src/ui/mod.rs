@@ -12,7 +12,7 @@
 //! | `maps`, `fit_page` | maps of the cloth; the fit report as a page |
 //! | `scenery` | document and cloth as the buffers that are drawn |
 //! | `files` | files, recent files, thumbnails |
-//! | `language` | the texts in other languages |
+//! | `language` | which language is shown, its keys, fields for its numbers |
 //! | `preferences` | the user's preferences, and their page; units |
 //! | `pointer`, `look` | mouse and strokes; colours and icons |
 
@@ -21,7 +21,7 @@ pub mod app;
 mod body_pane;
 mod files;
 pub mod fit_page;
-mod language;
+pub(crate) mod language;
 mod look;
 mod maps;
 mod panels;

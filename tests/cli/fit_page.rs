@@ -1,5 +1,6 @@
 //! `toile fit --page` from outside: one file, complete, sound, and with every word as it was written.
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use base64::Engine;
@@ -127,4 +128,52 @@ fn a_page_alone_needs_no_folder() {
     place.ends_with_words(2, "fit ball.toile", "--map");
     place.ends_with_words(2, "fit ball.toile --map ease", "--out");
     assert_eq!(place.names(""), ["ball.toile"]);
+}
+
+/// What is written on the page, element by element.
+fn texts(page: &str) -> Vec<&str> {
+    let body = page.split_once("</style>").expect("a style").1;
+    let parts = body.split('<').filter_map(|part| Some(part.split_once('>')?.1.trim()));
+    parts.filter(|text| !text.is_empty()).collect()
+}
+
+#[test]
+fn in_german_no_word_and_no_number_is_english() {
+    let place = dressed();
+    place.ends(0, "fit a<b>&c.toile --page en.html");
+    place.ends(0, "fit a<b>&c.toile --page de.html --language de");
+    let pages = ["en.html", "de.html"].map(|name| place.read(name));
+    let [english, german] = pages.each_ref().map(|page| texts(page));
+    assert_eq!(english.len(), german.len(), "the pages say the same");
+    let is_word = |word: &str| word.chars().count() > 3 && word.chars().all(char::is_alphabetic);
+    let is_english: BTreeSet<&str> =
+        english.iter().copied().filter(|text| text.split(' ').any(is_word)).collect();
+    assert!(is_english.len() > 40, "{is_english:?}");
+    // The name of the program and its version.
+    let plain = |text: &str| text.starts_with("Toile ");
+    let left: Vec<&str> =
+        german.iter().copied().filter(|text| is_english.contains(text) && !plain(text)).collect();
+    assert!(left.is_empty(), "{left:?}");
+    let has = |text: &str, sign: char| {
+        let digits: Vec<char> = text.chars().collect();
+        digits.windows(3).any(|w| w[1] == sign && w[0].is_ascii_digit() && w[2].is_ascii_digit())
+    };
+    let points: Vec<&str> = german.iter().copied().filter(|text| has(text, '.') && !plain(text)).collect();
+    assert!(points.is_empty(), "{points:?}");
+    assert!(german.iter().filter(|text| has(text, ',')).count() > 20);
+    for part in ["<html lang=\"de\">", "&amp;c: Passformbericht</title>", "Längen in Zentimetern"] {
+        assert!(pages[1].contains(part), "{part}");
+    }
+    for attribute in ["The pattern", "The garment", "Ease: gap to the body"] {
+        assert!(!pages[1].contains(&format!("\"{attribute}")), "{attribute}");
+    }
+    check_nesting(&pages[1]);
+}
+
+#[test]
+fn a_language_that_is_not_there_is_refused() {
+    let place = dressed();
+    place.ends_with_words(2, "fit a<b>&c.toile --page fit.html --language xx", "there are en, de");
+    assert!(!place.path("fit.html").exists());
+    place.ends(2, "fit a<b>&c.toile --map ease --out maps --language de");
 }

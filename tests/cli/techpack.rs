@@ -54,6 +54,37 @@ fn a_dressed_garment_is_told_with_its_ease_and_drawn_where_it_can_be() {
 }
 
 #[test]
+fn in_german_its_heads_and_numbers_are_german_and_its_contents_stay_english() {
+    let place = Place::new();
+    place.run("dress sample:skirt --edge-length 0.03 --out out --save dressed.toile");
+    let english = place.ends(0, "techpack dressed.toile -o en.pdf --seconds 0 --json").out;
+    let german = place.ends(0, "techpack dressed.toile -o de.pdf --seconds 0 --json --language de").out;
+    assert_eq!(german, english, "what programs read is as it was");
+    let [english, german] = ["en.pdf", "de.pdf"].map(|name| pages(&place, name).concat());
+    for (ours, theirs) in [
+        ("Tech pack", "Produktionsblatt"),
+        ("Cloth needed", "Stoffbedarf"),
+        ("Girth", "Umfang"),
+        ("Ease", "Mehrweite"),
+        ("Seams", "Nähte"),
+        ("edge", "Kante"),
+        ("Page", "Seite"),
+        ("hip", "Hüfte"),
+        ("allowance", "Nahtzugabe"),
+    ] {
+        assert!(english.contains(ours) && !german.contains(ours), "{ours}: {german}");
+        assert!(german.contains(theirs) && !english.contains(theirs), "{theirs}: {german}");
+    }
+    let has = |text: &str, sign: char| {
+        let letters: Vec<char> = text.chars().collect();
+        letters.windows(3).any(|w| w[1] == sign && w[0].is_ascii_digit() && w[2].is_ascii_digit())
+    };
+    let version = env!("CARGO_PKG_VERSION");
+    assert!(has(&german, ',') && !has(&german.replace(version, ""), '.'), "{german}");
+    place.ends_with_words(2, "techpack dressed.toile -o xx.pdf --language xx", "there are en, de");
+}
+
+#[test]
 fn every_size_is_measured_and_given_its_cloth() {
     let place = crate::sizes::place();
     let out = place.ends(0, "techpack skirt.toile -o pack.pdf --seconds 0 --json").out;

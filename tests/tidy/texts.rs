@@ -77,9 +77,10 @@ fn unescaped(code: &str) -> Option<(String, usize)> {
     None
 }
 
+/// What is shown in the language of the window: its code, and that of the tech pack.
 fn code_of_window() -> Vec<Source> {
     let mut sources = sources();
-    sources.retain(|s| s.folder == "ui" && !s.path.starts_with("src/ui/language"));
+    sources.retain(|s| ["ui", "pack"].contains(&s.folder.as_str()));
     for source in &mut sources {
         let end = source.code.find("#[cfg(test)]\nmod").unwrap_or(source.code.len());
         source.code.truncate(end);
@@ -153,7 +154,7 @@ fn literals_and_their_calls_are_seen() {
     assert_eq!(given(found[1].after), ["x", "y"].map(str::to_owned).into());
 }
 
-/// Sentences that stay English: legends in pictures.
+/// Sentences that stay English: titles in tables that are copied as text.
 const ENGLISH: [&str; 1] = ["Difference of {}"];
 
 /// Whether `text` reads like a sentence, or the beginning of one, that somebody sees.
@@ -173,7 +174,7 @@ fn is_sentence(text: &str) -> bool {
 fn every_sentence_in_the_code_of_the_window_is_in_german() {
     let german = german();
     let mut wrong = Vec::new();
-    for source in code_of_window().iter().filter(|s| !s.path.starts_with("src/ui/fit_page")) {
+    for source in code_of_window().iter() {
         let texts = literals(&source.code).into_iter().map(|literal| literal.text);
         let lacks = |text: &String| {
             is_sentence(text) && !german.contains_key(text) && !ENGLISH.contains(&text.as_str())
@@ -199,6 +200,45 @@ fn every_text_of_the_window_is_in_german() {
         }
     }
     assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+/// Numbers are shown and typed with the decimal sign of the language, through the helpers of `language`.
+#[test]
+fn no_number_of_the_window_has_a_decimal_point_of_its_own() {
+    // Drawings in SVG; a table that is copied as text.
+    let plain = ["src/ui/fit_page/drawing.rs", "src/ui/fit_page/legend.rs", "src/ui/maps/table.rs"];
+    let mut wrong = Vec::new();
+    for source in
+        code_of_window().iter().filter(|s| s.folder == "ui" && !s.path.starts_with("src/ui/language"))
+    {
+        wrong.extend(
+            ["DragValue::new", "Slider::new"]
+                .iter()
+                .filter(|call| source.code.contains(**call))
+                .map(|call| format!("{}: {call}", source.path)),
+        );
+        if !plain.contains(&source.path.as_str()) {
+            let texts = literals(&source.code).into_iter().map(|literal| literal.text);
+            wrong.extend(
+                texts.filter(|text| has_decimals(text)).map(|text| format!("{}: {text:?}", source.path)),
+            );
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+/// Whether `text` is a format with decimals: "{:.1}", "{x:+.digits$}".
+fn has_decimals(text: &str) -> bool {
+    let formats = text.split('{').skip(1).filter_map(|rest| rest.split_once('}')?.0.split_once(':'));
+    formats.map(|(_, format)| format).any(|format| {
+        format.split_once('.').is_some_and(|(_, digits)| !digits.is_empty() && !digits.starts_with('0'))
+    })
+}
+
+#[test]
+fn formats_with_decimals_are_seen() {
+    assert_eq!(["{:.1}", "{x:+.2} %", "{v:.digits$}", "{:.*}"].map(has_decimals), [true; 4]);
+    assert_eq!(["{x:.0}", "{x}. {y}", "{x:?}", "{:02x}", "a:.5"].map(has_decimals), [false; 5]);
 }
 
 /// Whether `text` is put together from literals or read from a file: places on the body are named word by word, joints by side,

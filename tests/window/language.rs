@@ -1,5 +1,10 @@
 //! The window in other languages.
 
+use egui::accesskit::Role;
+
+use super::files::write_by;
+use super::hand::dressed_window;
+use super::marker::enter;
 use super::*;
 
 /// A window that keeps its preferences in `folder`.
@@ -52,4 +57,69 @@ fn the_system_is_followed_and_tables_of_files_are_offered() {
     assert!(window.query_by_label("Edit").is_some(), "what the table lacks is English");
     edit(&mut window, |app, _| app.follow_language("de_AT".to_owned()));
     assert!(window.query_by_label("Datei").is_some());
+}
+
+fn value(window: &Window, role: Role, label: &str) -> String {
+    window.get_by_role_and_label(role, label).accesskit_node().value().expect("a value")
+}
+
+#[test]
+fn in_german_numbers_have_a_comma_and_both_signs_are_typed() {
+    let mut window = window();
+    edit(&mut window, |app, _| app.follow_language("de".to_owned()));
+    from_menu(&mut window, "Datei", "Schnittbild…");
+    for (typed, shown) in [("2,5", "2,5"), ("3.5", "3,5"), ("4", "4")] {
+        enter(&mut window, Role::SpinButton, "Neigung", typed);
+        window.run_steps(2);
+        let found = value(&window, Role::SpinButton, "Neigung");
+        assert_eq!(found.trim_end_matches('°'), shown, "{typed}");
+    }
+    for (typed, shown) in [("140,5", "140,5 cm"), ("1.255 m", "125,5 cm"), ("130", "130 cm")] {
+        enter(&mut window, Role::TextInput, "Stoffbreite", typed);
+        window.run_steps(2);
+        assert_eq!(value(&window, Role::TextInput, "Stoffbreite"), shown, "{typed}");
+    }
+}
+
+#[test]
+fn in_english_a_comma_may_be_typed_too() {
+    let mut window = window();
+    from_menu(&mut window, "File", "Marker…");
+    enter(&mut window, Role::SpinButton, "Tilt", "2,5");
+    window.run_steps(2);
+    assert_eq!(value(&window, Role::SpinButton, "Tilt").trim_end_matches('°'), "2.5");
+}
+
+#[test]
+fn the_legend_of_a_map_is_in_the_language_of_the_window() {
+    let mut window = dressed_window();
+    edit(&mut window, |app, _| app.follow_language("de".to_owned()));
+    for label in ["Ansicht", "Karte", "Mehrweite: Abstand zum Körper"] {
+        window.get_by_label(label).click();
+        window.run_steps(4);
+    }
+    let legend =
+        window.get_by_label_contains("Legende: Mehrweite").accesskit_node().label().expect("a label");
+    let has_comma =
+        legend.split(' ').any(|word| word.contains(',') && word.replace(',', ".").parse::<f64>().is_ok());
+    assert!(has_comma && !legend.contains('.'), "{legend}");
+}
+
+#[test]
+fn the_fit_report_is_in_the_language_of_the_window() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("fit.html");
+    let mut window = dressed_window();
+    edit(&mut window, |app, _| app.follow_language("de".to_owned()));
+    window.get_by_label("Datei").click();
+    window.run_steps(3);
+    window.get_by_label_contains("Passformbericht…").click();
+    window.run_steps(3);
+    if !write_by(&mut window, "Schreiben", &path) {
+        return;
+    }
+    window.run_steps(30);
+    let page = std::fs::read_to_string(&path).expect("the page");
+    assert!(page.contains("<html lang=\"de\">") && page.contains("Kleidungsstück und Körper"), "{page:.400}");
+    assert!(!page.contains("Garment and body") && !page.contains("Measures of the body"));
 }

@@ -24,7 +24,7 @@ fn click(window: &mut Window, label: &str) {
 }
 
 /// Types `text` into the field or number called `label`.
-fn enter(window: &mut Window, role: egui::accesskit::Role, label: &str, text: &str) {
+pub fn enter(window: &mut Window, role: egui::accesskit::Role, label: &str, text: &str) {
     window.get_by_role_and_label(role, label).click();
     window.run_steps(4);
     key(window, Modifiers::COMMAND, Key::A);

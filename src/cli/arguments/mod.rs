@@ -402,6 +402,9 @@ pub struct Fit {
     /// Writes the fit report to this file (HTML)
     #[arg(long, value_name = "FILE")]
     pub page: Option<PathBuf>,
+    /// The language of the fit report: en, de, or that of a table beside the preferences (toile help install)
+    #[arg(long, value_name = "CODE", default_value = "en", requires = "page")]
+    pub language: String,
     #[command(flatten)]
     pub picture: PictureOptions,
     /// Prints fit.json

@@ -32,13 +32,16 @@ pub struct TechPack {
     /// Another seed finds other layouts
     #[arg(long, default_value_t = 1)]
     pub seed: u64,
+    /// The language of the pages: en, de, or that of a table beside the preferences (toile help install)
+    #[arg(long, value_name = "CODE", default_value = "en")]
+    pub language: String,
     /// Leaves out the pictures
     #[arg(long)]
     pub no_picture: bool,
     /// The unit of a DXF or SVG pattern: mm, cm, m, in, px, px90 or pt
     #[arg(long, value_name = "UNIT")]
     pub scale: Option<DrawingUnit>,
-    /// Prints all that is in it
+    /// Prints all that is in it, in English
     #[arg(long)]
     pub json: bool,
     /// Number of threads; the result is the same

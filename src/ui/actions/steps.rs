@@ -1,8 +1,7 @@
 //! Names of undo steps in the language of the window. The session gives them in English, some with names and numbers in them.
 
-use std::fmt::Display;
-
-use crate::ui::language::{filled, tr, translated};
+use crate::language::sentences::translated_by;
+use crate::ui::language::translated;
 
 /// Names of steps that the session puts together, those with more words first. `{n}` stands for a number.
 const NAMES: &[&str] = &[
@@ -77,44 +76,14 @@ const NAMES: &[&str] = &[
 
 /// The name of a step that the session calls `label`.
 pub fn step_words(label: &str) -> String {
-    if let Some(text) = translated(label) {
-        return text.to_owned();
-    }
-    let found = NAMES.iter().find_map(|name| Some((name, values(name, label)?)));
-    let Some((name, values)) = found else { return label.to_owned() };
-    let values: Vec<(&str, &dyn Display)> =
-        values.iter().map(|(name, v)| (*name, v as &dyn Display)).collect();
-    filled(tr(name), &values)
-}
-
-/// What stands in `text` in place of each `{name}` of `template`; None if it is not made by it.
-fn values<'a>(template: &'a str, text: &'a str) -> Option<Vec<(&'a str, &'a str)>> {
-    let (before, mut template) = template.split_once('{')?;
-    let mut text = text.strip_prefix(before)?;
-    let mut found = Vec::new();
-    loop {
-        let (name, after) = template.split_once('}')?;
-        let (value, rest) = match after.split_once('{') {
-            Some((between, next)) => {
-                template = next;
-                text.split_once(between)?
-            }
-            None => (text.strip_suffix(after)?, ""),
-        };
-        if value.is_empty() || (name == "n" && value.parse::<u32>().is_err()) {
-            return None;
-        }
-        found.push((name, value));
-        if !after.contains('{') {
-            return Some(found);
-        }
-        text = rest;
-    }
+    let known = || translated_by(NAMES, label, |_, value| value.to_owned());
+    translated(label).map(str::to_owned).or_else(known).unwrap_or_else(|| label.to_owned())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::language::sentences::values;
     use crate::ui::language;
 
     #[test]
@@ -144,7 +113,7 @@ mod tests {
     #[test]
     fn steps_are_named_in_the_language_of_the_window() {
         assert_eq!(step_words("move front"), "move front");
-        language::show(language::choice::german());
+        language::show(crate::language::Table::german());
         assert_eq!(
             (step_words("wrap").as_str(), step_words("nothing known").as_str()),
             ("Anlegen", "nothing known")

@@ -84,7 +84,7 @@ impl App {
             Action::ExportPattern => self.ask_file(Purpose::ExportPattern),
             Action::Export => self.ask_file(Purpose::Export),
             Action::FitPage => self.ask_file(Purpose::FitPage),
-            Action::TechPack => self.ask_file(Purpose::TechPack),
+            Action::TechPack => self.ask_pack_language(),
             Action::Marker => self.open_marker(),
             Action::SaveRecording => self.ask_file(Purpose::Recording),
             Action::Paper(paper) => self.prefer(ctx, |p| p.paper = paper),

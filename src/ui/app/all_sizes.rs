@@ -16,7 +16,7 @@ use crate::sim::{Runner, StartChoice};
 use crate::ui::app::App;
 use crate::ui::body_pane::Graphics;
 use crate::ui::files::{self, Purpose};
-use crate::ui::language::{say, tr};
+use crate::ui::language::{number, say, signed, tr};
 use crate::ui::look::theme::Palette;
 use crate::ui::scenery::portrait::worn_scene;
 use crate::ui::scenery::scene::Scenery;
@@ -253,14 +253,14 @@ impl AllSizes {
                 ui.end_row();
                 ui.label(weak(tr("Strain p99, %")));
                 for size in &self.done {
-                    ui.label(size.strain_p99.map_or("–".to_owned(), |p99| format!("{:.1}", p99 * 100.0)));
+                    ui.label(size.strain_p99.map_or("–".to_owned(), |p99| number(p99 * 100.0, 1)));
                 }
                 ui.end_row();
                 for name in size_fit::girth_names(&self.done) {
                     ui.label(weak(&say!("Ease at {name}, cm", name = tr(name))));
                     for size in &self.done {
                         let ease = size.ease.iter().find(|ease| ease.name == name).map(Ease::metres);
-                        let text = ease.map_or("–".to_owned(), |ease| format!("{:+.1}", ease * 100.0));
+                        let text = ease.map_or("–".to_owned(), |ease| signed(ease * 100.0, 1));
                         let is_tight = ease.is_some_and(|ease| ease < 0.0);
                         let text = RichText::new(text);
                         ui.label(if is_tight { text.color(palette.error) } else { text });
@@ -281,7 +281,7 @@ fn summary(sizes: &[SizeFit]) -> String {
     let best = say!(
         "{size} fits this body best: its least ease is {ease} cm, at the {girth}",
         size,
-        ease = format!("{:+.1}", ease * 100.0),
+        ease = signed(ease * 100.0, 1),
         girth = tr(girth)
     );
     format!("{dressed}\n{best}")

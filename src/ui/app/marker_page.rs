@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::time::Duration;
 
-use egui::{Button, DragValue, Grid, Id, Modal, RichText, ScrollArea};
+use egui::{Button, Grid, Id, Modal, RichText, ScrollArea};
 
 use crate::io::pdf::Paper;
 use crate::marker::nest::Watch;
@@ -14,7 +14,8 @@ use crate::pattern::Pattern;
 use crate::ui::app::App;
 use crate::ui::app::marker_preview::Preview;
 use crate::ui::files::{self, Purpose};
-use crate::ui::language::{say, tr};
+use crate::ui::language::fields::drag_value;
+use crate::ui::language::{number, say, tr};
 use crate::ui::look::theme::Palette;
 use crate::ui::panels::fields::length_field;
 use crate::ui::preferences::units::LengthUnit;
@@ -173,7 +174,7 @@ impl MarkerPage {
                     false => tr("Garments").to_owned(),
                 };
                 let label = ui.label(words);
-                ui.add(DragValue::new(count).range(0..=MOST_PIECES)).labelled_by(label.id);
+                ui.add(drag_value(count).range(0..=MOST_PIECES)).labelled_by(label.id);
                 ui.end_row();
             }
             let label = ui.label(tr("Gap"));
@@ -183,7 +184,7 @@ impl MarkerPage {
             let label = ui.label(tr("Tilt"));
             let label = label.on_hover_text(tr("By how much pieces may also lie out of the grain"));
             let mut degrees = order.tilt.to_degrees();
-            let value = DragValue::new(&mut degrees).range(0.0..=45.0).speed(0.1).max_decimals(1).suffix("°");
+            let value = drag_value(&mut degrees).range(0.0..=45.0).speed(0.1).max_decimals(1).suffix("°");
             if ui.add(value).labelled_by(label.id).changed() {
                 order.tilt = degrees.to_radians();
             }
@@ -191,7 +192,7 @@ impl MarkerPage {
             let label = ui.label(tr("Search"));
             let label = label
                 .on_hover_text(tr("How long to look for a shorter layout: longer finds some percent more"));
-            let value = DragValue::new(&mut order.effort.seconds);
+            let value = drag_value(&mut order.effort.seconds);
             ui.add(value.range(0.0..=600.0).speed(0.1).max_decimals(1).suffix(" s")).labelled_by(label.id);
             ui.end_row();
         });
@@ -251,7 +252,7 @@ impl MarkerPage {
         let report = &made.report;
         let figures = [
             (tr("Length"), look.unit.text(report.length)),
-            (tr("Yield"), format!("{:.1} %", report.yield_percent)),
+            (tr("Yield"), format!("{} %", number(report.yield_percent, 1))),
             (tr("For each garment"), look.unit.text(report.length_per_garment)),
             (tr("Pieces"), report.places.len().to_string()),
         ];

@@ -487,6 +487,10 @@ impl App {
                     self.messages.error(words);
                 }
             }
+            Answer::TechPack(code) => {
+                self.shell.pack_language = Some(code);
+                self.ask_file(Purpose::TechPack);
+            }
             Answer::Body(raw) => {
                 self.prefer(ctx, |p| p.answers.body = Some((raw.unit, raw.up)));
                 if let Err(words) = self.take_body(*raw) {

@@ -2,13 +2,14 @@
 
 use std::path::Path;
 
-use egui::{ComboBox, DragValue, Id, Modal};
+use egui::{ComboBox, Id, Modal};
 use glam::UVec2;
 
 use crate::render::{Camera, FinePicture, Fineness, Legend, Look, Projection, RenderError, View, png};
 use crate::ui::actions::{Action, VIEWS};
 use crate::ui::app::App;
 use crate::ui::files::{self, Purpose};
+use crate::ui::language::fields::drag_value;
 use crate::ui::language::{say, tr};
 use crate::ui::look::theme::{self, Palette};
 use crate::ui::scenery::portrait::{Extras, portrait};
@@ -79,7 +80,7 @@ impl PicturePage {
                 ui.horizontal(|ui| {
                     let sides = [(&mut options.size.x, tr("Width")), (&mut options.size.y, tr("Height"))];
                     for (side, name) in sides {
-                        let value = DragValue::new(side).range(SIDES).suffix(" px");
+                        let value = drag_value(side).range(SIDES).suffix(" px");
                         let field = ui.add(value).labelled_by(label.id);
                         field.widget_info(|| {
                             egui::WidgetInfo::labeled(egui::accesskit::Role::SpinButton, true, name)
@@ -111,7 +112,7 @@ impl PicturePage {
                 ui.end_row();
                 let label = ui.label(tr("A full turn"));
                 ui.horizontal(|ui| {
-                    let value = DragValue::new(&mut options.count).range(1..=360);
+                    let value = drag_value(&mut options.count).range(1..=360);
                     ui.add(value).labelled_by(label.id);
                     ui.label(if options.count == 1 { tr("picture") } else { tr("pictures, numbered") });
                 });

@@ -19,7 +19,7 @@ pub struct Reporting {
 impl App {
     /// Begins the fit report of the dressed garment; it is written to `path`.
     pub(in crate::ui) fn begin_fit_page(&mut self, path: &Path) {
-        let name = self.path.as_deref().map_or_else(|| "untitled".to_owned(), files::stem);
+        let name = self.path.as_deref().map_or_else(|| tr("untitled").to_owned(), files::stem);
         match FitPage::of(&self.session, &name) {
             Some(page) => self.shell.reporting = Some(Reporting { path: path.to_owned(), page }),
             None => self.messages.error(tr("There is no cloth on the body")),
@@ -38,7 +38,9 @@ impl App {
                     return self.messages.error(say!("There is no picture: {why}", why));
                 }
             }
-            None => report.page.leave_pictures_out("there is no graphics adapter to draw with".to_owned()),
+            None => {
+                report.page.leave_pictures_out(tr("there is no graphics adapter to draw with").to_owned())
+            }
         }
         let (done, count) = report.page.progress();
         if done == count || self.scene_pane.graphics.is_none() {

@@ -63,6 +63,8 @@ pub struct Shell {
     pub reporting: Option<Reporting>,
     /// A tech pack in the making.
     pub tech_pack: Option<TechPack>,
+    /// Code of the language of the last tech pack; None for that of the window.
+    pub pack_language: Option<String>,
     /// What the drawer below the panes shows; None when it is closed.
     pub drawer: Option<Drawer>,
     /// The list of recent files.

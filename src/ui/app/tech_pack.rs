@@ -3,12 +3,15 @@
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
+use crate::language::{Table, shown, shown_in};
 use crate::pack::{Pack, Pictures, Source, Wish, write};
 use crate::session::{Document, Outfit};
 use crate::ui::app::App;
 use crate::ui::files;
-use crate::ui::language::{say, tr};
+use crate::ui::language::choice::Language;
+use crate::ui::language::{code, say, tr};
 use crate::ui::scenery::front_and_back::front_and_back;
+use crate::ui::shell::dialogs::Dialog;
 
 /// A tech pack in the making.
 #[derive(Debug)]
@@ -19,17 +22,34 @@ pub struct TechPack {
 }
 
 impl App {
+    /// Asks for the language of the tech pack, which a maker abroad reads; at first it is that of the window.
+    pub(in crate::ui) fn ask_pack_language(&mut self) {
+        let own = |(code, name): (&str, &str)| (code.to_owned(), name.to_owned());
+        let chosen = self.shell.pack_language.clone().unwrap_or_else(|| code().to_owned());
+        let languages = self.languages.all().into_iter().map(own).collect();
+        self.dialog = Some(Dialog::TechPack { languages, chosen });
+    }
+
+    /// The table of the language that was chosen for the tech pack; None for English.
+    fn pack_table(&self) -> Option<&'static Table> {
+        match &self.shell.pack_language {
+            Some(code) => self.languages.table(&Language(Some(code.clone()))),
+            None => shown(),
+        }
+    }
+
     /// Begins the tech pack of the garment; it is written to `path`.
     pub(in crate::ui) fn begin_tech_pack(&mut self, ctx: &egui::Context, path: &Path) -> Result<(), String> {
-        let name = self.path.as_deref().map_or_else(|| "untitled".to_owned(), files::stem);
+        let name = self.path.as_deref().map_or_else(|| tr("untitled").to_owned(), files::stem);
         let document = self.session.document().clone();
         let outfit = Outfit::of(self.session.snapshot(), &document.fabrics);
         let pictures = self.pictures_of_pack(outfit.is_some())?;
+        let table = self.pack_table();
         let (send, coming) = channel();
         let done = ctx.clone();
         let work = move || {
             // Sending fails if the window was closed.
-            send.send(made(&name, &document, outfit.as_ref(), &pictures)).ok();
+            send.send(made(&name, &document, outfit.as_ref(), &pictures, table)).ok();
             done.request_repaint();
         };
         let thread = std::thread::Builder::new().name("tech pack".to_owned()).spawn(work);
@@ -68,14 +88,15 @@ impl App {
     }
 }
 
-/// The tech pack as PDF, or why there is none.
+/// The tech pack with the texts of `table` as PDF, or why there is none.
 fn made(
     name: &str,
     document: &Document,
     outfit: Option<&Outfit>,
     pictures: &Pictures,
+    table: Option<&'static Table>,
 ) -> Result<Vec<u8>, String> {
     let pack =
         Pack::of(Source { name, document, outfit }, &Wish::default()).map_err(|why| why.to_string())?;
-    write(&pack, &document.pattern, pictures).map_err(|why| why.to_string())
+    shown_in(table, || write(&pack, &document.pattern, pictures)).map_err(|why| why.to_string())
 }

@@ -6,6 +6,7 @@ use glam::DVec2;
 use maud::{Markup, html};
 
 use crate::pattern::{Pattern, Piece};
+use crate::ui::language::tr;
 
 /// Flattening tolerance of curves, metres.
 const TOLERANCE: f64 = 5e-4;
@@ -27,7 +28,7 @@ pub fn drawing(pattern: &Pattern) -> Markup {
     let size = (high - low) * 1e3;
     let letters = letters * 1e3;
     html! {
-        svg.pattern viewBox=(format!("0 0 {:.0} {:.0}", size.x, size.y)) role="img" aria-label="The pattern"
+        svg.pattern viewBox=(format!("0 0 {:.0} {:.0}", size.x, size.y)) role="img" aria-label=(tr("The pattern"))
             font-size=(format!("{letters:.1}")) stroke-width=(format!("{:.2}", letters * 0.09)) {
             @for piece in shown() {
                 path.piece d=(path(piece, at)) fill-rule="evenodd" {}

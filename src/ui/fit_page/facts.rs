@@ -3,7 +3,7 @@
 use crate::body::landmarks;
 use crate::body::readings::Reading;
 use crate::fit::maps::PieceStats;
-use crate::fit::{self, BodyIndex, Girth, Map, MapKind, MapReader, Report, SeamFit};
+use crate::fit::{self, BodyIndex, Girth, Map, MapKind, MapReader, Report, SeamFit, Tight};
 use crate::pattern::Problem;
 use crate::session::body::readings_of;
 use crate::session::{Outfit, Session};
@@ -26,8 +26,8 @@ pub struct Facts {
     pub report: Report,
     /// Faults of the dressed garment, and problems found while building and sewing it; empty when all is well.
     pub problems: Vec<Problem>,
-    /// The tightest place, in words.
-    pub tight: Option<String>,
+    /// The tightest place.
+    pub tight: Option<Tight>,
     /// Body measurements; empty if the body is not a standing human.
     pub readings: Vec<Reading>,
     /// Girths of the garment at the girths of the body, each with its index in `readings`.
@@ -73,7 +73,7 @@ impl Facts {
                 .map(|fault| fault.problem)
                 .chain(snapshot.problems.iter().filter(|p| !p.kind.is_note()).cloned())
                 .collect(),
-            tight: tight.map(|tight| tight.to_string()),
+            tight,
             girths: fit::girths(garment, state, &readings),
             seams: SeamFit::all(&source.pattern, garment, state),
             maps: maps.into(),

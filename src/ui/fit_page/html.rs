@@ -8,6 +8,8 @@ use crate::ui::fit_page::facts::{Facts, MapFacts};
 use crate::ui::fit_page::legend::{legend, minus};
 use crate::ui::fit_page::pictures::Picture;
 use crate::ui::fit_page::tables;
+use crate::ui::fit_page::words::{fault_words, place_words, tight_words};
+use crate::ui::language::{code, counted, number, say, tr};
 
 const STYLE: &str = include_str!("style.css");
 /// Content security policy: the page loads nothing, and its style is part of it.
@@ -15,10 +17,10 @@ const POLICY: &str = include_str!("policy.txt");
 
 /// The HTML page. `left_out` is the reason why it has no pictures.
 pub fn page(facts: &Facts, pictures: &[Picture], left_out: Option<&str>) -> String {
-    let title = format!("{}: fit report", facts.name);
+    let title = say!("{name}: fit report", name = facts.name);
     html! {
         (DOCTYPE)
-        html lang="en" {
+        html lang=(code().replace('_', "-")) {
             head {
                 meta charset="utf-8";
                 meta http-equiv="Content-Security-Policy" content=(POLICY);
@@ -31,7 +33,7 @@ pub fn page(facts: &Facts, pictures: &[Picture], left_out: Option<&str>) -> Stri
                 (header(facts))
                 (verdict(facts))
                 @if let Some(why) = left_out {
-                    p.note { "The pictures are left out: " (why) "." }
+                    p.note { (say!("The pictures are left out: {why}.", why = tr(why))) }
                 }
                 (views(pictures))
                 (figures(facts))
@@ -40,8 +42,8 @@ pub fn page(facts: &Facts, pictures: &[Picture], left_out: Option<&str>) -> Stri
                 (pattern(facts))
                 (body(facts))
                 footer {
-                    "Toile " (env!("CARGO_PKG_VERSION")) ". Lengths in centimetres, heights above the floor. Of each map 1 % and \
-                     99 % of the vertices lie below and above the two values given."
+                    "Toile " (env!("CARGO_PKG_VERSION")) ". "
+                    (tr("Lengths in centimetres, heights above the floor. Of each map 1 % and 99 % of the vertices lie below and above the two values given."))
                 }
             }
         }
@@ -50,16 +52,18 @@ pub fn page(facts: &Facts, pictures: &[Picture], left_out: Option<&str>) -> Stri
 }
 
 fn header(facts: &Facts) -> Markup {
-    let pieces = facts.outfit.garment.pieces.len();
+    let what = say!(
+        "{pieces} on {body}, {triangles} triangles of {mm} mm",
+        pieces = counted(facts.outfit.garment.pieces.len(), "1 piece", "{n} pieces"),
+        body = tr(&facts.body),
+        triangles = facts.report.triangles,
+        mm = number(facts.outfit.garment.mean_edge() * 1e3, 0)
+    );
     html! {
         header {
-            p.kind { "Fit report" }
+            p.kind { (tr("Fit report")) }
             h1 { (facts.name) }
-            p.sub {
-                (pieces) @if pieces == 1 { " piece" } @else { " pieces" }
-                " on " (facts.body) ", " (facts.report.triangles) " triangles of "
-                (format!("{:.0}", facts.outfit.garment.mean_edge() * 1e3)) " mm"
-            }
+            p.sub { (what) }
         }
     }
 }
@@ -68,12 +72,17 @@ fn verdict(facts: &Facts) -> Markup {
     html! {
         section.verdict.bad[!facts.problems.is_empty()] {
             @if facts.problems.is_empty() {
-                p { strong { "Dressed." } " All seams are sewn, the cloth lies outside the body and the right way round." }
+                p {
+                    strong { (tr("Dressed.")) } " "
+                    (tr("All seams are sewn, the cloth lies outside the body and the right way round."))
+                }
             } @else {
-                p { strong { "Not right yet." } }
-                ul { @for problem in &facts.problems { li { strong { (problem.place) } ": " (problem.words) } } }
+                p { strong { (tr("Not right yet.")) } }
+                ul { @for problem in &facts.problems {
+                    li { strong { (place_words(&problem.place)) } ": " (fault_words(&problem.words)) }
+                } }
             }
-            @if let Some(tight) = &facts.tight { p { "Tightest: " (tight) } }
+            @if let Some(tight) = &facts.tight { p { (say!("Tightest: {place}", place = tight_words(tight))) } }
         }
     }
 }
@@ -89,11 +98,12 @@ fn views(pictures: &[Picture]) -> Markup {
 }
 
 fn figure(picture: &Picture) -> Markup {
-    let what = picture.kind.map_or("The garment", MapKind::title);
+    let what = picture.kind.map_or_else(|| tr("The garment"), |kind| tr(kind.title()));
+    let side = tr(picture.side);
     html! {
         figure {
-            img src=(picture.source) width=(picture.size.x) height=(picture.size.y) alt={ (what) ", " (picture.side) };
-            figcaption { (picture.side) }
+            img src=(picture.source) width=(picture.size.x) height=(picture.size.y) alt={ (what) ", " (side) };
+            figcaption { (side) }
         }
     }
 }
@@ -111,15 +121,15 @@ fn figures(facts: &Facts) -> Markup {
     );
     let pressure = facts.maps.iter().find(|map| map.map.kind == MapKind::Pressure).map(|map| map.map.stats());
     let all: [(String, &str, &str); 5] = [
-        (format!("{closed} of {}", facts.seams.len()), "", "seams closed"),
-        (format!("{:.1}", report.strain.stretch_p99 * 100.0), "%", "stretched where it is tightest"),
-        (minus(&format!("{:.0}", report.clearance.median * 1e3)), "mm", "off the skin, half of it less"),
+        (say!("{closed} of {count}", closed, count = facts.seams.len()), "", tr("seams closed")),
+        (number(report.strain.stretch_p99 * 100.0, 1), "%", tr("stretched where it is tightest")),
+        (minus(&number(report.clearance.median * 1e3, 0)), "mm", tr("off the skin, half of it less")),
         (
-            pressure.map_or_else(|| "–".to_owned(), |p| format!("{:.2}", p.p99 / 1e3)),
+            pressure.map_or_else(|| "–".to_owned(), |p| number(p.p99 / 1e3, 2)),
             "kPa",
-            "on the skin where it presses most",
+            tr("on the skin where it presses most"),
         ),
-        (format!("{:.0}", weight * 1e3), "g", "of cloth"),
+        (number(weight * 1e3, 0), "g", tr("of cloth")),
     ];
     html! {
         section.figures { @for (value, unit, words) in all {
@@ -131,11 +141,11 @@ fn figures(facts: &Facts) -> Markup {
 fn girths(facts: &Facts) -> Markup {
     html! {
         section {
-            h2 { "Garment and body" }
+            h2 { (tr("Garment and body")) }
             @if facts.girths.is_empty() {
-                p.weak { "The cloth goes all the way round nowhere that the body is measured." }
+                p.weak { (tr("The cloth goes all the way round nowhere that the body is measured.")) }
             } @else {
-                p.lead { "Ease is what the pattern has round the body beyond the body's own girth." }
+                p.lead { (tr("Ease is what the pattern has round the body beyond the body's own girth.")) }
                 (tables::girths(facts))
             }
             @if !facts.report.openings.is_empty() { (tables::openings(facts)) }
@@ -147,7 +157,7 @@ fn girths(facts: &Facts) -> Markup {
 fn maps(facts: &Facts, pictures: &[Picture]) -> Markup {
     html! {
         section {
-            h2 { "Maps" }
+            h2 { (tr("Maps")) }
             @for map in facts.maps.iter().filter(|map| map.map.stats().count > 0) { (map_ui(map, pictures)) }
         }
     }
@@ -157,14 +167,20 @@ fn map_ui(map: &MapFacts, pictures: &[Picture]) -> Markup {
     let kind = map.map.kind;
     let ((unit, times), digits) = (kind.unit(), kind.digits());
     let stats = map.map.stats();
-    let value = |v: f64| format!("{} {unit}", minus(&format!("{:.digits$}", v * times)));
+    let value = |v: f64| format!("{} {unit}", minus(&number(v * times, digits)));
+    let words = say!(
+        "Median {median}, from {from} to {to}",
+        median = value(stats.median),
+        from = value(stats.p01),
+        to = value(stats.p99)
+    );
     html! {
         div.map {
             div.words {
-                h3 { (kind.title()) }
-                p { (kind.tip()) "." }
+                h3 { (tr(kind.title())) }
+                p { (tr(kind.tip())) "." }
                 (legend(map))
-                p.weak { "Median " (value(stats.median)) ", from " (value(stats.p01)) " to " (value(stats.p99)) }
+                p.weak { (words) }
             }
             @for picture in pictures.iter().filter(|picture| picture.kind == Some(kind)) { (figure(picture)) }
         }
@@ -174,12 +190,12 @@ fn map_ui(map: &MapFacts, pictures: &[Picture]) -> Markup {
 fn pattern(facts: &Facts) -> Markup {
     html! {
         section {
-            h2 { "Pattern and seams" }
+            h2 { (tr("Pattern and seams")) }
             (drawing(&facts.outfit.source.pattern))
             @if !facts.seams.is_empty() { (tables::seams(facts)) }
         }
         section {
-            h2 { "Pieces and fabrics" }
+            h2 { (tr("Pieces and fabrics")) }
             (tables::pieces(facts))
             (tables::fabrics(facts))
         }
@@ -189,7 +205,7 @@ fn pattern(facts: &Facts) -> Markup {
 fn body(facts: &Facts) -> Markup {
     html! {
         @if !facts.readings.is_empty() {
-            section.together { h2 { "Measures of the body" } div.columns { (tables::readings(facts)) } }
+            section.together { h2 { (tr("Measures of the body")) } div.columns { (tables::readings(facts)) } }
         }
     }
 }

@@ -4,6 +4,7 @@ use maud::{Markup, html};
 
 use crate::render::{Legend, Rgb};
 use crate::ui::fit_page::facts::MapFacts;
+use crate::ui::language::{decimal_sign, say, tr};
 use crate::ui::scenery::map_colours::palette;
 
 /// Width of the drawing, SVG units.
@@ -19,10 +20,11 @@ pub fn legend(map: &MapFacts) -> Markup {
     let (unit, times) = kind.unit();
     let (palette, range) = (palette(kind), map.range);
     let legend = Legend {
-        title: kind.title().to_owned(),
+        title: tr(kind.title()).to_owned(),
         unit: unit.to_owned(),
         range: range.map(|v| v * times),
         palette,
+        decimal_sign: decimal_sign(),
     };
     let histogram = map.map.histogram(range);
     let count = histogram.counts.len().max(1);
@@ -31,7 +33,8 @@ pub fn legend(map: &MapFacts) -> Markup {
     let value = |i: usize| range[0] + (range[1] - range[0]) * (i as f64 + 0.5) / count as f64;
     let ticks = legend.ticks();
     let last = ticks.len().saturating_sub(1).max(1);
-    let words = format!("{}, {} to {} {unit}", legend.title, ticks[0], ticks[ticks.len() - 1]);
+    let [from, to] = [&ticks[0], &ticks[ticks.len() - 1]];
+    let words = say!("{map}, {from} to {to} {unit}", map = legend.title, from, to, unit);
     html! {
         svg.legend viewBox={ "0 0 " (WIDTH) " 92" } role="img" aria-label=(words) {
             @for (i, &n) in histogram.counts.iter().enumerate() {

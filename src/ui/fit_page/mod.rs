@@ -7,6 +7,7 @@ mod html;
 mod legend;
 mod pictures;
 mod tables;
+pub(in crate::ui) mod words;
 
 use crate::render::{Camera, Look, RenderError, Scene};
 use crate::session::Session;
@@ -56,7 +57,7 @@ impl FitPage {
         self.left_out = Some(why);
     }
 
-    /// The self-contained HTML page.
+    /// The self-contained HTML page, in the language that is shown.
     pub fn html(&self) -> String {
         html::page(&self.facts, &self.pictures, self.left_out.as_deref())
     }

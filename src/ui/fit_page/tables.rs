@@ -9,6 +9,8 @@ use crate::fit::{Causes, STRAINED, SeamFit};
 use crate::geometry::ids::PieceId;
 use crate::ui::fit_page::facts::Facts;
 use crate::ui::fit_page::legend::minus;
+use crate::ui::fit_page::words::smaller_words;
+use crate::ui::language::{number, say, signed, tr};
 
 /// The entry where there is no value.
 const NONE: &str = "–";
@@ -16,16 +18,16 @@ const NONE: &str = "–";
 const ALIKE: f64 = 0.005;
 
 fn cm(metres: f64) -> String {
-    minus(&format!("{:.1}", metres * 100.0))
+    minus(&number(metres * 100.0, 1))
 }
 
 fn signed_cm(metres: f64) -> String {
-    minus(&format!("{:+.1}", metres * 100.0))
+    minus(&signed(metres * 100.0, 1))
 }
 
 /// A fraction as a percentage with sign.
 fn percent(share: f64) -> String {
-    minus(&format!("{:+.1}", share * 100.0))
+    minus(&signed(share * 100.0, 1))
 }
 
 fn or_none(value: Option<f64>, words: impl Fn(f64) -> String) -> String {
@@ -43,11 +45,13 @@ fn head(words: usize, columns: &[&str]) -> Markup {
 pub fn girths(facts: &Facts) -> Markup {
     html! {
         table {
-            (head(1, &["", "Height", "Body", "Pattern", "Ease", "Ease, %", "As worn", "Stretch, %"]))
+            (head(1, &[
+                "", tr("Height"), tr("Body"), tr("Pattern"), tr("Ease"), tr("Ease, %"), tr("As worn"), tr("Stretch, %"),
+            ]))
             tbody { @for (i, girth) in &facts.girths {
                 @let Reading { name, metres, height, .. } = &facts.readings[*i];
                 tr {
-                    th.words { (name) }
+                    th.words { (tr(name)) }
                     td.weak { (or_none(*height, cm)) }
                     td { (cm(*metres)) }
                     td { (cm(girth.flat)) }
@@ -64,19 +68,19 @@ pub fn girths(facts: &Facts) -> Markup {
 /// The causes of the cloth's strain.
 pub fn strain_causes(causes: &Causes) -> Markup {
     let all = [
-        ("The pattern is small there", causes.fit),
-        ("The sides of a seam are unequal", causes.seam_ease),
-        ("It did not come to rest", causes.unconverged),
+        (tr("The pattern is small there"), causes.fit),
+        (tr("The sides of a seam are unequal"), causes.seam_ease),
+        (tr("It did not come to rest"), causes.unconverged),
     ];
-    let strained = format!("Strained by more than {:.0} %", STRAINED * 100.0);
+    let strained = say!("Strained by more than {percent} %", percent = number(STRAINED * 100.0, 0));
     html! {
         table {
-            (head(1, &[&strained, "Edges", "At most, %"]))
+            (head(1, &[&strained, tr("Edges"), tr("At most, %")]))
             tbody { @for (words, strained) in all {
                 tr { th.words { (words) } td { (strained.edges) } td { (percent(strained.max)) } }
             } }
         }
-        @for smaller in &causes.smaller { p { "The pattern is " (smaller) "." } }
+        @for smaller in &causes.smaller { p { (smaller_words(smaller)) "." } }
     }
 }
 
@@ -84,9 +88,9 @@ pub fn strain_causes(causes: &Causes) -> Markup {
 pub fn readings(facts: &Facts) -> Markup {
     html! {
         table {
-            (head(1, &["", "cm", "Height"]))
+            (head(1, &["", "cm", tr("Height")]))
             tbody { @for Reading { name, metres, height, .. } in &facts.readings {
-                tr { th.words { (name) } td { (cm(*metres)) } td.weak { (or_none(*height, cm)) } }
+                tr { th.words { (tr(name)) } td { (cm(*metres)) } td.weak { (or_none(*height, cm)) } }
             } }
         }
     }
@@ -96,19 +100,21 @@ pub fn readings(facts: &Facts) -> Markup {
 pub fn seams(facts: &Facts) -> Markup {
     html! {
         table.seams {
-            (head(2, &["Seam", "Joins", "Lengths", "Gather", "As worn", "Stretch, %", ""]))
+            (head(2, &[
+                tr("Seam"), tr("Joins"), tr("Lengths"), tr("Gather"), tr("As worn"), tr("Stretch, %"), "",
+            ]))
             tbody { @for seam in &facts.seams {
                 tr {
                     th.number { (seam.seam.0) }
                     td.words { @for (k, (piece, edge)) in seam.sides.iter().enumerate() {
-                        @if k > 0 { span.weak { " with " } }
-                        (piece) span.weak { " edge " (edge) }
+                        @if k > 0 { span.weak { " " (tr("with")) " " } }
+                        (piece) span.weak { " " (say!("edge {edge}", edge)) }
                     } }
                     td { (or_none(seam.flat[0], cm)) span.weak { " / " } (or_none(seam.flat[1], cm)) }
                     td { (or_none(seam.gather(), gather)) }
                     td { (or_none(seam.worn, cm)) }
                     td { (or_none(seam.stretch(), percent)) }
-                    td.words.end { @if seam.is_closed() { span.good { "closed" } } @else { span.bad { (missing(seam)) } } }
+                    td.words.end { @if seam.is_closed() { span.good { (tr("closed")) } } @else { span.bad { (missing(seam)) } } }
                 }
             } }
         }
@@ -116,22 +122,22 @@ pub fn seams(facts: &Facts) -> Markup {
 }
 
 fn gather(ratio: f64) -> String {
-    if ratio < 1.0 + ALIKE { NONE.to_owned() } else { format!("{ratio:.2} : 1") }
+    if ratio < 1.0 + ALIKE { NONE.to_owned() } else { format!("{} : 1", number(ratio, 2)) }
 }
 
 /// Why a seam is not closed.
 fn missing(seam: &SeamFit) -> String {
     match seam.gap {
-        Some(gap) => format!("open by {:.1} mm", gap * 1e3),
-        None if seam.flat.contains(&None) => "one side is not there".to_owned(),
-        None => "not sewn".to_owned(),
+        Some(gap) => say!("open by {mm} mm", mm = number(gap * 1e3, 1)),
+        None if seam.flat.contains(&None) => tr("one side is not there").to_owned(),
+        None => tr("not sewn").to_owned(),
     }
 }
 
 /// Fabric, size and strain of each piece.
 pub fn pieces(facts: &Facts) -> Markup {
     let spread = |stats: &MapStats, times: f64| {
-        let value = |v: f64| minus(&format!("{:.1}", v * times));
+        let value = |v: f64| minus(&number(v * times, 1));
         if stats.count == 0 {
             NONE.to_owned()
         } else {
@@ -143,14 +149,16 @@ pub fn pieces(facts: &Facts) -> Markup {
     let garment = &facts.outfit.garment;
     html! {
         table {
-            (head(2, &["Piece", "Fabric", "Cloth, dm²", "Area, %", "Warp, %", "Weft, %", "Shear, °"]))
+            (head(2, &[
+                tr("Piece"), tr("Fabric"), tr("Cloth, dm²"), tr("Area, %"), tr("Warp, %"), tr("Weft, %"), tr("Shear, °"),
+            ]))
             tbody { @for (i, (id, name)) in garment.pieces.iter().enumerate() {
                 @let change = facts.report.pieces.get(i);
                 @let [warp, weft, shear] = facts.strains.each_ref().map(|pieces| &pieces[i].stats);
                 tr {
                     th.words { (name) }
-                    td.words { (facts.outfit.fabrics.get(id).map_or(NONE, |fabric| &fabric.name)) }
-                    td { (format!("{:.1}", flat_area(facts, *id) * 100.0)) }
+                    td.words { (facts.outfit.fabrics.get(id).map_or(NONE, |fabric| tr(&fabric.name))) }
+                    td { (number(flat_area(facts, *id) * 100.0, 1)) }
                     td { (or_none(change.map(|change| change.area_change), percent)) }
                     td { (spread(warp, percents)) }
                     td { (spread(weft, percents)) }
@@ -175,16 +183,19 @@ pub fn fabrics(facts: &Facts) -> Markup {
     fabrics.dedup();
     html! {
         table {
-            (head(1, &["Fabric", "g/m²", "Warp, N/m", "Weft, N/m", "Shear, N/m", "Bending, µN·m", "Thickness, mm"]))
+            (head(1, &[
+                tr("Fabric"), "g/m²", tr("Warp, N/m"), tr("Weft, N/m"), tr("Shear, N/m"), tr("Bending, µN·m"),
+                tr("Thickness, mm"),
+            ]))
             tbody { @for fabric in fabrics {
                 tr {
-                    th.words { (fabric.name) }
-                    td { (format!("{:.0}", fabric.density_kg_per_m2 * 1e3)) }
-                    td { (format!("{:.0}", fabric.stretch.warp)) }
-                    td { (format!("{:.0}", fabric.stretch.weft)) }
-                    td { (format!("{:.0}", fabric.stretch.shear)) }
+                    th.words { (tr(&fabric.name)) }
+                    td { (number(fabric.density_kg_per_m2 * 1e3, 0)) }
+                    td { (number(fabric.stretch.warp, 0)) }
+                    td { (number(fabric.stretch.weft, 0)) }
+                    td { (number(fabric.stretch.shear, 0)) }
                     td { (format!("{:.0} / {:.0}", fabric.bending.warp * 1e6, fabric.bending.weft * 1e6)) }
-                    td { (format!("{:.2}", fabric.thickness_m * 1e3)) }
+                    td { (number(fabric.thickness_m * 1e3, 2)) }
                 }
             } }
         }
@@ -195,14 +206,14 @@ pub fn fabrics(facts: &Facts) -> Markup {
 pub fn openings(facts: &Facts) -> Markup {
     html! {
         table {
-            (head(1, &["Opening", "Height", "As worn", ""]))
+            (head(1, &[tr("Opening"), tr("Height"), tr("As worn"), ""]))
             tbody { @for (i, opening) in facts.report.openings.iter().enumerate() {
                 tr {
                     th.words { (i + 1) }
                     td.weak { (cm(opening.height)) }
                     td { (cm(opening.length)) }
-                    td.words.end { @if opening.body_through { span.good { "the body passes through" } }
-                        @else { span.weak { "the body does not pass through" } } }
+                    td.words.end { @if opening.body_through { span.good { (tr("the body passes through")) } }
+                        @else { span.weak { (tr("the body does not pass through")) } } }
                 }
             } }
         }

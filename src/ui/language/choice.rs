@@ -1,11 +1,10 @@
 //! Which language the window is shown in: the system's, a built-in one, or one of a file beside the preferences.
 
 use std::path::Path;
-use std::sync::OnceLock;
 
 use serde::{Deserialize, Serialize};
 
-use crate::ui::language::Table;
+use crate::language::Table;
 
 /// Folder of the tables beside the preferences.
 pub const FOLDER: &str = "languages";
@@ -32,13 +31,6 @@ impl Default for Languages {
     fn default() -> Self {
         Self { system: ENGLISH.to_owned(), own: Vec::new() }
     }
-}
-
-/// The German table.
-pub fn german() -> Option<&'static Table> {
-    static GERMAN: OnceLock<Option<Table>> = OnceLock::new();
-    let bytes = include_bytes!("../../../assets/languages/de.json");
-    GERMAN.get_or_init(|| Table::read(bytes).ok()).as_ref()
 }
 
 impl Languages {
@@ -80,17 +72,29 @@ impl Languages {
     pub fn table(&self, language: &Language) -> Option<&'static Table> {
         let code = language.0.as_deref().unwrap_or(&self.system);
         let exact = self.tables().find(|table| table.code.eq_ignore_ascii_case(code));
-        exact.or_else(|| {
-            let short =
-                |code: &str| code.split(['_', '-', '.', '@']).next().unwrap_or_default().to_lowercase();
-            self.tables().find(|table| short(&table.code) == short(code))
-        })
+        exact.or_else(|| self.tables().find(|table| short(&table.code) == short(code)))
+    }
+
+    /// The table of the language with `code`; None for English. The error lists the languages there are.
+    pub fn named(&self, code: &str) -> Result<Option<&'static Table>, String> {
+        match self.table(&Language(Some(code.to_owned()))) {
+            None if short(code) != ENGLISH => {
+                let all: Vec<&str> = self.all().into_iter().map(|(code, _)| code).collect();
+                Err(format!("there is no language {code:?}; there are {}", all.join(", ")))
+            }
+            table => Ok(table),
+        }
     }
 
     /// The tables; a file comes before a built-in one of the same code.
     fn tables(&self) -> impl Iterator<Item = &'static Table> {
-        self.own.iter().copied().chain(german())
+        self.own.iter().copied().chain(Table::german())
     }
+}
+
+/// The language of a locale without its country: "de" of "de_AT.UTF-8".
+fn short(code: &str) -> String {
+    code.split(['_', '-', '.', '@']).next().unwrap_or_default().to_lowercase()
 }
 
 fn table(path: &Path) -> Result<Table, String> {
@@ -133,5 +137,8 @@ mod tests {
         assert!(words.len() == 1 && words[0].contains("broken.json: EOF"), "{words:?}");
         assert_eq!(languages.all(), [("en", "English"), ("fr", "Français"), ("de", "Mein Deutsch")]);
         assert_eq!(chosen(&languages, "fr_CA").as_deref(), Some("Français"));
+        let named = |code| languages.named(code).map(|table| table.map(|table| table.code.as_str()));
+        assert_eq!([named("en"), named("de_AT"), named("FR")], [Ok(None), Ok(Some("de")), Ok(Some("fr"))]);
+        assert_eq!(named("xx"), Err("there is no language \"xx\"; there are en, fr, de".to_owned()));
     }
 }

@@ -1,12 +1,13 @@
 //! The legend over the body pane: colour bar, values and histogram.
 
 use egui::accesskit::Role;
-use egui::{Align2, Color32, DragValue, FontId, Frame, Margin, Rect, Sense, Stroke, WidgetInfo, pos2, vec2};
+use egui::{Align2, Color32, FontId, Frame, Margin, Rect, Sense, Stroke, WidgetInfo, pos2, vec2};
 
 use super::ShownMap;
 use crate::ui::actions::Action;
 use crate::ui::actions::asks::{Ask, Asks};
-use crate::ui::language::{say, tr};
+use crate::ui::language::fields::drag_value;
+use crate::ui::language::{number, say, tr};
 use crate::ui::look::theme::{Palette, colour};
 
 /// Width of the legend, points.
@@ -72,7 +73,7 @@ fn title_ui(ui: &mut egui::Ui, map: &ShownMap, asks: &mut Asks) {
 fn bar_ui(ui: &mut egui::Ui, map: &ShownMap, value: Option<f64>, palette: &Palette) {
     let (whole, response) = ui.allocate_exact_size(vec2(ui.available_width(), BAR + 12.0), Sense::hover());
     let legend = map.legend();
-    let [from, to] = legend.range.map(|v| format!("{v:.2}"));
+    let [from, to] = legend.range.map(|v| number(v, 2));
     let (map_name, unit) = (map.heading(), &legend.unit);
     let words = say!("Legend: {map}, {from} to {to} {unit}", map = map_name, from, to, unit);
     response.widget_info(|| WidgetInfo::labeled(Role::Image, true, words.clone()));
@@ -142,7 +143,7 @@ fn range_ui(ui: &mut egui::Ui, map: &ShownMap, palette: &Palette, asks: &mut Ask
     let mut changed = false;
     ui.horizontal(|ui| {
         for (value, name) in [(&mut from, "Range from"), (&mut to, "Range to")] {
-            let drag = DragValue::new(value).speed(speed).max_decimals(2).range(-1e4..=1e4);
+            let drag = drag_value(value).speed(speed).max_decimals(2).range(-1e4..=1e4);
             let field = ui.add(drag);
             field.widget_info(|| WidgetInfo::labeled(Role::SpinButton, true, tr(name)));
             changed |= field.changed();

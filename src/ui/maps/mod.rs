@@ -19,7 +19,7 @@ use crate::fit::{Map, MapKind};
 use crate::render::{Legend, Palette, Rgb};
 use crate::session::{Fabrics, Outfit};
 use crate::sim::Snapshot;
-use crate::ui::language::{say, tr};
+use crate::ui::language::{decimal_sign, number, say, tr};
 use crate::ui::scenery::body_look::BodyLook;
 use crate::ui::scenery::map_colours::palette;
 pub use beside::{beside_ui, opening_ui};
@@ -244,14 +244,15 @@ impl ShownMap {
         if self.is_difference { Palette::Diverging } else { palette(self.map.kind) }
     }
 
-    /// The legend for pictures.
+    /// The legend for pictures, in the language of the window.
     pub fn legend(&self) -> Legend {
         let (unit, times) = self.map.kind.unit();
         Legend {
-            title: self.title(),
+            title: self.heading(),
             unit: unit.to_owned(),
             range: self.range.map(|v| v * times),
             palette: self.palette(),
+            decimal_sign: decimal_sign(),
         }
     }
 
@@ -265,7 +266,7 @@ impl ShownMap {
     /// A value with its unit, such as "12.3 mm".
     pub fn words(&self, value: f64) -> String {
         let (unit, times) = self.map.kind.unit();
-        format!("{:.*} {unit}", self.map.kind.digits(), value * times + 0.0)
+        format!("{} {unit}", number(value * times + 0.0, self.map.kind.digits()))
     }
 
     /// Statistics of each piece, computed when first needed.

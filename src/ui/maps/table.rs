@@ -4,7 +4,7 @@ use egui::RichText;
 
 use super::ShownMap;
 use crate::fit::maps::{MapStats, PieceStats};
-use crate::ui::language::tr;
+use crate::ui::language::{number, tr};
 use crate::ui::look::theme::Palette;
 
 const HEADINGS: [&str; 8] = ["Piece", "Vertices", "Least", "1 %", "Median", "Mean", "99 %", "Most"];
@@ -24,7 +24,7 @@ pub fn table_ui(ui: &mut egui::Ui, map: Option<&ShownMap>, palette: &Palette) {
                 ui.label(RichText::new(tr(heading)).color(palette.weak).size(12.0));
             }
             ui.end_row();
-            for cells in rows(map, tr("All")) {
+            for cells in rows(map, tr("All"), number) {
                 for (i, cell) in cells.iter().enumerate() {
                     let text = if i == 0 { RichText::new(cell) } else { RichText::new(cell).monospace() };
                     ui.label(text);
@@ -39,18 +39,23 @@ pub fn table_ui(ui: &mut egui::Ui, map: Option<&ShownMap>, palette: &Palette) {
 pub fn text(map: &ShownMap) -> String {
     let (unit, _) = map.kind().unit();
     let head = HEADINGS.join("\t");
-    let lines: Vec<String> = rows(map, "All").map(|cells| cells.join("\t")).collect();
+    let lines: Vec<String> =
+        rows(map, "All", |v, digits| format!("{v:.digits$}")).map(|cells| cells.join("\t")).collect();
     format!("{}, {unit}\n{head}\n{}\n", map.title(), lines.join("\n"))
 }
 
-fn rows<'a>(map: &'a ShownMap, all: &'a str) -> impl Iterator<Item = [String; 8]> {
+/// The cells of every row, the whole garment first, which is called `all`. `write` writes a value with so many decimals.
+fn rows<'a>(
+    map: &'a ShownMap,
+    all: &'a str,
+    write: fn(f64, usize) -> String,
+) -> impl Iterator<Item = [String; 8]> {
     let ((_, times), digits) = (map.kind().unit(), map.kind().digits());
     let whole = (all, &map.stats);
     let pieces = map.pieces().iter().map(|PieceStats { piece, stats }| (piece.as_str(), stats));
     std::iter::once(whole).chain(pieces).map(move |(name, stats)| {
         let MapStats { count, min, p01, median, mean, p99, max } = *stats;
-        let value =
-            |v: f64| if count == 0 { "–".to_owned() } else { format!("{:.digits$}", v * times + 0.0) };
+        let value = |v: f64| if count == 0 { "–".to_owned() } else { write(v * times + 0.0, digits) };
         let figures = [min, p01, median, mean, p99, max].map(value);
         let [min, p01, median, mean, p99, max] = figures;
         [name.to_owned(), count.to_string(), min, p01, median, mean, p99, max]

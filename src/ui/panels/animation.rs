@@ -1,11 +1,12 @@
 //! The section for animations of a body from a file: a list, a slider for the time, and buttons that play.
 
-use egui::{Button, ComboBox, RichText, Slider};
+use egui::{Button, ComboBox, RichText};
 
 use crate::session::{Animations, Command, Document, Moment};
 use crate::ui::actions::asks::Asks;
 use crate::ui::actions::context::FrameContext;
-use crate::ui::language::tr;
+use crate::ui::language::fields::slider;
+use crate::ui::language::{number, tr};
 use crate::ui::panels::context::PanelContext;
 use crate::ui::panels::pose_slider::{follow, let_go};
 
@@ -38,10 +39,10 @@ impl AnimationPanel {
         self.list_ui(ui, animations, asks);
         let length = animations.seconds(self.animation).unwrap_or(0.0);
         // The slider must not round the value itself: it would report a change while the animation plays.
-        let slider = Slider::new(&mut self.seconds, 0.0..=length).suffix(" s");
-        let slider = slider.custom_formatter(|seconds, _| format!("{seconds:.2}"));
+        let field = slider(&mut self.seconds, 0.0..=length).suffix(" s");
+        let field = field.custom_formatter(|seconds, _| number(seconds, 2));
         let tip = tr("Leads the body through its animation, the cloth follows");
-        let response = ui.add(slider).on_hover_text(tip);
+        let response = ui.add(field).on_hover_text(tip);
         let seconds = self.seconds;
         response.widget_info(|| egui::WidgetInfo::slider(true, seconds, tr("Time of the animation")));
         if let Some(done) = let_go(&response, told) {

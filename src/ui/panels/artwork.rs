@@ -1,7 +1,7 @@
 //! The section of images, and of the graphics made of them.
 
 use egui::accesskit::Role;
-use egui::{Button, ComboBox, DragValue, Response, RichText, Ui, WidgetInfo};
+use egui::{Button, ComboBox, Response, RichText, Ui, WidgetInfo};
 use glam::DVec2;
 
 use crate::geometry::ids::{GraphicId, ImageId, PieceId};
@@ -10,6 +10,7 @@ use crate::session::artwork::WIDTHS;
 use crate::session::{Artwork, Command, Dye, Graphic, Repeated};
 use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::actions::{Action, Tool};
+use crate::ui::language::fields::drag_value;
 use crate::ui::language::{say, tr};
 use crate::ui::panels::context::{PanelContext, problem_row};
 
@@ -120,7 +121,7 @@ fn widths() -> std::ops::RangeInclusive<f64> {
 
 fn millimetres(ui: &mut Ui, name: &str, metres: &mut f64, range: std::ops::RangeInclusive<f64>) -> Response {
     let mut value = *metres * 1e3;
-    let field = DragValue::new(&mut value).range(range).prefix(name).suffix(" mm").max_decimals(1);
+    let field = drag_value(&mut value).range(range).prefix(name).suffix(" mm").max_decimals(1);
     let response = ui.add(field);
     if response.changed() {
         *metres = value / 1e3;
@@ -130,7 +131,7 @@ fn millimetres(ui: &mut Ui, name: &str, metres: &mut f64, range: std::ops::Range
 
 fn degrees_ui(ui: &mut Ui, angle: &mut f64) -> Response {
     let mut value = angle.to_degrees();
-    let field = DragValue::new(&mut value).range(-360.0..=360.0).suffix("°").max_decimals(1);
+    let field = drag_value(&mut value).range(-360.0..=360.0).suffix("°").max_decimals(1);
     let response = ui.add(field).on_hover_text(tr("Angle, counter-clockwise"));
     if response.changed() {
         *angle = value.to_radians();

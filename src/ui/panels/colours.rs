@@ -1,10 +1,11 @@
 //! Choosing a colour: a button in that colour, and the palette that it opens.
 
-use egui::{DragValue, Ui};
+use egui::Ui;
 
 use crate::render::Rgb;
 use crate::session::Command;
 use crate::ui::actions::asks::{Ask, Asks};
+use crate::ui::language::fields::drag_value;
 use crate::ui::language::tr;
 
 /// Size of the button that shows a colour, points.
@@ -83,7 +84,7 @@ pub fn colour_ui(ui: &mut Ui, what: &str, colour: &mut [u8; 3]) {
     });
     let [r, g, b] = *colour;
     let mut number = u32::from_be_bytes([0, r, g, b]);
-    let value = DragValue::new(&mut number).hexadecimal(6, false, false).range(0..=0xff_ffffu32).prefix("#");
+    let value = drag_value(&mut number).hexadecimal(6, false, false).range(0..=0xff_ffffu32).prefix("#");
     if ui.add(value).on_hover_text(tr("Red, green and blue, two digits each")).changed() {
         let [_, r, g, b] = number.to_be_bytes();
         *colour = [r, g, b];

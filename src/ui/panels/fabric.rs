@@ -1,6 +1,6 @@
 //! The section of the side panel for fabrics, colours, prints, images and colourways, and for draping step by step.
 
-use egui::{ComboBox, DragValue, RichText, Ui};
+use egui::{ComboBox, RichText, Ui};
 
 use crate::cloth::Fabric;
 use crate::geometry::ids::PieceId;
@@ -9,6 +9,7 @@ use crate::render::cloth_front;
 use crate::session::{Artwork, Command, Dye, Motif, Print};
 use crate::ui::actions::Action;
 use crate::ui::actions::asks::{Ask, Asks};
+use crate::ui::language::fields::drag_value;
 use crate::ui::language::{say, tr};
 use crate::ui::panels::artwork::surface_ui;
 use crate::ui::panels::colours::{SWATCH, colour_ui, open_menu};
@@ -131,7 +132,7 @@ fn dye_ui(ui: &mut Ui, artwork: &Artwork, own: Dye, seen: Option<[u8; 3]>, is_fo
         });
         ui.horizontal(|ui| {
             let mut millimetres = print.repeat_m * 1e3;
-            let value = DragValue::new(&mut millimetres).range(1.0..=2000.0).suffix(" mm").max_decimals(1);
+            let value = drag_value(&mut millimetres).range(1.0..=2000.0).suffix(" mm").max_decimals(1);
             if ui.add(value).on_hover_text(tr("Length of a repeat")).changed() {
                 print.repeat_m = millimetres / 1e3;
             }

@@ -2,6 +2,7 @@
 
 use egui::{Key, Response, TextEdit};
 
+use crate::ui::language::short;
 use crate::ui::preferences::units::{LengthUnit, degrees, length, number};
 
 /// Width of a field, points.
@@ -38,8 +39,7 @@ pub fn number_field(
     label: &Response,
     value: f64,
 ) -> Option<f64> {
-    let text = format!("{value:.4}");
-    field(ui, salt, label, text.trim_end_matches('0').trim_end_matches('.'), number)
+    field(ui, salt, label, &short(value, 4), number)
 }
 
 fn field(

@@ -1,11 +1,12 @@
 //! The section for the joints of the mannequin: a list, and a slider for each axis of the chosen joint.
 
-use egui::{Button, ComboBox, RichText, Slider};
+use egui::{Button, ComboBox, RichText};
 use glam::DVec3;
 
 use crate::body::Pose;
 use crate::body::pose::anatomy::{Anatomy, Limb, mirrored_to_the_right};
 use crate::ui::actions::asks::{Ask, Asks};
+use crate::ui::language::fields::slider;
 use crate::ui::language::tr;
 use crate::ui::panels::context::PanelContext;
 use crate::ui::panels::pose_slider::{follow, let_go, posed};
@@ -83,8 +84,8 @@ impl JointPanel {
             ui.label(RichText::new(tr(movement.title)).color(told.palette.weak).size(12.5));
             let [least, largest] = movement.range;
             let mut degrees = angles[movement.axis as usize];
-            let slider = Slider::new(&mut degrees, least..=largest).suffix("°").max_decimals(0);
-            let response = ui.add(slider);
+            let field = slider(&mut degrees, least..=largest).suffix("°").max_decimals(0);
+            let response = ui.add(field);
             let words = format!("{}: {}", tr(&limb.title()), tr(movement.title));
             response.widget_info(|| egui::WidgetInfo::slider(true, degrees, words.clone()));
             self.dragged |= response.dragged();

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use egui::accesskit::Role;
-use egui::{Align, Button, DragValue, Layout, RichText, TextEdit, WidgetInfo};
+use egui::{Align, Button, Layout, RichText, TextEdit, WidgetInfo};
 
 use crate::body::Surface;
 use crate::geometry::ids::MarkId;
@@ -11,11 +11,11 @@ use crate::render::mark_colour;
 use crate::session::Command;
 use crate::ui::actions::Action;
 use crate::ui::actions::asks::{Ask, Asks};
+use crate::ui::language::fields::drag_value;
 use crate::ui::language::keys::shortcut_text;
-use crate::ui::language::{counted, say, tr};
+use crate::ui::language::{self, counted, say, signed, tr};
 use crate::ui::look::theme::colour;
 use crate::ui::panels::context::PanelContext;
-use crate::ui::preferences::units::signed;
 use crate::wrap::{MarkPlace, Marks, PairStretch, stretches};
 
 /// State of the section between frames.
@@ -113,7 +113,7 @@ impl MarksPanel {
         ui.horizontal(|ui| {
             let label = ui.label(RichText::new(tr("Number")).color(told.palette.weak));
             let mut to = place.number;
-            let value = ui.add(DragValue::new(&mut to).range(1..=place.count).speed(0.05));
+            let value = ui.add(drag_value(&mut to).range(1..=place.count).speed(0.05));
             let value = value.labelled_by(label.id);
             if to != place.number {
                 asks.push(Ask::Drag(Command::MoveMark { mark, to }));
@@ -233,8 +233,8 @@ fn stretch_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, pair: &PairStretch) {
     let text = if pair.is_large() { text.strong().color(ink) } else { text.color(ink) };
     let shown = ui.label(text).on_hover_text(say!(
         "{cloth} cm on the cloth, {body} cm on the body: the cloth has to stretch by so much there",
-        cloth = format!("{:.1}", cloth * 100.0),
-        body = format!("{:.1}", body * 100.0)
+        cloth = language::number(cloth * 100.0, 1),
+        body = language::number(body * 100.0, 1)
     ));
     let words = say!("Stretch of pair {number}: {percent}", number, percent);
     shown.widget_info(|| WidgetInfo::labeled(Role::Label, true, &words));

@@ -12,7 +12,7 @@ use crate::pattern::{AllowanceCorner, EdgeRef, EdgeShape, Piece, PlanePose, Seam
 use crate::session::Command;
 use crate::ui::actions::Action;
 use crate::ui::actions::asks::{Ask, Asks};
-use crate::ui::language::{say, tr};
+use crate::ui::language::{say, signed, tr};
 use crate::ui::look::signs::{Sign, sign_button};
 use crate::ui::panels::context::PanelContext;
 use crate::ui::panels::fastenings::zip_ui;
@@ -20,7 +20,6 @@ use crate::ui::panels::fields::{angle_field, length_field, number_field};
 use crate::ui::panels::trims::trims_ui;
 use crate::ui::pattern_pane::seam_words;
 use crate::ui::pointer::mouse::held;
-use crate::ui::preferences::units::signed;
 use crate::ui::selection::{Item, Selection};
 
 /// State of the sections between frames.

@@ -2,13 +2,14 @@
 
 use std::sync::Arc;
 
-use egui::{Button, RichText, Slider};
+use egui::{Button, RichText};
 
 use crate::body::NamedPose;
 use crate::session::{Aim, BodyChoice, Command};
 use crate::ui::actions::Action;
 use crate::ui::actions::asks::{Ask, Asks};
 use crate::ui::files::posed_motion::PosedMotion;
+use crate::ui::language::fields::slider;
 use crate::ui::language::{say, tr};
 use crate::ui::panels::animation::AnimationPanel;
 use crate::ui::panels::context::PanelContext;
@@ -138,8 +139,8 @@ impl PosePanel {
             && told.document.body.measurements().is_some()
         {
             ui.label(RichText::new(&motion.name).color(told.palette.weak).size(12.5));
-            let slider = Slider::new(frame, 1..=motion.frames()).prefix(format!("{} ", tr("frame")));
-            let response = ui.add(slider);
+            let field = slider(frame, 1..=motion.frames()).prefix(format!("{} ", tr("frame")));
+            let response = ui.add(field);
             response.widget_info(|| egui::WidgetInfo::slider(true, *frame as f64, tr("Frame of the motion")));
             let body = &told.document.body;
             if let (Some(done), Some(new)) = (let_go(&response, told), motion.body(body, *frame - 1))
@@ -166,7 +167,7 @@ fn percent_ui(
 ) -> Option<bool> {
     ui.label(RichText::new(text).color(told.palette.weak).size(12.5));
     let mut percent = (*share * 100.0).round();
-    let response = ui.add(Slider::new(&mut percent, 0.0..=100.0).suffix(" %").step_by(1.0));
+    let response = ui.add(slider(&mut percent, 0.0..=100.0).suffix(" %").step_by(1.0));
     response.widget_info(|| egui::WidgetInfo::slider(true, percent, name));
     if response.changed() {
         *share = percent / 100.0;

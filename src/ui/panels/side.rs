@@ -2,12 +2,14 @@
 
 use std::cmp::Ordering;
 
-use egui::{CollapsingHeader, Id, RichText, ScrollArea, Slider};
+use egui::{CollapsingHeader, Id, RichText, ScrollArea};
 
 use crate::session::{Command, Document, Settings};
 use crate::sim::Fault;
 use crate::ui::actions::Tool;
 use crate::ui::actions::asks::{Ask, Asks};
+use crate::ui::fit_page::words::{fault_words, place_words};
+use crate::ui::language::fields::slider;
 use crate::ui::language::{say, tr};
 use crate::ui::look::theme::Palette;
 use crate::ui::panels::artwork::artwork_ui;
@@ -171,8 +173,8 @@ fn settings_ui(ui: &mut egui::Ui, settings: &Settings, palette: &Palette, asks: 
         let mut shown = *value * unit;
         let digits = if unit > 500.0 { 1 } else { 3 };
         ui.label(RichText::new(tr(text)).color(palette.weak).size(12.5));
-        let slider = Slider::new(&mut shown, range).suffix(sign).max_decimals(digits);
-        let response = ui.add(slider).on_hover_text(tr(tip));
+        let field = slider(&mut shown, range).suffix(sign).max_decimals(digits);
+        let response = ui.add(field).on_hover_text(tr(tip));
         response.widget_info(|| egui::WidgetInfo::slider(true, shown, tr(text)));
         if response.changed() {
             *value = shown / unit;
@@ -209,7 +211,7 @@ fn problems_ui(ui: &mut egui::Ui, told: &PanelContext<'_>, asks: &mut Asks) {
     }
     for Fault { problem, marks } in told.verdict {
         let numbers: Vec<usize> = marks.iter().map(|m| m.number).collect();
-        let words = format!("{}: {}", problem.place, problem.words);
+        let words = format!("{}: {}", place_words(&problem.place), fault_words(&problem.words));
         let shows = (Ask::ShowMarks(numbers), tr("Show the marks concerned"));
         let shows = Some(shows).filter(|_| !marks.is_empty());
         problem_row(ui, palette.error, &words, shows, asks);

@@ -4,9 +4,9 @@ use egui::Ui;
 
 use crate::fit::TightPlace;
 use crate::ui::actions::asks::{Ask, Asks};
-use crate::ui::language::{say, tr, translated};
+use crate::ui::fit_page::words::tight_words;
+use crate::ui::language::{say, tr};
 use crate::ui::panels::context::{PanelContext, problem_row};
-use crate::ui::preferences::units::signed;
 use crate::ui::scenery::ring::flat;
 
 /// Draws a row for each tight place.
@@ -18,17 +18,7 @@ pub fn tight_ui(ui: &mut Ui, told: &PanelContext<'_>, asks: &mut Asks) {
 }
 
 fn words(place: &TightPlace) -> String {
-    let tight = &place.tight;
-    let near = tight.landmark.as_ref().and_then(|landmark| translated(&landmark.replace('_', " ")));
-    let place = match near {
-        Some(near) => say!(
-            "{piece} near {place}, {strain} %",
-            piece = tight.piece,
-            place = near,
-            strain = signed(tight.strain * 100.0, 1)
-        ),
-        None => tight.to_string(),
-    };
+    let (tight, place) = (&place.tight, tight_words(&place.tight));
     match tight.strain < 0.0 {
         true => say!("Pressed: {place}", place),
         false => say!("Tight: {place}", place),

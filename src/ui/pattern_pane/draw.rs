@@ -137,7 +137,7 @@ impl Drawing<'_> {
 
     /// Writes the position of the pointer in the lower left corner.
     pub fn place_told(&self, p: DVec2, unit: LengthUnit) {
-        let words = format!("{}, {}", unit.number(p.x), unit.text(p.y));
+        let words = unit.point(p);
         let at = self.pane.left_bottom() + Vec2::new(10.0, -8.0);
         let font = FontId::proportional(11.5);
         self.painter.text(at, Align2::LEFT_BOTTOM, words, font, self.palette.weak);

@@ -2,12 +2,13 @@
 
 use std::sync::Arc;
 
-use egui::{ComboBox, DragValue, Event, Id, Key, KeyboardShortcut, Modal, RichText, ScrollArea, TextEdit};
+use egui::{ComboBox, Event, Id, Key, KeyboardShortcut, Modal, RichText, ScrollArea, TextEdit};
 
 use crate::ui::actions::Action;
 use crate::ui::actions::keymap::{Keymap, pressed};
 use crate::ui::actions::rows::all;
 use crate::ui::language::choice::{Language, Languages};
+use crate::ui::language::fields::drag_value;
 use crate::ui::language::keys::shortcut_text;
 use crate::ui::language::{counted, say, tr};
 use crate::ui::look::scheme::Theme;
@@ -197,7 +198,7 @@ fn screen_ui(ui: &mut egui::Ui, screen: &mut Screen, palette: &Palette) {
         let native = ui.ctx().native_pixels_per_point().unwrap_or(1.0);
         let mut pixels = screen.pixels_per_inch(native);
         ui.horizontal(|ui| {
-            let value = DragValue::new(&mut pixels)
+            let value = drag_value(&mut pixels)
                 .range(Screen::PIXELS)
                 .speed(0.2)
                 .max_decimals(1)

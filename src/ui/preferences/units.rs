@@ -3,7 +3,7 @@
 use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
-use crate::ui::language::{say, tr};
+use crate::ui::language::{decimal_sign, say, short, tr};
 
 /// The unit in which lengths are shown, and of numbers typed without a unit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -53,14 +53,18 @@ impl LengthUnit {
             Self::Mm => 1,
             Self::Inch => 3,
         };
-        let text = format!("{:.digits$}", metres / self.metres());
-        let text = text.trim_end_matches('0').trim_end_matches('.');
-        if text == "-0" { "0".to_owned() } else { text.to_owned() }
+        short(metres / self.metres(), digits)
     }
 
     /// A length with its unit.
     pub fn text(self, metres: f64) -> String {
         format!("{} {}", self.number(metres), self.sign())
+    }
+
+    /// A point with its unit: "12.5, 30 cm"; where numbers have commas, "12,5; 30 cm".
+    pub fn point(self, p: DVec2) -> String {
+        let between = if decimal_sign() == ',' { ';' } else { ',' };
+        format!("{}{between} {}", self.number(p.x), self.text(p.y))
     }
 
     /// Steps of grid and rulers, metres; each is a whole multiple of an earlier one.
@@ -72,18 +76,9 @@ impl LengthUnit {
     }
 }
 
-/// `x` with its sign and `digits` digits; a value rounded to zero has no sign.
-pub fn signed(x: f64, digits: usize) -> String {
-    let text = format!("{x:+.digits$}");
-    let is_nothing = text[1..].chars().all(|c| c == '0' || c == '.');
-    if is_nothing { text[1..].to_owned() } else { text }
-}
-
 /// An angle in degrees, for people.
 pub fn degrees(radians: f64) -> String {
-    let text = format!("{:.1}", radians.to_degrees());
-    let text = text.trim_end_matches('0').trim_end_matches('.');
-    if text == "-0" { "0".to_owned() } else { text.to_owned() }
+    short(radians.to_degrees(), 1)
 }
 
 /// Numbers typed while drawing or dragging.
@@ -97,7 +92,7 @@ pub enum Typed {
     By(DVec2),
 }
 
-/// Parses typed numbers. x and y are separated by a comma, or by a semicolon, so that numbers may have decimal commas.
+/// Parses typed numbers. x and y are separated by a semicolon; by a comma, too, where that is not the decimal sign of the language.
 pub fn typed(text: &str, unit: LengthUnit) -> Result<Typed, String> {
     let text = text.trim();
     let (relative, text) = match text.strip_prefix('@') {
@@ -108,7 +103,8 @@ pub fn typed(text: &str, unit: LengthUnit) -> Result<Typed, String> {
         let turn = number(turn.trim().trim_end_matches('°'))?.to_radians();
         return Ok(Typed::By(DVec2::from_angle(turn) * length(far, unit)?));
     }
-    let parts = text.split_once(';').or_else(|| text.split_once(','));
+    let comma = || if decimal_sign() == ',' { None } else { text.split_once(',') };
+    let parts = text.split_once(';').or_else(comma);
     match parts {
         Some((x, y)) => {
             let p = DVec2::new(length(x, unit)?, length(y, unit)?);
@@ -332,6 +328,7 @@ fn unit_of(text: &str) -> Option<(f64, &str)> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::language::{Table, shown_in};
 
     #[test]
     fn lengths_are_read_with_units_and_arithmetic() {
@@ -380,8 +377,18 @@ mod tests {
     }
 
     #[test]
-    fn nothing_has_no_sign() {
-        assert_eq!([0.26, -0.04, 0.0, -1.0].map(|x| signed(x, 1)), ["+0.3", "0.0", "0.0", "-1.0"]);
+    fn in_german_lengths_have_commas_and_both_signs_are_read() {
+        shown_in(Table::german(), || {
+            assert_eq!([LengthUnit::Cm.text(0.12345), degrees(0.5)], ["12,35 cm", "28,6"]);
+            for text in ["12,5", "12.5", "12,5 cm"] {
+                assert_eq!(length(text, LengthUnit::Cm), Ok(0.125), "{text}");
+                assert_eq!(typed(text, LengthUnit::Cm), Ok(Typed::Length(0.125)), "{text}");
+            }
+            let p = DVec2::new(0.305, 0.4);
+            assert_eq!(typed("30,5;40", LengthUnit::Cm), Ok(Typed::At(p)));
+            assert_eq!(LengthUnit::Cm.point(p), "30,5; 40 cm");
+        });
+        assert_eq!(LengthUnit::Cm.point(DVec2::new(0.305, 0.4)), "30.5, 40 cm");
     }
 
     #[test]

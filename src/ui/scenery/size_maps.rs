@@ -3,6 +3,7 @@
 use crate::fit::{Map, MapKind};
 use crate::render::{Legend, Rgb};
 use crate::session::Outfit;
+use crate::ui::language::{decimal_sign, tr};
 use crate::ui::scenery::map_colours::{colours, palette};
 
 /// A map of each size, and the range of all of them.
@@ -27,15 +28,16 @@ impl SizeMaps {
         colours(self.kind, &self.maps[i].vertices, self.range)
     }
 
-    /// The legend of the size called `name`.
+    /// The legend of the size called `name`, in the language that is shown.
     pub fn legend(&self, name: &str) -> Legend {
         let (unit, times) = self.kind.unit();
-        let title = format!("{name}: {}", self.kind.short());
+        let title = format!("{name}: {}", tr(self.kind.short()));
         Legend {
             title,
             unit: unit.to_owned(),
             range: self.range.map(|v| v * times),
             palette: palette(self.kind),
+            decimal_sign: decimal_sign(),
         }
     }
 }

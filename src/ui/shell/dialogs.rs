@@ -18,7 +18,7 @@ use crate::ui::actions::keymap::Keymap;
 use crate::ui::files::thumbnails::{Subject, Thumbnails};
 use crate::ui::files::{Purpose, RawBody};
 use crate::ui::language::keys::shortcut_text;
-use crate::ui::language::{say, tr};
+use crate::ui::language::{number, say, tr};
 use crate::ui::pointer::mouse::Mouse;
 
 /// If a native dialog reports "cancelled" sooner than this, it has not been shown at all: no hand clicks that fast.
@@ -41,6 +41,8 @@ pub enum Dialog {
     Shortcuts { mouse: Mouse, keymap: Arc<Keymap> },
     /// Offers work left by sessions that did not end properly, each with its name.
     Recover { found: Vec<(Left, String)> },
+    /// Asks for the language of the tech pack: code and name of each, and the chosen code.
+    TechPack { languages: Vec<(String, String)>, chosen: String },
     /// Tells that another program has changed the project's file since it was opened or saved.
     ChangedOnDisk { path: PathBuf },
     /// Tells that the project could not be saved to the file, and why.
@@ -72,6 +74,8 @@ pub enum Answer {
     SaveAs,
     /// The pattern in this file, in this unit.
     Pattern(PathBuf, DrawingUnit),
+    /// A tech pack in the language with this code.
+    TechPack(String),
 }
 
 impl Answer {
@@ -92,6 +96,7 @@ impl Dialog {
             Self::Scale { path, question, unit } => scale_ui(ctx, path, question, unit),
             Self::Shortcuts { mouse, keymap } => shortcuts_ui(ctx, *mouse, keymap),
             Self::Recover { found } => recover_ui(ctx, found, thumbnails),
+            Self::TechPack { languages, chosen } => tech_pack_ui(ctx, languages, chosen),
             Self::ChangedOnDisk { path } => changed_ui(ctx, path),
             Self::NotSaved { path, words } => not_saved_ui(ctx, path, words),
         }
@@ -261,7 +266,7 @@ fn unit_ui(ctx: &egui::Context, raw: &mut RawBody) -> Answer {
         ui.heading(say!("In which unit is {name}?", name = raw.name));
         ui.add_space(4.0);
         for unit in Unit::ALL {
-            let height = format!("{:.2}", raw.height(unit));
+            let height = number(raw.height(unit), 2);
             let words = say!("{unit}: the body is {height} m tall", unit, height);
             ui.radio_value(&mut raw.unit, unit, words);
         }
@@ -287,6 +292,30 @@ fn unit_ui(ctx: &egui::Context, raw: &mut RawBody) -> Answer {
     shown.inner.or_cancel(closed)
 }
 
+fn tech_pack_ui(ctx: &egui::Context, languages: &[(String, String)], chosen: &mut String) -> Answer {
+    let shown = Modal::new(Id::unique("tech pack")).show(ctx, |ui| {
+        ui.set_width(320.0);
+        ui.heading(tr("In which language is the tech pack to be?"));
+        ui.add_space(4.0);
+        for (code, name) in languages {
+            ui.radio_value(chosen, code.clone(), name);
+        }
+        ui.add_space(8.0);
+        ui.horizontal(|ui| {
+            if ui.button(tr("Choose a file…")).clicked() {
+                Answer::TechPack(chosen.clone())
+            } else if ui.button(tr("Cancel")).clicked() {
+                Answer::Cancel
+            } else {
+                Answer::None
+            }
+        })
+        .inner
+    });
+    let closed = shown.should_close();
+    shown.inner.or_cancel(closed)
+}
+
 fn scale_ui(ctx: &egui::Context, path: &Path, question: &ScaleQuestion, unit: &mut DrawingUnit) -> Answer {
     let shown = Modal::new(Id::unique("scale")).show(ctx, |ui| {
         ui.set_width(420.0);
@@ -300,8 +329,8 @@ fn scale_ui(ctx: &egui::Context, path: &Path, question: &ScaleQuestion, unit: &m
             let words = say!(
                 "{unit}: the largest piece is {width} × {height} cm",
                 unit = tr(candidate.long()),
-                width = format!("{:.1}", size.x),
-                height = format!("{:.1}", size.y)
+                width = number(size.x, 1),
+                height = number(size.y, 1)
             );
             ui.radio_value(unit, candidate, words);
         }

@@ -5,7 +5,7 @@ use egui::{Align, Layout, ProgressBar, RichText};
 use crate::sim::DrapeState;
 use crate::sim::Start;
 use crate::ui::actions::context::FrameContext;
-use crate::ui::language::{say, tr};
+use crate::ui::language::{number, say, tr};
 use crate::ui::look::theme::Palette;
 use crate::ui::shell::pace::{Pace, left_words};
 use crate::wrap::Phase;
@@ -54,7 +54,7 @@ fn pace_words(pace: &Pace) -> Option<String> {
     let frames = format!("{:.0}", pace.frames?);
     let Some(ms) = pace.tick_ms else { return Some(say!("{frames} fps", frames)) };
     let digits = usize::from(ms < 10.0);
-    Some(say!("{frames} fps, {ms} ms a tick", frames, ms = format!("{ms:.digits$}")))
+    Some(say!("{frames} fps, {ms} ms a tick", frames, ms = number(ms, digits)))
 }
 
 fn phase_words(now: &FrameContext) -> String {
@@ -78,7 +78,7 @@ fn phase_words(now: &FrameContext) -> String {
 fn drape_words(drape: Option<DrapeState>) -> String {
     match drape {
         Some(drape) if drape.runs => {
-            let percent = format!("{:.1}", drape.residual * 100.0);
+            let percent = number(drape.residual * 100.0, 1);
             match drape.card {
                 true => say!("Draping on the graphics card: {percent} % out of balance", percent),
                 false => say!("Draping: {percent} % out of balance", percent),

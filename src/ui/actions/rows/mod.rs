@@ -134,9 +134,9 @@ mod tests {
 
     #[test]
     fn the_german_manual_names_what_the_english_one_names() {
+        use crate::language::Table;
         use crate::manual::{GERMAN, TOPICS, parts};
-        use crate::ui::language::choice::german;
-        let table = german().expect("a table");
+        let table = Table::german().expect("a table");
         let marked = |text: &str| {
             // What is typed stays as it is; only menu entries are compared.
             let words = text.replace('`', "'");

@@ -178,11 +178,7 @@ impl PatternTool for Graphics {
                 let words = match held.change {
                     Change::Turn => format!("{}°", degrees(graphic.angle)),
                     Change::Scale => table.laid.unit.text(graphic.width_m),
-                    Change::Move => format!(
-                        "{}, {}",
-                        table.laid.unit.text(graphic.at.x),
-                        table.laid.unit.text(graphic.at.y)
-                    ),
+                    Change::Move => table.laid.unit.point(graphic.at),
                 };
                 drawing.chip(at, &words);
             }

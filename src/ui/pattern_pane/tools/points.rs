@@ -414,7 +414,7 @@ fn readout(table: &Table<'_>, points: &[(RulePoint, DVec2)], by: DVec2) -> Strin
     match points {
         [(point, p)] => {
             let at = *p + by;
-            let mut words = format!("{}, {}", unit.number(at.x), unit.text(at.y));
+            let mut words = unit.point(at);
             if let Some((piece, shape)) = table.piece(point.piece).filter(|_| point.line.is_none()) {
                 let (line, first) = piece.loop_of(point.point);
                 let count = piece.loop_edges(line).len();

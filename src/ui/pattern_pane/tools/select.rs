@@ -203,7 +203,7 @@ impl PatternTool for Select {
                 if let Some(snapped) = snapped {
                     drawing.snapped(snapped);
                 }
-                drawing.chip(at, &format!("{}, {}", unit.number(by.x), unit.text(by.y)));
+                drawing.chip(at, &unit.point(*by));
             }
             Some(Drag::Scale { factor, frame, .. }) => {
                 let size = (frame[1] - frame[0]) * *factor;

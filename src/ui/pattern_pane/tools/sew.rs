@@ -10,12 +10,11 @@ use crate::pattern::edit::{PatternEdit, untwisted};
 
 use crate::pattern::{EdgeRef, Pattern, Piece, Seam, Stretch};
 use crate::ui::actions::asks::{Ask, Asks};
-use crate::ui::language::{say, tr};
+use crate::ui::language::{say, signed, tr};
 use crate::ui::pattern_pane::draw::Drawing;
 use crate::ui::pattern_pane::draw_pieces::{BADGE, EQUAL, badge_place, has_badge};
 use crate::ui::pattern_pane::input::Input;
 use crate::ui::pattern_pane::table::{OnEdge, REACH, Table};
-use crate::ui::preferences::units::signed;
 use crate::ui::selection::{Item, Selection};
 
 /// The tool Sew.

@@ -1,6 +1,7 @@
 //! A table of texts: what each English text is in one other language.
 
 use std::collections::BTreeMap;
+use std::sync::OnceLock;
 
 use serde::Deserialize;
 
@@ -12,11 +13,25 @@ pub struct Table {
     pub code: String,
     /// Its own name for itself: "Deutsch".
     pub name: String,
+    /// Sign between the whole part of a number and its decimals: a point or a comma.
+    #[serde(default = "point")]
+    pub decimal_sign: char,
     /// The text for each English text. `{name}` stands for a value in both.
     texts: BTreeMap<String, String>,
 }
 
+fn point() -> char {
+    '.'
+}
+
 impl Table {
+    /// The German table, which is built in.
+    pub fn german() -> Option<&'static Self> {
+        static GERMAN: OnceLock<Option<Table>> = OnceLock::new();
+        let bytes = include_bytes!("../../assets/languages/de.json");
+        GERMAN.get_or_init(|| Self::read(bytes).ok()).as_ref()
+    }
+
     /// Reads a table of JSON. The error is a message without the name of the file.
     pub fn read(bytes: &[u8]) -> Result<Self, String> {
         let table: Self = serde_json::from_slice(bytes).map_err(|e| e.to_string())?;
@@ -29,6 +44,12 @@ impl Table {
         }
         if table.name.trim().is_empty() {
             return Err("\"name\" is empty".to_owned());
+        }
+        if !['.', ','].contains(&table.decimal_sign) {
+            return Err(format!(
+                "\"decimal_sign\" is {:?}; it must be \".\" or \",\"",
+                table.decimal_sign.to_string()
+            ));
         }
         let differs = table.texts.iter().find(|(english, text)| names(english) != names(text));
         match differs {
@@ -68,6 +89,15 @@ mod tests {
             r#"{"code": "de", "name": "Deutsch", "texts": {"{a} of {b}": "{b}, davon {a}", "Undo": ""}}"#;
         let table = Table::read(whole.as_bytes()).expect("a table");
         assert_eq!((table.text("{a} of {b}"), table.text("Undo")), (Some("{b}, davon {a}"), None));
+        assert_eq!(table.decimal_sign, '.', "a table need not say it");
+        assert_eq!(Table::german().expect("it is built in").decimal_sign, ',');
+        for wrong in ["-", ".,", ""] {
+            let text = format!(r#"{{"code": "de", "name": "D", "decimal_sign": "{wrong}", "texts": {{}}}}"#);
+            assert!(Table::read(text.as_bytes()).is_err(), "{wrong:?}");
+        }
+        assert!(
+            why(r#"{"code": "de", "name": "D", "decimal_sign": "x", "texts": {}}"#).contains("decimal_sign")
+        );
         assert!(why(r#"{"code": "de", "name": "D", "texts": {"{a} of": "{b}"}}"#).contains("in braces"));
         assert!(why(r#"{"code": "../de", "name": "D", "texts": {}}"#).contains("no code"));
         assert!(why(r#"{"code": "de", "name": " ", "texts": {}}"#).contains("empty"));
