@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::childhood;
+
 /// Body measurements, metres. Girths are taken with a tape, which bridges hollows. The default is the measured figure
 /// of Zhong and Xu 2009, Figure 12; values that it leaves out are filled in for a figure of those proportions.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -127,16 +129,17 @@ impl Measurements {
         ]
     }
 
-    /// Checks that a figure can have these measurements: each against the default scaled to the height, and some
-    /// against each other.
+    /// Checks that a figure can have these measurements: each against the default scaled to the height, below 1.40 m against
+    /// the usual child of that height, and some against each other.
     pub fn check(&self) -> Result<(), OutOfRange> {
         let usual = Self::default();
-        within("height", self.height, 1.40, 2.05, "")?;
+        within("height", self.height, 0.98, 2.05, "")?;
         let tall = self.height / usual.height;
-        for ((name, value), (_, usual)) in self.named().into_iter().zip(usual.named()).skip(1) {
+        let named = self.named().into_iter().zip(usual.named()).zip(childhood::usual(self.height));
+        for (((name, value), (_, usual)), child) in named.skip(1) {
             let is_length = matches!(name, "arm length" | "waist to ankle" | "half across shoulder");
             let (low, high) = if is_length { (0.90, 1.12) } else { (0.74, 1.45) };
-            within(name, value, low * usual * tall, high * usual * tall, " at this height")?;
+            within(name, value, low * usual * tall * child, high * usual * tall * child, " at this height")?;
         }
         within("waist", self.waist, 0.0, 1.02 * self.abdomen, " at this abdomen")?;
         within("abdomen", self.abdomen, 0.0, 1.06 * self.hip, " at this hip")?;
