@@ -30,7 +30,7 @@ pub use dolman::Dolman;
 pub use form::Form;
 pub use hood::Hood;
 pub use neckline::{Neckline, Shape as NecklineShape};
-pub use sizes::{BodySize, SIZES, table};
+pub use sizes::{BodySize, CHILDREN, SIZE_TABLES, SIZES, SizeTable, table};
 pub use skirt::{Shape, Skirt};
 pub use sleeve::Sleeve;
 pub use trousers::Trousers;
