@@ -14,9 +14,11 @@ const CLEFT: f64 = 0.011;
 /// Depth by which a small child's breasts are sunk into its trunk, metres: none are seen.
 const SUNK: f64 = 0.12;
 /// Factors on the widths of a small child's head, from chin to brow: its cheeks are full.
-const SMALL_CHEEKS: [f64; 9] = [1.12, 1.17, 1.18, 1.15, 1.11, 1.07, 1.03, 1.01, 1.0];
+const SMALL_CHEEKS: [f64; 9] = [1.04, 1.08, 1.11, 1.10, 1.08, 1.05, 1.03, 1.01, 1.0];
 /// Height of a small child's features over that of a grown face's.
 const SMALL_FACE: f64 = 0.7;
+/// Height of a small child's features above its chin over that of a grown face's: its forehead is high.
+const SMALL_FACE_AT: f64 = 0.88;
 /// Height of what models a small child's trunk and limbs over that of a grown figure's: both are rounder.
 const SMALL_MODELLING: f64 = 0.6;
 
@@ -62,9 +64,7 @@ impl Field {
             foot: foot(),
             head: head(figure),
             modelling: nominal::MODELLING.iter().map(|s| carried(s, figure)).collect(),
-            face: nominal::FACE
-                .map(|s| Swelling { height: s.height * child.mixed(1.0, SMALL_FACE), ..s })
-                .to_vec(),
+            face: nominal::FACE.iter().map(|s| of_face(s, figure)).collect(),
             joint: figure.shoulder_joint(),
             along: figure.arm_direction(),
             outward: figure.arm_outward(),
@@ -196,6 +196,14 @@ fn swellings(all: &[Swelling], p: DVec3) -> f64 {
             if q > 12.0 { 0.0 } else { s.height * (-q).exp() }
         })
         .sum()
+}
+
+/// A feature of the face: flatter and lower down on a child's.
+fn of_face(s: &Swelling, figure: &Figure) -> Swelling {
+    let child = figure.factors.child;
+    let [x, y, z] = s.centre;
+    let low = level::CHIN + SMALL_FACE_AT * (y - level::CHIN);
+    Swelling { centre: [x, child.mixed(y, low), z], height: s.height * child.mixed(1.0, SMALL_FACE), ..*s }
 }
 
 fn carried(s: &Swelling, figure: &Figure) -> Swelling {
