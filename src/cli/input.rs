@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use crate::body::Imported;
-use crate::body::mannequin::{Measurements, mannequin};
+use crate::body::mannequin::Measurements;
 use crate::cli::arguments::{BodyFile, InputOptions, SizeOptions};
 use crate::cli::failure::Failure;
 use crate::cli::files::{MANNEQUIN, is_sample, name_of, read, sample_name, table_of_sizes};
@@ -122,8 +122,7 @@ fn sample(path: &Path, name: &str) -> Result<Project, Failure> {
         let names = Sample::ALL.map(Sample::file_stem).join(", ");
         return Err(Failure::input(path, format!("there is no such sample; there are {names}")));
     };
-    let figure = mannequin(&Measurements::default()).map_err(|e| Failure::input(path, e))?;
-    Ok(sample.project(&figure))
+    Ok(sample.usual())
 }
 
 /// The failure for an error of a project file at `path`.
