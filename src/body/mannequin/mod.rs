@@ -12,6 +12,7 @@ mod figure;
 mod fit;
 mod hand;
 mod landmarks;
+mod limits;
 mod loft;
 mod measurements;
 mod partial;
@@ -26,7 +27,8 @@ use std::sync::{Arc, Mutex, OnceLock};
 use glam::DVec3;
 
 pub use counterpart::Counterpart;
-pub use measurements::{Measurements, OutOfRange};
+pub use limits::OutOfRange;
+pub use measurements::Measurements;
 
 use super::closest::closest_on_triangle;
 use super::landmarks::Landmarks;
